@@ -1,0 +1,2 @@
+//! The `enfilade` binary.
+fn main() {}

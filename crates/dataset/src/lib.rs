@@ -1,0 +1,1 @@
+//! The dataset on disk: Hypersim's layout, manifest, readers and writers.

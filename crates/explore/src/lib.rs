@@ -1,0 +1,1 @@
+//! Free space by space carving, and camera trajectories by view saliency.

@@ -1,0 +1,114 @@
+//! What a finished picture is: named layers with unit, dtype, space and validity.
+//!
+//! [`LAYERS`] is the one table of layers. The renderer's outputs, file names, dtypes, documentation and verification all follow
+//! it. A [`Frame`] holds values exactly as they are stored.
+
+mod spec;
+
+pub use half::f16;
+pub use spec::{Dtype, LAYERS, Layer, LayerSpec, Pass, Validity};
+
+use std::collections::BTreeMap;
+
+/// Values of one layer, row by row from the top, channels innermost.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Half precision.
+    F16(Vec<f16>),
+    /// Single precision.
+    F32(Vec<f32>),
+    /// Signed 16-bit integers.
+    I16(Vec<i16>),
+    /// Bytes.
+    U8(Vec<u8>),
+}
+
+impl Values {
+    /// Number of values (pixels × channels).
+    pub fn len(&self) -> usize {
+        match self {
+            Self::F16(v) => v.len(),
+            Self::F32(v) => v.len(),
+            Self::I16(v) => v.len(),
+            Self::U8(v) => v.len(),
+        }
+    }
+
+    /// True when there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// How they are stored.
+    pub fn dtype(&self) -> Dtype {
+        match self {
+            Self::F16(_) => Dtype::F16,
+            Self::F32(_) => Dtype::F32,
+            Self::I16(_) => Dtype::I16,
+            Self::U8(_) => Dtype::U8,
+        }
+    }
+
+    /// Value `index` as a double; exact for every dtype.
+    pub fn get(&self, index: usize) -> f64 {
+        match self {
+            Self::F16(v) => v[index].to_f64(),
+            Self::F32(v) => f64::from(v[index]),
+            Self::I16(v) => f64::from(v[index]),
+            Self::U8(v) => f64::from(v[index]),
+        }
+    }
+
+    /// Little-endian bytes, as in the file.
+    pub fn as_bytes(&self) -> &[u8] {
+        match self {
+            Self::F16(v) => bytemuck::cast_slice(v),
+            Self::F32(v) => bytemuck::cast_slice(v),
+            Self::I16(v) => bytemuck::cast_slice(v),
+            Self::U8(v) => v,
+        }
+    }
+}
+
+/// A finished picture: any subset of the layers, all of one size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    layers: BTreeMap<Layer, Values>,
+}
+
+impl Frame {
+    /// A frame without layers.
+    pub fn new(width: u32, height: u32) -> Self {
+        Self { width, height, layers: BTreeMap::new() }
+    }
+
+    /// Adds or replaces a layer.
+    ///
+    /// # Panics
+    /// When the values are not what the layer's spec and the frame's size call for.
+    pub fn insert(&mut self, layer: Layer, values: Values) {
+        let spec = layer.spec();
+        let expected = self.width as usize * self.height as usize * spec.channels;
+        assert_eq!((values.len(), values.dtype()), (expected, spec.dtype), "layer {} of {}x{}", spec.name, self.width, self.height);
+        self.layers.insert(layer, values);
+    }
+
+    /// The values of a layer, if the frame has it.
+    pub fn get(&self, layer: Layer) -> Option<&Values> {
+        self.layers.get(&layer)
+    }
+
+    /// The layers present, in the order of [`LAYERS`].
+    pub fn iter(&self) -> impl Iterator<Item = (Layer, &Values)> {
+        self.layers.iter().map(|(&layer, values)| (layer, values))
+    }
+
+    /// Number of pixels.
+    pub fn pixels(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+}

@@ -1,0 +1,150 @@
+use serde::{Deserialize, Serialize};
+
+/// Every layer a frame can have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs)] // LAYERS documents each one
+pub enum Layer {
+    Color,
+    DiffuseIllumination,
+    DiffuseReflectance,
+    Residual,
+    DepthMeters,
+    DepthZMeters,
+    Position,
+    NormalWorld,
+    NormalCam,
+    NormalBumpWorld,
+    NormalBumpCam,
+    TexCoord,
+    RenderEntityId,
+    Valid,
+    Semantic,
+    SemanticInstance,
+}
+
+/// How values are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[allow(missing_docs)]
+pub enum Dtype {
+    F16,
+    F32,
+    I16,
+    U8,
+}
+
+/// Which of Hypersim's folders a layer lies in, and how it is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Pass {
+    /// `scene_cam_XX_final_hdf5`: filtered over the pixel.
+    Final,
+    /// `scene_cam_XX_geometry_hdf5`: point samples at pixel centres.
+    Geometry,
+    /// Also in the geometry folder, but joined from `render_entity_id` after rendering.
+    Label,
+}
+
+/// Codes of the `valid` layer. Anything but zero has geometry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Validity {
+    /// The ray through the pixel centre meets nothing: geometry layers hold their sentinels.
+    Void = 0,
+    /// Every layer is meaningful.
+    Valid = 1,
+    /// As `Valid`, but a colour value exceeded the largest float16 (65504) and is stored as that.
+    Saturated = 2,
+    /// As `Valid`, but the pixel has no diffuse reflectance: `diffuse_illumination` is the demodulated irradiance.
+    NoDiffuse = 3,
+}
+
+/// What a layer is, for machines and people.
+#[derive(Clone, Copy, Debug)]
+pub struct LayerSpec {
+    /// Which one.
+    pub layer: Layer,
+    /// Hypersim's name, as in `frame.0000.<name>.hdf5`.
+    pub name: &'static str,
+    /// Folder and sampling.
+    pub pass: Pass,
+    /// Values per pixel; layers of one channel are stored as height × width.
+    pub channels: usize,
+    /// Storage.
+    pub dtype: Dtype,
+    /// Unit of the values; empty for pure numbers.
+    pub unit: &'static str,
+    /// Coordinate or colour space; empty where there is none.
+    pub space: &'static str,
+    /// What stands where nothing was hit.
+    pub sentinel: &'static str,
+    /// One sentence.
+    pub description: &'static str,
+}
+
+macro_rules! layers {
+    ($($layer:ident $name:literal $pass:ident $channels:literal $dtype:ident, $unit:literal, $space:literal, $sentinel:literal, $description:literal;)*) => {
+        [$(LayerSpec { layer: Layer::$layer, name: $name, pass: Pass::$pass, channels: $channels, dtype: Dtype::$dtype, unit: $unit,
+            space: $space, sentinel: $sentinel, description: $description }),*]
+    };
+}
+
+/// The table of layers; `LAYERS[layer as usize].layer == layer`.
+pub const LAYERS: [LayerSpec; 16] = layers![
+    Color "color" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
+        "Radiance; equals diffuse_reflectance * diffuse_illumination + residual to the last bit, evaluated in float32 and rounded to float16.";
+    DiffuseIllumination "diffuse_illumination" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+        "Diffusely reflected light divided by the filtered reflectance; where that is zero, the demodulated irradiance (irradiance / pi).";
+    DiffuseReflectance "diffuse_reflectance" Final 3 F16, "", "linear RGB, Rec. 709", "0", "Diffuse albedo, on [0,1].";
+    Residual "residual" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
+        "Everything that is not diffuse reflection at the first surface: specular reflection, transmission, emission, background.";
+    DepthMeters "depth_meters" Geometry 1 F32, "m", "", "NaN", "Euclidean distance from the camera centre to the surface.";
+    DepthZMeters "depth_z_meters" Geometry 1 F32, "m", "", "NaN", "Planar depth: distance along the viewing axis.";
+    Position "position" Geometry 3 F32, "m", "world", "NaN", "Surface point.";
+    NormalWorld "normal_world" Geometry 3 F16, "", "world", "NaN", "Unit shading normal without bump, facing the camera.";
+    NormalCam "normal_cam" Geometry 3 F16, "", "camera (x right, y up, z backward)", "NaN", "normal_world in camera axes.";
+    NormalBumpWorld "normal_bump_world" Geometry 3 F16, "", "world", "NaN", "Unit shading normal with normal and bump maps, facing the camera.";
+    NormalBumpCam "normal_bump_cam" Geometry 3 F16, "", "camera (x right, y up, z backward)", "NaN", "normal_bump_world in camera axes.";
+    TexCoord "tex_coord" Geometry 3 F16, "", "texture (u right, v up)", "0", "Texture coordinates (u, v, 0).";
+    RenderEntityId "render_entity_id" Geometry 1 I16, "", "", "-1", "Part number from 1: node_id of metadata_nodes.csv.";
+    Valid "valid" Geometry 1 U8, "", "", "0", "Reason code: 0 nothing hit, 1 valid, 2 colour saturated at 65504, 3 no diffuse reflectance.";
+    Semantic "semantic" Label 1 I16, "", "NYU40", "-1", "Class 1 to 40 of the visible part, -1 unlabelled.";
+    SemanticInstance "semantic_instance" Label 1 I16, "", "", "-1", "Instance number from 1 within the scene, -1 none.";
+];
+
+impl Layer {
+    /// The layer's row of the table.
+    pub const fn spec(self) -> &'static LayerSpec {
+        &LAYERS[self as usize]
+    }
+
+    /// The layer of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        LAYERS.iter().find(|spec| spec.name == name).map(|spec| spec.layer)
+    }
+}
+
+impl Dtype {
+    /// Bytes per value.
+    pub const fn size(self) -> usize {
+        match self {
+            Self::F16 | Self::I16 => 2,
+            Self::F32 => 4,
+            Self::U8 => 1,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn table_is_in_the_order_of_the_enum_and_names_are_unique() {
+        for (i, spec) in LAYERS.iter().enumerate() {
+            assert_eq!(spec.layer as usize, i);
+            assert_eq!(Layer::from_name(spec.name), Some(spec.layer));
+        }
+    }
+}

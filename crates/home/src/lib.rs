@@ -1,0 +1,1 @@
+//! Procedural furnished homes: the embedded default input.

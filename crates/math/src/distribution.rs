@@ -1,0 +1,135 @@
+//! Piecewise-constant distributions by inversion of the cumulative sum, which keeps stratified samples stratified.
+
+use crate::ONE_MINUS_EPSILON;
+
+/// A discrete distribution over indices in proportion to weights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Distribution1 {
+    /// `cdf[i]` is the probability of an index below i+1; the last is 1.
+    cdf: Vec<f32>,
+    total: f64,
+}
+
+impl Distribution1 {
+    /// A distribution in proportion to `weights` (finite, ≥ 0). `None` when they sum to zero or there are none.
+    pub fn new(weights: &[f32]) -> Option<Self> {
+        let total: f64 = weights.iter().map(|&w| f64::from(w)).sum();
+        if total <= 0.0 || !total.is_finite() {
+            return None;
+        }
+        let mut running = 0.0f64;
+        let mut cdf: Vec<f32> = weights
+            .iter()
+            .map(|&w| {
+                running += f64::from(w);
+                (running / total) as f32
+            })
+            .collect();
+        // Rounding must never leave a gap at the top that selects a weightless index.
+        let last = weights.iter().rposition(|&w| w > 0.0)?;
+        cdf[last..].fill(1.0);
+        Some(Self { cdf, total })
+    }
+
+    /// Number of indices.
+    pub fn len(&self) -> usize {
+        self.cdf.len()
+    }
+
+    /// Never true: a distribution has at least one index with positive weight.
+    pub fn is_empty(&self) -> bool {
+        self.cdf.is_empty()
+    }
+
+    /// Sum of the weights.
+    pub fn total(&self) -> f64 {
+        self.total
+    }
+
+    /// Probability of `index`.
+    #[inline]
+    pub fn pmf(&self, index: usize) -> f32 {
+        self.cdf[index] - if index == 0 { 0.0 } else { self.cdf[index - 1] }
+    }
+
+    /// Index for `u` uniform on [0,1), its probability, and `u` renewed to be uniform on [0,1) within the index.
+    #[inline]
+    pub fn sample(&self, u: f32) -> (usize, f32, f32) {
+        let index = self.cdf.partition_point(|&c| c <= u).min(self.cdf.len() - 1);
+        let low = if index == 0 { 0.0 } else { self.cdf[index - 1] };
+        let pmf = self.cdf[index] - low;
+        (index, pmf, ((u - low) / pmf).clamp(0.0, ONE_MINUS_EPSILON))
+    }
+}
+
+/// A distribution on the unit square, constant on the cells of a grid.
+#[derive(Clone, Debug)]
+pub struct Distribution2 {
+    rows: Vec<Option<Distribution1>>,
+    marginal: Distribution1,
+    width: usize,
+}
+
+impl Distribution2 {
+    /// In proportion to `weights`, row by row, `width` cells a row. `None` when all are zero.
+    pub fn new(weights: &[f32], width: usize) -> Option<Self> {
+        let rows: Vec<_> = weights.chunks(width).map(Distribution1::new).collect();
+        let sums: Vec<f32> = rows.iter().map(|r| r.as_ref().map_or(0.0, |r| r.total() as f32)).collect();
+        Some(Self { marginal: Distribution1::new(&sums)?, rows, width })
+    }
+
+    /// Point (x, y) on the unit square for `u` uniform on it, and its density per unit area of the square.
+    #[inline]
+    pub fn sample(&self, u: [f32; 2]) -> ([f32; 2], f32) {
+        let (row, p_row, v) = self.marginal.sample(u[1]);
+        let Some(conditional) = &self.rows[row] else { return ([u[0], u[1]], 0.0) };
+        let (column, p_column, w) = conditional.sample(u[0]);
+        let point = [(column as f32 + w) / self.width as f32, (row as f32 + v) / self.rows.len() as f32];
+        (point, p_row * p_column * (self.width * self.rows.len()) as f32)
+    }
+
+    /// Density at the point (x, y) of the unit square.
+    #[inline]
+    pub fn pdf(&self, point: [f32; 2]) -> f32 {
+        let row = ((point[1] * self.rows.len() as f32) as usize).min(self.rows.len() - 1);
+        let column = ((point[0] * self.width as f32) as usize).min(self.width - 1);
+        let Some(conditional) = &self.rows[row] else { return 0.0 };
+        self.marginal.pmf(row) * conditional.pmf(column) * (self.width * self.rows.len()) as f32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weightless_indices_are_never_chosen() {
+        let d = Distribution1::new(&[0.0, 1.0, 0.0, 3.0, 0.0]).unwrap();
+        for i in 0..1000 {
+            let (index, pmf, u) = d.sample(i as f32 / 1000.0);
+            assert!(index == 1 || index == 3);
+            assert_eq!(pmf, d.pmf(index));
+            assert!((0.0..1.0).contains(&u));
+        }
+        assert_eq!(d.sample(ONE_MINUS_EPSILON).0, 3);
+        assert!(Distribution1::new(&[0.0, 0.0]).is_none());
+        assert!(Distribution1::new(&[]).is_none());
+    }
+
+    #[test]
+    fn grid_density_integrates_to_one_and_matches_its_samples() {
+        let weights = [1.0, 0.0, 3.0, 0.5, 2.0, 0.25, 0.0, 0.0, 0.0];
+        let d = Distribution2::new(&weights, 3).unwrap();
+        let mut integral = 0.0;
+        for y in 0..3 {
+            for x in 0..3 {
+                integral += d.pdf([(x as f32 + 0.5) / 3.0, (y as f32 + 0.5) / 3.0]) / 9.0;
+            }
+        }
+        assert!((integral - 1.0).abs() < 1e-5);
+        for i in 0..100 {
+            let (p, pdf) = d.sample([(i as f32 + 0.5) / 100.0, ((i * 37 % 100) as f32 + 0.5) / 100.0]);
+            assert!((d.pdf(p) - pdf).abs() < 1e-4 * pdf, "{p:?}");
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! Vectors, rays, colour, random numbers, sampling warps and distributions.
+//!
+//! Conventions of the whole workspace: right-handed world, z up, metres, radians; column vectors, so that
+//! `world_from_camera * p_camera` is a point in the world. Vectors are `glam`'s; what a value is (point, direction,
+//! normal) and which space it is in stands in its name: `p_world`, `n_camera`, `dir_world`.
+
+mod bounds;
+mod distribution;
+mod hash;
+mod onb;
+mod ray;
+mod rgb;
+mod sampler;
+pub mod warp;
+
+pub use bounds::Bounds3;
+pub use distribution::{Distribution1, Distribution2};
+pub use glam::{Affine3A, DAffine3, DMat3, DMat4, DVec2, DVec3, Mat2, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec4};
+pub use hash::{Rng, hash_u32, hash_u64};
+pub use onb::Onb;
+pub use ray::{Ray, offset_origin};
+pub use rgb::{Rgb, linear_from_srgb, srgb_from_linear};
+pub use sampler::Sampler;
+
+/// `1 / π`.
+pub const INV_PI: f32 = std::f32::consts::FRAC_1_PI;
+
+/// The largest `f32` below one: the upper end of "uniform on [0,1)".
+pub const ONE_MINUS_EPSILON: f32 = 1.0 - f32::EPSILON / 2.0;

@@ -1,0 +1,68 @@
+use crate::hash::hash_u64;
+
+/// The random numbers of one pixel sample: Owen-scrambled Sobol points, each a pure function of
+/// (seed, frame, pixel, sample index, dimension).
+///
+/// Points come four dimensions at a time; a *set* is such a group. Sets 0 to 63 are stratified over the sample index;
+/// later sets (paths of more than thirty bounces) and sample indices of 65536 and above are hashed, hence independent.
+/// Burley 2020, "Practical Hash-based Owen Scrambling".
+#[derive(Clone, Copy, Debug)]
+pub struct Sampler {
+    pixel_seed: u32,
+    index: u32,
+}
+
+impl Sampler {
+    const SETS: u32 = 64;
+    const INDICES: u32 = 1 << 16;
+
+    /// The sampler of sample `index` of a pixel of a frame.
+    #[inline]
+    pub fn new(seed: u64, frame: u32, x: u32, y: u32, index: u32) -> Self {
+        let pixel = (u64::from(y) << 32) | u64::from(x);
+        let pixel_seed = hash_u64(hash_u64(seed ^ hash_u64(u64::from(frame))) ^ pixel) as u32;
+        Self { pixel_seed, index }
+    }
+
+    /// The four dimensions of `set`, each uniform on [0,1).
+    #[inline]
+    pub fn set(&self, set: u32) -> [f32; 4] {
+        if set < Self::SETS && self.index < Self::INDICES {
+            return sobol_burley::sample_4d(self.index, set, self.pixel_seed);
+        }
+        let base = (u64::from(self.pixel_seed) << 32) ^ u64::from(self.index);
+        let a = hash_u64(base ^ hash_u64(2 * u64::from(set)));
+        let b = hash_u64(base ^ hash_u64(2 * u64::from(set) + 1));
+        [a >> 40, (a >> 8) & 0xff_ffff, b >> 40, (b >> 8) & 0xff_ffff].map(|bits| bits as f32 * (1.0 / 16_777_216.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_lie_in_the_unit_interval_and_average_one_half() {
+        for set in [0, 5, 63, 64, 200] {
+            let mut sum = [0.0f64; 4];
+            for index in 0..4096 {
+                let u = Sampler::new(7, 3, 10, 20, index).set(set);
+                for d in 0..4 {
+                    assert!((0.0..1.0).contains(&u[d]));
+                    sum[d] += f64::from(u[d]);
+                }
+            }
+            for d in 0..4 {
+                assert!((sum[d] / 4096.0 - 0.5).abs() < 0.02, "set {set} dimension {d}: mean {}", sum[d] / 4096.0);
+            }
+        }
+    }
+
+    #[test]
+    fn pixels_frames_and_seeds_differ() {
+        let u = Sampler::new(1, 0, 5, 5, 0).set(0);
+        for other in [Sampler::new(2, 0, 5, 5, 0), Sampler::new(1, 1, 5, 5, 0), Sampler::new(1, 0, 6, 5, 0), Sampler::new(1, 0, 5, 6, 0)] {
+            assert_ne!(u, other.set(0));
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! The stages, their work directory, and how a run resumes.

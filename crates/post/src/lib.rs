@@ -1,0 +1,1 @@
+//! Labels, previews, verification and questions about finished frames.

@@ -1,0 +1,1 @@
+//! Light transport: a Scene and a Camera to a Frame with every layer.

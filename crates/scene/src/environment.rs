@@ -1,0 +1,51 @@
+use enfilade_math::{Mat3, Rgb, Vec2, Vec3};
+use serde::{Deserialize, Serialize};
+use std::f32::consts::{PI, TAU};
+
+/// Light from infinitely far away, from all directions.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Environment {
+    /// The same radiance everywhere.
+    Constant {
+        /// Radiance.
+        radiance: Rgb,
+    },
+    /// An equirectangular image; see [`uv_from_direction`] for its layout.
+    Map {
+        /// Index into `Scene::images`.
+        image: u32,
+        /// Multiplies the image.
+        scale: Rgb,
+        /// Rotation that takes world directions into the map's own space.
+        map_from_world: Mat3,
+    },
+}
+
+/// Place in the equirectangular image of a unit direction in the map's space, which has y up: x across on [0,1), y downward
+/// from the top row on [0,1]. x = atan2(dx, −dz) / 2π, as in Mitsuba: the left border is −z, the middle +z.
+#[inline]
+pub fn uv_from_direction(d: Vec3) -> Vec2 {
+    let x = d.x.atan2(-d.z) / TAU;
+    Vec2::new(x - x.floor(), d.y.clamp(-1.0, 1.0).acos() / PI)
+}
+
+/// Inverse of [`uv_from_direction`].
+#[inline]
+pub fn direction_from_uv(uv: Vec2) -> Vec3 {
+    let (sin_phi, cos_phi) = (uv.x * TAU).sin_cos();
+    let (sin_theta, cos_theta) = (uv.y * PI).sin_cos();
+    Vec3::new(sin_phi * sin_theta, cos_theta, -cos_phi * sin_theta)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_round_trip_through_the_map() {
+        for d in [Vec3::X, Vec3::NEG_Z, Vec3::Z, Vec3::new(0.3, -0.5, 0.8), Vec3::new(-0.2, 0.9, -0.1)] {
+            let d = d.normalize();
+            assert!((direction_from_uv(uv_from_direction(d)) - d).length() < 1e-5, "{d}");
+        }
+    }
+}

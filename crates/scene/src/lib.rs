@@ -1,0 +1,29 @@
+//! The scene as validated plain data.
+//!
+//! World space is right-handed, z up, metres. A [`Scene`] that exists is valid: every index points at something and every
+//! number is finite. Labels are kept apart from the scene ([`Labels`]), because they never enter the renderer.
+
+mod camera;
+mod cx;
+mod environment;
+mod labels;
+mod light;
+mod material;
+mod package;
+mod scene;
+pub mod sky;
+mod texture;
+mod trajectory;
+mod world;
+
+pub use camera::{Intrinsics, StartCamera};
+pub use cx::{Cx, Quiet, Warning};
+pub use environment::{Environment, direction_from_uv, uv_from_direction};
+pub use labels::{Labels, NYU40, PartLabel, SemanticClass, is_stuff};
+pub use light::Light;
+pub use material::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, ScalarParam};
+pub use package::{PackageError, from_bytes, to_bytes};
+pub use scene::{Part, PartId, Scene, SceneError};
+pub use texture::{Filter, Image, Pixels, TextureRef, Wrap};
+pub use trajectory::{Pose, Trajectory};
+pub use world::{TriangleSource, WorldMesh};

@@ -1,0 +1,51 @@
+use enfilade_math::{Rgb, Vec3};
+use serde::{Deserialize, Serialize};
+
+/// A light without a surface in the scene. Emissive surfaces are materials; the surroundings are the environment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Light {
+    /// Radiates equally in all directions from a point.
+    Point {
+        /// Name from the file.
+        name: String,
+        /// World position.
+        position: Vec3,
+        /// Radiant intensity, W/sr.
+        intensity: Rgb,
+    },
+    /// A point light within a cone, smooth between the two angles.
+    Spot {
+        /// Name from the file.
+        name: String,
+        /// World position.
+        position: Vec3,
+        /// Unit axis, pointing the way the light goes.
+        direction: Vec3,
+        /// Radiant intensity on the axis, W/sr.
+        intensity: Rgb,
+        /// Full intensity within this angle from the axis, radians.
+        inner_rad: f32,
+        /// None beyond this one.
+        outer_rad: f32,
+    },
+    /// Light from far away: parallel, or from a disk in the sky such as the sun.
+    Directional {
+        /// Name from the file.
+        name: String,
+        /// Unit direction the light travels in.
+        direction: Vec3,
+        /// Irradiance on a surface facing the light, W/m².
+        irradiance: Rgb,
+        /// Angular radius of the disk; 0 for exactly parallel light (the sun: 0.00465).
+        angular_radius_rad: f32,
+    },
+}
+
+impl Light {
+    /// The name given in the file.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Point { name, .. } | Self::Spot { name, .. } | Self::Directional { name, .. } => name,
+        }
+    }
+}

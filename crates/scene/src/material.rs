@@ -1,0 +1,222 @@
+use crate::texture::TextureRef;
+use enfilade_math::Rgb;
+use serde::{Deserialize, Serialize};
+
+/// A colour that may vary over the surface: `factor` × texture (1 without one).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ColorParam {
+    /// Linear factor.
+    pub factor: Rgb,
+    /// RGB of the texture multiplies the factor.
+    pub texture: Option<TextureRef>,
+}
+
+/// A number that may vary over the surface: `factor` × channel of a texture (1 without one).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ScalarParam {
+    /// Linear factor.
+    pub factor: f32,
+    /// The texture and its channel (0 red … 3 alpha).
+    pub texture: Option<(TextureRef, u8)>,
+}
+
+impl From<Rgb> for ColorParam {
+    fn from(factor: Rgb) -> Self {
+        Self { factor, texture: None }
+    }
+}
+
+impl From<f32> for ScalarParam {
+    fn from(factor: f32) -> Self {
+        Self { factor, texture: None }
+    }
+}
+
+/// How light is scattered at a surface. `alpha` is GGX roughness (0 = smooth); reflectances lie on [0,1].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Bsdf {
+    /// Lambert's law.
+    Diffuse {
+        /// Reflectance.
+        reflectance: ColorParam,
+    },
+    /// Metal by its complex index of refraction.
+    Conductor {
+        /// Real part. With `k` zero and `eta` zero the surface is a perfect mirror (Fresnel term 1).
+        eta: Rgb,
+        /// Imaginary part.
+        k: Rgb,
+        /// Multiplies the Fresnel reflectance.
+        reflectance: ColorParam,
+        /// GGX roughness.
+        alpha: ScalarParam,
+    },
+    /// A solid transparent body: reflection and refraction by Fresnel's equations. Outward normals point to `eta` = 1.
+    Dielectric {
+        /// Interior over exterior index of refraction.
+        eta: f32,
+        /// GGX roughness.
+        alpha: ScalarParam,
+        /// Multiplies transmitted light at each crossing.
+        transmittance: ColorParam,
+        /// Beer–Lambert absorption inside, per metre.
+        absorption: Rgb,
+    },
+    /// A pane too thin to displace light: reflects and transmits straight through, with all inner reflections.
+    ThinDielectric {
+        /// Index of refraction of the pane.
+        eta: f32,
+        /// Multiplies transmitted light.
+        transmittance: ColorParam,
+    },
+    /// A diffuse base under a clear dielectric coat (Mitsuba's `plastic`/`roughplastic`).
+    Plastic {
+        /// Diffuse base colour.
+        diffuse: ColorParam,
+        /// Index of refraction of the coat.
+        eta: f32,
+        /// GGX roughness of the coat.
+        alpha: ScalarParam,
+        /// Multiplies the coat's reflection.
+        specular: ColorParam,
+        /// True when colour shifts by inner reflections are modelled (Mitsuba's `nonlinear`).
+        nonlinear: bool,
+    },
+    /// glTF's metallic-roughness model with its common extensions.
+    Principled(Box<Principled>),
+}
+
+/// glTF 2.0 metallic-roughness with the ratified extensions that rooms use.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Principled {
+    /// Diffuse colour of dielectrics, reflectance at normal incidence of metals.
+    pub base_color: ColorParam,
+    /// 0 dielectric … 1 metal.
+    pub metallic: ScalarParam,
+    /// Perceptual roughness; GGX alpha is its square.
+    pub roughness: ScalarParam,
+    /// Index of refraction (1.5 unless `KHR_materials_ior` says otherwise).
+    pub ior: f32,
+    /// `KHR_materials_specular` strength.
+    pub specular: ScalarParam,
+    /// `KHR_materials_specular` colour at normal incidence.
+    pub specular_color: ColorParam,
+    /// `KHR_materials_transmission` share of the dielectric that transmits.
+    pub transmission: ScalarParam,
+    /// True for a solid body (`KHR_materials_volume` with thickness): transmitted light refracts. False: a thin sheet.
+    pub solid: bool,
+    /// Beer–Lambert absorption inside a solid body, per metre.
+    pub absorption: Rgb,
+    /// `KHR_materials_clearcoat` strength.
+    pub clearcoat: ScalarParam,
+    /// Perceptual roughness of the coat.
+    pub clearcoat_roughness: ScalarParam,
+    /// `KHR_materials_sheen` colour; black means none.
+    pub sheen_color: ColorParam,
+    /// Perceptual roughness of the sheen.
+    pub sheen_roughness: ScalarParam,
+}
+
+impl Default for Principled {
+    /// glTF's defaults, but for a dielectric instead of a metal.
+    fn default() -> Self {
+        Self {
+            base_color: Rgb::WHITE.into(),
+            metallic: 0.0.into(),
+            roughness: 1.0.into(),
+            ior: 1.5,
+            specular: 1.0.into(),
+            specular_color: Rgb::WHITE.into(),
+            transmission: 0.0.into(),
+            solid: false,
+            absorption: Rgb::BLACK,
+            clearcoat: 0.0.into(),
+            clearcoat_roughness: 0.0.into(),
+            sheen_color: Rgb::BLACK.into(),
+            sheen_roughness: 0.0.into(),
+        }
+    }
+}
+
+/// What is cut out of the surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum Alpha {
+    /// Nothing.
+    #[default]
+    Opaque,
+    /// Present where the opacity is at least the cutoff.
+    Mask {
+        /// Opacity over the surface.
+        opacity: ScalarParam,
+        /// Threshold on [0,1].
+        cutoff: f32,
+    },
+    /// Present with probability equal to the opacity.
+    Blend {
+        /// Opacity over the surface.
+        opacity: ScalarParam,
+    },
+}
+
+/// A perturbation of the shading normal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum NormalMap {
+    /// Tangent-space normals, n = 2·rgb − 1, y along +v (OpenGL's convention); x and y are multiplied by `scale`.
+    Normal {
+        /// The map; its image must be linear data.
+        texture: TextureRef,
+        /// Strength.
+        scale: f32,
+    },
+    /// Heights in metres: luminance × `scale`.
+    Bump {
+        /// The map.
+        texture: TextureRef,
+        /// Metres for a texture value of one.
+        scale: f32,
+    },
+}
+
+/// What a part's surface is made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Material {
+    /// Name from the file, or a stable one that the importer made.
+    pub name: String,
+    /// Scattering.
+    pub bsdf: Bsdf,
+    /// Emitted radiance in W·sr⁻¹·m⁻² (or the file's own units), uniform over directions; black means none.
+    pub emission: ColorParam,
+    /// True when the surface also scatters and emits on its back. Transmitting BSDFs always have two sides.
+    pub two_sided: bool,
+    /// True when light is emitted on the back as well.
+    pub emits_both_sides: bool,
+    /// Cut-outs.
+    pub alpha: Alpha,
+    /// Perturbed normals.
+    pub normal_map: Option<NormalMap>,
+}
+
+impl Material {
+    /// A two-sided opaque surface that emits nothing.
+    pub fn new(name: impl Into<String>, bsdf: Bsdf) -> Self {
+        Self {
+            name: name.into(),
+            bsdf,
+            emission: Rgb::BLACK.into(),
+            two_sided: true,
+            emits_both_sides: false,
+            alpha: Alpha::Opaque,
+            normal_map: None,
+        }
+    }
+
+    /// A two-sided Lambert surface of one colour.
+    pub fn diffuse(name: impl Into<String>, reflectance: Rgb) -> Self {
+        Self::new(name, Bsdf::Diffuse { reflectance: reflectance.into() })
+    }
+
+    /// A black surface that emits `radiance` on its front.
+    pub fn emitter(name: impl Into<String>, radiance: Rgb) -> Self {
+        Self { emission: radiance.into(), ..Self::diffuse(name, Rgb::BLACK) }
+    }
+}

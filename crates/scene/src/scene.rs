@@ -1,0 +1,189 @@
+use crate::{Alpha, Bsdf, ColorParam, Environment, Image, Light, Material, NormalMap, Pixels, ScalarParam, StartCamera, TextureRef};
+use enfilade_geometry::{Mesh, MeshError};
+use enfilade_math::{DAffine3, Vec3};
+use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
+
+/// Index into [`Scene::parts`]. A part's render entity id in the images is this plus one.
+pub type PartId = u32;
+
+/// A visible thing with one mesh and one material: the unit that is labelled and that `render_entity_id` tells apart.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Part {
+    /// Unique within the scene.
+    pub name: String,
+    /// Index into `Scene::meshes`; several parts may share one.
+    pub mesh: u32,
+    /// Index into `Scene::materials`.
+    pub material: u32,
+    /// Places the mesh in the world.
+    pub world_from_mesh: DAffine3,
+}
+
+/// A scene. [`Scene::validate`] holds for every one that an importer or generator returns.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Scene {
+    /// Shared triangle meshes.
+    pub meshes: Vec<Mesh>,
+    /// Everything visible.
+    pub parts: Vec<Part>,
+    /// Surfaces.
+    pub materials: Vec<Material>,
+    /// Decoded pictures of all textures and of the environment.
+    pub images: Vec<Image>,
+    /// Lights without a surface.
+    pub lights: Vec<Light>,
+    /// Light from the surroundings.
+    pub environment: Option<Environment>,
+    /// Cameras of the file.
+    pub cameras: Vec<StartCamera>,
+}
+
+/// Why a scene is not valid: which of its things, and what is wrong with it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SceneError {
+    /// No parts.
+    #[error("the scene has no visible parts; check that the file holds meshes and that they are not hidden")]
+    NoParts,
+    /// A mesh that cannot be used.
+    #[error("mesh of part {part:?}: {error}")]
+    Mesh {
+        /// The first part that uses the mesh.
+        part: String,
+        /// What is wrong.
+        error: MeshError,
+    },
+    /// An index to nothing.
+    #[error("{what} refers to {kind} {index}, but there are only {count}")]
+    Dangling {
+        /// What holds the index.
+        what: String,
+        /// "mesh", "material" or "image".
+        kind: &'static str,
+        /// The index.
+        index: u32,
+        /// How many there are.
+        count: usize,
+    },
+    /// Two parts of one name.
+    #[error("two parts are named {0:?}; names must be unique because labels are joined by name")]
+    DuplicateName(String),
+    /// A number out of its domain.
+    #[error("{what}: {problem}")]
+    Value {
+        /// What holds the number.
+        what: String,
+        /// What was found and what was expected.
+        problem: String,
+    },
+}
+
+impl Scene {
+    /// Checks that every index points at something, every number is finite, and part names are unique.
+    ///
+    /// # Errors
+    /// The first problem found, with the name of the thing concerned.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        if self.parts.is_empty() {
+            return Err(SceneError::NoParts);
+        }
+        let mut user_of_mesh = HashMap::new();
+        let mut names = HashMap::new();
+        for part in &self.parts {
+            let what = || format!("part {:?}", part.name);
+            check_index(what, "mesh", part.mesh, self.meshes.len())?;
+            check_index(what, "material", part.material, self.materials.len())?;
+            let m = part.world_from_mesh;
+            if !m.is_finite() || m.matrix3.determinant() == 0.0 {
+                return Err(SceneError::Value { what: what(), problem: format!("its placement cannot be inverted: {m:?}") });
+            }
+            if names.insert(part.name.as_str(), ()).is_some() {
+                return Err(SceneError::DuplicateName(part.name.clone()));
+            }
+            user_of_mesh.entry(part.mesh).or_insert(part.name.as_str());
+        }
+        for (&mesh, part) in &user_of_mesh {
+            self.meshes[mesh as usize].validate().map_err(|error| SceneError::Mesh { part: (*part).to_string(), error })?;
+        }
+        for material in &self.materials {
+            self.validate_material(material)?;
+        }
+        for image in &self.images {
+            let texels = match &image.pixels {
+                Pixels::Rgba8 { texels, .. } => texels.len(),
+                Pixels::RgbF32(texels) => texels.len(),
+            };
+            if texels == 0 || texels as u64 != u64::from(image.width) * u64::from(image.height) {
+                let problem = format!("{texels} texels for {}x{} pixels", image.width, image.height);
+                return Err(SceneError::Value { what: format!("image {:?}", image.name), problem });
+            }
+        }
+        if let Some(Environment::Map { image, .. }) = &self.environment {
+            check_index(|| "the environment".to_string(), "image", *image, self.images.len())?;
+        }
+        for camera in &self.cameras {
+            let r = camera.world_from_camera;
+            let error = (r * r.transpose() - enfilade_math::DMat3::IDENTITY).to_cols_array().iter().fold(0.0f64, |m, v| m.max(v.abs()));
+            if !camera.position.is_finite() || error.is_nan() || error > 1e-9 || r.determinant() < 0.0 {
+                let problem = format!("its axes must be orthonormal and right-handed, found {r:?} at {}", camera.position);
+                return Err(SceneError::Value { what: format!("camera {:?}", camera.name), problem });
+            }
+        }
+        Ok(())
+    }
+
+    fn validate_material(&self, material: &Material) -> Result<(), SceneError> {
+        let what = || format!("material {:?}", material.name);
+        let mut textures: Vec<TextureRef> = Vec::new();
+        let mut finite = true;
+        let mut color = |p: &ColorParam| {
+            textures.extend(p.texture);
+            finite &= p.factor.is_finite();
+        };
+        color(&material.emission);
+        match &material.bsdf {
+            Bsdf::Diffuse { reflectance } | Bsdf::Conductor { reflectance, .. } => color(reflectance),
+            Bsdf::Dielectric { transmittance, .. } | Bsdf::ThinDielectric { transmittance, .. } => color(transmittance),
+            Bsdf::Plastic { diffuse, specular, .. } => [diffuse, specular].into_iter().for_each(&mut color),
+            Bsdf::Principled(p) => [&p.base_color, &p.specular_color, &p.sheen_color].into_iter().for_each(&mut color),
+        }
+        let scalars: Vec<&ScalarParam> = match &material.bsdf {
+            Bsdf::Diffuse { .. } | Bsdf::ThinDielectric { .. } => vec![],
+            Bsdf::Conductor { alpha, .. } | Bsdf::Dielectric { alpha, .. } | Bsdf::Plastic { alpha, .. } => vec![alpha],
+            Bsdf::Principled(p) => vec![
+                &p.metallic,
+                &p.roughness,
+                &p.specular,
+                &p.transmission,
+                &p.clearcoat,
+                &p.clearcoat_roughness,
+                &p.sheen_roughness,
+            ],
+        };
+        let opacity = match &material.alpha {
+            Alpha::Opaque => None,
+            Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } => Some(opacity),
+        };
+        for scalar in scalars.into_iter().chain(opacity) {
+            textures.extend(scalar.texture.map(|(t, _)| t));
+            finite &= scalar.factor.is_finite();
+        }
+        textures.extend(material.normal_map.map(|map| match map {
+            NormalMap::Normal { texture, .. } | NormalMap::Bump { texture, .. } => texture,
+        }));
+        if !finite {
+            return Err(SceneError::Value { what: what(), problem: "a colour or number is not finite".into() });
+        }
+        textures.iter().try_for_each(|t| check_index(what, "image", t.image, self.images.len()))
+    }
+
+    /// World positions of the corners of triangle `triangle` of `part`.
+    pub fn world_corners(&self, part: &Part, triangle: usize) -> [Vec3; 3] {
+        let mesh = &self.meshes[part.mesh as usize];
+        mesh.corners(triangle).map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3())
+    }
+}
+
+fn check_index(what: impl Fn() -> String, kind: &'static str, index: u32, count: usize) -> Result<(), SceneError> {
+    if (index as usize) < count { Ok(()) } else { Err(SceneError::Dangling { what: what(), kind, index, count }) }
+}

@@ -1,0 +1,42 @@
+use enfilade_math::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
+
+/// Where a camera is for one frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pose {
+    /// Frame number; poses of a trajectory have ascending numbers.
+    pub frame: u32,
+    /// Camera centre in the world, metres.
+    pub position: DVec3,
+    /// A point on the viewing axis in front of the camera.
+    pub look_at: DVec3,
+    /// Camera to world; columns are the camera's x (right), y (up) and z (backward) axes. Orthonormal.
+    pub world_from_camera: DMat3,
+}
+
+impl Pose {
+    /// The pose that looks from `position` to `look_at` with `up` as close to the image's vertical as can be.
+    ///
+    /// `None` when the two points coincide or the view is along `up`.
+    pub fn look_at(frame: u32, position: DVec3, look_at: DVec3, up: DVec3) -> Option<Self> {
+        let z = (position - look_at).try_normalize()?;
+        let x = up.cross(z).try_normalize()?;
+        let y = z.cross(x);
+        Some(Self { frame, position, look_at, world_from_camera: DMat3::from_cols(x, y, z) })
+    }
+
+    /// Angle between the camera's x axis and the horizon, measured about the viewing axis.
+    pub fn roll_rad(&self) -> f64 {
+        let (x, y) = (self.world_from_camera.x_axis, self.world_from_camera.y_axis);
+        x.z.atan2(y.z)
+    }
+}
+
+/// A named sequence of poses: Hypersim's `cam_XX`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trajectory {
+    /// `cam_00`, `cam_01`, …
+    pub name: String,
+    /// In order of frame number.
+    pub poses: Vec<Pose>,
+}

@@ -1,0 +1,45 @@
+use crate::{PartId, Scene};
+use enfilade_math::{Bounds3, Vec3};
+
+/// Which triangle of which part a world triangle is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TriangleSource {
+    /// The part.
+    pub part: PartId,
+    /// Index into the triangles of the part's mesh.
+    pub triangle: u32,
+}
+
+/// All triangles of a scene in world space, in the order of parts and their triangles. This is what rays meet, in the
+/// renderer and in the exploration of free space alike. Shared meshes are written out once per part.
+#[derive(Clone, Debug)]
+pub struct WorldMesh {
+    /// Corners of every triangle.
+    pub corners: Vec<[Vec3; 3]>,
+    /// Where each triangle comes from.
+    pub sources: Vec<TriangleSource>,
+    /// The smallest box around all of them.
+    pub bounds: Bounds3,
+}
+
+impl WorldMesh {
+    /// Places every part's mesh in the world. Positions are transformed in double precision and rounded once.
+    pub fn new(scene: &Scene) -> Self {
+        let total = scene.parts.iter().map(|p| scene.meshes[p.mesh as usize].triangles.len()).sum();
+        let mut corners = Vec::with_capacity(total);
+        let mut sources = Vec::with_capacity(total);
+        let mut bounds = Bounds3::EMPTY;
+        for (id, part) in scene.parts.iter().enumerate() {
+            let mesh = &scene.meshes[part.mesh as usize];
+            let world: Vec<Vec3> =
+                mesh.positions.iter().map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3()).collect();
+            for (triangle, indices) in mesh.triangles.iter().enumerate() {
+                let triangle_corners = indices.map(|i| world[i as usize]);
+                bounds = triangle_corners.iter().fold(bounds, |b, &p| b.include(p));
+                corners.push(triangle_corners);
+                sources.push(TriangleSource { part: id as PartId, triangle: triangle as u32 });
+            }
+        }
+        Self { corners, sources, bounds }
+    }
+}

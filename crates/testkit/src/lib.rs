@@ -1,0 +1,1 @@
+//! Chi-square tests, furnace scenes and other instruments for tests.
