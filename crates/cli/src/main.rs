@@ -1,2 +1,45 @@
-//! The `enfilade` binary.
-fn main() {}
+//! The `enfilade` binary: one verb per stage, and `run` for all of them.
+//!
+//! Results go to standard output, progress and errors to standard error. Exit codes: 0 done, 1 something failed or a law does
+//! not hold, 2 the command or the configuration is wrong.
+
+mod args;
+mod outcome;
+mod progress;
+mod summary;
+mod verbs;
+
+use args::{Cli, Verb};
+use clap::Parser;
+use outcome::{Problem, Verdict};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    match start(&cli) {
+        Ok(Verdict::Done) => ExitCode::SUCCESS,
+        Ok(Verdict::Failed) => ExitCode::from(1),
+        Err(problem) => {
+            problem.print();
+            ExitCode::from(if problem.usage { 2 } else { 1 })
+        }
+    }
+}
+
+fn start(cli: &Cli) -> Result<Verdict, Problem> {
+    if let Some(threads) = cli.threads {
+        let built = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global();
+        built.map_err(|e| Problem::new(format!("cannot start {threads} threads: {e}"), "ask for fewer with --threads"))?;
+    }
+    match &cli.verb {
+        Verb::Run(args) => verbs::run(args, cli.quiet),
+        Verb::Import(args) => verbs::import(args, cli.quiet),
+        Verb::Carve(args) => verbs::stage(args, enfilade_pipeline::Stage::Carve, cli.quiet),
+        Verb::Plan(args) => verbs::stage(args, enfilade_pipeline::Stage::Plan, cli.quiet),
+        Verb::Render(args) => verbs::stage(args, enfilade_pipeline::Stage::Render, cli.quiet),
+        Verb::Label(args) => verbs::label(args, cli.quiet),
+        Verb::Preview(args) => verbs::stage(args, enfilade_pipeline::Stage::Preview, cli.quiet),
+        Verb::Verify(args) => verbs::verify(args),
+        Verb::Inspect(args) => verbs::inspect(args),
+    }
+}

@@ -1,1 +1,39 @@
-//! The dataset on disk: Hypersim's layout, manifest, readers and writers.
+//! The dataset on disk: Hypersim's tree, names, dtypes and CSV columns, and beside them what Hypersim lacks.
+//!
+//! [`Layout`] knows where everything lies, [`hdf5`] reads and writes one array per file, and [`Dataset`] puts them together:
+//! scenes, cameras, frames and labels go in and come out as the types of `enfilade-scene` and `enfilade-frame`.
+//!
+//! Three rules hold everywhere. A file is complete or absent: it is written under a temporary name and renamed into place. A
+//! frame is complete or absent: its commit record `_detail/<camera>/frames/frame.IIII.json` is written last, and only a frame
+//! with a record counts. Every byte is a function of what was given; times lie apart in `manifest_times.csv`.
+//!
+//! World coordinates are right-handed, z up, and one asset unit is one metre.
+
+mod atomic;
+mod camera_files;
+mod dataset;
+mod error;
+mod frames;
+pub mod hdf5;
+mod intrinsics;
+mod label_files;
+mod layout;
+mod manifest;
+mod mesh_files;
+mod read;
+mod record;
+mod scene_files;
+mod tables;
+mod times;
+
+pub use atomic::{replace_file, write_bytes};
+pub use dataset::Dataset;
+pub use error::DatasetError;
+pub use frames::FrameInfo;
+pub use hdf5::{Array, Element, Elements};
+pub use label_files::{instance_colors, semantic_colors};
+pub use layout::{Layout, check_name};
+pub use manifest::{CameraEntry, Conventions, FrameEntry, FrameStatus, Manifest, ManifestInfo, SceneEntry};
+pub use record::{FileRecord, FrameRecord, LabelRecord, PoseRecord};
+pub use scene_files::Node;
+pub use times::FrameTime;

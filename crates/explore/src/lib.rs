@@ -1,1 +1,34 @@
 //! Free space by space carving, and camera trajectories by view saliency.
+//!
+//! The algorithms are those of Hypersim (Roberts et al., "Hypersim: A Photorealistic Synthetic Dataset for Holistic Indoor Scene
+//! Understanding", ICCV 2021, and its supplement), with the paper's rules where the published code departs from them:
+//!
+//! 1. [`find_starts`] looks for places to stand in scenes that come without cameras.
+//! 2. [`carve`] marks every voxel that a surface touches as occupied, and every voxel that a ray from the start cameras reaches
+//!    before an occupied one as free. The result is an octree.
+//! 3. [`plan`] walks through the free space: every step draws poses near the last one and chooses among them in proportion to
+//!    how much a small test image of each shows ([`Saliency`]).
+//!
+//! All results are functions of the inputs and the seed, whatever the number of threads.
+
+mod carve;
+mod error;
+mod find_starts;
+mod grid;
+mod overlap;
+mod plan;
+mod saliency;
+mod space;
+mod start;
+mod view;
+
+pub use carve::{CarveConfig, carve};
+pub use error::ExploreError;
+pub use find_starts::{StartsConfig, find_starts};
+pub use plan::{PlanConfig, plan};
+pub use saliency::Saliency;
+pub use space::{CarveReport, FreeSpace, StartReport};
+pub use view::{ViewStats, view_stats};
+
+#[cfg(test)]
+mod testroom;

@@ -1,1 +1,24 @@
-//! The stages, their work directory, and how a run resumes.
+//! The stages, their work folder, and how a run resumes.
+//!
+//! [`Config`] says what to make, [`run`] makes it. [`STAGES`] is the one list of stages; each is skipped when nothing that it
+//! depends on has changed, so that a second run does nothing and a killed run goes on where it was. This is the only crate below
+//! the command line that reads clocks and the environment.
+
+mod config;
+mod error;
+mod report;
+mod run;
+mod single;
+mod stages;
+mod workdir;
+
+pub use config::{
+    CameraChoice, Config, ConfigError, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source, demo,
+};
+pub use enfilade_import::UpAxis;
+pub use error::Error;
+pub use report::{Event, Failure, Reporter, SceneOutcome, Silent, StageOutcome, Summary};
+pub use run::{relabel, run, run_stage};
+pub use single::{Imported, import_file};
+pub use stages::{STAGES, Stage, StageSpec};
+pub use workdir::WORKDIR;

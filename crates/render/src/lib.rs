@@ -1,1 +1,24 @@
-//! Light transport: a Scene and a Camera to a Frame with every layer.
+//! Light transport: a [`Scene`](enfilade_scene::Scene) and a camera to a [`Frame`](enfilade_frame::Frame) with every layer.
+//!
+//! A unidirectional path tracer with next-event estimation and multiple importance sampling. Nothing is clamped, denoised or
+//! cut short but by the fields of [`RenderConfig`]. The way of a frame: [`RenderScene::new`] prepares rays and lights,
+//! [`render_frame`] walks the pixels; per pixel, `integrator` samples light paths, `film` turns their sums into the stored
+//! colour layers, and `geometry_pass` finds what the ray through the pixel's centre meets.
+//!
+//! `bsdf` scatters, `light` emits; both have the same `sample`/`pdf` shape, so that one statistical test serves both.
+
+mod bsdf;
+mod config;
+mod error;
+mod film;
+mod geometry_pass;
+mod integrator;
+mod light;
+mod prepared;
+mod render;
+mod surface;
+
+pub use config::RenderConfig;
+pub use error::RenderError;
+pub use prepared::RenderScene;
+pub use render::render_frame;

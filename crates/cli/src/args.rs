@@ -1,0 +1,231 @@
+//! The command line: one definition per verb and flag, with its help and an example.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Turns 3D interiors into photorealistic image datasets with dense ground truth, in Hypersim's layout.
+#[derive(Parser)]
+#[command(name = "enfilade", version, arg_required_else_help = true)]
+#[command(after_help = "Begin with:\n  enfilade run --demo out\n\nEach verb has its own help with an example: enfilade VERB --help")]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+    /// Number of threads [default: one per processor]; changes no byte of the output
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// Print nothing but the result and errors
+    #[arg(short, long, global = true)]
+    pub quiet: bool,
+}
+
+/// The verbs.
+#[derive(Subcommand)]
+pub enum Verb {
+    /// Make a dataset: all stages, for the demo or for the scenes of a TOML file
+    Run(RunArgs),
+    /// Scene file -> scene package
+    Import(ImportArgs),
+    /// Scene -> free space (octomap.bt)
+    #[command(after_help = "Example:\n  enfilade carve out --scene living-room")]
+    Carve(StageArgs),
+    /// Scene, free space -> camera trajectories
+    #[command(after_help = "Example:\n  enfilade plan out --scene living-room")]
+    Plan(StageArgs),
+    /// Scene, trajectories -> frames
+    #[command(after_help = "Example:\n  enfilade render out --scene 'bed*'\n\nFinished frames are kept; a killed run goes on where it was.")]
+    Render(StageArgs),
+    /// Frames, label table -> semantic layers; renders nothing again
+    Label(LabelArgs),
+    /// Frames -> a picture of every layer, and a contact sheet per trajectory
+    #[command(after_help = "Example:\n  enfilade preview out")]
+    Preview(StageArgs),
+    /// Check the laws that tie the layers of a dataset together; the exit code says whether all hold
+    Verify(VerifyArgs),
+    /// Everything about one pixel
+    Inspect(InspectArgs),
+}
+
+/// `run`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  enfilade run --demo out\n  enfilade run --demo out --seed 2 --frames 8 --size 640x480 --quality draft\n  \
+    enfilade run dataset.toml -o out\n\nA second run does nothing that is already done; a killed run goes on where it was.")]
+pub struct RunArgs {
+    /// The scenes to use and what to make of them
+    #[arg(value_name = "DATASET.TOML", required_unless_present = "demo", conflicts_with = "demo")]
+    pub config: Option<PathBuf>,
+    /// Make the demo dataset in the folder OUT instead: a generated living room
+    #[arg(long, value_name = "OUT")]
+    pub demo: Option<PathBuf>,
+    /// Output folder [default: the dataset's name, in the current folder]
+    #[arg(short, long, value_name = "OUT", conflicts_with = "demo")]
+    pub output: Option<PathBuf>,
+    /// Seed of everything random
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Frames per trajectory
+    #[arg(long, value_name = "N")]
+    pub frames: Option<u32>,
+    /// Width and height of the images in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Samples per pixel in one word
+    #[arg(long)]
+    pub quality: Option<QualityArg>,
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scene")]
+    pub scenes: Option<String>,
+}
+
+/// `--quality`.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum QualityArg {
+    /// 8 samples
+    Draft,
+    /// 64 samples
+    Normal,
+    /// 512 samples
+    High,
+}
+
+/// The verbs that run one stage of a dataset.
+#[derive(Args)]
+pub struct StageArgs {
+    /// The dataset's folder, as given to `run`
+    pub dataset: PathBuf,
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
+    pub scene: Option<String>,
+    /// Do it even if nothing has changed
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// `import`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  enfilade import room.gltf -o room.scene\n  enfilade import hall.xml -o hall.scene --meters-per-unit 0.4\n  \
+    enfilade import out --scene living-room")]
+pub struct ImportArgs {
+    /// A scene file (.gltf, .glb, .obj, .xml), or the folder of a dataset to import the scenes of
+    pub input: PathBuf,
+    /// The scene package to write [default: the input's name with .scene, in the current folder]
+    #[arg(short, long, value_name = "PACKAGE")]
+    pub output: Option<PathBuf>,
+    /// Metres per unit of the file
+    #[arg(long, default_value_t = 1.0, value_name = "X")]
+    pub meters_per_unit: f64,
+    /// Which way is up in the file [default: as its format says]
+    #[arg(long)]
+    pub up_axis: Option<UpAxisArg>,
+    /// Light the scene with this equirectangular picture instead of the file's own surroundings
+    #[arg(long, value_name = "FILE")]
+    pub environment: Option<String>,
+    /// Go on with plain grey where a texture is missing
+    #[arg(long)]
+    pub allow_missing_textures: bool,
+    /// With a dataset: only the scenes of these names
+    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
+    pub scene: Option<String>,
+    /// With a dataset: import even if nothing has changed
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// `--up-axis`.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum UpAxisArg {
+    /// +y
+    Y,
+    /// +z
+    Z,
+}
+
+/// `label`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  enfilade label out\n  enfilade label out --scene living-room --table my_labels.csv\n\n\
+    The table is CSV: a column `part`, `object`, `material` or `name`, a column `nyu40_id` or `semantic` (number or name of a class),\n\
+    and if wanted `scene` and `instance`.")]
+pub struct LabelArgs {
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub stage: StageArgs,
+    /// Use this table from now on
+    #[arg(long, value_name = "CSV")]
+    pub table: Option<PathBuf>,
+}
+
+/// `verify`.
+#[derive(Args)]
+#[command(after_help = "Example:\n  enfilade verify out\n\nIt also reads datasets of Hypersim itself.")]
+pub struct VerifyArgs {
+    /// The dataset's folder
+    pub dataset: PathBuf,
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
+    pub scene: Option<String>,
+}
+
+/// `inspect`.
+#[derive(Args)]
+#[command(after_help = "Example:\n  enfilade inspect out --scene living-room --camera cam_00 --frame 0 --pixel 160,120")]
+pub struct InspectArgs {
+    /// The dataset's folder
+    pub dataset: PathBuf,
+    /// Name of the scene [default: the only one]
+    #[arg(long)]
+    pub scene: Option<String>,
+    /// Name of the camera
+    #[arg(long, default_value = "cam_00")]
+    pub camera: String,
+    /// Number of the frame
+    #[arg(long, default_value_t = 0)]
+    pub frame: u32,
+    /// Column and row of the pixel, from 0 at the upper left
+    #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
+    pub pixel: (u32, u32),
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let parsed = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
+    parsed.ok_or_else(|| "expected width and height, as in 640x480".into())
+}
+
+fn parse_pixel(text: &str) -> Result<(u32, u32), String> {
+    let parsed = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
+    parsed.ok_or_else(|| "expected column and row, as in 160,120".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definition_is_consistent_and_every_verb_shows_an_example() {
+        Cli::command().debug_assert();
+        for verb in Cli::command().get_subcommands() {
+            let help = verb.get_after_help().map(ToString::to_string).unwrap_or_default();
+            assert!(help.contains(&format!("enfilade {}", verb.get_name())), "{}", verb.get_name());
+        }
+    }
+
+    #[test]
+    fn quality_help_tells_the_numbers_that_are_used() {
+        for (arg, quality) in QualityArg::value_variants().iter().zip([
+            enfilade_pipeline::Quality::Draft,
+            enfilade_pipeline::Quality::Normal,
+            enfilade_pipeline::Quality::High,
+        ]) {
+            let value = arg.to_possible_value().unwrap();
+            assert_eq!(value.get_help().unwrap().to_string(), format!("{} samples", quality.samples()));
+        }
+    }
+
+    #[test]
+    fn sizes_and_pixels_are_read() {
+        assert_eq!(parse_size("640x480"), Ok([640, 480]));
+        assert!(parse_size("640").is_err() && parse_size("axb").is_err());
+        assert_eq!(parse_pixel("3, 4"), Ok((3, 4)));
+        assert!(parse_pixel("3").is_err());
+    }
+}

@@ -1,0 +1,62 @@
+//! How a verb ends, and how it speaks.
+
+use std::io::Write;
+
+/// How a verb that could do its work ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// All is well.
+    Done,
+    /// A scene failed, or a law does not hold; what it was has been said.
+    Failed,
+}
+
+impl Verdict {
+    /// Done when `ok`.
+    pub fn of(ok: bool) -> Self {
+        if ok { Self::Done } else { Self::Failed }
+    }
+}
+
+/// Why a verb could not do its work.
+#[derive(Debug)]
+pub struct Problem {
+    message: String,
+    hint: Option<String>,
+    /// True when the command or the configuration must change.
+    pub usage: bool,
+}
+
+impl Problem {
+    /// A problem that the command's author can solve.
+    pub fn new(message: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self { message: message.into(), hint: Some(hint.into()), usage: true }
+    }
+
+    /// Says it on standard error.
+    pub fn print(&self) {
+        let mut text = format!("error: {}\n", self.message);
+        if let Some(hint) = &self.hint {
+            text.push_str(&format!("help: {hint}\n"));
+        }
+        let _ = std::io::stderr().write_all(text.as_bytes()); // nobody left to tell
+    }
+}
+
+impl From<enfilade_pipeline::Error> for Problem {
+    fn from(error: enfilade_pipeline::Error) -> Self {
+        Self { message: error.explain(), hint: error.hint(), usage: error.is_usage() }
+    }
+}
+
+impl From<enfilade_dataset::DatasetError> for Problem {
+    fn from(error: enfilade_dataset::DatasetError) -> Self {
+        let usage = matches!(error, enfilade_dataset::DatasetError::NotADataset { .. });
+        Self { message: error.to_string(), hint: None, usage }
+    }
+}
+
+/// Writes lines to standard output. A reader that has gone away is no error.
+pub fn say(text: &str) {
+    let _ = writeln!(std::io::stdout(), "{text}");
+}

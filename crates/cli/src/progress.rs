@@ -1,0 +1,210 @@
+//! What a run says while it goes on: a live line on a terminal, plain lines at intervals anywhere else.
+
+use enfilade_pipeline::{Event, Reporter, Stage};
+use enfilade_scene::{Cx, Warning};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{IsTerminal, Write};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// A silent program looks stuck after about this long.
+const INTERVAL: Duration = Duration::from_secs(5);
+/// Warnings shown per stage; the record of the stage has all.
+const WARNINGS_SHOWN: usize = 3;
+
+/// Writes to standard error.
+pub struct Progress {
+    state: Arc<Mutex<State>>,
+    stop: Option<Sender<()>>,
+    heart: Option<JoinHandle<()>>,
+}
+
+struct State {
+    quiet: bool,
+    bar: Option<ProgressBar>,
+    scene: String,
+    stage: &'static str,
+    running: bool,
+    what: String,
+    fraction: f64,
+    began: Instant,
+    last_line: Instant,
+    warnings: usize,
+}
+
+impl Progress {
+    /// Reports to standard error, or with `quiet` nowhere.
+    pub fn new(quiet: bool) -> Self {
+        let now = Instant::now();
+        let live = !quiet && std::io::stderr().is_terminal();
+        let state = Arc::new(Mutex::new(State {
+            quiet,
+            bar: live.then(new_bar),
+            scene: String::new(),
+            stage: "",
+            running: false,
+            what: String::new(),
+            fraction: 0.0,
+            began: now,
+            last_line: now,
+            warnings: 0,
+        }));
+        let (stop, stopped) = channel();
+        let heart = (!quiet && !live).then(|| {
+            let state = state.clone();
+            std::thread::spawn(move || beat(&state, &stopped))
+        });
+        Self { state, stop: Some(stop), heart }
+    }
+
+    /// The [`Cx`] for work outside a dataset.
+    pub fn cx<'a>(&'a self, name: &'a str, stage: Stage) -> impl Cx + 'a {
+        SingleCx { progress: self, name, stage }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some(bar) = self.lock().bar.take() {
+            bar.finish_and_clear();
+        }
+        self.stop.take();
+        if let Some(heart) = self.heart.take() {
+            let _ = heart.join(); // it cannot fail in a way that matters at the end
+        }
+    }
+}
+
+impl Reporter for Progress {
+    fn on(&self, scene: &str, stage: Stage, event: Event) {
+        let mut state = self.lock();
+        if state.quiet {
+            return;
+        }
+        match event {
+            Event::Started => state.start(scene, stage.name()),
+            Event::Progress { what, done, total } => state.progress(what, done, total),
+            Event::Warned(warning) => state.warn(warning),
+            Event::UpToDate => {
+                state.heading(scene);
+                state.line(&format!("  {:<8} nothing to do", stage.name()));
+            }
+            Event::Finished { summary, wall_s } => {
+                let more = state.warnings.saturating_sub(WARNINGS_SHOWN);
+                if more > 0 {
+                    state.line(&format!("  {:<8} … and {more} more warnings", ""));
+                }
+                state.end();
+                state.line(&format!("  {:<8} {summary} ({wall_s:.1} s)", stage.name()));
+            }
+            Event::Failed { message } => {
+                state.heading(scene);
+                state.end();
+                state.line(&format!("  {:<8} FAILED: {message}", stage.name()));
+            }
+        }
+    }
+}
+
+impl State {
+    fn heading(&mut self, scene: &str) {
+        if self.scene != scene {
+            self.scene = scene.to_string();
+            self.line(scene);
+        }
+    }
+
+    fn start(&mut self, scene: &str, stage: &'static str) {
+        self.heading(scene);
+        (self.stage, self.running, self.warnings, self.fraction) = (stage, true, 0, 0.0);
+        self.what.clear();
+        self.began = Instant::now();
+        self.show();
+    }
+
+    fn end(&mut self) {
+        self.running = false;
+        if let Some(bar) = &self.bar {
+            bar.set_message("");
+            bar.set_prefix("");
+            bar.set_position(0);
+        }
+    }
+
+    fn progress(&mut self, what: &str, done: u64, total: u64) {
+        if self.what != what {
+            self.what = what.to_string();
+        }
+        self.fraction = done as f64 / total.max(1) as f64;
+        self.show();
+    }
+
+    fn warn(&mut self, warning: &Warning) {
+        self.warnings += 1;
+        if self.warnings <= WARNINGS_SHOWN {
+            self.line(&format!("  {:<8} warning: {warning}", self.stage));
+        }
+    }
+
+    fn show(&self) {
+        if let Some(bar) = &self.bar {
+            bar.set_prefix(format!("{:<8}", self.stage));
+            bar.set_message(self.what.clone());
+            bar.set_position((self.fraction * 1000.0) as u64);
+        }
+    }
+
+    fn line(&mut self, text: &str) {
+        self.last_line = Instant::now();
+        match &self.bar {
+            Some(bar) => bar.println(text),
+            None => {
+                let _ = writeln!(std::io::stderr(), "{text}"); // nobody left to tell
+            }
+        }
+    }
+}
+
+fn new_bar() -> ProgressBar {
+    let bar = ProgressBar::new(1000);
+    if let Ok(style) = ProgressStyle::with_template("  {prefix} {spinner} {bar:30} {percent:>3} % {elapsed:>4} {msg}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
+
+/// Says where the work is whenever nothing was said for a while.
+fn beat(state: &Mutex<State>, stopped: &Receiver<()>) {
+    while stopped.recv_timeout(Duration::from_millis(500)) == Err(RecvTimeoutError::Timeout) {
+        let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
+        if state.running && state.last_line.elapsed() >= INTERVAL {
+            let seconds = state.began.elapsed().as_secs();
+            let text = format!("  {:<8} {:.0} % {} ({seconds} s)", state.stage, 100.0 * state.fraction, state.what);
+            state.line(&text);
+        }
+    }
+}
+
+/// Progress of one file without a dataset.
+struct SingleCx<'a> {
+    progress: &'a Progress,
+    name: &'a str,
+    stage: Stage,
+}
+
+impl Cx for SingleCx<'_> {
+    fn progress(&self, what: &str, done: u64, total: u64) {
+        self.progress.on(self.name, self.stage, Event::Progress { what, done, total });
+    }
+
+    fn warn(&self, warning: Warning) {
+        self.progress.on(self.name, self.stage, Event::Warned(&warning));
+    }
+}

@@ -1,0 +1,90 @@
+//! The last words of a run: a table of scenes, what failed and why, and where to look.
+
+use crate::outcome::say;
+use enfilade_dataset::{Dataset, DatasetError};
+use enfilade_frame::{LAYERS, Layer};
+use enfilade_pipeline::{SceneOutcome, Summary};
+use std::path::Path;
+
+/// One line per scene, then each failure with what to do.
+pub fn print_table(summary: &Summary) {
+    let width = summary.scenes.iter().map(|s| s.name.len()).max().unwrap_or(0).max(5);
+    say(&format!("{:width$}  result", "scene"));
+    for scene in &summary.scenes {
+        say(&format!("{:width$}  {}", scene.name, result_of(scene)));
+    }
+    for scene in &summary.scenes {
+        if let Some(failure) = &scene.failure {
+            say(&format!("\n{}: `{}` failed: {}", scene.name, failure.stage.name(), failure.message));
+            if let Some(hint) = &failure.hint {
+                say(&format!("help: {hint}"));
+            }
+        }
+    }
+    let failed = summary.scenes.iter().filter(|s| s.failure.is_some()).count();
+    if failed > 0 {
+        say(&format!("\n{failed} of {} scenes failed.", summary.scenes.len()));
+    }
+}
+
+fn result_of(scene: &SceneOutcome) -> String {
+    if let Some(failure) = &scene.failure {
+        return format!("FAILED in {}", failure.stage.name());
+    }
+    let seconds: f64 = scene.stages.iter().map(|s| s.wall_s).sum();
+    let warnings: usize = scene.stages.iter().map(|s| s.warnings).sum();
+    let last = scene.stages.last().map_or("", |s| s.summary.as_str());
+    let up_to_date = scene.stages.iter().all(|s| s.up_to_date);
+    let time = if up_to_date { "nothing to do".to_string() } else { format!("{seconds:.1} s") };
+    let warned = match warnings {
+        0 => String::new(),
+        1 => ", 1 warning".into(),
+        n => format!(", {n} warnings"),
+    };
+    format!("ok: {last}{warned} ({time})")
+}
+
+/// What is in the dataset at `out` and where to look first.
+///
+/// # Errors
+/// When the dataset cannot be read.
+pub fn print_where_to_look(out: &Path, seconds: f64) -> Result<(), DatasetError> {
+    let dataset = Dataset::open(out)?;
+    let layout = dataset.layout();
+    let (mut frames, mut sheets, mut first) = (0, Vec::new(), None);
+    for scene in dataset.scenes()? {
+        for camera in dataset.cameras(&scene)? {
+            let numbers = dataset.frame_numbers(&scene, &camera)?;
+            frames += numbers.len();
+            let sheet = layout.contact_sheet(&scene, &camera);
+            if sheet.is_file() {
+                sheets.push(sheet);
+            }
+            if let (None, Some(&frame)) = (&first, numbers.first()) {
+                first = Some((scene.clone(), camera, frame));
+            }
+        }
+    }
+    let Some((scene, camera, frame)) = first else { return Ok(()) };
+    say(&format!("\nMade {} in {seconds:.0} s: {frames} frames with {} layers each.\n", out.display(), LAYERS.len()));
+    for (i, sheet) in sheets.iter().take(3).enumerate() {
+        say(&format!("{}  {}", if i == 0 { "see at a glance" } else { "               " }, sheet.display()));
+    }
+    if sheets.len() > 3 {
+        say(&format!("                 and {} more contact sheets", sheets.len() - 3));
+    }
+    say(&format!("a frame's files  {}", layout.layer(&scene, &camera, frame, Layer::Color).display()));
+    say(&format!("                 {}", layout.layer(&scene, &camera, frame, Layer::DepthMeters).display()));
+    let size = dataset.intrinsics(&scene).map_or([2, 2], |k| [k.width, k.height]);
+    let program = std::env::args().next().unwrap_or_else(|| "enfilade".into());
+    let at = format!("--scene {scene} --camera {camera} --frame {frame} --pixel {},{}", size[0] / 2, size[1] / 2);
+    say(&format!("ask a pixel      {program} inspect {} {at}", out.display()));
+    Ok(())
+}
+
+/// What to try after the demo.
+pub fn print_after_demo() {
+    let program = std::env::args().next().unwrap_or_else(|| "enfilade".into());
+    say(&format!("another room     {program} run --demo out2 --seed 2 --frames 8 --quality high"));
+    say(&format!("rooms of yours   {program} run dataset.toml      (see examples/real-rooms/dataset.toml)"));
+}

@@ -1,0 +1,94 @@
+//! What each verb does: arguments to calls of the pipeline and back to words.
+
+use crate::args::{ImportArgs, InspectArgs, LabelArgs, QualityArg, RunArgs, StageArgs, UpAxisArg, VerifyArgs};
+use crate::outcome::{Problem, Verdict, say};
+use crate::progress::Progress;
+use crate::summary;
+use enfilade_pipeline::{Config, EnvironmentChoice, Event, FileSource, Overrides, Quality, Reporter, Stage, Summary, UpAxis};
+use std::path::{Path, PathBuf};
+
+/// `run`: all stages.
+pub fn run(args: &RunArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let overrides = Overrides {
+        seed: args.seed,
+        frames: args.frames,
+        size: args.size,
+        quality: args.quality.map(|q| match q {
+            QualityArg::Draft => Quality::Draft,
+            QualityArg::Normal => Quality::Normal,
+            QualityArg::High => Quality::High,
+        }),
+    };
+    let config = match &args.config {
+        Some(file) => Config::read(file, &overrides)?,
+        None => Config::demo(&overrides)?,
+    };
+    let out = args.demo.clone().or(args.output.clone()).unwrap_or_else(|| PathBuf::from(&config.name));
+    let result = {
+        let progress = Progress::new(quiet);
+        enfilade_pipeline::run(&config, &out, args.scenes.as_deref(), &progress)?
+    };
+    summary::print_table(&result);
+    if result.nothing_done() {
+        say("\nNothing to do: everything is up to date.");
+    }
+    summary::print_where_to_look(&out, result.wall_s)?;
+    if args.demo.is_some() && result.ok() {
+        summary::print_after_demo();
+    }
+    Ok(Verdict::of(result.ok()))
+}
+
+/// One stage of a dataset.
+pub fn stage(args: &StageArgs, stage: Stage, quiet: bool) -> Result<Verdict, Problem> {
+    let progress = Progress::new(quiet);
+    let result = enfilade_pipeline::run_stage(&args.dataset, stage, args.scene.as_deref(), args.force, &progress)?;
+    drop(progress);
+    Ok(conclude(&result))
+}
+
+fn conclude(result: &Summary) -> Verdict {
+    summary::print_table(result);
+    Verdict::of(result.ok())
+}
+
+/// `import`: of a dataset's scenes, or of one file.
+pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
+    if args.input.is_dir() {
+        let stage_args = StageArgs { dataset: args.input.clone(), scene: args.scene.clone(), force: args.force };
+        return stage(&stage_args, Stage::Import, quiet);
+    }
+    let source = FileSource {
+        file: args.input.to_string_lossy().into_owned(),
+        meters_per_unit: args.meters_per_unit,
+        up_axis: args.up_axis.map(|axis| match axis {
+            UpAxisArg::Y => UpAxis::Y,
+            UpAxisArg::Z => UpAxis::Z,
+        }),
+        environment: args.environment.clone().map(|file| EnvironmentChoice { file, scale: 1.0, rotation_deg: 0.0 }),
+        allow_missing_textures: args.allow_missing_textures,
+    };
+    let package = args.output.clone().unwrap_or_else(|| {
+        let name = args.input.file_name().map_or_else(|| "scene".into(), PathBuf::from);
+        name.with_extension("scene")
+    });
+    let name = args.input.display().to_string();
+    let imported = {
+        let progress = Progress::new(quiet);
+        progress.on(&name, Stage::Import, Event::Started);
+        enfilade_pipeline::import_file(&source, &package, &progress.cx(&name, Stage::Import))?
+    };
+    say(&imported.summary);
+    say(&format!("package  {}", package.display()));
+    say(&format!("report   {} ({} warnings)", imported.report.display(), imported.warnings.len()));
+    Ok(Verdict::Done)
+}
+
+/// `label`, with another table if wanted.
+pub fn label(args: &LabelArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let Some(table) = &args.table else { return stage(&args.stage, Stage::Label, quiet) };
+    let progress = Progress::new(quiet);
+    let result = enfilade_pipeline::relabel(&args.stage.dataset, table, args.stage.scene.as_deref(), &progress)?;
+    drop(progress);
+    Ok(conclude(&result))
+}

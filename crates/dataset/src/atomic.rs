@@ -1,0 +1,61 @@
+//! Files that are complete or absent: written under a temporary name in the same folder, then renamed.
+
+use crate::DatasetError;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// How temporary names end. They also begin with a dot, so that no loader's pattern matches them.
+const SUFFIX: &str = ".partial";
+
+/// Where the content of `path` lies until it is complete.
+pub(crate) fn temporary(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!(".{name}{SUFFIX}"))
+}
+
+/// True for the name of a temporary file.
+pub(crate) fn is_temporary(name: &str) -> bool {
+    name.starts_with('.') && name.ends_with(SUFFIX)
+}
+
+/// Makes the folder that `path` lies in.
+pub(crate) fn create_parent(path: &Path) -> Result<(), DatasetError> {
+    let parent = path.parent().unwrap_or(Path::new("."));
+    fs::create_dir_all(parent).map_err(DatasetError::at("create the folder", parent))
+}
+
+/// Replaces the file at `path` by what `write` puts at the temporary path it is given. Missing folders are made. When anything
+/// fails, an older file stays as it was and the temporary file is removed.
+///
+/// # Errors
+/// Those of `write`, and when the folder cannot be made or the file cannot be renamed.
+pub fn replace_file(path: &Path, write: impl FnOnce(&Path) -> Result<(), DatasetError>) -> Result<(), DatasetError> {
+    create_parent(path)?;
+    let aside = temporary(path);
+    let result = write(&aside).and_then(|()| rename(&aside, path));
+    if result.is_err() {
+        let _ = fs::remove_file(&aside);
+    }
+    result
+}
+
+/// Replaces the file at `path` by `bytes`, as [`replace_file`] does.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write_bytes(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), DatasetError> {
+    replace_file(path, |aside| fs::write(aside, bytes).map_err(DatasetError::at("write", path)))
+}
+
+/// Puts a temporary file in its place.
+pub(crate) fn rename(aside: &Path, path: &Path) -> Result<(), DatasetError> {
+    fs::rename(aside, path).map_err(DatasetError::at("put in place", path))
+}
+
+/// Removes a file that may not exist.
+pub(crate) fn remove_if_there(path: &Path) -> Result<(), DatasetError> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(DatasetError::io("remove", path, error)),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,235 @@
+//! A camera's folder under `_detail`: the keyframe arrays of its trajectory, and its poses in OpenCV's conventions.
+
+use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
+use crate::tables::{Table, write_parameter};
+use crate::{Dataset, DatasetError, check_name, replace_file, write_bytes};
+use enfilade_math::{DMat3, DVec3};
+use enfilade_scene::{Intrinsics, Pose, Trajectory};
+use serde::Serialize;
+use std::path::Path;
+
+/// Hypersim's time between two frames; ours are stills as well.
+const FRAME_TIME_S: f64 = 1.0;
+
+impl Dataset {
+    /// Writes a trajectory: the four keyframe arrays, `metadata_camera.csv`, `cameras_opencv.json`, and the camera's row in
+    /// `metadata_cameras.csv`.
+    ///
+    /// # Errors
+    /// When a file cannot be written, or the camera's name cannot be part of a path.
+    pub fn write_trajectory(&self, scene: &str, trajectory: &Trajectory, intrinsics: &Intrinsics) -> Result<(), DatasetError> {
+        let camera = trajectory.name.as_str();
+        check_name("scene name", scene)?;
+        check_name("camera name", camera)?;
+        let poses = &trajectory.poses;
+        let vectors = |of: fn(&Pose) -> DVec3| Array::f64(&[poses.len(), 3], poses.iter().flat_map(|p| of(p).to_array()).collect());
+        let rotations = poses.iter().flat_map(|p| p.world_from_camera.transpose().to_cols_array()).collect();
+        let arrays = [
+            ("frame_indices", Array::i64(&[poses.len()], poses.iter().map(|p| i64::from(p.frame)).collect())),
+            ("positions", vectors(|p| p.position)),
+            ("look_at_positions", vectors(|p| p.look_at)),
+            ("orientations", Array::f64(&[poses.len(), 3, 3], rotations)),
+        ];
+        for (what, array) in &arrays {
+            replace_file(&self.layout().keyframes(scene, camera, what), |aside| write_array(aside, array, Storage::Contiguous, &[]))?;
+        }
+        write_parameter(&self.layout().metadata_camera(scene, camera), "frame_time_seconds", FRAME_TIME_S)?;
+        write_bytes(&self.layout().cameras_opencv(scene, camera), opencv_json(scene, trajectory, intrinsics))?;
+        self.make_records_dir(scene, camera)?;
+        self.add_camera(scene, camera)
+    }
+
+    /// A camera's trajectory in metres; without `metadata_scene.csv` the files are taken to be in metres. Without look-at positions
+    /// the point one metre ahead stands for each, and without frame numbers they count from 0.
+    ///
+    /// # Errors
+    /// When an array is missing, damaged, or of another shape or length than the others.
+    pub fn read_trajectory(&self, scene: &str, camera: &str) -> Result<Trajectory, DatasetError> {
+        let keyframes = |what: &str| self.layout().keyframes(scene, camera, what);
+        let positions = read_f64(&keyframes("positions"), None, &[3])?;
+        let n = positions.len() / 3;
+        let orientations = read_f64(&keyframes("orientations"), Some(n), &[3, 3])?;
+        let look_at = optional(read_f64(&keyframes("look_at_positions"), Some(n), &[3]))?;
+        let frames = match optional(self.frame_indices(scene, camera))? {
+            Some(frames) if frames.len() != n => {
+                let problem = format!("{} frame numbers for {n} positions; plan the trajectory again", frames.len());
+                return Err(DatasetError::hdf5(&keyframes("frame_indices"), problem));
+            }
+            frames => frames.unwrap_or_else(|| (0..n as u32).collect()),
+        };
+        let metres = optional(self.meters_per_asset_unit(scene))?.unwrap_or(1.0);
+        let pose = |i: usize| {
+            let rows: [f64; 9] = std::array::from_fn(|k| orientations[9 * i + k]);
+            let world_from_camera = DMat3::from_cols_array(&rows).transpose();
+            let position = DVec3::from_slice(&positions[3 * i..]);
+            let ahead = || position - world_from_camera.z_axis / metres;
+            let look_at = look_at.as_ref().map_or_else(ahead, |at| DVec3::from_slice(&at[3 * i..]));
+            Pose { frame: frames[i], position: position * metres, look_at: look_at * metres, world_from_camera }
+        };
+        Ok(Trajectory { name: camera.to_string(), poses: (0..n).map(pose).collect() })
+    }
+
+    /// The frame numbers of a trajectory.
+    pub(crate) fn frame_indices(&self, scene: &str, camera: &str) -> Result<Vec<u32>, DatasetError> {
+        let path = self.layout().keyframes(scene, camera, "frame_indices");
+        let wrong = |what: String| DatasetError::hdf5(&path, format!("expected frame numbers (int64, ≥ 0), found {what}"));
+        match read_array(&path)?.values {
+            Elements::I64(v) => {
+                v.into_iter().map(|frame| u32::try_from(frame).map_err(|_| wrong(format!("the number {frame}")))).collect()
+            }
+            other => Err(wrong(other.element().name().to_string())),
+        }
+    }
+
+    /// Adds a camera to `metadata_cameras.csv`, if it is not there, in order of name.
+    fn add_camera(&self, scene: &str, camera: &str) -> Result<(), DatasetError> {
+        let path = self.layout().metadata_cameras(scene);
+        let mut table = optional(Table::read(&path))?.unwrap_or_else(|| Table::new(&path, &["camera_name"]));
+        let names = table.column("camera_name")?;
+        if table.rows.iter().any(|row| row[names] == camera) {
+            return Ok(());
+        }
+        let mut row = vec![String::new(); table.header.len()];
+        row[names] = camera.to_string();
+        table.rows.push(row);
+        table.rows.sort_by(|a, b| a[names].cmp(&b[names]));
+        table.write()
+    }
+}
+
+/// `None` instead of the error that a file does not exist.
+fn optional<T>(result: Result<T, DatasetError>) -> Result<Option<T>, DatasetError> {
+    match result {
+        Err(error) if error.is_not_found() => Ok(None),
+        other => other.map(Some),
+    }
+}
+
+/// Reads doubles of shape (n, `inner`…), where `n` is checked if given.
+fn read_f64(path: &Path, n: Option<usize>, inner: &[usize]) -> Result<Vec<f64>, DatasetError> {
+    let array = read_array(path)?;
+    let fits = array.shape.len() == inner.len() + 1 && array.shape[1..] == *inner && n.is_none_or(|n| array.shape[0] == n);
+    match array.values {
+        Elements::F64(values) if fits => Ok(values),
+        other => {
+            let first = n.map_or("n".to_string(), |n| n.to_string());
+            let found = format!("{} of shape {:?}", other.element().name(), array.shape);
+            let problem = format!("expected float64 of shape ({first}, {inner:?}), found {found}; run the stage that makes this file again");
+            Err(DatasetError::hdf5(path, problem))
+        }
+    }
+}
+
+/// Reads three doubles.
+pub(crate) fn read_f64_vec3(path: &Path) -> Result<DVec3, DatasetError> {
+    Ok(DVec3::from_slice(&read_f64(path, Some(3), &[])?))
+}
+
+#[derive(Serialize)]
+struct OpencvCameras<'a> {
+    convention: &'static str,
+    unit: &'static str,
+    scene: &'a str,
+    camera: &'a str,
+    width: u32,
+    height: u32,
+    #[serde(rename = "K")]
+    k: [[f64; 3]; 3],
+    distortion: [f64; 0],
+    frames: Vec<OpencvFrame>,
+}
+
+#[derive(Serialize)]
+struct OpencvFrame {
+    frame: u32,
+    world_from_camera: [[f64; 4]; 4],
+}
+
+const OPENCV_CONVENTION: &str = "OpenCV: camera axes x right, y down, z forward; the centre of the upper left pixel is (0, 0). \
+    world_from_camera takes camera coordinates (column vectors) to the world, which is right-handed with z up. A world point p falls \
+    on pixel K [I|0] inverse(world_from_camera) p. No lens distortion.";
+
+fn opencv_json(scene: &str, trajectory: &Trajectory, intrinsics: &Intrinsics) -> String {
+    let cameras = OpencvCameras {
+        convention: OPENCV_CONVENTION,
+        unit: "m",
+        scene,
+        camera: &trajectory.name,
+        width: intrinsics.width,
+        height: intrinsics.height,
+        k: intrinsics.opencv_k(),
+        distortion: [],
+        frames: trajectory.poses.iter().map(opencv_frame).collect(),
+    };
+    let mut text = serde_json::to_string_pretty(&cameras).expect("plain data encodes");
+    text.push('\n');
+    text
+}
+
+/// The pose with the camera's y and z axes turned around. Adding zero turns −0 into 0.
+fn opencv_frame(pose: &Pose) -> OpencvFrame {
+    let r = pose.world_from_camera;
+    let row = |i: usize| [r.x_axis[i] + 0.0, 0.0 - r.y_axis[i], 0.0 - r.z_axis[i], pose.position[i] + 0.0];
+    OpencvFrame { frame: pose.frame, world_from_camera: [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn trajectory() -> Trajectory {
+        let pose = |frame, x| Pose::look_at(frame, DVec3::new(x, 0.5, 1.5), DVec3::new(2.0, 3.0, 1.0), DVec3::Z).unwrap();
+        Trajectory { name: "cam_00".into(), poses: vec![pose(0, 0.0), pose(1, 0.25), pose(5, -1.0)] }
+    }
+
+    #[test]
+    fn a_trajectory_comes_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        let intrinsics = Intrinsics::from_fov_x(64, 48, 1.0);
+        dataset.write_trajectory("room", &Trajectory { name: "cam_01".into(), ..trajectory() }, &intrinsics).unwrap();
+        dataset.write_trajectory("room", &trajectory(), &intrinsics).unwrap();
+        dataset.write_trajectory("room", &trajectory(), &intrinsics).unwrap();
+        assert_eq!(dataset.read_trajectory("room", "cam_00").unwrap(), trajectory());
+        assert_eq!(dataset.cameras("room").unwrap(), ["cam_00", "cam_01"]);
+        let missing = dataset.read_trajectory("room", "cam_02").unwrap_err();
+        assert!(missing.is_not_found() && missing.to_string().contains("camera_keyframe_positions.hdf5"), "{missing}");
+    }
+
+    #[test]
+    fn opencv_matrices_project_as_the_camera_does() {
+        let intrinsics = Intrinsics { width: 640, height: 480, fx: 500.0, fy: 510.0, cx: 300.0, cy: 260.0 };
+        let json: serde_json::Value = serde_json::from_str(&opencv_json("room", &trajectory(), &intrinsics)).unwrap();
+        let number = |value: &serde_json::Value, i: usize, j: usize| value[i][j].as_f64().unwrap();
+        let (k, pose) = (&json["K"], &json["frames"][2]["world_from_camera"]);
+        let p_camera = DVec3::new(0.3, 0.2, 2.0); // OpenCV's axes
+        let p_world = DVec3::from_array([0, 1, 2].map(|i| (0..3).map(|j| number(pose, i, j) * p_camera[j]).sum::<f64>() + number(pose, i, 3)));
+        let expected = trajectory().poses[2];
+        let (x, y) = intrinsics.project(expected.world_from_camera.transpose() * (p_world - expected.position));
+        let pixel = [0, 1].map(|i| (0..3).map(|j| number(k, i, j) * p_camera[j]).sum::<f64>() / p_camera.z);
+        assert!((pixel[0] + 0.5 - x).abs() < 1e-9 && (pixel[1] + 0.5 - y).abs() < 1e-9, "{pixel:?} {x} {y}");
+    }
+
+    #[test]
+    fn arrays_of_another_length_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        dataset.write_trajectory("room", &trajectory(), &Intrinsics::from_fov_x(64, 48, 1.0)).unwrap();
+        let path = dataset.layout().keyframes("room", "cam_00", "orientations");
+        write_array(&path, &Array::f64(&[2, 3, 3], vec![0.0; 18]), Storage::Contiguous, &[]).unwrap();
+        let message = dataset.read_trajectory("room", "cam_00").unwrap_err().to_string();
+        assert!(message.contains("expected float64 of shape (3, [3, 3]), found float64 of shape [2, 3, 3]"), "{message}");
+    }
+
+    #[test]
+    fn hypersims_own_trajectory_is_read() {
+        let Some(scenes) = std::env::var_os("ENFILADE_SCENES") else {
+            return eprintln!("skipped: ENFILADE_SCENES is not set");
+        };
+        let dataset = Dataset::open(Path::new(&scenes).join("hypersim-real")).unwrap();
+        let trajectory = dataset.read_trajectory("ai_037_002", "cam_00").unwrap();
+        assert_eq!((trajectory.poses.len(), trajectory.poses[99].frame), (100, 99));
+        let error = |p: &Pose| (p.world_from_camera * p.world_from_camera.transpose() - DMat3::IDENTITY).to_cols_array();
+        assert!(trajectory.poses[1..].iter().flat_map(error).all(|v| v.abs() < 1e-6));
+    }
+}

@@ -1,0 +1,109 @@
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why something on disk could not be read or written: which file, what was found, and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum DatasetError {
+    /// The operating system refused.
+    #[error("cannot {action} {}: {source}; {}", path.display(), advice(source))]
+    Io {
+        /// "read", "write", "create", …
+        action: &'static str,
+        /// Which file or folder.
+        path: PathBuf,
+        /// What the operating system said.
+        source: io::Error,
+    },
+    /// An HDF5 file that cannot be read, or does not hold what its name promises.
+    #[error("{}: {problem}", path.display())]
+    Hdf5 {
+        /// Which file.
+        path: PathBuf,
+        /// What was found, what was expected, what to do.
+        problem: String,
+    },
+    /// A CSV or JSON file that cannot be understood.
+    #[error("{}: {problem}", path.display())]
+    Text {
+        /// Which file.
+        path: PathBuf,
+        /// Where in it, what was found, what was expected.
+        problem: String,
+    },
+    /// A folder that is no dataset.
+    #[error("{} is not a dataset: {problem}", root.display())]
+    NotADataset {
+        /// The folder.
+        root: PathBuf,
+        /// What is missing, and what to do.
+        problem: String,
+    },
+    /// A name that cannot be part of a path.
+    #[error("{what} {name:?} cannot be used: names consist of letters, digits, '_', '-' and '.', and do not begin with '.'; rename it")]
+    Name {
+        /// "scene name" or "camera name".
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// Something was asked for that the dataset does not hold.
+    #[error("{what} is not in the dataset {}: {hint}", root.display())]
+    Missing {
+        /// What was asked for.
+        what: String,
+        /// The dataset.
+        root: PathBuf,
+        /// What to do.
+        hint: String,
+    },
+    /// Data that cannot be stored in Hypersim's format.
+    #[error("{what} cannot be stored: {problem}")]
+    Unstorable {
+        /// What was to be written.
+        what: String,
+        /// Which limit is in the way, and what to do.
+        problem: String,
+    },
+}
+
+/// What a user can do about a refusal of the operating system.
+fn advice(error: &io::Error) -> &'static str {
+    match error.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "free some space on the disk, then run again: finished frames are kept",
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "make the folder readable and writable for this user, or choose another output folder"
+        }
+        io::ErrorKind::NotFound => "check the path; if the dataset was moved or cut short, run the stage that makes this file again",
+        io::ErrorKind::NotADirectory | io::ErrorKind::IsADirectory | io::ErrorKind::AlreadyExists => {
+            "something else lies at this path; move it away or choose another output folder"
+        }
+        _ => "check the disk, then run again: finished frames are kept",
+    }
+}
+
+impl DatasetError {
+    /// An error of the operating system at `path` while doing `action`.
+    pub(crate) fn io(action: &'static str, path: &Path, source: io::Error) -> Self {
+        Self::Io { action, path: path.to_path_buf(), source }
+    }
+
+    /// For `map_err`: as [`DatasetError::io`].
+    pub(crate) fn at(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self::io(action, path, source)
+    }
+
+    /// A CSV or JSON file that says something else than expected.
+    pub(crate) fn text(path: &Path, problem: impl Into<String>) -> Self {
+        Self::Text { path: path.to_path_buf(), problem: problem.into() }
+    }
+
+    /// An array that is not what its name promises.
+    pub(crate) fn hdf5(path: &Path, problem: impl Into<String>) -> Self {
+        Self::Hdf5 { path: path.to_path_buf(), problem: problem.into() }
+    }
+
+    /// True when the cause is a file that does not exist.
+    pub fn is_not_found(&self) -> bool {
+        matches!(self, Self::Io { source, .. } if source.kind() == io::ErrorKind::NotFound)
+    }
+}

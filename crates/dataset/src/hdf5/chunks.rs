@@ -1,0 +1,165 @@
+//! Cutting an array into chunks, and the filters on them: byte shuffle, then deflate in zlib's framing.
+
+/// Deflate level of libdeflate: the best trade of size against time on rendered images.
+pub(super) const DEFLATE_LEVEL: i32 = 6;
+
+/// h5py's automatic chunk shape: halve the axes in turn until a chunk is near a target size that grows slowly with the array.
+/// No axis of the chunk is longer than the array's. `shape` has no zero.
+pub(super) fn auto_chunk(shape: &[usize], element_size: usize) -> Vec<usize> {
+    const BASE: f64 = 16.0 * 1024.0;
+    const MIN: f64 = 8.0 * 1024.0;
+    const MAX: f64 = 1024.0 * 1024.0;
+    let bytes = |shape: &[usize]| shape.iter().map(|&n| n as f64).product::<f64>() * element_size as f64;
+    let target = (BASE * (bytes(shape) / MAX).log10().exp2()).clamp(MIN, MAX);
+    let mut chunk = shape.to_vec();
+    for axis in (0..shape.len()).cycle() {
+        let size = bytes(&chunk);
+        let near = size < target || (size - target).abs() / target < 0.5;
+        if (near && size < MAX) || chunk.iter().all(|&n| n == 1) {
+            break;
+        }
+        chunk[axis] = chunk[axis].div_ceil(2);
+    }
+    chunk
+}
+
+/// An array seen as three axes: shorter shapes get leading ones.
+pub(super) fn three_axes(shape: &[usize]) -> [usize; 3] {
+    let mut axes = [1; 3];
+    axes[3 - shape.len()..].copy_from_slice(shape);
+    axes
+}
+
+/// Number of chunks along each axis.
+pub(super) fn grid(shape: [usize; 3], chunk: [usize; 3]) -> [usize; 3] {
+    std::array::from_fn(|axis| shape[axis].div_ceil(chunk[axis]))
+}
+
+/// Where a chunk meets the array: its first element, and its extent inside the array.
+fn overlap(shape: [usize; 3], chunk: [usize; 3], at: [usize; 3]) -> ([usize; 3], [usize; 3]) {
+    let first = std::array::from_fn(|axis| at[axis] * chunk[axis]);
+    (first, std::array::from_fn(|axis| chunk[axis].min(shape[axis] - first[axis])))
+}
+
+/// Copies elements of `B` bytes between an array and one chunk of it. `copy` gets the offset in the array, the offset in the
+/// chunk, and the number of elements of each run.
+fn for_each_run(shape: [usize; 3], chunk: [usize; 3], at: [usize; 3], mut copy: impl FnMut(usize, usize, usize)) {
+    let (first, extent) = overlap(shape, chunk, at);
+    for y in 0..extent[0] {
+        for x in 0..extent[1] {
+            let from = ((first[0] + y) * shape[1] + first[1] + x) * shape[2] + first[2];
+            copy(from, (y * chunk[1] + x) * chunk[2], extent[2]);
+        }
+    }
+}
+
+/// The bytes of one chunk, zero where it hangs over the end of the array.
+pub(super) fn gather(bytes: &[u8], element_size: usize, shape: [usize; 3], chunk: [usize; 3], at: [usize; 3]) -> Vec<u8> {
+    fn sized<const B: usize>(bytes: &[u8], shape: [usize; 3], chunk: [usize; 3], at: [usize; 3]) -> Vec<u8> {
+        let source: &[[u8; B]] = bytemuck::cast_slice(bytes);
+        let mut out = vec![0u8; chunk.iter().product::<usize>() * B];
+        let target: &mut [[u8; B]] = bytemuck::cast_slice_mut(&mut out);
+        for_each_run(shape, chunk, at, |from, to, n| {
+            if n == 1 {
+                target[to] = source[from];
+            } else {
+                target[to..to + n].copy_from_slice(&source[from..from + n]);
+            }
+        });
+        out
+    }
+    match element_size {
+        1 => sized::<1>(bytes, shape, chunk, at),
+        2 => sized::<2>(bytes, shape, chunk, at),
+        4 => sized::<4>(bytes, shape, chunk, at),
+        _ => sized::<8>(bytes, shape, chunk, at),
+    }
+}
+
+/// Puts the bytes of one chunk back into the array: the inverse of [`gather`].
+pub(super) fn scatter(out: &mut [u8], raw: &[u8], element_size: usize, shape: [usize; 3], chunk: [usize; 3], at: [usize; 3]) {
+    fn sized<const B: usize>(out: &mut [u8], raw: &[u8], shape: [usize; 3], chunk: [usize; 3], at: [usize; 3]) {
+        let source: &[[u8; B]] = bytemuck::cast_slice(raw);
+        let target: &mut [[u8; B]] = bytemuck::cast_slice_mut(out);
+        for_each_run(shape, chunk, at, |to, from, n| {
+            if n == 1 {
+                target[to] = source[from];
+            } else {
+                target[to..to + n].copy_from_slice(&source[from..from + n]);
+            }
+        });
+    }
+    match element_size {
+        1 => sized::<1>(out, raw, shape, chunk, at),
+        2 => sized::<2>(out, raw, shape, chunk, at),
+        4 => sized::<4>(out, raw, shape, chunk, at),
+        _ => sized::<8>(out, raw, shape, chunk, at),
+    }
+}
+
+/// HDF5's shuffle filter: first byte of every element, then second byte of every element, and so on.
+pub(super) fn shuffle(raw: &[u8], element_size: usize) -> Vec<u8> {
+    fn sized<const B: usize>(raw: &[u8]) -> Vec<u8> {
+        let elements: &[[u8; B]] = bytemuck::cast_slice(raw);
+        let mut out = vec![0u8; raw.len()];
+        for (byte, plane) in out.chunks_exact_mut(elements.len()).enumerate() {
+            plane.iter_mut().zip(elements).for_each(|(out, element)| *out = element[byte]);
+        }
+        out
+    }
+    match element_size {
+        1 => raw.to_vec(),
+        2 => sized::<2>(raw),
+        4 => sized::<4>(raw),
+        _ => sized::<8>(raw),
+    }
+}
+
+/// The inverse of [`shuffle`].
+pub(super) fn unshuffle(shuffled: &[u8], element_size: usize) -> Vec<u8> {
+    fn sized<const B: usize>(shuffled: &[u8]) -> Vec<u8> {
+        let mut out = vec![0u8; shuffled.len()];
+        let elements: &mut [[u8; B]] = bytemuck::cast_slice_mut(&mut out);
+        for (byte, plane) in shuffled.chunks_exact(elements.len()).enumerate() {
+            elements.iter_mut().zip(plane).for_each(|(element, &value)| element[byte] = value);
+        }
+        out
+    }
+    match element_size {
+        1 => shuffled.to_vec(),
+        2 => sized::<2>(shuffled),
+        4 => sized::<4>(shuffled),
+        _ => sized::<8>(shuffled),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chunk_shapes_are_h5pys() {
+        assert_eq!(auto_chunk(&[768, 1024], 2), [96, 128]);
+        assert_eq!(auto_chunk(&[768, 1024, 3], 2), [96, 128, 1]);
+        assert_eq!(auto_chunk(&[768, 1024, 3], 4), [48, 128, 1]);
+        assert_eq!(auto_chunk(&[1, 1], 8), [1, 1]);
+        assert_eq!(auto_chunk(&[7, 5, 3], 2), [7, 5, 3]);
+        assert_eq!(auto_chunk(&[97, 131], 4), [25, 66]);
+    }
+
+    #[test]
+    fn scattering_inverts_gathering_and_shuffling() {
+        for (shape, chunk) in [([97, 131, 3], [25, 33, 1]), ([1, 7, 5], [1, 7, 5]), ([10, 3, 4], [4, 2, 3])] {
+            for size in [1, 2, 4, 8] {
+                let bytes: Vec<u8> = (0..shape.iter().product::<usize>() * size).map(|i| (i * 31 % 251) as u8).collect();
+                let mut back = vec![0u8; bytes.len()];
+                let [a, b, c] = grid(shape, chunk);
+                for at in (0..a * b * c).map(|i| [i / (b * c), i / c % b, i % c]) {
+                    let raw = gather(&bytes, size, shape, chunk, at);
+                    scatter(&mut back, &unshuffle(&shuffle(&raw, size), size), size, shape, chunk, at);
+                }
+                assert_eq!(bytes, back, "{shape:?} {chunk:?} {size}");
+            }
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! One array per file, exactly as Hypersim's files are: one dataset named `dataset`, no groups.
+//!
+//! Images are stored in chunks, shuffled and deflated, which every HDF5 reader understands; camera arrays are stored as they
+//! are. Files have superblock version 0, as h5py writes by default, so that any libhdf5 since 1.6 opens them. The library behind
+//! [`write_array`] and [`read_array`] shows nowhere else.
+
+mod chunks;
+mod read;
+mod write;
+
+pub use read::read_array;
+pub use write::write_array;
+pub(crate) use write::{ArrayView, write_view};
+
+use enfilade_frame::{Values, f16};
+
+/// How an element is stored; always little-endian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Element {
+    F16,
+    F32,
+    F64,
+    I16,
+    I64,
+    U8,
+}
+
+/// The elements of an array, last index fastest.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub enum Elements {
+    F16(Vec<f16>),
+    F32(Vec<f32>),
+    F64(Vec<f64>),
+    I16(Vec<i16>),
+    I64(Vec<i64>),
+    U8(Vec<u8>),
+}
+
+/// An array of any rank.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Array {
+    /// Length of each axis, slowest first.
+    pub shape: Vec<usize>,
+    /// As many as the product of the shape.
+    pub values: Elements,
+}
+
+/// How a file stores its array.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// One run of bytes: Hypersim's camera arrays.
+    Contiguous,
+    /// Chunks, shuffled and deflated: images and meshes. Arrays of more than three axes or without elements are stored as one run.
+    Compressed,
+}
+
+impl Element {
+    /// Bytes per element.
+    pub const fn size(self) -> usize {
+        match self {
+            Self::F64 | Self::I64 => 8,
+            Self::F32 => 4,
+            Self::F16 | Self::I16 => 2,
+            Self::U8 => 1,
+        }
+    }
+
+    /// numpy's name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::F16 => "float16",
+            Self::F32 => "float32",
+            Self::F64 => "float64",
+            Self::I16 => "int16",
+            Self::I64 => "int64",
+            Self::U8 => "uint8",
+        }
+    }
+}
+
+impl Elements {
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        self.as_bytes().len() / self.element().size()
+    }
+
+    /// True when there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// How they are stored.
+    pub fn element(&self) -> Element {
+        match self {
+            Self::F16(_) => Element::F16,
+            Self::F32(_) => Element::F32,
+            Self::F64(_) => Element::F64,
+            Self::I16(_) => Element::I16,
+            Self::I64(_) => Element::I64,
+            Self::U8(_) => Element::U8,
+        }
+    }
+
+    /// Little-endian bytes, as in the file.
+    pub fn as_bytes(&self) -> &[u8] {
+        match self {
+            Self::F16(v) => bytemuck::cast_slice(v),
+            Self::F32(v) => bytemuck::cast_slice(v),
+            Self::F64(v) => bytemuck::cast_slice(v),
+            Self::I16(v) => bytemuck::cast_slice(v),
+            Self::I64(v) => bytemuck::cast_slice(v),
+            Self::U8(v) => v,
+        }
+    }
+
+    /// The elements whose bytes are `bytes`, a whole number of them.
+    fn from_bytes(element: Element, bytes: &[u8]) -> Self {
+        match element {
+            Element::F16 => Self::F16(bytemuck::pod_collect_to_vec(bytes)),
+            Element::F32 => Self::F32(bytemuck::pod_collect_to_vec(bytes)),
+            Element::F64 => Self::F64(bytemuck::pod_collect_to_vec(bytes)),
+            Element::I16 => Self::I16(bytemuck::pod_collect_to_vec(bytes)),
+            Element::I64 => Self::I64(bytemuck::pod_collect_to_vec(bytes)),
+            Element::U8 => Self::U8(bytes.to_vec()),
+        }
+    }
+
+    /// As layer values; gives the elements back when no layer is stored so.
+    pub fn into_values(self) -> Result<Values, Self> {
+        match self {
+            Self::F16(v) => Ok(Values::F16(v)),
+            Self::F32(v) => Ok(Values::F32(v)),
+            Self::I16(v) => Ok(Values::I16(v)),
+            Self::U8(v) => Ok(Values::U8(v)),
+            other => Err(other),
+        }
+    }
+}
+
+impl From<Values> for Elements {
+    fn from(values: Values) -> Self {
+        match values {
+            Values::F16(v) => Self::F16(v),
+            Values::F32(v) => Self::F32(v),
+            Values::I16(v) => Self::I16(v),
+            Values::U8(v) => Self::U8(v),
+        }
+    }
+}
+
+impl Array {
+    /// An array of doubles.
+    ///
+    /// # Panics
+    /// When the shape does not hold that many.
+    pub fn f64(shape: &[usize], values: Vec<f64>) -> Self {
+        Self::new(shape, Elements::F64(values))
+    }
+
+    /// An array of 64-bit integers.
+    ///
+    /// # Panics
+    /// When the shape does not hold that many.
+    pub fn i64(shape: &[usize], values: Vec<i64>) -> Self {
+        Self::new(shape, Elements::I64(values))
+    }
+
+    /// An array of any elements.
+    ///
+    /// # Panics
+    /// When the shape does not hold that many.
+    pub fn new(shape: &[usize], values: Elements) -> Self {
+        assert_eq!(shape.iter().product::<usize>(), values.len(), "array of shape {shape:?}");
+        Self { shape: shape.to_vec(), values }
+    }
+
+    fn view(&self) -> ArrayView<'_> {
+        ArrayView { shape: &self.shape, element: self.values.element(), bytes: self.values.as_bytes() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::DatasetError;
+    use std::path::Path;
+
+    const SHAPES: [&[usize]; 6] = [&[1, 1], &[7, 5], &[97, 131], &[97, 131, 3], &[300, 400, 3], &[13]];
+
+    /// Values of every element type that differ from each other and fill all their bytes.
+    fn arrays() -> Vec<Array> {
+        let mut arrays = vec![Array::f64(&[100, 3, 3], (0..900).map(|i| f64::from(i) / 7.0).collect()), Array::i64(&[0], vec![])];
+        for shape in SHAPES {
+            let n = shape.iter().product::<usize>();
+            let wave = |i: usize| (i as f64 * 0.37).sin() * 100.0;
+            arrays.extend([
+                Array::new(shape, Elements::F16((0..n).map(|i| f16::from_f64(wave(i))).collect())),
+                Array::new(shape, Elements::F32((0..n).map(|i| wave(i) as f32).collect())),
+                Array::new(shape, Elements::F64((0..n).map(wave).collect())),
+                Array::new(shape, Elements::I16((0..n).map(|i| (i * 7919 % 65536) as i16).collect())),
+                Array::new(shape, Elements::I64((0..n).map(|i| i as i64 - 3).collect())),
+                Array::new(shape, Elements::U8((0..n).map(|i| (i % 251) as u8).collect())),
+            ]);
+        }
+        arrays
+    }
+
+    #[test]
+    fn arrays_of_every_type_and_shape_come_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.hdf5");
+        for array in arrays() {
+            for storage in [Storage::Contiguous, Storage::Compressed] {
+                write_array(&path, &array, storage, &[("unit", "m")]).unwrap();
+                assert!(read_array(&path).unwrap() == array, "{:?} {storage:?}", array.shape);
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_array_gives_the_same_bytes() {
+        let folder = tempfile::tempdir().unwrap();
+        for array in arrays() {
+            for storage in [Storage::Contiguous, Storage::Compressed] {
+                let write = |name: &str| {
+                    let path = folder.path().join(name);
+                    write_array(&path, &array, storage, &[("unit", "m"), ("space", "world")]).unwrap();
+                    std::fs::read(&path).unwrap()
+                };
+                assert!(write("a.hdf5") == write("another name.hdf5"), "{:?} {storage:?}", array.shape);
+            }
+        }
+    }
+
+    #[test]
+    fn a_damaged_file_is_an_error_that_names_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("frame.0000.depth_meters.hdf5");
+        let array = Array::new(&[67, 71], Elements::F32((0..67 * 71).map(|i| (i as f32).sin()).collect()));
+        for storage in [Storage::Contiguous, Storage::Compressed] {
+            write_array(&path, &array, storage, &[]).unwrap();
+            let whole = std::fs::read(&path).unwrap();
+            for length in (0..whole.len()).step_by(197).chain([whole.len() - 1]) {
+                std::fs::write(&path, &whole[..length]).unwrap();
+                let Err(error) = read_array(&path) else { panic!("{length} of {} bytes pass", whole.len()) };
+                let message = error.to_string();
+                assert!(message.contains("depth_meters.hdf5") && message.contains("cut short"), "{length}: {message}");
+            }
+            // Bytes that are altered may pass unnoticed (HDF5 has no checksum here), but must not panic.
+            for at in (0..2000).chain((2000..whole.len()).step_by(501)) {
+                let mut altered = whole.clone();
+                altered[at] ^= 0xff;
+                std::fs::write(&path, altered).unwrap();
+                let _ = read_array(&path);
+            }
+        }
+    }
+
+    #[test]
+    fn a_file_that_is_missing_or_no_hdf5_is_told_apart() {
+        let folder = tempfile::tempdir().unwrap();
+        let missing = read_array(&folder.path().join("nothing.hdf5")).unwrap_err();
+        assert!(missing.is_not_found(), "{missing}");
+        let text = folder.path().join("text.hdf5");
+        std::fs::write(&text, "not an array at all, but long enough to hold a superblock".repeat(20)).unwrap();
+        assert!(matches!(read_array(&text), Err(DatasetError::Hdf5 { .. })));
+        assert!(matches!(read_array(folder.path()), Err(DatasetError::Io { .. })));
+        assert!(write_array(&folder.path().join("no/folder.hdf5"), &arrays()[0], Storage::Contiguous, &[]).unwrap_err().is_not_found());
+    }
+
+    #[test]
+    fn hypersims_own_files_are_read() {
+        let Some(scenes) = std::env::var_os("ENFILADE_SCENES") else {
+            return eprintln!("skipped: ENFILADE_SCENES is not set");
+        };
+        let camera = Path::new(&scenes).join("hypersim-real/ai_037_002/_detail/cam_00");
+        let orientations = read_array(&camera.join("camera_keyframe_orientations.hdf5")).unwrap();
+        assert_eq!((orientations.shape, orientations.values.element()), (vec![100, 3, 3], Element::F64));
+        let geometry = Path::new(&scenes).join("hypersim-real/ai_037_002/images/scene_cam_00_geometry_hdf5");
+        let depth = read_array(&geometry.join("frame.0000.depth_meters.hdf5")).unwrap();
+        assert_eq!(depth.shape, [768, 1024]);
+        let Elements::F16(metres) = depth.values else { panic!("{:?}", depth.values.element()) };
+        assert!(metres.iter().filter(|d| d.to_f32() > 0.1 && d.to_f32() < 100.0).count() > 700_000);
+    }
+}

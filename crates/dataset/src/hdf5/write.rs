@@ -1,0 +1,135 @@
+use super::chunks::{DEFLATE_LEVEL, auto_chunk, gather, grid, shuffle, three_axes};
+use super::{Array, Element, Storage};
+use crate::DatasetError;
+use enfilade_frame::Values;
+use libdeflater::{CompressionLvl, Compressor};
+use rust_hdf5::types::{H5Type, VarLenUnicode};
+use rust_hdf5::{ByteOrder, DatatypeMessage, H5Dataset, H5File, Hdf5Error, LibverBound};
+use std::path::Path;
+
+/// An array whose elements lie elsewhere.
+#[derive(Clone, Copy)]
+pub(crate) struct ArrayView<'a> {
+    /// Length of each axis, slowest first.
+    pub shape: &'a [usize],
+    /// How an element is stored.
+    pub element: Element,
+    /// Little-endian bytes of all elements.
+    pub bytes: &'a [u8],
+}
+
+impl<'a> ArrayView<'a> {
+    /// The values of a layer.
+    pub fn of_values(shape: &'a [usize], values: &'a Values) -> Self {
+        let element = match values {
+            Values::F16(_) => Element::F16,
+            Values::F32(_) => Element::F32,
+            Values::I16(_) => Element::I16,
+            Values::U8(_) => Element::U8,
+        };
+        Self { shape, element, bytes: values.as_bytes() }
+    }
+}
+
+/// Writes `array` to a new file at `path`; see [`crate::replace_file`] for doing so in one step. The same array gives the same
+/// bytes. `attributes` become text attributes of the dataset.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write_array(path: &Path, array: &Array, storage: Storage, attributes: &[(&str, &str)]) -> Result<(), DatasetError> {
+    write_view(path, array.view(), storage, attributes)
+}
+
+/// As [`write_array`], for borrowed elements.
+pub(crate) fn write_view(path: &Path, array: ArrayView, storage: Storage, attributes: &[(&str, &str)]) -> Result<(), DatasetError> {
+    let options = H5File::options().no_locking().libver(LibverBound::Earliest);
+    let file = options.create(path).map_err(|error| write_error(path, error))?;
+    let written = fill(&file, array, storage, attributes);
+    // Closed in any case: a file that is dropped open would print its own complaint.
+    let closed = file.close_no_sync();
+    written.and(closed).map_err(|error| write_error(path, error))
+}
+
+fn fill(file: &H5File, array: ArrayView, storage: Storage, attributes: &[(&str, &str)]) -> rust_hdf5::Result<()> {
+    let dataset = match storage {
+        Storage::Compressed if (1..=3).contains(&array.shape.len()) && !array.bytes.is_empty() => write_compressed(file, array)?,
+        _ => write_contiguous(file, array)?,
+    };
+    for (name, value) in attributes {
+        let attribute = dataset.new_attr::<VarLenUnicode>().shape(()).create(name)?;
+        attribute.write_scalar(&VarLenUnicode((*value).to_string()))?;
+    }
+    Ok(())
+}
+
+fn write_contiguous(file: &H5File, array: ArrayView) -> rust_hdf5::Result<H5Dataset> {
+    let dataset = file.new_dataset::<u8>().datatype(datatype(array.element)).shape(array.shape).create("dataset")?;
+    if !array.bytes.is_empty() {
+        dataset.write_raw_bytes(array.bytes)?;
+    }
+    Ok(dataset)
+}
+
+/// Deflating the chunks here instead of in the HDF5 library is what makes writing fast: libdeflate takes half of zlib's time.
+fn write_compressed(file: &H5File, array: ArrayView) -> rust_hdf5::Result<H5Dataset> {
+    let size = array.element.size();
+    let chunk = auto_chunk(array.shape, size);
+    let dataset = file
+        .new_dataset::<u8>()
+        .datatype(datatype(array.element))
+        .shape(array.shape)
+        .chunk(&chunk)
+        .shuffle_deflate(DEFLATE_LEVEL as u32)
+        .create("dataset")?;
+    let mut compressor = Compressor::new(CompressionLvl::new(DEFLATE_LEVEL).unwrap_or_default());
+    let (shape3, chunk3) = (three_axes(array.shape), three_axes(&chunk));
+    let [a, b, c] = grid(shape3, chunk3);
+    let mut deflated = Vec::new();
+    for at in (0..a * b * c).map(|i| [i / (b * c), i / c % b, i % c]) {
+        let shuffled = shuffle(&gather(array.bytes, size, shape3, chunk3, at), size);
+        deflated.resize(compressor.zlib_compress_bound(shuffled.len()), 0);
+        let length = compressor
+            .zlib_compress(&shuffled, &mut deflated)
+            .map_err(|error| Hdf5Error::InvalidState(format!("deflate failed: {error}")))?;
+        dataset.write_chunk_raw_at(&at[3 - chunk.len()..], &deflated[..length], 0)?;
+    }
+    Ok(dataset)
+}
+
+/// IEEE 754 half precision, which the library has no Rust type for, and its own descriptions of the others.
+pub(super) fn datatype(element: Element) -> DatatypeMessage {
+    match element {
+        Element::F16 => DatatypeMessage::FloatingPoint {
+            size: 2,
+            byte_order: ByteOrder::LittleEndian,
+            sign_location: 15,
+            bit_offset: 0,
+            bit_precision: 16,
+            exponent_location: 10,
+            exponent_size: 5,
+            mantissa_location: 0,
+            mantissa_size: 10,
+            exponent_bias: 15,
+        },
+        Element::F32 => f32::hdf5_type(),
+        Element::F64 => f64::hdf5_type(),
+        Element::I16 => i16::hdf5_type(),
+        Element::I64 => i64::hdf5_type(),
+        Element::U8 => u8::hdf5_type(),
+    }
+}
+
+/// The operating system's error behind the library's, if there is one. The library hides it behind a private type and shows only
+/// its text, which ends in the error's number.
+pub(super) fn os_error(error: &Hdf5Error) -> Option<std::io::Error> {
+    let text = error.to_string();
+    let (_, number) = text.rsplit_once("(os error ")?;
+    number.strip_suffix(')')?.parse().ok().map(std::io::Error::from_raw_os_error)
+}
+
+fn write_error(path: &Path, error: Hdf5Error) -> DatasetError {
+    match os_error(&error) {
+        Some(source) => DatasetError::io("write", path, source),
+        None => DatasetError::hdf5(path, format!("the array cannot be written as HDF5 ({error})")),
+    }
+}

@@ -1,0 +1,196 @@
+//! `metadata_camera_parameters.csv`: one row per scene with the image size, units and camera matrices.
+//!
+//! The columns are those of the table that Hypersim publishes, so that loaders find what they look for. Those of V-Ray's physical
+//! camera are empty, as they are there for scenes without one: our cameras are pinholes.
+
+use crate::tables::Table;
+use crate::{Dataset, DatasetError, check_name};
+use enfilade_math::{DMat3, DMat4, DVec4};
+use enfilade_scene::Intrinsics;
+
+/// Near plane of `M_proj`, metres. It scales depth only, not where a point falls in the image.
+const NEAR_M: f64 = 0.01;
+/// Far plane of `M_proj`, metres.
+const FAR_M: f64 = 1000.0;
+
+/// V-Ray's parameters of a physical camera, in the order of the table.
+const CAMERA_PHYSICAL: [&str; 45] = [
+    "anisotropy", "blades_enable", "blades_num", "blades_rotation", "bmpaperture_affects_exposure", "bmpaperture_enable",
+    "bmpaperture_resolution", "bmpaperture_tex", "center_bias", "distortion", "distortion_tex", "distortion_type",
+    "dof_display_threshold", "dont_affect_settings", "enable_thin_lens_equation", "exposure", "f_number", "film_width",
+    "focal_length", "focus_distance", "fov", "horizontal_offset", "horizontal_shift", "ISO", "latency", "lens_file", "lens_shift",
+    "optical_vignetting", "rolling_shutter_duration", "rolling_shutter_mode", "shutter_angle", "shutter_offset", "shutter_speed",
+    "specify_focus", "specify_fov", "subdivs", "target_distance", "targeted", "type", "use_dof", "use_moblur", "vertical_offset",
+    "vignetting", "white_balance", "zoom_factor",
+];
+
+/// V-Ray's other camera settings, in the order of the table.
+const SETTINGS_CAMERA: [&str; 12] = [
+    "auto_corrections_mode", "auto_exposure", "auto_exposure_compensation", "auto_fit", "auto_white_balance", "curve", "dist",
+    "dont_affect_settings", "fov", "height", "image_planes", "type",
+];
+
+impl Dataset {
+    /// Sets the scene's row of `metadata_camera_parameters.csv`; the rows of other scenes stay as they are.
+    ///
+    /// # Errors
+    /// When the table cannot be read or written.
+    pub fn write_intrinsics(&self, scene: &str, intrinsics: &Intrinsics) -> Result<(), DatasetError> {
+        check_name("scene name", scene)?;
+        let mut table = self.read_camera_parameters()?;
+        let names = table.column("scene_name")?;
+        let row = row_values(scene, intrinsics);
+        let cell = |column: &String| row.iter().find(|(name, _)| name == column).map_or(String::new(), |(_, value)| value.clone());
+        let cells: Vec<String> = table.header.iter().map(cell).collect();
+        table.rows.retain(|row| row[names] != scene);
+        table.rows.push(cells);
+        table.rows.sort_by(|a, b| a[names].cmp(&b[names]));
+        table.write()
+    }
+
+    /// The scene's image size and calibration, from `M_cam_from_uv`.
+    ///
+    /// # Errors
+    /// When the table is missing or damaged, has no row for the scene, or its camera is not a pinhole looking along its axis
+    /// (Hypersim's tilt-shift cameras).
+    pub fn intrinsics(&self, scene: &str) -> Result<Intrinsics, DatasetError> {
+        let path = self.layout().camera_parameters();
+        let table = Table::read(&path)?;
+        let names = table.column("scene_name")?;
+        let row = table.rows.iter().position(|row| row[names] == scene);
+        let row = row.ok_or_else(|| DatasetError::text(&path, format!("no row for the scene {scene:?}; run the plan stage for it")))?;
+        let number = |column: &str| table.parse::<f64>(row, table.column(column)?);
+        let size = (number("settings_output_img_width")? as u32, number("settings_output_img_height")? as u32);
+        let mut cam_from_uv = DMat3::ZERO;
+        for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
+            cam_from_uv.col_mut(j)[i] = number(&format!("M_cam_from_uv_{i}{j}"))?;
+        }
+        intrinsics_from_uv(size, cam_from_uv).ok_or_else(|| {
+            let what = "is not a pinhole with its image plane across the viewing axis, which is all that K can say; use the matrix itself";
+            DatasetError::text(&path, format!("line {}: the camera of scene {scene:?} (M_cam_from_uv) {what}", row + 2))
+        })
+    }
+
+    /// The table, or an empty one with Hypersim's columns.
+    fn read_camera_parameters(&self) -> Result<Table, DatasetError> {
+        let path = self.layout().camera_parameters();
+        match Table::read(&path) {
+            Err(error) if error.is_not_found() => {
+                let header = header();
+                Ok(Table::new(&path, &header.iter().map(String::as_str).collect::<Vec<_>>()))
+            }
+            table => table,
+        }
+    }
+}
+
+fn header() -> Vec<String> {
+    let first = ["scene_name", "settings_output_img_height", "settings_output_img_width", "settings_units_info_meters_scale"];
+    let mut header: Vec<String> = first.iter().map(ToString::to_string).collect();
+    header.push("use_camera_physical".into());
+    header.extend(CAMERA_PHYSICAL.iter().map(|name| format!("camera_physical_{name}")));
+    header.extend(SETTINGS_CAMERA.iter().map(|name| format!("settings_camera_{name}")));
+    header.extend((0..9).map(|k| format!("M_cam_from_uv_{}{}", k / 3, k % 3)));
+    header.extend((0..16).map(|k| format!("M_proj_{}{}", k / 4, k % 4)));
+    header
+}
+
+/// The cells of a scene's row that have a true value.
+fn row_values(scene: &str, intrinsics: &Intrinsics) -> Vec<(String, String)> {
+    let number = |name: &str, value: f64| (name.to_string(), format!("{value:?}"));
+    let mut row = vec![
+        ("scene_name".to_string(), scene.to_string()),
+        number("settings_output_img_height", f64::from(intrinsics.height)),
+        number("settings_output_img_width", f64::from(intrinsics.width)),
+        number("settings_units_info_meters_scale", 1.0),
+        ("use_camera_physical".to_string(), "False".to_string()),
+        number("settings_camera_auto_exposure", 0.0),
+        number("settings_camera_auto_white_balance", 0.0),
+        number("settings_camera_fov", intrinsics.fov_x_rad()),
+        number("settings_camera_type", 0.0),
+    ];
+    // Adding zero turns −0 into 0.
+    let cam_from_uv = intrinsics.cam_from_uv();
+    row.extend((0..9).map(|k| number(&format!("M_cam_from_uv_{}{}", k / 3, k % 3), cam_from_uv.col(k % 3)[k / 3] + 0.0)));
+    let projection = projection(intrinsics);
+    row.extend((0..16).map(|k| number(&format!("M_proj_{}{}", k / 4, k % 4), projection.col(k % 4)[k / 4] + 0.0)));
+    row
+}
+
+/// OpenGL's frustum of the camera: takes camera space to clip space, with x to the right, y up and the image on [−1, 1]².
+fn projection(intrinsics: &Intrinsics) -> DMat4 {
+    let (w, h) = (f64::from(intrinsics.width), f64::from(intrinsics.height));
+    let depth = -(FAR_M + NEAR_M) / (FAR_M - NEAR_M);
+    DMat4::from_cols(
+        DVec4::new(2.0 * intrinsics.fx / w, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, 2.0 * intrinsics.fy / h, 0.0, 0.0),
+        DVec4::new(1.0 - 2.0 * intrinsics.cx / w, 2.0 * intrinsics.cy / h - 1.0, depth, -1.0),
+        DVec4::new(0.0, 0.0, -2.0 * FAR_M * NEAR_M / (FAR_M - NEAR_M), 0.0),
+    )
+}
+
+/// The inverse of [`Intrinsics::cam_from_uv`] up to the matrix's scale; `None` when the image plane is tilted or sheared.
+fn intrinsics_from_uv((width, height): (u32, u32), cam_from_uv: DMat3) -> Option<Intrinsics> {
+    let m = cam_from_uv * (-1.0 / cam_from_uv.z_axis.z);
+    let rest = [m.x_axis.y, m.x_axis.z, m.y_axis.x, m.y_axis.z];
+    let (w, h) = (0.5 * f64::from(width), 0.5 * f64::from(height));
+    if !m.is_finite() || rest.iter().any(|v| v.abs() > 1e-9) || m.x_axis.x <= 0.0 || m.y_axis.y <= 0.0 {
+        return None;
+    }
+    let (fx, fy) = (w / m.x_axis.x, h / m.y_axis.y);
+    Some(Intrinsics { width, height, fx, fy, cx: w - m.z_axis.x * fx, cy: h + m.z_axis.y * fy })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_math::DVec3;
+
+    const OFF_CENTRE: Intrinsics = Intrinsics { width: 640, height: 480, fx: 500.0, fy: 510.0, cx: 300.0, cy: 260.0 };
+
+    #[test]
+    fn intrinsics_come_back_and_other_scenes_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        let centred = Intrinsics::from_fov_x(1024, 768, std::f64::consts::FRAC_PI_3);
+        dataset.write_intrinsics("room_b", &OFF_CENTRE).unwrap();
+        dataset.write_intrinsics("room_a", &OFF_CENTRE).unwrap();
+        let before = std::fs::read_to_string(dataset.layout().camera_parameters()).unwrap();
+        dataset.write_intrinsics("room_a", &centred).unwrap();
+        let after = std::fs::read_to_string(dataset.layout().camera_parameters()).unwrap();
+        assert_eq!(before.lines().nth(2), after.lines().nth(2));
+        for (scene, expected) in [("room_a", centred), ("room_b", OFF_CENTRE)] {
+            let found = dataset.intrinsics(scene).unwrap();
+            let close = |a: f64, b: f64| (a - b).abs() < 1e-9;
+            assert!(close(found.fx, expected.fx) && close(found.fy, expected.fy), "{found:?}");
+            assert!(close(found.cx, expected.cx) && close(found.cy, expected.cy), "{found:?}");
+            assert_eq!((found.width, found.height), (expected.width, expected.height));
+        }
+        assert!(dataset.intrinsics("room_c").unwrap_err().to_string().contains("no row for the scene \"room_c\""));
+    }
+
+    #[test]
+    fn projection_takes_a_point_to_its_pixel() {
+        let p = DVec3::new(0.3, -0.2, -2.0);
+        let clip = projection(&OFF_CENTRE) * p.extend(1.0);
+        let (x, y) = (0.5 * (clip.x / clip.w + 1.0) * 640.0, 0.5 * (1.0 - clip.y / clip.w) * 480.0);
+        let (px, py) = OFF_CENTRE.project(p);
+        assert!((x - px).abs() < 1e-9 && (y - py).abs() < 1e-9);
+        let depth_at = |z: f64| projection(&OFF_CENTRE) * DVec4::new(0.0, 0.0, -z, 1.0);
+        assert!((depth_at(NEAR_M).z / depth_at(NEAR_M).w + 1.0).abs() < 1e-9);
+        assert!((depth_at(FAR_M).z / depth_at(FAR_M).w - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn hypersims_own_table_has_our_columns_and_its_pinholes_are_read() {
+        let Some(scenes) = std::env::var_os("ENFILADE_SCENES") else {
+            return eprintln!("skipped: ENFILADE_SCENES is not set");
+        };
+        let dataset = Dataset::open(std::path::Path::new(&scenes).join("hypersim-real")).unwrap();
+        assert_eq!(Table::read(&dataset.layout().camera_parameters()).unwrap().header, header());
+        let found = dataset.intrinsics("ai_001_001").unwrap();
+        assert!((found.fx - 886.81).abs() < 0.01 && (found.cx - 512.0).abs() < 1e-6 && found.height == 768, "{found:?}");
+        let tilted = dataset.intrinsics("ai_021_002").unwrap_err().to_string();
+        assert!(tilted.contains("ai_021_002") && tilted.contains("M_cam_from_uv"), "{tilted}");
+    }
+}

@@ -1,0 +1,235 @@
+//! Every path of the tree, in one place. Nothing here touches the disk.
+//!
+//! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, and in each camera's `_detail` folder
+//! `cameras_opencv.json` and `frames/` with the commit records.
+
+use crate::DatasetError;
+use enfilade_frame::{Layer, Pass};
+use std::path::{Path, PathBuf};
+
+/// The paths of a dataset. All methods are pure functions of the root and the names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layout {
+    root: PathBuf,
+    scenes: PathBuf,
+}
+
+/// Checks that `name` can be part of a path on every system.
+///
+/// # Errors
+/// When it is empty, begins with a dot, or has characters other than letters, digits, `_`, `-` and `.`.
+pub fn check_name(what: &'static str, name: &str) -> Result<(), DatasetError> {
+    let allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
+    if name.is_empty() || name.starts_with('.') || !name.chars().all(allowed) {
+        return Err(DatasetError::Name { what, name: name.to_string() });
+    }
+    Ok(())
+}
+
+impl Layout {
+    /// The toolkit's tree: scenes lie under `<root>/scenes`. An empty root gives paths relative to the dataset.
+    pub fn new(root: impl Into<PathBuf>) -> Self {
+        let root = root.into();
+        Self { scenes: root.join("scenes"), root }
+    }
+
+    /// The tree of Hypersim's unpacked archives: scenes lie directly under the root.
+    pub fn flat(root: impl Into<PathBuf>) -> Self {
+        let root = root.into();
+        Self { scenes: root.clone(), root }
+    }
+
+    /// The dataset's folder.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// Everything that is known about the dataset as a whole, as JSON.
+    pub fn manifest(&self) -> PathBuf {
+        self.root.join("manifest.json")
+    }
+
+    /// How long each frame took: the only file that differs between two runs.
+    pub fn manifest_times(&self) -> PathBuf {
+        self.root.join("manifest_times.csv")
+    }
+
+    /// One row per scene: image size, units, `M_cam_from_uv`, `M_proj`.
+    pub fn camera_parameters(&self) -> PathBuf {
+        self.root.join("metadata_camera_parameters.csv")
+    }
+
+    /// Where the scenes lie.
+    pub fn scenes_dir(&self) -> &Path {
+        &self.scenes
+    }
+
+    /// A scene's folder.
+    pub fn scene_dir(&self, scene: &str) -> PathBuf {
+        self.scenes.join(scene)
+    }
+
+    /// Everything about a scene but its images.
+    pub fn detail_dir(&self, scene: &str) -> PathBuf {
+        self.scene_dir(scene).join("_detail")
+    }
+
+    /// Metres per asset unit.
+    pub fn metadata_scene(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("metadata_scene.csv")
+    }
+
+    /// The names of the scene's cameras.
+    pub fn metadata_cameras(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("metadata_cameras.csv")
+    }
+
+    /// Render entities and the objects they belong to.
+    pub fn metadata_nodes(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("metadata_nodes.csv")
+    }
+
+    /// A camera's trajectory and records.
+    pub fn camera_dir(&self, scene: &str, camera: &str) -> PathBuf {
+        self.detail_dir(scene).join(camera)
+    }
+
+    /// One array of the trajectory: `frame_indices`, `positions`, `look_at_positions` or `orientations`.
+    pub fn keyframes(&self, scene: &str, camera: &str, what: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join(format!("camera_keyframe_{what}.hdf5"))
+    }
+
+    /// Seconds between frames.
+    pub fn metadata_camera(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("metadata_camera.csv")
+    }
+
+    /// K and 4×4 poses in OpenCV's axes.
+    pub fn cameras_opencv(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("cameras_opencv.json")
+    }
+
+    /// The commit records of a camera's frames.
+    pub fn records_dir(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("frames")
+    }
+
+    /// The commit record of a frame: without it the frame does not count.
+    pub fn frame_record(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
+        self.records_dir(scene, camera).join(format!("frame.{frame:04}.json"))
+    }
+
+    /// The commit record of a frame's label layers.
+    pub fn label_record(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
+        self.records_dir(scene, camera).join(format!("frame.{frame:04}.labels.json"))
+    }
+
+    /// Geometry, objects and labels of the scene.
+    pub fn mesh_dir(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("mesh")
+    }
+
+    /// A file of the mesh folder: `mesh_vertices.hdf5`, `metadata_objects.csv`, …
+    pub fn mesh_file(&self, scene: &str, name: &str) -> PathBuf {
+        self.mesh_dir(scene).join(name)
+    }
+
+    /// Free space.
+    pub fn octomap_dir(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("octomap")
+    }
+
+    /// The occupancy tree in OctoMap's binary format.
+    pub fn octomap(&self, scene: &str) -> PathBuf {
+        self.octomap_dir(scene).join("octomap.bt")
+    }
+
+    /// Smallest centre of a free voxel, per axis.
+    pub fn octomap_free_space_min(&self, scene: &str) -> PathBuf {
+        self.octomap_dir(scene).join("octomap_free_space_min.hdf5")
+    }
+
+    /// Largest centre of a free voxel, per axis.
+    pub fn octomap_free_space_max(&self, scene: &str) -> PathBuf {
+        self.octomap_dir(scene).join("octomap_free_space_max.hdf5")
+    }
+
+    /// All pictures of a scene.
+    pub fn images_dir(&self, scene: &str) -> PathBuf {
+        self.scene_dir(scene).join("images")
+    }
+
+    /// The arrays of one pass of a camera. Label layers lie with the geometry.
+    pub fn layer_dir(&self, scene: &str, camera: &str, pass: Pass) -> PathBuf {
+        self.images_dir(scene).join(format!("scene_{camera}_{}_hdf5", pass_name(pass)))
+    }
+
+    /// One layer of a frame.
+    pub fn layer(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> PathBuf {
+        let spec = layer.spec();
+        self.layer_dir(scene, camera, spec.pass).join(layer_file_name(frame, layer))
+    }
+
+    /// The previews of one pass of a camera.
+    pub fn preview_dir(&self, scene: &str, camera: &str, pass: Pass) -> PathBuf {
+        self.images_dir(scene).join(format!("scene_{camera}_{}_preview", pass_name(pass)))
+    }
+
+    /// One preview: `frame.IIII.<name>`, where `name` has its extension, as in `tonemap.jpg`.
+    pub fn preview(&self, scene: &str, camera: &str, frame: u32, pass: Pass, name: &str) -> PathBuf {
+        self.preview_dir(scene, camera, pass).join(format!("frame.{frame:04}.{name}"))
+    }
+
+    /// All frames of a camera at a glance.
+    pub fn contact_sheet(&self, scene: &str, camera: &str) -> PathBuf {
+        self.images_dir(scene).join(format!("scene_{camera}_contact_sheet.jpg"))
+    }
+}
+
+/// `frame.IIII.<layer>.hdf5`.
+pub(crate) fn layer_file_name(frame: u32, layer: Layer) -> String {
+    format!("frame.{frame:04}.{}.hdf5", layer.spec().name)
+}
+
+fn pass_name(pass: Pass) -> &'static str {
+    match pass {
+        Pass::Final => "final",
+        Pass::Geometry | Pass::Label => "geometry",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_hypersims() {
+        let layout = Layout::new("d");
+        let layer = |layer| layout.layer("ai_001_001", "cam_00", 7, layer);
+        assert_eq!(layer(Layer::Color), Path::new("d/scenes/ai_001_001/images/scene_cam_00_final_hdf5/frame.0007.color.hdf5"));
+        let geometry = "d/scenes/ai_001_001/images/scene_cam_00_geometry_hdf5";
+        assert_eq!(layer(Layer::DepthMeters), Path::new(geometry).join("frame.0007.depth_meters.hdf5"));
+        assert_eq!(layer(Layer::Semantic), Path::new(geometry).join("frame.0007.semantic.hdf5"));
+        assert_eq!(
+            layout.keyframes("s", "cam_01", "positions"),
+            Path::new("d/scenes/s/_detail/cam_01/camera_keyframe_positions.hdf5")
+        );
+        assert_eq!(
+            layout.preview("s", "cam_00", 12, Pass::Final, "tonemap.jpg"),
+            Path::new("d/scenes/s/images/scene_cam_00_final_preview/frame.0012.tonemap.jpg")
+        );
+        assert_eq!(Layout::flat("d").metadata_scene("s"), Path::new("d/s/_detail/metadata_scene.csv"));
+        assert_eq!(Layout::new("").metadata_scene("s"), Path::new("scenes/s/_detail/metadata_scene.csv"));
+    }
+
+    #[test]
+    fn names_that_leave_their_folder_are_refused() {
+        for good in ["ai_001_001", "grey-white-room", "v1.2"] {
+            check_name("scene name", good).unwrap();
+        }
+        for bad in ["", ".", "..", ".hidden", "a/b", "a\\b", "my room", "küche"] {
+            let message = check_name("scene name", bad).unwrap_err().to_string();
+            assert!(message.starts_with(&format!("scene name {bad:?}")), "{message}");
+        }
+    }
+}

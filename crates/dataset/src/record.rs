@@ -1,0 +1,86 @@
+//! The commit records: small JSON files that say that a frame, or its labels, are complete, and what they are made of.
+
+use enfilade_math::DVec3;
+use enfilade_scene::{Intrinsics, Pose};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Version of the records' form.
+pub(crate) const RECORD_FORMAT: u32 = 1;
+
+/// Size and checksum of a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileRecord {
+    /// Length.
+    pub bytes: u64,
+    /// BLAKE3 of the content, 64 hexadecimal digits.
+    pub blake3: String,
+}
+
+/// A pose as it stands in a record: metres, camera axes x right, y up, z backward.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PoseRecord {
+    /// Camera centre in the world.
+    pub position: [f64; 3],
+    /// A point on the viewing axis.
+    pub look_at: [f64; 3],
+    /// Rows of the rotation that takes camera to world directions.
+    pub world_from_camera: [[f64; 3]; 3],
+}
+
+impl From<&Pose> for PoseRecord {
+    fn from(pose: &Pose) -> Self {
+        let rows = pose.world_from_camera.transpose().to_cols_array_2d();
+        Self { position: pose.position.to_array(), look_at: pose.look_at.to_array(), world_from_camera: rows }
+    }
+}
+
+impl PoseRecord {
+    /// The pose of frame number `frame`.
+    pub fn to_pose(&self, frame: u32) -> Pose {
+        let world_from_camera = enfilade_math::DMat3::from_cols_array_2d(&self.world_from_camera).transpose();
+        Pose { frame, position: DVec3::from(self.position), look_at: DVec3::from(self.look_at), world_from_camera }
+    }
+}
+
+/// What a rendered frame was made from and what it consists of: enough to render it again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrameRecord {
+    /// Version of this form.
+    pub format: u32,
+    /// Scene name.
+    pub scene: String,
+    /// Camera name.
+    pub camera: String,
+    /// Frame number.
+    pub frame: u32,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Samples per pixel.
+    pub samples: u32,
+    /// Hash of everything that the frame's values depend on.
+    pub config_hash: String,
+    /// Where the camera stood.
+    pub pose: PoseRecord,
+    /// Image size and calibration.
+    pub intrinsics: Intrinsics,
+    /// The layer files, by path relative to the scene's folder.
+    pub files: BTreeMap<String, FileRecord>,
+}
+
+/// As [`FrameRecord`], for the label layers, which come and go without the frame being rendered again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LabelRecord {
+    /// Version of this form.
+    pub format: u32,
+    /// Scene name.
+    pub scene: String,
+    /// Camera name.
+    pub camera: String,
+    /// Frame number.
+    pub frame: u32,
+    /// Hash of the label tables that the layers were joined from.
+    pub labels_hash: String,
+    /// The layer files, by path relative to the scene's folder.
+    pub files: BTreeMap<String, FileRecord>,
+}

@@ -1,0 +1,146 @@
+//! What is known of a scene without looking at it: units, render entities, geometry, free space.
+
+use crate::camera_files::read_f64_vec3;
+use crate::hdf5::{Array, Storage, write_array};
+use crate::mesh_files::write_mesh;
+use crate::tables::{Table, write_parameter};
+use crate::{Dataset, DatasetError, check_name, replace_file, write_bytes};
+use enfilade_math::DVec3;
+use enfilade_scene::Scene;
+
+/// What Hypersim writes for a node that belongs to no object.
+const NULL_OBJECT: &str = "_NULL_OBJECT";
+
+/// A row of `metadata_nodes.csv`: a render entity and the object it belongs to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Node {
+    /// From 1, in order; the value of `render_entity_id`.
+    pub node_id: u32,
+    /// Name of the entity.
+    pub node_name: String,
+    /// Index into the object tables; `None` where Hypersim writes −1.
+    pub object_id: Option<u32>,
+    /// Name of the object.
+    pub object_name: String,
+}
+
+impl Dataset {
+    /// Writes what is known of a scene without looking at it: `metadata_scene.csv`, `metadata_nodes.csv` and the mesh folder's
+    /// geometry and names. Every part is one node and one object.
+    ///
+    /// # Errors
+    /// When a file cannot be written, or the scene has more parts than int16 can number (32767).
+    pub fn write_scene(&self, scene_name: &str, scene: &Scene) -> Result<(), DatasetError> {
+        check_name("scene name", scene_name)?;
+        if scene.parts.len() > i16::MAX as usize {
+            let problem = format!("{} parts, but render_entity_id is int16 and holds 32767; join small parts", scene.parts.len());
+            return Err(DatasetError::Unstorable { what: format!("scene {scene_name:?}"), problem });
+        }
+        write_parameter(&self.layout().metadata_scene(scene_name), "meters_per_asset_unit", 1.0)?;
+        let header = ["node_id", "node_name", "object_id", "object_name"];
+        let mut nodes = Table::new(&self.layout().metadata_nodes(scene_name), &header);
+        nodes.rows = scene.parts.iter().enumerate().map(|(i, p)| vec![(i + 1).to_string(), p.name.clone(), i.to_string(), p.name.clone()]).collect();
+        nodes.write()?;
+        write_mesh(self.layout(), scene_name, scene)
+    }
+
+    /// The render entities, in order of `node_id` (1, 2, …).
+    ///
+    /// # Errors
+    /// When the table is missing or damaged.
+    pub fn read_nodes(&self, scene: &str) -> Result<Vec<Node>, DatasetError> {
+        let path = self.layout().metadata_nodes(scene);
+        let table = Table::read(&path)?;
+        let [id, name, object, object_name] = ["node_id", "node_name", "object_id", "object_name"].map(|column| table.column(column));
+        let (id, name, object, object_name) = (id?, name?, object?, object_name?);
+        let node = |row: usize| {
+            let node_id: u32 = table.parse(row, id)?;
+            if node_id as usize != row + 1 {
+                let problem = format!("line {}: node_id is {node_id}, expected {} (1, 2, 3, … in order)", row + 2, row + 1);
+                return Err(DatasetError::text(&path, problem));
+            }
+            let text = |column: usize| table.rows[row][column].clone();
+            let object_id = u32::try_from(table.parse::<i64>(row, object)?).ok().filter(|_| text(object_name) != NULL_OBJECT);
+            Ok(Node { node_id, node_name: text(name), object_id, object_name: text(object_name) })
+        };
+        (0..table.rows.len()).map(node).collect()
+    }
+
+    /// Metres per asset unit; 1 in every dataset of ours.
+    ///
+    /// # Errors
+    /// When the table is missing or damaged.
+    pub fn meters_per_asset_unit(&self, scene: &str) -> Result<f64, DatasetError> {
+        Table::read(&self.layout().metadata_scene(scene))?.parameter("meters_per_asset_unit")
+    }
+
+    /// Writes the occupancy tree (OctoMap's `.bt` bytes) and the bounds of the free voxels' centres.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn write_free_space(&self, scene: &str, tree_bt: &[u8], free_min: DVec3, free_max: DVec3) -> Result<(), DatasetError> {
+        check_name("scene name", scene)?;
+        write_bytes(&self.layout().octomap(scene), tree_bt)?;
+        let bounds = [(self.layout().octomap_free_space_min(scene), free_min), (self.layout().octomap_free_space_max(scene), free_max)];
+        bounds.iter().try_for_each(|(path, point)| {
+            let array = Array::f64(&[3], point.to_array().to_vec());
+            replace_file(path, |aside| write_array(aside, &array, Storage::Contiguous, &[]))
+        })
+    }
+
+    /// The occupancy tree's `.bt` bytes and the bounds of the free voxels' centres.
+    ///
+    /// # Errors
+    /// When a file is missing or damaged.
+    pub fn read_free_space(&self, scene: &str) -> Result<(Vec<u8>, DVec3, DVec3), DatasetError> {
+        let path = self.layout().octomap(scene);
+        let tree = std::fs::read(&path).map_err(DatasetError::at("read", &path))?;
+        let min = read_f64_vec3(&self.layout().octomap_free_space_min(scene))?;
+        Ok((tree, min, read_f64_vec3(&self.layout().octomap_free_space_max(scene))?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh_files::tests::two_parts;
+
+    #[test]
+    fn nodes_are_the_parts_from_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        dataset.write_scene("room", &two_parts()).unwrap();
+        let nodes = dataset.read_nodes("room").unwrap();
+        let expected = |id: u32, name: &str| Node { node_id: id, node_name: name.into(), object_id: Some(id - 1), object_name: name.into() };
+        assert_eq!(nodes, [expected(1, "floor, oak"), expected(2, "lamp")]);
+        assert_eq!(dataset.meters_per_asset_unit("room").unwrap(), 1.0);
+    }
+
+    #[test]
+    fn nodes_out_of_order_are_refused_and_null_objects_have_no_id() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        let path = dataset.layout().metadata_nodes("room");
+        write_bytes(&path, "node_id,node_name,object_id,object_name\n1,a,-1,_NULL_OBJECT\n2,b,0,b\n").unwrap();
+        assert_eq!(dataset.read_nodes("room").unwrap().iter().map(|n| n.object_id).collect::<Vec<_>>(), [None, Some(0)]);
+        write_bytes(&path, "node_id,node_name,object_id,object_name\n2,a,0,a\n").unwrap();
+        let message = dataset.read_nodes("room").unwrap_err().to_string();
+        assert!(message.ends_with("line 2: node_id is 2, expected 1 (1, 2, 3, … in order)"), "{message}");
+    }
+
+    #[test]
+    fn free_space_comes_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        let (min, max) = (DVec3::new(-1.05, 0.05, 0.15), DVec3::new(3.45, 2.0, 2.35));
+        dataset.write_free_space("room", b"# Octomap", min, max).unwrap();
+        assert_eq!(dataset.read_free_space("room").unwrap(), (b"# Octomap".to_vec(), min, max));
+    }
+
+    #[test]
+    fn names_that_leave_the_dataset_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        assert!(matches!(dataset.write_scene("../room", &two_parts()), Err(DatasetError::Name { .. })));
+    }
+}

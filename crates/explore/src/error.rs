@@ -1,0 +1,147 @@
+use enfilade_math::DVec3;
+
+/// Why free space or a trajectory could not be found: where, what was found, and what to do.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ExploreError {
+    /// A configured value out of its domain.
+    #[error("{field} = {found}: expected {expected}")]
+    Config {
+        /// Name of the field.
+        field: &'static str,
+        /// Its value.
+        found: String,
+        /// What is allowed.
+        expected: &'static str,
+    },
+    /// No start positions.
+    #[error("there is no start camera to carve free space from; add a camera to the scene or state one in the scene's settings")]
+    NoStarts,
+    /// A start position that is not a place.
+    #[error("start camera {index} is at {position}, which is not finite; correct its position")]
+    StartNotFinite {
+        /// Index into the starts.
+        index: usize,
+        /// The position.
+        position: DVec3,
+    },
+    /// The start cameras are further apart than the cube to be carved.
+    #[error(
+        "the start cameras are up to {spread_m:.2} m apart along an axis, but the cube to be carved is {extent_m} m wide; raise extent_m \
+         above {spread_m:.2} or carve from fewer cameras"
+    )]
+    ExtentTooSmall {
+        /// Largest distance along one axis.
+        spread_m: f64,
+        /// The configured side.
+        extent_m: f64,
+    },
+    /// The cube leaves the key space of the octree.
+    #[error(
+        "the cube to be carved reaches from {min} to {max}, beyond the octree's 32768 voxels of {voxel_m} m on each side of the origin; \
+         move the scene to the origin or raise voxel_m"
+    )]
+    OutOfKeySpace {
+        /// Lower corner, metres.
+        min: DVec3,
+        /// Upper corner, metres.
+        max: DVec3,
+        /// Edge of a voxel.
+        voxel_m: f64,
+    },
+    /// The grid would not fit in memory.
+    #[error("carving needs {voxels} voxels of {voxel_m} m ({mib} MiB, the limit is {limit_mib}); raise voxel_m or lower extent_m")]
+    TooManyVoxels {
+        /// Voxels in the domain.
+        voxels: u64,
+        /// Edge of a voxel.
+        voxel_m: f64,
+        /// Memory needed.
+        mib: u64,
+        /// Memory allowed.
+        limit_mib: u64,
+    },
+    /// A start position with nothing around it.
+    #[error(
+        "start camera {index} at {position} is outside: {percent:.0} % of the directions around it meet no surface; place it inside the \
+         building, or check the scene's units and up axis"
+    )]
+    StartOutside {
+        /// Index into the starts.
+        index: usize,
+        /// The position.
+        position: DVec3,
+        /// Share of rays that hit nothing, percent.
+        percent: f64,
+    },
+    /// A start position inside a wall or another solid thing.
+    #[error(
+        "start camera {index} at {position} is inside a wall or an object: half of the directions around it end within {median_m:.2} m; \
+         move it at least two voxels ({clear_m:.2} m) away from every surface"
+    )]
+    StartInWall {
+        /// Index into the starts.
+        index: usize,
+        /// The position.
+        position: DVec3,
+        /// Median distance to the surfaces around.
+        median_m: f64,
+        /// Two voxels, metres.
+        clear_m: f64,
+    },
+    /// Carving freed nothing, or an octree without free voxels was given.
+    #[error("no voxel is free: {0}")]
+    NoFreeSpace(String),
+    /// No permitted place near a start camera.
+    #[error(
+        "camera {name:?} at {position} cannot begin a trajectory: no free position within {radius_m} m of it keeps {clearance_m} m from \
+         every surface; move the camera, lower clearance_m, or carve with this camera among the starts"
+    )]
+    StartBlocked {
+        /// Name of the start camera.
+        name: String,
+        /// Its position.
+        position: DVec3,
+        /// How far was searched.
+        radius_m: f64,
+        /// The configured clearance.
+        clearance_m: f64,
+    },
+    /// Nothing to look at from a start camera.
+    #[error(
+        "camera {name:?} at {position} has nothing to look at: no direction has {distance_m} m of free space before a surface; move the \
+         camera or lower min_look_distance_m"
+    )]
+    NothingToLookAt {
+        /// Name of the start camera.
+        name: String,
+        /// Where the trajectory would begin.
+        position: DVec3,
+        /// The configured smallest distance.
+        distance_m: f64,
+    },
+    /// No next pose, even with more samples and smaller steps.
+    #[error(
+        "trajectory {trajectory} is stuck at frame {frame}, position {position}: of {queries} sampled positions {look_from} are free, \
+         clear and visible, of {queries} sampled targets {look_at} are free and visible, and no pair of them sees each other at the \
+         distance asked for; lower clearance_m or min_look_distance_m, ask for fewer frames, or move the start camera"
+    )]
+    Stuck {
+        /// Name of the trajectory.
+        trajectory: String,
+        /// The frame that has no pose.
+        frame: u32,
+        /// Position of the frame before.
+        position: DVec3,
+        /// Samples per set in the last attempt.
+        queries: u32,
+        /// Possible camera positions in the last attempt.
+        look_from: usize,
+        /// Possible targets in the last attempt.
+        look_at: usize,
+    },
+}
+
+/// Checks a configured number.
+pub(crate) fn require(ok: bool, field: &'static str, found: impl ToString, expected: &'static str) -> Result<(), ExploreError> {
+    if ok { Ok(()) } else { Err(ExploreError::Config { field, found: found.to_string(), expected }) }
+}

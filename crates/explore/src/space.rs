@@ -1,0 +1,59 @@
+use crate::ExploreError;
+use enfilade_geometry::{OccupancyTree, Voxel};
+use enfilade_math::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// Where a camera can be: the result of carving.
+#[derive(Clone, Debug)]
+pub struct FreeSpace {
+    /// Free, occupied and unknown voxels.
+    pub tree: OccupancyTree,
+    /// Lower corner of the box around all free voxels, metres.
+    pub free_min: DVec3,
+    /// Upper corner of the box around all free voxels, metres.
+    pub free_max: DVec3,
+    /// What carving found.
+    pub report: CarveReport,
+}
+
+impl FreeSpace {
+    /// The free space of a tree that was carved earlier.
+    ///
+    /// # Errors
+    /// [`ExploreError::NoFreeSpace`] when no voxel is free.
+    pub fn new(tree: OccupancyTree, report: CarveReport) -> Result<Self, ExploreError> {
+        match tree.bounds(Voxel::Free) {
+            Some((free_min, free_max)) => Ok(Self { tree, free_min, free_max, report }),
+            None => Err(ExploreError::NoFreeSpace("the octree holds no free voxel; carve the scene again".into())),
+        }
+    }
+}
+
+/// What carving found.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CarveReport {
+    /// Free voxels.
+    pub free_voxels: u64,
+    /// Their volume, cubic metres.
+    pub free_volume_m3: f64,
+    /// Voxels that a surface touches.
+    pub occupied_voxels: u64,
+    /// Positions from which rays were cast, in order.
+    pub positions: Vec<DVec3>,
+    /// Share of all rays that left the domain without meeting an occupied voxel: 0 in a closed room; more where a window has no
+    /// pane, a wall or ceiling is missing, or a camera stands outside.
+    pub escaped_share: f64,
+    /// What became of each start camera, in their order.
+    pub starts: Vec<StartReport>,
+}
+
+/// What became of one start camera.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StartReport {
+    /// The position asked for.
+    pub asked: DVec3,
+    /// The position carved from: another one when the one asked for lies in an occupied voxel, `None` when the camera was skipped.
+    pub used: Option<DVec3>,
+    /// Why it was skipped.
+    pub problem: Option<String>,
+}

@@ -1,0 +1,130 @@
+//! The ray-tracing hierarchy: which triangle does a ray meet first, and does it meet any?
+//!
+//! A tree of boxes with up to eight children per node and up to eight triangles per leaf, so that one vector instruction tests all
+//! children or all triangles of a place at once (Wald, Benthin & Boulos 2008, "Getting Rid of Packets"). The triangle test is
+//! watertight (Woop, Benthin & Wald 2013): a ray cannot slip between two triangles that share an edge. What a ray hits does not
+//! depend on the machine: AVX2 is used where the processor has it, and the plain path gives the same bits.
+
+mod build;
+mod lanes;
+mod walk;
+
+#[cfg(test)]
+mod tests;
+
+use build::{Block, Node};
+use enfilade_math::{Bounds3, Ray, Vec3};
+
+/// Where a ray meets a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Parameter on the ray, strictly between its `t_min` and `t_max`.
+    pub t: f32,
+    /// Index of the triangle in the order given to [`Bvh::new`].
+    pub triangle: u32,
+    /// Barycentric weight of corner 1, in [0, 1].
+    pub u: f32,
+    /// Barycentric weight of corner 2, in [0, 1]; corner 0 has the weight 1 − u − v.
+    pub v: f32,
+}
+
+/// A hierarchy over triangles. Both sides of a triangle are hit; its edges belong to it; triangles without area are never hit.
+///
+/// Of several triangles at the same distance the one with the lowest index is reported.
+pub struct Bvh {
+    /// The root is node 0; empty when there is nothing to hit.
+    nodes: Vec<Node>,
+    blocks: Vec<Block>,
+    bounds: Bounds3,
+    triangle_count: usize,
+    kernel: Kernel,
+}
+
+/// Which compiled traversal to call.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kernel {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+}
+
+impl Kernel {
+    fn best_here() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("bmi1") {
+            return Self::Avx2;
+        }
+        Self::Portable
+    }
+}
+
+impl Bvh {
+    /// Builds the hierarchy of `corners`, in which triangle i asks the filter of the `_filtered` queries when `filtered(i)`.
+    ///
+    /// The same triangles give the same hierarchy, whatever the number of threads. About 1.5 CPU seconds per million triangles.
+    ///
+    /// # Panics
+    /// With 2³¹ triangles or more.
+    pub fn new(corners: &[[Vec3; 3]], filtered: &dyn Fn(u32) -> bool) -> Self {
+        let built = build::build(corners, filtered);
+        Self {
+            nodes: built.nodes,
+            blocks: built.blocks,
+            bounds: built.bounds,
+            triangle_count: corners.len(),
+            kernel: Kernel::best_here(),
+        }
+    }
+
+    /// The first hit with `t_min < t < t_max`, every triangle being solid.
+    #[inline]
+    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        self.query::<false, false, _>(ray, |_| true)
+    }
+
+    /// True when anything is hit with `t_min < t < t_max`, every triangle being solid.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.query::<true, false, _>(ray, |_| true).is_some()
+    }
+
+    /// The first hit that is on an unfiltered triangle or that `accept` returns true for.
+    ///
+    /// `accept` is asked about candidates in no particular order, also about some that lie behind the hit in the end; its answer
+    /// must depend on the hit alone.
+    #[inline]
+    pub fn closest_filtered<F: Fn(&Hit) -> bool>(&self, ray: &Ray, accept: F) -> Option<Hit> {
+        self.query::<false, true, F>(ray, accept)
+    }
+
+    /// True when there is a hit on an unfiltered triangle or one that `accept` returns true for.
+    #[inline]
+    pub fn occluded_filtered<F: Fn(&Hit) -> bool>(&self, ray: &Ray, accept: F) -> bool {
+        self.query::<true, true, F>(ray, accept).is_some()
+    }
+
+    /// The box around all triangles that can be hit; empty when there are none.
+    pub fn bounds(&self) -> Bounds3 {
+        self.bounds
+    }
+
+    /// The number of triangles given, those without area included.
+    pub fn triangle_count(&self) -> usize {
+        self.triangle_count
+    }
+
+    /// Size of the hierarchy in memory, in bytes.
+    pub fn memory_bytes(&self) -> usize {
+        size_of_val(&*self.nodes) + size_of_val(&*self.blocks)
+    }
+
+    #[inline]
+    fn query<const ANY: bool, const ASK: bool, F: Fn(&Hit) -> bool>(&self, ray: &Ray, accept: F) -> Option<Hit> {
+        match self.kernel {
+            Kernel::Portable => walk::walk::<lanes::Portable, ANY, ASK, F>(self, ray, accept),
+            // SAFETY: this kernel is chosen only where the processor has the features.
+            #[cfg(target_arch = "x86_64")]
+            Kernel::Avx2 => unsafe { walk::walk_avx2::<ANY, ASK, F>(self, ray, accept) },
+        }
+    }
+}

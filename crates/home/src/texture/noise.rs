@@ -1,0 +1,57 @@
+//! Smooth random functions of the plane.
+
+use enfilade_math::{Vec2, hash_u32};
+
+/// Uniform on [0,1) from a lattice point.
+pub fn lattice(x: i32, y: i32, seed: u32) -> f32 {
+    let h = hash_u32((x as u32).wrapping_mul(0x9e37_79b1) ^ hash_u32((y as u32).wrapping_add(seed.wrapping_mul(0x85eb_ca6b))));
+    (h >> 8) as f32 * (1.0 / 16_777_216.0)
+}
+
+/// Value noise on [−1,1] with features one unit apart; repeats after `period` units.
+pub fn noise(p: Vec2, period: [i32; 2], seed: u32) -> f32 {
+    let cell = p.floor();
+    let f = p - cell;
+    let w = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+    let at = |dx: i32, dy: i32| {
+        lattice((cell.x as i32 + dx).rem_euclid(period[0]), (cell.y as i32 + dy).rem_euclid(period[1]), seed)
+    };
+    let low = at(0, 0) * (1.0 - w.x) + at(1, 0) * w.x;
+    let high = at(0, 1) * (1.0 - w.x) + at(1, 1) * w.x;
+    2.0 * (low * (1.0 - w.y) + high * w.y) - 1.0
+}
+
+/// Sum of `octaves` of noise over the unit square, which it tiles: `cells` features across at first, twice as many at half the
+/// strength each time. Roughly on [−1,1].
+pub fn fbm(uv: Vec2, cells: [i32; 2], octaves: u32, seed: u32) -> f32 {
+    let (mut sum, mut weight, mut total) = (0.0, 1.0, 0.0);
+    let mut period = cells;
+    for octave in 0..octaves {
+        let p = uv * Vec2::new(period[0] as f32, period[1] as f32);
+        sum += weight * noise(p, period, seed.wrapping_add(octave));
+        total += weight;
+        weight *= 0.5;
+        period = period.map(|c| c * 2);
+    }
+    sum / total * 1.6
+}
+
+/// 0 below `low`, 1 above `high`, smooth between.
+pub fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
+    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_tiles_the_unit_square() {
+        for i in 0..50 {
+            let v = i as f32 / 50.0;
+            let seam = fbm(Vec2::new(0.0, v), [5, 3], 4, 7) - fbm(Vec2::new(1.0, v), [5, 3], 4, 7);
+            assert!(seam.abs() < 1e-4, "{seam}");
+        }
+    }
+}

@@ -1,0 +1,84 @@
+use enfilade_scene::{PackageError, SceneError};
+use std::path::{Path, PathBuf};
+
+/// Why a scene file could not be imported. Every message names the file, the place in it, what was found and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum ImportError {
+    /// The file name's extension belongs to no importer.
+    #[error("{}: {found}; expected one of {known}", file.display())]
+    UnknownFormat {
+        /// The scene file.
+        file: PathBuf,
+        /// What its extension is.
+        found: String,
+        /// The extensions that are known.
+        known: String,
+    },
+    /// A file that cannot be read.
+    #[error("{}: cannot be read ({source}); {remedy}", file.display())]
+    Read {
+        /// The file.
+        file: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+        /// What to do.
+        remedy: String,
+    },
+    /// A file whose content is not what its format calls for.
+    #[error("{}: {place}: {problem}", file.display())]
+    Malformed {
+        /// The file.
+        file: PathBuf,
+        /// Place in it: a line, an element, an index.
+        place: String,
+        /// What was found, what was expected, and what to do.
+        problem: String,
+    },
+    /// A texture that is not there or cannot be decoded.
+    #[error(
+        "{}: {user} needs the texture {texture}, which {problem}; put the file there, correct the path in the scene, or import with \
+         allow_missing_textures = true to go on with plain colours",
+        file.display()
+    )]
+    Texture {
+        /// The scene file.
+        file: PathBuf,
+        /// The material or light that uses the texture.
+        user: String,
+        /// The texture's file, or its place in the scene file.
+        texture: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// A scene package that cannot be read.
+    #[error("{}: {source}", file.display())]
+    Package {
+        /// The package.
+        file: PathBuf,
+        /// What is wrong with it.
+        source: PackageError,
+    },
+    /// The file was read, but what it describes is not a usable scene.
+    #[error("{}: {source}", file.display())]
+    Scene {
+        /// The scene file.
+        file: PathBuf,
+        /// What is wrong with it.
+        source: SceneError,
+    },
+    /// An option whose value makes no sense.
+    #[error("import option {option}: {problem}")]
+    Option {
+        /// Name of the option.
+        option: &'static str,
+        /// What was found and what was expected.
+        problem: String,
+    },
+}
+
+impl ImportError {
+    /// A [`ImportError::Malformed`] in few words.
+    pub(crate) fn malformed(file: &Path, place: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::Malformed { file: file.to_path_buf(), place: place.into(), problem: problem.into() }
+    }
+}

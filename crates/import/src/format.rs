@@ -1,0 +1,53 @@
+use crate::ImportError;
+use std::path::Path;
+
+/// The scene formats that can be imported, one per module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// glTF 2.0, as text or binary.
+    Gltf,
+    /// Wavefront OBJ with MTL materials.
+    Obj,
+    /// Mitsuba scene description, versions 0.5 to 3.
+    Mitsuba,
+    /// The scene package that `enfilade import` writes.
+    Package,
+}
+
+impl Format {
+    /// Every format with its file name extensions, in lower case.
+    pub const ALL: [(Self, &'static [&'static str]); 4] =
+        [(Self::Gltf, &["gltf", "glb"]), (Self::Obj, &["obj"]), (Self::Mitsuba, &["xml"]), (Self::Package, &["scene"])];
+
+    /// The format of a file by the extension of its name.
+    ///
+    /// # Errors
+    /// When no format has that extension.
+    pub fn of(path: &Path) -> Result<Self, ImportError> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        let known = || Self::ALL.iter().flat_map(|(_, e)| e.iter()).map(|e| format!(".{e}")).collect::<Vec<_>>().join(", ");
+        let found = match &extension {
+            None => "the file name has no extension".to_string(),
+            Some(e) => format!("no importer for .{e} files"),
+        };
+        Self::ALL
+            .iter()
+            .find(|(_, extensions)| extension.as_deref().is_some_and(|e| extensions.contains(&e)))
+            .map(|&(format, _)| format)
+            .ok_or_else(|| ImportError::UnknownFormat { file: path.to_path_buf(), found, known: known() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_are_told_by_extension_whatever_its_case() {
+        assert_eq!(Format::of(Path::new("a/Room.GLB")).unwrap(), Format::Gltf);
+        assert_eq!(Format::of(Path::new("scene.xml")).unwrap(), Format::Mitsuba);
+        let message = Format::of(Path::new("a/room.blend")).unwrap_err().to_string();
+        assert_eq!(message, "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .scene");
+        assert!(Format::of(Path::new("room")).unwrap_err().to_string().contains("no extension"));
+    }
+}

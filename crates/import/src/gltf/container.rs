@@ -1,0 +1,254 @@
+//! The outer layer of a glTF file: text or binary, its buffers, and the URIs in it.
+
+use crate::ImportError;
+use crate::assembly::Assembly;
+use gltf::json::{Root, buffer, image};
+
+/// Extensions that an importer may be required to understand and that this one does.
+pub(super) const SUPPORTED: [&str; 11] = [
+    "KHR_lights_punctual",
+    "KHR_materials_clearcoat",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
+
+/// A parsed glTF file with its buffers.
+pub(super) struct Document {
+    /// The JSON part. Nothing in it has been checked: indices are followed by `get` only.
+    pub root: Root,
+    /// Bytes of all buffers.
+    pub buffers: Vec<Vec<u8>>,
+}
+
+impl Document {
+    /// Reads the scene file and its buffers.
+    ///
+    /// # Errors
+    /// When the file is cut short, is not glTF 2.0, requires an unknown extension, or a buffer is missing or too short.
+    pub(super) fn read(assembly: &mut Assembly) -> Result<Self, ImportError> {
+        let bytes = assembly.read_scene_file()?;
+        let (json, binary) = if bytes.starts_with(b"glTF") {
+            split_binary(&bytes).map_err(|(place, problem)| assembly.malformed(place, problem))?
+        } else {
+            (bytes.as_slice(), None)
+        };
+        let root = Root::from_slice(json).map_err(|e| {
+            assembly.malformed(format!("line {} column {}", e.line(), e.column()), format!("not valid glTF JSON: {e}; export the file again"))
+        })?;
+        check_version(&root, assembly)?;
+        let mut buffers = Vec::with_capacity(root.buffers.len());
+        for (i, b) in root.buffers.iter().enumerate() {
+            buffers.push(read_buffer(i, b, binary, assembly)?);
+        }
+        Ok(Self { root, buffers })
+    }
+
+    /// The bytes of a buffer view, or what is wrong with it.
+    pub(super) fn view(&self, index: usize) -> Result<(&[u8], &buffer::View), String> {
+        let view = self.root.buffer_views.get(index).ok_or_else(|| {
+            format!("refers to bufferView {index}, but there are only {}", self.root.buffer_views.len())
+        })?;
+        if let Some(codec) = view.extensions.as_ref().and_then(|e| e.others.keys().find(|k| k.contains("meshopt"))) {
+            return Err(format!("bufferViews[{index}] is compressed with {codec}, which is not supported; export without compression"));
+        }
+        let buffer = self.buffers.get(view.buffer.value()).ok_or_else(|| {
+            format!("bufferViews[{index}] refers to buffer {}, but there are only {}", view.buffer.value(), self.buffers.len())
+        })?;
+        let start = view.byte_offset.map_or(0, |o| o.0);
+        let end = start.checked_add(view.byte_length.0);
+        let range = end.and_then(|end| buffer.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?));
+        let bytes = range.ok_or_else(|| {
+            format!(
+                "bufferViews[{index}] spans bytes {start} to {start}+{}, but its buffer has {}; the file is damaged, so export it again",
+                view.byte_length.0,
+                buffer.len()
+            )
+        })?;
+        Ok((bytes, view))
+    }
+
+    /// The encoded bytes and place of a picture that is inside the glTF file; `Err(path)` when it is a file of its own.
+    pub(super) fn embedded_image(&self, index: usize, image: &image::Image) -> Result<(String, Vec<u8>), ImageAt> {
+        let place = format!("images[{index}]");
+        if let Some(view) = image.buffer_view {
+            return self.view(view.value()).map(|(bytes, _)| (place.clone(), bytes.to_vec())).map_err(|e| ImageAt::Nowhere(format!("{place} {e}")));
+        }
+        match image.uri.as_deref() {
+            None => Err(ImageAt::Nowhere(format!("{place} has neither a uri nor a bufferView"))),
+            Some(uri) => match resolve_uri(uri) {
+                Ok(Uri::Data(bytes)) => Ok((place, bytes)),
+                Ok(Uri::Path(path)) => Err(ImageAt::File(path)),
+                Err(problem) => Err(ImageAt::Nowhere(format!("{place} {problem}"))),
+            },
+        }
+    }
+}
+
+/// Where a picture that is not inside the glTF file is.
+pub(super) enum ImageAt {
+    /// In a file.
+    File(String),
+    /// Nowhere that can be read; why.
+    Nowhere(String),
+}
+
+fn check_version(root: &Root, assembly: &Assembly) -> Result<(), ImportError> {
+    if !root.asset.version.starts_with("2.") {
+        let problem = format!("found glTF version {:?}, expected 2.0; convert the file to glTF 2.0", root.asset.version);
+        return Err(assembly.malformed("asset.version", problem));
+    }
+    match root.extensions_required.iter().find(|e| !SUPPORTED.contains(&e.as_str())) {
+        None => Ok(()),
+        Some(extension) => {
+            let advice = match extension.as_str() {
+                "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => "export without mesh compression",
+                "KHR_texture_basisu" | "EXT_texture_webp" | "EXT_texture_avif" => "export with PNG or JPEG textures",
+                _ => "export without it",
+            };
+            Err(assembly.malformed("extensionsRequired", format!("the file requires {extension}, which is not supported; {advice}")))
+        }
+    }
+}
+
+/// The JSON and binary chunks of a `.glb`. Unknown chunks are skipped, as the format asks.
+#[expect(clippy::type_complexity, reason = "two chunks, or the place and the problem")]
+fn split_binary(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), (String, String)> {
+    let word = |at: usize| bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+    let cut = |at: usize, what: &str| (format!("byte {at}"), format!("the file ends inside {what}: it is cut short, so copy or export it again"));
+    let (version, length) = (word(4).ok_or_else(|| cut(4, "the header"))?, word(8).ok_or_else(|| cut(8, "the header"))?);
+    if version != 2 {
+        return Err(("byte 4".into(), format!("found binary glTF version {version}, expected 2; convert the file to glTF 2.0")));
+    }
+    if (bytes.len() as u64) < u64::from(length) {
+        let problem = format!("the header says {length} bytes, but the file has {}: it is cut short, so copy or export it again", bytes.len());
+        return Err(("byte 8".into(), problem));
+    }
+    let (mut json, mut binary, mut at) = (None, None, 12);
+    while at < bytes.len() && (json.is_none() || binary.is_none()) {
+        let size = word(at).ok_or_else(|| cut(at, "a chunk's header"))? as usize;
+        let kind = bytes.get(at + 4..at + 8).ok_or_else(|| cut(at + 4, "a chunk's header"))?;
+        let body = bytes.get(at + 8..).and_then(|rest| rest.get(..size)).ok_or_else(|| cut(at + 8, "a chunk"))?;
+        match kind {
+            b"JSON" => json = json.or(Some(body)),
+            b"BIN\0" => binary = binary.or(Some(body)),
+            _ => (),
+        }
+        at += 8 + size.next_multiple_of(4);
+    }
+    json.map(|json| (json, binary)).ok_or_else(|| ("byte 12".into(), "there is no JSON chunk; export the file again".into()))
+}
+
+fn read_buffer(index: usize, buffer: &buffer::Buffer, binary: Option<&[u8]>, assembly: &mut Assembly) -> Result<Vec<u8>, ImportError> {
+    let place = format!("buffers[{index}]");
+    let bytes = match &buffer.uri {
+        None if index == 0 => binary.map(<[u8]>::to_vec).ok_or_else(|| assembly.malformed(&place, "it has no uri, and the file has no binary chunk"))?,
+        None => return Err(assembly.malformed(place, "it has no uri; only the first buffer may be the binary chunk")),
+        Some(uri) => match resolve_uri(uri).map_err(|problem| assembly.malformed(&place, format!("it {problem}")))? {
+            Uri::Data(bytes) => bytes,
+            Uri::Path(path) => assembly.read(&path)?.1,
+        },
+    };
+    if (bytes.len() as u64) < buffer.byte_length.0 {
+        let problem =
+            format!("it should have {} bytes, but only {} are there: it is cut short, so copy or export it again", buffer.byte_length.0, bytes.len());
+        return Err(assembly.malformed(place, problem));
+    }
+    Ok(bytes)
+}
+
+/// What a URI points at.
+#[derive(Debug, PartialEq)]
+enum Uri {
+    Data(Vec<u8>),
+    Path(String),
+}
+
+fn resolve_uri(uri: &str) -> Result<Uri, String> {
+    if let Some(rest) = uri.strip_prefix("data:") {
+        let (header, data) = rest.split_once(',').ok_or("has a data URI without a comma")?;
+        if header.ends_with(";base64") {
+            return decode_base64(data).map(Uri::Data).ok_or_else(|| "has a data URI that is not valid base64".to_string());
+        }
+        return Ok(Uri::Data(percent_decode(data)));
+    }
+    if let Some((scheme, _)) = uri.split_once("://") {
+        return Err(format!("is at {uri:?}; {scheme} addresses are not followed, so download the file and refer to it by a relative path"));
+    }
+    String::from_utf8(percent_decode(uri)).map(Uri::Path).map_err(|_| format!("has the uri {uri:?}, which is not text"))
+}
+
+fn percent_decode(text: &str) -> Vec<u8> {
+    let bytes = text.as_bytes();
+    let mut out = Vec::with_capacity(bytes.len());
+    let mut i = 0;
+    while i < bytes.len() {
+        let hex = (bytes[i] == b'%').then(|| bytes.get(i + 1..i + 3)).flatten().and_then(|h| std::str::from_utf8(h).ok());
+        match hex.and_then(|h| u8::from_str_radix(h, 16).ok()) {
+            Some(byte) => {
+                out.push(byte);
+                i += 3;
+            }
+            None => {
+                out.push(bytes[i]);
+                i += 1;
+            }
+        }
+    }
+    out
+}
+
+/// Base64 of RFC 4648; padding may be absent and white space is skipped.
+fn decode_base64(text: &str) -> Option<Vec<u8>> {
+    let mut out = Vec::with_capacity(text.len() / 4 * 3);
+    let (mut bits, mut count) = (0u32, 0);
+    for c in text.bytes().filter(|c| !c.is_ascii_whitespace()).take_while(|&c| c != b'=') {
+        let value = match c {
+            b'A'..=b'Z' => c - b'A',
+            b'a'..=b'z' => c - b'a' + 26,
+            b'0'..=b'9' => c - b'0' + 52,
+            b'+' | b'-' => 62,
+            b'/' | b'_' => 63,
+            _ => return None,
+        };
+        bits = bits << 6 | u32::from(value);
+        count += 6;
+        if count >= 8 {
+            count -= 8;
+            out.push((bits >> count) as u8);
+        }
+    }
+    Some(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn uris_are_data_paths_or_refused() {
+        assert_eq!(resolve_uri("data:application/octet-stream;base64,aGVsbG8="), Ok(Uri::Data(b"hello".to_vec())));
+        assert_eq!(resolve_uri("data:,a%20b"), Ok(Uri::Data(b"a b".to_vec())));
+        assert_eq!(resolve_uri("my%20textures/wood.png"), Ok(Uri::Path("my textures/wood.png".into())));
+        assert_eq!(resolve_uri("50%.png"), Ok(Uri::Path("50%.png".into())));
+        assert!(resolve_uri("https://example.org/a.png").unwrap_err().contains("https addresses are not followed"));
+        assert!(resolve_uri("data:;base64,a$b").is_err());
+    }
+
+    #[test]
+    fn truncated_binaries_say_where_they_end() {
+        let mut glb = b"glTF\x02\0\0\0\x20\0\0\0\x0c\0\0\0JSON{\"asset\": 1}".to_vec();
+        glb.truncate(30);
+        assert!(split_binary(&glb).unwrap_err().1.contains("the header says 32 bytes, but the file has 30"));
+        assert!(split_binary(b"glTF\x02\0").is_err());
+        assert!(split_binary(b"glTF\x01\0\0\0\x0c\0\0\0").unwrap_err().1.contains("version 1"));
+        assert!(split_binary(b"glTF\x02\0\0\0\x00\0\0\0").unwrap_err().1.contains("no JSON chunk"));
+        assert!(split_binary(b"glTF\x02\0\0\0\x00\0\0\0\xff\xff\xff\xffJSON").unwrap_err().1.contains("cut short"));
+    }
+}

@@ -1,0 +1,65 @@
+//! Environments that converters leave in a scene's extras: two conventions met in well-known rooms.
+//!
+//! - `mitsuba_emitters`: `{"type": "envmap", "filename", "to_world": [16 numbers, row by row], "scale"}`, with Mitsuba's layout.
+//! - `pbrt_lights`: `{"type": "infinite", "mapname": [file], "transform": [16 numbers, row by row], "L", "scale"}`, with pbrt-v3's
+//!   layout: z up, across by the azimuth from +x towards +y, down by the polar angle.
+
+use super::container::Document;
+use crate::ImportError;
+use crate::assembly::{Assembly, Source};
+use crate::images::Use;
+use enfilade_math::{DMat3, DVec3, Rgb};
+use serde_json::Value;
+
+/// Uses the first environment map found in the extras of the file's scenes.
+pub(super) fn guess(document: &Document, a: &mut Assembly) -> Result<(), ImportError> {
+    let extras = document.root.scenes.iter().filter_map(|s| s.extras.as_ref());
+    let extras: Vec<Value> = extras.filter_map(|e| serde_json::from_str(e.get()).ok()).collect();
+    for extra in &extras {
+        let emitters = extra.get("mitsuba_emitters").and_then(Value::as_array).into_iter().flatten();
+        for e in emitters.filter(|e| e.get("type").and_then(Value::as_str) == Some("envmap")) {
+            let Some(file) = e.get("filename").and_then(Value::as_str) else { continue };
+            return add(a, "scenes.extras.mitsuba_emitters", file, rotation(e.get("to_world")), scale(e, "scale"));
+        }
+        let lights = extra.get("pbrt_lights").and_then(Value::as_array).into_iter().flatten();
+        for l in lights.filter(|l| l.get("type").and_then(Value::as_str) == Some("infinite")) {
+            let name = l.get("mapname").and_then(|m| m.as_str().or_else(|| m.get(0)?.as_str()));
+            let Some(file) = name else { continue };
+            // From the map's space (y up, azimuth from −z towards +x) to pbrt's (z up, azimuth from +x towards +y).
+            let pbrt_from_map = DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::NEG_X);
+            let file_from_map = rotation(l.get("transform")) * pbrt_from_map;
+            return add(a, "scenes.extras.pbrt_lights", file, file_from_map, scale(l, "L") * scale(l, "scale"));
+        }
+    }
+    Ok(())
+}
+
+fn add(a: &mut Assembly, place: &str, file: &str, file_from_map: DMat3, scale: Rgb) -> Result<(), ImportError> {
+    a.warn(place, format!("glTF has no environment; {file} was guessed to be one from the scene's extras"));
+    if let Some(image) = a.image(&Source::File(file), Use::Color, "the environment")? {
+        a.set_environment_map(image, scale, file_from_map, place);
+    }
+    Ok(())
+}
+
+/// The 3×3 part of 16 numbers, row by row; the identity when they are not there.
+fn rotation(value: Option<&Value>) -> DMat3 {
+    let numbers: Vec<f64> = value.and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_f64).collect();
+    if numbers.len() != 16 {
+        return DMat3::IDENTITY;
+    }
+    let column = |i: usize| DVec3::new(numbers[i], numbers[4 + i], numbers[8 + i]);
+    DMat3::from_cols(column(0), column(1), column(2))
+}
+
+/// A number or three of them; white when absent.
+fn scale(object: &Value, key: &str) -> Rgb {
+    match object.get(key) {
+        Some(Value::Array(list)) => {
+            let channel = |i: usize| list.get(i).and_then(Value::as_f64).unwrap_or(1.0) as f32;
+            Rgb::new(channel(0), channel(1), channel(2))
+        }
+        Some(value) => Rgb::splat(value.as_f64().unwrap_or(1.0) as f32),
+        None => Rgb::WHITE,
+    }
+}

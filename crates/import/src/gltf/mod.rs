@@ -1,0 +1,64 @@
+//! glTF 2.0, as `.gltf` or `.glb`.
+//!
+//! | feature | what becomes of it |
+//! |---|---|
+//! | scenes | the default one, else the first, else all root nodes |
+//! | nodes | one part per node and primitive, named after the node, else its mesh, else `node_<index>`; `.<primitive>` is appended where a mesh has several; nested, mirrored and sheared transforms; meshes are shared between nodes |
+//! | primitives | triangles, strips, fans, with or without indices; points and lines are dropped |
+//! | accessors | all component types, normalized integers, sparse ones, strides; `KHR_mesh_quantization` |
+//! | buffers | files, data URIs, the binary chunk; Draco and meshopt compression are an error |
+//! | pictures | PNG, JPEG and all that [`crate`] decodes, from files, data URIs and buffer views; sampler wrapping and magnification filter |
+//! | materials | metallic-roughness to `Bsdf::Principled`; base colour, metallic-roughness, normal and emissive textures; alpha modes; double-sidedness, which also decides on which sides a surface emits. The occlusion texture is dropped, because light transport computes occlusion |
+//! | extensions | `KHR_materials_emissive_strength`, `_ior`, `_transmission`, `_volume`, `_specular`, `_clearcoat` (but its normal map), `_sheen`, `_unlit` (as a diffuse surface of that colour); `KHR_texture_transform`; `KHR_lights_punctual` (candela as W/sr, lux as W/m²) |
+//! | texture coordinates | one set per primitive: that of the base colour, or of the first texture there is |
+//! | cameras | perspective; orthographic ones are dropped |
+//! | dropped with a warning | vertex colours, skins, morph targets, animations, light ranges, other extensions |
+//!
+//! A file that requires an extension outside this list is an error.
+//!
+//! # Labels
+//!
+//! `extras` of a node may carry `"semantic"`, a NYU40 class as its id (1 to 40) or name, and `"instance"`, a number from 1. Both
+//! hold for the node's own parts and for all nodes below it that do not say otherwise.
+//!
+//! # Guessed environments
+//!
+//! glTF has no environment. Where `extras` of the scene hold `mitsuba_emitters` or `pbrt_lights`, as converters of well-known
+//! scenes leave them, their environment map is used, and reported as guessed.
+
+mod accessor;
+mod container;
+mod environment;
+mod light;
+mod material;
+mod node;
+mod primitive;
+
+use crate::assembly::Assembly;
+use crate::{ImportError, Imported};
+use container::Document;
+
+/// Imports a glTF file.
+pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
+    let document = Document::read(&mut assembly)?;
+    report_dropped(&document, &mut assembly);
+    let roots = node::roots(&document, &mut assembly)?;
+    node::place(&document, &roots, &mut assembly)?;
+    environment::guess(&document, &mut assembly)?;
+    assembly.finish()
+}
+
+/// Warns of whole features that the file uses and that have no counterpart here.
+fn report_dropped(document: &Document, assembly: &mut Assembly) {
+    let root = &document.root;
+    for (count, what) in [(root.animations.len(), "animations"), (root.skins.len(), "skins")] {
+        if count > 0 {
+            assembly.warn(what, format!("{count} {what} dropped; parts stay in the pose of their nodes"));
+        }
+    }
+    for extension in &root.extensions_used {
+        if !container::SUPPORTED.contains(&extension.as_str()) {
+            assembly.warn("extensionsUsed", format!("{extension} is not supported and was ignored"));
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! The node tree: parts, cameras and lights with their placements.
+
+use super::container::Document;
+use super::material::Materials;
+use super::{light, primitive};
+use crate::ImportError;
+use crate::assembly::Assembly;
+use enfilade_math::{DAffine3, DMat3, DVec3};
+use enfilade_scene::{NYU40, PartLabel};
+use gltf::json::scene::Node;
+use std::collections::HashMap;
+
+/// Aspect of a camera that does not state one: that of the pictures this workspace makes by default.
+const DEFAULT_ASPECT: f64 = 4.0 / 3.0;
+
+/// Indices of the nodes that a scene begins with: the default scene's, else the first one's, else all nodes without a parent.
+pub(super) fn roots(document: &Document, assembly: &mut Assembly) -> Result<Vec<usize>, ImportError> {
+    let root = &document.root;
+    let wanted = root.scene.map(|s| s.value());
+    if let Some(missing) = wanted.filter(|&s| s >= root.scenes.len()) {
+        assembly.warn("scene", format!("the default scene {missing} does not exist; the first one was used"));
+    }
+    if let Some(scene) = wanted.and_then(|s| root.scenes.get(s)).or(root.scenes.first()) {
+        if root.scenes.len() > 1 {
+            assembly.warn("scenes", format!("{} scenes, of which one was imported", root.scenes.len()));
+        }
+        return Ok(scene.nodes.iter().map(|n| n.value()).collect());
+    }
+    let mut has_parent = vec![false; root.nodes.len()];
+    for child in root.nodes.iter().flat_map(|n| n.children.iter().flatten()) {
+        if let Some(flag) = has_parent.get_mut(child.value()) {
+            *flag = true;
+        }
+    }
+    Ok((0..root.nodes.len()).filter(|&i| !has_parent[i]).collect())
+}
+
+/// A node to visit, with what it inherits.
+struct Visit {
+    node: usize,
+    file_from_parent: DAffine3,
+    label: PartLabel,
+}
+
+/// Walks the tree from `roots`, depth first in the order of the file, and adds all that the nodes carry.
+///
+/// # Errors
+/// When a mesh or material cannot be read, or an index points at nothing.
+pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembly) -> Result<(), ImportError> {
+    let nodes = &document.root.nodes;
+    let mut placer = Placer { document, materials: Materials::default(), meshes: HashMap::new() };
+    let visit = |file_from_parent, label| move |&node: &usize| Visit { node, file_from_parent, label };
+    let mut stack: Vec<Visit> = roots.iter().rev().map(visit(DAffine3::IDENTITY, PartLabel::NONE)).collect();
+    let mut seen = vec![false; nodes.len()];
+    let mut done = 0;
+    while let Some(Visit { node: index, file_from_parent, label }) = stack.pop() {
+        let Some(node) = nodes.get(index) else {
+            return Err(assembly.malformed("nodes", format!("there is a reference to node {index}, but there are only {}", nodes.len())));
+        };
+        if std::mem::replace(&mut seen[index], true) {
+            assembly.warn(format!("nodes[{index}]"), "the node is reached twice (a cycle or a second parent); it was placed once");
+            continue;
+        }
+        done += 1;
+        assembly.progress(done, nodes.len());
+        let file_from_node = file_from_parent * local_transform(node);
+        let label = label_of(node, index, label, assembly);
+        placer.node(node, index, file_from_node, label, assembly)?;
+        let children: Vec<usize> = node.children.iter().flatten().map(|c| c.value()).collect();
+        stack.extend(children.iter().rev().map(visit(file_from_node, label)));
+    }
+    Ok(())
+}
+
+struct Placer<'d> {
+    document: &'d Document,
+    materials: Materials,
+    /// Scene mesh of (glTF mesh, primitive); `None` for those without a surface.
+    meshes: HashMap<(usize, usize), Option<u32>>,
+}
+
+impl Placer<'_> {
+    fn node(&mut self, node: &Node, index: usize, file_from_node: DAffine3, label: PartLabel, a: &mut Assembly) -> Result<(), ImportError> {
+        let fallback = || format!("node_{index}");
+        let name = node.name.clone().filter(|n| !n.trim().is_empty());
+        if let Some(mesh) = node.mesh {
+            self.mesh(mesh.value(), index, name.as_deref(), file_from_node, label, a)?;
+        }
+        if let Some(camera) = node.camera {
+            let camera = self.document.root.cameras.get(camera.value());
+            let name = name.clone().or_else(|| camera.and_then(|c| c.name.clone())).unwrap_or_else(fallback);
+            match camera.and_then(|c| c.perspective.as_ref()) {
+                None => a.warn(format!("nodes[{index}]"), format!("camera {name:?} is not perspective and was left out")),
+                Some(p) => {
+                    let aspect = p.aspect_ratio.map_or(DEFAULT_ASPECT, f64::from);
+                    let fov_x = 2.0 * ((0.5 * f64::from(p.yfov)).tan() * aspect).atan();
+                    a.push_camera(&name, file_from_node, fov_x, aspect);
+                }
+            }
+        }
+        if let Some(light) = node.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()) {
+            light::add(self.document, light.light.value(), name.as_deref(), index, file_from_node, a);
+        }
+        if let Some(extras) = node.extensions.as_ref().map(|e| &e.others) {
+            for extension in extras.keys() {
+                a.warn(format!("nodes[{index}]"), format!("extension {extension} ignored"));
+            }
+        }
+        Ok(())
+    }
+
+    fn mesh(
+        &mut self, mesh: usize, node: usize, name: Option<&str>, file_from_node: DAffine3, label: PartLabel, a: &mut Assembly,
+    ) -> Result<(), ImportError> {
+        let meshes = &self.document.root.meshes;
+        let Some(json) = meshes.get(mesh) else {
+            return Err(a.malformed(format!("nodes[{node}]"), format!("it refers to mesh {mesh}, but there are only {}", meshes.len())));
+        };
+        let mesh_name = json.name.as_deref().filter(|n| !n.trim().is_empty());
+        let name = name.or(mesh_name).map_or_else(|| format!("node_{node}"), str::to_string);
+        for (i, primitive) in json.primitives.iter().enumerate() {
+            let place = format!("meshes[{mesh}].primitives[{i}]");
+            let (material, uv_set) = self.materials.get(self.document, primitive.material.map(|m| m.value()), &place, a)?;
+            let index = match self.meshes.get(&(mesh, i)) {
+                Some(&known) => known,
+                None => {
+                    let built = primitive::mesh(self.document, primitive, uv_set, &place, a)?;
+                    let file = a.file().to_path_buf();
+                    let index = built.map(|m| a.push_mesh(m, &file, &place)).transpose()?.flatten();
+                    self.meshes.insert((mesh, i), index);
+                    index
+                }
+            };
+            if let Some(index) = index {
+                let part = if json.primitives.len() > 1 { format!("{name}.{i}") } else { name.clone() };
+                a.push_part(&part, index, material, file_from_node, label);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The node's own transform: its matrix, or translation, rotation and scale.
+fn local_transform(node: &Node) -> DAffine3 {
+    if let Some(m) = node.matrix {
+        let column = |i: usize| DVec3::new(f64::from(m[i]), f64::from(m[i + 1]), f64::from(m[i + 2]));
+        return DAffine3::from_mat3_translation(DMat3::from_cols(column(0), column(4), column(8)), column(12));
+    }
+    let vec = |v: Option<[f32; 3]>, default: f64| v.map_or(DVec3::splat(default), |v| DVec3::from_array(v.map(f64::from)));
+    let rotation = node.rotation.as_ref().map_or(DMat3::IDENTITY, |q| rotation_of(q.0));
+    DAffine3::from_mat3_translation(rotation * DMat3::from_diagonal(vec(node.scale, 1.0)), vec(node.translation, 0.0))
+}
+
+/// The rotation of a quaternion (x, y, z, w), which need not be of unit length; a zero one turns nothing.
+fn rotation_of(q: [f32; 4]) -> DMat3 {
+    let [x, y, z, w] = q.map(f64::from);
+    let length = x * x + y * y + z * z + w * w;
+    if length == 0.0 {
+        return DMat3::IDENTITY;
+    }
+    let s = 2.0 / length;
+    DMat3::from_cols(
+        DVec3::new(1.0 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)),
+        DVec3::new(s * (x * y - z * w), 1.0 - s * (x * x + z * z), s * (y * z + x * w)),
+        DVec3::new(s * (x * z + y * w), s * (y * z - x * w), 1.0 - s * (x * x + y * y)),
+    )
+}
+
+/// The label that a node's extras give, where they are silent the inherited one.
+fn label_of(node: &Node, index: usize, inherited: PartLabel, assembly: &mut Assembly) -> PartLabel {
+    let extras = node.extras.as_ref().and_then(|e| serde_json::from_str::<serde_json::Value>(e.get()).ok());
+    let Some(extras) = extras else { return inherited };
+    let mut label = inherited;
+    if let Some(value) = extras.get("semantic") {
+        let by_name = value.as_str().and_then(|s| NYU40.iter().find(|c| c.name.eq_ignore_ascii_case(s.trim()))).map(|c| c.id);
+        let by_id = value.as_i64().filter(|id| (1..=40).contains(id)).map(|id| id as i16);
+        match by_name.or(by_id) {
+            Some(id) => label.semantic = id,
+            None => assembly.warn(
+                format!("nodes[{index}].extras.semantic"),
+                format!("found {value}, expected a NYU40 id (1 to 40) or name; the label was ignored"),
+            ),
+        }
+    }
+    if let Some(value) = extras.get("instance") {
+        match value.as_i64().and_then(|i| i16::try_from(i).ok()).filter(|&i| i > 0) {
+            Some(instance) => label.instance = instance,
+            None => {
+                let message = format!("found {value}, expected a whole number from 1 to 32767; the label was ignored");
+                assembly.warn(format!("nodes[{index}].extras.instance"), message);
+            }
+        }
+    }
+    label
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quarter_turn_about_z_takes_x_to_y_whatever_the_length() {
+        let r = rotation_of([0.0, 0.0, 3.0, 3.0]);
+        assert!((r * DVec3::X - DVec3::Y).length() < 1e-12 && (r * DVec3::Z - DVec3::Z).length() < 1e-12);
+        assert_eq!(rotation_of([0.0; 4]), DMat3::IDENTITY);
+    }
+}

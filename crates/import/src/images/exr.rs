@@ -1,0 +1,54 @@
+//! OpenEXR: the first layer's R, G, B (or Y) at full resolution; alpha and other channels are left out.
+
+use super::FloatPicture;
+use ::exr::prelude::*;
+use std::io::Cursor;
+
+/// Decodes an EXR.
+pub(super) fn decode(bytes: &[u8]) -> std::result::Result<FloatPicture, String> {
+    let image = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(Cursor::new(bytes))
+        .map_err(|e| format!("cannot be decoded ({e})"))?;
+    let layer = &image.layer_data;
+    let (width, height) = (layer.size.width(), layer.size.height());
+    let channel = |name: &str| {
+        layer.channel_data.list.iter().find(|c| {
+            let full = c.name.to_string();
+            full.rsplit('.').next().is_some_and(|last| last.eq_ignore_ascii_case(name))
+        })
+    };
+    let names = || layer.channel_data.list.iter().map(|c| c.name.to_string()).collect::<Vec<_>>().join(", ");
+    let grey = channel("Y").or(layer.channel_data.list.first());
+    let rgb = [channel("R").or(grey), channel("G").or(grey), channel("B").or(grey)];
+    let [Some(r), Some(g), Some(b)] = rgb else { return Err("has no channels".into()) };
+    if [r, g, b].iter().any(|c| c.sampling != Vec2(1, 1) || c.sample_data.len() != width * height) {
+        return Err(format!("has subsampled channels ({}), which are not supported; save it as plain RGB", names()));
+    }
+    let (r, g, b) = (r.sample_data.values_as_f32(), g.sample_data.values_as_f32(), b.sample_data.values_as_f32());
+    let texels = r.zip(g).zip(b).map(|((r, g), b)| [r, g, b]).collect();
+    Ok(FloatPicture { width: width as u32, height: height as u32, texels })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_rgb_and_float_grey_are_read() {
+        let mut bytes = Cursor::new(Vec::new());
+        let layer = SpecificChannels::rgb(|Vec2(x, y)| (f16::from_f32(x as f32), f16::from_f32(y as f32), f16::from_f32(0.5)));
+        Image::from_channels((2, 2), layer).write().to_buffered(&mut bytes).unwrap();
+        let picture = decode(bytes.get_ref()).unwrap();
+        assert_eq!(picture.texels, vec![[0.0, 0.0, 0.5], [1.0, 0.0, 0.5], [0.0, 1.0, 0.5], [1.0, 1.0, 0.5]]);
+
+        let mut bytes = Cursor::new(Vec::new());
+        let grey = SpecificChannels::build().with_channel("Y").with_pixel_fn(|Vec2(x, _)| (x as f32 * 2.0,));
+        Image::from_channels((2, 1), grey).write().to_buffered(&mut bytes).unwrap();
+        assert_eq!(decode(bytes.get_ref()).unwrap().texels, vec![[0.0; 3], [2.0; 3]]);
+    }
+}

@@ -1,0 +1,159 @@
+//! Pictures: PNG, JPEG, BMP, TGA, Radiance HDR, OpenEXR and PFM into [`Image`].
+//!
+//! Eight bits a channel stay eight bits; sixteen-bit PNGs are rounded to eight; floating-point pictures become linear RGB
+//! without alpha, in which a value that is not a number or below zero becomes 0 and an infinite one the largest half float.
+
+mod exr;
+mod pfm;
+
+use enfilade_scene::{Image, Pixels};
+use ::image::{DynamicImage, ImageFormat};
+use std::path::Path;
+
+/// What a picture is used for: decides whether its bytes are sRGB-encoded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Use {
+    /// Colours: eight-bit RGB is sRGB.
+    Color,
+    /// Numbers such as normals and roughness: eight-bit RGB is linear.
+    Data,
+}
+
+/// A decoded picture and what was lost on the way, if anything.
+pub(crate) struct Decoded {
+    /// The picture.
+    pub image: Image,
+    /// What was changed, for the report.
+    pub note: Option<String>,
+}
+
+/// The largest finite half float, which infinite texels become.
+const LARGEST_HALF: f32 = 65_504.0;
+
+/// Decodes a picture from the bytes of a file. `name` is for messages and tells TGA, which has no signature, by its extension.
+///
+/// # Errors
+/// What is wrong with the bytes, as the rest of a sentence that begins with the file's name.
+pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, String> {
+    if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
+        return float_image(name, exr::decode(bytes)?);
+    }
+    if bytes.starts_with(b"PF") || bytes.starts_with(b"Pf") {
+        return float_image(name, pfm::decode(bytes)?);
+    }
+    let format = ::image::guess_format(bytes)
+        .ok()
+        .or_else(|| ImageFormat::from_path(Path::new(name)).ok())
+        .ok_or_else(|| "is not a picture of a known format (PNG, JPEG, BMP, TGA, HDR, EXR, PFM)".to_string())?;
+    let picture = ::image::load_from_memory_with_format(bytes, format).map_err(|e| format!("cannot be decoded ({e})"))?;
+    let (width, height) = (picture.width(), picture.height());
+    match picture {
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
+            float_image(name, FloatPicture { width, height, texels: picture.into_rgb32f().pixels().map(|p| p.0).collect() })
+        }
+        _ => {
+            let sixteen = matches!(
+                picture,
+                DynamicImage::ImageLuma16(_) | DynamicImage::ImageLumaA16(_) | DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_)
+            );
+            let texels = picture.into_rgba8().pixels().map(|p| p.0).collect();
+            let pixels = Pixels::Rgba8 { srgb: usage == Use::Color, texels };
+            let note = sixteen.then(|| "16 bits a channel were rounded to 8".to_string());
+            finish(Image { name: name.to_string(), width, height, pixels }, note)
+        }
+    }
+}
+
+/// A linear floating-point picture, row 0 at the top.
+pub(crate) struct FloatPicture {
+    width: u32,
+    height: u32,
+    texels: Vec<[f32; 3]>,
+}
+
+fn float_image(name: &str, mut picture: FloatPicture) -> Result<Decoded, String> {
+    let mut mended = 0usize;
+    for value in picture.texels.iter_mut().flatten() {
+        if !(0.0..=f32::MAX).contains(value) {
+            *value = if *value == f32::INFINITY { LARGEST_HALF } else { 0.0 };
+            mended += 1;
+        }
+    }
+    let note = (mended > 0).then(|| format!("{mended} values that were negative, infinite or not numbers were replaced"));
+    let pixels = Pixels::RgbF32(picture.texels);
+    finish(Image { name: name.to_string(), width: picture.width, height: picture.height, pixels }, note)
+}
+
+fn finish(image: Image, note: Option<String>) -> Result<Decoded, String> {
+    if image.width == 0 || image.height == 0 {
+        return Err("has no pixels".into());
+    }
+    Ok(Decoded { image, note })
+}
+
+/// True when no texel of the picture is transparent at all.
+pub(crate) fn is_opaque(image: &Image) -> bool {
+    match &image.pixels {
+        Pixels::Rgba8 { texels, .. } => texels.iter().all(|t| t[3] == 255),
+        Pixels::RgbF32(_) => true,
+    }
+}
+
+/// True when red, green and blue are the same everywhere.
+pub(crate) fn is_grey(image: &Image) -> bool {
+    match &image.pixels {
+        Pixels::Rgba8 { texels, .. } => texels.iter().all(|t| t[0] == t[1] && t[1] == t[2]),
+        Pixels::RgbF32(texels) => texels.iter().all(|t| t[0] == t[1] && t[1] == t[2]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ::image::{ImageBuffer, Luma, Rgba};
+    use std::io::Cursor;
+
+    fn png(picture: impl Into<DynamicImage>) -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.into().write_to(&mut bytes, ImageFormat::Png).unwrap();
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn eight_bit_pictures_keep_their_bytes_and_know_their_use() {
+        let bytes = png(ImageBuffer::from_fn(2, 1, |x, _| Rgba([x as u8, 7, 200, 128])));
+        let expected = vec![[0, 7, 200, 128], [1, 7, 200, 128]];
+        let color = decode("a.png", &bytes, Use::Color).unwrap().image;
+        assert_eq!(color.pixels, Pixels::Rgba8 { srgb: true, texels: expected.clone() });
+        assert!(!is_opaque(&color) && !is_grey(&color));
+        let data = decode("a.png", &bytes, Use::Data).unwrap().image;
+        assert_eq!(data.pixels, Pixels::Rgba8 { srgb: false, texels: expected });
+    }
+
+    #[test]
+    fn sixteen_bit_greys_are_rounded_and_noted() {
+        let bytes = png(ImageBuffer::from_fn(1, 1, |_, _| Luma([65_535u16])));
+        let decoded = decode("a.png", &bytes, Use::Data).unwrap();
+        assert_eq!(decoded.image.pixels, Pixels::Rgba8 { srgb: false, texels: vec![[255; 4]] });
+        assert!(decoded.note.unwrap().contains("16 bits"));
+    }
+
+    #[test]
+    fn broken_pictures_say_what_is_wrong() {
+        let bytes = png(ImageBuffer::from_fn(8, 8, |x, y| Luma([(x * y) as u8])));
+        assert!(decode("a.png", &bytes[..bytes.len() / 2], Use::Data).err().unwrap().contains("cannot be decoded"));
+        assert!(decode("a.xyz", b"hello", Use::Data).err().unwrap().contains("not a picture of a known format"));
+        assert!(decode("a.exr", &[0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0], Use::Data).is_err());
+    }
+
+    #[test]
+    fn impossible_radiances_are_replaced_and_counted() {
+        let mut bytes = b"PF\n1 1\n-1.0\n".to_vec();
+        for v in [f32::NAN, f32::INFINITY, -1.0] {
+            bytes.extend(v.to_le_bytes());
+        }
+        let decoded = decode("a.pfm", &bytes, Use::Color).unwrap();
+        assert_eq!(decoded.image.pixels, Pixels::RgbF32(vec![[0.0, LARGEST_HALF, 0.0]]));
+        assert!(decoded.note.unwrap().starts_with("3 values"));
+    }
+}

@@ -1,0 +1,123 @@
+use crate::Format;
+use enfilade_scene::{Bsdf, Cx, Scene, Warning};
+use serde::Serialize;
+use std::collections::HashSet;
+use std::fmt;
+
+/// What an import made of a file, and what it dropped or guessed.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counts {
+    /// Visible parts.
+    pub parts: usize,
+    /// Meshes; parts may share them.
+    pub meshes: usize,
+    /// Triangles of all parts, shared meshes counted once per part.
+    pub triangles: usize,
+    /// Materials.
+    pub materials: usize,
+    /// Materials that emit light.
+    pub emissive_materials: usize,
+    /// Materials that transmit light.
+    pub transmitting_materials: usize,
+    /// Pictures, in the roles they are used in.
+    pub images: usize,
+    /// Lights without a surface.
+    pub lights: usize,
+    /// Cameras.
+    pub cameras: usize,
+    /// One when there is light from the surroundings.
+    pub environments: usize,
+}
+
+impl Counts {
+    fn of(scene: &Scene) -> Self {
+        let transmits = |bsdf: &Bsdf| match bsdf {
+            Bsdf::Dielectric { .. } | Bsdf::ThinDielectric { .. } => true,
+            Bsdf::Principled(p) => p.transmission.factor > 0.0,
+            _ => false,
+        };
+        Self {
+            parts: scene.parts.len(),
+            meshes: scene.meshes.len(),
+            triangles: scene.parts.iter().map(|p| scene.meshes[p.mesh as usize].triangles.len()).sum(),
+            materials: scene.materials.len(),
+            emissive_materials: scene.materials.iter().filter(|m| !m.emission.factor.is_black()).count(),
+            transmitting_materials: scene.materials.iter().filter(|m| transmits(&m.bsdf)).count(),
+            images: scene.images.len(),
+            lights: scene.lights.len(),
+            cameras: scene.cameras.len(),
+            environments: usize::from(scene.environment.is_some()),
+        }
+    }
+}
+
+/// The report of an import.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ImportReport {
+    /// "gltf", "obj", "mitsuba" or "package".
+    pub format: &'static str,
+    /// What the scene holds.
+    pub counts: Counts,
+    /// What was dropped, guessed or mended, with its place; in the order of the file, each once.
+    pub warnings: Vec<Warning>,
+}
+
+impl ImportReport {
+    pub(crate) fn new(format: Format, scene: &Scene, warnings: Vec<Warning>) -> Self {
+        let format = match format {
+            Format::Gltf => "gltf",
+            Format::Obj => "obj",
+            Format::Mitsuba => "mitsuba",
+            Format::Package => "package",
+        };
+        Self { format, counts: Counts::of(scene), warnings }
+    }
+}
+
+impl fmt::Display for ImportReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let c = &self.counts;
+        writeln!(
+            f,
+            "{}: {} parts, {} triangles in {} meshes, {} materials ({} emitting, {} transmitting), {} images, {} lights, {} cameras, {}",
+            self.format,
+            c.parts,
+            c.triangles,
+            c.meshes,
+            c.materials,
+            c.emissive_materials,
+            c.transmitting_materials,
+            c.images,
+            c.lights,
+            c.cameras,
+            if c.environments > 0 { "an environment" } else { "no environment" },
+        )?;
+        self.warnings.iter().try_for_each(|w| writeln!(f, "  {w}"))
+    }
+}
+
+/// Warnings of one import: passed on as they come, and kept for the report, each once.
+pub(crate) struct Warnings<'a> {
+    cx: &'a dyn Cx,
+    seen: HashSet<(String, String)>,
+    list: Vec<Warning>,
+}
+
+impl<'a> Warnings<'a> {
+    pub(crate) fn new(cx: &'a dyn Cx) -> Self {
+        Self { cx, seen: HashSet::new(), list: Vec::new() }
+    }
+
+    /// Records a warning, unless the same was recorded before.
+    pub(crate) fn push(&mut self, place: String, message: String) {
+        if self.seen.insert((place.clone(), message.clone())) {
+            let warning = Warning { place, message };
+            self.cx.warn(warning.clone());
+            self.list.push(warning);
+        }
+    }
+
+    pub(crate) fn into_list(self) -> Vec<Warning> {
+        self.list
+    }
+}

@@ -1,0 +1,300 @@
+//! The text of `dataset.toml`: its keys, their ranges, and how the levels of it are laid over each other.
+//!
+//! From the weakest to the strongest: built-in defaults, the file's top level, the scene's own keys, the command line. On each
+//! level `quality` sets the samples and `render.samples` wins over it.
+
+use super::expand::expand;
+use super::locate::{ConfigError, Source as Text};
+use super::patch::{CarvePatch, PlanPatch, RenderPatch};
+use super::{CameraChoice, Config, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source};
+use enfilade_import::UpAxis;
+use serde::de::{MapAccess, Visitor, value::MapAccessDeserializer};
+use serde::{Deserialize, Deserializer};
+use std::collections::HashSet;
+use std::path::Path;
+use toml::Spanned;
+
+/// Defaults of a dataset that are nobody else's.
+const SIZE: [u32; 2] = [1024, 768];
+const QUALITY: Quality = Quality::Normal;
+const LARGEST_SIDE: u32 = 16_384;
+/// Frame numbers have four digits.
+const MOST_FRAMES: u32 = 10_000;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    name: Option<Spanned<String>>,
+    seed: Option<u64>,
+    frames: Option<Spanned<u32>>,
+    quality: Option<Quality>,
+    labels: Option<Spanned<String>>,
+    #[serde(default)]
+    import: ImportKeys,
+    #[serde(default)]
+    render: RenderPatch,
+    #[serde(default)]
+    plan: PlanPatch,
+    #[serde(default)]
+    carve: CarvePatch,
+    #[serde(default)]
+    scene: Vec<SceneKeys>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ImportKeys {
+    meters_per_unit: Option<Spanned<f64>>,
+    up_axis: Option<UpAxis>,
+    allow_missing_textures: Option<bool>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneKeys {
+    name: Spanned<String>,
+    file: Option<Spanned<String>>,
+    home: Option<HomeKeys>,
+    meters_per_unit: Option<Spanned<f64>>,
+    up_axis: Option<UpAxis>,
+    environment: Option<Spanned<EnvironmentChoice>>,
+    allow_missing_textures: Option<bool>,
+    labels: Option<Spanned<String>>,
+    label_scene: Option<String>,
+    #[serde(default)]
+    cameras: Vec<CameraKey>,
+    seed: Option<u64>,
+    frames: Option<Spanned<u32>>,
+    quality: Option<Quality>,
+    #[serde(default)]
+    render: RenderPatch,
+    #[serde(default)]
+    plan: PlanPatch,
+    #[serde(default)]
+    carve: CarvePatch,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct HomeKeys {
+    seed: Option<u64>,
+}
+
+/// A camera's name, or a table with its place.
+struct CameraKey(CameraChoice);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PlacedCamera {
+    position: [f64; 3],
+    look_at: [f64; 3],
+}
+
+impl<'de> Deserialize<'de> for CameraKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct NameOrPlace;
+        impl<'de> Visitor<'de> for NameOrPlace {
+            type Value = CameraChoice;
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("a camera's name, or a table { position = [x, y, z], look_at = [x, y, z] }")
+            }
+            fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<CameraChoice, E> {
+                Ok(CameraChoice::Named(name.into()))
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<CameraChoice, A::Error> {
+                let PlacedCamera { position, look_at } = PlacedCamera::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(CameraChoice::Placed { position, look_at })
+            }
+        }
+        deserializer.deserialize_any(NameOrPlace).map(CameraKey)
+    }
+}
+
+/// The configuration in `text`, with `overrides` over it. Environment variables in paths are checked, not replaced.
+pub(super) fn resolve(
+    file: &Path,
+    text: &str,
+    overrides: &Overrides,
+    variable: &dyn Fn(&str) -> Option<String>,
+) -> Result<Config, ConfigError> {
+    let source = Text { file, text };
+    let document: Document = toml::from_str(text).map_err(|e| source.from_toml(&e))?;
+    let resolver = Resolver { source, document: &document, overrides, variable };
+    let name = match &document.name {
+        Some(name) => resolver.checked_name(name, "name")?,
+        None => default_name(file),
+    };
+    if document.scene.is_empty() {
+        let mut error = resolver.source.error(None, "there is no [[scene]] in it");
+        error.help = Some("add at least one:\n\n  [[scene]]\n  name = \"my-room\"\n  file = \"my-room.gltf\"".into());
+        return Err(error);
+    }
+    let mut names = HashSet::new();
+    let mut scenes = Vec::new();
+    for keys in &document.scene {
+        if !names.insert(keys.name.get_ref().as_str()) {
+            return Err(resolver.refuse(&keys.name, "two scenes have this name", "names of scenes must be unique"));
+        }
+        scenes.push(resolver.scene(keys)?);
+    }
+    Ok(Config { base: Default::default(), name, scenes })
+}
+
+fn default_name(file: &Path) -> String {
+    let absolute = std::path::absolute(file).unwrap_or_else(|_| file.into());
+    let stem = file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let folder = absolute.parent().and_then(Path::file_name).map(|s| s.to_string_lossy().into_owned());
+    if stem == "dataset" { folder.unwrap_or(stem) } else { stem }
+}
+
+struct Resolver<'a> {
+    source: Text<'a>,
+    document: &'a Document,
+    overrides: &'a Overrides,
+    variable: &'a dyn Fn(&str) -> Option<String>,
+}
+
+impl Resolver<'_> {
+    fn refuse<T>(&self, value: &Spanned<T>, message: impl Into<String>, help: impl Into<String>) -> ConfigError {
+        let mut error = self.source.error(Some(value.span()), message);
+        error.help = Some(help.into());
+        error
+    }
+
+    fn scene(&self, keys: &SceneKeys) -> Result<SceneConfig, ConfigError> {
+        let document = self.document;
+        let name = self.checked_name(&keys.name, "name of a scene")?;
+        let seed = self.overrides.seed.or(keys.seed).or(document.seed).unwrap_or(0);
+        let mut scene = SceneConfig {
+            seed,
+            source: self.scene_source(keys, seed)?,
+            labels: self.labels(keys, &name)?,
+            cameras: keys.cameras.iter().map(|c| c.0.clone()).collect(),
+            size: SIZE,
+            fov_x_deg: None,
+            carve: Default::default(),
+            plan: Default::default(),
+            render: Default::default(),
+            name,
+        };
+        scene.render.samples = QUALITY.samples();
+        self.lay_over(&mut scene, document.quality, document.frames.as_ref(), &document.render, &document.plan, &document.carve)?;
+        self.lay_over(&mut scene, keys.quality, keys.frames.as_ref(), &keys.render, &keys.plan, &keys.carve)?;
+        self.override_with_arguments(&mut scene)?;
+        Ok(scene)
+    }
+
+    fn scene_source(&self, keys: &SceneKeys, seed: u64) -> Result<Source, ConfigError> {
+        let file = match (&keys.file, &keys.home) {
+            (Some(file), None) => file,
+            (None, Some(home)) => return Ok(Source::Home { seed: self.overrides.seed.or(home.seed).unwrap_or(seed) }),
+            _ => {
+                let message = "a scene needs either `file` or `home`";
+                return Err(self.refuse(&keys.name, message, "add file = \"room.gltf\" for a scene of yours, or home = {} for a generated one"));
+            }
+        };
+        let defaults = &self.document.import;
+        let meters_per_unit = keys.meters_per_unit.as_ref().or(defaults.meters_per_unit.as_ref());
+        if let Some(value) = meters_per_unit.filter(|v| !(v.get_ref().is_finite() && *v.get_ref() > 0.0)) {
+            return Err(self.refuse(value, "meters_per_unit must be a positive number", "0.01 for a file in centimetres, 1 for one in metres"));
+        }
+        if let Some(environment) = &keys.environment {
+            self.check_path(&environment.get_ref().file, environment)?;
+        }
+        self.check_path(file.get_ref(), file)?;
+        Ok(Source::File(FileSource {
+            file: file.get_ref().clone(),
+            meters_per_unit: meters_per_unit.map_or(1.0, |v| *v.get_ref()),
+            up_axis: keys.up_axis.or(defaults.up_axis),
+            environment: keys.environment.as_ref().map(|e| e.get_ref().clone()),
+            allow_missing_textures: keys.allow_missing_textures.or(defaults.allow_missing_textures).unwrap_or(false),
+        }))
+    }
+
+    fn labels(&self, keys: &SceneKeys, name: &str) -> Result<Option<LabelSource>, ConfigError> {
+        let table = match (&keys.labels, &keys.home) {
+            (Some(table), _) => table,
+            (None, Some(_)) => return Ok(None), // a home knows its own
+            (None, None) => match &self.document.labels {
+                Some(table) => table,
+                None => return Ok(None),
+            },
+        };
+        self.check_path(table.get_ref(), table)?;
+        let scene = keys.label_scene.clone().unwrap_or_else(|| name.into());
+        Ok(Some(LabelSource { table: table.get_ref().clone(), scene }))
+    }
+
+    fn check_path<T>(&self, path: &str, place: &Spanned<T>) -> Result<(), ConfigError> {
+        let help = "set the variable before running, as in: export NAME=/path/to/folder";
+        expand(path, self.variable).map(drop).map_err(|e| self.refuse(place, e, help))
+    }
+
+    fn checked_name(&self, name: &Spanned<String>, what: &str) -> Result<String, ConfigError> {
+        let text = name.get_ref();
+        let allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
+        if text.is_empty() || text.starts_with('.') || !text.chars().all(allowed) {
+            let help = "names become folders: use letters, digits, '-', '_' and '.', and do not begin with '.'";
+            return Err(self.refuse(name, format!("{text:?} cannot be the {what}"), help));
+        }
+        Ok(text.clone())
+    }
+
+    fn lay_over(
+        &self,
+        scene: &mut SceneConfig,
+        quality: Option<Quality>,
+        frames: Option<&Spanned<u32>>,
+        render: &RenderPatch,
+        plan: &PlanPatch,
+        carve: &CarvePatch,
+    ) -> Result<(), ConfigError> {
+        if let Some(quality) = quality {
+            scene.render.samples = quality.samples();
+        }
+        if let Some(frames) = frames {
+            scene.plan.frames = check_frames(*frames.get_ref()).map_err(|m| self.refuse(frames, m, "for example: frames = 100"))?;
+        }
+        if let Some(size) = &render.size {
+            scene.size = check_size(*size.get_ref()).map_err(|m| self.refuse(size, m, "for example: size = [1024, 768]"))?;
+        }
+        if let Some(fov) = &render.fov_x_deg {
+            if !(*fov.get_ref() > 0.0 && *fov.get_ref() < 180.0) {
+                return Err(self.refuse(fov, "fov_x_deg must lie between 0 and 180", "60 is a common choice"));
+            }
+            scene.fov_x_deg = Some(*fov.get_ref());
+        }
+        if let Some(samples) = render.samples.as_ref().filter(|s| *s.get_ref() == 0) {
+            return Err(self.refuse(samples, "samples must be at least 1", "for example: samples = 64"));
+        }
+        render.apply(&mut scene.render);
+        plan.apply(&mut scene.plan);
+        carve.apply(&mut scene.carve);
+        Ok(())
+    }
+
+    fn override_with_arguments(&self, scene: &mut SceneConfig) -> Result<(), ConfigError> {
+        let refuse = |message: String| ConfigError { file: "the command line".into(), ..self.source.error(None, message) };
+        if let Some(frames) = self.overrides.frames {
+            scene.plan.frames = check_frames(frames).map_err(refuse)?;
+        }
+        if let Some(size) = self.overrides.size {
+            scene.size = check_size(size).map_err(refuse)?;
+        }
+        if let Some(quality) = self.overrides.quality {
+            scene.render.samples = quality.samples();
+        }
+        Ok(())
+    }
+}
+
+fn check_frames(frames: u32) -> Result<u32, String> {
+    if (1..=MOST_FRAMES).contains(&frames) { Ok(frames) } else { Err(format!("frames must lie between 1 and {MOST_FRAMES}, found {frames}")) }
+}
+
+fn check_size(size: [u32; 2]) -> Result<[u32; 2], String> {
+    if size.iter().all(|s| (1..=LARGEST_SIDE).contains(s)) {
+        return Ok(size);
+    }
+    Err(format!("width and height must lie between 1 and {LARGEST_SIDE} pixels, found {} x {}", size[0], size[1]))
+}

@@ -1,0 +1,286 @@
+//! What to make: the resolved configuration of a dataset, from `dataset.toml` or for the demo.
+//!
+//! Resolved means that every default is filled in: it goes into the dataset's manifest, and the parts of it that a stage
+//! reads are hashed to tell whether the stage must run again.
+
+mod document;
+mod expand;
+mod locate;
+mod patch;
+
+use crate::error::Error;
+use enfilade_explore::{CarveConfig, PlanConfig};
+use enfilade_import::UpAxis;
+use enfilade_math::hash_u64;
+use enfilade_render::RenderConfig;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+pub(crate) use locate::closest;
+pub use locate::ConfigError;
+
+/// A dataset to make.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Config {
+    /// Where relative paths start: the folder of the TOML file. Not part of what is made.
+    #[serde(skip)]
+    pub base: PathBuf,
+    /// Name of the dataset.
+    pub name: String,
+    /// In the order of the file; names are unique.
+    pub scenes: Vec<SceneConfig>,
+}
+
+/// One scene of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SceneConfig {
+    /// Name in the dataset: letters, digits, `-`, `_` and `.`.
+    pub name: String,
+    /// Seed of trajectories and of the renderer's noise.
+    pub seed: u64,
+    /// Where the scene comes from.
+    pub source: Source,
+    /// Where its labels come from; `None` takes what comes with the scene.
+    pub labels: Option<LabelSource>,
+    /// Cameras where trajectories begin, one trajectory each; empty means all of the file's, or found ones if it has none.
+    pub cameras: Vec<CameraChoice>,
+    /// Image width and height, pixels.
+    pub size: [u32; 2],
+    /// Horizontal field of view; `None` takes that of the scene's first used camera.
+    pub fov_x_deg: Option<f64>,
+    /// Free-space carving.
+    pub carve: CarveConfig,
+    /// Trajectories.
+    pub plan: PlanConfig,
+    /// Light transport.
+    pub render: RenderConfig,
+}
+
+/// Where a scene comes from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Source {
+    /// A file in one of the formats that `import` reads.
+    File(FileSource),
+    /// The procedural furnished home.
+    Home {
+        /// Which home.
+        seed: u64,
+    },
+}
+
+/// A scene file and what it does not say itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FileSource {
+    /// As written: may be relative and may hold environment variables.
+    pub file: String,
+    /// Metres per unit of the file.
+    pub meters_per_unit: f64,
+    /// `None` takes the format's own.
+    pub up_axis: Option<UpAxis>,
+    /// Replaces the file's surroundings.
+    pub environment: Option<EnvironmentChoice>,
+    /// Goes on, with a warning, where a texture file is missing.
+    pub allow_missing_textures: bool,
+}
+
+/// An environment map for a scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EnvironmentChoice {
+    /// An equirectangular picture; as written.
+    pub file: String,
+    /// Multiplies its radiance.
+    #[serde(default = "one")]
+    pub scale: f32,
+    /// About the up axis.
+    #[serde(default)]
+    pub rotation_deg: f32,
+}
+
+fn one() -> f32 {
+    1.0
+}
+
+/// A label table and the rows of it that count.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LabelSource {
+    /// A CSV file; as written.
+    pub table: String,
+    /// Rows whose `scene` column is this (or empty) count.
+    pub scene: String,
+}
+
+/// A camera where a trajectory begins.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum CameraChoice {
+    /// One of the file's, by name.
+    Named(String),
+    /// An explicit one, in world space (metres, z up).
+    Placed {
+        /// Camera centre.
+        position: [f64; 3],
+        /// A point in the middle of the picture.
+        look_at: [f64; 3],
+    },
+}
+
+/// Samples per pixel by one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quality {
+    /// For a look: noisy.
+    Draft,
+    /// For use.
+    Normal,
+    /// For publication.
+    High,
+}
+
+impl Quality {
+    /// Samples per pixel.
+    pub const fn samples(self) -> u32 {
+        match self {
+            Self::Draft => 8,
+            Self::Normal => 64,
+            Self::High => 512,
+        }
+    }
+}
+
+/// Choices that win over those of the configuration.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Overrides {
+    /// Seed of everything.
+    pub seed: Option<u64>,
+    /// Frames per trajectory.
+    pub frames: Option<u32>,
+    /// Image width and height.
+    pub size: Option<[u32; 2]>,
+    /// Samples per pixel.
+    pub quality: Option<Quality>,
+}
+
+/// What the demo makes unless told otherwise. Chosen so that all of it takes less than a minute on two cores.
+pub mod demo {
+    /// Name of the demo's scene.
+    pub const SCENE: &str = "living-room";
+    /// Seed.
+    pub const SEED: u64 = 1;
+    /// Frames of each trajectory.
+    pub const FRAMES: u32 = 4;
+    /// Image width and height.
+    pub const SIZE: [u32; 2] = [320, 240];
+    /// Samples per pixel.
+    pub const SAMPLES: u32 = 32;
+}
+
+impl Config {
+    /// Reads and resolves `file`.
+    ///
+    /// # Errors
+    /// When it cannot be read, is not TOML, holds an unknown key or a value out of its range, or names an environment variable
+    /// that is not set.
+    pub fn read(file: &Path, overrides: &Overrides) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(file).map_err(Error::io("read", file))?;
+        let mut config = document::resolve(file, &text, overrides, &environment_variable)?;
+        let base = file.parent().unwrap_or(Path::new(""));
+        config.base = std::path::absolute(base).map_err(Error::io("find", base))?;
+        Ok(config)
+    }
+
+    /// The demo: one generated living room.
+    ///
+    /// # Errors
+    /// When an override is out of its range.
+    pub fn demo(overrides: &Overrides) -> Result<Self, Error> {
+        let text = format!(
+            "name = \"demo\"\nseed = {}\nframes = {}\nrender.size = {:?}\nrender.samples = {}\n[[scene]]\nname = \"{}\"\nhome = {{}}\n",
+            demo::SEED,
+            demo::FRAMES,
+            demo::SIZE,
+            demo::SAMPLES,
+            demo::SCENE
+        );
+        Ok(document::resolve(Path::new("demo"), &text, overrides, &|_| None)?)
+    }
+
+    /// The scenes whose name matches `pattern`, in which `*` stands for any run of characters and `,` separates alternatives.
+    ///
+    /// # Errors
+    /// When none does.
+    pub fn select(&self, pattern: Option<&str>) -> Result<Vec<&SceneConfig>, Error> {
+        let Some(pattern) = pattern else { return Ok(self.scenes.iter().collect()) };
+        let chosen: Vec<_> = self.scenes.iter().filter(|s| pattern.split(',').any(|p| matches(p.trim(), &s.name))).collect();
+        if chosen.is_empty() {
+            let names: Vec<&str> = self.scenes.iter().map(|s| s.name.as_str()).collect();
+            let proposal = closest(pattern, &names).map_or(String::new(), |n| format!("did you mean {n:?}? "));
+            let hint = format!("{proposal}the scenes are: {}", names.join(", "));
+            return Err(Error::usage(format!("no scene is named {pattern:?}"), hint));
+        }
+        Ok(chosen)
+    }
+
+    /// The file meant by a path of the configuration.
+    ///
+    /// # Errors
+    /// When it names an environment variable that is not set.
+    pub fn path(&self, written: &str) -> Result<PathBuf, Error> {
+        let expanded = expand::expand(written, &environment_variable)
+            .map_err(|e| Error::scene(format!("in the path {written:?}: {e}"), "set the variable (export NAME=…) and run again"))?;
+        Ok(self.base.join(expanded))
+    }
+}
+
+impl SceneConfig {
+    /// Takes labels from `table` from now on, with the rows of the scene as before.
+    pub(crate) fn set_label_table(&mut self, table: &str) {
+        let scene = self.labels.take().map_or_else(|| self.name.clone(), |labels| labels.scene);
+        self.labels = Some(LabelSource { table: table.replace('$', "$$"), scene });
+    }
+
+    /// Seed of the part of the work named by `purpose`: different for every scene and purpose.
+    pub fn seed_for(&self, purpose: &str) -> u64 {
+        let text = self.name.bytes().chain([0]).chain(purpose.bytes());
+        text.fold(hash_u64(self.seed), |hash, byte| hash_u64(hash ^ u64::from(byte)))
+    }
+}
+
+fn environment_variable(name: &str) -> Option<String> {
+    std::env::var(name).ok()
+}
+
+/// Whether `name` fits `pattern`, in which `*` stands for any run of characters.
+fn matches(pattern: &str, name: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == name,
+        Some((head, tail)) => name.strip_prefix(head).is_some_and(|rest| {
+            (0..=rest.len()).filter(|&i| rest.is_char_boundary(i)).any(|i| matches(tail, &rest[i..]))
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_choose_scenes_and_a_typing_mistake_gets_a_proposal() {
+        let config = Config::demo(&Overrides::default()).unwrap();
+        assert_eq!(config.select(Some("liv*m")).unwrap().len(), 1);
+        assert_eq!(config.select(Some("x, living-room")).unwrap().len(), 1);
+        let error = config.select(Some("livingroom")).unwrap_err();
+        assert_eq!(error.hint().unwrap(), "did you mean \"living-room\"? the scenes are: living-room");
+        assert!(matches("a*b*c", "a-b-b-c") && !matches("a*b", "abc") && matches("*", ""));
+    }
+
+    #[test]
+    fn seeds_differ_by_scene_and_purpose() {
+        let config = Config::demo(&Overrides::default()).unwrap();
+        let scene = &config.scenes[0];
+        let other = SceneConfig { name: "b".into(), ..scene.clone() };
+        assert_ne!(scene.seed_for("plan"), scene.seed_for("render"));
+        assert_ne!(scene.seed_for("plan"), other.seed_for("plan"));
+    }
+}

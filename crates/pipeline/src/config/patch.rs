@@ -1,0 +1,36 @@
+//! The sections of `dataset.toml` that say how stages work: every key is optional, and what is there replaces the value below.
+
+use enfilade_explore::{CarveConfig, PlanConfig};
+use enfilade_render::RenderConfig;
+use serde::Deserialize;
+use toml::Spanned;
+
+/// Defines a section: its keys are the named fields of the target, with the same types.
+macro_rules! section {
+    ($name:ident => $target:ty { $($field:ident: $type:ty),* $(,)? } $(with { $($(#[$doc:meta])* $extra:ident: $extra_type:ty),* $(,)? })?) => {
+        #[derive(Clone, Debug, Default, Deserialize)]
+        #[serde(deny_unknown_fields, default)]
+        pub(super) struct $name {
+            $($($(#[$doc])* pub $extra: Option<Spanned<$extra_type>>,)*)?
+            $(pub $field: Option<Spanned<$type>>,)*
+        }
+
+        impl $name {
+            /// Lays the keys that are there over `target`.
+            pub fn apply(&self, target: &mut $target) {
+                $(if let Some(value) = &self.$field {
+                    target.$field = value.get_ref().clone();
+                })*
+            }
+        }
+    };
+}
+
+section!(RenderPatch => RenderConfig { samples: u32, max_bounces: u32, roulette_start: u32, filter_radius: f32 } with {
+    /// Width and height in pixels.
+    size: [u32; 2],
+    /// Horizontal field of view.
+    fov_x_deg: f64,
+});
+
+section!(CarvePatch => CarveConfig { voxel_m: f64, extent_m: f64, rays: u32, iterations: u32 });

@@ -1,0 +1,131 @@
+//! What can go wrong in a run, in words for the person who will fix it.
+
+use crate::config::ConfigError;
+use std::error::Error as StdError;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a verb could not do its work.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The configuration file.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// A request that cannot be carried out as given.
+    #[error("{message}")]
+    Usage {
+        /// What was asked and why it cannot be.
+        message: String,
+        /// What to do.
+        hint: String,
+    },
+    /// A file or folder of the output.
+    #[error("cannot {action} {}", path.display())]
+    Io {
+        /// "read", "write", …
+        action: &'static str,
+        /// Which one.
+        path: PathBuf,
+        /// The system's answer.
+        source: io::Error,
+    },
+    /// The scene as it is cannot be worked on.
+    #[error("{message}")]
+    Scene {
+        /// What was found and what was expected.
+        message: String,
+        /// What to do.
+        hint: String,
+    },
+    /// A stage's own error.
+    #[error(transparent)]
+    Stage(#[from] Box<dyn StdError + Send + Sync>),
+}
+
+impl Error {
+    pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_path_buf();
+        move |source| Self::Io { action, path, source }
+    }
+
+    pub(crate) fn usage(message: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self::Usage { message: message.into(), hint: hint.into() }
+    }
+
+    pub(crate) fn scene(message: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self::Scene { message: message.into(), hint: hint.into() }
+    }
+
+    /// Boxes the error of a stage's function.
+    pub(crate) fn stage(error: impl StdError + Send + Sync + 'static) -> Self {
+        Self::Stage(Box::new(error))
+    }
+
+    /// True when the command or the configuration must change, rather than a scene or the machine.
+    pub fn is_usage(&self) -> bool {
+        matches!(self, Self::Config(_) | Self::Usage { .. })
+    }
+
+    /// What to do about it, where that is known.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Config(error) => error.help.clone(),
+            Self::Usage { hint, .. } | Self::Scene { hint, .. } => Some(hint.clone()),
+            Self::Io { source, .. } => hint_for(source.kind()).map(Into::into),
+            Self::Stage(_) => None, // the errors of the crates below say what to do themselves
+        }
+    }
+
+    /// The message and its causes on one line, without causes that the message already tells.
+    pub fn explain(&self) -> String {
+        let mut text = self.to_string();
+        let mut cause = self.source();
+        while let Some(error) = cause {
+            let part = error.to_string();
+            if !text.contains(&part) {
+                text = format!("{text}: {part}");
+            }
+            cause = error.source();
+        }
+        text
+    }
+}
+
+/// What to do about an answer of the operating system.
+fn hint_for(kind: io::ErrorKind) -> Option<&'static str> {
+    match kind {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
+            Some("free some space and give the same command again: finished frames are kept, and no file is left half written")
+        }
+        io::ErrorKind::PermissionDenied => Some("check who owns the file and its folder, or choose another output folder with -o"),
+        io::ErrorKind::ReadOnlyFilesystem => Some("the file system is mounted read-only; choose another output folder with -o"),
+        io::ErrorKind::NotADirectory => Some("a part of the path is a file; choose another output folder with -o"),
+        io::ErrorKind::NotFound => Some("check the path for a typing mistake"),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_full_disk_is_explained_once_with_what_to_do() {
+        let error = Error::io("write", Path::new("a/b"))(io::Error::from(io::ErrorKind::StorageFull));
+        assert_eq!(error.explain(), "cannot write a/b: no storage space");
+        assert!(error.hint().unwrap().starts_with("free some space"), "{error:?}");
+        assert!(!error.is_usage());
+    }
+
+    #[derive(Debug, thiserror::Error)]
+    #[error("frame 3: {source}")]
+    struct Inner {
+        source: io::Error,
+    }
+
+    #[test]
+    fn causes_that_a_message_tells_are_not_repeated() {
+        let error = Error::stage(Inner { source: io::Error::other("no luck") });
+        assert_eq!(error.explain(), "frame 3: no luck");
+    }
+}

@@ -1,0 +1,177 @@
+//! How a run speaks: to a [`Reporter`] while it goes on, and in a [`Summary`] at its end.
+
+use crate::stages::Stage;
+use enfilade_scene::{Cx, Warning};
+use std::sync::Mutex;
+use std::time::Instant;
+
+/// What happens to a stage of a scene.
+#[derive(Clone, Copy, Debug)]
+pub enum Event<'a> {
+    /// It begins.
+    Started,
+    /// `done` of `total` units of `what` are finished.
+    Progress {
+        /// The unit, such as "frames".
+        what: &'a str,
+        /// How many are finished.
+        done: u64,
+        /// Of how many.
+        total: u64,
+    },
+    /// Something was dropped, guessed or mended.
+    Warned(&'a Warning),
+    /// Nothing had to be done.
+    UpToDate,
+    /// It is done.
+    Finished {
+        /// One line: what it made.
+        summary: &'a str,
+        /// Seconds on the wall clock.
+        wall_s: f64,
+    },
+    /// It could not be done; the scene's later stages are left out.
+    Failed {
+        /// One line with all causes.
+        message: &'a str,
+    },
+}
+
+/// Hears what a run does, from any thread.
+pub trait Reporter: Sync {
+    /// Something happened to `stage` of `scene`.
+    fn on(&self, scene: &str, stage: Stage, event: Event);
+}
+
+/// A [`Reporter`] that hears nothing.
+pub struct Silent;
+
+impl Reporter for Silent {
+    fn on(&self, _scene: &str, _stage: Stage, _event: Event) {}
+}
+
+/// What a run came to.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    /// One per scene, in the order of the configuration.
+    pub scenes: Vec<SceneOutcome>,
+    /// Seconds on the wall clock.
+    pub wall_s: f64,
+}
+
+impl Summary {
+    /// True when every scene came through.
+    pub fn ok(&self) -> bool {
+        self.scenes.iter().all(|s| s.failure.is_none())
+    }
+
+    /// True when no stage had anything to do.
+    pub fn nothing_done(&self) -> bool {
+        self.ok() && self.scenes.iter().flat_map(|s| &s.stages).all(|s| s.up_to_date)
+    }
+}
+
+/// What became of one scene.
+#[derive(Clone, Debug)]
+pub struct SceneOutcome {
+    /// Its name in the dataset.
+    pub name: String,
+    /// The stages that came through, in order.
+    pub stages: Vec<StageOutcome>,
+    /// The stage that did not, if one did not.
+    pub failure: Option<Failure>,
+}
+
+/// What became of one stage of a scene.
+#[derive(Clone, Debug)]
+pub struct StageOutcome {
+    /// Which.
+    pub stage: Stage,
+    /// True when it was skipped because nothing changed.
+    pub up_to_date: bool,
+    /// One line: what it made (now or earlier).
+    pub summary: String,
+    /// Number of warnings in its report.
+    pub warnings: usize,
+    /// Seconds on the wall clock, of this run.
+    pub wall_s: f64,
+}
+
+/// Why a scene stopped.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// Where.
+    pub stage: Stage,
+    /// One line with all causes.
+    pub message: String,
+    /// What to do.
+    pub hint: Option<String>,
+}
+
+/// The [`Cx`] that stages get: passes everything on and keeps the warnings for the stage's record.
+pub(crate) struct StageCx<'a> {
+    scene: &'a str,
+    stage: Stage,
+    reporter: &'a dyn Reporter,
+    warnings: Mutex<Vec<Warning>>,
+}
+
+impl<'a> StageCx<'a> {
+    pub fn new(scene: &'a str, stage: Stage, reporter: &'a dyn Reporter) -> Self {
+        Self { scene, stage, reporter, warnings: Mutex::new(Vec::new()) }
+    }
+
+    pub fn event(&self, event: Event) {
+        self.reporter.on(self.scene, self.stage, event);
+    }
+
+    /// The warnings in a fixed order: parallel stages warn in any.
+    pub fn into_warnings(self) -> Vec<Warning> {
+        let mut warnings = self.warnings.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+        warnings.sort_by(|a, b| (&a.place, &a.message).cmp(&(&b.place, &b.message)));
+        warnings
+    }
+}
+
+impl Cx for StageCx<'_> {
+    fn progress(&self, what: &str, done: u64, total: u64) {
+        self.event(Event::Progress { what, done, total });
+    }
+
+    fn warn(&self, warning: Warning) {
+        self.event(Event::Warned(&warning));
+        self.warnings.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(warning);
+    }
+}
+
+/// Wall clock and processor time since its creation.
+pub(crate) struct Stopwatch {
+    wall: Instant,
+    cpu_s: f64,
+}
+
+impl Stopwatch {
+    pub fn start() -> Self {
+        Self { wall: Instant::now(), cpu_s: process_cpu_s() }
+    }
+
+    pub fn wall_s(&self) -> f64 {
+        self.wall.elapsed().as_secs_f64()
+    }
+
+    /// Processor time of all threads; 0 where the system does not tell.
+    pub fn cpu_s(&self) -> f64 {
+        process_cpu_s() - self.cpu_s
+    }
+}
+
+#[cfg(unix)]
+fn process_cpu_s() -> f64 {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
+}
+
+#[cfg(not(unix))]
+fn process_cpu_s() -> f64 {
+    0.0
+}

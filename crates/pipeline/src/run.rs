@@ -1,0 +1,134 @@
+//! Running stages over the scenes of a dataset: all of them, or one verb.
+
+use crate::config::{Config, SceneConfig};
+use crate::error::Error;
+use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
+use crate::stages::{Job, STAGES, Stage, StageSpec, advance};
+use crate::workdir::{Workdir, read_json, write_json};
+use enfilade_dataset::{Dataset, ManifestInfo};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// What is kept of a run so that single stages can be run again.
+#[derive(Serialize, Deserialize)]
+struct RunFile {
+    base: PathBuf,
+    config: Config,
+}
+
+/// Makes the dataset `config` in the folder `out`: every stage of every scene that is not up to date.
+///
+/// `pattern` restricts it to some scenes ([`Config::select`]). A scene that fails is reported and the others go on.
+///
+/// # Errors
+/// Only what concerns the run as a whole: the output folder, the lock, the pattern.
+pub fn run(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Reporter) -> Result<Summary, Error> {
+    let scenes = config.select(pattern)?;
+    let workdir = Workdir::create(out)?;
+    store_config(&workdir, config)?;
+    let stages: Vec<&StageSpec> = STAGES.iter().collect();
+    Session::new(config, &workdir)?.run(&scenes, &stages, false, reporter)
+}
+
+/// Runs one stage of the dataset in `out` with the configuration stored there.
+///
+/// # Errors
+/// As [`run`], and when `out` is no dataset.
+pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
+    let (workdir, config) = open(out)?;
+    let scenes = config.select(pattern)?;
+    Session::new(&config, &workdir)?.run(&scenes, &[stage.spec()], force, reporter)
+}
+
+/// Gives scenes of the dataset in `out` another label table, and labels them again. `table` is a CSV file.
+///
+/// # Errors
+/// As [`run_stage`].
+pub fn relabel(out: &Path, table: &Path, pattern: Option<&str>, reporter: &dyn Reporter) -> Result<Summary, Error> {
+    let (workdir, mut config) = open(out)?;
+    let chosen: Vec<String> = config.select(pattern)?.iter().map(|s| s.name.clone()).collect();
+    let table = std::path::absolute(table).map_err(Error::io("find", table))?;
+    for scene in config.scenes.iter_mut().filter(|s| chosen.contains(&s.name)) {
+        scene.set_label_table(&table.to_string_lossy());
+    }
+    store_config(&workdir, &config)?;
+    let scenes = config.select(pattern)?;
+    Session::new(&config, &workdir)?.run(&scenes, &[Stage::Label.spec()], false, reporter)
+}
+
+fn store_config(workdir: &Workdir, config: &Config) -> Result<(), Error> {
+    write_json(&workdir.file("run.json"), &RunFile { base: config.base.clone(), config: config.clone() })
+}
+
+fn open(out: &Path) -> Result<(Workdir, Config), Error> {
+    let workdir = Workdir::open(out)?;
+    let Some(RunFile { base, config }) = read_json(&workdir.file("run.json")) else {
+        let message = format!("{} holds no configuration of this version", workdir.file("run.json").display());
+        return Err(Error::usage(message, "run `enfilade run` for this folder once; what is finished is kept"));
+    };
+    Ok((workdir, Config { base, ..config }))
+}
+
+struct Session<'a> {
+    config: &'a Config,
+    workdir: &'a Workdir,
+    dataset: Dataset,
+}
+
+impl<'a> Session<'a> {
+    fn new(config: &'a Config, workdir: &'a Workdir) -> Result<Self, Error> {
+        Ok(Self { config, workdir, dataset: Dataset::create(workdir.out()).map_err(Error::stage)? })
+    }
+
+    fn run(&self, scenes: &[&SceneConfig], stages: &[&StageSpec], force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
+        let time = Stopwatch::start();
+        let mut outcomes: Vec<SceneOutcome> = Vec::new();
+        for scene in scenes {
+            let job = Job::new(self.config, scene, &self.dataset, self.workdir);
+            let mut outcome = SceneOutcome { name: scene.name.clone(), stages: Vec::new(), failure: None };
+            for spec in stages {
+                // The manifest is part of what is verified.
+                if spec.stage == Stage::Verify {
+                    self.write_manifest(&outcomes)?;
+                }
+                match advance(spec, &job, StageCx::new(&scene.name, spec.stage, reporter), force) {
+                    Ok(done) => outcome.stages.push(done),
+                    Err(error) => {
+                        let message = error.explain();
+                        reporter.on(&scene.name, spec.stage, Event::Failed { message: &message });
+                        outcome.failure = Some(Failure { stage: spec.stage, message, hint: error.hint() });
+                        break;
+                    }
+                }
+            }
+            outcomes.push(outcome);
+        }
+        self.write_manifest(&outcomes)?;
+        Ok(Summary { scenes: outcomes, wall_s: time.wall_s() })
+    }
+
+    /// Writes the manifest of what is on disk, unless it is there already.
+    fn write_manifest(&self, outcomes: &[SceneOutcome]) -> Result<(), Error> {
+        let old = self.dataset.read_manifest().unwrap_or_default();
+        let mut failed_scenes: BTreeMap<String, String> = BTreeMap::new();
+        for (name, entry) in old.iter().flat_map(|m| &m.scenes) {
+            failed_scenes.extend(entry.failed.clone().map(|reason| (name.clone(), reason)));
+        }
+        for outcome in outcomes {
+            failed_scenes.remove(&outcome.name);
+            failed_scenes.extend(outcome.failure.as_ref().map(|f| (outcome.name.clone(), format!("{}: {}", f.stage.name(), f.message))));
+        }
+        let info = ManifestInfo {
+            config: serde_json::to_value(self.config).unwrap_or_default(),
+            seeds: self.config.scenes.iter().map(|s| (s.name.clone(), s.seed)).collect(),
+            failed_scenes,
+            ..ManifestInfo::default()
+        };
+        let manifest = self.dataset.collect_manifest(&info).map_err(Error::stage)?;
+        if old.as_ref() != Some(&manifest) {
+            self.dataset.write_manifest(&manifest).map_err(Error::stage)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,87 @@
+//! `carve`: the scene to its free space, beginning at the cameras where trajectories will begin.
+
+use super::{Input, Job, Outcome, Record, Stage};
+use crate::config::{CameraChoice, closest};
+use crate::error::Error;
+use crate::report::StageCx;
+use crate::workdir::{Hash, write_json};
+use enfilade_math::DVec3;
+use enfilade_scene::{Pose, Scene, StartCamera};
+use std::path::PathBuf;
+
+/// The cameras where trajectories begin, in the work folder.
+pub(super) const STARTS: &str = "starts.json";
+
+pub(super) fn settings(job: &Job) -> Hash {
+    Hash::of(&(&job.scene.carve, &job.scene.cameras, job.scene.seed_for("carve")))
+}
+
+pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Result<Option<Vec<Input>>, Error> {
+    Ok(Some(vec![job.input_from(Stage::Import, &job.package()?)?]))
+}
+
+pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
+    let name = &job.scene.name;
+    let world = job.load_world()?;
+    let starts = start_cameras(job, cx)?;
+    let positions: Vec<DVec3> = starts.iter().map(|s| s.position).collect();
+    let space = enfilade_explore::carve(&world.mesh, &world.bvh, &positions, &job.scene.carve, cx).map_err(Error::stage)?;
+    job.dataset.write_free_space(name, &space.tree.to_bt(), space.free_min, space.free_max).map_err(Error::stage)?;
+    write_json(&job.work_file(STARTS)?, &starts)?;
+    let size = space.free_max - space.free_min;
+    let summary = format!("free space of {:.1} x {:.1} x {:.1} m, seen from {} cameras", size.x, size.y, size.z, starts.len());
+    Ok(Outcome { summary, outputs: outputs(job)?, ..Outcome::default() })
+}
+
+/// Every file that carving writes.
+pub(super) fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
+    let (layout, name) = (job.dataset.layout(), &job.scene.name);
+    let octomap = [layout.octomap(name), layout.octomap_free_space_min(name), layout.octomap_free_space_max(name)];
+    Ok(octomap.into_iter().chain([job.work_file(STARTS)?]).collect())
+}
+
+/// The chosen cameras; without a choice the file's, and for a file without any, found ones.
+fn start_cameras(job: &Job, cx: &StageCx) -> Result<Vec<StartCamera>, Error> {
+    let scene = job.load_scene()?;
+    if !job.scene.cameras.is_empty() {
+        return job.scene.cameras.iter().enumerate().map(|(i, choice)| chosen(&scene, i, choice, job.scene.size)).collect();
+    }
+    if !scene.cameras.is_empty() {
+        return Ok(scene.cameras.clone());
+    }
+    let world = job.load_world()?;
+    let found = enfilade_explore::find_starts(&world.mesh, &world.bvh, &job.scene.carve, cx);
+    if found.is_empty() {
+        let message = "the scene has no camera, and no place was found where one could stand";
+        return Err(Error::scene(message, "say where to begin: cameras = [{ position = [x, y, z], look_at = [x, y, z] }] (metres, z up)"));
+    }
+    Ok(found)
+}
+
+fn chosen(scene: &Scene, index: usize, choice: &CameraChoice, size: [u32; 2]) -> Result<StartCamera, Error> {
+    match choice {
+        CameraChoice::Named(name) => scene.cameras.iter().find(|c| &c.name == name).cloned().ok_or_else(|| {
+            let names: Vec<&str> = scene.cameras.iter().map(|c| c.name.as_str()).collect();
+            let proposal = closest(name, &names).map_or(String::new(), |n| format!("did you mean {n:?}? "));
+            Error::scene(format!("the scene has no camera {name:?}"), format!("{proposal}its cameras: {names:?}"))
+        }),
+        CameraChoice::Placed { position, look_at } => {
+            let (position, look_at) = (DVec3::from(*position), DVec3::from(*look_at));
+            let pose = Pose::look_at(0, position, look_at, DVec3::Z).filter(|p| p.world_from_camera.is_finite() && position.is_finite());
+            let pose = pose.ok_or_else(|| {
+                let message = format!("camera {index}: it cannot look from {position} to {look_at}");
+                Error::scene(message, "the two points must differ, and not lie one above the other")
+            })?;
+            Ok(StartCamera {
+                name: format!("camera {index}"),
+                position,
+                world_from_camera: pose.world_from_camera,
+                fov_x_rad: DEFAULT_FOV_X_RAD,
+                aspect: f64::from(size[0]) / f64::from(size[1]),
+            })
+        }
+    }
+}
+
+/// Hypersim's: 60 degrees.
+const DEFAULT_FOV_X_RAD: f64 = std::f64::consts::FRAC_PI_3;

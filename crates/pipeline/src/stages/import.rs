@@ -1,0 +1,96 @@
+//! `import`: a scene file, or a generated home, to a scene package, the labels that came with it, and the dataset's scene files.
+
+use super::{Input, Job, Outcome, Record};
+use crate::config::{FileSource, Source};
+use crate::error::Error;
+use crate::report::StageCx;
+use crate::workdir::{Hash, write_json, write_whole};
+use enfilade_home::HomeConfig;
+use enfilade_import::{EnvironmentOverride, ImportOptions, ImportedLabel};
+use enfilade_scene::{Cx, Labels, PartLabel, Scene, WorldMesh};
+use std::path::{Path, PathBuf};
+
+/// Labels that came with the scene, in the work folder.
+pub(super) const LABELS: &str = "labels.json";
+
+pub(super) fn settings(job: &Job) -> Hash {
+    Hash::of(&job.scene.source)
+}
+
+/// The files that the last import read: which these are, only reading tells.
+pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Result<Option<Vec<Input>>, Error> {
+    if matches!(job.scene.source, Source::Home { .. }) {
+        return Ok(Some(Vec::new()));
+    }
+    // A file that has gone makes the import run, which then says so.
+    Ok(previous.and_then(|record| record.inputs.iter().map(|input| Input::of(&input.path)).collect::<Result<_, _>>().ok()))
+}
+
+pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
+    let name = &job.scene.name;
+    let (scene, labels, inputs, report) = match &job.scene.source {
+        Source::Home { seed } => {
+            let home = enfilade_home::living_room(&HomeConfig { seed: *seed });
+            (home.scene, Some(home.labels), Vec::new(), serde_json::Value::Null)
+        }
+        Source::File(source) => {
+            let imported = load_file(source, &job.config.path(&source.file)?, &|path| job.config.path(path), cx)?;
+            let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
+            let report = serde_json::to_value(&imported.report).unwrap_or_default();
+            (imported.scene, labels, imported.inputs, report)
+        }
+    };
+    job.dataset.write_scene(name, &scene).map_err(Error::stage)?;
+    let package = job.package()?;
+    write_whole(&package, &enfilade_scene::to_bytes(&scene))?;
+    let labels_file = job.work_file(LABELS)?;
+    write_json(&labels_file, &labels)?;
+    job.forget_scene();
+    let layout = job.dataset.layout();
+    let outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name)];
+    let inputs = inputs.iter().map(|path| Input::of(path)).collect::<Result<_, _>>()?;
+    Ok(Outcome { summary: describe(&scene), outputs, inputs: Some(inputs), report })
+}
+
+/// Imports `file` with the choices of `source`; `locate` finds the other files that these name.
+pub(crate) fn load_file(
+    source: &FileSource,
+    file: &Path,
+    locate: &dyn Fn(&str) -> Result<PathBuf, Error>,
+    cx: &dyn Cx,
+) -> Result<enfilade_import::Imported, Error> {
+    let environment = match &source.environment {
+        Some(e) => Some(EnvironmentOverride { file: locate(&e.file)?, scale: e.scale, rotation_deg: e.rotation_deg }),
+        None => None,
+    };
+    let options = ImportOptions {
+        meters_per_unit: source.meters_per_unit,
+        up_axis: source.up_axis,
+        environment,
+        allow_missing_textures: source.allow_missing_textures,
+    };
+    enfilade_import::load(file, &options, cx).map_err(Error::stage)
+}
+
+fn labels_by_part(scene: &Scene, labels: &[ImportedLabel]) -> Labels {
+    let mut parts = vec![PartLabel::NONE; scene.parts.len()];
+    for label in labels {
+        parts[label.part as usize] = label.label;
+    }
+    Labels { parts }
+}
+
+/// One line about a scene.
+pub(crate) fn describe(scene: &Scene) -> String {
+    let triangles: usize = scene.parts.iter().map(|p| scene.meshes[p.mesh as usize].triangles.len()).sum();
+    let extent = WorldMesh::new(scene).bounds.extent();
+    format!(
+        "{} parts, {triangles} triangles, {} materials, {} images; {:.1} x {:.1} x {:.1} m",
+        scene.parts.len(),
+        scene.materials.len(),
+        scene.images.len(),
+        extent.x,
+        extent.y,
+        extent.z
+    )
+}

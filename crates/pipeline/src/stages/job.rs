@@ -1,0 +1,132 @@
+use super::{Input, Stage};
+use crate::config::{Config, SceneConfig};
+use crate::error::Error;
+use crate::workdir::Workdir;
+use enfilade_dataset::Dataset;
+use enfilade_geometry::Bvh;
+use enfilade_scene::{Intrinsics, Scene, Trajectory, WorldMesh};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// One scene on its way through the stages: where its files are, and what was loaded of them.
+pub(crate) struct Job<'a> {
+    pub config: &'a Config,
+    pub scene: &'a SceneConfig,
+    pub dataset: &'a Dataset,
+    workdir: &'a Workdir,
+    loaded: Mutex<Loaded>,
+}
+
+#[derive(Default)]
+struct Loaded {
+    scene: Option<Arc<Scene>>,
+    world: Option<Arc<World>>,
+}
+
+/// A scene as rays meet it, all of it solid.
+pub(crate) struct World {
+    pub mesh: WorldMesh,
+    pub bvh: Bvh,
+}
+
+impl<'a> Job<'a> {
+    pub fn new(config: &'a Config, scene: &'a SceneConfig, dataset: &'a Dataset, workdir: &'a Workdir) -> Self {
+        Self { config, scene, dataset, workdir, loaded: Mutex::default() }
+    }
+
+    /// The dataset's folder.
+    pub fn out(&self) -> &Path {
+        self.workdir.out()
+    }
+
+    /// A file of the scene's work folder.
+    pub fn work_file(&self, name: &str) -> Result<PathBuf, Error> {
+        self.workdir.scene_file(&self.scene.name, name)
+    }
+
+    /// The scene package.
+    pub fn package(&self) -> Result<PathBuf, Error> {
+        self.work_file("scene.scene")
+    }
+
+    /// `path` as an input that an earlier stage makes.
+    pub fn input_from(&self, stage: Stage, path: &Path) -> Result<Input, Error> {
+        if path.is_file() { Input::of(path) } else { Err(self.run_first(stage)) }
+    }
+
+    /// The scene, decoded once per run.
+    pub fn load_scene(&self) -> Result<Arc<Scene>, Error> {
+        let mut loaded = self.loaded.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(scene) = &loaded.scene {
+            return Ok(scene.clone());
+        }
+        let path = self.package()?;
+        let bytes = std::fs::read(&path).map_err(Error::io("read", &path))?;
+        let scene = enfilade_scene::from_bytes(&bytes).map_err(|e| Error::scene(format!("{}: {e}", path.display()), self.again(Stage::Import)))?;
+        Ok(loaded.scene.insert(Arc::new(scene)).clone())
+    }
+
+    /// Forgets what was loaded, because the package is a new one.
+    pub fn forget_scene(&self) {
+        *self.loaded.lock().unwrap_or_else(PoisonError::into_inner) = Loaded::default();
+    }
+
+    /// The scene as rays meet it, built once per run.
+    pub fn load_world(&self) -> Result<Arc<World>, Error> {
+        let scene = self.load_scene()?;
+        let mut loaded = self.loaded.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(world) = &loaded.world {
+            return Ok(world.clone());
+        }
+        let mesh = WorldMesh::new(&scene);
+        let bvh = Bvh::new(&mesh.corners, &|_| false);
+        Ok(loaded.world.insert(Arc::new(World { mesh, bvh })).clone())
+    }
+
+    /// The planned trajectories and the camera that they share.
+    pub fn trajectories(&self) -> Result<(Intrinsics, Vec<Trajectory>), Error> {
+        let name = &self.scene.name;
+        if !self.dataset.layout().metadata_cameras(name).is_file() {
+            return Err(self.run_first(Stage::Plan));
+        }
+        let cameras = self.dataset.cameras(name).map_err(Error::stage)?;
+        let trajectories = cameras.iter().map(|camera| self.dataset.read_trajectory(name, camera)).collect::<Result<_, _>>();
+        Ok((self.dataset.intrinsics(name).map_err(Error::stage)?, trajectories.map_err(Error::stage)?))
+    }
+
+    /// Every frame of every trajectory, by camera name.
+    pub fn frames(&self) -> Result<Vec<(String, u32)>, Error> {
+        let (_, trajectories) = self.trajectories()?;
+        Ok(trajectories.iter().flat_map(|t| t.poses.iter().map(|p| (t.name.clone(), p.frame))).collect())
+    }
+
+    /// The commit records of all frames as inputs: they hold the checksums of every layer.
+    pub fn frame_records(&self) -> Result<Vec<Input>, Error> {
+        let layout = self.dataset.layout();
+        let record = |(camera, frame): &(String, u32)| {
+            self.input_from(Stage::Render, &layout.frame_record(&self.scene.name, camera, *frame))
+        };
+        self.frames()?.iter().map(record).collect()
+    }
+
+    /// The commit records of the label layers of all frames.
+    pub fn label_records(&self) -> Result<Vec<Input>, Error> {
+        let layout = self.dataset.layout();
+        let record =
+            |(camera, frame): &(String, u32)| self.input_from(Stage::Label, &layout.label_record(&self.scene.name, camera, *frame));
+        self.frames()?.iter().map(record).collect()
+    }
+
+    fn run_first(&self, stage: Stage) -> Error {
+        let message = format!("the results of `{}` for scene {} are not there", stage.name(), self.scene.name);
+        Error::scene(message, format!("run first: {}", self.command(stage)))
+    }
+
+    fn again(&self, stage: Stage) -> String {
+        format!("make it again: {} --force", self.command(stage))
+    }
+
+    fn command(&self, stage: Stage) -> String {
+        format!("enfilade {} {} --scene {}", stage.name(), self.out().display(), self.scene.name)
+    }
+}

@@ -1,0 +1,97 @@
+//! `label`: what every part is, from a table or from the scene itself, joined to the entity ids of finished frames.
+
+use super::{Input, Job, Outcome, Record, Stage, import};
+use crate::error::Error;
+use crate::report::StageCx;
+use crate::workdir::{Hash, read_json};
+use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
+use enfilade_post::label::{LabelReport, LabelTable, join, part_names};
+use enfilade_scene::{Cx, Labels, PartLabel, Warning};
+use std::path::PathBuf;
+
+/// Names listed in a warning; the report has all.
+const NAMES_SHOWN: usize = 5;
+
+pub(super) fn settings(job: &Job) -> Hash {
+    Hash::of(&job.scene.labels.as_ref().map(|l| &l.scene))
+}
+
+pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Result<Option<Vec<Input>>, Error> {
+    let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?, Input::of(&job.work_file(import::LABELS)?)?];
+    if let Some(labels) = &job.scene.labels {
+        inputs.push(Input::of(&job.config.path(&labels.table)?)?);
+    }
+    inputs.extend(job.frame_records()?);
+    Ok(Some(inputs))
+}
+
+pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
+    let (labels, report) = labels_of(job, cx)?;
+    job.dataset.write_label_tables(&job.scene.name, &labels).map_err(Error::stage)?;
+    let hash = Hash::of(&labels).0;
+    let frames = job.frames()?;
+    for (done, (camera, frame)) in frames.iter().enumerate() {
+        if !job.dataset.labels_are_complete(&job.scene.name, camera, *frame, &hash) {
+            label_frame(job, camera, *frame, &labels, &hash)?;
+        }
+        cx.progress("frames", done as u64 + 1, frames.len() as u64);
+    }
+    let labelled = labels.parts.iter().filter(|l| l.semantic >= 1).count();
+    let summary = format!("{labelled} of {} parts have a class, in {} frames", labels.parts.len(), frames.len());
+    Ok(Outcome { summary, outputs: outputs(job, &frames), report, ..Outcome::default() })
+}
+
+/// From the table if there is one, else what came with the scene, else none.
+fn labels_of(job: &Job, cx: &StageCx) -> Result<(Labels, serde_json::Value), Error> {
+    let scene = job.load_scene()?;
+    let Some(source) = &job.scene.labels else {
+        let none = || Labels { parts: vec![PartLabel::NONE; scene.parts.len()] };
+        let labels = read_json::<Option<Labels>>(&job.work_file(import::LABELS)?).flatten().unwrap_or_else(none);
+        return Ok((labels, serde_json::Value::Null));
+    };
+    let path = job.config.path(&source.table)?;
+    let bytes = std::fs::read(&path).map_err(Error::io("read the label table", &path))?;
+    let table = LabelTable::parse(&bytes, &path.display().to_string()).map_err(Error::stage)?;
+    let (labels, report) = table.assign(&source.scene, &part_names(&scene));
+    warn_about(&report, &path.display().to_string(), &source.scene, cx);
+    Ok((labels, serde_json::to_value(&report).unwrap_or_default()))
+}
+
+fn warn_about(report: &LabelReport, table: &str, scene: &str, cx: &StageCx) {
+    let warn = |place: String, message| cx.warn(Warning { place, message });
+    if report.labelled_parts == 0 {
+        warn(table.into(), format!("no row labels any part of scene {scene:?}; if the table names it otherwise, set label_scene"));
+    } else if !report.unlabelled.is_empty() {
+        let names: Vec<String> = report.unlabelled.iter().map(|u| format!("{:?} ({})", u.part, u.material)).take(NAMES_SHOWN).collect();
+        warn(table.into(), format!("{} parts have no class, among them {}", report.unlabelled.len(), names.join(", ")));
+    }
+    for row in report.unmatched.iter().take(NAMES_SHOWN) {
+        warn(format!("{table}:{}", row.line), format!("nothing in scene {scene:?} is named {:?}", row.name));
+    }
+}
+
+fn label_frame(job: &Job, camera: &str, frame: u32, labels: &Labels, hash: &str) -> Result<(), Error> {
+    let name = &job.scene.name;
+    let rendered = job.dataset.read_frame(name, camera, frame, &[Layer::RenderEntityId]).map_err(Error::stage)?;
+    let Some(Values::I16(ids)) = rendered.get(Layer::RenderEntityId) else {
+        let message = format!("frame {frame} of {camera} has no entity ids");
+        return Err(Error::scene(message, format!("render it again: enfilade render {} --force", job.out().display())));
+    };
+    let (semantic, instance) = join(ids, labels).map_err(Error::stage)?;
+    let mut layers = Frame::new(rendered.width, rendered.height);
+    layers.insert(Layer::Semantic, Values::I16(semantic));
+    layers.insert(Layer::SemanticInstance, Values::I16(instance));
+    job.dataset.write_label_layers(name, camera, frame, &layers, hash).map_err(Error::stage).map(drop)
+}
+
+fn outputs(job: &Job, frames: &[(String, u32)]) -> Vec<PathBuf> {
+    let (layout, name) = (job.dataset.layout(), &job.scene.name);
+    let tables = ["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5"].map(|file| layout.mesh_file(name, file));
+    let mut files = tables.to_vec();
+    for (camera, frame) in frames {
+        files.push(layout.label_record(name, camera, *frame));
+        let joined = LAYERS.iter().filter(|spec| spec.pass == Pass::Label);
+        files.extend(joined.map(|spec| layout.layer(name, camera, *frame, spec.layer)));
+    }
+    files
+}

@@ -1,0 +1,253 @@
+//! The stages, in one table, and the rule by which one is skipped.
+//!
+//! A stage is a pure function of some other crate plus the thin file here that reads its inputs from the work folder and the
+//! dataset and writes its outputs there. It is up to date when its record says that it ran with the same configuration, the
+//! same content of the same inputs and the same version of the code, and all its outputs are there.
+
+mod carve;
+mod import;
+mod job;
+mod label;
+mod plan;
+mod preview;
+mod render;
+mod verify;
+
+use crate::error::Error;
+use crate::report::{Event, StageCx, StageOutcome, Stopwatch};
+use crate::workdir::{Hash, read_json, write_json};
+use enfilade_scene::Warning;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+pub(crate) use import::{describe, load_file};
+pub(crate) use job::Job;
+
+/// A stage by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[allow(missing_docs)] // STAGES describes each one
+pub enum Stage {
+    Import,
+    Carve,
+    Plan,
+    Render,
+    Label,
+    Preview,
+    Verify,
+}
+
+/// What a stage is.
+pub struct StageSpec {
+    /// Which one.
+    pub stage: Stage,
+    /// The verb of the command line.
+    pub name: &'static str,
+    /// What it reads and writes.
+    pub about: &'static str,
+    /// Changes whenever the stage's outputs change for the same inputs, so that old outputs are made again.
+    version: u32,
+    /// Everything of the configuration that the outputs depend on.
+    settings: fn(&Job) -> Hash,
+    /// Everything else that they depend on; `None` when that is only known after the stage has run.
+    inputs: fn(&Job, Option<&Record>) -> Result<Option<Vec<Input>>, Error>,
+    /// Does the work.
+    run: fn(&Job, &StageCx) -> Result<Outcome, Error>,
+}
+
+/// All stages in the order in which they run.
+pub const STAGES: [StageSpec; 7] = [
+    StageSpec {
+        stage: Stage::Import,
+        name: "import",
+        about: "scene file -> scene package",
+        version: 1,
+        settings: import::settings,
+        inputs: import::inputs,
+        run: import::run,
+    },
+    StageSpec {
+        stage: Stage::Carve,
+        name: "carve",
+        about: "scene -> free space (octomap.bt)",
+        version: 1,
+        settings: carve::settings,
+        inputs: carve::inputs,
+        run: carve::run,
+    },
+    StageSpec {
+        stage: Stage::Plan,
+        name: "plan",
+        about: "scene, free space -> camera trajectories",
+        version: 1,
+        settings: plan::settings,
+        inputs: plan::inputs,
+        run: plan::run,
+    },
+    StageSpec {
+        stage: Stage::Render,
+        name: "render",
+        about: "scene, trajectories -> frames",
+        version: 1,
+        settings: render::settings,
+        inputs: render::inputs,
+        run: render::run,
+    },
+    StageSpec {
+        stage: Stage::Label,
+        name: "label",
+        about: "frames, label table -> semantic layers",
+        version: 1,
+        settings: label::settings,
+        inputs: label::inputs,
+        run: label::run,
+    },
+    StageSpec {
+        stage: Stage::Preview,
+        name: "preview",
+        about: "frames -> pictures and contact sheets",
+        version: 1,
+        settings: preview::settings,
+        inputs: preview::inputs,
+        run: preview::run,
+    },
+    StageSpec {
+        stage: Stage::Verify,
+        name: "verify",
+        about: "dataset -> report card",
+        version: 1,
+        settings: verify::settings,
+        inputs: verify::inputs,
+        run: verify::run,
+    },
+];
+
+impl Stage {
+    /// The stage's row of the table.
+    pub fn spec(self) -> &'static StageSpec {
+        &STAGES[self as usize]
+    }
+
+    /// The verb of the command line.
+    pub fn name(self) -> &'static str {
+        self.spec().name
+    }
+}
+
+/// A file that a stage read, by content.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Input {
+    pub path: PathBuf,
+    pub content: Hash,
+}
+
+impl Input {
+    pub fn of(path: &Path) -> Result<Self, Error> {
+        Ok(Self { path: path.into(), content: Hash::of_file(path)? })
+    }
+}
+
+/// What a stage's function leaves behind.
+#[derive(Default)]
+pub(crate) struct Outcome {
+    /// One line: what it made.
+    pub summary: String,
+    /// Files written.
+    pub outputs: Vec<PathBuf>,
+    /// Files read, for a stage that only knows them afterwards.
+    pub inputs: Option<Vec<Input>>,
+    /// The report of the stage's function, whatever its form.
+    pub report: serde_json::Value,
+}
+
+/// What stands in `STAGE.json`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Record {
+    /// Hash of settings, inputs and code version.
+    key: Hash,
+    pub summary: String,
+    pub warnings: Vec<Warning>,
+    pub report: serde_json::Value,
+    pub wall_s: f64,
+    pub cpu_s: f64,
+    inputs: Vec<Input>,
+    outputs: Vec<Output>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Output {
+    path: PathBuf,
+    bytes: u64,
+}
+
+/// Runs a stage of a scene unless it is up to date. With `force` it runs in any case.
+pub(crate) fn advance(spec: &StageSpec, job: &Job, cx: StageCx, force: bool) -> Result<StageOutcome, Error> {
+    let record_path = job.work_file(&format!("{}.json", spec.name))?;
+    let previous: Option<Record> = read_json(&record_path);
+    let inputs = (spec.inputs)(job, previous.as_ref())?;
+    let settings = (spec.settings)(job);
+    if let (false, Some(record), Some(inputs)) = (force, &previous, &inputs)
+        && record.key == key(spec, &settings, inputs)
+        && record.outputs.iter().all(|o| is_there(&job.out().join(&o.path), o.bytes))
+    {
+        cx.event(Event::UpToDate);
+        let warnings = record.warnings.len();
+        return Ok(StageOutcome { stage: spec.stage, up_to_date: true, summary: record.summary.clone(), warnings, wall_s: 0.0 });
+    }
+    cx.event(Event::Started);
+    let time = Stopwatch::start();
+    // From here on the old outputs are about to change, so the old record must not vouch for them.
+    remove_record(&record_path)?;
+    let outcome = (spec.run)(job, &cx)?;
+    let inputs = outcome.inputs.or(inputs).unwrap_or_default();
+    let outputs = outcome.outputs.iter().map(|path| output(job, path)).collect::<Result<_, _>>()?;
+    let (wall_s, cpu_s) = (time.wall_s(), time.cpu_s());
+    cx.event(Event::Finished { summary: &outcome.summary, wall_s });
+    let record = Record {
+        key: key(spec, &settings, &inputs),
+        summary: outcome.summary,
+        warnings: cx.into_warnings(),
+        report: outcome.report,
+        wall_s,
+        cpu_s,
+        inputs,
+        outputs,
+    };
+    write_json(&record_path, &record)?;
+    let warnings = record.warnings.len();
+    Ok(StageOutcome { stage: spec.stage, up_to_date: false, summary: record.summary, warnings, wall_s })
+}
+
+fn key(spec: &StageSpec, settings: &Hash, inputs: &[Input]) -> Hash {
+    // A dataset may be moved: the contents of its files count, and where they lie does not.
+    let contents: Vec<&Hash> = inputs.iter().map(|i| &i.content).collect();
+    Hash::of(&(env!("CARGO_PKG_VERSION"), spec.name, spec.version, settings, contents))
+}
+
+fn is_there(path: &Path, bytes: u64) -> bool {
+    std::fs::metadata(path).is_ok_and(|m| m.len() == bytes)
+}
+
+fn output(job: &Job, path: &Path) -> Result<Output, Error> {
+    let bytes = std::fs::metadata(path).map_err(Error::io("read", path))?.len();
+    Ok(Output { path: path.strip_prefix(job.out()).unwrap_or(path).into(), bytes })
+}
+
+fn remove_record(path: &Path) -> Result<(), Error> {
+    match std::fs::remove_file(path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io("replace", path)(e)),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_in_the_order_of_the_enum() {
+        for (i, spec) in STAGES.iter().enumerate() {
+            assert_eq!(spec.stage as usize, i);
+        }
+    }
+}

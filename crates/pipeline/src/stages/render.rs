@@ -1,0 +1,133 @@
+//! `render`: trajectories to frames. Resumes frame by frame: a frame is left alone when its record names the hash of everything
+//! that its values depend on.
+
+use super::{Input, Job, Outcome, Record, Stage};
+use crate::error::Error;
+use crate::report::{StageCx, Stopwatch};
+use crate::workdir::Hash;
+use enfilade_dataset::{FrameInfo, FrameTime};
+use enfilade_frame::{LAYERS, Pass};
+use enfilade_render::{RenderConfig, RenderScene};
+use enfilade_scene::{Cx, Intrinsics, Pose, Trajectory, Warning};
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+pub(super) fn settings(job: &Job) -> Hash {
+    Hash::of(&(&job.scene.render, job.scene.seed_for("render")))
+}
+
+pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Result<Option<Vec<Input>>, Error> {
+    let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?];
+    inputs.extend(super::plan::outputs(job)?);
+    Ok(Some(inputs))
+}
+
+pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
+    let package = Input::of(&job.package()?)?.content;
+    let (intrinsics, trajectories) = job.trajectories()?;
+    let total: usize = trajectories.iter().map(|t| t.poses.len()).sum();
+    let mut missing = Vec::new();
+    for trajectory in &trajectories {
+        job.dataset.remove_temporaries(&job.scene.name, &trajectory.name).map_err(Error::stage)?;
+        remove_frames_off_the_trajectory(job, trajectory)?;
+        let config = RenderConfig { seed: job.scene.seed_for(&format!("render/{}", trajectory.name)), ..job.scene.render.clone() };
+        for pose in &trajectory.poses {
+            let info = frame_info(&package, &config, &intrinsics, pose);
+            if !job.dataset.frame_is_complete(&job.scene.name, &trajectory.name, pose.frame, &info.config_hash) {
+                missing.push((trajectory.name.as_str(), config.clone(), info));
+            }
+        }
+    }
+    if !missing.is_empty() {
+        render(job, &missing, total, cx)?;
+    }
+    let [width, height] = job.scene.size;
+    let kept = if missing.len() < total { format!(", {} kept", total - missing.len()) } else { String::new() };
+    let summary = format!("{} frames of {width}x{height} at {} samples{kept}", missing.len(), job.scene.render.samples);
+    Ok(Outcome { summary, outputs: outputs(job)?, ..Outcome::default() })
+}
+
+/// Renders and writes the frames that are `missing` of the `total`.
+fn render(job: &Job, missing: &[(&str, RenderConfig, FrameInfo)], total: usize, cx: &StageCx) -> Result<(), Error> {
+    let scene = job.load_scene()?;
+    let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?;
+    for (i, (camera, config, info)) in missing.iter().enumerate() {
+        let time = Stopwatch::start();
+        let frame_cx = FrameCx { outer: cx, done: total - missing.len() + i, total };
+        let frame = enfilade_render::render_frame(&scene, &info.intrinsics, &info.pose, config, &frame_cx).map_err(Error::stage)?;
+        let time = FrameTime { wall_s: time.wall_s(), cpu_s: time.cpu_s() };
+        job.dataset.write_frame(&job.scene.name, camera, &frame, info, time).map_err(Error::stage)?;
+    }
+    Ok(())
+}
+
+/// Units of progress per frame.
+const PER_FRAME: u64 = 1000;
+
+fn frame_info(package: &Hash, config: &RenderConfig, intrinsics: &Intrinsics, pose: &Pose) -> FrameInfo {
+    let version = (env!("CARGO_PKG_VERSION"), Stage::Render.spec().version);
+    FrameInfo {
+        seed: config.seed,
+        samples: config.samples,
+        config_hash: Hash::of(&(version, package, config, intrinsics, pose)).0,
+        pose: *pose,
+        intrinsics: *intrinsics,
+    }
+}
+
+/// Every file that rendering writes.
+fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
+    let (layout, name) = (job.dataset.layout(), &job.scene.name);
+    let mut files = Vec::new();
+    for (camera, frame) in job.frames()? {
+        files.push(layout.frame_record(name, &camera, frame));
+        let rendered = LAYERS.iter().filter(|spec| spec.pass != Pass::Label);
+        files.extend(rendered.map(|spec| layout.layer(name, &camera, frame, spec.layer)));
+    }
+    Ok(files)
+}
+
+/// Frames of an earlier, longer trajectory would be taken for frames of this one.
+fn remove_frames_off_the_trajectory(job: &Job, trajectory: &Trajectory) -> Result<(), Error> {
+    let layout = job.dataset.layout();
+    let (name, camera) = (&job.scene.name, &trajectory.name);
+    let keep: BTreeSet<String> = trajectory.poses.iter().map(|p| format!("{:04}", p.frame)).collect();
+    let folders = [
+        layout.records_dir(name, camera),
+        layout.layer_dir(name, camera, Pass::Final),
+        layout.layer_dir(name, camera, Pass::Geometry),
+        layout.preview_dir(name, camera, Pass::Final),
+        layout.preview_dir(name, camera, Pass::Geometry),
+    ];
+    // The records go first: a frame without one does not count.
+    for folder in folders {
+        let Ok(entries) = std::fs::read_dir(&folder) else { continue };
+        for entry in entries {
+            let path = entry.map_err(Error::io("read", &folder))?.path();
+            let number = path.file_name().and_then(|n| n.to_str()).and_then(|n| n.strip_prefix("frame.")).and_then(|n| n.split('.').next());
+            if number.is_some_and(|n| !keep.contains(n)) {
+                std::fs::remove_file(&path).map_err(Error::io("remove", &path))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Places the progress within a frame in that of all frames.
+struct FrameCx<'a> {
+    outer: &'a StageCx<'a>,
+    done: usize,
+    total: usize,
+}
+
+impl Cx for FrameCx<'_> {
+    fn progress(&self, _what: &str, done: u64, total: u64) {
+        let within = PER_FRAME * done.min(total) / total.max(1);
+        let what = format!("frame {} of {}", (self.done + 1).min(self.total), self.total);
+        self.outer.progress(&what, self.done as u64 * PER_FRAME + within, self.total as u64 * PER_FRAME);
+    }
+
+    fn warn(&self, warning: Warning) {
+        self.outer.warn(warning);
+    }
+}

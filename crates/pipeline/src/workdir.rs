@@ -1,0 +1,183 @@
+//! The folder `.enfilade` inside a dataset: what a run needs to resume, and nothing that a reader of the dataset needs.
+//!
+//! ```text
+//! OUT/.enfilade/lock                 held by the process at work
+//! OUT/.enfilade/run.json             the resolved configuration, and the folder its relative paths start from
+//! OUT/.enfilade/SCENE/scene.scene    the scene package
+//! OUT/.enfilade/SCENE/STAGE.json     what the stage read and wrote, its warnings and times: written last, after all outputs
+//! ```
+
+use crate::error::Error;
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use std::fs::{self, File, TryLockError};
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+
+/// Name of the folder within the dataset.
+pub const WORKDIR: &str = ".enfilade";
+
+/// A dataset's work folder, locked for this process while the value lives.
+#[derive(Debug)]
+pub struct Workdir {
+    out: PathBuf,
+    _lock: File,
+}
+
+impl Workdir {
+    /// Opens or creates the work folder of `out`, and locks it.
+    ///
+    /// # Errors
+    /// When `out` is something other than a dataset, cannot be written, or another process works on it.
+    pub fn create(out: &Path) -> Result<Self, Error> {
+        if !out.join(WORKDIR).is_dir() {
+            refuse_foreign_folder(out)?;
+            fs::create_dir_all(out.join(WORKDIR)).map_err(Error::io("create", &out.join(WORKDIR)))?;
+        }
+        Ok(Self { out: out.into(), _lock: lock(out)? })
+    }
+
+    /// Opens the work folder of an existing dataset, and locks it.
+    ///
+    /// # Errors
+    /// When `out` holds no dataset that `enfilade run` began, or another process works on it.
+    pub fn open(out: &Path) -> Result<Self, Error> {
+        if !out.join(WORKDIR).is_dir() {
+            let found = if out.exists() { "has no work folder `.enfilade`" } else { "does not exist" };
+            return Err(Error::usage(
+                format!("{} {found}, so it is not a dataset that can be worked on", out.display()),
+                "name the folder given to `enfilade run` as output, or make one: enfilade run --demo out",
+            ));
+        }
+        Self::create(out)
+    }
+
+    /// The dataset's folder.
+    pub fn out(&self) -> &Path {
+        &self.out
+    }
+
+    /// A file of a scene's work folder; the folder exists afterwards.
+    pub(crate) fn scene_file(&self, scene: &str, file: &str) -> Result<PathBuf, Error> {
+        let folder = self.out.join(WORKDIR).join(scene);
+        fs::create_dir_all(&folder).map_err(Error::io("create", &folder))?;
+        Ok(folder.join(file))
+    }
+
+    /// A file of the work folder itself.
+    pub(crate) fn file(&self, file: &str) -> PathBuf {
+        self.out.join(WORKDIR).join(file)
+    }
+}
+
+/// A folder that holds something else must not be filled with a dataset.
+fn refuse_foreign_folder(out: &Path) -> Result<(), Error> {
+    if out.is_file() {
+        return Err(Error::usage(format!("the output {} is a file", out.display()), "name a folder that does not exist yet"));
+    }
+    let Ok(mut entries) = fs::read_dir(out) else { return Ok(()) };
+    let Some(entry) = entries.next() else { return Ok(()) };
+    let found = entry.map(|e| e.file_name().to_string_lossy().into_owned()).unwrap_or_default();
+    Err(Error::usage(
+        format!("the output folder {} holds something else (among it {found:?}), and no dataset that was begun here", out.display()),
+        "name an empty folder or one that does not exist yet",
+    ))
+}
+
+/// Takes the lock, which the system gives back when this process ends in whatever way.
+fn lock(out: &Path) -> Result<File, Error> {
+    let path = out.join(WORKDIR).join("lock");
+    let mut options = File::options();
+    let mut file = options.create(true).truncate(false).read(true).write(true).open(&path).map_err(Error::io("write", &path))?;
+    match file.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => {
+            let mut holder = String::new();
+            let _ = file.read_to_string(&mut holder); // only for the message
+            return Err(Error::usage(
+                format!("another process ({}) is working on {}", holder.trim(), out.display()),
+                "wait until it has finished, or choose another output folder",
+            ));
+        }
+        // Some network file systems know no locks; two runs at once would waste work there, but files still appear whole.
+        Err(TryLockError::Error(e)) if e.kind() == std::io::ErrorKind::Unsupported => {}
+        Err(TryLockError::Error(e)) => return Err(Error::io("lock", &path)(e)),
+    }
+    file.set_len(0)
+        .and_then(|()| file.write_all(format!("process {}\n", std::process::id()).as_bytes()))
+        .map_err(Error::io("write", &path))?;
+    Ok(file)
+}
+
+/// Writes a file whole or not at all: aside first, then renamed into place.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let aside = path.with_added_extension("part");
+    let result = fs::write(&aside, bytes).and_then(|()| fs::rename(&aside, path));
+    result.map_err(|e| {
+        let _ = fs::remove_file(&aside); // best effort: the first error is the one to tell
+        Error::io("write", path)(e)
+    })
+}
+
+pub(crate) fn write_json<T: Serialize>(path: &Path, value: &T) -> Result<(), Error> {
+    let mut text = serde_json::to_string_pretty(value).map_err(|e| Error::io("write", path)(e.into()))?;
+    text.push('\n');
+    write_whole(path, text.as_bytes())
+}
+
+/// Reads a file that this program wrote; `None` when it is not there or not of this version.
+pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Option<T> {
+    serde_json::from_slice(&fs::read(path).ok()?).ok()
+}
+
+/// A BLAKE3 hash as hexadecimal text.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Hash(pub String);
+
+impl Hash {
+    pub fn of_bytes(bytes: &[u8]) -> Self {
+        Self(blake3::hash(bytes).to_hex().to_string())
+    }
+
+    /// Of the plain data `value`, by its JSON text.
+    pub fn of<T: Serialize + ?Sized>(value: &T) -> Self {
+        // Plain data of ours always has a JSON text; were it not so, an empty text would only cause work to be redone.
+        Self::of_bytes(&serde_json::to_vec(value).unwrap_or_default())
+    }
+
+    /// Of a file's content.
+    pub fn of_file(path: &Path) -> Result<Self, Error> {
+        let mut hasher = blake3::Hasher::new();
+        let mut file = File::open(path).map_err(Error::io("read", path))?;
+        hasher.update_reader(&mut file).map_err(Error::io("read", path))?;
+        Ok(Self(hasher.finalize().to_hex().to_string()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_second_process_is_told_who_is_at_work() {
+        let dir = tempfile::tempdir().unwrap();
+        let out = dir.path().join("out");
+        let first = Workdir::create(&out).unwrap();
+        let error = Workdir::create(&out).unwrap_err();
+        assert!(error.to_string().contains(&format!("another process (process {})", std::process::id())), "{error}");
+        drop(first);
+        Workdir::open(&out).unwrap();
+    }
+
+    #[test]
+    fn folders_with_something_else_are_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        fs::write(dir.path().join("thesis.tex"), "x").unwrap();
+        let error = Workdir::create(dir.path()).unwrap_err();
+        assert!(error.to_string().contains("thesis.tex") && error.is_usage(), "{error}");
+        let error = Workdir::create(&dir.path().join("thesis.tex")).unwrap_err();
+        assert!(error.to_string().ends_with("is a file"), "{error}");
+        let error = Workdir::create(&dir.path().join("thesis.tex/out")).unwrap_err();
+        assert!(error.hint().unwrap().contains("a part of the path is a file"), "{error:?}");
+        assert!(Workdir::open(&dir.path().join("none")).unwrap_err().to_string().contains("does not exist"));
+    }
+}

@@ -1,0 +1,291 @@
+//! The label table: a CSV file whose rows say what parts or materials are.
+//!
+//! Columns are found by their header, in any order; others are ignored.
+//!
+//! | column | meaning |
+//! |---|---|
+//! | `scene` | optional; the row is for this scene only, or for all when empty or `*` |
+//! | `part` | name of a part |
+//! | `object` | name of an object: all parts `object/…`, or the part of that name |
+//! | `name` | name of a part, an object or a material, whichever there is |
+//! | `material` | name of a material: all parts that wear it |
+//! | `nyu40_id` or `semantic` | class by NYU40 number or name; −1 or empty for unlabelled |
+//! | `nyu40_name` | optional; checked against the class |
+//! | `instance` | optional; instance number from 1, −1 for none, empty for automatic |
+//!
+//! At least one of the four name columns is needed; where a row fills several, the first in the order above counts.
+
+use enfilade_scene::{Labels, NYU40, Scene};
+use std::collections::HashMap;
+
+/// A parsed label table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabelTable {
+    pub(super) rows: Vec<Row>,
+}
+
+/// One row of a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// Line of the file, from 1.
+    pub line: u64,
+    /// The only scene it is for; `None` for all.
+    pub scene: Option<String>,
+    /// What the name names.
+    pub subject: Subject,
+    /// The name.
+    pub name: String,
+    /// NYU40 class, 1 to 40, or −1.
+    pub semantic: i16,
+    /// Instance number from 1 or −1, if the row states one.
+    pub instance: Option<i16>,
+}
+
+/// What the name in a row names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Subject {
+    /// One part.
+    Part,
+    /// All parts of an object.
+    Object,
+    /// A part, else an object, else a material.
+    Name,
+    /// All parts that wear a material.
+    Material,
+}
+
+/// Why a table cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TableError {
+    /// A needed column is not there.
+    #[error("{file}:1: no column {expected}; the header has: {found}")]
+    MissingColumn {
+        /// The file.
+        file: String,
+        /// The names any of which would do.
+        expected: &'static str,
+        /// The header.
+        found: String,
+    },
+    /// A row is wrong.
+    #[error("{file}:{line}: {problem}")]
+    Row {
+        /// The file.
+        file: String,
+        /// Line from 1.
+        line: u64,
+        /// What was found, what was expected.
+        problem: String,
+    },
+}
+
+const SUBJECTS: [(Subject, &str); 4] =
+    [(Subject::Part, "part"), (Subject::Object, "object"), (Subject::Name, "name"), (Subject::Material, "material")];
+
+impl LabelTable {
+    /// Reads a table. `source_name` is what errors call it.
+    ///
+    /// # Errors
+    /// The first missing column or wrong row: not CSV, unknown class, number out of range, class and name that disagree, or two
+    /// rows about the same thing that say different things.
+    pub fn parse(bytes: &[u8], source_name: &str) -> Result<Self, TableError> {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(bytes);
+        let header = reader.headers().map_err(|e| row_error(source_name, 1, csv_problem(&e)))?.clone();
+        let columns = Columns::find(&header, source_name)?;
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(|e| row_error(source_name, e.position().map_or(1, csv::Position::line), csv_problem(&e)))?;
+            let line = record.position().map_or(1, |p| p.line() + blank_lines(bytes, p.byte()));
+            rows.push(columns.row(&record, line).map_err(|problem| row_error(source_name, line, problem))?);
+        }
+        refuse_contradictions(&rows, source_name)?;
+        Ok(Self { rows })
+    }
+
+    /// The rows, in the order of the file.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+}
+
+/// The table that gives the parts of `scene` these labels: columns part, `nyu40_id`, `nyu40_name`, instance.
+///
+/// # Panics
+/// When there is not one label per part.
+pub fn write_table(scene: &Scene, labels: &Labels) -> String {
+    assert_eq!(scene.parts.len(), labels.parts.len(), "one label per part");
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut write = |fields: [&str; 4]| writer.write_record(fields).expect("writing to memory cannot fail");
+    write(["part", "nyu40_id", "nyu40_name", "instance"]);
+    for (part, label) in scene.parts.iter().zip(&labels.parts) {
+        write([&part.name, &label.semantic.to_string(), class_name(label.semantic), &label.instance.to_string()]);
+    }
+    String::from_utf8(writer.into_inner().expect("flushing memory cannot fail")).expect("names are UTF-8")
+}
+
+/// NYU40's name of a class; "unlabelled" for −1 and every number that is no class.
+pub fn class_name(semantic: i16) -> &'static str {
+    usize::try_from(semantic).ok().and_then(|id| NYU40.get(id.checked_sub(1)?)).map_or("unlabelled", |class| class.name)
+}
+
+/// Where each known column is.
+struct Columns {
+    scene: Option<usize>,
+    subjects: Vec<(Subject, usize)>,
+    class: usize,
+    class_name: Option<usize>,
+    instance: Option<usize>,
+}
+
+impl Columns {
+    fn find(header: &csv::StringRecord, file: &str) -> Result<Self, TableError> {
+        let find = |name: &str| header.iter().position(|h| h.eq_ignore_ascii_case(name));
+        let missing = |expected| TableError::MissingColumn {
+            file: file.into(),
+            expected,
+            found: if header.is_empty() { "nothing".into() } else { header.iter().collect::<Vec<_>>().join(", ") },
+        };
+        let subjects: Vec<_> = SUBJECTS.iter().filter_map(|&(subject, name)| Some((subject, find(name)?))).collect();
+        if subjects.is_empty() {
+            return Err(missing("part, object, name or material"));
+        }
+        let class = find("nyu40_id").or_else(|| find("semantic")).ok_or_else(|| missing("nyu40_id or semantic"))?;
+        Ok(Self { scene: find("scene"), subjects, class, class_name: find("nyu40_name"), instance: find("instance") })
+    }
+
+    fn row(&self, record: &csv::StringRecord, line: u64) -> Result<Row, String> {
+        let cell = |column: Option<usize>| column.and_then(|c| record.get(c)).unwrap_or("");
+        let scene = Some(cell(self.scene)).filter(|s| !s.is_empty() && *s != "*").map(str::to_string);
+        let (subject, name) = self
+            .subjects
+            .iter()
+            .map(|&(subject, column)| (subject, cell(Some(column))))
+            .find(|(_, name)| !name.is_empty())
+            .ok_or("the row names nothing; fill one of its name columns or remove it")?;
+        let semantic = parse_class(cell(Some(self.class)))?;
+        let stated = cell(self.class_name);
+        if !stated.is_empty() && parse_class(stated)? != semantic {
+            return Err(format!("class {semantic} is {}, but nyu40_name says {stated:?}; correct one of them", class_name(semantic)));
+        }
+        Ok(Row { line, scene, subject, name: name.to_string(), semantic, instance: parse_instance(cell(self.instance))? })
+    }
+}
+
+/// A class by number or name.
+fn parse_class(text: &str) -> Result<i16, String> {
+    if text.is_empty() || ["-1", "unlabelled", "unlabeled", "none"].iter().any(|n| text.eq_ignore_ascii_case(n)) {
+        return Ok(-1);
+    }
+    if let Ok(number) = text.parse::<i64>() {
+        return if (1..=40).contains(&number) {
+            Ok(number as i16)
+        } else {
+            Err(format!("class {number} is out of range; expected 1 to 40, or -1 for unlabelled"))
+        };
+    }
+    NYU40.iter().find(|class| class.name.eq_ignore_ascii_case(text)).map(|class| class.id).ok_or_else(|| {
+        format!("unknown class {text:?}; expected a number from 1 to 40 or one of: {}", NYU40.map(|class| class.name).join(", "))
+    })
+}
+
+fn parse_instance(text: &str) -> Result<Option<i16>, String> {
+    match text.parse::<i16>() {
+        _ if text.is_empty() => Ok(None),
+        Ok(number) if number == -1 || number >= 1 => Ok(Some(number)),
+        _ => Err(format!("instance {text:?} is no instance number; expected 1 to 32767, -1 for none, or nothing")),
+    }
+}
+
+/// Refuses two rows about the same thing that say different things.
+fn refuse_contradictions(rows: &[Row], file: &str) -> Result<(), TableError> {
+    let mut first: HashMap<_, &Row> = HashMap::new();
+    for row in rows {
+        let earlier = *first.entry((&row.scene, row.subject, &row.name)).or_insert(row);
+        if (earlier.semantic, earlier.instance) != (row.semantic, row.instance) {
+            let says = |row: &Row| match row.instance {
+                Some(instance) => format!("{} ({}), instance {instance}", row.semantic, class_name(row.semantic)),
+                None => format!("{} ({})", row.semantic, class_name(row.semantic)),
+            };
+            let problem =
+                format!("{:?} is {} here but {} in line {}; remove one of the rows", row.name, says(row), says(earlier), earlier.line);
+            return Err(row_error(file, row.line, problem));
+        }
+    }
+    Ok(())
+}
+
+/// Number of line ends before the first text at or after `start`: the reader skips them without telling.
+fn blank_lines(bytes: &[u8], start: u64) -> u64 {
+    let rest = bytes.get(start as usize..).unwrap_or(&[]);
+    rest.iter().take_while(|b| matches!(b, b'\r' | b'\n')).filter(|&&b| b == b'\n').count() as u64
+}
+
+fn row_error(file: &str, line: u64, problem: String) -> TableError {
+    TableError::Row { file: file.into(), line, problem }
+}
+
+fn csv_problem(error: &csv::Error) -> String {
+    match error.kind() {
+        csv::ErrorKind::Utf8 { .. } => "the text is not UTF-8; save the table as UTF-8".into(),
+        _ => format!("not readable as CSV ({error}); save the table as comma-separated text"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(text: &str) -> String {
+        LabelTable::parse(text.as_bytes(), "labels.csv").unwrap_err().to_string()
+    }
+
+    #[test]
+    fn columns_are_found_by_name_and_others_ignored() {
+        let text = "objects,nyu40_name,Material,scene,nyu40_id\n3,sofa,Leather,room,6\n1,,Glass,,-1\n";
+        let table = LabelTable::parse(text.as_bytes(), "t").unwrap();
+        let row = |line, scene: Option<&str>, name: &str, semantic| Row {
+            line,
+            scene: scene.map(Into::into),
+            subject: Subject::Material,
+            name: name.into(),
+            semantic,
+            instance: None,
+        };
+        assert_eq!(table.rows(), [row(2, Some("room"), "Leather", 6), row(3, None, "Glass", -1)]);
+    }
+
+    #[test]
+    fn classes_may_be_names_and_instances_stated() {
+        let table = LabelTable::parse(b"\xef\xbb\xbfname,semantic,instance\n\r\n\"a, b\",Otherprop,7\nc,4,-1\nd,,\n", "t").unwrap();
+        let found: Vec<_> = table.rows().iter().map(|r| (r.line, r.name.as_str(), r.semantic, r.instance)).collect();
+        assert_eq!(found, [(3, "a, b", 40, Some(7)), (4, "c", 4, Some(-1)), (5, "d", -1, None)]);
+    }
+
+    #[test]
+    fn bad_tables_are_told_with_file_and_line() {
+        assert_eq!(message("part,class\n"), "labels.csv:1: no column nyu40_id or semantic; the header has: part, class");
+        assert_eq!(message("id,semantic\n"), "labels.csv:1: no column part, object, name or material; the header has: id, semantic");
+        assert!(message("").starts_with("labels.csv:1: no column part"), "{}", message(""));
+        assert!(message("part,semantic\na,5\nb,Divan\n").starts_with("labels.csv:3: unknown class \"Divan\"; expected a number"));
+        for bad in ["0", "41", "-2", "99999999999"] {
+            assert!(message(&format!("part,nyu40_id\na,{bad}\n")).contains(&format!(":2: class {bad} is out of range")));
+        }
+        assert!(message("part,nyu40_id,instance\na,5,0\n").starts_with("labels.csv:2: instance \"0\" is no instance number"));
+        assert!(message("part,nyu40_id\n,5\n").contains(":2: the row names nothing"));
+        assert!(message("part,nyu40_id,nyu40_name\na,5,sofa\n").contains("class 5 is chair, but nyu40_name says \"sofa\""));
+        assert!(
+            LabelTable::parse(b"part,nyu40_id\n\xff\xfe,5\n", "labels.csv").unwrap_err().to_string().contains("labels.csv:2: the text is not UTF-8")
+        );
+    }
+
+    #[test]
+    fn rows_that_disagree_are_refused_and_rows_that_agree_are_not() {
+        assert_eq!(
+            message("material,nyu40_id\nOak,7\nOak,14\n"),
+            "labels.csv:3: \"Oak\" is 14 (desk) here but 7 (table) in line 2; remove one of the rows"
+        );
+        assert!(LabelTable::parse(b"material,nyu40_id\nOak,7\nOak,7\n", "t").is_ok());
+        assert!(LabelTable::parse(b"scene,material,nyu40_id\na,Oak,7\nb,Oak,14\n", "t").is_ok());
+    }
+}

@@ -1,0 +1,185 @@
+//! A picture of every layer, under Hypersim's names.
+//!
+//! Radiance-like pictures share the tone map's scale of the frame, so that they can be compared with each other;
+//! `color.jpg` and `gamma.jpg` are Hypersim's unscaled ones. `non_lambertian` is color − reflectance × illumination: under
+//! that name the toolkit saves the full reconstruction, which is `tonemap` once more. Pixels without a value are transparent
+//! in PNG. Wherever values are stretched over a range, the range is the preview's note, and stands in the PNG's text.
+
+use crate::palette::{id_color, semantic_color, validity_color, viridis};
+use crate::picture::{Picture, byte, from_pixels, jpeg, png};
+use crate::statistics::quantile;
+use crate::tonemap::{ToneMap, encode};
+use enfilade_frame::{Frame, Layer, Pass, Values};
+
+/// A preview that can be made of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PreviewSpec {
+    /// Folder.
+    pub pass: Pass,
+    /// Name with extension, as in `frame.IIII.<name>`.
+    pub name: &'static str,
+    /// What it shows.
+    pub subject: Subject,
+}
+
+/// What a preview shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// Colour through the tone map.
+    ToneMapped,
+    /// Colour clipped to [0,1], linear.
+    Clipped,
+    /// Colour clipped to [0,1], gamma 1/2.2.
+    Gamma,
+    /// Reflectance × illumination through the tone map.
+    Lambertian,
+    /// Colour − reflectance × illumination through the tone map.
+    NonLambertian,
+    /// |colour − (reflectance × illumination + residual)| through the tone map: black when the identity holds.
+    Difference,
+    /// The layer in the way that suits it.
+    Layer(Layer),
+}
+
+/// A preview.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Preview {
+    /// The picture.
+    pub picture: Picture,
+    /// The range of what it shows, where values were stretched; otherwise empty.
+    pub note: String,
+}
+
+const fn spec(pass: Pass, name: &'static str, subject: Subject) -> PreviewSpec {
+    PreviewSpec { pass, name, subject }
+}
+
+/// Every preview.
+pub const PREVIEWS: [PreviewSpec; 23] = [
+    spec(Pass::Final, "tonemap.jpg", Subject::ToneMapped),
+    spec(Pass::Final, "color.jpg", Subject::Clipped),
+    spec(Pass::Final, "gamma.jpg", Subject::Gamma),
+    spec(Pass::Final, "diffuse_reflectance.jpg", Subject::Layer(Layer::DiffuseReflectance)),
+    spec(Pass::Final, "diffuse_illumination.jpg", Subject::Layer(Layer::DiffuseIllumination)),
+    spec(Pass::Final, "residual.jpg", Subject::Layer(Layer::Residual)),
+    spec(Pass::Final, "lambertian.jpg", Subject::Lambertian),
+    spec(Pass::Final, "non_lambertian.jpg", Subject::NonLambertian),
+    spec(Pass::Final, "diff.jpg", Subject::Difference),
+    spec(Pass::Geometry, "color.jpg", Subject::Clipped),
+    spec(Pass::Geometry, "gamma.jpg", Subject::Gamma),
+    spec(Pass::Geometry, "depth_meters.png", Subject::Layer(Layer::DepthMeters)),
+    spec(Pass::Geometry, "depth_z_meters.png", Subject::Layer(Layer::DepthZMeters)),
+    spec(Pass::Geometry, "position.png", Subject::Layer(Layer::Position)),
+    spec(Pass::Geometry, "normal_world.png", Subject::Layer(Layer::NormalWorld)),
+    spec(Pass::Geometry, "normal_cam.png", Subject::Layer(Layer::NormalCam)),
+    spec(Pass::Geometry, "normal_bump_world.png", Subject::Layer(Layer::NormalBumpWorld)),
+    spec(Pass::Geometry, "normal_bump_cam.png", Subject::Layer(Layer::NormalBumpCam)),
+    spec(Pass::Geometry, "tex_coord.png", Subject::Layer(Layer::TexCoord)),
+    spec(Pass::Geometry, "render_entity_id.png", Subject::Layer(Layer::RenderEntityId)),
+    spec(Pass::Geometry, "valid.png", Subject::Layer(Layer::Valid)),
+    spec(Pass::Label, "semantic.png", Subject::Layer(Layer::Semantic)),
+    spec(Pass::Label, "semantic_instance.png", Subject::Layer(Layer::SemanticInstance)),
+];
+
+impl PreviewSpec {
+    /// The bytes of the preview's file; `None` when the frame lacks a layer it needs.
+    pub fn file(&self, frame: &Frame, tone: ToneMap) -> Option<Vec<u8>> {
+        let preview = preview(self.subject, frame, tone)?;
+        let note = Some(preview.note.as_str()).filter(|note| !note.is_empty());
+        Some(if self.name.ends_with(".jpg") { jpeg(&preview.picture) } else { png(&preview.picture, note) })
+    }
+}
+
+/// Shows `subject`; `None` when the frame lacks a layer it needs.
+pub fn preview(subject: Subject, frame: &Frame, tone: ToneMap) -> Option<Preview> {
+    let layer = |layer| frame.get(layer);
+    let color = layer(Layer::Color);
+    let lambertian = || Some((layer(Layer::DiffuseReflectance)?, layer(Layer::DiffuseIllumination)?));
+    let plain = |picture| Some(Preview { picture, note: String::new() });
+    match subject {
+        Subject::ToneMapped => color.and_then(|c| plain(rgb(frame, |i| tone.apply(c.get(i))))),
+        Subject::Clipped => color.and_then(|c| plain(rgb(frame, |i| c.get(i)))),
+        Subject::Gamma => color.and_then(|c| plain(rgb(frame, |i| encode(c.get(i))))),
+        Subject::Lambertian => {
+            let (a, s) = lambertian()?;
+            plain(rgb(frame, |i| tone.apply(a.get(i) * s.get(i))))
+        }
+        Subject::NonLambertian => {
+            let (c, (a, s)) = (color?, lambertian()?);
+            plain(rgb(frame, |i| tone.apply(c.get(i) - a.get(i) * s.get(i))))
+        }
+        Subject::Difference => {
+            let (c, (a, s), r) = (color?, lambertian()?, layer(Layer::Residual)?);
+            let recomposed = |i| enfilade_frame::f16::from_f32(a.get(i) as f32 * s.get(i) as f32 + r.get(i) as f32).to_f64();
+            plain(rgb(frame, |i| tone.apply((c.get(i) - recomposed(i)).abs())))
+        }
+        Subject::Layer(of) => layer(of).map(|values| layer_preview(of, values, frame, tone)),
+    }
+}
+
+fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap) -> Preview {
+    let picture = match layer {
+        Layer::DepthMeters | Layer::DepthZMeters => return depth(values, frame),
+        Layer::Position => return position(values, frame),
+        Layer::Color | Layer::DiffuseIllumination | Layer::Residual => rgb(frame, |i| tone.apply(values.get(i))),
+        Layer::DiffuseReflectance => rgb(frame, |i| encode(values.get(i))),
+        Layer::NormalWorld | Layer::NormalCam | Layer::NormalBumpWorld | Layer::NormalBumpCam => {
+            rgb(frame, |i| 0.5 * (values.get(i) + 1.0))
+        }
+        Layer::TexCoord => rgb(frame, |i| values.get(i) - values.get(i).floor()),
+        Layer::RenderEntityId | Layer::SemanticInstance => ids(frame, values, id_color),
+        Layer::Semantic => ids(frame, values, semantic_color),
+        Layer::Valid => ids(frame, values, |code| validity_color(code as u8)),
+    };
+    Preview { picture, note: String::new() }
+}
+
+/// Three channels, value by value; transparent where one is NaN.
+fn rgb(frame: &Frame, value: impl Fn(usize) -> f64) -> Picture {
+    from_pixels(frame.width, frame.height, |i| {
+        let v = [0, 1, 2].map(|c| value(3 * i + c));
+        if v.iter().all(|v| !v.is_nan()) { [byte(v[0]), byte(v[1]), byte(v[2]), 255] } else { [0; 4] }
+    })
+}
+
+fn ids(frame: &Frame, values: &Values, color: impl Fn(i16) -> [u8; 3]) -> Picture {
+    from_pixels(frame.width, frame.height, |i| {
+        let [r, g, b] = color(values.get(i) as i16);
+        [r, g, b, 255]
+    })
+}
+
+/// Viridis from the 1st percentile (dark) to the 99th (bright).
+fn depth(values: &Values, frame: &Frame) -> Preview {
+    let Some([low, high]) = robust_range((0..values.len()).map(|i| values.get(i))) else {
+        return Preview { picture: from_pixels(frame.width, frame.height, |_| [0; 4]), note: "no depth".into() };
+    };
+    let picture = from_pixels(frame.width, frame.height, |i| {
+        let v = values.get(i);
+        let [r, g, b] = viridis((v - low) / (high - low).max(f64::MIN_POSITIVE));
+        if v.is_finite() { [r, g, b, 255] } else { [0; 4] }
+    });
+    Preview { picture, note: format!("{} to {} m", short(low), short(high)) }
+}
+
+/// Red, green and blue for x, y and z, each from its 1st percentile to its 99th.
+fn position(values: &Values, frame: &Frame) -> Preview {
+    let ranges = [0, 1, 2].map(|c| robust_range((0..frame.pixels()).map(|i| values.get(3 * i + c))).unwrap_or([0.0, 1.0]));
+    let picture = rgb(frame, |i| {
+        let [low, high] = ranges[i % 3];
+        (values.get(i) - low) / (high - low).max(f64::MIN_POSITIVE)
+    });
+    let axis = |(name, [low, high]): (&str, &[f64; 2])| format!("{name} {} to {}", short(*low), short(*high));
+    Preview { picture, note: format!("{} m", ["x", "y", "z"].into_iter().zip(&ranges).map(axis).collect::<Vec<_>>().join(", ")) }
+}
+
+/// 1st and 99th percentile of the finite values.
+fn robust_range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    let mut finite: Vec<f64> = values.filter(|v| v.is_finite()).collect();
+    Some([quantile(&mut finite, 0.01)?, quantile(&mut finite, 0.99)?])
+}
+
+/// A length in metres with as many digits as a glance needs.
+fn short(v: f64) -> String {
+    if v.abs() < 10.0 { format!("{v:.2}") } else { format!("{v:.1}") }
+}

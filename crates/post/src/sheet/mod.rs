@@ -1,0 +1,261 @@
+//! Contact sheets: a trajectory, or a whole dataset, in one picture that can be judged at a glance.
+
+mod canvas;
+mod legend;
+mod lettering;
+
+use crate::picture::Picture;
+use crate::preview::{Subject, preview};
+use crate::tonemap::ToneMap;
+use canvas::{Canvas, Color, Resize};
+use enfilade_frame::{Frame, Layer};
+use legend::ClassShares;
+use lettering::Style;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+const BACKGROUND: Color = [24, 25, 28];
+const EMPTY: Color = [38, 40, 44];
+const TITLE: Style = Style { height: 26.0, weight: 0.13, color: [244, 244, 240] };
+const SUBTITLE: Style = Style { height: 13.0, weight: 0.11, color: [168, 170, 174] };
+const CAPTION: Style = Style { height: 11.0, weight: 0.115, color: [214, 214, 210] };
+const DETAIL: Style = Style { height: 11.0, weight: 0.105, color: [142, 144, 150] };
+
+const MARGIN: u32 = 44;
+const GAP: u32 = 10;
+/// From the lower edge of a picture to that of its caption.
+const CAPTION_SPACE: u32 = 22;
+const ROW_GAP: u32 = 20;
+const HEADER: u32 = 72;
+
+/// How large contact sheets are.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SheetConfig {
+    /// Width in pixels; at least 600.
+    pub width: u32,
+    /// Frames shown at most, spread evenly over the trajectory.
+    pub frames: usize,
+}
+
+impl Default for SheetConfig {
+    fn default() -> Self {
+        Self { width: 1920, frames: 6 }
+    }
+}
+
+/// What stands above a trajectory's sheet.
+#[derive(Clone, Copy, Debug)]
+pub struct SheetTitle<'a> {
+    /// Name of the scene.
+    pub scene: &'a str,
+    /// Name of the camera.
+    pub camera: &'a str,
+    /// Number of frames of the trajectory, shown or not.
+    pub frames: usize,
+}
+
+/// One trajectory of the overview.
+#[derive(Clone, Debug)]
+pub struct OverviewTile {
+    /// Name of the scene.
+    pub scene: String,
+    /// What else to say: camera, frames, size.
+    pub detail: String,
+    /// Tone-mapped colour of one frame.
+    pub picture: Picture,
+}
+
+/// Up to `count` indices out of `total`, spread evenly, the first and the last included.
+pub fn spread(total: usize, count: usize) -> Vec<usize> {
+    match (total, count) {
+        (_, 0) => vec![],
+        (_, 1) => (0..total.min(1)).collect(),
+        _ if total <= count => (0..total).collect(),
+        _ => (0..count).map(|i| (2 * i * (total - 1) + count - 1) / (2 * (count - 1))).collect(),
+    }
+}
+
+/// The sheet of a trajectory: one row per given frame (number and layers), the tone-mapped colour large, eight layers beside it,
+/// and the classes with their share of the pixels below.
+///
+/// Layers that a frame lacks leave an empty field. Pictures keep the aspect of the first frame.
+pub fn trajectory_sheet(title: SheetTitle<'_>, frames: &[(u32, Frame)], config: &SheetConfig) -> Picture {
+    let size = frames.first().map_or((4, 3), |(_, f)| (f.width, f.height));
+    let grid = Grid::new(config.width.max(600), f64::from(size.0) / f64::from(size.1));
+    let shares = ClassShares::of(frames.iter().map(|(_, frame)| frame));
+    let legend_height = shares.height(grid.width - 2 * MARGIN);
+    let rows_height = frames.len() as u32 * grid.row();
+    let mut canvas = Canvas::new(grid.width, MARGIN + HEADER + rows_height + legend_height + MARGIN - ROW_GAP, BACKGROUND);
+    let subtitle = [
+        title.camera.to_string(),
+        count(title.frames, "frame"),
+        if frames.len() < title.frames { format!("{} shown", frames.len()) } else { String::new() },
+        format!("{} x {} px", size.0, size.1),
+    ];
+    draw_header(&mut canvas, title.scene, &subtitle.join("  ·  ").replace("·    ·", "·"));
+    for (row, (number, frame)) in frames.iter().enumerate() {
+        draw_frame(&mut canvas, &grid, MARGIN + HEADER + row as u32 * grid.row(), *number, frame);
+    }
+    shares.draw(&mut canvas, MARGIN, MARGIN + HEADER + rows_height);
+    canvas.into_picture()
+}
+
+/// The sheet of a dataset: one picture per trajectory.
+pub fn overview_sheet(title: &str, tiles: &[OverviewTile], config: &SheetConfig) -> Picture {
+    let width = config.width.max(600);
+    let columns = (tiles.len() as u32).clamp(1, if tiles.len() > 6 { 4 } else { 3 });
+    let tile_width = (width - 2 * MARGIN - (columns - 1) * 2 * GAP) / columns;
+    let aspect = tiles.first().map_or(4.0 / 3.0, |t| f64::from(t.picture.width()) / f64::from(t.picture.height()));
+    let tile_height = (f64::from(tile_width) / aspect).round() as u32;
+    let row = tile_height + 2 * CAPTION_SPACE + ROW_GAP;
+    let rows = (tiles.len() as u32).div_ceil(columns);
+    let mut canvas = Canvas::new(width, MARGIN + HEADER + rows * row + MARGIN - ROW_GAP, BACKGROUND);
+    let scenes: BTreeSet<&str> = tiles.iter().map(|t| t.scene.as_str()).collect();
+    let subtitle = format!("{}  ·  {}", count(scenes.len(), "scene"), count(tiles.len(), "camera"));
+    draw_header(&mut canvas, title, &subtitle);
+    for (i, tile) in tiles.iter().enumerate() {
+        let (column, line) = (i as u32 % columns, i as u32 / columns);
+        let (x, y) = (MARGIN + column * (tile_width + 2 * GAP), MARGIN + HEADER + line * row);
+        place_inside(&mut canvas, [x, y, tile_width, tile_height], &tile.picture, Resize::Smooth);
+        let name = lettering::fit(&tile.scene, CAPTION, tile_width as f32);
+        lettering::draw(&mut canvas, x as f32, (y + tile_height + CAPTION_SPACE) as f32, &name, CAPTION);
+        let detail = lettering::fit(&tile.detail, DETAIL, tile_width as f32);
+        lettering::draw(&mut canvas, x as f32, (y + tile_height + 2 * CAPTION_SPACE - 2) as f32, &detail, DETAIL);
+    }
+    canvas.into_picture()
+}
+
+/// Sizes of a row: a large picture, then four columns of two small ones, captions below each.
+struct Grid {
+    width: u32,
+    small: (u32, u32),
+    large: (u32, u32),
+}
+
+impl Grid {
+    /// The large picture is as high as two small ones with the caption between, and all of them fill the width.
+    fn new(width: u32, aspect: f64) -> Self {
+        let free = f64::from(width - 2 * MARGIN - 4 * GAP) - aspect * f64::from(CAPTION_SPACE + GAP);
+        let small_width = (free / 6.0).max(40.0).floor();
+        let small = (small_width as u32, (small_width / aspect).round().max(1.0) as u32);
+        let large_height = 2 * small.1 + CAPTION_SPACE + GAP;
+        let large_width = width - 2 * MARGIN - 4 * (small.0 + GAP);
+        Self { width, small, large: (large_width, large_height) }
+    }
+
+    fn row(&self) -> u32 {
+        self.large.1 + CAPTION_SPACE + ROW_GAP
+    }
+
+    /// Left upper corner of small picture `i` of a row at `y`.
+    fn place_of(&self, i: u32, y: u32) -> (u32, u32) {
+        let x = MARGIN + self.large.0 + GAP + (i % 4) * (self.small.0 + GAP);
+        (x, y + (i / 4) * (self.small.1 + CAPTION_SPACE + GAP))
+    }
+}
+
+/// The small pictures of a row, in reading order.
+const TILES: [(&str, Layer, Resize); 8] = [
+    ("reflectance", Layer::DiffuseReflectance, Resize::Smooth),
+    ("illumination", Layer::DiffuseIllumination, Resize::Smooth),
+    ("residual", Layer::Residual, Resize::Smooth),
+    ("distance", Layer::DepthMeters, Resize::Smooth),
+    ("normals", Layer::NormalBumpWorld, Resize::Smooth),
+    ("classes", Layer::Semantic, Resize::Exact),
+    ("instances", Layer::SemanticInstance, Resize::Exact),
+    ("parts", Layer::RenderEntityId, Resize::Exact),
+];
+
+fn draw_header(canvas: &mut Canvas, title: &str, subtitle: &str) {
+    let (x, y) = (MARGIN as f32, MARGIN as f32);
+    lettering::draw(canvas, x, y + TITLE.height - 6.0, title, TITLE);
+    lettering::draw(canvas, x, y + 48.0, subtitle, SUBTITLE);
+}
+
+fn draw_frame(canvas: &mut Canvas, grid: &Grid, y: u32, number: u32, frame: &Frame) {
+    let tone = ToneMap::of_frame(frame).unwrap_or(ToneMap { scale: 1.0 });
+    let large = [MARGIN, y, grid.large.0, grid.large.1];
+    match preview(Subject::ToneMapped, frame, tone) {
+        Some(color) => place_inside(canvas, large, &color.picture, Resize::Smooth),
+        None => canvas.fill(large[0], large[1], large[2], large[3], EMPTY),
+    }
+    draw_caption(canvas, large, &format!("frame {number:04}"), &format!("exposure x {:.3}", tone.scale));
+    for (i, (name, layer, resize)) in TILES.into_iter().enumerate() {
+        let (x, y) = grid.place_of(i as u32, y);
+        let place = [x, y, grid.small.0, grid.small.1];
+        let detail = match preview(Subject::Layer(layer), frame, tone) {
+            None => {
+                canvas.fill(x, y, grid.small.0, grid.small.1, EMPTY);
+                "not there".to_string()
+            }
+            Some(shown) => {
+                place_inside(canvas, place, &shown.picture, resize);
+                if resize == Resize::Exact { distinct_ids(frame, layer).to_string() } else { shown.note }
+            }
+        };
+        draw_caption(canvas, place, name, &detail);
+    }
+}
+
+/// Places a picture whole and centred in the field (x, y, width, height).
+fn place_inside(canvas: &mut Canvas, [x, y, width, height]: [u32; 4], picture: &Picture, resize: Resize) {
+    let scale = (f64::from(width) / f64::from(picture.width())).min(f64::from(height) / f64::from(picture.height()));
+    let fitted = |side: u32, limit: u32| ((f64::from(side) * scale).round() as u32).clamp(1, limit);
+    let (w, h) = (fitted(picture.width(), width), fitted(picture.height(), height));
+    // A pixel more or less of rounding is filled rather than left as a seam.
+    let (w, h) = (if width - w <= 2 { width } else { w }, if height - h <= 2 { height } else { h });
+    canvas.fill(x, y, width, height, EMPTY);
+    canvas.place(x + (width - w) / 2, y + (height - h) / 2, w, h, picture, resize);
+}
+
+/// Name on the left and detail on the right, below the field.
+fn draw_caption(canvas: &mut Canvas, [x, y, width, height]: [u32; 4], name: &str, detail: &str) {
+    let baseline = (y + height + CAPTION_SPACE - 4) as f32;
+    lettering::draw(canvas, x as f32, baseline, name, CAPTION);
+    let free = width as f32 - lettering::width(name, CAPTION) - 12.0;
+    let detail = lettering::fit(detail, DETAIL, free);
+    lettering::draw(canvas, (x + width) as f32 - lettering::width(&detail, DETAIL), baseline, &detail, DETAIL);
+}
+
+fn distinct_ids(frame: &Frame, layer: Layer) -> usize {
+    let ids = frame.get(layer).map(|values| (0..values.len()).map(|i| values.get(i) as i32).filter(|&id| id >= 1).collect::<BTreeSet<_>>());
+    ids.map_or(0, |ids| ids.len())
+}
+
+fn count(n: usize, thing: &str) -> String {
+    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spread_takes_first_last_and_even_steps() {
+        assert_eq!(spread(3, 6), [0, 1, 2]);
+        assert_eq!(spread(100, 4), [0, 33, 66, 99]);
+        assert_eq!(spread(7, 3), [0, 3, 6]);
+        assert_eq!((spread(0, 5), spread(5, 1), spread(5, 0)), (vec![], vec![0], vec![]));
+    }
+
+    #[test]
+    fn rows_fill_the_width_whatever_the_aspect() {
+        for aspect in [0.5, 1.0, 4.0 / 3.0, 2.0] {
+            let grid = Grid::new(1920, aspect);
+            let (x, _) = grid.place_of(3, 0);
+            assert_eq!(x + grid.small.0, 1920 - MARGIN);
+            let fits = f64::from(grid.large.0) / f64::from(grid.large.1) / aspect;
+            assert!((fits - 1.0).abs() < 0.02, "aspect {aspect}: {fits}");
+        }
+    }
+
+    #[test]
+    fn frames_without_layers_still_give_a_sheet() {
+        let title = SheetTitle { scene: "s", camera: "cam_00", frames: 1 };
+        let sheet = trajectory_sheet(title, &[(0, Frame::new(8, 6))], &SheetConfig { width: 100, frames: 1 });
+        assert_eq!(sheet.width(), 600);
+        assert_eq!(trajectory_sheet(title, &[], &SheetConfig::default()).width(), 1920);
+        assert_eq!(overview_sheet("empty", &[], &SheetConfig::default()).width(), 1920);
+    }
+}

@@ -1,0 +1,117 @@
+//! The GGX (Trowbridge–Reitz) microfacet distribution with Smith's height-correlated masking, isotropic.
+//!
+//! Walter et al. 2007; Heitz 2014, "Understanding the Masking-Shadowing Function". Directions are in shading space and lie
+//! above the surface (z > 0) unless said otherwise.
+
+use enfilade_math::Vec3;
+
+/// Below this roughness a surface counts as smooth and scatters into single directions. At 1e-3 the lobe is narrower than
+/// the sun's disk.
+pub const SMOOTH_ALPHA: f32 = 1e-3;
+
+/// Density of microfacet normals; ∫ D(m) cosθ dm = 1.
+#[inline]
+pub fn d(m: Vec3, alpha: f32) -> f32 {
+    let a2 = alpha * alpha;
+    let c2 = m.z * m.z;
+    // (1 − c²) written as x² + y² keeps its precision for narrow lobes.
+    let t = c2 * a2 + (m.x * m.x + m.y * m.y);
+    a2 / (std::f32::consts::PI * t * t)
+}
+
+/// Smith's Λ; `w` may point to either side.
+#[inline]
+fn lambda(w: Vec3, alpha: f32) -> f32 {
+    let c2 = w.z * w.z;
+    let tan2 = ((w.x * w.x + w.y * w.y) / c2).min(f32::MAX);
+    0.5 * ((1.0 + alpha * alpha * tan2).sqrt() - 1.0)
+}
+
+/// Share of microfacets visible from `w`.
+#[inline]
+pub fn g1(w: Vec3, alpha: f32) -> f32 {
+    1.0 / (1.0 + lambda(w, alpha))
+}
+
+/// Share of microfacets visible from both directions (on the same side or on opposite ones), height-correlated.
+#[inline]
+pub fn g2(wo: Vec3, wi: Vec3, alpha: f32) -> f32 {
+    1.0 / (1.0 + lambda(wo, alpha) + lambda(wi, alpha))
+}
+
+/// Density of the normals that [`sample_visible`] returns for `wo`, per solid angle of the normal.
+#[inline]
+pub fn visible_pdf(wo: Vec3, m: Vec3, alpha: f32) -> f32 {
+    g1(wo, alpha) * d(m, alpha) * wo.dot(m).max(0.0) / wo.z
+}
+
+/// Samples a microfacet normal in proportion to its projected visible area from `wo` (z > 0).
+///
+/// Dupuy & Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps".
+#[inline]
+pub fn sample_visible(wo: Vec3, alpha: f32, u: [f32; 2]) -> Vec3 {
+    let stretched = Vec3::new(wo.x * alpha, wo.y * alpha, wo.z).normalize();
+    let phi = std::f32::consts::TAU * u[0];
+    let z = (1.0 - u[1]).mul_add(1.0 + stretched.z, -stretched.z);
+    let r = (1.0 - z * z).clamp(0.0, 1.0).sqrt();
+    let (sin, cos) = phi.sin_cos();
+    let h = Vec3::new(r * cos, r * sin, z) + stretched;
+    Vec3::new(h.x * alpha, h.y * alpha, h.z.max(0.0)).try_normalize().unwrap_or(Vec3::Z)
+}
+
+/// Directional albedo of a GGX surface with reflectance `fresnel(cos)`: the share of light from `cos_o` that is reflected
+/// in one bounce. Quadrature over `n` visible normals.
+pub fn directional_albedo(cos_o: f32, alpha: f32, n: u32, fresnel: impl Fn(f32) -> f32) -> f32 {
+    let cos_o = cos_o.max(1e-4);
+    if alpha < SMOOTH_ALPHA {
+        return fresnel(cos_o);
+    }
+    let wo = Vec3::new((1.0 - cos_o * cos_o).max(0.0).sqrt(), 0.0, cos_o);
+    let mut sum = 0.0;
+    for i in 0..n {
+        let u = [(i as f32 + 0.5) / n as f32, (i.reverse_bits() as f32) * (1.0 / 4_294_967_296.0)];
+        let m = sample_visible(wo, alpha, u);
+        let wi = reflect(wo, m);
+        if wi.z > 0.0 {
+            sum += fresnel(wo.dot(m).max(0.0)) * g2(wo, wi, alpha) / g1(wo, alpha);
+        }
+    }
+    sum / n as f32
+}
+
+/// Mirror image of `w` about the normal `m`; both point away from the surface.
+#[inline]
+pub fn reflect(w: Vec3, m: Vec3) -> Vec3 {
+    2.0 * w.dot(m) * m - w
+}
+
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn projected_area_of_normals_is_one() {
+        for alpha in [0.1, 0.4, 1.0] {
+            let n = 2000;
+            let mut integral = 0.0f64;
+            for i in 0..n {
+                let theta = (i as f64 + 0.5) / n as f64 * std::f64::consts::FRAC_PI_2;
+                let m = Vec3::new(theta.sin() as f32, 0.0, theta.cos() as f32);
+                integral += f64::from(d(m, alpha)) * theta.cos() * theta.sin() * std::f64::consts::TAU * std::f64::consts::FRAC_PI_2 / n as f64;
+            }
+            assert!((integral - 1.0).abs() < 1e-3, "alpha {alpha}: {integral}");
+        }
+    }
+
+    #[test]
+    fn a_white_surface_reflects_at_most_all_light_in_one_bounce() {
+        for alpha in [0.05, 0.3, 0.6, 1.0] {
+            for cos_o in [0.05, 0.3, 0.7, 1.0] {
+                let albedo = directional_albedo(cos_o, alpha, 4096, |_| 1.0);
+                assert!(albedo <= 1.001 && albedo > 0.3, "alpha {alpha}, cos {cos_o}: {albedo}");
+            }
+        }
+        assert!(directional_albedo(0.7, 0.05, 4096, |_| 1.0) > 0.995);
+    }
+}

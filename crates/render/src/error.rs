@@ -1,0 +1,34 @@
+/// Why a scene or frame cannot be rendered.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RenderError {
+    /// Nothing emits.
+    #[error(
+        "the scene has no light: no emissive material, no light source and no environment, so every picture would be black; \
+         add an environment (`environment = {{ file = \"sky.hdr\" }}`) or lights to the scene file"
+    )]
+    NoLight,
+    /// More parts than `render_entity_id` (int16) can tell apart.
+    #[error("the scene has {found} parts, but render_entity_id (int16) can tell apart {limit}; merge small parts before importing", limit = i16::MAX)]
+    TooManyParts {
+        /// Number of parts.
+        found: usize,
+    },
+    /// A camera that is not one.
+    #[error("frame {frame}: the camera is not usable: {problem}")]
+    Camera {
+        /// Frame number.
+        frame: u32,
+        /// What is wrong.
+        problem: String,
+    },
+    /// Settings out of their domain.
+    #[error("render setting `{field}` is {found}; expected {expected}")]
+    Config {
+        /// Name of the field.
+        field: &'static str,
+        /// Its value.
+        found: String,
+        /// What it must be.
+        expected: &'static str,
+    },
+}

@@ -1,0 +1,72 @@
+//! The geometry layers: point samples at pixel centres, evaluated in double precision.
+
+use crate::prepared::{Cutout, RenderScene};
+use enfilade_frame::f16;
+use enfilade_math::{DVec3, Ray, Vec3};
+use enfilade_scene::{Intrinsics, Pose};
+
+/// What the ray through a pixel's centre meets.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PixelGeometry {
+    /// Euclidean distance, metres.
+    pub distance_m: f32,
+    /// Planar depth, metres.
+    pub depth_z_m: f32,
+    /// World position.
+    pub position: [f32; 3],
+    /// Without and with bump, in the world and in camera axes.
+    pub normal_world: [f16; 3],
+    pub normal_cam: [f16; 3],
+    pub normal_bump_world: [f16; 3],
+    pub normal_bump_cam: [f16; 3],
+    pub tex_coord: [f16; 3],
+    /// Part number from 1.
+    pub entity: i16,
+}
+
+/// World ray through the image point (x, y): origin and unit direction.
+#[inline]
+pub(crate) fn camera_ray(intrinsics: &Intrinsics, pose: &Pose, x: f64, y: f64) -> (DVec3, DVec3) {
+    (pose.position, (pose.world_from_camera * intrinsics.ray(x, y)).normalize())
+}
+
+/// The geometry seen through the centre of pixel (x, y); `None` when nothing is.
+pub(crate) fn pixel_geometry(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, x: u32, y: u32) -> Option<PixelGeometry> {
+    let (origin, direction) = camera_ray(intrinsics, pose, f64::from(x) + 0.5, f64::from(y) + 0.5);
+    let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
+    let hit = scene.closest(&ray, Cutout::Half)?;
+    let surface = scene.surface(&hit, ray.direction);
+    let distance = exact_distance(scene.world.corners[hit.triangle as usize], origin, direction).unwrap_or(f64::from(hit.t));
+    let position = origin + direction * distance;
+    let cam_from_world = pose.world_from_camera.transpose();
+    let to_camera = |n: Vec3| halves((cam_from_world * n.as_dvec3()).as_vec3());
+    let source = scene.world.sources[hit.triangle as usize];
+    Some(PixelGeometry {
+        distance_m: distance as f32,
+        depth_z_m: (-(cam_from_world * direction).z * distance) as f32,
+        position: position.as_vec3().to_array(),
+        normal_world: halves(surface.ns_smooth),
+        normal_cam: to_camera(surface.ns_smooth),
+        normal_bump_world: halves(surface.ns),
+        normal_bump_cam: to_camera(surface.ns),
+        tex_coord: [finite_half(surface.uv.x), finite_half(surface.uv.y), f16::ZERO],
+        entity: (source.part + 1) as i16,
+    })
+}
+
+/// Distance along the exact ray to the plane of a triangle. `None` when the ray lies in the plane.
+fn exact_distance(corners: [Vec3; 3], origin: DVec3, direction: DVec3) -> Option<f64> {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let n = (b - a).cross(c - a);
+    let t = (a - origin).dot(n) / direction.dot(n);
+    (t.is_finite() && t > 0.0).then_some(t)
+}
+
+fn halves(v: Vec3) -> [f16; 3] {
+    v.to_array().map(f16::from_f32)
+}
+
+/// Texture coordinates of many repeats stay finite.
+fn finite_half(v: f32) -> f16 {
+    f16::from_f32(v.clamp(-65504.0, 65504.0))
+}

@@ -1,0 +1,88 @@
+//! Light from the surroundings, sampled in proportion to its brightness.
+
+use super::LightSample;
+use enfilade_math::{Distribution2, Mat3, Rgb, Vec2, Vec3, warp};
+use enfilade_scene::{Environment, Image, TextureRef, Wrap, direction_from_uv, uv_from_direction};
+use std::f32::consts::PI;
+
+/// The environment with its sampling distribution.
+#[derive(Debug)]
+pub(crate) enum EnvironmentLight {
+    Constant { radiance: Rgb },
+    Map { image: Image, texture: TextureRef, scale: Rgb, map_from_world: Mat3, distribution: Distribution2 },
+}
+
+impl EnvironmentLight {
+    /// `None` when it is black everywhere.
+    pub fn new(environment: &Environment, images: &[Image]) -> Option<Self> {
+        match environment {
+            Environment::Constant { radiance } => (!radiance.is_black()).then_some(Self::Constant { radiance: *radiance }),
+            Environment::Map { image, scale, map_from_world } => {
+                let image = images[*image as usize].clone();
+                let distribution = Distribution2::new(&weights(&image, *scale), image.width as usize)?;
+                let texture = TextureRef { wrap: [Wrap::Repeat, Wrap::Clamp], ..TextureRef::new(0) };
+                Some(Self::Map { image, texture, scale: *scale, map_from_world: *map_from_world, distribution })
+            }
+        }
+    }
+
+    /// Radiance in the unit direction `d`.
+    #[inline]
+    pub fn radiance(&self, d: Vec3) -> Rgb {
+        match self {
+            Self::Constant { radiance } => *radiance,
+            Self::Map { image, texture, scale, map_from_world, .. } => {
+                let uv = uv_from_direction(*map_from_world * d);
+                *scale * image.sample(texture, Vec2::new(uv.x, 1.0 - uv.y)).0
+            }
+        }
+    }
+
+    /// A direction in proportion to brightness.
+    pub fn sample(&self, u: [f32; 2]) -> Option<LightSample> {
+        let (wi, pdf) = match self {
+            Self::Constant { .. } => (warp::sphere(u), 0.25 / PI),
+            Self::Map { map_from_world, distribution, .. } => {
+                let (uv, density) = distribution.sample(u);
+                let sin_theta = (uv[1] * PI).sin();
+                if density <= 0.0 || sin_theta <= 0.0 {
+                    return None;
+                }
+                let wi = map_from_world.transpose() * direction_from_uv(Vec2::from(uv));
+                (wi, density / (2.0 * PI * PI * sin_theta))
+            }
+        };
+        Some(LightSample { wi, target: None, radiance: self.radiance(wi), pdf, is_delta: false })
+    }
+
+    /// Density of [`EnvironmentLight::sample`] per solid angle.
+    #[inline]
+    pub fn pdf(&self, d: Vec3) -> f32 {
+        match self {
+            Self::Constant { .. } => 0.25 / PI,
+            Self::Map { map_from_world, distribution, .. } => {
+                let uv = uv_from_direction(*map_from_world * d);
+                let sin_theta = (uv.y * PI).sin();
+                if sin_theta <= 0.0 { 0.0 } else { distribution.pdf(uv.to_array()) / (2.0 * PI * PI * sin_theta) }
+            }
+        }
+    }
+}
+
+/// Luminance × solid angle of each texel, smeared over the neighbours, because lookups interpolate between texels: wherever
+/// radiance is positive, so must be the density.
+fn weights(image: &Image, scale: Rgb) -> Vec<f32> {
+    let (w, h) = (image.width as usize, image.height as usize);
+    let luminance: Vec<f32> = (0..w * h).map(|i| (scale * image.texel(i % w, i / w).0).luminance().max(0.0)).collect();
+    (0..w * h)
+        .map(|i| {
+            let (x, y) = (i % w, i / w);
+            let mut sum = 0.0;
+            for (dy, row_weight) in [(0usize, 1.0), (1, 2.0), (2, 1.0)] {
+                let row = (y + dy).saturating_sub(1).min(h - 1) * w;
+                sum += row_weight * (luminance[row + (x + w - 1) % w] + 2.0 * luminance[row + x] + luminance[row + (x + 1) % w]);
+            }
+            sum * ((y as f32 + 0.5) / h as f32 * PI).sin()
+        })
+        .collect()
+}

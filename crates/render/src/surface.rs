@@ -1,0 +1,209 @@
+//! What a ray finds where it hits: place, normals, texture coordinates, material.
+
+use crate::bsdf::{self, Bsdf};
+use crate::prepared::RenderScene;
+use enfilade_geometry::Hit;
+use enfilade_math::{Onb, Rgb, Vec2, Vec3};
+use enfilade_scene::{ColorParam, Material, NormalMap, ScalarParam, Scene, TextureRef};
+
+/// A surface point seen from the unit direction `wo`.
+pub(crate) struct Surface<'s> {
+    /// World position.
+    pub p: Vec3,
+    /// Towards where the ray came from.
+    pub wo: Vec3,
+    /// Unit geometric normal facing `wo`.
+    pub ng: Vec3,
+    /// Unit interpolated normal, on the side of `wo`, before bump.
+    pub ns_smooth: Vec3,
+    /// Unit shading normal with bump, on the side of `wo`.
+    pub ns: Vec3,
+    /// Texture coordinates.
+    pub uv: Vec2,
+    /// True when `wo` is on the side that outward normals point to.
+    pub outside: bool,
+    /// The material.
+    pub material: &'s Material,
+    material_index: usize,
+}
+
+impl<'s> RenderScene<'s> {
+    /// Texture coordinates at a hit; zero where the mesh has none.
+    #[inline]
+    pub(crate) fn texture_coordinates(&self, hit: &Hit) -> Vec2 {
+        let source = self.world.sources[hit.triangle as usize];
+        let mesh = &self.scene.meshes[self.scene.parts[source.part as usize].mesh as usize];
+        if mesh.uvs.is_empty() {
+            return Vec2::ZERO;
+        }
+        let [a, b, c] = mesh.triangles[source.triangle as usize].map(|i| mesh.uvs[i as usize]);
+        a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v
+    }
+
+    /// The surface at a hit of a ray with the unit direction `direction`.
+    pub(crate) fn surface(&self, hit: &Hit, direction: Vec3) -> Surface<'s> {
+        let wo = -direction;
+        let source = self.world.sources[hit.triangle as usize];
+        let part = &self.scene.parts[source.part as usize];
+        let data = &self.parts[source.part as usize];
+        let mesh = &self.scene.meshes[part.mesh as usize];
+        let corners = &self.world.corners[hit.triangle as usize];
+        let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
+        let p = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+
+        // Outward geometric normal: by winding, or on the side of the vertex normals where there are any.
+        let winding = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(wo);
+        let winding = if data.mirrored { -winding } else { winding };
+        let indices = mesh.triangles[source.triangle as usize];
+        let interpolated = if mesh.normals.is_empty() {
+            None
+        } else {
+            let [a, b, c] = indices.map(|i| mesh.normals[i as usize]);
+            (data.normal_from_mesh * (a * weights[0] + b * weights[1] + c * weights[2])).try_normalize()
+        };
+        let outward = match interpolated {
+            Some(n) if n.dot(winding) < 0.0 => -winding,
+            _ => winding,
+        };
+        let outside = wo.dot(outward) >= 0.0;
+        let side = if outside { 1.0 } else { -1.0 };
+        let smooth = interpolated.unwrap_or(outward) * side;
+
+        let material_index = part.material as usize;
+        let material = &self.scene.materials[material_index];
+        let uv = self.texture_coordinates(hit);
+        let bumped = material.normal_map.as_ref().and_then(|map| {
+            let uvs = if mesh.uvs.is_empty() { return None } else { indices.map(|i| mesh.uvs[i as usize]) };
+            let tangents = tangents(corners, uvs)?;
+            Some(perturbed(self.scene, map, uv, smooth, side, tangents))
+        });
+        Surface {
+            p,
+            wo,
+            ng: outward * side,
+            ns_smooth: facing(smooth, wo),
+            ns: facing(bumped.unwrap_or(smooth), wo),
+            uv,
+            outside,
+            material,
+            material_index,
+        }
+    }
+}
+
+impl<'s> Surface<'s> {
+    fn inputs<'a>(&self, scene: &'a RenderScene<'s>) -> bsdf::Inputs<'a> {
+        bsdf::Inputs {
+            images: &scene.scene.images,
+            uv: self.uv,
+            coat: scene.coats[self.material_index].map(|i| &scene.coat_tables[i]),
+            cos_o: self.wo.dot(self.ns).max(MIN_COSINE),
+            outside: self.outside,
+        }
+    }
+
+    /// The scattering here; nothing on the back of a one-sided surface.
+    pub fn bsdf<'a>(&self, scene: &'a RenderScene<'s>) -> Bsdf<'a> {
+        if !self.outside && !self.material.two_sided && !transmits(self.material) {
+            return Bsdf::black();
+        }
+        Bsdf::new(self.material, &self.inputs(scene))
+    }
+
+    /// See [`bsdf::straight_transmittance`].
+    pub fn straight_transmittance(&self, scene: &RenderScene<'s>) -> Option<Rgb> {
+        bsdf::straight_transmittance(self.material, &self.inputs(scene))
+    }
+
+    /// Radiance emitted towards `wo`.
+    pub fn emission(&self, scene: &RenderScene<'s>) -> Rgb {
+        if self.material.emission.factor.is_black() || (!self.outside && !self.material.emits_both_sides) {
+            return Rgb::BLACK;
+        }
+        color_at(scene.scene, &self.material.emission, self.uv)
+    }
+
+    /// Shading space: z along the shading normal.
+    #[inline]
+    pub fn onb(&self) -> Onb {
+        Onb::from_z(self.ns)
+    }
+}
+
+/// Viewing cosines are never smaller, so that nothing divides by zero at the horizon.
+pub(crate) const MIN_COSINE: f32 = 1e-4;
+
+/// True for materials that light passes, which therefore have two sides.
+fn transmits(material: &Material) -> bool {
+    use enfilade_scene::Bsdf;
+    match &material.bsdf {
+        Bsdf::Dielectric { .. } | Bsdf::ThinDielectric { .. } => true,
+        Bsdf::Principled(p) => p.transmission.factor > 0.0,
+        Bsdf::Diffuse { .. } | Bsdf::Conductor { .. } | Bsdf::Plastic { .. } => false,
+    }
+}
+
+/// `n`, or the nearest direction to it that still faces `wo`.
+#[inline]
+fn facing(n: Vec3, wo: Vec3) -> Vec3 {
+    let cos = n.dot(wo);
+    if cos >= MIN_COSINE { n } else { (n + wo * (MIN_COSINE - cos)).normalize_or(wo) }
+}
+
+/// ∂p/∂u and ∂p/∂v of a triangle; `None` where the texture coordinates are degenerate.
+fn tangents(corners: &[Vec3; 3], uvs: [Vec2; 3]) -> Option<(Vec3, Vec3)> {
+    let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
+    let (d1, d2) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
+    let determinant = d1.x * d2.y - d1.y * d2.x;
+    if determinant.abs() < 1e-20 {
+        return None;
+    }
+    let inverse = 1.0 / determinant;
+    Some(((e1 * d2.y - e2 * d1.y) * inverse, (e2 * d1.x - e1 * d2.x) * inverse))
+}
+
+/// The normal `n` (on the viewer's side; `side` is −1 on the back) perturbed by a normal or bump map.
+fn perturbed(scene: &Scene, map: &NormalMap, uv: Vec2, n: Vec3, side: f32, (dp_du, dp_dv): (Vec3, Vec3)) -> Vec3 {
+    match map {
+        NormalMap::Normal { texture, scale } => {
+            let rgb = scene.images[texture.image as usize].sample(texture, uv).0;
+            let local = Vec3::new((2.0 * rgb.r - 1.0) * scale, (2.0 * rgb.g - 1.0) * scale, 2.0 * rgb.b - 1.0);
+            // Tangents follow the texture as it is placed on the surface, orthogonal to the smooth normal.
+            let Some(t) = (dp_du - n * n.dot(dp_du)).try_normalize() else { return n };
+            let b = n.cross(t);
+            let b = if b.dot(dp_dv) < 0.0 { -b } else { b };
+            // Seen from the back, hills become hollows: the tangential part turns round with the normal.
+            (t * (local.x * side) + b * (local.y * side) + n * local.z).try_normalize().unwrap_or(n)
+        }
+        NormalMap::Bump { texture, scale } => {
+            let image = &scene.images[texture.image as usize];
+            let height = |t: &TextureRef, uv: Vec2| image.sample(t, uv).0.luminance() * scale;
+            let (du, dv) = (1.0 / image.width as f32, 1.0 / image.height as f32);
+            // Steps of one texel in the texture's own coordinates, central differences.
+            let m = texture.uv_transform;
+            let (su, sv) = (du / (m[0][0].hypot(m[1][0])).max(1e-6), dv / (m[0][1].hypot(m[1][1])).max(1e-6));
+            let dh_du = (height(texture, uv + Vec2::new(su, 0.0)) - height(texture, uv - Vec2::new(su, 0.0))) / (2.0 * su);
+            let dh_dv = (height(texture, uv + Vec2::new(0.0, sv)) - height(texture, uv - Vec2::new(0.0, sv))) / (2.0 * sv);
+            // Mikkelsen 2010, "Bump Mapping Unparametrized Surfaces on the GPU": subtract the surface gradient.
+            let (r1, r2) = (dp_dv.cross(n), n.cross(dp_du));
+            let determinant = dp_du.dot(r1);
+            if determinant.abs() < 1e-20 {
+                return n;
+            }
+            let gradient = (r1 * dh_du + r2 * dh_dv) / determinant;
+            (n - gradient * side).try_normalize().unwrap_or(n)
+        }
+    }
+}
+
+/// A colour parameter at texture coordinates.
+pub(crate) fn color_at(scene: &Scene, p: &ColorParam, uv: Vec2) -> Rgb {
+    let inputs = bsdf::Inputs { images: &scene.images, uv, coat: None, cos_o: 1.0, outside: true };
+    inputs.color(p)
+}
+
+/// A scalar parameter at texture coordinates.
+pub(crate) fn scalar_at(scene: &Scene, p: &ScalarParam, uv: Vec2) -> f32 {
+    let inputs = bsdf::Inputs { images: &scene.images, uv, coat: None, cos_o: 1.0, outside: true };
+    inputs.scalar(p)
+}

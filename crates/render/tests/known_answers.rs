@@ -1,0 +1,261 @@
+//! Whole pictures of scenes whose radiance is known in closed form.
+
+use enfilade_frame::{Frame, Layer};
+use enfilade_geometry::Mesh;
+use enfilade_math::{DAffine3, DVec3, Mat3, Rgb, Vec3};
+use enfilade_render::{RenderConfig, RenderError, RenderScene, render_frame};
+use enfilade_scene::{Bsdf, Environment, Intrinsics, Light, Material, Part, Pose, Principled, Quiet, Scene};
+use std::f64::consts::PI;
+
+fn quad(corners: [Vec3; 4]) -> Mesh {
+    Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }
+}
+
+/// An axis-aligned cube of side 2 about the origin; `inward` turns its normals inside.
+fn cube(inward: bool) -> Mesh {
+    let mut mesh = Mesh::default();
+    for axis in 0..3 {
+        for sign in [-1.0f32, 1.0] {
+            let place = |a: f32, b: f32| {
+                let mut p = [0.0; 3];
+                p[axis] = sign;
+                p[(axis + 1) % 3] = a;
+                p[(axis + 2) % 3] = b;
+                Vec3::from(p)
+            };
+            let mut corners = [place(-1.0, -1.0), place(1.0, -1.0), place(1.0, 1.0), place(-1.0, 1.0)];
+            if (sign < 0.0) != inward {
+                corners.reverse();
+            }
+            mesh.append(&quad(corners));
+        }
+    }
+    mesh
+}
+
+/// A latitude–longitude sphere with smooth normals.
+fn sphere(segments: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    for i in 0..=segments {
+        for j in 0..2 * segments {
+            let (theta, phi) = (f64::from(i) / f64::from(segments) * PI, f64::from(j) / f64::from(segments) * PI);
+            let p = DVec3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()).as_vec3();
+            mesh.positions.push(p);
+            mesh.normals.push(p);
+        }
+    }
+    let index = |i: u32, j: u32| i * 2 * segments + j % (2 * segments);
+    for i in 0..segments {
+        for j in 0..2 * segments {
+            if i > 0 {
+                mesh.triangles.push([index(i, j), index(i + 1, j), index(i, j + 1)]);
+            }
+            if i + 1 < segments {
+                mesh.triangles.push([index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)]);
+            }
+        }
+    }
+    mesh
+}
+
+fn scene(parts: Vec<(&str, Mesh, Material)>) -> Scene {
+    let mut scene = Scene::default();
+    for (name, mesh, material) in parts {
+        let part = Part {
+            name: name.into(),
+            mesh: scene.meshes.len() as u32,
+            material: scene.materials.len() as u32,
+            world_from_mesh: DAffine3::IDENTITY,
+        };
+        scene.parts.push(part);
+        scene.meshes.push(mesh);
+        scene.materials.push(material);
+    }
+    scene
+}
+
+fn picture(scene: &Scene, from: DVec3, to: DVec3, size: u32, fov_deg: f64, samples: u32) -> Frame {
+    scene.validate().unwrap();
+    let prepared = RenderScene::new(scene, &Quiet).unwrap();
+    let up = if (to - from).cross(DVec3::Z).length() < 1e-6 { DVec3::Y } else { DVec3::Z };
+    let pose = Pose::look_at(0, from, to, up).unwrap();
+    let config = RenderConfig { samples, ..RenderConfig::default() };
+    render_frame(&prepared, &Intrinsics::from_fov_x(size, size, fov_deg.to_radians()), &pose, &config, &Quiet).unwrap()
+}
+
+fn mean(frame: &Frame, layer: Layer, channel: usize) -> f64 {
+    let values = frame.get(layer).unwrap();
+    let channels = layer.spec().channels;
+    (0..frame.pixels()).map(|p| values.get(p * channels + channel)).sum::<f64>() / frame.pixels() as f64
+}
+
+fn assert_close(what: &str, found: f64, expected: f64, relative: f64) {
+    assert!((found - expected).abs() <= relative * expected.abs(), "{what}: found {found}, expected {expected} ± {}%", 100.0 * relative);
+}
+
+fn white_sky(mut scene: Scene) -> Scene {
+    scene.environment = Some(Environment::Constant { radiance: Rgb::WHITE });
+    scene
+}
+
+#[test]
+fn in_a_closed_box_that_glows_light_adds_up_to_one_over_one_minus_albedo() {
+    for albedo in [0.2f32, 0.5, 0.8] {
+        let wall = Material { emission: Rgb::WHITE.into(), ..Material::diffuse("wall", Rgb::splat(albedo)) };
+        let frame = picture(&scene(vec![("box", cube(true), wall)]), DVec3::new(0.1, 0.2, 0.0), DVec3::X, 16, 70.0, 256);
+        assert_close(&format!("radiance, albedo {albedo}"), mean(&frame, Layer::Color, 1), 1.0 / (1.0 - f64::from(albedo)), 0.01);
+        // What falls on the walls is the same radiance from everywhere.
+        let s = mean(&frame, Layer::DiffuseIllumination, 1);
+        assert_close(&format!("illumination, albedo {albedo}"), s, 1.0 / (1.0 - f64::from(albedo)), 0.01);
+        assert_close("residual is the emission", mean(&frame, Layer::Residual, 0), 1.0, 1e-3);
+    }
+}
+
+#[test]
+fn lossless_spheres_vanish_in_a_white_sky() {
+    let glass = |alpha: f32| Bsdf::Dielectric { eta: 1.5, alpha: alpha.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::BLACK };
+    let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::WHITE.into(), alpha: 0.0.into() };
+    let plastic =
+        Bsdf::Plastic { diffuse: Rgb::WHITE.into(), eta: 1.5, alpha: 0.1.into(), specular: Rgb::WHITE.into(), nonlinear: true };
+    let thin = Bsdf::ThinDielectric { eta: 1.5, transmittance: Rgb::WHITE.into() };
+    let diffuse = Bsdf::Diffuse { reflectance: Rgb::WHITE.into() };
+    for (name, bsdf, tolerance) in [
+        ("diffuse", diffuse, 0.01),
+        ("glass", glass(0.0), 0.01),
+        ("mirror", mirror, 0.01),
+        ("plastic", plastic, 0.015),
+        ("thin", thin, 0.01),
+        // One bounce off facets loses a little.
+        ("rough glass", glass(0.1), 0.03),
+    ] {
+        let s = white_sky(scene(vec![("sphere", sphere(64), Material::new(name, bsdf))]));
+        let frame = picture(&s, DVec3::new(0.0, -4.0, 0.0), DVec3::ZERO, 24, 40.0, 128);
+        assert_close(name, mean(&frame, Layer::Color, 1), 1.0, tolerance);
+    }
+}
+
+#[test]
+fn a_thin_sheet_of_gltf_glass_passes_what_it_does_not_reflect() {
+    let glass = Principled { transmission: 1.0.into(), roughness: 0.0.into(), ..Principled::default() };
+    let s = white_sky(scene(vec![("sphere", sphere(32), Material::new("glass", Bsdf::Principled(Box::new(glass))))]));
+    let frame = picture(&s, DVec3::new(0.0, -4.0, 0.0), DVec3::ZERO, 16, 30.0, 64);
+    assert_close("radiance", mean(&frame, Layer::Color, 1), 1.0, 0.01);
+}
+
+/// Looks straight down at the origin of a grey floor from `height`, through a tiny field of view.
+fn floor_radiance(mut s: Scene, extra: Vec<(&'static str, Mesh, Material)>, samples: u32) -> f64 {
+    let floor = quad([Vec3::new(-50.0, -50.0, 0.0), Vec3::new(50.0, -50.0, 0.0), Vec3::new(50.0, 50.0, 0.0), Vec3::new(-50.0, 50.0, 0.0)]);
+    let mut parts = vec![("floor", floor, Material::diffuse("floor", Rgb::splat(0.5)))];
+    parts.extend(extra);
+    let built = scene(parts);
+    s.meshes = built.meshes;
+    s.parts = built.parts;
+    s.materials = built.materials;
+    let frame = picture(&s, DVec3::new(0.0, 0.0, 0.5), DVec3::ZERO, 8, 0.2, samples);
+    mean(&frame, Layer::Color, 1)
+}
+
+#[test]
+fn point_spot_and_sun_light_a_floor_by_their_laws() {
+    let with = |light| Scene { lights: vec![light], ..Scene::default() };
+    let position = Vec3::new(0.0, 1.0, 2.0);
+    let (d2, cos) = (5.0f64, 2.0 / 5.0f64.sqrt());
+    let expected = 0.5 / PI * 10.0 * cos / d2;
+    let intensity = Rgb::splat(10.0);
+    assert_close("point", floor_radiance(with(Light::Point { name: "p".into(), position, intensity }), vec![], 1), expected, 2e-3);
+    let direction = (-position).normalize();
+    let spot = Light::Spot { name: "s".into(), position, direction, intensity, inner_rad: 0.1, outer_rad: 0.2 };
+    assert_close("spot", floor_radiance(with(spot), vec![], 1), expected, 2e-3);
+    let away = Light::Spot { name: "s".into(), position, direction: -direction, intensity, inner_rad: 0.1, outer_rad: 0.2 };
+    assert_eq!(floor_radiance(with(away), vec![], 1), 0.0);
+    for angular_radius_rad in [0.0, 0.00465] {
+        let sun = Light::Directional { name: "sun".into(), direction, irradiance: Rgb::splat(3.0), angular_radius_rad };
+        assert_close("sun", floor_radiance(with(sun), vec![], 64), 0.5 / PI * 3.0 * cos, 3e-3);
+    }
+}
+
+#[test]
+fn a_square_lamp_lights_the_floor_by_its_form_factor() {
+    // Facing square of side 2a at height h over the point: F = 4 · (1/2π) · 2 · X/√(1+X²) · atan(X/√(1+X²)), X = a/h.
+    let (a, h) = (0.5f32, 1.5f32);
+    let lamp = quad([Vec3::new(-a, a, h), Vec3::new(a, a, h), Vec3::new(a, -a, h), Vec3::new(-a, -a, h)]);
+    let x = f64::from(a / h);
+    let s = (1.0 + x * x).sqrt();
+    let form_factor = 4.0 / (2.0 * PI) * 2.0 * (x / s) * (x / s).atan();
+    let found = floor_radiance(Scene::default(), vec![("lamp", lamp.clone(), Material::emitter("lamp", Rgb::splat(8.0)))], 256);
+    assert_close("lamp", found, 0.5 * 8.0 * form_factor, 0.01);
+    // Through a pane of glass: shadow rays pass it, dimmed by what it reflects; at most angles here that is about 8 %.
+    let pane = quad([Vec3::new(-9.0, -9.0, 1.0), Vec3::new(9.0, -9.0, 1.0), Vec3::new(9.0, 9.0, 1.0), Vec3::new(-9.0, 9.0, 1.0)]);
+    let glass = Material::new("pane", Bsdf::ThinDielectric { eta: 1.5, transmittance: Rgb::WHITE.into() });
+    let lamp = ("lamp", lamp, Material::emitter("lamp", Rgb::splat(8.0)));
+    let dimmed = floor_radiance(Scene::default(), vec![lamp, ("pane", pane, glass)], 1024);
+    // The pane also mirrors the floor's own light back: a fraction of a percent of a percent.
+    assert!((0.90..0.96).contains(&(dimmed / found)), "a pane lets {} through", dimmed / found);
+}
+
+#[test]
+fn an_environment_map_is_sampled_in_proportion_and_from_the_right_side() {
+    use enfilade_scene::{Image, Pixels, direction_from_uv};
+    // A small bright patch in a dark sky, at a known direction.
+    let (w, h, x, y) = (64u32, 32u32, 40u32, 8u32);
+    let mut texels = vec![[0.0f32; 3]; (w * h) as usize];
+    texels[(y * w + x) as usize] = [100.0; 3];
+    let image = Image { name: "sky".into(), width: w, height: h, pixels: Pixels::RgbF32(texels) };
+    let map_from_world = Mat3::from_cols(Vec3::X, Vec3::NEG_Z, Vec3::Y);
+    let uv = enfilade_math::Vec2::new((x as f32 + 0.5) / w as f32, (y as f32 + 0.5) / h as f32);
+    let to_patch = (map_from_world.transpose() * direction_from_uv(uv)).as_dvec3();
+    let s = Scene {
+        images: vec![image],
+        environment: Some(Environment::Map { image: 0, scale: Rgb::WHITE, map_from_world }),
+        ..Scene::default()
+    };
+    // Irradiance of the bilinearly interpolated texel: a tent of one texel's solid angle (integrated numerically).
+    let mut irradiance = 0.0f64;
+    let n = 400;
+    for i in 0..n {
+        for j in 0..n {
+            let (du, dv) = ((f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0, (f64::from(j) + 0.5) / f64::from(n) * 2.0 - 1.0);
+            let tent = (1.0 - du.abs()) * (1.0 - dv.abs());
+            let (u, v) = ((f64::from(x) + 0.5 + du) / f64::from(w), (f64::from(y) + 0.5 + dv) / f64::from(h));
+            let d = map_from_world.transpose() * direction_from_uv(enfilade_math::Vec2::new(u as f32, v as f32));
+            let cell = 4.0 / f64::from(n * n) / f64::from(w * h) * 2.0 * PI * PI * (v * PI).sin();
+            irradiance += 100.0 * tent * cell * f64::from(d.z);
+        }
+    }
+    assert!(to_patch.z > 0.5);
+    assert_close("environment", floor_radiance(s, vec![], 512), 0.5 / PI * irradiance, 0.01);
+}
+
+#[test]
+fn a_dark_scene_and_bad_cameras_are_refused_with_reasons() {
+    let dark = scene(vec![("box", cube(true), Material::diffuse("grey", Rgb::splat(0.5)))]);
+    assert_eq!(RenderScene::new(&dark, &Quiet).err(), Some(RenderError::NoLight));
+    let lit = white_sky(dark);
+    let prepared = RenderScene::new(&lit, &Quiet).unwrap();
+    let mut pose = Pose::look_at(3, DVec3::ZERO, DVec3::X, DVec3::Z).unwrap();
+    pose.position.x = f64::NAN;
+    let k = Intrinsics::from_fov_x(8, 8, 1.0);
+    let error = render_frame(&prepared, &k, &pose, &RenderConfig::default(), &Quiet).unwrap_err();
+    assert!(error.to_string().starts_with("frame 3: the camera is not usable"), "{error}");
+}
+
+#[test]
+fn bytes_do_not_depend_on_the_number_of_threads() {
+    let room = {
+        let mut s = scene(vec![
+            ("room", cube(true), Material::diffuse("wall", Rgb::new(0.7, 0.6, 0.5))),
+            ("ball", sphere(16), Material::new("ball", Bsdf::Dielectric { eta: 1.5, alpha: 0.1.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::new(1.0, 0.5, 0.1) })),
+        ]);
+        s.parts[1].world_from_mesh = DAffine3::from_scale_rotation_translation(DVec3::splat(0.3), enfilade_math::DAffine3::IDENTITY.to_scale_rotation_translation().1, DVec3::new(0.4, 0.0, -0.2));
+        s.lights.push(Light::Point { name: "p".into(), position: Vec3::new(0.0, 0.5, 0.8), intensity: Rgb::splat(2.0) });
+        s
+    };
+    let render = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| picture(&room, DVec3::new(-0.8, 0.0, 0.0), DVec3::X, 33, 70.0, 8))
+    };
+    let one = render(1);
+    let bytes = |f: &Frame| f.iter().flat_map(|(_, v)| v.as_bytes().to_vec()).collect::<Vec<u8>>();
+    assert_eq!(bytes(&one), bytes(&render(2)));
+    assert_eq!(bytes(&one), bytes(&render(7)));
+}
