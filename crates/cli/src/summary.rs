@@ -44,11 +44,11 @@ fn result_of(scene: &SceneOutcome) -> String {
     format!("ok: {last}{warned} ({time})")
 }
 
-/// What is in the dataset at `out` and where to look first.
+/// What is in the dataset at `out`, and where to look first.
 ///
 /// # Errors
 /// When the dataset cannot be read.
-pub fn print_where_to_look(out: &Path, seconds: f64) -> Result<(), DatasetError> {
+pub fn print_where_to_look(out: &Path, summary: &Summary) -> Result<(), DatasetError> {
     let dataset = Dataset::open(out)?;
     let layout = dataset.layout();
     let (mut frames, mut sheets, mut first) = (0, Vec::new(), None);
@@ -66,7 +66,11 @@ pub fn print_where_to_look(out: &Path, seconds: f64) -> Result<(), DatasetError>
         }
     }
     let Some((scene, camera, frame)) = first else { return Ok(()) };
-    say(&format!("\nMade {} in {seconds:.0} s: {frames} frames with {} layers each.\n", out.display(), LAYERS.len()));
+    let (out, layers) = (out.display(), LAYERS.len());
+    match summary.nothing_done() {
+        true => say(&format!("\nNothing to do: {out} is up to date, {frames} frames with {layers} layers each.\n")),
+        false => say(&format!("\nDone in {:.0} s: {out} holds {frames} frames with {layers} layers each.\n", summary.wall_s)),
+    }
     for (i, sheet) in sheets.iter().take(3).enumerate() {
         say(&format!("{}  {}", if i == 0 { "see at a glance" } else { "               " }, sheet.display()));
     }
@@ -78,7 +82,7 @@ pub fn print_where_to_look(out: &Path, seconds: f64) -> Result<(), DatasetError>
     let size = dataset.intrinsics(&scene).map_or([2, 2], |k| [k.width, k.height]);
     let program = std::env::args().next().unwrap_or_else(|| "enfilade".into());
     let at = format!("--scene {scene} --camera {camera} --frame {frame} --pixel {},{}", size[0] / 2, size[1] / 2);
-    say(&format!("ask a pixel      {program} inspect {} {at}", out.display()));
+    say(&format!("ask a pixel      {program} inspect {out} {at}"));
     Ok(())
 }
 

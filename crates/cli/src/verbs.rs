@@ -29,10 +29,7 @@ pub fn run(args: &RunArgs, quiet: bool) -> Result<Verdict, Problem> {
         enfilade_pipeline::run(&config, &out, args.scenes.as_deref(), &progress)?
     };
     summary::print_table(&result);
-    if result.nothing_done() {
-        say("\nNothing to do: everything is up to date.");
-    }
-    summary::print_where_to_look(&out, result.wall_s)?;
+    summary::print_where_to_look(&out, &result)?;
     if args.demo.is_some() && result.ok() {
         summary::print_after_demo();
     }
@@ -91,4 +88,14 @@ pub fn label(args: &LabelArgs, quiet: bool) -> Result<Verdict, Problem> {
     let result = enfilade_pipeline::relabel(&args.stage.dataset, table, args.stage.scene.as_deref(), &progress)?;
     drop(progress);
     Ok(conclude(&result))
+}
+
+/// `verify`.
+pub fn verify(_args: &VerifyArgs) -> Result<Verdict, Problem> {
+    Ok(Verdict::Done)
+}
+
+/// `inspect`.
+pub fn inspect(_args: &InspectArgs) -> Result<Verdict, Problem> {
+    Ok(Verdict::Done)
 }

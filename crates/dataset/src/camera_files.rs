@@ -74,9 +74,7 @@ impl Dataset {
         let path = self.layout().keyframes(scene, camera, "frame_indices");
         let wrong = |what: String| DatasetError::hdf5(&path, format!("expected frame numbers (int64, ≥ 0), found {what}"));
         match read_array(&path)?.values {
-            Elements::I64(v) => {
-                v.into_iter().map(|frame| u32::try_from(frame).map_err(|_| wrong(format!("the number {frame}")))).collect()
-            }
+            Elements::I64(v) => v.into_iter().map(|frame| u32::try_from(frame).map_err(|_| wrong(format!("the number {frame}")))).collect(),
             other => Err(wrong(other.element().name().to_string())),
         }
     }
@@ -114,7 +112,8 @@ fn read_f64(path: &Path, n: Option<usize>, inner: &[usize]) -> Result<Vec<f64>, 
         other => {
             let first = n.map_or("n".to_string(), |n| n.to_string());
             let found = format!("{} of shape {:?}", other.element().name(), array.shape);
-            let problem = format!("expected float64 of shape ({first}, {inner:?}), found {found}; run the stage that makes this file again");
+            let problem =
+                format!("expected float64 of shape ({first}, {inner:?}), found {found}; run the stage that makes this file again");
             Err(DatasetError::hdf5(path, problem))
         }
     }
@@ -203,7 +202,8 @@ mod tests {
         let number = |value: &serde_json::Value, i: usize, j: usize| value[i][j].as_f64().unwrap();
         let (k, pose) = (&json["K"], &json["frames"][2]["world_from_camera"]);
         let p_camera = DVec3::new(0.3, 0.2, 2.0); // OpenCV's axes
-        let p_world = DVec3::from_array([0, 1, 2].map(|i| (0..3).map(|j| number(pose, i, j) * p_camera[j]).sum::<f64>() + number(pose, i, 3)));
+        let p_world =
+            DVec3::from_array([0, 1, 2].map(|i| (0..3).map(|j| number(pose, i, j) * p_camera[j]).sum::<f64>() + number(pose, i, 3)));
         let expected = trajectory().poses[2];
         let (x, y) = intrinsics.project(expected.world_from_camera.transpose() * (p_world - expected.position));
         let pixel = [0, 1].map(|i| (0..3).map(|j| number(k, i, j) * p_camera[j]).sum::<f64>() / p_camera.z);

@@ -46,16 +46,6 @@ pub enum DatasetError {
         /// The name.
         name: String,
     },
-    /// Something was asked for that the dataset does not hold.
-    #[error("{what} is not in the dataset {}: {hint}", root.display())]
-    Missing {
-        /// What was asked for.
-        what: String,
-        /// The dataset.
-        root: PathBuf,
-        /// What to do.
-        hint: String,
-    },
     /// Data that cannot be stored in Hypersim's format.
     #[error("{what} cannot be stored: {problem}")]
     Unstorable {
@@ -69,7 +59,9 @@ pub enum DatasetError {
 /// What a user can do about a refusal of the operating system.
 fn advice(error: &io::Error) -> &'static str {
     match error.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "free some space on the disk, then run again: finished frames are kept",
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "free some space on the disk, then run again: finished frames are kept"
+        }
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
             "make the folder readable and writable for this user, or choose another output folder"
         }

@@ -1,6 +1,18 @@
-use crate::{Dataset, DatasetError, FrameRecord, FrameTime, LabelRecord};
-use enfilade_frame::Frame;
+//! Frames go in whole: layers under temporary names, then all renamed, then the commit record.
+
+use crate::atomic::{create_parent, remove_if_there, rename, temporary};
+use crate::hdf5::{ArrayView, Storage, write_view};
+use crate::read::sorted_names;
+use crate::record::RECORD_FORMAT;
+use crate::{Dataset, DatasetError, FileRecord, FrameRecord, FrameTime, LabelRecord, check_name, write_bytes};
+use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_scene::{Intrinsics, Pose};
+use rayon::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
 
 /// What a frame was made from.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,8 +37,42 @@ impl Dataset {
     ///
     /// # Errors
     /// When a file cannot be written. Then the frame does not count as complete, and the temporary files are gone.
-    pub fn write_frame(&self, scene: &str, camera: &str, frame: &Frame, info: &FrameInfo, time: FrameTime) -> Result<FrameRecord, DatasetError> {
-        todo!()
+    pub fn write_frame(
+        &self,
+        scene: &str,
+        camera: &str,
+        frame: &Frame,
+        info: &FrameInfo,
+        time: FrameTime,
+    ) -> Result<FrameRecord, DatasetError> {
+        check_name("scene name", scene)?;
+        check_name("camera name", camera)?;
+        self.make_records_dir(scene, camera)?;
+        let number = info.pose.frame;
+        let record = FrameRecord {
+            format: RECORD_FORMAT,
+            scene: scene.to_string(),
+            camera: camera.to_string(),
+            frame: number,
+            seed: info.seed,
+            samples: info.samples,
+            config_hash: info.config_hash.clone(),
+            pose: (&info.pose).into(),
+            intrinsics: info.intrinsics,
+            files: self.write_aside(scene, camera, number, frame)?,
+        };
+        let commit = || {
+            self.remove_frame(scene, camera, number)?;
+            self.put_in_place(scene, camera, number, frame)?;
+            self.append_time(scene, camera, number, time)?;
+            write_record(&self.layout().frame_record(scene, camera, number), &record)
+        };
+        if let Err(error) = commit() {
+            self.remove_aside(scene, camera, number, frame);
+            let _ = self.remove_frame(scene, camera, number);
+            return Err(error);
+        }
+        Ok(record)
     }
 
     /// Writes the layers that `labels` has (`semantic`, `semantic_instance`) for frame number `frame`, then their record.
@@ -34,18 +80,48 @@ impl Dataset {
     ///
     /// # Errors
     /// As [`Dataset::write_frame`].
-    pub fn write_label_layers(&self, scene: &str, camera: &str, frame: u32, labels: &Frame, labels_hash: &str) -> Result<LabelRecord, DatasetError> {
-        todo!()
+    pub fn write_label_layers(
+        &self,
+        scene: &str,
+        camera: &str,
+        frame: u32,
+        labels: &Frame,
+        labels_hash: &str,
+    ) -> Result<LabelRecord, DatasetError> {
+        check_name("scene name", scene)?;
+        check_name("camera name", camera)?;
+        self.make_records_dir(scene, camera)?;
+        let record = LabelRecord {
+            format: RECORD_FORMAT,
+            scene: scene.to_string(),
+            camera: camera.to_string(),
+            frame,
+            labels_hash: labels_hash.to_string(),
+            files: self.write_aside(scene, camera, frame, labels)?,
+        };
+        let path = self.layout().label_record(scene, camera, frame);
+        let commit = || {
+            remove_if_there(&path)?;
+            self.put_in_place(scene, camera, frame, labels)?;
+            write_record(&path, &record)
+        };
+        if let Err(error) = commit() {
+            self.remove_aside(scene, camera, frame, labels);
+            return Err(error);
+        }
+        Ok(record)
     }
 
     /// True when the frame was made with `config_hash` and all its files are there in full length.
     pub fn frame_is_complete(&self, scene: &str, camera: &str, frame: u32, config_hash: &str) -> bool {
-        todo!()
+        let record = self.frame_record(scene, camera, frame).ok().flatten();
+        record.is_some_and(|record| record.config_hash == config_hash && self.files_are_there(scene, &record.files))
     }
 
     /// True when the frame's label layers were joined from the tables `labels_hash` and are there in full length.
     pub fn labels_are_complete(&self, scene: &str, camera: &str, frame: u32, labels_hash: &str) -> bool {
-        todo!()
+        let record = self.label_record(scene, camera, frame).ok().flatten();
+        record.is_some_and(|record| record.labels_hash == labels_hash && self.files_are_there(scene, &record.files))
     }
 
     /// The commit record of a frame; `None` when it has none.
@@ -53,7 +129,7 @@ impl Dataset {
     /// # Errors
     /// When the record cannot be read or understood.
     pub fn frame_record(&self, scene: &str, camera: &str, frame: u32) -> Result<Option<FrameRecord>, DatasetError> {
-        todo!()
+        read_json(&self.layout().frame_record(scene, camera, frame), "delete it and render the frame again")
     }
 
     /// The commit record of a frame's labels; `None` when it has none.
@@ -61,7 +137,7 @@ impl Dataset {
     /// # Errors
     /// When the record cannot be read or understood.
     pub fn label_record(&self, scene: &str, camera: &str, frame: u32) -> Result<Option<LabelRecord>, DatasetError> {
-        todo!()
+        read_json(&self.layout().label_record(scene, camera, frame), "delete it and run the label stage again")
     }
 
     /// Removes the temporary files that a killed run left in a camera's folders. Call it before frames are written, when no
@@ -70,6 +146,110 @@ impl Dataset {
     /// # Errors
     /// When a folder cannot be read or a file cannot be removed.
     pub fn remove_temporaries(&self, scene: &str, camera: &str) -> Result<(), DatasetError> {
-        todo!()
+        let images = [Pass::Final, Pass::Geometry].map(|pass| self.layout().layer_dir(scene, camera, pass));
+        let details = [self.layout().camera_dir(scene, camera), self.layout().records_dir(scene, camera)];
+        for folder in images.iter().chain(&details).filter(|folder| folder.is_dir()) {
+            for name in sorted_names(folder)?.iter().filter(|name| crate::atomic::is_temporary(name)) {
+                remove_if_there(&folder.join(name))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// True when all files of a record are there in full length.
+    pub(crate) fn files_are_there(&self, scene: &str, files: &BTreeMap<String, FileRecord>) -> bool {
+        let folder = self.layout().scene_dir(scene);
+        files.iter().all(|(name, file)| fs::metadata(folder.join(name)).is_ok_and(|found| found.len() == file.bytes))
+    }
+
+    /// Makes the folder of a camera's records; that it exists says that only recorded frames count.
+    pub(crate) fn make_records_dir(&self, scene: &str, camera: &str) -> Result<(), DatasetError> {
+        let folder = self.layout().records_dir(scene, camera);
+        fs::create_dir_all(&folder).map_err(DatasetError::at("create the folder", &folder))
+    }
+
+    /// Writes every layer under its temporary name and says what will lie where. On an error no temporary file stays.
+    fn write_aside(&self, scene: &str, camera: &str, number: u32, frame: &Frame) -> Result<BTreeMap<String, FileRecord>, DatasetError> {
+        let size = [frame.height as usize, frame.width as usize];
+        let layers: Vec<(Layer, &Values)> = frame.iter().collect();
+        let write = |&(layer, values): &(Layer, &Values)| {
+            let path = self.layout().layer(scene, camera, number, layer);
+            Ok((self.name_in_scene(scene, &path), write_layer_aside(&path, size, layer, values)?))
+        };
+        let written: Result<BTreeMap<_, _>, DatasetError> = layers.par_iter().map(write).collect();
+        if written.is_err() {
+            self.remove_aside(scene, camera, number, frame);
+        }
+        written
+    }
+
+    /// Removes what [`Self::write_aside`] wrote, as far as that goes: an error is on its way already.
+    fn remove_aside(&self, scene: &str, camera: &str, number: u32, frame: &Frame) {
+        for (layer, _) in frame.iter() {
+            let _ = fs::remove_file(temporary(&self.layout().layer(scene, camera, number, layer)));
+        }
+    }
+
+    /// Renames the layers of `frame` from their temporary names, colour last: loaders that look for colour find all or nothing.
+    fn put_in_place(&self, scene: &str, camera: &str, number: u32, frame: &Frame) -> Result<(), DatasetError> {
+        let mut layers: Vec<Layer> = frame.iter().map(|(layer, _)| layer).collect();
+        layers.sort_by_key(|&layer| layer == Layer::Color);
+        layers.into_iter().try_for_each(|layer| {
+            let path = self.layout().layer(scene, camera, number, layer);
+            rename(&temporary(&path), &path)
+        })
+    }
+
+    /// Removes a frame with all its layers and records, in the order in which it ceases to count.
+    fn remove_frame(&self, scene: &str, camera: &str, number: u32) -> Result<(), DatasetError> {
+        remove_if_there(&self.layout().frame_record(scene, camera, number))?;
+        remove_if_there(&self.layout().label_record(scene, camera, number))?;
+        LAYERS.iter().try_for_each(|spec| remove_if_there(&self.layout().layer(scene, camera, number, spec.layer)))
+    }
+
+    /// A path relative to the scene's folder, with forward slashes.
+    fn name_in_scene(&self, scene: &str, path: &Path) -> String {
+        let relative = path.strip_prefix(self.layout().scene_dir(scene)).unwrap_or(path);
+        relative.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
+    }
+}
+
+/// Writes one layer under the temporary name of `path`.
+fn write_layer_aside(path: &Path, [height, width]: [usize; 2], layer: Layer, values: &Values) -> Result<FileRecord, DatasetError> {
+    create_parent(path)?;
+    let spec = layer.spec();
+    let shape = [height, width, spec.channels];
+    let shape = if spec.channels == 1 { &shape[..2] } else { &shape[..] };
+    let attributes = [("unit", spec.unit), ("space", spec.space), ("sentinel", spec.sentinel), ("description", spec.description)];
+    let attributes: Vec<_> = attributes.into_iter().filter(|(_, value)| !value.is_empty()).collect();
+    let aside = temporary(path);
+    write_view(&aside, ArrayView::of_values(shape, values), Storage::Compressed, &attributes)?;
+    FileRecord::of(&aside)
+}
+
+impl FileRecord {
+    /// Size and checksum of the file at `path`.
+    ///
+    /// # Errors
+    /// When the file cannot be read.
+    pub fn of(path: &Path) -> Result<Self, DatasetError> {
+        let content = fs::read(path).map_err(DatasetError::at("read", path))?;
+        Ok(Self { bytes: content.len() as u64, blake3: blake3::hash(&content).to_hex().to_string() })
+    }
+}
+
+/// Writes a record as JSON.
+pub(crate) fn write_record(path: &Path, record: &impl Serialize) -> Result<(), DatasetError> {
+    let mut text = serde_json::to_string_pretty(record).expect("plain data encodes");
+    text.push('\n');
+    write_bytes(path, text)
+}
+
+/// Reads a JSON file that may not exist. `remedy` is what to do when it cannot be understood.
+pub(crate) fn read_json<T: DeserializeOwned>(path: &Path, remedy: &str) -> Result<Option<T>, DatasetError> {
+    match fs::read(path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(DatasetError::io("read", path, error)),
+        Ok(text) => serde_json::from_slice(&text).map(Some).map_err(|error| DatasetError::text(path, format!("{error}; {remedy}"))),
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name};
-use enfilade_math::{DMat3, DMat4, DVec4};
+use enfilade_math::{DMat3, DMat4};
 use enfilade_scene::Intrinsics;
 
 /// Near plane of `M_proj`, metres. It scales depth only, not where a point falls in the image.
@@ -15,19 +15,67 @@ const FAR_M: f64 = 1000.0;
 
 /// V-Ray's parameters of a physical camera, in the order of the table.
 const CAMERA_PHYSICAL: [&str; 45] = [
-    "anisotropy", "blades_enable", "blades_num", "blades_rotation", "bmpaperture_affects_exposure", "bmpaperture_enable",
-    "bmpaperture_resolution", "bmpaperture_tex", "center_bias", "distortion", "distortion_tex", "distortion_type",
-    "dof_display_threshold", "dont_affect_settings", "enable_thin_lens_equation", "exposure", "f_number", "film_width",
-    "focal_length", "focus_distance", "fov", "horizontal_offset", "horizontal_shift", "ISO", "latency", "lens_file", "lens_shift",
-    "optical_vignetting", "rolling_shutter_duration", "rolling_shutter_mode", "shutter_angle", "shutter_offset", "shutter_speed",
-    "specify_focus", "specify_fov", "subdivs", "target_distance", "targeted", "type", "use_dof", "use_moblur", "vertical_offset",
-    "vignetting", "white_balance", "zoom_factor",
+    "anisotropy",
+    "blades_enable",
+    "blades_num",
+    "blades_rotation",
+    "bmpaperture_affects_exposure",
+    "bmpaperture_enable",
+    "bmpaperture_resolution",
+    "bmpaperture_tex",
+    "center_bias",
+    "distortion",
+    "distortion_tex",
+    "distortion_type",
+    "dof_display_threshold",
+    "dont_affect_settings",
+    "enable_thin_lens_equation",
+    "exposure",
+    "f_number",
+    "film_width",
+    "focal_length",
+    "focus_distance",
+    "fov",
+    "horizontal_offset",
+    "horizontal_shift",
+    "ISO",
+    "latency",
+    "lens_file",
+    "lens_shift",
+    "optical_vignetting",
+    "rolling_shutter_duration",
+    "rolling_shutter_mode",
+    "shutter_angle",
+    "shutter_offset",
+    "shutter_speed",
+    "specify_focus",
+    "specify_fov",
+    "subdivs",
+    "target_distance",
+    "targeted",
+    "type",
+    "use_dof",
+    "use_moblur",
+    "vertical_offset",
+    "vignetting",
+    "white_balance",
+    "zoom_factor",
 ];
 
 /// V-Ray's other camera settings, in the order of the table.
 const SETTINGS_CAMERA: [&str; 12] = [
-    "auto_corrections_mode", "auto_exposure", "auto_exposure_compensation", "auto_fit", "auto_white_balance", "curve", "dist",
-    "dont_affect_settings", "fov", "height", "image_planes", "type",
+    "auto_corrections_mode",
+    "auto_exposure",
+    "auto_exposure_compensation",
+    "auto_fit",
+    "auto_white_balance",
+    "curve",
+    "dist",
+    "dont_affect_settings",
+    "fov",
+    "height",
+    "image_planes",
+    "type",
 ];
 
 impl Dataset {
@@ -69,6 +117,23 @@ impl Dataset {
             let what = "is not a pinhole with its image plane across the viewing axis, which is all that K can say; use the matrix itself";
             DatasetError::text(&path, format!("line {}: the camera of scene {scene:?} (M_cam_from_uv) {what}", row + 2))
         })
+    }
+
+    /// The scene's `M_proj`: takes camera space to clip space.
+    ///
+    /// # Errors
+    /// When the table is missing or damaged, or has no row for the scene.
+    pub fn projection_matrix(&self, scene: &str) -> Result<DMat4, DatasetError> {
+        let path = self.layout().camera_parameters();
+        let table = Table::read(&path)?;
+        let names = table.column("scene_name")?;
+        let row = table.rows.iter().position(|row| row[names] == scene);
+        let row = row.ok_or_else(|| DatasetError::text(&path, format!("no row for the scene {scene:?}; run the plan stage for it")))?;
+        let mut projection = DMat4::ZERO;
+        for (i, j) in (0..16).map(|k| (k / 4, k % 4)) {
+            projection.col_mut(j)[i] = table.parse(row, table.column(&format!("M_proj_{i}{j}"))?)?;
+        }
+        Ok(projection)
     }
 
     /// The table, or an empty one with Hypersim's columns.
@@ -121,12 +186,13 @@ fn row_values(scene: &str, intrinsics: &Intrinsics) -> Vec<(String, String)> {
 fn projection(intrinsics: &Intrinsics) -> DMat4 {
     let (w, h) = (f64::from(intrinsics.width), f64::from(intrinsics.height));
     let depth = -(FAR_M + NEAR_M) / (FAR_M - NEAR_M);
-    DMat4::from_cols(
-        DVec4::new(2.0 * intrinsics.fx / w, 0.0, 0.0, 0.0),
-        DVec4::new(0.0, 2.0 * intrinsics.fy / h, 0.0, 0.0),
-        DVec4::new(1.0 - 2.0 * intrinsics.cx / w, 2.0 * intrinsics.cy / h - 1.0, depth, -1.0),
-        DVec4::new(0.0, 0.0, -2.0 * FAR_M * NEAR_M / (FAR_M - NEAR_M), 0.0),
-    )
+    let rows = [
+        [2.0 * intrinsics.fx / w, 0.0, 1.0 - 2.0 * intrinsics.cx / w, 0.0],
+        [0.0, 2.0 * intrinsics.fy / h, 2.0 * intrinsics.cy / h - 1.0, 0.0],
+        [0.0, 0.0, depth, -2.0 * FAR_M * NEAR_M / (FAR_M - NEAR_M)],
+        [0.0, 0.0, -1.0, 0.0],
+    ];
+    DMat4::from_cols_array_2d(&rows).transpose()
 }
 
 /// The inverse of [`Intrinsics::cam_from_uv`] up to the matrix's scale; `None` when the image plane is tilted or sheared.
@@ -165,6 +231,7 @@ mod tests {
             assert!(close(found.fx, expected.fx) && close(found.fy, expected.fy), "{found:?}");
             assert!(close(found.cx, expected.cx) && close(found.cy, expected.cy), "{found:?}");
             assert_eq!((found.width, found.height), (expected.width, expected.height));
+            assert_eq!(dataset.projection_matrix(scene).unwrap(), projection(&expected));
         }
         assert!(dataset.intrinsics("room_c").unwrap_err().to_string().contains("no row for the scene \"room_c\""));
     }
@@ -176,7 +243,7 @@ mod tests {
         let (x, y) = (0.5 * (clip.x / clip.w + 1.0) * 640.0, 0.5 * (1.0 - clip.y / clip.w) * 480.0);
         let (px, py) = OFF_CENTRE.project(p);
         assert!((x - px).abs() < 1e-9 && (y - py).abs() < 1e-9);
-        let depth_at = |z: f64| projection(&OFF_CENTRE) * DVec4::new(0.0, 0.0, -z, 1.0);
+        let depth_at = |z: f64| projection(&OFF_CENTRE) * DVec3::new(0.0, 0.0, -z).extend(1.0);
         assert!((depth_at(NEAR_M).z / depth_at(NEAR_M).w + 1.0).abs() < 1e-9);
         assert!((depth_at(FAR_M).z / depth_at(FAR_M).w - 1.0).abs() < 1e-9);
     }

@@ -59,6 +59,16 @@ impl Layout {
         self.root.join("metadata_camera_parameters.csv")
     }
 
+    /// One picture per trajectory of the whole dataset.
+    pub fn overview(&self) -> PathBuf {
+        self.root.join("contact_sheet.jpg")
+    }
+
+    /// The outcome of the last verification, as JSON.
+    pub fn verify_report(&self) -> PathBuf {
+        self.root.join("verify.json")
+    }
+
     /// Where the scenes lie.
     pub fn scenes_dir(&self) -> &Path {
         &self.scenes
@@ -210,10 +220,7 @@ mod tests {
         let geometry = "d/scenes/ai_001_001/images/scene_cam_00_geometry_hdf5";
         assert_eq!(layer(Layer::DepthMeters), Path::new(geometry).join("frame.0007.depth_meters.hdf5"));
         assert_eq!(layer(Layer::Semantic), Path::new(geometry).join("frame.0007.semantic.hdf5"));
-        assert_eq!(
-            layout.keyframes("s", "cam_01", "positions"),
-            Path::new("d/scenes/s/_detail/cam_01/camera_keyframe_positions.hdf5")
-        );
+        assert_eq!(layout.keyframes("s", "cam_01", "positions"), Path::new("d/scenes/s/_detail/cam_01/camera_keyframe_positions.hdf5"));
         assert_eq!(
             layout.preview("s", "cam_00", 12, Pass::Final, "tonemap.jpg"),
             Path::new("d/scenes/s/images/scene_cam_00_final_preview/frame.0012.tonemap.jpg")

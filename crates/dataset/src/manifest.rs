@@ -1,6 +1,9 @@
 //! `manifest.json`: what the dataset is, how to read it, and what has become of every frame.
 
+use crate::frames::{read_json, write_record};
 use crate::{Dataset, DatasetError, FileRecord};
+use enfilade_frame::{Dtype, LAYERS, LayerSpec, Pass};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -27,7 +30,21 @@ pub struct Conventions {
     /// One sentence per subject.
     pub notes: BTreeMap<String, String>,
     /// The table of layers.
-    pub layers: Vec<serde_json::Value>,
+    pub layers: Vec<LayerEntry>,
+}
+
+/// A row of the table of layers, as in [`LayerSpec`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs)]
+pub struct LayerEntry {
+    pub name: String,
+    pub pass: Pass,
+    pub channels: usize,
+    pub dtype: Dtype,
+    pub unit: String,
+    pub space: String,
+    pub sentinel: String,
+    pub description: String,
 }
 
 /// A scene of the manifest.
@@ -93,13 +110,85 @@ pub struct ManifestInfo {
     pub failed_frames: BTreeMap<(String, String, u32), String>,
 }
 
+/// What the manifest calls itself.
+const FORMAT: &str = "enfilade dataset 1";
+
+/// How to read the files, in one sentence per subject.
+const NOTES: [(&str, &str); 10] = [
+    ("layout", "Hypersim's tree: scenes/<scene>/_detail and scenes/<scene>/images/scene_<camera>_{final,geometry}_hdf5."),
+    ("world", "Right-handed, z up, metres; one asset unit is one metre (meters_per_asset_unit = 1)."),
+    ("camera", "Axes x right, y up, z backward; camera_keyframe_orientations hold world_from_camera and act on column vectors."),
+    ("opencv", "_detail/<camera>/cameras_opencv.json has K and world_from_camera with x right, y down, z forward, in metres."),
+    ("pixels", "Row 0 is the top; the ray of pixel (row i, column j) is M_cam_from_uv (u, v, 1), u = -1 + (2j+1)/W, v = 1 - (2i+1)/H."),
+    ("sampling", "Final layers are filtered over the pixel; geometry and label layers are point samples at pixel centres."),
+    (
+        "identity",
+        "color = diffuse_reflectance * diffuse_illumination + residual, evaluated in float32, rounded to float16, to the last bit.",
+    ),
+    ("ids", "render_entity_id is node_id of metadata_nodes.csv; object_id there is the row of the mesh folder's object tables."),
+    ("records", "A frame counts when _detail/<camera>/frames/frame.IIII.json is there; checksums are BLAKE3 of whole files."),
+    ("times", "manifest_times.csv tells how long frames took; it is the only file that differs between two runs."),
+];
+
+impl Default for Conventions {
+    fn default() -> Self {
+        let notes = NOTES.iter().map(|(subject, note)| (subject.to_string(), note.to_string())).collect();
+        let layer = |spec: &LayerSpec| LayerEntry {
+            name: spec.name.to_string(),
+            pass: spec.pass,
+            channels: spec.channels,
+            dtype: spec.dtype,
+            unit: spec.unit.to_string(),
+            space: spec.space.to_string(),
+            sentinel: spec.sentinel.to_string(),
+            description: spec.description.to_string(),
+        };
+        Self { notes, layers: LAYERS.iter().map(layer).collect() }
+    }
+}
+
 impl Dataset {
     /// Gathers the manifest from the trajectories and commit records on disk, and `info`. It reads no layer.
     ///
     /// # Errors
     /// When a trajectory or record cannot be read.
     pub fn collect_manifest(&self, info: &ManifestInfo) -> Result<Manifest, DatasetError> {
-        todo!()
+        let mut scenes = BTreeMap::new();
+        for scene in self.scenes()? {
+            let mut entry = SceneEntry::default();
+            for camera in self.cameras(&scene)? {
+                let frames = self.frame_indices(&scene, &camera)?;
+                let frames = frames.into_iter().map(|frame| self.frame_entry(&scene, &camera, frame, info)).collect::<Result<_, _>>()?;
+                entry.cameras.insert(camera, CameraEntry { frames });
+            }
+            scenes.insert(scene, entry);
+        }
+        for (scene, reason) in &info.failed_scenes {
+            scenes.entry(scene.clone()).or_default().failed = Some(reason.clone());
+        }
+        Ok(Manifest {
+            format: FORMAT.to_string(),
+            enfilade_version: env!("CARGO_PKG_VERSION").to_string(),
+            conventions: Conventions::default(),
+            config: info.config.clone(),
+            seeds: info.seeds.clone(),
+            scenes,
+        })
+    }
+
+    /// What has become of one frame.
+    fn frame_entry(&self, scene: &str, camera: &str, frame: u32, info: &ManifestInfo) -> Result<FrameEntry, DatasetError> {
+        let record = self.frame_record(scene, camera, frame)?.filter(|record| self.files_are_there(scene, &record.files));
+        if let Some(record) = record {
+            let mut files = record.files;
+            let labels = self.label_record(scene, camera, frame)?.filter(|record| self.files_are_there(scene, &record.files));
+            files.extend(labels.into_iter().flat_map(|record| record.files));
+            let (seed, config_hash) = (Some(record.seed), Some(record.config_hash));
+            return Ok(FrameEntry { frame, status: FrameStatus::Complete, reason: None, seed, config_hash, files });
+        }
+        let reason = info.failed_frames.get(&(scene.to_string(), camera.to_string(), frame)).cloned();
+        let status = if reason.is_some() { FrameStatus::Failed } else { FrameStatus::Planned };
+        Ok(FrameEntry { frame, status, reason, seed: None, config_hash: None, files: BTreeMap::new() })
     }
 
     /// Writes `manifest.json`.
@@ -107,7 +196,7 @@ impl Dataset {
     /// # Errors
     /// When the file cannot be written.
     pub fn write_manifest(&self, manifest: &Manifest) -> Result<(), DatasetError> {
-        todo!()
+        write_record(&self.layout().manifest(), manifest)
     }
 
     /// The manifest; `None` where there is none (Hypersim's own data).
@@ -115,15 +204,41 @@ impl Dataset {
     /// # Errors
     /// When it cannot be read or understood.
     pub fn read_manifest(&self) -> Result<Option<Manifest>, DatasetError> {
-        todo!()
+        let path = self.layout().manifest();
+        let manifest: Option<Manifest> = read_json(&path, "run the last stage again, which writes it anew")?;
+        match manifest {
+            Some(manifest) if manifest.format != FORMAT => {
+                let problem =
+                    format!("its format is {:?}, but this version reads {FORMAT:?}; use the version that wrote it", manifest.format);
+                Err(DatasetError::text(&path, problem))
+            }
+            manifest => Ok(manifest),
+        }
     }
 
     /// Reads every file that the manifest lists and compares sizes and checksums: one sentence per file that is missing or not
-    /// as it was written; none when all is well.
+    /// as it was written, in the manifest's order; none when all is well.
     ///
     /// # Errors
     /// When a file that is there cannot be read.
     pub fn verify_checksums(&self, manifest: &Manifest) -> Result<Vec<String>, DatasetError> {
-        todo!()
+        let cameras = manifest.scenes.iter().flat_map(|(scene, entry)| entry.cameras.values().map(move |camera| (scene, camera)));
+        let frames = cameras.flat_map(|(scene, camera)| camera.frames.iter().map(move |frame| (scene, frame)));
+        let files: Vec<_> = frames.flat_map(|(scene, frame)| frame.files.iter().map(move |file| (scene, file))).collect();
+        let check = |(scene, (name, expected)): (&String, (&String, &FileRecord))| self.check_file(scene, name, expected);
+        let problems: Vec<Option<String>> = files.into_par_iter().map(check).collect::<Result<_, _>>()?;
+        Ok(problems.into_iter().flatten().collect())
+    }
+
+    /// What is wrong with one file, if anything.
+    fn check_file(&self, scene: &str, name: &str, expected: &FileRecord) -> Result<Option<String>, DatasetError> {
+        let path = self.layout().scene_dir(scene).join(name);
+        let problem = match FileRecord::of(&path) {
+            Err(error) if error.is_not_found() => "it is missing".to_string(),
+            Ok(found) if found.bytes != expected.bytes => format!("{} bytes long instead of {}", found.bytes, expected.bytes),
+            Ok(found) if found.blake3 != expected.blake3 => "its content is not what was written (checksums differ)".to_string(),
+            found => return found.map(|_| None),
+        };
+        Ok(Some(format!("{}: {problem}; delete the frame's record and render it again", path.display())))
     }
 }

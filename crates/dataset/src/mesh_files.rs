@@ -90,7 +90,8 @@ pub(crate) mod tests {
     /// A floor with texture coordinates and a shared triangle with normals, twice as large.
     pub(crate) fn two_parts() -> Scene {
         let triangle = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
-        let floor = Mesh { positions: triangle.clone(), uvs: vec![Vec2::ZERO, Vec2::X, Vec2::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
+        let floor =
+            Mesh { positions: triangle.clone(), uvs: vec![Vec2::ZERO, Vec2::X, Vec2::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
         let lamp = Mesh { positions: triangle, normals: vec![Vec3::Z; 3], triangles: vec![[0, 1, 2], [2, 1, 0]], ..Mesh::default() };
         let part = |name: &str, mesh, world_from_mesh| Part { name: name.into(), mesh, material: mesh, world_from_mesh };
         let raised = DAffine3::from_translation(DVec3::Z) * DAffine3::from_scale(DVec3::splat(2.0));

@@ -1,5 +1,11 @@
+//! What a dataset holds, and its layers as values.
+
+use crate::hdf5::{Element, Elements, read_array};
+use crate::tables::Table;
 use crate::{Dataset, DatasetError};
-use enfilade_frame::{Frame, Layer, Values};
+use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Values};
+use std::collections::BTreeSet;
+use std::path::Path;
 
 impl Dataset {
     /// The names of the scenes, sorted.
@@ -7,7 +13,8 @@ impl Dataset {
     /// # Errors
     /// When the folder cannot be read.
     pub fn scenes(&self) -> Result<Vec<String>, DatasetError> {
-        todo!()
+        let is_scene = |name: &String| self.layout().detail_dir(name).is_dir() || self.layout().images_dir(name).is_dir();
+        Ok(sorted_names(self.layout().scenes_dir())?.into_iter().filter(is_scene).collect())
     }
 
     /// The names of a scene's cameras: those of `metadata_cameras.csv`, or without that file the camera folders, sorted.
@@ -15,18 +22,40 @@ impl Dataset {
     /// # Errors
     /// When the scene is not there or cannot be read.
     pub fn cameras(&self, scene: &str) -> Result<Vec<String>, DatasetError> {
-        todo!()
+        let path = self.layout().metadata_cameras(scene);
+        match Table::read(&path) {
+            Err(error) if error.is_not_found() => {
+                let has_poses = |name: &String| self.layout().keyframes(scene, name, "positions").is_file();
+                Ok(sorted_names(&self.layout().detail_dir(scene))?.into_iter().filter(has_poses).collect())
+            }
+            table => {
+                let table = table?;
+                let names = table.column("camera_name")?;
+                Ok(table.rows.iter().map(|row| row[names].clone()).collect())
+            }
+        }
     }
 
     /// The numbers of a camera's complete frames, ascending.
     ///
-    /// A frame of ours is complete when its commit record and all the record's files are there. Where a camera has no records at
-    /// all (Hypersim's own data), a frame counts when it has any layer.
+    /// A frame of ours is complete when its commit record and all the record's files are there. Where a camera has no folder of
+    /// records (Hypersim's own data), a frame counts when it has any layer.
     ///
     /// # Errors
     /// When a folder or record cannot be read.
     pub fn frame_numbers(&self, scene: &str, camera: &str) -> Result<Vec<u32>, DatasetError> {
-        todo!()
+        let records = self.layout().records_dir(scene, camera);
+        if !records.is_dir() {
+            return self.frames_with_layers(scene, camera);
+        }
+        let mut frames = Vec::new();
+        for frame in sorted_names(&records)?.iter().filter_map(|name| frame_number(name, "json")) {
+            if self.frame_record(scene, camera, frame)?.is_some_and(|record| self.files_are_there(scene, &record.files)) {
+                frames.push(frame);
+            }
+        }
+        frames.sort_unstable();
+        Ok(frames)
     }
 
     /// One layer as it is stored; Hypersim's own depth and position are `F16`, ours `F32`.
@@ -34,19 +63,135 @@ impl Dataset {
     /// # Errors
     /// When the file is missing, damaged, or not an image of the layer's channels.
     pub fn read_layer(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> Result<Values, DatasetError> {
-        todo!()
+        Ok(self.read_image(scene, camera, frame, layer)?.1)
     }
 
     /// The given layers of a frame. Values in half precision become single precision where the layer's spec says so.
     ///
     /// # Errors
-    /// As [`Dataset::read_layer`], and when the layers differ in size.
+    /// As [`Dataset::read_layer`], and when the layers differ in size or are stored as something else.
+    ///
+    /// # Panics
+    /// When `layers` is empty: a frame without layers has no size.
     pub fn read_frame(&self, scene: &str, camera: &str, frame: u32, layers: &[Layer]) -> Result<Frame, DatasetError> {
-        todo!()
+        let mut whole: Option<Frame> = None;
+        for &layer in layers {
+            let ([height, width], values) = self.read_image(scene, camera, frame, layer)?;
+            let path = || self.layout().layer(scene, camera, frame, layer);
+            let values = as_specified(values, layer).map_err(|problem| DatasetError::hdf5(&path(), problem))?;
+            let whole = whole.get_or_insert_with(|| Frame::new(width as u32, height as u32));
+            if (whole.width as usize, whole.height as usize) != (width, height) {
+                let problem = format!("{width}x{height} pixels, but other layers of the frame have {}x{}", whole.width, whole.height);
+                return Err(DatasetError::hdf5(&path(), format!("{problem}; delete the frame's files and render it again")));
+            }
+            whole.insert(layer, values);
+        }
+        Ok(whole.expect("at least one layer"))
     }
 
     /// True when the frame has a file for `layer`.
     pub fn has_layer(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> bool {
         self.layout().layer(scene, camera, frame, layer).is_file()
+    }
+
+    /// Height and width, and the values of a layer as it is stored.
+    fn read_image(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> Result<([usize; 2], Values), DatasetError> {
+        let path = self.layout().layer(scene, camera, frame, layer);
+        let array = read_array(&path)?;
+        let channels = layer.spec().channels;
+        let size = match (array.shape.as_slice(), channels) {
+            (&[height, width], 1) => [height, width],
+            (&[height, width, found], _) if found == channels => [height, width],
+            (shape, _) => {
+                let problem = format!("expected an image of {channels} channels, found an array of shape {shape:?}");
+                return Err(DatasetError::hdf5(&path, problem));
+            }
+        };
+        let unknown = |other: Elements| DatasetError::hdf5(&path, format!("expected image values, found {}", other.element().name()));
+        Ok((size, array.values.into_values().map_err(unknown)?))
+    }
+
+    /// The numbers of frames that have any layer, ascending.
+    fn frames_with_layers(&self, scene: &str, camera: &str) -> Result<Vec<u32>, DatasetError> {
+        let folders: BTreeSet<_> = LAYERS.iter().map(|spec| self.layout().layer_dir(scene, camera, spec.pass)).collect();
+        let mut frames = BTreeSet::new();
+        for folder in folders.iter().filter(|folder| folder.is_dir()) {
+            let names = sorted_names(folder)?;
+            frames
+                .extend(names.iter().filter_map(|name| LAYERS.iter().find_map(|spec| frame_number(name, &format!("{}.hdf5", spec.name)))));
+        }
+        Ok(frames.into_iter().collect())
+    }
+}
+
+/// The number in `frame.IIII.<rest>`.
+fn frame_number(name: &str, rest: &str) -> Option<u32> {
+    name.strip_prefix("frame.")?.strip_suffix(rest)?.strip_suffix('.')?.parse().ok()
+}
+
+/// The names in a folder, sorted.
+pub(crate) fn sorted_names(folder: &Path) -> Result<Vec<String>, DatasetError> {
+    let entries = std::fs::read_dir(folder).map_err(DatasetError::at("read the folder", folder))?;
+    let names = entries.map(|entry| entry.map(|e| e.file_name().to_string_lossy().into_owned()));
+    let mut names: Vec<String> = names.collect::<Result<_, _>>().map_err(DatasetError::at("read the folder", folder))?;
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// Values as the layer's spec calls for; half precision becomes single without loss.
+fn as_specified(values: Values, layer: Layer) -> Result<Values, String> {
+    match (values, layer.spec().dtype) {
+        (Values::F16(v), Dtype::F32) => Ok(Values::F32(v.into_iter().map(|x| x.to_f32()).collect())),
+        (values, dtype) if values.dtype() == dtype => Ok(values),
+        (values, dtype) => {
+            let found = Elements::from(values).element().name();
+            let expected = match dtype {
+                Dtype::F16 => Element::F16,
+                Dtype::F32 => Element::F32,
+                Dtype::I16 => Element::I16,
+                Dtype::U8 => Element::U8,
+            };
+            Err(format!("expected {}, found {found}; render the frame again", expected.name()))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frame_numbers_are_read_from_whole_names() {
+        assert_eq!(frame_number("frame.0012.json", "json"), Some(12));
+        assert_eq!(frame_number("frame.12345.color.hdf5", "color.hdf5"), Some(12345));
+        for name in ["frame.0012.labels.json", ".frame.0012.json.partial", "frame.json", "frame..json"] {
+            assert_eq!(frame_number(name, "json"), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_folder_that_is_no_dataset_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let message = Dataset::open(folder.path()).unwrap_err().to_string();
+        assert!(message.contains("is not a dataset") && message.contains("\"scenes\""), "{message}");
+        let missing = Dataset::open(folder.path().join("nothing")).unwrap_err();
+        assert!(missing.is_not_found(), "{missing}");
+        Dataset::create(folder.path()).unwrap();
+        assert!(Dataset::open(folder.path()).unwrap().scenes().unwrap().is_empty());
+    }
+
+    #[test]
+    fn hypersims_own_frames_are_read() {
+        let Some(scenes) = std::env::var_os("ENFILADE_SCENES") else {
+            return eprintln!("skipped: ENFILADE_SCENES is not set");
+        };
+        let dataset = Dataset::open(Path::new(&scenes).join("hypersim-real")).unwrap();
+        assert_eq!(dataset.scenes().unwrap(), ["ai_037_002"]);
+        assert_eq!(dataset.cameras("ai_037_002").unwrap(), ["cam_00"]);
+        assert_eq!(dataset.frame_numbers("ai_037_002", "cam_00").unwrap(), [0]);
+        assert_eq!(dataset.read_layer("ai_037_002", "cam_00", 0, Layer::DepthMeters).unwrap().dtype(), Dtype::F16);
+        let frame = dataset.read_frame("ai_037_002", "cam_00", 0, &[Layer::DepthMeters]).unwrap();
+        assert_eq!((frame.width, frame.height), (1024, 768));
+        assert!(dataset.read_frame("ai_037_002", "cam_00", 0, &[Layer::Color]).unwrap_err().is_not_found());
     }
 }

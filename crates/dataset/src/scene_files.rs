@@ -39,7 +39,8 @@ impl Dataset {
         write_parameter(&self.layout().metadata_scene(scene_name), "meters_per_asset_unit", 1.0)?;
         let header = ["node_id", "node_name", "object_id", "object_name"];
         let mut nodes = Table::new(&self.layout().metadata_nodes(scene_name), &header);
-        nodes.rows = scene.parts.iter().enumerate().map(|(i, p)| vec![(i + 1).to_string(), p.name.clone(), i.to_string(), p.name.clone()]).collect();
+        nodes.rows =
+            scene.parts.iter().enumerate().map(|(i, p)| vec![(i + 1).to_string(), p.name.clone(), i.to_string(), p.name.clone()]).collect();
         nodes.write()?;
         write_mesh(self.layout(), scene_name, scene)
     }
@@ -111,7 +112,8 @@ mod tests {
         let dataset = Dataset::create(folder.path()).unwrap();
         dataset.write_scene("room", &two_parts()).unwrap();
         let nodes = dataset.read_nodes("room").unwrap();
-        let expected = |id: u32, name: &str| Node { node_id: id, node_name: name.into(), object_id: Some(id - 1), object_name: name.into() };
+        let expected =
+            |id: u32, name: &str| Node { node_id: id, node_name: name.into(), object_id: Some(id - 1), object_name: name.into() };
         assert_eq!(nodes, [expected(1, "floor, oak"), expected(2, "lamp")]);
         assert_eq!(dataset.meters_per_asset_unit("room").unwrap(), 1.0);
     }

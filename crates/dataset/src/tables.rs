@@ -45,9 +45,10 @@ impl Table {
 
     /// Index of a column.
     pub fn column(&self, name: &str) -> Result<usize, DatasetError> {
-        self.header.iter().position(|column| column == name).ok_or_else(|| {
-            DatasetError::text(&self.path, format!("line 1: no column {name:?}, only {}", self.header.join(", ")))
-        })
+        self.header
+            .iter()
+            .position(|column| column == name)
+            .ok_or_else(|| DatasetError::text(&self.path, format!("line 1: no column {name:?}, only {}", self.header.join(", "))))
     }
 
     /// The cell in `row` and `column` as a number or other plain value.
@@ -55,7 +56,10 @@ impl Table {
         let cell = &self.rows[row][column];
         cell.parse().map_err(|_| {
             let expected = std::any::type_name::<T>();
-            DatasetError::text(&self.path, format!("line {}, column {:?}: expected {expected}, found {cell:?}", row + 2, self.header[column]))
+            DatasetError::text(
+                &self.path,
+                format!("line {}, column {:?}: expected {expected}, found {cell:?}", row + 2, self.header[column]),
+            )
         })
     }
 

@@ -1,4 +1,13 @@
+//! `manifest_times.csv`: how long each frame took. Rows are appended as frames finish; of several rows for one frame the last
+//! counts.
+
 use crate::{Dataset, DatasetError};
+use std::collections::BTreeMap;
+use std::fs::{self, OpenOptions};
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::Path;
+
+const HEADER: &str = "scene_name,camera_name,frame_id,seconds_wall,seconds_cpu\n";
 
 /// How long a frame took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -10,11 +19,68 @@ pub struct FrameTime {
 }
 
 impl Dataset {
-    /// How long each frame took when it was last rendered, by scene, camera and frame number.
+    /// How long each frame took when it was last rendered, by scene, camera and frame number. Rows that a killed run left
+    /// unfinished are passed over.
     ///
     /// # Errors
     /// When the table cannot be read.
-    pub fn read_times(&self) -> Result<std::collections::BTreeMap<(String, String, u32), FrameTime>, DatasetError> {
-        todo!()
+    pub fn read_times(&self) -> Result<BTreeMap<(String, String, u32), FrameTime>, DatasetError> {
+        let path = self.layout().manifest_times();
+        let text = match fs::read_to_string(&path) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(BTreeMap::new()),
+            text => text.map_err(DatasetError::at("read", &path))?,
+        };
+        Ok(text.lines().filter_map(parse_row).collect())
+    }
+
+    /// Appends a row in one write, so that rows of several threads do not mix.
+    pub(crate) fn append_time(&self, scene: &str, camera: &str, frame: u32, time: FrameTime) -> Result<(), DatasetError> {
+        let path = self.layout().manifest_times();
+        append(&path, &format!("{scene},{camera},{frame},{:.3},{:.3}\n", time.wall_s, time.cpu_s)).map_err(DatasetError::at("write", &path))
+    }
+}
+
+/// Appends a row, after the header in a new file and after a line end that a killed run has not written.
+fn append(path: &Path, row: &str) -> std::io::Result<()> {
+    let mut file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
+    let before = if file.metadata()?.len() == 0 {
+        HEADER
+    } else {
+        file.seek(SeekFrom::End(-1))?;
+        let mut last = [0];
+        file.read_exact(&mut last)?;
+        if last == *b"\n" { "" } else { "\n" }
+    };
+    file.write_all(format!("{before}{row}").as_bytes())
+}
+
+/// Names have no commas or quotes, so a row is split at commas.
+fn parse_row(row: &str) -> Option<((String, String, u32), FrameTime)> {
+    let cells: Vec<&str> = row.split(',').collect();
+    let &[scene, camera, frame, wall, cpu] = cells.as_slice() else { return None };
+    let time = FrameTime { wall_s: wall.parse().ok()?, cpu_s: cpu.parse().ok()? };
+    Some(((scene.to_string(), camera.to_string(), frame.parse().ok()?), time))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_row_of_a_frame_counts_and_torn_rows_do_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        assert!(dataset.read_times().unwrap().is_empty());
+        let time = |wall_s| FrameTime { wall_s, cpu_s: 2.0 * wall_s };
+        dataset.append_time("room", "cam_00", 0, time(1.5)).unwrap();
+        dataset.append_time("room", "cam_00", 1, time(2.0)).unwrap();
+        dataset.append_time("room", "cam_00", 0, time(3.25)).unwrap();
+        let path = dataset.layout().manifest_times();
+        fs::write(&path, fs::read_to_string(&path).unwrap() + "room,cam_0").unwrap();
+        dataset.append_time("room", "cam_01", 0, time(4.0)).unwrap();
+        let key = |camera: &str, frame| ("room".to_string(), camera.to_string(), frame);
+        let expected = [(key("cam_00", 0), time(3.25)), (key("cam_00", 1), time(2.0)), (key("cam_01", 0), time(4.0))];
+        assert_eq!(dataset.read_times().unwrap(), BTreeMap::from(expected));
+        assert!(fs::read_to_string(&path).unwrap().starts_with(HEADER));
     }
 }

@@ -1,7 +1,7 @@
 use crate::error::require;
 use crate::grid::{VoxelGrid, WalkEnd};
 use crate::{CarveReport, ExploreError, FreeSpace, StartReport, start};
-use enfilade_geometry::{Bvh, Voxel};
+use enfilade_geometry::Bvh;
 use enfilade_math::{DVec3, Rng, warp};
 use enfilade_scene::{Cx, Warning, WorldMesh};
 use rayon::prelude::*;
@@ -142,7 +142,8 @@ fn warn(report: &CarveReport, cx: &dyn Cx) {
     }
     if report.escaped_share > ESCAPE_WARNING {
         let percent = 100.0 * report.escaped_share;
-        let message = format!("{percent:.1} % of the rays left the scene: it is open or a wall has a gap, and free space reaches to its border");
+        let message =
+            format!("{percent:.1} % of the rays left the scene: it is open or a wall has a gap, and free space reaches to its border");
         cx.warn(Warning { place: "free space".into(), message });
     }
 }
@@ -151,6 +152,7 @@ fn warn(report: &CarveReport, cx: &dyn Cx) {
 mod tests {
     use super::*;
     use crate::testroom::{Room, house_with_thin_wall};
+    use enfilade_geometry::Voxel;
     use enfilade_scene::Quiet;
 
     fn quick() -> CarveConfig {
@@ -166,7 +168,10 @@ mod tests {
         assert!((space.report.free_volume_m3 - 3.9 * 2.9 * 2.4).abs() < 1e-9);
         assert_eq!(space.report.occupied_voxels, 41 * 31 * 26 - 39 * 29 * 24);
         assert_eq!((space.free_min, space.free_max), (DVec3::ZERO, DVec3::new(39.0, 29.0, 24.0) * 0.1));
-        assert_eq!((space.tree.count(Voxel::Free), space.tree.count(Voxel::Occupied)), (space.report.free_voxels, space.report.occupied_voxels));
+        assert_eq!(
+            (space.tree.count(Voxel::Free), space.tree.count(Voxel::Occupied)),
+            (space.report.free_voxels, space.report.occupied_voxels)
+        );
         assert_eq!((space.report.escaped_share, space.report.positions.len()), (0.0, 5));
     }
 

@@ -275,3 +275,102 @@ fn for_each_cell(first: [i32; 3], last: [i32; 3], mut visit: impl FnMut([i32; 3]
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_math::Vec3;
+
+    fn random_point(rng: &mut Rng, low: f64, high: f64) -> DVec3 {
+        DVec3::from([0; 3].map(|_| low + (high - low) * rng.next_f64()))
+    }
+
+    /// A grid of about 30 voxels per edge, not aligned to bricks, with small triangles here and there.
+    fn cluttered(rng: &mut Rng) -> VoxelGrid {
+        let grid = VoxelGrid::new(DVec3::splat(-1.33), DVec3::splat(1.57), 0.1).unwrap();
+        let triangles: Vec<[Vec3; 3]> = (0..60)
+            .map(|_| {
+                let p = random_point(rng, -1.4, 1.6);
+                [0; 3].map(|_| (p + random_point(rng, -0.1, 0.1)).as_vec3())
+            })
+            .collect();
+        grid.occupy(&triangles);
+        grid
+    }
+
+    #[test]
+    fn a_walk_frees_what_the_ray_passes_before_the_first_occupied_voxel() {
+        let mut rng = Rng::new(8);
+        let grid = cluttered(&mut rng);
+        let mut ends = [0, 0];
+        for _ in 0..200 {
+            let (origin, direction) = (random_point(&mut rng, -1.0, 1.0), random_point(&mut rng, -1.0, 1.0).normalize());
+            let end = grid.walk(origin, direction);
+            ends[end as usize] += 1;
+            for step in 0..200_000 {
+                let p = origin + direction * (f64::from(step) * 2e-5);
+                let Some(key) = VoxelKey::at(p, 0.1) else { break };
+                let inside = (0..3).all(|a| (32768 - 14..32768 + 16).contains(&key.0[a]));
+                match (inside, grid.state(p)) {
+                    (false, _) => {
+                        assert_eq!(end, WalkEnd::Left);
+                        break;
+                    }
+                    (true, Voxel::Occupied) => {
+                        assert_eq!(end, WalkEnd::Occupied);
+                        break;
+                    }
+                    (true, state) => assert_eq!(state, Voxel::Free, "{p} on the way from {origin} along {direction}"),
+                }
+            }
+        }
+        assert!(ends.iter().all(|n| *n > 20), "{ends:?}");
+    }
+
+    #[test]
+    fn the_octree_has_the_states_of_the_grid() {
+        let mut rng = Rng::new(9);
+        let grid = cluttered(&mut rng);
+        for k in 0..3000 {
+            grid.walk(DVec3::splat(0.05), enfilade_math::warp::fibonacci_sphere(k, 3000));
+        }
+        let tree = grid.to_tree();
+        let (free, occupied) = grid.counts();
+        assert_eq!((tree.count(Voxel::Free), tree.count(Voxel::Occupied)), (free, occupied));
+        assert!(free > 1000 && occupied > 60, "{free} {occupied}");
+        for _ in 0..20_000 {
+            let p = random_point(&mut rng, -1.8, 2.0);
+            assert_eq!(tree.state(p), grid.state(p), "{p}");
+        }
+    }
+
+    #[test]
+    fn random_free_points_are_uniform_over_the_free_voxels() {
+        let grid = VoxelGrid::new(DVec3::splat(-0.05), DVec3::splat(0.35), 0.1).unwrap();
+        for k in 0..2000 {
+            grid.walk(DVec3::splat(0.15), enfilade_math::warp::fibonacci_sphere(k, 2000));
+        }
+        let (free, _) = grid.counts();
+        assert_eq!(free, 125);
+        let mut rng = Rng::new(2);
+        let mut counts = std::collections::BTreeMap::new();
+        let n = 100_000;
+        for _ in 0..n {
+            let p = grid.random_free(free, &mut rng).unwrap();
+            assert_eq!(grid.state(p), Voxel::Free);
+            *counts.entry(VoxelKey::at(p, 0.1).unwrap().0).or_insert(0u32) += 1;
+        }
+        let expected = f64::from(n) / 125.0;
+        let chi_square: f64 = counts.values().map(|c| (f64::from(*c) - expected).powi(2) / expected).sum();
+        // 124 degrees of freedom: beyond 198 once in 30,000 times.
+        assert!(counts.len() == 125 && chi_square < 198.0, "{} voxels, chi-square {chi_square}", counts.len());
+        assert!(grid.random_free(0, &mut rng).is_none());
+    }
+
+    #[test]
+    fn grids_too_large_or_too_far_are_refused() {
+        let error = |min, max, voxel_m| VoxelGrid::new(min, max, voxel_m).err().unwrap();
+        assert!(matches!(error(DVec3::ZERO, DVec3::splat(5e4), 0.1), ExploreError::OutOfKeySpace { .. }));
+        assert!(matches!(error(DVec3::ZERO, DVec3::splat(3000.0), 0.1), ExploreError::TooManyVoxels { .. }));
+    }
+}

@@ -78,14 +78,17 @@ impl Surroundings {
 ///
 /// # Errors
 /// [`ExploreError::StartOutside`] and [`ExploreError::StartInWall`].
-pub(crate) fn verify(world: &WorldMesh, bvh: &Bvh, grid: &VoxelGrid, voxel_m: f64, index: usize, start: DVec3) -> Result<DVec3, ExploreError> {
+pub(crate) fn verify(
+    world: &WorldMesh,
+    bvh: &Bvh,
+    grid: &VoxelGrid,
+    voxel_m: f64,
+    index: usize,
+    start: DVec3,
+) -> Result<DVec3, ExploreError> {
     let mut around = Surroundings::look(world, bvh, start);
-    let in_wall = |around: &Surroundings| ExploreError::StartInWall {
-        index,
-        position: start,
-        median_m: around.median_m(),
-        clear_m: 2.0 * voxel_m,
-    };
+    let in_wall =
+        |around: &Surroundings| ExploreError::StartInWall { index, position: start, median_m: around.median_m(), clear_m: 2.0 * voxel_m };
     if around.miss_share >= OUTSIDE_SHARE {
         return Err(ExploreError::StartOutside { index, position: start, percent: 100.0 * around.miss_share });
     }

@@ -22,7 +22,7 @@ impl ViewStats {
 
 /// Casts one ray through the centre of every pixel and counts what it meets.
 ///
-/// `triangles` is the number of triangles in the hierarchy. Allocates one bit for each: use a [`TestImage`] for many views.
+/// `triangles` is the number of triangles in the hierarchy. Allocates one bit for each.
 pub fn view_stats(bvh: &Bvh, triangles: usize, intrinsics: &Intrinsics, pose: &Pose) -> ViewStats {
     TestImage::new(intrinsics).look(bvh, pose, &mut SeenSet::new(triangles))
 }
@@ -40,7 +40,7 @@ impl TestImage {
     }
 
     /// Directions in camera space, the one nearest to the optical axis first.
-    pub(crate) fn from_the_center(&self) -> Vec<DVec3> {
+    pub(crate) fn center_first(&self) -> Vec<DVec3> {
         let mut sorted = self.directions.clone();
         sorted.sort_by(|a, b| a.z.total_cmp(&b.z));
         sorted

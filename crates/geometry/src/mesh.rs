@@ -75,13 +75,13 @@ impl Mesh {
             }
         }
         let not_finite = |vertex, attribute, value| Err(MeshError::NotFinite { vertex, attribute, value });
-        for (i, p) in self.positions.iter().enumerate().filter(|(_, p)| !p.is_finite()) {
+        if let Some((i, p)) = self.positions.iter().enumerate().find(|(_, p)| !p.is_finite()) {
             return not_finite(i, "position", p.to_string());
         }
-        for (i, n) in self.normals.iter().enumerate().filter(|(_, n)| !n.is_finite()) {
+        if let Some((i, n)) = self.normals.iter().enumerate().find(|(_, n)| !n.is_finite()) {
             return not_finite(i, "normal", n.to_string());
         }
-        for (i, uv) in self.uvs.iter().enumerate().filter(|(_, uv)| !uv.is_finite()) {
+        if let Some((i, uv)) = self.uvs.iter().enumerate().find(|(_, uv)| !uv.is_finite()) {
             return not_finite(i, "texture coordinate", uv.to_string());
         }
         Ok(())

@@ -41,15 +41,15 @@ impl Palette {
 
     /// Every palette.
     pub fn all() -> [Self; 5] {
-        let white = Rgb::new(0.74, 0.725, 0.69);
+        let white = Rgb::new(0.80, 0.785, 0.75);
         [
             // Sage wall, grey-blue sofa, mustard and rust.
             Self {
                 wall: white,
-                accent_wall: srgb(0xa9b5a0),
+                accent_wall: srgb(0xbcc5b2),
                 floor: WoodTone::OAK,
                 wood: WoodTone::OAK,
-                sofa: srgb(0x7f8b95),
+                sofa: srgb(0x9aa3aa),
                 armchair: srgb(0xb9784a),
                 rug: [srgb(0xd9d0bf), srgb(0x55585c)],
                 curtain: srgb(0xded6c6),

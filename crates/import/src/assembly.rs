@@ -101,6 +101,11 @@ impl<'a> Assembly<'a> {
         Ok((file, bytes))
     }
 
+    /// True when there is a file where the scene file's `path` leads.
+    pub(crate) fn exists(&self, path: &str) -> bool {
+        self.resolve(path).is_file()
+    }
+
     fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
         let bytes = std::fs::read(file).map_err(|source| ImportError::Read {
             file: file.to_path_buf(),
@@ -161,6 +166,16 @@ impl<'a> Assembly<'a> {
     pub(crate) fn push_image(&mut self, image: enfilade_scene::Image) -> u32 {
         self.scene.images.push(image);
         (self.scene.images.len() - 1) as u32
+    }
+
+    /// The index that the next picture will have.
+    pub(crate) fn next_image(&self) -> u32 {
+        self.scene.images.len() as u32
+    }
+
+    /// Adds a light that is already in the world's units and axes.
+    pub(crate) fn push_world_light(&mut self, light: Light) {
+        self.scene.lights.push(light);
     }
 
     /// A picture by its index.

@@ -24,7 +24,7 @@
 //!
 //! # Formats
 //!
-//! The pages of [`gltf`] and [`package`] list what is supported of each.
+//! The pages of [`gltf`], [`obj`], [`mitsuba`] and [`package`] list what is supported of each.
 
 mod assembly;
 mod error;
@@ -32,7 +32,10 @@ mod format;
 pub mod gltf;
 mod images;
 mod mesh;
+pub mod mitsuba;
+pub mod obj;
 pub mod package;
+mod polygon;
 mod report;
 
 pub use error::ImportError;
@@ -125,8 +128,8 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
     let assembly = Assembly::new(format, path, UpAxis::Y, options, cx);
     match format {
         Format::Gltf => gltf::load(assembly),
-        Format::Obj => Err(ImportError::malformed(path, "x", "y")),
-        Format::Mitsuba => Err(ImportError::malformed(path, "x", "y")),
+        Format::Obj => obj::load(assembly),
+        Format::Mitsuba => mitsuba::load(assembly),
         Format::Package => package::load(assembly),
     }
 }

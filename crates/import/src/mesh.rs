@@ -29,6 +29,35 @@ pub(crate) fn mend(mesh: &mut Mesh) -> Vec<String> {
     notes
 }
 
+/// Gives a mesh smooth normals: at each vertex the mean of the adjoining faces, weighted by their angle there.
+pub(crate) fn add_smooth_normals(mesh: &mut Mesh) {
+    let mut sums = vec![Vec3::ZERO; mesh.positions.len()];
+    for triangle in mesh.triangles.iter().filter(|t| t.iter().all(|&i| (i as usize) < mesh.positions.len())) {
+        let p = triangle.map(|i| mesh.positions[i as usize]);
+        let face = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
+        for k in 0..3 {
+            let (a, b) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
+            let angle = a.normalize_or_zero().dot(b.normalize_or_zero()).clamp(-1.0, 1.0).acos();
+            sums[triangle[k] as usize] += face * angle;
+        }
+    }
+    mesh.normals = sums.into_iter().map(|n| n.normalize_or(Vec3::Z)).collect();
+}
+
+/// Turns triangles round whose vertex normals point to their back.
+pub(crate) fn turn_faces_to_normals(mesh: &mut Mesh) {
+    if mesh.normals.len() != mesh.positions.len() {
+        return;
+    }
+    for triangle in mesh.triangles.iter_mut().filter(|t| t.iter().all(|&i| (i as usize) < mesh.positions.len())) {
+        let p = triangle.map(|i| mesh.positions[i as usize]);
+        let normal: Vec3 = triangle.iter().map(|&i| mesh.normals[i as usize]).sum();
+        if (p[1] - p[0]).cross(p[2] - p[0]).dot(normal) < 0.0 {
+            triangle.swap(1, 2);
+        }
+    }
+}
+
 /// An affine map of texture coordinates with v downward, for coordinates with v upward: F·M·F with F (u, v) → (u, 1 − v).
 pub(crate) fn flip_v_of_transform([[a, b, c], [d, e, f]]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
     [[a, -b, b + c], [-d, e, 1.0 - e - f]]

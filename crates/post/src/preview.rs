@@ -183,3 +183,71 @@ fn robust_range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 fn short(v: f64) -> String {
     if v.abs() < 10.0 { format!("{v:.2}") } else { format!("{v:.1}") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{self, pixel_of};
+
+    fn analytic() -> (Frame, ToneMap) {
+        let frame = testing::frame(&testing::pose());
+        let tone = ToneMap::of_frame(&frame).unwrap();
+        (frame, tone)
+    }
+
+    fn pixel(subject: Subject, part: i16) -> [u8; 4] {
+        let (frame, tone) = analytic();
+        let i = pixel_of(&frame, part) as u32;
+        preview(subject, &frame, tone).unwrap().picture.get_pixel(i % frame.width, i / frame.width).0
+    }
+
+    #[test]
+    fn every_preview_has_a_file_of_its_kind_and_size() {
+        let (frame, tone) = analytic();
+        let mut names = std::collections::BTreeSet::new();
+        for spec in PREVIEWS {
+            let file = spec.file(&frame, tone).unwrap();
+            let picture = image::load_from_memory(&file).unwrap();
+            assert_eq!((picture.width(), picture.height()), (64, 48), "{}", spec.name);
+            assert_eq!(spec.name.ends_with(".png"), file.starts_with(b"\x89PNG"));
+            assert!(names.insert((spec.pass == Pass::Final, spec.name)), "{} twice", spec.name);
+            assert_eq!(spec.file(&Frame::new(64, 48), tone), None);
+        }
+    }
+
+    #[test]
+    fn known_values_get_known_colours() {
+        let up = [byte(0.5), byte(0.5), 255, 255];
+        assert_eq!(pixel(Subject::Layer(Layer::NormalWorld), 1), up);
+        assert_eq!(pixel(Subject::Layer(Layer::Semantic), 1), [152, 223, 138, 255]);
+        assert_eq!(pixel(Subject::Layer(Layer::Semantic), -1), [0, 0, 0, 255]);
+        assert_eq!(pixel(Subject::Layer(Layer::SemanticInstance), 2), [0, 0, 0, 255]);
+        assert_eq!(pixel(Subject::Layer(Layer::Valid), -1), [0, 0, 0, 255]);
+        assert_eq!(pixel(Subject::Layer(Layer::DepthMeters), -1), [0; 4], "no value, no colour");
+        assert_eq!(pixel(Subject::Difference, 1), [0, 0, 0, 255]);
+        let reflectance = byte(0.5f64.powf(1.0 / 2.2));
+        assert_eq!(pixel(Subject::Layer(Layer::DiffuseReflectance), 1)[0], reflectance);
+        assert_eq!(pixel(Subject::Clipped, -1), [255; 4]);
+    }
+
+    #[test]
+    fn parts_of_the_radiance_share_the_exposure_of_the_whole() {
+        let (frame, tone) = analytic();
+        let i = 3 * pixel_of(&frame, 1);
+        let linear = |layer| frame.get(layer).unwrap().get(i);
+        let shown = |v: f64| byte(tone.apply(v));
+        assert_eq!(pixel(Subject::ToneMapped, 1)[0], shown(linear(Layer::Color)));
+        assert_eq!(pixel(Subject::Layer(Layer::DiffuseIllumination), 1)[0], shown(linear(Layer::DiffuseIllumination)));
+        assert_eq!(pixel(Subject::Lambertian, 1)[0], shown(linear(Layer::DiffuseReflectance) * linear(Layer::DiffuseIllumination)));
+    }
+
+    #[test]
+    fn ranges_are_stated_in_the_note_and_in_the_png() {
+        let (frame, tone) = analytic();
+        let note = preview(Subject::Layer(Layer::DepthMeters), &frame, tone).unwrap().note;
+        assert!(note.ends_with(" m") && note.contains(" to "), "{note}");
+        let spec = PREVIEWS.iter().find(|spec| spec.name == "depth_meters.png").unwrap();
+        let file = spec.file(&frame, tone).unwrap();
+        assert!(file.windows(note.len()).any(|w| w == note.as_bytes()));
+    }
+}

@@ -20,6 +20,13 @@ pub struct ToneMap {
     pub scale: f64,
 }
 
+/// Shows radiance 1 as white.
+impl Default for ToneMap {
+    fn default() -> Self {
+        Self { scale: 1.0 }
+    }
+}
+
 impl ToneMap {
     /// Fits the scale to the brightness (see [`brightness`]) of the valid pixels.
     ///

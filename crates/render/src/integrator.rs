@@ -137,11 +137,9 @@ impl<'s> Integrator<'_, 's> {
     /// Direct light: the BSDF's value over the light's density, weighted against BSDF sampling, and the radiance that arrives.
     fn sample_lights(&self, surface: &Surface<'s>, bsdf: &Bsdf<'_>, onb: &Onb, wo: Vec3, u: [f32; 4]) -> (Value, Rgb) {
         let nothing = (Value::default(), Rgb::BLACK);
-        let Some(light) = self.scene.lights.sample(self.scene, surface.p, [u[0], u[1], u[2]]) else { return nothing };
+        let wanted = |wi: Vec3| sides_agree(wi.dot(onb.z), wi.dot(surface.ng));
+        let Some(light) = self.scene.lights.sample(self.scene, surface.p, [u[0], u[1], u[2]], wanted) else { return nothing };
         let wi = onb.to_local(light.wi);
-        if !sides_agree(wi.z, light.wi.dot(surface.ng)) {
-            return nothing;
-        }
         let value = bsdf.eval(wo, wi);
         if value == Value::default() || light.radiance.is_black() {
             return nothing;

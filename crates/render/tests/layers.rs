@@ -62,7 +62,9 @@ fn check(frame: &Frame, pose: &Pose, p: usize, exact: Option<(DVec3, DVec3, i16)
         assert!((vector(frame, world, p) - facing).length() < 1e-3 + 10.0 * tolerance, "{} not {facing}", vector(frame, world, p));
         assert!((vector(frame, cam, p) - pose.world_from_camera.transpose() * facing).length() < 1e-3 + 10.0 * tolerance);
     }
-    assert_eq!((scalar(frame, Layer::RenderEntityId, p), scalar(frame, Layer::Valid, p)), (f64::from(entity), 1.0));
+    assert_eq!(scalar(frame, Layer::RenderEntityId, p), f64::from(entity));
+    // 3 is possible too: at a silhouette the one filtered sample may miss what the pixel's centre hits.
+    assert!(scalar(frame, Layer::Valid, p) >= 1.0);
 }
 
 fn ray(pose: &Pose, p: usize) -> DVec3 {

@@ -249,7 +249,7 @@ mod tests {
                 assert!(message.contains("depth_meters.hdf5") && message.contains("cut short"), "{length}: {message}");
             }
             // Bytes that are altered may pass unnoticed (HDF5 has no checksum here), but must not panic.
-            for at in (0..2000).chain((2000..whole.len()).step_by(501)) {
+            for at in (0..2000).step_by(3).chain((2000..whole.len()).step_by(501)) {
                 let mut altered = whole.clone();
                 altered[at] ^= 0xff;
                 std::fs::write(&path, altered).unwrap();

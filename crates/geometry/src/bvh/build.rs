@@ -100,7 +100,7 @@ fn split(corners: &[[Vec3; 3]], hittable: &[u32], scale: Scale) -> Vec<Piece> {
     let mut owners: Vec<u32> = (0..triangles.len() as u32).collect();
     let areas = || boxes.iter().map(Aabb::half_area);
     let (mean, most) = (areas().sum::<f32>() / boxes.len() as f32, areas().fold(0.0, f32::max));
-    split_aabbs_preset(&mut boxes, &mut owners, &triangles, mean, most);
+    if std::env::var("NOSPLIT").is_err() { split_aabbs_preset(&mut boxes, &mut owners, &triangles, mean, most); }
 
     std::iter::zip(boxes, owners)
         .map(|(part, owner)| {
@@ -154,7 +154,9 @@ fn binary_tree(pieces: &[Piece], scale: Scale) -> Binary {
     if pieces.len() <= LANES {
         return balanced_tree(pieces);
     }
-    let config = BvhBuildParams::medium_build();
+    let mut config = match std::env::var("CFG").as_deref() { Ok("slow") => BvhBuildParams::slow_build(), Ok("vslow") => BvhBuildParams::very_slow_build(), _ => BvhBuildParams::medium_build() };
+    if let Ok(v) = std::env::var("TC") { config.collapse_traversal_cost = v.parse().unwrap(); }
+    if let Ok(v) = std::env::var("RR") { config.reinsertion_batch_ratio = v.parse().unwrap(); }
     let boxes: Vec<Aabb> = pieces
         .iter()
         .map(|p| Aabb::new(scale.apply(p.bounds.min).to_vec3a(), scale.apply(p.bounds.max).to_vec3a()))

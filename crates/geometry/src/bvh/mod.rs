@@ -36,6 +36,8 @@ pub struct Bvh {
     nodes: Vec<Node>,
     blocks: Vec<Block>,
     bounds: Bounds3,
+    /// The greatest absolute value of a coordinate.
+    largest_coordinate: f32,
     triangle_count: usize,
     kernel: Kernel,
 }
@@ -71,6 +73,7 @@ impl Bvh {
             nodes: built.nodes,
             blocks: built.blocks,
             bounds: built.bounds,
+            largest_coordinate: built.bounds.min.abs().max(built.bounds.max.abs()).max_element(),
             triangle_count: corners.len(),
             kernel: Kernel::best_here(),
         }

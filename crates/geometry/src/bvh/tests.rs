@@ -8,7 +8,7 @@ type Triangle = [Vec3; 3];
 fn meet_one(triangle: &Triangle, ray: &Ray) -> Option<Hit> {
     let d = ray.direction.to_array();
     let size = d.map(f32::abs);
-    let z = if size[0] > size[1] && size[0] > size[2] { 0 } else { 1 + usize::from(size[1] <= size[2]) };
+    let z = (0..3).rev().max_by(|&i, &j| size[i].total_cmp(&size[j])).unwrap();
     let (x, y, iz) = ((z + 1) % 3, (z + 2) % 3, 1.0 / d[z]);
     let [a, b, c] = triangle.map(|p| {
         let p = (p - ray.origin).to_array();

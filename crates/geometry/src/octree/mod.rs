@@ -208,6 +208,25 @@ impl OccupancyTree {
         self.leaves().filter(|leaf| leaf.state == state).map(|leaf| leaf.voxels()).sum()
     }
 
+    /// True when any voxel of a known `state` has a point within `radius_m` of `p`.
+    pub fn any_within(&self, p: DVec3, radius_m: f64, state: Voxel) -> bool {
+        self.near(self.root, VoxelKey([0; 3]), TREE_LEVELS, p, radius_m, state)
+    }
+
+    fn near(&self, child: Child, key: VoxelKey, level: u32, p: DVec3, radius_m: f64, state: Voxel) -> bool {
+        if matches!(child, Child::Leaf(other) if other != state) {
+            return false;
+        }
+        let low = key.corner(self.resolution_m);
+        let high = low + DVec3::splat(self.resolution_m * f64::from(1u32 << level));
+        if p.clamp(low, high).distance_squared(p) > radius_m * radius_m {
+            return false;
+        }
+        let Child::Inner(node) = child else { return true };
+        let children = &self.nodes[node as usize];
+        (0..8).any(|octant| self.near(children[octant], key.child(octant, level), level - 1, p, radius_m, state))
+    }
+
     /// The box around all voxels of a known `state`, borders included, metres; `None` when there are none.
     pub fn bounds(&self, state: Voxel) -> Option<(DVec3, DVec3)> {
         self.leaves().filter(|leaf| leaf.state == state).fold(None, |bounds, leaf| {
@@ -286,10 +305,26 @@ mod tests {
     }
 
     #[test]
+    fn nearness_matches_the_distance_to_every_voxel() {
+        let mut tree = OccupancyTree::new(0.1);
+        random_states(60).into_iter().for_each(|(key, state)| tree.set(key, state));
+        let mut rng = Rng::new(4);
+        for _ in 0..300 {
+            let p = DVec3::from([0; 3].map(|_| 3.0 * rng.next_f64() - 1.5));
+            let nearest = |leaf: Leaf| {
+                let low = leaf.key.corner(0.1);
+                p.clamp(low, low + DVec3::splat(0.1)).distance(p)
+            };
+            let distance = tree.leaves().filter(|l| l.state == Voxel::Occupied).map(nearest).fold(f64::INFINITY, f64::min);
+            assert!(tree.any_within(p, distance + 1e-9, Voxel::Occupied));
+            assert!(!tree.any_within(p, distance - 1e-9, Voxel::Occupied) || distance == 0.0);
+        }
+    }
+
+    #[test]
     fn leaves_come_in_morton_order() {
-        let morton = |key: VoxelKey| {
-            (0..16).fold(0u64, |m, bit| m | (0..3).fold(0, |m, a| m | (u64::from((key.0[a] >> bit) & 1) << (3 * bit + a))))
-        };
+        let morton =
+            |key: VoxelKey| (0..16).fold(0u64, |m, bit| m | (0..3).fold(0, |m, a| m | (u64::from((key.0[a] >> bit) & 1) << (3 * bit + a))));
         let mut tree = OccupancyTree::new(0.1);
         random_states(500).into_iter().for_each(|(key, state)| tree.set(key, state));
         let codes: Vec<u64> = tree.leaves().map(|leaf| morton(leaf.key)).collect();

@@ -8,8 +8,9 @@ use std::f32::consts::{PI, TAU};
 /// Paints a garden with trees over the lower part of an equirectangular sky.
 ///
 /// `world_from_map` turns the map's directions into the world's, `irradiance` is that of the sun and sky together on level ground in
-/// the units of the picture.
-pub fn paint_surroundings(sky: &mut Image, world_from_map: impl Fn(Vec3) -> Vec3, irradiance: Rgb, seed: u32) {
+/// the units of the picture. Directions that face away from `outward`, the way out of the window, become black: no light from
+/// there can enter a room whose only opening is that window, and a renderer need not look for any.
+pub fn paint_surroundings(sky: &mut Image, world_from_map: impl Fn(Vec3) -> Vec3, irradiance: Rgb, outward: Vec3, seed: u32) {
     let (width, height) = (sky.width, sky.height);
     let Pixels::RgbF32(texels) = &mut sky.pixels else { return };
     let diffuse = |albedo: Rgb| albedo * irradiance / PI;
@@ -17,6 +18,13 @@ pub fn paint_surroundings(sky: &mut Image, world_from_map: impl Fn(Vec3) -> Vec3
         let (x, y) = (i as u32 % width, i as u32 / width);
         let uv = Vec2::new((x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32);
         let d = world_from_map(direction_from_uv(uv));
+        if d.dot(outward) < -0.03 {
+            *texel = [0.0; 3];
+            continue;
+        }
+        if d.z > 0.35 {
+            continue;
+        }
         let azimuth = d.y.atan2(d.x) / TAU + 0.5;
         let elevation = d.z.asin().to_degrees();
         let place = Vec2::new(azimuth, elevation / 180.0 + 0.5);

@@ -4,8 +4,16 @@ use enfilade_math::{Vec2, hash_u32};
 
 /// Uniform on [0,1) from a lattice point.
 pub fn lattice(x: i32, y: i32, seed: u32) -> f32 {
-    let h = hash_u32((x as u32).wrapping_mul(0x9e37_79b1) ^ hash_u32((y as u32).wrapping_add(seed.wrapping_mul(0x85eb_ca6b))));
-    (h >> 8) as f32 * (1.0 / 16_777_216.0)
+    uniform(x, row(y, seed))
+}
+
+/// What the lattice points of a row have in common.
+fn row(y: i32, seed: u32) -> u32 {
+    hash_u32((y as u32).wrapping_add(seed.wrapping_mul(0x85eb_ca6b)))
+}
+
+fn uniform(x: i32, row: u32) -> f32 {
+    (hash_u32((x as u32).wrapping_mul(0x9e37_79b1) ^ row) >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
 /// Value noise on [−1,1] with features one unit apart; repeats after `period` units.
@@ -13,11 +21,12 @@ pub fn noise(p: Vec2, period: [i32; 2], seed: u32) -> f32 {
     let cell = p.floor();
     let f = p - cell;
     let w = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-    let at = |dx: i32, dy: i32| {
-        lattice((cell.x as i32 + dx).rem_euclid(period[0]), (cell.y as i32 + dy).rem_euclid(period[1]), seed)
-    };
-    let low = at(0, 0) * (1.0 - w.x) + at(1, 0) * w.x;
-    let high = at(0, 1) * (1.0 - w.x) + at(1, 1) * w.x;
+    let wrap = |c: i32, n: i32| if (0..n).contains(&c) { c } else { c.rem_euclid(n) };
+    let (x0, y0) = (wrap(cell.x as i32, period[0]), wrap(cell.y as i32, period[1]));
+    let (x1, y1) = (wrap(x0 + 1, period[0]), wrap(y0 + 1, period[1]));
+    let (row0, row1) = (row(y0, seed), row(y1, seed));
+    let low = uniform(x0, row0) * (1.0 - w.x) + uniform(x1, row0) * w.x;
+    let high = uniform(x0, row1) * (1.0 - w.x) + uniform(x1, row1) * w.x;
     2.0 * (low * (1.0 - w.y) + high * w.y) - 1.0
 }
 

@@ -19,7 +19,7 @@ pub struct WoodTone {
 
 impl WoodTone {
     /// Oak under clear oil.
-    pub const OAK: Self = Self { light: Rgb::new(0.47, 0.315, 0.175), dark: Rgb::new(0.30, 0.18, 0.09) };
+    pub const OAK: Self = Self { light: Rgb::new(0.53, 0.37, 0.22), dark: Rgb::new(0.35, 0.22, 0.115) };
     /// Pale, white-oiled ash.
     pub const ASH: Self = Self { light: Rgb::new(0.58, 0.45, 0.31), dark: Rgb::new(0.42, 0.30, 0.19) };
     /// American walnut.

@@ -7,6 +7,8 @@ mod document;
 mod expand;
 mod locate;
 mod patch;
+#[cfg(test)]
+mod tests;
 
 use crate::error::Error;
 use enfilade_explore::{CarveConfig, PlanConfig};
@@ -48,11 +50,11 @@ pub struct SceneConfig {
     pub size: [u32; 2],
     /// Horizontal field of view; `None` takes that of the scene's first used camera.
     pub fov_x_deg: Option<f64>,
-    /// Free-space carving.
+    /// Free-space carving. Its seed is made from `seed`.
     pub carve: CarveConfig,
-    /// Trajectories.
+    /// Trajectories. Its seed is made from `seed`; its test images get the pictures' field of view and shape.
     pub plan: PlanConfig,
-    /// Light transport.
+    /// Light transport. Its seed is made from `seed`, another for each camera.
     pub render: RenderConfig,
 }
 
@@ -167,7 +169,7 @@ pub mod demo {
     /// Name of the demo's scene.
     pub const SCENE: &str = "living-room";
     /// Seed.
-    pub const SEED: u64 = 1;
+    pub const SEED: u64 = 0;
     /// Frames of each trajectory.
     pub const FRAMES: u32 = 4;
     /// Image width and height.
@@ -258,29 +260,5 @@ fn matches(pattern: &str, name: &str) -> bool {
         Some((head, tail)) => name.strip_prefix(head).is_some_and(|rest| {
             (0..=rest.len()).filter(|&i| rest.is_char_boundary(i)).any(|i| matches(tail, &rest[i..]))
         }),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn patterns_choose_scenes_and_a_typing_mistake_gets_a_proposal() {
-        let config = Config::demo(&Overrides::default()).unwrap();
-        assert_eq!(config.select(Some("liv*m")).unwrap().len(), 1);
-        assert_eq!(config.select(Some("x, living-room")).unwrap().len(), 1);
-        let error = config.select(Some("livingroom")).unwrap_err();
-        assert_eq!(error.hint().unwrap(), "did you mean \"living-room\"? the scenes are: living-room");
-        assert!(matches("a*b*c", "a-b-b-c") && !matches("a*b", "abc") && matches("*", ""));
-    }
-
-    #[test]
-    fn seeds_differ_by_scene_and_purpose() {
-        let config = Config::demo(&Overrides::default()).unwrap();
-        let scene = &config.scenes[0];
-        let other = SceneConfig { name: "b".into(), ..scene.clone() };
-        assert_ne!(scene.seed_for("plan"), scene.seed_for("render"));
-        assert_ne!(scene.seed_for("plan"), other.seed_for("plan"));
     }
 }

@@ -1,6 +1,6 @@
 //! The sections of `dataset.toml` that say how stages work: every key is optional, and what is there replaces the value below.
 
-use enfilade_explore::{CarveConfig, PlanConfig};
+use enfilade_explore::{CarveConfig, PlanConfig, Saliency};
 use enfilade_render::RenderConfig;
 use serde::Deserialize;
 use toml::Spanned;
@@ -17,6 +17,7 @@ macro_rules! section {
 
         impl $name {
             /// Lays the keys that are there over `target`.
+            #[allow(clippy::clone_on_copy)] // not every field is Copy
             pub fn apply(&self, target: &mut $target) {
                 $(if let Some(value) = &self.$field {
                     target.$field = value.get_ref().clone();
@@ -34,3 +35,17 @@ section!(RenderPatch => RenderConfig { samples: u32, max_bounces: u32, roulette_
 });
 
 section!(CarvePatch => CarveConfig { voxel_m: f64, extent_m: f64, rays: u32, iterations: u32 });
+
+// The frames are a key of the level above; the test images have the field of view and the shape of the pictures.
+section!(PlanPatch => PlanConfig {
+    candidates: u32,
+    queries: u32,
+    step_m: [f64; 3],
+    height_range_m: f64,
+    clearance_m: f64,
+    min_look_distance_m: f64,
+    roll_limit_deg: f64,
+    max_void_share: f64,
+    test_width: u32,
+    saliency: Saliency,
+});

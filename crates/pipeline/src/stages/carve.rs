@@ -5,6 +5,7 @@ use crate::config::{CameraChoice, closest};
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::{Hash, write_json};
+use enfilade_explore::{CarveConfig, StartsConfig};
 use enfilade_math::DVec3;
 use enfilade_scene::{Pose, Scene, StartCamera};
 use std::path::PathBuf;
@@ -25,12 +26,16 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let world = job.load_world()?;
     let starts = start_cameras(job, cx)?;
     let positions: Vec<DVec3> = starts.iter().map(|s| s.position).collect();
-    let space = enfilade_explore::carve(&world.mesh, &world.bvh, &positions, &job.scene.carve, cx).map_err(Error::stage)?;
+    let config = CarveConfig { seed: job.scene.seed_for("carve"), ..job.scene.carve.clone() };
+    let space = enfilade_explore::carve(&world.mesh, &world.bvh, &positions, &config, cx).map_err(Error::stage)?;
     job.dataset.write_free_space(name, &space.tree.to_bt(), space.free_min, space.free_max).map_err(Error::stage)?;
     write_json(&job.work_file(STARTS)?, &starts)?;
     let size = space.free_max - space.free_min;
-    let summary = format!("free space of {:.1} x {:.1} x {:.1} m, seen from {} cameras", size.x, size.y, size.z, starts.len());
-    Ok(Outcome { summary, outputs: outputs(job)?, ..Outcome::default() })
+    let cameras = if starts.len() == 1 { "1 camera".into() } else { format!("{} cameras", starts.len()) };
+    let volume = space.report.free_volume_m3;
+    let summary = format!("{volume:.0} m3 of free space within {:.1} x {:.1} x {:.1} m, seen from {cameras}", size.x, size.y, size.z);
+    let report = serde_json::to_value(&space.report).unwrap_or_default();
+    Ok(Outcome { summary, outputs: outputs(job)?, report, ..Outcome::default() })
 }
 
 /// Every file that carving writes.
@@ -50,7 +55,7 @@ fn start_cameras(job: &Job, cx: &StageCx) -> Result<Vec<StartCamera>, Error> {
         return Ok(scene.cameras.clone());
     }
     let world = job.load_world()?;
-    let found = enfilade_explore::find_starts(&world.mesh, &world.bvh, &job.scene.carve, cx);
+    let found = enfilade_explore::find_starts(&world.mesh, &world.bvh, &StartsConfig::default(), cx);
     if found.is_empty() {
         let message = "the scene has no camera, and no place was found where one could stand";
         return Err(Error::scene(message, "say where to begin: cameras = [{ position = [x, y, z], look_at = [x, y, z] }] (metres, z up)"));

@@ -4,7 +4,7 @@ use super::{Input, Job, Outcome, Record, Stage, carve};
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
-use enfilade_explore::{FreeSpace, PlanConfig};
+use enfilade_explore::{CarveReport, FreeSpace, PlanConfig};
 use enfilade_geometry::OccupancyTree;
 use enfilade_scene::{Cx, Intrinsics, StartCamera, Trajectory, Warning};
 use std::path::{Path, PathBuf};
@@ -30,10 +30,10 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let starts: Vec<StartCamera> = read_json(&job.work_file(carve::STARTS)?)
         .filter(|starts: &Vec<StartCamera>| !starts.is_empty())
         .ok_or_else(|| Error::scene("the list of start cameras cannot be read", "make it again: enfilade carve --force"))?;
-    let trajectories = plan_all(job, &starts, cx)?;
     let [width, height] = job.scene.size;
     let fov_x_rad = job.scene.fov_x_deg.map_or(starts[0].fov_x_rad, f64::to_radians);
     let intrinsics = Intrinsics::from_fov_x(width, height, fov_x_rad);
+    let trajectories = plan_all(job, &starts, &intrinsics, cx)?;
     remove_other_cameras(job, &trajectories)?;
     for trajectory in &trajectories {
         job.dataset.write_trajectory(name, trajectory, &intrinsics).map_err(Error::stage)?;
@@ -48,12 +48,18 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 }
 
 /// One trajectory per start camera. A camera from which none can begin is left out with a warning, as long as one remains.
-fn plan_all(job: &Job, starts: &[StartCamera], cx: &StageCx) -> Result<Vec<Trajectory>, Error> {
+fn plan_all(job: &Job, starts: &[StartCamera], intrinsics: &Intrinsics, cx: &StageCx) -> Result<Vec<Trajectory>, Error> {
     let world = job.load_world()?;
-    let (bt, free_min, free_max) = job.dataset.read_free_space(&job.scene.name).map_err(Error::stage)?;
+    let (bt, _, _) = job.dataset.read_free_space(&job.scene.name).map_err(Error::stage)?;
     let tree = OccupancyTree::from_bt(&bt).map_err(Error::stage)?;
-    let space = FreeSpace { tree, free_min, free_max };
-    let config = PlanConfig { seed: job.scene.seed_for("plan"), ..job.scene.plan.clone() };
+    let space = FreeSpace::new(tree, CarveReport::default()).map_err(Error::stage)?;
+    let test_width = job.scene.plan.test_width;
+    let config = PlanConfig {
+        seed: job.scene.seed_for("plan"),
+        fov_x_rad: intrinsics.fov_x_rad(),
+        test_height: (u64::from(test_width) * u64::from(intrinsics.height) / u64::from(intrinsics.width)).max(1) as u32,
+        ..job.scene.plan.clone()
+    };
     let mut trajectories = Vec::new();
     let mut first_error = None;
     for (index, start) in starts.iter().enumerate() {

@@ -174,7 +174,7 @@ fn draw_header(canvas: &mut Canvas, title: &str, subtitle: &str) {
 }
 
 fn draw_frame(canvas: &mut Canvas, grid: &Grid, y: u32, number: u32, frame: &Frame) {
-    let tone = ToneMap::of_frame(frame).unwrap_or(ToneMap { scale: 1.0 });
+    let tone = ToneMap::of_frame(frame).unwrap_or_default();
     let large = [MARGIN, y, grid.large.0, grid.large.1];
     match preview(Subject::ToneMapped, frame, tone) {
         Some(color) => place_inside(canvas, large, &color.picture, Resize::Smooth),

@@ -19,7 +19,8 @@ impl EnvironmentLight {
             Environment::Constant { radiance } => (!radiance.is_black()).then_some(Self::Constant { radiance: *radiance }),
             Environment::Map { image, scale, map_from_world } => {
                 let image = images[*image as usize].clone();
-                let distribution = Distribution2::new(&weights(&image, *scale), image.width as usize)?;
+                let (weights, columns) = cell_weights(&image, *scale);
+                let distribution = Distribution2::new(&weights, columns)?;
                 let texture = TextureRef { wrap: [Wrap::Repeat, Wrap::Clamp], ..TextureRef::new(0) };
                 Some(Self::Map { image, texture, scale: *scale, map_from_world: *map_from_world, distribution })
             }
@@ -38,8 +39,8 @@ impl EnvironmentLight {
         }
     }
 
-    /// A direction in proportion to brightness.
-    pub fn sample(&self, u: [f32; 2]) -> Option<LightSample> {
+    /// A direction in proportion to brightness; `None` when `wanted` refuses it.
+    pub fn sample(&self, u: [f32; 2], wanted: impl Fn(Vec3) -> bool) -> Option<LightSample> {
         let (wi, pdf) = match self {
             Self::Constant { .. } => (warp::sphere(u), 0.25 / PI),
             Self::Map { map_from_world, distribution, .. } => {
@@ -52,7 +53,7 @@ impl EnvironmentLight {
                 (wi, density / (2.0 * PI * PI * sin_theta))
             }
         };
-        Some(LightSample { wi, target: None, radiance: self.radiance(wi), pdf, is_delta: false })
+        wanted(wi).then(|| LightSample { wi, target: None, radiance: self.radiance(wi), pdf, is_delta: false })
     }
 
     /// Density of [`EnvironmentLight::sample`] per solid angle.
@@ -69,20 +70,29 @@ impl EnvironmentLight {
     }
 }
 
-/// Luminance × solid angle of each texel, smeared over the neighbours, because lookups interpolate between texels: wherever
-/// radiance is positive, so must be the density.
-fn weights(image: &Image, scale: Rgb) -> Vec<f32> {
+/// The sampling grid has at most this many columns, and half as many rows: enough to single out a sun, and small enough to
+/// stay in the cache.
+const MAX_COLUMNS: usize = 1024;
+
+/// Luminance × solid angle of each cell of the sampling grid, and its number of columns.
+///
+/// Texels are smeared over their neighbours first, because lookups interpolate between texels: wherever radiance is positive,
+/// so must be the density.
+fn cell_weights(image: &Image, scale: Rgb) -> (Vec<f32>, usize) {
     let (w, h) = (image.width as usize, image.height as usize);
     let luminance: Vec<f32> = (0..w * h).map(|i| (scale * image.texel(i % w, i / w).0).luminance().max(0.0)).collect();
-    (0..w * h)
-        .map(|i| {
-            let (x, y) = (i % w, i / w);
+    let (columns, rows) = (w.min(MAX_COLUMNS), h.min(MAX_COLUMNS / 2));
+    let mut cells = vec![0.0; columns * rows];
+    for y in 0..h {
+        let solid_angle = ((y as f32 + 0.5) / h as f32 * PI).sin();
+        for x in 0..w {
             let mut sum = 0.0;
             for (dy, row_weight) in [(0usize, 1.0), (1, 2.0), (2, 1.0)] {
                 let row = (y + dy).saturating_sub(1).min(h - 1) * w;
                 sum += row_weight * (luminance[row + (x + w - 1) % w] + 2.0 * luminance[row + x] + luminance[row + (x + 1) % w]);
             }
-            sum * ((y as f32 + 0.5) / h as f32 * PI).sin()
-        })
-        .collect()
+            cells[y * rows / h * columns + x * columns / w] += sum * solid_angle;
+        }
+    }
+    (cells, columns)
 }

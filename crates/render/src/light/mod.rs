@@ -10,7 +10,7 @@ use environment::EnvironmentLight;
 use crate::prepared::{Cutout, RenderScene};
 use enfilade_geometry::Hit;
 use enfilade_math::{Distribution1, Onb, Rgb, Vec3, offset_origin, warp};
-use enfilade_scene::{Alpha, Image, Light, Scene, TextureRef, WorldMesh};
+use enfilade_scene::{Alpha, Image, Light, Scene, WorldMesh};
 
 /// Probability of sampling the environment where there are other lights too.
 const ENVIRONMENT_SHARE: f32 = 0.5;
@@ -35,7 +35,7 @@ pub(crate) struct LightSample {
 /// A source, or the emissive triangles of one part.
 #[derive(Debug)]
 enum Group {
-    Mesh { part: u32, triangles: Vec<u32>, by_power: Distribution1, center: Vec3, radius: f32, strength: f32 },
+    Mesh { part: u32, first_triangle: u32, by_power: Distribution1, center: Vec3, radius: f32, strength: f32 },
     Light { light: Light, strength: f32 },
 }
 
@@ -46,8 +46,6 @@ pub(crate) struct Lights {
     by_strength: Option<Distribution1>,
     /// Group of each part, `u32::MAX` for parts that do not emit.
     group_of_part: Vec<u32>,
-    /// First index of each emissive part's triangles in the world mesh, to find a triangle's place in its group.
-    first_triangle: Vec<u32>,
     environment: Option<EnvironmentLight>,
 }
 
@@ -58,7 +56,6 @@ impl Lights {
             groups: Vec::new(),
             by_strength: None,
             group_of_part: vec![u32::MAX; scene.parts.len()],
-            first_triangle: vec![0; scene.parts.len()],
             environment: scene.environment.as_ref().and_then(|e| EnvironmentLight::new(e, &scene.images)),
         };
         lights.add_emissive_parts(scene, world);
@@ -81,10 +78,10 @@ impl Lights {
         for (part_id, part) in scene.parts.iter().enumerate() {
             let count = scene.meshes[part.mesh as usize].triangles.len();
             let range = first..first + count;
-            self.first_triangle[part_id] = first as u32;
+            let first_triangle = first as u32;
             first += count;
             let emission = &scene.materials[part.material as usize].emission;
-            let texture_mean = emission.texture.map_or(1.0, |t| mean_luminance(&scene.images[t.image as usize], &t));
+            let texture_mean = emission.texture.map_or(1.0, |t| mean_luminance(&scene.images[t.image as usize]));
             let radiance = emission.factor.luminance() * texture_mean;
             if radiance <= 0.0 {
                 continue;
@@ -101,7 +98,7 @@ impl Lights {
             self.group_of_part[part_id] = self.groups.len() as u32;
             self.groups.push(Group::Mesh {
                 part: part_id as u32,
-                triangles: range.map(|t| t as u32).collect(),
+                first_triangle,
                 strength: by_power.total() as f32,
                 by_power,
                 center,
@@ -123,17 +120,18 @@ impl Lights {
         }
     }
 
-    /// Samples light arriving at the point `p`, before any shadow. `u` is uniform on [0,1)³.
-    pub fn sample(&self, scene: &RenderScene<'_>, p: Vec3, u: [f32; 3]) -> Option<LightSample> {
+    /// Samples light arriving at the point `p`, before any shadow. `u` is uniform on [0,1)³. `None` when the sampled light sends
+    /// nothing, or from a direction that is not `wanted`.
+    pub fn sample(&self, scene: &RenderScene<'_>, p: Vec3, u: [f32; 3], wanted: impl Fn(Vec3) -> bool) -> Option<LightSample> {
         let share = self.environment_share();
         if u[2] < share {
-            let mut sample = self.environment.as_ref()?.sample([u[0], u[1]])?;
+            let mut sample = self.environment.as_ref()?.sample([u[0], u[1]], wanted)?;
             sample.pdf *= share;
             return Some(sample);
         }
         let choice = (u[2] - share) / (1.0 - share);
         let (index, probability) = self.choose_group(p, choice)?;
-        let mut sample = self.groups[index].sample(scene, p, [u[0], u[1]], choice)?;
+        let mut sample = self.groups[index].sample(scene, p, [u[0], u[1]], wanted)?;
         sample.pdf *= probability * (1.0 - share);
         Some(sample)
     }
@@ -143,14 +141,14 @@ impl Lights {
     pub fn surface_pdf(&self, scene: &RenderScene<'_>, from: Vec3, wi: Vec3, hit: &Hit, p: Vec3, ng: Vec3) -> f32 {
         let part = scene.world.sources[hit.triangle as usize].part as usize;
         let group = self.group_of_part[part];
-        let Some(Group::Mesh { by_power, .. }) = self.groups.get(group as usize) else { return 0.0 };
+        let Some(Group::Mesh { by_power, first_triangle, .. }) = self.groups.get(group as usize) else { return 0.0 };
         let [a, b, c] = scene.world.corners[hit.triangle as usize];
         let area = 0.5 * (b - a).cross(c - a).length();
         let cos = ng.dot(wi).abs();
         if area <= 0.0 || cos <= 0.0 {
             return 0.0;
         }
-        let in_group = by_power.pmf((hit.triangle - self.first_triangle[part]) as usize);
+        let in_group = by_power.pmf((hit.triangle - first_triangle) as usize);
         let probability = self.group_probability(from, group as usize) * (1.0 - self.environment_share());
         probability * in_group / area * p.distance_squared(from) / cos
     }
@@ -235,11 +233,11 @@ impl Group {
         }
     }
 
-    /// Samples the group's light at `p`; `extra` is one more random number, already used up to the choice of the group.
-    fn sample(&self, scene: &RenderScene<'_>, p: Vec3, u: [f32; 2], extra: f32) -> Option<LightSample> {
+    /// Samples the group's light at `p`.
+    fn sample(&self, scene: &RenderScene<'_>, p: Vec3, u: [f32; 2], wanted: impl Fn(Vec3) -> bool) -> Option<LightSample> {
         match self {
-            Self::Mesh { part, triangles, by_power, .. } => sample_mesh(scene, *part, triangles, by_power, p, u, extra),
-            Self::Light { light, .. } => sample_light(light, p, u),
+            Self::Mesh { part, first_triangle, by_power, .. } => sample_mesh(scene, *part, *first_triangle, by_power, p, u, wanted),
+            Self::Light { light, .. } => sample_light(light, p, u).filter(|sample| wanted(sample.wi)),
         }
     }
 }
@@ -248,14 +246,14 @@ impl Group {
 fn sample_mesh(
     scene: &RenderScene<'_>,
     part: u32,
-    triangles: &[u32],
+    first_triangle: u32,
     by_power: &Distribution1,
     p: Vec3,
     u: [f32; 2],
-    _extra: f32,
+    wanted: impl Fn(Vec3) -> bool,
 ) -> Option<LightSample> {
     let (index, pmf, renewed) = by_power.sample(u[0]);
-    let triangle = triangles[index];
+    let triangle = first_triangle + index as u32;
     let corners = &scene.world.corners[triangle as usize];
     let b = warp::triangle([renewed, u[1]]);
     let q = corners[0] * (1.0 - b.x - b.y) + corners[1] * b.x + corners[2] * b.y;
@@ -267,6 +265,9 @@ fn sample_mesh(
         return None;
     }
     let wi = to_light / distance_squared.sqrt();
+    if !wanted(wi) {
+        return None;
+    }
     let hit = Hit { t: distance_squared.sqrt(), triangle, u: b.x, v: b.y };
     let surface = scene.surface(&hit, wi);
     let mut radiance = surface.emission(scene);
@@ -329,7 +330,7 @@ fn one_minus_cos_of(angle_rad: f32) -> f32 {
 }
 
 /// Mean luminance of a texture, at most a thousand texels each way.
-fn mean_luminance(image: &Image, _texture: &TextureRef) -> f32 {
+fn mean_luminance(image: &Image) -> f32 {
     let step = (image.width.max(image.height) / 512).max(1) as usize;
     let mut sum = 0.0f64;
     let mut count = 0u32;

@@ -1,0 +1,134 @@
+//! Bad input gets one clear message that names file and place and says what to do; it never panics.
+
+mod common;
+
+use common::{CAMERA, Lamp, QUICK, fail, folder, run, scene, succeed, write_config, write_room};
+use std::fs;
+
+#[test]
+fn an_unknown_key_is_shown_in_its_line_with_a_proposal() {
+    let dir = folder();
+    fs::write(dir.path().join("dataset.toml"), "name = \"a\"\n[render]\nsampels = 4\n[[scene]]\nname = \"a\"\nhome = {}\n").unwrap();
+    let text = fail(dir.path(), &["run", "dataset.toml"], 2, &["dataset.toml:3:1: unknown key `sampels`", "did you mean `samples`?", "3 | sampels = 4"]);
+    assert_eq!(text.matches("error:").count(), 1, "{text}");
+}
+
+#[test]
+fn a_missing_configuration_and_a_missing_dataset_are_told() {
+    let dir = folder();
+    fail(dir.path(), &["run", "nothing.toml"], 1, &["cannot read nothing.toml", "check the path"]);
+    fail(dir.path(), &["carve", "nothing"], 2, &["nothing does not exist", "enfilade run"]);
+    fail(dir.path(), &["verify", "nothing"], 2, &["nothing"]);
+}
+
+#[test]
+fn an_unset_variable_is_named_with_its_line() {
+    let dir = folder();
+    fs::write(dir.path().join("dataset.toml"), "[[scene]]\nname = \"a\"\nfile = \"$ENFILADE_SCENES/a.gltf\"\n").unwrap();
+    fail(dir.path(), &["run", "dataset.toml"], 2, &["dataset.toml:3:8: the environment variable ENFILADE_SCENES is not set", "export"]);
+}
+
+#[test]
+fn folders_that_hold_something_else_or_cannot_be_written_are_refused() {
+    let dir = folder();
+    fs::create_dir(dir.path().join("photos")).unwrap();
+    fs::write(dir.path().join("photos/cat.jpg"), "x").unwrap();
+    fail(dir.path(), &["run", "--demo", "photos"], 2, &["photos holds something else", "cat.jpg"]);
+    assert_eq!(fs::read_dir(dir.path().join("photos")).unwrap().count(), 1);
+    // Permissions do not bind every user, so a folder below a file stands for one that cannot be written.
+    fail(dir.path(), &["run", "--demo", "photos/cat.jpg/out"], 1, &["photos/cat.jpg/out", "choose another output folder"]);
+}
+
+#[test]
+fn of_many_scenes_each_bad_one_is_reported_and_the_good_one_is_made() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "good", Lamp::On);
+    write_room(d, "dark", Lamp::Off);
+    write_room(d, "walled", Lamp::On);
+    // A texture that is not there.
+    write_room(d, "untextured", Lamp::On);
+    let mtl = fs::read_to_string(d.join("untextured.mtl")).unwrap().replace("newmtl wood\n", "newmtl wood\nmap_Kd oak.png\n");
+    fs::write(d.join("untextured.mtl"), mtl).unwrap();
+    // A binary glTF whose header promises more than the file holds.
+    let glb = [b"glTF".as_slice(), &2u32.to_le_bytes(), &500u32.to_le_bytes(), &400u32.to_le_bytes(), b"JSON{\"asset\":"].concat();
+    fs::write(d.join("cut.glb"), glb).unwrap();
+    // An index out of range, a vertex that is no number, a file without faces.
+    write_room(d, "index", Lamp::On);
+    let obj = fs::read_to_string(d.join("index.obj")).unwrap();
+    fs::write(d.join("index.obj"), format!("{obj}f 1 2 999\n")).unwrap();
+    fs::write(d.join("nan.obj"), "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    fs::write(d.join("empty.obj"), "v 0 0 0\n").unwrap();
+    let walled = scene("walled").replace("position = [0.2, -0.9, 1.4]", "position = [-0.3, 0.9, 0.35]").replace("look_at = [0.0, 0.9, 0.6]", "look_at = [0.0, -0.9, 0.6]");
+    let missing = format!("[[scene]]\nname = \"missing\"\nfile = \"nowhere.gltf\"\n{CAMERA}");
+    let cut = format!("[[scene]]\nname = \"cut\"\nfile = \"cut.glb\"\n{CAMERA}");
+    let scenes = [scene("dark"), walled, scene("untextured"), cut, scene("index"), scene("nan"), scene("empty"), missing, scene("good")];
+    write_config(d, &scenes);
+    let words = [
+        "dark: `render` failed: the scene has no light",
+        "walled: `carve` failed:",
+        "untextured: `import` failed:",
+        "oak.png",
+        "allow_missing_textures",
+        "cut: `import` failed:",
+        "cut.glb",
+        "index: `import` failed:",
+        "999",
+        "nan: `import` failed:",
+        "empty: `import` failed:",
+        "nowhere.gltf",
+        "8 of 9 scenes failed",
+    ];
+    let text = fail(d, &["run", "dataset.toml", "-o", "out"], 1, &words);
+    assert!(text.contains("good        ok") && !text.contains("panicked"), "{text}");
+    // The good one is whole, and no frame of a bad one is there.
+    succeed(d, &["verify", "out", "--scene", "good"]);
+    assert!(!d.join("out/scenes/dark/images").exists());
+    let manifest = fs::read_to_string(d.join("out/manifest.json")).unwrap();
+    assert!(manifest.contains("the scene has no light"), "{manifest}");
+    // Mended, the others are made without touching the good one.
+    write_room(d, "dark", Lamp::On);
+    fail(d, &["run", "dataset.toml", "-o", "out"], 1, &["7 of 9 scenes failed", "nothing to do"]);
+}
+
+#[test]
+fn textures_may_be_missing_when_that_is_allowed() {
+    let dir = folder();
+    write_room(dir.path(), "room", Lamp::On);
+    let mtl = fs::read_to_string(dir.path().join("room.mtl")).unwrap().replace("newmtl wood\n", "newmtl wood\nmap_Kd oak.png\n");
+    fs::write(dir.path().join("room.mtl"), mtl).unwrap();
+    fail(dir.path(), &["import", "room.obj"], 1, &["oak.png"]);
+    assert!(!dir.path().join("room.scene").exists());
+    succeed(dir.path(), &["import", "room.obj", "--allow-missing-textures"]);
+    let report = fs::read_to_string(dir.path().join("room.report.json")).unwrap();
+    assert!(report.contains("oak.png"), "{report}");
+}
+
+#[test]
+fn stages_whose_inputs_are_not_there_say_what_to_run_first() {
+    let dir = folder();
+    write_room(dir.path(), "room", Lamp::Off);
+    write_config(dir.path(), &[scene("room")]);
+    fail(dir.path(), &["run", "dataset.toml", "-o", "out"], 1, &["no light"]);
+    fail(dir.path(), &["label", "out"], 1, &["the results of `render`", "run first: enfilade render out --scene room"]);
+    fail(dir.path(), &["label", "out", "--scene", "romo"], 2, &["no scene is named \"romo\"", "did you mean \"room\"?"]);
+}
+
+#[test]
+fn arguments_out_of_their_range_are_told() {
+    let dir = folder();
+    for (args, word) in [
+        (&["run", "--demo", "out", "--frames", "0"][..], "frames must lie between 1 and 10000"),
+        (&["run", "--demo", "out", "--size", "0x5"], "width and height must lie between"),
+        (&["run", "--demo", "out", "--size", "12"], "640x480"),
+        (&["run", "--demo", "out", "--threads", "0"], "--threads"),
+        (&["run"], "<DATASET.TOML>"),
+        (&["inspect", "out", "--pixel", "1"], "160,120"),
+    ] {
+        fail(dir.path(), args, 2, &[word]);
+    }
+    assert!(!dir.path().join("out").exists());
+    let (code, out, _) = run(dir.path(), &["carve", "--help"]);
+    assert!(code == 0 && out.contains("Example:"));
+    let _ = QUICK;
+}

@@ -1,0 +1,131 @@
+//! A second run does nothing, a killed one goes on where it was, and both end with the same bytes.
+
+mod common;
+
+use common::{Lamp, assert_same, contents, enfilade, folder, scene, succeed, write_config, write_room};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+use std::time::{Duration, SystemTime};
+
+fn modified(root: &Path) -> BTreeMap<PathBuf, SystemTime> {
+    contents(root).into_keys().map(|path| (path.clone(), fs::metadata(root.join(path)).unwrap().modified().unwrap())).collect()
+}
+
+fn color_times(root: &Path) -> BTreeMap<PathBuf, SystemTime> {
+    modified(root).into_iter().filter(|(path, _)| path.to_string_lossy().ends_with("color.hdf5")).collect()
+}
+
+#[test]
+fn a_second_run_does_nothing_and_a_changed_label_table_renders_nothing() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room") + "labels = \"labels.csv\"\n"]);
+    fs::write(d.join("labels.csv"), "material,nyu40_id\nwall,1\nwood,7\nlight,35\n").unwrap();
+    succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    let (before, times) = (contents(&d.join("out")), modified(&d.join("out")));
+    let text = succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    assert!(text.contains("Nothing to do"), "{text}");
+    assert_eq!(modified(&d.join("out")), times);
+
+    fs::write(d.join("labels.csv"), "material,nyu40_id\nwall,1\nwood,14\nred,29\nlight,35\n").unwrap();
+    succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    let after = contents(&d.join("out"));
+    let frames = |tree: &BTreeMap<PathBuf, Vec<u8>>| {
+        tree.iter().filter(|(path, _)| path.to_string_lossy().ends_with(".semantic.hdf5")).map(|(_, b)| b.clone()).collect::<Vec<_>>()
+    };
+    assert_ne!(frames(&before), frames(&after));
+    assert_eq!(color_times(&d.join("out")), times.iter().filter(|(p, _)| p.to_string_lossy().ends_with("color.hdf5")).map(|(p, t)| (p.clone(), *t)).collect());
+
+    // The verb with another table does the same, and keeps it.
+    fs::write(d.join("other.csv"), "material,nyu40_id\nwall,1\nwood,7\nlight,35\n").unwrap();
+    succeed(d, &["label", "out", "--table", "other.csv"]);
+    assert_eq!(frames(&contents(&d.join("out"))), frames(&before));
+    succeed(d, &["preview", "out"]);
+    succeed(d, &["verify", "out"]);
+}
+
+#[test]
+fn killed_runs_end_with_the_same_bytes_without_rendering_finished_frames_again() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    let args = |out| ["run", "dataset.toml", "--frames", "5", "--size", "96x72", "--threads", "2", "-o", out];
+    succeed(d, &args("whole"));
+    let expected = contents(&d.join("whole"));
+
+    // Moments from a fixed sequence, so that every run of the test kills at about the same places.
+    let mut state = 7u64;
+    let mut finished: BTreeMap<PathBuf, SystemTime> = BTreeMap::new();
+    for _ in 0..12 {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let mut child = enfilade(d, &args("killed")).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(30 + (state >> 33) % 400));
+        child.kill().unwrap(); // SIGKILL on Unix
+        child.wait().unwrap();
+        let records = complete_frames(&d.join("killed"));
+        for (path, time) in &finished {
+            assert_eq!(records.get(path), Some(time), "{} was rendered again", path.display());
+        }
+        finished = records;
+    }
+    succeed(d, &args("killed"));
+    let records = complete_frames(&d.join("killed"));
+    assert!(finished.iter().all(|(path, time)| records.get(path) == Some(time)));
+    assert_same(&expected, &contents(&d.join("killed")));
+}
+
+/// The commit records of finished frames and when they were written.
+fn complete_frames(out: &Path) -> BTreeMap<PathBuf, SystemTime> {
+    let folder = out.join("scenes/room/_detail/cam_00/frames");
+    let Ok(entries) = fs::read_dir(folder) else { return BTreeMap::new() };
+    let paths = entries.map(|e| e.unwrap().path());
+    let records = paths.filter(|p| p.extension().is_some_and(|e| e == "json") && !p.to_string_lossy().contains("labels"));
+    records.map(|p| (p.clone(), fs::metadata(&p).unwrap().modified().unwrap())).collect()
+}
+
+#[test]
+fn thread_counts_change_no_byte() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    for (threads, out) in [("1", "one"), ("7", "seven")] {
+        succeed(d, &["run", "dataset.toml", "--frames", "2", "--threads", threads, "-o", out]);
+    }
+    assert_same(&contents(&d.join("one")), &contents(&d.join("seven")));
+}
+
+#[test]
+fn fewer_frames_leave_none_of_the_old_ones_behind() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    succeed(d, &["run", "dataset.toml", "--frames", "2", "-o", "fresh"]);
+    succeed(d, &["run", "dataset.toml", "--frames", "3", "-o", "changed"]);
+    let times = color_times(&d.join("changed"));
+    succeed(d, &["run", "dataset.toml", "--frames", "2", "-o", "changed"]);
+    assert!(color_times(&d.join("changed")).iter().all(|(path, time)| times.get(path) == Some(time)), "the kept frames were rendered again");
+    assert_same(&contents(&d.join("fresh")), &contents(&d.join("changed")));
+}
+
+#[test]
+fn a_dataset_in_use_is_left_alone() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    let mut child =
+        enfilade(d, &["run", "dataset.toml", "--size", "640x480", "-o", "out"]).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    while !d.join("out/.enfilade/run.json").exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    common::fail(d, &["run", "dataset.toml", "-o", "out"], 2, &["another process (process", "working on out"]);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    succeed(d, &["carve", "out"]);
+}

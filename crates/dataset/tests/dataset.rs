@@ -1,0 +1,259 @@
+//! What a dataset promises as a whole, on frames whose every value is known.
+
+mod analytic;
+
+use analytic::{CAMERA, SCENE};
+use enfilade_dataset::{Dataset, DatasetError, FrameStatus, FrameTime, ManifestInfo};
+use enfilade_frame::{LAYERS, Layer};
+use enfilade_scene::Intrinsics;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn small() -> Intrinsics {
+    Intrinsics { width: 97, height: 64, fx: 80.0, fy: 81.0, cx: 50.0, cy: 30.5 }
+}
+
+/// Relative path and content of every file below `root`.
+fn files(root: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![root.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                found.insert(path.strip_prefix(root).unwrap().to_path_buf(), fs::read(&path).unwrap());
+            }
+        }
+    }
+    found
+}
+
+fn temporaries(root: &Path) -> Vec<PathBuf> {
+    files(root).into_keys().filter(|path| path.to_string_lossy().ends_with(".partial")).collect()
+}
+
+#[test]
+fn a_frame_comes_back_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    analytic::write(&dataset, &small(), 3);
+    let dataset = Dataset::open(folder.path()).unwrap();
+    assert_eq!(dataset.scenes().unwrap(), [SCENE]);
+    assert_eq!(dataset.cameras(SCENE).unwrap(), [CAMERA]);
+    assert_eq!(dataset.frame_numbers(SCENE, CAMERA).unwrap(), [0, 1]);
+    assert_eq!(dataset.read_trajectory(SCENE, CAMERA).unwrap(), analytic::trajectory(3));
+    let pose = &analytic::trajectory(3).poses[1];
+    let written = analytic::frame(&small(), pose, 7);
+    let labels = analytic::label_frame(&written);
+    for (layer, values) in written.iter().chain(labels.iter()) {
+        // NaN differs from itself, so bytes are compared.
+        assert_eq!(dataset.read_layer(SCENE, CAMERA, 1, layer).unwrap().as_bytes(), values.as_bytes(), "{layer:?}");
+    }
+    let layers: Vec<Layer> = LAYERS.iter().map(|spec| spec.layer).collect();
+    let read = dataset.read_frame(SCENE, CAMERA, 1, &layers).unwrap();
+    assert_eq!((read.width, read.height, read.iter().count()), (97, 64, 16));
+    let record = dataset.frame_record(SCENE, CAMERA, 1).unwrap().unwrap();
+    assert_eq!((record.pose.to_pose(1), record.intrinsics, record.files.len()), (*pose, small(), 14));
+    assert!(dataset.labels_are_complete(SCENE, CAMERA, 1, "beef") && !dataset.labels_are_complete(SCENE, CAMERA, 1, "other"));
+    assert!(temporaries(folder.path()).is_empty());
+}
+
+#[test]
+fn two_runs_differ_in_nothing_but_their_times() {
+    let run = |cpu_s: f64| {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        analytic::write(&dataset, &small(), 3);
+        let pose = &analytic::trajectory(3).poses[0];
+        let frame = analytic::frame(&small(), pose, 7);
+        dataset.write_frame(SCENE, CAMERA, &frame, &analytic::info(&small(), pose), FrameTime { wall_s: cpu_s, cpu_s }).unwrap();
+        let manifest = dataset.collect_manifest(&ManifestInfo::default()).unwrap();
+        dataset.write_manifest(&manifest).unwrap();
+        files(folder.path())
+    };
+    let (first, second) = (run(1.0), run(2.0));
+    assert!(first.keys().eq(second.keys()));
+    let different: Vec<_> = first.iter().filter(|(path, bytes)| second[*path] != **bytes).map(|(path, _)| path).collect();
+    assert_eq!(different, [Path::new("manifest_times.csv")]);
+}
+
+#[test]
+fn the_manifest_tells_what_became_of_every_frame_and_finds_damage() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    analytic::write(&dataset, &small(), 4);
+    fs::remove_file(dataset.layout().frame_record(SCENE, CAMERA, 1)).unwrap();
+    let info = ManifestInfo {
+        failed_frames: BTreeMap::from([((SCENE.into(), CAMERA.into(), 1), "the camera is inside the ball".into())]),
+        failed_scenes: BTreeMap::from([("attic".into(), "attic.glb is cut short".into())]),
+        ..ManifestInfo::default()
+    };
+    let manifest = dataset.collect_manifest(&info).unwrap();
+    dataset.write_manifest(&manifest).unwrap();
+    assert_eq!(dataset.read_manifest().unwrap().as_ref(), Some(&manifest));
+    let frames = &manifest.scenes[SCENE].cameras[CAMERA].frames;
+    let status: Vec<_> = frames.iter().map(|frame| frame.status).collect();
+    assert_eq!(status, [FrameStatus::Complete, FrameStatus::Failed, FrameStatus::Complete, FrameStatus::Planned]);
+    assert_eq!(frames[1].reason.as_deref(), Some("the camera is inside the ball"));
+    assert_eq!(frames[0].files.len(), 16);
+    assert_eq!(manifest.scenes["attic"].failed.as_deref(), Some("attic.glb is cut short"));
+
+    assert_eq!(dataset.verify_checksums(&manifest).unwrap(), [""; 0]);
+    let path = dataset.layout().layer(SCENE, CAMERA, 2, Layer::Position);
+    let mut bytes = fs::read(&path).unwrap();
+    *bytes.last_mut().unwrap() ^= 1;
+    fs::write(&path, bytes).unwrap();
+    fs::remove_file(dataset.layout().layer(SCENE, CAMERA, 0, Layer::Color)).unwrap();
+    let problems = dataset.verify_checksums(&manifest).unwrap();
+    assert_eq!(problems.len(), 2, "{problems:?}");
+    assert!(problems[0].contains("frame.0000.color.hdf5: it is missing"), "{problems:?}");
+    assert!(problems[1].contains("frame.0002.position.hdf5: its content is not what was written"), "{problems:?}");
+}
+
+#[test]
+fn an_interrupted_frame_does_not_count() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    analytic::write(&dataset, &small(), 3);
+    let complete = |frame| dataset.frame_is_complete(SCENE, CAMERA, frame, "c0ffee");
+    assert!(complete(0) && complete(1) && !complete(2));
+    assert!(!dataset.frame_is_complete(SCENE, CAMERA, 0, "another configuration"));
+
+    // Killed before the record was written.
+    fs::remove_file(dataset.layout().frame_record(SCENE, CAMERA, 0)).unwrap();
+    assert!(!complete(0));
+    // Killed while layers were written: temporaries lie about, and a later run removes them.
+    let position = dataset.layout().layer(SCENE, CAMERA, 1, Layer::Position);
+    let temporary = position.with_file_name(".frame.0002.position.hdf5.partial");
+    fs::write(&temporary, "half").unwrap();
+    // A file was cut short by a crash of the machine.
+    fs::write(&position, "half").unwrap();
+    assert!(!complete(1));
+    assert!(dataset.frame_numbers(SCENE, CAMERA).unwrap().is_empty());
+    dataset.remove_temporaries(SCENE, CAMERA).unwrap();
+    assert!(temporaries(folder.path()).is_empty() && position.exists());
+}
+
+#[test]
+fn rendering_a_frame_again_drops_its_labels() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    analytic::write(&dataset, &small(), 2);
+    let pose = &analytic::trajectory(2).poses[0];
+    let frame = analytic::frame(&small(), pose, 8);
+    dataset.write_frame(SCENE, CAMERA, &frame, &analytic::info(&small(), pose), FrameTime::default()).unwrap();
+    assert!(!dataset.has_layer(SCENE, CAMERA, 0, Layer::Semantic) && !dataset.labels_are_complete(SCENE, CAMERA, 0, "beef"));
+}
+
+#[test]
+fn a_frame_that_cannot_be_written_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    analytic::write(&dataset, &small(), 2);
+    // A folder lies where a layer should go: permissions do not stop the superuser, under whom tests may run.
+    let pose = &analytic::trajectory(2).poses[1];
+    let path = dataset.layout().layer(SCENE, CAMERA, pose.frame, Layer::Position);
+    fs::create_dir_all(path.join("in the way")).unwrap();
+    let frame = analytic::frame(&small(), pose, 7);
+    let before = files(folder.path());
+    let error = dataset.write_frame(SCENE, CAMERA, &frame, &analytic::info(&small(), pose), FrameTime::default()).unwrap_err();
+    assert!(error.to_string().contains("frame.0001.position.hdf5"), "{error}");
+    assert!(files(folder.path()) == before, "{:?}", files(folder.path()).keys());
+    assert!(!dataset.frame_is_complete(SCENE, CAMERA, pose.frame, "c0ffee"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_read_only_folder_is_one_clear_error() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    analytic::write(&dataset, &small(), 2);
+    let images = dataset.layout().images_dir(SCENE).join(format!("scene_{CAMERA}_geometry_hdf5"));
+    fs::set_permissions(&images, fs::Permissions::from_mode(0o555)).unwrap();
+    if fs::write(images.join("probe"), "").is_ok() {
+        return eprintln!("skipped: this user may write to read-only folders");
+    }
+    let pose = &analytic::trajectory(2).poses[1];
+    let frame = analytic::frame(&small(), pose, 7);
+    let error = dataset.write_frame(SCENE, CAMERA, &frame, &analytic::info(&small(), pose), FrameTime::default()).unwrap_err();
+    assert!(matches!(&error, DatasetError::Io { .. }), "{error}");
+    assert!(error.to_string().contains("make the folder readable and writable"), "{error}");
+    assert!(temporaries(folder.path()).is_empty());
+    assert!(dataset.frame_is_complete(SCENE, CAMERA, 0, "c0ffee") && !dataset.frame_is_complete(SCENE, CAMERA, 1, "c0ffee"));
+    fs::set_permissions(&images, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_one_clear_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    analytic::write(&dataset, &small(), 2);
+    let before = files(folder.path());
+    let (frame, info) = {
+        let pose = &analytic::trajectory(2).poses[1];
+        (analytic::frame(&small(), pose, 7), analytic::info(&small(), pose))
+    };
+    let record = dataset.layout().frame_record(SCENE, CAMERA, 1);
+    for path in [dataset.layout().layer(SCENE, CAMERA, 1, Layer::Position), record] {
+        // What is written under the temporary name goes to a device that is always full.
+        let name = format!(".{}.partial", path.file_name().unwrap().to_string_lossy());
+        std::os::unix::fs::symlink("/dev/full", path.with_file_name(name)).unwrap();
+        let error = dataset.write_frame(SCENE, CAMERA, &frame, &info, FrameTime::default()).unwrap_err();
+        let message = error.to_string();
+        assert!(message.contains("frame.0001.") && message.contains("free some space on the disk"), "{message}");
+        let mut after = files(folder.path());
+        after.insert("manifest_times.csv".into(), before[Path::new("manifest_times.csv")].clone());
+        assert!(after == before, "{:?}", after.keys());
+    }
+    dataset.write_frame(SCENE, CAMERA, &frame, &info, FrameTime::default()).unwrap();
+    assert!(dataset.frame_is_complete(SCENE, CAMERA, 1, "c0ffee"));
+}
+
+/// Reads every array of a dataset and prints name, type, shape, chunks, filters and a checksum of its bytes.
+const READ_WITH_H5PY: &str = r#"
+import sys, pathlib, zlib, h5py
+root = pathlib.Path(sys.argv[1])
+for path in sorted(root.rglob("*.hdf5")):
+    with h5py.File(path, "r") as f:
+        assert list(f) == ["dataset"], path
+        d = f["dataset"]
+        a = d[()]
+        assert all(isinstance(v, str) for v in d.attrs.values()), path
+        print(path.relative_to(root).as_posix(), a.dtype, "x".join(map(str, a.shape)), zlib.crc32(a.tobytes()))
+"#;
+
+#[test]
+fn h5py_reads_the_same_values() {
+    let Some(python) = std::env::var_os("ENFILADE_PYTHON") else {
+        return eprintln!("skipped: ENFILADE_PYTHON names no python with h5py");
+    };
+    // Kept, so that other programs can be tried on it by hand.
+    let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("analytic");
+    let _ = fs::remove_dir_all(&root);
+    let dataset = Dataset::create(&root).unwrap();
+    analytic::write(&dataset, &small(), 3);
+    dataset.write_manifest(&dataset.collect_manifest(&ManifestInfo::default()).unwrap()).unwrap();
+    let output = Command::new(python).args(["-c", READ_WITH_H5PY]).arg(&root).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let lines = String::from_utf8(output.stdout).unwrap();
+    assert!(lines.lines().count() >= 2 * 16 + 4 + 9 + 4, "{lines}");
+    for line in lines.lines() {
+        let &[name, dtype, shape, checksum] = line.split(' ').collect::<Vec<_>>().as_slice() else { panic!("{line}") };
+        let array = enfilade_dataset::hdf5::read_array(&root.join(name)).unwrap();
+        let own_shape = array.shape.iter().map(ToString::to_string).collect::<Vec<_>>().join("x");
+        assert_eq!((dtype, shape), (array.values.element().name(), own_shape.as_str()), "{name}");
+        assert_eq!(checksum, crc32(array.values.as_bytes()).to_string(), "{name}");
+    }
+}
+
+/// zlib's checksum, bit by bit.
+fn crc32(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 };
+    !bytes.iter().fold(!0, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
+}

@@ -1,0 +1,75 @@
+use super::{Furniture, grained};
+use crate::builder::{Builder, Class};
+use crate::shape::{Reshape, grid, rounded_box, tube};
+use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+use std::f32::consts::PI;
+
+/// A dining chair: a seat on four round legs with a bent backrest.
+#[derive(Clone, Copy, Debug)]
+pub struct Chair {
+    /// True for a seat pad in the palette's cloth.
+    pub pad: bool,
+}
+
+const SEAT: f32 = 0.455;
+
+impl Furniture for Chair {
+    fn size(&self) -> Vec3 {
+        Vec3::new(0.46, 0.50, 0.80)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let chair = b.object("chair", Class::Chair, pose);
+        let wood = b.materials.wood;
+        let seat = rounded_box(Vec3::new(0.43, 0.41, 0.024), 0.011, 3)
+            .deformed(|p| Vec3::new(p.x * (1.0 + 0.16 * p.y), p.y, p.z - 0.018 * (1.0 - (p.x / 0.215).powi(2)).max(0.0) * (1.0 - (p.y / 0.205).powi(2)).max(0.0)))
+            .smoothed(40.0);
+        b.part(&chair, "seat", grained(seat.moved(Vec3::new(0.0, 0.02, SEAT)), rng), wood);
+        for (side, s) in [("left", -1.0), ("right", 1.0)] {
+            let front = [Vec3::new(s * 0.20, 0.21, 0.0), Vec3::new(s * 0.175, 0.175, SEAT - 0.006)];
+            b.part(&chair, &format!("leg_front_{side}"), grained(tube(&front, 0.0145, 14), rng), wood);
+            let back = [
+                Vec3::new(s * 0.195, -0.225, 0.0),
+                Vec3::new(s * 0.178, -0.175, 0.40),
+                Vec3::new(s * 0.178, -0.178, 0.50),
+                Vec3::new(s * 0.182, -0.195, 0.62),
+                Vec3::new(s * 0.186, -0.217, 0.72),
+            ];
+            b.part(&chair, &format!("leg_back_{side}"), grained(tube(&back, 0.0135, 14), rng), wood);
+            let rail = [Vec3::new(s * 0.187, 0.193, 0.22), Vec3::new(s * 0.187, -0.199, 0.20)];
+            b.part(&chair, &format!("stretcher_{side}"), grained(tube(&rail, 0.008, 10), rng), wood);
+        }
+        b.part(&chair, "backrest", grained(backrest(), rng), wood);
+        if self.pad {
+            let pad = rounded_box(Vec3::new(0.38, 0.36, 0.03), 0.014, 3).uv_moved(Vec2::splat(rng.next_f32()));
+            b.part(&chair, "pad", pad.moved(Vec3::new(0.0, 0.02, SEAT + 0.0125 + 0.0145)), b.materials.accents[2]);
+        }
+    }
+}
+
+/// A board bent around the sitter's back.
+fn backrest() -> enfilade_geometry::Mesh {
+    const N: usize = 14;
+    let section: Vec<Vec2> = (0..12)
+        .map(|k| {
+            let (sin, cos) = (k as f32 / 12.0 * 2.0 * PI).sin_cos();
+            let round = |v: f32| v.signum() * v.abs().powf(0.55);
+            Vec2::new(0.0085 * round(cos), 0.062 * round(sin))
+        })
+        .collect();
+    let point = |i: usize, j: usize| {
+        let along = 2.0 * (j.clamp(1, N + 1) - 1) as f32 / N as f32 - 1.0;
+        let angle = 0.62 * along;
+        let radius = 0.325;
+        let center = Vec3::new(radius * angle.sin(), 0.085 - radius * angle.cos() + 0.024, 0.735);
+        if j == 0 || j == N + 2 {
+            return center;
+        }
+        let q = section[i % 12];
+        let out = Vec3::new(angle.sin(), -angle.cos(), 0.0);
+        center + out * q.x + Vec3::new(0.0, -0.12 * q.y, q.y * (1.0 - 0.25 * along * along))
+    };
+    // Around the section first, then along: inside out, so x is mirrored by running the section backwards.
+    let mesh = grid(12, N + 2, |i, j| point(12 - i, j), |i, j| Vec2::new(j as f32 / N as f32 * 0.4, i as f32 / 12.0 * 0.3));
+    mesh.smoothed(50.0)
+}

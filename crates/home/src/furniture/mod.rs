@@ -1,0 +1,81 @@
+//! What stands, hangs and lies in a home: one file per family.
+//!
+//! A piece of furniture lives in its own space: the middle of its footprint on the floor is the origin, x is to the right,
+//! y to the front, z up.
+
+mod armchair;
+mod bookshelf;
+mod chair;
+mod coffee_table;
+mod curtain;
+mod dining_table;
+mod door;
+mod lamp;
+mod ornament;
+mod plant;
+mod radiator;
+mod rug;
+mod side_table;
+mod sofa;
+mod television;
+mod wall_art;
+mod window;
+
+pub use armchair::Armchair;
+pub use bookshelf::Bookshelf;
+pub use chair::Chair;
+pub use coffee_table::CoffeeTable;
+pub use curtain::Curtains;
+pub use dining_table::DiningTable;
+pub use door::Door;
+pub use lamp::{FloorLamp, Pendant, TableLamp};
+pub use ornament::{Basket, Bowl, BookStack, Candles, Magazines, Mug, Switch, Tray, Vase};
+pub use plant::Plant;
+pub use radiator::Radiator;
+pub use rug::Rug;
+pub use side_table::SideTable;
+pub use sofa::Sofa;
+pub use television::TelevisionBench;
+pub use wall_art::{Mirror, PictureOnWall};
+pub use window::Window;
+
+use crate::builder::Builder;
+use crate::shape::{Reshape, bevelled_box, lathe};
+use enfilade_geometry::Mesh;
+use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+
+/// A family of things that a home can have; its fields are what varies.
+pub trait Furniture {
+    /// Width (x), depth (y) and height (z) of the box that holds it.
+    fn size(&self) -> Vec3;
+
+    /// Adds its parts. `rng` decides what the fields leave open: creases, tilts, grain.
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng);
+}
+
+/// A bevelled board between two corners.
+pub fn board(min: [f32; 3], max: [f32; 3], bevel: f32) -> Mesh {
+    let (min, max) = (Vec3::from_array(min), Vec3::from_array(max));
+    bevelled_box(max - min, bevel).moved(0.5 * (min + max))
+}
+
+/// Moves the grain of a board to a place of its own.
+pub fn grained(mesh: Mesh, rng: &mut Rng) -> Mesh {
+    mesh.uv_moved(Vec2::new(rng.range(0.0, 1.6), rng.range(0.0, 0.8)))
+}
+
+/// A round leg from the floor to `height`, its radii at the foot and at the top, whose foot stands `splay` off its top.
+pub fn leg(height: f32, radii: [f32; 2], splay: Vec2) -> Mesh {
+    let [foot, top] = radii;
+    let rim = 0.25 * foot;
+    let profile = [[0.0, 0.0], [foot - rim, 0.0], [foot, rim], [top, height], [0.0, height]].map(Vec2::from_array);
+    lathe(&profile, 16).deformed(|p| p + (splay * (1.0 - p.z / height)).extend(0.0)).smoothed(40.0)
+}
+
+/// The pose of something that stands at `at` in another thing's space, turned by `yaw`.
+pub fn on(pose: DAffine3, at: Vec3, yaw: f32) -> DAffine3 {
+    pose * DAffine3::from_translation(at.as_dvec3()) * DAffine3::from_rotation_z(f64::from(yaw))
+}
+
+/// How far things stand above what carries them: contact without faces in one plane.
+pub const CONTACT: f32 = 0.0005;

@@ -1,0 +1,260 @@
+//! Small things on tables, shelves and sills.
+
+use super::bookshelf::{book, pile_of_books};
+use super::{CONTACT, Furniture, board, grained};
+use crate::builder::{Builder, Class};
+use crate::shape::{Reshape, lathe, leaf, rounded_box, spline, tube};
+use crate::texture::BOOK_COLUMNS;
+use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+use std::f32::consts::TAU;
+
+/// A turned vase, with dry branches if wished.
+#[derive(Clone, Copy, Debug)]
+pub struct Vase {
+    /// Height without branches.
+    pub height: f32,
+    /// Largest radius.
+    pub belly: f32,
+    /// Branches in it.
+    pub branches: usize,
+}
+
+impl Furniture for Vase {
+    fn size(&self) -> Vec3 {
+        let reach = if self.branches > 0 { 0.4 } else { 0.0 };
+        Vec3::new(2.0 * self.belly + reach, 2.0 * self.belly + reach, self.height + 1.5 * reach)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let vase = b.object("vase", Class::OtherProp, pose);
+        let (h, r) = (self.height, self.belly);
+        let neck = rng.range(0.30, 0.5);
+        let shoulder = rng.range(0.45, 0.62);
+        let outside = spline(
+            &[[0.55 * r, 0.0], [0.72 * r, 0.06 * h], [0.97 * r, 0.30 * h], [r, shoulder * 0.8 * h], [0.72 * r, (shoulder + 0.18) * h], [neck * r, 0.88 * h], [(neck + 0.06) * r, h]],
+            6,
+        );
+        let mut profile = vec![Vec2::ZERO];
+        profile.extend(&outside);
+        profile.extend(outside.iter().rev().take_while(|p| p.y > 0.08 * h).map(|p| Vec2::new((p.x - 0.004).max(0.002), p.y - 0.001)));
+        profile.push(Vec2::new(0.0, 0.08 * h));
+        let glaze = b.materials.ceramics[rng.below(3)];
+        b.part(&vase, "body", lathe(&profile, 40).moved(Vec3::new(0.0, 0.0, CONTACT)), glaze);
+        for k in 0..self.branches {
+            let out = Vec2::from_angle(rng.range(0.0, TAU));
+            let (tall, spread) = (rng.range(0.42, 0.62), rng.range(0.05, 0.17));
+            let point = |t: f32| (out * (0.4 * neck * r * (1.0 - t) + spread * t * t)).extend(0.3 * h + (h * 0.7 + tall) * t);
+            let path: Vec<Vec3> = (0..=8).map(|i| point(i as f32 / 8.0)).collect();
+            let mut twigs = tube(&path, 0.0022, 6);
+            let mut leaves = None;
+            for j in 4..=8 {
+                let turn = rng.range(0.0, TAU);
+                let length = rng.range(0.05, 0.085);
+                let one = leaf(length, 0.42 * length, 0.5).turned(Vec3::Y, -rng.range(0.2, 0.9)).turned(Vec3::Z, turn).moved(path[j]);
+                leaves = Some(match leaves {
+                    None => one,
+                    Some(all) => Reshape::with(all, one),
+                });
+                twigs = twigs.with(tube(&[path[j - 1], path[j]], 0.0018, 5));
+            }
+            b.part(&vase, &format!("branch_{}", k + 1), twigs, b.materials.bark);
+            if let Some(leaves) = leaves {
+                b.part(&vase, &format!("leaves_{}", k + 1), leaves, b.materials.leaf);
+            }
+        }
+    }
+}
+
+/// A shallow bowl.
+#[derive(Clone, Copy, Debug)]
+pub struct Bowl {
+    /// Radius of the rim.
+    pub radius: f32,
+}
+
+impl Furniture for Bowl {
+    fn size(&self) -> Vec3 {
+        Vec3::new(2.0 * self.radius, 2.0 * self.radius, 0.45 * self.radius)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let bowl = b.object("bowl", Class::OtherProp, pose);
+        let r = self.radius;
+        let curve = |wall: f32| spline(&[[0.42 * r, wall], [0.72 * r - wall, 0.12 * r + 0.6 * wall], [0.92 * r - wall, 0.28 * r], [r - wall, 0.45 * r]], 5);
+        let mut profile = vec![Vec2::ZERO];
+        profile.extend(curve(0.0));
+        profile.extend(curve(0.004).into_iter().rev());
+        profile.push(Vec2::new(0.0, 0.005));
+        b.part(&bowl, "body", lathe(&profile, 48).moved(Vec3::new(0.0, 0.0, CONTACT)), b.materials.ceramics[rng.below(3)]);
+    }
+}
+
+/// A mug with its handle.
+#[derive(Clone, Copy, Debug)]
+pub struct Mug;
+
+impl Furniture for Mug {
+    fn size(&self) -> Vec3 {
+        Vec3::new(0.13, 0.09, 0.092)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let mug = b.object("mug", Class::OtherProp, pose);
+        let profile = [[0.0, 0.0], [0.035, 0.0], [0.0395, 0.006], [0.041, 0.05], [0.041, 0.09], [0.0395, 0.0915], [0.038, 0.09], [0.0375, 0.012], [0.034, 0.007], [0.0, 0.007]];
+        let handle: Vec<Vec3> = (0..=12)
+            .map(|k| {
+                let (sin, cos) = (std::f32::consts::PI * (k as f32 / 12.0 - 0.5)).sin_cos();
+                Vec3::new(0.039 + 0.028 * cos, 0.0, 0.047 + 0.027 * sin)
+            })
+            .collect();
+        let glaze = b.materials.ceramics[rng.below(3)];
+        b.part(&mug, "body", lathe(&profile.map(Vec2::from_array), 36).moved(Vec3::new(0.0, 0.0, CONTACT)), glaze);
+        b.part(&mug, "handle", tube(&handle, 0.0048, 10), glaze);
+        b.part(&mug, "coffee", crate::shape::disk(0.0372, 32).moved(Vec3::new(0.0, 0.0, 0.076)), b.materials.soil);
+    }
+}
+
+/// Magazines lying on each other.
+#[derive(Clone, Copy, Debug)]
+pub struct Magazines {
+    /// How many.
+    pub count: usize,
+}
+
+impl Furniture for Magazines {
+    fn size(&self) -> Vec3 {
+        Vec3::new(0.30, 0.34, 0.006 * self.count as f32)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let pile = b.object("magazines", Class::Paper, pose);
+        for i in 0..self.count {
+            let mut mesh = rounded_box(Vec3::new(0.21, 0.28, 0.005), 0.001, 1);
+            // Each shows the plain part of a book jacket.
+            let cell = rng.below(4 * BOOK_COLUMNS);
+            let corner = Vec2::new((cell % BOOK_COLUMNS) as f32 + 0.62, (cell / BOOK_COLUMNS) as f32 + 0.1);
+            for (uv, p) in mesh.uvs.iter_mut().zip(&mesh.positions) {
+                let q = corner + Vec2::new(0.16 * (p.x / 0.21 + 0.5), 0.8 * (p.y / 0.28 + 0.5));
+                *uv = q / Vec2::new(BOOK_COLUMNS as f32, 4.0);
+            }
+            let z = CONTACT + 0.0025 + i as f32 * 0.0055;
+            b.part(&pile, &format!("issue_{}", i + 1), mesh.turned(Vec3::Z, rng.range(-0.25, 0.25)).moved(Vec3::new(0.0, 0.0, z)), b.materials.books);
+        }
+    }
+}
+
+/// A few large books lying on each other.
+#[derive(Clone, Copy, Debug)]
+pub struct BookStack {
+    /// How many.
+    pub count: usize,
+}
+
+impl Furniture for BookStack {
+    fn size(&self) -> Vec3 {
+        Vec3::new(0.28, 0.24, 0.035 * self.count as f32)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        pile_of_books(b, pose, self.count, rng);
+        let _ = book;
+    }
+}
+
+/// Candles of different heights.
+#[derive(Clone, Copy, Debug)]
+pub struct Candles {
+    /// How many.
+    pub count: usize,
+}
+
+impl Furniture for Candles {
+    fn size(&self) -> Vec3 {
+        Vec3::new(0.1 * self.count as f32, 0.1, 0.28)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let candles = b.object("candlestick", Class::OtherProp, pose);
+        for i in 0..self.count {
+            let h = rng.range(0.07, 0.13);
+            let x = 0.085 * (i as f32 - 0.5 * (self.count - 1) as f32);
+            let foot = [[0.0, 0.0], [0.034, 0.0], [0.036, 0.004], [0.03, 0.009], [0.007, 0.014], [0.006, h - 0.018], [0.016, h - 0.012], [0.016, h], [0.0, h]];
+            let at = Vec3::new(x, 0.01 * (i as f32), CONTACT);
+            b.part(&candles, &format!("foot_{}", i + 1), lathe(&foot.map(Vec2::from_array), 24).moved(at), b.materials.brass);
+            let wax = [[0.0, 0.0], [0.0095, 0.0], [0.0095, 0.13], [0.007, 0.134], [0.0, 0.133]];
+            b.part(&candles, &format!("wax_{}", i + 1), lathe(&wax.map(Vec2::from_array), 18).moved(at + Vec3::new(0.0, 0.0, h - 0.0002)), b.materials.paper);
+        }
+    }
+}
+
+/// A wooden tray with a raised rim.
+#[derive(Clone, Copy, Debug)]
+pub struct Tray {
+    /// Radius.
+    pub radius: f32,
+}
+
+impl Tray {
+    /// Height of the surface that things stand on.
+    pub const TOP: f32 = 0.009;
+}
+
+impl Furniture for Tray {
+    fn size(&self) -> Vec3 {
+        Vec3::new(2.0 * self.radius, 2.0 * self.radius, 0.028)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let tray = b.object("tray", Class::OtherProp, pose);
+        let r = self.radius;
+        let profile = [[0.0, 0.0], [r - 0.006, 0.0], [r, 0.004], [r, 0.026], [r - 0.003, 0.028], [r - 0.006, 0.026], [r - 0.007, 0.0085], [0.0, 0.0085]];
+        let mut mesh = lathe(&profile.map(Vec2::from_array), 56);
+        for (uv, p) in mesh.uvs.iter_mut().zip(&mesh.positions) {
+            *uv = Vec2::new(p.x, p.y + p.z);
+        }
+        b.part(&tray, "body", grained(mesh, rng).moved(Vec3::new(0.0, 0.0, CONTACT)), b.materials.wood_dark);
+    }
+}
+
+/// A woven basket with a folded blanket in it.
+#[derive(Clone, Copy, Debug)]
+pub struct Basket {
+    /// Radius of the rim.
+    pub radius: f32,
+}
+
+impl Furniture for Basket {
+    fn size(&self) -> Vec3 {
+        Vec3::new(2.0 * self.radius, 2.0 * self.radius, 0.40)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let basket = b.object("basket", Class::OtherProp, pose);
+        let r = self.radius;
+        let outside = spline(&[[0.80 * r, 0.0], [0.94 * r, 0.08], [r, 0.18], [0.97 * r, 0.30], [0.93 * r, 0.34]], 6);
+        let mut profile = vec![Vec2::ZERO];
+        profile.extend(&outside);
+        profile.extend(outside.iter().rev().map(|p| Vec2::new(p.x - 0.012, p.y.max(0.012) + if p.y > 0.33 { 0.004 } else { 0.0 })));
+        profile.push(Vec2::new(0.0, 0.012));
+        b.part(&basket, "weave", lathe(&profile, 48).moved(Vec3::new(0.0, 0.0, CONTACT)), b.materials.wicker);
+        let cloth = crate::shape::padded_box(Vec3::new(1.22 * r, 1.0 * r, 0.20), 0.05, 0.03).uv_moved(Vec2::splat(rng.next_f32()));
+        let blanket = b.object("blanket", Class::OtherProp, pose);
+        b.part(&blanket, "cloth", cloth.turned(Vec3::X, 0.1).turned(Vec3::Z, 0.5).moved(Vec3::new(0.0, 0.0, 0.265)), b.materials.accents[1]);
+    }
+}
+
+/// A light switch on a wall; its origin is on the wall's face.
+#[derive(Clone, Copy, Debug)]
+pub struct Switch;
+
+impl Furniture for Switch {
+    fn size(&self) -> Vec3 {
+        Vec3::new(0.08, 0.012, 0.08)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
+        let switch = b.object("switch", Class::OtherProp, pose);
+        b.part(&switch, "plate", board([-0.04, -0.001, -0.04], [0.04, 0.008, 0.04], 0.002), b.materials.switch);
+        b.part(&switch, "rocker", board([-0.026, 0.0078, -0.026], [0.026, 0.0108, 0.026], 0.0012), b.materials.switch);
+    }
+}

@@ -1,0 +1,71 @@
+use super::{board, leg};
+use crate::builder::{Builder, Class};
+use crate::room::Room;
+use crate::shape::{Reshape, grid, picture_frame, rounded_box};
+use enfilade_math::{Rng, Vec2, Vec3};
+
+/// The window in its opening: frame, sashes with panes, handles, sill.
+#[derive(Clone, Copy, Debug)]
+pub struct Window {
+    /// Sashes beside each other.
+    pub sashes: usize,
+}
+
+/// Where the panes are, behind the wall's inner face.
+const PANE: f32 = -0.16;
+const FRAME: f32 = 0.055;
+const SASH: f32 = 0.06;
+const MULLION: f32 = 0.06;
+/// How far frames reach into the wall, and sashes over the frame.
+const INTO_WALL: f32 = 0.003;
+const LAP: f32 = 0.010;
+
+impl Window {
+    /// Height of the sill's surface above the lower edge of the opening.
+    pub const SILL: f32 = 0.022;
+    /// How far the sill reaches into the room.
+    pub const SILL_DEPTH: f32 = 0.06;
+
+    /// Adds the window of `room`.
+    pub fn build(&self, b: &mut Builder, room: &Room, _rng: &mut Rng) {
+        let (opening, white) = (room.window, b.materials.paint_white);
+        let size = opening.size();
+        let pose = super::on(room.wall_pose(opening.wall), Vec3::new(opening.center_x(), 0.0, 0.5 * (opening.z[0] + opening.z[1])), 0.0);
+        let window = b.object("window", Class::Window, pose);
+        let section = |inset: f32, y: [f32; 2]| [[0.0, y[0]], [0.0, y[1]], [inset - 0.004, y[1]], [inset, y[1] - 0.004], [inset, y[0]]];
+        let outer = size + 2.0 * INTO_WALL;
+        b.part(&window, "frame", picture_frame(outer.x, outer.y, &section(FRAME + INTO_WALL, [PANE - 0.04, PANE + 0.03])), white);
+        let clear = size - 2.0 * FRAME;
+        let cell = (clear.x - MULLION * (self.sashes - 1) as f32) / self.sashes as f32;
+        for i in 0..self.sashes {
+            let x = (cell + MULLION) * i as f32 + 0.5 * (cell - clear.x);
+            let sash = Vec2::new(cell, clear.y) + 2.0 * LAP;
+            let name = i + 1;
+            let frame = picture_frame(sash.x, sash.y, &section(SASH, [PANE - 0.028, PANE + 0.048]));
+            b.part(&window, &format!("sash_{name}"), frame.moved(Vec3::new(x, 0.0, 0.0)), white);
+            let glass = 0.5 * sash - SASH + 0.008;
+            let pane = grid(
+                1,
+                1,
+                |i, j| Vec3::new(x + glass.x * (1.0 - 2.0 * i as f32), PANE, glass.y * (2.0 * j as f32 - 1.0)),
+                |i, j| Vec2::new(i as f32, j as f32),
+            );
+            b.part(&window, &format!("pane_{name}"), pane, b.materials.glass);
+            if i + 1 < self.sashes {
+                let m = x + 0.5 * (cell + MULLION);
+                let post = board([m - 0.5 * MULLION - 0.001, PANE - 0.038, -0.5 * size.y - 0.001], [m + 0.5 * MULLION + 0.001, PANE + 0.028, 0.5 * size.y + 0.001], 0.002);
+                b.part(&window, &format!("mullion_{name}"), post, white);
+            }
+            let hand = if i * 2 < self.sashes { -1.0 } else { 1.0 };
+            let at = Vec3::new(x + hand * (0.5 * sash.x - 0.5 * SASH), PANE + 0.0478, -0.08 * size.y);
+            let rose = rounded_box(Vec3::new(0.026, 0.012, 0.065), 0.004, 2).moved(at + Vec3::new(0.0, 0.006, 0.0));
+            let neck = leg(0.034, [0.008, 0.008], Vec2::ZERO).turned(Vec3::X, -std::f32::consts::FRAC_PI_2).moved(at + Vec3::new(0.0, 0.010, 0.0));
+            let lever = rounded_box(Vec3::new(0.018, 0.012, 0.125), 0.005, 3).moved(at + Vec3::new(0.0, 0.046, -0.05));
+            b.part(&window, &format!("handle_{name}"), rose.with(neck).with(lever), b.materials.steel);
+        }
+        let half = 0.5 * size.x + 0.045;
+        let low = -0.5 * size.y;
+        let sill = board([-half, PANE + 0.028, low - 0.003], [half, Self::SILL_DEPTH, low + Self::SILL], 0.005);
+        b.part(&window, "sill", sill, b.materials.stone);
+    }
+}

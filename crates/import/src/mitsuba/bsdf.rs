@@ -1,0 +1,338 @@
+//! BSDFs to materials.
+
+use super::spectrum::{self, Kind};
+use super::texture::Texture;
+use super::xml::Node;
+use super::{MAX_REFERENCES, Reader};
+use crate::ImportError;
+use crate::images::{self, Use};
+use enfilade_math::Rgb;
+use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, ScalarParam};
+
+/// Which bsdf element (by its address, for the tree outlives the reader) and which emitter a material was made of.
+pub(super) type MaterialKey = (Option<*const Node>, Option<*const Node>);
+
+/// GGX roughness where a rough bsdf does not state one.
+const DEFAULT_ALPHA: f32 = 0.1;
+
+/// A bsdf in the making: what it scatters, and what the adapters around it add.
+struct Surface {
+    /// `None` for `null`, which scatters nothing.
+    bsdf: Option<Bsdf>,
+    two_sided: bool,
+    alpha: Alpha,
+    normal_map: Option<NormalMap>,
+}
+
+impl Surface {
+    fn plain(bsdf: Bsdf) -> Self {
+        Self { bsdf: Some(bsdf), two_sided: false, alpha: Alpha::Opaque, normal_map: None }
+    }
+}
+
+impl<'n> Reader<'n, '_> {
+    /// The material of a bsdf and an area emitter, and its name. `None` where there is nothing to see.
+    pub(super) fn material(&mut self, bsdf: Option<&'n Node>, emitter: Option<&'n Node>) -> Result<Option<u32>, ImportError> {
+        let key = (bsdf.map(std::ptr::from_ref), emitter.map(std::ptr::from_ref));
+        if let Some(&known) = self.materials.get(&key) {
+            return Ok(Some(known));
+        }
+        let surface = match bsdf {
+            Some(node) => self.surface(node, 0)?,
+            None => Surface::plain(Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() }),
+        };
+        let emission: ColorParam = match emitter {
+            Some(emitter) => self.color(emitter, "radiance", Kind::Emission, Rgb::WHITE)?,
+            None => Rgb::BLACK.into(),
+        };
+        let bsdf_itself = match surface.bsdf {
+            Some(bsdf) => bsdf,
+            None if emitter.is_some() => Bsdf::Diffuse { reflectance: Rgb::BLACK.into() },
+            None => return Ok(None),
+        };
+        let suffix = if emitter.is_some() { "_emitter" } else { "" };
+        let material = Material {
+            name: format!("{}{suffix}", name(bsdf)),
+            bsdf: bsdf_itself,
+            emission,
+            two_sided: surface.two_sided,
+            emits_both_sides: false,
+            alpha: surface.alpha,
+            normal_map: surface.normal_map,
+        };
+        let index = self.a.push_material(material);
+        self.materials.insert(key, index);
+        Ok(Some(index))
+    }
+
+    fn surface(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
+        if depth > MAX_REFERENCES {
+            return Err(node.error("bsdfs go in a circle"));
+        }
+        match node.plugin.as_str() {
+            "twosided" => {
+                self.report_unknown(node, &[], &["bsdf"]);
+                if self.objects(node, "bsdf")?.len() > 1 {
+                    self.warn(node, "the second bsdf, for the back, was dropped; the first one is on both sides");
+                }
+                Ok(Surface { two_sided: true, ..self.inner(node, depth)? })
+            }
+            "mask" => self.mask(node, depth),
+            "bumpmap" | "bump" => self.bump_map(node, depth),
+            "normalmap" => self.normal_map(node, depth),
+            "blendbsdf" | "mixturebsdf" => self.blend(node, depth),
+            "coating" | "roughcoating" => self.coating(node, depth),
+            "null" => Ok(Surface { bsdf: None, ..Surface::plain(Bsdf::Diffuse { reflectance: Rgb::BLACK.into() }) }),
+            _ => Ok(Surface::plain(self.scattering(node)?)),
+        }
+    }
+
+    /// The bsdf within an adapter.
+    fn inner(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
+        let inner = self.objects(node, "bsdf")?.first().copied();
+        let inner = inner.ok_or_else(|| node.error(format!("there is no bsdf within the {}", node.plugin)))?;
+        self.surface(inner, depth + 1)
+    }
+
+    fn mask(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
+        self.report_unknown(node, &["opacity"], &["bsdf"]);
+        let surface = self.inner(node, depth)?;
+        let opacity = match self.property(node, "opacity")? {
+            Some(texture) if texture.tag == "texture" => {
+                let t = self.texture(texture, Use::Color, 0)?;
+                match t.picture {
+                    None => ScalarParam::from(1.0),
+                    Some(picture) => {
+                        let image = self.a.image_at(picture.image);
+                        let (has_alpha, grey) = (!images::is_opaque(image), images::is_grey(image));
+                        if !has_alpha && !grey && t.channel.is_none() {
+                            self.warn(texture, "the opacity texture is coloured; its red channel was used");
+                        }
+                        let channel = t.channel.unwrap_or(if has_alpha { 3 } else { 0 });
+                        ScalarParam { factor: t.factor.r, texture: Some((picture, channel)) }
+                    }
+                }
+            }
+            Some(value) => spectrum::color(value, Kind::Factor)?.luminance().into(),
+            None => 0.5.into(),
+        };
+        let solid = opacity.texture.is_none() && opacity.factor >= 1.0;
+        Ok(Surface { alpha: if solid { surface.alpha } else { Alpha::Blend { opacity } }, ..surface })
+    }
+
+    fn bump_map(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
+        self.report_unknown(node, &["scale"], &["bsdf", "texture"]);
+        let surface = self.inner(node, depth)?;
+        let Some(texture) = self.objects(node, "texture")?.first().copied() else {
+            return Err(node.error("there is no texture within the bump map"));
+        };
+        let Texture { factor, picture, .. } = self.texture(texture, Use::Color, 0)?;
+        let scale = factor.g * (node.float_or("scale", 1.0)? * self.a.meters_per_unit()) as f32;
+        Ok(Surface { normal_map: picture.map(|texture| NormalMap::Bump { texture, scale }), ..surface })
+    }
+
+    fn normal_map(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
+        self.report_unknown(node, &["normalmap"], &["bsdf", "texture"]);
+        let surface = self.inner(node, depth)?;
+        let Some(texture) = self.objects(node, "texture")?.first().copied() else {
+            return Err(node.error("there is no texture within the normal map"));
+        };
+        let picture = self.texture(texture, Use::Data, 0)?.picture;
+        Ok(Surface { normal_map: picture.map(|texture| NormalMap::Normal { texture, scale: 1.0 }), ..surface })
+    }
+
+    fn blend(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
+        self.report_unknown(node, &["weight", "weights"], &["bsdf", "texture"]);
+        let weights = match node.child("weights") {
+            Some(list) => list.numbers("value")?,
+            None => {
+                let second = match self.property(node, "weight")? {
+                    Some(w) if w.tag != "texture" => w.numbers("value")?.first().copied().unwrap_or(0.5),
+                    _ => 0.5,
+                };
+                vec![1.0 - second, second]
+            }
+        };
+        let inner = self.objects(node, "bsdf")?;
+        let heaviest = (0..inner.len()).fold(0, |best, i| if weights.get(i) > weights.get(best) { i } else { best });
+        let chosen = inner.get(heaviest).copied().ok_or_else(|| node.error("there is no bsdf within the blend"))?;
+        self.warn(node, format!("blends are not supported; bsdf {} of {}, the heaviest, was used", heaviest + 1, inner.len()));
+        self.surface(chosen, depth + 1)
+    }
+
+    fn coating(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
+        let known = ["int_ior", "ext_ior", "alpha", "distribution", "specular_reflectance", "thickness", "sigma_a", "nonlinear"];
+        self.report_unknown(node, &known, &["bsdf"]);
+        let surface = self.inner(node, depth)?;
+        let Some(Bsdf::Diffuse { reflectance }) = surface.bsdf else {
+            self.warn(node, "a coat over anything but a diffuse base is not supported; the coat was dropped");
+            return Ok(surface);
+        };
+        self.warn(node, "a coat over a diffuse base was taken for plastic");
+        let alpha = if node.plugin == "roughcoating" { self.scalar(node, "alpha", DEFAULT_ALPHA)? } else { 0.0.into() };
+        let eta = eta(node, "bk7")? as f32;
+        let bsdf = Bsdf::Plastic { diffuse: reflectance, eta, alpha, specular: Rgb::WHITE.into(), nonlinear: false };
+        Ok(Surface { bsdf: Some(bsdf), ..surface })
+    }
+
+    /// The bsdfs that scatter light themselves.
+    fn scattering(&mut self, node: &'n Node) -> Result<Bsdf, ImportError> {
+        let white = Rgb::WHITE;
+        match node.plugin.as_str() {
+            "diffuse" | "lambertian" | "roughdiffuse" | "difftrans" => {
+                self.report_unknown(node, &["reflectance", "diffuse_reflectance", "transmittance", "alpha", "use_fast_approx"], &[]);
+                if node.plugin == "roughdiffuse" || node.plugin == "difftrans" {
+                    self.warn(node, format!("{} treated as a smooth diffuse reflector", node.plugin));
+                }
+                let name = ["reflectance", "diffuse_reflectance", "transmittance"].into_iter().find(|n| node.child(n).is_some());
+                Ok(Bsdf::Diffuse { reflectance: self.color(node, name.unwrap_or("reflectance"), Kind::Factor, Rgb::splat(0.5))? })
+            }
+            "plastic" | "roughplastic" | "pplastic" => {
+                const KNOWN: [&str; 9] = [
+                    "diffuse_reflectance", "specular_reflectance", "int_ior", "ext_ior", "nonlinear", "alpha", "distribution",
+                    "sample_visible", "specular_sampling_weight",
+                ];
+                self.report_unknown(node, &KNOWN, &[]);
+                let diffuse = self.color(node, "diffuse_reflectance", Kind::Factor, Rgb::splat(0.5))?;
+                let specular = self.color(node, "specular_reflectance", Kind::Factor, white)?;
+                let alpha = self.alpha(node)?;
+                let nonlinear = node.flag("nonlinear", false);
+                Ok(Bsdf::Plastic { diffuse, eta: eta(node, "polypropylene")? as f32, alpha, specular, nonlinear })
+            }
+            "conductor" | "roughconductor" => self.conductor(node),
+            "dielectric" | "roughdielectric" | "thindielectric" => {
+                const KNOWN: [&str; 9] = [
+                    "int_ior", "ext_ior", "specular_reflectance", "specular_transmittance", "alpha", "alpha_u", "alpha_v", "distribution",
+                    "sample_visible",
+                ];
+                self.report_unknown(node, &KNOWN, &[]);
+                if self.color(node, "specular_reflectance", Kind::Factor, white)? != white.into() {
+                    self.warn(node, "the reflectance of a dielectric was set to one");
+                }
+                let transmittance = self.color(node, "specular_transmittance", Kind::Factor, white)?;
+                let eta = eta(node, "bk7")? as f32;
+                if node.plugin == "thindielectric" {
+                    return Ok(Bsdf::ThinDielectric { eta, transmittance });
+                }
+                Ok(Bsdf::Dielectric { eta, alpha: self.alpha(node)?, transmittance, absorption: Rgb::BLACK })
+            }
+            "phong" | "ward" => {
+                self.report_unknown(
+                    node,
+                    &["diffuse_reflectance", "specular_reflectance", "exponent", "alpha_u", "alpha_v", "variant"],
+                    &[],
+                );
+                self.warn(node, format!("{} treated as plastic of the same roughness", node.plugin));
+                let exponent = node.float("exponent")?.map(|n| (2.0 / (n.max(0.0) + 2.0)).sqrt());
+                let alpha = exponent.or(node.float("alpha_u")?).unwrap_or(f64::from(DEFAULT_ALPHA)) as f32;
+                let diffuse = self.color(node, "diffuse_reflectance", Kind::Factor, Rgb::splat(0.5))?;
+                let specular = self.color(node, "specular_reflectance", Kind::Factor, Rgb::splat(0.2))?;
+                Ok(Bsdf::Plastic { diffuse, eta: 1.5, alpha: alpha.into(), specular, nonlinear: false })
+            }
+            "principled" | "principledthin" => self.principled(node),
+            other => {
+                self.warn(node, format!("{other} bsdfs are not supported; a diffuse mid grey stands in"));
+                Ok(Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() })
+            }
+        }
+    }
+
+    fn conductor(&mut self, node: &'n Node) -> Result<Bsdf, ImportError> {
+        const KNOWN: [&str; 10] = [
+            "material", "eta", "k", "ext_eta", "specular_reflectance", "alpha", "alpha_u", "alpha_v", "distribution", "sample_visible",
+        ];
+        self.report_unknown(node, &KNOWN, &[]);
+        let mut constants = spectrum::metal("cu").unwrap_or_default();
+        if let Some(name) = node.raw_text("material") {
+            constants = match spectrum::metal(name) {
+                Some(known) => known,
+                None => {
+                    self.warn(node, format!("the metal {name:?} is not known; aluminium stands in"));
+                    spectrum::metal("al").unwrap_or_default()
+                }
+            };
+        }
+        let (mut eta, mut k) = constants;
+        for (name, value) in [("eta", &mut eta), ("k", &mut k)] {
+            if let Some(property) = self.property(node, name)? {
+                if property.tag == "texture" {
+                    self.warn(property, "textured indices of refraction are not supported; the metal's own was kept");
+                } else {
+                    *value = spectrum::color(property, Kind::Factor)?;
+                }
+            }
+        }
+        if let Some(outside) = node.float("ext_eta")?.filter(|&e| e > 0.0) {
+            (eta, k) = (eta * (1.0 / outside as f32), k * (1.0 / outside as f32));
+        }
+        let reflectance = self.color(node, "specular_reflectance", Kind::Factor, Rgb::WHITE)?;
+        Ok(Bsdf::Conductor { eta, k, reflectance, alpha: self.alpha(node)? })
+    }
+
+    /// Mitsuba's Disney-like model by glTF's parameters.
+    fn principled(&mut self, node: &'n Node) -> Result<Bsdf, ImportError> {
+        const KNOWN: [&str; 13] = [
+            "base_color", "roughness", "metallic", "specular", "eta", "spec_trans", "clearcoat", "clearcoat_gloss", "sheen", "sheen_tint",
+            "spec_tint", "diffuse_reflectance_sampling_rate", "specular_sampling_rate",
+        ];
+        self.report_unknown(node, &KNOWN, &[]);
+        let specular = node.float_or("specular", 0.5)?.clamp(0.0, 0.999);
+        let from_specular = 2.0 / (1.0 - (0.08 * specular).sqrt()) - 1.0;
+        let ior = match node.float("eta")? {
+            Some(eta) => eta,
+            None => from_specular,
+        };
+        let gloss = node.float_or("clearcoat_gloss", 0.0)?.clamp(0.0, 1.0);
+        let base_color = self.color(node, "base_color", Kind::Factor, Rgb::splat(0.5))?;
+        let tint = node.float_or("sheen_tint", 0.0)?.clamp(0.0, 1.0) as f32;
+        let sheen = Rgb::WHITE.lerp(base_color.factor, tint) * node.float_or("sheen", 0.0)? as f32;
+        let p = Principled {
+            base_color,
+            metallic: self.scalar(node, "metallic", 0.0)?,
+            roughness: self.scalar(node, "roughness", 0.5)?,
+            ior: ior.max(1.0) as f32,
+            transmission: self.scalar(node, "spec_trans", 0.0)?,
+            solid: node.plugin == "principled",
+            // The model's coat has a quarter of a dielectric's strength, and its alpha runs from 0.1 to 0.001.
+            clearcoat: (0.25 * node.float_or("clearcoat", 0.0)? as f32).into(),
+            clearcoat_roughness: ((0.1 + (0.001 - 0.1) * gloss).sqrt() as f32).into(),
+            sheen_color: sheen.into(),
+            sheen_roughness: 0.5.into(),
+            ..Principled::default()
+        };
+        Ok(Bsdf::Principled(Box::new(p)))
+    }
+
+    /// GGX alpha: zero for smooth bsdfs, the mean of both directions for anisotropic ones.
+    fn alpha(&mut self, node: &'n Node) -> Result<ScalarParam, ImportError> {
+        if !node.plugin.starts_with("rough") {
+            return Ok(0.0.into());
+        }
+        let distribution = node.text("distribution").unwrap_or_else(|| "beckmann".to_string());
+        if distribution != "ggx" {
+            self.warn(node, format!("the {distribution} distribution was replaced by GGX of the same alpha"));
+        }
+        if node.child("alpha_u").is_none() && node.child("alpha_v").is_none() {
+            return self.scalar(node, "alpha", DEFAULT_ALPHA);
+        }
+        let (u, v) = (self.scalar(node, "alpha_u", DEFAULT_ALPHA)?, self.scalar(node, "alpha_v", DEFAULT_ALPHA)?);
+        self.warn(node, "anisotropic roughness was replaced by its mean");
+        Ok(ScalarParam { factor: 0.5 * (u.factor + v.factor), texture: u.texture.or(v.texture) })
+    }
+}
+
+/// The name of a bsdf's material: its id, or `inline`.
+pub(super) fn name(bsdf: Option<&Node>) -> &str {
+    bsdf.and_then(|b| b.id.as_deref()).unwrap_or("inline")
+}
+
+/// Interior over exterior index of refraction, each a number or the name of a substance.
+fn eta(node: &Node, default_interior: &str) -> Result<f64, ImportError> {
+    let index = |name: &str, default: &str| -> Result<f64, ImportError> {
+        let Some(property) = node.child(name) else { return Ok(spectrum::substance(default).unwrap_or(1.5)) };
+        let text = property.attribute("value").unwrap_or_default();
+        let value = spectrum::substance(text).or_else(|| text.trim().parse().ok()).filter(|v: &f64| v.is_finite() && *v > 0.0);
+        value.ok_or_else(|| property.error(format!("found {text:?}, expected an index of refraction above zero or the name of a substance")))
+    };
+    Ok(index("int_ior", default_interior)? / index("ext_ior", "air")?)
+}

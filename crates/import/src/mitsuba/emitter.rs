@@ -1,0 +1,144 @@
+//! Emitters that are not part of a shape.
+
+use super::spectrum::{self, Kind};
+use super::xml::Node;
+use super::{Reader, transform};
+use crate::ImportError;
+use crate::assembly::Source;
+use crate::images::Use;
+use enfilade_math::{DVec3, Rgb, Vec3};
+use enfilade_scene::sky::Daylight;
+use enfilade_scene::{Environment, Light};
+
+/// Kilo-candela per square metre of one of Mitsuba's units of sky radiance, W·m⁻²·sr⁻¹·nm⁻¹: 683 lm/W × the 106.857 nm under the
+/// luminosity curve.
+const KILOCANDELA_PER_UNIT: f32 = 0.683 * 106.857;
+
+/// Width of the sky's picture, texels.
+const SKY_WIDTH: u32 = 1024;
+
+impl<'n> Reader<'n, '_> {
+    /// Adds an emitter of the scene itself.
+    pub(super) fn emitter(&mut self, node: &'n Node) -> Result<(), ImportError> {
+        match node.plugin.as_str() {
+            "constant" => {
+                self.report_unknown(node, &["radiance", "sampling_weight", "to_world"], &[]);
+                let radiance = self.emission(node, "radiance")?;
+                self.a.set_environment(Environment::Constant { radiance }, &node.place());
+                Ok(())
+            }
+            "envmap" => self.environment_map(node),
+            "point" | "spot" => self.point_or_spot(node),
+            "directional" => {
+                self.report_unknown(node, &["irradiance", "direction", "to_world", "sampling_weight"], &[]);
+                let irradiance = self.emission(node, "irradiance")?;
+                let direction = match node.child("direction") {
+                    Some(d) => vector(d)?,
+                    None => transform::of(node, "to_world")?.transform_vector3(DVec3::Z),
+                };
+                let direction = direction.normalize_or_zero().as_vec3();
+                self.a.push_light(Light::Directional { name: name(node), direction, irradiance, angular_radius_rad: 0.0 });
+                Ok(())
+            }
+            "sunsky" | "sky" | "sun" => self.daylight(node),
+            other => {
+                self.warn(node, format!("{other} emitters are not supported; it was left out"));
+                Ok(())
+            }
+        }
+    }
+
+    /// The emitted spectrum `name` of `node`, white when absent.
+    fn emission(&mut self, node: &'n Node, name: &str) -> Result<Rgb, ImportError> {
+        self.property(node, name)?.map_or(Ok(Rgb::WHITE), |p| spectrum::color(p, Kind::Emission))
+    }
+
+    fn environment_map(&mut self, node: &'n Node) -> Result<(), ImportError> {
+        self.report_unknown(node, &["filename", "to_world", "scale", "gamma", "cache", "sampling_weight", "mis_compensation"], &[]);
+        let path = node.raw_text("filename").ok_or_else(|| node.error("the envmap has no filename"))?;
+        let scale = Rgb::splat(node.float_or("scale", 1.0)? as f32);
+        let file_from_map = transform::of(node, "to_world")?.matrix3;
+        if let Some(image) = self.a.image(&Source::File(path), Use::Color, &node.place())? {
+            self.a.set_environment_map(image, scale, file_from_map, &node.place());
+        }
+        Ok(())
+    }
+
+    fn point_or_spot(&mut self, node: &'n Node) -> Result<(), ImportError> {
+        self.report_unknown(node, &["intensity", "position", "to_world", "cutoff_angle", "beam_width", "sampling_weight"], &[]);
+        let intensity = self.emission(node, "intensity")?;
+        let placement = transform::of(node, "to_world")?;
+        let position = node.child("position").map_or(Ok(placement.translation), vector)?.as_vec3();
+        if node.plugin == "point" {
+            self.a.push_light(Light::Point { name: name(node), position, intensity });
+            return Ok(());
+        }
+        let outer = node.float_or("cutoff_angle", 20.0)?;
+        let inner = node.float_or("beam_width", 0.75 * outer)?.min(outer);
+        let direction = placement.transform_vector3(DVec3::Z).normalize_or_zero().as_vec3();
+        let (inner_rad, outer_rad) = (inner.to_radians() as f32, outer.to_radians() as f32);
+        self.a.push_light(Light::Spot { name: name(node), position, direction, intensity, inner_rad, outer_rad });
+        Ok(())
+    }
+
+    /// The sky as an environment and the sun as a light, by Preetham's model in the units of Mitsuba's.
+    fn daylight(&mut self, node: &'n Node) -> Result<(), ImportError> {
+        const KNOWN: [&str; 12] = [
+            "sun_direction", "turbidity", "albedo", "scale", "sun_scale", "sky_scale", "sun_radius_scale", "to_world", "resolution",
+            "sampling_weight", "extend", "complex_sun",
+        ];
+        self.report_unknown(node, &KNOWN, &[]);
+        let scale = node.float_or("scale", 1.0)?;
+        let (sun_scale, sky_scale) = (node.float_or("sun_scale", scale)? as f32, node.float_or("sky_scale", scale)? as f32);
+        let direction = match node.child("sun_direction") {
+            Some(d) => vector(d)?,
+            None => {
+                self.warn(node, "the sun's place by date and location is not supported; it was put 45° high");
+                DVec3::new(0.5, std::f64::consts::FRAC_1_SQRT_2, 0.5)
+            }
+        };
+        let to_sun = self.a.world_from_file().transform_vector3(direction).normalize_or_zero().as_vec3();
+        let to_world = transform::of(node, "to_world")?;
+        let up = self.a.world_from_file().transform_vector3(to_world.transform_vector3(DVec3::Y)).normalize_or_zero();
+        if node.child("to_world").is_some() && up.z < 0.999 {
+            self.warn(node, "the sky's own up is not the scene's; the scene's was used");
+        }
+        if to_sun == Vec3::ZERO {
+            return Err(node.error("the sun's direction is zero"));
+        }
+        let turbidity = node.float_or("turbidity", 3.0)?.clamp(1.7, 10.0) as f32;
+        let ground_albedo = self.property(node, "albedo")?.map_or(Ok(Rgb::splat(0.15)), |p| spectrum::color(p, Kind::Factor))?.luminance();
+        let daylight = Daylight { to_sun, turbidity, ground_albedo };
+        self.warn(node, "daylight was computed by the model of Preetham 1999; expect other colours than Mitsuba's");
+        let image = self.a.next_image();
+        let (picture, environment, sun) = daylight.lights(SKY_WIDTH, 1.0 / KILOCANDELA_PER_UNIT, image);
+        if node.plugin != "sun" {
+            self.a.push_image(picture);
+            if let Environment::Map { image, map_from_world, .. } = environment {
+                self.a.set_environment(Environment::Map { image, scale: Rgb::splat(sky_scale), map_from_world }, &node.place());
+            }
+        }
+        if let Light::Directional { direction, irradiance, angular_radius_rad, .. } = sun
+            && node.plugin != "sky"
+            && to_sun.z > 0.0
+        {
+            let angular_radius_rad = angular_radius_rad * node.float_or("sun_radius_scale", 1.0)?.max(0.0) as f32;
+            let irradiance = irradiance * sun_scale;
+            self.a.push_world_light(Light::Directional { name: "sun".into(), direction, irradiance, angular_radius_rad });
+        }
+        Ok(())
+    }
+}
+
+fn name(node: &Node) -> String {
+    node.id.clone().unwrap_or_else(|| format!("{}_light", node.plugin))
+}
+
+/// A `vector` or `point` property: x, y, z or three numbers in `value`.
+pub(super) fn vector(node: &Node) -> Result<DVec3, ImportError> {
+    if let [x, y, z] = node.numbers("value")?[..] {
+        return Ok(DVec3::new(x, y, z));
+    }
+    let component = |name: &str| Ok::<_, ImportError>(node.numbers(name)?.first().copied().unwrap_or(0.0));
+    Ok(DVec3::new(component("x")?, component("y")?, component("z")?))
+}

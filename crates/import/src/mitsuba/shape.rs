@@ -1,0 +1,185 @@
+//! Shapes to meshes and parts.
+
+use super::xml::Node;
+use super::{MAX_REFERENCES, Reader, bsdf, emitter, ply, primitives, serialized, transform};
+use crate::ImportError;
+use crate::mesh;
+use crate::obj::ObjFile;
+use enfilade_geometry::Mesh;
+use enfilade_math::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+use enfilade_scene::PartLabel;
+use std::path::Path;
+
+/// What tells meshes apart: plugin, file, index within it, and the flags that change it.
+pub(super) type MeshKey = (String, String, i64, [bool; 3]);
+
+impl<'n> Reader<'n, '_> {
+    /// Adds the part or parts of a shape.
+    pub(super) fn shape(&mut self, node: &'n Node) -> Result<(), ImportError> {
+        self.placed_shape(node, DAffine3::IDENTITY, "", 0)
+    }
+
+    /// Adds a shape under the placement of its instance, whose name comes first.
+    fn placed_shape(&mut self, node: &'n Node, outer: DAffine3, prefix: &str, depth: usize) -> Result<(), ImportError> {
+        if depth > MAX_REFERENCES {
+            return Err(node.error("instances go in a circle"));
+        }
+        match node.plugin.as_str() {
+            // Only its instances are visible.
+            "shapegroup" if depth == 0 => return Ok(()),
+            "instance" => return self.instance(node, outer, prefix, depth),
+            _ => (),
+        }
+        let bsdf = self.objects(node, "bsdf")?.first().copied();
+        let emitters = self.objects(node, "emitter")?;
+        let emitter = emitters.iter().find(|e| e.plugin == "area").copied();
+        if let Some(other) = emitters.iter().find(|e| e.plugin != "area") {
+            self.warn(other, "only area emitters can be part of a shape; ignored");
+        }
+        if let Some(emitter) = emitter {
+            self.report_unknown(emitter, &["radiance", "sampling_weight"], &[]);
+        }
+        let Some((mesh, in_shape, stem)) = self.mesh(node)? else { return Ok(()) };
+        let Some(material) = self.material(bsdf, emitter)? else {
+            self.warn(node, "the shape scatters nothing (null bsdf) and was left out");
+            return Ok(());
+        };
+        if transform::is_animated(node, "to_world") {
+            self.warn(node, "the shape is animated; its first moment was used");
+        }
+        let file_from_mesh = outer * transform::of(node, "to_world")? * in_shape;
+        let name = node.id.clone().unwrap_or_else(|| format!("{}_{stem}", bsdf::name(bsdf)));
+        self.a.push_part(&format!("{prefix}{name}"), mesh, material, file_from_mesh, PartLabel::NONE);
+        Ok(())
+    }
+
+    fn instance(&mut self, node: &'n Node, outer: DAffine3, prefix: &str, depth: usize) -> Result<(), ImportError> {
+        self.report_unknown(node, &["to_world"], &["shape"]);
+        let group = self.objects(node, "shape")?.first().copied().filter(|g| g.plugin == "shapegroup");
+        let group = group.ok_or_else(|| node.error("the instance refers to no shapegroup"))?;
+        let placement = outer * transform::of(node, "to_world")?;
+        let name = node.id.as_deref().or(group.id.as_deref()).unwrap_or("instance");
+        let prefix = format!("{prefix}{name}_");
+        for shape in self.objects(group, "shape")? {
+            self.placed_shape(shape, placement, &prefix, depth + 1)?;
+        }
+        Ok(())
+    }
+
+    /// The mesh of a shape, the placement that its own parameters add, and the stem of its name. `None` when there is none.
+    fn mesh(&mut self, node: &'n Node) -> Result<Option<(u32, DAffine3, String)>, ImportError> {
+        const TAGS: [&str; 7] = ["bsdf", "emitter", "medium", "texture", "sensor", "subsurface", "shape"];
+        const FILES: [&str; 9] = [
+            "filename", "to_world", "face_normals", "flip_normals", "flip_tex_coords", "shape_index", "max_smooth_angle", "collapse",
+            "sub_mesh_index",
+        ];
+        const PRIMITIVES: [&str; 7] = ["to_world", "flip_normals", "center", "radius", "p0", "p1", "face_normals"];
+        let from_file = matches!(node.plugin.as_str(), "obj" | "ply" | "serialized");
+        self.report_unknown(node, if from_file { &FILES } else { &PRIMITIVES }, &TAGS);
+        for unsupported in node.children.iter().filter(|c| matches!(c.tag.as_str(), "medium" | "subsurface")) {
+            self.warn(unsupported, "media are not supported; the shape is empty inside");
+        }
+        let path = node.raw_text("filename").unwrap_or_default();
+        if from_file && path.is_empty() {
+            return Err(node.error("the shape has no filename"));
+        }
+        let index = node.float_or("shape_index", 0.0)? as i64;
+        let flags = [node.flag("face_normals", false), node.flag("flip_normals", false), node.flag("flip_tex_coords", node.plugin == "obj")];
+        let Some(in_shape) = self.shape_parameters(node)? else { return Ok(None) };
+        let stem = if from_file { stem(path) } else { node.plugin.clone() };
+        let key = (node.plugin.clone(), path.to_string(), index, flags);
+        let mesh = match self.meshes.get(&key) {
+            Some(&known) => known,
+            None => {
+                let (mesh, file) = self.build(node, path, index)?;
+                let mesh = finish(mesh, from_file, flags);
+                let place = if from_file { "mesh".to_string() } else { node.place() };
+                let built = self.a.push_mesh(mesh, &file, &place)?;
+                self.meshes.insert(key, built);
+                built
+            }
+        };
+        Ok(mesh.map(|mesh| (mesh, in_shape, stem)))
+    }
+
+    /// The mesh as the file or the formula has it, with v downward as Mitsuba has it, and the file to name in messages.
+    fn build(&mut self, node: &'n Node, path: &str, index: i64) -> Result<(Mesh, std::path::PathBuf), ImportError> {
+        let scene = self.a.file().to_path_buf();
+        match node.plugin.as_str() {
+            "rectangle" => Ok((primitives::rectangle(), scene)),
+            "disk" => Ok((primitives::disk(), scene)),
+            "sphere" => Ok((primitives::sphere(), scene)),
+            "cube" => Ok((primitives::cube(), scene)),
+            "cylinder" => Ok((primitives::cylinder(), scene)),
+            plugin => {
+                let (file, bytes) = self.a.read(path)?;
+                let mesh = match plugin {
+                    "obj" => {
+                        let obj = ObjFile::parse(&bytes, &file)?;
+                        obj.notes.iter().for_each(|note| self.a.warn(node.place(), format!("{}: {note}", file.display())));
+                        obj.mesh(obj.groups.iter())
+                    }
+                    "ply" => ply::read(&bytes, &file)?,
+                    _ => serialized::read(&bytes, index, &file)?,
+                };
+                Ok((mesh, file))
+            }
+        }
+    }
+
+    /// The placement that centre, radius and end points add to a unit shape. `None`, with a warning, for unknown shapes.
+    fn shape_parameters(&mut self, node: &'n Node) -> Result<Option<DAffine3>, ImportError> {
+        let point = |name: &str, default: DVec3| node.child(name).map_or(Ok(default), emitter::vector);
+        let radius = node.float_or("radius", 1.0)?;
+        Ok(match node.plugin.as_str() {
+            "obj" | "ply" | "serialized" | "rectangle" | "disk" | "cube" => Some(DAffine3::IDENTITY),
+            "sphere" => {
+                let center = match node.child("center") {
+                    Some(c) => emitter::vector(c)?,
+                    None => DVec3::ZERO,
+                };
+                Some(DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(radius)), center))
+            }
+            "cylinder" => {
+                let (p0, p1) = (point("p0", DVec3::ZERO)?, point("p1", DVec3::Z)?);
+                let axis = p1 - p0;
+                let z = axis.try_normalize().ok_or_else(|| node.error("both ends of the cylinder coincide"))?;
+                let x = z.any_orthonormal_vector();
+                Some(DAffine3::from_mat3_translation(DMat3::from_cols(x * radius, z.cross(x) * radius, axis), p0))
+            }
+            other => {
+                self.warn(node, format!("{other} shapes are not supported; it was left out"));
+                None
+            }
+        })
+    }
+}
+
+/// Applies a shape's flags ([faceNormals, flipNormals, flipTexCoords]) and turns v upward.
+fn finish(mut mesh: Mesh, from_file: bool, [face_normals, flip_normals, flip_uvs]: [bool; 3]) -> Mesh {
+    // OBJ files have v upward, which `flipTexCoords` (on for them) makes Mitsuba's downward; here it is turned upward again.
+    if !flip_uvs {
+        mesh.uvs.iter_mut().for_each(|uv| *uv = Vec2::new(uv.x, 1.0 - uv.y));
+    }
+    if from_file && !face_normals {
+        if mesh.normals.is_empty() {
+            mesh::add_smooth_normals(&mut mesh);
+        } else {
+            mesh::turn_faces_to_normals(&mut mesh);
+        }
+    }
+    if face_normals {
+        mesh::turn_faces_to_normals(&mut mesh);
+        mesh.normals.clear();
+    }
+    if flip_normals {
+        mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+        mesh.normals.iter_mut().for_each(|n: &mut Vec3| *n = -*n);
+    }
+    mesh
+}
+
+fn stem(path: &str) -> String {
+    let path = path.replace('\\', "/");
+    Path::new(&path).file_stem().map_or_else(|| "mesh".to_string(), |s| s.to_string_lossy().into_owned())
+}

@@ -1,0 +1,234 @@
+//! The XML of a Mitsuba scene as a tree in which versions no longer differ: property names are in snake case, `$parameters`
+//! are filled in, and included files are in their place.
+
+use crate::ImportError;
+use crate::assembly::Assembly;
+use std::path::PathBuf;
+use std::rc::Rc;
+
+/// Elements within elements, and files within files, deeper than this are taken for a mistake.
+const MAX_DEPTH: usize = 64;
+
+/// An element.
+#[derive(Debug)]
+pub(super) struct Node {
+    /// Its tag in lower case; `luminaire` and `camera` of old versions are `emitter` and `sensor`.
+    pub tag: String,
+    /// The `type` attribute: which plugin; empty for properties.
+    pub plugin: String,
+    /// The `id` attribute.
+    pub id: Option<String>,
+    /// The `name` attribute in snake case; empty when absent.
+    pub name: String,
+    /// All attributes, with parameters filled in.
+    attributes: Vec<(String, String)>,
+    /// Elements within, in order.
+    pub children: Vec<Node>,
+    file: Rc<PathBuf>,
+    line: u32,
+    column: u32,
+}
+
+impl Node {
+    /// An attribute by its name.
+    pub(super) fn attribute(&self, name: &str) -> Option<&str> {
+        self.attributes.iter().find(|(k, _)| k == name).map(|(_, v)| v.as_str())
+    }
+
+    /// Where the element is, for messages: file, line, column and what it is.
+    pub(super) fn place(&self) -> String {
+        let file = self.file.file_name().map_or_else(String::new, |f| f.to_string_lossy().into_owned());
+        let kind = if self.plugin.is_empty() { String::new() } else { format!(" type=\"{}\"", self.plugin) };
+        let which = match (&self.id, self.name.as_str()) {
+            (Some(id), _) => format!(" id=\"{id}\""),
+            (None, "") => String::new(),
+            (None, name) => format!(" name=\"{name}\""),
+        };
+        format!("{file} line {}:{} <{}{kind}{which}>", self.line, self.column, self.tag)
+    }
+
+    /// An error about this element.
+    pub(super) fn error(&self, problem: impl Into<String>) -> ImportError {
+        ImportError::malformed(&self.file, self.place(), problem)
+    }
+
+    /// The property or object of a name.
+    pub(super) fn child(&self, name: &str) -> Option<&Self> {
+        self.children.iter().find(|c| c.name == name)
+    }
+
+    /// The numbers in the attribute `name`, separated by spaces or commas.
+    ///
+    /// # Errors
+    /// When one of them is not a number, or not finite.
+    pub(super) fn numbers(&self, name: &str) -> Result<Vec<f64>, ImportError> {
+        let text = self.attribute(name).unwrap_or_default();
+        let words = text.split(|c: char| c.is_whitespace() || c == ',').filter(|w| !w.is_empty());
+        words
+            .map(|w| {
+                let number = w.parse::<f64>().ok().filter(|n| n.is_finite());
+                number.ok_or_else(|| self.error(format!("{w:?} in the attribute {name} is not a finite number")))
+            })
+            .collect()
+    }
+
+    /// The one number of a `float` or `integer` property; `None` when there is no such property.
+    pub(super) fn float(&self, name: &str) -> Result<Option<f64>, ImportError> {
+        let Some(child) = self.child(name).filter(|c| c.attribute("value").is_some()) else { return Ok(None) };
+        child.numbers("value").map(|n| n.first().copied())
+    }
+
+    /// A `float` property, or a default.
+    pub(super) fn float_or(&self, name: &str, default: f64) -> Result<f64, ImportError> {
+        Ok(self.float(name)?.unwrap_or(default))
+    }
+
+    /// A `string` property in lower case.
+    pub(super) fn text(&self, name: &str) -> Option<String> {
+        self.raw_text(name).map(str::to_lowercase)
+    }
+
+    /// A `string` property as it is.
+    pub(super) fn raw_text(&self, name: &str) -> Option<&str> {
+        self.child(name)?.attribute("value")
+    }
+
+    /// A `boolean` property.
+    pub(super) fn flag(&self, name: &str, default: bool) -> bool {
+        self.text(name).map_or(default, |t| t.trim() == "true" || t.trim() == "1")
+    }
+}
+
+/// Reads the scene file and all that it includes.
+///
+/// # Errors
+/// When a file cannot be read or is not well-formed XML, with line and column, or elements nest absurdly deep.
+pub(super) fn read(assembly: &mut Assembly) -> Result<Node, ImportError> {
+    let bytes = assembly.read_scene_file()?;
+    let file = assembly.file().to_path_buf();
+    let mut loader = Loader { assembly, parameters: Vec::new() };
+    loader.parse(file, &bytes, 0)
+}
+
+struct Loader<'l, 'a> {
+    assembly: &'l mut Assembly<'a>,
+    /// `$name` and its value; the first definition counts, as on Mitsuba's command line.
+    parameters: Vec<(String, String)>,
+}
+
+impl Loader<'_, '_> {
+    fn parse(&mut self, file: PathBuf, bytes: &[u8], depth: usize) -> Result<Node, ImportError> {
+        let text = std::str::from_utf8(bytes)
+            .map_err(|e| ImportError::malformed(&file, format!("byte {}", e.valid_up_to()), "not UTF-8 text; save the file as UTF-8"))?;
+        let document = roxmltree::Document::parse(text).map_err(|e| {
+            let place = format!("line {}:{}", e.pos().row, e.pos().col);
+            ImportError::malformed(&file, place, format!("not well-formed XML: {e}"))
+        })?;
+        let file = Rc::new(file);
+        let mut root = Node {
+            tag: document.root_element().tag_name().name().to_lowercase(),
+            plugin: String::new(),
+            id: None,
+            name: String::new(),
+            attributes: Vec::new(),
+            children: Vec::new(),
+            file: file.clone(),
+            line: 1,
+            column: 1,
+        };
+        if root.tag != "scene" {
+            return Err(root.error(format!("the outermost element is <{}>, expected <scene>", root.tag)));
+        }
+        self.children(document.root_element(), &document, &file, &mut root, depth)?;
+        Ok(root)
+    }
+
+    fn children(
+        &mut self, xml: roxmltree::Node, document: &roxmltree::Document, file: &Rc<PathBuf>, into: &mut Node, depth: usize,
+    ) -> Result<(), ImportError> {
+        for element in xml.children().filter(roxmltree::Node::is_element) {
+            let position = document.text_pos_at(element.range().start);
+            let attributes: Vec<(String, String)> =
+                element.attributes().map(|a| (a.name().to_string(), self.filled_in(a.value()))).collect();
+            let get = |name: &str| element.attribute(name).map(|v| self.filled_in(v));
+            let tag = element.tag_name().name().to_lowercase();
+            let tag = match tag.as_str() {
+                "luminaire" => "emitter".to_string(),
+                "camera" => "sensor".to_string(),
+                _ => tag,
+            };
+            let mut node = Node {
+                tag,
+                plugin: get("type").unwrap_or_default(),
+                id: get("id"),
+                name: get("name").map_or_else(String::new, |n| snake_case(&n)),
+                attributes,
+                children: Vec::new(),
+                file: file.clone(),
+                line: position.row,
+                column: position.col,
+            };
+            if depth >= MAX_DEPTH {
+                return Err(node.error(format!("elements (or included files) are nested more than {MAX_DEPTH} deep")));
+            }
+            match node.tag.as_str() {
+                "default" => {
+                    let (name, value) = (node.attribute("name"), node.attribute("value"));
+                    if let (Some(name), Some(value)) = (name, value)
+                        && !self.parameters.iter().any(|(n, _)| n == name)
+                    {
+                        self.parameters.push((name.to_string(), value.to_string()));
+                    }
+                }
+                "include" => {
+                    let name = node.attribute("filename").ok_or_else(|| node.error("there is no filename"))?.to_string();
+                    let (path, bytes) = self.assembly.read(&name)?;
+                    let mut included = self.parse(path, &bytes, depth + 8)?;
+                    into.children.append(&mut included.children);
+                }
+                _ => {
+                    self.children(element, document, file, &mut node, depth + 1)?;
+                    into.children.push(node);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The value with every `$parameter` replaced; the longest names first, so that `$res` does not spoil `$resx`.
+    fn filled_in(&self, value: &str) -> String {
+        if !value.contains('$') {
+            return value.to_string();
+        }
+        let mut parameters: Vec<_> = self.parameters.iter().collect();
+        parameters.sort_by_key(|(name, _)| std::cmp::Reverse(name.len()));
+        parameters.into_iter().fold(value.to_string(), |text, (name, with)| text.replace(&format!("${name}"), with))
+    }
+}
+
+/// `toWorld` → `to_world`, `intIOR` → `int_ior`: the names of Mitsuba 2 and 3 for those of version 0.x.
+fn snake_case(name: &str) -> String {
+    let mut out = String::with_capacity(name.len() + 4);
+    let mut before = '_';
+    for c in name.chars() {
+        if c.is_uppercase() && (before.is_lowercase() || before.is_ascii_digit()) {
+            out.push('_');
+        }
+        out.extend(c.to_lowercase());
+        before = c;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_old_versions_become_those_of_the_new() {
+        let pairs = [("toWorld", "to_world"), ("intIOR", "int_ior"), ("alphaU", "alpha_u"), ("diffuse_reflectance", "diffuse_reflectance")];
+        for (old, new) in pairs {
+            assert_eq!(snake_case(old), new);
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Wavefront OBJ with MTL materials.
+//!
+//! | feature | what becomes of it |
+//! |---|---|
+//! | faces | any number of corners: convex polygons as fans, concave ones cut properly; negative indices; faces before their vertices |
+//! | objects, groups | one part per group and material, named after the group (`o` or `g`, whichever came last), with `.<material>` appended where a group has several; without a group after the material, else `part` |
+//! | names | the whole rest of the line, so spaces are part of them |
+//! | normals | as in the file; a mesh without any is shaded flat (smoothing groups are ignored) |
+//! | `Kd Ks Ns Ni d Tr Ke illum`, `map_Kd map_Ke map_d map_Ks` | a diffuse surface; with `Ks` a clear-coated one of GGX alpha √(2/(Ns+2)); with `Ks` on black `Kd` a mirror of that colour; with `illum` 4, 6, 7 or 9 a solid dielectric |
+//! | `Pr Pm Pc Pcr Ps`, `map_Pr map_Pm` | metallic-roughness |
+//! | `norm`, `map_Bump`, `bump` | a normal map if the picture is coloured, else heights (guessed: one stands for 5 mm times `-bm`) |
+//! | options of `map_…` | `-s`, `-o`, `-clamp`, `-bm`; the others are skipped |
+//! | dropped with a warning | lines, points, curves, vertex colours, displacement and reflection maps |
+//!
+//! OBJ knows no sides, so every surface has two, and emits on both. It knows neither lights nor cameras nor units. A material
+//! library or material that is not there is a warning, and grey stands in.
+
+mod mtl;
+mod reader;
+
+pub(crate) use reader::ObjFile;
+
+use crate::assembly::Assembly;
+use crate::{ImportError, Imported};
+use enfilade_math::{DAffine3, Rgb};
+use enfilade_scene::{Material, PartLabel};
+use std::collections::HashMap;
+
+/// Reflectance of surfaces whose material is not known.
+const GREY: f32 = 0.5;
+
+/// Imports an OBJ file.
+pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
+    let file = assembly.file().to_path_buf();
+    let bytes = assembly.read_scene_file()?;
+    let obj = ObjFile::parse(&bytes, &file)?;
+    obj.notes.iter().for_each(|note| assembly.warn("whole file", note));
+    let library = mtl::read_libraries(&obj.libraries, &mut assembly)?;
+    let mut materials: HashMap<Option<&str>, u32> = HashMap::new();
+    for (i, group) in obj.groups.iter().enumerate() {
+        assembly.progress(i + 1, obj.groups.len());
+        let wanted = group.material.as_deref();
+        let material = match materials.get(&wanted) {
+            Some(&known) => known,
+            None => {
+                let material = convert(wanted, &library, &mut assembly)?;
+                let index = assembly.push_material(material);
+                materials.insert(wanted, index);
+                index
+            }
+        };
+        let shared = obj.groups.iter().filter(|g| g.name == group.name).count() > 1;
+        let name = match (&group.name, wanted) {
+            (Some(name), Some(material)) if shared => format!("{name}.{material}"),
+            (Some(name), _) => name.clone(),
+            (None, Some(material)) => material.to_string(),
+            (None, None) => "part".to_string(),
+        };
+        let mesh = assembly.push_mesh(obj.mesh(std::iter::once(group)), &file, &format!("part {name:?}"))?;
+        if let Some(mesh) = mesh {
+            assembly.push_part(&name, mesh, material, DAffine3::IDENTITY, PartLabel::NONE);
+        }
+    }
+    assembly.finish()
+}
+
+fn convert(name: Option<&str>, library: &mtl::Library, assembly: &mut Assembly) -> Result<Material, ImportError> {
+    match name.map(|n| (n, library.get(n))) {
+        Some((_, Some(entry))) => mtl::material(entry, assembly),
+        Some((name, None)) => {
+            assembly.warn(format!("usemtl {name}"), "no material library defines this material; grey stands in");
+            Ok(Material::diffuse(name, Rgb::splat(GREY)))
+        }
+        None => Ok(Material::diffuse("default", Rgb::splat(GREY))),
+    }
+}

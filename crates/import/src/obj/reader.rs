@@ -1,0 +1,300 @@
+//! Reading the OBJ text: vertices, faces, groups and material names. Mitsuba's `obj` shapes use it as well.
+
+use crate::{ImportError, polygon};
+use enfilade_geometry::Mesh;
+use enfilade_math::{Vec2, Vec3};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Marks a corner without a texture coordinate or normal.
+const NONE: u32 = u32::MAX;
+
+/// The content of an OBJ file.
+#[derive(Default)]
+pub(crate) struct ObjFile {
+    positions: Vec<Vec3>,
+    uvs: Vec<Vec2>,
+    normals: Vec<Vec3>,
+    /// Faces by group and material, in order of first appearance.
+    pub(crate) groups: Vec<Group>,
+    /// Names of material libraries, each the whole rest of its line.
+    pub(crate) libraries: Vec<String>,
+    /// What was ignored, each kind once.
+    pub(crate) notes: Vec<String>,
+}
+
+/// Faces of one group (or object) that share a material.
+pub(crate) struct Group {
+    /// Name of the object or group, whichever was set last.
+    pub(crate) name: Option<String>,
+    /// Name of the material.
+    pub(crate) material: Option<String>,
+    /// Corner indices of all faces, and where each face begins.
+    corners: Vec<[u32; 3]>,
+    faces: Vec<Face>,
+}
+
+struct Face {
+    first: u32,
+    line: u32,
+}
+
+impl ObjFile {
+    /// Parses the bytes of `file`.
+    ///
+    /// # Errors
+    /// A number or index that makes no sense, with its line.
+    pub(crate) fn parse(bytes: &[u8], file: &Path) -> Result<Self, ImportError> {
+        let text = String::from_utf8_lossy(bytes);
+        let mut parser = Parser { file, obj: Self::default(), by_key: HashMap::new(), name: None, material: None, current: None };
+        let mut continued = String::new();
+        for (number, line) in text.lines().enumerate() {
+            let line = line.split('#').next().unwrap_or_default();
+            if let Some(start) = line.strip_suffix('\\') {
+                continued.push_str(start);
+                continued.push(' ');
+            } else if continued.is_empty() {
+                parser.line(line, number + 1)?;
+            } else {
+                let whole = std::mem::take(&mut continued) + line;
+                parser.line(&whole, number + 1)?;
+            }
+        }
+        parser.obj.check(file)?;
+        Ok(parser.obj)
+    }
+
+    /// Checks every index of every face, which may come before the vertices that it refers to.
+    fn check(&self, file: &Path) -> Result<(), ImportError> {
+        let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
+        let kinds = ["vertex", "texture coordinate", "normal"];
+        for group in &self.groups {
+            for (i, face) in group.faces.iter().enumerate() {
+                for corner in group.corners_of(i) {
+                    for k in 0..3 {
+                        if corner[k] != NONE && corner[k] as usize >= counts[k] {
+                            let problem =
+                                format!("the face refers to {} {}, but there are only {}; export the file again", kinds[k], u64::from(corner[k]) + 1, counts[k]);
+                            return Err(ImportError::malformed(file, format!("line {}", face.line), problem));
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The mesh of some groups. Vertices are shared by corners with the same indices, polygons are cut into triangles. Normals
+    /// and texture coordinates are there when any corner has one; corners without get zero (which is mended later).
+    pub(crate) fn mesh<'g>(&self, groups: impl Iterator<Item = &'g Group> + Clone) -> Mesh {
+        let any = |k: usize| groups.clone().any(|g| g.corners.iter().any(|c| c[k] != NONE));
+        let (with_uvs, with_normals) = (any(1), any(2));
+        let mut mesh = Mesh::default();
+        let mut known: HashMap<[u32; 3], u32> = HashMap::new();
+        let mut polygon: Vec<u32> = Vec::new();
+        let mut points: Vec<Vec3> = Vec::new();
+        for group in groups {
+            for face in 0..group.faces.len() {
+                polygon.clear();
+                for &corner in group.corners_of(face) {
+                    polygon.push(*known.entry(corner).or_insert_with(|| {
+                        mesh.positions.push(self.positions[corner[0] as usize]);
+                        if with_uvs {
+                            mesh.uvs.push(self.uvs.get(corner[1] as usize).copied().unwrap_or_default());
+                        }
+                        if with_normals {
+                            mesh.normals.push(self.normals.get(corner[2] as usize).copied().unwrap_or_default());
+                        }
+                        (mesh.positions.len() - 1) as u32
+                    }));
+                }
+                if let [a, b, c] = polygon[..] {
+                    mesh.triangles.push([a, b, c]);
+                } else {
+                    points.clear();
+                    points.extend(polygon.iter().map(|&i| mesh.positions[i as usize]));
+                    mesh.triangles.extend(polygon::triangulate(&points).into_iter().map(|t| t.map(|i| polygon[i])));
+                }
+            }
+        }
+        mesh
+    }
+}
+
+impl Group {
+    fn corners_of(&self, face: usize) -> &[[u32; 3]] {
+        let end = self.faces.get(face + 1).map_or(self.corners.len(), |f| f.first as usize);
+        &self.corners[self.faces[face].first as usize..end]
+    }
+}
+
+struct Parser<'p> {
+    file: &'p Path,
+    obj: ObjFile,
+    by_key: HashMap<(Option<String>, Option<String>), usize>,
+    name: Option<String>,
+    material: Option<String>,
+    current: Option<usize>,
+}
+
+impl Parser<'_> {
+    fn line(&mut self, line: &str, number: usize) -> Result<(), ImportError> {
+        let line = line.trim();
+        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+        let rest = rest.trim();
+        let text = || (!rest.is_empty()).then(|| rest.to_string());
+        match keyword {
+            "" | "s" | "vp" => (),
+            "v" => {
+                let [x, y, z] = self.numbers(rest, 3, number, false)?;
+                if !(x.is_finite() && y.is_finite() && z.is_finite()) {
+                    let problem = format!("the vertex {rest:?} is not finite; clean the mesh in the program that made it");
+                    return Err(self.error(number, problem));
+                }
+                if rest.split_whitespace().nth(5).is_some() {
+                    self.note("vertex colours dropped");
+                }
+                self.obj.positions.push(Vec3::new(x, y, z));
+            }
+            "vt" => {
+                let [u, v, _] = self.numbers(rest, 1, number, true)?;
+                self.obj.uvs.push(Vec2::new(u, v));
+            }
+            "vn" => {
+                let n = self.numbers(rest, 3, number, true)?;
+                self.obj.normals.push(Vec3::from(n));
+            }
+            "f" | "fo" => self.face(rest, number)?,
+            "o" | "g" => {
+                self.name = text();
+                self.current = None;
+            }
+            "usemtl" => {
+                self.material = text();
+                self.current = None;
+            }
+            "mtllib" => self.obj.libraries.extend(text()),
+            "l" | "p" => self.note("points and lines have no surface and were left out"),
+            other => self.note(&format!("{other:?} statements ignored")),
+        }
+        Ok(())
+    }
+
+    fn face(&mut self, rest: &str, number: usize) -> Result<(), ImportError> {
+        let index = match self.current {
+            Some(index) => index,
+            None => self.open_group(),
+        };
+        let first = self.obj.groups[index].corners.len();
+        for word in rest.split_whitespace() {
+            let corner = self.corner(word, number)?;
+            self.obj.groups[index].corners.push(corner);
+        }
+        let group = &mut self.obj.groups[index];
+        if group.corners.len() - first < 3 {
+            group.corners.truncate(first);
+            self.note("faces with fewer than three corners left out");
+        } else {
+            group.faces.push(Face { first: first as u32, line: number as u32 });
+        }
+        Ok(())
+    }
+
+    fn open_group(&mut self) -> usize {
+        let key = (self.name.clone(), self.material.clone());
+        let groups = &mut self.obj.groups;
+        let index = *self.by_key.entry(key.clone()).or_insert_with(|| {
+            groups.push(Group { name: key.0, material: key.1, corners: Vec::new(), faces: Vec::new() });
+            groups.len() - 1
+        });
+        self.current = Some(index);
+        index
+    }
+
+    /// One corner `v`, `v/vt`, `v//vn` or `v/vt/vn`; negative indices count back from the last vertex so far.
+    fn corner(&self, word: &str, number: usize) -> Result<[u32; 3], ImportError> {
+        let counts = [self.obj.positions.len(), self.obj.uvs.len(), self.obj.normals.len()];
+        let mut corner = [NONE; 3];
+        let mut fields = word.split('/');
+        for k in 0..3 {
+            let field = fields.next().unwrap_or_default();
+            if field.is_empty() && k > 0 {
+                continue;
+            }
+            let index: i64 = field.parse().map_err(|_| self.error(number, format!("{word:?} is not a corner; expected v/vt/vn as whole numbers")))?;
+            let absolute = if index < 0 { counts[k] as i64 + index } else { index - 1 };
+            corner[k] = u32::try_from(absolute).ok().filter(|&i| i != NONE).ok_or_else(|| {
+                let problem = format!("the face refers to index {index}, but there are {} so far, counted from 1; export the file again", counts[k]);
+                self.error(number, problem)
+            })?;
+        }
+        Ok(corner)
+    }
+
+    /// Up to three numbers, of which `required` must be there. Where `lenient`, what some writers print for "not a number" is one.
+    fn numbers(&self, rest: &str, required: usize, number: usize, lenient: bool) -> Result<[f32; 3], ImportError> {
+        let mut values = [0.0; 3];
+        let mut words = rest.split_whitespace();
+        for (i, value) in values.iter_mut().enumerate() {
+            match words.next() {
+                None if i >= required => break,
+                None => return Err(self.error(number, format!("found {i} numbers in {rest:?}, expected {required}"))),
+                Some(word) => {
+                    let odd = lenient && (word.to_ascii_lowercase().contains("nan") || word.contains("IND"));
+                    let parsed = word.parse().ok().or(odd.then_some(f32::NAN));
+                    *value = parsed.ok_or_else(|| self.error(number, format!("{word:?} is not a number")))?;
+                }
+            }
+        }
+        Ok(values)
+    }
+
+    fn note(&mut self, note: &str) {
+        if !self.obj.notes.iter().any(|n| n == note) {
+            self.obj.notes.push(note.to_string());
+        }
+    }
+
+    fn error(&self, line: usize, problem: String) -> ImportError {
+        ImportError::malformed(self.file, format!("line {line}"), problem)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<ObjFile, ImportError> {
+        ObjFile::parse(text.as_bytes(), Path::new("a.obj"))
+    }
+
+    #[test]
+    fn groups_materials_negative_indices_and_polygons() {
+        let text = "mtllib my materials.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\no Big Chair\nusemtl Red Wood\nf -4/1 -3/1 -2/1 \\\n -1/1\n\
+                    usemtl Steel\nf 1 2 3\nusemtl Red Wood\nf 1 3 4\n";
+        let obj = parse(text).unwrap();
+        assert_eq!(obj.libraries, ["my materials.mtl"]);
+        let names: Vec<_> = obj.groups.iter().map(|g| (g.name.as_deref().unwrap(), g.material.as_deref().unwrap())).collect();
+        assert_eq!(names, [("Big Chair", "Red Wood"), ("Big Chair", "Steel")]);
+        let mesh = obj.mesh(obj.groups[..1].iter());
+        assert_eq!((mesh.triangles.len(), mesh.uvs.len(), mesh.normals.len()), (3, mesh.positions.len(), 0));
+        assert_eq!(mesh.validate(), Ok(()));
+    }
+
+    #[test]
+    fn mistakes_are_named_with_their_line() {
+        let message = |text: &str| parse(text).err().unwrap().to_string();
+        assert_eq!(
+            message("v 0 0 0\nv 0 1 0\nv 1 0 0\nf 1 2 4\n"),
+            "a.obj: line 4: the face refers to vertex 4, but there are only 3; export the file again"
+        );
+        assert!(message("v 0 0 0\nf 0 1 1").contains("line 2: the face refers to index 0"));
+        assert!(message("v 0 0 0\nf -2 1 1").contains("line 2: the face refers to index -2"));
+        assert!(message("v 0 zero 0").contains("line 1: \"zero\" is not a number"));
+        assert!(message("v 0 0").contains("line 1: found 2 numbers"));
+        assert!(message("v 0 nan 0").contains("line 1: the vertex \"0 nan 0\" is not finite"));
+        assert!(message("v 0 0 0\nf 1/x 1 1").contains("is not a corner"));
+        assert!(message("v 0 0 0\nf 1/1 1 1").contains("texture coordinate 1, but there are only 0"));
+        assert!(parse("vn -nan(ind) 0 0\nvt -1.#IND 0\n").is_ok());
+    }
+}

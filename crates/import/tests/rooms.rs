@@ -1,0 +1,76 @@
+//! The shared rooms, counted against what their authors state. Skipped unless `ENFILADE_SCENES` names their folder.
+
+use enfilade_import::{ImportOptions, Imported, load};
+use enfilade_scene::{Environment, Quiet};
+use std::path::PathBuf;
+
+/// The folder of the shared rooms; `None`, with a note, when it is not named.
+fn rooms() -> Option<PathBuf> {
+    let folder = std::env::var_os("ENFILADE_SCENES").map(PathBuf::from);
+    if folder.is_none() {
+        eprintln!("skipped: ENFILADE_SCENES does not name the folder of the shared rooms");
+    }
+    folder
+}
+
+fn import(folder: &std::path::Path, file: &str) -> Imported {
+    let start = std::time::Instant::now();
+    let imported = load(&folder.join(file), &ImportOptions::default(), &Quiet).unwrap_or_else(|e| panic!("{e}"));
+    eprintln!("{file} in {:.2} s\n{}", start.elapsed().as_secs_f64(), imported.report);
+    imported
+}
+
+#[test]
+fn gltf_rooms_have_the_parts_triangles_and_lights_that_they_state() {
+    let Some(folder) = rooms() else { return };
+    // Name, triangles, objects, emissive materials, punctual lights, environment.
+    let rooms = [
+        ("bedroom", 449_390, 71, 2, 0, false),
+        ("contemporary-bathroom", 380_290, 853, 1, 0, false),
+        ("grey-white-room", 143_163, 65, 0, 0, true),
+        ("japanese-classroom", 103_832, 79, 0, 1, true),
+        ("modern-hall", 31_887, 32, 13, 0, false),
+    ];
+    for (name, triangles, objects, emissive, lights, environment) in rooms {
+        let c = import(&folder, &format!("{name}/gltf/scene.gltf")).report.counts;
+        assert_eq!((c.triangles, c.parts), (triangles, objects), "{name}");
+        assert_eq!((c.emissive_materials, c.lights, c.cameras), (emissive, lights, 1), "{name}");
+        assert_eq!(c.environments > 0, environment, "{name}");
+    }
+    let c = import(&folder, "drake-furnished-living-room/scene.gltf").report.counts;
+    assert_eq!((c.triangles, c.parts, c.materials, c.cameras, c.lights), (69_603, 36, 18, 1, 1));
+}
+
+#[test]
+fn poly_haven_furniture_has_the_triangles_that_it_states() {
+    let Some(folder) = rooms() else { return };
+    let models = [
+        ("painted_wooden_cabinet", 2227),
+        ("painted_wooden_cabinet_02", 966),
+        ("painted_wooden_stool", 676),
+        ("sofa_03", 8004),
+        ("tea_set_01", 40_296),
+        ("wooden_bookshelf_worn", 10_106),
+        ("wooden_table_02", 196),
+    ];
+    for (name, triangles) in models {
+        let imported = import(&folder, &format!("polyhaven-furniture-1k/{name}_1k.gltf"));
+        assert_eq!(imported.report.counts.triangles, triangles, "{name}");
+        assert!(imported.report.warnings.is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn the_sky_of_the_classroom_is_above_it() {
+    let Some(folder) = rooms() else { return };
+    let scene = import(&folder, "japanese-classroom/gltf/scene.gltf").scene;
+    let Some(Environment::Map { image, map_from_world, .. }) = &scene.environment else { panic!("no environment") };
+    assert!((map_from_world.determinant() - 1.0).abs() < 1e-4);
+    let sky = &scene.images[*image as usize];
+    let brightness = |d: enfilade_math::Vec3| {
+        let uv = enfilade_scene::uv_from_direction(*map_from_world * d);
+        sky.texel((uv.x * sky.width as f32) as usize % sky.width as usize, ((uv.y * sky.height as f32) as usize).min(sky.height as usize - 1)).0
+    };
+    let (above, below) = (brightness(enfilade_math::Vec3::new(0.1, 0.1, 0.99)), brightness(enfilade_math::Vec3::new(0.1, 0.1, -0.99)));
+    assert!(above.luminance() > below.luminance(), "{above:?} {below:?}");
+}

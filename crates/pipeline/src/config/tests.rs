@@ -1,0 +1,167 @@
+use super::document::resolve;
+use super::*;
+
+fn variable(name: &str) -> Option<String> {
+    (name == "ROOMS").then(|| "/rooms".into())
+}
+
+fn config_with(text: &str, overrides: &Overrides) -> Config {
+    resolve(Path::new("dataset.toml"), text, overrides, &variable).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn config(text: &str) -> Config {
+    config_with(text, &Overrides::default())
+}
+
+/// The whole message as a user sees it.
+fn error(text: &str) -> String {
+    let error = resolve(Path::new("sets/dataset.toml"), text, &Overrides::default(), &variable).unwrap_err();
+    format!("{error}\nhelp: {}", error.help.as_deref().unwrap_or("-"))
+}
+
+const SCENE: &str = "[[scene]]\nname = \"a\"\nfile = \"a.gltf\"\n";
+
+#[test]
+fn a_scene_needs_a_name_and_a_file_and_gets_defaults_for_the_rest() {
+    let config = config(SCENE);
+    let scene = &config.scenes[0];
+    assert_eq!((scene.seed, scene.size, scene.fov_x_deg, scene.render.samples), (0, [1024, 768], None, 64));
+    assert_eq!((scene.plan.frames, &scene.labels, scene.cameras.len()), (100, &None, 0));
+    let file =
+        FileSource { file: "a.gltf".into(), meters_per_unit: 1.0, up_axis: None, environment: None, allow_missing_textures: false };
+    assert_eq!(scene.source, Source::File(file));
+}
+
+#[test]
+fn the_scene_wins_over_the_file_and_the_command_line_over_both() {
+    let text = format!(
+        "seed = 1\nframes = 10\nquality = \"draft\"\n[render]\nmax_bounces = 3\nsize = [64, 48]\n[plan]\ncandidates = 7\n{SCENE}\
+         seed = 2\nframes = 20\n[scene.render]\nsamples = 5\nfov_x_deg = 70\n[scene.carve]\nvoxel_m = 0.2\n"
+    );
+    let scene = config(&text).scenes.remove(0);
+    assert_eq!((scene.seed, scene.plan.frames, scene.plan.candidates, scene.size), (2, 20, 7, [64, 48]));
+    assert_eq!((scene.render.samples, scene.render.max_bounces, scene.fov_x_deg, scene.carve.voxel_m), (5, 3, Some(70.0), 0.2));
+    let overrides = Overrides { seed: Some(9), frames: Some(3), size: Some([8, 6]), quality: Some(Quality::High) };
+    let scene = config_with(&text, &overrides).scenes.remove(0);
+    assert_eq!((scene.seed, scene.plan.frames, scene.size, scene.render.samples), (9, 3, [8, 6], Quality::High.samples()));
+}
+
+#[test]
+fn a_scenes_quality_wins_over_the_samples_of_the_file() {
+    let scene = config(&format!("render.samples = 5\n{SCENE}quality = \"high\"\n")).scenes.remove(0);
+    assert_eq!(scene.render.samples, Quality::High.samples());
+}
+
+#[test]
+fn everything_about_a_scene_can_be_said() {
+    let text = "labels = \"all.csv\"\n[import]\nallow_missing_textures = true\n[[scene]]\nname = \"hall\"\nfile = \"$ROOMS/hall.xml\"\n\
+        meters_per_unit = 0.4\nup_axis = \"z\"\nlabel_scene = \"modern-hall\"\nenvironment = { file = \"sky.hdr\", rotation_deg = 90 }\n\
+        cameras = [\"door\", { position = [0, 1, 1.5], look_at = [3, 1, 1.2] }]\n[[scene]]\nname = \"home\"\nhome = { seed = 5 }\n";
+    let config = config(text);
+    let hall = &config.scenes[0];
+    let Source::File(file) = &hall.source else { panic!("{:?}", hall.source) };
+    assert_eq!((file.file.as_str(), file.meters_per_unit, file.up_axis), ("$ROOMS/hall.xml", 0.4, Some(UpAxis::Z)));
+    assert!(file.allow_missing_textures);
+    assert_eq!(file.environment, Some(EnvironmentChoice { file: "sky.hdr".into(), scale: 1.0, rotation_deg: 90.0 }));
+    assert_eq!(hall.labels, Some(LabelSource { table: "all.csv".into(), scene: "modern-hall".into() }));
+    assert_eq!(
+        hall.cameras,
+        [CameraChoice::Named("door".into()), CameraChoice::Placed { position: [0.0, 1.0, 1.5], look_at: [3.0, 1.0, 1.2] }]
+    );
+    // A home knows its own labels.
+    assert_eq!((&config.scenes[1].source, &config.scenes[1].labels), (&Source::Home { seed: 5 }, &None));
+}
+
+#[test]
+fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
+    assert_eq!(
+        error(&format!("[render]\nsize = [4, 3]\nsampels = 3\n{SCENE}")),
+        "sets/dataset.toml:3:1: unknown key `sampels`\n  3 | sampels = 3\n    | ^^^^^^^\nhelp: did you mean `samples`? known keys here: \
+         size, fov_x_deg, samples, max_bounces, roulette_start, filter_radius"
+    );
+    let text = error(&format!("{SCENE}meter_per_unit = 3\n"));
+    assert!(text.starts_with("sets/dataset.toml:4:1: unknown key `meter_per_unit`") && text.contains("did you mean `meters_per_unit`?"), "{text}");
+    let text = error(&format!("{SCENE}cameras = [{{ position = [0, 0, 0], lookat = [1, 0, 0] }}]\n"));
+    assert!(text.starts_with("sets/dataset.toml:4:36: unknown key `lookat`") && text.contains("did you mean `look_at`?"), "{text}");
+    assert!(error("[[scenes]]\nname = \"a\"\n").contains("did you mean `scene`?"));
+}
+
+#[test]
+fn wrong_types_and_syntax_are_shown_in_place() {
+    let text = error("frames = \"many\"\n");
+    assert!(text.starts_with("sets/dataset.toml:1:10: invalid type: string \"many\", expected u32\n  1 | frames = \"many\""), "{text}");
+    let text = error("frames = 3\nname \"x\"\n");
+    assert!(text.starts_with("sets/dataset.toml:2:6: "), "{text}");
+    assert!(error(&format!("quality = \"best\"\n{SCENE}")).contains("`draft`, `normal`, `high`"));
+    assert!(error(&format!("{SCENE}cameras = [3]\n")).contains("a camera's name, or a table"));
+}
+
+#[test]
+fn values_out_of_range_are_shown_with_an_example() {
+    for (text, start) in [
+        (format!("frames = 0\n{SCENE}"), "sets/dataset.toml:1:10: frames must lie between 1 and 10000, found 0"),
+        (format!("[render]\nsize = [0, 5]\n{SCENE}"), "sets/dataset.toml:2:8: width and height must lie between 1 and 16384 pixels, found 0 x 5"),
+        (format!("[render]\nsamples = 0\n{SCENE}"), "sets/dataset.toml:2:11: samples must be at least 1"),
+        (format!("{SCENE}render.fov_x_deg = 180\n"), "sets/dataset.toml:4:20: fov_x_deg must lie between 0 and 180"),
+        (format!("{SCENE}meters_per_unit = -1.0\n"), "sets/dataset.toml:4:19: meters_per_unit must be a positive number"),
+    ] {
+        let found = error(&text);
+        assert!(found.starts_with(start) && !found.ends_with("help: -"), "{found}");
+    }
+}
+
+#[test]
+fn scenes_that_cannot_be_made_are_told() {
+    assert!(error("name = \"x\"\n").starts_with("sets/dataset.toml: there is no [[scene]] in it\nhelp: add at least one:"));
+    assert!(error("[[scene]]\nname = \"a\"\n").contains("sets/dataset.toml:2:8: a scene needs either `file` or `home`"));
+    assert!(error(&format!("{SCENE}home = {{}}\n")).contains("a scene needs either `file` or `home`"));
+    assert!(error(&format!("{SCENE}{SCENE}")).starts_with("sets/dataset.toml:5:8: two scenes have this name"));
+    assert!(error("[[scene]]\nname = \"my room\"\nhome = {}\n").contains("\"my room\" cannot be the name of a scene"));
+    let text = error("[[scene]]\nname = \"a\"\nfile = \"$NOWHERE/a.gltf\"\n");
+    assert!(text.starts_with("sets/dataset.toml:3:8: the environment variable NOWHERE is not set"), "{text}");
+}
+
+#[test]
+fn resolved_configurations_survive_json() {
+    for config in [Config::demo(&Overrides::default()).unwrap(), config(&format!("{SCENE}cameras = [\"c\"]\n"))] {
+        let text = serde_json::to_string(&config).unwrap();
+        assert_eq!(serde_json::from_str::<Config>(&text).unwrap(), Config { base: PathBuf::new(), ..config });
+    }
+}
+
+#[test]
+fn the_demo_is_one_home_and_takes_overrides() {
+    let config = Config::demo(&Overrides { seed: Some(4), frames: Some(2), size: Some([64, 48]), quality: Some(Quality::Draft) }).unwrap();
+    let scene = &config.scenes[0];
+    assert_eq!((config.scenes.len(), &scene.source, scene.plan.frames, scene.size), (1, &Source::Home { seed: 4 }, 2, [64, 48]));
+    assert_eq!(scene.render.samples, Quality::Draft.samples());
+    let error = Config::demo(&Overrides { frames: Some(0), ..Overrides::default() }).unwrap_err();
+    assert_eq!(error.to_string(), "the command line: frames must lie between 1 and 10000, found 0");
+}
+
+#[test]
+fn the_example_is_a_valid_configuration() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/real-rooms/dataset.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let config = resolve(&file, &text, &Overrides::default(), &|_| Some("/scenes".into())).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(config.scenes.len(), 8);
+    assert!(config.scenes.iter().all(|s| s.labels.is_some()));
+}
+
+#[test]
+fn patterns_choose_scenes_and_a_typing_mistake_gets_a_proposal() {
+    let config = Config::demo(&Overrides::default()).unwrap();
+    assert_eq!(config.select(Some("liv*m")).unwrap().len(), 1);
+    assert_eq!(config.select(Some("x, living-room")).unwrap().len(), 1);
+    let error = config.select(Some("livingroom")).unwrap_err();
+    assert_eq!(error.hint().unwrap(), "did you mean \"living-room\"? the scenes are: living-room");
+    assert!(matches("a*b*c", "a-b-b-c") && !matches("a*b", "abc") && matches("*", ""));
+}
+
+#[test]
+fn seeds_differ_by_scene_and_purpose() {
+    let scene = Config::demo(&Overrides::default()).unwrap().scenes.remove(0);
+    let other = SceneConfig { name: "b".into(), ..scene.clone() };
+    assert_ne!(scene.seed_for("plan"), scene.seed_for("render"));
+    assert_ne!(scene.seed_for("plan"), other.seed_for("plan"));
+}

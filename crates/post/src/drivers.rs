@@ -1,0 +1,175 @@
+//! Previews, contact sheets and questions over a dataset on disk.
+
+use crate::inspect::{Names, OutsideError, PixelReport, inspect};
+use crate::picture::jpeg;
+use crate::preview::{PREVIEWS, Subject, preview};
+use crate::sheet::{OverviewTile, SheetConfig, SheetTitle, overview_sheet, spread, trajectory_sheet};
+use crate::tonemap::ToneMap;
+use enfilade_dataset::{Dataset, DatasetError, write_bytes};
+use enfilade_frame::{Frame, LAYERS, Layer};
+use enfilade_scene::Cx;
+use rayon::prelude::*;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The layers of a frame that are there; an empty frame of one pixel when none is.
+fn read_present(dataset: &Dataset, scene: &str, camera: &str, frame: u32, wanted: &[Layer]) -> Result<Frame, DatasetError> {
+    let there: Vec<Layer> = wanted.iter().copied().filter(|&layer| dataset.has_layer(scene, camera, frame, layer)).collect();
+    if there.is_empty() { Ok(Frame::new(1, 1)) } else { dataset.read_frame(scene, camera, frame, &there) }
+}
+
+/// Writes every preview that the layers of the given frames allow, and returns the files.
+///
+/// # Errors
+/// When a layer cannot be read or a file cannot be written.
+pub fn preview_camera(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32], cx: &dyn Cx) -> Result<Vec<PathBuf>, DatasetError> {
+    let done = AtomicU64::new(0);
+    let one = |&number: &u32| {
+        let files = preview_frame(dataset, scene, camera, number);
+        cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
+        files
+    };
+    let files: Vec<Vec<PathBuf>> = frames.par_iter().map(one).collect::<Result<_, _>>()?;
+    Ok(files.into_iter().flatten().collect())
+}
+
+fn preview_frame(dataset: &Dataset, scene: &str, camera: &str, number: u32) -> Result<Vec<PathBuf>, DatasetError> {
+    let frame = read_present(dataset, scene, camera, number, &LAYERS.map(|spec| spec.layer))?;
+    let tone = ToneMap::of_frame(&frame).unwrap_or_default();
+    let mut written = Vec::new();
+    for spec in PREVIEWS {
+        let Some(bytes) = spec.file(&frame, tone) else { continue };
+        let path = dataset.layout().preview(scene, camera, number, spec.pass, spec.name);
+        write_bytes(&path, bytes)?;
+        written.push(path);
+    }
+    Ok(written)
+}
+
+/// Writes the contact sheet of a camera and returns its path; `None` when the camera has no frames.
+///
+/// # Errors
+/// When a layer cannot be read or the file cannot be written.
+pub fn write_contact_sheet(
+    dataset: &Dataset,
+    scene: &str,
+    camera: &str,
+    frames: &[u32],
+    config: &SheetConfig,
+) -> Result<Option<PathBuf>, DatasetError> {
+    if frames.is_empty() {
+        return Ok(None);
+    }
+    let all = LAYERS.map(|spec| spec.layer);
+    let shown: Vec<(u32, Frame)> = spread(frames.len(), config.frames)
+        .into_par_iter()
+        .map(|i| Ok((frames[i], read_present(dataset, scene, camera, frames[i], &all)?)))
+        .collect::<Result<_, DatasetError>>()?;
+    let sheet = trajectory_sheet(SheetTitle { scene, camera, frames: frames.len() }, &shown, config);
+    let path = dataset.layout().contact_sheet(scene, camera);
+    write_bytes(&path, jpeg(&sheet))?;
+    Ok(Some(path))
+}
+
+/// Writes the contact sheet of the whole dataset, with the first frame of every trajectory that has one, and returns its path.
+///
+/// # Errors
+/// When a layer cannot be read or the file cannot be written.
+pub fn write_overview(dataset: &Dataset, title: &str, config: &SheetConfig) -> Result<PathBuf, DatasetError> {
+    let mut tiles = Vec::new();
+    for scene in dataset.scenes()? {
+        for camera in dataset.cameras(&scene)? {
+            tiles.extend(overview_tile(dataset, &scene, &camera)?);
+        }
+    }
+    let path = dataset.layout().overview();
+    write_bytes(&path, jpeg(&overview_sheet(title, &tiles, config)))?;
+    Ok(path)
+}
+
+fn overview_tile(dataset: &Dataset, scene: &str, camera: &str) -> Result<Option<OverviewTile>, DatasetError> {
+    let frames = dataset.frame_numbers(scene, camera)?;
+    let Some(&first) = frames.first() else { return Ok(None) };
+    let frame = read_present(dataset, scene, camera, first, &[Layer::Color, Layer::RenderEntityId])?;
+    let shown = preview(Subject::ToneMapped, &frame, ToneMap::of_frame(&frame).unwrap_or_default());
+    let detail = format!("{camera}  ·  {} frames  ·  {} x {} px", frames.len(), frame.width, frame.height);
+    Ok(shown.map(|shown| OverviewTile { scene: scene.to_string(), detail, picture: shown.picture }))
+}
+
+/// Why a pixel cannot be reported on.
+#[derive(Debug, thiserror::Error)]
+pub enum InspectError {
+    /// A file cannot be read.
+    #[error(transparent)]
+    Dataset(#[from] DatasetError),
+    /// There is no such pixel.
+    #[error(transparent)]
+    Outside(#[from] OutsideError),
+    /// There is no such frame.
+    #[error("{scene}/{camera} has no frame {frame}; its frames: {there}")]
+    NoFrame {
+        /// Name of the scene.
+        scene: String,
+        /// Name of the camera.
+        camera: String,
+        /// The frame asked for.
+        frame: u32,
+        /// The first and last frame that are there.
+        there: String,
+    },
+}
+
+/// Reports on pixel (x, y) of a frame: every layer that is there, with the names that the dataset knows.
+///
+/// # Errors
+/// When there is no such frame or pixel, or a file cannot be read.
+pub fn inspect_pixel(dataset: &Dataset, scene: &str, camera: &str, frame: u32, [x, y]: [u32; 2]) -> Result<PixelReport, InspectError> {
+    let trajectory = dataset.read_trajectory(scene, camera)?;
+    let frames = dataset.frame_numbers(scene, camera)?;
+    let pose = trajectory.poses.iter().find(|pose| pose.frame == frame).filter(|_| frames.contains(&frame));
+    let Some(pose) = pose else {
+        let there = match (frames.first(), frames.last()) {
+            (Some(first), Some(last)) => format!("{} from {first} to {last}", frames.len()),
+            _ => "none".to_string(),
+        };
+        return Err(InspectError::NoFrame { scene: scene.into(), camera: camera.into(), frame, there });
+    };
+    let layers = read_present(dataset, scene, camera, frame, &LAYERS.map(|spec| spec.layer))?;
+    let parts: Vec<String> = dataset.read_nodes(scene)?.into_iter().map(|node| node.node_name).collect();
+    let names = Names { parts: &parts, materials: &[] };
+    Ok(inspect(&layers, &dataset.intrinsics(scene)?, pose, names, x, y)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+    use enfilade_scene::Quiet;
+
+    #[test]
+    fn every_preview_and_both_sheets_are_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        let files = preview_camera(&dataset, "room", "cam_00", &[0, 1], &Quiet).unwrap();
+        assert_eq!(files.len(), 2 * PREVIEWS.len());
+        assert!(files.iter().all(|file| file.is_file()));
+        let config = SheetConfig { width: 600, frames: 1 };
+        let sheet = write_contact_sheet(&dataset, "room", "cam_00", &[0, 1], &config).unwrap().unwrap();
+        let overview = write_overview(&dataset, "homes", &config).unwrap();
+        for path in [sheet, overview] {
+            assert_eq!(image::open(path).unwrap().width(), 600);
+        }
+        assert_eq!(write_contact_sheet(&dataset, "room", "cam_00", &[], &config).unwrap(), None);
+    }
+
+    #[test]
+    fn a_pixel_is_reported_with_names_and_a_missing_frame_is_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        let report = inspect_pixel(&dataset, "room", "cam_00", 0, [5, 45]).unwrap();
+        assert_eq!((report.part.as_deref(), report.class.as_deref()), (Some("floor"), Some("floor")));
+        let error = inspect_pixel(&dataset, "room", "cam_00", 7, [0, 0]).unwrap_err().to_string();
+        assert_eq!(error, "room/cam_00 has no frame 7; its frames: 2 from 0 to 1");
+        assert!(inspect_pixel(&dataset, "room", "cam_00", 0, [64, 0]).unwrap_err().to_string().contains("outside of the image"));
+    }
+}

@@ -1,0 +1,364 @@
+//! Verification of a dataset on disk.
+
+use super::card::{Card, VerifyReport};
+use super::law::Law;
+use super::{View, check_frame, check_labels, check_trajectory};
+use enfilade_dataset::hdf5::read_array;
+use enfilade_dataset::{Dataset, DatasetError, FrameStatus, Manifest, Node};
+use enfilade_frame::{Frame, LAYERS, LayerSpec};
+use enfilade_geometry::{OccupancyTree, Voxel};
+use enfilade_scene::{Cx, Intrinsics, Labels, PartLabel, Pose, Trajectory};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Checks every law over the given scenes. What cannot be read counts as a violation, not as an error.
+///
+/// Frames are read in parallel; the report is the same for every number of threads.
+///
+/// # Errors
+/// When the manifest cannot be read.
+pub fn verify_dataset(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<VerifyReport, DatasetError> {
+    let mut card = Card::default();
+    let manifest = dataset.read_manifest()?;
+    check_manifest(&mut card, dataset, manifest, scenes);
+    let facts: Vec<SceneFacts> = scenes.iter().map(|scene| SceneFacts::read(dataset, scene, &mut card)).collect();
+    let frames: Vec<(&SceneFacts, &str, &Pose)> = facts.iter().flat_map(SceneFacts::frames).collect();
+    let done = AtomicU64::new(0);
+    let check = |&(scene, camera, pose): &(&SceneFacts, &str, &Pose)| {
+        let card = scene.check_frame(dataset, camera, pose);
+        cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
+        card
+    };
+    let cards: Vec<Card> = frames.par_iter().map(check).collect();
+    cards.into_iter().for_each(|frame| card.merge(frame));
+    Ok(VerifyReport::new(&card, scenes.len(), frames.len()))
+}
+
+/// What the manifest says, and whether the files are what it says.
+fn check_manifest(card: &mut Card, dataset: &Dataset, manifest: Option<Manifest>, scenes: &[String]) {
+    let Some(mut manifest) = manifest else {
+        return card.observe(Law::Manifest, 1.0, || format!("{}: there is none", dataset.layout().manifest().display()));
+    };
+    for scene in scenes {
+        let listed = manifest.scenes.contains_key(scene);
+        card.observe(Law::Manifest, if listed { 0.0 } else { 1.0 }, || format!("{scene}: not in the manifest"));
+    }
+    manifest.scenes.retain(|name, _| scenes.contains(name));
+    for (scene, entry) in &manifest.scenes {
+        if let Some(reason) = &entry.failed {
+            card.observe(Law::HasFrames, 1.0, || format!("{scene}: failed: {reason}"));
+        }
+        for (camera, frame) in entry.cameras.iter().flat_map(|(name, camera)| camera.frames.iter().map(move |frame| (name, frame))) {
+            let reason = frame.reason.as_deref().unwrap_or("planned, but not rendered");
+            let broken = if frame.status == FrameStatus::Complete { 0.0 } else { 1.0 };
+            card.observe(Law::FramesComplete, broken, || format!("{scene}/{camera}/frame.{:04}: {reason}", frame.frame));
+        }
+    }
+    if let Some(problems) = readable(card, dataset.verify_checksums(&manifest)) {
+        card.observe(Law::Checksums, problems.len() as f64, || problems.into_iter().next().unwrap_or_default());
+    }
+}
+
+/// The value of a read; what cannot be read goes on the card.
+fn readable<T>(card: &mut Card, read: Result<T, DatasetError>) -> Option<T> {
+    let problem = read.as_ref().err().map(ToString::to_string);
+    card.observe(Law::Readable, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
+    read.ok()
+}
+
+/// Everything about a scene that its frames are checked against.
+struct SceneFacts {
+    name: String,
+    meters_per_unit: f64,
+    intrinsics: Option<Intrinsics>,
+    entities: usize,
+    labels: Option<Labels>,
+    trajectories: Vec<(Trajectory, Vec<u32>)>,
+}
+
+impl SceneFacts {
+    /// Reads them, and checks the laws that concern no single frame.
+    fn read(dataset: &Dataset, name: &str, card: &mut Card) -> Self {
+        let nodes = readable(card, dataset.read_nodes(name)).unwrap_or_default();
+        let first_wrong = nodes.iter().zip(1u32..).position(|(node, expected)| node.node_id != expected);
+        card.observe(Law::Nodes, if first_wrong.is_some() { 1.0 } else { 0.0 }, || format!("{name}: row {first_wrong:?}"));
+        let facts = Self {
+            name: name.to_string(),
+            meters_per_unit: readable(card, dataset.meters_per_asset_unit(name)).unwrap_or(1.0),
+            intrinsics: readable(card, dataset.intrinsics(name)),
+            entities: nodes.len(),
+            labels: read_labels(dataset, name, &nodes, card),
+            trajectories: read_trajectories(dataset, name, card),
+        };
+        facts.check_projection(dataset, card);
+        facts.check_trajectories(dataset, card);
+        facts
+    }
+
+    /// `M_proj` takes every image point to where K says it is.
+    fn check_projection(&self, dataset: &Dataset, card: &mut Card) {
+        let (Some(k), Some(projection)) = (self.intrinsics, readable(card, dataset.projection_matrix(&self.name))) else { return };
+        let (width, height) = (f64::from(k.width), f64::from(k.height));
+        for (x, y) in [(0.0, 0.0), (width, 0.0), (0.0, height), (width, height), (0.5 * width, 0.25 * height)] {
+            let clip = projection * (2.0 * k.ray(x, y)).extend(1.0);
+            let off = (0.5 * (clip.x / clip.w + 1.0) * width - x).hypot(0.5 * (1.0 - clip.y / clip.w) * height - y);
+            card.observe(Law::Calibration, off, || format!("{}: M_proj and M_cam_from_uv disagree at image point ({x}, {y})", self.name));
+        }
+    }
+
+    fn check_trajectories(&self, dataset: &Dataset, card: &mut Card) {
+        let name = &self.name;
+        let tree = read_tree(dataset, name, card);
+        let rendered: usize = self.trajectories.iter().map(|(_, frames)| frames.len()).sum();
+        card.observe(Law::HasFrames, if rendered == 0 { 1.0 } else { 0.0 }, || format!("{name}: no rendered frame"));
+        for (trajectory, frames) in &self.trajectories {
+            let place = format!("{name}/{}", trajectory.name);
+            card.merge(check_trajectory(trajectory, &place));
+            let missing: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !frames.contains(frame)).collect();
+            card.observe(Law::FramesComplete, missing.len() as f64, || format!("{place}: frames {missing:?} are missing"));
+            for pose in &trajectory.poses {
+                self.check_record(dataset, &trajectory.name, pose, card);
+                if let Some(tree) = &tree {
+                    let state = tree.state(pose.position);
+                    let at = || format!("{place}/frame.{:04}: {:.3} m is {state:?}", pose.frame, pose.position);
+                    card.observe(Law::FreeCamera, if state == Voxel::Free { 0.0 } else { 1.0 }, at);
+                }
+            }
+        }
+    }
+
+    /// The frame's record states the pose and calibration that the tables state.
+    fn check_record(&self, dataset: &Dataset, camera: &str, pose: &Pose, card: &mut Card) {
+        let Some(Some(record)) = readable(card, dataset.frame_record(&self.name, camera, pose.frame)) else { return };
+        let at = || format!("{}/{camera}/frame.{:04}", self.name, pose.frame);
+        let then = record.pose.to_pose(pose.frame);
+        let turned = (then.world_from_camera - pose.world_from_camera).to_cols_array().iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        card.observe(Law::RenderedPose, turned.max((then.position - pose.position).abs().max_element()), at);
+        if let Some(k) = self.intrinsics {
+            let values = |k: &Intrinsics| [k.fx, k.fy, k.cx, k.cy, f64::from(k.width), f64::from(k.height)];
+            let off = values(&k).iter().zip(values(&record.intrinsics)).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+            card.observe(Law::Calibration, off, at);
+        }
+    }
+
+    /// The frames on disk that belong to a trajectory.
+    fn frames(&self) -> impl Iterator<Item = (&Self, &str, &Pose)> {
+        self.trajectories.iter().flat_map(move |(trajectory, frames)| {
+            let there = trajectory.poses.iter().filter(|pose| frames.contains(&pose.frame));
+            there.map(move |pose| (self, trajectory.name.as_str(), pose))
+        })
+    }
+
+    fn check_frame(&self, dataset: &Dataset, camera: &str, pose: &Pose) -> Card {
+        let mut card = Card::default();
+        let place = format!("{}/{camera}/frame.{:04}", self.name, pose.frame);
+        let frame = read_frame(dataset, &self.name, camera, pose.frame, &mut card);
+        if let (Some(frame), Some(intrinsics)) = (frame, &self.intrinsics) {
+            let (meters_per_unit, entities, labels) = (self.meters_per_unit, self.entities, self.labels.as_ref());
+            card.merge(check_frame(&frame, &View { intrinsics, pose, meters_per_unit, entities, labels }, &place));
+        }
+        card
+    }
+}
+
+/// Every layer that is there, exactly as stored: other types or sizes than the table's go on the card.
+fn read_frame(dataset: &Dataset, scene: &str, camera: &str, number: u32, card: &mut Card) -> Option<Frame> {
+    let mut frame: Option<Frame> = None;
+    for spec in LAYERS.iter().filter(|spec| dataset.has_layer(scene, camera, number, spec.layer)) {
+        let path = dataset.layout().layer(scene, camera, number, spec.layer);
+        let Some(array) = readable(card, read_array(&path)) else { continue };
+        let shape = array.shape.clone();
+        let size = image_size(&shape, spec);
+        let values = array.values.into_values().ok().filter(|values| values.dtype() == spec.dtype);
+        let (Some((width, height)), Some(values)) = (size, values) else {
+            let expected = format!("expected an image of {} channels of {:?}, found shape {shape:?} or another type", spec.channels, spec.dtype);
+            card.observe(Law::Readable, 1.0, || format!("{}: {expected}", path.display()));
+            continue;
+        };
+        let frame = frame.get_or_insert_with(|| Frame::new(width, height));
+        if (frame.width, frame.height) == (width, height) {
+            frame.insert(spec.layer, values);
+        } else {
+            let other = format!("{width}x{height} pixels, but other layers of the frame have {}x{}", frame.width, frame.height);
+            card.observe(Law::Readable, 1.0, || format!("{}: {other}", path.display()));
+        }
+    }
+    if frame.is_none() {
+        card.observe(Law::LayersPresent, LAYERS.len() as f64, || format!("{scene}/{camera}/frame.{number:04}: no layer can be read"));
+    }
+    frame
+}
+
+/// Width and height of an image of the layer's channels.
+fn image_size(shape: &[usize], spec: &LayerSpec) -> Option<(u32, u32)> {
+    match (shape, spec.channels) {
+        (&[height, width], 1) => Some((width as u32, height as u32)),
+        (&[height, width, channels], expected) if channels == expected && expected > 1 => Some((width as u32, height as u32)),
+        _ => None,
+    }
+}
+
+/// The labels by render entity.
+fn read_labels(dataset: &Dataset, scene: &str, nodes: &[Node], card: &mut Card) -> Option<Labels> {
+    let tables = match dataset.read_label_tables(scene) {
+        Ok(tables) => tables,
+        Err(error) => {
+            card.observe(Law::LabelTables, 1.0, || error.to_string());
+            return None;
+        }
+    };
+    let objects = nodes.iter().filter_map(|node| node.object_id).max().map_or(0, |id| id as usize + 1);
+    let enough = tables.parts.len() >= objects;
+    card.observe(Law::LabelTables, if enough { 0.0 } else { 1.0 }, || {
+        format!("{scene}: {} rows for {objects} objects", tables.parts.len())
+    });
+    card.merge(check_labels(&tables, scene));
+    let label = |node: &Node| node.object_id.and_then(|id| tables.parts.get(id as usize)).copied().unwrap_or(PartLabel::NONE);
+    Some(Labels { parts: nodes.iter().map(label).collect() })
+}
+
+fn read_trajectories(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<(Trajectory, Vec<u32>)> {
+    let mut trajectories = Vec::new();
+    for camera in readable(card, dataset.cameras(scene)).unwrap_or_default() {
+        let Some(trajectory) = readable(card, dataset.read_trajectory(scene, &camera)) else { continue };
+        let frames = readable(card, dataset.frame_numbers(scene, &camera)).unwrap_or_default();
+        trajectories.push((trajectory, frames));
+    }
+    trajectories
+}
+
+/// The free space, if there is one.
+fn read_tree(dataset: &Dataset, scene: &str, card: &mut Card) -> Option<OccupancyTree> {
+    let path = dataset.layout().octomap(scene);
+    let bytes = match dataset.read_free_space(scene) {
+        Err(error) if error.is_not_found() => return None,
+        read => readable(card, read)?.0,
+    };
+    let tree = OccupancyTree::from_bt(&bytes);
+    let problem = tree.as_ref().err().map(|error| format!("{}: {error}", path.display()));
+    card.observe(Law::Readable, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
+    tree.ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+    use enfilade_dataset::{FrameInfo, FrameTime, ManifestInfo, write_bytes};
+    use enfilade_frame::Layer;
+    use enfilade_scene::Quiet;
+
+    fn verify(dataset: &Dataset) -> VerifyReport {
+        verify_dataset(dataset, &["room".to_string()], &Quiet).unwrap()
+    }
+
+    /// The laws that fail after `change`, and the card.
+    fn failures(change: impl Fn(&Dataset)) -> (Vec<Law>, String) {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        change(&dataset);
+        let report = verify(&dataset);
+        (report.failures().map(|law| law.law).collect(), report.to_text())
+    }
+
+    /// Writes the manifest anew, so that it agrees with what was changed on purpose.
+    fn refresh(dataset: &Dataset) {
+        dataset.write_manifest(&dataset.collect_manifest(&ManifestInfo::default()).unwrap()).unwrap();
+    }
+
+    #[test]
+    fn a_good_dataset_passes_and_every_law_was_checked() {
+        let folder = tempfile::tempdir().unwrap();
+        let report = verify(&testing::dataset(folder.path()));
+        assert!(report.passed, "{}", report.to_text());
+        assert_eq!((report.frames, report.scenes), (2, 1));
+        assert_eq!(report.laws.len(), super::super::LAWS.len());
+        assert!(report.to_text().ends_with("laws hold over 2 frames of 1 scene\n"));
+    }
+
+    #[test]
+    fn reports_do_not_depend_on_the_number_of_threads() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        let with = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| verify(&dataset));
+        assert_eq!(with(1), with(7));
+    }
+
+    #[test]
+    fn damaged_changed_and_missing_files_are_found() {
+        let damage = |d: &Dataset| write_bytes(&d.layout().layer("room", "cam_00", 1, Layer::TexCoord), b"not hdf5").unwrap();
+        let (laws, text) = failures(damage);
+        // A file of another length also makes the frame incomplete, so that its layers are not looked at.
+        assert_eq!(laws, [Law::FramesComplete, Law::Checksums], "{text}");
+        assert!(text.contains("frame.0001.tex_coord.hdf5"), "{text}");
+        let (laws, text) = failures(|d| std::fs::remove_file(d.layout().manifest()).unwrap());
+        assert_eq!(laws, [Law::Manifest], "{text}");
+        let (laws, _) = failures(|d| std::fs::remove_file(d.layout().frame_record("room", "cam_00", 1)).unwrap());
+        assert_eq!(laws, [Law::FramesComplete]);
+        let (laws, _) = failures(|d| std::fs::remove_file(d.layout().mesh_file("room", "mesh_objects_si.hdf5")).unwrap());
+        assert_eq!(laws, [Law::LabelTables]);
+        let (laws, text) = failures(|d| write_bytes(&d.layout().octomap("room"), b"# not a tree").unwrap());
+        assert_eq!(laws, [Law::Readable]);
+        assert!(text.contains("octomap.bt"), "{text}");
+        let unlabelled = |d: &Dataset| {
+            for name in [Layer::Semantic, Layer::SemanticInstance] {
+                std::fs::remove_file(d.layout().layer("room", "cam_00", 0, name)).unwrap();
+            }
+            refresh(d);
+        };
+        assert_eq!(failures(unlabelled).0, [Law::LayersPresent]);
+    }
+
+    #[test]
+    fn poses_calibration_and_free_space_are_checked_against_the_frames() {
+        let replanned = |d: &Dataset| {
+            let mut trajectory = d.read_trajectory("room", "cam_00").unwrap();
+            trajectory.poses[1].frame = 2;
+            d.write_trajectory("room", &trajectory, &testing::intrinsics()).unwrap();
+            refresh(d);
+        };
+        assert_eq!(failures(replanned).0, [Law::FramesComplete, Law::FrameNumbers]);
+        let wall = |d: &Dataset| {
+            let tree = OccupancyTree::new(0.1);
+            d.write_free_space("room", &tree.to_bt(), enfilade_math::DVec3::ZERO, enfilade_math::DVec3::ZERO).unwrap();
+        };
+        let (laws, text) = failures(wall);
+        assert_eq!(laws, [Law::FreeCamera]);
+        assert!(text.contains("room/cam_00/frame.0000: [0.300, -3.000, 1.500] m is Unknown"), "{text}");
+        let recorded_elsewhere = |d: &Dataset| {
+            let record = d.frame_record("room", "cam_00", 1).unwrap().unwrap();
+            let mut pose = record.pose.to_pose(1);
+            pose.position.x += 1e-6;
+            let frame = testing::frame(&pose);
+            let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose, intrinsics: testing::intrinsics() };
+            d.write_frame("room", "cam_00", &frame, &info, FrameTime::default()).unwrap();
+            refresh(d);
+        };
+        assert_eq!(failures(recorded_elsewhere).0, [Law::RenderedPose]);
+        let other_lens = |d: &Dataset| {
+            let k = Intrinsics { fx: testing::intrinsics().fx + 1e-5, ..testing::intrinsics() };
+            d.write_intrinsics("room", &k).unwrap();
+        };
+        assert_eq!(failures(other_lens).0, [Law::Calibration]);
+    }
+
+    #[test]
+    fn frames_that_failed_are_named_with_their_reason() {
+        let failed = |d: &Dataset| {
+            std::fs::remove_file(d.layout().frame_record("room", "cam_00", 0)).unwrap();
+            let failed_frames = [(("room".to_string(), "cam_00".to_string(), 0), "disk full".to_string())].into();
+            let info = ManifestInfo { failed_frames, ..ManifestInfo::default() };
+            d.write_manifest(&d.collect_manifest(&info).unwrap()).unwrap();
+        };
+        let (laws, text) = failures(failed);
+        assert_eq!(laws, [Law::FramesComplete]);
+        assert!(text.contains("room/cam_00/frame.0000: disk full"), "{text}");
+        let none = |d: &Dataset| {
+            (0..2).for_each(|i| std::fs::remove_file(d.layout().frame_record("room", "cam_00", i)).unwrap());
+            refresh(d);
+        };
+        let (laws, text) = failures(none);
+        assert_eq!(laws, [Law::FramesComplete, Law::HasFrames]);
+        assert!(text.contains("nothing was verified"), "{text}");
+    }
+}

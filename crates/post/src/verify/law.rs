@@ -1,0 +1,143 @@
+//! The table of laws.
+
+use serde::{Deserialize, Serialize};
+
+/// A statement that every dataset must satisfy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs)] // LAWS states each one
+pub enum Law {
+    Readable,
+    Manifest,
+    FramesComplete,
+    LayersPresent,
+    Checksums,
+    Nodes,
+    Calibration,
+    LabelTables,
+    HasFrames,
+    FrameNumbers,
+    PosesFinite,
+    Orthonormal,
+    RightHanded,
+    LookAt,
+    Roll,
+    RenderedPose,
+    FreeCamera,
+    SeesScene,
+    EntityIds,
+    VoidCode,
+    ReasonCodes,
+    GeometryFinite,
+    TexCoord,
+    ColorFinite,
+    ColorNotNegative,
+    Albedo,
+    Recomposition,
+    Distance,
+    PlanarDepth,
+    Projection,
+    UnitNormals,
+    NormalFacing,
+    BumpFacing,
+    NormalCamera,
+    BumpCamera,
+    Flatness,
+    SemanticRange,
+    InstanceRange,
+    SemanticJoin,
+    InstanceJoin,
+    InstanceClass,
+}
+
+/// What a law says.
+#[derive(Clone, Copy, Debug)]
+pub struct LawSpec {
+    /// Which one.
+    pub law: Law,
+    /// The statement.
+    pub statement: &'static str,
+    /// The largest value that satisfies it.
+    pub bound: f64,
+    /// Unit of value and bound; empty for pure numbers.
+    pub unit: &'static str,
+    /// What a violation may mean, and what to do.
+    pub meaning: &'static str,
+}
+
+macro_rules! laws {
+    ($($law:ident $bound:literal $unit:literal, $statement:literal, $meaning:literal;)*) => {
+        [$(LawSpec { law: Law::$law, statement: $statement, bound: $bound, unit: $unit, meaning: $meaning }),*]
+    };
+}
+
+/// The table of laws; `LAWS[law as usize].law == law`.
+pub const LAWS: [LawSpec; 41] = laws![
+    Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
+        "the file is damaged or was cut short: render the frame again";
+    Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
+    FramesComplete 0.0 "frames", "every frame of a trajectory is complete", "a frame failed or was never rendered: run again";
+    LayersPresent 0.0 "layers", "every frame has every layer", "the frame was rendered or labelled by another version: render or label it again";
+    Checksums 0.0 "files", "files are what the manifest says was written", "a file was changed or damaged after it was written: render again or restore it";
+    Nodes 0.0 "rows", "metadata_nodes.csv numbers its nodes 1, 2, ...", "the table was edited: write the scene again";
+    Calibration 1e-6 "px", "size and calibration agree between metadata_camera_parameters.csv, records and images",
+        "the images were rendered with other settings than the table states: render again";
+    LabelTables 0.0 "tables", "the label tables are there and have one row per part", "the scene was not labelled: run the label stage";
+    HasFrames 0.0 "", "every scene has a trajectory with rendered frames", "planning or rendering found nothing: see the run's summary";
+    FrameNumbers 0.0 "frames", "frames are numbered 0, 1, 2, ... without a gap", "the trajectory was cut or edited: plan it again";
+    PosesFinite 0.0 "poses", "poses hold no NaN or infinity", "planning went wrong: plan again";
+    Orthonormal 1e-9 "", "orientations are orthonormal (largest entry of |R R^T - 1|)", "an artist's camera with scale was passed through: plan again";
+    RightHanded 1e-9 "", "orientations are right-handed (|det R - 1|)", "an axis is mirrored: check the importer's axes";
+    LookAt 1e-6 "", "the look-at point lies on the viewing axis", "positions and orientations are not of one trajectory: plan again";
+    Roll 5.000_001 "degrees", "roll stays within 5 degrees", "the camera was tilted beyond the limit: plan again";
+    RenderedPose 1e-9 "", "frames were rendered from the poses that are stored", "the trajectory was planned again after rendering: render again";
+    FreeCamera 0.0 "poses", "cameras stand in free voxels of octomap.bt", "the camera is in a wall or outside: plan again";
+    SeesScene 0.0 "frames", "some pixel of every frame sees the scene", "the camera looks into the void: plan again";
+    EntityIds 0.0 "pixels", "entity ids are -1 or the number of a part", "the frame is of another version of the scene: render again";
+    VoidCode 0.0 "pixels", "valid is 0 exactly where render_entity_id is -1", "renderer defect: please report it";
+    ReasonCodes 0.0 "pixels", "valid is 2 exactly where a colour is 65504, else 3 exactly where reflectance is 0",
+        "renderer defect: please report it";
+    GeometryFinite 0.0 "pixels", "distance, depth, position and normals are finite exactly where render_entity_id is not -1",
+        "a degenerate triangle or a NaN in the mesh: import again and read its warnings";
+    TexCoord 0.0 "pixels", "tex_coord is finite, (u, v, 0), and 0 where nothing was hit", "texture coordinates beyond 65504: rescale them in the scene";
+    ColorFinite 0.0 "values", "colour layers hold no NaN or infinity", "a light or material with absurd values: check the scene's brightest lights";
+    ColorNotNegative 0.0 "", "colour layers are not negative", "a negative light or texture: check the scene";
+    Albedo 1.001 "", "diffuse_reflectance is at most 1", "a texture or factor above 1: check the material of that part";
+    Recomposition 0.0 "values", "color = diffuse_reflectance * diffuse_illumination + residual, to the last bit",
+        "layers of different renderings are mixed: render the frame again";
+    Distance 1e-4 "relative", "depth_meters = |position - camera|", "positions, distances and poses are not of one rendering: render again";
+    PlanarDepth 1e-4 "relative", "depth_z_meters is depth_meters along the viewing axis", "calibration and rendering disagree: render again";
+    Projection 0.02 "px", "position projects to the centre of its own pixel", "calibration or pose is not the one rendered with: render again";
+    UnitNormals 2e-3 "", "normals have unit length", "a mesh with zero normals: import again and read its warnings";
+    NormalFacing 2e-3 "", "normal_world faces the camera (n . view direction)", "renderer defect: please report it";
+    BumpFacing 2e-3 "", "normal_bump_world faces the camera (n . view direction)", "renderer defect: please report it";
+    NormalCamera 4e-3 "", "normal_cam is normal_world in camera axes", "pose and frame do not belong together: render again";
+    BumpCamera 4e-3 "", "normal_bump_cam is normal_bump_world in camera axes", "pose and frame do not belong together: render again";
+    Flatness 2e-2 "", "positions of flat surfaces lie in the plane of their normal (99th percentile)",
+        "smooth normals over coarse facets, or normals in another space than positions: check the mesh's normals";
+    SemanticRange 0.0 "pixels", "semantic is -1 or 1 to 40", "the label files are damaged: label again";
+    InstanceRange 0.0 "pixels", "semantic_instance is -1 or at least 1", "the label files are damaged: label again";
+    SemanticJoin 0.0 "pixels", "semantic is the class of the part in render_entity_id", "the label table changed: label again";
+    InstanceJoin 0.0 "pixels", "semantic_instance is the instance of the part in render_entity_id", "the label table changed: label again";
+    InstanceClass 0.0 "instances", "an instance has one class", "the label table gives one instance number to parts of several classes: correct it";
+];
+
+impl Law {
+    /// The law's row of the table.
+    pub const fn spec(self) -> &'static LawSpec {
+        &LAWS[self as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn table_is_in_the_order_of_the_enum_and_speaks_ascii() {
+        for (i, spec) in LAWS.iter().enumerate() {
+            assert_eq!(spec.law as usize, i);
+            assert!(spec.statement.is_ascii() && spec.meaning.is_ascii());
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Verification: the laws that tie the layers, poses, labels and files of a dataset together.
+//!
+//! [`LAWS`] states them. A [`Card`] collects the worst value of each; a [`VerifyReport`] is its outcome, for machines and
+//! people. Every law is computed here anew from the stored values, in double precision, with nothing taken from the renderer.
+
+mod card;
+mod color;
+mod dataset;
+mod geometry;
+mod labels;
+mod law;
+mod scan;
+#[cfg(test)]
+mod tests;
+mod trajectory;
+
+pub use card::{Card, LawResult, VerifyReport};
+pub use dataset::verify_dataset;
+pub use labels::check_labels;
+pub use law::{LAWS, Law, LawSpec};
+pub use trajectory::check_trajectory;
+
+use enfilade_frame::{Frame, LAYERS};
+use enfilade_scene::{Intrinsics, Labels, Pose};
+use scan::Scan;
+
+/// What a frame is checked against.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// Size and calibration.
+    pub intrinsics: &'a Intrinsics,
+    /// Where the camera stood.
+    pub pose: &'a Pose,
+    /// Metres per unit of positions and poses; 1 in our own datasets.
+    pub meters_per_unit: f64,
+    /// Number of render entities.
+    pub entities: usize,
+    /// Labels by render entity (`parts[i]` is entity i + 1), where the scene has label tables.
+    pub labels: Option<&'a Labels>,
+}
+
+/// Checks every law about one frame. `place` names the frame.
+///
+/// Laws about layers that the frame lacks are not checked, beyond the one that asks for all layers.
+pub fn check_frame(frame: &Frame, view: &View<'_>, place: &str) -> Card {
+    let mut scan = Scan::new(frame, view, place);
+    let missing: Vec<&str> = LAYERS.iter().filter(|spec| frame.get(spec.layer).is_none()).map(|spec| spec.name).collect();
+    scan.card.observe(Law::LayersPresent, missing.len() as f64, || format!("{place}: without {}", missing.join(", ")));
+    let size_error = frame.width.abs_diff(view.intrinsics.width).max(frame.height.abs_diff(view.intrinsics.height));
+    let sizes = || format!("{place}: images of {}x{}, table says {}x{}", frame.width, frame.height, view.intrinsics.width, view.intrinsics.height);
+    scan.card.observe(Law::Calibration, f64::from(size_error), sizes);
+    if size_error == 0 {
+        geometry::check(&mut scan);
+    }
+    color::check(&mut scan);
+    labels::check(&mut scan);
+    scan.card
+}

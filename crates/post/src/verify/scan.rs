@@ -1,0 +1,70 @@
+//! Going over the pixels of a frame: what the frame laws share.
+
+use super::View;
+use super::card::Card;
+use super::law::Law;
+use enfilade_frame::{Frame, Layer, Values};
+use enfilade_math::DVec3;
+
+/// One frame under examination.
+pub(super) struct Scan<'a> {
+    pub frame: &'a Frame,
+    pub view: &'a View<'a>,
+    pub card: Card,
+    place: &'a str,
+}
+
+impl<'a> Scan<'a> {
+    pub fn new(frame: &'a Frame, view: &'a View<'a>, place: &'a str) -> Self {
+        Self { frame, view, card: Card::default(), place }
+    }
+
+    pub fn layer(&self, layer: Layer) -> Option<&'a Values> {
+        self.frame.get(layer)
+    }
+
+    /// The pixels that see the scene, by `render_entity_id`; none without that layer.
+    pub fn seen(&self) -> Vec<usize> {
+        let ids = self.layer(Layer::RenderEntityId);
+        ids.map_or(vec![], |ids| (0..ids.len()).filter(|&i| ids.get(i) != -1.0).collect())
+    }
+
+    /// Observes the largest value, NaN counting as infinite. `what` describes it after "pixel (x, y): ".
+    pub fn worst(&mut self, law: Law, what: &str, values: impl Iterator<Item = (usize, f64)>) {
+        let mut worst: Option<(usize, f64)> = None;
+        for (pixel, value) in values {
+            let value = if value.is_nan() { f64::INFINITY } else { value };
+            if worst.is_none_or(|(_, w)| value > w) {
+                worst = Some((pixel, value));
+            }
+        }
+        if let Some((pixel, value)) = worst {
+            self.observe_at(law, value, pixel, what);
+        }
+    }
+
+    /// Observes how many pixels (or values) break a law, and the first of them.
+    pub fn broken(&mut self, law: Law, what: &str, mut pixels: impl Iterator<Item = usize>) {
+        match pixels.next() {
+            None => self.card.observe(law, 0.0, || self.place.to_string()),
+            Some(first) => self.observe_at(law, 1.0 + pixels.count() as f64, first, what),
+        }
+    }
+
+    pub fn observe_at(&mut self, law: Law, value: f64, pixel: usize, what: &str) {
+        let (x, y) = (pixel % self.frame.width as usize, pixel / self.frame.width as usize);
+        let id = self.layer(Layer::RenderEntityId).map_or(String::new(), |ids| format!(", part {}", ids.get(pixel)));
+        self.card.observe(law, value, || format!("{} pixel ({x}, {y}){id}: {what}", self.place));
+    }
+
+    /// Direction through the centre of `pixel`, in camera space, unit length.
+    pub fn direction_camera(&self, pixel: usize) -> DVec3 {
+        let (x, y) = (pixel % self.frame.width as usize, pixel / self.frame.width as usize);
+        self.view.intrinsics.ray(x as f64 + 0.5, y as f64 + 0.5).normalize()
+    }
+}
+
+/// The three channels of a pixel.
+pub(super) fn vector(values: &Values, pixel: usize) -> DVec3 {
+    DVec3::new(values.get(3 * pixel), values.get(3 * pixel + 1), values.get(3 * pixel + 2))
+}

@@ -1,0 +1,214 @@
+use super::*;
+use crate::testing::{self, pixel_of, set};
+use enfilade_frame::{Layer, Values, f16};
+use enfilade_math::DVec3;
+
+/// The analytic frame and what it is checked against; tests break one or the other.
+struct Case {
+    frame: Frame,
+    pose: Pose,
+    intrinsics: Intrinsics,
+    labels: Labels,
+}
+
+impl Case {
+    fn new() -> Self {
+        let pose = testing::pose();
+        Self { frame: testing::frame(&pose), pose, intrinsics: testing::intrinsics(), labels: testing::labels() }
+    }
+
+    fn card(&self) -> Card {
+        let view = View {
+            intrinsics: &self.intrinsics,
+            pose: &self.pose,
+            meters_per_unit: 1.0,
+            entities: self.labels.parts.len(),
+            labels: Some(&self.labels),
+        };
+        check_frame(&self.frame, &view, "room/cam_00/frame.0000")
+    }
+
+    fn vector(&self, layer: Layer, pixel: usize) -> DVec3 {
+        scan::vector(self.frame.get(layer).unwrap(), pixel)
+    }
+
+    /// Rewrites one pixel of a layer.
+    fn set(&mut self, layer: Layer, pixel: usize, channels: &[f64]) {
+        set(&mut self.frame, layer, pixel, channels);
+    }
+}
+
+/// What fails after `change`, which gets a pixel of the floor.
+fn failures(change: impl Fn(&mut Case, usize)) -> Vec<Law> {
+    let mut case = Case::new();
+    let floor = pixel_of(&case.frame, 1);
+    change(&mut case, floor);
+    case.card().failures()
+}
+
+#[test]
+fn exact_frame_satisfies_every_frame_law() {
+    let card = Case::new().card();
+    assert_eq!(card.failures(), []);
+    let report = VerifyReport::new(&card, 1, 1);
+    assert!(report.passed);
+    let checked: Vec<Law> = report.laws.iter().map(|l| l.law).collect();
+    let frame_laws: Vec<Law> = LAWS
+        .iter()
+        .map(|spec| spec.law)
+        .filter(|&law| law == Law::LayersPresent || law == Law::Calibration || (law >= Law::SeesScene && law != Law::InstanceClass))
+        .collect();
+    assert_eq!(checked, frame_laws);
+}
+
+#[test]
+fn missing_layers_and_wrong_sizes_are_found() {
+    let without = |c: &mut Case, _| {
+        let mut frame = Frame::new(c.frame.width, c.frame.height);
+        c.frame.iter().filter(|(layer, _)| *layer != Layer::TexCoord).for_each(|(layer, values)| frame.insert(layer, values.clone()));
+        c.frame = frame;
+    };
+    assert_eq!(failures(without), [Law::LayersPresent]);
+    assert_eq!(failures(|c, _| c.intrinsics.height += 1), [Law::Calibration]);
+}
+
+#[test]
+fn a_frame_of_the_void_is_found() {
+    let sky = |c: &mut Case, _| {
+        let up = c.pose.position + DVec3::new(0.0, -1.0, 3.0);
+        c.pose = Pose::look_at(0, c.pose.position, up, DVec3::Z).unwrap();
+        c.frame = testing::frame(&c.pose);
+    };
+    assert_eq!(failures(sky), [Law::SeesScene]);
+}
+
+#[test]
+fn ids_and_codes_are_checked() {
+    let foreign_part = |c: &mut Case, p| {
+        c.set(Layer::RenderEntityId, p, &[9.0]);
+        c.set(Layer::Semantic, p, &[-1.0]);
+    };
+    assert_eq!(failures(foreign_part), [Law::EntityIds]);
+    assert_eq!(failures(|c, p| c.set(Layer::Valid, p, &[0.0])), [Law::VoidCode]);
+    assert_eq!(failures(|c, p| c.set(Layer::Valid, p, &[3.0])), [Law::ReasonCodes]);
+    assert_eq!(failures(|c, p| c.set(Layer::Valid, p, &[4.0])), [Law::ReasonCodes]);
+}
+
+#[test]
+fn values_in_the_void_and_texture_coordinates_are_checked() {
+    let void_normal = |c: &mut Case, _| {
+        let void = pixel_of(&c.frame, -1);
+        c.set(Layer::NormalWorld, void, &[0.0, 0.0, 1.0]);
+    };
+    assert_eq!(failures(void_normal), [Law::GeometryFinite]);
+    assert_eq!(failures(|c, p| c.set(Layer::TexCoord, p, &[0.5, 0.5, 1.0])), [Law::TexCoord]);
+    assert_eq!(failures(|c, p| c.set(Layer::TexCoord, p, &[0.5, f64::INFINITY, 0.0])), [Law::TexCoord]);
+}
+
+#[test]
+fn colour_laws_are_checked() {
+    let infinite = |c: &mut Case, p| {
+        c.set(Layer::Color, p, &[f64::INFINITY; 3]);
+        c.set(Layer::Residual, p, &[f64::INFINITY; 3]);
+        c.set(Layer::Valid, p, &[2.0]);
+    };
+    assert_eq!(failures(infinite), [Law::ColorFinite]);
+    let negative = |c: &mut Case, p| {
+        c.set(Layer::DiffuseIllumination, p, &[0.0; 3]);
+        c.set(Layer::Residual, p, &[-0.25; 3]);
+        c.set(Layer::Color, p, &[-0.25; 3]);
+    };
+    assert_eq!(failures(negative), [Law::ColorNotNegative]);
+    let too_white = |c: &mut Case, p| {
+        c.set(Layer::DiffuseReflectance, p, &[1.5; 3]);
+        c.set(Layer::DiffuseIllumination, p, &[0.0; 3]);
+        c.set(Layer::Color, p, &[c.frame.get(Layer::Residual).unwrap().get(3 * p); 3]);
+    };
+    assert_eq!(failures(too_white), [Law::Albedo]);
+    let one_bit = |c: &mut Case, p: usize| {
+        let Some(Values::F16(mut values)) = c.frame.get(Layer::Color).cloned() else { panic!("colour is float16") };
+        values[3 * p + 1] = f16::from_bits(values[3 * p + 1].to_bits() + 1);
+        c.frame.insert(Layer::Color, Values::F16(values));
+    };
+    assert_eq!(failures(one_bit), [Law::Recomposition]);
+}
+
+#[test]
+fn distance_depth_and_position_are_checked_against_each_other() {
+    let farther = |c: &mut Case, p| {
+        let t = c.pose.position;
+        c.set(Layer::Position, p, &(t + (c.vector(Layer::Position, p) - t) * 1.001).to_array());
+    };
+    assert_eq!(failures(farther), [Law::Distance]);
+    let planar = |c: &mut Case, p| c.set(Layer::DepthZMeters, p, &[c.frame.get(Layer::DepthZMeters).unwrap().get(p) * 1.001]);
+    assert_eq!(failures(planar), [Law::PlanarDepth]);
+    let aside = |c: &mut Case, p: usize| {
+        let (x, y) = (p % 64, p / 64);
+        let direction = c.pose.world_from_camera * c.intrinsics.ray(x as f64 + 0.55, y as f64 + 0.5).normalize();
+        let distance = c.frame.get(Layer::DepthMeters).unwrap().get(p);
+        c.set(Layer::Position, p, &(c.pose.position + direction * distance).to_array());
+    };
+    assert_eq!(failures(aside), [Law::Projection]);
+    let behind = |c: &mut Case, p| {
+        let t = c.pose.position;
+        c.set(Layer::Position, p, &(2.0 * t - c.vector(Layer::Position, p)).to_array());
+    };
+    assert_eq!(failures(behind), [Law::Projection]);
+}
+
+#[test]
+fn normals_are_checked() {
+    let both = |c: &mut Case, p, world: Layer, camera: Layer, change: &dyn Fn(DVec3) -> DVec3| {
+        for layer in [world, camera] {
+            c.set(layer, p, &change(c.vector(layer, p)).to_array());
+        }
+    };
+    let bump = (Layer::NormalBumpWorld, Layer::NormalBumpCam);
+    let smooth = (Layer::NormalWorld, Layer::NormalCam);
+    assert_eq!(failures(|c, p| both(c, p, bump.0, bump.1, &|n| 1.01 * n)), [Law::UnitNormals]);
+    assert_eq!(failures(|c, p| both(c, p, smooth.0, smooth.1, &|n| -n)), [Law::NormalFacing]);
+    assert_eq!(failures(|c, p| both(c, p, bump.0, bump.1, &|n| -n)), [Law::BumpFacing]);
+    assert_eq!(failures(|c, p| c.set(smooth.1, p, &[0.0, 0.0, 1.0])), [Law::NormalCamera]);
+    assert_eq!(failures(|c, p| c.set(bump.1, p, &[0.0, 0.0, 1.0])), [Law::BumpCamera]);
+}
+
+#[test]
+fn normals_that_do_not_fit_the_positions_are_found() {
+    let tilted = |c: &mut Case, _| {
+        let n = DVec3::new(0.0, -0.09, 1.0).normalize();
+        let n_camera = c.pose.world_from_camera.transpose() * n;
+        let ids = c.frame.get(Layer::RenderEntityId).unwrap().clone();
+        for (layer, n) in [(Layer::NormalWorld, n), (Layer::NormalCam, n_camera)] {
+            let old = c.frame.get(layer).unwrap();
+            let new = (0..old.len()).map(|i| if ids.get(i / 3) == 1.0 { n[i % 3] } else { old.get(i) }).collect();
+            c.frame.insert(layer, testing::store(layer, new));
+        }
+    };
+    assert_eq!(failures(tilted), [Law::Flatness]);
+}
+
+#[test]
+fn label_images_are_checked() {
+    let mirror_is = |c: &mut Case, semantic: i16, instance: i16| {
+        c.labels.parts[2] = enfilade_scene::PartLabel { semantic, instance };
+        let Some(Values::I16(ids)) = c.frame.get(Layer::RenderEntityId).cloned() else { panic!("ids are int16") };
+        let (s, i) = crate::label::join(&ids, &c.labels).unwrap();
+        c.frame.insert(Layer::Semantic, Values::I16(s));
+        c.frame.insert(Layer::SemanticInstance, Values::I16(i));
+    };
+    assert_eq!(failures(|c, _| mirror_is(c, 11, 1)), []);
+    assert_eq!(failures(|c, _| mirror_is(c, 41, 1)), [Law::SemanticRange]);
+    assert_eq!(failures(|c, _| mirror_is(c, 19, 0)), [Law::InstanceRange]);
+    assert_eq!(failures(|c, p| c.set(Layer::Semantic, p, &[5.0])), [Law::SemanticJoin]);
+    assert_eq!(failures(|c, p| c.set(Layer::SemanticInstance, p, &[5.0])), [Law::InstanceJoin]);
+}
+
+#[test]
+fn failures_name_frame_pixel_and_part() {
+    let mut case = Case::new();
+    let floor = pixel_of(&case.frame, 1);
+    case.set(Layer::Semantic, floor, &[5.0]);
+    let text = VerifyReport::new(&case.card(), 1, 1).to_text();
+    let place = format!("at  room/cam_00/frame.0000 pixel ({}, {}), part 1: 5 where the tables say 2", floor % 64, floor / 64);
+    assert!(text.contains(&place), "{text}");
+}
