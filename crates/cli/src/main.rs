@@ -39,7 +39,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Render(args) => verbs::stage(args, enfilade_pipeline::Stage::Render, cli.quiet),
         Verb::Label(args) => verbs::label(args, cli.quiet),
         Verb::Preview(args) => verbs::stage(args, enfilade_pipeline::Stage::Preview, cli.quiet),
-        Verb::Verify(args) => verbs::verify(args),
+        Verb::Verify(args) => verbs::verify(args, cli.quiet),
         Verb::Inspect(args) => verbs::inspect(args),
     }
 }

@@ -33,6 +33,11 @@ impl Problem {
         Self { message: message.into(), hint: Some(hint.into()), usage: true }
     }
 
+    /// A problem with what was found; the message says what to do.
+    pub fn found(error: &dyn std::error::Error) -> Self {
+        Self { message: error.to_string(), hint: None, usage: false }
+    }
+
     /// Says it on standard error.
     pub fn print(&self) {
         let mut text = format!("error: {}\n", self.message);

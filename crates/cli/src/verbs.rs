@@ -4,8 +4,11 @@ use crate::args::{ImportArgs, InspectArgs, LabelArgs, QualityArg, RunArgs, Stage
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::summary;
+use enfilade_dataset::Dataset;
 use enfilade_pipeline::{Config, EnvironmentChoice, Event, FileSource, Overrides, Quality, Reporter, Stage, Summary, UpAxis};
-use std::path::{Path, PathBuf};
+use enfilade_post::drivers::inspect_pixel;
+use enfilade_post::verify::verify_dataset;
+use std::path::PathBuf;
 
 /// `run`: all stages.
 pub fn run(args: &RunArgs, quiet: bool) -> Result<Verdict, Problem> {
@@ -90,12 +93,31 @@ pub fn label(args: &LabelArgs, quiet: bool) -> Result<Verdict, Problem> {
     Ok(conclude(&result))
 }
 
-/// `verify`.
-pub fn verify(_args: &VerifyArgs) -> Result<Verdict, Problem> {
-    Ok(Verdict::Done)
+/// `verify`: the card of a dataset.
+pub fn verify(args: &VerifyArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let dataset = Dataset::open(&args.dataset)?;
+    let scenes = enfilade_pipeline::select(&dataset.scenes()?, args.scene.as_deref())?;
+    let report = {
+        let progress = Progress::new(quiet);
+        let name = args.dataset.display().to_string();
+        progress.on(&name, Stage::Verify, Event::Started);
+        verify_dataset(&dataset, &scenes, &progress.cx(&name, Stage::Verify))?
+    };
+    say(report.to_text().trim_end());
+    Ok(Verdict::of(report.passed))
 }
 
-/// `inspect`.
-pub fn inspect(_args: &InspectArgs) -> Result<Verdict, Problem> {
+/// `inspect`: all about one pixel.
+pub fn inspect(args: &InspectArgs) -> Result<Verdict, Problem> {
+    let dataset = Dataset::open(&args.dataset)?;
+    let scenes = dataset.scenes()?;
+    let scene = match (&args.scene, scenes.as_slice()) {
+        (Some(scene), _) => enfilade_pipeline::select(&scenes, Some(scene))?.remove(0),
+        (None, [only]) => only.clone(),
+        (None, several) => return Err(Problem::new("the dataset has several scenes", format!("name one with --scene: {}", several.join(", ")))),
+    };
+    let (x, y) = args.pixel;
+    let report = inspect_pixel(&dataset, &scene, &args.camera, args.frame, [x, y]).map_err(|e| Problem::found(&e))?;
+    say(report.to_string().trim_end());
     Ok(Verdict::Done)
 }

@@ -91,7 +91,7 @@ fn seating(b: &mut Builder, plan: &mut Plan, palette: &Palette, default: bool, r
     let sofa_front = sofa.size().y - half.x + crate::layout::WALL_GAP;
 
     // The rug lies between the sofa and what faces it; the coffee table stands on it.
-    let rug = Rug { size: Vec2::new(rng.range(2.1, 2.4), rng.range(1.5, 1.62)) };
+    let rug = Rug { size: Vec2::new(rng.range(2.1, 2.4), rng.range(1.40, 1.5)) };
     let rug_u = sofa_front + 0.04 + 0.5 * rug.size.y;
     rug.build(b, plan.pose(Vec2::new(rug_u, v), Vec2::X, 0.0) * DAffine3::from_rotation_z(f64::from(rng.range(-0.015, 0.015))), rng);
     let table = if default { CoffeeTable::Shelf { length: 1.08, depth: 0.56 } } else { CoffeeTable::random(rng) };
@@ -201,9 +201,9 @@ fn television_side(b: &mut Builder, plan: &mut Plan, rng: &mut Rng) {
         BookStack { count: 2 }.build(b, on(top(-side * beside, -0.02), Vec3::ZERO, rng.range(-0.15, 0.15)), rng);
     }
     let plant = Plant::tall(rng);
-    let size = Vec3::new(0.62, 0.62, plant.size().z);
+    let size = Vec3::new(0.56, 0.56, plant.size().z);
     for k in 0..10 {
-        let uv = Vec2::new(half.x - 0.40 - 0.05 * k as f32, half.y - 0.5);
+        let uv = Vec2::new(half.x - 0.36 - 0.05 * k as f32, half.y - 0.36);
         if let Some(pose) = plan.free(uv, -Vec2::X, size, 0.0) {
             plant.build(b, pose, rng);
             break;
@@ -216,10 +216,10 @@ fn dining(b: &mut Builder, plan: &mut Plan, default: bool, rng: &mut Rng) {
     let table = if default { DiningTable { width: 0.88, round: true } } else { DiningTable::random(rng) };
     let chair = Chair { pad: rng.below(2) == 0 };
     for attempt in 0..10 {
-        let uv = Vec2::new(1.2 - 0.03 * attempt as f32 + rng.range(-0.04, 0.04), half.y - 0.52 - 0.5 * table.width - 0.02 * attempt as f32);
+        let uv = Vec2::new(1.24 - 0.03 * attempt as f32 + rng.range(-0.03, 0.03), half.y - 0.52 - 0.5 * table.width - 0.02 * attempt as f32);
         let Some(pose) = plan.free(uv, Vec2::X, table.size(), 0.3) else { continue };
         table.build(b, pose, rng);
-        for (along, pull) in [(Vec2::X, 0.02), (-Vec2::X, 0.09), (-Vec2::Y, 0.05)] {
+        for (along, pull) in [(-Vec2::X, 0.05), (-Vec2::Y, 0.03), (Vec2::X, 0.01)] {
             let out = 0.5 * table.width + 0.17 + pull + rng.range(0.0, 0.05);
             let turn = Vec2::from_angle(rng.range(-0.16, 0.16));
             if let Some(pose) = plan.seat(uv + along * out, turn.rotate(-along), chair.size()) {

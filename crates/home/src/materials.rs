@@ -119,8 +119,8 @@ impl Materials {
         let (tint, relief) = (s.image(tint, [2.0, 2.0]), s.image(relief, [0.9, 0.9]).texture());
         let floor = s.image(texture::floor_planks("floor planks", palette.floor, seed()), [2.0, 1.0]);
         let wood = s.image(texture::wood("veneer", palette.wood, seed()), [1.6, 0.8]);
-        let weave = s.image(texture::weave("weave", 64, 0.5, seed()), [0.16, 0.16]);
-        let linen = s.image(texture::weave("linen", 96, 0.7, seed()), [0.2, 0.2]);
+        let weave = s.image(texture::weave("weave", 128, 0.45, seed()), [0.34, 0.34]);
+        let linen = s.image(texture::weave("linen", 128, 0.6, seed()), [0.26, 0.26]);
         let knit = s.image(texture::knit("knit", 24, seed()), [0.30, 0.30]);
         let stone = s.image(texture::stone("stone", seed()), [0.8, 0.8]);
         let style = [texture::RugStyle::Lattice, texture::RugStyle::Bordered, texture::RugStyle::Stripes][seed() as usize % 3];

@@ -9,7 +9,13 @@ use std::sync::LazyLock;
 
 const SEEDS: u64 = 20;
 
-static HOMES: LazyLock<Vec<Home>> = LazyLock::new(|| (0..SEEDS).map(|seed| living_room(&HomeConfig { seed })).collect());
+static HOMES: LazyLock<Vec<Home>> = LazyLock::new(|| {
+    let home = |seed| living_room(&HomeConfig { seed });
+    std::thread::scope(|scope| {
+        let second = scope.spawn(|| (SEEDS / 2..SEEDS).map(home).collect::<Vec<_>>());
+        (0..SEEDS / 2).map(home).chain(second.join().expect("no home panics")).collect()
+    })
+});
 
 /// World box of every part.
 fn part_boxes(scene: &Scene) -> Vec<Bounds3> {
@@ -29,6 +35,11 @@ fn object_of(name: &str) -> &str {
 /// The family of an object: `sofa` of `sofa_1`.
 fn family_of(object: &str) -> &str {
     object.rsplit_once('_').map_or(object, |(family, _)| family)
+}
+
+/// Small things on the window sill stand within the wall's thickness.
+fn on_the_sill(object: &str, bounds: &Bounds3) -> bool {
+    ["plant", "candlestick"].contains(&family_of(object)) && bounds.min.z > 0.4
 }
 
 fn inner_box(scene: &Scene, boxes: &[Bounds3]) -> Bounds3 {
@@ -100,7 +111,7 @@ fn furniture_stands_inside_and_does_not_run_into_other_furniture() {
         for (part, bounds) in home.scene.parts.iter().zip(&boxes) {
             let object = object_of(&part.name);
             let fixed = ["wall_", "floor_1", "ceiling", "skirting", "window", "door", "switch", "picture", "mirror", "curtain_rod", "radiator"];
-            if fixed.iter().any(|f| object.starts_with(f)) || (object.starts_with("pendant") || object.starts_with("plant")) && bounds.min.z > 0.3 {
+            if fixed.iter().any(|f| object.starts_with(f)) || on_the_sill(object, bounds) {
                 continue;
             }
             let room = Bounds3 { min: inside.min - 0.001, max: inside.max + 0.001 };

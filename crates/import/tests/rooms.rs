@@ -1,7 +1,7 @@
 //! The shared rooms, counted against what their authors state. Skipped unless `ENFILADE_SCENES` names their folder.
 
 use enfilade_import::{ImportOptions, Imported, load};
-use enfilade_scene::{Environment, Quiet};
+use enfilade_scene::{Environment, Part, Quiet, Scene};
 use std::path::PathBuf;
 
 /// The folder of the shared rooms; `None`, with a note, when it is not named.
@@ -57,6 +57,53 @@ fn poly_haven_furniture_has_the_triangles_that_it_states() {
         let imported = import(&folder, &format!("polyhaven-furniture-1k/{name}_1k.gltf"));
         assert_eq!(imported.report.counts.triangles, triangles, "{name}");
         assert!(imported.report.warnings.is_empty(), "{name}");
+    }
+}
+
+/// The same rooms from the renderer's own description and converted to glTF: same parts, cameras and surroundings.
+#[test]
+fn mitsuba_rooms_agree_with_their_gltf() {
+    let Some(folder) = rooms() else { return };
+    for name in ["grey-white-room", "modern-hall"] {
+        let mitsuba = import(&folder, &format!("{name}/mitsuba/scene.xml")).scene;
+        let gltf = import(&folder, &format!("{name}/gltf/scene.gltf")).scene;
+        let names = |s: &Scene| s.parts.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
+        assert_eq!(names(&mitsuba), names(&gltf), "{name}");
+        for (m, g) in mitsuba.parts.iter().zip(&gltf.parts).filter(|(m, _)| !m.name.starts_with("inline")) {
+            let triangles = |s: &Scene, p: &Part| s.meshes[p.mesh as usize].triangles.len();
+            assert_eq!(triangles(&mitsuba, m), triangles(&gltf, g), "{name} {}", m.name);
+            let bounds = |s: &Scene, p: &Part| s.world_corners(p, 0);
+            let difference = (0..3).map(|i| (bounds(&mitsuba, m)[i] - bounds(&gltf, g)[i]).length()).fold(0.0, f32::max);
+            assert!(difference < 1e-4, "{name} {}: {difference}", m.name);
+        }
+        let (a, b) = (&mitsuba.cameras[0], &gltf.cameras[0]);
+        assert!((a.position - b.position).length() < 1e-5 && (a.fov_x_rad - b.fov_x_rad).abs() < 1e-6, "{a:?} {b:?}");
+        assert!((a.world_from_camera - b.world_from_camera).to_cols_array().iter().all(|v| v.abs() < 1e-5), "{a:?} {b:?}");
+        if let (Some(Environment::Map { map_from_world: a, .. }), Some(Environment::Map { map_from_world: b, .. })) =
+            (&mitsuba.environment, &gltf.environment)
+        {
+            assert!((*a - *b).to_cols_array().iter().all(|v| v.abs() < 1e-6), "{a} {b}");
+        }
+        assert_eq!(mitsuba.environment.is_some(), gltf.environment.is_some(), "{name}");
+    }
+}
+
+/// Lamps of the modern hall are disks and rectangles placed by mirrored and rotated matrices: they must shine into the room.
+#[test]
+fn lamps_of_the_modern_hall_shine_along_their_normals() {
+    let Some(folder) = rooms() else { return };
+    let scene = import(&folder, "modern-hall/mitsuba/scene.xml").scene;
+    let lamps: Vec<&Part> = scene.parts.iter().filter(|p| !scene.materials[p.material as usize].emission.factor.is_black()).collect();
+    assert_eq!(lamps.len(), 13);
+    for lamp in lamps {
+        let [a, b, c] = scene.world_corners(lamp, 0);
+        let face = (b - a).cross(c - a);
+        let normal = scene.meshes[lamp.mesh as usize].normals[0].as_dvec3();
+        let world_normal = lamp.world_from_mesh.matrix3.inverse().transpose() * normal;
+        assert!(face.as_dvec3().dot(world_normal) > 0.0, "{}", lamp.name);
+        if lamp.name.starts_with("inline_disk") {
+            assert!(face.z < 0.0, "{} should shine down", lamp.name);
+        }
     }
 }
 

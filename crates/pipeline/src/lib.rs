@@ -13,7 +13,7 @@ mod stages;
 mod workdir;
 
 pub use config::{
-    CameraChoice, Config, ConfigError, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source, demo,
+    CameraChoice, Config, ConfigError, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source, demo, select,
 };
 pub use enfilade_import::UpAxis;
 pub use error::Error;

@@ -5,7 +5,9 @@ use crate::error::Error;
 use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::stages::{Job, STAGES, Stage, StageSpec, advance};
 use crate::workdir::{Workdir, read_json, write_json};
-use enfilade_dataset::{Dataset, ManifestInfo};
+use enfilade_dataset::{CameraEntry, Dataset, FrameStatus, ManifestInfo};
+use enfilade_post::drivers::write_overview;
+use enfilade_post::sheet::SheetConfig;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -90,7 +92,7 @@ impl<'a> Session<'a> {
             for spec in stages {
                 // The manifest is part of what is verified.
                 if spec.stage == Stage::Verify {
-                    self.write_manifest(&outcomes)?;
+                    self.write_manifest(&outcomes, Some(&scene.name))?;
                 }
                 match advance(spec, &job, StageCx::new(&scene.name, spec.stage, reporter), force) {
                     Ok(done) => outcome.stages.push(done),
@@ -104,20 +106,39 @@ impl<'a> Session<'a> {
             }
             outcomes.push(outcome);
         }
-        self.write_manifest(&outcomes)?;
+        self.write_manifest(&outcomes, None)?;
+        if stages.iter().any(|spec| spec.stage == Stage::Preview) {
+            self.write_overview()?;
+        }
         Ok(Summary { scenes: outcomes, wall_s: time.wall_s() })
     }
 
-    /// Writes the manifest of what is on disk, unless it is there already.
-    fn write_manifest(&self, outcomes: &[SceneOutcome]) -> Result<(), Error> {
+    /// Writes the contact sheet of all scenes, unless it is there already: the preview stage removes it.
+    fn write_overview(&self) -> Result<(), Error> {
+        let path = self.dataset.layout().overview();
+        let manifest = self.dataset.read_manifest().map_err(Error::stage)?;
+        let complete = |c: &CameraEntry| c.frames.iter().any(|f| f.status == FrameStatus::Complete);
+        let any_frame = manifest.iter().flat_map(|m| m.scenes.values()).flat_map(|s| s.cameras.values()).any(complete);
+        if any_frame && !path.is_file() {
+            write_overview(&self.dataset, &self.config.name, &SheetConfig::default()).map_err(Error::stage)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the manifest of what is on disk, unless it is there already. The scene `at_work` has not failed (any more).
+    fn write_manifest(&self, outcomes: &[SceneOutcome], at_work: Option<&str>) -> Result<(), Error> {
         let old = self.dataset.read_manifest().unwrap_or_default();
         let mut failed_scenes: BTreeMap<String, String> = BTreeMap::new();
         for (name, entry) in old.iter().flat_map(|m| &m.scenes) {
             failed_scenes.extend(entry.failed.clone().map(|reason| (name.clone(), reason)));
         }
+        for name in outcomes.iter().map(|o| o.name.as_str()).chain(at_work) {
+            failed_scenes.remove(name);
+        }
         for outcome in outcomes {
-            failed_scenes.remove(&outcome.name);
-            failed_scenes.extend(outcome.failure.as_ref().map(|f| (outcome.name.clone(), format!("{}: {}", f.stage.name(), f.message))));
+            // What verification finds is not part of what it is about.
+            let failure = outcome.failure.as_ref().filter(|f| f.stage != Stage::Verify);
+            failed_scenes.extend(failure.map(|f| (outcome.name.clone(), format!("{}: {}", f.stage.name(), f.message))));
         }
         let info = ManifestInfo {
             config: serde_json::to_value(self.config).unwrap_or_default(),

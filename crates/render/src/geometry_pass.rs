@@ -36,11 +36,11 @@ pub(crate) fn pixel_geometry(scene: &RenderScene<'_>, intrinsics: &Intrinsics, p
     let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
     let hit = scene.closest(&ray, Cutout::Half)?;
     let surface = scene.surface(&hit, ray.direction);
-    let distance = exact_distance(scene.world.corners[hit.triangle as usize], origin, direction).unwrap_or(f64::from(hit.t));
+    let triangle = &scene.triangles[hit.triangle as usize];
+    let distance = exact_distance(triangle.corners, origin, direction).unwrap_or(f64::from(hit.t));
     let position = origin + direction * distance;
     let cam_from_world = pose.world_from_camera.transpose();
     let to_camera = |n: Vec3| halves((cam_from_world * n.as_dvec3()).as_vec3());
-    let source = scene.world.sources[hit.triangle as usize];
     Some(PixelGeometry {
         distance_m: distance as f32,
         depth_z_m: (-(cam_from_world * direction).z * distance) as f32,
@@ -50,7 +50,7 @@ pub(crate) fn pixel_geometry(scene: &RenderScene<'_>, intrinsics: &Intrinsics, p
         normal_bump_world: halves(surface.ns),
         normal_bump_cam: to_camera(surface.ns),
         tex_coord: [finite_half(surface.uv.x), finite_half(surface.uv.y), f16::ZERO],
-        entity: (source.part + 1) as i16,
+        entity: (triangle.part + 1) as i16,
     })
 }
 

@@ -17,6 +17,7 @@ mod light;
 mod prepared;
 mod render;
 mod surface;
+mod triangle;
 
 pub use config::RenderConfig;
 pub use error::RenderError;

@@ -3,26 +3,18 @@
 use crate::bsdf::coat::CoatTable;
 use crate::error::RenderError;
 use crate::light::Lights;
+use crate::triangle::{self, Triangle};
 use enfilade_geometry::{Bvh, Hit};
-use enfilade_math::{Bounds3, Mat3, Ray, Rgb, hash_u32};
+use enfilade_math::{Bounds3, Ray, Rgb, hash_u32};
 use enfilade_scene::{Alpha, Bsdf, Cx, Material, Scene, WorldMesh};
 use std::cell::Cell;
-
-/// What the renderer keeps of a part.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PartData {
-    /// Takes the mesh's normals to the world (not normalised).
-    pub normal_from_mesh: Mat3,
-    /// True when the placement mirrors the mesh, so that winding must be read the other way round.
-    pub mirrored: bool,
-}
 
 /// A scene ready to be rendered.
 pub struct RenderScene<'s> {
     pub(crate) scene: &'s Scene,
-    pub(crate) world: WorldMesh,
+    pub(crate) triangles: Vec<Triangle>,
     pub(crate) bvh: Bvh,
-    pub(crate) parts: Vec<PartData>,
+    bounds: Bounds3,
     pub(crate) lights: Lights,
     /// Per material: its coat, if it has a diffuse base under a dielectric.
     pub(crate) coats: Vec<Option<usize>>,
@@ -40,42 +32,26 @@ impl<'s> RenderScene<'s> {
         }
         cx.progress("building the ray-tracing hierarchy", 0, 1);
         let world = WorldMesh::new(scene);
-        let material = |triangle: u32| &scene.materials[scene.parts[world.sources[triangle as usize].part as usize].material as usize];
-        let bvh = Bvh::new(&world.corners, &|triangle| asks_filter(material(triangle)));
-        let parts = scene
-            .parts
-            .iter()
-            .map(|part| {
-                let linear = part.world_from_mesh.matrix3;
-                let mirrored = linear.determinant() < 0.0;
-                PartData { normal_from_mesh: linear.inverse().transpose().as_mat3(), mirrored }
-            })
-            .collect();
+        let triangles = triangle::gather(scene, &world);
+        let filtered: Vec<bool> = scene.materials.iter().map(asks_filter).collect();
+        let bvh = Bvh::new(&world.corners, &|t| filtered[triangles[t as usize].material as usize]);
         let (coats, coat_tables) = coat_tables(&scene.materials);
-        let lights = Lights::new(scene, &world);
+        let lights = Lights::new(scene, &triangles);
         if lights.is_empty() {
             return Err(RenderError::NoLight);
         }
         cx.progress("building the ray-tracing hierarchy", 1, 1);
-        Ok(Self { scene, world, bvh, parts, lights, coats, coat_tables })
+        Ok(Self { scene, triangles, bvh, bounds: world.bounds, lights, coats, coat_tables })
     }
 
     /// The smallest box around the scene.
     pub fn bounds(&self) -> Bounds3 {
-        self.world.bounds
+        self.bounds
     }
 
     /// Number of triangles in world space.
     pub fn triangle_count(&self) -> usize {
-        self.world.corners.len()
-    }
-
-    /// The material of a world triangle.
-    #[inline]
-    pub(crate) fn material_of(&self, triangle: u32) -> (usize, &'s Material) {
-        let part = self.world.sources[triangle as usize].part as usize;
-        let index = self.scene.parts[part].material as usize;
-        (index, &self.scene.materials[index])
+        self.triangles.len()
     }
 
     /// The nearest surface that is there, cut-outs considered. `cut` says how partial opacity is decided.
@@ -106,11 +82,9 @@ impl<'s> RenderScene<'s> {
 
     /// Whether the surface exists at a hit, given its cut-outs.
     pub(crate) fn is_present(&self, hit: &Hit, cut: Cutout) -> bool {
-        let material = self.material_of(hit.triangle).1;
-        let opacity = |p| {
-            let uv = self.texture_coordinates(hit);
-            crate::surface::scalar_at(self.scene, p, uv)
-        };
+        let triangle = &self.triangles[hit.triangle as usize];
+        let material = &self.scene.materials[triangle.material as usize];
+        let opacity = |p| crate::surface::scalar_at(self.scene, p, triangle.uv(hit.weights()));
         match &material.alpha {
             Alpha::Opaque => true,
             Alpha::Mask { opacity: p, cutoff } => opacity(p) >= *cutoff,

@@ -28,57 +28,29 @@ pub(crate) struct Surface<'s> {
 }
 
 impl<'s> RenderScene<'s> {
-    /// Texture coordinates at a hit; zero where the mesh has none.
-    #[inline]
-    pub(crate) fn texture_coordinates(&self, hit: &Hit) -> Vec2 {
-        let source = self.world.sources[hit.triangle as usize];
-        let mesh = &self.scene.meshes[self.scene.parts[source.part as usize].mesh as usize];
-        if mesh.uvs.is_empty() {
-            return Vec2::ZERO;
-        }
-        let [a, b, c] = mesh.triangles[source.triangle as usize].map(|i| mesh.uvs[i as usize]);
-        a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v
-    }
-
     /// The surface at a hit of a ray with the unit direction `direction`.
     pub(crate) fn surface(&self, hit: &Hit, direction: Vec3) -> Surface<'s> {
         let wo = -direction;
-        let source = self.world.sources[hit.triangle as usize];
-        let part = &self.scene.parts[source.part as usize];
-        let data = &self.parts[source.part as usize];
-        let mesh = &self.scene.meshes[part.mesh as usize];
-        let corners = &self.world.corners[hit.triangle as usize];
-        let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
-        let p = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
-
-        // Outward geometric normal: by winding, or on the side of the vertex normals where there are any.
-        let winding = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(wo);
-        let winding = if data.mirrored { -winding } else { winding };
-        let indices = mesh.triangles[source.triangle as usize];
-        let interpolated = if mesh.normals.is_empty() {
-            None
-        } else {
-            let [a, b, c] = indices.map(|i| mesh.normals[i as usize]);
-            (data.normal_from_mesh * (a * weights[0] + b * weights[1] + c * weights[2])).try_normalize()
-        };
-        let outward = match interpolated {
-            Some(n) if n.dot(winding) < 0.0 => -winding,
-            _ => winding,
-        };
+        let triangle = &self.triangles[hit.triangle as usize];
+        let weights = hit.weights();
+        let [a, b, c] = triangle.normals;
+        let winding = triangle.cross().normalize_or(wo);
+        let interpolated = (a * weights[0] + b * weights[1] + c * weights[2]).try_normalize().unwrap_or(winding);
+        // The vertex normals say which side of the face is outside.
+        let outward = if interpolated.dot(winding) < 0.0 { -winding } else { winding };
         let outside = wo.dot(outward) >= 0.0;
         let side = if outside { 1.0 } else { -1.0 };
-        let smooth = interpolated.unwrap_or(outward) * side;
+        let smooth = interpolated * side;
 
-        let material_index = part.material as usize;
+        let material_index = triangle.material as usize;
         let material = &self.scene.materials[material_index];
-        let uv = self.texture_coordinates(hit);
-        let bumped = material.normal_map.as_ref().and_then(|map| {
-            let uvs = if mesh.uvs.is_empty() { return None } else { indices.map(|i| mesh.uvs[i as usize]) };
-            let tangents = tangents(corners, uvs)?;
-            Some(perturbed(self.scene, map, uv, smooth, side, tangents))
-        });
+        let uv = triangle.uv(weights);
+        let bumped = material
+            .normal_map
+            .as_ref()
+            .and_then(|map| Some(perturbed(self.scene, map, uv, smooth, side, tangents(&triangle.corners, triangle.uvs)?)));
         Surface {
-            p,
+            p: triangle.position(weights),
             wo,
             ng: outward * side,
             ns_smooth: facing(smooth, wo),

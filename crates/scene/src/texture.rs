@@ -96,7 +96,11 @@ impl Image {
     /// Linear RGB and alpha of the texel in column `x`, row `y`.
     #[inline]
     pub fn texel(&self, x: usize, y: usize) -> (Rgb, f32) {
-        let index = y * self.width as usize + x;
+        self.at(y * self.width as usize + x)
+    }
+
+    #[inline]
+    fn at(&self, index: usize) -> (Rgb, f32) {
         match &self.pixels {
             Pixels::Rgba8 { srgb, texels } => {
                 let [r, g, b, a] = texels[index];
@@ -120,22 +124,22 @@ impl Image {
         // Texture coordinates of millions of repeats lose their fraction; reduce first, so that the integers below fit.
         let reduce = |v: f32| if v.abs() < 1e6 { v } else { v.fract() };
         let (x, y) = (reduce(uv.x) * w as f32, (1.0 - reduce(uv.y)) * h as f32);
-        let fetch = |x: i32, y: i32| self.texel(texture.wrap[0].index(x, w), texture.wrap[1].index(y, h));
+        let column = |x: i32| texture.wrap[0].index(x, w);
+        let row = |y: i32| texture.wrap[1].index(y, h) * w as usize;
         if texture.filter == Filter::Nearest {
-            return fetch(x.floor() as i32, y.floor() as i32);
+            return self.at(row(y.floor() as i32) + column(x.floor() as i32));
         }
         let (x, y) = (x - 0.5, y - 0.5);
         let (x0, y0) = (x.floor(), y.floor());
         let (fx, fy) = (x - x0, y - y0);
-        let (x0, y0) = (x0 as i32, y0 as i32);
-        let mut rgb = Rgb::BLACK;
-        let mut alpha = 0.0;
-        for (dx, dy, weight) in [(0, 0, (1.0 - fx) * (1.0 - fy)), (1, 0, fx * (1.0 - fy)), (0, 1, (1.0 - fx) * fy), (1, 1, fx * fy)] {
-            let (c, a) = fetch(x0 + dx, y0 + dy);
-            rgb += c * weight;
-            alpha += a * weight;
-        }
-        (rgb, alpha)
+        let (left, right) = (column(x0 as i32), column(x0 as i32 + 1));
+        let (top, bottom) = (row(y0 as i32), row(y0 as i32 + 1));
+        let (c00, a00) = self.at(top + left);
+        let (c10, a10) = self.at(top + right);
+        let (c01, a01) = self.at(bottom + left);
+        let (c11, a11) = self.at(bottom + right);
+        let (w00, w10, w01, w11) = ((1.0 - fx) * (1.0 - fy), fx * (1.0 - fy), (1.0 - fx) * fy, fx * fy);
+        (c00 * w00 + c10 * w10 + c01 * w01 + c11 * w11, a00 * w00 + a10 * w10 + a01 * w01 + a11 * w11)
     }
 }
 

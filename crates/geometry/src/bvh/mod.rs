@@ -60,6 +60,14 @@ impl Kernel {
     }
 }
 
+impl Hit {
+    /// Weights of the three corners.
+    #[inline]
+    pub fn weights(&self) -> [f32; 3] {
+        [1.0 - self.u - self.v, self.u, self.v]
+    }
+}
+
 impl Bvh {
     /// Builds the hierarchy of `corners`, in which triangle i asks the filter of the `_filtered` queries when `filtered(i)`.
     ///

@@ -25,7 +25,7 @@ pub fn picture_frame(width: f32, height: f32, section: &[[f32; 2]]) -> Mesh {
             let v = [across, across + step, across + step, across];
             across += step;
             let uvs = std::array::from_fn(|k| Vec2::new(along(quad[k]), v[k] + 0.23 * corner as f32));
-            push_quad(&mut mesh, quad, uvs, twice_area > 0.0);
+            push_quad(&mut mesh, quad, uvs, twice_area < 0.0);
         }
     }
     mesh.smoothed(20.0)

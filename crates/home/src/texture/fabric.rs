@@ -16,7 +16,7 @@ pub fn weave(name: &str, threads: i32, unevenness: f32, seed: u32) -> Image {
         let (across, along, yarn) = if over { (f.y, f.x, lattice(0, j, seed)) } else { (f.x, f.y, lattice(i, 1, seed)) };
         let round = (across * PI).sin().powf(0.5) * (0.75 + 0.25 * (along * PI).sin());
         let fleck = lattice(i, j, seed ^ 77);
-        let heather = 1.0 + unevenness * (0.9 * (yarn - 0.5) + 0.8 * (fleck - 0.5) + 0.35 * fbm(uv, [6, 6], 3, seed ^ 31));
+        let heather = 1.0 + unevenness * (0.9 * (yarn - 0.5) + 0.8 * (fleck - 0.5) + 0.2 * fbm(uv, [9, 9], 2, seed ^ 31));
         Rgb::splat((0.62 + 0.33 * round) * heather)
     })
 }

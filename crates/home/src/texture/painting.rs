@@ -37,8 +37,9 @@ fn hills(uv: Vec2, colors: &[Rgb; 5], seed: u32) -> Rgb {
     for ridge in 0..5 {
         let depth = ridge as f32 / 4.0;
         let height = 0.62 - 0.11 * ridge as f32 + (0.10 + 0.03 * depth) * fbm(Vec2::new(uv.x, 0.5), [2 + ridge, 2], 4, seed ^ (ridge as u32 + 40));
-        let tone = colors[3].lerp(colors[4], depth).lerp(mist, 0.65 * (1.0 - depth));
-        let haze = mist.lerp(tone, 0.55 + 0.45 * smoothstep(0.0, 0.25, height - uv.y));
+        let tone = colors[3].lerp(colors[4], depth).lerp(mist, 0.5 * (1.0 - depth));
+        // Mist lies in the valleys: every ridge fades towards its foot.
+        let haze = tone.lerp(mist, 0.55 * (1.0 - 0.8 * depth) * smoothstep(0.0, 0.2, height - uv.y));
         color = color.lerp(haze, smoothstep(0.0, 0.006, height - uv.y));
     }
     color

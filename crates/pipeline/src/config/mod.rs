@@ -208,20 +208,14 @@ impl Config {
         Ok(document::resolve(Path::new("demo"), &text, overrides, &|_| None)?)
     }
 
-    /// The scenes whose name matches `pattern`, in which `*` stands for any run of characters and `,` separates alternatives.
+    /// The scenes whose names match `pattern`; see [`select`].
     ///
     /// # Errors
     /// When none does.
     pub fn select(&self, pattern: Option<&str>) -> Result<Vec<&SceneConfig>, Error> {
-        let Some(pattern) = pattern else { return Ok(self.scenes.iter().collect()) };
-        let chosen: Vec<_> = self.scenes.iter().filter(|s| pattern.split(',').any(|p| matches(p.trim(), &s.name))).collect();
-        if chosen.is_empty() {
-            let names: Vec<&str> = self.scenes.iter().map(|s| s.name.as_str()).collect();
-            let proposal = closest(pattern, &names).map_or(String::new(), |n| format!("did you mean {n:?}? "));
-            let hint = format!("{proposal}the scenes are: {}", names.join(", "));
-            return Err(Error::usage(format!("no scene is named {pattern:?}"), hint));
-        }
-        Ok(chosen)
+        let names: Vec<String> = self.scenes.iter().map(|s| s.name.clone()).collect();
+        let chosen = select(&names, pattern)?;
+        Ok(self.scenes.iter().filter(|s| chosen.contains(&s.name)).collect())
     }
 
     /// The file meant by a path of the configuration.
@@ -251,6 +245,23 @@ impl SceneConfig {
 
 fn environment_variable(name: &str) -> Option<String> {
     std::env::var(name).ok()
+}
+
+/// The names of scenes that match `pattern`, in which `*` stands for any run of characters and `,` separates alternatives; all of
+/// them without a pattern.
+///
+/// # Errors
+/// When none does.
+pub fn select(names: &[String], pattern: Option<&str>) -> Result<Vec<String>, Error> {
+    let Some(pattern) = pattern else { return Ok(names.to_vec()) };
+    let chosen: Vec<String> = names.iter().filter(|name| pattern.split(',').any(|p| matches(p.trim(), name))).cloned().collect();
+    if chosen.is_empty() {
+        let known: Vec<&str> = names.iter().map(String::as_str).collect();
+        let proposal = closest(pattern, &known).map_or(String::new(), |n| format!("did you mean {n:?}? "));
+        let hint = format!("{proposal}the scenes are: {}", names.join(", "));
+        return Err(Error::usage(format!("no scene is named {pattern:?}"), hint));
+    }
+    Ok(chosen)
 }
 
 /// Whether `name` fits `pattern`, in which `*` stands for any run of characters.

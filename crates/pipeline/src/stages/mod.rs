@@ -15,7 +15,7 @@ mod verify;
 
 use crate::error::Error;
 use crate::report::{Event, StageCx, StageOutcome, Stopwatch};
-use crate::workdir::{Hash, read_json, write_json};
+use crate::workdir::{Hash, read_json, remove_if_there, write_json};
 use enfilade_scene::Warning;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -197,7 +197,7 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, cx: StageCx, force: bool) -> 
     cx.event(Event::Started);
     let time = Stopwatch::start();
     // From here on the old outputs are about to change, so the old record must not vouch for them.
-    remove_record(&record_path)?;
+    remove_if_there(&record_path)?;
     let outcome = (spec.run)(job, &cx)?;
     let inputs = outcome.inputs.or(inputs).unwrap_or_default();
     let outputs = outcome.outputs.iter().map(|path| output(job, path)).collect::<Result<_, _>>()?;
@@ -231,13 +231,6 @@ fn is_there(path: &Path, bytes: u64) -> bool {
 fn output(job: &Job, path: &Path) -> Result<Output, Error> {
     let bytes = std::fs::metadata(path).map_err(Error::io("read", path))?.len();
     Ok(Output { path: path.strip_prefix(job.out()).unwrap_or(path).into(), bytes })
-}
-
-fn remove_record(path: &Path) -> Result<(), Error> {
-    match std::fs::remove_file(path) {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io("replace", path)(e)),
-        _ => Ok(()),
-    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::{Input, Job, Outcome, Record, Stage, carve};
 use crate::error::Error;
 use crate::report::StageCx;
-use crate::workdir::{Hash, read_json};
+use crate::workdir::{Hash, read_json, remove_if_there};
 use enfilade_explore::{CarveReport, FreeSpace, PlanConfig};
 use enfilade_geometry::OccupancyTree;
 use enfilade_scene::{Cx, Intrinsics, StartCamera, Trajectory, Warning};
@@ -100,7 +100,7 @@ fn remove_other_cameras(job: &Job, trajectories: &[Trajectory]) -> Result<(), Er
         return Ok(());
     }
     let old = job.dataset.cameras(name).map_err(Error::stage)?;
-    std::fs::remove_file(&table).map_err(Error::io("replace", &table))?;
+    remove_if_there(&table)?;
     for camera in old.iter().filter(|camera| trajectories.iter().all(|t| &t.name != *camera)) {
         remove_folder(&layout.camera_dir(name, camera))?;
         let images = layout.images_dir(name);

@@ -70,29 +70,47 @@ impl EnvironmentLight {
     }
 }
 
-/// The sampling grid has at most this many columns, and half as many rows: enough to single out a sun, and small enough to
-/// stay in the cache.
-const MAX_COLUMNS: usize = 1024;
+/// Columns of the sampling grid (rows: half as many). The coarse one stays in a core's cache, which is worth more than its
+/// loss of detail, unless a sun or a lamp fills so little of the sky that a coarse cell would mostly miss it.
+const COARSE: usize = 512;
+const FINE: usize = 1024;
+
+/// The share of all light in a single coarse cell beyond which the fine grid is used.
+const CONCENTRATED: f32 = 0.02;
 
 /// Luminance × solid angle of each cell of the sampling grid, and its number of columns.
-///
-/// Texels are smeared over their neighbours first, because lookups interpolate between texels: wherever radiance is positive,
-/// so must be the density.
 fn cell_weights(image: &Image, scale: Rgb) -> (Vec<f32>, usize) {
+    let texels = texel_weights(image, scale);
+    let coarse = pooled(&texels, image, COARSE);
+    let brightest = coarse.0.iter().fold(0.0f32, |m, &w| m.max(w));
+    if brightest > CONCENTRATED * coarse.0.iter().sum::<f32>() { pooled(&texels, image, FINE) } else { coarse }
+}
+
+/// Sums of texel weights over the cells of a grid of at most `limit` columns.
+fn pooled(texels: &[f32], image: &Image, limit: usize) -> (Vec<f32>, usize) {
+    let (w, h) = (image.width as usize, image.height as usize);
+    let (columns, rows) = (w.min(limit), h.min(limit / 2));
+    let mut cells = vec![0.0; columns * rows];
+    for (i, weight) in texels.iter().enumerate() {
+        cells[(i / w) * rows / h * columns + (i % w) * columns / w] += weight;
+    }
+    (cells, columns)
+}
+
+/// Luminance × solid angle of each texel, smeared over the neighbours, because lookups interpolate between texels: wherever
+/// radiance is positive, so must be the density.
+fn texel_weights(image: &Image, scale: Rgb) -> Vec<f32> {
     let (w, h) = (image.width as usize, image.height as usize);
     let luminance: Vec<f32> = (0..w * h).map(|i| (scale * image.texel(i % w, i / w).0).luminance().max(0.0)).collect();
-    let (columns, rows) = (w.min(MAX_COLUMNS), h.min(MAX_COLUMNS / 2));
-    let mut cells = vec![0.0; columns * rows];
-    for y in 0..h {
-        let solid_angle = ((y as f32 + 0.5) / h as f32 * PI).sin();
-        for x in 0..w {
+    (0..w * h)
+        .map(|i| {
+            let (x, y) = (i % w, i / w);
             let mut sum = 0.0;
             for (dy, row_weight) in [(0usize, 1.0), (1, 2.0), (2, 1.0)] {
                 let row = (y + dy).saturating_sub(1).min(h - 1) * w;
                 sum += row_weight * (luminance[row + (x + w - 1) % w] + 2.0 * luminance[row + x] + luminance[row + (x + 1) % w]);
             }
-            cells[y * rows / h * columns + x * columns / w] += sum * solid_angle;
-        }
-    }
-    (cells, columns)
+            sum * ((y as f32 + 0.5) / h as f32 * PI).sin()
+        })
+        .collect()
 }

@@ -8,9 +8,10 @@ mod environment;
 use environment::EnvironmentLight;
 
 use crate::prepared::{Cutout, RenderScene};
+use crate::triangle::Triangle;
 use enfilade_geometry::Hit;
 use enfilade_math::{Distribution1, Onb, Rgb, Vec3, offset_origin, warp};
-use enfilade_scene::{Alpha, Image, Light, Scene, WorldMesh};
+use enfilade_scene::{Alpha, Image, Light, Scene};
 
 /// Probability of sampling the environment where there are other lights too.
 const ENVIRONMENT_SHARE: f32 = 0.5;
@@ -35,7 +36,7 @@ pub(crate) struct LightSample {
 /// A source, or the emissive triangles of one part.
 #[derive(Debug)]
 enum Group {
-    Mesh { part: u32, first_triangle: u32, by_power: Distribution1, center: Vec3, radius: f32, strength: f32 },
+    Mesh { first_triangle: u32, by_power: Distribution1, center: Vec3, radius: f32, strength: f32 },
     Light { light: Light, strength: f32 },
 }
 
@@ -51,14 +52,14 @@ pub(crate) struct Lights {
 
 impl Lights {
     /// Collects every source.
-    pub fn new(scene: &Scene, world: &WorldMesh) -> Self {
+    pub fn new(scene: &Scene, triangles: &[Triangle]) -> Self {
         let mut lights = Self {
             groups: Vec::new(),
             by_strength: None,
             group_of_part: vec![u32::MAX; scene.parts.len()],
             environment: scene.environment.as_ref().and_then(|e| EnvironmentLight::new(e, &scene.images)),
         };
-        lights.add_emissive_parts(scene, world);
+        lights.add_emissive_parts(scene, triangles);
         for light in &scene.lights {
             let strength = match light {
                 Light::Point { intensity, .. } | Light::Spot { intensity, .. } => intensity.luminance(),
@@ -73,7 +74,7 @@ impl Lights {
         lights
     }
 
-    fn add_emissive_parts(&mut self, scene: &Scene, world: &WorldMesh) {
+    fn add_emissive_parts(&mut self, scene: &Scene, triangles: &[Triangle]) {
         let mut first = 0usize;
         for (part_id, part) in scene.parts.iter().enumerate() {
             let count = scene.meshes[part.mesh as usize].triangles.len();
@@ -86,18 +87,13 @@ impl Lights {
             if radiance <= 0.0 {
                 continue;
             }
-            let area = |t: usize| {
-                let [a, b, c] = world.corners[t];
-                0.5 * (b - a).cross(c - a).length()
-            };
-            let powers: Vec<f32> = range.clone().map(|t| radiance * area(t)).collect();
+            let powers: Vec<f32> = triangles[range.clone()].iter().map(|t| radiance * t.area()).collect();
             let Some(by_power) = Distribution1::new(&powers) else { continue };
-            let corners = || world.corners[range.clone()].iter().flatten();
+            let corners = || triangles[range.clone()].iter().flat_map(|t| &t.corners);
             let center = enfilade_math::Bounds3::from_points(corners().copied()).center();
             let radius = corners().fold(0.0f32, |r, p| r.max(p.distance(center)));
             self.group_of_part[part_id] = self.groups.len() as u32;
             self.groups.push(Group::Mesh {
-                part: part_id as u32,
                 first_triangle,
                 strength: by_power.total() as f32,
                 by_power,
@@ -139,11 +135,10 @@ impl Lights {
     /// Density per solid angle with which [`Lights::sample`] from `from` finds the emissive surface at `hit`, whose geometric
     /// normal is `ng` and which lies in the unit direction `wi`.
     pub fn surface_pdf(&self, scene: &RenderScene<'_>, from: Vec3, wi: Vec3, hit: &Hit, p: Vec3, ng: Vec3) -> f32 {
-        let part = scene.world.sources[hit.triangle as usize].part as usize;
-        let group = self.group_of_part[part];
+        let triangle = &scene.triangles[hit.triangle as usize];
+        let group = self.group_of_part[triangle.part as usize];
         let Some(Group::Mesh { by_power, first_triangle, .. }) = self.groups.get(group as usize) else { return 0.0 };
-        let [a, b, c] = scene.world.corners[hit.triangle as usize];
-        let area = 0.5 * (b - a).cross(c - a).length();
+        let area = triangle.area();
         let cos = ng.dot(wi).abs();
         if area <= 0.0 || cos <= 0.0 {
             return 0.0;
@@ -236,7 +231,7 @@ impl Group {
     /// Samples the group's light at `p`.
     fn sample(&self, scene: &RenderScene<'_>, p: Vec3, u: [f32; 2], wanted: impl Fn(Vec3) -> bool) -> Option<LightSample> {
         match self {
-            Self::Mesh { part, first_triangle, by_power, .. } => sample_mesh(scene, *part, *first_triangle, by_power, p, u, wanted),
+            Self::Mesh { first_triangle, by_power, .. } => sample_mesh(scene, *first_triangle, by_power, p, u, wanted),
             Self::Light { light, .. } => sample_light(light, p, u).filter(|sample| wanted(sample.wi)),
         }
     }
@@ -245,7 +240,6 @@ impl Group {
 /// A point on the emissive triangles of a part, chosen by power, uniform within the triangle.
 fn sample_mesh(
     scene: &RenderScene<'_>,
-    part: u32,
     first_triangle: u32,
     by_power: &Distribution1,
     p: Vec3,
@@ -254,14 +248,13 @@ fn sample_mesh(
 ) -> Option<LightSample> {
     let (index, pmf, renewed) = by_power.sample(u[0]);
     let triangle = first_triangle + index as u32;
-    let corners = &scene.world.corners[triangle as usize];
+    let data = &scene.triangles[triangle as usize];
     let b = warp::triangle([renewed, u[1]]);
-    let q = corners[0] * (1.0 - b.x - b.y) + corners[1] * b.x + corners[2] * b.y;
-    let cross = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    let double_area = cross.length();
+    let q = data.position([1.0 - b.x - b.y, b.x, b.y]);
+    let area = data.area();
     let to_light = q - p;
     let distance_squared = to_light.length_squared();
-    if double_area <= 0.0 || distance_squared <= 0.0 {
+    if area <= 0.0 || distance_squared <= 0.0 {
         return None;
     }
     let wi = to_light / distance_squared.sqrt();
@@ -271,7 +264,7 @@ fn sample_mesh(
     let hit = Hit { t: distance_squared.sqrt(), triangle, u: b.x, v: b.y };
     let surface = scene.surface(&hit, wi);
     let mut radiance = surface.emission(scene);
-    match scene.scene.materials[scene.scene.parts[part as usize].material as usize].alpha {
+    match surface.material.alpha {
         Alpha::Opaque => {}
         Alpha::Mask { .. } => radiance *= if scene.is_present(&hit, Cutout::Half) { 1.0 } else { 0.0 },
         Alpha::Blend { opacity } => radiance *= crate::surface::scalar_at(scene.scene, &opacity, surface.uv).clamp(0.0, 1.0),
@@ -283,7 +276,7 @@ fn sample_mesh(
     if cos <= 0.0 {
         return None;
     }
-    let pdf = pmf / (0.5 * double_area) * distance_squared / cos;
+    let pdf = pmf / area * distance_squared / cos;
     Some(LightSample { wi, target: Some(offset_origin(q, surface.ng)), radiance, pdf, is_delta: false })
 }
 

@@ -1,0 +1,220 @@
+//! Mitsuba features, one small file each.
+
+mod common;
+
+use common::{Folder, png, warnings};
+use enfilade_import::{ImportOptions, Imported};
+use enfilade_math::{DVec3, Rgb, Vec2, Vec3};
+use enfilade_scene::{Alpha, Bsdf, Environment, Filter, Light, Material, NormalMap};
+
+fn load(folder: &Folder, body: &str) -> Imported {
+    folder.write("a.xml", format!("<scene version=\"0.5.0\">{body}</scene>")).load("a.xml").unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The material of a sphere with this bsdf.
+fn material(folder: &Folder, bsdf: &str) -> (Material, String) {
+    let imported = load(folder, &format!("<shape type=\"sphere\">{bsdf}</shape>"));
+    (imported.scene.materials[0].clone(), warnings(&imported))
+}
+
+#[test]
+fn bsdfs_become_materials() {
+    let folder = Folder::new();
+    let bsdf = |text: &str| material(&folder, text).0;
+    let m = bsdf(r#"<bsdf type="diffuse" id="Red"><rgb name="reflectance" value="0.5, 0.1 0.2"/></bsdf>"#);
+    assert_eq!((m.name.as_str(), m.two_sided), ("Red", false));
+    assert_eq!(m.bsdf, Bsdf::Diffuse { reflectance: Rgb::new(0.5, 0.1, 0.2).into() });
+    let m = bsdf(r#"<bsdf type="twosided"><bsdf type="diffuse"><srgb name="reflectance" value="#ff0000"/></bsdf></bsdf>"#);
+    assert!(m.two_sided && m.name == "inline" && m.bsdf == Bsdf::Diffuse { reflectance: Rgb::new(1.0, 0.0, 0.0).into() });
+    let m = bsdf(r#"<bsdf type="roughplastic"><float name="alpha" value="0.3"/><string name="distribution" value="ggx"/>
+        <float name="intIOR" value="1.5"/><float name="extIOR" value="1"/><boolean name="nonlinear" value="true"/></bsdf>"#);
+    assert!(matches!(m.bsdf, Bsdf::Plastic { eta: 1.5, nonlinear: true, alpha, .. } if alpha.factor == 0.3));
+    let m = bsdf(r#"<bsdf type="conductor"><string name="material" value="none"/></bsdf>"#);
+    assert!(matches!(m.bsdf, Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, alpha, .. } if alpha.factor == 0.0));
+    let m = bsdf(r#"<bsdf type="dielectric"><string name="int_ior" value="water"/><float name="ext_ior" value="1"/></bsdf>"#);
+    assert!(matches!(m.bsdf, Bsdf::Dielectric { eta: 1.333, .. }));
+    let m = bsdf(r#"<bsdf type="thindielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf>"#);
+    assert!(matches!(m.bsdf, Bsdf::ThinDielectric { eta: 1.5, .. }));
+    let m = bsdf(r#"<bsdf type="principled"><rgb name="base_color" value="1 0.5 0"/><float name="roughness" value="0.4"/>
+        <float name="metallic" value="0.9"/></bsdf>"#);
+    assert!(matches!(m.bsdf, Bsdf::Principled(p) if p.roughness.factor == 0.4 && p.metallic.factor == 0.9 && (p.ior - 1.5).abs() < 1e-6));
+}
+
+#[test]
+fn guesses_and_gaps_are_reported_with_their_place() {
+    let folder = Folder::new();
+    let report = |text: &str| material(&folder, text).1;
+    let text = report("\n<bsdf type=\"roughconductor\" id=\"M\"><string name=\"material\" value=\"Xx\"/></bsdf>");
+    assert!(text.contains("a.xml line 2:1 <bsdf type=\"roughconductor\" id=\"M\">: the metal \"Xx\" is not known"), "{text}");
+    assert!(text.contains("beckmann distribution was replaced by GGX"), "{text}");
+    assert!(report(r#"<bsdf type="hair"/>"#).contains("hair bsdfs are not supported"));
+    let blend = r#"<bsdf type="blendbsdf"><float name="weight" value="0.8"/><bsdf type="diffuse"/><bsdf type="plastic"/></bsdf>"#;
+    let (m, text) = material(&folder, blend);
+    assert!(matches!(m.bsdf, Bsdf::Plastic { .. }) && text.contains("bsdf 2 of 2"));
+    assert!(report(r#"<bsdf type="diffuse"><float name="wetness" value="1"/></bsdf>"#).contains("<float name=\"wetness\">: ignored in diffuse"));
+    let imported = load(&folder, r#"<shape type="sphere"/><shape type="hair"/><emitter type="laser"/><sensor type="orthographic"/><gizmo/>"#);
+    let text = warnings(&imported);
+    for expected in ["hair shapes", "laser emitters", "orthographic sensors", "<gizmo>: unknown element"] {
+        assert!(text.contains(expected), "{expected} in {text}");
+    }
+}
+
+#[test]
+fn textures_masks_and_bumps() {
+    let folder = Folder::new();
+    folder.write("leaf.png", png(2, 2, [10, 200, 30, 77])).write("grey.png", png(2, 2, [9, 9, 9, 255]));
+    let bitmap = |name: &str, file: &str, more: &str| {
+        format!(r#"<texture type="bitmap" name="{name}"><string name="filename" value="{file}"/>{more}</texture>"#)
+    };
+    let leaf = format!(
+        r#"<bsdf type="mask">{}<bsdf type="twosided"><bsdf type="diffuse">{}</bsdf></bsdf></bsdf>"#,
+        bitmap("opacity", "leaf.png", ""),
+        bitmap("reflectance", "leaf.png", r#"<string name="filterType" value="nearest"/><float name="vscale" value="2"/>"#)
+    );
+    let (m, text) = material(&folder, &leaf);
+    assert!(m.two_sided && text.is_empty(), "{text}");
+    assert!(matches!(m.alpha, Alpha::Blend { opacity } if opacity.texture.unwrap().1 == 3));
+    let Bsdf::Diffuse { reflectance } = &m.bsdf else { panic!("not diffuse") };
+    let t = reflectance.texture.unwrap();
+    // Mitsuba's v = 0 is the top, and stays it under scaling.
+    assert_eq!((t.filter, t.transform(Vec2::new(0.0, 1.0)), t.transform(Vec2::ZERO)), (Filter::Nearest, Vec2::Y, Vec2::new(0.0, -1.0)));
+    let bump = format!(r#"<bsdf type="bumpmap">{}<bsdf type="diffuse"/></bsdf>"#, bitmap("map", "grey.png", ""));
+    assert!(matches!(material(&folder, &bump).0.normal_map, Some(NormalMap::Bump { scale: 1.0, .. })));
+    let normal = bitmap("normalmap", "leaf.png", r#"<boolean name="raw" value="true"/>"#);
+    let normal = format!(r#"<bsdf type="normalmap">{normal}<bsdf type="diffuse"/></bsdf>"#);
+    assert!(matches!(material(&folder, &normal).0.normal_map, Some(NormalMap::Normal { .. })));
+    let rough = bitmap("alpha", "grey.png", "");
+    let rough = format!(r#"<bsdf type="roughconductor"><string name="distribution" value="ggx"/>{rough}</bsdf>"#);
+    assert!(matches!(material(&folder, &rough).0.bsdf, Bsdf::Conductor { alpha, .. } if alpha.texture.is_some()));
+}
+
+#[test]
+fn checkerboards_alternate_from_color0_at_the_top_left() {
+    let folder = Folder::new();
+    let checker = r#"<bsdf type="diffuse"><texture type="checkerboard" name="reflectance"><rgb name="color0" value="1"/>
+        <rgb name="color1" value="0"/><transform name="to_uv"><scale x="2" y="2"/></transform></texture></bsdf>"#;
+    let imported = load(&folder, &format!("<shape type=\"rectangle\">{checker}</shape>"));
+    let Bsdf::Diffuse { reflectance } = &imported.scene.materials[0].bsdf else { panic!("not diffuse") };
+    let image = &imported.scene.images[0];
+    // In Mitsuba's coordinates (v downward): two boards along each edge, each of two squares.
+    let at = |u: f32, v_down: f32| image.sample(&reflectance.texture.unwrap(), Vec2::new(u, 1.0 - v_down)).0;
+    for (u, v, expected) in [(0.1, 0.1, 1.0), (0.3, 0.1, 0.0), (0.3, 0.3, 1.0), (0.6, 0.1, 1.0), (0.1, 0.9, 0.0)] {
+        assert_eq!(at(u, v), Rgb::splat(expected), "{u} {v}");
+    }
+}
+
+#[test]
+fn shapes_are_placed_named_and_face_outward() {
+    let folder = Folder::new();
+    folder.write("models/Chair 1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nvt 0 0\nf 1/1/1 2/1/1 3/1/1\n");
+    let imported = load(
+        &folder,
+        r#"<bsdf type="diffuse" id="Wood"/>
+        <shape type="obj"><string name="filename" value="models/Chair 1.obj"/><ref id="Wood"/></shape>
+        <shape type="obj"><string name="filename" value="models\Chair 1.obj"/><boolean name="faceNormals" value="true"/>
+            <transform name="toWorld"><scale value="2"/><translate x="1"/></transform></shape>
+        <shape type="sphere" id="Ball"><point name="center" x="1" y="2" z="3"/><float name="radius" value="0.5"/><ref id="Wood"/></shape>
+        <shape type="cylinder"><point name="p0" value="0 0 0"/><point name="p1" x="0" y="3" z="0"/><float name="radius" value="0.5"/></shape>
+        <shape type="disk"><boolean name="flipNormals" value="true"/></shape><shape type="cube"/><shape type="rectangle"/>"#,
+    );
+    let scene = &imported.scene;
+    let names: Vec<&str> = scene.parts.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["Wood_Chair 1", "inline_Chair 1", "Ball", "inline_cylinder", "inline_disk", "inline_cube", "inline_rectangle"]);
+    // The front is where the normals point: the triangle was turned round.
+    assert_eq!(scene.meshes[0].triangles, [[0, 2, 1]]);
+    assert!(scene.meshes[1].normals.is_empty());
+    assert_eq!(scene.parts[1].world_from_mesh.transform_point3(DVec3::Y), DVec3::new(1.0, 0.0, 2.0));
+    let ball = scene.parts[2].world_from_mesh.transform_point3(DVec3::X);
+    assert!((ball - DVec3::new(1.5, -3.0, 2.0)).length() < 1e-12, "{ball}");
+    let top = scene.parts[3].world_from_mesh.transform_point3(DVec3::Z);
+    assert!((top - DVec3::new(0.0, 0.0, 3.0)).length() < 1e-12, "{top}");
+    assert_eq!(scene.meshes[scene.parts[4].mesh as usize].normals[0], Vec3::NEG_Z);
+    assert!(imported.report.warnings.is_empty(), "{}", warnings(&imported));
+}
+
+#[test]
+fn instances_share_the_meshes_of_their_group() {
+    let folder = Folder::new();
+    let imported = load(
+        &folder,
+        r#"<shape type="shapegroup" id="tree"><shape type="sphere" id="crown"/><shape type="cube" id="trunk"/></shape>
+        <shape type="instance" id="left"><ref id="tree"/></shape>
+        <shape type="instance"><ref id="tree"/><transform name="toWorld"><translate x="5"/></transform></shape>"#,
+    );
+    let names: Vec<&str> = imported.scene.parts.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["left_crown", "left_trunk", "tree_crown", "tree_trunk"]);
+    assert_eq!(imported.scene.meshes.len(), 2);
+    assert_eq!(imported.scene.parts[2].world_from_mesh.translation, DVec3::new(5.0, 0.0, 0.0));
+}
+
+#[test]
+fn cameras_see_what_mitsuba_sees() {
+    let folder = Folder::new();
+    let film = r#"<film type="hdrfilm"><integer name="width" value="800"/><integer name="height" value="400"/></film>"#;
+    let camera = |fov: &str| {
+        let body = format!(
+            r#"<shape type="cube"/><sensor type="perspective">{fov}{film}<transform name="toWorld">
+            <lookAt origin="0, 1, 5" target="0, 1, 0" up="0, 1, 0"/></transform></sensor>"#
+        );
+        load(&folder, &body).scene.cameras[0].clone()
+    };
+    let c = camera(r#"<float name="fov" value="90"/>"#);
+    assert_eq!((c.position, c.aspect), (DVec3::new(0.0, -5.0, 1.0), 2.0));
+    // Looking along −z of the file, which is +y of the world; right is +x, up +z.
+    assert!((c.world_from_camera.x_axis - DVec3::X).length() < 1e-12 && (c.world_from_camera.z_axis - DVec3::NEG_Y).length() < 1e-12);
+    let half = |fov: &str| (0.5 * camera(fov).fov_x_rad).tan();
+    assert!((half(r#"<float name="fov" value="90"/>"#) - 1.0).abs() < 1e-9);
+    assert!((half(r#"<float name="fov" value="90"/><string name="fovAxis" value="y"/>"#) - 2.0).abs() < 1e-9);
+    assert!((half(r#"<float name="fov" value="90"/><string name="fov_axis" value="diagonal"/>"#) - 2.0 / 5.0f64.sqrt()).abs() < 1e-9);
+    let by_length = half(r#"<string name="focalLength" value="50mm"/>"#);
+    assert!((by_length - 43.266_615_3 / 100.0 * 2.0 / 5.0f64.sqrt()).abs() < 1e-6);
+}
+
+#[test]
+fn emitters_of_all_kinds() {
+    let folder = Folder::new();
+    folder.write("sky.png", png(4, 2, [9, 9, 9, 255]));
+    let body = r#"<shape type="rectangle"><emitter type="area"><rgb name="radiance" value="3"/></emitter></shape>
+        <emitter type="point" id="bulb"><point name="position" x="0" y="2" z="0"/><rgb name="intensity" value="8"/></emitter>
+        <emitter type="spot"><float name="cutoffAngle" value="40"/><spectrum name="intensity" value="2"/></emitter>
+        <emitter type="directional"><vector name="direction" x="0" y="-1" z="0"/><spectrum name="irradiance" value="5"/></emitter>
+        <emitter type="envmap"><string name="filename" value="sky.png"/><float name="scale" value="2"/></emitter>"#;
+    folder.write("a.xml", format!("<scene version=\"2.0.0\">{body}</scene>"));
+    let options = ImportOptions { meters_per_unit: 0.5, ..ImportOptions::default() };
+    let imported = folder.load_with("a.xml", &options).unwrap();
+    let scene = &imported.scene;
+    let lamp = &scene.materials[0];
+    assert_eq!((lamp.emission.factor, lamp.emits_both_sides, lamp.name.as_str()), (Rgb::splat(3.0), false, "inline_emitter"));
+    assert_eq!(scene.lights[0], Light::Point { name: "bulb".into(), position: Vec3::Z, intensity: Rgb::splat(2.0) });
+    assert!(matches!(&scene.lights[1], Light::Spot { direction, inner_rad, .. } if *direction == Vec3::NEG_Y && (inner_rad - 30f32.to_radians()).abs() < 1e-6));
+    assert!(matches!(&scene.lights[2], Light::Directional { direction, .. } if *direction == Vec3::NEG_Z));
+    assert!(matches!(&scene.environment, Some(Environment::Map { scale, .. }) if scale.g == 2.0));
+    let imported = load(&folder, r#"<shape type="cube"/><emitter type="constant"><rgb name="radiance" value="1 2 3"/></emitter>"#);
+    assert_eq!(imported.scene.environment, Some(Environment::Constant { radiance: Rgb::new(1.0, 2.0, 3.0) }));
+}
+
+#[test]
+fn daylight_puts_the_sun_where_the_file_says() {
+    let folder = Folder::new();
+    let body = r#"<shape type="cube"/><emitter type="sunsky"><vector name="sunDirection" x="0" y="1" z="1"/>
+        <float name="turbidity" value="3"/><float name="scale" value="2"/></emitter>"#;
+    let imported = load(&folder, body);
+    let Light::Directional { direction, irradiance, angular_radius_rad, .. } = &imported.scene.lights[0] else { panic!("no sun") };
+    assert!((*direction - Vec3::new(0.0, 0.5f32.sqrt(), -0.5f32.sqrt())).length() < 1e-6);
+    // The sun's spectral irradiance is between one and two W·m⁻²·nm⁻¹; doubled.
+    assert!((1.5..4.0).contains(&irradiance.luminance()) && *angular_radius_rad > 0.004);
+    assert!(matches!(imported.scene.environment, Some(Environment::Map { scale, .. }) if scale.g == 2.0));
+}
+
+#[test]
+fn parameters_aliases_and_includes_are_followed() {
+    let folder = Folder::new();
+    folder.write("materials.xml", r#"<scene version="3.0.0"><bsdf type="diffuse" id="A"><rgb name="reflectance" value="$grey"/></bsdf></scene>"#);
+    let imported = load(
+        &folder,
+        r#"<default name="grey" value="0.25"/><default name="grey" value="0.75"/><include filename="materials.xml"/><alias id="A" as="B"/>
+        <shape type="sphere" id="S"><ref id="B"/></shape>"#,
+    );
+    assert_eq!(imported.scene.materials[0].bsdf, Bsdf::Diffuse { reflectance: Rgb::splat(0.25).into() });
+    assert_eq!(imported.inputs.len(), 2);
+}

@@ -1,0 +1,63 @@
+//! OBJ and MTL features, one small file each.
+
+mod common;
+
+use common::{Folder, png, warnings};
+use enfilade_math::Rgb;
+use enfilade_scene::{Alpha, Bsdf, NormalMap, Wrap};
+
+const TRIANGLES: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
+
+#[test]
+fn groups_and_materials_become_named_parts() {
+    let folder = Folder::new();
+    let text = format!(
+        "mtllib my room.mtl\n{TRIANGLES}o Big Chair\nusemtl Red Wood\nf 1/1 2/2 3/3\nusemtl Steel\nf -3/1 -2/2 -1/3\n\
+         g lamp\nusemtl Steel\nf 1 2 3\nusemtl Unknown\no\nf 1 2 3\n"
+    );
+    folder.write("a.obj", text).write("my room.mtl", "newmtl Red Wood\nKd 0.5 0.1 0.1\nnewmtl Steel\nKd 0 0 0\nKs 0.6 0.6 0.7\nNs 198\n");
+    let imported = folder.load("a.obj").unwrap();
+    let names: Vec<&str> = imported.scene.parts.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["Big Chair.Red Wood", "Big Chair.Steel", "lamp", "Unknown"]);
+    assert_eq!(imported.scene.materials.len(), 3);
+    let wood = Bsdf::Diffuse { reflectance: Rgb::new(0.5, 0.1, 0.1).into() };
+    assert_eq!(imported.scene.materials[0].bsdf, wood);
+    let Bsdf::Conductor { reflectance, alpha, .. } = &imported.scene.materials[1].bsdf else { panic!("no metal") };
+    assert!(reflectance.factor == Rgb::new(0.6, 0.6, 0.7) && (alpha.factor - 0.1).abs() < 1e-6);
+    assert!(warnings(&imported).contains("usemtl Unknown"), "{}", warnings(&imported));
+    assert_eq!(imported.inputs, [folder.path("a.obj"), folder.path("my room.mtl")]);
+}
+
+#[test]
+fn material_keys_are_read() {
+    let folder = Folder::new();
+    let material = |body: &str| {
+        folder.write("m/a.mtl", format!("newmtl M\n{body}"));
+        folder.write("a.obj", format!("mtllib m/a.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n"));
+        folder.load("a.obj").unwrap().scene.materials[0].clone()
+    };
+    folder.write("m/my wood.png", png(2, 2, [10, 20, 30, 128])).write("m/grey.png", png(2, 2, [9, 9, 9, 255]));
+    let m = material("map_Kd -s 2 2 1 -clamp on my wood.png\nKd 0 0 0\nKe 3 3 3\nd 0.5\nmap_Bump -bm 2 grey.png\n");
+    let Bsdf::Diffuse { reflectance } = &m.bsdf else { panic!("not diffuse") };
+    let texture = reflectance.texture.unwrap();
+    assert_eq!((reflectance.factor, texture.wrap, texture.uv_transform[0][0]), (Rgb::WHITE, [Wrap::Clamp; 2], 2.0));
+    assert_eq!(m.emission.factor, Rgb::splat(3.0));
+    assert!(matches!(m.alpha, Alpha::Blend { opacity } if opacity.factor == 0.5));
+    assert!(matches!(m.normal_map, Some(NormalMap::Bump { scale, .. }) if (scale - 0.01).abs() < 1e-6));
+    let m = material("Kd 1 1 1\nPr 0.3\nPm 0.8\nnorm my wood.png\nmap_d my wood.png\n");
+    let Bsdf::Principled(p) = &m.bsdf else { panic!("not principled") };
+    assert_eq!((p.roughness.factor, p.metallic.factor), (0.3, 0.8));
+    assert!(matches!(m.normal_map, Some(NormalMap::Normal { .. })));
+    assert!(matches!(m.alpha, Alpha::Blend { opacity } if opacity.texture.unwrap().1 == 3));
+    assert!(matches!(material("illum 7\nNi 1.33\nTf 1 1 1\n").bsdf, Bsdf::Dielectric { eta: 1.33, .. }));
+    assert!(matches!(material("Kd 1 1 1\nKs 0.5 0.5 0.5\nNs 48\nTr 0\n").bsdf, Bsdf::Plastic { alpha, .. } if alpha.factor == 0.2));
+}
+
+#[test]
+fn a_missing_library_is_a_warning() {
+    let folder = Folder::new();
+    let text = format!("mtllib gone.mtl\n{TRIANGLES}usemtl A\nf 1 2 3\n");
+    let imported = folder.write("a.obj", text).load("a.obj").unwrap();
+    assert!(warnings(&imported).contains("gone.mtl cannot be read"));
+    assert_eq!(imported.scene.materials[0].name, "A");
+}

@@ -1,0 +1,77 @@
+//! What shading needs of a triangle, in one place: two cache lines instead of a walk through part, mesh and three vertices.
+
+use enfilade_math::{Mat3, Vec2, Vec3};
+use enfilade_scene::{Scene, WorldMesh};
+
+/// A triangle in world space with its vertex attributes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Triangle {
+    /// Corners.
+    pub corners: [Vec3; 3],
+    /// Outward normals at the corners (not unit length); the face's, three times, for flat meshes.
+    pub normals: [Vec3; 3],
+    /// Texture coordinates at the corners; zero where the mesh has none.
+    pub uvs: [Vec2; 3],
+    /// The part.
+    pub part: u32,
+    /// The part's material.
+    pub material: u32,
+}
+
+impl Triangle {
+    /// A triangle's corner weights at a hit.
+    #[inline]
+    pub fn position(&self, [a, b, c]: [f32; 3]) -> Vec3 {
+        self.corners[0] * a + self.corners[1] * b + self.corners[2] * c
+    }
+
+    /// Normal by winding times twice the area; its side is that of the corners' order, not always outward.
+    #[inline]
+    pub fn cross(&self) -> Vec3 {
+        (self.corners[1] - self.corners[0]).cross(self.corners[2] - self.corners[0])
+    }
+
+    /// Area in square metres.
+    #[inline]
+    pub fn area(&self) -> f32 {
+        0.5 * self.cross().length()
+    }
+
+    /// Texture coordinates at a hit.
+    #[inline]
+    pub fn uv(&self, [a, b, c]: [f32; 3]) -> Vec2 {
+        self.uvs[0] * a + self.uvs[1] * b + self.uvs[2] * c
+    }
+}
+
+/// Gathers every triangle of the scene, in the order of the world mesh.
+pub(crate) fn gather(scene: &Scene, world: &WorldMesh) -> Vec<Triangle> {
+    let placements: Vec<(Mat3, f32)> = scene
+        .parts
+        .iter()
+        .map(|part| {
+            let linear = part.world_from_mesh.matrix3;
+            // A mirroring placement turns winding round, but not the outside.
+            (linear.inverse().transpose().as_mat3(), if linear.determinant() < 0.0 { -1.0 } else { 1.0 })
+        })
+        .collect();
+    world
+        .corners
+        .iter()
+        .zip(&world.sources)
+        .map(|(&corners, source)| {
+            let part = &scene.parts[source.part as usize];
+            let (normal_from_mesh, winding) = placements[source.part as usize];
+            let mesh = &scene.meshes[part.mesh as usize];
+            let indices = mesh.triangles[source.triangle as usize];
+            let face = (corners[1] - corners[0]).cross(corners[2] - corners[0]) * winding;
+            let normals = if mesh.normals.is_empty() {
+                [face.normalize_or(Vec3::Z); 3]
+            } else {
+                indices.map(|i| (normal_from_mesh * mesh.normals[i as usize]).normalize_or(face.normalize_or(Vec3::Z)))
+            };
+            let uvs = if mesh.uvs.is_empty() { [Vec2::ZERO; 3] } else { indices.map(|i| mesh.uvs[i as usize]) };
+            Triangle { corners, normals, uvs, part: source.part, material: part.material }
+        })
+        .collect()
+}
