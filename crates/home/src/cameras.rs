@@ -7,13 +7,13 @@ use enfilade_scene::{Scene, StartCamera, WorldMesh};
 /// Distance that a camera keeps from every part's box.
 pub const CLEARANCE: f32 = 0.5;
 
-const FOV_X_RAD: f64 = 1.0472;
+const FOV_X_RAD: f64 = std::f64::consts::FRAC_PI_3;
 
 /// Four views across the room, each from the free place nearest to where one would like to stand; a view without one is left out.
 pub fn cameras(scene: &Scene, plan: &Plan) -> Vec<StartCamera> {
     let half = plan.half();
     let views = [
-        ("door", Vec3::new(half.x - 0.62, 0.62 - half.y, 1.45), Vec3::new(-1.1, 0.30, 0.86)),
+        ("door", Vec3::new(half.x - 0.62, 0.62 - half.y, 1.45), Vec3::new(-1.2, 0.16, 0.86)),
         ("window", Vec3::new(half.x - 1.0, half.y - 0.75, 1.5), Vec3::new(-1.2, -0.95, 0.82)),
         ("sofa", Vec3::new(1.0 - half.x, half.y - 0.7, 1.5), Vec3::new(1.5, -0.85, 0.86)),
         ("bookshelf", Vec3::new(-0.45, 0.95 - half.y, 1.4), Vec3::new(0.75, half.y, 0.95)),
@@ -45,7 +45,8 @@ fn free_place(boxes: &[Bounds3], plan: &Plan, wish: Vec3) -> Option<Vec3> {
     let inside = 0.5 * plan.room.size.truncate() - CLEARANCE;
     let mut places: Vec<Vec2> = (-12i32..=12).flat_map(|i| (-12i32..=12).map(move |j| 0.1 * Vec2::new(i as f32, j as f32))).collect();
     places.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-    places.into_iter().map(|d| wish + d.extend(0.0)).find(|p| {
-        p.truncate().abs().cmple(inside).all() && boxes.iter().all(|b| p.distance(p.clamp(b.min, b.max)) >= CLEARANCE)
-    })
+    places
+        .into_iter()
+        .map(|d| wish + d.extend(0.0))
+        .find(|p| p.truncate().abs().cmple(inside).all() && boxes.iter().all(|b| p.distance(p.clamp(b.min, b.max)) >= CLEARANCE))
 }

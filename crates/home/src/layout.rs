@@ -1,6 +1,7 @@
 //! Where things go: a floor plan that only accepts what fits.
 
 use crate::builder::pose;
+use crate::furniture::CONTACT;
 use crate::room::{Room, Wall};
 use enfilade_math::{DAffine3, Vec2, Vec3};
 
@@ -132,7 +133,7 @@ impl Plan {
             return None;
         }
         self.taken.push(footprint);
-        Some(pose(f64::from(footprint.center.x), f64::from(footprint.center.y), 0.0, f64::from(footprint.yaw)))
+        Some(pose(f64::from(footprint.center.x), f64::from(footprint.center.y), f64::from(CONTACT), f64::from(footprint.yaw)))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::builder::Builder;
 use crate::furniture::{
-    Armchair, Basket, BookStack, Bookshelf, Bowl, CONTACT, Candles, Chair, CoffeeTable, Curtains, DiningTable, Door, FloorLamp, Furniture,
+    Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, Chair, CoffeeTable, Curtains, DiningTable, Door, FloorLamp, Furniture,
     Magazines, Mirror, Mug, Pendant, PictureOnWall, Plant, Radiator, Rug, SideTable, Sofa, Switch, TableLamp, TelevisionBench, Tray, Vase,
     Window, on,
 };
@@ -48,7 +48,7 @@ pub fn furnish(b: &mut Builder, plan: &mut Plan, palette: &Palette, default: boo
     Door { hand: if rng.fork(3).below(2) == 0 { -1.0 } else { 1.0 } }.build(b, &room);
     window_side(b, plan, &mut rng.fork(4));
     seating(b, plan, palette, default, &mut rng.fork(5));
-    television_side(b, plan, &mut rng.fork(6));
+    television_side(b, plan, palette, &mut rng.fork(6));
     dining(b, plan, default, &mut rng.fork(7));
     door_side(b, plan, palette, &mut rng.fork(8));
 }
@@ -97,7 +97,7 @@ fn seating(b: &mut Builder, plan: &mut Plan, palette: &Palette, default: bool, r
     let table = if default { CoffeeTable::Shelf { length: 1.08, depth: 0.56 } } else { CoffeeTable::random(rng) };
     let table_u = sofa_front + 0.40 + 0.5 * table.size().y;
     if let Some(pose) = plan.free(Vec2::new(table_u, v), Vec2::X, table.size(), 0.1) {
-        let pose = on(pose, Vec3::new(0.0, 0.0, Rug::TOP + CONTACT), rng.range(-0.02, 0.02));
+        let pose = on(pose, Vec3::new(0.0, 0.0, Rug::TOP), rng.range(-0.02, 0.02));
         table.build(b, pose, rng);
         on_coffee_table(b, &table, pose, rng);
     }
@@ -187,7 +187,7 @@ fn pictures_over_sofa(b: &mut Builder, plan: &Plan, v: f32, palette: &Palette, d
     }
 }
 
-fn television_side(b: &mut Builder, plan: &mut Plan, rng: &mut Rng) {
+fn television_side(b: &mut Builder, plan: &mut Plan, palette: &Palette, rng: &mut Rng) {
     let wall = plan.sofa_wall.turned(2);
     let half = plan.half();
     let bench = TelevisionBench::random(rng);
@@ -199,6 +199,12 @@ fn television_side(b: &mut Builder, plan: &mut Plan, rng: &mut Rng) {
         let side = if rng.below(2) == 0 { 1.0 } else { -1.0 };
         Vase { height: 0.24, belly: 0.075, branches: 5 }.build(b, top(side * beside, 0.0), rng);
         BookStack { count: 2 }.build(b, on(top(-side * beside, -0.02), Vec3::ZERO, rng.range(-0.15, 0.15)), rng);
+    }
+    let free = v - 0.5 * bench.width + half.y;
+    if free > 0.75 {
+        let size = Vec2::new(0.5, 0.7);
+        let picture = PictureOnWall { size, mount: 0.06, style: PaintingStyle::Bands, palette: *palette, black: rng.below(2) == 0 };
+        picture.build(b, plan.hang(wall, Vec2::new(0.0, 0.5 * free - half.y), 1.5), rng);
     }
     let plant = Plant::tall(rng);
     let size = Vec3::new(0.56, 0.56, plant.size().z);
@@ -216,7 +222,8 @@ fn dining(b: &mut Builder, plan: &mut Plan, default: bool, rng: &mut Rng) {
     let table = if default { DiningTable { width: 0.88, round: true } } else { DiningTable::random(rng) };
     let chair = Chair { pad: rng.below(2) == 0 };
     for attempt in 0..10 {
-        let uv = Vec2::new(1.24 - 0.03 * attempt as f32 + rng.range(-0.03, 0.03), half.y - 0.52 - 0.5 * table.width - 0.02 * attempt as f32);
+        let uv =
+            Vec2::new(1.24 - 0.03 * attempt as f32 + rng.range(-0.03, 0.03), half.y - 0.52 - 0.5 * table.width - 0.02 * attempt as f32);
         let Some(pose) = plan.free(uv, Vec2::X, table.size(), 0.3) else { continue };
         table.build(b, pose, rng);
         for (along, pull) in [(-Vec2::X, 0.05), (-Vec2::Y, 0.03), (Vec2::X, 0.01)] {

@@ -42,8 +42,6 @@ pub struct Materials {
     pub bulb: u32,
     pub globe: u32,
     pub switch: u32,
-    /// The woven cloth's picture, for cloths of other colours.
-    pub weave: Paint,
 }
 
 /// Complex indices of refraction at 612, 549 and 465 nm, from Johnson & Christy and Palik by way of refractiveindex.info.
@@ -91,13 +89,8 @@ impl Supplier<'_> {
 
 /// Varnish, lacquer, glaze or plastic: a diffuse body under a clear coat of roughness `alpha`.
 pub fn coated(name: &str, diffuse: impl Into<ColorParam>, alpha: f32) -> Material {
-    let bsdf = Bsdf::Plastic {
-        diffuse: diffuse.into(),
-        eta: 1.5,
-        alpha: ScalarParam::from(alpha),
-        specular: Rgb::WHITE.into(),
-        nonlinear: false,
-    };
+    let bsdf =
+        Bsdf::Plastic { diffuse: diffuse.into(), eta: 1.5, alpha: ScalarParam::from(alpha), specular: Rgb::WHITE.into(), nonlinear: false };
     Material::new(name, bsdf)
 }
 
@@ -148,10 +141,8 @@ impl Materials {
             brass: s.metal("satin brass", metal::BRASS, 0.95, 0.2),
             black_metal: s.coated("black powder coat", Rgb::splat(0.022), 0.3),
             mirror: s.metal("mirror", metal::SILVER, 0.95, 0.0),
-            glass: s.add(Material::new(
-                "window glass",
-                Bsdf::ThinDielectric { eta: 1.52, transmittance: Rgb::new(0.96, 0.975, 0.965).into() },
-            )),
+            glass: s
+                .add(Material::new("window glass", Bsdf::ThinDielectric { eta: 1.52, transmittance: Rgb::new(0.96, 0.975, 0.965).into() })),
             screen: s.coated("screen", Rgb::splat(0.008), 0.06),
             black_plastic: s.coated("black plastic", Rgb::splat(0.025), 0.25),
             stone: s.coated("honed stone", stone.tinted(Rgb::new(0.66, 0.65, 0.62)), 0.2),
@@ -167,7 +158,6 @@ impl Materials {
             bulb: s.add(emitter("bulb", warm * lamp, Rgb::splat(0.5))),
             globe: s.add(emitter("opal globe", blackbody(2900.0) * (0.07 * lamp), Rgb::splat(0.6))),
             switch: s.coated("white plastic", Rgb::splat(0.72), 0.2),
-            weave,
         }
     }
 }

@@ -87,7 +87,9 @@ fn every_part_is_labelled_and_instances_have_no_gaps() {
 fn the_essentials_are_there() {
     for (seed, home) in HOMES.iter().enumerate() {
         let families: BTreeSet<&str> = home.scene.parts.iter().map(|p| family_of(object_of(&p.name))).collect();
-        for family in ["sofa", "coffee_table", "tv_bench", "television", "rug", "window", "door", "curtain", "bookshelf", "books", "picture"] {
+        for family in
+            ["sofa", "coffee_table", "tv_bench", "television", "rug", "window", "door", "curtain", "bookshelf", "books", "picture"]
+        {
             assert!(families.contains(family), "seed {seed} has no {family}");
         }
         let materials = &home.scene.materials;
@@ -110,7 +112,8 @@ fn furniture_stands_inside_and_does_not_run_into_other_furniture() {
         let mut big: BTreeMap<&str, Vec<Bounds3>> = BTreeMap::new();
         for (part, bounds) in home.scene.parts.iter().zip(&boxes) {
             let object = object_of(&part.name);
-            let fixed = ["wall_", "floor_1", "ceiling", "skirting", "window", "door", "switch", "picture", "mirror", "curtain_rod", "radiator"];
+            let fixed =
+                ["wall_", "floor_1", "ceiling", "skirting", "window", "door", "switch", "picture", "mirror", "curtain_rod", "radiator"];
             if fixed.iter().any(|f| object.starts_with(f)) || on_the_sill(object, bounds) {
                 continue;
             }

@@ -31,7 +31,8 @@ pub(crate) struct Assembly<'a> {
     warnings: Warnings<'a>,
     inputs: Vec<PathBuf>,
     images: BTreeMap<(String, Use), Option<u32>>,
-    names: HashSet<String>,
+    part_names: HashSet<String>,
+    camera_names: HashSet<String>,
     reversed: HashMap<u32, u32>,
     labels: Vec<ImportedLabel>,
     world_from_file: DAffine3,
@@ -53,7 +54,8 @@ impl<'a> Assembly<'a> {
             warnings: Warnings::new(cx),
             inputs: Vec::new(),
             images: BTreeMap::new(),
-            names: HashSet::new(),
+            part_names: HashSet::new(),
+            camera_names: HashSet::new(),
             reversed: HashMap::new(),
             labels: Vec::new(),
             world_from_file: DAffine3::from_mat3(axes * options.meters_per_unit),
@@ -107,11 +109,8 @@ impl<'a> Assembly<'a> {
     }
 
     fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
-        let bytes = std::fs::read(file).map_err(|source| ImportError::Read {
-            file: file.to_path_buf(),
-            source,
-            remedy: remedy.to_string(),
-        })?;
+        let bytes =
+            std::fs::read(file).map_err(|source| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() })?;
         if !self.inputs.iter().any(|i| i == file) {
             self.inputs.push(file.to_path_buf());
         }
@@ -133,6 +132,9 @@ impl<'a> Assembly<'a> {
             Source::Embedded(place, _) => place.clone(),
         };
         if let Some(&found) = self.images.get(&(key.clone(), usage)) {
+            if found.is_none() {
+                self.warn(user, format!("the texture {key} is missing here as well; a plain grey stands in"));
+            }
             return Ok(found);
         }
         let decoded = match source {
@@ -218,7 +220,7 @@ impl<'a> Assembly<'a> {
             return;
         }
         let mesh = if determinant < 0.0 { self.reversed(mesh) } else { mesh };
-        let name = unique(&mut self.names, name);
+        let name = unique(&mut self.part_names, name);
         if label != PartLabel::NONE {
             self.labels.push(ImportedLabel { part: self.scene.parts.len() as u32, label });
         }
@@ -237,14 +239,14 @@ impl<'a> Assembly<'a> {
         index
     }
 
-    /// Adds a camera by its placement in the file (x right, y up, z backward) and horizontal field of view.
+    /// Adds a camera by its placement in the file (x right, y up, z backward) and horizontal field of view, under a unique name.
     pub(crate) fn push_camera(&mut self, name: &str, file_from_camera: DAffine3, fov_x_rad: f64, aspect: f64) {
         let placement = self.world_from_file * file_from_camera;
         let axes = orthonormal(placement.matrix3.y_axis, placement.matrix3.z_axis);
         let plausible = fov_x_rad > 0.0 && fov_x_rad < std::f64::consts::PI && aspect > 0.0 && aspect.is_finite();
         match axes {
             Some(world_from_camera) if plausible && placement.translation.is_finite() => {
-                let name = name.to_string();
+                let name = unique(&mut self.camera_names, name);
                 let position = placement.translation;
                 self.scene.cameras.push(StartCamera { name, position, world_from_camera, fov_x_rad, aspect });
             }

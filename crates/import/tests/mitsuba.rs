@@ -24,10 +24,12 @@ fn bsdfs_become_materials() {
     let m = bsdf(r#"<bsdf type="diffuse" id="Red"><rgb name="reflectance" value="0.5, 0.1 0.2"/></bsdf>"#);
     assert_eq!((m.name.as_str(), m.two_sided), ("Red", false));
     assert_eq!(m.bsdf, Bsdf::Diffuse { reflectance: Rgb::new(0.5, 0.1, 0.2).into() });
-    let m = bsdf(r#"<bsdf type="twosided"><bsdf type="diffuse"><srgb name="reflectance" value="#ff0000"/></bsdf></bsdf>"#);
+    let m = bsdf(r##"<bsdf type="twosided"><bsdf type="diffuse"><srgb name="reflectance" value="#ff0000"/></bsdf></bsdf>"##);
     assert!(m.two_sided && m.name == "inline" && m.bsdf == Bsdf::Diffuse { reflectance: Rgb::new(1.0, 0.0, 0.0).into() });
-    let m = bsdf(r#"<bsdf type="roughplastic"><float name="alpha" value="0.3"/><string name="distribution" value="ggx"/>
-        <float name="intIOR" value="1.5"/><float name="extIOR" value="1"/><boolean name="nonlinear" value="true"/></bsdf>"#);
+    let m = bsdf(
+        r#"<bsdf type="roughplastic"><float name="alpha" value="0.3"/><string name="distribution" value="ggx"/>
+        <float name="intIOR" value="1.5"/><float name="extIOR" value="1"/><boolean name="nonlinear" value="true"/></bsdf>"#,
+    );
     assert!(matches!(m.bsdf, Bsdf::Plastic { eta: 1.5, nonlinear: true, alpha, .. } if alpha.factor == 0.3));
     let m = bsdf(r#"<bsdf type="conductor"><string name="material" value="none"/></bsdf>"#);
     assert!(matches!(m.bsdf, Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, alpha, .. } if alpha.factor == 0.0));
@@ -35,8 +37,10 @@ fn bsdfs_become_materials() {
     assert!(matches!(m.bsdf, Bsdf::Dielectric { eta: 1.333, .. }));
     let m = bsdf(r#"<bsdf type="thindielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf>"#);
     assert!(matches!(m.bsdf, Bsdf::ThinDielectric { eta: 1.5, .. }));
-    let m = bsdf(r#"<bsdf type="principled"><rgb name="base_color" value="1 0.5 0"/><float name="roughness" value="0.4"/>
-        <float name="metallic" value="0.9"/></bsdf>"#);
+    let m = bsdf(
+        r#"<bsdf type="principled"><rgb name="base_color" value="1 0.5 0"/><float name="roughness" value="0.4"/>
+        <float name="metallic" value="0.9"/></bsdf>"#,
+    );
     assert!(matches!(m.bsdf, Bsdf::Principled(p) if p.roughness.factor == 0.4 && p.metallic.factor == 0.9 && (p.ior - 1.5).abs() < 1e-6));
 }
 
@@ -51,8 +55,11 @@ fn guesses_and_gaps_are_reported_with_their_place() {
     let blend = r#"<bsdf type="blendbsdf"><float name="weight" value="0.8"/><bsdf type="diffuse"/><bsdf type="plastic"/></bsdf>"#;
     let (m, text) = material(&folder, blend);
     assert!(matches!(m.bsdf, Bsdf::Plastic { .. }) && text.contains("bsdf 2 of 2"));
-    assert!(report(r#"<bsdf type="diffuse"><float name="wetness" value="1"/></bsdf>"#).contains("<float name=\"wetness\">: ignored in diffuse"));
-    let imported = load(&folder, r#"<shape type="sphere"/><shape type="hair"/><emitter type="laser"/><sensor type="orthographic"/><gizmo/>"#);
+    assert!(
+        report(r#"<bsdf type="diffuse"><float name="wetness" value="1"/></bsdf>"#).contains("<float name=\"wetness\">: ignored in diffuse")
+    );
+    let imported =
+        load(&folder, r#"<shape type="sphere"/><shape type="hair"/><emitter type="laser"/><sensor type="orthographic"/><gizmo/>"#);
     let text = warnings(&imported);
     for expected in ["hair shapes", "laser emitters", "orthographic sensors", "<gizmo>: unknown element"] {
         assert!(text.contains(expected), "{expected} in {text}");
@@ -186,7 +193,9 @@ fn emitters_of_all_kinds() {
     let lamp = &scene.materials[0];
     assert_eq!((lamp.emission.factor, lamp.emits_both_sides, lamp.name.as_str()), (Rgb::splat(3.0), false, "inline_emitter"));
     assert_eq!(scene.lights[0], Light::Point { name: "bulb".into(), position: Vec3::Z, intensity: Rgb::splat(2.0) });
-    assert!(matches!(&scene.lights[1], Light::Spot { direction, inner_rad, .. } if *direction == Vec3::NEG_Y && (inner_rad - 30f32.to_radians()).abs() < 1e-6));
+    assert!(
+        matches!(&scene.lights[1], Light::Spot { direction, inner_rad, .. } if *direction == Vec3::NEG_Y && (inner_rad - 30f32.to_radians()).abs() < 1e-6)
+    );
     assert!(matches!(&scene.lights[2], Light::Directional { direction, .. } if *direction == Vec3::NEG_Z));
     assert!(matches!(&scene.environment, Some(Environment::Map { scale, .. }) if scale.g == 2.0));
     let imported = load(&folder, r#"<shape type="cube"/><emitter type="constant"><rgb name="radiance" value="1 2 3"/></emitter>"#);
@@ -209,7 +218,10 @@ fn daylight_puts_the_sun_where_the_file_says() {
 #[test]
 fn parameters_aliases_and_includes_are_followed() {
     let folder = Folder::new();
-    folder.write("materials.xml", r#"<scene version="3.0.0"><bsdf type="diffuse" id="A"><rgb name="reflectance" value="$grey"/></bsdf></scene>"#);
+    folder.write(
+        "materials.xml",
+        r#"<scene version="3.0.0"><bsdf type="diffuse" id="A"><rgb name="reflectance" value="$grey"/></bsdf></scene>"#,
+    );
     let imported = load(
         &folder,
         r#"<default name="grey" value="0.25"/><default name="grey" value="0.75"/><include filename="materials.xml"/><alias id="A" as="B"/>

@@ -116,7 +116,11 @@ fn the_sky_of_the_classroom_is_above_it() {
     let sky = &scene.images[*image as usize];
     let brightness = |d: enfilade_math::Vec3| {
         let uv = enfilade_scene::uv_from_direction(*map_from_world * d);
-        sky.texel((uv.x * sky.width as f32) as usize % sky.width as usize, ((uv.y * sky.height as f32) as usize).min(sky.height as usize - 1)).0
+        sky.texel(
+            (uv.x * sky.width as f32) as usize % sky.width as usize,
+            ((uv.y * sky.height as f32) as usize).min(sky.height as usize - 1),
+        )
+        .0
     };
     let (above, below) = (brightness(enfilade_math::Vec3::new(0.1, 0.1, 0.99)), brightness(enfilade_math::Vec3::new(0.1, 0.1, -0.99)));
     assert!(above.luminance() > below.luminance(), "{above:?} {below:?}");

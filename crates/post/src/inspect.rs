@@ -78,9 +78,8 @@ pub fn inspect(frame: &Frame, intrinsics: &Intrinsics, pose: &Pose, names: Names
     let name = |list: &[String]| entity.and_then(|part| list.get(part).cloned());
     let direction = pose.world_from_camera * intrinsics.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).normalize();
     let position = frame.get(Layer::Position).map(|v| DVec3::new(v.get(3 * pixel), v.get(3 * pixel + 1), v.get(3 * pixel + 2)));
-    let projects_to = position
-        .filter(|p| p.is_finite())
-        .map(|p| intrinsics.project(pose.world_from_camera.transpose() * (p - pose.position)));
+    let projects_to =
+        position.filter(|p| p.is_finite()).map(|p| intrinsics.project(pose.world_from_camera.transpose() * (p - pose.position)));
     let layer_value = |(layer, values): (Layer, &enfilade_frame::Values)| {
         let spec = layer.spec();
         let channels = pixel * spec.channels..(pixel + 1) * spec.channels;

@@ -115,8 +115,7 @@ pub(crate) fn pixel_of(frame: &Frame, part: i16) -> usize {
 /// A scene whose parts have the names of the analytic frame's; their shapes do not matter.
 pub(crate) fn scene() -> enfilade_scene::Scene {
     use enfilade_math::{DAffine3, Rgb, Vec3};
-    let mesh =
-        enfilade_geometry::Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Default::default() };
+    let mesh = enfilade_geometry::Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Default::default() };
     let part = |name: &str| enfilade_scene::Part { name: name.into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
     enfilade_scene::Scene {
         meshes: vec![mesh],

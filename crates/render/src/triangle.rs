@@ -46,25 +46,18 @@ impl Triangle {
 
 /// Gathers every triangle of the scene, in the order of the world mesh.
 pub(crate) fn gather(scene: &Scene, world: &WorldMesh) -> Vec<Triangle> {
-    let placements: Vec<(Mat3, f32)> = scene
-        .parts
-        .iter()
-        .map(|part| {
-            let linear = part.world_from_mesh.matrix3;
-            // A mirroring placement turns winding round, but not the outside.
-            (linear.inverse().transpose().as_mat3(), if linear.determinant() < 0.0 { -1.0 } else { 1.0 })
-        })
-        .collect();
+    let normal_placements: Vec<Mat3> =
+        scene.parts.iter().map(|part| part.world_from_mesh.matrix3.inverse().transpose().as_mat3()).collect();
     world
         .corners
         .iter()
         .zip(&world.sources)
         .map(|(&corners, source)| {
             let part = &scene.parts[source.part as usize];
-            let (normal_from_mesh, winding) = placements[source.part as usize];
+            let normal_from_mesh = normal_placements[source.part as usize];
             let mesh = &scene.meshes[part.mesh as usize];
             let indices = mesh.triangles[source.triangle as usize];
-            let face = (corners[1] - corners[0]).cross(corners[2] - corners[0]) * winding;
+            let face = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
             let normals = if mesh.normals.is_empty() {
                 [face.normalize_or(Vec3::Z); 3]
             } else {

@@ -16,7 +16,8 @@ pub struct Part {
     pub mesh: u32,
     /// Index into `Scene::materials`.
     pub material: u32,
-    /// Places the mesh in the world.
+    /// Places the mesh in the world. Triangles are counter-clockwise seen from outside once placed, so a placement that mirrors
+    /// goes with a mesh wound the other way.
     pub world_from_mesh: DAffine3,
 }
 

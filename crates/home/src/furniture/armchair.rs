@@ -1,4 +1,4 @@
-use super::{Furniture, board, grained};
+use super::{Furniture, board, grained, standing};
 use crate::builder::{Builder, Class};
 use crate::shape::{Reshape, padded_box, rounded_box, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -36,8 +36,8 @@ impl Furniture for Armchair {
         for (side, s) in [("left", -1.0), ("right", 1.0)] {
             let front = [Vec3::new(s * half, 0.30, 0.0), Vec3::new(s * half, 0.27, ARM_HEIGHT - 0.012)];
             let back = [Vec3::new(s * half, -0.37, 0.0), Vec3::new(s * half, -0.25, ARM_HEIGHT - 0.028)];
-            b.part(&chair, &format!("leg_front_{side}"), grained(tube(&front, 0.017, 16), rng), wood);
-            b.part(&chair, &format!("leg_back_{side}"), grained(tube(&back, 0.017, 16), rng), wood);
+            b.part(&chair, &format!("leg_front_{side}"), grained(standing(tube(&front, 0.017, 16)), rng), wood);
+            b.part(&chair, &format!("leg_back_{side}"), grained(standing(tube(&back, 0.017, 16)), rng), wood);
             let rest = rounded_box(Vec3::new(0.06, 0.66, 0.026), 0.011, 3).turned(Vec3::X, 0.03);
             b.part(&chair, &format!("armrest_{side}"), grained(rest.moved(Vec3::new(s * half, 0.01, ARM_HEIGHT)), rng), wood);
             let rail = board([s * half - 0.011, -0.30, 0.245], [s * half + 0.011, 0.28, 0.295], 0.004).turned(Vec3::X, 0.06);

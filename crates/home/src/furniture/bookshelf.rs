@@ -84,7 +84,7 @@ fn ornament(b: &mut Builder, pose: DAffine3, radius: f32, rng: &mut Rng) {
 }
 
 /// One book in its own space: spine at y = 0 facing +y, standing on z = 0, from x = 0 to its thickness. `cell` picks its jacket.
-pub fn book(thickness: f32, depth: f32, height: f32, cell: usize) -> Mesh {
+fn book(thickness: f32, depth: f32, height: f32, cell: usize) -> Mesh {
     const COVER: f32 = 0.0022;
     let inset = 0.003;
     let boxed = |min: [f32; 3], max: [f32; 3]| board(min, max, 0.0007);

@@ -1,4 +1,4 @@
-use super::{Furniture, grained};
+use super::{Furniture, grained, standing};
 use crate::builder::{Builder, Class};
 use crate::shape::{Reshape, grid, rounded_box, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -22,12 +22,18 @@ impl Furniture for Chair {
         let chair = b.object("chair", Class::Chair, pose);
         let wood = b.materials.wood;
         let seat = rounded_box(Vec3::new(0.43, 0.41, 0.024), 0.011, 3)
-            .deformed(|p| Vec3::new(p.x * (1.0 + 0.16 * p.y), p.y, p.z - 0.018 * (1.0 - (p.x / 0.215).powi(2)).max(0.0) * (1.0 - (p.y / 0.205).powi(2)).max(0.0)))
+            .deformed(|p| {
+                Vec3::new(
+                    p.x * (1.0 + 0.16 * p.y),
+                    p.y,
+                    p.z - 0.018 * (1.0 - (p.x / 0.215).powi(2)).max(0.0) * (1.0 - (p.y / 0.205).powi(2)).max(0.0),
+                )
+            })
             .smoothed(40.0);
         b.part(&chair, "seat", grained(seat.moved(Vec3::new(0.0, 0.02, SEAT)), rng), wood);
         for (side, s) in [("left", -1.0), ("right", 1.0)] {
             let front = [Vec3::new(s * 0.20, 0.21, 0.0), Vec3::new(s * 0.175, 0.175, SEAT - 0.006)];
-            b.part(&chair, &format!("leg_front_{side}"), grained(tube(&front, 0.0145, 14), rng), wood);
+            b.part(&chair, &format!("leg_front_{side}"), grained(standing(tube(&front, 0.0145, 14)), rng), wood);
             let back = [
                 Vec3::new(s * 0.195, -0.225, 0.0),
                 Vec3::new(s * 0.178, -0.175, 0.40),
@@ -35,7 +41,7 @@ impl Furniture for Chair {
                 Vec3::new(s * 0.182, -0.195, 0.62),
                 Vec3::new(s * 0.186, -0.217, 0.72),
             ];
-            b.part(&chair, &format!("leg_back_{side}"), grained(tube(&back, 0.0135, 14), rng), wood);
+            b.part(&chair, &format!("leg_back_{side}"), grained(standing(tube(&back, 0.0135, 14)), rng), wood);
             let rail = [Vec3::new(s * 0.187, 0.193, 0.22), Vec3::new(s * 0.187, -0.199, 0.20)];
             b.part(&chair, &format!("stretcher_{side}"), grained(tube(&rail, 0.008, 10), rng), wood);
         }

@@ -1,5 +1,5 @@
 use super::dining_table::round_top;
-use super::{Furniture, board, grained, leg, on};
+use super::{Furniture, board, grained, leg, on, standing};
 use crate::builder::{Builder, Class};
 use crate::shape::{Reshape, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -54,7 +54,7 @@ impl CoffeeTable {
         for i in 0..4 {
             let out = Vec2::from_angle(0.4 + i as f32 * std::f32::consts::FRAC_PI_2);
             let p = |r: f32, z: f32| (out * r * radius).extend(z);
-            b.part(table, &format!("leg_{}", i + 1), tube(&[p(0.82, 0.0), p(0.70, TOP - 0.0222)], 0.011, 12), metal);
+            b.part(table, &format!("leg_{}", i + 1), standing(tube(&[p(0.82, 0.0), p(0.70, TOP - 0.0222)], 0.011, 12)), metal);
         }
         let ring: Vec<Vec3> =
             (0..=48).map(|k| (Vec2::from_angle(k as f32 / 48.0 * std::f32::consts::TAU) * 0.76 * radius).extend(0.19)).collect();

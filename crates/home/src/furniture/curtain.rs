@@ -31,8 +31,10 @@ impl Curtains {
         for (name, s) in [("left", -1.0), ("right", 1.0)] {
             b.part(&object, &format!("finial_{name}"), sphere(0.023, 20).moved(Vec3::new(s * (half + 0.012), OUT, rod_z)), metal);
             let x = s * (half - 0.03);
-            let flange = lathe(&[[0.0, 0.0], [0.028, 0.0], [0.028, 0.006], [0.0, 0.006]].map(Vec2::from_array), 24).turned(Vec3::X, -std::f32::consts::FRAC_PI_2);
-            let bracket = tube(&[Vec3::new(x, 0.004, rod_z), Vec3::new(x, OUT - 0.011, rod_z)], 0.007, 12).with(flange.moved(Vec3::new(x, -0.0005, rod_z)));
+            let flange = lathe(&[[0.0, 0.0], [0.028, 0.0], [0.028, 0.006], [0.0, 0.006]].map(Vec2::from_array), 24)
+                .turned(Vec3::X, -std::f32::consts::FRAC_PI_2);
+            let bracket = tube(&[Vec3::new(x, 0.004, rod_z), Vec3::new(x, OUT - 0.011, rod_z)], 0.007, 12)
+                .with(flange.moved(Vec3::new(x, -0.0005, rod_z)));
             b.part(&object, &format!("bracket_{name}"), bracket, metal);
             self.hang(b, super::on(pose, Vec3::new(s * (half - 0.065 - 0.5 * self.width), OUT, rod_z), 0.0), rod_z, rng);
         }

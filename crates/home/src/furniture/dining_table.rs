@@ -34,11 +34,7 @@ impl Furniture for DiningTable {
         let table = b.object("dining_table", Class::Table, pose);
         let half = 0.5 * self.width;
         let wood = b.materials.wood;
-        let top = if self.round {
-            round_top(half, 0.028)
-        } else {
-            board([-half, -half, -0.028], [half, half, 0.0], 0.004)
-        };
+        let top = if self.round { round_top(half, 0.028) } else { board([-half, -half, -0.028], [half, half, 0.0], 0.004) };
         b.part(&table, "top", grained(top.moved(Vec3::new(0.0, 0.0, TOP)), rng), wood);
         let stand = if self.round { 0.56 * half } else { half - 0.06 };
         for (i, s) in [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)].into_iter().enumerate() {
@@ -58,7 +54,8 @@ impl Furniture for DiningTable {
 
 /// A round board with a chamfered edge, its surface at z = 0; the grain runs along x.
 pub fn round_top(radius: f32, thickness: f32) -> enfilade_geometry::Mesh {
-    let profile = [[0.0, -thickness], [radius - 0.02, -thickness], [radius - 0.002, -0.009], [radius, -0.006], [radius - 0.004, 0.0], [0.0, 0.0]];
+    let profile =
+        [[0.0, -thickness], [radius - 0.02, -thickness], [radius - 0.002, -0.009], [radius, -0.006], [radius - 0.004, 0.0], [0.0, 0.0]];
     let mut mesh = lathe(&profile.map(Vec2::from_array), 72);
     for (uv, p) in mesh.uvs.iter_mut().zip(&mesh.positions) {
         *uv = Vec2::new(p.x, p.y + p.z);

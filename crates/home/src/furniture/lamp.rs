@@ -1,4 +1,4 @@
-use super::{CONTACT, Furniture};
+use super::{CONTACT, Furniture, standing};
 use crate::builder::{Builder, Class, Object};
 use crate::shape::{Reshape, lathe, rounded_loop, sphere, tube};
 use enfilade_geometry::Mesh;
@@ -56,9 +56,17 @@ impl FloorLamp {
         for k in 0..3 {
             let out = Vec2::from_angle(0.3 + k as f32 * std::f32::consts::TAU / 3.0);
             let path = [(out * 0.27).extend(0.0), (out * 0.025).extend(joint - 0.07)];
-            b.part(lamp, &format!("leg_{}", k + 1), tube(&path, 0.0125, 14), b.materials.wood);
+            b.part(lamp, &format!("leg_{}", k + 1), standing(tube(&path, 0.0125, 14)), b.materials.wood);
         }
-        let hub = [[0.0, joint - 0.11], [0.036, joint - 0.11], [0.038, joint - 0.105], [0.038, joint - 0.06], [0.012, joint - 0.05], [0.010, joint], [0.0, joint]];
+        let hub = [
+            [0.0, joint - 0.11],
+            [0.036, joint - 0.11],
+            [0.038, joint - 0.105],
+            [0.038, joint - 0.06],
+            [0.012, joint - 0.05],
+            [0.010, joint],
+            [0.0, joint],
+        ];
         b.part(lamp, "hub", lathe(&hub.map(Vec2::from_array), 24), b.materials.brass);
     }
 }
@@ -75,7 +83,16 @@ impl Furniture for FloorLamp {
         let bottom = self.height - drum_height;
         let socket = bottom + 0.055;
         self.stand(b, &lamp, socket);
-        b.part(&lamp, "socket", lathe(&[[0.0, 0.0], [0.02, 0.0], [0.02, 0.05], [0.0, 0.05]].map(Vec2::from_array), 20).moved(Vec3::new(0.0, 0.0, socket - 0.0002)), b.materials.black_metal);
+        b.part(
+            &lamp,
+            "socket",
+            lathe(&[[0.0, 0.0], [0.02, 0.0], [0.02, 0.05], [0.0, 0.05]].map(Vec2::from_array), 20).moved(Vec3::new(
+                0.0,
+                0.0,
+                socket - 0.0002,
+            )),
+            b.materials.black_metal,
+        );
         b.part(&lamp, "carrier", carrier(self.shade - 0.003, socket + 0.004), b.materials.steel);
         b.part(&lamp, "bulb", sphere(0.036, 24).moved(Vec3::new(0.0, 0.0, socket + 0.05 + 0.0358)), b.materials.bulb);
         b.part(&lamp, "shade", drum(self.shade, 0.86 * self.shade, drum_height).moved(Vec3::new(0.0, 0.0, bottom)), b.materials.lampshade);
@@ -97,7 +114,16 @@ impl Furniture for TableLamp {
     fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
         let lamp = b.object("table_lamp", Class::Lamp, pose);
         let foot = 0.62 * self.globe;
-        let profile = [[0.0, 0.0], [foot, 0.0], [foot + 0.002, 0.003], [foot, 0.012], [0.6 * foot, 0.02], [0.5 * foot, 0.052], [0.46 * foot, 0.056], [0.0, 0.056]];
+        let profile = [
+            [0.0, 0.0],
+            [foot, 0.0],
+            [foot + 0.002, 0.003],
+            [foot, 0.012],
+            [0.6 * foot, 0.02],
+            [0.5 * foot, 0.052],
+            [0.46 * foot, 0.056],
+            [0.0, 0.056],
+        ];
         b.part(&lamp, "foot", lathe(&profile.map(Vec2::from_array), 40).moved(Vec3::new(0.0, 0.0, CONTACT)), b.materials.brass);
         let sunk = self.globe - (self.globe * self.globe - (0.46 * foot).powi(2)).sqrt();
         b.part(&lamp, "globe", sphere(self.globe, 40).moved(Vec3::new(0.0, 0.0, 0.0565 + self.globe - sunk)), b.materials.globe);
@@ -138,6 +164,11 @@ impl Furniture for Pendant {
         outside.push(Vec2::new(r, rim));
         b.part(&lamp, "bell", lathe(&outside, 56), b.materials.ceramics[0]);
         b.part(&lamp, "bulb", sphere(0.045, 24).moved(Vec3::new(0.0, 0.0, rim + 0.45 * bell)), b.materials.globe);
-        b.part(&lamp, "socket", tube(&[Vec3::new(0.0, 0.0, rim + 0.45 * bell + 0.043), Vec3::new(0.0, 0.0, rim + bell - 0.0022)], 0.016, 16), b.materials.black_plastic);
+        b.part(
+            &lamp,
+            "socket",
+            tube(&[Vec3::new(0.0, 0.0, rim + 0.45 * bell + 0.043), Vec3::new(0.0, 0.0, rim + bell - 0.0022)], 0.016, 16),
+            b.materials.black_plastic,
+        );
     }
 }

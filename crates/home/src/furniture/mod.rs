@@ -29,7 +29,7 @@ pub use curtain::Curtains;
 pub use dining_table::DiningTable;
 pub use door::Door;
 pub use lamp::{FloorLamp, Pendant, TableLamp};
-pub use ornament::{Basket, Bowl, BookStack, Candles, Magazines, Mug, Switch, Tray, Vase};
+pub use ornament::{Basket, BookStack, Bowl, Candles, Magazines, Mug, Switch, Tray, Vase};
 pub use plant::Plant;
 pub use radiator::Radiator;
 pub use rug::Rug;
@@ -70,6 +70,12 @@ pub fn leg(height: f32, radii: [f32; 2], splay: Vec2) -> Mesh {
     let rim = 0.25 * foot;
     let profile = [[0.0, 0.0], [foot - rim, 0.0], [foot, rim], [top, height], [0.0, height]].map(Vec2::from_array);
     lathe(&profile, 16).deformed(|p| p + (splay * (1.0 - p.z / height)).extend(0.0)).smoothed(40.0)
+}
+
+/// Cuts off what reaches below the floor: the slanting end of a leg.
+pub fn standing(mut mesh: Mesh) -> Mesh {
+    mesh.positions.iter_mut().for_each(|p| p.z = p.z.max(0.0));
+    mesh
 }
 
 /// The pose of something that stands at `at` in another thing's space, turned by `yaw`.

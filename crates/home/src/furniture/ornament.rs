@@ -1,6 +1,6 @@
 //! Small things on tables, shelves and sills.
 
-use super::bookshelf::{book, pile_of_books};
+use super::bookshelf::pile_of_books;
 use super::{CONTACT, Furniture, board, grained};
 use crate::builder::{Builder, Class};
 use crate::shape::{Reshape, lathe, leaf, rounded_box, spline, tube};
@@ -31,7 +31,15 @@ impl Furniture for Vase {
         let neck = rng.range(0.30, 0.5);
         let shoulder = rng.range(0.45, 0.62);
         let outside = spline(
-            &[[0.55 * r, 0.0], [0.72 * r, 0.06 * h], [0.97 * r, 0.30 * h], [r, shoulder * 0.8 * h], [0.72 * r, (shoulder + 0.18) * h], [neck * r, 0.88 * h], [(neck + 0.06) * r, h]],
+            &[
+                [0.55 * r, 0.0],
+                [0.72 * r, 0.06 * h],
+                [0.97 * r, 0.30 * h],
+                [r, shoulder * 0.8 * h],
+                [0.72 * r, (shoulder + 0.18) * h],
+                [neck * r, 0.88 * h],
+                [(neck + 0.06) * r, h],
+            ],
             6,
         );
         let mut profile = vec![Vec2::ZERO];
@@ -80,7 +88,9 @@ impl Furniture for Bowl {
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let bowl = b.object("bowl", Class::OtherProp, pose);
         let r = self.radius;
-        let curve = |wall: f32| spline(&[[0.42 * r, wall], [0.72 * r - wall, 0.12 * r + 0.6 * wall], [0.92 * r - wall, 0.28 * r], [r - wall, 0.45 * r]], 5);
+        let curve = |wall: f32| {
+            spline(&[[0.42 * r, wall], [0.72 * r - wall, 0.12 * r + 0.6 * wall], [0.92 * r - wall, 0.28 * r], [r - wall, 0.45 * r]], 5)
+        };
         let mut profile = vec![Vec2::ZERO];
         profile.extend(curve(0.0));
         profile.extend(curve(0.004).into_iter().rev());
@@ -100,7 +110,18 @@ impl Furniture for Mug {
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let mug = b.object("mug", Class::OtherProp, pose);
-        let profile = [[0.0, 0.0], [0.035, 0.0], [0.0395, 0.006], [0.041, 0.05], [0.041, 0.09], [0.0395, 0.0915], [0.038, 0.09], [0.0375, 0.012], [0.034, 0.007], [0.0, 0.007]];
+        let profile = [
+            [0.0, 0.0],
+            [0.035, 0.0],
+            [0.0395, 0.006],
+            [0.041, 0.05],
+            [0.041, 0.09],
+            [0.0395, 0.0915],
+            [0.038, 0.09],
+            [0.0375, 0.012],
+            [0.034, 0.007],
+            [0.0, 0.007],
+        ];
         let handle: Vec<Vec3> = (0..=12)
             .map(|k| {
                 let (sin, cos) = (std::f32::consts::PI * (k as f32 / 12.0 - 0.5)).sin_cos();
@@ -138,7 +159,12 @@ impl Furniture for Magazines {
                 *uv = q / Vec2::new(BOOK_COLUMNS as f32, 4.0);
             }
             let z = CONTACT + 0.0025 + i as f32 * 0.0055;
-            b.part(&pile, &format!("issue_{}", i + 1), mesh.turned(Vec3::Z, rng.range(-0.25, 0.25)).moved(Vec3::new(0.0, 0.0, z)), b.materials.books);
+            b.part(
+                &pile,
+                &format!("issue_{}", i + 1),
+                mesh.turned(Vec3::Z, rng.range(-0.25, 0.25)).moved(Vec3::new(0.0, 0.0, z)),
+                b.materials.books,
+            );
         }
     }
 }
@@ -157,7 +183,6 @@ impl Furniture for BookStack {
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         pile_of_books(b, pose, self.count, rng);
-        let _ = book;
     }
 }
 
@@ -178,11 +203,26 @@ impl Furniture for Candles {
         for i in 0..self.count {
             let h = rng.range(0.07, 0.13);
             let x = 0.085 * (i as f32 - 0.5 * (self.count - 1) as f32);
-            let foot = [[0.0, 0.0], [0.034, 0.0], [0.036, 0.004], [0.03, 0.009], [0.007, 0.014], [0.006, h - 0.018], [0.016, h - 0.012], [0.016, h], [0.0, h]];
+            let foot = [
+                [0.0, 0.0],
+                [0.034, 0.0],
+                [0.036, 0.004],
+                [0.03, 0.009],
+                [0.007, 0.014],
+                [0.006, h - 0.018],
+                [0.016, h - 0.012],
+                [0.016, h],
+                [0.0, h],
+            ];
             let at = Vec3::new(x, 0.01 * (i as f32), CONTACT);
             b.part(&candles, &format!("foot_{}", i + 1), lathe(&foot.map(Vec2::from_array), 24).moved(at), b.materials.brass);
             let wax = [[0.0, 0.0], [0.0095, 0.0], [0.0095, 0.13], [0.007, 0.134], [0.0, 0.133]];
-            b.part(&candles, &format!("wax_{}", i + 1), lathe(&wax.map(Vec2::from_array), 18).moved(at + Vec3::new(0.0, 0.0, h - 0.0002)), b.materials.paper);
+            b.part(
+                &candles,
+                &format!("wax_{}", i + 1),
+                lathe(&wax.map(Vec2::from_array), 18).moved(at + Vec3::new(0.0, 0.0, h - 0.0002)),
+                b.materials.paper,
+            );
         }
     }
 }
@@ -207,7 +247,16 @@ impl Furniture for Tray {
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let tray = b.object("tray", Class::OtherProp, pose);
         let r = self.radius;
-        let profile = [[0.0, 0.0], [r - 0.006, 0.0], [r, 0.004], [r, 0.026], [r - 0.003, 0.028], [r - 0.006, 0.026], [r - 0.007, 0.0085], [0.0, 0.0085]];
+        let profile = [
+            [0.0, 0.0],
+            [r - 0.006, 0.0],
+            [r, 0.004],
+            [r, 0.026],
+            [r - 0.003, 0.028],
+            [r - 0.006, 0.026],
+            [r - 0.007, 0.0085],
+            [0.0, 0.0085],
+        ];
         let mut mesh = lathe(&profile.map(Vec2::from_array), 56);
         for (uv, p) in mesh.uvs.iter_mut().zip(&mesh.positions) {
             *uv = Vec2::new(p.x, p.y + p.z);
@@ -239,7 +288,12 @@ impl Furniture for Basket {
         b.part(&basket, "weave", lathe(&profile, 48).moved(Vec3::new(0.0, 0.0, CONTACT)), b.materials.wicker);
         let cloth = crate::shape::padded_box(Vec3::new(1.22 * r, 1.0 * r, 0.20), 0.05, 0.03).uv_moved(Vec2::splat(rng.next_f32()));
         let blanket = b.object("blanket", Class::OtherProp, pose);
-        b.part(&blanket, "cloth", cloth.turned(Vec3::X, 0.1).turned(Vec3::Z, 0.5).moved(Vec3::new(0.0, 0.0, 0.265)), b.materials.accents[1]);
+        b.part(
+            &blanket,
+            "cloth",
+            cloth.turned(Vec3::X, 0.1).turned(Vec3::Z, 0.5).moved(Vec3::new(0.0, 0.0, 0.265)),
+            b.materials.accents[1],
+        );
     }
 }
 

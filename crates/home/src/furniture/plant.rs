@@ -22,7 +22,13 @@ pub struct Plant {
 impl Plant {
     /// A rubber tree for a corner.
     pub fn tall(rng: &mut Rng) -> Self {
-        Self { pot: rng.range(0.28, 0.33), radius: rng.range(0.15, 0.175), stem: rng.range(0.85, 1.1), leaves: 13, leaf: rng.range(0.22, 0.26) }
+        Self {
+            pot: rng.range(0.28, 0.33),
+            radius: rng.range(0.15, 0.175),
+            stem: rng.range(0.85, 1.1),
+            leaves: 13,
+            leaf: rng.range(0.22, 0.26),
+        }
     }
 
     /// A small plant for a shelf or sill.
@@ -41,7 +47,9 @@ impl Plant {
             let height = self.stem * [1.0, 0.8, 0.6][s] * rng.range(0.95, 1.05);
             let spread = rng.range(0.05, 0.12);
             let sway = rng.range(-0.03, 0.03);
-            let point = |t: f32| (out * (0.3 * self.radius + spread * t * t) + out.perp() * sway * (4.0 * t).sin()).extend(soil - 0.01 + height * t);
+            let point = |t: f32| {
+                (out * (0.3 * self.radius + spread * t * t) + out.perp() * sway * (4.0 * t).sin()).extend(soil - 0.01 + height * t)
+            };
             let path: Vec<Vec3> = (0..=12).map(|i| point(i as f32 / 12.0)).collect();
             b.part(plant, &format!("stem_{}", s + 1), tube(&path, 0.0075 - 0.001 * s as f32, 10), b.materials.bark);
             let mut twigs: Option<enfilade_geometry::Mesh> = None;
@@ -100,8 +108,23 @@ impl Furniture for Plant {
         let plant = b.object("plant", Class::OtherProp, pose);
         let (h, r) = (self.pot, self.radius);
         let wall = 0.05 * r + 0.003;
-        let profile = [[0.0, 0.0], [0.70 * r, 0.0], [0.74 * r, 0.01 * h], [0.98 * r, 0.9 * h], [r, h], [r - 0.4 * wall, h + 0.002], [r - wall, h - 0.002], [0.9 * r - wall, 0.6 * h], [0.0, 0.6 * h]];
-        b.part(&plant, "pot", lathe(&profile.map(Vec2::from_array), 48).moved(Vec3::new(0.0, 0.0, CONTACT)), b.materials.ceramics[rng.below(2)]);
+        let profile = [
+            [0.0, 0.0],
+            [0.70 * r, 0.0],
+            [0.74 * r, 0.01 * h],
+            [0.98 * r, 0.9 * h],
+            [r, h],
+            [r - 0.4 * wall, h + 0.002],
+            [r - wall, h - 0.002],
+            [0.9 * r - wall, 0.6 * h],
+            [0.0, 0.6 * h],
+        ];
+        b.part(
+            &plant,
+            "pot",
+            lathe(&profile.map(Vec2::from_array), 48).moved(Vec3::new(0.0, 0.0, CONTACT)),
+            b.materials.ceramics[rng.below(2)],
+        );
         let soil_radius = (r - wall) - 0.1 * r * (0.03 / (0.4 * h)).min(1.0);
         b.part(&plant, "soil", disk(soil_radius, 40).moved(Vec3::new(0.0, 0.0, h - 0.03)), b.materials.soil);
         if self.stem > 0.0 {

@@ -34,7 +34,13 @@ impl Furniture for Radiator {
             |i, j| {
                 let t = j as f32 / 4.0;
                 let swell = if j == 0 || j == 4 { 0.0 } else { 0.5 - 0.5 * (i as f32 / 6.0 * TAU).cos() };
-                let z = if j == 1 { low + 0.025 } else if j == 3 { high - 0.025 } else { low + (high - low) * t };
+                let z = if j == 1 {
+                    low + 0.025
+                } else if j == 3 {
+                    high - 0.025
+                } else {
+                    low + (high - low) * t
+                };
                 Vec3::new(half - 2.0 * half * i as f32 / nu as f32, 0.0372 + 0.008 * swell, z)
             },
             |i, j| Vec2::new(i as f32 * 0.01, j as f32 * 0.1),
@@ -43,7 +49,12 @@ impl Furniture for Radiator {
         let grille = rounded_box(Vec3::new(w - 0.004, 0.075, 0.012), 0.004, 2).moved(Vec3::new(0.0, 0.004, FOOT + h + 0.0055));
         b.part(&radiator, "grille", grille, white);
         let x = 0.5 * w;
-        let pipe = [Vec3::new(x - 0.01, 0.01, FOOT + 0.06), Vec3::new(x + 0.03, 0.01, FOOT + 0.06), Vec3::new(x + 0.036, 0.01, FOOT + 0.054), Vec3::new(x + 0.036, 0.01, -0.001)];
+        let pipe = [
+            Vec3::new(x - 0.01, 0.01, FOOT + 0.06),
+            Vec3::new(x + 0.03, 0.01, FOOT + 0.06),
+            Vec3::new(x + 0.036, 0.01, FOOT + 0.054),
+            Vec3::new(x + 0.036, 0.01, -0.001),
+        ];
         b.part(&radiator, "pipe", tube(&pipe, 0.008, 12), white);
         let valve = tube(&[Vec3::new(x + 0.005, 0.01, FOOT + h - 0.06), Vec3::new(x + 0.06, 0.01, FOOT + h - 0.06)], 0.019, 18);
         b.part(&radiator, "valve", valve, b.materials.switch);

@@ -1,7 +1,7 @@
 use super::{CONTACT, Furniture};
 use crate::builder::{Builder, Class};
-use crate::shape::rounded_box;
 use crate::shape::Reshape;
+use crate::shape::rounded_box;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
 /// A rectangular rug, its long side along x.

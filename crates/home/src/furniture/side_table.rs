@@ -1,5 +1,5 @@
 use super::dining_table::round_top;
-use super::{Furniture, grained};
+use super::{Furniture, grained, standing};
 use crate::builder::{Builder, Class};
 use crate::shape::{Reshape, lathe, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -33,13 +33,23 @@ impl Furniture for SideTable {
         b.part(&table, "top", grained(round_top(radius, 0.02).moved(Vec3::new(0.0, 0.0, self.height)), rng), b.materials.wood);
         if self.pedestal {
             let h = self.height - 0.0195;
-            let profile = [[0.0, 0.0], [0.15, 0.0], [0.153, 0.004], [0.15, 0.009], [0.03, 0.016], [0.014, 0.03], [0.014, h - 0.02], [0.05, h], [0.0, h]];
+            let profile = [
+                [0.0, 0.0],
+                [0.15, 0.0],
+                [0.153, 0.004],
+                [0.15, 0.009],
+                [0.03, 0.016],
+                [0.014, 0.03],
+                [0.014, h - 0.02],
+                [0.05, h],
+                [0.0, h],
+            ];
             b.part(&table, "foot", lathe(&profile.map(Vec2::from_array), 40), b.materials.black_metal);
         } else {
             for i in 0..3 {
                 let out = Vec2::from_angle(0.5 + i as f32 * std::f32::consts::TAU / 3.0) * radius;
                 let path = [(out * 0.92).extend(0.0), (out * 0.55).extend(self.height - 0.0195)];
-                b.part(&table, &format!("leg_{}", i + 1), grained(tube(&path, 0.013, 14), rng), b.materials.wood);
+                b.part(&table, &format!("leg_{}", i + 1), grained(standing(tube(&path, 0.013, 14)), rng), b.materials.wood);
             }
         }
     }

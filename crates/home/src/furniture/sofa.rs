@@ -141,7 +141,13 @@ impl Sofa {
             let (s, t) = (i as f32 / nu as f32, j as f32 / nv as f32);
             let p = section(s);
             let ripple = 0.004 * (1.0 + (t * 19.0 + phase + 1.5 * s).sin()) * (2.0 * (s - 0.45)).abs().min(1.0);
-            let out = if p.x < 0.0 && p.y < top - round { -ripple } else if p.y < top - round { ripple } else { 0.0 };
+            let out = if p.x < 0.0 && p.y < top - round {
+                -ripple
+            } else if p.y < top - round {
+                ripple
+            } else {
+                0.0
+            };
             let y = (t - 0.5) * width * (1.0 + 0.05 * (s - 0.5)) + 0.02 * (s * 2.0 + phase).sin();
             Vec3::new(side * (p.x + out), side * y, p.y + 0.3 * ripple)
         };

@@ -50,7 +50,8 @@ impl TelevisionBench {
                 0.0015,
             );
             b.part(&cabinet, &format!("door_{i}"), grained(door, rng), fronts);
-            let knob = leg(0.022, [0.011, 0.007], Vec2::ZERO).moved(Vec3::new(0.0, 0.0, -0.022)).turned(Vec3::X, std::f32::consts::FRAC_PI_2);
+            let knob =
+                leg(0.022, [0.011, 0.007], Vec2::ZERO).moved(Vec3::new(0.0, 0.0, -0.022)).turned(Vec3::X, std::f32::consts::FRAC_PI_2);
             let at = Vec3::new(x - x.signum() * (0.5 * third - 0.045), front - 0.0012, TOP - 0.075);
             b.part(&cabinet, &format!("knob_{i}"), knob.moved(at), b.materials.brass);
             let wall = 0.5 * third * x.signum();
@@ -64,7 +65,12 @@ impl TelevisionBench {
             b.part_at(&cabinet, &format!("leg_{}", i + 1), leg(LEG - 0.0002, [0.013, 0.02], s * 0.03), at, wood);
         }
         let player = b.object("player", Class::OtherProp, on(pose, Vec3::new(0.02, 0.02, 0.326 + CONTACT), 0.01));
-        b.part(&player, "housing", rounded_box(Vec3::new(0.36, 0.26, 0.055), 0.004, 2).moved(Vec3::new(0.0, 0.0, 0.0275)), b.materials.black_plastic);
+        b.part(
+            &player,
+            "housing",
+            rounded_box(Vec3::new(0.36, 0.26, 0.055), 0.004, 2).moved(Vec3::new(0.0, 0.0, 0.0275)),
+            b.materials.black_plastic,
+        );
     }
 
     fn television(&self, b: &mut Builder, pose: DAffine3) {
@@ -72,13 +78,26 @@ impl TelevisionBench {
         let (half, height) = (0.5 * self.screen, self.screen * 9.0 / 16.0 + 0.012);
         let bottom = 0.062;
         let black = b.materials.black_plastic;
-        b.part(&tv, "housing", rounded_box(Vec3::new(self.screen, 0.035, height), 0.004, 2).moved(Vec3::new(0.0, 0.0, bottom + 0.5 * height)), black);
-        b.part(&tv, "back", rounded_box(Vec3::new(0.6 * self.screen, 0.04, 0.6 * height), 0.012, 2).moved(Vec3::new(0.0, -0.03, bottom + 0.4 * height)), black);
+        b.part(
+            &tv,
+            "housing",
+            rounded_box(Vec3::new(self.screen, 0.035, height), 0.004, 2).moved(Vec3::new(0.0, 0.0, bottom + 0.5 * height)),
+            black,
+        );
+        b.part(
+            &tv,
+            "back",
+            rounded_box(Vec3::new(0.6 * self.screen, 0.04, 0.6 * height), 0.012, 2).moved(Vec3::new(0.0, -0.03, bottom + 0.4 * height)),
+            black,
+        );
         let glass = board([-half + 0.007, 0.0165, bottom + 0.018], [half - 0.007, 0.0185, bottom + height - 0.007], 0.0006);
         b.part(&tv, "screen", glass, b.materials.screen);
         for (name, x) in [("foot_left", -0.62 * half), ("foot_right", 0.62 * half)] {
-            let foot = board([x - 0.011, -0.11, 0.0], [x + 0.011, 0.11, 0.008], 0.002)
-                .with(board([x - 0.009, -0.012, 0.0082], [x + 0.009, 0.012, bottom + 0.01], 0.002));
+            let foot = board([x - 0.011, -0.11, 0.0], [x + 0.011, 0.11, 0.008], 0.002).with(board(
+                [x - 0.009, -0.012, 0.0082],
+                [x + 0.009, 0.012, bottom + 0.01],
+                0.002,
+            ));
             b.part(&tv, name, foot, black);
         }
     }

@@ -53,13 +53,18 @@ impl Window {
             b.part(&window, &format!("pane_{name}"), pane, b.materials.glass);
             if i + 1 < self.sashes {
                 let m = x + 0.5 * (cell + MULLION);
-                let post = board([m - 0.5 * MULLION - 0.001, PANE - 0.038, -0.5 * size.y - 0.001], [m + 0.5 * MULLION + 0.001, PANE + 0.028, 0.5 * size.y + 0.001], 0.002);
+                let post = board(
+                    [m - 0.5 * MULLION - 0.001, PANE - 0.038, -0.5 * size.y - 0.001],
+                    [m + 0.5 * MULLION + 0.001, PANE + 0.028, 0.5 * size.y + 0.001],
+                    0.002,
+                );
                 b.part(&window, &format!("mullion_{name}"), post, white);
             }
             let hand = if i * 2 < self.sashes { -1.0 } else { 1.0 };
             let at = Vec3::new(x + hand * (0.5 * sash.x - 0.5 * SASH), PANE + 0.0478, -0.08 * size.y);
             let rose = rounded_box(Vec3::new(0.026, 0.012, 0.065), 0.004, 2).moved(at + Vec3::new(0.0, 0.006, 0.0));
-            let neck = leg(0.034, [0.008, 0.008], Vec2::ZERO).turned(Vec3::X, -std::f32::consts::FRAC_PI_2).moved(at + Vec3::new(0.0, 0.010, 0.0));
+            let neck =
+                leg(0.034, [0.008, 0.008], Vec2::ZERO).turned(Vec3::X, -std::f32::consts::FRAC_PI_2).moved(at + Vec3::new(0.0, 0.010, 0.0));
             let lever = rounded_box(Vec3::new(0.018, 0.012, 0.125), 0.005, 3).moved(at + Vec3::new(0.0, 0.046, -0.05));
             b.part(&window, &format!("handle_{name}"), rose.with(neck).with(lever), b.materials.steel);
         }

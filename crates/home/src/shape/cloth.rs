@@ -57,11 +57,8 @@ pub fn leaf(length: f32, width: f32, droop: f32) -> Mesh {
         let across = 0.5 * width * outline * t;
         let angle = droop * s;
         // The midrib is an arc whose slope turns by `droop` on its way.
-        let (x, z) = if droop.abs() < 1e-3 {
-            (length * s, 0.0)
-        } else {
-            (length * angle.sin() / droop, length * (angle.cos() - 1.0) / droop)
-        };
+        let (x, z) =
+            if droop.abs() < 1e-3 { (length * s, 0.0) } else { (length * angle.sin() / droop, length * (angle.cos() - 1.0) / droop) };
         let fold = 0.22 * across.abs() + 0.006 * outline * (9.0 * s + 2.0 * t).sin();
         Vec3::new(x + fold * angle.sin(), across, z + fold * angle.cos())
     };

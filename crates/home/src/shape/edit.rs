@@ -64,8 +64,7 @@ impl Reshape for Mesh {
             let own = faces[t].normalize_or(Vec3::Z);
             let corners = triangle.map(|i| {
                 let p = self.positions[i as usize];
-                let sum: Vec3 =
-                    around[&key(p)].iter().map(|&f| faces[f]).filter(|f| f.normalize_or(Vec3::Z).dot(own) > cos_crease).sum();
+                let sum: Vec3 = around[&key(p)].iter().map(|&f| faces[f]).filter(|f| f.normalize_or(Vec3::Z).dot(own) > cos_crease).sum();
                 let normal = sum.normalize_or(own);
                 *known.entry((i, normal.to_array().map(|v| (v * 4096.0).round() as i32))).or_insert_with(|| {
                     mesh.positions.push(p);

@@ -12,9 +12,8 @@ pub fn picture_frame(width: f32, height: f32, section: &[[f32; 2]]) -> Mesh {
         let [inset, y] = section[point % section.len()];
         Vec3::new(sx * (0.5 * width - inset), y, sz * (0.5 * height - inset))
     };
-    let twice_area: f32 = (0..section.len())
-        .map(|i| Vec2::from_array(section[i]).perp_dot(Vec2::from_array(section[(i + 1) % section.len()])))
-        .sum();
+    let twice_area: f32 =
+        (0..section.len()).map(|i| Vec2::from_array(section[i]).perp_dot(Vec2::from_array(section[(i + 1) % section.len()]))).sum();
     let mut mesh = Mesh::default();
     for corner in 0..4 {
         let mut across = 0.0;

@@ -67,7 +67,7 @@ mod tests {
         let shapes = [
             ("bevelled box", bevelled_box(Vec3::new(0.4, 0.3, 0.2), 0.01), 0.4 * 0.3 * 0.2),
             ("rounded box", rounded_box(Vec3::new(0.4, 0.3, 0.2), 0.02, 3), 0.4 * 0.3 * 0.2),
-            ("sphere", sphere(0.5, 48), 0.5236),
+            ("sphere", sphere(0.5, 48), std::f32::consts::FRAC_PI_6),
             ("vase", lathe(&vase, 64), 0.003_14 * 3.0 - 0.008_1 * std::f32::consts::PI * 0.29),
             ("tube", tube(&path, 0.02, 24), 0.001_257 * (0.2236 + 0.3606)),
             ("picture frame", picture_frame(0.8, 0.6, &[[0.0, 0.0], [0.0, 0.02], [0.05, 0.02], [0.05, 0.0]]), 0.05 * 0.02 * 2.6),

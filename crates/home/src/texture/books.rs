@@ -28,7 +28,11 @@ pub fn book_spines(name: &str, colors: &[Rgb], seed: u32) -> Image {
         }
         let ink = if base.luminance() > 0.22 { Rgb::new(0.05, 0.05, 0.06) } else { Rgb::new(0.78, 0.70, 0.52) };
         let s = Vec2::new(q.x / 0.6, q.y);
-        if spine_is_inked(s, &random) { base.lerp(ink, 0.88) } else { base * (0.97 + 0.06 * lattice((s.x * 40.0) as i32, (s.y * 300.0) as i32, own)) }
+        if spine_is_inked(s, &random) {
+            base.lerp(ink, 0.88)
+        } else {
+            base * (0.97 + 0.06 * lattice((s.x * 40.0) as i32, (s.y * 300.0) as i32, own))
+        }
     })
 }
 

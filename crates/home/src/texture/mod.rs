@@ -22,10 +22,11 @@ pub use wood::{FLOOR_STRIPS, WoodTone, floor_planks, wood};
 
 use enfilade_math::{Rgb, Vec2, srgb_from_linear};
 use enfilade_scene::{ColorParam, Image, Pixels, TextureRef};
+use rayon::prelude::*;
 use std::sync::LazyLock;
 
 /// A picture of `width` × `height` pixels from a function of texture coordinates on [0,1]² (v upward) to linear reflectance.
-pub fn paint(name: &str, width: u32, height: u32, color: impl Fn(Vec2) -> Rgb) -> Image {
+pub fn paint(name: &str, width: u32, height: u32, color: impl Fn(Vec2) -> Rgb + Sync) -> Image {
     let texels = pixel_centers(width, height).map(|uv| {
         let c = color(uv);
         [encode(c.r), encode(c.g), encode(c.b), 255]
@@ -34,7 +35,7 @@ pub fn paint(name: &str, width: u32, height: u32, color: impl Fn(Vec2) -> Rgb) -
 }
 
 /// As [`paint`], but numbers on [0,1] kept linear: heights and roughness.
-pub fn measure(name: &str, width: u32, height: u32, value: impl Fn(Vec2) -> f32) -> Image {
+pub fn measure(name: &str, width: u32, height: u32, value: impl Fn(Vec2) -> f32 + Sync) -> Image {
     let texels = pixel_centers(width, height).map(|uv| {
         let v = (value(uv).clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
         [v, v, v, 255]
@@ -42,9 +43,9 @@ pub fn measure(name: &str, width: u32, height: u32, value: impl Fn(Vec2) -> f32)
     Image { name: name.into(), width, height, pixels: Pixels::Rgba8 { srgb: false, texels: texels.collect() } }
 }
 
-fn pixel_centers(width: u32, height: u32) -> impl Iterator<Item = Vec2> {
+fn pixel_centers(width: u32, height: u32) -> impl ParallelIterator<Item = Vec2> {
     let size = Vec2::new(width as f32, height as f32);
-    (0..width * height).map(move |i| {
+    (0..width * height).into_par_iter().map(move |i| {
         let center = Vec2::new((i % width) as f32 + 0.5, (i / width) as f32 + 0.5) / size;
         Vec2::new(center.x, 1.0 - center.y)
     })

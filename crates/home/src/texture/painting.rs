@@ -36,7 +36,8 @@ fn hills(uv: Vec2, colors: &[Rgb; 5], seed: u32) -> Rgb {
     color = color.lerp(colors[2], 1.0 - smoothstep(0.075, 0.085, uv.distance(sun)));
     for ridge in 0..5 {
         let depth = ridge as f32 / 4.0;
-        let height = 0.62 - 0.11 * ridge as f32 + (0.10 + 0.03 * depth) * fbm(Vec2::new(uv.x, 0.5), [2 + ridge, 2], 4, seed ^ (ridge as u32 + 40));
+        let height =
+            0.62 - 0.11 * ridge as f32 + (0.10 + 0.03 * depth) * fbm(Vec2::new(uv.x, 0.5), [2 + ridge, 2], 4, seed ^ (ridge as u32 + 40));
         let tone = colors[3].lerp(colors[4], depth).lerp(mist, 0.5 * (1.0 - depth));
         // Mist lies in the valleys: every ridge fades towards its foot.
         let haze = tone.lerp(mist, 0.55 * (1.0 - 0.8 * depth) * smoothstep(0.0, 0.2, height - uv.y));

@@ -11,7 +11,8 @@ pub fn plaster(name: &str, seed: u32) -> (Image, Image) {
         let cloud = 0.020 * fbm(uv, [4, 4], 4, seed) + 0.008 * fbm(uv, [60, 60], 2, seed ^ 5);
         Rgb::new(0.975, 0.974, 0.972) * (1.0 + cloud).min(1.02)
     });
-    let relief = measure(&format!("{name} relief"), 512, 512, |uv| 0.5 + 0.32 * fbm(uv, [70, 70], 3, seed ^ 17) + 0.12 * fbm(uv, [9, 9], 2, seed));
+    let relief =
+        measure(&format!("{name} relief"), 512, 512, |uv| 0.5 + 0.32 * fbm(uv, [70, 70], 3, seed ^ 17) + 0.12 * fbm(uv, [9, 9], 2, seed));
     (tint, relief)
 }
 

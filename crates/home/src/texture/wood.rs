@@ -30,7 +30,8 @@ impl WoodTone {
 
 /// Grain at `p`: x along the board on [0,1] of its picture, y across it in board widths. 0 is spring wood, 1 pore or ring.
 fn grain(p: Vec2, seed: u32) -> f32 {
-    let wander = 0.55 * noise(Vec2::new(p.x * 5.0, p.y * 0.8), [1 << 20; 2], seed) + 0.16 * noise(Vec2::new(p.x * 17.0, p.y * 2.2), [1 << 20; 2], seed ^ 1);
+    let wander = 0.55 * noise(Vec2::new(p.x * 5.0, p.y * 0.8), [1 << 20; 2], seed)
+        + 0.16 * noise(Vec2::new(p.x * 17.0, p.y * 2.2), [1 << 20; 2], seed ^ 1);
     // The heart of the board lies off its middle; rings are parabolas around it, as in a flat-sawn board.
     let heart = 0.5 + 0.5 * (lattice(3, 1, seed) - 0.5);
     let across = p.y - heart + 0.35 * wander;

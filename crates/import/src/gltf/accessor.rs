@@ -29,9 +29,11 @@ impl Document {
     /// All components in order. Doubles hold every component type exactly.
     fn components(&self, index: Index<Accessor>, per_element: usize) -> Result<Vec<f64>, String> {
         let name = format!("accessors[{}]", index.value());
-        let accessor = self.root.accessors.get(index.value()).ok_or_else(|| {
-            format!("refers to accessor {}, but there are only {}", index.value(), self.root.accessors.len())
-        })?;
+        let accessor = self
+            .root
+            .accessors
+            .get(index.value())
+            .ok_or_else(|| format!("refers to accessor {}, but there are only {}", index.value(), self.root.accessors.len()))?;
         let Checked::Valid(component) = accessor.component_type else { return Err(format!("{name} has an unknown componentType")) };
         let found = match accessor.type_ {
             Checked::Valid(Type::Scalar) => 1,
@@ -56,7 +58,8 @@ impl Document {
             };
             let places = Layout { component: kind.0, per_element: 1, normalized: false };
             let (i, v) = (&sparse.indices, &sparse.values);
-            let places = self.elements(&format!("{name}.sparse.indices"), i.buffer_view.value(), i.byte_offset.0, sparse.count.0, places)?;
+            let places =
+                self.elements(&format!("{name}.sparse.indices"), i.buffer_view.value(), i.byte_offset.0, sparse.count.0, places)?;
             let new = self.elements(&format!("{name}.sparse.values"), v.buffer_view.value(), v.byte_offset.0, sparse.count.0, layout)?;
             for (place, element) in places.into_iter().zip(new.chunks_exact(per_element)) {
                 let at = place as usize * per_element;

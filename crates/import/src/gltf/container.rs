@@ -40,7 +40,8 @@ impl Document {
             (bytes.as_slice(), None)
         };
         let root = Root::from_slice(json).map_err(|e| {
-            assembly.malformed(format!("line {} column {}", e.line(), e.column()), format!("not valid glTF JSON: {e}; export the file again"))
+            assembly
+                .malformed(format!("line {} column {}", e.line(), e.column()), format!("not valid glTF JSON: {e}; export the file again"))
         })?;
         check_version(&root, assembly)?;
         let mut buffers = Vec::with_capacity(root.buffers.len());
@@ -52,9 +53,11 @@ impl Document {
 
     /// The bytes of a buffer view, or what is wrong with it.
     pub(super) fn view(&self, index: usize) -> Result<(&[u8], &buffer::View), String> {
-        let view = self.root.buffer_views.get(index).ok_or_else(|| {
-            format!("refers to bufferView {index}, but there are only {}", self.root.buffer_views.len())
-        })?;
+        let view = self
+            .root
+            .buffer_views
+            .get(index)
+            .ok_or_else(|| format!("refers to bufferView {index}, but there are only {}", self.root.buffer_views.len()))?;
         if let Some(codec) = view.extensions.as_ref().and_then(|e| e.others.keys().find(|k| k.contains("meshopt"))) {
             return Err(format!("bufferViews[{index}] is compressed with {codec}, which is not supported; export without compression"));
         }
@@ -78,7 +81,10 @@ impl Document {
     pub(super) fn embedded_image(&self, index: usize, image: &image::Image) -> Result<(String, Vec<u8>), ImageAt> {
         let place = format!("images[{index}]");
         if let Some(view) = image.buffer_view {
-            return self.view(view.value()).map(|(bytes, _)| (place.clone(), bytes.to_vec())).map_err(|e| ImageAt::Nowhere(format!("{place} {e}")));
+            return self
+                .view(view.value())
+                .map(|(bytes, _)| (place.clone(), bytes.to_vec()))
+                .map_err(|e| ImageAt::Nowhere(format!("{place} {e}")));
         }
         match image.uri.as_deref() {
             None => Err(ImageAt::Nowhere(format!("{place} has neither a uri nor a bufferView"))),
@@ -121,13 +127,15 @@ fn check_version(root: &Root, assembly: &Assembly) -> Result<(), ImportError> {
 #[expect(clippy::type_complexity, reason = "two chunks, or the place and the problem")]
 fn split_binary(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), (String, String)> {
     let word = |at: usize| bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-    let cut = |at: usize, what: &str| (format!("byte {at}"), format!("the file ends inside {what}: it is cut short, so copy or export it again"));
+    let cut =
+        |at: usize, what: &str| (format!("byte {at}"), format!("the file ends inside {what}: it is cut short, so copy or export it again"));
     let (version, length) = (word(4).ok_or_else(|| cut(4, "the header"))?, word(8).ok_or_else(|| cut(8, "the header"))?);
     if version != 2 {
         return Err(("byte 4".into(), format!("found binary glTF version {version}, expected 2; convert the file to glTF 2.0")));
     }
     if (bytes.len() as u64) < u64::from(length) {
-        let problem = format!("the header says {length} bytes, but the file has {}: it is cut short, so copy or export it again", bytes.len());
+        let problem =
+            format!("the header says {length} bytes, but the file has {}: it is cut short, so copy or export it again", bytes.len());
         return Err(("byte 8".into(), problem));
     }
     let (mut json, mut binary, mut at) = (None, None, 12);
@@ -148,7 +156,9 @@ fn split_binary(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), (String, String)
 fn read_buffer(index: usize, buffer: &buffer::Buffer, binary: Option<&[u8]>, assembly: &mut Assembly) -> Result<Vec<u8>, ImportError> {
     let place = format!("buffers[{index}]");
     let bytes = match &buffer.uri {
-        None if index == 0 => binary.map(<[u8]>::to_vec).ok_or_else(|| assembly.malformed(&place, "it has no uri, and the file has no binary chunk"))?,
+        None if index == 0 => {
+            binary.map(<[u8]>::to_vec).ok_or_else(|| assembly.malformed(&place, "it has no uri, and the file has no binary chunk"))?
+        }
         None => return Err(assembly.malformed(place, "it has no uri; only the first buffer may be the binary chunk")),
         Some(uri) => match resolve_uri(uri).map_err(|problem| assembly.malformed(&place, format!("it {problem}")))? {
             Uri::Data(bytes) => bytes,
@@ -156,8 +166,11 @@ fn read_buffer(index: usize, buffer: &buffer::Buffer, binary: Option<&[u8]>, ass
         },
     };
     if (bytes.len() as u64) < buffer.byte_length.0 {
-        let problem =
-            format!("it should have {} bytes, but only {} are there: it is cut short, so copy or export it again", buffer.byte_length.0, bytes.len());
+        let problem = format!(
+            "it should have {} bytes, but only {} are there: it is cut short, so copy or export it again",
+            buffer.byte_length.0,
+            bytes.len()
+        );
         return Err(assembly.malformed(place, problem));
     }
     Ok(bytes)

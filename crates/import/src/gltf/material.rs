@@ -25,7 +25,11 @@ pub(super) struct Materials {
 impl Materials {
     /// Scene index and texture coordinate set of material `index`; `None` is glTF's default material.
     pub(super) fn get(
-        &mut self, document: &Document, index: Option<usize>, place: &str, a: &mut Assembly,
+        &mut self,
+        document: &Document,
+        index: Option<usize>,
+        place: &str,
+        a: &mut Assembly,
     ) -> Result<(u32, u32), ImportError> {
         if let Some(&known) = self.known.get(&index) {
             return Ok(known);
@@ -151,7 +155,8 @@ impl Converter<'_, '_> {
                     }
                 }
                 "KHR_materials_sheen" => {
-                    let channel = |i: usize| value.get("sheenColorFactor").and_then(|c| c.get(i)).and_then(Value::as_f64).unwrap_or(0.0) as f32;
+                    let channel =
+                        |i: usize| value.get("sheenColorFactor").and_then(|c| c.get(i)).and_then(Value::as_f64).unwrap_or(0.0) as f32;
                     let color = Rgb::new(channel(0), channel(1), channel(2));
                     p.sheen_color = self.color(color, texture("sheenColorTexture").as_ref(), 0.5)?;
                     let roughness = texture("sheenRoughnessTexture");
@@ -168,9 +173,7 @@ impl Converter<'_, '_> {
         let opacity = ScalarParam { factor, texture: texture.map(|t| (t, 3)) };
         let transparent = factor < 1.0 || texture.is_some();
         match json.alpha_mode {
-            Checked::Valid(AlphaMode::Mask) if transparent => {
-                Alpha::Mask { opacity, cutoff: json.alpha_cutoff.map_or(0.5, |c| c.0) }
-            }
+            Checked::Valid(AlphaMode::Mask) if transparent => Alpha::Mask { opacity, cutoff: json.alpha_cutoff.map_or(0.5, |c| c.0) },
             Checked::Valid(AlphaMode::Blend) if transparent => Alpha::Blend { opacity },
             _ => Alpha::Opaque,
         }

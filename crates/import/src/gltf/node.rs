@@ -110,7 +110,13 @@ impl Placer<'_> {
     }
 
     fn mesh(
-        &mut self, mesh: usize, node: usize, name: Option<&str>, file_from_node: DAffine3, label: PartLabel, a: &mut Assembly,
+        &mut self,
+        mesh: usize,
+        node: usize,
+        name: Option<&str>,
+        file_from_node: DAffine3,
+        label: PartLabel,
+        a: &mut Assembly,
     ) -> Result<(), ImportError> {
         let meshes = &self.document.root.meshes;
         let Some(json) = meshes.get(mesh) else {

@@ -10,7 +10,11 @@ use gltf::json::validation::Checked;
 
 /// The mesh of a primitive with texture coordinate set `uv_set`; `None` for what has no surface.
 pub(super) fn mesh(
-    document: &Document, primitive: &Primitive, uv_set: u32, place: &str, assembly: &mut Assembly,
+    document: &Document,
+    primitive: &Primitive,
+    uv_set: u32,
+    place: &str,
+    assembly: &mut Assembly,
 ) -> Result<Option<Mesh>, ImportError> {
     if primitive.extensions.as_ref().is_some_and(|e| e.others.keys().any(|k| k.contains("draco"))) {
         let problem = "the mesh is compressed with Draco, which is not supported; export the file without mesh compression";

@@ -6,8 +6,8 @@
 mod exr;
 mod pfm;
 
-use enfilade_scene::{Image, Pixels};
 use ::image::{DynamicImage, ImageFormat};
+use enfilade_scene::{Image, Pixels};
 use std::path::Path;
 
 /// What a picture is used for: decides whether its bytes are sRGB-encoded.

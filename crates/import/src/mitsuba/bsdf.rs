@@ -189,8 +189,15 @@ impl<'n> Reader<'n, '_> {
             }
             "plastic" | "roughplastic" | "pplastic" => {
                 const KNOWN: [&str; 9] = [
-                    "diffuse_reflectance", "specular_reflectance", "int_ior", "ext_ior", "nonlinear", "alpha", "distribution",
-                    "sample_visible", "specular_sampling_weight",
+                    "diffuse_reflectance",
+                    "specular_reflectance",
+                    "int_ior",
+                    "ext_ior",
+                    "nonlinear",
+                    "alpha",
+                    "distribution",
+                    "sample_visible",
+                    "specular_sampling_weight",
                 ];
                 self.report_unknown(node, &KNOWN, &[]);
                 let diffuse = self.color(node, "diffuse_reflectance", Kind::Factor, Rgb::splat(0.5))?;
@@ -202,7 +209,14 @@ impl<'n> Reader<'n, '_> {
             "conductor" | "roughconductor" => self.conductor(node),
             "dielectric" | "roughdielectric" | "thindielectric" => {
                 const KNOWN: [&str; 9] = [
-                    "int_ior", "ext_ior", "specular_reflectance", "specular_transmittance", "alpha", "alpha_u", "alpha_v", "distribution",
+                    "int_ior",
+                    "ext_ior",
+                    "specular_reflectance",
+                    "specular_transmittance",
+                    "alpha",
+                    "alpha_u",
+                    "alpha_v",
+                    "distribution",
                     "sample_visible",
                 ];
                 self.report_unknown(node, &KNOWN, &[]);
@@ -238,9 +252,8 @@ impl<'n> Reader<'n, '_> {
     }
 
     fn conductor(&mut self, node: &'n Node) -> Result<Bsdf, ImportError> {
-        const KNOWN: [&str; 10] = [
-            "material", "eta", "k", "ext_eta", "specular_reflectance", "alpha", "alpha_u", "alpha_v", "distribution", "sample_visible",
-        ];
+        const KNOWN: [&str; 10] =
+            ["material", "eta", "k", "ext_eta", "specular_reflectance", "alpha", "alpha_u", "alpha_v", "distribution", "sample_visible"];
         self.report_unknown(node, &KNOWN, &[]);
         let mut constants = spectrum::metal("cu").unwrap_or_default();
         if let Some(name) = node.raw_text("material") {
@@ -272,8 +285,19 @@ impl<'n> Reader<'n, '_> {
     /// Mitsuba's Disney-like model by glTF's parameters.
     fn principled(&mut self, node: &'n Node) -> Result<Bsdf, ImportError> {
         const KNOWN: [&str; 13] = [
-            "base_color", "roughness", "metallic", "specular", "eta", "spec_trans", "clearcoat", "clearcoat_gloss", "sheen", "sheen_tint",
-            "spec_tint", "diffuse_reflectance_sampling_rate", "specular_sampling_rate",
+            "base_color",
+            "roughness",
+            "metallic",
+            "specular",
+            "eta",
+            "spec_trans",
+            "clearcoat",
+            "clearcoat_gloss",
+            "sheen",
+            "sheen_tint",
+            "spec_tint",
+            "diffuse_reflectance_sampling_rate",
+            "specular_sampling_rate",
         ];
         self.report_unknown(node, &KNOWN, &[]);
         let specular = node.float_or("specular", 0.5)?.clamp(0.0, 0.999);
@@ -332,7 +356,8 @@ fn eta(node: &Node, default_interior: &str) -> Result<f64, ImportError> {
         let Some(property) = node.child(name) else { return Ok(spectrum::substance(default).unwrap_or(1.5)) };
         let text = property.attribute("value").unwrap_or_default();
         let value = spectrum::substance(text).or_else(|| text.trim().parse().ok()).filter(|v: &f64| v.is_finite() && *v > 0.0);
-        value.ok_or_else(|| property.error(format!("found {text:?}, expected an index of refraction above zero or the name of a substance")))
+        value
+            .ok_or_else(|| property.error(format!("found {text:?}, expected an index of refraction above zero or the name of a substance")))
     };
     Ok(index("int_ior", default_interior)? / index("ext_ior", "air")?)
 }

@@ -84,8 +84,18 @@ impl<'n> Reader<'n, '_> {
     /// The sky as an environment and the sun as a light, by Preetham's model in the units of Mitsuba's.
     fn daylight(&mut self, node: &'n Node) -> Result<(), ImportError> {
         const KNOWN: [&str; 12] = [
-            "sun_direction", "turbidity", "albedo", "scale", "sun_scale", "sky_scale", "sun_radius_scale", "to_world", "resolution",
-            "sampling_weight", "extend", "complex_sun",
+            "sun_direction",
+            "turbidity",
+            "albedo",
+            "scale",
+            "sun_scale",
+            "sky_scale",
+            "sun_radius_scale",
+            "to_world",
+            "resolution",
+            "sampling_weight",
+            "extend",
+            "complex_sun",
         ];
         self.report_unknown(node, &KNOWN, &[]);
         let scale = node.float_or("scale", 1.0)?;

@@ -52,7 +52,8 @@ const MAX_REFERENCES: usize = 32;
 /// Imports a Mitsuba scene.
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     let root = xml::read(&mut assembly)?;
-    let mut reader = Reader { a: assembly, ids: HashMap::new(), aliases: HashMap::new(), materials: HashMap::new(), meshes: HashMap::new() };
+    let mut reader =
+        Reader { a: assembly, ids: HashMap::new(), aliases: HashMap::new(), materials: HashMap::new(), meshes: HashMap::new() };
     reader.index(&root);
     let total = root.children.len();
     for (i, node) in root.children.iter().enumerate() {
@@ -79,10 +80,10 @@ impl<'n> Reader<'n, '_> {
                 if let (Some(id), Some(new)) = (child.attribute("id"), child.attribute("as")) {
                     self.aliases.insert(new, id);
                 }
-            } else if let Some(id) = child.id.as_deref().filter(|_| child.tag != "ref") {
-                if self.ids.insert(id, child).is_some() {
-                    self.warn(child, "the id is used twice; the later one counts");
-                }
+            } else if let Some(id) = child.id.as_deref().filter(|_| child.tag != "ref")
+                && self.ids.insert(id, child).is_some()
+            {
+                self.warn(child, "the id is used twice; the later one counts");
             }
             self.index(child);
         }

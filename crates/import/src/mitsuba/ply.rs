@@ -142,7 +142,8 @@ impl Values<'_> {
         }
         let place = self.at;
         let bytes = self.bytes.get(place..place + kind.size());
-        let bytes = bytes.ok_or_else(|| (format!("byte {place} of the body"), "the file is cut short; copy or export it again".to_string()))?;
+        let bytes =
+            bytes.ok_or_else(|| (format!("byte {place} of the body"), "the file is cut short; copy or export it again".to_string()))?;
         self.at += kind.size();
         let mut le = [0u8; 8];
         le[..kind.size()].copy_from_slice(bytes);

@@ -15,8 +15,19 @@ impl<'n> Reader<'n, '_> {
     /// Adds the camera of a sensor.
     pub(super) fn sensor(&mut self, node: &'n Node) -> Result<(), ImportError> {
         const KNOWN: [&str; 13] = [
-            "fov", "fov_axis", "focal_length", "to_world", "near_clip", "far_clip", "focus_distance", "aperture_radius", "shutter_open",
-            "shutter_close", "principal_point_offset_x", "principal_point_offset_y", "kc",
+            "fov",
+            "fov_axis",
+            "focal_length",
+            "to_world",
+            "near_clip",
+            "far_clip",
+            "focus_distance",
+            "aperture_radius",
+            "shutter_open",
+            "shutter_close",
+            "principal_point_offset_x",
+            "principal_point_offset_y",
+            "kc",
         ];
         match node.plugin.as_str() {
             "perspective" => (),

@@ -85,7 +85,8 @@ impl<R: Read> Stream<R> {
 
     /// `count` × `size` bytes. Memory grows with what is really there, whatever the count claims.
     fn exactly(&mut self, count: u64, size: u64) -> std::io::Result<Vec<u8>> {
-        let short = || std::io::Error::new(std::io::ErrorKind::UnexpectedEof, format!("{count} elements were announced, but not all are there"));
+        let short =
+            || std::io::Error::new(std::io::ErrorKind::UnexpectedEof, format!("{count} elements were announced, but not all are there"));
         let wanted = count.checked_mul(size).ok_or_else(short)?;
         let mut bytes = Vec::new();
         self.inner.by_ref().take(wanted).read_to_end(&mut bytes)?;

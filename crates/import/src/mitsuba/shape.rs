@@ -70,7 +70,14 @@ impl<'n> Reader<'n, '_> {
     fn mesh(&mut self, node: &'n Node) -> Result<Option<(u32, DAffine3, String)>, ImportError> {
         const TAGS: [&str; 7] = ["bsdf", "emitter", "medium", "texture", "sensor", "subsurface", "shape"];
         const FILES: [&str; 9] = [
-            "filename", "to_world", "face_normals", "flip_normals", "flip_tex_coords", "shape_index", "max_smooth_angle", "collapse",
+            "filename",
+            "to_world",
+            "face_normals",
+            "flip_normals",
+            "flip_tex_coords",
+            "shape_index",
+            "max_smooth_angle",
+            "collapse",
             "sub_mesh_index",
         ];
         const PRIMITIVES: [&str; 7] = ["to_world", "flip_normals", "center", "radius", "p0", "p1", "face_normals"];
@@ -84,7 +91,8 @@ impl<'n> Reader<'n, '_> {
             return Err(node.error("the shape has no filename"));
         }
         let index = node.float_or("shape_index", 0.0)? as i64;
-        let flags = [node.flag("face_normals", false), node.flag("flip_normals", false), node.flag("flip_tex_coords", node.plugin == "obj")];
+        let flags =
+            [node.flag("face_normals", false), node.flag("flip_normals", false), node.flag("flip_tex_coords", node.plugin == "obj")];
         let Some(in_shape) = self.shape_parameters(node)? else { return Ok(None) };
         let stem = if from_file { stem(path) } else { node.plugin.clone() };
         let key = (node.plugin.clone(), path.to_string(), index, flags);

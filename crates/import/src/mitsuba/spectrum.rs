@@ -80,7 +80,8 @@ fn sampled(node: &Node, text: &str, kind: Kind) -> Result<Rgb, ImportError> {
 /// Planck's radiance of a `temperature` (kelvin) per nanometre, times `scale`.
 fn blackbody(node: &Node) -> Result<Rgb, ImportError> {
     let text = node.attribute("temperature").or(node.attribute("value")).unwrap_or_default().trim_end_matches(['K', 'k', ' ']);
-    let kelvin: f64 = text.parse().ok().filter(|t| (1.0..1e6).contains(t)).ok_or_else(|| node.error("the temperature should be in kelvin"))?;
+    let kelvin: f64 =
+        text.parse().ok().filter(|t| (1.0..1e6).contains(t)).ok_or_else(|| node.error("the temperature should be in kelvin"))?;
     let scale = node.numbers("scale")?.first().copied().unwrap_or(1.0);
     let planck = |nm: f64| {
         let metres = nm * 1e-9;

@@ -37,7 +37,7 @@ impl<'n> Reader<'n, '_> {
         let Some(property) = self.property(node, name)? else { return Ok(default.into()) };
         if property.tag != "texture" {
             let c = spectrum::color(property, Kind::Factor)?;
-            return Ok(((c.r + c.g + c.b) / 3.0).into());
+            return Ok(if c.r == c.g && c.g == c.b { c.r } else { c.luminance() }.into());
         }
         // Mitsuba linearizes number textures like colours unless they are marked raw.
         let t = self.texture(property, Use::Color, 0)?;
@@ -77,8 +77,26 @@ impl<'n> Reader<'n, '_> {
 
     fn bitmap(&mut self, node: &'n Node, usage: Use) -> Result<Texture, ImportError> {
         const KNOWN: [&str; 20] = [
-            "filename", "filter_type", "wrap_mode", "wrap_mode_u", "wrap_mode_v", "gamma", "raw", "channel", "uscale", "vscale", "uvscale",
-            "uoffset", "voffset", "to_uv", "cache", "max_anisotropy", "accel", "format", "src_gamma", "data",
+            "filename",
+            "filter_type",
+            "wrap_mode",
+            "wrap_mode_u",
+            "wrap_mode_v",
+            "gamma",
+            "raw",
+            "channel",
+            "uscale",
+            "vscale",
+            "uvscale",
+            "uoffset",
+            "voffset",
+            "to_uv",
+            "cache",
+            "max_anisotropy",
+            "accel",
+            "format",
+            "src_gamma",
+            "data",
         ];
         self.report_unknown(node, &KNOWN, &[]);
         let path = node.raw_text("filename").ok_or_else(|| node.error("the bitmap has no filename"))?;

@@ -144,7 +144,12 @@ impl Loader<'_, '_> {
     }
 
     fn children(
-        &mut self, xml: roxmltree::Node, document: &roxmltree::Document, file: &Rc<PathBuf>, into: &mut Node, depth: usize,
+        &mut self,
+        xml: roxmltree::Node,
+        document: &roxmltree::Document,
+        file: &Rc<PathBuf>,
+        into: &mut Node,
+        depth: usize,
     ) -> Result<(), ImportError> {
         for element in xml.children().filter(roxmltree::Node::is_element) {
             let position = document.text_pos_at(element.range().start);

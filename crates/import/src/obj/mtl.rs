@@ -36,7 +36,8 @@ pub(super) fn read_libraries(names: &[String], assembly: &mut Assembly) -> Resul
                     parse(&String::from_utf8_lossy(&bytes), &folder, &mut library);
                 }
                 Err(ImportError::Read { file, source, .. }) => {
-                    let message = format!("the material library {} cannot be read ({source}); grey stands in for its materials", file.display());
+                    let message =
+                        format!("the material library {} cannot be read ({source}); grey stands in for its materials", file.display());
                     assembly.warn(format!("mtllib {line}"), message);
                 }
                 Err(other) => return Err(other),

@@ -73,8 +73,12 @@ impl ObjFile {
                 for corner in group.corners_of(i) {
                     for k in 0..3 {
                         if corner[k] != NONE && corner[k] as usize >= counts[k] {
-                            let problem =
-                                format!("the face refers to {} {}, but there are only {}; export the file again", kinds[k], u64::from(corner[k]) + 1, counts[k]);
+                            let problem = format!(
+                                "the face refers to {} {}, but there are only {}; export the file again",
+                                kinds[k],
+                                u64::from(corner[k]) + 1,
+                                counts[k]
+                            );
                             return Err(ImportError::malformed(file, format!("line {}", face.line), problem));
                         }
                     }
@@ -221,10 +225,12 @@ impl Parser<'_> {
             if field.is_empty() && k > 0 {
                 continue;
             }
-            let index: i64 = field.parse().map_err(|_| self.error(number, format!("{word:?} is not a corner; expected v/vt/vn as whole numbers")))?;
+            let index: i64 =
+                field.parse().map_err(|_| self.error(number, format!("{word:?} is not a corner; expected v/vt/vn as whole numbers")))?;
             let absolute = if index < 0 { counts[k] as i64 + index } else { index - 1 };
             corner[k] = u32::try_from(absolute).ok().filter(|&i| i != NONE).ok_or_else(|| {
-                let problem = format!("the face refers to index {index}, but there are {} so far, counted from 1; export the file again", counts[k]);
+                let problem =
+                    format!("the face refers to index {index}, but there are {} so far, counted from 1; export the file again", counts[k]);
                 self.error(number, problem)
             })?;
         }

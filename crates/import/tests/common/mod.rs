@@ -45,7 +45,12 @@ impl Folder {
 
 /// Warnings of an import as text, without folders.
 pub fn warnings(imported: &Imported) -> String {
-    imported.report.warnings.iter().map(|w| format!("{}: {}\n", Path::new(&w.place).file_name().unwrap().to_string_lossy(), w.message)).collect()
+    imported
+        .report
+        .warnings
+        .iter()
+        .map(|w| format!("{}: {}\n", Path::new(&w.place).file_name().unwrap().to_string_lossy(), w.message))
+        .collect()
 }
 
 /// A PNG of `width` × `height` pixels, all of one colour.

@@ -275,7 +275,10 @@ mod tests {
         assert!(message("part,nyu40_id\n,5\n").contains(":2: the row names nothing"));
         assert!(message("part,nyu40_id,nyu40_name\na,5,sofa\n").contains("class 5 is chair, but nyu40_name says \"sofa\""));
         assert!(
-            LabelTable::parse(b"part,nyu40_id\n\xff\xfe,5\n", "labels.csv").unwrap_err().to_string().contains("labels.csv:2: the text is not UTF-8")
+            LabelTable::parse(b"part,nyu40_id\n\xff\xfe,5\n", "labels.csv")
+                .unwrap_err()
+                .to_string()
+                .contains("labels.csv:2: the text is not UTF-8")
         );
     }
 

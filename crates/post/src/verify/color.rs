@@ -43,8 +43,7 @@ fn void_codes(scan: &mut Scan<'_>) {
 
 fn reason_codes(scan: &mut Scan<'_>) {
     let (Some(codes), Some(reflectance)) = (scan.layer(Layer::Valid), scan.layer(Layer::DiffuseReflectance)) else { return };
-    let radiance: Vec<_> =
-        [Layer::Color, Layer::DiffuseIllumination, Layer::Residual].into_iter().filter_map(|l| scan.layer(l)).collect();
+    let radiance: Vec<_> = [Layer::Color, Layer::DiffuseIllumination, Layer::Residual].into_iter().filter_map(|l| scan.layer(l)).collect();
     let any = |pixel: usize, test: &dyn Fn(usize) -> bool| (3 * pixel..3 * pixel + 3).any(test);
     let expected = |pixel: usize| {
         let saturated = any(pixel, &|i| radiance.iter().any(|values| values.get(i) >= f16::MAX.to_f64()));
@@ -55,6 +54,7 @@ fn reason_codes(scan: &mut Scan<'_>) {
             (false, true) => Validity::Valid,
         }
     };
-    let wrong = (0..codes.len()).filter(|&i| codes.get(i) != f64::from(Validity::Void as u8) && codes.get(i) != f64::from(expected(i) as u8));
+    let wrong =
+        (0..codes.len()).filter(|&i| codes.get(i) != f64::from(Validity::Void as u8) && codes.get(i) != f64::from(expected(i) as u8));
     scan.broken(Law::ReasonCodes, "another reason code would be right", wrong);
 }

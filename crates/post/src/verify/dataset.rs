@@ -171,7 +171,8 @@ fn read_frame(dataset: &Dataset, scene: &str, camera: &str, number: u32, card: &
         let size = image_size(&shape, spec);
         let values = array.values.into_values().ok().filter(|values| values.dtype() == spec.dtype);
         let (Some((width, height)), Some(values)) = (size, values) else {
-            let expected = format!("expected an image of {} channels of {:?}, found shape {shape:?} or another type", spec.channels, spec.dtype);
+            let expected =
+                format!("expected an image of {} channels of {:?}, found shape {shape:?} or another type", spec.channels, spec.dtype);
             card.observe(Law::Readable, 1.0, || format!("{}: {expected}", path.display()));
             continue;
         };

@@ -47,7 +47,8 @@ pub fn check_frame(frame: &Frame, view: &View<'_>, place: &str) -> Card {
     let missing: Vec<&str> = LAYERS.iter().filter(|spec| frame.get(spec.layer).is_none()).map(|spec| spec.name).collect();
     scan.card.observe(Law::LayersPresent, missing.len() as f64, || format!("{place}: without {}", missing.join(", ")));
     let size_error = frame.width.abs_diff(view.intrinsics.width).max(frame.height.abs_diff(view.intrinsics.height));
-    let sizes = || format!("{place}: images of {}x{}, table says {}x{}", frame.width, frame.height, view.intrinsics.width, view.intrinsics.height);
+    let sizes =
+        || format!("{place}: images of {}x{}, table says {}x{}", frame.width, frame.height, view.intrinsics.width, view.intrinsics.height);
     scan.card.observe(Law::Calibration, f64::from(size_error), sizes);
     if size_error == 0 {
         geometry::check(&mut scan);

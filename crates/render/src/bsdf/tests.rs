@@ -168,3 +168,17 @@ fn reflection_is_reciprocal() {
         }
     }
 }
+
+#[test]
+fn every_sampler_draws_from_its_density() {
+    use enfilade_testkit::ChiSquare;
+    // Narrower lobes than the cells of the test are covered by the comparison with evaluation above.
+    let tests = models().len() * 4;
+    for_each_case(|name, bsdf, wo, _| {
+        let finite = |u: [f32; 3]| bsdf.sample(wo, u).filter(|s| s.event == Event::Finite).map(|s| s.wi);
+        if name.contains("0.1,") || name.contains("plastic 0.15") {
+            return;
+        }
+        ChiSquare::directions(60_000, finite, |w| bsdf.pdf(wo, w)).assert(name, tests);
+    });
+}
