@@ -1,2 +1,45 @@
-//! Checks.
-fn main() {}
+//! The checks of the house, as `cargo xtask check`, `test` and `bench`.
+//!
+//! [`check`] holds what is quick and says nothing about numbers; [`test`](mod@test) holds everything else; [`bench`](mod@bench)
+//! measures. Each is a table of [`Step`](step::Step)s that says what it does, how long it took and, on failure, what to do.
+
+mod acceptance;
+mod bench;
+mod check;
+mod dependencies;
+mod floors;
+mod house;
+mod python;
+mod spdx;
+mod step;
+mod test;
+
+use house::House;
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directions, dependency policy, docs, quick tests
+       cargo xtask test                           all tests, then the release binary on the demo
+       cargo xtask bench [NAME]                   measurements: all, or one; --list names them";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let outcome = House::find().and_then(|house| match words.as_slice() {
+        ["check", rest @ ..] => check::run(&house, rest),
+        ["test"] => test::run(&house),
+        ["bench", rest @ ..] => bench::run(&house, rest),
+        [] | ["help" | "--help" | "-h"] => {
+            println!("{USAGE}");
+            Ok(())
+        }
+        _ => Err(format!("unknown command `{}`\n{USAGE}", words.join(" "))),
+    });
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

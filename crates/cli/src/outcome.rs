@@ -56,7 +56,7 @@ impl From<enfilade_pipeline::Error> for Problem {
 
 impl From<enfilade_dataset::DatasetError> for Problem {
     fn from(error: enfilade_dataset::DatasetError) -> Self {
-        let usage = matches!(error, enfilade_dataset::DatasetError::NotADataset { .. });
+        let usage = matches!(error, enfilade_dataset::DatasetError::NotADataset { .. }) || error.is_not_found();
         Self { message: error.to_string(), hint: None, usage }
     }
 }

@@ -71,11 +71,12 @@ pub fn print_where_to_look(out: &Path, summary: &Summary) -> Result<(), DatasetE
         true => say(&format!("\nNothing to do: {out} is up to date, {frames} frames with {layers} layers each.\n")),
         false => say(&format!("\nDone in {:.0} s: {out} holds {frames} frames with {layers} layers each.\n", summary.wall_s)),
     }
-    for (i, sheet) in sheets.iter().take(3).enumerate() {
+    let overview = (sheets.len() > 1).then(|| layout.overview()).filter(|path| path.is_file());
+    for (i, sheet) in overview.iter().chain(&sheets).take(2).enumerate() {
         say(&format!("{}  {}", if i == 0 { "see at a glance" } else { "               " }, sheet.display()));
     }
-    if sheets.len() > 3 {
-        say(&format!("                 and {} more contact sheets", sheets.len() - 3));
+    if sheets.len() > 1 {
+        say(&format!("                 and a contact sheet for each of the {} trajectories", sheets.len()));
     }
     say(&format!("a frame's files  {}", layout.layer(&scene, &camera, frame, Layer::Color).display()));
     say(&format!("                 {}", layout.layer(&scene, &camera, frame, Layer::DepthMeters).display()));

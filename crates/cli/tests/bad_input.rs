@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{CAMERA, Lamp, QUICK, fail, folder, run, scene, succeed, write_config, write_room};
+use common::{CAMERA, Lamp, fail, folder, run, scene, succeed, write_config, write_room};
 use std::fs;
 
 #[test]
@@ -16,7 +16,7 @@ fn an_unknown_key_is_shown_in_its_line_with_a_proposal() {
 #[test]
 fn a_missing_configuration_and_a_missing_dataset_are_told() {
     let dir = folder();
-    fail(dir.path(), &["run", "nothing.toml"], 1, &["cannot read nothing.toml", "check the path"]);
+    fail(dir.path(), &["run", "nothing.toml"], 2, &["cannot read nothing.toml", "run --demo"]);
     fail(dir.path(), &["carve", "nothing"], 2, &["nothing does not exist", "enfilade run"]);
     fail(dir.path(), &["verify", "nothing"], 2, &["nothing"]);
 }
@@ -130,5 +130,20 @@ fn arguments_out_of_their_range_are_told() {
     assert!(!dir.path().join("out").exists());
     let (code, out, _) = run(dir.path(), &["carve", "--help"]);
     assert!(code == 0 && out.contains("Example:"));
-    let _ = QUICK;
+}
+
+/// A file that takes no bytes stands for a full disk.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_and_leaves_nothing_half_written() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    fs::create_dir_all(d.join("out/.enfilade/room")).unwrap();
+    std::os::unix::fs::symlink("/dev/full", d.join("out/.enfilade/room/scene.scene.part")).unwrap();
+    let text = fail(d, &["run", "dataset.toml", "-o", "out"], 1, &["room: `import` failed: cannot write", "No space left on device", "free some space"]);
+    assert!(text.contains("1 of 1 scenes failed"), "{text}");
+    assert!(!d.join("out/.enfilade/room/scene.scene").exists() && !d.join("out/.enfilade/room/import.json").exists());
+    succeed(d, &["run", "dataset.toml", "-o", "out"]);
 }

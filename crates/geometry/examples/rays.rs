@@ -129,8 +129,7 @@ fn furnished_room() -> Vec<Triangle> {
     }
     for _ in 0..8000 {
         let p = Vec3::new(6.0, 4.0, 0.9) + 0.5 * warp::sphere([rng.next_f32(), rng.next_f32()]);
-        let leaf = || 0.04 * warp::sphere([rng.clone().next_f32(), 0.3]);
-        let (u, v) = (leaf(), 0.02 * warp::sphere([rng.next_f32(), rng.next_f32()]));
+        let [u, v] = [0.04, 0.02].map(|size| size * warp::sphere([rng.next_f32(), rng.next_f32()]));
         triangles.extend([[p, p + u, p + v], [p + u, p + u + v, p + v]]);
     }
     triangles

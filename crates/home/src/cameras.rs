@@ -16,7 +16,7 @@ pub fn cameras(scene: &Scene, plan: &Plan) -> Vec<StartCamera> {
         ("door", Vec3::new(half.x - 0.62, 0.62 - half.y, 1.45), Vec3::new(-1.2, 0.16, 0.86)),
         ("window", Vec3::new(half.x - 1.0, half.y - 0.75, 1.5), Vec3::new(-1.2, -0.95, 0.82)),
         ("sofa", Vec3::new(1.0 - half.x, half.y - 0.7, 1.5), Vec3::new(1.5, -0.85, 0.86)),
-        ("bookshelf", Vec3::new(-0.45, 0.95 - half.y, 1.4), Vec3::new(0.75, half.y, 0.95)),
+        ("bookshelf", Vec3::new(-0.45, 0.95 - half.y, 1.4), Vec3::new(half.x, 0.55, 0.9)),
     ];
     let boxes = part_boxes(scene);
     let views = views.into_iter().filter_map(|(name, eye, target)| {

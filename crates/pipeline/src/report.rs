@@ -175,3 +175,13 @@ fn process_cpu_s() -> f64 {
 fn process_cpu_s() -> f64 {
     0.0
 }
+
+/// A number of things in words.
+pub(crate) fn count(n: usize, thing: &str) -> String {
+    count_of(n, thing, &format!("{thing}s"))
+}
+
+/// As [`count`], where the plural is not made with an s.
+pub(crate) fn count_of(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
+}

@@ -87,14 +87,12 @@ impl<'a> Session<'a> {
         let time = Stopwatch::start();
         let mut outcomes: Vec<SceneOutcome> = Vec::new();
         for scene in scenes {
-            let job = Job::new(self.config, scene, &self.dataset, self.workdir);
+            let job = Job::new(self.config, scene, &self.dataset, self.workdir, force);
             let mut outcome = SceneOutcome { name: scene.name.clone(), stages: Vec::new(), failure: None };
             for spec in stages {
                 // The manifest is part of what is verified.
-                if spec.stage == Stage::Verify {
-                    self.write_manifest(&outcomes, Some(&scene.name))?;
-                }
-                match advance(spec, &job, StageCx::new(&scene.name, spec.stage, reporter), force) {
+                let ready = if spec.stage == Stage::Verify { self.write_manifest(&outcomes, Some(&scene.name)) } else { Ok(()) };
+                match ready.and_then(|()| advance(spec, &job, StageCx::new(&scene.name, spec.stage, reporter))) {
                     Ok(done) => outcome.stages.push(done),
                     Err(error) => {
                         let message = error.explain();
@@ -106,20 +104,25 @@ impl<'a> Session<'a> {
             }
             outcomes.push(outcome);
         }
-        self.write_manifest(&outcomes, None)?;
-        if stages.iter().any(|spec| spec.stage == Stage::Preview) {
-            self.write_overview()?;
+        let finished = self.write_manifest(&outcomes, None).and_then(|()| self.write_overview(stages));
+        let summary = Summary { scenes: outcomes, wall_s: time.wall_s() };
+        match finished {
+            // Where a scene has failed, as on a full disk, that is what the user must see; the next run writes these files.
+            Err(error) if summary.ok() => Err(error),
+            _ => Ok(summary),
         }
-        Ok(Summary { scenes: outcomes, wall_s: time.wall_s() })
     }
 
     /// Writes the contact sheet of all scenes, unless it is there already: the preview stage removes it.
-    fn write_overview(&self) -> Result<(), Error> {
+    fn write_overview(&self, stages: &[&StageSpec]) -> Result<(), Error> {
         let path = self.dataset.layout().overview();
+        if path.is_file() || stages.iter().all(|spec| spec.stage != Stage::Preview) {
+            return Ok(());
+        }
         let manifest = self.dataset.read_manifest().map_err(Error::stage)?;
         let complete = |c: &CameraEntry| c.frames.iter().any(|f| f.status == FrameStatus::Complete);
         let any_frame = manifest.iter().flat_map(|m| m.scenes.values()).flat_map(|s| s.cameras.values()).any(complete);
-        if any_frame && !path.is_file() {
+        if any_frame {
             write_overview(&self.dataset, &self.config.name, &SheetConfig::default()).map_err(Error::stage)?;
         }
         Ok(())

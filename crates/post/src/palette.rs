@@ -18,7 +18,7 @@ const VIRIDIS: [[u8; 3]; 11] = [
     [253, 231, 37],
 ];
 
-/// Viridis at `t` on [0,1], within two steps of 255 of the original: linear between its tenths.
+/// Viridis at `t` on `[0,1]`, within two steps of 255 of the original: linear between its tenths.
 pub fn viridis(t: f64) -> [u8; 3] {
     let place = t.clamp(0.0, 1.0) * 10.0;
     let below = (place.floor() as usize).min(9);

@@ -13,7 +13,7 @@ pub(crate) fn from_pixels(width: u32, height: u32, color: impl Fn(usize) -> [u8;
     Picture::from_fn(width, height, |x, y| image::Rgba(color(y as usize * width as usize + x as usize)))
 }
 
-/// A displayed value on [0,1] as a byte; NaN gives 0.
+/// A displayed value on `[0,1]` as a byte; NaN gives 0.
 pub(crate) fn byte(v: f64) -> u8 {
     (v * 255.0).round() as u8
 }

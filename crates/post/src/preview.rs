@@ -27,9 +27,9 @@ pub struct PreviewSpec {
 pub enum Subject {
     /// Colour through the tone map.
     ToneMapped,
-    /// Colour clipped to [0,1], linear.
+    /// Colour clipped to `[0,1]`, linear.
     Clipped,
-    /// Colour clipped to [0,1], gamma 1/2.2.
+    /// Colour clipped to `[0,1]`, gamma 1/2.2.
     Gamma,
     /// Reflectance × illumination through the tone map.
     Lambertian,

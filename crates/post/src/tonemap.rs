@@ -48,7 +48,7 @@ impl ToneMap {
         Some(Self::fit(valid.map(|i| brightness([0, 1, 2].map(|c| color.get(3 * i + c)))).collect()))
     }
 
-    /// Linear radiance to a displayed value on [0,1].
+    /// Linear radiance to a displayed value on `[0,1]`.
     pub fn apply(&self, radiance: f64) -> f64 {
         encode(self.scale * radiance)
     }
@@ -59,7 +59,7 @@ pub fn brightness([r, g, b]: [f64; 3]) -> f64 {
     0.3 * r + 0.59 * g + 0.11 * b
 }
 
-/// The gamma curve alone: linear to displayed, clipped to [0,1]; NaN gives 0.
+/// The gamma curve alone: linear to displayed, clipped to `[0,1]`; NaN gives 0.
 pub fn encode(linear: f64) -> f64 {
     linear.max(0.0).powf(GAMMA).min(1.0)
 }

@@ -4,7 +4,7 @@
 
 use enfilade_dataset::hdf5::read_array;
 use enfilade_frame::{Frame, Layer, Values};
-use enfilade_post::label::join;
+use enfilade_post::label::{LabelTable, PartNames, join};
 use enfilade_post::preview::{Subject, preview};
 use enfilade_post::tonemap::ToneMap;
 use enfilade_scene::{Labels, PartLabel};
@@ -95,4 +95,18 @@ fn joined_labels_and_their_colours_are_the_original_ones() {
             }
         }
     }
+}
+
+#[test]
+fn the_shared_table_of_materials_labels_the_rooms() {
+    let Some(scenes) = std::env::var_os("ENFILADE_SCENES") else {
+        return eprintln!("skipped: ENFILADE_SCENES is not set");
+    };
+    let bytes = std::fs::read(Path::new(&scenes).join("material_to_nyu40.csv")).unwrap();
+    let table = LabelTable::parse(&bytes, "material_to_nyu40.csv").unwrap();
+    assert_eq!(table.rows().len(), 323);
+    let parts = ["Sofa", "Walls", "walls.002", "Nothing"].map(|material| PartNames { part: material, material });
+    let (labels, report) = table.assign("grey-white-room", &parts);
+    assert_eq!(labels.parts.iter().map(|l| (l.semantic, l.instance)).collect::<Vec<_>>(), [(6, 1), (1, -1), (1, -1), (-1, -1)]);
+    assert_eq!(report.unmatched.len(), 17, "of the room's 19 materials two are here");
 }

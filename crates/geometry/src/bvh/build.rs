@@ -1,12 +1,10 @@
-//! From triangles to the eight-wide tree: pieces of triangles, a binary tree over them, and its collapse.
+//! From triangles to the eight-wide tree, by way of a binary one.
 
 use super::lanes::Eight;
 use enfilade_math::{Bounds3, Vec3};
-use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::{leaf_collapser::collapse, reinsertion::ReinsertionOptimizer};
-use obvhs::ploc::PlocBuilder;
-use obvhs::splits::split_aabbs_preset;
+use obvhs::bvh2::{leaf_collapser::collapse, node::Bvh2Node, reinsertion::ReinsertionOptimizer};
+use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
 /// Up to eight boxes and what is in them.
 #[repr(C, align(64))]
@@ -19,8 +17,7 @@ pub(super) struct Node {
 }
 
 impl Node {
-    const EMPTY: Self =
-        Self { bounds: [[Eight([f32::INFINITY; 8]), Eight([f32::NEG_INFINITY; 8])]; 3], children: [LEAF; 8] };
+    const EMPTY: Self = Self { bounds: [[Eight([f32::INFINITY; 8]), Eight([f32::NEG_INFINITY; 8])]; 3], children: [LEAF; 8] };
 
     /// The block that `child` stands for, if it is a leaf.
     #[inline(always)]
@@ -67,51 +64,15 @@ pub(super) fn build(corners: &[[Vec3; 3]], filtered: &dyn Fn(u32) -> bool) -> Bu
     if hittable.is_empty() {
         return Built { nodes: Vec::new(), blocks: Vec::new(), bounds: Bounds3::EMPTY };
     }
-    let scale = Scale::of(corners, &hittable);
-    let pieces = split(corners, &hittable, scale);
-    let soup = Soup { corners, pieces: &pieces, filtered };
-    soup.collapse(&binary_tree(&pieces, scale)).or_else(|| soup.collapse(&balanced_tree(&pieces))).expect("a balanced tree is not too deep")
+    let soup = Soup { corners, filtered };
+    let tree = soup.binary_tree(&hittable);
+    soup.collapse(&tree).or_else(|| soup.collapse(&soup.balanced_tree(&hittable))).expect("a balanced tree is not too deep")
 }
 
 /// True for finite triangles whose area is not zero. In double precision, where differences and products of `f32` are all but exact.
 fn has_area(triangle: &[Vec3; 3]) -> bool {
     let [a, b, c] = triangle.map(|p| p.as_dvec3());
-    let area = (b - a).cross(c - a).length_squared();
-    triangle.iter().all(|p| p.is_finite()) && (area > 0.0)
-}
-
-/// A part of a triangle, known by its box.
-#[derive(Clone, Copy, Debug)]
-struct Piece {
-    bounds: Bounds3,
-    triangle: u32,
-}
-
-/// Cuts the boxes of large triangles (walls, floors) into tighter ones around parts of them.
-///
-/// The cuts are rounded; the boxes grow by more than that error, but never beyond the triangle.
-fn split(corners: &[[Vec3; 3]], hittable: &[u32], scale: Scale) -> Vec<Piece> {
-    let triangles: Vec<obvhs::triangle::Triangle> = hittable
-        .iter()
-        .map(|&i| corners[i as usize].map(|p| scale.apply(p).to_vec3a()))
-        .map(|[v0, v1, v2]| obvhs::triangle::Triangle { v0, v1, v2 })
-        .collect();
-    let mut boxes: Vec<Aabb> = triangles.iter().map(|t| t.aabb()).collect();
-    let mut owners: Vec<u32> = (0..triangles.len() as u32).collect();
-    let areas = || boxes.iter().map(Aabb::half_area);
-    let (mean, most) = (areas().sum::<f32>() / boxes.len() as f32, areas().fold(0.0, f32::max));
-    if std::env::var("NOSPLIT").is_err() { split_aabbs_preset(&mut boxes, &mut owners, &triangles, mean, most); }
-
-    std::iter::zip(boxes, owners)
-        .map(|(part, owner)| {
-            let triangle = hittable[owner as usize];
-            let whole = Bounds3::from_points(corners[triangle as usize]);
-            let error = 8.0 * f32::EPSILON * whole.min.abs().max(whole.max.abs());
-            let min = (scale.undo(part.min.into()) - error).max(whole.min);
-            let max = (scale.undo(part.max.into()) + error).min(whole.max);
-            Piece { bounds: Bounds3 { min, max }, triangle }
-        })
-        .collect()
+    triangle.iter().all(|p| p.is_finite()) && (b - a).cross(c - a).length_squared() > 0.0
 }
 
 /// A power of two that brings all coordinates to about one, so that no area overflows or vanishes.
@@ -128,16 +89,12 @@ impl Scale {
     fn apply(self, p: Vec3) -> Vec3 {
         (p.as_dvec3() * self.0).as_vec3()
     }
-
-    fn undo(self, p: Vec3) -> Vec3 {
-        (p.as_dvec3() / self.0).as_vec3()
-    }
 }
 
-/// A binary tree over pieces; node 0 is the root.
+/// A binary tree over triangles; node 0 is the root.
 struct Binary {
     nodes: Vec<BinaryNode>,
-    /// Pieces in the order of the leaves.
+    /// Triangles in the order of the leaves.
     order: Vec<u32>,
 }
 
@@ -149,102 +106,121 @@ struct BinaryNode {
     count: u32,
 }
 
-/// A tree with little surface: clusters of near neighbours merged upward, then improved by moving subtrees (`obvhs`).
-fn binary_tree(pieces: &[Piece], scale: Scale) -> Binary {
-    if pieces.len() <= LANES {
-        return balanced_tree(pieces);
+impl BinaryNode {
+    fn children(first: u32) -> Self {
+        Self { bounds: Bounds3::EMPTY, first, count: 0 }
     }
-    let mut config = match std::env::var("CFG").as_deref() { Ok("slow") => BvhBuildParams::slow_build(), Ok("vslow") => BvhBuildParams::very_slow_build(), _ => BvhBuildParams::medium_build() };
-    if let Ok(v) = std::env::var("TC") { config.collapse_traversal_cost = v.parse().unwrap(); }
-    if let Ok(v) = std::env::var("RR") { config.reinsertion_batch_ratio = v.parse().unwrap(); }
-    let boxes: Vec<Aabb> = pieces
-        .iter()
-        .map(|p| Aabb::new(scale.apply(p.bounds.min).to_vec3a(), scale.apply(p.bounds.max).to_vec3a()))
-        .collect();
-    let order = (0..pieces.len() as u32).collect();
-    let mut tree = PlocBuilder::with_capacity(pieces.len()).build(
-        config.ploc_search_distance,
-        &boxes,
-        order,
-        config.sort_precision,
-        config.search_depth_threshold,
-    );
-    let mut optimizer = ReinsertionOptimizer::default();
-    optimizer.run(&mut tree, config.reinsertion_batch_ratio, None);
-    collapse(&mut tree, config.max_prims_per_leaf, config.collapse_traversal_cost);
-    optimizer.run(&mut tree, config.reinsertion_batch_ratio * config.post_collapse_reinsertion_batch_ratio_multiplier, None);
 
-    let nodes =
-        tree.nodes.iter().map(|n| BinaryNode { bounds: Bounds3::EMPTY, first: n.first_index, count: n.prim_count }).collect();
-    let mut binary = Binary { nodes, order: tree.primitive_indices };
-    binary.fit(pieces);
-    binary
+    fn leaf(first: u32, count: u32) -> Self {
+        Self { bounds: Bounds3::EMPTY, first, count }
+    }
+
+    fn fits_a_block(&self) -> bool {
+        (1..=LANES as u32).contains(&self.count)
+    }
+
+    /// Half the surface of the box. In double precision, where it cannot overflow.
+    fn half_area(&self) -> f64 {
+        let e = self.bounds.max.as_dvec3() - self.bounds.min.as_dvec3();
+        e.x * e.y + e.y * e.z + e.z * e.x
+    }
 }
 
-/// A tree whose halves differ by one piece at most: sorted along the longest axis and cut in the middle, again and again.
-fn balanced_tree(pieces: &[Piece]) -> Binary {
-    let root = BinaryNode { bounds: Bounds3::EMPTY, first: 0, count: pieces.len() as u32 };
-    let mut binary = Binary { nodes: vec![root], order: (0..pieces.len() as u32).collect() };
-    let mut next = 0;
-    while next < binary.nodes.len() {
-        let BinaryNode { first, count, .. } = binary.nodes[next];
-        if count as usize > LANES {
-            let range = &mut binary.order[first as usize..(first + count) as usize];
-            let center = |i: u32| pieces[i as usize].bounds.center();
-            let spread = Bounds3::from_points(range.iter().map(|&i| center(i))).extent();
-            let axis = spread.max_position();
-            range.sort_by(|&a, &b| center(a)[axis].total_cmp(&center(b)[axis]));
-            let half = count / 2;
-            let child = binary.nodes.len() as u32;
-            binary.nodes.push(BinaryNode { bounds: Bounds3::EMPTY, first, count: half });
-            binary.nodes.push(BinaryNode { bounds: Bounds3::EMPTY, first: first + half, count: count - half });
-            binary.nodes[next] = BinaryNode { bounds: Bounds3::EMPTY, first: child, count: 0 };
+/// The triangles, and what is done with them on the way to the tree.
+struct Soup<'a> {
+    corners: &'a [[Vec3; 3]],
+    filtered: &'a dyn Fn(u32) -> bool,
+}
+
+impl Soup<'_> {
+    /// A tree with little surface: clusters of near neighbours merged upward, then improved by moving subtrees (`obvhs`).
+    ///
+    /// Subtrees of up to eight triangles become leaves, as testing eight costs the same as testing one. Cutting the boxes of large
+    /// triangles was tried and brought nothing in rooms.
+    fn binary_tree(&self, triangles: &[u32]) -> Binary {
+        const MOVED_PER_ROUND: f32 = 0.2;
+        const MOVED_AFTER_COLLAPSE: f32 = 0.4;
+        const ROUNDS_OF_NEXT_NEIGHBOURS: usize = 2;
+        if triangles.len() <= LANES {
+            return self.balanced_tree(triangles);
         }
-        next += 1;
-    }
-    binary.fit(pieces);
-    binary
-}
+        let scale = Scale::of(self.corners, triangles);
+        let boxes: Vec<Aabb> = triangles
+            .iter()
+            .map(|&i| self.bounds_of(&[i]))
+            .map(|b| Aabb::new(scale.apply(b.min).to_vec3a(), scale.apply(b.max).to_vec3a()))
+            .collect();
+        let order = (0..triangles.len() as u32).collect();
+        let mut tree = PlocBuilder::with_capacity(triangles.len()).build(
+            PlocSearchDistance::High,
+            &boxes,
+            order,
+            SortPrecision::U128,
+            ROUNDS_OF_NEXT_NEIGHBOURS,
+        );
+        let mut optimizer = ReinsertionOptimizer::default();
+        optimizer.run(&mut tree, MOVED_PER_ROUND, None);
+        collapse(&mut tree, LANES as u32, LANES as f32);
+        optimizer.run(&mut tree, MOVED_AFTER_COLLAPSE, None);
 
-impl Binary {
-    /// Computes the box of every node from the pieces below it.
-    fn fit(&mut self, pieces: &[Piece]) {
+        let node = |n: &Bvh2Node| {
+            if n.prim_count == 0 { BinaryNode::children(n.first_index) } else { BinaryNode::leaf(n.first_index, n.prim_count) }
+        };
+        let mut binary = Binary {
+            nodes: tree.nodes.iter().map(node).collect(),
+            order: tree.primitive_indices.iter().map(|&i| triangles[i as usize]).collect(),
+        };
+        self.fit(&mut binary);
+        binary
+    }
+
+    /// A tree whose halves differ by one triangle at most: sorted along the longest axis and cut in the middle, again and again.
+    fn balanced_tree(&self, triangles: &[u32]) -> Binary {
+        let mut binary = Binary { nodes: vec![BinaryNode::leaf(0, triangles.len() as u32)], order: triangles.to_vec() };
+        let mut next = 0;
+        while next < binary.nodes.len() {
+            let BinaryNode { first, count, .. } = binary.nodes[next];
+            if count as usize > LANES {
+                let range = &mut binary.order[first as usize..(first + count) as usize];
+                let center = |&i: &u32| self.bounds_of(&[i]).center();
+                let axis = Bounds3::from_points(range.iter().map(center)).extent().max_position();
+                range.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
+                let half = count / 2;
+                binary.nodes[next] = BinaryNode::children(binary.nodes.len() as u32);
+                binary.nodes.push(BinaryNode::leaf(first, half));
+                binary.nodes.push(BinaryNode::leaf(first + half, count - half));
+            }
+            next += 1;
+        }
+        self.fit(&mut binary);
+        binary
+    }
+
+    /// Computes the box of every node from the triangles below it.
+    fn fit(&self, binary: &mut Binary) {
         let mut parents_first = vec![0];
         let mut next = 0;
         while next < parents_first.len() {
-            let node = self.nodes[parents_first[next]];
+            let node = binary.nodes[parents_first[next]];
             if node.count == 0 {
                 parents_first.extend([node.first as usize, node.first as usize + 1]);
             }
             next += 1;
         }
         for &i in parents_first.iter().rev() {
-            let node = self.nodes[i];
-            self.nodes[i].bounds = if node.count == 0 {
-                self.nodes[node.first as usize].bounds.union(self.nodes[node.first as usize + 1].bounds)
+            let BinaryNode { first, count, .. } = binary.nodes[i];
+            binary.nodes[i].bounds = if count == 0 {
+                binary.nodes[first as usize].bounds.union(binary.nodes[first as usize + 1].bounds)
             } else {
-                self.bounds_of(pieces, node.first, node.count)
+                self.bounds_of(&binary.order[first as usize..(first + count) as usize])
             };
         }
     }
 
-    fn bounds_of(&self, pieces: &[Piece], first: u32, count: u32) -> Bounds3 {
-        self.range(first, count).iter().fold(Bounds3::EMPTY, |b, &i| b.union(pieces[i as usize].bounds))
+    fn bounds_of(&self, triangles: &[u32]) -> Bounds3 {
+        Bounds3::from_points(triangles.iter().flat_map(|&i| self.corners[i as usize]))
     }
 
-    fn range(&self, first: u32, count: u32) -> &[u32] {
-        &self.order[first as usize..(first + count) as usize]
-    }
-}
-
-/// What the collapse works on.
-struct Soup<'a> {
-    corners: &'a [[Vec3; 3]],
-    pieces: &'a [Piece],
-    filtered: &'a dyn Fn(u32) -> bool,
-}
-
-impl Soup<'_> {
     /// Makes eight-wide nodes: a node's children are opened, the one with the largest surface first, until there are eight.
     ///
     /// `None` when the tree would be deeper than [`MAX_DEPTH`].
@@ -255,17 +231,16 @@ impl Soup<'_> {
             if depth > MAX_DEPTH {
                 return None;
             }
-            let children = self.open_largest(binary, root);
-            for (lane, child) in children.iter().enumerate() {
+            for (lane, child) in self.open_largest(binary, root).into_iter().enumerate() {
                 for k in 0..3 {
                     built.nodes[slot].bounds[k][0].0[lane] = child.bounds.min[k];
                     built.nodes[slot].bounds[k][1].0[lane] = child.bounds.max[k];
                 }
-                built.nodes[slot].children[lane] = if is_block(child) {
-                    built.blocks.push(self.block(binary.range(child.first, child.count)));
+                built.nodes[slot].children[lane] = if child.fits_a_block() {
+                    built.blocks.push(self.block(&binary.order[child.first as usize..(child.first + child.count) as usize]));
                     LEAF | (built.blocks.len() - 1) as u32
                 } else {
-                    waiting.push((*child, built.nodes.len(), depth + 1));
+                    waiting.push((child, built.nodes.len(), depth + 1));
                     built.nodes.push(Node::EMPTY);
                     (built.nodes.len() - 1) as u32
                 };
@@ -277,9 +252,9 @@ impl Soup<'_> {
     fn open_largest(&self, binary: &Binary, root: BinaryNode) -> Vec<BinaryNode> {
         let mut children = vec![root];
         while children.len() < LANES {
-            let openable = (0..children.len()).filter(|&i| !is_block(&children[i]));
-            let Some(largest) = openable.max_by(|&a, &b| half_area(&children[a]).total_cmp(&half_area(&children[b]))) else { break };
-            let [left, right] = self.halves(binary, &children[largest]);
+            let openable = (0..children.len()).filter(|&i| !children[i].fits_a_block());
+            let Some(largest) = openable.max_by(|&a, &b| children[a].half_area().total_cmp(&children[b].half_area())) else { break };
+            let [left, right] = self.halves(binary, children[largest]);
             children[largest] = left;
             children.push(right);
         }
@@ -287,20 +262,18 @@ impl Soup<'_> {
     }
 
     /// The two children of a node; a leaf that is too large for a block is cut in the middle.
-    fn halves(&self, binary: &Binary, node: &BinaryNode) -> [BinaryNode; 2] {
+    fn halves(&self, binary: &Binary, node: BinaryNode) -> [BinaryNode; 2] {
         if node.count == 0 {
             return [binary.nodes[node.first as usize], binary.nodes[node.first as usize + 1]];
         }
         let half = node.count / 2;
-        [(node.first, half), (node.first + half, node.count - half)]
-            .map(|(first, count)| BinaryNode { bounds: binary.bounds_of(self.pieces, first, count), first, count })
+        [(node.first, half), (node.first + half, node.count - half)].map(|(first, count)| {
+            let bounds = self.bounds_of(&binary.order[first as usize..(first + count) as usize]);
+            BinaryNode { bounds, first, count }
+        })
     }
 
-    /// The triangles of up to eight pieces, each once.
-    fn block(&self, pieces: &[u32]) -> Block {
-        let mut triangles: Vec<u32> = pieces.iter().map(|&i| self.pieces[i as usize].triangle).collect();
-        triangles.sort_unstable();
-        triangles.dedup();
+    fn block(&self, triangles: &[u32]) -> Block {
         let mut block = Block { corners: [[Eight([f32::NAN; LANES]); 3]; 3], ids: Eight([0; LANES]) };
         for (lane, &triangle) in triangles.iter().enumerate() {
             for (c, corner) in self.corners[triangle as usize].iter().enumerate() {
@@ -314,12 +287,60 @@ impl Soup<'_> {
     }
 }
 
-fn is_block(node: &BinaryNode) -> bool {
-    (1..=LANES as u32).contains(&node.count)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Half the surface of a node's box. In double precision, where it cannot overflow.
-fn half_area(node: &BinaryNode) -> f64 {
-    let e = node.bounds.extent().as_dvec3();
-    e.x * e.y + e.y * e.z + e.z * e.x
+    /// Every inner node has a leaf of one triangle and the rest.
+    fn chain(soup: &Soup, count: u32) -> Binary {
+        let mut nodes = vec![BinaryNode::children(1)];
+        for i in 0..count - 1 {
+            let rest = if i + 2 == count { BinaryNode::leaf(i + 1, 1) } else { BinaryNode::children(2 * i + 3) };
+            nodes.extend([BinaryNode::leaf(i, 1), rest]);
+        }
+        let mut binary = Binary { nodes, order: (0..count).collect() };
+        soup.fit(&mut binary);
+        binary
+    }
+
+    fn triangles(count: u32) -> Vec<[Vec3; 3]> {
+        (0..count).map(|i| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p + Vec3::Z * i as f32)).collect()
+    }
+
+    #[test]
+    fn a_tree_too_deep_for_the_stack_is_refused_and_a_balanced_one_is_not() {
+        let corners = triangles(400);
+        let soup = Soup { corners: &corners, filtered: &|_| false };
+        assert!(soup.collapse(&chain(&soup, 200)).is_some());
+        assert!(soup.collapse(&chain(&soup, 400)).is_none());
+        let all: Vec<u32> = (0..400).collect();
+        assert!(soup.collapse(&soup.balanced_tree(&all)).is_some());
+    }
+
+    #[test]
+    fn leaves_too_large_for_a_block_are_cut() {
+        let corners = triangles(100);
+        let soup = Soup { corners: &corners, filtered: &|i| i % 2 == 0 };
+        let mut binary = Binary { nodes: vec![BinaryNode::leaf(0, 100)], order: (0..100).collect() };
+        soup.fit(&mut binary);
+        let built = soup.collapse(&binary).expect("shallow");
+        let mut ids: Vec<u32> = Vec::new();
+        for block in &built.blocks {
+            let used = (0..LANES).filter(|&lane| block.corners[0][0].0[lane].is_finite());
+            ids.extend(used.map(|lane| block.ids.0[lane]));
+        }
+        ids.sort_unstable_by_key(|id| id & !FILTERED);
+        let expected: Vec<u32> = (0..100).map(|i| if i % 2 == 0 { i | FILTERED } else { i }).collect();
+        assert_eq!(ids, expected);
+    }
+
+    #[test]
+    fn the_same_triangles_give_the_same_tree() {
+        let mut rng = enfilade_math::Rng::new(0);
+        let mut p = || Vec3::new(rng.next_f32(), rng.next_f32(), rng.next_f32());
+        let corners: Vec<[Vec3; 3]> = (0..5000).map(|_| [p(), p(), p()]).collect();
+        let (one, other) = (build(&corners, &|_| false), build(&corners, &|_| false));
+        assert!(one.nodes == other.nodes && one.blocks.len() == other.blocks.len());
+        assert!(std::iter::zip(&one.blocks, &other.blocks).all(|(a, b)| a.ids == b.ids));
+    }
 }

@@ -5,7 +5,7 @@
 
 /// Eight `f32` values.
 ///
-/// `min` and `max` return the second operand when one is NaN, and comparisons with NaN are false, as the x86 instructions do.
+/// `min` and `max` return the second operand when one is NaN, as the x86 instructions do. With NaN, `ne` is true, the others are false.
 /// A comparison returns one bit per lane.
 pub(super) trait Lanes: Copy {
     fn splat(value: f32) -> Self;
@@ -98,7 +98,7 @@ impl Lanes for Portable {
     }
     #[inline(always)]
     fn ne(self, o: Self) -> u32 {
-        self.mask(o, |a, b| a < b || a > b)
+        self.mask(o, |a, b| a != b)
     }
 }
 
@@ -178,7 +178,7 @@ mod avx2 {
         #[inline(always)]
         fn ne(self, o: Self) -> u32 {
             // SAFETY: see the type.
-            unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_NEQ_OQ>(self.0, o.0)) as u32 }
+            unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_NEQ_UQ>(self.0, o.0)) as u32 }
         }
     }
 }

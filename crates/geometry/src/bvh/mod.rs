@@ -71,7 +71,7 @@ impl Hit {
 impl Bvh {
     /// Builds the hierarchy of `corners`, in which triangle i asks the filter of the `_filtered` queries when `filtered(i)`.
     ///
-    /// The same triangles give the same hierarchy, whatever the number of threads. About 1.5 CPU seconds per million triangles.
+    /// The same triangles give the same hierarchy, whatever the number of threads. About one CPU second per million triangles.
     ///
     /// # Panics
     /// With 2³¹ triangles or more.

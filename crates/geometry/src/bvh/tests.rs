@@ -225,7 +225,11 @@ fn the_portable_path_gives_the_same_bits() {
             let ray = unkind_ray(&mut rng, &triangles, size);
             let accept = |hit: &Hit| hit.u > hit.v;
             assert_eq!(bits(best.closest(&ray)), bits(portable.closest(&ray)), "{name}, ray {i}: {ray:?}");
-            assert_eq!(bits(best.closest_filtered(&ray, accept)), bits(portable.closest_filtered(&ray, accept)), "{name}, ray {i}: {ray:?}");
+            assert_eq!(
+                bits(best.closest_filtered(&ray, accept)),
+                bits(portable.closest_filtered(&ray, accept)),
+                "{name}, ray {i}: {ray:?}"
+            );
             assert_eq!(best.occluded_filtered(&ray, accept), portable.occluded_filtered(&ray, accept), "{name}, ray {i}: {ray:?}");
         }
     }

@@ -60,6 +60,7 @@ struct Stack {
     len: usize,
 }
 
+// The traversal keeps at most seven entries per level of a tree of at most `MAX_DEPTH` levels, so `len` never reaches `MAX_STACK`.
 impl Stack {
     #[inline(always)]
     fn new() -> Self {
@@ -69,16 +70,19 @@ impl Stack {
     /// Puts an entry in its place among those from `base` on, which are sorted with the nearest last.
     #[inline(always)]
     fn insert(&mut self, base: usize, child: u32, t: f32) {
+        debug_assert!(self.len < MAX_STACK);
         let mut at = self.len;
         while at > base {
-            // SAFETY: everything below `len` has been written.
+            // SAFETY: `at` is at most `len`, below which everything has been written.
             let below = unsafe { self.entries.get_unchecked(at - 1).assume_init() };
             if below.1 >= t {
                 break;
             }
+            // SAFETY: `at` is at most `len`, which is below `MAX_STACK`.
             unsafe { self.entries.get_unchecked_mut(at) }.write(below);
             at -= 1;
         }
+        // SAFETY: as above.
         unsafe { self.entries.get_unchecked_mut(at) }.write((child, t));
         self.len += 1;
     }
@@ -119,6 +123,7 @@ pub(super) fn walk<L: Lanes, const ANY: bool, const ASK: bool, F: Fn(&Hit) -> bo
     loop {
         if let Some(block) = Node::leaf(current) {
             // The triangles of a leaf.
+            // SAFETY: the builder makes children of existing nodes and blocks only.
             let block = unsafe { bvh.blocks.get_unchecked(block) };
             let mut met = triangles.meet(block, best.t, &mut at);
             while met != 0 {
@@ -135,6 +140,7 @@ pub(super) fn walk<L: Lanes, const ANY: bool, const ASK: bool, F: Fn(&Hit) -> bo
             }
         } else {
             // The boxes of a node: go on with the nearest, keep the others for later, the farthest deepest in the stack.
+            // SAFETY: as above, and there is a root.
             let node = unsafe { bvh.nodes.get_unchecked(current as usize) };
             let (mut entered, t) = boxes.enter(node, best.t);
             if entered != 0 {

@@ -18,11 +18,13 @@ fn uniform(x: i32, row: u32) -> f32 {
 
 /// Value noise on [−1,1] with features one unit apart; repeats after `period` units.
 pub fn noise(p: Vec2, period: [i32; 2], seed: u32) -> f32 {
-    let cell = p.floor();
-    let f = p - cell;
+    // Rounds down, but for whole negative numbers, where the weight of one leads to the same value.
+    let below = |v: f32| v as i32 - i32::from(v < 0.0);
+    let cell = [below(p.x), below(p.y)];
+    let f = p - Vec2::new(cell[0] as f32, cell[1] as f32);
     let w = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
     let wrap = |c: i32, n: i32| if (0..n).contains(&c) { c } else { c.rem_euclid(n) };
-    let (x0, y0) = (wrap(cell.x as i32, period[0]), wrap(cell.y as i32, period[1]));
+    let (x0, y0) = (wrap(cell[0], period[0]), wrap(cell[1], period[1]));
     let (x1, y1) = (wrap(x0 + 1, period[0]), wrap(y0 + 1, period[1]));
     let (row0, row1) = (row(y0, seed), row(y1, seed));
     let low = uniform(x0, row0) * (1.0 - w.x) + uniform(x1, row0) * w.x;

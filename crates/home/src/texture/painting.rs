@@ -16,10 +16,10 @@ pub enum PaintingStyle {
     Bands,
 }
 
-/// A picture of 512 pixels a side in the given colours; it is stretched to its frame.
+/// A picture of 384 pixels a side in the given colours; it is stretched to its frame.
 pub fn painting(name: &str, style: PaintingStyle, colors: &[Rgb; 5], seed: u32) -> Image {
-    paint(name, 512, 512, |uv| {
-        let canvas = 1.0 + 0.05 * (lattice((uv.x * 512.0) as i32, (uv.y * 512.0) as i32, seed) - 0.5) + 0.05 * fbm(uv, [40, 40], 2, seed);
+    paint(name, 384, 384, |uv| {
+        let canvas = 1.0 + 0.05 * (lattice((uv.x * 384.0) as i32, (uv.y * 384.0) as i32, seed) - 0.5) + 0.05 * fbm(uv, [40, 40], 2, seed);
         let color = match style {
             PaintingStyle::Hills => hills(uv, colors, seed),
             PaintingStyle::Shapes => shapes(uv, colors, seed),

@@ -170,12 +170,12 @@ pub mod demo {
     pub const SCENE: &str = "living-room";
     /// Seed.
     pub const SEED: u64 = 0;
-    /// Frames of each trajectory.
-    pub const FRAMES: u32 = 4;
+    /// Frames of each of the room's four trajectories.
+    pub const FRAMES: u32 = 2;
     /// Image width and height.
     pub const SIZE: [u32; 2] = [320, 240];
     /// Samples per pixel.
-    pub const SAMPLES: u32 = 32;
+    pub const SAMPLES: u32 = 20;
 }
 
 impl Config {
@@ -185,10 +185,11 @@ impl Config {
     /// When it cannot be read, is not TOML, holds an unknown key or a value out of its range, or names an environment variable
     /// that is not set.
     pub fn read(file: &Path, overrides: &Overrides) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(file).map_err(Error::io("read", file))?;
+        let unreadable = |e| Error::usage(format!("cannot read {}: {e}", file.display()), "name a TOML file, or make the demo: enfilade run --demo out");
+        let text = std::fs::read_to_string(file).map_err(unreadable)?;
         let mut config = document::resolve(file, &text, overrides, &environment_variable)?;
-        let base = file.parent().unwrap_or(Path::new(""));
-        config.base = std::path::absolute(base).map_err(Error::io("find", base))?;
+        let absolute = std::path::absolute(file).map_err(Error::io("find", file))?;
+        config.base = absolute.parent().map(Path::to_path_buf).unwrap_or_default();
         Ok(config)
     }
 

@@ -3,7 +3,7 @@
 use super::{Input, Job, Outcome, Record, Stage};
 use crate::config::{CameraChoice, closest};
 use crate::error::Error;
-use crate::report::StageCx;
+use crate::report::{StageCx, count};
 use crate::workdir::{Hash, write_json};
 use enfilade_explore::{CarveConfig, StartsConfig};
 use enfilade_math::DVec3;
@@ -31,7 +31,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     job.dataset.write_free_space(name, &space.tree.to_bt(), space.free_min, space.free_max).map_err(Error::stage)?;
     write_json(&job.work_file(STARTS)?, &starts)?;
     let size = space.free_max - space.free_min;
-    let cameras = if starts.len() == 1 { "1 camera".into() } else { format!("{} cameras", starts.len()) };
+    let cameras = count(starts.len(), "camera");
     let volume = space.report.free_volume_m3;
     let summary = format!("{volume:.0} m3 of free space within {:.1} x {:.1} x {:.1} m, seen from {cameras}", size.x, size.y, size.z);
     let report = serde_json::to_value(&space.report).unwrap_or_default();

@@ -3,7 +3,7 @@
 use super::{Input, Job, Outcome, Record};
 use crate::config::{FileSource, Source};
 use crate::error::Error;
-use crate::report::StageCx;
+use crate::report::{StageCx, count};
 use crate::workdir::{Hash, write_json, write_whole};
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, ImportOptions, ImportedLabel};
@@ -85,10 +85,11 @@ pub(crate) fn describe(scene: &Scene) -> String {
     let triangles: usize = scene.parts.iter().map(|p| scene.meshes[p.mesh as usize].triangles.len()).sum();
     let extent = WorldMesh::new(scene).bounds.extent();
     format!(
-        "{} parts, {triangles} triangles, {} materials, {} images; {:.1} x {:.1} x {:.1} m",
-        scene.parts.len(),
-        scene.materials.len(),
-        scene.images.len(),
+        "{}, {}, {}, {}; {:.1} x {:.1} x {:.1} m",
+        count(scene.parts.len(), "part"),
+        count(triangles, "triangle"),
+        count(scene.materials.len(), "material"),
+        count(scene.images.len(), "image"),
         extent.x,
         extent.y,
         extent.z

@@ -13,6 +13,8 @@ pub(crate) struct Job<'a> {
     pub config: &'a Config,
     pub scene: &'a SceneConfig,
     pub dataset: &'a Dataset,
+    /// Do the work even where its result is there already.
+    pub force: bool,
     workdir: &'a Workdir,
     loaded: Mutex<Loaded>,
 }
@@ -30,8 +32,8 @@ pub(crate) struct World {
 }
 
 impl<'a> Job<'a> {
-    pub fn new(config: &'a Config, scene: &'a SceneConfig, dataset: &'a Dataset, workdir: &'a Workdir) -> Self {
-        Self { config, scene, dataset, workdir, loaded: Mutex::default() }
+    pub fn new(config: &'a Config, scene: &'a SceneConfig, dataset: &'a Dataset, workdir: &'a Workdir, force: bool) -> Self {
+        Self { config, scene, dataset, force, workdir, loaded: Mutex::default() }
     }
 
     /// The dataset's folder.

@@ -2,7 +2,7 @@
 
 use super::{Input, Job, Outcome, Record, Stage, import};
 use crate::error::Error;
-use crate::report::StageCx;
+use crate::report::{StageCx, count};
 use crate::workdir::{Hash, read_json};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_post::label::{LabelReport, LabelTable, join, part_names};
@@ -31,13 +31,13 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let hash = Hash::of(&labels).0;
     let frames = job.frames()?;
     for (done, (camera, frame)) in frames.iter().enumerate() {
-        if !job.dataset.labels_are_complete(&job.scene.name, camera, *frame, &hash) {
+        if job.force || !job.dataset.labels_are_complete(&job.scene.name, camera, *frame, &hash) {
             label_frame(job, camera, *frame, &labels, &hash)?;
         }
         cx.progress("frames", done as u64 + 1, frames.len() as u64);
     }
     let labelled = labels.parts.iter().filter(|l| l.semantic >= 1).count();
-    let summary = format!("{labelled} of {} parts have a class, in {} frames", labels.parts.len(), frames.len());
+    let summary = format!("{labelled} of {} have a class, in {}", count(labels.parts.len(), "part"), count(frames.len(), "frame"));
     Ok(Outcome { summary, outputs: outputs(job, &frames), report, ..Outcome::default() })
 }
 

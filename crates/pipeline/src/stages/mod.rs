@@ -180,13 +180,13 @@ struct Output {
     bytes: u64,
 }
 
-/// Runs a stage of a scene unless it is up to date. With `force` it runs in any case.
-pub(crate) fn advance(spec: &StageSpec, job: &Job, cx: StageCx, force: bool) -> Result<StageOutcome, Error> {
+/// Runs a stage of a scene unless it is up to date and not forced.
+pub(crate) fn advance(spec: &StageSpec, job: &Job, cx: StageCx) -> Result<StageOutcome, Error> {
     let record_path = job.work_file(&format!("{}.json", spec.name))?;
     let previous: Option<Record> = read_json(&record_path);
     let inputs = (spec.inputs)(job, previous.as_ref())?;
     let settings = (spec.settings)(job);
-    if let (false, Some(record), Some(inputs)) = (force, &previous, &inputs)
+    if let (false, Some(record), Some(inputs)) = (job.force, &previous, &inputs)
         && record.key == key(spec, &settings, inputs)
         && record.outputs.iter().all(|o| is_there(&job.out().join(&o.path), o.bytes))
     {

@@ -2,7 +2,7 @@
 
 use super::{Input, Job, Outcome, Record, Stage, carve};
 use crate::error::Error;
-use crate::report::StageCx;
+use crate::report::{StageCx, count, count_of};
 use crate::workdir::{Hash, read_json, remove_if_there};
 use enfilade_explore::{CarveReport, FreeSpace, PlanConfig};
 use enfilade_geometry::OccupancyTree;
@@ -40,7 +40,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     }
     job.dataset.write_intrinsics(name, &intrinsics).map_err(Error::stage)?;
     let poses: usize = trajectories.iter().map(|t| t.poses.len()).sum();
-    let summary = format!("{} trajectories, {poses} poses, {:.0} degrees wide", trajectories.len(), fov_x_rad.to_degrees());
+    let summary = format!("{} with {}, {:.0} degrees wide", count_of(trajectories.len(), "trajectory", "trajectories"), count(poses, "pose"), fov_x_rad.to_degrees());
     let layout = job.dataset.layout();
     let mut outputs = outputs_of(job, &trajectories);
     outputs.push(layout.metadata_cameras(name));

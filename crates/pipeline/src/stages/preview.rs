@@ -2,7 +2,7 @@
 
 use super::{Input, Job, Outcome, Record};
 use crate::error::Error;
-use crate::report::StageCx;
+use crate::report::{StageCx, count};
 use crate::workdir::{Hash, remove_if_there};
 use enfilade_post::drivers::{preview_camera, write_contact_sheet};
 use enfilade_post::sheet::SheetConfig;
@@ -31,6 +31,6 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         sheets += usize::from(sheet.is_some());
         outputs.extend(sheet);
     }
-    let contact = if sheets == 1 { "1 contact sheet".into() } else { format!("{sheets} contact sheets") };
-    Ok(Outcome { summary: format!("{} pictures, {contact}", outputs.len() - sheets), outputs, ..Outcome::default() })
+    let summary = format!("{}, {}", count(outputs.len() - sheets, "picture"), count(sheets, "contact sheet"));
+    Ok(Outcome { summary, outputs, ..Outcome::default() })
 }

@@ -3,7 +3,7 @@
 
 use super::{Input, Job, Outcome, Record, Stage};
 use crate::error::Error;
-use crate::report::{StageCx, Stopwatch};
+use crate::report::{StageCx, Stopwatch, count};
 use crate::workdir::Hash;
 use enfilade_dataset::{FrameInfo, FrameTime};
 use enfilade_frame::{LAYERS, Pass};
@@ -33,7 +33,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         let config = RenderConfig { seed: job.scene.seed_for(&format!("render/{}", trajectory.name)), ..job.scene.render.clone() };
         for pose in &trajectory.poses {
             let info = frame_info(&package, &config, &intrinsics, pose);
-            if !job.dataset.frame_is_complete(&job.scene.name, &trajectory.name, pose.frame, &info.config_hash) {
+            if job.force || !job.dataset.frame_is_complete(&job.scene.name, &trajectory.name, pose.frame, &info.config_hash) {
                 missing.push((trajectory.name.as_str(), config.clone(), info));
             }
         }
@@ -43,7 +43,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     }
     let [width, height] = job.scene.size;
     let kept = if missing.len() < total { format!(", {} kept", total - missing.len()) } else { String::new() };
-    let summary = format!("{} frames of {width}x{height} at {} samples{kept}", missing.len(), job.scene.render.samples);
+    let summary = format!("{} of {width}x{height} at {} samples{kept}", count(missing.len(), "frame"), job.scene.render.samples);
     Ok(Outcome { summary, outputs: outputs(job)?, ..Outcome::default() })
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Input, Job, Outcome, Record};
 use crate::error::Error;
-use crate::report::StageCx;
+use crate::report::{StageCx, count};
 use crate::workdir::Hash;
 use enfilade_post::verify::{LAWS, verify_dataset};
 
@@ -25,7 +25,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         let message = format!("{} of {} laws do not hold: {}", broken.len(), report.laws.len(), broken.join("; "));
         return Err(Error::scene(message, format!("see the card: enfilade verify {} --scene {name}", job.out().display())));
     }
-    let summary = format!("all {} laws hold over {} frames", report.laws.len(), report.frames);
+    let summary = format!("all {} laws hold over {}", report.laws.len(), count(report.frames, "frame"));
     let report = serde_json::to_value(&report).unwrap_or_default();
     Ok(Outcome { summary, report, ..Outcome::default() })
 }

@@ -9,7 +9,7 @@
 //! | `object` | name of an object: all parts `object/…`, or the part of that name |
 //! | `name` | name of a part, an object or a material, whichever there is |
 //! | `material` | name of a material: all parts that wear it |
-//! | `nyu40_id` or `semantic` | class by NYU40 number or name; −1 or empty for unlabelled |
+//! | `nyu40_id` or `semantic` | class by NYU40 number or name; −1, 0 (NYU40's own) or empty for unlabelled |
 //! | `nyu40_name` | optional; checked against the class |
 //! | `instance` | optional; instance number from 1, −1 for none, empty for automatic |
 //!
@@ -174,7 +174,7 @@ impl Columns {
 
 /// A class by number or name.
 fn parse_class(text: &str) -> Result<i16, String> {
-    if text.is_empty() || ["-1", "unlabelled", "unlabeled", "none"].iter().any(|n| text.eq_ignore_ascii_case(n)) {
+    if text.is_empty() || ["-1", "0", "unlabelled", "unlabeled", "none"].iter().any(|n| text.eq_ignore_ascii_case(n)) {
         return Ok(-1);
     }
     if let Ok(number) = text.parse::<i64>() {
@@ -184,9 +184,16 @@ fn parse_class(text: &str) -> Result<i16, String> {
             Err(format!("class {number} is out of range; expected 1 to 40, or -1 for unlabelled"))
         };
     }
-    NYU40.iter().find(|class| class.name.eq_ignore_ascii_case(text)).map(|class| class.id).ok_or_else(|| {
+    let name = letters(text);
+    let name = if name == "refridgerator" { "refrigerator" } else { &name }; // the spelling of NYU's own list
+    NYU40.iter().find(|class| class.name == name).map(|class| class.id).ok_or_else(|| {
         format!("unknown class {text:?}; expected a number from 1 to 40 or one of: {}", NYU40.map(|class| class.name).join(", "))
     })
+}
+
+/// The letters of a name in lower case: `Floor_mat` and `night stand` are written in many ways.
+fn letters(text: &str) -> String {
+    text.chars().filter(|c| c.is_ascii_alphabetic()).map(|c| c.to_ascii_lowercase()).collect()
 }
 
 fn parse_instance(text: &str) -> Result<Option<i16>, String> {
@@ -257,9 +264,11 @@ mod tests {
 
     #[test]
     fn classes_may_be_names_and_instances_stated() {
-        let table = LabelTable::parse(b"\xef\xbb\xbfname,semantic,instance\n\r\n\"a, b\",Otherprop,7\nc,4,-1\nd,,\n", "t").unwrap();
+        let table =
+            LabelTable::parse(b"\xef\xbb\xbfname,semantic,instance\n\r\n\"a, b\",Otherprop,7\nc,4,-1\nd,,\ne,0,\nf,Night_stand,\n", "t")
+                .unwrap();
         let found: Vec<_> = table.rows().iter().map(|r| (r.line, r.name.as_str(), r.semantic, r.instance)).collect();
-        assert_eq!(found, [(3, "a, b", 40, Some(7)), (4, "c", 4, Some(-1)), (5, "d", -1, None)]);
+        assert_eq!(found, [(3, "a, b", 40, Some(7)), (4, "c", 4, Some(-1)), (5, "d", -1, None), (6, "e", -1, None), (7, "f", 32, None)]);
     }
 
     #[test]
@@ -268,7 +277,7 @@ mod tests {
         assert_eq!(message("id,semantic\n"), "labels.csv:1: no column part, object, name or material; the header has: id, semantic");
         assert!(message("").starts_with("labels.csv:1: no column part"), "{}", message(""));
         assert!(message("part,semantic\na,5\nb,Divan\n").starts_with("labels.csv:3: unknown class \"Divan\"; expected a number"));
-        for bad in ["0", "41", "-2", "99999999999"] {
+        for bad in ["41", "-2", "99999999999"] {
             assert!(message(&format!("part,nyu40_id\na,{bad}\n")).contains(&format!(":2: class {bad} is out of range")));
         }
         assert!(message("part,nyu40_id,instance\na,5,0\n").starts_with("labels.csv:2: instance \"0\" is no instance number"));

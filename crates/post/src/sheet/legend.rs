@@ -8,7 +8,7 @@ use crate::palette::semantic_color;
 use enfilade_frame::{Frame, Layer};
 use std::collections::BTreeMap;
 
-const COLUMN: u32 = 208;
+const COLUMN: u32 = 252;
 const LINE: u32 = 26;
 const HEADING: u32 = 40;
 const SWATCH: u32 = 14;
@@ -69,7 +69,7 @@ fn draw_entry(canvas: &mut Canvas, x: u32, y: u32, class: i16, share: f64) {
     let baseline = (y + SWATCH) as f32 - 1.5;
     lettering::draw(canvas, (x + SWATCH + 8) as f32, baseline, class_name(class), CAPTION);
     let percent = if share < 0.0005 { "< 0.1 %".to_string() } else { format!("{:.1} %", 100.0 * share) };
-    let right = (x + COLUMN - 26) as f32;
+    let right = (x + COLUMN - 30) as f32;
     lettering::draw(canvas, right - lettering::width(&percent, DETAIL), baseline, &percent, DETAIL);
 }
 

@@ -28,13 +28,14 @@ pub struct Style {
 /// Width of `text` in pixels.
 pub fn width(text: &str, style: Style) -> f32 {
     let units: f32 = text.chars().map(advance).sum();
-    (units - SPACING).max(0.0) * style.height / CAPITAL
+    (units - SPACING).max(0.0) * style.height / CAPITAL + style.weight * style.height
 }
 
 /// Draws `text` with its baseline starting at (x, y).
 pub fn draw(canvas: &mut Canvas, x: f32, y: f32, text: &str, style: Style) {
     let unit = style.height / CAPITAL;
-    let mut pen = x;
+    // The pen's edge, not its centre, is at x.
+    let mut pen = x + 0.5 * style.weight * style.height;
     for c in text.chars() {
         for stroke in strokes(c) {
             let points: Vec<[f32; 2]> = stroke.iter().map(|p| [pen + p[0] * unit, y - p[1] * unit]).collect();

@@ -27,6 +27,8 @@ const GAP: u32 = 10;
 const CAPTION_SPACE: u32 = 22;
 const ROW_GAP: u32 = 20;
 const HEADER: u32 = 72;
+/// Width of a picture in the overview at most: a single one need not fill the sheet.
+const LARGEST_TILE: u32 = 900;
 
 /// How large contact sheets are.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -105,7 +107,8 @@ pub fn trajectory_sheet(title: SheetTitle<'_>, frames: &[(u32, Frame)], config: 
 pub fn overview_sheet(title: &str, tiles: &[OverviewTile], config: &SheetConfig) -> Picture {
     let width = config.width.max(600);
     let columns = (tiles.len() as u32).clamp(1, if tiles.len() > 6 { 4 } else { 3 });
-    let tile_width = (width - 2 * MARGIN - (columns - 1) * 2 * GAP) / columns;
+    let tile_width = ((width - 2 * MARGIN - (columns - 1) * 2 * GAP) / columns).min(LARGEST_TILE);
+    let width = 2 * MARGIN + columns * tile_width + (columns - 1) * 2 * GAP;
     let aspect = tiles.first().map_or(4.0 / 3.0, |t| f64::from(t.picture.width()) / f64::from(t.picture.height()));
     let tile_height = (f64::from(tile_width) / aspect).round() as u32;
     let row = tile_height + 2 * CAPTION_SPACE + ROW_GAP;
@@ -256,6 +259,6 @@ mod tests {
         let sheet = trajectory_sheet(title, &[(0, Frame::new(8, 6))], &SheetConfig { width: 100, frames: 1 });
         assert_eq!(sheet.width(), 600);
         assert_eq!(trajectory_sheet(title, &[], &SheetConfig::default()).width(), 1920);
-        assert_eq!(overview_sheet("empty", &[], &SheetConfig::default()).width(), 1920);
+        assert_eq!(overview_sheet("empty", &[], &SheetConfig::default()).width(), LARGEST_TILE + 2 * MARGIN);
     }
 }

@@ -140,10 +140,12 @@ impl VerifyReport {
     }
 }
 
+/// Verdict, worst value, bound, unit, statement; no numbers where a law that allows none was never broken.
 fn line(law: &LawResult, verdict: &str) -> String {
     let worst = law.worst.map_or("not finite".to_string(), number);
-    let line = format!("{verdict:<6}{worst:>10}  of {:<7} {:<9} {}", number(law.bound), law.unit, law.statement);
-    line.trim_end().to_string()
+    let numbers = format!("{worst:>10}  of {:<7} {:<9}", number(law.bound), law.unit);
+    let numbers = if law.holds && law.bound == 0.0 { " ".repeat(numbers.len()) } else { numbers };
+    format!("{verdict:<6}{numbers} {}", law.statement)
 }
 
 /// A number in at most seven characters or so.
@@ -190,7 +192,7 @@ mod tests {
 FAIL        7.25  of 5       degrees   roll stays within 5 degrees
         at  room/cam_00/frame.0003
         may mean: the camera was tilted beyond the limit: plan again
-ok             0  of 0       files     every file can be read and has the shape and type its name promises
+ok                                     every file can be read and has the shape and type its name promises
 ok        1.5e-5  of 0.02    px        position projects to the centre of its own pixel
 1 of 3 laws fail over 4 frames of 1 scene
 ";

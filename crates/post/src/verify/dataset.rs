@@ -79,9 +79,10 @@ struct SceneFacts {
 impl SceneFacts {
     /// Reads them, and checks the laws that concern no single frame.
     fn read(dataset: &Dataset, name: &str, card: &mut Card) -> Self {
-        let nodes = readable(card, dataset.read_nodes(name)).unwrap_or_default();
-        let first_wrong = nodes.iter().zip(1u32..).position(|(node, expected)| node.node_id != expected);
-        card.observe(Law::Nodes, if first_wrong.is_some() { 1.0 } else { 0.0 }, || format!("{name}: row {first_wrong:?}"));
+        let nodes = dataset.read_nodes(name);
+        let problem = nodes.as_ref().err().map(ToString::to_string);
+        card.observe(Law::Nodes, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
+        let nodes = nodes.unwrap_or_default();
         let facts = Self {
             name: name.to_string(),
             meters_per_unit: readable(card, dataset.meters_per_asset_unit(name)).unwrap_or(1.0),
@@ -245,8 +246,9 @@ fn read_tree(dataset: &Dataset, scene: &str, card: &mut Card) -> Option<Occupanc
 mod tests {
     use super::*;
     use crate::testing;
-    use enfilade_dataset::{FrameInfo, FrameTime, ManifestInfo, write_bytes};
-    use enfilade_frame::Layer;
+    use enfilade_dataset::hdf5::{Storage, write_array};
+    use enfilade_dataset::{Array, Elements, FrameInfo, FrameTime, ManifestInfo, write_bytes};
+    use enfilade_frame::{Layer, f16};
     use enfilade_scene::Quiet;
 
     fn verify(dataset: &Dataset) -> VerifyReport {
@@ -298,6 +300,17 @@ mod tests {
         assert_eq!(laws, [Law::FramesComplete]);
         let (laws, _) = failures(|d| std::fs::remove_file(d.layout().mesh_file("room", "mesh_objects_si.hdf5")).unwrap());
         assert_eq!(laws, [Law::LabelTables]);
+        let (laws, text) = failures(|d| {
+            let path = d.layout().layer("room", "cam_00", 1, Layer::TexCoord);
+            let length = std::fs::metadata(&path).unwrap().len() as usize;
+            write_bytes(&path, vec![0; length]).unwrap();
+        });
+        assert_eq!(laws, [Law::Readable, Law::LayersPresent, Law::Checksums], "{text}");
+        let (laws, _) = failures(|d| write_bytes(&d.layout().metadata_nodes("room"), "node_id,node_name,object_id,object_name\n").unwrap());
+        assert_eq!(laws, [Law::EntityIds, Law::SemanticJoin, Law::InstanceJoin]);
+        let swapped = "node_id,node_name,object_id,object_name\n2,a,0,a\n1,b,1,b\n3,c,2,c\n";
+        let (laws, text) = failures(|d| write_bytes(&d.layout().metadata_nodes("room"), swapped).unwrap());
+        assert!(laws.contains(&Law::Nodes) && text.contains("node_id is 2, expected 1"), "{text}");
         let (laws, text) = failures(|d| write_bytes(&d.layout().octomap("room"), b"# not a tree").unwrap());
         assert_eq!(laws, [Law::Readable]);
         assert!(text.contains("octomap.bt"), "{text}");
@@ -308,6 +321,23 @@ mod tests {
             refresh(d);
         };
         assert_eq!(failures(unlabelled).0, [Law::LayersPresent]);
+    }
+
+    #[test]
+    fn layers_of_another_type_are_found() {
+        let half = |d: &Dataset| {
+            let path = d.layout().layer("room", "cam_00", 0, Layer::DepthMeters);
+            let depth = read_array(&path).unwrap();
+            let Elements::F32(values) = depth.values else { panic!("depth is float32") };
+            let values = Elements::F16(values.into_iter().map(f16::from_f32).collect());
+            write_array(&path, &Array { values, ..depth }, Storage::Compressed, &[]).unwrap();
+            // Without records a frame counts when it has files, as in Hypersim's own data.
+            std::fs::remove_dir_all(d.layout().records_dir("room", "cam_00")).unwrap();
+            refresh(d);
+        };
+        let (laws, text) = failures(half);
+        assert_eq!(laws, [Law::Readable, Law::FramesComplete, Law::LayersPresent], "{text}");
+        assert!(text.contains("frame.0000.depth_meters.hdf5: expected an image of 1 channels of F32"), "{text}");
     }
 
     #[test]

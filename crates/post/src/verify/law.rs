@@ -79,7 +79,7 @@ pub const LAWS: [LawSpec; 41] = laws![
     FramesComplete 0.0 "frames", "every frame of a trajectory is complete", "a frame failed or was never rendered: run again";
     LayersPresent 0.0 "layers", "every frame has every layer", "the frame was rendered or labelled by another version: render or label it again";
     Checksums 0.0 "files", "files are what the manifest says was written", "a file was changed or damaged after it was written: render again or restore it";
-    Nodes 0.0 "rows", "metadata_nodes.csv numbers its nodes 1, 2, ...", "the table was edited: write the scene again";
+    Nodes 0.0 "tables", "metadata_nodes.csv can be read and numbers its nodes 1, 2, ...", "the table was edited or cut: import the scene again";
     Calibration 1e-6 "px", "size and calibration agree between metadata_camera_parameters.csv, records and images",
         "the images were rendered with other settings than the table states: render again";
     LabelTables 0.0 "tables", "the label tables are there and have one row per part", "the scene was not labelled: run the label stage";

@@ -1,0 +1,73 @@
+//! The demo from end to end, tiny: it verifies, a second run does nothing, and a changed setting runs what depends on it.
+
+use enfilade_dataset::Dataset;
+use enfilade_pipeline::{Config, Event, Overrides, Reporter, Stage, Summary, run, run_stage};
+use std::path::Path;
+use std::sync::Mutex;
+
+/// Remembers which stages began.
+#[derive(Default)]
+struct Began(Mutex<Vec<Stage>>);
+
+impl Reporter for Began {
+    fn on(&self, _scene: &str, stage: Stage, event: Event) {
+        if matches!(event, Event::Started) {
+            self.0.lock().unwrap().push(stage);
+        }
+    }
+}
+
+fn tiny_demo() -> Config {
+    let mut config = Config::demo(&Overrides { frames: Some(2), size: Some([64, 48]), ..Overrides::default() }).unwrap();
+    let scene = &mut config.scenes[0];
+    (scene.render.samples, scene.render.max_bounces, scene.carve.rays, scene.carve.iterations) = (4, 4, 8192, 2);
+    config
+}
+
+/// Runs and tells which stages were not up to date.
+fn run_and_watch(config: &Config, out: &Path) -> (Summary, Vec<Stage>) {
+    let began = Began::default();
+    let summary = run(config, out, None, &began).unwrap();
+    (summary, began.0.into_inner().unwrap())
+}
+
+#[test]
+fn the_demo_verifies_and_is_made_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let mut config = tiny_demo();
+
+    let (first, began) = run_and_watch(&config, &out);
+    assert!(first.ok(), "{:?}", first.scenes);
+    assert_eq!(began, [Stage::Import, Stage::Carve, Stage::Plan, Stage::Render, Stage::Label, Stage::Preview, Stage::Verify]);
+    let dataset = Dataset::open(&out).unwrap();
+    let labels = dataset.read_label_tables("living-room").unwrap();
+    assert!(labels.parts.len() >= 25 && labels.parts.iter().all(|l| l.semantic >= 1));
+
+    let (second, began) = run_and_watch(&config, &out);
+    assert!(second.nothing_done() && began.is_empty(), "{began:?}");
+
+    // More samples leave the trajectory alone; more frames leave the free space alone.
+    config.scenes[0].render.samples = 5;
+    assert_eq!(run_and_watch(&config, &out).1, [Stage::Render, Stage::Label, Stage::Preview, Stage::Verify]);
+    config.scenes[0].plan.frames = 3;
+    let (more, began) = run_and_watch(&config, &out);
+    assert_eq!(began, [Stage::Plan, Stage::Render, Stage::Label, Stage::Preview, Stage::Verify]);
+    let rendered = more.scenes[0].stages.iter().find(|s| s.stage == Stage::Render).unwrap();
+    assert!(rendered.summary.ends_with("8 kept"), "{}", rendered.summary);
+
+    // A preview that was deleted is made again, and only that stage runs.
+    std::fs::remove_file(dataset.layout().contact_sheet("living-room", "cam_00")).unwrap();
+    assert_eq!(run_and_watch(&config, &out).1, [Stage::Preview]);
+    assert!(dataset.layout().contact_sheet("living-room", "cam_00").is_file() && dataset.layout().overview().is_file());
+
+    // Verification finds a changed value.
+    let layer = dataset.layout().layer("living-room", "cam_00", 0, enfilade_frame::Layer::DepthMeters);
+    let mut bytes = std::fs::read(&layer).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    std::fs::write(&layer, bytes).unwrap();
+    let checked = run_stage(&out, Stage::Verify, None, true, &Began::default()).unwrap();
+    let failure = checked.scenes[0].failure.as_ref().unwrap();
+    assert!(failure.message.contains("do not hold") && failure.message.contains("depth_meters"), "{}", failure.message);
+}

@@ -1,0 +1,59 @@
+//! `cargo xtask bench`: the examples that measure something, in release.
+
+use crate::house::House;
+use crate::step::finish;
+
+/// One measurement.
+struct Bench {
+    /// The example.
+    name: &'static str,
+    /// The folder of its crate.
+    room: &'static str,
+    /// What it measures.
+    about: &'static str,
+}
+
+/// All measurements; each is the file `crates/<room>/examples/<name>.rs`.
+const BENCHES: [Bench; 1] = [Bench {
+    name: "rays",
+    room: "geometry",
+    about: "millions of rays per second of one thread through the hierarchy: camera, bounced, shadow",
+}];
+
+/// Lists the measurements, runs the one that is named, or runs all.
+///
+/// # Errors
+/// When there is none of that name, or one fails.
+pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
+    let chosen: Vec<&Bench> = match words {
+        ["--list"] => {
+            BENCHES.iter().for_each(|bench| println!("{:<8} {}", bench.name, bench.about));
+            return Ok(());
+        }
+        [] => BENCHES.iter().collect(),
+        [name] => BENCHES.iter().filter(|bench| bench.name == *name).collect(),
+        _ => return Err("expected at most one name".into()),
+    };
+    if chosen.is_empty() {
+        return Err(format!("no measurement `{}`; expected one of {}", words.join(" "), BENCHES.map(|bench| bench.name).join(", ")));
+    }
+    for bench in chosen {
+        println!("\n== {}: {}", bench.name, bench.about);
+        let package = format!("enfilade-{}", bench.room);
+        finish(house.cargo(&["run", "--release", "--locked", "--package", &package, "--example", bench.name]))?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_measurement_is_there() {
+        let root = House::find().unwrap().root;
+        for bench in BENCHES {
+            assert!(root.join(format!("crates/{}/examples/{}.rs", bench.room, bench.name)).is_file(), "{}", bench.name);
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! `cargo xtask check`: what is quick.
+
+use crate::house::House;
+use crate::step::{Step, finish};
+use crate::{dependencies, floors};
+
+/// The last and slowest step, left out by `--no-tests` where all tests follow anyway.
+const QUICK_TESTS: &str = "tests";
+
+/// All steps.
+const STEPS: [Step; 6] = [
+    Step {
+        name: "format",
+        about: "files are formatted",
+        remedy: "run `cargo fmt --all`",
+        run: |house| finish(house.cargo(&["fmt", "--all", "--check"])),
+    },
+    Step {
+        name: "directions",
+        about: "imports point down",
+        remedy: "move the code to the floor that needs it, or hand it down as an argument; the floors stand in xtask/src/floors.rs",
+        run: floors::check,
+    },
+    Step {
+        name: "dependencies",
+        about: "licences are allowed, sources are crates.io, versions stand in one place",
+        remedy: "choose another crate, or change deny.toml and say why there",
+        run: dependencies::check,
+    },
+    Step {
+        name: "lints",
+        about: "the compiler and clippy have nothing to say",
+        remedy: "mend what the warnings above show; if a lint is wrong for this project, allow it in Cargo.toml and say why there",
+        run: |house| finish(house.cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])),
+    },
+    Step {
+        name: "docs",
+        about: "the documentation builds and its links lead somewhere",
+        remedy: "mend what the warnings above show",
+        run: |house| {
+            let mut command = house.cargo(&["doc", "--workspace", "--no-deps", "--locked"]);
+            command.env("RUSTDOCFLAGS", "-D warnings");
+            finish(command)
+        },
+    },
+    Step {
+        name: QUICK_TESTS,
+        about: "the unit tests of the lower floors pass",
+        remedy: "mend the code or the test; `cargo test -p CRATE` runs the tests of one crate",
+        run: |house| {
+            let mut command = house.cargo(&["test", "--lib", "--locked"]);
+            for package in floors::packages_up_to(2) {
+                command.args(["-p", &package]);
+            }
+            finish(command)
+        },
+    },
+];
+
+/// Takes the steps named in `words`, or all; goes on after a failure, so that one run shows everything there is to mend.
+///
+/// # Errors
+/// With every step that failed.
+pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
+    let chosen = choose(words)?;
+    let failures: Vec<String> = chosen.iter().filter_map(|step| step.take(house).err()).collect();
+    println!();
+    match failures.len() {
+        0 => {
+            println!("check: all well");
+            Ok(())
+        }
+        n => Err(format!("{n} of {} steps failed\n{}", chosen.len(), failures.join("\n"))),
+    }
+}
+
+fn choose(words: &[&str]) -> Result<Vec<&'static Step>, String> {
+    let (flags, names): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| word.starts_with('-'));
+    let unknown =
+        flags.iter().find(|flag| **flag != "--no-tests").or(names.iter().find(|name| !STEPS.iter().any(|step| step.name == **name)));
+    if let Some(unknown) = unknown {
+        return Err(format!("unknown step `{unknown}`; expected some of {}, --no-tests", STEPS.map(|step| step.name).join(", ")));
+    }
+    let named = |step: &Step| names.is_empty() || names.contains(&step.name);
+    let left_out = |step: &Step| step.name == QUICK_TESTS && !flags.is_empty();
+    Ok(STEPS.iter().filter(|step| named(step) && !left_out(step)).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_chosen_by_name_and_tests_can_be_left_out() {
+        let names = |words: &[&str]| choose(words).map(|steps| steps.iter().map(|step| step.name).collect::<Vec<_>>());
+        assert_eq!(names(&[]).unwrap().len(), STEPS.len());
+        assert_eq!(names(&["docs", "format"]).unwrap(), ["format", "docs"]);
+        assert!(!names(&["--no-tests"]).unwrap().contains(&QUICK_TESTS));
+        assert!(names(&["roof"]).unwrap_err().contains("unknown step `roof`; expected some of format,"));
+    }
+}
