@@ -19,7 +19,7 @@ use std::process::ExitCode;
 
 const USAGE: &str = "\
 usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directions, dependency policy, docs, quick tests
-       cargo xtask test                           all tests, then the release binary on the demo
+       cargo xtask test [STEP...]                 all tests, then the release binary on the demo
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them";
 
 fn main() -> ExitCode {
@@ -27,7 +27,7 @@ fn main() -> ExitCode {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = House::find().and_then(|house| match words.as_slice() {
         ["check", rest @ ..] => check::run(&house, rest),
-        ["test"] => test::run(&house),
+        ["test", rest @ ..] => test::run(&house, rest),
         ["bench", rest @ ..] => bench::run(&house, rest),
         [] | ["help" | "--help" | "-h"] => {
             println!("{USAGE}");

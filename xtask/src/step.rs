@@ -38,6 +38,18 @@ impl Step {
     }
 }
 
+/// The steps with these names in the order of `steps`, or all.
+///
+/// # Errors
+/// When a name is unknown.
+pub fn choose<'a>(steps: &'a [Step], names: &[&str]) -> Result<Vec<&'a Step>, String> {
+    if let Some(unknown) = names.iter().find(|name| !steps.iter().any(|step| step.name == **name)) {
+        let known: Vec<&str> = steps.iter().map(|step| step.name).collect();
+        return Err(format!("unknown step `{unknown}`; expected some of {}", known.join(", ")));
+    }
+    Ok(steps.iter().filter(|step| names.is_empty() || names.contains(&step.name)).collect())
+}
+
 /// Runs a program to its end, its output going where ours goes. Gives no remark.
 ///
 /// # Errors
@@ -68,6 +80,15 @@ mod tests {
     fn a_failure_names_the_step_what_was_found_and_what_to_do() {
         let step = Step { name: "roof", about: "the roof is tight", remedy: "mend it", run: |_| Err("a hole".into()) };
         assert_eq!(step.take(&House::find().unwrap()).unwrap_err(), "roof: a hole\n  mend it");
+    }
+
+    #[test]
+    fn steps_are_chosen_by_name_in_their_own_order() {
+        let steps = ["a", "b", "c"].map(|name| Step { name, about: "", remedy: "", run: |_| Ok(String::new()) });
+        let names = |words: &[&str]| choose(&steps, words).map(|steps| steps.iter().map(|step| step.name).collect::<Vec<_>>());
+        assert_eq!(names(&[]).unwrap(), ["a", "b", "c"]);
+        assert_eq!(names(&["c", "a"]).unwrap(), ["a", "c"]);
+        assert_eq!(names(&["roof"]).unwrap_err(), "unknown step `roof`; expected some of a, b, c");
     }
 
     #[test]

@@ -5,7 +5,7 @@
 
 use crate::bsdf::{Bsdf, Event, Value};
 use crate::config::RenderConfig;
-use crate::light::power_heuristic;
+use crate::light::{LightChoice, power_heuristic};
 use crate::prepared::{Cutout, RenderScene};
 use crate::surface::{MIN_COSINE, Surface};
 use enfilade_math::{Onb, Ray, Rgb, Sampler, Vec3, offset_origin, warp};
@@ -37,6 +37,7 @@ const fn light_set(bounce: u32) -> u32 {
 pub(crate) struct Integrator<'a, 's> {
     pub scene: &'a RenderScene<'s>,
     pub config: &'a RenderConfig,
+    pub choice: &'a LightChoice,
 }
 
 /// A path between two surfaces.
@@ -75,11 +76,8 @@ impl<'s> Integrator<'_, 's> {
         }
 
         let has_diffuse = !bsdf.reflectance.is_black();
-        let illumination = if has_diffuse {
-            Some(split.diffuse)
-        } else {
-            (index % IRRADIANCE_STRIDE == 0).then(|| self.irradiance(&surface, sampler))
-        };
+        let illumination =
+            if has_diffuse { Some(split.diffuse) } else { (index % IRRADIANCE_STRIDE == 0).then(|| self.irradiance(&surface, sampler)) };
         PixelSample { reflectance: bsdf.reflectance, illumination, residual: split.specular }
     }
 
@@ -100,7 +98,8 @@ impl<'s> Integrator<'_, 's> {
             let emission = surface.emission(self.scene);
             if !emission.is_black() {
                 let weight = segment.sampled.map_or(1.0, |(from, pdf)| {
-                    let light_pdf = self.scene.lights.surface_pdf(self.scene, from, segment.ray.direction, &hit, surface.p, surface.ng);
+                    let light_pdf =
+                        self.scene.lights.surface_pdf(self.scene, self.choice, from, segment.ray.direction, &hit, surface.p, surface.ng);
                     power_heuristic(pdf, light_pdf)
                 });
                 radiance += throughput * emission * weight;
@@ -138,13 +137,13 @@ impl<'s> Integrator<'_, 's> {
     fn sample_lights(&self, surface: &Surface<'s>, bsdf: &Bsdf<'_>, onb: &Onb, wo: Vec3, u: [f32; 4]) -> (Value, Rgb) {
         let nothing = (Value::default(), Rgb::BLACK);
         let wanted = |wi: Vec3| sides_agree(wi.dot(onb.z), wi.dot(surface.ng));
-        let Some(light) = self.scene.lights.sample(self.scene, surface.p, [u[0], u[1], u[2]], wanted) else { return nothing };
+        let Some(light) = self.scene.lights.sample(self.scene, self.choice, surface.p, [u[0], u[1], u[2]], wanted) else { return nothing };
         let wi = onb.to_local(light.wi);
         let value = bsdf.eval(wo, wi);
         if value == Value::default() || light.radiance.is_black() {
             return nothing;
         }
-        let arriving = self.scene.transmittance(&shadow_ray(surface, light.wi, light.target));
+        let arriving = self.scene.transmittance(&surface.shadow_ray(light.wi, light.target));
         if arriving.is_black() {
             return nothing;
         }
@@ -175,7 +174,7 @@ impl<'s> Integrator<'_, 's> {
     fn background(&self, segment: &Segment) -> Rgb {
         match segment.sampled {
             None => self.scene.lights.background(segment.ray.direction),
-            Some((from, pdf)) => self.scene.lights.background_weighted(from, segment.ray.direction, pdf),
+            Some((from, pdf)) => self.scene.lights.background_weighted(self.choice, from, segment.ray.direction, pdf),
         }
     }
 }
@@ -232,18 +231,4 @@ fn viewing(onb: &Onb, wo: Vec3) -> Vec3 {
 #[inline]
 fn sides_agree(shading_cosine: f32, geometric_cosine: f32) -> bool {
     shading_cosine * geometric_cosine > 0.0
-}
-
-/// The ray from a surface to a light, ending just before it.
-fn shadow_ray(surface: &Surface<'_>, wi: Vec3, target: Option<Vec3>) -> Ray {
-    let side = if wi.dot(surface.ng) < 0.0 { -surface.ng } else { surface.ng };
-    let origin = offset_origin(surface.p, side);
-    match target {
-        None => Ray::new(origin, wi),
-        Some(target) => {
-            let to_target = target - origin;
-            let distance = to_target.length();
-            Ray { origin, direction: to_target / distance.max(f32::MIN_POSITIVE), t_min: 0.0, t_max: distance * (1.0 - 1e-5) }
-        }
-    }
 }

@@ -5,6 +5,7 @@ use crate::error::RenderError;
 use crate::film::{PixelColor, PixelSum};
 use crate::geometry_pass::{PixelGeometry, camera_ray, pixel_geometry};
 use crate::integrator::Integrator;
+use crate::light::LightChoice;
 use crate::prepared::RenderScene;
 use enfilade_frame::{Frame, Layer, Validity, Values, f16};
 use enfilade_math::{Ray, Sampler, warp};
@@ -36,6 +37,8 @@ pub fn render_frame(
     let (width, height) = (intrinsics.width, intrinsics.height);
     let columns = width.div_ceil(TILE);
     let tiles = columns * height.div_ceil(TILE);
+    let choice = LightChoice::learn(scene, intrinsics, pose, config);
+    let integrator = Integrator { scene, config, choice: &choice };
     let done = AtomicU64::new(0);
     let rendered: Vec<Vec<Pixel>> = (0..tiles)
         .into_par_iter()
@@ -43,7 +46,7 @@ pub fn render_frame(
             let (x0, y0) = ((tile % columns) * TILE, (tile / columns) * TILE);
             let pixels = (y0..height.min(y0 + TILE))
                 .flat_map(|y| (x0..width.min(x0 + TILE)).map(move |x| (x, y)))
-                .map(|(x, y)| render_pixel(scene, intrinsics, pose, config, x, y))
+                .map(|(x, y)| render_pixel(&integrator, intrinsics, pose, x, y))
                 .collect();
             cx.progress("rendering", done.fetch_add(1, Ordering::Relaxed) + 1, u64::from(tiles));
             pixels
@@ -58,7 +61,10 @@ fn check(intrinsics: &Intrinsics, pose: &Pose, config: &RenderConfig) -> Result<
         return camera(format!("its pose is not finite: {pose:?}"));
     }
     if intrinsics.width == 0 || intrinsics.height == 0 || !(intrinsics.fx > 0.0 && intrinsics.fy > 0.0) {
-        return camera(format!("its image is {}x{} with focal lengths {} and {}", intrinsics.width, intrinsics.height, intrinsics.fx, intrinsics.fy));
+        return camera(format!(
+            "its image is {}x{} with focal lengths {} and {}",
+            intrinsics.width, intrinsics.height, intrinsics.fx, intrinsics.fy
+        ));
     }
     if config.samples == 0 {
         return Err(RenderError::Config { field: "samples", found: "0".into(), expected: "at least 1" });
@@ -69,8 +75,8 @@ fn check(intrinsics: &Intrinsics, pose: &Pose, config: &RenderConfig) -> Result<
     Ok(())
 }
 
-fn render_pixel(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, config: &RenderConfig, x: u32, y: u32) -> Pixel {
-    let integrator = Integrator { scene, config };
+fn render_pixel(integrator: &Integrator<'_, '_>, intrinsics: &Intrinsics, pose: &Pose, x: u32, y: u32) -> Pixel {
+    let config = integrator.config;
     let mut sum = PixelSum::default();
     for index in 0..config.samples {
         let sampler = Sampler::new(config.seed, pose.frame, x, y, index);
@@ -79,7 +85,7 @@ fn render_pixel(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, c
         let (origin, direction) = camera_ray(intrinsics, pose, f64::from(x) + 0.5 + offset[0], f64::from(y) + 0.5 + offset[1]);
         sum.add(&integrator.sample(Ray::new(origin.as_vec3(), direction.as_vec3().normalize()), &sampler, index));
     }
-    Pixel { color: sum.resolve(), geometry: pixel_geometry(scene, intrinsics, pose, x, y) }
+    Pixel { color: sum.resolve(), geometry: pixel_geometry(integrator.scene, intrinsics, pose, x, y) }
 }
 
 /// Puts the tiles' pixels in order, layer by layer.

@@ -3,7 +3,7 @@
 use crate::bsdf::{self, Bsdf};
 use crate::prepared::RenderScene;
 use enfilade_geometry::Hit;
-use enfilade_math::{Onb, Rgb, Vec2, Vec3};
+use enfilade_math::{Onb, Ray, Rgb, Vec2, Vec3, offset_origin};
 use enfilade_scene::{ColorParam, Material, NormalMap, ScalarParam, Scene, TextureRef};
 
 /// A surface point seen from the unit direction `wo`.
@@ -99,6 +99,20 @@ impl<'s> Surface<'s> {
     #[inline]
     pub fn onb(&self) -> Onb {
         Onb::from_z(self.ns)
+    }
+
+    /// The ray from a surface to a light, ending just before it.
+    pub fn shadow_ray(&self, wi: Vec3, target: Option<Vec3>) -> Ray {
+        let side = if wi.dot(self.ng) < 0.0 { -self.ng } else { self.ng };
+        let origin = offset_origin(self.p, side);
+        match target {
+            None => Ray::new(origin, wi),
+            Some(target) => {
+                let to_target = target - origin;
+                let distance = to_target.length();
+                Ray { origin, direction: to_target / distance.max(f32::MIN_POSITIVE), t_min: 0.0, t_max: distance * (1.0 - 1e-5) }
+            }
+        }
     }
 }
 

@@ -115,8 +115,7 @@ fn in_a_closed_box_that_glows_light_adds_up_to_one_over_one_minus_albedo() {
 fn lossless_spheres_vanish_in_a_white_sky() {
     let glass = |alpha: f32| Bsdf::Dielectric { eta: 1.5, alpha: alpha.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::BLACK };
     let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::WHITE.into(), alpha: 0.0.into() };
-    let plastic =
-        Bsdf::Plastic { diffuse: Rgb::WHITE.into(), eta: 1.5, alpha: 0.1.into(), specular: Rgb::WHITE.into(), nonlinear: true };
+    let plastic = Bsdf::Plastic { diffuse: Rgb::WHITE.into(), eta: 1.5, alpha: 0.1.into(), specular: Rgb::WHITE.into(), nonlinear: true };
     let thin = Bsdf::ThinDielectric { eta: 1.5, transmittance: Rgb::WHITE.into() };
     let diffuse = Bsdf::Diffuse { reflectance: Rgb::WHITE.into() };
     for (name, bsdf, tolerance) in [
@@ -244,9 +243,20 @@ fn bytes_do_not_depend_on_the_number_of_threads() {
     let room = {
         let mut s = scene(vec![
             ("room", cube(true), Material::diffuse("wall", Rgb::new(0.7, 0.6, 0.5))),
-            ("ball", sphere(16), Material::new("ball", Bsdf::Dielectric { eta: 1.5, alpha: 0.1.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::new(1.0, 0.5, 0.1) })),
+            (
+                "ball",
+                sphere(16),
+                Material::new(
+                    "ball",
+                    Bsdf::Dielectric { eta: 1.5, alpha: 0.1.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::new(1.0, 0.5, 0.1) },
+                ),
+            ),
         ]);
-        s.parts[1].world_from_mesh = DAffine3::from_scale_rotation_translation(DVec3::splat(0.3), enfilade_math::DAffine3::IDENTITY.to_scale_rotation_translation().1, DVec3::new(0.4, 0.0, -0.2));
+        s.parts[1].world_from_mesh = DAffine3::from_scale_rotation_translation(
+            DVec3::splat(0.3),
+            enfilade_math::DAffine3::IDENTITY.to_scale_rotation_translation().1,
+            DVec3::new(0.4, 0.0, -0.2),
+        );
         s.lights.push(Light::Point { name: "p".into(), position: Vec3::new(0.0, 0.5, 0.8), intensity: Rgb::splat(2.0) });
         s
     };

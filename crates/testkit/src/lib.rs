@@ -1,12 +1,14 @@
 //! Instruments for statistical tests.
 //!
-//! [`ChiSquare`] asks whether a sampler draws from the density that it claims. Seeds are fixed; a suite of many tests keeps one
-//! family-wise level (Šidák). A failing test writes its cells to `target/evidence/`, and is answered with more samples, never with
-//! another seed.
+//! [`ChiSquare`] asks whether a sampler draws from the density that it claims, [`Mean`] whether an estimator is right on average.
+//! Seeds are fixed; a suite of many tests keeps one family-wise level (Šidák). A failing test writes what it saw to
+//! `target/evidence/`, and is answered with more samples, never with another seed.
 
 mod gamma;
+mod mean;
 
 pub use gamma::chi_square_survival;
+pub use mean::Mean;
 
 use enfilade_math::{Rng, Vec3};
 use std::f64::consts::TAU;
@@ -99,7 +101,7 @@ impl ChiSquare {
     /// # Panics
     /// When it is not; the cells are then in `target/evidence/<name>.csv`.
     pub fn assert(&self, name: &str, tests: usize) {
-        let threshold = 1.0 - (1.0 - LEVEL).powf(1.0 / tests as f64);
+        let threshold = threshold(tests);
         if self.p_value >= threshold {
             return;
         }
@@ -113,6 +115,11 @@ impl ChiSquare {
             self.statistic, self.degrees_of_freedom, self.p_value
         );
     }
+}
+
+/// The p-value below which one of `tests` tests fails (Šidák), so that a correct suite fails with probability [`LEVEL`].
+fn threshold(tests: usize) -> f64 {
+    1.0 - (1.0 - LEVEL).powf(1.0 / tests as f64)
 }
 
 /// Merges cells, from the emptiest on, until each is filled well enough.

@@ -85,7 +85,6 @@ pub fn reflect(w: Vec3, m: Vec3) -> Vec3 {
     2.0 * w.dot(m) * m - w
 }
 
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -98,7 +97,8 @@ mod tests {
             for i in 0..n {
                 let theta = (i as f64 + 0.5) / n as f64 * std::f64::consts::FRAC_PI_2;
                 let m = Vec3::new(theta.sin() as f32, 0.0, theta.cos() as f32);
-                integral += f64::from(d(m, alpha)) * theta.cos() * theta.sin() * std::f64::consts::TAU * std::f64::consts::FRAC_PI_2 / n as f64;
+                integral +=
+                    f64::from(d(m, alpha)) * theta.cos() * theta.sin() * std::f64::consts::TAU * std::f64::consts::FRAC_PI_2 / n as f64;
             }
             assert!((integral - 1.0).abs() < 1e-3, "alpha {alpha}: {integral}");
         }

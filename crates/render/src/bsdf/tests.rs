@@ -10,9 +10,9 @@ fn models() -> Vec<(&'static str, Material, bool)> {
     let white = || Rgb::WHITE.into();
     let material = |name: &'static str, bsdf| (name, Material::new(name, bsdf));
     let conductor = |alpha: f32| scene::Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: white(), alpha: alpha.into() };
-    let dielectric =
-        |alpha: f32| scene::Bsdf::Dielectric { eta: 1.5, alpha: alpha.into(), transmittance: white(), absorption: Rgb::BLACK };
-    let plastic = |alpha: f32, nonlinear| scene::Bsdf::Plastic { diffuse: white(), eta: 1.5, alpha: alpha.into(), specular: white(), nonlinear };
+    let dielectric = |alpha: f32| scene::Bsdf::Dielectric { eta: 1.5, alpha: alpha.into(), transmittance: white(), absorption: Rgb::BLACK };
+    let plastic =
+        |alpha: f32, nonlinear| scene::Bsdf::Plastic { diffuse: white(), eta: 1.5, alpha: alpha.into(), specular: white(), nonlinear };
     let principled = |p: Principled| scene::Bsdf::Principled(Box::new(p));
     let list = [
         (material("diffuse", scene::Bsdf::Diffuse { reflectance: white() }), true),
@@ -27,7 +27,10 @@ fn models() -> Vec<(&'static str, Material, bool)> {
         (material("plastic 0.5 linear", plastic(0.5, false)), true),
         (material("principled rough", principled(Principled::default())), false),
         (material("principled 0.3", principled(Principled { roughness: 0.3.into(), ..Principled::default() })), false),
-        (material("principled metal", principled(Principled { metallic: 1.0.into(), roughness: 0.5.into(), ..Principled::default() })), false),
+        (
+            material("principled metal", principled(Principled { metallic: 1.0.into(), roughness: 0.5.into(), ..Principled::default() })),
+            false,
+        ),
         (
             material(
                 "principled glass",
@@ -139,7 +142,12 @@ fn sampling_agrees_with_evaluation_and_density() {
             let variance = |v: [f64; 2]| (v[1] / f64::from(n) - mean(v).powi(2)).max(0.0) / f64::from(n);
             let sigma = (variance(sampled[k]) + variance(uniform[k])).sqrt();
             let difference = (mean(sampled[k]) - mean(uniform[k])).abs();
-            assert!(difference <= 5.0 * sigma + 1e-4, "{name}, probe {k}: {} sampled, {} integrated (sigma {sigma})", mean(sampled[k]), mean(uniform[k]));
+            assert!(
+                difference <= 5.0 * sigma + 1e-4,
+                "{name}, probe {k}: {} sampled, {} integrated (sigma {sigma})",
+                mean(sampled[k]),
+                mean(uniform[k])
+            );
         }
     });
 }

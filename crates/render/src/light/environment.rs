@@ -1,64 +1,97 @@
 //! Light from the surroundings, sampled in proportion to its brightness.
 
 use super::LightSample;
+use super::portal::Portals;
 use enfilade_math::{Distribution2, Mat3, Rgb, Vec2, Vec3, warp};
 use enfilade_scene::{Environment, Image, TextureRef, Wrap, direction_from_uv, uv_from_direction};
 use std::f32::consts::PI;
 
+/// Share of the samples that go through the portals where there are any.
+const PORTAL_SHARE: f32 = 0.75;
+
 /// The environment with its sampling distribution.
 #[derive(Debug)]
-pub(crate) enum EnvironmentLight {
+pub(crate) struct EnvironmentLight {
+    sky: Sky,
+    portals: Portals,
+}
+
+#[derive(Debug)]
+enum Sky {
     Constant { radiance: Rgb },
     Map { image: Image, texture: TextureRef, scale: Rgb, map_from_world: Mat3, distribution: Distribution2 },
 }
 
 impl EnvironmentLight {
     /// `None` when it is black everywhere.
-    pub fn new(environment: &Environment, images: &[Image]) -> Option<Self> {
-        match environment {
-            Environment::Constant { radiance } => (!radiance.is_black()).then_some(Self::Constant { radiance: *radiance }),
+    pub fn new(environment: &Environment, images: &[Image], portals: Portals) -> Option<Self> {
+        let sky = match environment {
+            Environment::Constant { radiance } => (!radiance.is_black()).then_some(Sky::Constant { radiance: *radiance })?,
             Environment::Map { image, scale, map_from_world } => {
                 let image = images[*image as usize].clone();
                 let (weights, columns) = cell_weights(&image, *scale);
                 let distribution = Distribution2::new(&weights, columns)?;
                 let texture = TextureRef { wrap: [Wrap::Repeat, Wrap::Clamp], ..TextureRef::new(0) };
-                Some(Self::Map { image, texture, scale: *scale, map_from_world: *map_from_world, distribution })
+                Sky::Map { image, texture, scale: *scale, map_from_world: *map_from_world, distribution }
             }
-        }
+        };
+        Some(Self { sky, portals })
     }
 
     /// Radiance in the unit direction `d`.
     #[inline]
     pub fn radiance(&self, d: Vec3) -> Rgb {
-        match self {
-            Self::Constant { radiance } => *radiance,
-            Self::Map { image, texture, scale, map_from_world, .. } => {
+        match &self.sky {
+            Sky::Constant { radiance } => *radiance,
+            Sky::Map { image, texture, scale, map_from_world, .. } => {
                 let uv = uv_from_direction(*map_from_world * d);
                 *scale * image.sample(texture, Vec2::new(uv.x, 1.0 - uv.y)).0
             }
         }
     }
 
-    /// A direction in proportion to brightness; `None` when `wanted` refuses it.
-    pub fn sample(&self, u: [f32; 2], wanted: impl Fn(Vec3) -> bool) -> Option<LightSample> {
-        let (wi, pdf) = match self {
-            Self::Constant { .. } => (warp::sphere(u), 0.25 / PI),
-            Self::Map { map_from_world, distribution, .. } => {
-                let (uv, density) = distribution.sample(u);
-                let sin_theta = (uv[1] * PI).sin();
-                if density <= 0.0 || sin_theta <= 0.0 {
-                    return None;
-                }
-                let wi = map_from_world.transpose() * direction_from_uv(Vec2::from(uv));
-                (wi, density / (2.0 * PI * PI * sin_theta))
-            }
+    /// About the irradiance in the open: π × radiance, roughly averaged.
+    pub fn irradiance(&self) -> f32 {
+        let directions = 64;
+        (0..directions).map(|k| self.radiance(warp::fibonacci_sphere(k, directions).as_vec3()).luminance()).sum::<f32>() * PI
+            / directions as f32
+    }
+
+    /// A direction from `p`, through a portal or in proportion to brightness; `None` when `wanted` refuses it.
+    pub fn sample(&self, p: Vec3, u: [f32; 3], wanted: impl Fn(Vec3) -> bool) -> Option<LightSample> {
+        let through_portal = if u[2] < PORTAL_SHARE { self.portals.sample(p, [u[0], u[1], u[2] / PORTAL_SHARE]) } else { None };
+        let wi = match through_portal {
+            Some(wi) => wi,
+            None => self.sky.sample([u[0], u[1]])?,
         };
-        wanted(wi).then(|| LightSample { wi, target: None, radiance: self.radiance(wi), pdf, is_delta: false })
+        if !wanted(wi) {
+            return None;
+        }
+        let pdf = self.pdf(p, wi);
+        (pdf > 0.0).then(|| LightSample { wi, target: None, radiance: self.radiance(wi), pdf, is_delta: false })
     }
 
     /// Density of [`EnvironmentLight::sample`] per solid angle.
     #[inline]
-    pub fn pdf(&self, d: Vec3) -> f32 {
+    pub fn pdf(&self, p: Vec3, d: Vec3) -> f32 {
+        let by_brightness = self.sky.pdf(d);
+        self.portals.pdf(p, d).map_or(by_brightness, |portal| PORTAL_SHARE * portal + (1.0 - PORTAL_SHARE) * by_brightness)
+    }
+}
+
+impl Sky {
+    fn sample(&self, u: [f32; 2]) -> Option<Vec3> {
+        match self {
+            Self::Constant { .. } => Some(warp::sphere(u)),
+            Self::Map { map_from_world, distribution, .. } => {
+                let (uv, density) = distribution.sample(u);
+                (density > 0.0).then(|| map_from_world.transpose() * direction_from_uv(Vec2::from(uv)))
+            }
+        }
+    }
+
+    #[inline]
+    fn pdf(&self, d: Vec3) -> f32 {
         match self {
             Self::Constant { .. } => 0.25 / PI,
             Self::Map { map_from_world, distribution, .. } => {
