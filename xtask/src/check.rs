@@ -31,14 +31,14 @@ const STEPS: [Step; 6] = [
         name: "lints",
         about: "the compiler and clippy have nothing to say",
         remedy: "mend what the warnings above show; if a lint is wrong for this project, allow it in Cargo.toml and say why there",
-        run: |house| finish(house.cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])),
+        run: |house| finish(house.cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--keep-going", "--", "-D", "warnings"])),
     },
     Step {
         name: "docs",
         about: "the documentation builds and its links lead somewhere",
         remedy: "mend what the warnings above show",
         run: |house| {
-            let mut command = house.cargo(&["doc", "--workspace", "--no-deps", "--locked"]);
+            let mut command = house.cargo(&["doc", "--workspace", "--no-deps", "--locked", "--keep-going"]);
             command.env("RUSTDOCFLAGS", "-D warnings");
             finish(command)
         },

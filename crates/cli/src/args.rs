@@ -33,7 +33,9 @@ pub enum Verb {
     #[command(after_help = "Example:\n  enfilade plan out --scene living-room")]
     Plan(StageArgs),
     /// Scene, trajectories -> frames
-    #[command(after_help = "Example:\n  enfilade render out --scene 'bed*'\n\nFinished frames are kept; a killed run goes on where it was.")]
+    #[command(
+        after_help = "Example:\n  enfilade render out --scene 'bed*'\n\nFinished frames are kept; a killed run goes on where it was."
+    )]
     Render(StageArgs),
     /// Frames, label table -> semantic layers; renders nothing again
     Label(LabelArgs),
@@ -48,8 +50,10 @@ pub enum Verb {
 
 /// `run`.
 #[derive(Args)]
-#[command(after_help = "Examples:\n  enfilade run --demo out\n  enfilade run --demo out --seed 2 --frames 8 --size 640x480 --quality draft\n  \
-    enfilade run dataset.toml -o out\n\nA second run does nothing that is already done; a killed run goes on where it was.")]
+#[command(
+    after_help = "Examples:\n  enfilade run --demo out\n  enfilade run --demo out --seed 2 --frames 8 --size 640x480 --quality draft\n  \
+    enfilade run dataset.toml -o out\n\nA second run does nothing that is already done; a killed run goes on where it was."
+)]
 pub struct RunArgs {
     /// The scenes to use and what to make of them
     #[arg(value_name = "DATASET.TOML", required_unless_present = "demo", conflicts_with = "demo")]
@@ -103,8 +107,10 @@ pub struct StageArgs {
 
 /// `import`.
 #[derive(Args)]
-#[command(after_help = "Examples:\n  enfilade import room.gltf -o room.scene\n  enfilade import hall.xml -o hall.scene --meters-per-unit 0.4\n  \
-    enfilade import out --scene living-room")]
+#[command(
+    after_help = "Examples:\n  enfilade import room.gltf -o room.scene\n  enfilade import hall.xml -o hall.scene --meters-per-unit 0.4\n  \
+    enfilade import out --scene living-room"
+)]
 pub struct ImportArgs {
     /// A scene file (.gltf, .glb, .obj, .xml), or the folder of a dataset to import the scenes of
     pub input: PathBuf,

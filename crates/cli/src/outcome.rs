@@ -1,5 +1,6 @@
 //! How a verb ends, and how it speaks.
 
+use enfilade_pipeline::Failure;
 use std::io::Write;
 
 /// How a verb that could do its work ends.
@@ -36,6 +37,12 @@ impl Problem {
     /// A problem with what was found; the message says what to do.
     pub fn found(error: &dyn std::error::Error) -> Self {
         Self { message: error.to_string(), hint: None, usage: false }
+    }
+
+    /// Why a scene stopped.
+    pub fn of_scene(scene: &str, failure: &Failure) -> Self {
+        let message = format!("{scene}: `{}` failed: {}", failure.stage.name(), failure.message);
+        Self { message, hint: failure.hint.clone(), usage: false }
     }
 
     /// Says it on standard error.

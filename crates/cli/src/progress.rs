@@ -103,10 +103,11 @@ impl Reporter for Progress {
                 state.end();
                 state.line(&format!("  {:<8} {summary} ({wall_s:.1} s)", stage.name()));
             }
-            Event::Failed { message } => {
+            // Why, is said once, at the end.
+            Event::Failed { .. } => {
                 state.heading(scene);
                 state.end();
-                state.line(&format!("  {:<8} FAILED: {message}", stage.name()));
+                state.line(&format!("  {:<8} FAILED", stage.name()));
             }
         }
     }
@@ -125,6 +126,9 @@ impl State {
         (self.stage, self.running, self.warnings, self.fraction) = (stage, true, 0, 0.0);
         self.what.clear();
         self.began = Instant::now();
+        if let Some(bar) = &self.bar {
+            bar.reset_elapsed();
+        }
         self.show();
     }
 

@@ -1,12 +1,12 @@
 //! The last words of a run: a table of scenes, what failed and why, and where to look.
 
-use crate::outcome::say;
+use crate::outcome::{Problem, say};
 use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_pipeline::{SceneOutcome, Summary};
 use std::path::Path;
 
-/// One line per scene, then each failure with what to do.
+/// One line per scene on standard output, then each failure with what to do on standard error.
 pub fn print_table(summary: &Summary) {
     let width = summary.scenes.iter().map(|s| s.name.len()).max().unwrap_or(0).max(5);
     say(&format!("{:width$}  result", "scene"));
@@ -15,15 +15,12 @@ pub fn print_table(summary: &Summary) {
     }
     for scene in &summary.scenes {
         if let Some(failure) = &scene.failure {
-            say(&format!("\n{}: `{}` failed: {}", scene.name, failure.stage.name(), failure.message));
-            if let Some(hint) = &failure.hint {
-                say(&format!("help: {hint}"));
-            }
+            Problem::of_scene(&scene.name, failure).print();
         }
     }
     let failed = summary.scenes.iter().filter(|s| s.failure.is_some()).count();
     if failed > 0 {
-        say(&format!("\n{failed} of {} scenes failed.", summary.scenes.len()));
+        say(&format!("{failed} of {} scenes failed.", summary.scenes.len()));
     }
 }
 

@@ -96,7 +96,7 @@ pub fn label(args: &LabelArgs, quiet: bool) -> Result<Verdict, Problem> {
 /// `verify`: the card of a dataset.
 pub fn verify(args: &VerifyArgs, quiet: bool) -> Result<Verdict, Problem> {
     let dataset = Dataset::open(&args.dataset)?;
-    let scenes = enfilade_pipeline::select(&dataset.scenes()?, args.scene.as_deref())?;
+    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
     let report = {
         let progress = Progress::new(quiet);
         let name = args.dataset.display().to_string();
@@ -112,12 +112,15 @@ pub fn inspect(args: &InspectArgs) -> Result<Verdict, Problem> {
     let dataset = Dataset::open(&args.dataset)?;
     let scenes = dataset.scenes()?;
     let scene = match (&args.scene, scenes.as_slice()) {
-        (Some(scene), _) => enfilade_pipeline::select(&scenes, Some(scene))?.remove(0),
+        (Some(scene), _) => enfilade_pipeline::select("scene", &scenes, Some(scene))?.remove(0),
         (None, [only]) => only.clone(),
-        (None, several) => return Err(Problem::new("the dataset has several scenes", format!("name one with --scene: {}", several.join(", ")))),
+        (None, several) => {
+            return Err(Problem::new("the dataset has several scenes", format!("name one with --scene: {}", several.join(", "))));
+        }
     };
+    let camera = enfilade_pipeline::select("camera", &dataset.cameras(&scene)?, Some(&args.camera))?.remove(0);
     let (x, y) = args.pixel;
-    let report = inspect_pixel(&dataset, &scene, &args.camera, args.frame, [x, y]).map_err(|e| Problem::found(&e))?;
+    let report = inspect_pixel(&dataset, &scene, &camera, args.frame, [x, y]).map_err(|e| Problem::found(&e))?;
     say(report.to_string().trim_end());
     Ok(Verdict::Done)
 }

@@ -9,7 +9,12 @@ use std::fs;
 fn an_unknown_key_is_shown_in_its_line_with_a_proposal() {
     let dir = folder();
     fs::write(dir.path().join("dataset.toml"), "name = \"a\"\n[render]\nsampels = 4\n[[scene]]\nname = \"a\"\nhome = {}\n").unwrap();
-    let text = fail(dir.path(), &["run", "dataset.toml"], 2, &["dataset.toml:3:1: unknown key `sampels`", "did you mean `samples`?", "3 | sampels = 4"]);
+    let text = fail(
+        dir.path(),
+        &["run", "dataset.toml"],
+        2,
+        &["dataset.toml:3:1: unknown key `sampels`", "did you mean `samples`?", "3 | sampels = 4"],
+    );
     assert_eq!(text.matches("error:").count(), 1, "{text}");
 }
 
@@ -59,7 +64,9 @@ fn of_many_scenes_each_bad_one_is_reported_and_the_good_one_is_made() {
     fs::write(d.join("index.obj"), format!("{obj}f 1 2 999\n")).unwrap();
     fs::write(d.join("nan.obj"), "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     fs::write(d.join("empty.obj"), "v 0 0 0\n").unwrap();
-    let walled = scene("walled").replace("position = [0.2, -0.9, 1.4]", "position = [-0.3, 0.9, 0.35]").replace("look_at = [0.0, 0.9, 0.6]", "look_at = [0.0, -0.9, 0.6]");
+    let walled = scene("walled")
+        .replace("position = [0.2, -0.9, 1.4]", "position = [-0.3, 0.9, 0.35]")
+        .replace("look_at = [0.0, 0.9, 0.6]", "look_at = [0.0, -0.9, 0.6]");
     let missing = format!("[[scene]]\nname = \"missing\"\nfile = \"nowhere.gltf\"\n{CAMERA}");
     let cut = format!("[[scene]]\nname = \"cut\"\nfile = \"cut.glb\"\n{CAMERA}");
     let scenes = [scene("dark"), walled, scene("untextured"), cut, scene("index"), scene("nan"), scene("empty"), missing, scene("good")];
@@ -142,7 +149,12 @@ fn a_full_disk_is_told_and_leaves_nothing_half_written() {
     write_config(d, &[scene("room")]);
     fs::create_dir_all(d.join("out/.enfilade/room")).unwrap();
     std::os::unix::fs::symlink("/dev/full", d.join("out/.enfilade/room/scene.scene.part")).unwrap();
-    let text = fail(d, &["run", "dataset.toml", "-o", "out"], 1, &["room: `import` failed: cannot write", "No space left on device", "free some space"]);
+    let text = fail(
+        d,
+        &["run", "dataset.toml", "-o", "out"],
+        1,
+        &["room: `import` failed: cannot write", "No space left on device", "free some space"],
+    );
     assert!(text.contains("1 of 1 scenes failed"), "{text}");
     assert!(!d.join("out/.enfilade/room/scene.scene").exists() && !d.join("out/.enfilade/room/import.json").exists());
     succeed(d, &["run", "dataset.toml", "-o", "out"]);

@@ -37,7 +37,10 @@ fn a_second_run_does_nothing_and_a_changed_label_table_renders_nothing() {
         tree.iter().filter(|(path, _)| path.to_string_lossy().ends_with(".semantic.hdf5")).map(|(_, b)| b.clone()).collect::<Vec<_>>()
     };
     assert_ne!(frames(&before), frames(&after));
-    assert_eq!(color_times(&d.join("out")), times.iter().filter(|(p, _)| p.to_string_lossy().ends_with("color.hdf5")).map(|(p, t)| (p.clone(), *t)).collect());
+    assert_eq!(
+        color_times(&d.join("out")),
+        times.iter().filter(|(p, _)| p.to_string_lossy().ends_with("color.hdf5")).map(|(p, t)| (p.clone(), *t)).collect()
+    );
 
     // The verb with another table does the same, and keeps it.
     fs::write(d.join("other.csv"), "material,nyu40_id\nwall,1\nwood,7\nlight,35\n").unwrap();
@@ -109,7 +112,10 @@ fn fewer_frames_leave_none_of_the_old_ones_behind() {
     succeed(d, &["run", "dataset.toml", "--frames", "3", "-o", "changed"]);
     let times = color_times(&d.join("changed"));
     succeed(d, &["run", "dataset.toml", "--frames", "2", "-o", "changed"]);
-    assert!(color_times(&d.join("changed")).iter().all(|(path, time)| times.get(path) == Some(time)), "the kept frames were rendered again");
+    assert!(
+        color_times(&d.join("changed")).iter().all(|(path, time)| times.get(path) == Some(time)),
+        "the kept frames were rendered again"
+    );
     assert_same(&contents(&d.join("fresh")), &contents(&d.join("changed")));
 }
 
@@ -119,8 +125,11 @@ fn a_dataset_in_use_is_left_alone() {
     let d = dir.path();
     write_room(d, "room", Lamp::On);
     write_config(d, &[scene("room")]);
-    let mut child =
-        enfilade(d, &["run", "dataset.toml", "--size", "640x480", "-o", "out"]).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let mut child = enfilade(d, &["run", "dataset.toml", "--size", "640x480", "-o", "out"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
     while !d.join("out/.enfilade/run.json").exists() {
         std::thread::sleep(Duration::from_millis(5));
     }

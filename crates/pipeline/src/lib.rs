@@ -13,7 +13,8 @@ mod stages;
 mod workdir;
 
 pub use config::{
-    CameraChoice, Config, ConfigError, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source, demo, select,
+    CameraChoice, Config, ConfigError, EnvironmentChoice, FileSource, LabelSource, Overrides, Place, Quality, SceneConfig, Source, demo,
+    select,
 };
 pub use enfilade_import::UpAxis;
 pub use error::Error;

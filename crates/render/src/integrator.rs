@@ -140,7 +140,7 @@ impl<'s> Integrator<'_, 's> {
         let Some(light) = self.scene.lights.sample(self.scene, self.choice, surface.p, [u[0], u[1], u[2]], wanted) else { return nothing };
         let wi = onb.to_local(light.wi);
         let value = bsdf.eval(wo, wi);
-        if value == Value::default() || light.radiance.is_black() {
+        if value == Value::default() {
             return nothing;
         }
         let arriving = self.scene.transmittance(&surface.shadow_ray(light.wi, light.target));
@@ -148,7 +148,7 @@ impl<'s> Integrator<'_, 's> {
             return nothing;
         }
         let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, bsdf.pdf(wo, wi)) } / light.pdf;
-        (Value { diffuse: value.diffuse * weight, specular: value.specular * weight }, light.radiance * arriving)
+        (Value { diffuse: value.diffuse * weight, specular: value.specular * weight }, self.scene.lights.radiance_of(&light) * arriving)
     }
 
     /// Irradiance over π at a surface without diffuse reflectance, by a white Lambert surface in its place.

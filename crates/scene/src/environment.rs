@@ -22,7 +22,7 @@ pub enum Environment {
 }
 
 /// Place in the equirectangular image of a unit direction in the map's space, which has y up: x across on [0,1), y downward
-/// from the top row on [0,1]. x = atan2(dx, −dz) / 2π, as in Mitsuba: the left border is −z, the middle +z.
+/// from the top row on `[0,1]`. x = atan2(dx, −dz) / 2π, as in Mitsuba: the left border is −z, the middle +z.
 #[inline]
 pub fn uv_from_direction(d: Vec3) -> Vec2 {
     let x = d.x.atan2(-d.z) / TAU;

@@ -32,7 +32,7 @@ impl From<f32> for ScalarParam {
     }
 }
 
-/// How light is scattered at a surface. `alpha` is GGX roughness (0 = smooth); reflectances lie on [0,1].
+/// How light is scattered at a surface. `alpha` is GGX roughness (0 = smooth); reflectances lie on `[0,1]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Bsdf {
     /// Lambert's law.
@@ -148,7 +148,7 @@ pub enum Alpha {
     Mask {
         /// Opacity over the surface.
         opacity: ScalarParam,
-        /// Threshold on [0,1].
+        /// Threshold on `[0,1]`.
         cutoff: f32,
     },
     /// Present with probability equal to the opacity.

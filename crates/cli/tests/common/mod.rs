@@ -75,13 +75,15 @@ pub fn write_room(dir: &Path, name: &str, lamp: Lamp) -> PathBuf {
     block("lamp", "light", [-0.3, 2.3, -0.3], [0.3, 2.4, 0.3], false);
     fs::write(dir.join(format!("{name}.obj")), obj).unwrap();
     let light = if lamp == Lamp::On { "Ke 12 11 10" } else { "" };
-    let mtl = format!("newmtl wall\nKd 0.7 0.7 0.7\nnewmtl wood\nKd 0.4 0.25 0.1\nnewmtl red\nKd 0.6 0.1 0.1\nnewmtl light\nKd 0 0 0\n{light}\n");
+    let mtl =
+        format!("newmtl wall\nKd 0.7 0.7 0.7\nnewmtl wood\nKd 0.4 0.25 0.1\nnewmtl red\nKd 0.6 0.1 0.1\nnewmtl light\nKd 0 0 0\n{light}\n");
     fs::write(dir.join(format!("{name}.mtl")), mtl).unwrap();
     dir.join(format!("{name}.obj"))
 }
 
 /// Settings that make everything quick.
-pub const QUICK: &str = "seed = 3\nframes = 3\n[render]\nsize = [48, 36]\nsamples = 4\nmax_bounces = 4\n[carve]\nrays = 8192\niterations = 2\n";
+pub const QUICK: &str =
+    "seed = 3\nframes = 3\n[render]\nsize = [48, 36]\nsamples = 4\nmax_bounces = 4\n[carve]\nrays = 8192\niterations = 2\n";
 
 /// Where a camera stands in the test room (metres, z up).
 pub const CAMERA: &str = "cameras = [{ position = [0.2, -0.9, 1.4], look_at = [0.0, 0.9, 0.6] }]\n";

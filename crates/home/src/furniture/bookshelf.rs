@@ -12,7 +12,7 @@ pub struct Bookshelf {
     pub columns: usize,
     /// Compartments above each other.
     pub rows: usize,
-    /// Share of the compartments that hold books, on [0,1].
+    /// Share of the compartments that hold books, on `[0,1]`.
     pub books: f32,
 }
 

@@ -25,7 +25,7 @@ use enfilade_scene::{ColorParam, Image, Pixels, TextureRef};
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
-/// A picture of `width` × `height` pixels from a function of texture coordinates on [0,1]² (v upward) to linear reflectance.
+/// A picture of `width` × `height` pixels from a function of texture coordinates on `[0,1]²` (v upward) to linear reflectance.
 pub fn paint(name: &str, width: u32, height: u32, color: impl Fn(Vec2) -> Rgb + Sync) -> Image {
     let texels = pixel_centers(width, height).map(|uv| {
         let c = color(uv);
@@ -34,7 +34,7 @@ pub fn paint(name: &str, width: u32, height: u32, color: impl Fn(Vec2) -> Rgb + 
     Image { name: name.into(), width, height, pixels: Pixels::Rgba8 { srgb: true, texels: texels.collect() } }
 }
 
-/// As [`paint`], but numbers on [0,1] kept linear: heights and roughness.
+/// As [`paint`], but numbers on `[0,1]` kept linear: heights and roughness.
 pub fn measure(name: &str, width: u32, height: u32, value: impl Fn(Vec2) -> f32 + Sync) -> Image {
     let texels = pixel_centers(width, height).map(|uv| {
         let v = (value(uv).clamp(0.0, 1.0) * 255.0 + 0.5) as u8;

@@ -118,7 +118,7 @@ pub(super) fn resolve(
     variable: &dyn Fn(&str) -> Option<String>,
 ) -> Result<Config, ConfigError> {
     let source = Text { file, text };
-    let document: Document = toml::from_str(text).map_err(|e| source.from_toml(&e))?;
+    let document: Document = toml::from_str(text).map_err(|e| source.toml_error(&e))?;
     let resolver = Resolver { source, document: &document, overrides, variable };
     let name = match &document.name {
         Some(name) => resolver.checked_name(name, "name")?,
@@ -190,13 +190,21 @@ impl Resolver<'_> {
             (None, Some(home)) => return Ok(Source::Home { seed: self.overrides.seed.or(home.seed).unwrap_or(seed) }),
             _ => {
                 let message = "a scene needs either `file` or `home`";
-                return Err(self.refuse(&keys.name, message, "add file = \"room.gltf\" for a scene of yours, or home = {} for a generated one"));
+                return Err(self.refuse(
+                    &keys.name,
+                    message,
+                    "add file = \"room.gltf\" for a scene of yours, or home = {} for a generated one",
+                ));
             }
         };
         let defaults = &self.document.import;
         let meters_per_unit = keys.meters_per_unit.as_ref().or(defaults.meters_per_unit.as_ref());
         if let Some(value) = meters_per_unit.filter(|v| !(v.get_ref().is_finite() && *v.get_ref() > 0.0)) {
-            return Err(self.refuse(value, "meters_per_unit must be a positive number", "0.01 for a file in centimetres, 1 for one in metres"));
+            return Err(self.refuse(
+                value,
+                "meters_per_unit must be a positive number",
+                "0.01 for a file in centimetres, 1 for one in metres",
+            ));
         }
         if let Some(environment) = &keys.environment {
             self.check_path(&environment.get_ref().file, environment)?;
@@ -289,7 +297,11 @@ impl Resolver<'_> {
 }
 
 fn check_frames(frames: u32) -> Result<u32, String> {
-    if (1..=MOST_FRAMES).contains(&frames) { Ok(frames) } else { Err(format!("frames must lie between 1 and {MOST_FRAMES}, found {frames}")) }
+    if (1..=MOST_FRAMES).contains(&frames) {
+        Ok(frames)
+    } else {
+        Err(format!("frames must lie between 1 and {MOST_FRAMES}, found {frames}"))
+    }
 }
 
 fn check_size(size: [u32; 2]) -> Result<[u32; 2], String> {

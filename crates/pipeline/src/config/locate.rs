@@ -9,26 +9,35 @@ use std::path::{Path, PathBuf};
 pub struct ConfigError {
     /// The file as the user named it.
     pub file: PathBuf,
-    /// Line and column from 1; `None` when the file as a whole is meant.
-    pub place: Option<(usize, usize)>,
-    /// That line, for display.
-    pub line: String,
-    /// Number of characters that the problem spans on its line.
-    pub width: usize,
+    /// Where; `None` when the file as a whole is meant.
+    pub place: Option<Box<Place>>,
     /// What was found and what was expected.
     pub message: String,
     /// What to do.
     pub help: Option<String>,
 }
 
+/// A place in a file, for display.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// From 1.
+    pub line: usize,
+    /// From 1, in characters.
+    pub column: usize,
+    /// The line itself.
+    pub text: String,
+    /// Number of characters that the problem spans on its line.
+    pub width: usize,
+}
+
 impl fmt::Display for ConfigError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.file.display())?;
-        let Some((line, column)) = self.place else { return write!(f, ": {}", self.message) };
-        write!(f, ":{line}:{column}: {}", self.message)?;
-        let gutter = line.to_string();
-        let marker = "^".repeat(self.width.max(1));
-        write!(f, "\n  {gutter} | {}\n  {:gap$} | {:indent$}{marker}", self.line, "", "", gap = gutter.len(), indent = column - 1)
+        let Some(place) = &self.place else { return write!(f, ": {}", self.message) };
+        let Place { line, column, text, width } = &**place;
+        let gutter = line.to_string().len();
+        let marker = "^".repeat((*width).max(1));
+        write!(f, ":{line}:{column}: {}\n  {line} | {text}\n  {:gutter$} | {:indent$}{marker}", self.message, "", "", indent = column - 1)
     }
 }
 
@@ -43,22 +52,25 @@ pub(super) struct Source<'a> {
 impl Source<'_> {
     /// An error about the bytes `span` of the text.
     pub fn error(&self, span: Option<Range<usize>>, message: impl Into<String>) -> ConfigError {
-        let mut error =
-            ConfigError { file: self.file.into(), place: None, line: String::new(), width: 1, message: message.into(), help: None };
-        let Some(span) = span.filter(|s| s.start <= self.text.len()) else { return error };
+        let place = span.filter(|s| s.start <= self.text.len()).map(|span| Box::new(self.place(&span)));
+        ConfigError { file: self.file.into(), place, message: message.into(), help: None }
+    }
+
+    fn place(&self, span: &Range<usize>) -> Place {
         let start = floor_char_boundary(self.text, span.start);
         let line_start = self.text[..start].rfind('\n').map_or(0, |i| i + 1);
-        let line = self.text[line_start..].lines().next().unwrap_or("");
-        let column = self.text[line_start..start].chars().count() + 1;
-        let on_line = self.text.get(start..span.end.min(line_start + line.len())).unwrap_or("");
-        error.place = Some((self.text[..line_start].matches('\n').count() + 1, column));
-        error.line = line.to_string();
-        error.width = on_line.chars().count();
-        error
+        let text = self.text[line_start..].lines().next().unwrap_or("");
+        let on_line = self.text.get(start..span.end.min(line_start + text.len())).unwrap_or("");
+        Place {
+            line: self.text[..line_start].matches('\n').count() + 1,
+            column: self.text[line_start..start].chars().count() + 1,
+            text: text.to_string(),
+            width: on_line.chars().count(),
+        }
     }
 
     /// The error of the TOML reader in our words: unknown keys get the closest known key as a proposal.
-    pub fn from_toml(&self, error: &toml::de::Error) -> ConfigError {
+    pub fn toml_error(&self, error: &toml::de::Error) -> ConfigError {
         let span = error.span();
         let names = quoted(error.message());
         if let (true, Some((found, known))) = (error.message().starts_with("unknown field"), names.split_first()) {

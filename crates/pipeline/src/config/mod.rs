@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 pub(crate) use locate::closest;
-pub use locate::ConfigError;
+pub use locate::{ConfigError, Place};
 
 /// A dataset to make.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -185,7 +185,8 @@ impl Config {
     /// When it cannot be read, is not TOML, holds an unknown key or a value out of its range, or names an environment variable
     /// that is not set.
     pub fn read(file: &Path, overrides: &Overrides) -> Result<Self, Error> {
-        let unreadable = |e| Error::usage(format!("cannot read {}: {e}", file.display()), "name a TOML file, or make the demo: enfilade run --demo out");
+        let unreadable =
+            |e| Error::usage(format!("cannot read {}: {e}", file.display()), "name a TOML file, or make the demo: enfilade run --demo out");
         let text = std::fs::read_to_string(file).map_err(unreadable)?;
         let mut config = document::resolve(file, &text, overrides, &environment_variable)?;
         let absolute = std::path::absolute(file).map_err(Error::io("find", file))?;
@@ -215,7 +216,7 @@ impl Config {
     /// When none does.
     pub fn select(&self, pattern: Option<&str>) -> Result<Vec<&SceneConfig>, Error> {
         let names: Vec<String> = self.scenes.iter().map(|s| s.name.clone()).collect();
-        let chosen = select(&names, pattern)?;
+        let chosen = select("scene", &names, pattern)?;
         Ok(self.scenes.iter().filter(|s| chosen.contains(&s.name)).collect())
     }
 
@@ -248,19 +249,19 @@ fn environment_variable(name: &str) -> Option<String> {
     std::env::var(name).ok()
 }
 
-/// The names of scenes that match `pattern`, in which `*` stands for any run of characters and `,` separates alternatives; all of
+/// The names (of things called `what`) that match `pattern`, in which `*` stands for any run of characters and `,` separates alternatives; all of
 /// them without a pattern.
 ///
 /// # Errors
 /// When none does.
-pub fn select(names: &[String], pattern: Option<&str>) -> Result<Vec<String>, Error> {
+pub fn select(what: &str, names: &[String], pattern: Option<&str>) -> Result<Vec<String>, Error> {
     let Some(pattern) = pattern else { return Ok(names.to_vec()) };
     let chosen: Vec<String> = names.iter().filter(|name| pattern.split(',').any(|p| matches(p.trim(), name))).cloned().collect();
     if chosen.is_empty() {
         let known: Vec<&str> = names.iter().map(String::as_str).collect();
         let proposal = closest(pattern, &known).map_or(String::new(), |n| format!("did you mean {n:?}? "));
-        let hint = format!("{proposal}the scenes are: {}", names.join(", "));
-        return Err(Error::usage(format!("no scene is named {pattern:?}"), hint));
+        let hint = format!("{proposal}the {what}s are: {}", names.join(", "));
+        return Err(Error::usage(format!("no {what} is named {pattern:?}"), hint));
     }
     Ok(chosen)
 }
@@ -269,8 +270,8 @@ pub fn select(names: &[String], pattern: Option<&str>) -> Result<Vec<String>, Er
 fn matches(pattern: &str, name: &str) -> bool {
     match pattern.split_once('*') {
         None => pattern == name,
-        Some((head, tail)) => name.strip_prefix(head).is_some_and(|rest| {
-            (0..=rest.len()).filter(|&i| rest.is_char_boundary(i)).any(|i| matches(tail, &rest[i..]))
-        }),
+        Some((head, tail)) => name
+            .strip_prefix(head)
+            .is_some_and(|rest| (0..=rest.len()).filter(|&i| rest.is_char_boundary(i)).any(|i| matches(tail, &rest[i..]))),
     }
 }

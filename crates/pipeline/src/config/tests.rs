@@ -27,8 +27,7 @@ fn a_scene_needs_a_name_and_a_file_and_gets_defaults_for_the_rest() {
     let scene = &config.scenes[0];
     assert_eq!((scene.seed, scene.size, scene.fov_x_deg, scene.render.samples), (0, [1024, 768], None, 64));
     assert_eq!((scene.plan.frames, &scene.labels, scene.cameras.len()), (100, &None, 0));
-    let file =
-        FileSource { file: "a.gltf".into(), meters_per_unit: 1.0, up_axis: None, environment: None, allow_missing_textures: false };
+    let file = FileSource { file: "a.gltf".into(), meters_per_unit: 1.0, up_axis: None, environment: None, allow_missing_textures: false };
     assert_eq!(scene.source, Source::File(file));
 }
 
@@ -80,7 +79,10 @@ fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
          size, fov_x_deg, samples, max_bounces, roulette_start, filter_radius"
     );
     let text = error(&format!("{SCENE}meter_per_unit = 3\n"));
-    assert!(text.starts_with("sets/dataset.toml:4:1: unknown key `meter_per_unit`") && text.contains("did you mean `meters_per_unit`?"), "{text}");
+    assert!(
+        text.starts_with("sets/dataset.toml:4:1: unknown key `meter_per_unit`") && text.contains("did you mean `meters_per_unit`?"),
+        "{text}"
+    );
     let text = error(&format!("{SCENE}cameras = [{{ position = [0, 0, 0], lookat = [1, 0, 0] }}]\n"));
     assert!(text.starts_with("sets/dataset.toml:4:36: unknown key `lookat`") && text.contains("did you mean `look_at`?"), "{text}");
     assert!(error("[[scenes]]\nname = \"a\"\n").contains("did you mean `scene`?"));
@@ -100,7 +102,10 @@ fn wrong_types_and_syntax_are_shown_in_place() {
 fn values_out_of_range_are_shown_with_an_example() {
     for (text, start) in [
         (format!("frames = 0\n{SCENE}"), "sets/dataset.toml:1:10: frames must lie between 1 and 10000, found 0"),
-        (format!("[render]\nsize = [0, 5]\n{SCENE}"), "sets/dataset.toml:2:8: width and height must lie between 1 and 16384 pixels, found 0 x 5"),
+        (
+            format!("[render]\nsize = [0, 5]\n{SCENE}"),
+            "sets/dataset.toml:2:8: width and height must lie between 1 and 16384 pixels, found 0 x 5",
+        ),
         (format!("[render]\nsamples = 0\n{SCENE}"), "sets/dataset.toml:2:11: samples must be at least 1"),
         (format!("{SCENE}render.fov_x_deg = 180\n"), "sets/dataset.toml:4:20: fov_x_deg must lie between 0 and 180"),
         (format!("{SCENE}meters_per_unit = -1.0\n"), "sets/dataset.toml:4:19: meters_per_unit must be a positive number"),

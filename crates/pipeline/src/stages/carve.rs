@@ -1,6 +1,6 @@
 //! `carve`: the scene to its free space, beginning at the cameras where trajectories will begin.
 
-use super::{Input, Job, Outcome, Record, Stage};
+use super::{Inputs, Job, Outcome, Record, Stage};
 use crate::config::{CameraChoice, closest};
 use crate::error::Error;
 use crate::report::{StageCx, count};
@@ -17,7 +17,7 @@ pub(super) fn settings(job: &Job) -> Hash {
     Hash::of(&(&job.scene.carve, &job.scene.cameras, job.scene.seed_for("carve")))
 }
 
-pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Result<Option<Vec<Input>>, Error> {
+pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     Ok(Some(vec![job.input_from(Stage::Import, &job.package()?)?]))
 }
 

@@ -1,6 +1,6 @@
 //! `import`: a scene file, or a generated home, to a scene package, the labels that came with it, and the dataset's scene files.
 
-use super::{Input, Job, Outcome, Record};
+use super::{Input, Inputs, Job, Outcome, Record};
 use crate::config::{FileSource, Source};
 use crate::error::Error;
 use crate::report::{StageCx, count};
@@ -18,7 +18,7 @@ pub(super) fn settings(job: &Job) -> Hash {
 }
 
 /// The files that the last import read: which these are, only reading tells.
-pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Result<Option<Vec<Input>>, Error> {
+pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
     if matches!(job.scene.source, Source::Home { .. }) {
         return Ok(Some(Vec::new()));
     }

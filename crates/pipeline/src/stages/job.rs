@@ -64,13 +64,19 @@ impl<'a> Job<'a> {
         }
         let path = self.package()?;
         let bytes = std::fs::read(&path).map_err(Error::io("read", &path))?;
-        let scene = enfilade_scene::from_bytes(&bytes).map_err(|e| Error::scene(format!("{}: {e}", path.display()), self.again(Stage::Import)))?;
+        let scene =
+            enfilade_scene::from_bytes(&bytes).map_err(|e| Error::scene(format!("{}: {e}", path.display()), self.again(Stage::Import)))?;
         Ok(loaded.scene.insert(Arc::new(scene)).clone())
     }
 
     /// Forgets what was loaded, because the package is a new one.
     pub fn forget_scene(&self) {
         *self.loaded.lock().unwrap_or_else(PoisonError::into_inner) = Loaded::default();
+    }
+
+    /// Gives back the memory of [`Job::load_world`], which the renderer has no use for.
+    pub fn forget_world(&self) {
+        self.loaded.lock().unwrap_or_else(PoisonError::into_inner).world = None;
     }
 
     /// The scene as rays meet it, built once per run.
@@ -105,9 +111,8 @@ impl<'a> Job<'a> {
     /// The commit records of all frames as inputs: they hold the checksums of every layer.
     pub fn frame_records(&self) -> Result<Vec<Input>, Error> {
         let layout = self.dataset.layout();
-        let record = |(camera, frame): &(String, u32)| {
-            self.input_from(Stage::Render, &layout.frame_record(&self.scene.name, camera, *frame))
-        };
+        let record =
+            |(camera, frame): &(String, u32)| self.input_from(Stage::Render, &layout.frame_record(&self.scene.name, camera, *frame));
         self.frames()?.iter().map(record).collect()
     }
 

@@ -1,6 +1,6 @@
 //! `label`: what every part is, from a table or from the scene itself, joined to the entity ids of finished frames.
 
-use super::{Input, Job, Outcome, Record, Stage, import};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, import};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, read_json};
@@ -16,7 +16,7 @@ pub(super) fn settings(job: &Job) -> Hash {
     Hash::of(&job.scene.labels.as_ref().map(|l| &l.scene))
 }
 
-pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Result<Option<Vec<Input>>, Error> {
+pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?, Input::of(&job.work_file(import::LABELS)?)?];
     if let Some(labels) = &job.scene.labels {
         inputs.push(Input::of(&job.config.path(&labels.table)?)?);
@@ -37,7 +37,11 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         cx.progress("frames", done as u64 + 1, frames.len() as u64);
     }
     let labelled = labels.parts.iter().filter(|l| l.semantic >= 1).count();
-    let summary = format!("{labelled} of {} have a class, in {}", count(labels.parts.len(), "part"), count(frames.len(), "frame"));
+    let parts = count(labels.parts.len(), "part");
+    let mut summary = format!("{labelled} of {parts} have a class, in {}", count(frames.len(), "frame"));
+    if labelled == 0 && job.scene.labels.is_none() {
+        summary.push_str("; the scene comes without labels and no table is given");
+    }
     Ok(Outcome { summary, outputs: outputs(job, &frames), report, ..Outcome::default() })
 }
 

@@ -50,7 +50,7 @@ pub struct StageSpec {
     /// Everything of the configuration that the outputs depend on.
     settings: fn(&Job) -> Hash,
     /// Everything else that they depend on; `None` when that is only known after the stage has run.
-    inputs: fn(&Job, Option<&Record>) -> Result<Option<Vec<Input>>, Error>,
+    inputs: fn(&Job, Option<&Record>) -> Inputs,
     /// Does the work.
     run: fn(&Job, &StageCx) -> Result<Outcome, Error>,
 }
@@ -133,6 +133,9 @@ impl Stage {
         self.spec().name
     }
 }
+
+/// The inputs of a stage, as far as they are known before it has run.
+pub(crate) type Inputs = Result<Option<Vec<Input>>, Error>;
 
 /// A file that a stage read, by content.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

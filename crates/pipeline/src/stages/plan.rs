@@ -1,6 +1,6 @@
 //! `plan`: free space to one trajectory per start camera.
 
-use super::{Input, Job, Outcome, Record, Stage, carve};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, carve};
 use crate::error::Error;
 use crate::report::{StageCx, count, count_of};
 use crate::workdir::{Hash, read_json, remove_if_there};
@@ -17,7 +17,7 @@ pub(super) fn settings(job: &Job) -> Hash {
     Hash::of(&(&scene.plan, scene.size, scene.fov_x_deg, scene.seed_for("plan")))
 }
 
-pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Result<Option<Vec<Input>>, Error> {
+pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?];
     for path in carve::outputs(job)? {
         inputs.push(job.input_from(Stage::Carve, &path)?);
@@ -40,7 +40,12 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     }
     job.dataset.write_intrinsics(name, &intrinsics).map_err(Error::stage)?;
     let poses: usize = trajectories.iter().map(|t| t.poses.len()).sum();
-    let summary = format!("{} with {}, {:.0} degrees wide", count_of(trajectories.len(), "trajectory", "trajectories"), count(poses, "pose"), fov_x_rad.to_degrees());
+    let summary = format!(
+        "{} with {}, {:.0} degrees wide",
+        count_of(trajectories.len(), "trajectory", "trajectories"),
+        count(poses, "pose"),
+        fov_x_rad.to_degrees()
+    );
     let layout = job.dataset.layout();
     let mut outputs = outputs_of(job, &trajectories);
     outputs.push(layout.metadata_cameras(name));

@@ -1,6 +1,6 @@
 //! `preview`: pictures of every layer of finished frames, and a contact sheet per trajectory.
 
-use super::{Input, Job, Outcome, Record};
+use super::{Inputs, Job, Outcome, Record};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, remove_if_there};
@@ -11,7 +11,7 @@ pub(super) fn settings(_job: &Job) -> Hash {
     Hash::of(&SheetConfig::default())
 }
 
-pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Result<Option<Vec<Input>>, Error> {
+pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = job.frame_records()?;
     inputs.extend(job.label_records()?);
     Ok(Some(inputs))

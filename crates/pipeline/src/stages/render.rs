@@ -1,7 +1,7 @@
 //! `render`: trajectories to frames. Resumes frame by frame: a frame is left alone when its record names the hash of everything
 //! that its values depend on.
 
-use super::{Input, Job, Outcome, Record, Stage};
+use super::{Input, Inputs, Job, Outcome, Record, Stage};
 use crate::error::Error;
 use crate::report::{StageCx, Stopwatch, count};
 use crate::workdir::Hash;
@@ -16,7 +16,7 @@ pub(super) fn settings(job: &Job) -> Hash {
     Hash::of(&(&job.scene.render, job.scene.seed_for("render")))
 }
 
-pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Result<Option<Vec<Input>>, Error> {
+pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?];
     inputs.extend(super::plan::outputs(job)?);
     Ok(Some(inputs))
@@ -49,6 +49,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 
 /// Renders and writes the frames that are `missing` of the `total`.
 fn render(job: &Job, missing: &[(&str, RenderConfig, FrameInfo)], total: usize, cx: &StageCx) -> Result<(), Error> {
+    job.forget_world();
     let scene = job.load_scene()?;
     let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?;
     for (i, (camera, config, info)) in missing.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! `verify`: the laws that tie a scene's files together, on a card.
 
-use super::{Input, Job, Outcome, Record};
+use super::{Inputs, Job, Outcome, Record};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::Hash;
@@ -10,7 +10,7 @@ pub(super) fn settings(_job: &Job) -> Hash {
     Hash::of(&LAWS.map(|law| (law.statement, law.bound.to_bits())).as_slice())
 }
 
-pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Result<Option<Vec<Input>>, Error> {
+pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = super::plan::outputs(job)?;
     inputs.extend(job.frame_records()?);
     inputs.extend(job.label_records()?);

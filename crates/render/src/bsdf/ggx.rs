@@ -52,7 +52,7 @@ pub fn visible_pdf(wo: Vec3, m: Vec3, alpha: f32) -> f32 {
 pub fn sample_visible(wo: Vec3, alpha: f32, u: [f32; 2]) -> Vec3 {
     let stretched = Vec3::new(wo.x * alpha, wo.y * alpha, wo.z).normalize();
     let phi = std::f32::consts::TAU * u[0];
-    let z = (1.0 - u[1]).mul_add(1.0 + stretched.z, -stretched.z);
+    let z = (1.0 - u[1]) * (1.0 + stretched.z) - stretched.z;
     let r = (1.0 - z * z).clamp(0.0, 1.0).sqrt();
     let (sin, cos) = phi.sin_cos();
     let h = Vec3::new(r * cos, r * sin, z) + stretched;

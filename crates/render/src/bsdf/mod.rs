@@ -101,13 +101,12 @@ impl<'a> Bsdf<'a> {
     }
 
     /// Turns importances into probabilities, none of them below a tenth of an even share, so that no lobe starves.
-    fn finish(mut self) -> Self {
+    fn finish(&mut self) {
         let total: f32 = self.entries[..self.count].iter().map(|e| e.select).sum();
         let n = self.count as f32;
         for e in &mut self.entries[..self.count] {
             e.select = 0.9 * e.select / total + 0.1 / n;
         }
-        self
     }
 
     /// Value × cosine for light from `wi`; smooth lobes do not take part.

@@ -75,7 +75,8 @@ impl<'a> Bsdf<'a> {
             }
             scene::Bsdf::Principled(p) => bsdf.add_principled(p, at),
         }
-        bsdf.finish()
+        bsdf.finish();
+        bsdf
     }
 
     /// A diffuse base of colour `base` under the point's coat; `share` of the surface is so.

@@ -173,7 +173,7 @@ fn try_sources(scene: &RenderScene<'_>, surface: &crate::surface::Surface<'_>, r
         let wanted = |wi: Vec3| wi.dot(surface.ng) > 0.0;
         let value = lights.sample_source(scene, source, surface.p, u, wanted).map_or(0.0, |light| {
             let arriving = scene.transmittance(&surface.shadow_ray(light.wi, light.target));
-            (light.radiance * arriving).luminance() * light.wi.dot(surface.ns).max(0.0) / light.pdf
+            (lights.radiance_of(&light) * arriving).luminance() * light.wi.dot(surface.ns).max(0.0) / light.pdf
         });
         arrivals.push(Arrival { p: surface.p, source: source as u32, value: if value.is_finite() { value } else { 0.0 } });
     }

@@ -59,33 +59,37 @@ impl EnvironmentLight {
 
     /// A direction from `p`, through a portal or in proportion to brightness; `None` when `wanted` refuses it.
     pub fn sample(&self, p: Vec3, u: [f32; 3], wanted: impl Fn(Vec3) -> bool) -> Option<LightSample> {
+        let sample = |wi, pdf: f32| (pdf > 0.0).then_some(LightSample { wi, target: None, radiance: None, pdf, is_delta: false });
         let through_portal = if u[2] < PORTAL_SHARE { self.portals.sample(p, [u[0], u[1], u[2] / PORTAL_SHARE]) } else { None };
-        let wi = match through_portal {
-            Some(wi) => wi,
-            None => self.sky.sample([u[0], u[1]])?,
-        };
-        if !wanted(wi) {
-            return None;
+        if let Some(wi) = through_portal {
+            return if wanted(wi) { sample(wi, self.pdf(p, wi)) } else { None };
         }
-        let pdf = self.pdf(p, wi);
-        (pdf > 0.0).then(|| LightSample { wi, target: None, radiance: self.radiance(wi), pdf, is_delta: false })
+        let (wi, by_brightness) = self.sky.sample([u[0], u[1]])?;
+        if wanted(wi) { sample(wi, self.mixed_pdf(p, wi, by_brightness)) } else { None }
     }
 
     /// Density of [`EnvironmentLight::sample`] per solid angle.
     #[inline]
     pub fn pdf(&self, p: Vec3, d: Vec3) -> f32 {
-        let by_brightness = self.sky.pdf(d);
+        self.mixed_pdf(p, d, self.sky.pdf(d))
+    }
+
+    #[inline]
+    fn mixed_pdf(&self, p: Vec3, d: Vec3, by_brightness: f32) -> f32 {
         self.portals.pdf(p, d).map_or(by_brightness, |portal| PORTAL_SHARE * portal + (1.0 - PORTAL_SHARE) * by_brightness)
     }
 }
 
 impl Sky {
-    fn sample(&self, u: [f32; 2]) -> Option<Vec3> {
+    /// A direction in proportion to brightness, and its density per solid angle.
+    fn sample(&self, u: [f32; 2]) -> Option<(Vec3, f32)> {
         match self {
-            Self::Constant { .. } => Some(warp::sphere(u)),
+            Self::Constant { .. } => Some((warp::sphere(u), 0.25 / PI)),
             Self::Map { map_from_world, distribution, .. } => {
                 let (uv, density) = distribution.sample(u);
-                (density > 0.0).then(|| map_from_world.transpose() * direction_from_uv(Vec2::from(uv)))
+                let sin_theta = (uv[1] * PI).sin();
+                let direction = map_from_world.transpose() * direction_from_uv(Vec2::from(uv));
+                (density > 0.0 && sin_theta > 0.0).then(|| (direction, density / (2.0 * PI * PI * sin_theta)))
             }
         }
     }

@@ -81,7 +81,7 @@ fn sample_mesh(
         return None;
     }
     let pdf = pmf / area * distance_squared / cos;
-    Some(LightSample { wi, target: Some(offset_origin(q, surface.ng)), radiance, pdf, is_delta: false })
+    Some(LightSample { wi, target: Some(offset_origin(q, surface.ng)), radiance: Some(radiance), pdf, is_delta: false })
 }
 
 /// Light from a source without surface.
@@ -90,23 +90,23 @@ fn sample_light(light: &Light, p: Vec3, u: [f32; 2]) -> Option<LightSample> {
         let to_light = position - p;
         let distance_squared = to_light.length_squared();
         let wi = to_light.try_normalize()?;
-        Some(LightSample { wi, target: Some(position), radiance: intensity / distance_squared, pdf: 1.0, is_delta: true })
+        Some(LightSample { wi, target: Some(position), radiance: Some(intensity / distance_squared), pdf: 1.0, is_delta: true })
     };
     match light {
         Light::Point { position, intensity, .. } => towards(*position, *intensity),
         Light::Spot { position, direction, intensity, inner_rad, outer_rad, .. } => {
             let sample = towards(*position, *intensity)?;
             let falloff = spot_falloff((-sample.wi).dot(*direction), *inner_rad, *outer_rad);
-            (falloff > 0.0).then(|| LightSample { radiance: sample.radiance * falloff, ..sample })
+            (falloff > 0.0).then(|| LightSample { radiance: sample.radiance.map(|r| r * falloff), ..sample })
         }
         Light::Directional { direction, irradiance, angular_radius_rad, .. } => {
             if *angular_radius_rad <= 0.0 {
-                return Some(LightSample { wi: -*direction, target: None, radiance: *irradiance, pdf: 1.0, is_delta: true });
+                return Some(LightSample { wi: -*direction, target: None, radiance: Some(*irradiance), pdf: 1.0, is_delta: true });
             }
             let limit = one_minus_cos_of(*angular_radius_rad);
             let wi = Onb::from_z(-*direction).to_world(warp::cone(u, limit)).normalize();
             let pdf = warp::cone_pdf(limit);
-            Some(LightSample { wi, target: None, radiance: *irradiance * pdf, pdf, is_delta: false })
+            Some(LightSample { wi, target: None, radiance: Some(*irradiance * pdf), pdf, is_delta: false })
         }
     }
 }

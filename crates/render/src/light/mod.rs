@@ -28,7 +28,8 @@ pub(crate) struct LightSample {
     /// Where the shadow ray ends, moved off the emitter's surface; `None` for infinitely far lights.
     pub target: Option<Vec3>,
     /// Radiance (finite lights) or radiance × density (delta lights, whose `pdf` is then only the choice's probability).
-    pub radiance: Rgb,
+    /// `None` for the environment, which is looked up once it is known to be seen: see [`Lights::radiance_of`].
+    pub radiance: Option<Rgb>,
     /// Density per solid angle, choice included.
     pub pdf: f32,
     /// True when no other technique can find this light.
@@ -177,6 +178,12 @@ impl Lights {
         }
         let in_group = by_power.pmf((hit.triangle - first_triangle) as usize);
         self.group_probability(choice, from, group as usize) * in_group / area * p.distance_squared(from) / cos
+    }
+
+    /// The radiance of a sample.
+    pub fn radiance_of(&self, sample: &LightSample) -> Rgb {
+        let environment = || self.environment.as_ref().map_or(Rgb::BLACK, |e| e.radiance(sample.wi));
+        sample.radiance.unwrap_or_else(environment)
     }
 
     /// Radiance from beyond the scene in the unit direction `d`.

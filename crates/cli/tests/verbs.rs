@@ -1,0 +1,52 @@
+//! Each verb on its own, on a tiny dataset and on single files.
+
+mod common;
+
+use common::{Lamp, fail, folder, scene, succeed, write_config, write_room};
+use std::fs;
+
+#[test]
+fn a_file_becomes_a_package_and_a_package_is_a_scene_file() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    let text = succeed(d, &["import", "room.obj", "-o", "metres.scene"]);
+    assert!(text.contains("4 parts, 48 triangles") && text.contains("4.0 x 3.0 x 2.5 m"), "{text}");
+    let text = succeed(d, &["import", "room.obj", "-o", "feet.scene", "--meters-per-unit", "0.3048", "--up-axis", "z"]);
+    assert!(text.contains("1.2 x 0.8 x 0.9 m"), "{text}");
+    let text = succeed(d, &["import", "metres.scene", "-o", "again.scene"]);
+    assert!(text.contains("4.0 x 3.0 x 2.5 m"), "{text}");
+    assert_eq!(fs::read(d.join("metres.scene")).unwrap(), fs::read(d.join("again.scene")).unwrap());
+    assert!(d.join("metres.report.json").is_file());
+}
+
+#[test]
+fn stages_run_one_by_one_and_pixels_answer() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    for verb in ["import", "carve", "plan", "render", "label", "preview"] {
+        let text = succeed(d, &[verb, "out"]);
+        assert!(text.contains("nothing to do"), "{verb}: {text}");
+    }
+    for verb in ["import", "carve", "plan", "render", "label", "preview"] {
+        let text = succeed(d, &[verb, "out", "--force"]);
+        assert!(!text.contains("nothing to do"), "{verb}: {text}");
+    }
+    assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames of 1 scene"));
+    let text = succeed(d, &["inspect", "out", "--frame", "1", "--pixel", "24,18"]);
+    assert!(text.contains("depth_meters") && text.contains("part"), "{text}");
+    fail(d, &["inspect", "out", "--pixel", "48,0"], 1, &["columns 0 to 47"]);
+    fail(d, &["inspect", "out", "--frame", "7", "--pixel", "0,0"], 1, &["has no frame 7"]);
+    fail(d, &["inspect", "out", "--camera", "cam_01", "--pixel", "0,0"], 2, &["no camera is named \"cam_01\"", "cam_00"]);
+
+    // A layer that was cut short is found by verification and mended by rendering that frame again.
+    let layer = d.join("out/scenes/room/images/scene_cam_00_geometry_hdf5/frame.0001.position.hdf5");
+    let bytes = fs::read(&layer).unwrap();
+    fs::write(&layer, &bytes[..bytes.len() / 2]).unwrap();
+    fail(d, &["verify", "out"], 1, &["FAIL", "frame.0001"]);
+    let text = succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    assert!(text.contains("all") && fs::read(&layer).unwrap() == bytes, "{text}");
+}
