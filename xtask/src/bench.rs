@@ -14,11 +14,14 @@ struct Bench {
 }
 
 /// All measurements; each is the file `crates/<room>/examples/<name>.rs`.
-const BENCHES: [Bench; 1] = [Bench {
-    name: "rays",
-    room: "geometry",
-    about: "millions of rays per second of one thread through the hierarchy: camera, bounced, shadow",
-}];
+const BENCHES: [Bench; 2] = [
+    Bench {
+        name: "rays",
+        room: "geometry",
+        about: "millions of rays per second of one thread through the hierarchy: camera, bounced, shadow",
+    },
+    Bench { name: "noise", room: "pipeline", about: "noise that a second of rendering leaves, in the demo's room" },
+];
 
 /// Lists the measurements, runs the one that is named, or runs all.
 ///

@@ -58,6 +58,7 @@ fn every_seed_gives_a_valid_scene_of_reasonable_size() {
         assert!((60_000..250_000).contains(&triangles), "seed {seed}: {triangles} triangles");
         assert!(home.scene.images.iter().all(|i| i.width <= 1024 && i.height <= 1024), "seed {seed}");
         assert!((2..=4).contains(&home.scene.cameras.len()), "seed {seed}: {} cameras", home.scene.cameras.len());
+        assert_eq!(home.scene.cameras[0].name, "door", "seed {seed}: the demo starts at the door");
     }
 }
 

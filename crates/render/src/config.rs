@@ -8,7 +8,7 @@ pub struct RenderConfig {
     pub samples: u32,
     /// Longest path, counted in surfaces after the first. Default 64: with roulette, longer paths carry no visible light.
     pub max_bounces: u32,
-    /// Bounces before Russian roulette begins. Default 4.
+    /// Bounces before Russian roulette begins. Default 3.
     pub roulette_start: u32,
     /// Radius of the tent reconstruction filter, in pixels. Default 1, as Mitsuba's `tent`.
     pub filter_radius: f32,
@@ -18,6 +18,6 @@ pub struct RenderConfig {
 
 impl Default for RenderConfig {
     fn default() -> Self {
-        Self { samples: 64, max_bounces: 64, roulette_start: 4, filter_radius: 1.0, seed: 0 }
+        Self { samples: 64, max_bounces: 64, roulette_start: 3, filter_radius: 1.0, seed: 0 }
     }
 }

@@ -151,15 +151,9 @@ impl Scene {
         let scalars: Vec<&ScalarParam> = match &material.bsdf {
             Bsdf::Diffuse { .. } | Bsdf::ThinDielectric { .. } => vec![],
             Bsdf::Conductor { alpha, .. } | Bsdf::Dielectric { alpha, .. } | Bsdf::Plastic { alpha, .. } => vec![alpha],
-            Bsdf::Principled(p) => vec![
-                &p.metallic,
-                &p.roughness,
-                &p.specular,
-                &p.transmission,
-                &p.clearcoat,
-                &p.clearcoat_roughness,
-                &p.sheen_roughness,
-            ],
+            Bsdf::Principled(p) => {
+                vec![&p.metallic, &p.roughness, &p.specular, &p.transmission, &p.clearcoat, &p.clearcoat_roughness, &p.sheen_roughness]
+            }
         };
         let opacity = match &material.alpha {
             Alpha::Opaque => None,

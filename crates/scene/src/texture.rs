@@ -78,18 +78,54 @@ impl TextureRef {
 }
 
 impl Wrap {
-    /// The texel index on 0..n for any integer.
+    /// A texture coordinate as a place on the axis of `n` texels, and its neighbours: the texel whose centre is at or before it, the
+    /// next one, and the share of the latter.
+    #[inline]
+    fn neighbours(self, coordinate: f32, n: u32) -> (usize, usize, f32) {
+        let n = n as i32;
+        let position = self.reduced(coordinate) * n as f32 - 0.5;
+        let first = floor(position);
+        (self.index(first, n), self.index(first + 1, n), position - first as f32)
+    }
+
+    /// The coordinate within one period (repeat: [0,1], mirror: [0,2]) or, clamped, within [−1,2], so that integers hold it.
+    #[inline]
+    fn reduced(self, coordinate: f32) -> f32 {
+        match self {
+            Self::Repeat => coordinate - whole_part(coordinate),
+            Self::Mirror => coordinate - 2.0 * whole_part(0.5 * coordinate),
+            Self::Clamp => coordinate.clamp(-1.0, 2.0),
+        }
+    }
+
+    /// The texel on 0..n for an integer up to one step outside the range of [`Wrap::reduced`].
     #[inline]
     fn index(self, i: i32, n: i32) -> usize {
         (match self {
-            Self::Repeat => i.rem_euclid(n),
+            Self::Repeat if i < 0 => i + n,
+            Self::Repeat if i >= n => i - n,
+            Self::Repeat => i,
             Self::Clamp => i.clamp(0, n - 1),
             Self::Mirror => {
-                let j = i.rem_euclid(2 * n);
+                let j = if i < 0 { i + 2 * n } else { i };
+                let j = if j >= 2 * n { j - 2 * n } else { j };
                 if j < n { j } else { 2 * n - 1 - j }
             }
         }) as usize
     }
+}
+
+/// ⌊v⌋ for |v| below 2³¹, without a call to the mathematics library.
+#[inline]
+fn floor(v: f32) -> i32 {
+    let truncated = v as i32;
+    truncated - i32::from(truncated as f32 > v)
+}
+
+/// ⌊v⌋ as a number; for huge values, which have no fraction, the value itself.
+#[inline]
+fn whole_part(v: f32) -> f32 {
+    if v.abs() < 1e9 { floor(v) as f32 } else { v }
 }
 
 impl Image {
@@ -120,24 +156,19 @@ impl Image {
     #[inline]
     pub fn sample(&self, texture: &TextureRef, uv: Vec2) -> (Rgb, f32) {
         let uv = texture.transform(uv);
-        let (w, h) = (self.width as i32, self.height as i32);
-        // Texture coordinates of millions of repeats lose their fraction; reduce first, so that the integers below fit.
-        let reduce = |v: f32| if v.abs() < 1e6 { v } else { v.fract() };
-        let (x, y) = (reduce(uv.x) * w as f32, (1.0 - reduce(uv.y)) * h as f32);
-        let column = |x: i32| texture.wrap[0].index(x, w);
-        let row = |y: i32| texture.wrap[1].index(y, h) * w as usize;
+        let row_length = self.width as usize;
+        // Rows count downward, v upward.
+        let v = 1.0 - uv.y;
         if texture.filter == Filter::Nearest {
-            return self.at(row(y.floor() as i32) + column(x.floor() as i32));
+            let texel = |wrap: Wrap, coordinate: f32, n: u32| wrap.index(floor(wrap.reduced(coordinate) * n as f32), n as i32);
+            return self.at(texel(texture.wrap[1], v, self.height) * row_length + texel(texture.wrap[0], uv.x, self.width));
         }
-        let (x, y) = (x - 0.5, y - 0.5);
-        let (x0, y0) = (x.floor(), y.floor());
-        let (fx, fy) = (x - x0, y - y0);
-        let (left, right) = (column(x0 as i32), column(x0 as i32 + 1));
-        let (top, bottom) = (row(y0 as i32), row(y0 as i32 + 1));
-        let (c00, a00) = self.at(top + left);
-        let (c10, a10) = self.at(top + right);
-        let (c01, a01) = self.at(bottom + left);
-        let (c11, a11) = self.at(bottom + right);
+        let (left, right, fx) = texture.wrap[0].neighbours(uv.x, self.width);
+        let (top, bottom, fy) = texture.wrap[1].neighbours(v, self.height);
+        let (c00, a00) = self.at(top * row_length + left);
+        let (c10, a10) = self.at(top * row_length + right);
+        let (c01, a01) = self.at(bottom * row_length + left);
+        let (c11, a11) = self.at(bottom * row_length + right);
         let (w00, w10, w01, w11) = ((1.0 - fx) * (1.0 - fy), fx * (1.0 - fy), (1.0 - fx) * fy, fx * fy);
         (c00 * w00 + c10 * w10 + c01 * w01 + c11 * w11, a00 * w00 + a10 * w10 + a01 * w01 + a11 * w11)
     }
@@ -178,5 +209,20 @@ mod tests {
     #[test]
     fn mirror_reflects_about_the_border() {
         assert_eq!([-1, 0, 1, 2, 3, 4].map(|i| Wrap::Mirror.index(i, 2)), [0, 0, 1, 1, 0, 0]);
+        let at = |wrap: Wrap, u: f32| wrap.index(floor(wrap.reduced(u) * 4.0), 4);
+        assert_eq!([-0.1, 0.1, 0.9, 1.1, 1.9, 2.1, -1.9].map(|u| at(Wrap::Mirror, u)), [0, 0, 3, 3, 0, 0, 0]);
+    }
+
+    #[test]
+    fn coordinates_far_away_and_not_finite_stay_inside_the_image() {
+        let image = two_by_two();
+        for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
+            for filter in [Filter::Linear, Filter::Nearest] {
+                let t = TextureRef { wrap: [wrap; 2], filter, ..TextureRef::new(0) };
+                for u in [0.0, 1.0, -1.0, 0.999_999_94, -1e-9, 2.0, 1e7, -3e9, 1e30, f32::MAX, f32::INFINITY, f32::NAN] {
+                    let _ = image.sample(&t, Vec2::new(u, -u));
+                }
+            }
+        }
     }
 }

@@ -31,8 +31,7 @@ impl WorldMesh {
         let mut bounds = Bounds3::EMPTY;
         for (id, part) in scene.parts.iter().enumerate() {
             let mesh = &scene.meshes[part.mesh as usize];
-            let world: Vec<Vec3> =
-                mesh.positions.iter().map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3()).collect();
+            let world: Vec<Vec3> = mesh.positions.iter().map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3()).collect();
             for (triangle, indices) in mesh.triangles.iter().enumerate() {
                 let triangle_corners = indices.map(|i| world[i as usize]);
                 bounds = triangle_corners.iter().fold(bounds, |b, &p| b.include(p));

@@ -13,7 +13,8 @@ fn directions_follow_their_densities() {
     let cosine = ChiSquare::directions(SAMPLES, |u| Some(warp::cosine_hemisphere([u[0], u[1]])), |w| warp::cosine_hemisphere_pdf(w.z));
     cosine.assert("cosine hemisphere", TESTS);
     // The cone's border lies between rows of cells: 1 − cosθ = 0.5 = 6 rows of 24.
-    let cone = ChiSquare::directions(SAMPLES, |u| Some(warp::cone([u[0], u[1]], 0.5)), |w| if w.z > 0.5 { warp::cone_pdf(0.5) } else { 0.0 });
+    let cone =
+        ChiSquare::directions(SAMPLES, |u| Some(warp::cone([u[0], u[1]], 0.5)), |w| if w.z > 0.5 { warp::cone_pdf(0.5) } else { 0.0 });
     cone.assert("cone", TESTS);
 }
 
@@ -33,7 +34,15 @@ fn points_follow_their_densities() {
     let triangle = ChiSquare::square(
         SAMPLES,
         |u| Some(warp::triangle([u[0], u[1]]).to_array()),
-        |p| if p[0] + p[1] < 1.0 { 2.0 } else if p[0] + p[1] == 1.0 { 1.0 } else { 0.0 },
+        |p| {
+            if p[0] + p[1] < 1.0 {
+                2.0
+            } else if p[0] + p[1] == 1.0 {
+                1.0
+            } else {
+                0.0
+            }
+        },
     );
     triangle.assert("triangle", TESTS);
     let tent = |x: f32| 2.0 * (1.0 - (2.0 * x - 1.0).abs());
@@ -65,7 +74,11 @@ fn distributions_follow_their_weights() {
 
 #[test]
 fn a_wrong_density_is_found_out() {
-    let biased = ChiSquare::directions(SAMPLES, |u| Some(warp::cosine_hemisphere([u[0], u[1]])), |w: Vec3| if w.z > 0.0 { 0.5 * INV_PI } else { 0.0 });
+    let biased = ChiSquare::directions(
+        SAMPLES,
+        |u| Some(warp::cosine_hemisphere([u[0], u[1]])),
+        |w: Vec3| if w.z > 0.0 { 0.5 * INV_PI } else { 0.0 },
+    );
     assert!(biased.p_value < 1e-12);
     assert!(chi_square_survival(0.0, 5) == 1.0);
 }

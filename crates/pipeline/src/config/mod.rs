@@ -170,12 +170,14 @@ pub mod demo {
     pub const SCENE: &str = "living-room";
     /// Seed.
     pub const SEED: u64 = 0;
-    /// Frames of each of the room's four trajectories.
-    pub const FRAMES: u32 = 2;
+    /// The room's camera that the trajectory starts from; every room has it.
+    pub const CAMERA: &str = "door";
+    /// Frames of the trajectory.
+    pub const FRAMES: u32 = 4;
     /// Image width and height.
     pub const SIZE: [u32; 2] = [320, 240];
     /// Samples per pixel.
-    pub const SAMPLES: u32 = 20;
+    pub const SAMPLES: u32 = 64;
 }
 
 impl Config {
@@ -200,12 +202,13 @@ impl Config {
     /// When an override is out of its range.
     pub fn demo(overrides: &Overrides) -> Result<Self, Error> {
         let text = format!(
-            "name = \"demo\"\nseed = {}\nframes = {}\nrender.size = {:?}\nrender.samples = {}\n[[scene]]\nname = \"{}\"\nhome = {{}}\n",
+            "name = \"demo\"\nseed = {}\nframes = {}\nrender.size = {:?}\nrender.samples = {}\n[[scene]]\nname = \"{}\"\nhome = {{}}\ncameras = [\"{}\"]\n",
             demo::SEED,
             demo::FRAMES,
             demo::SIZE,
             demo::SAMPLES,
-            demo::SCENE
+            demo::SCENE,
+            demo::CAMERA
         );
         Ok(document::resolve(Path::new("demo"), &text, overrides, &|_| None)?)
     }

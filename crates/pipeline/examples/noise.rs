@@ -1,0 +1,90 @@
+//! How much noise a second of rendering leaves: the number by which path tracers are compared.
+//!
+//! `noise [SCENE | home]… [--samples N]` renders each scene's first camera at 256×192 twice, with different seeds, and prints the
+//! error (mean of variance / (mean² + 0.01), the image scaled to a mean of 0.5, the worst 0.1 % left out), the samples per
+//! core-second, and error × core-seconds per megapixel, which does not depend on the number of samples.
+
+use anyhow::{Context, Result};
+use enfilade_frame::{Frame, Layer};
+use enfilade_home::{HomeConfig, living_room};
+use enfilade_import::{ImportOptions, load};
+use enfilade_render::{RenderConfig, RenderScene, render_frame};
+use enfilade_scene::{Intrinsics, Pose, Quiet, Scene};
+
+const WIDTH: u32 = 256;
+const HEIGHT: u32 = 192;
+
+fn main() -> Result<()> {
+    let mut samples = 32;
+    let mut scenes = Vec::new();
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        if argument == "--samples" {
+            samples = arguments.next().context("--samples needs a number")?.parse()?;
+        } else {
+            scenes.push(argument);
+        }
+    }
+    if scenes.is_empty() {
+        scenes.push("home".into());
+    }
+    for name in scenes {
+        let scene = if name == "home" {
+            living_room(&HomeConfig { seed: 0 }).scene
+        } else {
+            load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene
+        };
+        measure(&name, &scene, samples)?;
+    }
+    Ok(())
+}
+
+fn measure(name: &str, scene: &Scene, samples: u32) -> Result<()> {
+    let camera = scene.cameras.first().with_context(|| format!("{name} has no camera"))?;
+    let intrinsics = Intrinsics::from_fov_x(WIDTH, HEIGHT, camera.fov_x_rad);
+    let look_at = camera.position - camera.world_from_camera.z_axis;
+    let pose = Pose { frame: 0, position: camera.position, look_at, world_from_camera: camera.world_from_camera };
+    let prepared = RenderScene::new(scene, &Quiet)?;
+    let started = core_seconds();
+    let mut pictures = Vec::new();
+    for seed in 0..2 {
+        let config = RenderConfig { samples, seed, ..RenderConfig::default() };
+        pictures.push(luminance(&render_frame(&prepared, &intrinsics, &pose, &config, &Quiet)?));
+    }
+    let seconds = (core_seconds() - started) / 2.0;
+    let megapixels = f64::from(WIDTH * HEIGHT) / 1e6;
+    let error = relative_error(&pictures[0], &pictures[1]);
+    println!(
+        "{name}: error {error:.4} at {samples} samples, {:.3} M samples per core-second, error x time {:.2}",
+        megapixels * f64::from(samples) / seconds,
+        error * seconds / megapixels
+    );
+    Ok(())
+}
+
+fn luminance(frame: &Frame) -> Vec<f64> {
+    let values = frame.get(Layer::Color).expect("every rendered frame has color");
+    (0..frame.pixels()).map(|p| 0.2126 * values.get(3 * p) + 0.7152 * values.get(3 * p + 1) + 0.0722 * values.get(3 * p + 2)).collect()
+}
+
+fn relative_error(a: &[f64], b: &[f64]) -> f64 {
+    let scale = 0.5 * a.len() as f64 / a.iter().sum::<f64>();
+    let mut errors: Vec<f64> = a
+        .iter()
+        .zip(b)
+        .map(|(&a, &b)| {
+            let (a, b) = (a * scale, b * scale);
+            let mean = 0.5 * (a + b);
+            0.5 * (a - b).powi(2) / (mean * mean + 0.01)
+        })
+        .collect();
+    errors.sort_by(f64::total_cmp);
+    errors.truncate(errors.len() * 999 / 1000);
+    errors.iter().sum::<f64>() / errors.len() as f64
+}
+
+/// Processor time of all threads of this process.
+fn core_seconds() -> f64 {
+    let t = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    t.tv_sec as f64 + t.tv_nsec as f64 * 1e-9
+}
