@@ -136,7 +136,7 @@ fn warn(report: &CarveReport, cx: &dyn Cx) {
         }
         if let Some(used) = start.used.filter(|used| *used != start.asked) {
             let moved = used.distance(start.asked);
-            let message = format!("lies in an occupied voxel; carving starts {moved:.2} m away, at {used}");
+            let message = format!("lies in an occupied voxel; carving starts {moved:.2} m away, at {used:.2}");
             cx.warn(Warning { place: format!("start camera {index}"), message });
         }
     }

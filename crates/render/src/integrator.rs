@@ -76,8 +76,11 @@ impl<'s> Integrator<'_, 's> {
         }
 
         let has_diffuse = !bsdf.reflectance.is_black();
-        let illumination =
-            if has_diffuse { Some(split.diffuse) } else { (index % IRRADIANCE_STRIDE == 0).then(|| self.irradiance(&surface, sampler)) };
+        let illumination = if has_diffuse {
+            Some(split.diffuse)
+        } else {
+            index.is_multiple_of(IRRADIANCE_STRIDE).then(|| self.irradiance(&surface, sampler))
+        };
         PixelSample { reflectance: bsdf.reflectance, illumination, residual: split.specular }
     }
 

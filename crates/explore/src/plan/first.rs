@@ -22,7 +22,7 @@ pub(super) fn pose(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &d
     if position != start.position {
         let (moved, clearance) = (position.distance(start.position), rules.config.clearance_m);
         warn(format!(
-            "has less than {clearance} m to a surface or is not in free space; its trajectory begins {moved:.2} m away, at {position}"
+            "has less than {clearance} m to a surface or is not in free space; its trajectory begins {moved:.2} m away, at {position:.2}"
         ));
     }
 

@@ -19,7 +19,16 @@ pub(crate) struct EnvironmentLight {
 #[derive(Debug)]
 enum Sky {
     Constant { radiance: Rgb },
-    Map { image: Image, texture: TextureRef, scale: Rgb, map_from_world: Mat3, distribution: Distribution2 },
+    Map(Box<SkyMap>),
+}
+
+#[derive(Debug)]
+struct SkyMap {
+    image: Image,
+    texture: TextureRef,
+    scale: Rgb,
+    map_from_world: Mat3,
+    distribution: Distribution2,
 }
 
 impl EnvironmentLight {
@@ -32,7 +41,7 @@ impl EnvironmentLight {
                 let (weights, columns) = cell_weights(&image, *scale);
                 let distribution = Distribution2::new(&weights, columns)?;
                 let texture = TextureRef { wrap: [Wrap::Repeat, Wrap::Clamp], ..TextureRef::new(0) };
-                Sky::Map { image, texture, scale: *scale, map_from_world: *map_from_world, distribution }
+                Sky::Map(Box::new(SkyMap { image, texture, scale: *scale, map_from_world: *map_from_world, distribution }))
             }
         };
         Some(Self { sky, portals })
@@ -43,9 +52,9 @@ impl EnvironmentLight {
     pub fn radiance(&self, d: Vec3) -> Rgb {
         match &self.sky {
             Sky::Constant { radiance } => *radiance,
-            Sky::Map { image, texture, scale, map_from_world, .. } => {
-                let uv = uv_from_direction(*map_from_world * d);
-                *scale * image.sample(texture, Vec2::new(uv.x, 1.0 - uv.y)).0
+            Sky::Map(map) => {
+                let uv = uv_from_direction(map.map_from_world * d);
+                map.scale * map.image.sample(&map.texture, Vec2::new(uv.x, 1.0 - uv.y)).0
             }
         }
     }
@@ -85,10 +94,10 @@ impl Sky {
     fn sample(&self, u: [f32; 2]) -> Option<(Vec3, f32)> {
         match self {
             Self::Constant { .. } => Some((warp::sphere(u), 0.25 / PI)),
-            Self::Map { map_from_world, distribution, .. } => {
-                let (uv, density) = distribution.sample(u);
+            Self::Map(map) => {
+                let (uv, density) = map.distribution.sample(u);
                 let sin_theta = (uv[1] * PI).sin();
-                let direction = map_from_world.transpose() * direction_from_uv(Vec2::from(uv));
+                let direction = map.map_from_world.transpose() * direction_from_uv(Vec2::from(uv));
                 (density > 0.0 && sin_theta > 0.0).then(|| (direction, density / (2.0 * PI * PI * sin_theta)))
             }
         }
@@ -98,10 +107,10 @@ impl Sky {
     fn pdf(&self, d: Vec3) -> f32 {
         match self {
             Self::Constant { .. } => 0.25 / PI,
-            Self::Map { map_from_world, distribution, .. } => {
-                let uv = uv_from_direction(*map_from_world * d);
+            Self::Map(map) => {
+                let uv = uv_from_direction(map.map_from_world * d);
                 let sin_theta = (uv.y * PI).sin();
-                if sin_theta <= 0.0 { 0.0 } else { distribution.pdf(uv.to_array()) / (2.0 * PI * PI * sin_theta) }
+                if sin_theta <= 0.0 { 0.0 } else { map.distribution.pdf(uv.to_array()) / (2.0 * PI * PI * sin_theta) }
             }
         }
     }
