@@ -103,7 +103,9 @@ impl Converter<'_, '_> {
         if json.occlusion_texture.is_some() {
             self.warn("occlusion texture dropped: light transport computes occlusion");
         }
-        Ok(Material { name, bsdf, emission, two_sided: json.double_sided, emits_both_sides: json.double_sided, alpha, normal_map })
+        // A single-sided surface is one that viewers may leave out from behind. Light transport cannot: the back scatters as the front
+        // does, or rooms modelled as shells would be black outside-in.
+        Ok(Material { name, bsdf, emission, two_sided: true, emits_both_sides: json.double_sided, alpha, normal_map })
     }
 
     fn principled(&mut self, json: &Json, base_color: ColorParam) -> Result<Principled, ImportError> {
