@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 pub struct RenderConfig {
     /// Samples per pixel of the colour layers (geometry layers are one point sample). Default 64.
     pub samples: u32,
-    /// Longest path, counted in surfaces after the first. Default 64: with roulette, longer paths carry no visible light.
+    /// Longest path, counted in surfaces that scatter light after the first. Default 64: with roulette, longer paths carry no visible light.
     pub max_bounces: u32,
     /// Bounces before Russian roulette begins. Default 3.
     pub roulette_start: u32,

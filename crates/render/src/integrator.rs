@@ -89,7 +89,7 @@ impl<'s> Integrator<'_, 's> {
     fn radiance(&self, mut segment: Segment, first_throughput: Rgb, sampler: &Sampler) -> Rgb {
         let mut radiance = Rgb::BLACK;
         let mut throughput = Rgb::WHITE;
-        for bounce in 1..=self.config.max_bounces {
+        for bounce in 1..=self.config.max_bounces.saturating_add(1) {
             // Next surface, or the surroundings.
             let Some(hit) = self.scene.closest(&segment.ray, Cutout::Random) else {
                 return radiance + throughput * self.background(&segment);
@@ -106,6 +106,11 @@ impl<'s> Integrator<'_, 's> {
                     power_heuristic(pdf, light_pdf)
                 });
                 radiance += throughput * emission * weight;
+            }
+
+            // The last surface only shows what it emits: light sampling before it counted on that.
+            if bounce > self.config.max_bounces {
+                return radiance;
             }
 
             // Light reflected straight from the sources.

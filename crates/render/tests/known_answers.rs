@@ -112,6 +112,20 @@ fn in_a_closed_box_that_glows_light_adds_up_to_one_over_one_minus_albedo() {
 }
 
 #[test]
+fn a_limit_on_bounces_cuts_the_series_of_reflections_and_nothing_else() {
+    // Emission, plus one reflection at the first surface, plus one for each further bounce.
+    let wall = || Material { emission: Rgb::WHITE.into(), ..Material::diffuse("wall", Rgb::splat(0.5)) };
+    let s = scene(vec![("box", cube(true), wall())]);
+    let prepared = RenderScene::new(&s, &Quiet).unwrap();
+    let pose = Pose::look_at(0, DVec3::new(0.1, 0.2, 0.0), DVec3::X, DVec3::Z).unwrap();
+    for (max_bounces, expected) in [(0, 1.5), (1, 1.75), (3, 1.9375)] {
+        let config = RenderConfig { samples: 256, max_bounces, ..RenderConfig::default() };
+        let frame = render_frame(&prepared, &Intrinsics::from_fov_x(16, 16, 1.2), &pose, &config, &Quiet).unwrap();
+        assert_close(&format!("{max_bounces} bounces"), mean(&frame, Layer::Color, 1), expected, 0.01);
+    }
+}
+
+#[test]
 fn lossless_spheres_vanish_in_a_white_sky() {
     let glass = |alpha: f32| Bsdf::Dielectric { eta: 1.5, alpha: alpha.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::BLACK };
     let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::WHITE.into(), alpha: 0.0.into() };
