@@ -12,6 +12,9 @@ pub struct Mean {
 }
 
 impl Mean {
+    /// No samples yet.
+    pub const EMPTY: Self = Self { count: 0, mean: 0.0, squares: 0.0 };
+
     /// The mean of `samples`.
     pub fn of(samples: impl IntoIterator<Item = f64>) -> Self {
         let mut mean = Self::default();
