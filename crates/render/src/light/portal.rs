@@ -1,7 +1,7 @@
 //! Windows as portals: the environment reaches a room only through them, so its light is sampled there.
 //!
-//! A portal is the bounding rectangle of thin panes that lie in one plane. Bierron et al.'s idea in its simplest form: uniform
-//! over the rectangle's area, whatever the sky behind it.
+//! A portal is the bounding rectangle of thin panes that lie in one plane, sampled uniformly over its area, whatever the sky
+//! behind it: the simplest form of what Bitterli, Novák & Jarosz 2015, "Portal-Masked Environment Map Sampling", do exactly.
 
 use crate::triangle::Triangle;
 use enfilade_math::Vec3;
