@@ -82,3 +82,9 @@ pub fn fibonacci_sphere(k: usize, n: usize) -> glam::DVec3 {
     let (sin, cos) = (golden_angle * k as f64).sin_cos();
     glam::DVec3::new(r * cos, r * sin, z)
 }
+
+/// Point `i` of the `n`-point Hammersley set on the unit square: even coverage for quadrature, the same every time.
+#[inline]
+pub fn hammersley(i: u32, n: u32) -> [f32; 2] {
+    [(i as f32 + 0.5) / n as f32, i.reverse_bits() as f32 * (1.0 / 4_294_967_296.0)]
+}

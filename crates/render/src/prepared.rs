@@ -15,7 +15,7 @@ pub struct RenderScene<'s> {
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) bvh: Bvh,
     bounds: Bounds3,
-    pub(crate) lights: Lights,
+    pub(crate) lights: Lights<'s>,
     /// Per material: its coat, if it has a diffuse base under a dielectric.
     pub(crate) coats: Vec<Option<usize>>,
     pub(crate) coat_tables: Vec<CoatTable>,

@@ -3,7 +3,7 @@
 //! Walter et al. 2007; Heitz 2014, "Understanding the Masking-Shadowing Function". Directions are in shading space and lie
 //! above the surface (z > 0) unless said otherwise.
 
-use enfilade_math::Vec3;
+use enfilade_math::{Vec3, warp};
 
 /// Below this roughness a surface counts as smooth and scatters into single directions. At 1e-3 the lobe is narrower than
 /// the sun's disk.
@@ -69,8 +69,7 @@ pub fn directional_albedo(cos_o: f32, alpha: f32, n: u32, fresnel: impl Fn(f32) 
     let wo = Vec3::new((1.0 - cos_o * cos_o).max(0.0).sqrt(), 0.0, cos_o);
     let mut sum = 0.0;
     for i in 0..n {
-        let u = [(i as f32 + 0.5) / n as f32, (i.reverse_bits() as f32) * (1.0 / 4_294_967_296.0)];
-        let m = sample_visible(wo, alpha, u);
+        let m = sample_visible(wo, alpha, warp::hammersley(i, n));
         let wi = reflect(wo, m);
         if wi.z > 0.0 {
             sum += fresnel(wo.dot(m).max(0.0)) * g2(wo, wi, alpha) / g1(wo, alpha);

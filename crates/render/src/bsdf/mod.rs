@@ -13,7 +13,7 @@ mod resolve;
 pub use lobe::{Event, Fresnel, Lobe, thin_reflectance};
 pub use resolve::{Inputs, straight_transmittance};
 
-use enfilade_math::{Rgb, Vec3};
+use enfilade_math::{Rgb, Vec3, warp};
 use std::sync::LazyLock;
 
 /// What a surface does to light from one direction, cosine included.
@@ -185,8 +185,7 @@ fn sheen_albedo(cos: f32, roughness: f32) -> f32 {
                 let n = 2048u32;
                 let sum: f32 = (0..n)
                     .filter_map(|i| {
-                        let u = [(i as f32 + 0.5) / n as f32, i.reverse_bits() as f32 * (1.0 / 4_294_967_296.0)];
-                        let wi = enfilade_math::warp::cosine_hemisphere(u);
+                        let wi = warp::cosine_hemisphere(warp::hammersley(i, n));
                         (wi.z > 0.0).then(|| lobe.eval(wo, wi).r / lobe.pdf(wo, wi))
                     })
                     .sum();

@@ -2,7 +2,7 @@
 
 use super::coat::CoatTable;
 use super::*;
-use enfilade_math::{Rng, Vec2, warp};
+use enfilade_math::{Rng, Vec2};
 use enfilade_scene::{self as scene, Material, Principled};
 use enfilade_testkit::Mean;
 

@@ -61,7 +61,7 @@ impl LightChoice {
         Self::from_arrivals(&scene.lights, &arrivals)
     }
 
-    fn from_arrivals(lights: &Lights, arrivals: &[Arrival]) -> Self {
+    fn from_arrivals(lights: &Lights<'_>, arrivals: &[Arrival]) -> Self {
         let bounds = Bounds3::from_points(arrivals.iter().map(|a| a.p));
         let bounds = if bounds.is_empty() { Bounds3 { min: Vec3::ZERO, max: Vec3::ZERO } } else { bounds };
         let cell_size = (bounds.extent().max_element() / CELLS).max(MIN_CELL);
@@ -81,7 +81,7 @@ impl LightChoice {
     }
 
     /// A cell's probabilities, from itself and, less, its neighbours.
-    fn cell_probabilities(&self, lights: &Lights, cell: usize, squares: &[f32], counts: &[f32]) -> Vec<f32> {
+    fn cell_probabilities(&self, lights: &Lights<'_>, cell: usize, squares: &[f32], counts: &[f32]) -> Vec<f32> {
         let [nx, ny, nz] = self.size;
         let (x, y, z) = (cell % nx, cell / nx % ny, cell / (nx * ny));
         let mut square = vec![0.0f32; self.sources];

@@ -11,59 +11,53 @@ const PORTAL_SHARE: f32 = 0.75;
 
 /// The environment with its sampling distribution.
 #[derive(Debug)]
-pub(crate) struct EnvironmentLight {
-    sky: Sky,
+pub(crate) struct EnvironmentLight<'s> {
+    sky: Sky<'s>,
     portals: Portals,
+    irradiance: f32,
 }
 
 #[derive(Debug)]
-enum Sky {
+enum Sky<'s> {
     Constant { radiance: Rgb },
-    Map(Box<SkyMap>),
+    Map(Box<SkyMap<'s>>),
 }
 
 #[derive(Debug)]
-struct SkyMap {
-    image: Image,
+struct SkyMap<'s> {
+    image: &'s Image,
     texture: TextureRef,
     scale: Rgb,
     map_from_world: Mat3,
     distribution: Distribution2,
 }
 
-impl EnvironmentLight {
+impl<'s> EnvironmentLight<'s> {
     /// `None` when it is black everywhere.
-    pub fn new(environment: &Environment, images: &[Image], portals: Portals) -> Option<Self> {
+    pub fn new(environment: &Environment, images: &'s [Image], portals: Portals) -> Option<Self> {
         let sky = match environment {
             Environment::Constant { radiance } => (!radiance.is_black()).then_some(Sky::Constant { radiance: *radiance })?,
             Environment::Map { image, scale, map_from_world } => {
-                let image = images[*image as usize].clone();
-                let (weights, columns) = cell_weights(&image, *scale);
+                let image = &images[*image as usize];
+                let (weights, columns) = cell_weights(image, *scale);
                 let distribution = Distribution2::new(&weights, columns)?;
                 let texture = TextureRef { wrap: [Wrap::Repeat, Wrap::Clamp], ..TextureRef::new(0) };
                 Sky::Map(Box::new(SkyMap { image, texture, scale: *scale, map_from_world: *map_from_world, distribution }))
             }
         };
-        Some(Self { sky, portals })
+        let irradiance = sky.irradiance();
+        Some(Self { sky, portals, irradiance })
     }
 
     /// Radiance in the unit direction `d`.
     #[inline]
     pub fn radiance(&self, d: Vec3) -> Rgb {
-        match &self.sky {
-            Sky::Constant { radiance } => *radiance,
-            Sky::Map(map) => {
-                let uv = uv_from_direction(map.map_from_world * d);
-                map.scale * map.image.sample(&map.texture, Vec2::new(uv.x, 1.0 - uv.y)).0
-            }
-        }
+        self.sky.radiance(d)
     }
 
-    /// About the irradiance in the open: π × radiance, roughly averaged.
+    /// About the irradiance in the open.
     pub fn irradiance(&self) -> f32 {
-        let directions = 64;
-        (0..directions).map(|k| self.radiance(warp::fibonacci_sphere(k, directions).as_vec3()).luminance()).sum::<f32>() * PI
-            / directions as f32
+        self.irradiance
     }
 
     /// A direction from `p`, through a portal or in proportion to brightness; `None` when `wanted` refuses it.
@@ -89,7 +83,25 @@ impl EnvironmentLight {
     }
 }
 
-impl Sky {
+impl Sky<'_> {
+    #[inline]
+    fn radiance(&self, d: Vec3) -> Rgb {
+        match self {
+            Self::Constant { radiance } => *radiance,
+            Self::Map(map) => {
+                let uv = uv_from_direction(map.map_from_world * d);
+                map.scale * map.image.sample(&map.texture, Vec2::new(uv.x, 1.0 - uv.y)).0
+            }
+        }
+    }
+
+    /// π × radiance, roughly averaged over all directions.
+    fn irradiance(&self) -> f32 {
+        let directions = 64;
+        (0..directions).map(|k| self.radiance(warp::fibonacci_sphere(k, directions).as_vec3()).luminance()).sum::<f32>() * PI
+            / directions as f32
+    }
+
     /// A direction in proportion to brightness, and its density per solid angle.
     fn sample(&self, u: [f32; 2]) -> Option<(Vec3, f32)> {
         match self {

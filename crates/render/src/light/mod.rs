@@ -38,17 +38,17 @@ pub(crate) struct LightSample {
 
 /// The light sources of a scene.
 #[derive(Debug)]
-pub(crate) struct Lights {
+pub(crate) struct Lights<'s> {
     groups: Vec<Group>,
     by_strength: Option<Distribution1>,
     /// Group of each part, `u32::MAX` for parts that do not emit.
     group_of_part: Vec<u32>,
-    environment: Option<EnvironmentLight>,
+    environment: Option<EnvironmentLight<'s>>,
 }
 
-impl Lights {
+impl<'s> Lights<'s> {
     /// Collects every source.
-    pub fn new(scene: &Scene, triangles: &[Triangle]) -> Self {
+    pub fn new(scene: &'s Scene, triangles: &[Triangle]) -> Self {
         let portals = portal::find(scene, triangles);
         let mut lights = Self {
             groups: Vec::new(),
@@ -180,15 +180,19 @@ impl Lights {
         self.group_probability(choice, from, group as usize) * in_group / area * p.distance_squared(from) / cos
     }
 
+    /// Radiance of the environment in the unit direction `d`.
+    fn sky(&self, d: Vec3) -> Rgb {
+        self.environment.as_ref().map_or(Rgb::BLACK, |e| e.radiance(d))
+    }
+
     /// The radiance of a sample.
     pub fn radiance_of(&self, sample: &LightSample) -> Rgb {
-        let environment = || self.environment.as_ref().map_or(Rgb::BLACK, |e| e.radiance(sample.wi));
-        sample.radiance.unwrap_or_else(environment)
+        sample.radiance.unwrap_or_else(|| self.sky(sample.wi))
     }
 
     /// Radiance from beyond the scene in the unit direction `d`.
     pub fn background(&self, d: Vec3) -> Rgb {
-        self.environment.as_ref().map_or(Rgb::BLACK, |e| e.radiance(d)) + self.disks(d).map(|(_, radiance, _)| radiance).sum::<Rgb>()
+        self.sky(d) + self.disks(d).map(|(_, radiance, _)| radiance).sum::<Rgb>()
     }
 
     /// [`Lights::background`], each source weighted against its light samples by the power heuristic. `pdf` is the density with
