@@ -15,6 +15,37 @@ pub fn disk(u: [f32; 2]) -> Vec2 {
     Vec2::new(r * cos, r * sin)
 }
 
+/// Inverse of [`disk`], to about 1e−6.
+#[inline]
+pub fn square_from_disk(d: Vec2) -> [f32; 2] {
+    let r = d.length();
+    let (a, b) = if d.x.abs() > d.y.abs() {
+        let a = r.copysign(d.x);
+        (a, a * (4.0 / PI) * atan_below_one(d.y / d.x))
+    } else if d.y != 0.0 {
+        let b = r.copysign(d.y);
+        (b * (4.0 / PI) * atan_below_one(d.x / d.y), b)
+    } else {
+        (0.0, 0.0)
+    };
+    [0.5 * (a + 1.0), 0.5 * (b + 1.0)].map(|v| v.clamp(0.0, crate::ONE_MINUS_EPSILON))
+}
+
+/// Inverse of [`cosine_hemisphere`].
+#[inline]
+pub fn square_from_cosine_hemisphere(wi: Vec3) -> [f32; 2] {
+    square_from_disk(Vec2::new(wi.x, wi.y))
+}
+
+/// atan on [−1,1] to 2e−8 and rounding. Abramowitz & Stegun 1964, 4.4.49.
+#[inline]
+fn atan_below_one(x: f32) -> f32 {
+    const C: [f32; 8] =
+        [-0.333_331_45, 0.199_935_51, -0.142_088_99, 0.106_562_64, -0.075_289_64, 0.042_909_61, -0.016_165_737, 0.002_866_225_7];
+    let x2 = x * x;
+    x * (1.0 + x2 * C.iter().rev().fold(0.0, |sum, c| sum * x2 + c))
+}
+
 /// Cosine-weighted on the upper hemisphere; density [`cosine_hemisphere_pdf`].
 #[inline]
 pub fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {

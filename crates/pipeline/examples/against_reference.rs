@@ -6,7 +6,7 @@
 use anyhow::{Context, Result, bail};
 use enfilade_frame::{Frame, Layer};
 use enfilade_import::{ImportOptions, load};
-use enfilade_render::{RenderConfig, RenderScene, render_frame};
+use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{Intrinsics, Pose, Quiet};
 use std::path::Path;
 use std::time::Instant;
@@ -36,7 +36,8 @@ fn main() -> Result<()> {
     println!("{} triangles, loaded in {:.2} s", prepared.triangle_count(), started.elapsed().as_secs_f64());
     let started = Instant::now();
     let config = RenderConfig { samples, ..RenderConfig::default() };
-    let frame = render_frame(&prepared, &intrinsics, &pose, &config, &Quiet)?;
+    let guide = Guide::learn(&prepared, &intrinsics, &[pose], &config);
+    let frame = render_frame(&prepared, &guide, &intrinsics, &pose, &config, &Quiet)?;
     let seconds = started.elapsed().as_secs_f64();
     let millions = f64::from(width * height) * f64::from(samples) / 1e6;
     println!("{samples} samples per pixel in {seconds:.1} s: {:.2} M samples per second", millions / seconds);

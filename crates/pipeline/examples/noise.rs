@@ -1,6 +1,6 @@
 //! How much noise a second of rendering leaves: the number by which path tracers are compared.
 //!
-//! `noise [SCENE | home]… [--samples N]` renders each scene's first camera at 256×192 twice, with different seeds, and prints the
+//! `noise [SCENE | home]… [--samples N] [--even] [--unguided]` renders each scene's first camera at 256×192 twice, with different seeds, and prints the
 //! error (mean of variance / (mean² + 0.01), the image scaled to a mean of 0.5, the worst 0.1 % left out), the samples per
 //! core-second, and error × core-seconds per megapixel, which does not depend on the number of samples.
 
@@ -8,21 +8,22 @@ use anyhow::{Context, Result};
 use enfilade_frame::{Frame, Layer};
 use enfilade_home::{HomeConfig, living_room};
 use enfilade_import::{ImportOptions, load};
-use enfilade_render::{RenderConfig, RenderScene, render_frame};
+use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{Intrinsics, Pose, Quiet, Scene};
 
 const WIDTH: u32 = 256;
 const HEIGHT: u32 = 192;
 
 fn main() -> Result<()> {
-    let mut samples = 32;
+    let mut config = RenderConfig { samples: 32, ..RenderConfig::default() };
     let mut scenes = Vec::new();
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
-        if argument == "--samples" {
-            samples = arguments.next().context("--samples needs a number")?.parse()?;
-        } else {
-            scenes.push(argument);
+        match argument.as_str() {
+            "--samples" => config.samples = arguments.next().context("--samples needs a number")?.parse()?,
+            "--even" => config.adaptive = false,
+            "--unguided" => config.guiding = false,
+            _ => scenes.push(argument),
         }
     }
     if scenes.is_empty() {
@@ -34,30 +35,36 @@ fn main() -> Result<()> {
         } else {
             load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene
         };
-        measure(&name, &scene, samples)?;
+        measure(&name, &scene, &config)?;
     }
     Ok(())
 }
 
-fn measure(name: &str, scene: &Scene, samples: u32) -> Result<()> {
+fn measure(name: &str, scene: &Scene, config: &RenderConfig) -> Result<()> {
     let camera = scene.cameras.first().with_context(|| format!("{name} has no camera"))?;
     let intrinsics = Intrinsics::from_fov_x(WIDTH, HEIGHT, camera.fov_x_rad);
     let look_at = camera.position - camera.world_from_camera.z_axis;
     let pose = Pose { frame: 0, position: camera.position, look_at, world_from_camera: camera.world_from_camera };
     let prepared = RenderScene::new(scene, &Quiet)?;
     let started = core_seconds();
+    let mut learned = 0.0;
     let mut pictures = Vec::new();
     for seed in 0..2 {
-        let config = RenderConfig { samples, seed, ..RenderConfig::default() };
-        pictures.push(luminance(&render_frame(&prepared, &intrinsics, &pose, &config, &Quiet)?));
+        let config = RenderConfig { seed, ..config.clone() };
+        let learning = core_seconds();
+        let guide = Guide::learn(&prepared, &intrinsics, &[pose], &config);
+        learned += core_seconds() - learning;
+        pictures.push(luminance(&render_frame(&prepared, &guide, &intrinsics, &pose, &config, &Quiet)?));
     }
+    let samples = config.samples;
     let seconds = (core_seconds() - started) / 2.0;
     let megapixels = f64::from(WIDTH * HEIGHT) / 1e6;
     let error = relative_error(&pictures[0], &pictures[1]);
     println!(
-        "{name}: error {error:.4} at {samples} samples, {:.3} M samples per core-second, error x time {:.2}",
+        "{name}: error {error:.4} at {samples} samples, {:.3} M samples per core-second, error x time {:.2}; learning took {:.2} core-seconds",
         megapixels * f64::from(samples) / seconds,
-        error * seconds / megapixels
+        error * seconds / megapixels,
+        learned / 2.0
     );
     Ok(())
 }

@@ -21,7 +21,7 @@ fn tiny_demo() -> Config {
     let mut config = Config::demo(&Overrides { frames: Some(2), size: Some([64, 48]), ..Overrides::default() }).unwrap();
     let scene = &mut config.scenes[0];
     scene.cameras = vec![CameraChoice::Named("door".into())];
-    (scene.render.samples, scene.render.max_bounces, scene.carve.rays, scene.carve.iterations) = (4, 4, 8192, 2);
+    (scene.render.samples, scene.render.max_bounces, scene.carve.rays, scene.carve.iterations) = (4, Some(4), 8192, 2);
     config
 }
 

@@ -1,14 +1,25 @@
+use crate::error::RenderError;
 use serde::{Deserialize, Serialize};
 
 /// How a frame is rendered. Every number that trades time for quality is here.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RenderConfig {
-    /// Samples per pixel of the colour layers (geometry layers are one point sample). Default 64.
+    /// Samples per pixel of the colour layers (geometry layers are one point sample): the mean over the image when samples are
+    /// spread by need, the most that a noise target may take. Default 64.
     pub samples: u32,
-    /// Longest path, counted in surfaces that scatter light after the first. Default 64: with roulette, longer paths carry no visible light.
-    pub max_bounces: u32,
-    /// Bounces before Russian roulette begins. Default 3.
+    /// Spreads the samples over the pixels in proportion to the error that each one has left. Default true.
+    pub adaptive: bool,
+    /// Stops below `samples` where this noise is reached: the root mean square over the image of each pixel's standard error over
+    /// (its luminance + 0.2 × the image's mean). Default none; 0.02 is a clean picture.
+    pub noise: Option<f32>,
+    /// Learns before rendering where indirect light comes from and sends rays there. Changes noise, never the mean. Default true.
+    pub guiding: bool,
+    /// Longest path, counted in surfaces that scatter light after the first. Default none: Russian roulette ends paths without bias.
+    pub max_bounces: Option<u32>,
+    /// Largest radiance that one indirect sample may add to a pixel. Default none: a clamp darkens the picture.
+    pub clamp: Option<f32>,
+    /// Bounces before Russian roulette begins. Default 1.
     pub roulette_start: u32,
     /// Radius of the tent reconstruction filter, in pixels. Default 1, as Mitsuba's `tent`.
     pub filter_radius: f32,
@@ -18,6 +29,38 @@ pub struct RenderConfig {
 
 impl Default for RenderConfig {
     fn default() -> Self {
-        Self { samples: 64, max_bounces: 64, roulette_start: 3, filter_radius: 1.0, seed: 0 }
+        Self {
+            samples: 64,
+            adaptive: true,
+            noise: None,
+            guiding: true,
+            max_bounces: None,
+            clamp: None,
+            roulette_start: 1,
+            filter_radius: 1.0,
+            seed: 0,
+        }
+    }
+}
+
+impl RenderConfig {
+    /// # Errors
+    /// When a number is out of its range.
+    pub(crate) fn check(&self) -> Result<(), RenderError> {
+        let wrong = |field, found: String, expected| Err(RenderError::Config { field, found, expected });
+        let positive = |v: Option<f32>| v.is_none_or(|v| v > 0.0 && v.is_finite());
+        if self.samples == 0 {
+            return wrong("samples", "0".into(), "at least 1");
+        }
+        if !(self.filter_radius >= 0.0 && self.filter_radius.is_finite()) {
+            return wrong("filter_radius", self.filter_radius.to_string(), "0 or more pixels");
+        }
+        if !positive(self.noise) {
+            return wrong("noise", self.noise.unwrap_or_default().to_string(), "more than 0, such as 0.02 for two per cent");
+        }
+        if !positive(self.clamp) {
+            return wrong("clamp", self.clamp.unwrap_or_default().to_string(), "more than 0");
+        }
+        Ok(())
     }
 }

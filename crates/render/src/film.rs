@@ -1,5 +1,6 @@
 //! From pixel samples to the stored colour layers.
 
+use crate::budget::Estimate;
 use crate::integrator::PixelSample;
 use enfilade_frame::f16;
 use enfilade_math::Rgb;
@@ -17,10 +18,12 @@ pub(crate) struct PixelSum {
     illumination: Rgb,
     illumination_samples: u32,
     residual: Rgb,
+    /// Sum of the squares of the samples' luminance.
+    squares: f32,
 }
 
 /// The colour values of one pixel as they are stored.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct PixelColor {
     pub color: [f16; 3],
     pub illumination: [f16; 3],
@@ -35,11 +38,25 @@ impl PixelSum {
         self.samples += 1;
         self.reflectance += s.reflectance;
         self.residual += s.residual;
+        let luminance = (s.reflectance * s.illumination.unwrap_or_default() + s.residual).luminance();
+        self.squares += luminance * luminance;
         if let Some(illumination) = s.illumination {
             self.diffuse += s.reflectance * illumination;
             self.illumination += illumination;
             self.illumination_samples += 1;
         }
+    }
+
+    /// Number of samples.
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// Mean and variance of the samples' luminance.
+    pub fn estimate(&self) -> Estimate {
+        let n = self.samples.max(1) as f32;
+        let mean = (self.diffuse + self.residual).luminance() / n;
+        Estimate { mean, variance: (self.squares / n - mean * mean).max(0.0) * n / (n - 1.0).max(1.0) }
     }
 
     /// The pixel's layers. The stored values satisfy color = reflectance × illumination + residual to the last bit: the first
@@ -51,13 +68,7 @@ impl PixelSum {
         let mean_illumination = self.illumination / self.illumination_samples.max(1) as f32;
         let residual = self.residual / n;
         let mut saturated = false;
-        let mut out = PixelColor {
-            color: [f16::ZERO; 3],
-            illumination: [f16::ZERO; 3],
-            reflectance: [f16::ZERO; 3],
-            residual: [f16::ZERO; 3],
-            saturated: false,
-        };
+        let mut out = PixelColor::default();
         for c in 0..3 {
             let a = f16::from_f32(reflectance[c]);
             let demodulated = if a > f16::ZERO { diffuse[c] / a.to_f32() } else { mean_illumination[c] };

@@ -8,18 +8,23 @@
 //! `bsdf` scatters, `light` emits; both have the same `sample`/`pdf` shape, so that one statistical test serves both.
 
 mod bsdf;
+mod budget;
 mod config;
 mod error;
 mod film;
 mod geometry_pass;
+mod guide;
 mod integrator;
+mod layers;
 mod light;
 mod prepared;
 mod render;
 mod surface;
+mod tiles;
 mod triangle;
 
 pub use config::RenderConfig;
 pub use error::RenderError;
+pub use guide::Guide;
 pub use prepared::RenderScene;
-pub use render::render_frame;
+pub use render::{FrameRender, render_frame};

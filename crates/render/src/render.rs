@@ -1,26 +1,27 @@
-//! One frame: every pixel's geometry and colour, tile by tile.
+//! One frame: every pixel's geometry and colour, tile by tile and pass by pass.
 
+use crate::budget::{Budget, Estimate};
 use crate::config::RenderConfig;
 use crate::error::RenderError;
-use crate::film::{PixelColor, PixelSum};
-use crate::geometry_pass::{PixelGeometry, camera_ray, pixel_geometry};
+use crate::film::PixelSum;
+use crate::geometry_pass::{camera_ray, pixel_geometry};
+use crate::guide::Guide;
 use crate::integrator::Integrator;
-use crate::light::LightChoice;
+use crate::layers::{Pixel, layers};
 use crate::prepared::RenderScene;
-use enfilade_frame::{Frame, Layer, Validity, Values, f16};
+use crate::tiles::Tiles;
+use enfilade_frame::Frame;
 use enfilade_math::{Ray, Sampler, warp};
 use enfilade_scene::{Cx, Intrinsics, Pose};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Side of a tile in pixels: large enough for coherent rays, small enough to spread over threads.
-const TILE: u32 = 16;
-
-/// One pixel of all rendered layers.
-struct Pixel {
-    color: PixelColor,
-    geometry: Option<PixelGeometry>,
-}
+/// Share of the samples that are spread evenly, to find out where the others are needed.
+const FIRST_SHARE: u32 = 4;
+/// The fewest samples that say anything about a pixel's error.
+const FEWEST: u32 = 8;
+/// Mean samples per pixel of a pass after the first.
+const PASS: u32 = 16;
 
 /// Renders every layer but the labels. The bytes depend on the arguments alone, whatever the number of threads.
 ///
@@ -28,34 +29,133 @@ struct Pixel {
 /// When the camera or the settings are not usable.
 pub fn render_frame(
     scene: &RenderScene<'_>,
+    guide: &Guide,
     intrinsics: &Intrinsics,
     pose: &Pose,
     config: &RenderConfig,
     cx: &dyn Cx,
 ) -> Result<Frame, RenderError> {
-    check(intrinsics, pose, config)?;
-    let (width, height) = (intrinsics.width, intrinsics.height);
-    let columns = width.div_ceil(TILE);
-    let tiles = columns * height.div_ceil(TILE);
-    let choice = LightChoice::learn(scene, intrinsics, pose, config);
-    let integrator = Integrator { scene, config, choice: &choice };
-    let done = AtomicU64::new(0);
-    let rendered: Vec<Vec<Pixel>> = (0..tiles)
-        .into_par_iter()
-        .map(|tile| {
-            let (x0, y0) = ((tile % columns) * TILE, (tile / columns) * TILE);
-            let pixels = (y0..height.min(y0 + TILE))
-                .flat_map(|y| (x0..width.min(x0 + TILE)).map(move |x| (x, y)))
-                .map(|(x, y)| render_pixel(&integrator, intrinsics, pose, x, y))
-                .collect();
-            cx.progress("rendering", done.fetch_add(1, Ordering::Relaxed) + 1, u64::from(tiles));
-            pixels
-        })
-        .collect();
-    Ok(assemble(width, height, columns, &rendered))
+    let mut rendering = FrameRender::new(scene, guide, intrinsics, pose, config)?;
+    while !rendering.is_done() {
+        rendering.pass(cx);
+    }
+    Ok(rendering.frame())
 }
 
-fn check(intrinsics: &Intrinsics, pose: &Pose, config: &RenderConfig) -> Result<(), RenderError> {
+/// A frame in the making. After the first pass it can be looked at, kept, or ended at any time.
+pub struct FrameRender<'a, 's> {
+    integrator: Integrator<'a, 's>,
+    intrinsics: &'a Intrinsics,
+    pose: &'a Pose,
+    tiles: Tiles,
+    /// Per tile, its pixels' sums so far.
+    sums: Vec<Vec<PixelSum>>,
+    /// Samples of every pixel in the end, row by row; before the first pass is done, those of that pass.
+    wanted: Vec<u32>,
+    first: u32,
+    /// Passes done, and passes in all.
+    done: u32,
+    passes: u32,
+}
+
+impl<'a, 's> FrameRender<'a, 's> {
+    /// A frame without samples.
+    ///
+    /// # Errors
+    /// When the camera or the settings are not usable.
+    pub fn new(
+        scene: &'a RenderScene<'s>,
+        guide: &'a Guide,
+        intrinsics: &'a Intrinsics,
+        pose: &'a Pose,
+        config: &'a RenderConfig,
+    ) -> Result<Self, RenderError> {
+        check_camera(intrinsics, pose)?;
+        config.check()?;
+        let tiles = Tiles::new(intrinsics.width, intrinsics.height);
+        let sums = (0..tiles.count()).map(|t| vec![PixelSum::default(); tiles.pixels(t).count()]).collect();
+        let spread = config.adaptive || config.noise.is_some();
+        let first = if spread { (config.samples / FIRST_SHARE).max(FEWEST).min(config.samples) } else { config.samples.min(PASS) };
+        let passes = 1 + (config.samples - first).div_ceil(PASS);
+        let wanted = vec![first; intrinsics.width as usize * intrinsics.height as usize];
+        let integrator = Integrator { scene, config, guide };
+        Ok(Self { integrator, intrinsics, pose, tiles, sums, wanted, first, done: 0, passes })
+    }
+
+    /// True when every pixel has the samples that it should have.
+    pub fn is_done(&self) -> bool {
+        self.done == self.passes
+    }
+
+    /// Adds samples to all pixels: the first pass the same number to each, the others where they are needed.
+    pub fn pass(&mut self, cx: &dyn Cx) {
+        if self.is_done() {
+            return;
+        }
+        let (later, all) = (u64::from(self.done), u64::from(self.passes) - 1);
+        let goal = |wanted: u32| if all == 0 { wanted } else { self.first.min(wanted) + (u64::from(wanted.saturating_sub(self.first)) * later / all) as u32 };
+        let (integrator, intrinsics, pose, tiles, wanted) = (&self.integrator, self.intrinsics, self.pose, self.tiles, &self.wanted);
+        let finished = AtomicU64::new(u64::from(self.done) * u64::from(tiles.count()));
+        let total = u64::from(self.passes) * u64::from(tiles.count());
+        self.sums.par_iter_mut().zip(0..tiles.count()).for_each(|(sums, tile)| {
+            for (sum, (x, y)) in sums.iter_mut().zip(tiles.pixels(tile)) {
+                let goal = goal(wanted[(y * intrinsics.width + x) as usize]);
+                add_samples(integrator, intrinsics, pose, (x, y), goal, sum);
+            }
+            cx.progress("rendering", finished.fetch_add(1, Ordering::Relaxed) + 1, total);
+        });
+        self.done += 1;
+        if self.done == 1 && self.passes > 1 {
+            self.wanted = self.share();
+        }
+    }
+
+    /// The samples of every pixel in the end.
+    fn share(&self) -> Vec<u32> {
+        let config = self.integrator.config;
+        if !config.adaptive && config.noise.is_none() {
+            return vec![config.samples; self.wanted.len()];
+        }
+        let estimates: Vec<Vec<Estimate>> = self.sums.iter().map(|tile| tile.iter().map(PixelSum::estimate).collect()).collect();
+        let budget = Budget { first: self.first, mean: config.samples, noise: config.noise };
+        budget.share(self.intrinsics.width as usize, &self.tiles.rows(&estimates))
+    }
+
+    /// Mean samples per pixel so far.
+    pub fn samples(&self) -> f64 {
+        let taken: u64 = self.sums.iter().flatten().map(|s| u64::from(s.samples())).sum();
+        taken as f64 / self.wanted.len() as f64
+    }
+
+    /// The layers as they are now.
+    pub fn frame(&self) -> Frame {
+        let (scene, intrinsics, pose, tiles) = (self.integrator.scene, self.intrinsics, self.pose, self.tiles);
+        let pixels: Vec<Vec<Pixel>> = self
+            .sums
+            .par_iter()
+            .zip(0..tiles.count())
+            .map(|(sums, tile)| {
+                let pixel = |(sum, (x, y)): (&PixelSum, _)| Pixel { color: sum.resolve(), geometry: pixel_geometry(scene, intrinsics, pose, x, y) };
+                sums.iter().zip(tiles.pixels(tile)).map(pixel).collect()
+            })
+            .collect();
+        layers(intrinsics.width, intrinsics.height, &tiles.rows(&pixels))
+    }
+}
+
+/// Adds samples to a pixel until it has `goal`.
+fn add_samples(integrator: &Integrator<'_, '_>, intrinsics: &Intrinsics, pose: &Pose, (x, y): (u32, u32), goal: u32, sum: &mut PixelSum) {
+    let config = integrator.config;
+    for index in sum.samples()..goal {
+        let sampler = Sampler::new(config.seed, pose.frame, x, y, index);
+        let u = sampler.set(0);
+        let offset = [u[0], u[1]].map(|u| f64::from(warp::tent(u, config.filter_radius)));
+        let (origin, direction) = camera_ray(intrinsics, pose, f64::from(x) + 0.5 + offset[0], f64::from(y) + 0.5 + offset[1]);
+        sum.add(&integrator.sample(Ray::new(origin.as_vec3(), direction.as_vec3().normalize()), &sampler, index));
+    }
+}
+
+fn check_camera(intrinsics: &Intrinsics, pose: &Pose) -> Result<(), RenderError> {
     let camera = |problem: String| Err(RenderError::Camera { frame: pose.frame, problem });
     if !pose.position.is_finite() || !pose.world_from_camera.is_finite() {
         return camera(format!("its pose is not finite: {pose:?}"));
@@ -66,66 +166,5 @@ fn check(intrinsics: &Intrinsics, pose: &Pose, config: &RenderConfig) -> Result<
             intrinsics.width, intrinsics.height, intrinsics.fx, intrinsics.fy
         ));
     }
-    if config.samples == 0 {
-        return Err(RenderError::Config { field: "samples", found: "0".into(), expected: "at least 1" });
-    }
-    if !(config.filter_radius >= 0.0 && config.filter_radius.is_finite()) {
-        return Err(RenderError::Config { field: "filter_radius", found: config.filter_radius.to_string(), expected: "0 or more pixels" });
-    }
     Ok(())
-}
-
-fn render_pixel(integrator: &Integrator<'_, '_>, intrinsics: &Intrinsics, pose: &Pose, x: u32, y: u32) -> Pixel {
-    let config = integrator.config;
-    let mut sum = PixelSum::default();
-    for index in 0..config.samples {
-        let sampler = Sampler::new(config.seed, pose.frame, x, y, index);
-        let u = sampler.set(0);
-        let offset = [u[0], u[1]].map(|u| f64::from(warp::tent(u, config.filter_radius)));
-        let (origin, direction) = camera_ray(intrinsics, pose, f64::from(x) + 0.5 + offset[0], f64::from(y) + 0.5 + offset[1]);
-        sum.add(&integrator.sample(Ray::new(origin.as_vec3(), direction.as_vec3().normalize()), &sampler, index));
-    }
-    Pixel { color: sum.resolve(), geometry: pixel_geometry(integrator.scene, intrinsics, pose, x, y) }
-}
-
-/// Puts the tiles' pixels in order, layer by layer.
-fn assemble(width: u32, height: u32, columns: u32, tiles: &[Vec<Pixel>]) -> Frame {
-    let pixel = |x: u32, y: u32| {
-        let tile_width = (width - x / TILE * TILE).min(TILE);
-        &tiles[(y / TILE * columns + x / TILE) as usize][(y % TILE * tile_width + x % TILE) as usize]
-    };
-    let pixels: Vec<&Pixel> = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect();
-    let color = |f: fn(&PixelColor) -> [f16; 3]| Values::F16(pixels.iter().flat_map(|p| f(&p.color)).collect());
-    let nan = [f16::NAN; 3];
-    let half = |f: fn(&PixelGeometry) -> [f16; 3], void: [f16; 3]| {
-        Values::F16(pixels.iter().flat_map(|p| p.geometry.as_ref().map_or(void, f)).collect())
-    };
-    let single = |f: fn(&PixelGeometry) -> f32| Values::F32(pixels.iter().map(|p| p.geometry.as_ref().map_or(f32::NAN, f)).collect());
-
-    let mut frame = Frame::new(width, height);
-    frame.insert(Layer::Color, color(|c| c.color));
-    frame.insert(Layer::DiffuseIllumination, color(|c| c.illumination));
-    frame.insert(Layer::DiffuseReflectance, color(|c| c.reflectance));
-    frame.insert(Layer::Residual, color(|c| c.residual));
-    frame.insert(Layer::DepthMeters, single(|g| g.distance_m));
-    frame.insert(Layer::DepthZMeters, single(|g| g.depth_z_m));
-    let position = pixels.iter().flat_map(|p| p.geometry.as_ref().map_or([f32::NAN; 3], |g| g.position)).collect();
-    frame.insert(Layer::Position, Values::F32(position));
-    frame.insert(Layer::NormalWorld, half(|g| g.normal_world, nan));
-    frame.insert(Layer::NormalCam, half(|g| g.normal_cam, nan));
-    frame.insert(Layer::NormalBumpWorld, half(|g| g.normal_bump_world, nan));
-    frame.insert(Layer::NormalBumpCam, half(|g| g.normal_bump_cam, nan));
-    frame.insert(Layer::TexCoord, half(|g| g.tex_coord, [f16::ZERO; 3]));
-    frame.insert(Layer::RenderEntityId, Values::I16(pixels.iter().map(|p| p.geometry.as_ref().map_or(-1, |g| g.entity)).collect()));
-    frame.insert(Layer::Valid, Values::U8(pixels.iter().map(|p| validity(p) as u8).collect()));
-    frame
-}
-
-fn validity(pixel: &Pixel) -> Validity {
-    match pixel.geometry {
-        None => Validity::Void,
-        Some(_) if pixel.color.saturated => Validity::Saturated,
-        Some(_) if pixel.color.reflectance.iter().all(|&a| a == f16::ZERO) => Validity::NoDiffuse,
-        Some(_) => Validity::Valid,
-    }
 }

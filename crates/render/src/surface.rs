@@ -101,17 +101,20 @@ impl<'s> Surface<'s> {
         Onb::from_z(self.ns)
     }
 
-    /// The ray from a surface to a light, ending just before it.
+    /// See [`shadow_ray`].
     pub fn shadow_ray(&self, wi: Vec3, target: Option<Vec3>) -> Ray {
-        let side = if wi.dot(self.ng) < 0.0 { -self.ng } else { self.ng };
-        let origin = offset_origin(self.p, side);
-        match target {
-            None => Ray::new(origin, wi),
-            Some(target) => {
-                let to_target = target - origin;
-                let distance = to_target.length();
-                Ray { origin, direction: to_target / distance.max(f32::MIN_POSITIVE), t_min: 0.0, t_max: distance * (1.0 - 1e-5) }
-            }
+        shadow_ray(offset_origin(self.p, if wi.dot(self.ng) < 0.0 { -self.ng } else { self.ng }), wi, target)
+    }
+}
+
+/// The ray from a surface to a light, ending just before it.
+pub(crate) fn shadow_ray(origin: Vec3, wi: Vec3, target: Option<Vec3>) -> Ray {
+    match target {
+        None => Ray::new(origin, wi),
+        Some(target) => {
+            let to_target = target - origin;
+            let distance = to_target.length();
+            Ray { origin, direction: to_target / distance.max(f32::MIN_POSITIVE), t_min: 0.0, t_max: distance * (1.0 - 1e-5) }
         }
     }
 }

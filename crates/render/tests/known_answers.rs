@@ -3,7 +3,7 @@
 use enfilade_frame::{Frame, Layer};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Mat3, Rgb, Vec3};
-use enfilade_render::{RenderConfig, RenderError, RenderScene, render_frame};
+use enfilade_render::{Guide, RenderConfig, RenderError, RenderScene, render_frame};
 use enfilade_scene::{Bsdf, Environment, Intrinsics, Light, Material, Part, Pose, Principled, Quiet, Scene};
 use std::f64::consts::PI;
 
@@ -80,7 +80,12 @@ fn picture(scene: &Scene, from: DVec3, to: DVec3, size: u32, fov_deg: f64, sampl
     let up = if (to - from).cross(DVec3::Z).length() < 1e-6 { DVec3::Y } else { DVec3::Z };
     let pose = Pose::look_at(0, from, to, up).unwrap();
     let config = RenderConfig { samples, ..RenderConfig::default() };
-    render_frame(&prepared, &Intrinsics::from_fov_x(size, size, fov_deg.to_radians()), &pose, &config, &Quiet).unwrap()
+    render(&prepared, &Intrinsics::from_fov_x(size, size, fov_deg.to_radians()), &pose, &config).unwrap()
+}
+
+fn render(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, config: &RenderConfig) -> Result<Frame, RenderError> {
+    let guide = Guide::learn(scene, intrinsics, &[*pose], config);
+    render_frame(scene, &guide, intrinsics, pose, config, &Quiet)
 }
 
 fn mean(frame: &Frame, layer: Layer, channel: usize) -> f64 {
@@ -119,8 +124,8 @@ fn a_limit_on_bounces_cuts_the_series_of_reflections_and_nothing_else() {
     let prepared = RenderScene::new(&s, &Quiet).unwrap();
     let pose = Pose::look_at(0, DVec3::new(0.1, 0.2, 0.0), DVec3::X, DVec3::Z).unwrap();
     for (max_bounces, expected) in [(0, 1.5), (1, 1.75), (3, 1.9375)] {
-        let config = RenderConfig { samples: 256, max_bounces, ..RenderConfig::default() };
-        let frame = render_frame(&prepared, &Intrinsics::from_fov_x(16, 16, 1.2), &pose, &config, &Quiet).unwrap();
+        let config = RenderConfig { samples: 256, max_bounces: Some(max_bounces), ..RenderConfig::default() };
+        let frame = render(&prepared, &Intrinsics::from_fov_x(16, 16, 1.2), &pose, &config).unwrap();
         assert_close(&format!("{max_bounces} bounces"), mean(&frame, Layer::Color, 1), expected, 0.01);
     }
 }
@@ -248,7 +253,7 @@ fn a_dark_scene_and_bad_cameras_are_refused_with_reasons() {
     let mut pose = Pose::look_at(3, DVec3::ZERO, DVec3::X, DVec3::Z).unwrap();
     pose.position.x = f64::NAN;
     let k = Intrinsics::from_fov_x(8, 8, 1.0);
-    let error = render_frame(&prepared, &k, &pose, &RenderConfig::default(), &Quiet).unwrap_err();
+    let error = render(&prepared, &k, &pose, &RenderConfig::default()).unwrap_err();
     assert!(error.to_string().starts_with("frame 3: the camera is not usable"), "{error}");
 }
 

@@ -3,7 +3,7 @@
 use enfilade_frame::{Frame, Layer};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec2, Vec3};
-use enfilade_render::{RenderConfig, RenderScene, render_frame};
+use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{Environment, Image, Intrinsics, Material, NormalMap, Part, Pixels, Pose, Quiet, Scene, TextureRef};
 
 fn quad(origin: Vec3, e1: Vec3, e2: Vec3) -> Mesh {
@@ -33,7 +33,8 @@ fn render(s: &Scene, from: DVec3, to: DVec3) -> (Frame, Pose) {
     let pose = Pose::look_at(0, from, to, DVec3::new(0.05, 0.0, 1.0)).unwrap();
     let config = RenderConfig { samples: 1, ..RenderConfig::default() };
     let prepared = RenderScene::new(s, &Quiet).unwrap();
-    (render_frame(&prepared, &CAMERA, &pose, &config, &Quiet).unwrap(), pose)
+    let guide = Guide::learn(&prepared, &CAMERA, &[pose], &config);
+    (render_frame(&prepared, &guide, &CAMERA, &pose, &config, &Quiet).unwrap(), pose)
 }
 
 fn vector(frame: &Frame, layer: Layer, p: usize) -> DVec3 {

@@ -17,17 +17,26 @@ macro_rules! section {
 
         impl $name {
             /// Lays the keys that are there over `target`.
-            #[allow(clippy::clone_on_copy)] // not every field is Copy
+            #[allow(clippy::clone_on_copy, clippy::useless_conversion)] // not every field is Copy; optional fields take their values
             pub fn apply(&self, target: &mut $target) {
                 $(if let Some(value) = &self.$field {
-                    target.$field = value.get_ref().clone();
+                    target.$field = value.get_ref().clone().into();
                 })*
             }
         }
     };
 }
 
-section!(RenderPatch => RenderConfig { samples: u32, max_bounces: u32, roulette_start: u32, filter_radius: f32 } with {
+section!(RenderPatch => RenderConfig { 
+    samples: u32,
+    adaptive: bool,
+    noise: f32,
+    guiding: bool,
+    max_bounces: u32,
+    clamp: f32,
+    roulette_start: u32,
+    filter_radius: f32,
+} with {
     /// Width and height in pixels.
     size: [u32; 2],
     /// Horizontal field of view.

@@ -39,7 +39,7 @@ fn the_scene_wins_over_the_file_and_the_command_line_over_both() {
     );
     let scene = config(&text).scenes.remove(0);
     assert_eq!((scene.seed, scene.plan.frames, scene.plan.candidates, scene.size), (2, 20, 7, [64, 48]));
-    assert_eq!((scene.render.samples, scene.render.max_bounces, scene.fov_x_deg, scene.carve.voxel_m), (5, 3, Some(70.0), 0.2));
+    assert_eq!((scene.render.samples, scene.render.max_bounces, scene.fov_x_deg, scene.carve.voxel_m), (5, Some(3), Some(70.0), 0.2));
     let overrides = Overrides { seed: Some(9), frames: Some(3), size: Some([8, 6]), quality: Some(Quality::High) };
     let scene = config_with(&text, &overrides).scenes.remove(0);
     assert_eq!((scene.seed, scene.plan.frames, scene.size, scene.render.samples), (9, 3, [8, 6], Quality::High.samples()));
@@ -76,7 +76,7 @@ fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
     assert_eq!(
         error(&format!("[render]\nsize = [4, 3]\nsampels = 3\n{SCENE}")),
         "sets/dataset.toml:3:1: unknown key `sampels`\n  3 | sampels = 3\n    | ^^^^^^^\nhelp: did you mean `samples`? known keys here: \
-         size, fov_x_deg, samples, max_bounces, roulette_start, filter_radius"
+         size, fov_x_deg, samples, adaptive, noise, guiding, max_bounces, clamp, roulette_start, filter_radius"
     );
     let text = error(&format!("{SCENE}meter_per_unit = 3\n"));
     assert!(

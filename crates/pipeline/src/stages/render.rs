@@ -7,7 +7,7 @@ use crate::report::{StageCx, Stopwatch, count};
 use crate::workdir::Hash;
 use enfilade_dataset::{FrameInfo, FrameTime};
 use enfilade_frame::{LAYERS, Pass};
-use enfilade_render::{RenderConfig, RenderScene};
+use enfilade_render::{Guide, RenderConfig, RenderScene};
 use enfilade_scene::{Cx, Intrinsics, Pose, Trajectory, Warning};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -31,33 +31,49 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         job.dataset.remove_temporaries(&job.scene.name, &trajectory.name).map_err(Error::stage)?;
         remove_frames_off_the_trajectory(job, trajectory)?;
         let config = RenderConfig { seed: job.scene.seed_for(&format!("render/{}", trajectory.name)), ..job.scene.render.clone() };
-        for pose in &trajectory.poses {
-            let info = frame_info(&package, &config, &intrinsics, pose);
-            if job.force || !job.dataset.frame_is_complete(&job.scene.name, &trajectory.name, pose.frame, &info.config_hash) {
-                missing.push((trajectory.name.as_str(), config.clone(), info));
-            }
+        let infos = trajectory.poses.iter().map(|pose| frame_info(&package, &config, &intrinsics, trajectory, pose));
+        let frames: Vec<FrameInfo> = infos.filter(|info| job.force || !is_complete(job, trajectory, info)).collect();
+        if !frames.is_empty() {
+            missing.push(Missing { trajectory, config, frames });
         }
     }
-    if !missing.is_empty() {
-        render(job, &missing, total, cx)?;
+    let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
+    if rendered > 0 {
+        render(job, &missing, total - rendered, total, cx)?;
     }
     let [width, height] = job.scene.size;
-    let kept = if missing.len() < total { format!(", {} kept", total - missing.len()) } else { String::new() };
-    let summary = format!("{} of {width}x{height} at {} samples{kept}", count(missing.len(), "frame"), job.scene.render.samples);
+    let kept = if rendered < total { format!(", {} kept", total - rendered) } else { String::new() };
+    let summary = format!("{} of {width}x{height} at {} samples{kept}", count(rendered, "frame"), job.scene.render.samples);
     Ok(Outcome { summary, outputs: outputs(job)?, ..Outcome::default() })
 }
 
-/// Renders and writes the frames that are `missing` of the `total`.
-fn render(job: &Job, missing: &[(&str, RenderConfig, FrameInfo)], total: usize, cx: &StageCx) -> Result<(), Error> {
+/// What is to be rendered of a trajectory.
+struct Missing<'a> {
+    trajectory: &'a Trajectory,
+    config: RenderConfig,
+    frames: Vec<FrameInfo>,
+}
+
+fn is_complete(job: &Job, trajectory: &Trajectory, info: &FrameInfo) -> bool {
+    job.dataset.frame_is_complete(&job.scene.name, &trajectory.name, info.pose.frame, &info.config_hash)
+}
+
+/// Renders and writes the frames that are `missing`; `kept` of the `total` are there.
+fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageCx) -> Result<(), Error> {
     job.forget_world();
     let scene = job.load_scene()?;
     let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?;
-    for (i, (camera, config, info)) in missing.iter().enumerate() {
-        let time = Stopwatch::start();
-        let frame_cx = FrameCx { outer: cx, done: total - missing.len() + i, total };
-        let frame = enfilade_render::render_frame(&scene, &info.intrinsics, &info.pose, config, &frame_cx).map_err(Error::stage)?;
-        let time = FrameTime { wall_s: time.wall_s(), cpu_s: time.cpu_s() };
-        job.dataset.write_frame(&job.scene.name, camera, &frame, info, time).map_err(Error::stage)?;
+    let mut done = kept;
+    for Missing { trajectory, config, frames } in missing {
+        let guide = Guide::learn(&scene, &frames[0].intrinsics, &trajectory.poses, config);
+        for info in frames {
+            let time = Stopwatch::start();
+            let frame_cx = FrameCx { outer: cx, done, total };
+            let frame = enfilade_render::render_frame(&scene, &guide, &info.intrinsics, &info.pose, config, &frame_cx).map_err(Error::stage)?;
+            let time = FrameTime { wall_s: time.wall_s(), cpu_s: time.cpu_s() };
+            job.dataset.write_frame(&job.scene.name, &trajectory.name, &frame, info, time).map_err(Error::stage)?;
+            done += 1;
+        }
     }
     Ok(())
 }
@@ -65,12 +81,13 @@ fn render(job: &Job, missing: &[(&str, RenderConfig, FrameInfo)], total: usize, 
 /// Units of progress per frame.
 const PER_FRAME: u64 = 1000;
 
-fn frame_info(package: &Hash, config: &RenderConfig, intrinsics: &Intrinsics, pose: &Pose) -> FrameInfo {
+/// A frame depends on its whole trajectory, because the guide is learned from all of it.
+fn frame_info(package: &Hash, config: &RenderConfig, intrinsics: &Intrinsics, trajectory: &Trajectory, pose: &Pose) -> FrameInfo {
     let version = (env!("CARGO_PKG_VERSION"), Stage::Render.spec().version);
     FrameInfo {
         seed: config.seed,
         samples: config.samples,
-        config_hash: Hash::of(&(version, package, config, intrinsics, pose)).0,
+        config_hash: Hash::of(&(version, package, config, intrinsics, &trajectory.poses, pose)).0,
         pose: *pose,
         intrinsics: *intrinsics,
     }

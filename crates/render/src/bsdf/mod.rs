@@ -33,6 +33,14 @@ impl Value {
     }
 }
 
+impl std::ops::Mul<f32> for Value {
+    type Output = Self;
+    #[inline]
+    fn mul(self, s: f32) -> Self {
+        Self { diffuse: self.diffuse * s, specular: self.specular * s }
+    }
+}
+
 /// A sampled incident direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {

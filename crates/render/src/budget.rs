@@ -1,0 +1,137 @@
+//! Where the samples go: to each pixel in proportion to the error that it would have left.
+//!
+//! The error of a pixel is estimated from the first samples of the pixels *around* it. Its own samples have no say in their number,
+//! so the mean of a pixel stays unbiased, which it would not if a dark first sample could end the search for a bright one
+//! (Kirk & Arvo 1991, "Unbiased sampling techniques for image synthesis").
+
+use rayon::prelude::*;
+
+/// Neighbours within this many rows and columns speak for a pixel.
+const REACH: usize = 2;
+/// Part of the image's mean luminance that is added to a pixel's own before its error is put in relation to it: nobody sees a relative
+/// error in the dark.
+const FLOOR: f32 = 0.2;
+/// No pixel gets more than this many times the mean.
+const MOST: f32 = 16.0;
+
+/// First estimate of a pixel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Estimate {
+    /// Mean luminance of its samples.
+    pub mean: f32,
+    /// Variance of one sample's luminance.
+    pub variance: f32,
+}
+
+/// How samples are shared out.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Budget {
+    /// Samples that every pixel has already.
+    pub first: u32,
+    /// Mean over the image of the samples wanted in the end; an upper bound when there is a noise target.
+    pub mean: u32,
+    /// Noise target: see [`crate::RenderConfig::noise`].
+    pub noise: Option<f32>,
+}
+
+impl Budget {
+    /// The number of samples of every pixel, row by row.
+    pub fn share(&self, width: usize, estimates: &[Estimate]) -> Vec<u32> {
+        let height = estimates.len() / width.max(1);
+        let mean = estimates.iter().map(|e| f64::from(e.mean)).sum::<f64>() as f32 / estimates.len().max(1) as f32;
+        let errors: Vec<f32> =
+            (0..estimates.len()).into_par_iter().map(|p| error_around(estimates, width, height, p % width, p / width, FLOOR * mean)).collect();
+        let total: f64 = errors.iter().map(|&e| f64::from(e)).sum();
+        let n = errors.len() as f64;
+        if !(total > 0.0 && total.is_finite()) {
+            return vec![if self.noise.is_some() { self.first } else { self.mean }; errors.len()];
+        }
+        // The variance that is left, Σ e²/n, is least for a given number of samples when n is in proportion to e.
+        let most = MOST * self.mean as f32;
+        let samples = |scale: f64| errors.iter().map(|&e| self.samples(f64::from(e) * scale, most)).sum::<f64>();
+        let for_mean = bisect(n * f64::from(self.mean), samples);
+        let scale = match self.noise {
+            None => for_mean,
+            Some(target) => {
+                let noise = |scale: f64| -errors.iter().map(|&e| f64::from(e).powi(2) / self.samples(f64::from(e) * scale, most)).sum::<f64>();
+                bisect(-n * f64::from(target).powi(2), noise).min(for_mean)
+            }
+        };
+        errors.iter().map(|&e| self.samples(f64::from(e) * scale, most).round() as u32).collect()
+    }
+
+    fn samples(&self, wanted: f64, most: f32) -> f64 {
+        wanted.clamp(f64::from(self.first), f64::from(most).max(f64::from(self.first)))
+    }
+}
+
+/// Root mean square, over the pixels around (x, y), of a sample's standard deviation in relation to luminance.
+fn error_around(estimates: &[Estimate], width: usize, height: usize, x: usize, y: usize, floor: f32) -> f32 {
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for ny in y.saturating_sub(REACH)..height.min(y + REACH + 1) {
+        for nx in x.saturating_sub(REACH)..width.min(x + REACH + 1) {
+            if (nx, ny) == (x, y) {
+                continue;
+            }
+            let near = 1.0 / (nx.abs_diff(x).pow(2) + ny.abs_diff(y).pow(2)) as f32;
+            let e = estimates[ny * width + nx];
+            sum += near * e.variance / (e.mean + floor).powi(2).max(f32::MIN_POSITIVE);
+            weights += near;
+        }
+    }
+    if weights > 0.0 { (sum / weights).sqrt() } else { 1.0 }
+}
+
+/// The scale ≥ 0 at which the rising function `f` reaches `value`, as far as it can.
+fn bisect(value: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let (mut low, mut high) = (0.0f64, 1.0f64);
+    while f(high) < value && high < 1e12 {
+        low = high;
+        high *= 2.0;
+    }
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if f(middle) < value { low = middle } else { high = middle }
+    }
+    high
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn half_noisy() -> Vec<Estimate> {
+        (0..64 * 32).map(|p| Estimate { mean: 1.0, variance: if p % 64 < 32 { 0.01 } else { 1.0 } }).collect()
+    }
+
+    #[test]
+    fn noisy_pixels_get_more_and_the_mean_is_kept() {
+        let counts = Budget { first: 8, mean: 64, noise: None }.share(64, &half_noisy());
+        let mean = counts.iter().sum::<u32>() as f32 / counts.len() as f32;
+        assert!((mean - 64.0).abs() < 1.0, "mean {mean}");
+        let (quiet, noisy) = (counts[10 * 64 + 5], counts[10 * 64 + 60]);
+        assert!(noisy > 8 * quiet && quiet >= 8, "{quiet} and {noisy}");
+    }
+
+    #[test]
+    fn a_noise_target_takes_what_it_needs_up_to_the_bound() {
+        let budget = |noise| Budget { first: 8, mean: 4096, noise: Some(noise) };
+        let counts = budget(0.05).share(64, &half_noisy());
+        let left = half_noisy().iter().zip(&counts).map(|(e, &n)| e.variance / (1.2f32.powi(2) * n as f32)).sum::<f32>() / counts.len() as f32;
+        assert!((left.sqrt() - 0.05).abs() < 0.003, "left {}", left.sqrt());
+        let bounded = budget(1e-6).share(64, &half_noisy());
+        assert!(bounded.iter().map(|&n| u64::from(n)).sum::<u64>() <= 4097 * 64 * 32);
+    }
+
+    #[test]
+    fn a_pixel_has_no_say_in_its_own_number() {
+        let flat = vec![Estimate { mean: 1.0, variance: 1.0 }; 25];
+        let mut one = flat.clone();
+        one[12] = Estimate { mean: 0.0, variance: 0.0 };
+        let budget = Budget { first: 1, mean: 16, noise: None };
+        // Only the image's totals connect the two.
+        let (a, b) = (budget.share(5, &flat)[12], budget.share(5, &one)[12]);
+        assert!(a.abs_diff(b) <= 2, "{a} and {b}");
+        assert_eq!(Budget { first: 4, mean: 16, noise: None }.share(1, &[Estimate::default()]), [16]);
+    }
+}

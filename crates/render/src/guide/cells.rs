@@ -1,0 +1,90 @@
+//! A grid of surface cells: a voxel and the axis that the surface faces, found by hashing.
+
+use enfilade_math::{Vec3, hash_u64};
+
+/// A place on a surface where paths have been.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Site {
+    /// World position.
+    pub p: Vec3,
+    /// Unit normal on the side that light was scattered on.
+    pub n: Vec3,
+}
+
+/// Sites kept per cell.
+pub(super) const SITES: usize = 4;
+
+/// No cell.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Cells, numbered in the order in which they were found.
+#[derive(Debug)]
+pub(super) struct Cells {
+    origin: Vec3,
+    /// Cells per metre.
+    scale: f32,
+    /// Open addressing: key and number; key 0 is empty. A power of two long, at most half full.
+    slots: Vec<(u64, u32)>,
+    /// Of each cell, up to [`SITES`] places in it.
+    pub sites: Vec<[Option<Site>; SITES]>,
+}
+
+impl Cells {
+    /// The cells of `size` metres that the sites lie in.
+    pub fn new(origin: Vec3, size: f32, sites: &[Site]) -> Self {
+        let slots = vec![(0, NONE); (4 * sites.len()).next_power_of_two().max(64)];
+        let mut cells = Self { origin, scale: 1.0 / size, slots, sites: Vec::new() };
+        for site in sites {
+            let key = cells.key(site.p, site.n);
+            let slot = cells.slot(key);
+            if cells.slots[slot].0 == 0 {
+                cells.slots[slot] = (key, cells.sites.len() as u32);
+                cells.sites.push([None; SITES]);
+            }
+            let number = cells.slots[slot].1 as usize;
+            if let Some(free) = cells.sites[number].iter_mut().find(|s| s.is_none()) {
+                *free = Some(*site);
+            }
+        }
+        cells
+    }
+
+    /// Number of cells.
+    pub fn len(&self) -> usize {
+        self.sites.len()
+    }
+
+    /// The number of the cell of a surface point; [`NONE`] where no path has been.
+    #[inline]
+    pub fn find(&self, p: Vec3, n: Vec3) -> u32 {
+        self.slots[self.slot(self.key(p, n))].1
+    }
+
+    /// Where a key is or would be.
+    #[inline]
+    fn slot(&self, key: u64) -> usize {
+        let mask = self.slots.len() - 1;
+        let mut slot = hash_u64(key) as usize & mask;
+        while self.slots[slot].0 != key && self.slots[slot].0 != 0 {
+            slot = (slot + 1) & mask;
+        }
+        slot
+    }
+
+    /// Voxel and facing axis as a number that is never zero.
+    #[inline]
+    fn key(&self, p: Vec3, n: Vec3) -> u64 {
+        let at = (p - self.origin) * self.scale;
+        let coordinate = |v: f32| (v.floor().clamp(-500_000.0, 500_000.0) as i64 + 524_288) as u64;
+        let a = n.abs();
+        let (axis, along) = if a.x >= a.y && a.x >= a.z {
+            (0, n.x)
+        } else if a.y >= a.z {
+            (1, n.y)
+        } else {
+            (2, n.z)
+        };
+        let facing = 2 * axis + u64::from(along < 0.0);
+        ((coordinate(at.x) << 40 | coordinate(at.y) << 20 | coordinate(at.z)) << 3 | facing) + 1
+    }
+}

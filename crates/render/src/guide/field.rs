@@ -1,0 +1,177 @@
+//! Radiance over the cells of a scene, solved once before rendering.
+//!
+//! From every cell one ray goes out through each bin of the cosine-weighted hemisphere; what it meets is remembered as a cell and a
+//! reflectance. With the direct light of each cell this is a radiosity system (Goral et al. 1984), solved by a few sweeps without
+//! tracing another ray. The last sweep leaves what rendering wants: where indirect light comes from in each cell, and how much.
+
+use super::cells::{Cells, NONE, SITES, Site};
+use super::square::{BINS, SIDE, SquareDensity};
+use crate::light::LightChoice;
+use crate::prepared::{Cutout, RenderScene};
+use enfilade_math::{Bounds3, Onb, Ray, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
+use rayon::prelude::*;
+
+/// Sweeps of the radiosity system: each adds a bounce.
+const SWEEPS: usize = 8;
+/// Light samples at each site.
+const LIGHT_SAMPLES: usize = 4;
+/// Panes that a gathering ray passes.
+const PANES: usize = 8;
+/// Cells along the diagonal of the places that paths visited.
+const CELLS_ACROSS: f32 = 48.0;
+/// No cell is smaller, in metres.
+const MIN_CELL: f32 = 0.05;
+
+/// What is known of the light in a cell.
+#[derive(Debug)]
+pub(crate) struct CellLight {
+    density: SquareDensity,
+    /// Indirect irradiance over π: the mean radiance over the hemisphere, weighted by the cosine, without direct light.
+    pub indirect: Rgb,
+}
+
+/// The light in the cells of a scene.
+#[derive(Debug)]
+pub(crate) struct Field {
+    cells: Cells,
+    lights: Vec<CellLight>,
+}
+
+/// What a gathering ray met: a cell, and the share of its light that comes back along the ray.
+#[derive(Clone, Copy)]
+struct Link {
+    cell: u32,
+    reflectance: Rgb,
+}
+
+impl Field {
+    /// Solves for the light around `sites`. `None` without any.
+    pub fn solve(scene: &RenderScene<'_>, choice: &LightChoice, sites: &[Site], seed: u64) -> Option<Self> {
+        let bounds = Bounds3::from_points(sites.iter().map(|s| s.p));
+        if bounds.is_empty() {
+            return None;
+        }
+        let size = (bounds.extent().length() / CELLS_ACROSS).max(MIN_CELL);
+        let cells = Cells::new(bounds.min, size, sites);
+        let gathered: Vec<(Rgb, Vec<Link>)> = (0..cells.len())
+            .into_par_iter()
+            .map(|cell| {
+                let mut rng = Rng::new(hash_u64(seed ^ hash_u64(cell as u64)));
+                let sites: Vec<Site> = cells.sites[cell].iter().flatten().copied().collect();
+                (direct(scene, choice, &sites, &mut rng), links(scene, &cells, &sites, &mut rng))
+            })
+            .collect();
+
+        let mut indirect = vec![Rgb::BLACK; cells.len()];
+        let total = |indirect: &[Rgb]| -> Vec<Rgb> { gathered.iter().zip(indirect).map(|((direct, _), &i)| *direct + i).collect() };
+        for _ in 0..SWEEPS {
+            let total = total(&indirect);
+            indirect = gathered
+                .par_iter()
+                .map(|(_, links)| links.iter().filter(|l| l.cell != NONE).map(|l| l.reflectance * total[l.cell as usize]).sum::<Rgb>() / BINS as f32)
+                .collect();
+        }
+        let total = total(&indirect);
+        let lights = gathered
+            .par_iter()
+            .zip(&indirect)
+            .map(|((_, links), &indirect)| {
+                let seen = |l: &Link| if l.cell == NONE { 0.0 } else { (l.reflectance * total[l.cell as usize]).luminance() };
+                let values: [f32; BINS] = std::array::from_fn(|bin| seen(&links[bin]));
+                CellLight { density: SquareDensity::new(&blurred(&values)), indirect }
+            })
+            .collect();
+        Some(Self { cells, lights })
+    }
+
+    /// What is known at a surface point; nothing where no path has been.
+    #[inline]
+    pub fn at(&self, p: Vec3, n: Vec3) -> Option<&CellLight> {
+        self.lights.get(self.cells.find(p, n) as usize)
+    }
+}
+
+impl CellLight {
+    /// A direction in the space of `onb`'s axes, for `u` uniform on [0,1)², and its density per solid angle: in proportion to
+    /// indirect radiance times cosine.
+    #[inline]
+    pub fn sample(&self, u: [f32; 2]) -> (Vec3, f32) {
+        let (v, density) = self.density.sample(u);
+        let wi = warp::cosine_hemisphere(v);
+        (wi, density * warp::cosine_hemisphere_pdf(wi.z))
+    }
+
+    /// Density of [`CellLight::sample`].
+    #[inline]
+    pub fn pdf(&self, wi: Vec3) -> f32 {
+        if wi.z <= 0.0 {
+            return 0.0;
+        }
+        self.density.density(warp::square_from_cosine_hemisphere(wi)) * warp::cosine_hemisphere_pdf(wi.z)
+    }
+}
+
+/// Direct irradiance over π, the mean over the sites.
+fn direct(scene: &RenderScene<'_>, choice: &LightChoice, sites: &[Site], rng: &mut Rng) -> Rgb {
+    let mut sum = Rgb::BLACK;
+    for site in sites {
+        let origin = offset_origin(site.p, site.n);
+        for _ in 0..LIGHT_SAMPLES {
+            let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
+            let Some(light) = scene.lights.sample(scene, choice, site.p, u, |wi| wi.dot(site.n) > 0.0) else { continue };
+            let arriving = scene.lights.radiance_of(&light) * scene.transmittance(&crate::surface::shadow_ray(origin, light.wi, light.target));
+            let value = arriving * (light.wi.dot(site.n) * enfilade_math::INV_PI / light.pdf);
+            if value.luminance().is_finite() {
+                sum += value;
+            }
+        }
+    }
+    sum / (sites.len() * LIGHT_SAMPLES) as f32
+}
+
+/// What is met through each bin, from the sites in turn.
+fn links(scene: &RenderScene<'_>, cells: &Cells, sites: &[Site], rng: &mut Rng) -> Vec<Link> {
+    (0..BINS)
+        .map(|bin| {
+            let site = sites[(bin + bin / SIDE) % sites.len().min(SITES)];
+            let u = [((bin % SIDE) as f32 + rng.next_f32()) / SIDE as f32, ((bin / SIDE) as f32 + rng.next_f32()) / SIDE as f32];
+            let direction = Onb::from_z(site.n).to_world(warp::cosine_hemisphere(u));
+            link(scene, cells, Ray::new(offset_origin(site.p, site.n), direction))
+        })
+        .collect()
+}
+
+/// What a ray meets, beyond panes.
+fn link(scene: &RenderScene<'_>, cells: &Cells, mut ray: Ray) -> Link {
+    let nothing = Link { cell: NONE, reflectance: Rgb::BLACK };
+    let mut through = Rgb::WHITE;
+    for _ in 0..PANES {
+        let Some(hit) = scene.closest(&ray, Cutout::Random) else { return nothing };
+        let surface = scene.surface(&hit, ray.direction);
+        if let Some(transmittance) = surface.straight_transmittance(scene) {
+            through *= transmittance;
+            ray = Ray::new(offset_origin(surface.p, -surface.ng), ray.direction);
+            continue;
+        }
+        let reflectance = surface.bsdf(scene).reflectance;
+        return Link { cell: cells.find(surface.p, surface.ns_smooth), reflectance: through * reflectance };
+    }
+    nothing
+}
+
+/// A little of each bin's neighbours.
+fn blurred(values: &[f32; BINS]) -> [f32; BINS] {
+    std::array::from_fn(|bin| {
+        let (x, y) = (bin % SIDE, bin / SIDE);
+        let mut sum = 0.0;
+        let mut weights = 0.0;
+        for ny in y.saturating_sub(1)..SIDE.min(y + 2) {
+            for nx in x.saturating_sub(1)..SIDE.min(x + 2) {
+                let weight = if (nx, ny) == (x, y) { 4.0 } else { 1.0 };
+                sum += weight * values[ny * SIDE + nx];
+                weights += weight;
+            }
+        }
+        sum / weights
+    })
+}

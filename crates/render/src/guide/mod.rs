@@ -1,0 +1,74 @@
+//! What is learned before a trajectory's frames are rendered: which lights reach where, and where indirect light comes from.
+//!
+//! It steers samples and nothing else. Whatever was learned, every direction and every light keeps a chance, so a poor guide means
+//! more noise, never another mean.
+
+mod cells;
+mod field;
+mod square;
+
+pub(crate) use field::{CellLight, Field};
+
+use crate::config::RenderConfig;
+use crate::geometry_pass::camera_ray;
+use crate::light::LightChoice;
+use crate::prepared::{Cutout, RenderScene};
+use cells::Site;
+use enfilade_math::{Ray, Rng, hash_u64, offset_origin};
+use enfilade_scene::{Intrinsics, Pose};
+use rayon::prelude::*;
+
+/// Paths that look for places, at most; few samples learn from fewer.
+const PATHS: u64 = 1 << 16;
+/// Surfaces that a path visits.
+const VERTICES: usize = 4;
+
+/// Learned knowledge of a scene, shared by the frames of a trajectory.
+#[derive(Debug)]
+pub struct Guide {
+    pub(crate) choice: LightChoice,
+    pub(crate) field: Option<Field>,
+}
+
+impl Guide {
+    /// Learns from the points of view of `poses`. Depends on the arguments alone, whatever the number of threads.
+    pub fn learn(scene: &RenderScene<'_>, intrinsics: &Intrinsics, poses: &[Pose], config: &RenderConfig) -> Self {
+        let pose = &poses[0];
+        let choice = LightChoice::learn(scene, intrinsics, pose, config);
+        let pixels = u64::from(intrinsics.width) * u64::from(intrinsics.height);
+        let paths = (pixels * u64::from(config.samples) * poses.len() as u64 / 64).clamp(256, PATHS);
+        let seed = hash_u64(config.seed ^ 0x6_1d3);
+        let sites: Vec<Site> = (0..paths)
+            .into_par_iter()
+            .flat_map_iter(|path| {
+                let pose = &poses[(path % poses.len() as u64) as usize];
+                walk(scene, intrinsics, pose, Rng::new(hash_u64(seed ^ hash_u64(path))))
+            })
+            .collect();
+        let field = if config.guiding { Field::solve(scene, &choice, &sites, seed) } else { None };
+        Self { choice, field }
+    }
+}
+
+/// The places that a path visits and that scatter light diffusely.
+fn walk(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, mut rng: Rng) -> Vec<Site> {
+    let mut sites = Vec::new();
+    let (x, y) = (rng.next_f64() * f64::from(intrinsics.width), rng.next_f64() * f64::from(intrinsics.height));
+    let (origin, direction) = camera_ray(intrinsics, pose, x, y);
+    let mut ray = Ray::new(origin.as_vec3(), direction.as_vec3());
+    for _ in 0..VERTICES {
+        let Some(hit) = scene.closest(&ray, Cutout::Random) else { break };
+        let surface = scene.surface(&hit, ray.direction);
+        let bsdf = surface.bsdf(scene);
+        if !bsdf.reflectance.is_black() {
+            sites.push(Site { p: surface.p, n: surface.ns_smooth });
+        }
+        let onb = surface.onb();
+        let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
+        let Some(sample) = bsdf.sample(onb.to_local(surface.wo), u) else { break };
+        let next = onb.to_world(sample.wi);
+        let side = if next.dot(surface.ng) < 0.0 { -surface.ng } else { surface.ng };
+        ray = Ray::new(offset_origin(surface.p, side), next);
+    }
+    sites
+}
