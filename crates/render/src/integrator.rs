@@ -147,7 +147,7 @@ impl<'s> Integrator<'_, 's> {
         let wanted = |wi: Vec3| sides_agree(wi.dot(onb.z), wi.dot(surface.ng));
         let Some(light) = self.scene.lights.sample(self.scene, self.choice, surface.p, [u[0], u[1], u[2]], wanted) else { return nothing };
         let wi = onb.to_local(light.wi);
-        let value = bsdf.eval(wo, wi);
+        let (value, density) = bsdf.eval_pdf(wo, wi);
         if value == Value::default() {
             return nothing;
         }
@@ -155,14 +155,13 @@ impl<'s> Integrator<'_, 's> {
         if arriving.is_black() {
             return nothing;
         }
-        let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, bsdf.pdf(wo, wi)) } / light.pdf;
-        (Value { diffuse: value.diffuse * weight, specular: value.specular * weight }, self.scene.lights.radiance_of(&light) * arriving)
+        let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, density) } / light.pdf;
+        (value * weight, self.scene.lights.radiance_of(&light) * arriving)
     }
 
     /// Irradiance over π at a surface without diffuse reflectance, by a white Lambert surface in its place.
     fn irradiance(&self, surface: &Surface<'s>, sampler: &Sampler) -> Rgb {
-        let white = enfilade_scene::Material::diffuse("", Rgb::WHITE);
-        let bsdf = Bsdf::new(&white, &crate::bsdf::Inputs { images: &[], uv: surface.uv, coat: None, cos_o: 1.0, outside: true });
+        let bsdf = Bsdf::lambert(Rgb::WHITE);
         let onb = surface.onb();
         let wo = viewing(&onb, surface.wo);
         let (direct, light) = self.sample_lights(surface, &bsdf, &onb, wo, sampler.set(light_set(0)));
