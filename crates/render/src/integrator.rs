@@ -180,7 +180,7 @@ impl<'s> Integrator<'_, 's> {
     #[inline]
     fn vertex<'v>(&'v self, surface: &'v Surface<'s>, bsdf: &'v Bsdf<'v>, onb: &'v Onb) -> Vertex<'v, 's> {
         let wo = viewing(onb, surface.wo);
-        let share = guided_share(bsdf);
+        let share = guided_share(bsdf, wo);
         let light = match &self.guide.field {
             Some(field) if share > 0.0 => field.at(surface.p, surface.ns_smooth).map(|l| (l, Onb::from_z(surface.ns_smooth), share)),
             _ => None,
@@ -204,7 +204,7 @@ impl<'s> Integrator<'_, 's> {
             return nothing;
         };
         let wi = vertex.onb.to_local(light.wi);
-        let value = vertex.bsdf.eval(vertex.wo, wi);
+        let (value, pdf) = vertex.eval_pdf(wi, light.wi);
         if value == Value::default() {
             return nothing;
         }
@@ -212,14 +212,13 @@ impl<'s> Integrator<'_, 's> {
         if arriving.is_black() {
             return nothing;
         }
-        let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, vertex.pdf(wi, light.wi)) } / light.pdf;
-        (Value { diffuse: value.diffuse * weight, specular: value.specular * weight }, self.scene.lights.radiance_of(&light) * arriving)
+        let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) } / light.pdf;
+        (value * weight, self.scene.lights.radiance_of(&light) * arriving)
     }
 
     /// Irradiance over π at a surface without diffuse reflectance, by a white Lambert surface in its place.
     fn irradiance(&self, surface: &Surface<'s>, sampler: &Sampler) -> Rgb {
-        let white = enfilade_scene::Material::diffuse("", Rgb::WHITE);
-        let bsdf = Bsdf::new(&white, &crate::bsdf::Inputs { images: &[], uv: surface.uv, coat: None, cos_o: 1.0, outside: true });
+        let bsdf = Bsdf::lambert(Rgb::WHITE);
         let onb = surface.onb();
         let vertex = self.vertex(surface, &bsdf, &onb);
         let (direct, light) = self.sample_lights(&vertex, sampler.set(light_set(0)));
@@ -253,13 +252,14 @@ impl Vertex<'_, '_> {
         self.light.as_ref().map_or(0.0, |(light, ..)| (self.bsdf.reflectance * light.indirect).luminance())
     }
 
-    /// Density with which [`Vertex::scatter`] finds a direction, given in shading space and in the world.
+    /// The BSDF's value for a direction, given in shading space and in the world, and the density with which [`Vertex::scatter`]
+    /// finds it.
     #[inline]
-    fn pdf(&self, wi: Vec3, wi_world: Vec3) -> f32 {
-        let pdf = self.bsdf.pdf(self.wo, wi);
+    fn eval_pdf(&self, wi: Vec3, wi_world: Vec3) -> (Value, f32) {
+        let (value, pdf) = self.bsdf.eval_pdf(self.wo, wi);
         match &self.light {
-            None => pdf,
-            Some((light, onb, share)) => share * light.pdf(onb.to_local(wi_world)) + (1.0 - share) * pdf,
+            None => (value, pdf),
+            Some((light, onb, share)) => (value, share * light.pdf(onb.to_local(wi_world)) + (1.0 - share) * pdf),
         }
     }
 
@@ -279,9 +279,9 @@ impl Vertex<'_, '_> {
         if light_pdf <= 0.0 || !sides_agree(wi.z, side) {
             return None;
         }
-        let pdf = share * light_pdf + (1.0 - share) * self.bsdf.pdf(self.wo, wi);
-        let weight = self.bsdf.eval(self.wo, wi) * (1.0 / pdf);
-        Some((weight, self.segment(direction, side, Some((surface.p, pdf)), before.absorption)))
+        let (value, bsdf_pdf) = self.bsdf.eval_pdf(self.wo, wi);
+        let pdf = share * light_pdf + (1.0 - share) * bsdf_pdf;
+        Some((value * (1.0 / pdf), self.segment(direction, side, Some((surface.p, pdf)), before.absorption)))
     }
 
     /// Samples the BSDF, which is given this `share` of the directions.
@@ -322,8 +322,8 @@ impl Vertex<'_, '_> {
 }
 
 /// Share of the directions that follow the guide, where there is one.
-fn guided_share(bsdf: &Bsdf<'_>) -> f32 {
-    if bsdf.reflectance.is_black() { 0.0 } else { knob(0) }
+fn guided_share(bsdf: &Bsdf<'_>, wo: Vec3) -> f32 {
+    if bsdf.reflectance.is_black() { 0.0 } else { knob(0) * bsdf.diffuse_share(wo) }
 }
 
 fn bsdf_albedo(bsdf: &Bsdf<'_>) -> Rgb {
@@ -357,7 +357,7 @@ fn sides_agree(shading_cosine: f32, geometric_cosine: f32) -> bool {
 pub(crate) fn knob(i: usize) -> f32 {
     static K: std::sync::OnceLock<[f32; 4]> = std::sync::OnceLock::new();
     K.get_or_init(|| {
-        let d = [0.75, 1.0, 0.0, 0.0];
+        let d = [1.0, 1.0, 0.0, 0.0];
         std::array::from_fn(|i| std::env::var(format!("K{i}")).ok().and_then(|v| v.parse().ok()).unwrap_or(d[i]))
     })[i]
 }

@@ -1,12 +1,13 @@
 //! A scene made ready for rays: world triangles, hierarchy, lights, coat tables.
 
-use crate::bsdf::coat::CoatTable;
+use crate::bsdf::coat::{Bounces, CoatSpec, CoatTable};
 use crate::error::RenderError;
 use crate::light::Lights;
 use crate::triangle::{self, Triangle};
 use enfilade_geometry::{Bvh, Hit};
 use enfilade_math::{Bounds3, Ray, Rgb, hash_u32};
 use enfilade_scene::{Alpha, Bsdf, Cx, Material, Scene, WorldMesh};
+use rayon::prelude::*;
 use std::cell::Cell;
 
 /// A scene ready to be rendered.
@@ -122,25 +123,34 @@ fn asks_filter(material: &Material) -> bool {
     pane || material.alpha != Alpha::Opaque
 }
 
-/// One table per distinct index of refraction, and which table each material uses.
+/// One table per distinct coat, and which table each material uses.
 fn coat_tables(materials: &[Material]) -> (Vec<Option<usize>>, Vec<CoatTable>) {
-    let mut tables: Vec<CoatTable> = Vec::new();
-    let coats = materials
+    let coats: Vec<_> = materials.iter().map(coat).collect();
+    let mut distinct: Vec<CoatSpec> = Vec::new();
+    let indices = coats
         .iter()
-        .map(|material| {
-            let eta = match &material.bsdf {
-                Bsdf::Plastic { eta, .. } => *eta,
-                Bsdf::Principled(p) => p.ior,
-                _ => return None,
-            };
-            // An index of one or less is no coat.
-            (eta > 1.0).then(|| {
-                tables.iter().position(|t| t.eta == eta).unwrap_or_else(|| {
-                    tables.push(CoatTable::new(eta));
-                    tables.len() - 1
-                })
-            })
+        .map(|coat| {
+            let coat = (*coat)?;
+            Some(distinct.iter().position(|d| *d == coat).unwrap_or_else(|| {
+                distinct.push(coat);
+                distinct.len() - 1
+            }))
         })
         .collect();
-    (coats, tables)
+    (indices, distinct.into_par_iter().map(CoatTable::new).collect())
+}
+
+/// A material's coat; an index of one or less is none.
+fn coat(material: &Material) -> Option<CoatSpec> {
+    let spec = match &material.bsdf {
+        Bsdf::Plastic { eta, alpha, .. } => {
+            CoatSpec { eta: *eta, alpha: alpha.texture.is_none().then_some(alpha.factor), bounces: Bounces::Single }
+        }
+        Bsdf::Principled(p) => {
+            let alpha = p.roughness.texture.is_none().then(|| p.roughness.factor.clamp(0.0, 1.0).powi(2));
+            CoatSpec { eta: p.ior, alpha, bounces: Bounces::All }
+        }
+        _ => return None,
+    };
+    (spec.eta > 1.0).then_some(spec)
 }

@@ -19,24 +19,91 @@ pub fn d(m: Vec3, alpha: f32) -> f32 {
     a2 / (std::f32::consts::PI * t * t)
 }
 
-/// Smith's Λ; `w` may point to either side.
+/// Smith's Λ of a direction with the cosine `cos`, which may be on either side.
 #[inline]
-fn lambda(w: Vec3, alpha: f32) -> f32 {
-    let c2 = w.z * w.z;
-    let tan2 = ((w.x * w.x + w.y * w.y) / c2).min(f32::MAX);
+pub fn lambda(cos: f32, alpha: f32) -> f32 {
+    let c2 = cos * cos;
+    let tan2 = ((1.0 - c2).max(0.0) / c2).min(f32::MAX);
     0.5 * ((1.0 + alpha * alpha * tan2).sqrt() - 1.0)
 }
 
 /// Share of microfacets visible from `w`.
 #[inline]
 pub fn g1(w: Vec3, alpha: f32) -> f32 {
-    1.0 / (1.0 + lambda(w, alpha))
+    1.0 / (1.0 + lambda(w.z, alpha))
 }
 
 /// Share of microfacets visible from both directions (on the same side or on opposite ones), height-correlated.
 #[inline]
 pub fn g2(wo: Vec3, wi: Vec3, alpha: f32) -> f32 {
-    1.0 / (1.0 + lambda(wo, alpha) + lambda(wi, alpha))
+    1.0 / (1.0 + lambda(wo.z, alpha) + lambda(wi.z, alpha))
+}
+
+/// A rough surface seen from one direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Facets {
+    /// GGX roughness.
+    pub alpha: f32,
+    /// Λ of the viewing direction.
+    lambda_o: f32,
+    /// What Λ of the incident direction is multiplied by beside it: 1 for height-correlated masking, 1 + Λ for separable masking.
+    slope_i: f32,
+}
+
+/// What facets that mirror do with light.
+#[derive(Clone, Copy, Debug)]
+pub struct Mirrored {
+    /// Value × cosine for a reflectance of one.
+    pub value: f32,
+    /// Density per solid angle with which sampled visible normals mirror into this direction.
+    pub pdf: f32,
+    /// Cosine between either direction and the normal halfway.
+    pub cos_half: f32,
+}
+
+impl Facets {
+    /// Facets of roughness `alpha` seen at the cosine `cos_o` > 0.
+    #[inline]
+    pub fn new(alpha: f32, cos_o: f32) -> Self {
+        Self { alpha, lambda_o: if alpha < SMOOTH_ALPHA { 0.0 } else { lambda(cos_o, alpha) }, slope_i: 1.0 }
+    }
+
+    /// The same with the masking of both directions independent, as in Mitsuba.
+    #[inline]
+    pub fn separable(alpha: f32, cos_o: f32) -> Self {
+        let correlated = Self::new(alpha, cos_o);
+        Self { slope_i: 1.0 + correlated.lambda_o, ..correlated }
+    }
+
+    /// True when the surface scatters into single directions.
+    #[inline]
+    pub fn smooth(&self) -> bool {
+        self.alpha < SMOOTH_ALPHA
+    }
+
+    /// Reflection from `wi` to `wo`, both above a surface that is not smooth.
+    #[inline]
+    pub fn mirror(&self, wo: Vec3, wi: Vec3) -> Mirrored {
+        // D of the normal h/|h|, without normalizing it.
+        let h = wo + wi;
+        let (z2, xy2) = (h.z * h.z, h.x * h.x + h.y * h.y);
+        let length2 = z2 + xy2;
+        let a2 = self.alpha * self.alpha;
+        let t = length2 / (z2 * a2 + xy2);
+        let d = a2 * t * t * (0.25 * enfilade_math::INV_PI) / wo.z;
+        let visible = 1.0 + self.lambda_o;
+        Mirrored {
+            value: d / (visible + self.slope_i * lambda(wi.z, self.alpha)),
+            pdf: d / visible,
+            cos_half: (0.5 * length2.sqrt()).min(1.0),
+        }
+    }
+
+    /// Samples the direction from which a visible facet mirrors light to `wo`; it may lie below the surface.
+    #[inline]
+    pub fn sample(&self, wo: Vec3, u: [f32; 2]) -> Vec3 {
+        reflect(wo, sample_visible(wo, self.alpha, u))
+    }
 }
 
 /// Density of the normals that [`sample_visible`] returns for `wo`, per solid angle of the normal.

@@ -1,15 +1,18 @@
-//! The elementary ways of scattering. A [`super::Bsdf`] is a weighted sum of these.
+//! The elementary ways of scattering. A [`super::Bsdf`] is one of these, or a mixture.
 //!
 //! All directions are unit vectors in shading space (z = shading normal, facing `wo`, so `wo.z` > 0) and point away from the
-//! surface; `wi.z` < 0 is transmission. Values include the cosine |wi.z|; densities are per solid angle of `wi`.
+//! surface; `wi.z` < 0 is transmission. Values include the cosine |wi.z|; densities are per solid angle of `wi`. A lobe is made
+//! for one viewing direction and only meaningful for that.
 
-use super::coat::CoatTable;
-use super::{fresnel, ggx};
+use super::coated::Coated;
+use super::ggx::{self, Facets};
+use super::sheen::Sheen;
+use super::{Event, Sample, Value, fresnel};
 use enfilade_math::{INV_PI, Rgb, Vec3, warp};
 
 /// Fresnel term of a reflecting lobe.
 #[derive(Clone, Copy, Debug)]
-pub enum Fresnel {
+pub enum Fresnel<'a> {
     /// Dielectric seen from outside.
     Dielectric {
         /// Index of refraction.
@@ -18,50 +21,49 @@ pub enum Fresnel {
     /// Metal by its complex index.
     Conductor {
         /// Real part.
-        eta: Rgb,
+        eta: &'a Rgb,
         /// Imaginary part.
-        k: Rgb,
+        k: &'a Rgb,
     },
-    /// Schlick's approximation.
+    /// Schlick's approximation, white at grazing incidence.
     Schlick {
         /// At normal incidence.
         f0: Rgb,
-        /// At grazing incidence.
-        f90: Rgb,
     },
 }
 
-impl Fresnel {
+impl Fresnel<'_> {
     /// Reflectance at the cosine `cos_i` ≥ 0.
     #[inline]
     pub fn eval(&self, cos_i: f32) -> Rgb {
         match *self {
             Self::Dielectric { eta } => Rgb::splat(fresnel::dielectric(cos_i, eta).0),
-            Self::Conductor { eta, k } => fresnel::conductor(cos_i, eta, k),
-            Self::Schlick { f0, f90 } => fresnel::schlick(cos_i, f0, f90),
+            Self::Conductor { eta, k } => fresnel::conductor(cos_i, *eta, *k),
+            Self::Schlick { f0 } => fresnel::schlick(cos_i, f0, Rgb::WHITE),
         }
     }
 }
 
-/// One way of scattering.
+/// One way of scattering, or two that always go together.
 #[derive(Clone, Copy, Debug)]
 pub enum Lobe<'a> {
-    /// Lambert's law, demodulated: the value for a reflectance of one. With a coat, light passes it on the way in and out.
-    Diffuse {
-        /// The coat above, its roughness, and the base colour whose inner reflections it multiplies (white: none).
-        coat: Option<(&'a CoatTable, f32, Rgb)>,
-    },
+    /// Lambert's law, demodulated: the value for a reflectance of one.
+    Lambert,
+    /// A diffuse base under a dielectric coat, and the coat's own reflection.
+    Coated(Coated<'a>),
     /// Reflection at a rough or smooth interface.
     Reflection {
-        /// GGX roughness.
-        alpha: f32,
+        /// The surface.
+        facets: Facets,
         /// Reflectance.
-        fresnel: Fresnel,
+        fresnel: Fresnel<'a>,
+        /// Multiplies it.
+        tint: Rgb,
     },
     /// Reflection and refraction at the border of a transparent body.
     Refraction {
-        /// GGX roughness.
-        alpha: f32,
+        /// The surface.
+        facets: Facets,
         /// Index beyond the surface over the index on the side of `wo`.
         eta: f32,
         /// Multiplies transmitted light.
@@ -74,150 +76,129 @@ pub enum Lobe<'a> {
         /// Multiplies transmitted light.
         tint: Rgb,
     },
-    /// Retro-reflecting fuzz of cloth. Estevez & Kulla 2017, "Production Friendly Microfacet Sheen BRDF".
-    Sheen {
-        /// Perceptual roughness on (0,1].
-        roughness: f32,
-    },
-}
-
-/// How a sampled direction came about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Event {
-    /// From a density over directions.
-    Finite,
-    /// One of finitely many directions: light sampling cannot find it.
-    Delta,
-    /// Straight on through a thin pane: shadow rays take this way too.
-    Straight,
-}
-
-/// A sampled direction.
-#[derive(Clone, Copy, Debug)]
-pub struct LobeSample {
-    /// Incident direction.
-    pub wi: Vec3,
-    /// Value (with cosine) over probability, for [`Event::Delta`] and [`Event::Straight`] only.
-    pub delta_weight: Rgb,
-    /// What kind of direction it is.
-    pub event: Event,
+    /// Fuzz of cloth.
+    Sheen(Sheen),
 }
 
 impl Lobe<'_> {
-    /// Value × cosine; zero for smooth lobes.
+    /// Value × cosine and density with which [`Lobe::sample`] finds `wi`; smooth lobes have neither.
     #[inline]
-    pub fn eval(&self, wo: Vec3, wi: Vec3) -> Rgb {
-        match *self {
-            Self::Diffuse { coat } => {
+    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Value, f32) {
+        match self {
+            Self::Lambert => {
+                let v = wi.z.max(0.0) * INV_PI;
+                (Value { diffuse: Rgb::splat(v), specular: Rgb::BLACK }, v)
+            }
+            Self::Coated(coated) => coated.eval_pdf(wo, wi),
+            Self::Reflection { facets, fresnel, tint } => {
+                if facets.smooth() || wi.z <= 0.0 {
+                    return NOTHING;
+                }
+                let mirrored = facets.mirror(wo, wi);
+                (specular(*tint * fresnel.eval(mirrored.cos_half) * mirrored.value), mirrored.pdf)
+            }
+            Self::Refraction { facets, eta, tint } => refraction(facets.alpha, *eta, *tint, wo, wi),
+            Self::Thin { .. } => NOTHING,
+            Self::Sheen(sheen) => {
                 if wi.z <= 0.0 {
-                    return Rgb::BLACK;
+                    return NOTHING;
                 }
-                let lambert = Rgb::splat(wi.z * INV_PI);
-                let Some((table, alpha, base)) = coat else { return lambert };
-                let through = table.transmittance(wo.z, alpha) * table.transmittance(wi.z, alpha) / (table.eta * table.eta);
-                let inner = table.inner_reflectance(alpha);
-                lambert * base.map(|b| through / (1.0 - b * inner))
+                (specular(sheen.eval(wo, wi)), wi.z * INV_PI)
             }
-            Self::Reflection { alpha, fresnel } => {
-                if alpha < ggx::SMOOTH_ALPHA || wi.z <= 0.0 {
-                    return Rgb::BLACK;
-                }
-                let m = (wo + wi).normalize();
-                fresnel.eval(wo.dot(m).clamp(0.0, 1.0)) * (ggx::d(m, alpha) * ggx::g2(wo, wi, alpha) / (4.0 * wo.z))
-            }
-            Self::Refraction { alpha, eta, tint } => {
-                if alpha < ggx::SMOOTH_ALPHA || wi.z == 0.0 {
-                    return Rgb::BLACK;
-                }
-                let Some((m, f, jacobian)) = refraction_half_vector(wo, wi, eta) else { return Rgb::BLACK };
-                let common = ggx::d(m, alpha) * ggx::g2(wo, wi, alpha) * wo.dot(m) / wo.z;
-                if wi.z > 0.0 {
-                    Rgb::splat(f * common * jacobian)
-                } else {
-                    // Radiance is compressed by eta² on entering the denser side.
-                    tint * ((1.0 - f) * common * jacobian / (eta * eta))
-                }
-            }
-            Self::Thin { .. } => Rgb::BLACK,
-            Self::Sheen { roughness } => {
-                if wi.z <= 0.0 {
-                    return Rgb::BLACK;
-                }
-                let m = (wo + wi).normalize();
-                Rgb::splat(charlie(m, roughness) / (4.0 * (wo.z + wi.z - wo.z * wi.z)))
-            }
-        }
-    }
-
-    /// Density with which [`Lobe::sample`] finds `wi`; zero for smooth lobes.
-    #[inline]
-    pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        match *self {
-            Self::Diffuse { .. } | Self::Sheen { .. } => warp::cosine_hemisphere_pdf(wi.z),
-            Self::Reflection { alpha, .. } => {
-                if alpha < ggx::SMOOTH_ALPHA || wi.z <= 0.0 {
-                    return 0.0;
-                }
-                let m = (wo + wi).normalize();
-                ggx::g1(wo, alpha) * ggx::d(m, alpha) / (4.0 * wo.z)
-            }
-            Self::Refraction { alpha, eta, .. } => {
-                if alpha < ggx::SMOOTH_ALPHA || wi.z == 0.0 {
-                    return 0.0;
-                }
-                let Some((m, f, jacobian)) = refraction_half_vector(wo, wi, eta) else { return 0.0 };
-                let choice = if wi.z > 0.0 { f } else { 1.0 - f };
-                choice * ggx::visible_pdf(wo, m, alpha) * jacobian
-            }
-            Self::Thin { .. } => 0.0,
         }
     }
 
     /// Samples an incident direction. `u` is uniform on [0,1)³. `None` when the direction falls on the wrong side.
     #[inline]
-    pub fn sample(&self, wo: Vec3, u: [f32; 3]) -> Option<LobeSample> {
-        let finite = |wi: Vec3| Some(LobeSample { wi, delta_weight: Rgb::BLACK, event: Event::Finite });
-        let mirrored = Vec3::new(-wo.x, -wo.y, wo.z);
-        match *self {
-            Self::Diffuse { .. } | Self::Sheen { .. } => {
+    pub fn sample(&self, wo: Vec3, u: [f32; 3]) -> Option<Sample> {
+        match self {
+            Self::Lambert => {
                 let wi = warp::cosine_hemisphere([u[0], u[1]]);
-                if wi.z > 0.0 { finite(wi) } else { None }
+                let weight = Value { diffuse: Rgb::WHITE, specular: Rgb::BLACK };
+                (wi.z > 0.0).then(|| Sample { wi, weight, pdf: wi.z * INV_PI, event: Event::Finite })
             }
-            Self::Reflection { alpha, fresnel } => {
-                if alpha < ggx::SMOOTH_ALPHA {
-                    return Some(LobeSample { wi: mirrored, delta_weight: fresnel.eval(wo.z), event: Event::Delta });
+            Self::Coated(coated) => coated.sample(wo, u),
+            Self::Reflection { facets, fresnel, tint } => {
+                if facets.smooth() {
+                    return Some(Sample::delta(mirror(wo), *tint * fresnel.eval(wo.z)));
                 }
-                let wi = ggx::reflect(wo, ggx::sample_visible(wo, alpha, [u[0], u[1]]));
-                if wi.z > 0.0 { finite(wi) } else { None }
+                self.finite(wo, facets.sample(wo, [u[0], u[1]]))
             }
-            Self::Refraction { alpha, eta, tint } => {
-                let smooth = alpha < ggx::SMOOTH_ALPHA;
-                let m = if smooth { Vec3::Z } else { ggx::sample_visible(wo, alpha, [u[0], u[1]]) };
-                let cos = wo.dot(m);
-                let (f, cos_t) = fresnel::dielectric(cos.max(0.0), eta);
-                if u[2] < f {
-                    let wi = ggx::reflect(wo, m);
-                    if smooth {
-                        return Some(LobeSample { wi, delta_weight: Rgb::WHITE, event: Event::Delta });
-                    }
-                    return if wi.z > 0.0 { finite(wi) } else { None };
-                }
-                let wi = (m * (cos / eta - cos_t) - wo / eta).normalize();
-                if smooth {
-                    return Some(LobeSample { wi, delta_weight: tint * (1.0 / (eta * eta)), event: Event::Delta });
-                }
-                if wi.z < 0.0 { finite(wi) } else { None }
-            }
+            Self::Refraction { facets, eta, tint } => self.sample_refraction(facets, *eta, *tint, wo, u),
             Self::Thin { eta, tint } => {
-                let r = thin_reflectance(wo.z, eta);
+                let r = thin_reflectance(wo.z, *eta);
                 if u[2] < r {
-                    Some(LobeSample { wi: mirrored, delta_weight: Rgb::WHITE, event: Event::Delta })
-                } else {
-                    Some(LobeSample { wi: -wo, delta_weight: tint, event: Event::Straight })
+                    return Some(Sample::delta(mirror(wo), Rgb::WHITE));
                 }
+                Some(Sample { event: Event::Straight, ..Sample::delta(-wo, *tint) })
             }
+            Self::Sheen(_) => self.finite(wo, warp::cosine_hemisphere([u[0], u[1]])),
         }
     }
+
+    /// The sample of a direction that came from the lobe's density.
+    #[inline]
+    fn finite(&self, wo: Vec3, wi: Vec3) -> Option<Sample> {
+        let (value, pdf) = self.eval_pdf(wo, wi);
+        (pdf > 0.0).then(|| Sample { wi, weight: value * (1.0 / pdf), pdf, event: Event::Finite })
+    }
+
+    fn sample_refraction(&self, facets: &Facets, eta: f32, tint: Rgb, wo: Vec3, u: [f32; 3]) -> Option<Sample> {
+        let m = if facets.smooth() { Vec3::Z } else { ggx::sample_visible(wo, facets.alpha, [u[0], u[1]]) };
+        let cos = wo.dot(m);
+        let (f, cos_t) = fresnel::dielectric(cos.max(0.0), eta);
+        let reflects = u[2] < f;
+        let wi = if reflects { ggx::reflect(wo, m) } else { (m * (cos / eta - cos_t) - wo / eta).normalize() };
+        if facets.smooth() {
+            let weight = if reflects { Rgb::WHITE } else { tint * (1.0 / (eta * eta)) };
+            return Some(Sample::delta(wi, weight));
+        }
+        if reflects == (wi.z > 0.0) { self.finite(wo, wi) } else { None }
+    }
+
+    /// Share of light from all around that goes to `wo`, about: the diffuse part for a reflectance of one, and everything else.
+    pub fn albedo(&self, cos_o: f32) -> Value {
+        match self {
+            Self::Lambert => Value { diffuse: Rgb::WHITE, specular: Rgb::BLACK },
+            Self::Coated(coated) => coated.albedo(cos_o),
+            Self::Reflection { fresnel, tint, .. } => specular(*tint * fresnel.eval(cos_o)),
+            Self::Refraction { eta, tint, .. } => {
+                let f = fresnel::dielectric(cos_o, *eta).0;
+                specular(Rgb::splat(f) + *tint * (1.0 - f))
+            }
+            Self::Thin { eta, tint } => {
+                let r = thin_reflectance(cos_o, *eta);
+                specular(Rgb::splat(r) + *tint * (1.0 - r))
+            }
+            Self::Sheen(sheen) => specular(sheen.albedo(cos_o)),
+        }
+    }
+
+    /// True when everything of the lobe but its diffuse part is nearly as blurred as that.
+    pub fn is_rough(&self) -> bool {
+        match self {
+            Self::Lambert | Self::Sheen(_) => true,
+            Self::Coated(coated) => coated.facets.alpha >= ROUGH_ALPHA,
+            Self::Reflection { facets, .. } | Self::Refraction { facets, .. } => facets.alpha >= ROUGH_ALPHA,
+            Self::Thin { .. } => false,
+        }
+    }
+}
+
+/// From this GGX roughness on a reflection counts as blurred: half of it spreads over a cone of 60 degrees and more.
+const ROUGH_ALPHA: f32 = 0.5;
+
+const NOTHING: (Value, f32) = (Value { diffuse: Rgb::BLACK, specular: Rgb::BLACK }, 0.0);
+
+#[inline]
+fn specular(specular: Rgb) -> Value {
+    Value { diffuse: Rgb::BLACK, specular }
+}
+
+/// Mirror image of `wo` about the shading normal.
+#[inline]
+pub(super) fn mirror(wo: Vec3) -> Vec3 {
+    Vec3::new(-wo.x, -wo.y, wo.z)
 }
 
 /// Reflectance of a pane with all its inner reflections, without absorption.
@@ -225,6 +206,23 @@ impl Lobe<'_> {
 pub fn thin_reflectance(cos: f32, eta: f32) -> f32 {
     let r = fresnel::dielectric(cos, eta).0;
     2.0 * r / (1.0 + r)
+}
+
+/// Value and density of [`Lobe::Refraction`].
+fn refraction(alpha: f32, eta: f32, tint: Rgb, wo: Vec3, wi: Vec3) -> (Value, f32) {
+    if alpha < ggx::SMOOTH_ALPHA || wi.z == 0.0 {
+        return NOTHING;
+    }
+    let Some((m, f, jacobian)) = refraction_half_vector(wo, wi, eta) else { return NOTHING };
+    let common = ggx::d(m, alpha) * jacobian * wo.dot(m).max(0.0) / wo.z;
+    let value = ggx::g2(wo, wi, alpha) * common;
+    let density = ggx::g1(wo, alpha) * common;
+    if wi.z > 0.0 {
+        (specular(Rgb::splat(f * value)), f * density)
+    } else {
+        // Radiance is compressed by eta² on entering the denser side.
+        (specular(tint * ((1.0 - f) * value / (eta * eta))), (1.0 - f) * density)
+    }
 }
 
 /// The microfacet normal (z > 0) that takes `wo` to `wi` by reflection or refraction, the Fresnel reflectance there, and the
@@ -248,12 +246,4 @@ fn refraction_half_vector(wo: Vec3, wi: Vec3, eta: f32) -> Option<(Vec3, f32, f3
     }
     let denominator = cos_o + eta * cos_i;
     Some((m, f, eta * eta * cos_i.abs() / (denominator * denominator)))
-}
-
-/// The "Charlie" distribution of fibres. Its `alpha` is the square of the roughness.
-#[inline]
-fn charlie(m: Vec3, roughness: f32) -> f32 {
-    let inverse_alpha = 1.0 / (roughness * roughness).max(1e-4);
-    let sin2 = (m.x * m.x + m.y * m.y).clamp(0.0, 1.0);
-    (2.0 + inverse_alpha) * sin2.powf(0.5 * inverse_alpha) * (0.5 * INV_PI)
 }

@@ -1,8 +1,8 @@
 //! Known answers for every model: the furnace, sampling against evaluation, reciprocity.
 
-use super::coat::CoatTable;
+use super::coat::{Bounces, CoatSpec, CoatTable};
 use super::*;
-use enfilade_math::{Rng, Vec2};
+use enfilade_math::{Rng, Vec2, warp};
 use enfilade_scene::{self as scene, Material, Principled};
 use enfilade_testkit::Mean;
 
@@ -24,10 +24,10 @@ fn models() -> Vec<(&'static str, Material, bool)> {
         (material("dielectric 0.2", dielectric(0.2)), false),
         (material("thin", scene::Bsdf::ThinDielectric { eta: 1.5, transmittance: white() }), true),
         (material("plastic", plastic(0.0, true)), true),
-        (material("plastic 0.15", plastic(0.15, true)), true),
-        (material("plastic 0.5 linear", plastic(0.5, false)), true),
-        (material("principled rough", principled(Principled::default())), false),
-        (material("principled 0.3", principled(Principled { roughness: 0.3.into(), ..Principled::default() })), false),
+        (material("plastic 0.15", plastic(0.15, true)), false),
+        (material("plastic 0.5 linear", plastic(0.5, false)), false),
+        (material("principled rough", principled(Principled::default())), true),
+        (material("principled 0.3", principled(Principled { roughness: 0.3.into(), ..Principled::default() })), true),
         (
             material("principled metal", principled(Principled { metallic: 1.0.into(), roughness: 0.5.into(), ..Principled::default() })),
             false,
@@ -59,12 +59,13 @@ fn models() -> Vec<(&'static str, Material, bool)> {
     list.into_iter().map(|((name, material), full)| (name, material, full)).collect()
 }
 
-fn coat_eta(material: &Material) -> Option<f32> {
-    match &material.bsdf {
-        scene::Bsdf::Plastic { eta, .. } => Some(*eta),
-        scene::Bsdf::Principled(p) => Some(p.ior),
-        _ => None,
-    }
+fn coat_table(material: &Material) -> Option<CoatTable> {
+    let spec = match &material.bsdf {
+        scene::Bsdf::Plastic { eta, alpha, .. } => CoatSpec { eta: *eta, alpha: Some(alpha.factor), bounces: Bounces::Single },
+        scene::Bsdf::Principled(p) => CoatSpec { eta: p.ior, alpha: None, bounces: Bounces::All },
+        _ => return None,
+    };
+    Some(CoatTable::new(spec))
 }
 
 fn direction(cos: f32) -> Vec3 {
@@ -73,7 +74,7 @@ fn direction(cos: f32) -> Vec3 {
 
 fn for_each_case(mut test: impl FnMut(&str, &Bsdf<'_>, Vec3, bool)) {
     for (name, material, full) in models() {
-        let table = coat_eta(&material).map(CoatTable::new);
+        let table = coat_table(&material);
         for (cos_o, outside) in [(0.95, true), (0.5, true), (0.15, true), (0.8, false)] {
             let inputs = Inputs { images: &[], uv: Vec2::ZERO, coat: table.as_ref(), cos_o, outside };
             let bsdf = Bsdf::new(&material, &inputs);
@@ -101,7 +102,7 @@ fn white_furnace_no_model_creates_light_and_lossless_ones_lose_none() {
         // The coat's table interpolates to a fraction of a percent.
         let (mean, error) = (albedo.value(), 5.0 * albedo.standard_error() + 2e-3);
         assert!(mean <= 1.0 + error, "{name}: albedo {mean} ± {error}");
-        assert!(mean >= if full { 0.985 } else { 0.45 }, "{name}: albedo {mean} ± {error}");
+        assert!(mean >= if full { 0.985 } else { 0.42 }, "{name}: albedo {mean} ± {error}");
     });
 }
 
@@ -138,7 +139,7 @@ fn sampling_agrees_with_evaluation_and_density() {
 fn reflection_is_reciprocal() {
     let mut rng = Rng::new(9);
     for (name, material, _) in models() {
-        let table = coat_eta(&material).map(CoatTable::new);
+        let table = coat_table(&material);
         for _ in 0..200 {
             let mut up = || warp::cosine_hemisphere([rng.next_f32(), rng.next_f32()]);
             let (a, b) = (up(), up());
@@ -170,5 +171,48 @@ fn every_sampler_draws_from_its_density() {
             return;
         }
         ChiSquare::directions(60_000, finite, |w| bsdf.pdf(wo, w)).assert(name, tests);
+    });
+}
+
+/// Mitsuba 3.9.1: `roughplastic` and `plastic` of index 1.5, GGX, evaluated over the cosine, times π, for the base alone.
+#[test]
+fn plastic_has_the_values_of_mitsuba() {
+    let cosines = [(1.0, 1.0), (0.5, 0.7), (0.1, 0.3)];
+    let cases = [
+        (0.0, 0.5, false, [1.015_901, 0.952_889, 0.374_132]),
+        (0.05, 0.5, false, [0.966_184, 0.903_849, 0.426_875]),
+        (0.05, 0.9, true, [0.850_585, 0.795_708, 0.375_801]),
+        (0.2, 0.5, false, [0.792_755, 0.729_258, 0.502_749]),
+        (0.2, 0.9, true, [0.724_199, 0.666_193, 0.459_272]),
+        (0.5, 0.5, false, [0.553_323, 0.470_180, 0.293_573]),
+        (0.5, 0.9, true, [0.531_611, 0.451_731, 0.282_054]),
+    ];
+    for (alpha, diffuse, nonlinear, expected) in cases {
+        let (diffuse, specular) = (Rgb::splat(diffuse).into(), Rgb::WHITE.into());
+        let material = Material::new("plastic", scene::Bsdf::Plastic { diffuse, eta: 1.5, alpha: alpha.into(), specular, nonlinear });
+        let table = coat_table(&material);
+        for ((cos_o, cos_i), expected) in cosines.into_iter().zip(expected) {
+            let inputs = Inputs { images: &[], uv: Vec2::ZERO, coat: table.as_ref(), cos_o, outside: true };
+            let value = Bsdf::new(&material, &inputs).eval(direction(cos_o), direction(cos_i)).diffuse.g * std::f32::consts::PI / cos_i;
+            assert!((value - expected).abs() < 5e-3 * expected, "alpha {alpha}, cosines {cos_o} {cos_i}: {value}, expected {expected}");
+        }
+    }
+}
+
+#[test]
+fn albedo_is_about_what_sampling_finds() {
+    for_each_case(|name, bsdf, wo, _| {
+        let mut rng = Rng::new(4);
+        let n = 20_000;
+        let mut sampled = Mean::EMPTY;
+        for _ in 0..n {
+            let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
+            sampled.add(bsdf.sample(wo, u).map_or(0.0, |s| f64::from(power_of(name, s.weight.total(bsdf.reflectance), s.wi))));
+        }
+        let (albedo, share) = (f64::from(bsdf.albedo(wo).g), bsdf.diffuse_share(wo));
+        // Rough metals, glasses and plastics lose light between their facets.
+        let tolerance = if ["glass", "metal", "0.5 linear", "0.6,"].iter().any(|rough| name.contains(rough)) { 0.5 } else { 0.25 };
+        assert!((albedo - sampled.value()).abs() < tolerance, "{name}: albedo {albedo}, sampled {}", sampled.value());
+        assert!((0.0..=1.0).contains(&share), "{name}: share {share}");
     });
 }

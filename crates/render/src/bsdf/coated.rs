@@ -1,0 +1,87 @@
+//! A diffuse base under a dielectric coat: plastic, varnish, and the dielectric part of principled materials.
+//!
+//! The base receives what the coat does not reflect in one bounce, and light between base and coat goes to and fro. Ashikhmin &
+//! Shirley 2000; Weidlich & Wilkie 2007; Mitsuba's `roughplastic`.
+
+use super::coat::{Bounces, Coat};
+use super::ggx::Facets;
+use super::{Event, Sample, Value, fresnel, lobe};
+use enfilade_math::{INV_PI, Rgb, Vec3, warp};
+
+/// The pair of lobes, for one viewing direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Coated<'a> {
+    coat: Coat<'a>,
+    /// The coat's surface.
+    pub facets: Facets,
+    /// Demodulated value of the base over cosine × transmittance on the way in.
+    base: Rgb,
+    /// Transmittance of the coat towards the viewer.
+    through_o: f32,
+    /// Multiplies the coat's reflection.
+    tint: Rgb,
+    /// Probability of sampling the base.
+    select_base: f32,
+}
+
+impl<'a> Coated<'a> {
+    /// A base of colour `reflectance` under `coat` of roughness `alpha`, whose reflection is multiplied by `tint`. `saturating`: light
+    /// that goes to and fro takes the base's colour each time; otherwise the base counts as white between.
+    #[inline]
+    pub fn new(coat: Coat<'a>, alpha: f32, reflectance: Rgb, tint: Rgb, saturating: bool, cos_o: f32) -> Self {
+        let through_o = coat.transmittance(cos_o);
+        let once = through_o * INV_PI / (coat.eta * coat.eta);
+        let back = coat.inner_reflectance();
+        let base = if saturating { reflectance.map(|r| once / (1.0 - r * back)) } else { Rgb::splat(once / (1.0 - back)) };
+        let facets = match coat.bounces {
+            Bounces::All => Facets::new(alpha, cos_o),
+            Bounces::Single => Facets::separable(alpha, cos_o),
+        };
+        let (diffuse, specular) = (reflectance.luminance() * through_o, (1.0 - through_o) * tint.luminance());
+        // Neither starves.
+        let select_base = match (diffuse > 0.0, specular > 0.0) {
+            (true, true) => 0.05 + 0.9 * diffuse / (diffuse + specular),
+            (true, false) => 1.0,
+            _ => 0.0,
+        };
+        Self { coat, facets, base, through_o, tint, select_base }
+    }
+
+    /// See [`lobe::Lobe::eval_pdf`].
+    #[inline]
+    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Value, f32) {
+        if wi.z <= 0.0 {
+            return (Value::default(), 0.0);
+        }
+        let diffuse = self.base * (wi.z * self.coat.transmittance(wi.z));
+        let density = self.select_base * wi.z * INV_PI;
+        if self.facets.smooth() {
+            return (Value { diffuse, specular: Rgb::BLACK }, density);
+        }
+        let mirrored = self.facets.mirror(wo, wi);
+        let specular = self.tint * (fresnel::dielectric(mirrored.cos_half, self.coat.eta).0 * mirrored.value);
+        (Value { diffuse, specular }, density + (1.0 - self.select_base) * mirrored.pdf)
+    }
+
+    /// See [`lobe::Lobe::sample`].
+    #[inline]
+    pub fn sample(&self, wo: Vec3, u: [f32; 3]) -> Option<Sample> {
+        let wi = if u[2] < self.select_base {
+            warp::cosine_hemisphere([u[0], u[1]])
+        } else if self.facets.smooth() {
+            let reflected = self.tint * (1.0 - self.through_o);
+            return Some(Sample::delta(lobe::mirror(wo), reflected * (1.0 / (1.0 - self.select_base))));
+        } else {
+            self.facets.sample(wo, [u[0], u[1]])
+        };
+        let (value, pdf) = self.eval_pdf(wo, wi);
+        (pdf > 0.0).then(|| Sample { wi, weight: value * (1.0 / pdf), pdf, event: Event::Finite })
+    }
+
+    /// See [`lobe::Lobe::albedo`].
+    #[inline]
+    pub fn albedo(&self, cos_o: f32) -> Value {
+        let diffuse = self.base * (self.coat.mean_transmittance() * std::f32::consts::PI);
+        Value { diffuse, specular: self.tint * fresnel::dielectric(cos_o, self.coat.eta).0 }
+    }
+}
