@@ -6,7 +6,7 @@
 
 use super::cells::{Cells, NONE, SITES, Site};
 use super::square::{BINS, SIDE, SquareDensity};
-use crate::light::LightChoice;
+use crate::light::{LightChoice, LightPoint};
 use crate::prepared::{Cutout, RenderScene};
 use enfilade_math::{Bounds3, Onb, Ray, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
 use rayon::prelude::*;
@@ -118,7 +118,7 @@ fn direct(scene: &RenderScene<'_>, choice: &LightChoice, sites: &[Site], rng: &m
         let origin = offset_origin(site.p, site.n);
         for _ in 0..LIGHT_SAMPLES {
             let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
-            let Some(light) = scene.lights.sample(scene, choice, site.p, u, |wi| wi.dot(site.n) > 0.0) else { continue };
+            let Some(light) = scene.lights.sample(scene, choice, &LightPoint { p: site.p, n: site.n }, u, |wi| wi.dot(site.n) > 0.0) else { continue };
             let arriving = scene.lights.radiance_of(&light) * scene.transmittance(&crate::surface::shadow_ray(origin, light.wi, light.target));
             let value = arriving * (light.wi.dot(site.n) * enfilade_math::INV_PI / light.pdf);
             if value.luminance().is_finite() {

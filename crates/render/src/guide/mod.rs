@@ -33,8 +33,7 @@ pub struct Guide {
 impl Guide {
     /// Learns from the points of view of `poses`. Depends on the arguments alone, whatever the number of threads.
     pub fn learn(scene: &RenderScene<'_>, intrinsics: &Intrinsics, poses: &[Pose], config: &RenderConfig) -> Self {
-        let pose = &poses[0];
-        let choice = LightChoice::learn(scene, intrinsics, pose, config);
+        let choice = LightChoice::learn(scene, intrinsics, poses, config);
         let pixels = u64::from(intrinsics.width) * u64::from(intrinsics.height);
         let paths = (pixels * u64::from(config.samples) * poses.len() as u64 / 64).clamp(256, PATHS);
         let seed = hash_u64(config.seed ^ 0x6_1d3);
