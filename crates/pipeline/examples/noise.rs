@@ -1,6 +1,6 @@
 //! How much noise a second of rendering leaves: the number by which path tracers are compared.
 //!
-//! `noise [SCENE | home]… [--samples N] [--even] [--unguided]` renders each scene's first camera at 256×192 twice, with different seeds, and prints the
+//! `noise [SCENE | home]… [--samples N] [--max-bounces N] [--even] [--unguided]` renders each scene's first camera at 256×192 twice, with different seeds, and prints the
 //! error (mean of variance / (mean² + 0.01), the image scaled to a mean of 0.5, the worst 0.1 % left out), the samples per
 //! core-second, and error × core-seconds per megapixel, which does not depend on the number of samples.
 
@@ -21,6 +21,7 @@ fn main() -> Result<()> {
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--samples" => config.samples = arguments.next().context("--samples needs a number")?.parse()?,
+            "--max-bounces" => config.max_bounces = Some(arguments.next().context("--max-bounces needs a number")?.parse()?),
             "--even" => config.adaptive = false,
             "--unguided" => config.guiding = false,
             _ => scenes.push(argument),

@@ -6,7 +6,7 @@
 use crate::bsdf::{Bsdf, Event, Value};
 use crate::config::RenderConfig;
 use crate::guide::{CellLight, Guide};
-use crate::light::power_heuristic;
+use crate::light::{LightPoint, power_heuristic};
 use crate::prepared::{Cutout, RenderScene};
 use crate::surface::{MIN_COSINE, Surface};
 use enfilade_math::{ONE_MINUS_EPSILON, Onb, Ray, Rgb, Sampler, Vec3, offset_origin};
@@ -50,7 +50,7 @@ struct Segment {
     ray: Ray,
     /// Where light was last sampled from, and the density of the ray's direction there; `None` after the camera or a
     /// mirror, where light sampling has no chance.
-    sampled: Option<(Vec3, f32)>,
+    sampled: Option<(LightPoint, f32)>,
     /// Absorption of the body the ray is inside of, per metre.
     absorption: Rgb,
 }
@@ -118,15 +118,8 @@ impl<'s> Integrator<'_, 's> {
             let emission = surface.emission(self.scene);
             if !emission.is_black() {
                 let weight = segment.sampled.map_or(1.0, |(from, pdf)| {
-                    let light_pdf = self.scene.lights.surface_pdf(
-                        self.scene,
-                        &self.guide.choice,
-                        from,
-                        segment.ray.direction,
-                        &hit,
-                        surface.p,
-                        surface.ng,
-                    );
+                    let lights = &self.scene.lights;
+                    let light_pdf = lights.surface_pdf(self.scene, &self.guide.choice, &from, segment.ray.direction, &hit, surface.p);
                     power_heuristic(pdf, light_pdf)
                 });
                 radiance += throughput * emission * weight;
@@ -200,9 +193,8 @@ impl<'s> Integrator<'_, 's> {
         let nothing = (Value::default(), Rgb::BLACK);
         let surface = vertex.surface;
         let wanted = |wi: Vec3| sides_agree(wi.dot(vertex.onb.z), wi.dot(surface.ng));
-        let Some(light) = self.scene.lights.sample(self.scene, &self.guide.choice, surface.p, [u[0], u[1], u[2]], wanted) else {
-            return nothing;
-        };
+        let at = LightPoint::on(surface);
+        let Some(light) = self.scene.lights.sample(self.scene, &self.guide.choice, &at, [u[0], u[1], u[2]], wanted) else { return nothing };
         let wi = vertex.onb.to_local(light.wi);
         let (value, pdf) = vertex.eval_pdf(wi, light.wi);
         if value == Value::default() {
@@ -234,7 +226,7 @@ impl<'s> Integrator<'_, 's> {
     fn background(&self, segment: &Segment) -> Rgb {
         match segment.sampled {
             None => self.scene.lights.background(segment.ray.direction),
-            Some((from, pdf)) => self.scene.lights.background_weighted(&self.guide.choice, from, segment.ray.direction, pdf),
+            Some((from, pdf)) => self.scene.lights.background_weighted(&self.guide.choice, &from, segment.ray.direction, pdf),
         }
     }
 }
@@ -281,7 +273,7 @@ impl Vertex<'_, '_> {
         }
         let (value, bsdf_pdf) = self.bsdf.eval_pdf(self.wo, wi);
         let pdf = share * light_pdf + (1.0 - share) * bsdf_pdf;
-        Some((value * (1.0 / pdf), self.segment(direction, side, Some((surface.p, pdf)), before.absorption)))
+        Some((value * (1.0 / pdf), self.segment(direction, side, Some((LightPoint::on(surface), pdf)), before.absorption)))
     }
 
     /// Samples the BSDF, which is given this `share` of the directions.
@@ -301,7 +293,7 @@ impl Vertex<'_, '_> {
                     pdf += guided * light.pdf(onb.to_local(direction));
                     weight = sample.weight * (sample.pdf / pdf);
                 }
-                Some((surface.p, pdf))
+                Some((LightPoint::on(surface), pdf))
             }
             Event::Delta => None,
             // A pane is no place where directions are chosen: light sampling from before it reaches through it.
@@ -315,7 +307,7 @@ impl Vertex<'_, '_> {
         Some((weight, self.segment(direction, side, sampled, absorption)))
     }
 
-    fn segment(&self, direction: Vec3, side: f32, sampled: Option<(Vec3, f32)>, absorption: Rgb) -> Segment {
+    fn segment(&self, direction: Vec3, side: f32, sampled: Option<(LightPoint, f32)>, absorption: Rgb) -> Segment {
         let origin = offset_origin(self.surface.p, if side < 0.0 { -self.surface.ng } else { self.surface.ng });
         Segment { ray: Ray::new(origin, direction), sampled, absorption }
     }

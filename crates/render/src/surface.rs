@@ -123,7 +123,7 @@ pub(crate) fn shadow_ray(origin: Vec3, wi: Vec3, target: Option<Vec3>) -> Ray {
 pub(crate) const MIN_COSINE: f32 = 1e-4;
 
 /// True for materials that light passes, which therefore have two sides.
-fn transmits(material: &Material) -> bool {
+pub(crate) fn transmits(material: &Material) -> bool {
     use enfilade_scene::Bsdf;
     match &material.bsdf {
         Bsdf::Dielectric { .. } | Bsdf::ThinDielectric { .. } => true,

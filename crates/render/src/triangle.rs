@@ -31,12 +31,6 @@ impl Triangle {
         (self.corners[1] - self.corners[0]).cross(self.corners[2] - self.corners[0])
     }
 
-    /// Area in square metres.
-    #[inline]
-    pub fn area(&self) -> f32 {
-        0.5 * self.cross().length()
-    }
-
     /// Texture coordinates at a hit.
     #[inline]
     pub fn uv(&self, [a, b, c]: [f32; 3]) -> Vec2 {

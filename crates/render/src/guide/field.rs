@@ -6,7 +6,7 @@
 
 use super::cells::{Cells, NONE, SITES, Site};
 use super::square::{BINS, SIDE, SquareDensity};
-use crate::light::LightChoice;
+use crate::light::{LightChoice, LightPoint, power_heuristic};
 use crate::prepared::{Cutout, RenderScene};
 use enfilade_math::{Bounds3, Onb, Ray, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
 use rayon::prelude::*;
@@ -37,28 +37,29 @@ pub(crate) struct Field {
     lights: Vec<CellLight>,
 }
 
-/// What a gathering ray met: a cell, and the share of its light that comes back along the ray.
+/// What a gathering ray met: a cell, the share of its light that comes back along the ray, and the luminance that sources send by it,
+/// as far as light sampling leaves them to chance.
 #[derive(Clone, Copy)]
 struct Link {
     cell: u32,
     reflectance: Rgb,
+    emitted: f32,
 }
 
 impl Field {
-    /// Solves for the light around `sites`. `None` without any.
-    pub fn solve(scene: &RenderScene<'_>, choice: &LightChoice, sites: &[Site], seed: u64) -> Option<Self> {
+    /// Solves for the light around `sites`, in about as many cells as `most` at the most. `None` without sites.
+    pub fn solve(scene: &RenderScene<'_>, choice: &LightChoice, sites: &[Site], most: usize, seed: u64) -> Option<Self> {
         let bounds = Bounds3::from_points(sites.iter().map(|s| s.p));
         if bounds.is_empty() {
             return None;
         }
-        let size = (bounds.extent().length() / CELLS_ACROSS).max(MIN_CELL);
-        let cells = Cells::new(bounds.min, size, sites);
+        let cells = Self::cells(bounds, sites, most);
         let gathered: Vec<(Rgb, Vec<Link>)> = (0..cells.len())
             .into_par_iter()
             .map(|cell| {
                 let mut rng = Rng::new(hash_u64(seed ^ hash_u64(cell as u64)));
                 let sites: Vec<Site> = cells.sites[cell].iter().flatten().copied().collect();
-                (direct(scene, choice, &sites, &mut rng), links(scene, &cells, &sites, &mut rng))
+                (direct(scene, choice, &sites, &mut rng), links(scene, choice, &cells, &sites, &mut rng))
             })
             .collect();
 
@@ -76,12 +77,22 @@ impl Field {
             .par_iter()
             .zip(&indirect)
             .map(|((_, links), &indirect)| {
-                let seen = |l: &Link| if l.cell == NONE { 0.0 } else { (l.reflectance * total[l.cell as usize]).luminance() };
+                let seen = |l: &Link| l.emitted + if l.cell == NONE { 0.0 } else { (l.reflectance * total[l.cell as usize]).luminance() };
                 let values: [f32; BINS] = std::array::from_fn(|bin| seen(&links[bin]));
                 CellLight { density: SquareDensity::new(&blurred(&values)), indirect }
             })
             .collect();
         Some(Self { cells, lights })
+    }
+
+    /// The cells of the sites. The area of surfaces says how the number of cells depends on their size.
+    fn cells(bounds: Bounds3, sites: &[Site], most: usize) -> Cells {
+        let size = (bounds.extent().length() / CELLS_ACROSS).max(MIN_CELL);
+        let cells = Cells::new(bounds.min, size, sites);
+        if cells.len() <= most {
+            return cells;
+        }
+        Cells::new(bounds.min, size * (cells.len() as f32 / most as f32).sqrt(), sites)
     }
 
     /// What is known at a surface point; nothing where no path has been.
@@ -118,7 +129,7 @@ fn direct(scene: &RenderScene<'_>, choice: &LightChoice, sites: &[Site], rng: &m
         let origin = offset_origin(site.p, site.n);
         for _ in 0..LIGHT_SAMPLES {
             let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
-            let Some(light) = scene.lights.sample(scene, choice, site.p, u, |wi| wi.dot(site.n) > 0.0) else { continue };
+            let Some(light) = scene.lights.sample(scene, choice, &LightPoint { p: site.p, n: site.n }, u, |wi| wi.dot(site.n) > 0.0) else { continue };
             let arriving = scene.lights.radiance_of(&light) * scene.transmittance(&crate::surface::shadow_ray(origin, light.wi, light.target));
             let value = arriving * (light.wi.dot(site.n) * enfilade_math::INV_PI / light.pdf);
             if value.luminance().is_finite() {
@@ -130,33 +141,44 @@ fn direct(scene: &RenderScene<'_>, choice: &LightChoice, sites: &[Site], rng: &m
 }
 
 /// What is met through each bin, from the sites in turn.
-fn links(scene: &RenderScene<'_>, cells: &Cells, sites: &[Site], rng: &mut Rng) -> Vec<Link> {
+fn links(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, sites: &[Site], rng: &mut Rng) -> Vec<Link> {
     (0..BINS)
         .map(|bin| {
             let site = sites[(bin + bin / SIDE) % sites.len().min(SITES)];
             let u = [((bin % SIDE) as f32 + rng.next_f32()) / SIDE as f32, ((bin / SIDE) as f32 + rng.next_f32()) / SIDE as f32];
-            let direction = Onb::from_z(site.n).to_world(warp::cosine_hemisphere(u));
-            link(scene, cells, Ray::new(offset_origin(site.p, site.n), direction))
+            let wi = warp::cosine_hemisphere(u);
+            let ray = Ray::new(offset_origin(site.p, site.n), Onb::from_z(site.n).to_world(wi));
+            link(scene, choice, cells, &LightPoint { p: site.p, n: site.n }, ray, warp::cosine_hemisphere_pdf(wi.z))
         })
         .collect()
 }
 
-/// What a ray meets, beyond panes.
-fn link(scene: &RenderScene<'_>, cells: &Cells, mut ray: Ray) -> Link {
-    let nothing = Link { cell: NONE, reflectance: Rgb::BLACK };
+/// What a ray meets, beyond panes. It was sampled at `from` with density `pdf`.
+fn link(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, from: &LightPoint, mut ray: Ray, pdf: f32) -> Link {
     let mut through = Rgb::WHITE;
+    let sent = |through: Rgb, radiance: Rgb| Some((through * radiance).luminance()).filter(|l| l.is_finite()).unwrap_or(0.0);
     for _ in 0..PANES {
-        let Some(hit) = scene.closest(&ray, Cutout::Random) else { return nothing };
+        let Some(hit) = scene.closest(&ray, Cutout::Random) else {
+            let background = scene.lights.background_weighted(choice, from, ray.direction, pdf);
+            return Link { cell: NONE, reflectance: Rgb::BLACK, emitted: sent(through, background) };
+        };
         let surface = scene.surface(&hit, ray.direction);
         if let Some(transmittance) = surface.straight_transmittance(scene) {
             through *= transmittance;
             ray = Ray::new(offset_origin(surface.p, -surface.ng), ray.direction);
             continue;
         }
-        let reflectance = surface.bsdf(scene).reflectance;
-        return Link { cell: cells.find(surface.p, surface.ns_smooth), reflectance: through * reflectance };
+        let emission = surface.emission(scene);
+        let emitted = if emission.is_black() {
+            0.0
+        } else {
+            let light_pdf = scene.lights.surface_pdf(scene, choice, from, ray.direction, &hit, surface.p);
+            sent(through, emission) * power_heuristic(pdf, light_pdf)
+        };
+        let reflectance = through * surface.bsdf(scene).reflectance;
+        return Link { cell: cells.find(surface.p, surface.ns_smooth), reflectance, emitted };
     }
-    nothing
+    Link { cell: NONE, reflectance: Rgb::BLACK, emitted: 0.0 }
 }
 
 /// A little of each bin's neighbours.

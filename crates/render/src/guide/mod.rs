@@ -20,6 +20,10 @@ use rayon::prelude::*;
 
 /// Paths that look for places, at most; few samples learn from fewer.
 const PATHS: u64 = 1 << 16;
+/// A cell costs about as much as a hundred samples; this many pay for it.
+const SAMPLES_PER_CELL: u64 = 1024;
+/// More cells say no more about a room.
+const MOST_CELLS: u64 = 1 << 14;
 /// Surfaces that a path visits.
 const VERTICES: usize = 4;
 
@@ -33,10 +37,10 @@ pub struct Guide {
 impl Guide {
     /// Learns from the points of view of `poses`. Depends on the arguments alone, whatever the number of threads.
     pub fn learn(scene: &RenderScene<'_>, intrinsics: &Intrinsics, poses: &[Pose], config: &RenderConfig) -> Self {
-        let pose = &poses[0];
-        let choice = LightChoice::learn(scene, intrinsics, pose, config);
+        let choice = LightChoice::learn(scene, intrinsics, poses, config);
         let pixels = u64::from(intrinsics.width) * u64::from(intrinsics.height);
-        let paths = (pixels * u64::from(config.samples) * poses.len() as u64 / 64).clamp(256, PATHS);
+        let samples = pixels * u64::from(config.samples) * poses.len() as u64;
+        let paths = (samples / 64).clamp(256, PATHS);
         let seed = hash_u64(config.seed ^ 0x6_1d3);
         let sites: Vec<Site> = (0..paths)
             .into_par_iter()
@@ -45,7 +49,8 @@ impl Guide {
                 walk(scene, intrinsics, pose, Rng::new(hash_u64(seed ^ hash_u64(path))))
             })
             .collect();
-        let field = if config.guiding { Field::solve(scene, &choice, &sites, seed) } else { None };
+        let cells = (samples / SAMPLES_PER_CELL).clamp(64, MOST_CELLS) as usize;
+        let field = if config.guiding { Field::solve(scene, &choice, &sites, cells, seed) } else { None };
         Self { choice, field }
     }
 }

@@ -1,180 +1,289 @@
-//! Which source a point samples: learned, per frame, from where each source's light arrives.
+//! Which source a point samples: learned from where each source's light arrives.
 //!
-//! In a room most light is in shadow: the sun is the strongest source and reaches one patch of floor. A few thousand paths from
-//! the frame's camera visit the places that matter and try every source there; a grid of cells keeps what arrived. Samples then
-//! go to sources in proportion to the root mean square of their contribution, which minimises the variance of the sum, and a
-//! fixed share is spread over all sources, so that nothing that was missed is lost: the choice changes noise, never the mean.
+//! In a room most light is in shadow: the sun is the strongest source and reaches one patch of floor. [`super::learn`] sends
+//! some thousand paths from the cameras to the places that matter and tries the sources there; a grid of cells, six of them at
+//! each place for surfaces that face six ways, keeps what arrived. Samples then go to sources in proportion to the root mean
+//! square of their contribution, which minimises the variance of the sum, and a fixed share is spread over all sources, so that
+//! nothing that was missed is lost: the choice changes noise, never the mean.
 
-use super::Lights;
-use crate::config::RenderConfig;
-use crate::geometry_pass::camera_ray;
-use crate::prepared::{Cutout, RenderScene};
-use enfilade_math::{Bounds3, ONE_MINUS_EPSILON, Ray, Rng, Vec3, hash_u64, offset_origin};
-use enfilade_scene::{Intrinsics, Pose};
-use rayon::prelude::*;
+use super::window::Windows;
+use super::{LightPoint, Lights, Source};
+use enfilade_math::{Bounds3, ONE_MINUS_EPSILON, Vec3};
 
-/// Paths that learn, at most; small pictures learn from fewer.
-const PATHS: u64 = 8192;
-/// Surfaces that a path visits.
-const VERTICES: usize = 5;
-/// Sources tried at each; scenes with more try this many at random.
-const TRIES: usize = 12;
 /// Cells along the longest side of what the paths visited.
 const CELLS: f32 = 24.0;
 /// No cell is smaller, in metres.
 const MIN_CELL: f32 = 0.2;
-/// Share of the samples that ignores what was learned.
-const PRIOR_SHARE: f32 = 0.15;
+/// Cells at one place: six ways that surfaces face, and one for surfaces that light reaches from anywhere.
+const FACINGS: usize = 7;
+const ANY_FACING: usize = 6;
+/// Weight of what was learned in neighbouring cells, and of the other facings of the same cell.
+const NEIGHBOUR: f32 = 0.15;
+/// Least share of the samples that ignores what was learned, and the number of trials that halves its excess over that.
+const PRIOR_SHARE: f32 = 0.12;
+const FEW_TRIALS: f32 = 4.0;
 
 /// Probabilities of the sources over a grid of cells.
 #[derive(Debug)]
 pub(crate) struct LightChoice {
     origin: Vec3,
     cell_size: f32,
-    /// Cells along x, y and z.
+    /// Places along x, y and z.
     size: [usize; 3],
     sources: usize,
-    /// `sources` numbers a cell, which sum to one.
-    probabilities: Vec<f32>,
+    /// Row of each cell; cells where nothing was learned share the first.
+    rows: Vec<u32>,
+    /// `sources` numbers a row: sums of the probabilities up to each source, the last one 1.
+    sums: Vec<f32>,
+    windows: Option<Windows>,
 }
 
 /// What arrived from a source at a point.
-struct Arrival {
-    p: Vec3,
-    source: u32,
+pub(super) struct Arrival {
+    pub at: LightPoint,
+    pub source: u32,
     /// Estimate of the irradiance, cosine included.
-    value: f32,
+    pub value: f32,
+}
+
+/// The probabilities of the sources at a point.
+#[derive(Clone, Copy)]
+pub(super) struct Row<'a>(&'a [f32]);
+
+impl Row<'_> {
+    /// A source for `u` uniform on [0,1), its probability, and `u` renewed.
+    #[inline]
+    pub fn sample(self, u: f32) -> (usize, f32, f32) {
+        let source = if self.0.len() <= 8 {
+            self.0.iter().position(|&sum| u < sum).unwrap_or(self.0.len() - 1)
+        } else {
+            self.0.partition_point(|&sum| sum <= u).min(self.0.len() - 1)
+        };
+        let probability = self.probability(source);
+        let below = if source == 0 { 0.0 } else { self.0[source - 1] };
+        (source, probability, ((u - below) / probability).clamp(0.0, ONE_MINUS_EPSILON))
+    }
+
+    /// The probability of a source.
+    #[inline]
+    pub fn probability(self, source: usize) -> f32 {
+        self.0[source] - if source == 0 { 0.0 } else { self.0[source - 1] }
+    }
 }
 
 impl LightChoice {
-    /// Learns from the point of view of a frame. Depends on the seed and frame number only, like everything random.
-    pub fn learn(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, config: &RenderConfig) -> Self {
-        let samples = u64::from(intrinsics.width) * u64::from(intrinsics.height) * u64::from(config.samples);
-        let paths = (samples / 64).clamp(128, PATHS);
-        let arrivals: Vec<Arrival> = (0..paths)
-            .into_par_iter()
-            .flat_map_iter(|path| {
-                let seed = hash_u64(config.seed ^ hash_u64(0x11_9417 ^ (u64::from(pose.frame) << 32) ^ path));
-                walk(scene, intrinsics, pose, Rng::new(seed))
-            })
-            .collect();
-        Self::from_arrivals(&scene.lights, &arrivals)
+    /// The windows through which the sky is seen.
+    #[inline]
+    pub(super) fn windows(&self) -> Option<&Windows> {
+        self.windows.as_ref()
     }
 
-    fn from_arrivals(lights: &Lights<'_>, arrivals: &[Arrival]) -> Self {
-        let bounds = Bounds3::from_points(arrivals.iter().map(|a| a.p));
+    /// The probabilities at a point.
+    #[inline]
+    pub(super) fn row(&self, at: &LightPoint) -> Row<'_> {
+        let first = self.rows[self.place(at.p) * FACINGS + facing(at.n)] as usize * self.sources;
+        Row(&self.sums[first..first + self.sources])
+    }
+
+    pub(super) fn from_arrivals(lights: &Lights<'_>, windows: Option<Windows>, arrivals: &[Arrival]) -> Self {
+        let bounds = Bounds3::from_points(arrivals.iter().map(|a| a.at.p));
         let bounds = if bounds.is_empty() { Bounds3 { min: Vec3::ZERO, max: Vec3::ZERO } } else { bounds };
         let cell_size = (bounds.extent().max_element() / CELLS).max(MIN_CELL);
         let size = (bounds.extent() / cell_size).to_array().map(|n| n as usize + 1);
-        let sources = lights.source_count();
-        let mut grid = Self { origin: bounds.min, cell_size, size, sources, probabilities: Vec::new() };
-
-        let mut squares = vec![0.0f32; size.iter().product::<usize>() * sources];
-        let mut counts = squares.clone();
-        for a in arrivals {
-            let i = grid.cell(a.p) * sources + a.source as usize;
-            squares[i] += a.value * a.value;
-            counts[i] += 1.0;
-        }
-        grid.probabilities = (0..size.iter().product()).flat_map(|cell| grid.cell_probabilities(lights, cell, &squares, &counts)).collect();
-        grid
-    }
-
-    /// A cell's probabilities, from itself and, less, its neighbours.
-    fn cell_probabilities(&self, lights: &Lights<'_>, cell: usize, squares: &[f32], counts: &[f32]) -> Vec<f32> {
-        let [nx, ny, nz] = self.size;
-        let (x, y, z) = (cell % nx, cell / nx % ny, cell / (nx * ny));
-        let mut square = vec![0.0f32; self.sources];
-        let mut count = vec![0.0f32; self.sources];
-        for cz in z.saturating_sub(1)..nz.min(z + 2) {
-            for cy in y.saturating_sub(1)..ny.min(y + 2) {
-                for cx in x.saturating_sub(1)..nx.min(x + 2) {
-                    let weight = if (cx, cy, cz) == (x, y, z) { 1.0 } else { 0.15 };
-                    let other = ((cz * ny + cy) * nx + cx) * self.sources;
-                    for s in 0..self.sources {
-                        square[s] += weight * squares[other + s];
-                        count[s] += weight * counts[other + s];
-                    }
+        let places = size.iter().product::<usize>();
+        let sources = lights.source_count(windows.as_ref().map_or(0, Windows::len));
+        let rows = vec![0; places * FACINGS];
+        let mut choice = Self { origin: bounds.min, cell_size, size, sources, rows, sums: Vec::new(), windows };
+        let learned = Learned::gather(&choice, arrivals);
+        choice.push_row(&learned.all, lights, None);
+        let mut next = 1;
+        for place in 0..places {
+            for facing in 0..FACINGS {
+                if let Some(statistics) = learned.around(&choice, place, facing) {
+                    choice.push_row(&statistics, lights, Some((place, facing)));
+                    choice.rows[place * FACINGS + facing] = next;
+                    next += 1;
                 }
             }
         }
-        let learned: Vec<f32> = square.iter().zip(&count).map(|(q, n)| if *n > 0.0 { (q / n).sqrt() } else { 0.0 }).collect();
-        let center = self.origin + Vec3::new(x as f32 + 0.5, y as f32 + 0.5, z as f32 + 0.5) * self.cell_size;
-        let prior: Vec<f32> = (0..self.sources).map(|s| lights.prior(s, center)).collect();
-        let (learned_sum, prior_sum) = (learned.iter().sum::<f32>(), prior.iter().sum::<f32>());
-        let prior_share = if learned_sum > 0.0 { PRIOR_SHARE } else { 1.0 };
-        (0..self.sources)
-            .map(|s| {
-                let uniform = 1.0 / self.sources as f32;
-                let by_prior = if prior_sum > 0.0 { 0.5 * prior[s] / prior_sum + 0.5 * uniform } else { uniform };
-                let by_learning = if learned_sum > 0.0 { learned[s] / learned_sum } else { 0.0 };
-                prior_share * by_prior + (1.0 - prior_share) * by_learning
+        choice
+    }
+
+    /// Turns what was learned into probabilities.
+    fn push_row(&mut self, learned: &[Statistics], lights: &Lights<'_>, cell: Option<(usize, usize)>) {
+        let rms: Vec<f32> = learned
+            .iter()
+            .enumerate()
+            .map(|(source, statistics)| match lights.source(source) {
+                // What the portals can find as well is no noise of the sky's.
+                Source::Sky if self.windows.is_some() => statistics.mean(),
+                _ => statistics.root_mean_square(),
             })
-            .collect()
-    }
-
-    /// A source for `u` uniform on [0,1), its probability, and `u` renewed. `None` when there is no source.
-    #[inline]
-    pub fn sample(&self, p: Vec3, u: f32) -> Option<(usize, f32, f32)> {
-        let first = self.cell(p) * self.sources;
-        let mut rest = u;
-        let cell = &self.probabilities[first..first + self.sources];
-        for (source, &probability) in cell.iter().enumerate() {
-            if rest < probability || source + 1 == self.sources {
-                return Some((source, probability, (rest / probability).min(ONE_MINUS_EPSILON)));
-            }
-            rest -= probability;
+            .collect();
+        let prior: Vec<f32> = (0..self.sources)
+            .map(|s| {
+                cell.map_or(0.0, |(place, facing)| {
+                    lights.prior(s, self.windows(), &LightPoint { p: self.center(place), n: normal(facing) })
+                })
+            })
+            .map(|importance| if importance.is_finite() { importance } else { 0.0 })
+            .collect();
+        let (rms_sum, prior_sum) = (rms.iter().sum::<f32>(), prior.iter().sum::<f32>());
+        let trials = learned.iter().map(|s| s.count).sum::<f32>() / self.sources as f32;
+        let prior_share = if rms_sum > 0.0 { PRIOR_SHARE.max(FEW_TRIALS / (FEW_TRIALS + trials) * 0.5) } else { 1.0 };
+        let uniform = 1.0 / self.sources as f32;
+        let probability = |s: usize| {
+            let by_prior = if prior_sum > 0.0 { 0.5 * prior[s] / prior_sum + 0.5 * uniform } else { uniform };
+            let by_learning = if rms_sum > 0.0 { rms[s] / rms_sum } else { 0.0 };
+            prior_share * by_prior + (1.0 - prior_share) * by_learning
+        };
+        let mut sum = 0.0f64;
+        for s in 0..self.sources {
+            sum += f64::from(probability(s));
+            self.sums.push(if s + 1 == self.sources { 1.0 } else { sum.min(1.0) as f32 });
         }
-        None
-    }
-
-    /// The probability of a source at a point.
-    #[inline]
-    pub fn probability(&self, p: Vec3, source: usize) -> f32 {
-        self.probabilities[self.cell(p) * self.sources + source]
     }
 
     #[inline]
-    fn cell(&self, p: Vec3) -> usize {
+    fn place(&self, p: Vec3) -> usize {
         let at = (p - self.origin) / self.cell_size;
         let index = |v: f32, n: usize| (v.max(0.0) as usize).min(n - 1);
         let [nx, ny, nz] = self.size;
         (index(at.z, nz) * ny + index(at.y, ny)) * nx + index(at.x, nx)
     }
-}
 
-/// Follows a path and tries the sources at each of its surfaces.
-fn walk(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, mut rng: Rng) -> Vec<Arrival> {
-    let mut arrivals = Vec::new();
-    let (x, y) = (rng.next_f64() * f64::from(intrinsics.width), rng.next_f64() * f64::from(intrinsics.height));
-    let (origin, direction) = camera_ray(intrinsics, pose, x, y);
-    let mut ray = Ray::new(origin.as_vec3(), direction.as_vec3());
-    for _ in 0..VERTICES {
-        let Some(hit) = scene.closest(&ray, Cutout::Random) else { break };
-        let surface = scene.surface(&hit, ray.direction);
-        try_sources(scene, &surface, &mut rng, &mut arrivals);
-        let bsdf = surface.bsdf(scene);
-        let onb = surface.onb();
-        let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
-        let Some(sample) = bsdf.sample(onb.to_local(surface.wo), u) else { break };
-        let next = onb.to_world(sample.wi);
-        let side = if next.dot(surface.ng) < 0.0 { -surface.ng } else { surface.ng };
-        ray = Ray::new(offset_origin(surface.p, side), next);
+    fn center(&self, place: usize) -> Vec3 {
+        let [nx, ny, _] = self.size;
+        let [x, y, z] = [place % nx, place / nx % ny, place / (nx * ny)].map(|i| i as f32 + 0.5);
+        self.origin + Vec3::new(x, y, z) * self.cell_size
     }
-    arrivals
 }
 
-fn try_sources(scene: &RenderScene<'_>, surface: &crate::surface::Surface<'_>, rng: &mut Rng, arrivals: &mut Vec<Arrival>) {
-    let lights = &scene.lights;
-    let count = lights.source_count();
-    for attempt in 0..count.min(TRIES) {
-        let source = if count > TRIES { rng.below(count) } else { attempt };
-        let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
-        let wanted = |wi: Vec3| wi.dot(surface.ng) > 0.0;
-        let value = lights.sample_source(scene, source, surface.p, u, wanted).map_or(0.0, |light| {
-            let arriving = scene.transmittance(&surface.shadow_ray(light.wi, light.target));
-            (lights.radiance_of(&light) * arriving).luminance() * light.wi.dot(surface.ns).max(0.0) / light.pdf
-        });
-        arrivals.push(Arrival { p: surface.p, source: source as u32, value: if value.is_finite() { value } else { 0.0 } });
+/// The cell among those at a place for a normal.
+#[inline]
+fn facing(n: Vec3) -> usize {
+    if n == Vec3::ZERO {
+        return ANY_FACING;
+    }
+    let axis = n.abs().max_position();
+    2 * axis + usize::from(n[axis] < 0.0)
+}
+
+/// The normal in the middle of a facing.
+fn normal(facing: usize) -> Vec3 {
+    let mut n = Vec3::ZERO;
+    if facing < ANY_FACING {
+        n[facing / 2] = if facing.is_multiple_of(2) { 1.0 } else { -1.0 };
+    }
+    n
+}
+
+/// What is known of a source in a cell.
+#[derive(Clone, Copy, Default)]
+struct Statistics {
+    sum: f32,
+    squares: f32,
+    count: f32,
+}
+
+impl Statistics {
+    fn add(&mut self, other: Self, weight: f32) {
+        self.sum += weight * other.sum;
+        self.squares += weight * other.squares;
+        self.count += weight * other.count;
+    }
+
+    fn mean(&self) -> f32 {
+        if self.count > 0.0 { self.sum / self.count } else { 0.0 }
+    }
+
+    fn root_mean_square(&self) -> f32 {
+        if self.count > 0.0 { (self.squares / self.count).sqrt() } else { 0.0 }
+    }
+}
+
+/// What arrived, by cell.
+struct Learned {
+    /// Of each cell: where its statistics begin, `u32::MAX` where there are none.
+    first: Vec<u32>,
+    statistics: Vec<Statistics>,
+    /// Of all cells together.
+    all: Vec<Statistics>,
+}
+
+impl Learned {
+    fn gather(choice: &LightChoice, arrivals: &[Arrival]) -> Self {
+        let none = vec![Statistics::default(); choice.sources];
+        let mut learned = Self { first: vec![u32::MAX; choice.rows.len()], statistics: Vec::new(), all: none.clone() };
+        for a in arrivals {
+            let one = Statistics { sum: a.value, squares: a.value * a.value, count: 1.0 };
+            learned.all[a.source as usize].add(one, 1.0);
+            let place = choice.place(a.at.p) * FACINGS;
+            for facing in [Some(facing(a.at.n)), (a.at.n != Vec3::ZERO).then_some(ANY_FACING)].into_iter().flatten() {
+                let first = &mut learned.first[place + facing];
+                if *first == u32::MAX {
+                    *first = learned.statistics.len() as u32;
+                    learned.statistics.extend_from_slice(&none);
+                }
+                learned.statistics[*first as usize + a.source as usize].add(one, 1.0);
+            }
+        }
+        learned
+    }
+
+    /// A cell's own statistics and, with less weight, those of its neighbours. `None` where there are none at all.
+    fn around(&self, choice: &LightChoice, place: usize, facing: usize) -> Option<Vec<Statistics>> {
+        let [nx, ny, nz] = choice.size;
+        let (x, y, z) = (place % nx, place / nx % ny, place / (nx * ny));
+        let mut sum = None;
+        let mut take = |place: usize, facing: usize, weight: f32| {
+            let first = self.first[place * FACINGS + facing];
+            if first == u32::MAX {
+                return;
+            }
+            let sum: &mut Vec<Statistics> = sum.get_or_insert_with(|| vec![Statistics::default(); choice.sources]);
+            for (s, statistics) in sum.iter_mut().zip(&self.statistics[first as usize..]) {
+                s.add(*statistics, weight);
+            }
+        };
+        for cz in z.saturating_sub(1)..nz.min(z + 2) {
+            for cy in y.saturating_sub(1)..ny.min(y + 2) {
+                for cx in x.saturating_sub(1)..nx.min(x + 2) {
+                    let other = (cz * ny + cy) * nx + cx;
+                    take(other, facing, if other == place { 1.0 } else { NEIGHBOUR });
+                }
+            }
+        }
+        if facing != ANY_FACING {
+            take(place, ANY_FACING, NEIGHBOUR);
+        }
+        sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_choose_by_their_probabilities() {
+        for sums in [vec![0.25, 0.25, 1.0], (1..=20).map(|i| if i == 20 { 1.0 } else { i as f32 / 20.0 }).collect()] {
+            let row = Row(&sums);
+            let total: f32 = (0..sums.len()).map(|s| row.probability(s)).sum();
+            assert!((total - 1.0).abs() < 1e-6);
+            for k in 0..1000 {
+                let (source, probability, renewed) = row.sample(k as f32 / 1000.0);
+                assert!(probability > 0.0 && probability == row.probability(source));
+                assert!((0.0..1.0).contains(&renewed));
+            }
+        }
+    }
+
+    #[test]
+    fn every_normal_has_the_facing_that_it_is_nearest_to() {
+        for f in 0..FACINGS {
+            assert_eq!(facing(normal(f)), f);
+        }
+        assert_eq!(facing(Vec3::new(0.1, -0.9, 0.3)), 3);
     }
 }

@@ -1,24 +1,18 @@
 //! Light from the surroundings, sampled in proportion to its brightness.
 
-use super::LightSample;
-use super::portal::Portals;
 use enfilade_math::{Distribution2, Mat3, Rgb, Vec2, Vec3, warp};
 use enfilade_scene::{Environment, Image, TextureRef, Wrap, direction_from_uv, uv_from_direction};
 use std::f32::consts::PI;
 
-/// Share of the samples that go through the portals where there are any.
-const PORTAL_SHARE: f32 = 0.75;
-
 /// The environment with its sampling distribution.
 #[derive(Debug)]
-pub(crate) struct EnvironmentLight<'s> {
-    sky: Sky<'s>,
-    portals: Portals,
+pub(super) struct Sky<'s> {
+    light: SkyLight<'s>,
     irradiance: f32,
 }
 
 #[derive(Debug)]
-enum Sky<'s> {
+enum SkyLight<'s> {
     Constant { radiance: Rgb },
     Map(Box<SkyMap<'s>>),
 }
@@ -32,27 +26,22 @@ struct SkyMap<'s> {
     distribution: Distribution2,
 }
 
-impl<'s> EnvironmentLight<'s> {
+impl<'s> Sky<'s> {
     /// `None` when it is black everywhere.
-    pub fn new(environment: &Environment, images: &'s [Image], portals: Portals) -> Option<Self> {
-        let sky = match environment {
-            Environment::Constant { radiance } => (!radiance.is_black()).then_some(Sky::Constant { radiance: *radiance })?,
+    pub fn new(environment: &Environment, images: &'s [Image]) -> Option<Self> {
+        let light = match environment {
+            Environment::Constant { radiance } => (!radiance.is_black()).then_some(SkyLight::Constant { radiance: *radiance })?,
             Environment::Map { image, scale, map_from_world } => {
                 let image = &images[*image as usize];
                 let (weights, columns) = cell_weights(image, *scale);
                 let distribution = Distribution2::new(&weights, columns)?;
                 let texture = TextureRef { wrap: [Wrap::Repeat, Wrap::Clamp], ..TextureRef::new(0) };
-                Sky::Map(Box::new(SkyMap { image, texture, scale: *scale, map_from_world: *map_from_world, distribution }))
+                SkyLight::Map(Box::new(SkyMap { image, texture, scale: *scale, map_from_world: *map_from_world, distribution }))
             }
         };
-        let irradiance = sky.irradiance();
-        Some(Self { sky, portals, irradiance })
-    }
-
-    /// Radiance in the unit direction `d`.
-    #[inline]
-    pub fn radiance(&self, d: Vec3) -> Rgb {
-        self.sky.radiance(d)
+        let mut sky = Self { light, irradiance: 0.0 };
+        sky.irradiance = sky.mean_luminance() * PI;
+        Some(sky)
     }
 
     /// About the irradiance in the open.
@@ -60,53 +49,29 @@ impl<'s> EnvironmentLight<'s> {
         self.irradiance
     }
 
-    /// A direction from `p`, through a portal or in proportion to brightness; `None` when `wanted` refuses it.
-    pub fn sample(&self, p: Vec3, u: [f32; 3], wanted: impl Fn(Vec3) -> bool) -> Option<LightSample> {
-        let sample = |wi, pdf: f32| (pdf > 0.0).then_some(LightSample { wi, target: None, radiance: None, pdf, is_delta: false });
-        let through_portal = if u[2] < PORTAL_SHARE { self.portals.sample(p, [u[0], u[1], u[2] / PORTAL_SHARE]) } else { None };
-        if let Some(wi) = through_portal {
-            return if wanted(wi) { sample(wi, self.pdf(p, wi)) } else { None };
-        }
-        let (wi, by_brightness) = self.sky.sample([u[0], u[1]])?;
-        if wanted(wi) { sample(wi, self.mixed_pdf(p, wi, by_brightness)) } else { None }
-    }
-
-    /// Density of [`EnvironmentLight::sample`] per solid angle.
+    /// Radiance in the unit direction `d`.
     #[inline]
-    pub fn pdf(&self, p: Vec3, d: Vec3) -> f32 {
-        self.mixed_pdf(p, d, self.sky.pdf(d))
-    }
-
-    #[inline]
-    fn mixed_pdf(&self, p: Vec3, d: Vec3, by_brightness: f32) -> f32 {
-        self.portals.pdf(p, d).map_or(by_brightness, |portal| PORTAL_SHARE * portal + (1.0 - PORTAL_SHARE) * by_brightness)
-    }
-}
-
-impl Sky<'_> {
-    #[inline]
-    fn radiance(&self, d: Vec3) -> Rgb {
-        match self {
-            Self::Constant { radiance } => *radiance,
-            Self::Map(map) => {
+    pub fn radiance(&self, d: Vec3) -> Rgb {
+        match &self.light {
+            SkyLight::Constant { radiance } => *radiance,
+            SkyLight::Map(map) => {
                 let uv = uv_from_direction(map.map_from_world * d);
                 map.scale * map.image.sample(&map.texture, Vec2::new(uv.x, 1.0 - uv.y)).0
             }
         }
     }
 
-    /// π × radiance, roughly averaged over all directions.
-    fn irradiance(&self) -> f32 {
+    /// Roughly, over all directions.
+    fn mean_luminance(&self) -> f32 {
         let directions = 64;
-        (0..directions).map(|k| self.radiance(warp::fibonacci_sphere(k, directions).as_vec3()).luminance()).sum::<f32>() * PI
-            / directions as f32
+        (0..directions).map(|k| self.radiance(warp::fibonacci_sphere(k, directions).as_vec3()).luminance()).sum::<f32>() / directions as f32
     }
 
     /// A direction in proportion to brightness, and its density per solid angle.
-    fn sample(&self, u: [f32; 2]) -> Option<(Vec3, f32)> {
-        match self {
-            Self::Constant { .. } => Some((warp::sphere(u), 0.25 / PI)),
-            Self::Map(map) => {
+    pub fn sample(&self, u: [f32; 2]) -> Option<(Vec3, f32)> {
+        match &self.light {
+            SkyLight::Constant { .. } => Some((warp::sphere(u), 0.25 / PI)),
+            SkyLight::Map(map) => {
                 let (uv, density) = map.distribution.sample(u);
                 let sin_theta = (uv[1] * PI).sin();
                 let direction = map.map_from_world.transpose() * direction_from_uv(Vec2::from(uv));
@@ -115,11 +80,12 @@ impl Sky<'_> {
         }
     }
 
+    /// Density of [`Sky::sample`].
     #[inline]
-    fn pdf(&self, d: Vec3) -> f32 {
-        match self {
-            Self::Constant { .. } => 0.25 / PI,
-            Self::Map(map) => {
+    pub fn pdf(&self, d: Vec3) -> f32 {
+        match &self.light {
+            SkyLight::Constant { .. } => 0.25 / PI,
+            SkyLight::Map(map) => {
                 let uv = uv_from_direction(map.map_from_world * d);
                 let sin_theta = (uv.y * PI).sin();
                 if sin_theta <= 0.0 { 0.0 } else { map.distribution.pdf(uv.to_array()) / (2.0 * PI * PI * sin_theta) }

@@ -1,25 +1,57 @@
 //! All light sources of a scene, behind one `sample`/`pdf` pair.
 //!
-//! A *source* is the emissive triangles of a part, a light without surface, or the environment. Which source a point samples is
-//! decided by [`LightChoice`], which has learned where each one's light arrives.
+//! Emissive surfaces, cut into patches, and lights at a point are the leaves of a hierarchy ([`tree`]). Its upper end, a few
+//! dozen clusters, is what [`LightChoice`] chooses from, together with each light from far away, the sky, and portals in the
+//! windows through which it is seen: it has learned where the light of each *source* arrives. Within a cluster the hierarchy goes by distance, power and orientation.
 
+mod bounds;
 mod choice;
+mod delta;
+mod emitter;
 mod environment;
-mod group;
-mod portal;
+mod gather;
+mod learn;
+mod spherical;
+mod tree;
+mod window;
 
 pub(crate) use choice::LightChoice;
 
-use crate::prepared::RenderScene;
+use crate::prepared::{Cutout, RenderScene};
+use crate::surface::{Surface, transmits};
 use crate::triangle::Triangle;
+use emitter::Emission;
 use enfilade_geometry::Hit;
-use enfilade_math::{Bounds3, Distribution1, Rgb, Vec3, warp};
-use enfilade_scene::{Light, Scene};
-use environment::EnvironmentLight;
-use group::{Group, mean_luminance, one_minus_cos_of};
+use enfilade_math::{Bounds3, Distribution1, Rgb, Vec3, offset_origin};
+use enfilade_scene::{Alpha, Light, Scene};
+use environment::Sky;
+use gather::EmissiveSurfaces;
+use tree::LightTree;
+use window::Windows;
 
-/// Beyond this many groups all of them count as one source, within which they are chosen by strength.
-const MAX_SOURCES: usize = 64;
+/// The most clusters of emitters at points and on surfaces.
+const MAX_CLUSTERS: usize = 40;
+/// Clusters smaller than this share of the scene's diagonal are not divided: a lamp is one source.
+const SMALLEST_CLUSTER: f32 = 0.03;
+/// Beyond this many lights from far away all of them count as one source, within which they are chosen by strength.
+const MAX_DISTANT: usize = 16;
+
+/// Where light is sampled from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LightPoint {
+    /// World position.
+    pub p: Vec3,
+    /// Unit shading normal of a surface that light reaches from its side only; zero where light may come from anywhere.
+    pub n: Vec3,
+}
+
+impl LightPoint {
+    /// A point of a surface.
+    #[inline]
+    pub fn on(surface: &Surface<'_>) -> Self {
+        Self { p: surface.p, n: if transmits(surface.material) { Vec3::ZERO } else { surface.ns } }
+    }
+}
 
 /// Light arriving at a point from a sampled direction.
 pub(crate) struct LightSample {
@@ -39,100 +71,114 @@ pub(crate) struct LightSample {
 /// The light sources of a scene.
 #[derive(Debug)]
 pub(crate) struct Lights<'s> {
-    groups: Vec<Group>,
-    by_strength: Option<Distribution1>,
-    /// Group of each part, `u32::MAX` for parts that do not emit.
-    group_of_part: Vec<u32>,
-    environment: Option<EnvironmentLight<'s>>,
+    surfaces: EmissiveSurfaces,
+    /// Lights at points; emitters of the tree after the patches.
+    points: Vec<Light>,
+    tree: LightTree,
+    /// Nodes of the tree, the first of the sources.
+    clusters: Vec<u32>,
+    cluster_of_emitter: Vec<u32>,
+    /// Lights from far away and their strengths.
+    distant: Vec<Light>,
+    distant_by_strength: Option<Distribution1>,
+    sky: Option<Sky<'s>>,
+}
+
+/// What a number among the sources stands for.
+#[derive(Clone, Copy)]
+enum Source {
+    Cluster(usize),
+    /// `None` for all of them together.
+    Distant(Option<usize>),
+    Sky,
+    Portal(usize),
 }
 
 impl<'s> Lights<'s> {
     /// Collects every source.
     pub fn new(scene: &'s Scene, triangles: &[Triangle]) -> Self {
-        let portals = portal::find(scene, triangles);
-        let mut lights = Self {
-            groups: Vec::new(),
-            by_strength: None,
-            group_of_part: vec![u32::MAX; scene.parts.len()],
-            environment: scene.environment.as_ref().and_then(|e| EnvironmentLight::new(e, &scene.images, portals)),
-        };
-        lights.add_emissive_parts(scene, triangles);
+        let surfaces = EmissiveSurfaces::new(scene, triangles);
+        let mut emitters = surfaces.bounds.clone();
+        let (mut points, mut distant) = (Vec::new(), Vec::new());
         for light in &scene.lights {
-            let strength = match light {
-                Light::Point { intensity, .. } | Light::Spot { intensity, .. } => intensity.luminance(),
-                Light::Directional { irradiance, .. } => irradiance.luminance(),
-            };
-            if strength > 0.0 {
-                lights.groups.push(Group::Light { light: light.clone(), strength });
+            match delta::light_bounds(light) {
+                Some(bounds) => {
+                    emitters.push(bounds);
+                    points.push(light.clone());
+                }
+                None if distant_strength(light) > 0.0 => distant.push(light.clone()),
+                None => {}
             }
         }
-        let strengths: Vec<f32> = lights.groups.iter().map(Group::strength).collect();
-        lights.by_strength = Distribution1::new(&strengths);
-        lights
-    }
-
-    fn add_emissive_parts(&mut self, scene: &Scene, triangles: &[Triangle]) {
-        let mut first = 0usize;
-        for (part_id, part) in scene.parts.iter().enumerate() {
-            let count = scene.meshes[part.mesh as usize].triangles.len();
-            let range = first..first + count;
-            let first_triangle = first as u32;
-            first += count;
-            let emission = &scene.materials[part.material as usize].emission;
-            let texture_mean = emission.texture.map_or(1.0, |t| mean_luminance(&scene.images[t.image as usize]));
-            let radiance = emission.factor.luminance() * texture_mean;
-            if radiance <= 0.0 {
-                continue;
-            }
-            let powers: Vec<f32> = triangles[range.clone()].iter().map(|t| radiance * t.area()).collect();
-            let Some(by_power) = Distribution1::new(&powers) else { continue };
-            let corners = || triangles[range.clone()].iter().flat_map(|t| &t.corners);
-            let center = Bounds3::from_points(corners().copied()).center();
-            let radius = corners().fold(0.0f32, |r, p| r.max(p.distance(center)));
-            self.group_of_part[part_id] = self.groups.len() as u32;
-            self.groups.push(Group::Mesh { first_triangle, strength: by_power.total() as f32, by_power, center, radius });
-        }
+        let tree = LightTree::new(&emitters);
+        let diagonal = Bounds3::from_points(triangles.iter().flat_map(|t| t.corners)).extent().length();
+        let clusters = tree.cut(MAX_CLUSTERS, SMALLEST_CLUSTER * diagonal);
+        let cluster_of_emitter = tree.cluster_of_emitter(&clusters);
+        let strengths: Vec<f32> = distant.iter().map(distant_strength).collect();
+        let sky = scene.environment.as_ref().and_then(|e| Sky::new(e, &scene.images));
+        let distant_by_strength = Distribution1::new(&strengths);
+        Self { surfaces, points, tree, clusters, cluster_of_emitter, distant, distant_by_strength, sky }
     }
 
     /// True when there is no source at all.
     pub fn is_empty(&self) -> bool {
-        self.groups.is_empty() && self.environment.is_none()
+        self.source_count(0) == 0
     }
 
-    /// Number of sources.
-    fn source_count(&self) -> usize {
-        self.group_sources() + usize::from(self.environment.is_some())
+    /// Number of sources, of which `portals` are windows. Clusters come first, then lights from far away, the sky, the portals.
+    fn source_count(&self, portals: usize) -> usize {
+        self.sky_source() + if self.sky.is_some() { 1 + portals } else { 0 }
     }
 
-    /// Number of sources that are groups; the environment comes after them.
-    fn group_sources(&self) -> usize {
-        if self.groups.len() > MAX_SOURCES { 1 } else { self.groups.len() }
+    fn sky_source(&self) -> usize {
+        self.clusters.len() + if self.distant.len() > MAX_DISTANT { 1 } else { self.distant.len() }
     }
 
-    /// About the irradiance that a source could cast on `p`, unoccluded.
-    fn prior(&self, source: usize, p: Vec3) -> f32 {
-        if source >= self.group_sources() {
-            return self.environment.as_ref().map_or(0.0, EnvironmentLight::irradiance);
+    fn source(&self, index: usize) -> Source {
+        let sky = self.sky_source();
+        if index < self.clusters.len() {
+            Source::Cluster(index)
+        } else if index < sky {
+            Source::Distant((self.distant.len() <= MAX_DISTANT).then_some(index - self.clusters.len()))
+        } else if index == sky {
+            Source::Sky
+        } else {
+            Source::Portal(index - sky - 1)
         }
-        if self.groups.len() > MAX_SOURCES {
-            return self.groups.iter().map(|g| g.importance(p)).sum();
-        }
-        self.groups[source].importance(p)
     }
 
-    /// Samples light arriving at the point `p`, before any shadow. `u` is uniform on [0,1)³. `None` when the sampled light sends
+    /// About the irradiance that a source could cast on a point, unoccluded.
+    fn prior(&self, source: usize, windows: Option<&Windows>, at: &LightPoint) -> f32 {
+        let sky = || self.sky.as_ref().map_or(0.0, Sky::irradiance);
+        match self.source(source) {
+            Source::Cluster(cluster) => self.tree.importance(self.clusters[cluster], at),
+            Source::Distant(Some(one)) => distant_strength(&self.distant[one]),
+            Source::Distant(None) => self.distant_by_strength.as_ref().map_or(0.0, |d| d.total() as f32),
+            // In a room there is little of it besides what comes through the windows.
+            Source::Sky => sky() * if windows.is_some() { 0.02 } else { 1.0 },
+            Source::Portal(portal) => windows.map_or(0.0, |w| sky() * w.solid_angle(portal, at.p) * std::f32::consts::FRAC_1_PI),
+        }
+    }
+
+    /// Samples light arriving at a point, before any shadow. `u` is uniform on [0,1)³. `None` when the sampled light sends
     /// nothing, or from a direction that is not `wanted`.
     pub fn sample(
         &self,
         scene: &RenderScene<'_>,
         choice: &LightChoice,
-        p: Vec3,
+        at: &LightPoint,
         u: [f32; 3],
         wanted: impl Fn(Vec3) -> bool,
     ) -> Option<LightSample> {
-        let (source, probability, renewed) = choice.sample(p, u[2])?;
-        let mut sample = self.sample_source(scene, source, p, [u[0], u[1], renewed], wanted)?;
-        sample.pdf *= probability;
+        let row = choice.row(at);
+        let (source, probability, renewed) = row.sample(u[2]);
+        let u = [u[0], u[1], renewed];
+        let source = self.source(source);
+        let mut sample = self.sample_source(scene, source, choice.windows(), at, u, wanted)?;
+        sample.pdf = match source {
+            Source::Portal(_) | Source::Sky => self.environment_pdf(choice, at, sample.wi),
+            Source::Cluster(_) | Source::Distant(_) => sample.pdf * probability,
+        };
         Some(sample)
     }
 
@@ -140,49 +186,103 @@ impl<'s> Lights<'s> {
     fn sample_source(
         &self,
         scene: &RenderScene<'_>,
-        source: usize,
-        p: Vec3,
+        source: Source,
+        windows: Option<&Windows>,
+        at: &LightPoint,
         u: [f32; 3],
         wanted: impl Fn(Vec3) -> bool,
     ) -> Option<LightSample> {
-        if source >= self.group_sources() {
-            return self.environment.as_ref()?.sample(p, u, wanted);
+        let from_sky = |wi: Vec3, pdf: f32| {
+            (pdf > 0.0 && wanted(wi)).then_some(LightSample { wi, target: None, radiance: None, pdf, is_delta: false })
+        };
+        match source {
+            Source::Cluster(cluster) => {
+                let (emitter, pmf, _) = self.tree.sample(self.clusters[cluster], at, u[2])?;
+                let emitter = emitter as usize;
+                let mut sample = match emitter.checked_sub(self.surfaces.patches.len()) {
+                    Some(point) => delta::sample(&self.points[point], at, [u[0], u[1]]).filter(|s| wanted(s.wi))?,
+                    None => self.sample_patch(scene, emitter, at, [u[0], u[1]], wanted)?,
+                };
+                sample.pdf *= pmf;
+                Some(sample)
+            }
+            Source::Distant(one) => {
+                let (light, pmf) = match one {
+                    Some(one) => (one, 1.0),
+                    None => self.distant_by_strength.as_ref().map(|d| d.sample(u[2])).map(|(light, pmf, _)| (light, pmf))?,
+                };
+                let sample = delta::sample(&self.distant[light], at, [u[0], u[1]]).filter(|s| wanted(s.wi))?;
+                Some(LightSample { pdf: sample.pdf * pmf, ..sample })
+            }
+            Source::Portal(portal) => {
+                let wi = windows?.sample(portal, at.p, [u[0], u[1]])?;
+                from_sky(wi, windows?.find_portal(at.p, wi).map_or(0.0, |(_, pdf)| pdf))
+            }
+            Source::Sky => {
+                let (wi, pdf) = self.sky.as_ref()?.sample([u[0], u[1]])?;
+                from_sky(wi, pdf)
+            }
         }
-        if self.groups.len() > MAX_SOURCES {
-            let (group, pmf, _) = self.by_strength.as_ref()?.sample(u[2]);
-            let mut sample = self.groups[group].sample(scene, p, [u[0], u[1]], wanted)?;
-            sample.pdf *= pmf;
-            return Some(sample);
-        }
-        self.groups[source].sample(scene, p, [u[0], u[1]], wanted)
     }
 
-    /// Probability that [`Lights::sample`] at `from` chooses `group`.
-    fn group_probability(&self, choice: &LightChoice, from: Vec3, group: usize) -> f32 {
-        if self.groups.len() > MAX_SOURCES {
-            return choice.probability(from, 0) * self.by_strength.as_ref().map_or(0.0, |d| d.pmf(group));
+    fn sample_patch(
+        &self,
+        scene: &RenderScene<'_>,
+        patch: usize,
+        at: &LightPoint,
+        u: [f32; 2],
+        wanted: impl Fn(Vec3) -> bool,
+    ) -> Option<LightSample> {
+        let patch = &self.surfaces.patches[patch];
+        let point = patch.sample(at.p, u)?;
+        if !wanted(point.wi) {
+            return None;
         }
-        choice.probability(from, group)
+        if let Emission::Even { radiance, two_sided } = patch.emission() {
+            let behind = point.wi.dot(patch.normal()) >= 0.0;
+            let target = Some(offset_origin(point.q, if behind { -patch.normal() } else { patch.normal() }));
+            let sample = LightSample { wi: point.wi, target, radiance: Some(radiance), pdf: point.pdf, is_delta: false };
+            return (two_sided || !behind).then_some(sample);
+        }
+        let (triangle, [b, c]) = patch.locate(point.q, &scene.triangles);
+        let hit = Hit { t: point.distance, triangle, u: b, v: c };
+        let surface = scene.surface(&hit, point.wi);
+        let mut radiance = surface.emission(scene);
+        match surface.material.alpha {
+            Alpha::Opaque => {}
+            Alpha::Mask { .. } => radiance *= if scene.is_present(&hit, Cutout::Half) { 1.0 } else { 0.0 },
+            Alpha::Blend { opacity } => radiance *= crate::surface::scalar_at(scene.scene, &opacity, surface.uv).clamp(0.0, 1.0),
+        }
+        if radiance.is_black() {
+            return None;
+        }
+        let target = Some(offset_origin(point.q, surface.ng));
+        Some(LightSample { wi: point.wi, target, radiance: Some(radiance), pdf: point.pdf, is_delta: false })
     }
 
-    /// Density per solid angle with which [`Lights::sample`] from `from` finds the emissive surface at `hit`, whose geometric
-    /// normal is `ng` and which lies in the unit direction `wi`.
-    pub fn surface_pdf(&self, scene: &RenderScene<'_>, choice: &LightChoice, from: Vec3, wi: Vec3, hit: &Hit, p: Vec3, ng: Vec3) -> f32 {
-        let triangle = &scene.triangles[hit.triangle as usize];
-        let group = self.group_of_part[triangle.part as usize];
-        let Some(Group::Mesh { by_power, first_triangle, .. }) = self.groups.get(group as usize) else { return 0.0 };
-        let area = triangle.area();
-        let cos = ng.dot(wi).abs();
-        if area <= 0.0 || cos <= 0.0 {
-            return 0.0;
-        }
-        let in_group = by_power.pmf((hit.triangle - first_triangle) as usize);
-        self.group_probability(choice, from, group as usize) * in_group / area * p.distance_squared(from) / cos
+    /// Density per solid angle with which [`Lights::sample`] at `from` finds the emissive surface at `hit`, whose place is `p`
+    /// and which lies in the unit direction `wi`.
+    pub fn surface_pdf(&self, scene: &RenderScene<'_>, choice: &LightChoice, from: &LightPoint, wi: Vec3, hit: &Hit, p: Vec3) -> f32 {
+        let Some(patch) = self.surfaces.patch_at(&scene.triangles, hit.triangle, [hit.u, hit.v]) else { return 0.0 };
+        let cluster = self.cluster_of_emitter[patch as usize] as usize;
+        let Some(&node) = self.clusters.get(cluster) else { return 0.0 };
+        let pmf = choice.row(from).probability(cluster) * self.tree.pmf(node, from, patch);
+        if pmf > 0.0 { pmf * self.surfaces.patches[patch as usize].pdf(from.p, wi, from.p.distance(p)) } else { 0.0 }
+    }
+
+    /// Density per solid angle with which [`Lights::sample`] finds the environment in the unit direction `d`: the sky itself and
+    /// the portal there may choose it.
+    fn environment_pdf(&self, choice: &LightChoice, at: &LightPoint, d: Vec3) -> f32 {
+        let Some(sky) = &self.sky else { return 0.0 };
+        let row = choice.row(at);
+        let source = self.sky_source();
+        let through = choice.windows().and_then(|windows| windows.find_portal(at.p, d));
+        row.probability(source) * sky.pdf(d) + through.map_or(0.0, |(portal, pdf)| row.probability(source + 1 + portal) * pdf)
     }
 
     /// Radiance of the environment in the unit direction `d`.
     fn sky(&self, d: Vec3) -> Rgb {
-        self.environment.as_ref().map_or(Rgb::BLACK, |e| e.radiance(d))
+        self.sky.as_ref().map_or(Rgb::BLACK, |sky| sky.radiance(d))
     }
 
     /// The radiance of a sample.
@@ -192,38 +292,33 @@ impl<'s> Lights<'s> {
 
     /// Radiance from beyond the scene in the unit direction `d`.
     pub fn background(&self, d: Vec3) -> Rgb {
-        self.sky(d) + self.disks(d).map(|(_, radiance, _)| radiance).sum::<Rgb>()
+        self.sky(d) + self.distant.iter().filter_map(|light| delta::disk(light, d)).map(|(radiance, _)| radiance).sum::<Rgb>()
     }
 
     /// [`Lights::background`], each source weighted against its light samples by the power heuristic. `pdf` is the density with
     /// which the direction was sampled at `from`.
-    pub fn background_weighted(&self, choice: &LightChoice, from: Vec3, d: Vec3, pdf: f32) -> Rgb {
+    pub fn background_weighted(&self, choice: &LightChoice, from: &LightPoint, d: Vec3, pdf: f32) -> Rgb {
         let mut radiance = Rgb::BLACK;
-        if let Some(environment) = &self.environment {
-            let light_pdf = environment.pdf(from, d) * choice.probability(from, self.group_sources());
-            radiance += environment.radiance(d) * power_heuristic(pdf, light_pdf);
+        if let Some(sky) = &self.sky {
+            radiance += sky.radiance(d) * power_heuristic(pdf, self.environment_pdf(choice, from, d));
         }
-        for (group, disk, disk_pdf) in self.disks(d) {
-            radiance += disk * power_heuristic(pdf, disk_pdf * self.group_probability(choice, from, group));
+        for (index, light) in self.distant.iter().enumerate() {
+            let Some((disk, disk_pdf)) = delta::disk(light, d) else { continue };
+            let row = choice.row(from);
+            let probability = if self.distant.len() > MAX_DISTANT {
+                row.probability(self.clusters.len()) * self.distant_by_strength.as_ref().map_or(0.0, |d| d.pmf(index))
+            } else {
+                row.probability(self.clusters.len() + index)
+            };
+            radiance += disk * power_heuristic(pdf, disk_pdf * probability);
         }
         radiance
     }
+}
 
-    /// Directional lights whose disk covers the direction: group, radiance, density within the group.
-    fn disks(&self, d: Vec3) -> impl Iterator<Item = (usize, Rgb, f32)> + '_ {
-        self.groups.iter().enumerate().filter_map(move |(index, group)| {
-            let Group::Light { light: Light::Directional { direction, irradiance, angular_radius_rad, .. }, .. } = group else {
-                return None;
-            };
-            // 1 − cos of the angle between, without cancellation.
-            let one_minus_cos = 0.5 * (d + *direction).length_squared();
-            let limit = one_minus_cos_of(*angular_radius_rad);
-            (*angular_radius_rad > 0.0 && one_minus_cos <= limit).then(|| {
-                let pdf = warp::cone_pdf(limit);
-                (index, *irradiance * pdf, pdf)
-            })
-        })
-    }
+/// Luminance of the irradiance of a light from far away.
+fn distant_strength(light: &Light) -> f32 {
+    if let Light::Directional { irradiance, .. } = light { irradiance.luminance() } else { 0.0 }
 }
 
 /// Weight of a sample of density `a` where another technique has density `b` (Veach 1997, β = 2).

@@ -1,0 +1,171 @@
+//! What a node of the light hierarchy knows of the emitters below it, and how much light they could send to a point.
+//!
+//! Conty Estevez & Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting": a box, a cone of normals and a
+//! power. The importance never is zero where light could arrive: every angle is taken at its most favourable within the box.
+
+use super::LightPoint;
+use enfilade_math::{Bounds3, Quat, Vec3};
+use std::f32::consts::{FRAC_PI_2, PI};
+
+/// Cosine of an angle that is zero but for rounding.
+const STRAIGHT_AHEAD: f32 = 0.99;
+
+/// Box, cone and power of one emitter or of many.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightBounds {
+    pub bounds: Bounds3,
+    /// Middle of the normals; unit.
+    pub axis: Vec3,
+    /// Cosine of the angle about `axis` that holds all normals (θo).
+    pub cos_normals: f32,
+    /// Cosine of the angle about a normal beyond which nothing is emitted (θe).
+    pub cos_emission: f32,
+    /// Intensity along the normal, luminance: radiance × area of surfaces.
+    pub power: f32,
+    /// True when both sides emit.
+    pub two_sided: bool,
+}
+
+impl LightBounds {
+    /// A flat emitter with its normal.
+    pub fn flat(bounds: Bounds3, normal: Vec3, power: f32, two_sided: bool) -> Self {
+        Self { bounds, axis: normal, cos_normals: 1.0, cos_emission: 0.0, power, two_sided }
+    }
+
+    /// An emitter at a point that radiates in all directions.
+    pub fn point(p: Vec3, power: f32) -> Self {
+        let bounds = Bounds3 { min: p, max: p };
+        Self { bounds, axis: Vec3::Z, cos_normals: -1.0, cos_emission: 0.0, power, two_sided: false }
+    }
+
+    /// An emitter at a point that radiates within an angle about its axis.
+    pub fn cone(p: Vec3, axis: Vec3, power: f32, outer_rad: f32) -> Self {
+        // Within the cone the intensity is about even: its directions count as those of normals that emit straight ahead.
+        Self { axis, cos_normals: outer_rad.clamp(0.0, PI).cos(), cos_emission: STRAIGHT_AHEAD, ..Self::point(p, power) }
+    }
+
+    /// What holds both.
+    pub fn union(&self, other: &Self) -> Self {
+        let two_sided = self.two_sided && other.two_sided;
+        // Of emitters with two sides either normal will do.
+        let other_axis = if two_sided && self.axis.dot(other.axis) < 0.0 { -other.axis } else { other.axis };
+        let (axis, cos_normals) = union_of_cones((self.axis, self.cos_normals), (other_axis, other.cos_normals));
+        Self {
+            bounds: self.bounds.union(other.bounds),
+            axis,
+            cos_normals,
+            cos_emission: self.cos_emission.min(other.cos_emission),
+            power: self.power + other.power,
+            two_sided: self.two_sided || other.two_sided,
+        }
+    }
+
+    /// About the irradiance that the emitters could cast at a point, unoccluded; zero only where they cannot.
+    #[inline]
+    pub fn importance(&self, at: &LightPoint) -> f32 {
+        let to = self.bounds.center() - at.p;
+        let radius_squared = 0.25 * self.bounds.extent().length_squared();
+        let distance_squared = to.length_squared();
+        if distance_squared <= radius_squared {
+            return self.power / radius_squared.max(f32::MIN_POSITIVE);
+        }
+        let wi = to / distance_squared.sqrt();
+        // The box spans this angle about its centre.
+        let sin_box = (radius_squared / distance_squared).sqrt();
+        let cos_box = (1.0 - sin_box * sin_box).max(0.0).sqrt();
+
+        let cos_axis = -self.axis.dot(wi);
+        let cos_axis = if self.two_sided { cos_axis.abs() } else { cos_axis };
+        let (sin_normal, cos_normal) = without((sine(cos_axis), cos_axis), (sine(self.cos_normals), self.cos_normals));
+        let (_, cos_emission) = without((sin_normal, cos_normal), (sin_box, cos_box));
+        if cos_emission <= self.cos_emission {
+            return 0.0;
+        }
+        let mut importance = self.power * cos_emission / distance_squared;
+        if at.n != Vec3::ZERO {
+            let cos_receiver = at.n.dot(wi);
+            importance *= without((sine(cos_receiver), cos_receiver), (sin_box, cos_box)).1.max(0.0);
+        }
+        importance
+    }
+
+    /// Ω of the surface area–orientation heuristic: the measure of the directions that the cone emits to.
+    pub fn orientation_measure(&self) -> f32 {
+        let normals = self.cos_normals.clamp(-1.0, 1.0).acos();
+        let widest = (normals + self.cos_emission.clamp(-1.0, 1.0).acos()).min(PI);
+        let (sin, cos) = normals.sin_cos();
+        let measure =
+            2.0 * PI * (1.0 - cos) + FRAC_PI_2 * (2.0 * widest * sin - (normals - 2.0 * widest).cos() - 2.0 * normals * sin + cos);
+        if self.two_sided { 2.0 * measure } else { measure }
+    }
+}
+
+/// Sine and cosine of max(0, a − b), for angles on [0, π] given by their sine and cosine.
+#[inline]
+fn without(a: (f32, f32), b: (f32, f32)) -> (f32, f32) {
+    if a.1 >= b.1 { (0.0, 1.0) } else { (a.0 * b.1 - a.1 * b.0, a.1 * b.1 + a.0 * b.0) }
+}
+
+#[inline]
+fn sine(cos: f32) -> f32 {
+    (1.0 - cos * cos).max(0.0).sqrt()
+}
+
+/// The smallest cone (axis, cosine of the half-angle) around two.
+fn union_of_cones(a: (Vec3, f32), b: (Vec3, f32)) -> (Vec3, f32) {
+    let (angle_a, angle_b) = (a.1.clamp(-1.0, 1.0).acos(), b.1.clamp(-1.0, 1.0).acos());
+    let between = a.0.angle_between(b.0);
+    if (between + angle_b).min(PI) <= angle_a {
+        return a;
+    }
+    if (between + angle_a).min(PI) <= angle_b {
+        return b;
+    }
+    let angle = 0.5 * (angle_a + between + angle_b);
+    let Some(hinge) = a.0.cross(b.0).try_normalize() else { return (a.0, -1.0) };
+    if angle >= PI {
+        return (a.0, -1.0);
+    }
+    let axis = Quat::from_axis_angle(hinge, angle - angle_a) * a.0;
+    (axis.normalize(), angle.cos())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_math::{Rng, warp};
+
+    fn direction(rng: &mut Rng) -> Vec3 {
+        warp::sphere([rng.next_f32(), rng.next_f32()])
+    }
+
+    #[test]
+    fn a_union_of_cones_holds_both() {
+        let mut rng = Rng::new(3);
+        for _ in 0..2000 {
+            let cones = [0, 1].map(|_| (direction(&mut rng), (rng.next_f32() * 3.0).cos()));
+            let (axis, cos) = union_of_cones(cones[0], cones[1]);
+            for (center, limit) in cones {
+                let onb = enfilade_math::Onb::from_z(center);
+                for _ in 0..20 {
+                    let d = onb.to_world(warp::cone([rng.next_f32(), rng.next_f32()], 1.0 - limit));
+                    assert!(d.dot(axis) >= cos - 1e-3, "{} below {cos}", d.dot(axis));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn importance_is_positive_wherever_light_can_arrive() {
+        let mut rng = Rng::new(5);
+        for _ in 0..500 {
+            let patches: Vec<(Vec3, Vec3)> =
+                (0..6).map(|_| (Vec3::new(rng.next_f32(), rng.next_f32(), rng.next_f32()), direction(&mut rng))).collect();
+            let leaf = |&(p, n): &(Vec3, Vec3)| LightBounds::flat(Bounds3 { min: p, max: p }, n, 1.0, false);
+            let node = patches[1..].iter().fold(leaf(&patches[0]), |all, patch| all.union(&leaf(patch)));
+            let at = LightPoint { p: direction(&mut rng) * 2.5 + Vec3::splat(0.5), n: direction(&mut rng) };
+            let arriving = patches.iter().any(|(p, n)| (*p - at.p).dot(at.n) > 1e-3 && (at.p - *p).dot(*n) > 1e-3);
+            assert!(!arriving || node.importance(&at) > 0.0);
+        }
+    }
+}

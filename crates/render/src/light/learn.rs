@@ -1,0 +1,133 @@
+//! Learns where the light of each source arrives, once for all cameras of a trajectory.
+
+use super::choice::Arrival;
+use super::window::{Glimpses, Windows};
+use super::{LightChoice, LightPoint, Source};
+use crate::config::RenderConfig;
+use crate::geometry_pass::camera_ray;
+use crate::prepared::{Cutout, RenderScene};
+use crate::surface::Surface;
+use enfilade_math::{Onb, Ray, Rng, Vec3, hash_u64, offset_origin, warp};
+use enfilade_scene::{Intrinsics, Pose};
+use rayon::prelude::*;
+
+/// Paths that learn, at most, for one camera and for many; small pictures learn from fewer.
+const PATHS: u64 = 8192;
+const MORE_PATHS: u64 = 65_536;
+/// One path for this many pixel samples.
+const SAMPLES_PER_PATH: u64 = 64;
+/// Rays from each surface that look for the sky.
+const RAYS: usize = 8;
+/// Surfaces that a path visits.
+const VERTICES: usize = 5;
+/// Sources tried at each; scenes with more try this many at random.
+const TRIES: usize = 12;
+
+impl LightChoice {
+    /// Learns from the points of view of a trajectory. A function of the arguments alone, whatever the number of threads.
+    pub fn learn(scene: &RenderScene<'_>, intrinsics: &Intrinsics, poses: &[Pose], config: &RenderConfig) -> Self {
+        let cameras = poses.len() as u64;
+        let samples = u64::from(intrinsics.width) * u64::from(intrinsics.height) * u64::from(config.samples) * cameras;
+        let most = (PATHS + PATHS / 4 * cameras.saturating_sub(1)).min(MORE_PATHS);
+        let paths = if cameras == 0 { 0 } else { (samples / SAMPLES_PER_PATH).clamp(128, most) };
+        let rng = |purpose: u64, path: u64| Rng::new(hash_u64(config.seed ^ hash_u64(0x11_9417 ^ (purpose << 32) ^ path)));
+        let pose = |path: u64| &poses[(path % cameras) as usize];
+        let windows = if scene.lights.sky.is_some() {
+            let seen: Vec<Glimpses> =
+                (0..paths / 2).into_par_iter().map(|path| glimpses(scene, intrinsics, pose(path), rng(0, path))).collect();
+            let mut all = Glimpses::default();
+            for mut one in seen {
+                all.surfaces.append(&mut one.surfaces);
+                all.escapes.append(&mut one.escapes);
+            }
+            Windows::find(&all)
+        } else {
+            None
+        };
+        let arrivals: Vec<Arrival> = (0..paths)
+            .into_par_iter()
+            .flat_map_iter(|path| {
+                let mut arrivals = Vec::new();
+                walk(scene, intrinsics, pose(path), rng(1, path), |surface, rng| {
+                    try_sources(scene, windows.as_ref(), surface, rng, &mut arrivals);
+                });
+                arrivals
+            })
+            .collect();
+        Self::from_arrivals(&scene.lights, windows, &arrivals)
+    }
+}
+
+/// Follows a path and shows its surfaces.
+fn walk(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, mut rng: Rng, mut visit: impl FnMut(&Surface<'_>, &mut Rng)) {
+    let (x, y) = (rng.next_f64() * f64::from(intrinsics.width), rng.next_f64() * f64::from(intrinsics.height));
+    let (origin, direction) = camera_ray(intrinsics, pose, x, y);
+    let mut ray = Ray::new(origin.as_vec3(), direction.as_vec3());
+    for _ in 0..VERTICES {
+        let Some(hit) = scene.closest(&ray, Cutout::Random) else { return };
+        let surface = scene.surface(&hit, ray.direction);
+        visit(&surface, &mut rng);
+        let bsdf = surface.bsdf(scene);
+        let onb = surface.onb();
+        let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
+        let Some(sample) = bsdf.sample(onb.to_local(surface.wo), u) else { return };
+        let next = onb.to_world(sample.wi);
+        let side = if next.dot(surface.ng) < 0.0 { -surface.ng } else { surface.ng };
+        ray = Ray::new(offset_origin(surface.p, side), next);
+    }
+}
+
+/// The surfaces of a path, and where the sky is seen from there.
+fn glimpses(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, rng: Rng) -> Glimpses {
+    let mut seen = Glimpses::default();
+    walk(scene, intrinsics, pose, rng, |surface, rng| {
+        seen.surfaces.push((surface.p, surface.ng));
+        let onb = Onb::from_z(surface.ng);
+        let escapes = (0..RAYS).filter_map(|k| {
+            let u = [rng.next_f32(), rng.next_f32()];
+            let d = if k < RAYS / 4 { scene.lights.sky.as_ref()?.sample(u)?.0 } else { onb.to_world(warp::cosine_hemisphere(u)) };
+            let seen = d.dot(surface.ng) > 0.0 && !scene.transmittance(&surface.shadow_ray(d, None)).is_black();
+            seen.then_some((surface.p, d))
+        });
+        seen.escapes.extend(escapes);
+    });
+    seen
+}
+
+fn try_sources(scene: &RenderScene<'_>, windows: Option<&Windows>, surface: &Surface<'_>, rng: &mut Rng, arrivals: &mut Vec<Arrival>) {
+    let at = LightPoint::on(surface);
+    let count = scene.lights.source_count(windows.map_or(0, Windows::len));
+    for attempt in 0..count.min(TRIES) {
+        let source = if count > TRIES { rng.below(count) } else { attempt };
+        let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
+        let value = contribution(scene, windows, surface, &at, scene.lights.source(source), u);
+        arrivals.push(Arrival { at, source: source as u32, value: if value.is_finite() { value } else { 0.0 } });
+    }
+}
+
+/// Estimate of the irradiance by a source; what both the sky and a portal can find, they share.
+fn contribution(
+    scene: &RenderScene<'_>,
+    windows: Option<&Windows>,
+    surface: &Surface<'_>,
+    at: &LightPoint,
+    source: Source,
+    u: [f32; 3],
+) -> f32 {
+    let lights = &scene.lights;
+    let from_all_sides = at.n == Vec3::ZERO;
+    let wanted = |wi: Vec3| from_all_sides || wi.dot(surface.ng) > 0.0;
+    let Some(light) = lights.sample_source(scene, source, windows, at, u, wanted) else { return 0.0 };
+    let cos = light.wi.dot(surface.ns);
+    let cos = if from_all_sides { cos.abs() } else { cos.max(0.0) };
+    if cos <= 0.0 {
+        return 0.0;
+    }
+    let pdf = match (source, &lights.sky, windows) {
+        (Source::Sky, _, Some(windows)) => light.pdf + windows.find_portal(at.p, light.wi).map_or(0.0, |(_, pdf)| pdf),
+        (Source::Portal(_), Some(sky), _) => light.pdf + sky.pdf(light.wi),
+        _ => light.pdf,
+    };
+    let arriving = scene.transmittance(&surface.shadow_ray(light.wi, light.target));
+    (lights.radiance_of(&light) * arriving).luminance() * cos / pdf
+}
