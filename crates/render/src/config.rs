@@ -1,5 +1,27 @@
 use crate::error::RenderError;
+use enfilade_math::warp;
 use serde::{Deserialize, Serialize};
+
+/// The reconstruction filter: how samples are spread about a pixel's centre.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Filter {
+    /// Falls off linearly.
+    #[default]
+    Tent,
+    /// The same everywhere: with a radius of 0.5, the mean over the pixel's square.
+    Box,
+}
+
+impl Filter {
+    /// Offset from the pixel's centre along one axis, in pixels, distributed as the filter; `u` is uniform on [0,1).
+    pub(crate) fn offset(self, u: f32, radius: f32) -> f32 {
+        match self {
+            Self::Tent => warp::tent(u, radius),
+            Self::Box => (2.0 * u - 1.0) * radius,
+        }
+    }
+}
 
 /// How a frame is rendered. Every number that trades time for quality is here.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -21,7 +43,9 @@ pub struct RenderConfig {
     pub clamp: Option<f32>,
     /// Bounces before Russian roulette begins. Default 1.
     pub roulette_start: u32,
-    /// Radius of the tent reconstruction filter, in pixels. Default 1, as Mitsuba's `tent`.
+    /// Shape of the reconstruction filter. Default a tent.
+    pub filter: Filter,
+    /// Radius of the reconstruction filter, in pixels. Default 1, as Mitsuba's `tent`.
     pub filter_radius: f32,
     /// Seed of all random numbers; a frame's pixels depend on it, the frame number and nothing else.
     pub seed: u64,
@@ -37,6 +61,7 @@ impl Default for RenderConfig {
             max_bounces: None,
             clamp: None,
             roulette_start: 1,
+            filter: Filter::Tent,
             filter_radius: 1.0,
             seed: 0,
         }

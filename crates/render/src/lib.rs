@@ -23,7 +23,7 @@ mod surface;
 mod tiles;
 mod triangle;
 
-pub use config::RenderConfig;
+pub use config::{Filter, RenderConfig};
 pub use error::RenderError;
 pub use guide::Guide;
 pub use prepared::RenderScene;

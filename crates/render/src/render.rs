@@ -11,7 +11,7 @@ use crate::layers::{Pixel, layers};
 use crate::prepared::RenderScene;
 use crate::tiles::Tiles;
 use enfilade_frame::Frame;
-use enfilade_math::{Ray, Sampler, warp};
+use enfilade_math::{Ray, Sampler};
 use enfilade_scene::{Cx, Intrinsics, Pose};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -149,7 +149,7 @@ fn add_samples(integrator: &Integrator<'_, '_>, intrinsics: &Intrinsics, pose: &
     for index in sum.samples()..goal {
         let sampler = Sampler::new(config.seed, pose.frame, x, y, index);
         let u = sampler.set(0);
-        let offset = [u[0], u[1]].map(|u| f64::from(warp::tent(u, config.filter_radius)));
+        let offset = [u[0], u[1]].map(|u| f64::from(config.filter.offset(u, config.filter_radius)));
         let (origin, direction) = camera_ray(intrinsics, pose, f64::from(x) + 0.5 + offset[0], f64::from(y) + 0.5 + offset[1]);
         sum.add(&integrator.sample(Ray::new(origin.as_vec3(), direction.as_vec3().normalize()), &sampler, index));
     }

@@ -1,7 +1,7 @@
 //! The sections of `dataset.toml` that say how stages work: every key is optional, and what is there replaces the value below.
 
 use enfilade_explore::{CarveConfig, PlanConfig, Saliency};
-use enfilade_render::RenderConfig;
+use enfilade_render::{Filter, RenderConfig};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -35,6 +35,7 @@ section!(RenderPatch => RenderConfig {
     max_bounces: u32,
     clamp: f32,
     roulette_start: u32,
+    filter: Filter,
     filter_radius: f32,
 } with {
     /// Width and height in pixels.

@@ -1,0 +1,111 @@
+//! Renders a scene through its own camera and writes the colour as a NumPy array: our side of `cargo xtask oracle` and
+//! `cargo xtask bench render`.
+//!
+//! `measure SCENE --size WIDTHxHEIGHT [--config JSON] [--seeds N] [--out FILE.npy]` renders N pictures (default 1), whose seeds
+//! count upward from the configuration's, with every layer, as a dataset's frames are. `--config` holds fields of
+//! `RenderConfig`; what it leaves out has its default. The array is float32, N × height × width × 3, linear. One line of JSON
+//! tells the processor seconds (user and system, all threads) of loading and of rendering.
+
+use anyhow::{Context, Result, bail};
+use enfilade_frame::{Frame, Layer};
+use enfilade_import::{ImportOptions, load};
+use enfilade_render::{RenderConfig, RenderScene, render_frame};
+use enfilade_scene::{Intrinsics, Pose, Quiet, StartCamera};
+use std::path::PathBuf;
+
+/// What to render.
+struct Job {
+    scene: PathBuf,
+    size: (u32, u32),
+    config: RenderConfig,
+    seeds: u64,
+    out: Option<PathBuf>,
+}
+
+fn main() -> Result<()> {
+    let job = arguments()?;
+    let imported = load(&job.scene, &ImportOptions::default(), &Quiet)?;
+    for warning in &imported.report.warnings {
+        eprintln!("{warning}");
+    }
+    let camera = imported.scene.cameras.first().with_context(|| format!("{} has no camera", job.scene.display()))?;
+    let prepared = RenderScene::new(&imported.scene, &Quiet)?;
+    let loaded = core_seconds();
+    let mut pictures = Vec::new();
+    for seed in 0..job.seeds {
+        let config = RenderConfig { seed: job.config.seed + seed, ..job.config.clone() };
+        pictures.extend(color(&picture(&prepared, camera, job.size, &config)?));
+    }
+    let rendered = core_seconds() - loaded;
+    if let Some(path) = &job.out {
+        let (width, height) = job.size;
+        let bytes = npy(&[job.seeds as usize, height as usize, width as usize, 3], &pictures);
+        std::fs::write(path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
+    }
+    println!(
+        "{}",
+        serde_json::json!({
+            "triangles": prepared.triangle_count(),
+            "load_core_s": loaded,
+            "render_core_s": rendered,
+        })
+    );
+    Ok(())
+}
+
+fn arguments() -> Result<Job> {
+    let mut job = Job { scene: PathBuf::new(), size: (256, 192), config: RenderConfig::default(), seeds: 1, out: None };
+    let mut words = std::env::args().skip(1);
+    while let Some(word) = words.next() {
+        let mut value = || words.next().with_context(|| format!("{word} needs a value"));
+        match word.as_str() {
+            "--size" => {
+                let text = value()?;
+                let (width, height) = text.split_once('x').with_context(|| format!("--size {text}: expected WIDTHxHEIGHT"))?;
+                job.size = (width.parse()?, height.parse()?);
+            }
+            "--config" => job.config = serde_json::from_str(&value()?).context("--config should hold fields of RenderConfig as JSON")?,
+            "--seeds" => job.seeds = value()?.parse().context("--seeds should be a whole number")?,
+            "--out" => job.out = Some(value()?.into()),
+            flag if flag.starts_with("--") => bail!("unknown option {flag}; expected --size, --config, --seeds or --out"),
+            scene => job.scene = scene.into(),
+        }
+    }
+    if job.scene.as_os_str().is_empty() {
+        bail!("name a scene: measure SCENE [--size WIDTHxHEIGHT] [--config JSON] [--seeds N] [--out FILE.npy]");
+    }
+    Ok(job)
+}
+
+/// A frame from the scene's own camera.
+fn picture(scene: &RenderScene<'_>, camera: &StartCamera, (width, height): (u32, u32), config: &RenderConfig) -> Result<Frame> {
+    let intrinsics = Intrinsics::from_fov_x(width, height, camera.fov_x_rad);
+    let look_at = camera.position - camera.world_from_camera.z_axis;
+    let pose = Pose { frame: 0, position: camera.position, look_at, world_from_camera: camera.world_from_camera };
+    Ok(render_frame(scene, &intrinsics, &pose, config, &Quiet)?)
+}
+
+fn color(frame: &Frame) -> Vec<f32> {
+    let values = frame.get(Layer::Color).expect("every rendered frame has color");
+    (0..3 * frame.pixels()).map(|i| values.get(i) as f32).collect()
+}
+
+/// A NumPy array file, version 1.0, of little-endian float32 in C order.
+fn npy(shape: &[usize], values: &[f32]) -> Vec<u8> {
+    let shape = shape.iter().map(|n| format!("{n},")).collect::<String>();
+    let mut header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({shape}), }}");
+    // Magic number, version and length take ten bytes; the whole is padded to a multiple of 64 and ends with a line feed.
+    header.extend(std::iter::repeat_n(' ', 63 - (10 + header.len()) % 64));
+    header.push('\n');
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.as_bytes());
+    bytes.extend(values.iter().flat_map(|v| v.to_le_bytes()));
+    bytes
+}
+
+/// Processor time of all threads of this process so far.
+fn core_seconds() -> f64 {
+    let t = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    t.tv_sec as f64 + t.tv_nsec as f64 * 1e-9
+}
