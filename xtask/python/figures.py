@@ -32,3 +32,32 @@ def sheet(rows, columns):
         for j, part in enumerate([shown(ours, scale), shown(peer, scale), signed(ours, peer)]):
             page.paste(Image.fromarray(part), (x + j * (width + GAP), y + TITLE))
     return page
+
+
+COLORS = ["#c33", "#36c"]
+
+
+def curves(panels, side=190, margin=34, columns=3):
+    """Error against core-seconds, both logarithmic, as SVG: a panel per (title, {name: (seconds, errors)})."""
+    rows = -(-len(panels) // columns)
+    parts = []
+    for index, (title, lines) in enumerate(panels):
+        x0, y0 = (index % columns) * (side + margin) + margin, (index // columns) * (side + margin) + margin
+        logs = [np.log10(np.array(line)) for line in lines.values()]
+        low, high = np.floor(np.min(logs, axis=(0, 2)) * 2) / 2, np.ceil(np.max(logs, axis=(0, 2)) * 2) / 2
+        x = lambda t: x0 + (t - low[0]) / (high[0] - low[0]) * (side - 10)
+        y = lambda e: y0 + (high[1] - e) / (high[1] - low[1]) * (side - 24)
+        parts.append(f'<text x="{x0}" y="{y0 - 6}" font-weight="bold">{title}</text>')
+        parts.append(f'<rect x="{x0}" y="{y0}" width="{side - 10}" height="{side - 24}" fill="none" stroke="#999"/>')
+        for t in range(int(np.ceil(low[0])), int(high[0]) + 1):
+            parts.append(f'<path d="M{x(t):.1f} {y0}v{side - 24}" stroke="#ddd"/><text x="{x(t):.1f}" y="{y0 + side - 12}" text-anchor="middle">{10.0**t:g} s</text>')
+        for e in range(int(np.ceil(low[1])), int(high[1]) + 1):
+            parts.append(f'<path d="M{x0} {y(e):.1f}h{side - 10}" stroke="#ddd"/><text x="{x0 - 3}" y="{y(e) + 3:.1f}" text-anchor="end">{10.0**e:g}</text>')
+        for i, (name, log) in enumerate(zip(lines, logs)):
+            points = [(x(t), y(e)) for t, e in log.T]
+            parts.append(f'<polyline points="{" ".join(f"{a:.1f},{b:.1f}" for a, b in points)}" fill="none" stroke="{COLORS[i]}" stroke-width="1.5"/>')
+            parts += [f'<circle cx="{a:.1f}" cy="{b:.1f}" r="2.5" fill="{COLORS[i]}"/>' for a, b in points]
+            parts.append(f'<text x="{x0 + side - 14}" y="{y0 + 12 + 11 * i}" text-anchor="end" fill="{COLORS[i]}">{name}</text>')
+    size = f"{columns * (side + margin) + margin} {rows * (side + margin) + margin}"
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size}" font-family="sans-serif" font-size="9">'
+    return head + '<rect width="100%" height="100%" fill="white"/>' + "\n".join(parts) + "</svg>\n"

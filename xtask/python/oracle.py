@@ -155,7 +155,7 @@ def write(results, docs, seconds):
         f"- *> 1 %*: blocks that differ by more, and how many of those by more than {SIGNIFICANT:g} standard errors; the rest is noise.",
         "",
         "Color is stored as float16, whose rounding (0.02 %) counts as noise. The rooms that come as glTF were exported by",
-        "`crates/import/examples/to_mitsuba.rs`, whose page says what became of their materials; both renderers loaded the export.",
+        "`crates/pipeline/examples/to_mitsuba.rs`, whose page says what became of their materials; both renderers loaded the export.",
         "",
         "| scene | depth | samples | ours | Mitsuba | ratio | z | \\|z\\| > 3 | blocks rms | worst | > 1 % | remark |",
         "|---|---|---|---|---|---|---|---|---|---|---|---|",

@@ -61,9 +61,10 @@ class Mitsuba:
     """Mitsuba 3."""
 
     def __init__(self):
-        os.environ.setdefault("DRJIT_LIBLLVM_PATH", newest_llvm() or "")
-        if not os.environ["DRJIT_LIBLLVM_PATH"]:
-            del os.environ["DRJIT_LIBLLVM_PATH"]
+        library = os.environ.get("DRJIT_LIBLLVM_PATH") or newest_llvm()
+        if library:
+            os.environ["DRJIT_LIBLLVM_PATH"] = library
+        self.llvm = version(library) if library else "of unknown version"
 
     def render(self, scene, size, samples, depth, seed=0, seeds=1, sampler="independent"):
         arguments = ["--size", size, "--samples", samples, "--depth", depth, "--seed", seed, "--seeds", seeds, "--sampler", sampler]

@@ -1,4 +1,4 @@
-//! The checks of the house, as `cargo xtask check`, `test` and `bench`.
+//! The checks of the house, as `cargo xtask check`, `test`, `bench` and `oracle`.
 //!
 //! [`check`] holds what is quick and says nothing about numbers; [`test`](mod@test) holds everything else; [`bench`](mod@bench)
 //! measures. Each is a table of [`Step`](step::Step)s that says what it does, how long it took and, on failure, what to do.
@@ -9,6 +9,7 @@ mod check;
 mod dependencies;
 mod floors;
 mod house;
+mod peers;
 mod python;
 mod spdx;
 mod step;
@@ -20,7 +21,9 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directions, dependency policy, docs, quick tests
        cargo xtask test [STEP...]                 all tests, then the release binary on the demo
-       cargo xtask bench [NAME]                   measurements: all, or one; --list names them";
+       cargo xtask bench [NAME]                   measurements: all, or one; --list names them
+       cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
+       cargo xtask bench render [ROOM...]         what pictures of real rooms cost, against Mitsuba 3";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -28,6 +31,8 @@ fn main() -> ExitCode {
     let outcome = House::find().and_then(|house| match words.as_slice() {
         ["check", rest @ ..] => check::run(&house, rest),
         ["test", rest @ ..] => test::run(&house, rest),
+        ["bench", "render", rest @ ..] => peers::run(&house, "bench_render", rest),
+        ["oracle", rest @ ..] => peers::run(&house, "oracle", rest),
         ["bench", rest @ ..] => bench::run(&house, rest),
         [] | ["help" | "--help" | "-h"] => {
             println!("{USAGE}");

@@ -1,4 +1,4 @@
-//! A Python that reads HDF5, for the tests that compare with h5py.
+//! A Python that reads HDF5, for the tests that compare with h5py, and one with the renderers that we compare with.
 
 use crate::house::House;
 use crate::step::finish;
@@ -7,6 +7,9 @@ use std::process::Stdio;
 
 /// Names a Python with numpy and h5py; tests that need one read it too.
 pub const VARIABLE: &str = "ENFILADE_PYTHON";
+
+/// Names a Python with Mitsuba 3, numpy and Pillow.
+const PEERS_VARIABLE: &str = "ENFILADE_PEERS_PYTHON";
 
 /// The Python that [`VARIABLE`] names, else the system's if it has h5py, else one made below the target folder.
 ///
@@ -32,17 +35,37 @@ fn found_or_made(house: &House) -> Result<PathBuf, String> {
     if let Some(python) = system.iter().find(|python| reads_hdf5(house, python)) {
         return Ok(python.clone());
     }
-    let folder = house.target()?.join("venv");
+    made(house, "venv", "import numpy, h5py", &["numpy", "h5py"])
+}
+
+/// The Python that [`PEERS_VARIABLE`] names, else one with Mitsuba 3 made below the target folder.
+///
+/// # Errors
+/// When there is no Python, or no network to install from.
+pub fn with_peers(house: &House) -> Result<PathBuf, String> {
+    const IMPORTS: &str = "import mitsuba, numpy, PIL";
+    if let Some(named) = std::env::var_os(PEERS_VARIABLE) {
+        let works = succeeds(house, Path::new(&named), IMPORTS);
+        return if works { Ok(named.into()) } else { Err(format!("{PEERS_VARIABLE} names a Python that cannot {IMPORTS}")) };
+    }
+    made(house, "venv-peers", IMPORTS, &["mitsuba==3.9.1", "numpy", "pillow"])
+}
+
+/// A virtual environment below the target folder that `imports` succeeds in, made and filled with `packages` unless it is there.
+fn made(house: &House, name: &str, imports: &str, packages: &[&str]) -> Result<PathBuf, String> {
+    let folder = house.target()?.join(name);
     let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    if reads_hdf5(house, &own) {
+    if succeeds(house, &own, imports) {
         return Ok(own);
     }
+    let system = ["python3", "python"].map(PathBuf::from);
     let python = system.iter().find(|python| succeeds(house, python, "import venv")).ok_or("there is no Python with the module venv")?;
     let mut make = house.command(python, &["-m", "venv", "--clear"]);
     make.arg(&folder);
     finish(make).map_err(|error| format!("cannot make a virtual environment (on Debian, install python3-venv): {error}"))?;
-    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "numpy", "h5py"];
-    finish(house.command(&own, &install)).map_err(|error| format!("cannot install numpy and h5py (is there a network?): {error}"))?;
+    let mut install = house.command(&own, &["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+    install.args(packages);
+    finish(install).map_err(|error| format!("cannot install {} (is there a network?): {error}", packages.join(", ")))?;
     Ok(own)
 }
 

@@ -1,5 +1,5 @@
 //! Writes a scene of any format as a Mitsuba 3 scene, so that another renderer can load exactly what this one loads:
-//! `cargo run -p enfilade-import --example to_mitsuba -- room.gltf FOLDER` makes `FOLDER/exported.xml` with meshes and textures.
+//! `cargo run -p enfilade-pipeline --example to_mitsuba -- room.gltf FOLDER` makes `FOLDER/exported.xml` with meshes and textures.
 //!
 //! Both renderers then read that file, so what the conversion loses is lost for both. Placements are applied to the vertices.
 //! Materials become ones that both renderers define alike:

@@ -1,0 +1,34 @@
+//! `cargo xtask oracle` and `cargo xtask bench render`: our renderer beside Mitsuba 3, on the same scenes.
+//!
+//! The comparisons are Python programs in `xtask/python`, because Mitsuba is a Python package. Here our side is built and they
+//! are started. They write tables and figures to `docs/benchmarks`, unless only some scenes are named.
+
+use crate::house::House;
+use crate::python;
+use crate::step::finish;
+
+/// Names the folder of real rooms.
+const SCENES: &str = "ENFILADE_SCENES";
+
+/// Runs `xtask/python/<program>.py`; `words` go on to it (`--help` lists them).
+///
+/// # Errors
+/// When something cannot be built or installed, or the program finds a difference that nothing explains.
+pub fn run(house: &House, program: &str, words: &[&str]) -> Result<(), String> {
+    let examples = ["--example", "measure", "--example", "to_mitsuba"];
+    let mut build = house.cargo(&["build", "--release", "--locked", "--quiet", "--package", "enfilade-pipeline"]);
+    build.args(examples);
+    finish(build)?;
+    let target = house.target()?;
+    let example = |name: &str| target.join("release/examples").join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
+    let mut command = house.command(python::with_peers(house)?, &[]);
+    command.arg(format!("xtask/python/{program}.py"));
+    command.arg("--measure").arg(example("measure")).arg("--exporter").arg(example("to_mitsuba"));
+    command.arg("--work").arg(target.join("peers")).args(["--docs", "docs/benchmarks"]);
+    if let Some(scenes) = std::env::var_os(SCENES) {
+        let scenes = std::path::absolute(scenes).map_err(|error| format!("{SCENES}: {error}"))?;
+        command.arg("--scenes").arg(scenes);
+    }
+    command.args(words);
+    finish(command).map(|_| ())
+}
