@@ -1,7 +1,8 @@
 """`cargo xtask bench render`: what a picture of a room costs, by enfilade and by Mitsuba 3.
 
-Every picture is a process of its own, both renderers in turn, and counts processor seconds (user and system); the same run with
-one sample is subtracted, so that start-up, loading and, of ours, the geometry layers do not count here.
+Every picture is a process of its own, both renderers in turn, and counts processor seconds (user and system). Start-up and load
+are not counted: of Mitsuba's the same run with one sample is subtracted, of ours what passes until the scene is loaded, so that
+learning and the geometry layers count.
 """
 
 import argparse
@@ -32,7 +33,7 @@ NAMES = {"ours": "enfilade", "peer": "Mitsuba 3"}
 
 def main():
     parser = argparse.ArgumentParser(prog="cargo xtask bench render", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("rooms", nargs="*", help="only these rooms; the tables are then not written")
+    parser.add_argument("rooms", nargs="*", help="only these rooms; the tables then go below the target folder")
     for name in ["measure", "exporter", "work", "docs", "scenes"]:
         parser.add_argument(f"--{name}", help=argparse.SUPPRESS)
     job = parser.parse_args()
@@ -52,12 +53,14 @@ def main():
             report(large[-1])
         costs.append(delivered(renderers["ours"], scene, name))
         print(f"{name:28} delivered at {costs[-1]['samples']} samples: {costs[-1]['core_min']:.2f} core-minutes", flush=True)
-    if not job.rooms:
-        write(equal, large, costs, renderers["peer"], Path(job.docs), time.time() - started)
+    # What only some rooms tell does not replace the tables of all.
+    docs = Path(job.work) / "docs" if job.rooms else Path(job.docs)
+    write(equal, large, costs, renderers["peer"], docs, time.time() - started)
+    print(f"tables and figures: {docs}")
 
 
 def measure(renderers, scene, size, samples, seeds=SEEDS):
-    """Error, core-seconds and memory of both at each number of samples, and the cost of one sample."""
+    """Error, core-seconds and memory of both at each number of samples."""
     runs = {who: {n: [] for n in [1, *samples]} for who in renderers}
     renderers["peer"].render(scene, size, 1, DEPTH)  # compiles Mitsuba's kernels, which it keeps on disk
     for seed in range(seeds):
@@ -67,7 +70,7 @@ def measure(renderers, scene, size, samples, seeds=SEEDS):
     curves = {}
     for who, by_samples in runs.items():
         reference = np.mean([n * luminance(run.pictures[0]) for n in samples for run in by_samples[n]], axis=0) / np.mean(samples)
-        base = np.median([run.core_s for run in by_samples[1]])
+        base = np.median([run.told.get("load_core_s", run.core_s) for run in by_samples[1]])
         curves[who] = dict(
             mean=float(reference.mean()),
             base_s=float(base),
@@ -134,10 +137,12 @@ def delivered(ours, scene, name):
     slope = np.log(noise[1] / noise[0]) / np.log(counts[1] / counts[0])
     samples = int(np.ceil(counts[1] * (TARGET / noise[1]) ** (1 / min(slope, -0.3))))
     few, more = (ours.render(scene, LARGE, n, DELIVERED_DEPTH, **tent) for n in (1, 9))
+    learned = more.told["learn_core_s"]
     per_sample = (more.told["render_core_s"] - few.told["render_core_s"]) / 8
     fixed = max(0.0, few.told["render_core_s"] - per_sample)
-    seconds = few.told["load_core_s"] + fixed + samples * per_sample
-    return dict(case=name, noise=dict(zip(map(str, counts), noise)), samples=samples, core_min=seconds / 60, fixed_s=fixed, peak_mb=more.peak_mb)
+    seconds = few.told["load_core_s"] + learned + fixed + samples * per_sample
+    times = dict(core_min=seconds / 60, load_s=few.told["load_core_s"], learn_s=learned, fixed_s=fixed)
+    return dict(case=name, noise=dict(zip(map(str, counts), noise)), samples=samples, peak_mb=more.peak_mb) | times
 
 
 def report(r):
@@ -162,13 +167,14 @@ def write(equal, large, costs, peer, docs, seconds):
         "",
         f"`cargo xtask bench render`: enfilade and Mitsuba {version} (`llvm_ad_rgb`, LLVM {peer.llvm}, independent samples) render the same XML with the",
         f"same camera, box filter and path depth ({DEPTH} segments: Mitsuba's `max_depth` {DEPTH}, our `max_bounces` {DEPTH - 2}). Ours writes every layer, Mitsuba color alone.",
-        f"Processor seconds, user and system, of {SEEDS} seeds (median), in turn, each run with one sample subtracted.",
+        f"Processor seconds, user and system, of {SEEDS} seeds (median), in turn. Start-up and load are subtracted: of Mitsuba the run with one sample, of ours",
+        "what passes until the scene is loaded, so that learning where light comes from and the geometry layers count.",
         "",
         "relMSE: mean of variance between seeds / (own mean² + 0.01), the image scaled to a mean of 0.5, the worst 0.1 % of pixels left out.",
         "*err·time*: relMSE × core-seconds per megapixel. *ratio*: Mitsuba's core-seconds over ours at the error that Mitsuba reaches with the",
         "samples stated, ours taken from its curve; above 1 where ours is better.",
         "",
-        "| room | size | samples | relMSE ours | Mitsuba | M samples/core-s ours | Mitsuba | err·time ours | Mitsuba | ratio | start, load, one sample: ours | Mitsuba | peak MB ours | Mitsuba |",
+        "| room | size | samples | relMSE ours | Mitsuba | M samples/core-s ours | Mitsuba | err·time ours | Mitsuba | ratio | subtracted: ours | Mitsuba | peak MB ours | Mitsuba |",
         "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     for r in equal + large:
@@ -182,13 +188,13 @@ def write(equal, large, costs, peer, docs, seconds):
         f"{LARGE}, every layer, tent filter, {DELIVERED_DEPTH - 2} bounces, at the noise of a delivered image: the root mean square over the pixels of the standard",
         f"error of the tone-mapped value (90th percentile of brightness to 0.8, gamma 1/2.2, at most 1) is {TARGET:.0%} of its mean. The samples this needs are measured",
         f"between two seeds at {SIZE} (64 and 256 samples, the power law between them carried on), the seconds per sample at {LARGE} (1 and 9 samples).",
-        "*Before the first sample*: geometry layers and light choice, the frame's time carried on to no samples.",
+        "*Geometry*: the geometry layers and whatever else does not grow with the samples, by carrying the frame's time on to no samples.",
         "",
-        "| room | noise at 64 | at 256 samples | samples needed | core-minutes | before the first sample | peak MB |",
-        "|---|---|---|---|---|---|---|",
+        "| room | noise at 64 | at 256 samples | samples needed | core-minutes | of them load | learning | geometry | peak MB |",
+        "|---|---|---|---|---|---|---|---|---|",
     ]
     for c in costs:
-        lines.append(f"| {c['case']} | {c['noise']['64']:.2%} | {c['noise']['256']:.2%} | {c['samples']} | {c['core_min']:.2f} | {c['fixed_s']:.2f} core-s | {c['peak_mb']:.0f} |")
+        lines.append(f"| {c['case']} | {c['noise']['64']:.2%} | {c['noise']['256']:.2%} | {c['samples']} | {c['core_min']:.2f} | {c['load_s']:.2f} s | {c['learn_s']:.2f} s | {c['fixed_s']:.2f} s | {c['peak_mb']:.0f} |")
     lines += ["", f"Median: {np.median([c['core_min'] for c in costs]):.2f} core-minutes. The run took {seconds / 60:.0f} minutes.", ""]
     (docs / "render.md").write_text("\n".join(lines))
 

@@ -29,14 +29,14 @@ SIGNIFICANT = 4.0
 # Half of float16's last place, relative: what enfilade's stored colour is rounded by at most.
 ROUNDING = 2.0**-12
 
-# Samples per seed where the default (64 for scenes, 32 for rooms) is not enough, and other depths.
-SAMPLES = {"dielectric": 256, "roughdielectric": 128, "slab": 256, "envmap": 128, "bedroom": 64, "contemporary-bathroom": 64}
+# Samples per seed where the default (32) is not enough, and other depths.
+SAMPLES = {"dielectric": 128, "roughdielectric": 64, "slab": 128, "envmap": 64, "area-textured": 64}
 DEPTHS = {"cornell-3": 3}
 
 
 def main():
     parser = argparse.ArgumentParser(prog="cargo xtask oracle", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("cases", nargs="*", help="only these scenes or rooms; the tables are then not written")
+    parser.add_argument("cases", nargs="*", help="only these scenes or rooms; the tables then go below the target folder")
     for name in ["measure", "exporter", "work", "docs", "scenes"]:
         parser.add_argument(f"--{name}", help=argparse.SUPPRESS)
     job = parser.parse_args()
@@ -50,7 +50,7 @@ def main():
     explanations = json.loads((Path(__file__).parent.parent / "oracle/explanations.json").read_text())
     results, started = [], time.time()
     for name in chosen:
-        scene, size, samples = cases[name], "128x96", 64
+        scene, size, samples = cases[name], "128x96", 32
         if scene is None:
             scene, size, samples = rooms.prepare(name, job.scenes, Path(job.work) / "rooms", job.exporter), "256x192", 32
         settings = dict(size=size, samples=SAMPLES.get(name, samples), depth=DEPTHS.get(name, DEPTH), seeds=SEEDS)
@@ -59,8 +59,10 @@ def main():
         result |= dict(depth=settings["depth"], explanation=explanations.get(name, ""), version=b.told["mitsuba"])
         results.append(result | dict(pictures=(a.pictures.mean(0), b.pictures.mean(0))))
         print(summary(result), flush=True)
-    if not job.cases:
-        write(results, Path(job.docs), time.time() - started)
+    # What only some cases tell does not replace the tables of all.
+    docs = Path(job.work) / "docs" if job.cases else Path(job.docs)
+    write(results, docs, time.time() - started)
+    print(f"tables and figures: {docs}")
     unexplained = [r["case"] for r in results if r["significant"] and not r["explanation"]]
     if unexplained:
         sys.exit(f"blocks differ by more than {LIMIT:.0%} and {SIGNIFICANT} standard errors, unexplained, in: {', '.join(unexplained)}")

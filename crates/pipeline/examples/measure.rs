@@ -4,12 +4,12 @@
 //! `measure SCENE --size WIDTHxHEIGHT [--config JSON] [--seeds N] [--out FILE.npy]` renders N pictures (default 1), whose seeds
 //! count upward from the configuration's, with every layer, as a dataset's frames are. `--config` holds fields of
 //! `RenderConfig`; what it leaves out has its default. The array is float32, N × height × width × 3, linear. One line of JSON
-//! tells the processor seconds (user and system, all threads) of loading and of rendering.
+//! tells the processor seconds (user and system, all threads) of loading, of learning where light comes from, and of rendering.
 
 use anyhow::{Context, Result, bail};
 use enfilade_frame::{Frame, Layer};
 use enfilade_import::{ImportOptions, load};
-use enfilade_render::{RenderConfig, RenderScene, render_frame};
+use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{Intrinsics, Pose, Quiet, StartCamera};
 use std::path::PathBuf;
 
@@ -31,12 +31,14 @@ fn main() -> Result<()> {
     let camera = imported.scene.cameras.first().with_context(|| format!("{} has no camera", job.scene.display()))?;
     let prepared = RenderScene::new(&imported.scene, &Quiet)?;
     let loaded = core_seconds();
-    let mut pictures = Vec::new();
+    let (mut pictures, mut learned) = (Vec::new(), 0.0);
     for seed in 0..job.seeds {
         let config = RenderConfig { seed: job.config.seed + seed, ..job.config.clone() };
-        pictures.extend(color(&picture(&prepared, camera, job.size, &config)?));
+        let (frame, seconds) = picture(&prepared, camera, job.size, &config)?;
+        pictures.extend(color(&frame));
+        learned += seconds;
     }
-    let rendered = core_seconds() - loaded;
+    let rendered = core_seconds() - loaded - learned;
     if let Some(path) = &job.out {
         let (width, height) = job.size;
         let bytes = npy(&[job.seeds as usize, height as usize, width as usize, 3], &pictures);
@@ -47,6 +49,7 @@ fn main() -> Result<()> {
         serde_json::json!({
             "triangles": prepared.triangle_count(),
             "load_core_s": loaded,
+            "learn_core_s": learned,
             "render_core_s": rendered,
         })
     );
@@ -77,12 +80,15 @@ fn arguments() -> Result<Job> {
     Ok(job)
 }
 
-/// A frame from the scene's own camera.
-fn picture(scene: &RenderScene<'_>, camera: &StartCamera, (width, height): (u32, u32), config: &RenderConfig) -> Result<Frame> {
+/// A frame from the scene's own camera, and the processor seconds of learning for it.
+fn picture(scene: &RenderScene<'_>, camera: &StartCamera, (width, height): (u32, u32), config: &RenderConfig) -> Result<(Frame, f64)> {
     let intrinsics = Intrinsics::from_fov_x(width, height, camera.fov_x_rad);
     let look_at = camera.position - camera.world_from_camera.z_axis;
     let pose = Pose { frame: 0, position: camera.position, look_at, world_from_camera: camera.world_from_camera };
-    Ok(render_frame(scene, &intrinsics, &pose, config, &Quiet)?)
+    let started = core_seconds();
+    let guide = Guide::learn(scene, &intrinsics, &[pose], config);
+    let learned = core_seconds() - started;
+    Ok((render_frame(scene, &guide, &intrinsics, &pose, config, &Quiet)?, learned))
 }
 
 fn color(frame: &Frame) -> Vec<f32> {

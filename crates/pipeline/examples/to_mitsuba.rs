@@ -71,7 +71,7 @@ impl Writer<'_> {
         let axes = file_from_world() * camera.world_from_camera * DMat3::from_diagonal(DVec3::new(-1.0, 1.0, -1.0));
         let placement = DAffine3::from_mat3_translation(axes, file_from_world() * camera.position);
         let fov = camera.fov_x_rad.to_degrees();
-        writeln!(self.xml, "<integrator type=\"path\"/>\n<sensor type=\"perspective\">\n\t<float name=\"fov\" value=\"{fov}\"/>")?;
+        writeln!(self.xml, "<integrator type=\"path\"></integrator>\n<sensor type=\"perspective\">\n\t<float name=\"fov\" value=\"{fov}\"/>")?;
         writeln!(self.xml, "\t<transform name=\"to_world\">{}</transform>", matrix(placement))?;
         writeln!(self.xml, "\t<film type=\"hdrfilm\"></film>\n\t<sampler type=\"independent\"></sampler>\n</sensor>")?;
         Ok(())
