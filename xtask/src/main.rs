@@ -9,6 +9,7 @@ mod check;
 mod dependencies;
 mod floors;
 mod house;
+mod oidn;
 mod python;
 mod spdx;
 mod step;

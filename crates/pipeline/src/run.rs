@@ -59,6 +59,20 @@ pub fn relabel(out: &Path, table: &Path, pattern: Option<&str>, reporter: &dyn R
     Session::new(&config, &workdir)?.run(&scenes, &[Stage::Label.spec()], false, reporter)
 }
 
+/// Asks for denoised layers of scenes of the dataset in `out` from now on, and runs `stages` with that.
+///
+/// # Errors
+/// As [`run_stage`].
+pub fn run_denoised(out: &Path, stages: &[Stage], pattern: Option<&str>, force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
+    let (workdir, mut config) = open(out)?;
+    let chosen: Vec<String> = config.select(pattern)?.iter().map(|s| s.name.clone()).collect();
+    config.scenes.iter_mut().filter(|s| chosen.contains(&s.name)).for_each(|s| s.denoise = true);
+    store_config(&workdir, &config)?;
+    let scenes = config.select(pattern)?;
+    let stages: Vec<&StageSpec> = stages.iter().map(|stage| stage.spec()).collect();
+    Session::new(&config, &workdir)?.run(&scenes, &stages, force, reporter)
+}
+
 fn store_config(workdir: &Workdir, config: &Config) -> Result<(), Error> {
     write_json(&workdir.file("run.json"), &RunFile { base: config.base.clone(), config: config.clone() })
 }
@@ -89,7 +103,7 @@ impl<'a> Session<'a> {
         for scene in scenes {
             let job = Job::new(self.config, scene, &self.dataset, self.workdir, force);
             let mut outcome = SceneOutcome { name: scene.name.clone(), stages: Vec::new(), failure: None };
-            for spec in stages {
+            for spec in stages.iter().filter(|spec| job.wants(spec.stage)) {
                 // The manifest is part of what is verified.
                 let ready = if spec.stage == Stage::Verify { self.write_manifest(&outcomes, Some(&scene.name)) } else { Ok(()) };
                 match ready.and_then(|()| advance(spec, &job, StageCx::new(&scene.name, spec.stage, reporter))) {

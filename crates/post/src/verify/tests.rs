@@ -69,6 +69,13 @@ fn missing_layers_and_wrong_sizes_are_found() {
         c.frame = frame;
     };
     assert_eq!(failures(without), [Law::LayersPresent]);
+    let keep = |c: &mut Case, wanted: &dyn Fn(Layer) -> bool| {
+        let mut frame = Frame::new(c.frame.width, c.frame.height);
+        c.frame.iter().filter(|(layer, _)| wanted(*layer)).for_each(|(layer, values)| frame.insert(layer, values.clone()));
+        c.frame = frame;
+    };
+    assert_eq!(failures(|c, _| keep(c, &|layer| layer.spec().pass != Pass::Denoised)), [], "denoised layers are there when asked for");
+    assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::ResidualDenoised)), [Law::LayersPresent]);
     assert_eq!(failures(|c, _| c.intrinsics.height += 1), [Law::Calibration]);
 }
 
@@ -131,6 +138,8 @@ fn colour_laws_are_checked() {
         c.frame.insert(Layer::Color, Values::F16(values));
     };
     assert_eq!(failures(one_bit), [Law::Recomposition]);
+    let denoised = |c: &mut Case, p: usize| c.set(Layer::ResidualDenoised, p, &[0.5; 3]);
+    assert_eq!(failures(denoised), [Law::Recomposition]);
 }
 
 #[test]
