@@ -31,7 +31,7 @@ fn frame(noise: f32) -> Frame {
             let reflectance = if (x / 8 + y / 8) % 2 == 0 { 0.0 } else { 0.3 + 0.2 * c as f32 };
             let light = 0.4 - 0.002 * x as f32;
             let normal = if wall { [0.0, -1.0, 0.0] } else { [0.0, 0.0, 1.0] };
-            let values = if void { [0.0, 2.0, 0.0, f32::NAN] } else { [light * spread(1), 0.05 * spread(2), reflectance, normal[c]] };
+            let values = if void { [0.0, 0.1, 0.0, f32::NAN] } else { [light * spread(1), 0.05 * spread(2), reflectance, normal[c]] };
             layers.iter_mut().zip(values).for_each(|((_, layer), value)| layer.push(f16::from_f32(value)));
         }
     }

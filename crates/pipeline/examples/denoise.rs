@@ -58,11 +58,14 @@ fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &
         render_frame(&prepared, &guide, &intrinsics, &pose, &config, &Quiet)
     };
     let references = [picture(&render(reference, 11)?, Layer::Color), picture(&render(reference, 12)?, Layer::Color)];
-    println!("  {:<62} {:>8} {:>8} {:>7}", "", "samples", "error", "core-s");
+    println!("  {:<62} {:>8} {:>8} {:>8} {:>7}", "", "samples", "error", "mean", "core-s");
+    let mean = |color: &[f32]| color.iter().map(|&v| f64::from(v)).sum::<f64>() / color.len() as f64;
+    let true_mean = 0.5 * (mean(&references[0]) + mean(&references[1]));
     for samples in [16, 64] {
         let frame = render(samples, 1)?;
         let row = |what: &str, color: &[f32], seconds: f64| {
-            println!("  {what:<62} {samples:>8} {:>8.4} {seconds:>7.2}", relative_error(color, &references));
+            let (error, bias) = (relative_error(color, &references), 100.0 * (mean(color) / true_mean - 1.0));
+            println!("  {what:<62} {samples:>8} {error:>8.4} {bias:>+7.2}% {seconds:>7.2}");
         };
         row("as rendered", &picture(&frame, Layer::Color), 0.0);
         for way in WAYS {

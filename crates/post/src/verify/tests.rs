@@ -128,8 +128,12 @@ fn colour_laws_are_checked() {
     assert_eq!(failures(negative), [Law::ColorNotNegative]);
     let too_white = |c: &mut Case, p| {
         c.set(Layer::DiffuseReflectance, p, &[1.5; 3]);
-        c.set(Layer::DiffuseIllumination, p, &[0.0; 3]);
-        c.set(Layer::Color, p, &[c.frame.get(Layer::Residual).unwrap().get(3 * p); 3]);
+        for (illumination, color) in
+            [(Layer::DiffuseIllumination, Layer::Color), (Layer::DiffuseIlluminationDenoised, Layer::ColorDenoised)]
+        {
+            c.set(illumination, p, &[0.0; 3]);
+            c.set(color, p, &[c.frame.get(Layer::Residual).unwrap().get(3 * p); 3]);
+        }
     };
     assert_eq!(failures(too_white), [Law::Albedo]);
     let one_bit = |c: &mut Case, p: usize| {
