@@ -49,6 +49,15 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     Ok(Outcome { summary, outputs: outputs(job, &frames), ..Outcome::default() })
 }
 
+/// Opens the library where the scene is to be denoised for the first time.
+///
+/// # Errors
+/// When it cannot be had.
+pub(crate) fn check_denoiser(job: &Job) -> Result<(), Error> {
+    let first = job.scene.denoise && !job.work_file("denoise.json")?.is_file();
+    if first { open(job).map(drop) } else { Ok(()) }
+}
+
 /// The library that the configuration names, else the environment, else the system's.
 fn open(job: &Job) -> Result<Denoiser, Error> {
     let written = job.scene.denoise_library.as_deref().map(|path| job.config.path(path)).transpose()?;

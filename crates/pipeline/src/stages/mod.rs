@@ -21,6 +21,7 @@ use enfilade_scene::Warning;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
+pub(crate) use denoise::check_denoiser;
 pub(crate) use import::{describe, load_file};
 pub(crate) use job::Job;
 
