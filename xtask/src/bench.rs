@@ -1,6 +1,7 @@
 //! `cargo xtask bench`: the examples that measure something, in release.
 
 use crate::house::House;
+use crate::oidn;
 use crate::step::finish;
 
 /// One measurement.
@@ -14,13 +15,14 @@ struct Bench {
 }
 
 /// All measurements; each is the file `crates/<room>/examples/<name>.rs`.
-const BENCHES: [Bench; 2] = [
+const BENCHES: [Bench; 3] = [
     Bench {
         name: "rays",
         room: "geometry",
         about: "millions of rays per second of one thread through the hierarchy: camera, bounced, shadow",
     },
     Bench { name: "noise", room: "pipeline", about: "noise that a second of rendering leaves, in the demo's room" },
+    Bench { name: "denoise", room: "pipeline", about: "error with and without denoising, in the demo's room; fetches Open Image Denoise" },
 ];
 
 /// Lists the measurements, runs the one that is named, or runs all.
@@ -44,7 +46,11 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     for bench in chosen {
         println!("\n== {}: {}", bench.name, bench.about);
         let package = format!("enfilade-{}", bench.room);
-        finish(house.cargo(&["run", "--release", "--locked", "--package", &package, "--example", bench.name]))?;
+        let mut command = house.cargo(&["run", "--release", "--locked", "--package", &package, "--example", bench.name]);
+        if bench.name == "denoise" {
+            command.env(oidn::VARIABLE, oidn::made(house)?);
+        }
+        finish(command)?;
     }
     Ok(())
 }

@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 14] = [
+const FLOORS: [(&str, Floor); 15] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -26,6 +26,7 @@ const FLOORS: [(&str, Floor); 14] = [
     ("home", Floor::Number(3)),
     ("explore", Floor::Number(3)),
     ("render", Floor::Number(3)),
+    ("denoise", Floor::Number(3)),
     ("dataset", Floor::Number(3)),
     ("post", Floor::Number(4)),
     ("pipeline", Floor::Number(5)),

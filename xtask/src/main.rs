@@ -9,6 +9,7 @@ mod check;
 mod dependencies;
 mod floors;
 mod house;
+mod oidn;
 mod peers;
 mod python;
 mod spdx;

@@ -2,7 +2,7 @@
 
 use crate::house::House;
 use crate::step::{Step, choose, finish};
-use crate::{acceptance, python};
+use crate::{acceptance, oidn, python};
 
 /// All steps, in the order in which a failure tells most.
 const STEPS: [Step; 4] = [
@@ -45,10 +45,14 @@ pub fn run(house: &House, names: &[&str]) -> Result<(), String> {
 /// Runs every test with nextest where it is installed, else with cargo; the runner's own summary comes last.
 fn all_tests(house: &House) -> Result<String, String> {
     let python = python::with_h5py(house)?;
+    let denoiser = oidn::found(house);
     let cargo = |arguments: &[&str]| {
         let mut command = house.cargo(arguments);
         if let Some(python) = &python {
             command.env(python::VARIABLE, python);
+        }
+        if let Some(denoiser) = &denoiser {
+            command.env(oidn::VARIABLE, denoiser);
         }
         finish(command)
     };

@@ -36,7 +36,13 @@ pub enum Verb {
     #[command(
         after_help = "Example:\n  enfilade render out --scene 'bed*'\n\nFinished frames are kept; a killed run goes on where it was."
     )]
-    Render(StageArgs),
+    Render(RenderArgs),
+    /// Frames -> denoised companions of the color layers, from now on (needs Open Image Denoise)
+    #[command(
+        after_help = "Example:\n  enfilade denoise out\n\nThe library is looked for where denoise_library in [render] says, else where \
+        ENFILADE_OIDN says, else where the\nsystem has its libraries; `pip install pyoidn` brings it along. What was rendered stays as it is."
+    )]
+    Denoise(StageArgs),
     /// Frames, label table -> semantic layers; renders nothing again
     Label(LabelArgs),
     /// Frames -> a picture of every layer, and a contact sheet per trajectory
@@ -76,6 +82,9 @@ pub struct RunArgs {
     /// Samples per pixel in one word
     #[arg(long)]
     pub quality: Option<QualityArg>,
+    /// Make denoised companions of the color layers too (needs Open Image Denoise, see `enfilade denoise --help`)
+    #[arg(long)]
+    pub denoise: bool,
     /// Only the scenes of these names ("bed*", "hall,bedroom")
     #[arg(long, value_name = "PATTERN", visible_alias = "scene")]
     pub scenes: Option<String>,
@@ -103,6 +112,17 @@ pub struct StageArgs {
     /// Do it even if nothing has changed
     #[arg(long)]
     pub force: bool,
+}
+
+/// `render`.
+#[derive(Args)]
+pub struct RenderArgs {
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub stage: StageArgs,
+    /// Make denoised companions of the color layers too, from now on (needs Open Image Denoise, see `enfilade denoise --help`)
+    #[arg(long)]
+    pub denoise: bool,
 }
 
 /// `import`.

@@ -63,7 +63,8 @@ pub fn print_where_to_look(out: &Path, summary: &Summary) -> Result<(), DatasetE
         }
     }
     let Some((scene, camera, frame)) = first else { return Ok(()) };
-    let (out, layers) = (out.display(), LAYERS.len());
+    let layers = LAYERS.iter().filter(|spec| dataset.has_layer(&scene, &camera, frame, spec.layer)).count();
+    let out = out.display();
     match summary.nothing_done() {
         true => say(&format!("\nNothing to do: {out} is up to date, {frames} frames with {layers} layers each.\n")),
         false => say(&format!("\nDone in {:.0} s: {out} holds {frames} frames with {layers} layers each.\n", summary.wall_s)),

@@ -1,6 +1,6 @@
 //! What each verb does: arguments to calls of the pipeline and back to words.
 
-use crate::args::{ImportArgs, InspectArgs, LabelArgs, QualityArg, RunArgs, StageArgs, UpAxisArg, VerifyArgs};
+use crate::args::{ImportArgs, InspectArgs, LabelArgs, QualityArg, RenderArgs, RunArgs, StageArgs, UpAxisArg, VerifyArgs};
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::summary;
@@ -21,6 +21,7 @@ pub fn run(args: &RunArgs, quiet: bool) -> Result<Verdict, Problem> {
             QualityArg::Normal => Quality::Normal,
             QualityArg::High => Quality::High,
         }),
+        denoise: args.denoise,
     };
     let config = match &args.config {
         Some(file) => Config::read(file, &overrides)?,
@@ -43,6 +44,19 @@ pub fn run(args: &RunArgs, quiet: bool) -> Result<Verdict, Problem> {
 pub fn stage(args: &StageArgs, stage: Stage, quiet: bool) -> Result<Verdict, Problem> {
     let progress = Progress::new(quiet);
     let result = enfilade_pipeline::run_stage(&args.dataset, stage, args.scene.as_deref(), args.force, &progress)?;
+    drop(progress);
+    Ok(conclude(&result))
+}
+
+/// `render`, with denoising if wanted.
+pub fn render(args: &RenderArgs, quiet: bool) -> Result<Verdict, Problem> {
+    if args.denoise { denoise(&args.stage, &[Stage::Render, Stage::Denoise], quiet) } else { stage(&args.stage, Stage::Render, quiet) }
+}
+
+/// `stages`, the last of which denoises.
+pub fn denoise(args: &StageArgs, stages: &[Stage], quiet: bool) -> Result<Verdict, Problem> {
+    let progress = Progress::new(quiet);
+    let result = enfilade_pipeline::run_denoised(&args.dataset, stages, args.scene.as_deref(), args.force, &progress)?;
     drop(progress);
     Ok(conclude(&result))
 }

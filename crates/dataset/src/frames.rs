@@ -4,7 +4,7 @@ use crate::atomic::{create_parent, remove_if_there, rename, temporary};
 use crate::hdf5::{ArrayView, Storage, write_view};
 use crate::read::sorted_names;
 use crate::record::RECORD_FORMAT;
-use crate::{Dataset, DatasetError, FileRecord, FrameRecord, FrameTime, LabelRecord, check_name, write_bytes};
+use crate::{Dataset, DatasetError, DenoiseRecord, FileRecord, FrameRecord, FrameTime, LabelRecord, check_name, write_bytes};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_scene::{Intrinsics, Pose};
 use rayon::prelude::*;
@@ -99,17 +99,48 @@ impl Dataset {
             labels_hash: labels_hash.to_string(),
             files: self.write_aside(scene, camera, frame, labels)?,
         };
-        let path = self.layout().label_record(scene, camera, frame);
-        let commit = || {
-            remove_if_there(&path)?;
-            self.put_in_place(scene, camera, frame, labels)?;
-            write_record(&path, &record)
-        };
-        if let Err(error) = commit() {
-            self.remove_aside(scene, camera, frame, labels);
-            return Err(error);
-        }
+        self.commit_beside(scene, camera, frame, labels, &self.layout().label_record(scene, camera, frame), &record)?;
         Ok(record)
+    }
+
+    /// Writes the layers that `layers` has (`color_denoised` and its parts) for frame number `frame`, then their record.
+    /// `denoiser` names the program that made them, `denoise_hash` what it made them from.
+    ///
+    /// # Errors
+    /// As [`Dataset::write_frame`].
+    pub fn write_denoised_layers(
+        &self,
+        scene: &str,
+        camera: &str,
+        frame: u32,
+        layers: &Frame,
+        denoiser: &str,
+        denoise_hash: &str,
+    ) -> Result<DenoiseRecord, DatasetError> {
+        check_name("scene name", scene)?;
+        check_name("camera name", camera)?;
+        self.make_records_dir(scene, camera)?;
+        let record = DenoiseRecord {
+            format: RECORD_FORMAT,
+            scene: scene.to_string(),
+            camera: camera.to_string(),
+            frame,
+            denoiser: denoiser.to_string(),
+            denoise_hash: denoise_hash.to_string(),
+            files: self.write_aside(scene, camera, frame, layers)?,
+        };
+        self.commit_beside(scene, camera, frame, layers, &self.layout().denoise_record(scene, camera, frame), &record)?;
+        Ok(record)
+    }
+
+    /// Removes the denoised layers of a frame, if it has any.
+    ///
+    /// # Errors
+    /// When a file cannot be removed.
+    pub fn remove_denoised_layers(&self, scene: &str, camera: &str, frame: u32) -> Result<(), DatasetError> {
+        remove_if_there(&self.layout().denoise_record(scene, camera, frame))?;
+        let mut denoised = LAYERS.iter().filter(|spec| spec.pass == Pass::Denoised);
+        denoised.try_for_each(|spec| remove_if_there(&self.layout().layer(scene, camera, frame, spec.layer)))
     }
 
     /// True when the frame was made with `config_hash` and all its files are there in full length.
@@ -122,6 +153,12 @@ impl Dataset {
     pub fn labels_are_complete(&self, scene: &str, camera: &str, frame: u32, labels_hash: &str) -> bool {
         let record = self.label_record(scene, camera, frame).ok().flatten();
         record.is_some_and(|record| record.labels_hash == labels_hash && self.files_are_there(scene, &record.files))
+    }
+
+    /// True when the frame's denoised layers were made from what `denoise_hash` names and are there in full length.
+    pub fn denoised_are_complete(&self, scene: &str, camera: &str, frame: u32, denoise_hash: &str) -> bool {
+        let record = self.denoise_record(scene, camera, frame).ok().flatten();
+        record.is_some_and(|record| record.denoise_hash == denoise_hash && self.files_are_there(scene, &record.files))
     }
 
     /// The commit record of a frame; `None` when it has none.
@@ -138,6 +175,14 @@ impl Dataset {
     /// When the record cannot be read or understood.
     pub fn label_record(&self, scene: &str, camera: &str, frame: u32) -> Result<Option<LabelRecord>, DatasetError> {
         read_json(&self.layout().label_record(scene, camera, frame), "delete it and run the label stage again")
+    }
+
+    /// The commit record of a frame's denoised layers; `None` when it has none.
+    ///
+    /// # Errors
+    /// When the record cannot be read or understood.
+    pub fn denoise_record(&self, scene: &str, camera: &str, frame: u32) -> Result<Option<DenoiseRecord>, DatasetError> {
+        read_json(&self.layout().denoise_record(scene, camera, frame), "delete it and run the denoise stage again")
     }
 
     /// Removes the temporary files that a killed run left in a camera's folders. Call it before frames are written, when no
@@ -200,10 +245,29 @@ impl Dataset {
         })
     }
 
+    /// Puts layers that come after the frame in place of older ones, then writes their record.
+    fn commit_beside(
+        &self,
+        scene: &str,
+        camera: &str,
+        number: u32,
+        layers: &Frame,
+        path: &Path,
+        record: &impl Serialize,
+    ) -> Result<(), DatasetError> {
+        let commit = || {
+            remove_if_there(path)?;
+            self.put_in_place(scene, camera, number, layers)?;
+            write_record(path, record)
+        };
+        commit().inspect_err(|_| self.remove_aside(scene, camera, number, layers))
+    }
+
     /// Removes a frame with all its layers and records, in the order in which it ceases to count.
     fn remove_frame(&self, scene: &str, camera: &str, number: u32) -> Result<(), DatasetError> {
         remove_if_there(&self.layout().frame_record(scene, camera, number))?;
         remove_if_there(&self.layout().label_record(scene, camera, number))?;
+        remove_if_there(&self.layout().denoise_record(scene, camera, number))?;
         LAYERS.iter().try_for_each(|spec| remove_if_there(&self.layout().layer(scene, camera, number, spec.layer)))
     }
 

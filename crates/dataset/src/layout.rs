@@ -134,6 +134,11 @@ impl Layout {
         self.records_dir(scene, camera).join(format!("frame.{frame:04}.labels.json"))
     }
 
+    /// The commit record of a frame's denoised layers.
+    pub fn denoise_record(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
+        self.records_dir(scene, camera).join(format!("frame.{frame:04}.denoised.json"))
+    }
+
     /// Geometry, objects and labels of the scene.
     pub fn mesh_dir(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("mesh")
@@ -203,7 +208,7 @@ pub(crate) fn layer_file_name(frame: u32, layer: Layer) -> String {
 
 fn pass_name(pass: Pass) -> &'static str {
     match pass {
-        Pass::Final => "final",
+        Pass::Final | Pass::Denoised => "final",
         Pass::Geometry | Pass::Label => "geometry",
     }
 }

@@ -92,7 +92,10 @@ pub struct FrameEntry {
     /// Hash of everything that the frame's values depend on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub config_hash: Option<String>,
-    /// Layer files, labels included, by path relative to the scene's folder.
+    /// The program that made the denoised layers, with its version; absent where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub denoiser: Option<String>,
+    /// Layer files, labels and denoised layers included, by path relative to the scene's folder.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub files: BTreeMap<String, FileRecord>,
 }
@@ -114,7 +117,7 @@ pub struct ManifestInfo {
 const FORMAT: &str = "enfilade dataset 1";
 
 /// How to read the files, in one sentence per subject.
-const NOTES: [(&str, &str); 10] = [
+const NOTES: [(&str, &str); 11] = [
     ("layout", "Hypersim's tree: scenes/<scene>/_detail and scenes/<scene>/images/scene_<camera>_{final,geometry}_hdf5."),
     ("world", "Right-handed, z up, metres; one asset unit is one metre (meters_per_asset_unit = 1)."),
     ("camera", "Axes x right, y up, z backward; camera_keyframe_orientations hold world_from_camera and act on column vectors."),
@@ -124,6 +127,11 @@ const NOTES: [(&str, &str); 10] = [
     (
         "identity",
         "color = diffuse_reflectance * diffuse_illumination + residual, evaluated in float32, rounded to float16, to the last bit.",
+    ),
+    (
+        "denoised",
+        "Layers named *_denoised exist where a frame names its denoiser; they are biased estimates of the unbiased layers, made with exact \
+         reflectance and normals as guides, and satisfy the same identity with diffuse_reflectance.",
     ),
     ("ids", "render_entity_id is node_id of metadata_nodes.csv; object_id there is the row of the mesh folder's object tables."),
     ("records", "A frame counts when _detail/<camera>/frames/frame.IIII.json is there; checksums are BLAKE3 of whole files."),
@@ -183,12 +191,15 @@ impl Dataset {
             let mut files = record.files;
             let labels = self.label_record(scene, camera, frame)?.filter(|record| self.files_are_there(scene, &record.files));
             files.extend(labels.into_iter().flat_map(|record| record.files));
+            let denoised = self.denoise_record(scene, camera, frame)?.filter(|record| self.files_are_there(scene, &record.files));
+            let denoiser = denoised.as_ref().map(|record| record.denoiser.clone());
+            files.extend(denoised.into_iter().flat_map(|record| record.files));
             let (seed, config_hash) = (Some(record.seed), Some(record.config_hash));
-            return Ok(FrameEntry { frame, status: FrameStatus::Complete, reason: None, seed, config_hash, files });
+            return Ok(FrameEntry { frame, status: FrameStatus::Complete, reason: None, seed, config_hash, denoiser, files });
         }
         let reason = info.failed_frames.get(&(scene.to_string(), camera.to_string(), frame)).cloned();
         let status = if reason.is_some() { FrameStatus::Failed } else { FrameStatus::Planned };
-        Ok(FrameEntry { frame, status, reason, seed: None, config_hash: None, files: BTreeMap::new() })
+        Ok(FrameEntry { frame, status, reason, seed: None, config_hash: None, denoiser: None, files: BTreeMap::new() })
     }
 
     /// Writes `manifest.json`.

@@ -68,6 +68,25 @@ pub struct FrameRecord {
     pub files: BTreeMap<String, FileRecord>,
 }
 
+/// As [`FrameRecord`], for the denoised layers, which are made from the rendered ones and leave them as they are.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DenoiseRecord {
+    /// Version of this form.
+    pub format: u32,
+    /// Scene name.
+    pub scene: String,
+    /// Camera name.
+    pub camera: String,
+    /// Frame number.
+    pub frame: u32,
+    /// The program that denoised, with its version.
+    pub denoiser: String,
+    /// Hash of everything that the layers were made from, but for the program.
+    pub denoise_hash: String,
+    /// The layer files, by path relative to the scene's folder.
+    pub files: BTreeMap<String, FileRecord>,
+}
+
 /// As [`FrameRecord`], for the label layers, which come and go without the frame being rendered again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LabelRecord {

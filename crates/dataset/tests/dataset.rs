@@ -4,7 +4,7 @@ mod analytic;
 
 use analytic::{CAMERA, SCENE};
 use enfilade_dataset::{Dataset, DatasetError, FrameStatus, FrameTime, ManifestInfo};
-use enfilade_frame::{LAYERS, Layer};
+use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values, f16};
 use enfilade_scene::Intrinsics;
 use std::collections::BTreeMap;
 use std::fs;
@@ -53,7 +53,7 @@ fn a_frame_comes_back_as_it_was() {
         // NaN differs from itself, so bytes are compared.
         assert_eq!(dataset.read_layer(SCENE, CAMERA, 1, layer).unwrap().as_bytes(), values.as_bytes(), "{layer:?}");
     }
-    let layers: Vec<Layer> = LAYERS.iter().map(|spec| spec.layer).collect();
+    let layers: Vec<Layer> = LAYERS.iter().filter(|spec| spec.pass != Pass::Denoised).map(|spec| spec.layer).collect();
     let read = dataset.read_frame(SCENE, CAMERA, 1, &layers).unwrap();
     assert_eq!((read.width, read.height, read.iter().count()), (97, 64, 16));
     let record = dataset.frame_record(SCENE, CAMERA, 1).unwrap().unwrap();
@@ -147,6 +147,35 @@ fn rendering_a_frame_again_drops_its_labels() {
     let frame = analytic::frame(&small(), pose, 8);
     dataset.write_frame(SCENE, CAMERA, &frame, &analytic::info(&small(), pose), FrameTime::default()).unwrap();
     assert!(!dataset.has_layer(SCENE, CAMERA, 0, Layer::Semantic) && !dataset.labels_are_complete(SCENE, CAMERA, 0, "beef"));
+}
+
+#[test]
+fn denoised_layers_come_and_go_beside_a_frame_and_the_manifest_names_their_maker() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    analytic::write(&dataset, &small(), 3);
+    let before = files(folder.path());
+    let mut layers = Frame::new(97, 64);
+    for spec in LAYERS.iter().filter(|spec| spec.pass == Pass::Denoised) {
+        layers.insert(spec.layer, Values::F16(vec![f16::ONE; 97 * 64 * 3]));
+    }
+    dataset.write_denoised_layers(SCENE, CAMERA, 0, &layers, "Smoother 3.1", "face").unwrap();
+    let complete = |hash| dataset.denoised_are_complete(SCENE, CAMERA, 0, hash);
+    assert!(complete("face") && !complete("other") && !dataset.denoised_are_complete(SCENE, CAMERA, 1, "face"));
+    assert_eq!(dataset.read_layer(SCENE, CAMERA, 0, Layer::ColorDenoised).unwrap().get(5), 1.0);
+    let entries = || dataset.collect_manifest(&ManifestInfo::default()).unwrap().scenes[SCENE].cameras[CAMERA].frames.clone();
+    let (first, second) = (&entries()[0], &entries()[1]);
+    assert_eq!((first.denoiser.as_deref(), first.files.len()), (Some("Smoother 3.1"), 19));
+    assert_eq!((&second.denoiser, second.files.len()), (&None, 16));
+
+    dataset.remove_denoised_layers(SCENE, CAMERA, 0).unwrap();
+    assert!(files(folder.path()) == before, "what was rendered stays as it was");
+    // A frame that is rendered again is not what the denoised layers were made from.
+    dataset.write_denoised_layers(SCENE, CAMERA, 0, &layers, "Smoother 3.1", "face").unwrap();
+    let pose = &analytic::trajectory(3).poses[0];
+    let frame = analytic::frame(&small(), pose, 8);
+    dataset.write_frame(SCENE, CAMERA, &frame, &analytic::info(&small(), pose), FrameTime::default()).unwrap();
+    assert!(!complete("face") && !dataset.has_layer(SCENE, CAMERA, 0, Layer::ColorDenoised));
 }
 
 #[test]

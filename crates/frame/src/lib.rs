@@ -3,8 +3,10 @@
 //! [`LAYERS`] is the one table of layers. The renderer's outputs, file names, dtypes, documentation and verification all follow
 //! it. A [`Frame`] holds values exactly as they are stored.
 
+mod compose;
 mod spec;
 
+pub use compose::{Composed, compose};
 pub use half::f16;
 pub use spec::{Dtype, LAYERS, Layer, LayerSpec, Pass, Validity};
 

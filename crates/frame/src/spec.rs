@@ -21,6 +21,9 @@ pub enum Layer {
     Valid,
     Semantic,
     SemanticInstance,
+    ColorDenoised,
+    DiffuseIlluminationDenoised,
+    ResidualDenoised,
 }
 
 /// How values are stored.
@@ -44,6 +47,8 @@ pub enum Pass {
     Geometry,
     /// Also in the geometry folder, but joined from `render_entity_id` after rendering.
     Label,
+    /// Also in the final folder, but made from the rendered layers where that is asked for.
+    Denoised,
 }
 
 /// Codes of the `valid` layer. Anything but zero has geometry.
@@ -91,7 +96,7 @@ macro_rules! layers {
 }
 
 /// The table of layers; `LAYERS[layer as usize].layer == layer`.
-pub const LAYERS: [LayerSpec; 16] = layers![
+pub const LAYERS: [LayerSpec; 19] = layers![
     Color "color" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
         "Radiance; equals diffuse_reflectance * diffuse_illumination + residual to the last bit, evaluated in float32 and rounded to float16.";
     DiffuseIllumination "diffuse_illumination" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
@@ -111,6 +116,12 @@ pub const LAYERS: [LayerSpec; 16] = layers![
     Valid "valid" Geometry 1 U8, "", "", "0", "Reason code: 0 nothing hit, 1 valid, 2 colour saturated at 65504, 3 no diffuse reflectance.";
     Semantic "semantic" Label 1 I16, "", "NYU40", "-1", "Class 1 to 40 of the visible part, -1 unlabelled.";
     SemanticInstance "semantic_instance" Label 1 I16, "", "", "-1", "Instance number from 1 within the scene, -1 none.";
+    ColorDenoised "color_denoised" Denoised 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
+        "Estimate of color without noise, where asked for: diffuse_reflectance * diffuse_illumination_denoised + residual_denoised to the last bit, as in color.";
+    DiffuseIlluminationDenoised "diffuse_illumination_denoised" Denoised 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+        "Estimate of diffuse_illumination without noise, where asked for; biased, as denoising is.";
+    ResidualDenoised "residual_denoised" Denoised 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
+        "Estimate of residual without noise, where asked for; biased, as denoising is.";
 ];
 
 impl Layer {

@@ -3,7 +3,7 @@
 use crate::config::{Config, SceneConfig};
 use crate::error::Error;
 use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
-use crate::stages::{Job, STAGES, Stage, StageSpec, advance};
+use crate::stages::{Job, STAGES, Stage, StageSpec, advance, check_denoiser};
 use crate::workdir::{Workdir, read_json, write_json};
 use enfilade_dataset::{CameraEntry, Dataset, FrameStatus, ManifestInfo};
 use enfilade_post::drivers::write_overview;
@@ -48,15 +48,21 @@ pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, r
 /// # Errors
 /// As [`run_stage`].
 pub fn relabel(out: &Path, table: &Path, pattern: Option<&str>, reporter: &dyn Reporter) -> Result<Summary, Error> {
-    let (workdir, mut config) = open(out)?;
-    let chosen: Vec<String> = config.select(pattern)?.iter().map(|s| s.name.clone()).collect();
     let table = std::path::absolute(table).map_err(Error::io("find", table))?;
-    for scene in config.scenes.iter_mut().filter(|s| chosen.contains(&s.name)) {
-        scene.set_label_table(&table.to_string_lossy());
-    }
-    store_config(&workdir, &config)?;
+    let (workdir, config) = open_changed(out, pattern, |scene| scene.set_label_table(&table.to_string_lossy()))?;
     let scenes = config.select(pattern)?;
     Session::new(&config, &workdir)?.run(&scenes, &[Stage::Label.spec()], false, reporter)
+}
+
+/// Asks for denoised layers of scenes of the dataset in `out` from now on, and runs `stages` with that.
+///
+/// # Errors
+/// As [`run_stage`].
+pub fn run_denoised(out: &Path, stages: &[Stage], pattern: Option<&str>, force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
+    let (workdir, config) = open_changed(out, pattern, |scene| scene.denoise = true)?;
+    let scenes = config.select(pattern)?;
+    let stages: Vec<&StageSpec> = stages.iter().map(|stage| stage.spec()).collect();
+    Session::new(&config, &workdir)?.run(&scenes, &stages, force, reporter)
 }
 
 fn store_config(workdir: &Workdir, config: &Config) -> Result<(), Error> {
@@ -70,6 +76,15 @@ fn open(out: &Path) -> Result<(Workdir, Config), Error> {
         return Err(Error::usage(message, "run `enfilade run` for this folder once; what is finished is kept"));
     };
     Ok((workdir, Config { base, ..config }))
+}
+
+/// As [`open`], with `change` made to the chosen scenes from now on.
+fn open_changed(out: &Path, pattern: Option<&str>, change: impl Fn(&mut SceneConfig)) -> Result<(Workdir, Config), Error> {
+    let (workdir, mut config) = open(out)?;
+    let chosen: Vec<String> = config.select(pattern)?.iter().map(|s| s.name.clone()).collect();
+    config.scenes.iter_mut().filter(|s| chosen.contains(&s.name)).for_each(change);
+    store_config(&workdir, &config)?;
+    Ok((workdir, config))
 }
 
 struct Session<'a> {
@@ -89,9 +104,14 @@ impl<'a> Session<'a> {
         for scene in scenes {
             let job = Job::new(self.config, scene, &self.dataset, self.workdir, force);
             let mut outcome = SceneOutcome { name: scene.name.clone(), stages: Vec::new(), failure: None };
-            for spec in stages {
-                // The manifest is part of what is verified.
-                let ready = if spec.stage == Stage::Verify { self.write_manifest(&outcomes, Some(&scene.name)) } else { Ok(()) };
+            for spec in stages.iter().filter(|spec| job.wants(spec.stage)) {
+                let ready = match spec.stage {
+                    // The manifest is part of what is verified.
+                    Stage::Verify => self.write_manifest(&outcomes, Some(&scene.name)),
+                    // Better before hours of rendering than after them.
+                    Stage::Render if stages.iter().any(|s| s.stage == Stage::Denoise) => check_denoiser(&job),
+                    _ => Ok(()),
+                };
                 match ready.and_then(|()| advance(spec, &job, StageCx::new(&scene.name, spec.stage, reporter))) {
                     Ok(done) => outcome.stages.push(done),
                     Err(error) => {

@@ -55,7 +55,7 @@ const fn spec(pass: Pass, name: &'static str, subject: Subject) -> PreviewSpec {
 }
 
 /// Every preview.
-pub const PREVIEWS: [PreviewSpec; 23] = [
+pub const PREVIEWS: [PreviewSpec; 26] = [
     spec(Pass::Final, "tonemap.jpg", Subject::ToneMapped),
     spec(Pass::Final, "color.jpg", Subject::Clipped),
     spec(Pass::Final, "gamma.jpg", Subject::Gamma),
@@ -79,6 +79,9 @@ pub const PREVIEWS: [PreviewSpec; 23] = [
     spec(Pass::Geometry, "valid.png", Subject::Layer(Layer::Valid)),
     spec(Pass::Label, "semantic.png", Subject::Layer(Layer::Semantic)),
     spec(Pass::Label, "semantic_instance.png", Subject::Layer(Layer::SemanticInstance)),
+    spec(Pass::Denoised, "color_denoised.jpg", Subject::Layer(Layer::ColorDenoised)),
+    spec(Pass::Denoised, "diffuse_illumination_denoised.jpg", Subject::Layer(Layer::DiffuseIlluminationDenoised)),
+    spec(Pass::Denoised, "residual_denoised.jpg", Subject::Layer(Layer::ResidualDenoised)),
 ];
 
 impl PreviewSpec {
@@ -121,7 +124,12 @@ fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap) ->
     let picture = match layer {
         Layer::DepthMeters | Layer::DepthZMeters => return depth(values, frame),
         Layer::Position => return position(values, frame),
-        Layer::Color | Layer::DiffuseIllumination | Layer::Residual => rgb(frame, |i| tone.apply(values.get(i))),
+        Layer::Color
+        | Layer::DiffuseIllumination
+        | Layer::Residual
+        | Layer::ColorDenoised
+        | Layer::DiffuseIlluminationDenoised
+        | Layer::ResidualDenoised => rgb(frame, |i| tone.apply(values.get(i))),
         Layer::DiffuseReflectance => rgb(frame, |i| encode(values.get(i))),
         Layer::NormalWorld | Layer::NormalCam | Layer::NormalBumpWorld | Layer::NormalBumpCam => {
             rgb(frame, |i| 0.5 * (values.get(i) + 1.0))

@@ -3,7 +3,7 @@
 //! Floor (part 1, z = 0), wall (part 2, y = 2, up to z = 2.5) and a mirror in the wall (part 3), void above. The mirror has no
 //! diffuse reflectance; one of its pixels is saturated.
 
-use enfilade_frame::{Frame, LAYERS, Layer, Validity, Values, f16};
+use enfilade_frame::{Frame, LAYERS, Layer, Pass, Validity, Values, f16};
 use enfilade_math::{DVec2, DVec3};
 use enfilade_scene::{Intrinsics, Labels, PartLabel, Pose};
 
@@ -67,9 +67,9 @@ pub(crate) fn frame(pose: &Pose) -> Frame {
         };
         let [a, s, r] = [a, s, r].map(|v| f16::from_f64(v).to_f32());
         push(Layer::DiffuseReflectance, &[f64::from(a); 3]);
-        push(Layer::DiffuseIllumination, &[f64::from(s); 3]);
-        push(Layer::Residual, &[f64::from(r); 3]);
-        push(Layer::Color, &[f64::from(a * s + r); 3]);
+        [Layer::DiffuseIllumination, Layer::DiffuseIlluminationDenoised].into_iter().for_each(|l| push(l, &[f64::from(s); 3]));
+        [Layer::Residual, Layer::ResidualDenoised].into_iter().for_each(|l| push(l, &[f64::from(r); 3]));
+        [Layer::Color, Layer::ColorDenoised].into_iter().for_each(|l| push(l, &[f64::from(a * s + r); 3]));
         let code = match id {
             -1 => Validity::Void,
             3 if saturated => Validity::Saturated,
@@ -141,15 +141,16 @@ pub(crate) fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     for pose in &trajectory.poses {
         tree.set(tree.key(pose.position).unwrap(), Voxel::Free);
         let whole = frame(pose);
-        let part_of = |label: bool| {
+        let part_of = |passes: &[Pass]| {
             let mut part = Frame::new(whole.width, whole.height);
-            let wanted = whole.iter().filter(|(layer, _)| (layer.spec().pass == enfilade_frame::Pass::Label) == label);
+            let wanted = whole.iter().filter(|(layer, _)| passes.contains(&layer.spec().pass));
             wanted.for_each(|(layer, values)| part.insert(layer, values.clone()));
             part
         };
         let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose: *pose, intrinsics: intrinsics() };
-        dataset.write_frame("room", "cam_00", &part_of(false), &info, FrameTime::default()).unwrap();
-        dataset.write_label_layers("room", "cam_00", pose.frame, &part_of(true), "test").unwrap();
+        dataset.write_frame("room", "cam_00", &part_of(&[Pass::Final, Pass::Geometry]), &info, FrameTime::default()).unwrap();
+        dataset.write_label_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Label]), "test").unwrap();
+        dataset.write_denoised_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Denoised]), "Smoother 3.1", "test").unwrap();
     }
     dataset.write_free_space("room", &tree.to_bt(), first.position, second.position).unwrap();
     dataset.write_manifest(&dataset.collect_manifest(&enfilade_dataset::ManifestInfo::default()).unwrap()).unwrap();

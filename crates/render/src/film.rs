@@ -2,11 +2,8 @@
 
 use crate::budget::Estimate;
 use crate::integrator::PixelSample;
-use enfilade_frame::f16;
+use enfilade_frame::{compose, f16};
 use enfilade_math::Rgb;
-
-/// Largest finite float16.
-const F16_LIMIT: f32 = 65504.0;
 
 /// Sums of the samples of one pixel. Samples come from the reconstruction filter's distribution, so all weigh the same.
 #[derive(Clone, Copy, Debug, Default)]
@@ -72,25 +69,16 @@ impl PixelSum {
         for c in 0..3 {
             let a = f16::from_f32(reflectance[c]);
             let demodulated = if a > f16::ZERO { diffuse[c] / a.to_f32() } else { mean_illumination[c] };
-            let s = f16::from_f32(demodulated.min(F16_LIMIT));
-            let product = a.to_f32() * s.to_f32();
-            let room = F16_LIMIT - product;
-            saturated |= demodulated > F16_LIMIT || residual[c] > room;
-            let r = if residual[c] > room { round_down(room) } else { f16::from_f32(residual[c]) };
+            let stored = compose(a, demodulated, residual[c]);
+            saturated |= stored.saturated;
             out.reflectance[c] = a;
-            out.illumination[c] = s;
-            out.residual[c] = r;
-            out.color[c] = f16::from_f32(product + r.to_f32());
+            out.illumination[c] = stored.illumination;
+            out.residual[c] = stored.residual;
+            out.color[c] = stored.color;
         }
         out.saturated = saturated;
         out
     }
-}
-
-/// The largest float16 not above `v` ≥ 0.
-fn round_down(v: f32) -> f16 {
-    let h = f16::from_f32(v);
-    if h.to_f32() > v { f16::from_bits(h.to_bits() - 1) } else { h }
 }
 
 #[cfg(test)]

@@ -93,7 +93,9 @@ impl<'a, 's> FrameRender<'a, 's> {
             return;
         }
         let (later, all) = (u64::from(self.done), u64::from(self.passes) - 1);
-        let goal = |wanted: u32| if all == 0 { wanted } else { self.first.min(wanted) + (u64::from(wanted.saturating_sub(self.first)) * later / all) as u32 };
+        let goal = |wanted: u32| {
+            if all == 0 { wanted } else { self.first.min(wanted) + (u64::from(wanted.saturating_sub(self.first)) * later / all) as u32 }
+        };
         let (integrator, intrinsics, pose, tiles, wanted) = (&self.integrator, self.intrinsics, self.pose, self.tiles, &self.wanted);
         let finished = AtomicU64::new(u64::from(self.done) * u64::from(tiles.count()));
         let total = u64::from(self.passes) * u64::from(tiles.count());
@@ -135,7 +137,8 @@ impl<'a, 's> FrameRender<'a, 's> {
             .par_iter()
             .zip(0..tiles.count())
             .map(|(sums, tile)| {
-                let pixel = |(sum, (x, y)): (&PixelSum, _)| Pixel { color: sum.resolve(), geometry: pixel_geometry(scene, intrinsics, pose, x, y) };
+                let pixel =
+                    |(sum, (x, y)): (&PixelSum, _)| Pixel { color: sum.resolve(), geometry: pixel_geometry(scene, intrinsics, pose, x, y) };
                 sums.iter().zip(tiles.pixels(tile)).map(pixel).collect()
             })
             .collect();

@@ -175,6 +175,8 @@ impl Resolver<'_> {
             carve: Default::default(),
             plan: Default::default(),
             render: Default::default(),
+            denoise: false,
+            denoise_library: None,
             name,
         };
         scene.render.samples = QUALITY.samples();
@@ -275,6 +277,13 @@ impl Resolver<'_> {
         if let Some(samples) = render.samples.as_ref().filter(|s| *s.get_ref() == 0) {
             return Err(self.refuse(samples, "samples must be at least 1", "for example: samples = 64"));
         }
+        if let Some(denoise) = &render.denoise {
+            scene.denoise = *denoise.get_ref();
+        }
+        if let Some(library) = &render.denoise_library {
+            self.check_path(library.get_ref(), library)?;
+            scene.denoise_library = Some(library.get_ref().clone());
+        }
         render.apply(&mut scene.render);
         plan.apply(&mut scene.plan);
         carve.apply(&mut scene.carve);
@@ -292,6 +301,7 @@ impl Resolver<'_> {
         if let Some(quality) = self.overrides.quality {
             scene.render.samples = quality.samples();
         }
+        scene.denoise |= self.overrides.denoise;
         Ok(())
     }
 }

@@ -56,6 +56,13 @@ pub struct SceneConfig {
     pub plan: PlanConfig,
     /// Light transport. Its seed is made from `seed`, another for each camera.
     pub render: RenderConfig,
+    /// Makes denoised companions of the colour layers.
+    #[serde(default)]
+    pub denoise: bool,
+    /// The library that denoises, its file or the folder that it lies in; as written. `None` takes what `ENFILADE_OIDN` names, or
+    /// what the system has.
+    #[serde(default)]
+    pub denoise_library: Option<String>,
 }
 
 /// Where a scene comes from.
@@ -162,6 +169,8 @@ pub struct Overrides {
     pub size: Option<[u32; 2]>,
     /// Samples per pixel.
     pub quality: Option<Quality>,
+    /// Asks for denoised layers.
+    pub denoise: bool,
 }
 
 /// What the demo makes unless told otherwise. Chosen so that all of it takes less than a minute on two cores.

@@ -27,7 +27,7 @@ macro_rules! section {
     };
 }
 
-section!(RenderPatch => RenderConfig { 
+section!(RenderPatch => RenderConfig {
     samples: u32,
     adaptive: bool,
     noise: f32,
@@ -42,6 +42,10 @@ section!(RenderPatch => RenderConfig {
     size: [u32; 2],
     /// Horizontal field of view.
     fov_x_deg: f64,
+    /// Whether denoised layers are made.
+    denoise: bool,
+    /// The library for it.
+    denoise_library: String,
 });
 
 section!(CarvePatch => CarveConfig { voxel_m: f64, extent_m: f64, rays: u32, iterations: u32 });

@@ -40,9 +40,19 @@ fn the_scene_wins_over_the_file_and_the_command_line_over_both() {
     let scene = config(&text).scenes.remove(0);
     assert_eq!((scene.seed, scene.plan.frames, scene.plan.candidates, scene.size), (2, 20, 7, [64, 48]));
     assert_eq!((scene.render.samples, scene.render.max_bounces, scene.fov_x_deg, scene.carve.voxel_m), (5, Some(3), Some(70.0), 0.2));
-    let overrides = Overrides { seed: Some(9), frames: Some(3), size: Some([8, 6]), quality: Some(Quality::High) };
+    let overrides = Overrides { seed: Some(9), frames: Some(3), size: Some([8, 6]), quality: Some(Quality::High), denoise: true };
     let scene = config_with(&text, &overrides).scenes.remove(0);
     assert_eq!((scene.seed, scene.plan.frames, scene.size, scene.render.samples), (9, 3, [8, 6], Quality::High.samples()));
+    assert!(scene.denoise);
+}
+
+#[test]
+fn denoising_is_off_until_asked_for_and_its_library_may_be_named() {
+    let scene = config(SCENE).scenes.remove(0);
+    assert!(!scene.denoise && scene.denoise_library.is_none());
+    let text = format!("[render]\ndenoise = true\ndenoise_library = \"$ROOMS/lib\"\n{SCENE}[scene.render]\ndenoise = false\n");
+    let scene = config(&text).scenes.remove(0);
+    assert_eq!((scene.denoise, scene.denoise_library.as_deref()), (false, Some("$ROOMS/lib")));
 }
 
 #[test]
@@ -76,7 +86,7 @@ fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
     assert_eq!(
         error(&format!("[render]\nsize = [4, 3]\nsampels = 3\n{SCENE}")),
         "sets/dataset.toml:3:1: unknown key `sampels`\n  3 | sampels = 3\n    | ^^^^^^^\nhelp: did you mean `samples`? known keys here: \
-         size, fov_x_deg, samples, adaptive, noise, guiding, max_bounces, clamp, roulette_start, filter_radius"
+         size, fov_x_deg, denoise, denoise_library, samples, adaptive, noise, guiding, max_bounces, clamp, roulette_start, filter_radius"
     );
     let text = error(&format!("{SCENE}meter_per_unit = 3\n"));
     assert!(
@@ -136,7 +146,14 @@ fn resolved_configurations_survive_json() {
 
 #[test]
 fn the_demo_is_one_home_and_takes_overrides() {
-    let config = Config::demo(&Overrides { seed: Some(4), frames: Some(2), size: Some([64, 48]), quality: Some(Quality::Draft) }).unwrap();
+    let config = Config::demo(&Overrides {
+        seed: Some(4),
+        frames: Some(2),
+        size: Some([64, 48]),
+        quality: Some(Quality::Draft),
+        ..Overrides::default()
+    })
+    .unwrap();
     let scene = &config.scenes[0];
     assert_eq!((config.scenes.len(), &scene.source, scene.plan.frames, scene.size), (1, &Source::Home { seed: 4 }, 2, [64, 48]));
     assert_eq!(scene.render.samples, Quality::Draft.samples());

@@ -124,6 +124,19 @@ impl<'a> Job<'a> {
         self.frames()?.iter().map(record).collect()
     }
 
+    /// The commit records of the denoised layers of all frames, where they are asked for.
+    pub fn denoise_records(&self) -> Result<Vec<Input>, Error> {
+        let layout = self.dataset.layout();
+        let record =
+            |(camera, frame): &(String, u32)| self.input_from(Stage::Denoise, &layout.denoise_record(&self.scene.name, camera, *frame));
+        if self.scene.denoise { self.frames()?.iter().map(record).collect() } else { Ok(Vec::new()) }
+    }
+
+    /// True unless the stage is one that nobody asks for, nor has asked for.
+    pub fn wants(&self, stage: Stage) -> bool {
+        stage != Stage::Denoise || self.scene.denoise || self.work_file("denoise.json").is_ok_and(|record| record.is_file())
+    }
+
     fn run_first(&self, stage: Stage) -> Error {
         let message = format!("the results of `{}` for scene {} are not there", stage.name(), self.scene.name);
         Error::scene(message, format!("run first: {}", self.command(stage)))

@@ -5,6 +5,7 @@
 //! same content of the same inputs and the same version of the code, and all its outputs are there.
 
 mod carve;
+mod denoise;
 mod import;
 mod job;
 mod label;
@@ -20,6 +21,7 @@ use enfilade_scene::Warning;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
+pub(crate) use denoise::check_denoiser;
 pub(crate) use import::{describe, load_file};
 pub(crate) use job::Job;
 
@@ -32,6 +34,7 @@ pub enum Stage {
     Carve,
     Plan,
     Render,
+    Denoise,
     Label,
     Preview,
     Verify,
@@ -56,7 +59,7 @@ pub struct StageSpec {
 }
 
 /// All stages in the order in which they run.
-pub const STAGES: [StageSpec; 7] = [
+pub const STAGES: [StageSpec; 8] = [
     StageSpec {
         stage: Stage::Import,
         name: "import",
@@ -92,6 +95,15 @@ pub const STAGES: [StageSpec; 7] = [
         settings: render::settings,
         inputs: render::inputs,
         run: render::run,
+    },
+    StageSpec {
+        stage: Stage::Denoise,
+        name: "denoise",
+        about: "frames -> denoised colour layers, where asked for",
+        version: 1,
+        settings: denoise::settings,
+        inputs: denoise::inputs,
+        run: denoise::run,
     },
     StageSpec {
         stage: Stage::Label,

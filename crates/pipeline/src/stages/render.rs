@@ -69,7 +69,8 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
         for info in frames {
             let time = Stopwatch::start();
             let frame_cx = FrameCx { outer: cx, done, total };
-            let frame = enfilade_render::render_frame(&scene, &guide, &info.intrinsics, &info.pose, config, &frame_cx).map_err(Error::stage)?;
+            let frame =
+                enfilade_render::render_frame(&scene, &guide, &info.intrinsics, &info.pose, config, &frame_cx).map_err(Error::stage)?;
             let time = FrameTime { wall_s: time.wall_s(), cpu_s: time.cpu_s() };
             job.dataset.write_frame(&job.scene.name, &trajectory.name, &frame, info, time).map_err(Error::stage)?;
             done += 1;
@@ -99,7 +100,7 @@ fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
     let mut files = Vec::new();
     for (camera, frame) in job.frames()? {
         files.push(layout.frame_record(name, &camera, frame));
-        let rendered = LAYERS.iter().filter(|spec| spec.pass != Pass::Label);
+        let rendered = LAYERS.iter().filter(|spec| matches!(spec.pass, Pass::Final | Pass::Geometry));
         files.extend(rendered.map(|spec| layout.layer(name, &camera, frame, spec.layer)));
     }
     Ok(files)

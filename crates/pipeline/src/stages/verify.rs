@@ -14,6 +14,7 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = super::plan::outputs(job)?;
     inputs.extend(job.frame_records()?);
     inputs.extend(job.label_records()?);
+    inputs.extend(job.denoise_records()?);
     Ok(Some(inputs))
 }
 

@@ -4,7 +4,15 @@ use super::law::Law;
 use super::scan::Scan;
 use enfilade_frame::{Layer, Validity, f16};
 
-const COLOR_LAYERS: [Layer; 4] = [Layer::Color, Layer::DiffuseIllumination, Layer::DiffuseReflectance, Layer::Residual];
+const COLOR_LAYERS: [Layer; 7] = [
+    Layer::Color,
+    Layer::DiffuseIllumination,
+    Layer::DiffuseReflectance,
+    Layer::Residual,
+    Layer::ColorDenoised,
+    Layer::DiffuseIlluminationDenoised,
+    Layer::ResidualDenoised,
+];
 
 pub(super) fn check(scan: &mut Scan<'_>) {
     for layer in COLOR_LAYERS {
@@ -18,20 +26,22 @@ pub(super) fn check(scan: &mut Scan<'_>) {
         let finite = (0..reflectance.len()).map(|i| (i / 3, reflectance.get(i))).filter(|(_, v)| v.is_finite());
         scan.worst(Law::Albedo, "diffuse_reflectance", finite);
     }
-    recomposition(scan);
+    recomposition(scan, [Layer::Color, Layer::DiffuseIllumination, Layer::Residual]);
+    recomposition(scan, [Layer::ColorDenoised, Layer::DiffuseIlluminationDenoised, Layer::ResidualDenoised]);
     void_codes(scan);
     reason_codes(scan);
 }
 
-fn recomposition(scan: &mut Scan<'_>) {
-    let [Some(color), Some(illumination), Some(reflectance), Some(residual)] = COLOR_LAYERS.map(|layer| scan.layer(layer)) else {
-        return;
-    };
+/// `parts`: a colour, the illumination and the residual that it is made of.
+fn recomposition(scan: &mut Scan<'_>, parts: [Layer; 3]) {
+    let Some(reflectance) = scan.layer(Layer::DiffuseReflectance) else { return };
+    let [Some(color), Some(illumination), Some(residual)] = parts.map(|layer| scan.layer(layer)) else { return };
     let differs = |i: &usize| {
         let sum = reflectance.get(*i) as f32 * illumination.get(*i) as f32 + residual.get(*i) as f32;
         f16::from_f32(sum).to_f64() != color.get(*i)
     };
-    scan.broken(Law::Recomposition, "color is not A * S + R", (0..color.len()).filter(differs).map(|i| i / 3));
+    let what = format!("{} is not A * S + R", parts[0].spec().name);
+    scan.broken(Law::Recomposition, &what, (0..color.len()).filter(differs).map(|i| i / 3));
 }
 
 fn void_codes(scan: &mut Scan<'_>) {

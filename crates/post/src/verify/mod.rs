@@ -20,7 +20,7 @@ pub use labels::check_labels;
 pub use law::{LAWS, Law, LawSpec};
 pub use trajectory::check_trajectory;
 
-use enfilade_frame::{Frame, LAYERS};
+use enfilade_frame::{Frame, LAYERS, LayerSpec, Pass};
 use enfilade_scene::{Intrinsics, Labels, Pose};
 use scan::Scan;
 
@@ -44,7 +44,11 @@ pub struct View<'a> {
 /// Laws about layers that the frame lacks are not checked, beyond the one that asks for all layers.
 pub fn check_frame(frame: &Frame, view: &View<'_>, place: &str) -> Card {
     let mut scan = Scan::new(frame, view, place);
-    let missing: Vec<&str> = LAYERS.iter().filter(|spec| frame.get(spec.layer).is_none()).map(|spec| spec.name).collect();
+    // Denoised layers are there where they were asked for, and then all of them.
+    let denoised = |spec: &LayerSpec| spec.pass == Pass::Denoised;
+    let has_denoised = LAYERS.iter().any(|spec| denoised(spec) && frame.get(spec.layer).is_some());
+    let expected = LAYERS.iter().filter(|spec| has_denoised || !denoised(spec));
+    let missing: Vec<&str> = expected.filter(|spec| frame.get(spec.layer).is_none()).map(|spec| spec.name).collect();
     scan.card.observe(Law::LayersPresent, missing.len() as f64, || format!("{place}: without {}", missing.join(", ")));
     let size_error = frame.width.abs_diff(view.intrinsics.width).max(frame.height.abs_diff(view.intrinsics.height));
     let sizes =

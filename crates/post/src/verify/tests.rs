@@ -69,6 +69,13 @@ fn missing_layers_and_wrong_sizes_are_found() {
         c.frame = frame;
     };
     assert_eq!(failures(without), [Law::LayersPresent]);
+    let keep = |c: &mut Case, wanted: &dyn Fn(Layer) -> bool| {
+        let mut frame = Frame::new(c.frame.width, c.frame.height);
+        c.frame.iter().filter(|(layer, _)| wanted(*layer)).for_each(|(layer, values)| frame.insert(layer, values.clone()));
+        c.frame = frame;
+    };
+    assert_eq!(failures(|c, _| keep(c, &|layer| layer.spec().pass != Pass::Denoised)), [], "denoised layers are there when asked for");
+    assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::ResidualDenoised)), [Law::LayersPresent]);
     assert_eq!(failures(|c, _| c.intrinsics.height += 1), [Law::Calibration]);
 }
 
@@ -121,8 +128,12 @@ fn colour_laws_are_checked() {
     assert_eq!(failures(negative), [Law::ColorNotNegative]);
     let too_white = |c: &mut Case, p| {
         c.set(Layer::DiffuseReflectance, p, &[1.5; 3]);
-        c.set(Layer::DiffuseIllumination, p, &[0.0; 3]);
-        c.set(Layer::Color, p, &[c.frame.get(Layer::Residual).unwrap().get(3 * p); 3]);
+        for (illumination, color) in
+            [(Layer::DiffuseIllumination, Layer::Color), (Layer::DiffuseIlluminationDenoised, Layer::ColorDenoised)]
+        {
+            c.set(illumination, p, &[0.0; 3]);
+            c.set(color, p, &[c.frame.get(Layer::Residual).unwrap().get(3 * p); 3]);
+        }
     };
     assert_eq!(failures(too_white), [Law::Albedo]);
     let one_bit = |c: &mut Case, p: usize| {
@@ -131,6 +142,8 @@ fn colour_laws_are_checked() {
         c.frame.insert(Layer::Color, Values::F16(values));
     };
     assert_eq!(failures(one_bit), [Law::Recomposition]);
+    let denoised = |c: &mut Case, p: usize| c.set(Layer::ResidualDenoised, p, &[0.5; 3]);
+    assert_eq!(failures(denoised), [Law::Recomposition]);
 }
 
 #[test]

@@ -69,7 +69,9 @@ impl Field {
             let total = total(&indirect);
             indirect = gathered
                 .par_iter()
-                .map(|(_, links)| links.iter().filter(|l| l.cell != NONE).map(|l| l.reflectance * total[l.cell as usize]).sum::<Rgb>() / BINS as f32)
+                .map(|(_, links)| {
+                    links.iter().filter(|l| l.cell != NONE).map(|l| l.reflectance * total[l.cell as usize]).sum::<Rgb>() / BINS as f32
+                })
                 .collect();
         }
         let total = total(&indirect);
@@ -129,8 +131,11 @@ fn direct(scene: &RenderScene<'_>, choice: &LightChoice, sites: &[Site], rng: &m
         let origin = offset_origin(site.p, site.n);
         for _ in 0..LIGHT_SAMPLES {
             let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
-            let Some(light) = scene.lights.sample(scene, choice, &LightPoint { p: site.p, n: site.n }, u, |wi| wi.dot(site.n) > 0.0) else { continue };
-            let arriving = scene.lights.radiance_of(&light) * scene.transmittance(&crate::surface::shadow_ray(origin, light.wi, light.target));
+            let Some(light) = scene.lights.sample(scene, choice, &LightPoint { p: site.p, n: site.n }, u, |wi| wi.dot(site.n) > 0.0) else {
+                continue;
+            };
+            let arriving =
+                scene.lights.radiance_of(&light) * scene.transmittance(&crate::surface::shadow_ray(origin, light.wi, light.target));
             let value = arriving * (light.wi.dot(site.n) * enfilade_math::INV_PI / light.pdf);
             if value.luminance().is_finite() {
                 sum += value;

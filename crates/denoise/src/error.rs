@@ -1,0 +1,42 @@
+use std::path::PathBuf;
+
+/// Why layers cannot be denoised.
+#[derive(Debug, thiserror::Error)]
+pub enum DenoiseError {
+    /// No library under any of the names.
+    #[error("Open Image Denoise was not found; tried {}", tried.join("; "))]
+    NotFound {
+        /// Each name or path with the system's answer.
+        tried: Vec<String>,
+    },
+    /// A library without a function that we need.
+    #[error("{} is not Open Image Denoise 2: it has no function `{function}`", library.display())]
+    Function {
+        /// What was loaded.
+        library: PathBuf,
+        /// The function.
+        function: &'static str,
+    },
+    /// Another major version.
+    #[error("{} is Open Image Denoise {found}; expected version 2", library.display())]
+    Version {
+        /// What was loaded.
+        library: PathBuf,
+        /// Its version, as in `1.4.3`.
+        found: String,
+    },
+    /// The library's own error.
+    #[error("Open Image Denoise: {message} ({kind})")]
+    Library {
+        /// Its words.
+        message: String,
+        /// The kind of error.
+        kind: &'static str,
+    },
+    /// A frame without a layer that is denoised or guides.
+    #[error("the frame has no layer `{layer}`, which denoising needs; render it again")]
+    MissingLayer {
+        /// Name of the layer.
+        layer: &'static str,
+    },
+}

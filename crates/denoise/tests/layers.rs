@@ -1,0 +1,109 @@
+//! What denoising promises: the identity, what it reads, and what it does to noise where the library is installed.
+
+use enfilade_denoise::{DenoiseError, Denoiser, INPUTS, Noisy, denoise};
+use enfilade_frame::{Frame, Layer, Pass, Values, f16};
+use std::path::Path;
+
+const WIDTH: u32 = 96;
+const HEIGHT: u32 = 64;
+/// What is denoised, and what it becomes.
+const PARTS: [(Layer, Layer); 2] =
+    [(Layer::DiffuseIllumination, Layer::DiffuseIlluminationDenoised), (Layer::Residual, Layer::ResidualDenoised)];
+
+/// A number on [0,1) for every pixel, channel and purpose.
+fn random(pixel: usize, channel: usize, purpose: u64) -> f32 {
+    let mut x = (pixel as u64) << 20 ^ (channel as u64) << 10 ^ purpose;
+    for _ in 0..3 {
+        x = (x ^ x >> 31).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+    (x >> 40) as f32 / (1u64 << 24) as f32
+}
+
+/// A floor and a wall of checks, half of it black, a light of 0.4 that falls off to the right, a sheen of 0.05, and void in the
+/// upper corner; `noise` 0 to 1.
+fn frame(noise: f32) -> Frame {
+    let mut layers = INPUTS.map(|layer| (layer, Vec::new()));
+    for pixel in 0..(WIDTH * HEIGHT) as usize {
+        let (x, y) = (pixel % WIDTH as usize, pixel / WIDTH as usize);
+        let (void, wall) = (x > 80 && y < 12, y < 40);
+        for c in 0..3 {
+            let spread = |purpose| 1.0 + noise * (2.0 * random(pixel, c, purpose) - 1.0);
+            let reflectance = if (x / 8 + y / 8) % 2 == 0 { 0.0 } else { 0.3 + 0.2 * c as f32 };
+            let light = 0.4 - 0.002 * x as f32;
+            let normal = if wall { [0.0, -1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+            let values = if void { [0.0, 0.1, 0.0, f32::NAN] } else { [light * spread(1), 0.05 * spread(2), reflectance, normal[c]] };
+            layers.iter_mut().zip(values).for_each(|((_, layer), value)| layer.push(f16::from_f32(value)));
+        }
+    }
+    let mut frame = Frame::new(WIDTH, HEIGHT);
+    layers.into_iter().for_each(|(layer, values)| frame.insert(layer, Values::F16(values)));
+    frame
+}
+
+fn value(frame: &Frame, layer: Layer, i: usize) -> f32 {
+    frame.get(layer).unwrap().get(i) as f32
+}
+
+fn assert_identity(rendered: &Frame, denoised: &Frame) {
+    assert!(denoised.iter().all(|(layer, _)| layer.spec().pass == Pass::Denoised) && denoised.iter().count() == 3);
+    for i in 0..3 * rendered.pixels() {
+        let (a, s) = (value(rendered, Layer::DiffuseReflectance, i), value(denoised, Layer::DiffuseIlluminationDenoised, i));
+        let sum = f16::from_f32(a * s + value(denoised, Layer::ResidualDenoised, i)).to_f32();
+        assert_eq!(sum, value(denoised, Layer::ColorDenoised, i), "value {i}");
+        assert!(sum.is_finite() && sum >= 0.0);
+    }
+}
+
+#[test]
+fn the_identity_holds_whatever_a_filter_makes() {
+    let rendered = frame(1.0);
+    let strange = [0.0, -1.0, f32::NAN, f32::INFINITY, 7e4, 1e-8, 0.3333];
+    let denoised = denoise(&rendered, |noisy: &Noisy| Ok((0..noisy.color.len()).map(|i| strange[i % strange.len()]).collect())).unwrap();
+    assert_identity(&rendered, &denoised);
+}
+
+#[test]
+fn a_filter_sees_finite_pictures_and_one_that_changes_nothing_gives_back_what_was_rendered() {
+    let rendered = frame(0.7);
+    let unchanged = |noisy: &Noisy| {
+        for values in [noisy.color, noisy.albedo, noisy.normal] {
+            assert!(values.len() == 3 * rendered.pixels() && values.iter().all(|v| v.is_finite()));
+        }
+        Ok(noisy.color.to_vec())
+    };
+    let denoised = denoise(&rendered, unchanged).unwrap();
+    assert_identity(&rendered, &denoised);
+    for (before, after) in PARTS {
+        assert_eq!(rendered.get(before), denoised.get(after));
+    }
+}
+
+#[test]
+fn a_missing_layer_is_named() {
+    let error = denoise(&Frame::new(4, 4), |noisy| Ok(noisy.color.to_vec())).unwrap_err();
+    assert!(error.to_string().contains("diffuse_illumination"), "{error}");
+    assert!(matches!(error, DenoiseError::MissingLayer { .. }));
+}
+
+#[test]
+fn the_library_takes_noise_away_and_gives_the_same_bytes_on_any_number_of_threads() {
+    let Some(place) = std::env::var_os("ENFILADE_OIDN") else {
+        return eprintln!("skipped: ENFILADE_OIDN does not name Open Image Denoise");
+    };
+    let (noisy, clean) = (frame(1.0), frame(0.0));
+    let with = |threads| {
+        let denoiser = Denoiser::open(Some(Path::new(&place)), threads).unwrap();
+        assert!(denoiser.name().starts_with("Open Image Denoise 2."));
+        denoise(&noisy, |noisy| denoiser.filter(noisy)).unwrap()
+    };
+    let denoised = with(1);
+    assert_eq!(denoised, with(3));
+    assert_identity(&noisy, &denoised);
+    for (before, after) in PARTS {
+        let error = |of: &Frame, layer| {
+            (0..3 * clean.pixels()).map(|i| f64::from(value(of, layer, i) - value(&clean, before, i)).powi(2)).sum::<f64>()
+        };
+        let (with_noise, without) = (error(&noisy, before), error(&denoised, after));
+        assert!(without < 0.1 * with_noise, "{}: {without} of {with_noise}", before.spec().name);
+    }
+}
