@@ -34,7 +34,10 @@ pub(super) fn pose(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &d
     }
     let roll = roll.clamp(-limit, limit);
 
-    let toward = |direction: DVec3| target(rules, position, direction).and_then(|look_at| posed(0, position, look_at, roll));
+    let toward = |direction: DVec3| {
+        let pose = target(rules, position, direction).and_then(|look_at| posed(0, position, look_at, roll));
+        pose.filter(|pose| rules.has_room_beside(pose))
+    };
     if let Some(pose) = toward(-axes.z_axis) {
         return Ok(pose);
     }
