@@ -3,7 +3,7 @@
 use enfilade_frame::{Frame, Layer, Validity, Values, f16};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec3};
-use enfilade_render::{RenderConfig, RenderScene, render_frame};
+use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{
     Camera, CameraView, Environment, Fisheye, Intrinsics, Material, Part, Pose, Projection, Quiet, RadialTangential, RayGrid, Scene,
     Shutter, ThinLens, TiltedPinhole,
@@ -36,12 +36,14 @@ fn pose(frame: u32, x: f64) -> Pose {
 
 fn render(s: &Scene, view: &CameraView<'_>, config: &RenderConfig) -> Frame {
     s.validate().unwrap();
-    render_frame(&RenderScene::new(s, &Quiet).unwrap(), view, config, &Quiet).unwrap()
+    let prepared = RenderScene::new(s, &Quiet).unwrap();
+    let guide = Guide::learn(&prepared, &[*view], config);
+    render_frame(&prepared, &guide, view, config, &Quiet).unwrap()
 }
 
 /// Samples at pixel centres, so that a picture's formula needs no filter.
 fn unfiltered(samples: u32) -> RenderConfig {
-    RenderConfig { samples, filter_radius: 0.0, ..RenderConfig::default() }
+    RenderConfig { samples, adaptive: false, filter_radius: 0.0, ..RenderConfig::default() }
 }
 
 fn color(frame: &Frame, x: u32, y: u32) -> f64 {
@@ -62,7 +64,11 @@ fn a_point_out_of_focus_is_a_disk_of_the_diameter_of_the_circle_of_confusion() {
         let lens = ThinLens { aperture_radius_m: radius, focus_distance_m: focus, blades: 0, focus_tilt_rad: [0.0; 2] };
         let k = Intrinsics { fx: 300.0, fy: 300.0, ..Intrinsics::from_fov_x(65, 65, 1.0) };
         let camera = Camera { lens: Some(lens), ..k.into() };
-        let frame = render(&s, &CameraView::still(&camera, &pose(0, 0.0)), &RenderConfig { samples: 2048, ..RenderConfig::default() });
+        let frame = render(
+            &s,
+            &CameraView::still(&camera, &pose(0, 0.0)),
+            &RenderConfig { samples: 2048, adaptive: false, ..RenderConfig::default() },
+        );
         // The lens's rays that meet the point leave a disk of the radius f·R·|1/d − 1/F|.
         let expected = 300.0 * radius * (1.0 / f64::from(depth) - 1.0 / focus).abs();
         let (mut sum, mut moment, mut farthest) = (0.0, [0.0; 2], 0.0f64);
@@ -265,6 +271,8 @@ fn a_camera_that_cannot_be_is_refused() {
     let lens = ThinLens { aperture_radius_m: f64::NAN, focus_distance_m: 1.0, blades: 0, focus_tilt_rad: [0.0; 2] };
     let camera = Camera { lens: Some(lens), ..Intrinsics::from_fov_x(8, 8, 1.0).into() };
     let prepared = RenderScene::new(&s, &Quiet).unwrap();
-    let error = render_frame(&prepared, &CameraView::still(&camera, &pose(5, 0.0)), &RenderConfig::default(), &Quiet).unwrap_err();
+    let (good, config) = (Camera::from(Intrinsics::from_fov_x(8, 8, 1.0)), RenderConfig::default());
+    let guide = Guide::learn(&prepared, &[CameraView::still(&good, &pose(5, 0.0))], &config);
+    let error = render_frame(&prepared, &guide, &CameraView::still(&camera, &pose(5, 0.0)), &config, &Quiet).unwrap_err();
     assert!(error.to_string().starts_with("frame 5: the camera is not usable: the camera's aperture_radius_m is NaN"), "{error}");
 }
