@@ -250,7 +250,7 @@ impl Resolver<'_> {
             scene.camera.k_size.get_or_insert(scene.size);
         }
         match scene.camera.problem(scene.size) {
-            Some(problem) => Err(self.refuse(camera, problem, "see the keys of [camera] in examples/real-rooms/README.md")),
+            Some(problem) => Err(self.refuse(camera, problem, "the keys of [camera] are explained in docs/cameras.md")),
             None => Ok(()),
         }
     }

@@ -89,3 +89,79 @@ fn check_stereo(dataset: &Dataset, scene: &str, trajectory: &Trajectory, stereo:
         card.observe(Law::Stereo, off.max(turned) + frames(pose, partner), || format!("{scene}/{name}/frame.{:04}", pose.frame));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+    use enfilade_dataset::StereoSide;
+    use enfilade_dataset::hdf5::{Storage, write_array};
+    use enfilade_scene::{Fisheye, Projection, Shutter};
+
+    fn trajectory() -> Trajectory {
+        let first = testing::pose();
+        let second = Pose { frame: 1, position: first.position + DVec3::X * 0.1, ..first };
+        Trajectory { name: "cam_00".into(), poses: vec![first, second] }
+    }
+
+    /// A fisheye with a rolling shutter, and a plain pinhole.
+    fn cameras() -> [Camera; 2] {
+        let fisheye = Projection::Fisheye(testing::intrinsics(), Fisheye::new([0.01, 0.0, 0.0, 0.0]).unwrap());
+        let shutter = Shutter { exposure_s: 0.01, readout_s: 0.02, frame_time_s: 0.1 };
+        [Camera { shutter: Some(shutter), ..fisheye.into() }, testing::intrinsics().into()]
+    }
+
+    /// The laws that the files of `camera` break after `change`.
+    fn failures(camera: &Camera, change: impl Fn(&Dataset)) -> Vec<Law> {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        dataset.write_trajectory("room", &trajectory(), camera, None).unwrap();
+        change(&dataset);
+        let mut card = Card::default();
+        check(&dataset, "room", &trajectory(), camera, &mut card);
+        card.failures()
+    }
+
+    #[test]
+    fn files_that_are_not_the_cameras_are_found() {
+        let [rolling, pinhole] = cameras();
+        assert_eq!(failures(&rolling, |_| ()), []);
+        assert_eq!(failures(&pinhole, |_| ()), []);
+        let bent = |d: &Dataset| {
+            let path = d.layout().camera_rays("room", "cam_00");
+            let Array { shape, values: Elements::F64(mut rays) } = read_array(&path).unwrap() else { panic!("rays are float64") };
+            rays[3 * 70] += 1e-6;
+            write_array(&path, &Array::f64(&shape, rays), Storage::Compressed, &[]).unwrap();
+        };
+        assert_eq!(failures(&rolling, bent), [Law::CameraFiles]);
+        let other_motion = |d: &Dataset| {
+            let [mut other, _] = cameras();
+            other.shutter = Some(Shutter { readout_s: 0.03, ..other.shutter.unwrap() });
+            d.write_trajectory("room", &trajectory(), &other, None).unwrap();
+        };
+        assert_eq!(failures(&rolling, other_motion), [Law::CameraFiles]);
+        let gone = |d: &Dataset| std::fs::remove_file(d.layout().camera_rows("room", "cam_00", "orientations")).unwrap();
+        assert_eq!(failures(&rolling, gone), [Law::CameraFiles]);
+        let left_over = |d: &Dataset| d.write_trajectory("room", &trajectory(), &cameras()[0], None).unwrap();
+        assert_eq!(failures(&pinhole, left_over), [Law::CameraFiles]);
+    }
+
+    #[test]
+    fn a_rig_that_is_none_is_found() {
+        let [_, pinhole] = cameras();
+        let rig = |d: &Dataset, right: Trajectory, back: Option<StereoRecord>| {
+            let left = StereoRecord::new(StereoSide::Left, "cam_01".into(), 0.12);
+            d.write_trajectory("room", &trajectory(), &pinhole, Some(&left)).unwrap();
+            d.write_trajectory("room", &right, &pinhole, back.as_ref()).unwrap();
+        };
+        let beside = |m: f64| trajectory().beside("cam_01".into(), m);
+        let back = |m: f64| Some(StereoRecord::new(StereoSide::Right, "cam_00".into(), m));
+        assert_eq!(failures(&pinhole, |d| rig(d, beside(0.12), back(0.12))), []);
+        assert_eq!(failures(&pinhole, |d| rig(d, beside(0.121), back(0.12))), [Law::Stereo]);
+        assert_eq!(failures(&pinhole, |d| rig(d, beside(0.12), back(0.13))), [Law::Stereo]);
+        assert_eq!(failures(&pinhole, |d| rig(d, beside(0.12), None)), [Law::Stereo]);
+        let mut turned = beside(0.12);
+        turned.poses[1].world_from_camera *= enfilade_math::DMat3::from_rotation_y(1e-6);
+        assert_eq!(failures(&pinhole, |d| rig(d, turned.clone(), back(0.12))), [Law::Stereo]);
+    }
+}
