@@ -48,7 +48,7 @@ impl Fisheye {
     /// `None` outside of the image circle.
     pub fn direction(&self, q: DVec2) -> Option<DVec3> {
         let radius = q.length();
-        if !(radius <= self.radius_max) {
+        if radius.is_nan() || radius > self.radius_max {
             return None;
         }
         let theta = solve_rising(radius, self.theta_max, |theta| self.radius(theta));
@@ -61,7 +61,7 @@ impl Fisheye {
     pub fn project(&self, direction: DVec3) -> Option<DVec2> {
         let off_axis = direction.truncate();
         let theta = off_axis.length().atan2(-direction.z);
-        if !(theta <= self.theta_max * (1.0 + END_SLACK)) {
+        if theta.is_nan() || theta > self.theta_max * (1.0 + END_SLACK) {
             return None;
         }
         Some(off_axis.try_normalize().map_or(DVec2::ZERO, |around| around * self.radius(theta).0))

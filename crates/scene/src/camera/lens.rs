@@ -39,7 +39,8 @@ impl ThinLens {
             return number("blades", f64::from(self.blades), "0 for a circle, or 3 or more");
         }
         let tilted = self.focus_tilt_rad != [0.0; 2];
-        if self.focus_tilt_rad.iter().any(|t| !(t.abs() < 0.5 * std::f64::consts::PI)) || (tilted && !has_plane) {
+        let right_angle = 0.5 * std::f64::consts::PI;
+        if !self.focus_tilt_rad.iter().all(|t| t.abs() < right_angle) || (tilted && !has_plane) {
             let expected = "two angles below 90 degrees, and 0 for fisheye and panorama";
             return Err(CameraError::new("focus_tilt_rad", format!("{:?}", self.focus_tilt_rad), expected));
         }

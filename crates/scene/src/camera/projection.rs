@@ -73,7 +73,8 @@ impl Projection {
     /// Image point of a camera-space point. `None` for points that no image point shows; what is returned may lie beyond the
     /// image's border.
     pub fn project(&self, p_camera: DVec3) -> Option<(f64, f64)> {
-        if self.has_image_plane() && !(p_camera.z < 0.0) {
+        let in_front = p_camera.z < 0.0;
+        if self.has_image_plane() && !in_front {
             return None;
         }
         match self {

@@ -41,9 +41,9 @@ impl RayGrid {
         }
         let grid = Self { width, height, rows, columns, slopes: rays.iter().map(|r| r.truncate() / -r.z).collect() };
         for (row, column) in (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| (row, column))) {
-            let corners = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE];
+            let mut corners = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE].into_iter();
             // Columns go to the right and rows downward, against y.
-            if corners.iter().any(|&at| !(grid.cell(row, column, at).1.determinant() < 0.0)) {
+            if !corners.all(|at| grid.cell(row, column, at).1.determinant() < 0.0) {
                 let found = format!("a fold at row {row}, column {column}");
                 return wrong(found, "rays that turn right along a row and down along a column");
             }

@@ -8,7 +8,8 @@ pub(super) fn first_fall(places: impl Iterator<Item = f64>, slope: impl Fn(f64) 
     let mut low = 0.0;
     for place in places {
         // NaN is a fall.
-        if !(slope(place) > 0.0) {
+        let rises = slope(place) > 0.0;
+        if !rises {
             let mut high = place;
             for _ in 0..80 {
                 let middle = 0.5 * (low + high);
