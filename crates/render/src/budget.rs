@@ -39,10 +39,8 @@ impl Budget {
     pub fn share(&self, width: usize, estimates: &[Estimate]) -> Vec<u32> {
         let height = estimates.len() / width.max(1);
         let mean = estimates.iter().map(|e| f64::from(e.mean)).sum::<f64>() as f32 / estimates.len().max(1) as f32;
-        let errors: Vec<f32> = (0..estimates.len())
-            .into_par_iter()
-            .map(|p| error_around(estimates, width, height, p % width, p / width, FLOOR * mean))
-            .collect();
+        let errors: Vec<f32> =
+            (0..estimates.len()).into_par_iter().map(|p| error_around(estimates, width, height, p % width, p / width, FLOOR * mean)).collect();
         let total: f64 = errors.iter().map(|&e| f64::from(e)).sum();
         let n = errors.len() as f64;
         if !(total > 0.0 && total.is_finite()) {
@@ -55,8 +53,7 @@ impl Budget {
         let scale = match self.noise {
             None => for_mean,
             Some(target) => {
-                let noise =
-                    |scale: f64| -errors.iter().map(|&e| f64::from(e).powi(2) / self.samples(f64::from(e) * scale, most)).sum::<f64>();
+                let noise = |scale: f64| -errors.iter().map(|&e| f64::from(e).powi(2) / self.samples(f64::from(e) * scale, most)).sum::<f64>();
                 bisect(-n * f64::from(target).powi(2), noise).min(for_mean)
             }
         };
@@ -120,8 +117,7 @@ mod tests {
     fn a_noise_target_takes_what_it_needs_up_to_the_bound() {
         let budget = |noise| Budget { first: 8, mean: 4096, noise: Some(noise) };
         let counts = budget(0.05).share(64, &half_noisy());
-        let left =
-            half_noisy().iter().zip(&counts).map(|(e, &n)| e.variance / (1.2f32.powi(2) * n as f32)).sum::<f32>() / counts.len() as f32;
+        let left = half_noisy().iter().zip(&counts).map(|(e, &n)| e.variance / (1.2f32.powi(2) * n as f32)).sum::<f32>() / counts.len() as f32;
         assert!((left.sqrt() - 0.05).abs() < 0.003, "left {}", left.sqrt());
         let bounded = budget(1e-6).share(64, &half_noisy());
         assert!(bounded.iter().map(|&n| u64::from(n)).sum::<u64>() <= 4097 * 64 * 32);

@@ -27,7 +27,7 @@ macro_rules! section {
     };
 }
 
-section!(RenderPatch => RenderConfig {
+section!(RenderPatch => RenderConfig { 
     samples: u32,
     adaptive: bool,
     noise: f32,

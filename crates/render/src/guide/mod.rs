@@ -34,12 +34,12 @@ pub struct Guide {
 }
 
 impl Guide {
-    /// Learns from `views`, of which there is one at least. Depends on the arguments alone, whatever the number of threads.
+    /// Learns from `views`. Depends on the arguments alone, whatever the number of threads.
     pub fn learn(scene: &RenderScene<'_>, views: &[CameraView<'_>], config: &RenderConfig) -> Self {
         let choice = LightChoice::learn(scene, views, config);
-        let pixels: u64 = views[0].camera().size().map(u64::from).iter().product();
+        let pixels = views.first().map_or(0, |view| view.camera().size().map(u64::from).iter().product::<u64>());
         let samples = pixels * u64::from(config.samples) * views.len() as u64;
-        let paths = (samples / 64).clamp(256, PATHS);
+        let paths = if views.is_empty() { 0 } else { (samples / 64).clamp(256, PATHS) };
         let seed = hash_u64(config.seed ^ 0x6_1d3);
         let sites: Vec<Site> = (0..paths)
             .into_par_iter()

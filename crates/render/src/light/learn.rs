@@ -26,7 +26,7 @@ impl LightChoice {
     /// Learns from the points of view of a trajectory. A function of the arguments alone, whatever the number of threads.
     pub fn learn(scene: &RenderScene<'_>, views: &[CameraView<'_>], config: &RenderConfig) -> Self {
         let cameras = views.len() as u64;
-        let pixels: u64 = views[0].camera().size().map(u64::from).iter().product();
+        let pixels = views.first().map_or(0, |view| view.camera().size().map(u64::from).iter().product::<u64>());
         let samples = pixels * u64::from(config.samples) * cameras;
         let most = (PATHS + PATHS / 4 * cameras.saturating_sub(1)).min(MORE_PATHS);
         let paths = if cameras == 0 { 0 } else { (samples / SAMPLES_PER_PATH).clamp(128, most) };
