@@ -44,7 +44,8 @@ pub(super) fn pose(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &d
     let turned = image.center_first().into_iter().find_map(|d| toward(axes * d)).or_else(|| toward(longest_view(rules, position)));
     if let Some(pose) = turned {
         let angle = (-pose.world_from_camera.z_axis).angle_between(-axes.z_axis).to_degrees();
-        warn(format!("has no free space along its view, or looks straight up or down; its view is turned by {angle:.0} degrees"));
+        let beside = if rules.config.stereo_baseline_m > 0.0 { ", or no room for the second camera" } else { "" };
+        warn(format!("has no free space along its view{beside}, or looks straight up or down; its view is turned by {angle:.0} degrees"));
         return Ok(pose);
     }
     let distance_m = rules.config.min_look_distance_m;

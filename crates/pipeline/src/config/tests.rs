@@ -182,6 +182,17 @@ fn the_example_is_a_valid_configuration() {
 }
 
 #[test]
+fn the_cameras_of_the_page_are_valid_configurations() {
+    let page = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/cameras.md")).unwrap();
+    let block = page.split("```toml").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let cameras: Vec<&str> = block.split("[camera]").skip(1).collect();
+    assert_eq!(cameras.len(), 4);
+    for camera in cameras {
+        assert_ne!(config(&format!("[camera]{camera}\n{SCENE}")).scenes[0].camera, CameraConfig::default());
+    }
+}
+
+#[test]
 fn patterns_choose_scenes_and_a_typing_mistake_gets_a_proposal() {
     let config = Config::demo(&Overrides::default()).unwrap();
     assert_eq!(config.select(Some("liv*m")).unwrap().len(), 1);
