@@ -1,26 +1,32 @@
-//! A camera's folder under `_detail`: the keyframe arrays of its trajectory, and its poses in OpenCV's conventions.
+//! A camera's folder under `_detail`: the keyframe arrays of its trajectory, and its poses and calibration in OpenCV's conventions.
 
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
 use crate::tables::{Table, write_parameter};
-use crate::{Dataset, DatasetError, check_name, replace_file, write_bytes};
+use crate::{Dataset, DatasetError, StereoRecord, check_name, replace_file, write_bytes};
 use enfilade_math::{DMat3, DVec3};
-use enfilade_scene::{Intrinsics, Pose, Trajectory};
+use enfilade_scene::{Camera, Pose, Projection, Trajectory};
 use serde::Serialize;
 use std::path::Path;
 
-/// Hypersim's time between two frames; ours are stills as well.
+/// Hypersim's time between two frames, for cameras that are at rest for each.
 const FRAME_TIME_S: f64 = 1.0;
 
 impl Dataset {
-    /// Writes a trajectory: the four keyframe arrays, `metadata_camera.csv`, `cameras_opencv.json`, and the camera's row in
-    /// `metadata_cameras.csv`.
+    /// Writes a trajectory: the four keyframe arrays, `metadata_camera.csv`, `cameras_opencv.json`, the camera's row in
+    /// `metadata_cameras.csv` and, where K does not say it all, `camera.json` with its arrays.
     ///
     /// # Errors
     /// When a file cannot be written, or the camera's name cannot be part of a path.
-    pub fn write_trajectory(&self, scene: &str, trajectory: &Trajectory, intrinsics: &Intrinsics) -> Result<(), DatasetError> {
-        let camera = trajectory.name.as_str();
+    pub fn write_trajectory(
+        &self,
+        scene: &str,
+        trajectory: &Trajectory,
+        camera: &Camera,
+        stereo: Option<&StereoRecord>,
+    ) -> Result<(), DatasetError> {
+        let name = trajectory.name.as_str();
         check_name("scene name", scene)?;
-        check_name("camera name", camera)?;
+        check_name("camera name", name)?;
         let poses = &trajectory.poses;
         let vectors = |of: fn(&Pose) -> DVec3| Array::f64(&[poses.len(), 3], poses.iter().flat_map(|p| of(p).to_array()).collect());
         let rotations = poses.iter().flat_map(|p| p.world_from_camera.transpose().to_cols_array()).collect();
@@ -31,12 +37,14 @@ impl Dataset {
             ("orientations", Array::f64(&[poses.len(), 3, 3], rotations)),
         ];
         for (what, array) in &arrays {
-            replace_file(&self.layout().keyframes(scene, camera, what), |aside| write_array(aside, array, Storage::Contiguous, &[]))?;
+            replace_file(&self.layout().keyframes(scene, name, what), |aside| write_array(aside, array, Storage::Contiguous, &[]))?;
         }
-        write_parameter(&self.layout().metadata_camera(scene, camera), "frame_time_seconds", FRAME_TIME_S)?;
-        write_bytes(&self.layout().cameras_opencv(scene, camera), opencv_json(scene, trajectory, intrinsics))?;
-        self.make_records_dir(scene, camera)?;
-        self.add_camera(scene, camera)
+        let frame_time_s = camera.shutter.map_or(FRAME_TIME_S, |shutter| shutter.frame_time_s);
+        write_parameter(&self.layout().metadata_camera(scene, name), "frame_time_seconds", frame_time_s)?;
+        write_bytes(&self.layout().cameras_opencv(scene, name), opencv_json(scene, trajectory, camera))?;
+        self.write_camera_model(scene, trajectory, camera, stereo)?;
+        self.make_records_dir(scene, name)?;
+        self.add_camera(scene, name)
     }
 
     /// A camera's trajectory in metres; without `metadata_scene.csv` the files are taken to be in metres. Without look-at positions
@@ -132,9 +140,11 @@ struct OpencvCameras<'a> {
     camera: &'a str,
     width: u32,
     height: u32,
-    #[serde(rename = "K")]
-    k: [[f64; 3]; 3],
-    distortion: [f64; 0],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model: Option<&'static str>,
+    #[serde(rename = "K", skip_serializing_if = "Option::is_none")]
+    k: Option<[[f64; 3]; 3]>,
+    distortion: Vec<f64>,
     frames: Vec<OpencvFrame>,
 }
 
@@ -148,26 +158,51 @@ const OPENCV_CONVENTION: &str = "OpenCV: camera axes x right, y down, z forward;
     world_from_camera takes camera coordinates (column vectors) to the world, which is right-handed with z up. A world point p falls \
     on pixel K [I|0] inverse(world_from_camera) p. No lens distortion.";
 
-fn opencv_json(scene: &str, trajectory: &Trajectory, intrinsics: &Intrinsics) -> String {
+const OPENCV_DISTORTED: &str = "OpenCV: camera axes x right, y down, z forward; the centre of the upper left pixel is (0, 0). \
+    world_from_camera takes camera coordinates (column vectors) to the world, which is right-handed with z up. model opencv: K and \
+    distortion are those of cv2.projectPoints (k1 k2 p1 p2 k3 k4 k5 k6); opencv_fisheye: of cv2.fisheye.projectPoints (k1 k2 k3 k4). Other \
+    models have no K: camera_rays.hdf5 has the ray of every pixel, with y and z the other way around. With a rolling shutter these poses \
+    are those of the middle row; camera_row_positions.hdf5 and camera_row_orientations.hdf5 have those of all rows.";
+
+fn opencv_json(scene: &str, trajectory: &Trajectory, camera: &Camera) -> String {
+    let [width, height] = camera.size();
+    // A tilted image plane is a turned camera with a straight one.
+    let (intrinsics, turned) = match &camera.projection {
+        Projection::Pinhole(k) | Projection::RadialTangential(k, _) | Projection::Fisheye(k, _) => (Some(*k), DMat3::IDENTITY),
+        Projection::TiltedPinhole(tilted) => {
+            let (k, rotation) = tilted.straightened();
+            (Some(k), rotation.transpose())
+        }
+        Projection::Equirectangular { .. } | Projection::RayGrid(_) => (None, DMat3::IDENTITY),
+    };
+    let (model, distortion) = match &camera.projection {
+        Projection::Pinhole(_) | Projection::TiltedPinhole(_) => (None, Vec::new()),
+        Projection::RadialTangential(_, distortion) => (Some("opencv"), distortion.coefficients().to_vec()),
+        Projection::Fisheye(_, fisheye) => (Some("opencv_fisheye"), fisheye.coefficients().to_vec()),
+        Projection::Equirectangular { .. } => (Some("equirectangular"), Vec::new()),
+        Projection::RayGrid(_) => (Some("ray_grid"), Vec::new()),
+    };
+    let rolls = camera.shutter.is_some_and(|shutter| shutter.readout_s > 0.0);
     let cameras = OpencvCameras {
-        convention: OPENCV_CONVENTION,
+        convention: if model.is_some() || rolls { OPENCV_DISTORTED } else { OPENCV_CONVENTION },
         unit: "m",
         scene,
         camera: &trajectory.name,
-        width: intrinsics.width,
-        height: intrinsics.height,
-        k: intrinsics.opencv_k(),
-        distortion: [],
-        frames: trajectory.poses.iter().map(opencv_frame).collect(),
+        width,
+        height,
+        model,
+        k: intrinsics.map(|k| k.opencv_k()),
+        distortion,
+        frames: trajectory.poses.iter().map(|pose| opencv_frame(pose, turned)).collect(),
     };
     let mut text = serde_json::to_string_pretty(&cameras).expect("plain data encodes");
     text.push('\n');
     text
 }
 
-/// The pose with the camera's y and z axes turned around. Adding zero turns −0 into 0.
-fn opencv_frame(pose: &Pose) -> OpencvFrame {
-    let r = pose.world_from_camera;
+/// The pose with the camera's y and z axes turned around; `turned` goes before. Adding zero turns −0 into 0.
+fn opencv_frame(pose: &Pose, turned: DMat3) -> OpencvFrame {
+    let r = if turned == DMat3::IDENTITY { pose.world_from_camera } else { pose.world_from_camera * turned };
     let row = |i: usize| [r.x_axis[i] + 0.0, 0.0 - r.y_axis[i], 0.0 - r.z_axis[i], pose.position[i] + 0.0];
     OpencvFrame { frame: pose.frame, world_from_camera: [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]] }
 }
@@ -175,6 +210,7 @@ fn opencv_frame(pose: &Pose) -> OpencvFrame {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use enfilade_scene::{Intrinsics, TiltedPinhole};
 
     fn trajectory() -> Trajectory {
         let pose = |frame, x| Pose::look_at(frame, DVec3::new(x, 0.5, 1.5), DVec3::new(2.0, 3.0, 1.0), DVec3::Z).unwrap();
@@ -185,10 +221,10 @@ mod tests {
     fn a_trajectory_comes_back() {
         let folder = tempfile::tempdir().unwrap();
         let dataset = Dataset::create(folder.path()).unwrap();
-        let intrinsics = Intrinsics::from_fov_x(64, 48, 1.0);
-        dataset.write_trajectory("room", &Trajectory { name: "cam_01".into(), ..trajectory() }, &intrinsics).unwrap();
-        dataset.write_trajectory("room", &trajectory(), &intrinsics).unwrap();
-        dataset.write_trajectory("room", &trajectory(), &intrinsics).unwrap();
+        let camera = Intrinsics::from_fov_x(64, 48, 1.0).into();
+        dataset.write_trajectory("room", &Trajectory { name: "cam_01".into(), ..trajectory() }, &camera, None).unwrap();
+        dataset.write_trajectory("room", &trajectory(), &camera, None).unwrap();
+        dataset.write_trajectory("room", &trajectory(), &camera, None).unwrap();
         assert_eq!(dataset.read_trajectory("room", "cam_00").unwrap(), trajectory());
         assert_eq!(dataset.cameras("room").unwrap(), ["cam_00", "cam_01"]);
         let missing = dataset.read_trajectory("room", "cam_02").unwrap_err();
@@ -197,24 +233,28 @@ mod tests {
 
     #[test]
     fn opencv_matrices_project_as_the_camera_does() {
-        let intrinsics = Intrinsics { width: 640, height: 480, fx: 500.0, fy: 510.0, cx: 300.0, cy: 260.0 };
-        let json: serde_json::Value = serde_json::from_str(&opencv_json("room", &trajectory(), &intrinsics)).unwrap();
-        let number = |value: &serde_json::Value, i: usize, j: usize| value[i][j].as_f64().unwrap();
-        let (k, pose) = (&json["K"], &json["frames"][2]["world_from_camera"]);
-        let p_camera = DVec3::new(0.3, 0.2, 2.0); // OpenCV's axes
-        let p_world =
-            DVec3::from_array([0, 1, 2].map(|i| (0..3).map(|j| number(pose, i, j) * p_camera[j]).sum::<f64>() + number(pose, i, 3)));
-        let expected = trajectory().poses[2];
-        let (x, y) = intrinsics.project(expected.world_from_camera.transpose() * (p_world - expected.position));
-        let pixel = [0, 1].map(|i| (0..3).map(|j| number(k, i, j) * p_camera[j]).sum::<f64>() / p_camera.z);
-        assert!((pixel[0] + 0.5 - x).abs() < 1e-9 && (pixel[1] + 0.5 - y).abs() < 1e-9, "{pixel:?} {x} {y}");
+        let k = Intrinsics { width: 640, height: 480, fx: 500.0, fy: 510.0, cx: 300.0, cy: 260.0, skew: 0.0 };
+        let tilt = DMat3::from_rotation_x(0.15) * k.cam_from_uv();
+        for projection in [Projection::Pinhole(k), Projection::TiltedPinhole(TiltedPinhole::new(640, 480, tilt).unwrap())] {
+            let json: serde_json::Value = serde_json::from_str(&opencv_json("room", &trajectory(), &projection.clone().into())).unwrap();
+            let number = |value: &serde_json::Value, i: usize, j: usize| value[i][j].as_f64().unwrap();
+            let (k, pose) = (&json["K"], &json["frames"][2]["world_from_camera"]);
+            let p_camera = DVec3::new(0.3, 0.2, 2.0); // OpenCV's axes
+            let p_world =
+                DVec3::from_array([0, 1, 2].map(|i| (0..3).map(|j| number(pose, i, j) * p_camera[j]).sum::<f64>() + number(pose, i, 3)));
+            let expected = trajectory().poses[2];
+            let p = expected.world_from_camera.transpose() * (p_world - expected.position);
+            let (x, y) = projection.project(p).unwrap();
+            let pixel = [0, 1].map(|i| (0..3).map(|j| number(k, i, j) * p_camera[j]).sum::<f64>() / p_camera.z);
+            assert!((pixel[0] + 0.5 - x).abs() < 1e-9 && (pixel[1] + 0.5 - y).abs() < 1e-9, "{pixel:?} {x} {y}");
+        }
     }
 
     #[test]
     fn arrays_of_another_length_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         let dataset = Dataset::create(folder.path()).unwrap();
-        dataset.write_trajectory("room", &trajectory(), &Intrinsics::from_fov_x(64, 48, 1.0)).unwrap();
+        dataset.write_trajectory("room", &trajectory(), &Intrinsics::from_fov_x(64, 48, 1.0).into(), None).unwrap();
         let path = dataset.layout().keyframes("room", "cam_00", "orientations");
         write_array(&path, &Array::f64(&[2, 3, 3], vec![0.0; 18]), Storage::Contiguous, &[]).unwrap();
         let message = dataset.read_trajectory("room", "cam_00").unwrap_err().to_string();

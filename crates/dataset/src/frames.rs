@@ -6,7 +6,7 @@ use crate::read::sorted_names;
 use crate::record::RECORD_FORMAT;
 use crate::{Dataset, DatasetError, DenoiseRecord, FileRecord, FrameRecord, FrameTime, LabelRecord, check_name, write_bytes};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
-use enfilade_scene::{Intrinsics, Pose};
+use enfilade_scene::{Camera, Pose};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -25,8 +25,8 @@ pub struct FrameInfo {
     pub config_hash: String,
     /// Where the camera stood; its frame number is the frame's.
     pub pose: Pose,
-    /// Image size and calibration.
-    pub intrinsics: Intrinsics,
+    /// What it was taken with.
+    pub camera: Camera,
 }
 
 impl Dataset {
@@ -49,6 +49,7 @@ impl Dataset {
         check_name("camera name", camera)?;
         self.make_records_dir(scene, camera)?;
         let number = info.pose.frame;
+        let (intrinsics, camera_model) = FrameRecord::of_camera(&info.camera);
         let record = FrameRecord {
             format: RECORD_FORMAT,
             scene: scene.to_string(),
@@ -58,7 +59,8 @@ impl Dataset {
             samples: info.samples,
             config_hash: info.config_hash.clone(),
             pose: (&info.pose).into(),
-            intrinsics: info.intrinsics,
+            intrinsics,
+            camera_model,
             files: self.write_aside(scene, camera, number, frame)?,
         };
         let commit = || {

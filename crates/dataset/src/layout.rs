@@ -1,7 +1,8 @@
 //! Every path of the tree, in one place. Nothing here touches the disk.
 //!
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, and in each camera's `_detail` folder
-//! `cameras_opencv.json` and `frames/` with the commit records.
+//! `cameras_opencv.json`, `frames/` with the commit records and, for cameras that are more than a pinhole, `camera.json` and its
+//! arrays.
 
 use crate::DatasetError;
 use enfilade_frame::{Layer, Pass};
@@ -117,6 +118,26 @@ impl Layout {
     /// K and 4×4 poses in OpenCV's axes.
     pub fn cameras_opencv(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("cameras_opencv.json")
+    }
+
+    /// The camera in full, where it is more than a pinhole in focus and at rest, or one of a stereo rig.
+    pub fn camera_model(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("camera.json")
+    }
+
+    /// The ray of every pixel, where no matrix says it.
+    pub fn camera_rays(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("camera_rays.hdf5")
+    }
+
+    /// A camera that is a grid of rays, in the form and under the name of Hypersim's toolkit.
+    pub fn camera_ray_grid(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("camera_lens_distortion.hdf5")
+    }
+
+    /// `positions` or `orientations` of the camera by frame and row, where the shutter rolls.
+    pub fn camera_rows(&self, scene: &str, camera: &str, what: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join(format!("camera_row_{what}.hdf5"))
     }
 
     /// The commit records of a camera's frames.

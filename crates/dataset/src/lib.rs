@@ -11,11 +11,13 @@
 
 mod atomic;
 mod camera_files;
+mod camera_model;
+mod camera_record;
+mod camera_table;
 mod dataset;
 mod error;
 mod frames;
 pub mod hdf5;
-mod intrinsics;
 mod label_files;
 mod layout;
 mod manifest;
@@ -27,6 +29,8 @@ mod tables;
 mod times;
 
 pub use atomic::{replace_file, write_bytes};
+pub use camera_model::{StereoRecord, StereoSide, read_ray_grid};
+pub use camera_record::{CameraRecord, ProjectionRecord};
 pub use dataset::Dataset;
 pub use error::DatasetError;
 pub use frames::FrameInfo;

@@ -117,10 +117,17 @@ pub struct ManifestInfo {
 const FORMAT: &str = "enfilade dataset 1";
 
 /// How to read the files, in one sentence per subject.
-const NOTES: [(&str, &str); 11] = [
+const NOTES: [(&str, &str); 12] = [
     ("layout", "Hypersim's tree: scenes/<scene>/_detail and scenes/<scene>/images/scene_<camera>_{final,geometry}_hdf5."),
     ("world", "Right-handed, z up, metres; one asset unit is one metre (meters_per_asset_unit = 1)."),
     ("camera", "Axes x right, y up, z backward; camera_keyframe_orientations hold world_from_camera and act on column vectors."),
+    (
+        "cameras",
+        "Where _detail/<camera>/camera.json is there, it describes the camera (distortion, panorama, lens, shutter, stereo partner). \
+            position = camera centre + depth_meters * (world_from_camera ray), with the rays of camera_rays.hdf5 where that is there; \
+            depth_z_meters is minus the camera-space z, negative behind a camera that sees there. Blur and motion are in the final \
+            layers alone: geometry is through the lens's centre, in the middle of the exposure of the pixel's row.",
+    ),
     ("opencv", "_detail/<camera>/cameras_opencv.json has K and world_from_camera with x right, y down, z forward, in metres."),
     ("pixels", "Row 0 is the top; the ray of pixel (row i, column j) is M_cam_from_uv (u, v, 1), u = -1 + (2j+1)/W, v = 1 - (2i+1)/H."),
     ("sampling", "Final layers are filtered over the pixel; geometry and label layers are point samples at pixel centres."),

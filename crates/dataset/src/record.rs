@@ -1,7 +1,8 @@
 //! The commit records: small JSON files that say that a frame, or its labels, are complete, and what they are made of.
 
+use crate::CameraRecord;
 use enfilade_math::DVec3;
-use enfilade_scene::{Intrinsics, Pose};
+use enfilade_scene::{Camera, Intrinsics, Pose};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -62,10 +63,35 @@ pub struct FrameRecord {
     pub config_hash: String,
     /// Where the camera stood.
     pub pose: PoseRecord,
-    /// Image size and calibration.
-    pub intrinsics: Intrinsics,
+    /// Image size and calibration of a pinhole that is in focus and at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub intrinsics: Option<Intrinsics>,
+    /// Every other camera.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera_model: Option<CameraRecord>,
     /// The layer files, by path relative to the scene's folder.
     pub files: BTreeMap<String, FileRecord>,
+}
+
+impl FrameRecord {
+    /// `intrinsics` and `camera_model` of a camera.
+    pub(crate) fn of_camera(camera: &Camera) -> (Option<Intrinsics>, Option<CameraRecord>) {
+        match camera.plain_pinhole() {
+            Some(intrinsics) => (Some(*intrinsics), None),
+            None => (None, Some(camera.into())),
+        }
+    }
+
+    /// How far the recorded camera is from `camera`: the largest difference of two pinholes' numbers, in pixels; otherwise 0 when
+    /// they are the same and infinite when not.
+    pub fn camera_differs_by(&self, camera: &Camera) -> f64 {
+        let values = |k: &Intrinsics| [k.fx, k.fy, k.cx, k.cy, k.skew, f64::from(k.width), f64::from(k.height)];
+        match (camera.plain_pinhole(), &self.intrinsics, &self.camera_model) {
+            (Some(a), Some(b), None) => values(a).iter().zip(values(b)).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())),
+            (None, None, Some(record)) if *record == camera.into() => 0.0,
+            _ => f64::INFINITY,
+        }
+    }
 }
 
 /// As [`FrameRecord`], for the denoised layers, which are made from the rendered ones and leave them as they are.

@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 use enfilade_frame::{Frame, Layer};
 use enfilade_import::{ImportOptions, load};
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
-use enfilade_scene::{Intrinsics, Pose, Quiet};
+use enfilade_scene::{Camera, CameraView, Intrinsics, Pose, Quiet};
 use std::path::Path;
 use std::time::Instant;
 
@@ -28,7 +28,7 @@ fn main() -> Result<()> {
     }
     let camera = imported.scene.cameras.first().context("the scene has no camera")?;
     let (width, height) = (reference.width as u32, reference.height as u32);
-    let intrinsics = Intrinsics::from_fov_x(width, height, camera.fov_x_rad);
+    let taken_with = Camera::from(Intrinsics::from_fov_x(width, height, camera.fov_x_rad));
     let forward = -camera.world_from_camera.z_axis;
     let pose =
         Pose { frame: 0, position: camera.position, look_at: camera.position + forward, world_from_camera: camera.world_from_camera };
@@ -36,8 +36,9 @@ fn main() -> Result<()> {
     println!("{} triangles, loaded in {:.2} s", prepared.triangle_count(), started.elapsed().as_secs_f64());
     let started = Instant::now();
     let config = RenderConfig { samples, ..RenderConfig::default() };
-    let guide = Guide::learn(&prepared, &intrinsics, &[pose], &config);
-    let frame = render_frame(&prepared, &guide, &intrinsics, &pose, &config, &Quiet)?;
+    let view = CameraView::still(&taken_with, &pose);
+    let guide = Guide::learn(&prepared, &[view], &config);
+    let frame = render_frame(&prepared, &guide, &view, &config, &Quiet)?;
     let seconds = started.elapsed().as_secs_f64();
     let millions = f64::from(width * height) * f64::from(samples) / 1e6;
     println!("{samples} samples per pixel in {seconds:.1} s: {:.2} M samples per second", millions / seconds);

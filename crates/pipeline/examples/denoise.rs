@@ -11,7 +11,7 @@ use enfilade_frame::{Frame, Layer};
 use enfilade_home::{HomeConfig, living_room};
 use enfilade_import::{ImportOptions, load};
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
-use enfilade_scene::{Intrinsics, Pose, Quiet, Scene};
+use enfilade_scene::{Camera, CameraView, Intrinsics, Pose, Quiet, Scene};
 use std::path::PathBuf;
 
 fn main() -> Result<()> {
@@ -48,14 +48,15 @@ fn main() -> Result<()> {
 
 fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &Denoiser) -> Result<()> {
     let camera = scene.cameras.first().context("the scene has no camera")?;
-    let intrinsics = Intrinsics::from_fov_x(width, height, camera.fov_x_rad);
+    let taken_with = Camera::from(Intrinsics::from_fov_x(width, height, camera.fov_x_rad));
     let look_at = camera.position - camera.world_from_camera.z_axis;
     let pose = Pose { frame: 0, position: camera.position, look_at, world_from_camera: camera.world_from_camera };
+    let view = CameraView::still(&taken_with, &pose);
     let prepared = RenderScene::new(scene, &Quiet)?;
     let render = |samples, seed| {
         let config = RenderConfig { samples, seed, ..RenderConfig::default() };
-        let guide = Guide::learn(&prepared, &intrinsics, &[pose], &config);
-        render_frame(&prepared, &guide, &intrinsics, &pose, &config, &Quiet)
+        let guide = Guide::learn(&prepared, std::slice::from_ref(&view), &config);
+        render_frame(&prepared, &guide, &view, &config, &Quiet)
     };
     let references = [picture(&render(reference, 11)?, Layer::Color), picture(&render(reference, 12)?, Layer::Color)];
     println!("  {:<62} {:>8} {:>8} {:>8} {:>7}", "", "samples", "error", "mean", "core-s");

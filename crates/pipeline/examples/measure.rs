@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use enfilade_frame::{Frame, Layer};
 use enfilade_import::{ImportOptions, load};
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
-use enfilade_scene::{Intrinsics, Pose, Quiet, StartCamera};
+use enfilade_scene::{Camera, CameraView, Intrinsics, Pose, Quiet, StartCamera};
 use std::path::PathBuf;
 
 /// What to render.
@@ -82,13 +82,14 @@ fn arguments() -> Result<Job> {
 
 /// A frame from the scene's own camera, and the processor seconds of learning for it.
 fn picture(scene: &RenderScene<'_>, camera: &StartCamera, (width, height): (u32, u32), config: &RenderConfig) -> Result<(Frame, f64)> {
-    let intrinsics = Intrinsics::from_fov_x(width, height, camera.fov_x_rad);
+    let taken_with = Camera::from(Intrinsics::from_fov_x(width, height, camera.fov_x_rad));
     let look_at = camera.position - camera.world_from_camera.z_axis;
     let pose = Pose { frame: 0, position: camera.position, look_at, world_from_camera: camera.world_from_camera };
+    let view = CameraView::still(&taken_with, &pose);
     let started = core_seconds();
-    let guide = Guide::learn(scene, &intrinsics, &[pose], config);
+    let guide = Guide::learn(scene, std::slice::from_ref(&view), config);
     let learned = core_seconds() - started;
-    Ok((render_frame(scene, &guide, &intrinsics, &pose, config, &Quiet)?, learned))
+    Ok((render_frame(scene, &guide, &view, config, &Quiet)?, learned))
 }
 
 fn color(frame: &Frame) -> Vec<f32> {

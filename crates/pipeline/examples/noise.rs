@@ -9,7 +9,7 @@ use enfilade_frame::{Frame, Layer};
 use enfilade_home::{HomeConfig, living_room};
 use enfilade_import::{ImportOptions, load};
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
-use enfilade_scene::{Intrinsics, Pose, Quiet, Scene};
+use enfilade_scene::{Camera, CameraView, Intrinsics, Pose, Quiet, Scene};
 
 const WIDTH: u32 = 256;
 const HEIGHT: u32 = 192;
@@ -43,9 +43,10 @@ fn main() -> Result<()> {
 
 fn measure(name: &str, scene: &Scene, config: &RenderConfig) -> Result<()> {
     let camera = scene.cameras.first().with_context(|| format!("{name} has no camera"))?;
-    let intrinsics = Intrinsics::from_fov_x(WIDTH, HEIGHT, camera.fov_x_rad);
+    let taken_with = Camera::from(Intrinsics::from_fov_x(WIDTH, HEIGHT, camera.fov_x_rad));
     let look_at = camera.position - camera.world_from_camera.z_axis;
     let pose = Pose { frame: 0, position: camera.position, look_at, world_from_camera: camera.world_from_camera };
+    let view = CameraView::still(&taken_with, &pose);
     let prepared = RenderScene::new(scene, &Quiet)?;
     let started = core_seconds();
     let mut learned = 0.0;
@@ -53,9 +54,9 @@ fn measure(name: &str, scene: &Scene, config: &RenderConfig) -> Result<()> {
     for seed in 0..2 {
         let config = RenderConfig { seed, ..config.clone() };
         let learning = core_seconds();
-        let guide = Guide::learn(&prepared, &intrinsics, &[pose], &config);
+        let guide = Guide::learn(&prepared, &[view], &config);
         learned += core_seconds() - learning;
-        pictures.push(luminance(&render_frame(&prepared, &guide, &intrinsics, &pose, &config, &Quiet)?));
+        pictures.push(luminance(&render_frame(&prepared, &guide, &view, &config, &Quiet)?));
     }
     let samples = config.samples;
     let seconds = (core_seconds() - started) / 2.0;

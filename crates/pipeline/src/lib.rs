@@ -13,8 +13,8 @@ mod stages;
 mod workdir;
 
 pub use config::{
-    CameraChoice, Config, ConfigError, EnvironmentChoice, FileSource, LabelSource, Overrides, Place, Quality, SceneConfig, Source, demo,
-    select,
+    CameraChoice, CameraConfig, CameraModel, Config, ConfigError, EnvironmentChoice, FileSource, LabelSource, LensConfig, Overrides, Place,
+    Quality, SceneConfig, Source, StereoConfig, demo, select,
 };
 pub use enfilade_import::UpAxis;
 pub use error::Error;

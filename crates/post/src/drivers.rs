@@ -7,7 +7,7 @@ use crate::sheet::{OverviewTile, SheetConfig, SheetTitle, overview_sheet, spread
 use crate::tonemap::ToneMap;
 use enfilade_dataset::{Dataset, DatasetError, write_bytes};
 use enfilade_frame::{Frame, LAYERS, Layer};
-use enfilade_scene::Cx;
+use enfilade_scene::{CameraView, Cx};
 use rayon::prelude::*;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -126,8 +126,8 @@ pub enum InspectError {
 pub fn inspect_pixel(dataset: &Dataset, scene: &str, camera: &str, frame: u32, [x, y]: [u32; 2]) -> Result<PixelReport, InspectError> {
     let trajectory = dataset.read_trajectory(scene, camera)?;
     let frames = dataset.frame_numbers(scene, camera)?;
-    let pose = trajectory.poses.iter().find(|pose| pose.frame == frame).filter(|_| frames.contains(&frame));
-    let Some(pose) = pose else {
+    let index = trajectory.poses.iter().position(|pose| pose.frame == frame).filter(|_| frames.contains(&frame));
+    let Some(index) = index else {
         let there = match (frames.first(), frames.last()) {
             (Some(first), Some(last)) => format!("{} from {first} to {last}", frames.len()),
             _ => "none".to_string(),
@@ -137,7 +137,8 @@ pub fn inspect_pixel(dataset: &Dataset, scene: &str, camera: &str, frame: u32, [
     let layers = read_present(dataset, scene, camera, frame, &LAYERS.map(|spec| spec.layer))?;
     let parts: Vec<String> = dataset.read_nodes(scene)?.into_iter().map(|node| node.node_name).collect();
     let names = Names { parts: &parts, materials: &[] };
-    Ok(inspect(&layers, &dataset.intrinsics(scene)?, pose, names, x, y)?)
+    let with = dataset.read_camera(scene, camera)?;
+    Ok(inspect(&layers, &CameraView::of_frame(&with, &trajectory.poses, index), names, x, y)?)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use crate::label::class_name;
 use enfilade_frame::{Frame, LAYERS, Layer};
 use enfilade_math::DVec3;
-use enfilade_scene::{Intrinsics, Pose};
+use enfilade_scene::CameraView;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -31,8 +31,8 @@ pub struct PixelReport {
     pub class: Option<String>,
     /// Its instance number.
     pub instance: Option<i16>,
-    /// Where the ray through the pixel's centre starts and goes (unit length), in the world.
-    pub ray: ([f64; 3], [f64; 3]),
+    /// Where the ray through the pixel's centre starts and goes (unit length), in the world; `None` where the picture shows nothing.
+    pub ray: Option<([f64; 3], [f64; 3])>,
     /// Where the stored position projects to, in pixels from the upper left corner; a pixel's centre is at + 0.5.
     pub projects_to: Option<(f64, f64)>,
     /// The stored values, in the order of the layers.
@@ -64,11 +64,11 @@ pub struct OutsideError {
     pub height: u32,
 }
 
-/// Reports on pixel (x, y) of a frame taken from `pose`.
+/// Reports on pixel (x, y) of a frame taken from `view`.
 ///
 /// # Errors
 /// When there is no such pixel.
-pub fn inspect(frame: &Frame, intrinsics: &Intrinsics, pose: &Pose, names: Names<'_>, x: u32, y: u32) -> Result<PixelReport, OutsideError> {
+pub fn inspect(frame: &Frame, view: &CameraView<'_>, names: Names<'_>, x: u32, y: u32) -> Result<PixelReport, OutsideError> {
     if x >= frame.width || y >= frame.height {
         return Err(OutsideError { x, y, width: frame.width, height: frame.height });
     }
@@ -76,10 +76,9 @@ pub fn inspect(frame: &Frame, intrinsics: &Intrinsics, pose: &Pose, names: Names
     let number = |layer| frame.get(layer).map(|values| values.get(pixel) as i16);
     let entity = number(Layer::RenderEntityId).and_then(|id| usize::try_from(id).ok()?.checked_sub(1));
     let name = |list: &[String]| entity.and_then(|part| list.get(part).cloned());
-    let direction = pose.world_from_camera * intrinsics.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).normalize();
+    let centre = (f64::from(x) + 0.5, f64::from(y) + 0.5);
     let position = frame.get(Layer::Position).map(|v| DVec3::new(v.get(3 * pixel), v.get(3 * pixel + 1), v.get(3 * pixel + 2)));
-    let projects_to =
-        position.filter(|p| p.is_finite()).map(|p| intrinsics.project(pose.world_from_camera.transpose() * (p - pose.position)));
+    let projects_to = position.filter(|p| p.is_finite()).and_then(|p| view.project_in_row(p, centre.1));
     let layer_value = |(layer, values): (Layer, &enfilade_frame::Values)| {
         let spec = layer.spec();
         let channels = pixel * spec.channels..(pixel + 1) * spec.channels;
@@ -92,7 +91,7 @@ pub fn inspect(frame: &Frame, intrinsics: &Intrinsics, pose: &Pose, names: Names
         material: name(names.materials),
         class: entity.and(number(Layer::Semantic)).map(|class| class_name(class).to_string()),
         instance: number(Layer::SemanticInstance).filter(|&i| i >= 1),
-        ray: (pose.position.to_array(), direction.to_array()),
+        ray: view.centre_ray(centre.0, centre.1).map(|ray| (ray.origin.to_array(), ray.direction.to_array())),
         projects_to,
         layers: frame.iter().map(layer_value).collect(),
     })
@@ -110,7 +109,10 @@ impl fmt::Display for PixelReport {
             writeln!(f, "  class      {class}, {instance}")?;
         }
         let point = |[x, y, z]: [f64; 3]| format!("({x:.4}, {y:.4}, {z:.4})");
-        writeln!(f, "  ray        from {} m along {}", point(self.ray.0), point(self.ray.1))?;
+        match self.ray {
+            Some((origin, direction)) => writeln!(f, "  ray        from {} m along {}", point(origin), point(direction))?,
+            None => writeln!(f, "  ray        none: the picture shows nothing here")?,
+        }
         if let Some((x, y)) = self.projects_to {
             let off = (x - f64::from(self.x) - 0.5).hypot(y - f64::from(self.y) - 0.5);
             writeln!(f, "  position projects to ({x:.3}, {y:.3}), {off:.4} px from the pixel's centre")?;
@@ -135,7 +137,7 @@ mod tests {
         let pixel = testing::pixel_of(&frame, part) as u32;
         let parts = testing::PARTS.map(String::from);
         let names = Names { parts: &parts, materials: &[] };
-        inspect(&frame, &testing::intrinsics(), &pose, names, pixel % 64, pixel / 64).unwrap()
+        inspect(&frame, &CameraView::still(&testing::intrinsics().into(), &pose), names, pixel % 64, pixel / 64).unwrap()
     }
 
     #[test]
@@ -147,7 +149,7 @@ mod tests {
         assert!((x - f64::from(report.x) - 0.5).abs() < 1e-3 && (y - f64::from(report.y) - 0.5).abs() < 1e-3);
         let depth = report.layers.iter().find(|l| l.name == "depth_meters").unwrap();
         let distance: f64 = depth.values[0].parse().unwrap();
-        let (origin, direction) = (DVec3::from(report.ray.0), DVec3::from(report.ray.1));
+        let (origin, direction) = report.ray.map(|(o, d)| (DVec3::from(o), DVec3::from(d))).unwrap();
         assert!(((origin + direction * distance).y - 2.0).abs() < 1e-5, "the mirror hangs at y = 2");
         let text = report.to_string();
         assert!(text.contains("  class      mirror, instance 1\n") && text.contains("depth_meters") && text.contains("  m\n"), "{text}");
@@ -166,7 +168,8 @@ mod tests {
     #[test]
     fn pixels_outside_are_refused() {
         let pose = testing::pose();
-        let error = inspect(&testing::frame(&pose), &testing::intrinsics(), &pose, Names::default(), 64, 0).unwrap_err();
+        let camera = testing::intrinsics().into();
+        let error = inspect(&testing::frame(&pose), &CameraView::still(&camera, &pose), Names::default(), 64, 0).unwrap_err();
         assert_eq!(error.to_string(), "pixel (64, 0) is outside of the image, which has columns 0 to 63 and rows 0 to 47");
     }
 }

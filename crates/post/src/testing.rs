@@ -131,12 +131,12 @@ pub(crate) fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     use enfilade_geometry::{OccupancyTree, Voxel};
     let dataset = Dataset::create(root).unwrap();
     dataset.write_scene("room", &scene()).unwrap();
-    dataset.write_intrinsics("room", &intrinsics()).unwrap();
+    dataset.write_camera_parameters("room", &intrinsics().into()).unwrap();
     dataset.write_label_tables("room", &labels()).unwrap();
     let first = pose();
     let second = Pose { frame: 1, position: first.position + DVec3::X * 0.1, look_at: first.look_at + DVec3::X * 0.1, ..first };
     let trajectory = enfilade_scene::Trajectory { name: "cam_00".into(), poses: vec![first, second] };
-    dataset.write_trajectory("room", &trajectory, &intrinsics()).unwrap();
+    dataset.write_trajectory("room", &trajectory, &intrinsics().into(), None).unwrap();
     let mut tree = OccupancyTree::new(0.1);
     for pose in &trajectory.poses {
         tree.set(tree.key(pose.position).unwrap(), Voxel::Free);
@@ -147,7 +147,7 @@ pub(crate) fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
             wanted.for_each(|(layer, values)| part.insert(layer, values.clone()));
             part
         };
-        let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose: *pose, intrinsics: intrinsics() };
+        let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose: *pose, camera: intrinsics().into() };
         dataset.write_frame("room", "cam_00", &part_of(&[Pass::Final, Pass::Geometry]), &info, FrameTime::default()).unwrap();
         dataset.write_label_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Label]), "test").unwrap();
         dataset.write_denoised_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Denoised]), "Smoother 3.1", "test").unwrap();

@@ -1,16 +1,17 @@
-//! The geometry layers: point samples at pixel centres, evaluated in double precision.
+//! The geometry layers: point samples at pixel centres, evaluated in double precision. A lens or an open shutter changes nothing of
+//! them: [`CameraView::centre_ray`] says which ray a pixel's is.
 
 use crate::prepared::{Cutout, RenderScene};
 use enfilade_frame::f16;
 use enfilade_math::{DVec3, Ray, Vec3};
-use enfilade_scene::{Intrinsics, Pose};
+use enfilade_scene::{CameraRay, CameraView};
 
 /// What the ray through a pixel's centre meets.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PixelGeometry {
     /// Euclidean distance, metres.
     pub distance_m: f32,
-    /// Planar depth, metres.
+    /// Planar depth, metres; negative behind a camera that sees there.
     pub depth_z_m: f32,
     /// World position.
     pub position: [f32; 3],
@@ -24,22 +25,17 @@ pub(crate) struct PixelGeometry {
     pub entity: i16,
 }
 
-/// World ray through the image point (x, y): origin and unit direction.
-#[inline]
-pub(crate) fn camera_ray(intrinsics: &Intrinsics, pose: &Pose, x: f64, y: f64) -> (DVec3, DVec3) {
-    (pose.position, (pose.world_from_camera * intrinsics.ray(x, y)).normalize())
-}
-
 /// The geometry seen through the centre of pixel (x, y); `None` when nothing is.
-pub(crate) fn pixel_geometry(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, x: u32, y: u32) -> Option<PixelGeometry> {
-    let (origin, direction) = camera_ray(intrinsics, pose, f64::from(x) + 0.5, f64::from(y) + 0.5);
+pub(crate) fn pixel_geometry(scene: &RenderScene<'_>, view: &CameraView<'_>, x: u32, y: u32) -> Option<PixelGeometry> {
+    let (x, y) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+    let CameraRay { origin, direction } = view.centre_ray(x, y)?;
     let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
     let hit = scene.closest(&ray, Cutout::Half)?;
     let surface = scene.surface(&hit, ray.direction);
     let triangle = &scene.triangles[hit.triangle as usize];
     let distance = exact_distance(triangle.corners, origin, direction).unwrap_or(f64::from(hit.t));
     let position = origin + direction * distance;
-    let cam_from_world = pose.world_from_camera.transpose();
+    let cam_from_world = view.row_placement(y).1.transpose();
     let to_camera = |n: Vec3| halves((cam_from_world * n.as_dvec3()).as_vec3());
     Some(PixelGeometry {
         distance_m: distance as f32,

@@ -4,15 +4,15 @@ use crate::budget::{Budget, Estimate};
 use crate::config::RenderConfig;
 use crate::error::RenderError;
 use crate::film::PixelSum;
-use crate::geometry_pass::{camera_ray, pixel_geometry};
+use crate::geometry_pass::pixel_geometry;
 use crate::guide::Guide;
-use crate::integrator::Integrator;
+use crate::integrator::{Integrator, PixelSample};
 use crate::layers::{Pixel, layers};
 use crate::prepared::RenderScene;
 use crate::tiles::Tiles;
 use enfilade_frame::Frame;
 use enfilade_math::{Ray, Sampler};
-use enfilade_scene::{Cx, Intrinsics, Pose};
+use enfilade_scene::{CameraView, Cx};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -22,6 +22,8 @@ const FIRST_SHARE: u32 = 4;
 const FEWEST: u32 = 8;
 /// Mean samples per pixel of a pass after the first.
 const PASS: u32 = 16;
+/// Makes the moment within the exposure independent of everything else that is random.
+const SHUTTER_SEED: u64 = 0x5a07_7e12;
 
 /// Renders every layer but the labels. The bytes depend on the arguments alone, whatever the number of threads.
 ///
@@ -30,12 +32,11 @@ const PASS: u32 = 16;
 pub fn render_frame(
     scene: &RenderScene<'_>,
     guide: &Guide,
-    intrinsics: &Intrinsics,
-    pose: &Pose,
+    view: &CameraView<'_>,
     config: &RenderConfig,
     cx: &dyn Cx,
 ) -> Result<Frame, RenderError> {
-    let mut rendering = FrameRender::new(scene, guide, intrinsics, pose, config)?;
+    let mut rendering = FrameRender::new(scene, guide, view, config)?;
     while !rendering.is_done() {
         rendering.pass(cx);
     }
@@ -45,8 +46,7 @@ pub fn render_frame(
 /// A frame in the making. After the first pass it can be looked at, kept, or ended at any time.
 pub struct FrameRender<'a, 's> {
     integrator: Integrator<'a, 's>,
-    intrinsics: &'a Intrinsics,
-    pose: &'a Pose,
+    view: CameraView<'a>,
     tiles: Tiles,
     /// Per tile, its pixels' sums so far.
     sums: Vec<Vec<PixelSum>>,
@@ -63,23 +63,18 @@ impl<'a, 's> FrameRender<'a, 's> {
     ///
     /// # Errors
     /// When the camera or the settings are not usable.
-    pub fn new(
-        scene: &'a RenderScene<'s>,
-        guide: &'a Guide,
-        intrinsics: &'a Intrinsics,
-        pose: &'a Pose,
-        config: &'a RenderConfig,
-    ) -> Result<Self, RenderError> {
-        check_camera(intrinsics, pose)?;
+    pub fn new(scene: &'a RenderScene<'s>, guide: &'a Guide, view: &CameraView<'a>, config: &'a RenderConfig) -> Result<Self, RenderError> {
+        check_camera(view)?;
         config.check()?;
-        let tiles = Tiles::new(intrinsics.width, intrinsics.height);
+        let [width, height] = view.camera().size();
+        let tiles = Tiles::new(width, height);
         let sums = (0..tiles.count()).map(|t| vec![PixelSum::default(); tiles.pixels(t).count()]).collect();
         let spread = config.adaptive || config.noise.is_some();
         let first = if spread { (config.samples / FIRST_SHARE).max(FEWEST).min(config.samples) } else { config.samples.min(PASS) };
         let passes = 1 + (config.samples - first).div_ceil(PASS);
-        let wanted = vec![first; intrinsics.width as usize * intrinsics.height as usize];
+        let wanted = vec![first; width as usize * height as usize];
         let integrator = Integrator { scene, config, guide };
-        Ok(Self { integrator, intrinsics, pose, tiles, sums, wanted, first, done: 0, passes })
+        Ok(Self { integrator, view: *view, tiles, sums, wanted, first, done: 0, passes })
     }
 
     /// True when every pixel has the samples that it should have.
@@ -96,13 +91,14 @@ impl<'a, 's> FrameRender<'a, 's> {
         let goal = |wanted: u32| {
             if all == 0 { wanted } else { self.first.min(wanted) + (u64::from(wanted.saturating_sub(self.first)) * later / all) as u32 }
         };
-        let (integrator, intrinsics, pose, tiles, wanted) = (&self.integrator, self.intrinsics, self.pose, self.tiles, &self.wanted);
+        let (integrator, view, tiles, wanted) = (&self.integrator, &self.view, self.tiles, &self.wanted);
+        let [width, _] = view.camera().size();
         let finished = AtomicU64::new(u64::from(self.done) * u64::from(tiles.count()));
         let total = u64::from(self.passes) * u64::from(tiles.count());
         self.sums.par_iter_mut().zip(0..tiles.count()).for_each(|(sums, tile)| {
             for (sum, (x, y)) in sums.iter_mut().zip(tiles.pixels(tile)) {
-                let goal = goal(wanted[(y * intrinsics.width + x) as usize]);
-                add_samples(integrator, intrinsics, pose, (x, y), goal, sum);
+                let goal = goal(wanted[(y * width + x) as usize]);
+                add_samples(integrator, view, (x, y), goal, sum);
             }
             cx.progress("rendering", finished.fetch_add(1, Ordering::Relaxed) + 1, total);
         });
@@ -120,7 +116,7 @@ impl<'a, 's> FrameRender<'a, 's> {
         }
         let estimates: Vec<Vec<Estimate>> = self.sums.iter().map(|tile| tile.iter().map(PixelSum::estimate).collect()).collect();
         let budget = Budget { first: self.first, mean: config.samples, noise: config.noise };
-        budget.share(self.intrinsics.width as usize, &self.tiles.rows(&estimates))
+        budget.share(self.view.camera().size()[0] as usize, &self.tiles.rows(&estimates))
     }
 
     /// Mean samples per pixel so far.
@@ -131,43 +127,45 @@ impl<'a, 's> FrameRender<'a, 's> {
 
     /// The layers as they are now.
     pub fn frame(&self) -> Frame {
-        let (scene, intrinsics, pose, tiles) = (self.integrator.scene, self.intrinsics, self.pose, self.tiles);
+        let (scene, view, tiles) = (self.integrator.scene, &self.view, self.tiles);
         let pixels: Vec<Vec<Pixel>> = self
             .sums
             .par_iter()
             .zip(0..tiles.count())
             .map(|(sums, tile)| {
-                let pixel =
-                    |(sum, (x, y)): (&PixelSum, _)| Pixel { color: sum.resolve(), geometry: pixel_geometry(scene, intrinsics, pose, x, y) };
+                let pixel = |(sum, (x, y)): (&PixelSum, _)| Pixel { color: sum.resolve(), geometry: pixel_geometry(scene, view, x, y) };
                 sums.iter().zip(tiles.pixels(tile)).map(pixel).collect()
             })
             .collect();
-        layers(intrinsics.width, intrinsics.height, &tiles.rows(&pixels))
+        let [width, height] = view.camera().size();
+        layers(width, height, &tiles.rows(&pixels))
     }
 }
 
 /// Adds samples to a pixel until it has `goal`.
-fn add_samples(integrator: &Integrator<'_, '_>, intrinsics: &Intrinsics, pose: &Pose, (x, y): (u32, u32), goal: u32, sum: &mut PixelSum) {
-    let config = integrator.config;
+fn add_samples(integrator: &Integrator<'_, '_>, view: &CameraView<'_>, (x, y): (u32, u32), goal: u32, sum: &mut PixelSum) {
+    let (config, frame) = (integrator.config, view.pose().frame);
     for index in sum.samples()..goal {
-        let sampler = Sampler::new(config.seed, pose.frame, x, y, index);
+        let sampler = Sampler::new(config.seed, frame, x, y, index);
         let u = sampler.set(0);
         let offset = [u[0], u[1]].map(|u| f64::from(config.filter.offset(u, config.filter_radius)));
-        let (origin, direction) = camera_ray(intrinsics, pose, f64::from(x) + 0.5 + offset[0], f64::from(y) + 0.5 + offset[1]);
-        sum.add(&integrator.sample(Ray::new(origin.as_vec3(), direction.as_vec3().normalize()), &sampler, index));
+        let time = match view.camera().shutter {
+            Some(_) => Sampler::new(config.seed ^ SHUTTER_SEED, frame, x, y, index).set(0)[0],
+            None => 0.5,
+        };
+        let ray = view.ray(f64::from(x) + 0.5 + offset[0], f64::from(y) + 0.5 + offset[1], [u[2], u[3]], time);
+        // Where the picture shows nothing it is black.
+        sum.add(&ray.map_or_else(PixelSample::default, |ray| {
+            integrator.sample(Ray::new(ray.origin.as_vec3(), ray.direction.as_vec3().normalize()), &sampler, index)
+        }));
     }
 }
 
-fn check_camera(intrinsics: &Intrinsics, pose: &Pose) -> Result<(), RenderError> {
+fn check_camera(view: &CameraView<'_>) -> Result<(), RenderError> {
+    let pose = view.pose();
     let camera = |problem: String| Err(RenderError::Camera { frame: pose.frame, problem });
     if !pose.position.is_finite() || !pose.world_from_camera.is_finite() {
         return camera(format!("its pose is not finite: {pose:?}"));
     }
-    if intrinsics.width == 0 || intrinsics.height == 0 || !(intrinsics.fx > 0.0 && intrinsics.fy > 0.0) {
-        return camera(format!(
-            "its image is {}x{} with focal lengths {} and {}",
-            intrinsics.width, intrinsics.height, intrinsics.fx, intrinsics.fy
-        ));
-    }
-    Ok(())
+    view.camera().validate().or_else(|error| camera(error.to_string()))
 }

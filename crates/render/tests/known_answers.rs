@@ -4,7 +4,7 @@ use enfilade_frame::{Frame, Layer};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Mat3, Rgb, Vec3};
 use enfilade_render::{Guide, RenderConfig, RenderError, RenderScene, render_frame};
-use enfilade_scene::{Bsdf, Environment, Intrinsics, Light, Material, Part, Pose, Principled, Quiet, Scene};
+use enfilade_scene::{Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, Pose, Principled, Quiet, Scene};
 use std::f64::consts::PI;
 
 fn quad(corners: [Vec3; 4]) -> Mesh {
@@ -84,8 +84,10 @@ fn picture(scene: &Scene, from: DVec3, to: DVec3, size: u32, fov_deg: f64, sampl
 }
 
 fn render(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, config: &RenderConfig) -> Result<Frame, RenderError> {
-    let guide = Guide::learn(scene, intrinsics, &[*pose], config);
-    render_frame(scene, &guide, intrinsics, pose, config, &Quiet)
+    let camera = Camera::from(*intrinsics);
+    let view = CameraView::still(&camera, pose);
+    let guide = Guide::learn(scene, &[view], config);
+    render_frame(scene, &guide, &view, config, &Quiet)
 }
 
 fn mean(frame: &Frame, layer: Layer, channel: usize) -> f64 {

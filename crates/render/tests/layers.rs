@@ -4,7 +4,9 @@ use enfilade_frame::{Frame, Layer};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec2, Vec3};
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
-use enfilade_scene::{Environment, Image, Intrinsics, Material, NormalMap, Part, Pixels, Pose, Quiet, Scene, TextureRef};
+use enfilade_scene::{
+    Camera, CameraView, Environment, Image, Intrinsics, Material, NormalMap, Part, Pixels, Pose, Quiet, Scene, TextureRef,
+};
 
 fn quad(origin: Vec3, e1: Vec3, e2: Vec3) -> Mesh {
     Mesh {
@@ -27,14 +29,16 @@ fn scene(meshes: Vec<Mesh>) -> Scene {
 }
 
 /// An off-centre camera with unequal focal lengths: nothing may rely on symmetry.
-const CAMERA: Intrinsics = Intrinsics { width: 41, height: 31, fx: 35.0, fy: 38.0, cx: 18.5, cy: 17.0 };
+const CAMERA: Intrinsics = Intrinsics { width: 41, height: 31, fx: 35.0, fy: 38.0, cx: 18.5, cy: 17.0, skew: 0.0 };
 
 fn render(s: &Scene, from: DVec3, to: DVec3) -> (Frame, Pose) {
     let pose = Pose::look_at(0, from, to, DVec3::new(0.05, 0.0, 1.0)).unwrap();
     let config = RenderConfig { samples: 1, ..RenderConfig::default() };
     let prepared = RenderScene::new(s, &Quiet).unwrap();
-    let guide = Guide::learn(&prepared, &CAMERA, &[pose], &config);
-    (render_frame(&prepared, &guide, &CAMERA, &pose, &config, &Quiet).unwrap(), pose)
+    let camera = Camera::from(CAMERA);
+    let view = CameraView::still(&camera, &pose);
+    let guide = Guide::learn(&prepared, &[view], &config);
+    (render_frame(&prepared, &guide, &view, &config, &Quiet).unwrap(), pose)
 }
 
 fn vector(frame: &Frame, layer: Layer, p: usize) -> DVec3 {

@@ -16,7 +16,10 @@ mod texture;
 mod trajectory;
 mod world;
 
-pub use camera::{Intrinsics, StartCamera};
+pub use camera::{
+    Camera, CameraError, CameraRay, CameraView, Fisheye, Intrinsics, Projection, RadialTangential, RayGrid, Shutter, StartCamera, ThinLens,
+    TiltedPinhole,
+};
 pub use cx::{Cx, Quiet, Warning};
 pub use environment::{Environment, direction_from_uv, uv_from_direction};
 pub use labels::{Labels, NYU40, PartLabel, SemanticClass, is_stuff};

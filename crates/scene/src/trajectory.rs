@@ -40,3 +40,14 @@ pub struct Trajectory {
     /// In order of frame number.
     pub poses: Vec<Pose>,
 }
+
+impl Trajectory {
+    /// The trajectory of a camera fixed to the right of this one's, at a distance in metres, that looks the same way.
+    pub fn beside(&self, name: String, distance_m: f64) -> Self {
+        let moved = |pose: &Pose| {
+            let offset = distance_m * pose.world_from_camera.x_axis;
+            Pose { position: pose.position + offset, look_at: pose.look_at + offset, ..*pose }
+        };
+        Self { name, poses: self.poses.iter().map(moved).collect() }
+    }
+}

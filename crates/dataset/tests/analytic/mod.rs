@@ -116,15 +116,15 @@ pub fn label_frame(frame: &Frame) -> Frame {
 }
 
 pub fn info(intrinsics: &Intrinsics, pose: &Pose) -> FrameInfo {
-    FrameInfo { seed: 7, samples: 1, config_hash: "c0ffee".into(), pose: *pose, intrinsics: *intrinsics }
+    FrameInfo { seed: 7, samples: 1, config_hash: "c0ffee".into(), pose: *pose, camera: (*intrinsics).into() }
 }
 
 /// A whole dataset of `frames` frames, of which the last stays unrendered.
 pub fn write(dataset: &Dataset, intrinsics: &Intrinsics, frames: u32) {
     let trajectory = trajectory(frames);
     dataset.write_scene(SCENE, &scene()).unwrap();
-    dataset.write_intrinsics(SCENE, intrinsics).unwrap();
-    dataset.write_trajectory(SCENE, &trajectory, intrinsics).unwrap();
+    dataset.write_camera_parameters(SCENE, &(*intrinsics).into()).unwrap();
+    dataset.write_trajectory(SCENE, &trajectory, &(*intrinsics).into(), None).unwrap();
     dataset.write_label_tables(SCENE, &labels()).unwrap();
     for pose in &trajectory.poses[..frames as usize - 1] {
         let picture = frame(intrinsics, pose, 7);

@@ -34,14 +34,18 @@ pub(super) fn pose(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &d
     }
     let roll = roll.clamp(-limit, limit);
 
-    let toward = |direction: DVec3| target(rules, position, direction).and_then(|look_at| posed(0, position, look_at, roll));
+    let toward = |direction: DVec3| {
+        let pose = target(rules, position, direction).and_then(|look_at| posed(0, position, look_at, roll));
+        pose.filter(|pose| rules.has_room_beside(pose))
+    };
     if let Some(pose) = toward(-axes.z_axis) {
         return Ok(pose);
     }
     let turned = image.center_first().into_iter().find_map(|d| toward(axes * d)).or_else(|| toward(longest_view(rules, position)));
     if let Some(pose) = turned {
         let angle = (-pose.world_from_camera.z_axis).angle_between(-axes.z_axis).to_degrees();
-        warn(format!("has no free space along its view, or looks straight up or down; its view is turned by {angle:.0} degrees"));
+        let beside = if rules.config.stereo_baseline_m > 0.0 { ", or no room for the second camera" } else { "" };
+        warn(format!("has no free space along its view{beside}, or looks straight up or down; its view is turned by {angle:.0} degrees"));
         return Ok(pose);
     }
     let distance_m = rules.config.min_look_distance_m;

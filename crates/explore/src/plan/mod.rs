@@ -47,10 +47,17 @@ pub struct PlanConfig {
     pub test_width: u32,
     /// Height of the test images, pixels.
     pub test_height: u32,
+    /// A second camera stands this far to the right of the first, metres, and keeps the same rules; 0 for none.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub stereo_baseline_m: f64,
     /// What makes a view worth taking.
     pub saliency: Saliency,
     /// Seed; each trajectory has its own stream of random numbers.
     pub seed: u64,
+}
+
+fn is_zero(v: &f64) -> bool {
+    *v == 0.0
 }
 
 impl Default for PlanConfig {
@@ -68,6 +75,7 @@ impl Default for PlanConfig {
             fov_x_rad: std::f64::consts::FRAC_PI_3,
             test_width: 256,
             test_height: 192,
+            stereo_baseline_m: 0.0,
             saliency: Saliency::default(),
             seed: 0,
         }
@@ -85,6 +93,7 @@ impl PlanConfig {
         require(step_ok, "step_m", format!("{:?}", self.step_m), "three lengths in metres, the first two not both 0")?;
         require(length(self.height_range_m), "height_range_m", self.height_range_m, "a length of 0 or more")?;
         require(length(self.clearance_m), "clearance_m", self.clearance_m, "a length of 0 or more")?;
+        require(length(self.stereo_baseline_m), "stereo_baseline_m", self.stereo_baseline_m, "a length of 0 or more")?;
         let distance = self.min_look_distance_m;
         require(distance > 0.0 && length(distance), "min_look_distance_m", distance, "a length above 0")?;
         require((0.0..90.0).contains(&self.roll_limit_deg), "roll_limit_deg", self.roll_limit_deg, "0 up to but not 90 degrees")?;
@@ -229,7 +238,7 @@ impl Walk<'_> {
             if position.distance(look_at) < self.config.min_look_distance_m || !self.rules.sees(position, look_at) {
                 continue;
             }
-            poses.extend(posed(frame, position, look_at, roll_rad));
+            poses.extend(posed(frame, position, look_at, roll_rad).filter(|pose| self.rules.has_room_beside(pose)));
             if poses.len() == wanted {
                 break;
             }

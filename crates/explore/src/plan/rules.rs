@@ -44,6 +44,13 @@ impl<'a> Rules<'a> {
         self.is_free(p) && !self.space.tree.any_within(p, self.config.clearance_m, Voxel::Occupied)
     }
 
+    /// Whether the second camera of a stereo rig may be beside this pose; true without one.
+    pub fn has_room_beside(&self, pose: &Pose) -> bool {
+        let baseline = self.config.stereo_baseline_m;
+        let partner = pose.position + baseline * pose.world_from_camera.x_axis;
+        baseline == 0.0 || (self.is_position(partner) && self.sees(pose.position, partner))
+    }
+
     /// No surface between `from` and `to`, nor close behind `to`.
     pub fn sees(&self, from: DVec3, to: DVec3) -> bool {
         let distance = from.distance(to);

@@ -31,7 +31,16 @@ impl<'n> Reader<'n, '_> {
         ];
         match node.plugin.as_str() {
             "perspective" => (),
-            "thinlens" => self.warn(node, "the thin lens was replaced by a pinhole: everything is in focus"),
+            "thinlens" => {
+                let (radius, distance) = (node.float_or("aperture_radius", 0.0)?, node.float_or("focus_distance", 0.0)?);
+                self.warn(
+                    node,
+                    format!(
+                        "the thin lens (aperture_radius {radius}, focus_distance {distance}, in the file's units) was replaced by a \
+                         pinhole: everything is in focus; `lens` in [camera] of dataset.toml gives all cameras one"
+                    ),
+                );
+            }
             other => {
                 self.warn(node, format!("{other} sensors are not supported; the camera was left out"));
                 return Ok(());
@@ -39,8 +48,12 @@ impl<'n> Reader<'n, '_> {
         }
         self.report_unknown(node, &KNOWN, &["film", "sampler", "medium"]);
         for offset in ["principal_point_offset_x", "principal_point_offset_y"] {
-            if node.float_or(offset, 0.0)? != 0.0 {
-                self.warn(node, format!("{offset} was set to zero"));
+            let found = node.float_or(offset, 0.0)?;
+            if found != 0.0 {
+                self.warn(
+                    node,
+                    format!("{offset} {found} was set to zero; `principal_point` in [camera] of dataset.toml shifts all cameras"),
+                );
             }
         }
         if transform::is_animated(node, "to_world") {

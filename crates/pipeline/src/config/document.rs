@@ -6,7 +6,7 @@
 use super::expand::expand;
 use super::locate::{ConfigError, Source as Text};
 use super::patch::{CarvePatch, PlanPatch, RenderPatch};
-use super::{CameraChoice, Config, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source};
+use super::{CameraChoice, CameraConfig, Config, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source};
 use enfilade_import::UpAxis;
 use serde::de::{MapAccess, Visitor, value::MapAccessDeserializer};
 use serde::{Deserialize, Deserializer};
@@ -33,6 +33,7 @@ struct Document {
     import: ImportKeys,
     #[serde(default)]
     render: RenderPatch,
+    camera: Option<Spanned<CameraConfig>>,
     #[serde(default)]
     plan: PlanPatch,
     #[serde(default)]
@@ -68,6 +69,8 @@ struct SceneKeys {
     quality: Option<Quality>,
     #[serde(default)]
     render: RenderPatch,
+    /// Replaces that of the file as a whole.
+    camera: Option<Spanned<CameraConfig>>,
     #[serde(default)]
     plan: PlanPatch,
     #[serde(default)]
@@ -165,6 +168,7 @@ impl Resolver<'_> {
         let document = self.document;
         let name = self.checked_name(&keys.name, "name of a scene")?;
         let seed = self.overrides.seed.or(keys.seed).or(document.seed).unwrap_or(0);
+        let camera = keys.camera.as_ref().or(document.camera.as_ref());
         let mut scene = SceneConfig {
             seed,
             source: self.scene_source(keys, seed)?,
@@ -172,6 +176,7 @@ impl Resolver<'_> {
             cameras: keys.cameras.iter().map(|c| c.0.clone()).collect(),
             size: SIZE,
             fov_x_deg: None,
+            camera: camera.map_or_else(CameraConfig::default, |camera| camera.get_ref().clone()),
             carve: Default::default(),
             plan: Default::default(),
             render: Default::default(),
@@ -182,6 +187,9 @@ impl Resolver<'_> {
         scene.render.samples = QUALITY.samples();
         self.lay_over(&mut scene, document.quality, document.frames.as_ref(), &document.render, &document.plan, &document.carve)?;
         self.lay_over(&mut scene, keys.quality, keys.frames.as_ref(), &keys.render, &keys.plan, &keys.carve)?;
+        if let Some(camera) = camera {
+            self.check_camera(&mut scene, camera)?;
+        }
         self.override_with_arguments(&mut scene)?;
         Ok(scene)
     }
@@ -235,6 +243,20 @@ impl Resolver<'_> {
         Ok(Some(LabelSource { table: table.get_ref().clone(), scene }))
     }
 
+    /// Refuses a camera that cannot be, and notes which images its matrix is of.
+    fn check_camera(&self, scene: &mut SceneConfig, camera: &Spanned<CameraConfig>) -> Result<(), ConfigError> {
+        if let Some(file) = &scene.camera.ray_grid {
+            self.check_path(file, camera)?;
+        }
+        if scene.camera.k.is_some() {
+            scene.camera.k_size.get_or_insert(scene.size);
+        }
+        match scene.camera.problem(scene.size) {
+            Some(problem) => Err(self.refuse(camera, problem, "the keys of [camera] are explained in docs/cameras.md")),
+            None => Ok(()),
+        }
+    }
+
     fn check_path<T>(&self, path: &str, place: &Spanned<T>) -> Result<(), ConfigError> {
         let help = "set the variable before running, as in: export NAME=/path/to/folder";
         expand(path, self.variable).map(drop).map_err(|e| self.refuse(place, e, help))
@@ -269,8 +291,9 @@ impl Resolver<'_> {
             scene.size = check_size(*size.get_ref()).map_err(|m| self.refuse(size, m, "for example: size = [1024, 768]"))?;
         }
         if let Some(fov) = &render.fov_x_deg {
-            if !(*fov.get_ref() > 0.0 && *fov.get_ref() < 180.0) {
-                return Err(self.refuse(fov, "fov_x_deg must lie between 0 and 180", "60 is a common choice"));
+            let limit = scene.camera.fov_limit_deg();
+            if !(*fov.get_ref() > 0.0 && *fov.get_ref() < limit) {
+                return Err(self.refuse(fov, format!("fov_x_deg must lie between 0 and {limit}"), "60 is a common choice"));
             }
             scene.fov_x_deg = Some(*fov.get_ref());
         }

@@ -3,6 +3,7 @@
 //! Resolved means that every default is filled in: it goes into the dataset's manifest, and the parts of it that a stage
 //! reads are hashed to tell whether the stage must run again.
 
+mod camera;
 mod document;
 mod expand;
 mod locate;
@@ -18,6 +19,7 @@ use enfilade_render::RenderConfig;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
+pub use camera::{CameraConfig, CameraModel, LensConfig, StereoConfig};
 pub(crate) use locate::closest;
 pub use locate::{ConfigError, Place};
 
@@ -50,6 +52,9 @@ pub struct SceneConfig {
     pub size: [u32; 2],
     /// Horizontal field of view; `None` takes that of the scene's first used camera.
     pub fov_x_deg: Option<f64>,
+    /// What the pictures are taken with.
+    #[serde(default, skip_serializing_if = "CameraConfig::is_default")]
+    pub camera: CameraConfig,
     /// Free-space carving. Its seed is made from `seed`.
     pub carve: CarveConfig,
     /// Trajectories. Its seed is made from `seed`; its test images get the pictures' field of view and shape.

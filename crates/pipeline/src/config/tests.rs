@@ -82,6 +82,34 @@ fn everything_about_a_scene_can_be_said() {
 }
 
 #[test]
+fn a_scenes_camera_replaces_that_of_the_file_and_its_matrix_remembers_the_size() {
+    let text = format!(
+        "[camera]\nmodel = \"fisheye\"\n[render]\nfov_x_deg = 200\n{SCENE}[[scene]]\nname = \"b\"\nfile = \"b.gltf\"\nrender.size = [64, 48]\n\
+         render.fov_x_deg = 90\n[scene.camera]\nK = [[50, 0, 31.5], [0, 50, 23.5], [0, 0, 1]]\nshutter = {{ exposure_s = 0.02 }}\n"
+    );
+    let error = error(&text.replace("200", "360"));
+    assert!(error.contains("fov_x_deg must lie between 0 and 360"), "{error}");
+    // The pinhole of scene b cannot be as wide as the file says, whatever it says itself.
+    let text = text.replace("200", "170");
+    let overrides = Overrides { size: Some([32, 24]), ..Overrides::default() };
+    let [a, b] = config_with(&text, &overrides).scenes.try_into().unwrap();
+    assert_eq!((a.camera.model, a.fov_x_deg), (CameraModel::Fisheye, Some(170.0)));
+    assert_eq!((b.camera.model, b.camera.k_size, b.size), (CameraModel::Pinhole, Some([64, 48]), [32, 24]));
+    let shutter = b.camera.shutter.unwrap();
+    assert_eq!((shutter.exposure_s, shutter.readout_s, shutter.frame_time_s), (0.02, 0.0, 1.0));
+}
+
+#[test]
+fn cameras_that_cannot_be_are_shown_in_place() {
+    let text = error(&format!("[camera]\nmodel = \"pinhole\"\ndistortion = [0.1, 0, 0, 0]\n{SCENE}"));
+    assert!(text.starts_with("sets/dataset.toml:1:1: `distortion` goes with model radial_tangential or fisheye"), "{text}");
+    let text = error(&format!("camera = {{ model = \"fisheyes\" }}\n{SCENE}"));
+    assert!(text.starts_with("sets/dataset.toml:1:20: ") && text.contains("`fisheye`"), "{text}");
+    let text = error(&format!("[camera]\nlense = {{ blades = 3 }}\n{SCENE}"));
+    assert!(text.contains("did you mean `lens`?"), "{text}");
+}
+
+#[test]
 fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
     assert_eq!(
         error(&format!("[render]\nsize = [4, 3]\nsampels = 3\n{SCENE}")),
@@ -168,6 +196,17 @@ fn the_example_is_a_valid_configuration() {
     let config = resolve(&file, &text, &Overrides::default(), &|_| Some("/scenes".into())).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(config.scenes.len(), 8);
     assert!(config.scenes.iter().all(|s| s.labels.is_some()));
+}
+
+#[test]
+fn the_cameras_of_the_page_are_valid_configurations() {
+    let page = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/cameras.md")).unwrap();
+    let block = page.split("```toml").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let cameras: Vec<&str> = block.split("[camera]").skip(1).collect();
+    assert_eq!(cameras.len(), 4);
+    for camera in cameras {
+        assert_ne!(config(&format!("[camera]{camera}\n{SCENE}")).scenes[0].camera, CameraConfig::default());
+    }
 }
 
 #[test]

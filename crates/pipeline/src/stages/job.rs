@@ -2,9 +2,9 @@ use super::{Input, Stage};
 use crate::config::{Config, SceneConfig};
 use crate::error::Error;
 use crate::workdir::Workdir;
-use enfilade_dataset::Dataset;
+use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_geometry::Bvh;
-use enfilade_scene::{Intrinsics, Scene, Trajectory, WorldMesh};
+use enfilade_scene::{Camera, Scene, Trajectory, WorldMesh};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -91,21 +91,22 @@ impl<'a> Job<'a> {
         Ok(loaded.world.insert(Arc::new(World { mesh, bvh })).clone())
     }
 
-    /// The planned trajectories and the camera that they share.
-    pub fn trajectories(&self) -> Result<(Intrinsics, Vec<Trajectory>), Error> {
+    /// The planned trajectories and what each is filmed with.
+    pub fn filmed(&self) -> Result<Vec<(Camera, Trajectory)>, Error> {
         let name = &self.scene.name;
         if !self.dataset.layout().metadata_cameras(name).is_file() {
             return Err(self.run_first(Stage::Plan));
         }
         let cameras = self.dataset.cameras(name).map_err(Error::stage)?;
-        let trajectories = cameras.iter().map(|camera| self.dataset.read_trajectory(name, camera)).collect::<Result<_, _>>();
-        Ok((self.dataset.intrinsics(name).map_err(Error::stage)?, trajectories.map_err(Error::stage)?))
+        let filmed =
+            cameras.iter().map(|camera| Ok((self.dataset.read_camera(name, camera)?, self.dataset.read_trajectory(name, camera)?)));
+        filmed.collect::<Result<_, _>>().map_err(|error: DatasetError| Error::stage(error))
     }
 
     /// Every frame of every trajectory, by camera name.
     pub fn frames(&self) -> Result<Vec<(String, u32)>, Error> {
-        let (_, trajectories) = self.trajectories()?;
-        Ok(trajectories.iter().flat_map(|t| t.poses.iter().map(|p| (t.name.clone(), p.frame))).collect())
+        let filmed = self.filmed()?;
+        Ok(filmed.iter().flat_map(|(_, t)| t.poses.iter().map(|p| (t.name.clone(), p.frame))).collect())
     }
 
     /// The commit records of all frames as inputs: they hold the checksums of every layer.

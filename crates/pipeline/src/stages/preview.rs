@@ -22,10 +22,10 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     // The dataset's own sheet shows these frames: the run makes it again at its end.
     remove_if_there(&job.dataset.layout().overview())?;
     let name = &job.scene.name;
-    let (_, trajectories) = job.trajectories()?;
+    let filmed = job.filmed()?;
     let mut outputs = Vec::new();
     let mut sheets = 0;
-    for trajectory in &trajectories {
+    for (_, trajectory) in &filmed {
         let frames: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).collect();
         outputs.extend(preview_camera(job.dataset, name, &trajectory.name, &frames, cx).map_err(Error::stage)?);
         let sheet = write_contact_sheet(job.dataset, name, &trajectory.name, &frames, &SheetConfig::default()).map_err(Error::stage)?;

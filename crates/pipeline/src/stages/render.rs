@@ -5,10 +5,10 @@ use super::{Input, Inputs, Job, Outcome, Record, Stage};
 use crate::error::Error;
 use crate::report::{StageCx, Stopwatch, count};
 use crate::workdir::Hash;
-use enfilade_dataset::{FrameInfo, FrameTime};
+use enfilade_dataset::{CameraRecord, FrameInfo, FrameTime};
 use enfilade_frame::{LAYERS, Pass};
 use enfilade_render::{Guide, RenderConfig, RenderScene};
-use enfilade_scene::{Cx, Intrinsics, Pose, Trajectory, Warning};
+use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -24,17 +24,17 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let package = Input::of(&job.package()?)?.content;
-    let (intrinsics, trajectories) = job.trajectories()?;
-    let total: usize = trajectories.iter().map(|t| t.poses.len()).sum();
+    let filmed = job.filmed()?;
+    let total: usize = filmed.iter().map(|(_, t)| t.poses.len()).sum();
     let mut missing = Vec::new();
-    for trajectory in &trajectories {
+    for (camera, trajectory) in &filmed {
         job.dataset.remove_temporaries(&job.scene.name, &trajectory.name).map_err(Error::stage)?;
         remove_frames_off_the_trajectory(job, trajectory)?;
         let config = RenderConfig { seed: job.scene.seed_for(&format!("render/{}", trajectory.name)), ..job.scene.render.clone() };
-        let infos = trajectory.poses.iter().map(|pose| frame_info(&package, &config, &intrinsics, trajectory, pose));
+        let infos = trajectory.poses.iter().map(|pose| frame_info(&package, &config, camera, trajectory, pose));
         let frames: Vec<FrameInfo> = infos.filter(|info| job.force || !is_complete(job, trajectory, info)).collect();
         if !frames.is_empty() {
-            missing.push(Missing { trajectory, config, frames });
+            missing.push(Missing { camera, trajectory, config, frames });
         }
     }
     let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
@@ -49,6 +49,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 
 /// What is to be rendered of a trajectory.
 struct Missing<'a> {
+    camera: &'a Camera,
     trajectory: &'a Trajectory,
     config: RenderConfig,
     frames: Vec<FrameInfo>,
@@ -64,13 +65,15 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
     let scene = job.load_scene()?;
     let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?;
     let mut done = kept;
-    for Missing { trajectory, config, frames } in missing {
-        let guide = Guide::learn(&scene, &frames[0].intrinsics, &trajectory.poses, config);
+    for Missing { camera, trajectory, config, frames } in missing {
+        let poses = &trajectory.poses;
+        let views: Vec<CameraView> = (0..poses.len()).map(|index| CameraView::of_frame(camera, poses, index)).collect();
+        let guide = Guide::learn(&scene, &views, config);
         for info in frames {
+            let Some(view) = views.iter().find(|view| view.pose().frame == info.pose.frame) else { continue };
             let time = Stopwatch::start();
             let frame_cx = FrameCx { outer: cx, done, total };
-            let frame =
-                enfilade_render::render_frame(&scene, &guide, &info.intrinsics, &info.pose, config, &frame_cx).map_err(Error::stage)?;
+            let frame = enfilade_render::render_frame(&scene, &guide, view, config, &frame_cx).map_err(Error::stage)?;
             let time = FrameTime { wall_s: time.wall_s(), cpu_s: time.cpu_s() };
             job.dataset.write_frame(&job.scene.name, &trajectory.name, &frame, info, time).map_err(Error::stage)?;
             done += 1;
@@ -82,15 +85,15 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
 /// Units of progress per frame.
 const PER_FRAME: u64 = 1000;
 
-/// A frame depends on its whole trajectory, because the guide is learned from all of it.
-fn frame_info(package: &Hash, config: &RenderConfig, intrinsics: &Intrinsics, trajectory: &Trajectory, pose: &Pose) -> FrameInfo {
+/// A frame depends on its whole trajectory, because the guide is learned from all of it, and the camera moves on while it is exposed.
+fn frame_info(package: &Hash, config: &RenderConfig, camera: &Camera, trajectory: &Trajectory, pose: &Pose) -> FrameInfo {
     let version = (env!("CARGO_PKG_VERSION"), Stage::Render.spec().version);
     FrameInfo {
         seed: config.seed,
         samples: config.samples,
-        config_hash: Hash::of(&(version, package, config, intrinsics, &trajectory.poses, pose)).0,
+        config_hash: Hash::of(&(version, package, config, CameraRecord::from(camera), &trajectory.poses, pose)).0,
         pose: *pose,
-        intrinsics: *intrinsics,
+        camera: camera.clone(),
     }
 }
 

@@ -2,12 +2,12 @@
 
 use super::card::{Card, VerifyReport};
 use super::law::Law;
-use super::{View, check_frame, check_labels, check_trajectory};
+use super::{View, camera_files, check_frame, check_labels, check_trajectory};
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{Dataset, DatasetError, FrameStatus, Manifest, Node};
 use enfilade_frame::{Frame, LAYERS, LayerSpec};
 use enfilade_geometry::{OccupancyTree, Voxel};
-use enfilade_scene::{Cx, Intrinsics, Labels, PartLabel, Pose, Trajectory};
+use enfilade_scene::{Camera, CameraView, Cx, Labels, PartLabel, Pose, Trajectory};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -22,10 +22,10 @@ pub fn verify_dataset(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Resu
     let manifest = dataset.read_manifest()?;
     check_manifest(&mut card, dataset, manifest, scenes);
     let facts: Vec<SceneFacts> = scenes.iter().map(|scene| SceneFacts::read(dataset, scene, &mut card)).collect();
-    let frames: Vec<(&SceneFacts, &str, &Pose)> = facts.iter().flat_map(SceneFacts::frames).collect();
+    let frames: Vec<(&SceneFacts, &Filmed, usize)> = facts.iter().flat_map(SceneFacts::frames).collect();
     let done = AtomicU64::new(0);
-    let check = |&(scene, camera, pose): &(&SceneFacts, &str, &Pose)| {
-        let card = scene.check_frame(dataset, camera, pose);
+    let check = |&(scene, filmed, index): &(&SceneFacts, &Filmed, usize)| {
+        let card = scene.check_frame(dataset, filmed, index);
         cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
         card
     };
@@ -70,10 +70,16 @@ fn readable<T>(card: &mut Card, read: Result<T, DatasetError>) -> Option<T> {
 struct SceneFacts {
     name: String,
     meters_per_unit: f64,
-    intrinsics: Option<Intrinsics>,
     entities: usize,
     labels: Option<Labels>,
-    trajectories: Vec<(Trajectory, Vec<u32>)>,
+    filmed: Vec<Filmed>,
+}
+
+/// A trajectory, what it was filmed with, and the numbers of the frames that are there.
+struct Filmed {
+    trajectory: Trajectory,
+    frames: Vec<u32>,
+    camera: Option<Camera>,
 }
 
 impl SceneFacts {
@@ -86,39 +92,52 @@ impl SceneFacts {
         let facts = Self {
             name: name.to_string(),
             meters_per_unit: readable(card, dataset.meters_per_asset_unit(name)).unwrap_or(1.0),
-            intrinsics: readable(card, dataset.intrinsics(name)),
             entities: nodes.len(),
             labels: read_labels(dataset, name, &nodes, card),
-            trajectories: read_trajectories(dataset, name, card),
+            filmed: read_filmed(dataset, name, card),
         };
-        facts.check_projection(dataset, card);
+        facts.filmed.iter().filter_map(|f| Some((f, f.camera.as_ref()?))).for_each(|(f, camera)| {
+            facts.check_matrices(dataset, camera, card);
+            camera_files::check(dataset, name, &f.trajectory, camera, card);
+        });
         facts.check_trajectories(dataset, card);
         facts
     }
 
-    /// `M_proj` takes every image point to where K says it is.
-    fn check_projection(&self, dataset: &Dataset, card: &mut Card) {
-        let (Some(k), Some(projection)) = (self.intrinsics, readable(card, dataset.projection_matrix(&self.name))) else { return };
-        let (width, height) = (f64::from(k.width), f64::from(k.height));
+    /// `M_cam_from_uv` and `M_proj` describe the camera where they can, and are not there where they cannot.
+    fn check_matrices(&self, dataset: &Dataset, camera: &Camera, card: &mut Card) {
+        let name = &self.name;
+        if !camera.projection.is_linear() {
+            let there = dataset.table_projection(name).is_ok();
+            let at = || format!("{name}: M_cam_from_uv describes a pinhole, which the camera is not");
+            return card.observe(Law::Calibration, if there { f64::INFINITY } else { 0.0 }, at);
+        }
+        let Some(table) = readable(card, dataset.table_projection(name)) else { return };
+        let Some(matrix) = readable(card, dataset.projection_matrix(name)) else { return };
+        let (width, height) = camera.size().map(f64::from).into();
         for (x, y) in [(0.0, 0.0), (width, 0.0), (0.0, height), (width, height), (0.5 * width, 0.25 * height)] {
-            let clip = projection * (2.0 * k.ray(x, y)).extend(1.0);
+            let Some(ray) = camera.projection.ray(x, y) else { continue };
+            let clip = matrix * (2.0 * ray).extend(1.0);
             let off = (0.5 * (clip.x / clip.w + 1.0) * width - x).hypot(0.5 * (1.0 - clip.y / clip.w) * height - y);
-            card.observe(Law::Calibration, off, || format!("{}: M_proj and M_cam_from_uv disagree at image point ({x}, {y})", self.name));
+            card.observe(Law::Calibration, off, || format!("{name}: M_proj and the camera disagree at image point ({x}, {y})"));
+            let off = table.project(ray).map_or(f64::INFINITY, |p| table.image_distance(p, (x, y)));
+            card.observe(Law::Calibration, off, || format!("{name}: M_cam_from_uv and the camera disagree at image point ({x}, {y})"));
         }
     }
 
     fn check_trajectories(&self, dataset: &Dataset, card: &mut Card) {
         let name = &self.name;
         let tree = read_tree(dataset, name, card);
-        let rendered: usize = self.trajectories.iter().map(|(_, frames)| frames.len()).sum();
+        let rendered: usize = self.filmed.iter().map(|filmed| filmed.frames.len()).sum();
         card.observe(Law::HasFrames, if rendered == 0 { 1.0 } else { 0.0 }, || format!("{name}: no rendered frame"));
-        for (trajectory, frames) in &self.trajectories {
+        for filmed in &self.filmed {
+            let Filmed { trajectory, frames, camera } = filmed;
             let place = format!("{name}/{}", trajectory.name);
             card.merge(check_trajectory(trajectory, &place));
             let missing: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !frames.contains(frame)).collect();
             card.observe(Law::FramesComplete, missing.len() as f64, || format!("{place}: frames {missing:?} are missing"));
             for pose in &trajectory.poses {
-                self.check_record(dataset, &trajectory.name, pose, card);
+                self.check_record(dataset, &trajectory.name, camera.as_ref(), pose, card);
                 if let Some(tree) = &tree {
                     let state = tree.state(pose.position);
                     let at = || format!("{place}/frame.{:04}: {:.3} m is {state:?}", pose.frame, pose.position);
@@ -129,34 +148,35 @@ impl SceneFacts {
     }
 
     /// The frame's record states the pose and calibration that the tables state.
-    fn check_record(&self, dataset: &Dataset, camera: &str, pose: &Pose, card: &mut Card) {
-        let Some(Some(record)) = readable(card, dataset.frame_record(&self.name, camera, pose.frame)) else { return };
-        let at = || format!("{}/{camera}/frame.{:04}", self.name, pose.frame);
+    fn check_record(&self, dataset: &Dataset, name: &str, camera: Option<&Camera>, pose: &Pose, card: &mut Card) {
+        let Some(Some(record)) = readable(card, dataset.frame_record(&self.name, name, pose.frame)) else { return };
+        let at = || format!("{}/{name}/frame.{:04}", self.name, pose.frame);
         let then = record.pose.to_pose(pose.frame);
         let turned = (then.world_from_camera - pose.world_from_camera).to_cols_array().iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         card.observe(Law::RenderedPose, turned.max((then.position - pose.position).abs().max_element()), at);
-        if let Some(k) = self.intrinsics {
-            let values = |k: &Intrinsics| [k.fx, k.fy, k.cx, k.cy, f64::from(k.width), f64::from(k.height)];
-            let off = values(&k).iter().zip(values(&record.intrinsics)).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-            card.observe(Law::Calibration, off, at);
+        if let Some(camera) = camera {
+            card.observe(Law::Calibration, record.camera_differs_by(camera), at);
         }
     }
 
     /// The frames on disk that belong to a trajectory.
-    fn frames(&self) -> impl Iterator<Item = (&Self, &str, &Pose)> {
-        self.trajectories.iter().flat_map(move |(trajectory, frames)| {
-            let there = trajectory.poses.iter().filter(|pose| frames.contains(&pose.frame));
-            there.map(move |pose| (self, trajectory.name.as_str(), pose))
+    fn frames(&self) -> impl Iterator<Item = (&Self, &Filmed, usize)> {
+        self.filmed.iter().flat_map(move |filmed| {
+            let poses = filmed.trajectory.poses.iter().enumerate();
+            poses.filter(|(_, pose)| filmed.frames.contains(&pose.frame)).map(move |(index, _)| (self, filmed, index))
         })
     }
 
-    fn check_frame(&self, dataset: &Dataset, camera: &str, pose: &Pose) -> Card {
+    /// Checks the frame of pose `index`.
+    fn check_frame(&self, dataset: &Dataset, filmed: &Filmed, index: usize) -> Card {
         let mut card = Card::default();
-        let place = format!("{}/{camera}/frame.{:04}", self.name, pose.frame);
-        let frame = read_frame(dataset, &self.name, camera, pose.frame, &mut card);
-        if let (Some(frame), Some(intrinsics)) = (frame, &self.intrinsics) {
+        let (name, poses) = (&filmed.trajectory.name, &filmed.trajectory.poses);
+        let place = format!("{}/{name}/frame.{:04}", self.name, poses[index].frame);
+        let frame = read_frame(dataset, &self.name, name, poses[index].frame, &mut card);
+        if let (Some(frame), Some(camera)) = (frame, &filmed.camera) {
+            let camera = CameraView::of_frame(camera, poses, index);
             let (meters_per_unit, entities, labels) = (self.meters_per_unit, self.entities, self.labels.as_ref());
-            card.merge(check_frame(&frame, &View { intrinsics, pose, meters_per_unit, entities, labels }, &place));
+            card.merge(check_frame(&frame, &View { camera, meters_per_unit, entities, labels }, &place));
         }
         card
     }
@@ -219,14 +239,14 @@ fn read_labels(dataset: &Dataset, scene: &str, nodes: &[Node], card: &mut Card) 
     Some(Labels { parts: nodes.iter().map(label).collect() })
 }
 
-fn read_trajectories(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<(Trajectory, Vec<u32>)> {
-    let mut trajectories = Vec::new();
-    for camera in readable(card, dataset.cameras(scene)).unwrap_or_default() {
-        let Some(trajectory) = readable(card, dataset.read_trajectory(scene, &camera)) else { continue };
-        let frames = readable(card, dataset.frame_numbers(scene, &camera)).unwrap_or_default();
-        trajectories.push((trajectory, frames));
+fn read_filmed(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<Filmed> {
+    let mut filmed = Vec::new();
+    for name in readable(card, dataset.cameras(scene)).unwrap_or_default() {
+        let Some(trajectory) = readable(card, dataset.read_trajectory(scene, &name)) else { continue };
+        let frames = readable(card, dataset.frame_numbers(scene, &name)).unwrap_or_default();
+        filmed.push(Filmed { trajectory, frames, camera: readable(card, dataset.read_camera(scene, &name)) });
     }
-    trajectories
+    filmed
 }
 
 /// The free space, if there is one.
@@ -249,7 +269,7 @@ mod tests {
     use enfilade_dataset::hdf5::{Storage, write_array};
     use enfilade_dataset::{Array, Elements, FrameInfo, FrameTime, ManifestInfo, write_bytes};
     use enfilade_frame::{Layer, f16};
-    use enfilade_scene::Quiet;
+    use enfilade_scene::{Intrinsics, Quiet};
 
     fn verify(dataset: &Dataset) -> VerifyReport {
         verify_dataset(dataset, &["room".to_string()], &Quiet).unwrap()
@@ -345,7 +365,7 @@ mod tests {
         let replanned = |d: &Dataset| {
             let mut trajectory = d.read_trajectory("room", "cam_00").unwrap();
             trajectory.poses[1].frame = 2;
-            d.write_trajectory("room", &trajectory, &testing::intrinsics()).unwrap();
+            d.write_trajectory("room", &trajectory, &testing::intrinsics().into(), None).unwrap();
             refresh(d);
         };
         assert_eq!(failures(replanned).0, [Law::FramesComplete, Law::FrameNumbers]);
@@ -361,14 +381,14 @@ mod tests {
             let mut pose = record.pose.to_pose(1);
             pose.position.x += 1e-6;
             let frame = testing::frame(&pose);
-            let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose, intrinsics: testing::intrinsics() };
+            let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose, camera: testing::intrinsics().into() };
             d.write_frame("room", "cam_00", &frame, &info, FrameTime::default()).unwrap();
             refresh(d);
         };
         assert_eq!(failures(recorded_elsewhere).0, [Law::RenderedPose]);
         let other_lens = |d: &Dataset| {
             let k = Intrinsics { fx: testing::intrinsics().fx + 1e-5, ..testing::intrinsics() };
-            d.write_intrinsics("room", &k).unwrap();
+            d.write_camera_parameters("room", &k.into()).unwrap();
         };
         assert_eq!(failures(other_lens).0, [Law::Calibration]);
     }

@@ -57,12 +57,20 @@ fn tex_coord(scan: &mut Scan<'_>) {
 fn distances(scan: &mut Scan<'_>, seen: &[usize]) {
     let Some(distance) = scan.layer(Layer::DepthMeters) else { return };
     if let Some(position) = scan.layer(Layer::Position) {
-        let (camera, unit) = (scan.view.pose.position, scan.view.meters_per_unit);
-        let error = |&i: &usize| (i, relative((vector(position, i) - camera).length() * unit, distance.get(i)));
-        scan.worst(Law::Distance, "depth_meters and position disagree", seen.iter().map(error));
+        let unit = scan.view.meters_per_unit;
+        let error = |&i: &usize| (i, relative((vector(position, i) - scan.placement(i).0).length() * unit, distance.get(i)));
+        let errors: Vec<_> = seen.iter().map(error).collect();
+        scan.worst(Law::Distance, "depth_meters and position disagree", errors.into_iter());
     }
     if let Some(depth_z) = scan.layer(Layer::DepthZMeters) {
-        let errors: Vec<_> = seen.iter().map(|&i| (i, relative(depth_z.get(i), -scan.direction_camera(i).z * distance.get(i)))).collect();
+        let has_plane = scan.view.camera.camera().projection.has_image_plane();
+        let error = |&i: &usize| {
+            let expected = -scan.directions[i].z * distance.get(i);
+            // Cameras that see to the side and behind have planar depths of 0 and less.
+            let off = if has_plane { relative(depth_z.get(i), expected) } else { (depth_z.get(i) - expected).abs() / distance.get(i) };
+            (i, off)
+        };
+        let errors: Vec<_> = seen.iter().map(error).collect();
         scan.worst(Law::PlanarDepth, "depth_z_meters and depth_meters disagree", errors.into_iter());
     }
 }
@@ -74,12 +82,11 @@ fn relative(found: f64, expected: f64) -> f64 {
 
 fn projection(scan: &mut Scan<'_>, seen: &[usize]) {
     let Some(position) = scan.layer(Layer::Position) else { return };
-    let (pose, k, width) = (scan.view.pose, scan.view.intrinsics, scan.frame.width as usize);
+    let (view, width) = (scan.view.camera, scan.frame.width as usize);
     let error = |&pixel: &usize| {
-        let p_camera = pose.world_from_camera.transpose() * (vector(position, pixel) - pose.position);
-        let (x, y) = k.project(p_camera);
-        let behind = if p_camera.z < 0.0 { 0.0 } else { f64::INFINITY };
-        (pixel, behind + (x - (pixel % width) as f64 - 0.5).hypot(y - (pixel / width) as f64 - 0.5))
+        let centre = ((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5);
+        let (p, projection) = (view.project_in_row(vector(position, pixel), centre.1), &view.camera().projection);
+        (pixel, p.map_or(f64::INFINITY, |p| projection.image_distance(p, centre)))
     };
     scan.worst(Law::Projection, "position projects elsewhere", seen.iter().map(error));
 }
@@ -90,18 +97,18 @@ fn normals(scan: &mut Scan<'_>, seen: &[usize]) {
         let error = |&i: &usize| (i, (vector(values, i).length() - 1.0).abs());
         scan.worst(Law::UnitNormals, layer.spec().name, seen.iter().map(error));
     }
-    let world_from_camera = scan.view.pose.world_from_camera;
     for (world, camera, facing, turned) in [
         (Layer::NormalWorld, Layer::NormalCam, Law::NormalFacing, Law::NormalCamera),
         (Layer::NormalBumpWorld, Layer::NormalBumpCam, Law::BumpFacing, Law::BumpCamera),
     ] {
         let Some(n_world) = scan.layer(world) else { continue };
-        let away = |&i: &usize| (i, vector(n_world, i).dot(world_from_camera * scan.direction_camera(i)));
+        let away = |&i: &usize| (i, vector(n_world, i).dot(scan.placement(i).1 * scan.directions[i]));
         let cosines: Vec<_> = seen.iter().map(away).collect();
         scan.worst(facing, world.spec().name, cosines.into_iter());
         let Some(n_camera) = scan.layer(camera) else { continue };
-        let error = |&i: &usize| (i, (world_from_camera.transpose() * vector(n_world, i) - vector(n_camera, i)).abs().max_element());
-        scan.worst(turned, camera.spec().name, seen.iter().map(error));
+        let error = |&i: &usize| (i, (scan.placement(i).1.transpose() * vector(n_world, i) - vector(n_camera, i)).abs().max_element());
+        let errors: Vec<_> = seen.iter().map(error).collect();
+        scan.worst(turned, camera.spec().name, errors.into_iter());
     }
 }
 

@@ -14,6 +14,8 @@ pub enum Law {
     Checksums,
     Nodes,
     Calibration,
+    CameraFiles,
+    Stereo,
     LabelTables,
     HasFrames,
     FrameNumbers,
@@ -72,7 +74,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 41] = laws![
+pub const LAWS: [LawSpec; 43] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: render the frame again";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -82,6 +84,9 @@ pub const LAWS: [LawSpec; 41] = laws![
     Nodes 0.0 "tables", "metadata_nodes.csv can be read and numbers its nodes 1, 2, ...", "the table was edited or cut: import the scene again";
     Calibration 1e-6 "px", "size and calibration agree between metadata_camera_parameters.csv, records and images",
         "the images were rendered with other settings than the table states: render again";
+    CameraFiles 1e-9 "", "camera_rays.hdf5 and the poses of rows are there where they are needed and are those of camera.json",
+        "the camera's files are of another plan: plan again";
+    Stereo 1e-9 "m", "the cameras of a stereo rig keep their baseline and look the same way", "one of the two was planned again or edited: plan again";
     LabelTables 0.0 "tables", "the label tables are there and have one row per part", "the scene was not labelled: run the label stage";
     HasFrames 0.0 "", "every scene has a trajectory with rendered frames", "planning or rendering found nothing: see the run's summary";
     FrameNumbers 0.0 "frames", "frames are numbered 0, 1, 2, ... without a gap", "the trajectory was cut or edited: plan it again";

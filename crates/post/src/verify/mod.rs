@@ -3,6 +3,7 @@
 //! [`LAWS`] states them. A [`Card`] collects the worst value of each; a [`VerifyReport`] is its outcome, for machines and
 //! people. Every law is computed here anew from the stored values, in double precision, with nothing taken from the renderer.
 
+mod camera_files;
 mod card;
 mod color;
 mod dataset;
@@ -21,16 +22,14 @@ pub use law::{LAWS, Law, LawSpec};
 pub use trajectory::check_trajectory;
 
 use enfilade_frame::{Frame, LAYERS, LayerSpec, Pass};
-use enfilade_scene::{Intrinsics, Labels, Pose};
+use enfilade_scene::{CameraView, Labels};
 use scan::Scan;
 
 /// What a frame is checked against.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
-    /// Size and calibration.
-    pub intrinsics: &'a Intrinsics,
-    /// Where the camera stood.
-    pub pose: &'a Pose,
+    /// What it was taken with, and where that stood.
+    pub camera: CameraView<'a>,
     /// Metres per unit of positions and poses; 1 in our own datasets.
     pub meters_per_unit: f64,
     /// Number of render entities.
@@ -50,9 +49,9 @@ pub fn check_frame(frame: &Frame, view: &View<'_>, place: &str) -> Card {
     let expected = LAYERS.iter().filter(|spec| has_denoised || !denoised(spec));
     let missing: Vec<&str> = expected.filter(|spec| frame.get(spec.layer).is_none()).map(|spec| spec.name).collect();
     scan.card.observe(Law::LayersPresent, missing.len() as f64, || format!("{place}: without {}", missing.join(", ")));
-    let size_error = frame.width.abs_diff(view.intrinsics.width).max(frame.height.abs_diff(view.intrinsics.height));
-    let sizes =
-        || format!("{place}: images of {}x{}, table says {}x{}", frame.width, frame.height, view.intrinsics.width, view.intrinsics.height);
+    let [width, height] = view.camera.camera().size();
+    let size_error = frame.width.abs_diff(width).max(frame.height.abs_diff(height));
+    let sizes = || format!("{place}: images of {}x{}, table says {width}x{height}", frame.width, frame.height);
     scan.card.observe(Law::Calibration, f64::from(size_error), sizes);
     if size_error == 0 {
         geometry::check(&mut scan);

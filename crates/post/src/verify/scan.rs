@@ -4,19 +4,27 @@ use super::View;
 use super::card::Card;
 use super::law::Law;
 use enfilade_frame::{Frame, Layer, Values};
-use enfilade_math::DVec3;
+use enfilade_math::{DMat3, DVec3};
 
 /// One frame under examination.
 pub(super) struct Scan<'a> {
     pub frame: &'a Frame,
     pub view: &'a View<'a>,
     pub card: Card,
+    /// Camera centre and world from camera, by row.
+    pub rows: Vec<(DVec3, DMat3)>,
+    /// Direction through the centre of each pixel, in camera space, unit length; NaN where the picture shows nothing.
+    pub directions: Vec<DVec3>,
     place: &'a str,
 }
 
 impl<'a> Scan<'a> {
     pub fn new(frame: &'a Frame, view: &'a View<'a>, place: &'a str) -> Self {
-        Self { frame, view, card: Card::default(), place }
+        let (camera, middle) = (view.camera, |i: u32| f64::from(i) + 0.5);
+        let rows = (0..frame.height).map(|y| camera.row_placement(middle(y))).collect();
+        let direction = |x: u32, y: u32| camera.camera().projection.ray(middle(x), middle(y)).map_or(DVec3::NAN, DVec3::normalize);
+        let directions = (0..frame.height).flat_map(|y| (0..frame.width).map(move |x| direction(x, y))).collect();
+        Self { frame, view, card: Card::default(), rows, directions, place }
     }
 
     pub fn layer(&self, layer: Layer) -> Option<&'a Values> {
@@ -57,10 +65,9 @@ impl<'a> Scan<'a> {
         self.card.observe(law, value, || format!("{} pixel ({x}, {y}){id}: {what}", self.place));
     }
 
-    /// Direction through the centre of `pixel`, in camera space, unit length.
-    pub fn direction_camera(&self, pixel: usize) -> DVec3 {
-        let (x, y) = (pixel % self.frame.width as usize, pixel / self.frame.width as usize);
-        self.view.intrinsics.ray(x as f64 + 0.5, y as f64 + 0.5).normalize()
+    /// Camera centre and world from camera when `pixel` was exposed.
+    pub fn placement(&self, pixel: usize) -> (DVec3, DMat3) {
+        self.rows[pixel / self.frame.width as usize]
     }
 }
 

@@ -2,6 +2,7 @@ use super::*;
 use crate::testing::{self, pixel_of, set};
 use enfilade_frame::{Layer, Values, f16};
 use enfilade_math::DVec3;
+use enfilade_scene::{Camera, Intrinsics, Pose};
 
 /// The analytic frame and what it is checked against; tests break one or the other.
 struct Case {
@@ -18,9 +19,9 @@ impl Case {
     }
 
     fn card(&self) -> Card {
+        let camera = Camera::from(self.intrinsics);
         let view = View {
-            intrinsics: &self.intrinsics,
-            pose: &self.pose,
+            camera: CameraView::still(&camera, &self.pose),
             meters_per_unit: 1.0,
             entities: self.labels.parts.len(),
             labels: Some(&self.labels),

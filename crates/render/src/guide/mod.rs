@@ -10,12 +10,11 @@ mod square;
 pub(crate) use field::{CellLight, Field};
 
 use crate::config::RenderConfig;
-use crate::geometry_pass::camera_ray;
 use crate::light::LightChoice;
 use crate::prepared::{Cutout, RenderScene};
 use cells::Site;
 use enfilade_math::{Ray, Rng, hash_u64, offset_origin};
-use enfilade_scene::{Intrinsics, Pose};
+use enfilade_scene::CameraView;
 use rayon::prelude::*;
 
 /// Paths that look for places, at most; few samples learn from fewer.
@@ -35,18 +34,18 @@ pub struct Guide {
 }
 
 impl Guide {
-    /// Learns from the points of view of `poses`. Depends on the arguments alone, whatever the number of threads.
-    pub fn learn(scene: &RenderScene<'_>, intrinsics: &Intrinsics, poses: &[Pose], config: &RenderConfig) -> Self {
-        let choice = LightChoice::learn(scene, intrinsics, poses, config);
-        let pixels = u64::from(intrinsics.width) * u64::from(intrinsics.height);
-        let samples = pixels * u64::from(config.samples) * poses.len() as u64;
-        let paths = (samples / 64).clamp(256, PATHS);
+    /// Learns from `views`. Depends on the arguments alone, whatever the number of threads.
+    pub fn learn(scene: &RenderScene<'_>, views: &[CameraView<'_>], config: &RenderConfig) -> Self {
+        let choice = LightChoice::learn(scene, views, config);
+        let pixels = views.first().map_or(0, |view| view.camera().size().map(u64::from).iter().product::<u64>());
+        let samples = pixels * u64::from(config.samples) * views.len() as u64;
+        let paths = if views.is_empty() { 0 } else { (samples / 64).clamp(256, PATHS) };
         let seed = hash_u64(config.seed ^ 0x6_1d3);
         let sites: Vec<Site> = (0..paths)
             .into_par_iter()
             .flat_map_iter(|path| {
-                let pose = &poses[(path % poses.len() as u64) as usize];
-                walk(scene, intrinsics, pose, Rng::new(hash_u64(seed ^ hash_u64(path))))
+                let view = &views[(path % views.len() as u64) as usize];
+                walk(scene, view, Rng::new(hash_u64(seed ^ hash_u64(path))))
             })
             .collect();
         let cells = (samples / SAMPLES_PER_CELL).clamp(64, MOST_CELLS) as usize;
@@ -56,11 +55,11 @@ impl Guide {
 }
 
 /// The places that a path visits and that scatter light diffusely.
-fn walk(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, mut rng: Rng) -> Vec<Site> {
+fn walk(scene: &RenderScene<'_>, view: &CameraView<'_>, mut rng: Rng) -> Vec<Site> {
     let mut sites = Vec::new();
-    let (x, y) = (rng.next_f64() * f64::from(intrinsics.width), rng.next_f64() * f64::from(intrinsics.height));
-    let (origin, direction) = camera_ray(intrinsics, pose, x, y);
-    let mut ray = Ray::new(origin.as_vec3(), direction.as_vec3());
+    let [x, y] = view.camera().size().map(|n| rng.next_f64() * f64::from(n));
+    let Some(first) = view.centre_ray(x, y) else { return sites };
+    let mut ray = Ray::new(first.origin.as_vec3(), first.direction.as_vec3());
     for _ in 0..VERTICES {
         let Some(hit) = scene.closest(&ray, Cutout::Random) else { break };
         let surface = scene.surface(&hit, ray.direction);

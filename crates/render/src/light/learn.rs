@@ -4,11 +4,10 @@ use super::choice::Arrival;
 use super::window::{Glimpses, Windows};
 use super::{LightChoice, LightPoint, Source};
 use crate::config::RenderConfig;
-use crate::geometry_pass::camera_ray;
 use crate::prepared::{Cutout, RenderScene};
 use crate::surface::Surface;
 use enfilade_math::{Onb, Ray, Rng, Vec3, hash_u64, offset_origin, warp};
-use enfilade_scene::{Intrinsics, Pose};
+use enfilade_scene::CameraView;
 use rayon::prelude::*;
 
 /// Paths that learn, at most, for one camera and for many; small pictures learn from fewer.
@@ -25,16 +24,17 @@ const TRIES: usize = 12;
 
 impl LightChoice {
     /// Learns from the points of view of a trajectory. A function of the arguments alone, whatever the number of threads.
-    pub fn learn(scene: &RenderScene<'_>, intrinsics: &Intrinsics, poses: &[Pose], config: &RenderConfig) -> Self {
-        let cameras = poses.len() as u64;
-        let samples = u64::from(intrinsics.width) * u64::from(intrinsics.height) * u64::from(config.samples) * cameras;
+    pub fn learn(scene: &RenderScene<'_>, views: &[CameraView<'_>], config: &RenderConfig) -> Self {
+        let cameras = views.len() as u64;
+        let pixels = views.first().map_or(0, |view| view.camera().size().map(u64::from).iter().product::<u64>());
+        let samples = pixels * u64::from(config.samples) * cameras;
         let most = (PATHS + PATHS / 4 * cameras.saturating_sub(1)).min(MORE_PATHS);
         let paths = if cameras == 0 { 0 } else { (samples / SAMPLES_PER_PATH).clamp(128, most) };
         let rng = |purpose: u64, path: u64| Rng::new(hash_u64(config.seed ^ hash_u64(0x11_9417 ^ (purpose << 32) ^ path)));
-        let pose = |path: u64| &poses[(path % cameras) as usize];
+        let view = |path: u64| &views[(path % cameras) as usize];
         let windows = if scene.lights.sky.is_some() {
             let seen: Vec<Glimpses> =
-                (0..paths / 2).into_par_iter().map(|path| glimpses(scene, intrinsics, pose(path), rng(0, path))).collect();
+                (0..paths / 2).into_par_iter().map(|path| glimpses(scene, view(path), rng(0, path))).collect();
             let mut all = Glimpses::default();
             for mut one in seen {
                 all.surfaces.append(&mut one.surfaces);
@@ -48,7 +48,7 @@ impl LightChoice {
             .into_par_iter()
             .flat_map_iter(|path| {
                 let mut arrivals = Vec::new();
-                walk(scene, intrinsics, pose(path), rng(1, path), |surface, rng| {
+                walk(scene, view(path), rng(1, path), |surface, rng| {
                     try_sources(scene, windows.as_ref(), surface, rng, &mut arrivals);
                 });
                 arrivals
@@ -59,10 +59,10 @@ impl LightChoice {
 }
 
 /// Follows a path and shows its surfaces.
-fn walk(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, mut rng: Rng, mut visit: impl FnMut(&Surface<'_>, &mut Rng)) {
-    let (x, y) = (rng.next_f64() * f64::from(intrinsics.width), rng.next_f64() * f64::from(intrinsics.height));
-    let (origin, direction) = camera_ray(intrinsics, pose, x, y);
-    let mut ray = Ray::new(origin.as_vec3(), direction.as_vec3());
+fn walk(scene: &RenderScene<'_>, view: &CameraView<'_>, mut rng: Rng, mut visit: impl FnMut(&Surface<'_>, &mut Rng)) {
+    let [x, y] = view.camera().size().map(|n| rng.next_f64() * f64::from(n));
+    let Some(first) = view.centre_ray(x, y) else { return };
+    let mut ray = Ray::new(first.origin.as_vec3(), first.direction.as_vec3());
     for _ in 0..VERTICES {
         let Some(hit) = scene.closest(&ray, Cutout::Random) else { return };
         let surface = scene.surface(&hit, ray.direction);
@@ -78,9 +78,9 @@ fn walk(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, mut rng: 
 }
 
 /// The surfaces of a path, and where the sky is seen from there.
-fn glimpses(scene: &RenderScene<'_>, intrinsics: &Intrinsics, pose: &Pose, rng: Rng) -> Glimpses {
+fn glimpses(scene: &RenderScene<'_>, view: &CameraView<'_>, rng: Rng) -> Glimpses {
     let mut seen = Glimpses::default();
-    walk(scene, intrinsics, pose, rng, |surface, rng| {
+    walk(scene, view, rng, |surface, rng| {
         seen.surfaces.push((surface.p, surface.ng));
         let onb = Onb::from_z(surface.ng);
         let escapes = (0..RAYS).filter_map(|k| {

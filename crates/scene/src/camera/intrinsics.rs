@@ -19,13 +19,20 @@ pub struct Intrinsics {
     pub cx: f64,
     /// Principal point.
     pub cy: f64,
+    /// The second entry of K's first row: how far x moves per focal length of y. Zero where rows and columns are at right angles.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub skew: f64,
+}
+
+fn is_zero(v: &f64) -> bool {
+    *v == 0.0
 }
 
 impl Intrinsics {
     /// Square pixels, centred principal point, horizontal field of view `fov_x_rad`.
     pub fn from_fov_x(width: u32, height: u32, fov_x_rad: f64) -> Self {
         let f = 0.5 * f64::from(width) / (0.5 * fov_x_rad).tan();
-        Self { width, height, fx: f, fy: f, cx: 0.5 * f64::from(width), cy: 0.5 * f64::from(height) }
+        Self { width, height, fx: f, fy: f, cx: 0.5 * f64::from(width), cy: 0.5 * f64::from(height), skew: 0.0 }
     }
 
     /// Horizontal field of view of a centred camera of this focal length.
@@ -36,19 +43,21 @@ impl Intrinsics {
     /// Direction through the image point (x, y), in camera space (x right, y up, z backward), with z = −1.
     #[inline]
     pub fn ray(&self, x: f64, y: f64) -> DVec3 {
-        DVec3::new((x - self.cx) / self.fx, (self.cy - y) / self.fy, -1.0)
+        let up = (self.cy - y) / self.fy;
+        DVec3::new((x - self.cx + self.skew * up) / self.fx, up, -1.0)
     }
 
     /// Image point of a camera-space point in front of the camera.
     #[inline]
     pub fn project(&self, p_camera: DVec3) -> (f64, f64) {
         let depth = -p_camera.z;
-        (self.cx + self.fx * p_camera.x / depth, self.cy - self.fy * p_camera.y / depth)
+        let sheared = self.skew * p_camera.y / depth;
+        (self.cx + self.fx * p_camera.x / depth - sheared, self.cy - self.fy * p_camera.y / depth)
     }
 
     /// The 3×3 matrix K of OpenCV's conventions (x right, y down, z forward; pixel centres at whole numbers), row by row.
     pub fn opencv_k(&self) -> [[f64; 3]; 3] {
-        [[self.fx, 0.0, self.cx - 0.5], [0.0, self.fy, self.cy - 0.5], [0.0, 0.0, 1.0]]
+        [[self.fx, self.skew, self.cx - 0.5], [0.0, self.fy, self.cy - 0.5], [0.0, 0.0, 1.0]]
     }
 
     /// Hypersim's `M_cam_from_uv`: takes (u, v, 1) to a camera-space direction, where u runs from −1 at the left border of the
@@ -57,25 +66,10 @@ impl Intrinsics {
         let (w, h) = (0.5 * f64::from(self.width), 0.5 * f64::from(self.height));
         DMat3::from_cols(
             DVec3::new(w / self.fx, 0.0, 0.0),
-            DVec3::new(0.0, h / self.fy, 0.0),
-            DVec3::new((w - self.cx) / self.fx, (self.cy - h) / self.fy, -1.0),
+            DVec3::new(self.skew * h / (self.fx * self.fy), h / self.fy, 0.0),
+            self.ray(w, h),
         )
     }
-}
-
-/// A camera that came with the scene: where free-space carving and trajectories begin.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct StartCamera {
-    /// Name from the file.
-    pub name: String,
-    /// World position, metres.
-    pub position: DVec3,
-    /// Camera to world; columns are the camera's x (right), y (up) and z (backward) axes. Orthonormal.
-    pub world_from_camera: DMat3,
-    /// Horizontal field of view of the file's camera.
-    pub fov_x_rad: f64,
-    /// Width over height of the file's camera.
-    pub aspect: f64,
 }
 
 #[cfg(test)]
@@ -83,13 +77,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn projection_inverts_rays_and_hypersim_matrix_agrees() {
-        let k = Intrinsics { width: 640, height: 480, fx: 500.0, fy: 510.0, cx: 300.0, cy: 260.0 };
-        let (x, y) = (123.5, 400.25);
-        let (px, py) = k.project(k.ray(x, y) * 3.0);
-        assert!((px - x).abs() < 1e-9 && (py - y).abs() < 1e-9);
-        let uv1 = DVec3::new(2.0 * x / 640.0 - 1.0, 1.0 - 2.0 * y / 480.0, 1.0);
-        assert!((k.cam_from_uv() * uv1 - k.ray(x, y)).length() < 1e-12);
+    fn projection_inverts_rays_and_the_matrices_agree() {
+        for skew in [0.0, 12.0] {
+            let k = Intrinsics { width: 640, height: 480, fx: 500.0, fy: 510.0, cx: 300.0, cy: 260.0, skew };
+            let (x, y) = (123.5, 400.25);
+            let (px, py) = k.project(k.ray(x, y) * 3.0);
+            assert!((px - x).abs() < 1e-9 && (py - y).abs() < 1e-9);
+            let uv1 = DVec3::new(2.0 * x / 640.0 - 1.0, 1.0 - 2.0 * y / 480.0, 1.0);
+            assert!((k.cam_from_uv() * uv1 - k.ray(x, y)).length() < 1e-12);
+            let p = k.ray(x, y) * DVec3::new(1.0, -1.0, -1.0);
+            let [row_x, row_y, _] = k.opencv_k().map(|row| DVec3::from(row).dot(p));
+            assert!((row_x + 0.5 - x).abs() < 1e-9 && (row_y + 0.5 - y).abs() < 1e-9);
+        }
         assert!((Intrinsics::from_fov_x(64, 48, 1.0).fov_x_rad() - 1.0).abs() < 1e-12);
     }
 }

@@ -1,12 +1,13 @@
 //! `metadata_camera_parameters.csv`: one row per scene with the image size, units and camera matrices.
 //!
 //! The columns are those of the table that Hypersim publishes, so that loaders find what they look for. Those of V-Ray's physical
-//! camera are empty, as they are there for scenes without one: our cameras are pinholes.
+//! camera are empty, as they are there for scenes without one. The matrices are there where they are exact, which is for pinholes;
+//! they are empty for distorted and panoramic cameras, whose rays are in files of their own (`camera_model.rs`).
 
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name};
 use enfilade_math::{DMat3, DMat4};
-use enfilade_scene::Intrinsics;
+use enfilade_scene::{Camera, Intrinsics, Projection, TiltedPinhole};
 
 /// Near plane of `M_proj`, metres. It scales depth only, not where a point falls in the image.
 const NEAR_M: f64 = 0.01;
@@ -83,11 +84,11 @@ impl Dataset {
     ///
     /// # Errors
     /// When the table cannot be read or written.
-    pub fn write_intrinsics(&self, scene: &str, intrinsics: &Intrinsics) -> Result<(), DatasetError> {
+    pub fn write_camera_parameters(&self, scene: &str, camera: &Camera) -> Result<(), DatasetError> {
         check_name("scene name", scene)?;
         let mut table = self.read_camera_parameters()?;
         let names = table.column("scene_name")?;
-        let row = row_values(scene, intrinsics);
+        let row = row_values(scene, camera);
         let cell = |column: &String| row.iter().find(|(name, _)| name == column).map_or(String::new(), |(_, value)| value.clone());
         let cells: Vec<String> = table.header.iter().map(cell).collect();
         table.rows.retain(|row| row[names] != scene);
@@ -96,12 +97,11 @@ impl Dataset {
         table.write()
     }
 
-    /// The scene's image size and calibration, from `M_cam_from_uv`.
+    /// The scene's pinhole, from `M_cam_from_uv`; Hypersim's tilt-shift cameras have a tilted image plane.
     ///
     /// # Errors
-    /// When the table is missing or damaged, has no row for the scene, or its camera is not a pinhole looking along its axis
-    /// (Hypersim's tilt-shift cameras).
-    pub fn intrinsics(&self, scene: &str) -> Result<Intrinsics, DatasetError> {
+    /// When the table is missing or damaged, has no row for the scene, or its matrix is empty or no pinhole's.
+    pub fn table_projection(&self, scene: &str) -> Result<Projection, DatasetError> {
         let path = self.layout().camera_parameters();
         let table = Table::read(&path)?;
         let names = table.column("scene_name")?;
@@ -113,10 +113,11 @@ impl Dataset {
         for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
             cam_from_uv.col_mut(j)[i] = number(&format!("M_cam_from_uv_{i}{j}"))?;
         }
-        intrinsics_from_uv(size, cam_from_uv).ok_or_else(|| {
-            let what = "is not a pinhole with its image plane across the viewing axis, which is all that K can say; use the matrix itself";
-            DatasetError::text(&path, format!("line {}: the camera of scene {scene:?} (M_cam_from_uv) {what}", row + 2))
-        })
+        if let Some(intrinsics) = intrinsics_from_uv(size, cam_from_uv) {
+            return Ok(Projection::Pinhole(intrinsics));
+        }
+        let wrong = |error| DatasetError::text(&path, format!("line {}: scene {scene:?}: {error}", row + 2));
+        Ok(Projection::TiltedPinhole(TiltedPinhole::new(size.0, size.1, cam_from_uv).map_err(wrong)?))
     }
 
     /// The scene's `M_proj`: takes camera space to clip space.
@@ -161,23 +162,27 @@ fn header() -> Vec<String> {
 }
 
 /// The cells of a scene's row that have a true value.
-fn row_values(scene: &str, intrinsics: &Intrinsics) -> Vec<(String, String)> {
+fn row_values(scene: &str, camera: &Camera) -> Vec<(String, String)> {
+    let [width, height] = camera.size();
     let number = |name: &str, value: f64| (name.to_string(), format!("{value:?}"));
     let mut row = vec![
         ("scene_name".to_string(), scene.to_string()),
-        number("settings_output_img_height", f64::from(intrinsics.height)),
-        number("settings_output_img_width", f64::from(intrinsics.width)),
+        number("settings_output_img_height", f64::from(height)),
+        number("settings_output_img_width", f64::from(width)),
         number("settings_units_info_meters_scale", 1.0),
         ("use_camera_physical".to_string(), "False".to_string()),
         number("settings_camera_auto_exposure", 0.0),
         number("settings_camera_auto_white_balance", 0.0),
-        number("settings_camera_fov", intrinsics.fov_x_rad()),
-        number("settings_camera_type", 0.0),
+        number("settings_camera_fov", camera.projection.fov_x_rad(std::f64::consts::TAU)),
     ];
+    let (cam_from_uv, projection) = match &camera.projection {
+        Projection::Pinhole(intrinsics) => (intrinsics.cam_from_uv(), projection(intrinsics)),
+        Projection::TiltedPinhole(tilted) => (tilted.cam_from_uv(), tilted_projection(tilted)),
+        _ => return row,
+    };
+    row.push(number("settings_camera_type", 0.0));
     // Adding zero turns −0 into 0.
-    let cam_from_uv = intrinsics.cam_from_uv();
     row.extend((0..9).map(|k| number(&format!("M_cam_from_uv_{}{}", k / 3, k % 3), cam_from_uv.col(k % 3)[k / 3] + 0.0)));
-    let projection = projection(intrinsics);
     row.extend((0..16).map(|k| number(&format!("M_proj_{}{}", k / 4, k % 4), projection.col(k % 4)[k / 4] + 0.0)));
     row
 }
@@ -187,7 +192,7 @@ fn projection(intrinsics: &Intrinsics) -> DMat4 {
     let (w, h) = (f64::from(intrinsics.width), f64::from(intrinsics.height));
     let depth = -(FAR_M + NEAR_M) / (FAR_M - NEAR_M);
     let rows = [
-        [2.0 * intrinsics.fx / w, 0.0, 1.0 - 2.0 * intrinsics.cx / w, 0.0],
+        [2.0 * intrinsics.fx / w, -2.0 * intrinsics.skew / w, 1.0 - 2.0 * intrinsics.cx / w, 0.0],
         [0.0, 2.0 * intrinsics.fy / h, 2.0 * intrinsics.cy / h - 1.0, 0.0],
         [0.0, 0.0, depth, -2.0 * FAR_M * NEAR_M / (FAR_M - NEAR_M)],
         [0.0, 0.0, -1.0, 0.0],
@@ -195,16 +200,32 @@ fn projection(intrinsics: &Intrinsics) -> DMat4 {
     DMat4::from_cols_array_2d(&rows).transpose()
 }
 
-/// The inverse of [`Intrinsics::cam_from_uv`] up to the matrix's scale; `None` when the image plane is tilted or sheared.
+/// The same for a tilted image plane: depth is measured across it.
+fn tilted_projection(tilted: &TiltedPinhole) -> DMat4 {
+    let uv = tilted.cam_from_uv().inverse().transpose();
+    let depth = (FAR_M + NEAR_M) / (FAR_M - NEAR_M);
+    let rows = [
+        uv.x_axis.extend(0.0),
+        uv.y_axis.extend(0.0),
+        (uv.z_axis * depth).extend(-2.0 * FAR_M * NEAR_M / (FAR_M - NEAR_M)),
+        uv.z_axis.extend(0.0),
+    ];
+    DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose()
+}
+
+/// The inverse of [`Intrinsics::cam_from_uv`] up to the matrix's scale; `None` when the image plane is tilted.
 fn intrinsics_from_uv((width, height): (u32, u32), cam_from_uv: DMat3) -> Option<Intrinsics> {
     let m = cam_from_uv * (-1.0 / cam_from_uv.z_axis.z);
-    let rest = [m.x_axis.y, m.x_axis.z, m.y_axis.x, m.y_axis.z];
+    let rest = [m.x_axis.y, m.x_axis.z, m.y_axis.z];
     let (w, h) = (0.5 * f64::from(width), 0.5 * f64::from(height));
     if !m.is_finite() || rest.iter().any(|v| v.abs() > 1e-9) || m.x_axis.x <= 0.0 || m.y_axis.y <= 0.0 {
         return None;
     }
     let (fx, fy) = (w / m.x_axis.x, h / m.y_axis.y);
-    Some(Intrinsics { width, height, fx, fy, cx: w - m.z_axis.x * fx, cy: h + m.z_axis.y * fy })
+    // A shear below what doubles resolve is none.
+    let sheared = m.y_axis.x.abs() > 1e-9;
+    let skew = if sheared { m.y_axis.x * fx * fy / h } else { 0.0 };
+    Some(Intrinsics { width, height, fx, fy, cx: w - m.z_axis.x * fx + skew * m.z_axis.y, cy: h + m.z_axis.y * fy, skew })
 }
 
 #[cfg(test)]
@@ -212,36 +233,42 @@ mod tests {
     use super::*;
     use enfilade_math::DVec3;
 
-    const OFF_CENTRE: Intrinsics = Intrinsics { width: 640, height: 480, fx: 500.0, fy: 510.0, cx: 300.0, cy: 260.0 };
+    const OFF_CENTRE: Intrinsics = Intrinsics { width: 640, height: 480, fx: 500.0, fy: 510.0, cx: 300.0, cy: 260.0, skew: 6.0 };
 
     #[test]
     fn intrinsics_come_back_and_other_scenes_stay() {
         let folder = tempfile::tempdir().unwrap();
         let dataset = Dataset::create(folder.path()).unwrap();
         let centred = Intrinsics::from_fov_x(1024, 768, std::f64::consts::FRAC_PI_3);
-        dataset.write_intrinsics("room_b", &OFF_CENTRE).unwrap();
-        dataset.write_intrinsics("room_a", &OFF_CENTRE).unwrap();
+        dataset.write_camera_parameters("room_b", &OFF_CENTRE.into()).unwrap();
+        dataset.write_camera_parameters("room_a", &OFF_CENTRE.into()).unwrap();
         let before = std::fs::read_to_string(dataset.layout().camera_parameters()).unwrap();
-        dataset.write_intrinsics("room_a", &centred).unwrap();
+        dataset.write_camera_parameters("room_a", &centred.into()).unwrap();
         let after = std::fs::read_to_string(dataset.layout().camera_parameters()).unwrap();
         assert_eq!(before.lines().nth(2), after.lines().nth(2));
         for (scene, expected) in [("room_a", centred), ("room_b", OFF_CENTRE)] {
-            let found = dataset.intrinsics(scene).unwrap();
+            let Projection::Pinhole(found) = dataset.table_projection(scene).unwrap() else { panic!() };
             let close = |a: f64, b: f64| (a - b).abs() < 1e-9;
             assert!(close(found.fx, expected.fx) && close(found.fy, expected.fy), "{found:?}");
-            assert!(close(found.cx, expected.cx) && close(found.cy, expected.cy), "{found:?}");
+            assert!(close(found.cx, expected.cx) && close(found.cy, expected.cy) && close(found.skew, expected.skew), "{found:?}");
             assert_eq!((found.width, found.height), (expected.width, expected.height));
             assert_eq!(dataset.projection_matrix(scene).unwrap(), projection(&expected));
         }
-        assert!(dataset.intrinsics("room_c").unwrap_err().to_string().contains("no row for the scene \"room_c\""));
+        assert!(dataset.table_projection("room_c").unwrap_err().to_string().contains("no row for the scene \"room_c\""));
     }
 
     #[test]
     fn projection_takes_a_point_to_its_pixel() {
         let p = DVec3::new(0.3, -0.2, -2.0);
-        let clip = projection(&OFF_CENTRE) * p.extend(1.0);
-        let (x, y) = (0.5 * (clip.x / clip.w + 1.0) * 640.0, 0.5 * (1.0 - clip.y / clip.w) * 480.0);
+        let at = |m: DMat4| {
+            let clip = m * p.extend(1.0);
+            (0.5 * (clip.x / clip.w + 1.0) * 640.0, 0.5 * (1.0 - clip.y / clip.w) * 480.0)
+        };
+        let (x, y) = at(projection(&OFF_CENTRE));
         let (px, py) = OFF_CENTRE.project(p);
+        assert!((x - px).abs() < 1e-9 && (y - py).abs() < 1e-9);
+        let tilted = TiltedPinhole::new(640, 480, DMat3::from_rotation_y(0.2) * OFF_CENTRE.cam_from_uv()).unwrap();
+        let ((x, y), (px, py)) = (at(tilted_projection(&tilted)), tilted.project(p).unwrap());
         assert!((x - px).abs() < 1e-9 && (y - py).abs() < 1e-9);
         let depth_at = |z: f64| projection(&OFF_CENTRE) * DVec3::new(0.0, 0.0, -z).extend(1.0);
         assert!((depth_at(NEAR_M).z / depth_at(NEAR_M).w + 1.0).abs() < 1e-9);
@@ -255,9 +282,12 @@ mod tests {
         };
         let dataset = Dataset::open(std::path::Path::new(&scenes).join("hypersim-real")).unwrap();
         assert_eq!(Table::read(&dataset.layout().camera_parameters()).unwrap().header, header());
-        let found = dataset.intrinsics("ai_001_001").unwrap();
+        let Projection::Pinhole(found) = dataset.table_projection("ai_001_001").unwrap() else { panic!() };
         assert!((found.fx - 886.81).abs() < 0.01 && (found.cx - 512.0).abs() < 1e-6 && found.height == 768, "{found:?}");
-        let tilted = dataset.intrinsics("ai_021_002").unwrap_err().to_string();
-        assert!(tilted.contains("ai_021_002") && tilted.contains("M_cam_from_uv"), "{tilted}");
+        // The same point of the image by the table's two matrices.
+        let Projection::TiltedPinhole(tilted) = dataset.table_projection("ai_021_002").unwrap() else { panic!() };
+        let clip = dataset.projection_matrix("ai_021_002").unwrap() * (2.0 * tilted.ray(100.0, 700.0)).extend(1.0);
+        let (x, y) = (512.0 * (clip.x / clip.w + 1.0), 384.0 * (1.0 - clip.y / clip.w));
+        assert!((x - 100.0).hypot(y - 700.0) < 1e-6, "({x}, {y})");
     }
 }

@@ -1,0 +1,17 @@
+use enfilade_math::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
+
+/// A camera that came with the scene: where free-space carving and trajectories begin.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StartCamera {
+    /// Name from the file.
+    pub name: String,
+    /// World position, metres.
+    pub position: DVec3,
+    /// Camera to world; columns are the camera's x (right), y (up) and z (backward) axes. Orthonormal.
+    pub world_from_camera: DMat3,
+    /// Horizontal field of view of the file's camera.
+    pub fov_x_rad: f64,
+    /// Width over height of the file's camera.
+    pub aspect: f64,
+}

@@ -1,0 +1,232 @@
+//! A camera at the moment of a frame.
+
+use super::Camera;
+use crate::Pose;
+use enfilade_math::{DMat3, DQuat, DVec2, DVec3};
+
+/// A ray of a camera, in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraRay {
+    /// Metres.
+    pub origin: DVec3,
+    /// Unit length.
+    pub direction: DVec3,
+}
+
+/// A camera at the moment of a frame, with the motion around it.
+///
+/// Colour is the mean over the pixel, the aperture and the exposure ([`CameraView::ray`]). Geometry is a point sample: through the
+/// pixel's centre and the lens's centre, in the middle of the exposure of the pixel's row ([`CameraView::centre_ray`]).
+#[derive(Clone, Copy, Debug)]
+pub struct CameraView<'c> {
+    camera: &'c Camera,
+    pose: Pose,
+    before: Motion,
+    after: Motion,
+}
+
+/// Steady motion of a camera.
+#[derive(Clone, Copy, Debug, Default)]
+struct Motion {
+    /// Metres per second.
+    velocity: DVec3,
+    /// In camera space, radians per second.
+    turning: DVec3,
+}
+
+impl<'c> CameraView<'c> {
+    /// The camera at rest.
+    pub fn still(camera: &'c Camera, pose: &Pose) -> Self {
+        Self { camera, pose: *pose, before: Motion::default(), after: Motion::default() }
+    }
+
+    /// The camera at pose `index` of a trajectory. Without a shutter it is at rest.
+    ///
+    /// # Panics
+    /// When there is no such pose.
+    pub fn of_frame(camera: &'c Camera, poses: &[Pose], index: usize) -> Self {
+        let still = Self::still(camera, &poses[index]);
+        let Some(shutter) = camera.shutter else { return still };
+        let motion = |first: usize| poses.get(first..first + 2).map(|pair| Motion::between(&pair[0], &pair[1], shutter.frame_time_s));
+        let before = index.checked_sub(1).and_then(motion);
+        let after = motion(index).or(before).unwrap_or_default();
+        Self { before: before.unwrap_or(after), after, ..still }
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &'c Camera {
+        self.camera
+    }
+
+    /// The frame's pose: the camera's in the middle of the exposure of the image's middle row.
+    pub fn pose(&self) -> &Pose {
+        &self.pose
+    }
+
+    /// Camera centre and world from camera, `time_s` after the frame's own moment.
+    #[inline]
+    pub fn placement(&self, time_s: f64) -> (DVec3, DMat3) {
+        if time_s == 0.0 {
+            return (self.pose.position, self.pose.world_from_camera);
+        }
+        let motion = if time_s < 0.0 { &self.before } else { &self.after };
+        let turn = DMat3::from_quat(DQuat::from_scaled_axis(motion.turning * time_s));
+        (self.pose.position + motion.velocity * time_s, self.pose.world_from_camera * turn)
+    }
+
+    /// [`CameraView::placement`] in the middle of the exposure of the row at image coordinate `y`.
+    #[inline]
+    pub fn row_placement(&self, y: f64) -> (DVec3, DMat3) {
+        self.placement(self.row_time_s(y))
+    }
+
+    /// The ray through the image point (x, y) and the lens's centre in the middle of the row's exposure. `None` where the picture
+    /// shows nothing. Every geometry layer, and every calibration file, is about these.
+    #[inline]
+    pub fn centre_ray(&self, x: f64, y: f64) -> Option<CameraRay> {
+        let direction = self.camera.projection.ray(x, y)?;
+        let (origin, world_from_camera) = self.row_placement(y);
+        Some(CameraRay { origin, direction: (world_from_camera * direction).normalize() })
+    }
+
+    /// One ray of the light that the image point (x, y) gathers. `lens` is uniform on [0,1)² over the aperture, `time` on [0,1) over
+    /// the exposure. `None` where the picture shows nothing.
+    #[inline]
+    pub fn ray(&self, x: f64, y: f64, lens: [f32; 2], time: f32) -> Option<CameraRay> {
+        let time_s = match &self.camera.shutter {
+            Some(shutter) => self.row_time_s(y) + shutter.exposure_s * (f64::from(time) - 0.5),
+            None => 0.0,
+        };
+        let (position, world_from_camera) = self.placement(time_s);
+        let direction = self.camera.projection.ray(x, y)?;
+        let Some(thin) = &self.camera.lens else {
+            return Some(CameraRay { origin: position, direction: (world_from_camera * direction).normalize() });
+        };
+        let has_plane = self.camera.projection.has_image_plane();
+        let point = thin.point(lens);
+        let point = if has_plane { point.extend(0.0) } else { across(direction, point) };
+        let refracted = thin.refract(direction, point, has_plane);
+        Some(CameraRay { origin: position + world_from_camera * point, direction: (world_from_camera * refracted).normalize() })
+    }
+
+    /// Image point of a world point as the row of the image at coordinate `y` sees it. `None` when it has none.
+    pub fn project_in_row(&self, p_world: DVec3, y: f64) -> Option<(f64, f64)> {
+        let (position, world_from_camera) = self.row_placement(y);
+        self.camera.projection.project(world_from_camera.transpose() * (p_world - position))
+    }
+
+    /// Width of the cone that the pixel around the image point (x, y) sees, radians: the square root of its solid angle. Zero where
+    /// the picture shows nothing.
+    pub fn pixel_angle(&self, x: f64, y: f64) -> f32 {
+        let ray = |x, y| self.camera.projection.ray(x, y).map(DVec3::normalize);
+        let across = |dx: f64, dy: f64| Some(ray(x + dx, y + dy)? - ray(x - dx, y - dy)?);
+        let area = across(0.5, 0.0).zip(across(0.0, 0.5)).map_or(0.0, |(a, b)| a.cross(b).length());
+        area.sqrt() as f32
+    }
+
+    fn row_time_s(&self, y: f64) -> f64 {
+        self.camera.shutter.as_ref().map_or(0.0, |shutter| shutter.row_time_s(y, f64::from(self.camera.size()[1])))
+    }
+}
+
+impl Motion {
+    /// Straight and evenly turning from one pose to the next.
+    fn between(from: &Pose, to: &Pose, frame_time_s: f64) -> Self {
+        let time_s = frame_time_s * (f64::from(to.frame) - f64::from(from.frame)).max(1.0);
+        let turn = DQuat::from_mat3(&(from.world_from_camera.transpose() * to.world_from_camera)).normalize();
+        // The short way around.
+        let turn = if turn.w < 0.0 { -turn } else { turn };
+        Self { velocity: (to.position - from.position) / time_s, turning: turn.to_scaled_axis() / time_s }
+    }
+}
+
+/// A point of a disk across a unit direction.
+fn across(direction: DVec3, point: DVec2) -> DVec3 {
+    let (a, b) = direction.any_orthonormal_pair();
+    a * point.x + b * point.y
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Intrinsics, Shutter, ThinLens};
+
+    fn pose(frame: u32, x: f64, angle: f64) -> Pose {
+        let position = DVec3::new(x, 0.0, 1.0);
+        Pose::look_at(frame, position, position + DVec3::new(angle.sin(), angle.cos(), 0.0), DVec3::Z).unwrap()
+    }
+
+    fn camera(shutter: Option<Shutter>, lens: Option<ThinLens>) -> Camera {
+        Camera { shutter, lens, ..Intrinsics::from_fov_x(64, 48, 1.0).into() }
+    }
+
+    const SHUTTER: Shutter = Shutter { exposure_s: 0.25, readout_s: 0.5, frame_time_s: 0.5 };
+
+    #[test]
+    fn halfway_between_two_poses_is_the_pose_between() {
+        let camera = camera(Some(SHUTTER), None);
+        let poses = [pose(3, 0.0, 0.0), pose(4, 1.0, 0.4), pose(5, 3.0, 0.2)];
+        let view = CameraView::of_frame(&camera, &poses, 1);
+        for (time_s, expected) in
+            [(-0.5, poses[0]), (-0.25, pose(0, 0.5, 0.2)), (0.0, poses[1]), (0.25, pose(0, 2.0, 0.3)), (0.5, poses[2])]
+        {
+            let (position, turned) = view.placement(time_s);
+            assert!(position.distance(expected.position) < 1e-14);
+            assert!((turned - expected.world_from_camera).to_cols_array().iter().all(|v| v.abs() < 1e-14), "at {time_s}");
+        }
+        // Beyond the ends the motion goes on.
+        let first = CameraView::of_frame(&camera, &poses, 0).placement(-0.25);
+        assert!(first.0.distance(DVec3::new(-0.5, 0.0, 1.0)) < 1e-14);
+        let last = CameraView::of_frame(&camera, &poses, 2).placement(0.25);
+        assert!(last.0.distance(DVec3::new(4.0, 0.0, 1.0)) < 1e-14);
+        assert_eq!(CameraView::of_frame(&camera, &poses[..1], 0).placement(0.2).0, poses[0].position);
+    }
+
+    #[test]
+    fn rows_are_exposed_one_after_the_other() {
+        let camera = camera(Some(SHUTTER), None);
+        let poses = [pose(0, 0.0, 0.0), pose(1, 1.0, 0.0)];
+        let view = CameraView::of_frame(&camera, &poses, 0);
+        let x = |y: f64| view.centre_ray(32.0, y).unwrap().origin.x;
+        assert!((x(0.0) + 0.5).abs() < 1e-14 && (x(24.0)).abs() < 1e-14 && (x(48.0) - 0.5).abs() < 1e-14);
+        let exposed = |time: f32| view.ray(32.0, 24.0, [0.5, 0.5], time).unwrap().origin.x;
+        assert!((exposed(0.0) + 0.25).abs() < 1e-14 && (exposed(0.5)).abs() < 1e-14);
+        // What a row sees projects back to it.
+        let seen = view.centre_ray(10.0, 40.0).unwrap();
+        let (px, py) = view.project_in_row(seen.origin + seen.direction * 3.0, 40.0).unwrap();
+        assert!((px - 10.0).abs() < 1e-9 && (py - 40.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_plain_pinhole_has_one_ray_per_image_point() {
+        let camera = camera(None, None);
+        let view = CameraView::still(&camera, &pose(0, 2.0, 0.3));
+        assert_eq!(view.ray(12.25, 7.5, [0.1, 0.9], 0.7), view.centre_ray(12.25, 7.5));
+    }
+
+    #[test]
+    fn lens_rays_of_every_model_meet_at_the_distance_of_focus() {
+        let lens = ThinLens { aperture_radius_m: 0.05, focus_distance_m: 1.5, blades: 5, focus_tilt_rad: [0.0; 2] };
+        for projection in crate::camera::projection::tests::models() {
+            let has_plane = projection.has_image_plane();
+            let camera = Camera { projection, lens: Some(lens), shutter: None };
+            let view = CameraView::still(&camera, &pose(0, 0.0, 0.0));
+            let centre = view.centre_ray(20.0, 30.0).unwrap();
+            let along = if has_plane { 1.5 / centre.direction.dot(DVec3::Y) } else { 1.5 };
+            let focus = centre.origin + centre.direction * along;
+            for u in [[0.1, 0.2], [0.9, 0.3], [0.5, 0.999]] {
+                let ray = view.ray(20.0, 30.0, u, 0.0).unwrap();
+                assert!((focus - ray.origin).cross(ray.direction).length() < 1e-12);
+                assert!(ray.origin.distance(centre.origin) <= 0.05 + 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn pixel_angles_add_up_to_the_solid_angle() {
+        let panorama: Camera = crate::Projection::Equirectangular { width: 64, height: 32 }.into();
+        let view = CameraView::still(&panorama, &pose(0, 0.0, 0.0));
+        let sum: f64 = (0..64 * 32).map(|i| f64::from(view.pixel_angle(f64::from(i % 64) + 0.5, f64::from(i / 64) + 0.5)).powi(2)).sum();
+        assert!((sum / (4.0 * std::f64::consts::PI) - 1.0).abs() < 2e-3, "{sum}");
+    }
+}
