@@ -35,6 +35,20 @@ fn quick() -> PlanConfig {
 }
 
 #[test]
+fn the_second_camera_of_a_rig_keeps_the_rules_too() {
+    let room = furnished_room();
+    let (space, config) = (carved(&room), PlanConfig { stereo_baseline_m: 0.6, ..quick() });
+    let trajectory = plan(&room.world, &room.bvh, &space, &start(), 0, &config, &Quiet).unwrap();
+    for pose in &trajectory.beside("cam_01".into(), 0.6).poses {
+        assert_eq!(space.tree.state(pose.position), enfilade_geometry::Voxel::Free, "frame {}", pose.frame);
+        assert!(room.distance_m(pose.position) >= config.clearance_m, "frame {}", pose.frame);
+    }
+    // Without the rule some would not.
+    let alone = plan(&room.world, &room.bvh, &space, &start(), 0, &quick(), &Quiet).unwrap().beside("cam_01".into(), 0.6);
+    assert!(alone.poses.iter().any(|pose| room.distance_m(pose.position) < config.clearance_m));
+}
+
+#[test]
 fn every_pose_keeps_the_rules() {
     let room = furnished_room();
     let (space, config) = (carved(&room), quick());
