@@ -26,6 +26,11 @@ pub(crate) struct PixelSample {
 /// One in this many samples of a surface without diffuse reflectance measures the light that falls on it.
 const IRRADIANCE_STRIDE: u32 = 4;
 
+/// Share of the directions of a diffuse surface that follow the guide; the rest follows the BSDF.
+const GUIDED_SHARE: f32 = 0.5;
+/// A path goes on with this times the ratio of the light it is expected to find to that of the first surface: the light is not known
+/// exactly, and ending a path that mattered costs more than following one that did not.
+const SURVIVAL_GAIN: f32 = 2.0;
 /// Bounds of the probability that a path goes on.
 const LEAST_SURVIVAL: f32 = 0.1;
 const MOST_SURVIVAL: f32 = 0.95;
@@ -145,11 +150,11 @@ impl<'s> Integrator<'_, 's> {
             if bounce >= self.config.roulette_start {
                 let so_far = throughput * first_throughput;
                 let here = so_far.luminance() * vertex.expected_indirect();
-                let survival = if knob(1) > 0.0 && here > 0.0 && expected > 0.0 {
-                    (knob(1) * here / expected).clamp(LEAST_SURVIVAL, 1.0)
+                let survival = if here > 0.0 && expected > 0.0 {
+                    (SURVIVAL_GAIN * here / expected).clamp(LEAST_SURVIVAL, 1.0)
                 } else {
-                    let onward = so_far * bsdf_albedo(&bsdf);
-                    onward.max_component().max(0.25 * (throughput * bsdf_albedo(&bsdf)).max_component()).min(1.0)
+                    let albedo = bsdf.albedo(vertex.wo);
+                    (so_far * albedo).max_component().max(0.25 * (throughput * albedo).max_component()).min(1.0)
                 };
                 let survival = survival.min(MOST_SURVIVAL);
                 if u[3] >= survival {
@@ -315,11 +320,7 @@ impl Vertex<'_, '_> {
 
 /// Share of the directions that follow the guide, where there is one.
 fn guided_share(bsdf: &Bsdf<'_>, wo: Vec3) -> f32 {
-    if bsdf.reflectance.is_black() { 0.0 } else { knob(0) * bsdf.diffuse_share(wo) }
-}
-
-fn bsdf_albedo(bsdf: &Bsdf<'_>) -> Rgb {
-    bsdf.reflectance
+    if bsdf.reflectance.is_black() { 0.0 } else { GUIDED_SHARE * bsdf.diffuse_share(wo) }
 }
 
 /// Absorption beyond a border that was crossed: the body's when it was entered, none when it was left.
@@ -344,12 +345,4 @@ fn viewing(onb: &Onb, wo: Vec3) -> Vec3 {
 #[inline]
 fn sides_agree(shading_cosine: f32, geometric_cosine: f32) -> bool {
     shading_cosine * geometric_cosine > 0.0
-}
-
-pub(crate) fn knob(i: usize) -> f32 {
-    static K: std::sync::OnceLock<[f32; 4]> = std::sync::OnceLock::new();
-    K.get_or_init(|| {
-        let d = [1.0, 1.0, 0.0, 0.0];
-        std::array::from_fn(|i| std::env::var(format!("K{i}")).ok().and_then(|v| v.parse().ok()).unwrap_or(d[i]))
-    })[i]
 }
