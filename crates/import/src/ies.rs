@@ -31,7 +31,8 @@ pub(crate) fn parse(bytes: &[u8], file: &Path, place: &str) -> Result<Profile, I
     let mut numbers = Numbers { file, place, line: 1, rest: Vec::new(), last_line: text.lines().count() };
     let mut warnings = Vec::new();
     let edition = Edition::of(text.lines().next().unwrap_or(""));
-    let Some((tilt_line, tilt)) = text.lines().enumerate().find_map(|(i, line)| Some((i, line.trim().strip_prefix("TILT=")?.trim()))) else {
+    let Some((tilt_line, tilt)) = text.lines().enumerate().find_map(|(i, line)| Some((i, line.trim().strip_prefix("TILT=")?.trim())))
+    else {
         return Err(numbers.error("found no line TILT=…, expected an IES photometric file (LM-63); check that it is one"));
     };
     numbers.rest = text
@@ -79,7 +80,8 @@ pub(crate) fn parse(bytes: &[u8], file: &Path, place: &str) -> Result<Profile, I
     let vertical = numbers.take(vertical_count, "a vertical angle")?;
     let horizontal = numbers.take(horizontal_count, "a horizontal angle")?;
     let candela = numbers.take(vertical_count * horizontal_count, "an intensity")?.into_iter().map(|c| c * factor).collect();
-    let web = PhotometricWeb::new(vertical, horizontal, candela).map_err(|problem| numbers.error(format!("{problem}; correct the file")))?;
+    let web =
+        PhotometricWeb::new(vertical, horizontal, candela).map_err(|problem| numbers.error(format!("{problem}; correct the file")))?;
     if let Some((line, extra)) = numbers.rest.last() {
         warnings.push(format!("line {line}: {extra:?} and what follows is beyond the last intensity and was left out"));
     }
@@ -134,7 +136,11 @@ impl Numbers<'_> {
     fn count(&mut self, what: &str) -> Result<usize, ImportError> {
         let number = self.next(what)?;
         let whole = number >= 1.0 && number <= MAX_ANGLES as f32 && number.fract() == 0.0;
-        if whole { Ok(number as usize) } else { Err(self.error(format!("found {number}, expected {what}, a whole number from 1; correct the file"))) }
+        if whole {
+            Ok(number as usize)
+        } else {
+            Err(self.error(format!("found {number}, expected {what}, a whole number from 1; correct the file")))
+        }
     }
 
     fn take(&mut self, count: usize, what: &str) -> Result<Vec<f32>, ImportError> {

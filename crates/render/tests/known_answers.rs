@@ -4,7 +4,9 @@ use enfilade_frame::{Frame, Layer};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Mat3, Rgb, Vec3};
 use enfilade_render::{Guide, RenderConfig, RenderError, RenderScene, render_frame};
-use enfilade_scene::{Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, PhotometricWeb, Pose, Principled, Quiet, Scene};
+use enfilade_scene::{
+    Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, PhotometricWeb, Pose, Principled, Quiet, Scene,
+};
 use std::f64::consts::PI;
 
 fn quad(corners: [Vec3; 4]) -> Mesh {

@@ -27,13 +27,15 @@ const HAZE_EXPONENT: f64 = 1.3;
 
 /// Steps along a view ray, and along one that gathers for the table of many scatterings.
 const VIEW_STEPS: usize = 40;
-const GATHER_STEPS: usize = 20;
-const GATHER_DIRECTIONS: usize = 64;
+const GATHER_STEPS: usize = 16;
+const GATHER_DIRECTIONS: usize = 32;
 /// Steps to the top of the atmosphere.
-const TRANSMITTANCE_STEPS: usize = 60;
+const TRANSMITTANCE_STEPS: usize = 40;
 /// Sizes of the tables: by height, by angle.
-const TRANSMITTANCE_TABLE: [usize; 2] = [48, 192];
-const MULTIPLE_TABLE: [usize; 2] = [24, 48];
+const TRANSMITTANCE_TABLE: [usize; 2] = [32, 128];
+const MULTIPLE_TABLE: [usize; 2] = [16, 32];
+/// Size of the sky's: by elevation, finer near the horizon, and by azimuth from the sun.
+const DOME_TABLE: [usize; 2] = [64, 33];
 
 type Spectrum = [f64; 3];
 
@@ -43,7 +45,13 @@ pub(crate) struct Atmosphere {
     haze: Spectrum,
     ground_albedo: f64,
     transmittance: Vec<Spectrum>,
-    multiple: Vec<Spectrum>,
+}
+
+/// The sky seen from the ground. What the phase functions multiply is smooth and tabled; they themselves are not.
+pub(crate) struct Dome {
+    to_sun: DVec3,
+    /// Scattered once by air, once by haze, and more often.
+    parts: [Vec<Spectrum>; 3],
 }
 
 impl Atmosphere {
@@ -51,20 +59,12 @@ impl Atmosphere {
     pub fn new(turbidity: f64, ground_albedo: f64) -> Self {
         let depth = |wavelength_um: f64| (0.046_08 * turbidity - 0.045_86).max(0.0) * wavelength_um.powf(-HAZE_EXPONENT);
         let haze = WAVELENGTHS_UM.map(|w| depth(w) / HAZE_HEIGHT_KM);
-        let mut air = Self { haze, ground_albedo, transmittance: Vec::new(), multiple: Vec::new() };
+        let mut air = Self { haze, ground_albedo, transmittance: Vec::new() };
         let [rows, columns] = TRANSMITTANCE_TABLE;
         air.transmittance = (0..rows * columns)
             .map(|i| {
                 let (r, mu) = radius_and_angle((i / columns) as f64 / (rows - 1) as f64, (i % columns) as f64 / (columns - 1) as f64);
                 air.integrated_transmittance(r, mu)
-            })
-            .collect();
-        let [rows, columns] = MULTIPLE_TABLE;
-        air.multiple = (0..rows * columns)
-            .map(|i| {
-                let height = (i / columns) as f64 / (rows - 1) as f64 * (TOP_KM - GROUND_KM);
-                let mu_sun = (i % columns) as f64 / (columns - 1) as f64 * 2.0 - 1.0;
-                air.gathered(GROUND_KM + height.max(EYE_KM), mu_sun)
             })
             .collect();
         air
@@ -83,14 +83,35 @@ impl Atmosphere {
         rgb(sum)
     }
 
-    /// Radiance of the sky seen from the ground in the unit direction `d` (z up, not below the horizon), for sunlight that has
-    /// unit irradiance above the atmosphere.
-    pub fn sky(&self, d: DVec3, to_sun: DVec3) -> Rgb {
+    /// The sky seen from the ground, with the unit direction to the sun, z up.
+    pub fn dome(&self, to_sun: DVec3) -> Dome {
+        let [rows, columns] = MULTIPLE_TABLE;
+        let multiple: Vec<Spectrum> = (0..rows * columns)
+            .map(|i| {
+                let height = (i / columns) as f64 / (rows - 1) as f64 * (TOP_KM - GROUND_KM);
+                let mu_sun = (i % columns) as f64 / (columns - 1) as f64 * 2.0 - 1.0;
+                self.gathered(GROUND_KM + height.max(EYE_KM), mu_sun)
+            })
+            .collect();
+        let sun = DVec3::new(to_sun.x.hypot(to_sun.y), 0.0, to_sun.z);
+        let [rows, columns] = DOME_TABLE;
+        let mut parts: [Vec<Spectrum>; 3] = Default::default();
+        for i in 0..rows * columns {
+            let (sin_elevation, cos_elevation) = elevation((i / columns) as f64 / (rows - 1) as f64).sin_cos();
+            let (sin, cos) = ((i % columns) as f64 / (columns - 1) as f64 * PI).sin_cos();
+            let seen = self.seen(DVec3::new(cos_elevation * cos, cos_elevation * sin, sin_elevation), sun, &multiple);
+            for (part, value) in parts.iter_mut().zip(seen) {
+                part.push(value);
+            }
+        }
+        Dome { to_sun, parts }
+    }
+
+    /// What the sky's radiance in the direction `d` is made of: see [`Dome`].
+    fn seen(&self, d: DVec3, to_sun: DVec3, multiple: &[Spectrum]) -> [Spectrum; 3] {
         let eye = DVec3::new(0.0, 0.0, GROUND_KM + EYE_KM);
         let length = to_top(eye.z, d.z);
-        let cos = d.dot(to_sun);
-        let (rayleigh_phase, haze_phase) = (rayleigh_phase(cos), haze_phase(cos));
-        let mut radiance = [0.0; 3];
+        let mut parts = [[0.0; 3]; 3];
         let mut through = [1.0; 3];
         for k in 0..VIEW_STEPS {
             // Short steps near the eye, where the haze is.
@@ -100,15 +121,18 @@ impl Atmosphere {
             let r = p.length();
             let mu_sun = p.dot(to_sun) / r;
             let (air, haze, extinction) = self.coefficients(r);
-            let (sun, many) = (self.to_sun(r, mu_sun), self.many(r, mu_sun));
+            let sun = self.to_sun(r, mu_sun);
+            let many = bilinear(multiple, MULTIPLE_TABLE, (r - GROUND_KM) / (TOP_KM - GROUND_KM), 0.5 * mu_sun + 0.5);
             for c in 0..3 {
-                let source = sun[c] * (air[c] * rayleigh_phase + haze[c] * haze_phase) + many[c] * (air[c] + haze[c]);
                 let step = (-extinction[c] * (far - near)).exp();
-                radiance[c] += through[c] * source * if extinction[c] > 1e-12 { (1.0 - step) / extinction[c] } else { far - near };
+                let weight = through[c] * if extinction[c] > 1e-12 { (1.0 - step) / extinction[c] } else { far - near };
+                parts[0][c] += weight * sun[c] * air[c];
+                parts[1][c] += weight * sun[c] * haze[c];
+                parts[2][c] += weight * many[c] * (air[c] + haze[c]);
                 through[c] *= step;
             }
         }
-        rgb(radiance)
+        parts
     }
 
     /// Scattering by air and by haze, and the extinction, per km at the distance `r` from the earth's centre.
@@ -147,13 +171,8 @@ impl Atmosphere {
         bilinear(&self.transmittance, TRANSMITTANCE_TABLE, x, y)
     }
 
-    /// Radiance scattered twice or more at a point, in every direction alike.
-    fn many(&self, r: f64, mu_sun: f64) -> Spectrum {
-        bilinear(&self.multiple, MULTIPLE_TABLE, (r - GROUND_KM) / (TOP_KM - GROUND_KM), 0.5 * mu_sun + 0.5)
-    }
-
-    /// The same, gathered: light scattered once or reflected by the ground that arrives from all sides, and the geometric series
-    /// of what is scattered on again.
+    /// Radiance scattered twice or more at a point, in every direction alike: light scattered once or reflected by the ground that
+    /// arrives from all sides, and the geometric series of what is scattered on again.
     fn gathered(&self, r: f64, mu_sun: f64) -> Spectrum {
         let to_sun = DVec3::new((1.0 - mu_sun * mu_sun).max(0.0).sqrt(), 0.0, mu_sun);
         let eye = DVec3::new(0.0, 0.0, r);
@@ -192,6 +211,22 @@ impl Atmosphere {
             second[c] / n / (1.0 - (again[c] / n).min(0.99))
         })
     }
+}
+
+impl Dome {
+    /// Radiance in the unit direction `d`, not below the horizon, for sunlight of unit irradiance above the atmosphere.
+    pub fn radiance(&self, d: DVec3) -> Rgb {
+        let row = (d.z.clamp(0.0, 1.0).asin() / (0.5 * PI)).sqrt();
+        let azimuth = (d.x * self.to_sun.y - d.y * self.to_sun.x).abs().atan2(d.x * self.to_sun.x + d.y * self.to_sun.y);
+        let cos = d.dot(self.to_sun);
+        let [air, haze, many] = [0, 1, 2].map(|part| bilinear(&self.parts[part], DOME_TABLE, row, azimuth / PI));
+        rgb(std::array::from_fn(|c| air[c] * rayleigh_phase(cos) + haze[c] * haze_phase(cos) + many[c]))
+    }
+}
+
+/// The elevation, radians, of a row of the sky's table, on [0, 1].
+fn elevation(row: f64) -> f64 {
+    0.5 * PI * row * row
 }
 
 fn rgb(s: Spectrum) -> Rgb {
@@ -283,8 +318,24 @@ mod tests {
     }
 
     #[test]
+    fn the_tabled_sky_is_that_of_the_integral() {
+        let air = Atmosphere::new(3.0, 0.2);
+        let to_sun = DVec3::new(0.3, -0.6, 0.4).normalize();
+        let dome = air.dome(to_sun);
+        for d in [DVec3::new(0.2, 0.1, 0.5), DVec3::new(-0.9, 0.3, 0.05), DVec3::new(0.35, -0.55, 0.4), DVec3::Z] {
+            let d = d.normalize();
+            let [one, haze, _] = air.seen(d, to_sun, &[[0.0; 3]; MULTIPLE_TABLE[0] * MULTIPLE_TABLE[1]]);
+            let cos = d.dot(to_sun);
+            let once =
+                Dome { to_sun, parts: [dome.parts[0].clone(), dome.parts[1].clone(), vec![[0.0; 3]; DOME_TABLE[0] * DOME_TABLE[1]]] };
+            let (tabled, exact) = (once.radiance(d), one[1] * rayleigh_phase(cos) + haze[1] * haze_phase(cos));
+            assert!((f64::from(tabled.g) / exact - 1.0).abs() < 0.02, "{d}: {tabled:?} {exact}");
+        }
+    }
+
+    #[test]
     fn at_night_the_sky_is_dark() {
         let air = Atmosphere::new(2.0, 0.3);
-        assert!(air.sky(DVec3::Z, DVec3::new(0.0, 0.8, -0.6)).luminance() < 1e-6);
+        assert!(air.dome(DVec3::new(0.0, 0.8, -0.6)).radiance(DVec3::Z).luminance() < 1e-6);
     }
 }

@@ -37,9 +37,9 @@ impl Daylight {
     /// the ground, a Lambert surface lit by sun and sky.
     pub fn sky_radiance(&self) -> impl Fn(Vec3) -> Rgb + Sync + use<> {
         let air = self.atmosphere();
-        let to_sun = self.to_sun.as_dvec3();
         let sun = self.sun_through(&air);
-        let above = move |d: Vec3| air.sky(d.as_dvec3(), to_sun) * SOLAR_KLX;
+        let dome = air.dome(self.to_sun.as_dvec3());
+        let above = move |d: Vec3| dome.radiance(d.as_dvec3()) * SOLAR_KLX;
         let by_sky = (0..SKY_DIRECTIONS)
             .map(|k| above(enfilade_math::warp::cosine_hemisphere(enfilade_math::warp::hammersley(k, SKY_DIRECTIONS))))
             .sum::<Rgb>()

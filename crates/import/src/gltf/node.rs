@@ -2,7 +2,7 @@
 
 use super::container::Document;
 use super::material::Materials;
-use super::{light, profile, primitive};
+use super::{light, primitive, profile};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::{DAffine3, DMat3, DVec3};

@@ -28,7 +28,9 @@ pub(super) fn add(
     let index = instance.get("light").and_then(Value::as_u64);
     let Some((index, profile)) = index.and_then(|i| Some((i, profiles.get(usize::try_from(i).ok()?)?))) else {
         let found = instance.get("light").map_or("no light".to_string(), |l| format!("light {l}"));
-        return Err(a.malformed(place, format!("found {found}, expected one of the {} profiles of the file; export it again", profiles.len())));
+        return Err(
+            a.malformed(place, format!("found {found}, expected one of the {} profiles of the file; export it again", profiles.len()))
+        );
     };
     let profile_place = format!("extensions.EXT_lights_ies.lights[{index}]");
     let (file, bytes) = bytes(document, profile, &profile_place, a)?;
@@ -51,7 +53,13 @@ pub(super) fn add(
         return Ok(());
     };
     let position = file_from_node.translation.as_vec3();
-    a.push_light(Light::Profile { name, position, web_from_world: web_from_file, intensity: color * multiplier, web: Box::new(parsed.web) });
+    a.push_light(Light::Profile {
+        name,
+        position,
+        web_from_world: web_from_file,
+        intensity: color * multiplier,
+        web: Box::new(parsed.web),
+    });
     Ok(())
 }
 
