@@ -30,8 +30,6 @@ pub(crate) struct CellLight {
     density: SquareDensity,
     /// Indirect irradiance over π: the mean radiance over the hemisphere, weighted by the cosine, without direct light.
     pub indirect: Rgb,
-    /// Luminance of the brightest direction, of what light sampling leaves to chance.
-    pub brightest: f32,
 }
 
 /// The light in the cells of a scene.
@@ -92,8 +90,7 @@ impl Field {
             .zip(&indirect)
             .map(|((_, links), &indirect)| {
                 let values: [f32; BINS] = std::array::from_fn(|bin| links[bin].emitted + links[bin].radiance(&total).luminance());
-                let values = blurred(&values);
-                CellLight { density: SquareDensity::new(&values), indirect, brightest: values.iter().copied().fold(0.0, f32::max) }
+                CellLight { density: SquareDensity::new(&blurred(&values)), indirect }
             })
             .collect();
         Some(Self { cells, lights })
