@@ -7,6 +7,7 @@ mod acceptance;
 mod bench;
 mod check;
 mod dependencies;
+mod embree;
 mod floors;
 mod house;
 mod oidn;

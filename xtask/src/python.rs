@@ -52,7 +52,10 @@ pub fn with_peers(house: &House) -> Result<PathBuf, String> {
 }
 
 /// A virtual environment below the target folder that `imports` succeeds in, made and filled with `packages` unless it is there.
-fn made(house: &House, name: &str, imports: &str, packages: &[&str]) -> Result<PathBuf, String> {
+///
+/// # Errors
+/// When there is no Python, or no network to install from.
+pub fn made(house: &House, name: &str, imports: &str, packages: &[&str]) -> Result<PathBuf, String> {
     let folder = house.target()?.join(name);
     let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     if succeeds(house, &own, imports) {

@@ -27,6 +27,29 @@ pub(super) trait Lanes: Copy {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Eight<T>(pub [T; 8]);
 
+/// Sixteen values on one 64-byte boundary.
+#[repr(C, align(64))]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Sixteen<T>(pub [T; 16]);
+
+impl Sixteen<f32> {
+    /// The first and the last eight.
+    #[inline(always)]
+    pub fn halves(&self) -> [&Eight<f32>; 2] {
+        let first = self.0.as_ptr().cast::<Eight<f32>>();
+        // SAFETY: sixteen values are twice eight, and both halves lie on 32-byte boundaries.
+        unsafe { [&*first, &*first.add(1)] }
+    }
+}
+
+/// Takes the lowest lane out of a mask that is not empty.
+#[inline(always)]
+pub(super) fn lane_of(mask: &mut u32) -> usize {
+    let lane = mask.trailing_zeros() as usize;
+    *mask &= *mask - 1;
+    lane & 15
+}
+
 /// The plain kind; compilers turn most of it into whatever vector instructions the target has.
 #[derive(Clone, Copy)]
 pub(super) struct Portable(Eight<f32>);

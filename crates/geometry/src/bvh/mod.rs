@@ -1,19 +1,27 @@
 //! The ray-tracing hierarchy: which triangle does a ray meet first, and does it meet any?
 //!
-//! A tree of boxes with up to eight children per node and up to eight triangles per leaf, so that one vector instruction tests all
+//! A tree of boxes with up to sixteen children per node and up to eight triangles per leaf, so that one vector instruction tests all
 //! children or all triangles of a place at once (Wald, Benthin & Boulos 2008, "Getting Rid of Packets"). The triangle test is
 //! watertight (Woop, Benthin & Wald 2013): a ray cannot slip between two triangles that share an edge. What a ray hits does not
-//! depend on the machine: AVX2 is used where the processor has it, and the plain path gives the same bits.
+//! depend on the machine: AVX-512 or AVX2 is used where the processor has it, and the plain path gives the same bits.
 
 mod build;
+mod collapse;
 mod lanes;
+mod node;
+mod pages;
+mod prepared;
+mod stack;
+mod triangle;
 mod walk;
+mod wide;
 
 #[cfg(test)]
 mod tests;
 
-use build::{Block, Node};
 use enfilade_math::{Bounds3, Ray, Vec3};
+use node::{Block, Node};
+use pages::Pages;
 
 /// Where a ray meets a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,8 +41,8 @@ pub struct Hit {
 /// Of several triangles at the same distance the one with the lowest index is reported.
 pub struct Bvh {
     /// The root is node 0; empty when there is nothing to hit.
-    nodes: Vec<Node>,
-    blocks: Vec<Block>,
+    nodes: Pages<Node>,
+    blocks: Pages<Block>,
     bounds: Bounds3,
     /// The greatest absolute value of a coordinate.
     largest_coordinate: f32,
@@ -48,13 +56,19 @@ enum Kernel {
     Portable,
     #[cfg(target_arch = "x86_64")]
     Avx2,
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
 }
 
 impl Kernel {
     fn best_here() -> Self {
         #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("bmi1") {
-            return Self::Avx2;
+        {
+            use std::arch::is_x86_feature_detected as has;
+            let wide = has!("avx512f") && has!("avx512vl") && has!("bmi2") && has!("lzcnt") && has!("popcnt");
+            if has!("avx2") && has!("bmi1") {
+                return if wide { Self::Avx512 } else { Self::Avx2 };
+            }
         }
         Self::Portable
     }
@@ -78,8 +92,8 @@ impl Bvh {
     pub fn new(corners: &[[Vec3; 3]], filtered: &dyn Fn(u32) -> bool) -> Self {
         let built = build::build(corners, filtered);
         Self {
-            nodes: built.nodes,
-            blocks: built.blocks,
+            nodes: Pages::new(&built.nodes),
+            blocks: Pages::new(&built.blocks),
             bounds: built.bounds,
             largest_coordinate: built.bounds.min.abs().max(built.bounds.max.abs()).max_element(),
             triangle_count: corners.len(),
@@ -132,10 +146,13 @@ impl Bvh {
     #[inline]
     fn query<const ANY: bool, const ASK: bool, F: Fn(&Hit) -> bool>(&self, ray: &Ray, accept: F) -> Option<Hit> {
         match self.kernel {
-            Kernel::Portable => walk::walk::<lanes::Portable, ANY, ASK, F>(self, ray, accept),
+            Kernel::Portable => walk::walk::<wide::Pair<lanes::Portable>, lanes::Portable, ANY, ASK, F>(self, ray, accept),
             // SAFETY: this kernel is chosen only where the processor has the features.
             #[cfg(target_arch = "x86_64")]
             Kernel::Avx2 => unsafe { walk::walk_avx2::<ANY, ASK, F>(self, ray, accept) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Kernel::Avx512 => unsafe { walk::walk_avx512::<ANY, ASK, F>(self, ray, accept) },
         }
     }
 }

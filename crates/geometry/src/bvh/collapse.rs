@@ -1,0 +1,242 @@
+//! From the binary tree to the wide one, with the least expected cost.
+//!
+//! What a node may look like is decided from below: the least cost of every subtree is known for each number of children that it may
+//! take up in the node above it (Ylitie, Karras & Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
+//! BVHs", section 3). The cost is the usual one: the surface of every box that is visited.
+
+use super::build::{Binary, Built, Soup};
+use super::lanes::Eight;
+use super::node::{Block, FILTERED, LANES, LEAF, MAX_DEPTH, Node, WIDTH};
+
+/// The best ways of handing a subtree to a node above it, by the number of its children that are subtrees of this one, less one.
+struct Ways {
+    cost: [f32; WIDTH],
+    /// How many of the children are in the left half. In the first place, where there is but one child: how many children that one has;
+    /// 0 when it is a block.
+    left: [u8; WIDTH],
+    /// In how many places it can be at most: the number of leaves of the binary tree, up to [`WIDTH`].
+    places: usize,
+    triangles: u32,
+    /// How much surface stops rays there, per block that they must be tested with.
+    yield_per_block: f32,
+    /// Surface that stops rays.
+    area: f64,
+}
+
+/// Visiting a node and visiting a block take about equally long.
+const NODE_COST: f32 = 1.0;
+const BLOCK_COST: f32 = 1.0;
+
+/// Makes the wide tree. `None` when it would be deeper than [`MAX_DEPTH`].
+pub(super) fn collapse(soup: &Soup, binary: &Binary) -> Option<Built> {
+    let ways = ways(soup, binary);
+    let mut built = Built { nodes: vec![Node::EMPTY], blocks: Vec::new(), bounds: binary.nodes[0].bounds };
+    let mut waiting = vec![(0, 0, 1)];
+    while let Some((root, slot, depth)) = waiting.pop() {
+        if depth > MAX_DEPTH {
+            return None;
+        }
+        for (lane, child) in children(binary, &ways, root).into_iter().enumerate() {
+            let bounds = binary.nodes[child].bounds;
+            for k in 0..3 {
+                built.nodes[slot].bounds[k][0].0[lane] = bounds.min[k];
+                built.nodes[slot].bounds[k][1].0[lane] = bounds.max[k];
+            }
+            built.nodes[slot].children.0[lane] = if ways[child].left[0] == 0 {
+                built.blocks.push(block(soup, &triangles(binary, child)));
+                LEAF | (built.blocks.len() - 1) as u32
+            } else {
+                waiting.push((child, built.nodes.len(), depth + 1));
+                built.nodes.push(Node::EMPTY);
+                (built.nodes.len() - 1) as u32
+            };
+        }
+    }
+    Some(built)
+}
+
+/// The children of a node, the most worthwhile for rays that want any hit last.
+fn children(binary: &Binary, ways: &[Ways], root: usize) -> Vec<usize> {
+    let mut chosen = Vec::with_capacity(WIDTH);
+    let mut waiting = Vec::new();
+    match ways[root].left[0] {
+        0 => chosen.push(root),
+        count => open(binary, ways, root, count, &mut waiting),
+    }
+    while let Some((node, count)) = waiting.pop() {
+        if count == 1 {
+            chosen.push(node);
+        } else {
+            open(binary, ways, node, count, &mut waiting);
+        }
+    }
+    chosen.sort_by(|&a, &b| ways[a].yield_per_block.total_cmp(&ways[b].yield_per_block));
+    chosen
+}
+
+/// Replaces a subtree that takes up `count` ≥ 2 places by its halves.
+fn open(binary: &Binary, ways: &[Ways], node: usize, count: u8, waiting: &mut Vec<(usize, u8)>) {
+    let left = ways[node].left[usize::from(count) - 1];
+    let first = binary.nodes[node].first as usize;
+    waiting.extend([(first + 1, count - left), (first, left)]);
+}
+
+/// The ways of all nodes.
+fn ways(soup: &Soup, binary: &Binary) -> Vec<Ways> {
+    let whole = binary.nodes[0].half_area();
+    let mut ways: Vec<Ways> = binary.nodes.iter().map(|_| Ways::NONE).collect();
+    for i in binary.children_first() {
+        let node = binary.nodes[i];
+        let surface = (node.half_area() / whole) as f32;
+        ways[i] = if node.count > 0 {
+            let triangles = &binary.order[node.first as usize..(node.first + node.count) as usize];
+            Ways::of_block(surface, node.count, triangles.iter().map(|&t| soup.stopping_area(t)).sum())
+        } else {
+            Ways::of_halves(surface, &ways[node.first as usize], &ways[node.first as usize + 1])
+        };
+    }
+    ways
+}
+
+impl Ways {
+    const NONE: Self = Self { cost: [f32::INFINITY; WIDTH], left: [0; WIDTH], places: 1, triangles: 0, yield_per_block: 0.0, area: 0.0 };
+
+    fn of_block(surface: f32, triangles: u32, area: f64) -> Self {
+        let mut ways = Self { triangles, area, yield_per_block: area as f32, ..Self::NONE };
+        ways.cost[0] = surface * BLOCK_COST;
+        ways
+    }
+
+    fn of_halves(surface: f32, left: &Self, right: &Self) -> Self {
+        let (triangles, area) = (left.triangles + right.triangles, left.area + right.area);
+        let blocks = triangles.div_ceil(LANES as u32);
+        let mut ways = Self { triangles, area, yield_per_block: (area / f64::from(blocks)) as f32, ..Self::NONE };
+        let mut open = (f32::INFINITY, 0);
+        ways.places = (left.places + right.places).min(WIDTH);
+        for count in 2..=ways.places {
+            let (mut best, mut best_left) = (f32::INFINITY, 1);
+            for on_left in count.saturating_sub(right.places).max(1)..=left.places.min(count - 1) {
+                let cost = left.cost[on_left - 1] + right.cost[count - on_left - 1];
+                if cost < best {
+                    (best, best_left) = (cost, on_left as u8);
+                }
+            }
+            (ways.cost[count - 1], ways.left[count - 1]) = (best, best_left);
+            if best < open.0 {
+                open = (best, count as u8);
+            }
+        }
+        let as_node = open.0 + surface * NODE_COST;
+        let as_block = if blocks == 1 { surface * BLOCK_COST } else { f32::INFINITY };
+        (ways.cost[0], ways.left[0]) = if as_block <= as_node { (as_block, 0) } else { (as_node, open.1) };
+        ways
+    }
+}
+
+/// The triangles below a node of the binary tree.
+fn triangles(binary: &Binary, root: usize) -> Vec<u32> {
+    let mut triangles = Vec::with_capacity(LANES);
+    let mut waiting = vec![root];
+    while let Some(i) = waiting.pop() {
+        let node = binary.nodes[i];
+        if node.count == 0 {
+            waiting.extend([node.first as usize + 1, node.first as usize]);
+        } else {
+            triangles.extend_from_slice(&binary.order[node.first as usize..(node.first + node.count) as usize]);
+        }
+    }
+    triangles
+}
+
+fn block(soup: &Soup, triangles: &[u32]) -> Block {
+    let mut block = Block { corners: [[Eight([f32::NAN; LANES]); 3]; 3], ids: Eight([0; LANES]) };
+    for (lane, &triangle) in triangles.iter().enumerate() {
+        for (c, corner) in soup.corners[triangle as usize].iter().enumerate() {
+            for k in 0..3 {
+                block.corners[c][k].0[lane] = corner[k];
+            }
+        }
+        block.ids.0[lane] = if (soup.filtered)(triangle) { triangle | FILTERED } else { triangle };
+    }
+    block
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::build::BinaryNode;
+    use super::*;
+    use enfilade_math::{Bounds3, Vec3};
+
+    fn triangles(count: u32) -> Vec<[Vec3; 3]> {
+        (0..count).map(|i| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p + Vec3::Z * i as f32)).collect()
+    }
+
+    /// Every inner node has a leaf of eight triangles and the rest.
+    fn chain(soup: &Soup, leaves: u32) -> Binary {
+        let leaf = |i: u32| BinaryNode::leaf(8 * i, 8);
+        let mut nodes = vec![BinaryNode::children(1)];
+        for i in 0..leaves - 1 {
+            let rest = if i + 2 == leaves { leaf(i + 1) } else { BinaryNode::children(2 * i + 3) };
+            nodes.extend([leaf(i), rest]);
+        }
+        let mut binary = Binary { nodes, order: (0..8 * leaves).collect() };
+        soup.fit(&mut binary);
+        binary
+    }
+
+    #[test]
+    fn a_tree_too_deep_for_the_stack_is_refused_and_a_balanced_one_is_not() {
+        let corners = triangles(8 * 600);
+        let soup = Soup { corners: &corners, filtered: &|_| false };
+        assert!(collapse(&soup, &chain(&soup, 400)).is_some());
+        assert!(collapse(&soup, &chain(&soup, 600)).is_none());
+        let all: Vec<u32> = (0..8 * 600).collect();
+        assert!(collapse(&soup, &soup.balanced_tree(&all)).is_some());
+    }
+
+    #[test]
+    fn every_triangle_is_in_one_block_and_inside_all_boxes_above_it() {
+        let corners = triangles(1000);
+        let soup = Soup { corners: &corners, filtered: &|i| i % 2 == 0 };
+        let all: Vec<u32> = (0..1000).collect();
+        let built = collapse(&soup, &soup.balanced_tree(&all)).expect("shallow");
+        let mut ids: Vec<u32> = Vec::new();
+        let mut waiting = vec![(0, Bounds3 { min: Vec3::NEG_INFINITY, max: Vec3::INFINITY })];
+        while let Some((child, bounds)) = waiting.pop() {
+            if let Some(block) = Node::leaf(child) {
+                let block = &built.blocks[block];
+                for lane in (0..LANES).filter(|&lane| block.corners[0][0].0[lane].is_finite()) {
+                    ids.push(block.ids.0[lane]);
+                    let triangle = corners[(block.ids.0[lane] & !FILTERED) as usize];
+                    assert!(triangle.iter().all(|p| p.cmpge(bounds.min).all() && p.cmple(bounds.max).all()));
+                }
+                continue;
+            }
+            let node = &built.nodes[child as usize];
+            for lane in 0..WIDTH {
+                let end = |side: usize| Vec3::from([0, 1, 2].map(|k| node.bounds[k][side].0[lane]));
+                if end(0).cmple(end(1)).all() {
+                    waiting.push((node.children.0[lane], Bounds3 { min: end(0).max(bounds.min), max: end(1).min(bounds.max) }));
+                }
+            }
+        }
+        ids.sort_unstable_by_key(|id| id & !FILTERED);
+        let expected: Vec<u32> = (0..1000).map(|i| if i % 2 == 0 { i | FILTERED } else { i }).collect();
+        assert_eq!(ids, expected);
+    }
+
+    #[test]
+    fn triangles_share_a_block_where_that_is_cheaper() {
+        // Beside a full block, two triangles that lie together make one block; two far apart, two.
+        for (step, blocks) in [(0.1, 2), (1000.0, 3)] {
+            let mut corners = triangles(8);
+            corners.extend([0.0, step].map(|z| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p + Vec3::Z * z)));
+            let soup = Soup { corners: &corners, filtered: &|_| false };
+            let halves = [BinaryNode::leaf(0, 8), BinaryNode::children(3), BinaryNode::leaf(8, 1), BinaryNode::leaf(9, 1)];
+            let mut binary = Binary { nodes: vec![BinaryNode::children(1)], order: (0..10).collect() };
+            binary.nodes.extend(halves);
+            soup.fit(&mut binary);
+            assert_eq!(collapse(&soup, &binary).expect("shallow").blocks.len(), blocks, "{step} apart");
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Children that wait to be visited.
+
+use super::node::{MAX_DEPTH, WIDTH};
+use std::mem::MaybeUninit;
+
+/// Room for the waiting children of every level, and for a whole vector beyond the last.
+const ROOM: usize = (WIDTH - 1) * MAX_DEPTH + 1 + WIDTH;
+
+/// Children and the parameters at which the ray enters them; the next to be visited is the last.
+///
+/// The traversal keeps at most `WIDTH - 1` entries per level of a tree of at most `MAX_DEPTH` levels, so that there is always room for
+/// `WIDTH` more. Whoever writes to the arrays relies on that.
+pub(super) struct Stack {
+    pub children: [MaybeUninit<u32>; ROOM],
+    pub enter_at: [MaybeUninit<f32>; ROOM],
+    /// Below it, everything has been written.
+    pub len: usize,
+}
+
+impl Stack {
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self { children: [const { MaybeUninit::uninit() }; ROOM], enter_at: [const { MaybeUninit::uninit() }; ROOM], len: 0 }
+    }
+
+    #[inline(always)]
+    pub fn push(&mut self, child: u32, enter_at: f32) {
+        debug_assert!(self.len + WIDTH < ROOM);
+        // SAFETY: there is room.
+        unsafe {
+            self.children.get_unchecked_mut(self.len).write(child);
+            self.enter_at.get_unchecked_mut(self.len).write(enter_at);
+        }
+        self.len += 1;
+    }
+
+    /// Puts an entry in its place among those from `base` on, which are sorted with the nearest last.
+    #[inline(always)]
+    pub fn insert(&mut self, base: usize, child: u32, enter_at: f32) {
+        debug_assert!(self.len + WIDTH < ROOM);
+        let mut at = self.len;
+        // SAFETY: `at` is at most `len`, where there is room and below which everything has been written.
+        unsafe {
+            while at > base {
+                let below = self.enter_at.get_unchecked(at - 1).assume_init();
+                if below >= enter_at {
+                    break;
+                }
+                self.enter_at.get_unchecked_mut(at).write(below);
+                let child_below = *self.children.get_unchecked(at - 1);
+                *self.children.get_unchecked_mut(at) = child_below;
+                at -= 1;
+            }
+            self.enter_at.get_unchecked_mut(at).write(enter_at);
+            self.children.get_unchecked_mut(at).write(child);
+        }
+        self.len += 1;
+    }
+
+    /// The child to be visited next, left in its place.
+    #[inline(always)]
+    pub fn last(&self) -> Option<u32> {
+        let last = self.len.checked_sub(1)?;
+        // SAFETY: below `len`, everything has been written.
+        Some(unsafe { self.children.get_unchecked(last).assume_init() })
+    }
+
+    #[inline(always)]
+    pub fn pop(&mut self) -> Option<u32> {
+        let last = self.last()?;
+        self.len -= 1;
+        Some(last)
+    }
+
+    /// Drops what the ray enters beyond `limit`.
+    #[inline(always)]
+    pub fn retain_up_to(&mut self, limit: f32) {
+        let mut kept = 0;
+        for at in 0..self.len {
+            // SAFETY: `kept` and `at` are below `len`, where everything has been written.
+            unsafe {
+                let (child, enter_at) = (*self.children.get_unchecked(at), *self.enter_at.get_unchecked(at));
+                if enter_at.assume_init() <= limit {
+                    *self.children.get_unchecked_mut(kept) = child;
+                    *self.enter_at.get_unchecked_mut(kept) = enter_at;
+                    kept += 1;
+                }
+            }
+        }
+        self.len = kept;
+    }
+}
