@@ -10,8 +10,8 @@ use enfilade_scene::{Alpha, ColorParam, Scene};
 /// Two triangles make a rectangle when its corners and right angles are off by no more than this share of a side.
 const RECTANGLE_TOLERANCE: f32 = 1e-4;
 /// Texels along a side of a patch, about, and the most patches along a side.
-const TEXELS_PER_PATCH: f32 = 8.0;
-const MAX_PATCHES_PER_SIDE: u32 = 16;
+const TEXELS_PER_PATCH: f32 = 4.0;
+const MAX_PATCHES_PER_SIDE: u32 = 32;
 /// The most patches a part is cut into beyond one a triangle.
 const MAX_PATCHES_PER_PART: usize = 4096;
 /// Texture samples along each side of a patch for its mean.

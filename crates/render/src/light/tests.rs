@@ -199,7 +199,8 @@ fn a_picture_on_a_screen_lights_by_its_texels() {
         let samples = 40_000;
         let found = irradiance(&prepared, &learned_at(&prepared, &at), &at, samples);
         found.assert_is(&format!("screen, place {k}"), expected, 2);
-        assert!(noise(&found, samples) < 0.6, "relative deviation {}", noise(&found, samples));
+        // Spread evenly over the screen, of which 3 % are bright, it would be above 5.
+        assert!(noise(&found, samples) < 1.2, "relative deviation {}", noise(&found, samples));
     }
 }
 
