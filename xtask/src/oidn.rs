@@ -10,7 +10,9 @@ pub const VARIABLE: &str = "ENFILADE_OIDN";
 /// What carries the library, in the version that was measured.
 const PACKAGE: &str = "pyoidn==2.5.1.0";
 /// Prints the folder of the library within that package.
-const FIND: &str = "import importlib.util, pathlib; print(pathlib.Path(importlib.util.find_spec('pyoidn').origin).parent / 'oidn' / 'lib')";
+const FIND: &str = "import importlib.util, os, pathlib
+package = pathlib.Path(importlib.util.find_spec('pyoidn').origin).parent
+print(package / 'oidn' / ('bin' if os.name == 'nt' else 'lib'))";
 
 /// The library that [`VARIABLE`] names, or that an earlier [`made`] has left below the target folder.
 pub fn found(house: &House) -> Option<PathBuf> {
