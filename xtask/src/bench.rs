@@ -33,7 +33,7 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     let chosen: Vec<&Bench> = match words {
         ["--list"] => {
             BENCHES.iter().for_each(|bench| println!("{:<8} {}", bench.name, bench.about));
-            println!("{:<8} {}", "render", "what pictures of real rooms cost, against Mitsuba 3; runs only when named");
+            println!("render   what pictures of real rooms cost, against Mitsuba 3; runs only when named");
             return Ok(());
         }
         [] => BENCHES.iter().collect(),
