@@ -71,7 +71,10 @@ impl Writer<'_> {
         let axes = file_from_world() * camera.world_from_camera * DMat3::from_diagonal(DVec3::new(-1.0, 1.0, -1.0));
         let placement = DAffine3::from_mat3_translation(axes, file_from_world() * camera.position);
         let fov = camera.fov_x_rad.to_degrees();
-        writeln!(self.xml, "<integrator type=\"path\"></integrator>\n<sensor type=\"perspective\">\n\t<float name=\"fov\" value=\"{fov}\"/>")?;
+        writeln!(
+            self.xml,
+            "<integrator type=\"path\"></integrator>\n<sensor type=\"perspective\">\n\t<float name=\"fov\" value=\"{fov}\"/>"
+        )?;
         writeln!(self.xml, "\t<transform name=\"to_world\">{}</transform>", matrix(placement))?;
         writeln!(self.xml, "\t<film type=\"hdrfilm\"></film>\n\t<sampler type=\"independent\"></sampler>\n</sensor>")?;
         Ok(())
@@ -117,11 +120,8 @@ impl Writer<'_> {
             Some(Environment::Map { image, scale, map_from_world }) => {
                 let image = &self.scene.images[*image as usize];
                 write_exr(&self.folder.join("textures/environment.exr"), image, *scale)?;
-                let world_from_map = DMat3::from_cols(
-                    map_from_world.row(0).as_dvec3(),
-                    map_from_world.row(1).as_dvec3(),
-                    map_from_world.row(2).as_dvec3(),
-                );
+                let world_from_map =
+                    DMat3::from_cols(map_from_world.row(0).as_dvec3(), map_from_world.row(1).as_dvec3(), map_from_world.row(2).as_dvec3());
                 let placement = DAffine3::from_mat3(file_from_world() * world_from_map);
                 writeln!(
                     self.xml,
@@ -199,8 +199,12 @@ impl Writer<'_> {
         };
         if let Some((opacity, cutoff)) = opacity {
             let opacity = match opacity.texture {
-                None => format!("<float name=\"opacity\" value=\"{}\"/>", cutoff.map_or(opacity.factor, |c| f32::from(opacity.factor >= c))),
-                Some((texture, channel)) => self.texture("opacity", &texture, Rgb::WHITE, Store::Opacity(channel, opacity.factor, cutoff))?,
+                None => {
+                    format!("<float name=\"opacity\" value=\"{}\"/>", cutoff.map_or(opacity.factor, |c| f32::from(opacity.factor >= c)))
+                }
+                Some((texture, channel)) => {
+                    self.texture("opacity", &texture, Rgb::WHITE, Store::Opacity(channel, opacity.factor, cutoff))?
+                }
             };
             bsdf = format!("<bsdf type=\"mask\">{opacity}{bsdf}</bsdf>");
         }

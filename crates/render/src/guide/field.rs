@@ -164,7 +164,7 @@ fn link(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, from: &Lig
     let sent = |through: Rgb, radiance: Rgb| Some((through * radiance).luminance()).filter(|l| l.is_finite()).unwrap_or(0.0);
     for _ in 0..PANES {
         let Some(hit) = scene.closest(&ray, Cutout::Random) else {
-            let background = scene.lights.background_weighted(choice, from, ray.direction, pdf);
+            let background = scene.lights.background_weighted(choice, from, ray.direction, pdf).total();
             return Link { cell: NONE, reflectance: Rgb::BLACK, emitted: sent(through, background) };
         };
         let surface = scene.surface(&hit, ray.direction);

@@ -33,8 +33,7 @@ impl LightChoice {
         let rng = |purpose: u64, path: u64| Rng::new(hash_u64(config.seed ^ hash_u64(0x11_9417 ^ (purpose << 32) ^ path)));
         let view = |path: u64| &views[(path % cameras) as usize];
         let windows = if scene.lights.sky.is_some() {
-            let seen: Vec<Glimpses> =
-                (0..paths / 2).into_par_iter().map(|path| glimpses(scene, view(path), rng(0, path))).collect();
+            let seen: Vec<Glimpses> = (0..paths / 2).into_par_iter().map(|path| glimpses(scene, view(path), rng(0, path))).collect();
             let mut all = Glimpses::default();
             for mut one in seen {
                 all.surfaces.append(&mut one.surfaces);
