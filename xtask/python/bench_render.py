@@ -20,7 +20,7 @@ from renderers import Mitsuba, Ours, luminance
 SIZE, LARGE = "256x192", "1024x768"
 LARGE_ROOM, LARGE_SAMPLES = "grey-white-room", 32
 DEPTH = 10
-SEEDS = 3
+SEEDS = 2
 CURVE = [4, 16, 64, 256]
 # The samples at which the tables compare.
 AT = 64
@@ -131,7 +131,7 @@ def delivered(ours, scene, name):
     """Samples that leave the target noise, and what a large frame with every layer then costs."""
     # Noise per pixel hardly depends on the image's size: it is measured on a small one, with the tent filter of delivered images.
     tent = dict(filter="tent", filter_radius=1.0)
-    counts = [64, 256]
+    counts = [32, 128]
     runs = [ours.render(scene, SIZE, n, DELIVERED_DEPTH, seeds=2, **tent) for n in counts]
     noise = [tone_mapped_noise(run.pictures) for run in runs]
     slope = np.log(noise[1] / noise[0]) / np.log(counts[1] / counts[0])
@@ -187,14 +187,14 @@ def write(equal, large, costs, peer, docs, seconds):
     lines += [
         f"{LARGE}, every layer, tent filter, {DELIVERED_DEPTH - 2} bounces, at the noise of a delivered image: the root mean square over the pixels of the standard",
         f"error of the tone-mapped value (90th percentile of brightness to 0.8, gamma 1/2.2, at most 1) is {TARGET:.0%} of its mean. The samples this needs are measured",
-        f"between two seeds at {SIZE} (64 and 256 samples, the power law between them carried on), the seconds per sample at {LARGE} (1 and 9 samples).",
+        f"between two seeds at {SIZE} (32 and 128 samples, the power law between them carried on), the seconds per sample at {LARGE} (1 and 9 samples).",
         "*Geometry*: the geometry layers and whatever else does not grow with the samples, by carrying the frame's time on to no samples.",
         "",
-        "| room | noise at 64 | at 256 samples | samples needed | core-minutes | of them load | learning | geometry | peak MB |",
+        "| room | noise at 32 | at 128 samples | samples needed | core-minutes | of them load | learning | geometry | peak MB |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
     for c in costs:
-        lines.append(f"| {c['case']} | {c['noise']['64']:.2%} | {c['noise']['256']:.2%} | {c['samples']} | {c['core_min']:.2f} | {c['load_s']:.2f} s | {c['learn_s']:.2f} s | {c['fixed_s']:.2f} s | {c['peak_mb']:.0f} |")
+        lines.append(f"| {c['case']} | {c['noise']['32']:.2%} | {c['noise']['128']:.2%} | {c['samples']} | {c['core_min']:.2f} | {c['load_s']:.2f} s | {c['learn_s']:.2f} s | {c['fixed_s']:.2f} s | {c['peak_mb']:.0f} |")
     lines += ["", f"Median: {np.median([c['core_min'] for c in costs]):.2f} core-minutes. The run took {seconds / 60:.0f} minutes.", ""]
     (docs / "render.md").write_text("\n".join(lines))
 

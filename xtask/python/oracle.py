@@ -54,7 +54,7 @@ def main():
         if scene is None:
             scene, size, samples = rooms.prepare(name, job.scenes, Path(job.work) / "rooms", job.exporter), "256x192", 32
         settings = dict(size=size, samples=SAMPLES.get(name, samples), depth=DEPTHS.get(name, DEPTH), seeds=SEEDS)
-        a, b = (renderer.render(scene, **settings) for renderer in (ours, peer))
+        a, b = ours.render(scene, **settings), peer.render(scene, **settings, merged=False)
         result = compare(a.pictures, b.pictures) | dict(case=name, room=cases[name] is None, samples=SEEDS * settings["samples"])
         result |= dict(depth=settings["depth"], explanation=explanations.get(name, ""), version=b.told["mitsuba"])
         results.append(result | dict(pictures=(a.pictures.mean(0), b.pictures.mean(0))))

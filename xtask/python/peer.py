@@ -1,9 +1,10 @@
 """Renders a Mitsuba scene with Mitsuba 3 and writes the colour as a NumPy array: the peer's side, a process of its own.
 
-peer.py SCENE --size WIDTHxHEIGHT --samples N --depth D [--seed S] [--seeds K] [--sampler NAME] [--out FILE.npy]
+peer.py SCENE --size WIDTHxHEIGHT --samples N --depth D [--seed S] [--seeds K] [--sampler NAME] [--unmerged] [--out FILE.npy]
 
 K pictures (default 1) with seeds S, S + 1, …; float32, K × height × width × 3, linear. The scene takes `width`, `height`, `depth`
-and `sampler` as parameters (`rooms.py` prepares it so). One line of JSON tells how Mitsuba was run.
+and `sampler` as parameters (`rooms.py` prepares it so). `--unmerged` keeps shapes apart, which Mitsuba merges by default: 3.9.1 then
+forgets merged rectangles in the scene's bounds, so that light from the surroundings passes through walls. One line of JSON tells how Mitsuba was run.
 """
 
 import argparse
@@ -29,6 +30,7 @@ def main():
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument("--sampler", default="independent")
+    parser.add_argument("--unmerged", action="store_true")
     parser.add_argument("--out")
     job = parser.parse_args()
     import mitsuba as mi
@@ -39,7 +41,7 @@ def main():
         sys.exit(f"{error}\n{LLVM_MISSING}")
     width, height = map(int, job.size.split("x"))
     parameters = dict(width=str(width), height=str(height), depth=str(job.depth), sampler=job.sampler)
-    scene = mi.load_file(job.scene, **parameters)
+    scene = mi.load_file(job.scene, optimize=not job.unmerged, **parameters)
     largest = max(1, WAVEFRONT // (width * height))
     pictures = []
     for seed in range(job.seed, job.seed + job.seeds):

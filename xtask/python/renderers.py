@@ -66,8 +66,9 @@ class Mitsuba:
             os.environ["DRJIT_LIBLLVM_PATH"] = library
         self.llvm = version(library) if library else "of unknown version"
 
-    def render(self, scene, size, samples, depth, seed=0, seeds=1, sampler="independent"):
+    def render(self, scene, size, samples, depth, seed=0, seeds=1, sampler="independent", merged=True):
         arguments = ["--size", size, "--samples", samples, "--depth", depth, "--seed", seed, "--seeds", seeds, "--sampler", sampler]
+        arguments += [] if merged else ["--unmerged"]
         return run([sys.executable, HERE / "peer.py", scene, *arguments])
 
 

@@ -21,14 +21,14 @@ PARAMETERS = """
 	<default name="height" value="192"/>
 	<default name="depth" value="10"/>
 	<default name="sampler" value="independent"/>
-	<integrator type="path"><integer name="maxDepth" value="$depth"/></integrator>
+	<integrator type="path"><integer name="max_depth" value="$depth"/></integrator>
 """
 FILM = """<film type="hdrfilm">
 			<integer name="width" value="$width"/><integer name="height" value="$height"/>
-			<string name="pixelFormat" value="rgb"/><string name="componentFormat" value="float32"/>
+			<string name="pixel_format" value="rgb"/><string name="component_format" value="float32"/>
 			<rfilter type="box"/>
 		</film>"""
-SAMPLER = """<sampler type="$sampler"><integer name="sampleCount" value="16"/></sampler>"""
+SAMPLER = """<sampler type="$sampler"><integer name="sample_count" value="16"/></sampler>"""
 
 
 def parametrised(xml):

@@ -12,7 +12,8 @@ pub struct Denoiser {
 
 impl Denoiser {
     /// Loads the library from `place` (its file, or the folder that it lies in; `None`: where the system's loader looks) and
-    /// prepares it for `threads` threads, whose number changes no byte of what it makes.
+    /// prepares it for `threads` threads, whose number changes no byte of what it makes. On Windows its folder must be in `PATH`
+    /// too, where the system looks for the libraries that it needs itself.
     ///
     /// # Errors
     /// When it is not there, is not version 2, or the processor is not supported.

@@ -23,7 +23,7 @@ pub struct Noisy<'a> {
     pub height: u32,
     /// Linear radiance, finite and not negative.
     pub color: &'a [f32],
-    /// Reflectance on [0,1] of the texture that `color` shows.
+    /// Reflectance, 0 to 1, of the texture that `color` shows.
     pub albedo: &'a [f32],
     /// Normals in the world, at most of unit length, 0 where nothing was hit.
     pub normal: &'a [f32],

@@ -273,6 +273,11 @@ impl<'a> Assembly<'a> {
                 inner_rad,
                 outer_rad,
             },
+            Light::Profile { name, position, web_from_world: web_from_file, intensity, web } => {
+                let rotation = self.world_from_file.matrix3 * (1.0 / self.options.meters_per_unit);
+                let web_from_world = web_from_file * mat3_f32(rotation.transpose());
+                Light::Profile { name, position: place(position), web_from_world, intensity: intensity * (metres * metres), web }
+            }
             Light::Directional { name, direction, irradiance, angular_radius_rad } => {
                 Light::Directional { name, direction: turn(direction), irradiance, angular_radius_rad }
             }
@@ -280,6 +285,7 @@ impl<'a> Assembly<'a> {
         let (usable, power) = match &light {
             Light::Point { position, intensity, .. } => (position.is_finite(), *intensity),
             Light::Spot { position, direction, intensity, .. } => (position.is_finite() && direction.length() > 0.5, *intensity),
+            Light::Profile { position, web_from_world, intensity, .. } => (position.is_finite() && web_from_world.is_finite(), *intensity),
             Light::Directional { direction, irradiance, .. } => (direction.length() > 0.5, *irradiance),
         };
         if usable && power.is_finite() {

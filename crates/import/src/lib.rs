@@ -30,6 +30,7 @@ mod assembly;
 mod error;
 mod format;
 pub mod gltf;
+mod ies;
 mod images;
 mod mesh;
 pub mod mitsuba;

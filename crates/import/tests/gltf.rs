@@ -192,6 +192,43 @@ fn lights_and_cameras_are_placed_and_scaled() {
 }
 
 #[test]
+fn photometric_profiles_shine_along_minus_z_of_their_node() {
+    // Half the intensity at 45 degrees, none from the horizon up; twice as much towards +x as towards +y.
+    let ies = "IES:LM-63-2019\nTILT=NONE\n1 -1 1 3 2 1 2 0 0 0\n1 1 10\n0 45 90\n0 90\n100 60 0\n100 30 0\n";
+    let mut g = Gltf::triangle();
+    g.json["extensions"] = json!({"EXT_lights_ies": {"lights": [{"uri": "down.ies"}]}});
+    g.json["extensionsRequired"] = json!(["EXT_lights_ies"]);
+    // The node's −z points down, its x stays; positions are in half metres.
+    let s = std::f64::consts::FRAC_1_SQRT_2;
+    let node = json!({"name": "spot", "translation": [0, 4, 0], "rotation": [-s, 0, 0, s], "scale": [2, 2, 2], "extensions": {
+        "EXT_lights_ies": {"light": 0, "multiplier": 3.0, "color": [1, 0.5, 7]}}});
+    g.json["nodes"] = json!([{"name": "Chair", "mesh": 0, "children": [1]}, node]);
+    let folder = Folder::new();
+    folder.write("down.ies", ies);
+    let options = ImportOptions { meters_per_unit: 0.5, ..ImportOptions::default() };
+    let imported = folder.write("a.gltf", g.text()).load_with("a.gltf", &options).unwrap();
+    let Light::Profile { name, position, web_from_world, intensity, web } = &imported.scene.lights[0] else { panic!("no profile") };
+    assert_eq!((name.as_str(), *position), ("spot", Vec3::new(0.0, 0.0, 2.0)));
+    assert_eq!(*intensity, Rgb::new(0.75, 0.375, 0.75));
+    let candela = |d: Vec3| web.candela(*web_from_world * d.normalize());
+    assert!((candela(Vec3::NEG_Z) - 100.0).abs() < 0.01 && candela(Vec3::Z) == 0.0);
+    assert!((candela(Vec3::new(1.0, 0.0, -1.0)) - 60.0).abs() < 0.01);
+    assert!((candela(Vec3::new(-1.0, 0.0, -1.0)) - 60.0).abs() < 0.01);
+    assert!((candela(Vec3::new(0.0, 1.0, -1.0)) - 30.0).abs() < 0.01);
+
+    // A profile that is not there, and one that is broken.
+    let message = |json: Gltf| folder.write("b.gltf", json.text()).load_with("b.gltf", &options).unwrap_err().to_string();
+    g.json["nodes"][1]["extensions"]["EXT_lights_ies"]["light"] = json!(1);
+    let mut broken = Gltf::triangle();
+    broken.json = g.json.clone();
+    assert!(message(broken).contains("nodes[1].extensions.EXT_lights_ies: found light 1, expected one of the 1 profiles"));
+    g.json["nodes"][1]["extensions"]["EXT_lights_ies"]["light"] = json!(0);
+    g.json["extensions"]["EXT_lights_ies"]["lights"][0] = json!({"uri": "data:application/x-ies-lm-63,TILT=NONE%0A1%201"});
+    let found = message(g);
+    assert!(found.contains("b.gltf: extensions.EXT_lights_ies.lights[0], line 2: the file ends where the candela multiplier"), "{found}");
+}
+
+#[test]
 fn labels_in_extras_are_inherited_and_mistakes_are_told() {
     let mut g = Gltf::triangle();
     g.json["nodes"] = json!([

@@ -101,6 +101,7 @@ impl Writer<'_> {
                 inner_rad.to_degrees(),
                 outer_rad.to_degrees()
             )?,
+            Light::Profile { name, .. } => return Err(format!("light {name}: Mitsuba has no lights with IES profiles").into()),
             Light::Directional { direction, irradiance, .. } => writeln!(
                 self.xml,
                 "<emitter type=\"directional\"><vector name=\"direction\" value=\"{}\"/>{}</emitter>",

@@ -29,8 +29,11 @@ pub(crate) struct PixelSample {
 /// One in this many samples of a surface without diffuse reflectance measures the light that falls on it.
 const IRRADIANCE_STRIDE: u32 = 4;
 
-/// Share of the directions of a diffuse surface that follow the guide; the rest follows the BSDF.
-const GUIDED_SHARE: f32 = 0.5;
+/// Share of the directions of diffuse lobes that follow the guide; the rest follows the BSDF.
+const GUIDED_SHARE: f32 = 0.6;
+/// Probability of mirror-like lobes over their share of the albedo, and the most that it may be.
+const SHARP_GAIN: f32 = 3.0;
+const MOST_SHARP: f32 = 0.5;
 /// A path goes on with this times the ratio of the light it is expected to find to that of the first surface: the light is not known
 /// exactly, and ending a path that mattered costs more than following one that did not.
 const SURVIVAL_GAIN: f32 = 2.0;
@@ -86,6 +89,8 @@ struct Vertex<'v, 's> {
     wo: Vec3,
     /// What is known of the light here, its axes, and the share of directions that follow it.
     light: Option<(&'v CellLight, Onb, f32)>,
+    /// Luminance of the albedo of mirror-like lobes, where the light is known.
+    sharp: f32,
 }
 
 impl<'s> Integrator<'_, 's> {
@@ -98,9 +103,10 @@ impl<'s> Integrator<'_, 's> {
             return PixelSample { residual: background.total(), split, ..PixelSample::default() };
         };
         let surface = self.scene.surface(&hit, ray.direction);
-        let bsdf = surface.bsdf(self.scene);
+        let mut bsdf = surface.bsdf(self.scene);
         let onb = surface.onb();
-        let vertex = self.vertex(&surface, &bsdf, &onb);
+        let vertex = self.vertex(&surface, &mut bsdf, &onb);
+        let bsdf = vertex.bsdf;
         let mut sum = Value { diffuse: Rgb::BLACK, specular: surface.emission(self.scene) };
         let mut split = Split::default();
         if self.config.splits {
@@ -174,12 +180,13 @@ impl<'s> Integrator<'_, 's> {
             }
 
             // Light reflected straight from the sources.
-            let bsdf = surface.bsdf(self.scene);
+            let mut bsdf = surface.bsdf(self.scene);
             if bsdf.is_black() {
                 return radiance;
             }
             let onb = surface.onb();
-            let vertex = self.vertex(&surface, &bsdf, &onb);
+            let vertex = self.vertex(&surface, &mut bsdf, &onb);
+            let bsdf = vertex.bsdf;
             if let Some(Direct { weight, light, kind, .. }) = self.sample_lights(&vertex, sampler.set(light_set(bounce))) {
                 radiance.add(kind, throughput * weight.total(bsdf.reflectance) * light, false);
             }
@@ -216,14 +223,20 @@ impl<'s> Integrator<'_, 's> {
 
     /// What scattering at a surface needs.
     #[inline]
-    fn vertex<'v>(&'v self, surface: &'v Surface<'s>, bsdf: &'v Bsdf<'v>, onb: &'v Onb) -> Vertex<'v, 's> {
+    fn vertex<'v, 'b: 'v>(&'v self, surface: &'v Surface<'s>, bsdf: &'v mut Bsdf<'b>, onb: &'v Onb) -> Vertex<'v, 's> {
         let wo = viewing(onb, surface.wo);
-        let share = guided_share(bsdf, wo);
-        let light = match &self.guide.field {
-            Some(field) if share > 0.0 => field.at(surface.p, surface.ns_smooth).map(|l| (l, Onb::from_z(surface.ns_smooth), share)),
-            _ => None,
+        let known = self.guide.field.as_ref().filter(|_| !bsdf.reflectance.is_black());
+        let Some(light) = known.and_then(|field| field.at(surface.p, surface.ns_smooth)) else {
+            return Vertex { surface, bsdf, onb, wo, light: None, sharp: 0.0 };
         };
-        Vertex { surface, bsdf, onb, wo, light }
+        // What is mirrored is often much brighter than what is scattered: it gets more than its share of the albedo.
+        let (sharp, share) = (bsdf.sharp_albedo(wo), bsdf.diffuse_share(wo));
+        let diffuse = 1.0 - (SHARP_GAIN * (1.0 - share)).min(MOST_SHARP);
+        let guided = GUIDED_SHARE * diffuse;
+        if share < 1.0 {
+            bsdf.select_diffuse((diffuse - guided) / (1.0 - guided));
+        }
+        Vertex { surface, bsdf, onb, wo, light: Some((light, Onb::from_z(surface.ns_smooth), guided)), sharp }
     }
 
     /// A sample's indirect light, dimmed to the most that it may add behind the first surface's `throughput`.
@@ -259,9 +272,9 @@ impl<'s> Integrator<'_, 's> {
 
     /// Irradiance over π at a surface without diffuse reflectance, by a white Lambert surface in its place.
     fn irradiance(&self, surface: &Surface<'s>, sampler: &Sampler) -> Rgb {
-        let bsdf = Bsdf::lambert(Rgb::WHITE);
+        let mut bsdf = Bsdf::lambert(Rgb::WHITE);
         let onb = surface.onb();
-        let vertex = self.vertex(surface, &bsdf, &onb);
+        let vertex = self.vertex(surface, &mut bsdf, &onb);
         let direct = self.sample_lights(&vertex, sampler.set(light_set(0)));
         let mut irradiance = direct.map_or(Rgb::BLACK, |direct| direct.weight.diffuse * direct.light);
         let u = sampler.set(bsdf_set(0));
@@ -287,10 +300,11 @@ impl Segment {
 }
 
 impl Vertex<'_, '_> {
-    /// Luminance of the indirect light that is expected to be reflected; 0 where nothing is known.
+    /// Luminance of the indirect light that is expected to be scattered, and mirrored if it comes from where it is brightest; 0 where
+    /// nothing is known.
     #[inline]
     fn expected_indirect(&self) -> f32 {
-        self.light.as_ref().map_or(0.0, |(light, ..)| (self.bsdf.reflectance * light.indirect).luminance())
+        self.light.as_ref().map_or(0.0, |(light, ..)| (self.bsdf.reflectance * light.indirect).luminance() + self.sharp * light.brightest)
     }
 
     /// The BSDF's value for a direction, given in shading space and in the world, and the density with which [`Vertex::scatter`]
@@ -361,11 +375,6 @@ impl Vertex<'_, '_> {
         let origin = offset_origin(self.surface.p, if side < 0.0 { -self.surface.ng } else { self.surface.ng });
         Segment { ray: Ray::new(origin, direction), sampled, absorption, crossed: side < 0.0, straight: false }
     }
-}
-
-/// Share of the directions that follow the guide, where there is one.
-fn guided_share(bsdf: &Bsdf<'_>, wo: Vec3) -> f32 {
-    if bsdf.reflectance.is_black() { 0.0 } else { GUIDED_SHARE * bsdf.diffuse_share(wo) }
 }
 
 /// Absorption beyond a border that was crossed: the body's when it was entered, none when it was left.

@@ -4,7 +4,9 @@ use enfilade_frame::{Frame, Layer};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Mat3, Rgb, Vec3};
 use enfilade_render::{Guide, RenderConfig, RenderError, RenderScene, render_frame};
-use enfilade_scene::{Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, Pose, Principled, Quiet, Scene};
+use enfilade_scene::{
+    Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, PhotometricWeb, Pose, Principled, Quiet, Scene,
+};
 use std::f64::consts::PI;
 
 fn quad(corners: [Vec3; 4]) -> Mesh {
@@ -188,6 +190,12 @@ fn point_spot_and_sun_light_a_floor_by_their_laws() {
     assert_close("spot", floor_radiance(with(spot), vec![], 1), expected, 2e-3);
     let away = Light::Spot { name: "s".into(), position, direction: -direction, intensity, inner_rad: 0.1, outer_rad: 0.2 };
     assert_eq!(floor_radiance(with(away), vec![], 1), 0.0);
+    // A measured lamp: half as bright at 45 degrees as on its axis, linear between, turned about the vertical.
+    let web = PhotometricWeb::new(vec![0.0, 45.0, 90.0], vec![0.0, 90.0], vec![20.0, 10.0, 0.0, 20.0, 10.0, 0.0]).unwrap();
+    let candela = 20.0 - 10.0 * f64::from(position.y).atan2(f64::from(position.z)).to_degrees() / 45.0;
+    let web_from_world = Mat3::from_rotation_z(0.7);
+    let lamp = Light::Profile { name: "l".into(), position, web_from_world, intensity: Rgb::splat(0.5), web: Box::new(web) };
+    assert_close("profile", floor_radiance(with(lamp), vec![], 1), 0.5 / PI * 0.5 * candela * cos / d2, 2e-3);
     for angular_radius_rad in [0.0, 0.00465] {
         let sun = Light::Directional { name: "sun".into(), direction, irradiance: Rgb::splat(3.0), angular_radius_rad };
         assert_close("sun", floor_radiance(with(sun), vec![], 64), 0.5 / PI * 3.0 * cos, 3e-3);

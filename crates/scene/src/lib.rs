@@ -3,6 +3,7 @@
 //! World space is right-handed, z up, metres. A [`Scene`] that exists is valid: every index points at something and every
 //! number is finite. Labels are kept apart from the scene ([`Labels`]), because they never enter the renderer.
 
+mod atmosphere;
 mod camera;
 mod cx;
 mod environment;
@@ -10,6 +11,7 @@ mod labels;
 mod light;
 mod material;
 mod package;
+mod photometry;
 mod scene;
 pub mod sky;
 mod texture;
@@ -26,6 +28,7 @@ pub use labels::{Labels, NYU40, PartLabel, SemanticClass, is_stuff};
 pub use light::Light;
 pub use material::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, ScalarParam};
 pub use package::{PackageError, from_bytes, to_bytes};
+pub use photometry::PhotometricWeb;
 pub use scene::{Part, PartId, Scene, SceneError};
 pub use texture::{Filter, Image, Pixels, TextureRef, Wrap};
 pub use trajectory::{Pose, Trajectory};

@@ -1,4 +1,5 @@
-use enfilade_math::{Rgb, Vec3};
+use crate::PhotometricWeb;
+use enfilade_math::{Mat3, Rgb, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// A light without a surface in the scene. Emissive surfaces are materials; the surroundings are the environment.
@@ -28,6 +29,19 @@ pub enum Light {
         /// None beyond this one.
         outer_rad: f32,
     },
+    /// A point light with a measured distribution of intensity (IES).
+    Profile {
+        /// Name from the file.
+        name: String,
+        /// World position.
+        position: Vec3,
+        /// Rotation that takes world directions into the web's own space.
+        web_from_world: Mat3,
+        /// Multiplies the web's candela, which count as W/sr.
+        intensity: Rgb,
+        /// The distribution.
+        web: Box<PhotometricWeb>,
+    },
     /// Light from far away: parallel, or from a disk in the sky such as the sun.
     Directional {
         /// Name from the file.
@@ -45,7 +59,7 @@ impl Light {
     /// The name given in the file.
     pub fn name(&self) -> &str {
         match self {
-            Self::Point { name, .. } | Self::Spot { name, .. } | Self::Directional { name, .. } => name,
+            Self::Point { name, .. } | Self::Spot { name, .. } | Self::Profile { name, .. } | Self::Directional { name, .. } => name,
         }
     }
 }

@@ -5,7 +5,8 @@ use crate::assembly::Assembly;
 use gltf::json::{Root, buffer, image};
 
 /// Extensions that an importer may be required to understand and that this one does.
-pub(super) const SUPPORTED: [&str; 11] = [
+pub(super) const SUPPORTED: [&str; 12] = [
+    "EXT_lights_ies",
     "KHR_lights_punctual",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
@@ -178,12 +179,12 @@ fn read_buffer(index: usize, buffer: &buffer::Buffer, binary: Option<&[u8]>, ass
 
 /// What a URI points at.
 #[derive(Debug, PartialEq)]
-enum Uri {
+pub(super) enum Uri {
     Data(Vec<u8>),
     Path(String),
 }
 
-fn resolve_uri(uri: &str) -> Result<Uri, String> {
+pub(super) fn resolve_uri(uri: &str) -> Result<Uri, String> {
     if let Some(rest) = uri.strip_prefix("data:") {
         let (header, data) = rest.split_once(',').ok_or("has a data URI without a comma")?;
         if header.ends_with(";base64") {

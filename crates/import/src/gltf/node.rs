@@ -2,7 +2,7 @@
 
 use super::container::Document;
 use super::material::Materials;
-use super::{light, primitive};
+use super::{light, primitive, profile};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::{DAffine3, DMat3, DVec3};
@@ -102,7 +102,10 @@ impl Placer<'_> {
             light::add(self.document, light.light.value(), name.as_deref(), index, file_from_node, a);
         }
         if let Some(extras) = node.extensions.as_ref().map(|e| &e.others) {
-            for extension in extras.keys() {
+            if let Some(instance) = extras.get("EXT_lights_ies") {
+                profile::add(self.document, instance, name.as_deref(), index, file_from_node, a)?;
+            }
+            for extension in extras.keys().filter(|e| *e != "EXT_lights_ies") {
                 a.warn(format!("nodes[{index}]"), format!("extension {extension} ignored"));
             }
         }

@@ -81,7 +81,7 @@ impl<'n> Reader<'n, '_> {
         Ok(())
     }
 
-    /// The sky as an environment and the sun as a light, by Preetham's model in the units of Mitsuba's.
+    /// The sky as an environment and the sun as a light, by our own model in the units of Mitsuba's.
     fn daylight(&mut self, node: &'n Node) -> Result<(), ImportError> {
         const KNOWN: [&str; 12] = [
             "sun_direction",
@@ -119,7 +119,7 @@ impl<'n> Reader<'n, '_> {
         let turbidity = node.float_or("turbidity", 3.0)?.clamp(1.7, 10.0) as f32;
         let ground_albedo = self.property(node, "albedo")?.map_or(Ok(Rgb::splat(0.15)), |p| spectrum::color(p, Kind::Factor))?.luminance();
         let daylight = Daylight { to_sun, turbidity, ground_albedo };
-        self.warn(node, "daylight was computed by the model of Preetham 1999; expect other colours than Mitsuba's");
+        self.warn(node, "daylight was computed by the atmosphere of Hillaire 2020; expect other colours than Mitsuba's");
         let image = self.a.next_image();
         let (picture, environment, sun) = daylight.lights(SKY_WIDTH, 1.0 / KILOCANDELA_PER_UNIT, image);
         if node.plugin != "sun" {

@@ -9,7 +9,7 @@
 //! | bsdfs | `diffuse`, `roughdiffuse` (as diffuse), `plastic`, `roughplastic`, `conductor`, `roughconductor`, `dielectric`, `roughdielectric`, `thindielectric`, `principled`, `principledthin`, `phong` and `ward` (as plastic), `coating` and `roughcoating` (a diffuse base becomes plastic, others lose the coat), `twosided`, `mask`, `bumpmap`, `normalmap`, `blendbsdf` (the heavier of both), `null` (the shape is left out) |
 //! | textures | `bitmap`, `checkerboard` (baked), `scale`; filter, wrapping, channel, `uscale … voffset`, `to_uv` |
 //! | spectra | `rgb`, `srgb`, `spectrum` (one value or wavelengths), `blackbody`, `float`; metals and substances by name |
-//! | emitters | `area`, `constant`, `envmap`, `point`, `spot`, `directional`, `sunsky`, `sky`, `sun` (by Preetham's model in place of Hosek's) |
+//! | emitters | `area`, `constant`, `envmap`, `point`, `spot`, `directional`, `sunsky`, `sky`, `sun` (by Hillaire's model in place of Hosek's) |
 //! | sensors | `perspective`, `thinlens` (as a pinhole) |
 //! | skipped in silence | integrators, samplers, films (but for their size), reconstruction filters: they are no part of the scene |
 //! | dropped with a warning | media, animation (its first moment is used), Beckmann and Phong distributions (GGX of the same alpha), anisotropy, whatever else has no counterpart |

@@ -47,6 +47,13 @@ impl<'a> Coated<'a> {
         Self { coat, facets, base, through_o, tint, select_base }
     }
 
+    /// See [`super::Bsdf::select_diffuse`].
+    pub fn select_diffuse(&mut self, share: f32) {
+        if self.select_base > 0.0 && self.select_base < 1.0 {
+            self.select_base = share;
+        }
+    }
+
     /// See [`lobe::Lobe::eval_pdf`].
     #[inline]
     pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Value, f32) {

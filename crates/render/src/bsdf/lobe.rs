@@ -174,6 +174,13 @@ impl Lobe<'_> {
         }
     }
 
+    /// See [`super::Bsdf::select_diffuse`].
+    pub fn select_diffuse(&mut self, share: f32) {
+        if let Self::Coated(coated) = self {
+            coated.select_diffuse(share);
+        }
+    }
+
     /// True when everything of the lobe but its diffuse part is nearly as blurred as that.
     pub fn is_rough(&self) -> bool {
         match self {

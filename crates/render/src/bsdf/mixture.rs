@@ -54,6 +54,11 @@ impl<'a> Mixture<'a> {
         self.entries.iter_mut().for_each(|e| e.select = 0.9 * e.select / total + 0.1 / n);
     }
 
+    /// See [`super::Bsdf::select_diffuse`]; the lobes keep their probabilities among each other.
+    pub fn select_diffuse(&mut self, share: f32) {
+        self.entries.iter_mut().for_each(|e| e.lobe.select_diffuse(share));
+    }
+
     /// True without lobes.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()

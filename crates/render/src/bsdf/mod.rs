@@ -158,6 +158,21 @@ impl<'a> Bsdf<'a> {
         if rough + sharp > 0.0 { rough / (rough + sharp) } else { 0.0 }
     }
 
+    /// Luminance on [0,1] of the part of [`Bsdf::albedo`] that is neither diffuse nor as blurred as that.
+    pub fn sharp_albedo(&self, wo: Vec3) -> f32 {
+        self.albedos(wo).1.specular.luminance().min(1.0)
+    }
+
+    /// Samples the diffuse base of a coat with the probability `share` and the coat with the rest: for when something else than
+    /// [`Bsdf::sample`] finds the base's directions.
+    pub fn select_diffuse(&mut self, share: f32) {
+        match &mut self.model {
+            Model::Black => {}
+            Model::One(lobe) => lobe.select_diffuse(share),
+            Model::Mixture(mixture) => mixture.select_diffuse(share),
+        }
+    }
+
     /// Albedo of what is blurred and of what is not.
     fn albedos(&self, wo: Vec3) -> (Value, Value) {
         match &self.model {

@@ -6,8 +6,10 @@
 
 use super::cells::{Cells, NONE, SITES, Site};
 use super::square::{BINS, SIDE, SquareDensity};
+use crate::bsdf::Event;
 use crate::light::{LightChoice, LightPoint, power_heuristic};
 use crate::prepared::{Cutout, RenderScene};
+use crate::surface::Surface;
 use enfilade_math::{Bounds3, Onb, Ray, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
 use rayon::prelude::*;
 
@@ -28,6 +30,8 @@ pub(crate) struct CellLight {
     density: SquareDensity,
     /// Indirect irradiance over π: the mean radiance over the hemisphere, weighted by the cosine, without direct light.
     pub indirect: Rgb,
+    /// Luminance of the brightest direction, of what light sampling leaves to chance.
+    pub brightest: f32,
 }
 
 /// The light in the cells of a scene.
@@ -37,13 +41,21 @@ pub(crate) struct Field {
     lights: Vec<CellLight>,
 }
 
-/// What a gathering ray met: a cell, the share of its light that comes back along the ray, and the luminance that sources send by it,
-/// as far as light sampling leaves them to chance.
+/// What a gathering ray met: a cell, the share of its light that comes back along the ray; the same of a cell seen in a mirror or
+/// gloss; and the luminance that sources send by it, as far as light sampling leaves them to chance.
 #[derive(Clone, Copy)]
 struct Link {
-    cell: u32,
-    reflectance: Rgb,
+    diffuse: (u32, Rgb),
+    mirrored: (u32, Rgb),
     emitted: f32,
+}
+
+impl Link {
+    /// Radiance that arrives, given the light of the cells.
+    fn radiance(&self, total: &[Rgb]) -> Rgb {
+        let sent = |(cell, share): (u32, Rgb)| if cell == NONE { Rgb::BLACK } else { share * total[cell as usize] };
+        sent(self.diffuse) + sent(self.mirrored)
+    }
 }
 
 impl Field {
@@ -67,21 +79,16 @@ impl Field {
         let total = |indirect: &[Rgb]| -> Vec<Rgb> { gathered.iter().zip(indirect).map(|((direct, _), &i)| *direct + i).collect() };
         for _ in 0..SWEEPS {
             let total = total(&indirect);
-            indirect = gathered
-                .par_iter()
-                .map(|(_, links)| {
-                    links.iter().filter(|l| l.cell != NONE).map(|l| l.reflectance * total[l.cell as usize]).sum::<Rgb>() / BINS as f32
-                })
-                .collect();
+            indirect = gathered.par_iter().map(|(_, links)| links.iter().map(|l| l.radiance(&total)).sum::<Rgb>() / BINS as f32).collect();
         }
         let total = total(&indirect);
         let lights = gathered
             .par_iter()
             .zip(&indirect)
             .map(|((_, links), &indirect)| {
-                let seen = |l: &Link| l.emitted + if l.cell == NONE { 0.0 } else { (l.reflectance * total[l.cell as usize]).luminance() };
-                let values: [f32; BINS] = std::array::from_fn(|bin| seen(&links[bin]));
-                CellLight { density: SquareDensity::new(&blurred(&values)), indirect }
+                let values: [f32; BINS] = std::array::from_fn(|bin| links[bin].emitted + links[bin].radiance(&total).luminance());
+                let values = blurred(&values);
+                CellLight { density: SquareDensity::new(&values), indirect, brightest: values.iter().copied().fold(0.0, f32::max) }
             })
             .collect();
         Some(Self { cells, lights })
@@ -153,19 +160,57 @@ fn links(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, sites: &[
             let u = [((bin % SIDE) as f32 + rng.next_f32()) / SIDE as f32, ((bin / SIDE) as f32 + rng.next_f32()) / SIDE as f32];
             let wi = warp::cosine_hemisphere(u);
             let ray = Ray::new(offset_origin(site.p, site.n), Onb::from_z(site.n).to_world(wi));
-            link(scene, choice, cells, &LightPoint { p: site.p, n: site.n }, ray, warp::cosine_hemisphere_pdf(wi.z))
+            link(scene, choice, cells, &LightPoint { p: site.p, n: site.n }, ray, warp::cosine_hemisphere_pdf(wi.z), rng)
         })
         .collect()
 }
 
-/// What a ray meets, beyond panes. It was sampled at `from` with density `pdf`.
-fn link(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, from: &LightPoint, mut ray: Ray, pdf: f32) -> Link {
+/// What a ray meets, beyond panes, and what is reflected there. It was sampled at `from` with density `pdf`.
+fn link(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, from: &LightPoint, ray: Ray, pdf: f32, rng: &mut Rng) -> Link {
+    let mut link = Link { diffuse: (NONE, Rgb::BLACK), mirrored: (NONE, Rgb::BLACK), emitted: 0.0 };
+    let Some((surface, through)) = first_surface(scene, choice, ray, Some((*from, pdf)), &mut link.emitted) else { return link };
+    let bsdf = surface.bsdf(scene);
+    link.diffuse = (cells.find(surface.p, surface.ns_smooth), through * bsdf.reflectance);
+    // One sample of what the surface mirrors.
+    let onb = surface.onb();
+    let Some(sample) = bsdf.sample(onb.to_local(surface.wo), [rng.next_f32(), rng.next_f32(), rng.next_f32()]) else { return link };
+    let share = through * sample.weight.specular;
+    let direction = onb.to_world(sample.wi).normalize();
+    let side = direction.dot(surface.ng);
+    if share.is_black() || side * sample.wi.z <= 0.0 {
+        return link;
+    }
+    let sampled = (sample.event == Event::Finite).then(|| (LightPoint::on(&surface), sample.pdf));
+    let ray = Ray::new(offset_origin(surface.p, if side < 0.0 { -surface.ng } else { surface.ng }), direction);
+    let mut emitted = 0.0;
+    let mirrored = first_surface(scene, choice, ray, sampled, &mut emitted);
+    link.emitted += share.luminance() * emitted;
+    if let Some((mirrored, through)) = mirrored {
+        link.mirrored = (cells.find(mirrored.p, mirrored.ns_smooth), share * through * mirrored.bsdf(scene).reflectance);
+    }
+    link
+}
+
+/// The first surface beyond panes, and what they let through. Adds the luminance that arrives from sources, weighted against light
+/// sampling where the ray was `sampled` from a density.
+fn first_surface<'s>(
+    scene: &RenderScene<'s>,
+    choice: &LightChoice,
+    mut ray: Ray,
+    sampled: Option<(LightPoint, f32)>,
+    emitted: &mut f32,
+) -> Option<(Surface<'s>, Rgb)> {
     let mut through = Rgb::WHITE;
-    let sent = |through: Rgb, radiance: Rgb| Some((through * radiance).luminance()).filter(|l| l.is_finite()).unwrap_or(0.0);
+    let mut add = |radiance: Rgb| *emitted += Some(radiance.luminance()).filter(|l| l.is_finite()).unwrap_or(0.0);
     for _ in 0..PANES {
         let Some(hit) = scene.closest(&ray, Cutout::Random) else {
-            let background = scene.lights.background_weighted(choice, from, ray.direction, pdf).total();
-            return Link { cell: NONE, reflectance: Rgb::BLACK, emitted: sent(through, background) };
+            add(through
+                * match sampled {
+                    Some((from, pdf)) => scene.lights.background_weighted(choice, &from, ray.direction, pdf),
+                    None => scene.lights.background(ray.direction),
+                }
+                .total());
+            return None;
         };
         let surface = scene.surface(&hit, ray.direction);
         if let Some(transmittance) = surface.straight_transmittance(scene) {
@@ -174,16 +219,15 @@ fn link(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, from: &Lig
             continue;
         }
         let emission = surface.emission(scene);
-        let emitted = if emission.is_black() {
-            0.0
-        } else {
-            let light_pdf = scene.lights.surface_pdf(scene, choice, from, ray.direction, &hit, surface.p);
-            sent(through, emission) * power_heuristic(pdf, light_pdf)
-        };
-        let reflectance = through * surface.bsdf(scene).reflectance;
-        return Link { cell: cells.find(surface.p, surface.ns_smooth), reflectance, emitted };
+        if !emission.is_black() {
+            let weight = sampled.map_or(1.0, |(from, pdf)| {
+                power_heuristic(pdf, scene.lights.surface_pdf(scene, choice, &from, ray.direction, &hit, surface.p))
+            });
+            add(through * emission * weight);
+        }
+        return Some((surface, through));
     }
-    Link { cell: NONE, reflectance: Rgb::BLACK, emitted: 0.0 }
+    None
 }
 
 /// A little of each bin's neighbours.

@@ -12,6 +12,11 @@ pub(super) fn light_bounds(light: &Light) -> Option<LightBounds> {
         Light::Spot { position, direction, intensity, outer_rad, .. } => {
             Some(LightBounds::cone(*position, *direction, intensity.luminance(), *outer_rad))
         }
+        Light::Profile { position, web_from_world, intensity, web, .. } => {
+            let power = intensity.luminance() * web.peak_candela();
+            let axis = web_from_world.transpose() * Vec3::NEG_Z;
+            Some(LightBounds::cone(*position, axis, power, web.widest_deg().to_radians()))
+        }
         Light::Directional { .. } => None,
     }
 }
@@ -30,6 +35,11 @@ pub(super) fn sample(light: &Light, at: &LightPoint, u: [f32; 2]) -> Option<Ligh
             let sample = towards(*position, *intensity)?;
             let falloff = spot_falloff((-sample.wi).dot(*direction), *inner_rad, *outer_rad);
             (falloff > 0.0).then(|| LightSample { radiance: sample.radiance.map(|r| r * falloff), ..sample })
+        }
+        Light::Profile { position, web_from_world, intensity, web, .. } => {
+            let sample = towards(*position, *intensity)?;
+            let candela = web.candela(*web_from_world * -sample.wi);
+            (candela > 0.0).then(|| LightSample { radiance: sample.radiance.map(|r| r * candela), ..sample })
         }
         Light::Directional { direction, irradiance, angular_radius_rad, .. } => {
             if *angular_radius_rad <= 0.0 {

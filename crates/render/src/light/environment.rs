@@ -138,3 +138,33 @@ fn texel_weights(image: &Image, scale: Rgb) -> Vec<f32> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_math::Rng;
+    use enfilade_scene::Pixels;
+    use enfilade_testkit::ChiSquare;
+
+    #[test]
+    fn directions_of_a_map_follow_its_brightness() {
+        let (width, height) = (64u32, 32u32);
+        let mut rng = Rng::new(9);
+        let texels = (0..width * height).map(|_| [rng.next_f32().powi(8) * 10.0; 3]).collect();
+        let images = [Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) }];
+        let map_from_world = Mat3::from_rotation_x(-1.0) * Mat3::from_rotation_z(0.4);
+        let sky = Sky::new(&Environment::Map { image: 0, scale: Rgb::WHITE, map_from_world }, &images).unwrap();
+        let place = |d: Vec3| uv_from_direction(map_from_world * d).to_array();
+        let test = ChiSquare::square(
+            400_000,
+            |u| sky.sample([u[0], u[1]]).map(|(d, _)| place(d)),
+            |uv| sky.pdf(map_from_world.transpose() * direction_from_uv(Vec2::from(uv))) * 2.0 * PI * PI * (uv[1] * PI).sin(),
+        );
+        test.assert("environment map", 1);
+        // And wherever there is light, however faint, there is density.
+        for _ in 0..10_000 {
+            let d = warp::sphere([rng.next_f32(), rng.next_f32()]);
+            assert!(sky.pdf(d) > 0.0 || sky.radiance(d).is_black());
+        }
+    }
+}

@@ -12,6 +12,8 @@ mod environment;
 mod gather;
 mod learn;
 mod spherical;
+#[cfg(test)]
+mod tests;
 mod tree;
 mod window;
 
@@ -370,16 +372,4 @@ pub(crate) fn power_heuristic(a: f32, b: f32) -> f32 {
     }
     let ratio = b / a;
     1.0 / (1.0 + ratio * ratio)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn heuristic_weights_sum_to_one() {
-        for (a, b) in [(1.0, 2.0), (1e30, 1e-3), (0.5, 0.0)] {
-            assert!((power_heuristic(a, b) + power_heuristic(b, a) - 1.0).abs() < 1e-6);
-        }
-    }
 }

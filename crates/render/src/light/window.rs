@@ -22,6 +22,8 @@ const PLACING: usize = 3000;
 const OPEN: f32 = 0.3;
 /// Positions tried for each side of the box.
 const POSITIONS: usize = 24;
+/// The box is larger than what it was placed around by this share of its longest side.
+const MARGIN: f32 = 5e-4;
 /// Points nearer to a portal's plane than this do not sample it, in metres: they see it edge-on.
 const MIN_HEIGHT_M: f32 = 1e-3;
 
@@ -76,6 +78,9 @@ impl Windows {
         let surfaces: Vec<Vec3> = seen.surfaces.iter().map(|(p, _)| box_from_world * *p).collect();
         let escapes: Vec<(Vec3, Vec3)> = seen.escapes.iter().map(|(p, d)| (box_from_world * *p, box_from_world * *d)).collect();
         let bounds = place_box(&surfaces, &escapes);
+        // Walls on its faces are inside, whatever the rounding.
+        let margin = Vec3::splat(MARGIN * bounds.extent().max_element());
+        let bounds = Bounds3 { min: bounds.min - margin, max: bounds.max + margin };
         let cell = bounds.extent().max_element() / CELLS;
         let crossings = Crossings::new(bounds, cell, &escapes);
         let e = bounds.extent();
