@@ -34,7 +34,7 @@ pub enum Verb {
     Plan(StageArgs),
     /// Scene, trajectories -> frames
     #[command(
-        after_help = "Example:\n  enfilade render out --scene 'bed*'\n\nFinished frames are kept; a killed run goes on where it was."
+        after_help = "Examples:\n  enfilade render out --scene 'bed*'\n  enfilade render out --noise 2% --samples 4096 --splits\n\nFinished frames are kept; a killed run goes on where it was."
     )]
     Render(RenderArgs),
     /// Frames -> denoised companions of the color layers, from now on (needs Open Image Denoise)
@@ -58,7 +58,7 @@ pub enum Verb {
 #[derive(Args)]
 #[command(
     after_help = "Examples:\n  enfilade run --demo out\n  enfilade run --demo out --seed 2 --frames 8 --size 640x480 --quality draft\n  \
-    enfilade run dataset.toml -o out\n\nA second run does nothing that is already done; a killed run goes on where it was."
+    enfilade run dataset.toml -o out --noise 2% --samples 4096\n\nA second run does nothing that is already done; a killed run goes on where it was."
 )]
 pub struct RunArgs {
     /// The scenes to use and what to make of them
@@ -80,11 +80,11 @@ pub struct RunArgs {
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
     /// Samples per pixel in one word
-    #[arg(long)]
+    #[arg(long, conflicts_with = "samples")]
     pub quality: Option<QualityArg>,
-    /// Make denoised companions of the color layers too (needs Open Image Denoise, see `enfilade denoise --help`)
-    #[arg(long)]
-    pub denoise: bool,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub render: RenderFlags,
     /// Only the scenes of these names ("bed*", "hall,bedroom")
     #[arg(long, value_name = "PATTERN", visible_alias = "scene")]
     pub scenes: Option<String>,
@@ -120,7 +120,34 @@ pub struct RenderArgs {
     #[command(flatten)]
     #[allow(missing_docs)]
     pub stage: StageArgs,
-    /// Make denoised companions of the color layers too, from now on (needs Open Image Denoise, see `enfilade denoise --help`)
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub render: RenderFlags,
+}
+
+/// Choices about rendering, for `run` and `render`. None is made unless asked for.
+#[derive(Args)]
+#[command(next_help_heading = "Rendering (of an existing dataset: from now on)")]
+pub struct RenderFlags {
+    /// Samples per pixel: the mean over the image, or with --noise the most
+    #[arg(long, value_name = "N")]
+    pub samples: Option<u32>,
+    /// Stop where the noise is this small: 2% or 0.02
+    #[arg(long, value_name = "SHARE", value_parser = parse_share)]
+    pub noise: Option<f32>,
+    /// Longest path, in surfaces that scatter light after the first [default: no limit, which is unbiased]
+    #[arg(long, value_name = "N")]
+    pub max_bounces: Option<u32>,
+    /// Largest radiance of one indirect sample [default: no limit, which is unbiased]
+    #[arg(long, value_name = "X")]
+    pub clamp: Option<f32>,
+    /// Wall-clock time after which a frame ends with the samples it has: 90s, 5m; two such runs differ
+    #[arg(long, value_name = "TIME", value_parser = parse_time)]
+    pub time_limit: Option<f64>,
+    /// Also write the light of color by its way (diffuse_direct, ...) and by its source (light_environment, ...)
+    #[arg(long)]
+    pub splits: bool,
+    /// Make denoised companions of the color layers too (needs Open Image Denoise, see `enfilade denoise --help`)
     #[arg(long)]
     pub denoise: bool,
 }
@@ -216,6 +243,23 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
     parsed.ok_or_else(|| "expected width and height, as in 640x480".into())
 }
 
+/// A share of one, or a percentage.
+fn parse_share(text: &str) -> Result<f32, String> {
+    let parsed = match text.trim().strip_suffix('%') {
+        Some(percent) => percent.trim().parse().map(|v: f32| v / 100.0),
+        None => text.trim().parse(),
+    };
+    parsed.map_err(|_| "expected a share or a percentage, as in 0.02 or 2%".into())
+}
+
+/// Seconds.
+fn parse_time(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let units = [("s", 1.0), ("m", 60.0), ("h", 3600.0), ("", 1.0)];
+    let parsed = units.iter().find_map(|(unit, seconds)| Some(text.strip_suffix(unit)?.trim().parse::<f64>().ok()? * seconds));
+    parsed.filter(|s| s.is_finite()).ok_or_else(|| "expected a time, as in 90s, 5m or 1h".into())
+}
+
 fn parse_pixel(text: &str) -> Result<(u32, u32), String> {
     let parsed = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
     parsed.ok_or_else(|| "expected column and row, as in 160,120".into())
@@ -253,5 +297,9 @@ mod tests {
         assert!(parse_size("640").is_err() && parse_size("axb").is_err());
         assert_eq!(parse_pixel("3, 4"), Ok((3, 4)));
         assert!(parse_pixel("3").is_err());
+        assert_eq!((parse_share("2%"), parse_share("0.02")), (Ok(0.02), Ok(0.02)));
+        assert!(parse_share("two").is_err());
+        assert_eq!((parse_time("90s"), parse_time("1.5m"), parse_time("1h"), parse_time("7")), (Ok(90.0), Ok(90.0), Ok(3600.0), Ok(7.0)));
+        assert!(parse_time("soon").is_err() && parse_time("inf").is_err());
     }
 }

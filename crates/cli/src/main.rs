@@ -37,7 +37,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Carve(args) => verbs::stage(args, enfilade_pipeline::Stage::Carve, cli.quiet),
         Verb::Plan(args) => verbs::stage(args, enfilade_pipeline::Stage::Plan, cli.quiet),
         Verb::Render(args) => verbs::render(args, cli.quiet),
-        Verb::Denoise(args) => verbs::denoise(args, &[enfilade_pipeline::Stage::Denoise], cli.quiet),
+        Verb::Denoise(args) => verbs::denoise(args, cli.quiet),
         Verb::Label(args) => verbs::label(args, cli.quiet),
         Verb::Preview(args) => verbs::stage(args, enfilade_pipeline::Stage::Preview, cli.quiet),
         Verb::Verify(args) => verbs::verify(args, cli.quiet),

@@ -1,11 +1,13 @@
 //! What each verb does: arguments to calls of the pipeline and back to words.
 
-use crate::args::{ImportArgs, InspectArgs, LabelArgs, QualityArg, RenderArgs, RunArgs, StageArgs, UpAxisArg, VerifyArgs};
+use crate::args::{ImportArgs, InspectArgs, LabelArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs, UpAxisArg, VerifyArgs};
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::summary;
 use enfilade_dataset::Dataset;
-use enfilade_pipeline::{Config, EnvironmentChoice, Event, FileSource, Overrides, Quality, Reporter, Stage, Summary, UpAxis};
+use enfilade_pipeline::{
+    Config, EnvironmentChoice, Event, FileSource, Overrides, Quality, RenderChoices, Reporter, Stage, Summary, UpAxis,
+};
 use enfilade_post::drivers::inspect_pixel;
 use enfilade_post::verify::verify_dataset;
 use std::path::PathBuf;
@@ -21,7 +23,7 @@ pub fn run(args: &RunArgs, quiet: bool) -> Result<Verdict, Problem> {
             QualityArg::Normal => Quality::Normal,
             QualityArg::High => Quality::High,
         }),
-        denoise: args.denoise,
+        render: choices(&args.render),
     };
     let config = match &args.config {
         Some(file) => Config::read(file, &overrides)?,
@@ -48,17 +50,39 @@ pub fn stage(args: &StageArgs, stage: Stage, quiet: bool) -> Result<Verdict, Pro
     Ok(conclude(&result))
 }
 
-/// `render`, with denoising if wanted.
+/// `render`, with other settings from now on if wanted, and with denoising.
 pub fn render(args: &RenderArgs, quiet: bool) -> Result<Verdict, Problem> {
-    if args.denoise { denoise(&args.stage, &[Stage::Render, Stage::Denoise], quiet) } else { stage(&args.stage, Stage::Render, quiet) }
+    let choices = choices(&args.render);
+    match (choices == RenderChoices::default(), choices.denoise) {
+        (true, _) => stage(&args.stage, Stage::Render, quiet),
+        (false, false) => chosen(&args.stage, &choices, &[Stage::Render], quiet),
+        (false, true) => chosen(&args.stage, &choices, &[Stage::Render, Stage::Denoise], quiet),
+    }
 }
 
-/// `stages`, the last of which denoises.
-pub fn denoise(args: &StageArgs, stages: &[Stage], quiet: bool) -> Result<Verdict, Problem> {
+/// `denoise`, from now on.
+pub fn denoise(args: &StageArgs, quiet: bool) -> Result<Verdict, Problem> {
+    chosen(args, &RenderChoices { denoise: true, ..RenderChoices::default() }, &[Stage::Denoise], quiet)
+}
+
+/// Stages of a dataset for which choices are made.
+fn chosen(args: &StageArgs, choices: &RenderChoices, stages: &[Stage], quiet: bool) -> Result<Verdict, Problem> {
     let progress = Progress::new(quiet);
-    let result = enfilade_pipeline::run_denoised(&args.dataset, stages, args.scene.as_deref(), args.force, &progress)?;
+    let result = enfilade_pipeline::run_chosen(&args.dataset, choices, stages, args.scene.as_deref(), args.force, &progress)?;
     drop(progress);
     Ok(conclude(&result))
+}
+
+fn choices(flags: &RenderFlags) -> RenderChoices {
+    RenderChoices {
+        samples: flags.samples,
+        noise: flags.noise,
+        max_bounces: flags.max_bounces,
+        clamp: flags.clamp,
+        time_limit_s: flags.time_limit,
+        splits: flags.splits,
+        denoise: flags.denoise,
+    }
 }
 
 fn conclude(result: &Summary) -> Verdict {

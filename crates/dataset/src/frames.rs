@@ -4,7 +4,7 @@ use crate::atomic::{create_parent, remove_if_there, rename, temporary};
 use crate::hdf5::{ArrayView, Storage, write_view};
 use crate::read::sorted_names;
 use crate::record::RECORD_FORMAT;
-use crate::{Dataset, DatasetError, DenoiseRecord, FileRecord, FrameRecord, FrameTime, LabelRecord, check_name, write_bytes};
+use crate::{Dataset, DatasetError, DenoiseRecord, FileRecord, FrameRecord, FrameTime, LabelRecord, Sampling, check_name, write_bytes};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_scene::{Camera, Pose};
 use rayon::prelude::*;
@@ -27,6 +27,8 @@ pub struct FrameInfo {
     pub pose: Pose,
     /// What it was taken with.
     pub camera: Camera,
+    /// How its samples were spent, where that is known.
+    pub sampling: Option<Sampling>,
 }
 
 impl Dataset {
@@ -58,6 +60,7 @@ impl Dataset {
             seed: info.seed,
             samples: info.samples,
             config_hash: info.config_hash.clone(),
+            sampling: info.sampling,
             pose: (&info.pose).into(),
             intrinsics,
             camera_model,

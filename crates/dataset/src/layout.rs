@@ -229,7 +229,7 @@ pub(crate) fn layer_file_name(frame: u32, layer: Layer) -> String {
 
 fn pass_name(pass: Pass) -> &'static str {
     match pass {
-        Pass::Final | Pass::Denoised => "final",
+        Pass::Final | Pass::Denoised | Pass::Split => "final",
         Pass::Geometry | Pass::Label => "geometry",
     }
 }

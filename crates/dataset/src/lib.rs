@@ -38,6 +38,6 @@ pub use hdf5::{Array, Element, Elements};
 pub use label_files::{instance_colors, semantic_colors};
 pub use layout::{Layout, check_name};
 pub use manifest::{CameraEntry, Conventions, FrameEntry, FrameStatus, LayerEntry, Manifest, ManifestInfo, SceneEntry};
-pub use record::{DenoiseRecord, FileRecord, FrameRecord, LabelRecord, PoseRecord};
+pub use record::{DenoiseRecord, FileRecord, FrameRecord, LabelRecord, PoseRecord, Sampling, StoppedBy};
 pub use scene_files::Node;
 pub use times::FrameTime;

@@ -117,7 +117,7 @@ pub struct ManifestInfo {
 const FORMAT: &str = "enfilade dataset 1";
 
 /// How to read the files, in one sentence per subject.
-const NOTES: [(&str, &str); 12] = [
+const NOTES: [(&str, &str); 14] = [
     ("layout", "Hypersim's tree: scenes/<scene>/_detail and scenes/<scene>/images/scene_<camera>_{final,geometry}_hdf5."),
     ("world", "Right-handed, z up, metres; one asset unit is one metre (meters_per_asset_unit = 1)."),
     ("camera", "Axes x right, y up, z backward; camera_keyframe_orientations hold world_from_camera and act on column vectors."),
@@ -139,6 +139,16 @@ const NOTES: [(&str, &str); 12] = [
         "denoised",
         "Layers named *_denoised exist where a frame names its denoiser; they are biased estimates of the unbiased layers, made with exact \
          reflectance and normals as guides, and satisfy the same identity with diffuse_reflectance.",
+    ),
+    (
+        "noise",
+        "color_standard_error is the standard error of color's luminance. A frame's record says how many samples were taken \
+         (samples_taken), how much noise is left, and what ended it; one that a time limit ended (stopped_by) is not the same twice.",
+    ),
+    (
+        "splits",
+        "Where they were asked for, diffuse_direct, diffuse_indirect, specular, transmission and emission sum to color, and so do the \
+         four light_* layers, within the rounding of float16 (a 500th) and where nothing is saturated.",
     ),
     ("ids", "render_entity_id is node_id of metadata_nodes.csv; object_id there is the row of the mesh folder's object tables."),
     ("records", "A frame counts when _detail/<camera>/frames/frame.IIII.json is there; checksums are BLAKE3 of whole files."),

@@ -44,6 +44,31 @@ impl PoseRecord {
     }
 }
 
+/// How the samples of a frame were spent.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sampling {
+    /// Mean samples per pixel.
+    pub samples_taken: f64,
+    /// Noise that is left: the root mean square over the image of each pixel's standard error over (its luminance + 0.2 × the
+    /// image's mean); `None` where it is not known, as after one sample per pixel.
+    pub noise: Option<f64>,
+    /// What ended it.
+    pub stopped_by: StoppedBy,
+}
+
+/// What ends the rendering of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum StoppedBy {
+    /// All samples were taken.
+    Samples,
+    /// Fewer were enough for the noise that was asked for.
+    Noise,
+    /// Its time was over.
+    #[serde(rename = "time limit")]
+    TimeLimit,
+}
+
 /// What a rendered frame was made from and what it consists of: enough to render it again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameRecord {
@@ -57,10 +82,13 @@ pub struct FrameRecord {
     pub frame: u32,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// Samples per pixel.
+    /// Samples per pixel, as asked for.
     pub samples: u32,
     /// Hash of everything that the frame's values depend on.
     pub config_hash: String,
+    /// How they were spent.
+    #[serde(flatten)]
+    pub sampling: Option<Sampling>,
     /// Where the camera stood.
     pub pose: PoseRecord,
     /// Image size and calibration of a pinhole that is in focus and at rest.

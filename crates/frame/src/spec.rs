@@ -24,6 +24,16 @@ pub enum Layer {
     ColorDenoised,
     DiffuseIlluminationDenoised,
     ResidualDenoised,
+    ColorStandardError,
+    DiffuseDirect,
+    DiffuseIndirect,
+    Specular,
+    Transmission,
+    Emission,
+    LightEnvironment,
+    LightDistant,
+    LightSurfaces,
+    LightPoints,
 }
 
 /// How values are stored.
@@ -49,6 +59,15 @@ pub enum Pass {
     Label,
     /// Also in the final folder, but made from the rendered layers where that is asked for.
     Denoised,
+    /// Also in the final folder and rendered with it, but only where that is asked for: the light of `color` by its way or its source.
+    Split,
+}
+
+impl Pass {
+    /// True for layers that a frame has only where they were asked for, and then all of them.
+    pub const fn is_optional(self) -> bool {
+        matches!(self, Self::Denoised | Self::Split)
+    }
 }
 
 /// Codes of the `valid` layer. Anything but zero has geometry.
@@ -96,7 +115,7 @@ macro_rules! layers {
 }
 
 /// The table of layers; `LAYERS[layer as usize].layer == layer`.
-pub const LAYERS: [LayerSpec; 19] = layers![
+pub const LAYERS: [LayerSpec; 29] = layers![
     Color "color" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
         "Radiance; equals diffuse_reflectance * diffuse_illumination + residual to the last bit, evaluated in float32 and rounded to float16.";
     DiffuseIllumination "diffuse_illumination" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
@@ -122,7 +141,33 @@ pub const LAYERS: [LayerSpec; 19] = layers![
         "Estimate of diffuse_illumination without noise, where asked for; biased, as denoising is.";
     ResidualDenoised "residual_denoised" Denoised 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
         "Estimate of residual without noise, where asked for; biased, as denoising is.";
+    ColorStandardError "color_standard_error" Final 1 F16, "W/(sr m^2)", "luminance, Rec. 709", "as elsewhere",
+        "Standard error of the luminance of color, from the spread of the pixel's samples as if they were independent; they are stratified, so the true one is smaller on average. NaN in a frame of one sample per pixel.";
+    DiffuseDirect "diffuse_direct" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+        "Part of color, where asked for: light that comes straight from a source and is reflected diffusely; with diffuse_indirect it is color - residual.";
+    DiffuseIndirect "diffuse_indirect" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+        "Part of color, where asked for: light that comes by way of other surfaces and is reflected diffusely.";
+    Specular "specular" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+        "Part of color, where asked for: light reflected otherwise than diffusely; specular + transmission + emission is residual.";
+    Transmission "transmission" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+        "Part of color, where asked for: light that passes through the first surface, panes included.";
+    Emission "emission" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
+        "Part of color, where asked for: light that the first surface emits, and the background.";
+    LightEnvironment "light_environment" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
+        "Part of color, where asked for: light of the sky or environment map; the four light_* layers sum to color.";
+    LightDistant "light_distant" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the sun's disk",
+        "Part of color, where asked for: light of the sun and other directional lights.";
+    LightSurfaces "light_surfaces" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+        "Part of color, where asked for: light of emissive surfaces.";
+    LightPoints "light_points" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+        "Part of color, where asked for: light of lights at a point, such as spots and measured lamps.";
 ];
+
+/// Layers whose sum is `color`, but for the rounding of each: by the light's way from the first surface to the camera.
+pub const SPLIT_BY_PATH: [Layer; 5] = [Layer::DiffuseDirect, Layer::DiffuseIndirect, Layer::Specular, Layer::Transmission, Layer::Emission];
+
+/// Layers whose sum is `color`, but for the rounding of each: by what the light comes from.
+pub const SPLIT_BY_SOURCE: [Layer; 4] = [Layer::LightEnvironment, Layer::LightDistant, Layer::LightSurfaces, Layer::LightPoints];
 
 impl Layer {
     /// The layer's row of the table.

@@ -14,12 +14,12 @@ mod workdir;
 
 pub use config::{
     CameraChoice, CameraConfig, CameraModel, Config, ConfigError, EnvironmentChoice, FileSource, LabelSource, LensConfig, Overrides, Place,
-    Quality, SceneConfig, Source, StereoConfig, demo, select,
+    Quality, RenderChoices, SceneConfig, Source, StereoConfig, demo, select,
 };
 pub use enfilade_import::UpAxis;
 pub use error::Error;
 pub use report::{Event, Failure, Reporter, SceneOutcome, Silent, StageOutcome, Summary};
-pub use run::{relabel, run, run_denoised, run_stage};
+pub use run::{relabel, run, run_chosen, run_stage};
 pub use single::{Imported, import_file};
 pub use stages::{STAGES, Stage, StageSpec};
 pub use workdir::WORKDIR;

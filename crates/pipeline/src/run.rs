@@ -1,6 +1,6 @@
 //! Running stages over the scenes of a dataset: all of them, or one verb.
 
-use crate::config::{Config, SceneConfig};
+use crate::config::{Config, RenderChoices, SceneConfig};
 use crate::error::Error;
 use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::stages::{Job, STAGES, Stage, StageSpec, advance, check_denoiser};
@@ -54,12 +54,20 @@ pub fn relabel(out: &Path, table: &Path, pattern: Option<&str>, reporter: &dyn R
     Session::new(&config, &workdir)?.run(&scenes, &[Stage::Label.spec()], false, reporter)
 }
 
-/// Asks for denoised layers of scenes of the dataset in `out` from now on, and runs `stages` with that.
+/// Makes choices about the rendering of scenes of the dataset in `out` from now on, and runs `stages` with that.
 ///
 /// # Errors
-/// As [`run_stage`].
-pub fn run_denoised(out: &Path, stages: &[Stage], pattern: Option<&str>, force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
-    let (workdir, config) = open_changed(out, pattern, |scene| scene.denoise = true)?;
+/// As [`run_stage`], and when a number is out of its range.
+pub fn run_chosen(
+    out: &Path,
+    choices: &RenderChoices,
+    stages: &[Stage],
+    pattern: Option<&str>,
+    force: bool,
+    reporter: &dyn Reporter,
+) -> Result<Summary, Error> {
+    choices.check()?;
+    let (workdir, config) = open_changed(out, pattern, |scene| choices.apply(scene))?;
     let scenes = config.select(pattern)?;
     let stages: Vec<&StageSpec> = stages.iter().map(|stage| stage.spec()).collect();
     Session::new(&config, &workdir)?.run(&scenes, &stages, force, reporter)

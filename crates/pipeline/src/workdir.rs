@@ -4,6 +4,7 @@
 //! OUT/.enfilade/lock                 held by the process at work
 //! OUT/.enfilade/run.json             the resolved configuration, and the folder its relative paths start from
 //! OUT/.enfilade/SCENE/scene.scene    the scene package
+//! OUT/.enfilade/SCENE/partial/       frames in the making, to go on from where a run was killed
 //! OUT/.enfilade/SCENE/STAGE.json     what the stage read and wrote, its warnings and times: written last, after all outputs
 //! ```
 

@@ -9,7 +9,7 @@ use enfilade_dataset::{Dataset, DatasetError, write_bytes};
 use enfilade_frame::{Frame, LAYERS, Layer};
 use enfilade_scene::{CameraView, Cx};
 use rayon::prelude::*;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The layers of a frame that are there; an empty frame of one pixel when none is.
@@ -38,12 +38,25 @@ fn preview_frame(dataset: &Dataset, scene: &str, camera: &str, number: u32) -> R
     let tone = ToneMap::of_frame(&frame).unwrap_or_default();
     let mut written = Vec::new();
     for spec in PREVIEWS {
-        let Some(bytes) = spec.file(&frame, tone) else { continue };
         let path = dataset.layout().preview(scene, camera, number, spec.pass, spec.name);
+        let Some(bytes) = spec.file(&frame, tone) else {
+            remove_old(&path)?;
+            continue;
+        };
         write_bytes(&path, bytes)?;
         written.push(path);
     }
     Ok(written)
+}
+
+/// Removes a picture of a layer that the frame no longer has.
+fn remove_old(path: &Path) -> Result<(), DatasetError> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(DatasetError::Io { action: "remove", path: path.into(), source: error })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Writes the contact sheet of a camera and returns its path; `None` when the camera has no frames.

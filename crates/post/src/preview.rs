@@ -55,7 +55,7 @@ const fn spec(pass: Pass, name: &'static str, subject: Subject) -> PreviewSpec {
 }
 
 /// Every preview.
-pub const PREVIEWS: [PreviewSpec; 26] = [
+pub const PREVIEWS: [PreviewSpec; 36] = [
     spec(Pass::Final, "tonemap.jpg", Subject::ToneMapped),
     spec(Pass::Final, "color.jpg", Subject::Clipped),
     spec(Pass::Final, "gamma.jpg", Subject::Gamma),
@@ -65,6 +65,7 @@ pub const PREVIEWS: [PreviewSpec; 26] = [
     spec(Pass::Final, "lambertian.jpg", Subject::Lambertian),
     spec(Pass::Final, "non_lambertian.jpg", Subject::NonLambertian),
     spec(Pass::Final, "diff.jpg", Subject::Difference),
+    spec(Pass::Final, "color_standard_error.jpg", Subject::Layer(Layer::ColorStandardError)),
     spec(Pass::Geometry, "color.jpg", Subject::Clipped),
     spec(Pass::Geometry, "gamma.jpg", Subject::Gamma),
     spec(Pass::Geometry, "depth_meters.png", Subject::Layer(Layer::DepthMeters)),
@@ -82,6 +83,15 @@ pub const PREVIEWS: [PreviewSpec; 26] = [
     spec(Pass::Denoised, "color_denoised.jpg", Subject::Layer(Layer::ColorDenoised)),
     spec(Pass::Denoised, "diffuse_illumination_denoised.jpg", Subject::Layer(Layer::DiffuseIlluminationDenoised)),
     spec(Pass::Denoised, "residual_denoised.jpg", Subject::Layer(Layer::ResidualDenoised)),
+    spec(Pass::Split, "diffuse_direct.jpg", Subject::Layer(Layer::DiffuseDirect)),
+    spec(Pass::Split, "diffuse_indirect.jpg", Subject::Layer(Layer::DiffuseIndirect)),
+    spec(Pass::Split, "specular.jpg", Subject::Layer(Layer::Specular)),
+    spec(Pass::Split, "transmission.jpg", Subject::Layer(Layer::Transmission)),
+    spec(Pass::Split, "emission.jpg", Subject::Layer(Layer::Emission)),
+    spec(Pass::Split, "light_environment.jpg", Subject::Layer(Layer::LightEnvironment)),
+    spec(Pass::Split, "light_distant.jpg", Subject::Layer(Layer::LightDistant)),
+    spec(Pass::Split, "light_surfaces.jpg", Subject::Layer(Layer::LightSurfaces)),
+    spec(Pass::Split, "light_points.jpg", Subject::Layer(Layer::LightPoints)),
 ];
 
 impl PreviewSpec {
@@ -129,7 +139,17 @@ fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap) ->
         | Layer::Residual
         | Layer::ColorDenoised
         | Layer::DiffuseIlluminationDenoised
-        | Layer::ResidualDenoised => rgb(frame, |i| tone.apply(values.get(i))),
+        | Layer::ResidualDenoised
+        | Layer::DiffuseDirect
+        | Layer::DiffuseIndirect
+        | Layer::Specular
+        | Layer::Transmission
+        | Layer::Emission
+        | Layer::LightEnvironment
+        | Layer::LightDistant
+        | Layer::LightSurfaces
+        | Layer::LightPoints => rgb(frame, |i| tone.apply(values.get(i))),
+        Layer::ColorStandardError => rgb(frame, |i| tone.apply(values.get(i / 3))),
         Layer::DiffuseReflectance => rgb(frame, |i| encode(values.get(i))),
         Layer::NormalWorld | Layer::NormalCam | Layer::NormalBumpWorld | Layer::NormalBumpCam => {
             rgb(frame, |i| 0.5 * (values.get(i) + 1.0))

@@ -70,6 +70,19 @@ pub(crate) fn frame(pose: &Pose) -> Frame {
         [Layer::DiffuseIllumination, Layer::DiffuseIlluminationDenoised].into_iter().for_each(|l| push(l, &[f64::from(s); 3]));
         [Layer::Residual, Layer::ResidualDenoised].into_iter().for_each(|l| push(l, &[f64::from(r); 3]));
         [Layer::Color, Layer::ColorDenoised].into_iter().for_each(|l| push(l, &[f64::from(a * s + r); 3]));
+        push(Layer::ColorStandardError, &[f64::from(0.125 * (a * s + r))]);
+        // The floor is lit from the void, the wall by a lamp.
+        let diffuse = f64::from(a * s);
+        let (r, seen) = (f64::from(r), id != -1);
+        push(Layer::DiffuseDirect, &[0.75 * diffuse; 3]);
+        push(Layer::DiffuseIndirect, &[0.25 * diffuse; 3]);
+        push(Layer::Specular, &[if seen { r } else { 0.0 }; 3]);
+        push(Layer::Transmission, &[0.0; 3]);
+        push(Layer::Emission, &[if seen { 0.0 } else { r }; 3]);
+        push(Layer::LightEnvironment, &[if id <= 1 { diffuse + r } else { 0.0 }; 3]);
+        push(Layer::LightSurfaces, &[if id <= 1 { 0.0 } else { 0.5 * (diffuse + r) }; 3]);
+        push(Layer::LightPoints, &[if id <= 1 { 0.0 } else { 0.5 * (diffuse + r) }; 3]);
+        push(Layer::LightDistant, &[0.0; 3]);
         let code = match id {
             -1 => Validity::Void,
             3 if saturated => Validity::Saturated,
@@ -147,8 +160,8 @@ pub(crate) fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
             wanted.for_each(|(layer, values)| part.insert(layer, values.clone()));
             part
         };
-        let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose: *pose, camera: intrinsics().into() };
-        dataset.write_frame("room", "cam_00", &part_of(&[Pass::Final, Pass::Geometry]), &info, FrameTime::default()).unwrap();
+        let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose: *pose, camera: intrinsics().into(), sampling: None };
+        dataset.write_frame("room", "cam_00", &part_of(&[Pass::Final, Pass::Geometry, Pass::Split]), &info, FrameTime::default()).unwrap();
         dataset.write_label_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Label]), "test").unwrap();
         dataset.write_denoised_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Denoised]), "Smoother 3.1", "test").unwrap();
     }

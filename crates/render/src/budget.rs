@@ -10,7 +10,7 @@ use rayon::prelude::*;
 const REACH: usize = 2;
 /// Part of the image's mean luminance that is added to a pixel's own before its error is put in relation to it: nobody sees a relative
 /// error in the dark.
-const FLOOR: f32 = 0.2;
+pub(crate) const FLOOR: f32 = 0.2;
 /// No pixel gets more than this many times the mean.
 const MOST: f32 = 16.0;
 

@@ -41,13 +41,16 @@ pub struct RenderConfig {
     pub max_bounces: Option<u32>,
     /// Largest radiance that one indirect sample may add to a pixel. Default none: a clamp darkens the picture.
     pub clamp: Option<f32>,
+    /// Keeps the light of each pixel apart by its way and by its source, as layers of their own. Changes no other layer. Default false.
+    pub splits: bool,
     /// Bounces before Russian roulette begins. Default 1.
     pub roulette_start: u32,
     /// Shape of the reconstruction filter. Default a tent.
     pub filter: Filter,
     /// Radius of the reconstruction filter, in pixels. Default 1, as Mitsuba's `tent`.
     pub filter_radius: f32,
-    /// Seed of all random numbers; a frame's pixels depend on it, the frame number and nothing else.
+    /// Seed of all random numbers. A frame depends on the scene, the camera, all views that the guide has learned from, the frame's
+    /// number and this configuration, and on nothing else.
     pub seed: u64,
 }
 
@@ -60,6 +63,7 @@ impl Default for RenderConfig {
             guiding: true,
             max_bounces: None,
             clamp: None,
+            splits: false,
             roulette_start: 1,
             filter: Filter::Tent,
             filter_radius: 1.0,

@@ -2,11 +2,12 @@
 
 use crate::budget::Estimate;
 use crate::integrator::PixelSample;
+use crate::split::Split;
 use enfilade_frame::{compose, f16};
 use enfilade_math::Rgb;
 
 /// Sums of the samples of one pixel. Samples come from the reconstruction filter's distribution, so all weigh the same.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct PixelSum {
     samples: u32,
     reflectance: Rgb,
@@ -15,9 +16,14 @@ pub(crate) struct PixelSum {
     illumination: Rgb,
     illumination_samples: u32,
     residual: Rgb,
-    /// Sum of the squares of the samples' luminance.
-    squares: f32,
+    /// Mean of the samples' luminance, and the sum of its squared deviations (Welford 1962): samples that are all alike have none,
+    /// which sums of squares would lose in rounding.
+    mean: f32,
+    deviations: f32,
 }
+
+/// Largest finite float16.
+const F16_LIMIT: f32 = 65504.0;
 
 /// The colour values of one pixel as they are stored.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,17 +32,24 @@ pub(crate) struct PixelColor {
     pub illumination: [f16; 3],
     pub reflectance: [f16; 3],
     pub residual: [f16; 3],
+    /// Of the luminance of `color`; NaN after one sample.
+    pub standard_error: f16,
     pub saturated: bool,
 }
 
 impl PixelSum {
+    /// Words of [`PixelSum::to_words`].
+    pub const WORDS: usize = 16;
+
     /// Adds a sample.
     pub fn add(&mut self, s: &PixelSample) {
         self.samples += 1;
         self.reflectance += s.reflectance;
         self.residual += s.residual;
         let luminance = (s.reflectance * s.illumination.unwrap_or_default() + s.residual).luminance();
-        self.squares += luminance * luminance;
+        let off = luminance - self.mean;
+        self.mean += off / self.samples as f32;
+        self.deviations += off * (luminance - self.mean);
         if let Some(illumination) = s.illumination {
             self.diffuse += s.reflectance * illumination;
             self.illumination += illumination;
@@ -52,8 +65,37 @@ impl PixelSum {
     /// Mean and variance of the samples' luminance.
     pub fn estimate(&self) -> Estimate {
         let n = self.samples.max(1) as f32;
-        let mean = (self.diffuse + self.residual).luminance() / n;
-        Estimate { mean, variance: (self.squares / n - mean * mean).max(0.0) * n / (n - 1.0).max(1.0) }
+        Estimate { mean: (self.diffuse + self.residual).luminance() / n, variance: self.deviations / (n - 1.0).max(1.0) }
+    }
+
+    /// Standard error of the mean luminance, as if samples were independent; NaN when there are too few to say.
+    pub fn standard_error(&self) -> f32 {
+        if self.samples < 2 { f32::NAN } else { (self.estimate().variance / self.samples as f32).sqrt() }
+    }
+
+    /// The sums, bit by bit.
+    pub fn to_words(self) -> [u32; Self::WORDS] {
+        let mut words = [0; Self::WORDS];
+        let colors = [self.reflectance, self.diffuse, self.illumination, self.residual].into_iter().flat_map(Rgb::to_array);
+        let floats = colors.chain([self.mean, self.deviations]).map(f32::to_bits);
+        words.iter_mut().zip([self.samples, self.illumination_samples].into_iter().chain(floats)).for_each(|(word, bits)| *word = bits);
+        words
+    }
+
+    /// What [`PixelSum::to_words`] was made of.
+    pub fn from_words(words: &[u32; Self::WORDS]) -> Self {
+        let float = |index: usize| f32::from_bits(words[index]);
+        let color = |index: usize| Rgb::new(float(index), float(index + 1), float(index + 2));
+        Self {
+            samples: words[0],
+            illumination_samples: words[1],
+            reflectance: color(2),
+            diffuse: color(5),
+            illumination: color(8),
+            residual: color(11),
+            mean: float(14),
+            deviations: float(15),
+        }
     }
 
     /// The pixel's layers. The stored values satisfy color = reflectance × illumination + residual to the last bit: the first
@@ -76,9 +118,16 @@ impl PixelSum {
             out.residual[c] = stored.residual;
             out.color[c] = stored.color;
         }
+        out.standard_error = f16::from_f32(self.standard_error().min(F16_LIMIT));
         out.saturated = saturated;
         out
     }
+}
+
+/// The light of a pixel in parts as it is stored, given the sum over its samples and their number.
+pub(crate) fn resolve_split(sum: &Split, samples: u32) -> [[f16; 3]; Split::PARTS] {
+    let n = samples.max(1) as f32;
+    std::array::from_fn(|index| (sum.part(index) / n).to_array().map(|v| f16::from_f32(v.min(F16_LIMIT))))
 }
 
 #[cfg(test)]
@@ -101,17 +150,66 @@ mod tests {
             for _ in 0..3 {
                 let mut rgb = |scale: f32| Rgb::new(rng.next_f32().powi(4), rng.next_f32(), rng.next_f32()) * scale;
                 let reflectance = rgb(1.0);
-                sum.add(&PixelSample { reflectance, illumination: Some(rgb(1e5)), residual: rgb(3e4) });
+                sum.add(&PixelSample { reflectance, illumination: Some(rgb(1e5)), residual: rgb(3e4), ..PixelSample::default() });
             }
             identity_holds(&sum.resolve());
         }
     }
 
+    fn lit(luminance: f32) -> PixelSample {
+        PixelSample { residual: Rgb::splat(luminance), ..PixelSample::default() }
+    }
+
+    #[test]
+    fn the_standard_error_of_samples_of_two_kinds_is_that_of_a_coin() {
+        // A share p of ones: variance p(1 - p) n/(n - 1), and the mean of n has an n-th of it.
+        for (ones, n) in [(1u32, 2u32), (16, 64), (1, 1000), (512, 1024)] {
+            let mut sum = PixelSum::default();
+            (0..n).for_each(|i| sum.add(&lit(if i < ones { 1.0 } else { 0.0 })));
+            let p = f64::from(ones) / f64::from(n);
+            let expected = (p * (1.0 - p) / f64::from(n - 1)).sqrt();
+            let found = f64::from(sum.standard_error());
+            assert!((found - expected).abs() < 1e-4 * expected, "{ones} of {n}: {found}, expected {expected}");
+            assert!((sum.resolve().standard_error.to_f64() - expected).abs() < 1e-3 * expected);
+        }
+    }
+
+    #[test]
+    fn equal_samples_have_no_error_and_a_single_one_has_none_that_is_known() {
+        let mut sum = PixelSum::default();
+        sum.add(&lit(0.1));
+        assert!(sum.standard_error().is_nan() && sum.resolve().standard_error.is_nan());
+        (0..500).for_each(|_| sum.add(&lit(0.1)));
+        assert_eq!(sum.resolve().standard_error, f16::ZERO);
+    }
+
+    #[test]
+    fn sums_survive_as_words() {
+        let mut sum = PixelSum::default();
+        let color = |v: f32| Rgb::new(v, 2.0 * v, 3.0 * v);
+        let sample =
+            PixelSample { reflectance: color(0.1), illumination: Some(color(5.0)), residual: color(7.0), ..PixelSample::default() };
+        sum.add(&sample);
+        sum.add(&lit(11.0));
+        assert_eq!(PixelSum::from_words(&sum.to_words()), sum);
+        assert_eq!(PixelSum::from_words(&std::array::from_fn(|i| i as u32)).to_words(), std::array::from_fn(|i| i as u32));
+    }
+
     #[test]
     fn an_edge_between_black_and_white_does_not_leak_into_the_residual() {
         let mut sum = PixelSum::default();
-        sum.add(&PixelSample { reflectance: Rgb::WHITE, illumination: Some(Rgb::splat(2.0)), residual: Rgb::BLACK });
-        sum.add(&PixelSample { reflectance: Rgb::BLACK, illumination: Some(Rgb::splat(7.0)), residual: Rgb::BLACK });
+        sum.add(&PixelSample {
+            reflectance: Rgb::WHITE,
+            illumination: Some(Rgb::splat(2.0)),
+            residual: Rgb::BLACK,
+            ..PixelSample::default()
+        });
+        sum.add(&PixelSample {
+            reflectance: Rgb::BLACK,
+            illumination: Some(Rgb::splat(7.0)),
+            residual: Rgb::BLACK,
+            ..PixelSample::default()
+        });
         let p = sum.resolve();
         assert_eq!((p.reflectance[0].to_f32(), p.illumination[0].to_f32(), p.residual[0].to_f32()), (0.5, 2.0, 0.0));
     }
@@ -127,7 +225,12 @@ mod tests {
     #[test]
     fn values_beyond_half_precision_are_stored_at_the_limit_and_flagged() {
         let mut sum = PixelSum::default();
-        sum.add(&PixelSample { reflectance: Rgb::splat(0.5), illumination: Some(Rgb::splat(60000.0)), residual: Rgb::splat(1e9) });
+        sum.add(&PixelSample {
+            reflectance: Rgb::splat(0.5),
+            illumination: Some(Rgb::splat(60000.0)),
+            residual: Rgb::splat(1e9),
+            ..PixelSample::default()
+        });
         let p = sum.resolve();
         identity_holds(&p);
         assert!(p.saturated && p.color[0].to_f32() > 65000.0);

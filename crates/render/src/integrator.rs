@@ -6,8 +6,9 @@
 use crate::bsdf::{Bsdf, Event, Value};
 use crate::config::RenderConfig;
 use crate::guide::{CellLight, Guide};
-use crate::light::{LightPoint, power_heuristic};
+use crate::light::{Background, LightKind, LightPoint, power_heuristic};
 use crate::prepared::{Cutout, RenderScene};
+use crate::split::{Arriving, Split};
 use crate::surface::{MIN_COSINE, Surface};
 use enfilade_math::{ONE_MINUS_EPSILON, Onb, Ray, Rgb, Sampler, Vec3, offset_origin};
 use enfilade_scene::Bsdf as Model;
@@ -21,6 +22,8 @@ pub(crate) struct PixelSample {
     pub illumination: Option<Rgb>,
     /// Everything else, R.
     pub residual: Rgb,
+    /// A·E + R in parts, where they are asked for.
+    pub split: Split,
 }
 
 /// One in this many samples of a surface without diffuse reflectance measures the light that falls on it.
@@ -58,6 +61,21 @@ struct Segment {
     sampled: Option<(LightPoint, f32)>,
     /// Absorption of the body the ray is inside of, per metre.
     absorption: Rgb,
+    /// True when the surface at its origin was passed through.
+    crossed: bool,
+    /// True when that was a pane, which leaves the direction as it was.
+    straight: bool,
+}
+
+/// Light sampled at a source.
+struct Direct {
+    /// The BSDF's value over the light's density, weighted against BSDF sampling.
+    weight: Value,
+    /// Radiance that arrives.
+    light: Rgb,
+    kind: LightKind,
+    /// True when it reaches the surface from behind.
+    crosses: bool,
 }
 
 /// A surface that a path has reached, with all that scattering there needs.
@@ -74,47 +92,67 @@ impl<'s> Integrator<'_, 's> {
     /// A sample along a camera ray (unit direction); `index` is the sample's number within the pixel.
     pub fn sample(&self, ray: Ray, sampler: &Sampler, index: u32) -> PixelSample {
         let Some(hit) = self.scene.closest(&ray, Cutout::Random) else {
-            return PixelSample { residual: self.scene.lights.background(ray.direction), ..PixelSample::default() };
+            let background = self.scene.lights.background(ray.direction);
+            let mut split = Split::default();
+            split.add_background(background);
+            return PixelSample { residual: background.total(), split, ..PixelSample::default() };
         };
         let surface = self.scene.surface(&hit, ray.direction);
         let bsdf = surface.bsdf(self.scene);
         let onb = surface.onb();
         let vertex = self.vertex(&surface, &bsdf, &onb);
-        let mut split = Value { diffuse: Rgb::BLACK, specular: surface.emission(self.scene) };
+        let mut sum = Value { diffuse: Rgb::BLACK, specular: surface.emission(self.scene) };
+        let mut split = Split::default();
+        if self.config.splits {
+            split.add_emission(sum.specular);
+        }
 
         // Light reflected straight from the sources.
-        let (direct, direct_light) = self.sample_lights(&vertex, sampler.set(light_set(0)));
-        split.diffuse += direct.diffuse * direct_light;
-        split.specular += direct.specular * direct_light;
+        if let Some(Direct { weight, light, kind, crosses }) = self.sample_lights(&vertex, sampler.set(light_set(0))) {
+            sum.diffuse += weight.diffuse * light;
+            sum.specular += weight.specular * light;
+            if self.config.splits {
+                let mut arriving = Arriving::default();
+                arriving.add(kind, light, true);
+                split.add_scattered(bsdf.reflectance, &weight, &arriving, crosses);
+            }
+        }
 
         // Light that comes by way of other surfaces, and sources that the direction happens to meet.
         let u = sampler.set(bsdf_set(0));
         if let Some((weight, segment)) = vertex.scatter([u[0], u[1], u[2]], &Segment::from_camera(ray)) {
             let total = weight.total(bsdf.reflectance);
             let expected = vertex.expected_indirect();
-            let light = self.clamped(self.radiance(segment, total, expected, sampler), total);
-            split.diffuse += weight.diffuse * light;
-            split.specular += weight.specular * light;
+            let crossed = segment.crossed;
+            let arriving = self.clamped(self.radiance(segment, total, expected, sampler), total);
+            sum.diffuse += weight.diffuse * arriving.total;
+            sum.specular += weight.specular * arriving.total;
+            if self.config.splits {
+                split.add_scattered(bsdf.reflectance, &weight, &arriving, crossed);
+            }
         }
 
         let has_diffuse = !bsdf.reflectance.is_black();
         let illumination = if has_diffuse {
-            Some(split.diffuse)
+            Some(sum.diffuse)
         } else {
             index.is_multiple_of(IRRADIANCE_STRIDE).then(|| self.irradiance(&surface, sampler))
         };
-        PixelSample { reflectance: bsdf.reflectance, illumination, residual: split.specular }
+        PixelSample { reflectance: bsdf.reflectance, illumination, residual: sum.specular, split }
     }
 
     /// Radiance along a path beyond the first surface. Two numbers concern roulette alone: `first_throughput`, what the first surface
     /// lets through of it, and `expected`, the indirect light that the first surface is expected to reflect (0: unknown).
-    fn radiance(&self, mut segment: Segment, first_throughput: Rgb, mut expected: f32, sampler: &Sampler) -> Rgb {
-        let mut radiance = Rgb::BLACK;
+    fn radiance(&self, mut segment: Segment, first_throughput: Rgb, mut expected: f32, sampler: &Sampler) -> Arriving {
+        let mut radiance = Arriving::default();
         let mut throughput = Rgb::WHITE;
+        // Until something scatters light, what is met comes straight from its source.
+        let mut direct = true;
         for bounce in 1.. {
             // Next surface, or the surroundings.
             let Some(hit) = self.scene.closest(&segment.ray, Cutout::Random) else {
-                return radiance + throughput * self.background(&segment);
+                radiance.add_background(self.background(&segment), throughput, direct);
+                return radiance;
             };
             let surface = self.scene.surface(&hit, segment.ray.direction);
             throughput *= absorbed(segment.absorption, hit.t);
@@ -127,7 +165,7 @@ impl<'s> Integrator<'_, 's> {
                     let light_pdf = lights.surface_pdf(self.scene, &self.guide.choice, &from, segment.ray.direction, &hit, surface.p);
                     power_heuristic(pdf, light_pdf)
                 });
-                radiance += throughput * emission * weight;
+                radiance.add(LightKind::Surfaces, throughput * emission * weight, direct);
             }
 
             // The last surface only shows what it emits: light sampling before it counted on that.
@@ -142,8 +180,9 @@ impl<'s> Integrator<'_, 's> {
             }
             let onb = surface.onb();
             let vertex = self.vertex(&surface, &bsdf, &onb);
-            let (direct, light) = self.sample_lights(&vertex, sampler.set(light_set(bounce)));
-            radiance += throughput * direct.total(bsdf.reflectance) * light;
+                if let Some(Direct { weight, light, kind, .. }) = self.sample_lights(&vertex, sampler.set(light_set(bounce))) {
+                radiance.add(kind, throughput * weight.total(bsdf.reflectance) * light, false);
+            }
 
             // Russian roulette: where the light that is still to come is known, in proportion to it.
             let u = sampler.set(bsdf_set(bounce));
@@ -169,6 +208,7 @@ impl<'s> Integrator<'_, 's> {
             // Onward.
             let Some((weight, next)) = vertex.scatter([u[0], u[1], u[2]], &segment) else { return radiance };
             throughput *= weight.total(bsdf.reflectance);
+            direct &= next.straight;
             segment = next;
         }
         radiance
@@ -187,30 +227,34 @@ impl<'s> Integrator<'_, 's> {
     }
 
     /// A sample's indirect light, dimmed to the most that it may add behind the first surface's `throughput`.
-    fn clamped(&self, light: Rgb, throughput: Rgb) -> Rgb {
+    fn clamped(&self, light: Arriving, throughput: Rgb) -> Arriving {
         let Some(most) = self.config.clamp else { return light };
-        let brightest = (light * throughput).max_component();
-        if brightest > most { light * (most / brightest) } else { light }
+        let brightest = (light.total * throughput).max_component();
+        if brightest > most { light.scaled(most / brightest) } else { light }
     }
 
-    /// Direct light: the BSDF's value over the light's density, weighted against BSDF sampling, and the radiance that arrives.
-    fn sample_lights(&self, vertex: &Vertex<'_, 's>, u: [f32; 4]) -> (Value, Rgb) {
-        let nothing = (Value::default(), Rgb::BLACK);
+    /// Direct light, where the light sample sends any.
+    fn sample_lights(&self, vertex: &Vertex<'_, 's>, u: [f32; 4]) -> Option<Direct> {
         let surface = vertex.surface;
         let wanted = |wi: Vec3| sides_agree(wi.dot(vertex.onb.z), wi.dot(surface.ng));
         let at = LightPoint::on(surface);
-        let Some(light) = self.scene.lights.sample(self.scene, &self.guide.choice, &at, [u[0], u[1], u[2]], wanted) else { return nothing };
+        let light = self.scene.lights.sample(self.scene, &self.guide.choice, &at, [u[0], u[1], u[2]], wanted)?;
         let wi = vertex.onb.to_local(light.wi);
         let (value, pdf) = vertex.eval_pdf(wi, light.wi);
         if value == Value::default() {
-            return nothing;
+            return None;
         }
         let arriving = self.scene.transmittance(&surface.shadow_ray(light.wi, light.target));
         if arriving.is_black() {
-            return nothing;
+            return None;
         }
         let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) } / light.pdf;
-        (value * weight, self.scene.lights.radiance_of(&light) * arriving)
+        Some(Direct {
+            weight: value * weight,
+            light: self.scene.lights.radiance_of(&light) * arriving,
+            kind: light.kind(),
+            crosses: wi.z < 0.0,
+        })
     }
 
     /// Irradiance over π at a surface without diffuse reflectance, by a white Lambert surface in its place.
@@ -218,17 +262,17 @@ impl<'s> Integrator<'_, 's> {
         let bsdf = Bsdf::lambert(Rgb::WHITE);
         let onb = surface.onb();
         let vertex = self.vertex(surface, &bsdf, &onb);
-        let (direct, light) = self.sample_lights(&vertex, sampler.set(light_set(0)));
-        let mut irradiance = direct.diffuse * light;
+        let direct = self.sample_lights(&vertex, sampler.set(light_set(0)));
+        let mut irradiance = direct.map_or(Rgb::BLACK, |direct| direct.weight.diffuse * direct.light);
         let u = sampler.set(bsdf_set(0));
-        let nowhere = Segment { ray: Ray::new(surface.p, -surface.wo), sampled: None, absorption: Rgb::BLACK };
+        let nowhere = Segment::from_camera(Ray::new(surface.p, -surface.wo));
         if let Some((weight, segment)) = vertex.scatter([u[0], u[1], u[2]], &nowhere) {
-            irradiance += weight.diffuse * self.radiance(segment, Rgb::WHITE, vertex.expected_indirect(), sampler);
+            irradiance += weight.diffuse * self.radiance(segment, Rgb::WHITE, vertex.expected_indirect(), sampler).total;
         }
         irradiance
     }
 
-    fn background(&self, segment: &Segment) -> Rgb {
+    fn background(&self, segment: &Segment) -> Background {
         match segment.sampled {
             None => self.scene.lights.background(segment.ray.direction),
             Some((from, pdf)) => self.scene.lights.background_weighted(&self.guide.choice, &from, segment.ray.direction, pdf),
@@ -238,7 +282,7 @@ impl<'s> Integrator<'_, 's> {
 
 impl Segment {
     fn from_camera(ray: Ray) -> Self {
-        Self { ray, sampled: None, absorption: Rgb::BLACK }
+        Self { ray, sampled: None, absorption: Rgb::BLACK, crossed: false, straight: false }
     }
 }
 
@@ -309,12 +353,13 @@ impl Vertex<'_, '_> {
             (Model::Principled(p), true) if p.solid => inside(surface, p.absorption),
             _ => before.absorption,
         };
-        Some((weight, self.segment(direction, side, sampled, absorption)))
+        let straight = sample.event == Event::Straight;
+        Some((weight, Segment { straight, ..self.segment(direction, side, sampled, absorption) }))
     }
 
     fn segment(&self, direction: Vec3, side: f32, sampled: Option<(LightPoint, f32)>, absorption: Rgb) -> Segment {
         let origin = offset_origin(self.surface.p, if side < 0.0 { -self.surface.ng } else { self.surface.ng });
-        Segment { ray: Ray::new(origin, direction), sampled, absorption }
+        Segment { ray: Ray::new(origin, direction), sampled, absorption, crossed: side < 0.0, straight: false }
     }
 }
 

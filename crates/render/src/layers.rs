@@ -2,7 +2,8 @@
 
 use crate::film::PixelColor;
 use crate::geometry_pass::PixelGeometry;
-use enfilade_frame::{Frame, Layer, Validity, Values, f16};
+use crate::split::Split;
+use enfilade_frame::{Frame, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, Values, f16};
 
 /// One pixel of all rendered layers.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,6 +26,7 @@ pub(crate) fn layers(width: u32, height: u32, pixels: &[Pixel]) -> Frame {
     frame.insert(Layer::DiffuseIllumination, color(|c| c.illumination));
     frame.insert(Layer::DiffuseReflectance, color(|c| c.reflectance));
     frame.insert(Layer::Residual, color(|c| c.residual));
+    frame.insert(Layer::ColorStandardError, Values::F16(pixels.iter().map(|p| p.color.standard_error).collect()));
     frame.insert(Layer::DepthMeters, single(|g| g.distance_m));
     frame.insert(Layer::DepthZMeters, single(|g| g.depth_z_m));
     let position = pixels.iter().flat_map(|p| p.geometry.as_ref().map_or([f32::NAN; 3], |g| g.position)).collect();
@@ -37,6 +39,13 @@ pub(crate) fn layers(width: u32, height: u32, pixels: &[Pixel]) -> Frame {
     frame.insert(Layer::RenderEntityId, Values::I16(pixels.iter().map(|p| p.geometry.as_ref().map_or(-1, |g| g.entity)).collect()));
     frame.insert(Layer::Valid, Values::U8(pixels.iter().map(|p| validity(p) as u8).collect()));
     frame
+}
+
+/// Adds the light of the pixels in parts, given row by row.
+pub(crate) fn add_splits(frame: &mut Frame, pixels: &[[[f16; 3]; Split::PARTS]]) {
+    for (index, layer) in SPLIT_BY_PATH.into_iter().chain(SPLIT_BY_SOURCE).enumerate() {
+        frame.insert(layer, Values::F16(pixels.iter().flat_map(|parts| parts[index]).collect()));
+    }
 }
 
 fn validity(pixel: &Pixel) -> Validity {

@@ -1,14 +1,16 @@
 //! One frame: every pixel's geometry and colour, tile by tile and pass by pass.
 
-use crate::budget::{Budget, Estimate};
+use crate::budget::{Budget, FLOOR};
 use crate::config::RenderConfig;
 use crate::error::RenderError;
-use crate::film::PixelSum;
+use crate::film::{PixelSum, resolve_split};
 use crate::geometry_pass::pixel_geometry;
 use crate::guide::Guide;
 use crate::integrator::{Integrator, PixelSample};
-use crate::layers::{Pixel, layers};
+use crate::layers::{Pixel, add_splits, layers};
+use crate::partial::{self, Header, PartialError};
 use crate::prepared::RenderScene;
+use crate::split::Split;
 use crate::tiles::Tiles;
 use enfilade_frame::Frame;
 use enfilade_math::{Ray, Sampler};
@@ -16,11 +18,11 @@ use enfilade_scene::{CameraView, Cx};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Share of the samples that are spread evenly, to find out where the others are needed.
+/// One part in this many of the samples is spread evenly, to find out where the others are needed.
 const FIRST_SHARE: u32 = 4;
 /// The fewest samples that say anything about a pixel's error.
 const FEWEST: u32 = 8;
-/// Mean samples per pixel of a pass after the first.
+/// Mean samples per pixel of a pass at most: short enough to be interrupted after it.
 const PASS: u32 = 16;
 /// Makes the moment within the exposure independent of everything else that is random.
 const SHUTTER_SEED: u64 = 0x5a07_7e12;
@@ -43,19 +45,55 @@ pub fn render_frame(
     Ok(rendering.frame())
 }
 
-/// A frame in the making. After the first pass it can be looked at, kept, or ended at any time.
+/// A frame in the making. After any pass it can be looked at, kept as bytes, or ended.
 pub struct FrameRender<'a, 's> {
     integrator: Integrator<'a, 's>,
     view: CameraView<'a>,
     tiles: Tiles,
-    /// Per tile, its pixels' sums so far.
-    sums: Vec<Vec<PixelSum>>,
-    /// Samples of every pixel in the end, row by row; before the first pass is done, those of that pass.
+    /// Per tile, what its pixels have gathered.
+    film: Vec<TileFilm>,
+    /// Samples of every pixel in the end, row by row; before the first samples are taken, their number.
     wanted: Vec<u32>,
-    first: u32,
-    /// Passes done, and passes in all.
+    schedule: Schedule,
+    /// Passes done.
     done: u32,
+}
+
+/// The pixels of a tile.
+struct TileFilm {
+    sums: Vec<PixelSum>,
+    /// Empty unless light is split.
+    splits: Vec<Split>,
+}
+
+/// How a frame's samples are spread over passes.
+#[derive(Clone, Copy, Debug)]
+struct Schedule {
+    /// Samples that every pixel gets, which tell where the others are needed.
+    first: u32,
+    /// Passes that take them.
+    first_passes: u32,
+    /// Passes in all.
     passes: u32,
+}
+
+impl Schedule {
+    fn new(config: &RenderConfig) -> Self {
+        let spread = config.adaptive || config.noise.is_some();
+        let first = if spread { (config.samples / FIRST_SHARE).max(FEWEST).min(config.samples) } else { config.samples };
+        let first_passes = first.div_ceil(PASS);
+        Self { first, first_passes, passes: first_passes + (config.samples - first).div_ceil(PASS) }
+    }
+
+    /// Samples after pass number `pass` of a pixel that is to have `wanted` in the end.
+    fn goal(&self, pass: u32, wanted: u32) -> u32 {
+        let share = |samples: u32, passes: u32, of: u32| (u64::from(samples) * u64::from(passes) / u64::from(of)) as u32;
+        if pass < self.first_passes {
+            return share(self.first, pass + 1, self.first_passes);
+        }
+        let (later, all) = (pass + 1 - self.first_passes, self.passes - self.first_passes);
+        self.first + share(wanted.saturating_sub(self.first), later, all)
+    }
 }
 
 impl<'a, 's> FrameRender<'a, 's> {
@@ -68,42 +106,38 @@ impl<'a, 's> FrameRender<'a, 's> {
         config.check()?;
         let [width, height] = view.camera().size();
         let tiles = Tiles::new(width, height);
-        let sums = (0..tiles.count()).map(|t| vec![PixelSum::default(); tiles.pixels(t).count()]).collect();
-        let spread = config.adaptive || config.noise.is_some();
-        let first = if spread { (config.samples / FIRST_SHARE).max(FEWEST).min(config.samples) } else { config.samples.min(PASS) };
-        let passes = 1 + (config.samples - first).div_ceil(PASS);
-        let wanted = vec![first; width as usize * height as usize];
+        let film = (0..tiles.count()).map(|tile| TileFilm::new(tiles.pixels(tile).count(), config.splits)).collect();
+        let schedule = Schedule::new(config);
+        let wanted = vec![schedule.first; width as usize * height as usize];
         let integrator = Integrator { scene, config, guide };
-        Ok(Self { integrator, view: *view, tiles, sums, wanted, first, done: 0, passes })
+        Ok(Self { integrator, view: *view, tiles, film, wanted, schedule, done: 0 })
     }
 
     /// True when every pixel has the samples that it should have.
     pub fn is_done(&self) -> bool {
-        self.done == self.passes
+        self.done == self.schedule.passes
     }
 
-    /// Adds samples to all pixels: the first pass the same number to each, the others where they are needed.
+    /// Adds about 16 samples per pixel: the first passes the same number to each, the others where they are needed.
     pub fn pass(&mut self, cx: &dyn Cx) {
         if self.is_done() {
             return;
         }
-        let (later, all) = (u64::from(self.done), u64::from(self.passes) - 1);
-        let goal = |wanted: u32| {
-            if all == 0 { wanted } else { self.first.min(wanted) + (u64::from(wanted.saturating_sub(self.first)) * later / all) as u32 }
-        };
         let (integrator, view, tiles, wanted) = (&self.integrator, &self.view, self.tiles, &self.wanted);
+        let (schedule, pass) = (self.schedule, self.done);
         let [width, _] = view.camera().size();
-        let finished = AtomicU64::new(u64::from(self.done) * u64::from(tiles.count()));
-        let total = u64::from(self.passes) * u64::from(tiles.count());
-        self.sums.par_iter_mut().zip(0..tiles.count()).for_each(|(sums, tile)| {
-            for (sum, (x, y)) in sums.iter_mut().zip(tiles.pixels(tile)) {
-                let goal = goal(wanted[(y * width + x) as usize]);
-                add_samples(integrator, view, (x, y), goal, sum);
+        let finished = AtomicU64::new(u64::from(pass) * u64::from(tiles.count()));
+        let total = u64::from(schedule.passes) * u64::from(tiles.count());
+        self.film.par_iter_mut().zip(0..tiles.count()).for_each(|(film, tile)| {
+            for (index, (x, y)) in tiles.pixels(tile).enumerate() {
+                let goal = schedule.goal(pass, wanted[(y * width + x) as usize]);
+                let TileFilm { sums, splits } = &mut *film;
+                add_samples(integrator, view, (x, y), goal, &mut sums[index], splits.get_mut(index));
             }
             cx.progress("rendering", finished.fetch_add(1, Ordering::Relaxed) + 1, total);
         });
         self.done += 1;
-        if self.done == 1 && self.passes > 1 {
+        if self.done == schedule.first_passes && !self.is_done() {
             self.wanted = self.share();
         }
     }
@@ -111,39 +145,111 @@ impl<'a, 's> FrameRender<'a, 's> {
     /// The samples of every pixel in the end.
     fn share(&self) -> Vec<u32> {
         let config = self.integrator.config;
-        if !config.adaptive && config.noise.is_none() {
-            return vec![config.samples; self.wanted.len()];
-        }
-        let estimates: Vec<Vec<Estimate>> = self.sums.iter().map(|tile| tile.iter().map(PixelSum::estimate).collect()).collect();
-        let budget = Budget { first: self.first, mean: config.samples, noise: config.noise };
-        budget.share(self.view.camera().size()[0] as usize, &self.tiles.rows(&estimates))
+        let budget = Budget { first: self.schedule.first, mean: config.samples, noise: config.noise };
+        budget.share(self.view.camera().size()[0] as usize, &self.rows(PixelSum::estimate))
+    }
+
+    /// A value of every pixel, row by row.
+    fn rows<T: Copy + Default + Send>(&self, value: impl Fn(&PixelSum) -> T + Sync) -> Vec<T> {
+        let values: Vec<Vec<T>> = self.film.par_iter().map(|film| film.sums.iter().map(&value).collect()).collect();
+        self.tiles.rows(&values)
     }
 
     /// Mean samples per pixel so far.
     pub fn samples(&self) -> f64 {
-        let taken: u64 = self.sums.iter().flatten().map(|s| u64::from(s.samples())).sum();
+        let taken: u64 = self.film.iter().flat_map(|film| &film.sums).map(|sum| u64::from(sum.samples())).sum();
         taken as f64 / self.wanted.len() as f64
+    }
+
+    /// The noise as it is now, measured as [`RenderConfig::noise`] is defined; `None` after one sample per pixel, which says nothing.
+    pub fn noise(&self) -> Option<f64> {
+        let pixels = self.rows(|sum| (f64::from(sum.estimate().mean), f64::from(sum.standard_error())));
+        let n = pixels.len() as f64;
+        let floor = f64::from(FLOOR) * pixels.iter().map(|(mean, _)| mean).sum::<f64>() / n;
+        let square = |&(mean, error): &(f64, f64)| if error == 0.0 { 0.0 } else { (error / (mean + floor)).powi(2) };
+        let noise = (pixels.iter().map(square).sum::<f64>() / n).sqrt();
+        noise.is_finite().then_some(noise)
+    }
+
+    /// True when the frame is done with fewer samples than it might have taken, because fewer were enough for the noise target.
+    pub fn met_noise_target(&self) -> bool {
+        let config = self.integrator.config;
+        config.noise.is_some() && self.is_done() && self.samples() < 0.999 * f64::from(config.samples)
+    }
+
+    /// All of it as bytes, for [`FrameRender::restore`]. `key` names everything that the frame depends on.
+    pub fn save(&self, key: &[u8]) -> Vec<u8> {
+        let config = self.integrator.config;
+        let header = Header { size: self.view.camera().size(), done: self.done, splits: config.splits, key };
+        let sums = self.film.iter().flat_map(|film| &film.sums).flat_map(|sum| sum.to_words());
+        let splits = self.film.iter().flat_map(|film| &film.splits).flat_map(Split::to_words);
+        partial::write(&header, self.wanted.iter().copied().chain(sums).chain(splits))
+    }
+
+    /// Goes on from where [`FrameRender::save`] was called, in this process or another. The frame is to be a new one of the same
+    /// scene, guide, view and configuration, which is what `key` says.
+    ///
+    /// # Errors
+    /// When the bytes are damaged, or not of this frame. Then this frame is as it was.
+    pub fn restore(&mut self, bytes: &[u8], key: &[u8]) -> Result<(), PartialError> {
+        let (header, mut words) = partial::read(bytes)?;
+        let splits = self.integrator.config.splits;
+        if header.key != key || header.size != self.view.camera().size() || header.splits != splits || header.done > self.schedule.passes {
+            return Err(PartialError::OtherFrame);
+        }
+        let per_pixel = 1 + PixelSum::WORDS + if splits { Split::WORDS } else { 0 };
+        if words.len() != self.wanted.len() * per_pixel {
+            return Err(PartialError::Damaged);
+        }
+        let mut next = || words.next().unwrap_or_default();
+        self.done = header.done;
+        self.wanted.iter_mut().for_each(|wanted| *wanted = next());
+        let sums = self.film.iter_mut().flat_map(|film| &mut film.sums);
+        sums.for_each(|sum| *sum = PixelSum::from_words(&std::array::from_fn(|_| next())));
+        let splits = self.film.iter_mut().flat_map(|film| &mut film.splits);
+        splits.for_each(|split| *split = Split::from_words(&std::array::from_fn(|_| next())));
+        Ok(())
     }
 
     /// The layers as they are now.
     pub fn frame(&self) -> Frame {
         let (scene, view, tiles) = (self.integrator.scene, &self.view, self.tiles);
         let pixels: Vec<Vec<Pixel>> = self
-            .sums
+            .film
             .par_iter()
             .zip(0..tiles.count())
-            .map(|(sums, tile)| {
+            .map(|(film, tile)| {
                 let pixel = |(sum, (x, y)): (&PixelSum, _)| Pixel { color: sum.resolve(), geometry: pixel_geometry(scene, view, x, y) };
-                sums.iter().zip(tiles.pixels(tile)).map(pixel).collect()
+                film.sums.iter().zip(tiles.pixels(tile)).map(pixel).collect()
             })
             .collect();
         let [width, height] = view.camera().size();
-        layers(width, height, &tiles.rows(&pixels))
+        let mut frame = layers(width, height, &tiles.rows(&pixels));
+        if self.integrator.config.splits {
+            let resolved =
+                |film: &TileFilm| film.splits.iter().zip(&film.sums).map(|(split, sum)| resolve_split(split, sum.samples())).collect();
+            let parts: Vec<Vec<_>> = self.film.par_iter().map(resolved).collect();
+            add_splits(&mut frame, &tiles.rows(&parts));
+        }
+        frame
+    }
+}
+
+impl TileFilm {
+    fn new(pixels: usize, splits: bool) -> Self {
+        Self { sums: vec![PixelSum::default(); pixels], splits: vec![Split::default(); if splits { pixels } else { 0 }] }
     }
 }
 
 /// Adds samples to a pixel until it has `goal`.
-fn add_samples(integrator: &Integrator<'_, '_>, view: &CameraView<'_>, (x, y): (u32, u32), goal: u32, sum: &mut PixelSum) {
+fn add_samples(
+    integrator: &Integrator<'_, '_>,
+    view: &CameraView<'_>,
+    (x, y): (u32, u32),
+    goal: u32,
+    sum: &mut PixelSum,
+    mut split: Option<&mut Split>,
+) {
     let (config, frame) = (integrator.config, view.pose().frame);
     for index in sum.samples()..goal {
         let sampler = Sampler::new(config.seed, frame, x, y, index);
@@ -155,9 +261,13 @@ fn add_samples(integrator: &Integrator<'_, '_>, view: &CameraView<'_>, (x, y): (
         };
         let ray = view.ray(f64::from(x) + 0.5 + offset[0], f64::from(y) + 0.5 + offset[1], [u[2], u[3]], time);
         // Where the picture shows nothing it is black.
-        sum.add(&ray.map_or_else(PixelSample::default, |ray| {
+        let sample = ray.map_or_else(PixelSample::default, |ray| {
             integrator.sample(Ray::new(ray.origin.as_vec3(), ray.direction.as_vec3().normalize()), &sampler, index)
-        }));
+        });
+        sum.add(&sample);
+        if let Some(split) = &mut split {
+            **split += &sample.split;
+        }
     }
 }
 

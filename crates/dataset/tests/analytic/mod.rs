@@ -88,6 +88,7 @@ pub fn frame(intrinsics: &Intrinsics, pose: &Pose, seed: u64) -> Frame {
         (Layer::DiffuseIllumination, Values::F16(shading)),
         (Layer::DiffuseReflectance, Values::F16(albedo)),
         (Layer::Residual, Values::F16(residual)),
+        (Layer::ColorStandardError, Values::F16(vec![f16::from_f32(0.125); frame.pixels()])),
         (Layer::DepthMeters, Values::F32(depth)),
         (Layer::DepthZMeters, Values::F32(depth_z)),
         (Layer::Position, Values::F32(position)),
@@ -116,7 +117,7 @@ pub fn label_frame(frame: &Frame) -> Frame {
 }
 
 pub fn info(intrinsics: &Intrinsics, pose: &Pose) -> FrameInfo {
-    FrameInfo { seed: 7, samples: 1, config_hash: "c0ffee".into(), pose: *pose, camera: (*intrinsics).into() }
+    FrameInfo { seed: 7, samples: 1, config_hash: "c0ffee".into(), pose: *pose, camera: (*intrinsics).into(), sampling: None }
 }
 
 /// A whole dataset of `frames` frames, of which the last stays unrendered.

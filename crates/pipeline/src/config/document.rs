@@ -3,6 +3,7 @@
 //! From the weakest to the strongest: built-in defaults, the file's top level, the scene's own keys, the command line. On each
 //! level `quality` sets the samples and `render.samples` wins over it.
 
+use super::choices::{check_noise, check_positive, check_samples};
 use super::expand::expand;
 use super::locate::{ConfigError, Source as Text};
 use super::patch::{CarvePatch, PlanPatch, RenderPatch};
@@ -180,6 +181,8 @@ impl Resolver<'_> {
             carve: Default::default(),
             plan: Default::default(),
             render: Default::default(),
+            time_limit_s: None,
+            save_every_s: super::save_every_s(),
             denoise: false,
             denoise_library: None,
             name,
@@ -297,8 +300,12 @@ impl Resolver<'_> {
             }
             scene.fov_x_deg = Some(*fov.get_ref());
         }
-        if let Some(samples) = render.samples.as_ref().filter(|s| *s.get_ref() == 0) {
-            return Err(self.refuse(samples, "samples must be at least 1", "for example: samples = 64"));
+        self.check_render(render)?;
+        if let Some(limit) = &render.time_limit_s {
+            scene.time_limit_s = Some(*limit.get_ref());
+        }
+        if let Some(interval) = &render.save_every_s {
+            scene.save_every_s = *interval.get_ref();
         }
         if let Some(denoise) = &render.denoise {
             scene.denoise = *denoise.get_ref();
@@ -313,6 +320,31 @@ impl Resolver<'_> {
         Ok(())
     }
 
+    /// Refuses numbers out of their range.
+    fn check_render(&self, render: &RenderPatch) -> Result<(), ConfigError> {
+        if let Some(samples) = &render.samples {
+            check_samples(*samples.get_ref()).map_err(|m| self.refuse(samples, m, "for example: samples = 64"))?;
+        }
+        if let Some(noise) = &render.noise {
+            check_noise(*noise.get_ref()).map_err(|m| self.refuse(noise, m, "for example: noise = 0.02 for two per cent"))?;
+        }
+        if let Some(clamp) = &render.clamp {
+            let check = check_positive("clamp", f64::from(*clamp.get_ref()));
+            check.map_err(|m| self.refuse(clamp, m, "for example: clamp = 10; without the key nothing is clamped"))?;
+        }
+        if let Some(limit) = &render.time_limit_s {
+            let check = check_positive("time_limit_s", *limit.get_ref());
+            check.map_err(|m| self.refuse(limit, m, "for example: time_limit_s = 90; without the key there is no limit"))?;
+        }
+        match render.save_every_s.as_ref().filter(|v| !(*v.get_ref() >= 0.0 && v.get_ref().is_finite())) {
+            Some(interval) => {
+                let message = format!("save_every_s must be at least 0, found {}", interval.get_ref());
+                Err(self.refuse(interval, message, "for example: save_every_s = 30"))
+            }
+            None => Ok(()),
+        }
+    }
+
     fn override_with_arguments(&self, scene: &mut SceneConfig) -> Result<(), ConfigError> {
         let refuse = |message: String| ConfigError { file: "the command line".into(), ..self.source.error(None, message) };
         if let Some(frames) = self.overrides.frames {
@@ -324,7 +356,10 @@ impl Resolver<'_> {
         if let Some(quality) = self.overrides.quality {
             scene.render.samples = quality.samples();
         }
-        scene.denoise |= self.overrides.denoise;
+        if let Some(problem) = self.overrides.render.problem() {
+            return Err(refuse(problem));
+        }
+        self.overrides.render.apply(scene);
         Ok(())
     }
 }

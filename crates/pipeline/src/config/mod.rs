@@ -4,6 +4,7 @@
 //! reads are hashed to tell whether the stage must run again.
 
 mod camera;
+mod choices;
 mod document;
 mod expand;
 mod locate;
@@ -20,6 +21,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 pub use camera::{CameraConfig, CameraModel, LensConfig, StereoConfig};
+pub use choices::RenderChoices;
 pub(crate) use locate::closest;
 pub use locate::{ConfigError, Place};
 
@@ -61,6 +63,13 @@ pub struct SceneConfig {
     pub plan: PlanConfig,
     /// Light transport. Its seed is made from `seed`, another for each camera.
     pub render: RenderConfig,
+    /// Wall-clock seconds after which a frame ends with the samples that it has; `None` is no limit. Frames that it ends are not the
+    /// same twice.
+    #[serde(default)]
+    pub time_limit_s: Option<f64>,
+    /// Wall-clock seconds between the moments when a frame in the making is kept, for a run that is killed. Changes no byte.
+    #[serde(default = "save_every_s")]
+    pub save_every_s: f64,
     /// Makes denoised companions of the colour layers.
     #[serde(default)]
     pub denoise: bool,
@@ -110,6 +119,11 @@ pub struct EnvironmentChoice {
     /// About the up axis.
     #[serde(default)]
     pub rotation_deg: f32,
+}
+
+/// As long as one may have to wait again after a crash.
+const fn save_every_s() -> f64 {
+    30.0
 }
 
 fn one() -> f32 {
@@ -174,8 +188,8 @@ pub struct Overrides {
     pub size: Option<[u32; 2]>,
     /// Samples per pixel.
     pub quality: Option<Quality>,
-    /// Asks for denoised layers.
-    pub denoise: bool,
+    /// Everything else about rendering; its samples win over `quality`.
+    pub render: RenderChoices,
 }
 
 /// What the demo makes unless told otherwise. Chosen so that all of it takes less than a minute on two cores.

@@ -34,6 +34,7 @@ section!(RenderPatch => RenderConfig {
     guiding: bool,
     max_bounces: u32,
     clamp: f32,
+    splits: bool,
     roulette_start: u32,
     filter: Filter,
     filter_radius: f32,
@@ -42,6 +43,10 @@ section!(RenderPatch => RenderConfig {
     size: [u32; 2],
     /// Horizontal field of view.
     fov_x_deg: f64,
+    /// How long a frame may take.
+    time_limit_s: f64,
+    /// How often a frame in the making is kept.
+    save_every_s: f64,
     /// Whether denoised layers are made.
     denoise: bool,
     /// The library for it.

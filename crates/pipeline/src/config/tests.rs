@@ -40,7 +40,8 @@ fn the_scene_wins_over_the_file_and_the_command_line_over_both() {
     let scene = config(&text).scenes.remove(0);
     assert_eq!((scene.seed, scene.plan.frames, scene.plan.candidates, scene.size), (2, 20, 7, [64, 48]));
     assert_eq!((scene.render.samples, scene.render.max_bounces, scene.fov_x_deg, scene.carve.voxel_m), (5, Some(3), Some(70.0), 0.2));
-    let overrides = Overrides { seed: Some(9), frames: Some(3), size: Some([8, 6]), quality: Some(Quality::High), denoise: true };
+    let render = RenderChoices { denoise: true, ..RenderChoices::default() };
+    let overrides = Overrides { seed: Some(9), frames: Some(3), size: Some([8, 6]), quality: Some(Quality::High), render };
     let scene = config_with(&text, &overrides).scenes.remove(0);
     assert_eq!((scene.seed, scene.plan.frames, scene.size, scene.render.samples), (9, 3, [8, 6], Quality::High.samples()));
     assert!(scene.denoise);
@@ -53,6 +54,31 @@ fn denoising_is_off_until_asked_for_and_its_library_may_be_named() {
     let text = format!("[render]\ndenoise = true\ndenoise_library = \"$ROOMS/lib\"\n{SCENE}[scene.render]\ndenoise = false\n");
     let scene = config(&text).scenes.remove(0);
     assert_eq!((scene.denoise, scene.denoise_library.as_deref()), (false, Some("$ROOMS/lib")));
+}
+
+#[test]
+fn choices_of_the_command_line_win_over_the_file_and_its_samples_over_the_quality() {
+    let text = format!("[render]\nsamples = 5\nnoise = 0.1\nclamp = 4\ntime_limit_s = 60\nsave_every_s = 5\nsplits = true\n{SCENE}");
+    let scene = config(&text).scenes.remove(0);
+    assert_eq!((scene.render.samples, scene.render.noise, scene.render.clamp), (5, Some(0.1), Some(4.0)));
+    assert_eq!((scene.time_limit_s, scene.save_every_s, scene.render.splits), (Some(60.0), 5.0, true));
+    let render = RenderChoices {
+        samples: Some(7),
+        noise: Some(0.02),
+        max_bounces: Some(3),
+        clamp: Some(9.0),
+        time_limit_s: Some(1.5),
+        ..RenderChoices::default()
+    };
+    let overrides = Overrides { quality: Some(Quality::High), render, ..Overrides::default() };
+    let scene = config_with(&text, &overrides).scenes.remove(0);
+    assert_eq!((scene.render.samples, scene.render.noise, scene.render.clamp), (7, Some(0.02), Some(9.0)));
+    assert_eq!((scene.render.max_bounces, scene.time_limit_s, scene.render.splits), (Some(3), Some(1.5), true));
+    let scene = config(SCENE).scenes.remove(0);
+    assert_eq!((scene.render.splits, scene.time_limit_s, scene.save_every_s), (false, None, 30.0));
+    let render = RenderChoices { noise: Some(2.0), ..RenderChoices::default() };
+    let error = Config::demo(&Overrides { render, ..Overrides::default() }).unwrap_err();
+    assert_eq!(error.to_string(), "the command line: noise must lie between 0 and 1, found 2");
 }
 
 #[test]
@@ -114,7 +140,7 @@ fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
     assert_eq!(
         error(&format!("[render]\nsize = [4, 3]\nsampels = 3\n{SCENE}")),
         "sets/dataset.toml:3:1: unknown key `sampels`\n  3 | sampels = 3\n    | ^^^^^^^\nhelp: did you mean `samples`? known keys here: \
-         size, fov_x_deg, denoise, denoise_library, samples, adaptive, noise, guiding, max_bounces, clamp, roulette_start, filter, filter_radius"
+         size, fov_x_deg, time_limit_s, save_every_s, denoise, denoise_library, samples, adaptive, noise, guiding, max_bounces, clamp, splits, roulette_start, filter, filter_radius"
     );
     let text = error(&format!("{SCENE}meter_per_unit = 3\n"));
     assert!(
@@ -145,6 +171,10 @@ fn values_out_of_range_are_shown_with_an_example() {
             "sets/dataset.toml:2:8: width and height must lie between 1 and 16384 pixels, found 0 x 5",
         ),
         (format!("[render]\nsamples = 0\n{SCENE}"), "sets/dataset.toml:2:11: samples must be at least 1"),
+        (format!("[render]\nnoise = 2\n{SCENE}"), "sets/dataset.toml:2:9: noise must lie between 0 and 1, found 2"),
+        (format!("{SCENE}render.clamp = 0\n"), "sets/dataset.toml:4:16: clamp must be above 0, found 0"),
+        (format!("[render]\ntime_limit_s = -1\n{SCENE}"), "sets/dataset.toml:2:16: time_limit_s must be above 0, found -1"),
+        (format!("[render]\nsave_every_s = nan\n{SCENE}"), "sets/dataset.toml:2:16: save_every_s must be at least 0, found NaN"),
         (format!("{SCENE}render.fov_x_deg = 180\n"), "sets/dataset.toml:4:20: fov_x_deg must lie between 0 and 180"),
         (format!("{SCENE}meters_per_unit = -1.0\n"), "sets/dataset.toml:4:19: meters_per_unit must be a positive number"),
     ] {

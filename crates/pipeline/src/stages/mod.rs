@@ -11,6 +11,7 @@ mod job;
 mod label;
 mod plan;
 mod preview;
+mod progressive;
 mod render;
 mod verify;
 

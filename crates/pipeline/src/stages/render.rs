@@ -1,19 +1,19 @@
 //! `render`: trajectories to frames. Resumes frame by frame: a frame is left alone when its record names the hash of everything
-//! that its values depend on.
+//! that its values depend on; and within a frame, see `progressive`.
 
-use super::{Input, Inputs, Job, Outcome, Record, Stage};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, progressive};
 use crate::error::Error;
 use crate::report::{StageCx, Stopwatch, count};
 use crate::workdir::Hash;
-use enfilade_dataset::{CameraRecord, FrameInfo, FrameTime};
+use enfilade_dataset::{CameraRecord, FrameInfo, FrameTime, StoppedBy};
 use enfilade_frame::{LAYERS, Pass};
-use enfilade_render::{Guide, RenderConfig, RenderScene};
+use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 pub(super) fn settings(job: &Job) -> Hash {
-    Hash::of(&(&job.scene.render, job.scene.seed_for("render")))
+    Hash::of(&(&job.scene.render, job.scene.time_limit_s, job.scene.seed_for("render")))
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
@@ -31,19 +31,20 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         job.dataset.remove_temporaries(&job.scene.name, &trajectory.name).map_err(Error::stage)?;
         remove_frames_off_the_trajectory(job, trajectory)?;
         let config = RenderConfig { seed: job.scene.seed_for(&format!("render/{}", trajectory.name)), ..job.scene.render.clone() };
-        let infos = trajectory.poses.iter().map(|pose| frame_info(&package, &config, camera, trajectory, pose));
+        let infos = trajectory.poses.iter().map(|pose| frame_info(job, &package, &config, camera, trajectory, pose));
         let frames: Vec<FrameInfo> = infos.filter(|info| job.force || !is_complete(job, trajectory, info)).collect();
         if !frames.is_empty() {
             missing.push(Missing { camera, trajectory, config, frames });
         }
     }
+    let unfinished = missing.iter().flat_map(|m| m.frames.iter().map(|info| (m.trajectory.name.as_str(), info.pose.frame)));
+    progressive::forget_all_but(job, unfinished)?;
     let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
-    if rendered > 0 {
-        render(job, &missing, total - rendered, total, cx)?;
-    }
+    let timed_out = if rendered > 0 { render(job, &missing, total - rendered, total, cx)? } else { 0 };
     let [width, height] = job.scene.size;
     let kept = if rendered < total { format!(", {} kept", total - rendered) } else { String::new() };
-    let summary = format!("{} of {width}x{height} at {} samples{kept}", count(rendered, "frame"), job.scene.render.samples);
+    let ended = if timed_out > 0 { format!(", {timed_out} ended by the time limit") } else { String::new() };
+    let summary = format!("{} of {width}x{height} at {} samples{kept}{ended}", count(rendered, "frame"), job.scene.render.samples);
     Ok(Outcome { summary, outputs: outputs(job)?, ..Outcome::default() })
 }
 
@@ -59,12 +60,12 @@ fn is_complete(job: &Job, trajectory: &Trajectory, info: &FrameInfo) -> bool {
     job.dataset.frame_is_complete(&job.scene.name, &trajectory.name, info.pose.frame, &info.config_hash)
 }
 
-/// Renders and writes the frames that are `missing`; `kept` of the `total` are there.
-fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageCx) -> Result<(), Error> {
+/// Renders and writes the frames that are `missing`; `kept` of the `total` are there. Returns how many the time limit has ended.
+fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageCx) -> Result<usize, Error> {
     job.forget_world();
     let scene = job.load_scene()?;
     let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?;
-    let mut done = kept;
+    let (mut done, mut timed_out) = (kept, 0);
     for Missing { camera, trajectory, config, frames } in missing {
         let poses = &trajectory.poses;
         let views: Vec<CameraView> = (0..poses.len()).map(|index| CameraView::of_frame(camera, poses, index)).collect();
@@ -73,27 +74,32 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
             let Some(view) = views.iter().find(|view| view.pose().frame == info.pose.frame) else { continue };
             let time = Stopwatch::start();
             let frame_cx = FrameCx { outer: cx, done, total };
-            let frame = enfilade_render::render_frame(&scene, &guide, view, config, &frame_cx).map_err(Error::stage)?;
+            let rendering = FrameRender::new(&scene, &guide, view, config).map_err(Error::stage)?;
+            let (frame, sampling) = progressive::render(job, &trajectory.name, info, rendering, &frame_cx)?;
             let time = FrameTime { wall_s: time.wall_s(), cpu_s: time.cpu_s() };
-            job.dataset.write_frame(&job.scene.name, &trajectory.name, &frame, info, time).map_err(Error::stage)?;
+            let info = FrameInfo { sampling: Some(sampling), ..info.clone() };
+            job.dataset.write_frame(&job.scene.name, &trajectory.name, &frame, &info, time).map_err(Error::stage)?;
+            progressive::forget(job, &trajectory.name, info.pose.frame)?;
             done += 1;
+            timed_out += usize::from(sampling.stopped_by == StoppedBy::TimeLimit);
         }
     }
-    Ok(())
+    Ok(timed_out)
 }
 
 /// Units of progress per frame.
 const PER_FRAME: u64 = 1000;
 
 /// A frame depends on its whole trajectory, because the guide is learned from all of it, and the camera moves on while it is exposed.
-fn frame_info(package: &Hash, config: &RenderConfig, camera: &Camera, trajectory: &Trajectory, pose: &Pose) -> FrameInfo {
+fn frame_info(job: &Job, package: &Hash, config: &RenderConfig, camera: &Camera, trajectory: &Trajectory, pose: &Pose) -> FrameInfo {
     let version = (env!("CARGO_PKG_VERSION"), Stage::Render.spec().version);
     FrameInfo {
         seed: config.seed,
         samples: config.samples,
-        config_hash: Hash::of(&(version, package, config, CameraRecord::from(camera), &trajectory.poses, pose)).0,
+        config_hash: Hash::of(&(version, package, config, job.scene.time_limit_s, CameraRecord::from(camera), &trajectory.poses, pose)).0,
         pose: *pose,
         camera: camera.clone(),
+        sampling: None,
     }
 }
 
@@ -103,7 +109,8 @@ fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
     let mut files = Vec::new();
     for (camera, frame) in job.frames()? {
         files.push(layout.frame_record(name, &camera, frame));
-        let rendered = LAYERS.iter().filter(|spec| matches!(spec.pass, Pass::Final | Pass::Geometry));
+        let splits = job.scene.render.splits;
+        let rendered = LAYERS.iter().filter(|spec| matches!(spec.pass, Pass::Final | Pass::Geometry) || splits && spec.pass == Pass::Split);
         files.extend(rendered.map(|spec| layout.layer(name, &camera, frame, spec.layer)));
     }
     Ok(files)

@@ -2,7 +2,13 @@
 
 use super::law::Law;
 use super::scan::Scan;
-use enfilade_frame::{Layer, Validity, f16};
+use enfilade_frame::{Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, Values, f16};
+use enfilade_math::Rgb;
+
+/// Where a colour is this large, one of its parts may have been beyond float16.
+const NEAR_LIMIT: f64 = 65_000.0;
+/// Below this radiance the rounding of float16 is no longer relative.
+const DIM: f64 = 1e-3;
 
 const COLOR_LAYERS: [Layer; 7] = [
     Layer::Color,
@@ -15,7 +21,7 @@ const COLOR_LAYERS: [Layer; 7] = [
 ];
 
 pub(super) fn check(scan: &mut Scan<'_>) {
-    for layer in COLOR_LAYERS {
+    for layer in COLOR_LAYERS.into_iter().chain(SPLIT_BY_PATH).chain(SPLIT_BY_SOURCE) {
         let Some(values) = scan.layer(layer) else { continue };
         let name = layer.spec().name;
         scan.broken(Law::ColorFinite, name, (0..values.len()).filter(|&i| !values.get(i).is_finite()).map(|i| i / 3));
@@ -28,6 +34,10 @@ pub(super) fn check(scan: &mut Scan<'_>) {
     }
     recomposition(scan, [Layer::Color, Layer::DiffuseIllumination, Layer::Residual]);
     recomposition(scan, [Layer::ColorDenoised, Layer::DiffuseIlluminationDenoised, Layer::ResidualDenoised]);
+    standard_error(scan);
+    splits(scan, &SPLIT_BY_PATH, Layer::Color);
+    splits(scan, &SPLIT_BY_SOURCE, Layer::Color);
+    splits(scan, &[Layer::Specular, Layer::Transmission, Layer::Emission], Layer::Residual);
     void_codes(scan);
     reason_codes(scan);
 }
@@ -42,6 +52,48 @@ fn recomposition(scan: &mut Scan<'_>, parts: [Layer; 3]) {
     };
     let what = format!("{} is not A * S + R", parts[0].spec().name);
     scan.broken(Law::Recomposition, &what, (0..color.len()).filter(differs).map(|i| i / 3));
+}
+
+/// Samples are not negative, so their mean's standard error is at most the mean: as much as that when all but one are zero.
+fn standard_error(scan: &mut Scan<'_>) {
+    let (Some(errors), Some(color)) = (scan.layer(Layer::ColorStandardError), scan.layer(Layer::Color)) else { return };
+    let all_unknown = (0..errors.len()).all(|pixel| errors.get(pixel).is_nan());
+    let excess = |pixel: usize| {
+        let error = errors.get(pixel);
+        let [r, g, b] = [0, 1, 2].map(|channel| color.get(3 * pixel + channel));
+        let luminance = f64::from(Rgb::new(r as f32, g as f32, b as f32).luminance());
+        match (all_unknown, error < 0.0 || !error.is_finite()) {
+            (true, _) => 0.0,
+            (false, true) => f64::INFINITY,
+            (false, false) if is_near_limit(color, pixel) || !luminance.is_finite() => 0.0,
+            (false, false) => (error - luminance).max(0.0) / luminance.max(DIM),
+        }
+    };
+    scan.worst(Law::StandardError, "color_standard_error", (0..errors.len()).map(|pixel| (pixel, excess(pixel))));
+}
+
+/// `parts` sum to `whole`. Each value is rounded to float16 on its own (half a unit in the last place, 2⁻¹² to 2⁻¹¹ of it), and so are
+/// the factors of color, which makes at most 3 × 2⁻¹¹ of the sum.
+fn splits(scan: &mut Scan<'_>, parts: &[Layer], whole: Layer) {
+    let layers: Vec<&Values> = parts.iter().filter_map(|&layer| scan.layer(layer)).collect();
+    let (Some(values), Some(color)) = (scan.layer(whole), scan.layer(Layer::Color)) else { return };
+    if layers.len() < parts.len() {
+        return;
+    }
+    let illumination = scan.layer(Layer::DiffuseIllumination);
+    let saturated = |pixel: usize| is_near_limit(color, pixel) || illumination.is_some_and(|values| is_near_limit(values, pixel));
+    let error = |i: usize| {
+        let sum: f64 = layers.iter().map(|layer| layer.get(i)).sum();
+        (sum - values.get(i)).abs() / values.get(i).max(DIM)
+    };
+    let errors = (0..values.len()).filter(|i| !saturated(i / 3)).map(|i| (i / 3, error(i)));
+    let first = parts.first().map_or("", |layer| layer.spec().name);
+    scan.worst(Law::LightSplits, &format!("{first} and the layers that go with it do not sum to {}", whole.spec().name), errors);
+}
+
+/// True where some channel may have been cut at the largest float16, or is no number.
+fn is_near_limit(values: &Values, pixel: usize) -> bool {
+    (3 * pixel..3 * pixel + 3).any(|i| values.get(i).is_nan() || values.get(i) >= NEAR_LIMIT)
 }
 
 fn void_codes(scan: &mut Scan<'_>) {

@@ -381,7 +381,8 @@ mod tests {
             let mut pose = record.pose.to_pose(1);
             pose.position.x += 1e-6;
             let frame = testing::frame(&pose);
-            let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose, camera: testing::intrinsics().into() };
+            let info =
+                FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose, camera: testing::intrinsics().into(), sampling: None };
             d.write_frame("room", "cam_00", &frame, &info, FrameTime::default()).unwrap();
             refresh(d);
         };

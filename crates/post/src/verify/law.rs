@@ -36,6 +36,8 @@ pub enum Law {
     ColorNotNegative,
     Albedo,
     Recomposition,
+    StandardError,
+    LightSplits,
     Distance,
     PlanarDepth,
     Projection,
@@ -74,12 +76,12 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 43] = laws![
+pub const LAWS: [LawSpec; 45] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: render the frame again";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
     FramesComplete 0.0 "frames", "every frame of a trajectory is complete", "a frame failed or was never rendered: run again";
-    LayersPresent 0.0 "layers", "every frame has every layer, and all denoised layers or none", "the frame was rendered or labelled by another version: render or label it again";
+    LayersPresent 0.0 "layers", "every frame has every layer, and of each optional kind (denoised, split) all or none", "the frame was rendered or labelled by another version: render or label it again";
     Checksums 0.0 "files", "files are what the manifest says was written", "a file was changed or damaged after it was written: render again or restore it";
     Nodes 0.0 "tables", "metadata_nodes.csv can be read and numbers its nodes 1, 2, ...", "the table was edited or cut: import the scene again";
     Calibration 1e-6 "px", "size and calibration agree between metadata_camera_parameters.csv, records and images",
@@ -109,6 +111,10 @@ pub const LAWS: [LawSpec; 43] = laws![
     ColorNotNegative 0.0 "", "colour layers are not negative", "a negative light or texture: check the scene";
     Albedo 1.001 "", "diffuse_reflectance is at most 1", "a texture or factor above 1: check the material of that part";
     Recomposition 0.0 "values", "color = diffuse_reflectance * diffuse_illumination + residual, to the last bit, and so for denoised layers",
+        "layers of different renderings are mixed: render the frame again";
+    StandardError 2e-3 "relative", "color_standard_error is NaN everywhere (one sample per pixel), or from 0 to the luminance of color",
+        "layers of different renderings are mixed: render the frame again";
+    LightSplits 2e-3 "relative", "light by path and light by source sum to color, and specular, transmission and emission to residual",
         "layers of different renderings are mixed: render the frame again";
     Distance 1e-4 "relative", "depth_meters = |position - camera|", "positions, distances and poses are not of one rendering: render again";
     PlanarDepth 1e-4 "relative", "depth_z_meters is depth_meters along the viewing axis", "calibration and rendering disagree: render again";

@@ -21,7 +21,7 @@ pub use labels::check_labels;
 pub use law::{LAWS, Law, LawSpec};
 pub use trajectory::check_trajectory;
 
-use enfilade_frame::{Frame, LAYERS, LayerSpec, Pass};
+use enfilade_frame::{Frame, LAYERS, Pass};
 use enfilade_scene::{CameraView, Labels};
 use scan::Scan;
 
@@ -43,10 +43,9 @@ pub struct View<'a> {
 /// Laws about layers that the frame lacks are not checked, beyond the one that asks for all layers.
 pub fn check_frame(frame: &Frame, view: &View<'_>, place: &str) -> Card {
     let mut scan = Scan::new(frame, view, place);
-    // Denoised layers are there where they were asked for, and then all of them.
-    let denoised = |spec: &LayerSpec| spec.pass == Pass::Denoised;
-    let has_denoised = LAYERS.iter().any(|spec| denoised(spec) && frame.get(spec.layer).is_some());
-    let expected = LAYERS.iter().filter(|spec| has_denoised || !denoised(spec));
+    // Optional layers are there where they were asked for, and then all of their kind.
+    let has = |pass: Pass| LAYERS.iter().any(|spec| spec.pass == pass && frame.get(spec.layer).is_some());
+    let expected = LAYERS.iter().filter(|spec| !spec.pass.is_optional() || has(spec.pass));
     let missing: Vec<&str> = expected.filter(|spec| frame.get(spec.layer).is_none()).map(|spec| spec.name).collect();
     scan.card.observe(Law::LayersPresent, missing.len() as f64, || format!("{place}: without {}", missing.join(", ")));
     let [width, height] = view.camera.camera().size();

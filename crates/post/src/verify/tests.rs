@@ -33,6 +33,15 @@ impl Case {
         scan::vector(self.frame.get(layer).unwrap(), pixel)
     }
 
+    /// Drops the split layers, and says that pixel `p` has no error: for tests that change its colour.
+    fn forget_parts_and_error(&mut self, p: usize) {
+        let mut frame = Frame::new(self.frame.width, self.frame.height);
+        let kept = self.frame.iter().filter(|(layer, _)| layer.spec().pass != Pass::Split);
+        kept.for_each(|(layer, values)| frame.insert(layer, values.clone()));
+        self.frame = frame;
+        self.set(Layer::ColorStandardError, p, &[0.0]);
+    }
+
     /// Rewrites one pixel of a layer.
     fn set(&mut self, layer: Layer, pixel: usize, channels: &[f64]) {
         set(&mut self.frame, layer, pixel, channels);
@@ -77,6 +86,8 @@ fn missing_layers_and_wrong_sizes_are_found() {
     };
     assert_eq!(failures(|c, _| keep(c, &|layer| layer.spec().pass != Pass::Denoised)), [], "denoised layers are there when asked for");
     assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::ResidualDenoised)), [Law::LayersPresent]);
+    assert_eq!(failures(|c, _| keep(c, &|layer| layer.spec().pass != Pass::Split)), [], "light is split when asked for");
+    assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::Emission)), [Law::LayersPresent]);
     assert_eq!(failures(|c, _| c.intrinsics.height += 1), [Law::Calibration]);
 }
 
@@ -122,12 +133,14 @@ fn colour_laws_are_checked() {
     };
     assert_eq!(failures(infinite), [Law::ColorFinite]);
     let negative = |c: &mut Case, p| {
+        c.forget_parts_and_error(p);
         c.set(Layer::DiffuseIllumination, p, &[0.0; 3]);
         c.set(Layer::Residual, p, &[-0.25; 3]);
         c.set(Layer::Color, p, &[-0.25; 3]);
     };
     assert_eq!(failures(negative), [Law::ColorNotNegative]);
     let too_white = |c: &mut Case, p| {
+        c.forget_parts_and_error(p);
         c.set(Layer::DiffuseReflectance, p, &[1.5; 3]);
         for (illumination, color) in
             [(Layer::DiffuseIllumination, Layer::Color), (Layer::DiffuseIlluminationDenoised, Layer::ColorDenoised)]
@@ -143,6 +156,18 @@ fn colour_laws_are_checked() {
         c.frame.insert(Layer::Color, Values::F16(values));
     };
     assert_eq!(failures(one_bit), [Law::Recomposition]);
+    for error in [0.0, 0.4, f64::NAN, -0.01, 0.5] {
+        let expected: &[Law] = if (0.0..0.45).contains(&error) { &[] } else { &[Law::StandardError] };
+        assert_eq!(failures(|c, p| c.set(Layer::ColorStandardError, p, &[error])), expected, "{error}");
+    }
+    let one_sample = |c: &mut Case, _| {
+        let unknown = vec![f64::NAN; c.frame.pixels()];
+        c.frame.insert(Layer::ColorStandardError, testing::store(Layer::ColorStandardError, unknown));
+    };
+    assert_eq!(failures(one_sample), []);
+    for part in [Layer::DiffuseIndirect, Layer::Transmission, Layer::LightDistant] {
+        assert_eq!(failures(|c, p| c.set(part, p, &[0.002; 3])), [Law::LightSplits], "{part:?}");
+    }
     let denoised = |c: &mut Case, p: usize| c.set(Layer::ResidualDenoised, p, &[0.5; 3]);
     assert_eq!(failures(denoised), [Law::Recomposition]);
 }

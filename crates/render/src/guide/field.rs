@@ -205,7 +205,8 @@ fn first_surface<'s>(
                 * match sampled {
                     Some((from, pdf)) => scene.lights.background_weighted(choice, &from, ray.direction, pdf),
                     None => scene.lights.background(ray.direction),
-                });
+                }
+                .total());
             return None;
         };
         let surface = scene.surface(&hit, ray.direction);

@@ -70,6 +70,45 @@ pub(crate) struct LightSample {
     pub is_delta: bool,
 }
 
+/// Kinds of sources, as light is split by them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LightKind {
+    Environment,
+    Distant,
+    Surfaces,
+    Points,
+}
+
+impl LightSample {
+    /// What the light comes from.
+    #[inline]
+    pub fn kind(&self) -> LightKind {
+        match (self.target, self.radiance) {
+            (None, None) => LightKind::Environment,
+            (None, Some(_)) => LightKind::Distant,
+            (Some(_), _) if self.is_delta => LightKind::Points,
+            (Some(_), _) => LightKind::Surfaces,
+        }
+    }
+}
+
+/// Radiance from beyond the scene.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Background {
+    /// Of the sky.
+    pub environment: Rgb,
+    /// Of the disks of lights from far away.
+    pub distant: Rgb,
+}
+
+impl Background {
+    /// Of all.
+    #[inline]
+    pub fn total(&self) -> Rgb {
+        self.environment + self.distant
+    }
+}
+
 /// The light sources of a scene.
 #[derive(Debug)]
 pub(crate) struct Lights<'s> {
@@ -293,16 +332,17 @@ impl<'s> Lights<'s> {
     }
 
     /// Radiance from beyond the scene in the unit direction `d`.
-    pub fn background(&self, d: Vec3) -> Rgb {
-        self.sky(d) + self.distant.iter().filter_map(|light| delta::disk(light, d)).map(|(radiance, _)| radiance).sum::<Rgb>()
+    pub fn background(&self, d: Vec3) -> Background {
+        let distant = self.distant.iter().filter_map(|light| delta::disk(light, d)).map(|(radiance, _)| radiance).sum();
+        Background { environment: self.sky(d), distant }
     }
 
     /// [`Lights::background`], each source weighted against its light samples by the power heuristic. `pdf` is the density with
     /// which the direction was sampled at `from`.
-    pub fn background_weighted(&self, choice: &LightChoice, from: &LightPoint, d: Vec3, pdf: f32) -> Rgb {
-        let mut radiance = Rgb::BLACK;
+    pub fn background_weighted(&self, choice: &LightChoice, from: &LightPoint, d: Vec3, pdf: f32) -> Background {
+        let mut background = Background::default();
         if let Some(sky) = &self.sky {
-            radiance += sky.radiance(d) * power_heuristic(pdf, self.environment_pdf(choice, from, d));
+            background.environment = sky.radiance(d) * power_heuristic(pdf, self.environment_pdf(choice, from, d));
         }
         for (index, light) in self.distant.iter().enumerate() {
             let Some((disk, disk_pdf)) = delta::disk(light, d) else { continue };
@@ -312,9 +352,9 @@ impl<'s> Lights<'s> {
             } else {
                 row.probability(self.clusters.len() + index)
             };
-            radiance += disk * power_heuristic(pdf, disk_pdf * probability);
+            background.distant += disk * power_heuristic(pdf, disk_pdf * probability);
         }
-        radiance
+        background
     }
 }
 

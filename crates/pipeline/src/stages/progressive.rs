@@ -1,0 +1,82 @@
+//! One frame, pass by pass: kept now and then, so that a killed run goes on within the frame, and ended when its time is over.
+
+use super::Job;
+use crate::error::Error;
+use crate::report::Stopwatch;
+use crate::workdir::{remove_if_there, write_whole};
+use enfilade_dataset::{FrameInfo, Sampling, StoppedBy};
+use enfilade_frame::Frame;
+use enfilade_render::{FrameRender, PartialError};
+use enfilade_scene::{Cx, Warning};
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+/// Folder within the work folder of a scene.
+const FOLDER: &str = "partial";
+
+/// Takes the samples of the frame that is `rendering`, after those that an earlier run has kept. The time limit is one of this run.
+///
+/// # Errors
+/// When what is to be kept cannot be written.
+pub(super) fn render(
+    job: &Job,
+    camera: &str,
+    info: &FrameInfo,
+    mut rendering: FrameRender<'_, '_>,
+    cx: &dyn Cx,
+) -> Result<(Frame, Sampling), Error> {
+    let path = file(job, camera, info.pose.frame)?;
+    let key = info.config_hash.as_bytes();
+    if let Ok(bytes) = std::fs::read(&path) {
+        match rendering.restore(&bytes, key) {
+            Ok(()) | Err(PartialError::OtherFrame) => {}
+            Err(problem) => {
+                let message = format!("{problem}; the frame was begun anew");
+                cx.warn(Warning { place: path.display().to_string(), message });
+            }
+        }
+    }
+    let time = Stopwatch::start();
+    let (mut over, mut kept_s) = (false, 0.0);
+    while !rendering.is_done() && !over {
+        rendering.pass(cx);
+        let now_s = time.wall_s();
+        over = job.scene.time_limit_s.is_some_and(|limit| now_s >= limit);
+        if !over && !rendering.is_done() && now_s - kept_s >= job.scene.save_every_s {
+            let folder = job.work_file(FOLDER)?;
+            std::fs::create_dir_all(&folder).map_err(Error::io("create", &folder))?;
+            write_whole(&path, &rendering.save(key))?;
+            kept_s = time.wall_s();
+        }
+    }
+    let stopped_by = match rendering.is_done() {
+        false => StoppedBy::TimeLimit,
+        true if rendering.met_noise_target() => StoppedBy::Noise,
+        true => StoppedBy::Samples,
+    };
+    let sampling = Sampling { samples_taken: rendering.samples(), noise: rendering.noise(), stopped_by };
+    Ok((rendering.frame(), sampling))
+}
+
+/// Removes what was kept of a frame.
+///
+/// # Errors
+/// When it cannot be removed.
+pub(super) fn forget(job: &Job, camera: &str, frame: u32) -> Result<(), Error> {
+    remove_if_there(&file(job, camera, frame)?)
+}
+
+/// Removes what was kept of frames that are not to be rendered any more.
+///
+/// # Errors
+/// When a file cannot be removed.
+pub(super) fn forget_all_but<'a>(job: &Job, frames: impl Iterator<Item = (&'a str, u32)>) -> Result<(), Error> {
+    let keep = frames.map(|(camera, frame)| file(job, camera, frame)).collect::<Result<BTreeSet<_>, _>>()?;
+    let Ok(entries) = std::fs::read_dir(job.work_file(FOLDER)?) else { return Ok(()) };
+    let there = entries.filter_map(Result::ok).map(|entry| entry.path());
+    there.filter(|path| !keep.contains(path)).try_for_each(|path| remove_if_there(&path))
+}
+
+fn file(job: &Job, camera: &str, frame: u32) -> Result<PathBuf, Error> {
+    Ok(job.work_file(FOLDER)?.join(format!("{camera}.{frame:04}.partial")))
+}

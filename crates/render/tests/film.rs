@@ -1,0 +1,271 @@
+//! The film as a whole: light in parts, the standard error, and frames that go on where they were interrupted.
+
+use enfilade_frame::{Frame, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE};
+use enfilade_geometry::Mesh;
+use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
+use enfilade_render::{FrameRender, Guide, PartialError, RenderConfig, RenderScene, render_frame};
+use enfilade_scene::{Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, Pose, Quiet, Scene};
+
+/// An axis-aligned box that is seen from inside.
+fn room(half: f32) -> Mesh {
+    let mut mesh = Mesh::default();
+    for axis in 0..3 {
+        for sign in [-1.0f32, 1.0] {
+            let first = mesh.positions.len() as u32;
+            for (a, b) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
+                let mut p = [0.0; 3];
+                (p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]) = (sign, a, b);
+                mesh.positions.push(half * Vec3::from(p));
+            }
+            let corners: [u32; 4] = if sign < 0.0 { [0, 1, 2, 3] } else { [3, 2, 1, 0] };
+            let [a, b, c, d] = corners.map(|corner| first + corner);
+            mesh.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    mesh
+}
+
+/// A square about `centre`, facing −x.
+fn screen(centre: Vec3, half: f32) -> Mesh {
+    let corner = |y: f32, z: f32| centre + half * Vec3::new(0.0, y, z);
+    let positions = vec![corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)];
+    Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }
+}
+
+fn scene(parts: Vec<(Mesh, Material)>) -> Scene {
+    let mut scene = Scene::default();
+    for (i, (mesh, material)) in parts.into_iter().enumerate() {
+        let i = i as u32;
+        scene.parts.push(Part { name: format!("part {i}"), mesh: i, material: i, world_from_mesh: DAffine3::IDENTITY });
+        scene.meshes.push(mesh);
+        scene.materials.push(material);
+    }
+    scene
+}
+
+/// A camera that looks along +x from near the origin.
+fn place(size: [u32; 2]) -> (Camera, Pose) {
+    let pose = Pose::look_at(0, DVec3::new(-0.5, 0.1, 0.05), DVec3::X, DVec3::Z).unwrap();
+    (Camera::from(Intrinsics::from_fov_x(size[0], size[1], 1.2)), pose)
+}
+
+fn picture(scene: &Scene, size: [u32; 2], config: &RenderConfig) -> Frame {
+    scene.validate().unwrap();
+    let prepared = RenderScene::new(scene, &Quiet).unwrap();
+    let (camera, pose) = place(size);
+    let view = CameraView::still(&camera, &pose);
+    let guide = Guide::learn(&prepared, &[view], config);
+    render_frame(&prepared, &guide, &view, config, &Quiet).unwrap()
+}
+
+fn splitting(samples: u32) -> RenderConfig {
+    RenderConfig { samples, splits: true, ..RenderConfig::default() }
+}
+
+fn mean(frame: &Frame, layer: Layer) -> f64 {
+    let values = frame.get(layer).unwrap();
+    (0..values.len()).map(|i| values.get(i)).sum::<f64>() / values.len() as f64
+}
+
+fn assert_close(what: &str, found: f64, expected: f64, tolerance: f64) {
+    assert!((found - expected).abs() <= tolerance, "{what}: found {found}, expected {expected} ± {tolerance}");
+}
+
+/// Both sets of parts sum to colour, and three of them to the residual, in every pixel.
+fn assert_sums(frame: &Frame) {
+    let sets: [(&[Layer], Layer); 3] = [
+        (&SPLIT_BY_PATH, Layer::Color),
+        (&SPLIT_BY_SOURCE, Layer::Color),
+        (&[Layer::Specular, Layer::Transmission, Layer::Emission], Layer::Residual),
+    ];
+    for (parts, whole) in sets {
+        let values = frame.get(whole).unwrap();
+        for i in 0..values.len() {
+            let sum: f64 = parts.iter().map(|&part| frame.get(part).unwrap().get(i)).sum();
+            assert!(
+                (sum - values.get(i)).abs() <= 2e-3 * values.get(i).max(1e-3),
+                "{parts:?} in {i}: {sum}, {whole:?} is {}",
+                values.get(i)
+            );
+        }
+    }
+}
+
+/// A room with everything: a lamp, a sun and a sky behind a window of glass, a point light, a mirror, a body of glass, paint.
+fn furnished() -> Scene {
+    let walls = {
+        let mut mesh = room(1.0);
+        mesh.triangles.drain(2..4); // towards +x it is open
+        mesh
+    };
+    let glass = Bsdf::Dielectric { eta: 1.5, alpha: 0.1.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::new(1.0, 0.5, 0.1) };
+    let paint = Bsdf::Plastic {
+        diffuse: Rgb::new(0.6, 0.3, 0.1).into(),
+        eta: 1.5,
+        alpha: 0.1.into(),
+        specular: Rgb::WHITE.into(),
+        nonlinear: true,
+    };
+    let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::splat(0.9).into(), alpha: 0.0.into() };
+    let mut body = room(0.15);
+    body.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    body.positions.iter_mut().for_each(|p| *p += Vec3::new(0.3, -0.3, -0.3));
+    let mut scene = scene(vec![
+        (walls, Material::new("paint", paint)),
+        (
+            screen(Vec3::new(0.95, 0.0, 0.0), 0.95),
+            Material::new("pane", Bsdf::ThinDielectric { eta: 1.5, transmittance: Rgb::WHITE.into() }),
+        ),
+        (screen(Vec3::new(0.6, 0.4, 0.3), 0.1), Material::emitter("lamp", Rgb::splat(5.0))),
+        (screen(Vec3::new(0.7, 0.4, -0.4), 0.2), Material::new("mirror", mirror)),
+        (body, Material::new("glass", glass)),
+    ]);
+    scene.environment = Some(Environment::Constant { radiance: Rgb::new(0.5, 0.7, 1.0) });
+    let direction = Vec3::new(-1.0, 0.3, -0.4).normalize();
+    let sun = Light::Directional { name: "sun".into(), direction, irradiance: Rgb::splat(3.0), angular_radius_rad: 0.05 };
+    let bulb = Light::Point { name: "bulb".into(), position: Vec3::new(-0.2, -0.5, 0.6), intensity: Rgb::splat(0.2) };
+    scene.lights = vec![sun, bulb];
+    scene
+}
+
+#[test]
+fn parts_of_light_sum_to_the_whole_and_change_nothing_else() {
+    let scene = furnished();
+    for clamp in [None, Some(0.5)] {
+        let config = RenderConfig { clamp, ..splitting(24) };
+        let split = picture(&scene, [40, 30], &config);
+        assert_sums(&split);
+        for part in SPLIT_BY_PATH.into_iter().chain(SPLIT_BY_SOURCE) {
+            assert!(mean(&split, part) > 0.0, "{part:?} is black");
+        }
+        let whole = picture(&scene, [40, 30], &RenderConfig { splits: false, ..config });
+        assert_eq!(whole.iter().count() + 9, split.iter().count());
+        for (layer, values) in whole.iter() {
+            assert_eq!(values.as_bytes(), split.get(layer).unwrap().as_bytes(), "{layer:?}");
+        }
+    }
+}
+
+#[test]
+fn in_a_box_that_glows_every_reflection_has_its_place() {
+    // Emission 1, reflected once directly, and then the series of further reflections.
+    let albedo = 0.5f32;
+    let wall = Material { emission: Rgb::WHITE.into(), ..Material::diffuse("wall", Rgb::splat(albedo)) };
+    let frame = picture(&scene(vec![(room(1.0), wall)]), [16, 16], &splitting(256));
+    assert_sums(&frame);
+    assert_close("emission", mean(&frame, Layer::Emission), 1.0, 1e-3);
+    assert_close("direct", mean(&frame, Layer::DiffuseDirect), 0.5, 5e-3);
+    assert_close("indirect", mean(&frame, Layer::DiffuseIndirect), 0.5, 1e-2);
+    assert_close("of surfaces", mean(&frame, Layer::LightSurfaces), 2.0, 1e-2);
+}
+
+#[test]
+fn glass_and_mirrors_have_their_own_parts_and_sources_theirs() {
+    let through = |bsdf: Bsdf| {
+        let mut s = scene(vec![(screen(Vec3::X, 9.0), Material::new("screen", bsdf))]);
+        s.environment = Some(Environment::Constant { radiance: Rgb::WHITE });
+        let frame = picture(&s, [8, 8], &splitting(64));
+        assert_sums(&frame);
+        assert_close("all of it is the sky's", mean(&frame, Layer::LightEnvironment), mean(&frame, Layer::Color), 2e-3);
+        [Layer::DiffuseDirect, Layer::Specular, Layer::Transmission, Layer::Emission].map(|layer| mean(&frame, layer))
+    };
+    let [diffuse, specular, transmission, emission] = through(Bsdf::ThinDielectric { eta: 1.5, transmittance: Rgb::WHITE.into() });
+    assert_close("a pane has no other way", diffuse + emission, 0.0, 0.0);
+    assert!((0.04..0.2).contains(&specular) && (specular + transmission - 1.0).abs() < 5e-3, "{specular} and {transmission}");
+    let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::WHITE.into(), alpha: 0.0.into() };
+    assert_eq!(through(mirror), [0.0, 1.0, 0.0, 0.0]);
+    let [diffuse, ..] = through(Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() });
+    assert_close("paint under a white sky", diffuse, 0.5, 1e-2);
+}
+
+#[test]
+fn the_standard_error_is_about_the_spread_over_seeds_and_not_below_it() {
+    let mut s = scene(vec![(room(1.0), Material::diffuse("wall", Rgb::splat(0.7)))]);
+    s.lights.push(Light::Point { name: "p".into(), position: Vec3::new(0.0, 0.3, 0.5), intensity: Rgb::WHITE });
+    let runs: Vec<Frame> = (0..24)
+        .map(|seed| picture(&s, [12, 12], &RenderConfig { samples: 16, adaptive: false, guiding: false, seed, ..RenderConfig::default() }))
+        .collect();
+    let (mut spread, mut stated) = (0.0, 0.0);
+    for pixel in 0..144 {
+        // Grey: every channel is the luminance.
+        let values: Vec<f64> = runs.iter().map(|run| run.get(Layer::Color).unwrap().get(3 * pixel)).collect();
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        spread += values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (values.len() - 1) as f64;
+        stated += runs.iter().map(|run| run.get(Layer::ColorStandardError).unwrap().get(pixel).powi(2)).sum::<f64>() / runs.len() as f64;
+    }
+    let ratio = (spread / stated).sqrt();
+    assert!((0.3..1.05).contains(&ratio), "the spread is {ratio} of what is stated");
+}
+
+#[test]
+fn where_nothing_varies_there_is_no_error_and_one_sample_says_nothing() {
+    let mut s = scene(vec![(screen(Vec3::new(-9.0, 0.0, 0.0), 1.0), Material::diffuse("behind", Rgb::WHITE))]);
+    s.environment = Some(Environment::Constant { radiance: Rgb::splat(0.3) });
+    let errors = |samples| {
+        let frame = picture(&s, [9, 7], &RenderConfig { samples, ..RenderConfig::default() });
+        let values = frame.get(Layer::ColorStandardError).unwrap();
+        (0..values.len()).map(|i| values.get(i)).collect::<Vec<_>>()
+    };
+    assert!(errors(64).iter().all(|&e| e == 0.0));
+    assert!(errors(1).iter().all(|e| e.is_nan()));
+}
+
+#[test]
+fn a_frame_goes_on_from_bytes_with_the_same_result_on_any_number_of_threads() {
+    let scene = furnished();
+    let prepared = RenderScene::new(&scene, &Quiet).unwrap();
+    let (camera, pose) = place([37, 21]);
+    let view = CameraView::still(&camera, &pose);
+    let config = splitting(90);
+    let guide = Guide::learn(&prepared, &[view], &config);
+    let new = || FrameRender::new(&prepared, &guide, &view, &config).unwrap();
+    let bytes = |frame: &Frame| frame.iter().flat_map(|(_, values)| values.as_bytes().to_vec()).collect::<Vec<u8>>();
+    let with = |threads: usize| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+
+    let mut whole = new();
+    while !whole.is_done() {
+        whole.pass(&Quiet);
+    }
+    assert!((whole.samples() - 90.0).abs() < 1.0 && whole.noise().unwrap() > 0.0 && !whole.met_noise_target());
+    let (mut kept, mut passes) = (new().save(b"key"), 0);
+    loop {
+        let mut next = new();
+        next.restore(&kept, b"key").unwrap();
+        if next.is_done() {
+            assert_eq!(bytes(&next.frame()), bytes(&whole.frame()));
+            break;
+        }
+        let before = next.samples();
+        with(1 + passes % 3).install(|| next.pass(&Quiet));
+        assert!(next.samples() > before && next.samples() < before + 24.0, "a pass is short");
+        (kept, passes) = (next.save(b"key"), passes + 1);
+    }
+    assert!(passes >= 6, "{passes} passes");
+
+    let mut other = new();
+    assert_eq!(other.restore(&kept, b"another"), Err(PartialError::OtherFrame));
+    assert_eq!(other.restore(b"", b"key"), Err(PartialError::Foreign));
+    assert_eq!(other.restore(&kept[..kept.len() / 2], b"key"), Err(PartialError::Damaged));
+    let whole_config = RenderConfig { splits: false, ..config.clone() };
+    let mut unsplit = FrameRender::new(&prepared, &guide, &view, &whole_config).unwrap();
+    assert_eq!(unsplit.restore(&kept, b"key"), Err(PartialError::OtherFrame));
+    assert_eq!(other.samples(), 0.0, "what is refused changes nothing");
+}
+
+#[test]
+fn a_noise_target_is_met_with_fewer_samples_and_says_so() {
+    let mut s = scene(vec![(room(1.0), Material::diffuse("wall", Rgb::splat(0.5)))]);
+    s.lights.push(Light::Point { name: "p".into(), position: Vec3::new(0.0, 0.3, 0.5), intensity: Rgb::WHITE });
+    let prepared = RenderScene::new(&s, &Quiet).unwrap();
+    let (camera, pose) = place([24, 24]);
+    let view = CameraView::still(&camera, &pose);
+    let config = RenderConfig { samples: 2048, noise: Some(0.02), ..RenderConfig::default() };
+    let guide = Guide::learn(&prepared, &[view], &config);
+    let mut rendering = FrameRender::new(&prepared, &guide, &view, &config).unwrap();
+    while !rendering.is_done() {
+        rendering.pass(&Quiet);
+    }
+    let noise = rendering.noise().unwrap();
+    assert!(rendering.met_noise_target() && rendering.samples() < 2000.0, "{} samples", rendering.samples());
+    assert!(noise < 0.025, "noise {noise}");
+}
