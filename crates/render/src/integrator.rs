@@ -9,6 +9,7 @@ use crate::guide::{CellLight, Guide};
 use crate::light::{LightPoint, power_heuristic};
 use crate::prepared::{Cutout, RenderScene};
 use crate::surface::{MIN_COSINE, Surface};
+use crate::texture::Cone;
 use enfilade_math::{ONE_MINUS_EPSILON, Onb, Ray, Rgb, Sampler, Vec3, offset_origin};
 use enfilade_scene::Bsdf as Model;
 
@@ -48,6 +49,8 @@ pub(crate) struct Integrator<'a, 's> {
     pub scene: &'a RenderScene<'s>,
     pub config: &'a RenderConfig,
     pub guide: &'a Guide,
+    /// The angle that a camera ray stands for, radians.
+    pub pixel_angle: f32,
 }
 
 /// A path between two surfaces.
@@ -58,6 +61,8 @@ struct Segment {
     sampled: Option<(LightPoint, f32)>,
     /// Absorption of the body the ray is inside of, per metre.
     absorption: Rgb,
+    /// How wide the ray is.
+    cone: Cone,
 }
 
 /// A surface that a path has reached, with all that scattering there needs.
@@ -76,7 +81,8 @@ impl<'s> Integrator<'_, 's> {
         let Some(hit) = self.scene.closest(&ray, Cutout::Random) else {
             return PixelSample { residual: self.scene.lights.background(ray.direction), ..PixelSample::default() };
         };
-        let surface = self.scene.surface(&hit, ray.direction);
+        let camera = Segment { ray, sampled: None, absorption: Rgb::BLACK, cone: Cone::camera(self.pixel_angle) };
+        let surface = self.scene.surface(&hit, ray.direction, &camera.cone);
         let bsdf = surface.bsdf(self.scene);
         let onb = surface.onb();
         let vertex = self.vertex(&surface, &bsdf, &onb);
@@ -89,7 +95,7 @@ impl<'s> Integrator<'_, 's> {
 
         // Light that comes by way of other surfaces, and sources that the direction happens to meet.
         let u = sampler.set(bsdf_set(0));
-        if let Some((weight, segment)) = vertex.scatter([u[0], u[1], u[2]], &Segment::from_camera(ray)) {
+        if let Some((weight, segment)) = vertex.scatter([u[0], u[1], u[2]], &camera) {
             let total = weight.total(bsdf.reflectance);
             let expected = vertex.expected_indirect();
             let light = self.clamped(self.radiance(segment, total, expected, sampler), total);
@@ -116,7 +122,7 @@ impl<'s> Integrator<'_, 's> {
             let Some(hit) = self.scene.closest(&segment.ray, Cutout::Random) else {
                 return radiance + throughput * self.background(&segment);
             };
-            let surface = self.scene.surface(&hit, segment.ray.direction);
+            let surface = self.scene.surface(&hit, segment.ray.direction, &segment.cone);
             throughput *= absorbed(segment.absorption, hit.t);
 
             // Emission met by chance, weighted against light sampling.
@@ -221,7 +227,7 @@ impl<'s> Integrator<'_, 's> {
         let (direct, light) = self.sample_lights(&vertex, sampler.set(light_set(0)));
         let mut irradiance = direct.diffuse * light;
         let u = sampler.set(bsdf_set(0));
-        let nowhere = Segment { ray: Ray::new(surface.p, -surface.wo), sampled: None, absorption: Rgb::BLACK };
+        let nowhere = Segment { ray: Ray::new(surface.p, -surface.wo), sampled: None, absorption: Rgb::BLACK, cone: Cone::POINT };
         if let Some((weight, segment)) = vertex.scatter([u[0], u[1], u[2]], &nowhere) {
             irradiance += weight.diffuse * self.radiance(segment, Rgb::WHITE, vertex.expected_indirect(), sampler);
         }
@@ -233,12 +239,6 @@ impl<'s> Integrator<'_, 's> {
             None => self.scene.lights.background(segment.ray.direction),
             Some((from, pdf)) => self.scene.lights.background_weighted(&self.guide.choice, &from, segment.ray.direction, pdf),
         }
-    }
-}
-
-impl Segment {
-    fn from_camera(ray: Ray) -> Self {
-        Self { ray, sampled: None, absorption: Rgb::BLACK }
     }
 }
 
@@ -314,7 +314,8 @@ impl Vertex<'_, '_> {
 
     fn segment(&self, direction: Vec3, side: f32, sampled: Option<(LightPoint, f32)>, absorption: Rgb) -> Segment {
         let origin = offset_origin(self.surface.p, if side < 0.0 { -self.surface.ng } else { self.surface.ng });
-        Segment { ray: Ray::new(origin, direction), sampled, absorption }
+        let cone = sampled.map_or(self.surface.cone, |(_, pdf)| self.surface.cone.scattered(pdf));
+        Segment { ray: Ray::new(origin, direction), sampled, absorption, cone }
     }
 }
 

@@ -20,6 +20,7 @@ mod light;
 mod prepared;
 mod render;
 mod surface;
+mod texture;
 mod tiles;
 mod triangle;
 

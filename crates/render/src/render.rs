@@ -73,7 +73,9 @@ impl<'a, 's> FrameRender<'a, 's> {
         let first = if spread { (config.samples / FIRST_SHARE).max(FEWEST).min(config.samples) } else { config.samples.min(PASS) };
         let passes = 1 + (config.samples - first).div_ceil(PASS);
         let wanted = vec![first; width as usize * height as usize];
-        let integrator = Integrator { scene, config, guide };
+        // Half of what a pixel covers: many samples resolve more than one would.
+        let pixel_angle = 0.5 * view.pixel_angle(0.5 * f64::from(width), 0.5 * f64::from(height));
+        let integrator = Integrator { scene, config, guide, pixel_angle };
         Ok(Self { integrator, view: *view, tiles, sums, wanted, first, done: 0, passes })
     }
 

@@ -6,8 +6,8 @@
 
 use super::cells::{Cells, NONE, SITES, Site};
 use super::square::{BINS, SIDE, SquareDensity};
-use crate::light::{LightChoice, LightPoint, power_heuristic};
 use crate::bsdf::Event;
+use crate::light::{LightChoice, LightPoint, power_heuristic};
 use crate::prepared::{Cutout, RenderScene};
 use crate::surface::Surface;
 use enfilade_math::{Bounds3, Onb, Ray, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
@@ -77,12 +77,7 @@ impl Field {
         let total = |indirect: &[Rgb]| -> Vec<Rgb> { gathered.iter().zip(indirect).map(|((direct, _), &i)| *direct + i).collect() };
         for _ in 0..SWEEPS {
             let total = total(&indirect);
-            indirect = gathered
-                .par_iter()
-                .map(|(_, links)| {
-                    links.iter().map(|l| l.radiance(&total)).sum::<Rgb>() / BINS as f32
-                })
-                .collect();
+            indirect = gathered.par_iter().map(|(_, links)| links.iter().map(|l| l.radiance(&total)).sum::<Rgb>() / BINS as f32).collect();
         }
         let total = total(&indirect);
         let lights = gathered
@@ -213,7 +208,7 @@ fn first_surface<'s>(
                 });
             return None;
         };
-        let surface = scene.surface(&hit, ray.direction);
+        let surface = scene.surface(&hit, ray.direction, &crate::texture::Cone::POINT);
         if let Some(transmittance) = surface.straight_transmittance(scene) {
             through *= transmittance;
             ray = Ray::new(offset_origin(surface.p, -surface.ng), ray.direction);

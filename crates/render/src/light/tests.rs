@@ -151,7 +151,7 @@ fn surfaces_met_by_chance_have_the_density_with_which_they_are_sampled() {
         let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
         let Some(light) = prepared.lights.sample(&prepared, &choice, &at, u, |_| true) else { continue };
         let Some(hit) = prepared.closest(&Ray::new(p, light.wi), Cutout::Random) else { continue };
-        let met = prepared.surface(&hit, light.wi);
+        let met = prepared.surface(&hit, light.wi, &crate::texture::Cone::POINT);
         // Another lamp may be in the way.
         if light.target.is_none_or(|target| target.distance(met.p) > 1e-3) {
             continue;
