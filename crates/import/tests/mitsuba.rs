@@ -52,9 +52,6 @@ fn guesses_and_gaps_are_reported_with_their_place() {
     assert!(text.contains("a.xml line 2:1 <bsdf type=\"roughconductor\" id=\"M\">: the metal \"Xx\" is not known"), "{text}");
     assert!(text.contains("beckmann distribution was replaced by GGX"), "{text}");
     assert!(report(r#"<bsdf type="hair"/>"#).contains("hair bsdfs are not supported"));
-    let blend = r#"<bsdf type="blendbsdf"><float name="weight" value="0.8"/><bsdf type="diffuse"/><bsdf type="plastic"/></bsdf>"#;
-    let (m, text) = material(&folder, blend);
-    assert!(matches!(m.bsdf, Bsdf::Plastic { .. }) && text.contains("bsdf 2 of 2"));
     assert!(
         report(r#"<bsdf type="diffuse"><float name="wetness" value="1"/></bsdf>"#).contains("<float name=\"wetness\">: ignored in diffuse")
     );
@@ -64,6 +61,26 @@ fn guesses_and_gaps_are_reported_with_their_place() {
     for expected in ["hair shapes", "laser emitters", "orthographic sensors", "<gizmo>: unknown element"] {
         assert!(text.contains(expected), "{expected} in {text}");
     }
+}
+
+#[test]
+fn blends_keep_both_and_a_blend_with_nothing_is_a_mask() {
+    let folder = Folder::new();
+    let blend = r#"<bsdf type="blendbsdf"><float name="weight" value="0.8"/><bsdf type="diffuse"/><bsdf type="plastic"/></bsdf>"#;
+    let Bsdf::Blend { first, second, weight } = material(&folder, blend).0.bsdf else { panic!("expected a blend") };
+    assert!(matches!(*first, Bsdf::Diffuse { .. }) && matches!(*second, Bsdf::Plastic { .. }) && weight.factor == 0.8);
+
+    let mixture = r#"<bsdf type="mixturebsdf"><string name="weights" value="0.5, 0.2, 0.3"/>
+        <bsdf type="diffuse"/><bsdf type="plastic"/><bsdf type="conductor"/></bsdf>"#;
+    let Bsdf::Blend { first, second, weight } = material(&folder, mixture).0.bsdf else { panic!("expected a blend") };
+    assert!(matches!(*first, Bsdf::Diffuse { .. }) && (weight.factor - 0.5).abs() < 1e-6);
+    let Bsdf::Blend { second, weight, .. } = *second else { panic!("expected a blend within the blend") };
+    assert!(matches!(*second, Bsdf::Conductor { .. }) && (weight.factor - 0.6).abs() < 1e-6);
+
+    let lace = r#"<bsdf type="blendbsdf"><float name="weight" value="0.3"/><bsdf type="null"/><bsdf type="diffuse"/></bsdf>"#;
+    let (m, _) = material(&folder, lace);
+    assert!(matches!(m.bsdf, Bsdf::Diffuse { .. }));
+    assert!(matches!(m.alpha, Alpha::Blend { opacity } if opacity.factor == 0.3), "{:?}", m.alpha);
 }
 
 #[test]

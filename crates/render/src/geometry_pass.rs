@@ -2,6 +2,7 @@
 //! them: [`CameraView::centre_ray`] says which ray a pixel's is.
 
 use crate::prepared::{Cutout, RenderScene};
+use crate::texture::Cone;
 use enfilade_frame::f16;
 use enfilade_math::{DVec3, Ray, Vec3};
 use enfilade_scene::{CameraRay, CameraView};
@@ -31,7 +32,7 @@ pub(crate) fn pixel_geometry(scene: &RenderScene<'_>, view: &CameraView<'_>, x: 
     let CameraRay { origin, direction } = view.centre_ray(x, y)?;
     let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
     let hit = scene.closest(&ray, Cutout::Half)?;
-    let surface = scene.surface(&hit, ray.direction);
+    let surface = scene.surface(&hit, ray.direction, &Cone::POINT);
     let triangle = &scene.triangles[hit.triangle as usize];
     let distance = exact_distance(triangle.corners, origin, direction).unwrap_or(f64::from(hit.t));
     let position = origin + direction * distance;

@@ -10,6 +10,7 @@ use crate::light::{Background, LightKind, LightPoint, power_heuristic};
 use crate::prepared::{Cutout, RenderScene};
 use crate::split::{Arriving, Split};
 use crate::surface::{MIN_COSINE, Surface};
+use crate::texture::Cone;
 use enfilade_math::{ONE_MINUS_EPSILON, Onb, Ray, Rgb, Sampler, Vec3, offset_origin};
 use enfilade_scene::Bsdf as Model;
 
@@ -51,6 +52,8 @@ pub(crate) struct Integrator<'a, 's> {
     pub scene: &'a RenderScene<'s>,
     pub config: &'a RenderConfig,
     pub guide: &'a Guide,
+    /// The angle that a camera ray stands for, radians.
+    pub pixel_angle: f32,
 }
 
 /// A path between two surfaces.
@@ -65,6 +68,8 @@ struct Segment {
     crossed: bool,
     /// True when that was a pane, which leaves the direction as it was.
     straight: bool,
+    /// How wide the ray is.
+    cone: Cone,
 }
 
 /// Light sampled at a source.
@@ -97,7 +102,8 @@ impl<'s> Integrator<'_, 's> {
             split.add_background(background);
             return PixelSample { residual: background.total(), split, ..PixelSample::default() };
         };
-        let surface = self.scene.surface(&hit, ray.direction);
+        let camera = Segment::from_camera(ray, Cone::camera(self.pixel_angle));
+        let surface = self.scene.surface(&hit, ray.direction, &camera.cone);
         let bsdf = surface.bsdf(self.scene);
         let onb = surface.onb();
         let vertex = self.vertex(&surface, &bsdf, &onb);
@@ -120,7 +126,7 @@ impl<'s> Integrator<'_, 's> {
 
         // Light that comes by way of other surfaces, and sources that the direction happens to meet.
         let u = sampler.set(bsdf_set(0));
-        if let Some((weight, segment)) = vertex.scatter([u[0], u[1], u[2]], &Segment::from_camera(ray)) {
+        if let Some((weight, segment)) = vertex.scatter([u[0], u[1], u[2]], &camera) {
             let total = weight.total(bsdf.reflectance);
             let expected = vertex.expected_indirect();
             let crossed = segment.crossed;
@@ -154,7 +160,7 @@ impl<'s> Integrator<'_, 's> {
                 radiance.add_background(self.background(&segment), throughput, direct);
                 return radiance;
             };
-            let surface = self.scene.surface(&hit, segment.ray.direction);
+            let surface = self.scene.surface(&hit, segment.ray.direction, &segment.cone);
             throughput *= absorbed(segment.absorption, hit.t);
 
             // Emission met by chance, weighted against light sampling.
@@ -265,7 +271,7 @@ impl<'s> Integrator<'_, 's> {
         let direct = self.sample_lights(&vertex, sampler.set(light_set(0)));
         let mut irradiance = direct.map_or(Rgb::BLACK, |direct| direct.weight.diffuse * direct.light);
         let u = sampler.set(bsdf_set(0));
-        let nowhere = Segment::from_camera(Ray::new(surface.p, -surface.wo));
+        let nowhere = Segment::from_camera(Ray::new(surface.p, -surface.wo), Cone::POINT);
         if let Some((weight, segment)) = vertex.scatter([u[0], u[1], u[2]], &nowhere) {
             irradiance += weight.diffuse * self.radiance(segment, Rgb::WHITE, vertex.expected_indirect(), sampler).total;
         }
@@ -281,8 +287,8 @@ impl<'s> Integrator<'_, 's> {
 }
 
 impl Segment {
-    fn from_camera(ray: Ray) -> Self {
-        Self { ray, sampled: None, absorption: Rgb::BLACK, crossed: false, straight: false }
+    fn from_camera(ray: Ray, cone: Cone) -> Self {
+        Self { ray, sampled: None, absorption: Rgb::BLACK, crossed: false, straight: false, cone }
     }
 }
 
@@ -359,7 +365,8 @@ impl Vertex<'_, '_> {
 
     fn segment(&self, direction: Vec3, side: f32, sampled: Option<(LightPoint, f32)>, absorption: Rgb) -> Segment {
         let origin = offset_origin(self.surface.p, if side < 0.0 { -self.surface.ng } else { self.surface.ng });
-        Segment { ray: Ray::new(origin, direction), sampled, absorption, crossed: side < 0.0, straight: false }
+        let cone = sampled.map_or(self.surface.cone, |(_, pdf)| self.surface.cone.scattered(pdf));
+        Segment { ray: Ray::new(origin, direction), sampled, absorption, crossed: side < 0.0, straight: false, cone }
     }
 }
 

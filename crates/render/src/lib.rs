@@ -22,6 +22,7 @@ mod prepared;
 mod render;
 mod split;
 mod surface;
+mod texture;
 mod tiles;
 mod triangle;
 

@@ -1,25 +1,25 @@
 //! A scene made ready for rays: world triangles, hierarchy, lights, coat tables.
 
-use crate::bsdf::coat::{Bounces, CoatSpec, CoatTable};
+use crate::bsdf::{TableMaker, Tables};
 use crate::error::RenderError;
 use crate::light::Lights;
+use crate::texture::{Cone, Footprint, Textures};
 use crate::triangle::{self, Triangle};
 use enfilade_geometry::{Bvh, Hit};
 use enfilade_math::{Bounds3, Ray, Rgb, hash_u32};
-use enfilade_scene::{Alpha, Bsdf, Cx, Material, Scene, WorldMesh};
-use rayon::prelude::*;
+use enfilade_scene::{Alpha, Cx, Material, Scene, WorldMesh};
 use std::cell::Cell;
 
 /// A scene ready to be rendered.
 pub struct RenderScene<'s> {
     pub(crate) scene: &'s Scene,
+    pub(crate) textures: Textures<'s>,
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) bvh: Bvh,
     bounds: Bounds3,
     pub(crate) lights: Lights<'s>,
-    /// Per material: its coat, if it has a diffuse base under a dielectric.
-    pub(crate) coats: Vec<Option<usize>>,
-    pub(crate) coat_tables: Vec<CoatTable>,
+    /// Of each material.
+    pub(crate) tables: Vec<Tables>,
 }
 
 impl<'s> RenderScene<'s> {
@@ -36,13 +36,15 @@ impl<'s> RenderScene<'s> {
         let triangles = triangle::gather(scene, &world);
         let filtered: Vec<bool> = scene.materials.iter().map(asks_filter).collect();
         let bvh = Bvh::new(&world.corners, &|t| filtered[triangles[t as usize].material as usize]);
-        let (coats, coat_tables) = coat_tables(&scene.materials);
+        let mut maker = TableMaker::default();
+        let tables = scene.materials.iter().map(|m| maker.tables(&m.bsdf)).collect();
         let lights = Lights::new(scene, &triangles);
         if lights.is_empty() {
             return Err(RenderError::NoLight);
         }
         cx.progress("building the ray-tracing hierarchy", 1, 1);
-        Ok(Self { scene, triangles, bvh, bounds: world.bounds, lights, coats, coat_tables })
+        let textures = Textures::new(&scene.images, &scene.materials);
+        Ok(Self { scene, textures, triangles, bvh, bounds: world.bounds, lights, tables })
     }
 
     /// The smallest box around the scene.
@@ -69,7 +71,7 @@ impl<'s> RenderScene<'s> {
             if !self.is_present(hit, Cutout::Random) {
                 return false;
             }
-            let surface = self.surface(hit, ray.direction);
+            let surface = self.surface(hit, ray.direction, &Cone::POINT);
             match surface.straight_transmittance(self) {
                 Some(t) if !t.is_black() => {
                     through.set(through.get() * t);
@@ -85,7 +87,7 @@ impl<'s> RenderScene<'s> {
     pub(crate) fn is_present(&self, hit: &Hit, cut: Cutout) -> bool {
         let triangle = &self.triangles[hit.triangle as usize];
         let material = &self.scene.materials[triangle.material as usize];
-        let opacity = |p| crate::surface::scalar_at(self.scene, p, triangle.uv(hit.weights()));
+        let opacity = |p| self.textures.scalar(p, triangle.uv(hit.weights()), &Footprint::POINT);
         match &material.alpha {
             Alpha::Opaque => true,
             Alpha::Mask { opacity: p, cutoff } => opacity(p) >= *cutoff,
@@ -115,42 +117,5 @@ pub(crate) enum Cutout {
 
 /// Whether rays must ask before they accept a hit on this material.
 fn asks_filter(material: &Material) -> bool {
-    let pane = match &material.bsdf {
-        Bsdf::ThinDielectric { .. } => true,
-        Bsdf::Principled(p) => !p.solid && p.transmission.factor > 0.0,
-        _ => false,
-    };
-    pane || material.alpha != Alpha::Opaque
-}
-
-/// One table per distinct coat, and which table each material uses.
-fn coat_tables(materials: &[Material]) -> (Vec<Option<usize>>, Vec<CoatTable>) {
-    let coats: Vec<_> = materials.iter().map(coat).collect();
-    let mut distinct: Vec<CoatSpec> = Vec::new();
-    let indices = coats
-        .iter()
-        .map(|coat| {
-            let coat = (*coat)?;
-            Some(distinct.iter().position(|d| *d == coat).unwrap_or_else(|| {
-                distinct.push(coat);
-                distinct.len() - 1
-            }))
-        })
-        .collect();
-    (indices, distinct.into_par_iter().map(CoatTable::new).collect())
-}
-
-/// A material's coat; an index of one or less is none.
-fn coat(material: &Material) -> Option<CoatSpec> {
-    let spec = match &material.bsdf {
-        Bsdf::Plastic { eta, alpha, .. } => {
-            CoatSpec { eta: *eta, alpha: alpha.texture.is_none().then_some(alpha.factor), bounces: Bounces::Single }
-        }
-        Bsdf::Principled(p) => {
-            let alpha = p.roughness.texture.is_none().then(|| p.roughness.factor.clamp(0.0, 1.0).powi(2));
-            CoatSpec { eta: p.ior, alpha, bounces: Bounces::All }
-        }
-        _ => return None,
-    };
-    (spec.eta > 1.0).then_some(spec)
+    material.bsdf.is_pane() || material.alpha != Alpha::Opaque
 }

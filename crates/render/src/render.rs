@@ -109,7 +109,9 @@ impl<'a, 's> FrameRender<'a, 's> {
         let film = (0..tiles.count()).map(|tile| TileFilm::new(tiles.pixels(tile).count(), config.splits)).collect();
         let schedule = Schedule::new(config);
         let wanted = vec![schedule.first; width as usize * height as usize];
-        let integrator = Integrator { scene, config, guide };
+        // Half of what a pixel covers: many samples resolve more than one would.
+        let pixel_angle = 0.5 * view.pixel_angle(0.5 * f64::from(width), 0.5 * f64::from(height));
+        let integrator = Integrator { scene, config, guide, pixel_angle };
         Ok(Self { integrator, view: *view, tiles, film, wanted, schedule, done: 0 })
     }
 

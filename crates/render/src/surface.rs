@@ -2,9 +2,10 @@
 
 use crate::bsdf::{self, Bsdf};
 use crate::prepared::RenderScene;
+use crate::texture::{Cone, Footprint, Textures};
 use enfilade_geometry::Hit;
 use enfilade_math::{Onb, Ray, Rgb, Vec2, Vec3, offset_origin};
-use enfilade_scene::{ColorParam, Material, NormalMap, ScalarParam, Scene, TextureRef};
+use enfilade_scene::{Material, NormalMap};
 
 /// A surface point seen from the unit direction `wo`.
 pub(crate) struct Surface<'s> {
@@ -20,6 +21,10 @@ pub(crate) struct Surface<'s> {
     pub ns: Vec3,
     /// Texture coordinates.
     pub uv: Vec2,
+    /// How wide the ray is that found it.
+    pub cone: Cone,
+    /// How much of a texture counts here.
+    footprint: Footprint,
     /// True when `wo` is on the side that outward normals point to.
     pub outside: bool,
     /// The material.
@@ -28,13 +33,15 @@ pub(crate) struct Surface<'s> {
 }
 
 impl<'s> RenderScene<'s> {
-    /// The surface at a hit of a ray with the unit direction `direction`.
-    pub(crate) fn surface(&self, hit: &Hit, direction: Vec3) -> Surface<'s> {
+    /// The surface at a hit of a ray with the unit direction `direction` and the cone `cone` at its origin.
+    pub(crate) fn surface(&self, hit: &Hit, direction: Vec3, cone: &Cone) -> Surface<'s> {
         let wo = -direction;
         let triangle = &self.triangles[hit.triangle as usize];
         let weights = hit.weights();
         let [a, b, c] = triangle.normals;
-        let winding = triangle.cross().normalize_or(wo);
+        let cross = triangle.cross();
+        let area2 = cross.length();
+        let winding = if area2 > 0.0 { cross / area2 } else { wo };
         let interpolated = (a * weights[0] + b * weights[1] + c * weights[2]).try_normalize().unwrap_or(winding);
         // The vertex normals say which side of the face is outside.
         let outward = if interpolated.dot(winding) < 0.0 { -winding } else { winding };
@@ -45,10 +52,12 @@ impl<'s> RenderScene<'s> {
         let material_index = triangle.material as usize;
         let material = &self.scene.materials[material_index];
         let uv = triangle.uv(weights);
-        let bumped = material
-            .normal_map
-            .as_ref()
-            .and_then(|map| Some(perturbed(self.scene, map, uv, smooth, side, tangents(&triangle.corners, triangle.uvs)?)));
+        let cone = cone.advanced(hit.t);
+        let footprint = cone.footprint(triangle.uv_cross().abs() / area2);
+        let bumped = material.normal_map.as_ref().and_then(|map| {
+            let tangents = tangents(&triangle.corners, triangle.uvs)?;
+            Some(perturbed(&self.textures, map, uv, &footprint, smooth, side, tangents))
+        });
         Surface {
             p: triangle.position(weights),
             wo,
@@ -56,6 +65,8 @@ impl<'s> RenderScene<'s> {
             ns_smooth: facing(smooth, wo),
             ns: facing(bumped.unwrap_or(smooth), wo),
             uv,
+            cone,
+            footprint,
             outside,
             material,
             material_index,
@@ -66,9 +77,10 @@ impl<'s> RenderScene<'s> {
 impl<'s> Surface<'s> {
     fn inputs<'a>(&self, scene: &'a RenderScene<'s>) -> bsdf::Inputs<'a> {
         bsdf::Inputs {
-            images: &scene.scene.images,
+            textures: &scene.textures,
             uv: self.uv,
-            coat: scene.coats[self.material_index].map(|i| &scene.coat_tables[i]),
+            footprint: self.footprint,
+            tables: &scene.tables[self.material_index],
             cos_o: self.wo.dot(self.ns).max(MIN_COSINE),
             outside: self.outside,
         }
@@ -76,15 +88,15 @@ impl<'s> Surface<'s> {
 
     /// The scattering here; nothing on the back of a one-sided surface.
     pub fn bsdf<'a>(&self, scene: &'a RenderScene<'s>) -> Bsdf<'a> {
-        if !self.outside && !self.material.two_sided && !transmits(self.material) {
+        if !self.outside && !self.material.two_sided && !self.material.bsdf.transmits() {
             return Bsdf::black();
         }
-        Bsdf::new(self.material, &self.inputs(scene))
+        Bsdf::new(&self.material.bsdf, &self.inputs(scene))
     }
 
     /// See [`bsdf::straight_transmittance`].
     pub fn straight_transmittance(&self, scene: &RenderScene<'s>) -> Option<Rgb> {
-        bsdf::straight_transmittance(self.material, &self.inputs(scene))
+        bsdf::straight_transmittance(&self.material.bsdf, &self.inputs(scene))
     }
 
     /// Radiance emitted towards `wo`.
@@ -92,7 +104,8 @@ impl<'s> Surface<'s> {
         if self.material.emission.factor.is_black() || (!self.outside && !self.material.emits_both_sides) {
             return Rgb::BLACK;
         }
-        color_at(scene.scene, &self.material.emission, self.uv)
+        // At the point, for every way of finding a light must see the same light.
+        scene.textures.color(&self.material.emission, self.uv, &Footprint::POINT)
     }
 
     /// Shading space: z along the shading normal.
@@ -122,16 +135,6 @@ pub(crate) fn shadow_ray(origin: Vec3, wi: Vec3, target: Option<Vec3>) -> Ray {
 /// Viewing cosines are never smaller, so that nothing divides by zero at the horizon.
 pub(crate) const MIN_COSINE: f32 = 1e-4;
 
-/// True for materials that light passes, which therefore have two sides.
-pub(crate) fn transmits(material: &Material) -> bool {
-    use enfilade_scene::Bsdf;
-    match &material.bsdf {
-        Bsdf::Dielectric { .. } | Bsdf::ThinDielectric { .. } => true,
-        Bsdf::Principled(p) => p.transmission.factor > 0.0,
-        Bsdf::Diffuse { .. } | Bsdf::Conductor { .. } | Bsdf::Plastic { .. } => false,
-    }
-}
-
 /// `n`, or the nearest direction to it that still faces `wo`.
 #[inline]
 fn facing(n: Vec3, wo: Vec3) -> Vec3 {
@@ -152,10 +155,18 @@ fn tangents(corners: &[Vec3; 3], uvs: [Vec2; 3]) -> Option<(Vec3, Vec3)> {
 }
 
 /// The normal `n` (on the viewer's side; `side` is −1 on the back) perturbed by a normal or bump map.
-fn perturbed(scene: &Scene, map: &NormalMap, uv: Vec2, n: Vec3, side: f32, (dp_du, dp_dv): (Vec3, Vec3)) -> Vec3 {
+fn perturbed(
+    textures: &Textures<'_>,
+    map: &NormalMap,
+    uv: Vec2,
+    footprint: &Footprint,
+    n: Vec3,
+    side: f32,
+    (dp_du, dp_dv): (Vec3, Vec3),
+) -> Vec3 {
     match map {
         NormalMap::Normal { texture, scale } => {
-            let rgb = scene.images[texture.image as usize].sample(texture, uv).0;
+            let rgb = textures.sample(texture, uv, footprint).0;
             let local = Vec3::new((2.0 * rgb.r - 1.0) * scale, (2.0 * rgb.g - 1.0) * scale, 2.0 * rgb.b - 1.0);
             // Tangents follow the texture as it is placed on the surface, orthogonal to the smooth normal.
             let Some(t) = (dp_du - n * n.dot(dp_du)).try_normalize() else { return n };
@@ -165,34 +176,15 @@ fn perturbed(scene: &Scene, map: &NormalMap, uv: Vec2, n: Vec3, side: f32, (dp_d
             (t * (local.x * side) + b * (local.y * side) + n * local.z).try_normalize().unwrap_or(n)
         }
         NormalMap::Bump { texture, scale } => {
-            let image = &scene.images[texture.image as usize];
-            let height = |t: &TextureRef, uv: Vec2| image.sample(t, uv).0.luminance() * scale;
-            let (du, dv) = (1.0 / image.width as f32, 1.0 / image.height as f32);
-            // Steps of one texel in the texture's own coordinates, central differences.
-            let m = texture.uv_transform;
-            let (su, sv) = (du / (m[0][0].hypot(m[1][0])).max(1e-6), dv / (m[0][1].hypot(m[1][1])).max(1e-6));
-            let dh_du = (height(texture, uv + Vec2::new(su, 0.0)) - height(texture, uv - Vec2::new(su, 0.0))) / (2.0 * su);
-            let dh_dv = (height(texture, uv + Vec2::new(0.0, sv)) - height(texture, uv - Vec2::new(0.0, sv))) / (2.0 * sv);
+            let slope = textures.slope(texture, uv, footprint) * *scale;
             // Mikkelsen 2010, "Bump Mapping Unparametrized Surfaces on the GPU": subtract the surface gradient.
             let (r1, r2) = (dp_dv.cross(n), n.cross(dp_du));
             let determinant = dp_du.dot(r1);
             if determinant.abs() < 1e-20 {
                 return n;
             }
-            let gradient = (r1 * dh_du + r2 * dh_dv) / determinant;
+            let gradient = (r1 * slope.x + r2 * slope.y) / determinant;
             (n - gradient * side).try_normalize().unwrap_or(n)
         }
     }
-}
-
-/// A colour parameter at texture coordinates.
-pub(crate) fn color_at(scene: &Scene, p: &ColorParam, uv: Vec2) -> Rgb {
-    let inputs = bsdf::Inputs { images: &scene.images, uv, coat: None, cos_o: 1.0, outside: true };
-    inputs.color(p)
-}
-
-/// A scalar parameter at texture coordinates.
-pub(crate) fn scalar_at(scene: &Scene, p: &ScalarParam, uv: Vec2) -> f32 {
-    let inputs = bsdf::Inputs { images: &scene.images, uv, coat: None, cos_o: 1.0, outside: true };
-    inputs.scalar(p)
 }

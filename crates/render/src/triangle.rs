@@ -31,6 +31,12 @@ impl Triangle {
         (self.corners[1] - self.corners[0]).cross(self.corners[2] - self.corners[0])
     }
 
+    /// Twice the signed area in the plane of texture coordinates.
+    #[inline]
+    pub fn uv_cross(&self) -> f32 {
+        (self.uvs[1] - self.uvs[0]).perp_dot(self.uvs[2] - self.uvs[0])
+    }
+
     /// Texture coordinates at a hit.
     #[inline]
     pub fn uv(&self, [a, b, c]: [f32; 3]) -> Vec2 {

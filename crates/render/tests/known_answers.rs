@@ -2,10 +2,11 @@
 
 use enfilade_frame::{Frame, Layer};
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, DVec3, Mat3, Rgb, Vec3};
+use enfilade_math::{DAffine3, DVec3, Mat3, Rgb, Vec2, Vec3};
 use enfilade_render::{Guide, RenderConfig, RenderError, RenderScene, render_frame};
 use enfilade_scene::{
-    Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, PhotometricWeb, Pose, Principled, Quiet, Scene,
+    Bsdf, Camera, CameraView, Environment, Image, Intrinsics, Light, Material, NormalMap, Part, PhotometricWeb, Pixels, Pose, Principled,
+    Quiet, Scene, TextureRef,
 };
 use std::f64::consts::PI;
 
@@ -138,7 +139,8 @@ fn a_limit_on_bounces_cuts_the_series_of_reflections_and_nothing_else() {
 fn lossless_spheres_vanish_in_a_white_sky() {
     let glass = |alpha: f32| Bsdf::Dielectric { eta: 1.5, alpha: alpha.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::BLACK };
     let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::WHITE.into(), alpha: 0.0.into() };
-    let plastic = Bsdf::Plastic { diffuse: Rgb::WHITE.into(), eta: 1.5, alpha: 0.1.into(), specular: Rgb::WHITE.into(), nonlinear: true };
+    let plastic = Bsdf::Plastic { diffuse: Rgb::WHITE.into(), eta: 1.5, alpha: 0.0.into(), specular: Rgb::WHITE.into(), nonlinear: true };
+    let varnish = Bsdf::Principled(Box::new(Principled { roughness: 0.5.into(), ..Principled::default() }));
     let thin = Bsdf::ThinDielectric { eta: 1.5, transmittance: Rgb::WHITE.into() };
     let diffuse = Bsdf::Diffuse { reflectance: Rgb::WHITE.into() };
     for (name, bsdf, tolerance) in [
@@ -146,6 +148,7 @@ fn lossless_spheres_vanish_in_a_white_sky() {
         ("glass", glass(0.0), 0.01),
         ("mirror", mirror, 0.01),
         ("plastic", plastic, 0.015),
+        ("varnish", varnish, 0.015),
         ("thin", thin, 0.01),
         // One bounce off facets loses a little.
         ("rough glass", glass(0.1), 0.03),
@@ -297,4 +300,34 @@ fn bytes_do_not_depend_on_the_number_of_threads() {
     let bytes = |f: &Frame| f.iter().flat_map(|(_, v)| v.as_bytes().to_vec()).collect::<Vec<u8>>();
     assert_eq!(bytes(&one), bytes(&render(2)));
     assert_eq!(bytes(&one), bytes(&render(7)));
+}
+
+/// A white wall with strong relief by a normal map, seen from above.
+fn embossed_wall() -> Scene {
+    let mut mesh = quad([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0)));
+    mesh.uvs = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+    let texels = vec![[230, 128, 180, 255], [60, 40, 190, 255], [128, 250, 150, 255], [20, 128, 140, 255]];
+    let image = Image { name: "relief".into(), width: 2, height: 2, pixels: Pixels::Rgba8 { srgb: false, texels } };
+    let normal_map = Some(NormalMap::Normal { texture: TextureRef::new(0), scale: 1.0 });
+    let mut s = scene(vec![("wall", mesh, Material { normal_map, ..Material::diffuse("wall", Rgb::WHITE) })]);
+    s.images.push(image);
+    s
+}
+
+#[test]
+fn no_light_leaks_through_a_wall_with_relief() {
+    for below in [DVec3::new(0.0, 0.0, 1.0), DVec3::new(0.7, 0.0, 0.7), DVec3::new(0.0, -0.95, 0.3)] {
+        let mut s = embossed_wall();
+        let direction = below.normalize().as_vec3();
+        s.lights.push(Light::Directional { name: "sun".into(), direction, irradiance: Rgb::WHITE, angular_radius_rad: 0.01 });
+        let frame = picture(&s, DVec3::new(0.0, 0.0, 3.0), DVec3::ZERO, 16, 25.0, 16);
+        assert_eq!(mean(&frame, Layer::Color, 1), 0.0, "sun from below along {below}");
+    }
+}
+
+#[test]
+fn relief_creates_no_light_and_loses_what_it_would_send_through_the_wall() {
+    let frame = picture(&white_sky(embossed_wall()), DVec3::new(0.0, 0.0, 3.0), DVec3::ZERO, 16, 25.0, 256);
+    let albedo = mean(&frame, Layer::Color, 1);
+    assert!((0.75..=1.0).contains(&albedo), "albedo {albedo}");
 }

@@ -26,7 +26,7 @@ pub use cx::{Cx, Quiet, Warning};
 pub use environment::{Environment, direction_from_uv, uv_from_direction};
 pub use labels::{Labels, NYU40, PartLabel, SemanticClass, is_stuff};
 pub use light::Light;
-pub use material::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, ScalarParam};
+pub use material::{Alpha, Bsdf, ColorParam, Material, NormalMap, Parameter, Principled, ScalarParam};
 pub use package::{PackageError, from_bytes, to_bytes};
 pub use photometry::PhotometricWeb;
 pub use scene::{Part, PartId, Scene, SceneError};

@@ -40,6 +40,13 @@ pub enum Bsdf {
         /// Reflectance.
         reflectance: ColorParam,
     },
+    /// A rough diffuse surface (plaster, cloth, clay), by energy-preserving Oren–Nayar.
+    RoughDiffuse {
+        /// Reflectance. Light that bounces between the surface's own facets takes this colour each time.
+        reflectance: ColorParam,
+        /// 0 (Lambert's law) … 1.
+        roughness: ScalarParam,
+    },
     /// Metal by its complex index of refraction.
     Conductor {
         /// Real part. With `k` zero and `eta` zero the surface is a perfect mirror (Fresnel term 1).
@@ -84,6 +91,71 @@ pub enum Bsdf {
     },
     /// glTF's metallic-roughness model with its common extensions.
     Principled(Box<Principled>),
+    /// Two of these side by side.
+    Blend {
+        /// Where the weight is 0.
+        first: Box<Bsdf>,
+        /// Where the weight is 1.
+        second: Box<Bsdf>,
+        /// Share of the second.
+        weight: ScalarParam,
+    },
+}
+
+/// A parameter of a [`Bsdf`].
+#[derive(Clone, Copy, Debug)]
+pub enum Parameter<'a> {
+    /// A colour.
+    Color(&'a ColorParam),
+    /// A number.
+    Scalar(&'a ScalarParam),
+}
+
+impl Bsdf {
+    /// True when light passes, so that the surface always has two sides.
+    pub fn transmits(&self) -> bool {
+        match self {
+            Self::Dielectric { .. } | Self::ThinDielectric { .. } => true,
+            Self::Principled(p) => p.transmission.factor > 0.0,
+            Self::Blend { first, second, .. } => first.transmits() || second.transmits(),
+            Self::Diffuse { .. } | Self::RoughDiffuse { .. } | Self::Conductor { .. } | Self::Plastic { .. } => false,
+        }
+    }
+
+    /// True when light may go straight on through the surface.
+    pub fn is_pane(&self) -> bool {
+        match self {
+            Self::ThinDielectric { .. } => true,
+            Self::Principled(p) => !p.solid && p.transmission.factor > 0.0,
+            Self::Blend { first, second, .. } => first.is_pane() || second.is_pane(),
+            _ => false,
+        }
+    }
+
+    /// Calls `found` with every parameter that may be textured.
+    pub fn parameters<'a>(&'a self, found: &mut dyn FnMut(Parameter<'a>)) {
+        let mut all = |colors: &[&'a ColorParam], scalars: &[&'a ScalarParam]| {
+            colors.iter().for_each(|p| found(Parameter::Color(p)));
+            scalars.iter().for_each(|p| found(Parameter::Scalar(p)));
+        };
+        match self {
+            Self::Diffuse { reflectance } => all(&[reflectance], &[]),
+            Self::RoughDiffuse { reflectance, roughness } => all(&[reflectance], &[roughness]),
+            Self::Conductor { reflectance, alpha, .. } => all(&[reflectance], &[alpha]),
+            Self::Dielectric { transmittance, alpha, .. } => all(&[transmittance], &[alpha]),
+            Self::ThinDielectric { transmittance, .. } => all(&[transmittance], &[]),
+            Self::Plastic { diffuse, specular, alpha, .. } => all(&[diffuse, specular], &[alpha]),
+            Self::Blend { first, second, weight } => {
+                all(&[], &[weight]);
+                first.parameters(found);
+                second.parameters(found);
+            }
+            Self::Principled(p) => all(
+                &[&p.base_color, &p.specular_color, &p.sheen_color],
+                &[&p.metallic, &p.roughness, &p.specular, &p.transmission, &p.clearcoat, &p.clearcoat_roughness, &p.sheen_roughness],
+            ),
+        }
+    }
 }
 
 /// glTF 2.0 metallic-roughness with the ratified extensions that rooms use.
@@ -213,6 +285,21 @@ impl Material {
     /// A two-sided Lambert surface of one colour.
     pub fn diffuse(name: impl Into<String>, reflectance: Rgb) -> Self {
         Self::new(name, Bsdf::Diffuse { reflectance: reflectance.into() })
+    }
+
+    /// Calls `found` with every texture that the material reads.
+    pub fn textures<'a>(&'a self, mut found: impl FnMut(&'a TextureRef)) {
+        self.bsdf.parameters(&mut |parameter| match parameter {
+            Parameter::Color(p) => p.texture.iter().for_each(&mut found),
+            Parameter::Scalar(p) => p.texture.iter().for_each(|(t, _)| found(t)),
+        });
+        self.emission.texture.iter().for_each(&mut found);
+        if let Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } = &self.alpha {
+            opacity.texture.iter().for_each(|(t, _)| found(t));
+        }
+        if let Some(NormalMap::Normal { texture, .. } | NormalMap::Bump { texture, .. }) = &self.normal_map {
+            found(texture);
+        }
     }
 
     /// A black surface that emits `radiance` on its front.

@@ -1,4 +1,4 @@
-use crate::{Alpha, Bsdf, ColorParam, Environment, Image, Light, Material, NormalMap, Pixels, ScalarParam, StartCamera, TextureRef};
+use crate::{Alpha, Environment, Image, Light, Material, Parameter, Pixels, StartCamera};
 use enfilade_geometry::{Mesh, MeshError};
 use enfilade_math::{DAffine3, Vec3};
 use serde::{Deserialize, Serialize};
@@ -135,41 +135,26 @@ impl Scene {
 
     fn validate_material(&self, material: &Material) -> Result<(), SceneError> {
         let what = || format!("material {:?}", material.name);
-        let mut textures: Vec<TextureRef> = Vec::new();
-        let mut finite = true;
-        let mut color = |p: &ColorParam| {
-            textures.extend(p.texture);
-            finite &= p.factor.is_finite();
-        };
-        color(&material.emission);
-        match &material.bsdf {
-            Bsdf::Diffuse { reflectance } | Bsdf::Conductor { reflectance, .. } => color(reflectance),
-            Bsdf::Dielectric { transmittance, .. } | Bsdf::ThinDielectric { transmittance, .. } => color(transmittance),
-            Bsdf::Plastic { diffuse, specular, .. } => [diffuse, specular].into_iter().for_each(&mut color),
-            Bsdf::Principled(p) => [&p.base_color, &p.specular_color, &p.sheen_color].into_iter().for_each(&mut color),
+        let mut finite = material.emission.factor.is_finite();
+        material.bsdf.parameters(&mut |parameter| {
+            finite &= match parameter {
+                Parameter::Color(p) => p.factor.is_finite(),
+                Parameter::Scalar(p) => p.factor.is_finite(),
+            };
+        });
+        if let Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } = &material.alpha {
+            finite &= opacity.factor.is_finite();
         }
-        let scalars: Vec<&ScalarParam> = match &material.bsdf {
-            Bsdf::Diffuse { .. } | Bsdf::ThinDielectric { .. } => vec![],
-            Bsdf::Conductor { alpha, .. } | Bsdf::Dielectric { alpha, .. } | Bsdf::Plastic { alpha, .. } => vec![alpha],
-            Bsdf::Principled(p) => {
-                vec![&p.metallic, &p.roughness, &p.specular, &p.transmission, &p.clearcoat, &p.clearcoat_roughness, &p.sheen_roughness]
-            }
-        };
-        let opacity = match &material.alpha {
-            Alpha::Opaque => None,
-            Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } => Some(opacity),
-        };
-        for scalar in scalars.into_iter().chain(opacity) {
-            textures.extend(scalar.texture.map(|(t, _)| t));
-            finite &= scalar.factor.is_finite();
-        }
-        textures.extend(material.normal_map.map(|map| match map {
-            NormalMap::Normal { texture, .. } | NormalMap::Bump { texture, .. } => texture,
-        }));
         if !finite {
             return Err(SceneError::Value { what: what(), problem: "a colour or number is not finite".into() });
         }
-        textures.iter().try_for_each(|t| check_index(what, "image", t.image, self.images.len()))
+        let mut dangling = Ok(());
+        material.textures(|t| {
+            if dangling.is_ok() {
+                dangling = check_index(what, "image", t.image, self.images.len());
+            }
+        });
+        dangling
     }
 
     /// World positions of the corners of triangle `triangle` of `part`.

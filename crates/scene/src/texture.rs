@@ -78,10 +78,27 @@ impl TextureRef {
 }
 
 impl Wrap {
+    /// The texel of `n` along an axis that holds a texture coordinate.
+    #[inline]
+    pub fn nearest(self, coordinate: f32, n: u32) -> usize {
+        self.index(floor(self.reduced(coordinate) * n as f32), n as i32)
+    }
+
+    /// The four texels of `n` along an axis around a texture coordinate, and its place between the middle two (0 at the second).
+    #[inline]
+    pub fn four(self, coordinate: f32, n: u32) -> ([usize; 4], f32) {
+        let (a, b, share) = self.neighbours(coordinate, n);
+        let position = self.reduced(coordinate) * n as f32 - 0.5;
+        let first = floor(position);
+        // One texel further out than `index` is made for.
+        let outer = |i: i32| self.nearest((i as f32 + 0.5) / n as f32, n);
+        ([outer(first - 1), a, b, outer(first + 2)], share)
+    }
+
     /// A texture coordinate as a place on the axis of `n` texels, and its neighbours: the texel whose centre is at or before it, the
     /// next one, and the share of the latter.
     #[inline]
-    fn neighbours(self, coordinate: f32, n: u32) -> (usize, usize, f32) {
+    pub fn neighbours(self, coordinate: f32, n: u32) -> (usize, usize, f32) {
         let n = n as i32;
         let position = self.reduced(coordinate) * n as f32 - 0.5;
         let first = floor(position);
@@ -160,8 +177,7 @@ impl Image {
         // Rows count downward, v upward.
         let v = 1.0 - uv.y;
         if texture.filter == Filter::Nearest {
-            let texel = |wrap: Wrap, coordinate: f32, n: u32| wrap.index(floor(wrap.reduced(coordinate) * n as f32), n as i32);
-            return self.at(texel(texture.wrap[1], v, self.height) * row_length + texel(texture.wrap[0], uv.x, self.width));
+            return self.at(texture.wrap[1].nearest(v, self.height) * row_length + texture.wrap[0].nearest(uv.x, self.width));
         }
         let (left, right, fx) = texture.wrap[0].neighbours(uv.x, self.width);
         let (top, bottom, fy) = texture.wrap[1].neighbours(v, self.height);

@@ -141,23 +141,60 @@ impl<'n> Reader<'n, '_> {
         Ok(Surface { normal_map: picture.map(|texture| NormalMap::Normal { texture, scale: 1.0 }), ..surface })
     }
 
+    /// Two bsdfs by a weight, or several by a list of weights.
     fn blend(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
         self.report_unknown(node, &["weight", "weights"], &["bsdf", "texture"]);
-        let weights = match node.child("weights") {
-            Some(list) => list.numbers("value")?,
-            None => {
-                let second = match self.property(node, "weight")? {
-                    Some(w) if w.tag != "texture" => w.numbers("value")?.first().copied().unwrap_or(0.5),
-                    _ => 0.5,
-                };
-                vec![1.0 - second, second]
-            }
-        };
         let inner = self.objects(node, "bsdf")?;
-        let heaviest = (0..inner.len()).fold(0, |best, i| if weights.get(i) > weights.get(best) { i } else { best });
-        let chosen = inner.get(heaviest).copied().ok_or_else(|| node.error("there is no bsdf within the blend"))?;
-        self.warn(node, format!("blends are not supported; bsdf {} of {}, the heaviest, was used", heaviest + 1, inner.len()));
-        self.surface(chosen, depth + 1)
+        let weights = match node.child("weights") {
+            Some(list) => list.numbers("value")?.into_iter().map(|w| w.max(0.0) as f32).collect(),
+            None => vec![0.5; 2],
+        };
+        if inner.len() < 2 || inner.len() != weights.len() {
+            return Err(node.error(format!(
+                "found {} bsdfs and {} weights, expected as many of each, and two at least",
+                inner.len(),
+                weights.len()
+            )));
+        }
+        let total: f32 = weights.iter().sum();
+        if node.child("weights").is_some() && (total - 1.0).abs() > 1e-3 {
+            self.warn(node, format!("the weights add up to {total}; they were scaled to 1"));
+        }
+        // The last two first: each step blends one more in front of them.
+        let mut blended = self.surface(inner[inner.len() - 1], depth + 1)?;
+        let mut weight_behind = weights[weights.len() - 1];
+        for i in (0..inner.len() - 1).rev() {
+            let first = self.surface(inner[i], depth + 1)?;
+            let sum = weights[i] + weight_behind;
+            let weight = match node.child("weights") {
+                Some(_) => if sum > 0.0 { weight_behind / sum } else { 0.5 }.into(),
+                None => self.scalar(node, "weight", 0.5)?,
+            };
+            blended = self.blend_two(node, first, blended, weight);
+            weight_behind = sum;
+        }
+        Ok(blended)
+    }
+
+    /// `weight` is the share of the second.
+    fn blend_two(&mut self, node: &'n Node, first: Surface, second: Surface, weight: ScalarParam) -> Surface {
+        if first.normal_map != second.normal_map || first.alpha != second.alpha {
+            self.warn(node, "normal maps and masks within a blend are not blended; those of the heavier bsdf are on both");
+        }
+        let second_is_heavier = weight.texture.is_none() && weight.factor > 0.5;
+        let (alpha, normal_map) = if second_is_heavier { (second.alpha, second.normal_map) } else { (first.alpha, first.normal_map) };
+        let two_sided = first.two_sided || second.two_sided;
+        let surface = |bsdf, alpha| Surface { bsdf, two_sided, alpha, normal_map };
+        match (first.bsdf, second.bsdf) {
+            (Some(first), Some(second)) => surface(Some(Bsdf::Blend { first: Box::new(first), second: Box::new(second), weight }), alpha),
+            // Nothing in part of the surface is an opacity.
+            (None, bsdf) if bsdf.is_some() => surface(bsdf, Alpha::Blend { opacity: weight }),
+            (bsdf, _) if weight.texture.is_none() => surface(bsdf, Alpha::Blend { opacity: (1.0 - weight.factor).into() }),
+            (bsdf, _) => {
+                self.warn(node, "a textured blend towards null is not supported; the first bsdf was used");
+                surface(bsdf, alpha)
+            }
+        }
     }
 
     fn coating(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
@@ -181,11 +218,20 @@ impl<'n> Reader<'n, '_> {
         match node.plugin.as_str() {
             "diffuse" | "lambertian" | "roughdiffuse" | "difftrans" => {
                 self.report_unknown(node, &["reflectance", "diffuse_reflectance", "transmittance", "alpha", "use_fast_approx"], &[]);
-                if node.plugin == "roughdiffuse" || node.plugin == "difftrans" {
-                    self.warn(node, format!("{} treated as a smooth diffuse reflector", node.plugin));
+                if node.plugin == "difftrans" {
+                    self.warn(node, "difftrans treated as a diffuse reflector");
                 }
                 let name = ["reflectance", "diffuse_reflectance", "transmittance"].into_iter().find(|n| node.child(n).is_some());
-                Ok(Bsdf::Diffuse { reflectance: self.color(node, name.unwrap_or("reflectance"), Kind::Factor, Rgb::splat(0.5))? })
+                let reflectance = self.color(node, name.unwrap_or("reflectance"), Kind::Factor, Rgb::splat(0.5))?;
+                if node.plugin != "roughdiffuse" {
+                    return Ok(Bsdf::Diffuse { reflectance });
+                }
+                let roughness = self.scalar(node, "alpha", 0.2)?;
+                if roughness.texture.is_some() {
+                    self.warn(node, "a textured roughness of a diffuse reflector is read as that of Oren and Nayar in Portsmouth's form");
+                    return Ok(Bsdf::RoughDiffuse { reflectance, roughness });
+                }
+                Ok(Bsdf::RoughDiffuse { reflectance, roughness: diffuse_roughness(roughness.factor).into() })
             }
             "plastic" | "roughplastic" | "pplastic" => {
                 const KNOWN: [&str; 9] = [
@@ -348,6 +394,13 @@ impl<'n> Reader<'n, '_> {
 /// The name of a bsdf's material: its id, or `inline`.
 pub(super) fn name(bsdf: Option<&Node>) -> &str {
     bsdf.and_then(|b| b.id.as_deref()).unwrap_or("inline")
+}
+
+/// The roughness of a diffuse surface for Oren and Nayar's model with facets of the root-mean-square slope `alpha`: the one with
+/// their ratio of retro-reflecting to Lambertian light. Mitsuba takes alpha/√2 for the deviation of the facets' angles.
+fn diffuse_roughness(alpha: f32) -> f32 {
+    let s2 = 0.5 * alpha * alpha;
+    (0.45 * s2 / (s2 + 0.09) / (1.0 - 0.5 * s2 / (s2 + 0.33))).clamp(0.0, 1.0)
 }
 
 /// Interior over exterior index of refraction, each a number or the name of a substance.

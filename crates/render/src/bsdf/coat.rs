@@ -68,6 +68,11 @@ impl CoatTable {
         Self { spec, rows }
     }
 
+    /// What it was made for.
+    pub fn spec(&self) -> CoatSpec {
+        self.spec
+    }
+
     /// The coat at the roughness `alpha`, which must be the table's if it was made for one.
     #[inline]
     pub fn at(&self, alpha: f32) -> Coat<'_> {

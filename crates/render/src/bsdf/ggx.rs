@@ -106,22 +106,15 @@ impl Facets {
     }
 }
 
-/// Density of the normals that [`sample_visible`] returns for `wo`, per solid angle of the normal.
-#[inline]
-pub fn visible_pdf(wo: Vec3, m: Vec3, alpha: f32) -> f32 {
-    g1(wo, alpha) * d(m, alpha) * wo.dot(m).max(0.0) / wo.z
-}
-
 /// Samples a microfacet normal in proportion to its projected visible area from `wo` (z > 0).
 ///
 /// Dupuy & Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps".
 #[inline]
 pub fn sample_visible(wo: Vec3, alpha: f32, u: [f32; 2]) -> Vec3 {
     let stretched = Vec3::new(wo.x * alpha, wo.y * alpha, wo.z).normalize();
-    let phi = std::f32::consts::TAU * u[0];
     let z = (1.0 - u[1]) * (1.0 + stretched.z) - stretched.z;
     let r = (1.0 - z * z).clamp(0.0, 1.0).sqrt();
-    let (sin, cos) = phi.sin_cos();
+    let (sin, cos) = warp::sin_cos_turns(u[0]);
     let h = Vec3::new(r * cos, r * sin, z) + stretched;
     Vec3::new(h.x * alpha, h.y * alpha, h.z.max(0.0)).try_normalize().unwrap_or(Vec3::Z)
 }

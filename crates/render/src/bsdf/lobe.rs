@@ -6,6 +6,7 @@
 
 use super::coated::Coated;
 use super::ggx::{self, Facets};
+use super::rough_diffuse::RoughDiffuse;
 use super::sheen::Sheen;
 use super::{Event, Sample, Value, fresnel};
 use enfilade_math::{INV_PI, Rgb, Vec3, warp};
@@ -49,6 +50,8 @@ impl Fresnel<'_> {
 pub enum Lobe<'a> {
     /// Lambert's law, demodulated: the value for a reflectance of one.
     Lambert,
+    /// Diffuse reflection of a rough surface, demodulated.
+    RoughDiffuse(RoughDiffuse),
     /// A diffuse base under a dielectric coat, and the coat's own reflection.
     Coated(Coated<'a>),
     /// Reflection at a rough or smooth interface.
@@ -68,6 +71,8 @@ pub enum Lobe<'a> {
         eta: f32,
         /// Multiplies transmitted light.
         tint: Rgb,
+        /// Multiplies all light: what further bounces between the facets add.
+        scale: f32,
     },
     /// A thin pane: mirror reflection and straight transmission.
     Thin {
@@ -89,6 +94,12 @@ impl Lobe<'_> {
                 let v = wi.z.max(0.0) * INV_PI;
                 (Value { diffuse: Rgb::splat(v), specular: Rgb::BLACK }, v)
             }
+            Self::RoughDiffuse(rough) => {
+                if wi.z <= 0.0 {
+                    return NOTHING;
+                }
+                (Value { diffuse: rough.eval(wo, wi), specular: Rgb::BLACK }, wi.z * INV_PI)
+            }
             Self::Coated(coated) => coated.eval_pdf(wo, wi),
             Self::Reflection { facets, fresnel, tint } => {
                 if facets.smooth() || wi.z <= 0.0 {
@@ -97,7 +108,10 @@ impl Lobe<'_> {
                 let mirrored = facets.mirror(wo, wi);
                 (specular(*tint * fresnel.eval(mirrored.cos_half) * mirrored.value), mirrored.pdf)
             }
-            Self::Refraction { facets, eta, tint } => refraction(facets.alpha, *eta, *tint, wo, wi),
+            Self::Refraction { facets, eta, tint, scale } => {
+                let (value, density) = refraction(facets.alpha, *eta, *tint, wo, wi);
+                (value * *scale, density)
+            }
             Self::Thin { .. } => NOTHING,
             Self::Sheen(sheen) => {
                 if wi.z <= 0.0 {
@@ -124,7 +138,7 @@ impl Lobe<'_> {
                 }
                 self.finite(wo, facets.sample(wo, [u[0], u[1]]))
             }
-            Self::Refraction { facets, eta, tint } => self.sample_refraction(facets, *eta, *tint, wo, u),
+            Self::Refraction { facets, eta, tint, .. } => self.sample_refraction(facets, *eta, *tint, wo, u),
             Self::Thin { eta, tint } => {
                 let r = thin_reflectance(wo.z, *eta);
                 if u[2] < r {
@@ -132,7 +146,7 @@ impl Lobe<'_> {
                 }
                 Some(Sample { event: Event::Straight, ..Sample::delta(-wo, *tint) })
             }
-            Self::Sheen(_) => self.finite(wo, warp::cosine_hemisphere([u[0], u[1]])),
+            Self::RoughDiffuse(_) | Self::Sheen(_) => self.finite(wo, warp::cosine_hemisphere([u[0], u[1]])),
         }
     }
 
@@ -160,6 +174,7 @@ impl Lobe<'_> {
     pub fn albedo(&self, cos_o: f32) -> Value {
         match self {
             Self::Lambert => Value { diffuse: Rgb::WHITE, specular: Rgb::BLACK },
+            Self::RoughDiffuse(rough) => Value { diffuse: rough.albedo, specular: Rgb::BLACK },
             Self::Coated(coated) => coated.albedo(cos_o),
             Self::Reflection { fresnel, tint, .. } => specular(*tint * fresnel.eval(cos_o)),
             Self::Refraction { eta, tint, .. } => {
@@ -177,7 +192,7 @@ impl Lobe<'_> {
     /// True when everything of the lobe but its diffuse part is nearly as blurred as that.
     pub fn is_rough(&self) -> bool {
         match self {
-            Self::Lambert | Self::Sheen(_) => true,
+            Self::Lambert | Self::RoughDiffuse(_) | Self::Sheen(_) => true,
             Self::Coated(coated) => coated.facets.alpha >= ROUGH_ALPHA,
             Self::Reflection { facets, .. } | Self::Refraction { facets, .. } => facets.alpha >= ROUGH_ALPHA,
             Self::Thin { .. } => false,

@@ -1,6 +1,6 @@
 //! Several lobes side by side or in layers: metals blended with dielectrics, sheen and clear-coat on top, blended materials.
 
-use super::{Event, Layers, Lobe, Sample, Value};
+use super::{Bsdf, Event, Layers, Lobe, Model, Sample, Value};
 use enfilade_math::{ONE_MINUS_EPSILON, Rgb, Vec3};
 
 /// A lobe and its part in the whole.
@@ -37,6 +37,27 @@ impl<'a> Mixture<'a> {
     pub fn add(&mut self, lobe: Lobe<'a>, diffuse: Rgb, specular: f32, importance: f32) {
         if importance > 0.0 {
             self.entries.push(Entry { lobe, diffuse, specular, select: importance, under: None });
+        }
+    }
+
+    /// Adds a whole material with the given share. `diffuse` is the share that its reflectance has in that of the whole.
+    pub fn add_all(&mut self, bsdf: &Bsdf<'a>, diffuse: Rgb, share: f32, cos_o: f32) {
+        match &bsdf.model {
+            Model::Black => (),
+            Model::One(lobe) => self.add(*lobe, diffuse, share, share * lobe.albedo(cos_o).total(bsdf.reflectance).luminance()),
+            Model::Mixture(other) => {
+                let first = self.layers.len() as u8;
+                self.layers.extend(&other.layers);
+                let (rough, sharp) = other.albedo(cos_o);
+                let albedo = (rough.total(bsdf.reflectance) + sharp.specular).luminance();
+                self.entries.extend(other.entries.iter().map(|e| Entry {
+                    diffuse: e.diffuse * diffuse,
+                    specular: e.specular * share,
+                    select: e.select * share * albedo.max(f32::MIN_POSITIVE),
+                    under: e.under.map(|index| index + first),
+                    ..*e
+                }));
+            }
         }
     }
 

@@ -6,17 +6,21 @@
 
 pub mod coat;
 mod coated;
+mod energy;
 pub mod fresnel;
 pub mod ggx;
 mod layers;
 mod lobe;
 mod mixture;
 mod resolve;
+mod rough_diffuse;
 mod sheen;
+mod tables;
 
 pub use layers::Layers;
 pub use lobe::{Fresnel, Lobe, thin_reflectance};
 pub use resolve::{Inputs, straight_transmittance};
+pub use tables::{TableMaker, Tables};
 
 use enfilade_math::{Rgb, Vec3};
 use mixture::Mixture;
@@ -113,19 +117,19 @@ impl<'a> Bsdf<'a> {
         matches!(self.model, Model::Black)
     }
 
-    /// Value × cosine for light from `wi`; smooth lobes do not take part.
-    #[inline]
+    /// Value × cosine for light from `wi`.
+    #[cfg(test)]
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> Value {
         self.eval_pdf(wo, wi).0
     }
 
     /// Density with which [`Bsdf::sample`] finds `wi`.
-    #[inline]
+    #[cfg(test)]
     pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
         self.eval_pdf(wo, wi).1
     }
 
-    /// [`Bsdf::eval`] and [`Bsdf::pdf`] for the price of one.
+    /// Value × cosine for light from `wi`, and the density with which [`Bsdf::sample`] finds it; smooth lobes do not take part.
     #[inline]
     pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Value, f32) {
         match &self.model {

@@ -1,24 +1,27 @@
 //! From a material of the scene, at one surface point, to its lobes.
 
-use super::coat::CoatTable;
 use super::coated::Coated;
 use super::ggx::Facets;
 use super::layers::CLEARCOAT_ETA;
 use super::mixture::Mixture;
+use super::rough_diffuse::RoughDiffuse;
 use super::sheen::Sheen;
-use super::{Bsdf, Fresnel, Layers, Lobe, Model, fresnel, thin_reflectance};
+use super::{Bsdf, Fresnel, Layers, Lobe, Model, Tables, energy, fresnel, thin_reflectance};
+use crate::texture::{Footprint, Textures};
 use enfilade_math::{Rgb, Vec2};
-use enfilade_scene::{self as scene, ColorParam, Image, Material, Principled, ScalarParam};
+use enfilade_scene::{self as scene, ColorParam, Principled, ScalarParam};
 
 /// What is needed to read a material at a point.
 #[derive(Clone, Copy)]
 pub struct Inputs<'a> {
     /// The scene's pictures.
-    pub images: &'a [Image],
+    pub textures: &'a Textures<'a>,
     /// Texture coordinates of the point.
     pub uv: Vec2,
-    /// The coat of the material's index of refraction, if it has a diffuse base under a dielectric.
-    pub coat: Option<&'a CoatTable>,
+    /// How much of a texture counts.
+    pub footprint: Footprint,
+    /// The material's tables.
+    pub tables: &'a Tables,
     /// Cosine of the viewing direction, > 0.
     pub cos_o: f32,
     /// True when `wo` is on the side that outward normals point to.
@@ -26,31 +29,16 @@ pub struct Inputs<'a> {
 }
 
 impl Inputs<'_> {
-    /// A colour parameter here, on [0,∞).
-    #[inline]
-    pub fn color(&self, p: &ColorParam) -> Rgb {
-        match &p.texture {
-            Some(t) => p.factor * self.images[t.image as usize].sample(t, self.uv).0,
-            None => p.factor,
-        }
-    }
-
     /// A colour parameter here, on [0,1].
     #[inline]
     fn reflectance(&self, p: &ColorParam) -> Rgb {
-        self.color(p).map(|v| v.clamp(0.0, 1.0))
+        self.textures.color(p, self.uv, &self.footprint).map(|v| v.clamp(0.0, 1.0))
     }
 
     /// A scalar parameter here.
     #[inline]
-    pub fn scalar(&self, p: &ScalarParam) -> f32 {
-        match &p.texture {
-            Some((t, channel)) if p.factor != 0.0 => {
-                let (rgb, alpha) = self.images[t.image as usize].sample(t, self.uv);
-                p.factor * if *channel == 3 { alpha } else { rgb[usize::from(*channel)] }
-            }
-            _ => p.factor,
-        }
+    fn scalar(&self, p: &ScalarParam) -> f32 {
+        self.textures.scalar(p, self.uv, &self.footprint)
     }
 
     /// A scalar parameter here, on [0,1].
@@ -61,25 +49,29 @@ impl Inputs<'_> {
 }
 
 impl<'a> Bsdf<'a> {
-    /// The scattering of `material` at a point.
+    /// The scattering of `bsdf` at a point.
     #[inline]
-    pub fn new(material: &'a Material, at: &Inputs<'a>) -> Self {
-        match &material.bsdf {
+    pub fn new(bsdf: &'a scene::Bsdf, at: &Inputs<'a>) -> Self {
+        match bsdf {
             scene::Bsdf::Diffuse { reflectance } => Self::lambert(at.reflectance(reflectance)),
+            scene::Bsdf::RoughDiffuse { reflectance, roughness } => {
+                let reflectance = at.reflectance(reflectance);
+                let lobe = Lobe::RoughDiffuse(RoughDiffuse::new(reflectance, at.share(roughness), at.cos_o));
+                Self { reflectance, ..Self::one(lobe) }
+            }
             scene::Bsdf::Conductor { eta, k, reflectance, alpha } => {
-                let facets = Facets::new(at.scalar(alpha), at.cos_o);
-                Self::one(Lobe::Reflection { facets, fresnel: Fresnel::Conductor { eta, k }, tint: at.reflectance(reflectance) })
+                let (facets, fresnel) = (Facets::new(at.scalar(alpha), at.cos_o), Fresnel::Conductor { eta, k });
+                Self::one(metal(facets, fresnel, at.reflectance(reflectance), at.cos_o))
             }
             scene::Bsdf::Dielectric { eta, alpha, transmittance, .. } => {
-                let eta = if at.outside { *eta } else { 1.0 / *eta };
-                let facets = Facets::new(at.scalar(alpha), at.cos_o);
-                Self::one(Lobe::Refraction { facets, eta, tint: at.reflectance(transmittance) })
+                Self::one(glass(*eta, at.scalar(alpha), at.reflectance(transmittance), at))
             }
             scene::Bsdf::ThinDielectric { eta, transmittance } => Self::one(Lobe::Thin { eta: *eta, tint: at.reflectance(transmittance) }),
             scene::Bsdf::Plastic { diffuse, alpha, specular, nonlinear, .. } => {
                 coated(at, at.reflectance(diffuse), at.scalar(alpha), at.reflectance(specular), *nonlinear)
             }
             scene::Bsdf::Principled(p) => principled(p, at),
+            scene::Bsdf::Blend { first, second, weight } => blend([first, second], at.share(weight), at),
         }
     }
 
@@ -91,9 +83,47 @@ impl<'a> Bsdf<'a> {
 /// A diffuse base under the point's coat; without one (an index of one or less) the base alone.
 #[inline]
 fn coated<'a>(at: &Inputs<'a>, reflectance: Rgb, alpha: f32, tint: Rgb, saturating: bool) -> Bsdf<'a> {
-    let Some(table) = at.coat else { return Bsdf::lambert(reflectance) };
+    let Some(table) = &at.tables.coat else { return Bsdf::lambert(reflectance) };
     let lobe = Lobe::Coated(Coated::new(table.at(alpha), alpha, reflectance, tint, saturating, at.cos_o));
     Bsdf { reflectance, model: Model::One(lobe) }
+}
+
+/// A metal with all bounces between its facets.
+#[inline]
+fn metal<'a>(facets: Facets, fresnel: Fresnel<'a>, tint: Rgb, cos_o: f32) -> Lobe<'a> {
+    // Schlick's curve passes its cosine-weighted mean, 1/21 of the way up, at this cosine; metals follow it closely.
+    const MEAN_COSINE: f32 = 0.456;
+    let scale = if facets.smooth() { Rgb::WHITE } else { energy::of_metal(cos_o, facets.alpha, fresnel.eval(MEAN_COSINE)) };
+    Lobe::Reflection { facets, fresnel, tint: tint * scale }
+}
+
+/// The border of a transparent body of the index `ior`, with all bounces between its facets.
+#[inline]
+fn glass<'a>(ior: f32, alpha: f32, tint: Rgb, at: &Inputs<'a>) -> Lobe<'a> {
+    let eta = if at.outside { ior } else { 1.0 / ior };
+    let scale = at.tables.glass.as_ref().map_or(1.0, |table| table.scale(at.cos_o, alpha, at.outside));
+    Lobe::Refraction { facets: Facets::new(alpha, at.cos_o), eta, tint, scale }
+}
+
+/// Two materials side by side; `weight` is the share of the second.
+fn blend<'a>(parts: [&'a scene::Bsdf; 2], weight: f32, at: &Inputs<'a>) -> Bsdf<'a> {
+    let Some(tables) = at.tables.blended.as_deref() else { return Bsdf::black() };
+    let part = |i: usize| Bsdf::new(parts[i], &Inputs { tables: &tables[i], ..*at });
+    if weight == 0.0 || weight == 1.0 {
+        return part(weight as usize);
+    }
+    let (first, second) = (part(0), part(1));
+    let reflectance = first.reflectance.lerp(second.reflectance, weight);
+    let share_of = |part: Rgb, share: f32| {
+        let channel = |c: usize| if reflectance[c] > 0.0 { share * part[c] / reflectance[c] } else { 0.0 };
+        Rgb::new(channel(0), channel(1), channel(2))
+    };
+    let mut mixture = Mixture::new();
+    mixture.add_all(&first, share_of(first.reflectance, 1.0 - weight), 1.0 - weight, at.cos_o);
+    mixture.add_all(&second, share_of(second.reflectance, weight), weight, at.cos_o);
+    mixture.finish();
+    let model = if mixture.is_empty() { Model::Black } else { Model::Mixture(mixture) };
+    Bsdf { reflectance, model }
 }
 
 /// glTF's metallic-roughness model: a metal, a transparent body and a coated diffuse base in their shares, under sheen and
@@ -103,7 +133,7 @@ fn principled<'a>(p: &Principled, at: &Inputs<'a>) -> Bsdf<'a> {
     let metallic = at.share(&p.metallic);
     let transmission = at.share(&p.transmission);
     let alpha = at.share(&p.roughness).powi(2);
-    let (glass, solid) = ((1.0 - metallic) * transmission, (1.0 - metallic) * (1.0 - transmission));
+    let (clear, solid) = ((1.0 - metallic) * transmission, (1.0 - metallic) * (1.0 - transmission));
 
     let coated_base = || {
         // Fresnel's equations instead of glTF's Schlick, so that coat and base share out exactly all light; the specular
@@ -111,11 +141,8 @@ fn principled<'a>(p: &Principled, at: &Inputs<'a>) -> Bsdf<'a> {
         let tint = at.reflectance(&p.specular_color) * at.share(&p.specular);
         coated(at, base, alpha, tint, false)
     };
-    let metal = || Lobe::Reflection { facets: Facets::new(alpha, at.cos_o), fresnel: Fresnel::Schlick { f0: base }, tint: Rgb::WHITE };
-    let body = || match p.solid {
-        true => Lobe::Refraction { facets: Facets::new(alpha, at.cos_o), eta: if at.outside { p.ior } else { 1.0 / p.ior }, tint: base },
-        false => Lobe::Thin { eta: p.ior, tint: base },
-    };
+    let metal = || metal(Facets::new(alpha, at.cos_o), Fresnel::Schlick { f0: base }, Rgb::WHITE, at.cos_o);
+    let body = || if p.solid { glass(p.ior, alpha, base, at) } else { Lobe::Thin { eta: p.ior, tint: base } };
 
     let sheen_color = at.reflectance(&p.sheen_color);
     let clearcoat = if at.outside { at.share(&p.clearcoat) } else { 0.0 };
@@ -127,7 +154,7 @@ fn principled<'a>(p: &Principled, at: &Inputs<'a>) -> Bsdf<'a> {
         if metallic == 1.0 {
             return Bsdf::one(metal());
         }
-        if glass == 1.0 {
+        if clear == 1.0 {
             return Bsdf::one(body());
         }
     }
@@ -145,8 +172,8 @@ fn principled<'a>(p: &Principled, at: &Inputs<'a>) -> Bsdf<'a> {
         let lobe = metal();
         mixture.add(lobe, Rgb::BLACK, metallic, metallic * lobe.albedo(at.cos_o).specular.luminance());
     }
-    if glass > 0.0 {
-        mixture.add(body(), Rgb::BLACK, glass, glass);
+    if clear > 0.0 {
+        mixture.add(body(), Rgb::BLACK, clear, clear);
     }
     if covered {
         cover(&mut mixture, p, at, sheen_color, clearcoat);
@@ -170,21 +197,28 @@ fn cover(mixture: &mut Mixture<'_>, p: &Principled, at: &Inputs<'_>, sheen_color
     }
 }
 
-/// Share of light that goes straight through a thin pane of `material` at cosine `cos`; `None` when it has no such lobe.
+/// Share of light that goes straight through thin panes of `bsdf` at a point; `None` when it has none.
 ///
 /// This is the [`Lobe::Thin`] of [`Bsdf::new`] as a shadow ray sees it.
-pub fn straight_transmittance(material: &Material, at: &Inputs<'_>) -> Option<Rgb> {
-    match &material.bsdf {
+pub fn straight_transmittance(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Rgb> {
+    match bsdf {
         scene::Bsdf::ThinDielectric { eta, transmittance } => {
             Some(at.reflectance(transmittance) * (1.0 - thin_reflectance(at.cos_o, *eta)))
         }
         scene::Bsdf::Principled(p) if !p.solid && p.transmission.factor > 0.0 => {
-            let glass = (1.0 - at.share(&p.metallic)) * at.share(&p.transmission);
+            let clear = (1.0 - at.share(&p.metallic)) * at.share(&p.transmission);
             let sheen = at.reflectance(&p.sheen_color).max_component();
             let clearcoat = if at.outside { at.share(&p.clearcoat) } else { 0.0 };
             let layers = Layers { clearcoat, sheen, sheen_roughness: at.scalar(&p.sheen_roughness).clamp(0.05, 1.0) };
             let pane = at.reflectance(&p.base_color) * (1.0 - thin_reflectance(at.cos_o, p.ior));
-            Some(pane * (glass * layers.passes(at.cos_o, at.cos_o)))
+            Some(pane * (clear * layers.passes(at.cos_o, at.cos_o)))
+        }
+        scene::Bsdf::Blend { first, second, weight } => {
+            let (first, second) = (straight_transmittance(first, at), straight_transmittance(second, at));
+            if first.is_none() && second.is_none() {
+                return None;
+            }
+            Some(first.unwrap_or_default().lerp(second.unwrap_or_default(), at.share(weight)))
         }
         _ => None,
     }

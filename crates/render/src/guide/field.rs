@@ -209,7 +209,7 @@ fn first_surface<'s>(
                 .total());
             return None;
         };
-        let surface = scene.surface(&hit, ray.direction);
+        let surface = scene.surface(&hit, ray.direction, &crate::texture::Cone::POINT);
         if let Some(transmittance) = surface.straight_transmittance(scene) {
             through *= transmittance;
             ray = Ray::new(offset_origin(surface.p, -surface.ng), ray.direction);

@@ -62,7 +62,7 @@ fn walk(scene: &RenderScene<'_>, view: &CameraView<'_>, mut rng: Rng) -> Vec<Sit
     let mut ray = Ray::new(first.origin.as_vec3(), first.direction.as_vec3());
     for _ in 0..VERTICES {
         let Some(hit) = scene.closest(&ray, Cutout::Random) else { break };
-        let surface = scene.surface(&hit, ray.direction);
+        let surface = scene.surface(&hit, ray.direction, &crate::texture::Cone::POINT);
         let bsdf = surface.bsdf(scene);
         if !bsdf.reflectance.is_black() {
             sites.push(Site { p: surface.p, n: surface.ns_smooth });

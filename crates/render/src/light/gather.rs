@@ -2,7 +2,6 @@
 
 use super::bounds::LightBounds;
 use super::emitter::{Emission, Patch};
-use crate::surface::color_at;
 use crate::triangle::Triangle;
 use enfilade_math::{Vec2, Vec3};
 use enfilade_scene::{Alpha, ColorParam, Scene};
@@ -236,12 +235,11 @@ impl Part<'_> {
 
     /// Mean luminance over a patch, from its texture coordinates by shares of its sides.
     fn mean(&self, uv: impl Fn(f32, f32) -> Vec2) -> f32 {
-        if self.emission.texture.is_none() {
-            return self.emission.factor.luminance();
-        }
+        let Some(texture) = &self.emission.texture else { return self.emission.factor.luminance() };
+        let image = &self.scene.images[texture.image as usize];
         let at = |k: u32| (k as f32 + 0.5) / LOOKUPS as f32;
         let sum: f32 = (0..LOOKUPS * LOOKUPS)
-            .map(|k| color_at(self.scene, self.emission, uv(at(k % LOOKUPS), at(k / LOOKUPS))).luminance().max(0.0))
+            .map(|k| (self.emission.factor * image.sample(texture, uv(at(k % LOOKUPS), at(k / LOOKUPS))).0).luminance().max(0.0))
             .sum();
         sum / (LOOKUPS * LOOKUPS) as f32
     }

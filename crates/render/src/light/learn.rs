@@ -64,7 +64,7 @@ fn walk(scene: &RenderScene<'_>, view: &CameraView<'_>, mut rng: Rng, mut visit:
     let mut ray = Ray::new(first.origin.as_vec3(), first.direction.as_vec3());
     for _ in 0..VERTICES {
         let Some(hit) = scene.closest(&ray, Cutout::Random) else { return };
-        let surface = scene.surface(&hit, ray.direction);
+        let surface = scene.surface(&hit, ray.direction, &crate::texture::Cone::POINT);
         visit(&surface, &mut rng);
         let bsdf = surface.bsdf(scene);
         let onb = surface.onb();

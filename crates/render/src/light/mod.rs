@@ -20,7 +20,7 @@ mod window;
 pub(crate) use choice::LightChoice;
 
 use crate::prepared::{Cutout, RenderScene};
-use crate::surface::{Surface, transmits};
+use crate::surface::Surface;
 use crate::triangle::Triangle;
 use emitter::Emission;
 use enfilade_geometry::Hit;
@@ -51,7 +51,7 @@ impl LightPoint {
     /// A point of a surface.
     #[inline]
     pub fn on(surface: &Surface<'_>) -> Self {
-        Self { p: surface.p, n: if transmits(surface.material) { Vec3::ZERO } else { surface.ns } }
+        Self { p: surface.p, n: if surface.material.bsdf.transmits() { Vec3::ZERO } else { surface.ns } }
     }
 }
 
@@ -287,12 +287,14 @@ impl<'s> Lights<'s> {
         }
         let (triangle, [b, c]) = patch.locate(point.q, &scene.triangles);
         let hit = Hit { t: point.distance, triangle, u: b, v: c };
-        let surface = scene.surface(&hit, point.wi);
+        let surface = scene.surface(&hit, point.wi, &crate::texture::Cone::POINT);
         let mut radiance = surface.emission(scene);
         match surface.material.alpha {
             Alpha::Opaque => {}
             Alpha::Mask { .. } => radiance *= if scene.is_present(&hit, Cutout::Half) { 1.0 } else { 0.0 },
-            Alpha::Blend { opacity } => radiance *= crate::surface::scalar_at(scene.scene, &opacity, surface.uv).clamp(0.0, 1.0),
+            Alpha::Blend { opacity } => {
+                radiance *= scene.textures.scalar(&opacity, surface.uv, &crate::texture::Footprint::POINT).clamp(0.0, 1.0)
+            }
         }
         if radiance.is_black() {
             return None;

@@ -1,6 +1,7 @@
 use super::choice::Arrival;
 use super::*;
 use crate::prepared::RenderScene;
+use crate::texture::Footprint;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Ray, Rng, Vec2, warp};
 use enfilade_scene::{ColorParam, Image, Material, Part, Pixels, Quiet, TextureRef};
@@ -151,7 +152,7 @@ fn surfaces_met_by_chance_have_the_density_with_which_they_are_sampled() {
         let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
         let Some(light) = prepared.lights.sample(&prepared, &choice, &at, u, |_| true) else { continue };
         let Some(hit) = prepared.closest(&Ray::new(p, light.wi), Cutout::Random) else { continue };
-        let met = prepared.surface(&hit, light.wi);
+        let met = prepared.surface(&hit, light.wi, &crate::texture::Cone::POINT);
         // Another lamp may be in the way.
         if light.target.is_none_or(|target| target.distance(met.p) > 1e-3) {
             continue;
@@ -193,7 +194,7 @@ fn a_picture_on_a_screen_lights_by_its_texels() {
             let q = corner + u * share.x + v * share.y;
             let d2 = q.distance_squared(p);
             let wi = (q - p) / d2.sqrt();
-            let radiance = crate::surface::color_at(&scene, &scene.materials[0].emission, share).luminance();
+            let radiance = prepared.textures.color(&scene.materials[0].emission, share, &Footprint::POINT).luminance();
             expected += f64::from(radiance * wi.y * wi.y / d2) * 2.0 / f64::from(columns * rows);
         }
         let samples = 40_000;
