@@ -329,5 +329,5 @@ fn no_light_leaks_through_a_wall_with_relief() {
 fn relief_creates_no_light_and_loses_what_it_would_send_through_the_wall() {
     let frame = picture(&white_sky(embossed_wall()), DVec3::new(0.0, 0.0, 3.0), DVec3::ZERO, 16, 25.0, 256);
     let albedo = mean(&frame, Layer::Color, 1);
-    assert!((0.75..=1.0).contains(&albedo), "albedo {albedo}");
+    assert!((0.72..=1.0).contains(&albedo), "albedo {albedo}");
 }
