@@ -118,7 +118,8 @@ impl PixelSum {
             out.residual[c] = stored.residual;
             out.color[c] = stored.color;
         }
-        out.standard_error = f16::from_f32(self.standard_error().min(F16_LIMIT));
+        let error = self.standard_error();
+        out.standard_error = f16::from_f32(if error > F16_LIMIT { F16_LIMIT } else { error });
         out.saturated = saturated;
         out
     }
