@@ -86,8 +86,10 @@ impl<'s> Sky<'s> {
         match &self.light {
             SkyLight::Constant { .. } => 0.25 / PI,
             SkyLight::Map(map) => {
-                let uv = uv_from_direction(map.map_from_world * d);
-                let sin_theta = (uv.y * PI).sin();
+                let d = map.map_from_world * d;
+                let uv = uv_from_direction(d);
+                // Near the poles the cosine rounds to one before the sine is zero.
+                let sin_theta = d.x.hypot(d.z);
                 if sin_theta <= 0.0 { 0.0 } else { map.distribution.pdf(uv.to_array()) / (2.0 * PI * PI * sin_theta) }
             }
         }
@@ -145,6 +147,16 @@ mod tests {
     use enfilade_math::Rng;
     use enfilade_scene::Pixels;
     use enfilade_testkit::ChiSquare;
+
+    #[test]
+    fn directions_near_the_zenith_have_density() {
+        let images = [Image { name: "sky".into(), width: 8, height: 4, pixels: Pixels::RgbF32(vec![[1.0; 3]; 32]) }];
+        let map = Environment::Map { image: 0, scale: Rgb::WHITE, map_from_world: Mat3::IDENTITY };
+        let sky = Sky::new(&map, &images).unwrap();
+        for angle in [1e-3f32, 1e-4, 1e-6] {
+            assert!(sky.pdf(Vec3::new(angle, 1.0, 0.0)) > 0.0, "{angle} rad from the zenith");
+        }
+    }
 
     #[test]
     fn directions_of_a_map_follow_its_brightness() {

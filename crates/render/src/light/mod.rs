@@ -220,7 +220,7 @@ impl<'s> Lights<'s> {
             Source::Portal(_) | Source::Sky => self.environment_pdf(choice, at, sample.wi),
             Source::Cluster(_) | Source::Distant(_) => sample.pdf * probability,
         };
-        Some(sample)
+        (sample.pdf > 0.0).then_some(sample)
     }
 
     /// Samples light of one source; the density is given that source.
