@@ -219,13 +219,14 @@ fn closest_and_any_hit_match_brute_force_to_the_bit() {
 
 /// The kernels that this machine can run, the plain one first.
 fn kernels() -> Vec<Kernel> {
+    let mut kernels = vec![Kernel::Portable];
     #[cfg(target_arch = "x86_64")]
     match Kernel::best_here() {
-        Kernel::Avx512 => return vec![Kernel::Portable, Kernel::Avx2, Kernel::Avx512],
-        best => return vec![Kernel::Portable, best],
+        Kernel::Portable => {}
+        Kernel::Avx2 => kernels.push(Kernel::Avx2),
+        Kernel::Avx512 => kernels.extend([Kernel::Avx2, Kernel::Avx512]),
     }
-    #[cfg(not(target_arch = "x86_64"))]
-    vec![Kernel::Portable]
+    kernels
 }
 
 #[test]
