@@ -110,12 +110,8 @@ fn fewer_frames_leave_none_of_the_old_ones_behind() {
     write_config(d, &[scene("room")]);
     succeed(d, &["run", "dataset.toml", "--frames", "2", "-o", "fresh"]);
     succeed(d, &["run", "dataset.toml", "--frames", "3", "-o", "changed"]);
-    let times = color_times(&d.join("changed"));
+    // A shorter trajectory is another one, and the guide learns from all of it: its frames are rendered again.
     succeed(d, &["run", "dataset.toml", "--frames", "2", "-o", "changed"]);
-    assert!(
-        color_times(&d.join("changed")).iter().all(|(path, time)| times.get(path) == Some(time)),
-        "the kept frames were rendered again"
-    );
     assert_same(&contents(&d.join("fresh")), &contents(&d.join("changed")));
 }
 

@@ -165,8 +165,8 @@ fn denoised_layers_come_and_go_beside_a_frame_and_the_manifest_names_their_maker
     assert_eq!(dataset.read_layer(SCENE, CAMERA, 0, Layer::ColorDenoised).unwrap().get(5), 1.0);
     let entries = || dataset.collect_manifest(&ManifestInfo::default()).unwrap().scenes[SCENE].cameras[CAMERA].frames.clone();
     let (first, second) = (&entries()[0], &entries()[1]);
-    assert_eq!((first.denoiser.as_deref(), first.files.len()), (Some("Smoother 3.1"), 19));
-    assert_eq!((&second.denoiser, second.files.len()), (&None, 16));
+    assert_eq!((first.denoiser.as_deref(), first.files.len()), (Some("Smoother 3.1"), 20));
+    assert_eq!((&second.denoiser, second.files.len()), (&None, 17));
 
     dataset.remove_denoised_layers(SCENE, CAMERA, 0).unwrap();
     assert!(files(folder.path()) == before, "what was rendered stays as it was");

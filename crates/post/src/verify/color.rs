@@ -61,7 +61,7 @@ fn standard_error(scan: &mut Scan<'_>) {
     let excess = |pixel: usize| {
         let error = errors.get(pixel);
         let [r, g, b] = [0, 1, 2].map(|channel| color.get(3 * pixel + channel));
-        let luminance = f64::from(Rgb::new(r as f32, g as f32, b as f32).luminance());
+        let luminance = f64::from(Rgb::new(r as f32, g as f32, b as f32).luminance()).max(0.0);
         match (all_unknown, error < 0.0 || !error.is_finite()) {
             (true, _) => 0.0,
             (false, true) => f64::INFINITY,
