@@ -129,7 +129,7 @@ impl Lobe<'_> {
             Self::Lambert => {
                 let wi = warp::cosine_hemisphere([u[0], u[1]]);
                 let weight = Value { diffuse: Rgb::WHITE, specular: Rgb::BLACK };
-                (wi.z > 0.0).then(|| Sample { wi, weight, pdf: wi.z * INV_PI, event: Event::Finite })
+                (wi.z > 0.0).then_some(Sample { wi, weight, pdf: wi.z * INV_PI, event: Event::Finite })
             }
             Self::Coated(coated) => coated.sample(wo, u),
             Self::Reflection { facets, fresnel, tint } => {

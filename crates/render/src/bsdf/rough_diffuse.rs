@@ -24,7 +24,7 @@ pub struct RoughDiffuse {
 const C1: f32 = 0.287_793_4;
 
 /// Coefficients of the fit to the angular part of the albedo, by powers of 1 − cosθ from the first.
-const FIT: [f32; 4] = [0.057_108_53, 0.491_881_87, -0.332_181_44, 0.071_442_995];
+const FIT: [f32; 4] = [0.057_108_53, 0.491_881_87, -0.332_181_44, 0.071_443];
 
 /// Cosine-weighted mean of the fit.
 const MEAN: f32 = FIT[0] / 3.0 + FIT[1] / 6.0 + FIT[2] / 10.0 + FIT[3] / 15.0;

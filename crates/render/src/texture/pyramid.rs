@@ -127,8 +127,8 @@ impl<'s> Pyramid<'s> {
         let m = texture.uv_transform;
         let determinant = (m[0][0] * m[1][1] - m[0][1] * m[1][0]).abs();
         // In texels of level 0.
-        let area = footprint.area * determinant * (self.width * self.height) as f32;
-        if !(area > 1.0) {
+        let area = footprint.area * determinant * self.width as f32 * self.height as f32;
+        if area.is_nan() || area <= 1.0 {
             return (0, 0.0);
         }
         // Half of the binary exponent.
