@@ -186,7 +186,7 @@ impl<'s> Integrator<'_, 's> {
             }
             let onb = surface.onb();
             let vertex = self.vertex(&surface, &bsdf, &onb);
-                if let Some(Direct { weight, light, kind, .. }) = self.sample_lights(&vertex, sampler.set(light_set(bounce))) {
+            if let Some(Direct { weight, light, kind, .. }) = self.sample_lights(&vertex, sampler.set(light_set(bounce))) {
                 radiance.add(kind, throughput * weight.total(bsdf.reflectance) * light, false);
             }
 
