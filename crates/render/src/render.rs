@@ -184,7 +184,7 @@ impl<'a, 's> FrameRender<'a, 's> {
         let config = self.integrator.config;
         let header = Header { size: self.view.camera().size(), done: self.done, splits: config.splits, key };
         let sums = self.film.iter().flat_map(|film| &film.sums).flat_map(|sum| sum.to_words());
-        let splits = self.film.iter().flat_map(|film| &film.splits).flat_map(Split::to_words);
+        let splits = self.film.iter().flat_map(|film| &film.splits).flat_map(|split| split.to_words());
         partial::write(&header, self.wanted.iter().copied().chain(sums).chain(splits))
     }
 

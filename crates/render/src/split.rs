@@ -67,7 +67,7 @@ impl Split {
     pub const WORDS: usize = 3 * Self::PARTS;
 
     /// The sums, bit by bit.
-    pub fn to_words(&self) -> [u32; Self::WORDS] {
+    pub fn to_words(self) -> [u32; Self::WORDS] {
         std::array::from_fn(|i| self.part(i / 3)[i % 3].to_bits())
     }
 

@@ -119,7 +119,7 @@ pub const STAGES: [StageSpec; 8] = [
         stage: Stage::Preview,
         name: "preview",
         about: "frames -> pictures and contact sheets",
-        version: 1,
+        version: 2,
         settings: preview::settings,
         inputs: preview::inputs,
         run: preview::run,
