@@ -199,4 +199,5 @@ def write(equal, large, costs, peer, docs, seconds):
     (docs / "render.md").write_text("\n".join(lines))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -179,4 +179,5 @@ def write(results, docs, seconds):
     (docs / "oracle.md").write_text("\n".join(lines))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -57,4 +57,5 @@ def main():
     print(json.dumps({"mitsuba": mi.__version__, "variant": VARIANT}))
 
 
-main()
+if __name__ == "__main__":
+    main()
