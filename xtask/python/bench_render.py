@@ -21,7 +21,7 @@ SIZE, LARGE = "256x192", "1024x768"
 LARGE_ROOM, LARGE_SAMPLES = "grey-white-room", 32
 DEPTH = 10
 SEEDS = 2
-CURVE = [4, 16, 64, 256]
+CURVE = [4, 16, 64]
 # The samples at which the tables compare.
 AT = 64
 # The noise of a delivered image: see `tone_mapped_noise`.

@@ -19,7 +19,7 @@ import figures
 import rooms
 from renderers import Mitsuba, Ours, luminance
 
-SEEDS = 16
+SEEDS = 8
 DEPTH = 64
 BLOCKS = 8
 # A block whose means differ by more is listed.
