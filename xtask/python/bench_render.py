@@ -5,7 +5,6 @@ are not counted: of Mitsuba's the same run with one sample is subtracted, of our
 learning and the geometry layers count.
 """
 
-import argparse
 import json
 import sys
 import time
@@ -13,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+import command
 import figures
 import rooms
 from renderers import Mitsuba, Ours, luminance
@@ -32,11 +32,7 @@ NAMES = {"ours": "enfilade", "peer": "Mitsuba 3"}
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="cargo xtask bench render", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("rooms", nargs="*", help="only these rooms; the tables then go below the target folder")
-    for name in ["measure", "exporter", "work", "docs", "scenes"]:
-        parser.add_argument(f"--{name}", help=argparse.SUPPRESS)
-    job = parser.parse_args()
+    job = command.parse("bench render", __doc__, "rooms", "rooms")
     if not job.scenes:
         sys.exit("ENFILADE_SCENES should name the folder of the shared rooms: this measures nothing else")
     if unknown := [name for name in job.rooms if name not in rooms.ROOMS]:

@@ -4,7 +4,6 @@ Each renders every scene with K independent seeds. The variance between its own 
 means, so a difference of means is judged by its own noise: per pixel, per block (the image cut into 8 × 8) and for the image.
 """
 
-import argparse
 import json
 import shutil
 import sys
@@ -15,6 +14,7 @@ import numpy as np
 from PIL import Image
 
 import assets
+import command
 import figures
 import rooms
 from renderers import Mitsuba, Ours, luminance
@@ -35,11 +35,7 @@ DEPTHS = {"cornell-3": 3}
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="cargo xtask oracle", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("cases", nargs="*", help="only these scenes or rooms; the tables then go below the target folder")
-    for name in ["measure", "exporter", "work", "docs", "scenes"]:
-        parser.add_argument(f"--{name}", help=argparse.SUPPRESS)
-    job = parser.parse_args()
+    job = command.parse("oracle", __doc__, "cases", "scenes or rooms")
     cases = scenes(Path(job.work) / "scenes") | {name: None for name in rooms.ROOMS if job.scenes}
     chosen = job.cases or list(cases)
     if unknown := [name for name in chosen if name not in cases]:

@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 use enfilade_frame::{Frame, Layer};
 use enfilade_import::{ImportOptions, load};
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
-use enfilade_scene::{Camera, CameraView, Intrinsics, Pose, Quiet};
+use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet};
 use std::path::Path;
 use std::time::Instant;
 
@@ -29,14 +29,11 @@ fn main() -> Result<()> {
     let camera = imported.scene.cameras.first().context("the scene has no camera")?;
     let (width, height) = (reference.width as u32, reference.height as u32);
     let taken_with = Camera::from(Intrinsics::from_fov_x(width, height, camera.fov_x_rad));
-    let forward = -camera.world_from_camera.z_axis;
-    let pose =
-        Pose { frame: 0, position: camera.position, look_at: camera.position + forward, world_from_camera: camera.world_from_camera };
     let prepared = RenderScene::new(&imported.scene, &Quiet)?;
     println!("{} triangles, loaded in {:.2} s", prepared.triangle_count(), started.elapsed().as_secs_f64());
     let started = Instant::now();
     let config = RenderConfig { samples, ..RenderConfig::default() };
-    let view = CameraView::still(&taken_with, &pose);
+    let view = CameraView::still(&taken_with, &camera.pose(0));
     let guide = Guide::learn(&prepared, &[view], &config);
     let frame = render_frame(&prepared, &guide, &view, &config, &Quiet)?;
     let seconds = started.elapsed().as_secs_f64();

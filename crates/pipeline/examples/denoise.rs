@@ -10,8 +10,9 @@ use enfilade_denoise::{DenoiseError, Denoiser, Noisy, denoise};
 use enfilade_frame::{Frame, Layer};
 use enfilade_home::{HomeConfig, living_room};
 use enfilade_import::{ImportOptions, load};
+use enfilade_pipeline::Stopwatch;
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
-use enfilade_scene::{Camera, CameraView, Intrinsics, Pose, Quiet, Scene};
+use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet, Scene};
 use std::path::PathBuf;
 
 fn main() -> Result<()> {
@@ -49,9 +50,7 @@ fn main() -> Result<()> {
 fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &Denoiser) -> Result<()> {
     let camera = scene.cameras.first().context("the scene has no camera")?;
     let taken_with = Camera::from(Intrinsics::from_fov_x(width, height, camera.fov_x_rad));
-    let look_at = camera.position - camera.world_from_camera.z_axis;
-    let pose = Pose { frame: 0, position: camera.position, look_at, world_from_camera: camera.world_from_camera };
-    let view = CameraView::still(&taken_with, &pose);
+    let view = CameraView::still(&taken_with, &camera.pose(0));
     let prepared = RenderScene::new(scene, &Quiet)?;
     let render = |samples, seed| {
         let config = RenderConfig { samples, seed, ..RenderConfig::default() };
@@ -70,9 +69,9 @@ fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &
         };
         row("as rendered", &picture(&frame, Layer::Color), 0.0);
         for way in WAYS {
-            let started = core_seconds();
+            let time = Stopwatch::start();
             let color = (way.1)(&frame, denoiser)?;
-            row(way.0, &color, core_seconds() - started);
+            row(way.0, &color, time.cpu_s());
         }
     }
     Ok(())
@@ -143,10 +142,4 @@ fn relative_error(found: &[f32], [a, b]: &[Vec<f32>; 2]) -> f64 {
     errors.sort_by(|x, y| x[0].total_cmp(&y[0]));
     errors.truncate(errors.len() * 999 / 1000);
     errors.iter().map(|e| e[1]).sum::<f64>() / errors.len() as f64
-}
-
-/// Processor time of all threads of this process.
-fn core_seconds() -> f64 {
-    let t = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
-    t.tv_sec as f64 + t.tv_nsec as f64 * 1e-9
 }

@@ -9,8 +9,9 @@
 use anyhow::{Context, Result, bail};
 use enfilade_frame::{Frame, Layer};
 use enfilade_import::{ImportOptions, load};
+use enfilade_pipeline::Stopwatch;
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
-use enfilade_scene::{Camera, CameraView, Intrinsics, Pose, Quiet, StartCamera};
+use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet, StartCamera};
 use std::path::PathBuf;
 
 /// What to render.
@@ -23,6 +24,7 @@ struct Job {
 }
 
 fn main() -> Result<()> {
+    let time = Stopwatch::start();
     let job = arguments()?;
     let imported = load(&job.scene, &ImportOptions::default(), &Quiet)?;
     for warning in &imported.report.warnings {
@@ -30,7 +32,7 @@ fn main() -> Result<()> {
     }
     let camera = imported.scene.cameras.first().with_context(|| format!("{} has no camera", job.scene.display()))?;
     let prepared = RenderScene::new(&imported.scene, &Quiet)?;
-    let loaded = core_seconds();
+    let loaded = time.cpu_s();
     let (mut pictures, mut learned) = (Vec::new(), 0.0);
     for seed in 0..job.seeds {
         let config = RenderConfig { seed: job.config.seed + seed, ..job.config.clone() };
@@ -38,7 +40,7 @@ fn main() -> Result<()> {
         pictures.extend(color(&frame));
         learned += seconds;
     }
-    let rendered = core_seconds() - loaded - learned;
+    let rendered = time.cpu_s() - loaded - learned;
     if let Some(path) = &job.out {
         let (width, height) = job.size;
         let bytes = npy(&[job.seeds as usize, height as usize, width as usize, 3], &pictures);
@@ -83,12 +85,10 @@ fn arguments() -> Result<Job> {
 /// A frame from the scene's own camera, and the processor seconds of learning for it.
 fn picture(scene: &RenderScene<'_>, camera: &StartCamera, (width, height): (u32, u32), config: &RenderConfig) -> Result<(Frame, f64)> {
     let taken_with = Camera::from(Intrinsics::from_fov_x(width, height, camera.fov_x_rad));
-    let look_at = camera.position - camera.world_from_camera.z_axis;
-    let pose = Pose { frame: 0, position: camera.position, look_at, world_from_camera: camera.world_from_camera };
-    let view = CameraView::still(&taken_with, &pose);
-    let started = core_seconds();
+    let view = CameraView::still(&taken_with, &camera.pose(0));
+    let learning = Stopwatch::start();
     let guide = Guide::learn(scene, std::slice::from_ref(&view), config);
-    let learned = core_seconds() - started;
+    let learned = learning.cpu_s();
     Ok((render_frame(scene, &guide, &view, config, &Quiet)?, learned))
 }
 
@@ -109,10 +109,4 @@ fn npy(shape: &[usize], values: &[f32]) -> Vec<u8> {
     bytes.extend(header.as_bytes());
     bytes.extend(values.iter().flat_map(|v| v.to_le_bytes()));
     bytes
-}
-
-/// Processor time of all threads of this process so far.
-fn core_seconds() -> f64 {
-    let t = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
-    t.tv_sec as f64 + t.tv_nsec as f64 * 1e-9
 }

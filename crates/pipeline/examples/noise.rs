@@ -8,8 +8,9 @@ use anyhow::{Context, Result};
 use enfilade_frame::{Frame, Layer};
 use enfilade_home::{HomeConfig, living_room};
 use enfilade_import::{ImportOptions, load};
+use enfilade_pipeline::Stopwatch;
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
-use enfilade_scene::{Camera, CameraView, Intrinsics, Pose, Quiet, Scene};
+use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet, Scene};
 
 const WIDTH: u32 = 256;
 const HEIGHT: u32 = 192;
@@ -44,22 +45,20 @@ fn main() -> Result<()> {
 fn measure(name: &str, scene: &Scene, config: &RenderConfig) -> Result<()> {
     let camera = scene.cameras.first().with_context(|| format!("{name} has no camera"))?;
     let taken_with = Camera::from(Intrinsics::from_fov_x(WIDTH, HEIGHT, camera.fov_x_rad));
-    let look_at = camera.position - camera.world_from_camera.z_axis;
-    let pose = Pose { frame: 0, position: camera.position, look_at, world_from_camera: camera.world_from_camera };
-    let view = CameraView::still(&taken_with, &pose);
+    let view = CameraView::still(&taken_with, &camera.pose(0));
     let prepared = RenderScene::new(scene, &Quiet)?;
-    let started = core_seconds();
+    let time = Stopwatch::start();
     let mut learned = 0.0;
     let mut pictures = Vec::new();
     for seed in 0..2 {
         let config = RenderConfig { seed, ..config.clone() };
-        let learning = core_seconds();
+        let learning = Stopwatch::start();
         let guide = Guide::learn(&prepared, &[view], &config);
-        learned += core_seconds() - learning;
+        learned += learning.cpu_s();
         pictures.push(luminance(&render_frame(&prepared, &guide, &view, &config, &Quiet)?));
     }
     let samples = config.samples;
-    let seconds = (core_seconds() - started) / 2.0;
+    let seconds = time.cpu_s() / 2.0;
     let megapixels = f64::from(WIDTH * HEIGHT) / 1e6;
     let error = relative_error(&pictures[0], &pictures[1]);
     println!(
@@ -90,10 +89,4 @@ fn relative_error(a: &[f64], b: &[f64]) -> f64 {
     errors.sort_by(f64::total_cmp);
     errors.truncate(errors.len() * 999 / 1000);
     errors.iter().sum::<f64>() / errors.len() as f64
-}
-
-/// Processor time of all threads of this process.
-fn core_seconds() -> f64 {
-    let t = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
-    t.tv_sec as f64 + t.tv_nsec as f64 * 1e-9
 }

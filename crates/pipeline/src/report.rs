@@ -145,21 +145,23 @@ impl Cx for StageCx<'_> {
 }
 
 /// Wall clock and processor time since its creation.
-pub(crate) struct Stopwatch {
+pub struct Stopwatch {
     wall: Instant,
     cpu_s: f64,
 }
 
 impl Stopwatch {
+    /// Begins now.
     pub fn start() -> Self {
         Self { wall: Instant::now(), cpu_s: process_cpu_s() }
     }
 
+    /// Seconds on the wall clock.
     pub fn wall_s(&self) -> f64 {
         self.wall.elapsed().as_secs_f64()
     }
 
-    /// Processor time of all threads; 0 where the system does not tell.
+    /// Processor seconds of all threads of this process; 0 where the system does not tell.
     pub fn cpu_s(&self) -> f64 {
         process_cpu_s() - self.cpu_s
     }

@@ -6,12 +6,12 @@
 use crate::bsdf::{Bsdf, Event, Value};
 use crate::config::RenderConfig;
 use crate::guide::{CellLight, Guide};
-use crate::light::{Background, LightKind, LightPoint, power_heuristic};
+use crate::light::{LightKind, LightPoint, power_heuristic};
 use crate::prepared::{Cutout, RenderScene};
 use crate::split::{Arriving, Split};
 use crate::surface::{MIN_COSINE, Surface};
 use crate::texture::Cone;
-use enfilade_math::{ONE_MINUS_EPSILON, Onb, Ray, Rgb, Sampler, Vec3, offset_origin};
+use enfilade_math::{ONE_MINUS_EPSILON, Onb, Ray, Rgb, Sampler, Vec3};
 use enfilade_scene::Bsdf as Model;
 
 /// One sample of a pixel.
@@ -157,7 +157,9 @@ impl<'s> Integrator<'_, 's> {
         for bounce in 1.. {
             // Next surface, or the surroundings.
             let Some(hit) = self.scene.closest(&segment.ray, Cutout::Random) else {
-                radiance.add_background(self.background(&segment), throughput, direct);
+                let (lights, sampled) = (&self.scene.lights, segment.sampled.as_ref());
+                let background = lights.background_weighted(&self.guide.choice, sampled, segment.ray.direction);
+                radiance.add_background(background, throughput, direct);
                 return radiance;
             };
             let surface = self.scene.surface(&hit, segment.ray.direction, &segment.cone);
@@ -166,11 +168,8 @@ impl<'s> Integrator<'_, 's> {
             // Emission met by chance, weighted against light sampling.
             let emission = surface.emission(self.scene);
             if !emission.is_black() {
-                let weight = segment.sampled.map_or(1.0, |(from, pdf)| {
-                    let lights = &self.scene.lights;
-                    let light_pdf = lights.surface_pdf(self.scene, &self.guide.choice, &from, segment.ray.direction, &hit, surface.p);
-                    power_heuristic(pdf, light_pdf)
-                });
+                let (lights, sampled) = (&self.scene.lights, segment.sampled.as_ref());
+                let weight = lights.surface_weight(self.scene, &self.guide.choice, sampled, segment.ray.direction, &hit, surface.p);
                 radiance.add(LightKind::Surfaces, throughput * emission * weight, direct);
             }
 
@@ -277,13 +276,6 @@ impl<'s> Integrator<'_, 's> {
         }
         irradiance
     }
-
-    fn background(&self, segment: &Segment) -> Background {
-        match segment.sampled {
-            None => self.scene.lights.background(segment.ray.direction),
-            Some((from, pdf)) => self.scene.lights.background_weighted(&self.guide.choice, &from, segment.ray.direction, pdf),
-        }
-    }
 }
 
 impl Segment {
@@ -364,9 +356,8 @@ impl Vertex<'_, '_> {
     }
 
     fn segment(&self, direction: Vec3, side: f32, sampled: Option<(LightPoint, f32)>, absorption: Rgb) -> Segment {
-        let origin = offset_origin(self.surface.p, if side < 0.0 { -self.surface.ng } else { self.surface.ng });
         let cone = sampled.map_or(self.surface.cone, |(_, pdf)| self.surface.cone.scattered(pdf));
-        Segment { ray: Ray::new(origin, direction), sampled, absorption, crossed: side < 0.0, straight: false, cone }
+        Segment { ray: self.surface.ray(direction), sampled, absorption, crossed: side < 0.0, straight: false, cone }
     }
 }
 

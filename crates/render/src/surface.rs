@@ -114,9 +114,15 @@ impl<'s> Surface<'s> {
         Onb::from_z(self.ns)
     }
 
+    /// The ray that leaves in a direction, from the side of the surface that it leaves on.
+    #[inline]
+    pub fn ray(&self, direction: Vec3) -> Ray {
+        Ray::new(offset_origin(self.p, if direction.dot(self.ng) < 0.0 { -self.ng } else { self.ng }), direction)
+    }
+
     /// See [`shadow_ray`].
     pub fn shadow_ray(&self, wi: Vec3, target: Option<Vec3>) -> Ray {
-        shadow_ray(offset_origin(self.p, if wi.dot(self.ng) < 0.0 { -self.ng } else { self.ng }), wi, target)
+        shadow_ray(self.ray(wi).origin, wi, target)
     }
 }
 

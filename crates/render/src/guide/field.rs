@@ -4,10 +4,10 @@
 //! reflectance. With the direct light of each cell this is a radiosity system (Goral et al. 1984), solved by a few sweeps without
 //! tracing another ray. The last sweep leaves what rendering wants: where indirect light comes from in each cell, and how much.
 
-use super::cells::{Cells, NONE, SITES, Site};
+use super::cells::{Cells, NONE, Site};
 use super::square::{BINS, SIDE, SquareDensity};
 use crate::bsdf::Event;
-use crate::light::{LightChoice, LightPoint, power_heuristic};
+use crate::light::{LightChoice, LightPoint};
 use crate::prepared::{Cutout, RenderScene};
 use crate::surface::Surface;
 use enfilade_math::{Bounds3, Onb, Ray, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
@@ -153,7 +153,7 @@ fn direct(scene: &RenderScene<'_>, choice: &LightChoice, sites: &[Site], rng: &m
 fn links(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, sites: &[Site], rng: &mut Rng) -> Vec<Link> {
     (0..BINS)
         .map(|bin| {
-            let site = sites[(bin + bin / SIDE) % sites.len().min(SITES)];
+            let site = sites[(bin + bin / SIDE) % sites.len()];
             let u = [((bin % SIDE) as f32 + rng.next_f32()) / SIDE as f32, ((bin / SIDE) as f32 + rng.next_f32()) / SIDE as f32];
             let wi = warp::cosine_hemisphere(u);
             let ray = Ray::new(offset_origin(site.p, site.n), Onb::from_z(site.n).to_world(wi));
@@ -173,14 +173,12 @@ fn link(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, from: &Lig
     let Some(sample) = bsdf.sample(onb.to_local(surface.wo), [rng.next_f32(), rng.next_f32(), rng.next_f32()]) else { return link };
     let share = through * sample.weight.specular;
     let direction = onb.to_world(sample.wi).normalize();
-    let side = direction.dot(surface.ng);
-    if share.is_black() || side * sample.wi.z <= 0.0 {
+    if share.is_black() || direction.dot(surface.ng) * sample.wi.z <= 0.0 {
         return link;
     }
     let sampled = (sample.event == Event::Finite).then(|| (LightPoint::on(&surface), sample.pdf));
-    let ray = Ray::new(offset_origin(surface.p, if side < 0.0 { -surface.ng } else { surface.ng }), direction);
     let mut emitted = 0.0;
-    let mirrored = first_surface(scene, choice, ray, sampled, &mut emitted);
+    let mirrored = first_surface(scene, choice, surface.ray(direction), sampled, &mut emitted);
     link.emitted += share.luminance() * emitted;
     if let Some((mirrored, through)) = mirrored {
         link.mirrored = (cells.find(mirrored.p, mirrored.ns_smooth), share * through * mirrored.bsdf(scene).reflectance);
@@ -201,12 +199,7 @@ fn first_surface<'s>(
     let mut add = |radiance: Rgb| *emitted += Some(radiance.luminance()).filter(|l| l.is_finite()).unwrap_or(0.0);
     for _ in 0..PANES {
         let Some(hit) = scene.closest(&ray, Cutout::Random) else {
-            add(through
-                * match sampled {
-                    Some((from, pdf)) => scene.lights.background_weighted(choice, &from, ray.direction, pdf),
-                    None => scene.lights.background(ray.direction),
-                }
-                .total());
+            add(through * scene.lights.background_weighted(choice, sampled.as_ref(), ray.direction).total());
             return None;
         };
         let surface = scene.surface(&hit, ray.direction, &crate::texture::Cone::POINT);
@@ -217,9 +210,7 @@ fn first_surface<'s>(
         }
         let emission = surface.emission(scene);
         if !emission.is_black() {
-            let weight = sampled.map_or(1.0, |(from, pdf)| {
-                power_heuristic(pdf, scene.lights.surface_pdf(scene, choice, &from, ray.direction, &hit, surface.p))
-            });
+            let weight = scene.lights.surface_weight(scene, choice, sampled.as_ref(), ray.direction, &hit, surface.p);
             add(through * emission * weight);
         }
         return Some((surface, through));

@@ -11,9 +11,10 @@ pub(crate) use field::{CellLight, Field};
 
 use crate::config::RenderConfig;
 use crate::light::LightChoice;
-use crate::prepared::{Cutout, RenderScene};
+use crate::prepared::RenderScene;
+use crate::walk::{pixel_samples, walk};
 use cells::Site;
-use enfilade_math::{Ray, Rng, hash_u64, offset_origin};
+use enfilade_math::{Rng, hash_u64};
 use enfilade_scene::CameraView;
 use rayon::prelude::*;
 
@@ -37,42 +38,25 @@ impl Guide {
     /// Learns from `views`. Depends on the arguments alone, whatever the number of threads.
     pub fn learn(scene: &RenderScene<'_>, views: &[CameraView<'_>], config: &RenderConfig) -> Self {
         let choice = LightChoice::learn(scene, views, config);
-        let pixels = views.first().map_or(0, |view| view.camera().size().map(u64::from).iter().product::<u64>());
-        let samples = pixels * u64::from(config.samples) * views.len() as u64;
+        let samples = pixel_samples(views, config);
         let paths = if views.is_empty() { 0 } else { (samples / 64).clamp(256, PATHS) };
         let seed = hash_u64(config.seed ^ 0x6_1d3);
+        // Places that scatter light diffusely.
         let sites: Vec<Site> = (0..paths)
             .into_par_iter()
             .flat_map_iter(|path| {
                 let view = &views[(path % views.len() as u64) as usize];
-                walk(scene, view, Rng::new(hash_u64(seed ^ hash_u64(path))))
+                let mut sites = Vec::new();
+                walk(scene, view, VERTICES, Rng::new(hash_u64(seed ^ hash_u64(path))), |surface, bsdf, _| {
+                    if !bsdf.reflectance.is_black() {
+                        sites.push(Site { p: surface.p, n: surface.ns_smooth });
+                    }
+                });
+                sites
             })
             .collect();
         let cells = (samples / SAMPLES_PER_CELL).clamp(64, MOST_CELLS) as usize;
         let field = if config.guiding { Field::solve(scene, &choice, &sites, cells, seed) } else { None };
         Self { choice, field }
     }
-}
-
-/// The places that a path visits and that scatter light diffusely.
-fn walk(scene: &RenderScene<'_>, view: &CameraView<'_>, mut rng: Rng) -> Vec<Site> {
-    let mut sites = Vec::new();
-    let [x, y] = view.camera().size().map(|n| rng.next_f64() * f64::from(n));
-    let Some(first) = view.centre_ray(x, y) else { return sites };
-    let mut ray = Ray::new(first.origin.as_vec3(), first.direction.as_vec3());
-    for _ in 0..VERTICES {
-        let Some(hit) = scene.closest(&ray, Cutout::Random) else { break };
-        let surface = scene.surface(&hit, ray.direction, &crate::texture::Cone::POINT);
-        let bsdf = surface.bsdf(scene);
-        if !bsdf.reflectance.is_black() {
-            sites.push(Site { p: surface.p, n: surface.ns_smooth });
-        }
-        let onb = surface.onb();
-        let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
-        let Some(sample) = bsdf.sample(onb.to_local(surface.wo), u) else { break };
-        let next = onb.to_world(sample.wi);
-        let side = if next.dot(surface.ng) < 0.0 { -surface.ng } else { surface.ng };
-        ray = Ray::new(offset_origin(surface.p, side), next);
-    }
-    sites
 }

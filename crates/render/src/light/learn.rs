@@ -4,9 +4,10 @@ use super::choice::Arrival;
 use super::window::{Glimpses, Windows};
 use super::{LightChoice, LightPoint, Source};
 use crate::config::RenderConfig;
-use crate::prepared::{Cutout, RenderScene};
+use crate::prepared::RenderScene;
 use crate::surface::Surface;
-use enfilade_math::{Onb, Ray, Rng, Vec3, hash_u64, offset_origin, warp};
+use crate::walk::{pixel_samples, walk};
+use enfilade_math::{Onb, Rng, Vec3, hash_u64, warp};
 use enfilade_scene::CameraView;
 use rayon::prelude::*;
 
@@ -26,8 +27,7 @@ impl LightChoice {
     /// Learns from the points of view of a trajectory. A function of the arguments alone, whatever the number of threads.
     pub fn learn(scene: &RenderScene<'_>, views: &[CameraView<'_>], config: &RenderConfig) -> Self {
         let cameras = views.len() as u64;
-        let pixels = views.first().map_or(0, |view| view.camera().size().map(u64::from).iter().product::<u64>());
-        let samples = pixels * u64::from(config.samples) * cameras;
+        let samples = pixel_samples(views, config);
         let most = (PATHS + PATHS / 4 * cameras.saturating_sub(1)).min(MORE_PATHS);
         let paths = if cameras == 0 { 0 } else { (samples / SAMPLES_PER_PATH).clamp(128, most) };
         let rng = |purpose: u64, path: u64| Rng::new(hash_u64(config.seed ^ hash_u64(0x11_9417 ^ (purpose << 32) ^ path)));
@@ -47,7 +47,7 @@ impl LightChoice {
             .into_par_iter()
             .flat_map_iter(|path| {
                 let mut arrivals = Vec::new();
-                walk(scene, view(path), rng(1, path), |surface, rng| {
+                walk(scene, view(path), VERTICES, rng(1, path), |surface, _, rng| {
                     try_sources(scene, windows.as_ref(), surface, rng, &mut arrivals);
                 });
                 arrivals
@@ -57,29 +57,10 @@ impl LightChoice {
     }
 }
 
-/// Follows a path and shows its surfaces.
-fn walk(scene: &RenderScene<'_>, view: &CameraView<'_>, mut rng: Rng, mut visit: impl FnMut(&Surface<'_>, &mut Rng)) {
-    let [x, y] = view.camera().size().map(|n| rng.next_f64() * f64::from(n));
-    let Some(first) = view.centre_ray(x, y) else { return };
-    let mut ray = Ray::new(first.origin.as_vec3(), first.direction.as_vec3());
-    for _ in 0..VERTICES {
-        let Some(hit) = scene.closest(&ray, Cutout::Random) else { return };
-        let surface = scene.surface(&hit, ray.direction, &crate::texture::Cone::POINT);
-        visit(&surface, &mut rng);
-        let bsdf = surface.bsdf(scene);
-        let onb = surface.onb();
-        let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
-        let Some(sample) = bsdf.sample(onb.to_local(surface.wo), u) else { return };
-        let next = onb.to_world(sample.wi);
-        let side = if next.dot(surface.ng) < 0.0 { -surface.ng } else { surface.ng };
-        ray = Ray::new(offset_origin(surface.p, side), next);
-    }
-}
-
 /// The surfaces of a path, and where the sky is seen from there.
 fn glimpses(scene: &RenderScene<'_>, view: &CameraView<'_>, rng: Rng) -> Glimpses {
     let mut seen = Glimpses::default();
-    walk(scene, view, rng, |surface, rng| {
+    walk(scene, view, VERTICES, rng, |surface, _, rng| {
         seen.surfaces.push((surface.p, surface.ng));
         let onb = Onb::from_z(surface.ng);
         let escapes = (0..RAYS).filter_map(|k| {

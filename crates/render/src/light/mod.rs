@@ -313,6 +313,20 @@ impl<'s> Lights<'s> {
         if pmf > 0.0 { pmf * self.surfaces.patches[patch as usize].pdf(from.p, wi, from.p.distance(p)) } else { 0.0 }
     }
 
+    /// Weight by the power heuristic of the emission met at `hit`, as in [`Lights::surface_pdf`]; `sampled` as in
+    /// [`Lights::background_weighted`].
+    pub fn surface_weight(
+        &self,
+        scene: &RenderScene<'_>,
+        choice: &LightChoice,
+        sampled: Option<&(LightPoint, f32)>,
+        wi: Vec3,
+        hit: &Hit,
+        p: Vec3,
+    ) -> f32 {
+        sampled.map_or(1.0, |(from, pdf)| power_heuristic(*pdf, self.surface_pdf(scene, choice, from, wi, hit, p)))
+    }
+
     /// Density per solid angle with which [`Lights::sample`] finds the environment in the unit direction `d`: the sky itself and
     /// the portal there may choose it.
     fn environment_pdf(&self, choice: &LightChoice, at: &LightPoint, d: Vec3) -> f32 {
@@ -339,9 +353,10 @@ impl<'s> Lights<'s> {
         Background { environment: self.sky(d), distant }
     }
 
-    /// [`Lights::background`], each source weighted against its light samples by the power heuristic. `pdf` is the density with
-    /// which the direction was sampled at `from`.
-    pub fn background_weighted(&self, choice: &LightChoice, from: &LightPoint, d: Vec3, pdf: f32) -> Background {
+    /// [`Lights::background`], each source weighted against its light samples by the power heuristic. `sampled` says where the
+    /// direction was sampled and with which density; `None` is for directions in which light sampling has no part.
+    pub fn background_weighted(&self, choice: &LightChoice, sampled: Option<&(LightPoint, f32)>, d: Vec3) -> Background {
+        let Some(&(ref from, pdf)) = sampled else { return self.background(d) };
         let mut background = Background::default();
         if let Some(sky) = &self.sky {
             background.environment = sky.radiance(d) * power_heuristic(pdf, self.environment_pdf(choice, from, d));

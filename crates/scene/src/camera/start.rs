@@ -1,3 +1,4 @@
+use crate::Pose;
 use enfilade_math::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -14,4 +15,12 @@ pub struct StartCamera {
     pub fov_x_rad: f64,
     /// Width over height of the file's camera.
     pub aspect: f64,
+}
+
+impl StartCamera {
+    /// Where it stands, as the pose of frame number `frame`; it looks at the point a metre ahead.
+    pub fn pose(&self, frame: u32) -> Pose {
+        let look_at = self.position - self.world_from_camera.z_axis;
+        Pose { frame, position: self.position, look_at, world_from_camera: self.world_from_camera }
+    }
 }
