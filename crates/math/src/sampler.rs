@@ -3,8 +3,8 @@ use crate::hash::hash_u64;
 /// The random numbers of one pixel sample: Owen-scrambled Sobol points, each a pure function of
 /// (seed, frame, pixel, sample index, dimension).
 ///
-/// Points come four dimensions at a time; a *set* is such a group. Sets 0 to 63 are stratified over the sample index;
-/// later sets (paths of more than thirty bounces) and sample indices of 65536 and above are hashed, hence independent.
+/// Points come four dimensions at a time; a *set* is such a group. Sets 0 to 8 are stratified over the sample index; later sets
+/// (beyond a path's fourth surface, where strata no longer help) and sample indices of 65536 and above are hashed, hence independent.
 /// Burley 2020, "Practical Hash-based Owen Scrambling".
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler {
@@ -13,7 +13,7 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    const SETS: u32 = 64;
+    const SETS: u32 = 9;
     const INDICES: u32 = 1 << 16;
 
     /// The sampler of sample `index` of a pixel of a frame.

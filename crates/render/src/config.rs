@@ -43,7 +43,7 @@ pub struct RenderConfig {
     pub clamp: Option<f32>,
     /// Keeps the light of each pixel apart by its way and by its source, as layers of their own. Changes no other layer. Default false.
     pub splits: bool,
-    /// Bounces before Russian roulette begins. Default 3.
+    /// Bounces before Russian roulette begins. Default 1.
     pub roulette_start: u32,
     /// Shape of the reconstruction filter. Default a tent.
     pub filter: Filter,
@@ -64,7 +64,7 @@ impl Default for RenderConfig {
             max_bounces: None,
             clamp: None,
             splits: false,
-            roulette_start: 3,
+            roulette_start: 1,
             filter: Filter::Tent,
             filter_radius: 1.0,
             seed: 0,

@@ -31,12 +31,14 @@ pub(crate) struct PixelSample {
 const IRRADIANCE_STRIDE: u32 = 4;
 
 /// Share of the directions of a diffuse surface that follow the guide; the rest follows the BSDF.
-const GUIDED_SHARE: f32 = 0.5;
+const GUIDED_SHARE: f32 = 0.65;
 /// A path goes on with this times the ratio of the light it is expected to find to that of the first surface: the light is not known
 /// exactly, and ending a path that mattered costs more than following one that did not.
-const SURVIVAL_GAIN: f32 = 2.0;
+const SURVIVAL_GAIN: f32 = 0.8;
+/// The same where nothing is known of the light, and of the light that mirrors and glass find, for what the path lets through.
+const UNKNOWN_GAIN: f32 = 6.0;
 /// Bounds of the probability that a path goes on.
-const LEAST_SURVIVAL: f32 = 0.1;
+const LEAST_SURVIVAL: f32 = 0.2;
 const MOST_SURVIVAL: f32 = 0.95;
 
 /// Random numbers: set 0 is the camera's; each bounce has two more.
@@ -62,14 +64,40 @@ struct Segment {
     /// Where light was last sampled from, and the density of the ray's direction there; `None` after the camera or a
     /// mirror, where light sampling has no chance.
     sampled: Option<(LightPoint, f32)>,
-    /// Absorption of the body the ray is inside of, per metre.
-    absorption: Rgb,
+    medium: Medium,
     /// True when the surface at its origin was passed through.
     crossed: bool,
     /// True when that was a pane, which leaves the direction as it was.
     straight: bool,
     /// How wide the ray is.
     cone: Cone,
+}
+
+/// What a ray goes through.
+#[derive(Clone, Copy)]
+struct Medium {
+    /// Absorption per metre.
+    absorption: Rgb,
+    /// Radiance here over the same outside of all bodies: it is compressed where light is slower.
+    compression: f32,
+}
+
+impl Medium {
+    const AIR: Self = Self { absorption: Rgb::BLACK, compression: 1.0 };
+
+    /// On the other side of a border: a body's when it was entered, none when it was left.
+    fn beyond(self, border: &Surface<'_>) -> Self {
+        let (eta, absorption) = match &border.material.bsdf {
+            Model::Dielectric { eta, absorption, .. } => (*eta, *absorption),
+            Model::Principled(p) if p.solid => (p.ior, p.absorption),
+            _ => return self,
+        };
+        if border.outside {
+            Self { absorption, compression: self.compression / (eta * eta) }
+        } else {
+            Self { absorption: Rgb::BLACK, compression: self.compression * eta * eta }
+        }
+    }
 }
 
 /// Light sampled at a source.
@@ -89,8 +117,18 @@ struct Vertex<'v, 's> {
     bsdf: &'v Bsdf<'v>,
     onb: &'v Onb,
     wo: Vec3,
-    /// What is known of the light here, its axes, and the share of directions that follow it.
-    light: Option<(&'v CellLight, Onb, f32)>,
+    known: Option<Known<'v>>,
+}
+
+/// What is known of the light at a surface.
+struct Known<'v> {
+    light: &'v CellLight,
+    /// The axes that it is stored in.
+    onb: Onb,
+    /// Share of the directions that follow it.
+    share: f32,
+    /// Luminance of the indirect light that is expected to be reflected.
+    reflected: f32,
 }
 
 impl<'s> Integrator<'_, 's> {
@@ -163,7 +201,7 @@ impl<'s> Integrator<'_, 's> {
                 return radiance;
             };
             let surface = self.scene.surface(&hit, segment.ray.direction, &segment.cone);
-            throughput *= absorbed(segment.absorption, hit.t);
+            throughput *= absorbed(segment.medium.absorption, hit.t);
 
             // Emission met by chance, weighted against light sampling.
             let emission = surface.emission(self.scene);
@@ -189,16 +227,17 @@ impl<'s> Integrator<'_, 's> {
                 radiance.add(kind, throughput * weight.total(bsdf.reflectance) * light, false);
             }
 
-            // Russian roulette: where the light that is still to come is known, in proportion to it.
+            // Onward.
             let u = sampler.set(bsdf_set(bounce));
+            let Some((weight, next)) = vertex.scatter([u[0], u[1], u[2]], &segment) else { return radiance };
             if bounce >= self.config.roulette_start {
                 let so_far = throughput * first_throughput;
                 let here = so_far.luminance() * vertex.expected_indirect();
-                let survival = if here > 0.0 && expected > 0.0 {
-                    (SURVIVAL_GAIN * here / expected).clamp(LEAST_SURVIVAL, 1.0)
+                let blurred = weight.specular.luminance() <= (bsdf.reflectance * weight.diffuse).luminance();
+                let survival = if blurred && here > 0.0 && expected > 0.0 {
+                    (SURVIVAL_GAIN * here / expected).max(LEAST_SURVIVAL)
                 } else {
-                    let albedo = bsdf.albedo(vertex.wo);
-                    (so_far * albedo).max_component().max(0.25 * (throughput * albedo).max_component()).min(1.0)
+                    UNKNOWN_GAIN * (so_far * weight.total(bsdf.reflectance)).max_component() / next.medium.compression
                 };
                 let survival = survival.min(MOST_SURVIVAL);
                 if u[3] >= survival {
@@ -209,9 +248,6 @@ impl<'s> Integrator<'_, 's> {
                     expected = here;
                 }
             }
-
-            // Onward.
-            let Some((weight, next)) = vertex.scatter([u[0], u[1], u[2]], &segment) else { return radiance };
             throughput *= weight.total(bsdf.reflectance);
             direct &= next.straight;
             segment = next;
@@ -223,12 +259,15 @@ impl<'s> Integrator<'_, 's> {
     #[inline]
     fn vertex<'v>(&'v self, surface: &'v Surface<'s>, bsdf: &'v Bsdf<'v>, onb: &'v Onb) -> Vertex<'v, 's> {
         let wo = viewing(onb, surface.wo);
-        let share = guided_share(bsdf, wo);
-        let light = match &self.guide.field {
-            Some(field) if share > 0.0 => field.at(surface.p, surface.ns_smooth).map(|l| (l, Onb::from_z(surface.ns_smooth), share)),
+        let known = match &self.guide.field {
+            Some(field) if !bsdf.reflectance.is_black() => field.at(surface.p, surface.ns_smooth).map(|light| {
+                let albedo = bsdf.albedo(wo);
+                let (share, reflected) = (GUIDED_SHARE * albedo.blurred_share(), albedo.blurred() * light.indirect);
+                Known { light, onb: Onb::from_z(surface.ns_smooth), share, reflected: reflected.luminance() }
+            }),
             _ => None,
         };
-        Vertex { surface, bsdf, onb, wo, light }
+        Vertex { surface, bsdf, onb, wo, known }
     }
 
     /// A sample's indirect light, dimmed to the most that it may add behind the first surface's `throughput`.
@@ -280,7 +319,7 @@ impl<'s> Integrator<'_, 's> {
 
 impl Segment {
     fn from_camera(ray: Ray, cone: Cone) -> Self {
-        Self { ray, sampled: None, absorption: Rgb::BLACK, crossed: false, straight: false, cone }
+        Self { ray, sampled: None, medium: Medium::AIR, crossed: false, straight: false, cone }
     }
 }
 
@@ -288,7 +327,7 @@ impl Vertex<'_, '_> {
     /// Luminance of the indirect light that is expected to be reflected; 0 where nothing is known.
     #[inline]
     fn expected_indirect(&self) -> f32 {
-        self.light.as_ref().map_or(0.0, |(light, ..)| (self.bsdf.reflectance * light.indirect).luminance())
+        self.known.as_ref().map_or(0.0, |known| known.reflected)
     }
 
     /// The BSDF's value for a direction, given in shading space and in the world, and the density with which [`Vertex::scatter`]
@@ -296,9 +335,9 @@ impl Vertex<'_, '_> {
     #[inline]
     fn eval_pdf(&self, wi: Vec3, wi_world: Vec3) -> (Value, f32) {
         let (value, pdf) = self.bsdf.eval_pdf(self.wo, wi);
-        match &self.light {
+        match &self.known {
             None => (value, pdf),
-            Some((light, onb, share)) => (value, share * light.pdf(onb.to_local(wi_world)) + (1.0 - share) * pdf),
+            Some(k) => (value, k.share * k.light.pdf(k.onb.to_local(wi_world)) + (1.0 - k.share) * pdf),
         }
     }
 
@@ -306,7 +345,7 @@ impl Vertex<'_, '_> {
     #[inline]
     fn scatter(&self, u: [f32; 3], before: &Segment) -> Option<(Value, Segment)> {
         let surface = self.surface;
-        let Some((light, onb, share)) = &self.light else { return self.scatter_by_bsdf(u, 1.0, before) };
+        let Some(Known { light, onb, share, .. }) = &self.known else { return self.scatter_by_bsdf(u, 1.0, before) };
         if u[2] >= *share {
             let renewed = ((u[2] - share) / (1.0 - share)).min(ONE_MINUS_EPSILON);
             return self.scatter_by_bsdf([u[0], u[1], renewed], 1.0 - share, before);
@@ -320,7 +359,7 @@ impl Vertex<'_, '_> {
         }
         let (value, bsdf_pdf) = self.bsdf.eval_pdf(self.wo, wi);
         let pdf = share * light_pdf + (1.0 - share) * bsdf_pdf;
-        Some((value * (1.0 / pdf), self.segment(direction, side, Some((LightPoint::on(surface), pdf)), before.absorption)))
+        Some((value * (1.0 / pdf), self.segment(direction, side, Some((LightPoint::on(surface), pdf)), before.medium)))
     }
 
     /// Samples the BSDF, which is given this `share` of the directions.
@@ -336,8 +375,8 @@ impl Vertex<'_, '_> {
         let sampled = match sample.event {
             Event::Finite => {
                 let mut pdf = share * sample.pdf;
-                if let Some((light, onb, guided)) = &self.light {
-                    pdf += guided * light.pdf(onb.to_local(direction));
+                if let Some(k) = &self.known {
+                    pdf += k.share * k.light.pdf(k.onb.to_local(direction));
                     weight = sample.weight * (sample.pdf / pdf);
                 }
                 Some((LightPoint::on(surface), pdf))
@@ -346,29 +385,15 @@ impl Vertex<'_, '_> {
             // A pane is no place where directions are chosen: light sampling from before it reaches through it.
             Event::Straight => before.sampled,
         };
-        let absorption = match (&surface.material.bsdf, side < 0.0 && sample.event != Event::Straight) {
-            (Model::Dielectric { absorption, .. }, true) => inside(surface, *absorption),
-            (Model::Principled(p), true) if p.solid => inside(surface, p.absorption),
-            _ => before.absorption,
-        };
         let straight = sample.event == Event::Straight;
-        Some((weight, Segment { straight, ..self.segment(direction, side, sampled, absorption) }))
+        let medium = if side < 0.0 && !straight { before.medium.beyond(surface) } else { before.medium };
+        Some((weight, Segment { straight, ..self.segment(direction, side, sampled, medium) }))
     }
 
-    fn segment(&self, direction: Vec3, side: f32, sampled: Option<(LightPoint, f32)>, absorption: Rgb) -> Segment {
+    fn segment(&self, direction: Vec3, side: f32, sampled: Option<(LightPoint, f32)>, medium: Medium) -> Segment {
         let cone = sampled.map_or(self.surface.cone, |(_, pdf)| self.surface.cone.scattered(pdf));
-        Segment { ray: self.surface.ray(direction), sampled, absorption, crossed: side < 0.0, straight: false, cone }
+        Segment { ray: self.surface.ray(direction), sampled, medium, crossed: side < 0.0, straight: false, cone }
     }
-}
-
-/// Share of the directions that follow the guide, where there is one.
-fn guided_share(bsdf: &Bsdf<'_>, wo: Vec3) -> f32 {
-    if bsdf.reflectance.is_black() { 0.0 } else { GUIDED_SHARE * bsdf.diffuse_share(wo) }
-}
-
-/// Absorption beyond a border that was crossed: the body's when it was entered, none when it was left.
-fn inside(surface: &Surface<'_>, absorption: Rgb) -> Rgb {
-    if surface.outside { absorption } else { Rgb::BLACK }
 }
 
 /// Beer–Lambert transmittance over a distance.

@@ -149,33 +149,56 @@ impl<'a> Bsdf<'a> {
         }
     }
 
-    /// Share of light from all around that is sent to `wo`, reflected or transmitted: a cheap estimate on [0,1].
-    pub fn albedo(&self, wo: Vec3) -> Rgb {
-        let (rough, sharp) = self.albedos(wo);
-        (rough.total(self.reflectance) + sharp.specular).map(|v| v.min(1.0))
-    }
-
-    /// Share on [0,1] of [`Bsdf::albedo`] that is diffuse or nearly as blurred as that.
-    pub fn diffuse_share(&self, wo: Vec3) -> f32 {
-        let (rough, sharp) = self.albedos(wo);
-        let (rough, sharp) = (rough.total(self.reflectance).luminance(), sharp.specular.luminance());
-        if rough + sharp > 0.0 { rough / (rough + sharp) } else { 0.0 }
-    }
-
-    /// Albedo of what is blurred and of what is not.
-    fn albedos(&self, wo: Vec3) -> (Value, Value) {
-        match &self.model {
+    /// Shares of light from all around that are sent to `wo`, reflected or transmitted: cheap estimates.
+    pub fn albedo(&self, wo: Vec3) -> Albedo {
+        let (rough, sharp) = match &self.model {
             Model::Black => (Value::default(), Value::default()),
             Model::One(lobe) => {
                 let albedo = lobe.albedo(wo.z);
                 if lobe.is_rough() {
-                    return (albedo, Value::default());
+                    (albedo, Value::default())
+                } else {
+                    (Value { specular: Rgb::BLACK, ..albedo }, Value { diffuse: Rgb::BLACK, ..albedo })
                 }
-                (Value { specular: Rgb::BLACK, ..albedo }, Value { diffuse: Rgb::BLACK, ..albedo })
             }
             Model::Mixture(mixture) => mixture.albedo(wo.z),
-        }
+        };
+        Albedo { diffuse: self.reflectance * rough.diffuse, glossy: rough.specular, sharp: sharp.specular }
     }
+}
+
+/// What a surface reflects of light from all around.
+#[derive(Clone, Copy, Debug)]
+pub struct Albedo {
+    /// By the diffuse lobes.
+    pub diffuse: Rgb,
+    /// By others that are nearly as blurred.
+    pub glossy: Rgb,
+    /// By the rest.
+    pub sharp: Rgb,
+}
+
+impl Albedo {
+    /// Of what is blurred.
+    pub fn blurred(&self) -> Rgb {
+        self.diffuse + self.glossy
+    }
+
+    /// Share on [0,1] of what is blurred.
+    pub fn blurred_share(&self) -> f32 {
+        share(self.blurred(), self.sharp)
+    }
+
+    /// Share on [0,1] of what is sharp in all that is not diffuse.
+    pub fn sharp_share(&self) -> f32 {
+        share(self.sharp, self.glossy)
+    }
+}
+
+/// The part that `a` is of `a` + `b`.
+fn share(a: Rgb, b: Rgb) -> f32 {
+    let (a, b) = (a.luminance(), b.luminance());
+    if a + b > 0.0 { a / (a + b) } else { 0.0 }
 }
 
 #[cfg(test)]

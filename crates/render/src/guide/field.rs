@@ -15,10 +15,10 @@ use rayon::prelude::*;
 
 /// Sweeps of the radiosity system: each adds a bounce.
 const SWEEPS: usize = 8;
-/// Light samples at each site.
-const LIGHT_SAMPLES: usize = 4;
 /// Panes that a gathering ray passes.
 const PANES: usize = 8;
+/// Mirrors and bends by which a gathering ray goes on.
+const MIRRORS: usize = 6;
 /// Cells along the diagonal of the places that paths visited.
 const CELLS_ACROSS: f32 = 48.0;
 /// No cell is smaller, in metres.
@@ -130,23 +130,7 @@ impl CellLight {
 
 /// Direct irradiance over π, the mean over the sites.
 fn direct(scene: &RenderScene<'_>, choice: &LightChoice, sites: &[Site], rng: &mut Rng) -> Rgb {
-    let mut sum = Rgb::BLACK;
-    for site in sites {
-        let origin = offset_origin(site.p, site.n);
-        for _ in 0..LIGHT_SAMPLES {
-            let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
-            let Some(light) = scene.lights.sample(scene, choice, &LightPoint { p: site.p, n: site.n }, u, |wi| wi.dot(site.n) > 0.0) else {
-                continue;
-            };
-            let arriving =
-                scene.lights.radiance_of(&light) * scene.transmittance(&crate::surface::shadow_ray(origin, light.wi, light.target));
-            let value = arriving * (light.wi.dot(site.n) * enfilade_math::INV_PI / light.pdf);
-            if value.luminance().is_finite() {
-                sum += value;
-            }
-        }
-    }
-    sum / (sites.len() * LIGHT_SAMPLES) as f32
+    sites.iter().map(|site| scene.lights.irradiance(scene, choice, site.p, site.n, rng)).sum::<Rgb>() / sites.len() as f32
 }
 
 /// What is met through each bin, from the sites in turn.
@@ -166,24 +150,40 @@ fn links(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, sites: &[
 fn link(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, from: &LightPoint, ray: Ray, pdf: f32, rng: &mut Rng) -> Link {
     let mut link = Link { diffuse: (NONE, Rgb::BLACK), mirrored: (NONE, Rgb::BLACK), emitted: 0.0 };
     let Some((surface, through)) = first_surface(scene, choice, ray, Some((*from, pdf)), &mut link.emitted) else { return link };
-    let bsdf = surface.bsdf(scene);
-    link.diffuse = (cells.find(surface.p, surface.ns_smooth), through * bsdf.reflectance);
-    // One sample of what the surface mirrors.
-    let onb = surface.onb();
-    let Some(sample) = bsdf.sample(onb.to_local(surface.wo), [rng.next_f32(), rng.next_f32(), rng.next_f32()]) else { return link };
-    let share = through * sample.weight.specular;
-    let direction = onb.to_world(sample.wi).normalize();
-    if share.is_black() || direction.dot(surface.ng) * sample.wi.z <= 0.0 {
-        return link;
-    }
-    let sampled = (sample.event == Event::Finite).then(|| (LightPoint::on(&surface), sample.pdf));
-    let mut emitted = 0.0;
-    let mirrored = first_surface(scene, choice, surface.ray(direction), sampled, &mut emitted);
-    link.emitted += share.luminance() * emitted;
-    if let Some((mirrored, through)) = mirrored {
-        link.mirrored = (cells.find(mirrored.p, mirrored.ns_smooth), share * through * mirrored.bsdf(scene).reflectance);
+    let mut bsdf = surface.bsdf(scene);
+    let mut albedo = bsdf.albedo(viewing(&surface));
+    link.diffuse = (cells.find(surface.p, surface.ns_smooth), through * albedo.blurred());
+    // One sample of what the surface mirrors, by way of others that only mirror or bend.
+    let (mut surface, mut share) = (surface, through);
+    for _ in 0..MIRRORS {
+        let onb = surface.onb();
+        let Some(sample) = bsdf.sample(onb.to_local(surface.wo), [rng.next_f32(), rng.next_f32(), rng.next_f32()]) else { break };
+        // What is blurred counts already.
+        share *= sample.weight.specular * albedo.sharp_share();
+        let direction = onb.to_world(sample.wi).normalize();
+        if share.is_black() || direction.dot(surface.ng) * sample.wi.z <= 0.0 {
+            break;
+        }
+        let sampled = (sample.event == Event::Finite).then(|| (LightPoint::on(&surface), sample.pdf));
+        let mut emitted = 0.0;
+        let next = first_surface(scene, choice, surface.ray(direction), sampled, &mut emitted);
+        link.emitted += share.luminance() * emitted;
+        let Some((next, through)) = next else { break };
+        surface = next;
+        bsdf = surface.bsdf(scene);
+        albedo = bsdf.albedo(viewing(&surface));
+        share *= through;
+        if !albedo.blurred().is_black() {
+            link.mirrored = (cells.find(surface.p, surface.ns_smooth), share * albedo.blurred());
+            break;
+        }
     }
     link
+}
+
+/// The cosine of the direction of view, as a direction in shading space.
+fn viewing(surface: &Surface<'_>) -> Vec3 {
+    Vec3::Z * surface.wo.dot(surface.ns)
 }
 
 /// The first surface beyond panes, and what they let through. Adds the luminance that arrives from sources, weighted against light

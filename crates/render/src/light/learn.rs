@@ -2,12 +2,12 @@
 
 use super::choice::Arrival;
 use super::window::{Glimpses, Windows};
-use super::{LightChoice, LightPoint, Source};
+use super::{LightChoice, LightPoint, LightSample, Lights, Source};
 use crate::config::RenderConfig;
 use crate::prepared::RenderScene;
-use crate::surface::Surface;
+use crate::surface::{self, Surface};
 use crate::walk::{pixel_samples, walk};
-use enfilade_math::{Onb, Rng, Vec3, hash_u64, warp};
+use enfilade_math::{INV_PI, Onb, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
 use enfilade_scene::CameraView;
 use rayon::prelude::*;
 
@@ -22,6 +22,8 @@ const RAYS: usize = 8;
 const VERTICES: usize = 5;
 /// Sources tried at each; scenes with more try this many at random.
 const TRIES: usize = 12;
+/// Light samples for an estimate of the irradiance where there are more.
+const FEW: usize = 4;
 
 impl LightChoice {
     /// Learns from the points of view of a trajectory. A function of the arguments alone, whatever the number of threads.
@@ -97,17 +99,66 @@ fn contribution(
     let lights = &scene.lights;
     let from_all_sides = at.n == Vec3::ZERO;
     let wanted = |wi: Vec3| from_all_sides || wi.dot(surface.ng) > 0.0;
-    let Some(light) = lights.sample_source(scene, source, windows, at, u, wanted) else { return 0.0 };
+    let Some((light, pdf)) = lights.sample_one(scene, source, windows, at, u, wanted) else { return 0.0 };
     let cos = light.wi.dot(surface.ns);
     let cos = if from_all_sides { cos.abs() } else { cos.max(0.0) };
     if cos <= 0.0 {
         return 0.0;
     }
-    let pdf = match (source, &lights.sky, windows) {
-        (Source::Sky, _, Some(windows)) => light.pdf + windows.find_portal(at.p, light.wi).map_or(0.0, |(_, pdf)| pdf),
-        (Source::Portal(_), Some(sky), _) => light.pdf + sky.pdf(light.wi),
-        _ => light.pdf,
-    };
     let arriving = scene.transmittance(&surface.shadow_ray(light.wi, light.target));
     (lights.radiance_of(&light) * arriving).luminance() * cos / pdf
+}
+
+impl Lights<'_> {
+    /// A light sample of one source and the density with which all the sources together find it.
+    fn sample_one(
+        &self,
+        scene: &RenderScene<'_>,
+        source: Source,
+        windows: Option<&Windows>,
+        at: &LightPoint,
+        u: [f32; 3],
+        wanted: impl Fn(Vec3) -> bool,
+    ) -> Option<(LightSample, f32)> {
+        let light = self.sample_source(scene, source, windows, at, u, wanted)?;
+        let pdf = match (source, &self.sky, windows) {
+            (Source::Sky, _, Some(windows)) => light.pdf + windows.find_portal(at.p, light.wi).map_or(0.0, |(_, pdf)| pdf),
+            (Source::Portal(_), Some(sky), _) => light.pdf + sky.pdf(light.wi),
+            _ => light.pdf,
+        };
+        Some((light, pdf))
+    }
+
+    /// Estimate of the irradiance over π on a surface at `p` with the unit normal `n`: of each source by itself where they are few, so
+    /// that no source is rare.
+    pub fn irradiance(&self, scene: &RenderScene<'_>, choice: &LightChoice, p: Vec3, n: Vec3, rng: &mut Rng) -> Rgb {
+        let at = LightPoint { p, n };
+        let origin = offset_origin(p, n);
+        let windows = choice.windows();
+        let count = self.source_count(windows.map_or(0, Windows::len));
+        let facing = |wi: Vec3| wi.dot(n) > 0.0;
+        let mut sum = Rgb::BLACK;
+        let mut random = || [rng.next_f32(), rng.next_f32(), rng.next_f32()];
+        let mut add = |light: &LightSample, pdf: f32| {
+            let arriving = self.radiance_of(light) * scene.transmittance(&surface::shadow_ray(origin, light.wi, light.target));
+            let value = arriving * (light.wi.dot(n) * INV_PI / pdf);
+            if value.luminance().is_finite() {
+                sum += value;
+            }
+        };
+        if count <= TRIES {
+            for source in 0..count {
+                if let Some((light, pdf)) = self.sample_one(scene, self.source(source), windows, &at, random(), facing) {
+                    add(&light, pdf);
+                }
+            }
+        } else {
+            for _ in 0..FEW {
+                if let Some(light) = self.sample(scene, choice, &at, random(), facing) {
+                    add(&light, light.pdf * FEW as f32);
+                }
+            }
+        }
+        sum
+    }
 }

@@ -1,6 +1,6 @@
 //! Points of triangles and rectangles sampled uniformly over the solid angle that they fill.
 
-use enfilade_math::Vec3;
+use enfilade_math::{Vec3, warp};
 use std::f32::consts::{PI, TAU};
 
 /// Solid angle of a triangle, its corners relative to the eye (Van Oosterom & Strackee 1983).
@@ -69,9 +69,8 @@ impl SphericalRectangle {
         // The z components of the side planes' normals; the inner angles lie between planes.
         let component = |v: f32| v / (v * v + z * z).sqrt();
         let (x_low, x_high, y_low, y_high) = (component(x[0]), component(x[1]), component(y[0]), component(y[1]));
-        let angle = |cos: f32| cos.clamp(-1.0, 1.0).acos();
-        let (g0, g1) = (angle(y_low * x_high), angle(-x_high * y_high));
-        let (g2, g3) = (angle(y_high * x_low), angle(-x_low * y_low));
+        let (g0, g1) = (warp::acos(y_low * x_high), warp::acos(-x_high * y_high));
+        let (g2, g3) = (warp::acos(y_high * x_low), warp::acos(-x_low * y_low));
         let k = TAU - g2 - g3;
         let solid_angle = g0 + g1 - k;
         (solid_angle > 0.0).then_some(Self { x, y, z, b: [-y_low, y_high], k, solid_angle })
