@@ -11,14 +11,16 @@ pub(super) const BINS: usize = SIDE * SIDE;
 /// Share of the density that is uniform, whatever was learned: nothing is ever missed.
 const UNIFORM_SHARE: f32 = 0.2;
 
-/// What a cumulative distribution ends at.
-const ONE: u32 = 1 << 16;
+/// What the cumulative distributions of the rows and within a row end at.
+const ROWS_END: u32 = 1 << 16;
+const COLUMNS_END: u32 = 1 << 8;
 
-/// The density, as 16-bit cumulative distributions: of the rows, and within each row. The last entry, 2¹⁶, is not stored.
+/// The density, as cumulative distributions: of the rows, and within each row. The last entry, 1, is not stored. Small, because
+/// what a scene's cells need should stay in the processor's cache.
 #[derive(Clone, Debug)]
 pub(super) struct SquareDensity {
     rows: [u16; SIDE],
-    columns: [[u16; SIDE]; SIDE],
+    columns: [[u8; SIDE]; SIDE],
 }
 
 impl SquareDensity {
@@ -27,14 +29,18 @@ impl SquareDensity {
         let total: f32 = values.iter().sum();
         let floor = if total > 0.0 { UNIFORM_SHARE / (1.0 - UNIFORM_SHARE) * total / BINS as f32 } else { 1.0 };
         let row = |r: usize| -> [f32; SIDE] { std::array::from_fn(|c| values[r * SIDE + c] + floor) };
-        Self { rows: cumulative(&std::array::from_fn(|r| row(r).iter().sum())), columns: std::array::from_fn(|r| cumulative(&row(r))) }
+        let sums = std::array::from_fn(|r| row(r).iter().sum());
+        Self {
+            rows: cumulative(&sums, ROWS_END).map(|start| start as u16),
+            columns: std::array::from_fn(|r| cumulative(&row(r), COLUMNS_END).map(|start| start as u8)),
+        }
     }
 
     /// A point for `u` uniform on [0,1)², and the density there.
     #[inline]
     pub fn sample(&self, u: [f32; 2]) -> ([f32; 2], f32) {
-        let (row, y, p_row) = invert(&self.rows, u[1]);
-        let (_, x, p_column) = invert(&self.columns[row], u[0]);
+        let (row, y, p_row) = invert(&self.rows, ROWS_END, u[1]);
+        let (_, x, p_column) = invert(&self.columns[row], COLUMNS_END, u[0]);
         ([x, y], p_row * p_column)
     }
 
@@ -43,45 +49,41 @@ impl SquareDensity {
     pub fn density(&self, u: [f32; 2]) -> f32 {
         let bin = |v: f32| ((v * SIDE as f32) as usize).min(SIDE - 1);
         let (row, column) = (bin(u[1]), bin(u[0]));
-        share(&self.rows, row) * share(&self.columns[row], column)
+        width(&self.rows, ROWS_END, row) * width(&self.columns[row], COLUMNS_END, column)
     }
 }
 
-/// Starts of the bins; every bin keeps at least one step.
-fn cumulative(values: &[f32; SIDE]) -> [u16; SIDE] {
+/// Starts of the bins in whole steps of 1/`end`; every bin keeps at least one step.
+fn cumulative(values: &[f32; SIDE], end: u32) -> [u32; SIDE] {
     let total: f32 = values.iter().sum();
-    let free = (ONE as usize - SIDE) as f32;
+    let free = end - SIDE as u32;
     let mut sum = 0.0;
-    let mut starts = [0u16; SIDE];
+    let mut starts = [0; SIDE];
     for (i, value) in values.iter().enumerate() {
-        starts[i] = ((sum / total * free) as u32).min(free as u32) as u16 + i as u16;
+        starts[i] = ((sum / total * free as f32) as u32).min(free) + i as u32;
         sum += value;
     }
     starts
 }
 
-#[inline]
-fn end(starts: &[u16; SIDE], bin: usize) -> u32 {
-    if bin + 1 < SIDE { u32::from(starts[bin + 1]) } else { ONE }
-}
-
 /// Density of a bin relative to uniform.
 #[inline]
-fn share(starts: &[u16; SIDE], bin: usize) -> f32 {
-    (end(starts, bin) - u32::from(starts[bin])) as f32 * (SIDE as f32 / ONE as f32)
+fn width<T: Copy + Into<u32>>(starts: &[T; SIDE], end: u32, bin: usize) -> f32 {
+    let next = if bin + 1 < SIDE { starts[bin + 1].into() } else { end };
+    (next - starts[bin].into()) as f32 * (SIDE as f32 / end as f32)
 }
 
 /// The bin that `u` falls into, the place on [0,1), and the density there.
 #[inline]
-fn invert(starts: &[u16; SIDE], u: f32) -> (usize, f32, f32) {
-    let at = u * ONE as f32;
-    let below = starts.iter().map(|&s| u16::from(f32::from(s) <= at)).sum::<u16>();
-    let bin = usize::from(below.max(1)) - 1;
-    let start = u32::from(starts[bin]);
-    let width = (end(starts, bin) - start) as f32;
-    let within = ((at - start as f32) / width).clamp(0.0, ONE_MINUS_EPSILON);
-    let place = ((bin as f32 + within) / SIDE as f32).min(ONE_MINUS_EPSILON);
-    (bin, place, width * (SIDE as f32 / ONE as f32))
+fn invert<T: Copy + Into<u32>>(starts: &[T; SIDE], end: u32, u: f32) -> (usize, f32, f32) {
+    let at = u * end as f32;
+    let whole = at as u32;
+    let bin = starts.iter().map(|&start| usize::from(start.into() <= whole)).sum::<usize>() - 1;
+    let density = width(starts, end, bin);
+    let start: u32 = starts[bin].into();
+    let within = (at - start as f32) * (SIDE as f32 / end as f32) / density;
+    let place = ((bin as f32 + within.clamp(0.0, ONE_MINUS_EPSILON)) / SIDE as f32).min(ONE_MINUS_EPSILON);
+    (bin, place, density)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use enfilade_math::{Bounds3, Rgb, Vec3, warp};
 
 /// Patches that fill more than about this solid angle, in steradians, are sampled over it. Below, the area is as even and
 /// cheaper, and single precision would not do.
-const NEAR: f32 = 0.25;
+const NEAR: f32 = 1.5;
 
 /// A piece of emissive surface.
 #[derive(Clone, Copy, Debug)]
