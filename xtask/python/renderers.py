@@ -51,10 +51,10 @@ class Ours:
     def __init__(self, program):
         self.program = program
 
-    def render(self, scene, size, samples, depth, seed=0, seeds=1, **fields):
+    def render(self, scene, size, samples, depth, seed=0, seeds=1, denoise=False, **fields):
         # Mitsuba counts a path's segments (1: lights seen directly, 2: direct light), `max_bounces` surfaces after the first.
         config = {"samples": samples, "max_bounces": depth - 2, "filter": "box", "filter_radius": 0.5, "seed": seed, **fields}
-        return run([self.program, scene, "--size", size, "--config", json.dumps(config), "--seeds", seeds])
+        return run([self.program, scene, "--size", size, "--config", json.dumps(config), "--seeds", seeds, *(["--denoise"] if denoise else [])])
 
 
 class Mitsuba:

@@ -4,8 +4,8 @@
 //! are started. They write tables and figures to `docs/benchmarks`, or below the target folder when only some scenes are named.
 
 use crate::house::House;
-use crate::python;
 use crate::step::finish;
+use crate::{oidn, python};
 
 /// Names the folder of real rooms.
 const SCENES: &str = "ENFILADE_SCENES";
@@ -28,6 +28,9 @@ pub fn run(house: &House, program: &str, words: &[&str]) -> Result<(), String> {
     if let Some(scenes) = std::env::var_os(SCENES) {
         let scenes = std::path::absolute(scenes).map_err(|error| format!("{SCENES}: {error}"))?;
         command.arg("--scenes").arg(scenes);
+    }
+    if program == "bench_render" {
+        command.env(oidn::VARIABLE, oidn::made(house)?);
     }
     command.args(words);
     finish(command).map(|_| ())

@@ -4,6 +4,7 @@
 //! `world_from_camera * p_camera` is a point in the world. Vectors are `glam`'s; what a value is (point, direction,
 //! normal) and which space it is in stands in its name: `p_world`, `n_camera`, `dir_world`.
 
+pub mod angle;
 mod bounds;
 mod distribution;
 mod hash;

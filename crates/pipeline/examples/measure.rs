@@ -1,12 +1,14 @@
 //! Renders a scene through its own camera and writes the colour as a NumPy array: our side of `cargo xtask oracle` and
 //! `cargo xtask bench render`.
 //!
-//! `measure SCENE --size WIDTHxHEIGHT [--config JSON] [--seeds N] [--out FILE.npy]` renders N pictures (default 1), whose seeds
-//! count upward from the configuration's, with every layer, as a dataset's frames are. `--config` holds fields of
-//! `RenderConfig`; what it leaves out has its default. The array is float32, N × height × width × 3, linear. One line of JSON
-//! tells the processor seconds (user and system, all threads) of loading, of learning where light comes from, and of rendering.
+//! `measure SCENE --size WIDTHxHEIGHT [--config JSON] [--seeds N] [--denoise] [--out FILE.npy]` renders N pictures (default 1), whose
+//! seeds count upward from the configuration's, with every layer, as a dataset's frames are. `--config` holds fields of
+//! `RenderConfig`; what it leaves out has its default. The array is float32, N × height × width × 3, linear; with `--denoise` there
+//! follow as many denoised pictures (`ENFILADE_OIDN` names the library). One line of JSON tells the processor seconds (user and
+//! system, all threads) of loading, of learning where light comes from, of rendering, and of denoising.
 
 use anyhow::{Context, Result, bail};
+use enfilade_denoise::{Denoiser, denoise};
 use enfilade_frame::{Frame, Layer};
 use enfilade_import::{ImportOptions, load};
 use enfilade_pipeline::Stopwatch;
@@ -20,6 +22,7 @@ struct Job {
     size: (u32, u32),
     config: RenderConfig,
     seeds: u64,
+    denoise: bool,
     out: Option<PathBuf>,
 }
 
@@ -33,17 +36,26 @@ fn main() -> Result<()> {
     let camera = imported.scene.cameras.first().with_context(|| format!("{} has no camera", job.scene.display()))?;
     let prepared = RenderScene::new(&imported.scene, &Quiet)?;
     let loaded = time.cpu_s();
-    let (mut pictures, mut learned) = (Vec::new(), 0.0);
+    let place = std::env::var_os("ENFILADE_OIDN").map(PathBuf::from);
+    let threads = std::thread::available_parallelism()?.get();
+    let denoiser = if job.denoise { Some(Denoiser::open(place.as_deref(), threads)?) } else { None };
+    let (mut pictures, mut clean, mut learned, mut denoised) = (Vec::new(), Vec::new(), 0.0, 0.0);
     for seed in 0..job.seeds {
         let config = RenderConfig { seed: job.config.seed + seed, ..job.config.clone() };
         let (frame, seconds) = picture(&prepared, camera, job.size, &config)?;
-        pictures.extend(color(&frame));
+        pictures.extend(color(&frame, Layer::Color));
         learned += seconds;
+        if let Some(denoiser) = &denoiser {
+            let denoising = Stopwatch::start();
+            clean.extend(color(&denoise(&frame, |noisy| denoiser.filter(noisy))?, Layer::ColorDenoised));
+            denoised += denoising.cpu_s();
+        }
     }
-    let rendered = time.cpu_s() - loaded - learned;
+    let rendered = time.cpu_s() - loaded - learned - denoised;
+    pictures.append(&mut clean);
     if let Some(path) = &job.out {
         let (width, height) = job.size;
-        let bytes = npy(&[job.seeds as usize, height as usize, width as usize, 3], &pictures);
+        let bytes = npy(&[pictures.len() / (3 * width as usize * height as usize), height as usize, width as usize, 3], &pictures);
         std::fs::write(path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
     }
     println!(
@@ -53,13 +65,14 @@ fn main() -> Result<()> {
             "load_core_s": loaded,
             "learn_core_s": learned,
             "render_core_s": rendered,
+            "denoise_core_s": denoised,
         })
     );
     Ok(())
 }
 
 fn arguments() -> Result<Job> {
-    let mut job = Job { scene: PathBuf::new(), size: (256, 192), config: RenderConfig::default(), seeds: 1, out: None };
+    let mut job = Job { scene: PathBuf::new(), size: (256, 192), config: RenderConfig::default(), seeds: 1, denoise: false, out: None };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         let mut value = || words.next().with_context(|| format!("{word} needs a value"));
@@ -71,13 +84,14 @@ fn arguments() -> Result<Job> {
             }
             "--config" => job.config = serde_json::from_str(&value()?).context("--config should hold fields of RenderConfig as JSON")?,
             "--seeds" => job.seeds = value()?.parse().context("--seeds should be a whole number")?,
+            "--denoise" => job.denoise = true,
             "--out" => job.out = Some(value()?.into()),
-            flag if flag.starts_with("--") => bail!("unknown option {flag}; expected --size, --config, --seeds or --out"),
+            flag if flag.starts_with("--") => bail!("unknown option {flag}; expected --size, --config, --seeds, --denoise or --out"),
             scene => job.scene = scene.into(),
         }
     }
     if job.scene.as_os_str().is_empty() {
-        bail!("name a scene: measure SCENE [--size WIDTHxHEIGHT] [--config JSON] [--seeds N] [--out FILE.npy]");
+        bail!("name a scene: measure SCENE [--size WIDTHxHEIGHT] [--config JSON] [--seeds N] [--denoise] [--out FILE.npy]");
     }
     Ok(job)
 }
@@ -92,8 +106,8 @@ fn picture(scene: &RenderScene<'_>, camera: &StartCamera, (width, height): (u32,
     Ok((render_frame(scene, &guide, &view, config, &Quiet)?, learned))
 }
 
-fn color(frame: &Frame) -> Vec<f32> {
-    let values = frame.get(Layer::Color).expect("every rendered frame has color");
+fn color(frame: &Frame, layer: Layer) -> Vec<f32> {
+    let values = frame.get(layer).expect("every rendered frame has color, every denoised one its companion");
     (0..3 * frame.pixels()).map(|i| values.get(i) as f32).collect()
 }
 

@@ -263,7 +263,8 @@ impl<'s> Integrator<'_, 's> {
             Some(field) if !bsdf.reflectance.is_black() => field.at(surface.p, surface.ns_smooth).map(|light| {
                 let albedo = bsdf.albedo(wo);
                 let (share, reflected) = (GUIDED_SHARE * albedo.blurred_share(), albedo.blurred() * light.indirect);
-                Known { light, onb: Onb::from_z(surface.ns_smooth), share, reflected: reflected.luminance() }
+                let axes = if surface.ns_smooth == surface.ns { *onb } else { Onb::from_z(surface.ns_smooth) };
+                Known { light, onb: axes, share, reflected: reflected.luminance() }
             }),
             _ => None,
         };

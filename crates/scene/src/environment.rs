@@ -1,4 +1,4 @@
-use enfilade_math::{Mat3, Rgb, Vec2, Vec3};
+use enfilade_math::{Mat3, Rgb, Vec2, Vec3, angle};
 use serde::{Deserialize, Serialize};
 use std::f32::consts::{PI, TAU};
 
@@ -25,15 +25,15 @@ pub enum Environment {
 /// from the top row on `[0,1]`. x = atan2(dx, −dz) / 2π, as in Mitsuba: the left border is −z, the middle +z.
 #[inline]
 pub fn uv_from_direction(d: Vec3) -> Vec2 {
-    let x = d.x.atan2(-d.z) / TAU;
-    Vec2::new(x - x.floor(), d.y.clamp(-1.0, 1.0).acos() / PI)
+    let x = angle::atan2(d.x, -d.z) / TAU;
+    Vec2::new(x - x.floor(), angle::acos(d.y) / PI)
 }
 
 /// Inverse of [`uv_from_direction`].
 #[inline]
 pub fn direction_from_uv(uv: Vec2) -> Vec3 {
-    let (sin_phi, cos_phi) = (uv.x * TAU).sin_cos();
-    let (sin_theta, cos_theta) = (uv.y * PI).sin_cos();
+    let (sin_phi, cos_phi) = angle::sin_cos_turns(uv.x);
+    let (sin_theta, cos_theta) = angle::sin_cos_turns(0.5 * uv.y);
     Vec3::new(sin_phi * sin_theta, cos_theta, -cos_phi * sin_theta)
 }
 

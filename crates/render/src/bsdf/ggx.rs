@@ -114,7 +114,7 @@ pub fn sample_visible(wo: Vec3, alpha: f32, u: [f32; 2]) -> Vec3 {
     let stretched = Vec3::new(wo.x * alpha, wo.y * alpha, wo.z).normalize();
     let z = (1.0 - u[1]) * (1.0 + stretched.z) - stretched.z;
     let r = (1.0 - z * z).clamp(0.0, 1.0).sqrt();
-    let (sin, cos) = warp::sin_cos_turns(u[0]);
+    let (sin, cos) = enfilade_math::angle::sin_cos_turns(u[0]);
     let h = Vec3::new(r * cos, r * sin, z) + stretched;
     Vec3::new(h.x * alpha, h.y * alpha, h.z.max(0.0)).try_normalize().unwrap_or(Vec3::Z)
 }

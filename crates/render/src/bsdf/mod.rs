@@ -163,7 +163,11 @@ impl<'a> Bsdf<'a> {
             }
             Model::Mixture(mixture) => mixture.albedo(wo.z),
         };
-        Albedo { diffuse: self.reflectance * rough.diffuse, glossy: rough.specular, sharp: sharp.specular }
+        // What is added for light between facets lets some estimates of one bounce exceed all light.
+        let rest = |part: Rgb, others: Rgb| Rgb::new(part.r.min(1.0 - others.r), part.g.min(1.0 - others.g), part.b.min(1.0 - others.b));
+        let diffuse = rest(self.reflectance * rough.diffuse, Rgb::BLACK);
+        let glossy = rest(rough.specular, diffuse);
+        Albedo { diffuse, glossy, sharp: rest(sharp.specular, diffuse + glossy) }
     }
 }
 

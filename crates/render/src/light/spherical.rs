@@ -1,13 +1,13 @@
 //! Points of triangles and rectangles sampled uniformly over the solid angle that they fill.
 
-use enfilade_math::{Vec3, warp};
+use enfilade_math::{Vec3, angle};
 use std::f32::consts::{PI, TAU};
 
 /// Solid angle of a triangle, its corners relative to the eye (Van Oosterom & Strackee 1983).
 #[inline]
 pub(super) fn triangle_solid_angle(corners: [Vec3; 3]) -> f32 {
     let [a, b, c] = corners.map(Vec3::normalize_or_zero);
-    2.0 * a.dot(b.cross(c)).abs().atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a))
+    2.0 * angle::atan2(a.dot(b.cross(c)).abs(), 1.0 + a.dot(b) + b.dot(c) + c.dot(a))
 }
 
 /// A unit direction uniform within the triangle's solid angle. `None` for degenerate triangles.
@@ -69,8 +69,8 @@ impl SphericalRectangle {
         // The z components of the side planes' normals; the inner angles lie between planes.
         let component = |v: f32| v / (v * v + z * z).sqrt();
         let (x_low, x_high, y_low, y_high) = (component(x[0]), component(x[1]), component(y[0]), component(y[1]));
-        let (g0, g1) = (warp::acos(y_low * x_high), warp::acos(-x_high * y_high));
-        let (g2, g3) = (warp::acos(y_high * x_low), warp::acos(-x_low * y_low));
+        let (g0, g1) = (angle::acos(y_low * x_high), angle::acos(-x_high * y_high));
+        let (g2, g3) = (angle::acos(y_high * x_low), angle::acos(-x_low * y_low));
         let k = TAU - g2 - g3;
         let solid_angle = g0 + g1 - k;
         (solid_angle > 0.0).then_some(Self { x, y, z, b: [-y_low, y_high], k, solid_angle })
@@ -79,7 +79,7 @@ impl SphericalRectangle {
     /// A point as shares of the two sides, uniform over the solid angle.
     #[inline]
     pub fn sample(&self, u: [f32; 2]) -> [f32; 2] {
-        let (sin, cos) = (u[0] * self.solid_angle + self.k).sin_cos();
+        let (sin, cos) = angle::sin_cos_turns((u[0] * self.solid_angle + self.k) / TAU);
         let f = (cos * self.b[0] - self.b[1]) / sin;
         let c = (f.signum() / (f * f + self.b[0] * self.b[0]).sqrt()).clamp(-1.0, 1.0);
         let x = (-(c * self.z) / (1.0 - c * c).max(1e-12).sqrt()).clamp(self.x[0], self.x[1]);
