@@ -15,13 +15,14 @@ struct Bench {
 }
 
 /// All measurements; each is an example of the crate `crates/<room>`.
-const BENCHES: [Bench; 3] = [
+const BENCHES: [Bench; 4] = [
     Bench {
         name: "rays",
         room: "import",
         about: "millions of rays per second of one thread, ours and Embree's, which it fetches: camera, bounced, shadow",
     },
     Bench { name: "noise", room: "pipeline", about: "noise that a second of rendering leaves, in the demo's room" },
+    Bench { name: "memory", room: "pipeline", about: "memory for a million triangles under eight textures of 4096x4096" },
     Bench { name: "denoise", room: "pipeline", about: "error with and without denoising, in the demo's room; fetches Open Image Denoise" },
 ];
 

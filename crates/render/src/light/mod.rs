@@ -22,6 +22,7 @@ pub(crate) use choice::LightChoice;
 use crate::prepared::{Cutout, RenderScene};
 use crate::surface::Surface;
 use crate::triangle::Triangle;
+use choice::Row;
 use emitter::Emission;
 use enfilade_geometry::Hit;
 use enfilade_math::{Bounds3, Distribution1, Rgb, Vec3, offset_origin};
@@ -216,10 +217,13 @@ impl<'s> Lights<'s> {
         let u = [u[0], u[1], renewed];
         let source = self.source(source);
         let mut sample = self.sample_source(scene, source, choice.windows(), at, u, wanted)?;
-        sample.pdf = match source {
-            Source::Portal(_) | Source::Sky => self.environment_pdf(choice, at, sample.wi),
-            Source::Cluster(_) | Source::Distant(_) => sample.pdf * probability,
-        };
+        sample.pdf *= probability;
+        // What the sky itself and a portal can find, they share.
+        match (source, &self.sky, choice.windows()) {
+            (Source::Portal(_), Some(sky), _) => sample.pdf += row.probability(self.sky_source()) * sky.pdf(sample.wi),
+            (Source::Sky, _, Some(windows)) => sample.pdf += self.portal_pdf(windows, row, at, sample.wi),
+            _ => {}
+        }
         (sample.pdf > 0.0).then_some(sample)
     }
 
@@ -332,9 +336,13 @@ impl<'s> Lights<'s> {
     fn environment_pdf(&self, choice: &LightChoice, at: &LightPoint, d: Vec3) -> f32 {
         let Some(sky) = &self.sky else { return 0.0 };
         let row = choice.row(at);
-        let source = self.sky_source();
-        let through = choice.windows().and_then(|windows| windows.find_portal(at.p, d));
-        row.probability(source) * sky.pdf(d) + through.map_or(0.0, |(portal, pdf)| row.probability(source + 1 + portal) * pdf)
+        let through = choice.windows().map_or(0.0, |windows| self.portal_pdf(windows, row, at, d));
+        row.probability(self.sky_source()) * sky.pdf(d) + through
+    }
+
+    /// The part of the portals in [`Lights::environment_pdf`].
+    fn portal_pdf(&self, windows: &Windows, row: Row<'_>, at: &LightPoint, d: Vec3) -> f32 {
+        windows.find_portal(at.p, d).map_or(0.0, |(portal, pdf)| row.probability(self.sky_source() + 1 + portal) * pdf)
     }
 
     /// Radiance of the environment in the unit direction `d`.
