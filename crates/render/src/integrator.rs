@@ -3,16 +3,16 @@
 //! At the first surface the estimate is kept in three parts: the diffuse reflectance A, the *demodulated* diffuse light E
 //! (what the diffuse lobe would send for a reflectance of one) and the rest R, so that a sample's radiance is A·E + R.
 
-use crate::bsdf::{Bsdf, Event, Value};
+use crate::bsdf::{Bsdf, Value};
 use crate::config::RenderConfig;
-use crate::guide::{CellLight, Guide};
+use crate::guide::Guide;
 use crate::light::{LightKind, LightPoint, power_heuristic};
 use crate::prepared::{Cutout, RenderScene};
 use crate::split::{Arriving, Split};
-use crate::surface::{MIN_COSINE, Surface};
+use crate::surface::Surface;
 use crate::texture::Cone;
-use enfilade_math::{ONE_MINUS_EPSILON, Onb, Ray, Rgb, Sampler, Vec3};
-use enfilade_scene::Bsdf as Model;
+use crate::vertex::{Segment, Vertex, sides_agree};
+use enfilade_math::{Ray, Rgb, Sampler, Vec3};
 
 /// One sample of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,8 +30,6 @@ pub(crate) struct PixelSample {
 /// One in this many samples of a surface without diffuse reflectance measures the light that falls on it.
 const IRRADIANCE_STRIDE: u32 = 4;
 
-/// Share of the directions of a diffuse surface that follow the guide; the rest follows the BSDF.
-const GUIDED_SHARE: f32 = 0.65;
 /// A path goes on with this times the ratio of the light it is expected to find to that of the first surface: the light is not known
 /// exactly, and ending a path that mattered costs more than following one that did not.
 const SURVIVAL_GAIN: f32 = 0.8;
@@ -58,48 +56,6 @@ pub(crate) struct Integrator<'a, 's> {
     pub pixel_angle: f32,
 }
 
-/// A path between two surfaces.
-struct Segment {
-    ray: Ray,
-    /// Where light was last sampled from, and the density of the ray's direction there; `None` after the camera or a
-    /// mirror, where light sampling has no chance.
-    sampled: Option<(LightPoint, f32)>,
-    medium: Medium,
-    /// True when the surface at its origin was passed through.
-    crossed: bool,
-    /// True when that was a pane, which leaves the direction as it was.
-    straight: bool,
-    /// How wide the ray is.
-    cone: Cone,
-}
-
-/// What a ray goes through.
-#[derive(Clone, Copy)]
-struct Medium {
-    /// Absorption per metre.
-    absorption: Rgb,
-    /// Radiance here over the same outside of all bodies: it is compressed where light is slower.
-    compression: f32,
-}
-
-impl Medium {
-    const AIR: Self = Self { absorption: Rgb::BLACK, compression: 1.0 };
-
-    /// On the other side of a border: a body's when it was entered, none when it was left.
-    fn beyond(self, border: &Surface<'_>) -> Self {
-        let (eta, absorption) = match &border.material.bsdf {
-            Model::Dielectric { eta, absorption, .. } => (*eta, *absorption),
-            Model::Principled(p) if p.solid => (p.ior, p.absorption),
-            _ => return self,
-        };
-        if border.outside {
-            Self { absorption, compression: self.compression / (eta * eta) }
-        } else {
-            Self { absorption: Rgb::BLACK, compression: self.compression * eta * eta }
-        }
-    }
-}
-
 /// Light sampled at a source.
 struct Direct {
     /// The BSDF's value over the light's density, weighted against BSDF sampling.
@@ -109,26 +65,6 @@ struct Direct {
     kind: LightKind,
     /// True when it reaches the surface from behind.
     crosses: bool,
-}
-
-/// A surface that a path has reached, with all that scattering there needs.
-struct Vertex<'v, 's> {
-    surface: &'v Surface<'s>,
-    bsdf: &'v Bsdf<'v>,
-    onb: &'v Onb,
-    wo: Vec3,
-    known: Option<Known<'v>>,
-}
-
-/// What is known of the light at a surface.
-struct Known<'v> {
-    light: &'v CellLight,
-    /// The axes that it is stored in.
-    onb: Onb,
-    /// Share of the directions that follow it.
-    share: f32,
-    /// Luminance of the indirect light that is expected to be reflected.
-    reflected: f32,
 }
 
 impl<'s> Integrator<'_, 's> {
@@ -144,7 +80,7 @@ impl<'s> Integrator<'_, 's> {
         let surface = self.scene.surface(&hit, ray.direction, &camera.cone);
         let bsdf = surface.bsdf(self.scene);
         let onb = surface.onb();
-        let vertex = self.vertex(&surface, &bsdf, &onb);
+        let vertex = Vertex::new(self.guide, &surface, &bsdf, &onb);
         let mut sum = Value { diffuse: Rgb::BLACK, specular: surface.emission(self.scene) };
         let mut split = Split::default();
         if self.config.splits {
@@ -201,7 +137,7 @@ impl<'s> Integrator<'_, 's> {
                 return radiance;
             };
             let surface = self.scene.surface(&hit, segment.ray.direction, &segment.cone);
-            throughput *= absorbed(segment.medium.absorption, hit.t);
+            throughput *= segment.medium.transmittance(hit.t);
 
             // Emission met by chance, weighted against light sampling.
             let emission = surface.emission(self.scene);
@@ -222,7 +158,7 @@ impl<'s> Integrator<'_, 's> {
                 return radiance;
             }
             let onb = surface.onb();
-            let vertex = self.vertex(&surface, &bsdf, &onb);
+            let vertex = Vertex::new(self.guide, &surface, &bsdf, &onb);
             if let Some(Direct { weight, light, kind, .. }) = self.sample_lights(&vertex, sampler.set(light_set(bounce))) {
                 radiance.add(kind, throughput * weight.total(bsdf.reflectance) * light, false);
             }
@@ -253,22 +189,6 @@ impl<'s> Integrator<'_, 's> {
             segment = next;
         }
         radiance
-    }
-
-    /// What scattering at a surface needs.
-    #[inline]
-    fn vertex<'v>(&'v self, surface: &'v Surface<'s>, bsdf: &'v Bsdf<'v>, onb: &'v Onb) -> Vertex<'v, 's> {
-        let wo = viewing(onb, surface.wo);
-        let known = match &self.guide.field {
-            Some(field) if !bsdf.reflectance.is_black() => field.at(surface.p, surface.ns_smooth).map(|light| {
-                let albedo = bsdf.albedo(wo);
-                let (share, reflected) = (GUIDED_SHARE * albedo.blurred_share(), albedo.blurred() * light.indirect);
-                let axes = if surface.ns_smooth == surface.ns { *onb } else { Onb::from_z(surface.ns_smooth) };
-                Known { light, onb: axes, share, reflected: reflected.luminance() }
-            }),
-            _ => None,
-        };
-        Vertex { surface, bsdf, onb, wo, known }
     }
 
     /// A sample's indirect light, dimmed to the most that it may add behind the first surface's `throughput`.
@@ -306,7 +226,7 @@ impl<'s> Integrator<'_, 's> {
     fn irradiance(&self, surface: &Surface<'s>, sampler: &Sampler) -> Rgb {
         let bsdf = Bsdf::lambert(Rgb::WHITE);
         let onb = surface.onb();
-        let vertex = self.vertex(surface, &bsdf, &onb);
+        let vertex = Vertex::new(self.guide, surface, &bsdf, &onb);
         let direct = self.sample_lights(&vertex, sampler.set(light_set(0)));
         let mut irradiance = direct.map_or(Rgb::BLACK, |direct| direct.weight.diffuse * direct.light);
         let u = sampler.set(bsdf_set(0));
@@ -316,102 +236,4 @@ impl<'s> Integrator<'_, 's> {
         }
         irradiance
     }
-}
-
-impl Segment {
-    fn from_camera(ray: Ray, cone: Cone) -> Self {
-        Self { ray, sampled: None, medium: Medium::AIR, crossed: false, straight: false, cone }
-    }
-}
-
-impl Vertex<'_, '_> {
-    /// Luminance of the indirect light that is expected to be reflected; 0 where nothing is known.
-    #[inline]
-    fn expected_indirect(&self) -> f32 {
-        self.known.as_ref().map_or(0.0, |known| known.reflected)
-    }
-
-    /// The BSDF's value for a direction, given in shading space and in the world, and the density with which [`Vertex::scatter`]
-    /// finds it.
-    #[inline]
-    fn eval_pdf(&self, wi: Vec3, wi_world: Vec3) -> (Value, f32) {
-        let (value, pdf) = self.bsdf.eval_pdf(self.wo, wi);
-        match &self.known {
-            None => (value, pdf),
-            Some(k) => (value, k.share * k.light.pdf(k.onb.to_local(wi_world)) + (1.0 - k.share) * pdf),
-        }
-    }
-
-    /// Samples a direction and begins the next segment. `None` ends the path.
-    #[inline]
-    fn scatter(&self, u: [f32; 3], before: &Segment) -> Option<(Value, Segment)> {
-        let surface = self.surface;
-        let Some(Known { light, onb, share, .. }) = &self.known else { return self.scatter_by_bsdf(u, 1.0, before) };
-        if u[2] >= *share {
-            let renewed = ((u[2] - share) / (1.0 - share)).min(ONE_MINUS_EPSILON);
-            return self.scatter_by_bsdf([u[0], u[1], renewed], 1.0 - share, before);
-        }
-        let (wi, light_pdf) = light.sample([u[0], u[1]]);
-        let direction = onb.to_world(wi);
-        let wi = self.onb.to_local(direction);
-        let side = direction.dot(surface.ng);
-        if light_pdf <= 0.0 || !sides_agree(wi.z, side) {
-            return None;
-        }
-        let (value, bsdf_pdf) = self.bsdf.eval_pdf(self.wo, wi);
-        let pdf = share * light_pdf + (1.0 - share) * bsdf_pdf;
-        Some((value * (1.0 / pdf), self.segment(direction, side, Some((LightPoint::on(surface), pdf)), before.medium)))
-    }
-
-    /// Samples the BSDF, which is given this `share` of the directions.
-    fn scatter_by_bsdf(&self, u: [f32; 3], share: f32, before: &Segment) -> Option<(Value, Segment)> {
-        let surface = self.surface;
-        let sample = self.bsdf.sample(self.wo, u)?;
-        let direction = if sample.event == Event::Straight { before.ray.direction } else { self.onb.to_world(sample.wi).normalize() };
-        let side = direction.dot(surface.ng);
-        if sample.event != Event::Straight && !sides_agree(sample.wi.z, side) {
-            return None;
-        }
-        let mut weight = sample.weight * (1.0 / share);
-        let sampled = match sample.event {
-            Event::Finite => {
-                let mut pdf = share * sample.pdf;
-                if let Some(k) = &self.known {
-                    pdf += k.share * k.light.pdf(k.onb.to_local(direction));
-                    weight = sample.weight * (sample.pdf / pdf);
-                }
-                Some((LightPoint::on(surface), pdf))
-            }
-            Event::Delta => None,
-            // A pane is no place where directions are chosen: light sampling from before it reaches through it.
-            Event::Straight => before.sampled,
-        };
-        let straight = sample.event == Event::Straight;
-        let medium = if side < 0.0 && !straight { before.medium.beyond(surface) } else { before.medium };
-        Some((weight, Segment { straight, ..self.segment(direction, side, sampled, medium) }))
-    }
-
-    fn segment(&self, direction: Vec3, side: f32, sampled: Option<(LightPoint, f32)>, medium: Medium) -> Segment {
-        let cone = sampled.map_or(self.surface.cone, |(_, pdf)| self.surface.cone.scattered(pdf));
-        Segment { ray: self.surface.ray(direction), sampled, medium, crossed: side < 0.0, straight: false, cone }
-    }
-}
-
-/// Beer–Lambert transmittance over a distance.
-#[inline]
-fn absorbed(absorption: Rgb, distance: f32) -> Rgb {
-    if absorption.is_black() { Rgb::WHITE } else { absorption.map(|a| (-a * distance).exp()) }
-}
-
-/// `wo` in shading space, with its cosine kept off zero.
-#[inline]
-fn viewing(onb: &Onb, wo: Vec3) -> Vec3 {
-    let local = onb.to_local(wo);
-    Vec3::new(local.x, local.y, local.z.max(MIN_COSINE)).normalize()
-}
-
-/// True when a direction is on the same side of the shading and of the geometric surface: no light leaks through bumps.
-#[inline]
-fn sides_agree(shading_cosine: f32, geometric_cosine: f32) -> bool {
-    shading_cosine * geometric_cosine > 0.0
 }

@@ -25,6 +25,7 @@ mod surface;
 mod texture;
 mod tiles;
 mod triangle;
+mod vertex;
 mod walk;
 
 pub use config::{Filter, RenderConfig};

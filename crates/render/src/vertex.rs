@@ -1,0 +1,192 @@
+//! A surface that a path has reached, and the segments between them: where a path goes on.
+
+use crate::bsdf::{Bsdf, Event, Value};
+use crate::guide::{CellLight, Guide};
+use crate::light::LightPoint;
+use crate::surface::{MIN_COSINE, Surface};
+use crate::texture::Cone;
+use enfilade_math::{ONE_MINUS_EPSILON, Onb, Ray, Rgb, Vec3};
+use enfilade_scene::Bsdf as Model;
+
+/// Share of the directions of a diffuse surface that follow the guide; the rest follows the BSDF.
+const GUIDED_SHARE: f32 = 0.65;
+
+/// A path between two surfaces.
+pub(crate) struct Segment {
+    pub ray: Ray,
+    /// Where light was last sampled from, and the density of the ray's direction there; `None` after the camera or a
+    /// mirror, where light sampling has no chance.
+    pub sampled: Option<(LightPoint, f32)>,
+    /// What it goes through.
+    pub medium: Medium,
+    /// True when the surface at its origin was passed through.
+    pub crossed: bool,
+    /// True when that was a pane, which leaves the direction as it was.
+    pub straight: bool,
+    /// How wide the ray is.
+    pub cone: Cone,
+}
+
+/// What a ray goes through.
+#[derive(Clone, Copy)]
+pub(crate) struct Medium {
+    /// Absorption per metre.
+    pub absorption: Rgb,
+    /// Radiance here over the same outside of all bodies: it is compressed where light is slower.
+    pub compression: f32,
+}
+
+impl Medium {
+    /// Outside of all bodies.
+    pub const AIR: Self = Self { absorption: Rgb::BLACK, compression: 1.0 };
+
+    /// Share of the light that is left after `distance` metres (Beer and Lambert).
+    #[inline]
+    pub fn transmittance(self, distance: f32) -> Rgb {
+        if self.absorption.is_black() { Rgb::WHITE } else { self.absorption.map(|a| (-a * distance).exp()) }
+    }
+
+    /// On the other side of a border: a body's when it was entered, none when it was left.
+    fn beyond(self, border: &Surface<'_>) -> Self {
+        let (eta, absorption) = match &border.material.bsdf {
+            Model::Dielectric { eta, absorption, .. } => (*eta, *absorption),
+            Model::Principled(p) if p.solid => (p.ior, p.absorption),
+            _ => return self,
+        };
+        if border.outside {
+            Self { absorption, compression: self.compression / (eta * eta) }
+        } else {
+            Self { absorption: Rgb::BLACK, compression: self.compression * eta * eta }
+        }
+    }
+}
+
+/// A surface that a path has reached, with all that scattering there needs.
+pub(crate) struct Vertex<'v, 's> {
+    pub surface: &'v Surface<'s>,
+    pub bsdf: &'v Bsdf<'v>,
+    pub onb: &'v Onb,
+    pub wo: Vec3,
+    /// What is known of the light here.
+    known: Option<Known<'v>>,
+}
+
+/// What is known of the light at a surface.
+struct Known<'v> {
+    light: &'v CellLight,
+    /// The axes that it is stored in.
+    onb: Onb,
+    /// Share of the directions that follow it.
+    share: f32,
+    /// Luminance of the indirect light that is expected to be reflected.
+    reflected: f32,
+}
+
+impl Segment {
+    /// Along a camera ray, or from nowhere.
+    pub fn from_camera(ray: Ray, cone: Cone) -> Self {
+        Self { ray, sampled: None, medium: Medium::AIR, crossed: false, straight: false, cone }
+    }
+}
+
+impl<'v, 's> Vertex<'v, 's> {
+    /// A surface with its scattering, its axes, and what `guide` knows of the light there.
+    #[inline]
+    pub fn new(guide: &'v Guide, surface: &'v Surface<'s>, bsdf: &'v Bsdf<'v>, onb: &'v Onb) -> Self {
+        let wo = viewing(onb, surface.wo);
+        let known = match &guide.field {
+            Some(field) if !bsdf.reflectance.is_black() => field.at(surface.p, surface.ns_smooth).map(|light| {
+                let albedo = bsdf.albedo(wo);
+                let (share, reflected) = (GUIDED_SHARE * albedo.blurred_share(), albedo.blurred() * light.indirect);
+                let axes = if surface.ns_smooth == surface.ns { *onb } else { Onb::from_z(surface.ns_smooth) };
+                Known { light, onb: axes, share, reflected: reflected.luminance() }
+            }),
+            _ => None,
+        };
+        Self { surface, bsdf, onb, wo, known }
+    }
+
+    /// Luminance of the indirect light that is expected to be reflected; 0 where nothing is known.
+    #[inline]
+    pub fn expected_indirect(&self) -> f32 {
+        self.known.as_ref().map_or(0.0, |known| known.reflected)
+    }
+
+    /// The BSDF's value for a direction, given in shading space and in the world, and the density with which [`Vertex::scatter`]
+    /// finds it.
+    #[inline]
+    pub fn eval_pdf(&self, wi: Vec3, wi_world: Vec3) -> (Value, f32) {
+        let (value, pdf) = self.bsdf.eval_pdf(self.wo, wi);
+        match &self.known {
+            None => (value, pdf),
+            Some(k) => (value, k.share * k.light.pdf(k.onb.to_local(wi_world)) + (1.0 - k.share) * pdf),
+        }
+    }
+
+    /// Samples a direction and begins the next segment. `None` ends the path.
+    #[inline]
+    pub fn scatter(&self, u: [f32; 3], before: &Segment) -> Option<(Value, Segment)> {
+        let surface = self.surface;
+        let Some(Known { light, onb, share, .. }) = &self.known else { return self.scatter_by_bsdf(u, 1.0, before) };
+        if u[2] >= *share {
+            let renewed = ((u[2] - share) / (1.0 - share)).min(ONE_MINUS_EPSILON);
+            return self.scatter_by_bsdf([u[0], u[1], renewed], 1.0 - share, before);
+        }
+        let (wi, light_pdf) = light.sample([u[0], u[1]]);
+        let direction = onb.to_world(wi);
+        let wi = self.onb.to_local(direction);
+        let side = direction.dot(surface.ng);
+        if light_pdf <= 0.0 || !sides_agree(wi.z, side) {
+            return None;
+        }
+        let (value, bsdf_pdf) = self.bsdf.eval_pdf(self.wo, wi);
+        let pdf = share * light_pdf + (1.0 - share) * bsdf_pdf;
+        Some((value * (1.0 / pdf), self.segment(direction, side, Some((LightPoint::on(surface), pdf)), before.medium)))
+    }
+
+    /// Samples the BSDF, which is given this `share` of the directions.
+    fn scatter_by_bsdf(&self, u: [f32; 3], share: f32, before: &Segment) -> Option<(Value, Segment)> {
+        let surface = self.surface;
+        let sample = self.bsdf.sample(self.wo, u)?;
+        let direction = if sample.event == Event::Straight { before.ray.direction } else { self.onb.to_world(sample.wi).normalize() };
+        let side = direction.dot(surface.ng);
+        if sample.event != Event::Straight && !sides_agree(sample.wi.z, side) {
+            return None;
+        }
+        let mut weight = sample.weight * (1.0 / share);
+        let sampled = match sample.event {
+            Event::Finite => {
+                let mut pdf = share * sample.pdf;
+                if let Some(k) = &self.known {
+                    pdf += k.share * k.light.pdf(k.onb.to_local(direction));
+                    weight = sample.weight * (sample.pdf / pdf);
+                }
+                Some((LightPoint::on(surface), pdf))
+            }
+            Event::Delta => None,
+            // A pane is no place where directions are chosen: light sampling from before it reaches through it.
+            Event::Straight => before.sampled,
+        };
+        let straight = sample.event == Event::Straight;
+        let medium = if side < 0.0 && !straight { before.medium.beyond(surface) } else { before.medium };
+        Some((weight, Segment { straight, ..self.segment(direction, side, sampled, medium) }))
+    }
+
+    fn segment(&self, direction: Vec3, side: f32, sampled: Option<(LightPoint, f32)>, medium: Medium) -> Segment {
+        let cone = sampled.map_or(self.surface.cone, |(_, pdf)| self.surface.cone.scattered(pdf));
+        Segment { ray: self.surface.ray(direction), sampled, medium, crossed: side < 0.0, straight: false, cone }
+    }
+}
+
+/// `wo` in shading space, with its cosine kept off zero.
+#[inline]
+fn viewing(onb: &Onb, wo: Vec3) -> Vec3 {
+    let local = onb.to_local(wo);
+    Vec3::new(local.x, local.y, local.z.max(MIN_COSINE)).normalize()
+}
+
+/// True when a direction is on the same side of the shading and of the geometric surface: no light leaks through bumps.
+#[inline]
+pub(crate) fn sides_agree(shading_cosine: f32, geometric_cosine: f32) -> bool {
+    shading_cosine * geometric_cosine > 0.0
+}
