@@ -7,7 +7,7 @@ use crate::report::Warnings;
 use crate::{Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis, mesh};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Mat3, Rgb};
-use enfilade_scene::{Cx, Environment, Light, Material, Part, PartLabel, Scene, StartCamera};
+use enfilade_scene::{Cx, Environment, Light, MapRows, Material, Part, PartLabel, Scene, StartCamera};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -265,13 +265,14 @@ impl<'a> Assembly<'a> {
             Light::Point { name, position, intensity } => {
                 Light::Point { name, position: place(position), intensity: intensity * (metres * metres) }
             }
-            Light::Spot { name, position, direction, intensity, inner_rad, outer_rad } => Light::Spot {
+            Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff } => Light::Spot {
                 name,
                 position: place(position),
                 direction: turn(direction),
                 intensity: intensity * (metres * metres),
                 inner_rad,
                 outer_rad,
+                falloff,
             },
             Light::Profile { name, position, web_from_world: web_from_file, intensity, web } => {
                 let rotation = self.world_from_file.matrix3 * (1.0 / self.options.meters_per_unit);
@@ -296,7 +297,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// Sets an environment picture by the matrix that takes its own space (y up) to the file's axes; its scale is taken out.
-    pub(crate) fn set_environment_map(&mut self, image: u32, scale: Rgb, file_from_map: DMat3, place: &str) {
+    pub(crate) fn set_environment_map(&mut self, image: u32, rows: MapRows, scale: Rgb, file_from_map: DMat3, place: &str) {
         let world_from_map = self.world_from_file.matrix3 * file_from_map;
         let normalized = |v: DVec3| v.try_normalize();
         let columns = (normalized(world_from_map.x_axis), normalized(world_from_map.y_axis), normalized(world_from_map.z_axis));
@@ -310,7 +311,7 @@ impl<'a> Assembly<'a> {
             self.warn(place, "the environment's transform is skewed; its axes were kept as they are, which distorts the picture");
         }
         let map_from_world = world_from_map.inverse();
-        self.set_environment(Environment::Map { image, scale, map_from_world: mat3_f32(map_from_world) }, place);
+        self.set_environment(Environment::Map { image, rows, scale, map_from_world: mat3_f32(map_from_world) }, place);
     }
 
     /// Sets the environment; a second one replaces the first, with a warning.
@@ -347,7 +348,8 @@ impl<'a> Assembly<'a> {
             let world_from_map = DMat3::from_rotation_z(f64::from(environment.rotation_deg).to_radians())
                 * DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
             let scale = Rgb::splat(environment.scale);
-            self.scene.environment = Some(Environment::Map { image, scale, map_from_world: mat3_f32(world_from_map.transpose()) });
+            let map_from_world = mat3_f32(world_from_map.transpose());
+            self.scene.environment = Some(Environment::Map { image, rows: MapRows::Bands, scale, map_from_world });
         }
         let file = self.file;
         self.scene.validate().map_err(|source| ImportError::Scene { file, source })?;
@@ -465,7 +467,7 @@ mod tests {
         let scene = assembled(&ImportOptions::default(), |a| {
             let white = enfilade_scene::Pixels::RgbF32(vec![[1.0; 3]]);
             let image = a.push_image(enfilade_scene::Image { name: "sky".into(), width: 1, height: 1, pixels: white });
-            a.set_environment_map(image, Rgb::WHITE, DMat3::IDENTITY, "sky");
+            a.set_environment_map(image, MapRows::Bands, Rgb::WHITE, DMat3::IDENTITY, "sky");
         })
         .scene;
         let Some(Environment::Map { map_from_world, .. }) = scene.environment else { panic!("no map") };

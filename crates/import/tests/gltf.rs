@@ -5,7 +5,7 @@ mod common;
 use common::{Folder, Gltf, base64, png, warnings};
 use enfilade_import::{ImportOptions, UpAxis};
 use enfilade_math::{DVec3, Rgb, Vec2, Vec3};
-use enfilade_scene::{Alpha, Bsdf, Filter, Light, NormalMap, PartLabel, Principled, Wrap};
+use enfilade_scene::{Alpha, Bsdf, Filter, Light, NormalMap, PartLabel, Principled, SpotFalloff, Wrap};
 use serde_json::json;
 
 fn principled(bsdf: &Bsdf) -> &Principled {
@@ -181,7 +181,7 @@ fn lights_and_cameras_are_placed_and_scaled() {
     let bulb = Light::Point { name: "bulb".into(), position: Vec3::Z, intensity: Rgb::new(25.0, 12.5, 6.25) };
     assert_eq!(lights[0], bulb);
     assert!(
-        matches!(&lights[1], Light::Spot { name, direction, outer_rad, .. } if name == "desk" && *direction == Vec3::Y && *outer_rad == 0.4)
+        matches!(&lights[1], Light::Spot { name, direction, outer_rad, falloff: SpotFalloff::CosineSquare, .. } if name == "desk" && *direction == Vec3::Y && *outer_rad == 0.4)
     );
     assert!(matches!(&lights[2], Light::Directional { irradiance, .. } if irradiance.g == 3.0));
     let camera = &imported.scene.cameras[0];

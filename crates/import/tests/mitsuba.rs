@@ -5,7 +5,7 @@ mod common;
 use common::{Folder, png, warnings};
 use enfilade_import::{ImportOptions, Imported};
 use enfilade_math::{DVec3, Rgb, Vec2, Vec3};
-use enfilade_scene::{Alpha, Bsdf, Environment, Filter, Light, Material, NormalMap};
+use enfilade_scene::{Alpha, Bsdf, Environment, Filter, Light, MapRows, Material, NormalMap, SpotFalloff};
 
 fn load(folder: &Folder, body: &str) -> Imported {
     folder.write("a.xml", format!("<scene version=\"0.5.0\">{body}</scene>")).load("a.xml").unwrap_or_else(|e| panic!("{e}"))
@@ -209,12 +209,13 @@ fn emitters_of_all_kinds() {
     let scene = &imported.scene;
     let lamp = &scene.materials[0];
     assert_eq!((lamp.emission.factor, lamp.emits_both_sides, lamp.name.as_str()), (Rgb::splat(3.0), false, "inline_emitter"));
+    assert_eq!(lamp.bsdf, Bsdf::Diffuse { reflectance: Rgb::BLACK.into() });
     assert_eq!(scene.lights[0], Light::Point { name: "bulb".into(), position: Vec3::Z, intensity: Rgb::splat(2.0) });
     assert!(
-        matches!(&scene.lights[1], Light::Spot { direction, inner_rad, .. } if *direction == Vec3::NEG_Y && (inner_rad - 30f32.to_radians()).abs() < 1e-6)
+        matches!(&scene.lights[1], Light::Spot { direction, inner_rad, falloff: SpotFalloff::Angle, .. } if *direction == Vec3::NEG_Y && (inner_rad - 30f32.to_radians()).abs() < 1e-6)
     );
     assert!(matches!(&scene.lights[2], Light::Directional { direction, .. } if *direction == Vec3::NEG_Z));
-    assert!(matches!(&scene.environment, Some(Environment::Map { scale, .. }) if scale.g == 2.0));
+    assert!(matches!(&scene.environment, Some(Environment::Map { rows: MapRows::PoleToPole, scale, .. }) if scale.g == 2.0));
     let imported = load(&folder, r#"<shape type="cube"/><emitter type="constant"><rgb name="radiance" value="1 2 3"/></emitter>"#);
     assert_eq!(imported.scene.environment, Some(Environment::Constant { radiance: Rgb::new(1.0, 2.0, 3.0) }));
 }

@@ -14,7 +14,8 @@
 //! | normal map, bump map | the same |
 //!
 //! Textured roughness, metalness and transmission become their means; clear-coat, sheen, absorption and the sun's disk are
-//! dropped; emitters shine on their front.
+//! dropped; emitters shine on their front. Spots fall off along a line in the angle, and the rows of environment maps move by up to
+//! half of one, for there the first and the last lie on the poles.
 
 use enfilade_import::{ImportOptions, load};
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, srgb_from_linear};
@@ -118,7 +119,7 @@ impl Writer<'_> {
             Some(Environment::Constant { radiance }) => {
                 writeln!(self.xml, "<emitter type=\"constant\">{}</emitter>", rgb("radiance", *radiance))?;
             }
-            Some(Environment::Map { image, scale, map_from_world }) => {
+            Some(Environment::Map { image, scale, map_from_world, .. }) => {
                 let image = &self.scene.images[*image as usize];
                 write_exr(&self.folder.join("textures/environment.exr"), image, *scale)?;
                 let world_from_map =

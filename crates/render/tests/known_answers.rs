@@ -5,8 +5,8 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Mat3, Rgb, Vec2, Vec3};
 use enfilade_render::{Guide, RenderConfig, RenderError, RenderScene, render_frame};
 use enfilade_scene::{
-    Bsdf, Camera, CameraView, Environment, Image, Intrinsics, Light, Material, NormalMap, Part, PhotometricWeb, Pixels, Pose, Principled,
-    Quiet, Scene, TextureRef,
+    Bsdf, Camera, CameraView, Environment, Image, Intrinsics, Light, MapRows, Material, NormalMap, Part, PhotometricWeb, Pixels, Pose,
+    Principled, Quiet, Scene, SpotFalloff, TextureRef,
 };
 use std::f64::consts::PI;
 
@@ -189,9 +189,10 @@ fn point_spot_and_sun_light_a_floor_by_their_laws() {
     let intensity = Rgb::splat(10.0);
     assert_close("point", floor_radiance(with(Light::Point { name: "p".into(), position, intensity }), vec![], 1), expected, 2e-3);
     let direction = (-position).normalize();
-    let spot = Light::Spot { name: "s".into(), position, direction, intensity, inner_rad: 0.1, outer_rad: 0.2 };
+    let falloff = SpotFalloff::CosineSquare;
+    let spot = Light::Spot { name: "s".into(), position, direction, intensity, inner_rad: 0.1, outer_rad: 0.2, falloff };
     assert_close("spot", floor_radiance(with(spot), vec![], 1), expected, 2e-3);
-    let away = Light::Spot { name: "s".into(), position, direction: -direction, intensity, inner_rad: 0.1, outer_rad: 0.2 };
+    let away = Light::Spot { name: "s".into(), position, direction: -direction, intensity, inner_rad: 0.1, outer_rad: 0.2, falloff };
     assert_eq!(floor_radiance(with(away), vec![], 1), 0.0);
     // A measured lamp: half as bright at 45 degrees as on its axis, linear between, turned about the vertical.
     let web = PhotometricWeb::new(vec![0.0, 45.0, 90.0], vec![0.0, 90.0], vec![20.0, 10.0, 0.0, 20.0, 10.0, 0.0]).unwrap();
@@ -237,7 +238,7 @@ fn an_environment_map_is_sampled_in_proportion_and_from_the_right_side() {
     let to_patch = (map_from_world.transpose() * direction_from_uv(uv)).as_dvec3();
     let s = Scene {
         images: vec![image],
-        environment: Some(Environment::Map { image: 0, scale: Rgb::WHITE, map_from_world }),
+        environment: Some(Environment::Map { image: 0, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world }),
         ..Scene::default()
     };
     // Irradiance of the bilinearly interpolated texel: a tent of one texel's solid angle (integrated numerically).

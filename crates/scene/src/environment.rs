@@ -14,11 +14,33 @@ pub enum Environment {
     Map {
         /// Index into `Scene::images`.
         image: u32,
+        /// Where the image's rows lie.
+        rows: MapRows,
         /// Multiplies the image.
         scale: Rgb,
         /// Rotation that takes world directions into the map's own space.
         map_from_world: Mat3,
     },
+}
+
+/// Where the rows of an equirectangular image lie between the zenith and the nadir.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum MapRows {
+    /// Each fills one of as many equal bands, so that the image's borders are the poles.
+    Bands,
+    /// The first and the last are the poles themselves, the others evenly between (Mitsuba's `envmap`).
+    PoleToPole,
+}
+
+impl MapRows {
+    /// The share of the image's height, from its upper border, that shows the polar angle θ = `v`·π.
+    #[inline]
+    pub fn place(self, v: f32, height: u32) -> f32 {
+        match self {
+            Self::Bands => v,
+            Self::PoleToPole => (v * (height as f32 - 1.0) + 0.5) / height as f32,
+        }
+    }
 }
 
 /// Place in the equirectangular image of a unit direction in the map's space, which has y up: x across on [0,1), y downward
@@ -46,6 +68,14 @@ mod tests {
         for d in [Vec3::X, Vec3::NEG_Z, Vec3::Z, Vec3::new(0.3, -0.5, 0.8), Vec3::new(-0.2, 0.9, -0.1)] {
             let d = d.normalize();
             assert!((direction_from_uv(uv_from_direction(d)) - d).length() < 1e-5, "{d}");
+        }
+    }
+
+    #[test]
+    fn rows_lie_between_the_poles_or_on_them() {
+        for (v, in_bands, on_poles) in [(0.0, 0.0, 0.125), (0.5, 0.5, 0.5), (1.0, 1.0, 0.875), (1.0 / 3.0, 1.0 / 3.0, 0.375)] {
+            assert!((MapRows::Bands.place(v, 4) - in_bands).abs() < 1e-6);
+            assert!((MapRows::PoleToPole.place(v, 4) - on_poles).abs() < 1e-6);
         }
     }
 }

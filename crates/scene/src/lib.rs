@@ -23,9 +23,9 @@ pub use camera::{
     TiltedPinhole,
 };
 pub use cx::{Cx, Quiet, Warning};
-pub use environment::{Environment, direction_from_uv, uv_from_direction};
+pub use environment::{Environment, MapRows, direction_from_uv, uv_from_direction};
 pub use labels::{Labels, NYU40, PartLabel, SemanticClass, is_stuff};
-pub use light::Light;
+pub use light::{Light, SpotFalloff};
 pub use material::{Alpha, Bsdf, ColorParam, Material, NormalMap, Parameter, Principled, ScalarParam};
 pub use package::{PackageError, from_bytes, to_bytes};
 pub use photometry::PhotometricWeb;

@@ -14,7 +14,7 @@ pub enum Light {
         /// Radiant intensity, W/sr.
         intensity: Rgb,
     },
-    /// A point light within a cone, smooth between the two angles.
+    /// A point light within a cone, dimming between the two angles.
     Spot {
         /// Name from the file.
         name: String,
@@ -28,6 +28,8 @@ pub enum Light {
         inner_rad: f32,
         /// None beyond this one.
         outer_rad: f32,
+        /// How it dims between them.
+        falloff: SpotFalloff,
     },
     /// A point light with a measured distribution of intensity (IES).
     Profile {
@@ -53,6 +55,15 @@ pub enum Light {
         /// Angular radius of the disk; 0 for exactly parallel light (the sun: 0.00465).
         angular_radius_rad: f32,
     },
+}
+
+/// How a spot dims from the inner angle to the outer one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SpotFalloff {
+    /// The square of a line in the angle's cosine (glTF's `KHR_lights_punctual`).
+    CosineSquare,
+    /// A line in the angle (Mitsuba's `spot`).
+    Angle,
 }
 
 impl Light {

@@ -1,7 +1,7 @@
 //! Sky and sun by day, at dusk and at dawn.
 
 use crate::atmosphere::Atmosphere;
-use crate::{Environment, Image, Light, Pixels, direction_from_uv};
+use crate::{Environment, Image, Light, MapRows, Pixels, direction_from_uv};
 use enfilade_math::{Mat3, Rgb, Vec2, Vec3};
 use std::f32::consts::PI;
 
@@ -70,7 +70,7 @@ impl Daylight {
             })
             .collect();
         let picture = Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) };
-        let environment = Environment::Map { image, scale: Rgb::WHITE, map_from_world };
+        let environment = Environment::Map { image, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world };
         let sun = Light::Directional {
             name: "sun".into(),
             direction: -self.to_sun,

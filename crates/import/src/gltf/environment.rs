@@ -9,6 +9,7 @@ use crate::ImportError;
 use crate::assembly::{Assembly, Source};
 use crate::images::Use;
 use enfilade_math::{DMat3, DVec3, Rgb};
+use enfilade_scene::MapRows;
 use serde_json::Value;
 
 /// Uses the first environment map found in the extras of the file's scenes.
@@ -37,7 +38,7 @@ pub(super) fn guess(document: &Document, a: &mut Assembly) -> Result<(), ImportE
 fn add(a: &mut Assembly, place: &str, file: &str, file_from_map: DMat3, scale: Rgb) -> Result<(), ImportError> {
     a.warn(place, format!("glTF has no environment; {file} was guessed to be one from the scene's extras"));
     if let Some(image) = a.image(&Source::File(file), Use::Color, "the environment")? {
-        a.set_environment_map(image, scale, file_from_map, place);
+        a.set_environment_map(image, MapRows::Bands, scale, file_from_map, place);
     }
     Ok(())
 }

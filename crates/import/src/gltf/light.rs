@@ -3,7 +3,7 @@
 use super::container::Document;
 use crate::assembly::Assembly;
 use enfilade_math::{DAffine3, DVec3, Rgb};
-use enfilade_scene::Light;
+use enfilade_scene::{Light, SpotFalloff};
 use gltf::json::extensions::scene::khr_lights_punctual::Type;
 use gltf::json::validation::Checked;
 
@@ -28,7 +28,8 @@ pub(super) fn add(document: &Document, index: usize, node_name: Option<&str>, no
         Checked::Valid(Type::Spot) => {
             let (inner_rad, outer_rad) =
                 light.spot.as_ref().map_or((0.0, std::f32::consts::FRAC_PI_4), |s| (s.inner_cone_angle, s.outer_cone_angle));
-            a.push_light(Light::Spot { name, position, direction, intensity: strength, inner_rad: inner_rad.min(outer_rad), outer_rad });
+            let (inner_rad, falloff) = (inner_rad.min(outer_rad), SpotFalloff::CosineSquare);
+            a.push_light(Light::Spot { name, position, direction, intensity: strength, inner_rad, outer_rad, falloff });
         }
         Checked::Valid(Type::Directional) => {
             a.push_light(Light::Directional { name, direction, irradiance: strength, angular_radius_rad: 0.0 });

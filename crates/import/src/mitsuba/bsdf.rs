@@ -39,7 +39,8 @@ impl<'n> Reader<'n, '_> {
         }
         let surface = match bsdf {
             Some(node) => self.surface(node, 0)?,
-            None => Surface::plain(Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() }),
+            // A lamp without a bsdf of its own is black.
+            None => Surface::plain(Bsdf::Diffuse { reflectance: Rgb::splat(if emitter.is_some() { 0.0 } else { 0.5 }).into() }),
         };
         let emission: ColorParam = match emitter {
             Some(emitter) => self.color(emitter, "radiance", Kind::Emission, Rgb::WHITE)?,

@@ -8,7 +8,7 @@ use crate::assembly::Source;
 use crate::images::Use;
 use enfilade_math::{DVec3, Rgb, Vec3};
 use enfilade_scene::sky::Daylight;
-use enfilade_scene::{Environment, Light};
+use enfilade_scene::{Environment, Light, MapRows, SpotFalloff};
 
 /// Kilo-candela per square metre of one of Mitsuba's units of sky radiance, W·m⁻²·sr⁻¹·nm⁻¹: 683 lm/W × the 106.857 nm under the
 /// luminosity curve.
@@ -59,7 +59,7 @@ impl<'n> Reader<'n, '_> {
         let scale = Rgb::splat(node.float_or("scale", 1.0)? as f32);
         let file_from_map = transform::of(node, "to_world")?.matrix3;
         if let Some(image) = self.a.image(&Source::File(path), Use::Color, &node.place())? {
-            self.a.set_environment_map(image, scale, file_from_map, &node.place());
+            self.a.set_environment_map(image, MapRows::PoleToPole, scale, file_from_map, &node.place());
         }
         Ok(())
     }
@@ -77,7 +77,8 @@ impl<'n> Reader<'n, '_> {
         let inner = node.float_or("beam_width", 0.75 * outer)?.min(outer);
         let direction = placement.transform_vector3(DVec3::Z).normalize_or_zero().as_vec3();
         let (inner_rad, outer_rad) = (inner.to_radians() as f32, outer.to_radians() as f32);
-        self.a.push_light(Light::Spot { name: name(node), position, direction, intensity, inner_rad, outer_rad });
+        let falloff = SpotFalloff::Angle;
+        self.a.push_light(Light::Spot { name: name(node), position, direction, intensity, inner_rad, outer_rad, falloff });
         Ok(())
     }
 
@@ -124,8 +125,8 @@ impl<'n> Reader<'n, '_> {
         let (picture, environment, sun) = daylight.lights(SKY_WIDTH, 1.0 / KILOCANDELA_PER_UNIT, image);
         if node.plugin != "sun" {
             self.a.push_image(picture);
-            if let Environment::Map { image, map_from_world, .. } = environment {
-                self.a.set_environment(Environment::Map { image, scale: Rgb::splat(sky_scale), map_from_world }, &node.place());
+            if let Environment::Map { image, rows, map_from_world, .. } = environment {
+                self.a.set_environment(Environment::Map { image, rows, scale: Rgb::splat(sky_scale), map_from_world }, &node.place());
             }
         }
         if let Light::Directional { direction, irradiance, angular_radius_rad, .. } = sun

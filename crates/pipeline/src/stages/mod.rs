@@ -65,7 +65,7 @@ pub const STAGES: [StageSpec; 8] = [
         stage: Stage::Import,
         name: "import",
         about: "scene file -> scene package",
-        version: 2,
+        version: 3,
         settings: import::settings,
         inputs: import::inputs,
         run: import::run,

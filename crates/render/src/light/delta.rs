@@ -2,8 +2,8 @@
 
 use super::bounds::LightBounds;
 use super::{LightPoint, LightSample};
-use enfilade_math::{Onb, Rgb, Vec3, warp};
-use enfilade_scene::Light;
+use enfilade_math::{Onb, Rgb, Vec3, angle, warp};
+use enfilade_scene::{Light, SpotFalloff};
 
 /// What the hierarchy knows of a light at a point; `None` for light from far away.
 pub(super) fn light_bounds(light: &Light) -> Option<LightBounds> {
@@ -31,10 +31,10 @@ pub(super) fn sample(light: &Light, at: &LightPoint, u: [f32; 2]) -> Option<Ligh
     };
     match light {
         Light::Point { position, intensity, .. } => towards(*position, *intensity),
-        Light::Spot { position, direction, intensity, inner_rad, outer_rad, .. } => {
+        Light::Spot { position, direction, intensity, inner_rad, outer_rad, falloff, .. } => {
             let sample = towards(*position, *intensity)?;
-            let falloff = spot_falloff((-sample.wi).dot(*direction), *inner_rad, *outer_rad);
-            (falloff > 0.0).then(|| LightSample { radiance: sample.radiance.map(|r| r * falloff), ..sample })
+            let share = spot_share(*falloff, (-sample.wi).dot(*direction), *inner_rad, *outer_rad);
+            (share > 0.0).then(|| LightSample { radiance: sample.radiance.map(|r| r * share), ..sample })
         }
         Light::Profile { position, web_from_world, intensity, web, .. } => {
             let sample = towards(*position, *intensity)?;
@@ -66,13 +66,16 @@ pub(super) fn disk(light: &Light, d: Vec3) -> Option<(Rgb, f32)> {
     })
 }
 
-/// Full within the inner angle, none beyond the outer, glTF's smooth square between (KHR_lights_punctual).
-fn spot_falloff(cos: f32, inner_rad: f32, outer_rad: f32) -> f32 {
+/// Share of a spot's intensity at an angle from its axis: all within the inner angle, none beyond the outer.
+fn spot_share(falloff: SpotFalloff, cos: f32, inner_rad: f32, outer_rad: f32) -> f32 {
     let (inner, outer) = (inner_rad.cos(), outer_rad.cos());
     if inner <= outer {
         return if cos >= outer { 1.0 } else { 0.0 };
     }
-    ((cos - outer) / (inner - outer)).clamp(0.0, 1.0).powi(2)
+    match falloff {
+        SpotFalloff::CosineSquare => ((cos - outer) / (inner - outer)).clamp(0.0, 1.0).powi(2),
+        SpotFalloff::Angle => ((outer_rad - angle::acos(cos)) / (outer_rad - inner_rad)).clamp(0.0, 1.0),
+    }
 }
 
 /// 1 − cos(angle), precise for small angles.
@@ -87,9 +90,17 @@ mod tests {
 
     #[test]
     fn spot_is_full_inside_and_dark_outside() {
-        assert_eq!(spot_falloff(1.0, 0.2, 0.5), 1.0);
-        assert_eq!(spot_falloff(0.6f32.cos(), 0.2, 0.5), 0.0);
-        let between = spot_falloff(0.35f32.cos(), 0.2, 0.5);
-        assert!(between > 0.0 && between < 1.0);
+        for falloff in [SpotFalloff::CosineSquare, SpotFalloff::Angle] {
+            assert_eq!(spot_share(falloff, 1.0, 0.2, 0.5), 1.0);
+            assert_eq!(spot_share(falloff, 0.6f32.cos(), 0.2, 0.5), 0.0);
+        }
+    }
+
+    #[test]
+    fn spot_dims_by_its_law_between_the_angles() {
+        let share = |falloff, cos: f32| spot_share(falloff, cos, 0.2, 0.6);
+        assert!((share(SpotFalloff::Angle, 0.3f32.cos()) - 0.75).abs() < 1e-5);
+        let halfway = 0.5 * (0.2f32.cos() + 0.6f32.cos());
+        assert!((share(SpotFalloff::CosineSquare, halfway) - 0.25).abs() < 1e-5);
     }
 }

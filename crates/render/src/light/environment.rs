@@ -1,7 +1,7 @@
 //! Light from the surroundings, sampled in proportion to its brightness.
 
 use enfilade_math::{Distribution2, Mat3, Rgb, Vec2, Vec3, warp};
-use enfilade_scene::{Environment, Image, TextureRef, Wrap, direction_from_uv, uv_from_direction};
+use enfilade_scene::{Environment, Image, MapRows, TextureRef, Wrap, direction_from_uv, uv_from_direction};
 use std::f32::consts::PI;
 
 /// The environment with its sampling distribution.
@@ -21,6 +21,7 @@ enum SkyLight<'s> {
 struct SkyMap<'s> {
     image: &'s Image,
     texture: TextureRef,
+    rows: MapRows,
     scale: Rgb,
     map_from_world: Mat3,
     distribution: Distribution2,
@@ -31,12 +32,13 @@ impl<'s> Sky<'s> {
     pub fn new(environment: &Environment, images: &'s [Image]) -> Option<Self> {
         let light = match environment {
             Environment::Constant { radiance } => (!radiance.is_black()).then_some(SkyLight::Constant { radiance: *radiance })?,
-            Environment::Map { image, scale, map_from_world } => {
+            Environment::Map { image, rows, scale, map_from_world } => {
                 let image = &images[*image as usize];
                 let (weights, columns) = cell_weights(image, *scale);
                 let distribution = Distribution2::new(&weights, columns)?;
                 let texture = TextureRef { wrap: [Wrap::Repeat, Wrap::Clamp], ..TextureRef::new(0) };
-                SkyLight::Map(Box::new(SkyMap { image, texture, scale: *scale, map_from_world: *map_from_world, distribution }))
+                let (rows, scale, map_from_world) = (*rows, *scale, *map_from_world);
+                SkyLight::Map(Box::new(SkyMap { image, texture, rows, scale, map_from_world, distribution }))
             }
         };
         let mut sky = Self { light, irradiance: 0.0 };
@@ -56,7 +58,8 @@ impl<'s> Sky<'s> {
             SkyLight::Constant { radiance } => *radiance,
             SkyLight::Map(map) => {
                 let uv = uv_from_direction(map.map_from_world * d);
-                map.scale * map.image.sample(&map.texture, Vec2::new(uv.x, 1.0 - uv.y)).0
+                let down = map.rows.place(uv.y, map.image.height);
+                map.scale * map.image.sample(&map.texture, Vec2::new(uv.x, 1.0 - down)).0
             }
         }
     }
@@ -124,7 +127,7 @@ fn pooled(texels: &[f32], image: &Image, limit: usize) -> (Vec<f32>, usize) {
 }
 
 /// Luminance × solid angle of each texel, smeared over the neighbours, because lookups interpolate between texels: wherever
-/// radiance is positive, so must be the density.
+/// radiance is positive, so must be the density. Rows from pole to pole lie less than one row off the cells: the neighbours cover that.
 fn texel_weights(image: &Image, scale: Rgb) -> Vec<f32> {
     let (w, h) = (image.width as usize, image.height as usize);
     let luminance: Vec<f32> = (0..w * h).map(|i| (scale * image.texel(i % w, i / w).0).luminance().max(0.0)).collect();
@@ -151,10 +154,29 @@ mod tests {
     #[test]
     fn directions_near_the_zenith_have_density() {
         let images = [Image { name: "sky".into(), width: 8, height: 4, pixels: Pixels::RgbF32(vec![[1.0; 3]; 32]) }];
-        let map = Environment::Map { image: 0, scale: Rgb::WHITE, map_from_world: Mat3::IDENTITY };
+        let map = Environment::Map { image: 0, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world: Mat3::IDENTITY };
         let sky = Sky::new(&map, &images).unwrap();
         for angle in [1e-3f32, 1e-4, 1e-6] {
             assert!(sky.pdf(Vec3::new(angle, 1.0, 0.0)) > 0.0, "{angle} rad from the zenith");
+        }
+    }
+
+    #[test]
+    fn a_bright_texel_is_seen_in_its_row_and_sampled_wherever_it_shines() {
+        let (width, height, x, y) = (64u32, 32u32, 40u32, 3u32);
+        let mut texels = vec![[0.0; 3]; (width * height) as usize];
+        texels[(y * width + x) as usize] = [1.0; 3];
+        let images = [Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) }];
+        for (rows, v) in [(MapRows::Bands, (y as f32 + 0.5) / height as f32), (MapRows::PoleToPole, y as f32 / (height as f32 - 1.0))] {
+            let map = Environment::Map { image: 0, rows, scale: Rgb::WHITE, map_from_world: Mat3::IDENTITY };
+            let sky = Sky::new(&map, &images).unwrap();
+            let u = (x as f32 + 0.5) / width as f32;
+            let at = |du: f32, dv: f32| direction_from_uv(Vec2::new(u + du / width as f32, v + dv / height as f32));
+            assert!((sky.radiance(at(0.0, 0.0)).g - 1.0).abs() < 1e-4, "{rows:?}");
+            for k in 0..400 {
+                let d = at((k % 20) as f32 / 9.5 - 1.0, (k / 20) as f32 / 9.5 - 1.0);
+                assert!(sky.pdf(d) > 0.0 || sky.radiance(d).is_black(), "{rows:?} {d}");
+            }
         }
     }
 
@@ -165,7 +187,7 @@ mod tests {
         let texels = (0..width * height).map(|_| [rng.next_f32().powi(8) * 10.0; 3]).collect();
         let images = [Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) }];
         let map_from_world = Mat3::from_rotation_x(-1.0) * Mat3::from_rotation_z(0.4);
-        let sky = Sky::new(&Environment::Map { image: 0, scale: Rgb::WHITE, map_from_world }, &images).unwrap();
+        let sky = Sky::new(&Environment::Map { image: 0, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world }, &images).unwrap();
         let place = |d: Vec3| uv_from_direction(map_from_world * d).to_array();
         let test = ChiSquare::square(
             400_000,
