@@ -92,7 +92,7 @@ pub const STAGES: [StageSpec; 8] = [
         stage: Stage::Render,
         name: "render",
         about: "scene, trajectories -> frames",
-        version: 3,
+        version: 4,
         settings: render::settings,
         inputs: render::inputs,
         run: render::run,

@@ -68,7 +68,9 @@ impl<'a> Bsdf<'a> {
             }
             scene::Bsdf::ThinDielectric { eta, transmittance } => Self::one(Lobe::Thin { eta: *eta, tint: at.reflectance(transmittance) }),
             scene::Bsdf::Plastic { diffuse, alpha, specular, nonlinear, .. } => {
-                coated(at, at.reflectance(diffuse), at.scalar(alpha), at.reflectance(specular), *nonlinear)
+                // What saturates reflects more on average than its average colour would, so no average is taken.
+                let base = Inputs { footprint: if *nonlinear { Footprint::POINT } else { at.footprint }, ..*at };
+                coated(at, base.reflectance(diffuse), at.scalar(alpha), at.reflectance(specular), *nonlinear)
             }
             scene::Bsdf::Principled(p) => principled(p, at),
             scene::Bsdf::Blend { first, second, weight } => blend([first, second], at.share(weight), at),

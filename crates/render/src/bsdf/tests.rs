@@ -257,3 +257,28 @@ fn metals_and_clear_glasses_keep_all_light_at_every_roughness_and_angle() {
         }
     }
 }
+
+#[test]
+fn tiles_under_plastic_reflect_as_much_to_wide_rays_as_their_halves_do() {
+    // A picture of one black and one white texel; half the readings find each.
+    let pixels = scene::Pixels::RgbF32(vec![[0.0; 3], [1.0; 3]]);
+    let images = [scene::Image { name: "tiles".into(), width: 2, height: 1, pixels }];
+    let tiles = scene::TextureRef { filter: scene::Filter::Nearest, ..scene::TextureRef::new(0) };
+    for nonlinear in [false, true] {
+        let plastic = |diffuse| {
+            let bsdf = scene::Bsdf::Plastic { diffuse, eta: 1.5, alpha: 0.0.into(), specular: Rgb::WHITE.into(), nonlinear };
+            Material::new("tiles", bsdf)
+        };
+        let reflected = |material: &Material, u: f32, area: f32| {
+            let (tables, textures) = (tables(material), Textures::new(&images, std::slice::from_ref(material)));
+            let footprint = Footprint { area, sharp: true };
+            let inputs = Inputs { textures: &textures, uv: Vec2::new(u, 0.5), footprint, tables: &tables, cos_o: 0.8, outside: true };
+            let bsdf = Bsdf::new(&material.bsdf, &inputs);
+            bsdf.eval_pdf(direction(0.8), direction(0.6)).0.total(bsdf.reflectance).g
+        };
+        let tiled = plastic(scene::ColorParam { factor: Rgb::WHITE, texture: Some(tiles) });
+        let wide = 0.5 * (reflected(&tiled, 0.25, 1.0) + reflected(&tiled, 0.75, 1.0));
+        let halves = 0.5 * (reflected(&plastic(Rgb::BLACK.into()), 0.5, 0.0) + reflected(&plastic(Rgb::WHITE.into()), 0.5, 0.0));
+        assert!((wide - halves).abs() < 1e-5 * halves, "nonlinear {nonlinear}: {wide} for {halves}");
+    }
+}
