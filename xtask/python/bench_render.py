@@ -110,7 +110,7 @@ def row(name, size, curves, at):
 def time_to(error, curve):
     """Core-seconds to an error, between measured points on straight lines in log-log; beyond them, and for one point, error ∝ 1/time."""
     e, t = np.log(curve["error"]), np.log(curve["core_s"])
-    if np.log(error) <= e[-1]:
+    if len(e) == 1 or np.log(error) <= e[-1]:
         return float(np.exp(t[-1] + e[-1] - np.log(error)))
     return float(np.exp(np.interp(-np.log(error), -e, t)))
 
@@ -140,7 +140,8 @@ def delivered(ours, scene, name):
     # A denoiser looks at many pixels: what it leaves is measured at the delivered size.
     clean = [ours.render(scene, LARGE, n, DELIVERED_DEPTH, seeds=2, denoise=True, **tent) for n in DENOISED]
     clean_noise = [tone_mapped_noise(run.pictures[2:]) for run in clean]
-    clean_samples = max(1, samples_for_target(DENOISED, clean_noise))
+    # Fewer samples than were measured say nothing.
+    clean_samples = max(DENOISED[0], samples_for_target(DENOISED, clean_noise))
     before = few.told["load_core_s"] + more.told["learn_core_s"] + fixed
     denoising = clean[0].told["denoise_core_s"] / 2
     return dict(
