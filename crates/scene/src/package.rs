@@ -5,13 +5,14 @@
 
 use crate::{Scene, SceneError};
 
-const MAGIC: &[u8] = b"enfilade scene 1\n";
+/// Its number rises with every change of the types in a [`Scene`]: postcard writes no names.
+const MAGIC: &[u8] = b"enfilade scene 2\n";
 
 /// Why bytes are not a scene package.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
     /// Not the magic line.
-    #[error("not a scene package of this version (expected it to begin with \"enfilade scene 1\"); import the scene again")]
+    #[error("not a scene package of this version (expected it to begin with \"enfilade scene 2\"); import the scene again")]
     Magic,
     /// The bytes are not what was written.
     #[error("the package is damaged or cut short: its checksum does not match; import the scene again")]

@@ -205,7 +205,7 @@ pub mod demo {
     /// Image width and height.
     pub const SIZE: [u32; 2] = [320, 240];
     /// Samples per pixel.
-    pub const SAMPLES: u32 = 64;
+    pub const SAMPLES: u32 = 96;
 }
 
 impl Config {
