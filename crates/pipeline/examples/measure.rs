@@ -37,8 +37,8 @@ fn main() -> Result<()> {
     let prepared = RenderScene::new(&imported.scene, &Quiet)?;
     let loaded = time.cpu_s();
     let place = std::env::var_os("ENFILADE_OIDN").map(PathBuf::from);
-    let threads = std::thread::available_parallelism()?.get();
-    let denoiser = if job.denoise { Some(Denoiser::open(place.as_deref(), threads)?) } else { None };
+    let open = || anyhow::Ok(Denoiser::open(place.as_deref(), std::thread::available_parallelism()?.get())?);
+    let denoiser = job.denoise.then(open).transpose()?;
     let (mut pictures, mut clean, mut learned, mut denoised) = (Vec::new(), Vec::new(), 0.0, 0.0);
     for seed in 0..job.seeds {
         let config = RenderConfig { seed: job.config.seed + seed, ..job.config.clone() };

@@ -9,6 +9,7 @@ use enfilade_frame::{Frame, Layer};
 use enfilade_home::{HomeConfig, living_room};
 use enfilade_import::{ImportOptions, load};
 use enfilade_pipeline::Stopwatch;
+use enfilade_post::tonemap::ToneMap;
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet, Scene};
 
@@ -74,16 +75,12 @@ fn measure(name: &str, scene: &Scene, config: &RenderConfig) -> Result<()> {
     Ok(())
 }
 
-/// The root mean square of the standard error of the tone-mapped value, over its mean: (s·L)^(1/2.2), at most 1, where s takes the 90th
-/// percentile of brightness to 0.8, as in the previews.
+/// The root mean square of the standard error of the tone-mapped value, over its mean.
 fn tone_mapped_noise(a: &[f64], b: &[f64]) -> f64 {
-    let mut sorted: Vec<f64> = a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect();
-    sorted.sort_by(f64::total_cmp);
-    let scale = 0.8f64.powf(2.2) / sorted[sorted.len() * 9 / 10];
-    let tone = |v: f64| (scale * v).max(0.0).powf(1.0 / 2.2).min(1.0);
+    let tone = ToneMap::fit(a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect());
     let (mut variance, mut mean) = (0.0, 0.0);
     for (&a, &b) in a.iter().zip(b) {
-        let (a, b) = (tone(a), tone(b));
+        let (a, b) = (tone.apply(a), tone.apply(b));
         variance += 0.5 * (a - b).powi(2);
         mean += 0.5 * (a + b);
     }

@@ -79,8 +79,7 @@ impl<'s> Integrator<'_, 's> {
         let camera = Segment::from_camera(ray, Cone::camera(self.pixel_angle));
         let surface = self.scene.surface(&hit, ray.direction, &camera.cone);
         let bsdf = surface.bsdf(self.scene);
-        let onb = surface.onb();
-        let vertex = Vertex::new(self.guide, &surface, &bsdf, &onb);
+        let vertex = Vertex::new(self.guide, &surface, &bsdf);
         let mut sum = Value { diffuse: Rgb::BLACK, specular: surface.emission(self.scene) };
         let mut split = Split::default();
         if self.config.splits {
@@ -157,8 +156,7 @@ impl<'s> Integrator<'_, 's> {
             if bsdf.is_black() {
                 return radiance;
             }
-            let onb = surface.onb();
-            let vertex = Vertex::new(self.guide, &surface, &bsdf, &onb);
+            let vertex = Vertex::new(self.guide, &surface, &bsdf);
             if let Some(Direct { weight, light, kind, .. }) = self.sample_lights(&vertex, sampler.set(light_set(bounce))) {
                 radiance.add(kind, throughput * weight.total(bsdf.reflectance) * light, false);
             }
@@ -225,8 +223,7 @@ impl<'s> Integrator<'_, 's> {
     /// Irradiance over π at a surface without diffuse reflectance, by a white Lambert surface in its place.
     fn irradiance(&self, surface: &Surface<'s>, sampler: &Sampler) -> Rgb {
         let bsdf = Bsdf::lambert(Rgb::WHITE);
-        let onb = surface.onb();
-        let vertex = Vertex::new(self.guide, surface, &bsdf, &onb);
+        let vertex = Vertex::new(self.guide, surface, &bsdf);
         let direct = self.sample_lights(&vertex, sampler.set(light_set(0)));
         let mut irradiance = direct.map_or(Rgb::BLACK, |direct| direct.weight.diffuse * direct.light);
         let u = sampler.set(bsdf_set(0));

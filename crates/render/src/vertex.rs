@@ -64,9 +64,10 @@ impl Medium {
 /// A surface that a path has reached, with all that scattering there needs.
 pub(crate) struct Vertex<'v, 's> {
     pub surface: &'v Surface<'s>,
-    pub bsdf: &'v Bsdf<'v>,
-    pub onb: &'v Onb,
-    pub wo: Vec3,
+    bsdf: &'v Bsdf<'v>,
+    /// Shading space.
+    pub onb: Onb,
+    wo: Vec3,
     /// What is known of the light here.
     known: Option<Known<'v>>,
 }
@@ -90,15 +91,16 @@ impl Segment {
 }
 
 impl<'v, 's> Vertex<'v, 's> {
-    /// A surface with its scattering, its axes, and what `guide` knows of the light there.
+    /// A surface with its scattering and what `guide` knows of the light there.
     #[inline]
-    pub fn new(guide: &'v Guide, surface: &'v Surface<'s>, bsdf: &'v Bsdf<'v>, onb: &'v Onb) -> Self {
-        let wo = viewing(onb, surface.wo);
+    pub fn new(guide: &'v Guide, surface: &'v Surface<'s>, bsdf: &'v Bsdf<'v>) -> Self {
+        let onb = surface.onb();
+        let wo = viewing(&onb, surface.wo);
         let known = match &guide.field {
             Some(field) if !bsdf.reflectance.is_black() => field.at(surface.p, surface.ns_smooth).map(|light| {
-                let albedo = bsdf.albedo(wo);
+                let albedo = bsdf.albedo(wo.z);
                 let (share, reflected) = (GUIDED_SHARE * albedo.blurred_share(), albedo.blurred() * light.indirect);
-                let axes = if surface.ns_smooth == surface.ns { *onb } else { Onb::from_z(surface.ns_smooth) };
+                let axes = if surface.ns_smooth == surface.ns { onb } else { Onb::from_z(surface.ns_smooth) };
                 Known { light, onb: axes, share, reflected: reflected.luminance() }
             }),
             _ => None,

@@ -3,7 +3,7 @@
 //! Walter et al. 2007; Heitz 2014, "Understanding the Masking-Shadowing Function". Directions are in shading space and lie
 //! above the surface (z > 0) unless said otherwise.
 
-use enfilade_math::{Vec3, warp};
+use enfilade_math::{Vec3, angle, warp};
 
 /// Below this roughness a surface counts as smooth and scatters into single directions. At 1e-3 the lobe is narrower than
 /// the sun's disk.
@@ -114,7 +114,7 @@ pub fn sample_visible(wo: Vec3, alpha: f32, u: [f32; 2]) -> Vec3 {
     let stretched = Vec3::new(wo.x * alpha, wo.y * alpha, wo.z).normalize();
     let z = (1.0 - u[1]) * (1.0 + stretched.z) - stretched.z;
     let r = (1.0 - z * z).clamp(0.0, 1.0).sqrt();
-    let (sin, cos) = enfilade_math::angle::sin_cos_turns(u[0]);
+    let (sin, cos) = angle::sin_cos_turns(u[0]);
     let h = Vec3::new(r * cos, r * sin, z) + stretched;
     Vec3::new(h.x * alpha, h.y * alpha, h.z.max(0.0)).try_normalize().unwrap_or(Vec3::Z)
 }

@@ -149,19 +149,19 @@ impl<'a> Bsdf<'a> {
         }
     }
 
-    /// Shares of light from all around that are sent to `wo`, reflected or transmitted: cheap estimates.
-    pub fn albedo(&self, wo: Vec3) -> Albedo {
+    /// Shares of light from all around that are sent to a viewer at this cosine, reflected or transmitted: cheap estimates.
+    pub fn albedo(&self, cos_o: f32) -> Albedo {
         let (rough, sharp) = match &self.model {
             Model::Black => (Value::default(), Value::default()),
             Model::One(lobe) => {
-                let albedo = lobe.albedo(wo.z);
+                let albedo = lobe.albedo(cos_o);
                 if lobe.is_rough() {
                     (albedo, Value::default())
                 } else {
                     (Value { specular: Rgb::BLACK, ..albedo }, Value { diffuse: Rgb::BLACK, ..albedo })
                 }
             }
-            Model::Mixture(mixture) => mixture.albedo(wo.z),
+            Model::Mixture(mixture) => mixture.albedo(cos_o),
         };
         // What is added for light between facets lets some estimates of one bounce exceed all light.
         let rest = |part: Rgb, others: Rgb| Rgb::new(part.r.min(1.0 - others.r), part.g.min(1.0 - others.g), part.b.min(1.0 - others.b));

@@ -223,7 +223,7 @@ fn albedo_is_about_what_sampling_finds() {
             let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
             sampled.add(bsdf.sample(wo, u).map_or(0.0, |s| f64::from(power_of(name, s.weight.total(bsdf.reflectance), s.wi))));
         }
-        let albedo = bsdf.albedo(wo);
+        let albedo = bsdf.albedo(wo.z);
         let share = albedo.blurred_share();
         let albedo = f64::from((albedo.blurred() + albedo.sharp).g);
         // Rough plastics lose light between their facets.

@@ -151,7 +151,7 @@ fn link(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, from: &Lig
     let mut link = Link { diffuse: (NONE, Rgb::BLACK), mirrored: (NONE, Rgb::BLACK), emitted: 0.0 };
     let Some((surface, through)) = first_surface(scene, choice, ray, Some((*from, pdf)), &mut link.emitted) else { return link };
     let mut bsdf = surface.bsdf(scene);
-    let mut albedo = bsdf.albedo(viewing(&surface));
+    let mut albedo = bsdf.albedo(surface.wo.dot(surface.ns));
     link.diffuse = (cells.find(surface.p, surface.ns_smooth), through * albedo.blurred());
     // One sample of what the surface mirrors, by way of others that only mirror or bend.
     let (mut surface, mut share) = (surface, through);
@@ -171,7 +171,7 @@ fn link(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, from: &Lig
         let Some((next, through)) = next else { break };
         surface = next;
         bsdf = surface.bsdf(scene);
-        albedo = bsdf.albedo(viewing(&surface));
+        albedo = bsdf.albedo(surface.wo.dot(surface.ns));
         share *= through;
         if !albedo.blurred().is_black() {
             link.mirrored = (cells.find(surface.p, surface.ns_smooth), share * albedo.blurred());
@@ -179,11 +179,6 @@ fn link(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, from: &Lig
         }
     }
     link
-}
-
-/// The cosine of the direction of view, as a direction in shading space.
-fn viewing(surface: &Surface<'_>) -> Vec3 {
-    Vec3::Z * surface.wo.dot(surface.ns)
 }
 
 /// The first surface beyond panes, and what they let through. Adds the luminance that arrives from sources, weighted against light

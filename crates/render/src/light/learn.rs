@@ -2,7 +2,7 @@
 
 use super::choice::Arrival;
 use super::window::{Glimpses, Windows};
-use super::{LightChoice, LightPoint, LightSample, Lights, Source};
+use super::{LightChoice, LightPoint, LightSample, Lights};
 use crate::config::RenderConfig;
 use crate::prepared::RenderScene;
 use crate::surface::{self, Surface};
@@ -82,7 +82,7 @@ fn try_sources(scene: &RenderScene<'_>, windows: Option<&Windows>, surface: &Sur
     for attempt in 0..count.min(TRIES) {
         let source = if count > TRIES { rng.below(count) } else { attempt };
         let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
-        let value = contribution(scene, windows, surface, &at, scene.lights.source(source), u);
+        let value = contribution(scene, windows, surface, &at, source, u);
         arrivals.push(Arrival { at, source: source as u32, value: if value.is_finite() { value } else { 0.0 } });
     }
 }
@@ -93,42 +93,23 @@ fn contribution(
     windows: Option<&Windows>,
     surface: &Surface<'_>,
     at: &LightPoint,
-    source: Source,
+    source: usize,
     u: [f32; 3],
 ) -> f32 {
     let lights = &scene.lights;
     let from_all_sides = at.n == Vec3::ZERO;
     let wanted = |wi: Vec3| from_all_sides || wi.dot(surface.ng) > 0.0;
-    let Some((light, pdf)) = lights.sample_one(scene, source, windows, at, u, wanted) else { return 0.0 };
+    let Some(light) = lights.sample_one(scene, source, windows, at, u, wanted, |_| 1.0) else { return 0.0 };
     let cos = light.wi.dot(surface.ns);
     let cos = if from_all_sides { cos.abs() } else { cos.max(0.0) };
     if cos <= 0.0 {
         return 0.0;
     }
     let arriving = scene.transmittance(&surface.shadow_ray(light.wi, light.target));
-    (lights.radiance_of(&light) * arriving).luminance() * cos / pdf
+    (lights.radiance_of(&light) * arriving).luminance() * cos / light.pdf
 }
 
 impl Lights<'_> {
-    /// A light sample of one source and the density with which all the sources together find it.
-    fn sample_one(
-        &self,
-        scene: &RenderScene<'_>,
-        source: Source,
-        windows: Option<&Windows>,
-        at: &LightPoint,
-        u: [f32; 3],
-        wanted: impl Fn(Vec3) -> bool,
-    ) -> Option<(LightSample, f32)> {
-        let light = self.sample_source(scene, source, windows, at, u, wanted)?;
-        let pdf = match (source, &self.sky, windows) {
-            (Source::Sky, _, Some(windows)) => light.pdf + windows.find_portal(at.p, light.wi).map_or(0.0, |(_, pdf)| pdf),
-            (Source::Portal(_), Some(sky), _) => light.pdf + sky.pdf(light.wi),
-            _ => light.pdf,
-        };
-        Some((light, pdf))
-    }
-
     /// Estimate of the irradiance over π on a surface at `p` with the unit normal `n`: of each source by itself where they are few, so
     /// that no source is rare.
     pub fn irradiance(&self, scene: &RenderScene<'_>, choice: &LightChoice, p: Vec3, n: Vec3, rng: &mut Rng) -> Rgb {
@@ -148,8 +129,8 @@ impl Lights<'_> {
         };
         if count <= TRIES {
             for source in 0..count {
-                if let Some((light, pdf)) = self.sample_one(scene, self.source(source), windows, &at, random(), facing) {
-                    add(&light, pdf);
+                if let Some(light) = self.sample_one(scene, source, windows, &at, random(), facing, |_| 1.0) {
+                    add(&light, light.pdf);
                 }
             }
         } else {

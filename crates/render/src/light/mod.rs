@@ -22,7 +22,6 @@ pub(crate) use choice::LightChoice;
 use crate::prepared::{Cutout, RenderScene};
 use crate::surface::Surface;
 use crate::triangle::Triangle;
-use choice::Row;
 use emitter::Emission;
 use enfilade_geometry::Hit;
 use enfilade_math::{Bounds3, Distribution1, Rgb, Vec3, offset_origin};
@@ -213,18 +212,32 @@ impl<'s> Lights<'s> {
         wanted: impl Fn(Vec3) -> bool,
     ) -> Option<LightSample> {
         let row = choice.row(at);
-        let (source, probability, renewed) = row.sample(u[2]);
-        let u = [u[0], u[1], renewed];
-        let source = self.source(source);
-        let mut sample = self.sample_source(scene, source, choice.windows(), at, u, wanted)?;
-        sample.pdf *= probability;
-        // What the sky itself and a portal can find, they share.
-        match (source, &self.sky, choice.windows()) {
-            (Source::Portal(_), Some(sky), _) => sample.pdf += row.probability(self.sky_source()) * sky.pdf(sample.wi),
-            (Source::Sky, _, Some(windows)) => sample.pdf += self.portal_pdf(windows, row, at, sample.wi),
+        let (source, _, renewed) = row.sample(u[2]);
+        let sample = self.sample_one(scene, source, choice.windows(), at, [u[0], u[1], renewed], wanted, |s| row.probability(s))?;
+        (sample.pdf > 0.0).then_some(sample)
+    }
+
+    /// Samples light of the source number `index`; the density is that of all sources that find it, of which each has its `share` of
+    /// the samples: the sky itself and a portal find the same light.
+    fn sample_one(
+        &self,
+        scene: &RenderScene<'_>,
+        index: usize,
+        windows: Option<&Windows>,
+        at: &LightPoint,
+        u: [f32; 3],
+        wanted: impl Fn(Vec3) -> bool,
+        share: impl Fn(usize) -> f32,
+    ) -> Option<LightSample> {
+        let source = self.source(index);
+        let mut sample = self.sample_source(scene, source, windows, at, u, wanted)?;
+        sample.pdf *= share(index);
+        match (source, &self.sky, windows) {
+            (Source::Portal(_), Some(sky), _) => sample.pdf += share(self.sky_source()) * sky.pdf(sample.wi),
+            (Source::Sky, _, Some(windows)) => sample.pdf += self.portal_pdf(windows, at, sample.wi, share),
             _ => {}
         }
-        (sample.pdf > 0.0).then_some(sample)
+        Some(sample)
     }
 
     /// Samples light of one source; the density is given that source.
@@ -336,13 +349,13 @@ impl<'s> Lights<'s> {
     fn environment_pdf(&self, choice: &LightChoice, at: &LightPoint, d: Vec3) -> f32 {
         let Some(sky) = &self.sky else { return 0.0 };
         let row = choice.row(at);
-        let through = choice.windows().map_or(0.0, |windows| self.portal_pdf(windows, row, at, d));
+        let through = choice.windows().map_or(0.0, |windows| self.portal_pdf(windows, at, d, |s| row.probability(s)));
         row.probability(self.sky_source()) * sky.pdf(d) + through
     }
 
-    /// The part of the portals in [`Lights::environment_pdf`].
-    fn portal_pdf(&self, windows: &Windows, row: Row<'_>, at: &LightPoint, d: Vec3) -> f32 {
-        windows.find_portal(at.p, d).map_or(0.0, |(portal, pdf)| row.probability(self.sky_source() + 1 + portal) * pdf)
+    /// The part of the portals in [`Lights::environment_pdf`], each source having its `share` of the samples.
+    fn portal_pdf(&self, windows: &Windows, at: &LightPoint, d: Vec3, share: impl Fn(usize) -> f32) -> f32 {
+        windows.find_portal(at.p, d).map_or(0.0, |(portal, pdf)| share(self.sky_source() + 1 + portal) * pdf)
     }
 
     /// Radiance of the environment in the unit direction `d`.
