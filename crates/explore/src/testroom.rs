@@ -25,7 +25,7 @@ impl Room {
         let sources = (0..corners.len() as u32).map(|triangle| TriangleSource { part: 0, triangle }).collect();
         let bounds = Bounds3::from_points(corners.iter().flatten().copied());
         let bvh = Bvh::new(&corners, &|_| false);
-        Self { world: WorldMesh { corners, sources, bounds }, bvh }
+        Self { world: WorldMesh { corners, sources, bounds, contrasts: vec![0.0] }, bvh }
     }
 
     pub fn remove_ceiling(&mut self) {

@@ -4,7 +4,7 @@ mod first;
 mod rules;
 
 use crate::error::require;
-use crate::view::{SeenSet, TestImage, ViewStats};
+use crate::view::{Sight, TestImage, ViewStats};
 use crate::{ExploreError, FreeSpace, Saliency};
 use enfilade_geometry::Bvh;
 use enfilade_math::{DVec3, Distribution1, Rng};
@@ -128,7 +128,7 @@ pub fn plan(
     config.validate()?;
     let name = format!("cam_{trajectory_index:02}");
     let image = TestImage::new(&Intrinsics::from_fov_x(config.test_width, config.test_height, config.fov_x_rad));
-    let walk = Walk { rules: Rules::new(bvh, space, config), bvh, config, image, triangles: world.corners.len(), name: &name };
+    let walk = Walk { rules: Rules::new(bvh, space, config), world, bvh, config, image, name: &name };
     let what = format!("plan {name}");
     let rng = Rng::new(config.seed).fork(u64::from(trajectory_index));
 
@@ -163,16 +163,21 @@ fn warn_of_void(name: &str, frames: &[u32], config: &PlanConfig, cx: &dyn Cx) {
 
 struct Walk<'a> {
     rules: Rules<'a>,
+    world: &'a WorldMesh,
     bvh: &'a Bvh,
     config: &'a PlanConfig,
     image: TestImage,
-    triangles: usize,
     name: &'a str,
 }
 
 impl Walk<'_> {
     fn look(&self, pose: &Pose) -> ViewStats {
-        self.image.look(self.bvh, pose, &mut SeenSet::new(self.triangles))
+        self.judged(&mut self.image.sight(self.world), pose)
+    }
+
+    fn judged(&self, sight: &mut Sight, pose: &Pose) -> ViewStats {
+        sight.look(self.bvh, &self.image, pose);
+        sight.judge(self.world, &self.config.saliency)
     }
 
     /// The pose after `last`, and what it shows.
@@ -247,8 +252,7 @@ impl Walk<'_> {
     }
 
     fn views(&self, poses: &[Pose]) -> Vec<ViewStats> {
-        let seen = || SeenSet::new(self.triangles);
-        poses.par_iter().map_init(seen, |seen, pose| self.image.look(self.bvh, pose, seen)).collect()
+        poses.par_iter().map_init(|| self.image.sight(self.world), |sight, pose| self.judged(sight, pose)).collect()
     }
 }
 
