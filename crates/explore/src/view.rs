@@ -183,11 +183,11 @@ mod tests {
     #[test]
     fn perplexity_counts_parts_of_equal_area_and_not_their_triangles() {
         // Two boards side by side fill the view; one of them is cut into many triangles.
-        let board = |y: f64| cuboid(DVec3::new(2.0, y, -9.0), DVec3::new(2.1, y + 9.0, 9.0), false);
+        let board = |y: f64| cuboid(DVec3::new(2.0, y, -1.0), DVec3::new(2.1, y + 1.5, 1.0), false);
         let halves = |triangles: Vec<[enfilade_math::Vec3; 3]>| -> Vec<_> {
             triangles.into_iter().flat_map(|[a, b, c]| [[(b + c) / 2.0, a, b], [(b + c) / 2.0, c, a]]).collect()
         };
-        let fine = (0..6).fold(board(-9.0), |triangles, _| halves(triangles));
+        let fine = (0..6).fold(board(-1.5), |triangles, _| halves(triangles));
         let split = fine.len();
         let mut room = Room::from_corners([fine, board(0.0)].concat());
         room.world.contrasts = vec![0.5, 0.0];
