@@ -11,12 +11,14 @@
 //!
 //! All results are functions of the inputs and the seed, whatever the number of threads.
 
+mod armadillo;
 mod carve;
 mod error;
 mod find_starts;
 mod grid;
 mod overlap;
 mod plan;
+mod preset;
 mod saliency;
 mod space;
 mod start;
@@ -26,6 +28,7 @@ pub use carve::{CarveConfig, carve};
 pub use error::ExploreError;
 pub use find_starts::{StartsConfig, find_starts};
 pub use plan::{PlanConfig, plan};
+pub use preset::Preset;
 pub use saliency::Saliency;
 pub use space::{CarveReport, FreeSpace, StartReport};
 pub use view::{ViewStats, view_stats};

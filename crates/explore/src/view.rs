@@ -48,12 +48,14 @@ impl TestImage {
         Self { intrinsics: *intrinsics }
     }
 
-    /// Unit directions in camera space, the one nearest to the optical axis first.
+    /// Unit directions in camera space, the one nearest to the optical axis first; of several at one distance the last in reading order.
     pub(crate) fn center_first(&self) -> Vec<DVec3> {
         let k = &self.intrinsics;
         let direction = |x: u32, y: u32| k.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).normalize();
         let mut sorted: Vec<DVec3> = (0..k.height).flat_map(|y| (0..k.width).map(move |x| direction(x, y))).collect();
-        sorted.sort_by(|a, b| a.z.total_cmp(&b.z));
+        sorted.reverse();
+        // Rounding must not tell the four around the centre apart.
+        sorted.sort_by_key(|d| (d.z * 1e9).round() as i64);
         sorted
     }
 

@@ -1,11 +1,12 @@
 //! Trajectories: random walks through the free space, drawn to what is worth seeing.
 
 mod first;
+mod hypersim;
 mod rules;
 
 use crate::error::require;
 use crate::view::{Sight, TestImage, ViewStats};
-use crate::{ExploreError, FreeSpace, Saliency};
+use crate::{ExploreError, FreeSpace, Preset, Saliency};
 use enfilade_geometry::Bvh;
 use enfilade_math::{DVec3, Distribution1, Rng};
 use enfilade_scene::{Cx, Intrinsics, Pose, StartCamera, Trajectory, Warning, WorldMesh};
@@ -23,6 +24,8 @@ const DRAWS_PER_CANDIDATE: usize = 50;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PlanConfig {
+    /// Whose walk: this crate's, with all its rules, or that of Hypersim's program.
+    pub preset: Preset,
     /// Poses in the trajectory, the start camera's among them.
     pub frames: u32,
     /// Poses compared at each step.
@@ -63,6 +66,7 @@ fn is_zero(v: &f64) -> bool {
 impl Default for PlanConfig {
     fn default() -> Self {
         Self {
+            preset: Preset::Default,
             frames: 100,
             candidates: 20,
             queries: 1000,
@@ -127,6 +131,10 @@ pub fn plan(
 ) -> Result<Trajectory, ExploreError> {
     config.validate()?;
     let name = format!("cam_{trajectory_index:02}");
+    if config.preset == Preset::Hypersim {
+        let walked = hypersim::walk(world, bvh, space, start, &name, config, &|_| {})?;
+        return Ok(Trajectory { name, poses: walked.into_iter().map(|(pose, _)| pose).collect() });
+    }
     let image = TestImage::new(&Intrinsics::from_fov_x(config.test_width, config.test_height, config.fov_x_rad));
     let walk = Walk { rules: Rules::new(bvh, space, config), world, bvh, config, image, name: &name };
     let what = format!("plan {name}");
