@@ -71,7 +71,7 @@ mod tests {
     fn numbers_are_those_of_the_library() {
         let mut rng = Armadillo::new(0);
         let uniform: Vec<f64> = (0..4).map(|_| rng.uniform()).collect();
-        assert_eq!(uniform, [0.159_793_363_370_460_85, 0.992_145_209_629_828_8, 0.039_569_025_844_865_664, 0.597_494_662_694_671_7]);
+        assert_eq!(uniform, [0.159_793_363_370_460_85, 0.992_145_209_629_828_8, 0.039_569_025_844_865_664, 0.597_494_662_694_671_8]);
         let mut rng = Armadillo::new(0);
         let normal: Vec<f64> = (0..300).map(|_| rng.normal()).collect();
         assert_eq!(normal[..3], [0.101_918_555_514_537_92, -0.481_323_371_998_367_17, -0.680_603_032_562_543_1]);
