@@ -16,12 +16,10 @@ mod carve;
 mod error;
 mod find_starts;
 mod grid;
-mod overlap;
 mod plan;
 mod preset;
 mod saliency;
 mod space;
-mod start;
 mod view;
 
 pub use carve::{CarveConfig, carve};
