@@ -50,6 +50,11 @@ impl Npz {
         self.values(name, "<i4", i32::from_le_bytes)
     }
 
+    /// The values of an array of int64, in C order.
+    pub fn i64(&self, name: &str) -> Vec<i64> {
+        self.values(name, "<i8", i64::from_le_bytes)
+    }
+
     fn values<const N: usize, T>(&self, name: &str, kind: &str, value: fn([u8; N]) -> T) -> Vec<T> {
         let npy = self.0.get(name).unwrap_or_else(|| panic!("no array {name:?}, only {:?}", self.0.keys()));
         let (start, length) = match npy[6] {
