@@ -7,6 +7,7 @@ use crate::workdir::{Hash, read_json, remove_if_there};
 use enfilade_dataset::{StereoRecord, StereoSide};
 use enfilade_explore::{CarveReport, FreeSpace, PlanConfig};
 use enfilade_geometry::OccupancyTree;
+use enfilade_post::planview::remove_plan_preview;
 use enfilade_scene::{Camera, Cx, StartCamera, Trajectory, Warning};
 use std::path::{Path, PathBuf};
 
@@ -46,6 +47,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         Some(stereo) => planned.into_iter().enumerate().flat_map(|(i, left)| rig(left, i, stereo.baseline_m)).collect(),
     };
     let trajectories: Vec<Trajectory> = filmed.iter().map(|(trajectory, _)| trajectory.clone()).collect();
+    // Pictures of an earlier plan would be taken for pictures of this one.
+    remove_plan_preview(job.dataset, name).map_err(Error::stage)?;
     remove_other_cameras(job, &trajectories)?;
     for (trajectory, stereo) in &filmed {
         job.dataset.write_trajectory(name, trajectory, &camera, stereo.as_ref()).map_err(Error::stage)?;
