@@ -120,6 +120,12 @@ impl Layout {
         self.camera_dir(scene, camera).join("cameras_opencv.json")
     }
 
+    /// How the trajectory came out: values per frame, what was rejected, coverage. Only where it was planned here; of a stereo rig at the
+    /// left camera.
+    pub fn plan_report(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("plan_report.json")
+    }
+
     /// The camera in full, where it is more than a pinhole in focus and at rest, or one of a stereo rig.
     pub fn camera_model(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("camera.json")

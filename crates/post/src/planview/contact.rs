@@ -2,7 +2,7 @@
 
 use super::drawing::{Anchor, Drawing, Ink, Text};
 use super::figure::{PAPER, Subject, time_color};
-use super::legend::{INK, MUTED, header};
+use super::legend::{INK, MUTED, header, significant};
 use super::look::Sight;
 
 const WIDTH: u32 = 1600;
@@ -42,7 +42,7 @@ pub(super) fn contact_sheet(subject: &Subject<'_>, sights: &[Sight]) -> Drawing 
             halo: None,
         };
         page.write(caption(measures.frame.to_string(), x, true, Anchor::Start, INK));
-        page.write(caption(format!("score {:.0}", measures.score), x + w, false, Anchor::End, MUTED));
+        page.write(caption(format!("score {}", significant(measures.score)), x + w, false, Anchor::End, MUTED));
     }
     page
 }

@@ -2,11 +2,13 @@
 
 use super::Planned;
 use super::chart::Chart;
-use super::cut::{Look, joined};
+use super::coverage::SurfacePoint;
+use super::cut::{Cut, Look, joined};
 use super::drawing::{Anchor, Drawing, Ink, Point, Text};
 use super::legend::{self, INK, MUTED};
 use super::measure::FrameMeasures;
 use super::relief::relief;
+use super::report::Report;
 use crate::palette::viridis;
 use crate::statistics::quantile;
 use enfilade_math::DVec3;
@@ -40,24 +42,70 @@ pub(super) struct Subject<'a> {
     pub camera: &'a Camera,
     pub trajectory: &'a Trajectory,
     pub measures: &'a [FrameMeasures],
+    /// Points of the surfaces.
+    pub points: &'a [SurfacePoint],
+    /// The plan's own report, whose values the measures are then.
+    pub report: Option<&'a Report>,
+}
+
+impl Subject<'_> {
+    /// What the scores are, in words.
+    pub fn score_name(&self) -> &'static str {
+        match self.report {
+            Some(_) => "the plan's",
+            None => "Hypersim's: the number of triangles seen times the square of the share of pixels that see a surface",
+        }
+    }
 }
 
 /// The page that shows `subject` cut by the chart's plane. `title` says what kind of drawing it is.
-pub(super) fn figure(subject: &Subject<'_>, cut: super::cut::Cut, title: &str) -> Drawing {
+pub(super) fn figure(subject: &Subject<'_>, cut: Cut, title: &str) -> Drawing {
+    let (mut page, chart) = ground(subject, cut, &format!("{title} at"));
+    draw_way(&mut page, subject, &chart);
+    draw_starts(&mut page, subject.planned, &chart);
+    draw_numbers(&mut page, subject, &chart);
+    legend::column(&mut page, legend_place(&chart), subject, &chart);
+    page
+}
+
+/// A page with its title, and the chart of space and surfaces on it.
+fn ground(subject: &Subject<'_>, cut: Cut, title: &str) -> (Drawing, Chart) {
     let width = WIDTH - 2 * MARGIN - GUTTER - LEGEND;
     let chart = Chart::fit(cut, shown_box(subject), [MARGIN, MARGIN + HEADER], width, CHART_HEIGHT);
     let [left, top, _, height] = chart.place;
     let mut page = Drawing::new(WIDTH, top + height + FOOTER + MARGIN, PAPER);
-    legend::header(&mut page, [MARGIN as f32, MARGIN as f32], subject, &format!("{title} at {}", cut.name()));
+    legend::header(&mut page, [MARGIN as f32, MARGIN as f32], subject, &format!("{title} {}", cut.name()));
     page.picture([left as f32, top as f32], relief(subject.planned, &chart));
     draw_surfaces(&mut page, subject.planned, &chart);
-    draw_way(&mut page, subject, &chart);
-    draw_starts(&mut page, subject.planned, &chart);
-    draw_numbers(&mut page, subject, &chart);
     legend::scale_bar(&mut page, &chart);
     legend::axes(&mut page, &chart);
-    legend::column(&mut page, [(left + width + GUTTER) as f32, top as f32], subject, &chart);
+    (page, chart)
+}
+
+fn legend_place(chart: &Chart) -> Point {
+    let [left, top, width, _] = chart.place;
+    [(left + width + GUTTER) as f32, top as f32]
+}
+
+/// The page that shows which surfaces behind the plane are seen, and how often.
+pub(super) fn coverage_figure(subject: &Subject<'_>, cut: Cut) -> Drawing {
+    let (mut page, chart) = ground(subject, cut, "Coverage up to");
+    let most = subject.points.iter().map(|point| point.times).max().unwrap_or(0);
+    let mut behind: Vec<&SurfacePoint> = subject.points.iter().filter(|point| cut.height_over(point.p_world) <= 0.0).collect();
+    behind.sort_by(|a, b| cut.height_over(a.p_world).total_cmp(&cut.height_over(b.p_world)));
+    for point in behind {
+        let place = chart.to_page(point.p_world);
+        if chart.holds(place) {
+            page.disc(place, 2.3, Ink::solid(times_color(point.times, most)));
+        }
+    }
+    legend::coverage_column(&mut page, legend_place(&chart), subject, most);
     page
+}
+
+/// The colour of how often a point is seen: red for never, then viridis by the logarithm of the number of frames.
+pub(super) fn times_color(times: u32, most: u32) -> [u8; 3] {
+    if times == 0 { START } else { time_color(f64::from(times).ln() / f64::from(most.max(2)).ln()) }
 }
 
 /// Free space within the scene, and all of the trajectory, with some surroundings.
@@ -261,7 +309,6 @@ pub(super) fn note(page: &mut Drawing, at: Point, words: String) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::cut::Cut;
     use super::*;
     use enfilade_scene::{Intrinsics, Projection};
 

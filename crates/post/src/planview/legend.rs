@@ -3,7 +3,7 @@
 use super::chart::{Chart, round_below};
 use super::cut::Look;
 use super::drawing::{Anchor, Drawing, Ink, Point, Text};
-use super::figure::{Subject, WALL, WALL_PX, draw_target, note, score_opacity, start_mark, time_color};
+use super::figure::{Subject, WALL, WALL_PX, draw_target, note, score_opacity, start_mark, time_color, times_color};
 use super::relief::{FREE, FREE_OVER_VOID, NEAR, OCCUPIED, UNKNOWN, UNKNOWN_HATCH};
 
 pub(super) const INK: Ink = Ink::solid([34, 35, 40]);
@@ -63,6 +63,30 @@ pub(super) fn column(page: &mut Drawing, [x, y]: Point, subject: &Subject<'_>, c
     numbers(page, [x, y], subject);
 }
 
+/// The column beside a chart of surface points: `most` is how often the point that is seen most often is seen.
+pub(super) fn coverage_column(page: &mut Drawing, [x, mut y]: Point, subject: &Subject<'_>, most: u32) {
+    heading(page, [x, y], "seen in so many frames");
+    y += 30.0;
+    let steps = [0, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
+    for times in steps.into_iter().filter(|times| *times <= most) {
+        page.disc([x + 17.0, y + 5.0], 6.0, Ink::solid(times_color(times, most)));
+        let words = if times == 0 { "none".into() } else { times.to_string() };
+        page.text([x + SIGN, y + 10.0], words, LETTERS, INK);
+        y += LINE;
+    }
+    y += 18.0;
+    heading(page, [x, y], "of all such surfaces");
+    y += 34.0;
+    let total = subject.points.len().max(1) as f64;
+    for least in [1, 2, 5, 10] {
+        let share = subject.points.iter().filter(|point| point.times >= least).count() as f64 / total;
+        let times = if least == 1 { "seen at all".into() } else { format!("{least} times or more") };
+        note(page, [x, y], times);
+        page.text([x + 152.0, y], format!("{:.1} %", 100.0 * share), LETTERS - 0.5, INK);
+        y += 23.0;
+    }
+}
+
 fn heading(page: &mut Drawing, [x, y]: Point, words: &str) {
     page.write(Text { at: [x, y + 10.0], words: words.into(), height: LETTERS, bold: true, anchor: Anchor::Start, ink: INK, halo: None });
 }
@@ -93,7 +117,7 @@ fn score_steps(page: &mut Drawing, [x, y]: Point, subject: &Subject<'_>) -> f32 
         page.line(&[wedge[0], wedge[1], wedge[2], wedge[0]], 0.9, Ink::veil(color, score_opacity(share) + 0.25));
     }
     page.text([x, y + 72.0], "0", LETTERS, INK);
-    let words = format!("{greatest:.0}");
+    let words = significant(greatest);
     page.write(Text { at: [x + 228.0, y + 72.0], words, height: LETTERS, bold: false, anchor: Anchor::End, ink: INK, halo: None });
     y + 100.0
 }
@@ -142,6 +166,12 @@ fn signs(page: &mut Drawing, [x, mut y]: Point, chart: &Chart) -> f32 {
     y + 18.0
 }
 
+/// Three digits that count, or all before the point.
+pub(super) fn significant(value: f64) -> String {
+    let digits = (2.0 - value.abs().max(1e-3).log10().floor()).clamp(0.0, 5.0) as usize;
+    format!("{value:.digits$}")
+}
+
 fn corners([x, y, w, h]: [f32; 4]) -> [Point; 5] {
     [[x, y], [x + w, y], [x + w, y + h], [x, y + h], [x, y]]
 }
@@ -153,6 +183,7 @@ fn numbers(page: &mut Drawing, [x, mut y]: Point, subject: &Subject<'_>) {
         (of(value).fold(f64::INFINITY, f64::min), of(value).fold(f64::NEG_INFINITY, f64::max))
     };
     let way_m: f64 = subject.measures.iter().filter_map(|m| m.step_m).sum();
+    let seen = subject.points.iter().filter(|point| point.times > 0).count() as f64 / subject.points.len().max(1) as f64;
     let (height, clearance, roll) = (span(|m| m.height_m), span(|m| m.clearance_m), span(|m| m.roll_deg));
     heading(page, [x, y], "this trajectory");
     y += 34.0;
@@ -160,6 +191,7 @@ fn numbers(page: &mut Drawing, [x, mut y]: Point, subject: &Subject<'_>) {
         ("way", format!("{way_m:.1} m")),
         ("above floor", range(height.0, height.1, 2, " m")),
         ("clearance", format!("{:.2} m or more", clearance.0)),
+        ("surfaces", format!("{:.0} % seen", 100.0 * seen)),
         ("roll", range(roll.0, roll.1, 1, "°")),
     ] {
         if !subject.measures.is_empty() {

@@ -3,12 +3,12 @@
 use super::Planned;
 use super::look::Sight;
 use enfilade_math::{DVec3, Vec3};
-use enfilade_scene::{Camera, CameraView, Trajectory};
+use enfilade_scene::{Camera, CameraView, Pose, Trajectory};
 use rayon::prelude::*;
 use serde::Serialize;
 
 /// What is measured of one frame.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(super) struct FrameMeasures {
     /// Number of the frame.
     pub frame: u32,
@@ -20,6 +20,8 @@ pub(super) struct FrameMeasures {
     pub pitch_deg: f64,
     /// From the camera centre of the frame before, metres.
     pub step_m: Option<f64>,
+    /// Angle turned since the frame before, about whatever axis, degrees.
+    pub turn_deg: Option<f64>,
     /// To the nearest surface, metres, exactly.
     pub clearance_m: f64,
     /// Share of what is seen that the frame before sees too.
@@ -30,7 +32,8 @@ pub(super) struct FrameMeasures {
     pub triangles: usize,
     /// Distinct parts seen.
     pub parts: usize,
-    /// n·(1 − e)², with n the number of triangles and e the void share: Hypersim's view saliency.
+    /// What the plan says that the view is worth; without that n·(1 − e)², Hypersim's view saliency, with n the number of triangles
+    /// and e the void share.
     pub score: f64,
 }
 
@@ -49,6 +52,7 @@ pub(super) fn measures(planned: &Planned<'_>, camera: &Camera, trajectory: &Traj
             roll_deg: pose.roll_rad().to_degrees(),
             pitch_deg: (-pose.world_from_camera.z_axis.z).clamp(-1.0, 1.0).asin().to_degrees(),
             step_m: i.checked_sub(1).map(|before| pose.position.distance(poses[before].position)),
+            turn_deg: i.checked_sub(1).map(|before| turn_deg(&poses[before], pose)),
             clearance_m: distance_to_surfaces(&planned.world.corners, pose.position),
             overlap: i.checked_sub(1).and_then(|before| sight.share_seen_by(&view(before), &sights[before])),
             void_share,
@@ -66,6 +70,12 @@ pub(super) fn floor_z(planned: &Planned<'_>, trajectory: &Trajectory) -> f64 {
     let below = |p: DVec3| super::look::meet(planned.world, planned.bvh, p, DVec3::NEG_Z).map(|seen| seen.p_world.z);
     let mut found: Vec<f64> = trajectory.poses.iter().filter_map(|pose| below(pose.position)).collect();
     crate::statistics::quantile(&mut found, 0.1).unwrap_or(f64::from(planned.world.bounds.min.z))
+}
+
+fn turn_deg(before: &Pose, after: &Pose) -> f64 {
+    let turn = before.world_from_camera.transpose() * after.world_from_camera;
+    // Rodrigues: the trace of a rotation by a is 1 + 2 cos a.
+    (0.5 * (turn.x_axis.x + turn.y_axis.y + turn.z_axis.z - 1.0)).clamp(-1.0, 1.0).acos().to_degrees()
 }
 
 /// Distance from `p` to the nearest point of any triangle; infinite without triangles.

@@ -9,6 +9,7 @@
 
 mod chart;
 mod contact;
+mod coverage;
 mod cut;
 mod drawing;
 mod figure;
@@ -18,6 +19,7 @@ mod look;
 mod measure;
 mod paint;
 mod relief;
+mod report;
 mod statistics;
 mod svg;
 
@@ -33,6 +35,7 @@ use figure::{Subject, figure};
 use html::{Section, Shown};
 use look::{Sight, toolkit_colors};
 use rayon::prelude::*;
+use report::Report;
 use std::path::{Path, PathBuf};
 
 /// What was planned for a scene, and the scene as rays meet it.
@@ -72,14 +75,19 @@ pub fn write_plan_preview(dataset: &Dataset, planned: &Planned<'_>, cx: &dyn Cx)
         cx.progress("trajectories drawn", i as u64, total);
         let sights = sights(planned, camera, trajectory);
         files.extend(write_views(dataset, planned.scene, trajectory, &sights, &colors)?);
-        let measures = measure::measures(planned, camera, trajectory, &sights);
-        let subject = Subject { planned, camera, trajectory, measures: &measures };
+        let mut measures = measure::measures(planned, camera, trajectory, &sights);
+        let report = Report::read(&dataset.layout().plan_report(planned.scene, &trajectory.name));
+        let report = report.filter(|report| report.put_into(&mut measures));
+        let points = coverage::coverage(planned, camera, trajectory);
+        let subject = Subject { planned, camera, trajectory, measures: &measures, points: &points, report: report.as_ref() };
         let mut pictures = Vec::new();
         for page in pages(&subject, &sights) {
             pictures.push(page.write(dataset, &subject, &mut files)?);
         }
-        let table = serde_json::to_string_pretty(&measures).unwrap_or_default() + "\n";
-        files.push(write_page(dataset, planned.scene, &format!("{}_statistics.json", trajectory.name), table.into_bytes())?);
+        if report.is_none() {
+            let table = serde_json::to_string_pretty(&measures).unwrap_or_default() + "\n";
+            files.push(write_page(dataset, planned.scene, &format!("{}_statistics.json", trajectory.name), table.into_bytes())?);
+        }
         sections.push(Section { camera: trajectory.name.clone(), about: about(&subject), pictures });
     }
     let page = html::page(planned.scene, &about_scene(planned), &sections);
@@ -172,6 +180,10 @@ impl Page {
     }
 }
 
+/// What the statistics mean.
+const DEFINITIONS: &str = "Step, turn and overlap are those since the frame before, clearance is the distance to the nearest surface, and \
+                           the void share counts pixels that see no surface. Surfaces are those that border free space";
+
 /// The pages of a trajectory, in reading order.
 fn pages(subject: &Subject<'_>, sights: &[Sight]) -> Vec<Page> {
     let through = median_position(subject.trajectory);
@@ -186,6 +198,13 @@ fn pages(subject: &Subject<'_>, sights: &[Sight]) -> Vec<Page> {
         Page { name, caption, drawing: figure(subject, cut, title), format: Format::PngAndSvg }
     });
     let mut pages: Vec<Page> = drawn.collect();
+    let cut = Cut { look: Look::Down, through };
+    pages.push(Page {
+        name: "coverage",
+        caption: format!("Points of all surfaces up to {} that border free space, by the number of frames that see them", cut.name()),
+        drawing: figure::coverage_figure(subject, cut),
+        format: Format::PngAndSvg,
+    });
     pages.push(Page {
         name: "contact_sheet",
         caption: "Every view, coloured by part and lit from the camera".into(),
@@ -194,10 +213,7 @@ fn pages(subject: &Subject<'_>, sights: &[Sight]) -> Vec<Page> {
     });
     pages.push(Page {
         name: "statistics",
-        caption: "Statistics. Step and overlap are those with the frame before, clearance is the distance to the nearest surface, \
-                  the void share counts pixels that see no surface, and the score is the number of triangles seen times the square \
-                  of what is left of 1 without the void share"
-            .into(),
+        caption: format!("Statistics. {DEFINITIONS}; the score is {}", subject.score_name()),
         drawing: statistics::statistics(subject, sights),
         format: Format::PngAndSvg,
     });
@@ -216,7 +232,8 @@ fn median_position(trajectory: &Trajectory) -> DVec3 {
 fn about(subject: &Subject<'_>) -> String {
     let way_m: f64 = subject.measures.iter().filter_map(|m| m.step_m).sum();
     let [width, height] = subject.camera.size();
-    format!("{} frames of {width} x {height} pixels, {way_m:.1} m of way", subject.trajectory.poses.len())
+    let mode = subject.report.map_or(String::new(), |report| format!("{}, ", report.mode));
+    format!("{mode}{} frames of {width} x {height} pixels, {way_m:.1} m of way", subject.trajectory.poses.len())
 }
 
 fn about_scene(planned: &Planned<'_>) -> String {
@@ -234,10 +251,10 @@ mod tests {
     use enfilade_scene::{Intrinsics, Pose, Quiet};
     use std::collections::BTreeMap;
 
-    const SIZE: DVec3 = DVec3::new(4.0, 3.0, 2.5);
+    pub(super) const SIZE: DVec3 = DVec3::new(4.0, 3.0, 2.5);
 
     /// The box room with all of its inside free, and a trajectory of three poses.
-    fn draw(folder: &Path) -> Vec<PathBuf> {
+    pub(super) fn with_planned<T>(run: impl FnOnce(&Planned<'_>) -> T) -> T {
         let world = box_room(DVec3::ZERO, SIZE);
         let bvh = Bvh::new(&world.corners, &|_| false);
         let mut tree = OccupancyTree::new(0.25);
@@ -258,11 +275,17 @@ mod tests {
             fov_x_rad: 1.0,
             aspect: 4.0 / 3.0,
         };
-        let dataset = Dataset::create(folder).unwrap();
-        dataset.write_trajectory("room", &trajectory, &camera, None).unwrap();
         let (starts, filmed) = ([start], [(camera, trajectory)]);
-        let planned = Planned { scene: "room", world: &world, bvh: &bvh, tree: &tree, starts: &starts, filmed: &filmed };
-        write_plan_preview(&dataset, &planned, &Quiet).unwrap()
+        run(&Planned { scene: "room", world: &world, bvh: &bvh, tree: &tree, starts: &starts, filmed: &filmed })
+    }
+
+    fn draw(folder: &Path) -> Vec<PathBuf> {
+        let dataset = Dataset::create(folder).unwrap();
+        with_planned(|planned| {
+            let (camera, trajectory) = &planned.filmed[0];
+            dataset.write_trajectory("room", trajectory, camera, None).unwrap();
+            write_plan_preview(&dataset, planned, &Quiet).unwrap()
+        })
     }
 
     fn contents(root: &Path, files: &[PathBuf]) -> BTreeMap<PathBuf, Vec<u8>> {
@@ -279,7 +302,7 @@ mod tests {
             assert!(names.contains(&format!("{detail}/cam_00/preview/frame.{frame:04}.jpg")), "{names:?}");
         }
         let page = String::from_utf8(files[Path::new(&format!("{detail}/plan_preview/index.html"))].clone()).unwrap();
-        for name in ["plan.png", "section_xz.png", "section_yz.png", "contact_sheet.jpg", "statistics.png"] {
+        for name in ["plan.png", "coverage.png", "section_xz.png", "section_yz.png", "contact_sheet.jpg", "statistics.png"] {
             let picture = image::load_from_memory(&files[Path::new(&format!("{detail}/plan_preview/cam_00_{name}"))]).unwrap();
             assert!(picture.width() == 1600 && page.contains(&format!("src=\"cam_00_{name}\"")), "{name}");
         }

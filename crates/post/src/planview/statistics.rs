@@ -1,6 +1,7 @@
 //! The page of statistics: how often each value occurs over the frames, and in which frame.
 
 use super::chart::round_below;
+use super::coverage::{SurfacePoint, seen_so_far};
 use super::drawing::{Anchor, Drawing, Ink, Point, Text};
 use super::figure::{PAPER, Subject, time_color};
 use super::legend::{INK, MUTED, header};
@@ -53,20 +54,21 @@ const fn quantity(name: &'static str, unit: &'static str, finest: f64, low: f64,
     Quantity { name, unit, finest, low, value }
 }
 
-const QUANTITIES: [Quantity; 8] = [
+const QUANTITIES: [Quantity; 9] = [
     quantity("height above the floor", "m", 0.01, f64::NEG_INFINITY, |m| Some(m.height_m)),
     quantity("roll", "°", 0.25, f64::NEG_INFINITY, |m| Some(m.roll_deg)),
     quantity("pitch", "°", 1.0, f64::NEG_INFINITY, |m| Some(m.pitch_deg)),
     quantity("step", "m", 0.02, 0.0, |m| m.step_m),
+    quantity("turn", "°", 1.0, 0.0, |m| m.turn_deg),
     quantity("clearance", "m", 0.02, 0.0, |m| Some(m.clearance_m)),
     quantity("overlap", "", 0.02, 0.0, |m| m.overlap),
     quantity("void share", "", 0.005, 0.0, |m| Some(m.void_share)),
-    quantity("score", "", 1.0, 0.0, |m| Some(m.score)),
+    quantity("score", "", 1e-3, 0.0, |m| Some(m.score)),
 ];
 
 /// The page for `subject`, whose poses see `sights`.
 pub(super) fn statistics(subject: &Subject<'_>, sights: &[Sight]) -> Drawing {
-    let rows = (QUANTITIES.len() + 1).div_ceil(COLUMNS);
+    let rows = (QUANTITIES.len() + 3).div_ceil(COLUMNS);
     let height = 2.0 * MARGIN + HEADER + rows as f32 * PANEL[1] + (rows - 1) as f32 * GAP;
     let mut page = Drawing::new(WIDTH, height as u32, PAPER);
     header(&mut page, [MARGIN, MARGIN], subject, "statistics over its frames");
@@ -74,7 +76,9 @@ pub(super) fn statistics(subject: &Subject<'_>, sights: &[Sight]) -> Drawing {
     for (i, quantity) in QUANTITIES.iter().enumerate() {
         panel(&mut page, place(i), quantity, subject.measures);
     }
-    distance_panel(&mut page, place(QUANTITIES.len()), sights);
+    seen_panel(&mut page, place(QUANTITIES.len()), subject);
+    times_panel(&mut page, place(QUANTITIES.len() + 1), subject.points);
+    distance_panel(&mut page, place(QUANTITIES.len() + 2), sights);
     page
 }
 
@@ -195,6 +199,58 @@ fn series(page: &mut Drawing, [x, y]: Point, quantity: &Quantity, measures: &[Fr
             Ink::solid(time_color(f64::from(place))),
         );
     }
+}
+
+/// The share of the surfaces that the frames up to each one have seen.
+fn seen_panel(page: &mut Drawing, [x, y]: Point, subject: &Subject<'_>) {
+    let frames = subject.trajectory.poses.len();
+    let shares = seen_so_far(subject.points, frames);
+    let detail = shares.last().map_or(String::new(), |last| format!("{:.1} % by the last frame", 100.0 * last));
+    title(page, [x, y], "surfaces seen so far", &detail);
+    let base = y + TITLE + HISTOGRAM + SERIES;
+    let axis = Axis { left: x, width: PANEL[0], low: 0.0, high: frames.max(2) as f64 - 1.0 };
+    axis.draw(page, y + TITLE, base, "");
+    let level = |share: f64| base - (HISTOGRAM + SERIES) * share as f32;
+    for share in [0.25, 0.5, 0.75, 1.0] {
+        page.line(&[[x, level(share)], [x + PANEL[0], level(share)]], 1.0, GRID);
+        page.text([x + 4.0, level(share) + 14.0], format!("{:.0} %", 100.0 * share), 8.5, MUTED);
+    }
+    let curve: Vec<Point> = shares.iter().enumerate().map(|(i, share)| [axis.at(i as f64), level(*share)]).collect();
+    page.line(&curve, 2.4, BAR);
+    page.line(&[[x, base], [x + PANEL[0], base]], 1.2, MUTED);
+}
+
+/// The share of the surfaces by the number of frames that see them.
+fn times_panel(page: &mut Drawing, [x, y]: Point, points: &[SurfacePoint]) {
+    const CLASSES: [(&str, u32); 8] =
+        [("never", 0), ("1", 1), ("2", 2), ("3-5", 5), ("6-10", 10), ("11-20", 20), ("21-50", 50), ("more", u32::MAX)];
+    title(page, [x, y], "surfaces by frames that see them", "");
+    let base = y + TITLE + HISTOGRAM + SERIES;
+    let mut counts = [0usize; CLASSES.len()];
+    for point in points {
+        let class = CLASSES.iter().position(|(_, most)| point.times <= *most).unwrap_or(CLASSES.len() - 1);
+        counts[class] += 1;
+    }
+    let shares = counts.map(|count| count as f64 / points.len().max(1) as f64);
+    let top = shares.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let step = PANEL[0] / CLASSES.len() as f32;
+    for (i, ((name, _), share)) in CLASSES.into_iter().zip(shares).enumerate() {
+        let (left, middle) = (x + step * i as f32, x + step * (i as f32 + 0.5));
+        let height = (HISTOGRAM + SERIES - 24.0) * (share / top) as f32;
+        page.bar([left + 4.0, base - height, step - 8.0, height], if i == 0 { MEDIAN } else { BAR });
+        let label = |words: String, y: f32| Text {
+            at: [middle, y],
+            words,
+            height: 9.0,
+            bold: false,
+            anchor: Anchor::Middle,
+            ink: MUTED,
+            halo: None,
+        };
+        page.write(label(format!("{:.1} %", 100.0 * share), base - height - 7.0));
+        page.write(label(name.into(), base + 18.0));
+    }
+    page.line(&[[x, base], [x + PANEL[0], base]], 1.2, MUTED);
 }
 
 /// How far the pixels see, with the outline of all of Hypersim.
