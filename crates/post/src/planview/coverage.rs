@@ -7,7 +7,7 @@ use enfilade_scene::{Camera, CameraView, Trajectory};
 use rayon::prelude::*;
 
 /// Points spread over all surfaces; a share of them is known to within half a per cent.
-const POINTS: usize = 20_000;
+const POINTS: usize = 40_000;
 /// How far from a surface free space is looked for, voxels: within the first, surfaces make their voxel occupied.
 const REACH_VOXELS: [f64; 3] = [1.0, 1.5, 2.0];
 /// A surface this much nearer than a point does not hide it, metres: the points lie on surfaces in single precision.
@@ -38,7 +38,7 @@ pub(super) fn coverage(planned: &Planned<'_>, camera: &Camera, trajectory: &Traj
     points(planned).into_par_iter().map(seen).collect()
 }
 
-/// Points by area, in an order that does not matter, without those that no free space is near.
+/// Points by area, in an order that does not matter, without those that free space does not touch.
 fn points(planned: &Planned<'_>) -> Vec<DVec3> {
     let triangles = &planned.world.corners;
     let areas: Vec<f32> = triangles.iter().map(|[a, b, c]| (*b - *a).cross(*c - *a).length()).collect();
@@ -55,9 +55,19 @@ fn points(planned: &Planned<'_>) -> Vec<DVec3> {
     (0..POINTS).filter_map(point).collect()
 }
 
+/// True when there is free space near `p`, on either side, and nothing between.
 fn borders_free_space(planned: &Planned<'_>, p: DVec3, normal: DVec3) -> bool {
     let step = planned.tree.resolution_m() * normal;
-    REACH_VOXELS.iter().flat_map(|reach| [p + *reach * step, p - *reach * step]).any(|q| planned.tree.state(q) == Voxel::Free)
+    let near = REACH_VOXELS.iter().flat_map(|reach| [p + *reach * step, p - *reach * step]);
+    near.into_iter().any(|q| planned.tree.state(q) == Voxel::Free && in_sight(planned, q, p))
+}
+
+/// True when no surface hides `p` from `origin`.
+fn in_sight(planned: &Planned<'_>, origin: DVec3, p: DVec3) -> bool {
+    let distance_m = origin.distance(p);
+    let mut ray = Ray::new(origin.as_vec3(), ((p - origin) / distance_m).as_vec3());
+    ray.t_max = (distance_m - SLACK_M) as f32;
+    !planned.bvh.occluded(&ray)
 }
 
 fn sees(planned: &Planned<'_>, view: &CameraView<'_>, p: DVec3) -> bool {
@@ -66,11 +76,7 @@ fn sees(planned: &Planned<'_>, view: &CameraView<'_>, p: DVec3) -> bool {
     if !(0.0..width).contains(&x) || !(0.0..height).contains(&y) {
         return false;
     }
-    let (origin, _) = view.row_placement(y);
-    let distance_m = origin.distance(p);
-    let mut ray = Ray::new(origin.as_vec3(), ((p - origin) / distance_m).as_vec3());
-    ray.t_max = (distance_m - SLACK_M) as f32;
-    !planned.bvh.occluded(&ray)
+    in_sight(planned, view.row_placement(y).0, p)
 }
 
 /// Share of `points` seen by the first 1, 2, … of `frames` frames.

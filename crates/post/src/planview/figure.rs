@@ -96,7 +96,7 @@ pub(super) fn coverage_figure(subject: &Subject<'_>, cut: Cut) -> Drawing {
     for point in behind {
         let place = chart.to_page(point.p_world);
         if chart.holds(place) {
-            page.disc(place, 2.3, Ink::solid(times_color(point.times, most)));
+            page.disc(place, 2.0, Ink::solid(times_color(point.times, most)));
         }
     }
     legend::coverage_column(&mut page, legend_place(&chart), subject, most);

@@ -5,7 +5,7 @@
 //! camera, its frusta and targets; a picture of every view coloured by part, as Hypersim's toolkit writes them and where; all
 //! views on one sheet; and how measures of the frames are distributed. One page for a browser shows it all.
 //!
-//! Every page is a list of shapes ([`drawing`]) that is painted as PNG and written as SVG. The same plan gives the same bytes.
+//! Every page is a list of shapes (`drawing.rs`) that is painted as PNG and written as SVG. The same plan gives the same bytes.
 
 mod chart;
 mod contact;
@@ -55,6 +55,11 @@ pub struct Planned<'a> {
 }
 
 impl Planned<'_> {
+    /// Number of parts, those without triangles at the end left out.
+    fn parts(&self) -> usize {
+        self.world.sources.iter().map(|source| source.part as usize + 1).max().unwrap_or(0)
+    }
+
     /// The box around the free voxels, metres.
     fn free_bounds(&self) -> Option<(DVec3, DVec3)> {
         self.tree.bounds(Voxel::Free)
@@ -67,33 +72,43 @@ impl Planned<'_> {
 /// When a file cannot be written or removed.
 pub fn write_plan_preview(dataset: &Dataset, planned: &Planned<'_>, cx: &dyn Cx) -> Result<Vec<PathBuf>, DatasetError> {
     remove_plan_preview(dataset, planned.scene)?;
-    let mut files = Vec::new();
-    let mut sections = Vec::new();
-    let colors = toolkit_colors(planned.world.sources.iter().map(|source| source.part as usize + 1).max().unwrap_or(0));
+    let colors = toolkit_colors(planned.parts());
     let total = planned.filmed.len() as u64;
+    let (mut files, mut sections) = (Vec::new(), Vec::new());
     for (i, (camera, trajectory)) in planned.filmed.iter().enumerate() {
         cx.progress("trajectories drawn", i as u64, total);
         let sights = sights(planned, camera, trajectory);
         files.extend(write_views(dataset, planned.scene, trajectory, &sights, &colors)?);
-        let mut measures = measure::measures(planned, camera, trajectory, &sights);
-        let report = Report::read(&dataset.layout().plan_report(planned.scene, &trajectory.name));
-        let report = report.filter(|report| report.put_into(&mut measures));
-        let points = coverage::coverage(planned, camera, trajectory);
-        let subject = Subject { planned, camera, trajectory, measures: &measures, points: &points, report: report.as_ref() };
-        let mut pictures = Vec::new();
-        for page in pages(&subject, &sights) {
-            pictures.push(page.write(dataset, &subject, &mut files)?);
-        }
-        if report.is_none() {
-            let table = serde_json::to_string_pretty(&measures).unwrap_or_default() + "\n";
-            files.push(write_page(dataset, planned.scene, &format!("{}_statistics.json", trajectory.name), table.into_bytes())?);
-        }
-        sections.push(Section { camera: trajectory.name.clone(), about: about(&subject), pictures });
+        sections.push(draw_trajectory(dataset, planned, (camera, trajectory), &sights, &mut files)?);
     }
     let page = html::page(planned.scene, &about_scene(planned), &sections);
     files.push(write_page(dataset, planned.scene, "index.html", page.into_bytes())?);
     cx.progress("trajectories drawn", total, total);
     Ok(files)
+}
+
+/// Writes the pages of a trajectory, and its statistics where planning has left none; appends the files to `files`.
+fn draw_trajectory(
+    dataset: &Dataset,
+    planned: &Planned<'_>,
+    (camera, trajectory): (&Camera, &Trajectory),
+    sights: &[Sight],
+    files: &mut Vec<PathBuf>,
+) -> Result<Section, DatasetError> {
+    let mut measures = measure::measures(planned, camera, trajectory, sights);
+    let report = Report::read(&dataset.layout().plan_report(planned.scene, &trajectory.name));
+    let report = report.filter(|report| report.put_into(&mut measures));
+    let points = coverage::coverage(planned, camera, trajectory);
+    let subject = Subject { planned, camera, trajectory, measures: &measures, points: &points, report: report.as_ref() };
+    let mut pictures = Vec::new();
+    for page in pages(&subject, sights) {
+        pictures.push(page.write(dataset, &subject, files)?);
+    }
+    if report.is_none() {
+        let table = serde_json::to_string_pretty(&measures).unwrap_or_default() + "\n";
+        files.push(write_page(dataset, planned.scene, &format!("{}_statistics.json", trajectory.name), table.into_bytes())?);
+    }
+    Ok(Section { camera: trajectory.name.clone(), about: about(&subject), pictures })
 }
 
 /// Removes the previews of what was planned for a scene, as when it is planned anew.
@@ -239,8 +254,8 @@ fn about(subject: &Subject<'_>) -> String {
 fn about_scene(planned: &Planned<'_>) -> String {
     let voxel_m3 = planned.tree.resolution_m().powi(3);
     let (free, occupied) = (planned.tree.count(Voxel::Free) as f64 * voxel_m3, planned.tree.count(Voxel::Occupied));
-    let parts = planned.world.sources.last().map_or(0, |source| source.part + 1);
-    format!("{free:.1} m³ of free space, {occupied} occupied voxels, {} triangles in {parts} parts", planned.world.corners.len())
+    let (triangles, parts) = (planned.world.corners.len(), planned.parts());
+    format!("{free:.1} m³ of free space, {occupied} occupied voxels, {triangles} triangles in {parts} parts")
 }
 
 #[cfg(test)]

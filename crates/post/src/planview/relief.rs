@@ -24,7 +24,7 @@ pub(super) const NEAR: [u8; 3] = [174, 184, 198];
 /// Samples along each side of a pixel.
 const OVERSAMPLING: u32 = 2;
 /// Depths that differ by more than this are divided by a line, metres.
-const EDGE_M: f64 = 0.05;
+const EDGE_M: f32 = 0.05;
 /// Brightness of that line, over what it would be without.
 const EDGE_SHADE: f64 = 0.6;
 /// The same for the line between two parts at about the same depth.
@@ -44,9 +44,9 @@ enum Ground {
 
 #[derive(Clone, Copy)]
 struct Behind {
-    depth_m: f64,
+    depth_m: f32,
     part: u32,
-    cosine: f64,
+    cosine: f32,
 }
 
 /// The chart's rectangle, opaque.
@@ -84,14 +84,14 @@ fn ground(planned: &Planned<'_>, p: DVec3, away: DVec3) -> Ground {
         Voxel::Unknown => Ground::Unknown,
         Voxel::Occupied => Ground::Occupied,
         Voxel::Free => {
-            let behind = |seen: Seen| Behind { depth_m: seen.distance_m, part: seen.part, cosine: seen.cosine };
+            let behind = |seen: Seen| Behind { depth_m: seen.distance_m as f32, part: seen.part, cosine: seen.cosine as f32 };
             Ground::Free(meet(planned.world, planned.bvh, p, away).map(behind))
         }
     }
 }
 
 fn far(samples: &[Ground]) -> f64 {
-    let depth = |ground: &Ground| if let Ground::Free(Some(behind)) = ground { Some(behind.depth_m) } else { None };
+    let depth = |ground: &Ground| if let Ground::Free(Some(behind)) = ground { Some(f64::from(behind.depth_m)) } else { None };
     let mut depths: Vec<f64> = samples.iter().filter_map(depth).collect();
     quantile(&mut depths, FAR_QUANTILE).unwrap_or(1.0).max(0.1)
 }
@@ -122,8 +122,8 @@ fn color(ground: Ground, far_m: f64, hatched: bool) -> [f64; 3] {
         Ground::Occupied => OCCUPIED.map(f64::from),
         Ground::Free(None) => FREE_OVER_VOID.map(f64::from),
         Ground::Free(Some(behind)) => {
-            let near = (1.0 - behind.depth_m / far_m).clamp(0.0, 1.0).powf(0.7);
-            let light = 0.84 + 0.16 * behind.cosine;
+            let near = (1.0 - f64::from(behind.depth_m) / far_m).clamp(0.0, 1.0).powf(0.7);
+            let light = 0.84 + 0.16 * f64::from(behind.cosine);
             std::array::from_fn(|c| light * (f64::from(FREE[c]) + near * (f64::from(NEAR[c]) - f64::from(FREE[c]))))
         }
     }

@@ -159,7 +159,7 @@ fn panel(page: &mut Drawing, [x, y]: Point, quantity: &Quantity, measures: &[Fra
     }
     page.line(&[[x, base], [x + PANEL[0], base]], 1.2, MUTED);
     let words = if most == 1.0 { "1 frame".into() } else { format!("{most:.0} frames") };
-    page.write(Text { at: [x + PANEL[0], y + TITLE + 5.0], words, height: 8.5, bold: false, anchor: Anchor::End, ink: MUTED, halo: None });
+    page.write(Text { at: [x + PANEL[0], y + TITLE], words, height: 8.5, bold: false, anchor: Anchor::End, ink: MUTED, halo: None });
     page.line(&[[axis.at(median), y + TITLE], [axis.at(median), base]], 1.8, MEDIAN);
     series(page, [x, base + 36.0], quantity, measures, [axis.low, axis.high]);
 }
