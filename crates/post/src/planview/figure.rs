@@ -184,7 +184,7 @@ fn draw_way(page: &mut Drawing, subject: &Subject<'_>, chart: &Chart) {
         let share = subject.measures[i].score / greatest;
         draw_frustum(page, chart, subject.camera, pose, length_m, colors[i], score_opacity(share));
     }
-    let numbered = |i: usize| i % NUMBERED == 0;
+    let numbered = |i: usize| i.is_multiple_of(NUMBERED);
     for (i, pose) in poses.iter().enumerate().filter(|(i, _)| numbered(*i)) {
         let (from, to) = (chart.to_page(pose.position), chart.to_page(pose.look_at));
         page.lines(dashes(from, to), 1.0, Ink::veil(colors[i], 0.9));
@@ -288,8 +288,11 @@ fn draw_starts(page: &mut Drawing, planned: &Planned<'_>, chart: &Chart) {
         start_mark(page, center);
         let words =
             crate::sheet::lettering::fit(&start.name, crate::sheet::lettering::Style { height: 9.5, weight: 0.115, color: [0; 3] }, 150.0);
-        let at = [center[0] + 15.0, center[1] - 11.0];
-        page.write(Text { at, words, height: 9.5, bold: true, anchor: Anchor::Start, ink: Ink::solid(START), halo: Some(WHITE) });
+        // On the side where there is room for it.
+        let [left, _, width, _] = chart.place.map(|v| v as f32);
+        let (aside, anchor) = if center[0] < left + width - 170.0 { (15.0, Anchor::Start) } else { (-15.0, Anchor::End) };
+        let at = [center[0] + aside, center[1] - 11.0];
+        page.write(Text { at, words, height: 9.5, bold: true, anchor, ink: Ink::solid(START), halo: Some(WHITE) });
     }
 }
 

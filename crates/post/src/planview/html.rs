@@ -66,10 +66,10 @@ fn put_section(html: &mut String, section: &Section) {
     for Shown { file, svg, caption } in &section.pictures {
         let (file, caption) = (escaped(file), escaped(caption));
         let scaled = svg.as_ref().map_or(String::new(), |svg| format!(" (<a href=\"{}\">SVG</a>)", escaped(svg)));
-        let _ = write!(
+        let _ = writeln!(
             html,
             "<figure><a href=\"{file}\"><img src=\"{file}\" alt=\"{caption}\" loading=\"lazy\"></a>\
-             <figcaption>{caption}{scaled}</figcaption></figure>\n"
+             <figcaption>{caption}{scaled}</figcaption></figure>"
         );
     }
 }

@@ -203,6 +203,7 @@ fn series(page: &mut Drawing, [x, y]: Point, quantity: &Quantity, measures: &[Fr
 
 /// The share of the surfaces that the frames up to each one have seen.
 fn seen_panel(page: &mut Drawing, [x, y]: Point, subject: &Subject<'_>) {
+    const LEVELS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
     let frames = subject.trajectory.poses.len();
     let shares = seen_so_far(subject.points, frames);
     let detail = shares.last().map_or(String::new(), |last| format!("{:.1} % by the last frame", 100.0 * last));
@@ -211,12 +212,14 @@ fn seen_panel(page: &mut Drawing, [x, y]: Point, subject: &Subject<'_>) {
     let axis = Axis { left: x, width: PANEL[0], low: 0.0, high: frames.max(2) as f64 - 1.0 };
     axis.draw(page, y + TITLE, base, "");
     let level = |share: f64| base - (HISTOGRAM + SERIES) * share as f32;
-    for share in [0.25, 0.5, 0.75, 1.0] {
-        page.line(&[[x, level(share)], [x + PANEL[0], level(share)]], 1.0, GRID);
-        page.text([x + 4.0, level(share) + 14.0], format!("{:.0} %", 100.0 * share), 8.5, MUTED);
-    }
+    page.lines(LEVELS.map(|share| vec![[x, level(share)], [x + PANEL[0], level(share)]]).to_vec(), 1.0, GRID);
     let curve: Vec<Point> = shares.iter().enumerate().map(|(i, share)| [axis.at(i as f64), level(*share)]).collect();
     page.line(&curve, 2.4, BAR);
+    for share in LEVELS {
+        let (at, words) = ([x + 4.0, level(share) + 14.0], format!("{:.0} %", 100.0 * share));
+        let halo = Some(Ink::veil(PAPER, 0.8));
+        page.write(Text { at, words, height: 8.5, bold: false, anchor: Anchor::Start, ink: MUTED, halo });
+    }
     page.line(&[[x, base], [x + PANEL[0], base]], 1.2, MUTED);
 }
 
