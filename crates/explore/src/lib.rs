@@ -28,7 +28,7 @@ pub use find_starts::{StartsConfig, find_starts};
 pub use plan::{PlanConfig, plan};
 pub use preset::Preset;
 pub use saliency::Saliency;
-pub use space::{CarveReport, FreeSpace, StartReport};
+pub use space::{CarveReport, FreeSpace, Leak, StartReport};
 pub use view::{ViewStats, view_stats};
 
 #[cfg(test)]

@@ -38,11 +38,17 @@ pub struct CarveReport {
     pub free_volume_m3: f64,
     /// Voxels that a surface touches.
     pub occupied_voxels: u64,
+    /// Share of the domain that is neither.
+    pub unknown_share: f64,
     /// Positions from which rays were cast, in order.
     pub positions: Vec<DVec3>,
     /// Share of all rays that left the domain without meeting an occupied voxel: 0 in a closed room; more where a window has no
     /// pane, a wall or ceiling is missing, or a camera stands outside.
     pub escaped_share: f64,
+    /// Voxels that rays reached and that are outside the building; unknown in the tree, unless they were to be kept.
+    pub outside_voxels: u64,
+    /// Where free space leads out of the building, the largest first.
+    pub leaks: Vec<Leak>,
     /// What became of each start camera, in their order.
     pub starts: Vec<StartReport>,
 }
@@ -56,4 +62,13 @@ pub struct StartReport {
     pub used: Option<DVec3>,
     /// Why it was skipped.
     pub problem: Option<String>,
+}
+
+/// A place where free space leads out of the building.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Leak {
+    /// Its middle, metres.
+    pub position: DVec3,
+    /// The area of the faces between voxels inside and outside, square metres.
+    pub area_m2: f64,
 }

@@ -2,6 +2,7 @@
 
 mod cast;
 mod hypersim;
+mod inside;
 mod rays;
 mod start;
 
@@ -14,6 +15,7 @@ use crate::{CarveReport, ExploreError, FreeSpace, Preset, StartReport};
 use enfilade_geometry::Bvh;
 use enfilade_math::{DVec3, Rng};
 use enfilade_scene::{Cx, Warning, WorldMesh};
+use inside::{Enclosure, Inside};
 use rays::Rays;
 use serde::{Deserialize, Serialize};
 
@@ -34,13 +36,15 @@ pub struct CarveConfig {
     pub rays: u32,
     /// Positions to carve from for each start camera: its own, then random free ones.
     pub iterations: u32,
+    /// Free voxels outside the building stay free. ([`Preset::Hypersim`] keeps them in any case.)
+    pub keep_outside: bool,
     /// Seed of the random positions. The published programs use 0.
     pub seed: u64,
 }
 
 impl Default for CarveConfig {
     fn default() -> Self {
-        Self { preset: Preset::Default, voxel_m: 0.1, extent_m: 30.0, rays: 512 * 512, iterations: 5, seed: 0 }
+        Self { preset: Preset::Default, voxel_m: 0.1, extent_m: 30.0, rays: 512 * 512, iterations: 5, keep_outside: false, seed: 0 }
     }
 }
 
@@ -61,6 +65,9 @@ impl CarveConfig {
 /// voxels, the rays need not be tested against the triangles themselves. Everything else stays unknown. The domain is the cube of
 /// the configuration, cut down to the box around the scene and the starts; space beyond the scene is never free.
 ///
+/// Where rays leave the domain, free voxels are judged to be inside the building or outside, by the surfaces around them and by whether
+/// the start cameras reach them through inside. Those outside become unknown again, unless `keep_outside` is set.
+///
 /// A start that is outside or inside a wall is skipped with a warning as long as another one serves.
 ///
 /// [`Preset::Hypersim`] differs as its page says.
@@ -76,7 +83,6 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
     // From every start camera, then from random free places.
     let mut report = CarveReport::default();
     let mut first_problem = None;
-    let mut escaped = 0;
     for (index, &asked) in starts.iter().enumerate() {
         let mut position = match scene.verify(index, asked) {
             Ok(used) => {
@@ -90,10 +96,10 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
             }
         };
         for iteration in 0..config.iterations {
-            escaped += scene.carve_from(position)?;
+            scene.carve_from(position)?;
             report.positions.push(position);
             cx.progress("carve", index as u64 * u64::from(config.iterations) + u64::from(iteration) + 1, total);
-            position = scene.random_free().ok_or_else(|| no_free_space(asked))?;
+            position = scene.next_position().ok_or_else(|| no_free_space(asked))?;
         }
     }
     if report.positions.is_empty() {
@@ -101,11 +107,15 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
     }
     cx.progress("carve", total, total);
 
+    report.escaped_share = scene.escaped as f64 / (report.positions.len() as f64 * f64::from(config.rays));
+    if scene.escaped > 0 && config.preset == Preset::Default {
+        scene.sort_out(config.keep_outside, &mut report, cx);
+    }
     let grid = &scene.grid;
     (report.free_voxels, report.occupied_voxels) = grid.counts();
     report.free_volume_m3 = report.free_voxels as f64 * config.voxel_m.powi(3);
-    report.escaped_share = escaped as f64 / (report.positions.len() as f64 * f64::from(config.rays));
-    warn(&report, cx);
+    report.unknown_share = 1.0 - (report.free_voxels + report.occupied_voxels) as f64 / grid.domain_voxels() as f64;
+    warn(&report, config, cx);
     let mut space = FreeSpace::new(grid.to_tree(config.voxel_m), report)?;
     if let (Preset::Hypersim, Some((min, max))) = (config.preset, hypersim::free_box(grid)) {
         (space.free_min, space.free_max) = (min, max);
@@ -120,7 +130,10 @@ struct Carving<'a> {
     rays: Rays,
     grid: VoxelGrid,
     leaps: Leaps,
+    enclosure: Enclosure<'a>,
     random: Random,
+    /// Rays that left the domain so far.
+    escaped: usize,
 }
 
 /// Where the random positions come from.
@@ -142,7 +155,8 @@ impl<'a> Carving<'a> {
             Preset::Hypersim => (hypersim::grid(world, min, max, config)?, Random::Hypersim(rand_mt::Mt64::new(config.seed))),
         };
         grid.check_memory()?;
-        Ok(Self { world, bvh, rays: Rays::new(config.rays as usize), grid, leaps: Leaps::default(), random })
+        let enclosure = Enclosure::new(bvh, config.extent_m);
+        Ok(Self { world, bvh, rays: Rays::new(config.rays as usize), grid, leaps: Leaps::default(), enclosure, random, escaped: 0 })
     }
 
     fn verify(&self, index: usize, asked: DVec3) -> Result<DVec3, ExploreError> {
@@ -152,21 +166,44 @@ impl<'a> Carving<'a> {
         }
     }
 
-    /// Casts all rays from one position and returns how many left the domain.
-    fn carve_from(&mut self, position: DVec3) -> Result<usize, ExploreError> {
+    /// Casts all rays from one position.
+    fn carve_from(&mut self, position: DVec3) -> Result<(), ExploreError> {
         let (grid, leaps, rays) = (&self.grid, &mut self.leaps, &self.rays);
-        let left = match self.random {
+        self.escaped += match self.random {
             Random::Default(_) => cast::cast(grid, leaps, rays, position, |_| f64::INFINITY),
             Random::Hypersim(_) => cast::cast(grid, leaps, rays, position, |d| hypersim::hit(self.bvh, grid, position, d)),
         };
-        grid.check_memory().map(|()| left)
+        grid.check_memory()
     }
 
-    fn random_free(&mut self) -> Option<DVec3> {
+    /// A random free position; when rays have left the domain, one that is enclosed, if any is soon found.
+    fn next_position(&mut self) -> Option<DVec3> {
+        const TRIES: usize = 100;
         match &mut self.random {
-            Random::Default(rng) => self.grid.random_free(rng),
             Random::Hypersim(rng) => hypersim::random_free(&self.grid, rng),
+            Random::Default(rng) if self.escaped == 0 => self.grid.random_free(rng),
+            Random::Default(rng) => {
+                let first = self.grid.random_free(rng)?;
+                let more = (0..TRIES).filter_map(|_| self.grid.random_free(rng));
+                Some(std::iter::once(first).chain(more).find(|p| self.enclosure.holds(*p)).unwrap_or(first))
+            }
         }
+    }
+
+    /// Finds what is outside the building, and makes it unknown unless it is to be kept.
+    fn sort_out(&self, keep_outside: bool, report: &mut CarveReport, cx: &dyn Cx) {
+        let starts: Vec<DVec3> = report.starts.iter().filter_map(|start| start.used).collect();
+        let Some(inside) = Inside::find(&self.grid, &self.enclosure, &starts) else {
+            let message = "no start camera stands inside a building: too few directions around them meet a wall or a roof. All space that \
+                they see is taken for inside";
+            return cx.warn(Warning { place: "free space".into(), message: message.into() });
+        };
+        report.leaks = inside.leaks(&self.grid);
+        report.outside_voxels = inside.for_outside(&self.grid, |cube, voxels| {
+            if !keep_outside {
+                self.grid.forget(cube, voxels);
+            }
+        });
     }
 }
 
@@ -203,7 +240,7 @@ fn no_free_space(start: DVec3) -> ExploreError {
     ExploreError::NoFreeSpace(format!("rays from the start camera at {start} end in its own voxel; move the camera or lower voxel_m"))
 }
 
-fn warn(report: &CarveReport, cx: &dyn Cx) {
+fn warn(report: &CarveReport, config: &CarveConfig, cx: &dyn Cx) {
     for (index, start) in report.starts.iter().enumerate() {
         if let Some(problem) = &start.problem {
             cx.warn(Warning { place: format!("start camera {index}"), message: format!("skipped: {problem}") });
@@ -216,8 +253,13 @@ fn warn(report: &CarveReport, cx: &dyn Cx) {
     }
     if report.escaped_share > ESCAPE_WARNING {
         let percent = 100.0 * report.escaped_share;
-        let message =
-            format!("{percent:.1} % of the rays left the scene: it is open or a wall has a gap, and free space reaches to its border");
+        let left = format!("{percent:.1} % of the rays left the scene: it is open or a wall has a gap");
+        let places: Vec<String> = report.leaks.iter().map(|leak| format!("{:.1} ({:.1} m2)", leak.position, leak.area_m2)).collect();
+        let message = match (report.outside_voxels, config.keep_outside) {
+            (0, _) => format!("{left}, and free space reaches to its border"),
+            (_, true) => format!("{left}. What is outside is kept; free space leads out at {}", places.join(", ")),
+            (_, false) => format!("{left}. What is outside is left out; free space ends at {}", places.join(", ")),
+        };
         cx.warn(Warning { place: "free space".into(), message });
     }
 }

@@ -1,5 +1,6 @@
 //! Two bits for every voxel of a box in the octree's key space: occupied, free.
 
+mod cells;
 mod count;
 mod leaps;
 mod occupy;
@@ -10,6 +11,7 @@ mod walk;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use cells::Cube;
 pub(crate) use leaps::Leaps;
 pub(crate) use walk::WalkEnd;
 
@@ -90,6 +92,11 @@ impl VoxelGrid {
     #[inline]
     pub(crate) fn cells(&self, p: DVec3) -> DVec3 {
         p / self.voxel_m - DVec3::from(self.base.map(|k| f64::from(k) - f64::from(1 << (TREE_LEVELS - 1))))
+    }
+
+    /// Cells in world coordinates.
+    fn world(&self, cells: DVec3) -> DVec3 {
+        (cells + DVec3::from(self.base.map(|k| f64::from(k) - f64::from(1 << (TREE_LEVELS - 1))))) * self.voxel_m
     }
 
     #[inline]

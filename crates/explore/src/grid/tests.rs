@@ -161,5 +161,5 @@ fn random_free_points_are_uniform_over_the_free_voxels() {
 fn grids_too_large_or_too_far_are_refused() {
     let error = |min, max, voxel_m| VoxelGrid::new(min, max, voxel_m).err().unwrap();
     assert!(matches!(error(DVec3::ZERO, DVec3::splat(5e4), 0.1), ExploreError::OutOfKeySpace { .. }));
-    assert!(matches!(error(DVec3::ZERO, DVec3::splat(3000.0), 0.05), ExploreError::TooManyVoxels { .. }));
+    assert!(matches!(error(DVec3::ZERO, DVec3::splat(3000.0), 0.1), ExploreError::TooManyVoxels { .. }));
 }
