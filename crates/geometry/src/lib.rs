@@ -6,4 +6,4 @@ mod octree;
 
 pub use bvh::{Bvh, Hit, NOTHING, PinholeRays, VisibilityBuffer};
 pub use mesh::{Mesh, MeshError};
-pub use octree::{BtError, Leaf, OccupancyTree, TREE_LEVELS, Voxel, VoxelKey};
+pub use octree::{Leaf, OccupancyTree, TREE_LEVELS, TreeFileError, Voxel, VoxelKey};

@@ -1,7 +1,7 @@
 //! Trees written by OctoMap itself, against what is known about them. Reads `golden` and `octomap` beside and in the folder that
 //! `ENFILADE_SCENES` names; skipped where that is unset or the folders are missing.
 
-use enfilade_geometry::{OccupancyTree, Voxel};
+use enfilade_geometry::{OccupancyTree, Voxel, VoxelKey};
 use std::path::{Path, PathBuf};
 
 fn scenes() -> Option<PathBuf> {
@@ -78,6 +78,49 @@ fn a_large_tree_from_a_robot_reads_and_writes() {
     let counts = [Voxel::Free, Voxel::Occupied].map(|s| tree.count(s));
     tree.prune();
     assert_eq!([Voxel::Free, Voxel::Occupied].map(|s| tree.count(s)), counts);
+}
+
+/// The bytes that OctoMap's own `convert_octree` makes of a tree file; `None` where that is not installed.
+fn convert(bytes: &[u8], from: &str, to: &str) -> Option<Vec<u8>> {
+    let folder = tempfile::tempdir().unwrap();
+    let [source, target] = [from, to].map(|kind| folder.path().join(format!("tree.{kind}")));
+    std::fs::write(&source, bytes).unwrap();
+    match std::process::Command::new("convert_octree").args([&source, &target]).output() {
+        Ok(_) => Some(read(&target)),
+        Err(_) => {
+            println!("skipped: convert_octree of OctoMap (Debian: octomap-tools) is not installed");
+            None
+        }
+    }
+}
+
+#[test]
+fn octomap_converts_our_trees_to_the_files_that_we_write() {
+    let states = |key: VoxelKey, level: u32| {
+        let outside = key.0.iter().any(|k| *k >= 32800 || u32::from(*k) + (1 << level) <= 32760);
+        match (outside, level) {
+            (true, _) => Some(Voxel::Unknown),
+            (false, 0) => {
+                Some([Voxel::Unknown, Voxel::Free, Voxel::Free, Voxel::Occupied][usize::from(key.0[0] / 3 + key.0[1] / 5 + key.0[2]) % 4])
+            }
+            _ => None,
+        }
+    };
+    let tree = OccupancyTree::from_states(0.05, states);
+    let Some(ot) = convert(&tree.to_bt(), "bt", "ot") else { return };
+    assert_eq!(OccupancyTree::from_ot(&ot).unwrap().to_bt(), tree.to_bt());
+    let data = |bytes: &[u8]| bytes[bytes.windows(6).position(|w| w == b"\ndata\n").unwrap()..].to_vec();
+    assert!(data(&ot) == data(&tree.to_ot()), "the same nodes with the same log-odds");
+    assert_eq!(data(&convert(&tree.to_ot(), "ot", "bt").unwrap()), data(&tree.to_bt()));
+    let Some(scenes) = scenes() else { return };
+    let real = scenes.join("octomap/geb079.bt");
+    if real.is_file() {
+        let bytes = read(&real);
+        let ot = convert(&bytes, "bt", "ot").unwrap();
+        let tree = OccupancyTree::from_ot(&ot).unwrap();
+        assert_eq!(data(&tree.to_bt()), data(&bytes));
+        assert!(data(&tree.to_ot()) == data(&ot), "{}: the same nodes with the same log-odds", real.display());
+    }
 }
 
 /// FIPS 180-4, for the tests alone.

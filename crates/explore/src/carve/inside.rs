@@ -93,7 +93,9 @@ impl Inside {
                 match (at_border(cube, *enclosed), *enclosed) {
                     (false, true) => free,
                     (false, false) => 0,
-                    (true, _) => (0..64).filter(|bit| (free >> bit) & 1 != 0 && enclosure.holds(grid.voxel_center(*cube, *bit))).fold(0, |b, i| b | 1 << i),
+                    (true, _) => (0..64)
+                        .filter(|bit| (free >> bit) & 1 != 0 && enclosure.holds(grid.voxel_center(*cube, *bit)))
+                        .fold(0, |b, i| b | 1 << i),
                 }
             };
             let inside: Vec<u64> = cubes.par_iter().map(voxels).collect();

@@ -139,7 +139,7 @@ struct Carving<'a> {
 /// Where the random positions come from.
 enum Random {
     Default(Rng),
-    Hypersim(rand_mt::Mt64),
+    Hypersim(Box<rand_mt::Mt64>),
 }
 
 impl<'a> Carving<'a> {
@@ -152,7 +152,7 @@ impl<'a> Carving<'a> {
                 grid.occupy(&world.corners);
                 (grid, Random::Default(Rng::new(config.seed)))
             }
-            Preset::Hypersim => (hypersim::grid(world, min, max, config)?, Random::Hypersim(rand_mt::Mt64::new(config.seed))),
+            Preset::Hypersim => (hypersim::grid(world, min, max, config)?, Random::Hypersim(Box::new(rand_mt::Mt64::new(config.seed)))),
         };
         grid.check_memory()?;
         let enclosure = Enclosure::new(bvh, config.extent_m);

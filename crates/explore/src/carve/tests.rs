@@ -69,7 +69,8 @@ fn wall(a: [f64; 3], u: [f64; 3], v: [f64; 3]) -> Vec<[Vec3; 3]> {
 /// A wall of the plane x = `x` from y = 0 to `width` and up to `height`, with a gap (y from, y to, z from, z to).
 fn wall_with_gap(x: f64, width: f64, height: f64, [y0, y1, z0, z1]: [f64; 4]) -> Vec<[Vec3; 3]> {
     let piece = |y: f64, z: f64, dy: f64, dz: f64| wall([x, y, z], [0.0, dy, 0.0], [0.0, 0.0, dz]);
-    [piece(0.0, 0.0, y0, height), piece(y1, 0.0, width - y1, height), piece(y0, 0.0, y1 - y0, z0), piece(y0, z1, y1 - y0, height - z1)].concat()
+    [piece(0.0, 0.0, y0, height), piece(y1, 0.0, width - y1, height), piece(y0, 0.0, y1 - y0, z0), piece(y0, z1, y1 - y0, height - z1)]
+        .concat()
 }
 
 /// A box from the origin without the side at its greatest x.

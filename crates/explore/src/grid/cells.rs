@@ -50,7 +50,8 @@ impl VoxelGrid {
     /// All cubes with a free voxel, block by block.
     pub(crate) fn cubes(&self) -> impl Iterator<Item = Cube> + '_ {
         let seen = (0..self.blocks.len()).filter(|index| self.block(*index).is_some_and(|block| block.free_count() > 0));
-        let places = |index| (0..PER_BLOCK.pow(3)).map(move |i| (index, [i % PER_BLOCK, i / PER_BLOCK % PER_BLOCK, i / PER_BLOCK / PER_BLOCK]));
+        let places =
+            |index| (0..PER_BLOCK.pow(3)).map(move |i| (index, [i % PER_BLOCK, i / PER_BLOCK % PER_BLOCK, i / PER_BLOCK / PER_BLOCK]));
         let cubes = seen.flat_map(places).map(|(index, place)| self.cell(index, place.map(|p| p * EDGE)).map(|c| c / EDGE as i32));
         cubes.filter(|cube| self.free_in(*cube) != 0)
     }

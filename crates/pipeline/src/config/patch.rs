@@ -1,6 +1,6 @@
 //! The sections of `dataset.toml` that say how stages work: every key is optional, and what is there replaces the value below.
 
-use enfilade_explore::{CarveConfig, PlanConfig, Saliency};
+use enfilade_explore::{CarveConfig, PlanConfig, Preset, Saliency};
 use enfilade_render::{Filter, RenderConfig};
 use serde::Deserialize;
 use toml::Spanned;
@@ -53,7 +53,7 @@ section!(RenderPatch => RenderConfig {
     denoise_library: String,
 });
 
-section!(CarvePatch => CarveConfig { voxel_m: f64, extent_m: f64, rays: u32, iterations: u32 });
+section!(CarvePatch => CarveConfig { preset: Preset, voxel_m: f64, extent_m: f64, rays: u32, iterations: u32, keep_outside: bool });
 
 // The frames are a key of the level above; the test images have the field of view and the shape of the pictures.
 section!(PlanPatch => PlanConfig {

@@ -5,7 +5,7 @@ use crate::config::{CameraChoice, closest};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, write_json};
-use enfilade_explore::{CarveConfig, StartsConfig};
+use enfilade_explore::{CarveConfig, FreeSpace, StartsConfig};
 use enfilade_math::DVec3;
 use enfilade_scene::{Pose, Scene, StartCamera};
 use std::path::PathBuf;
@@ -30,12 +30,26 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let space = enfilade_explore::carve(&world.mesh, &world.bvh, &positions, &config, cx).map_err(Error::stage)?;
     job.dataset.write_free_space(name, &space.tree.to_bt(), space.free_min, space.free_max).map_err(Error::stage)?;
     write_json(&job.work_file(STARTS)?, &starts)?;
-    let size = space.free_max - space.free_min;
-    let cameras = count(starts.len(), "camera");
-    let volume = space.report.free_volume_m3;
-    let summary = format!("{volume:.0} m3 of free space within {:.1} x {:.1} x {:.1} m, seen from {cameras}", size.x, size.y, size.z);
+    let summary = summary(&space, starts.len());
     let report = serde_json::to_value(&space.report).unwrap_or_default();
     Ok(Outcome { summary, outputs: outputs(job)?, report, ..Outcome::default() })
+}
+
+fn summary(space: &FreeSpace, cameras: usize) -> String {
+    let (size, report) = (space.free_max - space.free_min, &space.report);
+    let seen = format!(
+        "{:.0} m3 of free space within {:.1} x {:.1} x {:.1} m, seen from {}",
+        report.free_volume_m3,
+        size.x,
+        size.y,
+        size.z,
+        count(cameras, "camera")
+    );
+    let leaks = match report.leaks.first() {
+        Some(leak) => format!("{}, the largest {:.1} m2 at {:.1}", count(report.leaks.len(), "leak"), leak.area_m2, leak.position),
+        None => "no leaks".into(),
+    };
+    format!("{seen}; {:.0} % of the domain unknown; {leaks}", 100.0 * report.unknown_share)
 }
 
 /// Every file that carving writes.

@@ -76,7 +76,7 @@ pub const STAGES: [StageSpec; 8] = [
         stage: Stage::Carve,
         name: "carve",
         about: "scene -> free space (octomap.bt)",
-        version: 1,
+        version: 2,
         settings: carve::settings,
         inputs: carve::inputs,
         run: carve::run,
