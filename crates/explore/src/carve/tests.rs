@@ -47,16 +47,21 @@ fn a_wall_thinner_than_a_voxel_does_not_leak() {
 
 #[test]
 fn the_tree_is_the_same_for_any_number_of_threads() {
-    let room = house_with_thin_wall();
+    let closed = house_with_thin_wall();
+    let mut open = house_with_thin_wall();
+    open.remove_ceiling();
     let starts = [DVec3::new(1.0, 1.5, 1.4), DVec3::new(3.6, 1.2, 1.0)];
-    let carve_on = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let space = pool.install(|| carve(&room.world, &room.bvh, &starts, &quick(), &Quiet)).unwrap();
-        (space.tree.to_bt(), space.report)
-    };
-    let one = carve_on(1);
-    assert_eq!(one, carve_on(2));
-    assert_eq!(one, carve_on(7));
+    for (room, preset) in [(&closed, Preset::Default), (&open, Preset::Default), (&open, Preset::Hypersim)] {
+        let carve_on = |threads| {
+            let config = CarveConfig { preset, ..quick() };
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let space = pool.install(|| carve(&room.world, &room.bvh, &starts, &config, &Quiet)).unwrap();
+            (space.tree.to_bt(), space.report)
+        };
+        let one = carve_on(1);
+        assert_eq!(one, carve_on(2));
+        assert_eq!(one, carve_on(7));
+    }
 }
 
 /// A rectangle from `a` along `u` and `v`; it looks along u × v.

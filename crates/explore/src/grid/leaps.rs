@@ -19,8 +19,9 @@ const HALO: usize = 16;
 /// Rows of the window around a block, and voxels in a row: 16 + 32 + 16.
 const WINDOW: usize = 64;
 
-/// No more blocks get leaps than fit in this much memory; rays walk step by step through the others.
-const MAX_BYTES: usize = 1 << 30;
+/// No more blocks than this get leaps, enough for a cube of 400 voxels; rays walk step by step through the others. Beyond that,
+/// keeping the field up to date would cost more than it saves.
+const MAX_BLOCKS: usize = 2048;
 
 pub(super) type Codes = [u8; VOLUME];
 
@@ -40,7 +41,7 @@ impl Leaps {
         self.free.resize(grid.blocks.len(), 0);
         let changed = |index: usize| grid.around(index).into_iter().flatten().any(|other| free[other] != self.free[other]);
         let stale: Vec<usize> = (0..free.len()).filter(|&index| free[index] > 0 && changed(index)).collect();
-        let room = MAX_BYTES / VOLUME - self.codes.iter().flatten().count();
+        let room = MAX_BLOCKS - self.codes.iter().flatten().count();
         let new = stale.iter().filter(|index| self.codes[**index].is_none()).take(room).count();
         let stale: Vec<usize> = stale
             .into_iter()

@@ -1,7 +1,7 @@
 //! Walking along rays: Amanatides & Woo 1987, with leaps through what is known to be free.
 
 use super::leaps::{FREE, Leaps, OCCUPIED, UNKNOWN, leap};
-use super::{BLOCK, BLOCK_LEVEL, VoxelGrid};
+use super::{BLOCK, BLOCK_LEVEL, VOLUME, VoxelGrid};
 use enfilade_math::DVec3;
 use std::sync::atomic::Ordering::Relaxed;
 
@@ -22,7 +22,7 @@ impl VoxelGrid {
     /// domain.
     ///
     /// The ray ends at the parameter that `end` gives (in voxels, if `direction` is a unit vector); it is asked at most once, and only
-    /// if the ray finds a voxel that is not free yet. All voxels up to `from_t` must be known to be free (0 when nothing is known).
+    /// if the ray finds a voxel that is not free yet or leaves the domain. All voxels up to `from_t` must be known to be free (0 when nothing is known).
     ///
     /// Every voxel that the ray passes is visited, one face at a time, so no ray slips through where occupied voxels share only an
     /// edge. The parameter at which it crosses a face is a function of the ray and the face alone. So the voxels after a leap are those
@@ -32,6 +32,11 @@ impl VoxelGrid {
         let (p, d) = (p.to_array(), direction.to_array());
         let inverse = d.map(|d| if d == 0.0 { 1.0 } else { 1.0 / d });
         let sign = d.map(|d| if d > 0.0 { 1i32 } else { -1 });
+        // What a step changes: the place in the block, the block, and the place that ends the block.
+        let signed = |axis: usize, n: usize| if sign[axis] > 0 { n } else { n.wrapping_neg() };
+        let step = [0, 1, 2].map(|a| signed(a, 1 << (BLOCK_LEVEL as usize * a)));
+        let stride = [signed(0, 1), signed(1, self.size[0]), signed(2, self.size[0] * self.size[1])];
+        let last = [0, 1, 2].map(|a| if sign[a] > 0 { LOCAL[a] } else { 0 });
         let mut end_t = None;
         let mut t = from_t;
         'land: loop {
@@ -55,7 +60,7 @@ impl VoxelGrid {
             let (mut index, mut offset) = self.address(cell);
             let mut codes = leaps.block(index);
             loop {
-                let code = codes.map_or(UNKNOWN, |codes| codes[offset]);
+                let code = codes.map_or(UNKNOWN, |codes| codes[offset % VOLUME]);
                 if code >= MIN_LEAP {
                     let leap = leap(code);
                     let exit = |a: usize| next_t[a] + leap * inverse[a].abs();
@@ -73,31 +78,24 @@ impl VoxelGrid {
                 }
 
                 // Step across the nearest face.
-                let a = if next_t[0] < next_t[1] {
-                    if next_t[0] < next_t[2] { 0 } else { 2 }
-                } else if next_t[1] < next_t[2] {
-                    1
-                } else {
-                    2
-                };
+                let (near, t) = if next_t[0] < next_t[1] { (0, next_t[0]) } else { (1, next_t[1]) };
+                let a = if t < next_t[2] { near } else { 2 };
                 if left[a] == 0 {
-                    return WalkEnd::Left;
+                    let leaves = next_t[a] <= *end_t.get_or_insert_with(&end);
+                    return if leaves { WalkEnd::Left } else { WalkEnd::Blocked };
                 }
                 left[a] -= 1;
                 border[a] += f64::from(sign[a]);
                 next_t[a] = (border[a] - p[a]) * inverse[a];
 
                 // Five bits of the voxel's place in its block belong to the axis; all ones or zeros means the face is the block's.
-                let shift = BLOCK_LEVEL as usize * a;
-                let (one, local) = (1 << shift, (BLOCK - 1) << shift);
-                let up = sign[a] > 0;
-                if offset & local != if up { local } else { 0 } {
-                    offset = if up { offset + one } else { offset - one };
+                let local = LOCAL[a];
+                if offset & local != last[a] {
+                    offset = offset.wrapping_add(step[a]);
                     continue;
                 }
                 offset ^= local;
-                let stride = [1, self.size[0], self.size[0] * self.size[1]][a];
-                index = if up { index + stride } else { index - stride };
+                index = index.wrapping_add(stride[a]);
                 codes = leaps.block(index);
             }
         }
@@ -124,6 +122,9 @@ impl VoxelGrid {
         })
     }
 }
+
+/// The bits of a voxel's place in its block that belong to an axis.
+const LOCAL: [usize; 3] = [BLOCK - 1, (BLOCK - 1) << BLOCK_LEVEL, (BLOCK - 1) << (2 * BLOCK_LEVEL)];
 
 /// A leap ends this much before the last voxel that is known to be free, in voxels.
 const LANDING: f64 = 1e-3;
