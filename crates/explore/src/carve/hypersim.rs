@@ -2,18 +2,18 @@
 
 use super::CarveConfig;
 use crate::ExploreError;
+use crate::armadillo::Armadillo;
 use crate::grid::VoxelGrid;
 use enfilade_geometry::{Bvh, Voxel};
 use enfilade_math::{DVec3, Ray};
 use enfilade_scene::WorldMesh;
-use rand_mt::Mt64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Rays whose distances are pooled, the ray itself among them.
 const NEIGHBOURS: usize = 50;
 
-/// Random points tried before giving up; one free voxel in a cube of 300³ is missed by all of them once in 10¹⁶ times.
+/// Random points tried before giving up; one free voxel in a cube of 300³ is missed by all of them once in 10¹⁷ times.
 const MAX_TRIES: u64 = 1 << 30;
 
 /// The cube with the voxels of its surface samples occupied. OctoMap is given the voxel's edge in single precision.
@@ -36,11 +36,9 @@ pub(super) fn free_box(grid: &VoxelGrid) -> Option<(DVec3, DVec3)> {
 }
 
 /// A point in a free voxel, by rejection from [`free_box`].
-pub(super) fn random_free(grid: &VoxelGrid, rng: &mut Mt64) -> Option<DVec3> {
+pub(super) fn random_free(grid: &VoxelGrid, rng: &mut Armadillo) -> Option<DVec3> {
     let (min, max) = free_box(grid)?;
-    // libstdc++'s uniform numbers on [0, 1), and Armadillo's order of drawing.
-    let mut uniform = || (rng.next_u64() as f64 / 18_446_744_073_709_551_616.0).min(1.0 - f64::EPSILON / 2.0);
-    let mut draw = || min + DVec3::new(uniform(), uniform(), uniform()) * (max - min);
+    let mut draw = || min + DVec3::new(rng.uniform(), rng.uniform(), rng.uniform()) * (max - min);
     (0..MAX_TRIES).map(|_| draw()).find(|p| grid.state(*p) == Voxel::Free)
 }
 

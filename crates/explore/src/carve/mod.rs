@@ -9,6 +9,7 @@ mod start;
 #[cfg(test)]
 mod tests;
 
+use crate::armadillo::Armadillo;
 use crate::error::require;
 use crate::grid::{Leaps, VoxelGrid};
 use crate::{CarveReport, ExploreError, FreeSpace, Preset, StartReport};
@@ -139,7 +140,7 @@ struct Carving<'a> {
 /// Where the random positions come from.
 enum Random {
     Default(Rng),
-    Hypersim(Box<rand_mt::Mt64>),
+    Hypersim(Box<Armadillo>),
 }
 
 impl<'a> Carving<'a> {
@@ -152,7 +153,7 @@ impl<'a> Carving<'a> {
                 grid.occupy(&world.corners);
                 (grid, Random::Default(Rng::new(config.seed)))
             }
-            Preset::Hypersim => (hypersim::grid(world, min, max, config)?, Random::Hypersim(Box::new(rand_mt::Mt64::new(config.seed)))),
+            Preset::Hypersim => (hypersim::grid(world, min, max, config)?, Random::Hypersim(Box::new(Armadillo::new(config.seed)))),
         };
         grid.check_memory()?;
         let enclosure = Enclosure::new(bvh, config.extent_m);

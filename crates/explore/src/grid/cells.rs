@@ -43,13 +43,15 @@ impl VoxelGrid {
         let Some(block) = self.block(index) else { return };
         for i in 0..EDGE * EDGE {
             let bits = ((voxels >> (EDGE * i)) & 0xf) as u32;
-            block.free[offset / BLOCK + i % EDGE + i / EDGE * BLOCK].fetch_and(!(bits << (offset % BLOCK)), Relaxed);
+            let bits = bits << (offset % BLOCK);
+            let before = block.free[offset / BLOCK + i % EDGE + i / EDGE * BLOCK].fetch_and(!bits, Relaxed);
+            block.free_count.fetch_sub((before & bits).count_ones(), Relaxed);
         }
     }
 
     /// All cubes with a free voxel, block by block.
     pub(crate) fn cubes(&self) -> impl Iterator<Item = Cube> + '_ {
-        let seen = (0..self.blocks.len()).filter(|index| self.block(*index).is_some_and(|block| block.free_count() > 0));
+        let seen = (0..self.blocks.len()).filter(|index| self.block(*index).is_some_and(|block| block.free_count.load(Relaxed) > 0));
         let places =
             |index| (0..PER_BLOCK.pow(3)).map(move |i| (index, [i % PER_BLOCK, i / PER_BLOCK % PER_BLOCK, i / PER_BLOCK / PER_BLOCK]));
         let cubes = seen.flat_map(places).map(|(index, place)| self.cell(index, place.map(|p| p * EDGE)).map(|c| c / EDGE as i32));

@@ -4,23 +4,13 @@ use super::{BLOCK, Block, VoxelGrid};
 use enfilade_geometry::VoxelKey;
 use enfilade_math::{DVec3, Rng};
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
-
-fn ones(rows: &[AtomicU32]) -> u32 {
-    rows.iter().map(|row| row.load(Relaxed).count_ones()).sum()
-}
-
-impl Block {
-    pub(super) fn free_count(&self) -> u32 {
-        ones(&self.free)
-    }
-}
+use std::sync::atomic::Ordering::Relaxed;
 
 impl VoxelGrid {
     /// Number of free and of occupied voxels.
     pub(crate) fn counts(&self) -> (u64, u64) {
-        let count = |block: &Block| (u64::from(ones(&block.free)), u64::from(ones(&block.occupied)));
-        let counts = self.blocks.par_iter().filter_map(|block| block.get().map(|block| count(block)));
+        let occupied = |block: &Block| block.occupied.iter().map(|row| u64::from(row.load(Relaxed).count_ones())).sum::<u64>();
+        let counts = self.blocks.par_iter().filter_map(|block| block.get()).map(|b| (b.free_count.load(Relaxed).into(), occupied(b)));
         counts.reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1))
     }
 
@@ -31,7 +21,7 @@ impl VoxelGrid {
 
     /// A point uniform in the free voxels; `None` when there are none.
     pub(crate) fn random_free(&self, rng: &mut Rng) -> Option<DVec3> {
-        let counts: Vec<u64> = self.blocks.iter().map(|block| block.get().map_or(0, |b| u64::from(b.free_count()))).collect();
+        let counts: Vec<u64> = self.blocks.iter().map(|block| block.get().map_or(0, |b| b.free_count.load(Relaxed).into())).collect();
         let free: u64 = counts.iter().sum();
         if free == 0 {
             return None;

@@ -36,7 +36,8 @@ pub(crate) struct Leaps {
 impl Leaps {
     /// Brings the field up to date where anything was freed.
     pub(crate) fn refresh(&mut self, grid: &VoxelGrid) {
-        let free: Vec<u32> = grid.blocks.par_iter().with_min_len(64).map(|block| block.get().map_or(0, |b| b.free_count())).collect();
+        let free: Vec<u32> =
+            grid.blocks.par_iter().with_min_len(64).map(|block| block.get().map_or(0, |b| b.free_count.load(Relaxed))).collect();
         self.codes.resize_with(grid.blocks.len(), || None);
         self.free.resize(grid.blocks.len(), 0);
         let changed = |index: usize| grid.around(index).into_iter().flatten().any(|other| free[other] != self.free[other]);

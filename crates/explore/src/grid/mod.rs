@@ -55,12 +55,13 @@ pub(crate) struct VoxelGrid {
 struct Block {
     occupied: [AtomicU32; ROWS],
     free: [AtomicU32; ROWS],
+    free_count: AtomicU32,
 }
 
 impl Block {
     fn new() -> Box<Self> {
         let unset = || std::array::from_fn(|_| AtomicU32::new(0));
-        Box::new(Self { occupied: unset(), free: unset() })
+        Box::new(Self { occupied: unset(), free: unset(), free_count: AtomicU32::new(0) })
     }
 }
 

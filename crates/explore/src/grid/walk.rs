@@ -117,7 +117,9 @@ impl VoxelGrid {
             return false;
         }
         self.block_or_new(index).is_some_and(|block| {
-            block.free[row].fetch_or(bit, Relaxed);
+            if block.free[row].fetch_or(bit, Relaxed) & bit == 0 {
+                block.free_count.fetch_add(1, Relaxed);
+            }
             true
         })
     }
