@@ -25,7 +25,9 @@ mod view;
 pub use carve::{CarveConfig, carve};
 pub use error::ExploreError;
 pub use find_starts::{StartsConfig, find_starts};
-pub use plan::{PlanConfig, plan};
+pub use plan::{
+    CoverageReport, Fault, FrameValues, PartCoverage, PlanConfig, PlanReport, PlanStatistics, RejectedCounts, RelaxedFrame, Spread, plan,
+};
 pub use saliency::Saliency;
 pub use space::{CarveReport, FreeSpace, StartReport};
 pub use view::{ViewStats, view_stats};

@@ -1,6 +1,8 @@
 //! Trajectories: random walks through the free space, drawn to what is worth seeing.
 
+mod coverage;
 mod first;
+mod report;
 mod rules;
 
 use crate::error::require;
@@ -12,6 +14,9 @@ use enfilade_scene::{Cx, Intrinsics, Pose, StartCamera, Trajectory, Warning, Wor
 use rayon::prelude::*;
 use rules::{Rules, posed};
 use serde::{Deserialize, Serialize};
+
+pub use coverage::{CoverageReport, PartCoverage};
+pub use report::{Fault, FrameValues, PlanReport, PlanStatistics, RejectedCounts, RelaxedFrame, Spread};
 
 /// What one step tries, one after the other, until a pose is found: factor on the number of samples, factor on the step.
 const ATTEMPTS: [(u32, f64); 5] = [(1, 1.0), (4, 1.0), (4, 0.5), (4, 0.25), (4, 0.1)];
