@@ -1,7 +1,7 @@
 //! Every path of the tree, in one place. Nothing here touches the disk.
 //!
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, and in each camera's `_detail` folder
-//! `cameras_opencv.json`, `frames/` with the commit records and, for cameras that are more than a pinhole, `camera.json` and its
+//! `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records and, for cameras that are more than a pinhole, `camera.json` and its
 //! arrays.
 
 use crate::DatasetError;
@@ -118,6 +118,12 @@ impl Layout {
     /// K and 4×4 poses in OpenCV's axes.
     pub fn cameras_opencv(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("cameras_opencv.json")
+    }
+
+    /// How the trajectory came out: values per frame, what was rejected, coverage. Only where it was planned here; of a stereo rig at the
+    /// left camera.
+    pub fn plan_report(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("plan_report.json")
     }
 
     /// The camera in full, where it is more than a pinhole in focus and at rest, or one of a stereo rig.

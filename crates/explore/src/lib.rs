@@ -26,7 +26,8 @@ pub use carve::{CarveConfig, carve};
 pub use error::ExploreError;
 pub use find_starts::{StartsConfig, find_starts};
 pub use plan::{
-    CoverageReport, Fault, FrameValues, PartCoverage, PlanConfig, PlanReport, PlanStatistics, RejectedCounts, RelaxedFrame, Spread, plan,
+    CoverageConfig, CoverageReport, Fault, FrameValues, Keyframe, KeyframesConfig, Mode, PartCoverage, PlanConfig, PlanReport,
+    PlanStatistics, Planned, RejectedCounts, RelaxedFrame, Spread, StillsConfig, VideoConfig, follow, parse_keyframes, plan,
 };
 pub use saliency::Saliency;
 pub use space::{CarveReport, FreeSpace, StartReport};

@@ -47,7 +47,7 @@ pub struct FrameValues {
     pub open_share: Vec<f64>,
     /// Distance from the camera to the nearest surface, metres; none in an empty scene.
     pub clearance_m: Vec<Option<f64>>,
-    /// Height of the camera above the first surface below it, metres; none above nothing.
+    /// Height of the camera above the floor, metres, see `PlanConfig::camera_height_m`; none above nothing.
     pub height_m: Vec<Option<f64>>,
     /// Angle between the image's x axis and the horizon, degrees.
     pub roll_deg: Vec<f64>,
@@ -128,6 +128,45 @@ pub struct RelaxedFrame {
     pub fault: Fault,
 }
 
+/// One entry of each of [`FrameValues`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FrameRow {
+    pub frame: u32,
+    pub score: f64,
+    pub void_share: f64,
+    pub back_face_share: f64,
+    pub near_share: f64,
+    pub plane_share: f64,
+    pub open_share: f64,
+    pub clearance_m: Option<f64>,
+    pub height_m: Option<f64>,
+    pub roll_deg: f64,
+    pub pitch_deg: f64,
+    pub step_m: Option<f64>,
+    pub turn_deg: Option<f64>,
+    pub overlap: Option<f64>,
+}
+
+impl FrameValues {
+    /// Adds the values of the next frame.
+    pub(super) fn push(&mut self, row: FrameRow) {
+        self.frame.push(row.frame);
+        self.score.push(row.score);
+        self.void_share.push(row.void_share);
+        self.back_face_share.push(row.back_face_share);
+        self.near_share.push(row.near_share);
+        self.plane_share.push(row.plane_share);
+        self.open_share.push(row.open_share);
+        self.clearance_m.push(row.clearance_m);
+        self.height_m.push(row.height_m);
+        self.roll_deg.push(row.roll_deg);
+        self.pitch_deg.push(row.pitch_deg);
+        self.step_m.push(row.step_m);
+        self.turn_deg.push(row.turn_deg);
+        self.overlap.push(row.overlap);
+    }
+}
+
 impl Spread {
     /// Of `values`.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
@@ -161,7 +200,7 @@ impl PlanStatistics {
 
 impl RejectedCounts {
     /// One more with this fault. Faults of place, sight and tilt are not counted: such points are no candidates.
-    pub(crate) fn add(&mut self, fault: Fault) {
+    pub(super) fn add(&mut self, fault: Fault) {
         match fault {
             Fault::Overlap => self.overlap += 1,
             Fault::Void => self.void += 1,

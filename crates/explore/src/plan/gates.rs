@@ -1,0 +1,117 @@
+//! Which views are not worth taking: those from outside of a building, and those of next to nothing.
+
+use super::PlanConfig;
+use super::glance::{Glance, Glancer, SurfacePoint};
+use super::report::Fault;
+use crate::ViewStats;
+use enfilade_math::{DVec3, warp};
+use enfilade_scene::{Cx, Pose, StartCamera, Warning, WorldMesh};
+use rayon::prelude::*;
+
+/// The back of a part counts only when at most this share of the rays that meet it from around the start meets its back: others are
+/// thin things with two sides, or were modelled inside out.
+const MOSTLY_FRONT: f64 = 0.25;
+
+/// Places around the start from which the parts' sides are looked at, rays from each, and how far away the places are at most.
+const PLACES: usize = 32;
+const RAYS: usize = 1024;
+const PLACE_DISTANCE_M: f64 = 4.0;
+
+/// The conditions of a view.
+pub(super) struct Gates<'a> {
+    pub glancer: &'a Glancer<'a>,
+    config: &'a PlanConfig,
+    /// By part: seeing its back is a sign of standing on the wrong side of it.
+    has_front: Vec<bool>,
+    max_open_share: f64,
+}
+
+impl<'a> Gates<'a> {
+    /// The conditions for views around a start camera, which is taken to be on the right side of things.
+    pub fn new(glancer: &'a Glancer<'a>, config: &'a PlanConfig, world: &WorldMesh, start: &StartCamera, cx: &dyn Cx) -> Self {
+        let open = glancer.open_share(start.position);
+        if open > config.max_open_share {
+            let message = format!(
+                "stands in the open: {:.0} % of the level directions around it meet no surface, max_open_share allows {:.0} %; its trajectory \
+                 may stand as open as that",
+                100.0 * open,
+                100.0 * config.max_open_share
+            );
+            cx.warn(Warning { place: format!("camera {:?}", start.name), message });
+        }
+        let has_front = fronts(glancer, world, start.position);
+        Self { glancer, config, has_front, max_open_share: config.max_open_share.max(open) }
+    }
+
+    /// The worst fault of a view, if any. `before` is the pose before it.
+    pub fn fault(&self, pose: &Pose, before: Option<&Pose>) -> Option<Fault> {
+        if self.is_open(pose.position) {
+            return Some(Fault::Open);
+        }
+        let glance = self.glancer.look(pose);
+        if self.back_face_share(&glance) > self.config.max_back_face_share {
+            Some(Fault::BackFaces)
+        } else if self.near_share(&glance) > self.config.max_near_share {
+            Some(Fault::Near)
+        } else {
+            self.lacks_overlap(&glance, before).then_some(Fault::Overlap)
+        }
+    }
+
+    /// Stands in the open, as outside of a building.
+    pub fn is_open(&self, p: DVec3) -> bool {
+        self.glancer.open_share(p) > self.max_open_share
+    }
+
+    /// Shows too little.
+    pub fn is_void(&self, view: &ViewStats) -> bool {
+        view.void_share() > self.config.max_void_share
+    }
+
+    /// Every fault of a view, the worst last.
+    pub fn faults(&self, pose: &Pose, glance: &Glance, view: &ViewStats, before: Option<&Pose>) -> Vec<Fault> {
+        let found = [
+            (Fault::Overlap, self.lacks_overlap(glance, before)),
+            (Fault::Void, self.is_void(view)),
+            (Fault::Near, self.near_share(glance) > self.config.max_near_share),
+            (Fault::BackFaces, self.back_face_share(glance) > self.config.max_back_face_share),
+            (Fault::Open, self.is_open(pose.position)),
+        ];
+        found.into_iter().filter(|(_, found)| *found).map(|(fault, _)| fault).collect()
+    }
+
+    /// Share of the rays that end on the back of something whose front is what one sees from around the start.
+    pub fn back_face_share(&self, glance: &Glance) -> f64 {
+        glance.share(|point| point.behind && self.has_front[point.part as usize])
+    }
+
+    /// Share of the rays that end nearer than `min_depth_m`.
+    pub fn near_share(&self, glance: &Glance) -> f64 {
+        glance.share(|point| point.distance_m < self.config.min_depth_m)
+    }
+
+    fn lacks_overlap(&self, glance: &Glance, before: Option<&Pose>) -> bool {
+        let (Some([min, max]), Some(before)) = (self.config.overlap, before) else { return false };
+        !self.glancer.overlap(glance, before).is_some_and(|share| (min..=max).contains(&share))
+    }
+}
+
+/// By part, whether the start and the places that it sees around it see (nearly) nothing but its front.
+fn fronts(glancer: &Glancer, world: &WorldMesh, start: DVec3) -> Vec<bool> {
+    let places = (0..PLACES).map(|k| {
+        let direction = warp::fibonacci_sphere(k, PLACES);
+        let free = glancer.meet(start, direction).map_or(PLACE_DISTANCE_M, |point| point.distance_m.min(PLACE_DISTANCE_M));
+        // Spread over the way to the surface, the surface itself left out.
+        start + direction * free * (0.1 + 0.8 * ((k * 5) % PLACES) as f64 / PLACES as f64)
+    });
+    let places: Vec<DVec3> = std::iter::once(start).chain(places).collect();
+    let met: Vec<SurfacePoint> =
+        places.par_iter().flat_map_iter(|p| (0..RAYS).filter_map(|k| glancer.meet(*p, warp::fibonacci_sphere(k, RAYS)))).collect();
+    let parts = world.sources.iter().map(|source| source.part as usize + 1).max().unwrap_or(0);
+    let (mut all, mut behind) = (vec![0u32; parts], vec![0u32; parts]);
+    for point in met {
+        all[point.part as usize] += 1;
+        behind[point.part as usize] += u32::from(point.behind);
+    }
+    all.iter().zip(&behind).map(|(all, behind)| *all > 0 && f64::from(*behind) <= MOSTLY_FRONT * f64::from(*all)).collect()
+}
