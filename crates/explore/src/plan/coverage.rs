@@ -7,8 +7,8 @@
 use super::patches::{Patch, patches};
 use super::places::Places;
 use super::stills::{candidates, reachable};
-use super::{CoverageConfig, Draft, Planner};
-use crate::ExploreError;
+use super::{CoverageConfig, Draft, Fault, Planner};
+use crate::{ExploreError, ViewStats};
 use enfilade_math::{DVec3, Rng};
 use enfilade_scene::{PartId, Pose};
 use rayon::prelude::*;
@@ -63,20 +63,27 @@ pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng
     poses.extend(aimed);
 
     let mut tally = Tally::new(&patches, config);
-    let mut queue: BinaryHeap<Gain> = (1..poses.len()).map(|i| Gain { area_m2: tally.gain(&poses[i], &seen[i]), pose: i }).collect();
-    let mut take = |pose: &Pose, seen: &[u32], tally: &mut Tally| {
-        tally.add(pose, seen);
-        draft.poses.push(Pose { frame: draft.poses.len() as u32, ..*pose });
+    let take = |i: usize, view: ViewStats, tally: &mut Tally, draft: &mut Draft| {
+        tally.add(&poses[i], &seen[i]);
+        draft.poses.push(Pose { frame: draft.poses.len() as u32, ..poses[i] });
+        draft.views.push(view);
         planner.progress(draft.poses.len(), frames);
-        draft.poses.len() < frames
     };
-    let mut more = take(&poses[0], &seen[0], &mut tally);
-    while let Some(top) = queue.pop().filter(|top| more && top.area_m2 > 0.0) {
+    let look = |i: usize| planner.views(&poses[i..=i])[0];
+    take(0, look(0), &mut tally, &mut draft);
+    let mut queue: BinaryHeap<Gain> = (1..poses.len()).map(|i| Gain { area_m2: tally.gain(&poses[i], &seen[i]), pose: i }).collect();
+    while let Some(top) = queue.pop().filter(|top| draft.poses.len() < frames && top.area_m2 > 0.0) {
         let gain = Gain { area_m2: tally.gain(&poses[top.pose], &seen[top.pose]), pose: top.pose };
-        if queue.peek().is_none_or(|next| gain >= *next) {
-            more = gain.area_m2 > 0.0 && take(&poses[top.pose], &seen[top.pose], &mut tally);
-        } else {
+        if queue.peek().is_some_and(|next| gain < *next) {
             queue.push(gain);
+            continue;
+        }
+        // The best one, now that its gain is up to date; a closer look may find too little in it after all.
+        let view = look(top.pose);
+        match planner.gates.is_void(&view) {
+            true => draft.rejected.add(Fault::Void),
+            false if gain.area_m2 > 0.0 => take(top.pose, view, &mut tally, &mut draft),
+            false => break,
         }
     }
     planner.progress(frames, frames);
@@ -118,11 +125,9 @@ fn drawn(planner: &Planner, places: &Places, n: usize, draft: &mut Draft, rng: &
     without_faults(planner, poses, draft)
 }
 
-/// Those of `poses` that have no fault.
+/// Those of `poses` that have no fault by a coarse look.
 fn without_faults(planner: &Planner, poses: Vec<Pose>, draft: &mut Draft) -> Vec<Pose> {
-    let views = planner.views(&poses);
-    let fault = |(pose, view)| planner.gates.fault(pose, None).max(planner.gates.is_void(view).then_some(super::Fault::Void));
-    let faults: Vec<_> = poses.par_iter().zip(&views).map(fault).collect();
+    let faults: Vec<_> = poses.par_iter().map(|pose| planner.gates.coarse_fault(pose)).collect();
     faults.iter().flatten().for_each(|fault| draft.rejected.add(*fault));
     poses.into_iter().zip(faults).filter(|(_, fault)| fault.is_none()).map(|(pose, _)| pose).collect()
 }
@@ -160,7 +165,7 @@ fn aimed(
 }
 
 /// For each pose the patches that it sees, ascending.
-fn seen_by_each(planner: &Planner, patches: &[Patch], poses: &[Pose], config: &CoverageConfig) -> Vec<Vec<u32>> {
+pub(super) fn seen_by_each(planner: &Planner, patches: &[Patch], poses: &[Pose], config: &CoverageConfig) -> Vec<Vec<u32>> {
     let glancer = planner.gates.glancer;
     let sees = |pose: &Pose, patch: &Patch| {
         is_near(patch, pose.position, config) && glancer.frames(pose, patch.p_world) && glancer.reaches(pose.position, patch.p_world)
@@ -176,7 +181,7 @@ fn is_near(patch: &Patch, position: DVec3, config: &CoverageConfig) -> bool {
 }
 
 /// From which directions each patch was seen so far.
-struct Tally<'a> {
+pub(super) struct Tally<'a> {
     patches: &'a [Patch],
     views: usize,
     /// Cosine of the least angle between two views that count.
@@ -185,7 +190,7 @@ struct Tally<'a> {
 }
 
 impl<'a> Tally<'a> {
-    fn new(patches: &'a [Patch], config: &CoverageConfig) -> Self {
+    pub fn new(patches: &'a [Patch], config: &CoverageConfig) -> Self {
         let cos_apart = config.min_angle_deg.to_radians().cos();
         Self { patches, views: config.views as usize, cos_apart, directions: vec![Vec::new(); patches.len()] }
     }
@@ -200,15 +205,21 @@ impl<'a> Tally<'a> {
     }
 
     /// The area that a view would add, square metres, counted once for each time that it is wanted.
-    fn gain(&self, pose: &Pose, seen: &[u32]) -> f64 {
+    pub fn gain(&self, pose: &Pose, seen: &[u32]) -> f64 {
         seen.iter().filter(|patch| self.new_direction(pose, **patch).is_some()).map(|patch| self.patches[*patch as usize].area_m2).sum()
     }
 
-    fn add(&mut self, pose: &Pose, seen: &[u32]) {
+    pub fn add(&mut self, pose: &Pose, seen: &[u32]) {
         for patch in seen {
             let direction = self.new_direction(pose, *patch);
             self.directions[*patch as usize].extend(direction);
         }
+    }
+
+    /// How often each patch was seen, up to as often as it is wanted.
+    #[cfg(test)]
+    pub fn times(&self) -> impl Iterator<Item = usize> {
+        self.directions.iter().map(Vec::len)
     }
 
     fn report(&self, reachable: &[bool]) -> CoverageReport {

@@ -58,6 +58,13 @@ impl<'a> Gates<'a> {
         }
     }
 
+    /// As [`Gates::fault`] for a first choice among many: what no surface shows counts by the coarse look.
+    pub fn coarse_fault(&self, pose: &Pose) -> Option<Fault> {
+        let glance = self.glancer.look(pose);
+        let void = 1.0 - glance.points.len() as f64 / glance.rays as f64;
+        self.fault(pose, None).max((void > self.config.max_void_share).then_some(Fault::Void))
+    }
+
     /// Stands in the open, as outside of a building.
     pub fn is_open(&self, p: DVec3) -> bool {
         self.glancer.open_share(p) > self.max_open_share

@@ -2,7 +2,7 @@
 
 use super::places::Places;
 use super::rules::Rules;
-use super::{Draft, Planner, StillsConfig};
+use super::{Draft, Fault, Planner, StillsConfig};
 use crate::ExploreError;
 use enfilade_math::{DVec3, Rng};
 use enfilade_scene::Pose;
@@ -31,6 +31,10 @@ pub(super) fn stills(planner: &Planner, first: Pose, stills: &StillsConfig, rng:
         let position = jittered(planner.rules, places.points[place], &mut rng);
         let near: Vec<Pose> = draft.poses.iter().filter(|pose| pose.position.distance(position) < stills.min_distance_m).copied().collect();
         if !near.is_empty() && stills.min_angle_deg == 0.0 {
+            continue;
+        }
+        if planner.gates.is_open(position) {
+            draft.rejected.add(Fault::Open);
             continue;
         }
         let frame = draft.poses.len() as u32;

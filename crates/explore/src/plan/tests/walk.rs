@@ -1,50 +1,5 @@
 use super::*;
-use crate::testroom::{Room, furnished_room};
-use crate::{CarveConfig, Saliency, carve};
-use enfilade_math::{DMat3, DVec3};
-use enfilade_scene::{Quiet, Warning};
-use std::sync::Mutex;
-
-/// Keeps the warnings.
-#[derive(Default)]
-struct Listener(Mutex<Vec<String>>);
-
-impl Cx for Listener {
-    fn progress(&self, _what: &str, _done: u64, _total: u64) {}
-    fn warn(&self, warning: Warning) {
-        self.0.lock().unwrap().push(warning.to_string());
-    }
-}
-
-fn camera(position: DVec3, look_at: DVec3, up: DVec3) -> StartCamera {
-    let pose = Pose::look_at(0, position, look_at, up).unwrap();
-    StartCamera { name: "start".into(), position, world_from_camera: pose.world_from_camera, fov_x_rad: 1.0, aspect: 4.0 / 3.0 }
-}
-
-/// The trajectory alone.
-fn trajectory(
-    room: &Room,
-    space: &FreeSpace,
-    start: &StartCamera,
-    index: u32,
-    config: &PlanConfig,
-    cx: &dyn Cx,
-) -> Result<Trajectory, ExploreError> {
-    plan(&room.world, &room.bvh, space, start, index, config, cx).map(|planned| planned.trajectory)
-}
-
-fn start() -> StartCamera {
-    camera(DVec3::new(3.0, 2.5, 1.5), DVec3::new(3.0, 4.0, 1.2), DVec3::Z)
-}
-
-fn carved(room: &Room) -> FreeSpace {
-    let config = CarveConfig { rays: 40_000, ..CarveConfig::default() };
-    carve(&room.world, &room.bvh, &[start().position], &config, &Quiet).unwrap()
-}
-
-fn quick() -> PlanConfig {
-    PlanConfig { frames: 30, queries: 300, test_width: 48, test_height: 36, ..PlanConfig::default() }
-}
+use crate::Saliency;
 
 #[test]
 fn the_second_camera_of_a_rig_keeps_the_rules_too() {
