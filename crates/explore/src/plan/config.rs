@@ -47,8 +47,9 @@ pub struct PlanConfig {
     pub min_depth_m: f64,
     /// Views that show something too near in more than this share of the pixels are taken only when nothing better is found.
     pub max_near_share: f64,
-    /// So are views from positions around which more than this share of the level directions meets no surface: outside of a
-    /// building at least half of them do. Where the start camera itself stands more open, that counts instead.
+    /// So are views from positions around which more than this share of the level or of the upward directions meets no surface, or only
+    /// the back of one: outside of a building at least half of the level ones do, and in one with a ceiling few of the upward ones.
+    /// Where the start camera itself stands more open, that counts instead.
     pub max_open_share: f64,
     /// Horizontal field of view of the test images, radians.
     pub fov_x_rad: f64,

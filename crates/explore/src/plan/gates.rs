@@ -7,6 +7,7 @@ use crate::ViewStats;
 use enfilade_math::{DVec3, warp};
 use enfilade_scene::{Cx, Pose, StartCamera, Warning, WorldMesh};
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 
 /// The back of a part counts only when at most this share of the rays that meet it from around the start meets its back: others are
 /// thin things with two sides, or were modelled inside out.
@@ -17,30 +18,41 @@ const PLACES: usize = 32;
 const RAYS: usize = 1024;
 const PLACE_DISTANCE_M: f64 = 4.0;
 
+/// Level directions around a camera.
+const LEVEL: usize = 72;
+
+/// Directions all around it, of which those with a greater sine above the horizon than this are upward.
+const UPWARD: usize = 128;
+const UPWARD_SINE: f64 = 0.4;
+
 /// The conditions of a view.
 pub(super) struct Gates<'a> {
     pub glancer: &'a Glancer<'a>,
     config: &'a PlanConfig,
     /// By part: seeing its back is a sign of standing on the wrong side of it.
     has_front: Vec<bool>,
-    max_open_share: f64,
+    /// Level and upward.
+    max_open_shares: [f64; 2],
 }
 
 impl<'a> Gates<'a> {
     /// The conditions for views around a start camera, which is taken to be on the right side of things.
     pub fn new(glancer: &'a Glancer<'a>, config: &'a PlanConfig, world: &WorldMesh, start: &StartCamera, cx: &dyn Cx) -> Self {
-        let open = glancer.open_share(start.position);
-        if open > config.max_open_share {
-            let message = format!(
-                "stands in the open: {:.0} % of the level directions around it meet no surface, max_open_share allows {:.0} %; its trajectory \
-                 may stand as open as that",
-                100.0 * open,
-                100.0 * config.max_open_share
-            );
-            cx.warn(Warning { place: format!("camera {:?}", start.name), message });
-        }
         let has_front = fronts(glancer, world, start.position);
-        Self { glancer, config, has_front, max_open_share: config.max_open_share.max(open) }
+        let mut gates = Self { glancer, config, has_front, max_open_shares: [config.max_open_share; 2] };
+        let open = gates.open_shares(start.position);
+        for (limit, (share, what)) in gates.max_open_shares.iter_mut().zip(open.into_iter().zip(["level", "upward"])) {
+            if share > *limit {
+                let (found, allowed) = (100.0 * share, 100.0 * *limit);
+                let message = format!(
+                    "stands in the open: {found:.0} % of the {what} directions around it meet no surface, max_open_share allows {allowed:.0} %; \
+                     its trajectory may stand as open as that"
+                );
+                cx.warn(Warning { place: format!("camera {:?}", start.name), message });
+                *limit = share;
+            }
+        }
+        gates
     }
 
     /// The worst fault of a view, if any. `before` is the pose before it.
@@ -67,7 +79,21 @@ impl<'a> Gates<'a> {
 
     /// Stands in the open, as outside of a building.
     pub fn is_open(&self, p: DVec3) -> bool {
-        self.glancer.open_share(p) > self.max_open_share
+        self.open_shares(p).iter().zip(self.max_open_shares).any(|(share, limit)| *share > limit)
+    }
+
+    /// Of the level and of the upward directions around a point, the share in which there is no surface, or only the back of one
+    /// whose front is what one sees from around the start.
+    pub fn open_shares(&self, p: DVec3) -> [f64; 2] {
+        let leads_out =
+            |direction: DVec3| self.glancer.meet(p, direction).is_none_or(|point| point.behind && self.has_front[point.part as usize]);
+        let level = |k: usize| {
+            let (sin, cos) = (TAU * (k as f64 + 0.5) / LEVEL as f64).sin_cos();
+            leads_out(DVec3::new(cos, sin, 0.0))
+        };
+        let upward = || (0..UPWARD).map(|k| warp::fibonacci_sphere(k, UPWARD)).filter(|d| d.z > UPWARD_SINE);
+        let level = (0..LEVEL).filter(|k| level(*k)).count() as f64 / LEVEL as f64;
+        [level, upward().filter(|d| leads_out(*d)).count() as f64 / upward().count() as f64]
     }
 
     /// Shows too little.

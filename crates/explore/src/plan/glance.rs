@@ -4,13 +4,9 @@
 use super::rules::Rules;
 use enfilade_math::{DVec3, Ray};
 use enfilade_scene::{Intrinsics, PartId, Pose, WorldMesh};
-use std::f64::consts::TAU;
 
 /// Rays along a row; rows follow from the shape of the test images.
 const COLUMNS: u32 = 32;
-
-/// Level directions around a camera.
-const AROUND: usize = 72;
 
 /// A surface point counts as seen when the ray to it is free up to this share of its length.
 const REACH: f64 = 0.998;
@@ -104,15 +100,6 @@ impl<'a> Glancer<'a> {
     pub fn overlap(&self, glance: &Glance, before: &Pose) -> Option<f64> {
         let seen = glance.points.iter().filter(|point| self.sees(before, point.p_world)).count();
         (!glance.points.is_empty()).then(|| seen as f64 / glance.points.len() as f64)
-    }
-
-    /// Share of the level directions around a point in which there is no surface.
-    pub fn open_share(&self, p: DVec3) -> f64 {
-        let direction = |k: usize| {
-            let (sin, cos) = (TAU * (k as f64 + 0.5) / AROUND as f64).sin_cos();
-            DVec3::new(cos, sin, 0.0)
-        };
-        (0..AROUND).filter(|k| self.rules.distance_m(p, direction(*k)).is_infinite()).count() as f64 / AROUND as f64
     }
 }
 

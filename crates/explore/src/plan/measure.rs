@@ -65,7 +65,7 @@ fn measure(planner: &Planner, surfaces: &Surfaces, pose: &Pose, view: &ViewStats
         back_face_share: gates.back_face_share(&glance),
         near_share: gates.near_share(&glance),
         plane_share: glance.plane_share(),
-        open_share: glancer.open_share(pose.position),
+        open_share: gates.open_shares(pose.position).into_iter().fold(0.0, f64::max),
         clearance_m: surfaces.distance_m(pose.position),
         height_m: planner.rules.height_m(pose.position),
         roll_deg: pose.roll_rad().to_degrees(),
@@ -141,7 +141,10 @@ fn describe(planner: &Planner, fault: Fault) -> String {
             percent(config.max_back_face_share)
         ),
         Fault::Open => {
-            format!("stand in the open, with no surface in more than {} of the level directions", percent(config.max_open_share))
+            format!(
+                "stand in the open, with no surface in more than {} of the level or of the upward directions",
+                percent(config.max_open_share)
+            )
         }
         Fault::Place => {
             let height = config.camera_height_m.map_or(String::new(), |[min, max]| format!(", {min} to {max} m above the floor"));

@@ -15,6 +15,7 @@ mod report;
 mod rules;
 mod spline;
 mod stills;
+mod timing;
 mod tour;
 mod video;
 mod walk;

@@ -43,7 +43,8 @@ pub struct FrameValues {
     pub near_share: Vec<f64>,
     /// Share of the pixels that the largest plane of a single part fills.
     pub plane_share: Vec<f64>,
-    /// Share of the level directions around the camera in which there is no surface.
+    /// Share of the level or of the upward directions around the camera, whichever is greater, in which there is no surface, or only the
+    /// back of one.
     pub open_share: Vec<f64>,
     /// Distance from the camera to the nearest surface, metres; none in an empty scene.
     pub clearance_m: Vec<Option<f64>>,

@@ -8,6 +8,7 @@ use super::headings::{HEADINGS, Headings, direction};
 use super::rules::{pitch_rad, posed, turned_rad};
 use super::spline::NearSpline;
 use super::stills::candidates;
+use super::timing::Schedule;
 use super::tour::{Tour, no_way, tour};
 use super::{Draft, Planner, VideoConfig};
 use crate::ExploreError;
@@ -24,9 +25,6 @@ const SUBSTEPS: usize = 16;
 
 /// Times that headings are chosen anew, without those that turned out to look at nothing.
 const REPAIRS: usize = 40;
-
-/// The bounds are aimed at with this factor, so that rounding and the finite steps of time do not break them.
-const AIM: f64 = 0.98;
 
 /// A smooth path of `frames` frames from near `first` on.
 pub(super) fn video(planner: &Planner, first: Pose, video: &VideoConfig, rng: &Rng) -> Result<Draft, ExploreError> {
@@ -177,60 +175,21 @@ impl Shot {
 
     /// Frames at even times, as early along the path as the bounds allow.
     fn film(&self, planner: &Planner, frames: usize, video: &VideoConfig) -> Result<Vec<Pose>, ExploreError> {
-        let schedule = self.schedule(video);
-        let end = schedule.len() - 1;
-        let mut step = 0;
-        let mut poses = Vec::with_capacity(frames);
-        for frame in 0..frames {
-            let time_s = frame as f64 / video.fps;
-            while step < end && schedule[step + 1] <= time_s {
-                step += 1;
-            }
-            let within = if step < end { (time_s - schedule[step]) / (schedule[step + 1] - schedule[step]) } else { 0.0 };
-            let u = (step as f64 + within) / SUBSTEPS as f64;
-            let pose = self.pose(frame as u32, u).filter(|pose| planner.rules.sees(pose.position, pose.look_at));
-            poses.push(pose.ok_or_else(|| no_way(planner, self.path.spline.at(u), format!("frame {frame} has no free view")))?);
-        }
+        let steps = self.path.spline.end() as usize * SUBSTEPS;
+        let node = |k: usize| {
+            let u = k as f64 / SUBSTEPS as f64;
+            self.pose(0, u).ok_or_else(|| no_way(planner, self.path.spline.at(u), "the view is nearly vertical; set pitch_limits_deg"))
+        };
+        let nodes: Vec<Pose> = (0..=steps).map(node).collect::<Result<_, _>>()?;
+        let schedule = Schedule::earliest(&nodes, video);
+        let film = |frame: u32| {
+            let u = schedule.at(f64::from(frame) / video.fps) / SUBSTEPS as f64;
+            let pose = self.pose(frame, u).filter(|_| self.sees(planner, u));
+            pose.ok_or_else(|| no_way(planner, self.path.spline.at(u), format!("frame {frame} has no free view")))
+        };
+        let poses: Vec<Pose> = (0..frames as u32).map(film).collect::<Result<_, _>>()?;
         check(planner, &poses, video)?;
         Ok(poses)
-    }
-
-    /// The earliest time at which each substep can begin, seconds.
-    fn schedule(&self, video: &VideoConfig) -> Vec<f64> {
-        let steps = self.path.spline.end() as usize * SUBSTEPS;
-        let at = |k: usize| self.pose(0, k as f64 / SUBSTEPS as f64);
-        let poses: Vec<Option<Pose>> = (0..=steps).into_par_iter().map(at).collect();
-        let pairs = || poses.windows(2).map(|pair| pair[0].zip(pair[1]));
-        let lengths: Vec<f64> = pairs().map(|pair| pair.map_or(0.0, |(a, b)| a.position.distance(b.position))).collect();
-        let turns: Vec<f64> = pairs().map(|pair| pair.map_or(0.0, |(a, b)| turned_rad(&a, &b))).collect();
-        let headings: Vec<DVec3> = pairs().map(|pair| pair.map_or(DVec3::ZERO, |(a, b)| b.position - a.position)).collect();
-
-        let (speed, turn, push) = (AIM * video.max_speed_m_s, AIM * video.max_turn_deg_s.to_radians(), AIM * video.max_acceleration_m_s2);
-        let mut speeds: Vec<f64> = (0..steps)
-            .map(|k| {
-                let bend = if k == 0 { 0.0 } else { headings[k - 1].angle_between(headings[k]) };
-                // Of a circle with this bend: a = v² / r, and r = length / bend.
-                let sideways = if bend > 0.0 { (push * lengths[k] / bend).sqrt() } else { f64::INFINITY };
-                let turning = if turns[k] > 0.0 { turn * lengths[k] / turns[k] } else { f64::INFINITY };
-                speed.min(sideways).min(turning)
-            })
-            .collect();
-        let mut last = 0.0;
-        for k in 0..steps {
-            last = speeds[k].min((last * last + 2.0 * push * lengths[k]).sqrt());
-            speeds[k] = last;
-        }
-        for k in (1..steps).rev() {
-            speeds[k - 1] = speeds[k - 1].min((speeds[k] * speeds[k] + 2.0 * push * lengths[k]).sqrt());
-        }
-        let mut time_s = 0.0;
-        let mut schedule = vec![0.0];
-        for k in 0..steps {
-            let moving = if speeds[k] > 0.0 { lengths[k] / speeds[k] } else { 0.0 };
-            time_s += moving.max(turns[k] / turn);
-            schedule.push(time_s);
-        }
-        schedule
     }
 }
 
