@@ -48,10 +48,11 @@ impl Headings {
     }
 
     /// Heading, pitch and roll at every control point, headings counted on beyond a full turn; `None` when there is no sequence of
-    /// allowed headings. From one control point to the next it turns by `stride` headings at most, or by as few more as it takes.
-    pub fn smoothest(&self, stride: usize) -> Option<Vec<DVec3>> {
-        let strides = std::iter::successors(Some(stride), |stride| (*stride < HEADINGS / 2).then(|| (2 * stride).min(HEADINGS / 2)));
-        let chosen = strides.into_iter().find_map(|stride| self.sequence(stride))?;
+    /// allowed headings. From each control point to the next it turns by as many headings as `strides` says at most, or by twice as
+    /// many, or four times, where it must.
+    pub fn smoothest(&self, strides: &[usize]) -> Option<Vec<DVec3>> {
+        let factors = [1, 2, 4, 8, 16, HEADINGS];
+        let chosen = factors.into_iter().find_map(|factor| self.sequence(|j| (factor * strides[j]).min(HEADINGS / 2)))?;
         let mut angles = Vec::with_capacity(chosen.len());
         let mut turned = 0i64;
         for (j, &y) in chosen.iter().enumerate() {
@@ -65,16 +66,16 @@ impl Headings {
         Some(angles)
     }
 
-    /// The cheapest sequence of allowed headings (Viterbi 1967).
-    fn sequence(&self, stride: usize) -> Option<Vec<usize>> {
+    /// The cheapest sequence of allowed headings (Viterbi 1967) that turns by `stride(j)` of them at most after control point j.
+    fn sequence(&self, stride: impl Fn(usize) -> usize) -> Option<Vec<usize>> {
         let stray = |j: usize, y: usize| {
             let off = (self.wanted[j].x - angle(y) + PI).rem_euclid(TAU) - PI;
             if self.allowed[j][y] { (off * HEADINGS as f64 / TAU).powi(2) } else { f64::INFINITY }
         };
         let mut cost: Vec<f64> = (0..HEADINGS).map(|y| stray(0, y)).collect();
         let mut came_from: Vec<[u8; HEADINGS]> = Vec::with_capacity(self.allowed.len());
-        let stride = stride as i64;
         for j in 1..self.allowed.len() {
+            let stride = stride(j - 1) as i64;
             let mut row = [0u8; HEADINGS];
             let next = (0..HEADINGS).map(|y| {
                 let before = |turn: i64| (y as i64 - turn).rem_euclid(HEADINGS as i64) as usize;

@@ -13,6 +13,34 @@ pub(super) struct Tour {
     pub waypoints: Vec<usize>,
 }
 
+/// Points along straight ways, by length.
+pub(super) struct Polyline<'a> {
+    corners: &'a [DVec3],
+    /// How far along each corner is, metres.
+    pub reached_m: Vec<f64>,
+}
+
+impl<'a> Polyline<'a> {
+    pub fn new(corners: &'a [DVec3]) -> Self {
+        let mut reached_m = vec![0.0];
+        for pair in corners.windows(2) {
+            reached_m.push(reached_m[reached_m.len() - 1] + pair[0].distance(pair[1]));
+        }
+        Self { corners, reached_m }
+    }
+
+    pub fn length_m(&self) -> f64 {
+        self.reached_m[self.reached_m.len() - 1]
+    }
+
+    /// The point `m` metres along.
+    pub fn at(&self, m: f64) -> DVec3 {
+        let i = self.reached_m.partition_point(|reached| *reached <= m).clamp(1, self.corners.len() - 1) - 1;
+        let length = self.reached_m[i + 1] - self.reached_m[i];
+        self.corners[i].lerp(self.corners[i + 1], ((m - self.reached_m[i]) / length).clamp(0.0, 1.0))
+    }
+}
+
 /// A way of at least `length_m`. When every waypoint was visited it goes round again.
 pub(super) fn tour(planner: &Planner, start: DVec3, length_m: f64, video: &VideoConfig, rng: &mut Rng) -> Result<Tour, ExploreError> {
     let range = planner.config.height_range_m;

@@ -1,6 +1,6 @@
 //! Video: a smooth path at bounded speed.
 //!
-//! The position follows a spline near the corners of a [`tour`], refined until every point of it has room around it. The view turns
+//! The position follows a spline near a [`tour`], refined wherever a point of it has no room around it. The view turns
 //! between directions worth seeing, by headings that always have free space before them. The pose is then a smooth function of one parameter, and what remains is when to be where: as early as the bounds on speed, turning and
 //! acceleration allow. Slowing down changes no pose, so the bounds hold by construction; they are measured on the result all the same.
 
@@ -9,7 +9,7 @@ use super::rules::{pitch_rad, posed, turned_rad};
 use super::spline::NearSpline;
 use super::stills::candidates;
 use super::timing::Schedule;
-use super::tour::{Tour, no_way, tour};
+use super::tour::{Polyline, Tour, no_way, tour};
 use super::{Draft, Planner, VideoConfig};
 use crate::ExploreError;
 use enfilade_math::{DVec3, Rng};
@@ -17,8 +17,9 @@ use enfilade_scene::Pose;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// Distances of control points that are tried, metres, until the spline has room.
-const SPACINGS_M: [f64; 5] = [0.4, 0.2, 0.1, 0.05, 0.025];
+/// Control points are this far apart along the tour where there is room, metres, and no closer than the second where there is little.
+const WIDEST_SPACING_M: f64 = 0.4;
+const CLOSEST_SPACING_M: f64 = 0.02;
 
 /// Poses looked at between two control points.
 const SUBSTEPS: usize = 16;
@@ -36,7 +37,7 @@ pub(super) fn video(planner: &Planner, first: Pose, video: &VideoConfig, rng: &R
         planner.warn(format!("begins {moved:.2} m away from its start, where there is room to move"));
     }
     let mut draft = Draft::default();
-    let path = Path::along(planner, &tour, video)?;
+    let path = Path::along(planner, &tour)?;
     let wishes = wishes(planner, &first, &path, &mut draft, rng);
     let shot = Shot::new(planner, path, &wishes, video)?;
     draft.poses = shot.film(planner, frames, video)?;
@@ -47,53 +48,63 @@ pub(super) fn video(planner: &Planner, first: Pose, video: &VideoConfig, rng: &R
 /// Where the camera goes.
 struct Path {
     spline: NearSpline,
-    spacing_m: f64,
+    /// How far along the tour each control point is, metres.
+    reached_m: Vec<f64>,
     /// Parameters of the spline near the waypoints, ascending.
     waypoints: Vec<f64>,
 }
 
 impl Path {
-    /// The smoothest spline along the tour that has room everywhere.
-    fn along(planner: &Planner, tour: &Tour, video: &VideoConfig) -> Result<Self, ExploreError> {
-        let mut blocked = tour.corners[0];
-        for spacing_m in SPACINGS_M {
-            let path = Self::sampled(tour, spacing_m.min(0.5 * video.waypoint_distance_m));
-            match path.blocked(planner) {
-                None => return Ok(path),
-                Some(p) => blocked = p,
+    /// A smooth spline along the tour that has room everywhere: its control points lie as close as they must, and no closer.
+    fn along(planner: &Planner, tour: &Tour) -> Result<Self, ExploreError> {
+        let polyline = Polyline::new(&tour.corners);
+        let n = (polyline.length_m() / WIDEST_SPACING_M).ceil().max(1.0);
+        let mut reached_m: Vec<f64> = (0..=n as usize).map(|j| polyline.length_m() * j as f64 / n).collect();
+        loop {
+            let spline = NearSpline::new(reached_m.iter().map(|m| polyline.at(*m)).collect());
+            let blocked = blocked(planner, &spline);
+            let Some(&first) = blocked.first() else {
+                let parameter = |corner: &usize| {
+                    let m = polyline.reached_m[*corner];
+                    let j = reached_m.partition_point(|r| *r <= m).clamp(1, reached_m.len() - 1) - 1;
+                    (j as f64 + (m - reached_m[j]) / (reached_m[j + 1] - reached_m[j])).min(spline.end())
+                };
+                let waypoints = tour.waypoints.iter().map(parameter).collect();
+                return Ok(Self { spline, reached_m, waypoints });
+            };
+            let before = reached_m.len();
+            reached_m = refined(&reached_m, &blocked);
+            if reached_m.len() == before {
+                let problem = "no smooth path passes here; lower clearance_m or widen camera_height_m";
+                return Err(no_way(planner, spline.at(first as f64), problem));
             }
         }
-        Err(no_way(planner, blocked, "no smooth path passes here; lower clearance_m, or camera_height_m is too narrow"))
     }
+}
 
-    /// Control points evenly spaced along the tour.
-    fn sampled(tour: &Tour, spacing_m: f64) -> Self {
-        let (mut points, mut waypoints, mut walked) = (vec![tour.corners[0]], Vec::new(), 0.0);
-        let mut is_waypoint = tour.waypoints.iter().copied().peekable();
-        for (i, corner) in tour.corners.iter().enumerate() {
-            if i > 0 {
-                let (from, length) = (tour.corners[i - 1], corner.distance(tour.corners[i - 1]));
-                while points.len() as f64 * spacing_m <= walked + length {
-                    points.push(from.lerp(*corner, ((points.len() as f64 * spacing_m - walked) / length).clamp(0.0, 1.0)));
-                }
-                walked += length;
-            }
-            if is_waypoint.next_if_eq(&i).is_some() {
-                waypoints.push(walked / spacing_m);
-            }
+/// The stretches of a spline, each from one control point to the next, that do not have room everywhere.
+fn blocked(planner: &Planner, spline: &NearSpline) -> Vec<usize> {
+    let at = |k: usize| spline.at((k as f64 / SUBSTEPS as f64).min(spline.end()));
+    let is_blocked = |k: usize| !planner.rules.is_clear_way(at(k), at(k + 1)) || !planner.rules.is_at_height(at(k));
+    let has_blocked = |stretch: &usize| (stretch * SUBSTEPS..(stretch + 1) * SUBSTEPS).any(is_blocked);
+    (0..spline.end() as usize).into_par_iter().filter(has_blocked).collect()
+}
+
+/// Control points with another one halfway wherever that changes a blocked stretch, unless they are close already.
+fn refined(reached_m: &[f64], blocked: &[usize]) -> Vec<f64> {
+    let last = reached_m.len() - 2;
+    let mut split = vec![false; last + 1];
+    for &stretch in blocked {
+        split[stretch.saturating_sub(1)..=(stretch + 1).min(last)].fill(true);
+    }
+    let mut finer = vec![reached_m[0]];
+    for (gap, split) in reached_m.windows(2).zip(split) {
+        if split && gap[1] - gap[0] > CLOSEST_SPACING_M {
+            finer.push(0.5 * (gap[0] + gap[1]));
         }
-        let end = (points.len() - 1) as f64;
-        waypoints.iter_mut().for_each(|u| *u = u.min(end));
-        Self { spline: NearSpline::new(points), spacing_m, waypoints }
+        finer.push(gap[1]);
     }
-
-    /// A point of the spline without room.
-    fn blocked(&self, planner: &Planner) -> Option<DVec3> {
-        let steps = self.spline.end() as usize * SUBSTEPS;
-        let at = |k: usize| self.spline.at(k as f64 / SUBSTEPS as f64);
-        let is_blocked = |k: usize| !planner.rules.is_clear_way(at(k), at((k + 1).min(steps))) || !planner.rules.is_at_height(at(k));
-        (0..=steps).into_par_iter().find_first(|k| is_blocked(*k)).map(at)
-    }
+    finer
 }
 
 /// A view worth seeing, and where on the path.
@@ -137,11 +148,12 @@ impl Shot {
         let positions: Vec<DVec3> = (0..n).map(|j| path.spline.at(j as f64)).collect();
         let mut headings = Headings::new(planner, &positions, wanted, look_distance_m);
         let turn_per_m = (video.max_turn_deg_s / video.max_speed_m_s).to_radians();
-        let stride = (turn_per_m * path.spacing_m / (TAU / HEADINGS as f64)) as usize;
+        let stride = |gap: &[f64]| ((turn_per_m * (gap[1] - gap[0]) / (TAU / HEADINGS as f64)) as usize).clamp(1, HEADINGS / 4);
+        let strides: Vec<usize> = path.reached_m.windows(2).map(stride).collect();
         let mut shot = Self { path, angles: NearSpline::new(vec![DVec3::ZERO]), look_distance_m };
         let mut blind = None;
         for _ in 0..REPAIRS {
-            let Some(angles) = headings.smoothest(stride.clamp(1, HEADINGS / 4)) else { break };
+            let Some(angles) = headings.smoothest(&strides) else { break };
             shot.angles = NearSpline::new(angles);
             let steps = (n - 1) * SUBSTEPS;
             let us: Vec<f64> =

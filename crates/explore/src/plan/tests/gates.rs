@@ -64,6 +64,16 @@ fn no_trajectory_leaves_through_a_window_or_a_gap_thinner_than_a_voxel() {
 }
 
 #[test]
+fn without_the_gates_some_views_would_be_from_outside() {
+    let room = house_with_window(true);
+    let stills = Mode::Stills(StillsConfig::default());
+    let config =
+        PlanConfig { mode: stills, clearance_m: 0.1, max_open_share: 1.0, max_back_face_share: 1.0, max_void_share: 1.0, ..quick() };
+    let poses = trajectory(&room, &carved(&room), &start(), 0, &config, &Quiet).unwrap().poses;
+    assert!(poses.iter().any(|pose| pose.position.x > HOUSE_MAX.x + 0.5));
+}
+
+#[test]
 fn a_gap_thinner_than_a_voxel_lets_nothing_through() {
     let room = house_with_window(true);
     let space = carved(&room);
