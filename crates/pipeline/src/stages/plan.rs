@@ -61,7 +61,11 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     remove_other_cameras(job, &trajectories)?;
     for (trajectory, stereo) in &filmed {
         job.dataset.write_trajectory(name, trajectory, &camera, stereo.as_ref()).map_err(Error::stage)?;
+        if let Mode::Video(video) = &job.scene.plan.mode {
+            job.dataset.write_frame_time(name, &trajectory.name, 1.0 / video.fps).map_err(Error::stage)?;
+        }
     }
+    warn_of_frame_time(job, &camera, cx);
     job.dataset.write_camera_parameters(name, &camera).map_err(Error::stage)?;
     let layout = job.dataset.layout();
     let mut outputs = outputs_of(job, &trajectories);
@@ -73,6 +77,17 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     }
     let report = serde_json::to_value(&reports).unwrap_or_default();
     Ok(Outcome { summary: summary(&reports, fov_x_rad), outputs, report, ..Outcome::default() })
+}
+
+/// A shutter blurs by the time between frames, so it should be told that of the video.
+fn warn_of_frame_time(job: &Job, camera: &Camera, cx: &StageCx) {
+    let (Mode::Video(video), Some(shutter)) = (&job.scene.plan.mode, camera.shutter) else { return };
+    if (shutter.frame_time_s * video.fps - 1.0).abs() > 1e-3 {
+        let (found, fps, expected) = (shutter.frame_time_s, video.fps, 1.0 / video.fps);
+        let message =
+            format!("its shutter counts {found} s between frames, but the video has {fps} a second: set frame_time_s = {expected:.5}");
+        cx.warn(Warning { place: "[camera]".into(), message });
+    }
 }
 
 /// One line: how many poses, and what they come to.
