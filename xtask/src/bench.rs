@@ -15,12 +15,13 @@ struct Bench {
 }
 
 /// All measurements; each is an example of the crate `crates/<room>`.
-const BENCHES: [Bench; 4] = [
+const BENCHES: [Bench; 5] = [
     Bench {
         name: "rays",
         room: "import",
         about: "millions of rays per second of one thread, ours and Embree's, which it fetches: camera, bounced, shadow",
     },
+    Bench { name: "explore", room: "explore", about: "core-seconds of carving and walking, beside those recorded of Hypersim's programs" },
     Bench { name: "noise", room: "pipeline", about: "noise that a second of rendering leaves, in the demo's room" },
     Bench { name: "memory", room: "pipeline", about: "memory for a million triangles under eight textures of 4096x4096" },
     Bench { name: "denoise", room: "pipeline", about: "error with and without denoising, in the demo's room; fetches Open Image Denoise" },

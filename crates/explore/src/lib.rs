@@ -12,15 +12,15 @@
 //!
 //! All results are functions of the inputs and the seed, whatever the number of threads.
 
+mod armadillo;
 mod carve;
 mod error;
 mod find_starts;
 mod grid;
-mod overlap;
 mod plan;
+mod preset;
 mod saliency;
 mod space;
-mod start;
 mod view;
 
 pub use carve::{CarveConfig, carve};
@@ -30,6 +30,7 @@ pub use plan::{
     CoverageConfig, CoverageReport, Fault, FrameValues, Keyframe, KeyframesConfig, Mode, PartCoverage, PlanConfig, PlanReport,
     PlanStatistics, Planned, RejectedCounts, RelaxedFrame, Spread, StillsConfig, VideoConfig, follow, parse_keyframes, plan,
 };
+pub use preset::Preset;
 pub use saliency::Saliency;
 pub use space::{CarveReport, FreeSpace, StartReport};
 pub use view::{ViewStats, view_stats};

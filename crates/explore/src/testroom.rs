@@ -25,7 +25,7 @@ impl Room {
         let sources = (0..corners.len() as u32).map(|triangle| TriangleSource { part: 0, triangle }).collect();
         let bounds = Bounds3::from_points(corners.iter().flatten().copied());
         let bvh = Bvh::new(&corners, &|_| false);
-        Self { world: WorldMesh { corners, sources, bounds }, bvh }
+        Self { world: WorldMesh { corners, sources, bounds, contrasts: vec![0.0] }, bvh }
     }
 
     /// Each list of triangles is one part.
@@ -33,6 +33,7 @@ impl Room {
         let part = |(part, corners): (usize, &Vec<[Vec3; 3]>)| vec![part as u32; corners.len()];
         let of: Vec<u32> = parts.iter().enumerate().flat_map(part).collect();
         let mut room = Self::from_corners(parts.concat());
+        room.world.contrasts = vec![0.0; parts.len()];
         room.world.sources.iter_mut().zip(of).for_each(|(source, part)| source.part = part);
         room
     }

@@ -4,6 +4,6 @@ mod bvh;
 mod mesh;
 mod octree;
 
-pub use bvh::{Bvh, Hit};
+pub use bvh::{Bvh, Hit, NOTHING, PinholeRays, VisibilityBuffer};
 pub use mesh::{Mesh, MeshError};
 pub use octree::{BtError, Leaf, OccupancyTree, TREE_LEVELS, Voxel, VoxelKey};

@@ -5,6 +5,7 @@
 
 mod atmosphere;
 mod camera;
+mod contrast;
 mod cx;
 mod environment;
 mod labels;

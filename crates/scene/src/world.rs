@@ -1,4 +1,4 @@
-use crate::{PartId, Scene};
+use crate::{PartId, Scene, contrast};
 use enfilade_math::{Bounds3, Vec3};
 
 /// Which triangle of which part a world triangle is.
@@ -20,6 +20,8 @@ pub struct WorldMesh {
     pub sources: Vec<TriangleSource>,
     /// The smallest box around all of them.
     pub bounds: Bounds3,
+    /// RMS contrast of the colours of each part: the standard deviation of their luminance over its mean, 0 without a texture.
+    pub contrasts: Vec<f32>,
 }
 
 impl WorldMesh {
@@ -39,6 +41,6 @@ impl WorldMesh {
                 sources.push(TriangleSource { part: id as PartId, triangle: triangle as u32 });
             }
         }
-        Self { corners, sources, bounds }
+        Self { corners, sources, bounds, contrasts: contrast::of_parts(scene) }
     }
 }

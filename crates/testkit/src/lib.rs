@@ -6,9 +6,11 @@
 
 mod gamma;
 mod mean;
+mod npz;
 
 pub use gamma::chi_square_survival;
 pub use mean::Mean;
+pub use npz::Npz;
 
 use enfilade_math::{Rng, Vec3};
 use std::f64::consts::TAU;

@@ -1,11 +1,13 @@
 use crate::error::require;
-use crate::{ExploreError, Saliency};
+use crate::{ExploreError, Preset, Saliency};
 use serde::{Deserialize, Serialize};
 
 /// How a trajectory is found. The defaults are Hypersim's, as its paper states them, with a clearance and limits added.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PlanConfig {
+    /// Whose walk: this crate's, with all its rules, or that of Hypersim's program, which is a walk always.
+    pub preset: Preset,
     /// What kind of trajectory.
     #[serde(skip_serializing_if = "is_default")]
     pub mode: Mode,
@@ -212,6 +214,7 @@ fn is_any_pitch(v: &[f64; 2]) -> bool {
 impl Default for PlanConfig {
     fn default() -> Self {
         Self {
+            preset: Preset::Default,
             mode: Mode::Walk,
             frames: 100,
             candidates: 20,
@@ -259,6 +262,8 @@ impl PlanConfig {
         require(fov_ok, "fov_x_rad", self.fov_x_rad, "an angle between 0 and pi")?;
         self.validate_height_and_pitch()?;
         self.validate_gates()?;
+        let walks = self.preset == Preset::Default || self.mode == Mode::Walk;
+        require(walks, "preset", format!("hypersim with mode {}", self.mode.name()), "mode walk, the only one that it has")?;
         self.mode.validate()
     }
 

@@ -5,7 +5,7 @@ use super::patches::patches;
 use super::report::{Fault, FrameRow, FrameValues, PlanReport, PlanStatistics, RelaxedFrame};
 use super::rules::{pitch_rad, turned_rad};
 use super::{Draft, Planned, Planner};
-use crate::ViewStats;
+use crate::{Preset, ViewStats};
 use enfilade_scene::{Pose, Trajectory};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -37,7 +37,10 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
         bare_frames.extend(Some(row.frame).filter(|_| row.plane_share > BARE_SHARE));
         per_frame.push(row);
     }
-    warn_of_faults(planner, &relaxed, poses.len());
+    // Breaking these rules is what that preset is for.
+    if planner.config.preset == Preset::Default {
+        warn_of_faults(planner, &relaxed, poses.len());
+    }
     let (seen_area_share, seen_part_share) = seen(planner, &poses);
     let report = PlanReport {
         trajectory: planner.name.to_string(),

@@ -6,6 +6,7 @@ mod first;
 mod gates;
 mod glance;
 mod headings;
+mod hypersim;
 mod keyframes;
 mod measure;
 mod nearest;
@@ -20,8 +21,8 @@ mod tour;
 mod video;
 mod walk;
 
-use crate::view::{SeenSet, TestImage, ViewStats};
-use crate::{ExploreError, FreeSpace};
+use crate::view::{Sight, TestImage, ViewStats};
+use crate::{ExploreError, FreeSpace, Preset};
 use enfilade_geometry::Bvh;
 use enfilade_math::{Distribution1, Rng};
 use enfilade_scene::{Cx, Intrinsics, Pose, StartCamera, Trajectory, WorldMesh};
@@ -72,6 +73,13 @@ pub fn plan(
     let glancer = Glancer::new(&rules, world);
     let gates = Gates::new(&glancer, config, world, start, cx);
     let planner = Planner::new(&rules, &gates, world, &name, cx);
+    if config.preset == Preset::Hypersim {
+        let (poses, views) =
+            hypersim::walk(world, bvh, space, start, &name, config, &|frame| planner.progress(frame as usize, config.frames as usize))?
+                .into_iter()
+                .unzip();
+        return Ok(measure::finish(&planner, Draft { poses, views, ..Draft::default() }));
+    }
     let rng = Rng::new(config.seed).fork(u64::from(trajectory_index));
     let first = first::pose(&rules, start, &planner.image, cx)?;
     let draft = match &config.mode {
@@ -157,8 +165,11 @@ impl<'a> Planner<'a> {
 
     /// What each pose shows.
     fn views(&self, poses: &[Pose]) -> Vec<ViewStats> {
-        let seen = || SeenSet::new(self.world.corners.len());
-        poses.par_iter().map_init(seen, |seen, pose| self.image.look(self.rules.bvh, pose, seen)).collect()
+        let look = |sight: &mut Sight, pose: &Pose| {
+            sight.look(self.rules.bvh, &self.image, pose);
+            sight.judge(self.world, &self.config.saliency)
+        };
+        poses.par_iter().map_init(|| self.image.sight(self.world), look).collect()
     }
 
     /// What a view is worth.

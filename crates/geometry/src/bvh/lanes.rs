@@ -20,6 +20,12 @@ pub(super) trait Lanes: Copy {
     fn le(self, o: Self) -> u32;
     fn lt(self, o: Self) -> u32;
     fn ne(self, o: Self) -> u32;
+
+    /// The size of `self` with the sign of `o`.
+    fn copysign(self, o: Self) -> Self;
+
+    /// The lanes of `mask`'s lowest eight bits from `self`, bit by bit, the others from `other`.
+    fn select(self, mask: u32, other: Self) -> Self;
 }
 
 /// Eight values on one 32-byte boundary.
@@ -39,6 +45,15 @@ impl Sixteen<f32> {
         let first = self.0.as_ptr().cast::<Eight<f32>>();
         // SAFETY: sixteen values are twice eight, and both halves lie on 32-byte boundaries.
         unsafe { [&*first, &*first.add(1)] }
+    }
+
+    /// The other way round.
+    #[inline(always)]
+    pub fn of_halves([first, last]: [Eight<f32>; 2]) -> Self {
+        let mut all = Self([0.0; 16]);
+        all.0[..8].copy_from_slice(&first.0);
+        all.0[8..].copy_from_slice(&last.0);
+        all
     }
 }
 
@@ -123,6 +138,20 @@ impl Lanes for Portable {
     fn ne(self, o: Self) -> u32 {
         self.mask(o, |a, b| a != b)
     }
+    #[inline(always)]
+    fn copysign(self, o: Self) -> Self {
+        self.map2(o, f32::copysign)
+    }
+    #[inline(always)]
+    fn select(self, mask: u32, other: Self) -> Self {
+        let mut out = other;
+        for i in 0..8 {
+            if mask >> i & 1 != 0 {
+                out.0.0[i] = self.0.0[i];
+            }
+        }
+        out
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -202,6 +231,23 @@ mod avx2 {
         fn ne(self, o: Self) -> u32 {
             // SAFETY: see the type.
             unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_NEQ_UQ>(self.0, o.0)) as u32 }
+        }
+        #[inline(always)]
+        fn copysign(self, o: Self) -> Self {
+            // SAFETY: see the type.
+            unsafe {
+                let sign = _mm256_set1_ps(-0.0);
+                Self(_mm256_or_ps(_mm256_andnot_ps(sign, self.0), _mm256_and_ps(sign, o.0)))
+            }
+        }
+        #[inline(always)]
+        fn select(self, mask: u32, other: Self) -> Self {
+            // SAFETY: see the type.
+            unsafe {
+                let bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+                let chosen = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(mask as i32), bits), bits);
+                Self(_mm256_blendv_ps(other.0, self.0, _mm256_castsi256_ps(chosen)))
+            }
         }
     }
 }

@@ -13,6 +13,7 @@ mod pages;
 mod prepared;
 mod stack;
 mod triangle;
+mod visibility;
 mod walk;
 mod wide;
 
@@ -22,6 +23,8 @@ mod tests;
 use enfilade_math::{Bounds3, Ray, Vec3};
 use node::{Block, Node};
 use pages::Pages;
+
+pub use visibility::{NOTHING, PinholeRays, VisibilityBuffer};
 
 /// Where a ray meets a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -72,6 +72,18 @@ impl Stack {
         Some(last)
     }
 
+    /// The child to be visited next among those that are entered at no more than `limit`. For users of `insert` and `push_by_distance`.
+    #[inline(always)]
+    pub fn pop_up_to(&mut self, limit: f32) -> Option<u32> {
+        while let Some(child) = self.pop() {
+            // SAFETY: it was below `len` just now, where everything has been written.
+            if unsafe { self.enter_at.get_unchecked(self.len).assume_init() } <= limit {
+                return Some(child);
+            }
+        }
+        None
+    }
+
     /// Drops what the ray enters beyond `limit`.
     #[inline(always)]
     pub fn retain_up_to(&mut self, limit: f32) {

@@ -2,7 +2,7 @@ use super::*;
 use enfilade_math::{Rng, warp};
 use std::cell::Cell;
 
-type Triangle = [Vec3; 3];
+pub(super) type Triangle = [Vec3; 3];
 
 /// The triangle test for one triangle, written for reading: the operations of the kernel in the kernel's order.
 fn meet_one(triangle: &Triangle, ray: &Ray) -> Option<Hit> {
@@ -44,7 +44,7 @@ fn brute_force(triangles: &[Triangle], ray: &Ray, accept: impl Fn(&Hit) -> bool)
     hits.filter(accept).reduce(|best, hit| if hit.t < best.t { hit } else { best })
 }
 
-fn solid(triangles: &[Triangle]) -> Bvh {
+pub(super) fn solid(triangles: &[Triangle]) -> Bvh {
     Bvh::new(triangles, &|_| false)
 }
 
@@ -56,7 +56,7 @@ fn direction(rng: &mut Rng) -> Vec3 {
     warp::sphere([rng.next_f32(), rng.next_f32()])
 }
 
-fn random_triangles(rng: &mut Rng, count: usize, room: f32, size: f32) -> Vec<Triangle> {
+pub(super) fn random_triangles(rng: &mut Rng, count: usize, room: f32, size: f32) -> Vec<Triangle> {
     (0..count)
         .map(|_| {
             let p = point(rng, room);
@@ -100,7 +100,7 @@ fn cuboid(min: Vec3, max: Vec3) -> Vec<Triangle> {
 }
 
 /// A room with boxes in it: walls of two triangles beside small things.
-fn room(rng: &mut Rng) -> Vec<Triangle> {
+pub(super) fn room(rng: &mut Rng) -> Vec<Triangle> {
     let mut triangles = cuboid(Vec3::ZERO, Vec3::new(6.0, 5.0, 3.0));
     for _ in 0..60 {
         let p = Vec3::new(rng.range(0.0, 5.0), rng.range(0.0, 4.0), rng.range(0.0, 2.0));
@@ -110,7 +110,7 @@ fn room(rng: &mut Rng) -> Vec<Triangle> {
 }
 
 /// A closed surface around the origin, star-shaped and rough, of 2 · `n`² or so triangles that share their vertices.
-fn closed_surface(rng: &mut Rng, n: usize, center: Vec3, radius: f32) -> Vec<Triangle> {
+pub(super) fn closed_surface(rng: &mut Rng, n: usize, center: Vec3, radius: f32) -> Vec<Triangle> {
     let mut vertex = vec![vec![Vec3::ZERO; n]; n + 1];
     for (i, row) in vertex.iter_mut().enumerate() {
         for (j, p) in row.iter_mut().enumerate() {
@@ -218,7 +218,7 @@ fn closest_and_any_hit_match_brute_force_to_the_bit() {
 }
 
 /// The kernels that this machine can run, the plain one first.
-fn kernels() -> Vec<Kernel> {
+pub(super) fn kernels() -> Vec<Kernel> {
     let mut kernels = vec![Kernel::Portable];
     #[cfg(target_arch = "x86_64")]
     match Kernel::best_here() {

@@ -100,7 +100,7 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, F: Fn(&H
 impl Bvh {
     /// Where a child is in memory.
     #[inline(always)]
-    fn place(&self, child: u32) -> *const u8 {
+    pub(super) fn place(&self, child: u32) -> *const u8 {
         match Node::leaf(child) {
             Some(block) => self.blocks.as_ptr().wrapping_add(block).cast(),
             None => self.nodes.as_ptr().wrapping_add(child as usize).cast(),

@@ -9,11 +9,19 @@ use super::stack::Stack;
 pub(super) trait Wide: Copy {
     fn splat(value: f32) -> Self;
     fn load(values: &Sixteen<f32>) -> Self;
+    fn store(self) -> Sixteen<f32>;
+    fn add(self, o: Self) -> Self;
     fn sub(self, o: Self) -> Self;
     fn mul(self, o: Self) -> Self;
     fn min(self, o: Self) -> Self;
     fn max(self, o: Self) -> Self;
     fn le(self, o: Self) -> u32;
+
+    /// The lanes of `mask` from `self`, bit by bit, the others from `other`.
+    fn select(self, mask: u32, other: Self) -> Self;
+
+    /// The least of the lanes, none of which may be NaN.
+    fn least(self) -> f32;
 
     /// Of two or more children that the ray enters at `self`, returns the nearest and puts the others on the stack, the farthest first.
     fn push_by_distance(self, entered: u32, children: &Sixteen<u32>, stack: &mut Stack) -> u32;
@@ -43,6 +51,14 @@ impl<L: Lanes> Wide for Pair<L> {
         Self(L::load(first), L::load(last))
     }
     #[inline(always)]
+    fn store(self) -> Sixteen<f32> {
+        Sixteen::of_halves([self.0.store(), self.1.store()])
+    }
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self(self.0.add(o.0), self.1.add(o.1))
+    }
+    #[inline(always)]
     fn sub(self, o: Self) -> Self {
         Self(self.0.sub(o.0), self.1.sub(o.1))
     }
@@ -61,6 +77,16 @@ impl<L: Lanes> Wide for Pair<L> {
     #[inline(always)]
     fn le(self, o: Self) -> u32 {
         self.0.le(o.0) | self.1.le(o.1) << 8
+    }
+    #[inline(always)]
+    fn select(self, mask: u32, other: Self) -> Self {
+        Self(self.0.select(mask, other.0), self.1.select(mask >> 8, other.1))
+    }
+    #[inline(always)]
+    fn least(self) -> f32 {
+        let low = self.0.min(self.1).store().0;
+        let low = [low[0].min(low[4]), low[1].min(low[5]), low[2].min(low[6]), low[3].min(low[7])];
+        low[0].min(low[2]).min(low[1].min(low[3]))
     }
 
     #[inline(always)]
@@ -123,6 +149,18 @@ mod avx512 {
             Self(unsafe { _mm512_load_ps(values.0.as_ptr()) })
         }
         #[inline(always)]
+        fn store(self) -> Sixteen<f32> {
+            let mut out = Sixteen([0.0; 16]);
+            // SAFETY: see the type; `Sixteen` is 64 bytes long and aligned to 64.
+            unsafe { _mm512_store_ps(out.0.as_mut_ptr(), self.0) };
+            out
+        }
+        #[inline(always)]
+        fn add(self, o: Self) -> Self {
+            // SAFETY: see the type.
+            Self(unsafe { _mm512_add_ps(self.0, o.0) })
+        }
+        #[inline(always)]
         fn sub(self, o: Self) -> Self {
             // SAFETY: see the type.
             Self(unsafe { _mm512_sub_ps(self.0, o.0) })
@@ -146,6 +184,16 @@ mod avx512 {
         fn le(self, o: Self) -> u32 {
             // SAFETY: see the type.
             u32::from(unsafe { _mm512_cmp_ps_mask::<_CMP_LE_OQ>(self.0, o.0) })
+        }
+        #[inline(always)]
+        fn select(self, mask: u32, other: Self) -> Self {
+            // SAFETY: see the type.
+            Self(unsafe { _mm512_mask_mov_ps(other.0, mask as u16, self.0) })
+        }
+        #[inline(always)]
+        fn least(self) -> f32 {
+            // SAFETY: see the type.
+            unsafe { _mm512_reduce_min_ps(self.0) }
         }
 
         /// Two, the usual case, are compared; up to eight go through a sorting network.

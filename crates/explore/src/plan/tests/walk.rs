@@ -61,7 +61,7 @@ fn views_of_many_triangles_are_preferred() {
         let config = PlanConfig { saliency, frames: 60, ..quick() };
         let walk = trajectory(&room, &space, &start(), 0, &config, &Quiet).unwrap();
         let intrinsics = Intrinsics::from_fov_x(config.test_width, config.test_height, config.fov_x_rad);
-        let views = walk.poses.iter().map(|p| crate::view_stats(&room.bvh, room.world.corners.len(), &intrinsics, p));
+        let views = walk.poses.iter().map(|p| crate::view_stats(&room.world, &room.bvh, &intrinsics, p));
         views.map(|v| f64::from(v.triangles)).sum::<f64>() / 60.0
     };
     let (drawn, indifferent) = (mean(Saliency::default()), mean(Saliency::Triangles { alpha: 0.0, beta: 2.0 }));

@@ -78,14 +78,8 @@ impl Surroundings {
 ///
 /// # Errors
 /// [`ExploreError::StartOutside`] and [`ExploreError::StartInWall`].
-pub(crate) fn verify(
-    world: &WorldMesh,
-    bvh: &Bvh,
-    grid: &VoxelGrid,
-    voxel_m: f64,
-    index: usize,
-    start: DVec3,
-) -> Result<DVec3, ExploreError> {
+pub(super) fn verify(world: &WorldMesh, bvh: &Bvh, grid: &VoxelGrid, index: usize, start: DVec3) -> Result<DVec3, ExploreError> {
+    let voxel_m = grid.voxel_m();
     let mut around = Surroundings::look(world, bvh, start);
     let in_wall =
         |around: &Surroundings| ExploreError::StartInWall { index, position: start, median_m: around.median_m(), clear_m: 2.0 * voxel_m };
@@ -94,7 +88,7 @@ pub(crate) fn verify(
     }
     let mut position = start;
     if grid.state(start) == Voxel::Occupied {
-        position = first_open(grid, voxel_m, start, &around.ways_out()).ok_or_else(|| in_wall(&around))?;
+        position = first_open(grid, start, &around.ways_out()).ok_or_else(|| in_wall(&around))?;
         around = Surroundings::look(world, bvh, position);
     }
     let median_m = around.median_m();
@@ -105,7 +99,8 @@ pub(crate) fn verify(
 }
 
 /// The first position along the ways out, in steps of a quarter voxel, whose voxel is not occupied.
-fn first_open(grid: &VoxelGrid, voxel_m: f64, start: DVec3, ways: &[(DVec3, f64)]) -> Option<DVec3> {
+fn first_open(grid: &VoxelGrid, start: DVec3, ways: &[(DVec3, f64)]) -> Option<DVec3> {
+    let voxel_m = grid.voxel_m();
     let step = 0.25 * voxel_m;
     ways.iter().find_map(|(direction, distance)| {
         // A way out is short: a few voxels beyond the surface at hand.

@@ -1,0 +1,223 @@
+//! Free space by space carving (Kutulakos & Seitz 2000), as Hypersim does it.
+
+mod cast;
+mod hypersim;
+mod rays;
+mod start;
+
+#[cfg(test)]
+mod tests;
+
+use crate::error::require;
+use crate::grid::{Leaps, VoxelGrid};
+use crate::{CarveReport, ExploreError, FreeSpace, Preset, StartReport};
+use enfilade_geometry::Bvh;
+use enfilade_math::{DVec3, Rng};
+use enfilade_scene::{Cx, Warning, WorldMesh};
+use rays::Rays;
+use serde::{Deserialize, Serialize};
+
+/// More escaping rays than this are worth a warning.
+const ESCAPE_WARNING: f64 = 0.01;
+
+/// How free space is carved. The defaults are Hypersim's.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CarveConfig {
+    /// Whose rules are followed.
+    pub preset: Preset,
+    /// Edge of a voxel, metres.
+    pub voxel_m: f64,
+    /// Side of the cube to be carved, metres. It is centred on the box around the start cameras.
+    pub extent_m: f64,
+    /// Rays cast from each position, spread evenly over the sphere.
+    pub rays: u32,
+    /// Positions to carve from for each start camera: its own, then random free ones.
+    pub iterations: u32,
+    /// Seed of the random positions. The published programs use 0.
+    pub seed: u64,
+}
+
+impl Default for CarveConfig {
+    fn default() -> Self {
+        Self { preset: Preset::Default, voxel_m: 0.1, extent_m: 30.0, rays: 512 * 512, iterations: 5, seed: 0 }
+    }
+}
+
+impl CarveConfig {
+    fn validate(&self) -> Result<(), ExploreError> {
+        let positive = |v: f64| v > 0.0 && v.is_finite();
+        require(positive(self.voxel_m), "voxel_m", self.voxel_m, "a positive length in metres")?;
+        require(positive(self.extent_m) && self.extent_m >= self.voxel_m, "extent_m", self.extent_m, "a length of at least one voxel")?;
+        require(self.rays >= 64, "rays", self.rays, "64 or more")?;
+        require(self.iterations >= 1, "iterations", self.iterations, "1 or more")
+    }
+}
+
+/// Finds the free space around `starts` (positions of start cameras).
+///
+/// A voxel is occupied when any triangle touches it, thin and large ones included, so nothing leaks through a wall that is closed.
+/// It is free when it lies on a ray from a carving position, before the first occupied voxel: since every surface lies in occupied
+/// voxels, the rays need not be tested against the triangles themselves. Everything else stays unknown. The domain is the cube of
+/// the configuration, cut down to the box around the scene and the starts; space beyond the scene is never free.
+///
+/// A start that is outside or inside a wall is skipped with a warning as long as another one serves.
+///
+/// [`Preset::Hypersim`] differs as its page says.
+///
+/// # Errors
+/// A configuration out of its domain, no usable start, or a domain beyond the octree's key space or the memory for it.
+pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfig, cx: &dyn Cx) -> Result<FreeSpace, ExploreError> {
+    config.validate()?;
+    let total = starts.len() as u64 * u64::from(config.iterations);
+    cx.progress("carve", 0, total);
+    let mut scene = Carving::new(world, bvh, starts, config)?;
+
+    // From every start camera, then from random free places.
+    let mut report = CarveReport::default();
+    let mut first_problem = None;
+    let mut escaped = 0;
+    for (index, &asked) in starts.iter().enumerate() {
+        let mut position = match scene.verify(index, asked) {
+            Ok(used) => {
+                report.starts.push(StartReport { asked, used: Some(used), problem: None });
+                used
+            }
+            Err(problem) => {
+                report.starts.push(StartReport { asked, used: None, problem: Some(problem.to_string()) });
+                first_problem.get_or_insert(problem);
+                continue;
+            }
+        };
+        for iteration in 0..config.iterations {
+            escaped += scene.carve_from(position)?;
+            report.positions.push(position);
+            cx.progress("carve", index as u64 * u64::from(config.iterations) + u64::from(iteration) + 1, total);
+            position = scene.random_free().ok_or_else(|| no_free_space(asked))?;
+        }
+    }
+    if report.positions.is_empty() {
+        return Err(first_problem.unwrap_or(ExploreError::NoStarts));
+    }
+    cx.progress("carve", total, total);
+
+    let grid = &scene.grid;
+    (report.free_voxels, report.occupied_voxels) = grid.counts();
+    report.free_volume_m3 = report.free_voxels as f64 * config.voxel_m.powi(3);
+    report.escaped_share = escaped as f64 / (report.positions.len() as f64 * f64::from(config.rays));
+    warn(&report, cx);
+    let mut space = FreeSpace::new(grid.to_tree(config.voxel_m), report)?;
+    if let (Preset::Hypersim, Some((min, max))) = (config.preset, hypersim::free_box(grid)) {
+        (space.free_min, space.free_max) = (min, max);
+    }
+    Ok(space)
+}
+
+/// What is known while carving goes on.
+struct Carving<'a> {
+    world: &'a WorldMesh,
+    bvh: &'a Bvh,
+    rays: Rays,
+    grid: VoxelGrid,
+    leaps: Leaps,
+    random: Random,
+}
+
+/// Where the random positions come from.
+enum Random {
+    Default(Rng),
+    Hypersim(rand_mt::Mt64),
+}
+
+impl<'a> Carving<'a> {
+    fn new(world: &'a WorldMesh, bvh: &'a Bvh, starts: &[DVec3], config: &CarveConfig) -> Result<Self, ExploreError> {
+        let (min, max) = cube(starts, config)?;
+        let (grid, random) = match config.preset {
+            Preset::Default => {
+                let (min, max) = cut_to_scene(min, max, world, starts, config);
+                let grid = VoxelGrid::new(min, max, config.voxel_m)?;
+                grid.occupy(&world.corners);
+                (grid, Random::Default(Rng::new(config.seed)))
+            }
+            Preset::Hypersim => (hypersim::grid(world, min, max, config)?, Random::Hypersim(rand_mt::Mt64::new(config.seed))),
+        };
+        grid.check_memory()?;
+        Ok(Self { world, bvh, rays: Rays::new(config.rays as usize), grid, leaps: Leaps::default(), random })
+    }
+
+    fn verify(&self, index: usize, asked: DVec3) -> Result<DVec3, ExploreError> {
+        match self.random {
+            Random::Default(_) => start::verify(self.world, self.bvh, &self.grid, index, asked),
+            Random::Hypersim(_) => hypersim::verify(self.bvh, &self.grid, &self.rays.directions, index, asked),
+        }
+    }
+
+    /// Casts all rays from one position and returns how many left the domain.
+    fn carve_from(&mut self, position: DVec3) -> Result<usize, ExploreError> {
+        let (grid, leaps, rays) = (&self.grid, &mut self.leaps, &self.rays);
+        let left = match self.random {
+            Random::Default(_) => cast::cast(grid, leaps, rays, position, |_| f64::INFINITY),
+            Random::Hypersim(_) => cast::cast(grid, leaps, rays, position, |d| hypersim::hit(self.bvh, grid, position, d)),
+        };
+        grid.check_memory().map(|()| left)
+    }
+
+    fn random_free(&mut self) -> Option<DVec3> {
+        match &mut self.random {
+            Random::Default(rng) => self.grid.random_free(rng),
+            Random::Hypersim(rng) => hypersim::random_free(&self.grid, rng),
+        }
+    }
+}
+
+/// The configured cube around the starts.
+fn cube(starts: &[DVec3], config: &CarveConfig) -> Result<(DVec3, DVec3), ExploreError> {
+    if starts.is_empty() {
+        return Err(ExploreError::NoStarts);
+    }
+    if let Some(index) = starts.iter().position(|p| !p.is_finite()) {
+        return Err(ExploreError::StartNotFinite { index, position: starts[index] });
+    }
+    let (low, high) = bounds(starts);
+    let spread_m = (high - low).max_element();
+    if spread_m > config.extent_m {
+        return Err(ExploreError::ExtentTooSmall { spread_m, extent_m: config.extent_m });
+    }
+    let (center, half) = (0.5 * (low + high), DVec3::splat(0.5 * config.extent_m));
+    Ok((center - half, center + half))
+}
+
+/// The part of a box around the scene and the starts, and two voxels more.
+fn cut_to_scene(min: DVec3, max: DVec3, world: &WorldMesh, starts: &[DVec3], config: &CarveConfig) -> (DVec3, DVec3) {
+    let (low, high) = bounds(starts);
+    let margin = DVec3::splat(2.0 * config.voxel_m);
+    let (scene_min, scene_max) = (low.min(world.bounds.min.as_dvec3()), high.max(world.bounds.max.as_dvec3()));
+    (min.max(scene_min - margin), max.min(scene_max + margin))
+}
+
+fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
+    points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)))
+}
+
+fn no_free_space(start: DVec3) -> ExploreError {
+    ExploreError::NoFreeSpace(format!("rays from the start camera at {start} end in its own voxel; move the camera or lower voxel_m"))
+}
+
+fn warn(report: &CarveReport, cx: &dyn Cx) {
+    for (index, start) in report.starts.iter().enumerate() {
+        if let Some(problem) = &start.problem {
+            cx.warn(Warning { place: format!("start camera {index}"), message: format!("skipped: {problem}") });
+        }
+        if let Some(used) = start.used.filter(|used| *used != start.asked) {
+            let moved = used.distance(start.asked);
+            let message = format!("lies in an occupied voxel; carving starts {moved:.2} m away, at {used:.2}");
+            cx.warn(Warning { place: format!("start camera {index}"), message });
+        }
+    }
+    if report.escaped_share > ESCAPE_WARNING {
+        let percent = 100.0 * report.escaped_share;
+        let message =
+            format!("{percent:.1} % of the rays left the scene: it is open or a wall has a gap, and free space reaches to its border");
+        cx.warn(Warning { place: "free space".into(), message });
+    }
+}

@@ -1,0 +1,26 @@
+use serde::{Deserialize, Serialize};
+
+/// Whose rules are followed: the paper's with mended defects, or those of Hypersim's published programs to the letter.
+///
+/// This is the one list of what [`Preset::Hypersim`] does differently in carving ([`crate::carve`]):
+///
+/// | | default | hypersim |
+/// |---|---|---|
+/// | occupied voxels | every voxel that a triangle touches | point samples a quarter voxel apart and the centroid; triangles without a vertex in the cube are left out |
+/// | domain | the cube, cut down to the scene | the whole cube |
+/// | rays end | before the first occupied voxel | also at the mesh |
+/// | starts outside or in a wall | skipped | accepted, unless no way leads out of occupied voxels |
+/// | start in an occupied voxel | moved along the widest of 2048 pooled views, at most 8 voxels | along the widest of all rays, each pooled with its 50 nearest |
+/// | random positions | uniform in the free voxels | by rejection from the box around the centres of the free voxels, by `std::mt19937_64` |
+/// | outside the building | left unknown | kept |
+/// | box of the free space | voxel borders | voxel centres |
+/// | edge of a voxel | as configured | rounded to single precision |
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Preset {
+    /// Nothing leaks, nothing is skipped silently.
+    #[default]
+    Default,
+    /// For comparisons with the published programs.
+    Hypersim,
+}

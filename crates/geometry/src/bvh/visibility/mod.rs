@@ -1,0 +1,188 @@
+//! What a pinhole camera sees, triangle by triangle: all pixels of a small image at once.
+//!
+//! A picture that is only asked "which triangle?" needs no rays. The hierarchy is walked once per tile of 16×16 pixels, the nearest
+//! children first; a triangle is drawn into the tile by its three edge functions, which are linear in the pixel (Olano & Greer 1997,
+//! "Triangle Scan Conversion using 2D Homogeneous Coordinates": no projection, so nothing is clipped), and what lies behind
+//! everything drawn so far is left out, whole subtrees at a time (Greene, Kass & Miller 1993, "Hierarchical Z-Buffer Visibility").
+//!
+//! Edge functions are made of sums and differences of the edge's ends alone, so two triangles that share an edge get values of
+//! opposite sign in every bit: no pixel falls between them. The result does not depend on the machine: there is no fused
+//! multiply-add, and of triangles at the same depth the one with the lowest index is seen.
+
+mod frustum;
+mod setup;
+mod tile;
+
+#[cfg(test)]
+mod tests;
+
+use super::lanes::{self, Lanes, lane_of};
+use super::node::Node;
+use super::stack::Stack;
+use super::wide::{self, Wide};
+use super::{Bvh, Kernel};
+use enfilade_math::Vec3;
+use frustum::{Frustum, Planes};
+use setup::Setup;
+use tile::{Pixels, TILE, Tile, place};
+
+/// Rays of a pinhole image: the one through the centre of pixel (x, y) has the direction `corner + x · right + y · down`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PinholeRays {
+    /// Camera centre.
+    pub origin: Vec3,
+    /// Through the centre of the pixel in the upper left corner. Its length along the optical axis is 1.
+    pub corner: Vec3,
+    /// From a pixel to the next in its row; at a right angle to the optical axis.
+    pub right: Vec3,
+    /// From a pixel to the one below; at a right angle to the optical axis.
+    pub down: Vec3,
+}
+
+impl PinholeRays {
+    /// The ray through the centre of a pixel. Not a unit vector.
+    #[inline]
+    pub fn direction(&self, x: f32, y: f32) -> Vec3 {
+        self.corner + x * self.right + y * self.down
+    }
+
+    /// The unit vector along the optical axis.
+    pub fn forward(&self) -> Vec3 {
+        let axis = self.right.cross(self.down).normalize();
+        if axis.dot(self.corner) < 0.0 { -axis } else { axis }
+    }
+}
+
+/// Triangle and depth of every pixel of an image; its memory serves for one image after the other.
+pub struct VisibilityBuffer {
+    width: usize,
+    height: usize,
+    triangles: Vec<u32>,
+    inverse_z: Vec<f32>,
+}
+
+/// Stands for no triangle in [`VisibilityBuffer::triangles`].
+pub const NOTHING: u32 = u32::MAX;
+
+impl VisibilityBuffer {
+    /// An image of `width` × `height` pixels in which nothing is seen.
+    pub fn new(width: u32, height: u32) -> Self {
+        let (width, height) = (width as usize, height as usize);
+        Self { width, height, triangles: vec![NOTHING; width * height], inverse_z: vec![0.0; width * height] }
+    }
+
+    /// Pixels per row, and rows.
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    /// The triangle seen in each pixel, row by row; [`NOTHING`] where there is none.
+    pub fn triangles(&self) -> &[u32] {
+        &self.triangles
+    }
+
+    /// One over the depth of each pixel along the optical axis, 1/m; 0 where nothing is seen.
+    pub fn inverse_z(&self) -> &[f32] {
+        &self.inverse_z
+    }
+
+    /// Draws everything that `bvh` holds, every triangle being solid and seen from both sides.
+    pub fn draw(&mut self, bvh: &Bvh, rays: &PinholeRays) {
+        let forward = rays.forward();
+        for y in (0..self.height).step_by(TILE) {
+            for x in (0..self.width).step_by(TILE) {
+                let mut tile = Tile::new((self.width - x).min(TILE), (self.height - y).min(TILE));
+                let frustum = Frustum::new(rays, forward, [x, y], bvh.largest_coordinate);
+                bvh.draw_tile(&mut tile, &frustum);
+                self.keep(&tile, x, y);
+            }
+        }
+    }
+
+    fn keep(&mut self, tile: &Tile, x: usize, y: usize) {
+        for row in 0..TILE.min(self.height - y) {
+            for column in 0..TILE.min(self.width - x) {
+                let (block, lane) = place(column, row);
+                let pixel = (y + row) * self.width + x + column;
+                self.triangles[pixel] = tile.triangles[block].0[lane].to_bits();
+                self.inverse_z[pixel] = tile.inverse_z[block].0[lane];
+            }
+        }
+    }
+}
+
+impl Bvh {
+    #[inline]
+    fn draw_tile(&self, tile: &mut Tile, frustum: &Frustum) {
+        match self.kernel {
+            Kernel::Portable => draw_tile::<wide::Pair<lanes::Portable>, lanes::Portable>(self, tile, frustum),
+            // SAFETY: this kernel is chosen only where the processor has the features.
+            #[cfg(target_arch = "x86_64")]
+            Kernel::Avx2 => unsafe { draw_tile_avx2(self, tile, frustum) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Kernel::Avx512 => unsafe { draw_tile_avx512(self, tile, frustum) },
+        }
+    }
+}
+
+/// [`draw_tile`] compiled for AVX2.
+///
+/// # Safety
+/// The processor must have AVX2 and BMI1.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,bmi1")]
+unsafe fn draw_tile_avx2(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
+    draw_tile::<wide::Pair<lanes::Avx2>, lanes::Avx2>(bvh, tile, frustum);
+}
+
+/// [`draw_tile`] compiled for AVX-512.
+///
+/// # Safety
+/// The processor must have the features.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
+unsafe fn draw_tile_avx512(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
+    draw_tile::<wide::Avx512, lanes::Avx2>(bvh, tile, frustum);
+}
+
+/// Walks the hierarchy, nearest boxes first, and draws what is in the frustum and not hidden.
+#[inline(always)]
+fn draw_tile<W: Wide, L: Lanes>(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
+    if bvh.nodes.is_empty() {
+        return;
+    }
+    let planes = Planes::<W>::new(frustum);
+    let setup = Setup::<L>::new(frustum);
+    let mut pixels = Pixels::<W>::new(tile);
+    let mut limit = f32::INFINITY;
+    let mut stack = Stack::new();
+    let mut current = 0;
+    loop {
+        if let Some(block) = Node::leaf(current) {
+            // SAFETY: the builder makes children of existing nodes and blocks only.
+            let block = unsafe { bvh.blocks.get_unchecked(block) };
+            if setup.draw(block, &mut pixels) {
+                limit = pixels.farthest_z();
+            }
+        } else {
+            // SAFETY: as above, and there is a root.
+            let node = unsafe { bvh.nodes.get_unchecked(current as usize) };
+            let (mut entered, z) = planes.enter(node, limit);
+            if entered != 0 {
+                let mut all = entered;
+                while all != 0 {
+                    W::prefetch(bvh.place(node.children.0[lane_of(&mut all)]));
+                }
+                current = if entered & (entered - 1) == 0 {
+                    node.children.0[lane_of(&mut entered)]
+                } else {
+                    z.push_by_distance(entered, &node.children, &mut stack)
+                };
+                continue;
+            }
+        }
+        let Some(child) = stack.pop_up_to(limit) else { return };
+        current = child;
+    }
+}
