@@ -221,3 +221,4 @@ fn warn(report: &CarveReport, cx: &dyn Cx) {
         cx.warn(Warning { place: "free space".into(), message });
     }
 }
+

@@ -1,8 +1,9 @@
 //! Video: a smooth path at bounded speed.
 //!
-//! The position follows a spline near a [`tour`], refined wherever a point of it has no room around it. The view turns
-//! between directions worth seeing, by headings that always have free space before them. The pose is then a smooth function of one parameter, and what remains is when to be where: as early as the bounds on speed, turning and
-//! acceleration allow. Slowing down changes no pose, so the bounds hold by construction; they are measured on the result all the same.
+//! The position follows a spline near a [`tour`], refined wherever a point of it has no room around it. The view turns between
+//! directions worth seeing, by headings that always have free space before them. The pose is then a smooth function of one
+//! parameter, and what remains is when to be where: as early as the bounds on speed, turning and acceleration allow. Slowing down
+//! changes no pose, so the bounds hold by construction; they are measured on the result all the same.
 
 use super::headings::{HEADINGS, Headings, direction};
 use super::rules::{pitch_rad, posed, turned_rad};
