@@ -23,23 +23,8 @@ fn every_pose_keeps_the_rules() {
     assert_eq!((walk.name.as_str(), walk.poses.len()), ("cam_00", 30));
     let first = walk.poses[0];
     assert_eq!(first.position, start().position);
-    let seen = |a: DVec3, b: DVec3| {
-        let mut ray = enfilade_math::Ray::new(a.as_vec3(), (b - a).normalize().as_vec3());
-        ray.t_max = a.distance(b) as f32;
-        !room.bvh.occluded(&ray)
-    };
     for (i, pose) in walk.poses.iter().enumerate() {
-        let r = pose.world_from_camera;
-        let error = (r * r.transpose() - DMat3::IDENTITY).to_cols_array().iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        assert!(error < 1e-12 && (r.determinant() - 1.0).abs() < 1e-12, "frame {i}: axes");
-        assert!((-r.z_axis - (pose.look_at - pose.position).normalize()).length() < 1e-12, "frame {i}: look-at off the axis");
-        assert!(pose.roll_rad().abs() <= 5f64.to_radians() + 1e-9, "frame {i}: roll {}", pose.roll_rad());
-        assert!(pose.position.distance(pose.look_at) >= config.min_look_distance_m, "frame {i}: target too near");
-        assert!(room.distance_m(pose.position) >= config.clearance_m, "frame {i}: {} m to a surface", room.distance_m(pose.position));
-        for p in [pose.position, pose.look_at] {
-            assert_eq!(space.tree.state(p), enfilade_geometry::Voxel::Free, "frame {i}");
-        }
-        assert!(seen(pose.position, pose.look_at), "frame {i}: target hidden");
+        assert_keeps_rules(&room, &space, &config, pose);
         assert_eq!(pose.frame, i as u32);
         if i == 0 {
             continue;
@@ -48,7 +33,7 @@ fn every_pose_keeps_the_rules() {
         for (now, before, origin) in [(pose.position, last.position, first.position), (pose.look_at, last.look_at, first.look_at)] {
             assert!((now - before).abs().cmple(DVec3::from(config.step_m) + 1e-12).all(), "frame {i}: step {}", now - before);
             assert!((now.z - origin.z).abs() <= config.height_range_m + 1e-12, "frame {i}: height");
-            assert!(seen(before, now), "frame {i}: hidden from the last");
+            assert!(seen(&room, before, now), "frame {i}: hidden from the last");
         }
     }
 }
