@@ -30,8 +30,7 @@ pub enum Verb {
     #[command(after_help = "Example:\n  enfilade carve out --scene living-room")]
     Carve(StageArgs),
     /// Scene, free space -> camera trajectories
-    #[command(after_help = "Example:\n  enfilade plan out --scene living-room")]
-    Plan(StageArgs),
+    Plan(PlanArgs),
     /// Scene, trajectories -> frames
     #[command(
         after_help = "Examples:\n  enfilade render out --scene 'bed*'\n  enfilade render out --noise 2% --samples 4096 --splits\n\nFinished frames are kept; a killed run goes on where it was."
@@ -112,6 +111,19 @@ pub struct StageArgs {
     /// Do it even if nothing has changed
     #[arg(long)]
     pub force: bool,
+}
+
+/// `plan`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  enfilade plan out --scene living-room\n  enfilade plan out --preview\n\n\
+    --preview draws what was planned: plan and sections with free space, frusta and scores, every view coloured by part, and statistics.")]
+pub struct PlanArgs {
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub stage: StageArgs,
+    /// Draw the trajectories, also those that were planned earlier
+    #[arg(long)]
+    pub preview: bool,
 }
 
 /// `render`.

@@ -35,7 +35,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Run(args) => verbs::run(args, cli.quiet),
         Verb::Import(args) => verbs::import(args, cli.quiet),
         Verb::Carve(args) => verbs::stage(args, enfilade_pipeline::Stage::Carve, cli.quiet),
-        Verb::Plan(args) => verbs::stage(args, enfilade_pipeline::Stage::Plan, cli.quiet),
+        Verb::Plan(args) => verbs::plan(args, cli.quiet),
         Verb::Render(args) => verbs::render(args, cli.quiet),
         Verb::Denoise(args) => verbs::denoise(args, cli.quiet),
         Verb::Label(args) => verbs::label(args, cli.quiet),

@@ -1,6 +1,8 @@
 //! What each verb does: arguments to calls of the pipeline and back to words.
 
-use crate::args::{ImportArgs, InspectArgs, LabelArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs, UpAxisArg, VerifyArgs};
+use crate::args::{
+    ImportArgs, InspectArgs, LabelArgs, PlanArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs, UpAxisArg, VerifyArgs,
+};
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::summary;
@@ -48,6 +50,20 @@ pub fn stage(args: &StageArgs, stage: Stage, quiet: bool) -> Result<Verdict, Pro
     let result = enfilade_pipeline::run_stage(&args.dataset, stage, args.scene.as_deref(), args.force, &progress)?;
     drop(progress);
     Ok(conclude(&result))
+}
+
+/// `plan`, with pictures of it if wanted.
+pub fn plan(args: &PlanArgs, quiet: bool) -> Result<Verdict, Problem> {
+    if !args.preview {
+        return stage(&args.stage, Stage::Plan, quiet);
+    }
+    let StageArgs { dataset, scene, force } = &args.stage;
+    let progress = Progress::new(quiet);
+    let (result, pages) = enfilade_pipeline::plan_and_draw(dataset, scene.as_deref(), *force, &progress)?;
+    drop(progress);
+    let verdict = conclude(&result);
+    pages.iter().for_each(|page| say(&format!("see  {}", page.display())));
+    Ok(verdict)
 }
 
 /// `render`, with other settings from now on if wanted, and with denoising.

@@ -35,7 +35,13 @@ fn stages_run_one_by_one_and_pixels_answer() {
         let text = succeed(d, &[verb, "out", "--force"]);
         assert!(!text.contains("nothing to do"), "{verb}: {text}");
     }
+    let text = succeed(d, &["plan", "out", "--preview"]);
+    let pages = d.join("out/scenes/room/_detail/plan_preview");
+    assert!(text.contains("nothing to do") && text.contains("plan_preview/index.html"), "{text}");
+    assert!(pages.join("cam_00_plan.png").is_file() && pages.join("index.html").is_file());
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames of 1 scene"));
+    succeed(d, &["plan", "out", "--force"]);
+    assert!(!pages.exists(), "pictures of an earlier plan are removed");
     let text = succeed(d, &["inspect", "out", "--frame", "1", "--pixel", "24,18"]);
     assert!(text.contains("depth_meters") && text.contains("part"), "{text}");
     fail(d, &["inspect", "out", "--pixel", "48,0"], 1, &["columns 0 to 47"]);

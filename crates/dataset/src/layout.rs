@@ -1,8 +1,8 @@
 //! Every path of the tree, in one place. Nothing here touches the disk.
 //!
-//! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, and in each camera's `_detail` folder
-//! `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records and, for cameras that are more than a pinhole,
-//! `camera.json` and its arrays.
+//! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `_detail/plan_preview/`, and in each camera's
+//! `_detail` folder `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records and, for cameras that are more than a
+//! pinhole, `camera.json` and its arrays.
 
 use crate::DatasetError;
 use enfilade_frame::{Layer, Pass};
@@ -164,6 +164,21 @@ impl Layout {
     /// The commit record of a frame's denoised layers.
     pub fn denoise_record(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
         self.records_dir(scene, camera).join(format!("frame.{frame:04}.denoised.json"))
+    }
+
+    /// What a camera sees in each pose, coloured by part, as planned: small pictures for people.
+    pub fn plan_views_dir(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("preview")
+    }
+
+    /// One of them, under the toolkit's name.
+    pub fn plan_view(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
+        self.plan_views_dir(scene, camera).join(format!("frame.{frame:04}.jpg"))
+    }
+
+    /// Drawings of the scene's free space and trajectories, and the page `index.html` that shows them.
+    pub fn plan_preview_dir(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("plan_preview")
     }
 
     /// Geometry, objects and labels of the scene.

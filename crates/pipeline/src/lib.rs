@@ -19,7 +19,7 @@ pub use config::{
 pub use enfilade_import::UpAxis;
 pub use error::Error;
 pub use report::{Event, Failure, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
-pub use run::{relabel, run, run_chosen, run_stage};
+pub use run::{plan_and_draw, relabel, run, run_chosen, run_stage};
 pub use single::{Imported, import_file};
 pub use stages::{STAGES, Stage, StageSpec};
 pub use workdir::WORKDIR;

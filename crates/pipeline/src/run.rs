@@ -3,7 +3,7 @@
 use crate::config::{Config, RenderChoices, SceneConfig};
 use crate::error::Error;
 use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
-use crate::stages::{Job, STAGES, Stage, StageSpec, advance, check_denoiser};
+use crate::stages::{Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan};
 use crate::workdir::{Workdir, read_json, write_json};
 use enfilade_dataset::{CameraEntry, Dataset, FrameStatus, ManifestInfo};
 use enfilade_post::drivers::write_overview;
@@ -41,6 +41,23 @@ pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, r
     let (workdir, config) = open(out)?;
     let scenes = config.select(pattern)?;
     Session::new(&config, &workdir)?.run(&scenes, &[stage.spec()], force, reporter)
+}
+
+/// Plans as [`run_stage`] does and draws what was planned, now or earlier. Returns also the page of each scene that came through.
+///
+/// # Errors
+/// As [`run_stage`], and when a picture cannot be made or written.
+pub fn plan_and_draw(out: &Path, pattern: Option<&str>, force: bool, reporter: &dyn Reporter) -> Result<(Summary, Vec<PathBuf>), Error> {
+    let (workdir, config) = open(out)?;
+    let scenes = config.select(pattern)?;
+    let session = Session::new(&config, &workdir)?;
+    let summary = session.run(&scenes, &[Stage::Plan.spec()], force, reporter)?;
+    let mut pages = Vec::new();
+    for (scene, _) in scenes.iter().zip(&summary.scenes).filter(|(_, outcome)| outcome.failure.is_none()) {
+        let job = Job::new(&config, scene, &session.dataset, &workdir, force);
+        pages.push(draw_plan(&job, &StageCx::new(&scene.name, Stage::Plan, reporter))?);
+    }
+    Ok((summary, pages))
 }
 
 /// Gives scenes of the dataset in `out` another label table, and labels them again. `table` is a CSV file.

@@ -4,8 +4,9 @@
 //! diffuse reflectance; one of its pixels is saturated.
 
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Validity, Values, f16};
-use enfilade_math::{DVec2, DVec3};
-use enfilade_scene::{Intrinsics, Labels, PartLabel, Pose};
+use enfilade_geometry::Mesh;
+use enfilade_math::{DAffine3, DVec2, DVec3, Rgb};
+use enfilade_scene::{Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, WorldMesh};
 
 pub(crate) const PARTS: [&str; 3] = ["floor", "wall", "wall/mirror"];
 
@@ -168,4 +169,15 @@ pub(crate) fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     dataset.write_free_space("room", &tree.to_bt(), first.position, second.position).unwrap();
     dataset.write_manifest(&dataset.collect_manifest(&enfilade_dataset::ManifestInfo::default()).unwrap()).unwrap();
     dataset
+}
+
+/// A closed box room as rays meet it: part 0, six sides of two triangles.
+pub(crate) fn box_room(min: DVec3, max: DVec3) -> WorldMesh {
+    let corner = |i: usize| DVec3::new([min.x, max.x][i & 1], [min.y, max.y][(i >> 1) & 1], [min.z, max.z][i >> 2]).as_vec3();
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    let mesh = Mesh { positions: (0..8).map(corner).collect(), triangles, ..Mesh::default() };
+    let part = Part { name: "room".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
+    let materials = vec![Material::diffuse("grey", Rgb::splat(0.5))];
+    WorldMesh::new(&Scene { meshes: vec![mesh], parts: vec![part], materials, ..Scene::default() })
 }

@@ -10,13 +10,7 @@ use rayon::prelude::*;
 /// `end_t` gives the parameter at which a ray ends, in voxels; see [`VoxelGrid::walk`]. What is freed is what walking along every ray
 /// by itself would free, but little is walked twice: a few rays go ahead, and the others begin where the cone around their tile
 /// first meets something that is not known to be free.
-pub(super) fn cast(
-    grid: &VoxelGrid,
-    leaps: &mut Leaps,
-    rays: &Rays,
-    position: DVec3,
-    end_t: impl Fn(DVec3) -> f64 + Sync,
-) -> usize {
+pub(super) fn cast(grid: &VoxelGrid, leaps: &mut Leaps, rays: &Rays, position: DVec3, end_t: impl Fn(DVec3) -> f64 + Sync) -> usize {
     let p = grid.cells(position);
     let walk = |leaps: &Leaps, ray: usize, from_t: f64| {
         let direction = rays.directions[ray];

@@ -221,4 +221,3 @@ fn warn(report: &CarveReport, cx: &dyn Cx) {
         cx.warn(Warning { place: "free space".into(), message });
     }
 }
-

@@ -88,8 +88,7 @@ mod tests {
     fn every_direction_is_in_one_tile_and_in_its_cones() {
         for count in [64, 1000, 40_000] {
             let rays = Rays::new(count);
-            let mut expected: Vec<[u64; 3]> =
-                (0..count).map(|k| warp::fibonacci_sphere(k, count).to_array().map(f64::to_bits)).collect();
+            let mut expected: Vec<[u64; 3]> = (0..count).map(|k| warp::fibonacci_sphere(k, count).to_array().map(f64::to_bits)).collect();
             let mut found: Vec<[u64; 3]> = rays.directions.iter().map(|d| d.to_array().map(f64::to_bits)).collect();
             expected.sort_unstable();
             found.sort_unstable();

@@ -78,13 +78,7 @@ impl Surroundings {
 ///
 /// # Errors
 /// [`ExploreError::StartOutside`] and [`ExploreError::StartInWall`].
-pub(super) fn verify(
-    world: &WorldMesh,
-    bvh: &Bvh,
-    grid: &VoxelGrid,
-    index: usize,
-    start: DVec3,
-) -> Result<DVec3, ExploreError> {
+pub(super) fn verify(world: &WorldMesh, bvh: &Bvh, grid: &VoxelGrid, index: usize, start: DVec3) -> Result<DVec3, ExploreError> {
     let voxel_m = grid.voxel_m();
     let mut around = Surroundings::look(world, bvh, start);
     let in_wall =

@@ -10,6 +10,7 @@ mod import;
 mod job;
 mod label;
 mod plan;
+mod plan_preview;
 mod preview;
 mod progressive;
 mod render;
@@ -25,6 +26,7 @@ use std::path::{Path, PathBuf};
 pub(crate) use denoise::check_denoiser;
 pub(crate) use import::{describe, load_file};
 pub(crate) use job::Job;
+pub(crate) use plan_preview::draw_plan;
 
 /// A stage by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

@@ -8,6 +8,7 @@ use crate::workdir::{Hash, read_json, remove_if_there, write_json};
 use enfilade_dataset::{StereoRecord, StereoSide};
 use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, parse_keyframes};
 use enfilade_geometry::OccupancyTree;
+use enfilade_post::planview::remove_plan_preview;
 use enfilade_scene::{Camera, Cx, StartCamera, Trajectory, Warning};
 use std::path::{Path, PathBuf};
 
@@ -58,6 +59,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         reports.push(report);
     }
     let trajectories: Vec<Trajectory> = filmed.iter().map(|(trajectory, _)| trajectory.clone()).collect();
+    // Pictures of an earlier plan would be taken for pictures of this one.
+    remove_plan_preview(job.dataset, name).map_err(Error::stage)?;
     remove_other_cameras(job, &trajectories)?;
     for (trajectory, stereo) in &filmed {
         job.dataset.write_trajectory(name, trajectory, &camera, stereo.as_ref()).map_err(Error::stage)?;

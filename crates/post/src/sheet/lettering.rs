@@ -33,16 +33,22 @@ pub fn width(text: &str, style: Style) -> f32 {
 
 /// Draws `text` with its baseline starting at (x, y).
 pub fn draw(canvas: &mut Canvas, x: f32, y: f32, text: &str, style: Style) {
+    for run in runs(x, y, text, style) {
+        canvas.stroke(&run, 0.5 * style.weight * style.height, style.color);
+    }
+}
+
+/// The ways of the pen's centre that write `text` with its baseline starting at (x, y). The pen is `weight` × `height` wide.
+pub fn runs(x: f32, y: f32, text: &str, style: Style) -> Vec<Vec<[f32; 2]>> {
     let unit = style.height / CAPITAL;
     // The pen's edge, not its centre, is at x.
     let mut pen = x + 0.5 * style.weight * style.height;
+    let mut runs = Vec::new();
     for c in text.chars() {
-        for stroke in strokes(c) {
-            let points: Vec<[f32; 2]> = stroke.iter().map(|p| [pen + p[0] * unit, y - p[1] * unit]).collect();
-            canvas.stroke(&points, 0.5 * style.weight * style.height, style.color);
-        }
+        runs.extend(strokes(c).iter().map(|stroke| stroke.iter().map(|p| [pen + p[0] * unit, y - p[1] * unit]).collect()));
         pen += advance(c) * unit;
     }
+    runs
 }
 
 /// The text cut to at most `limit` pixels, ending in dots when cut.
@@ -128,7 +134,7 @@ fn glyph(c: char) -> &'static str {
         '[' => "2e0e0222", ']' => "0e2e2202", '{' => "~3e1e1a08 ~08161232", '}' => "~0e2e2a38 ~38262202", '%' => "o0a3a3d0d o53838656 038d",
         '\'' => "0d0b", '"' => "0d0b 2d2b", '!' => "0d06 0303", '?' => "~0b0d5d5a2826 2323", '#' => "233d 536d 0676 0a7a",
         '*' => "3d37 0c68 6c08", '&' => "~731a1d4d4a07035377", '@' => "o03838d0d o26565a2a", '<' => "5a0754", '>' => "0a5704",
-        '|' => "0e01", '~' => "~082a4668", '^' => "0a3d6a", '$' => "~6b6d0d0967630305 3e32", '`' => "0d2b", '·' => "0707",
+        '|' => "0e01", '~' => "~082a4668", '^' => "0a3d6a", '$' => "~6b6d0d0967630305 3e32", '`' => "0d2b", '·' => "0707", '°' => "o0a3a3d0d",
         _ => "03636d0d03",
     }
 }

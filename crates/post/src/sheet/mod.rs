@@ -1,8 +1,8 @@
 //! Contact sheets: a trajectory, or a whole dataset, in one picture that can be judged at a glance.
 
-mod canvas;
+pub(crate) mod canvas;
 mod legend;
-mod lettering;
+pub(crate) mod lettering;
 
 use crate::picture::Picture;
 use crate::preview::{Subject, preview};

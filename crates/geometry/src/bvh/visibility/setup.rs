@@ -163,7 +163,7 @@ fn blocks(first: [f32; 2], last: [f32; 2]) -> u32 {
     let at = |v: f32| v as i32 as u32 / BLOCK as u32;
     let columns = (0xf << at(first[0])) & (0xf >> (3 - at(last[0]).min(3)));
     let rows = (0xffff << (4 * at(first[1]))) & (0xffff >> (12 - 4 * at(last[1]).min(3)));
-    (columns & 0xf) * 0x1111 & rows
+    ((columns & 0xf) * 0x1111) & rows
 }
 
 #[inline(always)]

@@ -1,0 +1,28 @@
+//! Pictures of what `plan` has planned; made when they are asked for, from the files of the dataset.
+
+use super::{Job, carve};
+use crate::error::Error;
+use crate::report::{Event, StageCx, Stopwatch, count, count_of};
+use crate::workdir::read_json;
+use enfilade_geometry::OccupancyTree;
+use enfilade_post::planview::{Planned, write_plan_preview};
+use enfilade_scene::{Camera, StartCamera, Trajectory};
+use std::path::PathBuf;
+
+/// Draws the trajectories of a scene and returns the page that shows them.
+pub(crate) fn draw_plan(job: &Job, cx: &StageCx) -> Result<PathBuf, Error> {
+    let time = Stopwatch::start();
+    cx.event(Event::Started);
+    let name = &job.scene.name;
+    let filmed: Vec<(Camera, Trajectory)> = job.filmed()?;
+    let starts: Vec<StartCamera> = read_json(&job.work_file(carve::STARTS)?).unwrap_or_default();
+    let (bt, _, _) = job.dataset.read_free_space(name).map_err(Error::stage)?;
+    let tree = OccupancyTree::from_bt(&bt).map_err(Error::stage)?;
+    let world = job.load_world()?;
+    let planned = Planned { scene: name, world: &world.mesh, bvh: &world.bvh, tree: &tree, starts: &starts, filmed: &filmed };
+    let files = write_plan_preview(job.dataset, &planned, cx).map_err(Error::stage)?;
+    let drawn = count_of(filmed.len(), "trajectory", "trajectories");
+    let summary = format!("{drawn} drawn: {}", count(files.len(), "file"));
+    cx.event(Event::Finished { summary: &summary, wall_s: time.wall_s() });
+    Ok(job.dataset.layout().plan_preview_dir(name).join("index.html"))
+}
