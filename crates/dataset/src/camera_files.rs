@@ -47,6 +47,14 @@ impl Dataset {
         self.add_camera(scene, name)
     }
 
+    /// Writes the time between two frames of a trajectory that was planned for one, in place of the camera's own.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_frame_time(&self, scene: &str, camera: &str, frame_time_s: f64) -> Result<(), DatasetError> {
+        write_parameter(&self.layout().metadata_camera(scene, camera), "frame_time_seconds", frame_time_s)
+    }
+
     /// A camera's trajectory in metres; without `metadata_scene.csv` the files are taken to be in metres. Without look-at positions
     /// the point one metre ahead stands for each, and without frame numbers they count from 0.
     ///

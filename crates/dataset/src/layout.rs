@@ -1,8 +1,8 @@
 //! Every path of the tree, in one place. Nothing here touches the disk.
 //!
-//! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `_detail/plan_preview/`, and in each camera's `_detail` folder
-//! `cameras_opencv.json`, `frames/` with the commit records and, for cameras that are more than a pinhole, `camera.json` and its
-//! arrays.
+//! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `_detail/plan_preview/`, and in each camera's
+//! `_detail` folder `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records and, for cameras that are more than a
+//! pinhole, `camera.json` and its arrays.
 
 use crate::DatasetError;
 use enfilade_frame::{Layer, Pass};

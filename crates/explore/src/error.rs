@@ -139,6 +139,41 @@ pub enum ExploreError {
         /// Possible targets in the last attempt.
         look_at: usize,
     },
+    /// No place with room to move within reach.
+    #[error(
+        "trajectory {trajectory} has no place to go to: within a metre of {position} there is no free voxel with {clearance_m} m and a \
+         voxel's width to every surface, at the height asked for; move the start camera or lower clearance_m"
+    )]
+    NoPlaces {
+        /// Name of the trajectory.
+        trajectory: String,
+        /// Where it would begin.
+        position: DVec3,
+        /// The configured clearance.
+        clearance_m: f64,
+    },
+    /// A path that cannot be made.
+    #[error("trajectory {trajectory} has no way at {position}: {problem}")]
+    NoWay {
+        /// Name of the trajectory.
+        trajectory: String,
+        /// Where.
+        position: DVec3,
+        /// What is wrong there and what to do.
+        problem: String,
+    },
+    /// A table of poses that cannot be understood.
+    #[error("{file}, pose {row}: found {found}; expected {expected}")]
+    Keyframes {
+        /// The file.
+        file: String,
+        /// Which pose, from 1.
+        row: usize,
+        /// What stands there.
+        found: String,
+        /// What should.
+        expected: &'static str,
+    },
 }
 
 /// Checks a configured number.

@@ -6,8 +6,9 @@
 //! 1. [`find_starts`] looks for places to stand in scenes that come without cameras.
 //! 2. [`carve`] marks every voxel that a surface touches as occupied, and every voxel that a ray from the start cameras reaches
 //!    before an occupied one as free. The result is an octree.
-//! 3. [`plan`] walks through the free space: every step draws poses near the last one and chooses among them in proportion to
-//!    how much a small test image of each shows ([`Saliency`]).
+//! 3. [`plan`] finds poses in the free space by one of several modes ([`Mode`]), [`follow`] those that were made by hand; both say in
+//!    a [`PlanReport`] how the trajectory came out. The default mode walks: every step draws poses near the last one and chooses
+//!    among them in proportion to how much a small test image of each shows ([`Saliency`]).
 //!
 //! All results are functions of the inputs and the seed, whatever the number of threads.
 
@@ -25,7 +26,10 @@ mod view;
 pub use carve::{CarveConfig, carve};
 pub use error::ExploreError;
 pub use find_starts::{StartsConfig, find_starts};
-pub use plan::{PlanConfig, plan};
+pub use plan::{
+    CoverageConfig, CoverageReport, Fault, FrameValues, Keyframe, KeyframesConfig, Mode, PartCoverage, PlanConfig, PlanReport,
+    PlanStatistics, Planned, RejectedCounts, RelaxedFrame, Spread, StillsConfig, VideoConfig, follow, parse_keyframes, plan,
+};
 pub use preset::Preset;
 pub use saliency::Saliency;
 pub use space::{CarveReport, FreeSpace, Leak, StartReport};

@@ -28,6 +28,16 @@ impl Room {
         Self { world: WorldMesh { corners, sources, bounds, contrasts: vec![0.0] }, bvh }
     }
 
+    /// Each list of triangles is one part.
+    pub fn from_parts(parts: Vec<Vec<[Vec3; 3]>>) -> Self {
+        let part = |(part, corners): (usize, &Vec<[Vec3; 3]>)| vec![part as u32; corners.len()];
+        let of: Vec<u32> = parts.iter().enumerate().flat_map(part).collect();
+        let mut room = Self::from_corners(parts.concat());
+        room.world.contrasts = vec![0.0; parts.len()];
+        room.world.sources.iter_mut().zip(of).for_each(|(source, part)| source.part = part);
+        room
+    }
+
     pub fn remove_ceiling(&mut self) {
         let top = self.world.bounds.max.z;
         let corners = self.world.corners.iter().copied().filter(|t| t.iter().any(|p| p.z < top)).collect();

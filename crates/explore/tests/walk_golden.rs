@@ -46,7 +46,7 @@ fn the_walk_goes_where_the_programs_walk_went() {
         let space = room.free_space();
         let config = PlanConfig { preset: Preset::Hypersim, ..PlanConfig::default() };
         for (index, (start, walk)) in room.starts.iter().zip(&room.walks).enumerate() {
-            let trajectory = plan(&room.world, &bvh, &space, start, index as u32, &config, &Quiet).unwrap();
+            let trajectory = plan(&room.world, &bvh, &space, start, index as u32, &config, &Quiet).unwrap().trajectory;
             assert_eq!(trajectory.poses.len(), walk.positions.len());
             let same = |i: &usize| {
                 let turned = (trajectory.poses[*i].world_from_camera - walk.orientations[*i]).to_cols_array();

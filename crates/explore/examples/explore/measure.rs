@@ -70,7 +70,7 @@ pub fn room(room: &Room) -> Measured {
     let space = room.free_space();
     let only_carve = || drop(carve(&room.world, &bvh, &room.start_positions(), &carve_with(Preset::Hypersim), &Quiet));
     let only_walk = || drop(plan(&room.world, &bvh, &space, &room.starts[0], 0, &plan_with(Preset::Hypersim), &Quiet));
-    let poses = cameras.map(|camera| walked(Preset::Hypersim, camera).poses).collect::<Vec<_>>();
+    let poses = cameras.map(|camera| walked(Preset::Hypersim, camera).trajectory.poses).collect::<Vec<_>>();
     Measured {
         name: room.name,
         triangles: room.world.corners.len(),

@@ -1,125 +1,63 @@
-//! Trajectories: random walks through the free space, drawn to what is worth seeing.
+//! Trajectories: where the pictures of a scene are taken from. One file per mode, all of them under the same rules.
 
+mod config;
+mod coverage;
 mod first;
+mod gates;
+mod glance;
+mod headings;
 mod hypersim;
+mod keyframes;
+mod measure;
+mod nearest;
+mod patches;
+mod places;
+mod report;
 mod rules;
+mod spline;
+mod stills;
+mod timing;
+mod tour;
+mod video;
+mod walk;
 
-use crate::error::require;
 use crate::view::{Sight, TestImage, ViewStats};
-use crate::{ExploreError, FreeSpace, Preset, Saliency};
+use crate::{ExploreError, FreeSpace, Preset};
 use enfilade_geometry::Bvh;
-use enfilade_math::{DVec3, Distribution1, Rng};
-use enfilade_scene::{Cx, Intrinsics, Pose, StartCamera, Trajectory, Warning, WorldMesh};
+use enfilade_math::{Distribution1, Rng};
+use enfilade_scene::{Cx, Intrinsics, Pose, StartCamera, Trajectory, WorldMesh};
+use gates::Gates;
+use glance::Glancer;
 use rayon::prelude::*;
-use rules::{Rules, posed};
-use serde::{Deserialize, Serialize};
+use rules::Rules;
 
-/// What one step tries, one after the other, until a pose is found: factor on the number of samples, factor on the step.
-const ATTEMPTS: [(u32, f64); 5] = [(1, 1.0), (4, 1.0), (4, 0.5), (4, 0.25), (4, 0.1)];
+pub use config::{CoverageConfig, KeyframesConfig, Mode, PlanConfig, StillsConfig, VideoConfig};
+pub use coverage::{CoverageReport, PartCoverage};
+pub use keyframes::{Keyframe, parse_keyframes};
+pub use report::{Fault, FrameValues, PlanReport, PlanStatistics, RejectedCounts, RelaxedFrame, Spread};
 
-/// Pairs drawn per candidate wanted, before an attempt makes do with fewer.
-const DRAWS_PER_CANDIDATE: usize = 50;
-
-/// How a trajectory is found. The defaults are Hypersim's, as its paper states them, with a clearance and limits added.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct PlanConfig {
-    /// Whose walk: this crate's, with all its rules, or that of Hypersim's program.
-    pub preset: Preset,
-    /// Poses in the trajectory, the start camera's among them.
-    pub frames: u32,
-    /// Poses compared at each step.
-    pub candidates: u32,
-    /// Random points drawn at each step for the camera, and as many for its target, before the rules sort them out.
-    pub queries: u32,
-    /// How far the camera and its target may each move in one step along x, y and z, metres.
-    pub step_m: [f64; 3],
-    /// How far above or below those of frame 0 the camera and its target may each be, metres.
-    pub height_range_m: f64,
-    /// The camera keeps at least this far from every surface, metres. Measured by occupied voxels, so up to a voxel's diagonal more.
-    pub clearance_m: f64,
-    /// The target is at least this far from the camera, metres.
-    pub min_look_distance_m: f64,
-    /// Roll is uniform within plus and minus this, degrees (less than 90).
-    pub roll_limit_deg: f64,
-    /// Views that show no surface in more than this share of the pixels are taken only when nothing better is found.
-    pub max_void_share: f64,
-    /// Horizontal field of view of the test images, radians.
-    pub fov_x_rad: f64,
-    /// Width of the test images, pixels. Planning time is in proportion to width times height.
-    pub test_width: u32,
-    /// Height of the test images, pixels.
-    pub test_height: u32,
-    /// A second camera stands this far to the right of the first, metres, and keeps the same rules; 0 for none.
-    #[serde(skip_serializing_if = "is_zero")]
-    pub stereo_baseline_m: f64,
-    /// What makes a view worth taking.
-    pub saliency: Saliency,
-    /// Seed; each trajectory has its own stream of random numbers.
-    pub seed: u64,
+/// A trajectory and how it came out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned {
+    /// Poses numbered from 0 without a gap.
+    pub trajectory: Trajectory,
+    /// Its measurements.
+    pub report: PlanReport,
 }
 
-fn is_zero(v: &f64) -> bool {
-    *v == 0.0
-}
-
-impl Default for PlanConfig {
-    fn default() -> Self {
-        Self {
-            preset: Preset::Default,
-            frames: 100,
-            candidates: 20,
-            queries: 1000,
-            step_m: [1.5, 1.5, 0.25],
-            height_range_m: 0.25,
-            clearance_m: 0.2,
-            min_look_distance_m: 0.5,
-            roll_limit_deg: 5.0,
-            max_void_share: 0.2,
-            fov_x_rad: std::f64::consts::FRAC_PI_3,
-            test_width: 256,
-            test_height: 192,
-            stereo_baseline_m: 0.0,
-            saliency: Saliency::default(),
-            seed: 0,
-        }
-    }
-}
-
-impl PlanConfig {
-    fn validate(&self) -> Result<(), ExploreError> {
-        let length = |v: f64| v >= 0.0 && v.is_finite();
-        let counts = [("frames", self.frames), ("candidates", self.candidates), ("queries", self.queries)];
-        for (field, n) in counts.into_iter().chain([("test_width", self.test_width), ("test_height", self.test_height)]) {
-            require(n >= 1, field, n, "1 or more")?;
-        }
-        let step_ok = self.step_m.iter().all(|s| length(*s)) && self.step_m[0] + self.step_m[1] > 0.0;
-        require(step_ok, "step_m", format!("{:?}", self.step_m), "three lengths in metres, the first two not both 0")?;
-        require(length(self.height_range_m), "height_range_m", self.height_range_m, "a length of 0 or more")?;
-        require(length(self.clearance_m), "clearance_m", self.clearance_m, "a length of 0 or more")?;
-        require(length(self.stereo_baseline_m), "stereo_baseline_m", self.stereo_baseline_m, "a length of 0 or more")?;
-        let distance = self.min_look_distance_m;
-        require(distance > 0.0 && length(distance), "min_look_distance_m", distance, "a length above 0")?;
-        require((0.0..90.0).contains(&self.roll_limit_deg), "roll_limit_deg", self.roll_limit_deg, "0 up to but not 90 degrees")?;
-        require((0.0..=1.0).contains(&self.max_void_share), "max_void_share", self.max_void_share, "a share from 0 to 1")?;
-        let fov_ok = self.fov_x_rad > 0.0 && self.fov_x_rad < std::f64::consts::PI;
-        require(fov_ok, "fov_x_rad", self.fov_x_rad, "an angle between 0 and pi")
-    }
-}
-
-/// Finds trajectory `trajectory_index` (`cam_00`, `cam_01`, …), which begins at `start` and looks where it looks.
+/// Finds trajectory `trajectory_index` (`cam_00`, `cam_01`, …), which begins at `start`, by the configured [`Mode`].
 ///
-/// Every pose keeps these rules: the camera is in free space and `clearance_m` from every surface; its target is in free space; both
-/// move at most `step_m` and stay within `height_range_m` of their height in frame 0; the last position sees the new one, the last
-/// target the new one, and the camera its target; roll is within `roll_limit_deg`. Among the poses that do, one is chosen in
-/// proportion to its [`Saliency`].
+/// Every pose keeps these rules, whatever the mode: the camera is in free space, `clearance_m` from every surface and at the height
+/// above the floor that is asked for; its target is in free space, at least `min_look_distance_m` away, and seen; roll and pitch are
+/// within their limits; a second camera of a stereo rig has room too. Views with a [`Fault`] are taken only when nothing better is
+/// found, with a warning, and stand in the report.
 ///
-/// A start camera that breaks a rule is mended with a warning: moved to the nearest position that is clear, its roll brought within
-/// the limit, its view turned when there is nothing before it.
+/// A start camera that breaks a rule is mended with a warning: moved to the nearest position that is clear, its roll and pitch
+/// brought within the limits, its view turned when there is nothing before it.
 ///
 /// # Errors
-/// A configuration out of its domain, a start camera with no clear position near it or nothing to look at, or a walk that is stuck
-/// even with more samples and smaller steps.
+/// A configuration out of its domain, a start camera with no clear position near it or nothing to look at, or a mode that finds no
+/// way to go on. Poses made by hand are not planned: [`follow`] is for them.
 pub fn plan(
     world: &WorldMesh,
     bvh: &Bvh,
@@ -128,139 +66,145 @@ pub fn plan(
     trajectory_index: u32,
     config: &PlanConfig,
     cx: &dyn Cx,
-) -> Result<Trajectory, ExploreError> {
+) -> Result<Planned, ExploreError> {
     config.validate()?;
-    let name = format!("cam_{trajectory_index:02}");
+    let name = trajectory_name(trajectory_index);
+    let rules = Rules::new(bvh, space, config);
+    let glancer = Glancer::new(&rules, world);
+    let gates = Gates::new(&glancer, config, world, start, cx);
+    let planner = Planner::new(&rules, &gates, world, &name, cx);
     if config.preset == Preset::Hypersim {
-        let walked = hypersim::walk(world, bvh, space, start, &name, config, &|_| {})?;
-        return Ok(Trajectory { name, poses: walked.into_iter().map(|(pose, _)| pose).collect() });
+        let (poses, views) =
+            hypersim::walk(world, bvh, space, start, &name, config, &|frame| planner.progress(frame as usize, config.frames as usize))?
+                .into_iter()
+                .unzip();
+        return Ok(measure::finish(&planner, Draft { poses, views, ..Draft::default() }));
     }
-    let image = TestImage::new(&Intrinsics::from_fov_x(config.test_width, config.test_height, config.fov_x_rad));
-    let walk = Walk { rules: Rules::new(bvh, space, config), world, bvh, config, image, name: &name };
-    let what = format!("plan {name}");
     let rng = Rng::new(config.seed).fork(u64::from(trajectory_index));
-
-    let first = first::pose(&walk.rules, start, &walk.image, cx)?;
-    let mut empty_frames = Vec::new();
-    if walk.look(&first).void_share() > config.max_void_share {
-        empty_frames.push(0);
-    }
-    let mut poses = vec![first];
-    for frame in 1..config.frames {
-        cx.progress(&what, u64::from(frame), u64::from(config.frames));
-        let (pose, view) = walk.step(&first, &poses[poses.len() - 1], frame, rng.fork(u64::from(frame)))?;
-        if view.void_share() > config.max_void_share {
-            empty_frames.push(frame);
-        }
-        poses.push(pose);
-    }
-    cx.progress(&what, u64::from(config.frames), u64::from(config.frames));
-    warn_of_void(&name, &empty_frames, config, cx);
-    Ok(Trajectory { name, poses })
+    let first = first::pose(&rules, start, &planner.image, cx)?;
+    let draft = match &config.mode {
+        Mode::Walk => walk::walk(&planner, first, &rng),
+        Mode::Video(video) => video::video(&planner, first, video, &rng),
+        Mode::Stills(stills) => stills::stills(&planner, first, stills, &rng),
+        Mode::Coverage(coverage) => coverage::cover(&planner, first, coverage, &rng),
+        Mode::Keyframes(_) => Err(ExploreError::Config {
+            field: "mode",
+            found: "keyframes".into(),
+            expected: "a mode that finds poses; poses that are given go to `follow`",
+        }),
+    }?;
+    Ok(measure::finish(&planner, draft))
 }
 
-fn warn_of_void(name: &str, frames: &[u32], config: &PlanConfig, cx: &dyn Cx) {
-    let Some(first) = frames.first() else { return };
-    let (n, all, percent) = (frames.len(), config.frames, 100.0 * config.max_void_share);
-    let message = format!(
-        "{n} of {all} views (the first is frame {first}) show no surface in more than {percent:.0} % of their pixels, and no better view \
-         was found: the scene is open or lacks walls there"
-    );
-    cx.warn(Warning { place: name.to_string(), message });
+/// The trajectory through poses made by hand, with every frame between two of them interpolated: positions and targets on splines of
+/// continuous curvature, roll evenly. Nothing is mended: frames that break a rule are named in a warning and in the report.
+///
+/// The first position is taken to be on the right side of things, as the start camera is in [`plan`].
+///
+/// # Errors
+/// A configuration out of its domain, or a frame that has no view: looking straight up or down, or at its own position.
+pub fn follow(
+    world: &WorldMesh,
+    bvh: &Bvh,
+    space: &FreeSpace,
+    keyframes: &[Keyframe],
+    trajectory_index: u32,
+    config: &PlanConfig,
+    cx: &dyn Cx,
+) -> Result<Planned, ExploreError> {
+    config.validate()?;
+    let name = trajectory_name(trajectory_index);
+    let poses = keyframes::interpolate(keyframes, &name)?;
+    let first = &poses[0];
+    let start = StartCamera {
+        name: name.clone(),
+        position: first.position,
+        world_from_camera: first.world_from_camera,
+        fov_x_rad: config.fov_x_rad,
+        aspect: f64::from(config.test_width) / f64::from(config.test_height),
+    };
+    let rules = Rules::new(bvh, space, config);
+    let glancer = Glancer::new(&rules, world);
+    let gates = Gates::new(&glancer, config, world, &start, cx);
+    let planner = Planner::new(&rules, &gates, world, &name, cx);
+    keyframes::warn_of_crossings(&planner, &poses);
+    Ok(measure::finish(&planner, Draft { poses, ..Draft::default() }))
 }
 
-struct Walk<'a> {
-    rules: Rules<'a>,
+fn trajectory_name(index: u32) -> String {
+    format!("cam_{index:02}")
+}
+
+/// What every mode works with.
+struct Planner<'a> {
+    rules: &'a Rules<'a>,
+    gates: &'a Gates<'a>,
     world: &'a WorldMesh,
-    bvh: &'a Bvh,
     config: &'a PlanConfig,
     image: TestImage,
     name: &'a str,
+    cx: &'a dyn Cx,
 }
 
-impl Walk<'_> {
-    fn look(&self, pose: &Pose) -> ViewStats {
-        self.judged(&mut self.image.sight(self.world), pose)
+/// What a mode found.
+#[derive(Default)]
+struct Draft {
+    poses: Vec<Pose>,
+    /// What the poses show, where the mode knows already; else empty.
+    views: Vec<ViewStats>,
+    rejected: RejectedCounts,
+    coverage: Option<CoverageReport>,
+}
+
+impl<'a> Planner<'a> {
+    fn new(rules: &'a Rules<'a>, gates: &'a Gates<'a>, world: &'a WorldMesh, name: &'a str, cx: &'a dyn Cx) -> Self {
+        let config = rules.config;
+        let image = TestImage::new(&Intrinsics::from_fov_x(config.test_width, config.test_height, config.fov_x_rad));
+        Self { rules, gates, world, config, image, name, cx }
     }
 
-    fn judged(&self, sight: &mut Sight, pose: &Pose) -> ViewStats {
-        sight.look(self.bvh, &self.image, pose);
-        sight.judge(self.world, &self.config.saliency)
-    }
-
-    /// The pose after `last`, and what it shows.
-    fn step(&self, first: &Pose, last: &Pose, frame: u32, mut rng: Rng) -> Result<(Pose, ViewStats), ExploreError> {
-        let mut fullest: Option<(Pose, ViewStats)> = None;
-        let (mut look_from, mut look_at, mut queries) = (0, 0, 0);
-        for (sampling, scale) in ATTEMPTS {
-            // Where the camera and its target may go.
-            queries = self.config.queries.saturating_mul(sampling);
-            let positions = self.points(first.position, last.position, scale, queries, &mut rng);
-            let positions = self.rules.positions_seen_from(last.position, positions);
-            let targets = self.points(first.look_at, last.look_at, scale, queries, &mut rng);
-            let targets = self.rules.targets_seen_from(last.look_at, targets);
-            (look_from, look_at) = (positions.len(), targets.len());
-
-            // Candidate poses, and what each is worth.
-            let candidates = self.pair(&positions, &targets, frame, &mut rng);
-            let views = self.views(&candidates);
-            let score = |view: &ViewStats| {
-                if view.void_share() > self.config.max_void_share { 0.0 } else { self.config.saliency.score(view) as f32 }
-            };
-            let weights: Vec<f32> = views.iter().map(score).collect();
-            if let Some(distribution) = Distribution1::new(&weights) {
-                let chosen = distribution.sample(rng.next_f32()).0;
-                return Ok((candidates[chosen], views[chosen]));
-            }
-            for found in candidates.into_iter().zip(views) {
-                if fullest.is_none_or(|best| found.1.hits > best.1.hits) {
-                    fullest = Some(found);
-                }
-            }
-        }
-        fullest.ok_or_else(|| ExploreError::Stuck {
-            trajectory: self.name.to_string(),
-            frame,
-            position: last.position,
-            queries,
-            look_from,
-            look_at,
-        })
-    }
-
-    /// Points uniform in the box around `last`, within the heights allowed around `first`.
-    fn points(&self, first: DVec3, last: DVec3, scale: f64, n: u32, rng: &mut Rng) -> Vec<DVec3> {
-        let half = scale * DVec3::from(self.config.step_m);
-        let (mut low, mut high) = (last - half, last + half);
-        low.z = low.z.max(first.z - self.config.height_range_m);
-        high.z = high.z.min(first.z + self.config.height_range_m);
-        (0..n).map(|_| low + (high - low) * DVec3::new(rng.next_f64(), rng.next_f64(), rng.next_f64())).collect()
-    }
-
-    /// Poses from random pairs of a position and a target that it sees. All of one step share one roll.
-    fn pair(&self, positions: &[DVec3], targets: &[DVec3], frame: u32, rng: &mut Rng) -> Vec<Pose> {
-        let limit = self.config.roll_limit_deg.to_radians();
-        let roll_rad = limit * (2.0 * rng.next_f64() - 1.0);
-        let wanted = self.config.candidates as usize;
-        let mut poses = Vec::with_capacity(wanted);
-        if positions.is_empty() || targets.is_empty() {
-            return poses;
-        }
-        for _ in 0..wanted * DRAWS_PER_CANDIDATE {
-            let (position, look_at) = (positions[rng.below(positions.len())], targets[rng.below(targets.len())]);
-            if position.distance(look_at) < self.config.min_look_distance_m || !self.rules.sees(position, look_at) {
-                continue;
-            }
-            poses.extend(posed(frame, position, look_at, roll_rad).filter(|pose| self.rules.has_room_beside(pose)));
-            if poses.len() == wanted {
-                break;
-            }
-        }
-        poses
-    }
-
+    /// What each pose shows.
     fn views(&self, poses: &[Pose]) -> Vec<ViewStats> {
-        poses.par_iter().map_init(|| self.image.sight(self.world), |sight, pose| self.judged(sight, pose)).collect()
+        let look = |sight: &mut Sight, pose: &Pose| {
+            sight.look(self.rules.bvh, &self.image, pose);
+            sight.judge(self.world, &self.config.saliency)
+        };
+        poses.par_iter().map_init(|| self.image.sight(self.world), look).collect()
+    }
+
+    /// What a view is worth.
+    fn score(&self, view: &ViewStats) -> f64 {
+        self.config.saliency.score(view)
+    }
+
+    /// The index of a candidate without a fault, drawn in proportion to the scores. Coarse looks are dear, so only what is drawn is
+    /// looked at; one with a fault is drawn no more. `before` is the pose before them.
+    fn choose(
+        &self,
+        candidates: &[Pose],
+        views: &[ViewStats],
+        before: Option<&Pose>,
+        rejected: &mut RejectedCounts,
+        rng: &mut Rng,
+    ) -> Option<usize> {
+        let score = |view: &ViewStats| if self.gates.is_void(view) { 0.0 } else { self.score(view) as f32 };
+        let mut weights: Vec<f32> = views.iter().map(score).collect();
+        views.iter().filter(|view| self.gates.is_void(view)).for_each(|_| rejected.add(Fault::Void));
+        while let Some(distribution) = Distribution1::new(&weights) {
+            let chosen = distribution.sample(rng.next_f32()).0;
+            let Some(fault) = self.gates.fault(&candidates[chosen], before) else { return Some(chosen) };
+            rejected.add(fault);
+            weights[chosen] = 0.0;
+        }
+        None
+    }
+
+    fn progress(&self, done: usize, total: usize) {
+        self.cx.progress(&format!("plan {}", self.name), done as u64, total as u64);
+    }
+
+    fn warn(&self, message: String) {
+        self.cx.warn(enfilade_scene::Warning { place: self.name.to_string(), message });
     }
 }
 

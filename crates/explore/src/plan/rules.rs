@@ -3,15 +3,29 @@
 use super::PlanConfig;
 use crate::FreeSpace;
 use enfilade_geometry::{Bvh, Voxel};
-use enfilade_math::{DVec3, Ray};
+use enfilade_math::{DQuat, DVec3, Ray, Rng};
 use enfilade_scene::Pose;
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 
 /// A point is seen when no surface is nearer than this much beyond it, as a share of its distance: the original's margin.
 const SIGHT_MARGIN: f64 = 0.01;
 
 /// Views closer to the vertical than this (sine of the angle) have no meaningful roll and are not taken.
 pub(super) const MIN_SLANT: f64 = 0.1;
+
+/// Limits of angles and heights are kept to within this, so that rounding breaks none.
+const ROUNDING: f64 = 1e-9;
+
+/// A floor is looked for below the camera and this far around it, so that no table and no edge of a bed is taken for one.
+const STANDING_RADIUS_M: f64 = 0.5;
+const STANDING_PLACES: usize = 8;
+
+/// Targets keep this many voxels away from the surface behind them; the original's number.
+const TARGET_MARGIN_VOXELS: f64 = 1.75;
+
+/// A way is looked at in steps of this many voxels.
+const WAY_STEP_VOXELS: f64 = 0.25;
 
 pub(super) struct Rules<'a> {
     pub bvh: &'a Bvh,
@@ -40,15 +54,38 @@ impl<'a> Rules<'a> {
     }
 
     /// In a free voxel, with no occupied voxel within the clearance.
-    pub fn is_position(&self, p: DVec3) -> bool {
+    pub fn has_room(&self, p: DVec3) -> bool {
         self.is_free(p) && !self.space.tree.any_within(p, self.config.clearance_m, Voxel::Occupied)
+    }
+
+    /// Where a camera may be: room, and the height asked for.
+    pub fn is_position(&self, p: DVec3) -> bool {
+        self.has_room(p) && self.is_at_height(p)
+    }
+
+    /// At the height above the floor that is asked for; true where none is.
+    pub fn is_at_height(&self, p: DVec3) -> bool {
+        let Some([min, max]) = self.config.camera_height_m else { return true };
+        self.height_m(p).is_some_and(|h| h >= min - ROUNDING && h <= max + ROUNDING)
+    }
+
+    /// Height above the floor: the lowest surface below the point and the places around it that it sees. `None` above nothing.
+    pub fn height_m(&self, p: DVec3) -> Option<f64> {
+        let below = |p: DVec3| self.distance_m(p, -DVec3::Z);
+        let around = (0..STANDING_PLACES).filter_map(|k| {
+            let (sin, cos) = (TAU * k as f64 / STANDING_PLACES as f64).sin_cos();
+            let beside = p + STANDING_RADIUS_M * DVec3::new(cos, sin, 0.0);
+            self.sees(p, beside).then(|| below(beside))
+        });
+        let lowest = around.filter(|h| h.is_finite()).fold(below(p), f64::max);
+        lowest.is_finite().then_some(lowest)
     }
 
     /// Whether the second camera of a stereo rig may be beside this pose; true without one.
     pub fn has_room_beside(&self, pose: &Pose) -> bool {
         let baseline = self.config.stereo_baseline_m;
         let partner = pose.position + baseline * pose.world_from_camera.x_axis;
-        baseline == 0.0 || (self.is_position(partner) && self.sees(pose.position, partner))
+        baseline == 0.0 || (self.has_room(partner) && self.sees(pose.position, partner))
     }
 
     /// No surface between `from` and `to`, nor close behind `to`.
@@ -64,6 +101,103 @@ impl<'a> Rules<'a> {
     pub fn distance_m(&self, from: DVec3, direction: DVec3) -> f64 {
         self.bvh.closest(&Ray::new(from.as_vec3(), direction.as_vec3())).map_or(f64::INFINITY, |hit| f64::from(hit.t))
     }
+
+    /// The straight way between two points lies in free voxels, with no occupied one within the clearance of any point of it.
+    pub fn is_clear_way(&self, from: DVec3, to: DVec3) -> bool {
+        let step_m = WAY_STEP_VOXELS * self.space.tree.resolution_m();
+        let steps = (from.distance(to) / step_m).ceil().max(1.0);
+        // Every point of the way is within half a step of one that is looked at.
+        let clearance = self.config.clearance_m + 0.5 * from.distance(to) / steps;
+        (0..=steps as usize).all(|i| {
+            let p = from.lerp(to, i as f64 / steps);
+            self.is_free(p) && !self.space.tree.any_within(p, clearance, Voxel::Occupied)
+        })
+    }
+
+    /// Roll is uniform within plus and minus this.
+    pub fn roll_limit_rad(&self) -> f64 {
+        if self.config.level { 0.0 } else { self.config.roll_limit_deg.to_radians() }
+    }
+
+    /// A roll within the limit.
+    pub fn draw_roll_rad(&self, rng: &mut Rng) -> f64 {
+        self.roll_limit_rad() * (2.0 * rng.next_f64() - 1.0)
+    }
+
+    /// The lowest and the highest angle of the viewing axis above the horizon.
+    pub fn pitch_limits_rad(&self) -> [f64; 2] {
+        if self.config.level { [0.0; 2] } else { self.config.pitch_limits_deg.map(f64::to_radians) }
+    }
+
+    /// A unit direction with its pitch brought within the limits.
+    pub fn tilted(&self, direction: DVec3) -> DVec3 {
+        let [low, high] = self.pitch_limits_rad();
+        let pitch = pitch_rad(direction);
+        let flat = DVec3::new(direction.x, direction.y, 0.0);
+        match flat.try_normalize() {
+            Some(flat) if pitch < low - ROUNDING || pitch > high + ROUNDING => {
+                let (sin, cos) = pitch.clamp(low, high).sin_cos();
+                cos * flat + sin * DVec3::Z
+            }
+            _ => direction,
+        }
+    }
+
+    /// What a camera at `position` looks at when it is aimed at `look_at`: the point itself, or the one level with the camera where
+    /// views are level. `None` when it is too near, hidden, not free, or too high or low.
+    pub fn sight(&self, position: DVec3, look_at: DVec3) -> Option<DVec3> {
+        let target = if self.config.level { DVec3::new(look_at.x, look_at.y, position.z) } else { look_at };
+        let [low, high] = self.pitch_limits_rad();
+        if position.distance(target) < self.config.min_look_distance_m || !self.sees(position, target) {
+            return None;
+        }
+        let pitch = pitch_rad(target - position);
+        let within = pitch >= low - ROUNDING && pitch <= high + ROUNDING;
+        (within && (target == look_at || self.is_free(target))).then_some(target)
+    }
+
+    /// The pose that looks along a direction, at the farthest point that is in free space and well before the first surface. `None`
+    /// when there is none, the view is nearly vertical, or the second camera has no room.
+    pub fn toward(&self, frame: u32, position: DVec3, direction: DVec3, roll_rad: f64) -> Option<Pose> {
+        let look_at = self.target(position, direction)?;
+        posed(frame, position, look_at, roll_rad).filter(|pose| self.has_room_beside(pose))
+    }
+
+    /// The farthest point along a direction that is in free space and well before the first surface.
+    pub fn target(&self, position: DVec3, direction: DVec3) -> Option<DVec3> {
+        if direction.truncate().length() < MIN_SLANT {
+            return None;
+        }
+        let voxel_m = self.space.tree.resolution_m();
+        let reach = self.distance_m(position, direction).min(self.exit_m(position, direction)) - TARGET_MARGIN_VOXELS * voxel_m;
+        let mut distance = reach;
+        while distance >= self.config.min_look_distance_m {
+            let p = position + distance * direction;
+            if self.is_free(p) && self.sees(position, p) {
+                return Some(p);
+            }
+            distance -= 0.25 * voxel_m;
+        }
+        None
+    }
+
+    /// Where a ray from inside leaves the box of free space.
+    fn exit_m(&self, position: DVec3, direction: DVec3) -> f64 {
+        let border = DVec3::select(direction.cmpgt(DVec3::ZERO), self.space.free_max, self.space.free_min);
+        let t = (border - position) / direction;
+        (0..3).filter(|a| direction[*a] != 0.0).map(|a| t[a]).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Angle of a direction above the horizon.
+pub(super) fn pitch_rad(direction: DVec3) -> f64 {
+    direction.z.atan2(direction.truncate().length())
+}
+
+/// Angle turned between two poses, about whatever axis.
+pub(super) fn turned_rad(from: &Pose, to: &Pose) -> f64 {
+    let turn = DQuat::from_mat3(&(from.world_from_camera.transpose() * to.world_from_camera));
+    2.0 * turn.xyz().length().atan2(turn.w.abs())
 }
 
 /// The pose that looks from `position` to `look_at` with exactly this roll; `None` when the view is nearly vertical.

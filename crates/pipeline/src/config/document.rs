@@ -8,6 +8,7 @@ use super::expand::expand;
 use super::locate::{ConfigError, Source as Text};
 use super::patch::{CarvePatch, PlanPatch, RenderPatch};
 use super::{CameraChoice, CameraConfig, Config, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source};
+use enfilade_explore::Mode;
 use enfilade_import::UpAxis;
 use serde::de::{MapAccess, Visitor, value::MapAccessDeserializer};
 use serde::{Deserialize, Deserializer};
@@ -299,6 +300,11 @@ impl Resolver<'_> {
                 return Err(self.refuse(fov, format!("fov_x_deg must lie between 0 and {limit}"), "60 is a common choice"));
             }
             scene.fov_x_deg = Some(*fov.get_ref());
+        }
+        if let Some(mode) = &plan.mode
+            && let Mode::Keyframes(keyframes) = mode.get_ref()
+        {
+            keyframes.files.iter().try_for_each(|file| self.check_path(file, mode))?;
         }
         self.check_render(render)?;
         if let Some(limit) = &render.time_limit_s {

@@ -1,6 +1,6 @@
 //! The sections of `dataset.toml` that say how stages work: every key is optional, and what is there replaces the value below.
 
-use enfilade_explore::{CarveConfig, PlanConfig, Preset, Saliency};
+use enfilade_explore::{CarveConfig, Mode, PlanConfig, Preset, Saliency};
 use enfilade_render::{Filter, RenderConfig};
 use serde::Deserialize;
 use toml::Spanned;
@@ -57,14 +57,23 @@ section!(CarvePatch => CarveConfig { preset: Preset, voxel_m: f64, extent_m: f64
 
 // The frames are a key of the level above; the test images have the field of view and the shape of the pictures.
 section!(PlanPatch => PlanConfig {
+    mode: Mode,
     candidates: u32,
     queries: u32,
     step_m: [f64; 3],
     height_range_m: f64,
+    camera_height_m: [f64; 2],
+    level: bool,
+    pitch_limits_deg: [f64; 2],
     clearance_m: f64,
     min_look_distance_m: f64,
     roll_limit_deg: f64,
+    overlap: [f64; 2],
     max_void_share: f64,
+    max_back_face_share: f64,
+    min_depth_m: f64,
+    max_near_share: f64,
+    max_open_share: f64,
     test_width: u32,
     saliency: Saliency,
 });

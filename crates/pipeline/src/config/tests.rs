@@ -1,5 +1,6 @@
 use super::document::resolve;
 use super::*;
+use enfilade_explore::{Mode, VideoConfig};
 
 fn variable(name: &str) -> Option<String> {
     (name == "ROOMS").then(|| "/rooms".into())
@@ -133,6 +134,22 @@ fn cameras_that_cannot_be_are_shown_in_place() {
     assert!(text.starts_with("sets/dataset.toml:1:20: ") && text.contains("`fisheye`"), "{text}");
     let text = error(&format!("[camera]\nlense = {{ blades = 3 }}\n{SCENE}"));
     assert!(text.contains("did you mean `lens`?"), "{text}");
+}
+
+#[test]
+fn a_mode_of_trajectories_has_keys_of_its_own() {
+    let text = format!(
+        "[plan]\nlevel = true\ncamera_height_m = [1.4, 1.7]\n{SCENE}[scene.plan]\nmode = {{ kind = \"video\", fps = 30 }}\noverlap = [0.2, 0.8]\n"
+    );
+    let plan = config(&text).scenes.remove(0).plan;
+    let video = VideoConfig { fps: 30.0, ..VideoConfig::default() };
+    assert_eq!((plan.mode, plan.level, plan.camera_height_m, plan.overlap), (Mode::Video(video), true, Some([1.4, 1.7]), Some([0.2, 0.8])));
+    let text = error(&format!("{SCENE}[scene.plan]\nmode = {{ kind = \"vidio\" }}\n"));
+    assert!(text.starts_with("sets/dataset.toml:5:") && text.contains("`vidio`") && text.contains("`keyframes`"), "{text}");
+    let text = error(&format!("{SCENE}[scene.plan]\nmode = {{ kind = \"video\", max_sped_m_s = 2 }}\n"));
+    assert!(text.starts_with("sets/dataset.toml:5:") && text.contains("did you mean `max_speed_m_s`?"), "{text}");
+    let text = error(&format!("{SCENE}[scene.plan]\nmode = {{ kind = \"keyframes\", files = [\"$NOWHERE/a.csv\"] }}\n"));
+    assert!(text.contains("the environment variable NOWHERE is not set"), "{text}");
 }
 
 #[test]

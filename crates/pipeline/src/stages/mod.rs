@@ -85,7 +85,7 @@ pub const STAGES: [StageSpec; 8] = [
         stage: Stage::Plan,
         name: "plan",
         about: "scene, free space -> camera trajectories",
-        version: 2,
+        version: 3,
         settings: plan::settings,
         inputs: plan::inputs,
         run: plan::run,

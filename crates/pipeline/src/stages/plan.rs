@@ -1,11 +1,12 @@
 //! `plan`: free space to one trajectory per start camera.
 
+use super::job::World;
 use super::{Input, Inputs, Job, Outcome, Record, Stage, carve};
 use crate::error::Error;
 use crate::report::{StageCx, count, count_of};
-use crate::workdir::{Hash, read_json, remove_if_there};
+use crate::workdir::{Hash, read_json, remove_if_there, write_json};
 use enfilade_dataset::{StereoRecord, StereoSide};
-use enfilade_explore::{CarveReport, FreeSpace, PlanConfig};
+use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, parse_keyframes};
 use enfilade_geometry::OccupancyTree;
 use enfilade_post::planview::remove_plan_preview;
 use enfilade_scene::{Camera, Cx, StartCamera, Trajectory, Warning};
@@ -30,6 +31,11 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     if let Some(grid) = &job.scene.camera.ray_grid {
         inputs.push(Input::of(&job.config.path(grid)?)?);
     }
+    if let Mode::Keyframes(keyframes) = &job.scene.plan.mode {
+        for file in &keyframes.files {
+            inputs.push(Input::of(&job.config.path(file)?)?);
+        }
+    }
     Ok(Some(inputs))
 }
 
@@ -41,34 +47,80 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let fov_x_rad = job.scene.fov_x_deg.map_or(starts[0].fov_x_rad, f64::to_radians);
     let camera = job.scene.camera.camera(job.scene.size, fov_x_rad, |path| job.config.path(path))?;
     let fov_x_rad = camera.projection.fov_x_rad(std::f64::consts::TAU);
-    let planned = plan_all(job, &starts, &camera, cx)?;
-    let filmed: Vec<(Trajectory, Option<StereoRecord>)> = match job.scene.camera.stereo {
-        None => planned.into_iter().map(|trajectory| (trajectory, None)).collect(),
-        Some(stereo) => planned.into_iter().enumerate().flat_map(|(i, left)| rig(left, i, stereo.baseline_m)).collect(),
-    };
+    let mut reports = Vec::new();
+    let mut filmed: Vec<(Trajectory, Option<StereoRecord>)> = Vec::new();
+    for (index, Planned { trajectory, mut report }) in plan_all(job, &starts, &camera, cx)?.into_iter().enumerate() {
+        match job.scene.camera.stereo {
+            None => filmed.push((trajectory, None)),
+            Some(stereo) => filmed.extend(rig(trajectory, index, stereo.baseline_m)),
+        }
+        // The report is of the planned camera, which is the left one of a rig.
+        report.trajectory = filmed[if job.scene.camera.stereo.is_some() { 2 * index } else { index }].0.name.clone();
+        reports.push(report);
+    }
     let trajectories: Vec<Trajectory> = filmed.iter().map(|(trajectory, _)| trajectory.clone()).collect();
     // Pictures of an earlier plan would be taken for pictures of this one.
     remove_plan_preview(job.dataset, name).map_err(Error::stage)?;
     remove_other_cameras(job, &trajectories)?;
     for (trajectory, stereo) in &filmed {
         job.dataset.write_trajectory(name, trajectory, &camera, stereo.as_ref()).map_err(Error::stage)?;
+        if let Mode::Video(video) = &job.scene.plan.mode {
+            job.dataset.write_frame_time(name, &trajectory.name, 1.0 / video.fps).map_err(Error::stage)?;
+        }
     }
+    warn_of_frame_time(job, &camera, cx);
     job.dataset.write_camera_parameters(name, &camera).map_err(Error::stage)?;
-    let poses: usize = trajectories.iter().map(|t| t.poses.len()).sum();
-    let summary = format!(
-        "{} with {}, {:.0} degrees wide",
-        count_of(trajectories.len(), "trajectory", "trajectories"),
-        count(poses, "pose"),
-        fov_x_rad.to_degrees()
-    );
     let layout = job.dataset.layout();
     let mut outputs = outputs_of(job, &trajectories);
     outputs.push(layout.metadata_cameras(name));
-    Ok(Outcome { summary, outputs, ..Outcome::default() })
+    for report in &reports {
+        let path = layout.plan_report(name, &report.trajectory);
+        write_json(&path, report)?;
+        outputs.push(path);
+    }
+    let report = serde_json::to_value(&reports).unwrap_or_default();
+    Ok(Outcome { summary: summary(&reports, fov_x_rad), outputs, report, ..Outcome::default() })
 }
 
-/// One trajectory per start camera. A camera from which none can begin is left out with a warning, as long as one remains.
-fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) -> Result<Vec<Trajectory>, Error> {
+/// A shutter blurs by the time between frames, so it should be told that of the video.
+fn warn_of_frame_time(job: &Job, camera: &Camera, cx: &StageCx) {
+    let (Mode::Video(video), Some(shutter)) = (&job.scene.plan.mode, camera.shutter) else { return };
+    if (shutter.frame_time_s * video.fps - 1.0).abs() > 1e-3 {
+        let (found, fps, expected) = (shutter.frame_time_s, video.fps, 1.0 / video.fps);
+        let message =
+            format!("its shutter counts {found} s between frames, but the video has {fps} a second: set frame_time_s = {expected:.5}");
+        cx.warn(Warning { place: "[camera]".into(), message });
+    }
+}
+
+/// One line: how many poses, and what they come to.
+fn summary(reports: &[PlanReport], fov_x_rad: f64) -> String {
+    let poses: usize = reports.iter().map(|report| report.per_frame.frame.len()).sum();
+    let mean = |of: fn(&PlanReport) -> f64| reports.iter().map(of).sum::<f64>() / reports.len().max(1) as f64;
+    let mut text = format!(
+        "{} with {}, {:.0} degrees wide, {:.0} % of the surfaces seen, mean overlap {:.0} %",
+        count_of(reports.len(), "trajectory", "trajectories"),
+        count(poses, "pose"),
+        fov_x_rad.to_degrees(),
+        100.0 * mean(|report| report.seen_area_share),
+        100.0 * mean(|report| report.statistics.overlap.mean)
+    );
+    for coverage in reports.iter().filter_map(|report| report.coverage.as_ref()) {
+        let enough = coverage.seen_share.last().copied().unwrap_or(0.0);
+        text += &format!(
+            "; {:.0} % of the area seen {} times, {:.0} % never, {} without a view",
+            100.0 * enough,
+            coverage.views,
+            100.0 * coverage.seen_share.first().copied().unwrap_or(0.0),
+            count(coverage.never_seen.len(), "part")
+        );
+    }
+    text
+}
+
+/// One trajectory per start camera, or per file of poses made by hand. A camera from which none can begin is left out with a
+/// warning, as long as one remains.
+fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) -> Result<Vec<Planned>, Error> {
     let world = job.load_world()?;
     let (bt, _, _) = job.dataset.read_free_space(&job.scene.name).map_err(Error::stage)?;
     let tree = OccupancyTree::from_bt(&bt).map_err(Error::stage)?;
@@ -83,11 +135,14 @@ fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) ->
         stereo_baseline_m: job.scene.camera.stereo.map_or(0.0, |stereo| stereo.baseline_m),
         ..job.scene.plan.clone()
     };
-    let mut trajectories = Vec::new();
+    if let Mode::Keyframes(keyframes) = &config.mode {
+        return follow_all(job, &keyframes.files, &world, &space, &config, cx);
+    }
+    let mut planned = Vec::new();
     let mut first_error = None;
     for (index, start) in starts.iter().enumerate() {
         match enfilade_explore::plan(&world.mesh, &world.bvh, &space, start, index as u32, &config, cx) {
-            Ok(trajectory) => trajectories.push(trajectory),
+            Ok(found) => planned.push(found),
             Err(error) => {
                 let message = format!("no trajectory begins here: {error}");
                 cx.warn(Warning { place: format!("camera {:?}", start.name), message });
@@ -96,9 +151,33 @@ fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) ->
         }
     }
     match first_error {
-        Some(error) if trajectories.is_empty() => Err(Error::stage(error)),
-        _ => Ok(trajectories),
+        Some(error) if planned.is_empty() => Err(Error::stage(error)),
+        _ => Ok(planned),
     }
+}
+
+/// The trajectories of files of poses.
+fn follow_all(
+    job: &Job,
+    files: &[String],
+    world: &World,
+    space: &FreeSpace,
+    config: &PlanConfig,
+    cx: &StageCx,
+) -> Result<Vec<Planned>, Error> {
+    let mut planned = Vec::new();
+    for (index, file) in files.iter().enumerate() {
+        let path = job.config.path(file)?;
+        let text = std::fs::read_to_string(&path).map_err(Error::io("read", &path))?;
+        let keyframes: Vec<Keyframe> = parse_keyframes(&path.display().to_string(), &text).map_err(misread)?;
+        let found = enfilade_explore::follow(&world.mesh, &world.bvh, space, &keyframes, index as u32, config, cx).map_err(Error::stage)?;
+        planned.push(found);
+    }
+    Ok(planned)
+}
+
+fn misread(error: ExploreError) -> Error {
+    Error::scene(error.to_string(), "correct the file; its format is explained in docs/trajectories.md")
 }
 
 /// The planned trajectory number `index` as the left camera of a rig, and the right one's: `cam_00` and `cam_01`, `cam_02` and

@@ -1,50 +1,17 @@
 use super::*;
-use crate::testroom::{Room, furnished_room};
-use crate::{CarveConfig, carve};
-use enfilade_math::DMat3;
-use enfilade_scene::Quiet;
-use std::sync::Mutex;
-
-/// Keeps the warnings.
-#[derive(Default)]
-struct Listener(Mutex<Vec<String>>);
-
-impl Cx for Listener {
-    fn progress(&self, _what: &str, _done: u64, _total: u64) {}
-    fn warn(&self, warning: Warning) {
-        self.0.lock().unwrap().push(warning.to_string());
-    }
-}
-
-fn camera(position: DVec3, look_at: DVec3, up: DVec3) -> StartCamera {
-    let pose = Pose::look_at(0, position, look_at, up).unwrap();
-    StartCamera { name: "start".into(), position, world_from_camera: pose.world_from_camera, fov_x_rad: 1.0, aspect: 4.0 / 3.0 }
-}
-
-fn start() -> StartCamera {
-    camera(DVec3::new(3.0, 2.5, 1.5), DVec3::new(3.0, 4.0, 1.2), DVec3::Z)
-}
-
-fn carved(room: &Room) -> FreeSpace {
-    let config = CarveConfig { rays: 40_000, ..CarveConfig::default() };
-    carve(&room.world, &room.bvh, &[start().position], &config, &Quiet).unwrap()
-}
-
-fn quick() -> PlanConfig {
-    PlanConfig { frames: 30, queries: 300, test_width: 48, test_height: 36, ..PlanConfig::default() }
-}
+use crate::Saliency;
 
 #[test]
 fn the_second_camera_of_a_rig_keeps_the_rules_too() {
     let room = furnished_room();
     let (space, config) = (carved(&room), PlanConfig { stereo_baseline_m: 0.6, ..quick() });
-    let trajectory = plan(&room.world, &room.bvh, &space, &start(), 0, &config, &Quiet).unwrap();
-    for pose in &trajectory.beside("cam_01".into(), 0.6).poses {
+    let walk = trajectory(&room, &space, &start(), 0, &config, &Quiet).unwrap();
+    for pose in &walk.beside("cam_01".into(), 0.6).poses {
         assert_eq!(space.tree.state(pose.position), enfilade_geometry::Voxel::Free, "frame {}", pose.frame);
         assert!(room.distance_m(pose.position) >= config.clearance_m, "frame {}", pose.frame);
     }
     // Without the rule some would not.
-    let alone = plan(&room.world, &room.bvh, &space, &start(), 0, &quick(), &Quiet).unwrap().beside("cam_01".into(), 0.6);
+    let alone = trajectory(&room, &space, &start(), 0, &quick(), &Quiet).unwrap().beside("cam_01".into(), 0.6);
     assert!(alone.poses.iter().any(|pose| room.distance_m(pose.position) < config.clearance_m));
 }
 
@@ -52,36 +19,21 @@ fn the_second_camera_of_a_rig_keeps_the_rules_too() {
 fn every_pose_keeps_the_rules() {
     let room = furnished_room();
     let (space, config) = (carved(&room), quick());
-    let trajectory = plan(&room.world, &room.bvh, &space, &start(), 0, &config, &Quiet).unwrap();
-    assert_eq!((trajectory.name.as_str(), trajectory.poses.len()), ("cam_00", 30));
-    let first = trajectory.poses[0];
+    let walk = trajectory(&room, &space, &start(), 0, &config, &Quiet).unwrap();
+    assert_eq!((walk.name.as_str(), walk.poses.len()), ("cam_00", 30));
+    let first = walk.poses[0];
     assert_eq!(first.position, start().position);
-    let seen = |a: DVec3, b: DVec3| {
-        let mut ray = enfilade_math::Ray::new(a.as_vec3(), (b - a).normalize().as_vec3());
-        ray.t_max = a.distance(b) as f32;
-        !room.bvh.occluded(&ray)
-    };
-    for (i, pose) in trajectory.poses.iter().enumerate() {
-        let r = pose.world_from_camera;
-        let error = (r * r.transpose() - DMat3::IDENTITY).to_cols_array().iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        assert!(error < 1e-12 && (r.determinant() - 1.0).abs() < 1e-12, "frame {i}: axes");
-        assert!((-r.z_axis - (pose.look_at - pose.position).normalize()).length() < 1e-12, "frame {i}: look-at off the axis");
-        assert!(pose.roll_rad().abs() <= 5f64.to_radians() + 1e-9, "frame {i}: roll {}", pose.roll_rad());
-        assert!(pose.position.distance(pose.look_at) >= config.min_look_distance_m, "frame {i}: target too near");
-        assert!(room.distance_m(pose.position) >= config.clearance_m, "frame {i}: {} m to a surface", room.distance_m(pose.position));
-        for p in [pose.position, pose.look_at] {
-            assert_eq!(space.tree.state(p), enfilade_geometry::Voxel::Free, "frame {i}");
-        }
-        assert!(seen(pose.position, pose.look_at), "frame {i}: target hidden");
+    for (i, pose) in walk.poses.iter().enumerate() {
+        assert_keeps_rules(&room, &space, &config, pose);
         assert_eq!(pose.frame, i as u32);
         if i == 0 {
             continue;
         }
-        let last = trajectory.poses[i - 1];
+        let last = walk.poses[i - 1];
         for (now, before, origin) in [(pose.position, last.position, first.position), (pose.look_at, last.look_at, first.look_at)] {
             assert!((now - before).abs().cmple(DVec3::from(config.step_m) + 1e-12).all(), "frame {i}: step {}", now - before);
             assert!((now.z - origin.z).abs() <= config.height_range_m + 1e-12, "frame {i}: height");
-            assert!(seen(before, now), "frame {i}: hidden from the last");
+            assert!(seen(&room, before, now), "frame {i}: hidden from the last");
         }
     }
 }
@@ -92,9 +44,9 @@ fn views_of_many_triangles_are_preferred() {
     let space = carved(&room);
     let mean = |saliency| {
         let config = PlanConfig { saliency, frames: 60, ..quick() };
-        let trajectory = plan(&room.world, &room.bvh, &space, &start(), 0, &config, &Quiet).unwrap();
+        let walk = trajectory(&room, &space, &start(), 0, &config, &Quiet).unwrap();
         let intrinsics = Intrinsics::from_fov_x(config.test_width, config.test_height, config.fov_x_rad);
-        let views = trajectory.poses.iter().map(|p| crate::view_stats(&room.world, &room.bvh, &intrinsics, p));
+        let views = walk.poses.iter().map(|p| crate::view_stats(&room.world, &room.bvh, &intrinsics, p));
         views.map(|v| f64::from(v.triangles)).sum::<f64>() / 60.0
     };
     let (drawn, indifferent) = (mean(Saliency::default()), mean(Saliency::Triangles { alpha: 0.0, beta: 2.0 }));
@@ -108,7 +60,7 @@ fn trajectories_are_the_same_for_any_number_of_threads_and_differ_by_index_and_s
     let config = PlanConfig { frames: 6, ..quick() };
     let plan_on = |threads, index, config: &PlanConfig| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| plan(&room.world, &room.bvh, &space, &start(), index, config, &Quiet)).unwrap().poses
+        pool.install(|| trajectory(&room, &space, &start(), index, config, &Quiet)).unwrap().poses
     };
     let one = plan_on(1, 0, &config);
     assert_eq!(one, plan_on(2, 0, &config));
@@ -124,8 +76,8 @@ fn a_start_camera_that_breaks_a_rule_is_mended_with_a_warning() {
     let config = PlanConfig { frames: 1, ..quick() };
     let first = |start: &StartCamera| {
         let listener = Listener::default();
-        let trajectory = plan(&room.world, &room.bvh, &space, start, 0, &config, &listener).unwrap();
-        (trajectory.poses[0], listener.0.into_inner().unwrap().join("\n"))
+        let walk = trajectory(&room, &space, start, 0, &config, &listener).unwrap();
+        (walk.poses[0], listener.0.into_inner().unwrap().join("\n"))
     };
     assert_eq!(first(&start()).1, "");
     let (pose, warnings) = first(&camera(DVec3::new(0.05, 2.5, 1.5), DVec3::new(3.0, 2.5, 1.5), DVec3::Z));
@@ -142,7 +94,7 @@ fn a_start_camera_that_breaks_a_rule_is_mended_with_a_warning() {
 fn impossible_starts_are_errors_that_say_where() {
     let room = furnished_room();
     let space = carved(&room);
-    let run = |start: StartCamera, config: PlanConfig| plan(&room.world, &room.bvh, &space, &start, 2, &config, &Quiet).unwrap_err();
+    let run = |start: StartCamera, config: PlanConfig| trajectory(&room, &space, &start, 2, &config, &Quiet).unwrap_err();
     let outside = camera(DVec3::new(9.0, 9.0, 1.5), DVec3::new(3.0, 4.0, 1.2), DVec3::Z);
     assert!(matches!(run(outside, quick()), ExploreError::StartBlocked { .. }));
     assert!(matches!(run(start(), PlanConfig { clearance_m: 5.0, ..quick() }), ExploreError::StartBlocked { .. }));
@@ -162,7 +114,7 @@ fn a_walk_that_cannot_go_on_says_where_it_is_stuck() {
     }
     let space = FreeSpace::new(tree, crate::CarveReport::default()).unwrap();
     let config = PlanConfig { queries: 1, step_m: [15.0, 15.0, 0.25], ..quick() };
-    let error = plan(&room.world, &room.bvh, &space, &camera, 2, &config, &Quiet).unwrap_err();
+    let error = trajectory(&room, &space, &camera, 2, &config, &Quiet).unwrap_err();
     assert!(error.to_string().starts_with("trajectory cam_02 is stuck at frame 1, position [3, 2.5, 1.5]: of 4 "), "{error}");
 }
 
@@ -172,6 +124,6 @@ fn open_rooms_are_planned_with_a_warning_when_every_view_is_empty() {
     room.remove_ceiling();
     let (space, listener) = (carved(&room), Listener::default());
     let config = PlanConfig { max_void_share: 0.0, frames: 3, fov_x_rad: 2.6, ..quick() };
-    assert_eq!(plan(&room.world, &room.bvh, &space, &start(), 0, &config, &listener).unwrap().poses.len(), 3);
+    assert_eq!(trajectory(&room, &space, &start(), 0, &config, &listener).unwrap().poses.len(), 3);
     assert!(listener.0.into_inner().unwrap().join("\n").contains("views"));
 }

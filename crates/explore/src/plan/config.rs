@@ -1,0 +1,308 @@
+use crate::error::require;
+use crate::{ExploreError, Preset, Saliency};
+use serde::{Deserialize, Serialize};
+
+/// How a trajectory is found. The defaults are Hypersim's, as its paper states them, with a clearance and limits added.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PlanConfig {
+    /// Whose walk: this crate's, with all its rules, or that of Hypersim's program, which is a walk always.
+    pub preset: Preset,
+    /// What kind of trajectory.
+    #[serde(skip_serializing_if = "is_default")]
+    pub mode: Mode,
+    /// Poses in the trajectory, the start camera's among them.
+    pub frames: u32,
+    /// Poses compared at each step.
+    pub candidates: u32,
+    /// Random points drawn at each step of a walk for the camera, and as many for its target, before the rules sort them out.
+    pub queries: u32,
+    /// How far the camera and its target may each move in one step of a walk along x, y and z, metres.
+    pub step_m: [f64; 3],
+    /// How far above or below those of frame 0 the camera and its target may each be in a walk or a video, metres.
+    pub height_range_m: f64,
+    /// The least and the greatest height of the camera above the floor, metres; `None` leaves it free. The floor is the lowest of the
+    /// first surfaces below the camera and below eight places half a metre around it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera_height_m: Option<[f64; 2]>,
+    /// Views are level: neither pitch nor roll.
+    #[serde(skip_serializing_if = "is_default")]
+    pub level: bool,
+    /// The lowest and the highest angle of the viewing axis above the horizon, degrees.
+    #[serde(skip_serializing_if = "is_any_pitch")]
+    pub pitch_limits_deg: [f64; 2],
+    /// The camera keeps at least this far from every surface, metres. Measured by occupied voxels, so up to a voxel's diagonal more.
+    pub clearance_m: f64,
+    /// The target is at least this far from the camera, metres.
+    pub min_look_distance_m: f64,
+    /// Roll is uniform within plus and minus this, degrees (less than 90).
+    pub roll_limit_deg: f64,
+    /// Of the surface points in view, the least and the greatest share that the view before it saw too, each from 0 to 1; for walks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub overlap: Option<[f64; 2]>,
+    /// Views that show no surface in more than this share of the pixels are taken only when nothing better is found.
+    pub max_void_share: f64,
+    /// So are views that show the back of things in more than this share. Parts that are seen from behind around the start camera too
+    /// (thin ones with two sides, ones modelled inside out) do not count.
+    pub max_back_face_share: f64,
+    /// Something nearer than this is too near, metres.
+    pub min_depth_m: f64,
+    /// Views that show something too near in more than this share of the pixels are taken only when nothing better is found.
+    pub max_near_share: f64,
+    /// So are views from positions around which more than this share of the level or of the upward directions meets no surface, or only
+    /// the back of one: outside of a building at least half of the level ones do, and in one with a ceiling few of the upward ones.
+    /// Where the start camera itself stands more open, that counts instead.
+    pub max_open_share: f64,
+    /// Horizontal field of view of the test images, radians.
+    pub fov_x_rad: f64,
+    /// Width of the test images, pixels. Planning time is in proportion to width times height.
+    pub test_width: u32,
+    /// Height of the test images, pixels.
+    pub test_height: u32,
+    /// A second camera stands this far to the right of the first, metres, and keeps the same rules; 0 for none.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub stereo_baseline_m: f64,
+    /// What makes a view worth taking.
+    pub saliency: Saliency,
+    /// Seed; each trajectory has its own stream of random numbers.
+    pub seed: u64,
+}
+
+/// Kinds of trajectories.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Mode {
+    /// Hypersim's: a random walk drawn to what is worth seeing. Neighbouring frames are a step apart, not a video.
+    #[default]
+    Walk,
+    /// A smooth path at bounded speed.
+    Video(VideoConfig),
+    /// Pictures that keep a distance from each other, over all the space within reach.
+    Stills(StillsConfig),
+    /// Every surface seen a number of times from different angles.
+    Coverage(CoverageConfig),
+    /// Poses made by hand.
+    Keyframes(KeyframesConfig),
+}
+
+/// A smooth path at bounded speed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct VideoConfig {
+    /// Frames per second.
+    pub fps: f64,
+    /// The camera never moves faster, metres per second.
+    pub max_speed_m_s: f64,
+    /// The camera never turns faster, about whatever axis, degrees per second.
+    pub max_turn_deg_s: f64,
+    /// The camera never gathers or loses speed faster along its path, metres per second squared. It begins at rest.
+    pub max_acceleration_m_s2: f64,
+    /// Places that the path leads through are at least this far apart, metres.
+    pub waypoint_distance_m: f64,
+}
+
+impl Default for VideoConfig {
+    fn default() -> Self {
+        Self { fps: 24.0, max_speed_m_s: 0.8, max_turn_deg_s: 40.0, max_acceleration_m_s2: 1.0, waypoint_distance_m: 2.0 }
+    }
+}
+
+/// Pictures that keep a distance from each other.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct StillsConfig {
+    /// Two stills are at least this far apart, metres, ...
+    pub min_distance_m: f64,
+    /// ... or look in directions that differ by at least this, degrees; 0 asks for the distance alone.
+    pub min_angle_deg: f64,
+}
+
+impl Default for StillsConfig {
+    fn default() -> Self {
+        Self { min_distance_m: 0.75, min_angle_deg: 0.0 }
+    }
+}
+
+/// Every surface seen a number of times.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CoverageConfig {
+    /// Views wanted of every surface.
+    pub views: u32,
+    /// Views of a surface count apart when their directions differ by at least this, degrees.
+    pub min_angle_deg: f64,
+    /// A surface farther away than this does not count as seen, metres.
+    pub max_distance_m: f64,
+    /// Nor does one that is seen at a greater angle from its normal than this, degrees (less than 90).
+    pub max_incidence_deg: f64,
+    /// Poses considered; half as many more go to what those leave unseen.
+    pub poses: u32,
+    /// Points by which area is measured, spread evenly over all surfaces.
+    pub samples: u32,
+}
+
+impl Default for CoverageConfig {
+    fn default() -> Self {
+        Self { views: 3, min_angle_deg: 15.0, max_distance_m: 5.0, max_incidence_deg: 75.0, poses: 2000, samples: 20_000 }
+    }
+}
+
+/// Poses made by hand.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeyframesConfig {
+    /// Files of poses, CSV or JSON as [`crate::parse_keyframes`] reads them; each is one trajectory. Whoever plans reads them.
+    pub files: Vec<String>,
+}
+
+impl Mode {
+    /// Its name in configurations and reports.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Walk => "walk",
+            Self::Video(_) => "video",
+            Self::Stills(_) => "stills",
+            Self::Coverage(_) => "coverage",
+            Self::Keyframes(_) => "keyframes",
+        }
+    }
+
+    fn validate(&self) -> Result<(), ExploreError> {
+        let positive = |v: f64| v > 0.0 && v.is_finite();
+        let above_0 = |field, v: f64| require(positive(v), field, v, "a number above 0");
+        match self {
+            Self::Walk => Ok(()),
+            Self::Video(v) => {
+                above_0("fps", v.fps)?;
+                above_0("max_speed_m_s", v.max_speed_m_s)?;
+                above_0("max_turn_deg_s", v.max_turn_deg_s)?;
+                above_0("max_acceleration_m_s2", v.max_acceleration_m_s2)?;
+                above_0("waypoint_distance_m", v.waypoint_distance_m)
+            }
+            Self::Stills(s) => {
+                above_0("min_distance_m", s.min_distance_m)?;
+                require((0.0..=180.0).contains(&s.min_angle_deg), "min_angle_deg", s.min_angle_deg, "an angle from 0 to 180 degrees")
+            }
+            Self::Coverage(c) => {
+                for (field, n) in [("views", c.views), ("poses", c.poses), ("samples", c.samples)] {
+                    require(n >= 1, field, n, "1 or more")?;
+                }
+                above_0("max_distance_m", c.max_distance_m)?;
+                require((0.0..=180.0).contains(&c.min_angle_deg), "min_angle_deg", c.min_angle_deg, "an angle from 0 to 180 degrees")?;
+                let incidence = c.max_incidence_deg;
+                require(incidence > 0.0 && incidence < 90.0, "max_incidence_deg", incidence, "an angle between 0 and 90 degrees")
+            }
+            Self::Keyframes(k) => require(!k.files.is_empty(), "files", "[]", "at least one file of poses"),
+        }
+    }
+}
+
+fn is_zero(v: &f64) -> bool {
+    *v == 0.0
+}
+
+fn is_default<T: Default + PartialEq>(v: &T) -> bool {
+    *v == T::default()
+}
+
+const ANY_PITCH: [f64; 2] = [-90.0, 90.0];
+
+fn is_any_pitch(v: &[f64; 2]) -> bool {
+    *v == ANY_PITCH
+}
+
+impl Default for PlanConfig {
+    fn default() -> Self {
+        Self {
+            preset: Preset::Default,
+            mode: Mode::Walk,
+            frames: 100,
+            candidates: 20,
+            queries: 1000,
+            step_m: [1.5, 1.5, 0.25],
+            height_range_m: 0.25,
+            camera_height_m: None,
+            level: false,
+            pitch_limits_deg: ANY_PITCH,
+            clearance_m: 0.2,
+            min_look_distance_m: 0.5,
+            roll_limit_deg: 5.0,
+            overlap: None,
+            max_void_share: 0.2,
+            max_back_face_share: 0.25,
+            min_depth_m: 0.3,
+            max_near_share: 0.5,
+            max_open_share: 0.5,
+            fov_x_rad: std::f64::consts::FRAC_PI_3,
+            test_width: 256,
+            test_height: 192,
+            stereo_baseline_m: 0.0,
+            saliency: Saliency::default(),
+            seed: 0,
+        }
+    }
+}
+
+impl PlanConfig {
+    pub(super) fn validate(&self) -> Result<(), ExploreError> {
+        let length = |v: f64| v >= 0.0 && v.is_finite();
+        let counts = [("frames", self.frames), ("candidates", self.candidates), ("queries", self.queries)];
+        for (field, n) in counts.into_iter().chain([("test_width", self.test_width), ("test_height", self.test_height)]) {
+            require(n >= 1, field, n, "1 or more")?;
+        }
+        let step_ok = self.step_m.iter().all(|s| length(*s)) && self.step_m[0] + self.step_m[1] > 0.0;
+        require(step_ok, "step_m", format!("{:?}", self.step_m), "three lengths in metres, the first two not both 0")?;
+        require(length(self.height_range_m), "height_range_m", self.height_range_m, "a length of 0 or more")?;
+        require(length(self.clearance_m), "clearance_m", self.clearance_m, "a length of 0 or more")?;
+        require(length(self.stereo_baseline_m), "stereo_baseline_m", self.stereo_baseline_m, "a length of 0 or more")?;
+        let distance = self.min_look_distance_m;
+        require(distance > 0.0 && length(distance), "min_look_distance_m", distance, "a length above 0")?;
+        require((0.0..90.0).contains(&self.roll_limit_deg), "roll_limit_deg", self.roll_limit_deg, "0 up to but not 90 degrees")?;
+        let fov_ok = self.fov_x_rad > 0.0 && self.fov_x_rad < std::f64::consts::PI;
+        require(fov_ok, "fov_x_rad", self.fov_x_rad, "an angle between 0 and pi")?;
+        self.validate_height_and_pitch()?;
+        self.validate_gates()?;
+        let walks = self.preset == Preset::Default || self.mode == Mode::Walk;
+        require(walks, "preset", format!("hypersim with mode {}", self.mode.name()), "mode walk, the only one that it has")?;
+        self.mode.validate()
+    }
+
+    fn validate_height_and_pitch(&self) -> Result<(), ExploreError> {
+        if let Some([min, max]) = self.camera_height_m {
+            let ok = min >= 0.0 && max > min && max.is_finite();
+            require(
+                ok,
+                "camera_height_m",
+                format!("[{min}, {max}]"),
+                "the least and the greatest height in metres, the second above the first",
+            )?;
+        }
+        let [low, high] = self.pitch_limits_deg;
+        let ok = (-90.0..=90.0).contains(&low) && (low..=90.0).contains(&high);
+        require(ok, "pitch_limits_deg", format!("[{low}, {high}]"), "two angles from -90 to 90 degrees, the lower one first")
+    }
+
+    fn validate_gates(&self) -> Result<(), ExploreError> {
+        let length = self.min_depth_m >= 0.0 && self.min_depth_m.is_finite();
+        require(length, "min_depth_m", self.min_depth_m, "a length of 0 or more")?;
+        let shares = [
+            ("max_void_share", self.max_void_share),
+            ("max_back_face_share", self.max_back_face_share),
+            ("max_near_share", self.max_near_share),
+            ("max_open_share", self.max_open_share),
+        ];
+        for (field, share) in shares {
+            require((0.0..=1.0).contains(&share), field, share, "a share from 0 to 1")?;
+        }
+        let Some([min, max]) = self.overlap else { return Ok(()) };
+        let ok = (0.0..=1.0).contains(&min) && (min..=1.0).contains(&max);
+        require(ok, "overlap", format!("[{min}, {max}]"), "two shares from 0 to 1, the lower one first")?;
+        let follows = matches!(self.mode, Mode::Walk);
+        require(
+            follows,
+            "overlap",
+            format!("[{min}, {max}] with mode {}", self.mode.name()),
+            "mode walk, the one that chooses each view by the last",
+        )
+    }
+}

@@ -1,0 +1,134 @@
+//! Which way to face along a path: always toward free space, as near as can be to what was asked for, and turning no more than needed.
+
+use super::Planner;
+use super::rules::posed;
+use enfilade_math::DVec3;
+use rayon::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+/// Headings compared at every control point.
+pub(super) const HEADINGS: usize = 72;
+
+/// What it costs to turn from one control point to the next, against straying from what is asked for, both in headings squared.
+const TURN_COST: f64 = 6.0;
+
+/// The headings that have free space before them, at every control point of a path.
+pub(super) struct Headings {
+    /// Heading, pitch and roll asked for, radians.
+    wanted: Vec<DVec3>,
+    allowed: Vec<[bool; HEADINGS]>,
+}
+
+impl Headings {
+    /// For control points at `positions`. A heading is allowed where a target `look_distance_m` away is free and visible and a second
+    /// camera has room, and so it is for the headings beside it.
+    pub fn new(planner: &Planner, positions: &[DVec3], wanted: Vec<DVec3>, look_distance_m: f64) -> Self {
+        let level = planner.rules.pitch_limits_rad();
+        let rows = positions.par_iter().zip(wanted).map(|(&position, mut wanted)| {
+            let sees = |wanted: DVec3| -> [bool; HEADINGS] {
+                std::array::from_fn(|y| {
+                    let target = position + look_distance_m * direction(angle(y), wanted.y);
+                    let pose = posed(0, position, target, wanted.z);
+                    pose.is_some_and(|pose| {
+                        planner.rules.is_free(target) && planner.rules.sees(position, target) && planner.rules.has_room_beside(&pose)
+                    })
+                })
+            };
+            let mut open = sees(wanted);
+            if !open.contains(&true) {
+                // Nothing to see so high or low: as level as may be.
+                wanted.y = 0f64.clamp(level[0], level[1]);
+                open = sees(wanted);
+            }
+            let inner: [bool; HEADINGS] = std::array::from_fn(|y| (0..3).all(|k| open[(y + HEADINGS - 1 + k) % HEADINGS]));
+            (wanted, if inner.contains(&true) { inner } else { open })
+        });
+        let (wanted, allowed) = rows.unzip();
+        Self { wanted, allowed }
+    }
+
+    /// Heading, pitch and roll at every control point, headings counted on beyond a full turn; `None` when there is no sequence of
+    /// allowed headings. From each control point to the next it turns by as many headings as `strides` says at most, or by twice as
+    /// many, or four times, where it must.
+    pub fn smoothest(&self, strides: &[usize]) -> Option<Vec<DVec3>> {
+        let factors = [1, 2, 4, 8, 16, HEADINGS];
+        let chosen = factors.into_iter().find_map(|factor| self.sequence(|j| (factor * strides[j]).min(HEADINGS / 2)))?;
+        let mut angles = Vec::with_capacity(chosen.len());
+        let mut turned = 0i64;
+        for (j, &y) in chosen.iter().enumerate() {
+            turned += if j == 0 { y as i64 } else { steps_between(chosen[j - 1], y) };
+            let heading = TAU * turned as f64 / HEADINGS as f64;
+            // What is asked for lies between two headings.
+            let half = 0.5 * TAU / HEADINGS as f64;
+            let off = ((self.wanted[j].x - heading + PI).rem_euclid(TAU) - PI).clamp(-half, half);
+            angles.push(DVec3::new(heading + off, self.wanted[j].y, self.wanted[j].z));
+        }
+        Some(angles)
+    }
+
+    /// The cheapest sequence of allowed headings (Viterbi 1967) that turns by `stride(j)` of them at most after control point j.
+    fn sequence(&self, stride: impl Fn(usize) -> usize) -> Option<Vec<usize>> {
+        let stray = |j: usize, y: usize| {
+            let off = (self.wanted[j].x - angle(y) + PI).rem_euclid(TAU) - PI;
+            if self.allowed[j][y] { (off * HEADINGS as f64 / TAU).powi(2) } else { f64::INFINITY }
+        };
+        let mut cost: Vec<f64> = (0..HEADINGS).map(|y| stray(0, y)).collect();
+        let mut came_from: Vec<[u8; HEADINGS]> = Vec::with_capacity(self.allowed.len());
+        for j in 1..self.allowed.len() {
+            let stride = stride(j - 1) as i64;
+            let mut row = [0u8; HEADINGS];
+            let next = (0..HEADINGS).map(|y| {
+                let before = |turn: i64| (y as i64 - turn).rem_euclid(HEADINGS as i64) as usize;
+                let turns = (-stride..=stride).map(|turn| (cost[before(turn)] + TURN_COST * (turn * turn) as f64, before(turn)));
+                let (least, from) = turns.fold((f64::INFINITY, y), |best, found| if found.0 < best.0 { found } else { best });
+                row[y] = from as u8;
+                least + stray(j, y)
+            });
+            cost = next.collect();
+            came_from.push(row);
+        }
+        let (mut y, least) = (0..HEADINGS).map(|y| (y, cost[y])).min_by(|a, b| a.1.total_cmp(&b.1))?;
+        if least.is_infinite() {
+            return None;
+        }
+        let mut chosen = vec![y];
+        for row in came_from.iter().rev() {
+            y = row[y] as usize;
+            chosen.push(y);
+        }
+        chosen.reverse();
+        Some(chosen)
+    }
+
+    /// Allows a heading, and those beside it, no more around the parameter `u` of the path.
+    pub fn forbid(&mut self, u: f64, heading_rad: f64) {
+        let y = (heading_rad / TAU * HEADINGS as f64).round().rem_euclid(HEADINGS as f64) as usize % HEADINGS;
+        for j in [u.floor() as usize, u.ceil() as usize] {
+            for k in 0..3 {
+                self.allowed[j.min(self.wanted.len() - 1)][(y + HEADINGS - 1 + k) % HEADINGS] = false;
+            }
+        }
+    }
+
+    /// The control point with the fewest headings.
+    pub fn narrowest(&self) -> usize {
+        let open = |row: &[bool; HEADINGS]| row.iter().filter(|allowed| **allowed).count();
+        (0..self.allowed.len()).min_by_key(|j| open(&self.allowed[*j])).unwrap_or(0)
+    }
+}
+
+/// The unit direction of a heading and a pitch.
+pub(super) fn direction(heading_rad: f64, pitch_rad: f64) -> DVec3 {
+    let ((sin, cos), (up, along)) = (heading_rad.sin_cos(), pitch_rad.sin_cos());
+    DVec3::new(along * cos, along * sin, up)
+}
+
+fn angle(y: usize) -> f64 {
+    TAU * y as f64 / HEADINGS as f64
+}
+
+/// The short way from one heading to another.
+fn steps_between(from: usize, to: usize) -> i64 {
+    let half = HEADINGS as i64 / 2;
+    (to as i64 - from as i64 + half).rem_euclid(HEADINGS as i64) - half
+}

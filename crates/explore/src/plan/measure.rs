@@ -1,0 +1,162 @@
+//! Measures a finished trajectory: fills the report, and warns of frames that break a rule.
+
+use super::nearest::Surfaces;
+use super::patches::patches;
+use super::report::{Fault, FrameRow, FrameValues, PlanReport, PlanStatistics, RelaxedFrame};
+use super::rules::{pitch_rad, turned_rad};
+use super::{Draft, Planned, Planner};
+use crate::{Preset, ViewStats};
+use enfilade_scene::{Pose, Trajectory};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// Points by which the share of the area that was seen is measured.
+const SAMPLES: usize = 20_000;
+
+/// A view of which one plane fills more than this is bare.
+const BARE_SHARE: f64 = 0.9;
+
+/// Limits of angles are taken to be kept to within this, degrees.
+const ROUNDING_DEG: f64 = 1e-6;
+
+/// Frames named in a warning; of the others it says that there are more.
+const FRAMES_NAMED: usize = 12;
+
+/// The trajectory of a draft, with its report.
+pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
+    let poses = draft.poses;
+    let views = if draft.views.len() == poses.len() { draft.views } else { planner.views(&poses) };
+    let surfaces = Surfaces::new(&planner.world.corners);
+    let measured = |i: usize| measure(planner, &surfaces, &poses[i], &views[i], i.checked_sub(1).map(|i| &poses[i]));
+    let rows: Vec<(FrameRow, Vec<Fault>)> = (0..poses.len()).into_par_iter().map(measured).collect();
+
+    let mut per_frame = FrameValues::default();
+    let (mut relaxed, mut bare_frames) = (Vec::new(), Vec::new());
+    for (row, faults) in rows {
+        relaxed.extend(faults.into_iter().map(|fault| RelaxedFrame { frame: row.frame, fault }));
+        bare_frames.extend(Some(row.frame).filter(|_| row.plane_share > BARE_SHARE));
+        per_frame.push(row);
+    }
+    // Breaking these rules is what that preset is for.
+    if planner.config.preset == Preset::Default {
+        warn_of_faults(planner, &relaxed, poses.len());
+    }
+    let (seen_area_share, seen_part_share) = seen(planner, &poses);
+    let report = PlanReport {
+        trajectory: planner.name.to_string(),
+        mode: planner.config.mode.name().to_string(),
+        seen_area_share,
+        seen_part_share,
+        statistics: PlanStatistics::of(&per_frame),
+        rejected: draft.rejected,
+        relaxed,
+        bare_frames,
+        coverage: draft.coverage,
+        per_frame,
+    };
+    Planned { trajectory: Trajectory { name: planner.name.to_string(), poses }, report }
+}
+
+/// The values of one frame, and its faults.
+fn measure(planner: &Planner, surfaces: &Surfaces, pose: &Pose, view: &ViewStats, before: Option<&Pose>) -> (FrameRow, Vec<Fault>) {
+    let (gates, glancer) = (planner.gates, planner.gates.glancer);
+    let glance = glancer.look(pose);
+    let row = FrameRow {
+        frame: pose.frame,
+        score: planner.score(view),
+        void_share: view.void_share(),
+        back_face_share: gates.back_face_share(&glance),
+        near_share: gates.near_share(&glance),
+        plane_share: glance.plane_share(),
+        open_share: gates.open_shares(pose.position).into_iter().fold(0.0, f64::max),
+        clearance_m: surfaces.distance_m(pose.position),
+        height_m: planner.rules.height_m(pose.position),
+        roll_deg: pose.roll_rad().to_degrees(),
+        pitch_deg: pitch_rad(-pose.world_from_camera.z_axis).to_degrees(),
+        step_m: before.map(|before| before.position.distance(pose.position)),
+        turn_deg: before.map(|before| turned_rad(before, pose).to_degrees()),
+        overlap: before.and_then(|before| glancer.overlap(&glance, before)),
+    };
+    let mut faults = gates.faults(pose, &glance, view, before);
+    faults.extend(broken_rules(planner, pose, &row));
+    (row, faults)
+}
+
+/// The rules of [`super::plan`] that a pose breaks.
+fn broken_rules(planner: &Planner, pose: &Pose, row: &FrameRow) -> impl Iterator<Item = Fault> {
+    let (rules, config) = (planner.rules, planner.config);
+    let within = |value: f64, [low, high]: [f64; 2]| value >= low - ROUNDING_DEG && value <= high + ROUNDING_DEG;
+    let roll_limit = rules.roll_limit_rad().to_degrees();
+    let tilted = !within(row.roll_deg, [-roll_limit, roll_limit]) || !within(row.pitch_deg, rules.pitch_limits_rad().map(f64::to_degrees));
+    let near = pose.position.distance(pose.look_at) < config.min_look_distance_m * (1.0 - ROUNDING_DEG);
+    let sight = near || !rules.is_free(pose.look_at) || !rules.sees(pose.position, pose.look_at);
+    let place = !rules.is_position(pose.position) || !rules.has_room_beside(pose);
+    [(Fault::Place, place), (Fault::Sight, sight), (Fault::Tilt, tilted)].into_iter().filter(|(_, broken)| *broken).map(|(fault, _)| fault)
+}
+
+/// Shares of the area and of the parts that some pose sees.
+fn seen(planner: &Planner, poses: &[Pose]) -> (f64, f64) {
+    let patches = patches(planner.world, SAMPLES);
+    let glancer = planner.gates.glancer;
+    let seen: Vec<bool> = patches.par_iter().map(|patch| poses.iter().any(|pose| glancer.sees(pose, patch.p_world))).collect();
+    let (mut area, mut seen_area, mut parts) = (0.0, 0.0, BTreeMap::new());
+    for (patch, seen) in patches.iter().zip(seen) {
+        area += patch.area_m2;
+        seen_area += if seen { patch.area_m2 } else { 0.0 };
+        *parts.entry(patch.part).or_insert(false) |= seen;
+    }
+    let share = |some: f64, all: f64| if all > 0.0 { some / all } else { 0.0 };
+    (share(seen_area, area), share(parts.values().filter(|seen| **seen).count() as f64, parts.len() as f64))
+}
+
+/// One warning for each kind of fault.
+fn warn_of_faults(planner: &Planner, relaxed: &[RelaxedFrame], frames: usize) {
+    let mut by_fault: BTreeMap<Fault, Vec<u32>> = BTreeMap::new();
+    for RelaxedFrame { frame, fault } in relaxed {
+        by_fault.entry(*fault).or_default().push(*frame);
+    }
+    for (fault, found) in by_fault {
+        let named: Vec<String> = found.iter().take(FRAMES_NAMED).map(u32::to_string).collect();
+        let more = if found.len() > FRAMES_NAMED { ", …" } else { "" };
+        let (n, what) = (found.len(), describe(planner, fault));
+        planner.warn(format!("{n} of {frames} views {what} (frames {}{more})", named.join(", ")));
+    }
+}
+
+/// What is wrong with frames of a fault, and what may help.
+fn describe(planner: &Planner, fault: Fault) -> String {
+    let config = planner.config;
+    let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+    match fault {
+        Fault::Overlap => {
+            let [min, max] = config.overlap.unwrap_or_default().map(percent);
+            format!("share less than {min} or more than {max} with the view before, and no better ones were found: widen overlap or step_m")
+        }
+        Fault::Void => format!(
+            "show no surface in more than {} of their pixels, and no better ones were found: the scene is open or lacks walls there",
+            percent(config.max_void_share)
+        ),
+        Fault::Near => {
+            format!("show something nearer than {} m in more than {} of their pixels", config.min_depth_m, percent(config.max_near_share))
+        }
+        Fault::BackFaces => format!(
+            "show the back of things in more than {} of their pixels, as from outside of a room or from within a thing",
+            percent(config.max_back_face_share)
+        ),
+        Fault::Open => {
+            format!(
+                "stand in the open, with no surface in more than {} of the level or of the upward directions",
+                percent(config.max_open_share)
+            )
+        }
+        Fault::Place => {
+            let height = config.camera_height_m.map_or(String::new(), |[min, max]| format!(", {min} to {max} m above the floor"));
+            format!("are not from free space with {} m to every surface{height}", config.clearance_m)
+        }
+        Fault::Sight => format!("have no free and visible target {} m away", config.min_look_distance_m),
+        Fault::Tilt => {
+            let [low, high] = planner.rules.pitch_limits_rad().map(f64::to_degrees);
+            format!("roll by more than {} degrees or look below {low} or above {high} degrees", planner.rules.roll_limit_rad().to_degrees())
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Claims about poses made by hand.
+
+use super::*;
+
+const CSV: &str = "frame, position_x, position_y, position_z, look_at_x, look_at_y, look_at_z, roll_deg\n\
+                   0, 3.0, 2.5, 1.5, 3.0, 4.0, 1.2, 0\n\
+                   10, 3.5, 2.0, 1.4, 3.0, 4.0, 1.2, 3\n\
+                   16, 3.6, 1.5, 1.5, 2.0, 4.0, 1.3, -2\n";
+
+const JSON: &str = r#"[{"frame": 0, "position": [3.0, 2.5, 1.5], "look_at": [3.0, 4.0, 1.2]},
+    {"frame": 10, "position": [3.5, 2.0, 1.4], "look_at": [3.0, 4.0, 1.2], "roll_deg": 3},
+    {"frame": 16, "position": [3.6, 1.5, 1.5], "look_at": [2.0, 4.0, 1.3], "roll_deg": -2}]"#;
+
+#[test]
+fn tables_of_both_kinds_are_read_and_every_frame_between_their_poses_is_there() {
+    let keyframes = parse_keyframes("path.csv", CSV).unwrap();
+    assert_eq!(keyframes, parse_keyframes("PATH.JSON", JSON).unwrap());
+    let room = furnished_room();
+    let (space, listener) = (carved(&room), Listener::default());
+    let planned = follow(&room.world, &room.bvh, &space, &keyframes, 4, &quick(), &listener).unwrap();
+    let poses = &planned.trajectory.poses;
+    assert_eq!((planned.trajectory.name.as_str(), poses.len()), ("cam_04", 17));
+    for keyframe in &keyframes {
+        let pose = poses[keyframe.frame as usize];
+        assert_eq!((pose.frame, pose.position, pose.look_at), (keyframe.frame, keyframe.position, keyframe.look_at));
+        assert!((pose.roll_rad() - keyframe.roll_rad).abs() < 1e-12);
+    }
+    // Between them the path bends evenly and the roll turns evenly.
+    let bend = |i: usize| poses[i + 1].position - 2.0 * poses[i].position + poses[i - 1].position;
+    assert!((2..15).all(|i| (bend(i) - bend(i + 1 - 1)).length() < 0.01));
+    assert!((poses[5].roll_rad() - 1.5f64.to_radians()).abs() < 1e-12);
+    poses.iter().for_each(|pose| assert_keeps_rules(&room, &space, &quick(), pose));
+    assert_eq!(listener.0.into_inner().unwrap().join("\n"), "");
+}
+
+#[test]
+fn a_written_trajectory_comes_back_as_it_was() {
+    let room = furnished_room();
+    let space = carved(&room);
+    let walk = trajectory(&room, &space, &start(), 0, &PlanConfig { frames: 6, ..quick() }, &Quiet).unwrap();
+    let row = |pose: &Pose| {
+        let (p, t, y) = (pose.position, pose.look_at, pose.world_from_camera.y_axis);
+        format!("{},{},{},{},{},{},{},{},{},{}\n", pose.frame, p.x, p.y, p.z, t.x, t.y, t.z, y.x, y.y, y.z)
+    };
+    let header = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z,up_x,up_y,up_z\n";
+    let text: String = std::iter::once(header.to_string()).chain(walk.poses.iter().map(row)).collect();
+    let keyframes = parse_keyframes("walk.csv", &text).unwrap();
+    let again = follow(&room.world, &room.bvh, &space, &keyframes, 0, &quick(), &Quiet).unwrap().trajectory;
+    for (a, b) in again.poses.iter().zip(&walk.poses) {
+        assert_eq!((a.frame, a.position, a.look_at), (b.frame, b.position, b.look_at));
+        assert!((a.world_from_camera - b.world_from_camera).to_cols_array().iter().all(|v| v.abs() < 1e-9));
+    }
+}
+
+#[test]
+fn frames_in_a_wall_are_named_and_left_as_they_are() {
+    let room = furnished_room();
+    let (space, listener) = (carved(&room), Listener::default());
+    let text = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z\n0,3,2.5,1.5,3,4,1.2\n2,7,2.5,1.5,3,4,1.2\n";
+    let keyframes = parse_keyframes("path.csv", text).unwrap();
+    let planned = follow(&room.world, &room.bvh, &space, &keyframes, 0, &quick(), &listener).unwrap();
+    assert_eq!(planned.trajectory.poses[2].position, DVec3::new(7.0, 2.5, 1.5));
+    let places: Vec<u32> = planned.report.relaxed.iter().filter(|r| r.fault == Fault::Place).map(|r| r.frame).collect();
+    assert_eq!(places, [2]);
+    let warnings = listener.0.into_inner().unwrap().join("\n");
+    assert!(warnings.contains("1 of 3 views are not from free space with 0.2 m to every surface (frames 2)"), "{warnings}");
+    assert!(warnings.contains("1 ways from one frame to the next pass through a surface (those to frames 2)"), "{warnings}");
+}
+
+#[test]
+fn wrong_tables_say_where_and_what() {
+    let error = |file: &str, text: &str| parse_keyframes(file, text).unwrap_err().to_string();
+    let csv = |rows: &str| error("path.csv", &format!("frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z\n{rows}"));
+    assert_eq!(
+        csv("0,0,0,1,1,0,1\n0,0,0,1,2,0,1\n"),
+        "path.csv, pose 2: found frame 0; expected frames that ascend from 0 and stay below 10000"
+    );
+    assert!(csv("3,0,0,1,1,0,1\n").starts_with("path.csv, pose 1: found frame 3; expected frames that ascend from 0"));
+    assert!(csv("0,0,0,1,0,0,3\n").contains("pose 1: found a view from [0, 0, 1] to [0, 0, 3]; expected two different points"));
+    assert!(csv("0,0,zero,1,0,0,3\n").contains("pose 1: found ") && csv("").contains("expected a pose"));
+    assert!(csv("0,0,inf,1,0,0,3\n").contains("expected finite numbers"));
+    assert!(error("p.csv", "frame,x,y,z\n0,1,2,3\n").contains("expected the columns frame, position_x"));
+    assert!(error("p.json", "{}").starts_with("p.json, pose 1: found invalid type"));
+    assert!(error("p.json", "[{\"frame\": 0, \"position\": [0, 0, 1]}]").contains("missing field `look_at`"));
+    let both = r#"[{"frame": 0, "position": [0, 0, 1], "look_at": [1, 0, 1], "roll_deg": 2, "up": [0, 0, 1]}]"#;
+    assert!(error("p.json", both).contains("both a roll and an up vector; expected one of them"));
+}

@@ -1,0 +1,125 @@
+//! Hypersim's random walk: every step draws poses near the last one and chooses among them in proportion to what they show.
+
+use super::gates::Gates;
+use super::report::{Fault, RejectedCounts};
+use super::rules::posed;
+use super::{Draft, Planner};
+use crate::{ExploreError, ViewStats};
+use enfilade_math::{DVec3, Rng};
+use enfilade_scene::Pose;
+use std::cmp::Reverse;
+
+/// What one step tries, one after the other, until a pose is found: factor on the number of samples, factor on the step.
+const ATTEMPTS: [(u32, f64); 5] = [(1, 1.0), (4, 1.0), (4, 0.5), (4, 0.25), (4, 0.1)];
+
+/// Pairs drawn per candidate wanted, before an attempt makes do with fewer.
+const DRAWS_PER_CANDIDATE: usize = 50;
+
+/// A walk from `first`: positions and targets move at most `step_m` a step and stay within `height_range_m` of their height in frame
+/// 0; the last position sees the new one, and the last target the new one. Among the poses that keep the rules, one is chosen in
+/// proportion to its score.
+pub(super) fn walk(planner: &Planner, first: Pose, rng: &Rng) -> Result<Draft, ExploreError> {
+    let frames = planner.config.frames as usize;
+    let mut draft = Draft { poses: vec![first], views: planner.views(&[first]), ..Draft::default() };
+    for frame in 1..frames {
+        planner.progress(frame, frames);
+        let step = Step { planner, first: &first, last: draft.poses[frame - 1] };
+        let (pose, view) = step.take(frame as u32, &mut draft.rejected, rng.fork(frame as u64))?;
+        draft.poses.push(pose);
+        draft.views.push(view);
+    }
+    planner.progress(frames, frames);
+    Ok(draft)
+}
+
+struct Step<'a> {
+    planner: &'a Planner<'a>,
+    first: &'a Pose,
+    last: Pose,
+}
+
+impl Step<'_> {
+    /// The next pose, and what it shows.
+    fn take(&self, frame: u32, rejected: &mut RejectedCounts, mut rng: Rng) -> Result<(Pose, ViewStats), ExploreError> {
+        let (planner, rules, first, last) = (self.planner, self.planner.rules, self.first, self.last);
+        let (mut look_from, mut look_at, mut queries) = (0, 0, 0);
+        let mut spare = Vec::new();
+        for (sampling, scale) in ATTEMPTS {
+            // Where the camera and its target may go.
+            queries = planner.config.queries.saturating_mul(sampling);
+            let mut positions = self.points(first.position, last.position, scale, queries, &mut rng);
+            if planner.config.camera_height_m.is_some() {
+                positions = positions.into_iter().filter_map(|p| self.at_height(p, scale, &mut rng)).collect();
+            }
+            let positions = rules.positions_seen_from(last.position, positions);
+            let targets = self.points(first.look_at, last.look_at, scale, queries, &mut rng);
+            let targets = rules.targets_seen_from(last.look_at, targets);
+            (look_from, look_at) = (positions.len(), targets.len());
+
+            // Candidate poses, what each is worth, and one that is.
+            let candidates = self.pair(&positions, &targets, frame, &mut rng);
+            let views = planner.views(&candidates);
+            if let Some(chosen) = planner.choose(&candidates, &views, Some(&last), rejected, &mut rng) {
+                return Ok((candidates[chosen], views[chosen]));
+            }
+            spare.extend(candidates.into_iter().zip(views));
+        }
+        let worst = |(pose, view): &(Pose, ViewStats)| worst_fault(planner.gates, pose, view, &last);
+        // The first of the least bad.
+        let best = spare.into_iter().min_by_key(|found| (worst(found), Reverse(found.1.hits)));
+        best.ok_or_else(|| ExploreError::Stuck {
+            trajectory: planner.name.to_string(),
+            frame,
+            position: last.position,
+            queries,
+            look_from,
+            look_at,
+        })
+    }
+
+    /// Points uniform in the box around `last`, within the heights allowed around `first`.
+    fn points(&self, first: DVec3, last: DVec3, scale: f64, n: u32, rng: &mut Rng) -> Vec<DVec3> {
+        let config = self.planner.config;
+        let half = scale * DVec3::from(config.step_m);
+        let (mut low, mut high) = (last - half, last + half);
+        low.z = low.z.max(first.z - config.height_range_m);
+        high.z = high.z.min(first.z + config.height_range_m);
+        (0..n).map(|_| low + (high - low) * DVec3::new(rng.next_f64(), rng.next_f64(), rng.next_f64())).collect()
+    }
+
+    /// The point above or below `p` at a height uniform in the range asked for, no further up or down than a step.
+    fn at_height(&self, p: DVec3, scale: f64, rng: &mut Rng) -> Option<DVec3> {
+        let config = self.planner.config;
+        let [min, max] = config.camera_height_m?;
+        let wanted = min + (max - min) * rng.next_f64();
+        let from = DVec3::new(p.x, p.y, self.last.position.z);
+        let moved = wanted - self.planner.rules.height_m(from)?;
+        // A step of a stair is no higher than this, whatever the step of the walk.
+        let limit = (scale * config.step_m[2]).max(max - min);
+        (moved.abs() <= limit).then(|| from + moved * DVec3::Z)
+    }
+
+    /// Poses from random pairs of a position and a target that it sees. All of one step share one roll.
+    fn pair(&self, positions: &[DVec3], targets: &[DVec3], frame: u32, rng: &mut Rng) -> Vec<Pose> {
+        let rules = self.planner.rules;
+        let roll_rad = rules.draw_roll_rad(rng);
+        let wanted = self.planner.config.candidates as usize;
+        let mut poses = Vec::with_capacity(wanted);
+        if positions.is_empty() || targets.is_empty() {
+            return poses;
+        }
+        for _ in 0..wanted * DRAWS_PER_CANDIDATE {
+            let (position, look_at) = (positions[rng.below(positions.len())], targets[rng.below(targets.len())]);
+            let Some(look_at) = rules.sight(position, look_at) else { continue };
+            poses.extend(posed(frame, position, look_at, roll_rad).filter(|pose| rules.has_room_beside(pose)));
+            if poses.len() == wanted {
+                break;
+            }
+        }
+        poses
+    }
+}
+
+fn worst_fault(gates: &Gates, pose: &Pose, view: &ViewStats, before: &Pose) -> Option<Fault> {
+    gates.fault(pose, Some(before)).max(gates.is_void(view).then_some(Fault::Void))
+}

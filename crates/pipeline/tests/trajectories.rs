@@ -1,0 +1,60 @@
+//! Datasets of every mode of trajectory: made, verified, and not made again.
+
+use enfilade_dataset::Dataset;
+use enfilade_pipeline::{Config, Overrides, Silent, run};
+use std::path::Path;
+
+/// The demo's room, tiny, once per mode.
+fn config(folder: &Path) -> Config {
+    let table =
+        "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z\n0,1.0,1.0,1.4,2.5,2.0,1.2\n3,1.3,1.0,1.4,2.5,2.0,1.2\n";
+    std::fs::write(folder.join("path.csv"), table).unwrap();
+    let modes = [
+        ("walk", "overlap = [0.1, 0.95]\nmode = { kind = \"walk\" }"),
+        ("video", "camera_height_m = [1.2, 1.7]\nlevel = true\nmode = { kind = \"video\", fps = 10 }"),
+        ("stills", "mode = { kind = \"stills\", min_distance_m = 0.5 }"),
+        ("coverage", "mode = { kind = \"coverage\", views = 2, poses = 100, samples = 1000 }"),
+        ("keyframes", "mode = { kind = \"keyframes\", files = [\"path.csv\"] }"),
+    ];
+    let mut text =
+        "seed = 3\nframes = 4\n[render]\nsize = [64, 48]\nsamples = 1\nmax_bounces = 1\n[carve]\nrays = 8192\niterations = 2\n".to_string();
+    for (name, keys) in modes {
+        text += &format!("[[scene]]\nname = \"{name}\"\nhome = {{}}\ncameras = [\"door\"]\n[scene.plan]\n{keys}\n");
+    }
+    std::fs::write(folder.join("dataset.toml"), text).unwrap();
+    Config::read(&folder.join("dataset.toml"), &Overrides::default()).unwrap()
+}
+
+#[test]
+fn datasets_of_every_mode_verify_and_are_made_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let config = config(folder.path());
+    let out = folder.path().join("out");
+    let summary = run(&config, &out, None, &Silent).unwrap();
+    let failures: Vec<_> = summary.scenes.iter().filter_map(|s| s.failure.as_ref().map(|f| (&s.name, &f.message))).collect();
+    assert!(summary.ok(), "{failures:?}");
+    assert!(run(&config, &out, None, &Silent).unwrap().nothing_done());
+
+    let dataset = Dataset::open(&out).unwrap();
+    for scene in ["walk", "video", "stills", "coverage", "keyframes"] {
+        let text = std::fs::read_to_string(dataset.layout().plan_report(scene, "cam_00")).unwrap();
+        let report: enfilade_explore::PlanReport = serde_json::from_str(&text).unwrap();
+        assert_eq!((report.mode.as_str(), report.per_frame.frame.as_slice()), (scene, [0, 1, 2, 3].as_slice()));
+        assert_eq!(report.coverage.is_some(), scene == "coverage");
+    }
+    let poses = dataset.read_trajectory("keyframes", "cam_00").unwrap().poses;
+    assert_eq!((poses[0].position.x, poses[3].position.x), (1.0, 1.3));
+    let time = std::fs::read_to_string(dataset.layout().metadata_camera("video", "cam_00")).unwrap();
+    assert!(time.contains("frame_time_seconds,0.1"), "{time}");
+}
+
+#[test]
+fn a_table_of_poses_that_cannot_be_read_says_where() {
+    let folder = tempfile::tempdir().unwrap();
+    let config = config(folder.path());
+    std::fs::write(folder.path().join("path.csv"), "frame,position_x\n0,1\n").unwrap();
+    let summary = run(&config, &folder.path().join("out"), Some("keyframes"), &Silent).unwrap();
+    let failure = summary.scenes[0].failure.as_ref().unwrap();
+    assert!(failure.message.contains("path.csv, pose 1: found"), "{}", failure.message);
+    assert!(failure.hint.as_ref().unwrap().contains("docs/trajectories.md"));
+}
