@@ -159,6 +159,9 @@ pub struct RenderFlags {
     /// Also write the light of color by its way (diffuse_direct, ...) and by its source (light_environment, ...)
     #[arg(long)]
     pub splits: bool,
+    /// Also write material, flow to the next frame, what lies behind glass, occlusion boundaries and more, pixel by pixel
+    #[arg(long)]
+    pub extra: bool,
     /// Make denoised companions of the color layers too (needs Open Image Denoise, see `enfilade denoise --help`)
     #[arg(long)]
     pub denoise: bool,

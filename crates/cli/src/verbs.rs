@@ -97,6 +97,7 @@ fn choices(flags: &RenderFlags) -> RenderChoices {
         clamp: flags.clamp,
         time_limit_s: flags.time_limit,
         splits: flags.splits,
+        extra: flags.extra,
         denoise: flags.denoise,
     }
 }

@@ -100,6 +100,11 @@ impl Layout {
         self.detail_dir(scene).join("metadata_nodes.csv")
     }
 
+    /// Materials, as the `material_id` layer numbers them.
+    pub fn metadata_materials(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("metadata_materials.csv")
+    }
+
     /// A camera's trajectory and records.
     pub fn camera_dir(&self, scene: &str, camera: &str) -> PathBuf {
         self.detail_dir(scene).join(camera)
@@ -251,7 +256,7 @@ pub(crate) fn layer_file_name(frame: u32, layer: Layer) -> String {
 fn pass_name(pass: Pass) -> &'static str {
     match pass {
         Pass::Final | Pass::Denoised | Pass::Split => "final",
-        Pass::Geometry | Pass::Label => "geometry",
+        Pass::Geometry | Pass::Label | Pass::Extra => "geometry",
     }
 }
 

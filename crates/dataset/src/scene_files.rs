@@ -25,15 +25,20 @@ pub struct Node {
 }
 
 impl Dataset {
-    /// Writes what is known of a scene without looking at it: `metadata_scene.csv`, `metadata_nodes.csv` and the mesh folder's
-    /// geometry and names. Every part is one node and one object.
+    /// Writes what is known of a scene without looking at it: `metadata_scene.csv`, `metadata_nodes.csv`,
+    /// `metadata_materials.csv` and the mesh folder's geometry and names. Every part is one node and one object.
     ///
     /// # Errors
-    /// When a file cannot be written, or the scene has more parts than int16 can number (32767).
+    /// When a file cannot be written, or the scene has more parts or materials than int16 can number (32767).
     pub fn write_scene(&self, scene_name: &str, scene: &Scene) -> Result<(), DatasetError> {
         check_name("scene name", scene_name)?;
-        if scene.parts.len() > i16::MAX as usize {
-            let problem = format!("{} parts, but render_entity_id is int16 and holds 32767; join small parts", scene.parts.len());
+        let most = i16::MAX as usize;
+        if scene.parts.len() > most || scene.materials.len() > most {
+            let problem = format!(
+                "{} parts and {} materials, but render_entity_id and material_id are int16 and hold 32767; join small parts",
+                scene.parts.len(),
+                scene.materials.len()
+            );
             return Err(DatasetError::Unstorable { what: format!("scene {scene_name:?}"), problem });
         }
         write_parameter(&self.layout().metadata_scene(scene_name), "meters_per_asset_unit", 1.0)?;
@@ -42,6 +47,9 @@ impl Dataset {
         nodes.rows =
             scene.parts.iter().enumerate().map(|(i, p)| vec![(i + 1).to_string(), p.name.clone(), i.to_string(), p.name.clone()]).collect();
         nodes.write()?;
+        let mut materials = Table::new(&self.layout().metadata_materials(scene_name), &["material_id", "material_name"]);
+        materials.rows = scene.materials.iter().enumerate().map(|(i, m)| vec![(i + 1).to_string(), m.name.clone()]).collect();
+        materials.write()?;
         write_mesh(self.layout(), scene_name, scene)
     }
 

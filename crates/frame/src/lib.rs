@@ -8,7 +8,7 @@ mod spec;
 
 pub use compose::{Composed, compose};
 pub use half::f16;
-pub use spec::{Dtype, LAYERS, Layer, LayerSpec, Pass, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity};
+pub use spec::{Dtype, LAYERS, Layer, LayerSpec, Pass, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, traits};
 
 use std::collections::BTreeMap;
 

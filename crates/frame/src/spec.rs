@@ -34,6 +34,20 @@ pub enum Layer {
     LightDistant,
     LightSurfaces,
     LightPoints,
+    MaterialId,
+    BaseColor,
+    Metallic,
+    Roughness,
+    TransmissionWeight,
+    EmittedRadiance,
+    NormalGeometricWorld,
+    SurfaceTraits,
+    DepthBehindMeters,
+    EntityBehindId,
+    OcclusionBoundary,
+    OpticalFlow,
+    SceneFlow,
+    FlowVisibility,
 }
 
 /// How values are stored.
@@ -61,12 +75,14 @@ pub enum Pass {
     Denoised,
     /// Also in the final folder and rendered with it, but only where that is asked for: the light of `color` by its way or its source.
     Split,
+    /// Also in the geometry folder and sampled like it, but only where that is asked for.
+    Extra,
 }
 
 impl Pass {
     /// True for layers that a frame has only where they were asked for, and then all of them.
     pub const fn is_optional(self) -> bool {
-        matches!(self, Self::Denoised | Self::Split)
+        matches!(self, Self::Denoised | Self::Split | Self::Extra)
     }
 }
 
@@ -82,6 +98,20 @@ pub enum Validity {
     Saturated = 2,
     /// As `Valid`, but the pixel has no diffuse reflectance: `diffuse_illumination` is the demodulated irradiance.
     NoDiffuse = 3,
+}
+
+/// Bits of the `surface_traits` layer: what makes a pixel difficult.
+pub mod traits {
+    /// A smooth metal: what is seen is a reflection.
+    pub const MIRROR: u8 = 1;
+    /// Light passes through the surface.
+    pub const GLASS: u8 = 2;
+    /// The surface emits light.
+    pub const EMITTER: u8 = 4;
+    /// The pixel shows more than one part, or a part and nothing: the rays through its corners do not all meet the part at its centre.
+    pub const PARTIAL: u8 = 8;
+    /// The back of a surface that has only one side.
+    pub const BACK: u8 = 16;
 }
 
 /// What a layer is, for machines and people.
@@ -115,7 +145,7 @@ macro_rules! layers {
 }
 
 /// The table of layers; `LAYERS[layer as usize].layer == layer`.
-pub const LAYERS: [LayerSpec; 29] = layers![
+pub const LAYERS: [LayerSpec; 43] = layers![
     Color "color" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
         "Radiance; equals diffuse_reflectance * diffuse_illumination + residual to the last bit, evaluated in float32 and rounded to float16.";
     DiffuseIllumination "diffuse_illumination" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
@@ -161,6 +191,27 @@ pub const LAYERS: [LayerSpec; 29] = layers![
         "Part of color, where asked for: light of emissive surfaces.";
     LightPoints "light_points" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
         "Part of color, where asked for: light of lights at a point, such as spots and measured lamps.";
+    MaterialId "material_id" Extra 1 I16, "", "", "-1", "Material number from 1: material_id of metadata_materials.csv.";
+    BaseColor "base_color" Extra 3 F16, "", "linear RGB, Rec. 709", "0",
+        "Colour of the material, on [0,1]: diffuse reflectance, reflectance at normal incidence of metals, transmittance of glass.";
+    Metallic "metallic" Extra 1 F16, "", "", "0", "Share of metal in the material, 0 to 1.";
+    Roughness "roughness" Extra 1 F16, "", "", "0", "Perceptual roughness, 0 smooth to 1: the square root of GGX alpha; 1 for surfaces that only diffuse.";
+    TransmissionWeight "transmission_weight" Extra 1 F16, "", "", "0", "Share of the material that lets light through, 0 to 1.";
+    EmittedRadiance "emitted_radiance" Extra 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+        "Radiance that the surface emits towards the camera, at the pixel's centre.";
+    NormalGeometricWorld "normal_geometric_world" Extra 3 F16, "", "world", "NaN", "Unit normal of the flat triangle, facing the camera.";
+    SurfaceTraits "surface_traits" Extra 1 U8, "", "", "0",
+        "Sum of: 1 smooth metal, 2 glass, 4 emitter, 8 the pixel shows more than one part, 16 back of a one-sided surface.";
+    DepthBehindMeters "depth_behind_meters" Extra 1 F32, "m", "", "NaN",
+        "Euclidean distance to the first surface that lets no light through, straight on through all glass; depth_meters where the first surface is that.";
+    EntityBehindId "entity_behind_id" Extra 1 I16, "", "", "-1", "Part number of that surface, as render_entity_id.";
+    OcclusionBoundary "occlusion_boundary" Extra 1 U8, "", "", "0",
+        "Next to a jump in depth among the four neighbours: 1 on the near side, 2 on the far side (where nothing is hit, too); 0 elsewhere.";
+    OpticalFlow "optical_flow" Extra 2 F32, "px", "image (x right, y down)", "NaN",
+        "From the pixel's centre to where the next frame shows the same surface point, inside the image or not; NaN in the last frame, and where the next camera has no image of the point.";
+    SceneFlow "scene_flow" Extra 3 F32, "m", "camera (x right, y up, z backward)", "NaN",
+        "Position of the surface point in the next frame's camera axes minus that in this frame's; NaN in the last frame.";
+    FlowVisibility "flow_visibility" Extra 1 U8, "", "", "0", "1 where the next frame shows the same surface point, 0 where it is hidden or outside the image.";
 ];
 
 /// Layers whose sum is `color`, but for the rounding of each: by the light's way from the first surface to the camera.

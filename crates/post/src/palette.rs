@@ -1,6 +1,6 @@
 //! Colours for numbers.
 
-use enfilade_frame::Validity;
+use enfilade_frame::{Validity, traits};
 use enfilade_scene::NYU40;
 
 /// The viridis colour map (Smith & van der Walt, matplotlib 1.5, CC0) at tenths, sRGB.
@@ -58,6 +58,24 @@ pub fn validity_color(code: u8) -> [u8; 3] {
         c if c == Validity::NoDiffuse as u8 => [70, 118, 190],
         _ => [255, 0, 255],
     }
+}
+
+/// A colour for the bits of the `surface_traits` layer: grey for none, else blue for mirrors, cyan for glass, yellow for emitters, magenta for
+/// backs; what shows more than one part is lighter.
+pub fn traits_color(bits: u8) -> [u8; 3] {
+    let base: [u8; 3] = match bits {
+        b if b & traits::EMITTER != 0 => [230, 190, 60],
+        b if b & traits::GLASS != 0 => [60, 170, 180],
+        b if b & traits::MIRROR != 0 => [60, 90, 190],
+        b if b & traits::BACK != 0 => [190, 60, 160],
+        _ => [90, 90, 90],
+    };
+    if bits & traits::PARTIAL == 0 { base } else { base.map(|v| v / 2 + 127) }
+}
+
+/// The colour of a direction in the image (radians, from x towards y) and of how far it goes, on `[0,1]`: hue and saturation.
+pub fn direction_color(angle_rad: f64, share: f64) -> [u8; 3] {
+    hsv((angle_rad / std::f64::consts::TAU).rem_euclid(1.0), share.clamp(0.0, 1.0), 1.0)
 }
 
 fn hsv(hue: f64, saturation: f64, value: f64) -> [u8; 3] {

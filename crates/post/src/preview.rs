@@ -5,7 +5,7 @@
 //! that name the toolkit saves the full reconstruction, which is `tonemap` once more. Pixels without a value are transparent
 //! in PNG. Wherever values are stretched over a range, the range is the preview's note, and stands in the PNG's text.
 
-use crate::palette::{id_color, semantic_color, validity_color, viridis};
+use crate::palette::{direction_color, id_color, semantic_color, traits_color, validity_color, viridis};
 use crate::picture::{Picture, byte, from_pixels, jpeg, png};
 use crate::statistics::quantile;
 use crate::tonemap::{ToneMap, encode};
@@ -55,7 +55,7 @@ const fn spec(pass: Pass, name: &'static str, subject: Subject) -> PreviewSpec {
 }
 
 /// Every preview.
-pub const PREVIEWS: [PreviewSpec; 36] = [
+pub const PREVIEWS: [PreviewSpec; 50] = [
     spec(Pass::Final, "tonemap.jpg", Subject::ToneMapped),
     spec(Pass::Final, "color.jpg", Subject::Clipped),
     spec(Pass::Final, "gamma.jpg", Subject::Gamma),
@@ -92,6 +92,20 @@ pub const PREVIEWS: [PreviewSpec; 36] = [
     spec(Pass::Split, "light_distant.jpg", Subject::Layer(Layer::LightDistant)),
     spec(Pass::Split, "light_surfaces.jpg", Subject::Layer(Layer::LightSurfaces)),
     spec(Pass::Split, "light_points.jpg", Subject::Layer(Layer::LightPoints)),
+    spec(Pass::Extra, "material_id.png", Subject::Layer(Layer::MaterialId)),
+    spec(Pass::Extra, "base_color.png", Subject::Layer(Layer::BaseColor)),
+    spec(Pass::Extra, "metallic.png", Subject::Layer(Layer::Metallic)),
+    spec(Pass::Extra, "roughness.png", Subject::Layer(Layer::Roughness)),
+    spec(Pass::Extra, "transmission_weight.png", Subject::Layer(Layer::TransmissionWeight)),
+    spec(Pass::Extra, "emitted_radiance.png", Subject::Layer(Layer::EmittedRadiance)),
+    spec(Pass::Extra, "normal_geometric_world.png", Subject::Layer(Layer::NormalGeometricWorld)),
+    spec(Pass::Extra, "surface_traits.png", Subject::Layer(Layer::SurfaceTraits)),
+    spec(Pass::Extra, "depth_behind_meters.png", Subject::Layer(Layer::DepthBehindMeters)),
+    spec(Pass::Extra, "entity_behind_id.png", Subject::Layer(Layer::EntityBehindId)),
+    spec(Pass::Extra, "occlusion_boundary.png", Subject::Layer(Layer::OcclusionBoundary)),
+    spec(Pass::Extra, "optical_flow.png", Subject::Layer(Layer::OpticalFlow)),
+    spec(Pass::Extra, "scene_flow.png", Subject::Layer(Layer::SceneFlow)),
+    spec(Pass::Extra, "flow_visibility.png", Subject::Layer(Layer::FlowVisibility)),
 ];
 
 impl PreviewSpec {
@@ -132,8 +146,9 @@ pub fn preview(subject: Subject, frame: &Frame, tone: ToneMap) -> Option<Preview
 
 fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap) -> Preview {
     let picture = match layer {
-        Layer::DepthMeters | Layer::DepthZMeters => return depth(values, frame),
-        Layer::Position => return position(values, frame),
+        Layer::DepthMeters | Layer::DepthZMeters | Layer::DepthBehindMeters => return depth(values, frame),
+        Layer::Position | Layer::SceneFlow => return position(values, frame),
+        Layer::OpticalFlow => return flow(values, frame),
         Layer::Color
         | Layer::DiffuseIllumination
         | Layer::Residual
@@ -148,16 +163,21 @@ fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap) ->
         | Layer::LightEnvironment
         | Layer::LightDistant
         | Layer::LightSurfaces
-        | Layer::LightPoints => rgb(frame, |i| tone.apply(values.get(i))),
+        | Layer::LightPoints
+        | Layer::EmittedRadiance => rgb(frame, |i| tone.apply(values.get(i))),
         Layer::ColorStandardError => rgb(frame, |i| tone.apply(values.get(i / 3))),
-        Layer::DiffuseReflectance => rgb(frame, |i| encode(values.get(i))),
-        Layer::NormalWorld | Layer::NormalCam | Layer::NormalBumpWorld | Layer::NormalBumpCam => {
+        Layer::DiffuseReflectance | Layer::BaseColor => rgb(frame, |i| encode(values.get(i))),
+        Layer::NormalWorld | Layer::NormalCam | Layer::NormalBumpWorld | Layer::NormalBumpCam | Layer::NormalGeometricWorld => {
             rgb(frame, |i| 0.5 * (values.get(i) + 1.0))
         }
+        Layer::Metallic | Layer::Roughness | Layer::TransmissionWeight => rgb(frame, |i| values.get(i / 3)),
         Layer::TexCoord => rgb(frame, |i| values.get(i) - values.get(i).floor()),
-        Layer::RenderEntityId | Layer::SemanticInstance => ids(frame, values, id_color),
+        Layer::RenderEntityId | Layer::SemanticInstance | Layer::MaterialId | Layer::EntityBehindId => ids(frame, values, id_color),
         Layer::Semantic => ids(frame, values, semantic_color),
         Layer::Valid => ids(frame, values, |code| validity_color(code as u8)),
+        Layer::SurfaceTraits => ids(frame, values, |bits| traits_color(bits as u8)),
+        Layer::OcclusionBoundary => ids(frame, values, |code| [[0; 3], [255; 3], [110; 3]][code.clamp(0, 2) as usize]),
+        Layer::FlowVisibility => ids(frame, values, |code| [if code == 0 { 0 } else { 255 }; 3]),
     };
     Preview { picture, note: String::new() }
 }
@@ -199,6 +219,21 @@ fn position(values: &Values, frame: &Frame) -> Preview {
     });
     let axis = |(name, [low, high]): (&str, &[f64; 2])| format!("{name} {} to {}", short(*low), short(*high));
     Preview { picture, note: format!("{} m", ["x", "y", "z"].into_iter().zip(&ranges).map(axis).collect::<Vec<_>>().join(", ")) }
+}
+
+/// Hue says where to (red right, then yellow-green down, cyan left, violet up), saturation how far, up to the 99th percentile.
+fn flow(values: &Values, frame: &Frame) -> Preview {
+    let motion = |i: usize| [values.get(2 * i), values.get(2 * i + 1)];
+    let length = |[x, y]: [f64; 2]| x.hypot(y);
+    let Some([_, longest]) = robust_range((0..frame.pixels()).map(|i| length(motion(i)))) else {
+        return Preview { picture: from_pixels(frame.width, frame.height, |_| [0; 4]), note: "no next frame".into() };
+    };
+    let picture = from_pixels(frame.width, frame.height, |i| {
+        let [x, y] = motion(i);
+        let [r, g, b] = direction_color(y.atan2(x), length([x, y]) / longest.max(f64::MIN_POSITIVE));
+        if x.is_finite() && y.is_finite() { [r, g, b, 255] } else { [0; 4] }
+    });
+    Preview { picture, note: format!("0 to {longest:.1} px") }
 }
 
 /// 1st and 99th percentile of the finite values.

@@ -3,7 +3,7 @@
 //! Floor (part 1, z = 0), wall (part 2, y = 2, up to z = 2.5) and a mirror in the wall (part 3), void above. The mirror has no
 //! diffuse reflectance; one of its pixels is saturated.
 
-use enfilade_frame::{Frame, LAYERS, Layer, Pass, Validity, Values, f16};
+use enfilade_frame::{Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec2, DVec3, Rgb};
 use enfilade_scene::{Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, WorldMesh};
@@ -84,6 +84,21 @@ pub(crate) fn frame(pose: &Pose) -> Frame {
         push(Layer::LightSurfaces, &[if id <= 1 { 0.0 } else { 0.5 * (diffuse + r) }; 3]);
         push(Layer::LightPoints, &[if id <= 1 { 0.0 } else { 0.5 * (diffuse + r) }; 3]);
         push(Layer::LightDistant, &[0.0; 3]);
+        push(Layer::MaterialId, &[f64::from(id)]);
+        push(Layer::BaseColor, &[f64::from(a); 3]);
+        push(Layer::Metallic, &[f64::from(u8::from(id == 3))]);
+        push(Layer::Roughness, &[if id == 3 || !seen { 0.0 } else { 1.0 }]);
+        push(Layer::TransmissionWeight, &[0.0]);
+        push(Layer::EmittedRadiance, &[0.0; 3]);
+        push(Layer::NormalGeometricWorld, &normal.to_array());
+        push(Layer::SurfaceTraits, &[f64::from(u8::from(id == 3) * traits::MIRROR)]);
+        push(Layer::DepthBehindMeters, &[distance]);
+        push(Layer::EntityBehindId, &[f64::from(id)]);
+        push(Layer::OcclusionBoundary, &[0.0]);
+        // The camera rests.
+        push(Layer::OpticalFlow, &[if seen { 0.0 } else { f64::NAN }; 2]);
+        push(Layer::SceneFlow, &[if seen { 0.0 } else { f64::NAN }; 3]);
+        push(Layer::FlowVisibility, &[f64::from(u8::from(seen))]);
         let code = match id {
             -1 => Validity::Void,
             3 if saturated => Validity::Saturated,

@@ -43,6 +43,8 @@ pub struct RenderConfig {
     pub clamp: Option<f32>,
     /// Keeps the light of each pixel apart by its way and by its source, as layers of their own. Changes no other layer. Default false.
     pub splits: bool,
+    /// Adds further layers of geometry and material: [`crate::add_extra_layers`]. Changes no other layer. Default false.
+    pub extra: bool,
     /// Bounces before Russian roulette begins. Default 1.
     pub roulette_start: u32,
     /// Shape of the reconstruction filter. Default a tent.
@@ -64,6 +66,7 @@ impl Default for RenderConfig {
             max_bounces: None,
             clamp: None,
             splits: false,
+            extra: false,
             roulette_start: 1,
             filter: Filter::Tent,
             filter_radius: 1.0,

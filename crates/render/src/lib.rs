@@ -11,6 +11,7 @@ mod bsdf;
 mod budget;
 mod config;
 mod error;
+mod extra;
 mod film;
 mod geometry_pass;
 mod guide;
@@ -30,6 +31,7 @@ mod walk;
 
 pub use config::{Filter, RenderConfig};
 pub use error::RenderError;
+pub use extra::add_extra_layers;
 pub use guide::Guide;
 pub use partial::PartialError;
 pub use prepared::RenderScene;

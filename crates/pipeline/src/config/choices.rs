@@ -18,6 +18,8 @@ pub struct RenderChoices {
     pub time_limit_s: Option<f64>,
     /// Asks for layers of light by way and by source.
     pub splits: bool,
+    /// Asks for the further layers of geometry and material.
+    pub extra: bool,
     /// Asks for denoised layers.
     pub denoise: bool,
 }
@@ -47,6 +49,7 @@ impl RenderChoices {
         render.max_bounces = self.max_bounces.or(render.max_bounces);
         render.clamp = self.clamp.or(render.clamp);
         render.splits |= self.splits;
+        render.extra |= self.extra;
         scene.time_limit_s = self.time_limit_s.or(scene.time_limit_s);
         scene.denoise |= self.denoise;
     }

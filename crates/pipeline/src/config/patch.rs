@@ -35,6 +35,7 @@ section!(RenderPatch => RenderConfig {
     max_bounces: u32,
     clamp: f32,
     splits: bool,
+    extra: bool,
     roulette_start: u32,
     filter: Filter,
     filter_radius: f32,

@@ -47,7 +47,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     write_json(&labels_file, &labels)?;
     job.forget_scene();
     let layout = job.dataset.layout();
-    let outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name)];
+    let outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
     let inputs = inputs.iter().map(|path| Input::of(path)).collect::<Result<_, _>>()?;
     Ok(Outcome { summary: describe(&scene), outputs, inputs: Some(inputs), report })
 }

@@ -7,7 +7,7 @@ use crate::report::{StageCx, Stopwatch, count};
 use crate::workdir::Hash;
 use enfilade_dataset::{CameraRecord, FrameInfo, FrameTime, StoppedBy};
 use enfilade_frame::{LAYERS, Pass};
-use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
+use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -75,7 +75,11 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
             let time = Stopwatch::start();
             let frame_cx = FrameCx { outer: cx, done, total };
             let rendering = FrameRender::new(&scene, &guide, view, config).map_err(Error::stage)?;
-            let (frame, sampling) = progressive::render(job, &trajectory.name, info, rendering, &frame_cx)?;
+            let (mut frame, sampling) = progressive::render(job, &trajectory.name, info, rendering, &frame_cx)?;
+            if config.extra {
+                let next = views.iter().position(|other| other.pose().frame == info.pose.frame).and_then(|index| views.get(index + 1));
+                add_extra_layers(&scene, view, next, &mut frame);
+            }
             let time = FrameTime { wall_s: time.wall_s(), cpu_s: time.cpu_s() };
             let info = FrameInfo { sampling: Some(sampling), ..info.clone() };
             job.dataset.write_frame(&job.scene.name, &trajectory.name, &frame, &info, time).map_err(Error::stage)?;
@@ -109,8 +113,14 @@ fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
     let mut files = Vec::new();
     for (camera, frame) in job.frames()? {
         files.push(layout.frame_record(name, &camera, frame));
-        let splits = job.scene.render.splits;
-        let rendered = LAYERS.iter().filter(|spec| matches!(spec.pass, Pass::Final | Pass::Geometry) || splits && spec.pass == Pass::Split);
+        let config = &job.scene.render;
+        let is_rendered = |pass: Pass| match pass {
+            Pass::Final | Pass::Geometry => true,
+            Pass::Split => config.splits,
+            Pass::Extra => config.extra,
+            Pass::Label | Pass::Denoised => false,
+        };
+        let rendered = LAYERS.iter().filter(|spec| is_rendered(spec.pass));
         files.extend(rendered.map(|spec| layout.layer(name, &camera, frame, spec.layer)));
     }
     Ok(files)

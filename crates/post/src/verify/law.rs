@@ -38,6 +38,7 @@ pub enum Law {
     Recomposition,
     StandardError,
     LightSplits,
+    ExtraLayers,
     Distance,
     PlanarDepth,
     Projection,
@@ -76,12 +77,12 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 45] = laws![
+pub const LAWS: [LawSpec; 46] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: render the frame again";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
     FramesComplete 0.0 "frames", "every frame of a trajectory is complete", "a frame failed or was never rendered: run again";
-    LayersPresent 0.0 "layers", "every frame has every layer, and of each optional kind (denoised, split) all or none", "the frame was rendered or labelled by another version: render or label it again";
+    LayersPresent 0.0 "layers", "every frame has every layer, and of each optional kind (denoised, split, extra) all or none", "the frame was rendered or labelled by another version: render or label it again";
     Checksums 0.0 "files", "files are what the manifest says was written", "a file was changed or damaged after it was written: render again or restore it";
     Nodes 0.0 "tables", "metadata_nodes.csv can be read and numbers its nodes 1, 2, ...", "the table was edited or cut: import the scene again";
     Calibration 1e-6 "px", "size and calibration agree between metadata_camera_parameters.csv, records and images",
@@ -115,6 +116,8 @@ pub const LAWS: [LawSpec; 45] = laws![
     StandardError 2e-3 "relative", "color_standard_error is NaN everywhere (one sample per pixel), or from 0 to the luminance of color",
         "layers of different renderings are mixed: render the frame again";
     LightSplits 2e-3 "relative", "light by path and light by source sum to color, and specular, transmission and emission to residual",
+        "layers of different renderings are mixed: render the frame again";
+    ExtraLayers 0.0 "pixels", "extra layers lie in their ranges and are of the same surfaces as the geometry layers, which what lies behind glass is beyond",
         "layers of different renderings are mixed: render the frame again";
     Distance 1e-4 "relative", "depth_meters = |position - camera|", "positions, distances and poses are not of one rendering: render again";
     PlanarDepth 1e-4 "relative", "depth_z_meters is depth_meters along the viewing axis", "calibration and rendering disagree: render again";

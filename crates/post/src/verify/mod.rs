@@ -7,6 +7,7 @@ mod camera_files;
 mod card;
 mod color;
 mod dataset;
+mod extra;
 mod geometry;
 mod labels;
 mod law;
@@ -56,6 +57,7 @@ pub fn check_frame(frame: &Frame, view: &View<'_>, place: &str) -> Card {
         geometry::check(&mut scan);
     }
     color::check(&mut scan);
+    extra::check(&mut scan);
     labels::check(&mut scan);
     scan.card
 }

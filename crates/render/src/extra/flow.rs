@@ -1,0 +1,66 @@
+//! Where a surface point is in the next frame. Scenes do not move; cameras do.
+
+use crate::prepared::{Cutout, RenderScene};
+use enfilade_math::{DVec3, Ray};
+use enfilade_scene::{CameraRay, CameraView};
+
+/// A point is seen when the ray to it is free up to this share of its length.
+const REACH: f64 = 0.999;
+
+/// With a rolling shutter the row that shows a point depends on when it is shown; so often is it looked for.
+const ROW_STEPS: usize = 8;
+
+/// The motion of one surface point as the camera sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flow {
+    /// Pixels, x right and y down; `None` when the next camera has no image of the point.
+    pub image: Option<[f32; 2]>,
+    /// Camera axes, metres.
+    pub camera: [f32; 3],
+    /// The next frame shows it.
+    pub visible: bool,
+}
+
+/// From the image point of `view` that shows `p_world` to that of `next`. `None` for points that are not finite.
+pub(super) fn flow(
+    scene: &RenderScene<'_>,
+    view: &CameraView<'_>,
+    next: &CameraView<'_>,
+    (x, y): (f64, f64),
+    p_world: DVec3,
+) -> Option<Flow> {
+    if !p_world.is_finite() {
+        return None;
+    }
+    let mut row = y;
+    let mut there = next.project_in_row(p_world, row);
+    if next.camera().shutter.is_some() {
+        for _ in 0..ROW_STEPS {
+            let Some((_, found)) = there else { break };
+            row = found.clamp(0.0, f64::from(next.camera().size()[1]));
+            there = next.project_in_row(p_world, row);
+        }
+    }
+    let in_camera = |view: &CameraView, row: f64| {
+        let (position, world_from_camera) = view.row_placement(row);
+        world_from_camera.transpose() * (p_world - position)
+    };
+    Some(Flow {
+        image: there.map(|(next_x, next_y)| [(next_x - x) as f32, (next_y - y) as f32]),
+        camera: (in_camera(next, row) - in_camera(view, y)).as_vec3().to_array(),
+        visible: there.is_some_and(|there| shows(scene, next, there, p_world)),
+    })
+}
+
+/// Whether the image point is inside the image, and nothing before the world point there.
+fn shows(scene: &RenderScene<'_>, view: &CameraView<'_>, (x, y): (f64, f64), p_world: DVec3) -> bool {
+    let [width, height] = view.camera().size().map(f64::from);
+    if !(0.0..width).contains(&x) || !(0.0..height).contains(&y) {
+        return false;
+    }
+    let Some(CameraRay { origin, .. }) = view.centre_ray(x, y) else { return false };
+    let distance = origin.distance(p_world);
+    let mut ray = Ray::new(origin.as_vec3(), ((p_world - origin) / distance).as_vec3());
+    ray.t_max = (REACH * distance) as f32;
+    scene.closest(&ray, Cutout::Half).is_none()
+}

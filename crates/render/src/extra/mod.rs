@@ -1,0 +1,144 @@
+//! Further layers of what the ray through a pixel's centre meets: what it is made of, what lies behind it, where it is in the next
+//! frame. Point samples in the sense of `geometry_pass`, made after a frame and only where asked for.
+
+mod appearance;
+mod boundary;
+mod flow;
+
+use crate::prepared::{Cutout, RenderScene};
+use crate::surface::Surface;
+use crate::texture::Cone;
+use appearance::Appearance;
+use enfilade_frame::{Frame, Layer, Values, f16, traits};
+use enfilade_math::{Ray, Rgb, Vec3, offset_origin};
+use enfilade_scene::{CameraRay, CameraView};
+use flow::Flow;
+use rayon::prelude::*;
+
+/// Metals below this GGX alpha show a reflection that can be made out.
+const MIRROR_ALPHA: f32 = 0.01;
+
+/// Panes that are looked through one after the other.
+const MAX_PANES: usize = 64;
+
+/// Of a pixel's width: how far from its centre its corners are looked at. Just inside, where neighbours do not look.
+const CORNER: f64 = 0.49;
+
+/// Adds the layers of [`enfilade_frame::Pass::Extra`] to a frame of `view`. `next` is the view of the trajectory's next frame; without
+/// one there is no flow. The frame must have its geometry layers.
+///
+/// # Panics
+/// When the frame is not of the view's size, or lacks `depth_meters` or `normal_world`.
+pub fn add_extra_layers(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<&CameraView<'_>>, frame: &mut Frame) {
+    let [width, height] = view.camera().size();
+    assert_eq!([frame.width, frame.height], [width, height], "the frame must be of the view's size");
+    let at = |index: u32| (index % width, index / width);
+    let pixels: Vec<Option<Extra>> = (0..width * height).into_par_iter().map(|index| extra(scene, view, next, at(index))).collect();
+    let boundary = boundary::boundaries(view, frame);
+
+    let half = |f: fn(&Extra) -> f32| Values::F16(pixels.iter().map(|p| f16::from_f32(p.as_ref().map_or(0.0, f))).collect());
+    let halves = |f: fn(&Extra) -> [f32; 3], void: f32| {
+        Values::F16(pixels.iter().flat_map(|p| p.as_ref().map_or([void; 3], f)).map(f16::from_f32).collect())
+    };
+    let number = |f: fn(&Extra) -> i16| Values::I16(pixels.iter().map(|p| p.as_ref().map_or(-1, f)).collect());
+    let flow = |p: &Option<Extra>| p.as_ref().and_then(|p| p.flow);
+    let image = |p: &Option<Extra>| flow(p).and_then(|f| f.image).unwrap_or([f32::NAN; 2]);
+    frame.insert(Layer::MaterialId, number(|p| p.material));
+    frame.insert(Layer::BaseColor, halves(|p| rgb(p.appearance.base_color), 0.0));
+    frame.insert(Layer::Metallic, half(|p| p.appearance.metallic));
+    frame.insert(Layer::Roughness, half(|p| p.appearance.roughness()));
+    frame.insert(Layer::TransmissionWeight, half(|p| p.appearance.transmission));
+    frame.insert(Layer::EmittedRadiance, halves(|p| p.emitted, 0.0));
+    frame.insert(Layer::NormalGeometricWorld, halves(|p| p.normal.to_array(), f32::NAN));
+    frame.insert(Layer::SurfaceTraits, Values::U8(pixels.iter().map(|p| p.as_ref().map_or(0, |p| p.traits)).collect()));
+    frame.insert(Layer::DepthBehindMeters, Values::F32(pixels.iter().map(|p| p.as_ref().map_or(f32::NAN, |p| p.behind_m)).collect()));
+    frame.insert(Layer::EntityBehindId, number(|p| p.entity_behind));
+    frame.insert(Layer::OcclusionBoundary, Values::U8(boundary));
+    frame.insert(Layer::OpticalFlow, Values::F32(pixels.iter().flat_map(image).collect()));
+    frame.insert(Layer::SceneFlow, Values::F32(pixels.iter().flat_map(|p| flow(p).map_or([f32::NAN; 3], |f| f.camera)).collect()));
+    frame.insert(Layer::FlowVisibility, Values::U8(pixels.iter().map(|p| u8::from(flow(p).is_some_and(|f| f.visible))).collect()));
+}
+
+/// What is further known of a pixel.
+struct Extra {
+    /// From 1.
+    material: i16,
+    appearance: Appearance,
+    /// W/(sr m²).
+    emitted: [f32; 3],
+    /// Of the triangle, facing the camera.
+    normal: Vec3,
+    traits: u8,
+    /// Metres; NaN when nothing but glass is met.
+    behind_m: f32,
+    /// From 1; −1 when nothing but glass is met.
+    entity_behind: i16,
+    flow: Option<Flow>,
+}
+
+fn extra(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<&CameraView<'_>>, (x, y): (u32, u32)) -> Option<Extra> {
+    let centre = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+    let CameraRay { origin, direction } = view.centre_ray(centre.0, centre.1)?;
+    let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
+    let hit = scene.closest(&ray, Cutout::Half)?;
+    let surface = scene.surface(&hit, ray.direction, &Cone::POINT);
+    let triangle = &scene.triangles[hit.triangle as usize];
+    let distance = crate::geometry_pass::exact_distance(triangle.corners, origin, direction).unwrap_or(f64::from(hit.t));
+    let appearance = surface.appearance(scene);
+    let (behind_m, entity_behind) = behind(scene, &surface, ray.direction, distance as f32, triangle.part);
+    let emitted = surface.emission(scene);
+    let one_sided = !surface.outside && !surface.material.two_sided && !surface.material.bsdf.transmits();
+    let mut kind = 0;
+    for (holds, bit) in [
+        (appearance.metallic > 0.5 && appearance.alpha < MIRROR_ALPHA, traits::MIRROR),
+        (appearance.transmission > 0.0, traits::GLASS),
+        (!emitted.is_black(), traits::EMITTER),
+        (is_partial(scene, view, centre, triangle.part), traits::PARTIAL),
+        (one_sided, traits::BACK),
+    ] {
+        kind |= if holds { bit } else { 0 };
+    }
+    Some(Extra {
+        material: (triangle.material + 1) as i16,
+        appearance,
+        emitted: rgb(emitted),
+        normal: surface.ng,
+        traits: kind,
+        behind_m,
+        entity_behind,
+        flow: next.and_then(|next| flow::flow(scene, view, next, centre, origin + distance * direction)),
+    })
+}
+
+/// No more than float16 can hold.
+fn rgb(color: Rgb) -> [f32; 3] {
+    [color.r, color.g, color.b].map(|v| v.min(f16::MAX.to_f32()))
+}
+
+/// Whether a corner of the pixel shows another part than `part`, or nothing.
+fn is_partial(scene: &RenderScene<'_>, view: &CameraView<'_>, (x, y): (f64, f64), part: u32) -> bool {
+    [(-CORNER, -CORNER), (CORNER, -CORNER), (-CORNER, CORNER), (CORNER, CORNER)].into_iter().any(|(dx, dy)| {
+        let Some(CameraRay { origin, direction }) = view.centre_ray(x + dx, y + dy) else { return true };
+        let hit = scene.closest(&Ray::new(origin.as_vec3(), direction.as_vec3()), Cutout::Half);
+        hit.is_none_or(|hit| scene.triangles[hit.triangle as usize].part != part)
+    })
+}
+
+/// Distance to, and number of, the first surface straight on that lets no light through; the surface itself when that does not.
+fn behind(scene: &RenderScene<'_>, first: &Surface<'_>, direction: Vec3, distance_m: f32, part: u32) -> (f32, i16) {
+    if !first.material.bsdf.transmits() {
+        return (distance_m, (part + 1) as i16);
+    }
+    let (mut far_m, mut p, mut ng) = (distance_m, first.p, first.ng);
+    for _ in 0..MAX_PANES {
+        let ray = Ray::new(offset_origin(p, -ng), direction);
+        let Some(hit) = scene.closest(&ray, Cutout::Half) else { break };
+        let surface = scene.surface(&hit, direction, &Cone::POINT);
+        far_m += surface.p.distance(p);
+        if !surface.material.bsdf.transmits() {
+            return (far_m, (scene.triangles[hit.triangle as usize].part + 1) as i16);
+        }
+        (p, ng) = (surface.p, surface.ng);
+    }
+    (f32::NAN, -1)
+}

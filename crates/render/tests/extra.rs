@@ -1,0 +1,190 @@
+//! The further layers on scenes whose answer is known: a card in front of a wall, a pane, a camera that moves.
+
+use enfilade_frame::{Frame, Layer, traits};
+use enfilade_geometry::Mesh;
+use enfilade_math::{DAffine3, DVec3, Rgb, Vec2, Vec3};
+use enfilade_render::{Guide, RenderConfig, RenderScene, add_extra_layers, render_frame};
+use enfilade_scene::{Bsdf, Camera, CameraView, Environment, Intrinsics, Material, Part, Pose, Quiet, Scene};
+
+const CAMERA: Intrinsics = Intrinsics { width: 48, height: 36, fx: 40.0, fy: 42.0, cx: 23.0, cy: 18.5, skew: 0.0 };
+
+/// A rectangle across x, from `low` to `high` in y and z, facing −x.
+fn board(x: f32, low: f32, high: f32) -> Mesh {
+    let corner = |y: f32, z: f32| Vec3::new(x, y, z);
+    Mesh {
+        positions: vec![corner(low, low), corner(low, high), corner(high, high), corner(high, low)],
+        uvs: vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Mesh::default()
+    }
+}
+
+fn scene(things: Vec<(Mesh, Material)>) -> Scene {
+    let mut s = Scene { environment: Some(Environment::Constant { radiance: Rgb::WHITE }), ..Scene::default() };
+    for (i, (mesh, material)) in things.into_iter().enumerate() {
+        s.parts.push(Part { name: format!("part {i}"), mesh: i as u32, material: i as u32, world_from_mesh: DAffine3::IDENTITY });
+        s.meshes.push(mesh);
+        s.materials.push(material);
+    }
+    s.validate().unwrap();
+    s
+}
+
+fn grey() -> Material {
+    Material::diffuse("grey", Rgb::splat(0.5))
+}
+
+fn of(bsdf: Bsdf) -> Material {
+    Material { bsdf, ..grey() }
+}
+
+/// The frame of the first pose, with the second as the next.
+fn frame(s: &Scene, poses: &[Pose]) -> Frame {
+    let config = RenderConfig { samples: 1, ..RenderConfig::default() };
+    let prepared = RenderScene::new(s, &Quiet).unwrap();
+    let camera = Camera::from(CAMERA);
+    let views: Vec<CameraView> = (0..poses.len()).map(|i| CameraView::of_frame(&camera, poses, i)).collect();
+    let guide = Guide::learn(&prepared, &views, &config);
+    let mut frame = render_frame(&prepared, &guide, &views[0], &config, &Quiet).unwrap();
+    add_extra_layers(&prepared, &views[0], views.get(1), &mut frame);
+    frame
+}
+
+fn pose(number: u32, position: DVec3) -> Pose {
+    Pose::look_at(number, position, position + DVec3::new(4.0, 0.1, 0.2), DVec3::Z).unwrap()
+}
+
+fn value(frame: &Frame, layer: Layer, index: usize) -> f64 {
+    frame.get(layer).unwrap().get(index)
+}
+
+fn pixels() -> impl Iterator<Item = (usize, DVec3)> {
+    let (w, h) = (CAMERA.width as usize, CAMERA.height as usize);
+    (0..w * h).map(move |p| (p, CAMERA.ray((p % w) as f64 + 0.5, (p / w) as f64 + 0.5)))
+}
+
+fn thin(transmittance: f32) -> Bsdf {
+    Bsdf::ThinDielectric { eta: 1.5, transmittance: Rgb::splat(transmittance).into() }
+}
+
+#[test]
+fn behind_panes_lies_the_wall_straight_on() {
+    let s = scene(vec![(board(2.0, -9.0, 0.0), of(thin(0.9))), (board(2.5, -9.0, 0.0), of(thin(0.8))), (board(4.0, -30.0, 30.0), grey())]);
+    let pose = pose(0, DVec3::ZERO);
+    let frame = frame(&s, &[pose]);
+    let mut through = 0;
+    for (p, ray) in pixels() {
+        let direction = (pose.world_from_camera * ray).normalize();
+        let wall = 4.0 / direction.x;
+        assert!((value(&frame, Layer::DepthBehindMeters, p) - wall).abs() < 1e-4 * wall);
+        assert_eq!(value(&frame, Layer::EntityBehindId, p), 3.0);
+        let glass = value(&frame, Layer::RenderEntityId, p) == 1.0;
+        assert_eq!(value(&frame, Layer::TransmissionWeight, p), f64::from(u8::from(glass)));
+        assert_eq!(value(&frame, Layer::SurfaceTraits, p) as u8 & traits::GLASS != 0, glass);
+        assert!((value(&frame, Layer::BaseColor, 3 * p) - if glass { 0.9 } else { 0.5 }).abs() < 1e-3);
+        through += usize::from(glass);
+    }
+    assert!(through > 300 && through < 1400, "{through} pixels look through glass");
+}
+
+#[test]
+fn flow_leads_to_where_the_next_frame_shows_the_point() {
+    let s = scene(vec![(board(4.0, -30.0, 30.0), grey()), (board(1.5, -0.2, 0.2), grey())]);
+    let poses = [pose(0, DVec3::ZERO), pose(1, DVec3::new(0.2, 0.5, 0.1))];
+    let frame = frame(&s, &poses);
+    let (mut visible, mut hidden, mut left) = (0, 0, 0);
+    for (p, ray) in pixels() {
+        let direction = (poses[0].world_from_camera * ray).normalize();
+        let point = direction * value(&frame, Layer::DepthMeters, p);
+        let [now, then] = [0, 1].map(|i| poses[i].world_from_camera.transpose() * (point - poses[i].position));
+        let (x, y) = CAMERA.project(then);
+        let at = ((p % 48) as f64 + 0.5, (p / 48) as f64 + 0.5);
+        for (axis, expected) in [x - at.0, y - at.1].into_iter().enumerate() {
+            assert!((value(&frame, Layer::OpticalFlow, 2 * p + axis) - expected).abs() < 1e-3);
+        }
+        for axis in 0..3 {
+            assert!((value(&frame, Layer::SceneFlow, 3 * p + axis) - (then - now)[axis]).abs() < 1e-5);
+        }
+        let inside = (0.0..48.0).contains(&x) && (0.0..36.0).contains(&y);
+        // Is the small board between the next camera and the wall?
+        let (from, on_wall) = (poses[1].position, value(&frame, Layer::RenderEntityId, p) == 1.0);
+        let crossing = from + (point - from) * (1.5 - from.x) / (point.x - from.x);
+        let margin = crossing.y.abs().max(crossing.z.abs()) - 0.2;
+        if margin.abs() > 1e-4 || !on_wall {
+            let shown = inside && !(on_wall && margin < 0.0);
+            assert_eq!(value(&frame, Layer::FlowVisibility, p) == 1.0, shown, "pixel {p}");
+            visible += usize::from(shown);
+            hidden += usize::from(inside && !shown);
+            left += usize::from(!inside);
+        }
+    }
+    assert!(visible > 800 && hidden > 20 && left > 50, "{visible} visible, {hidden} hidden, {left} outside");
+}
+
+#[test]
+fn the_last_frame_has_no_flow() {
+    let frame = frame(&scene(vec![(board(4.0, -30.0, 30.0), grey())]), &[pose(0, DVec3::ZERO)]);
+    assert!(value(&frame, Layer::OpticalFlow, 0).is_nan() && value(&frame, Layer::SceneFlow, 0).is_nan());
+    assert_eq!(value(&frame, Layer::FlowVisibility, 0), 0.0);
+}
+
+#[test]
+fn boundaries_run_along_the_outline_of_a_board_and_not_along_the_corner_of_a_room() {
+    // A wall, a floor that meets it, and a board in front of both.
+    let floor = Mesh {
+        positions: vec![Vec3::new(-9.0, -30.0, -1.0), Vec3::new(4.0, -30.0, -1.0), Vec3::new(4.0, 30.0, -1.0), Vec3::new(-9.0, 30.0, -1.0)],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Mesh::default()
+    };
+    let s = scene(vec![(board(4.0, -30.0, 30.0), grey()), (floor, grey()), (board(2.0, -0.3, 0.5), grey())]);
+    let frame = frame(&s, &[pose(0, DVec3::ZERO)]);
+    let entity = |p: usize| value(&frame, Layer::RenderEntityId, p);
+    let mut counts = [0; 3];
+    for p in 0..48 * 36 {
+        let (x, y) = (p % 48, p / 48);
+        let mut beside = Vec::new();
+        beside.extend((x > 0).then(|| p - 1));
+        beside.extend((x < 47).then(|| p + 1));
+        beside.extend((y > 0).then(|| p - 48));
+        beside.extend((y < 35).then(|| p + 48));
+        let board = |p: usize| entity(p) == 3.0;
+        let expected = match (board(p), beside.iter().any(|&q| board(q) != board(p))) {
+            (_, false) => 0,
+            (true, true) => 1,
+            (false, true) => 2,
+        };
+        assert_eq!(value(&frame, Layer::OcclusionBoundary, p), f64::from(expected), "pixel {x}, {y}");
+        counts[expected as usize] += 1;
+        // The outline runs through the pixel or it does not; beyond its own corners a pixel shows nothing.
+        let partial = value(&frame, Layer::SurfaceTraits, p) as u8 & traits::PARTIAL != 0;
+        assert!(!partial || expected > 0 || beside.iter().any(|&q| entity(q) != entity(p)), "pixel {x}, {y}");
+    }
+    assert!(counts[1] > 20 && counts[2] > 20, "{counts:?}");
+}
+
+#[test]
+fn metals_mirrors_lamps_and_mixtures_say_what_they_are() {
+    let metal =
+        |alpha: f32| Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::new(0.9, 0.6, 0.3).into(), alpha: alpha.into() };
+    let dull = Bsdf::Diffuse { reflectance: Rgb::splat(0.1).into() };
+    let blend = Bsdf::Blend { first: Box::new(metal(0.16)), second: Box::new(dull), weight: 0.25.into() };
+    let mut lamp = grey();
+    lamp.emission = Rgb::new(3.0, 2.0, 1.0).into();
+    let one = |material: Material| {
+        let frame = frame(&scene(vec![(board(4.0, -30.0, 30.0), material)]), &[pose(0, DVec3::ZERO)]);
+        let v = |layer, i| value(&frame, layer, i);
+        let base = [0, 1, 2].map(|c| (v(Layer::BaseColor, c) * 1000.0).round() / 1000.0);
+        let traits = v(Layer::SurfaceTraits, 0) as u8;
+        (base, v(Layer::Metallic, 0), v(Layer::Roughness, 0), v(Layer::EmittedRadiance, 0), traits, v(Layer::MaterialId, 0))
+    };
+    let near = |a: f64, b: f64| (a - b).abs() < 2e-3;
+    let (base, metallic, roughness, _, kind, id) = one(of(metal(0.0)));
+    assert!(
+        near(base[0], 0.9) && near(base[2], 0.3) && (metallic, roughness, kind, id) == (1.0, 0.0, traits::MIRROR, 1.0),
+        "{base:?} {kind}"
+    );
+    let (base, metallic, roughness, _, kind, _) = one(of(blend));
+    assert!(near(base[0], 0.7) && near(metallic, 0.75) && near(roughness, 0.37f64.sqrt()) && kind == 0, "{base:?} {metallic} {roughness}");
+    let (_, metallic, roughness, emitted, kind, _) = one(lamp);
+    assert_eq!((metallic, roughness, emitted, kind), (0.0, 1.0, 3.0, traits::EMITTER));
+}
