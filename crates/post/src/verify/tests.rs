@@ -105,12 +105,34 @@ fn a_frame_of_the_void_is_found() {
 fn ids_and_codes_are_checked() {
     let foreign_part = |c: &mut Case, p| {
         c.set(Layer::RenderEntityId, p, &[9.0]);
+        c.set(Layer::EntityBehindId, p, &[9.0]);
         c.set(Layer::Semantic, p, &[-1.0]);
     };
     assert_eq!(failures(foreign_part), [Law::EntityIds]);
     assert_eq!(failures(|c, p| c.set(Layer::Valid, p, &[0.0])), [Law::VoidCode]);
     assert_eq!(failures(|c, p| c.set(Layer::Valid, p, &[3.0])), [Law::ReasonCodes]);
     assert_eq!(failures(|c, p| c.set(Layer::Valid, p, &[4.0])), [Law::ReasonCodes]);
+}
+
+#[test]
+fn extra_layers_must_fit_the_geometry() {
+    for (layer, wrong) in [
+        (Layer::BaseColor, &[0.5, 1.2, 0.5][..]),
+        (Layer::Roughness, &[-0.1]),
+        (Layer::NormalGeometricWorld, &[0.0, 0.0, 0.9]),
+        (Layer::DepthBehindMeters, &[0.5]),
+        (Layer::EntityBehindId, &[2.0]),
+        (Layer::OcclusionBoundary, &[3.0]),
+        (Layer::OpticalFlow, &[f64::NAN; 2]),
+    ] {
+        assert_eq!(failures(|c, p| c.set(layer, p, wrong)), [Law::ExtraLayers], "{layer:?}");
+    }
+    let glass = |c: &mut Case, p| {
+        c.set(Layer::SurfaceTraits, p, &[2.0]);
+        c.set(Layer::DepthBehindMeters, p, &[40.0]);
+        c.set(Layer::EntityBehindId, p, &[2.0]);
+    };
+    assert_eq!(failures(glass), []);
 }
 
 #[test]
