@@ -24,6 +24,28 @@ fn color_layers(tree: &BTreeMap<PathBuf, Vec<u8>>) -> Vec<&Vec<u8>> {
 }
 
 #[test]
+fn extra_layers_come_when_asked_for_and_change_nothing_else() {
+    let dir = folder();
+    let d = dir.path();
+    room(d);
+    succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    let raw = contents(&d.join("out"));
+    succeed(d, &["run", "dataset.toml", "-o", "more", "--extra"]);
+    let more = contents(&d.join("more"));
+    assert_eq!(color_layers(&raw), color_layers(&more));
+    for name in ["optical_flow", "base_color", "depth_behind_meters", "occlusion_boundary"] {
+        assert!(d.join(format!("more/scenes/room/images/scene_cam_00_geometry_hdf5/frame.0001.{name}.hdf5")).is_file(), "{name}");
+        assert!(d.join(format!("more/scenes/room/images/scene_cam_00_geometry_preview/frame.0001.{name}.png")).is_file(), "{name}");
+    }
+    let text = succeed(d, &["verify", "more"]);
+    assert!(text.contains("extra layers lie in their ranges"), "{text}");
+    assert!(succeed(d, &["inspect", "more", "--pixel", "3,4"]).contains("optical_flow"));
+    // Asked for no longer, they go.
+    succeed(d, &["run", "dataset.toml", "-o", "more"]);
+    assert_same(&contents(&d.join("more")), &raw);
+}
+
+#[test]
 fn splits_come_when_asked_for_change_nothing_else_and_go_again() {
     let dir = folder();
     let d = dir.path();
