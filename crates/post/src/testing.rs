@@ -177,7 +177,9 @@ pub(crate) fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
             part
         };
         let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose: *pose, camera: intrinsics().into(), sampling: None };
-        dataset.write_frame("room", "cam_00", &part_of(&[Pass::Final, Pass::Geometry, Pass::Split, Pass::Extra]), &info, FrameTime::default()).unwrap();
+        dataset
+            .write_frame("room", "cam_00", &part_of(&[Pass::Final, Pass::Geometry, Pass::Split, Pass::Extra]), &info, FrameTime::default())
+            .unwrap();
         dataset.write_label_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Label]), "test").unwrap();
         dataset.write_denoised_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Denoised]), "Smoother 3.1", "test").unwrap();
     }

@@ -13,7 +13,7 @@ mod patch;
 mod tests;
 
 use crate::error::Error;
-use enfilade_explore::{CarveConfig, PlanConfig};
+use enfilade_explore::{CarveConfig, PlanConfig, Preset};
 use enfilade_import::UpAxis;
 use enfilade_math::hash_u64;
 use enfilade_render::RenderConfig;
@@ -273,6 +273,14 @@ impl SceneConfig {
     pub fn seed_for(&self, purpose: &str) -> u64 {
         let text = self.name.bytes().chain([0]).chain(purpose.bytes());
         text.fold(hash_u64(self.seed), |hash, byte| hash_u64(hash ^ u64::from(byte)))
+    }
+
+    /// [`SceneConfig::seed_for`] exploring by a preset. Hypersim's programs are given the seed as it is, 0 unless told otherwise.
+    pub fn exploring_seed(&self, purpose: &str, preset: Preset) -> u64 {
+        match preset {
+            Preset::Default => self.seed_for(purpose),
+            Preset::Hypersim => self.seed,
+        }
     }
 }
 

@@ -58,6 +58,7 @@ section!(CarvePatch => CarveConfig { preset: Preset, voxel_m: f64, extent_m: f64
 
 // The frames are a key of the level above; the test images have the field of view and the shape of the pictures.
 section!(PlanPatch => PlanConfig {
+    preset: Preset,
     mode: Mode,
     candidates: u32,
     queries: u32,

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 pub(super) const STARTS: &str = "starts.json";
 
 pub(super) fn settings(job: &Job) -> Hash {
-    Hash::of(&(&job.scene.carve, &job.scene.cameras, job.scene.seed_for("carve")))
+    Hash::of(&(&job.scene.carve, &job.scene.cameras, exploring_seed(job)))
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
@@ -26,7 +26,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let world = job.load_world()?;
     let starts = start_cameras(job, cx)?;
     let positions: Vec<DVec3> = starts.iter().map(|s| s.position).collect();
-    let config = CarveConfig { seed: job.scene.seed_for("carve"), ..job.scene.carve.clone() };
+    let config = CarveConfig { seed: exploring_seed(job), ..job.scene.carve.clone() };
     let space = enfilade_explore::carve(&world.mesh, &world.bvh, &positions, &config, cx).map_err(Error::stage)?;
     job.dataset.write_free_space(name, &space.tree.to_bt(), space.free_min, space.free_max).map_err(Error::stage)?;
     write_json(&job.work_file(STARTS)?, &starts)?;
@@ -50,6 +50,10 @@ fn summary(space: &FreeSpace, cameras: usize) -> String {
         None => "no leaks".into(),
     };
     format!("{seen}; {:.0} % of the domain unknown; {leaks}", 100.0 * report.unknown_share)
+}
+
+fn exploring_seed(job: &Job) -> u64 {
+    job.scene.exploring_seed("carve", job.scene.carve.preset)
 }
 
 /// Every file that carving writes.

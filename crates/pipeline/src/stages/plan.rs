@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::report::{StageCx, count, count_of};
 use crate::workdir::{Hash, read_json, remove_if_there, write_json};
 use enfilade_dataset::{StereoRecord, StereoSide};
-use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, parse_keyframes};
+use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, Preset, parse_keyframes};
 use enfilade_geometry::OccupancyTree;
 use enfilade_post::planview::remove_plan_preview;
 use enfilade_scene::{Camera, Cx, StartCamera, Trajectory, Warning};
@@ -20,7 +20,7 @@ const WIDEST_VIEW_RAD: f64 = 2.1;
 
 pub(super) fn settings(job: &Job) -> Hash {
     let scene = job.scene;
-    Hash::of(&(&scene.plan, scene.size, scene.fov_x_deg, &scene.camera, scene.seed_for("plan")))
+    Hash::of(&(&scene.plan, scene.size, scene.fov_x_deg, &scene.camera, scene.exploring_seed("plan", scene.plan.preset)))
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
@@ -118,23 +118,38 @@ fn summary(reports: &[PlanReport], fov_x_rad: f64) -> String {
     text
 }
 
+/// The space that was carved, with the bounds that were written: those of Hypersim's programs are of voxel centres.
+fn free_space(job: &Job) -> Result<FreeSpace, Error> {
+    let (bt, free_min, free_max) = job.dataset.read_free_space(&job.scene.name).map_err(Error::stage)?;
+    let tree = OccupancyTree::from_bt(&bt).map_err(Error::stage)?;
+    let space = FreeSpace::new(tree, CarveReport::default()).map_err(Error::stage)?;
+    Ok(FreeSpace { free_min, free_max, ..space })
+}
+
+/// The configuration with the seed, and test images like the pictures; Hypersim's program has its own.
+fn plan_config(job: &Job, camera: &Camera) -> PlanConfig {
+    let plan = job.scene.plan.clone();
+    let seed = job.scene.exploring_seed("plan", plan.preset);
+    if plan.preset == Preset::Hypersim {
+        return PlanConfig { seed, ..plan };
+    }
+    let [width, height] = camera.size().map(u64::from);
+    let limit = if camera.projection.is_linear() { std::f64::consts::PI } else { WIDEST_VIEW_RAD };
+    PlanConfig {
+        seed,
+        fov_x_rad: camera.projection.fov_x_rad(limit),
+        test_height: (u64::from(plan.test_width) * height / width).max(1) as u32,
+        stereo_baseline_m: job.scene.camera.stereo.map_or(0.0, |stereo| stereo.baseline_m),
+        ..plan
+    }
+}
+
 /// One trajectory per start camera, or per file of poses made by hand. A camera from which none can begin is left out with a
 /// warning, as long as one remains.
 fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) -> Result<Vec<Planned>, Error> {
     let world = job.load_world()?;
-    let (bt, _, _) = job.dataset.read_free_space(&job.scene.name).map_err(Error::stage)?;
-    let tree = OccupancyTree::from_bt(&bt).map_err(Error::stage)?;
-    let space = FreeSpace::new(tree, CarveReport::default()).map_err(Error::stage)?;
-    let test_width = job.scene.plan.test_width;
-    let [width, height] = camera.size().map(u64::from);
-    let limit = if camera.projection.is_linear() { std::f64::consts::PI } else { WIDEST_VIEW_RAD };
-    let config = PlanConfig {
-        seed: job.scene.seed_for("plan"),
-        fov_x_rad: camera.projection.fov_x_rad(limit),
-        test_height: (u64::from(test_width) * height / width).max(1) as u32,
-        stereo_baseline_m: job.scene.camera.stereo.map_or(0.0, |stereo| stereo.baseline_m),
-        ..job.scene.plan.clone()
-    };
+    let space = free_space(job)?;
+    let config = plan_config(job, camera);
     if let Mode::Keyframes(keyframes) = &config.mode {
         return follow_all(job, &keyframes.files, &world, &space, &config, cx);
     }
