@@ -56,7 +56,7 @@ impl Seen {
     fn is_apart(&self, other: &Self) -> bool {
         let (here, there) = (self.plane_along(other) - other.distance, other.plane_along(self) - self.distance);
         // Seen from its edge, a plane is anywhere.
-        let off = |gap: f64, distance: f64| !(gap.abs() <= JUMP * distance);
+        let off = |gap: f64, distance: f64| gap.is_nan() || gap.abs() > JUMP * distance;
         let meet = here * there > 0.0;
         off(here, other.distance) && off(there, self.distance) && !meet
     }
