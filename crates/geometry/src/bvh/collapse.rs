@@ -5,7 +5,6 @@
 //! BVHs", section 3). The cost is the usual one: the surface of every box that is visited.
 
 use super::build::{Binary, Built, Soup};
-use super::lanes::Eight;
 use super::node::{Block, FILTERED, LANES, LEAF, MAX_DEPTH, Node, WIDTH};
 
 /// The best ways of handing a subtree to a node above it, by the number of its children that are subtrees of this one, less one.
@@ -149,7 +148,7 @@ fn triangles(binary: &Binary, root: usize) -> Vec<u32> {
 }
 
 fn block(soup: &Soup, triangles: &[u32]) -> Block {
-    let mut block = Block { corners: [[Eight([f32::NAN; LANES]); 3]; 3], ids: Eight([0; LANES]) };
+    let mut block = Block::EMPTY;
     for (lane, &triangle) in triangles.iter().enumerate() {
         for (c, corner) in soup.corners[triangle as usize].iter().enumerate() {
             for k in 0..3 {

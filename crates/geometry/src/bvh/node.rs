@@ -44,6 +44,10 @@ pub(super) struct Block {
     pub ids: Eight<u32>,
 }
 
+impl Block {
+    pub const EMPTY: Self = Self { corners: [[Eight([f32::NAN; LANES]); 3]; 3], ids: Eight([0; LANES]) };
+}
+
 /// Marks a triangle that asks the filter.
 pub(super) const FILTERED: u32 = 1 << 31;
 

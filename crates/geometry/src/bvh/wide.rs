@@ -16,6 +16,19 @@ pub(super) trait Wide: Copy {
     fn min(self, o: Self) -> Self;
     fn max(self, o: Self) -> Self;
     fn le(self, o: Self) -> u32;
+    fn lt(self, o: Self) -> u32;
+    fn ne(self, o: Self) -> u32;
+    fn div(self, o: Self) -> Self;
+
+    /// The values of two eights.
+    fn of_halves(first: &Eight<f32>, last: &Eight<f32>) -> Self;
+
+    /// The size of `self` with the sign of `o`.
+    fn copysign(self, o: Self) -> Self;
+
+    /// Writes the lanes of `mask`, one after the other and bit by bit, from place `at` on, which is at most 16. The places beyond the last
+    /// may be overwritten.
+    fn compress(self, mask: u32, to: &mut [f32; 32], at: usize);
 
     /// The lanes of `mask` from `self`, bit by bit, the others from `other`.
     fn select(self, mask: u32, other: Self) -> Self;
@@ -79,6 +92,34 @@ impl<L: Lanes> Wide for Pair<L> {
         self.0.le(o.0) | self.1.le(o.1) << 8
     }
     #[inline(always)]
+    fn lt(self, o: Self) -> u32 {
+        self.0.lt(o.0) | self.1.lt(o.1) << 8
+    }
+    #[inline(always)]
+    fn ne(self, o: Self) -> u32 {
+        self.0.ne(o.0) | self.1.ne(o.1) << 8
+    }
+    #[inline(always)]
+    fn div(self, o: Self) -> Self {
+        Self(self.0.div(o.0), self.1.div(o.1))
+    }
+    #[inline(always)]
+    fn of_halves(first: &Eight<f32>, last: &Eight<f32>) -> Self {
+        Self(L::load(first), L::load(last))
+    }
+    #[inline(always)]
+    fn copysign(self, o: Self) -> Self {
+        Self(self.0.copysign(o.0), self.1.copysign(o.1))
+    }
+    #[inline(always)]
+    fn compress(self, mut mask: u32, to: &mut [f32; 32], mut at: usize) {
+        let values = self.store();
+        while mask != 0 {
+            to[at & 31] = values.0[lane_of(&mut mask)];
+            at += 1;
+        }
+    }
+    #[inline(always)]
     fn select(self, mask: u32, other: Self) -> Self {
         Self(self.0.select(mask, other.0), self.1.select(mask >> 8, other.1))
     }
@@ -127,7 +168,7 @@ pub(super) use avx512::Avx512;
 
 #[cfg(target_arch = "x86_64")]
 mod avx512 {
-    use super::{Sixteen, Stack, Wide};
+    use super::{Eight, Sixteen, Stack, Wide};
     use std::arch::x86_64::*;
 
     /// One AVX-512 register.
@@ -184,6 +225,45 @@ mod avx512 {
         fn le(self, o: Self) -> u32 {
             // SAFETY: see the type.
             u32::from(unsafe { _mm512_cmp_ps_mask::<_CMP_LE_OQ>(self.0, o.0) })
+        }
+        #[inline(always)]
+        fn lt(self, o: Self) -> u32 {
+            // SAFETY: see the type.
+            u32::from(unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, o.0) })
+        }
+        #[inline(always)]
+        fn ne(self, o: Self) -> u32 {
+            // SAFETY: see the type.
+            u32::from(unsafe { _mm512_cmp_ps_mask::<_CMP_NEQ_UQ>(self.0, o.0) })
+        }
+        #[inline(always)]
+        fn div(self, o: Self) -> Self {
+            // SAFETY: see the type.
+            Self(unsafe { _mm512_div_ps(self.0, o.0) })
+        }
+        #[inline(always)]
+        fn of_halves(first: &Eight<f32>, last: &Eight<f32>) -> Self {
+            // SAFETY: see the type; `Eight` is 32 bytes long and aligned to 32. The cast is from floats to doubles and back, bit by bit.
+            unsafe {
+                let first = _mm512_castps_pd(_mm512_castps256_ps512(_mm256_load_ps(first.0.as_ptr())));
+                let last = _mm256_castps_pd(_mm256_load_ps(last.0.as_ptr()));
+                Self(_mm512_castpd_ps(_mm512_insertf64x4::<1>(first, last)))
+            }
+        }
+        #[inline(always)]
+        fn copysign(self, o: Self) -> Self {
+            // SAFETY: see the type.
+            unsafe {
+                let sign = _mm512_set1_epi32(i32::MIN);
+                let (size, of) = (_mm512_castps_si512(self.0), _mm512_castps_si512(o.0));
+                Self(_mm512_castsi512_ps(_mm512_or_si512(_mm512_andnot_si512(sign, size), _mm512_and_si512(sign, of))))
+            }
+        }
+        #[inline(always)]
+        fn compress(self, mask: u32, to: &mut [f32; 32], at: usize) {
+            assert!(at <= 16);
+            // SAFETY: see the type; sixteen values fit from there on.
+            unsafe { _mm512_storeu_ps(to.as_mut_ptr().add(at), _mm512_maskz_compress_ps(mask as u16, self.0)) };
         }
         #[inline(always)]
         fn select(self, mask: u32, other: Self) -> Self {

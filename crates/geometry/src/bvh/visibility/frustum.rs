@@ -93,7 +93,7 @@ impl<W: Wide> Planes<W> {
 }
 
 #[inline(always)]
-fn wide<W: Wide>(v: Vec3) -> [W; 3] {
+pub(super) fn wide<W: Wide>(v: Vec3) -> [W; 3] {
     [W::splat(v.x), W::splat(v.y), W::splat(v.z)]
 }
 

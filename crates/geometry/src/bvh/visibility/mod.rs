@@ -16,14 +16,14 @@ mod tile;
 #[cfg(test)]
 mod tests;
 
-use super::lanes::{self, Lanes, lane_of};
-use super::node::Node;
+use super::lanes::{self, lane_of};
+use super::node::{Block, Node};
 use super::stack::Stack;
 use super::wide::{self, Wide};
 use super::{Bvh, Kernel};
 use enfilade_math::Vec3;
 use frustum::{Frustum, Planes};
-use setup::Setup;
+use setup::{Setup, Waiting};
 use tile::{Pixels, TILE, Tile, place};
 
 /// Rays of a pinhole image: the one through the centre of pixel (x, y) has the direction `corner + x · right + y · down`.
@@ -115,7 +115,7 @@ impl Bvh {
     #[inline]
     fn draw_tile(&self, tile: &mut Tile, frustum: &Frustum) {
         match self.kernel {
-            Kernel::Portable => draw_tile::<wide::Pair<lanes::Portable>, lanes::Portable>(self, tile, frustum),
+            Kernel::Portable => draw_tile::<wide::Pair<lanes::Portable>>(self, tile, frustum),
             // SAFETY: this kernel is chosen only where the processor has the features.
             #[cfg(target_arch = "x86_64")]
             Kernel::Avx2 => unsafe { draw_tile_avx2(self, tile, frustum) },
@@ -133,7 +133,7 @@ impl Bvh {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,bmi1")]
 unsafe fn draw_tile_avx2(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
-    draw_tile::<wide::Pair<lanes::Avx2>, lanes::Avx2>(bvh, tile, frustum);
+    draw_tile::<wide::Pair<lanes::Avx2>>(bvh, tile, frustum);
 }
 
 /// [`draw_tile`] compiled for AVX-512.
@@ -143,32 +143,38 @@ unsafe fn draw_tile_avx2(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
 unsafe fn draw_tile_avx512(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
-    draw_tile::<wide::Avx512, lanes::Avx2>(bvh, tile, frustum);
+    draw_tile::<wide::Avx512>(bvh, tile, frustum);
 }
 
 /// Walks the hierarchy, nearest boxes first, and draws what is in the frustum and not hidden.
 #[inline(always)]
-fn draw_tile<W: Wide, L: Lanes>(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
+fn draw_tile<W: Wide>(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
     if bvh.nodes.is_empty() {
         return;
     }
-    let planes = Planes::<W>::new(frustum);
-    let setup = Setup::<L>::new(frustum);
-    let mut pixels = Pixels::<W>::new(tile);
-    let mut limit = f32::INFINITY;
+    let (planes, setup) = (Planes::<W>::new(frustum), Setup::<W>::new(frustum));
+    let (mut pixels, mut waiting) = (Pixels::<W>::new(tile), Waiting::new());
     let mut stack = Stack::new();
+    // Leaves are looked at two by two.
+    let mut single: Option<&Block> = None;
     let mut current = 0;
     loop {
         if let Some(block) = Node::leaf(current) {
             // SAFETY: the builder makes children of existing nodes and blocks only.
             let block = unsafe { bvh.blocks.get_unchecked(block) };
-            if setup.draw(block, &mut pixels) {
-                limit = pixels.farthest_z();
+            match single.take() {
+                None => single = Some(block),
+                Some(other) => {
+                    setup.screen([other, block], pixels.farthest(), &mut waiting);
+                    if waiting.is_full() {
+                        setup.draw(&mut waiting, &mut pixels);
+                    }
+                }
             }
         } else {
             // SAFETY: as above, and there is a root.
             let node = unsafe { bvh.nodes.get_unchecked(current as usize) };
-            let (mut entered, z) = planes.enter(node, limit);
+            let (mut entered, z) = planes.enter(node, pixels.farthest_z());
             if entered != 0 {
                 let mut all = entered;
                 while all != 0 {
@@ -182,7 +188,13 @@ fn draw_tile<W: Wide, L: Lanes>(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
                 continue;
             }
         }
-        let Some(child) = stack.pop_up_to(limit) else { return };
+        let Some(child) = stack.pop_up_to(pixels.farthest_z()) else { break };
         current = child;
+    }
+    if let Some(block) = single {
+        setup.screen([block, &Block::EMPTY], pixels.farthest(), &mut waiting);
+    }
+    while !waiting.is_empty() {
+        setup.draw(&mut waiting, &mut pixels);
     }
 }

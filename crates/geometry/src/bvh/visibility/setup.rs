@@ -1,93 +1,167 @@
-//! Eight triangles made ready to be drawn.
+//! Triangles made ready to be drawn, sixteen at a time.
 
-use super::frustum::Frustum;
+use super::frustum::{Frustum, wide};
 use super::tile::{BLOCK, Drawn, Linear, Pixels, TILE};
-use crate::bvh::lanes::{Eight, Lanes, lane_of};
-use crate::bvh::node::{Block, FILTERED};
+use crate::bvh::lanes::{Sixteen, lane_of};
+use crate::bvh::node::{Block, FILTERED, WIDTH};
 use crate::bvh::wide::Wide;
-use enfilade_math::Vec3;
 
-/// Makes the linear functions of eight triangles at once.
-pub(super) struct Setup<L> {
-    origin: [L; 3],
-    corner: [L; 3],
-    right: [L; 3],
-    down: [L; 3],
+/// Numbers that are kept of a waiting triangle: three corners, first and last pixel, least and greatest inverse depth, index.
+const NUMBERS: usize = 16;
+
+/// Triangles that may be seen, until there are enough for all lanes: of those in the leaves of a tile's boxes most are not.
+pub(super) struct Waiting {
+    numbers: [Row; NUMBERS],
+    len: usize,
+}
+
+#[repr(C, align(64))]
+#[derive(Clone, Copy)]
+struct Row([f32; 2 * WIDTH]);
+
+impl Waiting {
+    pub fn new() -> Self {
+        Self { numbers: [Row([0.0; 2 * WIDTH]); NUMBERS], len: 0 }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Enough for all lanes.
+    pub fn is_full(&self) -> bool {
+        self.len >= WIDTH
+    }
+
+    /// The first sixteen values of a number.
+    #[inline(always)]
+    fn first<W: Wide>(&self, number: usize) -> W {
+        W::load(&self.values(number))
+    }
+
+    #[inline(always)]
+    fn values(&self, number: usize) -> Sixteen<f32> {
+        let mut values = Sixteen([0.0; WIDTH]);
+        values.0.copy_from_slice(&self.numbers[number].0[..WIDTH]);
+        values
+    }
+
+    /// Drops the first sixteen.
+    #[inline(always)]
+    fn drop_first(&mut self) {
+        for Row(row) in &mut self.numbers {
+            row.copy_within(WIDTH.., 0);
+        }
+        self.len = self.len.saturating_sub(WIDTH);
+    }
+}
+
+/// Constants of a tile for sixteen triangles at once.
+pub(super) struct Setup<W> {
+    origin: [W; 3],
+    corner: [W; 3],
+    right: [W; 3],
+    down: [W; 3],
     /// Take a point at depth 1 to its column and row in the tile, less [`Setup::offset`].
-    pixel: [[L; 3]; 2],
-    offset: [L; 2],
-    forward: [L; 3],
+    pixel: [[W; 3]; 2],
+    offset: [W; 2],
+    forward: [W; 3],
 }
 
-/// Of eight triangles: the pixels of the tile among which all are that a triangle may cover, and the range of its inverse depths.
-struct Extent<L> {
-    first: [L; 2],
-    last: [L; 2],
-    least: L,
-    greatest: L,
+/// Of sixteen triangles: the pixels of the tile among which all are that a triangle may cover, and the range of its inverse depths.
+struct Extent<W> {
+    first: [W; 2],
+    last: [W; 2],
+    least: W,
+    greatest: W,
 }
 
-impl<L: Lanes> Setup<L> {
+impl<W: Wide> Setup<W> {
     #[inline(always)]
     pub fn new(frustum: &Frustum) -> Self {
         let pixel = frustum.pixel;
         Self {
-            origin: splat(frustum.origin),
-            corner: splat(frustum.corner),
-            right: splat(frustum.right),
-            down: splat(frustum.down),
-            pixel: [splat(pixel[0]), splat(pixel[1])],
-            offset: [L::splat(pixel[0].dot(frustum.corner)), L::splat(pixel[1].dot(frustum.corner))],
-            forward: splat(frustum.forward),
+            origin: wide(frustum.origin),
+            corner: wide(frustum.corner),
+            right: wide(frustum.right),
+            down: wide(frustum.down),
+            pixel: [wide(pixel[0]), wide(pixel[1])],
+            offset: [W::splat(pixel[0].dot(frustum.corner)), W::splat(pixel[1].dot(frustum.corner))],
+            forward: wide(frustum.forward),
         }
     }
 
-    /// Draws the triangles of a block; true when any pixel changed.
+    /// Lets those triangles of two blocks wait that may cover a pixel, and are not behind everything drawn, whose least inverse depth is
+    /// `farthest`. There must be room for sixteen.
     #[inline(always)]
-    pub fn draw<W: Wide>(&self, block: &Block, pixels: &mut Pixels<W>) -> bool {
-        let (a, b, c) = (self.corner_of(block, 0), self.corner_of(block, 1), self.corner_of(block, 2));
-        let extent = self.extent(a, b, c);
-        let mut visible = L::splat(pixels.farthest).le(extent.greatest);
+    pub fn screen(&self, blocks: [&Block; 2], farthest: f32, waiting: &mut Waiting) {
+        let corners = [self.corner_of(blocks, 0), self.corner_of(blocks, 1), self.corner_of(blocks, 2)];
+        let extent = self.extent(corners[0], corners[1], corners[2]);
+        let mut visible = W::splat(farthest).le(extent.greatest);
+        // Unused places are NaN.
+        visible &= corners[0][0].le(corners[0][0]);
         visible &= extent.first[0].le(extent.last[0]) & extent.first[1].le(extent.last[1]);
         if visible == 0 {
-            return false;
+            return;
         }
+        let at = waiting.len;
+        for k in 0..3 {
+            for axis in 0..3 {
+                corners[k][axis].compress(visible, &mut waiting.numbers[3 * k + axis].0, at);
+            }
+        }
+        for k in 0..2 {
+            extent.first[k].compress(visible, &mut waiting.numbers[9 + k].0, at);
+            extent.last[k].compress(visible, &mut waiting.numbers[11 + k].0, at);
+        }
+        extent.least.compress(visible, &mut waiting.numbers[13].0, at);
+        extent.greatest.compress(visible, &mut waiting.numbers[14].0, at);
+        while visible != 0 {
+            let lane = lane_of(&mut visible);
+            waiting.numbers[15].0[waiting.len & 31] = f32::from_bits(blocks[lane >> 3].ids.0[lane & 7]);
+            waiting.len += 1;
+        }
+    }
+
+    /// Draws the first sixteen of the waiting triangles, or all.
+    #[inline(always)]
+    pub fn draw(&self, waiting: &mut Waiting, pixels: &mut Pixels<W>) {
+        let corner = |k: usize| [waiting.first::<W>(3 * k), waiting.first::<W>(3 * k + 1), waiting.first::<W>(3 * k + 2)];
+        let (a, b, c) = (corner(0), corner(1), corner(2));
         let normal = cross(minus(b, a), minus(c, a));
         let height = dot(normal, a);
-        visible &= height.ne(L::splat(0.0)) & height.le(height);
-        let inverse = L::splat(1.0).div(height);
+        let mut drawn = if waiting.is_full() { 0xffff } else { (1 << waiting.len) - 1 };
+        drawn &= height.ne(W::splat(0.0)) & height.le(height);
+        let inverse = W::splat(1.0).div(height);
         // Positive inside the triangle, from whichever side it is seen.
-        let sign = L::splat(1.0).copysign(height);
+        let sign = W::splat(1.0).copysign(height);
         let edges = [store(&self.edge(b, c, sign)), store(&self.edge(c, a, sign)), store(&self.edge(a, b, sign))];
         let z = store(&self.linear([normal[0].mul(inverse), normal[1].mul(inverse), normal[2].mul(inverse)]));
-        let (first, last) = ([extent.first[0].store(), extent.first[1].store()], [extent.last[0].store(), extent.last[1].store()]);
-        let (least, greatest) = (extent.least.store(), extent.greatest.store());
-        let mut changed = false;
-        while visible != 0 {
-            let lane = lane_of(&mut visible) & 7;
-            let triangle = Drawn {
-                id: block.ids.0[lane] & !FILTERED,
+        while drawn != 0 {
+            let lane = lane_of(&mut drawn);
+            let number = |number: usize| waiting.numbers[number].0[lane];
+            pixels.draw(&Drawn {
+                id: number(15).to_bits() & !FILTERED,
                 edges: [at(&edges[0], lane), at(&edges[1], lane), at(&edges[2], lane)],
                 z: at(&z, lane),
-                z_range: [least.0[lane], greatest.0[lane]],
-                blocks: blocks([first[0].0[lane], first[1].0[lane]], [last[0].0[lane], last[1].0[lane]]),
-            };
-            changed |= pixels.draw(&triangle);
+                z_range: [number(13), number(14)],
+                blocks: blocks([number(9), number(10)], [number(11), number(12)]),
+            });
         }
-        changed
+        waiting.drop_first();
     }
 
     /// A triangle that reaches behind the camera, or far beyond the image, may be anywhere.
     #[inline(always)]
-    fn extent(&self, a: [L; 3], b: [L; 3], c: [L; 3]) -> Extent<L> {
+    fn extent(&self, a: [W; 3], b: [W; 3], c: [W; 3]) -> Extent<W> {
         /// Farther away than this many pixels, rounding would move a corner by more than the margin.
         const FAR: f32 = 16384.0;
         const MARGIN: f32 = 1.0 / 64.0;
-        let one = L::splat(1.0);
+        let one = W::splat(1.0);
         let inverse = [one.div(dot(a, self.forward)), one.div(dot(b, self.forward)), one.div(dot(c, self.forward))];
         let least = inverse[0].min(inverse[1]).min(inverse[2]);
         let greatest = inverse[0].max(inverse[1]).max(inverse[2]);
-        let mut known = L::splat(0.0).lt(least);
+        let mut known = W::splat(0.0).lt(least);
         let (mut low, mut high) = ([one; 2], [one; 2]);
         for k in 0..2 {
             let at = [
@@ -97,63 +171,62 @@ impl<L: Lanes> Setup<L> {
             ];
             low[k] = at[0].min(at[1]).min(at[2]);
             high[k] = at[0].max(at[1]).max(at[2]);
-            known &= L::splat(-FAR).le(low[k]) & high[k].le(L::splat(FAR));
+            known &= W::splat(-FAR).le(low[k]) & high[k].le(W::splat(FAR));
         }
-        let (zero, end) = (L::splat(0.0), L::splat((TILE - 1) as f32));
+        let (zero, end) = (W::splat(0.0), W::splat((TILE - 1) as f32));
         let (mut first, mut last) = ([zero; 2], [end; 2]);
         for k in 0..2 {
-            let (from, to) = (low[k].add(L::splat(0.5 - MARGIN)), high[k].sub(L::splat(0.5 - MARGIN)));
-            first[k] = round(from.max(zero).min(L::splat(TILE as f32))).select(known, zero);
-            last[k] = round(to.max(L::splat(-1.0)).min(end)).select(known, end);
+            let (from, to) = (low[k].add(W::splat(0.5 - MARGIN)), high[k].sub(W::splat(0.5 - MARGIN)));
+            first[k] = round(from.max(zero).min(W::splat(TILE as f32))).select(known, zero);
+            last[k] = round(to.max(W::splat(-1.0)).min(end)).select(known, end);
         }
-        Extent { first, last, least: least.select(known, zero), greatest: greatest.select(known, L::splat(f32::INFINITY)) }
+        Extent { first, last, least: least.select(known, zero), greatest: greatest.select(known, W::splat(f32::INFINITY)) }
     }
 
     #[inline(always)]
-    fn corner_of(&self, block: &Block, corner: usize) -> [L; 3] {
-        let [x, y, z] = &block.corners[corner];
-        [L::load(x).sub(self.origin[0]), L::load(y).sub(self.origin[1]), L::load(z).sub(self.origin[2])]
+    fn corner_of(&self, [first, last]: [&Block; 2], corner: usize) -> [W; 3] {
+        let (a, b) = (&first.corners[corner], &last.corners[corner]);
+        [
+            W::of_halves(&a[0], &b[0]).sub(self.origin[0]),
+            W::of_halves(&a[1], &b[1]).sub(self.origin[1]),
+            W::of_halves(&a[2], &b[2]).sub(self.origin[2]),
+        ]
     }
 
     /// The function of the ray that is zero in the plane of the camera centre, `p` and `q`: (p + q) × (q − p) is twice p × q, and
     /// turns its sign over exactly with their order.
     #[inline(always)]
-    fn edge(&self, p: [L; 3], q: [L; 3], sign: L) -> Linear<L> {
+    fn edge(&self, p: [W; 3], q: [W; 3], sign: W) -> Linear<W> {
         let sum = [p[0].add(q[0]), p[1].add(q[1]), p[2].add(q[2])];
         let normal = cross(sum, minus(q, p));
         self.linear([normal[0].mul(sign), normal[1].mul(sign), normal[2].mul(sign)])
     }
 
     #[inline(always)]
-    fn linear(&self, normal: [L; 3]) -> Linear<L> {
+    fn linear(&self, normal: [W; 3]) -> Linear<W> {
         Linear { first: dot(normal, self.corner), right: dot(normal, self.right), down: dot(normal, self.down) }
     }
 }
 
 #[inline(always)]
-fn splat<L: Lanes>(v: Vec3) -> [L; 3] {
-    [L::splat(v.x), L::splat(v.y), L::splat(v.z)]
-}
-
-#[inline(always)]
-fn minus<L: Lanes>(p: [L; 3], q: [L; 3]) -> [L; 3] {
+fn minus<W: Wide>(p: [W; 3], q: [W; 3]) -> [W; 3] {
     [p[0].sub(q[0]), p[1].sub(q[1]), p[2].sub(q[2])]
 }
 
 #[inline(always)]
-fn dot<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
+fn dot<W: Wide>(p: [W; 3], q: [W; 3]) -> W {
     p[0].mul(q[0]).add(p[1].mul(q[1])).add(p[2].mul(q[2]))
 }
 
 #[inline(always)]
-fn cross<L: Lanes>(p: [L; 3], q: [L; 3]) -> [L; 3] {
+fn cross<W: Wide>(p: [W; 3], q: [W; 3]) -> [W; 3] {
     [p[1].mul(q[2]).sub(p[2].mul(q[1])), p[2].mul(q[0]).sub(p[0].mul(q[2])), p[0].mul(q[1]).sub(p[1].mul(q[0]))]
 }
 
 /// The nearest whole number, of numbers up to some thousands.
 #[inline(always)]
-fn round<L: Lanes>(v: L) -> L {
-    let shift = L::splat(12_582_912.0);
+fn round<W: Wide>(v: W) -> W {
+    let shift = W::splat(12_582_912.0);
     v.add(shift).sub(shift)
 }
 
@@ -167,11 +240,11 @@ fn blocks(first: [f32; 2], last: [f32; 2]) -> u32 {
 }
 
 #[inline(always)]
-fn store<L: Lanes>(f: &Linear<L>) -> Linear<Eight<f32>> {
+fn store<W: Wide>(f: &Linear<W>) -> Linear<Sixteen<f32>> {
     Linear { first: f.first.store(), right: f.right.store(), down: f.down.store() }
 }
 
 #[inline(always)]
-fn at(f: &Linear<Eight<f32>>, lane: usize) -> Linear<f32> {
+fn at(f: &Linear<Sixteen<f32>>, lane: usize) -> Linear<f32> {
     Linear { first: f.first.0[lane], right: f.right.0[lane], down: f.down.0[lane] }
 }

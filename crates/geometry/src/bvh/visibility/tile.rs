@@ -77,7 +77,7 @@ pub(super) struct Pixels<'a, W> {
     pixel_x: W,
     pixel_y: W,
     /// The least of the tile's inverse depths.
-    pub farthest: f32,
+    farthest: f32,
 }
 
 impl<'a, W: Wide> Pixels<'a, W> {
@@ -89,15 +89,21 @@ impl<'a, W: Wide> Pixels<'a, W> {
         Self { tile, block_x: x.mul(block), block_y: y.mul(block), pixel_x: x, pixel_y: y, farthest: 0.0 }
     }
 
+    /// The least of the tile's inverse depths: what has less everywhere is hidden.
+    #[inline(always)]
+    pub fn farthest(&self) -> f32 {
+        self.farthest
+    }
+
     /// Depth beyond which everything is hidden; infinite while a pixel shows nothing.
     #[inline(always)]
     pub fn farthest_z(&self) -> f32 {
         1.0 / self.farthest
     }
 
-    /// Draws one triangle; true when any pixel changed.
+    /// Draws one triangle.
     #[inline(always)]
-    pub fn draw(&mut self, triangle: &Drawn) -> bool {
+    pub fn draw(&mut self, triangle: &Drawn) {
         /// Of fewer blocks, each is looked at: that is less work than to leave some out.
         const MANY: u32 = 3;
         let Drawn { id, edges, z, z_range, blocks } = triangle;
@@ -106,7 +112,7 @@ impl<'a, W: Wide> Pixels<'a, W> {
             reached &= self.reached(triangle);
         }
         if reached == 0 {
-            return false;
+            return;
         }
         let zero = W::splat(0.0);
         let pixels = [self.at_pixels(&edges[0]), self.at_pixels(&edges[1]), self.at_pixels(&edges[2])];
@@ -144,7 +150,6 @@ impl<'a, W: Wide> Pixels<'a, W> {
         if changed {
             self.farthest = W::load(&self.tile.farthest).least();
         }
-        changed
     }
 
     /// The blocks in which a triangle may cover a pixel and be seen.
