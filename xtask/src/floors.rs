@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 15] = [
+const FLOORS: [(&str, Floor); 16] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -30,6 +30,7 @@ const FLOORS: [(&str, Floor); 15] = [
     ("dataset", Floor::Number(3)),
     ("post", Floor::Number(4)),
     ("pipeline", Floor::Number(5)),
+    ("export", Floor::Number(5)),
     ("cli", Floor::Number(7)),
     ("testkit", Floor::Dev),
     ("xtask", Floor::Dev),

@@ -51,6 +51,8 @@ pub enum Verb {
     Verify(VerifyArgs),
     /// Everything about one pixel
     Inspect(InspectArgs),
+    /// The dataset in a layout that other programs load: COCO, BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, ...
+    Export(ExportArgs),
 }
 
 /// `run`.
@@ -253,6 +255,60 @@ pub struct InspectArgs {
     pub pixel: (u32, u32),
 }
 
+/// `export`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  enfilade export out --format coco -o out-coco\n  enfilade export out --format colmap -o room --scene living-room --camera cam_00 --frames 0..10\n  \
+    enfilade export out --format exr -o exr --layers color,depth_meters,semantic_instance\n\nNothing is rendered. docs/export.md has units, axes and contents of every format; each export has a README.md.")]
+pub struct ExportArgs {
+    /// The dataset's folder
+    pub dataset: PathBuf,
+    /// The layout
+    #[arg(long, value_parser = clap::builder::PossibleValuesParser::new(format_values()))]
+    pub format: String,
+    /// The folder to write; an earlier export there is replaced
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
+    pub scene: Option<String>,
+    /// Only the cameras of these names ("cam_00", "cam_0*")
+    #[arg(long, value_name = "PATTERN", visible_alias = "cameras")]
+    pub camera: Option<String>,
+    /// Only frames of these numbers: 0..10 (without 10), 5.. or 7
+    #[arg(long, value_name = "RANGE", value_parser = parse_range)]
+    pub frames: Option<std::ops::Range<u32>>,
+    /// Only these layers, of those that the format can hold
+    #[arg(long, value_name = "NAME,NAME", value_delimiter = ',', value_parser = parse_layer)]
+    pub layers: Option<Vec<enfilade_frame::Layer>>,
+    /// With webdataset: largest size of a shard in megabytes
+    #[arg(long, value_name = "MB", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
+    pub shard_mb: u64,
+    /// If OUT exists and is no export, rename it to OUT.old
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// The formats as `--format` shows them.
+fn format_values() -> Vec<clap::builder::PossibleValue> {
+    enfilade_export::FORMATS.iter().map(|spec| clap::builder::PossibleValue::new(spec.name).help(spec.about)).collect()
+}
+
+/// Frame numbers: `a..b` without b, `a..`, `..b`, or one number.
+fn parse_range(text: &str) -> Result<std::ops::Range<u32>, String> {
+    let number = |text: &str, default: u32| if text.trim().is_empty() { Ok(default) } else { text.trim().parse() };
+    let parsed = match text.split_once("..") {
+        Some((first, end)) => number(first, 0).and_then(|first| Ok(first..number(end, u32::MAX)?)),
+        None => text.trim().parse().map(|only: u32| only..only.saturating_add(1)),
+    };
+    let expected = "expected frame numbers, as in 0..10, 5.. or 7";
+    parsed.ok().filter(|range| !range.is_empty()).ok_or_else(|| expected.into())
+}
+
+fn parse_layer(text: &str) -> Result<enfilade_frame::Layer, String> {
+    let known = || enfilade_frame::LAYERS.iter().map(|spec| spec.name).collect::<Vec<_>>().join(", ");
+    enfilade_frame::Layer::from_name(text.trim()).ok_or_else(|| format!("the layers are: {}", known()))
+}
+
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let parsed = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
     parsed.ok_or_else(|| "expected width and height, as in 640x480".into())
@@ -316,5 +372,7 @@ mod tests {
         assert!(parse_share("two").is_err());
         assert_eq!((parse_time("90s"), parse_time("1.5m"), parse_time("1h"), parse_time("7")), (Ok(90.0), Ok(90.0), Ok(3600.0), Ok(7.0)));
         assert!(parse_time("soon").is_err() && parse_time("inf").is_err());
+        assert_eq!((parse_range("0..10"), parse_range("5.."), parse_range("7")), (Ok(0..10), Ok(5..u32::MAX), Ok(7..8)));
+        assert!(parse_range("3..3").is_err() && parse_range("a..b").is_err() && parse_layer("colour").is_err());
     }
 }

@@ -4,6 +4,7 @@
 //! not hold, 2 the command or the configuration is wrong.
 
 mod args;
+mod export;
 mod outcome;
 mod progress;
 mod summary;
@@ -42,5 +43,6 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Preview(args) => verbs::stage(args, enfilade_pipeline::Stage::Preview, cli.quiet),
         Verb::Verify(args) => verbs::verify(args, cli.quiet),
         Verb::Inspect(args) => verbs::inspect(args),
+        Verb::Export(args) => export::export(args, cli.quiet),
     }
 }

@@ -68,6 +68,15 @@ impl From<enfilade_dataset::DatasetError> for Problem {
     }
 }
 
+impl From<enfilade_export::ExportError> for Problem {
+    fn from(error: enfilade_export::ExportError) -> Self {
+        match error {
+            enfilade_export::ExportError::Dataset(error) => error.into(),
+            error => Self { message: error.to_string(), hint: None, usage: error.is_usage() },
+        }
+    }
+}
+
 /// Writes lines to standard output. A reader that has gone away is no error.
 pub fn say(text: &str) {
     let _ = writeln!(std::io::stdout(), "{text}");

@@ -64,6 +64,15 @@ impl Progress {
         SingleCx { progress: self, name, stage }
     }
 
+    /// Begins work on `name` that is no stage of the pipeline, and gives its [`Cx`].
+    pub fn begin(&self, name: &str, verb: &'static str) -> impl Cx + '_ {
+        let mut state = self.lock();
+        if !state.quiet {
+            state.start(name, verb);
+        }
+        VerbCx(self)
+    }
+
     fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -197,6 +206,24 @@ fn beat(state: &Mutex<State>, stopped: &Receiver<()>) {
 }
 
 /// Progress of one file without a dataset.
+struct VerbCx<'a>(&'a Progress);
+
+impl Cx for VerbCx<'_> {
+    fn progress(&self, what: &str, done: u64, total: u64) {
+        let mut state = self.0.lock();
+        if !state.quiet {
+            state.progress(what, done, total);
+        }
+    }
+
+    fn warn(&self, warning: Warning) {
+        let mut state = self.0.lock();
+        if !state.quiet {
+            state.warn(&warning);
+        }
+    }
+}
+
 struct SingleCx<'a> {
     progress: &'a Progress,
     name: &'a str,

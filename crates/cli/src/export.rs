@@ -1,0 +1,37 @@
+//! `export`: from arguments to a call of the crate `export`, and what came of it.
+
+use crate::args::ExportArgs;
+use crate::outcome::{Problem, Verdict, say};
+use crate::progress::Progress;
+use enfilade_dataset::Dataset;
+use enfilade_export::{Existing, ExportConfig, Format, Selection, export as export_dataset};
+
+/// `export`: the dataset in another layout.
+pub fn export(args: &ExportArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let dataset = Dataset::open(&args.dataset)?;
+    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
+    let cameras = args.camera.as_ref().map(|pattern| cameras(&dataset, &scenes, pattern)).transpose()?;
+    let unknown = || Problem::new(format!("no format is named {:?}", args.format), "see `enfilade export --help`");
+    let config = ExportConfig {
+        format: Format::from_name(&args.format).ok_or_else(unknown)?,
+        selection: Selection { scenes, cameras, frames: args.frames.clone(), layers: args.layers.clone() },
+        shard_bytes: args.shard_mb * 1_000_000,
+    };
+    let existing = if args.force { Existing::SetAside } else { Existing::Refuse };
+    let exported = {
+        let progress = Progress::new(quiet);
+        let cx = progress.begin(&args.dataset.display().to_string(), "export");
+        export_dataset(&dataset, &config, &args.output, existing, &cx)?
+    };
+    let (frames, files, megabytes) = (exported.frames, exported.files, exported.bytes as f64 / 1e6);
+    say(&format!("{}: {frames} frames, {files} files, {megabytes:.1} MB; its README.md says what is in it", args.output.display()));
+    Ok(Verdict::Done)
+}
+
+/// The cameras of the scenes whose names fit the pattern.
+fn cameras(dataset: &Dataset, scenes: &[String], pattern: &str) -> Result<Vec<String>, Problem> {
+    let mut names = scenes.iter().map(|scene| dataset.cameras(scene)).collect::<Result<Vec<_>, _>>()?.concat();
+    names.sort();
+    names.dedup();
+    Ok(enfilade_pipeline::select("camera", &names, Some(pattern))?)
+}

@@ -1,0 +1,55 @@
+use crate::Format;
+use enfilade_dataset::DatasetError;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a dataset could not be exported: what was found, what was expected, what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    /// The dataset cannot be read.
+    #[error(transparent)]
+    Dataset(#[from] DatasetError),
+    /// A file of the export cannot be written.
+    #[error("cannot {action} {}: {source}; make room or choose another output folder", path.display())]
+    Io {
+        /// "write", "create the folder", …
+        action: &'static str,
+        /// Which file or folder.
+        path: PathBuf,
+        /// What the operating system said.
+        source: io::Error,
+    },
+    /// The output folder cannot be used.
+    #[error("{} cannot be the output folder: {problem}", path.display())]
+    Place {
+        /// The folder.
+        path: PathBuf,
+        /// What is in the way, and what to do.
+        problem: String,
+    },
+    /// Nothing is left of the dataset, or a name is unknown.
+    #[error("{0}")]
+    Selection(String),
+    /// The format cannot hold what the dataset has, or lacks what it needs.
+    #[error("{place} cannot be exported as {}: {problem}", format.spec().name)]
+    Unsuitable {
+        /// Scene, camera and frame.
+        place: String,
+        /// The layout.
+        format: Format,
+        /// What was found, what was expected, what to do.
+        problem: String,
+    },
+}
+
+impl ExportError {
+    /// For `map_err`: an error of the operating system at `path`.
+    pub(crate) fn at(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self::Io { action, path: path.to_path_buf(), source }
+    }
+
+    /// True when the command must change and not the dataset.
+    pub fn is_usage(&self) -> bool {
+        matches!(self, Self::Place { .. } | Self::Selection(_))
+    }
+}

@@ -1,0 +1,160 @@
+//! The table of formats: names, what they hold, and which layers they need.
+
+use enfilade_frame::Layer;
+
+/// A layout that other programs load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)] // FORMATS documents each one
+pub enum Format {
+    Coco,
+    Bop,
+    Nerfstudio,
+    Colmap,
+    ColmapText,
+    Scannet,
+    Exr,
+    DepthPng,
+    Webdataset,
+    Croissant,
+}
+
+/// A row of the table of formats.
+#[derive(Clone, Copy, Debug)]
+pub struct FormatSpec {
+    /// Which one.
+    pub format: Format,
+    /// What it is called on the command line.
+    pub name: &'static str,
+    /// One sentence: what is in it.
+    pub about: &'static str,
+    /// Of each group one layer must be there.
+    pub needs: &'static [&'static [Layer]],
+    /// Layers that are written where they are there; `None`: any layer of the table can be.
+    pub takes: Option<&'static [Layer]>,
+    /// The page for people that goes with the files: contents and conventions.
+    pub readme: &'static str,
+}
+
+const COLOR: &[Layer] = &[Layer::Color];
+const DEPTH: &[Layer] = &[Layer::DepthMeters, Layer::DepthZMeters];
+const DISTANCE: &[Layer] = &[Layer::DepthMeters];
+const INSTANCE: &[Layer] = &[Layer::SemanticInstance];
+const LABELLED: &[Layer] = &[
+    Layer::Color,
+    Layer::RenderEntityId,
+    Layer::DepthMeters,
+    Layer::DepthZMeters,
+    Layer::Semantic,
+    Layer::SemanticInstance,
+];
+const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
+
+/// The table of formats; `FORMATS[format as usize].format == format`.
+pub const FORMATS: [FormatSpec; 10] = [
+    FormatSpec {
+        format: Format::Coco,
+        name: "coco",
+        about: "COCO instances: images, annotations with compressed RLE masks and boxes, the 40 classes of NYU40",
+        needs: &[COLOR, INSTANCE],
+        takes: Some(LABELLED),
+        readme: crate::formats::coco::README,
+    },
+    FormatSpec {
+        format: Format::Bop,
+        name: "bop",
+        about: "BOP: colour, depth, masks, object poses, camera matrices, models of the objects",
+        needs: &[COLOR, DEPTH, INSTANCE],
+        takes: Some(LABELLED),
+        readme: crate::formats::bop::README,
+    },
+    FormatSpec {
+        format: Format::Nerfstudio,
+        name: "nerfstudio",
+        about: "nerfstudio: transforms.json, images, depth, a coloured point cloud",
+        needs: &[COLOR, DISTANCE],
+        takes: Some(POSED),
+        readme: crate::formats::nerfstudio::README,
+    },
+    FormatSpec {
+        format: Format::Colmap,
+        name: "colmap",
+        about: "COLMAP: a sparse model in binary files, and its images",
+        needs: &[COLOR, DISTANCE],
+        takes: Some(POSED),
+        readme: crate::formats::colmap::README,
+    },
+    FormatSpec {
+        format: Format::ColmapText,
+        name: "colmap-text",
+        about: "COLMAP: a sparse model in text files, and its images",
+        needs: &[COLOR, DISTANCE],
+        takes: Some(POSED),
+        readme: crate::formats::colmap::README,
+    },
+    FormatSpec {
+        format: Format::Scannet,
+        name: "scannet",
+        about: "ScanNet: colour, depth, poses, intrinsics, label and instance images",
+        needs: &[DEPTH],
+        takes: Some(LABELLED),
+        readme: crate::formats::scannet::README,
+    },
+    FormatSpec {
+        format: Format::Exr,
+        name: "exr",
+        about: "multi-layer OpenEXR with every layer of a frame, and Cryptomatte layers of instances and classes",
+        needs: &[],
+        takes: None,
+        readme: crate::formats::openexr::README,
+    },
+    FormatSpec {
+        format: Format::DepthPng,
+        name: "depth-png",
+        about: "16-bit PNG depth in millimetres, with cameras in JSON",
+        needs: &[DEPTH],
+        takes: Some(&[Layer::DepthMeters, Layer::DepthZMeters]),
+        readme: crate::formats::depth_png::README,
+    },
+    FormatSpec {
+        format: Format::Webdataset,
+        name: "webdataset",
+        about: "WebDataset: tar shards with a PNG of the colour, a numpy array per layer, and JSON",
+        needs: &[],
+        takes: None,
+        readme: crate::formats::webdataset::README,
+    },
+    FormatSpec {
+        format: Format::Croissant,
+        name: "croissant",
+        about: "Croissant: a card of the dataset in JSON-LD, with tables of its frames, layers and classes",
+        needs: &[],
+        takes: None,
+        readme: crate::formats::croissant::README,
+    },
+];
+
+impl Format {
+    /// The format's row of the table.
+    pub const fn spec(self) -> &'static FormatSpec {
+        &FORMATS[self as usize]
+    }
+
+    /// The format of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        FORMATS.iter().find(|spec| spec.name == name).map(|spec| spec.format)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_in_the_order_of_the_enum_and_what_is_needed_is_taken() {
+        for (i, spec) in FORMATS.iter().enumerate() {
+            assert_eq!(spec.format as usize, i);
+            assert_eq!(Format::from_name(spec.name), Some(spec.format));
+            assert!(spec.takes.is_none_or(|takes| spec.needs.iter().all(|group| group.iter().all(|layer| takes.contains(layer)))));
+        }
+    }
+}

@@ -1,0 +1,264 @@
+//! BOP (Benchmark for 6D Object Pose Estimation): `train_pbr/NNNNNN/` per camera of a scene, `models/` with a mesh per instance.
+//!
+//! Every instance of every scene is an object of its own with one number in the whole export. Its model's axes are those of its box, with
+//! the origin at the box's centre, in millimetres. Poses are model to camera with OpenCV's axes, millimetres. K is for whole-numbered
+//! pixel centres, as bop_toolkit's functions use it. Depth is planar, 16-bit PNG, millimetres (`depth_scale` 1), 0 for none. Boxes are
+//! `[x, y, width, height]` by `calc_2d_bbox`: width is the last column minus the first.
+
+use crate::ExportError;
+use crate::boxes::{InstanceBox, instance_boxes};
+use crate::calibration::{Calibration, row_major};
+use crate::depth::{DEPTH, millimetres, planar_m};
+use crate::instances::{Instance, instances};
+use crate::mesh::{InstanceMesh, instance_meshes};
+use crate::picture::{SHOWN, color_png, grey8_png, grey16_png};
+use crate::place::Place;
+use crate::source::{Source, Track, View};
+use enfilade_frame::{Frame, Layer};
+use enfilade_math::DVec3;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+pub(crate) const README: &str = "\
+# BOP
+
+`train_pbr/NNNNNN/` is one camera of one scene (`scenes.json` says which), image ids are frame numbers.
+
+- `rgb/`: tone-mapped colour. `depth/`: planar depth, 16 bits, times depth_scale = millimetres, 0 is none.
+- `scene_camera.json`: cam_K (pixel centres at whole numbers), cam_R_w2c and cam_t_w2c (mm); camera x right, y down, z forward.
+- `scene_gt.json`: obj_id, cam_R_m2c, cam_t_m2c (mm) of every instance that is visible and has a box.
+- `mask_visib/IIIIII_JJJJJJ.png`: the visible part of instance J of image I. **Only the visible part is known**: `mask/` has the
+  same pictures, and in `scene_gt_info.json` bbox_obj, px_count_all and visib_fract are those of the visible part (visib_fract 1).
+- `models/obj_NNNNNN.ply` and `models_info.json` (mm): every instance is an object of its own; `objects.json` says of which scene,
+  instance and NYU40 class (-1: none). The model's origin is the centre of its box and its axes are the box's: Hypersim's object_aligned_2d box
+  (z up, x along the longer side) where the dataset has box files, else the axis-aligned extents of the mesh.
+- Without a mesh in the dataset there are boxes and poses but no .ply files.
+";
+
+/// A BOP object.
+struct Object {
+    id: u32,
+    shape: InstanceBox,
+    mesh: Option<InstanceMesh>,
+}
+
+#[derive(Serialize)]
+struct ImageCamera {
+    #[serde(rename = "cam_K")]
+    k: [f64; 9],
+    depth_scale: f64,
+    #[serde(rename = "cam_R_w2c")]
+    rotation: [f64; 9],
+    #[serde(rename = "cam_t_w2c")]
+    translation_mm: [f64; 3],
+}
+
+#[derive(Serialize)]
+struct Truth {
+    #[serde(rename = "cam_R_m2c")]
+    rotation: [f64; 9],
+    #[serde(rename = "cam_t_m2c")]
+    translation_mm: [f64; 3],
+    obj_id: u32,
+}
+
+#[derive(Serialize)]
+struct TruthInfo {
+    bbox_obj: [u32; 4],
+    bbox_visib: [u32; 4],
+    px_count_all: usize,
+    px_count_valid: usize,
+    px_count_visib: usize,
+    visib_fract: f64,
+}
+
+#[derive(Serialize)]
+struct ModelInfo {
+    diameter: f64,
+    min_x: f64,
+    min_y: f64,
+    min_z: f64,
+    size_x: f64,
+    size_y: f64,
+    size_z: f64,
+}
+
+#[derive(Serialize)]
+struct ObjectEntry {
+    scene: String,
+    instance: i16,
+    nyu40: i16,
+}
+
+#[derive(Serialize)]
+struct SceneEntry {
+    scene: String,
+    camera: String,
+}
+
+/// What is told of one image.
+type Told = (ImageCamera, Vec<(Truth, TruthInfo)>);
+
+pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
+    let (mut models, mut entries) = (BTreeMap::new(), BTreeMap::new());
+    let mut folders = BTreeMap::new();
+    let mut first_id = 1;
+    for tracks in source.scenes() {
+        let scene = &tracks[0].scene;
+        let objects = objects_of(source, scene, first_id)?;
+        first_id += objects.len() as u32;
+        let labels = source.dataset.read_label_tables(scene).map(|labels| labels.parts).unwrap_or_default();
+        for (&instance, object) in &objects {
+            models.insert(object.id, write_model(place, object)?);
+            let nyu40 = labels.iter().find(|label| label.instance == instance).map_or(-1, |label| label.semantic);
+            entries.insert(object.id, ObjectEntry { scene: scene.clone(), instance, nyu40 });
+        }
+        for track in tracks {
+            let folder = format!("train_pbr/{:06}", folders.len());
+            write_track(source, place, track, &folder, &objects)?;
+            folders.insert(folders.len(), SceneEntry { scene: scene.clone(), camera: track.name.clone() });
+        }
+    }
+    place.write_json("models/models_info.json", &models)?;
+    place.write_json("objects.json", &entries)?;
+    place.write_json("scenes.json", &folders)
+}
+
+/// The objects of a scene by instance number, numbered from `first_id`.
+fn objects_of(source: &Source<'_>, scene: &str, first_id: u32) -> Result<BTreeMap<i16, Object>, ExportError> {
+    let mut meshes = instance_meshes(source.dataset, scene)?;
+    let boxes = instance_boxes(source.dataset, scene, &meshes)?;
+    if boxes.is_empty() {
+        let problem = "it has neither box files nor a labelled mesh, so poses of objects are not known; add them to _detail/mesh";
+        return Err(source.unsuitable(scene, problem));
+    }
+    let object = |(id, (number, shape))| (number, Object { id, shape, mesh: meshes.remove(&number) });
+    Ok((first_id..).zip(boxes).map(object).collect())
+}
+
+fn write_track(
+    source: &Source<'_>,
+    place: &Place,
+    track: &Track,
+    folder: &str,
+    objects: &BTreeMap<i16, Object>,
+) -> Result<(), ExportError> {
+    let calibration = Calibration::of_pinhole(source, track)?;
+    let views: Vec<View<'_>> = track.views().collect();
+    let told = source.each_of(&views, |view| write_frame(source, place, view, folder, &calibration, objects))?;
+    let (mut cameras, mut truths, mut infos) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+    for (view, (camera, seen)) in views.iter().zip(told) {
+        let (truth, info): (Vec<Truth>, Vec<TruthInfo>) = seen.into_iter().unzip();
+        cameras.insert(view.frame(), camera);
+        truths.insert(view.frame(), truth);
+        infos.insert(view.frame(), info);
+    }
+    place.write_json(&format!("{folder}/scene_camera.json"), &cameras)?;
+    place.write_json(&format!("{folder}/scene_gt.json"), &truths)?;
+    place.write_json(&format!("{folder}/scene_gt_info.json"), &infos)
+}
+
+fn write_frame(
+    source: &Source<'_>,
+    place: &Place,
+    view: View<'_>,
+    folder: &str,
+    calibration: &Calibration,
+    objects: &BTreeMap<i16, Object>,
+) -> Result<Told, ExportError> {
+    let frame = source.read(view, &[&SHOWN[..], &DEPTH, &[Layer::SemanticInstance]].concat())?;
+    let image = format!("{:06}", view.frame());
+    let depth: Vec<u16> = planar_m(source, view, calibration, &frame)?.into_iter().map(millimetres).collect();
+    place.write(&format!("{folder}/rgb/{image}.png"), &color_png(source, view, &frame)?)?;
+    place.write(&format!("{folder}/depth/{image}.png"), &grey16_png(frame.width, frame.height, &depth))?;
+    let (rotation, translation) = calibration.opencv_from_world(view);
+    let k = calibration.intrinsics.opencv_k().concat();
+    let camera = ImageCamera {
+        k: std::array::from_fn(|i| k[i]),
+        depth_scale: 1.0,
+        rotation: row_major(rotation),
+        translation_mm: in_millimetres(translation),
+    };
+    let mut seen = Vec::new();
+    for instance in instances(&frame) {
+        let Some(object) = objects.get(&instance.number) else { continue };
+        let mask = grey8_png(frame.width, frame.height, &instance.mask(&frame));
+        for kind in ["mask", "mask_visib"] {
+            place.write(&format!("{folder}/{kind}/{image}_{:06}.png", seen.len()), &mask)?;
+        }
+        let truth = Truth {
+            rotation: row_major(rotation * object.shape.world_from_box),
+            translation_mm: in_millimetres(rotation * object.shape.center + translation),
+            obj_id: object.id,
+        };
+        seen.push((truth, info(&frame, &instance, &depth)));
+    }
+    Ok((camera, seen))
+}
+
+fn info(frame: &Frame, instance: &Instance, depth: &[u16]) -> TruthInfo {
+    let [x_min, y_min, x_max, y_max] = instance.extent(frame.width);
+    let (bbox, count) = ([x_min, y_min, x_max - x_min, y_max - y_min], instance.pixels.len());
+    let valid = instance.pixels.iter().filter(|&&i| depth[i] > 0).count();
+    TruthInfo { bbox_obj: bbox, bbox_visib: bbox, px_count_all: count, px_count_valid: valid, px_count_visib: count, visib_fract: 1.0 }
+}
+
+/// Writes the object's mesh, if it is known, and tells its size.
+fn write_model(place: &Place, object: &Object) -> Result<ModelInfo, ExportError> {
+    let half = 0.5 * object.shape.extents;
+    let mut model = (vec![-half, half], -half, half);
+    if let Some(mesh) = &object.mesh {
+        let vertices: Vec<DVec3> = mesh.vertices.iter().map(|&v| object.shape.local(v)).collect();
+        place.write(&format!("models/obj_{:06}.ply", object.id), &ply(&vertices, &mesh.faces))?;
+        let (min, max) = vertices.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
+        model = (vertices, min, max);
+    }
+    let (vertices, min, max) = model;
+    let [min_x, min_y, min_z] = in_millimetres(min);
+    let [size_x, size_y, size_z] = in_millimetres(max - min);
+    Ok(ModelInfo { diameter: 1000.0 * diameter(vertices), min_x, min_y, min_z, size_x, size_y, size_z })
+}
+
+/// The largest distance between two of the points, which lie about the origin.
+///
+/// Points are taken from the outermost inward, so that pairs too near the origin to matter are never looked at.
+fn diameter(mut points: Vec<DVec3>) -> f64 {
+    points.sort_by(|a, b| b.length().total_cmp(&a.length()));
+    let mut largest = 0.0;
+    for (i, a) in points.iter().enumerate() {
+        for b in &points[..i] {
+            if a.length() + b.length() <= largest {
+                break;
+            }
+            largest = a.distance(*b).max(largest);
+        }
+    }
+    largest
+}
+
+fn in_millimetres(v: DVec3) -> [f64; 3] {
+    (v * 1000.0).to_array().map(|x| x + 0.0)
+}
+
+/// The bytes of a text PLY file in millimetres, with the properties that bop_toolkit reads.
+fn ply(vertices_m: &[DVec3], faces: &[[u32; 3]]) -> Vec<u8> {
+    let mut text = format!("ply\nformat ascii 1.0\nelement vertex {}\n", vertices_m.len());
+    text.extend("xyz".chars().map(|axis| format!("property float {axis}\n")));
+    text.push_str(&format!("element face {}\nproperty list uchar int vertex_indices\nend_header\n", faces.len()));
+    text.extend(vertices_m.iter().map(|&v| in_millimetres(v)).map(|[x, y, z]| format!("{} {} {}\n", x as f32, y as f32, z as f32)));
+    text.extend(faces.iter().map(|[a, b, c]| format!("3 {a} {b} {c}\n")));
+    text.into_bytes()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_diameter_is_that_of_brute_force() {
+        let wave = |i: usize| DVec3::new((i as f64 * 1.7).sin(), 0.4 * (i as f64 * 0.9).cos(), 0.2 * (i as f64 * 2.3).sin());
+        let points: Vec<DVec3> = (0..200).map(wave).collect();
+        let pairs = points.iter().flat_map(|a| points.iter().map(|b| a.distance(*b)));
+        assert_eq!(diameter(points.clone()), pairs.fold(0.0, f64::max));
+    }
+}

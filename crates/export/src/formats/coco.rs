@@ -1,0 +1,211 @@
+//! COCO object detection: `images/`, and `annotations/instances.json` as pycocotools loads it.
+//!
+//! A mask is run-length encoded down the columns, first run of background, and stored as COCO's compressed string: differences to
+//! the run before the last in groups of five bits (`rleToString` of `maskApi.c`). Boxes are `[x, y, width, height]` in pixels from the upper
+//! left corner of the image and hold the mask exactly, as `toBbox` has them.
+
+use crate::ExportError;
+use crate::instances::{Instance, instances};
+use crate::picture::{SHOWN, color_jpeg};
+use crate::place::Place;
+use crate::source::{Source, View};
+use enfilade_frame::{Frame, Layer};
+use enfilade_scene::{NYU40, is_stuff};
+use serde::Serialize;
+
+pub(crate) const README: &str = "\
+# COCO
+
+`images/<scene>/<camera>/frame.IIII.jpg` are the frames, tone-mapped with one exposure per image. `annotations/instances.json` has
+one annotation per visible instance and frame: compressed RLE mask, box `[x, y, width, height]` in pixels, area in pixels, iscrowd 0.
+
+- Categories are the 40 classes of NYU40 under their own numbers, whether they occur or not.
+- Masks are of what is visible, sampled at pixel centres. An instance of no class has no annotation; walls, floors and ceilings are
+  no instances.
+- `instance` in an annotation is the instance's number within its scene: the same object has it in every frame. `scene`, `camera` and
+  `frame` in an image say where it comes from. Image and annotation ids count from 1.
+";
+
+#[derive(Serialize)]
+struct Annotations {
+    info: Info,
+    licenses: Vec<()>,
+    images: Vec<Image>,
+    annotations: Vec<Annotation>,
+    categories: Vec<Category>,
+}
+
+#[derive(Serialize)]
+struct Info {
+    description: &'static str,
+    version: &'static str,
+}
+
+#[derive(Serialize)]
+struct Image {
+    id: usize,
+    file_name: String,
+    width: u32,
+    height: u32,
+    scene: String,
+    camera: String,
+    frame: u32,
+}
+
+#[derive(Serialize)]
+struct Annotation {
+    id: usize,
+    image_id: usize,
+    category_id: i16,
+    segmentation: Rle,
+    area: usize,
+    bbox: [u32; 4],
+    iscrowd: u8,
+    instance: i16,
+}
+
+#[derive(Serialize)]
+struct Rle {
+    /// Height and width.
+    size: [u32; 2],
+    counts: String,
+}
+
+#[derive(Serialize)]
+struct Category {
+    id: i16,
+    name: &'static str,
+    supercategory: &'static str,
+}
+
+pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
+    let mut all = Annotations {
+        info: Info { description: "Rendered by enfilade; see README.md", version: env!("CARGO_PKG_VERSION") },
+        licenses: Vec::new(),
+        images: Vec::new(),
+        annotations: Vec::new(),
+        categories: NYU40.iter().map(category).collect(),
+    };
+    for (image, annotations) in source.each(|view| write_frame(source, place, view))? {
+        let image_id = all.images.len() + 1;
+        for annotation in annotations {
+            all.annotations.push(Annotation { id: all.annotations.len() + 1, image_id, ..annotation });
+        }
+        all.images.push(Image { id: image_id, ..image });
+    }
+    let text = serde_json::to_string(&all).expect("plain data encodes");
+    place.write("annotations/instances.json", text.as_bytes())
+}
+
+fn category(class: &enfilade_scene::SemanticClass) -> Category {
+    Category { id: class.id, name: class.name, supercategory: if is_stuff(class.id) { "stuff" } else { "thing" } }
+}
+
+/// The frame's picture, and what the file says of it but for the ids.
+fn write_frame(source: &Source<'_>, place: &Place, view: View<'_>) -> Result<(Image, Vec<Annotation>), ExportError> {
+    let [color, entity] = SHOWN;
+    let frame = source.read(view, &[color, entity, Layer::Semantic, Layer::SemanticInstance])?;
+    let name = format!("{}/frame.{:04}.jpg", view.track.folder(), view.frame());
+    place.write(&format!("images/{name}"), &color_jpeg(source, view, &frame)?)?;
+    let (scene, camera) = (view.track.scene.clone(), view.track.name.clone());
+    let image = Image { id: 0, file_name: name, width: frame.width, height: frame.height, scene, camera, frame: view.frame() };
+    let classed = instances(&frame).into_iter().filter(|instance| instance.semantic > 0);
+    Ok((image, classed.map(|instance| annotation(&frame, &instance)).collect()))
+}
+
+fn annotation(frame: &Frame, instance: &Instance) -> Annotation {
+    let [x_min, y_min, x_max, y_max] = instance.extent(frame.width);
+    Annotation {
+        id: 0,
+        image_id: 0,
+        category_id: instance.semantic,
+        segmentation: Rle { size: [frame.height, frame.width], counts: compress(&runs(instance, frame.width, frame.height)) },
+        area: instance.pixels.len(),
+        bbox: [x_min, y_min, x_max - x_min + 1, y_max - y_min + 1],
+        iscrowd: 0,
+        instance: instance.number,
+    }
+}
+
+/// Lengths of runs down the columns, of background and mask in turn.
+fn runs(instance: &Instance, width: u32, height: u32) -> Vec<i64> {
+    let (width, height) = (width as usize, height as usize);
+    let mut places: Vec<usize> = instance.pixels.iter().map(|i| i % width * height + i / width).collect();
+    places.sort_unstable();
+    let mut runs = Vec::new();
+    let mut end = 0;
+    for stretch in places.chunk_by(|a, b| a + 1 == *b) {
+        runs.extend([(stretch[0] - end) as i64, stretch.len() as i64]);
+        end = stretch[0] + stretch.len();
+    }
+    if end < width * height {
+        runs.push((width * height - end) as i64);
+    }
+    runs
+}
+
+/// COCO's string of runs: from the fourth on, each is told by its difference to the run before the last.
+fn compress(runs: &[i64]) -> String {
+    let mut text = String::new();
+    for (i, &run) in runs.iter().enumerate() {
+        let mut rest = if i > 2 { run - runs[i - 2] } else { run };
+        loop {
+            let low = (rest & 0x1f) as u8;
+            rest >>= 5;
+            let ends = if low & 0x10 == 0 { rest == 0 } else { rest == -1 };
+            text.push(char::from(48 + low + if ends { 0 } else { 0x20 }));
+            if ends {
+                break;
+            }
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The inverse of [`compress`], after `rleFrString`.
+    fn decompress(text: &str) -> Vec<i64> {
+        let mut runs: Vec<i64> = Vec::new();
+        let mut bytes = text.bytes().map(|b| i64::from(b) - 48);
+        while let Some(mut group) = bytes.next() {
+            let (mut value, mut shift) = (0, 0);
+            loop {
+                value |= (group & 0x1f) << shift;
+                shift += 5;
+                if group & 0x20 == 0 {
+                    break;
+                }
+                group = bytes.next().unwrap();
+            }
+            if group & 0x10 != 0 {
+                value |= -1 << shift;
+            }
+            if runs.len() > 2 {
+                value += runs[runs.len() - 2];
+            }
+            runs.push(value);
+        }
+        runs
+    }
+
+    #[test]
+    fn runs_come_back_from_their_string() {
+        for runs in [vec![0, 5], vec![3, 1, 4, 1, 5, 92, 65], vec![100_000, 1, 31, 32, 33, 1000, 1, 16, 15, 17]] {
+            assert_eq!(decompress(&compress(&runs)), runs);
+        }
+        // pycocotools: encode(asfortranarray([[0, 1], [1, 1]])) has the counts b"13".
+        assert_eq!(compress(&[1, 3]), "13");
+    }
+
+    #[test]
+    fn runs_go_down_the_columns_and_fill_the_image() {
+        let instance = |pixels: &[usize]| Instance { number: 1, semantic: 1, pixels: pixels.to_vec() };
+        // 3 columns, 2 rows.
+        assert_eq!(runs(&instance(&[0, 3, 5]), 3, 2), [0, 2, 3, 1]);
+        assert_eq!(runs(&instance(&[1]), 3, 2), [2, 1, 3]);
+        assert_eq!(runs(&instance(&[0, 1, 2, 3, 4, 5]), 3, 2), [0, 6]);
+    }
+}

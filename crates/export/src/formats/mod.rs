@@ -1,0 +1,13 @@
+//! One file per format.
+
+pub(crate) mod bop;
+pub(crate) mod coco;
+pub(crate) mod colmap;
+pub(crate) mod colmap_text;
+pub(crate) mod croissant;
+pub(crate) mod cryptomatte;
+pub(crate) mod depth_png;
+pub(crate) mod nerfstudio;
+pub(crate) mod openexr;
+pub(crate) mod scannet;
+pub(crate) mod webdataset;

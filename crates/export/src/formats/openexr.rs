@@ -1,0 +1,116 @@
+//! Multi-layer OpenEXR: `<scene>/<camera>/frame.IIII.exr` has every layer of a frame, and Cryptomatte layers of instances and classes.
+//!
+//! `color` is the file's R, G and B; every other layer has channels `<layer>.R/G/B`, `.X/Y/Z` where it is a point or direction, or
+//! `.V` where it is one number. Values, units and "nothing hit" are those of the dataset, bit by bit: float16 is half, all else float
+//! (which holds int16 and bytes exactly). Compression is ZIP, without loss.
+
+use crate::ExportError;
+use crate::formats::cryptomatte::Cryptomatte;
+use crate::place::Place;
+use crate::source::{Source, View};
+use enfilade_frame::{Frame, LAYERS, Layer, Values};
+use enfilade_scene::{Labels, NYU40};
+use exr::prelude::{
+    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer as ExrLayer, LayerAttributes, Text, WritableImage, f16,
+};
+use std::io::Cursor;
+
+pub(crate) const README: &str = "\
+# OpenEXR
+
+`<scene>/<camera>/frame.IIII.exr` has every layer of the frame in one part, without loss.
+
+- R, G, B: `color`, scene-linear, Rec. 709 primaries, W/(sr m^2). Other layers: `<layer>.R/.G/.B` for light and reflectance, `.X/.Y/.Z` for
+  points and directions, `.V` for single numbers. float16 layers are half, all others float.
+- Units, spaces and what stands where nothing was hit (NaN, -1, 0) are the dataset's: `layers` in its manifest.json. `depth_meters.V` is the
+  distance along the ray; `depth_z_meters.V` is planar depth.
+- `crypto_instance00` and `crypto_class00` are Cryptomatte layers (specification 1.2.0): MurmurHash3 of the name in R, coverage in G, one
+  rank, manifest in the header. Labels are point samples at pixel centres, so coverage is 0 or 1. Instances are called `<class>_<number>`.
+";
+
+pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
+    source.each(|view| {
+        let frame = source.read(view, &LAYERS.map(|spec| spec.layer))?;
+        if frame.pixels() == 0 {
+            return Err(source.unsuitable(view.place(), "it has none of the layers asked for; choose others with --layers"));
+        }
+        let labels = source.dataset.read_label_tables(&view.track.scene).unwrap_or_default();
+        let name = format!("{}/frame.{:04}.exr", view.track.folder(), view.frame());
+        place.write(&name, &file(source, view, &frame, &labels)?)
+    })?;
+    Ok(())
+}
+
+/// The bytes of a frame's file.
+fn file(source: &Source<'_>, view: View<'_>, frame: &Frame, labels: &Labels) -> Result<Vec<u8>, ExportError> {
+    let mut channels: Vec<AnyChannel<FlatSamples>> = frame.iter().flat_map(|(layer, values)| channels_of(layer, values)).collect();
+    let mut attributes = LayerAttributes::default();
+    for matte in mattes(frame, labels) {
+        let zero = vec![0.0; matte.ids.len()];
+        let rank = [("R", matte.ids.clone()), ("G", matte.coverage.clone()), ("B", zero.clone()), ("A", zero)];
+        channels.extend(rank.map(|(c, v)| channel(&format!("{}00.{c}", matte.name), FlatSamples::F32(v))));
+        for (name, value) in matte.attributes() {
+            attributes.other.insert(Text::new_or_panic(name), AttributeValue::Text(Text::new_or_panic(value)));
+        }
+    }
+    let size = (frame.width as usize, frame.height as usize);
+    let layer = ExrLayer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.into_iter().collect()));
+    let mut bytes = Vec::new();
+    let written = Image::from_layer(layer).write().non_parallel().to_buffered(Cursor::new(&mut bytes));
+    written.map_err(|error| source.unsuitable(view.place(), format!("OpenEXR refuses it: {error}")))?;
+    sort_attributes(&mut bytes);
+    Ok(bytes)
+}
+
+/// The channels of a layer.
+fn channels_of(layer: Layer, values: &Values) -> Vec<AnyChannel<FlatSamples>> {
+    let spec = layer.spec();
+    let letters = match (spec.channels, spec.space) {
+        (1, _) => ["V"].as_slice(),
+        (_, space) if space.starts_with("linear RGB") => &["R", "G", "B"],
+        _ => &["X", "Y", "Z"],
+    };
+    let name = |letter: &str| if layer == Layer::Color { letter.to_string() } else { format!("{}.{letter}", spec.name) };
+    let every = |c: usize| (c..values.len()).step_by(spec.channels);
+    let samples = |c: usize| match values {
+        Values::F16(v) => FlatSamples::F16(every(c).map(|i| f16::from_bits(v[i].to_bits())).collect()),
+        other => FlatSamples::F32(every(c).map(|i| other.get(i) as f32).collect()),
+    };
+    letters.iter().enumerate().map(|(c, letter)| channel(&name(letter), samples(c))).collect()
+}
+
+fn channel(name: &str, samples: FlatSamples) -> AnyChannel<FlatSamples> {
+    AnyChannel { quantize_linearly: false, ..AnyChannel::new(name, samples) }
+}
+
+/// The Cryptomatte layers that the frame's labels allow.
+fn mattes(frame: &Frame, labels: &Labels) -> Vec<Cryptomatte> {
+    let class = |id: i32| usize::try_from(id - 1).ok().and_then(|i| NYU40.get(i)).map(|class| class.name.to_string());
+    let class_of = |instance: i32| labels.parts.iter().find(|l| i32::from(l.instance) == instance).map(|l| i32::from(l.semantic));
+    let instance = |number: i32| {
+        let name = class_of(number).and_then(class).unwrap_or_else(|| "instance".into());
+        (number > 0).then(|| format!("{name}_{number:03}"))
+    };
+    let instances = frame.get(Layer::SemanticInstance).map(|values| Cryptomatte::new("crypto_instance", values, instance));
+    let classes = frame.get(Layer::Semantic).map(|values| Cryptomatte::new("crypto_class", values, class));
+    instances.into_iter().chain(classes).collect()
+}
+
+/// Puts the attributes of the header in order of name, since the library writes them in another order every time.
+///
+/// An attribute is its name, a zero, its type, a zero, its length in four bytes, and its value; an empty name ends the header.
+fn sort_attributes(file: &mut [u8]) {
+    const START: usize = 8; // after the magic number and the version
+    let text_end = |from: usize| from + file[from..].iter().position(|&b| b == 0).unwrap_or(0);
+    let mut attributes: Vec<Vec<u8>> = Vec::new();
+    let mut at = START;
+    while file[at] != 0 {
+        let length_at = text_end(text_end(at) + 1) + 1;
+        let length = u32::from_le_bytes([file[length_at], file[length_at + 1], file[length_at + 2], file[length_at + 3]]);
+        let end = length_at + 4 + length as usize;
+        attributes.push(file[at..end].to_vec());
+        at = end;
+    }
+    attributes.sort();
+    file[START..at].copy_from_slice(&attributes.concat());
+}

@@ -1,0 +1,155 @@
+//! WebDataset: `shard-NNNNNN.tar`, in which the files of a sample stand one after the other and share all but their extension.
+//!
+//! A sample is a frame; its key is `<scene>/<camera>/IIII`. Members are `color.png` (tone-mapped), `<layer>.npy` for every layer with the
+//! dataset's own values, and `json` with pose and calibration. Headers of the archive carry no time, user or group.
+
+use crate::ExportError;
+use crate::calibration::{Calibration, Distortion};
+use crate::numpy::npy;
+use crate::picture::color_png;
+use crate::place::Place;
+use crate::source::{Source, View};
+use enfilade_frame::{LAYERS, Layer};
+use serde::Serialize;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::PathBuf;
+
+pub(crate) const README: &str = "\
+# WebDataset
+
+`shard-NNNNNN.tar`: every frame is a sample with the key `<scene>/<camera>/IIII`, in the order of scene, camera and frame.
+
+- `color.png`: tone-mapped colour. `<layer>.npy`: the layer's values as the dataset has them (units and spaces: `layers` in its
+  manifest.json; `depth_meters` is the distance along the ray, `depth_z_meters` is planar).
+- `json`: scene, camera, frame, width, height, K (OpenCV's: pixel centres at whole numbers) with model and distortion, and
+  world_from_camera (x right, y down, z forward; metres; the world is right-handed with z up).
+- With the webdataset library: `wds.WebDataset('shard-{000000..000003}.tar').decode('rgb')`.
+";
+
+/// Samples that are encoded before they are written, so that all threads have work and memory stays small.
+const BATCH: usize = 32;
+
+/// What a tar file adds to a member: its header, and what fills the last block of 512 bytes.
+const MEMBER_OVERHEAD: u64 = 1024;
+
+#[derive(Serialize)]
+struct SampleInfo<'s> {
+    scene: &'s str,
+    camera: &'s str,
+    frame: u32,
+    width: u32,
+    height: u32,
+    model: &'static str,
+    #[serde(rename = "K")]
+    k: Option<[[f64; 3]; 3]>,
+    distortion: Vec<f64>,
+    world_from_camera: [[f64; 4]; 4],
+}
+
+/// Files of a sample: name and content.
+type Sample = Vec<(String, Vec<u8>)>;
+
+pub(crate) fn write(source: &Source<'_>, place: &Place, shard_bytes: u64) -> Result<(), ExportError> {
+    let views: Vec<View<'_>> = source.views().collect();
+    let mut shards = Shards { place, limit: shard_bytes, count: 0, current: None };
+    for batch in views.chunks(BATCH) {
+        for sample in source.each_of(batch, |view| sample(source, view))? {
+            shards.add(&sample)?;
+        }
+    }
+    shards.close()
+}
+
+fn sample(source: &Source<'_>, view: View<'_>) -> Result<Sample, ExportError> {
+    let frame = source.read(view, &LAYERS.map(|spec| spec.layer))?;
+    if frame.pixels() == 0 {
+        return Err(source.unsuitable(view.place(), "it has none of the layers asked for; choose others with --layers"));
+    }
+    let key = format!("{}/{:04}", view.track.folder(), view.frame());
+    let mut files = Vec::new();
+    if frame.get(Layer::Color).is_some() {
+        files.push((format!("{key}.color.png"), color_png(source, view, &frame)?));
+    }
+    for (layer, values) in frame.iter() {
+        let shape = [frame.height as usize, frame.width as usize, layer.spec().channels];
+        let shape = if shape[2] == 1 { &shape[..2] } else { &shape[..] };
+        files.push((format!("{key}.{}.npy", layer.spec().name), npy(values, shape)));
+    }
+    files.push((format!("{key}.json"), serde_json::to_vec(&info(view, frame.width, frame.height)).expect("plain data encodes")));
+    Ok(files)
+}
+
+fn info(view: View<'_>, width: u32, height: u32) -> SampleInfo<'_> {
+    let calibration = Calibration::of(view.track);
+    let (model, distortion) = match calibration.as_ref().map(|c| &c.distortion) {
+        None => ("rays", Vec::new()),
+        Some(Distortion::None) => ("pinhole", Vec::new()),
+        Some(Distortion::RadialTangential(d)) => ("opencv", d.to_vec()),
+        Some(Distortion::Fisheye(d)) => ("opencv_fisheye", d.to_vec()),
+    };
+    SampleInfo {
+        scene: &view.track.scene,
+        camera: &view.track.name,
+        frame: view.frame(),
+        width,
+        height,
+        model,
+        k: calibration.as_ref().map(|c| c.intrinsics.opencv_k()),
+        distortion,
+        world_from_camera: calibration.map_or_else(|| Calibration::opencv_pose_of(view.pose()), |c| c.opencv_pose(view)),
+    }
+}
+
+/// The archives, one after the other.
+struct Shards<'p> {
+    place: &'p Place,
+    limit: u64,
+    count: usize,
+    current: Option<Shard>,
+}
+
+struct Shard {
+    path: PathBuf,
+    archive: tar::Builder<BufWriter<File>>,
+    bytes: u64,
+}
+
+impl Shards<'_> {
+    /// Appends a sample, in a new shard where the current one would become too large.
+    fn add(&mut self, sample: &Sample) -> Result<(), ExportError> {
+        let bytes = sample.iter().map(|(_, content)| content.len() as u64 + MEMBER_OVERHEAD).sum::<u64>();
+        if self.current.as_ref().is_some_and(|shard| shard.bytes + bytes > self.limit) {
+            self.close()?;
+        }
+        if self.current.is_none() {
+            let path = self.place.path(&format!("shard-{:06}.tar", self.count))?;
+            let file = File::create(&path).map_err(ExportError::at("write", &path))?;
+            self.current = Some(Shard { path, archive: tar::Builder::new(BufWriter::new(file)), bytes: 0 });
+            self.count += 1;
+        }
+        let Some(shard) = &mut self.current else { return Ok(()) };
+        shard.bytes += bytes;
+        sample.iter().try_for_each(|(name, content)| append(&mut shard.archive, name, content)).map_err(ExportError::at("write", &shard.path))
+    }
+
+    /// Ends the current shard.
+    fn close(&mut self) -> Result<(), ExportError> {
+        let Some(shard) = self.current.take() else { return Ok(()) };
+        let mut writer = shard.archive.into_inner().map_err(ExportError::at("write", &shard.path))?;
+        writer.flush().map_err(ExportError::at("write", &shard.path))?;
+        let bytes = writer.get_ref().metadata().map_err(ExportError::at("write", &shard.path))?.len();
+        self.place.count(bytes);
+        Ok(())
+    }
+}
+
+fn append(archive: &mut tar::Builder<BufWriter<File>>, name: &str, content: &[u8]) -> std::io::Result<()> {
+    let mut header = tar::Header::new_gnu();
+    header.set_size(content.len() as u64);
+    header.set_mode(0o644);
+    header.set_mtime(0);
+    header.set_uid(0);
+    header.set_gid(0);
+    archive.append_data(&mut header, name, content)
+}

@@ -1,0 +1,88 @@
+//! A dataset in the layouts that other programs load: COCO, BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, depth PNG, WebDataset and
+//! Croissant.
+//!
+//! Every export is a pure function of the dataset folder and an [`ExportConfig`]: nothing is rendered, the same input gives the
+//! same bytes, and no file carries a clock, a host or a path. [`Format`] has the table of formats, `formats/` one file for each,
+//! whose first lines say what it writes and in which units, axes and pixel coordinates. `docs/export.md` has all of them in one table.
+//!
+//! An export is complete or absent: it grows under another name beside its place and is renamed when all is written.
+//!
+//! Three things change between formats, and each changes in one place: camera axes and K in `calibration.rs`, depth in `depth.rs`,
+//! and pixels of colour in `picture.rs`.
+
+mod boxes;
+mod calibration;
+mod depth;
+mod error;
+mod format;
+mod formats;
+mod instances;
+mod mesh;
+mod numpy;
+mod picture;
+mod place;
+mod points;
+mod source;
+
+pub use error::ExportError;
+pub use format::{FORMATS, Format, FormatSpec};
+pub use place::Existing;
+pub use source::Selection;
+
+use enfilade_dataset::Dataset;
+use enfilade_scene::Cx;
+use place::Place;
+use source::Source;
+use std::path::Path;
+
+/// What to export and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExportConfig {
+    /// The layout.
+    pub format: Format,
+    /// Which scenes, cameras, frames and layers.
+    pub selection: Selection,
+    /// Largest size of a WebDataset shard, bytes; a sample that is larger has a shard of its own. One gigabyte unless said otherwise.
+    pub shard_bytes: u64,
+}
+
+impl ExportConfig {
+    /// Everything the format can hold of all scenes named.
+    pub fn new(format: Format, scenes: Vec<String>) -> Self {
+        Self { format, selection: Selection { scenes, ..Selection::default() }, shard_bytes: 1_000_000_000 }
+    }
+}
+
+/// What was written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Exported {
+    /// Frames of the dataset that are in it.
+    pub frames: usize,
+    /// Files, the record and the page for people included.
+    pub files: usize,
+    /// Their bytes.
+    pub bytes: u64,
+}
+
+/// Writes `dataset` to the folder `out` as `config` says. `existing` says what becomes of a folder that is there and no export.
+///
+/// # Errors
+/// When nothing is selected, a layer or camera is not what the format needs, or a file cannot be read or written. Then `out` is as
+/// it was.
+pub fn export(dataset: &Dataset, config: &ExportConfig, out: &Path, existing: Existing, cx: &dyn Cx) -> Result<Exported, ExportError> {
+    let source = Source::open(dataset, config.format.spec(), &config.selection, cx)?;
+    let place = Place::prepare(out, dataset.root(), existing)?;
+    match config.format {
+        Format::Coco => formats::coco::write(&source, &place),
+        Format::Bop => formats::bop::write(&source, &place),
+        Format::Nerfstudio => formats::nerfstudio::write(&source, &place),
+        Format::Colmap => formats::colmap::write(&source, &place, formats::colmap::binary),
+        Format::ColmapText => formats::colmap::write(&source, &place, formats::colmap_text::text),
+        Format::Scannet => formats::scannet::write(&source, &place),
+        Format::Exr => formats::openexr::write(&source, &place),
+        Format::DepthPng => formats::depth_png::write(&source, &place),
+        Format::Webdataset => formats::webdataset::write(&source, &place, config.shard_bytes),
+        Format::Croissant => formats::croissant::write(&source, &place),
+    }?;
+    place.finish(config.format, &source)
+}

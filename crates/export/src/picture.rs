@@ -1,0 +1,52 @@
+//! Pictures of a frame as bytes of PNG and JPEG files.
+
+use crate::ExportError;
+use crate::source::{Source, View};
+use enfilade_frame::{Frame, Layer};
+use enfilade_post::picture::{Picture, jpeg};
+use enfilade_post::preview::{Subject, preview};
+use enfilade_post::tonemap::ToneMap;
+
+/// The layers that the picture of a frame is made from.
+pub(crate) const SHOWN: [Layer; 2] = [Layer::Color, Layer::RenderEntityId];
+
+/// The frame's colour as the preview `tonemap` shows it: one exposure per image, gamma 1/2.2. `frame` has `color`.
+pub(crate) fn tone_mapped(source: &Source<'_>, view: View<'_>, frame: &Frame) -> Result<Picture, ExportError> {
+    let tone = ToneMap::of_frame(frame).unwrap_or_default();
+    let shown = preview(Subject::ToneMapped, frame, tone);
+    shown.map(|shown| shown.picture).ok_or_else(|| source.unsuitable(view.place(), "it has no layer color; render it"))
+}
+
+/// The bytes of a JPEG file of a frame's colour.
+pub(crate) fn color_jpeg(source: &Source<'_>, view: View<'_>, frame: &Frame) -> Result<Vec<u8>, ExportError> {
+    Ok(jpeg(&tone_mapped(source, view, frame)?))
+}
+
+/// The bytes of an RGB PNG file of a frame's colour.
+pub(crate) fn color_png(source: &Source<'_>, view: View<'_>, frame: &Frame) -> Result<Vec<u8>, ExportError> {
+    let picture = tone_mapped(source, view, frame)?;
+    let rgb: Vec<u8> = picture.pixels().flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    Ok(encode(frame.width, frame.height, png::ColorType::Rgb, png::BitDepth::Eight, &rgb))
+}
+
+/// The bytes of a grey PNG file of 8 bits.
+pub(crate) fn grey8_png(width: u32, height: u32, values: &[u8]) -> Vec<u8> {
+    encode(width, height, png::ColorType::Grayscale, png::BitDepth::Eight, values)
+}
+
+/// The bytes of a grey PNG file of 16 bits.
+pub(crate) fn grey16_png(width: u32, height: u32, values: &[u16]) -> Vec<u8> {
+    let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_be_bytes()).collect();
+    encode(width, height, png::ColorType::Grayscale, png::BitDepth::Sixteen, &bytes)
+}
+
+fn encode(width: u32, height: u32, color: png::ColorType, depth: png::BitDepth, data: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(color);
+    encoder.set_depth(depth);
+    let mut writer = encoder.write_header().expect("writing to memory cannot fail");
+    writer.write_image_data(data).expect("as many pixels as the header says");
+    writer.finish().expect("writing to memory cannot fail");
+    bytes
+}

@@ -1,0 +1,190 @@
+//! What is exported: the chosen frames of the dataset, with their cameras, and their layers when they are asked for.
+
+use crate::{ExportError, Format, FormatSpec};
+use enfilade_dataset::Dataset;
+use enfilade_frame::{Frame, LAYERS, Layer};
+use enfilade_scene::{Camera, CameraView, Cx, Pose};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Which part of a dataset to export.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selection {
+    /// Names of scenes of the dataset.
+    pub scenes: Vec<String>,
+    /// Names of cameras; `None`: all.
+    pub cameras: Option<Vec<String>>,
+    /// Frame numbers, the upper bound excluded; `None`: all.
+    pub frames: Option<Range<u32>>,
+    /// Layers to use; `None`: all that the format can hold.
+    pub layers: Option<Vec<Layer>>,
+}
+
+/// A camera of a scene with the frames that are exported.
+pub(crate) struct Track {
+    pub scene: String,
+    /// Name of the camera.
+    pub name: String,
+    pub camera: Camera,
+    /// The whole trajectory.
+    pub poses: Vec<Pose>,
+    /// Indices into `poses` of the frames that are exported.
+    pub chosen: Vec<usize>,
+}
+
+/// One frame that is exported.
+#[derive(Clone, Copy)]
+pub(crate) struct View<'s> {
+    pub track: &'s Track,
+    /// Index of its pose.
+    pub index: usize,
+}
+
+/// The chosen frames, by scene, camera and number.
+pub(crate) struct Source<'d> {
+    pub dataset: &'d Dataset,
+    pub tracks: Vec<Track>,
+    format: Format,
+    layers: Vec<Layer>,
+    cx: &'d dyn Cx,
+}
+
+impl Track {
+    /// `<scene>/<camera>`: where the track's files lie in most formats.
+    pub fn folder(&self) -> String {
+        format!("{}/{}", self.scene, self.name)
+    }
+
+    /// The frames that are exported.
+    pub fn views(&self) -> impl Iterator<Item = View<'_>> {
+        self.chosen.iter().map(|&index| View { track: self, index })
+    }
+}
+
+impl<'s> View<'s> {
+    /// Frame number.
+    pub fn frame(&self) -> u32 {
+        self.pose().frame
+    }
+
+    /// Where the camera stood.
+    pub fn pose(&self) -> &'s Pose {
+        &self.track.poses[self.index]
+    }
+
+    /// The camera at the moment of the frame.
+    pub fn camera(&self) -> CameraView<'s> {
+        CameraView::of_frame(&self.track.camera, &self.track.poses, self.index)
+    }
+
+    /// For messages.
+    pub fn place(&self) -> String {
+        format!("{} frame {}", self.track.folder(), self.frame())
+    }
+}
+
+impl<'d> Source<'d> {
+    /// Finds the chosen frames and checks that each has the layers that the format needs.
+    pub fn open(dataset: &'d Dataset, spec: &FormatSpec, selection: &Selection, cx: &'d dyn Cx) -> Result<Self, ExportError> {
+        let taken = |layer: &Layer| spec.takes.is_none_or(|takes| takes.contains(layer));
+        let wanted = |layer: &Layer| selection.layers.as_ref().is_none_or(|layers| layers.contains(layer));
+        let layers: Vec<Layer> = LAYERS.iter().map(|row| row.layer).filter(|layer| taken(layer) && wanted(layer)).collect();
+        let mut source = Self { dataset, tracks: Vec::new(), format: spec.format, layers, cx };
+        for scene in &selection.scenes {
+            for name in dataset.cameras(scene)? {
+                if selection.cameras.as_ref().is_none_or(|names| names.contains(&name)) {
+                    source.tracks.extend(track(dataset, scene, &name, selection.frames.as_ref())?);
+                }
+            }
+        }
+        source.check(spec, selection)?;
+        Ok(source)
+    }
+
+    fn check(&self, spec: &FormatSpec, selection: &Selection) -> Result<(), ExportError> {
+        let names = |layers: &[Layer]| layers.iter().map(|layer| layer.spec().name).collect::<Vec<_>>().join(" or ");
+        if let Some(group) = spec.needs.iter().find(|group| !group.iter().any(|layer| self.layers.contains(layer))) {
+            return Err(ExportError::Selection(format!("{} needs the layer {}; add it to --layers", spec.name, names(group))));
+        }
+        if self.layers.is_empty() {
+            let takes = spec.takes.map_or("any layer".into(), names);
+            return Err(ExportError::Selection(format!("none of the layers of --layers can be in {}: it takes {takes}", spec.name)));
+        }
+        if self.tracks.is_empty() {
+            let known = selection.scenes.iter().map(|scene| self.dataset.cameras(scene)).collect::<Result<Vec<_>, _>>()?.concat();
+            let problem = "no finished frame is selected; widen --scene, --camera or --frames";
+            return Err(ExportError::Selection(format!("{problem} (cameras here: {})", known.join(", "))));
+        }
+        for view in self.views() {
+            let missing = spec.needs.iter().find(|group| !group.iter().any(|&layer| self.has(view, layer)));
+            if let Some(group) = missing {
+                let problem = format!("it has no layer {}; make it (label, render), or leave the frame out", names(group));
+                return Err(self.unsuitable(view.place(), problem));
+            }
+        }
+        Ok(())
+    }
+
+    /// All frames, in order.
+    pub fn views(&self) -> impl Iterator<Item = View<'_>> {
+        self.tracks.iter().flat_map(Track::views)
+    }
+
+    /// The tracks of each scene.
+    pub fn scenes(&self) -> impl Iterator<Item = &[Track]> {
+        self.tracks.chunk_by(|a, b| a.scene == b.scene)
+    }
+
+    /// True when the frame has the layer and it is not left out.
+    pub fn has(&self, view: View<'_>, layer: Layer) -> bool {
+        self.layers.contains(&layer) && self.dataset.has_layer(&view.track.scene, &view.track.name, view.frame(), layer)
+    }
+
+    /// Those of `wanted` that the frame has and that are not left out, as a frame; one of 0 × 0 pixels when there are none.
+    pub fn read(&self, view: View<'_>, wanted: &[Layer]) -> Result<Frame, ExportError> {
+        let there: Vec<Layer> = wanted.iter().copied().filter(|&layer| self.has(view, layer)).collect();
+        if there.is_empty() {
+            return Ok(Frame::new(0, 0));
+        }
+        Ok(self.dataset.read_frame(&view.track.scene, &view.track.name, view.frame(), &there)?)
+    }
+
+    /// Does `work` for every frame, on all threads, and gives the results in the frames' order.
+    pub fn each<T: Send>(&self, work: impl Fn(View<'_>) -> Result<T, ExportError> + Sync) -> Result<Vec<T>, ExportError> {
+        self.each_of(&self.views().collect::<Vec<_>>(), work)
+    }
+
+    /// As [`Source::each`], for some of the frames.
+    pub fn each_of<T: Send>(
+        &self,
+        views: &[View<'_>],
+        work: impl Fn(View<'_>) -> Result<T, ExportError> + Sync,
+    ) -> Result<Vec<T>, ExportError> {
+        let done = AtomicU64::new(0);
+        let one = |&view: &View<'_>| {
+            let result = work(view);
+            self.cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, views.len() as u64);
+            result
+        };
+        views.par_iter().map(one).collect()
+    }
+
+    /// An error of the dataset's content.
+    pub fn unsuitable(&self, place: impl Into<String>, problem: impl Into<String>) -> ExportError {
+        ExportError::Unsuitable { place: place.into(), format: self.format, problem: problem.into() }
+    }
+}
+
+/// A camera with its finished frames within `range`; `None` when there are none.
+fn track(dataset: &Dataset, scene: &str, name: &str, range: Option<&Range<u32>>) -> Result<Option<Track>, ExportError> {
+    let finished = dataset.frame_numbers(scene, name)?;
+    let poses = dataset.read_trajectory(scene, name)?.poses;
+    let wanted = |pose: &Pose| finished.binary_search(&pose.frame).is_ok() && range.is_none_or(|range| range.contains(&pose.frame));
+    let chosen: Vec<usize> = (0..poses.len()).filter(|&i| wanted(&poses[i])).collect();
+    if chosen.is_empty() {
+        return Ok(None);
+    }
+    let camera = dataset.read_camera(scene, name)?;
+    Ok(Some(Track { scene: scene.into(), name: name.into(), camera, poses, chosen }))
+}

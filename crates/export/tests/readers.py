@@ -1,0 +1,346 @@
+"""Reads an export with the format's own library, or by its rules where the library is heavy, and compares it with the dataset.
+
+usage: readers.py FORMAT DATASET EXPORT
+
+The dataset is read with h5py alone. Ends with 77 and one line when a library is missing.
+"""
+
+import csv
+import glob
+import json
+import os
+import struct
+import sys
+
+import numpy as np
+
+DATASET = sys.argv[2] if len(sys.argv) > 2 else ""
+EXPORT = sys.argv[3] if len(sys.argv) > 3 else ""
+FLIP = np.diag([1.0, -1.0, -1.0])
+
+
+def array(path):
+    import h5py
+
+    with h5py.File(path) as file:
+        return file["dataset"][()]
+
+
+def scenes_dir():
+    nested = os.path.join(DATASET, "scenes")
+    return nested if os.path.isdir(nested) else DATASET
+
+
+def layer(scene, camera, frame, name):
+    for folder in ("final", "geometry"):
+        path = f"{scenes_dir()}/{scene}/images/scene_{camera}_{folder}_hdf5/frame.{frame:04}.{name}.hdf5"
+        if os.path.exists(path):
+            return array(path)
+    return None
+
+
+def pose(scene, camera, frame):
+    """Camera centre and world_from_camera with y up and z backward."""
+    folder = f"{scenes_dir()}/{scene}/_detail/{camera}"
+    positions, rotations = (array(f"{folder}/camera_keyframe_{what}.hdf5") for what in ("positions", "orientations"))
+    indices = f"{folder}/camera_keyframe_frame_indices.hdf5"
+    row = list(array(indices)).index(frame) if os.path.exists(indices) else frame
+    return positions[row], rotations[row]
+
+
+def picture(path):
+    from PIL import Image
+
+    return np.asarray(Image.open(path))
+
+
+def record():
+    with open(f"{EXPORT}/enfilade_export.json") as file:
+        frames = json.load(file)["frames"]
+    return [(scene, camera, frame) for scene in frames for camera in frames[scene] for frame in frames[scene][camera]]
+
+
+def matrix(path):
+    return np.loadtxt(path)
+
+
+def check_points(scene, camera, frame, depth_mm, K, world_from_opencv, corner=0.0):
+    """Points of a depth picture are those of the layer position, within the rounding to millimetres."""
+    depth = depth_mm / 1000.0
+    rows, columns = np.indices(depth.shape)
+    x = (columns + corner - K[0, 2] - K[0, 1] * (rows + corner - K[1, 2]) / K[1, 1]) / K[0, 0]
+    y = (rows + corner - K[1, 2]) / K[1, 1]
+    points = np.stack([x * depth, y * depth, depth], -1) @ world_from_opencv[:3, :3].T + world_from_opencv[:3, 3]
+    position = layer(scene, camera, frame, "position")
+    if position is None:
+        # Hypersim's depth_meters is the distance along the ray.
+        origin, _ = pose(scene, camera, frame)
+        found = np.linalg.norm(points - origin, axis=-1)
+        expected = layer(scene, camera, frame, "depth_meters").astype(float)
+        slant = np.sqrt(1 + x * x + y * y)
+        seen = depth_mm > 0
+        assert np.all(np.abs(found - expected)[seen] <= 0.00051 * slant[seen] + 1e-3 * expected[seen])
+        assert seen.mean() > 0.5
+        return
+    seen = depth_mm > 0
+    assert np.array_equal(seen, np.isfinite(position).all(-1)), "0 stands where nothing was hit and nowhere else"
+    error = np.linalg.norm(points - position, axis=-1)[seen]
+    bound = (0.00051 * np.sqrt(1 + x * x + y * y))[seen]
+    assert np.all(error <= bound), f"{error.max()} m"
+
+
+def coco():
+    from pycocotools import mask
+    from pycocotools.coco import COCO
+
+    truth = COCO(f"{EXPORT}/annotations/instances.json")
+    assert sorted(truth.getCatIds()) == list(range(1, 41)) and len(truth.getImgIds()) == len(record())
+    masks = 0
+    for image in truth.loadImgs(truth.getImgIds()):
+        at = (image["scene"], image["camera"], image["frame"])
+        instances, semantic = layer(*at, "semantic_instance"), layer(*at, "semantic")
+        assert picture(f"{EXPORT}/images/{image['file_name']}").shape == (image["height"], image["width"], 3)
+        found = set()
+        for annotation in truth.loadAnns(truth.getAnnIds(imgIds=image["id"])):
+            decoded = truth.annToMask(annotation).astype(bool)
+            assert np.array_equal(decoded, instances == annotation["instance"])
+            assert annotation["area"] == decoded.sum() == mask.area(annotation["segmentation"])
+            assert list(mask.toBbox(annotation["segmentation"])) == annotation["bbox"]
+            assert annotation["category_id"] in semantic[decoded] and annotation["iscrowd"] == 0
+            found.add(annotation["instance"])
+            masks += 1
+        assert found == set(np.unique(instances[(instances > 0) & (semantic > 0)]))
+    return f"{masks} masks"
+
+
+def colmap_folder():
+    return [os.path.dirname(path) for path in sorted(glob.glob(f"{EXPORT}/*/sparse/0/cameras.*"))]
+
+
+def colmap():
+    import pycolmap
+
+    points, sightings = 0, 0
+    for folder in colmap_folder():
+        model = pycolmap.Reconstruction(folder)
+        scene = os.path.basename(os.path.dirname(os.path.dirname(folder)))
+        assert model.num_images() == sum(at[0] == scene for at in record())
+        for image in model.images.values():
+            camera, name = image.name.split("/")
+            origin, rotation = pose(scene, camera, int(name.split(".")[1]))
+            found = image.cam_from_world() if callable(image.cam_from_world) else image.cam_from_world
+            assert np.allclose(found.rotation.matrix(), (rotation @ FLIP).T, atol=1e-9)
+            assert np.allclose(found.inverse().translation, origin, atol=1e-9)
+            lens = model.cameras[image.camera_id]
+            assert picture(f"{folder}/../../images/{image.name}").shape == (lens.height, lens.width, 3)
+            for point in image.points2D:
+                at = lens.img_from_cam(found * model.points3D[point.point3D_id].xyz)
+                assert np.linalg.norm(at - point.xy) < 1e-3
+        points += model.num_points3D()
+        sightings += model.compute_num_observations()
+        assert model.num_points3D() > 0 and model.compute_mean_track_length() >= 1
+    return f"{points} points seen {sightings} times"
+
+
+def nerfstudio():
+    frames = 0
+    for path in sorted(glob.glob(f"{EXPORT}/*/transforms.json")):
+        folder = os.path.dirname(path)
+        scene = os.path.basename(folder)
+        with open(path) as file:
+            meta = json.load(file)
+        assert meta["camera_model"] in ("OPENCV", "OPENCV_FISHEYE")
+        for frame in meta["frames"]:
+            camera, number = frame["file_path"].split("/")[1], int(frame["file_path"].split(".")[1])
+            assert picture(f"{folder}/{frame['file_path']}").shape == (frame["h"], frame["w"], 3)
+            origin, rotation = pose(scene, camera, number)
+            to_world = np.array(frame["transform_matrix"])
+            assert np.allclose(to_world[:3, :3], rotation, atol=1e-12) and np.allclose(to_world[:3, 3], origin, atol=1e-12)
+            if all(frame[k] == 0 for k in ("k1", "k2", "k3", "k4", "p1", "p2")) and meta["camera_model"] == "OPENCV":
+                K = np.array([[frame["fl_x"], 0, frame["cx"]], [0, frame["fl_y"], frame["cy"]], [0, 0, 1]])
+                to_world[:3, :3] = to_world[:3, :3] @ FLIP
+                check_points(scene, camera, number, picture(f"{folder}/{frame['depth_file_path']}"), K, to_world, corner=0.5)
+            frames += 1
+        with open(f"{folder}/{meta['ply_file_path']}", "rb") as file:
+            header, body = file.read().split(b"end_header\n", 1)
+        count = int(header.split(b"element vertex ")[1].split()[0])
+        assert count > 0 and len(body) == 15 * count
+    assert frames == len(record())
+    return f"{frames} frames"
+
+
+def scannet():
+    for scene, camera, frame in record():
+        folder = f"{EXPORT}/scans/{scene}_{camera}"
+        K = matrix(f"{folder}/intrinsic/intrinsic_depth.txt")
+        to_world = matrix(f"{folder}/pose/{frame}.txt")
+        depth = picture(f"{folder}/depth/{frame}.png")
+        assert depth.dtype == np.uint16 or depth.dtype == np.int32
+        check_points(scene, camera, frame, depth, K, to_world)
+        for name, kind in (("semantic", "label-filt"), ("semantic_instance", "instance-filt")):
+            labels = layer(scene, camera, frame, name)
+            assert labels is None or np.array_equal(picture(f"{folder}/{kind}/{frame}.png"), np.maximum(labels, 0))
+        if layer(scene, camera, frame, "color") is not None:
+            assert picture(f"{folder}/color/{frame}.jpg").shape == (*depth.shape, 3)
+    return f"{len(record())} frames"
+
+
+def depth_png():
+    for scene, camera, frame in record():
+        with open(f"{EXPORT}/{scene}/{camera}/cameras.json") as file:
+            cameras = json.load(file)
+        entry = next(entry for entry in cameras["frames"] if entry["frame"] == frame)
+        depth = picture(f"{EXPORT}/{scene}/{camera}/{entry['file']}")
+        assert depth.shape == (cameras["height"], cameras["width"])
+        if cameras["model"] == "pinhole" and cameras["depth"] == "planar":
+            check_points(scene, camera, frame, depth, np.array(cameras["K"]), np.array(entry["world_from_camera"]))
+            check_points(scene, camera, frame, depth, np.array(cameras["K_corner"]), np.array(entry["world_from_camera"]), corner=0.5)
+    return f"{len(record())} frames"
+
+
+def bop_ply(path):
+    with open(path) as file:
+        lines = file.read().split("\n")
+    end = lines.index("end_header")
+    vertices = int(next(line for line in lines if line.startswith("element vertex")).split()[-1])
+    return np.array([[float(v) for v in line.split()] for line in lines[end + 1 : end + 1 + vertices]])
+
+
+def bop():
+    def read(name):
+        with open(f"{EXPORT}/{name}") as file:
+            return json.load(file)
+
+    objects, models, folders, poses = read("objects.json"), read("models/models_info.json"), read("scenes.json"), 0
+    for number, model in models.items():
+        path = f"{EXPORT}/models/obj_{int(number):06}.ply"
+        if os.path.exists(path):
+            points = bop_ply(path)
+            assert np.allclose(points.min(0), [model[f"min_{axis}"] for axis in "xyz"], atol=1e-2)
+            assert np.allclose(np.ptp(points, axis=0), [model[f"size_{axis}"] for axis in "xyz"], atol=1e-2)
+            assert model["diameter"] <= np.linalg.norm(np.ptp(points, axis=0)) + 1e-2
+    for number, which in folders.items():
+        scene, camera, folder = which["scene"], which["camera"], f"train_pbr/{int(number):06}"
+        truths, infos, cameras = (read(f"{folder}/scene_{what}.json") for what in ("gt", "gt_info", "camera"))
+        for image, truth in truths.items():
+            frame, lens = int(image), cameras[image]
+            K = np.array(lens["cam_K"]).reshape(3, 3)
+            R, t = np.array(lens["cam_R_w2c"]).reshape(3, 3), np.array(lens["cam_t_w2c"])
+            to_world = np.eye(4)
+            to_world[:3, :3], to_world[:3, 3] = R.T, -R.T @ t / 1000
+            depth = picture(f"{EXPORT}/{folder}/depth/{frame:06}.png") * lens["depth_scale"]
+            check_points(scene, camera, frame, depth, K, to_world)
+            instances = layer(scene, camera, frame, "semantic_instance")
+            rows, columns = np.indices(depth.shape)
+            rays = np.stack([columns, rows, np.ones_like(rows)], -1) @ np.linalg.inv(K).T
+            for index, (gt, info) in enumerate(zip(truth, infos[image])):
+                seen = picture(f"{EXPORT}/{folder}/mask_visib/{frame:06}_{index:06}.png") == 255
+                assert np.array_equal(seen, instances == objects[str(gt["obj_id"])]["instance"])
+                xs, ys = columns[seen], rows[seen]
+                assert info["bbox_visib"] == [xs.min(), ys.min(), np.ptp(xs), np.ptp(ys)]
+                assert info["px_count_visib"] == seen.sum() and info["px_count_valid"] == (depth[seen] > 0).sum()
+                # What the depth picture shows of the object lies in its model's box.
+                model = models[str(gt["obj_id"])]
+                R_m2c = np.array(gt["cam_R_m2c"]).reshape(3, 3)
+                assert np.allclose(R_m2c @ R_m2c.T, np.eye(3), atol=1e-9) and np.linalg.det(R_m2c) > 0
+                local = ((rays * depth[..., None])[seen & (depth > 0)] - gt["cam_t_m2c"]) @ R_m2c
+                low = np.array([model[f"min_{axis}"] for axis in "xyz"])
+                size = np.array([model[f"size_{axis}"] for axis in "xyz"])
+                assert np.all(local > low - 3) and np.all(local < low + size + 3), (gt["obj_id"], local.min(0) - low, local.max(0) - low - size)
+                poses += 1
+    return f"{poses} poses of {len(models)} objects"
+
+
+def exr():
+    import OpenEXR
+
+    compared = 0
+    for scene, camera, frame in record():
+        file = OpenEXR.File(f"{EXPORT}/{scene}/{camera}/frame.{frame:04}.exr", separate_channels=True)
+        channels, header = file.channels(), file.header()
+        mattes = {}
+        for name, value in header.items():
+            if name.startswith("cryptomatte/"):
+                _, key, what = name.split("/")
+                mattes.setdefault(key, {})[what] = value
+        for name, channel in channels.items():
+            stem, letter = name.rsplit(".", 1) if "." in name else ("color", name)
+            if stem.startswith("crypto_"):
+                continue
+            values = layer(scene, camera, frame, stem)
+            part = values if values.ndim == 2 else values[..., "RGBXYZ".index(letter) % 3]
+            expected = np.float16 if part.dtype == np.float16 else np.float32
+            if stem in ("depth_meters", "position"):
+                part = part.astype(np.float32)
+                expected = np.float32
+            assert channel.pixels.dtype == expected, name
+            assert np.array_equal(channel.pixels, part.astype(expected), equal_nan=True), name
+            compared += 1
+        for matte in mattes.values():
+            assert matte["hash"] == "MurmurHash3_32" and matte["conversion"] == "uint32_to_float32"
+            labels = layer(scene, camera, frame, {"crypto_instance": "semantic_instance", "crypto_class": "semantic"}[matte["name"]])
+            ids, coverage = (channels[f"{matte['name']}00.{letter}"].pixels for letter in "RG")
+            assert np.array_equal(coverage, (labels > 0).astype(np.float32))
+            manifest = json.loads(matte["manifest"])
+            assert len(manifest) == len(np.unique(labels[labels > 0]))
+            for text in manifest.values():
+                chosen = ids == struct.unpack(">f", bytes.fromhex(text))[0]
+                assert len(np.unique(labels[chosen])) == 1 and np.array_equal(chosen, labels == labels[chosen][0])
+    return f"{compared} channels"
+
+
+def webdataset():
+    import webdataset as wds
+
+    seen, arrays = set(), 0
+    shards = sorted(glob.glob(f"{EXPORT}/shard-*.tar"))
+    for sample in wds.WebDataset(shards, shardshuffle=False).decode("rgb8"):
+        info = sample["json"]
+        at = (info["scene"], info["camera"], info["frame"])
+        assert sample["__key__"] == f"{at[0]}/{at[1]}/{at[2]:04}"
+        for name, value in sample.items():
+            if name.endswith(".npy"):
+                values = layer(*at, name[: -len(".npy")])
+                assert np.array_equal(value.astype(float), values.astype(float), equal_nan=values.dtype.kind == "f"), name
+                arrays += 1
+        if "color.png" in sample:
+            assert sample["color.png"].shape == (info["height"], info["width"], 3)
+        origin, rotation = pose(*at)
+        assert np.allclose(np.array(info["world_from_camera"])[:3, 3], origin)
+        seen.add(at)
+    assert seen == set(record())
+    return f"{arrays} arrays in {len(shards)} shards"
+
+
+def croissant():
+    import mlcroissant as mlc
+
+    dataset = mlc.Dataset(jsonld=f"{EXPORT}/croissant.json")
+    assert not dataset.metadata.ctx.issues.errors, dataset.metadata.ctx.issues.errors
+    frames = list(dataset.records(record_set="frames"))
+    assert len(frames) == len(record())
+    layers = [text(row["layers/name"]) for row in dataset.records(record_set="layers")]
+    for row in frames:
+        at = (text(row["frames/scene"]), text(row["frames/camera"]), int(row["frames/frame"]))
+        assert at in record()
+        for name in layers:
+            path = text(row[f"frames/{name}"])
+            assert path and os.path.exists(f"{DATASET}/{path}"), path
+    assert len(list(dataset.records(record_set="classes"))) == 40
+    for resource in dataset.metadata.distribution:
+        for pattern in getattr(resource, "includes", None) or []:
+            assert len(glob.glob(f"{DATASET}/{pattern}")) >= 1, pattern
+    return f"{len(frames)} rows, {len(layers)} layers"
+
+
+def text(value):
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+if __name__ == "__main__":
+    readers = {"colmap-text": colmap, "depth-png": depth_png}
+    try:
+        print(readers.get(sys.argv[1], globals().get(sys.argv[1]))())
+    except ImportError as error:
+        print(f"skipped: {error}")
+        sys.exit(77)
