@@ -1,4 +1,5 @@
-//! A Python that reads HDF5, for the tests that compare with h5py, and one with the renderers that we compare with.
+//! A Python that reads HDF5 and exports, for the tests that compare with other libraries, and one with the renderers that we compare
+//! with.
 
 use crate::house::House;
 use crate::step::finish;
@@ -11,7 +12,11 @@ pub const VARIABLE: &str = "ENFILADE_PYTHON";
 /// Names a Python with Mitsuba 3, numpy and Pillow.
 const PEERS_VARIABLE: &str = "ENFILADE_PEERS_PYTHON";
 
-/// The Python that [`VARIABLE`] names, else the system's if it has h5py, else one made below the target folder.
+/// What the tests of exports read them with, beside numpy and h5py; a test whose library is missing says so.
+const READERS: [&str; 6] = ["pillow", "pycocotools", "pycolmap", "OpenEXR", "webdataset", "mlcroissant"];
+
+/// The Python that [`VARIABLE`] names, else one made below the target folder with h5py and [`READERS`]; where these cannot be had, the
+/// system's if it has h5py, else one made with h5py alone.
 ///
 /// # Errors
 /// On an unattended machine, when none can be had; elsewhere that is told, and `None`.
@@ -31,6 +36,11 @@ pub fn with_h5py(house: &House) -> Result<Option<PathBuf>, String> {
 }
 
 fn found_or_made(house: &House) -> Result<PathBuf, String> {
+    let imports = format!("import numpy, h5py, PIL, {}", READERS[1..].join(", "));
+    match made(house, "venv-readers", &imports, &[&["numpy", "h5py"], &READERS[..]].concat()) {
+        Ok(python) => return Ok(python),
+        Err(reason) => println!("   note: {reason}; some tests of exports are left out"),
+    }
     let system = ["python3", "python"].map(PathBuf::from);
     if let Some(python) = system.iter().find(|python| reads_hdf5(house, python)) {
         return Ok(python.clone());

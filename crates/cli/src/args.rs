@@ -257,8 +257,10 @@ pub struct InspectArgs {
 
 /// `export`.
 #[derive(Args)]
-#[command(after_help = "Examples:\n  enfilade export out --format coco -o out-coco\n  enfilade export out --format colmap -o room --scene living-room --camera cam_00 --frames 0..10\n  \
-    enfilade export out --format exr -o exr --layers color,depth_meters,semantic_instance\n\nNothing is rendered. docs/export.md has units, axes and contents of every format; each export has a README.md.")]
+#[command(
+    after_help = "Examples:\n  enfilade export out --format coco -o out-coco\n  enfilade export out --format colmap -o room --scene living-room --camera cam_00 --frames 0..10\n  \
+    enfilade export out --format exr -o exr --layers color,depth_meters,semantic_instance\n\nNothing is rendered. docs/export.md has units, axes and contents of every format; each export has a README.md."
+)]
 pub struct ExportArgs {
     /// The dataset's folder
     pub dataset: PathBuf,

@@ -26,15 +26,13 @@ pub(crate) fn instance_boxes(
     scene: &str,
     meshes: &BTreeMap<i16, InstanceMesh>,
 ) -> Result<BTreeMap<i16, InstanceBox>, ExportError> {
-    let file = |what: &str| {
-        dataset.layout().mesh_file(scene, &format!("metadata_semantic_instance_bounding_box_object_aligned_2d_{what}.hdf5"))
-    };
+    let file =
+        |what: &str| dataset.layout().mesh_file(scene, &format!("metadata_semantic_instance_bounding_box_object_aligned_2d_{what}.hdf5"));
     if !file("positions").is_file() {
         return Ok(meshes.iter().map(|(&number, mesh)| (number, extents_of(mesh))).collect());
     }
     let metres = dataset.meters_per_asset_unit(scene)?;
-    let [positions, orientations, extents] =
-        [read_f64(&file("positions"))?, read_f64(&file("orientations"))?, read_f64(&file("extents"))?];
+    let [positions, orientations, extents] = [read_f64(&file("positions"))?, read_f64(&file("orientations"))?, read_f64(&file("extents"))?];
     let n = positions.len() / 3;
     if orientations.len() != 9 * n || extents.len() != 3 * n || n > i16::MAX as usize {
         let problem = format!("{n} rows, but the files of orientations and extents have other lengths; make the boxes again");

@@ -12,12 +12,7 @@ pub(crate) const DEPTH: [Layer; 2] = [Layer::DepthMeters, Layer::DepthZMeters];
 ///
 /// `depth_z_meters` where it is there and means this axis, else `depth_meters` (the distance along the ray, as in Hypersim) times
 /// the cosine between the pixel's ray and the axis. `frame` has at least one of them.
-pub(crate) fn planar_m(
-    source: &Source<'_>,
-    view: View<'_>,
-    calibration: &Calibration,
-    frame: &Frame,
-) -> Result<Vec<f64>, ExportError> {
+pub(crate) fn planar_m(source: &Source<'_>, view: View<'_>, calibration: &Calibration, frame: &Frame) -> Result<Vec<f64>, ExportError> {
     if let (Some(depth_z), true) = (frame.get(Layer::DepthZMeters), calibration.is_straight()) {
         return Ok((0..depth_z.len()).map(|i| depth_z.get(i)).collect());
     }

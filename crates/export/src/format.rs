@@ -39,14 +39,8 @@ const COLOR: &[Layer] = &[Layer::Color];
 const DEPTH: &[Layer] = &[Layer::DepthMeters, Layer::DepthZMeters];
 const DISTANCE: &[Layer] = &[Layer::DepthMeters];
 const INSTANCE: &[Layer] = &[Layer::SemanticInstance];
-const LABELLED: &[Layer] = &[
-    Layer::Color,
-    Layer::RenderEntityId,
-    Layer::DepthMeters,
-    Layer::DepthZMeters,
-    Layer::Semantic,
-    Layer::SemanticInstance,
-];
+const LABELLED: &[Layer] =
+    &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters, Layer::Semantic, Layer::SemanticInstance];
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.

@@ -40,7 +40,10 @@ impl Instance {
     /// First and last column and row of its pixels: `[x_min, y_min, x_max, y_max]`.
     pub fn extent(&self, width: u32) -> [u32; 4] {
         let at = |i: usize| [(i % width as usize) as u32, (i / width as usize) as u32];
-        self.pixels.iter().map(|&i| at(i)).fold([u32::MAX, u32::MAX, 0, 0], |e, [x, y]| [e[0].min(x), e[1].min(y), e[2].max(x), e[3].max(y)])
+        self.pixels
+            .iter()
+            .map(|&i| at(i))
+            .fold([u32::MAX, u32::MAX, 0, 0], |e, [x, y]| [e[0].min(x), e[1].min(y), e[2].max(x), e[3].max(y)])
     }
 
     /// 255 on its pixels, 0 elsewhere.

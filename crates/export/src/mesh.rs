@@ -38,7 +38,8 @@ pub(crate) fn instance_meshes(dataset: &Dataset, scene: &str) -> Result<BTreeMap
         let mut own = [0; 3];
         for (own, &corner) in own.iter_mut().zip(face) {
             let place = usize::try_from(corner).ok().filter(|&i| 3 * i + 3 <= vertices.len());
-            let place = place.ok_or_else(|| wrong(format!("it names vertex {corner} of {}; import the scene again", vertices.len() / 3)))?;
+            let place =
+                place.ok_or_else(|| wrong(format!("it names vertex {corner} of {}; import the scene again", vertices.len() / 3)))?;
             *own = *known.entry(corner).or_insert_with(|| {
                 mesh.vertices.push(DVec3::from_slice(&vertices[3 * place..]) * metres);
                 mesh.vertices.len() as u32 - 1

@@ -1,7 +1,7 @@
 //! Where an export lies: it grows in a folder beside its place, and takes it when everything is written.
 
 use crate::source::Source;
-use crate::{Exported, ExportError, Format};
+use crate::{ExportError, Exported, Format};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;

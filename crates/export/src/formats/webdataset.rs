@@ -130,7 +130,10 @@ impl Shards<'_> {
         }
         let Some(shard) = &mut self.current else { return Ok(()) };
         shard.bytes += bytes;
-        sample.iter().try_for_each(|(name, content)| append(&mut shard.archive, name, content)).map_err(ExportError::at("write", &shard.path))
+        sample
+            .iter()
+            .try_for_each(|(name, content)| append(&mut shard.archive, name, content))
+            .map_err(ExportError::at("write", &shard.path))
     }
 
     /// Ends the current shard.
