@@ -47,6 +47,10 @@ fn stages_run_one_by_one_and_pixels_answer() {
     fail(d, &["inspect", "out", "--pixel", "48,0"], 1, &["columns 0 to 47"]);
     fail(d, &["inspect", "out", "--frame", "7", "--pixel", "0,0"], 1, &["has no frame 7"]);
     fail(d, &["inspect", "out", "--camera", "cam_01", "--pixel", "0,0"], 2, &["no camera is named \"cam_01\"", "cam_00"]);
+    let text = succeed(d, &["export", "out", "--format", "depth-png", "-o", "depth", "--frames", "0..2"]);
+    assert!(text.contains("2 frames") && d.join("depth/room/cam_00/frame.0001.png").is_file(), "{text}");
+    fail(d, &["export", "out", "--format", "depth-png", "-o", "."], 2, &["the dataset lies in it"]);
+    fail(d, &["export", "out", "--format", "depth-png", "-o", "depth", "--layers", "colour"], 2, &["the layers are: color"]);
 
     // A layer that was cut short is found by verification and mended by rendering that frame again.
     let layer = d.join("out/scenes/room/images/scene_cam_00_geometry_hdf5/frame.0001.position.hdf5");

@@ -2,10 +2,11 @@
 
 mod common;
 
-use enfilade_dataset::Dataset;
+use enfilade_dataset::hdf5::{Storage, write_array};
+use enfilade_dataset::{Array, Dataset};
 use enfilade_export::{Existing, ExportConfig, FORMATS, FormatSpec, export};
 use enfilade_math::DMat3;
-use enfilade_scene::{Intrinsics, Projection, Quiet, TiltedPinhole};
+use enfilade_scene::{Fisheye, Intrinsics, Projection, Quiet, RadialTangential, TiltedPinhole};
 use std::path::Path;
 use std::process::Command;
 
@@ -46,6 +47,47 @@ fn a_tilted_image_plane_becomes_a_turned_pinhole() {
     let folder = tempfile::tempdir().unwrap();
     let dataset = common::write(&folder.path().join("dataset"), &Projection::TiltedPinhole(tilted).into());
     export_all(&dataset, folder.path(), FORMATS.iter().filter(|spec| ["depth-png", "scannet", "bop"].contains(&spec.name)));
+}
+
+#[test]
+fn distorted_pixels_are_where_colmap_puts_them() {
+    let k = Intrinsics { width: 40, height: 30, fx: 33.0, fy: 33.5, cx: 19.0, cy: 16.0, skew: 0.0 };
+    let radial = |coefficients: &[f64]| Projection::RadialTangential(k, RadialTangential::new(coefficients).unwrap());
+    let models = [
+        ("opencv", radial(&[-0.2, 0.05, 0.002, -0.001])),
+        ("full", radial(&[-0.2, 0.05, 0.002, -0.001, 0.01, 0.02, -0.01, 0.003])),
+        ("fisheye", Projection::Fisheye(k, Fisheye::new([-0.01, 0.002, -0.0003, 0.0]).unwrap())),
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    for (name, projection) in models {
+        let dataset = common::write(&folder.path().join(name).join("dataset"), &projection.into());
+        export_all(&dataset, &folder.path().join(name), FORMATS.iter().filter(|spec| ["colmap", "colmap-text"].contains(&spec.name)));
+    }
+}
+
+#[test]
+fn box_files_turn_the_axes_of_objects() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = common::write(&folder.path().join("dataset"), &common::pinhole());
+    let (sin, cos) = 0.4f64.sin_cos();
+    let (none, turned) = ([f64::INFINITY; 9], [cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0]);
+    let arrays = [
+        ("positions", vec![3, 3], [&none[..3], &[-0.1, 0.75, 0.3], &none[..3]].concat()),
+        ("orientations", vec![3, 3, 3], [&none[..], &turned, &none].concat()),
+        ("extents", vec![3, 3], [&none[..3], &[1.0, 0.8, 0.6], &none[..3]].concat()),
+    ];
+    for (scene, (what, shape, values)) in ["room", "room-two"].iter().flat_map(|scene| arrays.iter().map(move |array| (scene, array))) {
+        let name = format!("metadata_semantic_instance_bounding_box_object_aligned_2d_{what}.hdf5");
+        let array = Array::f64(shape, values.clone());
+        write_array(&dataset.layout().mesh_file(scene, &name), &array, Storage::Contiguous, &[]).unwrap();
+    }
+    export_all(&dataset, folder.path(), FORMATS.iter().filter(|spec| spec.name == "bop"));
+    let text = std::fs::read_to_string(folder.path().join("bop/train_pbr/000000/scene_gt.json")).unwrap();
+    assert!(text.contains("\"obj_id\": 1") && !text.contains("\"obj_id\": 2"), "only instance 1 has a box: {text}");
+    // Beside the world's axes, the table's box is as wide as its diagonal's shadow: (0.8 cos + 0.5 sin) m.
+    let sizes = std::fs::read_to_string(folder.path().join("bop/models/models_info.json")).unwrap();
+    let wide = format!("\"size_x\": {:.2}", 1000.0 * (0.8 * cos + 0.5 * sin));
+    assert!(sizes.contains(&wide[..wide.len() - 1]), "{wide} in {sizes}");
 }
 
 #[test]

@@ -20,7 +20,7 @@ pub fn pinhole() -> Camera {
     Intrinsics { width: 40, height: 30, fx: 33.0, fy: 34.5, cx: 19.25, cy: 15.75, skew: 0.0 }.into()
 }
 
-/// What a ray meets: distance, part and normal.
+/// What a ray meets: distance and part. The wall is 1.4 m high, and there is nothing above it.
 fn meet(origin: DVec3, direction: DVec3) -> Option<(f64, usize)> {
     let mut best: Option<(f64, usize)> = None;
     let mut try_hit = |distance: f64, part: usize| {
@@ -30,7 +30,7 @@ fn meet(origin: DVec3, direction: DVec3) -> Option<(f64, usize)> {
     };
     try_hit(-origin.z / direction.z, 0);
     let to_wall = (2.0 - origin.y) / direction.y;
-    if (origin + direction * to_wall).z < 2.0 {
+    if (origin + direction * to_wall).z < 1.4 {
         try_hit(to_wall, 1);
     }
     for (i, corners) in BOXES.iter().enumerate() {
@@ -96,7 +96,7 @@ fn block([low, high]: [[f64; 3]; 2]) -> Mesh {
 
 fn scene() -> Scene {
     let [first, second] = BOXES;
-    let shapes = [[[-3.0, -3.0, -0.1], [3.0, 2.0, 0.0]], [[-3.0, 2.0, 0.0], [3.0, 2.1, 2.0]], first, second];
+    let shapes = [[[-3.0, -3.0, -0.1], [3.0, 2.0, 0.0]], [[-3.0, 2.0, 0.0], [3.0, 2.1, 1.4]], first, second];
     let names = ["floor", "wall", "table", "chair"];
     let part =
         |(i, name): (usize, &&str)| Part { name: name.to_string(), mesh: i as u32, material: 0, world_from_mesh: DAffine3::IDENTITY };
