@@ -34,6 +34,9 @@ pub(crate) struct Sighting {
     pub at: (f64, f64),
 }
 
+/// What a frame sees: the index of a point, and where it shows.
+type Seen = (usize, (f64, f64));
+
 /// The cloud of some cameras' frames, in their order.
 pub(crate) fn cloud(source: &Source<'_>, tracks: &[Track]) -> Result<Vec<CloudPoint>, ExportError> {
     let views: Vec<View<'_>> = tracks.iter().flat_map(Track::views).collect();
@@ -76,7 +79,7 @@ fn points_of(source: &Source<'_>, view: View<'_>) -> Result<Vec<CloudPoint>, Exp
 }
 
 /// Which points a frame sees, and where.
-fn sightings_of(source: &Source<'_>, view: View<'_>, points: &[CloudPoint]) -> Result<Vec<(usize, (f64, f64))>, ExportError> {
+fn sightings_of(source: &Source<'_>, view: View<'_>, points: &[CloudPoint]) -> Result<Vec<Seen>, ExportError> {
     let frame = source.read(view, &[Layer::DepthMeters])?;
     let distance = distance_m(source, view, &frame)?;
     let camera = view.camera();
