@@ -12,8 +12,8 @@ pub const VARIABLE: &str = "ENFILADE_PYTHON";
 /// Names a Python with Mitsuba 3, numpy and Pillow.
 const PEERS_VARIABLE: &str = "ENFILADE_PEERS_PYTHON";
 
-/// What the tests of exports read them with, beside numpy and h5py; a test whose library is missing says so.
-const READERS: [&str; 6] = ["pillow", "pycocotools", "pycolmap", "OpenEXR", "webdataset", "mlcroissant"];
+/// What the tests of exports read them with, beside numpy and h5py, as far as it is small; a test whose library is missing says so.
+const READERS: [&str; 4] = ["pillow", "pycocotools", "OpenEXR", "webdataset"];
 
 /// The Python that [`VARIABLE`] names, else one made below the target folder with h5py and [`READERS`]; where these cannot be had, the
 /// system's if it has h5py, else one made with h5py alone.

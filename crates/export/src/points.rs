@@ -40,7 +40,8 @@ type Seen = (usize, (f64, f64));
 /// The cloud of some cameras' frames, in their order.
 pub(crate) fn cloud(source: &Source<'_>, tracks: &[Track]) -> Result<Vec<CloudPoint>, ExportError> {
     let views: Vec<View<'_>> = tracks.iter().flat_map(Track::views).collect();
-    let mut points = source.each_of(&views, |view| points_of(source, view))?.concat();
+    let given = source.each_of(&views, |view| points_of(source, view))?;
+    let mut points: Vec<CloudPoint> = given.into_iter().flatten().collect();
     let seen = source.each_of(&views, |view| sightings_of(source, view, &points))?;
     for (view, sightings) in seen.into_iter().enumerate() {
         for (point, at) in sightings {
@@ -49,13 +50,6 @@ pub(crate) fn cloud(source: &Source<'_>, tracks: &[Track]) -> Result<Vec<CloudPo
     }
     points.retain(|point| !point.sightings.is_empty());
     Ok(points)
-}
-
-impl Clone for CloudPoint {
-    /// A point that nothing has seen yet.
-    fn clone(&self) -> Self {
-        Self { position: self.position, color: self.color, sightings: Vec::new() }
-    }
 }
 
 /// The points that a frame gives, row by row.

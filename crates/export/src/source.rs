@@ -3,7 +3,7 @@
 use crate::{ExportError, Format, FormatSpec};
 use enfilade_dataset::Dataset;
 use enfilade_frame::{Frame, LAYERS, Layer};
-use enfilade_scene::{Camera, CameraView, Cx, Pose};
+use enfilade_scene::{Camera, CameraView, Cx, Labels, Pose};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -147,7 +147,22 @@ impl<'d> Source<'d> {
         if there.is_empty() {
             return Ok(Frame::new(0, 0));
         }
-        Ok(self.dataset.read_frame(&view.track.scene, &view.track.name, view.frame(), &there)?)
+        let frame = self.dataset.read_frame(&view.track.scene, &view.track.name, view.frame(), &there)?;
+        let ([width, height], found) = (view.track.camera.size(), [frame.width, frame.height]);
+        if found != [width, height] {
+            let problem =
+                format!("its layers have {}x{} pixels, its camera {width}x{height}; plan and render it again", found[0], found[1]);
+            return Err(self.unsuitable(view.place(), problem));
+        }
+        Ok(frame)
+    }
+
+    /// Class and instance of every object of a scene; none where the dataset has no label tables (Hypersim's public files).
+    pub fn labels(&self, scene: &str) -> Result<Labels, ExportError> {
+        match self.dataset.read_label_tables(scene) {
+            Err(error) if error.is_not_found() => Ok(Labels::default()),
+            labels => Ok(labels?),
+        }
     }
 
     /// Does `work` for every frame, on all threads, and gives the results in the frames' order.

@@ -91,6 +91,15 @@ fn scenes_cameras_frames_and_layers_are_chosen() {
 }
 
 #[test]
+fn layers_that_are_not_of_the_cameras_size_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    dataset.write_camera_parameters("room", &Intrinsics::from_fov_x(80, 60, 1.0).into()).unwrap();
+    let message = run(&dataset, Format::DepthPng, &folder.path().join("out"), Existing::Refuse).unwrap_err();
+    assert!(message.contains("its layers have 40x30 pixels, its camera 80x60"), "{message}");
+}
+
+#[test]
 fn cameras_that_a_format_cannot_say_are_refused_by_name() {
     let folder = tempfile::tempdir().unwrap();
     let k = Intrinsics { width: 40, height: 30, fx: 20.0, fy: 20.0, cx: 20.0, cy: 15.0, skew: 0.0 };

@@ -30,8 +30,8 @@ pub(crate) const README: &str = "\
 - `mask_visib/IIIIII_JJJJJJ.png`: the visible part of instance J of image I. **Only the visible part is known**: `mask/` has the
   same pictures, and in `scene_gt_info.json` bbox_obj, px_count_all and visib_fract are those of the visible part (visib_fract 1).
 - `models/obj_NNNNNN.ply` and `models_info.json` (mm): every instance is an object of its own; `objects.json` says of which scene,
-  instance and NYU40 class (-1: none). The model's origin is the centre of its box and its axes are the box's: Hypersim's object_aligned_2d box
-  (z up, x along the longer side) where the dataset has box files, else the axis-aligned extents of the mesh.
+  instance and NYU40 class (-1: none). The model's origin is the centre of its box and its axes are the box's: Hypersim's
+  object_aligned_2d box (z up, x along the longer side) where the dataset has box files, else the axis-aligned extents of the mesh.
 - Without a mesh in the dataset there are boxes and poses but no .ply files.
 ";
 
@@ -107,7 +107,7 @@ pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportErro
         let scene = &tracks[0].scene;
         let objects = objects_of(source, scene, first_id)?;
         first_id += objects.len() as u32;
-        let labels = source.dataset.read_label_tables(scene).map(|labels| labels.parts).unwrap_or_default();
+        let labels = source.labels(scene)?.parts;
         for (&instance, object) in &objects {
             models.insert(object.id, write_model(place, object)?);
             let nyu40 = labels.iter().find(|label| label.instance == instance).map_or(-1, |label| label.semantic);

@@ -1,8 +1,8 @@
 //! COCO object detection: `images/`, and `annotations/instances.json` as pycocotools loads it.
 //!
 //! A mask is run-length encoded down the columns, first run of background, and stored as COCO's compressed string: differences to
-//! the run before the last in groups of five bits (`rleToString` of `maskApi.c`). Boxes are `[x, y, width, height]` in pixels from the upper
-//! left corner of the image and hold the mask exactly, as `toBbox` has them.
+//! the run before the last in groups of five bits (`rleToString` of `maskApi.c`). Boxes are `[x, y, width, height]` in pixels from
+//! the upper left corner of the image and hold the mask exactly, as `toBbox` has them.
 
 use crate::ExportError;
 use crate::instances::{Instance, instances};

@@ -34,7 +34,7 @@ pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportErro
         if frame.pixels() == 0 {
             return Err(source.unsuitable(view.place(), "it has none of the layers asked for; choose others with --layers"));
         }
-        let labels = source.dataset.read_label_tables(&view.track.scene).unwrap_or_default();
+        let labels = source.labels(&view.track.scene)?;
         let name = format!("{}/frame.{:04}.exr", view.track.folder(), view.frame());
         place.write(&name, &file(source, view, &frame, &labels)?)
     })?;
