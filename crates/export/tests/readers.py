@@ -211,6 +211,8 @@ def bop():
         with open(f"{EXPORT}/{name}") as file:
             return json.load(file)
 
+    first = read("camera.json")
+    assert {"fx", "fy", "cx", "cy", "width", "height", "depth_scale"} == set(first)
     objects, models, folders, poses = read("objects.json"), read("models/models_info.json"), read("scenes.json"), 0
     for number, model in models.items():
         path = f"{EXPORT}/models/obj_{int(number):06}.ply"

@@ -32,6 +32,7 @@ pub(crate) const README: &str = "\
 - `models/obj_NNNNNN.ply` and `models_info.json` (mm): every instance is an object of its own; `objects.json` says of which scene,
   instance and NYU40 class (-1: none). The model's origin is the centre of its box and its axes are the box's: Hypersim's
   object_aligned_2d box (z up, x along the longer side) where the dataset has box files, else the axis-aligned extents of the mesh.
+- `camera.json` is the first camera; each image's own stands in `scene_camera.json`.
 - Without a mesh in the dataset there are boxes and poses but no .ply files.
 ";
 
@@ -51,6 +52,18 @@ struct ImageCamera {
     rotation: [f64; 9],
     #[serde(rename = "cam_t_w2c")]
     translation_mm: [f64; 3],
+}
+
+/// The camera of the whole dataset, which bop_toolkit reads before any scene.
+#[derive(Serialize)]
+struct DatasetCamera {
+    cx: f64,
+    cy: f64,
+    depth_scale: f64,
+    fx: f64,
+    fy: f64,
+    height: u32,
+    width: u32,
 }
 
 #[derive(Serialize)]
@@ -119,9 +132,16 @@ pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportErro
             folders.insert(folders.len(), SceneEntry { scene: scene.clone(), camera: track.name.clone() });
         }
     }
+    place.write_json("camera.json", &dataset_camera(&Calibration::of_pinhole(source, &source.tracks[0])?))?;
     place.write_json("models/models_info.json", &models)?;
     place.write_json("objects.json", &entries)?;
     place.write_json("scenes.json", &folders)
+}
+
+fn dataset_camera(calibration: &Calibration) -> DatasetCamera {
+    let k = calibration.intrinsics;
+    let [[fx, _, cx], [_, fy, cy], _] = k.opencv_k();
+    DatasetCamera { cx, cy, depth_scale: 1.0, fx, fy, height: k.height, width: k.width }
 }
 
 /// The objects of a scene by instance number, numbered from `first_id`.
