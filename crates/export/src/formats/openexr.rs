@@ -76,7 +76,7 @@ fn channels_of(layer: Layer, values: &Values) -> Vec<AnyChannel<FlatSamples>> {
         Values::F16(v) => FlatSamples::F16(every(c).map(|i| f16::from_bits(v[i].to_bits())).collect()),
         other => FlatSamples::F32(every(c).map(|i| other.get(i) as f32).collect()),
     };
-    letters.iter().enumerate().map(|(c, letter)| channel(&name(letter), samples(c))).collect()
+    letters.iter().take(spec.channels).enumerate().map(|(c, letter)| channel(&name(letter), samples(c))).collect()
 }
 
 fn channel(name: &str, samples: FlatSamples) -> AnyChannel<FlatSamples> {
@@ -113,4 +113,31 @@ fn sort_attributes(file: &mut [u8]) {
     }
     attributes.sort();
     file[START..at].copy_from_slice(&attributes.concat());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_frame::Dtype;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_layer_has_as_many_channels_as_values_and_names_of_its_own() {
+        let mut names = BTreeSet::new();
+        for spec in LAYERS {
+            let n = 6 * spec.channels;
+            let values = match spec.dtype {
+                Dtype::F16 => Values::F16(vec![enfilade_frame::f16::ONE; n]),
+                Dtype::F32 => Values::F32(vec![1.0; n]),
+                Dtype::I16 => Values::I16(vec![1; n]),
+                Dtype::U8 => Values::U8(vec![1; n]),
+            };
+            let channels = channels_of(spec.layer, &values);
+            assert_eq!(channels.len(), spec.channels, "{}", spec.name);
+            for channel in channels {
+                assert_eq!(channel.sample_data.len(), 6, "{}", spec.name);
+                assert!(names.insert(channel.name.to_string()), "{:?}", channel.name);
+            }
+        }
+    }
 }
