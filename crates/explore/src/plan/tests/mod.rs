@@ -49,6 +49,11 @@ fn carved(room: &Room) -> FreeSpace {
     carve(&room.world, &room.bvh, &[start().position], &config, &Quiet).unwrap()
 }
 
+fn carved_with_outside(room: &Room) -> FreeSpace {
+    let config = CarveConfig { rays: 40_000, keep_outside: true, ..CarveConfig::default() };
+    carve(&room.world, &room.bvh, &[start().position], &config, &Quiet).unwrap()
+}
+
 fn quick() -> PlanConfig {
     PlanConfig { frames: 30, queries: 300, test_width: 48, test_height: 36, ..PlanConfig::default() }
 }
