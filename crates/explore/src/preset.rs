@@ -15,6 +15,19 @@ use serde::{Deserialize, Serialize};
 /// | outside the building | left unknown | kept |
 /// | box of the free space | voxel borders | voxel centres |
 /// | edge of a voxel | as configured | rounded to single precision |
+///
+/// And in planning ([`crate::plan`], mode walk):
+///
+/// | | default | hypersim |
+/// |---|---|---|
+/// | first pose | mended where it breaks a rule | the start camera's, as it is |
+/// | a pose | keeps its clearance, sees its target, is at least `min_look_distance_m` from it | need not |
+/// | roll | uniform within `roll_limit_deg` | the up vector's components deviate by 0.1 each, the same in every trajectory |
+/// | queries | in the box around the last point, cut to the heights allowed | in the whole box; those at other heights are dropped |
+/// | score | by [`crate::Saliency`] | distinct triangles, with emptiness as one of them, times the square of the share of surface |
+/// | views of little | sorted out | taken |
+/// | no candidate | more samples, then smaller steps | an error, where the program aborts |
+/// | random numbers | a stream for each trajectory | Armadillo's, from the seed, for each trajectory anew |
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Preset {
