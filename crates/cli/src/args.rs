@@ -44,11 +44,19 @@ pub enum Verb {
     Denoise(StageArgs),
     /// Frames, label table -> semantic layers; renders nothing again
     Label(LabelArgs),
+    /// Scene, labels -> bounding boxes, and what each frame shows of each instance; renders nothing again
+    #[command(
+        after_help = "Example:\n  enfilade boxes out\n\nThe boxes lie in _detail/mesh, as Hypersim's do; metadata_frame_instances.csv beside each trajectory has the\n\
+        2D boxes, pixel counts, visibility and truncation of every instance in every frame."
+    )]
+    Boxes(StageArgs),
     /// Frames -> a picture of every layer, and a contact sheet per trajectory
     #[command(after_help = "Example:\n  enfilade preview out")]
     Preview(StageArgs),
     /// Check the laws that tie the layers of a dataset together; the exit code says whether all hold
     Verify(VerifyArgs),
+    /// Divide the dataset by scene into train, val and test, from now on in this way
+    Split(SplitArgs),
     /// Everything about one pixel
     Inspect(InspectArgs),
     /// The dataset in a layout that other programs load: COCO, BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, ...
@@ -235,6 +243,23 @@ pub struct VerifyArgs {
     pub scene: Option<String>,
 }
 
+/// `split`.
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  enfilade split out --seed 1 --shares 70,15,15\n\nA scene's side depends on its name and the seed alone, so no \
+    scene moves when others are added. `run` divides the\nsame way. split.json tells which meshes and textures are on several sides."
+)]
+pub struct SplitArgs {
+    /// The dataset's folder, as given to `run`
+    pub dataset: PathBuf,
+    /// Another seed is another division [default: the last one, at first 0]
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Expected shares of train, val and test [default: the last ones, at first 80,10,10]
+    #[arg(long, value_name = "A,B,C", value_parser = parse_shares)]
+    pub shares: Option<[f64; 3]>,
+}
+
 /// `inspect`.
 #[derive(Args)]
 #[command(after_help = "Example:\n  enfilade inspect out --scene living-room --camera cam_00 --frame 0 --pixel 160,120")]
@@ -333,6 +358,11 @@ fn parse_time(text: &str) -> Result<f64, String> {
     parsed.filter(|s| s.is_finite()).ok_or_else(|| "expected a time, as in 90s, 5m or 1h".into())
 }
 
+fn parse_shares(text: &str) -> Result<[f64; 3], String> {
+    let shares: Option<Vec<f64>> = text.split(',').map(|share| share.trim().parse().ok()).collect();
+    shares.and_then(|shares| shares.try_into().ok()).ok_or_else(|| "expected three numbers, as in 80,10,10".into())
+}
+
 fn parse_pixel(text: &str) -> Result<(u32, u32), String> {
     let parsed = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
     parsed.ok_or_else(|| "expected column and row, as in 160,120".into())
@@ -370,6 +400,8 @@ mod tests {
         assert!(parse_size("640").is_err() && parse_size("axb").is_err());
         assert_eq!(parse_pixel("3, 4"), Ok((3, 4)));
         assert!(parse_pixel("3").is_err());
+        assert_eq!(parse_shares("80,10, 10"), Ok([80.0, 10.0, 10.0]));
+        assert!(parse_shares("80,20").is_err() && parse_shares("a,b,c").is_err());
         assert_eq!((parse_share("2%"), parse_share("0.02")), (Ok(0.02), Ok(0.02)));
         assert!(parse_share("two").is_err());
         assert_eq!((parse_time("90s"), parse_time("1.5m"), parse_time("1h"), parse_time("7")), (Ok(90.0), Ok(90.0), Ok(3600.0), Ok(7.0)));

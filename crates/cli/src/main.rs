@@ -40,8 +40,10 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Render(args) => verbs::render(args, cli.quiet),
         Verb::Denoise(args) => verbs::denoise(args, cli.quiet),
         Verb::Label(args) => verbs::label(args, cli.quiet),
+        Verb::Boxes(args) => verbs::stage(args, enfilade_pipeline::Stage::Boxes, cli.quiet),
         Verb::Preview(args) => verbs::stage(args, enfilade_pipeline::Stage::Preview, cli.quiet),
         Verb::Verify(args) => verbs::verify(args, cli.quiet),
+        Verb::Split(args) => verbs::split(args),
         Verb::Inspect(args) => verbs::inspect(args),
         Verb::Export(args) => export::export(args, cli.quiet),
     }

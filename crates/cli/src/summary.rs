@@ -18,6 +18,9 @@ pub fn print_table(summary: &Summary) {
             Problem::of_scene(&scene.name, failure).print();
         }
     }
+    for warning in &summary.warnings {
+        say(&format!("warning: {warning}; split.json has all"));
+    }
     let failed = summary.scenes.iter().filter(|s| s.failure.is_some()).count();
     if failed > 0 {
         say(&format!("{failed} of {} scenes failed.", summary.scenes.len()));

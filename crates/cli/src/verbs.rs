@@ -1,7 +1,7 @@
 //! What each verb does: arguments to calls of the pipeline and back to words.
 
 use crate::args::{
-    ImportArgs, InspectArgs, LabelArgs, PlanArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs, UpAxisArg, VerifyArgs,
+    ImportArgs, InspectArgs, LabelArgs, PlanArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, SplitArgs, StageArgs, UpAxisArg, VerifyArgs,
 };
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
@@ -160,6 +160,22 @@ pub fn verify(args: &VerifyArgs, quiet: bool) -> Result<Verdict, Problem> {
     };
     say(report.to_text().trim_end());
     Ok(Verdict::of(report.passed))
+}
+
+/// `split`: who learns from what.
+pub fn split(args: &SplitArgs) -> Result<Verdict, Problem> {
+    let report = enfilade_pipeline::split(&args.dataset, |config| {
+        config.seed = args.seed.unwrap_or(config.seed);
+        config.shares = args.shares.unwrap_or(config.shares);
+    })?;
+    for (side, scenes) in &report.scenes {
+        let images = report.images.get(side).copied().unwrap_or(0);
+        say(&format!("{side:5}  {} scenes, {images} images", scenes.len()));
+    }
+    if let Some(warning) = report.warning() {
+        say(&format!("warning: {warning}; split.json has all"));
+    }
+    Ok(Verdict::Done)
 }
 
 /// `inspect`: all about one pixel.

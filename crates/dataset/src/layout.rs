@@ -1,8 +1,8 @@
 //! Every path of the tree, in one place. Nothing here touches the disk.
 //!
-//! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `_detail/plan_preview/`, and in each camera's
-//! `_detail` folder `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records and, for cameras that are more than a
-//! pinhole, `camera.json` and its arrays.
+//! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `_detail/plan_preview/`, and in each
+//! camera's `_detail` folder `metadata_frame_instances.csv`, `amodal_instances/`, `cameras_opencv.json`, `plan_report.json`, `frames/`
+//! with the commit records and, for cameras that are more than a pinhole, `camera.json` and its arrays.
 
 use crate::DatasetError;
 use enfilade_frame::{Layer, Pass};
@@ -68,6 +68,16 @@ impl Layout {
     /// The outcome of the last verification, as JSON.
     pub fn verify_report(&self) -> PathBuf {
         self.root.join("verify.json")
+    }
+
+    /// Which image is for learning, for validation and for testing.
+    pub fn split(&self) -> PathBuf {
+        self.root.join("metadata_images_split_scene_v1.csv")
+    }
+
+    /// How the split came about, and which assets lie on several sides of it, as JSON.
+    pub fn split_report(&self) -> PathBuf {
+        self.root.join("split.json")
     }
 
     /// Where the scenes lie.
@@ -184,6 +194,21 @@ impl Layout {
     /// Drawings of the scene's free space and trajectories, and the page `index.html` that shows them.
     pub fn plan_preview_dir(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("plan_preview")
+    }
+
+    /// What each frame of a camera shows of each instance.
+    pub fn frame_instances(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("metadata_frame_instances.csv")
+    }
+
+    /// The amodal masks of a camera's frames.
+    pub fn amodal_masks_dir(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("amodal_instances")
+    }
+
+    /// The amodal masks of a frame.
+    pub fn amodal_masks(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
+        self.amodal_masks_dir(scene, camera).join(format!("frame.{frame:04}.json"))
     }
 
     /// Geometry, objects and labels of the scene.

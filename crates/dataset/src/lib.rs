@@ -10,6 +10,7 @@
 //! World coordinates are right-handed, z up, and one asset unit is one metre.
 
 mod atomic;
+mod box_files;
 mod camera_files;
 mod camera_model;
 mod camera_record;
@@ -18,6 +19,7 @@ mod dataset;
 mod error;
 mod frames;
 pub mod hdf5;
+mod instance_files;
 mod label_files;
 mod layout;
 mod manifest;
@@ -25,19 +27,23 @@ mod mesh_files;
 mod read;
 mod record;
 mod scene_files;
+mod split_files;
 mod tables;
 mod times;
 
 pub use atomic::{replace_file, write_bytes};
+pub use box_files::BoxKind;
 pub use camera_model::{StereoRecord, StereoSide, read_ray_grid};
 pub use camera_record::{CameraRecord, ProjectionRecord};
 pub use dataset::Dataset;
 pub use error::DatasetError;
 pub use frames::FrameInfo;
 pub use hdf5::{Array, Element, Elements};
+pub use instance_files::{AmodalMask, AmodalMasks, InstanceView, PixelArea};
 pub use label_files::{instance_colors, semantic_colors};
 pub use layout::{Layout, check_name};
 pub use manifest::{CameraEntry, Conventions, FrameEntry, FrameStatus, LayerEntry, Manifest, ManifestInfo, SceneEntry};
 pub use record::{DenoiseRecord, FileRecord, FrameRecord, LabelRecord, PoseRecord, Sampling, StoppedBy};
 pub use scene_files::Node;
+pub use split_files::{Partition, SplitRow};
 pub use times::FrameTime;

@@ -117,7 +117,7 @@ pub struct ManifestInfo {
 const FORMAT: &str = "enfilade dataset 1";
 
 /// How to read the files, in one sentence per subject.
-const NOTES: [(&str, &str); 14] = [
+const NOTES: [(&str, &str); 15] = [
     ("layout", "Hypersim's tree: scenes/<scene>/_detail and scenes/<scene>/images/scene_<camera>_{final,geometry}_hdf5."),
     ("world", "Right-handed, z up, metres; one asset unit is one metre (meters_per_asset_unit = 1)."),
     ("camera", "Axes x right, y up, z backward; camera_keyframe_orientations hold world_from_camera and act on column vectors."),
@@ -151,6 +151,13 @@ const NOTES: [(&str, &str); 14] = [
          four light_* layers, within the rounding of float16 (a 500th) and where nothing is saturated.",
     ),
     ("ids", "render_entity_id is node_id of metadata_nodes.csv; object_id there is the row of the mesh folder's object tables."),
+    (
+        "boxes",
+        "Row i of _detail/mesh/metadata_semantic_instance_bounding_box_* is instance i; +infinity where there is none. The columns of an \
+         orientation are the directions of the sides: world = position + orientation * box, |box| <= extents / 2. \
+         _detail/<camera>/metadata_frame_instances.csv has 2D boxes (pixel borders), pixel counts, visibility and truncation by frame; \
+         amodal_instances/ beside it the masks of whole objects as COCO's run lengths.",
+    ),
     ("records", "A frame counts when _detail/<camera>/frames/frame.IIII.json is there; checksums are BLAKE3 of whole files."),
     ("times", "manifest_times.csv tells how long frames took; it is the only file that differs between two runs."),
 ];

@@ -9,6 +9,7 @@ mod error;
 mod report;
 mod run;
 mod single;
+mod split;
 mod stages;
 mod workdir;
 
@@ -17,9 +18,11 @@ pub use config::{
     Quality, RenderChoices, SceneConfig, Source, StereoConfig, demo, select,
 };
 pub use enfilade_import::UpAxis;
+pub use enfilade_post::split::SplitConfig;
 pub use error::Error;
 pub use report::{Event, Failure, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
 pub use run::{plan_and_draw, relabel, run, run_chosen, run_stage};
 pub use single::{Imported, import_file};
+pub use split::{SplitReport, split};
 pub use stages::{STAGES, Stage, StageSpec};
 pub use workdir::WORKDIR;

@@ -55,6 +55,8 @@ impl Reporter for Silent {
 pub struct Summary {
     /// One per scene, in the order of the configuration.
     pub scenes: Vec<SceneOutcome>,
+    /// What concerns the dataset as a whole and should be known, a line each.
+    pub warnings: Vec<String>,
     /// Seconds on the wall clock.
     pub wall_s: f64,
 }

@@ -3,6 +3,7 @@
 use crate::config::{Config, RenderChoices, SceneConfig};
 use crate::error::Error;
 use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
+use crate::split::write_split;
 use crate::stages::{Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan};
 use crate::workdir::{Workdir, read_json, write_json};
 use enfilade_dataset::{CameraEntry, Dataset, FrameStatus, ManifestInfo};
@@ -19,6 +20,9 @@ struct RunFile {
     config: Config,
 }
 
+/// What follows from labels before anyone looks at them.
+const LABELLING: [&StageSpec; 2] = [&STAGES[Stage::Label as usize], &STAGES[Stage::Boxes as usize]];
+
 /// Makes the dataset `config` in the folder `out`: every stage of every scene that is not up to date.
 ///
 /// `pattern` restricts it to some scenes ([`Config::select`]). A scene that fails is reported and the others go on.
@@ -33,14 +37,15 @@ pub fn run(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Re
     Session::new(config, &workdir)?.run(&scenes, &stages, false, reporter)
 }
 
-/// Runs one stage of the dataset in `out` with the configuration stored there.
+/// Runs one stage of the dataset in `out` with the configuration stored there; after new labels also the boxes of what they name.
 ///
 /// # Errors
 /// As [`run`], and when `out` is no dataset.
 pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
     let (workdir, config) = open(out)?;
     let scenes = config.select(pattern)?;
-    Session::new(&config, &workdir)?.run(&scenes, &[stage.spec()], force, reporter)
+    let stages: &[&StageSpec] = if stage == Stage::Label { &LABELLING } else { &[stage.spec()] };
+    Session::new(&config, &workdir)?.run(&scenes, stages, force, reporter)
 }
 
 /// Plans as [`run_stage`] does and draws what was planned, now or earlier. Returns also the page of each scene that came through.
@@ -68,7 +73,7 @@ pub fn relabel(out: &Path, table: &Path, pattern: Option<&str>, reporter: &dyn R
     let table = std::path::absolute(table).map_err(Error::io("find", table))?;
     let (workdir, config) = open_changed(out, pattern, |scene| scene.set_label_table(&table.to_string_lossy()))?;
     let scenes = config.select(pattern)?;
-    Session::new(&config, &workdir)?.run(&scenes, &[Stage::Label.spec()], false, reporter)
+    Session::new(&config, &workdir)?.run(&scenes, &LABELLING, false, reporter)
 }
 
 /// Makes choices about the rendering of scenes of the dataset in `out` from now on, and runs `stages` with that.
@@ -149,13 +154,20 @@ impl<'a> Session<'a> {
             }
             outcomes.push(outcome);
         }
-        let finished = self.write_manifest(&outcomes, None).and_then(|()| self.write_overview(stages));
-        let summary = Summary { scenes: outcomes, wall_s: time.wall_s() };
+        let finished = self.write_manifest(&outcomes, None).and_then(|()| self.write_overview(stages)).and_then(|()| self.write_split());
+        let warnings = finished.as_ref().ok().cloned().flatten().into_iter().collect();
+        let summary = Summary { scenes: outcomes, warnings, wall_s: time.wall_s() };
         match finished {
             // Where a scene has failed, as on a full disk, that is what the user must see; the next run writes these files.
             Err(error) if summary.ok() => Err(error),
             _ => Ok(summary),
         }
+    }
+
+    /// Divides the dataset by scene; a line where assets are on several sides.
+    fn write_split(&self) -> Result<Option<String>, Error> {
+        let Some(manifest) = self.dataset.read_manifest().map_err(Error::stage)? else { return Ok(None) };
+        Ok(write_split(&self.dataset, self.workdir, &manifest)?.warning())
     }
 
     /// Writes the contact sheet of all scenes, unless it is there already: the preview stage removes it.

@@ -1,6 +1,6 @@
 //! The demo from end to end, tiny: it verifies, a second run does nothing, and a changed setting runs what depends on it.
 
-use enfilade_dataset::Dataset;
+use enfilade_dataset::{BoxKind, Dataset};
 use enfilade_pipeline::{CameraChoice, Config, Event, Overrides, Reporter, Stage, Summary, run, run_stage};
 use std::path::Path;
 use std::sync::Mutex;
@@ -40,20 +40,26 @@ fn the_demo_verifies_and_is_made_once() {
 
     let (first, began) = run_and_watch(&config, &out);
     assert!(first.ok(), "{:?}", first.scenes);
-    assert_eq!(began, [Stage::Import, Stage::Carve, Stage::Plan, Stage::Render, Stage::Label, Stage::Preview, Stage::Verify]);
+    assert_eq!(began, [Stage::Import, Stage::Carve, Stage::Plan, Stage::Render, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]);
     let dataset = Dataset::open(&out).unwrap();
     let labels = dataset.read_label_tables("living-room").unwrap();
     assert!(labels.parts.len() >= 25 && labels.parts.iter().all(|l| l.semantic >= 1));
+
+    let boxes = dataset.read_boxes("living-room", BoxKind::ObjectAligned3d).unwrap();
+    assert!(boxes.iter().flatten().count() > 10);
+    let views = dataset.read_instance_views("living-room", "cam_00").unwrap();
+    assert!(views.iter().any(|view| view.visible.pixels > 0) && views.iter().all(|view| view.inside_pixels > 0));
+    assert_eq!(dataset.read_split().unwrap().len(), 2);
 
     let (second, began) = run_and_watch(&config, &out);
     assert!(second.nothing_done() && began.is_empty(), "{began:?}");
 
     // More samples leave the trajectory alone; more frames leave the free space alone, and are another trajectory to learn from.
     config.scenes[0].render.samples = 5;
-    assert_eq!(run_and_watch(&config, &out).1, [Stage::Render, Stage::Label, Stage::Preview, Stage::Verify]);
+    assert_eq!(run_and_watch(&config, &out).1, [Stage::Render, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]);
     config.scenes[0].plan.frames = 3;
     let (more, began) = run_and_watch(&config, &out);
-    assert_eq!(began, [Stage::Plan, Stage::Render, Stage::Label, Stage::Preview, Stage::Verify]);
+    assert_eq!(began, [Stage::Plan, Stage::Render, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]);
     let rendered = more.scenes[0].stages.iter().find(|s| s.stage == Stage::Render).unwrap();
     assert!(rendered.summary.starts_with("3 frames") && !rendered.summary.contains("kept"), "{}", rendered.summary);
 

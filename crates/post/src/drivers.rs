@@ -1,4 +1,8 @@
-//! Previews, contact sheets and questions over a dataset on disk.
+//! Previews, boxes, contact sheets and questions over a dataset on disk.
+
+mod boxes;
+
+pub use boxes::{preview_boxes, write_boxes, write_instances};
 
 use crate::inspect::{Names, OutsideError, PixelReport, inspect};
 use crate::picture::jpeg;

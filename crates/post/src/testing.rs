@@ -3,9 +3,10 @@
 //! Floor (part 1, z = 0), wall (part 2, y = 2, up to z = 2.5) and a mirror in the wall (part 3), void above. The mirror has no
 //! diffuse reflectance; one of its pixels is saturated.
 
+use enfilade_dataset::{BoxKind, InstanceView, Partition, SplitRow};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits};
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, DVec2, DVec3, Rgb};
+use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, OrientedBox, Rgb};
 use enfilade_scene::{Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, WorldMesh};
 
 pub(crate) const PARTS: [&str; 3] = ["floor", "wall", "wall/mirror"];
@@ -154,7 +155,14 @@ pub(crate) fn scene() -> enfilade_scene::Scene {
     }
 }
 
-/// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with free space and manifest.
+/// What the frame from `pose` shows of the mirror, all of which is visible.
+fn instance_views(pose: &Pose) -> Option<InstanceView> {
+    let area = crate::instances::visible_areas(frame(pose).get(Layer::SemanticInstance)?, intrinsics().width).remove(&1)?;
+    let (visible, full, inside_pixels) = (area, area, area.pixels);
+    Some(InstanceView { frame: pose.frame, instance: 1, semantic: 19, visible, full, inside_pixels })
+}
+
+/// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with boxes, split, free space and manifest.
 pub(crate) fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     use enfilade_dataset::{Dataset, FrameInfo, FrameTime};
     use enfilade_geometry::{OccupancyTree, Voxel};
@@ -184,6 +192,12 @@ pub(crate) fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
         dataset.write_denoised_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Denoised]), "Smoother 3.1", "test").unwrap();
     }
     dataset.write_free_space("room", &tree.to_bt(), first.position, second.position).unwrap();
+    let mirror = OrientedBox { center: DVec3::new(0.0, 2.0, 1.5), world_from_box: DMat3::IDENTITY, extents: DVec3::new(1.0, 0.0, 1.0) };
+    BoxKind::ALL.iter().for_each(|&kind| dataset.write_boxes("room", kind, &[None, Some(mirror)]).unwrap());
+    let views: Vec<InstanceView> = trajectory.poses.iter().flat_map(instance_views).collect();
+    dataset.write_instance_views("room", "cam_00", &views).unwrap();
+    let row = |frame| SplitRow { scene: "room".into(), camera: "cam_00".into(), frame, partition: Ok(Partition::Train) };
+    dataset.write_split(&[row(0), row(1)]).unwrap();
     dataset.write_manifest(&dataset.collect_manifest(&enfilade_dataset::ManifestInfo::default()).unwrap()).unwrap();
     dataset
 }

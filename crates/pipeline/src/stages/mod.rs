@@ -4,6 +4,7 @@
 //! dataset and writes its outputs there. It is up to date when its record says that it ran with the same configuration, the
 //! same content of the same inputs and the same version of the code, and all its outputs are there.
 
+mod boxes;
 mod carve;
 mod denoise;
 mod import;
@@ -39,6 +40,7 @@ pub enum Stage {
     Render,
     Denoise,
     Label,
+    Boxes,
     Preview,
     Verify,
 }
@@ -62,7 +64,7 @@ pub struct StageSpec {
 }
 
 /// All stages in the order in which they run.
-pub const STAGES: [StageSpec; 8] = [
+pub const STAGES: [StageSpec; 9] = [
     StageSpec {
         stage: Stage::Import,
         name: "import",
@@ -118,10 +120,19 @@ pub const STAGES: [StageSpec; 8] = [
         run: label::run,
     },
     StageSpec {
+        stage: Stage::Boxes,
+        name: "boxes",
+        about: "scene, labels -> bounding boxes, and what each frame shows of each instance",
+        version: 1,
+        settings: boxes::settings,
+        inputs: boxes::inputs,
+        run: boxes::run,
+    },
+    StageSpec {
         stage: Stage::Preview,
         name: "preview",
         about: "frames -> pictures and contact sheets",
-        version: 2,
+        version: 3,
         settings: preview::settings,
         inputs: preview::inputs,
         run: preview::run,
@@ -130,7 +141,7 @@ pub const STAGES: [StageSpec; 8] = [
         stage: Stage::Verify,
         name: "verify",
         about: "dataset -> report card",
-        version: 2,
+        version: 3,
         settings: verify::settings,
         inputs: verify::inputs,
         run: verify::run,

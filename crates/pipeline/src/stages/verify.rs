@@ -15,6 +15,7 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     inputs.extend(job.frame_records()?);
     inputs.extend(job.label_records()?);
     inputs.extend(job.denoise_records()?);
+    inputs.extend(super::boxes::tables(job)?);
     Ok(Some(inputs))
 }
 

@@ -1,4 +1,4 @@
-//! A plain drawing surface for contact sheets.
+//! A plain drawing surface for contact sheets and overlays.
 
 use crate::picture::Picture;
 use image::imageops::{self, FilterType};
@@ -24,6 +24,16 @@ impl Canvas {
     /// A surface of one colour.
     pub fn new(width: u32, height: u32, [r, g, b]: Color) -> Self {
         Self { picture: Picture::from_pixel(width, height, image::Rgba([r, g, b, 255])) }
+    }
+
+    /// A picture to draw on.
+    pub fn over(picture: Picture) -> Self {
+        Self { picture }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        [self.picture.width(), self.picture.height()]
     }
 
     /// Width in pixels.
@@ -76,7 +86,8 @@ impl Canvas {
         }
     }
 
-    fn blend(&mut self, x: u32, y: u32, color: Color, coverage: f32) {
+    /// Mixes a colour into a pixel.
+    pub fn blend(&mut self, x: u32, y: u32, color: Color, coverage: f32) {
         let pixel = self.picture.get_pixel_mut(x, y);
         for c in 0..3 {
             let under = f32::from(pixel.0[c]);
@@ -85,7 +96,8 @@ impl Canvas {
     }
 }
 
-fn distance_to_segment(p: [f32; 2], a: [f32; 2], b: [f32; 2]) -> f32 {
+/// Distance of a point from a straight stroke.
+pub fn distance_to_segment(p: [f32; 2], a: [f32; 2], b: [f32; 2]) -> f32 {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     let length2 = dx * dx + dy * dy;
     let t = if length2 > 0.0 { (((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2).clamp(0.0, 1.0) } else { 0.0 };

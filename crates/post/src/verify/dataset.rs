@@ -2,13 +2,14 @@
 
 use super::card::{Card, VerifyReport};
 use super::law::Law;
-use super::{View, camera_files, check_frame, check_labels, check_trajectory};
+use super::{View, boxes, camera_files, check_frame, check_labels, check_trajectory};
 use enfilade_dataset::hdf5::read_array;
-use enfilade_dataset::{Dataset, DatasetError, FrameStatus, Manifest, Node};
+use enfilade_dataset::{BoxKind, Dataset, DatasetError, FrameStatus, InstanceView, Manifest, Node, Partition};
 use enfilade_frame::{Frame, LAYERS, LayerSpec};
 use enfilade_geometry::{OccupancyTree, Voxel};
 use enfilade_scene::{Camera, CameraView, Cx, Labels, PartLabel, Pose, Trajectory};
 use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Checks every law over the given scenes. What cannot be read counts as a violation, not as an error.
@@ -21,6 +22,7 @@ pub fn verify_dataset(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Resu
     let mut card = Card::default();
     let manifest = dataset.read_manifest()?;
     check_manifest(&mut card, dataset, manifest, scenes);
+    check_split(&mut card, dataset);
     let facts: Vec<SceneFacts> = scenes.iter().map(|scene| SceneFacts::read(dataset, scene, &mut card)).collect();
     let frames: Vec<(&SceneFacts, &Filmed, usize)> = facts.iter().flat_map(SceneFacts::frames).collect();
     let done = AtomicU64::new(0);
@@ -59,8 +61,17 @@ fn check_manifest(card: &mut Card, dataset: &Dataset, manifest: Option<Manifest>
     }
 }
 
+/// No scene is on two sides of the split, where there is one.
+fn check_split(card: &mut Card, dataset: &Dataset) {
+    let Some(rows) = boxes::there(dataset.read_split()).and_then(|read| readable(card, read)) else { return };
+    let mut sides: BTreeMap<&str, Partition> = BTreeMap::new();
+    let sided = rows.iter().filter_map(|row| Some((row.scene.as_str(), *row.partition.as_ref().ok()?)));
+    let torn: BTreeSet<&str> = sided.filter(|&(scene, side)| *sides.entry(scene).or_insert(side) != side).map(|(scene, _)| scene).collect();
+    card.observe(Law::SplitWhole, torn.len() as f64, || format!("scenes {torn:?}"));
+}
+
 /// The value of a read; what cannot be read goes on the card.
-fn readable<T>(card: &mut Card, read: Result<T, DatasetError>) -> Option<T> {
+pub(super) fn readable<T>(card: &mut Card, read: Result<T, DatasetError>) -> Option<T> {
     let problem = read.as_ref().err().map(ToString::to_string);
     card.observe(Law::Readable, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
     read.ok()
@@ -72,6 +83,7 @@ struct SceneFacts {
     meters_per_unit: f64,
     entities: usize,
     labels: Option<Labels>,
+    boxes: Vec<(BoxKind, boxes::Boxes)>,
     filmed: Vec<Filmed>,
 }
 
@@ -80,6 +92,8 @@ struct Filmed {
     trajectory: Trajectory,
     frames: Vec<u32>,
     camera: Option<Camera>,
+    /// What its frames show of instances, where there is a table of it.
+    views: Option<Vec<InstanceView>>,
 }
 
 impl SceneFacts {
@@ -94,6 +108,7 @@ impl SceneFacts {
             meters_per_unit: readable(card, dataset.meters_per_asset_unit(name)).unwrap_or(1.0),
             entities: nodes.len(),
             labels: read_labels(dataset, name, &nodes, card),
+            boxes: boxes::read_boxes(dataset, name, card),
             filmed: read_filmed(dataset, name, card),
         };
         facts.filmed.iter().filter_map(|f| Some((f, f.camera.as_ref()?))).for_each(|(f, camera)| {
@@ -101,6 +116,7 @@ impl SceneFacts {
             camera_files::check(dataset, name, &f.trajectory, camera, card);
         });
         facts.check_trajectories(dataset, card);
+        boxes::check_boxes(&facts.boxes, name, card);
         facts
     }
 
@@ -131,7 +147,7 @@ impl SceneFacts {
         let rendered: usize = self.filmed.iter().map(|filmed| filmed.frames.len()).sum();
         card.observe(Law::HasFrames, if rendered == 0 { 1.0 } else { 0.0 }, || format!("{name}: no rendered frame"));
         for filmed in &self.filmed {
-            let Filmed { trajectory, frames, camera } = filmed;
+            let Filmed { trajectory, frames, camera, .. } = filmed;
             let place = format!("{name}/{}", trajectory.name);
             card.merge(check_trajectory(trajectory, &place));
             let missing: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !frames.contains(frame)).collect();
@@ -177,6 +193,10 @@ impl SceneFacts {
             let camera = CameraView::of_frame(camera, poses, index);
             let (meters_per_unit, entities, labels) = (self.meters_per_unit, self.entities, self.labels.as_ref());
             card.merge(check_frame(&frame, &View { camera, meters_per_unit, entities, labels }, &place));
+            boxes::check_positions(&self.boxes, &frame, &camera, &place, &mut card);
+            if let Some(views) = &filmed.views {
+                boxes::check_views(views, &frame, poses[index].frame, &place, &mut card);
+            }
         }
         card
     }
@@ -244,7 +264,9 @@ fn read_filmed(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<Filmed> {
     for name in readable(card, dataset.cameras(scene)).unwrap_or_default() {
         let Some(trajectory) = readable(card, dataset.read_trajectory(scene, &name)) else { continue };
         let frames = readable(card, dataset.frame_numbers(scene, &name)).unwrap_or_default();
-        filmed.push(Filmed { trajectory, frames, camera: readable(card, dataset.read_camera(scene, &name)) });
+        let camera = readable(card, dataset.read_camera(scene, &name));
+        let views = boxes::there(dataset.read_instance_views(scene, &name)).and_then(|read| readable(card, read));
+        filmed.push(Filmed { trajectory, frames, camera, views });
     }
     filmed
 }
@@ -341,6 +363,17 @@ mod tests {
             refresh(d);
         };
         assert_eq!(failures(unlabelled).0, [Law::LayersPresent]);
+    }
+
+    #[test]
+    fn a_scene_on_two_sides_of_the_split_is_found() {
+        let torn = |d: &Dataset| {
+            let mut rows = d.read_split().unwrap();
+            rows[1].partition = Ok(Partition::Val);
+            d.write_split(&rows).unwrap();
+        };
+        let (laws, text) = failures(torn);
+        assert_eq!(laws, [Law::SplitWhole], "{text}");
     }
 
     #[test]

@@ -53,6 +53,13 @@ pub enum Law {
     SemanticJoin,
     InstanceJoin,
     InstanceClass,
+    BoxAxes,
+    BoxExtents,
+    BoxLeast,
+    BoxContains,
+    InstanceCounts,
+    InstanceWhole,
+    SplitWhole,
 }
 
 /// What a law says.
@@ -77,7 +84,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 46] = laws![
+pub const LAWS: [LawSpec; 53] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: render the frame again";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -134,6 +141,18 @@ pub const LAWS: [LawSpec; 46] = laws![
     SemanticJoin 0.0 "pixels", "semantic is the class of the part in render_entity_id", "the label table changed: label again";
     InstanceJoin 0.0 "pixels", "semantic_instance is the instance of the part in render_entity_id", "the label table changed: label again";
     InstanceClass 0.0 "instances", "an instance has one class", "the label table gives one instance number to parts of several classes: correct it";
+    BoxAxes 1e-9 "", "orientations of bounding boxes are orthonormal and right-handed", "the file was edited or damaged: run the boxes stage again";
+    BoxExtents 0.0 "boxes", "bounding boxes are finite, no side is negative, and one is longer than 0",
+        "the mesh has NaN, or an object is a single point: import again and read its warnings";
+    BoxLeast 1e-6 "", "the object_aligned_3d box is not larger than the other two (difference over the longest side cubed)",
+        "the three kinds are of different meshes: run the boxes stage again";
+    BoxContains 1e-3 "", "positions of an instance lie in its boxes (distance beyond them over the distance from the camera, from 1 m on)",
+        "boxes, labels and frames are of different versions of the scene: run the boxes stage again";
+    InstanceCounts 0.0 "instances", "metadata_frame_instances.csv counts the pixels of semantic_instance",
+        "the frame was labelled or rendered again since: run the boxes stage again";
+    InstanceWhole 0.0 "", "an instance shows no more pixels than the whole object has in the image, and that no more than it has in all",
+        "the frame was labelled or rendered again since: run the boxes stage again";
+    SplitWhole 0.0 "scenes", "all images of a scene are on one side of the split", "the file was edited: run enfilade split";
 ];
 
 impl Law {

@@ -3,6 +3,7 @@
 //! [`LAWS`] states them. A [`Card`] collects the worst value of each; a [`VerifyReport`] is its outcome, for machines and
 //! people. Every law is computed here anew from the stored values, in double precision, with nothing taken from the renderer.
 
+mod boxes;
 mod camera_files;
 mod card;
 mod color;

@@ -66,7 +66,7 @@ fn exact_frame_satisfies_every_frame_law() {
     let frame_laws: Vec<Law> = LAWS
         .iter()
         .map(|spec| spec.law)
-        .filter(|&law| law == Law::LayersPresent || law == Law::Calibration || (law >= Law::SeesScene && law != Law::InstanceClass))
+        .filter(|&law| law == Law::LayersPresent || law == Law::Calibration || (Law::SeesScene..Law::InstanceClass).contains(&law))
         .collect();
     assert_eq!(checked, frame_laws);
 }

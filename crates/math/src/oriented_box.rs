@@ -1,0 +1,70 @@
+use glam::{DMat3, DVec3};
+
+/// A box of any orientation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrientedBox {
+    /// Its middle.
+    pub center: DVec3,
+    /// Columns are the directions of its sides: orthonormal, right-handed.
+    pub world_from_box: DMat3,
+    /// Lengths of its sides, in the order of the columns.
+    pub extents: DVec3,
+}
+
+impl OrientedBox {
+    /// Pairs of [`OrientedBox::corners`] that are joined by an edge.
+    pub const EDGES: [[usize; 2]; 12] = [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
+
+    /// The smallest box around `points` whose sides have the directions of `world_from_box`; `None` without points.
+    pub fn around(points: impl IntoIterator<Item = DVec3>, world_from_box: DMat3) -> Option<Self> {
+        let box_from_world = world_from_box.transpose();
+        let (min, max) = points.into_iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| {
+            let p = box_from_world * p;
+            (min.min(p), max.max(p))
+        });
+        let extents = max - min;
+        (extents.x >= 0.0).then(|| Self { center: world_from_box * (min + 0.5 * extents), world_from_box, extents })
+    }
+
+    /// Product of the side lengths.
+    pub fn volume(&self) -> f64 {
+        self.extents.element_product()
+    }
+
+    /// Corner i lies toward the end of axis k where bit k of i is set.
+    pub fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|i| {
+            let side = |bit: usize| if i >> bit & 1 == 1 { 0.5 } else { -0.5 };
+            self.center + self.world_from_box * (self.extents * DVec3::new(side(0), side(1), side(2)))
+        })
+    }
+
+    /// How far `p` lies outside: the largest distance beyond a pair of sides; at most 0 inside.
+    pub fn distance_beyond(&self, p: DVec3) -> f64 {
+        ((self.world_from_box.transpose() * (p - self.center)).abs() - 0.5 * self.extents).max_element()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turned_box_is_tight_around_its_corners() {
+        let turned = DMat3::from_rotation_z(0.4) * DMat3::from_rotation_x(-1.1);
+        let made = OrientedBox { center: DVec3::new(1.0, 2.0, 3.0), world_from_box: turned, extents: DVec3::new(3.0, 2.0, 0.5) };
+        let back = OrientedBox::around(made.corners(), turned).unwrap();
+        assert!((back.center - made.center).length() < 1e-14 && (back.extents - made.extents).length() < 1e-14);
+        assert!((back.volume() - 3.0).abs() < 1e-13);
+        assert!(made.corners().iter().all(|&p| made.distance_beyond(p).abs() < 1e-14));
+        assert!((made.distance_beyond(made.center + 2.5 * turned.x_axis) - 1.0).abs() < 1e-14);
+        assert_eq!(OrientedBox::around([], turned), None);
+    }
+
+    #[test]
+    fn edges_join_corners_one_side_apart() {
+        let unit = OrientedBox { center: DVec3::ZERO, world_from_box: DMat3::IDENTITY, extents: DVec3::ONE };
+        let corners = unit.corners();
+        assert!(OrientedBox::EDGES.iter().all(|&[a, b]| corners[a].distance(corners[b]) == 1.0));
+    }
+}

@@ -1,0 +1,47 @@
+//! `boxes`: bounding boxes of every instance, and what each frame shows of it. Nothing is rendered again.
+
+use super::{Input, Inputs, Job, Outcome, Record, Stage};
+use crate::error::Error;
+use crate::report::{StageCx, count};
+use crate::workdir::Hash;
+use enfilade_post::drivers::{write_boxes, write_instances};
+use enfilade_post::instances::solids;
+use enfilade_scene::WorldMesh;
+
+pub(super) fn settings(_job: &Job) -> Hash {
+    Hash::of(&())
+}
+
+pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
+    let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?];
+    let tables = ["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5"];
+    for table in tables {
+        inputs.push(job.input_from(Stage::Label, &job.dataset.layout().mesh_file(&job.scene.name, table))?);
+    }
+    inputs.extend(job.frame_records()?);
+    inputs.extend(job.label_records()?);
+    Ok(Some(inputs))
+}
+
+pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
+    let name = &job.scene.name;
+    let scene = job.load_scene()?;
+    let labels = job.dataset.read_label_tables(name).map_err(Error::stage)?;
+    let (mut outputs, boxed) = write_boxes(job.dataset, name, &scene, &labels).map_err(Error::stage)?;
+    let solids = solids(&WorldMesh::new(&scene), &labels);
+    let filmed = job.filmed()?;
+    for (_, trajectory) in &filmed {
+        outputs.extend(write_instances(job.dataset, name, &trajectory.name, &solids, cx).map_err(Error::stage)?);
+    }
+    let frames: usize = filmed.iter().map(|(_, trajectory)| trajectory.poses.len()).sum();
+    let summary = format!("{} of 3 kinds, seen in {}", count(boxed, "instance"), count(frames, "frame"));
+    Ok(Outcome { summary, outputs, ..Outcome::default() })
+}
+
+/// The tables of boxes and of instances by frame, as inputs of what comes later.
+pub(super) fn tables(job: &Job) -> Result<Vec<Input>, Error> {
+    let name = &job.scene.name;
+    let mut files: Vec<_> = enfilade_dataset::BoxKind::ALL.iter().flat_map(|&kind| job.dataset.box_files(name, kind)).collect();
+    files.extend(job.filmed()?.iter().map(|(_, trajectory)| job.dataset.layout().frame_instances(name, &trajectory.name)));
+    files.iter().map(|path| job.input_from(Stage::Boxes, path)).collect()
+}

@@ -1,0 +1,123 @@
+//! Boxes of instances, what frames show of instances, and boxes drawn over frames.
+
+use super::read_present;
+use crate::boxes::{DrawnBox, draw_boxes, of_kind, scene_boxes};
+use crate::instances::{Solid, frame_instances, visible_areas};
+use crate::label::class_name;
+use crate::palette::{id_color, semantic_color};
+use crate::picture::jpeg;
+use crate::preview::{Subject, preview};
+use crate::tonemap::ToneMap;
+use enfilade_dataset::{BoxKind, Dataset, DatasetError, InstanceView, write_bytes};
+use enfilade_frame::{Frame, Layer, Pass};
+use enfilade_math::OrientedBox;
+use enfilade_scene::{CameraView, Cx, Labels, Scene};
+use rayon::prelude::*;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Instances that show fewer pixels than this share of the image are drawn without text.
+const TEXT_SHARE: f64 = 1e-3;
+
+/// Writes the boxes of every instance of a scene, and returns the files and how many instances have boxes.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn write_boxes(dataset: &Dataset, name: &str, scene: &Scene, labels: &Labels) -> Result<(Vec<PathBuf>, usize), DatasetError> {
+    let boxes = scene_boxes(scene, labels);
+    let mut files = Vec::new();
+    for kind in BoxKind::ALL {
+        let rows: Vec<Option<OrientedBox>> = boxes.iter().map(|boxes| boxes.as_ref().map(|boxes| *of_kind(boxes, kind))).collect();
+        dataset.write_boxes(name, kind, &rows)?;
+        files.extend(dataset.box_files(name, kind));
+    }
+    Ok((files, boxes.iter().flatten().count()))
+}
+
+/// Writes what the frames of a camera show of each instance, and the amodal masks, which replace all older ones; returns the files.
+///
+/// # Errors
+/// When a file cannot be read or written.
+pub fn write_instances(dataset: &Dataset, scene: &str, camera: &str, solids: &[Solid], cx: &dyn Cx) -> Result<Vec<PathBuf>, DatasetError> {
+    let (with, trajectory) = (dataset.read_camera(scene, camera)?, dataset.read_trajectory(scene, camera)?);
+    let done = AtomicU64::new(0);
+    let total = trajectory.poses.len();
+    let one = |index: usize| -> Result<(Vec<InstanceView>, PathBuf), DatasetError> {
+        let number = trajectory.poses[index].frame;
+        let seen = dataset.read_layer(scene, camera, number, Layer::SemanticInstance)?;
+        let view = CameraView::of_frame(&with, &trajectory.poses, index);
+        let (views, masks) = frame_instances(solids, &view, number, &seen);
+        dataset.write_amodal_masks(scene, camera, number, &masks)?;
+        cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, total as u64);
+        Ok((views, dataset.layout().amodal_masks(scene, camera, number)))
+    };
+    dataset.remove_amodal_masks(scene, camera)?;
+    let written: Vec<(Vec<InstanceView>, PathBuf)> = (0..total).into_par_iter().map(one).collect::<Result<_, _>>()?;
+    let (views, mut files): (Vec<_>, Vec<_>) = written.into_iter().unzip();
+    dataset.write_instance_views(scene, camera, &views.concat())?;
+    files.push(dataset.layout().frame_instances(scene, camera));
+    Ok(files)
+}
+
+/// Draws every kind of box over the given frames, and returns the files. Only instances that a frame shows are drawn over it.
+///
+/// # Errors
+/// When a file cannot be read or written.
+pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32], cx: &dyn Cx) -> Result<Vec<PathBuf>, DatasetError> {
+    let (with, trajectory) = (dataset.read_camera(scene, camera)?, dataset.read_trajectory(scene, camera)?);
+    let labels = dataset.read_label_tables(scene)?;
+    let boxes = BoxKind::ALL.map(|kind| dataset.read_boxes(scene, kind));
+    let boxes: Vec<Vec<Option<OrientedBox>>> = boxes.into_iter().collect::<Result<_, _>>()?;
+    let done = AtomicU64::new(0);
+    let one = |&number: &u32| -> Result<Vec<PathBuf>, DatasetError> {
+        let Some(index) = trajectory.poses.iter().position(|pose| pose.frame == number) else { return Ok(Vec::new()) };
+        let view = CameraView::of_frame(&with, &trajectory.poses, index);
+        let wanted = [Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::SemanticInstance];
+        let frame = read_present(dataset, scene, camera, number, &wanted)?;
+        let mut files = Vec::new();
+        for (kind, boxes) in BoxKind::ALL.iter().zip(&boxes) {
+            let Some(picture) = overlay(&frame, &view, boxes, &labels) else { continue };
+            let path = dataset.layout().preview(scene, camera, number, Pass::Final, &format!("bb_{}.jpg", kind.name()));
+            write_bytes(&path, picture)?;
+            files.push(path);
+        }
+        cx.progress("overlays", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
+        Ok(files)
+    };
+    let files: Vec<Vec<PathBuf>> = frames.par_iter().map(one).collect::<Result<_, _>>()?;
+    Ok(files.into_iter().flatten().collect())
+}
+
+/// The boxes of what the frame shows, over the frame, as JPEG; `None` without the layers for it.
+fn overlay(frame: &Frame, view: &CameraView<'_>, boxes: &[Option<OrientedBox>], labels: &Labels) -> Option<Vec<u8>> {
+    let (depth, instances) = (frame.get(Layer::DepthMeters)?, frame.get(Layer::SemanticInstance)?);
+    let shown = preview(Subject::ToneMapped, frame, ToneMap::of_frame(frame)?)?;
+    let drawn = visible_areas(instances, frame.width).into_iter().filter_map(|(instance, area)| {
+        let shape = (*boxes.get(instance as usize)?)?;
+        let class = labels.parts.iter().find(|label| label.instance == instance).map_or(-1, |label| label.semantic);
+        let color = if class >= 1 { semantic_color(class) } else { id_color(instance) };
+        let large = area.pixels as f64 >= TEXT_SHARE * frame.pixels() as f64;
+        let text = if large { format!("{} {instance}", class_name(class)) } else { String::new() };
+        Some(DrawnBox { shape, color, text })
+    });
+    Some(jpeg(&draw_boxes(&shown.picture, depth, view, &drawn.collect::<Vec<_>>())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+    use enfilade_scene::Quiet;
+
+    #[test]
+    fn three_overlays_of_a_frame_are_written_and_show_boxes() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        let files = preview_boxes(&dataset, "room", "cam_00", &[0, 1], &Quiet).unwrap();
+        assert_eq!(files.len(), 6);
+        assert!(files[0].ends_with("scene_cam_00_final_preview/frame.0000.bb_axis_aligned.jpg"));
+        let picture = image::open(&files[0]).unwrap().into_rgb8();
+        let blue = picture.pixels().filter(|p| p.0[2] > p.0[0].saturating_add(60)).count();
+        assert!(blue > 40, "{blue} pixels have the blue of the mirror's box");
+    }
+}
