@@ -48,8 +48,8 @@ pub enum ExploreError {
         /// Edge of a voxel.
         voxel_m: f64,
     },
-    /// The grid would not fit in memory.
-    #[error("carving needs {voxels} voxels of {voxel_m} m ({mib} MiB, the limit is {limit_mib}); raise voxel_m or lower extent_m")]
+    /// The grid, or the octree made of it, would not fit in memory.
+    #[error("carving needs {voxels} voxels of {voxel_m} m ({mib} MiB or more, the limit is {limit_mib}); raise voxel_m or lower extent_m")]
     TooManyVoxels {
         /// Voxels in the domain.
         voxels: u64,

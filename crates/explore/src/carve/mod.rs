@@ -117,7 +117,7 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
     report.free_volume_m3 = report.free_voxels as f64 * config.voxel_m.powi(3);
     report.unknown_share = 1.0 - (report.free_voxels + report.occupied_voxels) as f64 / grid.domain_voxels() as f64;
     warn(&report, config, cx);
-    let mut space = FreeSpace::new(grid.to_tree(config.voxel_m), report)?;
+    let mut space = FreeSpace::new(grid.to_tree(config.voxel_m)?, report)?;
     if let (Preset::Hypersim, Some((min, max))) = (config.preset, hypersim::free_box(grid)) {
         (space.free_min, space.free_max) = (min, max);
     }

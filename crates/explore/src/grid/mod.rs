@@ -32,6 +32,9 @@ const VOLUME: usize = ROWS * BLOCK;
 /// More than this much memory for the grid is refused.
 const MAX_BYTES: u64 = 4 << 30;
 
+/// And more than this much for the octree, whose memory may for a moment be three times as much while it grows.
+const MAX_TREE_BYTES: u64 = 2 << 30;
+
 /// The grid. Blocks of 32³ voxels come into being when a surface or a ray first touches them, so that a large domain costs what is
 /// seen of it; they are aligned to multiples of 32 keys, so that each is a node of the octree. Bits are only ever added, in any
 /// order and from any thread, so the result does not depend on either.
@@ -174,8 +177,11 @@ impl VoxelGrid {
     }
 
     /// The octree with the same states, of voxels with edges of `resolution_m`.
-    pub(crate) fn to_tree(&self, resolution_m: f64) -> OccupancyTree {
-        OccupancyTree::from_states(resolution_m, |key, level| {
+    ///
+    /// # Errors
+    /// [`ExploreError::TooManyVoxels`] when it takes too much memory: rays far from where they start free single voxels here and there.
+    pub(crate) fn to_tree(&self, resolution_m: f64) -> Result<OccupancyTree, ExploreError> {
+        let tree = OccupancyTree::within_bytes(resolution_m, MAX_TREE_BYTES, |key, level| {
             let edge = 1i64 << level;
             let corner: [i64; 3] = std::array::from_fn(|a| i64::from(key.0[a]) - i64::from(self.base[a]));
             if (0..3).any(|a| corner[a] + edge <= 0 || corner[a] >= (self.size[a] * BLOCK) as i64) {
@@ -189,7 +195,8 @@ impl VoxelGrid {
                 Some(block) => block.state_of_cube(offset, level),
                 None => Some(Voxel::Unknown),
             }
-        })
+        });
+        tree.ok_or_else(|| too_many_voxels(self.allocated.load(Relaxed), self.voxel_m, self.bytes() + MAX_TREE_BYTES))
     }
 }
 

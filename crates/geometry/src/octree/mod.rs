@@ -80,21 +80,29 @@ impl OccupancyTree {
     /// `state(key, level)` is asked about the cube of 2^`level` voxels per edge whose smallest key is `key`: the state of all of
     /// it, or `None` to be asked about its eight halves instead. At level 0 it must know. Cost is one call per cube asked about.
     pub fn from_states(resolution_m: f64, state: impl Fn(VoxelKey, u32) -> Option<Voxel>) -> Self {
-        let mut tree = Self::new(resolution_m);
-        tree.root = tree.build(VoxelKey([0; 3]), TREE_LEVELS, &state);
-        tree
+        Self::within_bytes(resolution_m, u64::MAX, state).expect("there is no limit")
     }
 
-    fn build(&mut self, key: VoxelKey, level: u32, state: &impl Fn(VoxelKey, u32) -> Option<Voxel>) -> Child {
+    /// [`OccupancyTree::from_states`] for as long as its nodes take no more than `max_bytes` of memory; `None` beyond that.
+    pub fn within_bytes(resolution_m: f64, max_bytes: u64, state: impl Fn(VoxelKey, u32) -> Option<Voxel>) -> Option<Self> {
+        let mut tree = Self::new(resolution_m);
+        tree.root = tree.build(VoxelKey([0; 3]), TREE_LEVELS, max_bytes, &state)?;
+        Some(tree)
+    }
+
+    fn build(&mut self, key: VoxelKey, level: u32, max_bytes: u64, state: &impl Fn(VoxelKey, u32) -> Option<Voxel>) -> Option<Child> {
         match state(key, level) {
-            Some(known) => return Child::Leaf(known),
+            Some(known) => return Some(Child::Leaf(known)),
             None => assert!(level > 0, "the state of the single voxel {key:?} was not given"),
+        }
+        if size_of_val(&*self.nodes) as u64 > max_bytes {
+            return None;
         }
         let mut children = [UNKNOWN; 8];
         for octant in 0..8 {
-            children[octant] = self.build(key.child(octant, level), level - 1, state);
+            children[octant] = self.build(key.child(octant, level), level - 1, max_bytes, state)?;
         }
-        self.join(children)
+        Some(self.join(children))
     }
 
     /// A node with these children, or the leaf that is the same as all of them.

@@ -88,3 +88,18 @@ fn leaves_come_in_morton_order() {
     let codes: Vec<u64> = tree.leaves().map(|leaf| morton(leaf.key)).collect();
     assert!(codes.len() > 100 && codes.is_sorted());
 }
+
+#[test]
+fn a_tree_stops_growing_at_its_limit() {
+    let chequered = |key: VoxelKey, level: u32| {
+        let far = key.0.map(i64::from).iter().any(|k| k + (1i64 << level) <= 32768 || *k >= 32768 + 16);
+        match (far, level) {
+            (true, _) => Some(Voxel::Unknown),
+            (false, 0) => Some(if key.0.iter().fold(0, |odd, k| odd ^ (k & 1)) == 0 { Voxel::Free } else { Voxel::Occupied }),
+            (false, _) => None,
+        }
+    };
+    let whole = OccupancyTree::from_states(0.1, chequered);
+    assert_eq!(OccupancyTree::within_bytes(0.1, 1 << 20, chequered), Some(whole));
+    assert_eq!(OccupancyTree::within_bytes(0.1, 1 << 12, chequered), None);
+}
