@@ -51,7 +51,7 @@ pub(crate) fn instance_meshes(dataset: &Dataset, scene: &str) -> Result<BTreeMap
 }
 
 /// Reads an array of doubles.
-pub(crate) fn read_f64(path: &Path) -> Result<Vec<f64>, DatasetError> {
+fn read_f64(path: &Path) -> Result<Vec<f64>, DatasetError> {
     match read_array(path)?.values {
         Elements::F64(values) => Ok(values),
         other => Err(unexpected(path, "float64", &other)),

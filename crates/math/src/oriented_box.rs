@@ -39,9 +39,14 @@ impl OrientedBox {
         })
     }
 
+    /// A point of the world in the box's own axes, from its middle.
+    pub fn local(&self, p_world: DVec3) -> DVec3 {
+        self.world_from_box.transpose() * (p_world - self.center)
+    }
+
     /// How far `p` lies outside: the largest distance beyond a pair of sides; at most 0 inside.
     pub fn distance_beyond(&self, p: DVec3) -> f64 {
-        ((self.world_from_box.transpose() * (p - self.center)).abs() - 0.5 * self.extents).max_element()
+        (self.local(p).abs() - 0.5 * self.extents).max_element()
     }
 }
 

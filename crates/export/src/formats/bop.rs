@@ -6,7 +6,7 @@
 //! `[x, y, width, height]` by `calc_2d_bbox`: width is the last column minus the first.
 
 use crate::ExportError;
-use crate::boxes::{InstanceBox, instance_boxes};
+use crate::boxes::instance_boxes;
 use crate::calibration::{Calibration, row_major};
 use crate::depth::{DEPTH, millimetres, planar_m};
 use crate::instances::{Instance, instances};
@@ -15,7 +15,7 @@ use crate::picture::{SHOWN, color_png, grey8_png, grey16_png};
 use crate::place::Place;
 use crate::source::{Source, Track, View};
 use enfilade_frame::{Frame, Layer};
-use enfilade_math::DVec3;
+use enfilade_math::{DVec3, OrientedBox};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -39,7 +39,7 @@ pub(crate) const README: &str = "\
 /// A BOP object.
 struct Object {
     id: u32,
-    shape: InstanceBox,
+    shape: OrientedBox,
     mesh: Option<InstanceMesh>,
 }
 
