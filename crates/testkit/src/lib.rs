@@ -5,10 +5,12 @@
 //! `target/evidence/`, and is answered with more samples, never with another seed.
 
 mod gamma;
+mod machine;
 mod mean;
 mod npz;
 
 pub use gamma::chi_square_survival;
+pub use machine::processor;
 pub use mean::Mean;
 pub use npz::Npz;
 

@@ -1,6 +1,7 @@
 //! The table, on the terminal and in `docs/benchmarks`.
 
 use crate::measure::Measured;
+use enfilade_testkit::processor;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -117,12 +118,4 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
 
 fn tidy(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
-}
-
-/// The name of the processor, where the system tells.
-fn processor() -> String {
-    let about = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let field = |name: &str| about.lines().find_map(|line| line.strip_prefix(name)?.split_once(':').map(|(_, value)| value.trim()));
-    let name = field("model name").unwrap_or("an unknown processor");
-    field("cpu family").map_or(name.into(), |family| format!("{name} (family {family})"))
 }

@@ -2,6 +2,7 @@
 
 use crate::Failure;
 use crate::turns::{Compared, Row};
+use enfilade_testkit::processor;
 use serde_json::json;
 use std::fmt::Write;
 use std::path::Path;
@@ -97,12 +98,4 @@ fn ratio(row: &Row, peer: usize) -> f64 {
 
 fn tidy(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
-}
-
-/// The name of the processor, where the system tells.
-fn processor() -> String {
-    let about = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let field = |name: &str| about.lines().find_map(|line| line.strip_prefix(name)?.split_once(':').map(|(_, value)| value.trim()));
-    let name = field("model name").unwrap_or("an unknown processor");
-    field("cpu family").map_or(name.into(), |family| format!("{name} (family {family})"))
 }

@@ -1,0 +1,9 @@
+//! What a benchmark was run on.
+
+/// The name of the processor, where the system tells: for the pages of benchmarks.
+pub fn processor() -> String {
+    let about = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let field = |name: &str| about.lines().find_map(|line| line.strip_prefix(name)?.split_once(':').map(|(_, value)| value.trim()));
+    let name = field("model name").unwrap_or("an unknown processor");
+    field("cpu family").map_or(name.into(), |family| format!("{name} (family {family})"))
+}
