@@ -88,24 +88,13 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::small_tree;
     use super::*;
     use crate::VoxelKey;
-    use enfilade_math::Rng;
-
-    fn small_tree() -> OccupancyTree {
-        let mut tree = OccupancyTree::new(0.05);
-        let mut rng = Rng::new(3);
-        for _ in 0..400 {
-            let key = VoxelKey([0; 3].map(|_: u16| 32764 + rng.below(8) as u16));
-            tree.set(key, if rng.below(2) == 0 { Voxel::Free } else { Voxel::Occupied });
-        }
-        tree.prune();
-        tree
-    }
 
     #[test]
     fn a_tree_survives_writing_and_reading() {
-        let tree = small_tree();
+        let tree = small_tree(3, 400);
         let bytes = tree.to_bt();
         let read = OccupancyTree::from_bt(&bytes).unwrap();
         assert!(read.leaves().eq(tree.leaves()));
@@ -134,7 +123,7 @@ mod tests {
 
     #[test]
     fn damaged_files_are_refused_with_the_place() {
-        let bytes = small_tree().to_bt();
+        let bytes = small_tree(3, 400).to_bt();
         let end = bytes.len();
         let data = bytes.windows(6).position(|w| w == b"\ndata\n").unwrap() + 6;
         let read = |bytes: &[u8]| OccupancyTree::from_bt(bytes).unwrap_err();

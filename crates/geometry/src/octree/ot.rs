@@ -97,25 +97,15 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::small_tree;
     use super::*;
     use crate::VoxelKey;
     use enfilade_math::Rng;
 
-    fn small_tree() -> OccupancyTree {
-        let mut tree = OccupancyTree::new(0.05);
-        let mut rng = Rng::new(5);
-        for _ in 0..300 {
-            let key = VoxelKey([0; 3].map(|_: u16| 32764 + rng.below(8) as u16));
-            tree.set(key, if rng.below(2) == 0 { Voxel::Free } else { Voxel::Occupied });
-        }
-        tree.prune();
-        tree
-    }
-
     #[test]
     fn a_tree_survives_writing_and_reading() {
         let full = OccupancyTree::from_states(0.1, |_, _| Some(Voxel::Occupied));
-        for tree in [small_tree(), OccupancyTree::new(0.1), full] {
+        for tree in [small_tree(5, 300), OccupancyTree::new(0.1), full] {
             let bytes = tree.to_ot();
             let read = OccupancyTree::from_ot(&bytes).unwrap();
             assert!(read.leaves().eq(tree.leaves()));
@@ -154,14 +144,14 @@ mod tests {
 
     #[test]
     fn damaged_files_are_refused() {
-        let bytes = small_tree().to_ot();
+        let bytes = small_tree(5, 300).to_ot();
         let data = bytes.windows(6).position(|w| w == b"\ndata\n").unwrap() + 6;
         for end in 0..bytes.len() {
             let error = OccupancyTree::from_ot(&bytes[..end]).unwrap_err();
             assert!(matches!(error, TreeFileError::Truncated { .. }) || end < data, "{end}: {error}");
         }
         assert!(matches!(OccupancyTree::from_ot(&[&bytes[..], b"x"].concat()), Err(TreeFileError::Surplus { surplus: 1, .. })));
-        assert!(matches!(OccupancyTree::from_ot(&small_tree().to_bt()), Err(TreeFileError::Header { offset: 0, .. })));
+        assert!(matches!(OccupancyTree::from_ot(&small_tree(5, 300).to_bt()), Err(TreeFileError::Header { offset: 0, .. })));
         assert!(matches!(OccupancyTree::from_bt(&bytes), Err(TreeFileError::Header { offset: 0, .. })));
         let nan = [&bytes[..data], &f32::NAN.to_le_bytes(), &bytes[data + 4..]].concat();
         assert!(matches!(OccupancyTree::from_ot(&nan), Err(TreeFileError::LogOdds { .. })));
@@ -173,8 +163,8 @@ mod tests {
     fn random_damage_makes_an_error_or_another_tree_but_no_panic() {
         let mut rng = Rng::new(77);
         for (bytes, read) in [
-            (small_tree().to_ot(), OccupancyTree::from_ot as fn(&[u8]) -> Result<OccupancyTree, TreeFileError>),
-            (small_tree().to_bt(), OccupancyTree::from_bt),
+            (small_tree(5, 300).to_ot(), OccupancyTree::from_ot as fn(&[u8]) -> Result<OccupancyTree, TreeFileError>),
+            (small_tree(5, 300).to_bt(), OccupancyTree::from_bt),
         ] {
             let mut refused = 0;
             for _ in 0..3000 {

@@ -12,6 +12,18 @@ fn random_states(n: usize) -> Vec<(VoxelKey, Voxel)> {
         .collect()
 }
 
+/// `n` random voxels in a small cube that straddles the middle of the key space, pruned.
+pub(super) fn small_tree(seed: u64, n: usize) -> OccupancyTree {
+    let mut tree = OccupancyTree::new(0.05);
+    let mut rng = Rng::new(seed);
+    for _ in 0..n {
+        let key = VoxelKey([0; 3].map(|_: u16| 32764 + rng.below(8) as u16));
+        tree.set(key, if rng.below(2) == 0 { Voxel::Free } else { Voxel::Occupied });
+    }
+    tree.prune();
+    tree
+}
+
 #[test]
 fn a_voxel_keeps_the_last_state_set() {
     let mut tree = OccupancyTree::new(0.1);
