@@ -2,6 +2,7 @@
 //! them: [`CameraView::centre_ray`] says which ray a pixel's is.
 
 use crate::prepared::{Cutout, RenderScene};
+use crate::surface::Surface;
 use crate::texture::Cone;
 use enfilade_frame::f16;
 use enfilade_math::{DVec3, Ray, Vec3};
@@ -26,33 +27,51 @@ pub(crate) struct PixelGeometry {
     pub entity: i16,
 }
 
-/// The geometry seen through the centre of pixel (x, y); `None` when nothing is.
-pub(crate) fn pixel_geometry(scene: &RenderScene<'_>, view: &CameraView<'_>, x: u32, y: u32) -> Option<PixelGeometry> {
-    let (x, y) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+/// The surface that an image point shows.
+pub(crate) struct Sighting<'s> {
+    pub surface: Surface<'s>,
+    /// Index into the scene's triangles.
+    pub triangle: usize,
+    /// From the camera centre, unit length.
+    pub direction: DVec3,
+    /// Along the exact ray, metres.
+    pub distance_m: f64,
+    /// World position.
+    pub p_world: DVec3,
+}
+
+/// What the ray through an image point meets first; `None` when nothing is there.
+pub(crate) fn sighting<'s>(scene: &RenderScene<'s>, view: &CameraView<'_>, (x, y): (f64, f64)) -> Option<Sighting<'s>> {
     let CameraRay { origin, direction } = view.centre_ray(x, y)?;
     let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
     let hit = scene.closest(&ray, Cutout::Half)?;
     let surface = scene.surface(&hit, ray.direction, &Cone::POINT);
-    let triangle = &scene.triangles[hit.triangle as usize];
-    let distance = exact_distance(triangle.corners, origin, direction).unwrap_or(f64::from(hit.t));
-    let position = origin + direction * distance;
+    let triangle = hit.triangle as usize;
+    let distance_m = exact_distance(scene.triangles[triangle].corners, origin, direction).unwrap_or(f64::from(hit.t));
+    Some(Sighting { surface, triangle, direction, distance_m, p_world: origin + direction * distance_m })
+}
+
+/// The geometry seen through the centre of pixel (x, y); `None` when nothing is.
+pub(crate) fn pixel_geometry(scene: &RenderScene<'_>, view: &CameraView<'_>, x: u32, y: u32) -> Option<PixelGeometry> {
+    let (x, y) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+    let Sighting { surface, triangle, direction, distance_m: distance, p_world } = sighting(scene, view, (x, y))?;
     let cam_from_world = view.row_placement(y).1.transpose();
     let to_camera = |n: Vec3| halves((cam_from_world * n.as_dvec3()).as_vec3());
     Some(PixelGeometry {
         distance_m: distance as f32,
         depth_z_m: (-(cam_from_world * direction).z * distance) as f32,
-        position: position.as_vec3().to_array(),
+        position: p_world.as_vec3().to_array(),
         normal_world: halves(surface.ns_smooth),
         normal_cam: to_camera(surface.ns_smooth),
         normal_bump_world: halves(surface.ns),
         normal_bump_cam: to_camera(surface.ns),
         tex_coord: [finite_half(surface.uv.x), finite_half(surface.uv.y), f16::ZERO],
-        entity: (triangle.part + 1) as i16,
+        entity: (scene.triangles[triangle].part + 1) as i16,
     })
 }
 
 /// Distance along the exact ray to the plane of a triangle. `None` when the ray lies in the plane.
-pub(crate) fn exact_distance(corners: [Vec3; 3], origin: DVec3, direction: DVec3) -> Option<f64> {
+fn exact_distance(corners: [Vec3; 3], origin: DVec3, direction: DVec3) -> Option<f64> {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let n = (b - a).cross(c - a);
     let t = (a - origin).dot(n) / direction.dot(n);

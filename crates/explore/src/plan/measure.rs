@@ -1,11 +1,11 @@
 //! Measures a finished trajectory: fills the report, and warns of frames that break a rule.
 
-use super::nearest::Surfaces;
 use super::patches::patches;
 use super::report::{Fault, FrameRow, FrameValues, PlanReport, PlanStatistics, RelaxedFrame};
 use super::rules::{pitch_rad, turned_rad};
 use super::{Draft, Planned, Planner};
 use crate::{Preset, ViewStats};
+use enfilade_geometry::Surfaces;
 use enfilade_scene::{Pose, Trajectory};
 use rayon::prelude::*;
 use std::collections::BTreeMap;

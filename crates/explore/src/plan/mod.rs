@@ -9,7 +9,6 @@ mod headings;
 mod hypersim;
 mod keyframes;
 mod measure;
-mod nearest;
 mod patches;
 mod places;
 mod report;

@@ -10,6 +10,7 @@ use crate::picture::{SHOWN, color_jpeg};
 use crate::place::Place;
 use crate::source::{Source, View};
 use enfilade_frame::{Frame, Layer};
+use enfilade_post::instances::run_lengths;
 use enfilade_scene::{NYU40, is_stuff};
 use serde::Serialize;
 
@@ -129,19 +130,9 @@ fn annotation(frame: &Frame, instance: &Instance) -> Annotation {
 
 /// Lengths of runs down the columns, of background and mask in turn.
 fn runs(instance: &Instance, width: u32, height: u32) -> Vec<i64> {
-    let (width, height) = (width as usize, height as usize);
-    let mut places: Vec<usize> = instance.pixels.iter().map(|i| i % width * height + i / width).collect();
+    let mut places: Vec<u32> = instance.pixels.iter().map(|&i| i as u32 % width * height + i as u32 / width).collect();
     places.sort_unstable();
-    let mut runs = Vec::new();
-    let mut end = 0;
-    for stretch in places.chunk_by(|a, b| a + 1 == *b) {
-        runs.extend([(stretch[0] - end) as i64, stretch.len() as i64]);
-        end = stretch[0] + stretch.len();
-    }
-    if end < width * height {
-        runs.push((width * height - end) as i64);
-    }
-    runs
+    run_lengths(&places, width * height).into_iter().map(i64::from).collect()
 }
 
 /// COCO's string of runs: from the fourth on, each is told by its difference to the run before the last.

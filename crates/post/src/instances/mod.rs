@@ -56,7 +56,7 @@ pub fn visible_areas(instances: &Values, width: u32) -> BTreeMap<i16, PixelArea>
 }
 
 /// Lengths of runs outside and inside by turns, of `total` places of which the ascending `inside` are inside.
-fn run_lengths(inside: &[u32], total: u32) -> Vec<u32> {
+pub fn run_lengths(inside: &[u32], total: u32) -> Vec<u32> {
     let mut counts = Vec::new();
     let mut end = 0;
     for &place in inside {

@@ -2,7 +2,8 @@
 
 use super::Planned;
 use super::look::Sight;
-use enfilade_math::{DVec3, Vec3};
+use enfilade_geometry::Surfaces;
+use enfilade_math::DVec3;
 use enfilade_scene::{Camera, CameraView, Pose, Trajectory};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -41,6 +42,7 @@ pub(super) struct FrameMeasures {
 pub(super) fn measures(planned: &Planned<'_>, camera: &Camera, trajectory: &Trajectory, sights: &[Sight]) -> Vec<FrameMeasures> {
     let poses = &trajectory.poses;
     let floor = floor_z(planned, trajectory);
+    let surfaces = Surfaces::new(&planned.world.corners);
     let view = |i| CameraView::of_frame(camera, poses, i);
     let one = |i: usize| {
         let (pose, sight) = (&poses[i], &sights[i]);
@@ -53,7 +55,7 @@ pub(super) fn measures(planned: &Planned<'_>, camera: &Camera, trajectory: &Traj
             pitch_deg: (-pose.world_from_camera.z_axis.z).clamp(-1.0, 1.0).asin().to_degrees(),
             step_m: i.checked_sub(1).map(|before| pose.position.distance(poses[before].position)),
             turn_deg: i.checked_sub(1).map(|before| turn_deg(&poses[before], pose)),
-            clearance_m: distance_to_surfaces(&planned.world.corners, pose.position),
+            clearance_m: surfaces.distance_m(pose.position).unwrap_or(f64::INFINITY),
             overlap: i.checked_sub(1).and_then(|before| sight.share_seen_by(&view(before), &sights[before])),
             void_share,
             triangles,
@@ -78,44 +80,6 @@ fn turn_deg(before: &Pose, after: &Pose) -> f64 {
     (0.5 * (turn.x_axis.x + turn.y_axis.y + turn.z_axis.z - 1.0)).clamp(-1.0, 1.0).acos().to_degrees()
 }
 
-/// Distance from `p` to the nearest point of any triangle; infinite without triangles.
-fn distance_to_surfaces(triangles: &[[Vec3; 3]], p: DVec3) -> f64 {
-    let mut nearest2 = f64::INFINITY;
-    for corners in triangles {
-        let [a, b, c] = corners.map(|corner| corner.as_dvec3());
-        // The box around the triangle is farther than what was found: so is the triangle.
-        if p.clamp(a.min(b).min(c), a.max(b).max(c)).distance_squared(p) < nearest2 {
-            nearest2 = nearest2.min(nearest_on_triangle([a, b, c], p).distance_squared(p));
-        }
-    }
-    nearest2.sqrt()
-}
-
-/// The point of a triangle nearest to `p`. Ericson 2005, "Real-Time Collision Detection", section 5.1.5.
-fn nearest_on_triangle([a, b, c]: [DVec3; 3], p: DVec3) -> DVec3 {
-    let (ab, ac) = (b - a, c - a);
-    let (d1, d2) = (ab.dot(p - a), ac.dot(p - a));
-    let (d3, d4) = (ab.dot(p - b), ac.dot(p - b));
-    let (d5, d6) = (ab.dot(p - c), ac.dot(p - c));
-    let (va, vb, vc) = (d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2);
-    if d1 <= 0.0 && d2 <= 0.0 {
-        a
-    } else if d3 >= 0.0 && d4 <= d3 {
-        b
-    } else if d6 >= 0.0 && d5 <= d6 {
-        c
-    } else if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        a + d1 / (d1 - d3) * ab
-    } else if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        a + d2 / (d2 - d6) * ac
-    } else if va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0 {
-        b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)
-    } else {
-        let sum = va + vb + vc;
-        a + vb / sum * ab + vc / sum * ac
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -129,10 +93,10 @@ mod tests {
         for _ in 0..200 {
             let p = DVec3::new(4.0 * rng.next_f64(), 3.0 * rng.next_f64(), 2.5 * rng.next_f64());
             let expected = p.min(DVec3::new(4.0, 3.0, 2.5) - p).min_element();
-            assert!((distance_to_surfaces(&room.corners, p) - expected).abs() < 1e-6, "{p}");
+            assert!((Surfaces::new(&room.corners).distance_m(p).unwrap() - expected).abs() < 1e-6, "{p}");
         }
         let outside = DVec3::new(-3.0, -4.0, 1.0);
-        assert!((distance_to_surfaces(&room.corners, outside) - 5.0).abs() < 1e-6, "to an edge");
-        assert!((distance_to_surfaces(&room.corners, DVec3::new(-1.0, -2.0, 4.5)) - 3.0).abs() < 1e-6, "to a corner");
+        assert!((Surfaces::new(&room.corners).distance_m(outside).unwrap() - 5.0).abs() < 1e-6, "to an edge");
+        assert!((Surfaces::new(&room.corners).distance_m(DVec3::new(-1.0, -2.0, 4.5)).unwrap() - 3.0).abs() < 1e-6, "to a corner");
     }
 }

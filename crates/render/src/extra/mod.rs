@@ -5,6 +5,7 @@ mod appearance;
 mod boundary;
 mod flow;
 
+use crate::geometry_pass::{Sighting, sighting};
 use crate::prepared::{Cutout, RenderScene};
 use crate::surface::Surface;
 use crate::texture::Cone;
@@ -78,14 +79,10 @@ struct Extra {
 
 fn extra(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<&CameraView<'_>>, (x, y): (u32, u32)) -> Option<Extra> {
     let centre = (f64::from(x) + 0.5, f64::from(y) + 0.5);
-    let CameraRay { origin, direction } = view.centre_ray(centre.0, centre.1)?;
-    let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
-    let hit = scene.closest(&ray, Cutout::Half)?;
-    let surface = scene.surface(&hit, ray.direction, &Cone::POINT);
-    let triangle = &scene.triangles[hit.triangle as usize];
-    let distance = crate::geometry_pass::exact_distance(triangle.corners, origin, direction).unwrap_or(f64::from(hit.t));
+    let Sighting { surface, triangle, direction, distance_m, p_world } = sighting(scene, view, centre)?;
+    let triangle = &scene.triangles[triangle];
     let appearance = surface.appearance(scene);
-    let (behind_m, entity_behind) = behind(scene, &surface, ray.direction, distance as f32, triangle.part);
+    let (behind_m, entity_behind) = behind(scene, &surface, direction.as_vec3(), distance_m as f32, triangle.part);
     let emitted = surface.emission(scene);
     let one_sided = !surface.outside && !surface.material.two_sided && !surface.material.bsdf.transmits();
     let mut kind = 0;
@@ -106,7 +103,7 @@ fn extra(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<&CameraVie
         traits: kind,
         behind_m,
         entity_behind,
-        flow: next.and_then(|next| flow::flow(scene, view, next, centre, origin + distance * direction)),
+        flow: next.and_then(|next| flow::flow(scene, view, next, centre, p_world)),
     })
 }
 

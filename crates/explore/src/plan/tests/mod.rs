@@ -99,3 +99,16 @@ fn seen(room: &Room, a: DVec3, b: DVec3) -> bool {
     ray.t_max = a.distance(b) as f32;
     !room.bvh.occluded(&ray)
 }
+
+#[test]
+fn distances_are_those_of_brute_force() {
+    let room = furnished_room();
+    let surfaces = enfilade_geometry::Surfaces::new(&room.world.corners);
+    let mut rng = Rng::new(3);
+    for _ in 0..300 {
+        let p = DVec3::new(7.0 * rng.next_f64() - 0.5, 6.0 * rng.next_f64() - 0.5, 3.0 * rng.next_f64() - 0.2);
+        let (found, expected) = (surfaces.distance_m(p).unwrap(), room.distance_m(p));
+        assert!((found - expected).abs() < 1e-9, "{p}: {found}, {expected} by brute force");
+    }
+    assert_eq!(enfilade_geometry::Surfaces::new(&[]).distance_m(DVec3::ZERO), None);
+}

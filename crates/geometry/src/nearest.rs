@@ -5,13 +5,14 @@ use enfilade_math::{Bounds3, DVec3, Vec3};
 /// Triangles in a block: neighbours in a mesh are neighbours in its list, so blocks are small in space.
 const BLOCK: usize = 32;
 
-/// Triangles in blocks with bounds.
-pub(super) struct Surfaces<'a> {
+/// Triangles, in blocks with bounds, that can be asked for the nearest of them.
+pub struct Surfaces<'a> {
     corners: &'a [[Vec3; 3]],
     bounds: Vec<Bounds3>,
 }
 
 impl<'a> Surfaces<'a> {
+    /// Blocks of 32 triangles each, in their order. Copies nothing but makes a box for each block.
     pub fn new(corners: &'a [[Vec3; 3]]) -> Self {
         let bounds = corners.chunks(BLOCK).map(|block| Bounds3::from_points(block.iter().flatten().copied())).collect();
         Self { corners, bounds }
@@ -61,24 +62,4 @@ fn nearest_point(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
         return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
     }
     a + (ab * vb + ac * vc) / (va + vb + vc)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::testroom::furnished_room;
-    use enfilade_math::Rng;
-
-    #[test]
-    fn distances_are_those_of_brute_force() {
-        let room = furnished_room();
-        let surfaces = Surfaces::new(&room.world.corners);
-        let mut rng = Rng::new(3);
-        for _ in 0..300 {
-            let p = DVec3::new(7.0 * rng.next_f64() - 0.5, 6.0 * rng.next_f64() - 0.5, 3.0 * rng.next_f64() - 0.2);
-            let (found, expected) = (surfaces.distance_m(p).unwrap(), room.distance_m(p));
-            assert!((found - expected).abs() < 1e-9, "{p}: {found}, {expected} by brute force");
-        }
-        assert_eq!(Surfaces::new(&[]).distance_m(DVec3::ZERO), None);
-    }
 }
