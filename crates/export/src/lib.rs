@@ -22,11 +22,13 @@ mod numpy;
 mod picture;
 mod place;
 mod points;
+mod scene_gltf;
 mod source;
 
 pub use error::ExportError;
 pub use format::{FORMATS, Format, FormatSpec};
 pub use place::Existing;
+pub use scene_gltf::{SceneGltf, scene_gltf};
 pub use source::Selection;
 
 use enfilade_dataset::Dataset;

@@ -1,6 +1,8 @@
 //! Puts parts, labels and materials together into a scene.
 
-use crate::materials::Materials;
+use crate::light::Glow;
+use crate::materials::{Materials, Surfacing};
+use crate::palette::Palette;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3};
 use enfilade_scene::{Image, Labels, Material, Part, PartLabel, Scene};
@@ -14,6 +16,7 @@ pub enum Class {
     Wall = 1,
     Floor = 2,
     Cabinet = 3,
+    Bed = 4,
     Chair = 5,
     Sofa = 6,
     Table = 7,
@@ -21,17 +24,31 @@ pub enum Class {
     Window = 9,
     Bookshelf = 10,
     Picture = 11,
+    Counter = 12,
+    Blinds = 13,
+    Desk = 14,
+    Shelves = 15,
     Curtain = 16,
+    Dresser = 17,
     Pillow = 18,
     Mirror = 19,
     FloorMat = 20,
+    Clothes = 21,
     Ceiling = 22,
     Books = 23,
+    Refrigerator = 24,
     Television = 25,
     Paper = 26,
     Towel = 27,
+    ShowerCurtain = 28,
     Box = 29,
+    Whiteboard = 30,
+    NightStand = 32,
+    Toilet = 33,
+    Sink = 34,
     Lamp = 35,
+    Bathtub = 36,
+    Bag = 37,
     OtherStructure = 38,
     OtherFurniture = 39,
     OtherProp = 40,
@@ -48,8 +65,7 @@ pub struct Object {
 
 /// A scene in the making.
 pub struct Builder {
-    /// Handles of everything that surfaces are made of.
-    pub materials: Materials,
+    materials: Materials,
     scene: Scene,
     labels: Labels,
     families: BTreeMap<String, u32>,
@@ -62,9 +78,14 @@ pub fn pose(x: f64, y: f64, z: f64, yaw: f64) -> DAffine3 {
 }
 
 impl Builder {
-    /// Nothing yet but the materials.
-    pub fn new(scene: Scene, materials: Materials) -> Self {
-        Self { materials, scene, labels: Labels::default(), families: BTreeMap::new(), instances: 0 }
+    /// Nothing yet; finishes become materials when they are first used.
+    pub fn new(materials: Materials) -> Self {
+        Self { materials, scene: Scene::default(), labels: Labels::default(), families: BTreeMap::new(), instances: 0 }
+    }
+
+    /// What is added from now on has the colours of `palette`.
+    pub fn enter_room(&mut self, palette: Palette) {
+        self.materials.enter_room(palette);
     }
 
     /// A new object of a family: named `family_1`, `family_2`, … with an instance number of its own.
@@ -82,16 +103,29 @@ impl Builder {
     }
 
     /// Adds a part of `object`, its mesh in the object's space.
-    pub fn part(&mut self, object: &Object, name: &str, mesh: Mesh, material: u32) {
-        self.part_at(object, name, mesh, DAffine3::IDENTITY, material);
+    pub fn part(&mut self, object: &Object, name: &str, mesh: Mesh, made_of: impl Into<Surfacing>) {
+        self.part_at(object, name, mesh, DAffine3::IDENTITY, made_of);
     }
 
     /// Adds a part of `object` whose mesh is placed in the object's space by `object_from_mesh`.
-    pub fn part_at(&mut self, object: &Object, name: &str, mesh: Mesh, object_from_mesh: DAffine3, material: u32) {
+    pub fn part_at(&mut self, object: &Object, name: &str, mesh: Mesh, object_from_mesh: DAffine3, made_of: impl Into<Surfacing>) {
+        let material = match made_of.into() {
+            Surfacing::Finish(finish) => match finish.glow(&mesh) {
+                Some(glow) => self.materials.glow(&mut self.scene, &object.name, &mesh, glow),
+                None => self.materials.get(&mut self.scene, finish),
+            },
+            Surfacing::Own(material) => material,
+        };
         let mesh = self.mesh(mesh);
         let world_from_mesh = object.pose * object_from_mesh;
         self.scene.parts.push(Part { name: format!("{}/{name}", object.name), mesh, material, world_from_mesh });
         self.labels.parts.push(object.label);
+    }
+
+    /// Adds a luminous part of a lamp: its flux and its mesh's area give its radiance, the light of the home whether it is lit.
+    pub fn glow(&mut self, object: &Object, name: &str, mesh: Mesh, glow: Glow) {
+        let material = self.materials.glow(&mut self.scene, &object.name, &mesh, glow);
+        self.part(object, name, mesh, material);
     }
 
     /// Adds a material that only one object has.

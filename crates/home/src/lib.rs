@@ -1,36 +1,37 @@
 //! Procedural furnished homes: the embedded default input, and labelled scenes without end.
 //!
-//! [`living_room`] is a function of its seed alone. From the bottom up: [`shape`] makes meshes and [`texture`] pictures;
-//! [`materials`] and [`palette`] say what things are made of; [`furniture`] has one file per family of things; [`room`] builds the
-//! shell, [`layout`] decides what fits where, and [`builder`] names, labels and collects the parts.
+//! [`home`] is a function of its [`HomeConfig`] alone. From the bottom up: [`shape`] makes meshes and [`texture`] pictures;
+//! [`materials`] and [`palette`] say what things are made of; [`furniture`] has one file per family of things; [`plan`] lays out
+//! rooms, [`room`] and [`shell`] are their walls; [`place`] decides what fits where, [`rooms`] says what each kind of room holds,
+//! [`builder`] names, labels and collects the parts, and what [`check`] finds wrong is taken away again.
 
 pub mod builder;
 mod cameras;
+pub mod check;
+mod config;
 pub mod furniture;
-pub mod layout;
-mod living_room;
+pub mod light;
 pub mod materials;
 pub mod palette;
+pub mod place;
+pub mod plan;
 pub mod room;
+pub mod rooms;
+mod settle;
 pub mod shape;
+pub mod shell;
 pub mod texture;
 
-use builder::Builder;
-use enfilade_math::{Rgb, Rng, Vec2, Vec3};
-use enfilade_scene::sky::Daylight;
-use enfilade_scene::{Environment, Labels, Light, Scene};
-use layout::Plan;
-use materials::Materials;
-use palette::Palette;
-use serde::{Deserialize, Serialize};
+pub use config::HomeConfig;
+pub use plan::{FloorPlan, RoomKind};
 
-/// What a home is a function of.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct HomeConfig {
-    /// Decides everything: sizes, colours, furniture, weather. Zero is the one on the cover.
-    pub seed: u64,
-}
+use builder::Builder;
+use enfilade_math::{Rng, Vec2};
+use enfilade_scene::{Labels, Scene};
+use light::{LightConfig, Moment};
+use materials::Materials;
+use palette::DecorConfig;
+use room::Wall;
 
 /// A home and what its parts are called.
 #[derive(Clone, Debug)]
@@ -39,46 +40,42 @@ pub struct Home {
     pub scene: Scene,
     /// Every part has a class; all but walls, floor and ceiling belong to an instance.
     pub labels: Labels,
+    /// Where its rooms are.
+    pub plan: FloorPlan,
 }
 
-/// Scene radiance per kilo-candela per square metre: brings a sunny room's walls to about one.
-const EXPOSURE: f32 = 1.2;
-
-/// Luminance of the bulbs before exposure, kcd/m². A frosted 60 W bulb has about 60; lamps in daylight want a strong one.
-const BULB: f32 = 110.0;
-
-/// Width of the sky's picture.
-const SKY_WIDTH: u32 = 1024;
-
-/// A furnished living room on a sunny day with its lamps lit.
-pub fn living_room(config: &HomeConfig) -> Home {
-    let rng = Rng::new(config.seed);
-    let default = config.seed == 0;
-    let palette = Palette::choose(config.seed, &mut rng.fork(1));
-    let mut plan = living_room::plan_room(default, &mut rng.fork(2));
-    let mut scene = Scene::default();
-    let materials = Materials::new(&mut scene, &palette, BULB * EXPOSURE, &mut rng.fork(3));
-    let mut builder = Builder::new(scene, materials);
-    living_room::furnish(&mut builder, &mut plan, &palette, default, &rng.fork(4));
-    let (mut scene, labels) = builder.finish();
-    daylight(&mut scene, &plan, default, &mut rng.fork(5));
-    scene.cameras = cameras::cameras(&scene, &plan);
-    Home { scene, labels }
+/// A furnished home in the light of a moment.
+pub fn home(config: &HomeConfig) -> Home {
+    let kinds = config.programme();
+    let plan = FloorPlan::new(&kinds, &config.stream(config.layout, 1));
+    let light = light(&plan, config, &config.stream(config.light, 4));
+    let decor = DecorConfig { seed: config.materials.unwrap_or(config.seed), realism: config.realism };
+    let mut builder = Builder::new(Materials::new(decor.palette(), light, decor.pictures()));
+    rooms::furnish(&mut builder, &plan, &decor, config);
+    let (scene, labels) = builder.finish();
+    let mut home = Home { scene, labels, plan };
+    settle::settle(&mut home);
+    light.illuminate(&mut home.scene, &outlooks(&home.plan));
+    home.scene.cameras = cameras::cameras(&home.scene, &home.labels, &home.plan);
+    home
 }
 
-/// Sky, sun and garden; the sun stands before the window.
-fn daylight(scene: &mut Scene, plan: &Plan, default: bool, rng: &mut Rng) {
-    let (elevation, azimuth) = if default { (0.80f32, 0.80f32) } else { (rng.range(0.65, 0.9), rng.range(-0.85, 0.85)) };
-    let toward = plan.direction(Vec2::new(azimuth.sin(), azimuth.cos())) * elevation.cos();
-    let day = Daylight { to_sun: Vec3::new(toward.x, toward.y, elevation.sin()).normalize(), turbidity: 7.0, ground_albedo: 0.2 };
-    let (mut sky, environment, sun) = day.lights(SKY_WIDTH, EXPOSURE, scene.images.len() as u32);
-    if let (Environment::Map { map_from_world, .. }, Light::Directional { irradiance, .. }) = (&environment, &sun) {
-        let world_from_map = map_from_world.transpose();
-        let level = *irradiance * day.to_sun.z + Rgb::new(9.0, 11.0, 14.0) * EXPOSURE;
-        let outward = plan.direction(Vec2::Y).extend(0.0);
-        texture::paint_surroundings(&mut sky, |d| world_from_map * d, level, outward, rng.next_u64() as u32);
-    }
-    scene.images.push(sky);
-    scene.environment = Some(environment);
-    scene.lights.push(sun);
+/// The light of a home: by day its sun stands before the largest window of the first room that has one.
+fn light(plan: &FloorPlan, config: &HomeConfig, rng: &Rng) -> LightConfig {
+    let cover = config.seed == 0 && config.light.is_none();
+    let moment = config.moment.unwrap_or_else(|| if cover { Moment::Day } else { Moment::usual(&mut rng.fork(1)) });
+    let light = if cover && moment == Moment::Day {
+        LightConfig { day_of_year: 172, hour: 14.6, ..LightConfig::default() }
+    } else {
+        LightConfig::random(moment, &mut rng.fork(2))
+    };
+    let largest = |room: &room::Room| room.windows().max_by(|a, b| a.size().x.total_cmp(&b.size().x)).map(|w| -w.wall.inward());
+    let out = plan.rooms.iter().find_map(largest).unwrap_or(Vec2::Y);
+    light.facing_sun(out, rng.fork(3).range(0.2, 0.8))
+}
+
+/// The ways that windows look, each once.
+fn outlooks(plan: &FloorPlan) -> Vec<Vec2> {
+    let looks = |wall: &Wall| plan.rooms.iter().flat_map(room::Room::windows).any(|w| w.wall == *wall);
+    Wall::ALL.into_iter().filter(looks).map(|wall| -wall.inward()).collect()
 }

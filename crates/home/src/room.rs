@@ -1,14 +1,12 @@
-//! The shell: walls of real thickness with a window and a door, floor, ceiling, skirting.
+//! A room: its place in the home, its walls and what opens in them.
 
-use crate::builder::{Builder, Class, pose};
-use crate::furniture::board;
-use crate::shape::{Reshape, slab_with_openings};
-use crate::texture::FLOOR_STRIPS;
-use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+use crate::builder::pose;
+use crate::place::Footprint;
+use crate::plan::RoomKind;
+use enfilade_math::{DAffine3, Vec2, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// One of the four walls. The room's centre is the origin; north is +y.
+/// One of the four walls of a room. North is +y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Wall {
@@ -53,6 +51,38 @@ pub struct Opening {
     pub x: [f32; 2],
     /// From and to above the floor.
     pub z: [f32; 2],
+    /// What is in it.
+    pub filling: Filling,
+}
+
+/// What is in an opening.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Filling {
+    /// Sashes beside each other.
+    Window {
+        /// How many.
+        sashes: usize,
+    },
+    /// A door whose leaf swings into this room.
+    Door(Leaf),
+    /// A door whose leaf swings into the room beyond.
+    DoorBack,
+    /// Nothing: an open way.
+    Passage {
+        /// Both rooms have the opening; one of them builds its lining.
+        lined: bool,
+    },
+}
+
+/// How a door hangs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leaf {
+    /// Hinges at the end with the smaller (−1) or larger (+1) x.
+    pub hinge: f32,
+    /// How far it stands open; 0 is shut.
+    pub open_rad: f32,
+    /// Thickness of the wall that it hangs in.
+    pub back: f32,
 }
 
 impl Opening {
@@ -65,26 +95,36 @@ impl Opening {
     pub fn center_x(&self) -> f32 {
         0.5 * (self.x[0] + self.x[1])
     }
+
+    /// True where people walk through.
+    pub fn is_way(&self) -> bool {
+        !matches!(self.filling, Filling::Window { .. })
+    }
 }
 
-/// A rectangular room around the origin.
-#[derive(Clone, Copy, Debug)]
+/// A rectangular room.
+#[derive(Clone, Debug)]
 pub struct Room {
+    /// What it is for.
+    pub kind: RoomKind,
+    /// The middle of its floor in the home.
+    pub center: Vec2,
     /// Inner size: x, y, z.
     pub size: Vec3,
-    /// Thickness of the walls.
-    pub thickness: f32,
-    /// The window.
-    pub window: Opening,
-    /// The door.
-    pub door: Opening,
-    /// The wall in the accent colour.
-    pub accent: Wall,
+    /// Which of its walls are outer walls of the home, in the order of [`Wall::ALL`].
+    pub outer: [bool; 4],
+    /// Thickness of walls between rooms.
+    pub inner_wall: f32,
+    /// Thickness of outer walls.
+    pub outer_wall: f32,
+    /// Doors, passages and windows.
+    pub openings: Vec<Opening>,
 }
 
-/// How far floor, walls and ceiling reach into each other, so that no light comes through the joints.
-const OVERLAP: f32 = 0.1;
-const SKIRTING: Vec2 = Vec2::new(0.014, 0.085);
+/// A way's casing, and the handle of a leaf that stands open.
+const BESIDE_WAY: f32 = 0.08;
+/// Free space that a way needs before it where no leaf swings.
+const WAY_DEPTH: f32 = 0.65;
 
 impl Room {
     /// Inner length of a wall.
@@ -92,94 +132,61 @@ impl Room {
         if wall.along().x == 0.0 { self.size.y } else { self.size.x }
     }
 
+    /// Thickness of a wall, from this room to the next or to the outside.
+    pub fn thickness(&self, wall: Wall) -> f32 {
+        if self.outer[wall as usize] { self.outer_wall } else { self.inner_wall }
+    }
+
+    /// Half the thickness of the walls between rooms: this room's part of them.
+    pub fn inner_half(&self) -> f32 {
+        0.5 * self.inner_wall
+    }
+
     /// A wall's own space: origin on the floor at the middle of its inner face, x along it, y into the room.
     pub fn wall_pose(&self, wall: Wall) -> DAffine3 {
-        let p = -wall.inward() * 0.5 * Vec2::new(self.size.x, self.size.y);
+        let p = self.center - wall.inward() * 0.5 * self.size.truncate();
         pose(f64::from(p.x), f64::from(p.y), 0.0, wall.yaw())
     }
 
-    /// Adds walls, floor, ceiling and skirting.
-    pub fn build(&self, b: &mut Builder, rng: &mut Rng) {
-        for wall in Wall::ALL {
-            let object = b.object(&format!("wall_{wall:?}").to_lowercase(), Class::Wall, self.wall_pose(wall));
-            let corner = if wall.along().x == 0.0 { OVERLAP } else { self.thickness };
-            let holes: Vec<[f32; 4]> = [self.window, self.door]
-                .iter()
-                .filter(|o| o.wall == wall)
-                .map(|o| [o.x[0], o.x[1], if o.z[0] <= 0.0 { -OVERLAP } else { o.z[0] }, o.z[1]])
-                .collect();
-            let height = [-OVERLAP, self.size.z + OVERLAP];
-            let mesh = slab_with_openings(self.length(wall) + 2.0 * corner, height, self.thickness, &holes);
-            let paint = if wall == self.accent { b.materials.accent_wall } else { b.materials.wall };
-            b.part(&object, "plaster", mesh.uv_moved(Vec2::new(rng.range(0.0, 2.0), rng.range(0.0, 2.0))), paint);
-        }
-        let outer = 0.5 * self.size.truncate() + self.thickness;
-        let slab = |z0: f32, z1: f32| board([-outer.x, -outer.y, z0], [outer.x, outer.y, z1], 0.001);
-        let ceiling = b.object("ceiling", Class::Ceiling, DAffine3::IDENTITY);
-        b.part(&ceiling, "plaster", slab(self.size.z, self.size.z + 0.2), b.materials.ceiling);
-        let floor = b.object("floor", Class::Floor, DAffine3::IDENTITY);
-        b.part(&floor, "planks", self.planks(rng), b.materials.floor);
-        b.part(&floor, "screed", slab(-0.3, -0.02), b.materials.ceiling);
-        self.skirting(b);
+    /// From a range of the home's x or y, whichever the wall runs along, to the wall's own x.
+    pub fn along_wall(&self, wall: Wall, span: [f32; 2]) -> [f32; 2] {
+        let along = wall.along();
+        let x = span.map(|s| (s - self.center.dot(along.abs())) * (along.x + along.y));
+        [x[0].min(x[1]), x[0].max(x[1])]
     }
 
-    fn skirting(&self, b: &mut Builder) {
-        let object = b.object("skirting", Class::OtherStructure, DAffine3::IDENTITY);
-        for wall in Wall::ALL {
-            let half = 0.5 * self.length(wall) - if wall.along().x == 0.0 { SKIRTING.x + 0.0005 } else { 0.0 };
-            let mut runs = vec![[-half, half]];
-            if self.door.wall == wall {
-                runs = vec![[-half, self.door.x[0] - 0.06], [self.door.x[1] + 0.06, half]];
-            }
-            for (i, run) in runs.iter().filter(|r| r[1] - r[0] > 0.02).enumerate() {
-                let mesh = board([run[0], -0.002, -0.002], [run[1], SKIRTING.x, SKIRTING.y], 0.004);
-                let name = format!("{wall:?}_{}", i + 1).to_lowercase();
-                b.part_at(&object, &name, mesh, self.wall_pose(wall), b.materials.paint_white);
-            }
-        }
+    /// The point of the floor at `x` along a wall and `out` before it, in the home.
+    pub fn before(&self, wall: Wall, x: f32, out: f32) -> Vec2 {
+        self.center - wall.inward() * (0.5 * self.size.truncate() - out) + wall.along() * x
     }
 
-    /// Floorboards along x, laid in staggered rows with bevelled joints, a little way under the walls.
-    fn planks(&self, rng: &mut Rng) -> Mesh {
-        const WIDTH: f32 = 0.165;
-        const BEVEL: Vec2 = Vec2::new(0.0016, 0.0012);
-        let half = 0.5 * self.size.truncate() + 0.05;
-        let mut mesh = Mesh::default();
-        let mut y = -half.y;
-        while y < half.y {
-            let y1 = (y + WIDTH).min(half.y);
-            let mut x = -half.x;
-            let mut length = rng.range(0.5, 1.8);
-            while x < half.x {
-                let x1 = if half.x - x - length < 0.35 { half.x } else { x + length };
-                let strip = (rng.below(FLOOR_STRIPS) as f32 + 0.03) / FLOOR_STRIPS as f32;
-                let start = Vec2::new(rng.range(0.0, 2.0 - (x1 - x).min(1.99)), strip);
-                plank(&mut mesh, [x, x1], [y, y1], BEVEL, start, rng.below(2) == 0);
-                x = x1;
-                length = rng.range(1.1, 1.6);
-            }
-            y = y1;
-        }
-        mesh.smoothed(20.0)
+    /// Windows of the room.
+    pub fn windows(&self) -> impl Iterator<Item = &Opening> {
+        self.openings.iter().filter(|o| !o.is_way())
     }
-}
 
-/// One floorboard with its top at z = 0: a raised field inside four bevels that go down to the joints.
-fn plank(mesh: &mut Mesh, x: [f32; 2], y: [f32; 2], bevel: Vec2, uv: Vec2, turned: bool) {
-    let base = mesh.positions.len() as u32;
-    for (inset, z) in [(0.0, -bevel.y), (bevel.x, 0.0)] {
-        for (cx, cy) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
-            let shift = |c: usize| if c == 0 { inset } else { -inset };
-            let p = Vec3::new(x[cx] + shift(cx), y[cy] + shift(cy), z);
-            mesh.positions.push(p);
-            let q = Vec2::new(p.x - x[0], p.y - y[0]);
-            let q = if turned { Vec2::new(x[1] - x[0], y[1] - y[0]) - q } else { q };
-            mesh.uvs.push(uv + Vec2::new(q.x, q.y * 0.7));
-        }
+    /// Doors and passages of the room.
+    pub fn ways(&self) -> impl Iterator<Item = &Opening> {
+        self.openings.iter().filter(|o| o.is_way())
     }
-    let mut quad = |a: u32, b: u32, c: u32, d: u32| {
-        mesh.triangles.extend([[base + a, base + b, base + c], [base + a, base + c, base + d]]);
-    };
-    quad(4, 5, 6, 7);
-    (0..4).for_each(|k| quad(k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k));
+
+    /// The floor before a way that must stay free: where the leaf swings and people step.
+    pub fn way_zone(&self, way: &Opening) -> Footprint {
+        let width = way.size().x;
+        let depth = match way.filling {
+            Filling::Door(_) => width.max(WAY_DEPTH),
+            _ => WAY_DEPTH,
+        };
+        let half = Vec2::new(0.5 * width + BESIDE_WAY, 0.5 * depth);
+        Footprint { center: self.before(way.wall, way.center_x(), 0.5 * depth), half, yaw: way.wall.yaw() as f32 }
+    }
+
+    /// How many ways of the room one at `way` would be in the way of.
+    pub fn conflicts(&self, way: &Opening) -> f32 {
+        let zone = self.way_zone(way);
+        let swings = |o: &Opening| matches!(o.filling, Filling::Door(_));
+        let on_wall = |o: &Opening| o.wall == way.wall && o.x[0] < way.x[1] + 0.15 && way.x[0] < o.x[1] + 0.15;
+        let meets = |o: &&Opening| on_wall(o) || ((swings(o) || swings(way)) && self.way_zone(o).meets(&zone, 0.0));
+        self.ways().filter(meets).map(|o| if on_wall(o) { 10.0 } else { 1.0 }).sum()
+    }
 }

@@ -135,7 +135,15 @@ pub fn write(root: &Path, camera: &Camera) -> Dataset {
                 wanted.for_each(|(layer, values)| part.insert(layer, values.clone()));
                 part
             };
-            let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose: *pose, camera: camera.clone(), sampling: None };
+            let info = FrameInfo {
+                seed: 1,
+                samples: 1,
+                config_hash: "test".into(),
+                pose: *pose,
+                camera: camera.clone(),
+                sampling: None,
+                recipe: None,
+            };
             dataset.write_frame(name, camera_name, &part_of(false), &info, FrameTime::default()).unwrap();
             dataset.write_label_layers(name, camera_name, pose.frame, &part_of(true), "test").unwrap();
         }

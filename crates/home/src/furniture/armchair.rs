@@ -1,5 +1,6 @@
-use super::{Furniture, board, grained, standing};
+use super::{Furniture, board, grained, on, standing};
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::shape::{Reshape, padded_box, rounded_box, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::PI;
@@ -13,24 +14,23 @@ pub struct Armchair {
     pub lean: f32,
 }
 
-const DEPTH: f32 = 0.78;
+const DEPTH: f32 = 0.86;
+/// How far the seat stands before the middle of the footprint: the back leans out behind it.
+const FORWARD: f32 = 0.075;
 const ARM_HEIGHT: f32 = 0.56;
 
-impl Armchair {
-    /// One of many.
-    pub fn random(rng: &mut Rng) -> Self {
+impl Furniture for Armchair {
+    fn random(rng: &mut Rng) -> Self {
         Self { width: rng.range(0.68, 0.74), lean: rng.range(0.30, 0.38) }
     }
-}
 
-impl Furniture for Armchair {
     fn size(&self) -> Vec3 {
-        Vec3::new(self.width, DEPTH, 0.86)
+        Vec3::new(self.width, DEPTH, 0.95)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
-        let chair = b.object("armchair", Class::Chair, pose);
-        let wood = b.materials.wood;
+        let chair = b.object("armchair", Class::Chair, on(pose, Vec3::new(0.0, FORWARD, 0.0), 0.0));
+        let wood = Finish::Wood;
         let half = 0.5 * self.width - 0.03;
         let inner = 2.0 * half - 0.045;
         for (side, s) in [("left", -1.0), ("right", 1.0)] {
@@ -55,7 +55,7 @@ impl Furniture for Armchair {
             let slat = [self.back_point(-0.8 * half, up), self.back_point(0.8 * half, up)];
             b.part(&chair, &format!("back_slat_{}", k + 1), grained(tube(&slat, 0.010, 12), rng), wood);
         }
-        let cloth = b.materials.armchair;
+        let cloth = Finish::ArmchairCloth;
         let seat = padded_box(Vec3::new(inner, 0.58, 0.12), 0.04, 0.022).uv_moved(Vec2::splat(rng.next_f32()));
         b.part(&chair, "seat_cushion", seat.turned(Vec3::X, 0.09).moved(Vec3::new(0.0, 0.035, 0.372)), cloth);
         let back = padded_box(Vec3::new(inner - 0.01, 0.50, 0.12), 0.045, 0.028)

@@ -1,5 +1,6 @@
 use super::{Bowl, CONTACT, Candles, Furniture, Plant, Vase, board, grained, on};
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::shape::Reshape;
 use crate::texture::{BOOK_COLUMNS, BOOK_ROWS};
 use enfilade_geometry::Mesh;
@@ -23,14 +24,8 @@ const ROW: f32 = 0.335;
 const PLINTH: f32 = 0.06;
 
 impl Bookshelf {
-    /// One of many, at most `width` wide.
-    pub fn random(width: f32, rng: &mut Rng) -> Self {
-        let most = (((width - BOARD) / COLUMN) as usize).clamp(1, 2);
-        Self { columns: most, rows: 5 + rng.below(2), books: rng.range(0.68, 0.85) }
-    }
-
     fn case(&self, b: &mut Builder, shelf: &crate::builder::Object, rng: &mut Rng) {
-        let wood = b.materials.wood;
+        let wood = Finish::Wood;
         let size = self.size();
         let (half, back, front) = (0.5 * size.x, -0.5 * DEPTH, 0.5 * DEPTH);
         for i in 0..=self.columns {
@@ -78,7 +73,7 @@ fn ornament(b: &mut Builder, pose: DAffine3, radius: f32, rng: &mut Rng) {
     match rng.below(4) {
         0 => Vase { height: rng.range(0.16, 0.25), belly: radius.min(0.075), branches: 0 }.build(b, pose, rng),
         1 => Bowl { radius: radius.min(0.1) }.build(b, pose, rng),
-        2 => Plant::small(rng.range(0.10, 0.12), radius.min(0.055)).build(b, pose, rng),
+        2 => Plant::small(rng.range(0.09, 0.11), (0.5 * radius).min(0.045)).build(b, pose, rng),
         _ => Candles { count: 1 + rng.below(2) }.build(b, pose, rng),
     }
 }
@@ -113,9 +108,9 @@ fn any_cell(rng: &mut Rng) -> usize {
 }
 
 /// Standing books from `at` (left front corner) over `width`; the last ones may lean.
-fn row_of_books(b: &mut Builder, pose: DAffine3, at: Vec3, width: f32, leans: bool, rng: &mut Rng) {
+pub fn row_of_books(b: &mut Builder, pose: DAffine3, at: Vec3, width: f32, leans: bool, rng: &mut Rng) {
     let books = b.object("books", Class::Books, pose);
-    let material = b.materials.books;
+    let material = Finish::BookJackets;
     let mut x = 0.004;
     let mut count = 0;
     let mut series: Option<(f32, f32, usize, usize)> = None;
@@ -164,12 +159,16 @@ pub fn pile_of_books(b: &mut Builder, pose: DAffine3, count: usize, rng: &mut Rn
             .moved(Vec3::new(0.0, 0.5 * depth, -0.5 * height))
             .turned(Vec3::Y, -std::f32::consts::FRAC_PI_2)
             .moved(Vec3::new(0.0, 0.0, z));
-        b.part(&books, &format!("book_{:02}", i + 1), lying.turned(Vec3::Z, rng.range(-0.14, 0.14)), b.materials.books);
+        b.part(&books, &format!("book_{:02}", i + 1), lying.turned(Vec3::Z, rng.range(-0.14, 0.14)), Finish::BookJackets);
         z += thickness + CONTACT;
     }
 }
 
 impl Furniture for Bookshelf {
+    fn random(rng: &mut Rng) -> Self {
+        Self { columns: 1 + rng.below(3), rows: 5 + rng.below(2), books: rng.range(0.68, 0.85) }
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(self.columns as f32 * COLUMN + BOARD, DEPTH, PLINTH + self.rows as f32 * ROW)
     }

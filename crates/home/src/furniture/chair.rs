@@ -1,5 +1,6 @@
 use super::{Furniture, grained, standing};
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::shape::{Reshape, grid, rounded_box, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::PI;
@@ -14,13 +15,17 @@ pub struct Chair {
 const SEAT: f32 = 0.455;
 
 impl Furniture for Chair {
+    fn random(rng: &mut Rng) -> Self {
+        Self { pad: rng.below(2) == 0 }
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(0.46, 0.50, 0.80)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let chair = b.object("chair", Class::Chair, pose);
-        let wood = b.materials.wood;
+        let wood = Finish::Wood;
         let seat = rounded_box(Vec3::new(0.43, 0.41, 0.024), 0.011, 3)
             .deformed(|p| {
                 Vec3::new(
@@ -48,7 +53,7 @@ impl Furniture for Chair {
         b.part(&chair, "backrest", grained(backrest(), rng), wood);
         if self.pad {
             let pad = rounded_box(Vec3::new(0.38, 0.36, 0.03), 0.014, 3).uv_moved(Vec2::splat(rng.next_f32()));
-            b.part(&chair, "pad", pad.moved(Vec3::new(0.0, 0.02, SEAT + 0.0125 + 0.0145)), b.materials.accents[2]);
+            b.part(&chair, "pad", pad.moved(Vec3::new(0.0, 0.02, SEAT + 0.0125 + 0.0145)), Finish::Accent(2));
         }
     }
 }

@@ -1,6 +1,7 @@
 use super::dining_table::round_top;
 use super::{Furniture, board, grained, leg, on, standing};
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::shape::{Reshape, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
@@ -27,17 +28,8 @@ impl CoffeeTable {
     /// Height of the surface that things stand on.
     pub const TOP: f32 = TOP;
 
-    /// One of many.
-    pub fn random(rng: &mut Rng) -> Self {
-        if rng.below(2) == 0 {
-            Self::Shelf { length: rng.range(0.95, 1.15), depth: rng.range(0.52, 0.6) }
-        } else {
-            Self::Round { diameter: rng.range(0.78, 0.9) }
-        }
-    }
-
     fn shelf(b: &mut Builder, table: &crate::builder::Object, half: Vec2, rng: &mut Rng) {
-        let wood = b.materials.wood;
+        let wood = Finish::Wood;
         b.part(table, "top", grained(board([-half.x, -half.y, TOP - 0.026], [half.x, half.y, TOP], 0.004), rng), wood);
         let inset = half - 0.05;
         b.part(table, "shelf", grained(board([-inset.x, -inset.y, 0.145], [inset.x, inset.y, 0.161], 0.003), rng), wood);
@@ -49,8 +41,8 @@ impl CoffeeTable {
     }
 
     fn round(b: &mut Builder, table: &crate::builder::Object, radius: f32) {
-        b.part(table, "top", round_top(radius, 0.022).moved(Vec3::new(0.0, 0.0, TOP)), b.materials.stone);
-        let metal = b.materials.black_metal;
+        b.part(table, "top", round_top(radius, 0.022).moved(Vec3::new(0.0, 0.0, TOP)), Finish::Stone);
+        let metal = Finish::BlackMetal;
         for i in 0..4 {
             let out = Vec2::from_angle(0.4 + i as f32 * std::f32::consts::FRAC_PI_2);
             let p = |r: f32, z: f32| (out * r * radius).extend(z);
@@ -63,6 +55,14 @@ impl CoffeeTable {
 }
 
 impl Furniture for CoffeeTable {
+    fn random(rng: &mut Rng) -> Self {
+        if rng.below(2) == 0 {
+            Self::Shelf { length: rng.range(0.95, 1.15), depth: rng.range(0.52, 0.6) }
+        } else {
+            Self::Round { diameter: rng.range(0.78, 0.9) }
+        }
+    }
+
     fn size(&self) -> Vec3 {
         match *self {
             Self::Shelf { length, depth } => Vec3::new(length, depth, TOP),

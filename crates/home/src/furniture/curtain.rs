@@ -1,5 +1,6 @@
 use crate::builder::{Builder, Class};
-use crate::room::Room;
+use crate::materials::Finish;
+use crate::room::{Opening, Room};
 use crate::shape::{Reshape, curtain, lathe, sphere, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
@@ -8,8 +9,8 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 pub struct Curtains {
     /// Width of each hanging curtain.
     pub width: f32,
-    /// How far the rod reaches beyond the opening on either side.
-    pub beyond: f32,
+    /// How far the rod reaches beyond the opening at its smaller and at its larger x.
+    pub beyond: [f32; 2],
 }
 
 /// The rod's distance from the wall.
@@ -19,16 +20,15 @@ impl Curtains {
     /// Depth of the space before the wall that they take.
     pub const DEPTH: f32 = OUT + 0.06;
 
-    /// Adds the curtains of the window of `room`.
-    pub fn build(&self, b: &mut Builder, room: &Room, rng: &mut Rng) {
-        let opening = room.window;
+    /// Adds the curtains of a window of `room`.
+    pub fn build(&self, b: &mut Builder, room: &Room, opening: &Opening, rng: &mut Rng) {
         let rod_z = (opening.z[1] + 0.14).min(room.size.z - 0.06);
         let pose = super::on(room.wall_pose(opening.wall), Vec3::new(opening.center_x(), 0.0, 0.0), 0.0);
         let object = b.object("curtain_rod", Class::Curtain, pose);
-        let metal = b.materials.black_metal;
-        let half = 0.5 * opening.size().x + self.beyond;
-        b.part(&object, "rod", tube(&[Vec3::new(-half, OUT, rod_z), Vec3::new(half, OUT, rod_z)], 0.0125, 18), metal);
-        for (name, s) in [("left", -1.0), ("right", 1.0)] {
+        let metal = Finish::BlackMetal;
+        let ends = self.beyond.map(|beyond| 0.5 * opening.size().x + beyond);
+        b.part(&object, "rod", tube(&[Vec3::new(-ends[0], OUT, rod_z), Vec3::new(ends[1], OUT, rod_z)], 0.0125, 18), metal);
+        for (name, s, half) in [("left", -1.0, ends[0]), ("right", 1.0, ends[1])] {
             b.part(&object, &format!("finial_{name}"), sphere(0.023, 20).moved(Vec3::new(s * (half + 0.012), OUT, rod_z)), metal);
             let x = s * (half - 0.03);
             let flange = lathe(&[[0.0, 0.0], [0.028, 0.0], [0.028, 0.006], [0.0, 0.006]].map(Vec2::from_array), 24)
@@ -45,7 +45,7 @@ impl Curtains {
         let folds = (self.width / 0.07) as usize;
         let top = -0.034;
         let mesh = curtain(self.width, rod_z + top - 0.012, folds, 0.075, rng).moved(Vec3::new(0.0, 0.0, top));
-        b.part(&object, "cloth", mesh, b.materials.curtain);
+        b.part(&object, "cloth", mesh, Finish::CurtainLinen);
         let ring: Vec<Vec3> = (0..=24)
             .map(|k| {
                 let (sin, cos) = (k as f32 / 24.0 * std::f32::consts::TAU).sin_cos();
@@ -56,7 +56,7 @@ impl Curtains {
             let x = self.width * ((k as f32 + 0.5) / folds as f32 - 0.5);
             let clip = tube(&ring, 0.0022, 6).with(tube(&[Vec3::new(0.0, 0.0, -0.0225), Vec3::new(0.0, 0.0, top - 0.012)], 0.0025, 6));
             let at = DAffine3::from_translation(Vec3::new(x, 0.0, 0.0).as_dvec3());
-            b.part_at(&object, &format!("ring_{}", k + 1), clip, at, b.materials.black_metal);
+            b.part_at(&object, &format!("ring_{}", k + 1), clip, at, Finish::BlackMetal);
         }
     }
 }

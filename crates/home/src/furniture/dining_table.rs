@@ -1,5 +1,6 @@
 use super::{Furniture, board, grained, leg, on};
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::shape::{Reshape, lathe};
 use enfilade_math::{DAffine3, DVec3, Rng, Vec2, Vec3};
 
@@ -18,14 +19,13 @@ pub const TOP: f32 = 0.74;
 impl DiningTable {
     /// Height of the surface that things stand on.
     pub const TOP: f32 = TOP;
-
-    /// One of many.
-    pub fn random(rng: &mut Rng) -> Self {
-        Self { width: rng.range(0.82, 0.95), round: rng.below(3) > 0 }
-    }
 }
 
 impl Furniture for DiningTable {
+    fn random(rng: &mut Rng) -> Self {
+        Self { width: rng.range(0.82, 0.95), round: rng.below(3) > 0 }
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(self.width, self.width, TOP)
     }
@@ -33,12 +33,12 @@ impl Furniture for DiningTable {
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let table = b.object("dining_table", Class::Table, pose);
         let half = 0.5 * self.width;
-        let wood = b.materials.wood;
+        let wood = Finish::Wood;
         let top = if self.round { round_top(half, 0.028) } else { board([-half, -half, -0.028], [half, half, 0.0], 0.004) };
         b.part(&table, "top", grained(top.moved(Vec3::new(0.0, 0.0, TOP)), rng), wood);
         let stand = if self.round { 0.56 * half } else { half - 0.06 };
         for (i, s) in [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)].into_iter().enumerate() {
-            let mesh = leg(TOP - 0.0275, [0.015, 0.026], s * 0.05);
+            let mesh = leg(TOP - 0.0275, [0.015, 0.026], s * 0.044);
             let at = on(DAffine3::IDENTITY, (s * stand).extend(0.0), 0.0);
             b.part_at(&table, &format!("leg_{}", i + 1), grained(mesh, rng), at, wood);
         }

@@ -1,82 +1,134 @@
 use super::board;
-use crate::builder::{Builder, Class};
-use crate::room::Room;
+use crate::builder::{Builder, Class, Object};
+use crate::materials::Finish;
+use crate::room::{Leaf, Opening, Room};
 use crate::shape::{Reshape, lathe, picture_frame, tube};
-use enfilade_math::{Vec2, Vec3};
+use enfilade_geometry::Mesh;
+use enfilade_math::{DAffine3, Vec2, Vec3};
 
-/// The door in its opening: lining, casing, closed leaf with mouldings, handle, threshold.
+/// A door in its opening: lining, casings, leaf with mouldings and handles, threshold.
 #[derive(Clone, Copy, Debug)]
 pub struct Door {
-    /// Handle on the left (−1) or the right (+1) as the wall's x axis runs.
-    pub hand: f32,
+    /// How it hangs.
+    pub leaf: Leaf,
 }
+
+/// An open way in its opening: lining, casings, threshold.
+#[derive(Clone, Copy, Debug)]
+pub struct Passage;
 
 const LINING: f32 = 0.03;
 /// The leaf's faces, behind the wall's inner face.
 const LEAF: [f32; 2] = [-0.058, -0.018];
+/// Air around the leaf.
+const PLAY: f32 = 0.0025;
+
+/// Boards around an opening through a wall that is `back` thick, and casings on its faces.
+fn lining(b: &mut Builder, object: &Object, size: Vec2, back: f32, casing_behind: bool) {
+    let white = Finish::WhitePaint;
+    let (half, top) = (0.5 * size.x, size.y);
+    let faces: &[(&str, f32, f32)] =
+        if casing_behind { &[("", -0.002, 0.017), ("_back", -back - 0.017, -back + 0.002)] } else { &[("", -0.002, 0.017)] };
+    for (name, s) in [("left", -1.0f32), ("right", 1.0)] {
+        let span = |from: f32, to: f32| if s < 0.0 { [-to, -from] } else { [from, to] };
+        let [x0, x1] = span(half - LINING, half + 0.003);
+        b.part(object, &format!("lining_{name}"), board([x0, -back - 0.002, -0.01], [x1, 0.002, top], 0.0015), white);
+        let [x0, x1] = span(half - 0.012, half + 0.052);
+        for (face, y0, y1) in faces {
+            b.part(object, &format!("casing_{name}{face}"), board([x0, *y0, -0.002], [x1, *y1, top + 0.0523], 0.004), white);
+        }
+    }
+    let head = board([-half - 0.002, -back - 0.0025, top - LINING], [half + 0.002, 0.0025, top + 0.003], 0.0015);
+    b.part(object, "lining_top", head, white);
+    for (face, y0, y1) in faces {
+        let mesh = board([-half + 0.0118, *y0 + 0.0005, top - 0.012], [half - 0.0118, *y1 - 0.0005, top + 0.052], 0.004);
+        b.part(object, &format!("casing_top{face}"), mesh, white);
+    }
+    let threshold = board([-half - 0.001, -back - 0.012, -0.03], [half + 0.001, 0.012, 0.004], 0.002);
+    b.part(object, "threshold", threshold, Finish::Wood);
+}
+
+impl Passage {
+    /// Adds the lining of a way of `room`.
+    pub fn build(self, b: &mut Builder, room: &Room, opening: &Opening) {
+        let pose = super::on(room.wall_pose(opening.wall), Vec3::new(opening.center_x(), 0.0, 0.0), 0.0);
+        let passage = b.object("passage", Class::OtherStructure, pose);
+        lining(b, &passage, Vec2::new(opening.size().x, opening.z[1]), room.thickness(opening.wall), true);
+    }
+}
 
 impl Door {
-    /// Adds the door of `room`.
-    pub fn build(&self, b: &mut Builder, room: &Room) {
-        let opening = room.door;
-        let pose = super::on(room.wall_pose(opening.wall), Vec3::new(opening.center_x(), 0.0, 0.0), 0.0);
-        let door = b.object("door", Class::Door, pose);
-        let white = b.materials.paint_white;
-        let (half, top) = (0.5 * opening.size().x, opening.z[1]);
-        let back = -room.thickness - 0.002;
-        // The stop behind the leaf overlaps it on three sides, the threshold on the fourth.
-        for (name, s) in [("left", -1.0f32), ("right", 1.0)] {
-            let span = |from: f32, to: f32| if s < 0.0 { [-to, -from] } else { [from, to] };
-            let [x0, x1] = span(half - LINING, half + 0.003);
-            b.part(&door, &format!("lining_{name}"), board([x0, back, -0.01], [x1, 0.002, top], 0.0015), white);
-            let [x0, x1] = span(half - LINING - 0.014, half - LINING + 0.002);
-            b.part(
-                &door,
-                &format!("stop_{name}"),
-                board([x0, LEAF[0] - 0.03, -0.01], [x1, LEAF[0] + 0.0005, top - LINING + 0.001], 0.001),
-                white,
-            );
-            let [x0, x1] = span(half - 0.012, half + 0.052);
-            b.part(&door, &format!("casing_{name}"), board([x0, -0.002, -0.002], [x1, 0.017, top + 0.0523], 0.004), white);
-        }
-        b.part(&door, "lining_top", board([-half - 0.002, back, top - LINING], [half + 0.002, 0.0025, top + 0.003], 0.0015), white);
-        let stop = half - LINING + 0.001;
-        b.part(
-            &door,
-            "stop_top",
-            board([-stop, LEAF[0] - 0.03, top - LINING - 0.014], [stop, LEAF[0] + 0.0005, top - LINING + 0.002], 0.001),
-            white,
-        );
-        b.part(&door, "casing_top", board([-half + 0.0118, -0.002, top - 0.012], [half - 0.0118, 0.0165, top + 0.052], 0.004), white);
-        b.part(&door, "threshold", board([-half, back, -0.03], [half, LEAF[0] + 0.0005, 0.016], 0.002), b.materials.wood);
-        b.part(
-            &door,
-            "sill_plate",
-            board([-half - 0.001, LEAF[0] - 0.001, -0.03], [half + 0.001, 0.02, -0.0015], 0.0005),
-            b.materials.wood,
-        );
-        self.leaf(b, &door, Vec2::new(half - LINING - 0.0025, top - LINING - 0.0025));
+    /// Width of the leaf in an opening of this width.
+    pub fn leaf_width(opening: f32) -> f32 {
+        opening - 2.0 * (LINING + PLAY)
     }
 
-    fn leaf(&self, b: &mut Builder, door: &crate::builder::Object, size: Vec2) {
-        let white = b.materials.paint_white;
-        b.part(door, "leaf", board([-size.x, LEAF[0], 0.005], [size.x, LEAF[1], size.y], 0.002), white);
-        let width = 2.0 * size.x - 0.26;
-        let section =
-            [[0.0, -0.001], [0.002, 0.006], [0.012, 0.009], [0.022, 0.003], [0.024, -0.001]].map(|[inset, y]| [inset, LEAF[1] + y]);
-        for (name, z0, z1) in [("panel_lower", 0.18, 0.84), ("panel_upper", 1.0, size.y - 0.15)] {
-            let mesh = picture_frame(width, z1 - z0, &section).moved(Vec3::new(0.0, 0.0, 0.5 * (z0 + z1)));
-            b.part(door, name, mesh, white);
+    /// Adds the door in an opening of `room`.
+    pub fn build(&self, b: &mut Builder, room: &Room, opening: &Opening) {
+        let pose = super::on(room.wall_pose(opening.wall), Vec3::new(opening.center_x(), 0.0, 0.0), 0.0);
+        let door = b.object("door", Class::Door, pose);
+        let white = Finish::WhitePaint;
+        let (half, top) = (0.5 * opening.size().x, opening.z[1]);
+        lining(b, &door, Vec2::new(2.0 * half, top), self.leaf.back, !room.outer[opening.wall as usize]);
+        // The stop behind the leaf overlaps it on three sides.
+        let stop = half - LINING;
+        for (name, s) in [("left", -1.0f32), ("right", 1.0)] {
+            let [x0, x1] = if s < 0.0 { [-stop - 0.002, 0.014 - stop] } else { [stop - 0.014, stop + 0.002] };
+            let mesh = board([x0, LEAF[0] - 0.03, 0.002], [x1, LEAF[0] - 0.0005, top - LINING + 0.001], 0.001);
+            b.part(&door, &format!("stop_{name}"), mesh, white);
         }
-        let at = Vec3::new(self.hand * (size.x - 0.065), LEAF[1], 1.02);
-        let rose = [[0.0, 0.0], [0.026, 0.0], [0.0255, 0.006], [0.022, 0.009], [0.0, 0.009]];
-        let plate =
-            lathe(&rose.map(Vec2::from_array), 32).turned(Vec3::X, -std::f32::consts::FRAC_PI_2).moved(at - Vec3::new(0.0, 0.0005, 0.0));
-        let toward_hinge = -self.hand;
-        let path: Vec<Vec3> = [[0.0, 0.0], [0.0, 0.035], [0.004, 0.046], [0.012, 0.052], [0.03, 0.054], [0.125, 0.054]]
-            .iter()
-            .map(|[x, y]| at + Vec3::new(toward_hinge * x, *y, 0.0))
-            .collect();
-        b.part(door, "handle", plate.with(tube(&path, 0.0085, 16)), b.materials.steel);
+        let mesh =
+            board([-stop - 0.001, LEAF[0] - 0.0295, top - LINING - 0.014], [stop + 0.001, LEAF[0] - 0.0005, top - LINING + 0.002], 0.001);
+        b.part(&door, "stop_top", mesh, white);
+        self.hang(b, &door, Vec2::new(half - LINING - PLAY, top - LINING - PLAY));
     }
+
+    /// The leaf about its hinges; `size` is half its width and its height.
+    fn hang(&self, b: &mut Builder, door: &Object, size: Vec2) {
+        let Leaf { hinge, open_rad, .. } = self.leaf;
+        // Hinges sit at the front edge of the leaf, which turns about them into the room.
+        let pivot = Vec3::new(hinge * size.x, LEAF[1], 0.0).as_dvec3();
+        let swing = DAffine3::from_translation(pivot)
+            * DAffine3::from_rotation_z(f64::from(-hinge * open_rad))
+            * DAffine3::from_translation(-pivot);
+        let white = Finish::WhitePaint;
+        b.part_at(door, "leaf", board([-size.x, LEAF[0], 0.007], [size.x, LEAF[1], size.y], 0.002), swing, white);
+        for (side, front) in [("", true), ("_back", false)] {
+            // Both faces are alike; the back one is the front one turned about the leaf's middle.
+            let onto_face = |mesh: Mesh| {
+                if front {
+                    mesh.moved(Vec3::new(0.0, LEAF[1], 0.0))
+                } else {
+                    mesh.turned(Vec3::Z, std::f32::consts::PI).moved(Vec3::new(0.0, LEAF[0], 0.0))
+                }
+            };
+            for (name, z0, z1) in [("panel_lower", 0.18, 0.84), ("panel_upper", 1.0, size.y - 0.15)] {
+                let frame = picture_frame(2.0 * size.x - 0.26, z1 - z0, &MOULDING).moved(Vec3::new(0.0, 0.0, 0.5 * (z0 + z1)));
+                b.part_at(door, &format!("{name}{side}"), onto_face(frame), swing, white);
+            }
+            let hand = if front { -hinge } else { hinge };
+            b.part_at(door, &format!("handle{side}"), onto_face(handle(hand * (size.x - 0.065), hand)), swing, Finish::Steel);
+        }
+        for (i, z) in [0.24, size.y - 0.24].into_iter().enumerate() {
+            let knuckle = tube(&[Vec3::new(0.0, 0.0, z - 0.04), Vec3::new(0.0, 0.0, z + 0.04)], 0.006, 12);
+            let at = Vec3::new(hinge * (size.x + 0.5 * PLAY), LEAF[1] + 0.004, 0.0);
+            b.part(door, &format!("hinge_{}", i + 1), knuckle.moved(at), Finish::Steel);
+        }
+    }
+}
+
+/// Section of the mouldings on a leaf whose face is y = 0.
+const MOULDING: [[f32; 2]; 5] = [[0.0, -0.001], [0.002, 0.006], [0.012, 0.009], [0.022, 0.003], [0.024, -0.001]];
+
+/// A lever at `x` on a leaf whose face is y = 0, reaching away from the side that `hand` names.
+fn handle(x: f32, hand: f32) -> Mesh {
+    let at = Vec3::new(x, 0.0, 1.02);
+    let rose = [[0.0, 0.0], [0.026, 0.0], [0.0255, 0.006], [0.022, 0.009], [0.0, 0.009]];
+    let plate =
+        lathe(&rose.map(Vec2::from_array), 32).turned(Vec3::X, -std::f32::consts::FRAC_PI_2).moved(at - Vec3::new(0.0, 0.0005, 0.0));
+    let path: Vec<Vec3> = [[0.0, 0.0], [0.0, 0.035], [0.004, 0.046], [0.012, 0.052], [0.03, 0.054], [0.125, 0.054]]
+        .iter()
+        .map(|[x, y]| at + Vec3::new(-hand * x, *y, 0.0))
+        .collect();
+    plate.with(tube(&path, 0.0085, 16))
 }

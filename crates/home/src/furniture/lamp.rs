@@ -1,5 +1,6 @@
 use super::{CONTACT, Furniture, standing};
 use crate::builder::{Builder, Class, Object};
+use crate::materials::Finish;
 use crate::shape::{Reshape, lathe, rounded_loop, sphere, tube};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -41,22 +42,17 @@ pub struct FloorLamp {
 }
 
 impl FloorLamp {
-    /// One of many.
-    pub fn random(rng: &mut Rng) -> Self {
-        Self { height: rng.range(1.48, 1.62), shade: rng.range(0.19, 0.22), tripod: rng.below(2) == 0 }
-    }
-
     fn stand(&self, b: &mut Builder, lamp: &Object, joint: f32) {
         if !self.tripod {
             let base = [[0.0, 0.0], [0.135, 0.0], [0.138, 0.004], [0.136, 0.018], [0.12, 0.022], [0.016, 0.026], [0.0, 0.026]];
-            b.part(lamp, "base", lathe(&base.map(Vec2::from_array), 48), b.materials.black_metal);
-            b.part(lamp, "pole", tube(&[Vec3::new(0.0, 0.0, 0.0255), Vec3::new(0.0, 0.0, joint)], 0.0095, 16), b.materials.black_metal);
+            b.part(lamp, "base", lathe(&base.map(Vec2::from_array), 48), Finish::BlackMetal);
+            b.part(lamp, "pole", tube(&[Vec3::new(0.0, 0.0, 0.0255), Vec3::new(0.0, 0.0, joint)], 0.0095, 16), Finish::BlackMetal);
             return;
         }
         for k in 0..3 {
             let out = Vec2::from_angle(0.3 + k as f32 * std::f32::consts::TAU / 3.0);
             let path = [(out * 0.27).extend(0.0), (out * 0.025).extend(joint - 0.07)];
-            b.part(lamp, &format!("leg_{}", k + 1), standing(tube(&path, 0.0125, 14)), b.materials.wood);
+            b.part(lamp, &format!("leg_{}", k + 1), standing(tube(&path, 0.0125, 14)), Finish::Wood);
         }
         let hub = [
             [0.0, joint - 0.11],
@@ -67,11 +63,15 @@ impl FloorLamp {
             [0.010, joint],
             [0.0, joint],
         ];
-        b.part(lamp, "hub", lathe(&hub.map(Vec2::from_array), 24), b.materials.brass);
+        b.part(lamp, "hub", lathe(&hub.map(Vec2::from_array), 24), Finish::Brass);
     }
 }
 
 impl Furniture for FloorLamp {
+    fn random(rng: &mut Rng) -> Self {
+        Self { height: rng.range(1.48, 1.62), shade: rng.range(0.19, 0.22), tripod: rng.below(2) == 0 }
+    }
+
     fn size(&self) -> Vec3 {
         let width = if self.tripod { 0.56 } else { 2.0 * self.shade };
         Vec3::new(width.max(2.0 * self.shade), width.max(2.0 * self.shade), self.height)
@@ -91,11 +91,11 @@ impl Furniture for FloorLamp {
                 0.0,
                 socket - 0.0002,
             )),
-            b.materials.black_metal,
+            Finish::BlackMetal,
         );
-        b.part(&lamp, "carrier", carrier(self.shade - 0.003, socket + 0.004), b.materials.steel);
-        b.part(&lamp, "bulb", sphere(0.036, 24).moved(Vec3::new(0.0, 0.0, socket + 0.05 + 0.0358)), b.materials.bulb);
-        b.part(&lamp, "shade", drum(self.shade, 0.86 * self.shade, drum_height).moved(Vec3::new(0.0, 0.0, bottom)), b.materials.lampshade);
+        b.part(&lamp, "carrier", carrier(self.shade - 0.003, socket + 0.004), Finish::Steel);
+        b.part(&lamp, "bulb", sphere(0.036, 24).moved(Vec3::new(0.0, 0.0, socket + 0.05 + 0.0358)), Finish::Bulb);
+        b.part(&lamp, "shade", drum(self.shade, 0.86 * self.shade, drum_height).moved(Vec3::new(0.0, 0.0, bottom)), Finish::Lampshade);
     }
 }
 
@@ -107,6 +107,10 @@ pub struct TableLamp {
 }
 
 impl Furniture for TableLamp {
+    fn random(rng: &mut Rng) -> Self {
+        Self { globe: rng.range(0.1, 0.14) }
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(2.0 * self.globe, 2.0 * self.globe, 0.06 + 2.0 * self.globe)
     }
@@ -124,9 +128,9 @@ impl Furniture for TableLamp {
             [0.46 * foot, 0.056],
             [0.0, 0.056],
         ];
-        b.part(&lamp, "foot", lathe(&profile.map(Vec2::from_array), 40).moved(Vec3::new(0.0, 0.0, CONTACT)), b.materials.brass);
+        b.part(&lamp, "foot", lathe(&profile.map(Vec2::from_array), 40).moved(Vec3::new(0.0, 0.0, CONTACT)), Finish::Brass);
         let sunk = self.globe - (self.globe * self.globe - (0.46 * foot).powi(2)).sqrt();
-        b.part(&lamp, "globe", sphere(self.globe, 40).moved(Vec3::new(0.0, 0.0, 0.0565 + self.globe - sunk)), b.materials.globe);
+        b.part(&lamp, "globe", sphere(self.globe, 40).moved(Vec3::new(0.0, 0.0, 0.0565 + self.globe - sunk)), Finish::OpalGlobe);
     }
 }
 
@@ -140,6 +144,10 @@ pub struct Pendant {
 }
 
 impl Furniture for Pendant {
+    fn random(rng: &mut Rng) -> Self {
+        Self { drop: rng.range(0.6, 1.1), radius: rng.range(0.15, 0.24) }
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(2.0 * self.radius, 2.0 * self.radius, self.drop)
     }
@@ -147,10 +155,10 @@ impl Furniture for Pendant {
     fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
         let lamp = b.object("pendant", Class::Lamp, pose);
         let canopy = [[0.0, -0.03], [0.045, -0.03], [0.05, -0.026], [0.05, 0.001], [0.0, 0.001]];
-        b.part(&lamp, "canopy", lathe(&canopy.map(Vec2::from_array), 32), b.materials.black_metal);
+        b.part(&lamp, "canopy", lathe(&canopy.map(Vec2::from_array), 32), Finish::BlackMetal);
         let (r, bell) = (self.radius, 0.75 * self.radius);
         let rim = -self.drop;
-        b.part(&lamp, "cord", tube(&[Vec3::new(0.0, 0.0, -0.0295), Vec3::new(0.0, 0.0, rim + bell)], 0.003, 8), b.materials.black_plastic);
+        b.part(&lamp, "cord", tube(&[Vec3::new(0.0, 0.0, -0.0295), Vec3::new(0.0, 0.0, rim + bell)], 0.003, 8), Finish::BlackPlastic);
         let mut outside = vec![Vec2::new(r, rim)];
         let wall = |k: usize, shrink: f32| {
             let (sin, cos) = (std::f32::consts::FRAC_PI_2 * k as f32 / 14.0).sin_cos();
@@ -162,13 +170,13 @@ impl Furniture for Pendant {
         outside.extend((1..14).rev().map(|k| wall(k, 0.002)));
         outside.push(Vec2::new(r - 0.002, rim));
         outside.push(Vec2::new(r, rim));
-        b.part(&lamp, "bell", lathe(&outside, 56), b.materials.ceramics[0]);
-        b.part(&lamp, "bulb", sphere(0.045, 24).moved(Vec3::new(0.0, 0.0, rim + 0.45 * bell)), b.materials.globe);
+        b.part(&lamp, "bell", lathe(&outside, 56), Finish::Ceramic(0));
+        b.part(&lamp, "bulb", sphere(0.045, 24).moved(Vec3::new(0.0, 0.0, rim + 0.45 * bell)), Finish::OpalGlobe);
         b.part(
             &lamp,
             "socket",
             tube(&[Vec3::new(0.0, 0.0, rim + 0.45 * bell + 0.043), Vec3::new(0.0, 0.0, rim + bell - 0.0022)], 0.016, 16),
-            b.materials.black_plastic,
+            Finish::BlackPlastic,
         );
     }
 }

@@ -1,33 +1,53 @@
-//! What stands, hangs and lies in a home: one file per family.
+//! What stands, hangs and lies in a home: one file per family, or a folder for the families of one kind of room.
 //!
 //! A piece of furniture lives in its own space: the middle of its footprint on the floor is the origin, x is to the right,
 //! y to the front, z up.
 
 mod armchair;
+pub mod bathroom;
+pub mod bedroom;
 mod bookshelf;
+mod catalogue;
+mod ceiling_dome;
 mod chair;
+pub mod children;
+pub mod clutter;
 mod coffee_table;
 mod curtain;
+pub mod dining;
 mod dining_table;
 mod door;
+pub mod form;
+pub mod hall;
+pub mod joinery;
+pub mod kitchen;
 mod lamp;
+pub mod laundry;
+pub mod living;
 mod ornament;
 mod plant;
 mod radiator;
 mod rug;
 mod side_table;
 mod sofa;
+pub mod soft;
+pub mod study;
+#[cfg(test)]
+mod surface_tests;
+pub mod tableware;
 mod television;
 mod wall_art;
 mod window;
 
 pub use armchair::Armchair;
 pub use bookshelf::Bookshelf;
+pub use catalogue::{FAMILIES, Family, Place, family_named};
+pub use ceiling_dome::CeilingDome;
 pub use chair::Chair;
 pub use coffee_table::CoffeeTable;
 pub use curtain::Curtains;
 pub use dining_table::DiningTable;
-pub use door::Door;
+pub use door::{Door, Passage};
 pub use lamp::{FloorLamp, Pendant, TableLamp};
 pub use ornament::{Basket, BookStack, Bowl, Candles, Magazines, Mug, Switch, Tray, Vase};
 pub use plant::Plant;
@@ -46,11 +66,39 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
 /// A family of things that a home can have; its fields are what varies.
 pub trait Furniture {
+    /// One of its many variants.
+    fn random(rng: &mut Rng) -> Self
+    where
+        Self: Sized;
+
     /// Width (x), depth (y) and height (z) of the box that holds it.
     fn size(&self) -> Vec3;
 
+    /// Free depth before its front that people need to use it, metres.
+    fn reach(&self) -> f32 {
+        0.0
+    }
+
+    /// Where small things can stand on it, in its own space.
+    fn surfaces(&self) -> Vec<Surface> {
+        Vec::new()
+    }
+
     /// Adds its parts. `rng` decides what the fields leave open: creases, tilts, grain.
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng);
+}
+
+/// A level rectangle on which small things can stand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// Its corner with the smallest x and y, in the thing's own space.
+    pub min: Vec2,
+    /// Its corner with the largest.
+    pub max: Vec2,
+    /// Where it lies.
+    pub z: f32,
+    /// Free height above it; infinite under the open sky of the room.
+    pub headroom: f32,
 }
 
 /// A bevelled board between two corners.

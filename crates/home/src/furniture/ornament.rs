@@ -3,6 +3,7 @@
 use super::bookshelf::pile_of_books;
 use super::{CONTACT, Furniture, board, grained};
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::shape::{Reshape, lathe, leaf, rounded_box, spline, tube};
 use crate::texture::BOOK_COLUMNS;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -20,9 +21,14 @@ pub struct Vase {
 }
 
 impl Furniture for Vase {
+    fn random(rng: &mut Rng) -> Self {
+        let height = rng.range(0.14, 0.32);
+        Self { height, belly: rng.range(0.26, 0.4) * height, branches: if rng.below(2) == 0 { 0 } else { 3 + rng.below(4) } }
+    }
+
     fn size(&self) -> Vec3 {
-        let reach = if self.branches > 0 { 0.4 } else { 0.0 };
-        Vec3::new(2.0 * self.belly + reach, 2.0 * self.belly + reach, self.height + 1.5 * reach)
+        let [reach, tall] = if self.branches > 0 { [0.41, 0.66] } else { [0.0, 0.002] };
+        Vec3::new(2.0 * self.belly + reach, 2.0 * self.belly + reach, self.height + tall)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -46,7 +52,7 @@ impl Furniture for Vase {
         profile.extend(&outside);
         profile.extend(outside.iter().rev().take_while(|p| p.y > 0.08 * h).map(|p| Vec2::new((p.x - 0.004).max(0.002), p.y - 0.001)));
         profile.push(Vec2::new(0.0, 0.08 * h));
-        let glaze = b.materials.ceramics[rng.below(3)];
+        let glaze = Finish::Ceramic(rng.below(3) as u8);
         b.part(&vase, "body", lathe(&profile, 40).moved(Vec3::new(0.0, 0.0, CONTACT)), glaze);
         for k in 0..self.branches {
             let out = Vec2::from_angle(rng.range(0.0, TAU));
@@ -65,9 +71,9 @@ impl Furniture for Vase {
                 });
                 twigs = twigs.with(tube(&[path[j - 1], path[j]], 0.0018, 5));
             }
-            b.part(&vase, &format!("branch_{}", k + 1), twigs, b.materials.bark);
+            b.part(&vase, &format!("branch_{}", k + 1), twigs, Finish::Bark);
             if let Some(leaves) = leaves {
-                b.part(&vase, &format!("leaves_{}", k + 1), leaves, b.materials.leaf);
+                b.part(&vase, &format!("leaves_{}", k + 1), leaves, Finish::Leaf);
             }
         }
     }
@@ -81,6 +87,10 @@ pub struct Bowl {
 }
 
 impl Furniture for Bowl {
+    fn random(rng: &mut Rng) -> Self {
+        Self { radius: rng.range(0.07, 0.15) }
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(2.0 * self.radius, 2.0 * self.radius, 0.45 * self.radius)
     }
@@ -95,7 +105,7 @@ impl Furniture for Bowl {
         profile.extend(curve(0.0));
         profile.extend(curve(0.004).into_iter().rev());
         profile.push(Vec2::new(0.0, 0.005));
-        b.part(&bowl, "body", lathe(&profile, 48).moved(Vec3::new(0.0, 0.0, CONTACT)), b.materials.ceramics[rng.below(3)]);
+        b.part(&bowl, "body", lathe(&profile, 48).moved(Vec3::new(0.0, 0.0, CONTACT)), Finish::Ceramic(rng.below(3) as u8));
     }
 }
 
@@ -104,8 +114,12 @@ impl Furniture for Bowl {
 pub struct Mug;
 
 impl Furniture for Mug {
+    fn random(_rng: &mut Rng) -> Self {
+        Self
+    }
+
     fn size(&self) -> Vec3 {
-        Vec3::new(0.13, 0.09, 0.092)
+        Vec3::new(0.144, 0.084, 0.093)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -128,10 +142,10 @@ impl Furniture for Mug {
                 Vec3::new(0.039 + 0.028 * cos, 0.0, 0.047 + 0.027 * sin)
             })
             .collect();
-        let glaze = b.materials.ceramics[rng.below(3)];
+        let glaze = Finish::Ceramic(rng.below(3) as u8);
         b.part(&mug, "body", lathe(&profile.map(Vec2::from_array), 36).moved(Vec3::new(0.0, 0.0, CONTACT)), glaze);
         b.part(&mug, "handle", tube(&handle, 0.0048, 10), glaze);
-        b.part(&mug, "coffee", crate::shape::disk(0.0372, 32).moved(Vec3::new(0.0, 0.0, 0.076)), b.materials.soil);
+        b.part(&mug, "coffee", crate::shape::disk(0.0372, 32).moved(Vec3::new(0.0, 0.0, 0.076)), Finish::Soil);
     }
 }
 
@@ -143,6 +157,10 @@ pub struct Magazines {
 }
 
 impl Furniture for Magazines {
+    fn random(rng: &mut Rng) -> Self {
+        Self { count: 1 + rng.below(5) }
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(0.30, 0.34, 0.006 * self.count as f32)
     }
@@ -163,7 +181,7 @@ impl Furniture for Magazines {
                 &pile,
                 &format!("issue_{}", i + 1),
                 mesh.turned(Vec3::Z, rng.range(-0.25, 0.25)).moved(Vec3::new(0.0, 0.0, z)),
-                b.materials.books,
+                Finish::BookJackets,
             );
         }
     }
@@ -177,6 +195,10 @@ pub struct BookStack {
 }
 
 impl Furniture for BookStack {
+    fn random(rng: &mut Rng) -> Self {
+        Self { count: 1 + rng.below(5) }
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(0.28, 0.24, 0.035 * self.count as f32)
     }
@@ -194,8 +216,12 @@ pub struct Candles {
 }
 
 impl Furniture for Candles {
+    fn random(rng: &mut Rng) -> Self {
+        Self { count: 1 + rng.below(3) }
+    }
+
     fn size(&self) -> Vec3 {
-        Vec3::new(0.1 * self.count as f32, 0.1, 0.28)
+        Vec3::new(0.1 * self.count as f32, 0.112, 0.28)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -215,13 +241,13 @@ impl Furniture for Candles {
                 [0.0, h],
             ];
             let at = Vec3::new(x, 0.01 * (i as f32), CONTACT);
-            b.part(&candles, &format!("foot_{}", i + 1), lathe(&foot.map(Vec2::from_array), 24).moved(at), b.materials.brass);
+            b.part(&candles, &format!("foot_{}", i + 1), lathe(&foot.map(Vec2::from_array), 24).moved(at), Finish::Brass);
             let wax = [[0.0, 0.0], [0.0095, 0.0], [0.0095, 0.13], [0.007, 0.134], [0.0, 0.133]];
             b.part(
                 &candles,
                 &format!("wax_{}", i + 1),
                 lathe(&wax.map(Vec2::from_array), 18).moved(at + Vec3::new(0.0, 0.0, h - 0.0002)),
-                b.materials.paper,
+                Finish::Paper,
             );
         }
     }
@@ -240,6 +266,10 @@ impl Tray {
 }
 
 impl Furniture for Tray {
+    fn random(rng: &mut Rng) -> Self {
+        Self { radius: rng.range(0.14, 0.2) }
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(2.0 * self.radius, 2.0 * self.radius, 0.028)
     }
@@ -261,7 +291,7 @@ impl Furniture for Tray {
         for (uv, p) in mesh.uvs.iter_mut().zip(&mesh.positions) {
             *uv = Vec2::new(p.x, p.y + p.z);
         }
-        b.part(&tray, "body", grained(mesh, rng).moved(Vec3::new(0.0, 0.0, CONTACT)), b.materials.wood_dark);
+        b.part(&tray, "body", grained(mesh, rng).moved(Vec3::new(0.0, 0.0, CONTACT)), Finish::DarkWood);
     }
 }
 
@@ -273,6 +303,10 @@ pub struct Basket {
 }
 
 impl Furniture for Basket {
+    fn random(rng: &mut Rng) -> Self {
+        Self { radius: rng.range(0.17, 0.23) }
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(2.0 * self.radius, 2.0 * self.radius, 0.40)
     }
@@ -285,15 +319,13 @@ impl Furniture for Basket {
         profile.extend(&outside);
         profile.extend(outside.iter().rev().map(|p| Vec2::new(p.x - 0.012, p.y.max(0.012) + if p.y > 0.33 { 0.004 } else { 0.0 })));
         profile.push(Vec2::new(0.0, 0.012));
-        b.part(&basket, "weave", lathe(&profile, 48).moved(Vec3::new(0.0, 0.0, CONTACT)), b.materials.wicker);
+        b.part(&basket, "weave", lathe(&profile, 48).moved(Vec3::new(0.0, 0.0, CONTACT)), Finish::Wicker);
         let cloth = crate::shape::padded_box(Vec3::new(1.22 * r, 1.0 * r, 0.20), 0.05, 0.03).uv_moved(Vec2::splat(rng.next_f32()));
         let blanket = b.object("blanket", Class::OtherProp, pose);
-        b.part(
-            &blanket,
-            "cloth",
-            cloth.turned(Vec3::X, 0.1).turned(Vec3::Z, 0.5).moved(Vec3::new(0.0, 0.0, 0.265)),
-            b.materials.accents[1],
-        );
+        // What is folded below fills the basket.
+        let below = crate::shape::padded_box(Vec3::new(1.2 * r, 1.0 * r, 0.15), 0.05, 0.01).moved(Vec3::new(0.0, 0.0, 0.098));
+        b.part(&blanket, "folds", below, Finish::Accent(1));
+        b.part(&blanket, "cloth", cloth.turned(Vec3::X, 0.1).turned(Vec3::Z, 0.5).moved(Vec3::new(0.0, 0.0, 0.265)), Finish::Accent(1));
     }
 }
 
@@ -302,13 +334,17 @@ impl Furniture for Basket {
 pub struct Switch;
 
 impl Furniture for Switch {
+    fn random(_rng: &mut Rng) -> Self {
+        Self
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(0.08, 0.012, 0.08)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
         let switch = b.object("switch", Class::OtherProp, pose);
-        b.part(&switch, "plate", board([-0.04, -0.001, -0.04], [0.04, 0.008, 0.04], 0.002), b.materials.switch);
-        b.part(&switch, "rocker", board([-0.026, 0.0078, -0.026], [0.026, 0.0108, 0.026], 0.0012), b.materials.switch);
+        b.part(&switch, "plate", board([-0.04, -0.001, -0.04], [0.04, 0.008, 0.04], 0.002), Finish::WhitePlastic);
+        b.part(&switch, "rocker", board([-0.026, 0.0078, -0.026], [0.026, 0.0108, 0.026], 0.0012), Finish::WhitePlastic);
     }
 }

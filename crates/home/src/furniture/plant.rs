@@ -1,5 +1,6 @@
 use super::{CONTACT, Furniture};
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::shape::{Reshape, disk, lathe, leaf, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
@@ -37,7 +38,7 @@ impl Plant {
     }
 
     fn reach(&self) -> f32 {
-        if self.stem > 0.0 { 0.36 } else { self.leaf * 0.9 }
+        if self.stem > 0.0 { 0.36 } else { self.leaf * 1.15 }
     }
 
     fn stems(&self, b: &mut Builder, plant: &crate::builder::Object, rng: &mut Rng) {
@@ -51,7 +52,7 @@ impl Plant {
                 (out * (0.3 * self.radius + spread * t * t) + out.perp() * sway * (4.0 * t).sin()).extend(soil - 0.01 + height * t)
             };
             let path: Vec<Vec3> = (0..=12).map(|i| point(i as f32 / 12.0)).collect();
-            b.part(plant, &format!("stem_{}", s + 1), tube(&path, 0.0075 - 0.001 * s as f32, 10), b.materials.bark);
+            b.part(plant, &format!("stem_{}", s + 1), tube(&path, 0.0075 - 0.001 * s as f32, 10), Finish::Bark);
             let mut twigs: Option<enfilade_geometry::Mesh> = None;
             let mut blades: Option<enfilade_geometry::Mesh> = None;
             let mut turn = rng.range(0.0, TAU);
@@ -74,8 +75,8 @@ impl Plant {
                 blades = Some(blades.map_or_else(|| blade.clone(), |all| all.with(blade.clone())));
             }
             if let (Some(twigs), Some(blades)) = (twigs, blades) {
-                b.part(plant, &format!("stalks_{}", s + 1), twigs, b.materials.leaf);
-                b.part(plant, &format!("leaves_{}", s + 1), blades, b.materials.leaf);
+                b.part(plant, &format!("stalks_{}", s + 1), twigs, Finish::Leaf);
+                b.part(plant, &format!("leaves_{}", s + 1), blades, Finish::Leaf);
             }
         }
     }
@@ -93,12 +94,16 @@ impl Plant {
             all = Some(all.map_or_else(|| blade.clone(), |all| all.with(blade.clone())));
         }
         if let Some(leaves) = all {
-            b.part(plant, "leaves", leaves, b.materials.leaf);
+            b.part(plant, "leaves", leaves, Finish::Leaf);
         }
     }
 }
 
 impl Furniture for Plant {
+    fn random(rng: &mut Rng) -> Self {
+        Self::tall(rng)
+    }
+
     fn size(&self) -> Vec3 {
         let width = 2.0 * self.reach().max(self.radius);
         Vec3::new(width, width, self.pot + self.stem + self.leaf)
@@ -123,10 +128,10 @@ impl Furniture for Plant {
             &plant,
             "pot",
             lathe(&profile.map(Vec2::from_array), 48).moved(Vec3::new(0.0, 0.0, CONTACT)),
-            b.materials.ceramics[rng.below(2)],
+            Finish::Ceramic(rng.below(2) as u8),
         );
         let soil_radius = (r - wall) - 0.1 * r * (0.03 / (0.4 * h)).min(1.0);
-        b.part(&plant, "soil", disk(soil_radius, 40).moved(Vec3::new(0.0, 0.0, h - 0.03)), b.materials.soil);
+        b.part(&plant, "soil", disk(soil_radius, 40).moved(Vec3::new(0.0, 0.0, h - 0.03)), Finish::Soil);
         if self.stem > 0.0 {
             self.stems(b, &plant, rng);
         } else {

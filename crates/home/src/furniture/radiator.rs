@@ -1,5 +1,6 @@
 use super::Furniture;
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::shape::{Reshape, grid, rounded_box, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
@@ -16,13 +17,17 @@ pub struct Radiator {
 const FOOT: f32 = 0.12;
 
 impl Furniture for Radiator {
+    fn random(rng: &mut Rng) -> Self {
+        Self { width: rng.range(0.6, 1.6), height: rng.range(0.35, 0.6) }
+    }
+
     fn size(&self) -> Vec3 {
-        Vec3::new(self.width + 0.12, 0.10, FOOT + self.height)
+        Vec3::new(self.width + 0.12, 0.10, FOOT + self.height + 0.012)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
         let radiator = b.object("radiator", Class::OtherStructure, pose);
-        let (w, h, white) = (self.width, self.height, b.materials.paint_white);
+        let (w, h, white) = (self.width, self.height, Finish::WhitePaint);
         let body = rounded_box(Vec3::new(w, 0.055, h), 0.008, 2).moved(Vec3::new(0.0, 0.01, FOOT + 0.5 * h));
         b.part(&radiator, "panel", body, white);
         // Pressed ribs stand out from the panel's front.
@@ -57,7 +62,7 @@ impl Furniture for Radiator {
         ];
         b.part(&radiator, "pipe", tube(&pipe, 0.008, 12), white);
         let valve = tube(&[Vec3::new(x + 0.005, 0.01, FOOT + h - 0.06), Vec3::new(x + 0.06, 0.01, FOOT + h - 0.06)], 0.019, 18);
-        b.part(&radiator, "valve", valve, b.materials.switch);
+        b.part(&radiator, "valve", valve, Finish::WhitePlastic);
         for (name, s) in [("bracket_left", -1.0), ("bracket_right", 1.0)] {
             let arm = rounded_box(Vec3::new(0.03, 0.035, 0.05), 0.003, 1).moved(Vec3::new(s * 0.32 * w, -0.033, FOOT + 0.75 * h));
             b.part(&radiator, name, arm, white);

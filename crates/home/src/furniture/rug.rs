@@ -1,5 +1,6 @@
 use super::{CONTACT, Furniture};
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::shape::Reshape;
 use crate::shape::rounded_box;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -17,6 +18,10 @@ impl Rug {
 }
 
 impl Furniture for Rug {
+    fn random(rng: &mut Rng) -> Self {
+        Self { size: Vec2::new(rng.range(1.6, 2.6), rng.range(1.1, 1.5)) }
+    }
+
     fn size(&self) -> Vec3 {
         self.size.extend(Self::TOP)
     }
@@ -29,6 +34,6 @@ impl Furniture for Rug {
         for (uv, p) in mesh.uvs.iter_mut().zip(&mesh.positions) {
             *uv = p.truncate() / self.size + 0.5;
         }
-        b.part(&object, "pile", mesh, b.materials.rug);
+        b.part(&object, "pile", mesh, Finish::RugWool);
     }
 }

@@ -1,6 +1,7 @@
 use super::dining_table::round_top;
 use super::{Furniture, grained, standing};
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::shape::{Reshape, lathe, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
@@ -15,14 +16,11 @@ pub struct SideTable {
     pub pedestal: bool,
 }
 
-impl SideTable {
-    /// One of many.
-    pub fn random(rng: &mut Rng) -> Self {
+impl Furniture for SideTable {
+    fn random(rng: &mut Rng) -> Self {
         Self { diameter: rng.range(0.40, 0.46), height: rng.range(0.48, 0.54), pedestal: rng.below(2) == 0 }
     }
-}
 
-impl Furniture for SideTable {
     fn size(&self) -> Vec3 {
         Vec3::new(self.diameter, self.diameter, self.height)
     }
@@ -30,7 +28,7 @@ impl Furniture for SideTable {
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let table = b.object("side_table", Class::Table, pose);
         let radius = 0.5 * self.diameter;
-        b.part(&table, "top", grained(round_top(radius, 0.02).moved(Vec3::new(0.0, 0.0, self.height)), rng), b.materials.wood);
+        b.part(&table, "top", grained(round_top(radius, 0.02).moved(Vec3::new(0.0, 0.0, self.height)), rng), Finish::Wood);
         if self.pedestal {
             let h = self.height - 0.0195;
             let profile = [
@@ -44,12 +42,12 @@ impl Furniture for SideTable {
                 [0.05, h],
                 [0.0, h],
             ];
-            b.part(&table, "foot", lathe(&profile.map(Vec2::from_array), 40), b.materials.black_metal);
+            b.part(&table, "foot", lathe(&profile.map(Vec2::from_array), 40), Finish::BlackMetal);
         } else {
             for i in 0..3 {
                 let out = Vec2::from_angle(0.5 + i as f32 * std::f32::consts::TAU / 3.0) * radius;
                 let path = [(out * 0.92).extend(0.0), (out * 0.55).extend(self.height - 0.0195)];
-                b.part(&table, &format!("leg_{}", i + 1), grained(standing(tube(&path, 0.013, 14)), rng), b.materials.wood);
+                b.part(&table, &format!("leg_{}", i + 1), grained(standing(tube(&path, 0.013, 14)), rng), Finish::Wood);
             }
         }
     }

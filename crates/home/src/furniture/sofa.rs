@@ -1,5 +1,6 @@
 use super::{CONTACT, Furniture, leg, on};
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::shape::{Reshape, grid, padded_box, pillow, rounded_box, rounded_loop, tube};
 use enfilade_math::{DAffine3, DVec3, Rng, Vec2, Vec3};
 use std::f32::consts::PI;
@@ -28,20 +29,12 @@ const BACK: f32 = 0.80;
 const BACK_FRAME: f32 = 0.17;
 
 impl Sofa {
-    /// A sofa for a modest living room.
-    pub fn random(rng: &mut Rng) -> Self {
-        let seats = 2 + rng.below(2);
-        let seat_width = if seats == 2 { rng.range(0.82, 0.92) } else { rng.range(0.62, 0.68) };
-        let throw = [None, Some(-1.0), Some(1.0)][rng.below(3)];
-        Self { seats, seat_width, arm: rng.range(0.13, 0.2), arm_height: rng.range(0.57, 0.64), pillows: 2 + rng.below(3), throw }
-    }
-
     fn inner_width(&self) -> f32 {
         self.seats as f32 * self.seat_width
     }
 
     fn frame(&self, b: &mut Builder, sofa: &crate::builder::Object) {
-        let (cloth, inner) = (b.materials.sofa, self.inner_width());
+        let (cloth, inner) = (Finish::SofaCloth, self.inner_width());
         let front = 0.5 * DEPTH;
         let base_depth = DEPTH - BACK_FRAME - 0.012;
         let base = rounded_box(Vec3::new(inner - 0.004, base_depth, 0.14), 0.02, 2);
@@ -55,13 +48,13 @@ impl Sofa {
             for (end, y) in [("front", front - 0.09), ("back", 0.09 - front)] {
                 let mesh = leg(LEG + 0.002, [0.014, 0.022], Vec2::new(side * 0.02, 0.025 * y.signum()));
                 let at = DAffine3::from_translation(DVec3::new(f64::from(x - side * 0.01), f64::from(y), 0.0));
-                b.part_at(sofa, &format!("leg_{end}_{}", &name[4..]), mesh, at, b.materials.wood);
+                b.part_at(sofa, &format!("leg_{end}_{}", &name[4..]), mesh, at, Finish::Wood);
             }
         }
     }
 
     fn cushions(&self, b: &mut Builder, sofa: &crate::builder::Object, rng: &mut Rng) {
-        let cloth = b.materials.sofa;
+        let cloth = Finish::SofaCloth;
         let depth = DEPTH - BACK_FRAME - 0.004;
         let (width, thickness) = (self.seat_width - 0.006, SEAT - LEG - 0.14 - 0.012);
         for i in 0..self.seats {
@@ -101,7 +94,7 @@ impl Sofa {
                 * DAffine3::from_rotation_x(f64::from(0.5 * PI + lean))
                 * DAffine3::from_rotation_z(f64::from(rng.range(-0.07, 0.07)));
             let object = b.object("cushion", Class::Pillow, local);
-            b.part(&object, "cover", mesh.uv_moved(Vec2::splat(rng.next_f32())), b.materials.accents[i % 3]);
+            b.part(&object, "cover", mesh.uv_moved(Vec2::splat(rng.next_f32())), Finish::Accent((i % 3) as u8));
         }
     }
 
@@ -154,7 +147,7 @@ impl Sofa {
         let mesh = grid(nu, nv, point, |i, j| Vec2::new(i as f32 / nu as f32 * total, j as f32 / nv as f32 * width)).smoothed(80.0);
         let at = Vec3::new(side * 0.5 * (self.inner_width() + self.arm), rng.range(0.02, 0.12), 0.0);
         let object = b.object("throw", Class::OtherProp, on(pose, at, 0.0));
-        b.part(&object, "knit", mesh, b.materials.throw);
+        b.part(&object, "knit", mesh, Finish::KnittedThrow);
     }
 }
 
@@ -164,8 +157,16 @@ fn piping(size: Vec2, z: f32) -> enfilade_geometry::Mesh {
 }
 
 impl Furniture for Sofa {
+    fn random(rng: &mut Rng) -> Self {
+        let seats = 2 + rng.below(2);
+        let seat_width = if seats == 2 { rng.range(0.82, 0.92) } else { rng.range(0.62, 0.68) };
+        let throw = [None, Some(-1.0), Some(1.0)][rng.below(3)];
+        Self { seats, seat_width, arm: rng.range(0.13, 0.2), arm_height: rng.range(0.57, 0.64), pillows: 2 + rng.below(3), throw }
+    }
+
     fn size(&self) -> Vec3 {
-        Vec3::new(self.inner_width() + 2.0 * self.arm, DEPTH, BACK + 0.08)
+        let throw = if self.throw.is_some() { 0.03 } else { 0.0 };
+        Vec3::new(self.inner_width() + 2.0 * self.arm + throw, DEPTH + 0.028, BACK + 0.1)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {

@@ -1,5 +1,6 @@
 use super::{CONTACT, Furniture, board, grained, leg, on};
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::shape::{Reshape, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
@@ -23,14 +24,9 @@ impl TelevisionBench {
     /// Height of the surface that things stand on.
     pub const TOP: f32 = TOP;
 
-    /// One of many.
-    pub fn random(rng: &mut Rng) -> Self {
-        Self { width: rng.range(1.55, 1.8), screen: rng.range(0.98, 1.15), white: rng.below(2) == 0 }
-    }
-
     fn cabinet(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let cabinet = b.object("tv_bench", Class::Cabinet, pose);
-        let (half, wood) = (0.5 * self.width, b.materials.wood);
+        let (half, wood) = (0.5 * self.width, Finish::Wood);
         let (back, front) = (-0.5 * DEPTH, 0.5 * DEPTH);
         b.part(&cabinet, "top", grained(board([-half, back, TOP - 0.022], [half, front, TOP], 0.002), rng), wood);
         b.part(&cabinet, "bottom", grained(board([-half, back, LEG], [half, front, LEG + 0.022], 0.002), rng), wood);
@@ -40,7 +36,7 @@ impl TelevisionBench {
         let inner = self.width - 0.044;
         let rear = board([-0.5 * inner, back + 0.002, LEG + 0.0222], [0.5 * inner, back + 0.012, TOP - 0.0222], 0.001);
         b.part(&cabinet, "rear", rear, wood);
-        let fronts = if self.white { b.materials.lacquer_white } else { wood };
+        let fronts = if self.white { Finish::WhiteLacquer } else { wood };
         // Two doors, and an open compartment between them for the player.
         let third = inner / 3.0;
         for (i, x) in [(1, -third), (2, third)] {
@@ -53,7 +49,7 @@ impl TelevisionBench {
             let knob =
                 leg(0.022, [0.011, 0.007], Vec2::ZERO).moved(Vec3::new(0.0, 0.0, -0.022)).turned(Vec3::X, std::f32::consts::FRAC_PI_2);
             let at = Vec3::new(x - x.signum() * (0.5 * third - 0.045), front - 0.0012, TOP - 0.075);
-            b.part(&cabinet, &format!("knob_{i}"), knob.moved(at), b.materials.brass);
+            b.part(&cabinet, &format!("knob_{i}"), knob.moved(at), Finish::Brass);
             let wall = 0.5 * third * x.signum();
             let divider = board([wall - 0.009, back + 0.0125, LEG + 0.0222], [wall + 0.009, front - 0.002, TOP - 0.0222], 0.0015);
             b.part(&cabinet, &format!("divider_{i}"), grained(divider, rng), wood);
@@ -69,7 +65,7 @@ impl TelevisionBench {
             &player,
             "housing",
             rounded_box(Vec3::new(0.36, 0.26, 0.055), 0.004, 2).moved(Vec3::new(0.0, 0.0, 0.0275)),
-            b.materials.black_plastic,
+            Finish::BlackPlastic,
         );
     }
 
@@ -77,7 +73,7 @@ impl TelevisionBench {
         let tv = b.object("television", Class::Television, pose);
         let (half, height) = (0.5 * self.screen, self.screen * 9.0 / 16.0 + 0.012);
         let bottom = 0.062;
-        let black = b.materials.black_plastic;
+        let black = Finish::BlackPlastic;
         b.part(
             &tv,
             "housing",
@@ -91,7 +87,7 @@ impl TelevisionBench {
             black,
         );
         let glass = board([-half + 0.007, 0.0165, bottom + 0.018], [half - 0.007, 0.0185, bottom + height - 0.007], 0.0006);
-        b.part(&tv, "screen", glass, b.materials.screen);
+        b.part(&tv, "screen", glass, Finish::Screen);
         for (name, x) in [("foot_left", -0.62 * half), ("foot_right", 0.62 * half)] {
             let foot = board([x - 0.011, -0.11, 0.0], [x + 0.011, 0.11, 0.008], 0.002).with(board(
                 [x - 0.009, -0.012, 0.0082],
@@ -104,8 +100,12 @@ impl TelevisionBench {
 }
 
 impl Furniture for TelevisionBench {
+    fn random(rng: &mut Rng) -> Self {
+        Self { width: rng.range(1.55, 1.8), screen: rng.range(0.98, 1.15), white: rng.below(2) == 0 }
+    }
+
     fn size(&self) -> Vec3 {
-        Vec3::new(self.width, DEPTH, TOP + 0.08 + self.screen * 9.0 / 16.0)
+        Vec3::new(self.width, DEPTH + 0.042, TOP + 0.08 + self.screen * 9.0 / 16.0)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {

@@ -1,5 +1,6 @@
 use super::{Furniture, grained};
 use crate::builder::{Builder, Class};
+use crate::materials::Finish;
 use crate::palette::Palette;
 use crate::shape::{Reshape, grid, lathe, picture_frame};
 use crate::texture::{PaintingStyle, painting};
@@ -30,6 +31,13 @@ fn sheet(size: Vec2, y: f32) -> Mesh {
 }
 
 impl Furniture for PictureOnWall {
+    fn random(rng: &mut Rng) -> Self {
+        let style = [PaintingStyle::Hills, PaintingStyle::Shapes, PaintingStyle::Bands][rng.below(3)];
+        let size = rng.range(0.3, 0.9) * [Vec2::new(1.0, 1.3), Vec2::new(1.3, 1.0), Vec2::ONE][rng.below(3)];
+        let mount = rng.range(0.08, 0.12) * size.min_element();
+        Self { size, mount, style, palette: Palette::all()[rng.below(5)], black: rng.below(2) == 0 }
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(self.size.x, 0.025, self.size.y)
     }
@@ -38,10 +46,10 @@ impl Furniture for PictureOnWall {
         let picture = b.object("picture", Class::Picture, pose);
         let section = [[0.0, -0.0005], [0.0, 0.021], [0.002, 0.0235], [0.016, 0.0235], [0.018, 0.0215], [0.018, -0.0005]];
         let frame = picture_frame(self.size.x, self.size.y, &section);
-        let frame_material = if self.black { b.materials.black_metal } else { b.materials.wood };
+        let frame_material = if self.black { Finish::BlackMetal } else { Finish::Wood };
         b.part(&picture, "frame", grained(frame, rng), frame_material);
         let inside = self.size - 0.034;
-        b.part(&picture, "mount", sheet(inside, 0.010), b.materials.paper);
+        b.part(&picture, "mount", sheet(inside, 0.010), Finish::Paper);
         let image = b.image(painting(&format!("painting {:?}", self.style), self.style, &self.palette.art, rng.next_u64() as u32));
         let reflectance = ColorParam { factor: enfilade_math::Rgb::WHITE, texture: Some(TextureRef::new(image)) };
         let material = b.material(Material::new("painting", Bsdf::Diffuse { reflectance }));
@@ -57,6 +65,10 @@ pub struct Mirror {
 }
 
 impl Furniture for Mirror {
+    fn random(rng: &mut Rng) -> Self {
+        Self { radius: rng.range(0.22, 0.4) }
+    }
+
     fn size(&self) -> Vec3 {
         Vec3::new(2.0 * self.radius, 0.03, 2.0 * self.radius)
     }
@@ -66,7 +78,7 @@ impl Furniture for Mirror {
         let r = self.radius;
         let upright = |mesh: Mesh| mesh.turned(Vec3::X, -std::f32::consts::FRAC_PI_2);
         let rim = [[r - 0.012, 0.0], [r, 0.0], [r, 0.024], [r - 0.002, 0.026], [r - 0.01, 0.026], [r - 0.012, 0.024], [r - 0.012, 0.0]];
-        b.part(&mirror, "rim", upright(lathe(&rim.map(Vec2::from_array), 96)), b.materials.brass);
-        b.part(&mirror, "glass", upright(crate::shape::disk(r - 0.0115, 96)).moved(Vec3::new(0.0, 0.014, 0.0)), b.materials.mirror);
+        b.part(&mirror, "rim", upright(lathe(&rim.map(Vec2::from_array), 96)), Finish::Brass);
+        b.part(&mirror, "glass", upright(crate::shape::disk(r - 0.0115, 96)).moved(Vec3::new(0.0, 0.014, 0.0)), Finish::Mirror);
     }
 }

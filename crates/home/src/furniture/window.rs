@@ -1,8 +1,9 @@
 use super::{board, leg};
 use crate::builder::{Builder, Class};
-use crate::room::Room;
+use crate::materials::Finish;
+use crate::room::{Opening, Room};
 use crate::shape::{Reshape, grid, picture_frame, rounded_box};
-use enfilade_math::{Rng, Vec2, Vec3};
+use enfilade_math::{Vec2, Vec3};
 
 /// The window in its opening: frame, sashes with panes, handles, sill.
 #[derive(Clone, Copy, Debug)]
@@ -26,9 +27,9 @@ impl Window {
     /// How far the sill reaches into the room.
     pub const SILL_DEPTH: f32 = 0.06;
 
-    /// Adds the window of `room`.
-    pub fn build(&self, b: &mut Builder, room: &Room, _rng: &mut Rng) {
-        let (opening, white) = (room.window, b.materials.paint_white);
+    /// Adds the window in an opening of `room`.
+    pub fn build(&self, b: &mut Builder, room: &Room, opening: &Opening) {
+        let white = Finish::WhitePaint;
         let size = opening.size();
         let pose = super::on(room.wall_pose(opening.wall), Vec3::new(opening.center_x(), 0.0, 0.5 * (opening.z[0] + opening.z[1])), 0.0);
         let window = b.object("window", Class::Window, pose);
@@ -50,7 +51,7 @@ impl Window {
                 |i, j| Vec3::new(x + glass.x * (1.0 - 2.0 * i as f32), PANE, glass.y * (2.0 * j as f32 - 1.0)),
                 |i, j| Vec2::new(i as f32, j as f32),
             );
-            b.part(&window, &format!("pane_{name}"), pane, b.materials.glass);
+            b.part(&window, &format!("pane_{name}"), pane, Finish::Glass);
             if i + 1 < self.sashes {
                 let m = x + 0.5 * (cell + MULLION);
                 let post = board(
@@ -66,11 +67,11 @@ impl Window {
             let neck =
                 leg(0.034, [0.008, 0.008], Vec2::ZERO).turned(Vec3::X, -std::f32::consts::FRAC_PI_2).moved(at + Vec3::new(0.0, 0.010, 0.0));
             let lever = rounded_box(Vec3::new(0.018, 0.012, 0.125), 0.005, 3).moved(at + Vec3::new(0.0, 0.046, -0.05));
-            b.part(&window, &format!("handle_{name}"), rose.with(neck).with(lever), b.materials.steel);
+            b.part(&window, &format!("handle_{name}"), rose.with(neck).with(lever), Finish::Steel);
         }
         let half = 0.5 * size.x + 0.045;
         let low = -0.5 * size.y;
         let sill = board([-half, PANE + 0.028, low - 0.003], [half, Self::SILL_DEPTH, low + Self::SILL], 0.005);
-        b.part(&window, "sill", sill, b.materials.stone);
+        b.part(&window, "sill", sill, Finish::Stone);
     }
 }

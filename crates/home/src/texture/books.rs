@@ -18,7 +18,7 @@ pub fn book_spines(name: &str, colors: &[Rgb], seed: u32) -> Image {
         let (cell, q) = (p.floor(), p - p.floor());
         let own = seed ^ (cell.x as u32 * 31 + cell.y as u32 * 1009 + 1);
         let random = |k: i32| lattice(k, 3, own);
-        let base = colors[(random(0) * colors.len() as f32) as usize % colors.len()] * (0.8 + 0.35 * random(1));
+        let base = colors[(random(0) * colors.len() as f32) as usize % colors.len()] * (0.72 + 0.32 * random(1));
         if q.x > 0.8 {
             let leaf = lattice((q.x * 90.0) as i32, (q.y * 3.0) as i32, own);
             return Rgb::new(0.72, 0.66, 0.54) * (0.82 + 0.2 * leaf);

@@ -3,25 +3,31 @@
 //! Every picture is a function of a seed. [`Paint`] says how many metres a picture covers, so that shapes, whose texture
 //! coordinates are metres, show it at its true size.
 
-mod backdrop;
 mod books;
 mod fabric;
-mod noise;
+mod hide;
+pub(crate) mod noise;
 mod painting;
+mod paper;
 mod plaster;
 mod rug;
+mod stone;
+mod tile;
 mod wood;
 
-pub use backdrop::paint_surroundings;
 pub use books::{BOOK_COLUMNS, BOOK_ROWS, book_spines};
-pub use fabric::{knit, weave};
+pub use fabric::{Pattern, Weave, cotton, felt, knit, loops, pile, weave};
+pub use hide::{cork, leather, wicker};
 pub use painting::{PaintingStyle, painting};
-pub use plaster::{plaster, stone};
+pub use paper::{Display, cardboard, display, leaf};
+pub use plaster::{PaperPattern, rolled, trowelled, wallpaper};
 pub use rug::{RugStyle, rug};
-pub use wood::{FLOOR_STRIPS, WoodTone, floor_planks, wood};
+pub use stone::{SlabLook, brick, concrete, slab, terrazzo};
+pub use tile::{TileFigure, TileLook, tiles};
+pub use wood::{FLOOR_STRIPS, HERRINGBONE_M, WoodTone, floor_planks, herringbone, veneer};
 
 use enfilade_math::{Rgb, Vec2, srgb_from_linear};
-use enfilade_scene::{ColorParam, Image, Pixels, TextureRef};
+use enfilade_scene::{ColorParam, Image, Pixels, ScalarParam, TextureRef};
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
@@ -34,16 +40,39 @@ pub fn paint(name: &str, width: u32, height: u32, color: impl Fn(Vec2) -> Rgb + 
     Image { name: name.into(), width, height, pixels: Pixels::Rgba8 { srgb: true, texels: texels.collect() } }
 }
 
-/// As [`paint`], but numbers on `[0,1]` kept linear: heights and roughness.
-pub fn measure(name: &str, width: u32, height: u32, value: impl Fn(Vec2) -> f32 + Sync) -> Image {
-    let texels = pixel_centers(width, height).map(|uv| {
-        let v = (value(uv).clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-        [v, v, v, 255]
-    });
-    Image { name: name.into(), width, height, pixels: Pixels::Rgba8 { srgb: false, texels: texels.collect() } }
+/// What a surface is like at one point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grain {
+    /// Linear reflectance, or a factor of one.
+    pub color: Rgb,
+    /// GGX roughness on `[0,1]`.
+    pub alpha: f32,
+    /// Height as a share of the relief's depth, on `[0,1]`.
+    pub height: f32,
 }
 
-fn pixel_centers(width: u32, height: u32) -> impl ParallelIterator<Item = Vec2> {
+/// The pictures of a surface.
+#[derive(Clone, Debug)]
+pub struct Skin {
+    /// Colour, with the roughness as opacity.
+    pub color: Image,
+    /// Heights.
+    pub height: Image,
+}
+
+/// A surface of `width` × `height` pixels from a function of texture coordinates on `[0,1]²` (v upward).
+pub fn skin(name: &str, [width, height]: [u32; 2], grain: impl Fn(Vec2) -> Grain + Sync) -> Skin {
+    let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+    let both = pixel_centers(width, height).map(|uv| {
+        let Grain { color: c, alpha, height } = grain(uv);
+        ([encode(c.r), encode(c.g), encode(c.b), byte(alpha)], [byte(height), byte(height), byte(height), 255])
+    });
+    let (colors, heights): (Vec<_>, Vec<_>) = both.unzip();
+    let image = |name: String, srgb, texels| Image { name, width, height, pixels: Pixels::Rgba8 { srgb, texels } };
+    Skin { color: image(name.into(), true, colors), height: image(format!("{name} relief"), false, heights) }
+}
+
+fn pixel_centers(width: u32, height: u32) -> impl IndexedParallelIterator<Item = Vec2> {
     let size = Vec2::new(width as f32, height as f32);
     (0..width * height).into_par_iter().map(move |i| {
         let center = Vec2::new((i % width) as f32 + 0.5, (i / width) as f32 + 0.5) / size;
@@ -72,6 +101,11 @@ impl Paint {
     pub fn texture(self) -> TextureRef {
         let [u, v] = [1.0 / self.covers.x, 1.0 / self.covers.y];
         TextureRef { uv_transform: [[u, 0.0, 0.0], [0.0, v, 0.0]], ..TextureRef::new(self.image) }
+    }
+
+    /// The opacity, which holds the roughness of a [`Skin`], multiplied by `factor`.
+    pub fn alpha(self, factor: f32) -> ScalarParam {
+        ScalarParam { factor, texture: Some((self.texture(), 3)) }
     }
 
     /// The picture multiplied by `factor`.

@@ -1,0 +1,101 @@
+//! A scene with its labels as one binary glTF 2.0 file (`.glb`), for other renderers and modelling programs.
+//!
+//! - **Tree**: a root that turns our z up into glTF's y up, and below it one node per part, so that parts keep their names. Parts that
+//!   share mesh and material share a glTF mesh.
+//! - **Labels**: `extras` of a part's node has `"semantic"`, the name of its NYU40 class, `"semantic_id"` (1 to 40), and, for what people
+//!   count, `"instance"` (from 1). `enfilade import` reads them back.
+//! - **Materials** as metallic-roughness with the ratified extensions (clear coat, emissive strength, IOR, sheen, specular,
+//!   transmission, volume). glTF has no complex indices of refraction, no blends of two surfaces and no heights; what replaces them is
+//!   said in `material.rs`, and every replacement that changes the look is among the notes.
+//! - **Lights** as `KHR_lights_punctual`. The surroundings, which glTF does not have, are an OpenEXR picture inside of the file, at
+//!   `extras.environment` of the scene. Lengths are metres, radiances those of the scene.
+
+mod buffer;
+mod material;
+mod node;
+mod picture;
+
+use buffer::Buffer;
+use enfilade_scene::{Labels, Scene};
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A scene as glTF.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneGltf {
+    /// The bytes of the file.
+    pub glb: Vec<u8>,
+    /// What glTF cannot hold, and what stands in its place.
+    pub notes: Vec<String>,
+}
+
+/// Lists of the file that grow while the scene is gone through.
+#[derive(Default)]
+struct Document {
+    buffer: Buffer,
+    meshes: Vec<Value>,
+    materials: Vec<Value>,
+    textures: Vec<Value>,
+    samplers: Vec<Value>,
+    images: Vec<Value>,
+    nodes: Vec<Value>,
+    cameras: Vec<Value>,
+    lights: Vec<Value>,
+    extensions: BTreeSet<&'static str>,
+    /// glTF images by picture of the scene and use.
+    pictures: BTreeMap<(u32, picture::Use), usize>,
+    notes: Vec<String>,
+}
+
+/// The scene as glTF; `labels` are joined to the parts in their order, and may be empty.
+///
+/// The scene must be valid ([`Scene::validate`]).
+pub fn scene_gltf(scene: &Scene, labels: &Labels) -> SceneGltf {
+    let mut document = Document::default();
+    material::add_all(&mut document, scene);
+    node::add_all(&mut document, scene, labels);
+    let environment = picture::environment(&mut document, scene);
+    let Document { buffer, meshes, materials, textures, samplers, images, nodes, cameras, lights, extensions, notes, .. } = document;
+    let (views, accessors, binary) = buffer.finish();
+    let mut root = json!({
+        "asset": { "version": "2.0", "generator": concat!("enfilade ", env!("CARGO_PKG_VERSION")) },
+        "scene": 0,
+        "scenes": [{ "nodes": [0] }],
+        "buffers": [{ "byteLength": binary.len() }],
+    });
+    if let Some(environment) = environment {
+        root["scenes"][0]["extras"] = json!({ "environment": environment });
+    }
+    let lists = [
+        ("nodes", nodes),
+        ("meshes", meshes),
+        ("materials", materials),
+        ("textures", textures),
+        ("samplers", samplers),
+        ("images", images),
+        ("cameras", cameras),
+        ("bufferViews", views),
+        ("accessors", accessors),
+    ];
+    for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
+        root[name] = list.into();
+    }
+    if !lights.is_empty() {
+        root["extensions"] = json!({ "KHR_lights_punctual": { "lights": lights } });
+    }
+    if !extensions.is_empty() {
+        root["extensionsUsed"] = json!(extensions);
+    }
+    SceneGltf { glb: container(&root, binary), notes }
+}
+
+/// The binary container: a header, the JSON padded by blanks, the buffer padded by zeros.
+fn container(root: &Value, mut binary: Vec<u8>) -> Vec<u8> {
+    let mut text = root.to_string().into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    binary.resize(binary.len().next_multiple_of(4), 0);
+    let word = |n: usize| (n as u32).to_le_bytes();
+    let chunk = |kind: &[u8; 4], data: &[u8]| [&word(data.len()), kind.as_slice(), data].concat();
+    let chunks = [chunk(b"JSON", &text), chunk(b"BIN\0", &binary)].concat();
+    [b"glTF".as_slice(), &word(2), &word(12 + chunks.len()), &chunks].concat()
+}

@@ -1,0 +1,123 @@
+//! Parts, cameras and lights as nodes.
+
+use super::Document;
+use enfilade_geometry::Mesh;
+use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec3};
+use enfilade_scene::{Labels, Light, NYU40, PartLabel, Scene, SpotFalloff, StartCamera};
+use serde_json::{Value, json};
+use std::collections::HashMap;
+
+/// Takes our z up to glTF's y up, column by column.
+const GLTF_FROM_WORLD: [f32; 16] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+
+/// Adds the root and everything below it.
+pub(super) fn add_all(document: &mut Document, scene: &Scene, labels: &Labels) {
+    document.nodes.push(Value::Null);
+    let mut attributes: Vec<Option<Value>> = vec![None; scene.meshes.len()];
+    let mut meshes: HashMap<(u32, u32), usize> = HashMap::new();
+    for (index, part) in scene.parts.iter().enumerate() {
+        let mesh = *meshes.entry((part.mesh, part.material)).or_insert_with(|| {
+            let shape = &scene.meshes[part.mesh as usize];
+            let mut primitive = attributes[part.mesh as usize].get_or_insert_with(|| primitive(document, shape)).clone();
+            primitive["material"] = json!(part.material);
+            document.meshes.push(json!({ "primitives": [primitive] }));
+            document.meshes.len() - 1
+        });
+        let mut node = json!({ "name": part.name, "mesh": mesh });
+        place(&mut node, &part.world_from_mesh);
+        if let Some(extras) = labels.parts.get(index).and_then(extras) {
+            node["extras"] = extras;
+        }
+        document.nodes.push(node);
+    }
+    scene.cameras.iter().for_each(|camera| add_camera(document, camera));
+    scene.lights.iter().for_each(|light| add_light(document, light));
+    let children: Vec<usize> = (1..document.nodes.len()).collect();
+    document.nodes[0] = json!({ "name": "z_up_to_y_up", "matrix": GLTF_FROM_WORLD, "children": children });
+}
+
+/// The mesh's arrays. Texture coordinates point down in glTF.
+fn primitive(document: &mut Document, mesh: &Mesh) -> Value {
+    let buffer = &mut document.buffer;
+    let positions: Vec<[f32; 3]> = mesh.positions.iter().map(|p| p.to_array()).collect();
+    let mut attributes = json!({ "POSITION": buffer.vectors(&positions, true) });
+    if !mesh.normals.is_empty() {
+        let normals: Vec<[f32; 3]> = mesh.normals.iter().map(|n| n.normalize_or(Vec3::Z).to_array()).collect();
+        attributes["NORMAL"] = json!(buffer.vectors(&normals, false));
+    }
+    if !mesh.uvs.is_empty() {
+        let uvs: Vec<[f32; 2]> = mesh.uvs.iter().map(|uv| [uv.x, 1.0 - uv.y]).collect();
+        attributes["TEXCOORD_0"] = json!(buffer.vectors(&uvs, false));
+    }
+    json!({ "attributes": attributes, "indices": buffer.indices(&mesh.triangles) })
+}
+
+/// Gives a node its matrix, unless it is the identity.
+fn place(node: &mut Value, world_from_node: &DAffine3) {
+    if *world_from_node != DAffine3::IDENTITY {
+        let m = world_from_node.matrix3;
+        let column = |c: DVec3, w: f32| [c.x as f32, c.y as f32, c.z as f32, w];
+        let columns = [column(m.x_axis, 0.0), column(m.y_axis, 0.0), column(m.z_axis, 0.0), column(world_from_node.translation, 1.0)];
+        node["matrix"] = json!(columns.concat());
+    }
+}
+
+/// What the importer reads back; nothing for an unlabelled part.
+fn extras(label: &PartLabel) -> Option<Value> {
+    let class = usize::try_from(label.semantic - 1).ok().and_then(|index| NYU40.get(index))?;
+    let mut extras = json!({ "semantic": class.name, "semantic_id": class.id });
+    if label.instance > 0 {
+        extras["instance"] = json!(label.instance);
+    }
+    Some(extras)
+}
+
+fn add_camera(document: &mut Document, camera: &StartCamera) {
+    let fov_y = 2.0 * ((0.5 * camera.fov_x_rad).tan() / camera.aspect).atan();
+    let perspective = json!({ "yfov": fov_y as f32, "aspectRatio": camera.aspect as f32, "znear": 0.01 });
+    document.cameras.push(json!({ "name": camera.name, "type": "perspective", "perspective": perspective }));
+    let mut node = json!({ "name": camera.name, "camera": document.cameras.len() - 1 });
+    place(&mut node, &DAffine3::from_mat3_translation(camera.world_from_camera, camera.position));
+    document.nodes.push(node);
+}
+
+/// A light shines along its node's −z.
+fn add_light(document: &mut Document, light: &Light) {
+    let (kind, strength, position, direction, spot) = match light {
+        Light::Point { position, intensity, .. } => ("point", *intensity, *position, Vec3::NEG_Z, None),
+        Light::Spot { position, direction, intensity, inner_rad, outer_rad, falloff, .. } => {
+            if *falloff == SpotFalloff::Angle {
+                document.notes.push(format!("light {:?}: it dims by the angle, glTF's by the square of the cosine", light.name()));
+            }
+            // The specification wants the inner angle below the outer one.
+            let inner = inner_rad.min(outer_rad - 1e-4).max(0.0);
+            ("spot", *intensity, *position, *direction, Some(json!({ "innerConeAngle": inner, "outerConeAngle": outer_rad })))
+        }
+        Light::Directional { direction, irradiance, angular_radius_rad, .. } => {
+            if *angular_radius_rad > 0.0 {
+                document.notes.push(format!("light {:?}: its disk of {angular_radius_rad} rad became parallel light", light.name()));
+            }
+            ("directional", *irradiance, Vec3::ZERO, *direction, None)
+        }
+        Light::Profile { .. } => {
+            document.notes.push(format!("light {:?}: its measured distribution has no place in glTF, so it was left out", light.name()));
+            return;
+        }
+    };
+    let intensity = strength.max_component();
+    let color = if intensity > 0.0 { strength / intensity } else { Rgb::WHITE };
+    let mut entry = json!({ "name": light.name(), "type": kind, "color": color.to_array(), "intensity": intensity });
+    if let Some(spot) = spot {
+        entry["spot"] = spot;
+    }
+    document.lights.push(entry);
+    document.extensions.insert("KHR_lights_punctual");
+    let mut node = json!({
+        "name": light.name(),
+        "extensions": { "KHR_lights_punctual": { "light": document.lights.len() - 1 } },
+    });
+    let z = -direction.as_dvec3().normalize_or(DVec3::NEG_Z);
+    let x = z.any_orthonormal_vector();
+    place(&mut node, &DAffine3::from_mat3_translation(DMat3::from_cols(x, z.cross(x), z), position.as_dvec3()));
+    document.nodes.push(node);
+}

@@ -1,0 +1,82 @@
+//! What a home is a function of.
+
+use crate::light::Moment;
+use crate::plan::{RoomKind, usual_programme};
+use enfilade_math::Rng;
+use serde::{Deserialize, Serialize};
+
+/// What a home is a function of. Equal values give equal bytes.
+///
+/// What is not set follows from `seed`: to vary one thing and keep the others, set its seed and leave `seed` as it is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct HomeConfig {
+    /// Decides everything that has no seed of its own. Zero is the one on the cover.
+    pub seed: u64,
+    /// One to [`HomeConfig::MOST_ROOMS`] rooms. None: four to eight rooms, equally often, of the usual programme of that number.
+    pub rooms: Vec<RoomKind>,
+    /// Floor plan: areas uniform over what is usual for each kind of room, shape of the whole, doors, windows.
+    pub layout: Option<u64>,
+    /// Which pieces of furniture there are, their measures, and where they stand.
+    pub furniture: Option<u64>,
+    /// Colours, woods, cloths, and the pictures that surfaces show.
+    pub materials: Option<u64>,
+    /// Share of the colours that go together, 1 for all: see [`crate::palette::DecorConfig`].
+    pub realism: f32,
+    /// Place, date, hour, weather, surroundings, and which lamps are lit.
+    pub light: Option<u64>,
+    /// Part of the day. None: day for three of five homes, evening or night for the others.
+    pub moment: Option<Moment>,
+    /// Density of small things on surfaces: 0 has none, 1 is a home that is lived in, 2 is untidy.
+    pub clutter: f32,
+}
+
+impl Default for HomeConfig {
+    fn default() -> Self {
+        Self {
+            seed: 0,
+            rooms: Vec::new(),
+            layout: None,
+            furniture: None,
+            materials: None,
+            realism: 1.0,
+            light: None,
+            moment: None,
+            clutter: 1.0,
+        }
+    }
+}
+
+impl HomeConfig {
+    /// Largest number of rooms.
+    pub const MOST_ROOMS: usize = 12;
+
+    /// The home of a seed, with everything else as it comes.
+    pub fn of_seed(seed: u64) -> Self {
+        Self { seed, ..Self::default() }
+    }
+
+    /// Why no home can be made of it, if none can.
+    pub fn problem(&self) -> Option<String> {
+        if self.rooms.len() > Self::MOST_ROOMS {
+            return Some(format!("a home has at most {} rooms, found {}", Self::MOST_ROOMS, self.rooms.len()));
+        }
+        if !(0.0..=4.0).contains(&self.clutter) {
+            return Some(format!("clutter must lie between 0 and 4, found {}", self.clutter));
+        }
+        if !(0.0..=1.0).contains(&self.realism) {
+            return Some(format!("realism must lie between 0 and 1, found {}", self.realism));
+        }
+        None
+    }
+
+    /// The rooms to make.
+    pub(crate) fn programme(&self) -> Vec<RoomKind> {
+        if self.rooms.is_empty() { usual_programme(4 + self.stream(self.layout, 9).below(5)) } else { self.rooms.clone() }
+    }
+
+    /// Random numbers for one purpose, from its own seed if that is set.
+    pub(crate) fn stream(&self, own: Option<u64>, purpose: u64) -> Rng {
+        Rng::new(own.unwrap_or(self.seed)).fork(purpose)
+    }
+}

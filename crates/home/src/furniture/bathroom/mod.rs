@@ -1,0 +1,18 @@
+//! Where people wash.
+
+mod bathtub;
+mod ceramic;
+mod linen;
+mod mirror_cabinet;
+mod small;
+mod tap;
+mod toilet;
+mod washbasin;
+
+pub use bathtub::{Bathtub, Shower, TubScreen};
+pub use linen::{BathMat, FoldedTowels, TowelRadiator, TowelRail, TowelShelf};
+pub use mirror_cabinet::MirrorCabinet;
+pub use small::{PaperHolder, PedalBin, SoapDispenser, ToiletBrush, Toiletries, ToothbrushMug};
+pub use tap::{TapForm, fittings};
+pub use toilet::Toilet;
+pub use washbasin::{BasinStand, Washbasin};

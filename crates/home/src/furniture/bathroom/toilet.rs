@@ -1,0 +1,180 @@
+use super::ceramic::{Section, body, egg, hollow, rectangle};
+use crate::builder::{Builder, Class, Object};
+use crate::furniture::form::{all, cylinder};
+use crate::furniture::{Furniture, board, on};
+use crate::materials::Finish;
+use crate::shape::Reshape;
+use enfilade_math::{DAffine3, Rng, Vec3};
+
+/// A toilet.
+#[derive(Clone, Copy, Debug)]
+pub struct Toilet {
+    /// It hangs on the wall, which has the cistern inside; else it stands and carries its cistern.
+    pub hung: bool,
+    /// The lid is up.
+    pub open: bool,
+    /// From the wall to the front of the seat.
+    pub depth: f32,
+    /// Of the flush plate.
+    pub plate: Finish,
+}
+
+/// Height of the ceramic rim; the seat is 2 cm higher.
+const RIM: f32 = 0.40;
+const WIDTH: f32 = 0.365;
+const CISTERN: f32 = 0.17;
+
+impl Toilet {
+    /// Where the bowl begins behind, from the wall.
+    fn back(&self) -> f32 {
+        if self.hung { 0.0 } else { 0.02 }
+    }
+
+    /// An egg from `back` to `front` metres from the wall.
+    fn at(&self, width: f32, back: f32, front: f32, z: f32) -> Section {
+        egg(width, front - back, 0.5 * (back + front) - 0.5 * self.depth, z)
+    }
+
+    fn bowl(&self, b: &mut Builder, toilet: &Object) {
+        let (d, back) = (self.depth, self.back());
+        let rim = self.at(WIDTH, back, d - 0.004, RIM - 0.012);
+        let outside = if self.hung {
+            vec![
+                self.at(0.20, back, 0.44 * d, 0.065),
+                self.at(0.235, back, 0.50 * d, 0.075),
+                self.at(0.285, back, 0.74 * d, 0.16),
+                self.at(0.33, back, 0.91 * d, 0.26),
+                self.at(0.358, back, d - 0.016, 0.34),
+                rim,
+                self.at(WIDTH - 0.010, back + 0.005, d - 0.009, RIM),
+            ]
+        } else {
+            vec![
+                self.at(0.225, back + 0.05, 0.80 * d, 0.0),
+                self.at(0.225, back + 0.05, 0.80 * d, 0.02),
+                self.at(0.215, back + 0.05, 0.78 * d, 0.12),
+                self.at(0.25, back + 0.03, 0.84 * d, 0.22),
+                self.at(0.32, back + 0.01, 0.94 * d, 0.31),
+                self.at(0.358, back, d - 0.014, 0.36),
+                rim,
+                self.at(WIDTH - 0.010, back + 0.005, d - 0.009, RIM),
+            ]
+        };
+        let mouth = d - 0.40;
+        let inside = [
+            self.at(0.245, mouth, d - 0.055, RIM),
+            self.at(0.225, mouth + 0.01, d - 0.065, RIM - 0.02),
+            self.at(0.255, mouth - 0.005, d - 0.05, RIM - 0.06),
+            self.at(0.20, mouth + 0.02, d - 0.10, 0.24),
+            self.at(0.10, mouth + 0.07, d - 0.20, 0.15),
+        ];
+        b.part(toilet, "bowl", hollow(&outside, &inside), Finish::Porcelain);
+        b.part(
+            toilet,
+            "water",
+            body(&[self.at(0.13, mouth + 0.05, d - 0.16, 0.178), self.at(0.13, mouth + 0.05, d - 0.16, 0.18)]),
+            Finish::Water,
+        );
+    }
+
+    fn seat(&self, b: &mut Builder, toilet: &Object, hinge: f32) {
+        let d = self.depth;
+        let white = Finish::WhitePlastic;
+        let seat = |grow: f32, z: f32| self.at(WIDTH + 0.006 - grow, hinge + 0.5 * grow, d - 0.5 * grow, z);
+        let hole = |grow: f32, z: f32| self.at(0.225 + grow, d - 0.385 - 0.5 * grow, d - 0.075 + 0.5 * grow, z);
+        let z = RIM + 0.004;
+        // A ring: up the outside, over, down the inside and back below.
+        let ring = [
+            seat(0.01, z),
+            seat(0.0, z + 0.006),
+            seat(0.004, z + 0.014),
+            seat(0.03, z + 0.018),
+            hole(0.02, z + 0.016),
+            hole(0.0, z + 0.010),
+            hole(0.01, z + 0.0003),
+        ];
+        let mut sections = ring.to_vec();
+        sections.push(seat(0.012, z));
+        b.part(toilet, "seat", ring_body(&sections), white);
+        let top = z + 0.0185;
+        let lid = [seat(0.012, top), seat(0.0, top + 0.004), seat(0.002, top + 0.010), seat(0.02, top + 0.015), seat(0.10, top + 0.018)];
+        let mesh = body(&lid);
+        let axis = Vec3::new(0.0, hinge + 0.012 - 0.5 * d, top + 0.006);
+        let lid = if self.open { mesh.moved(-axis).turned(Vec3::X, 1.72).moved(axis + Vec3::Z * 0.004) } else { mesh };
+        b.part(toilet, "lid", lid, white);
+        let hinges = [-0.075f32, 0.075].map(|x| cylinder(0.013, 0.022, 18).moved(Vec3::new(x, hinge - 0.5 * d - 0.008, RIM - 0.001)));
+        b.part(toilet, "hinges", all(hinges), Finish::Chrome);
+    }
+
+    fn cistern(&self, b: &mut Builder, toilet: &Object) {
+        let y = 0.5 * CISTERN - 0.5 * self.depth + 0.003;
+        let at = |w: f32, d: f32, r: f32, z: f32| rectangle(w, d, r, y, z);
+        let tank = [
+            at(0.33, 0.14, 0.03, RIM + 0.001),
+            at(0.36, 0.155, 0.035, RIM + 0.03),
+            at(0.375, 0.160, 0.035, 0.76),
+            at(0.37, 0.155, 0.03, 0.764),
+        ];
+        b.part(toilet, "cistern", body(&tank), Finish::Porcelain);
+        let cover = [
+            at(0.38, 0.164, 0.035, 0.7645),
+            at(0.39, CISTERN - 0.002, 0.037, 0.768),
+            at(0.39, CISTERN - 0.002, 0.037, 0.782),
+            at(0.375, 0.155, 0.03, 0.79),
+        ];
+        b.part(toilet, "cistern_cover", body(&cover), Finish::Porcelain);
+        b.part(toilet, "button", cylinder(0.024, 0.007, 28).moved(Vec3::new(0.0, y, 0.7898)), Finish::Chrome);
+    }
+
+    fn flush_plate(&self, b: &mut Builder, toilet: &Object) {
+        let y = -0.5 * self.depth;
+        let plate = board([-0.123, y - 0.001, 0.96], [0.123, y + 0.008, 1.124], 0.003);
+        b.part(toilet, "flush_plate", plate, self.plate);
+        let buttons = [(-0.04f32, 0.062f32), (0.068, 0.034)]
+            .map(|(x, half)| board([x - half, y + 0.0078, 0.985], [x + half, y + 0.012, 1.10], 0.002));
+        b.part(toilet, "flush_buttons", all(buttons), self.plate);
+    }
+}
+
+/// A ring through `sections`, of which the first follows the last.
+fn ring_body(sections: &[Section]) -> enfilade_geometry::Mesh {
+    let (n, m) = (sections[0].outline.len(), sections.len());
+    let point = |i: usize, j: usize| {
+        let section = &sections[j % m];
+        let p = section.outline[i % n];
+        Vec3::new(p.x, p.y + section.y, section.z)
+    };
+    crate::shape::grid(n, m, point, |i, j| {
+        let p = point(i, j);
+        enfilade_math::Vec2::new(p.x, p.y + p.z)
+    })
+    .smoothed(60.0)
+}
+
+impl Furniture for Toilet {
+    fn random(rng: &mut Rng) -> Self {
+        let hung = rng.below(3) > 0;
+        let depth = if hung { rng.range(0.52, 0.56) } else { rng.range(0.64, 0.69) };
+        Self { hung, open: rng.below(5) == 0, depth, plate: [Finish::WhitePlastic, Finish::Chrome, Finish::BlackPlastic][rng.below(3)] }
+    }
+
+    fn size(&self) -> Vec3 {
+        Vec3::new(0.40, self.depth + 0.004, if self.hung { 1.13 } else { 0.90 })
+    }
+
+    fn reach(&self) -> f32 {
+        0.6
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
+        let pose = on(pose, Vec3::new(0.0, -0.002, 0.0), 0.0);
+        let toilet = b.object("toilet", Class::Toilet, pose);
+        self.bowl(b, &toilet);
+        if self.hung {
+            self.flush_plate(b, &toilet);
+        } else {
+            self.cistern(b, &toilet);
+        }
+        self.seat(b, &toilet, if self.hung { 0.07 } else { CISTERN + 0.04 });
+    }
+}

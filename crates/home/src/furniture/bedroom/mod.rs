@@ -1,0 +1,15 @@
+//! Where people sleep and dress.
+
+mod bed;
+mod bedding;
+mod clothes;
+mod drawers;
+mod dressing;
+mod wardrobe;
+
+pub use bed::{Bed, BedFrame};
+pub use bedding::{Bedding, Cover};
+pub use clothes::{FoldedClothes, Garment, hang_garment, heap};
+pub use drawers::{DrawerBody, Dresser, Nightstand};
+pub use dressing::{Bench, DressingTable, LaundryBasket};
+pub use wardrobe::{Wardrobe, WardrobeDoors};

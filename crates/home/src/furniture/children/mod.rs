@@ -1,0 +1,17 @@
+//! A child's room: low furniture, toys, instruments.
+
+mod crib;
+mod globe;
+mod instrument;
+mod play_table;
+mod plush;
+mod toy;
+mod toy_chest;
+
+pub use crib::Crib;
+pub use globe::Globe;
+pub use instrument::{Guitar, MusicKeyboard};
+pub use play_table::{PlayTable, ToyChair};
+pub use plush::PlushBear;
+pub use toy::Toy;
+pub use toy_chest::ToyChest;

@@ -1,0 +1,73 @@
+use super::{PlushBear, Toy};
+use crate::builder::{Builder, Class};
+use crate::furniture::form::all;
+use crate::furniture::{CONTACT, Furniture, Surface, board, grained, on};
+use crate::materials::Finish;
+use crate::shape::Reshape;
+use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+
+/// A chest for toys: closed with a lid to sit on, or open and full.
+#[derive(Clone, Copy, Debug)]
+pub struct ToyChest {
+    /// Along x.
+    pub width: f32,
+    /// Without a lid.
+    pub open: bool,
+    /// Of its walls.
+    pub finish: Finish,
+}
+
+const DEPTH: f32 = 0.40;
+const HEIGHT: f32 = 0.42;
+const BOARD: f32 = 0.016;
+
+impl Furniture for ToyChest {
+    fn random(rng: &mut Rng) -> Self {
+        let finish = [Finish::WhiteLacquer, Finish::Wood, Finish::ColoredLacquer(rng.below(4) as u8)][rng.below(3)];
+        Self { width: rng.range(0.6, 0.85), open: rng.below(2) == 0, finish }
+    }
+
+    fn size(&self) -> Vec3 {
+        Vec3::new(self.width, DEPTH, HEIGHT + if self.open { 0.14 } else { 0.0 })
+    }
+
+    fn reach(&self) -> f32 {
+        0.5
+    }
+
+    fn surfaces(&self) -> Vec<Surface> {
+        let half = Vec2::new(0.5 * self.width - 0.04, 0.5 * DEPTH - 0.04);
+        if self.open { Vec::new() } else { vec![Surface { min: -half, max: half, z: HEIGHT, headroom: f32::INFINITY }] }
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let chest = b.object("toy_chest", Class::Box, pose);
+        let (x, y) = (0.5 * self.width - 0.01, 0.5 * DEPTH - 0.01);
+        let top = HEIGHT - 0.022;
+        let walls = all([
+            board([-x, y - BOARD, 0.02], [x, y, top], 0.002),
+            board([-x, -y, 0.02], [x, BOARD - y, top], 0.002),
+            board([-x, BOARD - y + 0.0002, 0.02], [BOARD - x, y - BOARD - 0.0002, top], 0.002),
+            board([x - BOARD, BOARD - y + 0.0002, 0.02], [x, y - BOARD - 0.0002, top], 0.002),
+            board([BOARD - x, BOARD - y, 0.03], [x - BOARD, y - BOARD, 0.044], 0.001),
+        ]);
+        b.part(&chest, "walls", grained(walls, rng), self.finish);
+        b.part(&chest, "base", board([0.02 - x, 0.02 - y, 0.0], [x - 0.02, y - 0.02, 0.0302], 0.002), self.finish);
+        let grip = |s: f32| board([s * 0.06 - 0.05, y - 0.0004, top - 0.075], [s * 0.06 + 0.05, y + 0.006, top - 0.055], 0.002);
+        b.part(&chest, "grips", grip(-1.0).with(grip(1.0)), Finish::Wood);
+        if !self.open {
+            let lid = board([-x - 0.01, -y - 0.01, top + 0.0005], [x + 0.01, y + 0.01, HEIGHT], 0.004);
+            b.part(&chest, "lid", grained(lid, rng), if self.finish == Finish::Wood { Finish::Wood } else { self.finish });
+            return;
+        }
+        // Toys up to the rim: a bear looks out, a ball lies beside it, blocks between them.
+        let floor = HEIGHT - 0.18;
+        let fill = board([BOARD - x + 0.002, BOARD - y + 0.002, 0.046], [x - BOARD - 0.002, y - BOARD - 0.002, floor], 0.01);
+        let blanket = b.object("blanket", Class::OtherProp, pose);
+        b.part(&blanket, "cloth", fill.uv_moved(Vec2::splat(rng.next_f32())), Finish::Accent(rng.below(3) as u8));
+        let bear = PlushBear { height: 0.24, ..PlushBear::random(rng) };
+        let bear = PlushBear { rabbit: false, ..bear };
+        bear.build(b, on(pose, Vec3::new(0.14 - x + 0.5 * bear.size().x, 0.0, floor + CONTACT), 0.1), rng);
+        Toy::Ball.build(b, on(pose, Vec3::new(x - 0.13, -0.03, floor + CONTACT), 0.0), rng);
+    }
+}

@@ -1,0 +1,69 @@
+use crate::builder::{Builder, Class};
+use crate::furniture::{CONTACT, Furniture, on};
+use crate::materials::Finish;
+use crate::shape::{Reshape, pillow, rounded_box};
+use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+
+/// A blanket folded several times.
+#[derive(Clone, Copy, Debug)]
+pub struct FoldedBlanket {
+    /// Layers on each other.
+    pub folds: usize,
+    /// Wool that was knitted, or woven cloth of an accent colour.
+    pub knitted: bool,
+}
+
+impl Furniture for FoldedBlanket {
+    fn random(rng: &mut Rng) -> Self {
+        Self { folds: 3 + rng.below(3), knitted: rng.below(2) == 0 }
+    }
+
+    fn size(&self) -> Vec3 {
+        Vec3::new(0.44, 0.34, 0.026 * self.folds as f32 + 0.006)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let blanket = b.object("blanket", Class::OtherProp, pose);
+        let finish = if self.knitted { Finish::KnittedThrow } else { Finish::Accent(rng.below(3) as u8) };
+        for k in 0..self.folds {
+            let size = Vec3::new(0.42 - rng.range(0.0, 0.012), 0.32 - rng.range(0.0, 0.012), 0.025);
+            let phase = rng.range(0.0, 6.0);
+            // Each layer sags a little where the one below is thin.
+            let layer = rounded_box(size, 0.0124, 3)
+                .deformed(|p| {
+                    Vec3::new(p.x, p.y, p.z + 0.0015 * (9.0 * p.x + phase).sin() * (11.0 * p.y).cos() * (0.5 + p.z / 0.025).clamp(0.0, 1.0))
+                })
+                .smoothed(60.0);
+            let at = Vec3::new(rng.range(-0.004, 0.004), rng.range(-0.004, 0.004), CONTACT + 0.0127 + 0.026 * k as f32);
+            b.part(&blanket, &format!("fold_{}", k + 1), layer.uv_moved(Vec2::splat(0.31 * k as f32)).moved(at), finish);
+        }
+    }
+}
+
+/// A cushion that lies flat.
+#[derive(Clone, Copy, Debug)]
+pub struct ScatterCushion {
+    /// Of its edges.
+    pub size: Vec2,
+    /// One of the accent colours.
+    pub color: u8,
+}
+
+impl Furniture for ScatterCushion {
+    fn random(rng: &mut Rng) -> Self {
+        let edge = rng.range(0.38, 0.5);
+        Self { size: Vec2::new(edge, if rng.below(3) == 0 { 0.62 * edge } else { edge }), color: rng.below(3) as u8 }
+    }
+
+    fn size(&self) -> Vec3 {
+        self.size.extend(0.155)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let thickness = 0.14;
+        // Its weight flattens the lower side.
+        let mesh = pillow(self.size, thickness, rng).deformed(|p| Vec3::new(p.x, p.y, p.z.max(-0.34 * thickness))).smoothed(70.0);
+        let cushion = b.object("cushion", Class::Pillow, on(pose, Vec3::new(0.0, 0.0, CONTACT + 0.34 * thickness), 0.0));
+        b.part(&cushion, "cover", mesh.uv_moved(Vec2::splat(rng.next_f32())), Finish::Accent(self.color));
+    }
+}

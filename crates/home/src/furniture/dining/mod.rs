@@ -1,0 +1,15 @@
+//! The dining room: long tables, chairs, stools and benches, sideboards and glass cabinets.
+
+mod bench;
+mod chairs;
+mod glass_cabinet;
+mod long_table;
+mod sideboard;
+mod stool;
+
+pub use bench::DiningBench;
+pub use chairs::{ShellChair, SpindleChair, UpholsteredChair};
+pub use glass_cabinet::GlassCabinet;
+pub use long_table::LongTable;
+pub use sideboard::Sideboard;
+pub use stool::BarStool;

@@ -1,0 +1,196 @@
+use super::front::KitchenStyle;
+use super::{DEPTH, THICKNESS, WALL_DEPTH, WALL_UNIT, WORKTOP, appliance, sink, unit};
+use crate::builder::{Builder, Class};
+use crate::furniture::form::plate_with_holes;
+use crate::furniture::{CONTACT, Surface, board, grained, on};
+use crate::shape::Reshape;
+use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+
+/// What stands on the floor, by its width.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub enum Unit {
+    Doors(f32),
+    Drawers(f32),
+    Sink(f32),
+    /// An oven below a hob.
+    Oven(f32),
+    Dishwasher,
+    /// A closed end where another run meets this one.
+    Corner(f32),
+    /// A strip that fills what the grid leaves over.
+    Filler(f32),
+    Larder(f32),
+    /// An oven and a microwave at the height of the hands.
+    Tower,
+    BuiltInRefrigerator,
+}
+
+impl Unit {
+    /// Along the wall.
+    pub fn width(self) -> f32 {
+        match self {
+            Self::Doors(w) | Self::Drawers(w) | Self::Sink(w) | Self::Oven(w) | Self::Corner(w) | Self::Filler(w) | Self::Larder(w) => w,
+            Self::Dishwasher | Self::Tower | Self::BuiltInRefrigerator => 0.6,
+        }
+    }
+
+    /// True for what reaches above the worktop.
+    pub fn is_tall(self) -> bool {
+        matches!(self, Self::Larder(_) | Self::Tower | Self::BuiltInRefrigerator)
+    }
+}
+
+/// What hangs above a unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Above {
+    Nothing,
+    Doors,
+    Glazed,
+    /// Two open boards.
+    Boards,
+    Hood,
+}
+
+/// Height of the covering below a window, and how far a window's sill reaches beyond it.
+const UPSTAND: f32 = 0.1;
+const SILL_END: f32 = 0.06;
+
+/// Units in a line along a wall, in the run's own space: x from its left end, y from the wall, z from the floor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// From left to right, each with what hangs above it.
+    pub units: Vec<(Unit, Above)>,
+    /// From and to along x, where a window begins not far above the worktop.
+    pub window: Option<[f32; 2]>,
+}
+
+impl Run {
+    /// Sum of the widths.
+    pub fn length(&self) -> f32 {
+        self.units.iter().map(|(unit, _)| unit.width()).sum()
+    }
+
+    /// Each unit with the x of its left edge.
+    fn placed(&self) -> impl Iterator<Item = (f32, Unit, Above)> {
+        self.units.iter().scan(0.0, |x, &(unit, above)| {
+            let left = *x;
+            *x += unit.width();
+            Some((left, unit, above))
+        })
+    }
+
+    /// Ends of the pieces of worktop, between tall units.
+    fn worktops(&self) -> Vec<[f32; 2]> {
+        let mut pieces: Vec<[f32; 2]> = Vec::new();
+        for (x, unit, _) in self.placed().filter(|(_, unit, _)| !unit.is_tall()) {
+            match pieces.last_mut() {
+                Some(piece) if (piece[1] - x).abs() < 1e-4 => piece[1] = x + unit.width(),
+                _ => pieces.push([x, x + unit.width()]),
+            }
+        }
+        pieces
+    }
+
+    /// Where small things can stand: the worktop but for sink and hob, in the run's space.
+    pub fn surfaces(&self) -> Vec<Surface> {
+        const MARGIN: f32 = 0.02;
+        // Nothing stands on a narrower strip.
+        const NARROWEST: f32 = 0.12;
+        let mut free: Vec<Surface> = Vec::new();
+        for (x, unit, above) in self.placed() {
+            if unit.is_tall() || matches!(unit, Unit::Sink(_) | Unit::Oven(_)) {
+                continue;
+            }
+            let headroom = if above == Above::Nothing { f32::INFINITY } else { WALL_UNIT[0] - WORKTOP };
+            match free.last_mut() {
+                Some(last) if (last.max.x + MARGIN - x).abs() < 1e-4 && last.headroom == headroom => last.max.x = x + unit.width() - MARGIN,
+                _ => free.push(Surface {
+                    min: Vec2::new(x + MARGIN, 0.05),
+                    max: Vec2::new(x + unit.width() - MARGIN, DEPTH - 0.04),
+                    z: WORKTOP,
+                    headroom,
+                }),
+            }
+        }
+        free.retain(|s| s.max.x - s.min.x > NARROWEST);
+        free
+    }
+
+    /// Adds everything.
+    pub fn build(&self, b: &mut Builder, pose: DAffine3, style: &KitchenStyle, rng: &mut Rng) {
+        for (x, unit, above) in self.placed() {
+            let w = unit.width();
+            let at = on(pose, Vec3::new(x, 0.0, 0.0), 0.0);
+            unit::base(b, at, unit, style, rng);
+            let middle = |z: f32| on(pose, Vec3::new(x + 0.5 * w, 0.0, z), 0.0);
+            match unit {
+                Unit::Sink(_) => sink::build(b, middle(WORKTOP), w, style, rng),
+                Unit::Oven(_) => appliance::hob(b, middle(WORKTOP), w.min(0.8), style, rng),
+                _ => {}
+            }
+            match above {
+                Above::Nothing => {}
+                Above::Doors | Above::Glazed => unit::wall_cabinet(b, at, w, WALL_UNIT, above == Above::Glazed, style, rng),
+                Above::Hood => appliance::hood(b, middle(0.0), w, style, rng),
+                Above::Boards => self.boards(b, at, w, style, rng),
+            }
+        }
+        for piece in self.worktops() {
+            self.worktop(b, pose, piece, style, rng);
+        }
+    }
+
+    fn boards(&self, b: &mut Builder, pose: DAffine3, w: f32, style: &KitchenStyle, rng: &mut Rng) {
+        for z in [1.50, 1.83] {
+            let object = b.object("wall_shelf", Class::Shelves, pose);
+            // On the wall, or on what covers it behind the worktop.
+            let back = if z - 0.12 < WALL_UNIT[0] { 0.009 } else { 0.001 };
+            b.part(
+                &object,
+                "board",
+                grained(board([0.01, back, z], [w - 0.01, 0.24, z + 0.028], 0.002), rng),
+                crate::materials::Finish::Wood,
+            );
+            let bracket = |x: f32| {
+                board([x - 0.008, back + 0.0002, z - 0.12], [x + 0.008, back + 0.005, z - CONTACT], 0.001).with(board(
+                    [x - 0.008, back + 0.0052, z - 0.006],
+                    [x + 0.008, 0.2, z - CONTACT],
+                    0.001,
+                ))
+            };
+            b.part(&object, "brackets", bracket(0.08).with(bracket(w - 0.08)), style.metal);
+            crate::furniture::tableware::shelf_of_crockery(b, on(pose, Vec3::new(0.5 * w, 0.13, z + 0.028), 0.0), w - 0.14, rng);
+        }
+    }
+
+    /// One piece of worktop over `[x0, x1]` with its cut-outs, and what covers the wall behind it.
+    fn worktop(&self, b: &mut Builder, pose: DAffine3, [x0, x1]: [f32; 2], style: &KitchenStyle, rng: &mut Rng) {
+        let holes: Vec<[f32; 4]> = self
+            .placed()
+            .filter(|(x, unit, _)| matches!(unit, Unit::Sink(_)) && *x >= x0 && *x < x1)
+            .map(|(x, unit, _)| {
+                let [half, back, front] = sink::cut_out(unit.width());
+                let middle = x + 0.5 * unit.width();
+                [middle - half, middle + half, back, front]
+            })
+            .collect();
+        let counter = b.object("worktop", Class::Counter, pose);
+        let ends = [Vec2::new(x0 + 0.0003, 0.002), Vec2::new(x1 - 0.0003, DEPTH)];
+        let top = plate_with_holes(ends[0], ends[1], THICKNESS, 0.002, &holes);
+        b.part(&counter, "top", grained(top.moved(Vec3::new(0.0, 0.0, WORKTOP)), rng), style.worktop);
+        // A low wall unit's edge would show a joint: the covering reaches just below it.
+        let cover = b.object("splashback", Class::OtherStructure, pose);
+        // Below a window it is an upstand.
+        let open = self.window.map_or([x1; 2], |[a, b]| [(a - SILL_END).clamp(x0, x1), (b + SILL_END).clamp(x0, x1)]);
+        let pieces = [([x0, open[0]], WALL_UNIT[0] - 0.001), (open, WORKTOP + UPSTAND), ([open[1], x1], WALL_UNIT[0] - 0.001)];
+        for (i, ([x0, x1], top)) in pieces.into_iter().filter(|([a, b], _)| b - a > 0.01).enumerate() {
+            let mesh = board([x0 + 0.001, 0.0008, WORKTOP + CONTACT], [x1 - 0.001, 0.0085, top], 0.0008);
+            b.part(&cover, &format!("panel_{}", i + 1), mesh, style.splashback);
+        }
+    }
+
+    /// Depth of wall units, for those who place things below them.
+    pub const WALL_DEPTH: f32 = WALL_DEPTH;
+}

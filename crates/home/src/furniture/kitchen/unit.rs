@@ -1,0 +1,179 @@
+//! One unit in the space of its run: x from its left edge, y from the wall, z from the floor.
+
+use super::front::{FRONT, KitchenStyle, Opening, front};
+use super::run::Unit;
+use super::{BOX, PLINTH, TALL, THICKNESS, WALL_DEPTH, WORKTOP, appliance};
+use crate::builder::{Builder, Class, Object};
+use crate::furniture::form::all;
+use crate::furniture::{CONTACT, board, grained, on};
+use crate::materials::Finish;
+use enfilade_math::{DAffine3, Rng, Vec3};
+
+const SHELL: f32 = 0.016;
+const UNDER_TOP: f32 = WORKTOP - THICKNESS - CONTACT;
+
+/// Adds the unit from the floor up, without worktop.
+pub fn base(b: &mut Builder, pose: DAffine3, unit: Unit, style: &KitchenStyle, rng: &mut Rng) {
+    let w = unit.width();
+    let [low, top] = [PLINTH[0], if unit.is_tall() { TALL } else { UNDER_TOP }];
+    let finish = if unit.is_tall() { style.upper } else { style.lower };
+    let object = b.object("kitchen_unit", Class::Cabinet, pose);
+    plinth(b, &object, w, style);
+    if unit == Unit::Dishwasher && !hides_appliances(style) {
+        appliance::dishwasher(b, pose, [0.0, w], [low, top], style);
+        return;
+    }
+    let hollow = matches!(unit, Unit::Sink(_) | Unit::Oven(_) | Unit::Tower);
+    carcass(b, &object, w, [low, top], hollow, finish);
+    let object = if unit == Unit::BuiltInRefrigerator { b.object("refrigerator", Class::Refrigerator, pose) } else { object };
+    let side = if rng.below(2) == 0 { -1.0 } else { 1.0 };
+    let mut put = |name: &str, rect: [f32; 4], opening: Opening, rng: &mut Rng| {
+        front(b, &object, name, rect, BOX + CONTACT, opening, style, finish, rng);
+    };
+    match unit {
+        Unit::Doors(_) | Unit::Sink(_) if w > 0.61 => {
+            put("door_1", [0.0, 0.5 * w, low, top], Opening::Below(1.0), rng);
+            put("door_2", [0.5 * w, w, low, top], Opening::Below(-1.0), rng);
+        }
+        Unit::Doors(_) => {
+            put("drawer", [0.0, w, top - 0.155, top], Opening::Drawer, rng);
+            put("door", [0.0, w, low, top - 0.155], Opening::Below(side), rng);
+        }
+        Unit::Sink(_) | Unit::Dishwasher => {
+            put("door", [0.0, w, low, top], if unit == Unit::Dishwasher { Opening::Drawer } else { Opening::Below(side) }, rng)
+        }
+        Unit::Drawers(_) => {
+            let cuts = if rng.below(2) == 0 { [0.0, 0.37, 0.74, 1.0] } else { [0.0, 0.4, 0.8, 1.0] };
+            for k in 0..3 {
+                let z = [cuts[k], cuts[k + 1]].map(|t| low + t * (top - low));
+                put(&format!("drawer_{}", k + 1), [0.0, w, z[0], z[1]], Opening::Drawer, rng);
+            }
+        }
+        Unit::Oven(_) => {
+            put("drawer", [0.0, w, low, low + 0.13], Opening::Drawer, rng);
+            if w > 0.61 {
+                let rest = 0.5 * (w - 0.6);
+                put("filler_1", [0.0, rest, low + 0.13, top], Opening::Drawer, rng);
+                put("filler_2", [w - rest, w, low + 0.13, top], Opening::Drawer, rng);
+            }
+        }
+        Unit::Larder(_) | Unit::BuiltInRefrigerator => {
+            let split = if unit == Unit::BuiltInRefrigerator { 0.85 } else { 1.40 };
+            put("door_1", [0.0, w, low, split], Opening::Below(side), rng);
+            put("door_2", [0.0, w, split, top], Opening::Above(side), rng);
+        }
+        Unit::Tower => {
+            put("drawer_1", [0.0, w, low, 0.42], Opening::Drawer, rng);
+            put("drawer_2", [0.0, w, 0.42, 0.71], Opening::Drawer, rng);
+            put("door", [0.0, w, 1.70, top], Opening::Above(side), rng);
+        }
+        Unit::Corner(_) | Unit::Filler(_) => {
+            let panel = board([0.0005, BOX + CONTACT, low], [w - 0.0005, BOX + FRONT, top], 0.001);
+            b.part(&object, "panel", grained(panel, rng), style.lower);
+        }
+    }
+    match unit {
+        Unit::Oven(_) => {
+            let half = 0.5 * w;
+            appliance::oven(b, pose, [half - 0.3, half + 0.3, low + 0.13, top], style);
+        }
+        Unit::Tower => {
+            appliance::oven(b, pose, [0.0, w, 0.71, 1.31], style);
+            appliance::oven(b, pose, [0.0, w, 1.31, 1.70], style);
+        }
+        _ => {}
+    }
+}
+
+fn plinth(b: &mut Builder, object: &Object, w: f32, style: &KitchenStyle) {
+    let y = BOX + FRONT - PLINTH[1];
+    b.part(object, "plinth", board([0.0003, 0.02, 0.0], [w - 0.0003, y, PLINTH[0] - 0.003], 0.0005), style.lower);
+}
+
+/// The box behind the fronts, hollow where something is built in.
+fn carcass(b: &mut Builder, object: &Object, w: f32, [low, top]: [f32; 2], hollow: bool, finish: Finish) {
+    let (x1, y0) = (w - 0.0003, 0.003);
+    let x0 = 0.0003;
+    let mesh = if hollow {
+        all([
+            board([x0, y0, low], [x0 + SHELL, BOX, top], 0.0005),
+            board([x1 - SHELL, y0, low], [x1, BOX, top], 0.0005),
+            board([x0 + SHELL, y0, low], [x1 - SHELL, BOX, low + SHELL], 0.0005),
+            board([x0 + SHELL, y0, low + SHELL], [x1 - SHELL, y0 + 0.006, top], 0.0005),
+        ])
+    } else {
+        board([x0, y0, low], [x1, BOX, top], 0.0005)
+    };
+    b.part(object, "box", mesh, finish);
+}
+
+/// Adds a wall unit with `doors` over the width `w`; glazed ones show what is in them.
+pub fn wall_cabinet(b: &mut Builder, pose: DAffine3, w: f32, z: [f32; 2], glazed: bool, style: &KitchenStyle, rng: &mut Rng) {
+    let object = b.object("wall_unit", Class::Cabinet, pose);
+    let depth = WALL_DEPTH - FRONT - CONTACT;
+    let doors = if w > 0.61 { 2 } else { 1 };
+    let [low, top] = z;
+    if glazed {
+        glazed_box(b, &object, w, depth, z);
+    } else {
+        b.part(&object, "box", board([0.0003, 0.002, low], [w - 0.0003, depth, top], 0.0008), style.upper);
+    }
+    let side = if rng.below(2) == 0 { -1.0 } else { 1.0 };
+    for k in 0..doors {
+        let x = [k as f32 / doors as f32 * w, (k + 1) as f32 / doors as f32 * w];
+        let side = if doors == 2 { 1.0 - 2.0 * k as f32 } else { side };
+        if glazed {
+            glass_door(b, &object, k + 1, [x[0], x[1], low, top], depth + CONTACT, style);
+        } else {
+            front(
+                b,
+                &object,
+                &format!("door_{}", k + 1),
+                [x[0], x[1], low, top],
+                depth + CONTACT,
+                Opening::Above(side),
+                style,
+                style.upper,
+                rng,
+            );
+        }
+    }
+    if glazed {
+        for z in [low + SHELL, 0.5 * (low + top) + 0.5 * SHELL] {
+            super::super::tableware::shelf_of_crockery(b, on(pose, Vec3::new(0.5 * w, 0.5 * depth, z), 0.0), w - 0.08, rng);
+        }
+    }
+}
+
+fn glazed_box(b: &mut Builder, object: &Object, w: f32, depth: f32, [low, top]: [f32; 2]) {
+    let (x0, x1) = (0.0003, w - 0.0003);
+    let middle = 0.5 * (low + top);
+    let level = |z: f32| board([x0 + SHELL, 0.008, z - 0.5 * SHELL], [x1 - SHELL, depth, z + 0.5 * SHELL], 0.0005);
+    let mesh = all([
+        board([x0, 0.002, low], [x0 + SHELL, depth, top], 0.0005),
+        board([x1 - SHELL, 0.002, low], [x1, depth, top], 0.0005),
+        level(low + 0.5 * SHELL),
+        level(middle),
+        level(top - 0.5 * SHELL),
+        board([x0 + SHELL, 0.002, low], [x1 - SHELL, 0.008, top], 0.0005),
+    ]);
+    b.part(object, "box", mesh, Finish::WhiteLacquer);
+}
+
+fn glass_door(b: &mut Builder, object: &Object, number: usize, rect: [f32; 4], y: f32, style: &KitchenStyle) {
+    use crate::shape::{Reshape, grid, picture_frame};
+    let [w, h] = [rect[1] - rect[0] - 0.003, rect[3] - rect[2] - 0.003];
+    let at = Vec3::new(0.5 * (rect[0] + rect[1]), y, 0.5 * (rect[2] + rect[3]));
+    let rail = 0.045;
+    let section = [[0.0, 0.0], [0.0, FRONT - 0.001], [0.001, FRONT], [rail - 0.001, FRONT], [rail, FRONT - 0.001], [rail, 0.0]];
+    b.part(object, &format!("door_{number}"), picture_frame(w, h, &section).moved(at), style.upper);
+    let half = enfilade_math::Vec2::new(0.5 * w - rail + 0.004, 0.5 * h - rail + 0.004);
+    let corner = |i: usize, j: usize| enfilade_math::Vec2::new(1.0 - 2.0 * i as f32, 2.0 * j as f32 - 1.0);
+    let pane = grid(1, 1, |i, j| Vec3::new(half.x * corner(i, j).x, 0.5 * FRONT, half.y * corner(i, j).y), corner);
+    b.part(object, &format!("pane_{number}"), pane.moved(at), Finish::Glass);
+}
+
+/// The dishwasher has a front like the units where the other appliances are of black glass.
+fn hides_appliances(style: &KitchenStyle) -> bool {
+    !style.steel
+}

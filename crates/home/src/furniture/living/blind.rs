@@ -1,0 +1,141 @@
+use crate::builder::{Builder, Class};
+use crate::furniture::form::{all, cylinder, rod, turned};
+use crate::furniture::{Furniture, board};
+use crate::materials::Finish;
+use crate::shape::{Reshape, bevelled_box, grid, sphere};
+use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+
+/// A blind before a window; its origin is the middle of its back on the wall's face, or on the plane that it hangs before.
+#[derive(Clone, Copy, Debug)]
+pub struct Blind {
+    /// Width of what it covers.
+    pub width: f32,
+    /// Height of what it covers, with the box.
+    pub height: f32,
+    /// How far it is let down, on `[0,1]`.
+    pub down: f32,
+    /// How it is made.
+    pub kind: BlindKind,
+}
+
+/// How a blind is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BlindKind {
+    /// Level slats, turned by so many radians.
+    Venetian(f32),
+    /// One sheet on a roller.
+    Roller,
+    /// A sheet that is drawn up in flat folds.
+    Roman,
+}
+
+/// Slats of 50 mm every 44 mm.
+const SLAT: f32 = 0.05;
+const PITCH: f32 = 0.044;
+
+impl Blind {
+    fn venetian(&self, b: &mut Builder, object: &crate::builder::Object, tilt: f32, wood: bool) {
+        let (top, w) = (0.5 * self.height - 0.05, self.width - 0.01);
+        let slats = ((self.height - 0.1) / PITCH) as usize;
+        let open = (slats as f32 * self.down) as usize;
+        let finish = if wood { Finish::Wood } else { Finish::WhiteLacquer };
+        let at = |z: f32| Vec3::new(0.0, 0.034, z);
+        b.part(object, "box", board([-0.5 * self.width, 0.004, top], [0.5 * self.width, 0.064, top + 0.05], 0.003), finish);
+        let slat = bevelled_box(Vec3::new(w, SLAT, 0.0028), 0.001);
+        let low = top - 0.02 - PITCH * open as f32;
+        let hung = (0..open).map(|k| slat.clone().turned(Vec3::X, tilt).moved(at(top - 0.03 - PITCH * k as f32)));
+        // The slats that are not let down lie on each other on the bottom rail.
+        let packed = (open..slats).map(|k| slat.clone().moved(at(low - 0.004 - 0.0034 * (k - open) as f32)));
+        b.part(object, "slats", all(hung.chain(packed)), finish);
+        let rail = low - 0.004 - 0.0034 * (slats - open) as f32 - 0.01;
+        b.part(object, "rail", bevelled_box(Vec3::new(w, SLAT, 0.016), 0.003).moved(at(rail)), finish);
+        let cords = [-0.5f32, 0.5].map(|s| {
+            let x = s * (self.width - 0.3).max(0.2 * self.width);
+            rod([x, 0.008, top], [x, 0.008, rail], 0.0012, 5).with(rod([x, 0.06, top], [x, 0.06, rail], 0.0012, 5))
+        });
+        b.part(object, "cords", all(cords), Finish::Paper);
+        let x = 0.5 * self.width - 0.05;
+        let wand = rod([x, 0.068, top + 0.01], [x, 0.07, top - 0.45 * self.height], 0.004, 6);
+        b.part(object, "wand", wand, if wood { Finish::Wood } else { Finish::WhitePlastic });
+    }
+
+    fn roller(&self, b: &mut Builder, object: &crate::builder::Object, cloth: Finish) {
+        let (top, w) = (0.5 * self.height - 0.03, self.width - 0.03);
+        let drop = self.down * (self.height - 0.06);
+        let tube = cylinder(0.024, w, 24).turned(Vec3::Y, std::f32::consts::FRAC_PI_2).moved(Vec3::new(-0.5 * w, 0.034, top));
+        b.part(object, "roller", tube, cloth);
+        let cap = |s: f32| {
+            board([s * (0.5 * w + 0.008) - 0.006, 0.0005, top - 0.028], [s * (0.5 * w + 0.008) + 0.006, 0.064, top + 0.028], 0.002)
+        };
+        b.part(object, "brackets", cap(-1.0).with(cap(1.0)), Finish::WhitePlastic);
+        b.part(object, "sheet", board([-0.5 * w + 0.002, 0.0095, top - drop], [0.5 * w - 0.002, 0.0107, top + 0.002], 0.0004), cloth);
+        b.part(
+            object,
+            "rail",
+            board([-0.5 * w, 0.004, top - drop - 0.022], [0.5 * w, 0.016, top - drop + 0.001], 0.003),
+            Finish::WhitePlastic,
+        );
+        let x = 0.5 * w + 0.005;
+        let beads = (0..(0.6 * self.height / 0.012) as usize).map(|k| sphere(0.0022, 6).moved(Vec3::new(x, 0.067, top - 0.012 * k as f32)));
+        b.part(object, "chain", all(beads), Finish::Chrome);
+    }
+
+    fn roman(&self, b: &mut Builder, object: &crate::builder::Object, cloth: Finish) {
+        let (top, w) = (0.5 * self.height, self.width - 0.004);
+        b.part(object, "batten", board([-0.5 * w, 0.001, top - 0.04], [0.5 * w, 0.02, top], 0.002), Finish::Wood);
+        let drop = self.down.max(0.25) * self.height;
+        let folds = ((self.height - drop) / 0.16) as usize;
+        let (low, n) = (top - drop, 40 * (folds + 1));
+        // A flat sheet, then folds that hang before each other at its lower end.
+        let point = |i: usize, j: usize| {
+            let (x, t) = (w * (0.5 - i as f32 / 12.0), j as f32 / n as f32);
+            let (y, z) = if t < 0.5 || folds == 0 {
+                let t = if folds == 0 { t } else { 2.0 * t };
+                (0.022, top + (low - top) * t)
+            } else {
+                let s = (2.0 * t - 1.0) * folds as f32;
+                let wave = 0.5 - 0.5 * (std::f32::consts::TAU * s).cos();
+                (0.022 + 0.012 * s + 0.012 * wave, low + 0.075 * wave)
+            };
+            Vec3::new(x, y, z + 0.002 * (14.0 * x).sin() * t)
+        };
+        // u runs to −x and v downward, so that it faces the room.
+        let sheet = grid(12, n, point, |i, j| Vec2::new(i as f32 / 12.0 * w, j as f32 * 0.01)).smoothed(70.0);
+        let rear = enfilade_geometry::Mesh { triangles: sheet.triangles.iter().map(|&[p, q, r]| [p, r, q]).collect(), ..sheet.clone() };
+        let rear = rear.deformed(|p| p - Vec3::new(0.0, 0.0012, 0.0)).smoothed(70.0);
+        b.part(object, "sheet", sheet.with(rear), cloth);
+    }
+}
+
+impl Furniture for Blind {
+    fn random(rng: &mut Rng) -> Self {
+        let kind =
+            [BlindKind::Venetian(rng.range(-0.9, 0.9)), BlindKind::Venetian(rng.range(-0.3, 0.3)), BlindKind::Roller, BlindKind::Roman]
+                [rng.below(4)];
+        Self { width: rng.range(0.7, 1.3), height: rng.range(1.2, 1.5), down: rng.range(0.15, 1.0), kind }
+    }
+
+    fn size(&self) -> Vec3 {
+        let depth = match self.kind {
+            BlindKind::Venetian(_) => 0.075,
+            BlindKind::Roller => 0.07,
+            BlindKind::Roman => 0.05 + 0.012 * ((1.0 - self.down.max(0.25)) * self.height / 0.16),
+        };
+        Vec3::new(self.width, depth, self.height)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let object = b.object("blind", Class::Blinds, pose);
+        let cloth = [Finish::CurtainLinen, Finish::Accent(2), Finish::SheerCurtain][rng.below(3)];
+        match self.kind {
+            BlindKind::Venetian(tilt) => self.venetian(b, &object, tilt, rng.below(2) == 0),
+            BlindKind::Roller => self.roller(b, &object, cloth),
+            BlindKind::Roman => self.roman(b, &object, cloth),
+        }
+        // Everything hangs on the wall by two clips.
+        let clip = turned(&[[0.0, 0.0], [0.012, 0.0], [0.012, 0.006], [0.0, 0.006]], 16);
+        let clip = crate::furniture::form::to_front(clip);
+        let at = |s: f32| Vec3::new(s * 0.4 * self.width, 0.0, 0.5 * self.height - 0.022);
+        b.part(&object, "clips", clip.clone().moved(at(-1.0)).with(clip.moved(at(1.0))), Finish::Steel);
+    }
+}

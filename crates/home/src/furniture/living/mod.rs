@@ -1,0 +1,27 @@
+//! Further things of a living room: seats of other kinds, shelves on the wall, fires, blinds, ceiling lights, music, plants.
+
+mod blind;
+mod ceiling_lamp;
+mod chesterfield;
+mod clock;
+mod corner_sofa;
+mod day_bed;
+mod foliage;
+mod hearth;
+mod music;
+mod pouf;
+mod shelf;
+mod wall_lamp;
+
+pub use blind::Blind;
+pub use ceiling_lamp::CeilingLamp;
+pub use chesterfield::Chesterfield;
+pub use clock::WallClock;
+pub use corner_sofa::CornerSofa;
+pub use day_bed::DayBed;
+pub use foliage::{FlowerVase, Foliage, HangingPlant};
+pub use hearth::{Fireplace, Stove};
+pub use music::{GameConsole, RecordPlayer, Speaker};
+pub use pouf::{FloorCushion, Pouf};
+pub use shelf::{CubeShelf, WallShelf};
+pub use wall_lamp::WallLamp;

@@ -1,0 +1,83 @@
+use crate::builder::{Builder, Class};
+use crate::furniture::form::{all, cylinder, to_front};
+use crate::furniture::{Furniture, board, grained, on};
+use crate::materials::Finish;
+use crate::shape::{Reshape, picture_frame, sphere, tube};
+use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+
+/// A board on the wall to write on, or of cork to pin notes to; its origin is the middle of its back.
+#[derive(Clone, Copy, Debug)]
+pub struct WallBoard {
+    /// Outside of the frame.
+    pub size: Vec2,
+    /// Of cork, with notes, instead of white enamel.
+    pub cork: bool,
+}
+
+impl Furniture for WallBoard {
+    fn random(rng: &mut Rng) -> Self {
+        let size = [Vec2::new(0.9, 0.6), Vec2::new(1.2, 0.9), Vec2::new(0.6, 0.45)][rng.below(3)];
+        Self { size, cork: rng.below(2) == 0 }
+    }
+
+    fn size(&self) -> Vec3 {
+        Vec3::new(self.size.x, if self.cork { 0.03 } else { 0.075 }, self.size.y)
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let (name, class) = if self.cork { ("pin_board", Class::OtherStructure) } else { ("whiteboard", Class::Whiteboard) };
+        let object = b.object(name, class, pose);
+        let half = 0.5 * self.size;
+        let section = [[0.0, 0.0], [0.0, 0.017], [0.001, 0.018], [0.017, 0.018], [0.018, 0.017], [0.018, 0.0]];
+        let frame = picture_frame(self.size.x, self.size.y, &section);
+        b.part(&object, "frame", grained(frame, rng), if self.cork { Finish::Wood } else { Finish::Aluminium });
+        let panel = board([0.016 - half.x, 0.001, 0.016 - half.y], [half.x - 0.016, 0.012, half.y - 0.016], 0.0005);
+        b.part(&object, "panel", panel, if self.cork { Finish::Cork } else { Finish::WhiteEnamel });
+        if self.cork {
+            self.notes(b, pose, rng);
+            return;
+        }
+        let tray = board([-0.4 * half.x, 0.0178, 0.002 - half.y], [0.4 * half.x, 0.073, 0.006 - half.y], 0.001);
+        b.part(&object, "tray", tray, Finish::Aluminium);
+        for k in 0..3u8 {
+            let x = 0.14 * (f32::from(k) - 1.0) * half.x.min(0.6) / 0.6;
+            let pen =
+                cylinder(0.008, 0.11, 14).turned(Vec3::Y, std::f32::consts::FRAC_PI_2).moved(Vec3::new(x - 0.055, 0.048, 0.0145 - half.y));
+            b.part(&object, &format!("pen_{}", k + 1), pen, Finish::Plastic(k));
+        }
+        // A few strokes of handwriting and a sketch.
+        let mut strokes = Vec::new();
+        for line in 0..4 {
+            let (length, z) = (rng.range(0.5, 0.95) * half.x, half.y * (0.6 - 0.24 * line as f32));
+            let phase = rng.range(0.0, 6.0);
+            let path: Vec<Vec3> = (0..=40)
+                .map(|k| {
+                    let x = 0.75 * half.x - length * k as f32 / 40.0;
+                    Vec3::new(x, 0.0122, z + 0.012 * (k as f32 * 1.9 + phase).sin() * (k as f32 * 0.7).cos())
+                })
+                .collect();
+            strokes.push(tube(&path, 0.0011, 4));
+        }
+        b.part(&object, "writing", all(strokes), Finish::Plastic(rng.below(2) as u8 + 3));
+    }
+}
+
+impl WallBoard {
+    fn notes(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let columns = (self.size.x / 0.2) as usize;
+        let rows = (self.size.y / 0.2) as usize;
+        for k in 0..columns * rows {
+            if rng.below(3) == 0 {
+                continue;
+            }
+            let cell = Vec2::new((k % columns) as f32 + 0.5, (k / columns) as f32 + 0.5) / Vec2::new(columns as f32, rows as f32) - 0.5;
+            let (w, h) = (rng.range(0.07, 0.13), rng.range(0.08, 0.15));
+            let at = Vec3::new(cell.x * (self.size.x - 0.06), 0.0125, cell.y * (self.size.y - 0.06));
+            let note = b.object("note", Class::Paper, on(pose, at, 0.0) * DAffine3::from_rotation_y(f64::from(rng.range(-0.09, 0.09))));
+            let sheet = board([-0.5 * w, 0.0, -0.5 * h], [0.5 * w, 0.0005, 0.5 * h], 0.0001);
+            b.part(&note, "sheet", sheet, [Finish::Paper, Finish::Paper, Finish::Accent(k as u8)][rng.below(3)]);
+            let pin = to_front(cylinder(0.0012, 0.01, 6)).with(sphere(0.0045, 12).moved(Vec3::new(0.0, 0.012, 0.0)));
+            b.part(&note, "pin", pin.moved(Vec3::new(0.0, 0.0, 0.5 * h - 0.012)), Finish::Plastic(k as u8));
+        }
+    }
+}

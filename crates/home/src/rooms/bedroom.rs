@@ -1,0 +1,83 @@
+//! The bedroom: a bed with room on both sides, and a place for clothes.
+
+use super::Furnisher;
+use super::wishes::{by_window, centred, cornered, in_view, tucked_away};
+use crate::furniture::bedroom::Bed;
+use crate::furniture::{Furniture, TableLamp};
+use crate::place::Piece;
+use enfilade_math::Vec2;
+
+/// Between a bed and what stands beside it.
+const BESIDE: f32 = 0.04;
+
+/// Furnishes the room.
+pub fn furnish(f: &mut Furnisher) {
+    let sleepers = if f.room.size.x * f.room.size.y > 9.5 { 2 } else { 1 };
+    if !bed(f, sleepers) {
+        bed(f, 1);
+    }
+    f.furnish("wardrobe", cornered);
+    f.perhaps(0.6, "dresser", centred);
+    f.perhaps(0.3, "dressing_table", by_window);
+    f.perhaps(0.35, "armchair", tucked_away);
+    f.perhaps(0.4, "laundry_basket", tucked_away);
+    f.perhaps(0.5, "plant", by_window);
+    f.hang_one(0.5, "mirror", 1.5, in_view);
+    f.art(2, |_, s| s.x.abs());
+    f.ceiling_lamp();
+}
+
+/// A bed for so many sleepers with nightstands beside it, tried with both, with one, with none; false where no bed fits.
+pub fn bed(f: &mut Furnisher, sleepers: usize) -> bool {
+    let stand = f.any("nightstand");
+    for _ in 0..3 {
+        let bed = Bed::for_sleepers(sleepers, &mut f.rng);
+        for sides in [&[-1.0f32, 1.0][..], &[1.0], &[-1.0], &[]] {
+            if sides.len() > sleepers {
+                continue;
+            }
+            let size = bed.size();
+            let mut group = vec![Piece::standing(size, 0.55)];
+            if let Some(stand) = &stand {
+                let aside = 0.5 * (size.x + stand.size().x) + BESIDE;
+                let piece = Piece::standing(stand.size(), 0.3);
+                group.extend(sides.iter().map(|s| piece.at(s * aside, piece.at.y, 0.0)));
+            }
+            let spots = f.floor.along_walls(size.x);
+            let windows = |floor: &crate::place::Floor, s: &crate::place::Spot| {
+                let before = floor.room().windows().filter(|o| Some(o.wall) == s.wall).count() as f32;
+                0.5 * s.x.abs() + 0.6 * before - 0.35 * floor.to_way(s.origin)
+            };
+            // A single bed goes into a corner.
+            let cost = |floor: &crate::place::Floor, s: &crate::place::Spot| {
+                if sleepers == 1 { floor.to_corner(s) + windows(floor, s) - 0.5 * s.x.abs() } else { windows(floor, s) }
+            };
+            let Some((spot, poses)) = f.floor.place(&group, spots, cost) else { continue };
+            f.build(&bed, poses[0]);
+            f.accent = spot.wall;
+            if let Some(stand) = &stand {
+                for pose in &poses[1..] {
+                    f.build(stand.as_ref(), *pose);
+                    bedside(f, stand.as_ref(), *pose);
+                }
+            }
+            let foot = spot.point(Vec2::new(0.0, size.y));
+            f.rug(0.7, move |_, s| s.origin.distance(foot));
+            return true;
+        }
+    }
+    false
+}
+
+/// A lamp, and what people read.
+fn bedside(f: &mut Furnisher, stand: &dyn Furniture, pose: enfilade_math::DAffine3) {
+    let surfaces = stand.surfaces();
+    let mut things: Vec<Box<dyn Furniture>> = vec![Box::new(TableLamp::random(&mut f.rng))];
+    for family in ["books", "glass", "mug"] {
+        if f.chance(0.4) {
+            things.extend(f.any(family));
+        }
+    }
+    let top: Vec<_> = surfaces.iter().copied().max_by(|a, b| a.z.total_cmp(&b.z)).into_iter().collect();
+    f.settle(&top, pose, &things);
+}

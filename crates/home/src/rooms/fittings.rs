@@ -1,0 +1,132 @@
+//! What belongs to a room whoever lives in it: radiators, curtains, lamps, switches.
+
+use super::Furnisher;
+use crate::furniture::{Candles, CeilingDome, Curtains, Furniture, Pendant, Plant, Radiator, Switch, Window, on};
+use crate::plan::RoomKind;
+use crate::room::{Filling, Opening};
+use enfilade_math::{DAffine3, Vec3};
+
+/// Lowest sill with a radiator below it.
+const RADIATOR_SILL: f32 = 0.44;
+/// Height of light switches.
+const SWITCH: f32 = 1.05;
+/// Pendants in the middle of a room end above people's heads.
+const PENDANT_RIM: f32 = 2.05;
+
+impl Furnisher<'_> {
+    /// Adds everything of that kind.
+    pub fn fittings(&mut self) {
+        let room = self.room;
+        for window in room.windows() {
+            self.radiator(window);
+            self.curtains(window);
+            if room.kind != RoomKind::Kitchen {
+                self.on_sill(window);
+            }
+        }
+        for way in room.ways() {
+            self.switch(way);
+        }
+    }
+
+    fn radiator(&mut self, window: &Opening) {
+        if window.z[0] < RADIATOR_SILL || self.room.kind == RoomKind::Kitchen {
+            return;
+        }
+        let height = (window.z[0] - 0.24).min(0.6);
+        let radiator = Radiator { width: (0.7 * window.size().x).clamp(0.4, 1.4), height };
+        let size = radiator.size();
+        let pose = on(self.room.wall_pose(window.wall), Vec3::new(window.center_x(), 0.5 * size.y - 0.0005, 0.0), 0.0);
+        self.build(&radiator, pose);
+        let half = 0.5 * size.x + 0.02;
+        self.floor.take(self.floor.strip(window.wall, [window.center_x() - half, window.center_x() + half], size.y + 0.02), [0.0, size.z]);
+    }
+
+    fn curtains(&mut self, window: &Opening) {
+        let often = match self.room.kind {
+            RoomKind::Living | RoomKind::Bedroom => 1.0,
+            RoomKind::Dining | RoomKind::Children => 0.8,
+            RoomKind::Study => 0.6,
+            _ => 0.0,
+        };
+        if !self.chance(often) {
+            return;
+        }
+        let half = 0.5 * self.room.length(window.wall);
+        // The rod ends before walls and doors.
+        let mut ends = [-half, half];
+        for way in self.room.ways().filter(|o| o.wall == window.wall) {
+            if way.x[1] < window.x[0] {
+                ends[0] = ends[0].max(way.x[1] + 0.06);
+            } else {
+                ends[1] = ends[1].min(way.x[0] - 0.06);
+            }
+        }
+        let beyond = [window.x[0] - ends[0], ends[1] - window.x[1]].map(|free| (free - 0.06).min(0.42));
+        if beyond[0].min(beyond[1]) < 0.12 {
+            return;
+        }
+        let width = self.rng.range(0.36, 0.44).min(beyond[0].min(beyond[1]) + 0.12);
+        let curtains = Curtains { width, beyond };
+        curtains.build(self.b, self.room, window, &mut self.rng);
+        let (low, high) = (window.x[0] - beyond[0] - 0.04, window.x[1] + beyond[1] + 0.04);
+        for x in [[low, low + width + 0.1], [high - width - 0.1, high]] {
+            self.floor.take(self.floor.strip(window.wall, x, Curtains::DEPTH), [0.0, self.room.size.z]);
+        }
+    }
+
+    fn on_sill(&mut self, window: &Opening) {
+        let often = if self.room.kind.wet() { 0.5 } else { 0.9 };
+        let count = if self.chance(often * self.clutter.min(1.0)) { 1 + self.rng.below(3) } else { 0 };
+        for k in 0..count {
+            let x = window.center_x() + window.size().x * (0.36 - 0.30 * k as f32 + self.rng.range(-0.05, 0.05));
+            let sill = on(self.room.wall_pose(window.wall), Vec3::new(x, 0.0, window.z[0] + Window::SILL), 0.0);
+            if k == 1 {
+                self.build(&Candles { count: 2 }, sill);
+            } else {
+                let plant = Plant::small(self.rng.range(0.09, 0.12), self.rng.range(0.042, 0.052));
+                let turn = DAffine3::from_rotation_z(f64::from(self.rng.range(0.0, 6.0)));
+                self.build(&plant, sill * turn);
+            }
+        }
+    }
+
+    /// Beside the door, where the handle is.
+    fn switch(&mut self, way: &Opening) {
+        let hinge = match way.filling {
+            Filling::Door(leaf) => leaf.hinge,
+            _ => 1.0,
+        };
+        let half = 0.5 * self.room.length(way.wall);
+        let place = |side: f32| way.center_x() + side * (0.5 * way.size().x + 0.15);
+        let free = |x: &f32| {
+            let others = self.room.openings.iter().filter(|o| o.wall == way.wall);
+            x.abs() < half - 0.08 && others.clone().all(|o| *x < o.x[0] - 0.11 || *x > o.x[1] + 0.11)
+        };
+        let swings = |x: f32| {
+            let strip = self.floor.strip(way.wall, [x - 0.05, x + 0.05], 0.06);
+            self.room.ways().filter(|o| o.wall != way.wall).any(|o| self.room.way_zone(o).meets(&strip, 0.0))
+        };
+        let free = |x: &f32| free(x) && !swings(*x);
+        let Some(x) = [place(-hinge), place(hinge)].into_iter().find(free) else { return };
+        self.build(&Switch, on(self.room.wall_pose(way.wall), Vec3::new(x, 0.0, SWITCH), 0.0));
+        let strip = self.floor.strip(way.wall, [x - 0.05, x + 0.05], 0.02);
+        self.floor.take(strip, [SWITCH - 0.05, SWITCH + 0.05]);
+    }
+
+    /// A flat lamp of opal glass under the ceiling, for low or wet rooms.
+    pub fn dome(&mut self) {
+        let at = self.room.center;
+        let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), f64::from(self.room.size.z), 0.0);
+        let lamp = CeilingDome { radius: self.rng.range(0.14, 0.2) };
+        self.build(&lamp, pose);
+    }
+
+    /// Hangs a pendant in the middle of the room.
+    pub fn ceiling_lamp(&mut self) {
+        let at = self.room.center;
+        let pendant = Pendant { drop: self.room.size.z - PENDANT_RIM, radius: self.rng.range(0.16, 0.21) };
+        let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), f64::from(self.room.size.z), 0.0);
+        self.build(&pendant, pose);
+    }
+}

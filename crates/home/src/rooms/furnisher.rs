@@ -1,0 +1,201 @@
+//! The hand that furnishes a room: it finds a place for a thing, and builds the thing there.
+
+use crate::builder::Builder;
+use crate::furniture::{FAMILIES, Furniture, PictureOnWall, Place, Rug, Surface, family_named, on};
+use crate::palette::Palette;
+use crate::place::{Floor, Piece, Spot, settle};
+use crate::plan::{FloorPlan, RoomKind};
+use crate::room::{Room, Wall};
+use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+
+/// A room being furnished.
+pub struct Furnisher<'a> {
+    /// Takes the parts.
+    pub b: &'a mut Builder,
+    /// The whole home.
+    pub plan: &'a FloorPlan,
+    /// The room.
+    pub room: &'a Room,
+    /// The home's colours.
+    pub palette: &'a Palette,
+    /// What stands where.
+    pub floor: Floor,
+    /// Density of small things.
+    pub clutter: f32,
+    /// Decides what is in this room.
+    pub rng: Rng,
+    /// The wall that a colour would suit.
+    pub accent: Option<Wall>,
+    /// Families that the room has been asked for.
+    pub known: Vec<&'static str>,
+    /// Pieces of wall without skirting, because of what is built in there.
+    pub built_in: Vec<(Wall, [f32; 2])>,
+}
+
+/// Height of the middle of pictures.
+const EYE: f32 = 1.52;
+/// Small things on a square metre of a surface in a home that is lived in.
+const DENSITY: f32 = 9.0;
+/// Variants of a family that are tried before the room does without.
+const VARIANTS: usize = 4;
+
+/// Something that found its place.
+#[derive(Clone, Copy, Debug)]
+pub struct Standing {
+    /// Where it stands.
+    pub pose: DAffine3,
+    /// Its box.
+    pub size: Vec3,
+    /// Where its group stands.
+    pub spot: Spot,
+}
+
+impl<'a> Furnisher<'a> {
+    /// An empty room.
+    pub fn new(b: &'a mut Builder, plan: &'a FloorPlan, room: &'a Room, palette: &'a Palette, clutter: f32, rng: Rng) -> Self {
+        Self { b, plan, room, palette, floor: Floor::new(room), clutter, rng, accent: None, known: Vec::new(), built_in: Vec::new() }
+    }
+
+    /// True with this probability.
+    pub fn chance(&mut self, probability: f32) -> bool {
+        self.rng.next_f32() < probability
+    }
+
+    /// True where the home has a room of this kind.
+    pub fn home_has(&self, kind: RoomKind) -> bool {
+        self.plan.rooms.iter().any(|room| room.kind == kind)
+    }
+
+    /// Builds a thing in a pose.
+    pub fn build(&mut self, thing: &dyn Furniture, pose: DAffine3) {
+        thing.build(self.b, pose, &mut self.rng);
+    }
+
+    /// One variant of a family.
+    pub fn any(&mut self, family: &str) -> Option<Box<dyn Furniture>> {
+        let family = family_named(family)?;
+        self.known.push(family.name);
+        Some((family.random)(&mut self.rng))
+    }
+
+    /// Stands one of a family with its back to the wall where `cost` is least, and lets small things gather on it.
+    pub fn furnish(&mut self, family: &str, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
+        for _ in 0..VARIANTS {
+            let thing = self.any(family)?;
+            if let Some(found) = self.stand(thing.as_ref(), &cost) {
+                self.litter(&thing.surfaces(), found.pose, 1.0);
+                return Some(found);
+            }
+        }
+        None
+    }
+
+    /// As [`Furnisher::furnish`] with this probability.
+    pub fn perhaps(&mut self, probability: f32, family: &str, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
+        if self.chance(probability) { self.furnish(family, cost) } else { None }
+    }
+
+    /// Lets small things that people have in this kind of room gather on surfaces, `density` times as many as usual.
+    pub fn litter(&mut self, surfaces: &[Surface], pose: DAffine3, density: f32) {
+        let area: f32 = surfaces.iter().map(|s| (s.max - s.min).max(Vec2::ZERO)).map(|e| e.x * e.y).sum();
+        let kind = self.room.kind;
+        let fitting: Vec<_> = FAMILIES.iter().filter(|f| f.place == Place::OnSurface && f.rooms.contains(&kind)).collect();
+        let expected = (DENSITY * area * density * self.clutter).min(40.0);
+        let count = (expected * self.rng.range(0.6, 1.4) + self.rng.next_f32()) as usize;
+        if fitting.is_empty() {
+            return;
+        }
+        let things: Vec<Box<dyn Furniture>> = (0..count).map(|_| (fitting[self.rng.below(fitting.len())].random)(&mut self.rng)).collect();
+        self.settle(surfaces, pose, &things);
+    }
+
+    /// Hangs one of a family with this probability.
+    pub fn hang_one(&mut self, probability: f32, family: &str, height: f32, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Wall> {
+        if !self.chance(probability) {
+            return None;
+        }
+        let thing = self.any(family)?;
+        self.hang(thing.as_ref(), height, &Wall::ALL, cost)
+    }
+
+    /// Hangs up to so many pictures, each where `cost` is least and not beside another on the same wall.
+    pub fn art(&mut self, most: usize, cost: impl Fn(&Floor, &Spot) -> f32) {
+        let mut walls = Wall::ALL.to_vec();
+        for _ in 0..1 + self.rng.below(most.max(1)) {
+            let picture = PictureOnWall { palette: *self.palette, ..PictureOnWall::random(&mut self.rng) };
+            if let Some(wall) = self.hang(&picture, EYE, &walls, &cost) {
+                walls.retain(|w| *w != wall);
+            }
+        }
+    }
+
+    /// Lays a rug with this probability where `cost` is least, clear of everything that stands.
+    pub fn rug(&mut self, probability: f32, cost: impl Fn(&Floor, &Spot) -> f32) {
+        if !self.chance(probability) {
+            return;
+        }
+        let rug = Rug::random(&mut self.rng);
+        let least = 0.5 * self.room.size.truncate().min_element();
+        for share in [1.0, 0.75, 0.55] {
+            let size = (rug.size * share).min(Vec2::splat(2.0 * least - 0.5));
+            let rug = Rug { size };
+            let piece = Piece { flat: true, ..Piece::standing(rug.size(), 0.0).at(0.0, 0.0, 0.0) };
+            let spots = self.floor.everywhere(0.12, &[0.0, std::f32::consts::FRAC_PI_2]);
+            if let Some((_, poses)) = self.floor.place(&[piece], spots, &cost) {
+                return self.build(&rug, poses[0]);
+            }
+        }
+    }
+
+    /// Settles things on surfaces of something that stands in `pose`; those that find no place are left out.
+    pub fn settle(&mut self, surfaces: &[Surface], pose: DAffine3, things: &[Box<dyn Furniture>]) {
+        for (index, pose) in settle(surfaces, pose, things, &mut self.rng) {
+            self.build(things[index].as_ref(), pose);
+        }
+    }
+
+    /// Stands a thing with its back to the wall where `cost` is least.
+    pub fn stand(&mut self, thing: &dyn Furniture, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
+        let spots = self.floor.along_walls(thing.size().x);
+        self.stand_at(thing, spots, cost)
+    }
+
+    /// Stands a thing with its back at one of `spots`.
+    pub fn stand_at(&mut self, thing: &dyn Furniture, spots: Vec<Spot>, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
+        let piece = Piece::standing(thing.size(), thing.reach());
+        let (spot, poses) = self.floor.place(&[piece], spots, cost)?;
+        self.build(thing, poses[0]);
+        Some(Standing { pose: poses[0], size: thing.size(), spot })
+    }
+
+    /// Stands a thing anywhere on the floor, turned by one of `yaws`, where `cost` is least.
+    pub fn stand_free(&mut self, thing: &dyn Furniture, yaws: &[f32], cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
+        let piece = Piece::standing(thing.size(), thing.reach()).at(0.0, 0.0, 0.0);
+        let (spot, poses) = self.floor.place(&[piece], self.floor.everywhere(0.1, yaws), cost)?;
+        self.build(thing, poses[0]);
+        Some(Standing { pose: poses[0], size: thing.size(), spot })
+    }
+
+    /// Finds a place on a wall for something whose middle is at `height`, where `cost` is least. The pose has its origin on the wall.
+    pub fn find_on_wall(
+        &mut self,
+        size: Vec3,
+        height: f32,
+        walls: &[Wall],
+        cost: impl Fn(&Floor, &Spot) -> f32,
+    ) -> Option<(Wall, DAffine3)> {
+        let z = height - 0.5 * size.z;
+        let piece = Piece { size, at: Vec2::new(0.0, 0.5 * size.y), yaw: 0.0, z, reach: 0.0, flat: false };
+        let spots = walls.iter().flat_map(|&wall| self.floor.along(wall, size.x + 0.1)).collect();
+        let (spot, _) = self.floor.place(&[piece], spots, cost)?;
+        let wall = spot.wall?;
+        Some((wall, on(self.room.wall_pose(wall), Vec3::new(spot.x, 0.0, height), 0.0)))
+    }
+
+    /// Hangs a thing whose origin is the middle of its back.
+    pub fn hang(&mut self, thing: &dyn Furniture, height: f32, walls: &[Wall], cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Wall> {
+        let (wall, pose) = self.find_on_wall(thing.size(), height, walls, cost)?;
+        self.build(thing, pose);
+        Some(wall)
+    }
+}

@@ -1,0 +1,117 @@
+//! Things that belong together, and what a room of its kind may have besides.
+
+use super::Furnisher;
+use super::wishes::{centred, cornered, tucked_away};
+use crate::builder::Class;
+use crate::furniture::{FAMILIES, Place};
+use crate::place::{Floor, Piece, Spot};
+use enfilade_math::Vec2;
+use std::f32::consts::PI;
+
+/// How far the chair's middle is from the desk's front.
+const CHAIR: f32 = 0.22;
+/// Families that rooms place themselves, and that do not stand about.
+const PLACED: [&str; 8] = ["kitchen_unit", "kitchen_island", "radiator", "switch", "tv_bench", "picture", "plant", "fireplace"];
+/// How often a room has a family that nothing else asks for.
+const SELDOM: f32 = 0.22;
+
+impl Furnisher<'_> {
+    /// A desk with what people work with, and a chair before it.
+    pub fn work_place(&mut self, cost: impl Fn(&Floor, &Spot) -> f32) -> bool {
+        let Some(chair) = self.any("office_chair").or_else(|| self.any("chair")) else { return false };
+        for _ in 0..4 {
+            let Some(desk) = self.any("desk") else { return false };
+            let size = desk.size();
+            let table = Piece::standing(size, 0.0);
+            let seat = Piece::standing(chair.size(), 0.0);
+            let turn = self.rng.range(-0.3, 0.3);
+            let group = [table, seat.at(0.0, table.at.y + 0.5 * size.y + CHAIR + 0.1, PI + turn)];
+            let spots = self.floor.along_walls(size.x);
+            let Some((_, poses)) = self.floor.place(&group, spots, &cost) else { continue };
+            self.build(desk.as_ref(), poses[0]);
+            self.build(chair.as_ref(), poses[1]);
+            self.litter(&desk.surfaces(), poses[0], 0.8);
+            return true;
+        }
+        false
+    }
+
+    /// A basin with a mirror above it.
+    pub fn basin(&mut self) {
+        let Some(basin) = self.furnish("washbasin", centred) else { return };
+        let (x, wall) = (basin.spot.x, basin.spot.wall);
+        if let (Some(mirror), Some(wall)) = (self.any("mirror_cabinet"), wall) {
+            self.hang(mirror.as_ref(), 1.55, &[wall], |_, s| if (s.x - x).abs() < 0.25 { (s.x - x).abs() } else { f32::INFINITY });
+        }
+    }
+
+    /// A toilet with its paper and brush.
+    pub fn toilet(&mut self) {
+        let Some(toilet) = self.furnish("toilet", tucked_away) else { return };
+        let (x, wall, half) = (toilet.spot.x, toilet.spot.wall, 0.5 * toilet.size.x);
+        let beside = |s: &Spot| if (s.x - x).abs() < half + 0.5 && s.wall == wall { (s.x - x).abs() } else { f32::INFINITY };
+        if let Some(brush) = self.any("toilet_brush") {
+            self.stand(brush.as_ref(), |_, s| beside(s));
+        }
+        if let (Some(paper), Some(wall)) = (self.any("paper_holder"), wall) {
+            let sides = [wall.turned(1), wall.turned(3)];
+            let near = |floor: &Floor, s: &Spot| {
+                let gap = s.origin.distance(toilet.spot.point(Vec2::new(0.0, 0.5 * toilet.size.y)));
+                if gap < 0.9 && floor.to_way(s.origin) > 0.3 { gap } else { f32::INFINITY }
+            };
+            self.hang(paper.as_ref(), 0.7, &[sides[0], sides[1], wall], near);
+        }
+    }
+
+    /// Lays one of a family of mats where `cost` is least.
+    pub fn mat(&mut self, family: &str, cost: impl Fn(&Floor, &Spot) -> f32) {
+        let Some(mat) = self.any(family) else { return };
+        let piece = Piece { flat: true, ..Piece::standing(mat.size(), 0.0).at(0.0, 0.0, 0.0) };
+        let spots = self.floor.everywhere(0.1, &[0.0, 0.5 * PI]);
+        if let Some((_, poses)) = self.floor.place(&[piece], spots, cost) {
+            self.build(mat.as_ref(), poses[0]);
+        }
+    }
+
+    /// Leaves a few small things of these families lying on the floor.
+    pub fn strew(&mut self, families: &[&str], most: usize) {
+        let count = (self.rng.below(most + 1) as f32 * self.clutter) as usize;
+        for _ in 0..count {
+            let family = families[self.rng.below(families.len())];
+            let Some(thing) = self.any(family) else { continue };
+            let target =
+                self.room.center + Vec2::new(self.rng.range(-1.0, 1.0), self.rng.range(-1.0, 1.0)) * 0.4 * self.room.size.truncate();
+            let yaws = [self.rng.range(0.0, 2.0 * PI)];
+            self.stand_free(thing.as_ref(), &yaws, |_, s| s.origin.distance(target));
+        }
+    }
+
+    /// What nothing else has asked for: each family that people have in this kind of room is there now and then.
+    pub fn extras(&mut self) {
+        let kind = self.room.kind;
+        for family in FAMILIES.iter().filter(|f| f.rooms.contains(&kind)) {
+            // A room has its seats, its bed and its sanitary ware already.
+            let once = matches!(
+                family.class,
+                Class::Sofa
+                    | Class::Bed
+                    | Class::Chair
+                    | Class::Table
+                    | Class::Desk
+                    | Class::Toilet
+                    | Class::Sink
+                    | Class::Bathtub
+                    | Class::Refrigerator
+            );
+            if once || PLACED.contains(&family.name) || self.known.contains(&family.name) || !self.chance(SELDOM) {
+                continue;
+            }
+            match family.place {
+                Place::AgainstWall => drop(self.furnish(family.name, tucked_away)),
+                Place::Corner | Place::Free => drop(self.furnish(family.name, cornered)),
+                Place::OnWall => drop(self.hang_one(1.0, family.name, 1.5, |_, s| s.x.abs())),
+                Place::Ceiling | Place::OnSurface | Place::Underfoot => {}
+            }
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! The kitchen: fitted units along one wall or around a corner, and a table where there is room.
+
+use super::Furnisher;
+use super::wishes::{cornered, only};
+use crate::furniture::Furniture;
+use crate::furniture::kitchen::{self, FittedKitchen};
+use crate::place::{Piece, Spot};
+use crate::plan::RoomKind;
+use crate::room::Wall;
+use enfilade_math::{Vec2, Vec3};
+
+/// Units keep this distance from walls.
+const GAP: f32 = 0.001;
+/// Longest main run and longest wing.
+const LONGEST: [f32; 2] = [4.0, 2.5];
+/// Room for a door's casing and a switch.
+const BESIDE_DOOR: f32 = 0.22;
+/// Shortest main run: sink, hob and a little worktop.
+const SHORTEST: f32 = 1.7;
+
+/// Furnishes the room.
+pub fn furnish(f: &mut Furnisher) {
+    let fitted = units(f);
+    if !fitted {
+        f.furnish("refrigerator", cornered);
+    }
+    if !f.home_has(RoomKind::Dining) {
+        f.dine([2, 4], |floor, s| floor.to_window(s.origin));
+    }
+    f.perhaps(0.3, "refrigerator", cornered);
+    f.perhaps(0.6, "waste_bin", cornered);
+    f.art(1, |_, s| s.x.abs());
+    f.ceiling_lamp();
+}
+
+/// A piece of wall without doors, and whether it ends at the room's corners.
+struct Stretch {
+    wall: Wall,
+    x: [f32; 2],
+    corners: [bool; 2],
+}
+
+/// The longest stretches of each wall, the best first.
+fn stretches(f: &Furnisher) -> Vec<Stretch> {
+    let mut all: Vec<Stretch> = Vec::new();
+    for wall in Wall::ALL {
+        let half = 0.5 * f.room.length(wall);
+        let mut ways: Vec<[f32; 2]> =
+            f.room.ways().filter(|o| o.wall == wall).map(|o| [o.x[0] - BESIDE_DOOR, o.x[1] + BESIDE_DOOR]).collect();
+        // Doors in the walls beside it swing over its ends.
+        for (side, end) in [(wall.turned(3), -1.0), (wall.turned(1), 1.0)] {
+            let near = f.room.ways().filter(|o| o.wall == side).any(|o| {
+                let along = 0.5 * f.room.length(side);
+                let gap = if end < 0.0 { along - o.x[1] } else { along + o.x[0] };
+                gap < kitchen::DEPTH + 0.06
+            });
+            if near {
+                ways.push(if end < 0.0 { [-half, 0.95 - half] } else { [half - 0.95, half] });
+            }
+        }
+        ways.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut from = -half;
+        for [low, high] in ways.into_iter().chain([[half, half]]) {
+            if low - from >= SHORTEST {
+                all.push(Stretch { wall, x: [from + GAP, low - GAP], corners: [from == -half, low == half] });
+            }
+            from = from.max(high);
+        }
+    }
+    all
+}
+
+/// Places the fitted units; false where no wall has room.
+fn units(f: &mut Furnisher) -> bool {
+    let mut tried: Vec<(f32, FittedKitchen, Stretch)> = Vec::new();
+    for mut stretch in stretches(f) {
+        let along = stretch.x[1] - stretch.x[0];
+        let width = along.min(f.rng.range(2.7, LONGEST[0]));
+        // A run begins at a corner if there is one.
+        if stretch.corners[0] || !stretch.corners[1] {
+            stretch.x[1] = stretch.x[0] + width;
+            stretch.corners[1] &= width >= along;
+        } else {
+            stretch.x[0] = stretch.x[1] - width;
+            stretch.corners[0] = false;
+        }
+        let wings = [0, 1].map(|k| if stretch.corners[k] { wing(f, stretch.wall, k) } else { 0.0 });
+        let middle = 0.5 * (stretch.x[0] + stretch.x[1]);
+        let window = f.room.windows().find(|o| o.wall == stretch.wall).map(|o| o.x.map(|x| x - middle));
+        for wings in [wings, [wings[0], 0.0], [0.0, wings[1]], [0.0; 2]] {
+            let variants = (0..6).map(|_| FittedKitchen::fitted(width, wings, window, &mut f.rng));
+            let Some(kitchen) = variants.collect::<Vec<_>>().into_iter().find(|k| !shuts(k, window)) else { continue };
+            let length = width + kitchen.wings.iter().flatten().map(|run| run.length()).sum::<f32>();
+            let low_sill = f.room.windows().any(|o| o.wall == stretch.wall && o.z[0] < kitchen::WORKTOP + 0.05);
+            let cost = (length - 4.2).abs() + if low_sill { 5.0 } else { 0.0 } + f.rng.range(0.0, 0.8);
+            tried.push((cost, kitchen, Stretch { ..stretch }));
+        }
+    }
+    tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+    tried.into_iter().any(|(_, kitchen, stretch)| place(f, &kitchen, &stretch))
+}
+
+/// True when a tall unit stands before the window.
+fn shuts(kitchen: &FittedKitchen, window: Option<[f32; 2]>) -> bool {
+    let mut x = -0.5 * kitchen.main.length();
+    kitchen.main.units.iter().any(|(unit, _)| {
+        let span = [x, x + unit.width()];
+        x = span[1];
+        unit.is_tall() && window.is_some_and(|w| span[1] > w[0] - 0.06 && span[0] < w[1] + 0.06)
+    })
+}
+
+/// How long a wing can be in the corner at an end of a wall.
+fn wing(f: &mut Furnisher, wall: Wall, end: usize) -> f32 {
+    let side = if end == 0 { wall.turned(3) } else { wall.turned(1) };
+    let along = f.room.length(side);
+    let free = f.room.openings.iter().filter(|o| o.wall == side);
+    let free = free.map(|o| if end == 0 { 0.5 * along - o.x[1] } else { o.x[0] + 0.5 * along }).fold(along, f32::min) - 0.1;
+    let wished = if f.chance(0.6) { f.rng.range(1.5, LONGEST[1]) } else { 0.0 };
+    let length = wished.min(free);
+    if length < 1.3 { 0.0 } else { length }
+}
+
+fn place(f: &mut Furnisher, kitchen: &FittedKitchen, stretch: &Stretch) -> bool {
+    let size = kitchen.size();
+    let middle = 0.5 * (stretch.x[0] + stretch.x[1]);
+    let run = |size: Vec3, at: Vec2, yaw: f32, reach: f32| Piece { size, at, yaw, z: 0.0, reach, flat: false };
+    let base = Vec3::new(size.x, kitchen::DEPTH, kitchen::WORKTOP);
+    let mut group = vec![run(base, Vec2::new(0.0, GAP + 0.5 * kitchen::DEPTH), 0.0, 0.9)];
+    for (k, wing) in kitchen.wings.iter().enumerate() {
+        if let Some(wing) = wing {
+            let s = [-1.0, 1.0][k];
+            let at = Vec2::new(s * 0.5 * (size.x - kitchen::DEPTH), GAP + kitchen::DEPTH + 0.5 * wing.length());
+            group.push(run(Vec3::new(wing.length(), kitchen::DEPTH, kitchen::WORKTOP), at, s * std::f32::consts::FRAC_PI_2, 0.8));
+        }
+    }
+    let spot =
+        Spot { origin: f.room.before(stretch.wall, middle, 0.0), yaw: stretch.wall.yaw() as f32, wall: Some(stretch.wall), x: middle };
+    let (wall, corners) = (stretch.wall, stretch.corners);
+    let Some(_) = f.floor.place(&group, vec![spot], |_, _| only(true, 0.0)) else { return false };
+    let at = spot.point(Vec2::new(0.0, GAP + 0.5 * size.y));
+    let z = f64::from(crate::furniture::CONTACT);
+    let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), z, f64::from(spot.yaw));
+    f.build(kitchen, pose);
+    // Nothing else hangs or stands where the wall units and tall units are.
+    let above = f.floor.strip(wall, stretch.x, 0.4);
+    f.floor.take(above, [kitchen::WORKTOP, f.room.size.z - 0.05]);
+    f.built_in.push((wall, stretch.x));
+    for (k, corner) in corners.into_iter().enumerate() {
+        if let Some(wing) = &kitchen.wings[k] {
+            let side = if k == 0 { wall.turned(3) } else { wall.turned(1) };
+            let half = 0.5 * f.room.length(side);
+            let length = wing.length() + kitchen::DEPTH + GAP;
+            let x = if k == 0 { [half - length, half] } else { [-half, length - half] };
+            f.floor.take(f.floor.strip(side, x, 0.4), [kitchen::WORKTOP, f.room.size.z - 0.05]);
+            f.built_in.push((side, x));
+        } else if corner {
+            // The end of the run stands against the side wall.
+            let side = if k == 0 { wall.turned(3) } else { wall.turned(1) };
+            let half = 0.5 * f.room.length(side);
+            f.built_in.push((side, if k == 0 { [half - kitchen::DEPTH, half] } else { [-half, kitchen::DEPTH - half] }));
+        }
+    }
+    f.litter(&kitchen.surfaces(), pose, 0.6);
+    true
+}

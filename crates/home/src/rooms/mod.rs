@@ -1,0 +1,58 @@
+//! What each kind of room holds: one file per kind.
+
+mod bathroom;
+mod bedroom;
+mod childrens;
+mod dining;
+mod fittings;
+mod furnisher;
+mod groups;
+mod hall;
+mod kitchen;
+mod living;
+mod study;
+mod table;
+mod wishes;
+
+pub use furnisher::Furnisher;
+
+use crate::HomeConfig;
+use crate::builder::Builder;
+use crate::palette::DecorConfig;
+use crate::plan::{FloorPlan, RoomKind};
+use crate::shell::{self, ShellFinish};
+
+/// Builds all rooms of a home and what is in them.
+pub fn furnish(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &HomeConfig) {
+    let furniture = config.stream(config.furniture, 3);
+    let (shape, look) = (config.stream(config.layout, 5), config.stream(config.materials, 6));
+    let home = decor.palette();
+    for (i, room) in plan.rooms.iter().enumerate() {
+        let palette = decor.room(&home, i as u64);
+        b.enter_room(palette);
+        let mut f = Furnisher::new(b, plan, room, &palette, config.clutter, furniture.fork(i as u64));
+        f.fittings();
+        content(&mut f);
+        f.extras();
+        let (accent, built_in) = (f.accent, std::mem::take(&mut f.built_in));
+        let mut shape = shape.fork(i as u64);
+        let finish = ShellFinish::usual(room.kind, accent, &mut shape, &mut look.fork(i as u64));
+        shell::build(b, room, &finish, &built_in, &mut shape);
+    }
+}
+
+/// Furnishes one room.
+fn content(f: &mut Furnisher) {
+    match f.room.kind {
+        RoomKind::Living => living::furnish(f),
+        RoomKind::Kitchen => kitchen::furnish(f),
+        RoomKind::Dining => dining::furnish(f),
+        RoomKind::Bedroom => bedroom::furnish(f),
+        RoomKind::Children => childrens::furnish(f),
+        RoomKind::Study => study::furnish(f),
+        RoomKind::Bathroom => bathroom::furnish(f),
+        RoomKind::Toilet => bathroom::furnish_toilet(f),
+        RoomKind::Hall => hall::furnish(f),
+        RoomKind::Laundry => bathroom::furnish_laundry(f),
+    }
+}

@@ -1,0 +1,112 @@
+//! A table with chairs around it.
+
+use super::Furnisher;
+use crate::builder;
+use crate::furniture::dining::LongTable;
+use crate::furniture::{Chair, DiningTable, Furniture, Pendant};
+use crate::place::{Floor, Piece, Spot};
+use enfilade_math::{Rng, Vec2, Vec3};
+use std::f32::consts::{FRAC_PI_2, TAU};
+
+/// Height of a lamp's rim over a table.
+const LAMP: f32 = 1.5;
+/// From a table's edge to the middle of the chair before it, and how much that varies.
+const SEAT: [f32; 2] = [0.17, 0.08];
+/// Floor behind a chair for getting up.
+const BEHIND: f32 = 0.30;
+
+/// Chairs of one family.
+fn chair(family: usize, rng: &mut Rng) -> Box<dyn Furniture> {
+    use crate::furniture::dining::{ShellChair, SpindleChair, UpholsteredChair};
+    match family {
+        0 => Box::new(Chair::random(rng)),
+        1 => Box::new(SpindleChair::random(rng)),
+        2 => Box::new(ShellChair::random(rng)),
+        _ => Box::new(UpholsteredChair::random(rng)),
+    }
+}
+
+/// A table, and where people sit: the edge before them and the way that they look.
+enum Table {
+    Long(LongTable),
+    Small(DiningTable),
+}
+
+impl Table {
+    fn thing(&self) -> &dyn Furniture {
+        match self {
+            Self::Long(table) => table,
+            Self::Small(table) => table,
+        }
+    }
+
+    fn seats(&self) -> Vec<(Vec2, Vec2)> {
+        match self {
+            Self::Long(table) => table.seats(),
+            Self::Small(table) => {
+                let half = 0.5 * table.width;
+                (0..4).map(|k| Vec2::from_angle(TAU * k as f32 / 4.0)).map(|d| (d * half, -d)).collect()
+            }
+        }
+    }
+}
+
+impl Furnisher<'_> {
+    /// Stands a table with chairs where there is room, the largest that fits; `seats` is the least and the most that people want.
+    pub fn dine(&mut self, seats: [usize; 2], cost: impl Fn(&Floor, &Spot) -> f32) -> bool {
+        let family = self.rng.below(4);
+        let mut tables: Vec<Table> = (0..3).map(|_| Table::Small(DiningTable::random(&mut self.rng))).collect();
+        if seats[1] > 4 || self.chance(0.4) {
+            tables.extend((0..5).map(|_| Table::Long(LongTable::random(&mut self.rng))));
+        }
+        tables.retain(|table| seats[1] >= 4 && table.seats().len() <= seats[1].max(4));
+        tables.sort_by_key(|table| std::cmp::Reverse(table.seats().len()));
+        let model = chair(family, &mut self.rng);
+        for table in tables {
+            for taken in [table.seats().len(), table.seats().len() / 2] {
+                if taken >= seats[0] && self.table(&table, taken, model.as_ref(), &cost) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    fn table(&mut self, table: &Table, taken: usize, chair: &dyn Furniture, cost: &impl Fn(&Floor, &Spot) -> f32) -> bool {
+        let mut seats = table.seats();
+        // Those on one side go last: such a table can stand closer to a wall.
+        seats.sort_by(|a, b| a.1.y.total_cmp(&b.1.y));
+        seats.truncate(taken);
+        let mut group = vec![Piece::standing(table.thing().size(), 0.0).at(0.0, 0.0, 0.0)];
+        for (edge, look) in &seats {
+            let out = SEAT[0] + SEAT[1] * self.rng.next_f32();
+            let at = *edge - *look * out;
+            let yaw = look.y.atan2(look.x) - FRAC_PI_2 + self.rng.range(-0.1, 0.1);
+            group.push(Piece::standing(chair.size(), 0.0).at(at.x, at.y, yaw));
+        }
+        // What is behind the chairs is kept free by making room for a deeper one.
+        let deep: Vec<Piece> = group
+            .iter()
+            .enumerate()
+            .map(|(i, piece)| {
+                let back = if i == 0 { 0.0 } else { BEHIND };
+                let at = piece.at - back * 0.5 * Vec2::from_angle(piece.yaw).perp();
+                Piece { size: piece.size + Vec3::new(0.0, back, 0.0), at, ..*piece }
+            })
+            .collect();
+        let spots = self.floor.everywhere(0.12, &[0.0, FRAC_PI_2]);
+        let Some((spot, poses)) = self.floor.place(&deep, spots, cost) else { return false };
+        self.build(table.thing(), poses[0]);
+        for (piece, _) in group.iter().zip(&poses).skip(1) {
+            let at = spot.point(piece.at);
+            let z = f64::from(crate::furniture::CONTACT);
+            self.build(chair, builder::pose(f64::from(at.x), f64::from(at.y), z, f64::from(spot.yaw + piece.yaw)));
+        }
+        let laid = matches!(table, Table::Long(LongTable { laid: Some(_), .. }));
+        self.litter(&table.thing().surfaces(), poses[0], if laid { 0.3 } else { 0.7 });
+        let pendant = Pendant { drop: self.room.size.z - LAMP, ..Pendant::random(&mut self.rng) };
+        let above = builder::pose(f64::from(spot.origin.x), f64::from(spot.origin.y), f64::from(self.room.size.z), 0.0);
+        self.build(&pendant, above);
+        true
+    }
+}

@@ -1,0 +1,190 @@
+//! The shell of a room: walls with their openings, floor, ceiling, skirting.
+//!
+//! Each room has its own half of the walls between rooms, so that both faces of a wall can have their own finish; outer walls belong
+//! to the room whole. The halves keep a hair's breadth apart; linings of doors and passages cover it.
+
+use crate::builder::{Builder, Class, pose};
+use crate::furniture::{Door, Passage, Window, board};
+use crate::materials::Finish;
+use crate::plan::RoomKind;
+use crate::room::{Filling, Room, Wall};
+use crate::shape::{Reshape, slab_with_openings};
+use crate::texture::FLOOR_STRIPS;
+use enfilade_geometry::Mesh;
+use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+
+/// How far floor, walls and ceiling reach into each other, so that no light comes through the joints.
+const OVERLAP: f32 = 0.1;
+/// The same at walls between rooms, which are thin.
+const THIN_OVERLAP: f32 = 0.03;
+/// Half the air between the two halves of a wall.
+const AIR: f32 = 0.0005;
+/// How far floor coverings reach below walls.
+const UNDER_WALLS: f32 = 0.04;
+const SKIRTING: Vec2 = Vec2::new(0.014, 0.085);
+
+/// What the surfaces of a room's shell are made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShellFinish {
+    /// Walls.
+    pub walls: Finish,
+    /// One wall may differ.
+    pub accent: Option<(Wall, Finish)>,
+    /// Planks are laid as single boards; any other finish covers the floor as one sheet.
+    pub floor: Finish,
+}
+
+impl ShellFinish {
+    /// What is usual for a kind of room. `shape` decides what changes meshes, whether the floor is laid of boards; `look` which of the
+    /// coverings a floor that is not has, and how the accent wall is done.
+    pub fn usual(kind: RoomKind, accent: Option<Wall>, shape: &mut Rng, look: &mut Rng) -> Self {
+        use RoomKind::{Hall, Kitchen, Laundry};
+        let boards = match kind {
+            Kitchen => 0.4,
+            Hall => 0.5,
+            _ if kind.wet() => 0.0,
+            _ => 0.65,
+        };
+        let boards = shape.next_f32() < boards;
+        let coverings: &[Finish] = match kind {
+            Kitchen | Hall => &[Finish::FloorTile, Finish::FloorTile, Finish::Terrazzo, Finish::Concrete, Finish::ParquetFloor],
+            Laundry => &[Finish::FloorTile, Finish::Concrete],
+            _ if kind.wet() => &[Finish::FloorTile, Finish::FloorTile, Finish::FloorTile, Finish::Terrazzo, Finish::Concrete],
+            RoomKind::Bedroom | RoomKind::Children => &[Finish::Carpet, Finish::ParquetFloor],
+            _ => &[Finish::ParquetFloor, Finish::ParquetFloor, Finish::Concrete],
+        };
+        let floor = if boards { Finish::PlankFloor } else { coverings[look.below(coverings.len())] };
+        let walls = if kind == RoomKind::Bathroom { Finish::WallTile } else { Finish::WallPaint };
+        let colored = match kind {
+            RoomKind::Living | RoomKind::Bedroom | RoomKind::Children => 1.0,
+            RoomKind::Dining | RoomKind::Study | Hall => 0.5,
+            _ => 0.0,
+        };
+        let accents = [Finish::AccentWallPaint, Finish::AccentWallPaint, Finish::AccentWallPaint, Finish::Wallpaper, Finish::Plaster];
+        let done = if look.next_f32() < 0.04 { Finish::Brick } else { accents[look.below(accents.len())] };
+        Self { walls, accent: accent.filter(|_| look.next_f32() < colored).map(|wall| (wall, done)), floor }
+    }
+}
+
+/// Adds walls, floor, ceiling, skirting, windows and doors of `room`; there is no skirting behind what is built in.
+pub fn build(b: &mut Builder, room: &Room, finish: &ShellFinish, built_in: &[(Wall, [f32; 2])], rng: &mut Rng) {
+    for wall in Wall::ALL {
+        let object = b.object(&format!("wall_{}_{wall:?}", room.kind.name()).to_lowercase(), Class::Wall, room.wall_pose(wall));
+        let surface = finish.accent.filter(|(w, _)| *w == wall).map_or(finish.walls, |(_, f)| f);
+        b.part(&object, "plaster", slab(room, wall).uv_moved(Vec2::new(rng.range(0.0, 2.0), rng.range(0.0, 2.0))), surface);
+    }
+    let at = pose(f64::from(room.center.x), f64::from(room.center.y), 0.0, 0.0);
+    let reach = |wall: Wall| depth(room, wall);
+    let (low, high) = (Vec2::new(reach(Wall::West), reach(Wall::South)), Vec2::new(reach(Wall::East), reach(Wall::North)));
+    let half = 0.5 * room.size.truncate();
+    let sheet = |z0: f32, z1: f32| board([-half.x - low.x, -half.y - low.y, z0], [half.x + high.x, half.y + high.y, z1], 0.001);
+    let ceiling = b.object(&format!("ceiling_{}", room.kind.name()), Class::Ceiling, at);
+    b.part(&ceiling, "plaster", sheet(room.size.z, room.size.z + 0.2), Finish::CeilingPaint);
+    let floor = b.object(&format!("floor_{}", room.kind.name()), Class::Floor, at);
+    if finish.floor == Finish::PlankFloor {
+        b.part(&floor, "planks", planks(half + UNDER_WALLS, rng), finish.floor);
+    } else {
+        let u = half + UNDER_WALLS;
+        b.part(&floor, "covering", board([-u.x, -u.y, -0.0195], [u.x, u.y, 0.0], 0.0005), finish.floor);
+    }
+    b.part(&floor, "screed", sheet(-0.3, -0.02), Finish::CeilingPaint);
+    if !room.kind.wet() {
+        skirting(b, room, built_in);
+    }
+    for opening in &room.openings {
+        match opening.filling {
+            Filling::Window { sashes } => Window { sashes }.build(b, room, opening),
+            Filling::Door(leaf) => Door { leaf }.build(b, room, opening),
+            Filling::Passage { lined: true } => Passage.build(b, room, opening),
+            Filling::Passage { lined: false } | Filling::DoorBack => {}
+        }
+    }
+}
+
+/// How much of a wall belongs to the room.
+fn depth(room: &Room, wall: Wall) -> f32 {
+    if room.outer[wall as usize] { room.outer_wall } else { room.inner_half() - AIR }
+}
+
+fn slab(room: &Room, wall: Wall) -> Mesh {
+    let corner = |side: Wall| match (wall.along().x == 0.0, room.outer[side as usize]) {
+        (false, _) => depth(room, side),
+        (true, true) => OVERLAP,
+        (true, false) => THIN_OVERLAP,
+    };
+    // A wall's x axis runs from the wall before it to the one after it, counter-clockwise.
+    let (before, after) = (corner(wall.turned(3)), corner(wall.turned(1)));
+    let shift = 0.5 * (after - before);
+    let holes: Vec<[f32; 4]> = room
+        .openings
+        .iter()
+        .filter(|o| o.wall == wall)
+        .map(|o| [o.x[0] - shift, o.x[1] - shift, if o.z[0] <= 0.0 { -OVERLAP } else { o.z[0] }, o.z[1]])
+        .collect();
+    let height = [-OVERLAP, room.size.z + OVERLAP];
+    slab_with_openings(room.length(wall) + before + after, height, depth(room, wall), &holes).moved(Vec3::new(shift, 0.0, 0.0))
+}
+
+fn skirting(b: &mut Builder, room: &Room, built_in: &[(Wall, [f32; 2])]) {
+    let object = b.object(&format!("skirting_{}", room.kind.name()), Class::OtherStructure, DAffine3::IDENTITY);
+    for wall in Wall::ALL {
+        let half = 0.5 * room.length(wall) - if wall.along().x == 0.0 { SKIRTING.x + 0.0005 } else { 0.0 };
+        let mut ways: Vec<[f32; 2]> = room.ways().filter(|o| o.wall == wall).map(|o| [o.x[0] - 0.054, o.x[1] + 0.054]).collect();
+        ways.extend(built_in.iter().filter(|(w, _)| *w == wall).map(|(_, x)| *x));
+        ways.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut from = -half;
+        let mut runs = Vec::new();
+        for [low, high] in ways.into_iter().chain([[half, half]]) {
+            runs.push([from, low]);
+            from = from.max(high);
+        }
+        for (i, run) in runs.iter().filter(|r| r[1] - r[0] > 0.02).enumerate() {
+            let mesh = board([run[0], -0.002, -0.002], [run[1], SKIRTING.x, SKIRTING.y], 0.004);
+            let name = format!("{wall:?}_{}", i + 1).to_lowercase();
+            b.part_at(&object, &name, mesh, room.wall_pose(wall), Finish::WhitePaint);
+        }
+    }
+}
+
+/// Floorboards along x over −`half`..`half`, laid in staggered rows with bevelled joints.
+fn planks(half: Vec2, rng: &mut Rng) -> Mesh {
+    const WIDTH: f32 = 0.165;
+    const BEVEL: Vec2 = Vec2::new(0.0016, 0.0012);
+    let mut mesh = Mesh::default();
+    let mut y = -half.y;
+    while y < half.y {
+        let y1 = (y + WIDTH).min(half.y);
+        let mut x = -half.x;
+        let mut length = rng.range(0.5, 1.8);
+        while x < half.x {
+            let x1 = if half.x - x - length < 0.35 { half.x } else { x + length };
+            let strip = (rng.below(FLOOR_STRIPS) as f32 + 0.03) / FLOOR_STRIPS as f32;
+            let start = Vec2::new(rng.range(0.0, 2.0 - (x1 - x).min(1.99)), strip);
+            plank(&mut mesh, [x, x1], [y, y1], BEVEL, start, rng.below(2) == 0);
+            x = x1;
+            length = rng.range(1.1, 1.6);
+        }
+        y = y1;
+    }
+    mesh.smoothed(20.0)
+}
+
+/// One floorboard with its top at z = 0: a raised field inside four bevels that go down to the joints.
+fn plank(mesh: &mut Mesh, x: [f32; 2], y: [f32; 2], bevel: Vec2, uv: Vec2, turned: bool) {
+    let base = mesh.positions.len() as u32;
+    for (inset, z) in [(0.0, -bevel.y), (bevel.x, 0.0)] {
+        for (cx, cy) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
+            let shift = |c: usize| if c == 0 { inset } else { -inset };
+            let p = Vec3::new(x[cx] + shift(cx), y[cy] + shift(cy), z);
+            mesh.positions.push(p);
+            let q = Vec2::new(p.x - x[0], p.y - y[0]);
+            let q = if turned { Vec2::new(x[1] - x[0], y[1] - y[0]) - q } else { q };
+            mesh.uvs.push(uv + Vec2::new(q.x, q.y * 0.7));
+        }
+    }
+    let mut quad = |a: u32, b: u32, c: u32, d: u32| {
+        mesh.triangles.extend([[base + a, base + b, base + c], [base + a, base + c, base + d]]);
+    };
+    quad(4, 5, 6, 7);
+    (0..4).for_each(|k| quad(k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k));
+}
