@@ -55,6 +55,15 @@ impl Dataset {
         write_parameter(&self.layout().metadata_camera(scene, camera), "frame_time_seconds", frame_time_s)
     }
 
+    /// The time between two frames of a camera in seconds: 1 unless the trajectory was planned or filmed as a video.
+    ///
+    /// # Errors
+    /// When the file is there but cannot be read.
+    pub fn read_frame_time(&self, scene: &str, camera: &str) -> Result<f64, DatasetError> {
+        let table = optional(Table::read(&self.layout().metadata_camera(scene, camera)))?;
+        table.map_or(Ok(FRAME_TIME_S), |table| table.parameter("frame_time_seconds"))
+    }
+
     /// A camera's trajectory in metres; without `metadata_scene.csv` the files are taken to be in metres. Without look-at positions
     /// the point one metre ahead stands for each, and without frame numbers they count from 0.
     ///

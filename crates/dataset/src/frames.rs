@@ -1,10 +1,12 @@
 //! Frames go in whole: layers under temporary names, then all renamed, then the commit record.
 
 use crate::atomic::{create_parent, remove_if_there, rename, temporary};
-use crate::hdf5::{ArrayView, Storage, write_view};
+use crate::hdf5::{ArrayView, Packing, Storage, write_view};
 use crate::read::sorted_names;
 use crate::record::RECORD_FORMAT;
-use crate::{Dataset, DatasetError, DenoiseRecord, FileRecord, FrameRecord, FrameTime, LabelRecord, Sampling, check_name, write_bytes};
+use crate::{
+    Dataset, DatasetError, DenoiseRecord, FileRecord, FrameRecord, FrameTime, LabelRecord, Recipe, Sampling, check_name, write_bytes,
+};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_scene::{Camera, Pose};
 use rayon::prelude::*;
@@ -29,6 +31,8 @@ pub struct FrameInfo {
     pub camera: Camera,
     /// How its samples were spent, where that is known.
     pub sampling: Option<Sampling>,
+    /// What rendered it, where that is known.
+    pub recipe: Option<Recipe>,
 }
 
 impl Dataset {
@@ -64,6 +68,7 @@ impl Dataset {
             pose: (&info.pose).into(),
             intrinsics,
             camera_model,
+            recipe: info.recipe.clone(),
             files: self.write_aside(scene, camera, number, frame)?,
         };
         let commit = || {
@@ -292,7 +297,7 @@ fn write_layer_aside(path: &Path, [height, width]: [usize; 2], layer: Layer, val
     let attributes = [("unit", spec.unit), ("space", spec.space), ("sentinel", spec.sentinel), ("description", spec.description)];
     let attributes: Vec<_> = attributes.into_iter().filter(|(_, value)| !value.is_empty()).collect();
     let aside = temporary(path);
-    write_view(&aside, ArrayView::of_values(shape, values), Storage::Compressed, &attributes)?;
+    write_view(&aside, ArrayView::of_values(shape, values), Storage::Image(Packing::of_layer(layer)), &attributes)?;
     FileRecord::of(&aside)
 }
 

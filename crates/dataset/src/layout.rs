@@ -1,7 +1,8 @@
 //! Every path of the tree, in one place. Nothing here touches the disk.
 //!
-//! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `_detail/plan_preview/`, and in each
-//! camera's `_detail` folder `metadata_frame_instances.csv`, `amodal_instances/`, `cameras_opencv.json`, `plan_report.json`, `frames/`
+//! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
+//! `statistics/`, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
+//! `metadata_tonemap.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `cameras_opencv.json`, `plan_report.json`, `frames/`
 //! with the commit records and, for cameras that are more than a pinhole, `camera.json` and its arrays.
 
 use crate::DatasetError;
@@ -70,6 +71,11 @@ impl Layout {
         self.root.join("verify.json")
     }
 
+    /// The same as a page for a browser.
+    pub fn verify_page(&self) -> PathBuf {
+        self.root.join("verify.html")
+    }
+
     /// Which image is for learning, for validation and for testing.
     pub fn split(&self) -> PathBuf {
         self.root.join("metadata_images_split_scene_v1.csv")
@@ -78,6 +84,16 @@ impl Layout {
     /// How the split came about, and which assets lie on several sides of it, as JSON.
     pub fn split_report(&self) -> PathBuf {
         self.root.join("split.json")
+    }
+
+    /// Numbers and charts of the whole dataset, and the page `statistics.html` that shows them.
+    pub fn statistics_dir(&self) -> PathBuf {
+        self.root.join("statistics")
+    }
+
+    /// Its numbers, as JSON.
+    pub fn statistics(&self) -> PathBuf {
+        self.statistics_dir().join("statistics.json")
     }
 
     /// Where the scenes lie.
@@ -194,6 +210,36 @@ impl Layout {
     /// Drawings of the scene's free space and trajectories, and the page `index.html` that shows them.
     pub fn plan_preview_dir(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("plan_preview")
+    }
+
+    /// Which views of a camera were found worth rendering.
+    pub fn view_gates(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("metadata_view_gates.csv")
+    }
+
+    /// Pictures of the geometry of the views of a camera that were not, for people.
+    pub fn rejected_dir(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("rejected")
+    }
+
+    /// One of them.
+    pub fn rejected_view(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
+        self.rejected_dir(scene, camera).join(format!("frame.{frame:04}.jpg"))
+    }
+
+    /// The page that shows all of them.
+    pub fn gates_page(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("gates.html")
+    }
+
+    /// How radiance became the 8-bit pictures of each frame of a camera.
+    pub fn tone_maps(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("metadata_tonemap.csv")
+    }
+
+    /// Where the animations lie unless another folder is named.
+    pub fn animations_dir(&self) -> PathBuf {
+        self.root.join("animations")
     }
 
     /// What each frame of a camera shows of each instance.

@@ -1,7 +1,7 @@
 //! `manifest.json`: what the dataset is, how to read it, and what has become of every frame.
 
 use crate::frames::{read_json, write_record};
-use crate::{Dataset, DatasetError, FileRecord};
+use crate::{Dataset, DatasetError, FileRecord, ViewFault};
 use enfilade_frame::{Dtype, LAYERS, LayerSpec, Pass};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -74,6 +74,8 @@ pub enum FrameStatus {
     Complete,
     /// It could not be rendered; the reason is given.
     Failed,
+    /// Not worth rendering; the reason is given.
+    Rejected,
 }
 
 /// A frame of the manifest.
@@ -83,7 +85,7 @@ pub struct FrameEntry {
     pub frame: u32,
     /// What has become of it.
     pub status: FrameStatus,
-    /// Why it failed.
+    /// Why it failed, or was rejected.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Seed of the random numbers.
@@ -117,7 +119,7 @@ pub struct ManifestInfo {
 const FORMAT: &str = "enfilade dataset 1";
 
 /// How to read the files, in one sentence per subject.
-const NOTES: [(&str, &str); 15] = [
+const NOTES: [(&str, &str); 16] = [
     ("layout", "Hypersim's tree: scenes/<scene>/_detail and scenes/<scene>/images/scene_<camera>_{final,geometry}_hdf5."),
     ("world", "Right-handed, z up, metres; one asset unit is one metre (meters_per_asset_unit = 1)."),
     ("camera", "Axes x right, y up, z backward; camera_keyframe_orientations hold world_from_camera and act on column vectors."),
@@ -158,8 +160,17 @@ const NOTES: [(&str, &str); 15] = [
          _detail/<camera>/metadata_frame_instances.csv has 2D boxes (pixel borders), pixel counts, visibility and truncation by frame; \
          amodal_instances/ beside it the masks of whole objects as COCO's run lengths.",
     ),
+    (
+        "gates",
+        "_detail/<camera>/metadata_view_gates.csv says which views were found worth rendering; those rejected keep their poses and \
+         numbers, have no images, and are shown in _detail/gates.html.",
+    ),
     ("records", "A frame counts when _detail/<camera>/frames/frame.IIII.json is there; checksums are BLAKE3 of whole files."),
-    ("times", "manifest_times.csv tells how long frames took; it is the only file that differs between two runs."),
+    (
+        "times",
+        "manifest_times.csv tells how long frames took, with the most memory that the process had until then and the number of threads; it \
+         is the only file of a run that differs between two (costs that `enfilade stats` adds to statistics/ follow from it).",
+    ),
 ];
 
 impl Default for Conventions {
@@ -189,8 +200,9 @@ impl Dataset {
         for scene in self.scenes()? {
             let mut entry = SceneEntry::default();
             for camera in self.cameras(&scene)? {
-                let frames = self.frame_indices(&scene, &camera)?;
-                let frames = frames.into_iter().map(|frame| self.frame_entry(&scene, &camera, frame, info)).collect::<Result<_, _>>()?;
+                let (frames, rejected) = (self.frame_indices(&scene, &camera)?, self.rejected_views(&scene, &camera)?);
+                let entry_of = |frame: u32| self.frame_entry(&scene, &camera, frame, rejected.get(&frame), info);
+                let frames = frames.into_iter().map(entry_of).collect::<Result<_, _>>()?;
                 entry.cameras.insert(camera, CameraEntry { frames });
             }
             scenes.insert(scene, entry);
@@ -209,7 +221,14 @@ impl Dataset {
     }
 
     /// What has become of one frame.
-    fn frame_entry(&self, scene: &str, camera: &str, frame: u32, info: &ManifestInfo) -> Result<FrameEntry, DatasetError> {
+    fn frame_entry(
+        &self,
+        scene: &str,
+        camera: &str,
+        frame: u32,
+        rejected: Option<&ViewFault>,
+        info: &ManifestInfo,
+    ) -> Result<FrameEntry, DatasetError> {
         let record = self.frame_record(scene, camera, frame)?.filter(|record| self.files_are_there(scene, &record.files));
         if let Some(record) = record {
             let mut files = record.files;
@@ -221,8 +240,12 @@ impl Dataset {
             let (seed, config_hash) = (Some(record.seed), Some(record.config_hash));
             return Ok(FrameEntry { frame, status: FrameStatus::Complete, reason: None, seed, config_hash, denoiser, files });
         }
-        let reason = info.failed_frames.get(&(scene.to_string(), camera.to_string(), frame)).cloned();
-        let status = if reason.is_some() { FrameStatus::Failed } else { FrameStatus::Planned };
+        let failed = info.failed_frames.get(&(scene.to_string(), camera.to_string(), frame)).cloned();
+        let (status, reason) = match (failed, rejected) {
+            (Some(reason), _) => (FrameStatus::Failed, Some(reason)),
+            (None, Some(fault)) => (FrameStatus::Rejected, Some(fault.to_string())),
+            (None, None) => (FrameStatus::Planned, None),
+        };
         Ok(FrameEntry { frame, status, reason, seed: None, config_hash: None, denoiser: None, files: BTreeMap::new() })
     }
 

@@ -52,6 +52,9 @@ pub struct Sampling {
     /// Noise that is left: the root mean square over the image of each pixel's standard error over (its luminance + 0.2 × the
     /// image's mean); `None` where it is not known, as after one sample per pixel.
     pub noise: Option<f64>,
+    /// The noise at which it was to end, where that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise_target: Option<f32>,
     /// What ended it.
     pub stopped_by: StoppedBy,
 }
@@ -67,6 +70,22 @@ pub enum StoppedBy {
     /// Its time was over.
     #[serde(rename = "time limit")]
     TimeLimit,
+}
+
+/// What rendered a frame: with the dataset's poses and camera, all that is needed to render it again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Recipe {
+    /// The program, with its version.
+    pub program: String,
+    /// Version of what the program's rendering comes to: it is raised whenever the same inputs give other values.
+    pub render_version: u32,
+    /// BLAKE3 of the scene package, which lies in the work folder.
+    pub scene_blake3: String,
+    /// The resolved settings of the renderer, seed included.
+    pub settings: serde_json::Value,
+    /// Wall-clock seconds after which the frame was to end; absent: no limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_limit_s: Option<f64>,
 }
 
 /// What a rendered frame was made from and what it consists of: enough to render it again.
@@ -97,6 +116,9 @@ pub struct FrameRecord {
     /// Every other camera.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera_model: Option<CameraRecord>,
+    /// What rendered it; absent in records of earlier versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recipe: Option<Recipe>,
     /// The layer files, by path relative to the scene's folder.
     pub files: BTreeMap<String, FileRecord>,
 }

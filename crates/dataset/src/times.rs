@@ -1,5 +1,5 @@
-//! `manifest_times.csv`: how long each frame took. Rows are appended as frames finish; of several rows for one frame the last
-//! counts.
+//! `manifest_times.csv`: how long each frame took, and what else differs between two runs. Rows are appended as frames finish; of
+//! several rows for one frame the last counts. A table that an older version began keeps its five columns.
 
 use crate::{Dataset, DatasetError};
 use std::collections::BTreeMap;
@@ -7,15 +7,21 @@ use std::fs::{self, OpenOptions};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-const HEADER: &str = "scene_name,camera_name,frame_id,seconds_wall,seconds_cpu\n";
+const HEADER: &str = "scene_name,camera_name,frame_id,seconds_wall,seconds_cpu,peak_memory_bytes,threads\n";
+/// As tables of older versions begin.
+const OLD_HEADER: &str = "scene_name,camera_name,frame_id,seconds_wall,seconds_cpu\n";
 
-/// How long a frame took.
+/// How long a frame took, and on how much of the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameTime {
     /// Elapsed seconds.
     pub wall_s: f64,
     /// Seconds of all threads together.
     pub cpu_s: f64,
+    /// Most memory that the process ever had until the frame was finished; `None` where the system does not tell.
+    pub peak_memory_bytes: Option<u64>,
+    /// Threads at work.
+    pub threads: Option<u32>,
 }
 
 impl Dataset {
@@ -36,29 +42,42 @@ impl Dataset {
     /// Appends a row in one write, so that rows of several threads do not mix.
     pub(crate) fn append_time(&self, scene: &str, camera: &str, frame: u32, time: FrameTime) -> Result<(), DatasetError> {
         let path = self.layout().manifest_times();
-        append(&path, &format!("{scene},{camera},{frame},{:.3},{:.3}\n", time.wall_s, time.cpu_s)).map_err(DatasetError::at("write", &path))
+        let [memory, threads] = [time.peak_memory_bytes, time.threads.map(u64::from)].map(|v| v.map_or(String::new(), |v| v.to_string()));
+        let times = format!("{scene},{camera},{frame},{:.3},{:.3}", time.wall_s, time.cpu_s);
+        append(&path, &times, &format!(",{memory},{threads}")).map_err(DatasetError::at("write", &path))
     }
 }
 
-/// Appends a row, after the header in a new file and after a line end that a killed run has not written.
-fn append(path: &Path, row: &str) -> std::io::Result<()> {
+/// Appends a row, after the header in a new file and after a line end that a killed run has not written. `more` are the cells of
+/// columns that an older table lacks.
+fn append(path: &Path, row: &str, more: &str) -> std::io::Result<()> {
     let mut file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
-    let before = if file.metadata()?.len() == 0 {
-        HEADER
-    } else {
+    let length = file.metadata()?.len();
+    let (mut before, mut more) = (HEADER, more);
+    if length > 0 {
+        let mut head = vec![0; OLD_HEADER.len().min(length as usize)];
+        file.read_exact(&mut head)?;
+        if head == OLD_HEADER.as_bytes() {
+            more = "";
+        }
         file.seek(SeekFrom::End(-1))?;
         let mut last = [0];
         file.read_exact(&mut last)?;
-        if last == *b"\n" { "" } else { "\n" }
-    };
-    file.write_all(format!("{before}{row}").as_bytes())
+        before = if last == *b"\n" { "" } else { "\n" };
+    }
+    file.write_all(format!("{before}{row}{more}\n").as_bytes())
 }
 
 /// Names have no commas or quotes, so a row is split at commas.
 fn parse_row(row: &str) -> Option<((String, String, u32), FrameTime)> {
     let cells: Vec<&str> = row.split(',').collect();
-    let &[scene, camera, frame, wall, cpu] = cells.as_slice() else { return None };
-    let time = FrameTime { wall_s: wall.parse().ok()?, cpu_s: cpu.parse().ok()? };
+    let (&[scene, camera, frame, wall, cpu], more) = cells.split_first_chunk::<5>()?;
+    let (peak_memory_bytes, threads) = match more {
+        [] => (None, None),
+        [memory, threads] => (memory.parse().ok(), threads.parse().ok()),
+        _ => return None,
+    };
+    let time = FrameTime { wall_s: wall.parse().ok()?, cpu_s: cpu.parse().ok()?, peak_memory_bytes, threads };
     Some(((scene.to_string(), camera.to_string(), frame.parse().ok()?), time))
 }
 
@@ -71,7 +90,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let dataset = Dataset::create(folder.path()).unwrap();
         assert!(dataset.read_times().unwrap().is_empty());
-        let time = |wall_s| FrameTime { wall_s, cpu_s: 2.0 * wall_s };
+        let time = |wall_s| FrameTime { wall_s, cpu_s: 2.0 * wall_s, peak_memory_bytes: Some(1 << 30), threads: Some(2) };
         dataset.append_time("room", "cam_00", 0, time(1.5)).unwrap();
         dataset.append_time("room", "cam_00", 1, time(2.0)).unwrap();
         dataset.append_time("room", "cam_00", 0, time(3.25)).unwrap();
@@ -82,5 +101,19 @@ mod tests {
         let expected = [(key("cam_00", 0), time(3.25)), (key("cam_00", 1), time(2.0)), (key("cam_01", 0), time(4.0))];
         assert_eq!(dataset.read_times().unwrap(), BTreeMap::from(expected));
         assert!(fs::read_to_string(&path).unwrap().starts_with(HEADER));
+    }
+
+    #[test]
+    fn a_table_of_an_older_version_is_read_and_keeps_its_columns() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        let path = dataset.layout().manifest_times();
+        fs::write(&path, format!("{OLD_HEADER}room,cam_00,0,1.500,3.000\n")).unwrap();
+        let new = FrameTime { wall_s: 2.0, cpu_s: 4.0, peak_memory_bytes: Some(7), threads: None };
+        dataset.append_time("room", "cam_00", 1, new).unwrap();
+        assert!(fs::read_to_string(&path).unwrap().ends_with("3.000\nroom,cam_00,1,2.000,4.000\n"));
+        let times: Vec<FrameTime> = dataset.read_times().unwrap().into_values().collect();
+        let old = |wall_s| FrameTime { wall_s, cpu_s: 2.0 * wall_s, ..FrameTime::default() };
+        assert_eq!(times, [old(1.5), old(2.0)]);
     }
 }

@@ -70,7 +70,9 @@ fn two_runs_differ_in_nothing_but_their_times() {
         analytic::write(&dataset, &small(), 3);
         let pose = &analytic::trajectory(3).poses[0];
         let frame = analytic::frame(&small(), pose, 7);
-        dataset.write_frame(SCENE, CAMERA, &frame, &analytic::info(&small(), pose), FrameTime { wall_s: cpu_s, cpu_s }).unwrap();
+        dataset
+            .write_frame(SCENE, CAMERA, &frame, &analytic::info(&small(), pose), FrameTime { wall_s: cpu_s, cpu_s, ..FrameTime::default() })
+            .unwrap();
         let manifest = dataset.collect_manifest(&ManifestInfo::default()).unwrap();
         dataset.write_manifest(&manifest).unwrap();
         files(folder.path())

@@ -1,9 +1,14 @@
-//! Previews, boxes, contact sheets and questions over a dataset on disk.
+//! Previews, animations, boxes, contact sheets and questions over a dataset on disk.
 
+mod animate;
 mod boxes;
+mod exposure;
 
+pub use animate::{AnimateConfig, AnimateError, Animated, Film, animate_camera};
 pub use boxes::{preview_boxes, write_boxes, write_instances};
+pub use exposure::{Exposures, expose_camera};
 
+use crate::exposure::Exposure;
 use crate::inspect::{Names, OutsideError, PixelReport, inspect};
 use crate::picture::jpeg;
 use crate::preview::{PREVIEWS, Subject, preview};
@@ -22,28 +27,33 @@ fn read_present(dataset: &Dataset, scene: &str, camera: &str, frame: u32, wanted
     if there.is_empty() { Ok(Frame::new(1, 1)) } else { dataset.read_frame(scene, camera, frame, &there) }
 }
 
-/// Writes every preview that the layers of the given frames allow, and returns the files.
+/// Writes every preview that the layers of the given frames allow, and returns the files. The exposures are those of the same frames.
 ///
 /// # Errors
 /// When a layer cannot be read or a file cannot be written.
-pub fn preview_camera(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32], cx: &dyn Cx) -> Result<Vec<PathBuf>, DatasetError> {
+pub fn preview_camera(
+    dataset: &Dataset,
+    [scene, camera]: [&str; 2],
+    frames: &[u32],
+    exposures: &Exposures,
+    cx: &dyn Cx,
+) -> Result<Vec<PathBuf>, DatasetError> {
     let done = AtomicU64::new(0);
-    let one = |&number: &u32| {
-        let files = preview_frame(dataset, scene, camera, number);
+    let one = |(index, &number): (usize, &u32)| {
+        let files = preview_frame(dataset, [scene, camera], number, exposures.of(index));
         cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
         files
     };
-    let files: Vec<Vec<PathBuf>> = frames.par_iter().map(one).collect::<Result<_, _>>()?;
+    let files: Vec<Vec<PathBuf>> = frames.par_iter().enumerate().map(one).collect::<Result<_, _>>()?;
     Ok(files.into_iter().flatten().collect())
 }
 
-fn preview_frame(dataset: &Dataset, scene: &str, camera: &str, number: u32) -> Result<Vec<PathBuf>, DatasetError> {
+fn preview_frame(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32, exposure: Exposure) -> Result<Vec<PathBuf>, DatasetError> {
     let frame = read_present(dataset, scene, camera, number, &LAYERS.map(|spec| spec.layer))?;
-    let tone = ToneMap::of_frame(&frame).unwrap_or_default();
     let mut written = Vec::new();
     for spec in PREVIEWS {
         let path = dataset.layout().preview(scene, camera, number, spec.pass, spec.name);
-        let Some(bytes) = spec.file(&frame, tone) else {
+        let Some(bytes) = spec.file(&frame, exposure) else {
             remove_old(&path)?;
             continue;
         };
@@ -63,15 +73,15 @@ fn remove_old(path: &Path) -> Result<(), DatasetError> {
     }
 }
 
-/// Writes the contact sheet of a camera and returns its path; `None` when the camera has no frames.
+/// Writes the contact sheet of a camera with this exposure and returns its path; `None` when the camera has no frames.
 ///
 /// # Errors
 /// When a layer cannot be read or the file cannot be written.
 pub fn write_contact_sheet(
     dataset: &Dataset,
-    scene: &str,
-    camera: &str,
+    [scene, camera]: [&str; 2],
     frames: &[u32],
+    tone: ToneMap,
     config: &SheetConfig,
 ) -> Result<Option<PathBuf>, DatasetError> {
     if frames.is_empty() {
@@ -82,7 +92,7 @@ pub fn write_contact_sheet(
         .into_par_iter()
         .map(|i| Ok((frames[i], read_present(dataset, scene, camera, frames[i], &all)?)))
         .collect::<Result<_, DatasetError>>()?;
-    let sheet = trajectory_sheet(SheetTitle { scene, camera, frames: frames.len() }, &shown, config);
+    let sheet = trajectory_sheet(SheetTitle { scene, camera, frames: frames.len() }, &shown, tone, config);
     let path = dataset.layout().contact_sheet(scene, camera);
     write_bytes(&path, jpeg(&sheet))?;
     Ok(Some(path))
@@ -108,7 +118,9 @@ fn overview_tile(dataset: &Dataset, scene: &str, camera: &str) -> Result<Option<
     let frames = dataset.frame_numbers(scene, camera)?;
     let Some(&first) = frames.first() else { return Ok(None) };
     let frame = read_present(dataset, scene, camera, first, &[Layer::Color, Layer::RenderEntityId])?;
-    let shown = preview(Subject::ToneMapped, &frame, ToneMap::of_frame(&frame).unwrap_or_default());
+    let stored = dataset.read_tone_maps(scene, camera)?.first().map(|row| ToneMap { scale: row.display_scale });
+    let tone = stored.or_else(|| ToneMap::of_frame(&frame)).unwrap_or_default();
+    let shown = preview(Subject::Displayed, &frame, tone);
     let detail = format!("{camera}  ·  {} frames  ·  {} x {} px", frames.len(), frame.width, frame.height);
     Ok(shown.map(|shown| OverviewTile { scene: scene.to_string(), detail, picture: shown.picture }))
 }
@@ -168,16 +180,39 @@ mod tests {
     fn every_preview_and_both_sheets_are_written() {
         let folder = tempfile::tempdir().unwrap();
         let dataset = testing::dataset(folder.path());
-        let files = preview_camera(&dataset, "room", "cam_00", &[0, 1], &Quiet).unwrap();
+        let (exposures, table) = expose_camera(&dataset, "room", "cam_00", &[0, 1]).unwrap();
+        assert!(table.is_file());
+        let files = preview_camera(&dataset, ["room", "cam_00"], &[0, 1], &exposures, &Quiet).unwrap();
         assert_eq!(files.len(), 2 * PREVIEWS.len());
         assert!(files.iter().all(|file| file.is_file()));
         let config = SheetConfig { width: 600, frames: 1 };
-        let sheet = write_contact_sheet(&dataset, "room", "cam_00", &[0, 1], &config).unwrap().unwrap();
+        let sheet = write_contact_sheet(&dataset, ["room", "cam_00"], &[0, 1], exposures.display, &config).unwrap().unwrap();
         let overview = write_overview(&dataset, "homes", &config).unwrap();
         for path in [sheet, overview] {
             assert_eq!(image::open(path).unwrap().width(), 600);
         }
-        assert_eq!(write_contact_sheet(&dataset, "room", "cam_00", &[], &config).unwrap(), None);
+        assert_eq!(write_contact_sheet(&dataset, ["room", "cam_00"], &[], exposures.display, &config).unwrap(), None);
+    }
+
+    #[test]
+    fn pictures_give_radiance_back_by_the_stored_scales() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        let (exposures, _) = expose_camera(&dataset, "room", "cam_00", &[0, 1]).unwrap();
+        preview_camera(&dataset, ["room", "cam_00"], &[0, 1], &exposures, &Quiet).unwrap();
+        let color = dataset.read_layer("room", "cam_00", 1, Layer::Color).unwrap();
+        let row = dataset.read_tone_maps("room", "cam_00").unwrap()[1];
+        for (name, scale) in [("tonemap.jpg", row.scale), ("display.jpg", row.display_scale)] {
+            let picture =
+                image::open(dataset.layout().preview("room", "cam_00", 1, enfilade_frame::Pass::Final, name)).unwrap().into_rgb8();
+            let unclipped = picture.pixels().enumerate().filter(|(_, pixel)| (30..240).contains(&pixel.0[1]));
+            let close = unclipped.map(|(i, pixel)| {
+                let radiance = (f64::from(pixel.0[1]) / 255.0).powf(1.0 / row.gamma) / scale;
+                (radiance / color.get(3 * i + 1) - 1.0).abs() < 0.1
+            });
+            let (close, all) = close.fold((0, 0), |(close, all), one| (close + usize::from(one), all + 1));
+            assert!(all > 1000 && close > all * 9 / 10, "{name}: {close} of {all}");
+        }
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! What is this pixel? Every layer's value at one place, with units and names.
 
+use crate::channels::vector;
 use crate::label::class_name;
 use enfilade_frame::{Frame, LAYERS, Layer};
-use enfilade_math::DVec3;
 use enfilade_scene::CameraView;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -77,7 +77,7 @@ pub fn inspect(frame: &Frame, view: &CameraView<'_>, names: Names<'_>, x: u32, y
     let entity = number(Layer::RenderEntityId).and_then(|id| usize::try_from(id).ok()?.checked_sub(1));
     let name = |list: &[String]| entity.and_then(|part| list.get(part).cloned());
     let centre = (f64::from(x) + 0.5, f64::from(y) + 0.5);
-    let position = frame.get(Layer::Position).map(|v| DVec3::new(v.get(3 * pixel), v.get(3 * pixel + 1), v.get(3 * pixel + 2)));
+    let position = frame.get(Layer::Position).map(|values| vector(values, pixel));
     let projects_to = position.filter(|p| p.is_finite()).and_then(|p| view.project_in_row(p, centre.1));
     let layer_value = |(layer, values): (Layer, &enfilade_frame::Values)| {
         let spec = layer.spec();
@@ -130,6 +130,7 @@ impl fmt::Display for PixelReport {
 mod tests {
     use super::*;
     use crate::testing;
+    use enfilade_math::DVec3;
 
     fn report(part: i16) -> PixelReport {
         let pose = testing::pose();

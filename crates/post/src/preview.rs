@@ -1,13 +1,14 @@
 //! A picture of every layer, under Hypersim's names.
 //!
-//! Radiance-like pictures share the tone map's scale of the frame, so that they can be compared with each other;
-//! `color.jpg` and `gamma.jpg` are Hypersim's unscaled ones. `non_lambertian` is color − reflectance × illumination: under
+//! Radiance-like pictures share the tone map's scale of the frame, so that they can be compared with each other; `display.jpg` alone has
+//! the scale of the trajectory, and `color.jpg` and `gamma.jpg` are Hypersim's unscaled ones. `non_lambertian` is color − reflectance × illumination: under
 //! that name the toolkit saves the full reconstruction, which is `tonemap` once more. Pixels without a value are transparent
 //! in PNG. Wherever values are stretched over a range, the range is the preview's note, and stands in the PNG's text.
 
-use crate::palette::{direction_color, id_color, semantic_color, traits_color, validity_color, viridis};
+use crate::exposure::Exposure;
+use crate::palette::{id_color, semantic_color, traits_color, validity_color};
 use crate::picture::{Picture, byte, from_pixels, jpeg, png};
-use crate::statistics::quantile;
+use crate::stretch::{self, Stretch};
 use crate::tonemap::{ToneMap, encode};
 use enfilade_frame::{Frame, Layer, Pass, Values};
 
@@ -27,6 +28,8 @@ pub struct PreviewSpec {
 pub enum Subject {
     /// Colour through the tone map.
     ToneMapped,
+    /// Colour through the tone map of the trajectory.
+    Displayed,
     /// Colour clipped to `[0,1]`, linear.
     Clipped,
     /// Colour clipped to `[0,1]`, gamma 1/2.2.
@@ -55,8 +58,9 @@ const fn spec(pass: Pass, name: &'static str, subject: Subject) -> PreviewSpec {
 }
 
 /// Every preview.
-pub const PREVIEWS: [PreviewSpec; 50] = [
+pub const PREVIEWS: [PreviewSpec; 51] = [
     spec(Pass::Final, "tonemap.jpg", Subject::ToneMapped),
+    spec(Pass::Final, "display.jpg", Subject::Displayed),
     spec(Pass::Final, "color.jpg", Subject::Clipped),
     spec(Pass::Final, "gamma.jpg", Subject::Gamma),
     spec(Pass::Final, "diffuse_reflectance.jpg", Subject::Layer(Layer::DiffuseReflectance)),
@@ -110,21 +114,41 @@ pub const PREVIEWS: [PreviewSpec; 50] = [
 
 impl PreviewSpec {
     /// The bytes of the preview's file; `None` when the frame lacks a layer it needs.
-    pub fn file(&self, frame: &Frame, tone: ToneMap) -> Option<Vec<u8>> {
+    pub fn file(&self, frame: &Frame, exposure: Exposure) -> Option<Vec<u8>> {
+        let tone = if self.subject == Subject::Displayed { exposure.display } else { exposure.frame };
         let preview = preview(self.subject, frame, tone)?;
         let note = Some(preview.note.as_str()).filter(|note| !note.is_empty());
         Some(if self.name.ends_with(".jpg") { jpeg(&preview.picture) } else { png(&preview.picture, note) })
     }
 }
 
+impl Subject {
+    /// The layers that it is made of.
+    pub fn layers(self) -> Vec<Layer> {
+        let lambertian = [Layer::Color, Layer::DiffuseReflectance, Layer::DiffuseIllumination];
+        match self {
+            Self::ToneMapped | Self::Displayed | Self::Clipped | Self::Gamma => vec![Layer::Color],
+            Self::Lambertian => lambertian[1..].to_vec(),
+            Self::NonLambertian => lambertian.to_vec(),
+            Self::Difference => [&lambertian[..], &[Layer::Residual]].concat(),
+            Self::Layer(layer) => vec![layer],
+        }
+    }
+}
+
 /// Shows `subject`; `None` when the frame lacks a layer it needs.
 pub fn preview(subject: Subject, frame: &Frame, tone: ToneMap) -> Option<Preview> {
+    preview_over(subject, frame, tone, None)
+}
+
+/// As [`preview`], but values are stretched over a given range instead of the frame's own.
+pub fn preview_over(subject: Subject, frame: &Frame, tone: ToneMap, stretch: Option<&Stretch>) -> Option<Preview> {
     let layer = |layer| frame.get(layer);
     let color = layer(Layer::Color);
     let lambertian = || Some((layer(Layer::DiffuseReflectance)?, layer(Layer::DiffuseIllumination)?));
     let plain = |picture| Some(Preview { picture, note: String::new() });
     match subject {
-        Subject::ToneMapped => color.and_then(|c| plain(rgb(frame, |i| tone.apply(c.get(i))))),
+        Subject::ToneMapped | Subject::Displayed => color.and_then(|c| plain(rgb(frame, |i| tone.apply(c.get(i))))),
         Subject::Clipped => color.and_then(|c| plain(rgb(frame, |i| c.get(i)))),
         Subject::Gamma => color.and_then(|c| plain(rgb(frame, |i| encode(c.get(i))))),
         Subject::Lambertian => {
@@ -140,15 +164,17 @@ pub fn preview(subject: Subject, frame: &Frame, tone: ToneMap) -> Option<Preview
             let recomposed = |i| enfilade_frame::f16::from_f32(a.get(i) as f32 * s.get(i) as f32 + r.get(i) as f32).to_f64();
             plain(rgb(frame, |i| tone.apply((c.get(i) - recomposed(i)).abs())))
         }
-        Subject::Layer(of) => layer(of).map(|values| layer_preview(of, values, frame, tone)),
+        Subject::Layer(of) => layer(of).map(|values| layer_preview(of, values, frame, tone, stretch)),
     }
 }
 
-fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap) -> Preview {
+fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap, range: Option<&Stretch>) -> Preview {
+    let own = || Stretch::over(stretch::shown_values(layer, values, 1));
+    let range = || range.cloned().unwrap_or_else(own);
     let picture = match layer {
-        Layer::DepthMeters | Layer::DepthZMeters | Layer::DepthBehindMeters => return depth(values, frame),
-        Layer::Position | Layer::SceneFlow => return position(values, frame),
-        Layer::OpticalFlow => return flow(values, frame),
+        Layer::DepthMeters | Layer::DepthZMeters | Layer::DepthBehindMeters => return stretch::lengths(values, frame, &range()),
+        Layer::Position | Layer::SceneFlow => return stretch::vectors(values, frame, &range()),
+        Layer::OpticalFlow => return stretch::flow(values, frame, &range()),
         Layer::Color
         | Layer::DiffuseIllumination
         | Layer::Residual
@@ -197,56 +223,6 @@ fn ids(frame: &Frame, values: &Values, color: impl Fn(i16) -> [u8; 3]) -> Pictur
     })
 }
 
-/// Viridis from the 1st percentile (dark) to the 99th (bright).
-fn depth(values: &Values, frame: &Frame) -> Preview {
-    let Some([low, high]) = robust_range((0..values.len()).map(|i| values.get(i))) else {
-        return Preview { picture: from_pixels(frame.width, frame.height, |_| [0; 4]), note: "no depth".into() };
-    };
-    let picture = from_pixels(frame.width, frame.height, |i| {
-        let v = values.get(i);
-        let [r, g, b] = viridis((v - low) / (high - low).max(f64::MIN_POSITIVE));
-        if v.is_finite() { [r, g, b, 255] } else { [0; 4] }
-    });
-    Preview { picture, note: format!("{} to {} m", short(low), short(high)) }
-}
-
-/// Red, green and blue for x, y and z, each from its 1st percentile to its 99th.
-fn position(values: &Values, frame: &Frame) -> Preview {
-    let ranges = [0, 1, 2].map(|c| robust_range((0..frame.pixels()).map(|i| values.get(3 * i + c))).unwrap_or([0.0, 1.0]));
-    let picture = rgb(frame, |i| {
-        let [low, high] = ranges[i % 3];
-        (values.get(i) - low) / (high - low).max(f64::MIN_POSITIVE)
-    });
-    let axis = |(name, [low, high]): (&str, &[f64; 2])| format!("{name} {} to {}", short(*low), short(*high));
-    Preview { picture, note: format!("{} m", ["x", "y", "z"].into_iter().zip(&ranges).map(axis).collect::<Vec<_>>().join(", ")) }
-}
-
-/// Hue says where to (red right, then yellow-green down, cyan left, violet up), saturation how far, up to the 99th percentile.
-fn flow(values: &Values, frame: &Frame) -> Preview {
-    let motion = |i: usize| [values.get(2 * i), values.get(2 * i + 1)];
-    let length = |[x, y]: [f64; 2]| x.hypot(y);
-    let Some([_, longest]) = robust_range((0..frame.pixels()).map(|i| length(motion(i)))) else {
-        return Preview { picture: from_pixels(frame.width, frame.height, |_| [0; 4]), note: "no next frame".into() };
-    };
-    let picture = from_pixels(frame.width, frame.height, |i| {
-        let [x, y] = motion(i);
-        let [r, g, b] = direction_color(y.atan2(x), length([x, y]) / longest.max(f64::MIN_POSITIVE));
-        if x.is_finite() && y.is_finite() { [r, g, b, 255] } else { [0; 4] }
-    });
-    Preview { picture, note: format!("0 to {longest:.1} px") }
-}
-
-/// 1st and 99th percentile of the finite values.
-fn robust_range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
-    let mut finite: Vec<f64> = values.filter(|v| v.is_finite()).collect();
-    Some([quantile(&mut finite, 0.01)?, quantile(&mut finite, 0.99)?])
-}
-
-/// A length in metres with as many digits as a glance needs.
-fn short(v: f64) -> String {
-    if v.abs() < 10.0 { format!("{v:.2}") } else { format!("{v:.1}") }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -267,14 +243,15 @@ mod tests {
     #[test]
     fn every_preview_has_a_file_of_its_kind_and_size() {
         let (frame, tone) = analytic();
+        let exposure = Exposure { frame: tone, display: tone };
         let mut names = std::collections::BTreeSet::new();
         for spec in PREVIEWS {
-            let file = spec.file(&frame, tone).unwrap();
+            let file = spec.file(&frame, exposure).unwrap();
             let picture = image::load_from_memory(&file).unwrap();
             assert_eq!((picture.width(), picture.height()), (64, 48), "{}", spec.name);
             assert_eq!(spec.name.ends_with(".png"), file.starts_with(b"\x89PNG"));
             assert!(names.insert((spec.pass == Pass::Final, spec.name)), "{} twice", spec.name);
-            assert_eq!(spec.file(&Frame::new(64, 48), tone), None);
+            assert_eq!(spec.file(&Frame::new(64, 48), exposure), None);
         }
     }
 
@@ -310,7 +287,7 @@ mod tests {
         let note = preview(Subject::Layer(Layer::DepthMeters), &frame, tone).unwrap().note;
         assert!(note.ends_with(" m") && note.contains(" to "), "{note}");
         let spec = PREVIEWS.iter().find(|spec| spec.name == "depth_meters.png").unwrap();
-        let file = spec.file(&frame, tone).unwrap();
+        let file = spec.file(&frame, Exposure { frame: tone, display: tone }).unwrap();
         assert!(file.windows(note.len()).any(|w| w == note.as_bytes()));
     }
 }

@@ -184,7 +184,15 @@ pub(crate) fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
             wanted.for_each(|(layer, values)| part.insert(layer, values.clone()));
             part
         };
-        let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose: *pose, camera: intrinsics().into(), sampling: None };
+        let info = FrameInfo {
+            seed: 1,
+            samples: 1,
+            config_hash: "test".into(),
+            pose: *pose,
+            camera: intrinsics().into(),
+            sampling: None,
+            recipe: None,
+        };
         dataset
             .write_frame("room", "cam_00", &part_of(&[Pass::Final, Pass::Geometry, Pass::Split, Pass::Extra]), &info, FrameTime::default())
             .unwrap();

@@ -7,8 +7,10 @@ use crate::statistics::quantile;
 use enfilade_frame::{Frame, Layer};
 use serde::{Deserialize, Serialize};
 
-const GAMMA: f64 = 1.0 / 2.2;
-const PERCENTILE: f64 = 0.9;
+/// The power of the displayed curve.
+pub const GAMMA: f64 = 1.0 / 2.2;
+/// The share of the pixels that are darker than what the exposure goes by.
+pub const PERCENTILE: f64 = 0.9;
 const BRIGHTNESS_OF_PERCENTILE: f64 = 0.8;
 /// Below this brightness a picture counts as black.
 const BLACK: f64 = 1e-4;
@@ -28,12 +30,14 @@ impl Default for ToneMap {
 }
 
 impl ToneMap {
-    /// Fits the scale to the brightness (see [`brightness`]) of the valid pixels.
-    ///
-    /// 1 when there are none, 0 when the picture is practically black.
-    pub fn fit(mut valid_brightness: Vec<f64>) -> Self {
-        valid_brightness.retain(|b| !b.is_nan());
-        let scale = match quantile(&mut valid_brightness, PERCENTILE) {
+    /// Fits the scale to the brightness (see [`brightness`]) of the valid pixels; see [`ToneMap::of_percentile`].
+    pub fn fit(valid_brightness: Vec<f64>) -> Self {
+        Self::of_percentile(percentile(valid_brightness))
+    }
+
+    /// The scale that shows this brightness at 0.8: 1 when there is none, 0 when it is practically black.
+    pub fn of_percentile(brightness: Option<f64>) -> Self {
+        let scale = match brightness {
             None => 1.0,
             Some(p) if p < BLACK => 0.0,
             Some(p) => BRIGHTNESS_OF_PERCENTILE.powf(1.0 / GAMMA) / p,
@@ -43,15 +47,31 @@ impl ToneMap {
 
     /// Fits the scale to a frame's colour; `None` without `color` or `render_entity_id`.
     pub fn of_frame(frame: &Frame) -> Option<Self> {
-        let (color, ids) = (frame.get(Layer::Color)?, frame.get(Layer::RenderEntityId)?);
-        let valid = (0..frame.pixels()).filter(|&i| ids.get(i) != -1.0);
-        Some(Self::fit(valid.map(|i| brightness([0, 1, 2].map(|c| color.get(3 * i + c)))).collect()))
+        valid_brightness(frame).map(Self::fit)
     }
 
     /// Linear radiance to a displayed value on `[0,1]`.
     pub fn apply(&self, radiance: f64) -> f64 {
         encode(self.scale * radiance)
     }
+
+    /// The radiance that is displayed as a value on `[0,1]`; infinite where everything is black.
+    pub fn radiance(&self, displayed: f64) -> f64 {
+        displayed.powf(1.0 / GAMMA) / self.scale
+    }
+}
+
+/// The brightness of every pixel that sees the scene; `None` without `color` or `render_entity_id`.
+pub fn valid_brightness(frame: &Frame) -> Option<Vec<f64>> {
+    let (color, ids) = (frame.get(Layer::Color)?, frame.get(Layer::RenderEntityId)?);
+    let valid = (0..frame.pixels()).filter(|&i| ids.get(i) != -1.0);
+    Some(valid.map(|i| brightness([0, 1, 2].map(|c| color.get(3 * i + c)))).collect())
+}
+
+/// The brightness that the exposure goes by; `None` without pixels. NaN is left out.
+pub fn percentile(mut brightness: Vec<f64>) -> Option<f64> {
+    brightness.retain(|b| !b.is_nan());
+    quantile(&mut brightness, PERCENTILE)
 }
 
 /// Brightness as the toolkit weighs it.
@@ -73,6 +93,7 @@ mod tests {
         let tone = ToneMap::fit((0..=10).map(f64::from).collect());
         assert!((tone.apply(9.0) - 0.8).abs() < 1e-12);
         assert!((tone.scale - 0.8f64.powf(2.2) / 9.0).abs() < 1e-15);
+        assert!((tone.radiance(tone.apply(3.0)) - 3.0).abs() < 1e-12);
         assert_eq!((tone.apply(1e9), tone.apply(-1.0), tone.apply(f64::NAN)), (1.0, 0.0, 0.0));
     }
 

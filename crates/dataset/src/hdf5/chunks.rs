@@ -1,7 +1,7 @@
 //! Cutting an array into chunks, and the filters on them: byte shuffle, then deflate in zlib's framing.
 
-/// Deflate level of libdeflate: the best trade of size against time on rendered images.
-pub(super) const DEFLATE_LEVEL: i32 = 6;
+/// Effort of libdeflate on meshes.
+pub(super) const MESH_LEVEL: i32 = 6;
 
 /// h5py's automatic chunk shape: halve the axes in turn until a chunk is near a target size that grows slowly with the array.
 /// No axis of the chunk is longer than the array's. `shape` has no zero.

@@ -1,12 +1,15 @@
 //! One array per file, exactly as Hypersim's files are: one dataset named `dataset`, no groups.
 //!
-//! Images are stored in chunks, shuffled and deflated, which every HDF5 reader understands; camera arrays are stored as they
-//! are. Files have superblock version 0, as h5py writes by default, so that any libhdf5 since 1.6 opens them. The library behind
+//! Images are stored in chunks, deflated and where that pays shuffled (see [`Packing`]), which every HDF5 reader understands; camera
+//! arrays are stored as they are. Files have superblock version 0, as h5py writes by default, so that any libhdf5 since 1.6 opens them. The library behind
 //! [`write_array`] and [`read_array`] shows nowhere else.
 
 mod chunks;
+mod packing;
 mod read;
 mod write;
+
+pub use packing::Packing;
 
 pub use read::read_array;
 pub use write::write_array;
@@ -52,8 +55,10 @@ pub struct Array {
 pub enum Storage {
     /// One run of bytes: Hypersim's camera arrays.
     Contiguous,
-    /// Chunks, shuffled and deflated: images and meshes. Arrays of more than three axes or without elements are stored as one run.
+    /// Chunks of h5py's shape, shuffled and deflated: meshes. Arrays of more than three axes or without elements are stored as one run.
     Compressed,
+    /// Chunks as said: images, of two axes or three. Others are stored as one run.
+    Image(Packing),
 }
 
 impl Element {
@@ -207,12 +212,19 @@ mod tests {
         arrays
     }
 
+    /// Every way of storing, with chunks that do not divide the images.
+    fn storages() -> Vec<Storage> {
+        let image = |channels_together, shuffle| Storage::Image(Packing { chunk: [64, 48], channels_together, shuffle, level: 6 });
+        let images = [(true, true), (true, false), (false, true), (false, false)].map(|(together, shuffle)| image(together, shuffle));
+        [vec![Storage::Contiguous, Storage::Compressed], images.into()].concat()
+    }
+
     #[test]
     fn arrays_of_every_type_and_shape_come_back() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.hdf5");
         for array in arrays() {
-            for storage in [Storage::Contiguous, Storage::Compressed] {
+            for storage in storages() {
                 write_array(&path, &array, storage, &[("unit", "m")]).unwrap();
                 assert!(read_array(&path).unwrap() == array, "{:?} {storage:?}", array.shape);
             }
@@ -223,7 +235,7 @@ mod tests {
     fn the_same_array_gives_the_same_bytes() {
         let folder = tempfile::tempdir().unwrap();
         for array in arrays() {
-            for storage in [Storage::Contiguous, Storage::Compressed] {
+            for storage in storages() {
                 let write = |name: &str| {
                     let path = folder.path().join(name);
                     write_array(&path, &array, storage, &[("unit", "m"), ("space", "world")]).unwrap();
@@ -239,8 +251,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("frame.0000.depth_meters.hdf5");
         let array = Array::new(&[67, 71], Elements::F32((0..67 * 71).map(|i| (i as f32).sin()).collect()));
-        for storage in [Storage::Contiguous, Storage::Compressed] {
-            write_array(&path, &array, storage, &[]).unwrap();
+        for storage in &storages()[..3] {
+            write_array(&path, &array, *storage, &[]).unwrap();
             let whole = std::fs::read(&path).unwrap();
             for length in (0..whole.len()).step_by(197).chain([whole.len() - 1]) {
                 std::fs::write(&path, &whole[..length]).unwrap();

@@ -1,4 +1,4 @@
-use super::chunks::{DEFLATE_LEVEL, auto_chunk, gather, grid, shuffle, three_axes};
+use super::chunks::{MESH_LEVEL, auto_chunk, gather, grid, shuffle, three_axes};
 use super::{Array, Element, Storage};
 use crate::DatasetError;
 use enfilade_frame::Values;
@@ -51,8 +51,15 @@ pub(crate) fn write_view(path: &Path, array: ArrayView, storage: Storage, attrib
 }
 
 fn fill(file: &H5File, array: ArrayView, storage: Storage, attributes: &[(&str, &str)]) -> rust_hdf5::Result<()> {
+    let axes = array.shape.len();
     let dataset = match storage {
-        Storage::Compressed if (1..=3).contains(&array.shape.len()) && !array.bytes.is_empty() => write_compressed(file, array)?,
+        _ if array.bytes.is_empty() => write_contiguous(file, array)?,
+        Storage::Compressed if (1..=3).contains(&axes) => {
+            write_chunks(file, array, &auto_chunk(array.shape, array.element.size()), true, MESH_LEVEL)?
+        }
+        Storage::Image(packing) if (2..=3).contains(&axes) => {
+            write_chunks(file, array, &packing.chunk_shape(array.shape), packing.shuffle, packing.level)?
+        }
         _ => write_contiguous(file, array)?,
     };
     for (name, value) in attributes {
@@ -71,25 +78,23 @@ fn write_contiguous(file: &H5File, array: ArrayView) -> rust_hdf5::Result<H5Data
 }
 
 /// Deflating the chunks here instead of in the HDF5 library is what makes writing fast: libdeflate takes half of zlib's time.
-fn write_compressed(file: &H5File, array: ArrayView) -> rust_hdf5::Result<H5Dataset> {
+fn write_chunks(file: &H5File, array: ArrayView, chunk: &[usize], shuffled: bool, level: i32) -> rust_hdf5::Result<H5Dataset> {
     let size = array.element.size();
-    let chunk = auto_chunk(array.shape, size);
-    let dataset = file
-        .new_dataset::<u8>()
-        .datatype(datatype(array.element))
-        .shape(array.shape)
-        .chunk(&chunk)
-        .shuffle_deflate(DEFLATE_LEVEL as u32)
-        .create("dataset")?;
-    let mut compressor = Compressor::new(CompressionLvl::new(DEFLATE_LEVEL).unwrap_or_default());
-    let (shape3, chunk3) = (three_axes(array.shape), three_axes(&chunk));
+    let builder = file.new_dataset::<u8>().datatype(datatype(array.element)).shape(array.shape).chunk(chunk);
+    // What stands in the file as the level is a remark; zlib's end at 9.
+    let said = level.clamp(1, 9) as u32;
+    let builder = if shuffled { builder.shuffle_deflate(said) } else { builder.deflate(said) };
+    let dataset = builder.create("dataset")?;
+    let mut compressor = Compressor::new(CompressionLvl::new(level).unwrap_or_default());
+    let (shape3, chunk3) = (three_axes(array.shape), three_axes(chunk));
     let [a, b, c] = grid(shape3, chunk3);
     let mut deflated = Vec::new();
     for at in (0..a * b * c).map(|i| [i / (b * c), i / c % b, i % c]) {
-        let shuffled = shuffle(&gather(array.bytes, size, shape3, chunk3, at), size);
-        deflated.resize(compressor.zlib_compress_bound(shuffled.len()), 0);
+        let raw = gather(array.bytes, size, shape3, chunk3, at);
+        let filtered = if shuffled { shuffle(&raw, size) } else { raw };
+        deflated.resize(compressor.zlib_compress_bound(filtered.len()), 0);
         let length = compressor
-            .zlib_compress(&shuffled, &mut deflated)
+            .zlib_compress(&filtered, &mut deflated)
             .map_err(|error| Hdf5Error::InvalidState(format!("deflate failed: {error}")))?;
         dataset.write_chunk_raw_at(&at[3 - chunk.len()..], &deflated[..length], 0)?;
     }

@@ -117,7 +117,7 @@ pub fn label_frame(frame: &Frame) -> Frame {
 }
 
 pub fn info(intrinsics: &Intrinsics, pose: &Pose) -> FrameInfo {
-    FrameInfo { seed: 7, samples: 1, config_hash: "c0ffee".into(), pose: *pose, camera: (*intrinsics).into(), sampling: None }
+    FrameInfo { seed: 7, samples: 1, config_hash: "c0ffee".into(), pose: *pose, camera: (*intrinsics).into(), sampling: None, recipe: None }
 }
 
 /// A whole dataset of `frames` frames, of which the last stays unrendered.
@@ -129,7 +129,9 @@ pub fn write(dataset: &Dataset, intrinsics: &Intrinsics, frames: u32) {
     dataset.write_label_tables(SCENE, &labels()).unwrap();
     for pose in &trajectory.poses[..frames as usize - 1] {
         let picture = frame(intrinsics, pose, 7);
-        dataset.write_frame(SCENE, CAMERA, &picture, &info(intrinsics, pose), FrameTime { wall_s: 0.5, cpu_s: 1.0 }).unwrap();
+        dataset
+            .write_frame(SCENE, CAMERA, &picture, &info(intrinsics, pose), FrameTime { wall_s: 0.5, cpu_s: 1.0, ..FrameTime::default() })
+            .unwrap();
         dataset.write_label_layers(SCENE, CAMERA, pose.frame, &label_frame(&picture), "beef").unwrap();
     }
 }

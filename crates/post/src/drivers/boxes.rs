@@ -13,6 +13,7 @@ use enfilade_frame::{Frame, Layer, Pass};
 use enfilade_math::OrientedBox;
 use enfilade_scene::{CameraView, Cx, Labels, Scene};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -38,21 +39,28 @@ pub fn write_boxes(dataset: &Dataset, name: &str, scene: &Scene, labels: &Labels
 ///
 /// # Errors
 /// When a file cannot be read or written.
-pub fn write_instances(dataset: &Dataset, scene: &str, camera: &str, solids: &[Solid], cx: &dyn Cx) -> Result<Vec<PathBuf>, DatasetError> {
+pub fn write_instances(
+    dataset: &Dataset,
+    scene: &str,
+    camera: &str,
+    frames: &BTreeSet<u32>,
+    solids: &[Solid],
+    cx: &dyn Cx,
+) -> Result<Vec<PathBuf>, DatasetError> {
     let (with, trajectory) = (dataset.read_camera(scene, camera)?, dataset.read_trajectory(scene, camera)?);
     let done = AtomicU64::new(0);
-    let total = trajectory.poses.len();
-    let one = |index: usize| -> Result<(Vec<InstanceView>, PathBuf), DatasetError> {
+    let rendered: Vec<usize> = (0..trajectory.poses.len()).filter(|i| frames.contains(&trajectory.poses[*i].frame)).collect();
+    let one = |&index: &usize| -> Result<(Vec<InstanceView>, PathBuf), DatasetError> {
         let number = trajectory.poses[index].frame;
         let seen = dataset.read_layer(scene, camera, number, Layer::SemanticInstance)?;
         let view = CameraView::of_frame(&with, &trajectory.poses, index);
         let (views, masks) = frame_instances(solids, &view, number, &seen);
         dataset.write_amodal_masks(scene, camera, number, &masks)?;
-        cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, total as u64);
+        cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, rendered.len() as u64);
         Ok((views, dataset.layout().amodal_masks(scene, camera, number)))
     };
     dataset.remove_amodal_masks(scene, camera)?;
-    let written: Vec<(Vec<InstanceView>, PathBuf)> = (0..total).into_par_iter().map(one).collect::<Result<_, _>>()?;
+    let written: Vec<(Vec<InstanceView>, PathBuf)> = rendered.par_iter().map(one).collect::<Result<_, _>>()?;
     let (views, mut files): (Vec<_>, Vec<_>) = written.into_iter().unzip();
     dataset.write_instance_views(scene, camera, &views.concat())?;
     files.push(dataset.layout().frame_instances(scene, camera));

@@ -1,7 +1,7 @@
 //! Where the world lies on a page.
 
 use super::cut::Cut;
-use super::drawing::Point;
+use crate::drawing::Point;
 use enfilade_math::DVec3;
 
 /// A rectangle of the page that shows a cut at a scale.

@@ -1,9 +1,9 @@
 //! All views of a trajectory at a glance.
 
-use super::drawing::{Anchor, Drawing, Ink, Text};
 use super::figure::{PAPER, Subject, time_color};
 use super::legend::{INK, MUTED, header, significant};
 use super::look::Sight;
+use crate::drawing::{Anchor, Drawing, Ink, Text};
 
 const WIDTH: u32 = 1600;
 const MARGIN: u32 = 40;

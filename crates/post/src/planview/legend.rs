@@ -2,9 +2,9 @@
 
 use super::chart::{Chart, round_below};
 use super::cut::Look;
-use super::drawing::{Anchor, Drawing, Ink, Point, Text};
 use super::figure::{Subject, WALL, WALL_PX, draw_target, note, score_opacity, start_mark, time_color, times_color};
 use super::relief::{FREE, FREE_OVER_VOID, NEAR, OCCUPIED, UNKNOWN, UNKNOWN_HATCH};
+use crate::drawing::{Anchor, Drawing, Ink, Point, Text};
 
 pub(super) const INK: Ink = Ink::solid([34, 35, 40]);
 pub(super) const MUTED: Ink = Ink::solid([104, 107, 114]);

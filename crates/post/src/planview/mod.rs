@@ -5,28 +5,25 @@
 //! camera, its frusta and targets; a picture of every view coloured by part, as Hypersim's toolkit writes them and where; all
 //! views on one sheet; and how measures of the frames are distributed. One page for a browser shows it all.
 //!
-//! Every page is a list of shapes (`drawing.rs`) that is painted as PNG and written as SVG. The same plan gives the same bytes.
+//! Every page is a list of shapes (`drawing/`) that is painted as PNG and written as SVG. The same plan gives the same bytes.
 
 mod chart;
 mod contact;
 mod coverage;
 mod cut;
-mod drawing;
 mod figure;
 mod html;
 mod legend;
 mod look;
 mod measure;
-mod paint;
 mod relief;
 mod report;
 mod statistics;
-mod svg;
 
+use crate::drawing::{Drawing, paint, svg};
 use crate::picture::{jpeg, png};
 use crate::statistics::quantile;
 use cut::{Cut, Look};
-use drawing::Drawing;
 use enfilade_dataset::{Dataset, DatasetError, write_bytes};
 use enfilade_geometry::{Bvh, OccupancyTree, Voxel};
 use enfilade_math::DVec3;
@@ -81,7 +78,7 @@ pub fn write_plan_preview(dataset: &Dataset, planned: &Planned<'_>, cx: &dyn Cx)
         files.extend(write_views(dataset, planned.scene, trajectory, &sights, &colors)?);
         sections.push(draw_trajectory(dataset, planned, (camera, trajectory), &sights, &mut files)?);
     }
-    let page = html::page(planned.scene, &about_scene(planned), &sections);
+    let page = html::plan_page(planned.scene, &about_scene(planned), &sections);
     files.push(write_page(dataset, planned.scene, "index.html", page.into_bytes())?);
     cx.progress("trajectories drawn", total, total);
     Ok(files)
@@ -182,14 +179,14 @@ impl Page {
     /// Writes the page's files, appends them to `files`, and says how the page for browsers shows them.
     fn write(&self, dataset: &Dataset, subject: &Subject<'_>, files: &mut Vec<PathBuf>) -> Result<Shown, DatasetError> {
         let file = |extension: &str| format!("{}_{}.{extension}", subject.trajectory.name, self.name);
-        let picture = paint::paint(&self.drawing);
+        let picture = paint(&self.drawing);
         let mut put = |name: String, bytes| -> Result<String, DatasetError> {
             files.push(write_page(dataset, subject.planned.scene, &name, bytes)?);
             Ok(name)
         };
         let (file, svg) = match self.format {
             Format::Jpeg => (put(file("jpg"), jpeg(&picture))?, None),
-            Format::PngAndSvg => (put(file("png"), png(&picture, None))?, Some(put(file("svg"), svg::svg(&self.drawing).into_bytes())?)),
+            Format::PngAndSvg => (put(file("png"), png(&picture, None))?, Some(put(file("svg"), svg(&self.drawing).into_bytes())?)),
         };
         Ok(Shown { file, svg, caption: self.caption.clone() })
     }

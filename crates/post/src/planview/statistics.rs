@@ -2,11 +2,11 @@
 
 use super::chart::round_below;
 use super::coverage::{SurfacePoint, seen_so_far};
-use super::drawing::{Anchor, Drawing, Ink, Point, Text};
 use super::figure::{PAPER, Subject, time_color};
 use super::legend::{INK, MUTED, header};
 use super::look::Sight;
 use super::measure::FrameMeasures;
+use crate::drawing::{Anchor, Drawing, Ink, Point, Text};
 use crate::statistics::quantile;
 
 const WIDTH: u32 = 1600;

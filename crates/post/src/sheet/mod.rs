@@ -81,8 +81,8 @@ pub fn spread(total: usize, count: usize) -> Vec<usize> {
 /// The sheet of a trajectory: one row per given frame (number and layers), the tone-mapped colour large, eight layers beside it,
 /// and the classes with their share of the pixels below.
 ///
-/// Layers that a frame lacks leave an empty field. Pictures keep the aspect of the first frame.
-pub fn trajectory_sheet(title: SheetTitle<'_>, frames: &[(u32, Frame)], config: &SheetConfig) -> Picture {
+/// `tone` is the exposure of all of them. Layers that a frame lacks leave an empty field. Pictures keep the aspect of the first frame.
+pub fn trajectory_sheet(title: SheetTitle<'_>, frames: &[(u32, Frame)], tone: ToneMap, config: &SheetConfig) -> Picture {
     let size = frames.first().map_or((4, 3), |(_, f)| (f.width, f.height));
     let grid = Grid::new(config.width.max(600), f64::from(size.0) / f64::from(size.1));
     let shares = ClassShares::of(frames.iter().map(|(_, frame)| frame));
@@ -97,7 +97,7 @@ pub fn trajectory_sheet(title: SheetTitle<'_>, frames: &[(u32, Frame)], config: 
     ];
     draw_header(&mut canvas, title.scene, &subtitle.join("  ·  ").replace("·    ·", "·"));
     for (row, (number, frame)) in frames.iter().enumerate() {
-        draw_frame(&mut canvas, &grid, MARGIN + HEADER + row as u32 * grid.row(), *number, frame);
+        draw_frame(&mut canvas, &grid, MARGIN + HEADER + row as u32 * grid.row(), *number, frame, tone);
     }
     shares.draw(&mut canvas, MARGIN, MARGIN + HEADER + rows_height);
     canvas.into_picture()
@@ -176,10 +176,9 @@ fn draw_header(canvas: &mut Canvas, title: &str, subtitle: &str) {
     lettering::draw(canvas, x, y + 48.0, subtitle, SUBTITLE);
 }
 
-fn draw_frame(canvas: &mut Canvas, grid: &Grid, y: u32, number: u32, frame: &Frame) {
-    let tone = ToneMap::of_frame(frame).unwrap_or_default();
+fn draw_frame(canvas: &mut Canvas, grid: &Grid, y: u32, number: u32, frame: &Frame, tone: ToneMap) {
     let large = [MARGIN, y, grid.large.0, grid.large.1];
-    match preview(Subject::ToneMapped, frame, tone) {
+    match preview(Subject::Displayed, frame, tone) {
         Some(color) => place_inside(canvas, large, &color.picture, Resize::Smooth),
         None => canvas.fill(large[0], large[1], large[2], large[3], EMPTY),
     }
@@ -256,9 +255,9 @@ mod tests {
     #[test]
     fn frames_without_layers_still_give_a_sheet() {
         let title = SheetTitle { scene: "s", camera: "cam_00", frames: 1 };
-        let sheet = trajectory_sheet(title, &[(0, Frame::new(8, 6))], &SheetConfig { width: 100, frames: 1 });
+        let sheet = trajectory_sheet(title, &[(0, Frame::new(8, 6))], ToneMap::default(), &SheetConfig { width: 100, frames: 1 });
         assert_eq!(sheet.width(), 600);
-        assert_eq!(trajectory_sheet(title, &[], &SheetConfig::default()).width(), 1920);
+        assert_eq!(trajectory_sheet(title, &[], ToneMap::default(), &SheetConfig::default()).width(), 1920);
         assert_eq!(overview_sheet("empty", &[], &SheetConfig::default()).width(), LARGEST_TILE + 2 * MARGIN);
     }
 }

@@ -57,7 +57,7 @@ impl SplitConfig {
             for (camera, frame) in entry.cameras.iter().flat_map(|(name, camera)| camera.frames.iter().map(move |frame| (name, frame))) {
                 let missing =
                     (frame.status != FrameStatus::Complete).then(|| frame.reason.clone().unwrap_or_else(|| "NOT RENDERED".to_string()));
-                let reason = missing.or_else(|| excluded.get(&(scene.clone(), camera.clone(), frame.frame)).cloned());
+                let reason = excluded.get(&(scene.clone(), camera.clone(), frame.frame)).cloned().or(missing);
                 let partition = reason.map_or(Ok(self.partition(scene)), Err);
                 rows.push(SplitRow { scene: scene.clone(), camera: camera.clone(), frame: frame.frame, partition });
             }

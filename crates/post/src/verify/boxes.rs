@@ -1,9 +1,9 @@
 //! Laws of bounding boxes and of the table of what frames show of instances.
 
 use super::card::Card;
-use super::dataset::readable;
 use super::law::Law;
-use super::scan::vector;
+use super::read::readable;
+use crate::channels::vector;
 use crate::instances::visible_areas;
 use enfilade_dataset::{BoxKind, Dataset, DatasetError, InstanceView};
 use enfilade_frame::{Frame, Layer};

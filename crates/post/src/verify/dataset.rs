@@ -1,80 +1,63 @@
 //! Verification of a dataset on disk.
 
-use super::card::{Card, VerifyReport};
+use super::card::Card;
+use super::frame_values::FrameValues;
 use super::law::Law;
-use super::{View, boxes, camera_files, check_frame, check_labels, check_trajectory};
-use enfilade_dataset::hdf5::read_array;
-use enfilade_dataset::{BoxKind, Dataset, DatasetError, FrameStatus, InstanceView, Manifest, Node, Partition};
-use enfilade_frame::{Frame, LAYERS, LayerSpec};
-use enfilade_geometry::{OccupancyTree, Voxel};
-use enfilade_scene::{Camera, CameraView, Cx, Labels, PartLabel, Pose, Trajectory};
+use super::read::{read_frame, read_labels, read_tree, readable};
+use super::report::VerifyReport;
+use super::two_views::{self, PairValues, Sight};
+use super::whole::{self, join_reports};
+use super::{View, boxes, camera_files, check_frame, check_trajectory};
+use enfilade_dataset::{BoxKind, Dataset, DatasetError, FrameRecord, InstanceView, StereoRecord, StereoSide};
+use enfilade_frame::LAYERS;
+use enfilade_geometry::Voxel;
+use enfilade_scene::{Camera, CameraView, Cx, Labels, Pose, Trajectory};
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Checks every law over the given scenes. What cannot be read counts as a violation, not as an error.
+/// Checks every law over the given scenes and the dataset as a whole. What cannot be read counts as a violation, not as an error.
 ///
-/// Frames are read in parallel; the report is the same for every number of threads.
+/// Frames are read in parallel, no more than two per thread at a time; the report is the same for every number of threads.
 ///
 /// # Errors
 /// When the manifest cannot be read.
 pub fn verify_dataset(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<VerifyReport, DatasetError> {
+    let reports = scenes.iter().map(|scene| verify_scene(dataset, scene, cx)).collect::<Result<_, _>>()?;
+    Ok(join_reports(dataset, reports))
+}
+
+/// As [`verify_dataset`] for one scene, without the laws of the dataset as a whole, which [`join_reports`] adds.
+///
+/// # Errors
+/// When the manifest cannot be read.
+pub fn verify_scene(dataset: &Dataset, scene: &str, cx: &dyn Cx) -> Result<VerifyReport, DatasetError> {
     let mut card = Card::default();
     let manifest = dataset.read_manifest()?;
-    check_manifest(&mut card, dataset, manifest, scenes);
-    check_split(&mut card, dataset);
-    let facts: Vec<SceneFacts> = scenes.iter().map(|scene| SceneFacts::read(dataset, scene, &mut card)).collect();
-    let frames: Vec<(&SceneFacts, &Filmed, usize)> = facts.iter().flat_map(SceneFacts::frames).collect();
+    whole::check_manifest(&mut card, dataset, manifest, scene);
+    let facts = SceneFacts::read(dataset, scene, &mut card);
+    let frames: Vec<(&Filmed, usize)> = facts.frames().collect();
     let done = AtomicU64::new(0);
-    let check = |&(scene, filmed, index): &(&SceneFacts, &Filmed, usize)| {
-        let card = scene.check_frame(dataset, filmed, index);
+    let check = |&(filmed, index): &(&Filmed, usize)| {
+        let found = facts.check_frame(dataset, filmed, index);
         cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
-        card
+        found
     };
-    let cards: Vec<Card> = frames.par_iter().map(check).collect();
-    cards.into_iter().for_each(|frame| card.merge(frame));
-    Ok(VerifyReport::new(&card, scenes.len(), frames.len()))
+    let found: Vec<Found> = frames.par_iter().map(check).collect();
+    let (mut values, mut pairs) = (Vec::new(), Vec::new());
+    for frame in found {
+        card.merge(frame.card);
+        values.extend(frame.values);
+        pairs.extend(frame.pairs);
+    }
+    Ok(VerifyReport::new(&card, 1, values, pairs))
 }
 
-/// What the manifest says, and whether the files are what it says.
-fn check_manifest(card: &mut Card, dataset: &Dataset, manifest: Option<Manifest>, scenes: &[String]) {
-    let Some(mut manifest) = manifest else {
-        return card.observe(Law::Manifest, 1.0, || format!("{}: there is none", dataset.layout().manifest().display()));
-    };
-    for scene in scenes {
-        let listed = manifest.scenes.contains_key(scene);
-        card.observe(Law::Manifest, if listed { 0.0 } else { 1.0 }, || format!("{scene}: not in the manifest"));
-    }
-    manifest.scenes.retain(|name, _| scenes.contains(name));
-    for (scene, entry) in &manifest.scenes {
-        if let Some(reason) = &entry.failed {
-            card.observe(Law::HasFrames, 1.0, || format!("{scene}: failed: {reason}"));
-        }
-        for (camera, frame) in entry.cameras.iter().flat_map(|(name, camera)| camera.frames.iter().map(move |frame| (name, frame))) {
-            let reason = frame.reason.as_deref().unwrap_or("planned, but not rendered");
-            let broken = if frame.status == FrameStatus::Complete { 0.0 } else { 1.0 };
-            card.observe(Law::FramesComplete, broken, || format!("{scene}/{camera}/frame.{:04}: {reason}", frame.frame));
-        }
-    }
-    if let Some(problems) = readable(card, dataset.verify_checksums(&manifest)) {
-        card.observe(Law::Checksums, problems.len() as f64, || problems.into_iter().next().unwrap_or_default());
-    }
-}
-
-/// No scene is on two sides of the split, where there is one.
-fn check_split(card: &mut Card, dataset: &Dataset) {
-    let Some(rows) = boxes::there(dataset.read_split()).and_then(|read| readable(card, read)) else { return };
-    let mut sides: BTreeMap<&str, Partition> = BTreeMap::new();
-    let sided = rows.iter().filter_map(|row| Some((row.scene.as_str(), *row.partition.as_ref().ok()?)));
-    let torn: BTreeSet<&str> = sided.filter(|&(scene, side)| *sides.entry(scene).or_insert(side) != side).map(|(scene, _)| scene).collect();
-    card.observe(Law::SplitWhole, torn.len() as f64, || format!("scenes {torn:?}"));
-}
-
-/// The value of a read; what cannot be read goes on the card.
-pub(super) fn readable<T>(card: &mut Card, read: Result<T, DatasetError>) -> Option<T> {
-    let problem = read.as_ref().err().map(ToString::to_string);
-    card.observe(Law::Readable, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
-    read.ok()
+/// What was found about one frame.
+#[derive(Default)]
+struct Found {
+    card: Card,
+    values: Option<FrameValues>,
+    pairs: Vec<PairValues>,
 }
 
 /// Everything about a scene that its frames are checked against.
@@ -94,6 +77,8 @@ struct Filmed {
     camera: Option<Camera>,
     /// What its frames show of instances, where there is a table of it.
     views: Option<Vec<InstanceView>>,
+    /// The other camera of a stereo rig.
+    stereo: Option<StereoRecord>,
 }
 
 impl SceneFacts {
@@ -150,9 +135,11 @@ impl SceneFacts {
             let Filmed { trajectory, frames, camera, .. } = filmed;
             let place = format!("{name}/{}", trajectory.name);
             card.merge(check_trajectory(trajectory, &place));
-            let missing: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !frames.contains(frame)).collect();
+            let rejected = readable(card, dataset.rejected_views(name, &trajectory.name)).unwrap_or_default();
+            let there = |frame: &u32| frames.contains(frame) || rejected.contains_key(frame);
+            let missing: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !there(frame)).collect();
             card.observe(Law::FramesComplete, missing.len() as f64, || format!("{place}: frames {missing:?} are missing"));
-            for pose in &trajectory.poses {
+            for pose in trajectory.poses.iter().filter(|pose| !rejected.contains_key(&pose.frame)) {
                 self.check_record(dataset, &trajectory.name, camera.as_ref(), pose, card);
                 if let Some(tree) = &tree {
                     let state = tree.state(pose.position);
@@ -176,87 +163,68 @@ impl SceneFacts {
     }
 
     /// The frames on disk that belong to a trajectory.
-    fn frames(&self) -> impl Iterator<Item = (&Self, &Filmed, usize)> {
+    fn frames(&self) -> impl Iterator<Item = (&Filmed, usize)> {
         self.filmed.iter().flat_map(move |filmed| {
             let poses = filmed.trajectory.poses.iter().enumerate();
-            poses.filter(|(_, pose)| filmed.frames.contains(&pose.frame)).map(move |(index, _)| (self, filmed, index))
+            poses.filter(|(_, pose)| filmed.frames.contains(&pose.frame)).map(move |(index, _)| (filmed, index))
         })
     }
 
-    /// Checks the frame of pose `index`.
-    fn check_frame(&self, dataset: &Dataset, filmed: &Filmed, index: usize) -> Card {
-        let mut card = Card::default();
+    /// Checks the frame of pose `index`, and how it agrees with its neighbours.
+    fn check_frame(&self, dataset: &Dataset, filmed: &Filmed, index: usize) -> Found {
+        let mut found = Found::default();
         let (name, poses) = (&filmed.trajectory.name, &filmed.trajectory.poses);
-        let place = format!("{}/{name}/frame.{:04}", self.name, poses[index].frame);
-        let frame = read_frame(dataset, &self.name, name, poses[index].frame, &mut card);
-        if let (Some(frame), Some(camera)) = (frame, &filmed.camera) {
-            let camera = CameraView::of_frame(camera, poses, index);
-            let (meters_per_unit, entities, labels) = (self.meters_per_unit, self.entities, self.labels.as_ref());
-            card.merge(check_frame(&frame, &View { camera, meters_per_unit, entities, labels }, &place));
-            boxes::check_positions(&self.boxes, &frame, &camera, &place, &mut card);
-            if let Some(views) = &filmed.views {
-                boxes::check_views(views, &frame, poses[index].frame, &place, &mut card);
-            }
-        }
-        card
-    }
-}
-
-/// Every layer that is there, exactly as stored: other types or sizes than the table's go on the card.
-fn read_frame(dataset: &Dataset, scene: &str, camera: &str, number: u32, card: &mut Card) -> Option<Frame> {
-    let mut frame: Option<Frame> = None;
-    for spec in LAYERS.iter().filter(|spec| dataset.has_layer(scene, camera, number, spec.layer)) {
-        let path = dataset.layout().layer(scene, camera, number, spec.layer);
-        let Some(array) = readable(card, read_array(&path)) else { continue };
-        let shape = array.shape.clone();
-        let size = image_size(&shape, spec);
-        let values = array.values.into_values().ok().filter(|values| values.dtype() == spec.dtype);
-        let (Some((width, height)), Some(values)) = (size, values) else {
-            let expected =
-                format!("expected an image of {} channels of {:?}, found shape {shape:?} or another type", spec.channels, spec.dtype);
-            card.observe(Law::Readable, 1.0, || format!("{}: {expected}", path.display()));
-            continue;
+        let number = poses[index].frame;
+        let place = format!("{}/{name}/frame.{number:04}", self.name);
+        let all = LAYERS.map(|spec| spec.layer);
+        let Some(frame) = read_frame(dataset, [&self.name, name], number, &all, &mut found.card) else {
+            found.card.observe(Law::LayersPresent, LAYERS.len() as f64, || format!("{place}: no layer can be read"));
+            return found;
         };
-        let frame = frame.get_or_insert_with(|| Frame::new(width, height));
-        if (frame.width, frame.height) == (width, height) {
-            frame.insert(spec.layer, values);
-        } else {
-            let other = format!("{width}x{height} pixels, but other layers of the frame have {}x{}", frame.width, frame.height);
-            card.observe(Law::Readable, 1.0, || format!("{}: {other}", path.display()));
+        let record: Option<FrameRecord> = dataset.frame_record(&self.name, name, number).ok().flatten();
+        found.values = Some(FrameValues::new([&self.name, name], number, &frame, self.meters_per_unit, record.as_ref()));
+        let Some(camera) = &filmed.camera else { return found };
+        let camera = CameraView::of_frame(camera, poses, index);
+        let (meters_per_unit, entities, labels) = (self.meters_per_unit, self.entities, self.labels.as_ref());
+        found.card.merge(check_frame(&frame, &View { camera, meters_per_unit, entities, labels }, &place));
+        boxes::check_positions(&self.boxes, &frame, &camera, &place, &mut found.card);
+        if let Some(views) = &filmed.views {
+            boxes::check_views(views, &frame, number, &place, &mut found.card);
         }
-    }
-    if frame.is_none() {
-        card.observe(Law::LayersPresent, LAYERS.len() as f64, || format!("{scene}/{camera}/frame.{number:04}: no layer can be read"));
-    }
-    frame
-}
-
-/// Width and height of an image of the layer's channels.
-fn image_size(shape: &[usize], spec: &LayerSpec) -> Option<(u32, u32)> {
-    match (shape, spec.channels) {
-        (&[height, width], 1) => Some((width as u32, height as u32)),
-        (&[height, width, channels], expected) if channels == expected && expected > 1 => Some((width as u32, height as u32)),
-        _ => None,
-    }
-}
-
-/// The labels by render entity.
-fn read_labels(dataset: &Dataset, scene: &str, nodes: &[Node], card: &mut Card) -> Option<Labels> {
-    let tables = match dataset.read_label_tables(scene) {
-        Ok(tables) => tables,
-        Err(error) => {
-            card.observe(Law::LabelTables, 1.0, || error.to_string());
-            return None;
+        let sight = Sight { frame: &frame, view: camera, meters_per_unit };
+        for (other, there) in self.neighbours(filmed, index) {
+            found.pairs.extend(self.compare(dataset, (name, &sight), (other, there), &mut found.card));
         }
-    };
-    let objects = nodes.iter().filter_map(|node| node.object_id).max().map_or(0, |id| id as usize + 1);
-    let enough = tables.parts.len() >= objects;
-    card.observe(Law::LabelTables, if enough { 0.0 } else { 1.0 }, || {
-        format!("{scene}: {} rows for {objects} objects", tables.parts.len())
-    });
-    card.merge(check_labels(&tables, scene));
-    let label = |node: &Node| node.object_id.and_then(|id| tables.parts.get(id as usize)).copied().unwrap_or(PartLabel::NONE);
-    Some(Labels { parts: nodes.iter().map(label).collect() })
+        found
+    }
+
+    /// The frames that a frame is compared with: the next one of its trajectory, and for the left camera of a stereo rig the right one's.
+    fn neighbours<'a>(&'a self, filmed: &'a Filmed, index: usize) -> impl Iterator<Item = (&'a Filmed, usize)> {
+        let left = filmed.stereo.as_ref().filter(|stereo| stereo.side == StereoSide::Left);
+        let partner = left.and_then(|stereo| self.filmed.iter().find(|other| other.trajectory.name == stereo.partner));
+        let pairs = [Some((filmed, index + 1)), partner.map(|partner| (partner, index))];
+        let there = |(filmed, index): &(&Filmed, usize)| {
+            filmed.trajectory.poses.get(*index).is_some_and(|pose| filmed.frames.contains(&pose.frame))
+        };
+        pairs.into_iter().flatten().filter(there)
+    }
+
+    /// Compares a frame of camera `name` with that of pose `index` of `other`.
+    fn compare(
+        &self,
+        dataset: &Dataset,
+        (name, sight): (&str, &Sight<'_>),
+        (other, index): (&Filmed, usize),
+        card: &mut Card,
+    ) -> Option<PairValues> {
+        let (partner, poses) = (&other.trajectory.name, &other.trajectory.poses);
+        let number = poses[index].frame;
+        // What cannot be read is told where that frame itself is checked.
+        let frame = read_frame(dataset, [&self.name, partner], number, &two_views::COMPARED, &mut Card::default())?;
+        let view = CameraView::of_frame(other.camera.as_ref()?, poses, index);
+        let names = [(name, sight.view.pose().frame), (partner.as_str(), number)];
+        two_views::compare(&self.name, names, [sight, &Sight { frame: &frame, view, meters_per_unit: self.meters_per_unit }], card)
+    }
 }
 
 fn read_filmed(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<Filmed> {
@@ -266,31 +234,20 @@ fn read_filmed(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<Filmed> {
         let frames = readable(card, dataset.frame_numbers(scene, &name)).unwrap_or_default();
         let camera = readable(card, dataset.read_camera(scene, &name));
         let views = boxes::there(dataset.read_instance_views(scene, &name)).and_then(|read| readable(card, read));
-        filmed.push(Filmed { trajectory, frames, camera, views });
+        let stereo = dataset.read_stereo(scene, &name).ok().flatten();
+        filmed.push(Filmed { trajectory, frames, camera, views, stereo });
     }
     filmed
-}
-
-/// The free space, if there is one.
-fn read_tree(dataset: &Dataset, scene: &str, card: &mut Card) -> Option<OccupancyTree> {
-    let path = dataset.layout().octomap(scene);
-    let bytes = match dataset.read_free_space(scene) {
-        Err(error) if error.is_not_found() => return None,
-        read => readable(card, read)?.0,
-    };
-    let tree = OccupancyTree::from_bt(&bytes);
-    let problem = tree.as_ref().err().map(|error| format!("{}: {error}", path.display()));
-    card.observe(Law::Readable, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
-    tree.ok()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::testing;
-    use enfilade_dataset::hdf5::{Storage, write_array};
-    use enfilade_dataset::{Array, Elements, FrameInfo, FrameTime, ManifestInfo, write_bytes};
+    use enfilade_dataset::hdf5::{Storage, read_array, write_array};
+    use enfilade_dataset::{Array, Elements, FrameInfo, FrameTime, ManifestInfo, Partition, write_bytes};
     use enfilade_frame::{Layer, f16};
+    use enfilade_geometry::OccupancyTree;
     use enfilade_scene::{Intrinsics, Quiet};
 
     fn verify(dataset: &Dataset) -> VerifyReport {
@@ -318,7 +275,7 @@ mod tests {
         assert!(report.passed, "{}", report.to_text());
         assert_eq!((report.frames, report.scenes), (2, 1));
         assert_eq!(report.laws.len(), super::super::LAWS.len());
-        assert!(report.to_text().ends_with("laws hold over 2 frames of 1 scene\n"));
+        assert!(report.to_text().contains("laws hold over 2 frames of 1 scene\n"));
     }
 
     #[test]
@@ -389,7 +346,8 @@ mod tests {
             refresh(d);
         };
         let (laws, text) = failures(half);
-        assert_eq!(laws, [Law::Readable, Law::FramesComplete, Law::LayersPresent], "{text}");
+        // They are looked at nevertheless, and are not as exact as they should be.
+        assert_eq!(laws, [Law::Readable, Law::FramesComplete, Law::ExtraLayers, Law::Distance, Law::PlanarDepth], "{text}");
         assert!(text.contains("frame.0000.depth_meters.hdf5: expected an image of 1 channels of F32"), "{text}");
     }
 
@@ -414,8 +372,15 @@ mod tests {
             let mut pose = record.pose.to_pose(1);
             pose.position.x += 1e-6;
             let frame = testing::frame(&pose);
-            let info =
-                FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose, camera: testing::intrinsics().into(), sampling: None };
+            let info = FrameInfo {
+                seed: 1,
+                samples: 1,
+                config_hash: "test".into(),
+                pose,
+                camera: testing::intrinsics().into(),
+                sampling: None,
+                recipe: None,
+            };
             d.write_frame("room", "cam_00", &frame, &info, FrameTime::default()).unwrap();
             refresh(d);
         };

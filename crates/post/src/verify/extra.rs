@@ -1,7 +1,8 @@
 //! The law of the layers that a frame has where they were asked for: material, what lies behind glass, flow.
 
 use super::law::Law;
-use super::scan::{Scan, vector};
+use super::scan::Scan;
+use crate::channels::vector;
 use enfilade_frame::{Layer, Values, traits};
 
 /// Rounding of float16 and of two ways to the same distance.

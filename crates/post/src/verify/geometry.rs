@@ -1,13 +1,17 @@
 //! Laws that tie distance, position, normals, calibration and pose together.
 
 use super::law::Law;
-use super::scan::{Scan, vector};
+use super::scan::Scan;
+use crate::channels::vector;
 use crate::statistics::quantile;
 use enfilade_frame::{Layer, Values};
 use enfilade_math::DVec3;
 
-/// Fewer pairs of neighbours than this say nothing about flatness.
-const FLATNESS_PAIRS: usize = 1000;
+/// Fewer lines than this say nothing about flatness.
+const FLATNESS_LINES: usize = 100;
+/// Three points lie on a line when the sine of the angle between their steps is less than this: more than float32 makes of it, and
+/// so little that points of three planes hardly ever do.
+const STRAIGHT: f64 = 1e-3;
 /// Normals that differ by less than this are of one plane.
 const SAME_NORMAL: f64 = 1e-6;
 /// Guards divisions by a distance of zero.
@@ -112,33 +116,47 @@ fn normals(scan: &mut Scan<'_>, seen: &[usize]) {
     }
 }
 
-/// Neighbours of one part with one normal: the step between their positions lies in the plane of that normal.
+/// Three neighbours in a row, of one part and with one normal, whose positions lie on a straight line: the line lies in the plane of that
+/// normal.
+///
+/// A plane shows such lines at every size of a pixel. Two neighbours alone would do for pixels that are small against everything that
+/// is seen; but the more of the scene a pixel covers, the more of them lie on different planes with one normal, as two steps of a
+/// staircase do, or on different facets of what is shaded smoothly.
 fn flatness(scan: &mut Scan<'_>, seen: &[usize]) {
     let (Some(ids), Some(position), Some(normal)) =
         (scan.layer(Layer::RenderEntityId), scan.layer(Layer::Position), scan.layer(Layer::NormalWorld))
     else {
         return;
     };
-    let width = scan.frame.width as usize;
-    let mut pairs: Vec<(f64, usize)> = Vec::new();
+    let (width, height) = (scan.frame.width as usize, scan.frame.height as usize);
+    let mut lines: Vec<(f64, usize)> = Vec::new();
     for &i in seen {
-        let left = if i % width > 0 { Some(i - 1) } else { None };
-        for j in [left, i.checked_sub(width)].into_iter().flatten().filter(|&j| ids.get(j) == ids.get(i)) {
-            pairs.extend(out_of_plane(position, normal, i, j).map(|off| (off, i)));
-        }
+        let row = (i % width > 0 && i % width + 1 < width).then(|| [i - 1, i, i + 1]);
+        let column = (i >= width && i / width + 1 < height).then(|| [i - width, i, i + width]);
+        let of_one_part = |line: &[usize; 3]| ids.get(line[0]) == ids.get(i) && ids.get(line[2]) == ids.get(i);
+        lines.extend(
+            [row, column].into_iter().flatten().filter(of_one_part).filter_map(|line| Some((out_of_plane(position, normal, line)?, i))),
+        );
     }
-    if pairs.len() < FLATNESS_PAIRS {
+    if lines.len() < FLATNESS_LINES {
         return;
     }
-    let mut values: Vec<f64> = pairs.iter().map(|&(off, _)| off).collect();
+    let mut values: Vec<f64> = lines.iter().map(|&(off, _)| off).collect();
     let Some(percentile) = quantile(&mut values, 0.99) else { return };
-    let first = pairs.iter().find(|&&(off, _)| off >= percentile).map_or(0, |&(_, i)| i);
+    let first = lines.iter().find(|&&(off, _)| off >= percentile).map_or(0, |&(_, i)| i);
     scan.observe_at(Law::Flatness, percentile, first, "position and normal_world disagree");
 }
 
-/// Sine of the angle between the step from pixel `j` to `i` and their common plane; `None` when their normals differ.
-fn out_of_plane(position: &Values, normal: &Values, i: usize, j: usize) -> Option<f64> {
-    let (n, step) = (vector(normal, i), vector(position, i) - vector(position, j));
-    let same = (n - vector(normal, j)).abs().max_element() < SAME_NORMAL;
-    same.then(|| step.dot(n).abs() / step.length().max(1e-12))
+/// Sine of the angle between the line through three pixels' positions and their common plane; `None` when their normals differ or the
+/// positions lie on no line.
+fn out_of_plane(position: &Values, normal: &Values, line: [usize; 3]) -> Option<f64> {
+    let [a, n, c] = line.map(|i| vector(normal, i));
+    let differ = |other: DVec3| (n - other).abs().max_element() >= SAME_NORMAL;
+    if differ(a) || differ(c) {
+        return None;
+    }
+    let [p, q, r] = line.map(|i| vector(position, i));
+    let (step, next) = (q - p, r - q);
+    let straight = step.cross(next).length() < STRAIGHT * step.length() * next.length();
+    straight.then(|| (r - p).dot(n).abs() / (r - p).length())
 }

@@ -60,6 +60,9 @@ pub enum Law {
     InstanceCounts,
     InstanceWhole,
     SplitWhole,
+    TwoViewDistance,
+    TwoViewIds,
+    TwoViewReflectance,
 }
 
 /// What a law says.
@@ -84,7 +87,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 53] = laws![
+pub const LAWS: [LawSpec; 56] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: render the frame again";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -134,7 +137,7 @@ pub const LAWS: [LawSpec; 53] = laws![
     BumpFacing 2e-3 "", "normal_bump_world faces the camera (n . view direction)", "renderer defect: please report it";
     NormalCamera 4e-3 "", "normal_cam is normal_world in camera axes", "pose and frame do not belong together: render again";
     BumpCamera 4e-3 "", "normal_bump_cam is normal_bump_world in camera axes", "pose and frame do not belong together: render again";
-    Flatness 2e-2 "", "positions of flat surfaces lie in the plane of their normal (99th percentile)",
+    Flatness 2e-2 "", "straight lines on surfaces of one normal lie in its plane (sine, 99th percentile)",
         "smooth normals over coarse facets, or normals in another space than positions: check the mesh's normals";
     SemanticRange 0.0 "pixels", "semantic is -1 or 1 to 40", "the label files are damaged: label again";
     InstanceRange 0.0 "pixels", "semantic_instance is -1 or at least 1", "the label files are damaged: label again";
@@ -153,6 +156,11 @@ pub const LAWS: [LawSpec; 53] = laws![
     InstanceWhole 0.0 "", "an instance shows no more pixels than the whole object has in the image, and that no more than it has in all",
         "the frame was labelled or rendered again since: run the boxes stage again";
     SplitWhole 0.0 "scenes", "all images of a scene are on one side of the split", "the file was edited: run enfilade split";
+    TwoViewDistance 1e-3 "share", "no frame looks through a surface that its neighbour sees (share of the pixels that both see and resolve)",
+        "pose, calibration or unit of depth is not that of the rendering, or the scene is different in the two frames: render again";
+    TwoViewIds 1e-3 "share", "neighbours see the same part and instance where they see the same point", "frames of different versions of the scene are mixed: render and label again";
+    TwoViewReflectance 1e-2 "share", "neighbours see the same diffuse reflectance where they see the same part",
+        "frames of different versions of the scene are mixed, or a texture is animated: render again";
 ];
 
 impl Law {

@@ -1,7 +1,7 @@
 //! Verification: the laws that tie the layers, poses, labels and files of a dataset together.
 //!
 //! [`LAWS`] states them. A [`Card`] collects the worst value of each; a [`VerifyReport`] is its outcome, for machines and
-//! people. Every law is computed here anew from the stored values, in double precision, with nothing taken from the renderer.
+//! people, together with what the [gates](crate::gates) measured of each frame and how well neighbouring frames agree. Every law is computed here anew from the stored values, in double precision, with nothing taken from the renderer.
 
 mod boxes;
 mod camera_files;
@@ -9,19 +9,30 @@ mod card;
 mod color;
 mod dataset;
 mod extra;
+mod frame_values;
 mod geometry;
 mod labels;
 mod law;
+mod page;
+mod read;
+mod report;
 mod scan;
 #[cfg(test)]
 mod tests;
 mod trajectory;
+mod two_views;
+mod whole;
 
-pub use card::{Card, LawResult, VerifyReport};
-pub use dataset::verify_dataset;
+pub use card::Card;
+pub use dataset::{verify_dataset, verify_scene};
+pub use frame_values::FrameValues;
 pub use labels::check_labels;
 pub use law::{LAWS, Law, LawSpec};
+pub use page::report_page;
+pub use report::{GateResult, LawResult, VerifyReport};
 pub use trajectory::check_trajectory;
+pub use two_views::{Compared, PairValues};
+pub use whole::{join_reports, write_report};
 
 use enfilade_frame::{Frame, LAYERS, Pass};
 use enfilade_scene::{CameraView, Labels};

@@ -70,8 +70,3 @@ impl<'a> Scan<'a> {
         self.rows[pixel / self.frame.width as usize]
     }
 }
-
-/// The three channels of a pixel.
-pub(super) fn vector(values: &Values, pixel: usize) -> DVec3 {
-    DVec3::new(values.get(3 * pixel), values.get(3 * pixel + 1), values.get(3 * pixel + 2))
-}

@@ -30,7 +30,7 @@ impl Case {
     }
 
     fn vector(&self, layer: Layer, pixel: usize) -> DVec3 {
-        scan::vector(self.frame.get(layer).unwrap(), pixel)
+        crate::channels::vector(self.frame.get(layer).unwrap(), pixel)
     }
 
     /// Drops the split layers, and says that pixel `p` has no error: for tests that change its colour.
@@ -60,7 +60,7 @@ fn failures(change: impl Fn(&mut Case, usize)) -> Vec<Law> {
 fn exact_frame_satisfies_every_frame_law() {
     let card = Case::new().card();
     assert_eq!(card.failures(), []);
-    let report = VerifyReport::new(&card, 1, 1);
+    let report = VerifyReport::new(&card, 1, vec![FrameValues::default()], vec![]);
     assert!(report.passed);
     let checked: Vec<Law> = report.laws.iter().map(|l| l.law).collect();
     let frame_laws: Vec<Law> = LAWS
@@ -249,6 +249,25 @@ fn normals_that_do_not_fit_the_positions_are_found() {
 }
 
 #[test]
+fn steps_of_one_normal_are_flat() {
+    // A staircase: every other row of the floor lies higher, in steps of three rows each.
+    let stairs = |c: &mut Case, _| {
+        let ids = c.frame.get(Layer::RenderEntityId).unwrap().clone();
+        for pixel in (0..c.frame.pixels()).filter(|&i| ids.get(i) == 1.0) {
+            let (x, y) = (pixel % 64, pixel / 64);
+            let ray = c.pose.world_from_camera * c.intrinsics.ray(x as f64 + 0.5, y as f64 + 0.5).normalize();
+            let step = 0.17 * ((y / 3) % 2) as f64;
+            let distance = (step - c.pose.position.z) / ray.z;
+            c.set(Layer::DepthMeters, pixel, &[distance]);
+            c.set(Layer::DepthBehindMeters, pixel, &[distance]);
+            c.set(Layer::DepthZMeters, pixel, &[-(c.pose.world_from_camera.transpose() * ray).z * distance]);
+            c.set(Layer::Position, pixel, &(c.pose.position + ray * distance).to_array());
+        }
+    };
+    assert_eq!(failures(stairs), []);
+}
+
+#[test]
 fn label_images_are_checked() {
     let mirror_is = |c: &mut Case, semantic: i16, instance: i16| {
         c.labels.parts[2] = enfilade_scene::PartLabel { semantic, instance };
@@ -269,7 +288,7 @@ fn failures_name_frame_pixel_and_part() {
     let mut case = Case::new();
     let floor = pixel_of(&case.frame, 1);
     case.set(Layer::Semantic, floor, &[5.0]);
-    let text = VerifyReport::new(&case.card(), 1, 1).to_text();
+    let text = VerifyReport::new(&case.card(), 1, vec![], vec![]).to_text();
     let place = format!("at  room/cam_00/frame.0000 pixel ({}, {}), part 1: 5 where the tables say 2", floor % 64, floor / 64);
     assert!(text.contains(&place), "{text}");
 }

@@ -1,6 +1,6 @@
 //! A page in pixels, antialiased.
 
-use super::drawing::{Anchor, Drawing, Ink, Point, Shape, Text};
+use super::{Anchor, Drawing, Ink, Point, Shape, Text};
 use crate::picture::Picture;
 use crate::sheet::lettering::{self, Style};
 use tiny_skia::{
@@ -17,7 +17,7 @@ const HALO: f32 = 0.34;
 ///
 /// # Panics
 /// When a side of the page is 0 or its pixels exceed 2 GiB.
-pub(super) fn paint(drawing: &Drawing) -> Picture {
+pub(crate) fn paint(drawing: &Drawing) -> Picture {
     let mut pixels = Pixmap::new(drawing.width, drawing.height).expect("a page has sides of at least one pixel");
     let [r, g, b] = drawing.paper;
     pixels.fill(Color::from_rgba8(r, g, b, 255));

@@ -1,16 +1,22 @@
-//! A page as a list of shapes, which [`super::paint`] turns into pixels and [`super::svg`] into a file that scales.
+//! A page as a list of shapes, which [`paint`] turns into pixels and [`svg`] into a file that scales.
 //!
 //! Page coordinates are pixels, x to the right and y downward, (0,0) being the upper left corner. Later shapes cover earlier ones.
+
+mod paint;
+mod svg;
+
+pub(crate) use paint::paint;
+pub(crate) use svg::svg;
 
 use crate::picture::Picture;
 use crate::sheet::canvas::Color;
 
 /// A place on the page.
-pub(super) type Point = [f32; 2];
+pub(crate) type Point = [f32; 2];
 
 /// What a shape is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Ink {
+pub(crate) struct Ink {
     /// sRGB.
     pub color: Color,
     /// 0 (invisible) to 1 (covers).
@@ -31,7 +37,7 @@ impl Ink {
 
 /// Which point of a text stands at its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Anchor {
+pub(crate) enum Anchor {
     Start,
     Middle,
     End,
@@ -39,7 +45,7 @@ pub(super) enum Anchor {
 
 /// A line of writing.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Text {
+pub(crate) struct Text {
     /// Its anchor on the baseline.
     pub at: Point,
     /// What it says.
@@ -58,7 +64,7 @@ pub(super) struct Text {
 
 /// One thing on the page.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Shape {
+pub(crate) enum Shape {
     /// A filled polygon.
     Area { outline: Vec<Point>, ink: Ink },
     /// Open lines with round ends, painted at once: where they cross, the ink covers once.
@@ -73,7 +79,7 @@ pub(super) enum Shape {
 
 /// A page.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Drawing {
+pub(crate) struct Drawing {
     /// Pixels.
     pub width: u32,
     /// Pixels.

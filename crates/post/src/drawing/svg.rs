@@ -1,6 +1,6 @@
 //! A page as an SVG file: the same shapes, with real text and at any size.
 
-use super::drawing::{Anchor, Drawing, Ink, Point, Shape, Text};
+use super::{Anchor, Drawing, Ink, Point, Shape, Text};
 use crate::picture::png;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -10,7 +10,7 @@ use std::fmt::Write;
 const CAPITAL_HEIGHT: f32 = 0.72;
 
 /// The page's file. Pictures lie within it as PNG, so that it can be shown by itself.
-pub(super) fn svg(drawing: &Drawing) -> String {
+pub(crate) fn svg(drawing: &Drawing) -> String {
     let (w, h) = (drawing.width, drawing.height);
     let mut file = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" \
@@ -23,7 +23,7 @@ pub(super) fn svg(drawing: &Drawing) -> String {
 }
 
 /// `text` with the characters replaced that mean something in XML and HTML.
-pub(super) fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

@@ -1,0 +1,54 @@
+//! How the layers of images are cut into chunks and compressed.
+//!
+//! The choices are those of docs/benchmarks/storage.md, by the kind of the values.
+
+use enfilade_frame::{Dtype, Layer};
+
+/// Chunks and filters of an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Packing {
+    /// Rows and columns of a chunk; smaller images are one chunk.
+    pub chunk: [usize; 2],
+    /// True when a chunk holds all channels of its pixels, false for one chunk per channel.
+    pub channels_together: bool,
+    /// HDF5's shuffle filter: bytes of one significance side by side.
+    pub shuffle: bool,
+    /// Effort of libdeflate, 1 to 12. Whatever it is, the result is plain gzip to readers.
+    pub level: i32,
+}
+
+impl Packing {
+    /// The packing of a layer's file.
+    pub fn of_layer(layer: Layer) -> Self {
+        let plain = Self { chunk: [128, 128], channels_together: true, shuffle: true, level: 6 };
+        match layer.spec().dtype {
+            // Runs of equal numbers: shuffling costs readers time and saves nothing.
+            Dtype::I16 | Dtype::U8 => Self { shuffle: false, level: 9, ..plain },
+            // Channels that vary smoothly and apart from each other.
+            Dtype::F32 => Self { channels_together: false, ..plain },
+            Dtype::F16 if layer == Layer::TexCoord => Self { channels_together: false, ..plain },
+            Dtype::F16 => plain,
+        }
+    }
+
+    /// The chunk's shape for an image of two axes or three, none of them zero.
+    pub(super) fn chunk_shape(self, shape: &[usize]) -> Vec<usize> {
+        let sides = shape.iter().zip(self.chunk).map(|(&axis, side)| axis.min(side));
+        let channels = shape.get(2).map(|&channels| if self.channels_together { channels } else { 1 });
+        sides.chain(channels).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crop_touches_few_chunks_and_no_chunk_is_larger_than_the_image() {
+        let color = Packing::of_layer(Layer::Color);
+        assert_eq!(color.chunk_shape(&[768, 1024, 3]), [128, 128, 3]);
+        assert_eq!(color.chunk_shape(&[7, 500, 3]), [7, 128, 3]);
+        assert_eq!(Packing::of_layer(Layer::Position).chunk_shape(&[768, 1024, 3]), [128, 128, 1]);
+        assert_eq!(Packing::of_layer(Layer::DepthMeters).chunk_shape(&[768, 1024]), [128, 128]);
+    }
+}

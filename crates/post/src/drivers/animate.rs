@@ -1,0 +1,240 @@
+//! Animations of a camera's frames.
+
+use super::exposure::measure;
+use super::read_present;
+use crate::animation::{Animation, AnimationError, AnimationFormat};
+use crate::exposure::display_exposure;
+use crate::picture::Picture;
+use crate::preview::{PREVIEWS, Subject, preview_over};
+use crate::stretch::{Stretch, is_stretched, shown_values};
+use crate::tonemap::ToneMap;
+use enfilade_dataset::{Dataset, DatasetError, write_bytes};
+use enfilade_frame::Layer;
+use enfilade_scene::Cx;
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Pictures per second of trajectories that are no videos, as in the toolkit's animations.
+const STILLS_PER_SECOND: f64 = 5.0;
+/// Frames that are made ready while their predecessors are encoded, which bounds the memory.
+const BATCH: usize = 8;
+/// Values that a range is measured from, at most: enough for percentiles that no eye can tell from the exact ones.
+const RANGE_SAMPLES: usize = 4_000_000;
+
+/// Something of frames that can be animated: a layer, or a preview made of several.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Film {
+    /// Its name.
+    pub name: &'static str,
+    subject: Subject,
+}
+
+impl Film {
+    /// The layer of that name, or else the preview that is none.
+    pub fn from_name(name: &str) -> Option<Self> {
+        let preview = || PREVIEWS.iter().filter(|spec| !matches!(spec.subject, Subject::Layer(_))).find(|spec| stem(spec.name) == name);
+        let layer = Layer::from_name(name).map(|layer| Self { name: layer.spec().name, subject: Subject::Layer(layer) });
+        layer.or_else(|| preview().map(|spec| Self { name: stem(spec.name), subject: spec.subject }))
+    }
+
+    /// The layers that it needs.
+    fn layers(self) -> Vec<Layer> {
+        let mut layers = self.subject.layers();
+        if self.subject == Subject::ToneMapped {
+            layers.push(Layer::RenderEntityId);
+        }
+        layers
+    }
+}
+
+/// A preview's name without its extension.
+fn stem(name: &str) -> &str {
+    name.split_once('.').map_or(name, |(stem, _)| stem)
+}
+
+/// How an animation is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AnimateConfig {
+    /// The form of the files.
+    pub format: AnimationFormat,
+    /// Pictures per second; by default as the trajectory was timed if it is a video, else 5.
+    pub fps: Option<f64>,
+}
+
+/// An animation that was written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Animated {
+    /// The file.
+    pub path: PathBuf,
+    /// Number of frames that it shows.
+    pub frames: usize,
+    /// Pictures per second.
+    pub fps: f64,
+    /// Length of the file.
+    pub bytes: u64,
+}
+
+/// Why there is no animation.
+#[derive(Debug, thiserror::Error)]
+pub enum AnimateError {
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    Dataset(#[from] DatasetError),
+    /// The pictures cannot be encoded.
+    #[error("{scene}/{camera}: {source}")]
+    Animation {
+        /// Name of the scene.
+        scene: String,
+        /// Name of the camera.
+        camera: String,
+        /// What is wrong.
+        source: AnimationError,
+    },
+    /// Nothing to show.
+    #[error("{scene}/{camera} has no frame with {}", layers.join(", "))]
+    NoFrames {
+        /// Name of the scene.
+        scene: String,
+        /// Name of the camera.
+        camera: String,
+        /// The layers that were asked for.
+        layers: Vec<&'static str>,
+    },
+}
+
+/// The frames of one camera.
+#[derive(Clone, Copy)]
+struct Shot<'a> {
+    dataset: &'a Dataset,
+    scene: &'a str,
+    camera: &'a str,
+}
+
+/// Writes `<scene>_<camera>_<name>.<format>` to `folder` for each film, and returns what was written in that order.
+///
+/// Every film has one exposure and one range for all frames, but `tonemap`, which is Hypersim's and has that of each frame. A
+/// frame that is missing between others leaves its time to the one before.
+///
+/// # Errors
+/// When no frame has the layers of a film, or something cannot be read, encoded or written.
+pub fn animate_camera(
+    dataset: &Dataset,
+    [scene, camera]: [&str; 2],
+    films: &[Film],
+    config: AnimateConfig,
+    folder: &Path,
+    cx: &dyn Cx,
+) -> Result<Vec<Animated>, AnimateError> {
+    let shot = Shot { dataset, scene, camera };
+    let numbers = dataset.frame_numbers(scene, camera)?;
+    let display = display_exposure(&measure(dataset, [scene, camera], &numbers)?);
+    let frame_time_s = dataset.read_frame_time(scene, camera)?;
+    let timed = if frame_time_s < 1.0 { 1.0 / frame_time_s } else { STILLS_PER_SECOND };
+    let fps = config.fps.unwrap_or(timed);
+    let done = AtomicU64::new(0);
+    let one = |film: &Film| {
+        let path = folder.join(format!("{scene}_{camera}_{}.{}", film.name, config.format.name()));
+        let there = shot.numbers_with(&numbers, &film.layers());
+        if there.is_empty() {
+            let layers = film.layers().iter().map(|layer| layer.spec().name).collect();
+            return Err(AnimateError::NoFrames { scene: scene.into(), camera: camera.into(), layers });
+        }
+        let bytes = shot.encode(*film, &there, display, config.format, fps)?;
+        let animated = Animated { path, frames: there.len(), fps, bytes: bytes.len() as u64 };
+        write_bytes(&animated.path, bytes)?;
+        cx.progress("animations", done.fetch_add(1, Ordering::Relaxed) + 1, films.len() as u64);
+        Ok(animated)
+    };
+    films.par_iter().map(one).collect()
+}
+
+impl Shot<'_> {
+    fn numbers_with(&self, numbers: &[u32], layers: &[Layer]) -> Vec<u32> {
+        let has_all = |&number: &u32| layers.iter().all(|&layer| self.dataset.has_layer(self.scene, self.camera, number, layer));
+        numbers.iter().copied().filter(has_all).collect()
+    }
+
+    fn encode(&self, film: Film, numbers: &[u32], display: ToneMap, format: AnimationFormat, fps: f64) -> Result<Vec<u8>, AnimateError> {
+        let stretch = self.stretch(film, numbers)?;
+        let unencodable = |source| AnimateError::Animation { scene: self.scene.into(), camera: self.camera.into(), source };
+        let mut animation: Option<Animation> = None;
+        for batch in (0..numbers.len()).collect::<Vec<_>>().chunks(BATCH) {
+            let pictures: Vec<Picture> =
+                batch.par_iter().map(|&i| self.picture(film, numbers[i], display, stretch.as_ref())).collect::<Result<_, _>>()?;
+            for (&i, picture) in batch.iter().zip(&pictures) {
+                let times = numbers.get(i + 1).map_or(1, |next| next - numbers[i]);
+                let begun = match &mut animation {
+                    Some(begun) => begun,
+                    None => animation.insert(Animation::begin(format, picture.dimensions(), fps).map_err(unencodable)?),
+                };
+                begun.add(picture, times).map_err(unencodable)?;
+            }
+        }
+        animation.expect("at least one frame").finish().map_err(unencodable)
+    }
+
+    fn picture(&self, film: Film, number: u32, display: ToneMap, stretch: Option<&Stretch>) -> Result<Picture, DatasetError> {
+        let frame = read_present(self.dataset, self.scene, self.camera, number, &film.layers())?;
+        let tone = if film.subject == Subject::ToneMapped { ToneMap::of_frame(&frame).unwrap_or_default() } else { display };
+        let shown = preview_over(film.subject, &frame, tone, stretch);
+        Ok(shown.expect("the frame has all the layers").picture)
+    }
+
+    /// The range over all frames, for a layer that has one.
+    fn stretch(&self, film: Film, numbers: &[u32]) -> Result<Option<Stretch>, DatasetError> {
+        let Subject::Layer(layer) = film.subject else { return Ok(None) };
+        if !is_stretched(layer) {
+            return Ok(None);
+        }
+        let one = |&number: &u32| {
+            let frame = read_present(self.dataset, self.scene, self.camera, number, &[layer])?;
+            let step = (frame.pixels() * numbers.len()).div_ceil(RANGE_SAMPLES);
+            Ok(frame.get(layer).map(|values| shown_values(layer, values, step)).unwrap_or_default())
+        };
+        let frames: Vec<Vec<Vec<f64>>> = numbers.par_iter().map(one).collect::<Result<_, DatasetError>>()?;
+        let channels = frames.iter().map(Vec::len).max().unwrap_or(0);
+        let pooled = |c: usize| frames.iter().flat_map(|frame| &frame[c]).copied().collect();
+        Ok(Some(Stretch::over((0..channels).map(pooled).collect())))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+    use enfilade_scene::Quiet;
+
+    fn animate(root: &Path, names: &[&str], format: AnimationFormat) -> Result<Vec<Animated>, AnimateError> {
+        let films: Vec<Film> = names.iter().map(|name| Film::from_name(name).unwrap()).collect();
+        let dataset = Dataset::open(root).unwrap();
+        animate_camera(&dataset, ["room", "cam_00"], &films, AnimateConfig { format, fps: None }, &root.join("animations"), &Quiet)
+    }
+
+    #[test]
+    fn every_layer_and_every_picture_of_several_layers_can_be_animated() {
+        let folder = tempfile::tempdir().unwrap();
+        testing::dataset(folder.path());
+        let names: Vec<&str> = enfilade_frame::LAYERS.iter().map(|spec| spec.name).collect();
+        let names = [&names[..], &["tonemap", "display", "gamma", "lambertian", "non_lambertian", "diff"]].concat();
+        for animated in animate(folder.path(), &names, AnimationFormat::Gif).unwrap() {
+            assert_eq!((animated.frames, animated.fps), (2, 5.0));
+            assert_eq!(std::fs::metadata(&animated.path).unwrap().len(), animated.bytes, "{}", animated.path.display());
+        }
+        assert!(folder.path().join("animations/room_cam_00_depth_meters.gif").is_file());
+        assert_eq!(Film::from_name("colour"), None);
+    }
+
+    #[test]
+    fn a_layer_that_no_frame_has_is_named_and_missing_frames_are_passed_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        for frame in [0, 1] {
+            std::fs::remove_file(dataset.layout().layer("room", "cam_00", frame, Layer::ColorDenoised)).unwrap();
+        }
+        let message = animate(folder.path(), &["color_denoised"], AnimationFormat::Webp).unwrap_err().to_string();
+        assert_eq!(message, "room/cam_00 has no frame with color_denoised");
+        std::fs::remove_file(dataset.layout().layer("room", "cam_00", 0, Layer::Semantic)).unwrap();
+        assert_eq!(animate(folder.path(), &["semantic"], AnimationFormat::Mp4).unwrap()[0].frames, 1);
+    }
+}

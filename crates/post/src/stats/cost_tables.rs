@@ -1,0 +1,110 @@
+//! Costs from the times of a dataset, and as the tables of Hypersim's toolkit: one row per trajectory and one per frame.
+
+use super::costs::{Cost, CostReport, FrameCost, Price};
+use super::gather::NamedImage;
+use enfilade_dataset::{Dataset, DatasetError, write_bytes};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// By trajectory.
+pub const JOBS: &str = "metadata_rendering_jobs.csv";
+/// By frame.
+pub const TASKS: &str = "metadata_rendering_tasks.csv";
+
+const JOBS_HEADER: &str = "job_name,instance_type,vcpu_per_instance,time_instance_seconds,time_vcpu_seconds,cost_cloud_dollars,\
+    cost_vray_dollars,used_clock,total_clock,cpu_utilization,peak_memory_usage_gib,min_feasible_instance_type,\
+    camera_trajectory_included_in_dataset\n";
+const TASKS_HEADER: &str = "job_name,task_id,time_instance_seconds,time_vcpu_seconds,cost_cloud_dollars,cost_vray_dollars,used_clock,\
+    total_clock,cpu_utilization,peak_memory_usage_gib,samples_per_pixel,camera_trajectory_included_in_dataset\n";
+const HOUR_S: f64 = 3600.0;
+
+/// What the given images cost; `None` when no time is known of any.
+///
+/// # Errors
+/// When the table of times cannot be read.
+pub fn costs(dataset: &Dataset, images: &[NamedImage], prices: &[Price]) -> Result<Option<CostReport>, DatasetError> {
+    let times = dataset.read_times()?;
+    let cost = |image: &NamedImage| {
+        let key = (image.scene.clone(), image.camera.clone(), image.frame);
+        let cost = Cost::of(times.get(&key)?, image.samples_per_pixel);
+        Some((key, cost))
+    };
+    let frames: Vec<_> = images.iter().filter_map(cost).collect();
+    Ok((!frames.is_empty()).then(|| CostReport::new(&frames, prices)))
+}
+
+/// Writes the tables, at the first price.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn write_tables(folder: &Path, report: &CostReport) -> Result<(), DatasetError> {
+    let free = Price { name: String::new(), dollars_per_vcpu_hour: 0.0 };
+    let price = report.prices.first().unwrap_or(&free);
+    let mut jobs: BTreeMap<String, Vec<&Cost>> = BTreeMap::new();
+    let mut tasks = TASKS_HEADER.to_string();
+    for frame in &report.frames {
+        jobs.entry(job_name(frame)).or_default().push(&frame.cost);
+        tasks += &task_row(frame, price);
+    }
+    let rows: String = jobs.into_iter().map(|(name, costs)| job_row(&name, &Cost::sum(costs.into_iter()), price)).collect();
+    write_bytes(&folder.join(JOBS), JOBS_HEADER.to_string() + &rows)?;
+    write_bytes(&folder.join(TASKS), tasks)
+}
+
+/// As the toolkit names jobs.
+fn job_name(frame: &FrameCost) -> String {
+    format!("{}@scene_{}_final", frame.scene, frame.camera)
+}
+
+fn memory(cost: &Cost) -> String {
+    cost.peak_memory_gib.map_or(String::new(), |gib| format!("{gib:.3}"))
+}
+
+/// Seconds on the wall clock and of all vCPUs, dollars, clocks and the share that was used.
+fn shared_cells(cost: &Cost, price: &Price) -> String {
+    let vcpu_s = HOUR_S * cost.vcpu_hours;
+    let dollars = cost.dollars(price);
+    format!("{:.3},{vcpu_s:.3},{dollars:.6},0,{:.3},{vcpu_s:.3},{:.4}", cost.wall_s, cost.cpu_s, cost.utilization())
+}
+
+fn job_row(name: &str, cost: &Cost, price: &Price) -> String {
+    let vcpus = if cost.wall_s > 0.0 { (HOUR_S * cost.vcpu_hours / cost.wall_s).round() } else { 0.0 };
+    format!("{name},,{vcpus},{},{},,True\n", shared_cells(cost, price), memory(cost))
+}
+
+fn task_row(frame: &FrameCost, price: &Price) -> String {
+    let cost = &frame.cost;
+    let samples = cost.samples_per_pixel.map_or(String::new(), |n| format!("{n:.3}"));
+    format!("{},{},{},{},{samples},True\n", job_name(frame), frame.frame, shared_cells(cost, price), memory(cost))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_trajectory_is_a_job_and_its_frames_are_tasks() {
+        let folder = tempfile::tempdir().unwrap();
+        let cost = Cost {
+            frames: 1,
+            wall_s: 10.0,
+            cpu_s: 30.0,
+            vcpu_hours: 40.0 / HOUR_S,
+            peak_memory_gib: Some(2.0),
+            samples_per_pixel: Some(64.0),
+        };
+        let frames: Vec<_> = (0..2).map(|frame| (("room".to_string(), "cam_00".to_string(), frame), cost)).collect();
+        let report = CostReport::new(&frames, &[Price { name: "spot".into(), dollars_per_vcpu_hour: 0.9 }]);
+        write_tables(folder.path(), &report).unwrap();
+        let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+        let (jobs, tasks) = (read(JOBS), read(TASKS));
+        assert_eq!(jobs.lines().nth(1).unwrap(), "room@scene_cam_00_final,,4,20.000,80.000,0.020000,0,60.000,80.000,0.7500,2.000,,True");
+        assert_eq!(
+            tasks.lines().nth(2).unwrap(),
+            "room@scene_cam_00_final,1,10.000,40.000,0.010000,0,30.000,40.000,0.7500,2.000,64.000,True"
+        );
+        for table in [&jobs, &tasks] {
+            assert!(table.lines().all(|line| line.split(',').count() == table.lines().next().unwrap().split(',').count()));
+        }
+    }
+}

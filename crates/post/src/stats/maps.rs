@@ -1,0 +1,130 @@
+//! Charts of two dimensions: hue and saturation, and normals. Counts are shown by their logarithm, in viridis.
+
+use super::chart::{GRID, INK, NOTE, PAPER, SOFT, TITLE};
+use super::measure::{Map, SIDE};
+use crate::drawing::{Anchor, Drawing, Ink, Point, Text};
+use crate::palette::viridis;
+use crate::picture::Picture;
+
+/// Side of a map on the page, pixels.
+const MAP: f32 = 330.0;
+/// Margins and space between maps.
+const MARGIN: f32 = 56.0;
+const TOP: f32 = 96.0;
+const BOTTOM: f32 = 84.0;
+/// Counts below this share of the largest are shown as this.
+const DIMMEST: f64 = 1e-4;
+
+/// What stands around a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// A disc: hue by direction (red to the right, green up to the left), saturation from the middle.
+    Hue,
+    /// A square: components from −1 to 1.
+    Normal,
+}
+
+/// Maps side by side, each with its name.
+pub fn draw_maps(title: &str, note: &str, frame: Frame, maps: &[(String, &Map)]) -> Drawing {
+    let width = MARGIN + maps.len() as f32 * (MAP + MARGIN);
+    let mut page = Drawing::new(width as u32, (TOP + MAP + BOTTOM) as u32, PAPER);
+    let ink = Ink::solid;
+    write(&mut page, [16.0, 28.0], title, TITLE, Anchor::Start, ink(INK));
+    write(&mut page, [16.0, 52.0], note, NOTE, Anchor::Start, ink(SOFT));
+    for (i, (name, map)) in maps.iter().enumerate() {
+        let left = MARGIN + i as f32 * (MAP + MARGIN);
+        write(&mut page, [left + 0.5 * MAP, TOP - 16.0], name, NOTE, Anchor::Middle, ink(INK));
+        page.picture([left, TOP], picture(map, frame));
+        match frame {
+            Frame::Hue => around_disc(&mut page, [left + 0.5 * MAP, TOP + 0.5 * MAP]),
+            Frame::Normal => around_square(&mut page, left),
+        }
+    }
+    scale(&mut page, MARGIN);
+    page
+}
+
+fn write(page: &mut Drawing, at: Point, words: &str, height: f32, anchor: Anchor, ink: Ink) {
+    page.write(Text { at, words: words.into(), height, bold: height >= TITLE, anchor, ink, halo: None });
+}
+
+/// Colour of a share of the largest count.
+fn color(share: f64) -> [u8; 3] {
+    viridis(1.0 - share.max(DIMMEST).log10() / DIMMEST.log10())
+}
+
+fn picture(map: &Map, frame: Frame) -> Picture {
+    let most = map.counts.iter().copied().max().unwrap_or(1).max(1) as f64;
+    let scale = SIDE as f32 / MAP;
+    Picture::from_fn(MAP as u32, MAP as u32, |x, y| {
+        let [x, y] = [x as f32 + 0.5, y as f32 + 0.5];
+        let from_center = ((x - 0.5 * MAP).powi(2) + (y - 0.5 * MAP).powi(2)).sqrt();
+        if frame == Frame::Hue && from_center > 0.5 * MAP {
+            return image::Rgba([PAPER[0], PAPER[1], PAPER[2], 255]);
+        }
+        let (column, row) = ((x * scale) as usize, SIDE - 1 - (y * scale) as usize);
+        let [r, g, b] = color(map.counts[row.min(SIDE - 1) * SIDE + column.min(SIDE - 1)] as f64 / most);
+        image::Rgba([r, g, b, 255])
+    })
+}
+
+fn around_disc(page: &mut Drawing, [x, y]: Point) {
+    let radius = 0.5 * MAP;
+    let circle =
+        |r: f32| -> Vec<Point> { (0..=96).map(|i| f32::to_radians(3.75 * i as f32)).map(|a| [x + r * a.cos(), y - r * a.sin()]).collect() };
+    page.lines(vec![circle(radius)], 1.5, Ink::solid(SOFT));
+    page.lines(vec![circle(0.5 * radius)], 1.0, Ink::veil(GRID, 0.5));
+    let hues = ["red", "yellow", "green", "cyan", "blue", "magenta"];
+    for (i, name) in hues.iter().enumerate() {
+        let angle = f32::to_radians(60.0 * i as f32);
+        let place = [x + (radius - 14.0) * angle.cos(), y - (radius - 14.0) * angle.sin() + 4.0];
+        let anchor = if i % 6 == 0 {
+            Anchor::End
+        } else if i == 3 {
+            Anchor::Start
+        } else {
+            Anchor::Middle
+        };
+        write(page, place, name, 8.5, anchor, Ink::solid(PAPER));
+    }
+}
+
+fn around_square(page: &mut Drawing, left: f32) {
+    let (right, bottom) = (left + MAP, TOP + MAP);
+    page.line(&[[left, TOP], [right, TOP], [right, bottom], [left, bottom], [left, TOP]], 1.5, Ink::solid(SOFT));
+    for (share, label) in [(0.0, "-1"), (0.5, "0"), (1.0, "1")] {
+        write(page, [left + share * MAP, bottom + 18.0], label, NOTE, Anchor::Middle, Ink::solid(SOFT));
+        write(page, [left - 8.0, bottom - share * MAP + 4.0], label, NOTE, Anchor::End, Ink::solid(SOFT));
+    }
+    write(page, [left + 0.25 * MAP, bottom + 18.0], "left", NOTE, Anchor::Middle, Ink::solid(SOFT));
+    write(page, [left + 0.75 * MAP, bottom + 18.0], "right", NOTE, Anchor::Middle, Ink::solid(SOFT));
+    write(page, [left - 8.0, bottom - 0.75 * MAP + 4.0], "up", NOTE, Anchor::End, Ink::solid(SOFT));
+    write(page, [left - 8.0, bottom - 0.25 * MAP + 4.0], "down", NOTE, Anchor::End, Ink::solid(SOFT));
+}
+
+/// What the colours mean.
+fn scale(page: &mut Drawing, left: f32) {
+    let (top, steps) = (TOP + MAP + 38.0, 96);
+    for i in 0..steps {
+        let share = f64::from(i) / f64::from(steps - 1);
+        let x = left + 96.0 + 2.0 * i as f32;
+        page.bar([x, top, 2.5, 12.0], Ink::solid(viridis(share)));
+    }
+    write(page, [left, top + 11.0], "1/10000 or less", 8.5, Anchor::Start, Ink::solid(SOFT));
+    write(page, [left + 96.0 + 2.0 * steps as f32 + 10.0, top + 11.0], "most", 8.5, Anchor::Start, Ink::solid(SOFT));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_a_map_go_up_and_its_largest_count_is_brightest() {
+        let mut map = Map::default();
+        map.counts[90 * SIDE + 20] = 1000;
+        let shown = picture(&map, Frame::Normal);
+        let at = |x: f32, y: f32| shown.get_pixel((x * MAP) as u32, (y * MAP) as u32).0;
+        assert_eq!(at(0.205, 0.095)[..3], viridis(1.0));
+        assert_eq!(at(0.5, 0.5)[..3], viridis(0.0));
+    }
+}

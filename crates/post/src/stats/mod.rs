@@ -1,0 +1,248 @@
+//! Statistics of a dataset: what its images show and what they cost, as numbers, charts and one page for a browser.
+//!
+//! [`write_statistics`] counts every frame by the layers that it has, in Hypersim's bins, and draws the counts, over those of another
+//! dataset where one is named. What differs between two runs (times, costs) stands apart in `costs.json` and files of its own; all
+//! else is the same for the same dataset.
+//!
+//! ```text
+//! statistics/statistics.json              dataset, scenes, images, outliers
+//! statistics/statistics.html              the page
+//! statistics/image_statistics/*.hdf5      counts of all images, as Hypersim's toolkit stores them
+//! statistics/plots/*.{png,svg}            the charts
+//! statistics/costs.json, metadata_rendering_{jobs,tasks}.csv     where costs are asked for
+//! ```
+
+mod canvas;
+mod chart;
+mod cost_tables;
+mod costs;
+mod gather;
+mod histogram;
+mod html;
+mod maps;
+mod measure;
+mod outlier;
+mod plots;
+mod report;
+mod toolkit;
+
+pub use costs::{Cost, CostReport, Price};
+
+use crate::drawing::{paint, svg};
+use crate::picture::png;
+use enfilade_dataset::{Dataset, DatasetError, write_bytes};
+use enfilade_frame::Pass;
+use enfilade_scene::Cx;
+use html::{Shown, statistics_page};
+use outlier::Outlier;
+use plots::{Plot, Reference, cost_plots, plots};
+use rayon::prelude::*;
+use report::{Report, cost_outliers};
+use std::path::{Path, PathBuf};
+
+/// Files of costs, which are removed where costs are not asked for.
+const COST_FILES: [&str; 3] = ["costs.json", cost_tables::JOBS, cost_tables::TASKS];
+
+/// What is asked for.
+#[derive(Clone, Debug, Default)]
+pub struct StatsConfig {
+    /// Scenes to count; their order is that of the files.
+    pub scenes: Vec<String>,
+    /// Folder to write instead of the dataset's own.
+    pub folder: Option<PathBuf>,
+    /// A folder of histograms to draw ours over: Hypersim's image statistics, or the statistics of another dataset.
+    pub compare: Option<PathBuf>,
+    /// What is paid; costs are left out when this is empty.
+    pub prices: Vec<Price>,
+}
+
+/// What was written.
+#[derive(Clone, Debug)]
+pub struct StatsSummary {
+    /// The page.
+    pub page: PathBuf,
+    /// Images counted.
+    pub images: u64,
+    /// Images that stand apart in some respect.
+    pub outliers: usize,
+    /// What all frames cost, where costs are asked for and times are known.
+    pub cost: Option<Cost>,
+}
+
+/// Writes the statistics of a dataset; older ones in the folder are replaced.
+///
+/// # Errors
+/// When a file cannot be read or written, or there is nothing to compare with.
+pub fn write_statistics(dataset: &Dataset, config: &StatsConfig, cx: &dyn Cx) -> Result<StatsSummary, DatasetError> {
+    let folder = config.folder.clone().unwrap_or_else(|| dataset.layout().statistics_dir());
+    let reference = config.compare.as_deref().map(read_reference).transpose()?;
+    let gathered = gather::gather(dataset, &config.scenes, cx)?;
+    remove_older(&folder)?;
+    let costs = if config.prices.is_empty() { None } else { cost_tables::costs(dataset, &gathered.images, &config.prices)? };
+    toolkit::write_histograms(&folder.join(toolkit::FOLDER), &gathered.all)?;
+    let shown = plots(&gathered.all, reference.as_ref());
+    let report = Report::new(gathered);
+    let mut outliers = report.outliers.clone();
+    let mut cost_shown = Vec::new();
+    if let Some(costs) = &costs {
+        outliers.extend(cost_outliers(costs));
+        cost_shown = cost_plots(costs);
+        write_json(&folder.join("costs.json"), costs)?;
+        cost_tables::write_tables(&folder, costs)?;
+    }
+    shown.par_iter().chain(&cost_shown).try_for_each(|plot| write_plot(&folder, plot))?;
+    write_json(&folder.join("statistics.json"), &report)?;
+    let preview = |outlier: &Outlier| preview_from(dataset, &folder, outlier);
+    let name = name_of(dataset)?;
+    let page = statistics_page(&Shown {
+        dataset: &name,
+        report: &report,
+        costs: costs.as_ref(),
+        plots: &shown,
+        cost_plots: &cost_shown,
+        outliers: &outliers,
+        preview: &preview,
+        reference: reference.as_ref().map(|r| r.name.as_str()),
+    });
+    let path = folder.join("statistics.html");
+    write_bytes(&path, page)?;
+    let cost = costs.map(|costs| costs.total);
+    Ok(StatsSummary { page: path, images: report.dataset.images, outliers: outliers.len(), cost })
+}
+
+/// The name that the dataset was given, or without one that of its folder.
+fn name_of(dataset: &Dataset) -> Result<String, DatasetError> {
+    let manifest = dataset.read_manifest()?;
+    let given = manifest.as_ref().and_then(|manifest| manifest.config["name"].as_str());
+    let folder = std::path::absolute(dataset.root()).unwrap_or_else(|_| dataset.root().into());
+    Ok(given.map_or_else(|| folder.file_name().unwrap_or_default().to_string_lossy().into_owned(), str::to_string))
+}
+
+fn read_reference(folder: &Path) -> Result<Reference, DatasetError> {
+    let counts = toolkit::read_histograms(folder)?.ok_or_else(|| DatasetError::NotADataset {
+        root: folder.into(),
+        problem: "it has no metadata_*_hist_*.hdf5; name a folder of Hypersim's image statistics, or of statistics of ours".into(),
+    })?;
+    let is_ours = folder.join("statistics.json").is_file();
+    let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.into());
+    let owner = absolute.parent().filter(|_| is_ours).and_then(Path::file_name);
+    let name = owner.map_or("the reference".into(), |name| name.to_string_lossy().into_owned());
+    Ok(Reference { name, counts })
+}
+
+/// Charts and costs of earlier statistics would be taken for these.
+fn remove_older(folder: &Path) -> Result<(), DatasetError> {
+    let plots = folder.join("plots");
+    let removed = std::fs::remove_dir_all(&plots).map_err(|error| (plots, error));
+    let files = COST_FILES.map(|name| folder.join(name));
+    let files = files.into_iter().map(|file| std::fs::remove_file(&file).map_err(|error| (file, error)));
+    for result in std::iter::once(removed).chain(files) {
+        match result {
+            Err((path, source)) if source.kind() != std::io::ErrorKind::NotFound => {
+                return Err(DatasetError::Io { action: "remove", path, source });
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn write_plot(folder: &Path, plot: &Plot) -> Result<(), DatasetError> {
+    let file = |extension: &str| folder.join("plots").join(format!("{}.{extension}", plot.name));
+    write_bytes(&file("png"), png(&paint(&plot.drawing), None))?;
+    write_bytes(&file("svg"), svg(&plot.drawing))
+}
+
+fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), DatasetError> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| DatasetError::Io {
+        action: "write",
+        path: path.into(),
+        source: error.into(),
+    })?;
+    write_bytes(path, text + "\n")
+}
+
+/// The tone-mapped preview of an image, from the page's folder where both lie in one dataset.
+fn preview_from(dataset: &Dataset, folder: &Path, outlier: &Outlier) -> String {
+    let path = dataset.layout().preview(&outlier.scene, &outlier.camera, outlier.frame, Pass::Final, "tonemap.jpg");
+    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.into());
+    let (root, path, folder) = (absolute(dataset.root()), absolute(&path), absolute(folder));
+    let (Ok(from), Ok(to)) = (folder.strip_prefix(&root), path.strip_prefix(&root)) else { return path.display().to_string() };
+    let up = from.components().map(|_| "..");
+    let down = to.components().map(|part| part.as_os_str().to_string_lossy());
+    up.map(Into::into).chain(down).collect::<Vec<std::borrow::Cow<'_, str>>>().join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+    use enfilade_scene::Quiet;
+    use std::collections::BTreeMap;
+
+    fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+        let mut found = BTreeMap::new();
+        let mut folders = vec![folder.to_path_buf()];
+        while let Some(next) = folders.pop() {
+            for entry in std::fs::read_dir(&next).unwrap() {
+                let path = entry.unwrap().path();
+                if path.is_dir() {
+                    folders.push(path);
+                } else {
+                    found.insert(path.strip_prefix(folder).unwrap().to_path_buf(), std::fs::read(&path).unwrap());
+                }
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn every_file_of_the_page_is_there_and_the_same_on_any_number_of_threads() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        let config = StatsConfig { scenes: vec!["room".into()], ..StatsConfig::default() };
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| write_statistics(&dataset, &config, &Quiet).unwrap());
+            files(&folder.path().join("statistics"))
+        };
+        let (one, four) = (on(1), on(4));
+        assert!(one == four);
+        let page = String::from_utf8(one[Path::new("statistics.html")].clone()).unwrap();
+        let linked: Vec<&str> = page.split(['"']).filter(|part| part.starts_with("plots/")).collect();
+        assert!(linked.len() > 30 && linked.iter().all(|file| one.contains_key(Path::new(file))), "{linked:?}");
+        assert!(!page.contains("<script") && !page.contains("://") && !one.contains_key(Path::new("costs.json")));
+    }
+
+    #[test]
+    fn a_dataset_is_compared_with_another_and_costs_come_and_go() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(&folder.path().join("a"));
+        let config = StatsConfig { scenes: vec!["room".into()], ..StatsConfig::default() };
+        let first = write_statistics(&dataset, &StatsConfig { prices: vec![Price::default()], ..config.clone() }, &Quiet).unwrap();
+        assert_eq!((first.images, first.cost.unwrap().frames), (2, 2));
+        let other =
+            StatsConfig { folder: Some(folder.path().join("b")), compare: Some(dataset.layout().statistics_dir()), ..config.clone() };
+        let second = write_statistics(&dataset, &other, &Quiet).unwrap();
+        assert!(std::fs::read_to_string(second.page).unwrap().contains("Over the charts: a."));
+        assert!(dataset.layout().statistics_dir().join("costs.json").is_file());
+        write_statistics(&dataset, &config, &Quiet).unwrap();
+        assert!(!dataset.layout().statistics_dir().join("costs.json").exists());
+        let nothing = StatsConfig { compare: Some(folder.path().join("a/scenes")), ..config };
+        assert!(write_statistics(&dataset, &nothing, &Quiet).unwrap_err().to_string().contains("metadata_*_hist_*.hdf5"));
+    }
+
+    #[test]
+    fn previews_are_found_from_the_page() {
+        let dataset = Dataset::create(tempfile::tempdir().unwrap().path()).unwrap();
+        let outlier =
+            Outlier { scene: "hall".into(), camera: "cam_01".into(), frame: 7, quantity: "noise", value: 1.0, median: 0.1, score: 9.0 };
+        let preview = preview_from(&dataset, &dataset.layout().statistics_dir(), &outlier);
+        assert_eq!(preview, "../scenes/hall/images/scene_cam_01_final_preview/frame.0007.tonemap.jpg");
+        let elsewhere = preview_from(&dataset, Path::new("/elsewhere"), &outlier);
+        assert!(
+            elsewhere.ends_with("scenes/hall/images/scene_cam_01_final_preview/frame.0007.tonemap.jpg")
+                && Path::new(&elsewhere).is_absolute()
+        );
+    }
+}

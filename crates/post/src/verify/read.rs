@@ -1,0 +1,92 @@
+//! Reading what is verified. What cannot be read goes on the card.
+
+use super::card::Card;
+use super::check_labels;
+use super::law::Law;
+use enfilade_dataset::hdf5::read_array;
+use enfilade_dataset::{Dataset, DatasetError, Node};
+use enfilade_frame::{Dtype, Frame, Layer, LayerSpec, Values, f16};
+use enfilade_geometry::OccupancyTree;
+use enfilade_scene::{Labels, PartLabel};
+
+/// The value of a read; what cannot be read goes on the card.
+pub(super) fn readable<T>(card: &mut Card, read: Result<T, DatasetError>) -> Option<T> {
+    let problem = read.as_ref().err().map(ToString::to_string);
+    card.observe(Law::Readable, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
+    read.ok()
+}
+
+/// Those of the layers that are there, exactly as stored: other types or sizes than the table's go on the card.
+pub(super) fn read_frame(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32, layers: &[Layer], card: &mut Card) -> Option<Frame> {
+    let mut frame: Option<Frame> = None;
+    for spec in layers.iter().map(|layer| layer.spec()).filter(|spec| dataset.has_layer(scene, camera, number, spec.layer)) {
+        let path = dataset.layout().layer(scene, camera, number, spec.layer);
+        let Some(array) = readable(card, read_array(&path)) else { continue };
+        let shape = array.shape.clone();
+        let size = image_size(&shape, spec);
+        let values = array.values.into_values().ok();
+        if size.is_none() || values.as_ref().is_none_or(|values| values.dtype() != spec.dtype) {
+            let expected =
+                format!("expected an image of {} channels of {:?}, found shape {shape:?} or another type", spec.channels, spec.dtype);
+            card.observe(Law::Readable, 1.0, || format!("{}: {expected}", path.display()));
+        }
+        let (Some((width, height)), Some(values)) = (size, values.and_then(|values| as_floats(values, spec.dtype))) else { continue };
+        let frame = frame.get_or_insert_with(|| Frame::new(width, height));
+        if (frame.width, frame.height) == (width, height) {
+            frame.insert(spec.layer, values);
+        } else {
+            let other = format!("{width}x{height} pixels, but other layers of the frame have {}x{}", frame.width, frame.height);
+            card.observe(Law::Readable, 1.0, || format!("{}: {other}", path.display()));
+        }
+    }
+    frame
+}
+
+/// Values in the type of their layer: Hypersim's own distances and positions are float16, and can be looked at nevertheless.
+fn as_floats(values: Values, dtype: Dtype) -> Option<Values> {
+    match (values, dtype) {
+        (Values::F16(halves), Dtype::F32) => Some(Values::F32(halves.into_iter().map(f16::to_f32).collect())),
+        (values, dtype) => (values.dtype() == dtype).then_some(values),
+    }
+}
+
+/// Width and height of an image of the layer's channels.
+fn image_size(shape: &[usize], spec: &LayerSpec) -> Option<(u32, u32)> {
+    match (shape, spec.channels) {
+        (&[height, width], 1) => Some((width as u32, height as u32)),
+        (&[height, width, channels], expected) if channels == expected && expected > 1 => Some((width as u32, height as u32)),
+        _ => None,
+    }
+}
+
+/// The labels by render entity.
+pub(super) fn read_labels(dataset: &Dataset, scene: &str, nodes: &[Node], card: &mut Card) -> Option<Labels> {
+    let tables = match dataset.read_label_tables(scene) {
+        Ok(tables) => tables,
+        Err(error) => {
+            card.observe(Law::LabelTables, 1.0, || error.to_string());
+            return None;
+        }
+    };
+    let objects = nodes.iter().filter_map(|node| node.object_id).max().map_or(0, |id| id as usize + 1);
+    let enough = tables.parts.len() >= objects;
+    card.observe(Law::LabelTables, if enough { 0.0 } else { 1.0 }, || {
+        format!("{scene}: {} rows for {objects} objects", tables.parts.len())
+    });
+    card.merge(check_labels(&tables, scene));
+    let label = |node: &Node| node.object_id.and_then(|id| tables.parts.get(id as usize)).copied().unwrap_or(PartLabel::NONE);
+    Some(Labels { parts: nodes.iter().map(label).collect() })
+}
+
+/// The free space, if there is one.
+pub(super) fn read_tree(dataset: &Dataset, scene: &str, card: &mut Card) -> Option<OccupancyTree> {
+    let path = dataset.layout().octomap(scene);
+    let bytes = match dataset.read_free_space(scene) {
+        Err(error) if error.is_not_found() => return None,
+        read => readable(card, read)?.0,
+    };
+    let tree = OccupancyTree::from_bt(&bytes);
+    let problem = tree.as_ref().err().map(|error| format!("{}: {error}", path.display()));
+    card.observe(Law::Readable, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
+    tree.ok()
+}
