@@ -15,6 +15,7 @@ mod peers;
 mod python;
 mod spdx;
 mod step;
+mod storage;
 mod test;
 
 use house::House;
@@ -25,7 +26,8 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask test [STEP...]                 all tests, then the release binary on the demo
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
-       cargo xtask bench render [ROOM...]         what pictures of real rooms cost, against Mitsuba 3";
+       cargo xtask bench render [ROOM...]         what pictures of real rooms cost, against Mitsuba 3
+       cargo xtask bench storage [DATASET...]     size and reading time of the files, against Hypersim's";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
         ["check", rest @ ..] => check::run(&house, rest),
         ["test", rest @ ..] => test::run(&house, rest),
         ["bench", "render", rest @ ..] => peers::run(&house, "bench_render", rest),
+        ["bench", "storage", rest @ ..] => storage::run(&house, rest),
         ["oracle", rest @ ..] => peers::run(&house, "oracle", rest),
         ["bench", rest @ ..] => bench::run(&house, rest),
         [] | ["help" | "--help" | "-h"] => {

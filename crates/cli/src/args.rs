@@ -1,6 +1,8 @@
 //! The command line: one definition per verb and flag, with its help and an example.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use enfilade_post::animation::AnimationFormat;
+use enfilade_post::drivers::Film;
 use std::path::PathBuf;
 
 /// Turns 3D interiors into photorealistic image datasets with dense ground truth, in Hypersim's layout.
@@ -26,11 +28,19 @@ pub enum Verb {
     Run(RunArgs),
     /// Scene file -> scene package
     Import(ImportArgs),
+    /// A furnished home of a seed -> scene package
+    Home(HomeArgs),
     /// Scene -> free space (octomap.bt)
-    #[command(after_help = "Example:\n  enfilade carve out --scene living-room")]
+    #[command(after_help = "Example:\n  enfilade carve out --scene home")]
     Carve(StageArgs),
     /// Scene, free space -> camera trajectories
     Plan(PlanArgs),
+    /// Scene, trajectories -> which views are worth rendering
+    #[command(
+        after_help = "Example:\n  enfilade gate out\n\nViews that are blank, buried, blocked, outside or of a bare wall are not rendered. _detail/gates.html shows them; [gate] in\n\
+        dataset.toml has the limits, and action = \"report\" renders them all the same."
+    )]
+    Gate(StageArgs),
     /// Scene, trajectories -> frames
     #[command(
         after_help = "Examples:\n  enfilade render out --scene 'bed*'\n  enfilade render out --noise 2% --samples 4096 --splits\n\nFinished frames are kept; a killed run goes on where it was."
@@ -53,27 +63,34 @@ pub enum Verb {
     /// Frames -> a picture of every layer, and a contact sheet per trajectory
     #[command(after_help = "Example:\n  enfilade preview out")]
     Preview(StageArgs),
-    /// Check the laws that tie the layers of a dataset together; the exit code says whether all hold
+    /// Check the laws that tie the layers of a dataset together, and write its report card; the exit code says whether all hold
     Verify(VerifyArgs),
     /// Divide the dataset by scene into train, val and test, from now on in this way
     Split(SplitArgs),
     /// Everything about one pixel
     Inspect(InspectArgs),
+    /// Render one frame again from its record, and compare the bytes
+    Replay(ReplayArgs),
     /// The dataset in a layout that other programs load: COCO, BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, ...
     Export(ExportArgs),
+    /// Frames -> MP4, GIF or animated WebP of each trajectory, layer by layer
+    Animate(AnimateArgs),
+    /// What the images show and what they cost: numbers, charts, outliers
+    Stats(StatsArgs),
 }
 
 /// `run`.
 #[derive(Args)]
 #[command(
     after_help = "Examples:\n  enfilade run --demo out\n  enfilade run --demo out --seed 2 --frames 8 --size 640x480 --quality draft\n  \
-    enfilade run dataset.toml -o out --noise 2% --samples 4096\n\nA second run does nothing that is already done; a killed run goes on where it was."
+    enfilade run dataset.toml -o out --noise 2% --samples 4096\n  \
+    enfilade run dataset.toml -o out --estimate --price 0.048\n\nA second run does nothing that is already done; a killed run goes on where it was."
 )]
 pub struct RunArgs {
     /// The scenes to use and what to make of them
     #[arg(value_name = "DATASET.TOML", required_unless_present = "demo", conflicts_with = "demo")]
     pub config: Option<PathBuf>,
-    /// Make the demo dataset in the folder OUT instead: a generated living room
+    /// Make the demo dataset in the folder OUT instead: a generated home
     #[arg(long, value_name = "OUT")]
     pub demo: Option<PathBuf>,
     /// Output folder [default: the dataset's name, in the current folder]
@@ -97,6 +114,12 @@ pub struct RunArgs {
     /// Only the scenes of these names ("bed*", "hall,bedroom")
     #[arg(long, value_name = "PATTERN", visible_alias = "scene")]
     pub scenes: Option<String>,
+    /// Tell what time, money, disk and memory the run will take, from a pilot of a few pixels; nothing is rendered
+    #[arg(long)]
+    pub estimate: bool,
+    /// With --estimate: dollars per vCPU-hour, or a CSV table of them with names [default: 0.0165, Hypersim's median]
+    #[arg(long, value_name = "X|CSV", requires = "estimate")]
+    pub price: Option<String>,
 }
 
 /// `--quality`.
@@ -125,7 +148,7 @@ pub struct StageArgs {
 
 /// `plan`.
 #[derive(Args)]
-#[command(after_help = "Examples:\n  enfilade plan out --scene living-room\n  enfilade plan out --preview\n\n\
+#[command(after_help = "Examples:\n  enfilade plan out --scene home\n  enfilade plan out --preview\n\n\
     --preview draws what was planned: plan and sections with free space, frusta and scores, every view coloured by part, and statistics.")]
 pub struct PlanArgs {
     #[command(flatten)]
@@ -177,17 +200,81 @@ pub struct RenderFlags {
     pub denoise: bool,
 }
 
+/// `home`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  enfilade home --seed 7\n  enfilade home --rooms living,kitchen,bedroom,bathroom,hall --seed 7 -o home.scene\n\n\
+    Rooms: living, kitchen, dining, bedroom, childrens, study, bathroom, toilet, hall, laundry; each may come several times.\n\
+    The labels lie beside the package, in NAME.labels.csv. In a dataset, home = { seed = 7, rooms = [...] } does the same."
+)]
+pub struct HomeArgs {
+    /// The rooms [default: four to eight, as the seed decides]
+    #[arg(long, value_name = "KIND,KIND", value_delimiter = ',', value_parser = parse_room)]
+    pub rooms: Vec<enfilade_pipeline::RoomKind>,
+    /// Seed of everything random
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// Seed of the floor plan alone
+    #[arg(long, value_name = "SEED")]
+    pub layout: Option<u64>,
+    /// Seed of the furniture alone
+    #[arg(long, value_name = "SEED")]
+    pub furniture: Option<u64>,
+    /// Seed of colours and materials alone
+    #[arg(long, value_name = "SEED")]
+    pub materials: Option<u64>,
+    /// Share of the colours that go together; the others are random
+    #[arg(long, default_value_t = 1.0, value_name = "SHARE")]
+    pub realism: f32,
+    /// Seed of the light alone
+    #[arg(long, value_name = "SEED")]
+    pub light: Option<u64>,
+    /// Part of the day [default: as the seed decides]
+    #[arg(long)]
+    pub moment: Option<MomentArg>,
+    /// Density of small things: 0 has none, 1 is a home that is lived in, 2 is untidy
+    #[arg(long, default_value_t = 1.0, value_name = "X")]
+    pub clutter: f32,
+    /// The scene package (.scene) or binary glTF (.glb) to write, labels included
+    #[arg(short, long, value_name = "FILE", default_value = "home.scene")]
+    pub output: PathBuf,
+}
+
+/// `--moment`.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum MomentArg {
+    /// The sun is up
+    Day,
+    /// Blue dusk outside, lamps inside
+    Evening,
+    /// Lamps alone
+    Night,
+}
+
+impl MomentArg {
+    /// The moment it names.
+    pub fn moment(self) -> enfilade_pipeline::Moment {
+        use enfilade_pipeline::Moment;
+        match self {
+            Self::Day => Moment::Day,
+            Self::Evening => Moment::Evening,
+            Self::Night => Moment::Night,
+        }
+    }
+}
+
 /// `import`.
 #[derive(Args)]
 #[command(
     after_help = "Examples:\n  enfilade import room.gltf -o room.scene\n  enfilade import hall.xml -o hall.scene --meters-per-unit 0.4\n  \
-    enfilade import out --scene living-room"
+    enfilade import hall.xml -o hall.glb\n  \
+    enfilade import out --scene home"
 )]
 pub struct ImportArgs {
     /// A scene file (.gltf, .glb, .obj, .xml), or the folder of a dataset to import the scenes of
     pub input: PathBuf,
-    /// The scene package to write [default: the input's name with .scene, in the current folder]
-    #[arg(short, long, value_name = "PACKAGE")]
+    /// The scene package (.scene) or binary glTF (.glb) to write [default: the input's name with .scene, in the current folder]
+    #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Metres per unit of the file
     #[arg(long, default_value_t = 1.0, value_name = "X")]
@@ -220,7 +307,7 @@ pub enum UpAxisArg {
 
 /// `label`.
 #[derive(Args)]
-#[command(after_help = "Examples:\n  enfilade label out\n  enfilade label out --scene living-room --table my_labels.csv\n\n\
+#[command(after_help = "Examples:\n  enfilade label out\n  enfilade label out --scene home --table my_labels.csv\n\n\
     The table is CSV: a column `part`, `object`, `material` or `name`, a column `nyu40_id` or `semantic` (number or name of a class),\n\
     and if wanted `scene` and `instance`.")]
 pub struct LabelArgs {
@@ -234,13 +321,18 @@ pub struct LabelArgs {
 
 /// `verify`.
 #[derive(Args)]
-#[command(after_help = "Example:\n  enfilade verify out\n\nIt also reads datasets of Hypersim itself.")]
+#[command(after_help = "Examples:\n  enfilade verify out\n  enfilade verify out --strict\n\n\
+    The card is stored beside the data: verify.json has every value, verify.html is for a browser. Gates are what those who train on\n\
+    such data ask of a frame (docs/verify.md). It also reads datasets of Hypersim itself.")]
 pub struct VerifyArgs {
     /// The dataset's folder
     pub dataset: PathBuf,
     /// Only the scenes of these names ("bed*", "hall,bedroom")
     #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
     pub scene: Option<String>,
+    /// Fail also where a gate rejects a frame
+    #[arg(long)]
+    pub strict: bool,
 }
 
 /// `split`.
@@ -262,7 +354,7 @@ pub struct SplitArgs {
 
 /// `inspect`.
 #[derive(Args)]
-#[command(after_help = "Example:\n  enfilade inspect out --scene living-room --camera cam_00 --frame 0 --pixel 160,120")]
+#[command(after_help = "Example:\n  enfilade inspect out --scene home --camera cam_00 --frame 0 --pixel 160,120")]
 pub struct InspectArgs {
     /// The dataset's folder
     pub dataset: PathBuf,
@@ -280,10 +372,25 @@ pub struct InspectArgs {
     pub pixel: (u32, u32),
 }
 
+/// `replay`.
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  enfilade replay out/scenes/home/_detail/cam_00/frames/frame.0000.json\n\nThe exit code is 1 when a byte differs. \
+    Labels and denoised layers are made from a frame afterwards and are not compared."
+)]
+pub struct ReplayArgs {
+    /// The commit record of the frame
+    #[arg(value_name = "FRAME.JSON")]
+    pub record: PathBuf,
+    /// Write the layers below this folder [default: keep nothing]
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+}
+
 /// `export`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  enfilade export out --format coco -o out-coco\n  enfilade export out --format colmap -o room --scene living-room --camera cam_00 --frames 0..10\n  \
+    after_help = "Examples:\n  enfilade export out --format coco -o out-coco\n  enfilade export out --format colmap -o room --scene home --camera cam_00 --frames 0..10\n  \
     enfilade export out --format exr -o exr --layers color,depth_meters,semantic_instance\n\nNothing is rendered. docs/export.md has units, axes and contents of every format; each export has a README.md."
 )]
 pub struct ExportArgs {
@@ -315,6 +422,84 @@ pub struct ExportArgs {
     pub force: bool,
 }
 
+/// `animate`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  enfilade animate out\n  enfilade animate out --layers color,depth_meters,semantic --fps 10\n  \
+    enfilade animate out --scene home --camera cam_00 --layers tonemap --format webp -o films\n\nExposure and ranges are the same in \
+    all frames, but in tonemap, which is Hypersim's. docs/previews.md has the names.")]
+pub struct AnimateArgs {
+    /// The dataset's folder
+    pub dataset: PathBuf,
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
+    pub scene: Option<String>,
+    /// Only the cameras of these names ("cam_00", "cam_0*")
+    #[arg(long, value_name = "PATTERN", visible_alias = "cameras")]
+    pub camera: Option<String>,
+    /// What to show, one file each: layers, or tonemap, gamma, lambertian, non_lambertian, diff
+    #[arg(long, value_name = "NAME,NAME", value_delimiter = ',', default_value = "color", value_parser = parse_film)]
+    pub layers: Vec<Film>,
+    /// The form of the files
+    #[arg(long, value_enum, default_value_t = AnimationFormatArg::Mp4)]
+    pub format: AnimationFormatArg,
+    /// Pictures per second [default: as the trajectory was timed if it is a video, else 5]
+    #[arg(long, value_name = "N")]
+    pub fps: Option<f64>,
+    /// The folder to write to [default: `animations` in the dataset]
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+}
+
+/// `--format` of `animate`.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum AnimationFormatArg {
+    /// H.264; for every browser and player
+    Mp4,
+    /// 256 colours per picture; for everything that shows pictures
+    Gif,
+    /// Animated WebP; for browsers
+    Webp,
+}
+
+impl From<AnimationFormatArg> for AnimationFormat {
+    fn from(arg: AnimationFormatArg) -> Self {
+        match arg {
+            AnimationFormatArg::Mp4 => Self::Mp4,
+            AnimationFormatArg::Gif => Self::Gif,
+            AnimationFormatArg::Webp => Self::Webp,
+        }
+    }
+}
+
+fn parse_film(name: &str) -> Result<Film, String> {
+    let layers = || enfilade_frame::LAYERS.iter().map(|spec| spec.name).collect::<Vec<_>>().join(", ");
+    let found = Film::from_name(name.trim());
+    found.ok_or_else(|| format!("there are tonemap, gamma, lambertian, non_lambertian, diff, and the layers {}", layers()))
+}
+
+/// `stats`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  enfilade stats out\n  enfilade stats out --price 0.048 --compare other-dataset/statistics\n\nThe page is statistics/statistics.html. \
+    Hypersim's own datasets are read as far as they have the layers; its\npublished image statistics can be compared with."
+)]
+pub struct StatsArgs {
+    /// The dataset's folder
+    pub dataset: PathBuf,
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
+    pub scene: Option<String>,
+    /// Dollars per vCPU-hour, or a CSV table of them with names [default: 0.0165, Hypersim's median]
+    #[arg(long, value_name = "X|CSV", allow_hyphen_values = true)]
+    pub price: Option<String>,
+    /// Draw the charts over the histograms of this folder: statistics of another dataset, or Hypersim's
+    #[arg(long, value_name = "FOLDER")]
+    pub compare: Option<PathBuf>,
+    /// The folder to write [default: statistics, in the dataset]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
+}
+
 /// The formats as `--format` shows them.
 fn format_values() -> Vec<clap::builder::PossibleValue> {
     enfilade_export::FORMATS.iter().map(|spec| clap::builder::PossibleValue::new(spec.name).help(spec.about)).collect()
@@ -329,6 +514,12 @@ fn parse_range(text: &str) -> Result<std::ops::Range<u32>, String> {
     };
     let expected = "expected frame numbers, as in 0..10, 5.. or 7";
     parsed.ok().filter(|range| !range.is_empty()).ok_or_else(|| expected.into())
+}
+
+fn parse_room(text: &str) -> Result<enfilade_pipeline::RoomKind, String> {
+    use enfilade_pipeline::RoomKind;
+    let known = || RoomKind::ALL.map(RoomKind::name).join(", ");
+    RoomKind::from_name(text.trim()).ok_or_else(|| format!("the kinds of rooms are: {}", known()))
 }
 
 fn parse_layer(text: &str) -> Result<enfilade_frame::Layer, String> {

@@ -29,7 +29,7 @@ pub fn export(args: &ExportArgs, quiet: bool) -> Result<Verdict, Problem> {
 }
 
 /// The cameras of the scenes whose names fit the pattern.
-fn cameras(dataset: &Dataset, scenes: &[String], pattern: &str) -> Result<Vec<String>, Problem> {
+pub fn cameras(dataset: &Dataset, scenes: &[String], pattern: &str) -> Result<Vec<String>, Problem> {
     let mut names = scenes.iter().map(|scene| dataset.cameras(scene)).collect::<Result<Vec<_>, _>>()?.concat();
     names.sort();
     names.dedup();

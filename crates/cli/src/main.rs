@@ -3,10 +3,14 @@
 //! Results go to standard output, progress and errors to standard error. Exit codes: 0 done, 1 something failed or a law does
 //! not hold, 2 the command or the configuration is wrong.
 
+mod animate;
 mod args;
+mod estimate;
 mod export;
 mod outcome;
 mod progress;
+mod scene_files;
+mod stats;
 mod summary;
 mod verbs;
 
@@ -34,9 +38,11 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
     }
     match &cli.verb {
         Verb::Run(args) => verbs::run(args, cli.quiet),
-        Verb::Import(args) => verbs::import(args, cli.quiet),
+        Verb::Import(args) => scene_files::import(args, cli.quiet),
+        Verb::Home(args) => scene_files::home(args),
         Verb::Carve(args) => verbs::stage(args, enfilade_pipeline::Stage::Carve, cli.quiet),
         Verb::Plan(args) => verbs::plan(args, cli.quiet),
+        Verb::Gate(args) => verbs::stage(args, enfilade_pipeline::Stage::Gate, cli.quiet),
         Verb::Render(args) => verbs::render(args, cli.quiet),
         Verb::Denoise(args) => verbs::denoise(args, cli.quiet),
         Verb::Label(args) => verbs::label(args, cli.quiet),
@@ -45,6 +51,9 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Verify(args) => verbs::verify(args, cli.quiet),
         Verb::Split(args) => verbs::split(args),
         Verb::Inspect(args) => verbs::inspect(args),
+        Verb::Animate(args) => animate::animate(args, cli.quiet),
+        Verb::Replay(args) => verbs::replay(args, cli.quiet),
         Verb::Export(args) => export::export(args, cli.quiet),
+        Verb::Stats(args) => stats::stats(args, cli.quiet),
     }
 }

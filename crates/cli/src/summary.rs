@@ -81,6 +81,9 @@ pub fn print_where_to_look(out: &Path, summary: &Summary) -> Result<(), DatasetE
     }
     say(&format!("a frame's files  {}", layout.layer(&scene, &camera, frame, Layer::Color).display()));
     say(&format!("                 {}", layout.layer(&scene, &camera, frame, Layer::DepthMeters).display()));
+    if layout.verify_page().is_file() {
+        say(&format!("report card      {}", layout.verify_page().display()));
+    }
     let size = dataset.read_camera(&scene, &camera).map_or([2, 2], |camera| camera.size());
     let program = std::env::args().next().unwrap_or_else(|| "enfilade".into());
     let at = format!("--scene {scene} --camera {camera} --frame {frame} --pixel {},{}", size[0] / 2, size[1] / 2);

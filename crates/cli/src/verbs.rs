@@ -1,17 +1,16 @@
 //! What each verb does: arguments to calls of the pipeline and back to words.
 
 use crate::args::{
-    ImportArgs, InspectArgs, LabelArgs, PlanArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, SplitArgs, StageArgs, UpAxisArg, VerifyArgs,
+    InspectArgs, LabelArgs, PlanArgs, QualityArg, RenderArgs, RenderFlags, ReplayArgs, RunArgs, SplitArgs, StageArgs, VerifyArgs,
 };
+use crate::estimate::estimate;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::summary;
 use enfilade_dataset::Dataset;
-use enfilade_pipeline::{
-    Config, EnvironmentChoice, Event, FileSource, Overrides, Quality, RenderChoices, Reporter, Stage, Summary, UpAxis,
-};
+use enfilade_pipeline::{Config, Event, Overrides, Quality, RenderChoices, Reporter, Stage, Summary};
 use enfilade_post::drivers::inspect_pixel;
-use enfilade_post::verify::verify_dataset;
+use enfilade_post::verify::{verify_dataset, write_report};
 use std::path::PathBuf;
 
 /// `run`: all stages.
@@ -32,6 +31,9 @@ pub fn run(args: &RunArgs, quiet: bool) -> Result<Verdict, Problem> {
         None => Config::demo(&overrides)?,
     };
     let out = args.demo.clone().or(args.output.clone()).unwrap_or_else(|| PathBuf::from(&config.name));
+    if args.estimate {
+        return estimate(&config, &out, args.scenes.as_deref(), args.price.as_deref(), quiet);
+    }
     let result = {
         let progress = Progress::new(quiet);
         enfilade_pipeline::run(&config, &out, args.scenes.as_deref(), &progress)?
@@ -107,38 +109,6 @@ fn conclude(result: &Summary) -> Verdict {
     Verdict::of(result.ok())
 }
 
-/// `import`: of a dataset's scenes, or of one file.
-pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
-    if args.input.is_dir() {
-        let stage_args = StageArgs { dataset: args.input.clone(), scene: args.scene.clone(), force: args.force };
-        return stage(&stage_args, Stage::Import, quiet);
-    }
-    let source = FileSource {
-        file: args.input.to_string_lossy().into_owned(),
-        meters_per_unit: args.meters_per_unit,
-        up_axis: args.up_axis.map(|axis| match axis {
-            UpAxisArg::Y => UpAxis::Y,
-            UpAxisArg::Z => UpAxis::Z,
-        }),
-        environment: args.environment.clone().map(|file| EnvironmentChoice { file, scale: 1.0, rotation_deg: 0.0 }),
-        allow_missing_textures: args.allow_missing_textures,
-    };
-    let package = args.output.clone().unwrap_or_else(|| {
-        let name = args.input.file_name().map_or_else(|| "scene".into(), PathBuf::from);
-        name.with_extension("scene")
-    });
-    let name = args.input.display().to_string();
-    let imported = {
-        let progress = Progress::new(quiet);
-        progress.on(&name, Stage::Import, Event::Started);
-        enfilade_pipeline::import_file(&source, &package, &progress.cx(&name, Stage::Import))?
-    };
-    say(&imported.summary);
-    say(&format!("package  {}", package.display()));
-    say(&format!("report   {} ({} warnings)", imported.report.display(), imported.warnings.len()));
-    Ok(Verdict::Done)
-}
-
 /// `label`, with another table if wanted.
 pub fn label(args: &LabelArgs, quiet: bool) -> Result<Verdict, Problem> {
     let Some(table) = &args.table else { return stage(&args.stage, Stage::Label, quiet) };
@@ -159,7 +129,14 @@ pub fn verify(args: &VerifyArgs, quiet: bool) -> Result<Verdict, Problem> {
         verify_dataset(&dataset, &scenes, &progress.cx(&name, Stage::Verify))?
     };
     say(report.to_text().trim_end());
-    Ok(Verdict::of(report.passed))
+    if args.scene.is_none() {
+        match write_report(&dataset, &report) {
+            Ok(()) => say(&format!("see  {}", dataset.layout().verify_page().display())),
+            // Data of others may lie where nothing can be written.
+            Err(error) => say(&format!("warning: the card is not stored: {error}")),
+        }
+    }
+    Ok(Verdict::of(if args.strict { report.accepted } else { report.passed }))
 }
 
 /// `split`: who learns from what.
@@ -194,4 +171,22 @@ pub fn inspect(args: &InspectArgs) -> Result<Verdict, Problem> {
     let report = inspect_pixel(&dataset, &scene, &camera, args.frame, [x, y]).map_err(|e| Problem::found(&e))?;
     say(report.to_string().trim_end());
     Ok(Verdict::Done)
+}
+
+/// `replay`: one frame once more.
+pub fn replay(args: &ReplayArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let replay = {
+        let progress = Progress::new(quiet);
+        let cx = progress.begin(&args.record.display().to_string(), "replay");
+        enfilade_pipeline::replay(&args.record, args.output.as_deref(), &cx)?
+    };
+    for file in &replay.files {
+        say(&format!("{}  {}", if file.same { "same bytes" } else { "DIFFERS   " }, file.name));
+    }
+    let same = replay.files.iter().filter(|file| file.same).count();
+    say(&format!("{}: {same} of {} files have the same bytes", replay.frame, replay.files.len()));
+    if let Some(out) = &args.output {
+        say(&format!("written below  {}", out.display()));
+    }
+    Ok(Verdict::of(replay.is_same()))
 }

@@ -73,7 +73,7 @@ fn splits_come_when_asked_for_change_nothing_else_and_go_again() {
     for verb in ["label", "preview", "verify"] {
         succeed(d, &[verb, "out"]);
     }
-    // `verify` as a verb does not write its card, so the frames are compared.
+    // What the verb `verify` found is not kept for the next run, so the frames are compared.
     assert_eq!(color_layers(&contents(&d.join("out"))), color_layers(&split));
     assert!(succeed(d, &["render", "out"]).contains("nothing to do"));
 
@@ -159,6 +159,11 @@ fn rendering_goes_on_with_the_numbers_it_was_given() {
     }
     assert_eq!(record(&d.join("out"), 0)["stopped_by"], "noise");
     assert!(succeed(d, &["render", "out"]).contains("nothing to do"));
+    // Too few samples for the noise that is asked for break no law, but nobody wants the frames.
+    succeed(d, &["render", "out", "--samples", "2", "--noise", "1%"]);
+    succeed(d, &["label", "out"]);
+    assert!(succeed(d, &["verify", "out"]).contains("of target: noise; rejects 3 of 3"));
+    fail(d, &["verify", "out", "--strict"], 1, &["laws hold", "of target: noise; rejects 3 of 3"]);
     for (args, words) in [
         (&["--samples", "0"][..], "samples must be at least 1"),
         (&["--noise", "200%"], "noise must lie between 0 and 1"),

@@ -21,17 +21,31 @@ fn a_file_becomes_a_package_and_a_package_is_a_scene_file() {
 }
 
 #[test]
+fn a_scene_is_written_as_gltf_and_read_back() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    succeed(d, &["import", "room.obj", "-o", "room.glb"]);
+    let text = succeed(d, &["import", "room.glb", "-o", "again.scene"]);
+    assert!(text.contains("4 parts, 48 triangles") && text.contains("4.0 x 3.0 x 2.5 m"), "{text}");
+    fail(d, &["import", "room.obj", "-o", "room.usd"], 2, &["room.usd", ".scene", ".glb"]);
+}
+
+#[test]
 fn stages_run_one_by_one_and_pixels_answer() {
     let dir = folder();
     let d = dir.path();
     write_room(d, "room", Lamp::On);
     write_config(d, &[scene("room")]);
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
-    for verb in ["import", "carve", "plan", "render", "label", "preview"] {
+    let card = || ["verify.json", "verify.html"].map(|name| fs::read(d.join("out").join(name)).ok());
+    let of_run = card();
+    assert!(of_run.iter().all(Option::is_some) && String::from_utf8_lossy(of_run[0].as_ref().unwrap()).contains("\"split_whole\""));
+    for verb in ["import", "carve", "plan", "gate", "render", "label", "preview"] {
         let text = succeed(d, &[verb, "out"]);
         assert!(text.contains("nothing to do"), "{verb}: {text}");
     }
-    for verb in ["import", "carve", "plan", "render", "label", "preview"] {
+    for verb in ["import", "carve", "plan", "gate", "render", "label", "preview"] {
         let text = succeed(d, &[verb, "out", "--force"]);
         assert!(!text.contains("nothing to do"), "{verb}: {text}");
     }
@@ -39,7 +53,10 @@ fn stages_run_one_by_one_and_pixels_answer() {
     let pages = d.join("out/scenes/room/_detail/plan_preview");
     assert!(text.contains("nothing to do") && text.contains("plan_preview/index.html"), "{text}");
     assert!(pages.join("cam_00_plan.png").is_file() && pages.join("index.html").is_file());
+    // The card of a run has gone, because stages ran since; the verb writes the same.
+    assert_eq!(card(), [None, None]);
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames of 1 scene"));
+    assert_eq!(card(), of_run);
     succeed(d, &["plan", "out", "--force"]);
     assert!(!pages.exists(), "pictures of an earlier plan are removed");
     let text = succeed(d, &["inspect", "out", "--frame", "1", "--pixel", "24,18"]);
@@ -59,4 +76,26 @@ fn stages_run_one_by_one_and_pixels_answer() {
     fail(d, &["verify", "out"], 1, &["FAIL", "frame.0001"]);
     let text = succeed(d, &["run", "dataset.toml", "-o", "out"]);
     assert!(text.contains("all") && fs::read(&layer).unwrap() == bytes, "{text}");
+}
+
+#[test]
+fn a_run_is_forecast_before_it_and_counted_after_it() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    let text = succeed(d, &["run", "dataset.toml", "-o", "out", "--estimate", "--price", "0.05"]);
+    assert!(text.contains("processor time") && text.contains("vCPU-hours") && text.contains("0.05 (given)"), "{text}");
+    assert!(!d.join("out/scenes/room/images").exists() && !d.join("out/.enfilade/room/pilot").exists());
+    assert!(d.join("out/scenes/room/_detail/cam_00/camera_keyframe_positions.hdf5").is_file());
+    succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    let page = |name: &str| d.join("out/statistics").join(name);
+    assert!(page("statistics.html").is_file() && page("plots/depth_log.png").is_file() && !page("costs.json").exists());
+    let numbers = fs::read(page("statistics.json")).unwrap();
+    let text = succeed(d, &["stats", "out", "--price", "0.05"]);
+    assert!(text.contains("3 images") && text.contains("dollars at 0.05"), "{text}");
+    assert!(page("costs.json").is_file() && page("metadata_rendering_jobs.csv").is_file());
+    assert_eq!(fs::read(page("statistics.json")).unwrap(), numbers);
+    fail(d, &["stats", "out", "--price", "cheap"], 2, &["is no number", "--price 0.04"]);
+    fail(d, &["stats", "out", "--compare", "dataset.toml"], 1, &["dataset.toml"]);
 }

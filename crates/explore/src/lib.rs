@@ -9,6 +9,7 @@
 //! 3. [`plan`] finds poses in the free space by one of several modes ([`Mode`]), [`follow`] those that were made by hand; both say in
 //!    a [`PlanReport`] how the trajectory came out. The default mode walks: every step draws poses near the last one and chooses
 //!    among them in proportion to how much a small test image of each shows ([`Saliency`]).
+//!    [`plan_accepted`] lets the caller have a last word on every view, and [`Surroundings`] tells what is around a point.
 //!
 //! All results are functions of the inputs and the seed, whatever the number of threads.
 
@@ -21,6 +22,7 @@ mod plan;
 mod preset;
 mod saliency;
 mod space;
+mod surroundings;
 mod view;
 
 pub use carve::{CarveConfig, carve};
@@ -28,11 +30,12 @@ pub use error::ExploreError;
 pub use find_starts::{StartsConfig, find_starts};
 pub use plan::{
     CoverageConfig, CoverageReport, Fault, FrameValues, Keyframe, KeyframesConfig, Mode, PartCoverage, PlanConfig, PlanReport,
-    PlanStatistics, Planned, RejectedCounts, RelaxedFrame, Spread, StillsConfig, VideoConfig, follow, parse_keyframes, plan,
+    PlanStatistics, Planned, RejectedCounts, RelaxedFrame, Spread, StillsConfig, VideoConfig, follow, parse_keyframes, plan, plan_accepted,
 };
 pub use preset::Preset;
 pub use saliency::Saliency;
 pub use space::{CarveReport, FreeSpace, Leak, StartReport};
+pub use surroundings::Surroundings;
 pub use view::{ViewStats, view_stats};
 
 #[cfg(test)]

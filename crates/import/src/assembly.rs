@@ -7,7 +7,7 @@ use crate::report::Warnings;
 use crate::{Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis, mesh};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Mat3, Rgb};
-use enfilade_scene::{Cx, Environment, Light, MapRows, Material, Part, PartLabel, Scene, StartCamera};
+use enfilade_scene::{Cx, Environment, Labels, Light, MapRows, Material, Part, PartLabel, Scene, StartCamera};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -333,6 +333,13 @@ impl<'a> Assembly<'a> {
     pub(crate) fn finish(mut self) -> Result<Imported, ImportError> {
         let scene = without_unused_meshes(std::mem::take(&mut self.scene));
         self.finish_scene(scene)
+    }
+
+    /// The labels of a scene that has them all, one per part.
+    pub(crate) fn set_labels(&mut self, labels: Option<Labels>) {
+        let labels = labels.map_or(Vec::new(), |labels| labels.parts);
+        let labelled = labels.into_iter().enumerate().filter(|(_, label)| *label != PartLabel::NONE);
+        self.labels = labelled.map(|(part, label)| ImportedLabel { part: part as u32, label }).collect();
     }
 
     /// The finished import of a scene that is already in the world's units and axes.

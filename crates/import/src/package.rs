@@ -7,6 +7,7 @@ use crate::{ImportError, Imported};
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     let file = assembly.file().to_path_buf();
     let bytes = assembly.read_scene_file()?;
-    let scene = enfilade_scene::from_bytes(&bytes).map_err(|source| ImportError::Package { file, source })?;
+    let (scene, labels) = enfilade_scene::from_bytes_with_labels(&bytes).map_err(|source| ImportError::Package { file, source })?;
+    assembly.set_labels(labels);
     assembly.finish_scene(scene)
 }

@@ -8,7 +8,7 @@
 use anyhow::{Context, Result};
 use enfilade_denoise::{DenoiseError, Denoiser, Noisy, denoise};
 use enfilade_frame::{Frame, Layer};
-use enfilade_home::{HomeConfig, living_room};
+use enfilade_home::{HomeConfig, home};
 use enfilade_import::{ImportOptions, load};
 use enfilade_pipeline::Stopwatch;
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
@@ -36,11 +36,8 @@ fn main() -> Result<()> {
     let denoiser = Denoiser::open(place.as_deref(), std::thread::available_parallelism()?.get())?;
     println!("{}, {}x{} pixels, references of {reference} samples", denoiser.name(), size[0], size[1]);
     for name in scenes {
-        let scene = if name == "home" {
-            living_room(&HomeConfig { seed: 0 }).scene
-        } else {
-            load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene
-        };
+        let scene =
+            if name == "home" { home(&HomeConfig::default()).scene } else { load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene };
         println!("\n{name}");
         measure(&scene, size, reference, &denoiser)?;
     }

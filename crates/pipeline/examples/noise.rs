@@ -6,7 +6,7 @@
 
 use anyhow::{Context, Result};
 use enfilade_frame::{Frame, Layer};
-use enfilade_home::{HomeConfig, living_room};
+use enfilade_home::{HomeConfig, home};
 use enfilade_import::{ImportOptions, load};
 use enfilade_pipeline::Stopwatch;
 use enfilade_post::tonemap::ToneMap;
@@ -33,11 +33,8 @@ fn main() -> Result<()> {
         scenes.push("home".into());
     }
     for name in scenes {
-        let scene = if name == "home" {
-            living_room(&HomeConfig { seed: 0 }).scene
-        } else {
-            load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene
-        };
+        let scene =
+            if name == "home" { home(&HomeConfig::default()).scene } else { load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene };
         measure(&name, &scene, &config)?;
     }
     Ok(())

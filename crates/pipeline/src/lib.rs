@@ -6,6 +6,9 @@
 
 mod config;
 mod error;
+mod forecast;
+mod gatekeeper;
+mod replay;
 mod report;
 mod run;
 mod single;
@@ -17,12 +20,17 @@ pub use config::{
     CameraChoice, CameraConfig, CameraModel, Config, ConfigError, EnvironmentChoice, FileSource, LabelSource, LensConfig, Overrides, Place,
     Quality, RenderChoices, SceneConfig, Source, StereoConfig, demo, select,
 };
+pub use enfilade_home::light::Moment;
+pub use enfilade_home::{HomeConfig, RoomKind};
 pub use enfilade_import::UpAxis;
 pub use enfilade_post::split::SplitConfig;
+pub use enfilade_post::view_gates::{GateAction, GateConfig};
 pub use error::Error;
+pub use forecast::{Expected, Forecast};
+pub use replay::{Replay, ReplayedFile, replay};
 pub use report::{Event, Failure, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
-pub use run::{plan_and_draw, relabel, run, run_chosen, run_stage};
-pub use single::{Imported, import_file};
+pub use run::{estimate, plan_and_draw, relabel, run, run_chosen, run_stage};
+pub use single::{Imported, MadeHome, import_file, make_home};
 pub use split::{SplitReport, split};
 pub use stages::{STAGES, Stage, StageSpec};
 pub use workdir::WORKDIR;

@@ -1,6 +1,7 @@
 //! How a run speaks: to a [`Reporter`] while it goes on, and in a [`Summary`] at its end.
 
 use crate::stages::Stage;
+use enfilade_dataset::FrameTime;
 use enfilade_scene::{Cx, Warning};
 use std::sync::Mutex;
 use std::time::Instant;
@@ -82,6 +83,13 @@ pub struct SceneOutcome {
     pub stages: Vec<StageOutcome>,
     /// The stage that did not, if one did not.
     pub failure: Option<Failure>,
+}
+
+impl SceneOutcome {
+    /// True when an earlier stage than this one failed.
+    pub(crate) fn stopped_before(&self, stage: Stage) -> bool {
+        self.failure.as_ref().is_some_and(|failure| failure.stage < stage)
+    }
 }
 
 /// What became of one stage of a scene.
@@ -167,6 +175,19 @@ impl Stopwatch {
     pub fn cpu_s(&self) -> f64 {
         process_cpu_s() - self.cpu_s
     }
+
+    /// What is recorded of a frame that began with this.
+    pub(crate) fn of_frame(&self) -> FrameTime {
+        let threads = Some(rayon::current_num_threads() as u32);
+        FrameTime { wall_s: self.wall_s(), cpu_s: self.cpu_s(), peak_memory_bytes: peak_memory_bytes(), threads }
+    }
+}
+
+/// Most memory that this process ever had; `None` where the system does not tell.
+pub(crate) fn peak_memory_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kib| 1024 * kib)
 }
 
 #[cfg(unix)]
@@ -178,6 +199,28 @@ fn process_cpu_s() -> f64 {
 #[cfg(not(unix))]
 fn process_cpu_s() -> f64 {
     0.0
+}
+
+/// True when more threads want to run than the machine has, by the mean of the last minute; false where the system does not tell.
+pub(crate) fn machine_is_busy() -> bool {
+    let load = std::fs::read_to_string("/proc/loadavg").ok();
+    let wanting: Option<f64> = load.and_then(|load| load.split_whitespace().next()?.parse().ok());
+    let processors = std::thread::available_parallelism().map_or(1, usize::from) as f64;
+    wanting.is_some_and(|wanting| wanting > 1.5 * processors)
+}
+
+/// Processor seconds of this thread; on the wall clock where the system does not tell.
+pub(crate) fn thread_cpu_s() -> f64 {
+    #[cfg(unix)]
+    {
+        let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+        time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
+    }
+    #[cfg(not(unix))]
+    {
+        static START: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
+        START.get_or_init(Instant::now).elapsed().as_secs_f64()
+    }
 }
 
 /// A number of things in words.

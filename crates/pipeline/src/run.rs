@@ -2,13 +2,17 @@
 
 use crate::config::{Config, RenderChoices, SceneConfig};
 use crate::error::Error;
+use crate::forecast::Forecast;
 use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::split::write_split;
-use crate::stages::{Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan};
-use crate::workdir::{Workdir, read_json, write_json};
+use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, pilot};
+use crate::workdir::{Workdir, read_json, remove_if_there, write_json};
 use enfilade_dataset::{CameraEntry, Dataset, FrameStatus, ManifestInfo};
 use enfilade_post::drivers::write_overview;
 use enfilade_post::sheet::SheetConfig;
+use enfilade_post::stats::{StatsConfig, write_statistics};
+use enfilade_post::verify::{VerifyReport, join_reports, verify_scene, write_report};
+use enfilade_scene::Quiet;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -46,6 +50,32 @@ pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, r
     let scenes = config.select(pattern)?;
     let stages: &[&StageSpec] = if stage == Stage::Label { &LABELLING } else { &[stage.spec()] };
     Session::new(&config, &workdir)?.run(&scenes, stages, force, reporter)
+}
+
+/// Forecasts what [`run`] will take, by scene: does all that comes before rendering, which is kept, and tries out a little of the rest,
+/// which is not. Scenes that fail before rendering are left out, and the summary tells why.
+///
+/// # Errors
+/// As [`run`], and when the pilot of a scene fails.
+pub fn estimate(
+    config: &Config,
+    out: &Path,
+    pattern: Option<&str>,
+    reporter: &dyn Reporter,
+) -> Result<(Summary, Vec<(String, Forecast)>), Error> {
+    let scenes = config.select(pattern)?;
+    let workdir = Workdir::create(out)?;
+    store_config(&workdir, config)?;
+    let before: Vec<&StageSpec> = STAGES.iter().filter(|spec| spec.stage < Stage::Render).collect();
+    let session = Session::new(config, &workdir)?;
+    let summary = session.run(&scenes, &before, false, reporter)?;
+    let mut forecasts = Vec::new();
+    for (scene, _) in scenes.iter().zip(&summary.scenes).filter(|(_, outcome)| outcome.failure.is_none()) {
+        let job = Job::new(config, scene, &session.dataset, &workdir, false);
+        let found = pilot(&job, &StageCx::new(&scene.name, Stage::Render, reporter))?;
+        forecasts.push((scene.name.clone(), Forecast::of(&found)));
+    }
+    Ok((summary, forecasts))
 }
 
 /// Plans as [`run_stage`] does and draws what was planned, now or earlier. Returns also the page of each scene that came through.
@@ -154,7 +184,12 @@ impl<'a> Session<'a> {
             }
             outcomes.push(outcome);
         }
-        let finished = self.write_manifest(&outcomes, None).and_then(|()| self.write_overview(stages)).and_then(|()| self.write_split());
+        let finished = self
+            .write_manifest(&outcomes, None)
+            .and_then(|()| self.write_overview(stages))
+            .and_then(|()| self.write_split())
+            .and_then(|warning| self.write_card(stages, &outcomes).map(|()| warning))
+            .and_then(|warning| self.write_statistics(stages).map(|()| warning));
         let warnings = finished.as_ref().ok().cloned().flatten().into_iter().collect();
         let summary = Summary { scenes: outcomes, warnings, wall_s: time.wall_s() };
         match finished {
@@ -170,6 +205,24 @@ impl<'a> Session<'a> {
         Ok(write_split(&self.dataset, self.workdir, &manifest)?.warning())
     }
 
+    /// Writes the report card of all scenes, also of those that did not come so far as to be verified. A card that other stages have made untrue is removed.
+    fn write_card(&self, stages: &[&StageSpec], outcomes: &[SceneOutcome]) -> Result<(), Error> {
+        let layout = self.dataset.layout();
+        if stages.iter().all(|spec| spec.stage != Stage::Verify) {
+            let changed = outcomes.iter().flat_map(|outcome| &outcome.stages).any(|done| !done.up_to_date && done.stage != Stage::Preview);
+            let old = [layout.verify_report(), layout.verify_page()];
+            return if changed { old.iter().try_for_each(|path| remove_if_there(path)) } else { Ok(()) };
+        }
+        let mut reports: Vec<VerifyReport> = Vec::new();
+        for scene in self.dataset.scenes().map_err(Error::stage)? {
+            let stopped = outcomes.iter().filter(|outcome| outcome.name == scene).any(|outcome| outcome.stopped_before(Stage::Verify));
+            let kept = if stopped { None } else { read_json(&self.workdir.scene_file(&scene, CARD)?) };
+            reports.push(kept.map_or_else(|| verify_scene(&self.dataset, &scene, &Quiet).map_err(Error::stage), Ok)?);
+        }
+        let report = join_reports(&self.dataset, reports);
+        write_report(&self.dataset, &report).map_err(Error::stage)
+    }
+
     /// Writes the contact sheet of all scenes, unless it is there already: the preview stage removes it.
     fn write_overview(&self, stages: &[&StageSpec]) -> Result<(), Error> {
         let path = self.dataset.layout().overview();
@@ -182,6 +235,17 @@ impl<'a> Session<'a> {
         if any_frame {
             write_overview(&self.dataset, &self.config.name, &SheetConfig::default()).map_err(Error::stage)?;
         }
+        Ok(())
+    }
+
+    /// Writes the statistics of all scenes, without costs, which would differ between two runs; unless they are there already: the
+    /// preview stage removes them.
+    fn write_statistics(&self, stages: &[&StageSpec]) -> Result<(), Error> {
+        if self.dataset.layout().statistics().is_file() || stages.iter().all(|spec| spec.stage != Stage::Preview) {
+            return Ok(());
+        }
+        let scenes = self.dataset.scenes().map_err(Error::stage)?;
+        write_statistics(&self.dataset, &StatsConfig { scenes, ..StatsConfig::default() }, &Quiet).map_err(Error::stage)?;
         Ok(())
     }
 

@@ -1,10 +1,11 @@
-//! `import` of a single file, without a dataset.
+//! `import` of a single file, and a single home, without a dataset.
 
 use crate::config::FileSource;
 use crate::error::Error;
-use crate::stages::{describe, load_file};
+use crate::stages::{describe, labels_by_part, load_file};
 use crate::workdir::{write_json, write_whole};
-use enfilade_scene::{Cx, Warning};
+use enfilade_home::HomeConfig;
+use enfilade_scene::{Cx, Labels, Scene, Warning};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -13,27 +14,66 @@ use std::path::{Path, PathBuf};
 pub struct Imported {
     /// One line about the scene.
     pub summary: String,
-    /// The report beside the package.
+    /// The report beside the output.
     pub report: PathBuf,
     /// Everything that was dropped, guessed or mended.
     pub warnings: Vec<Warning>,
+    /// What the output cannot hold.
+    pub lost: Vec<String>,
 }
 
 #[derive(Serialize)]
 struct Report<'a> {
     scene: &'a str,
     import: &'a enfilade_import::ImportReport,
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    lost: &'a [String],
 }
 
-/// Imports the file of `source` (a path as it stands) to the scene package `package` and a report `<package>.report.json`.
+/// Imports the file of `source` (a path as it stands) to `output` and a report `<output>.report.json`. `encode` gives the bytes of the
+/// output from the scene and the labels that came with it, and what they cannot hold.
 ///
 /// # Errors
-/// When the file cannot be imported or the package cannot be written.
-pub fn import_file(source: &FileSource, package: &Path, cx: &dyn Cx) -> Result<Imported, Error> {
+/// When the file cannot be imported or the output cannot be written.
+pub fn import_file(
+    source: &FileSource,
+    output: &Path,
+    encode: impl FnOnce(&Scene, Option<&Labels>) -> (Vec<u8>, Vec<String>),
+    cx: &dyn Cx,
+) -> Result<Imported, Error> {
     let imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
     let summary = describe(&imported.scene);
-    let report = package.with_extension("report.json");
-    write_whole(package, &enfilade_scene::to_bytes(&imported.scene))?;
-    write_json(&report, &Report { scene: &summary, import: &imported.report })?;
-    Ok(Imported { summary, report, warnings: imported.report.warnings })
+    let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
+    let (bytes, lost) = encode(&imported.scene, labels.as_ref());
+    write_whole(output, &bytes)?;
+    let report = output.with_extension("report.json");
+    write_json(&report, &Report { scene: &summary, import: &imported.report, lost: &lost })?;
+    Ok(Imported { summary, report, warnings: imported.report.warnings, lost })
+}
+
+/// What making a home made.
+#[derive(Clone, Debug)]
+pub struct MadeHome {
+    /// One line about the scene.
+    pub summary: String,
+    /// One line about the rooms.
+    pub rooms: String,
+    /// What the output cannot hold.
+    pub lost: Vec<String>,
+}
+
+/// Makes a home and writes it to `output`, as `encode` gives its bytes (see [`import_file`]); its labels are all there.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn make_home(
+    config: &HomeConfig,
+    output: &Path,
+    encode: impl FnOnce(&Scene, Option<&Labels>) -> (Vec<u8>, Vec<String>),
+) -> Result<MadeHome, Error> {
+    let home = enfilade_home::home(config);
+    let (bytes, lost) = encode(&home.scene, Some(&home.labels));
+    write_whole(output, &bytes)?;
+    let rooms = home.plan.rooms.iter().map(|room| format!("{} {:.1} m2", room.kind.name(), room.size.x * room.size.y));
+    Ok(MadeHome { summary: describe(&home.scene), rooms: rooms.collect::<Vec<_>>().join(", "), lost })
 }

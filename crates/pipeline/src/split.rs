@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::workdir::{Hash, Workdir, read_json, remove_if_there, write_json};
-use enfilade_dataset::{Dataset, Manifest, Partition, SplitRow};
+use enfilade_dataset::{Dataset, Manifest, Partition, SplitRow, ViewFault};
 use enfilade_post::split::{SceneAssets, SharedAsset, SplitConfig, shared_assets};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -71,7 +71,7 @@ pub fn split(out: &Path, change: impl FnOnce(&mut SplitConfig)) -> Result<SplitR
 /// Writes the split of what `manifest` lists.
 pub(crate) fn write_split(dataset: &Dataset, workdir: &Workdir, manifest: &Manifest) -> Result<SplitReport, Error> {
     let config: SplitConfig = read_json(&workdir.file(CHOICE)).unwrap_or_default();
-    let rows = config.rows(manifest, &BTreeMap::new());
+    let rows = config.rows(manifest, &rejected(dataset, manifest)?);
     // A run that changes nothing touches no file.
     if dataset.read_split().ok().as_ref() != Some(&rows) {
         dataset.write_split(&rows).map_err(Error::stage)?;
@@ -95,6 +95,19 @@ pub(crate) fn write_split(dataset: &Dataset, workdir: &Workdir, manifest: &Manif
         write_json(&path, &report)?;
     }
     Ok(report)
+}
+
+/// The views that gates reject, in Hypersim's manner of giving reasons: "BARE WALL".
+fn rejected(dataset: &Dataset, manifest: &Manifest) -> Result<BTreeMap<(String, String, u32), String>, Error> {
+    let mut reasons = BTreeMap::new();
+    for (scene, entry) in &manifest.scenes {
+        for camera in entry.cameras.keys() {
+            let views = dataset.rejected_views(scene, camera).map_err(Error::stage)?;
+            let reason = |fault: ViewFault| fault.gate.replace('_', " ").to_uppercase();
+            reasons.extend(views.into_iter().map(|(frame, fault)| ((scene.clone(), camera.clone(), frame), reason(fault))));
+        }
+    }
+    Ok(reasons)
 }
 
 /// The assets of a scene's package; `None` when there is no package.

@@ -1,7 +1,7 @@
 //! The demo from end to end, tiny: it verifies, a second run does nothing, and a changed setting runs what depends on it.
 
 use enfilade_dataset::{BoxKind, Dataset};
-use enfilade_pipeline::{CameraChoice, Config, Event, Overrides, Reporter, Stage, Summary, run, run_stage};
+use enfilade_pipeline::{CameraChoice, Config, Event, Overrides, Reporter, Stage, Summary, demo, run, run_stage};
 use std::path::Path;
 use std::sync::Mutex;
 
@@ -20,7 +20,7 @@ impl Reporter for Began {
 fn tiny_demo() -> Config {
     let mut config = Config::demo(&Overrides { frames: Some(2), size: Some([64, 48]), ..Overrides::default() }).unwrap();
     let scene = &mut config.scenes[0];
-    scene.cameras = vec![CameraChoice::Named("door".into())];
+    scene.cameras = vec![CameraChoice::Named("living_1".into())];
     (scene.render.samples, scene.render.max_bounces, scene.carve.rays, scene.carve.iterations) = (4, Some(4), 8192, 2);
     config
 }
@@ -40,16 +40,20 @@ fn the_demo_verifies_and_is_made_once() {
 
     let (first, began) = run_and_watch(&config, &out);
     assert!(first.ok(), "{:?}", first.scenes);
-    assert_eq!(began, [Stage::Import, Stage::Carve, Stage::Plan, Stage::Render, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]);
+    assert_eq!(
+        began,
+        [Stage::Import, Stage::Carve, Stage::Plan, Stage::Gate, Stage::Render, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]
+    );
     let dataset = Dataset::open(&out).unwrap();
-    let labels = dataset.read_label_tables("living-room").unwrap();
+    let labels = dataset.read_label_tables(demo::SCENE).unwrap();
     assert!(labels.parts.len() >= 25 && labels.parts.iter().all(|l| l.semantic >= 1));
 
-    let boxes = dataset.read_boxes("living-room", BoxKind::ObjectAligned3d).unwrap();
+    let boxes = dataset.read_boxes(demo::SCENE, BoxKind::ObjectAligned3d).unwrap();
     assert!(boxes.iter().flatten().count() > 10);
-    let views = dataset.read_instance_views("living-room", "cam_00").unwrap();
+    let views = dataset.read_instance_views(demo::SCENE, "cam_00").unwrap();
     assert!(views.iter().any(|view| view.visible.pixels > 0) && views.iter().all(|view| view.inside_pixels > 0));
     assert_eq!(dataset.read_split().unwrap().len(), 2);
+    assert!(dataset.rejected_views(demo::SCENE, "cam_00").unwrap().is_empty());
 
     let (second, began) = run_and_watch(&config, &out);
     assert!(second.nothing_done() && began.is_empty(), "{began:?}");
@@ -59,17 +63,17 @@ fn the_demo_verifies_and_is_made_once() {
     assert_eq!(run_and_watch(&config, &out).1, [Stage::Render, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]);
     config.scenes[0].plan.frames = 3;
     let (more, began) = run_and_watch(&config, &out);
-    assert_eq!(began, [Stage::Plan, Stage::Render, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]);
+    assert_eq!(began, [Stage::Plan, Stage::Gate, Stage::Render, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]);
     let rendered = more.scenes[0].stages.iter().find(|s| s.stage == Stage::Render).unwrap();
     assert!(rendered.summary.starts_with("3 frames") && !rendered.summary.contains("kept"), "{}", rendered.summary);
 
     // A preview that was deleted is made again, and only that stage runs.
-    std::fs::remove_file(dataset.layout().contact_sheet("living-room", "cam_00")).unwrap();
+    std::fs::remove_file(dataset.layout().contact_sheet(demo::SCENE, "cam_00")).unwrap();
     assert_eq!(run_and_watch(&config, &out).1, [Stage::Preview]);
-    assert!(dataset.layout().contact_sheet("living-room", "cam_00").is_file() && dataset.layout().overview().is_file());
+    assert!(dataset.layout().contact_sheet(demo::SCENE, "cam_00").is_file() && dataset.layout().overview().is_file());
 
     // Verification finds a changed value.
-    let layer = dataset.layout().layer("living-room", "cam_00", 0, enfilade_frame::Layer::DepthMeters);
+    let layer = dataset.layout().layer(demo::SCENE, "cam_00", 0, enfilade_frame::Layer::DepthMeters);
     let mut bytes = std::fs::read(&layer).unwrap();
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;

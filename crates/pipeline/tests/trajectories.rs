@@ -6,8 +6,7 @@ use std::path::Path;
 
 /// The demo's room, tiny, once per mode.
 fn config(folder: &Path) -> Config {
-    let table =
-        "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z\n0,1.0,1.0,1.4,2.5,2.0,1.2\n3,1.3,1.0,1.4,2.5,2.0,1.2\n";
+    let table = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z\n0,-1.1,4.2,1.4,-2.0,2.6,1.2\n3,-1.25,3.95,1.4,-2.0,2.6,1.2\n";
     std::fs::write(folder.join("path.csv"), table).unwrap();
     let modes = [
         ("walk", "overlap = [0.1, 0.95]\nmode = { kind = \"walk\" }"),
@@ -19,7 +18,7 @@ fn config(folder: &Path) -> Config {
     let mut text =
         "seed = 3\nframes = 4\n[render]\nsize = [64, 48]\nsamples = 1\nmax_bounces = 1\n[carve]\nrays = 8192\niterations = 2\n".to_string();
     for (name, keys) in modes {
-        text += &format!("[[scene]]\nname = \"{name}\"\nhome = {{}}\ncameras = [\"door\"]\n[scene.plan]\n{keys}\n");
+        text += &format!("[[scene]]\nname = \"{name}\"\nhome = {{ seed = 0 }}\ncameras = [\"living_1\"]\n[scene.plan]\n{keys}\n");
     }
     std::fs::write(folder.join("dataset.toml"), text).unwrap();
     Config::read(&folder.join("dataset.toml"), &Overrides::default()).unwrap()
@@ -43,7 +42,7 @@ fn datasets_of_every_mode_verify_and_are_made_once() {
         assert_eq!(report.coverage.is_some(), scene == "coverage");
     }
     let poses = dataset.read_trajectory("keyframes", "cam_00").unwrap().poses;
-    assert_eq!((poses[0].position.x, poses[3].position.x), (1.0, 1.3));
+    assert_eq!((poses[0].position.x, poses[3].position.x), (-1.1, -1.25));
     let time = std::fs::read_to_string(dataset.layout().metadata_camera("video", "cam_00")).unwrap();
     assert!(time.contains("frame_time_seconds,0.1"), "{time}");
 }

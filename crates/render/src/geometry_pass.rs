@@ -54,10 +54,15 @@ pub(crate) fn sighting<'s>(scene: &RenderScene<'s>, view: &CameraView<'_>, (x, y
 /// The geometry seen through the centre of pixel (x, y); `None` when nothing is.
 pub(crate) fn pixel_geometry(scene: &RenderScene<'_>, view: &CameraView<'_>, x: u32, y: u32) -> Option<PixelGeometry> {
     let (x, y) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
-    let Sighting { surface, triangle, direction, distance_m: distance, p_world } = sighting(scene, view, (x, y))?;
+    sighting(scene, view, (x, y)).map(|found| geometry_of(scene, view, y, &found))
+}
+
+/// What is kept of the surface that an image point at the coordinate `y` shows.
+pub(crate) fn geometry_of(scene: &RenderScene<'_>, view: &CameraView<'_>, y: f64, found: &Sighting<'_>) -> PixelGeometry {
+    let &Sighting { ref surface, triangle, direction, distance_m: distance, p_world } = found;
     let cam_from_world = view.row_placement(y).1.transpose();
     let to_camera = |n: Vec3| halves((cam_from_world * n.as_dvec3()).as_vec3());
-    Some(PixelGeometry {
+    PixelGeometry {
         distance_m: distance as f32,
         depth_z_m: (-(cam_from_world * direction).z * distance) as f32,
         position: p_world.as_vec3().to_array(),
@@ -67,7 +72,7 @@ pub(crate) fn pixel_geometry(scene: &RenderScene<'_>, view: &CameraView<'_>, x: 
         normal_bump_cam: to_camera(surface.ns),
         tex_coord: [finite_half(surface.uv.x), finite_half(surface.uv.y), f16::ZERO],
         entity: (scene.triangles[triangle].part + 1) as i16,
-    })
+    }
 }
 
 /// Distance along the exact ray to the plane of a triangle. `None` when the ray lies in the plane.

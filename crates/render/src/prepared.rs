@@ -16,7 +16,7 @@ pub struct RenderScene<'s> {
     pub(crate) textures: Textures<'s>,
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) bvh: Bvh,
-    bounds: Bounds3,
+    pub(crate) bounds: Bounds3,
     pub(crate) lights: Lights<'s>,
     /// Of each material.
     pub(crate) tables: Vec<Tables>,
@@ -28,9 +28,7 @@ impl<'s> RenderScene<'s> {
     /// # Errors
     /// When the scene has more parts than ids, or no light.
     pub fn new(scene: &'s Scene, cx: &dyn Cx) -> Result<Self, RenderError> {
-        if scene.parts.len() > i16::MAX as usize {
-            return Err(RenderError::TooManyParts { found: scene.parts.len() });
-        }
+        Self::check_parts(scene)?;
         cx.progress("building the ray-tracing hierarchy", 0, 1);
         let world = WorldMesh::new(scene);
         let triangles = triangle::gather(scene, &world);
@@ -45,6 +43,12 @@ impl<'s> RenderScene<'s> {
         cx.progress("building the ray-tracing hierarchy", 1, 1);
         let textures = Textures::new(&scene.images, &scene.materials);
         Ok(Self { scene, textures, triangles, bvh, bounds: world.bounds, lights, tables })
+    }
+
+    /// Every part needs an id.
+    pub(crate) fn check_parts(scene: &Scene) -> Result<(), RenderError> {
+        let found = scene.parts.len();
+        if found > i16::MAX as usize { Err(RenderError::TooManyParts { found }) } else { Ok(()) }
     }
 
     /// The smallest box around the scene.

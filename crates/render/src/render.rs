@@ -68,9 +68,9 @@ struct TileFilm {
 
 /// How a frame's samples are spread over passes.
 #[derive(Clone, Copy, Debug)]
-struct Schedule {
+pub(crate) struct Schedule {
     /// Samples that every pixel gets, which tell where the others are needed.
-    first: u32,
+    pub first: u32,
     /// Passes that take them.
     first_passes: u32,
     /// Passes in all.
@@ -78,11 +78,16 @@ struct Schedule {
 }
 
 impl Schedule {
-    fn new(config: &RenderConfig) -> Self {
+    pub fn new(config: &RenderConfig) -> Self {
         let spread = config.adaptive || config.noise.is_some();
         let first = if spread { (config.samples / FIRST_SHARE).max(FEWEST).min(config.samples) } else { config.samples };
         let first_passes = first.div_ceil(PASS);
         Self { first, first_passes, passes: first_passes + (config.samples - first).div_ceil(PASS) }
+    }
+
+    /// True when every pixel gets the same number of samples.
+    pub fn is_even(&self) -> bool {
+        self.passes == self.first_passes
     }
 
     /// Samples after pass number `pass` of a pixel that is to have `wanted` in the end.
@@ -109,10 +114,7 @@ impl<'a, 's> FrameRender<'a, 's> {
         let film = (0..tiles.count()).map(|tile| TileFilm::new(tiles.pixels(tile).count(), config.splits)).collect();
         let schedule = Schedule::new(config);
         let wanted = vec![schedule.first; width as usize * height as usize];
-        // Half of what a pixel covers: many samples resolve more than one would.
-        let pixel_angle = 0.5 * view.pixel_angle(0.5 * f64::from(width), 0.5 * f64::from(height));
-        let integrator = Integrator { scene, config, guide, pixel_angle };
-        Ok(Self { integrator, view: *view, tiles, film, wanted, schedule, done: 0 })
+        Ok(Self { integrator: integrator(scene, guide, view, config), view: *view, tiles, film, wanted, schedule, done: 0 })
     }
 
     /// True when every pixel has the samples that it should have.
@@ -243,8 +245,21 @@ impl TileFilm {
     }
 }
 
+/// What follows paths from the pixels of a view.
+pub(crate) fn integrator<'a, 's>(
+    scene: &'a RenderScene<'s>,
+    guide: &'a Guide,
+    view: &CameraView<'_>,
+    config: &'a RenderConfig,
+) -> Integrator<'a, 's> {
+    let [width, height] = view.camera().size();
+    // Half of what a pixel covers: many samples resolve more than one would.
+    let pixel_angle = 0.5 * view.pixel_angle(0.5 * f64::from(width), 0.5 * f64::from(height));
+    Integrator { scene, config, guide, pixel_angle }
+}
+
 /// Adds samples to a pixel until it has `goal`.
-fn add_samples(
+pub(crate) fn add_samples(
     integrator: &Integrator<'_, '_>,
     view: &CameraView<'_>,
     (x, y): (u32, u32),
@@ -273,7 +288,7 @@ fn add_samples(
     }
 }
 
-fn check_camera(view: &CameraView<'_>) -> Result<(), RenderError> {
+pub(crate) fn check_camera(view: &CameraView<'_>) -> Result<(), RenderError> {
     let pose = view.pose();
     let camera = |problem: String| Err(RenderError::Camera { frame: pose.frame, problem });
     if !pose.position.is_finite() || !pose.world_from_camera.is_finite() {

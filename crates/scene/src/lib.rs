@@ -28,7 +28,7 @@ pub use environment::{Environment, MapRows, direction_from_uv, uv_from_direction
 pub use labels::{Labels, NYU40, PartLabel, SemanticClass, is_stuff};
 pub use light::{Light, SpotFalloff};
 pub use material::{Alpha, Bsdf, ColorParam, Material, NormalMap, Parameter, Principled, ScalarParam};
-pub use package::{PackageError, from_bytes, to_bytes};
+pub use package::{PackageError, from_bytes, from_bytes_with_labels, to_bytes, to_bytes_with_labels};
 pub use photometry::PhotometricWeb;
 pub use scene::{Part, PartId, Scene, SceneError};
 pub use texture::{Filter, Image, Pixels, TextureRef, Wrap};

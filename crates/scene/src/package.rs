@@ -1,9 +1,9 @@
 //! The scene package: a [`Scene`] as one self-contained run of bytes, pictures included.
 //!
-//! Layout: the magic line, the BLAKE3 hash of the body (32 bytes), the body in postcard encoding. Reading checks the hash, so
-//! a truncated or altered package is told from a scene that is wrong.
+//! Layout: the magic line, the BLAKE3 hash of the body (32 bytes), the body in postcard encoding: the scene and, where the package has
+//! them, the labels of its parts. Reading checks the hash, so a truncated or altered package is told from a scene that is wrong.
 
-use crate::{Scene, SceneError};
+use crate::{Labels, Scene, SceneError};
 
 /// Its number rises with every change of the types in a [`Scene`]: postcard writes no names.
 const MAGIC: &[u8] = b"enfilade scene 2\n";
@@ -20,17 +20,34 @@ pub enum PackageError {
     /// The encoding does not fit this version's types.
     #[error("the package cannot be decoded ({0}); import the scene again with this version")]
     Decode(String),
+    /// The labels do not fit the scene.
+    #[error("the package has {labels} labels for {parts} parts; expected one per part: make it again")]
+    Labels {
+        /// Number of labels.
+        labels: usize,
+        /// Number of parts.
+        parts: usize,
+    },
     /// The scene inside is not valid.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }
 
-/// The package of `scene`. The same scene always gives the same bytes.
-///
-/// # Panics
-/// Never: a scene is plain data and always encodes.
+/// The package of `scene`, without labels. The same scene always gives the same bytes.
 pub fn to_bytes(scene: &Scene) -> Vec<u8> {
-    let body = postcard::to_stdvec(scene).expect("plain data encodes");
+    package(encoded(scene))
+}
+
+/// The package of `scene` with the labels of its parts.
+pub fn to_bytes_with_labels(scene: &Scene, labels: &Labels) -> Vec<u8> {
+    package([encoded(scene), encoded(labels)].concat())
+}
+
+fn encoded(data: &impl serde::Serialize) -> Vec<u8> {
+    postcard::to_stdvec(data).expect("plain data encodes")
+}
+
+fn package(body: Vec<u8>) -> Vec<u8> {
     [MAGIC, blake3::hash(&body).as_bytes(), &body].concat()
 }
 
@@ -39,20 +56,33 @@ pub fn to_bytes(scene: &Scene) -> Vec<u8> {
 /// # Errors
 /// When the bytes are not a whole package of this version, or the scene in it is not valid.
 pub fn from_bytes(bytes: &[u8]) -> Result<Scene, PackageError> {
+    Ok(from_bytes_with_labels(bytes)?.0)
+}
+
+/// The scene in a package, and the labels of its parts where the package has them.
+///
+/// # Errors
+/// As [`from_bytes`], and when there are not as many labels as parts.
+pub fn from_bytes_with_labels(bytes: &[u8]) -> Result<(Scene, Option<Labels>), PackageError> {
     let rest = bytes.strip_prefix(MAGIC).ok_or(PackageError::Magic)?;
     let (hash, body) = rest.split_at_checked(32).ok_or(PackageError::Checksum)?;
     if blake3::hash(body).as_bytes() != hash {
         return Err(PackageError::Checksum);
     }
-    let scene: Scene = postcard::from_bytes(body).map_err(|e| PackageError::Decode(e.to_string()))?;
+    let decode = |e: postcard::Error| PackageError::Decode(e.to_string());
+    let (scene, rest): (Scene, &[u8]) = postcard::take_from_bytes(body).map_err(decode)?;
+    let labels: Option<Labels> = if rest.is_empty() { None } else { Some(postcard::from_bytes(rest).map_err(decode)?) };
     scene.validate()?;
-    Ok(scene)
+    match labels.as_ref().map(|labels| labels.parts.len()).filter(|&labels| labels != scene.parts.len()) {
+        Some(labels) => Err(PackageError::Labels { labels, parts: scene.parts.len() }),
+        None => Ok((scene, labels)),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Material, Part};
+    use crate::{Material, Part, PartLabel};
     use enfilade_geometry::Mesh;
     use enfilade_math::{DAffine3, Rgb, Vec3};
 
@@ -69,6 +99,17 @@ mod tests {
         assert!(matches!(from_bytes(&bytes[..bytes.len() - 1]), Err(PackageError::Checksum)));
         assert!(matches!(from_bytes(&bytes[..20]), Err(PackageError::Checksum)));
         assert!(matches!(from_bytes(b"{}"), Err(PackageError::Magic)));
+    }
+
+    #[test]
+    fn labels_travel_with_the_scene_and_must_be_as_many_as_its_parts() {
+        let labels = |n| Labels { parts: vec![PartLabel { semantic: 4, instance: 7 }; n] };
+        let bytes = to_bytes_with_labels(&scene(), &labels(1));
+        assert_eq!(from_bytes_with_labels(&bytes).unwrap(), (scene(), Some(labels(1))));
+        assert_eq!(from_bytes(&bytes).unwrap(), scene());
+        assert_eq!(from_bytes_with_labels(&to_bytes(&scene())).unwrap().1, None);
+        let message = from_bytes(&to_bytes_with_labels(&scene(), &labels(2))).unwrap_err().to_string();
+        assert!(message.starts_with("the package has 2 labels for 1 parts"), "{message}");
     }
 
     #[test]

@@ -80,10 +80,14 @@ pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng
         }
         // The best one, now that its gain is up to date; a closer look may find too little in it after all.
         let view = look(top.pose);
-        match planner.gates.is_void(&view) {
-            true => draft.rejected.add(Fault::Void),
-            false if gain.area_m2 > 0.0 => take(top.pose, view, &mut tally, &mut draft),
-            false => break,
+        let fault = match planner.gates.is_void(&view) {
+            true => Some(Fault::Void),
+            false => (!(planner.accepts)(&poses[top.pose])).then_some(Fault::Refused),
+        };
+        match fault {
+            Some(fault) => draft.rejected.add(fault),
+            None if gain.area_m2 > 0.0 => take(top.pose, view, &mut tally, &mut draft),
+            None => break,
         }
     }
     planner.progress(frames, frames);

@@ -1,45 +1,26 @@
 //! Which views are not worth taking: those from outside of a building, and those of next to nothing.
 
 use super::PlanConfig;
-use super::glance::{Glance, Glancer, SurfacePoint};
+use super::glance::{Glance, Glancer};
 use super::report::Fault;
-use crate::ViewStats;
-use enfilade_math::{DVec3, warp};
+use crate::{Surroundings, ViewStats};
+use enfilade_math::DVec3;
 use enfilade_scene::{Cx, Pose, StartCamera, Warning, WorldMesh};
-use rayon::prelude::*;
-use std::f64::consts::TAU;
-
-/// The back of a part counts only when at most this share of the rays that meet it from around the start meets its back: others are
-/// thin things with two sides, or were modelled inside out.
-const MOSTLY_FRONT: f64 = 0.25;
-
-/// Places around the start from which the parts' sides are looked at, rays from each, and how far away the places are at most.
-const PLACES: usize = 32;
-const RAYS: usize = 1024;
-const PLACE_DISTANCE_M: f64 = 4.0;
-
-/// Level directions around a camera.
-const LEVEL: usize = 72;
-
-/// Directions all around it, of which those with a greater sine above the horizon than this are upward.
-const UPWARD: usize = 128;
-const UPWARD_SINE: f64 = 0.4;
 
 /// The conditions of a view.
 pub(super) struct Gates<'a> {
     pub glancer: &'a Glancer<'a>,
     config: &'a PlanConfig,
-    /// By part: seeing its back is a sign of standing on the wrong side of it.
-    has_front: Vec<bool>,
+    around: Surroundings<'a>,
     /// Level and upward.
     max_open_shares: [f64; 2],
 }
 
 impl<'a> Gates<'a> {
     /// The conditions for views around a start camera, which is taken to be on the right side of things.
-    pub fn new(glancer: &'a Glancer<'a>, config: &'a PlanConfig, world: &WorldMesh, start: &StartCamera, cx: &dyn Cx) -> Self {
-        let has_front = fronts(glancer, world, start.position);
-        let mut gates = Self { glancer, config, has_front, max_open_shares: [config.max_open_share; 2] };
+    pub fn new(glancer: &'a Glancer<'a>, config: &'a PlanConfig, world: &'a WorldMesh, start: &StartCamera, cx: &dyn Cx) -> Self {
+        let around = Surroundings::new(world, glancer.bvh(), &[start.position]);
+        let mut gates = Self { glancer, config, around, max_open_shares: [config.max_open_share; 2] };
         let open = gates.open_shares(start.position);
         for (limit, (share, what)) in gates.max_open_shares.iter_mut().zip(open.into_iter().zip(["level", "upward"])) {
             if share > *limit {
@@ -82,18 +63,9 @@ impl<'a> Gates<'a> {
         self.open_shares(p).iter().zip(self.max_open_shares).any(|(share, limit)| *share > limit)
     }
 
-    /// Of the level and of the upward directions around a point, the share in which there is no surface, or only the back of one
-    /// whose front is what one sees from around the start.
+    /// See [`Surroundings::open_shares`].
     pub fn open_shares(&self, p: DVec3) -> [f64; 2] {
-        let leads_out =
-            |direction: DVec3| self.glancer.meet(p, direction).is_none_or(|point| point.behind && self.has_front[point.part as usize]);
-        let level = |k: usize| {
-            let (sin, cos) = (TAU * (k as f64 + 0.5) / LEVEL as f64).sin_cos();
-            leads_out(DVec3::new(cos, sin, 0.0))
-        };
-        let upward = || (0..UPWARD).map(|k| warp::fibonacci_sphere(k, UPWARD)).filter(|d| d.z > UPWARD_SINE);
-        let level = (0..LEVEL).filter(|k| level(*k)).count() as f64 / LEVEL as f64;
-        [level, upward().filter(|d| leads_out(*d)).count() as f64 / upward().count() as f64]
+        self.around.open_shares(p)
     }
 
     /// Shows too little.
@@ -115,7 +87,7 @@ impl<'a> Gates<'a> {
 
     /// Share of the rays that end on the back of something whose front is what one sees from around the start.
     pub fn back_face_share(&self, glance: &Glance) -> f64 {
-        glance.share(|point| point.behind && self.has_front[point.part as usize])
+        glance.share(|point| self.around.is_wrong_side(point))
     }
 
     /// Share of the rays that end nearer than `min_depth_m`.
@@ -127,24 +99,4 @@ impl<'a> Gates<'a> {
         let (Some([min, max]), Some(before)) = (self.config.overlap, before) else { return false };
         !self.glancer.overlap(glance, before).is_some_and(|share| (min..=max).contains(&share))
     }
-}
-
-/// By part, whether the start and the places that it sees around it see (nearly) nothing but its front.
-fn fronts(glancer: &Glancer, world: &WorldMesh, start: DVec3) -> Vec<bool> {
-    let places = (0..PLACES).map(|k| {
-        let direction = warp::fibonacci_sphere(k, PLACES);
-        let free = glancer.meet(start, direction).map_or(PLACE_DISTANCE_M, |point| point.distance_m.min(PLACE_DISTANCE_M));
-        // Spread over the way to the surface, the surface itself left out.
-        start + direction * free * (0.1 + 0.8 * ((k * 5) % PLACES) as f64 / PLACES as f64)
-    });
-    let places: Vec<DVec3> = std::iter::once(start).chain(places).collect();
-    let met: Vec<SurfacePoint> =
-        places.par_iter().flat_map_iter(|p| (0..RAYS).filter_map(|k| glancer.meet(*p, warp::fibonacci_sphere(k, RAYS)))).collect();
-    let parts = world.sources.iter().map(|source| source.part as usize + 1).max().unwrap_or(0);
-    let (mut all, mut behind) = (vec![0u32; parts], vec![0u32; parts]);
-    for point in met {
-        all[point.part as usize] += 1;
-        behind[point.part as usize] += u32::from(point.behind);
-    }
-    all.iter().zip(&behind).map(|(all, behind)| *all > 0 && f64::from(*behind) <= MOSTLY_FRONT * f64::from(*all)).collect()
 }

@@ -2,8 +2,10 @@
 //! a view was in another one.
 
 use super::rules::Rules;
+use crate::surroundings::{SurfacePoint, meet};
+use enfilade_geometry::Bvh;
 use enfilade_math::{DVec3, Ray};
-use enfilade_scene::{Intrinsics, PartId, Pose, WorldMesh};
+use enfilade_scene::{Intrinsics, Pose, WorldMesh};
 
 /// Rays along a row; rows follow from the shape of the test images.
 const COLUMNS: u32 = 32;
@@ -32,18 +34,6 @@ pub(super) struct Glance {
     pub points: Vec<SurfacePoint>,
 }
 
-/// Where a ray ended.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SurfacePoint {
-    pub p_world: DVec3,
-    pub distance_m: f64,
-    pub part: PartId,
-    /// Unit length, on the side that counter-clockwise corners face.
-    pub normal: DVec3,
-    /// The ray met the back.
-    pub behind: bool,
-}
-
 impl<'a> Glancer<'a> {
     pub fn new(rules: &'a Rules<'a>, world: &'a WorldMesh) -> Self {
         let config = rules.config;
@@ -61,16 +51,11 @@ impl<'a> Glancer<'a> {
 
     /// Where the ray along a unit direction ends.
     pub fn meet(&self, origin: DVec3, direction: DVec3) -> Option<SurfacePoint> {
-        let hit = self.rules.bvh.closest(&Ray::new(origin.as_vec3(), direction.as_vec3()))?;
-        let [a, b, c] = self.world.corners[hit.triangle as usize].map(|p| p.as_dvec3());
-        let normal = (b - a).cross(c - a).normalize_or_zero();
-        Some(SurfacePoint {
-            p_world: origin + f64::from(hit.t) * direction,
-            distance_m: f64::from(hit.t),
-            part: self.world.sources[hit.triangle as usize].part,
-            normal,
-            behind: normal.dot(direction) > 0.0,
-        })
+        meet(self.world, self.rules.bvh, origin, direction)
+    }
+
+    pub fn bvh(&self) -> &'a Bvh {
+        self.rules.bvh
     }
 
     /// Whether a point of a surface is in the picture of a pose, and nothing before it.
@@ -115,7 +100,7 @@ impl Glance {
         let mut largest = 0;
         while let Some(&of) = rest.first().filter(|_| rest.len() > largest) {
             let before = rest.len();
-            rest.retain(|point| !of.is_coplanar(point));
+            rest.retain(|point| !are_coplanar(of, point));
             // A point without a normal is on no plane, not even its own.
             largest = largest.max(before - rest.len());
             if before == rest.len() {
@@ -126,9 +111,7 @@ impl Glance {
     }
 }
 
-impl SurfacePoint {
-    fn is_coplanar(&self, other: &Self) -> bool {
-        let offset = (self.p_world - other.p_world).dot(self.normal).abs();
-        self.part == other.part && self.normal.dot(other.normal).abs() > SAME_NORMAL && offset < SAME_OFFSET_M
-    }
+fn are_coplanar(a: &SurfacePoint, b: &SurfacePoint) -> bool {
+    let offset = (a.p_world - b.p_world).dot(a.normal).abs();
+    a.part == b.part && a.normal.dot(b.normal).abs() > SAME_NORMAL && offset < SAME_OFFSET_M
 }

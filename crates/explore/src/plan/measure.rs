@@ -128,6 +128,7 @@ fn describe(planner: &Planner, fault: Fault) -> String {
     let config = planner.config;
     let percent = |share: f64| format!("{:.0} %", 100.0 * share);
     match fault {
+        Fault::Refused => "are refused by a later gate".into(),
         Fault::Overlap => {
             let [min, max] = config.overlap.unwrap_or_default().map(percent);
             format!("share less than {min} or more than {max} with the view before, and no better ones were found: widen overlap or step_m")

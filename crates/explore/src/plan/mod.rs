@@ -66,12 +66,30 @@ pub fn plan(
     config: &PlanConfig,
     cx: &dyn Cx,
 ) -> Result<Planned, ExploreError> {
+    plan_accepted(world, bvh, space, start, trajectory_index, config, &|_| true, cx)
+}
+
+/// As [`plan`], with a last word by the caller: a view for which `accepts` is false has [`Fault::Refused`]. It is asked about views
+/// that have no other fault, from any thread, and never about the first pose; the preset of Hypersim does not ask.
+///
+/// # Errors
+/// As [`plan`].
+pub fn plan_accepted(
+    world: &WorldMesh,
+    bvh: &Bvh,
+    space: &FreeSpace,
+    start: &StartCamera,
+    trajectory_index: u32,
+    config: &PlanConfig,
+    accepts: &(dyn Fn(&Pose) -> bool + Sync),
+    cx: &dyn Cx,
+) -> Result<Planned, ExploreError> {
     config.validate()?;
     let name = trajectory_name(trajectory_index);
     let rules = Rules::new(bvh, space, config);
     let glancer = Glancer::new(&rules, world);
     let gates = Gates::new(&glancer, config, world, start, cx);
-    let planner = Planner::new(&rules, &gates, world, &name, cx);
+    let planner = Planner { accepts, ..Planner::new(&rules, &gates, world, &name, cx) };
     if config.preset == Preset::Hypersim {
         let (poses, views) =
             hypersim::walk(world, bvh, space, start, &name, config, &|frame| planner.progress(frame as usize, config.frames as usize))?
@@ -142,6 +160,8 @@ struct Planner<'a> {
     config: &'a PlanConfig,
     image: TestImage,
     name: &'a str,
+    /// The caller's last word.
+    accepts: &'a (dyn Fn(&Pose) -> bool + Sync),
     cx: &'a dyn Cx,
 }
 
@@ -159,7 +179,7 @@ impl<'a> Planner<'a> {
     fn new(rules: &'a Rules<'a>, gates: &'a Gates<'a>, world: &'a WorldMesh, name: &'a str, cx: &'a dyn Cx) -> Self {
         let config = rules.config;
         let image = TestImage::new(&Intrinsics::from_fov_x(config.test_width, config.test_height, config.fov_x_rad));
-        Self { rules, gates, world, config, image, name, cx }
+        Self { rules, gates, world, config, image, name, accepts: &|_| true, cx }
     }
 
     /// What each pose shows.
@@ -191,7 +211,9 @@ impl<'a> Planner<'a> {
         views.iter().filter(|view| self.gates.is_void(view)).for_each(|_| rejected.add(Fault::Void));
         while let Some(distribution) = Distribution1::new(&weights) {
             let chosen = distribution.sample(rng.next_f32()).0;
-            let Some(fault) = self.gates.fault(&candidates[chosen], before) else { return Some(chosen) };
+            let pose = &candidates[chosen];
+            let fault = self.gates.fault(pose, before).or_else(|| (!(self.accepts)(pose)).then_some(Fault::Refused));
+            let Some(fault) = fault else { return Some(chosen) };
             rejected.add(fault);
             weights[chosen] = 0.0;
         }

@@ -93,6 +93,8 @@ pub struct Spread {
 pub enum Fault {
     /// Too little or too much of it was in the view before: `overlap`.
     Overlap,
+    /// The caller of [`crate::plan_accepted`] does not accept it.
+    Refused,
     /// Shows no surface in too many pixels: `max_void_share`.
     Void,
     /// Too many pixels show something nearer than `min_depth_m`: `max_near_share`.
@@ -113,6 +115,8 @@ pub enum Fault {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[allow(missing_docs)] // Fault describes each one
 pub struct RejectedCounts {
+    #[serde(default)]
+    pub refused: u64,
     pub overlap: u64,
     pub void: u64,
     pub near: u64,
@@ -203,6 +207,7 @@ impl RejectedCounts {
     /// One more with this fault. Faults of place, sight and tilt are not counted: such points are no candidates.
     pub(super) fn add(&mut self, fault: Fault) {
         match fault {
+            Fault::Refused => self.refused += 1,
             Fault::Overlap => self.overlap += 1,
             Fault::Void => self.void += 1,
             Fault::Near => self.near += 1,

@@ -1,6 +1,5 @@
 //! Hypersim's random walk: every step draws poses near the last one and chooses among them in proportion to what they show.
 
-use super::gates::Gates;
 use super::report::{Fault, RejectedCounts};
 use super::rules::posed;
 use super::{Draft, Planner};
@@ -64,7 +63,7 @@ impl Step<'_> {
             }
             spare.extend(candidates.into_iter().zip(views));
         }
-        let worst = |(pose, view): &(Pose, ViewStats)| worst_fault(planner.gates, pose, view, &last);
+        let worst = |(pose, view): &(Pose, ViewStats)| worst_fault(planner, pose, view, &last);
         // The first of the least bad.
         let best = spare.into_iter().min_by_key(|found| (worst(found), Reverse(found.1.hits)));
         best.ok_or_else(|| ExploreError::Stuck {
@@ -120,6 +119,9 @@ impl Step<'_> {
     }
 }
 
-fn worst_fault(gates: &Gates, pose: &Pose, view: &ViewStats, before: &Pose) -> Option<Fault> {
-    gates.fault(pose, Some(before)).max(gates.is_void(view).then_some(Fault::Void))
+fn worst_fault(planner: &Planner, pose: &Pose, view: &ViewStats, before: &Pose) -> Option<Fault> {
+    let gates = planner.gates;
+    let fault = gates.fault(pose, Some(before)).max(gates.is_void(view).then_some(Fault::Void));
+    let refused = || fault < Some(Fault::Refused) && !(planner.accepts)(pose);
+    if refused() { Some(Fault::Refused) } else { fault }
 }

@@ -1,5 +1,7 @@
-//! Environments that converters leave in a scene's extras: two conventions met in well-known rooms.
+//! Environments in a scene's extras: our own, and two conventions of converters met in well-known rooms.
 //!
+//! - `environment`, as `enfilade` writes it: `{"radiance": [3 numbers]}`, or `{"bufferView", "rows": "bands" or "pole_to_pole",
+//!   "gltf_from_map": [9 numbers, row by row]}` with an equirectangular OpenEXR picture of radiance inside of the file.
 //! - `mitsuba_emitters`: `{"type": "envmap", "filename", "to_world": [16 numbers, row by row], "scale"}`, with Mitsuba's layout.
 //! - `pbrt_lights`: `{"type": "infinite", "mapname": [file], "transform": [16 numbers, row by row], "L", "scale"}`, with pbrt-v3's
 //!   layout: z up, across by the azimuth from +x towards +y, down by the polar angle.
@@ -9,14 +11,17 @@ use crate::ImportError;
 use crate::assembly::{Assembly, Source};
 use crate::images::Use;
 use enfilade_math::{DMat3, DVec3, Rgb};
-use enfilade_scene::MapRows;
+use enfilade_scene::{Environment, MapRows};
 use serde_json::Value;
 
-/// Uses the first environment map found in the extras of the file's scenes.
-pub(super) fn guess(document: &Document, a: &mut Assembly) -> Result<(), ImportError> {
+/// Uses the first environment found in the extras of the file's scenes.
+pub(super) fn add_from_extras(document: &Document, a: &mut Assembly) -> Result<(), ImportError> {
     let extras = document.root.scenes.iter().filter_map(|s| s.extras.as_ref());
     let extras: Vec<Value> = extras.filter_map(|e| serde_json::from_str(e.get()).ok()).collect();
     for extra in &extras {
+        if let Some(environment) = extra.get("environment") {
+            return own(document, environment, a);
+        }
         let emitters = extra.get("mitsuba_emitters").and_then(Value::as_array).into_iter().flatten();
         for e in emitters.filter(|e| e.get("type").and_then(Value::as_str) == Some("envmap")) {
             let Some(file) = e.get("filename").and_then(Value::as_str) else { continue };
@@ -31,6 +36,35 @@ pub(super) fn guess(document: &Document, a: &mut Assembly) -> Result<(), ImportE
             let file_from_map = rotation(l.get("transform")) * pbrt_from_map;
             return add(a, "scenes.extras.pbrt_lights", file, file_from_map, scale(l, "L") * scale(l, "scale"));
         }
+    }
+    Ok(())
+}
+
+/// The environment as this workspace writes it.
+fn own(document: &Document, environment: &Value, a: &mut Assembly) -> Result<(), ImportError> {
+    const PLACE: &str = "scenes.extras.environment";
+    if environment.get("radiance").is_some() {
+        a.set_environment(Environment::Constant { radiance: scale(environment, "radiance") }, PLACE);
+        return Ok(());
+    }
+    let view = environment.get("bufferView").and_then(Value::as_u64).and_then(|view| usize::try_from(view).ok());
+    let numbers: Vec<f64> =
+        environment.get("gltf_from_map").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_f64).collect();
+    let (Some(view), [xx, xy, xz, yx, yy, yz, zx, zy, zz]) = (view, numbers.as_slice()) else {
+        let problem = "expected `radiance`, or `bufferView` and nine numbers as `gltf_from_map`; export the file again";
+        return Err(a.malformed(PLACE, problem.to_string()));
+    };
+    let file_from_map = DMat3::from_cols(DVec3::new(*xx, *yx, *zx), DVec3::new(*xy, *yy, *zy), DVec3::new(*xz, *yz, *zz));
+    let rows = match environment.get("rows").and_then(Value::as_str) {
+        Some("pole_to_pole") => MapRows::PoleToPole,
+        _ => MapRows::Bands,
+    };
+    let bytes = match document.view(view) {
+        Ok((bytes, _)) => bytes,
+        Err(problem) => return Err(a.malformed(PLACE, problem)),
+    };
+    if let Some(image) = a.image(&Source::Embedded(PLACE.to_string(), bytes), Use::Color, "the environment")? {
+        a.set_environment_map(image, rows, Rgb::WHITE, file_from_map, PLACE);
     }
     Ok(())
 }

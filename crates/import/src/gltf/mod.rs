@@ -21,9 +21,9 @@
 //! `extras` of a node may carry `"semantic"`, a NYU40 class as its id (1 to 40) or name, and `"instance"`, a number from 1. Both
 //! hold for the node's own parts and for all nodes below it that do not say otherwise.
 //!
-//! # Guessed environments
+//! # Environments
 //!
-//! glTF has no environment. Where `extras` of the scene hold `mitsuba_emitters` or `pbrt_lights`, as converters of well-known
+//! glTF has no environment. `environment` in the `extras` of the scene is one (`environment.rs` has its form). Where `extras` of the scene hold `mitsuba_emitters` or `pbrt_lights`, as converters of well-known
 //! scenes leave them, their environment map is used, and reported as guessed.
 
 mod accessor;
@@ -45,7 +45,7 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     report_dropped(&document, &mut assembly);
     let roots = node::roots(&document, &mut assembly)?;
     node::place(&document, &roots, &mut assembly)?;
-    environment::guess(&document, &mut assembly)?;
+    environment::add_from_extras(&document, &mut assembly)?;
     assembly.finish()
 }
 

@@ -6,9 +6,10 @@
 use super::choices::{check_noise, check_positive, check_samples};
 use super::expand::expand;
 use super::locate::{ConfigError, Source as Text};
-use super::patch::{CarvePatch, PlanPatch, RenderPatch};
+use super::patch::{CarvePatch, GatePatch, PlanPatch, RenderPatch};
 use super::{CameraChoice, CameraConfig, Config, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source};
 use enfilade_explore::Mode;
+use enfilade_home::HomeConfig;
 use enfilade_import::UpAxis;
 use serde::de::{MapAccess, Visitor, value::MapAccessDeserializer};
 use serde::{Deserialize, Deserializer};
@@ -41,6 +42,8 @@ struct Document {
     #[serde(default)]
     carve: CarvePatch,
     #[serde(default)]
+    gate: GatePatch,
+    #[serde(default)]
     scene: Vec<SceneKeys>,
 }
 
@@ -57,7 +60,7 @@ struct ImportKeys {
 struct SceneKeys {
     name: Spanned<String>,
     file: Option<Spanned<String>>,
-    home: Option<HomeKeys>,
+    home: Option<Spanned<toml::Table>>,
     meters_per_unit: Option<Spanned<f64>>,
     up_axis: Option<UpAxis>,
     environment: Option<Spanned<EnvironmentChoice>>,
@@ -77,12 +80,8 @@ struct SceneKeys {
     plan: PlanPatch,
     #[serde(default)]
     carve: CarvePatch,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct HomeKeys {
-    seed: Option<u64>,
+    #[serde(default)]
+    gate: GatePatch,
 }
 
 /// A camera's name, or a table with its place.
@@ -181,6 +180,7 @@ impl Resolver<'_> {
             camera: camera.map_or_else(CameraConfig::default, |camera| camera.get_ref().clone()),
             carve: Default::default(),
             plan: Default::default(),
+            gate: Default::default(),
             render: Default::default(),
             time_limit_s: None,
             save_every_s: super::save_every_s(),
@@ -191,6 +191,12 @@ impl Resolver<'_> {
         scene.render.samples = QUALITY.samples();
         self.lay_over(&mut scene, document.quality, document.frames.as_ref(), &document.render, &document.plan, &document.carve)?;
         self.lay_over(&mut scene, keys.quality, keys.frames.as_ref(), &keys.render, &keys.plan, &keys.carve)?;
+        for gate in [&document.gate, &keys.gate] {
+            if let Some((value, message, example)) = gate.problem() {
+                return Err(self.refuse(value, message, example));
+            }
+            gate.apply(&mut scene.gate);
+        }
         if let Some(camera) = camera {
             self.check_camera(&mut scene, camera)?;
         }
@@ -201,7 +207,7 @@ impl Resolver<'_> {
     fn scene_source(&self, keys: &SceneKeys, seed: u64) -> Result<Source, ConfigError> {
         let file = match (&keys.file, &keys.home) {
             (Some(file), None) => file,
-            (None, Some(home)) => return Ok(Source::Home { seed: self.overrides.seed.or(home.seed).unwrap_or(seed) }),
+            (None, Some(home)) => return self.home(home, seed).map(Source::Home),
             _ => {
                 let message = "a scene needs either `file` or `home`";
                 return Err(self.refuse(
@@ -231,6 +237,21 @@ impl Resolver<'_> {
             environment: keys.environment.as_ref().map(|e| e.get_ref().clone()),
             allow_missing_textures: keys.allow_missing_textures.or(defaults.allow_missing_textures).unwrap_or(false),
         }))
+    }
+
+    /// A generated home; its seed is the scene's unless it has its own.
+    fn home(&self, keys: &Spanned<toml::Table>, seed: u64) -> Result<HomeConfig, ConfigError> {
+        let own = keys.get_ref().contains_key("seed");
+        let read: Result<HomeConfig, toml::de::Error> = keys.get_ref().clone().try_into();
+        let help = "home = {} takes everything as it comes; home = { seed = 3, rooms = [\"living\", \"kitchen\", \"hall\"] } chooses";
+        let mut home = read.map_err(|e| self.refuse(keys, format!("in `home`: {}", e.message()), help))?;
+        if let Some(seed) = self.overrides.seed.or((!own).then_some(seed)) {
+            home.seed = seed;
+        }
+        match home.problem() {
+            Some(problem) => Err(self.refuse(keys, format!("in `home`: {problem}"), help)),
+            None => Ok(home),
+        }
     }
 
     fn labels(&self, keys: &SceneKeys, name: &str) -> Result<Option<LabelSource>, ConfigError> {

@@ -14,8 +14,10 @@ mod tests;
 
 use crate::error::Error;
 use enfilade_explore::{CarveConfig, PlanConfig, Preset};
+use enfilade_home::HomeConfig;
 use enfilade_import::UpAxis;
 use enfilade_math::hash_u64;
+use enfilade_post::view_gates::GateConfig;
 use enfilade_render::RenderConfig;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -61,6 +63,9 @@ pub struct SceneConfig {
     pub carve: CarveConfig,
     /// Trajectories. Its seed is made from `seed`; its test images get the pictures' field of view and shape.
     pub plan: PlanConfig,
+    /// Which views are worth rendering.
+    #[serde(default)]
+    pub gate: GateConfig,
     /// Light transport. Its seed is made from `seed`, another for each camera.
     pub render: RenderConfig,
     /// Wall-clock seconds after which a frame ends with the samples that it has; `None` is no limit. Frames that it ends are not the
@@ -86,10 +91,7 @@ pub enum Source {
     /// A file in one of the formats that `import` reads.
     File(FileSource),
     /// The procedural furnished home.
-    Home {
-        /// Which home.
-        seed: u64,
-    },
+    Home(HomeConfig),
 }
 
 /// A scene file and what it does not say itself.
@@ -195,11 +197,11 @@ pub struct Overrides {
 /// What the demo makes unless told otherwise. Chosen so that all of it takes less than a minute on two cores.
 pub mod demo {
     /// Name of the demo's scene.
-    pub const SCENE: &str = "living-room";
+    pub const SCENE: &str = "home";
     /// Seed.
     pub const SEED: u64 = 0;
-    /// The room's camera that the trajectory starts from; every room has it.
-    pub const CAMERA: &str = "door";
+    /// The camera that the trajectory starts from; every home with a living room has it.
+    pub const CAMERA: &str = "living_1";
     /// Frames of the trajectory.
     pub const FRAMES: u32 = 4;
     /// Image width and height.
@@ -224,7 +226,7 @@ impl Config {
         Ok(config)
     }
 
-    /// The demo: one generated living room.
+    /// The demo: one generated home.
     ///
     /// # Errors
     /// When an override is out of its range.

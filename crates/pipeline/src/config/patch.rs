@@ -1,6 +1,7 @@
 //! The sections of `dataset.toml` that say how stages work: every key is optional, and what is there replaces the value below.
 
 use enfilade_explore::{CarveConfig, Mode, PlanConfig, Preset, Saliency};
+use enfilade_post::view_gates::{GateAction, GateConfig};
 use enfilade_render::{Filter, RenderConfig};
 use serde::Deserialize;
 use toml::Spanned;
@@ -55,6 +56,36 @@ section!(RenderPatch => RenderConfig {
 });
 
 section!(CarvePatch => CarveConfig { preset: Preset, voxel_m: f64, extent_m: f64, rays: u32, iterations: u32, keep_outside: bool });
+
+section!(GatePatch => GateConfig {
+    action: GateAction,
+    max_void_share: f64,
+    enclosed_m: f64,
+    max_enclosed_share: f64,
+    max_open_share: f64,
+    max_back_face_share: f64,
+    min_depth_m: f64,
+    max_near_share: f64,
+    min_depth_range_m: f64,
+    max_plane_share: f64,
+    max_invalid_share: f64,
+});
+
+impl GatePatch {
+    /// A value out of its range, what is wrong with it, and a good one.
+    pub fn problem(&self) -> Option<(&Spanned<f64>, String, &'static str)> {
+        let shares = [&self.max_void_share, &self.max_enclosed_share, &self.max_open_share, &self.max_back_face_share];
+        let shares = shares.into_iter().chain([&self.max_near_share, &self.max_plane_share, &self.max_invalid_share]).flatten();
+        let lengths = [&self.enclosed_m, &self.min_depth_m, &self.min_depth_range_m].into_iter().flatten();
+        let no_share = shares.into_iter().find(|v| !(0.0..=1.0).contains(v.get_ref()));
+        let no_share =
+            no_share.map(|v| (v, format!("a share must lie between 0 and 1, found {}", v.get_ref()), "for example: max_plane_share = 0.9"));
+        let no_length = lengths.into_iter().find(|v| !(*v.get_ref() >= 0.0 && v.get_ref().is_finite()));
+        no_share.or_else(|| {
+            no_length.map(|v| (v, format!("a length must be 0 or more metres, found {}", v.get_ref()), "for example: min_depth_m = 0.3"))
+        })
+    }
+}
 
 // The frames are a key of the level above; the test images have the field of view and the shape of the pictures.
 section!(PlanPatch => PlanConfig {

@@ -49,6 +49,17 @@ fn the_scene_wins_over_the_file_and_the_command_line_over_both() {
 }
 
 #[test]
+fn limits_of_gates_have_defaults_and_the_scene_wins() {
+    assert_eq!(config(SCENE).scenes[0].gate, GateConfig::default());
+    let text = format!("[gate]\nmax_plane_share = 0.8\nmin_depth_m = 0.2\n{SCENE}[scene.gate]\nmax_plane_share = 1\naction = \"report\"\n");
+    let gate = config(&text).scenes.remove(0).gate;
+    assert_eq!((gate.max_plane_share, gate.min_depth_m, gate.action), (1.0, 0.2, enfilade_post::view_gates::GateAction::Report));
+    let share = error(&format!("[gate]\nmax_plane_share = 1.5\n{SCENE}"));
+    assert!(share.contains("a share must lie between 0 and 1, found 1.5") && share.contains("2:19"), "{share}");
+    assert!(error(&format!("[gate]\nmin_depth_m = -1\n{SCENE}")).contains("0 or more metres, found -1"));
+}
+
+#[test]
 fn denoising_is_off_until_asked_for_and_its_library_may_be_named() {
     let scene = config(SCENE).scenes.remove(0);
     assert!(!scene.denoise && scene.denoise_library.is_none());
@@ -105,7 +116,7 @@ fn everything_about_a_scene_can_be_said() {
         [CameraChoice::Named("door".into()), CameraChoice::Placed { position: [0.0, 1.0, 1.5], look_at: [3.0, 1.0, 1.2] }]
     );
     // A home knows its own labels.
-    assert_eq!((&config.scenes[1].source, &config.scenes[1].labels), (&Source::Home { seed: 5 }, &None));
+    assert_eq!((&config.scenes[1].source, &config.scenes[1].labels), (&Source::Home(HomeConfig::of_seed(5)), &None));
 }
 
 #[test]
@@ -230,7 +241,10 @@ fn the_demo_is_one_home_and_takes_overrides() {
     })
     .unwrap();
     let scene = &config.scenes[0];
-    assert_eq!((config.scenes.len(), &scene.source, scene.plan.frames, scene.size), (1, &Source::Home { seed: 4 }, 2, [64, 48]));
+    assert_eq!(
+        (config.scenes.len(), &scene.source, scene.plan.frames, scene.size),
+        (1, &Source::Home(HomeConfig::of_seed(4)), 2, [64, 48])
+    );
     assert_eq!(scene.render.samples, Quality::Draft.samples());
     let error = Config::demo(&Overrides { frames: Some(0), ..Overrides::default() }).unwrap_err();
     assert_eq!(error.to_string(), "the command line: frames must lie between 1 and 10000, found 0");
@@ -259,10 +273,10 @@ fn the_cameras_of_the_page_are_valid_configurations() {
 #[test]
 fn patterns_choose_scenes_and_a_typing_mistake_gets_a_proposal() {
     let config = Config::demo(&Overrides::default()).unwrap();
-    assert_eq!(config.select(Some("liv*m")).unwrap().len(), 1);
-    assert_eq!(config.select(Some("x, living-room")).unwrap().len(), 1);
-    let error = config.select(Some("livingroom")).unwrap_err();
-    assert_eq!(error.hint().unwrap(), "did you mean \"living-room\"? the scenes are: living-room");
+    assert_eq!(config.select(Some("h*e")).unwrap().len(), 1);
+    assert_eq!(config.select(Some("x, home")).unwrap().len(), 1);
+    let error = config.select(Some("hom")).unwrap_err();
+    assert_eq!(error.hint().unwrap(), "did you mean \"home\"? the scenes are: home");
     assert!(matches("a*b*c", "a-b-b-c") && !matches("a*b", "abc") && matches("*", ""));
 }
 

@@ -30,10 +30,12 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let (mut outputs, boxed) = write_boxes(job.dataset, name, &scene, &labels).map_err(Error::stage)?;
     let solids = solids(&WorldMesh::new(&scene), &labels);
     let filmed = job.filmed()?;
+    let mut frames = 0;
     for (_, trajectory) in &filmed {
-        outputs.extend(write_instances(job.dataset, name, &trajectory.name, &solids, cx).map_err(Error::stage)?);
+        let rendered = job.frames_of(trajectory)?;
+        outputs.extend(write_instances(job.dataset, name, &trajectory.name, &rendered, &solids, cx).map_err(Error::stage)?);
+        frames += rendered.len();
     }
-    let frames: usize = filmed.iter().map(|(_, trajectory)| trajectory.poses.len()).sum();
     let summary = format!("{} of 3 kinds, seen in {}", count(boxed, "instance"), count(frames, "frame"));
     Ok(Outcome { summary, outputs, ..Outcome::default() })
 }

@@ -5,7 +5,6 @@ use crate::config::{FileSource, Source};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, write_json, write_whole};
-use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, ImportOptions, ImportedLabel};
 use enfilade_scene::{Cx, Labels, PartLabel, Scene, WorldMesh};
 use std::path::{Path, PathBuf};
@@ -19,7 +18,7 @@ pub(super) fn settings(job: &Job) -> Hash {
 
 /// The files that the last import read: which these are, only reading tells.
 pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
-    if matches!(job.scene.source, Source::Home { .. }) {
+    if matches!(job.scene.source, Source::Home(_)) {
         return Ok(Some(Vec::new()));
     }
     // A file that has gone makes the import run, which then says so.
@@ -29,8 +28,8 @@ pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
     let (scene, labels, inputs, report) = match &job.scene.source {
-        Source::Home { seed } => {
-            let home = enfilade_home::living_room(&HomeConfig { seed: *seed });
+        Source::Home(config) => {
+            let home = enfilade_home::home(config);
             (home.scene, Some(home.labels), Vec::new(), serde_json::Value::Null)
         }
         Source::File(source) => {
@@ -72,7 +71,7 @@ pub(crate) fn load_file(
     enfilade_import::load(file, &options, cx).map_err(Error::stage)
 }
 
-fn labels_by_part(scene: &Scene, labels: &[ImportedLabel]) -> Labels {
+pub(crate) fn labels_by_part(scene: &Scene, labels: &[ImportedLabel]) -> Labels {
     let mut parts = vec![PartLabel::NONE; scene.parts.len()];
     for label in labels {
         parts[label.part as usize] = label.label;

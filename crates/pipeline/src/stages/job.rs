@@ -5,6 +5,7 @@ use crate::workdir::Workdir;
 use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_geometry::Bvh;
 use enfilade_scene::{Camera, Scene, Trajectory, WorldMesh};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -103,10 +104,19 @@ impl<'a> Job<'a> {
         filmed.collect::<Result<_, _>>().map_err(|error: DatasetError| Error::stage(error))
     }
 
-    /// Every frame of every trajectory, by camera name.
+    /// Every frame that is rendered, by camera name.
     pub fn frames(&self) -> Result<Vec<(String, u32)>, Error> {
-        let filmed = self.filmed()?;
-        Ok(filmed.iter().flat_map(|(_, t)| t.poses.iter().map(|p| (t.name.clone(), p.frame))).collect())
+        let mut frames = Vec::new();
+        for (_, trajectory) in self.filmed()? {
+            frames.extend(self.frames_of(&trajectory)?.into_iter().map(|frame| (trajectory.name.clone(), frame)));
+        }
+        Ok(frames)
+    }
+
+    /// The frames of a trajectory that are rendered: all but those that a gate rejects.
+    pub fn frames_of(&self, trajectory: &Trajectory) -> Result<BTreeSet<u32>, Error> {
+        let rejected = self.dataset.rejected_views(&self.scene.name, &trajectory.name).map_err(Error::stage)?;
+        Ok(trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !rejected.contains_key(frame)).collect())
     }
 
     /// The commit records of all frames as inputs: they hold the checksums of every layer.

@@ -7,14 +7,16 @@
 mod boxes;
 mod carve;
 mod denoise;
+mod gate;
 mod import;
 mod job;
 mod label;
+mod pilot;
 mod plan;
 mod plan_preview;
 mod preview;
 mod progressive;
-mod render;
+pub(crate) mod render;
 mod verify;
 
 use crate::error::Error;
@@ -25,9 +27,11 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 pub(crate) use denoise::check_denoiser;
-pub(crate) use import::{describe, load_file};
-pub(crate) use job::Job;
+pub(crate) use import::{describe, labels_by_part, load_file};
+pub(crate) use job::{Job, World};
+pub(crate) use pilot::pilot;
 pub(crate) use plan_preview::draw_plan;
+pub(crate) use verify::CARD;
 
 /// A stage by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -37,6 +41,7 @@ pub enum Stage {
     Import,
     Carve,
     Plan,
+    Gate,
     Render,
     Denoise,
     Label,
@@ -54,7 +59,7 @@ pub struct StageSpec {
     /// What it reads and writes.
     pub about: &'static str,
     /// Changes whenever the stage's outputs change for the same inputs, so that old outputs are made again.
-    version: u32,
+    pub(crate) version: u32,
     /// Everything of the configuration that the outputs depend on.
     settings: fn(&Job) -> Hash,
     /// Everything else that they depend on; `None` when that is only known after the stage has run.
@@ -64,7 +69,7 @@ pub struct StageSpec {
 }
 
 /// All stages in the order in which they run.
-pub const STAGES: [StageSpec; 9] = [
+pub const STAGES: [StageSpec; 10] = [
     StageSpec {
         stage: Stage::Import,
         name: "import",
@@ -87,16 +92,25 @@ pub const STAGES: [StageSpec; 9] = [
         stage: Stage::Plan,
         name: "plan",
         about: "scene, free space -> camera trajectories",
-        version: 3,
+        version: 4,
         settings: plan::settings,
         inputs: plan::inputs,
         run: plan::run,
     },
     StageSpec {
+        stage: Stage::Gate,
+        name: "gate",
+        about: "scene, trajectories -> which views are worth rendering",
+        version: 1,
+        settings: gate::settings,
+        inputs: gate::inputs,
+        run: gate::run,
+    },
+    StageSpec {
         stage: Stage::Render,
         name: "render",
         about: "scene, trajectories -> frames",
-        version: 4,
+        version: 5,
         settings: render::settings,
         inputs: render::inputs,
         run: render::run,
@@ -105,7 +119,7 @@ pub const STAGES: [StageSpec; 9] = [
         stage: Stage::Denoise,
         name: "denoise",
         about: "frames -> denoised colour layers, where asked for",
-        version: 1,
+        version: 2,
         settings: denoise::settings,
         inputs: denoise::inputs,
         run: denoise::run,
@@ -114,7 +128,7 @@ pub const STAGES: [StageSpec; 9] = [
         stage: Stage::Label,
         name: "label",
         about: "frames, label table -> semantic layers",
-        version: 1,
+        version: 2,
         settings: label::settings,
         inputs: label::inputs,
         run: label::run,
@@ -132,7 +146,7 @@ pub const STAGES: [StageSpec; 9] = [
         stage: Stage::Preview,
         name: "preview",
         about: "frames -> pictures and contact sheets",
-        version: 3,
+        version: 4,
         settings: preview::settings,
         inputs: preview::inputs,
         run: preview::run,
@@ -141,7 +155,7 @@ pub const STAGES: [StageSpec; 9] = [
         stage: Stage::Verify,
         name: "verify",
         about: "dataset -> report card",
-        version: 3,
+        version: 4,
         settings: verify::settings,
         inputs: verify::inputs,
         run: verify::run,

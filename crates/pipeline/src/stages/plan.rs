@@ -1,15 +1,17 @@
 //! `plan`: free space to one trajectory per start camera.
 
 use super::job::World;
-use super::{Input, Inputs, Job, Outcome, Record, Stage, carve};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, carve, gate};
 use crate::error::Error;
+use crate::gatekeeper::Gatekeeper;
 use crate::report::{StageCx, count, count_of};
-use crate::workdir::{Hash, read_json, remove_if_there, write_json};
+use crate::workdir::{Hash, remove_if_there, write_json};
 use enfilade_dataset::{StereoRecord, StereoSide};
 use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, Preset, parse_keyframes};
 use enfilade_geometry::OccupancyTree;
 use enfilade_post::planview::remove_plan_preview;
-use enfilade_scene::{Camera, Cx, StartCamera, Trajectory, Warning};
+use enfilade_post::view_gates::GateAction;
+use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, Warning};
 use std::path::{Path, PathBuf};
 
 /// The four arrays of a trajectory.
@@ -20,7 +22,7 @@ const WIDEST_VIEW_RAD: f64 = 2.1;
 
 pub(super) fn settings(job: &Job) -> Hash {
     let scene = job.scene;
-    Hash::of(&(&scene.plan, scene.size, scene.fov_x_deg, &scene.camera, scene.exploring_seed("plan", scene.plan.preset)))
+    Hash::of(&(&scene.plan, scene.size, scene.fov_x_deg, &scene.camera, &scene.gate, scene.exploring_seed("plan", scene.plan.preset)))
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
@@ -41,9 +43,7 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
-    let starts: Vec<StartCamera> = read_json(&job.work_file(carve::STARTS)?)
-        .filter(|starts: &Vec<StartCamera>| !starts.is_empty())
-        .ok_or_else(|| Error::scene("the list of start cameras cannot be read", "make it again: enfilade carve --force"))?;
+    let starts = gate::starts(job)?;
     let fov_x_rad = job.scene.fov_x_deg.map_or(starts[0].fov_x_rad, f64::to_radians);
     let camera = job.scene.camera.camera(job.scene.size, fov_x_rad, |path| job.config.path(path))?;
     let fov_x_rad = camera.projection.fov_x_rad(std::f64::consts::TAU);
@@ -61,6 +61,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let trajectories: Vec<Trajectory> = filmed.iter().map(|(trajectory, _)| trajectory.clone()).collect();
     // Pictures of an earlier plan would be taken for pictures of this one.
     remove_plan_preview(job.dataset, name).map_err(Error::stage)?;
+    gate::forget(job)?;
     remove_other_cameras(job, &trajectories)?;
     for (trajectory, stereo) in &filmed {
         job.dataset.write_trajectory(name, trajectory, &camera, stereo.as_ref()).map_err(Error::stage)?;
@@ -153,10 +154,14 @@ fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) ->
     if let Mode::Keyframes(keyframes) = &config.mode {
         return follow_all(job, &keyframes.files, &world, &space, &config, cx);
     }
+    let scene = job.load_scene()?;
+    let rejects = job.scene.gate.action == GateAction::Reject && config.preset == Preset::Default;
+    let keeper = if rejects { Some(Gatekeeper::new(&scene, &world, starts, &job.scene.gate)?) } else { None };
+    let accepts = |pose: &Pose| keeper.as_ref().is_none_or(|keeper| passes(job, keeper, camera, pose));
     let mut planned = Vec::new();
     let mut first_error = None;
     for (index, start) in starts.iter().enumerate() {
-        match enfilade_explore::plan(&world.mesh, &world.bvh, &space, start, index as u32, &config, cx) {
+        match enfilade_explore::plan_accepted(&world.mesh, &world.bvh, &space, start, index as u32, &config, &accepts, cx) {
             Ok(found) => planned.push(found),
             Err(error) => {
                 let message = format!("no trajectory begins here: {error}");
@@ -169,6 +174,14 @@ fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) ->
         Some(error) if planned.is_empty() => Err(Error::stage(error)),
         _ => Ok(planned),
     }
+}
+
+/// Whether a view, and that of the other camera of a rig, passes the gates that it will meet.
+fn passes(job: &Job, keeper: &Gatekeeper, camera: &Camera, pose: &Pose) -> bool {
+    let one = Trajectory { name: String::new(), poses: vec![*pose] };
+    let other = job.scene.camera.stereo.map(|stereo| one.beside(String::new(), stereo.baseline_m));
+    let views = one.poses.iter().chain(other.iter().flat_map(|other| &other.poses));
+    views.map(|pose| keeper.judge(&CameraView::still(camera, pose))).all(|judgement| judgement.fault.is_none())
 }
 
 /// The trajectories of files of poses.

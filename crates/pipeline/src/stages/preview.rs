@@ -4,7 +4,7 @@ use super::{Inputs, Job, Outcome, Record};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, remove_if_there};
-use enfilade_post::drivers::{preview_boxes, preview_camera, write_contact_sheet};
+use enfilade_post::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet};
 use enfilade_post::sheet::SheetConfig;
 
 pub(super) fn settings(_job: &Job) -> Hash {
@@ -20,20 +20,29 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
-    // The dataset's own sheet shows these frames: the run makes it again at its end.
+    // The dataset's own sheet and statistics show these frames: the run makes them again at its end.
     remove_if_there(&job.dataset.layout().overview())?;
+    remove_if_there(&job.dataset.layout().statistics())?;
     let name = &job.scene.name;
     let filmed = job.filmed()?;
     let mut outputs = Vec::new();
+    let mut tables = Vec::new();
     let mut sheets = 0;
     for (_, trajectory) in &filmed {
-        let frames: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).collect();
-        outputs.extend(preview_camera(job.dataset, name, &trajectory.name, &frames, cx).map_err(Error::stage)?);
+        let frames: Vec<u32> = job.frames_of(trajectory)?.into_iter().collect();
+        let shot = [name.as_str(), trajectory.name.as_str()];
+        let (exposures, table) = expose_camera(job.dataset, name, &trajectory.name, &frames).map_err(Error::stage)?;
+        outputs.extend(preview_camera(job.dataset, shot, &frames, &exposures, cx).map_err(Error::stage)?);
         outputs.extend(preview_boxes(job.dataset, name, &trajectory.name, &frames, cx).map_err(Error::stage)?);
-        let sheet = write_contact_sheet(job.dataset, name, &trajectory.name, &frames, &SheetConfig::default()).map_err(Error::stage)?;
+        let sheet = write_contact_sheet(job.dataset, shot, &frames, exposures.display, &SheetConfig::default()).map_err(Error::stage)?;
+        tables.push(table);
+        if sheet.is_none() {
+            remove_if_there(&job.dataset.layout().contact_sheet(name, &trajectory.name))?;
+        }
         sheets += usize::from(sheet.is_some());
         outputs.extend(sheet);
     }
     let summary = format!("{}, {}", count(outputs.len() - sheets, "picture"), count(sheets, "contact sheet"));
+    outputs.extend(tables);
     Ok(Outcome { summary, outputs, ..Outcome::default() })
 }

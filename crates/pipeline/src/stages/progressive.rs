@@ -54,7 +54,8 @@ pub(super) fn render(
         true if rendering.met_noise_target() => StoppedBy::Noise,
         true => StoppedBy::Samples,
     };
-    let sampling = Sampling { samples_taken: rendering.samples(), noise: rendering.noise(), stopped_by };
+    let noise_target = job.scene.render.noise;
+    let sampling = Sampling { samples_taken: rendering.samples(), noise: rendering.noise(), noise_target, stopped_by };
     Ok((rendering.frame(), sampling))
 }
 

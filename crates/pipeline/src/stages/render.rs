@@ -5,7 +5,7 @@ use super::{Input, Inputs, Job, Outcome, Record, Stage, progressive};
 use crate::error::Error;
 use crate::report::{StageCx, Stopwatch, count};
 use crate::workdir::Hash;
-use enfilade_dataset::{CameraRecord, FrameInfo, FrameTime, StoppedBy};
+use enfilade_dataset::{CameraRecord, FrameInfo, Recipe, StoppedBy};
 use enfilade_frame::{LAYERS, Pass};
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
@@ -19,19 +19,37 @@ pub(super) fn settings(job: &Job) -> Hash {
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?];
     inputs.extend(super::plan::outputs(job)?);
+    inputs.extend(super::gate::verdicts(job)?);
     Ok(Some(inputs))
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let package = Input::of(&job.package()?)?.content;
     let filmed = job.filmed()?;
-    let total: usize = filmed.iter().map(|(_, t)| t.poses.len()).sum();
-    let mut missing = Vec::new();
+    let (mut total, mut missing) = (0, Vec::new());
     for (camera, trajectory) in &filmed {
         job.dataset.remove_temporaries(&job.scene.name, &trajectory.name).map_err(Error::stage)?;
-        remove_frames_off_the_trajectory(job, trajectory)?;
+        let wanted = job.frames_of(trajectory)?;
+        total += wanted.len();
+        remove_other_frames(job, trajectory, &wanted)?;
         let config = RenderConfig { seed: job.scene.seed_for(&format!("render/{}", trajectory.name)), ..job.scene.render.clone() };
-        let infos = trajectory.poses.iter().map(|pose| frame_info(job, &package, &config, camera, trajectory, pose));
+        let recipe = Recipe {
+            program: program(),
+            render_version: Stage::Render.spec().version,
+            scene_blake3: package.0.clone(),
+            settings: serde_json::to_value(&config).unwrap_or_default(),
+            time_limit_s: job.scene.time_limit_s,
+        };
+        let poses = trajectory.poses.iter().filter(|pose| wanted.contains(&pose.frame));
+        let infos = poses.map(|pose| FrameInfo {
+            seed: config.seed,
+            samples: config.samples,
+            config_hash: config_hash(&package, &config, job.scene.time_limit_s, camera, trajectory, pose),
+            pose: *pose,
+            camera: camera.clone(),
+            sampling: None,
+            recipe: Some(recipe.clone()),
+        });
         let frames: Vec<FrameInfo> = infos.filter(|info| job.force || !is_complete(job, trajectory, info)).collect();
         if !frames.is_empty() {
             missing.push(Missing { camera, trajectory, config, frames });
@@ -80,7 +98,7 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
                 let next = views.iter().position(|other| other.pose().frame == info.pose.frame).and_then(|index| views.get(index + 1));
                 add_extra_layers(&scene, view, next, &mut frame);
             }
-            let time = FrameTime { wall_s: time.wall_s(), cpu_s: time.cpu_s() };
+            let time = time.of_frame();
             let info = FrameInfo { sampling: Some(sampling), ..info.clone() };
             job.dataset.write_frame(&job.scene.name, &trajectory.name, &frame, &info, time).map_err(Error::stage)?;
             progressive::forget(job, &trajectory.name, info.pose.frame)?;
@@ -94,17 +112,23 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
 /// Units of progress per frame.
 const PER_FRAME: u64 = 1000;
 
-/// A frame depends on its whole trajectory, because the guide is learned from all of it, and the camera moves on while it is exposed.
-fn frame_info(job: &Job, package: &Hash, config: &RenderConfig, camera: &Camera, trajectory: &Trajectory, pose: &Pose) -> FrameInfo {
+/// Names everything that a frame's values depend on. It depends on its whole trajectory, because the guide is learned from all of it,
+/// and the camera moves on while it is exposed. Views that a gate rejects are learned from too, so that other limits change no frame.
+pub(crate) fn config_hash(
+    package: &Hash,
+    config: &RenderConfig,
+    time_limit_s: Option<f64>,
+    camera: &Camera,
+    trajectory: &Trajectory,
+    pose: &Pose,
+) -> String {
     let version = (env!("CARGO_PKG_VERSION"), Stage::Render.spec().version);
-    FrameInfo {
-        seed: config.seed,
-        samples: config.samples,
-        config_hash: Hash::of(&(version, package, config, job.scene.time_limit_s, CameraRecord::from(camera), &trajectory.poses, pose)).0,
-        pose: *pose,
-        camera: camera.clone(),
-        sampling: None,
-    }
+    Hash::of(&(version, package, config, time_limit_s, CameraRecord::from(camera), &trajectory.poses, pose)).0
+}
+
+/// The program as records name it.
+pub(crate) fn program() -> String {
+    format!("enfilade {}", env!("CARGO_PKG_VERSION"))
 }
 
 /// Every file that rendering writes.
@@ -126,11 +150,11 @@ fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
     Ok(files)
 }
 
-/// Frames of an earlier, longer trajectory would be taken for frames of this one.
-fn remove_frames_off_the_trajectory(job: &Job, trajectory: &Trajectory) -> Result<(), Error> {
+/// Frames of an earlier, longer trajectory, or of views that are rejected now, would be taken for frames of this one.
+fn remove_other_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<u32>) -> Result<(), Error> {
     let layout = job.dataset.layout();
     let (name, camera) = (&job.scene.name, &trajectory.name);
-    let keep: BTreeSet<String> = trajectory.poses.iter().map(|p| format!("{:04}", p.frame)).collect();
+    let keep: BTreeSet<String> = wanted.iter().map(|frame| format!("{frame:04}")).collect();
     let folders = [
         layout.records_dir(name, camera),
         layout.layer_dir(name, camera, Pass::Final),

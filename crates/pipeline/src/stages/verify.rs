@@ -4,10 +4,17 @@ use super::{Inputs, Job, Outcome, Record};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::Hash;
-use enfilade_post::verify::{LAWS, verify_dataset};
+use crate::workdir::write_json;
+use enfilade_post::gates::GATES;
+use enfilade_post::verify::{LAWS, verify_scene};
+
+/// The scene's part of the report card, in its work folder; it is there also when laws do not hold.
+pub(crate) const CARD: &str = "card.json";
 
 pub(super) fn settings(_job: &Job) -> Hash {
-    Hash::of(&LAWS.map(|law| (law.statement, law.bound.to_bits())).as_slice())
+    let laws = LAWS.map(|law| (law.statement, law.bound.to_bits()));
+    let gates = GATES.map(|gate| (gate.measure, gate.bound.to_bits()));
+    Hash::of(&(laws.as_slice(), gates.as_slice()))
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
@@ -21,13 +28,18 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
-    let report = verify_dataset(job.dataset, std::slice::from_ref(name), cx).map_err(Error::stage)?;
+    let report = verify_scene(job.dataset, name, cx).map_err(Error::stage)?;
+    let card = job.work_file(CARD)?;
+    write_json(&card, &report)?;
     if !report.passed {
         let broken: Vec<String> = report.failures().map(|law| format!("{} (at {})", law.statement, law.place)).collect();
         let message = format!("{} of {} laws do not hold: {}", broken.len(), report.laws.len(), broken.join("; "));
         return Err(Error::scene(message, format!("see the card: enfilade verify {} --scene {name}", job.out().display())));
     }
-    let summary = format!("all {} laws hold over {}", report.laws.len(), count(report.frames, "frame"));
-    let report = serde_json::to_value(&report).unwrap_or_default();
-    Ok(Outcome { summary, report, ..Outcome::default() })
+    let rejected = match report.rejected().count() {
+        0 => String::new(),
+        n => format!("; gates reject {n}"),
+    };
+    let summary = format!("all {} laws hold over {}{rejected}", report.laws.len(), count(report.frames, "frame"));
+    Ok(Outcome { summary, outputs: vec![card], ..Outcome::default() })
 }

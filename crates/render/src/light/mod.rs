@@ -109,8 +109,8 @@ impl Background {
     }
 }
 
-/// The light sources of a scene.
-#[derive(Debug)]
+/// The light sources of a scene. The default has none.
+#[derive(Debug, Default)]
 pub(crate) struct Lights<'s> {
     surfaces: EmissiveSurfaces,
     /// Lights at points; emitters of the tree after the patches.

@@ -1,0 +1,33 @@
+//! `animate`: from arguments to calls of the crate `post`, and what came of them.
+
+use crate::args::AnimateArgs;
+use crate::export::cameras;
+use crate::outcome::{Problem, Verdict, say};
+use crate::progress::Progress;
+use enfilade_dataset::Dataset;
+use enfilade_post::drivers::{AnimateConfig, Animated, animate_camera};
+
+/// `animate`: films of the frames of each camera.
+pub fn animate(args: &AnimateArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let dataset = Dataset::open(&args.dataset)?;
+    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
+    let chosen = cameras(&dataset, &scenes, args.camera.as_deref().unwrap_or("*"))?;
+    let folder = args.output.clone().unwrap_or_else(|| dataset.layout().animations_dir());
+    let config = AnimateConfig { format: args.format.into(), fps: args.fps };
+    let mut written: Vec<Animated> = Vec::new();
+    {
+        let progress = Progress::new(quiet);
+        let cx = progress.begin(&args.dataset.display().to_string(), "animate");
+        for scene in &scenes {
+            for camera in dataset.cameras(scene)?.iter().filter(|camera| chosen.contains(camera)) {
+                let films = animate_camera(&dataset, [scene, camera], &args.layers, config, &folder, &cx);
+                written.extend(films.map_err(|error| Problem::found(&error))?);
+            }
+        }
+    }
+    for film in &written {
+        let (name, megabytes) = (film.path.display(), film.bytes as f64 / 1e6);
+        say(&format!("{name}: {} frames at {:.4} per second, {megabytes:.1} MB", film.frames, film.fps));
+    }
+    Ok(Verdict::Done)
+}

@@ -1,0 +1,89 @@
+//! The verbs that make scene files: `import` and `home`.
+
+use crate::args::{HomeArgs, ImportArgs, MomentArg, StageArgs, UpAxisArg};
+use crate::outcome::{Problem, Verdict, say};
+use crate::progress::Progress;
+use crate::verbs;
+use enfilade_export::{SceneGltf, scene_gltf};
+use enfilade_pipeline::{EnvironmentChoice, Event, FileSource, HomeConfig, Reporter, Stage, UpAxis};
+use enfilade_scene::{Labels, Scene, to_bytes, to_bytes_with_labels};
+use std::path::{Path, PathBuf};
+
+/// `import`: of a dataset's scenes, or of one file.
+pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
+    if args.input.is_dir() {
+        let stage_args = StageArgs { dataset: args.input.clone(), scene: args.scene.clone(), force: args.force };
+        return verbs::stage(&stage_args, Stage::Import, quiet);
+    }
+    let source = FileSource {
+        file: args.input.to_string_lossy().into_owned(),
+        meters_per_unit: args.meters_per_unit,
+        up_axis: args.up_axis.map(|axis| match axis {
+            UpAxisArg::Y => UpAxis::Y,
+            UpAxisArg::Z => UpAxis::Z,
+        }),
+        environment: args.environment.clone().map(|file| EnvironmentChoice { file, scale: 1.0, rotation_deg: 0.0 }),
+        allow_missing_textures: args.allow_missing_textures,
+    };
+    let output = args.output.clone().unwrap_or_else(|| {
+        let name = args.input.file_name().map_or_else(|| "scene".into(), PathBuf::from);
+        name.with_extension("scene")
+    });
+    let encode = scene_encoder(&output)?;
+    let name = args.input.display().to_string();
+    let imported = {
+        let progress = Progress::new(quiet);
+        progress.on(&name, Stage::Import, Event::Started);
+        enfilade_pipeline::import_file(&source, &output, encode, &progress.cx(&name, Stage::Import))?
+    };
+    say(&imported.summary);
+    imported.lost.iter().for_each(|lost| say(&format!("lost     {lost}")));
+    say(&format!("scene    {}", output.display()));
+    say(&format!("report   {} ({} warnings)", imported.report.display(), imported.warnings.len()));
+    Ok(Verdict::Done)
+}
+
+/// `home`: a furnished home of a seed.
+pub fn home(args: &HomeArgs) -> Result<Verdict, Problem> {
+    let config = HomeConfig {
+        seed: args.seed,
+        rooms: args.rooms.clone(),
+        layout: args.layout,
+        furniture: args.furniture,
+        materials: args.materials,
+        realism: args.realism,
+        light: args.light,
+        moment: args.moment.map(MomentArg::moment),
+        clutter: args.clutter,
+    };
+    if let Some(problem) = config.problem() {
+        return Err(Problem::new(problem, "see enfilade home --help"));
+    }
+    let made = enfilade_pipeline::make_home(&config, &args.output, scene_encoder(&args.output)?)?;
+    say(&made.summary);
+    say(&format!("rooms    {}", made.rooms));
+    made.lost.iter().for_each(|lost| say(&format!("lost     {lost}")));
+    say(&format!("scene    {}", args.output.display()));
+    Ok(Verdict::Done)
+}
+
+/// Gives the bytes of a scene with its labels, and what they cannot hold.
+type SceneEncoder = fn(&Scene, Option<&Labels>) -> (Vec<u8>, Vec<String>);
+
+/// How a scene is written to a file of this name: as a package, or as glTF.
+fn scene_encoder(output: &Path) -> Result<SceneEncoder, Problem> {
+    let extension = output.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    match extension.as_deref() {
+        Some("scene") => {
+            Ok(|scene, labels| (labels.map_or_else(|| to_bytes(scene), |labels| to_bytes_with_labels(scene, labels)), Vec::new()))
+        }
+        Some("glb") => Ok(|scene, labels| {
+            let SceneGltf { glb, notes } = scene_gltf(scene, labels.unwrap_or(&Labels::default()));
+            (glb, notes)
+        }),
+        _ => {
+            let problem = format!("cannot tell from the name {} how to write the scene", output.display());
+            Err(Problem::new(problem, "end it with .scene (a package, nothing is lost) or .glb (glTF, for other programs)"))
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! `replay`: a frame rendered once more from its commit record, and its files compared with those that the record lists.
+
+use crate::error::Error;
+use crate::stages::Stage;
+use crate::stages::render::{config_hash, program};
+use crate::workdir::{Hash, WORKDIR};
+use enfilade_dataset::{Dataset, FileRecord, FrameInfo, FrameRecord, FrameTime, Recipe, StoppedBy};
+use enfilade_frame::Frame;
+use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
+use enfilade_scene::{Camera, CameraView, Cx, Scene, Trajectory};
+use std::path::{Path, PathBuf};
+
+/// What a frame came to when it was rendered again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Replay {
+    /// `SCENE/CAMERA/frame.IIII`.
+    pub frame: String,
+    /// The files of the record, by name.
+    pub files: Vec<ReplayedFile>,
+}
+
+/// A file of a frame that was rendered again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReplayedFile {
+    /// Path relative to the scene's folder.
+    pub name: String,
+    /// It has the bytes that the record tells.
+    pub same: bool,
+}
+
+impl Replay {
+    /// True when every file has the bytes that the record tells.
+    pub fn is_same(&self) -> bool {
+        self.files.iter().all(|file| file.same)
+    }
+}
+
+/// Everything that a frame is made from.
+struct Source {
+    record: FrameRecord,
+    recipe: Recipe,
+    config: RenderConfig,
+    scene: Scene,
+    camera: Camera,
+    trajectory: Trajectory,
+    /// Of the frame in the trajectory.
+    index: usize,
+}
+
+/// Renders the frame of the commit record `file` (`OUT/scenes/SCENE/_detail/CAMERA/frames/frame.IIII.json`) once more and compares its
+/// files with those of the record. They are written below `out` as a dataset of their own; without it nothing is kept.
+///
+/// Layers that are made from a frame afterwards (labels, denoised ones) are no part of its record. A frame that a time limit has ended
+/// is given as many samples as it had.
+///
+/// # Errors
+/// When the file is no record with a recipe, when what it was made from is not there any more or not the same, or when this is another
+/// version of the program.
+pub fn replay(file: &Path, out: Option<&Path>, cx: &dyn Cx) -> Result<Replay, Error> {
+    let source = read(file)?;
+    let frame = render(&source, cx)?;
+    let scratch;
+    let root = match out {
+        Some(out) => out,
+        None => {
+            scratch = tempfile::tempdir().map_err(Error::io("create a scratch folder in", &std::env::temp_dir()))?;
+            scratch.path()
+        }
+    };
+    let Source { record, recipe, camera, trajectory, index, .. } = source;
+    let info = FrameInfo {
+        seed: record.seed,
+        samples: record.samples,
+        config_hash: record.config_hash.clone(),
+        pose: trajectory.poses[index],
+        camera,
+        sampling: record.sampling,
+        recipe: Some(recipe),
+    };
+    let again = Dataset::create(root).map_err(Error::stage)?;
+    let again = again.write_frame(&record.scene, &record.camera, &frame, &info, FrameTime::default()).map_err(Error::stage)?;
+    let same = |(name, then): (&String, &FileRecord)| ReplayedFile { name: name.clone(), same: again.files.get(name) == Some(then) };
+    let files = record.files.iter().map(same).collect();
+    Ok(Replay { frame: format!("{}/{}/frame.{:04}", record.scene, record.camera, record.frame), files })
+}
+
+/// Finds all that the record names, and makes sure that it is still the same.
+fn read(file: &Path) -> Result<Source, Error> {
+    let hint = "name the commit record of a frame: OUT/scenes/SCENE/_detail/CAMERA/frames/frame.0000.json";
+    let file = std::path::absolute(file).map_err(Error::io("find", file))?;
+    let text = std::fs::read(&file).map_err(|e| Error::usage(format!("cannot read {}: {e}", file.display()), hint))?;
+    let no_record = |e: serde_json::Error| Error::usage(format!("{} is no commit record of a frame: {e}", file.display()), hint);
+    let record: FrameRecord = serde_json::from_slice(&text).map_err(no_record)?;
+    let root = root_of(&file, &record).ok_or_else(|| {
+        Error::usage(format!("{} does not lie where a dataset has the record of {}/{}", file.display(), record.scene, record.camera), hint)
+    })?;
+    let again = format!("render the frame again: enfilade render {} --scene {} --force", root.display(), record.scene);
+    let changed = |what: String| Error::scene(format!("{what}, so the frame cannot be replayed"), again.clone());
+    let recipe =
+        record.recipe.clone().ok_or_else(|| changed("its record is of an earlier version, which did not tell the settings".into()))?;
+    let (version, here) = (recipe.render_version, Stage::Render.spec().version);
+    if (recipe.program.as_str(), version) != (program().as_str(), here) {
+        let message =
+            format!("the frame was rendered by {} (rendering {version}), and this is {} (rendering {here})", recipe.program, program());
+        return Err(Error::scene(message, format!("use the program that rendered it, or {again}")));
+    }
+    let config: RenderConfig = serde_json::from_value(recipe.settings.clone())
+        .map_err(|e| changed(format!("the settings in {} cannot be understood ({e})", file.display())))?;
+    let dataset = Dataset::open(&root).map_err(Error::stage)?;
+    let camera = dataset.read_camera(&record.scene, &record.camera).map_err(Error::stage)?;
+    let trajectory = dataset.read_trajectory(&record.scene, &record.camera).map_err(Error::stage)?;
+    let at = trajectory.poses.iter().position(|pose| pose.frame == record.frame);
+    let index = at.ok_or_else(|| changed(format!("the trajectory of {} has no frame {} any more", record.camera, record.frame)))?;
+    let (scene, package) = read_package(&root, &record, &recipe, &changed)?;
+    if config_hash(&package, &config, recipe.time_limit_s, &camera, &trajectory, &trajectory.poses[index]) != record.config_hash {
+        return Err(changed(format!("the camera or the trajectory of {} is not the one that the frame was rendered with", record.camera)));
+    }
+    Ok(Source { record, recipe, config, scene, camera, trajectory, index })
+}
+
+/// The dataset's folder, where the file lies in it as the record says.
+fn root_of(file: &Path, record: &FrameRecord) -> Option<PathBuf> {
+    let root = file.ancestors().nth(6)?;
+    let there = Dataset::open(root).ok()?.layout().frame_record(&record.scene, &record.camera, record.frame);
+    (there == file).then(|| root.to_path_buf())
+}
+
+/// The scene package of the work folder, if it is the one that the frame was rendered from.
+fn read_package(root: &Path, record: &FrameRecord, recipe: &Recipe, changed: &dyn Fn(String) -> Error) -> Result<(Scene, Hash), Error> {
+    let path = root.join(WORKDIR).join(&record.scene).join("scene.scene");
+    let Ok(bytes) = std::fs::read(&path) else { return Err(changed(format!("the scene package {} is not there", path.display()))) };
+    let package = Hash::of_bytes(&bytes);
+    if package.0 != recipe.scene_blake3 {
+        return Err(changed(format!("the scene package {} has changed since (its checksum is another)", path.display())));
+    }
+    let scene = enfilade_scene::from_bytes(&bytes).map_err(|e| changed(format!("{}: {e}", path.display())))?;
+    Ok((scene, package))
+}
+
+/// The frame, with as many samples as it had.
+fn render(source: &Source, cx: &dyn Cx) -> Result<Frame, Error> {
+    let Source { record, config, scene, camera, trajectory, index, .. } = source;
+    let scene = RenderScene::new(scene, cx).map_err(Error::stage)?;
+    let views: Vec<CameraView> = (0..trajectory.poses.len()).map(|i| CameraView::of_frame(camera, &trajectory.poses, i)).collect();
+    let guide = Guide::learn(&scene, &views, config);
+    let mut rendering = FrameRender::new(&scene, &guide, &views[*index], config).map_err(Error::stage)?;
+    let ended = record.sampling.filter(|sampling| sampling.stopped_by == StoppedBy::TimeLimit);
+    while !rendering.is_done() && ended.is_none_or(|sampling| rendering.samples() < sampling.samples_taken) {
+        rendering.pass(cx);
+    }
+    let mut frame = rendering.frame();
+    if config.extra {
+        add_extra_layers(&scene, &views[*index], views.get(index + 1), &mut frame);
+    }
+    Ok(frame)
+}

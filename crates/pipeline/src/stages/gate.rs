@@ -1,0 +1,157 @@
+//! `gate`: which of the planned views are worth rendering, by their geometry alone.
+
+use super::{Input, Inputs, Job, Outcome, Record, Stage, carve};
+use crate::error::Error;
+use crate::gatekeeper::Gatekeeper;
+use crate::report::{StageCx, count};
+use crate::workdir::{Hash, read_json, remove_if_there, write_whole};
+use enfilade_dataset::{JudgedView, ViewFault, ViewVerdict, write_bytes};
+use enfilade_post::picture::jpeg;
+use enfilade_post::view_gates::{GateAction, Judged, VIEW_GATES, gates_page};
+use enfilade_scene::{CameraView, Cx, StartCamera, Trajectory, Warning};
+use std::path::{Path, PathBuf};
+
+/// Frames named in a warning; of the others it says that there are more.
+const FRAMES_NAMED: usize = 12;
+
+pub(super) fn settings(job: &Job) -> Hash {
+    Hash::of(&job.scene.gate)
+}
+
+pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
+    let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?, job.input_from(Stage::Carve, &job.work_file(carve::STARTS)?)?];
+    inputs.extend(super::plan::outputs(job)?);
+    Ok(Some(inputs))
+}
+
+pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
+    forget(job)?;
+    let (layout, name, config) = (job.dataset.layout(), &job.scene.name, &job.scene.gate);
+    let (scene, world) = (job.load_scene()?, job.load_world()?);
+    let keeper = Gatekeeper::new(&scene, &world, &starts(job)?, config)?;
+    let filmed = job.filmed()?;
+    let total: usize = filmed.iter().map(|(_, trajectory)| trajectory.poses.len()).sum();
+    let (mut judged, mut outputs): (Vec<Judged>, Vec<PathBuf>) = (Vec::new(), Vec::new());
+    for (camera, trajectory) in &filmed {
+        let first = judged.len();
+        for (index, pose) in trajectory.poses.iter().enumerate() {
+            let view = CameraView::of_frame(camera, &trajectory.poses, index);
+            let judgement = keeper.judge(&view);
+            let thumbnail = match judgement.fault {
+                None => None,
+                Some(_) => {
+                    let path = layout.rejected_view(name, &trajectory.name, pose.frame);
+                    write_bytes(&path, jpeg(&keeper.thumbnail(&view))).map_err(Error::stage)?;
+                    let relative = path.strip_prefix(layout.detail_dir(name)).unwrap_or(&path).display().to_string();
+                    outputs.push(path);
+                    Some(relative)
+                }
+            };
+            let (measures, fault) = (judgement.measures, judgement.fault);
+            judged.push(Judged { camera: trajectory.name.clone(), frame: pose.frame, measures, fault, thumbnail });
+            cx.progress("views", judged.len() as u64, total as u64);
+        }
+        write_verdicts(job, trajectory, &judged[first..])?;
+        outputs.push(layout.view_gates(name, &trajectory.name));
+        warn(job, trajectory, &judged[first..], cx);
+    }
+    let page = layout.gates_page(name);
+    write_whole(&page, gates_page(name, config, &judged).as_bytes())?;
+    outputs.push(page);
+    let faulty = judged.iter().filter(|view| view.fault.is_some()).count();
+    if config.action == GateAction::Reject && faulty == total && total > 0 {
+        return Err(Error::scene(
+            format!("all {} are rejected ({})", count(total, "view"), tally(&judged)),
+            format!(
+                "see {}; place the cameras elsewhere, or set other limits or action = \"report\" in [gate]",
+                layout.gates_page(name).display()
+            ),
+        ));
+    }
+    let summary = match (faulty, config.action) {
+        (0, _) => format!("all {} pass", count(total, "view")),
+        (_, GateAction::Reject) => format!("{} of {} pass, rejected: {}", total - faulty, count(total, "view"), tally(&judged)),
+        (_, GateAction::Report) => format!("{} of {} pass, reported: {}", total - faulty, count(total, "view"), tally(&judged)),
+    };
+    Ok(Outcome { summary, outputs, ..Outcome::default() })
+}
+
+/// Where cameras are that stand on the right side of things.
+pub(super) fn starts(job: &Job) -> Result<Vec<StartCamera>, Error> {
+    read_json(&job.work_file(carve::STARTS)?)
+        .filter(|starts: &Vec<StartCamera>| !starts.is_empty())
+        .ok_or_else(|| Error::scene("the list of start cameras cannot be read", "make it again: enfilade carve --force"))
+}
+
+/// The verdicts, as inputs of later stages.
+pub(super) fn verdicts(job: &Job) -> Result<Vec<Input>, Error> {
+    let layout = job.dataset.layout();
+    let file = |trajectory: &Trajectory| job.input_from(Stage::Gate, &layout.view_gates(&job.scene.name, &trajectory.name));
+    job.filmed()?.iter().map(|(_, trajectory)| file(trajectory)).collect()
+}
+
+/// Removes what was said about an earlier plan.
+pub(super) fn forget(job: &Job) -> Result<(), Error> {
+    let (layout, name) = (job.dataset.layout(), &job.scene.name);
+    remove_if_there(&layout.gates_page(name))?;
+    if !layout.metadata_cameras(name).is_file() {
+        return Ok(());
+    }
+    for camera in job.dataset.cameras(name).map_err(Error::stage)? {
+        remove_if_there(&layout.view_gates(name, &camera))?;
+        remove_folder(&layout.rejected_dir(name, &camera))?;
+    }
+    Ok(())
+}
+
+fn remove_folder(path: &Path) -> Result<(), Error> {
+    match std::fs::remove_dir_all(path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io("remove", path)(e)),
+        _ => Ok(()),
+    }
+}
+
+fn write_verdicts(job: &Job, trajectory: &Trajectory, views: &[Judged]) -> Result<(), Error> {
+    let config = &job.scene.gate;
+    let row = |view: &Judged| {
+        let verdict = match (view.fault, config.action) {
+            (None, _) => ViewVerdict::Passed,
+            (Some(_), GateAction::Reject) => ViewVerdict::Rejected,
+            (Some(_), GateAction::Report) => ViewVerdict::Reported,
+        };
+        let fault =
+            view.fault.map(|gate| ViewFault { gate: gate.spec().name.into(), value: view.measures.value(gate), limit: config.limit(gate) });
+        let measures = VIEW_GATES.iter().map(|spec| view.measures.value(spec.gate)).collect();
+        (JudgedView { frame: view.frame, verdict, fault }, measures)
+    };
+    let rows: Vec<_> = views.iter().map(row).collect();
+    let columns = VIEW_GATES.map(|spec| spec.column);
+    job.dataset.write_view_gates(&job.scene.name, &trajectory.name, &columns, &rows).map_err(Error::stage)
+}
+
+/// One warning for a trajectory that has views with a fault.
+fn warn(job: &Job, trajectory: &Trajectory, views: &[Judged], cx: &StageCx) {
+    let faulty: Vec<&Judged> = views.iter().filter(|view| view.fault.is_some()).collect();
+    if faulty.is_empty() {
+        return;
+    }
+    let named: Vec<String> = faulty.iter().take(FRAMES_NAMED).map(|view| view.frame.to_string()).collect();
+    let more = if faulty.len() > FRAMES_NAMED { ", …" } else { "" };
+    let verb = match job.scene.gate.action {
+        GateAction::Reject => "rejected and not rendered",
+        GateAction::Report => "not worth rendering, but rendered",
+    };
+    let (n, all, why) = (faulty.len(), count(views.len(), "view"), tally(views));
+    let mut message = format!("{n} of {all} {verb}: {why} (frames {}{more})", named.join(", "));
+    if faulty.len() == views.len() {
+        message += "; none is left: place this camera elsewhere, or set other limits in [gate]";
+    }
+    cx.warn(Warning { place: trajectory.name.clone(), message });
+}
+
+/// "3 blocked, 1 bare_wall"
+fn tally(views: &[Judged]) -> String {
+    let with = |gate| views.iter().filter(|view| view.fault == Some(gate)).count();
+    let found = VIEW_GATES.iter().map(|spec| (with(spec.gate), spec.name)).filter(|(n, _)| *n > 0);
+    found.map(|(n, name)| format!("{n} {name}")).collect::<Vec<_>>().join(", ")
+}

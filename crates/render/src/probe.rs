@@ -1,0 +1,73 @@
+//! A few pixels of a frame, rendered to learn what the whole frame would cost.
+//!
+//! A pixel's samples are those of the frame, since they depend on where it is and on nothing else; so a probe does what the frame
+//! will do there, and what it finds out about the pixels' noise is what the frame will find out.
+
+use crate::budget::{Budget, Estimate};
+use crate::config::RenderConfig;
+use crate::error::RenderError;
+use crate::film::PixelSum;
+use crate::guide::Guide;
+use crate::integrator::Integrator;
+use crate::prepared::RenderScene;
+use crate::render::{Schedule, add_samples, check_camera, integrator};
+use enfilade_scene::CameraView;
+
+/// A square of pixels of a frame.
+pub struct Probe<'a, 's> {
+    integrator: Integrator<'a, 's>,
+    view: CameraView<'a>,
+    corner: [u32; 2],
+    sums: Vec<PixelSum>,
+}
+
+impl<'a, 's> Probe<'a, 's> {
+    /// Side of the square in pixels.
+    pub const SIDE: u32 = 8;
+
+    /// The square whose upper left pixel is `corner`, or as near as the image allows, without samples.
+    ///
+    /// # Errors
+    /// When the camera or the settings are not usable, or the image is smaller than a probe.
+    pub fn new(
+        scene: &'a RenderScene<'s>,
+        guide: &'a Guide,
+        view: &CameraView<'a>,
+        config: &'a RenderConfig,
+        corner: [u32; 2],
+    ) -> Result<Self, RenderError> {
+        check_camera(view)?;
+        config.check()?;
+        let size = view.camera().size();
+        if size[0] < Self::SIDE || size[1] < Self::SIDE {
+            let problem = format!("its image has {}x{} pixels; a forecast needs 8x8", size[0], size[1]);
+            return Err(RenderError::Camera { frame: view.pose().frame, problem });
+        }
+        let corner = [0, 1].map(|axis| corner[axis].min(size[axis] - Self::SIDE));
+        let sums = vec![PixelSum::default(); (Self::SIDE * Self::SIDE) as usize];
+        Ok(Self { integrator: integrator(scene, guide, view, config), view: *view, corner, sums })
+    }
+
+    /// Takes samples until every pixel has `samples`.
+    pub fn take(&mut self, samples: u32) {
+        let [x, y] = self.corner;
+        for (sum, i) in self.sums.iter_mut().zip(0..) {
+            let pixel = (x + i % Self::SIDE, y + i / Self::SIDE);
+            add_samples(&self.integrator, &self.view, pixel, samples, sum, None);
+        }
+    }
+}
+
+/// The mean samples per pixel that a frame will take around each of its probes, by what they have found out about its noise.
+pub fn samples_wanted(config: &RenderConfig, probes: &[Probe<'_, '_>]) -> Vec<f64> {
+    let pixels = (Probe::SIDE * Probe::SIDE) as usize;
+    let schedule = Schedule::new(config);
+    if schedule.is_even() {
+        return vec![f64::from(config.samples); probes.len()];
+    }
+    // One probe below the other, as an image: where two meet, neighbours that are none have a little say.
+    let estimates: Vec<Estimate> = probes.iter().flat_map(|probe| &probe.sums).map(PixelSum::estimate).collect();
+    let budget = Budget { first: schedule.first, mean: config.samples, noise: config.noise };
+    let wanted = budget.share(Probe::SIDE as usize, &estimates);
+    wanted.chunks(pixels).map(|probe| probe.iter().map(|n| f64::from(*n)).sum::<f64>() / pixels as f64).collect()
+}
