@@ -205,7 +205,7 @@ pub struct RenderFlags {
 #[command(
     after_help = "Examples:\n  enfilade home --seed 7\n  enfilade home --rooms living,kitchen,bedroom,bathroom,hall --seed 7 -o home.scene\n\n\
     Rooms: living, kitchen, dining, bedroom, childrens, study, bathroom, toilet, hall, laundry; each may come several times.\n\
-    The labels lie beside the package, in NAME.labels.csv. In a dataset, home = { seed = 7, rooms = [...] } does the same."
+    The labels are in the file. In a dataset, home = { seed = 7, rooms = [...] } does the same."
 )]
 pub struct HomeArgs {
     /// The rooms [default: four to eight, as the seed decides]
