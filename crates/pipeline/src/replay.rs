@@ -2,12 +2,12 @@
 
 use crate::error::Error;
 use crate::stages::Stage;
-use crate::stages::render::{config_hash, program};
-use crate::workdir::{Hash, WORKDIR};
+use crate::stages::render::{add_extra, config_hash, program, views};
+use crate::workdir::{Hash, PACKAGE, WORKDIR};
 use enfilade_dataset::{Dataset, FileRecord, FrameInfo, FrameRecord, FrameTime, Recipe, StoppedBy};
 use enfilade_frame::Frame;
-use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
-use enfilade_scene::{Camera, CameraView, Cx, Scene, Trajectory};
+use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
+use enfilade_scene::{Camera, Cx, Scene, Trajectory};
 use std::path::{Path, PathBuf};
 
 /// What a frame came to when it was rendered again.
@@ -127,7 +127,7 @@ fn root_of(file: &Path, record: &FrameRecord) -> Option<PathBuf> {
 
 /// The scene package of the work folder, if it is the one that the frame was rendered from.
 fn read_package(root: &Path, record: &FrameRecord, recipe: &Recipe, changed: &dyn Fn(String) -> Error) -> Result<(Scene, Hash), Error> {
-    let path = root.join(WORKDIR).join(&record.scene).join("scene.scene");
+    let path = root.join(WORKDIR).join(&record.scene).join(PACKAGE);
     let Ok(bytes) = std::fs::read(&path) else { return Err(changed(format!("the scene package {} is not there", path.display()))) };
     let package = Hash::of_bytes(&bytes);
     if package.0 != recipe.scene_blake3 {
@@ -141,7 +141,7 @@ fn read_package(root: &Path, record: &FrameRecord, recipe: &Recipe, changed: &dy
 fn render(source: &Source, cx: &dyn Cx) -> Result<Frame, Error> {
     let Source { record, config, scene, camera, trajectory, index, .. } = source;
     let scene = RenderScene::new(scene, cx).map_err(Error::stage)?;
-    let views: Vec<CameraView> = (0..trajectory.poses.len()).map(|i| CameraView::of_frame(camera, &trajectory.poses, i)).collect();
+    let views = views(camera, trajectory);
     let guide = Guide::learn(&scene, &views, config);
     let mut rendering = FrameRender::new(&scene, &guide, &views[*index], config).map_err(Error::stage)?;
     let ended = record.sampling.filter(|sampling| sampling.stopped_by == StoppedBy::TimeLimit);
@@ -149,8 +149,6 @@ fn render(source: &Source, cx: &dyn Cx) -> Result<Frame, Error> {
         rendering.pass(cx);
     }
     let mut frame = rendering.frame();
-    if config.extra {
-        add_extra_layers(&scene, &views[*index], views.get(index + 1), &mut frame);
-    }
+    add_extra(&scene, &views, *index, config, &mut frame);
     Ok(frame)
 }

@@ -1,7 +1,7 @@
 //! The split of a dataset by scene, and the assets that lie on several sides of it.
 
 use crate::error::Error;
-use crate::workdir::{Hash, Workdir, read_json, remove_if_there, write_json};
+use crate::workdir::{Hash, PACKAGE, Workdir, read_json, remove_if_there, write_json};
 use enfilade_dataset::{Dataset, Manifest, Partition, SplitRow, ViewFault};
 use enfilade_post::split::{SceneAssets, SharedAsset, SplitConfig, shared_assets};
 use serde::{Deserialize, Serialize};
@@ -112,7 +112,7 @@ fn rejected(dataset: &Dataset, manifest: &Manifest) -> Result<BTreeMap<(String, 
 
 /// The assets of a scene's package; `None` when there is no package.
 fn scene_assets(workdir: &Workdir, scene: &str) -> Result<Option<SceneAssets>, Error> {
-    let package = workdir.scene_file(scene, "scene.scene")?;
+    let package = workdir.scene_file(scene, PACKAGE)?;
     let kept_at = workdir.scene_file(scene, "assets.json")?;
     if !package.is_file() {
         remove_if_there(&kept_at)?;

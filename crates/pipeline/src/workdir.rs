@@ -17,6 +17,9 @@ use std::path::{Path, PathBuf};
 /// Name of the folder within the dataset.
 pub const WORKDIR: &str = ".enfilade";
 
+/// The scene package in a scene's part of the work folder.
+pub(crate) const PACKAGE: &str = "scene.scene";
+
 /// A dataset's work folder, locked for this process while the value lives.
 #[derive(Debug)]
 pub struct Workdir {

@@ -1,7 +1,7 @@
 use super::{Input, Stage};
 use crate::config::{Config, SceneConfig};
 use crate::error::Error;
-use crate::workdir::Workdir;
+use crate::workdir::{PACKAGE, Workdir};
 use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_geometry::Bvh;
 use enfilade_scene::{Camera, Scene, Trajectory, WorldMesh};
@@ -49,7 +49,7 @@ impl<'a> Job<'a> {
 
     /// The scene package.
     pub fn package(&self) -> Result<PathBuf, Error> {
-        self.work_file("scene.scene")
+        self.work_file(PACKAGE)
     }
 
     /// `path` as an input that an earlier stage makes.

@@ -5,7 +5,7 @@ use super::{Job, STAGES, Stage, advance};
 use crate::error::Error;
 use crate::forecast::{ProbeCost, ScenePilot};
 use crate::report::{Event, Silent, StageCx, Stopwatch, machine_is_busy, peak_memory_bytes, thread_cpu_s};
-use crate::workdir::Workdir;
+use crate::workdir::{PACKAGE, Workdir};
 use enfilade_dataset::{Dataset, FrameInfo};
 use enfilade_frame::Frame;
 use enfilade_post::boxes::scene_boxes;
@@ -189,7 +189,7 @@ fn try_frame_in(
 /// Runs the stages after rendering on the frame, and notes their time. That a frame of two samples breaks a law does not matter here.
 fn later_stages(job: &Job, dataset: &Dataset, scratch: &Workdir, found: &mut ScenePilot) -> Result<(), Error> {
     let name = &job.scene.name;
-    for file in ["scene.scene", "labels.json"] {
+    for file in [PACKAGE, "labels.json"] {
         let (from, to) = (job.work_file(file)?, scratch.scene_file(name, file)?);
         std::fs::hard_link(&from, &to).or_else(|_| std::fs::copy(&from, &to).map(drop)).map_err(Error::io("copy", &from))?;
     }

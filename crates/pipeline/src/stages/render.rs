@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::report::{StageCx, Stopwatch, count};
 use crate::workdir::Hash;
 use enfilade_dataset::{CameraRecord, FrameInfo, Recipe, StoppedBy};
-use enfilade_frame::{LAYERS, Pass};
+use enfilade_frame::{Frame, LAYERS, Pass};
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
 use std::collections::BTreeSet;
@@ -85,19 +85,15 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
     let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?;
     let (mut done, mut timed_out) = (kept, 0);
     for Missing { camera, trajectory, config, frames } in missing {
-        let poses = &trajectory.poses;
-        let views: Vec<CameraView> = (0..poses.len()).map(|index| CameraView::of_frame(camera, poses, index)).collect();
+        let views = views(camera, trajectory);
         let guide = Guide::learn(&scene, &views, config);
         for info in frames {
-            let Some(view) = views.iter().find(|view| view.pose().frame == info.pose.frame) else { continue };
+            let Some(index) = views.iter().position(|view| view.pose().frame == info.pose.frame) else { continue };
             let time = Stopwatch::start();
             let frame_cx = FrameCx { outer: cx, done, total };
-            let rendering = FrameRender::new(&scene, &guide, view, config).map_err(Error::stage)?;
+            let rendering = FrameRender::new(&scene, &guide, &views[index], config).map_err(Error::stage)?;
             let (mut frame, sampling) = progressive::render(job, &trajectory.name, info, rendering, &frame_cx)?;
-            if config.extra {
-                let next = views.iter().position(|other| other.pose().frame == info.pose.frame).and_then(|index| views.get(index + 1));
-                add_extra_layers(&scene, view, next, &mut frame);
-            }
+            add_extra(&scene, &views, index, config, &mut frame);
             let time = time.of_frame();
             let info = FrameInfo { sampling: Some(sampling), ..info.clone() };
             job.dataset.write_frame(&job.scene.name, &trajectory.name, &frame, &info, time).map_err(Error::stage)?;
@@ -107,6 +103,18 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
         }
     }
     Ok(timed_out)
+}
+
+/// What a camera sees from every place of a trajectory.
+pub(crate) fn views<'a>(camera: &'a Camera, trajectory: &'a Trajectory) -> Vec<CameraView<'a>> {
+    (0..trajectory.poses.len()).map(|index| CameraView::of_frame(camera, &trajectory.poses, index)).collect()
+}
+
+/// Adds the further layers of a view, where they are asked for; flow leads to the next one.
+pub(crate) fn add_extra(scene: &RenderScene, views: &[CameraView], index: usize, config: &RenderConfig, frame: &mut Frame) {
+    if config.extra {
+        add_extra_layers(scene, &views[index], views.get(index + 1), frame);
+    }
 }
 
 /// Units of progress per frame.
