@@ -13,6 +13,7 @@ mod light;
 mod material;
 mod package;
 mod photometry;
+mod pictures;
 mod scene;
 pub mod sky;
 mod texture;

@@ -1,4 +1,4 @@
-//! The scene package: a [`Scene`] as one self-contained run of bytes, pictures included.
+//! The scene package: a [`Scene`] as one self-contained run of bytes, pictures included and compressed without loss.
 //!
 //! Layout: the magic line, the BLAKE3 hash of the body (32 bytes), the body in postcard encoding: the scene and, where the package has
 //! them, the labels of its parts. Reading checks the hash, so a truncated or altered package is told from a scene that is wrong.
@@ -6,13 +6,13 @@
 use crate::{Labels, Scene, SceneError};
 
 /// Its number rises with every change of the types in a [`Scene`]: postcard writes no names.
-const MAGIC: &[u8] = b"enfilade scene 2\n";
+const MAGIC: &[u8] = b"enfilade scene 3\n";
 
 /// Why bytes are not a scene package.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
     /// Not the magic line.
-    #[error("not a scene package of this version (expected it to begin with \"enfilade scene 2\"); import the scene again")]
+    #[error("not a scene package of this version (expected it to begin with \"enfilade scene 3\"); import the scene again")]
     Magic,
     /// The bytes are not what was written.
     #[error("the package is damaged or cut short: its checksum does not match; import the scene again")]
@@ -99,6 +99,7 @@ mod tests {
         assert!(matches!(from_bytes(&bytes[..bytes.len() - 1]), Err(PackageError::Checksum)));
         assert!(matches!(from_bytes(&bytes[..20]), Err(PackageError::Checksum)));
         assert!(matches!(from_bytes(b"{}"), Err(PackageError::Magic)));
+        assert!(matches!(from_bytes(b"enfilade scene 2\n"), Err(PackageError::Magic)));
     }
 
     #[test]

@@ -31,6 +31,7 @@ pub struct Scene {
     /// Surfaces.
     pub materials: Vec<Material>,
     /// Decoded pictures of all textures and of the environment.
+    #[serde(with = "crate::pictures")]
     pub images: Vec<Image>,
     /// Lights without a surface.
     pub lights: Vec<Light>,

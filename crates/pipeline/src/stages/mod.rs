@@ -74,7 +74,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Import,
         name: "import",
         about: "scene file -> scene package",
-        version: 3,
+        version: 4,
         settings: import::settings,
         inputs: import::inputs,
         run: import::run,
