@@ -9,6 +9,7 @@ mod check;
 mod dependencies;
 mod embree;
 mod floors;
+mod homes;
 mod house;
 mod oidn;
 mod peers;
@@ -27,7 +28,8 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
        cargo xtask bench render [ROOM...]         what pictures of real rooms cost, against Mitsuba 3
-       cargo xtask bench storage [DATASET...]     size and reading time of the files, against Hypersim's";
+       cargo xtask bench storage [DATASET...]     size and reading time of the files, against Hypersim's
+       cargo xtask bench homes [COUNT] [FIRST]    what generated homes cost and what is in them, beside published numbers";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -36,6 +38,7 @@ fn main() -> ExitCode {
         ["check", rest @ ..] => check::run(&house, rest),
         ["test", rest @ ..] => test::run(&house, rest),
         ["bench", "render", rest @ ..] => peers::run(&house, "bench_render", rest),
+        ["bench", "homes", rest @ ..] => homes::run(&house, rest),
         ["bench", "storage", rest @ ..] => storage::run(&house, rest),
         ["oracle", rest @ ..] => peers::run(&house, "oracle", rest),
         ["bench", rest @ ..] => bench::run(&house, rest),

@@ -1,0 +1,23 @@
+//! `cargo xtask bench homes`: what generated homes cost and what is in them, beside published numbers.
+//!
+//! An example of ours makes the homes, one process each, and writes `docs/benchmarks/homes.md` and `homes.json`.
+
+use crate::house::House;
+use crate::step::finish;
+
+/// Measures homes: `[COUNT] [FIRST SEED]`, 200 from seed 0 where nothing is said.
+///
+/// # Errors
+/// When something cannot be built, or a home cannot be made.
+pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
+    let work = house.target()?.join("homes");
+    std::fs::create_dir_all(&work).map_err(|error| format!("cannot make {}: {error}", work.display()))?;
+    let rows = work.join("rows.jsonl");
+    let example = ["run", "--release", "--locked", "--package", "enfilade-home", "--example", "statistics", "--"];
+    let mut measure = house.cargo(&example);
+    measure.arg("measure").arg(&rows).args(words);
+    finish(measure)?;
+    let mut report = house.cargo(&example);
+    report.arg("report").arg(&rows).arg("docs/benchmarks");
+    finish(report).map(|_| ())
+}
