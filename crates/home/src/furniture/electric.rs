@@ -98,13 +98,11 @@ impl Furniture for Socket {
         let socket = b.object("socket", Class::OtherProp, pose);
         frame(b, &socket, self.count);
         b.part(&socket, "cups", all(places(self.count).map(|x| cup().moved(Vec3::X * x))), Finish::WhitePlastic);
-        let pins = places(self.count).flat_map(|x| {
-            [-0.0095, 0.0095].map(|s| to_front(cylinder(0.0027, 0.001, 14)).moved(Vec3::new(x + s, 0.0006, 0.0)))
-        });
+        let pins = places(self.count)
+            .flat_map(|x| [-0.0095, 0.0095].map(|s| to_front(cylinder(0.0027, 0.001, 14)).moved(Vec3::new(x + s, 0.0006, 0.0))));
         b.part(&socket, "pins", all(pins), Finish::BlackPlastic);
-        let clips = places(self.count).flat_map(|x| {
-            [-0.0182, 0.0182].map(|z| bevelled_box(Vec3::new(0.005, 0.006, 0.0022), 0.0006).moved(Vec3::new(x, 0.0042, z)))
-        });
+        let clips = places(self.count)
+            .flat_map(|x| [-0.0182, 0.0182].map(|z| bevelled_box(Vec3::new(0.005, 0.006, 0.0022), 0.0006).moved(Vec3::new(x, 0.0042, z))));
         b.part(&socket, "clips", all(clips), Finish::Steel);
     }
 }

@@ -228,8 +228,7 @@ impl Pendant {
     fn metal(&self, b: &mut Builder, lamp: &Object) -> f32 {
         const SHEET: f32 = 0.002;
         let rim = -self.drop;
-        let outside: Vec<Vec2> =
-            self.outline().into_iter().map(|p| self.radius * Vec2::from_array(p) + Vec2::new(0.0, rim)).collect();
+        let outside: Vec<Vec2> = self.outline().into_iter().map(|p| self.radius * Vec2::from_array(p) + Vec2::new(0.0, rim)).collect();
         let crown = outside[outside.len() - 1].y - rim;
         let inside = outside.iter().rev().map(|p| Vec2::new((p.x - SHEET).max(0.0), (p.y - SHEET).max(rim)));
         let shell: Vec<Vec2> = outside.iter().copied().chain(inside).chain([outside[0]]).collect();
@@ -245,7 +244,8 @@ impl Pendant {
 impl Furniture for Pendant {
     fn random(rng: &mut Rng) -> Self {
         use PendantShade::{Bell, Cone, Drum, Globe, Tube};
-        let finishes = [Finish::Ceramic(0), Finish::BlackMetal, Finish::CoatedWhite, Finish::Brass, Finish::Copper, Finish::ColoredMetal(0)];
+        let finishes =
+            [Finish::Ceramic(0), Finish::BlackMetal, Finish::CoatedWhite, Finish::Brass, Finish::Copper, Finish::ColoredMetal(0)];
         Self {
             drop: rng.range(0.6, 1.1),
             radius: rng.range(0.15, 0.24),
@@ -276,7 +276,12 @@ impl Furniture for Pendant {
                 b.part(&lamp, "carrier", carrier(r - 0.003, socket), Finish::Steel);
                 b.part(&lamp, "shade", drum(r, r, r).moved(Vec3::new(0.0, 0.0, rim)), Finish::Lampshade);
                 b.part(&lamp, "bulb", sphere(0.035, 24).moved(Vec3::new(0.0, 0.0, socket - 0.036)), Finish::Bulb);
-                b.part(&lamp, "socket", tube(&[Vec3::new(0.0, 0.0, socket - 0.003), Vec3::new(0.0, 0.0, socket + 0.05)], 0.016, 16), self.finish);
+                b.part(
+                    &lamp,
+                    "socket",
+                    tube(&[Vec3::new(0.0, 0.0, socket - 0.003), Vec3::new(0.0, 0.0, socket + 0.05)], 0.016, 16),
+                    self.finish,
+                );
                 0.55 * r + 0.048
             }
             _ => self.metal(b, &lamp),

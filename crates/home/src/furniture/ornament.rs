@@ -196,9 +196,12 @@ impl Furniture for Magazines {
                 let style = [PaintingStyle::Hills, PaintingStyle::Shapes, PaintingStyle::Bands][rng.below(3)];
                 let photo = printed(b, "cover", style, &palettes[rng.below(palettes.len())], rng);
                 let corner = |i: usize, j: usize| Vec2::new(i as f32, j as f32);
-                let sheet = grid(1, 1, |i, j| Vec3::new(0.19 * (0.5 - corner(i, j).x), 0.095 - 0.21 * corner(i, j).y, 0.0027), |i, j| {
-                    Vec2::new(corner(i, j).x, corner(i, j).y)
-                });
+                let sheet = grid(
+                    1,
+                    1,
+                    |i, j| Vec3::new(0.19 * (0.5 - corner(i, j).x), 0.095 - 0.21 * corner(i, j).y, 0.0027),
+                    |i, j| Vec2::new(corner(i, j).x, corner(i, j).y),
+                );
                 b.part(&pile, "photo", place(sheet), photo);
                 let letters = (0..4 + rng.below(4)).map(|k| {
                     let x = 0.085 - 0.024 * k as f32;
