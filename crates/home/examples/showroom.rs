@@ -14,8 +14,8 @@ use enfilade_math::{DMat3, DVec3, Rgb, Rng, Vec3};
 use enfilade_scene::{Environment, Light, Material, Scene, StartCamera, to_bytes};
 use std::ops::Range;
 
-/// The renderer's default: 60 degrees.
-const FOV_X_RAD: f32 = std::f32::consts::FRAC_PI_3;
+/// That of a long lens, which keeps proportions: 32 degrees.
+const FOV_X_RAD: f32 = 0.56;
 const ASPECT: f32 = 4.0 / 3.0;
 /// Height at which things hang whose room decides it.
 const EYE_HEIGHT: f32 = 1.5;

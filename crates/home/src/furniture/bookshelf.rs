@@ -107,8 +107,8 @@ fn any_cell(rng: &mut Rng) -> usize {
     rng.below(BOOK_COLUMNS * BOOK_ROWS)
 }
 
-/// Standing books from `at` (left front corner) over `width`; the last ones may lean.
-pub fn row_of_books(b: &mut Builder, pose: DAffine3, at: Vec3, width: f32, leans: bool, rng: &mut Rng) {
+/// Standing books from `at` (left front corner) over at most `width`; the last ones may lean. Returns the width that they fill.
+pub fn row_of_books(b: &mut Builder, pose: DAffine3, at: Vec3, width: f32, leans: bool, rng: &mut Rng) -> f32 {
     let books = b.object("books", Class::Books, pose);
     let material = Finish::BookJackets;
     let mut x = 0.004;
@@ -145,6 +145,7 @@ pub fn row_of_books(b: &mut Builder, pose: DAffine3, at: Vec3, width: f32, leans
             break;
         }
     }
+    x
 }
 
 /// Books lying on each other, spines to the front.

@@ -28,7 +28,7 @@ use super::tableware::{
 };
 use super::{
     Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, Chair, CoffeeTable, DiningTable, FloorLamp, Furniture, Magazines, Mirror, Mug,
-    Pendant, PictureOnWall, Plant, Radiator, Rug, SideTable, Sofa, Switch, TableLamp, TelevisionBench, Tray, Vase,
+    Pendant, PictureOnWall, Plant, Radiator, Rug, SideTable, Socket, Sofa, Switch, TableLamp, TelevisionBench, Tray, Vase,
 };
 use crate::builder::Class;
 use crate::plan::RoomKind;
@@ -158,6 +158,7 @@ pub static FAMILIES: &[Family] = &[
     family::<Radiator>("radiator", Class::OtherStructure, Place::AgainstWall, ANY),
     family::<Rug>("rug", Class::FloorMat, Place::Underfoot, DWELLING),
     family::<Switch>("switch", Class::OtherProp, Place::OnWall, ANY),
+    family::<Socket>("socket", Class::OtherProp, Place::OnWall, ANY),
     // Small things.
     family::<Basket>("basket", Class::OtherProp, Place::Corner, DWELLING),
     family::<BookStack>("books", Class::Books, Place::OnSurface, DWELLING),

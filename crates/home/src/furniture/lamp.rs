@@ -1,7 +1,7 @@
 use super::{CONTACT, Furniture, standing};
 use crate::builder::{Builder, Class, Object};
 use crate::materials::Finish;
-use crate::shape::{Reshape, lathe, rounded_loop, sphere, tube};
+use crate::shape::{Reshape, lathe, rounded_loop, sphere, spline, tube};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
@@ -30,6 +30,17 @@ fn carrier(radius: f32, z: f32) -> Mesh {
     mesh.moved(Vec3::new(0.0, 0.0, z))
 }
 
+/// A bulb whose socket stands at `socket`, in a cloth drum of these radii and heights, below and above.
+fn shaded_bulb(b: &mut Builder, lamp: &Object, radii: [f32; 2], z: [f32; 2], socket: f32) {
+    let holder = lathe(&[[0.0, 0.0], [0.02, 0.0], [0.02, 0.05], [0.0, 0.05]].map(Vec2::from_array), 20);
+    b.part(lamp, "socket", holder.moved(Vec3::new(0.0, 0.0, socket - 0.0002)), Finish::BlackMetal);
+    let ring = socket + 0.004;
+    let inside = radii[0] + (radii[1] - radii[0]) * (ring - z[0]) / (z[1] - z[0]) - 0.004;
+    b.part(lamp, "carrier", carrier(inside, ring), Finish::Steel);
+    b.part(lamp, "bulb", sphere(0.03, 24).moved(Vec3::new(0.0, 0.0, socket + 0.0795)), Finish::Bulb);
+    b.part(lamp, "shade", drum(radii[0], radii[1], z[1] - z[0]).moved(Vec3::new(0.0, 0.0, z[0])), Finish::Lampshade);
+}
+
 /// A standing lamp with a cloth drum around its bulb.
 #[derive(Clone, Copy, Debug)]
 pub struct FloorLamp {
@@ -37,6 +48,8 @@ pub struct FloorLamp {
     pub height: f32,
     /// Radius of the shade.
     pub shade: f32,
+    /// Radius of the shade's upper rim over that of the lower one.
+    pub taper: f32,
     /// On three wooden legs instead of a pole.
     pub tripod: bool,
 }
@@ -69,7 +82,12 @@ impl FloorLamp {
 
 impl Furniture for FloorLamp {
     fn random(rng: &mut Rng) -> Self {
-        Self { height: rng.range(1.48, 1.62), shade: rng.range(0.19, 0.22), tripod: rng.below(2) == 0 }
+        Self {
+            height: rng.range(1.48, 1.62),
+            shade: rng.range(0.19, 0.22),
+            taper: [0.99, 0.86, 0.62][rng.below(3)],
+            tripod: rng.below(2) == 0,
+        }
     }
 
     fn size(&self) -> Vec3 {
@@ -83,41 +101,27 @@ impl Furniture for FloorLamp {
         let bottom = self.height - drum_height;
         let socket = bottom + 0.055;
         self.stand(b, &lamp, socket);
-        b.part(
-            &lamp,
-            "socket",
-            lathe(&[[0.0, 0.0], [0.02, 0.0], [0.02, 0.05], [0.0, 0.05]].map(Vec2::from_array), 20).moved(Vec3::new(
-                0.0,
-                0.0,
-                socket - 0.0002,
-            )),
-            Finish::BlackMetal,
-        );
-        b.part(&lamp, "carrier", carrier(self.shade - 0.003, socket + 0.004), Finish::Steel);
-        b.part(&lamp, "bulb", sphere(0.036, 24).moved(Vec3::new(0.0, 0.0, socket + 0.05 + 0.0358)), Finish::Bulb);
-        b.part(&lamp, "shade", drum(self.shade, 0.86 * self.shade, drum_height).moved(Vec3::new(0.0, 0.0, bottom)), Finish::Lampshade);
+        shaded_bulb(b, &lamp, [self.shade, self.taper * self.shade], [bottom, self.height], socket);
     }
 }
 
-/// A table lamp: an opal globe on a small foot.
+/// A table lamp.
 #[derive(Clone, Copy, Debug)]
-pub struct TableLamp {
-    /// Radius of the globe.
-    pub globe: f32,
+pub enum TableLamp {
+    /// An opal globe of this radius on a small foot.
+    Globe(f32),
+    /// A turned foot of this height under a cloth shade of this radius, and the shade's taper.
+    Shaded(f32, f32, f32),
 }
 
-impl Furniture for TableLamp {
-    fn random(rng: &mut Rng) -> Self {
-        Self { globe: rng.range(0.1, 0.14) }
-    }
+/// Height of the shade of a table lamp, which hides the bulb.
+fn shade_height(radius: f32) -> f32 {
+    radius + 0.045
+}
 
-    fn size(&self) -> Vec3 {
-        Vec3::new(2.0 * self.globe, 2.0 * self.globe, 0.06 + 2.0 * self.globe)
-    }
-
-    fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
-        let lamp = b.object("table_lamp", Class::Lamp, pose);
-        let foot = 0.62 * self.globe;
+impl TableLamp {
+    fn globe(b: &mut Builder, lamp: &Object, radius: f32) {
+        let foot = 0.62 * radius;
         let profile = [
             [0.0, 0.0],
             [foot, 0.0],
@@ -128,55 +132,161 @@ impl Furniture for TableLamp {
             [0.46 * foot, 0.056],
             [0.0, 0.056],
         ];
-        b.part(&lamp, "foot", lathe(&profile.map(Vec2::from_array), 40).moved(Vec3::new(0.0, 0.0, CONTACT)), Finish::Brass);
-        let sunk = self.globe - (self.globe * self.globe - (0.46 * foot).powi(2)).sqrt();
-        b.part(&lamp, "globe", sphere(self.globe, 40).moved(Vec3::new(0.0, 0.0, 0.0565 + self.globe - sunk)), Finish::OpalGlobe);
+        b.part(lamp, "foot", lathe(&profile.map(Vec2::from_array), 40).moved(Vec3::new(0.0, 0.0, CONTACT)), Finish::Brass);
+        let sunk = radius - (radius * radius - (0.46 * foot).powi(2)).sqrt();
+        b.part(lamp, "globe", sphere(radius, 40).moved(Vec3::new(0.0, 0.0, 0.0565 + radius - sunk)), Finish::OpalGlobe);
+    }
+
+    fn shaded(b: &mut Builder, lamp: &Object, [height, radius, taper]: [f32; 3], rng: &mut Rng) {
+        // A bottle, a ball or a candlestick: radii over that of the shade at shares of the height.
+        let shapes = [
+            [[0.34, 0.0], [0.46, 0.16], [0.44, 0.5], [0.16, 0.78], [0.1, 0.96]],
+            [[0.36, 0.0], [0.5, 0.3], [0.42, 0.64], [0.13, 0.84], [0.1, 0.96]],
+            [[0.46, 0.0], [0.44, 0.07], [0.09, 0.16], [0.12, 0.55], [0.08, 0.96]],
+        ];
+        let curve = spline(&shapes[rng.below(3)].map(|[r, z]| [r * radius, z * height]), 6);
+        let mut profile = vec![Vec2::ZERO];
+        profile.extend(curve.iter().map(|p| Vec2::new(p.x, p.y.clamp(0.0, height))));
+        profile.extend([Vec2::new(0.011, height), Vec2::new(0.0, height)]);
+        let finish = [Finish::Ceramic(0), Finish::Ceramic(1), Finish::Ceramic(2), Finish::Brass, Finish::DarkWood, Finish::Terracotta];
+        b.part(lamp, "foot", lathe(&profile, 44).moved(Vec3::new(0.0, 0.0, CONTACT)), finish[rng.below(6)]);
+        let low = height - 0.03;
+        shaded_bulb(b, lamp, [radius, taper * radius], [low, low + shade_height(radius)], height);
     }
 }
 
-/// A lamp that hangs from the ceiling: a metal bell over a glowing disk. Its origin is on the ceiling.
+impl Furniture for TableLamp {
+    fn random(rng: &mut Rng) -> Self {
+        if rng.below(3) == 0 {
+            Self::Globe(rng.range(0.085, 0.125))
+        } else {
+            Self::Shaded(rng.range(0.16, 0.26), rng.range(0.105, 0.145), [0.98, 0.8, 0.62][rng.below(3)])
+        }
+    }
+
+    fn size(&self) -> Vec3 {
+        match *self {
+            Self::Globe(r) => Vec3::new(2.0 * r, 2.0 * r, 0.06 + 2.0 * r),
+            Self::Shaded(height, r, _) => Vec3::new(2.0 * r + 0.0024, 2.0 * r + 0.0024, height - 0.03 + shade_height(r)),
+        }
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        let lamp = b.object("table_lamp", Class::Lamp, pose);
+        match *self {
+            Self::Globe(radius) => Self::globe(b, &lamp, radius),
+            Self::Shaded(height, radius, taper) => Self::shaded(b, &lamp, [height, radius, taper], rng),
+        }
+    }
+}
+
+/// A lamp that hangs from the ceiling; its origin is on the ceiling.
 #[derive(Clone, Copy, Debug)]
 pub struct Pendant {
     /// Length from the ceiling to the lower rim.
     pub drop: f32,
-    /// Radius of the bell.
+    /// Radius of the shade, or of the globe in its place.
     pub radius: f32,
+    /// What hides the bulb.
+    pub shade: PendantShade,
+    /// Of shade and canopy.
+    pub finish: Finish,
+}
+
+/// The shade of a pendant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PendantShade {
+    /// Half of a ball.
+    Bell,
+    /// A cone with a short neck.
+    Cone,
+    /// A narrow tube.
+    Tube,
+    /// A drum of cloth, open at both ends.
+    Drum,
+    /// No shade: an opal globe.
+    Globe,
+}
+
+impl Pendant {
+    /// The outside of the shade from rim to crown, over its radius.
+    fn outline(&self) -> Vec<[f32; 2]> {
+        match self.shade {
+            PendantShade::Cone => vec![[1.0, 0.0], [0.2, 0.68], [0.17, 0.72], [0.17, 0.85], [0.0, 0.86]],
+            PendantShade::Tube => vec![[0.42, 0.0], [0.42, 1.25], [0.38, 1.3], [0.0, 1.3]],
+            _ => {
+                let round = |k: usize| {
+                    let (sin, cos) = (std::f32::consts::FRAC_PI_2 * k as f32 / 14.0).sin_cos();
+                    [if k == 14 { 0.0 } else { cos.powf(0.8) }, 0.75 * sin]
+                };
+                (0..=14).map(round).collect()
+            }
+        }
+    }
+
+    /// A shell of sheet metal around the bulb; returns the height of its crown above its rim.
+    fn metal(&self, b: &mut Builder, lamp: &Object) -> f32 {
+        const SHEET: f32 = 0.002;
+        let rim = -self.drop;
+        let outside: Vec<Vec2> = self.outline().into_iter().map(|p| self.radius * Vec2::from_array(p) + Vec2::new(0.0, rim)).collect();
+        let crown = outside[outside.len() - 1].y - rim;
+        let inside = outside.iter().rev().map(|p| Vec2::new((p.x - SHEET).max(0.0), (p.y - SHEET).max(rim)));
+        let shell: Vec<Vec2> = outside.iter().copied().chain(inside).chain([outside[0]]).collect();
+        b.part(lamp, "shade", lathe(&shell, 56).smoothed(30.0), self.finish);
+        let bulb = rim + 0.45 * crown;
+        b.part(lamp, "bulb", sphere(0.045, 24).moved(Vec3::new(0.0, 0.0, bulb)), Finish::OpalGlobe);
+        let socket = tube(&[Vec3::new(0.0, 0.0, bulb + 0.043), Vec3::new(0.0, 0.0, rim + crown - SHEET)], 0.016, 16);
+        b.part(lamp, "socket", socket, Finish::BlackPlastic);
+        crown
+    }
 }
 
 impl Furniture for Pendant {
     fn random(rng: &mut Rng) -> Self {
-        Self { drop: rng.range(0.6, 1.1), radius: rng.range(0.15, 0.24) }
+        use PendantShade::{Bell, Cone, Drum, Globe, Tube};
+        let finishes =
+            [Finish::Ceramic(0), Finish::BlackMetal, Finish::CoatedWhite, Finish::Brass, Finish::Copper, Finish::ColoredMetal(0)];
+        Self {
+            drop: rng.range(0.6, 1.1),
+            radius: rng.range(0.15, 0.24),
+            shade: [Bell, Cone, Tube, Drum, Globe][rng.below(5)],
+            finish: finishes[rng.below(finishes.len())],
+        }
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(2.0 * self.radius, 2.0 * self.radius, self.drop)
+        Vec3::new(2.0 * self.radius + 0.0024, 2.0 * self.radius + 0.0024, self.drop)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
         let lamp = b.object("pendant", Class::Lamp, pose);
         let canopy = [[0.0, -0.03], [0.045, -0.03], [0.05, -0.026], [0.05, 0.001], [0.0, 0.001]];
-        b.part(&lamp, "canopy", lathe(&canopy.map(Vec2::from_array), 32), Finish::BlackMetal);
-        let (r, bell) = (self.radius, 0.75 * self.radius);
-        let rim = -self.drop;
-        b.part(&lamp, "cord", tube(&[Vec3::new(0.0, 0.0, -0.0295), Vec3::new(0.0, 0.0, rim + bell)], 0.003, 8), Finish::BlackPlastic);
-        let mut outside = vec![Vec2::new(r, rim)];
-        let wall = |k: usize, shrink: f32| {
-            let (sin, cos) = (std::f32::consts::FRAC_PI_2 * k as f32 / 14.0).sin_cos();
-            Vec2::new((r - shrink) * cos.max(0.0).powf(0.8), rim + (bell - shrink) * sin)
+        b.part(&lamp, "canopy", lathe(&canopy.map(Vec2::from_array), 32), self.finish);
+        let (r, rim) = (self.radius, -self.drop);
+        let crown = match self.shade {
+            PendantShade::Globe => {
+                b.part(&lamp, "globe", sphere(0.8 * r, 40).moved(Vec3::new(0.0, 0.0, rim + 0.8 * r)), Finish::OpalGlobe);
+                let cap = lathe(&[[0.0, -0.02], [0.03, -0.02], [0.03, 0.02], [0.0, 0.024]].map(Vec2::from_array), 24);
+                b.part(&lamp, "cap", cap.moved(Vec3::new(0.0, 0.0, rim + 1.6 * r)), self.finish);
+                1.6 * r + 0.02
+            }
+            PendantShade::Drum => {
+                let socket = rim + 0.55 * r;
+                // The bulb hangs head down below the wires that carry the shade.
+                b.part(&lamp, "carrier", carrier(r - 0.003, socket), Finish::Steel);
+                b.part(&lamp, "shade", drum(r, r, r).moved(Vec3::new(0.0, 0.0, rim)), Finish::Lampshade);
+                b.part(&lamp, "bulb", sphere(0.035, 24).moved(Vec3::new(0.0, 0.0, socket - 0.036)), Finish::Bulb);
+                b.part(
+                    &lamp,
+                    "socket",
+                    tube(&[Vec3::new(0.0, 0.0, socket - 0.003), Vec3::new(0.0, 0.0, socket + 0.05)], 0.016, 16),
+                    self.finish,
+                );
+                0.55 * r + 0.048
+            }
+            _ => self.metal(b, &lamp),
         };
-        outside.extend((1..14).map(|k| wall(k, 0.0)));
-        outside.push(Vec2::new(0.0, rim + bell));
-        outside.push(Vec2::new(0.0, rim + bell - 0.002));
-        outside.extend((1..14).rev().map(|k| wall(k, 0.002)));
-        outside.push(Vec2::new(r - 0.002, rim));
-        outside.push(Vec2::new(r, rim));
-        b.part(&lamp, "bell", lathe(&outside, 56), Finish::Ceramic(0));
-        b.part(&lamp, "bulb", sphere(0.045, 24).moved(Vec3::new(0.0, 0.0, rim + 0.45 * bell)), Finish::OpalGlobe);
-        b.part(
-            &lamp,
-            "socket",
-            tube(&[Vec3::new(0.0, 0.0, rim + 0.45 * bell + 0.043), Vec3::new(0.0, 0.0, rim + bell - 0.0022)], 0.016, 16),
-            Finish::BlackPlastic,
-        );
+        let cord = tube(&[Vec3::new(0.0, 0.0, -0.0295), Vec3::new(0.0, 0.0, rim + crown - 0.001)], 0.003, 8);
+        b.part(&lamp, "cord", cord, Finish::BlackPlastic);
     }
 }

@@ -1,11 +1,15 @@
 //! Small things on tables, shelves and sills.
 
 use super::bookshelf::pile_of_books;
-use super::{CONTACT, Furniture, board, grained};
+use super::form::all;
+use super::wall_art::printed;
+use super::{CONTACT, Furniture, grained};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
-use crate::shape::{Reshape, lathe, leaf, rounded_box, spline, tube};
-use crate::texture::BOOK_COLUMNS;
+use crate::palette::Palette;
+use crate::shape::{Reshape, grid, lathe, leaf, rounded_box, spline, tube};
+use crate::texture::{BOOK_COLUMNS, PaintingStyle};
+use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
 
@@ -124,28 +128,34 @@ impl Furniture for Mug {
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let mug = b.object("mug", Class::OtherProp, pose);
+        // Straight, round below, or narrow at the foot; some are low.
+        let (foot, belly) = [(0.035, 0.0395), (0.022, 0.036), (0.027, 0.032)][rng.below(3)];
+        let h = [0.09, 0.09, 0.078][rng.below(3)];
         let profile = [
             [0.0, 0.0],
-            [0.035, 0.0],
-            [0.0395, 0.006],
-            [0.041, 0.05],
-            [0.041, 0.09],
-            [0.0395, 0.0915],
-            [0.038, 0.09],
-            [0.0375, 0.012],
-            [0.034, 0.007],
+            [foot, 0.0],
+            [belly, 0.009],
+            [0.041, 0.5 * h],
+            [0.041, h],
+            [0.0395, h + 0.0015],
+            [0.038, h],
+            [0.0375, 0.5 * h],
+            [belly - 0.004, 0.012],
+            [0.8 * foot, 0.007],
             [0.0, 0.007],
         ];
         let handle: Vec<Vec3> = (0..=12)
             .map(|k| {
                 let (sin, cos) = (std::f32::consts::PI * (k as f32 / 12.0 - 0.5)).sin_cos();
-                Vec3::new(0.039 + 0.028 * cos, 0.0, 0.047 + 0.027 * sin)
+                Vec3::new(0.0385 + 0.028 * cos, 0.0, 0.52 * h + 0.3 * h * sin)
             })
             .collect();
         let glaze = Finish::Ceramic(rng.below(3) as u8);
-        b.part(&mug, "body", lathe(&profile.map(Vec2::from_array), 36).moved(Vec3::new(0.0, 0.0, CONTACT)), glaze);
+        b.part(&mug, "body", lathe(&profile.map(Vec2::from_array), 36).smoothed(40.0).moved(Vec3::new(0.0, 0.0, CONTACT)), glaze);
         b.part(&mug, "handle", tube(&handle, 0.0048, 10), glaze);
-        b.part(&mug, "coffee", crate::shape::disk(0.0372, 32).moved(Vec3::new(0.0, 0.0, 0.076)), Finish::Soil);
+        if rng.below(2) == 0 {
+            b.part(&mug, "coffee", crate::shape::disk(0.0376, 32).moved(Vec3::new(0.0, 0.0, 0.8 * h)), Finish::Soil);
+        }
     }
 }
 
@@ -177,12 +187,28 @@ impl Furniture for Magazines {
                 *uv = q / Vec2::new(BOOK_COLUMNS as f32, 4.0);
             }
             let z = CONTACT + 0.0025 + i as f32 * 0.0055;
-            b.part(
-                &pile,
-                &format!("issue_{}", i + 1),
-                mesh.turned(Vec3::Z, rng.range(-0.25, 0.25)).moved(Vec3::new(0.0, 0.0, z)),
-                Finish::BookJackets,
-            );
+            let turn = rng.range(-0.25, 0.25);
+            let place = |mesh: Mesh| mesh.turned(Vec3::Z, turn).moved(Vec3::new(0.0, 0.0, z));
+            b.part(&pile, &format!("issue_{}", i + 1), place(mesh), Finish::BookJackets);
+            if i + 1 == self.count {
+                // The cover of the uppermost: a photograph below the title.
+                let palettes = Palette::all();
+                let style = [PaintingStyle::Hills, PaintingStyle::Shapes, PaintingStyle::Bands][rng.below(3)];
+                let photo = printed(b, "cover", style, &palettes[rng.below(palettes.len())], rng);
+                let corner = |i: usize, j: usize| Vec2::new(i as f32, j as f32);
+                let sheet = grid(
+                    1,
+                    1,
+                    |i, j| Vec3::new(0.19 * (0.5 - corner(i, j).x), 0.095 - 0.21 * corner(i, j).y, 0.0027),
+                    |i, j| Vec2::new(corner(i, j).x, corner(i, j).y),
+                );
+                b.part(&pile, "photo", place(sheet), photo);
+                let letters = (0..4 + rng.below(4)).map(|k| {
+                    let x = 0.085 - 0.024 * k as f32;
+                    super::board([x - 0.017, -0.132, 0.0024], [x, -0.127 + 0.02, 0.0028], 0.0001)
+                });
+                b.part(&pile, "title", place(all(letters)), Finish::Paper);
+            }
         }
     }
 }
@@ -247,8 +273,10 @@ impl Furniture for Candles {
                 &candles,
                 &format!("wax_{}", i + 1),
                 lathe(&wax.map(Vec2::from_array), 18).moved(at + Vec3::new(0.0, 0.0, h - 0.0002)),
-                Finish::Paper,
+                Finish::Wax,
             );
+            let wick = tube(&[at + Vec3::new(0.0, 0.0, h + 0.131), at + Vec3::new(0.001, 0.0, h + 0.143)], 0.0008, 5);
+            b.part(&candles, &format!("wick_{}", i + 1), wick, Finish::Soil);
         }
     }
 }
@@ -326,25 +354,5 @@ impl Furniture for Basket {
         let below = crate::shape::padded_box(Vec3::new(1.2 * r, 1.0 * r, 0.15), 0.05, 0.01).moved(Vec3::new(0.0, 0.0, 0.098));
         b.part(&blanket, "folds", below, Finish::Accent(1));
         b.part(&blanket, "cloth", cloth.turned(Vec3::X, 0.1).turned(Vec3::Z, 0.5).moved(Vec3::new(0.0, 0.0, 0.265)), Finish::Accent(1));
-    }
-}
-
-/// A light switch on a wall; its origin is on the wall's face.
-#[derive(Clone, Copy, Debug)]
-pub struct Switch;
-
-impl Furniture for Switch {
-    fn random(_rng: &mut Rng) -> Self {
-        Self
-    }
-
-    fn size(&self) -> Vec3 {
-        Vec3::new(0.08, 0.012, 0.08)
-    }
-
-    fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
-        let switch = b.object("switch", Class::OtherProp, pose);
-        b.part(&switch, "plate", board([-0.04, -0.001, -0.04], [0.04, 0.008, 0.04], 0.002), Finish::WhitePlastic);
-        b.part(&switch, "rocker", board([-0.026, 0.0078, -0.026], [0.026, 0.0108, 0.026], 0.0012), Finish::WhitePlastic);
     }
 }

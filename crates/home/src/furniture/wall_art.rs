@@ -23,6 +23,13 @@ pub struct PictureOnWall {
     pub black: bool,
 }
 
+/// The material of a picture that only one thing has, in the colours of `palette`.
+pub fn printed(b: &mut Builder, name: &str, style: PaintingStyle, palette: &Palette, rng: &mut Rng) -> u32 {
+    let image = b.image(painting(&format!("{name} {style:?}"), style, &palette.art, rng.next_u64() as u32));
+    let reflectance = ColorParam { factor: enfilade_math::Rgb::WHITE, texture: Some(TextureRef::new(image)) };
+    b.material(Material::new(name, Bsdf::Diffuse { reflectance }))
+}
+
 /// A rectangle in the xz plane at depth `y`, facing +y, its texture upright over the unit square.
 fn sheet(size: Vec2, y: f32) -> Mesh {
     let corner = |i: usize, j: usize| Vec2::new(i as f32, j as f32);
@@ -50,9 +57,7 @@ impl Furniture for PictureOnWall {
         b.part(&picture, "frame", grained(frame, rng), frame_material);
         let inside = self.size - 0.034;
         b.part(&picture, "mount", sheet(inside, 0.010), Finish::Paper);
-        let image = b.image(painting(&format!("painting {:?}", self.style), self.style, &self.palette.art, rng.next_u64() as u32));
-        let reflectance = ColorParam { factor: enfilade_math::Rgb::WHITE, texture: Some(TextureRef::new(image)) };
-        let material = b.material(Material::new("painting", Bsdf::Diffuse { reflectance }));
+        let material = printed(b, "painting", self.style, &self.palette, rng);
         b.part(&picture, "print", sheet(inside - 2.0 * self.mount, 0.0108), material);
     }
 }

@@ -32,7 +32,7 @@ impl Maker<'_> {
 
     /// Crumbs of 3 mm.
     pub(super) fn soil(&mut self) -> Material {
-        let layers = self.skin("crumbs", &(), [0.14, 0.14], |seed| texture::loops("crumbs", 44, 1.2, seed));
+        let layers = self.skin("crumbs", &(), [0.14, 0.14], |seed| texture::loops("crumbs", 110, 1.6, seed));
         layers.relieved(rough("soil", layers.tinted(Rgb::new(0.05, 0.035, 0.024)), 1.0), 0.005)
     }
 
@@ -48,8 +48,8 @@ impl Maker<'_> {
     }
 
     pub(super) fn bread(&mut self) -> Material {
-        let layers = self.skin("crumbs", &(), [0.30, 0.30], |seed| texture::loops("crumbs", 44, 1.2, seed));
-        layers.relieved(rough("bread crust", layers.tinted(Rgb::new(0.42, 0.21, 0.08)), 0.6), 0.001_5)
+        let layers = self.skin("crumbs", &(), [0.30, 0.30], |seed| texture::loops("crumbs", 110, 1.6, seed));
+        layers.relieved(rough("bread crust", layers.tinted(Rgb::new(0.42, 0.25, 0.13)), 0.6), 0.000_5)
     }
 
     pub(super) fn book_jackets(&mut self) -> Material {

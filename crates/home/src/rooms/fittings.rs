@@ -1,26 +1,32 @@
-//! What belongs to a room whoever lives in it: radiators, curtains, lamps, switches.
+//! What belongs to a room whoever lives in it: radiators, curtains, lamps.
 
 use super::Furnisher;
-use crate::furniture::{Candles, CeilingDome, Curtains, Furniture, Pendant, Plant, Radiator, Switch, Window, on};
+use crate::furniture::living::CeilingLamp;
+use crate::furniture::{Candles, CeilingDome, Curtains, Furniture, Pendant, Plant, Radiator, Window, on};
 use crate::plan::RoomKind;
-use crate::room::{Filling, Opening};
-use enfilade_math::{DAffine3, Vec3};
+use crate::room::Opening;
+use enfilade_math::{DAffine3, Vec2, Vec3};
 
 /// Lowest sill with a radiator below it.
 const RADIATOR_SILL: f32 = 0.44;
-/// Height of light switches.
-const SWITCH: f32 = 1.05;
-/// Pendants in the middle of a room end above people's heads.
+/// What stands on a sill is lower than this.
+const ON_SILL: f32 = 0.32;
+/// The stream of random numbers of blinds, so that they do not change what else is in a room.
+const BLINDS: u64 = 0xb11d;
+/// Lamps in the middle of a room end above people's heads.
 const PENDANT_RIM: f32 = 2.05;
 
 impl Furnisher<'_> {
     /// Adds everything of that kind.
     pub fn fittings(&mut self) {
         let room = self.room;
+        // All windows of a room have blinds of one sort.
+        let hand = self.rng.fork(BLINDS);
         for window in room.windows() {
             self.radiator(window);
             self.curtains(window);
-            if room.kind != RoomKind::Kitchen {
+            let free = self.blinds(window, hand.clone());
+            if room.kind != RoomKind::Kitchen && free > ON_SILL {
                 self.on_sill(window);
             }
         }
@@ -91,42 +97,24 @@ impl Furnisher<'_> {
         }
     }
 
-    /// Beside the door, where the handle is.
-    fn switch(&mut self, way: &Opening) {
-        let hinge = match way.filling {
-            Filling::Door(leaf) => leaf.hinge,
-            _ => 1.0,
-        };
-        let half = 0.5 * self.room.length(way.wall);
-        let place = |side: f32| way.center_x() + side * (0.5 * way.size().x + 0.15);
-        let free = |x: &f32| {
-            let others = self.room.openings.iter().filter(|o| o.wall == way.wall);
-            x.abs() < half - 0.08 && others.clone().all(|o| *x < o.x[0] - 0.11 || *x > o.x[1] + 0.11)
-        };
-        let swings = |x: f32| {
-            let strip = self.floor.strip(way.wall, [x - 0.05, x + 0.05], 0.06);
-            self.room.ways().filter(|o| o.wall != way.wall).any(|o| self.room.way_zone(o).meets(&strip, 0.0))
-        };
-        let free = |x: &f32| free(x) && !swings(*x);
-        let Some(x) = [place(-hinge), place(hinge)].into_iter().find(free) else { return };
-        self.build(&Switch, on(self.room.wall_pose(way.wall), Vec3::new(x, 0.0, SWITCH), 0.0));
-        let strip = self.floor.strip(way.wall, [x - 0.05, x + 0.05], 0.02);
-        self.floor.take(strip, [SWITCH - 0.05, SWITCH + 0.05]);
-    }
-
     /// A flat lamp of opal glass under the ceiling, for low or wet rooms.
     pub fn dome(&mut self) {
-        let at = self.room.center;
-        let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), f64::from(self.room.size.z), 0.0);
         let lamp = CeilingDome { radius: self.rng.range(0.14, 0.2) };
-        self.build(&lamp, pose);
+        self.above(self.room.center, &lamp);
     }
 
-    /// Hangs a pendant in the middle of the room.
+    /// Hangs a lamp in the middle of the room, above people's heads.
     pub fn ceiling_lamp(&mut self) {
-        let at = self.room.center;
-        let pendant = Pendant { drop: self.room.size.z - PENDANT_RIM, radius: self.rng.range(0.16, 0.21) };
+        let most = self.room.size.z - PENDANT_RIM;
+        let other = CeilingLamp::random(&mut self.rng);
+        let pendant = Pendant { drop: most, radius: self.rng.range(0.16, 0.21), ..Pendant::random(&mut self.rng) };
+        let lamp: &dyn Furniture = if other.size().z <= most { &other } else { &pendant };
+        self.above(self.room.center, lamp);
+    }
+
+    /// Hangs a lamp from the ceiling over a point of the floor.
+    pub fn above(&mut self, at: Vec2, lamp: &dyn Furniture) {
         let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), f64::from(self.room.size.z), 0.0);
-        self.build(&pendant, pose);
+        self.build(lamp, pose);
     }
 }

@@ -30,6 +30,8 @@ pub struct Furnisher<'a> {
     pub known: Vec<&'static str>,
     /// Pieces of wall without skirting, because of what is built in there.
     pub built_in: Vec<(Wall, [f32; 2])>,
+    /// Where something stands that needs a socket.
+    pub plugs: Vec<Vec2>,
 }
 
 /// Height of the middle of pictures.
@@ -53,7 +55,8 @@ pub struct Standing {
 impl<'a> Furnisher<'a> {
     /// An empty room.
     pub fn new(b: &'a mut Builder, plan: &'a FloorPlan, room: &'a Room, palette: &'a Palette, clutter: f32, rng: Rng) -> Self {
-        Self { b, plan, room, palette, floor: Floor::new(room), clutter, rng, accent: None, known: Vec::new(), built_in: Vec::new() }
+        let floor = Floor::new(room);
+        Self { b, plan, room, palette, floor, clutter, rng, accent: None, known: Vec::new(), built_in: Vec::new(), plugs: Vec::new() }
     }
 
     /// True with this probability.

@@ -11,7 +11,8 @@ use std::f32::consts::PI;
 /// How far the chair's middle is from the desk's front.
 const CHAIR: f32 = 0.22;
 /// Families that rooms place themselves, and that do not stand about.
-const PLACED: [&str; 8] = ["kitchen_unit", "kitchen_island", "radiator", "switch", "tv_bench", "picture", "plant", "fireplace"];
+const PLACED: [&str; 10] =
+    ["kitchen_unit", "kitchen_island", "radiator", "switch", "socket", "blind", "tv_bench", "picture", "plant", "fireplace"];
 /// How often a room has a family that nothing else asks for.
 const SELDOM: f32 = 0.22;
 
@@ -27,7 +28,8 @@ impl Furnisher<'_> {
             let turn = self.rng.range(-0.3, 0.3);
             let group = [table, seat.at(0.0, table.at.y + 0.5 * size.y + CHAIR + 0.1, PI + turn)];
             let spots = self.floor.along_walls(size.x);
-            let Some((_, poses)) = self.floor.place(&group, spots, &cost) else { continue };
+            let Some((spot, poses)) = self.floor.place(&group, spots, &cost) else { continue };
+            self.plugs.push(spot.origin);
             self.build(desk.as_ref(), poses[0]);
             self.build(chair.as_ref(), poses[1]);
             self.litter(&desk.surfaces(), poses[0], 0.8);

@@ -68,6 +68,7 @@ fn seating(f: &mut Furnisher) -> Option<Standing> {
                 }
                 if with_screen {
                     let pose = poses[poses.len() - 1];
+                    f.plugs.push(pose.translation.truncate().as_vec2());
                     f.build(&bench, pose);
                     on_bench(f, &bench, pose);
                 }
@@ -135,8 +136,8 @@ fn beside_sofa(f: &mut Furnisher, sofa: &Standing) {
     let reach = 0.5 * table.diameter + 0.04;
     let spots = f.floor.along(wall, table.diameter);
     if let Some(found) = f.stand_at(&table, spots, |_, s| near(s, reach)) {
-        let globe = f.rng.range(0.105, 0.125);
-        f.build(&TableLamp { globe }, on(found.pose, Vec3::new(0.0, -0.05, table.height), 0.0));
+        let lamp = TableLamp::random(&mut f.rng);
+        f.build(&lamp, on(found.pose, Vec3::new(0.0, -0.05, table.height), 0.0));
         let turn = f.rng.range(0.0, 6.0);
         f.build(&Mug, on(found.pose, Vec3::new(0.09, 0.11, table.height), turn));
     }

@@ -2,8 +2,10 @@
 
 mod bathroom;
 mod bedroom;
+mod blinds;
 mod childrens;
 mod dining;
+mod electric;
 mod fittings;
 mod furnisher;
 mod groups;
@@ -34,6 +36,7 @@ pub fn furnish(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &
         f.fittings();
         content(&mut f);
         f.extras();
+        f.sockets();
         let (accent, built_in) = (f.accent, std::mem::take(&mut f.built_in));
         let mut shape = shape.fork(i as u64);
         let finish = ShellFinish::usual(room.kind, accent, &mut shape, &mut look.fork(i as u64));

@@ -3,6 +3,7 @@
 use super::Furnisher;
 use crate::builder;
 use crate::furniture::dining::LongTable;
+use crate::furniture::living::CeilingLamp;
 use crate::furniture::{Chair, DiningTable, Furniture, Pendant};
 use crate::place::{Floor, Piece, Spot};
 use enfilade_math::{Rng, Vec2, Vec3};
@@ -104,9 +105,17 @@ impl Furnisher<'_> {
         }
         let laid = matches!(table, Table::Long(LongTable { laid: Some(_), .. }));
         self.litter(&table.thing().surfaces(), poses[0], if laid { 0.3 } else { 0.7 });
-        let pendant = Pendant { drop: self.room.size.z - LAMP, ..Pendant::random(&mut self.rng) };
-        let above = builder::pose(f64::from(spot.origin.x), f64::from(spot.origin.y), f64::from(self.room.size.z), 0.0);
-        self.build(&pendant, above);
+        let drop = self.room.size.z - LAMP;
+        let pendant = Pendant { drop, ..Pendant::random(&mut self.rng) };
+        let bar = CeilingLamp::Bar(0.6 * table.thing().size().x, drop);
+        let cluster = CeilingLamp::Cluster(3);
+        let lamp: &dyn Furniture = match self.rng.below(5) {
+            0 if table.thing().size().x > 1.3 => &bar,
+            1 if cluster.size().z < drop + 0.1 => &cluster,
+            _ => &pendant,
+        };
+        let above = builder::pose(f64::from(spot.origin.x), f64::from(spot.origin.y), f64::from(self.room.size.z), f64::from(spot.yaw));
+        self.build(lamp, above);
         true
     }
 }

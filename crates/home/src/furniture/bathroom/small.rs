@@ -164,6 +164,9 @@ impl Furniture for Toiletries {
                 0 => {
                     let body = [[0.0, 0.0], [r - 0.004, 0.0], [r, 0.005], [r, h - 0.02], [0.8 * r, h - 0.004], [0.012, h], [0.0, h]];
                     b.part(&bottle, "body", turned(&body, 32), color);
+                    let (low, high, out) = (0.2 * h, 0.62 * h, r + 0.0004);
+                    let label = [[r - 0.001, low], [out, low], [out, high], [r - 0.001, high], [r - 0.001, low]];
+                    b.part(&bottle, "label", turned(&label, 32), Finish::Paper);
                     b.part(&bottle, "cap", cylinder(0.013, 0.026, 24).moved(Vec3::Z * (h - 0.0005)), Finish::WhitePlastic);
                 }
                 1 => {

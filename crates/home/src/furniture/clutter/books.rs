@@ -1,6 +1,6 @@
 use crate::builder::{Builder, Class};
 use crate::furniture::bookshelf::row_of_books;
-use crate::furniture::form::{all, rod};
+use crate::furniture::form::{all, cut_out, rod};
 use crate::furniture::{CONTACT, Furniture, Magazines, board, grained, on};
 use crate::materials::Finish;
 use crate::shape::{Reshape, bevelled_box, grid};
@@ -13,7 +13,7 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 pub struct BookRow {
     /// Between the ends.
     pub width: f32,
-    /// Blocks of stone instead of bent metal.
+    /// Blocks of stone instead of quarters of a brass disk.
     pub stone: bool,
 }
 
@@ -28,16 +28,19 @@ impl Furniture for BookRow {
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let half = 0.5 * self.width;
-        row_of_books(b, pose, Vec3::new(-half, 0.125, 0.0), self.width, false, rng);
-        for s in [-1.0f32, 1.0] {
-            let end = b.object("bookend", Class::OtherProp, on(pose, Vec3::new(s * (half + 0.001), 0.0, CONTACT), 0.0));
+        let filled = row_of_books(b, pose, Vec3::new(-half, 0.125, 0.0), self.width, false, rng);
+        for (s, x) in [(-1.0f32, 0.002 - half), (1.0, filled - half + 0.001)] {
+            let end = b.object("bookend", Class::OtherProp, on(pose, Vec3::new(x, 0.0, CONTACT), 0.0));
             if self.stone {
                 let block = bevelled_box(Vec3::new(0.06, 0.1, 0.13), 0.003).moved(Vec3::new(s * 0.031, 0.0, 0.065));
                 b.part(&end, "block", block, Finish::MarbleTop);
             } else {
-                let plate = board([-0.0012, -0.05, 0.0], [0.0012, 0.05, 0.15], 0.0005).moved(Vec3::new(s * 0.0014, 0.0, 0.0));
-                let foot = board([-0.05, -0.05, 0.0], [0.05, 0.05, 0.002], 0.0005).moved(Vec3::new(s * 0.0525, 0.0, 0.0));
-                b.part(&end, "plate", plate.with(foot), Finish::BlackMetal);
+                // A quarter of a disk that stands on one straight edge and leans on the books with the other.
+                let arc = (0..=16).map(|k| Vec2::from_angle(std::f32::consts::FRAC_PI_2 * k as f32 / 16.0) * 0.1);
+                let outline: Vec<Vec2> = [Vec2::ZERO].into_iter().chain(arc).collect();
+                let quarter = cut_out(&outline, 0.07, 0.002).turned(Vec3::X, std::f32::consts::FRAC_PI_2).moved(Vec3::Y * 0.035);
+                let turn = if s < 0.0 { std::f32::consts::PI } else { 0.0 };
+                b.part(&end, "quarter", quarter.turned(Vec3::Z, turn), Finish::Brass);
             }
         }
     }

@@ -1,12 +1,12 @@
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, loft, rod, turned, vessel};
+use crate::furniture::wall_art::printed;
 use crate::furniture::{CONTACT, Furniture, board, grained, on};
 use crate::materials::Finish;
 use crate::palette::Palette;
 use crate::shape::{Reshape, bevelled_box, grid, picture_frame, rounded_loop, sphere, tube};
-use crate::texture::{PaintingStyle, painting};
-use enfilade_math::{DAffine3, Rgb, Rng, Vec2, Vec3};
-use enfilade_scene::{Bsdf, ColorParam, Material, TextureRef};
+use crate::texture::PaintingStyle;
+use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
 /// A small framed picture that stands on its strut.
 #[derive(Clone, Copy, Debug)]
@@ -46,9 +46,7 @@ impl Furniture for PhotoFrame {
         );
         let style = [PaintingStyle::Hills, PaintingStyle::Hills, PaintingStyle::Shapes][rng.below(3)];
         let palettes = Palette::all();
-        let image = b.image(painting("photo", style, &palettes[rng.below(palettes.len())].art, rng.next_u64() as u32));
-        let reflectance = ColorParam { factor: Rgb::WHITE, texture: Some(TextureRef::new(image)) };
-        let material = b.material(Material::new("photo", Bsdf::Diffuse { reflectance }));
+        let material = printed(b, "photo", style, &palettes[rng.below(palettes.len())], rng);
         let half = 0.5 * self.size - 0.013;
         let corner = |i: usize, j: usize| Vec2::new(i as f32, j as f32);
         let print =

@@ -1,7 +1,8 @@
 use crate::builder::{Builder, Class};
+use crate::furniture::soft::folded;
 use crate::furniture::{CONTACT, Furniture, on};
 use crate::materials::Finish;
-use crate::shape::{Reshape, pillow, rounded_box};
+use crate::shape::{Reshape, pillow};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
 /// A blanket folded several times.
@@ -25,18 +26,9 @@ impl Furniture for FoldedBlanket {
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let blanket = b.object("blanket", Class::OtherProp, pose);
         let finish = if self.knitted { Finish::KnittedThrow } else { Finish::Accent(rng.below(3) as u8) };
-        for k in 0..self.folds {
-            let size = Vec3::new(0.42 - rng.range(0.0, 0.012), 0.32 - rng.range(0.0, 0.012), 0.025);
-            let phase = rng.range(0.0, 6.0);
-            // Each layer sags a little where the one below is thin.
-            let layer = rounded_box(size, 0.0124, 3)
-                .deformed(|p| {
-                    Vec3::new(p.x, p.y, p.z + 0.0015 * (9.0 * p.x + phase).sin() * (11.0 * p.y).cos() * (0.5 + p.z / 0.025).clamp(0.0, 1.0))
-                })
-                .smoothed(60.0);
-            let at = Vec3::new(rng.range(-0.004, 0.004), rng.range(-0.004, 0.004), CONTACT + 0.0127 + 0.026 * k as f32);
-            b.part(&blanket, &format!("fold_{}", k + 1), layer.uv_moved(Vec2::splat(0.31 * k as f32)).moved(at), finish);
-        }
+        let size = Vec3::new(0.42, 0.32, 0.026 * self.folds as f32);
+        let parcel = folded(size, self.folds, rng).uv_moved(Vec2::splat(rng.next_f32()));
+        b.part(&blanket, "folds", parcel.moved(Vec3::Z * CONTACT), finish);
     }
 }
 

@@ -28,7 +28,7 @@ pub enum CeilingLamp {
 impl CeilingLamp {
     fn chandelier(b: &mut Builder, lamp: &Object, arms: usize) {
         b.part(lamp, "canopy", turned(&[[0.0, -0.04], [0.03, -0.038], [0.06, -0.01], [0.062, 0.0], [0.0, 0.0]], 36), Finish::Brass);
-        let hub = -0.62;
+        let hub = -0.36;
         b.part(lamp, "rod", rod([0.0, 0.0, -0.03], [0.0, 0.0, hub], 0.006, 12), Finish::Brass);
         let body = [[0.0, hub - 0.09], [0.012, hub - 0.085], [0.03, hub - 0.04], [0.018, hub], [0.014, hub + 0.08], [0.0, hub + 0.09]];
         b.part(lamp, "hub", turned(&body, 28), Finish::Brass);
@@ -73,7 +73,7 @@ impl CeilingLamp {
     }
 
     fn lantern(b: &mut Builder, lamp: &Object, r: f32) {
-        let drop = 0.35 + r;
+        let drop = 0.08 + r;
         b.part(lamp, "canopy", turned(&[[0.0, -0.03], [0.04, -0.03], [0.045, -0.025], [0.045, 0.0], [0.0, 0.0]], 28), Finish::WhitePlastic);
         b.part(lamp, "cord", rod([0.0, 0.0, -0.0295], [0.0, 0.0, -drop], 0.0025, 6), Finish::WhitePlastic);
         // Paper sags inward between the ribs.
@@ -97,9 +97,10 @@ impl CeilingLamp {
         b.part(lamp, "canopy", cylinder(0.14, 0.025, 48).moved(Vec3::new(0.0, 0.0, -0.025)), metal);
         let kind = rng.below(2);
         for (k, d) in around(count, rng.next_f32()).enumerate() {
-            let at = d * if count > 3 { 0.17 } else { 0.13 };
+            // Cords hang straight down from the rim of the canopy.
+            let at = d * 0.12;
             let drop = 0.45 + 0.18 * k as f32;
-            let cord = tube(&[(d * 0.1).extend(-0.024), at.extend(-0.2), at.extend(-drop)], 0.0022, 6);
+            let cord = tube(&[at.extend(-0.024), at.extend(-drop)], 0.0022, 6);
             b.part(lamp, &format!("cord_{}", k + 1), cord, Finish::BlackPlastic);
             let curve = spline(&[[0.012, 0.0], [0.04, -0.02], [0.062, -0.07], [0.075, -0.14]], 5);
             let mut shade = vec![[0.075, -0.14]];
@@ -155,10 +156,10 @@ impl Furniture for CeilingLamp {
     fn size(&self) -> Vec3 {
         match *self {
             Self::Flush(r) => Vec3::new(2.0 * r, 2.0 * r, 0.085),
-            Self::Chandelier(_) => Vec3::new(0.81, 0.81, 0.71),
+            Self::Chandelier(_) => Vec3::new(0.81, 0.81, 0.45),
             Self::Track(w) => Vec3::new(w, 0.2, 0.2),
             Self::Bar(w, drop) => Vec3::new(w, 0.08, drop),
-            Self::Lantern(r) => Vec3::new(2.0 * r, 2.0 * r, 0.35 + 2.0 * r),
+            Self::Lantern(r) => Vec3::new(2.0 * r, 2.0 * r, 0.08 + 2.0 * r),
             Self::Cluster(n) => Vec3::new(0.5, 0.5, 0.6 + 0.18 * (n - 1) as f32),
             Self::Fan => Vec3::new(1.32, 1.32, 0.43),
         }

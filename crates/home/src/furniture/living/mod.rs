@@ -13,7 +13,7 @@ mod pouf;
 mod shelf;
 mod wall_lamp;
 
-pub use blind::Blind;
+pub use blind::{Blind, BlindKind};
 pub use ceiling_lamp::CeilingLamp;
 pub use chesterfield::Chesterfield;
 pub use clock::WallClock;

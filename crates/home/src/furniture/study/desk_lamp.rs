@@ -40,9 +40,11 @@ impl Furniture for DeskLamp {
         let lamp = b.object("desk_lamp", Class::Lamp, on(pose, Vec3::new(0.0, 0.0, CONTACT), 0.0));
         let foot = turned(&[[0.0, 0.0], [0.08, 0.0], [0.083, 0.004], [0.08, 0.016], [0.02, 0.024], [0.0, 0.024]], 44);
         if self.bar {
-            b.part(&lamp, "foot", foot, self.finish);
+            // The bar reaches out to one side.
+            let x = -0.14;
+            b.part(&lamp, "foot", foot.moved(Vec3::X * x), self.finish);
             let z = self.arm + 0.14;
-            b.part(&lamp, "post", rod([0.0, 0.0, 0.02], [0.0, 0.0, z], 0.009, 16), self.finish);
+            b.part(&lamp, "post", rod([x, 0.0, 0.02], [x, 0.0, z], 0.009, 16), self.finish);
             b.part(&lamp, "head", rounded_box(Vec3::new(0.46, 0.035, 0.018), 0.006, 3).moved(Vec3::new(0.0, 0.0, z + 0.008)), self.finish);
             b.part(
                 &lamp,

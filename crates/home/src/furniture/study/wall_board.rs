@@ -48,17 +48,22 @@ impl Furniture for WallBoard {
         // A few strokes of handwriting and a sketch.
         let mut strokes = Vec::new();
         for line in 0..4 {
-            let (length, z) = (rng.range(0.5, 0.95) * half.x, half.y * (0.6 - 0.24 * line as f32));
+            let (length, z) = (rng.range(0.8, 1.4) * half.x, half.y * (0.6 - 0.24 * line as f32));
             let phase = rng.range(0.0, 6.0);
-            let path: Vec<Vec3> = (0..=40)
-                .map(|k| {
-                    let x = 0.75 * half.x - length * k as f32 / 40.0;
-                    Vec3::new(x, 0.0122, z + 0.012 * (k as f32 * 1.9 + phase).sin() * (k as f32 * 0.7).cos())
-                })
-                .collect();
-            strokes.push(tube(&path, 0.0011, 4));
+            // Words of five to nine strokes with gaps between them.
+            let mut k = 0;
+            while k < 90 {
+                let word = 5 + rng.below(5);
+                let stroke = |k: usize| {
+                    let (t, high) = (k as f32 / 90.0, if k % 7 == 3 { 1.8 } else { 1.0 });
+                    Vec3::new(0.75 * half.x - length * t, 0.0122, z + 0.011 * high * (k as f32 * 2.6 + phase).sin())
+                };
+                let path: Vec<Vec3> = (k..=k + word).map(stroke).collect();
+                strokes.push(tube(&path, 0.0012, 4));
+                k += word + 3;
+            }
         }
-        b.part(&object, "writing", all(strokes), Finish::Plastic(rng.below(2) as u8 + 3));
+        b.part(&object, "writing", all(strokes), [Finish::BlackPlastic, Finish::Plastic(6)][rng.below(2)]);
     }
 }
 
@@ -71,8 +76,9 @@ impl WallBoard {
                 continue;
             }
             let cell = Vec2::new((k % columns) as f32 + 0.5, (k / columns) as f32 + 0.5) / Vec2::new(columns as f32, rows as f32) - 0.5;
-            let (w, h) = (rng.range(0.07, 0.13), rng.range(0.08, 0.15));
-            let at = Vec3::new(cell.x * (self.size.x - 0.06), 0.0125, cell.y * (self.size.y - 0.06));
+            let (w, h) = (rng.range(0.065, 0.11), rng.range(0.07, 0.12));
+            let off = 0.012 * Vec2::new(rng.range(-1.0, 1.0), rng.range(-1.0, 1.0));
+            let at = Vec3::new(cell.x * (self.size.x - 0.12) + off.x, 0.0125, cell.y * (self.size.y - 0.12) + off.y);
             let note = b.object("note", Class::Paper, on(pose, at, 0.0) * DAffine3::from_rotation_y(f64::from(rng.range(-0.09, 0.09))));
             let sheet = board([-0.5 * w, 0.0, -0.5 * h], [0.5 * w, 0.0005, 0.5 * h], 0.0001);
             b.part(&note, "sheet", sheet, [Finish::Paper, Finish::Paper, Finish::Accent(k as u8)][rng.below(3)]);

@@ -2,7 +2,7 @@ use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, around, cut_out, rod, rounded_rectangle, turned, vessel, wire};
 use crate::furniture::{CONTACT, Furniture, grained, on};
 use crate::materials::Finish;
-use crate::shape::{Reshape, rounded_box};
+use crate::shape::{Reshape, rounded_box, sphere};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
@@ -216,7 +216,7 @@ impl Furniture for UtensilJar {
             let stick = rod([foot.x, foot.y, 0.012], [tip.x, tip.y, z], 0.0045, 8);
             let head = match k % 3 {
                 0 => rounded_box(Vec3::new(0.05, 0.006, 0.075), 0.003, 2),
-                1 => rounded_box(Vec3::new(0.044, 0.012, 0.06), 0.006, 3),
+                1 => sphere(1.0, 18).deformed(|p| Vec3::new(0.022 * p.x, 0.007 * p.y, 0.033 * p.z)).smoothed(60.0),
                 _ => all((0..4).map(|i| {
                     let (sin, cos) = (i as f32 * 0.785).sin_cos();
                     let w = 0.026;
@@ -228,7 +228,11 @@ impl Furniture for UtensilJar {
                 })),
             };
             let finish = if k % 3 == 2 { Finish::Chrome } else { Finish::Wood };
-            let head = head.turned(Vec3::Z, out.to_angle()).moved(Vec3::new(tip.x, tip.y, z + 0.028));
+            // Heads go on where their sticks lead, turned at random about them.
+            let way = Vec3::new(tip.x - foot.x, tip.y - foot.y, z - 0.012).normalize();
+            let lean = way.z.clamp(-1.0, 1.0).acos();
+            let head = head.turned(Vec3::Z, rng.range(0.0, 3.0)).turned(Vec3::Y, lean).turned(Vec3::Z, out.to_angle());
+            let head = head.moved(Vec3::new(tip.x, tip.y, z) + 0.028 * way);
             b.part(&object, &format!("utensil_{}", k + 1), stick.with(head).moved(up), finish);
         }
     }

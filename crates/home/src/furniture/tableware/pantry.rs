@@ -26,7 +26,7 @@ impl Furniture for Bottle {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(2.0 * self.radius, 2.0 * self.radius, self.height)
+        Vec3::new(2.0 * self.radius + 0.002, 2.0 * self.radius + 0.002, self.height)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -47,15 +47,24 @@ impl Furniture for Bottle {
             0.003,
             36,
         );
-        b.part(&bottle, "body", body, Finish::BottleGlass([0, 1, 2, 3, 0][rng.below(5)]));
+        // Wine in green or brown glass, oil in green or clear, water in clear or blue.
+        let glass = [[0, 1], [0, 2], [2, 3]][usize::from(self.kind) % 3][rng.below(2)];
+        b.part(&bottle, "body", body, Finish::BottleGlass(glass));
         let cap = cylinder(neck + 0.0012, 0.032, 24).moved(Vec3::new(0.0, 0.0, h - 0.032));
-        b.part(&bottle, "cap", cap, [Finish::Cork, Finish::BlackPlastic, Finish::Plastic(rng.below(4) as u8)][usize::from(self.kind) % 3]);
-        let (low, high) = (0.22 * shoulder, 0.78 * shoulder);
-        let label = turned(
-            &[[r + 0.0002, low], [r + 0.0005, low + 0.0003], [r + 0.0005, high - 0.0003], [r + 0.0002, high], [r + 0.0002, low]],
-            36,
+        b.part(
+            &bottle,
+            "cap",
+            cap,
+            [Finish::ColoredMetal(rng.below(4) as u8), Finish::Cork, Finish::Plastic(rng.below(4) as u8)][usize::from(self.kind) % 3],
         );
-        b.part(&bottle, "label", label, Finish::Paper);
+        let (low, high) = (0.22 * shoulder, 0.78 * shoulder);
+        let band = |low: f32, high: f32, out: f32| {
+            let r = r + out;
+            turned(&[[r - 0.0003, low], [r, low + 0.0003], [r, high - 0.0003], [r - 0.0003, high], [r - 0.0003, low]], 36)
+        };
+        b.part(&bottle, "label", band(low, high, 0.0005), Finish::Paper);
+        let stripe = low + (high - low) * rng.range(0.55, 0.75);
+        b.part(&bottle, "stripe", band(stripe, stripe + 0.16 * (high - low), 0.0008), Finish::Accent(rng.below(3) as u8));
     }
 }
 

@@ -1,8 +1,8 @@
 use crate::builder::{Builder, Class, Object};
-use crate::furniture::form::{all, turned, vessel, wire};
+use crate::furniture::form::{all, cut_out, turned, vessel, wire};
 use crate::furniture::{CONTACT, Furniture, board, grained, on};
 use crate::materials::Finish;
-use crate::shape::{Reshape, disk, leaf, sphere, spline};
+use crate::shape::{Reshape, disk, leaf, rounded_box, sphere, spline};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
@@ -149,20 +149,47 @@ impl Furniture for Bread {
         let tray = b.object("cutting_board", Class::OtherProp, pose);
         b.part(&tray, "body", grained(board([-0.19, -0.11, CONTACT], [0.19, 0.11, 0.018], 0.004), rng), Finish::Wood);
         let loaf = b.object("bread", Class::OtherProp, on(pose, Vec3::new(0.04, 0.0, 0.018 + CONTACT), 0.0));
-        let section = |t: f32| Vec2::new(0.055, 0.1) * (1.0 - 0.55 * t.abs().powi(6));
-        let mesh = crate::shape::rounded_box(Vec3::new(0.24, 1.0, 1.0), 0.32, 6).moved(Vec3::new(0.0, 0.0, 0.5)).deformed(|p| {
-            let s = section((p.x / 0.12).max(0.0));
-            let cuts = 0.05 * (p.x * 95.0).sin().max(0.0).powi(8) * p.z.powi(6);
-            Vec3::new(p.x, 2.0 * p.y * s.x, (p.z - cuts) * s.y)
-        });
-        b.part(&loaf, "loaf", mesh.smoothed(60.0), Finish::Bread);
+        b.part(&loaf, "loaf", loaf_crust(), Finish::Bread);
+        b.part(&loaf, "crumb", loaf_crumb(), Finish::Wax);
         for k in 0..self.slices {
-            let slice = crate::shape::rounded_box(Vec3::new(0.105, 0.095, 0.013), 0.005, 3);
-            let at = Vec3::new(-0.11 - 0.008 * k as f32, 0.02 * k as f32 - 0.02, 0.018 + CONTACT + 0.0065 + 0.0132 * k as f32);
+            let at = Vec3::new(-0.11 - 0.008 * k as f32, 0.02 * k as f32 - 0.02, 0.018 + CONTACT + 0.0072 + 0.0146 * k as f32);
             let object = b.object("bread_slice", Class::OtherProp, on(pose, at, rng.range(-0.3, 0.3)));
-            b.part(&object, "slice", slice, Finish::Bread);
+            b.part(&object, "crust", rounded_box(Vec3::new(0.105, 0.095, 0.013), 0.006, 3), Finish::Bread);
+            b.part(&object, "crumb", rounded_box(Vec3::new(0.094, 0.084, 0.0144), 0.003, 2), Finish::Wax);
         }
     }
+}
+
+/// Where a loaf is cut.
+const CUT: f32 = -0.07;
+
+/// From −1..1 across and 0..1 up to the section of a loaf: domed, a little wider in the middle than at the top.
+fn loaf_section(across: f32, up: f32) -> Vec2 {
+    Vec2::new(0.055 * across * (1.0 - 0.14 * up.powi(3)), 0.1 * up * (1.0 - 0.3 * across * across * up))
+}
+
+fn loaf_crust() -> Mesh {
+    let crust = crate::shape::padded_box(Vec3::new(0.24, 1.0, 1.0), 0.1, 0.0).moved(Vec3::new(0.0, 0.0, 0.5));
+    let shaped = crust.deformed(|p| {
+        let x = p.x.max(CUT);
+        let scores = 0.05 * (x * 95.0).sin().max(0.0).powi(8) * p.z.powi(6);
+        let q = loaf_section(2.0 * p.y, p.z - scores) * (1.0 - 0.5 * (x / 0.12).max(0.0).powi(4));
+        Vec3::new(x, q.x, q.y)
+    });
+    shaped.smoothed(60.0)
+}
+
+/// The white of the cut face.
+fn loaf_crumb() -> Mesh {
+    let outline: Vec<Vec2> = (0..40)
+        .map(|k| {
+            let d = Vec2::from_angle(TAU * k as f32 / 40.0);
+            let d = d / d.abs().max_element();
+            let q = loaf_section(0.9 * d.y, 0.5 + 0.45 * d.x);
+            Vec2::new(q.y, q.x)
+        })
+        .collect();
+    cut_out(&outline, 0.002, 0.0004).turned(Vec3::Y, -0.5 * std::f32::consts::PI).moved(Vec3::X * (CUT + 0.001))
 }
 
 /// A pot of herbs.

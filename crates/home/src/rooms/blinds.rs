@@ -1,0 +1,63 @@
+//! Blinds in the reveals of windows.
+
+use super::Furnisher;
+use crate::furniture::living::{Blind, BlindKind};
+use crate::furniture::{Window, on};
+use crate::plan::RoomKind;
+use crate::room::{Filling, Opening};
+use enfilade_math::{Rng, Vec3};
+
+/// Where their backs are, behind the wall's inner face: just before the handles of the sashes.
+const BACK: f32 = -0.058;
+/// Air beside and above a blind, and below one that is let down.
+const BESIDE: f32 = 0.006;
+const ABOVE: f32 = 0.0005;
+const BELOW: f32 = 0.004;
+
+/// How often the windows of a room have blinds.
+fn often(kind: RoomKind) -> f32 {
+    match kind {
+        RoomKind::Bathroom | RoomKind::Toilet => 0.6,
+        RoomKind::Kitchen | RoomKind::Study => 0.5,
+        RoomKind::Bedroom | RoomKind::Children => 0.4,
+        RoomKind::Living | RoomKind::Dining => 0.2,
+        RoomKind::Hall | RoomKind::Laundry => 0.3,
+    }
+}
+
+/// A usual blind of a room, and how far it is let down: far where people undress, else so that daylight comes in.
+fn usual(kind: RoomKind, rng: &mut Rng) -> (BlindKind, [f32; 2]) {
+    let venetian = |wood: bool, rng: &mut Rng| BlindKind::Venetian { tilt: rng.range(-0.5, 0.5), wood };
+    match kind {
+        RoomKind::Living | RoomKind::Dining | RoomKind::Study => (venetian(rng.below(2) == 0, rng), [0.15, 0.8]),
+        RoomKind::Bedroom | RoomKind::Children => [(BlindKind::Roller, [0.1, 0.6]), (BlindKind::Roman, [0.45, 0.7])][rng.below(2)],
+        RoomKind::Bathroom | RoomKind::Toilet if rng.below(2) == 0 => (BlindKind::Roller, [0.3, 0.9]),
+        _ if rng.below(3) == 0 => (BlindKind::Roller, [0.1, 0.5]),
+        _ => (venetian(false, rng), [0.2, 0.9]),
+    }
+}
+
+impl Furnisher<'_> {
+    /// Hangs blinds in the reveal of a window now and then, one before each sash; returns the free height between sill and blinds.
+    pub fn blinds(&mut self, window: &Opening, mut rng: Rng) -> f32 {
+        let size = window.size();
+        let Filling::Window { sashes } = window.filling else { return size.y };
+        if rng.next_f32() >= often(self.room.kind) {
+            return size.y;
+        }
+        let (kind, [least, most]) = usual(self.room.kind, &mut rng);
+        let height = size.y - Window::SILL - BELOW - ABOVE;
+        let cell = size.x / sashes as f32;
+        let usual = rng.range(least, most);
+        let mut lowest = 0.0f32;
+        for k in 0..sashes {
+            // Some people let down each as they like.
+            let down = if rng.below(4) == 0 { rng.range(least, most) } else { usual };
+            lowest = lowest.max(down);
+            let blind = Blind { width: cell - 2.0 * BESIDE, height, down, kind };
+            let at = Vec3::new(window.x[0] + cell * (k as f32 + 0.5), BACK, window.z[1] - ABOVE - 0.5 * height);
+            self.build(&blind, on(self.room.wall_pose(window.wall), at, 0.0));
+        }
+        (1.0 - lowest) * height - 0.1
+    }
+}
