@@ -107,11 +107,12 @@ impl Furnisher<'_> {
             let strip = self.floor.strip(way.wall, [x - 0.05, x + 0.05], 0.06);
             self.room.ways().filter(|o| o.wall != way.wall).any(|o| self.room.way_zone(o).meets(&strip, 0.0))
         };
-        let free = |x: &f32| free(x) && !swings(*x);
+        let z = [SWITCH - 0.05, SWITCH + 0.05];
+        let strip = |x: f32| self.floor.strip(way.wall, [x - 0.05, x + 0.05], 0.02);
+        let free = |x: &f32| free(x) && !swings(*x) && self.floor.is_free(&strip(*x), z);
         let Some(x) = [place(-hinge), place(hinge)].into_iter().find(free) else { return };
         self.build(&Switch, on(self.room.wall_pose(way.wall), Vec3::new(x, 0.0, SWITCH), 0.0));
-        let strip = self.floor.strip(way.wall, [x - 0.05, x + 0.05], 0.02);
-        self.floor.take(strip, [SWITCH - 0.05, SWITCH + 0.05]);
+        self.floor.take(self.floor.strip(way.wall, [x - 0.05, x + 0.05], 0.02), z);
     }
 
     /// A flat lamp of opal glass under the ceiling, for low or wet rooms.
