@@ -6,7 +6,7 @@ use enfilade_home::{HomeConfig, RoomKind, home};
 use std::collections::BTreeMap;
 
 /// Shifts by more than this are shown, metres.
-const FAR: f32 = 0.0;
+const FAR: f32 = 0.03;
 
 /// How often each of some things was seen.
 type Counts = BTreeMap<String, usize>;

@@ -67,8 +67,11 @@ impl Pile<'_> {
         }
         let root = either.into_iter().min_by(|a, b| low(a).total_cmp(&low(b)))?;
         let without = self.contacts.carried(self.bodies, |i| i != root);
-        let rests_on = (0..all.len()).filter(|&i| i != root && all[i] && !without[i]);
-        Some([root].into_iter().chain(rests_on).collect())
+        // What lies on it goes along even where something else would hold it.
+        let middle = self.bodies[root].bounds.center().z;
+        let lies_on = |i: usize| low(&i) > middle && self.contacts.touching.contains(&(i.min(root), i.max(root)));
+        let goes_along = |&i: &usize| i != root && !is_shell(&self.bodies[i].name) && all[i] && (!without[i] || lies_on(i));
+        Some([root].into_iter().chain((0..all.len()).filter(goes_along)).collect())
     }
 
     /// `root`, and all that floats together with it.

@@ -2,9 +2,10 @@
 
 use super::Furnisher;
 use crate::furniture::{Candles, CeilingDome, Curtains, Furniture, Pendant, Plant, Radiator, Switch, Window, on};
+use crate::place::Footprint;
 use crate::plan::RoomKind;
 use crate::room::{Filling, Opening};
-use enfilade_math::{DAffine3, Vec3};
+use enfilade_math::{DAffine3, Vec2, Vec3};
 
 /// Lowest sill with a radiator below it.
 const RADIATOR_SILL: f32 = 0.44;
@@ -12,6 +13,8 @@ const RADIATOR_SILL: f32 = 0.44;
 const SWITCH: f32 = 1.05;
 /// Pendants in the middle of a room end above people's heads.
 const PENDANT_RIM: f32 = 2.05;
+/// What is higher is in the way of lamps, but not that doors need their room below.
+const OVERHEAD: f32 = 2.12;
 
 impl Furnisher<'_> {
     /// Adds everything of that kind.
@@ -123,9 +126,13 @@ impl Furnisher<'_> {
         self.build(&lamp, pose);
     }
 
-    /// Hangs a pendant in the middle of the room.
+    /// Hangs a pendant in the middle of the room, unless one hangs over a table there.
     pub fn ceiling_lamp(&mut self) {
         let at = self.room.center;
+        let around = Footprint { center: at, half: Vec2::splat(0.3), yaw: 0.0 };
+        if !self.floor.is_free(&around, [OVERHEAD, self.room.size.z]) {
+            return;
+        }
         let pendant = Pendant { drop: self.room.size.z - PENDANT_RIM, radius: self.rng.range(0.16, 0.21) };
         let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), f64::from(self.room.size.z), 0.0);
         self.build(&pendant, pose);

@@ -4,7 +4,7 @@ use super::Furnisher;
 use crate::builder;
 use crate::furniture::dining::LongTable;
 use crate::furniture::{Chair, DiningTable, Furniture, Pendant};
-use crate::place::{Floor, Piece, Spot};
+use crate::place::{Floor, Footprint, Piece, Spot};
 use enfilade_math::{Rng, Vec2, Vec3};
 use std::f32::consts::{FRAC_PI_2, TAU};
 
@@ -107,6 +107,8 @@ impl Furnisher<'_> {
         let pendant = Pendant { drop: self.room.size.z - LAMP, ..Pendant::random(&mut self.rng) };
         let above = builder::pose(f64::from(spot.origin.x), f64::from(spot.origin.y), f64::from(self.room.size.z), 0.0);
         self.build(&pendant, above);
+        let around = Footprint { center: spot.origin, half: Vec2::splat(pendant.radius), yaw: 0.0 };
+        self.floor.take(around, [LAMP, self.room.size.z]);
         true
     }
 }
