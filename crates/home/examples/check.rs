@@ -1,11 +1,17 @@
-//! `check [FIRST] [COUNT] [--rooms a,b,c | --random-rooms]` makes homes of consecutive seeds and says what cannot be, how long they took
-//! and how large they are. With `--random-rooms` each has one to twelve rooms of any kinds, which its seed decides.
+//! `check [FIRST] [COUNT] [--rooms a,b,c | --random-rooms]` makes homes of consecutive seeds and says what had to be moved, what had to be
+//! taken away and why, what cannot be, how much processor time they took and how large they are. With `--random-rooms` each has one to
+//! twelve rooms of any kinds, which its seed decides.
 
-use enfilade_home::check::faults;
+use enfilade_home::check::{family_of, faults};
 use enfilade_home::{HomeConfig, RoomKind, home};
 use enfilade_math::Rng;
 use std::collections::BTreeMap;
-use std::time::Instant;
+
+/// Shifts by more than this are shown, metres.
+const FAR: f32 = 0.03;
+
+/// How often each of some things was seen.
+type Counts = BTreeMap<String, usize>;
 
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -14,47 +20,70 @@ fn main() {
     let (first, count) = (numbers.first().copied().unwrap_or(0), numbers.get(1).copied().unwrap_or(20));
     let rooms: Vec<RoomKind> = value("--rooms").iter().flat_map(|text| text.split(',')).filter_map(RoomKind::from_name).collect();
     let random_rooms = args.iter().any(|a| a == "--random-rooms");
-    let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
+    let [mut kinds, mut families, mut causes, mut moved] = [const { Counts::new() }; 4];
     let (mut seconds, mut longest, mut triangles, mut sound) = (0.0, 0.0f64, 0, 0);
     for seed in first..first + count {
         let rooms = if random_rooms { any_rooms(seed) } else { rooms.clone() };
-        let start = Instant::now();
+        let start = processor_s();
         let config = HomeConfig { seed, rooms, ..HomeConfig::default() };
         let Ok(made) = std::panic::catch_unwind(|| home(&config)) else {
             println!("{seed:5}  panics with the rooms {:?}", config.rooms);
             *kinds.entry("panics".into()).or_default() += 1;
             continue;
         };
-        let took = start.elapsed().as_secs_f64();
+        let took = processor_s() - start;
         let size: usize = made.scene.parts.iter().map(|p| made.scene.meshes[p.mesh as usize].triangles.len()).sum();
         let found = faults(&made);
         (seconds, longest, triangles) = (seconds + took, longest.max(took), triangles + size);
         sound += usize::from(found.is_empty());
         println!(
-            "{seed:5}  {} rooms  {} parts  {size} triangles  {took:.2} s  {} faults",
+            "{seed:5}  {} rooms  {} parts  {size} triangles  {took:.2} s  {} moved  {} removed  {} faults",
             made.plan.rooms.len(),
             made.scene.parts.len(),
+            made.moved.len(),
+            made.removed.len(),
             found.len()
         );
+        for removal in &made.removed {
+            println!("       removed {}: {}", removal.object, removal.fault);
+            *families.entry(family_of(&removal.object).to_string()).or_default() += 1;
+            *causes.entry(removal.fault.kind()).or_default() += 1;
+        }
+        for shift in &made.moved {
+            if shift.by.length() > FAR {
+                println!("       moved {} by {:.3}", shift.object, shift.by);
+            }
+            *moved.entry(family_of(&shift.object).to_string()).or_default() += 1;
+        }
         for fault in found {
             println!("       {fault}");
-            let kind: String = fault
-                .to_string()
-                .split(' ')
-                .map(|word| word.trim_end_matches(|c: char| c.is_ascii_digit() || c == '_'))
-                .collect::<Vec<_>>()
-                .join(" ");
-            *kinds.entry(kind).or_default() += 1;
+            *kinds.entry(fault.kind()).or_default() += 1;
         }
     }
     println!(
-        "\n{sound} of {count} homes without a fault; {:.2} s each, the longest {longest:.2} s; {} triangles each",
-        seconds / count as f64,
-        triangles / count as usize
+        "\n{sound} of {count} homes without a fault; {:.2} s of processor time each, at most {longest:.2} s; {} triangles each",
+        seconds / count.max(1) as f64,
+        triangles / count.max(1) as usize
     );
-    let mut kinds: Vec<(usize, String)> = kinds.into_iter().map(|(kind, n)| (n, kind)).collect();
-    kinds.sort_by(|a, b| b.cmp(a));
-    kinds.iter().for_each(|(n, kind)| println!("{n:6}  {kind}"));
+    show("faults", kinds, count);
+    show("removed, by family", families, count);
+    show("removed, by cause", causes, count);
+    show("moved, by family", moved, count);
+}
+
+/// The most frequent first.
+fn show(title: &str, counts: Counts, homes: u64) {
+    let total: usize = counts.values().sum();
+    println!("{title}: {total}, {:.2} per home", total as f64 / homes.max(1) as f64);
+    let mut counts: Vec<(usize, String)> = counts.into_iter().map(|(name, n)| (n, name)).collect();
+    counts.sort_by(|a, b| b.cmp(a));
+    counts.iter().for_each(|(n, name)| println!("{n:6}  {name}"));
+}
+
+/// Processor time of all threads so far.
+fn processor_s() -> f64 {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }
 
 /// One to [`HomeConfig::MOST_ROOMS`] rooms, each of any kind, so that many homes lack what others take for granted.

@@ -3,13 +3,15 @@
 //! [`home`] is a function of its [`HomeConfig`] alone. From the bottom up: [`shape`] makes meshes and [`texture`] pictures;
 //! [`materials`] and [`palette`] say what things are made of; [`furniture`] has one file per family of things; [`plan`] lays out
 //! rooms, [`room`] and [`shell`] are their walls; [`place`] decides what fits where, [`rooms`] says what each kind of room holds,
-//! [`builder`] names, labels and collects the parts, and what [`check`] finds wrong is taken away again.
+//! [`builder`] names, labels and collects the parts. What [`check`] would find wrong is moved to where it is carried and free, and taken
+//! away where it cannot be.
 
 pub mod builder;
 mod cameras;
 pub mod check;
 mod config;
 pub mod furniture;
+mod gravity;
 pub mod light;
 pub mod materials;
 pub mod palette;
@@ -24,6 +26,7 @@ pub mod texture;
 
 pub use config::HomeConfig;
 pub use plan::{FloorPlan, RoomKind};
+pub use settle::{Removal, Shift};
 
 use builder::Builder;
 use enfilade_math::{Rng, Vec2};
@@ -42,6 +45,10 @@ pub struct Home {
     pub labels: Labels,
     /// Where its rooms are.
     pub plan: FloorPlan,
+    /// What could not stay where it had been put, and why; it is not in the scene any more.
+    pub removed: Vec<Removal>,
+    /// What was moved a little so that it could stay.
+    pub moved: Vec<Shift>,
 }
 
 /// A furnished home in the light of a moment.
@@ -53,7 +60,7 @@ pub fn home(config: &HomeConfig) -> Home {
     let mut builder = Builder::new(Materials::new(decor.palette(), light, decor.pictures()));
     rooms::furnish(&mut builder, &plan, &decor, config);
     let (scene, labels) = builder.finish();
-    let mut home = Home { scene, labels, plan };
+    let mut home = Home { scene, labels, plan, removed: Vec::new(), moved: Vec::new() };
     settle::settle(&mut home);
     light.illuminate(&mut home.scene, &outlooks(&home.plan));
     home.scene.cameras = cameras::cameras(&home.scene, &home.labels, &home.plan);

@@ -1,52 +1,75 @@
-//! The last word on what was placed: things that run into others or float are taken away again, until nothing does.
+//! The last word on what was placed: what stands a little beside its place is moved there by [`crate::gravity`], and what still runs
+//! into others or floats is taken away, until nothing does.
 //!
-//! Furniture is placed by its measures; its triangles, which creases, tilts and clutter move a little, are judged by [`crate::check`].
-//! Of two things that meet the smaller goes; what stood on it goes with it, since it floats then.
+//! Furniture is placed by its measures; its triangles, which creases, tilts and clutter move a little, are judged as [`crate::check`]
+//! does. Of two things that meet the smaller goes; what stood on it goes with it, since it floats then.
 
 use crate::Home;
-use crate::check::{Fault, is_shell, object_of, of_things};
-use enfilade_math::{Bounds3, Vec3};
+use crate::check::contact::Contacts;
+use crate::check::meet::Body;
+use crate::check::{Fault, bodies, is_shell, object_of};
+use crate::gravity;
+use enfilade_math::{DAffine3, Vec3};
 use enfilade_scene::{Part, PartLabel, is_stuff};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Takes away what cannot be; the shell stays.
+/// An object that was taken away, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Removal {
+    /// Its name.
+    pub object: String,
+    /// What was wrong with it.
+    pub fault: Fault,
+}
+
+/// An object that was moved to where it is carried and free.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shift {
+    /// Its name.
+    pub object: String,
+    /// How far, metres.
+    pub by: Vec3,
+}
+
+/// Moves what can be put right, and takes away what cannot; the shell stays.
 pub fn settle(home: &mut Home) {
-    loop {
-        let faults = of_things(home);
-        let bounds = bounds(home);
-        let volume = |name: &str| bounds.get(name).map_or(0.0, |b| b.extent().max(Vec3::splat(1e-3)).element_product());
-        let gone: BTreeSet<String> = faults
-            .into_iter()
-            .filter_map(|fault| match fault {
-                Fault::Meets(a, b) => Some(if is_shell(&b) || !is_shell(&a) && volume(&a) < volume(&b) { a } else { b }),
-                Fault::Floats(a) => Some(a),
-                Fault::Nameless(_) | Fault::Unreachable(_) | Fault::Camera(_) => None,
-            })
-            .collect();
-        if gone.is_empty() {
-            break;
+    let mut bodies = bodies(home);
+    let mut contacts = Contacts::new(&bodies);
+    let moved = gravity::settle(&mut bodies, &mut contacts);
+    let moved: BTreeMap<String, Vec3> = moved.into_iter().map(|(i, by)| (bodies[i].name.clone(), by)).collect();
+    for part in &mut home.scene.parts {
+        if let Some(by) = moved.get(object_of(&part.name)) {
+            part.world_from_mesh = DAffine3::from_translation(by.as_dvec3()) * part.world_from_mesh;
         }
-        keep(home, |part| !gone.contains(object_of(&part.name)));
     }
+    home.removed = condemned(&bodies, &contacts);
+    let gone: BTreeSet<&str> = home.removed.iter().map(|removal| removal.object.as_str()).collect();
+    let (scene, labels) = (&mut home.scene, &mut home.labels);
+    let kept = |part: &Part| !gone.contains(object_of(&part.name));
+    let labelled = std::mem::take(&mut scene.parts).into_iter().zip(std::mem::take(&mut labels.parts));
+    (scene.parts, labels.parts) = labelled.filter(|(part, _)| kept(part)).unzip();
+    home.moved = moved.into_iter().filter(|(object, _)| !gone.contains(object.as_str())).map(|(object, by)| Shift { object, by }).collect();
     number_instances(home);
     drop_unused(home);
 }
 
-/// World boxes of all objects.
-fn bounds(home: &Home) -> BTreeMap<String, Bounds3> {
-    let mut bounds: BTreeMap<String, Bounds3> = BTreeMap::new();
-    for part in &home.scene.parts {
-        let mesh = &home.scene.meshes[part.mesh as usize];
-        let world = mesh.positions.iter().map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3());
-        let found = bounds.entry(object_of(&part.name).to_string()).or_insert(Bounds3::EMPTY);
-        *found = found.union(Bounds3::from_points(world));
+/// What must go so that nothing of the rest meets or floats.
+fn condemned(bodies: &[Body], contacts: &Contacts) -> Vec<Removal> {
+    let volume = |i: usize| bodies[i].bounds.extent().max(Vec3::splat(1e-3)).element_product();
+    let mut gone: BTreeMap<usize, Fault> = BTreeMap::new();
+    for &(a, b) in &contacts.meeting {
+        if gone.contains_key(&a) || gone.contains_key(&b) {
+            continue;
+        }
+        let shell = [a, b].map(|i| is_shell(&bodies[i].name));
+        let smaller = if shell[1] || !shell[0] && volume(a) < volume(b) { a } else { b };
+        gone.insert(smaller, Fault::Meets(bodies[a].name.clone(), bodies[b].name.clone()));
     }
-    bounds
-}
-
-fn keep(home: &mut Home, kept: impl Fn(&Part) -> bool) {
-    let labelled = std::mem::take(&mut home.scene.parts).into_iter().zip(std::mem::take(&mut home.labels.parts));
-    (home.scene.parts, home.labels.parts) = labelled.filter(|(part, _)| kept(part)).unzip();
+    let held = contacts.carried(bodies, |i| !gone.contains_key(&i));
+    for i in (0..bodies.len()).filter(|&i| !held[i]) {
+        gone.entry(i).or_insert_with(|| Fault::Floats(bodies[i].name.clone()));
+    }
+    gone.into_iter().map(|(i, fault)| Removal { object: bodies[i].name.clone(), fault }).collect()
 }
 
 /// Instances are 1, 2, 3, … in their old order.

@@ -23,6 +23,13 @@ const AIR: f32 = 0.0005;
 const UNDER_WALLS: f32 = 0.04;
 const SKIRTING: Vec2 = Vec2::new(0.014, 0.085);
 
+/// What fills openings.
+const OPENINGS: [&str; 3] = ["window", "door", "passage"];
+/// What a room has one of, before the room's name.
+const SHEETS: [&str; 3] = ["floor_", "ceiling_", "skirting_"];
+/// The walls of a room, as their names end.
+const SIDES: [&str; 4] = ["south", "east", "north", "west"];
+
 /// What the surfaces of a room's shell are made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShellFinish {
@@ -99,6 +106,14 @@ pub fn build(b: &mut Builder, room: &Room, finish: &ShellFinish, built_in: &[(Wa
             Filling::Passage { lined: false } | Filling::DoorBack => {}
         }
     }
+}
+
+/// True for the names of families that [`build`] makes: `wall_living_south`, `floor_hall`, `window`, but not `wall_lamp` or `window_seat`.
+pub fn is_shell_family(family: &str) -> bool {
+    let room = |name: &str| RoomKind::from_name(name).is_some();
+    let wall = |name: &str| name.rsplit_once('_').is_some_and(|(kind, side)| room(kind) && SIDES.contains(&side));
+    let piece = |of: &str| family.strip_prefix(of);
+    OPENINGS.contains(&family) || piece("wall_").is_some_and(wall) || SHEETS.iter().any(|sheet| piece(sheet).is_some_and(room))
 }
 
 /// How much of a wall belongs to the room.
@@ -187,4 +202,17 @@ fn plank(mesh: &mut Mesh, x: [f32; 2], y: [f32; 2], bevel: Vec2, uv: Vec2, turne
     };
     quad(4, 5, 6, 7);
     (0..4).for_each(|k| quad(k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_shell_family;
+
+    #[test]
+    fn the_shell_is_told_by_whole_names() {
+        let shell = ["wall_living_south", "floor_hall", "ceiling_childrens", "skirting_study", "window", "door", "passage"];
+        let other = ["wall_lamp", "wall_shelf", "wall_clock", "floor_lamp", "floor_cushion", "ceiling_lamp", "door_mat", "window_seat"];
+        assert!(shell.iter().all(|family| is_shell_family(family)));
+        assert!(!other.iter().any(|family| is_shell_family(family)));
+    }
 }

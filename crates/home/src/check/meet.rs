@@ -3,7 +3,8 @@
 use super::overlap;
 use enfilade_math::{Bounds3, Vec3};
 
-type Triangle = [Vec3; 3];
+/// Corners in the world, metres.
+pub type Triangle = [Vec3; 3];
 
 /// An object: its triangles in the world, part by part.
 pub struct Body {
@@ -27,6 +28,22 @@ impl Body {
         self.parts.push((bounds, triangles));
     }
 
+    /// Moves it.
+    pub fn shift(&mut self, offset: Vec3) {
+        let moved = |b: &Bounds3| Bounds3 { min: b.min + offset, max: b.max + offset };
+        self.bounds = moved(&self.bounds);
+        for (bounds, triangles) in &mut self.parts {
+            *bounds = moved(bounds);
+            triangles.iter_mut().flatten().for_each(|p| *p += offset);
+        }
+    }
+
+    /// Its triangles whose boxes meet `window`.
+    pub fn within(&self, window: &Bounds3) -> impl Iterator<Item = &Triangle> {
+        let parts = self.parts.iter().filter(|(bounds, _)| overlap(bounds, window, 0.0));
+        parts.flat_map(|(_, triangles)| triangles).filter(|t| overlap(&Bounds3::from_points(**t), window, 0.0))
+    }
+
     /// The boxes around its parts.
     pub fn boxes(&self) -> impl Iterator<Item = Bounds3> {
         self.parts.iter().map(|(bounds, _)| *bounds)
@@ -45,6 +62,10 @@ impl Body {
 
     /// True when some triangle of this body, moved by `offset`, cuts one of the other.
     pub fn meets(&self, other: &Self, offset: Vec3) -> bool {
+        let whole = Bounds3 { min: self.bounds.min + offset, max: self.bounds.max + offset };
+        if !overlap(&whole, &other.bounds, 0.0) {
+            return false;
+        }
         self.parts.iter().any(|(bounds, triangles)| {
             let bounds = Bounds3 { min: bounds.min + offset, max: bounds.max + offset };
             other.parts.iter().any(|(theirs, others)| overlap(&bounds, theirs, 0.0) && cut(triangles, offset, others, &bounds, theirs))

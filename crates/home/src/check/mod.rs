@@ -2,10 +2,13 @@
 //!
 //! All is judged from the finished triangles, not from what placed them.
 
-mod meet;
+pub(crate) mod contact;
+pub(crate) mod meet;
 mod walk;
 
 use crate::Home;
+use crate::shell::is_shell_family;
+use contact::Contacts;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Bounds3, Vec3};
 use enfilade_scene::{NYU40, is_stuff};
@@ -28,6 +31,17 @@ pub enum Fault {
     Camera(String),
 }
 
+impl Fault {
+    /// The same in families instead of objects, to be counted.
+    pub fn kind(&self) -> String {
+        match self {
+            Self::Meets(a, b) => format!("{} runs into {}", family_of(a), family_of(b)),
+            Self::Floats(a) => format!("{} floats", family_of(a)),
+            other => other.to_string(),
+        }
+    }
+}
+
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -40,35 +54,6 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Objects may sink this far into each other: feet into a rug's pile, screws into a wall, metres.
-const SINK: f32 = 0.004;
-/// The same for cloth and cushions, which give way.
-const SOFT_SINK: f32 = 0.03;
-/// What lies in folds over or in something else: it follows what it lies on, and is not asked how deep.
-const DRAPED: [&str; 6] = ["throw", "blanket", "clothes", "towel", "napkin", "crumpled_paper"];
-/// What is nearer than this touches.
-const TOUCH: f32 = 0.0025;
-/// The same for what is soft: cloth hangs and lies in waves.
-const SOFT_TOUCH: f32 = 0.02;
-/// Families of soft things.
-const SOFT: [&str; 13] = [
-    "crumpled_paper",
-    "pillow",
-    "cushion",
-    "throw",
-    "blanket",
-    "towel",
-    "clothes",
-    "curtain",
-    "bedding",
-    "plush_toy",
-    "bag",
-    "shower_curtain",
-    "garment",
-];
-/// What the shell is made of: its pieces reach into each other, and carry everything else.
-const SHELL: [&str; 9] = ["wall_", "floor_", "ceiling_", "skirting_", "window_", "door_", "passage_", "skirting", "radiator_"];
-
 /// Everything that is wrong with a home; empty when nothing is.
 pub fn faults(home: &Home) -> Vec<Fault> {
     let bodies = bodies(home);
@@ -80,12 +65,12 @@ pub fn faults(home: &Home) -> Vec<Fault> {
 }
 
 /// What is wrong with where things are: they run into each other, or float.
-pub(crate) fn of_things(home: &Home) -> Vec<Fault> {
-    of_bodies(&bodies(home))
-}
-
 fn of_bodies(bodies: &[Body]) -> Vec<Fault> {
-    meetings(bodies).into_iter().chain(floating(bodies)).collect()
+    let contacts = Contacts::new(bodies);
+    let name = |i: usize| bodies[i].name.clone();
+    let carried = contacts.carried(bodies, |_| true);
+    let meets = contacts.meeting.iter().map(|&(a, b)| Fault::Meets(name(a), name(b)));
+    meets.chain((0..bodies.len()).filter(|&i| !carried[i]).map(|i| Fault::Floats(name(i)))).collect()
 }
 
 /// The object that a part belongs to: its name up to the slash.
@@ -93,7 +78,8 @@ pub(crate) fn object_of(part: &str) -> &str {
     part.split('/').next().unwrap_or(part)
 }
 
-fn bodies(home: &Home) -> Vec<Body> {
+/// The objects of a home, by name.
+pub(crate) fn bodies(home: &Home) -> Vec<Body> {
     let scene = &home.scene;
     let mut bodies: BTreeMap<&str, Body> = BTreeMap::new();
     for part in &scene.parts {
@@ -106,85 +92,22 @@ fn bodies(home: &Home) -> Vec<Body> {
     bodies.into_values().collect()
 }
 
-pub(crate) fn is_shell(name: &str) -> bool {
-    SHELL.iter().any(|family| name.starts_with(family))
-}
-
-fn is_soft(name: &str) -> bool {
-    SOFT.iter().any(|family| name.starts_with(family))
-}
-
-fn is_draped(name: &str) -> bool {
-    DRAPED.iter().any(|family| name.starts_with(family))
-}
-
-/// Pairs of bodies whose boxes come nearer than `margin`, the first of each with the smaller number.
-fn near(bodies: &[Body], margin: f32) -> Vec<(usize, usize)> {
-    let mut order: Vec<usize> = (0..bodies.len()).collect();
-    order.sort_by(|&a, &b| bodies[a].bounds.min.x.total_cmp(&bodies[b].bounds.min.x));
-    let mut pairs = Vec::new();
-    for (k, &a) in order.iter().enumerate() {
-        for &b in order[k + 1..].iter().take_while(|&&b| bodies[b].bounds.min.x <= bodies[a].bounds.max.x + margin) {
-            if overlap(&bodies[a].bounds, &bodies[b].bounds, margin) {
-                pairs.push((a.min(b), a.max(b)));
-            }
-        }
+/// The family of an object: its name without its number.
+pub fn family_of(object: &str) -> &str {
+    match object.rsplit_once('_') {
+        Some((family, number)) if !number.is_empty() && number.bytes().all(|c| c.is_ascii_digit()) => family,
+        _ => object,
     }
-    pairs.sort_unstable();
-    pairs
 }
 
-fn overlap(a: &Bounds3, b: &Bounds3, margin: f32) -> bool {
+/// Pieces of the shell reach into each other, and carry everything else.
+pub(crate) fn is_shell(object: &str) -> bool {
+    is_shell_family(family_of(object))
+}
+
+/// True when the boxes come nearer than `margin`.
+pub(crate) fn overlap(a: &Bounds3, b: &Bounds3, margin: f32) -> bool {
     a.min.cmple(b.max + margin).all() && b.min.cmple(a.max + margin).all()
-}
-
-/// The six ways along the axes.
-const WAYS: [Vec3; 6] = [Vec3::Z, Vec3::NEG_Z, Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y];
-
-fn meetings(bodies: &[Body]) -> Vec<Fault> {
-    let mut faults = Vec::new();
-    for (a, b) in near(bodies, 0.0) {
-        let (a, b) = (&bodies[a], &bodies[b]);
-        if is_shell(&a.name) && is_shell(&b.name) || !a.meets(b, Vec3::ZERO) {
-            continue;
-        }
-        if is_draped(&a.name) || is_draped(&b.name) {
-            continue;
-        }
-        // Those that a small step sets free do not go deeper than that step; soft ones are freed by their giving way on all sides.
-        let yields = |x: &Body| is_soft(&x.name).then(|| x.shrunk(SOFT_SINK));
-        let (soft_a, soft_b) = (yields(a), yields(b));
-        let soft = soft_a.is_some() || soft_b.is_some();
-        let still = soft_a.as_ref().unwrap_or(a).meets(soft_b.as_ref().unwrap_or(b), Vec3::ZERO);
-        if still && (soft || WAYS.iter().all(|way| a.meets(b, *way * SINK))) {
-            faults.push(Fault::Meets(a.name.clone(), b.name.clone()));
-        }
-    }
-    faults
-}
-
-fn floating(bodies: &[Body]) -> Vec<Fault> {
-    let mut carried: Vec<bool> = bodies.iter().map(|b| is_shell(&b.name)).collect();
-    let touch = |a: &Body, b: &Body| if is_soft(&a.name) || is_soft(&b.name) { SOFT_TOUCH } else { TOUCH };
-    let touching: Vec<(usize, usize)> = near(bodies, SOFT_TOUCH)
-        .into_iter()
-        .filter(|&(a, b)| !(carried[a] && carried[b]))
-        .filter(|&(a, b)| {
-            let (a, b) = (&bodies[a], &bodies[b]);
-            a.meets(b, Vec3::ZERO) || WAYS.iter().any(|way| a.meets(b, *way * touch(a, b)))
-        })
-        .collect();
-    loop {
-        let before = carried.iter().filter(|&&c| c).count();
-        for &(a, b) in &touching {
-            let any = carried[a] || carried[b];
-            (carried[a], carried[b]) = (any, any);
-        }
-        if carried.iter().filter(|&&c| c).count() == before {
-            break;
-        }
-    }
-    bodies.iter().zip(&carried).filter(|(_, c)| !**c).map(|(b, _)| Fault::Floats(b.name.clone())).collect()
 }
 
 fn unlabelled(home: &Home) -> Vec<Fault> {

@@ -1,6 +1,6 @@
 //! Where a person can go in a finished home.
 
-use super::object_of;
+use super::{family_of, object_of};
 use crate::Home;
 use crate::place::BODY;
 use enfilade_math::{Vec2, Vec3};
@@ -69,7 +69,7 @@ pub fn unreachable(home: &Home) -> Vec<usize> {
 fn solid(grid: &Grid, home: &Home) -> Vec<bool> {
     let mut cells = vec![false; grid.columns * grid.rows];
     for part in &home.scene.parts {
-        if object_of(&part.name).starts_with("door") {
+        if family_of(object_of(&part.name)) == "door" {
             continue;
         }
         let mesh = &home.scene.meshes[part.mesh as usize];

@@ -81,7 +81,7 @@ impl Sofa {
 
     fn scatter(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let half = 0.5 * self.inner_width();
-        let places = [-half + 0.25, half - 0.25, -half + 0.62, half - 0.62];
+        let places = [-half + 0.25, half - 0.25, -half + 0.67, half - 0.67];
         for (i, &x) in places.iter().take(self.pillows).enumerate() {
             let size = if i < 2 { 0.47 } else { 0.38 };
             let side = x.signum();

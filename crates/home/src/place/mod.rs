@@ -153,6 +153,11 @@ impl Floor {
         }
     }
 
+    /// True where nothing is yet and nothing need be kept free.
+    pub fn is_free(&self, footprint: &Footprint, z: [f32; 2]) -> bool {
+        !self.taken.iter().any(|t| z[0] < t.z[1] && t.z[0] < z[1] && t.footprint.meets(footprint, 0.0))
+    }
+
     /// Spots along all walls for something `width` wide, its ends included.
     pub fn along_walls(&self, width: f32) -> Vec<Spot> {
         Wall::ALL.into_iter().flat_map(|wall| self.along(wall, width)).collect()

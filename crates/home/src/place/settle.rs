@@ -15,12 +15,15 @@ pub fn settle(surfaces: &[Surface], pose: DAffine3, things: &[Box<dyn Furniture>
     let mut placed = Vec::new();
     for (index, thing) in things.iter().enumerate() {
         let size = thing.size();
-        // Small things turn as they like: what counts is the circle around them.
+        let turn = rng.range(-0.5, 0.5);
+        // Beside each other what counts is the circle around them, at the edges of what carries them how far they reach.
         let radius = 0.5 * size.truncate().length();
+        let (sin, cos) = turn.abs().sin_cos();
+        let reach = 0.5 * Vec2::new(cos * size.x + sin * size.y, sin * size.x + cos * size.y);
         let tries = (0..TRIES).filter_map(|_| {
             let k = rng.below(surfaces.len().max(1));
             let surface = surfaces.get(k)?;
-            let half = 0.5 * (surface.max - surface.min) - 0.5 * size.truncate().max_element();
+            let half = 0.5 * (surface.max - surface.min) - reach;
             if half.min_element() < 0.0 || size.z > surface.headroom {
                 return None;
             }
@@ -31,7 +34,7 @@ pub fn settle(surfaces: &[Surface], pose: DAffine3, things: &[Box<dyn Furniture>
         let found: Vec<(usize, Vec2)> = tries.filter(free).collect();
         if let Some(&(k, at)) = found.first() {
             taken.push((k, at, radius));
-            placed.push((index, on(pose, Vec3::new(at.x, at.y, surfaces[k].z), rng.range(-0.5, 0.5))));
+            placed.push((index, on(pose, Vec3::new(at.x, at.y, surfaces[k].z), turn)));
         }
     }
     placed

@@ -35,7 +35,8 @@ impl Furnisher<'_> {
             let strip = self.floor.strip(way.wall, [x - 0.05, x + 0.05], 0.06);
             self.room.ways().filter(|o| o.wall != way.wall).any(|o| self.room.way_zone(o).meets(&strip, 0.0))
         };
-        let free = |x: &f32| free(x) && !swings(*x);
+        let z = [SWITCH - 0.05, SWITCH + 0.05];
+        let free = |x: &f32| free(x) && !swings(*x) && self.floor.is_free(&self.floor.strip(way.wall, [x - 0.05, x + 0.05], 0.02), z);
         let Some(x) = [place(-hinge), place(hinge)].into_iter().find(free) else { return };
         let mut rng = self.rng.fork(STREAM + way.wall as u64);
         let low = !self.room.kind.wet() && rng.next_f32() < BELOW;

@@ -3,6 +3,7 @@
 use super::Furnisher;
 use crate::furniture::living::CeilingLamp;
 use crate::furniture::{Candles, CeilingDome, Curtains, Furniture, Pendant, Plant, Radiator, Window, on};
+use crate::place::Footprint;
 use crate::plan::RoomKind;
 use crate::room::Opening;
 use enfilade_math::{DAffine3, Vec2, Vec3};
@@ -15,6 +16,8 @@ const ON_SILL: f32 = 0.32;
 const BLINDS: u64 = 0xb11d;
 /// Lamps in the middle of a room end above people's heads.
 const PENDANT_RIM: f32 = 2.05;
+/// What is higher is in the way of lamps, but not that doors need their room below.
+const OVERHEAD: f32 = 2.12;
 
 impl Furnisher<'_> {
     /// Adds everything of that kind.
@@ -103,8 +106,12 @@ impl Furnisher<'_> {
         self.above(self.room.center, &lamp);
     }
 
-    /// Hangs a lamp in the middle of the room, above people's heads.
+    /// Hangs a lamp in the middle of the room, above people's heads, unless one hangs over a table there.
     pub fn ceiling_lamp(&mut self) {
+        let around = Footprint { center: self.room.center, half: Vec2::splat(0.3), yaw: 0.0 };
+        if !self.floor.is_free(&around, [OVERHEAD, self.room.size.z]) {
+            return;
+        }
         let most = self.room.size.z - PENDANT_RIM;
         let other = CeilingLamp::random(&mut self.rng);
         let pendant = Pendant { drop: most, radius: self.rng.range(0.16, 0.21), ..Pendant::random(&mut self.rng) };

@@ -38,6 +38,8 @@ pub struct Furnisher<'a> {
 const EYE: f32 = 1.52;
 /// Small things on a square metre of a surface in a home that is lived in.
 const DENSITY: f32 = 9.0;
+/// Between what stands on high furniture and the ceiling.
+const CEILING_AIR: f32 = 0.05;
 /// Variants of a family that are tried before the room does without.
 const VARIANTS: usize = 4;
 
@@ -152,7 +154,10 @@ impl<'a> Furnisher<'a> {
 
     /// Settles things on surfaces of something that stands in `pose`; those that find no place are left out.
     pub fn settle(&mut self, surfaces: &[Surface], pose: DAffine3, things: &[Box<dyn Furniture>]) {
-        for (index, pose) in settle(surfaces, pose, things, &mut self.rng) {
+        // Under the open sky of the room is its ceiling.
+        let sky = self.room.size.z - CEILING_AIR - pose.translation.z as f32;
+        let surfaces: Vec<Surface> = surfaces.iter().map(|s| Surface { headroom: s.headroom.min(sky - s.z), ..*s }).collect();
+        for (index, pose) in settle(&surfaces, pose, things, &mut self.rng) {
             self.build(things[index].as_ref(), pose);
         }
     }

@@ -6,7 +6,7 @@ use crate::furniture::Furniture;
 use crate::furniture::kitchen::{self, FittedKitchen};
 use crate::place::{Piece, Spot};
 use crate::plan::RoomKind;
-use crate::room::Wall;
+use crate::room::{Opening, Wall};
 use enfilade_math::{Vec2, Vec3};
 
 /// Units keep this distance from walls.
@@ -15,6 +15,8 @@ const GAP: f32 = 0.001;
 const LONGEST: [f32; 2] = [4.0, 2.5];
 /// Room for a door's casing and a switch.
 const BESIDE_DOOR: f32 = 0.22;
+/// A window's sill reaches this far beyond it.
+const SILL: f32 = 0.08;
 /// Shortest main run: sink, hob and a little worktop.
 const SHORTEST: f32 = 1.7;
 
@@ -86,27 +88,46 @@ fn units(f: &mut Furnisher) -> bool {
         }
         let wings = [0, 1].map(|k| if stretch.corners[k] { wing(f, stretch.wall, k) } else { 0.0 });
         let middle = 0.5 * (stretch.x[0] + stretch.x[1]);
-        let window = f.room.windows().find(|o| o.wall == stretch.wall).map(|o| o.x.map(|x| x - middle));
+        let windows = windows(f, &stretch, middle);
         for wings in [wings, [wings[0], 0.0], [0.0, wings[1]], [0.0; 2]] {
-            let variants = (0..6).map(|_| FittedKitchen::fitted(width, wings, window, &mut f.rng));
-            let Some(kitchen) = variants.collect::<Vec<_>>().into_iter().find(|k| !shuts(k, window)) else { continue };
-            let length = width + kitchen.wings.iter().flatten().map(|run| run.length()).sum::<f32>();
+            let variants: Vec<FittedKitchen> =
+                (0..6).map(|_| FittedKitchen::fitted(width, wings, &windows, &mut f.rng)).filter(|k| !shuts(k, &windows)).collect();
             let low_sill = f.room.windows().any(|o| o.wall == stretch.wall && o.z[0] < kitchen::WORKTOP + 0.05);
-            let cost = (length - 4.2).abs() + if low_sill { 5.0 } else { 0.0 } + f.rng.range(0.0, 0.8);
-            tried.push((cost, kitchen, Stretch { ..stretch }));
+            for kitchen in variants {
+                let length = width + kitchen.wings.iter().flatten().map(|run| run.length()).sum::<f32>();
+                let cost = (length - 4.2).abs() + if low_sill { 5.0 } else { 0.0 } + f.rng.range(0.0, 0.8);
+                tried.push((cost, kitchen, Stretch { ..stretch }));
+            }
         }
     }
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
     tried.into_iter().any(|(_, kitchen, stretch)| place(f, &kitchen, &stretch))
 }
 
-/// True when a tall unit stands before the window.
-fn shuts(kitchen: &FittedKitchen, window: Option<[f32; 2]>) -> bool {
+/// Where windows are above the main run, from its middle: those in its wall, and, as a narrow one at its end, those in the walls beside
+/// it that begin within its depth.
+fn windows(f: &Furnisher, stretch: &Stretch, middle: f32) -> Vec<[f32; 2]> {
+    let half = 0.5 * (stretch.x[1] - stretch.x[0]);
+    let behind = f.room.windows().filter(|o| o.wall == stretch.wall).map(|o| o.x.map(|x| x - middle));
+    let beside = [0, 1].into_iter().filter(|&k| stretch.corners[k]).filter_map(|k| {
+        let side = stretch.wall.turned(3 - 2 * k);
+        let along = 0.5 * f.room.length(side);
+        let gap = |o: &Opening| if k == 0 { along - o.x[1] } else { along + o.x[0] };
+        let near = f.room.windows().filter(|o| o.wall == side).any(|o| gap(o) < kitchen::DEPTH + SILL);
+        near.then_some(if k == 0 { [-half, SILL - half] } else { [half - SILL, half] })
+    });
+    let mut all: Vec<[f32; 2]> = behind.chain(beside).collect();
+    all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    all
+}
+
+/// True when a tall unit stands before a window.
+fn shuts(kitchen: &FittedKitchen, windows: &[[f32; 2]]) -> bool {
     let mut x = -0.5 * kitchen.main.length();
     kitchen.main.units.iter().any(|(unit, _)| {
         let span = [x, x + unit.width()];
         x = span[1];
-        unit.is_tall() && window.is_some_and(|w| span[1] > w[0] - 0.06 && span[0] < w[1] + 0.06)
+        unit.is_tall() && windows.iter().any(|w| span[1] > w[0] - 0.06 && span[0] < w[1] + 0.06)
     })
 }
 
@@ -114,8 +135,9 @@ fn shuts(kitchen: &FittedKitchen, window: Option<[f32; 2]>) -> bool {
 fn wing(f: &mut Furnisher, wall: Wall, end: usize) -> f32 {
     let side = if end == 0 { wall.turned(3) } else { wall.turned(1) };
     let along = f.room.length(side);
-    let free = f.room.openings.iter().filter(|o| o.wall == side);
-    let free = free.map(|o| if end == 0 { 0.5 * along - o.x[1] } else { o.x[0] + 0.5 * along }).fold(along, f32::min) - 0.1;
+    let beside = |o: &Opening| if o.is_way() { BESIDE_DOOR } else { 0.1 };
+    let gap = |o: &Opening| if end == 0 { 0.5 * along - o.x[1] } else { o.x[0] + 0.5 * along };
+    let free = f.room.openings.iter().filter(|o| o.wall == side).map(|o| gap(o) - beside(o)).fold(along, f32::min);
     let wished = if f.chance(0.6) { f.rng.range(1.5, LONGEST[1]) } else { 0.0 };
     let length = wished.min(free);
     if length < 1.3 { 0.0 } else { length }
@@ -134,11 +156,17 @@ fn place(f: &mut Furnisher, kitchen: &FittedKitchen, stretch: &Stretch) -> bool 
             group.push(run(Vec3::new(wing.length(), kitchen::DEPTH, kitchen::WORKTOP), at, s * std::f32::consts::FRAC_PI_2, 0.8));
         }
     }
+    // What reaches above the worktop stays clear of windows, switches and what else is on the walls.
+    let back = Vec2::new(0.0, GAP + 0.5 * size.y);
+    for [min, max] in kitchen.uppers() {
+        let at = back + 0.5 * (min + max).truncate();
+        group.push(Piece { z: min.z, ..run(max - min, at, 0.0, 0.0) });
+    }
     let spot =
         Spot { origin: f.room.before(stretch.wall, middle, 0.0), yaw: stretch.wall.yaw() as f32, wall: Some(stretch.wall), x: middle };
     let (wall, corners) = (stretch.wall, stretch.corners);
     let Some(_) = f.floor.place(&group, vec![spot], |_, _| only(true, 0.0)) else { return false };
-    let at = spot.point(Vec2::new(0.0, GAP + 0.5 * size.y));
+    let at = spot.point(back);
     let z = f64::from(crate::furniture::CONTACT);
     let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), z, f64::from(spot.yaw));
     f.build(kitchen, pose);

@@ -5,7 +5,7 @@ use crate::builder;
 use crate::furniture::dining::LongTable;
 use crate::furniture::living::CeilingLamp;
 use crate::furniture::{Chair, DiningTable, Furniture, Pendant};
-use crate::place::{Floor, Piece, Spot};
+use crate::place::{Floor, Footprint, Piece, Spot};
 use enfilade_math::{Rng, Vec2, Vec3};
 use std::f32::consts::{FRAC_PI_2, TAU};
 
@@ -116,6 +116,8 @@ impl Furnisher<'_> {
         };
         let above = builder::pose(f64::from(spot.origin.x), f64::from(spot.origin.y), f64::from(self.room.size.z), f64::from(spot.yaw));
         self.build(lamp, above);
+        let around = Footprint { center: spot.origin, half: 0.5 * lamp.size().truncate(), yaw: spot.yaw };
+        self.floor.take(around, [LAMP, self.room.size.z]);
         true
     }
 }

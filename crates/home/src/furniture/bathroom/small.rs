@@ -108,7 +108,7 @@ impl Furniture for ToothbrushMug {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(0.12, 0.12, 0.205)
+        Vec3::new(0.15, 0.15, 0.205)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -122,10 +122,11 @@ impl Furniture for ToothbrushMug {
         );
         for k in 0..self.brushes {
             let brush = b.object("toothbrush", Class::OtherProp, pose);
-            let out = Vec2::from_angle(TAU * k as f32 / 3.0 + rng.range(-0.4, 0.4));
-            // From the floor on one side over the rim on the other.
-            let foot = (-out * 0.016).extend(0.009);
-            let top = (out * 0.046).extend(0.188);
+            let out = Vec2::from_angle(TAU * k as f32 / 3.0 + rng.range(-0.3, 0.3));
+            // From the floor on one side over the rim on the other, each on its own side of the axis.
+            let aside = 0.008 * out.perp();
+            let foot = (aside - out * 0.008).extend(0.0082);
+            let top = (aside + out * 0.0625).extend(0.188);
             let way = (top - foot).normalize();
             b.part(&brush, "handle", crate::shape::tube(&[foot, foot.lerp(top, 0.6), top], 0.0042, 10), Finish::Plastic(k as u8));
             let head = foot.lerp(top, 0.925) - out.extend(0.0) * 0.0085;

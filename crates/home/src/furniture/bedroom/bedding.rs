@@ -144,7 +144,7 @@ impl Bedding {
                     front = front.max(0.16 + 0.15 * layer as f32 + 0.36 * tall);
                     on(pose, at, 0.0) * DAffine3::from_rotation_x(f64::from(-(PI - lean))) * DAffine3::from_rotation_z(std::f64::consts::PI)
                 } else {
-                    let at = Vec3::new(x, y - 0.02 + 0.02 * layer as f32, self.top() + 0.55 * thickness + 0.108 * layer as f32);
+                    let at = Vec3::new(x, y + 0.012 * layer as f32, self.top() + 0.55 * thickness + 0.108 * layer as f32);
                     front = front.max(tall);
                     on(pose, at, 0.0) * DAffine3::from_rotation_x(-0.10)
                 };
@@ -155,7 +155,7 @@ impl Bedding {
         }
         for k in 0..self.cushions {
             let size = if k == 0 { rng.range(0.42, 0.48) } else { rng.range(0.34, 0.4) };
-            let x = (k as f32 - 0.5 * (self.cushions as f32 - 1.0)) * 0.42 + rng.range(-0.05, 0.05);
+            let x = (k as f32 - 0.5 * (self.cushions as f32 - 1.0)) * 0.45 + rng.range(-0.05, 0.05);
             let lean = rng.range(0.75, 0.9);
             let mesh = pillow(Vec2::splat(size), rng.range(0.12, 0.15), rng).uv_moved(Vec2::splat(rng.next_f32()));
             let at = Vec3::new(x, self.head() + front + 0.02 + 0.03 * k as f32, self.top() + 0.09 + 0.5 * size * lean.sin());

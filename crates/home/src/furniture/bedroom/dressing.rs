@@ -218,12 +218,14 @@ impl Furniture for LaundryBasket {
             b.part(&basket, "lid", turned(&lid, 48).moved(Vec3::Z * (h + 0.0075)), finish);
         } else {
             let clothes = b.object("clothes", Class::Clothes, pose);
-            let size = Vec3::new(1.5 * r, 1.5 * r, 0.2);
+            let size = Vec3::new(2.2 * r, 2.2 * r, 0.2);
             let lumps = Wrinkles::new(0.2, 0.01, rng);
+            // It fills the basket up to its wall.
+            let most = r - 0.018;
             let heap = super::clothes::heap(size, rng)
                 .deformed(|p| {
                     let out = p.truncate().length();
-                    let kept = p.truncate() * (0.86 * r / out.max(0.86 * r));
+                    let kept = p.truncate() * (most / out.max(most));
                     Vec3::new(kept.x, kept.y, p.z + lumps.at(kept))
                 })
                 .smoothed(80.0);

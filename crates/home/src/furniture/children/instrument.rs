@@ -30,7 +30,7 @@ impl Furniture for Guitar {
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let guitar = b.object("guitar", Class::OtherProp, pose);
         // Drawn upright, its back at y = 0, then leaned back about its lower end.
-        let lean = DAffine3::from_translation(Vec3::new(0.0, 0.10, 0.12).as_dvec3()) * DAffine3::from_rotation_x(f64::from(LEAN));
+        let lean = DAffine3::from_translation(Vec3::new(0.0, 0.10, 0.1125).as_dvec3()) * DAffine3::from_rotation_x(f64::from(LEAN));
         let right = spline(&BODY, 4);
         let outline: Vec<Vec2> =
             right.iter().copied().chain(right.iter().rev().filter(|p| p.x > 1e-4).map(|p| Vec2::new(-p.x, p.y))).collect();

@@ -176,9 +176,10 @@ impl Furniture for MagazineRack {
         let feet = [(-1.0f32, -1.0f32), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
             .map(|(x, y)| rod([0.15 * x, 0.1 * y, 0.0], [0.14 * x, 0.06 * y, 0.06], 0.006, 8));
         b.part(&rack, "feet", crate::furniture::standing(all(feet)), finish);
+        // Dropped in from above the floor, since they are turned a little.
         for k in 0..self.count {
             let y = 0.1 * ((k as f32 + 0.5) / self.count as f32 - 0.5);
-            let place = on(pose, Vec3::new(rng.range(-0.015, 0.015), y, 0.232), 0.0)
+            let place = on(pose, Vec3::new(rng.range(-0.015, 0.015), y, 0.2275), 0.0)
                 * DAffine3::from_rotation_x(std::f64::consts::FRAC_PI_2 - f64::from(1.4 * y));
             Magazines { count: 1 }.build(b, place, &mut Rng::new(rng.next_u64() | 1));
         }

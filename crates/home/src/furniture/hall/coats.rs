@@ -8,13 +8,17 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
 
-/// A garment on a hook at the origin of `pose`; the wall or post is behind it.
-fn hang_on_hook(b: &mut Builder, pose: DAffine3, garment: Garment, rng: &mut Rng) {
+/// A garment on a hook of wire of `radius` whose axis goes through the origin of `pose`; it bulges from `back` to the front only, since
+/// the wall or post is behind it.
+fn hang_on_hook(b: &mut Builder, pose: DAffine3, radius: f32, back: f32, garment: Garment, rng: &mut Rng) {
     let clothes = b.object("clothes", Class::Clothes, pose);
     let cloth = garment.cloth(0.9, rng);
-    // It bulges to the front only: behind is the wall.
-    let back = cloth.bounds().min.y;
-    b.part(&clothes, "cloth", cloth.moved(Vec3::new(0.0, 0.004 - back, 0.0)), Finish::Clothes(rng.below(8) as u8));
+    let neck = back - cloth.bounds().min.y;
+    b.part(&clothes, "cloth", cloth.moved(Vec3::new(0.0, neck, -0.012)), Finish::Clothes(rng.below(8) as u8));
+    // The loop in its collar lies over the hook.
+    let over = radius + 0.0018;
+    let path = [[-0.02, neck, -0.03], [-0.8 * over, 0.0, 0.6 * over], [0.0, 0.0, over], [0.8 * over, 0.0, 0.6 * over], [0.02, neck, -0.03]];
+    b.part(&clothes, "loop", wire(&path, 0.0015, 6), Finish::Clothes(0));
 }
 
 /// Something that hangs in a hall.
@@ -82,8 +86,8 @@ impl Furniture for CoatHooks {
         b.part(&rack, "hooks", all((0..self.hooks).map(|k| Self::hook().moved(at(k)))), metal);
         let first = rng.below(self.hooks);
         for k in 0..self.coats {
-            let place = at((first + 2 * k + k * 2 / self.hooks) % self.hooks) + Vec3::new(0.0, 0.008, 0.012);
-            hang_on_hook(b, on(pose, place, rng.range(-0.05, 0.05)), outdoor(rng), rng);
+            let place = at((first + 2 * k + k * 2 / self.hooks) % self.hooks) + Vec3::new(0.0, 0.03, -0.004);
+            hang_on_hook(b, on(pose, place, rng.range(-0.05, 0.05)), 0.005, -0.018, outdoor(rng), rng);
         }
     }
 }
@@ -111,7 +115,7 @@ impl CoatStand {
             b.part(stand, "base", base, finish);
         } else {
             let feet = around(4, 0.25 * TAU / 2.0).map(|d| {
-                let path = [(d * 0.012).extend(0.16), (d * 0.1).extend(0.085), (d * 0.22).extend(0.014)];
+                let path = [(d * 0.012).extend(0.16), (d * 0.1).extend(0.085), (d * 0.22).extend(0.0125)];
                 standing(tube(&path, 0.014, 12))
             });
             b.part(stand, "feet", all(feet), finish);
@@ -144,7 +148,7 @@ impl Furniture for CoatStand {
             let turn = 0.3 + TAU * (k * (self.hooks / self.coats.max(1))) as f32 / self.hooks as f32;
             let out = Vec2::from_angle(turn) * 0.10;
             let at = out.extend(self.height - 0.03);
-            hang_on_hook(b, on(pose, at, turn - 0.25 * TAU), outdoor(rng), rng);
+            hang_on_hook(b, on(pose, at, turn - 0.25 * TAU), 0.0075, 0.004, outdoor(rng), rng);
         }
     }
 }
@@ -157,6 +161,10 @@ pub struct UmbrellaStand {
     /// Umbrellas in it.
     pub umbrellas: usize,
 }
+
+/// Radius of a rolled umbrella where it leans on the rim, and how far beside the axis of the stand each of three stands.
+const CLOTH: f32 = 0.029;
+const ASIDE: f32 = 0.034;
 
 impl UmbrellaStand {
     /// A rolled umbrella that stands on its tip at the origin, its crook up.
@@ -192,7 +200,7 @@ impl Furniture for UmbrellaStand {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(0.42, 0.42, 0.90)
+        Vec3::new(0.48, 0.48, 0.90)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -200,13 +208,17 @@ impl Furniture for UmbrellaStand {
         let (r, h) = (self.radius, rng.range(0.46, 0.54));
         let shell = crate::furniture::form::vessel(&[[0.97 * r, 0.0], [r, 0.35 * h], [1.02 * r, 0.7 * h], [1.04 * r, h]], 0.004, 48);
         b.part(&stand, "body", shell, [Finish::BlackMetal, Finish::Ceramic(1), Finish::Brass, Finish::Ceramic(0)][rng.below(4)]);
+        let start = rng.range(0.0, TAU);
         for k in 0..self.umbrellas {
-            let turn = TAU * k as f32 / 3.0 + rng.range(0.0, 0.8);
+            let turn = start + TAU * k as f32 / 3.0;
             let d = Vec2::from_angle(turn);
-            // The tip on one side of the floor, the stick against the rim of the other.
-            let lean = ((1.3 * r - 0.03) / h).atan();
-            let foot = (-d * 0.4 * r).extend(0.008);
-            let tilt = DAffine3::from_axis_angle(Vec3::new(-d.y, d.x, 0.0).as_dvec3(), f64::from(lean * 0.8));
+            // Each leans past the axis on its own side, and against the rim.
+            let rim = ((1.04 * r - 0.004 - CLOTH).powi(2) - ASIDE * ASIDE).sqrt();
+            let top = 0.87 / h;
+            let tip = ((0.14 - rim * top) / (1.0 - top)).clamp(-0.045, rim - 0.01);
+            let lean = ((rim - tip) / h).atan();
+            let foot = (d * tip + d.perp() * ASIDE).extend(0.0048);
+            let tilt = DAffine3::from_axis_angle(Vec3::new(-d.y, d.x, 0.0).as_dvec3(), f64::from(lean));
             Self::umbrella(b, on(pose, foot, 0.0) * tilt * DAffine3::from_rotation_z(f64::from(turn + rng.range(1.0, 2.2))), rng);
         }
     }

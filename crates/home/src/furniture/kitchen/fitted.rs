@@ -1,5 +1,5 @@
 use super::front::KitchenStyle;
-use super::run::{Above, Run, Unit};
+use super::run::{Above, Run, SILL_END, Unit};
 use super::{DEPTH, HANDLES, TALL};
 use crate::builder::Builder;
 use crate::furniture::{Furniture, Surface, on};
@@ -31,22 +31,22 @@ const CORNER: f32 = DEPTH + 0.05;
 
 impl FittedKitchen {
     /// A kitchen over `width` of the back wall with wings that reach `wings` metres from the back wall on either side (0 for none);
-    /// over `window`, from and to along x, nothing hangs.
-    pub fn fitted(width: f32, wings: [f32; 2], window: Option<[f32; 2]>, rng: &mut Rng) -> Self {
+    /// over `windows`, from and to along x, nothing hangs.
+    pub fn fitted(width: f32, wings: [f32; 2], windows: &[[f32; 2]], rng: &mut Rng) -> Self {
         let corners = wings.map(|length| length >= DEPTH + 0.6);
         let room = width - CORNER * corners.iter().filter(|&&c| c).count() as f32;
         let elsewhere = corners[0] || corners[1];
         let hob_here = !elsewhere || room > 2.6;
         let needs =
             Needs { sink: true, hob: hob_here, tall: if elsewhere { 0 } else { ((room - 2.2) / 0.6).clamp(0.0, 2.0) as usize }, corners };
-        let main = plan(width, needs, window.map(|[a, b]| [a + 0.5 * width, b + 0.5 * width]), rng);
+        let main = plan(width, needs, windows.iter().map(|w| w.map(|x| x + 0.5 * width)).collect(), rng);
         let mut hob_left = !hob_here;
         let wings = [0, 1].map(|k| {
             corners[k].then(|| {
                 let length = wings[k] - DEPTH - 0.001;
                 let tall = ((length - 0.9) / 0.6).clamp(0.0, 2.0) as usize;
                 let needs = Needs { sink: false, hob: std::mem::take(&mut hob_left), tall, corners: [false; 2] };
-                let mut run = plan(length, needs, None, rng);
+                let mut run = plan(length, needs, Vec::new(), rng);
                 // Tall units stand at the end away from the corner.
                 let first_is_tall = run.units.first().is_some_and(|(unit, _)| unit.is_tall());
                 if first_is_tall == (k == 1) {
@@ -56,6 +56,16 @@ impl FittedKitchen {
             })
         });
         Self { main, wings, style: KitchenStyle::random(rng) }
+    }
+
+    /// The boxes of what reaches above the worktop: tall units, what hangs, and what covers the wall; from and to, in the kitchen's space.
+    pub fn uppers(&self) -> Vec<[Vec3; 2]> {
+        let mut all = Vec::new();
+        for (run, at, yaw) in self.runs() {
+            let turn = |p: Vec3| Vec2::from_angle(yaw).rotate(p.truncate()).extend(p.z) + at;
+            all.extend(run.uppers().into_iter().map(|[min, max]| [turn(min).min(turn(max)), turn(min).max(turn(max))]));
+        }
+        all
     }
 
     fn depth(&self) -> f32 {
@@ -78,7 +88,7 @@ impl FittedKitchen {
 }
 
 /// Fills `length` with units: tall ones first, then drawers, hob, drawers, sink, dishwasher.
-fn plan(length: f32, needs: Needs, window: Option<[f32; 2]>, rng: &mut Rng) -> Run {
+fn plan(length: f32, needs: Needs, windows: Vec<[f32; 2]>, rng: &mut Rng) -> Run {
     let corner = CORNER * needs.corners.iter().filter(|&&c| c).count() as f32;
     let mut free = length - corner;
     let mut take = |w: f32| {
@@ -123,17 +133,17 @@ fn plan(length: f32, needs: Needs, window: Option<[f32; 2]>, rng: &mut Rng) -> R
     if needs.corners[1] {
         units.push(Unit::Corner(CORNER));
     }
-    hang(units, window, rng)
+    hang(units, windows, rng)
 }
 
 /// Decides what hangs above the units.
-fn hang(units: Vec<Unit>, window: Option<[f32; 2]>, rng: &mut Rng) -> Run {
+fn hang(units: Vec<Unit>, windows: Vec<[f32; 2]>, rng: &mut Rng) -> Run {
     let style = rng.below(5);
     let mut x = 0.0;
     let units = units.into_iter().map(|unit| {
         let span = [x, x + unit.width()];
         x = span[1];
-        let open = window.is_some_and(|w| span[1] > w[0] && span[0] < w[1]);
+        let open = windows.iter().any(|w| span[1] > w[0] - SILL_END && span[0] < w[1] + SILL_END);
         let above = match unit {
             _ if unit.is_tall() || open => Above::Nothing,
             Unit::Oven(_) => Above::Hood,
@@ -146,7 +156,7 @@ fn hang(units: Vec<Unit>, window: Option<[f32; 2]>, rng: &mut Rng) -> Run {
         };
         (unit, above)
     });
-    Run { units: units.collect(), window }
+    Run { units: units.collect(), windows }
 }
 
 impl Furniture for FittedKitchen {
@@ -158,7 +168,7 @@ impl Furniture for FittedKitchen {
             2 if width > 2.9 => [rng.range(1.5, 2.2), rng.range(1.5, 2.2)],
             _ => [0.0; 2],
         };
-        Self::fitted(width, wings, None, rng)
+        Self::fitted(width, wings, &[], rng)
     }
 
     fn size(&self) -> Vec3 {
@@ -199,7 +209,7 @@ mod tests {
             let mut rng = Rng::new(seed);
             let width = rng.range(2.4, 5.0);
             let wings = [[0.0, 0.0], [2.0, 0.0], [0.0, 1.7], [2.2, 2.4]][seed as usize % 4];
-            let kitchen = FittedKitchen::fitted(width, wings, None, &mut rng);
+            let kitchen = FittedKitchen::fitted(width, wings, &[], &mut rng);
             assert!((kitchen.main.length() - width).abs() < 0.005, "seed {seed}: {} of {width}", kitchen.main.length());
             let units: Vec<Unit> = kitchen.runs().iter().flat_map(|(run, ..)| run.units.iter().map(|u| u.0)).collect();
             assert!(units.iter().any(|u| matches!(u, Unit::Sink(_))), "seed {seed}: {units:?}");

@@ -1,5 +1,5 @@
 use super::front::KitchenStyle;
-use super::{DEPTH, THICKNESS, WALL_DEPTH, WALL_UNIT, WORKTOP, appliance, sink, unit};
+use super::{DEPTH, HANDLES, TALL, THICKNESS, WALL_DEPTH, WALL_UNIT, WORKTOP, appliance, sink, unit};
 use crate::builder::{Builder, Class};
 use crate::furniture::form::plate_with_holes;
 use crate::furniture::{CONTACT, Surface, board, grained, on};
@@ -55,15 +55,15 @@ pub enum Above {
 
 /// Height of the covering below a window, and how far a window's sill reaches beyond it.
 const UPSTAND: f32 = 0.1;
-const SILL_END: f32 = 0.06;
+pub(super) const SILL_END: f32 = 0.06;
 
 /// Units in a line along a wall, in the run's own space: x from its left end, y from the wall, z from the floor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// From left to right, each with what hangs above it.
     pub units: Vec<(Unit, Above)>,
-    /// From and to along x, where a window begins not far above the worktop.
-    pub window: Option<[f32; 2]>,
+    /// From and to along x, in ascending order: where windows begin not far above the worktop.
+    pub windows: Vec<[f32; 2]>,
 }
 
 impl Run {
@@ -116,6 +116,38 @@ impl Run {
         }
         free.retain(|s| s.max.x - s.min.x > NARROWEST);
         free
+    }
+
+    /// The pieces of what covers the wall behind a worktop over `[x0, x1]`, each with its upper edge: below windows it is an upstand.
+    fn covered(&self, [x0, x1]: [f32; 2]) -> Vec<([f32; 2], f32)> {
+        let mut pieces = Vec::new();
+        let mut from = x0;
+        for [low, high] in self.windows.iter().map(|w| [(w[0] - SILL_END).clamp(x0, x1), (w[1] + SILL_END).clamp(x0, x1)]) {
+            pieces.push(([from, low], WALL_UNIT[0] - 0.001));
+            pieces.push(([low.max(from), high], WORKTOP + UPSTAND));
+            from = from.max(high);
+        }
+        pieces.push(([from, x1], WALL_UNIT[0] - 0.001));
+        pieces.retain(|([a, b], _)| b - a > 0.01);
+        pieces
+    }
+
+    /// The boxes of what reaches above the worktop, from and to, in the run's space.
+    pub fn uppers(&self) -> Vec<[Vec3; 2]> {
+        let mut all = Vec::new();
+        for (x, unit, above) in self.placed() {
+            let (end, hood) = (x + unit.width(), Vec3::new(0.0, 0.47, WORKTOP + 0.6));
+            if unit.is_tall() {
+                all.push([Vec3::new(x, 0.0, WORKTOP), Vec3::new(end, DEPTH + HANDLES, TALL)]);
+            } else if above != Above::Nothing {
+                let (depth, low) = if above == Above::Hood { (hood.y, hood.z) } else { (WALL_DEPTH + HANDLES, WALL_UNIT[0] - 0.12) };
+                all.push([Vec3::new(x, 0.0, low), Vec3::new(end, depth, TALL)]);
+            }
+        }
+        for ([x0, x1], top) in self.worktops().into_iter().flat_map(|piece| self.covered(piece)) {
+            all.push([Vec3::new(x0, 0.0, WORKTOP), Vec3::new(x1, 0.0085, top)]);
+        }
+        all
     }
 
     /// Adds everything.
@@ -182,10 +214,7 @@ impl Run {
         b.part(&counter, "top", grained(top.moved(Vec3::new(0.0, 0.0, WORKTOP)), rng), style.worktop);
         // A low wall unit's edge would show a joint: the covering reaches just below it.
         let cover = b.object("splashback", Class::OtherStructure, pose);
-        // Below a window it is an upstand.
-        let open = self.window.map_or([x1; 2], |[a, b]| [(a - SILL_END).clamp(x0, x1), (b + SILL_END).clamp(x0, x1)]);
-        let pieces = [([x0, open[0]], WALL_UNIT[0] - 0.001), (open, WORKTOP + UPSTAND), ([open[1], x1], WALL_UNIT[0] - 0.001)];
-        for (i, ([x0, x1], top)) in pieces.into_iter().filter(|([a, b], _)| b - a > 0.01).enumerate() {
+        for (i, ([x0, x1], top)) in self.covered([x0, x1]).into_iter().enumerate() {
             let mesh = board([x0 + 0.001, 0.0008, WORKTOP + CONTACT], [x1 - 0.001, 0.0085, top], 0.0008);
             b.part(&cover, &format!("panel_{}", i + 1), mesh, style.splashback);
         }

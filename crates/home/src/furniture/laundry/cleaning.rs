@@ -157,7 +157,7 @@ impl Furniture for Bucket {
                     Vec3::new(p.x * 0.56 * r * 2.0 * 0.9 * strand, p.y * 0.5 * r * 2.0 * 0.9 * strand, (p.z + 0.5) * 0.13)
                 })
                 .smoothed(70.0);
-            b.part(&mop, "head", head.moved(Vec3::new(0.0, 0.12 * r, 0.012)), Finish::Towel(0));
+            b.part(&mop, "head", head.moved(Vec3::new(0.0, 0.12 * r, 0.0042)), Finish::Towel(0));
         }
     }
 }

@@ -54,7 +54,7 @@ impl Furniture for DayBed {
         let roll = [[0.0, -0.5 * w], [r - 0.02, -0.5 * w], [r, 0.02 - 0.5 * w], [r, 0.5 * w - 0.02], [r - 0.02, 0.5 * w], [0.0, 0.5 * w]];
         for k in 0..self.bolsters {
             let x = (half.x - 0.03 - r) * if k == 0 { 1.0 } else { -1.0 };
-            let bolster = b.object("bolster", Class::Pillow, on(pose, Vec3::new(x, 0.0, FRAME + PAD + r + 0.004), 0.0));
+            let bolster = b.object("bolster", Class::Pillow, on(pose, Vec3::new(x, 0.0, FRAME + PAD + r - 0.0065), 0.0));
             let mesh = turned(&roll, 36).turned(Vec3::X, FRAC_PI_2);
             b.part(&bolster, "cover", mesh, self.cover);
             let strap = |y: f32| rod([-0.012, y, r + 0.002], [0.012, y, r + 0.002], 0.003, 6);

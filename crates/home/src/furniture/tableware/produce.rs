@@ -73,7 +73,7 @@ impl Furniture for FruitBowl {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(0.30, 0.30, if self.bananas { 0.2 } else { 0.18 })
+        Vec3::new(0.30, 0.30, if self.bananas { 0.215 } else { 0.18 })
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -83,12 +83,12 @@ impl Furniture for FruitBowl {
         b.part(&bowl, "body", body.moved(Vec3::new(0.0, 0.0, CONTACT)), finish);
         let kinds = [rng.below(6), rng.below(6)];
         let r = 0.037;
-        // Three at the bottom, five on the slope of the bowl around them, one on top.
+        // Three at the bottom, five on the slope of the bowl around them, one on top: put in from above, so that they fall into place.
         let ring = |n: usize, radius: f32, z: f32, start: f32| {
             (0..n).map(move |i| (Vec2::from_angle(start + TAU * i as f32 / n as f32) * radius).extend(z))
         };
         let start = rng.range(0.0, TAU);
-        let places = ring(3, 0.046, 0.045, start).chain(ring(5, 0.094, 0.082, start + 0.4)).chain(ring(1, 0.0, 0.103, 0.0));
+        let places = ring(3, 0.046, 0.045, start).chain(ring(5, 0.094, 0.105, start + 0.4)).chain(ring(1, 0.0, 0.108, 0.0));
         for (i, at) in places.enumerate() {
             let (name, mesh, skin) = fruit(kinds[i % 2], r * rng.range(0.94, 1.0));
             let tilt = rng.range(0.2, 1.2);
@@ -103,7 +103,7 @@ impl Furniture for FruitBowl {
 
 impl FruitBowl {
     fn bunch(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
-        let object = b.object("bananas", Class::OtherProp, on(pose, Vec3::new(0.0, 0.0, 0.142), rng.range(0.0, TAU)));
+        let object = b.object("bananas", Class::OtherProp, on(pose, Vec3::new(0.0, 0.0, 0.168), rng.range(0.0, TAU)));
         let fingers = (0..4).map(|k| {
             let fan = 0.28 * (k as f32 - 1.5);
             let points: Vec<[f32; 3]> = (0..=6)

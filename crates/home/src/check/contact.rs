@@ -1,0 +1,147 @@
+//! Which objects cut each other deeper than they may, and which touch.
+
+use super::meet::Body;
+use super::{family_of, is_shell, overlap};
+use enfilade_math::Vec3;
+use rayon::prelude::*;
+
+/// Objects may sink this far into each other: feet into a rug's pile, screws into a wall, metres.
+const SINK: f32 = 0.004;
+/// The same for cloth and cushions, which give way.
+const SOFT_SINK: f32 = 0.03;
+/// What lies in folds over or in something else: it follows what it lies on, and is not asked how deep.
+const DRAPED: [&str; 6] = ["throw", "blanket", "clothes", "towel", "napkin", "crumpled_paper"];
+/// What is nearer than this touches.
+const TOUCH: f32 = 0.0025;
+/// The same for what is soft: cloth hangs and lies in waves.
+const SOFT_TOUCH: f32 = 0.02;
+/// Families of soft things.
+const SOFT: [&str; 15] = [
+    "crumpled_paper",
+    "pillow",
+    "cushion",
+    "floor_cushion",
+    "bench_cushion",
+    "throw",
+    "blanket",
+    "towel",
+    "tea_towel",
+    "clothes",
+    "curtain",
+    "plush_toy",
+    "handbag",
+    "shopping_bag",
+    "shower_curtain",
+];
+/// The six ways along the axes.
+const WAYS: [Vec3; 6] = [Vec3::Z, Vec3::NEG_Z, Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y];
+
+fn is_soft(object: &str) -> bool {
+    SOFT.contains(&family_of(object))
+}
+
+fn is_draped(object: &str) -> bool {
+    DRAPED.contains(&family_of(object))
+}
+
+/// What is left of a soft body that gives way on all sides; `None` for a hard one.
+pub fn core(body: &Body) -> Option<Body> {
+    is_soft(&body.name).then(|| body.shrunk(SOFT_SINK))
+}
+
+/// True when `a`, moved by `offset`, runs into `b` deeper than it may.
+pub fn runs_into(a: &Body, b: &Body, offset: Vec3) -> bool {
+    cuts(a, b, offset) && cores_meet([a, b], [core(a).as_ref(), core(b).as_ref()], offset)
+}
+
+/// True when the surface of `a`, moved by `offset`, cuts that of `b`, and that is asked of both.
+pub fn cuts(a: &Body, b: &Body, offset: Vec3) -> bool {
+    !is_draped(&a.name) && !is_draped(&b.name) && a.meets(b, offset)
+}
+
+/// True when two bodies whose surfaces cut each other go deeper than they may, given their [`core`]s.
+pub fn cores_meet([a, b]: [&Body; 2], cores: [Option<&Body>; 2], offset: Vec3) -> bool {
+    // Those that a small step sets free do not go deeper than that step; soft ones are freed by their giving way.
+    match cores {
+        [None, None] => WAYS.iter().all(|way| a.meets(b, offset + *way * SINK)),
+        [soft_a, soft_b] => soft_a.unwrap_or(a).meets(soft_b.unwrap_or(b), offset),
+    }
+}
+
+/// True when `a`, moved by `offset`, comes so near to `b` that either can carry the other.
+pub fn touches(a: &Body, b: &Body, offset: Vec3) -> bool {
+    let reach = if is_soft(&a.name) || is_soft(&b.name) { SOFT_TOUCH } else { TOUCH };
+    a.bounds.min.cmple(b.bounds.max + reach - offset).all()
+        && b.bounds.min.cmple(a.bounds.max + reach + offset).all()
+        && (a.meets(b, offset) || WAYS.iter().any(|way| a.meets(b, offset + *way * reach)))
+}
+
+/// Pairs of bodies that may touch; not those of the shell.
+fn neighbours(bodies: &[Body]) -> Vec<(usize, usize)> {
+    let shell: Vec<bool> = bodies.iter().map(|b| is_shell(&b.name)).collect();
+    let mut order: Vec<usize> = (0..bodies.len()).collect();
+    order.sort_by(|&a, &b| bodies[a].bounds.min.x.total_cmp(&bodies[b].bounds.min.x));
+    let mut pairs = Vec::new();
+    for (k, &a) in order.iter().enumerate() {
+        for &b in order[k + 1..].iter().take_while(|&&b| bodies[b].bounds.min.x <= bodies[a].bounds.max.x + SOFT_TOUCH) {
+            if !(shell[a] && shell[b]) && overlap(&bodies[a].bounds, &bodies[b].bounds, SOFT_TOUCH) {
+                pairs.push((a.min(b), a.max(b)));
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// What is known of the contacts of many bodies: pairs, in order, the first of each with the smaller number.
+pub struct Contacts {
+    /// Those that touch.
+    pub touching: Vec<(usize, usize)>,
+    /// Those that run into each other.
+    pub meeting: Vec<(usize, usize)>,
+}
+
+impl Contacts {
+    /// All contacts.
+    pub fn new(bodies: &[Body]) -> Self {
+        let pairs = neighbours(bodies);
+        Self { touching: touching(bodies, &pairs), meeting: meetings(bodies, &pairs) }
+    }
+
+    /// Looks anew at the contacts between those of `group`, which have moved, and all others.
+    pub fn renew(&mut self, bodies: &[Body], group: &[usize]) {
+        let changed = |&(a, b): &(usize, usize)| group.contains(&a) != group.contains(&b);
+        let pairs: Vec<(usize, usize)> = neighbours(bodies).into_iter().filter(changed).collect();
+        let new = [touching(bodies, &pairs), meetings(bodies, &pairs)];
+        for (known, new) in [&mut self.touching, &mut self.meeting].into_iter().zip(new) {
+            known.retain(|pair| !changed(pair));
+            known.extend(new);
+            known.sort_unstable();
+        }
+    }
+
+    /// Which bodies the shell carries, by way of others or not, when only those that are `there` are left.
+    pub fn carried(&self, bodies: &[Body], there: impl Fn(usize) -> bool) -> Vec<bool> {
+        let mut beside: Vec<Vec<usize>> = vec![Vec::new(); bodies.len()];
+        for &(a, b) in &self.touching {
+            beside[a].push(b);
+            beside[b].push(a);
+        }
+        let mut carried = vec![false; bodies.len()];
+        let mut stack: Vec<usize> = (0..bodies.len()).filter(|&i| is_shell(&bodies[i].name)).collect();
+        while let Some(i) = stack.pop() {
+            if there(i) && !std::mem::replace(&mut carried[i], true) {
+                stack.extend(beside[i].iter().filter(|&&j| !carried[j]));
+            }
+        }
+        carried
+    }
+}
+
+fn meetings(bodies: &[Body], pairs: &[(usize, usize)]) -> Vec<(usize, usize)> {
+    pairs.par_iter().copied().filter(|&(a, b)| runs_into(&bodies[a], &bodies[b], Vec3::ZERO)).collect()
+}
+
+fn touching(bodies: &[Body], pairs: &[(usize, usize)]) -> Vec<(usize, usize)> {
+    pairs.par_iter().copied().filter(|&(a, b)| touches(&bodies[a], &bodies[b], Vec3::ZERO)).collect()
+}
