@@ -3,8 +3,10 @@
 //! [`home`] is a function of its [`HomeConfig`] alone. From the bottom up: [`shape`] makes meshes and [`texture`] pictures;
 //! [`materials`] and [`palette`] say what things are made of; [`furniture`] has one file per family of things; [`plan`] lays out
 //! rooms, [`room`] and [`shell`] are their walls; [`place`] decides what fits where, [`rooms`] says what each kind of room holds,
-//! [`builder`] names, labels and collects the parts, and what [`check`] finds wrong is taken away again.
+//! [`builder`] names, labels and collects the parts, and what [`check`] finds wrong is taken away again. [`assets`] are models of
+//! others, that may stand in for our furniture.
 
+pub mod assets;
 pub mod builder;
 mod cameras;
 pub mod check;
@@ -25,6 +27,7 @@ pub mod texture;
 pub use config::HomeConfig;
 pub use plan::{FloorPlan, RoomKind};
 
+use assets::{Library, Model};
 use builder::Builder;
 use enfilade_math::{Rng, Vec2};
 use enfilade_scene::{Labels, Scene};
@@ -32,6 +35,8 @@ use light::{LightConfig, Moment};
 use materials::Materials;
 use palette::DecorConfig;
 use room::Wall;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// A home and what its parts are called.
 #[derive(Clone, Debug)]
@@ -42,22 +47,40 @@ pub struct Home {
     pub labels: Labels,
     /// Where its rooms are.
     pub plan: FloorPlan,
+    /// The models of others that are in it, with the files that they come from and their licences; sorted, each once.
+    pub credits: Vec<String>,
 }
 
-/// A furnished home in the light of a moment.
+/// A furnished home in the light of a moment, of nothing but our own things.
 pub fn home(config: &HomeConfig) -> Home {
+    home_with(config, &Library::default())
+}
+
+/// A furnished home with models of `library`: those that [`HomeConfig::assets`] names, which who calls has read.
+///
+/// What [`Library::broken`] tells afterwards was wanted, and replaced by our own.
+pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
     let kinds = config.programme();
     let plan = FloorPlan::new(&kinds, &config.stream(config.layout, 1));
     let light = light(&plan, config, &config.stream(config.light, 4));
     let decor = DecorConfig { seed: config.materials.unwrap_or(config.seed), realism: config.realism };
     let mut builder = Builder::new(Materials::new(decor.palette(), light, decor.pictures()));
-    rooms::furnish(&mut builder, &plan, &decor, config);
+    rooms::furnish(&mut builder, &plan, &decor, config, library);
+    let models = builder.models().clone();
     let (scene, labels) = builder.finish();
-    let mut home = Home { scene, labels, plan };
+    let mut home = Home { scene, labels, plan, credits: Vec::new() };
     settle::settle(&mut home);
+    home.credits = credits(&home.scene, &models);
     light.illuminate(&mut home.scene, &outlooks(&home.plan));
     home.scene.cameras = cameras::cameras(&home.scene, &home.labels, &home.plan);
     home
+}
+
+/// The models that are still there.
+fn credits(scene: &Scene, models: &BTreeMap<String, Arc<Model>>) -> Vec<String> {
+    let used = scene.parts.iter().filter_map(|part| models.get(check::object_of(&part.name)));
+    let lines: BTreeSet<String> = used.map(|model| format!("{} ({}): {}", model.name, model.file, model.licence)).collect();
+    lines.into_iter().collect()
 }
 
 /// The light of a home: by day its sun stands before the largest window of the first room that has one.

@@ -12,6 +12,8 @@ const RADIATOR_SILL: f32 = 0.44;
 const SWITCH: f32 = 1.05;
 /// Pendants in the middle of a room end above people's heads.
 const PENDANT_RIM: f32 = 2.05;
+/// Nothing hangs lower where people walk.
+const HEADS: f32 = 1.98;
 
 impl Furnisher<'_> {
     /// Adds everything of that kind.
@@ -118,15 +120,22 @@ impl Furnisher<'_> {
     pub fn dome(&mut self) {
         let at = self.room.center;
         let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), f64::from(self.room.size.z), 0.0);
-        let lamp = CeilingDome { radius: self.rng.range(0.14, 0.2) };
-        self.build(&lamp, pose);
+        let own = CeilingDome { radius: self.rng.range(0.14, 0.2) };
+        let lamp = self.or_borrowed("ceiling_lamp", own);
+        self.build(lamp.as_ref(), pose);
     }
 
     /// Hangs a pendant in the middle of the room.
     pub fn ceiling_lamp(&mut self) {
         let at = self.room.center;
-        let pendant = Pendant { drop: self.room.size.z - PENDANT_RIM, radius: self.rng.range(0.16, 0.21) };
+        let own = Pendant { drop: self.room.size.z - PENDANT_RIM, radius: self.rng.range(0.16, 0.21) };
+        let highest = self.room.size.z - HEADS;
+        let mut model = self.borrow("pendant", &own, |size| size.z < highest);
+        if model.is_none() {
+            model = self.borrow("ceiling_lamp", &own, |size| size.z < highest);
+        }
+        let pendant: &dyn Furniture = model.as_ref().map_or(&own, |model| model);
         let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), f64::from(self.room.size.z), 0.0);
-        self.build(&pendant, pose);
+        self.build(pendant, pose);
     }
 }
