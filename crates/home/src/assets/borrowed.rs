@@ -9,16 +9,8 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 use std::sync::Arc;
 
 /// Classes on whose things people put others.
-const CARRY: [Class; 8] = [
-    Class::Table,
-    Class::Desk,
-    Class::Cabinet,
-    Class::Dresser,
-    Class::NightStand,
-    Class::Bookshelf,
-    Class::Shelves,
-    Class::Counter,
-];
+const CARRY: [Class; 8] =
+    [Class::Table, Class::Desk, Class::Cabinet, Class::Dresser, Class::NightStand, Class::Bookshelf, Class::Shelves, Class::Counter];
 
 /// A model of a library in place of one of our own.
 #[derive(Clone, Debug)]
@@ -101,10 +93,10 @@ impl Furniture for Borrowed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::bevelled_box;
     use crate::light::LightConfig;
     use crate::materials::Materials;
     use crate::palette::Palette;
+    use crate::shape::bevelled_box;
     use enfilade_math::{Bounds3, DMat3, Rgb};
     use enfilade_scene::{Bsdf, ColorParam, Image, Material, Part, Pixels, Scene, TextureRef};
 

@@ -1,7 +1,7 @@
 //! Many models, and which of them to take.
 
-use super::range::believable;
 use super::Body;
+use super::range::believable;
 use crate::furniture::{FAMILIES, Family};
 use enfilade_math::{Rng, Vec3};
 use std::collections::BTreeMap;
@@ -142,5 +142,10 @@ fn misfit(model: &Model, ranges: &BTreeMap<&'static str, [Vec3; 2]>) -> String {
     if expected.is_empty() {
         return format!("{file}: its name does not tell what it is; give it a family or class in assets.toml");
     }
-    format!("{file}: {} fits none of: {}{}", measures(model.size), expected.join("; "), if model.shines { "" } else { " (it gives no light)" })
+    format!(
+        "{file}: {} fits none of: {}{}",
+        measures(model.size),
+        expected.join("; "),
+        if model.shines { "" } else { " (it gives no light)" }
+    )
 }

@@ -19,9 +19,7 @@ pub fn believable(family: &Family) -> [Vec3; 2] {
     let sizes = (0..SAMPLES).map(|seed| (family.random)(&mut Rng::new(seed)).size());
     let (low, high) = sizes.fold((Vec3::INFINITY, Vec3::ZERO), |(low, high), size| (low.min(size), high.max(size)));
     let [narrow, wide] = match family.place {
-        Place::AgainstWall | Place::Free | Place::Corner => {
-            [0, 1].map(|k| Vec3::new(ACROSS[k], ACROSS[k], HEIGHT[k]))
-        }
+        Place::AgainstWall | Place::Free | Place::Corner => [0, 1].map(|k| Vec3::new(ACROSS[k], ACROSS[k], HEIGHT[k])),
         Place::OnWall | Place::Ceiling | Place::OnSurface | Place::Underfoot => SMALL.map(Vec3::splat),
     };
     // What hangs flat on a wall or lies flat on the floor may be as thin as it likes.

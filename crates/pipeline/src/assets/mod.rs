@@ -8,6 +8,8 @@ mod gltf;
 mod properties;
 mod sweethome;
 mod table;
+#[cfg(test)]
+mod tests;
 
 use crate::error::Error;
 use enfilade_home::assets::{Library, Model};
@@ -64,7 +66,10 @@ fn name_in(root: &Path, file: &Path) -> String {
 /// All files below `root`, or `root` itself if it is one, by name; hidden ones are left out.
 fn walk(root: &Path) -> Result<Vec<PathBuf>, Error> {
     let kind = std::fs::metadata(root).map_err(|error| {
-        Error::usage(format!("there is no library of models at {} ({error})", root.display()), "name a folder of glTF files, or a .sh3f file, in `assets`")
+        Error::usage(
+            format!("there is no library of models at {} ({error})", root.display()),
+            "name a folder of glTF files, or a .sh3f file, in `assets`",
+        )
     })?;
     if kind.is_file() {
         return Ok(vec![root.into()]);
@@ -126,9 +131,8 @@ fn listed(lines: &[String]) -> String {
 /// The models of one library.
 fn of_root(root: &Path, allow_broken: bool, cx: &dyn Cx) -> Result<Vec<Model>, Error> {
     let files = walk(root)?;
-    let is = |path: &Path, extensions: &[&str]| {
-        path.extension().is_some_and(|found| extensions.iter().any(|e| found.eq_ignore_ascii_case(e)))
-    };
+    let is =
+        |path: &Path, extensions: &[&str]| path.extension().is_some_and(|found| extensions.iter().any(|e| found.eq_ignore_ascii_case(e)));
     let scenes: Vec<(String, PathBuf)> =
         files.iter().filter(|path| is(path, &["gltf", "glb"])).map(|path| (name_in(root, path), path.clone())).collect();
     let catalogues: Vec<&PathBuf> = files.iter().filter(|path| is(path, &["sh3f"])).collect();

@@ -146,7 +146,8 @@ impl Table {
         for (name, entry) in &document.models {
             let refuse = |problem: String, hint: String| Err(Error::usage(format!("{at}: model {name:?}: {problem}"), hint));
             if whole && !models.contains(&name.as_str()) {
-                let hint = closest(name, models).map_or("write its path from assets.toml, with /".into(), |near| format!("did you mean {near:?}?"));
+                let hint = closest(name, models)
+                    .map_or("write its path from assets.toml, with /".into(), |near| format!("did you mean {near:?}?"));
                 return refuse("there is no such model".into(), hint);
             }
             if let Some((problem, hint)) = entry.problem() {
@@ -224,7 +225,8 @@ mod tests {
 
     #[test]
     fn entries_say_what_a_model_is_and_defaults_hold_for_the_others() {
-        let table = read("licence = \"CC0\"\nfront = \"-x\"\n[models.\"a.glb\"]\nclass = \"sofa\"\nfront = \"+x\"\nsize = [2, 1, 0.8]\n").unwrap();
+        let table =
+            read("licence = \"CC0\"\nfront = \"-x\"\n[models.\"a.glb\"]\nclass = \"sofa\"\nfront = \"+x\"\nsize = [2, 1, 0.8]\n").unwrap();
         let a = table.of("a.glb");
         assert!(a.families_or("chair").contains(&"sofa") && a.front == Front::X && a.size == Some(Vec3::new(2.0, 1.0, 0.8)));
         let other = table.of("stool.gltf");
