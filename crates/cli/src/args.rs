@@ -203,7 +203,7 @@ pub struct RenderFlags {
 /// `home`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  enfilade home --seed 7\n  enfilade home --rooms living,kitchen,bedroom,bathroom,hall --seed 7 -o home.scene\n\n\
+    after_help = "Examples:\n  enfilade home --seed 7\n  enfilade home --rooms living,kitchen,bedroom,bathroom,hall --seed 7 -o home.scene\n  enfilade home --assets furniture/ --seed 7\n\n\
     Rooms: living, kitchen, dining, bedroom, childrens, study, bathroom, toilet, hall, laundry; each may come several times.\n\
     The labels are in the file. In a dataset, home = { seed = 7, rooms = [...] } does the same."
 )]
@@ -235,6 +235,15 @@ pub struct HomeArgs {
     /// Density of small things: 0 has none, 1 is a home that is lived in, 2 is untidy
     #[arg(long, default_value_t = 1.0, value_name = "X")]
     pub clutter: f32,
+    /// Folders of glTF models, or furniture of Sweet Home 3D (.sh3f), to take in place of our own furniture where a model fits
+    #[arg(long, value_name = "FOLDER|FILE", value_delimiter = ',')]
+    pub assets: Vec<String>,
+    /// Share of the things for which a model fits that are models
+    #[arg(long, default_value_t = 1.0, value_name = "SHARE")]
+    pub assets_share: f32,
+    /// Go on with our own furniture where a model is broken
+    #[arg(long)]
+    pub allow_broken_assets: bool,
     /// The scene package (.scene) or binary glTF (.glb) to write, labels included
     #[arg(short, long, value_name = "FILE", default_value = "home.scene")]
     pub output: PathBuf,

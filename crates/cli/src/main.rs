@@ -39,7 +39,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
     match &cli.verb {
         Verb::Run(args) => verbs::run(args, cli.quiet),
         Verb::Import(args) => scene_files::import(args, cli.quiet),
-        Verb::Home(args) => scene_files::home(args),
+        Verb::Home(args) => scene_files::home(args, cli.quiet),
         Verb::Carve(args) => verbs::stage(args, enfilade_pipeline::Stage::Carve, cli.quiet),
         Verb::Plan(args) => verbs::plan(args, cli.quiet),
         Verb::Gate(args) => verbs::stage(args, enfilade_pipeline::Stage::Gate, cli.quiet),

@@ -44,7 +44,7 @@ pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
 }
 
 /// `home`: a furnished home of a seed.
-pub fn home(args: &HomeArgs) -> Result<Verdict, Problem> {
+pub fn home(args: &HomeArgs, quiet: bool) -> Result<Verdict, Problem> {
     let config = HomeConfig {
         seed: args.seed,
         rooms: args.rooms.clone(),
@@ -55,14 +55,22 @@ pub fn home(args: &HomeArgs) -> Result<Verdict, Problem> {
         light: args.light,
         moment: args.moment.map(MomentArg::moment),
         clutter: args.clutter,
+        assets: args.assets.clone(),
+        assets_share: args.assets_share,
+        allow_broken_assets: args.allow_broken_assets,
     };
     if let Some(problem) = config.problem() {
         return Err(Problem::new(problem, "see enfilade home --help"));
     }
-    let made = enfilade_pipeline::make_home(&config, &args.output, scene_encoder(&args.output)?)?;
+    let encode = scene_encoder(&args.output)?;
+    let name = args.output.display().to_string();
+    let progress = Progress::new(quiet);
+    let made = enfilade_pipeline::make_home(&config, &args.output, encode, &progress.cx(&name, Stage::Import))?;
+    drop(progress);
     say(&made.summary);
     say(&format!("rooms    {}", made.rooms));
     made.lost.iter().for_each(|lost| say(&format!("lost     {lost}")));
+    made.credits.iter().for_each(|credit| say(&format!("model    {credit}")));
     say(&format!("scene    {}", args.output.display()));
     Ok(Verdict::Done)
 }

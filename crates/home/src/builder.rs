@@ -1,12 +1,14 @@
 //! Puts parts, labels and materials together into a scene.
 
+use crate::assets::{Body, Model, shifted};
 use crate::light::Glow;
 use crate::materials::{Materials, Surfacing};
 use crate::palette::Palette;
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, DVec3};
+use enfilade_math::{DAffine3, DVec3, Rgb};
 use enfilade_scene::{Image, Labels, Material, Part, PartLabel, Scene};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The NYU40 classes that a home has; the number is the class's id.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,6 +72,17 @@ pub struct Builder {
     labels: Labels,
     families: BTreeMap<String, u32>,
     instances: i16,
+    /// What models of a library have become, by their numbers.
+    loaned: BTreeMap<usize, Arc<Loaned>>,
+    /// The models that objects are, by the objects' names.
+    models: BTreeMap<String, Arc<Model>>,
+}
+
+/// Where a model's meshes and materials are in the scene.
+#[derive(Debug)]
+pub(crate) struct Loaned {
+    pub meshes: Vec<u32>,
+    pub materials: Vec<u32>,
 }
 
 /// The pose at (x, y, z), turned by `yaw` radians about the vertical.
@@ -80,7 +93,15 @@ pub fn pose(x: f64, y: f64, z: f64, yaw: f64) -> DAffine3 {
 impl Builder {
     /// Nothing yet; finishes become materials when they are first used.
     pub fn new(materials: Materials) -> Self {
-        Self { materials, scene: Scene::default(), labels: Labels::default(), families: BTreeMap::new(), instances: 0 }
+        Self {
+            materials,
+            scene: Scene::default(),
+            labels: Labels::default(),
+            families: BTreeMap::new(),
+            instances: 0,
+            loaned: BTreeMap::new(),
+            models: BTreeMap::new(),
+        }
     }
 
     /// What is added from now on has the colours of `palette`.
@@ -117,9 +138,39 @@ impl Builder {
             Surfacing::Own(material) => material,
         };
         let mesh = self.mesh(mesh);
-        let world_from_mesh = object.pose * object_from_mesh;
+        self.push(object, name, mesh, material, object.pose * object_from_mesh);
+    }
+
+    fn push(&mut self, object: &Object, name: &str, mesh: u32, material: u32, world_from_mesh: DAffine3) {
         self.scene.parts.push(Part { name: format!("{}/{name}", object.name), mesh, material, world_from_mesh });
         self.labels.parts.push(object.label);
+    }
+
+    /// Notes that `object` is a model, the one of this number, and adds what it needs, once. Only lamps give off light, and these by
+    /// [`Builder::glow`].
+    pub(crate) fn loan(&mut self, object: &Object, number: usize, model: &Arc<Model>, body: &Body) -> Arc<Loaned> {
+        self.models.insert(object.name.clone(), Arc::clone(model));
+        if let Some(known) = self.loaned.get(&number) {
+            return Arc::clone(known);
+        }
+        let first_image = self.scene.images.len() as u32;
+        self.scene.images.extend(body.images.iter().cloned());
+        let dark = |m: &Material| Material { emission: Rgb::BLACK.into(), ..m.clone() };
+        let materials = body.materials.iter().map(|m| self.material(shifted(dark(m), first_image))).collect();
+        let meshes = body.parts.iter().map(|part| self.mesh(part.mesh.clone())).collect();
+        let loaned = Arc::new(Loaned { meshes, materials });
+        self.loaned.insert(number, Arc::clone(&loaned));
+        loaned
+    }
+
+    /// Adds a part of `object` whose mesh and material are there.
+    pub(crate) fn loaned_part(&mut self, object: &Object, name: &str, mesh: u32, material: u32) {
+        self.push(object, name, mesh, material, object.pose);
+    }
+
+    /// The models that objects are, by the objects' names.
+    pub fn models(&self) -> &BTreeMap<String, Arc<Model>> {
+        &self.models
     }
 
     /// Adds a luminous part of a lamp: its flux and its mesh's area give its radiance, the light of the home whether it is lit.

@@ -29,6 +29,21 @@ pub struct HomeConfig {
     pub moment: Option<Moment>,
     /// Density of small things on surfaces: 0 has none, 1 is a home that is lived in, 2 is untidy.
     pub clutter: f32,
+    /// Folders and files of models that stand in for our own furniture, as written; who calls reads them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub assets: Vec<String>,
+    /// Share of the things for which a model fits that are models.
+    #[serde(skip_serializing_if = "is_one")]
+    pub assets_share: f32,
+    /// Goes on with our own furniture, and a warning, where a model is broken.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub allow_broken_assets: bool,
+}
+
+/// True for the default, which is not written: what does without models is then as it was before there were any.
+#[allow(clippy::trivially_copy_pass_by_ref)] // as serde wants it
+fn is_one(share: &f32) -> bool {
+    *share == 1.0
 }
 
 impl Default for HomeConfig {
@@ -43,6 +58,9 @@ impl Default for HomeConfig {
             light: None,
             moment: None,
             clutter: 1.0,
+            assets: Vec::new(),
+            assets_share: 1.0,
+            allow_broken_assets: false,
         }
     }
 }
@@ -66,6 +84,9 @@ impl HomeConfig {
         }
         if !(0.0..=1.0).contains(&self.realism) {
             return Some(format!("realism must lie between 0 and 1, found {}", self.realism));
+        }
+        if !(0.0..=1.0).contains(&self.assets_share) {
+            return Some(format!("assets_share must lie between 0 and 1, found {}", self.assets_share));
         }
         None
     }

@@ -4,8 +4,9 @@
 //! [`materials`] and [`palette`] say what things are made of; [`furniture`] has one file per family of things; [`plan`] lays out
 //! rooms, [`room`] and [`shell`] are their walls; [`place`] decides what fits where, [`rooms`] says what each kind of room holds,
 //! [`builder`] names, labels and collects the parts. What [`check`] would find wrong is moved to where it is carried and free, and taken
-//! away where it cannot be.
+//! away where it cannot be. [`assets`] are models of others, that may stand in for our furniture.
 
+pub mod assets;
 pub mod builder;
 mod cameras;
 pub mod check;
@@ -28,6 +29,7 @@ pub use config::HomeConfig;
 pub use plan::{FloorPlan, RoomKind};
 pub use settle::{Removal, Shift};
 
+use assets::{Library, Model};
 use builder::Builder;
 use enfilade_math::{Rng, Vec2};
 use enfilade_scene::{Labels, Scene};
@@ -35,6 +37,8 @@ use light::{LightConfig, Moment};
 use materials::Materials;
 use palette::DecorConfig;
 use room::Wall;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// A home and what its parts are called.
 #[derive(Clone, Debug)]
@@ -49,22 +53,40 @@ pub struct Home {
     pub removed: Vec<Removal>,
     /// What was moved a little so that it could stay.
     pub moved: Vec<Shift>,
+    /// The models of others that are in it, with the files that they come from and their licences; sorted, each once.
+    pub credits: Vec<String>,
 }
 
-/// A furnished home in the light of a moment.
+/// A furnished home in the light of a moment, of nothing but our own things.
 pub fn home(config: &HomeConfig) -> Home {
+    home_with(config, &Library::default())
+}
+
+/// A furnished home with models of `library`: those that [`HomeConfig::assets`] names, which who calls has read.
+///
+/// What [`Library::broken`] tells afterwards was wanted, and replaced by our own.
+pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
     let kinds = config.programme();
     let plan = FloorPlan::new(&kinds, &config.stream(config.layout, 1));
     let light = light(&plan, config, &config.stream(config.light, 4));
     let decor = DecorConfig { seed: config.materials.unwrap_or(config.seed), realism: config.realism };
     let mut builder = Builder::new(Materials::new(decor.palette(), light, decor.pictures()));
-    rooms::furnish(&mut builder, &plan, &decor, config);
+    rooms::furnish(&mut builder, &plan, &decor, config, library);
+    let models = builder.models().clone();
     let (scene, labels) = builder.finish();
-    let mut home = Home { scene, labels, plan, removed: Vec::new(), moved: Vec::new() };
+    let mut home = Home { scene, labels, plan, removed: Vec::new(), moved: Vec::new(), credits: Vec::new() };
     settle::settle(&mut home);
+    home.credits = credits(&home.scene, &models);
     light.illuminate(&mut home.scene, &outlooks(&home.plan));
     home.scene.cameras = cameras::cameras(&home.scene, &home.labels, &home.plan);
     home
+}
+
+/// The models that are still there.
+fn credits(scene: &Scene, models: &BTreeMap<String, Arc<Model>>) -> Vec<String> {
+    let used = scene.parts.iter().filter_map(|part| models.get(check::object_of(&part.name)));
+    let lines: BTreeSet<String> = used.map(|model| format!("{} ({}): {}", model.name, model.file, model.licence)).collect();
+    lines.into_iter().collect()
 }
 
 /// The light of a home: by day its sun stands before the largest window of the first room that has one.

@@ -4,6 +4,7 @@
 //! depends on has changed, so that a second run does nothing and a killed run goes on where it was. This is the only crate below
 //! the command line that reads clocks and the environment.
 
+mod assets;
 mod config;
 mod error;
 mod forecast;

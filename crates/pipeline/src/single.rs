@@ -1,5 +1,6 @@
 //! `import` of a single file, and a single home, without a dataset.
 
+use crate::assets;
 use crate::config::FileSource;
 use crate::error::Error;
 use crate::stages::{describe, labels_by_part, load_file};
@@ -60,20 +61,23 @@ pub struct MadeHome {
     pub rooms: String,
     /// What the output cannot hold.
     pub lost: Vec<String>,
+    /// The models of others that are in it, with their licences.
+    pub credits: Vec<String>,
 }
 
 /// Makes a home and writes it to `output`, as `encode` gives its bytes (see [`import_file`]); its labels are all there.
 ///
 /// # Errors
-/// When the file cannot be written.
+/// When a library of models cannot be used (see [`HomeConfig::assets`], here paths as they stand), or the file cannot be written.
 pub fn make_home(
     config: &HomeConfig,
     output: &Path,
     encode: impl FnOnce(&Scene, Option<&Labels>) -> (Vec<u8>, Vec<String>),
+    cx: &dyn Cx,
 ) -> Result<MadeHome, Error> {
-    let home = enfilade_home::home(config);
+    let home = assets::home(config, &|path| Ok(path.into()), cx)?;
     let (bytes, lost) = encode(&home.scene, Some(&home.labels));
     write_whole(output, &bytes)?;
     let rooms = home.plan.rooms.iter().map(|room| format!("{} {:.1} m2", room.kind.name(), room.size.x * room.size.y));
-    Ok(MadeHome { summary: describe(&home.scene), rooms: rooms.collect::<Vec<_>>().join(", "), lost })
+    Ok(MadeHome { summary: describe(&home.scene), rooms: rooms.collect::<Vec<_>>().join(", "), lost, credits: home.credits })
 }

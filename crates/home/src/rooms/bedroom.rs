@@ -9,6 +9,8 @@ use enfilade_math::Vec2;
 
 /// Between a bed and what stands beside it.
 const BESIDE: f32 = 0.04;
+/// Beds for as many sleepers differ less in width.
+const WIDTHS: f32 = 0.25;
 
 /// Furnishes the room.
 pub fn furnish(f: &mut Furnisher) {
@@ -31,7 +33,10 @@ pub fn furnish(f: &mut Furnisher) {
 pub fn bed(f: &mut Furnisher, sleepers: usize) -> bool {
     let stand = f.any("nightstand");
     for _ in 0..3 {
-        let bed = Bed::for_sleepers(sleepers, &mut f.rng);
+        let own = Bed::for_sleepers(sleepers, &mut f.rng);
+        let width = own.size().x;
+        let model = f.borrow("bed", &own, |size| (size.x - width).abs() < WIDTHS);
+        let bed: &dyn Furniture = model.as_ref().map_or(&own, |model| model);
         for sides in [&[-1.0f32, 1.0][..], &[1.0], &[-1.0], &[]] {
             if sides.len() > sleepers {
                 continue;
@@ -53,7 +58,7 @@ pub fn bed(f: &mut Furnisher, sleepers: usize) -> bool {
                 if sleepers == 1 { floor.to_corner(s) + windows(floor, s) - 0.5 * s.x.abs() } else { windows(floor, s) }
             };
             let Some((spot, poses)) = f.floor.place(&group, spots, cost) else { continue };
-            f.build(&bed, poses[0]);
+            f.build(bed, poses[0]);
             f.accent = spot.wall;
             if let Some(stand) = &stand {
                 for pose in &poses[1..] {
@@ -72,7 +77,8 @@ pub fn bed(f: &mut Furnisher, sleepers: usize) -> bool {
 /// A lamp, and what people read.
 fn bedside(f: &mut Furnisher, stand: &dyn Furniture, pose: enfilade_math::DAffine3) {
     let surfaces = stand.surfaces();
-    let mut things: Vec<Box<dyn Furniture>> = vec![Box::new(TableLamp::random(&mut f.rng))];
+    let own = TableLamp::random(&mut f.rng);
+    let mut things: Vec<Box<dyn Furniture>> = vec![f.or_borrowed("table_lamp", own)];
     for family in ["books", "glass", "mug"] {
         if f.chance(0.4) {
             things.extend(f.any(family));

@@ -18,6 +18,8 @@ const BLINDS: u64 = 0xb11d;
 const PENDANT_RIM: f32 = 2.05;
 /// What is higher is in the way of lamps, but not that doors need their room below.
 const OVERHEAD: f32 = 2.12;
+/// Nothing hangs lower where people walk.
+const HEADS: f32 = 1.98;
 
 impl Furnisher<'_> {
     /// Adds everything of that kind.
@@ -102,8 +104,9 @@ impl Furnisher<'_> {
 
     /// A flat lamp of opal glass under the ceiling, for low or wet rooms.
     pub fn dome(&mut self) {
-        let lamp = CeilingDome { radius: self.rng.range(0.14, 0.2) };
-        self.above(self.room.center, &lamp);
+        let own = CeilingDome { radius: self.rng.range(0.14, 0.2) };
+        let lamp = self.or_borrowed("ceiling_lamp", own);
+        self.above(self.room.center, lamp.as_ref());
     }
 
     /// Hangs a lamp in the middle of the room, above people's heads, unless one hangs over a table there.
@@ -115,8 +118,13 @@ impl Furnisher<'_> {
         let most = self.room.size.z - PENDANT_RIM;
         let other = CeilingLamp::random(&mut self.rng);
         let pendant = Pendant { drop: most, radius: self.rng.range(0.16, 0.21), ..Pendant::random(&mut self.rng) };
-        let lamp: &dyn Furniture = if other.size().z <= most { &other } else { &pendant };
-        self.above(self.room.center, lamp);
+        let highest = self.room.size.z - HEADS;
+        let mut model = self.borrow("pendant", &pendant, |size| size.z < highest);
+        if model.is_none() {
+            model = self.borrow("ceiling_lamp", &pendant, |size| size.z < highest);
+        }
+        let own: &dyn Furniture = if other.size().z <= most { &other } else { &pendant };
+        self.above(self.room.center, model.as_ref().map_or(own, |model| model));
     }
 
     /// Hangs a lamp from the ceiling over a point of the floor.

@@ -1,7 +1,8 @@
 //! The hand that furnishes a room: it finds a place for a thing, and builds the thing there.
 
+use crate::assets::{Borrowed, Library};
 use crate::builder::Builder;
-use crate::furniture::{FAMILIES, Furniture, PictureOnWall, Place, Rug, Surface, family_named, on};
+use crate::furniture::{FAMILIES, Family, Furniture, PictureOnWall, Place, Rug, Surface, family_named, on};
 use crate::palette::Palette;
 use crate::place::{Floor, Piece, Spot, settle};
 use crate::plan::{FloorPlan, RoomKind};
@@ -18,6 +19,8 @@ pub struct Furnisher<'a> {
     pub room: &'a Room,
     /// The home's colours.
     pub palette: &'a Palette,
+    /// Models of others.
+    pub library: &'a Library,
     /// What stands where.
     pub floor: Floor,
     /// Density of small things.
@@ -56,9 +59,18 @@ pub struct Standing {
 
 impl<'a> Furnisher<'a> {
     /// An empty room.
-    pub fn new(b: &'a mut Builder, plan: &'a FloorPlan, room: &'a Room, palette: &'a Palette, clutter: f32, rng: Rng) -> Self {
+    pub fn new(
+        b: &'a mut Builder,
+        plan: &'a FloorPlan,
+        room: &'a Room,
+        palette: &'a Palette,
+        library: &'a Library,
+        clutter: f32,
+        rng: Rng,
+    ) -> Self {
         let floor = Floor::new(room);
-        Self { b, plan, room, palette, floor, clutter, rng, accent: None, known: Vec::new(), built_in: Vec::new(), plugs: Vec::new() }
+        let (known, built_in, plugs) = (Vec::new(), Vec::new(), Vec::new());
+        Self { b, plan, room, palette, library, floor, clutter, rng, accent: None, known, built_in, plugs }
     }
 
     /// True with this probability.
@@ -76,11 +88,34 @@ impl<'a> Furnisher<'a> {
         thing.build(self.b, pose, &mut self.rng);
     }
 
-    /// One variant of a family.
+    /// One variant of a family, or a model of the library.
     pub fn any(&mut self, family: &str) -> Option<Box<dyn Furniture>> {
         let family = family_named(family)?;
         self.known.push(family.name);
-        Some((family.random)(&mut self.rng))
+        Some(self.variant(family))
+    }
+
+    fn variant(&mut self, family: &'static Family) -> Box<dyn Furniture> {
+        let own = (family.random)(&mut self.rng);
+        match self.borrow(family.name, own.as_ref(), |_| true) {
+            Some(model) => Box::new(model),
+            None => own,
+        }
+    }
+
+    /// A model of the library that stands in for `own`, if there is one of a size that `fits`.
+    pub fn borrow(&mut self, family: &str, own: &dyn Furniture, fits: impl Fn(Vec3) -> bool) -> Option<Borrowed> {
+        let family = family_named(family)?;
+        let (number, model) = self.library.pick(family, fits, &mut self.rng)?;
+        Some(Borrowed { number, model, family, reach: own.reach() })
+    }
+
+    /// `own`, or a model of the library in its place.
+    pub fn or_borrowed(&mut self, family: &str, own: impl Furniture + 'static) -> Box<dyn Furniture> {
+        match self.borrow(family, &own, |_| true) {
+            Some(model) => Box::new(model),
+            None => Box::new(own),
+        }
     }
 
     /// Stands one of a family with its back to the wall where `cost` is least, and lets small things gather on it.
@@ -110,7 +145,12 @@ impl<'a> Furnisher<'a> {
         if fitting.is_empty() {
             return;
         }
-        let things: Vec<Box<dyn Furniture>> = (0..count).map(|_| (fitting[self.rng.below(fitting.len())].random)(&mut self.rng)).collect();
+        let things: Vec<Box<dyn Furniture>> = (0..count)
+            .map(|_| {
+                let family = fitting[self.rng.below(fitting.len())];
+                self.variant(family)
+            })
+            .collect();
         self.settle(surfaces, pose, &things);
     }
 
@@ -128,7 +168,8 @@ impl<'a> Furnisher<'a> {
         let mut walls = Wall::ALL.to_vec();
         for _ in 0..1 + self.rng.below(most.max(1)) {
             let picture = PictureOnWall { palette: *self.palette, ..PictureOnWall::random(&mut self.rng) };
-            if let Some(wall) = self.hang(&picture, EYE, &walls, &cost) {
+            let picture = self.or_borrowed("picture", picture);
+            if let Some(wall) = self.hang(picture.as_ref(), EYE, &walls, &cost) {
                 walls.retain(|w| *w != wall);
             }
         }

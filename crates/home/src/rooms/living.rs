@@ -39,7 +39,9 @@ pub fn furnish(f: &mut Furnisher) {
 fn seating(f: &mut Furnisher) -> Option<Standing> {
     let model = ["sofa", "sofa", "sofa", "chesterfield", "day_bed"][f.rng.below(5)];
     let sofa = f.any(model)?;
-    let table = CoffeeTable::random(&mut f.rng);
+    let own = CoffeeTable::random(&mut f.rng);
+    let model = f.borrow("coffee_table", &own, |_| true);
+    let table: &dyn Furniture = model.as_ref().map_or(&own, |model| model);
     let bench = TelevisionBench::random(&mut f.rng);
     let rug = Rug { size: Vec2::new(f.rng.range(2.1, 2.4), f.rng.range(1.4, 1.5)) };
     let mut walls = Wall::ALL.map(|wall| (wall_cost(f, wall) + f.rng.range(0.0, 0.6), wall));
@@ -63,8 +65,11 @@ fn seating(f: &mut Furnisher) -> Option<Standing> {
                 f.build(&rug, poses[1] * DAffine3::from_rotation_z(f64::from(f.rng.clone().range(-0.015, 0.015))));
                 if with_table {
                     let pose = on(poses[2], Vec3::new(0.0, 0.0, Rug::TOP), f.rng.range(-0.02, 0.02));
-                    f.build(&table, pose);
-                    on_coffee_table(f, &table, pose);
+                    f.build(table, pose);
+                    match &model {
+                        Some(model) => f.litter(&model.surfaces(), pose, 1.0),
+                        None => on_coffee_table(f, &own, pose),
+                    }
                 }
                 if with_screen {
                     let pose = poses[poses.len() - 1];
@@ -128,31 +133,41 @@ fn on_bench(f: &mut Furnisher, bench: &TelevisionBench, pose: DAffine3) {
 fn beside_sofa(f: &mut Furnisher, sofa: &Standing) {
     let Some(wall) = sofa.spot.wall else { return };
     let (x, end) = (sofa.spot.x, 0.5 * sofa.size.x);
-    let table = SideTable::random(&mut f.rng);
+    let own = SideTable::random(&mut f.rng);
+    let model = f.borrow("side_table", &own, |_| true);
+    let table: &dyn Furniture = model.as_ref().map_or(&own, |model| model);
     let near = move |s: &Spot, reach: f32| {
         let gap = (s.x - x).abs() - end - reach;
         if !(0.0..=0.35).contains(&gap) { f32::INFINITY } else { gap }
     };
-    let reach = 0.5 * table.diameter + 0.04;
-    let spots = f.floor.along(wall, table.diameter);
-    if let Some(found) = f.stand_at(&table, spots, |_, s| near(s, reach)) {
+    let width = table.size().x;
+    let reach = 0.5 * width + 0.04;
+    let spots = f.floor.along(wall, width);
+    if let Some(found) = f.stand_at(table, spots, |_, s| near(s, reach)) {
         let lamp = TableLamp::random(&mut f.rng);
-        f.build(&lamp, on(found.pose, Vec3::new(0.0, -0.05, table.height), 0.0));
-        let turn = f.rng.range(0.0, 6.0);
-        f.build(&Mug, on(found.pose, Vec3::new(0.09, 0.11, table.height), turn));
+        let lamp = f.or_borrowed("table_lamp", lamp);
+        if let Some(model) = &model {
+            f.settle(&model.surfaces(), found.pose, &[lamp]);
+        } else {
+            f.build(lamp.as_ref(), on(found.pose, Vec3::new(0.0, -0.05, own.height), 0.0));
+            let turn = f.rng.range(0.0, 6.0);
+            f.build(&Mug, on(found.pose, Vec3::new(0.09, 0.11, own.height), turn));
+        }
     }
-    let lamp = FloorLamp::random(&mut f.rng);
+    let own = FloorLamp::random(&mut f.rng);
+    let lamp = f.or_borrowed("floor_lamp", own);
     let reach = 0.5 * lamp.size().x + 0.03;
     let spots = f.floor.along(wall, lamp.size().x);
-    f.stand_at(&lamp, spots, |_, s| near(s, reach));
+    f.stand_at(lamp.as_ref(), spots, |_, s| near(s, reach));
 }
 
 /// An easy chair that looks at the coffee table from the side.
 fn armchair(f: &mut Furnisher, sofa: &Standing) {
-    let chair = Armchair::random(&mut f.rng);
+    let own = Armchair::random(&mut f.rng);
+    let chair = f.or_borrowed("armchair", own);
     let target = sofa.spot.point(Vec2::new(0.0, sofa.size.y + 0.7));
     let yaws: Vec<f32> = (0..16).map(|k| k as f32 * PI / 8.0).collect();
-    f.stand_free(&chair, &yaws, |floor, s| {
+    f.stand_free(chair.as_ref(), &yaws, |floor, s| {
         let to = target - s.origin;
         let (distance, turn) = (to.length(), to.normalize_or(Vec2::X).dot(s.front()));
         let side = (s.origin - sofa.spot.origin).dot(sofa.spot.front());
@@ -164,18 +179,25 @@ fn armchair(f: &mut Furnisher, sofa: &Standing) {
 }
 
 fn bookshelf(f: &mut Furnisher) {
-    let shelf = Bookshelf::random(&mut f.rng);
-    f.stand(&shelf, |floor, s| floor.to_corner(s) + 0.4 * (2.0 - floor.to_way(s.origin)).max(0.0));
+    let own = Bookshelf::random(&mut f.rng);
+    let model = f.borrow("bookshelf", &own, |_| true);
+    let shelf: &dyn Furniture = model.as_ref().map_or(&own, |model| model);
+    let found = f.stand(shelf, |floor, s| floor.to_corner(s) + 0.4 * (2.0 - floor.to_way(s.origin)).max(0.0));
+    if let (Some(found), Some(model)) = (found, &model) {
+        f.litter(&model.surfaces(), found.pose, 1.0);
+    }
 }
 
 fn plant(f: &mut Furnisher) {
-    let plant = Plant::tall(&mut f.rng);
-    f.stand(&plant, |floor, s| 1.5 * floor.to_corner(s) + 0.5 * floor.to_window(s.origin));
+    let own = Plant::tall(&mut f.rng);
+    let plant = f.or_borrowed("plant", own);
+    f.stand(plant.as_ref(), |floor, s| 1.5 * floor.to_corner(s) + 0.5 * floor.to_window(s.origin));
 }
 
 fn basket(f: &mut Furnisher) {
-    let basket = Basket { radius: f.rng.range(0.19, 0.22) };
-    f.stand(&basket, |floor, s| floor.to_corner(s) + floor.to_way(s.origin) * 0.1);
+    let own = Basket { radius: f.rng.range(0.19, 0.22) };
+    let basket = f.or_borrowed("basket", own);
+    f.stand(basket.as_ref(), |floor, s| floor.to_corner(s) + floor.to_way(s.origin) * 0.1);
 }
 
 fn pictures(f: &mut Furnisher, sofa: &Standing) {

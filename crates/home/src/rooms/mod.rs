@@ -19,20 +19,21 @@ mod wishes;
 pub use furnisher::Furnisher;
 
 use crate::HomeConfig;
+use crate::assets::Library;
 use crate::builder::Builder;
 use crate::palette::DecorConfig;
 use crate::plan::{FloorPlan, RoomKind};
 use crate::shell::{self, ShellFinish};
 
 /// Builds all rooms of a home and what is in them.
-pub fn furnish(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &HomeConfig) {
+pub fn furnish(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &HomeConfig, library: &Library) {
     let furniture = config.stream(config.furniture, 3);
     let (shape, look) = (config.stream(config.layout, 5), config.stream(config.materials, 6));
     let home = decor.palette();
     for (i, room) in plan.rooms.iter().enumerate() {
         let palette = decor.room(&home, i as u64);
         b.enter_room(palette);
-        let mut f = Furnisher::new(b, plan, room, &palette, config.clutter, furniture.fork(i as u64));
+        let mut f = Furnisher::new(b, plan, room, &palette, library, config.clutter, furniture.fork(i as u64));
         f.fittings();
         content(&mut f);
         f.extras();

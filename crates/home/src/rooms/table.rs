@@ -1,6 +1,7 @@
 //! A table with chairs around it.
 
 use super::Furnisher;
+use crate::assets::Borrowed;
 use crate::builder;
 use crate::furniture::dining::LongTable;
 use crate::furniture::living::CeilingLamp;
@@ -15,6 +16,11 @@ const LAMP: f32 = 1.5;
 const SEAT: [f32; 2] = [0.17, 0.08];
 /// Floor behind a chair for getting up.
 const BEHIND: f32 = 0.30;
+
+/// Between the edge of a table and the box of a chair, where one of them is a model: what is free below its top is not known.
+const APART: f32 = 0.03;
+/// The families of chairs, as [`chair`] numbers them.
+const CHAIRS: [&str; 4] = ["chair", "spindle_chair", "shell_chair", "upholstered_chair"];
 
 /// Chairs of one family.
 fn chair(family: usize, rng: &mut Rng) -> Box<dyn Furniture> {
@@ -31,6 +37,8 @@ fn chair(family: usize, rng: &mut Rng) -> Box<dyn Furniture> {
 enum Table {
     Long(LongTable),
     Small(DiningTable),
+    /// A model, and who sits there.
+    Model(Borrowed, Vec<(Vec2, Vec2)>),
 }
 
 impl Table {
@@ -38,6 +46,7 @@ impl Table {
         match self {
             Self::Long(table) => table,
             Self::Small(table) => table,
+            Self::Model(table, _) => table,
         }
     }
 
@@ -48,6 +57,7 @@ impl Table {
                 let half = 0.5 * table.width;
                 (0..4).map(|k| Vec2::from_angle(TAU * k as f32 / 4.0)).map(|d| (d * half, -d)).collect()
             }
+            Self::Model(_, seats) => seats.clone(),
         }
     }
 }
@@ -61,11 +71,17 @@ impl Furnisher<'_> {
             tables.extend((0..5).map(|_| Table::Long(LongTable::random(&mut self.rng))));
         }
         tables.retain(|table| seats[1] >= 4 && table.seats().len() <= seats[1].max(4));
-        tables.sort_by_key(|table| std::cmp::Reverse(table.seats().len()));
-        let model = chair(family, &mut self.rng);
-        for table in tables {
+        let own = chair(family, &mut self.rng);
+        let model = self.borrow(CHAIRS[family], own.as_ref(), |_| true);
+        let apart = model.is_some();
+        let chair: &dyn Furniture = model.as_ref().map_or(own.as_ref(), |model| model);
+        let mut models = self.borrowed_tables(seats[1].max(4));
+        for tables in [&mut models, &mut tables] {
+            tables.sort_by_key(|table| std::cmp::Reverse(table.seats().len()));
+        }
+        for table in models.into_iter().chain(tables) {
             for taken in [table.seats().len(), table.seats().len() / 2] {
-                if taken >= seats[0] && self.table(&table, taken, model.as_ref(), &cost) {
+                if taken >= seats[0] && self.table(&table, taken, chair, apart, &cost) {
                     return true;
                 }
             }
@@ -73,14 +89,36 @@ impl Furnisher<'_> {
         false
     }
 
-    fn table(&mut self, table: &Table, taken: usize, chair: &dyn Furniture, cost: &impl Fn(&Floor, &Spot) -> f32) -> bool {
+    /// Models of tables for up to so many people, where the library has any.
+    fn borrowed_tables(&mut self, most: usize) -> Vec<Table> {
+        let small = DiningTable::random(&mut self.rng.clone());
+        let long = LongTable::random(&mut self.rng.clone());
+        let mut tables = Vec::new();
+        for _ in 0..3 {
+            if let Some(model) = self.borrow("dining_table", &small, |_| true) {
+                let half = 0.5 * model.size().truncate();
+                let seats = (0..4).map(|k| Vec2::from_angle(TAU * k as f32 / 4.0)).map(|d| (d * half, -d)).collect();
+                tables.push(Table::Model(model, seats));
+            }
+            if let Some(model) = self.borrow("long_table", &long, |_| true) {
+                let (length, width) = (model.size().x, model.size().y);
+                tables.push(Table::Model(model, LongTable { length, width, ..long }.seats()));
+            }
+        }
+        tables.retain(|table| table.seats().len() <= most);
+        tables
+    }
+
+    fn table(&mut self, table: &Table, taken: usize, chair: &dyn Furniture, apart: bool, cost: &impl Fn(&Floor, &Spot) -> f32) -> bool {
         let mut seats = table.seats();
         // Those on one side go last: such a table can stand closer to a wall.
         seats.sort_by(|a, b| a.1.y.total_cmp(&b.1.y));
         seats.truncate(taken);
         let mut group = vec![Piece::standing(table.thing().size(), 0.0).at(0.0, 0.0, 0.0)];
         for (edge, look) in &seats {
-            let out = SEAT[0] + SEAT[1] * self.rng.next_f32();
+            let drawn = SEAT[1] * self.rng.next_f32();
+            let under = !apart && !matches!(table, Table::Model(..));
+            let out = drawn + if under { SEAT[0] } else { 0.5 * chair.size().y + APART };
             let at = *edge - *look * out;
             let yaw = look.y.atan2(look.x) - FRAC_PI_2 + self.rng.range(-0.1, 0.1);
             group.push(Piece::standing(chair.size(), 0.0).at(at.x, at.y, yaw));
@@ -109,11 +147,13 @@ impl Furnisher<'_> {
         let pendant = Pendant { drop, ..Pendant::random(&mut self.rng) };
         let bar = CeilingLamp::Bar(0.6 * table.thing().size().x, drop);
         let cluster = CeilingLamp::Cluster(3);
-        let lamp: &dyn Furniture = match self.rng.below(5) {
+        let own: &dyn Furniture = match self.rng.below(5) {
             0 if table.thing().size().x > 1.3 => &bar,
             1 if cluster.size().z < drop + 0.1 => &cluster,
             _ => &pendant,
         };
+        let model = self.borrow("pendant", &pendant, |size| size.z < drop + 0.1);
+        let lamp: &dyn Furniture = model.as_ref().map_or(own, |model| model);
         let above = builder::pose(f64::from(spot.origin.x), f64::from(spot.origin.y), f64::from(self.room.size.z), f64::from(spot.yaw));
         self.build(lamp, above);
         let around = Footprint { center: spot.origin, half: 0.5 * lamp.size().truncate(), yaw: spot.yaw };

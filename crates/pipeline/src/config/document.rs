@@ -248,6 +248,7 @@ impl Resolver<'_> {
         if let Some(seed) = self.overrides.seed.or((!own).then_some(seed)) {
             home.seed = seed;
         }
+        home.assets.iter().try_for_each(|path| self.check_path(path, keys))?;
         match home.problem() {
             Some(problem) => Err(self.refuse(keys, format!("in `home`: {problem}"), help)),
             None => Ok(home),

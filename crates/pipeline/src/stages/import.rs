@@ -1,10 +1,12 @@
 //! `import`: a scene file, or a generated home, to a scene package, the labels that came with it, and the dataset's scene files.
 
 use super::{Input, Inputs, Job, Outcome, Record};
+use crate::assets;
 use crate::config::{FileSource, Source};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, write_json, write_whole};
+use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, ImportOptions, ImportedLabel};
 use enfilade_scene::{Cx, Labels, PartLabel, Scene, WorldMesh};
 use std::path::{Path, PathBuf};
@@ -13,24 +15,35 @@ use std::path::{Path, PathBuf};
 pub(super) const LABELS: &str = "labels.json";
 
 pub(super) fn settings(job: &Job) -> Hash {
-    Hash::of(&job.scene.source)
+    match &job.scene.source {
+        Source::Home(config) if !config.assets.is_empty() => {
+            Hash::of(&(&job.scene.source, assets::names(config, &|path| job.config.path(path))))
+        }
+        source => Hash::of(source),
+    }
 }
 
 /// The files that the last import read: which these are, only reading tells.
 pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
-    if matches!(job.scene.source, Source::Home(_)) {
-        return Ok(Some(Vec::new()));
+    if let Source::Home(config) = &job.scene.source {
+        return asset_inputs(job, config).map(Some);
     }
     // A file that has gone makes the import run, which then says so.
     Ok(previous.and_then(|record| record.inputs.iter().map(|input| Input::of(&input.path)).collect::<Result<_, _>>().ok()))
+}
+
+/// The files of the libraries that a home takes models of, all of them: which ones it takes, only making it tells.
+fn asset_inputs(job: &Job, config: &HomeConfig) -> Result<Vec<Input>, Error> {
+    assets::files(config, &|path| job.config.path(path))?.iter().map(|path| Input::of(path)).collect()
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
     let (scene, labels, inputs, report) = match &job.scene.source {
         Source::Home(config) => {
-            let home = enfilade_home::home(config);
-            (home.scene, Some(home.labels), Vec::new(), serde_json::Value::Null)
+            let home = assets::home(config, &|path| job.config.path(path), cx)?;
+            let report = if home.credits.is_empty() { serde_json::Value::Null } else { serde_json::json!({ "credits": home.credits }) };
+            (home.scene, Some(home.labels), assets::files(config, &|path| job.config.path(path))?, report)
         }
         Source::File(source) => {
             let imported = load_file(source, &job.config.path(&source.file)?, &|path| job.config.path(path), cx)?;

@@ -1,0 +1,139 @@
+//! A model as a piece of furniture.
+
+use super::{Body, BodyPart, Model};
+use crate::builder::{Builder, Class};
+use crate::furniture::{FAMILIES, Family, Furniture, Place, Surface, family_named};
+use crate::light::Glow;
+use crate::shape::{Reshape, sphere};
+use enfilade_math::{DAffine3, Rng, Vec3};
+use std::sync::Arc;
+
+/// Classes on whose things people put others.
+const CARRY: [Class; 8] =
+    [Class::Table, Class::Desk, Class::Cabinet, Class::Dresser, Class::NightStand, Class::Bookshelf, Class::Shelves, Class::Counter];
+
+/// A model of a library in place of one of our own.
+#[derive(Clone, Debug)]
+pub struct Borrowed {
+    pub(crate) number: usize,
+    pub(crate) model: Arc<Model>,
+    pub(crate) family: &'static Family,
+    /// Free depth before it, as our own wants.
+    pub(crate) reach: f32,
+}
+
+impl Borrowed {
+    /// From the model's space, on whose floor it stands, to that of its place.
+    fn lift(&self) -> Vec3 {
+        let size = self.model.size;
+        match self.family.place {
+            Place::OnWall => Vec3::new(0.0, 0.5 * size.y, -0.5 * size.z),
+            Place::Ceiling => Vec3::new(0.0, 0.0, -size.z),
+            Place::AgainstWall => Vec3::new(0.0, 0.0, self.model.elevation),
+            Place::Free | Place::Corner | Place::OnSurface | Place::Underfoot => Vec3::ZERO,
+        }
+    }
+
+    /// The light of a whole lamp of its family.
+    fn glow(&self) -> Glow {
+        match self.family.place {
+            Place::Ceiling => Glow::CEILING,
+            Place::OnSurface => Glow::SMALL,
+            _ => Glow::BULB,
+        }
+    }
+}
+
+impl Furniture for Borrowed {
+    /// A plain block, for want of a model.
+    fn random(rng: &mut Rng) -> Self {
+        let size = Vec3::new(rng.range(0.3, 0.6), rng.range(0.3, 0.6), rng.range(0.3, 0.6));
+        let family = family_named("storage_box").unwrap_or(&FAMILIES[0]);
+        let model = Model::new("block".into(), size, vec![family.name], Box::new(move || Body::block(size).map(Arc::new)));
+        Self { number: usize::MAX, model: Arc::new(model), family, reach: 0.0 }
+    }
+
+    fn size(&self) -> Vec3 {
+        let lifted = if self.family.place == Place::AgainstWall { self.model.elevation } else { 0.0 };
+        self.model.size + Vec3::new(0.0, 0.0, lifted)
+    }
+
+    fn reach(&self) -> f32 {
+        self.reach
+    }
+
+    fn surfaces(&self) -> Vec<Surface> {
+        let (lift, body) = (self.lift(), self.model.body().ok().filter(|_| CARRY.contains(&self.family.class)));
+        let raised = |s: &Surface| Surface { min: s.min + lift.truncate(), max: s.max + lift.truncate(), z: s.z + lift.z, ..*s };
+        body.map_or_else(Vec::new, |body| body.surfaces().iter().map(raised).collect())
+    }
+
+    fn build(&self, b: &mut Builder, pose: DAffine3, _: &mut Rng) {
+        let Ok(body) = self.model.body() else { return };
+        let object = b.object(self.family.name, self.family.class, pose * DAffine3::from_translation(self.lift().as_dvec3()));
+        let lamp = self.family.class == Class::Lamp;
+        let shining = |part: &BodyPart| lamp && body.shines(part);
+        let lights = body.bulbs.len() + body.parts.iter().filter(|part| shining(part)).count();
+        let glow = self.glow();
+        let each = Glow { lumens: glow.lumens / lights.max(1) as f32, ..glow };
+        let loaned = b.loan(&object, self.number, &self.model, body);
+        for (part, mesh) in body.parts.iter().zip(&loaned.meshes) {
+            if shining(part) {
+                b.glow(&object, &part.name, part.mesh.clone(), each);
+            } else {
+                b.loaned_part(&object, &part.name, *mesh, loaned.materials[part.material]);
+            }
+        }
+        for (k, bulb) in body.bulbs.iter().enumerate() {
+            b.glow(&object, &format!("light source {}", k + 1), sphere(0.5 * bulb.diameter, 12).moved(bulb.at), each);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::light::LightConfig;
+    use crate::materials::Materials;
+    use crate::palette::Palette;
+    use crate::shape::bevelled_box;
+    use enfilade_math::{Bounds3, DMat3, Rgb};
+    use enfilade_scene::{Bsdf, ColorParam, Image, Material, Part, Pixels, Scene, TextureRef};
+
+    /// A box with a picture on it, its front toward −y.
+    fn body(size: Vec3) -> Result<Body, String> {
+        let skin = ColorParam { factor: Rgb::WHITE, texture: Some(TextureRef::new(0)) };
+        let scene = Scene {
+            meshes: vec![bevelled_box(size, 0.0)],
+            parts: vec![Part { name: "body".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+            materials: vec![Material::new("skin", Bsdf::Diffuse { reflectance: skin })],
+            images: vec![Image { name: "skin".into(), width: 1, height: 1, pixels: Pixels::RgbF32(vec![[0.5; 3].into()]) }],
+            ..Scene::default()
+        };
+        Body::new(scene, DMat3::from_rotation_z(std::f64::consts::PI), None)
+    }
+
+    #[test]
+    fn models_hang_stand_and_share_their_pictures() {
+        let mut b = Builder::new(Materials::new(Palette::all()[0], LightConfig::default(), Rng::new(1)));
+        let size = Vec3::new(0.6, 0.2, 0.4);
+        let model = Arc::new(Model::new("thing".into(), size, vec!["mirror_cabinet"], Box::new(move || body(size).map(Arc::new))));
+        for name in ["mirror_cabinet", "nightstand", "pendant", "nightstand"] {
+            let family = family_named(name).unwrap();
+            let thing = Borrowed { number: 7, model: Arc::clone(&model), family, reach: 0.0 };
+            thing.build(&mut b, DAffine3::IDENTITY, &mut Rng::new(1));
+            assert_eq!(thing.surfaces().len(), usize::from(name != "pendant"), "{name}");
+        }
+        assert_eq!(b.models().len(), 4);
+        let (scene, labels) = b.finish();
+        assert_eq!((scene.parts.len(), scene.meshes.len(), scene.materials.len(), scene.images.len()), (4, 1, 1, 1));
+        assert_eq!(labels.parts.iter().map(|l| l.semantic).collect::<Vec<_>>(), [3, 32, 35, 32]);
+        assert_eq!(scene.validate(), Ok(()));
+        for (part, name) in scene.parts.iter().zip(["mirror_cabinet", "nightstand", "pendant", "nightstand"]) {
+            let mesh = &scene.meshes[part.mesh as usize];
+            let filled = Bounds3::from_points(mesh.positions.iter().map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3()));
+            let expected = family_named(name).unwrap().place.bounds(size);
+            assert!((filled.min - expected.min).abs().max_element() < 1e-5, "{name}: {filled:?}");
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! Many models, and which of them to take.
+
+use super::Body;
+use super::range::believable;
+use crate::furniture::{FAMILIES, Family};
+use enfilade_math::{Rng, Vec3};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// Reads what a model looks like; the error names file, place, problem and remedy.
+type Reader = Box<dyn Fn() -> Result<Arc<Body>, String> + Send + Sync>;
+
+/// A thing that somebody has modelled.
+pub struct Model {
+    /// What it is called, and by whom, for people.
+    pub name: String,
+    /// The file that it is in, as messages name it.
+    pub file: String,
+    /// Under which it may be used, as far as its library says.
+    pub licence: String,
+    /// The families that it may stand in for where its size allows.
+    pub families: Vec<&'static str>,
+    /// Width, depth and height, metres.
+    pub size: Vec3,
+    /// Height of its lower end above the floor where it is fixed to a wall, metres.
+    pub elevation: f32,
+    /// True where it gives off light, as lamps must.
+    pub shines: bool,
+    /// How often it is taken, beside the others of its family.
+    pub weight: f32,
+    reader: Reader,
+    body: OnceLock<Result<Arc<Body>, String>>,
+}
+
+impl Model {
+    /// A model that is read when it is first used.
+    pub fn new(name: String, size: Vec3, families: Vec<&'static str>, reader: Reader) -> Self {
+        let (file, licence) = (name.clone(), String::new());
+        Self { name, file, licence, families, size, elevation: 0.0, shines: false, weight: 1.0, reader, body: OnceLock::new() }
+    }
+
+    /// What it looks like.
+    ///
+    /// # Errors
+    /// When its file is broken.
+    pub fn body(&self) -> Result<&Body, &str> {
+        self.body.get_or_init(|| (self.reader)()).as_deref().map_err(String::as_str)
+    }
+}
+
+impl fmt::Debug for Model {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Model").field("name", &self.name).field("size", &self.size).field("families", &self.families).finish()
+    }
+}
+
+/// The models that a home may have; none by default.
+#[derive(Debug, Default)]
+pub struct Library {
+    /// By family, each with its number.
+    models: BTreeMap<&'static str, Vec<(usize, Arc<Model>)>>,
+    share: f32,
+    unfit: Vec<String>,
+    broken: Mutex<Vec<String>>,
+}
+
+impl Library {
+    /// These models, taken for `share` of the things for which one fits.
+    pub fn new(models: Vec<Model>, share: f32) -> Self {
+        let mut ranges: BTreeMap<&'static str, [Vec3; 2]> = BTreeMap::new();
+        let mut library = Self { share, ..Self::default() };
+        for (number, model) in models.into_iter().enumerate() {
+            let model = Arc::new(model);
+            let mut used = false;
+            for family in FAMILIES.iter().filter(|family| model.families.contains(&family.name)) {
+                let [low, high] = *ranges.entry(family.name).or_insert_with(|| believable(family));
+                let lights = family.class != crate::builder::Class::Lamp || model.shines;
+                if lights && model.size.cmpge(low).all() && model.size.cmple(high).all() {
+                    library.models.entry(family.name).or_default().push((number, Arc::clone(&model)));
+                    used = true;
+                }
+            }
+            if !used {
+                library.unfit.push(misfit(&model, &ranges));
+            }
+        }
+        library
+    }
+
+    /// How many different models can be used.
+    pub fn usable(&self) -> usize {
+        let numbers: std::collections::BTreeSet<usize> = self.models.values().flatten().map(|(number, _)| *number).collect();
+        numbers.len()
+    }
+
+    /// The models that fit nowhere, and why.
+    pub fn unfit(&self) -> &[String] {
+        &self.unfit
+    }
+
+    /// What was wrong with models that were wanted.
+    pub fn broken(&self) -> Vec<String> {
+        self.broken.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// A model of `family` of a size that `fits`, with its number; `None` leaves the family to our own. Without models of it no random
+    /// number is drawn.
+    pub(crate) fn pick(&self, family: &Family, fits: impl Fn(Vec3) -> bool, rng: &mut Rng) -> Option<(usize, Arc<Model>)> {
+        let fitting: Vec<_> = self.models.get(family.name)?.iter().filter(|(_, model)| fits(model.size)).collect();
+        let total: f32 = fitting.iter().map(|(_, model)| model.weight).sum();
+        if total <= 0.0 || rng.next_f32() >= self.share {
+            return None;
+        }
+        let mut at = rng.range(0.0, total);
+        let (number, model) = fitting.iter().find(|(_, model)| {
+            at -= model.weight;
+            at < 0.0
+        })?;
+        match model.body() {
+            Ok(_) => Some((*number, Arc::clone(model))),
+            Err(problem) => {
+                let mut broken = self.broken.lock().unwrap_or_else(PoisonError::into_inner);
+                if !broken.iter().any(|known| known == problem) {
+                    broken.push(problem.to_string());
+                }
+                None
+            }
+        }
+    }
+}
+
+/// Why a model fits nowhere.
+fn misfit(model: &Model, ranges: &BTreeMap<&'static str, [Vec3; 2]>) -> String {
+    let measures = |v: Vec3| format!("{:.2} x {:.2} x {:.2} m", v.x, v.y, v.z);
+    let expected = model.families.iter().filter_map(|name| {
+        let [low, high] = ranges.get(name)?;
+        Some(format!("{name} from {} to {}", measures(*low), measures(*high)))
+    });
+    let expected: Vec<String> = expected.collect();
+    let file = &model.file;
+    if expected.is_empty() {
+        return format!("{file}: its name does not tell what it is; give it a family or class in assets.toml");
+    }
+    format!(
+        "{file}: {} fits none of: {}{}",
+        measures(model.size),
+        expected.join("; "),
+        if model.shines { "" } else { " (it gives no light)" }
+    )
+}

@@ -1,0 +1,167 @@
+//! Where small things can stand on a model, found from its triangles.
+//!
+//! Levels are heights at which much of the model lies flat. On each, the cells of a grid that carry (a ray down finds the level) and
+//! are free (a ray up finds nothing near) are covered by the largest rectangles that hold only such cells.
+
+use crate::furniture::{CONTACT, Surface};
+use enfilade_geometry::Bvh;
+use enfilade_math::{Ray, Vec2, Vec3};
+
+/// Edge of a cell, metres.
+const CELL: f32 = 0.02;
+/// Triangles are level whose normals differ from the vertical by less than six degrees: this is the cosine.
+const LEVEL: f32 = 0.9945;
+/// Triangles of one level lie no further apart, metres.
+const SPAN: f32 = 0.003;
+/// Rays start this far above a level, metres.
+const LIFT: f32 = 0.004;
+/// A level has this much area at least, square metres, and so has a surface.
+const LEAST_AREA: f32 = 0.02;
+/// Shortest edge of a surface, metres.
+const LEAST_EDGE: f32 = 0.1;
+/// Least free height, metres.
+const LEAST_HEADROOM: f32 = 0.12;
+/// Levels, and surfaces on each, that are looked for.
+const MOST: [usize; 2] = [8, 3];
+
+/// The surfaces of a model that fills −½..½ of `size` in x and y and 0..1 of it in z, the highest first.
+pub(super) fn surfaces(triangles: &[[Vec3; 3]], size: Vec3) -> Vec<Surface> {
+    let levels = levels(triangles);
+    if levels.is_empty() {
+        return Vec::new();
+    }
+    let bvh = Bvh::new(triangles, &|_| false);
+    levels.into_iter().flat_map(|z| Grid::new(&bvh, size, z).surfaces()).collect()
+}
+
+/// Heights at which the model lies flat, from above.
+fn levels(triangles: &[[Vec3; 3]]) -> Vec<f32> {
+    let mut flat: Vec<(f32, f32)> = triangles
+        .iter()
+        .filter_map(|[a, b, c]| {
+            let doubled = (*b - *a).cross(*c - *a);
+            let area = 0.5 * doubled.length();
+            (area > 0.0 && doubled.z.abs() > LEVEL * 2.0 * area).then_some((a.z.max(b.z).max(c.z), area))
+        })
+        .collect();
+    flat.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut levels: Vec<(f32, f32)> = Vec::new();
+    for (z, area) in flat {
+        match levels.last_mut() {
+            Some(level) if level.0 - z < SPAN => level.1 += area,
+            _ => levels.push((z, area)),
+        }
+    }
+    levels.retain(|(z, area)| *area >= LEAST_AREA && *z > LEAST_EDGE);
+    levels.sort_by(|a, b| b.1.total_cmp(&a.1));
+    levels.truncate(MOST[0]);
+    let mut heights: Vec<f32> = levels.into_iter().map(|(z, _)| z).collect();
+    heights.sort_by(|a, b| b.total_cmp(a));
+    heights
+}
+
+/// The free height above each cell of a level, 0 where nothing can stand; and how far below the level it is carried.
+struct Grid {
+    min: Vec2,
+    z: f32,
+    columns: usize,
+    free: Vec<f32>,
+    below: Vec<f32>,
+}
+
+impl Grid {
+    fn new(bvh: &Bvh, size: Vec3, z: f32) -> Self {
+        let count = (size.truncate() / CELL).floor().max(Vec2::ZERO);
+        let (columns, rows) = (count.x as usize, count.y as usize);
+        let mut grid = Self { min: -0.5 * CELL * count, z, columns, free: Vec::new(), below: Vec::new() };
+        for cell in 0..columns * rows {
+            let at = grid.place(cell % columns, cell / columns) + Vec2::splat(0.5 * CELL);
+            let from = at.extend(z + LIFT);
+            let reach = |way: Vec3| bvh.closest(&Ray::new(from, way)).map(|hit| hit.t);
+            let below = reach(Vec3::NEG_Z).filter(|t| *t < LIFT + SPAN);
+            let free = below.map_or(0.0, |_| reach(Vec3::Z).map_or(f32::INFINITY, |t| t + LIFT));
+            grid.free.push(if free < LEAST_HEADROOM { 0.0 } else { free });
+            grid.below.push(below.map_or(f32::INFINITY, |t| t - LIFT));
+        }
+        grid
+    }
+
+    fn place(&self, column: usize, row: usize) -> Vec2 {
+        self.min + CELL * Vec2::new(column as f32, row as f32)
+    }
+
+    /// The largest rectangles, one after another.
+    fn surfaces(mut self) -> Vec<Surface> {
+        let mut found = Vec::new();
+        while let Some([x0, x1, y0, y1]) = self.largest() {
+            let (min, max) = (self.place(x0, y0), self.place(x1, y1));
+            let edges = max - min;
+            if found.len() == MOST[1] || edges.min_element() < LEAST_EDGE || edges.x * edges.y < LEAST_AREA {
+                break;
+            }
+            let (mut headroom, mut below) = (f32::INFINITY, f32::INFINITY);
+            for cell in (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y))).map(|(x, y)| y * self.columns + x) {
+                headroom = headroom.min(self.free[cell]);
+                below = below.min(self.below[cell]);
+                self.free[cell] = 0.0;
+            }
+            found.push(Surface { min, max, z: self.z - below + CONTACT, headroom: headroom - 0.01 });
+        }
+        found
+    }
+
+    /// First and last column and row of the largest rectangle of free cells, by the heights of the columns above each row.
+    fn largest(&self) -> Option<[usize; 4]> {
+        let mut best: Option<([usize; 4], usize)> = None;
+        let mut heights = vec![0usize; self.columns];
+        for row in 0..self.free.len() / self.columns.max(1) {
+            for x in 0..self.columns {
+                heights[x] = if self.free[row * self.columns + x] > 0.0 { heights[x] + 1 } else { 0 };
+            }
+            for x0 in 0..self.columns {
+                let mut height = heights[x0];
+                for x1 in x0..self.columns {
+                    height = height.min(heights[x1]);
+                    let area = height * (x1 + 1 - x0);
+                    if height == 0 {
+                        break;
+                    }
+                    if best.is_none_or(|(_, most)| area > most) {
+                        best = Some(([x0, x1 + 1, row + 1 - height, row + 1], area));
+                    }
+                }
+            }
+        }
+        best.map(|(rectangle, _)| rectangle)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::furniture::board;
+    use enfilade_geometry::Mesh;
+
+    fn triangles(meshes: &[Mesh]) -> Vec<[Vec3; 3]> {
+        meshes.iter().flat_map(|m| (0..m.triangles.len()).map(|t| m.corners(t)).collect::<Vec<_>>()).collect()
+    }
+
+    #[test]
+    fn a_shelf_has_its_boards_and_their_headroom() {
+        let boards = [0.1, 0.5, 0.9].map(|z| board([-0.4, -0.15, z], [0.4, 0.15, z + 0.02], 0.0));
+        let found = surfaces(&triangles(&boards), Vec3::new(0.8, 0.3, 0.92));
+        let heights: Vec<f32> = found.iter().map(|s| (s.z * 100.0).round()).collect();
+        assert_eq!(heights, [92.0, 52.0, 12.0]);
+        assert!(found[0].headroom.is_infinite() && (found[1].headroom - 0.37).abs() < 0.01, "{found:?}");
+        assert!((found[2].max - found[2].min - Vec2::new(0.8, 0.3)).abs().max_element() < 0.03);
+    }
+
+    #[test]
+    fn what_slants_or_is_small_carries_nothing() {
+        let slanted = board([-0.3, -0.3, 0.0], [0.3, 0.3, 0.02], 0.0);
+        let tilt = |p: Vec3| Vec3::new(p.x, p.y, p.z + 0.3 + 0.3 * p.x);
+        let slanted = Mesh { positions: slanted.positions.into_iter().map(tilt).collect(), ..slanted };
+        assert!(surfaces(&triangles(&[slanted]), Vec3::new(0.6, 0.6, 0.5)).is_empty());
+        assert!(surfaces(&triangles(&[board([-0.04; 3], [0.04, 0.04, 0.3], 0.0)]), Vec3::new(0.08, 0.08, 0.34)).is_empty());
+    }
+}

@@ -1,0 +1,159 @@
+//! Libraries of models that stand in for our own furniture: folders of glTF, and the furniture catalogues of Sweet Home 3D.
+//!
+//! The `home` crate says what a model is and when one is taken; here the files are found and read. Models of glTF are read at once,
+//! since only they tell what they measure; those of catalogues when a home wants them. The files' contents are inputs of the stage,
+//! and their names are part of its settings, because they tell what a model is.
+
+mod gltf;
+mod properties;
+mod sweethome;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use crate::error::Error;
+use enfilade_home::assets::{Library, Model};
+use enfilade_home::{Home, HomeConfig};
+use enfilade_scene::{Cx, Warning};
+use std::path::{Path, PathBuf};
+use table::Table;
+
+/// Most places that an error or warning lists.
+const LISTED: usize = 8;
+
+/// Makes a home with the models that its configuration names; `locate` finds what that says.
+///
+/// # Errors
+/// When a library is not there, holds nothing that can be used, or a model that the home wants is broken.
+pub(crate) fn home(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Error>, cx: &dyn Cx) -> Result<Home, Error> {
+    let library = library(config, locate, cx)?;
+    let home = enfilade_home::home_with(config, &library);
+    let broken = library.broken();
+    if config.allow_broken_assets {
+        broken.into_iter().for_each(|message| cx.warn(Warning { place: "assets".into(), message: format!("{message}; ours stands in") }));
+    } else if let Some(first) = broken.first() {
+        return Err(refuse_broken(first));
+    }
+    Ok(home)
+}
+
+/// Every file of the libraries, in the order of their names.
+pub(crate) fn files(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Error>) -> Result<Vec<PathBuf>, Error> {
+    Ok(named_files(config, locate)?.into_iter().map(|(_, file)| file).collect())
+}
+
+/// The names of the files of the libraries, each within its library; empty where a library is not there, which reading it tells.
+pub(crate) fn names(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Error>) -> Vec<String> {
+    named_files(config, locate).unwrap_or_default().into_iter().map(|(name, _)| name).collect()
+}
+
+fn named_files(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Error>) -> Result<Vec<(String, PathBuf)>, Error> {
+    let mut all = Vec::new();
+    for written in &config.assets {
+        let root = locate(written)?;
+        all.extend(walk(&root)?.into_iter().map(|file| (name_in(&root, &file), file)));
+    }
+    Ok(all)
+}
+
+/// What a file is called within its library: its path from there, with `/`.
+fn name_in(root: &Path, file: &Path) -> String {
+    let inside = file.strip_prefix(root).ok().filter(|path| path.components().next().is_some());
+    let inside = inside.unwrap_or_else(|| file.file_name().map_or(file, Path::new));
+    inside.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
+}
+
+/// All files below `root`, or `root` itself if it is one, by name; hidden ones are left out.
+fn walk(root: &Path) -> Result<Vec<PathBuf>, Error> {
+    let kind = std::fs::metadata(root).map_err(|error| {
+        Error::usage(
+            format!("there is no library of models at {} ({error})", root.display()),
+            "name a folder of glTF files, or a .sh3f file, in `assets`",
+        )
+    })?;
+    if kind.is_file() {
+        return Ok(vec![root.into()]);
+    }
+    let mut entries: Vec<PathBuf> = std::fs::read_dir(root)
+        .map_err(Error::io("list", root))?
+        .map(|entry| entry.map(|entry| entry.path()))
+        .collect::<Result<_, _>>()
+        .map_err(Error::io("list", root))?;
+    entries.retain(|path| path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.')));
+    entries.sort();
+    let mut files = Vec::new();
+    for path in entries {
+        if path.is_dir() {
+            files.extend(walk(&path)?);
+        } else {
+            files.push(path);
+        }
+    }
+    Ok(files)
+}
+
+fn library(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Error>, cx: &dyn Cx) -> Result<Library, Error> {
+    if config.assets.is_empty() {
+        return Ok(Library::default());
+    }
+    let mut models = Vec::new();
+    for written in &config.assets {
+        let root = locate(written)?;
+        let found = of_root(&root, config.allow_broken_assets, cx)?;
+        if found.is_empty() {
+            return Err(Error::usage(
+                format!("there are no models in {}", root.display()),
+                "a library holds .gltf or .glb files, or catalogues of Sweet Home 3D (.sh3f)",
+            ));
+        }
+        models.extend(found);
+    }
+    let total = models.len();
+    let library = Library::new(models, config.assets_share);
+    let unfit = library.unfit();
+    if library.usable() == 0 {
+        let hint = "say in assets.toml beside them what they are (family or class), how large (size), and for lamps take some with light";
+        return Err(Error::usage(format!("none of the {total} models can be used: {}", listed(unfit)), hint));
+    }
+    if !unfit.is_empty() {
+        let message = format!("{} of {total} models are not used: {}", unfit.len(), listed(unfit));
+        cx.warn(Warning { place: "assets".into(), message });
+    }
+    Ok(library)
+}
+
+fn listed(lines: &[String]) -> String {
+    let more = lines.len().saturating_sub(LISTED);
+    let text = lines.iter().take(LISTED).map(String::as_str).collect::<Vec<_>>().join("; ");
+    if more > 0 { format!("{text}; and {more} more") } else { text }
+}
+
+/// The models of one library.
+fn of_root(root: &Path, allow_broken: bool, cx: &dyn Cx) -> Result<Vec<Model>, Error> {
+    let files = walk(root)?;
+    let is =
+        |path: &Path, extensions: &[&str]| path.extension().is_some_and(|found| extensions.iter().any(|e| found.eq_ignore_ascii_case(e)));
+    let scenes: Vec<(String, PathBuf)> =
+        files.iter().filter(|path| is(path, &["gltf", "glb"])).map(|path| (name_in(root, path), path.clone())).collect();
+    let catalogues: Vec<&PathBuf> = files.iter().filter(|path| is(path, &["sh3f"])).collect();
+    let folder = if root.is_file() { root.parent().unwrap_or(root) } else { root };
+    let mut pieces = sweethome::pieces(&catalogues)?;
+    let known: Vec<&str> = scenes.iter().map(|(name, _)| name.as_str()).chain(pieces.iter().map(|piece| piece.name.as_str())).collect();
+    let table = Table::read(&folder.join(table::NAME), &known, root.is_dir())?;
+    let mut models = Vec::new();
+    for (result, (name, _)) in gltf::models(&scenes, &table).into_iter().zip(&scenes) {
+        match result {
+            Ok(model) => models.push(model),
+            Err(message) if allow_broken => cx.warn(Warning { place: name.clone(), message: format!("{message}; left out") }),
+            Err(message) => return Err(refuse_broken(&message)),
+        }
+    }
+    pieces.retain(|piece| table.of(&piece.name).wanted);
+    models.extend(pieces.into_iter().map(|piece| piece.model(&table)));
+    Ok(models)
+}
+
+fn refuse_broken(message: &str) -> Error {
+    let hint = "mend or remove the file, write `use = false` for it in assets.toml, or set allow_broken_assets to go on without it";
+    Error::usage(message.to_string(), hint)
+}

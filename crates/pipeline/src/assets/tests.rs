@@ -1,0 +1,190 @@
+//! Libraries as users have them: tiny ones, made here, and Poly Haven's furniture where it is.
+
+use super::{home, names};
+use crate::error::Error;
+use enfilade_home::check::faults;
+use enfilade_home::{Home, HomeConfig, RoomKind};
+use enfilade_scene::{Cx, Quiet, Warning, to_bytes};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+/// The corners and triangles of a box of this size that stands on y = 0.
+fn cuboid([w, h, d]: [f32; 3]) -> (Vec<[f32; 3]>, Vec<[u16; 3]>) {
+    let corner =
+        |k: u16| [[-0.5, 0.5][usize::from(k & 1)] * w, [0.0, 1.0][usize::from(k >> 1 & 1)] * h, [-0.5, 0.5][usize::from(k >> 2)] * d];
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    ((0..8).map(corner).collect(), sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect())
+}
+
+/// A box as binary glTF.
+fn glb(size: [f32; 3]) -> Vec<u8> {
+    let (corners, triangles) = cuboid(size);
+    let mut bin: Vec<u8> = corners.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
+    bin.extend(triangles.iter().flatten().flat_map(|i| i.to_le_bytes()));
+    let [w, h, d] = size;
+    let mut json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,"name":"body"}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1,"material":0}}]}}],
+        "materials":[{{"name":"oak","pbrMetallicRoughness":{{"baseColorFactor":[0.4,0.3,0.2,1],"metallicFactor":0}}}}],
+        "buffers":[{{"byteLength":{0}}}],
+        "bufferViews":[{{"buffer":0,"byteLength":96}},{{"buffer":0,"byteOffset":96,"byteLength":72}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3","min":[{1},0,{2}],"max":[{3},{h},{4}]}},
+        {{"bufferView":1,"componentType":5123,"count":36,"type":"SCALAR"}}]}}"#,
+        bin.len(),
+        -0.5 * w,
+        -0.5 * d,
+        0.5 * w,
+        0.5 * d
+    );
+    while json.len() % 4 != 0 {
+        json.push(' ');
+    }
+    let mut out = b"glTF".to_vec();
+    out.extend([2, 28 + json.len() as u32 + bin.len() as u32].iter().flat_map(|v: &u32| v.to_le_bytes()));
+    for (kind, chunk) in [(b"JSON", json.as_bytes()), (b"BIN\0", &bin)] {
+        out.extend((chunk.len() as u32).to_le_bytes());
+        out.extend(kind);
+        out.extend(chunk);
+    }
+    out
+}
+
+/// A catalogue with a wardrobe whose model is a unit cube, a door, and a lamp whose model is not there.
+fn sh3f(file: &Path) {
+    let (corners, triangles) = cuboid([1.0; 3]);
+    let mut obj = "mtllib w.mtl\nusemtl oak\n".to_string();
+    corners.iter().for_each(|[x, y, z]| obj += &format!("v {x} {y} {z}\n"));
+    triangles.iter().map(|t| t.map(|i| i + 1)).for_each(|[a, b, c]| obj += &format!("f {a} {b} {c}\n"));
+    let catalogue = "license=CC-BY 3.0\nname#1=Wardrobe\nid#1=t#wardrobe\ncategory#1=Bedroom\nmodel#1=/w/w.obj\nwidth#1=120\ndepth#1=60\n\
+        height#1=205.5\ncreator#1=Ann\nmodelRotation#1=0 0 1 0 1 0 -1 0 0\nname#2=Door\ncategory#2=Doors and windows\nmodel#2=/d.obj\n\
+        name#3=Lamp\nid#3=t#lamp\ncategory#3=Lights\nmodel#3=/l/l.obj\nwidth#3=30\ndepth#3=30\nheight#3=45\nlightSourceX#3=15\n\
+        lightSourceY#3=15\nlightSourceZ#3=30\n";
+    let mut archive = zip::ZipWriter::new(std::fs::File::create(file).unwrap());
+    let entries = [("PluginFurnitureCatalog.properties", catalogue), ("w/w.obj", &obj), ("w/w.mtl", "newmtl oak\nKd 0.4 0.3 0.2\n")];
+    for (name, text) in entries {
+        archive.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
+        archive.write_all(text.as_bytes()).unwrap();
+    }
+    archive.finish().unwrap();
+}
+
+/// A folder with a nightstand whose name does not say so, a bed, and a catalogue.
+fn library() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("beds")).unwrap();
+    std::fs::write(folder.path().join("beds/old_bed_1k.glb"), glb([1.6, 0.9, 2.1])).unwrap();
+    std::fs::write(folder.path().join("k17.glb"), glb([0.45, 0.5, 0.4])).unwrap();
+    let table = "licence = \"CC0\"\n[models.\"k17.glb\"]\nfamily = \"nightstand\"\n[models.\"t#lamp\"]\nuse = false\n";
+    std::fs::write(folder.path().join("assets.toml"), table).unwrap();
+    sh3f(&folder.path().join("few.sh3f"));
+    folder
+}
+
+fn config(folder: &Path) -> HomeConfig {
+    let assets = vec![folder.to_string_lossy().into_owned()];
+    HomeConfig { rooms: vec![RoomKind::Bedroom], assets, ..HomeConfig::of_seed(2) }
+}
+
+fn located(path: &str) -> Result<PathBuf, Error> {
+    Ok(path.into())
+}
+
+fn made(config: &HomeConfig) -> Result<Home, Error> {
+    home(config, &located, &Quiet)
+}
+
+/// What a failure says, and what to do.
+fn refused(config: &HomeConfig) -> (String, String) {
+    let error = made(config).expect_err("it is refused");
+    (error.to_string(), error.hint().unwrap_or_default())
+}
+
+#[test]
+fn models_are_placed_like_our_own_with_labels_and_credits() {
+    let folder = library();
+    let config = config(folder.path());
+    let home = made(&config).unwrap();
+    assert_eq!(faults(&home), []);
+    assert_eq!(home.scene.validate(), Ok(()));
+    let of = |name: &str| home.scene.parts.iter().position(|part| part.name == name).unwrap_or_else(|| panic!("no {name}"));
+    for (name, class) in [("bed_1/body", 4), ("nightstand_1/body", 32), ("wardrobe_1/oak", 3)] {
+        assert_eq!(home.labels.parts[of(name)].semantic, class, "{name}");
+        assert_eq!(home.scene.materials[home.scene.parts[of(name)].material as usize].name, "oak");
+    }
+    let wardrobe = &home.scene.parts[of("wardrobe_1/oak")];
+    let mesh = &home.scene.meshes[wardrobe.mesh as usize];
+    let width = mesh.positions.iter().map(|p| p.x).fold(0.0, f32::max);
+    assert!((width - 0.6).abs() < 1e-4, "catalogues say how wide their things are: {width}");
+    let wardrobe = "Wardrobe (few.sh3f, t#wardrobe): CC-BY 3.0, by Ann";
+    assert_eq!(home.credits, [wardrobe, "k17 (k17.glb): CC0", "old_bed_1k (beds/old_bed_1k.glb): CC0"]);
+    assert_eq!(to_bytes(&made(&config).unwrap().scene), to_bytes(&home.scene), "same seed, same bytes");
+    let without = made(&HomeConfig { assets_share: 0.0, ..config.clone() }).unwrap();
+    assert!(without.credits.is_empty());
+    assert_eq!(names(&config, &located), ["assets.toml", "beds/old_bed_1k.glb", "few.sh3f", "k17.glb"]);
+}
+
+#[test]
+fn libraries_that_cannot_be_used_are_refused_with_file_and_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let of = config(at);
+    let (message, hint) = refused(&config(&at.join("nowhere")));
+    assert!(message.contains("no library of models at") && message.contains("nowhere") && hint.contains(".sh3f"), "{message}");
+    let (message, hint) = refused(&of);
+    assert!(message.contains("there are no models in") && hint.contains(".glb"), "{message}");
+    std::fs::write(at.join("thing.glb"), glb([0.5; 3])).unwrap();
+    let (message, hint) = refused(&of);
+    assert!(message.contains("thing.glb: its name does not tell what it is") && hint.contains("assets.toml"), "{message}");
+    std::fs::rename(at.join("thing.glb"), at.join("mug.glb")).unwrap();
+    let (message, _) = refused(&of);
+    assert!(message.contains("mug.glb: 0.50 x 0.50 x 0.50 m fits none of: mug from"), "{message}");
+    std::fs::write(at.join("bed.glb"), b"glTF and no more").unwrap();
+    let (message, hint) = refused(&of);
+    assert!(message.contains("bed.glb") && hint.contains("allow_broken_assets"), "{message}");
+    std::fs::write(at.join("bed.glb"), glb([1.6, 0.9, 2.1])).unwrap();
+    std::fs::write(at.join("few.sh3f"), b"no archive").unwrap();
+    let (message, hint) = refused(&of);
+    assert!(message.contains("few.sh3f: not an archive") && hint.contains("download"), "{message}");
+}
+
+/// Keeps what it is told.
+#[derive(Default)]
+struct Told(Mutex<Vec<String>>);
+
+impl Cx for Told {
+    fn progress(&self, _: &str, _: u64, _: u64) {}
+
+    fn warn(&self, warning: Warning) {
+        self.0.lock().unwrap().push(warning.to_string());
+    }
+}
+
+#[test]
+fn a_model_that_is_wanted_and_broken_is_an_error_unless_the_user_allows_it() {
+    let folder = library();
+    std::fs::write(folder.path().join("assets.toml"), "").unwrap();
+    let config = config(folder.path());
+    let (message, hint) = refused(&config);
+    assert!(message.contains("few.sh3f: l/l.obj: the model is not in the archive") && hint.contains("use = false"), "{message}");
+    let told = Told::default();
+    let home = home(&HomeConfig { allow_broken_assets: true, ..config }, &located, &told).unwrap();
+    assert!(!home.credits.is_empty());
+    assert!(told.0.lock().unwrap().iter().any(|line| line.contains("l/l.obj") && line.contains("ours stands in")));
+}
+
+#[test]
+fn poly_havens_furniture_furnishes_a_living_room() {
+    let Some(scenes) = std::env::var_os("ENFILADE_SCENES") else {
+        eprintln!("skipped: ENFILADE_SCENES is not set");
+        return;
+    };
+    let folder = Path::new(&scenes).join("polyhaven-furniture-1k");
+    let told = Told::default();
+    let config = HomeConfig { rooms: vec![RoomKind::Living], ..config(&folder) };
+    let home = home(&config, &located, &told).unwrap();
+    assert_eq!(faults(&home), []);
+    let has = |name: &str| home.credits.iter().any(|credit| credit.contains(name));
+    assert!(has("sofa_03_1k") && has("wooden_bookshelf_worn_1k"), "{:?}", home.credits);
+    assert!(told.0.lock().unwrap().iter().any(|line| line.contains("tea_set_01_1k.gltf")));
+}
