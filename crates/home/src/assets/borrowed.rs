@@ -107,7 +107,7 @@ mod tests {
             meshes: vec![bevelled_box(size, 0.0)],
             parts: vec![Part { name: "body".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
             materials: vec![Material::new("skin", Bsdf::Diffuse { reflectance: skin })],
-            images: vec![Image { name: "skin".into(), width: 1, height: 1, pixels: Pixels::RgbF32(vec![[0.5; 3].into()]) }],
+            images: vec![Image { name: "skin".into(), width: 1, height: 1, pixels: Pixels::RgbF32(vec![[0.5; 3]]) }],
             ..Scene::default()
         };
         Body::new(scene, DMat3::from_rotation_z(std::f64::consts::PI), None)
