@@ -2,11 +2,15 @@
 
 use super::Body;
 use super::range::believable;
-use crate::furniture::{FAMILIES, Family};
+use crate::builder::Class;
+use crate::furniture::{FAMILIES, Family, family_named};
 use enfilade_math::{Rng, Vec3};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// Why nobody knows what a model is.
+const NAMELESS: &str = "its name does not tell what it is";
 
 /// Reads what a model looks like; the error names file, place, problem and remedy.
 type Reader = Box<dyn Fn() -> Result<Arc<Body>, String> + Send + Sync>;
@@ -75,7 +79,7 @@ impl Library {
             let mut used = false;
             for family in FAMILIES.iter().filter(|family| model.families.contains(&family.name)) {
                 let [low, high] = *ranges.entry(family.name).or_insert_with(|| believable(family));
-                let lights = family.class != crate::builder::Class::Lamp || model.shines;
+                let lights = family.class != Class::Lamp || model.shines;
                 if lights && model.size.cmpge(low).all() && model.size.cmple(high).all() {
                     library.models.entry(family.name).or_default().push((number, Arc::clone(&model)));
                     used = true;
@@ -85,12 +89,14 @@ impl Library {
                 library.unfit.push(misfit(&model, &ranges));
             }
         }
+        // Those whose name alone is missing come last: there are many, and most are not meant for homes.
+        library.unfit.sort_by_key(|line| line.contains(NAMELESS));
         library
     }
 
     /// How many different models can be used.
     pub fn usable(&self) -> usize {
-        let numbers: std::collections::BTreeSet<usize> = self.models.values().flatten().map(|(number, _)| *number).collect();
+        let numbers: BTreeSet<usize> = self.models.values().flatten().map(|(number, _)| *number).collect();
         numbers.len()
     }
 
@@ -139,13 +145,10 @@ fn misfit(model: &Model, ranges: &BTreeMap<&'static str, [Vec3; 2]>) -> String {
     });
     let expected: Vec<String> = expected.collect();
     let file = &model.file;
+    let lamp = model.families.iter().any(|name| family_named(name).is_some_and(|family| family.class == Class::Lamp));
+    let dark = if lamp && !model.shines { "; it has no light source and nothing that glows" } else { "" };
     if expected.is_empty() {
-        return format!("{file}: its name does not tell what it is; give it a family or class in assets.toml");
+        return format!("{file}: {NAMELESS}; give it a family or class in assets.toml");
     }
-    format!(
-        "{file}: {} fits none of: {}{}",
-        measures(model.size),
-        expected.join("; "),
-        if model.shines { "" } else { " (it gives no light)" }
-    )
+    format!("{file}: {} fits none of: {}{dark}", measures(model.size), expected.join("; "))
 }
