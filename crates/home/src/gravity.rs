@@ -262,6 +262,8 @@ mod tests {
         let mut bodies = [floor, wall, laptop, lamp];
         let moved = settled(&mut bodies);
         assert_eq!(moved.keys().copied().collect::<Vec<_>>(), [2]);
-        assert!((moved[&2] - Vec3::new(-0.01, 0.0, 0.0)).length() < 1e-5, "{:?}", moved[&2]);
+        // It was 10 mm deep in the wall; 4 mm are allowed.
+        let by = moved[&2];
+        assert!((-0.0101..=-0.006).contains(&by.x) && by.length() < 0.0101 && by.z == 0.0, "{by}");
     }
 }
