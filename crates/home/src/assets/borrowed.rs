@@ -12,6 +12,9 @@ use std::sync::Arc;
 const CARRY: [Class; 8] =
     [Class::Table, Class::Desk, Class::Cabinet, Class::Dresser, Class::NightStand, Class::Bookshelf, Class::Shelves, Class::Counter];
 
+/// Nobody puts small things on what is higher, metres.
+const REACHED: f32 = 1.6;
+
 /// A model of a library in place of one of our own.
 #[derive(Clone, Debug)]
 pub struct Borrowed {
@@ -65,7 +68,7 @@ impl Furniture for Borrowed {
     fn surfaces(&self) -> Vec<Surface> {
         let (lift, body) = (self.lift(), self.model.body().ok().filter(|_| CARRY.contains(&self.family.class)));
         let raised = |s: &Surface| Surface { min: s.min + lift.truncate(), max: s.max + lift.truncate(), z: s.z + lift.z, ..*s };
-        body.map_or_else(Vec::new, |body| body.surfaces().iter().map(raised).collect())
+        body.map_or_else(Vec::new, |body| body.surfaces().iter().map(raised).filter(|s| s.z < REACHED).collect())
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, _: &mut Rng) {

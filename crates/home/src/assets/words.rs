@@ -321,14 +321,13 @@ fn words(name: &str) -> Vec<String> {
         }
     }
     words.retain(|word| !word.is_empty());
-    words.into_iter().map(singular).collect()
+    words.iter().map(|word| singular(word)).collect()
 }
 
-fn singular(word: String) -> String {
-    match word.strip_suffix('s') {
-        Some(stem) if word.len() > 3 && !word.ends_with("ss") && !word.ends_with("us") => stem.to_string(),
-        _ => word,
-    }
+fn singular(word: &str) -> String {
+    let endings = [("sses", 2), ("xes", 2), ("ches", 2), ("shes", 2), ("ss", 0), ("us", 0), ("is", 0), ("s", 1)];
+    let cut = endings.iter().find(|(ending, _)| word.len() > 3 && word.ends_with(ending)).map_or(0, |(_, cut)| *cut);
+    word[..word.len() - cut].to_string()
 }
 
 #[cfg(test)]
