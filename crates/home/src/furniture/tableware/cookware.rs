@@ -201,7 +201,7 @@ impl Furniture for UtensilJar {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(0.24, 0.24, 0.35)
+        Vec3::new(0.276, 0.276, 0.35)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
