@@ -1,8 +1,7 @@
 //! What is said of the figures: one sentence for each difference.
 
 /// Below the table of costs, where times were taken on an idle machine.
-pub const COST: &str =
-    "\nMemory is that of the whole process. The last figures grow with the number of rooms; per room they hardly change.\n";
+pub const COST: &str = "\nMemory is that of the whole process. All but the figures per room grow with the number of rooms.\n";
 
 /// Below the table of costs too, where the process did not get a processor for itself.
 pub const SHARED: &str =
@@ -29,7 +28,7 @@ as well; bedrooms have few things but those on nightstands and dressers.
 ";
 
 /// Below the volumes of instances.
-pub const VOLUMES: &str = "Ours are larger in the middle, because books, plates and clothes that stand or lie in a row are one instance, and Hypersim's are many.\n";
+pub const VOLUMES: &str = "Ours are larger in the middle, because books, plates and clothes that stand or lie in a row are one instance, and Hypersim's are many.";
 
 /// Why a class is more or less frequent than in Hypersim; empty where it is not.
 pub fn of_class(class: i16) -> &'static str {
@@ -54,7 +53,8 @@ pub fn of_class(class: i16) -> &'static str {
         26 => "Magazines, notes and toilet paper are in every home.",
         30 => "In studies; Hypersim hardly has any.",
         31 => "There are no people in our homes.",
-        27 | 28 | 33 | 34 | 36 => "Every home has a bathroom; one of eighteen trajectories of Hypersim is in one.",
+        33 => "Every home has a bathroom, in few of which the toilet finds no place; one of eighteen trajectories of Hypersim is in one.",
+        27 | 28 | 34 | 36 => "Every home has a bathroom; one of eighteen trajectories of Hypersim is in one.",
         37 => "Hypersim has no labelled bags; halls and children's rooms have some.",
         38 => "Hobs, ovens, radiators, hoods and the casings of doors are instances each.",
         39 => "Benches, stands and machines that NYU40 has no name for.",
