@@ -9,8 +9,8 @@ pub fn furnish(f: &mut Furnisher) {
     let large = f.room.size.x * f.room.size.y > 6.0;
     let first = if large || f.chance(0.55) { "bathtub" } else { "shower" };
     let has_tub = f.furnish(first, cornered).is_some() && first == "bathtub";
-    f.basin();
     f.toilet();
+    f.basin();
     if !has_tub && first == "bathtub" {
         f.furnish("shower", cornered);
     } else if has_tub && large {

@@ -17,19 +17,19 @@ const LONGEST: [f32; 2] = [4.0, 2.5];
 const BESIDE_DOOR: f32 = 0.22;
 /// A window's sill reaches this far beyond it.
 const SILL: f32 = 0.08;
+/// A kitchen without a refrigerator must be so many metres nearer to the wished length to be taken.
+const NO_REFRIGERATOR: f32 = 1.5;
 /// Shortest main run: sink, hob and a little worktop.
 const SHORTEST: f32 = 1.7;
 
 /// Furnishes the room.
 pub fn furnish(f: &mut Furnisher) {
-    let fitted = units(f);
-    if !fitted {
+    if !units(f).is_some_and(|kitchen| kitchen.has_refrigerator()) {
         f.furnish("refrigerator", cornered);
     }
     if !f.home_has(RoomKind::Dining) {
         f.dine([2, 4], |floor, s| floor.to_window(s.origin));
     }
-    f.perhaps(0.3, "refrigerator", cornered);
     f.perhaps(0.6, "waste_bin", cornered);
     f.art(1, |_, s| s.x.abs());
     f.ceiling_lamp();
@@ -72,8 +72,8 @@ fn stretches(f: &Furnisher) -> Vec<Stretch> {
     all
 }
 
-/// Places the fitted units; false where no wall has room.
-fn units(f: &mut Furnisher) -> bool {
+/// Places the fitted units; `None` where no wall has room.
+fn units(f: &mut Furnisher) -> Option<FittedKitchen> {
     let mut tried: Vec<(f32, FittedKitchen, Stretch)> = Vec::new();
     for mut stretch in stretches(f) {
         let along = stretch.x[1] - stretch.x[0];
@@ -95,13 +95,14 @@ fn units(f: &mut Furnisher) -> bool {
             let low_sill = f.room.windows().any(|o| o.wall == stretch.wall && o.z[0] < kitchen::WORKTOP + 0.05);
             for kitchen in variants {
                 let length = width + kitchen.wings.iter().flatten().map(|run| run.length()).sum::<f32>();
-                let cost = (length - 4.2).abs() + if low_sill { 5.0 } else { 0.0 } + f.rng.range(0.0, 0.8);
+                let cold = if kitchen.has_refrigerator() { 0.0 } else { NO_REFRIGERATOR };
+                let cost = (length - 4.2).abs() + if low_sill { 5.0 } else { 0.0 } + cold + f.rng.range(0.0, 0.8);
                 tried.push((cost, kitchen, Stretch { ..stretch }));
             }
         }
     }
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
-    tried.into_iter().any(|(_, kitchen, stretch)| place(f, &kitchen, &stretch))
+    tried.into_iter().find_map(|(_, kitchen, stretch)| place(f, &kitchen, &stretch).then_some(kitchen))
 }
 
 /// Where windows are above the main run, from its middle: those in its wall, and, as a narrow one at its end, those in the walls beside

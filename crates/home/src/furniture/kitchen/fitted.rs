@@ -58,6 +58,11 @@ impl FittedKitchen {
         Self { main, wings, style: KitchenStyle::random(rng) }
     }
 
+    /// True when a refrigerator is built in.
+    pub fn has_refrigerator(&self) -> bool {
+        self.runs().iter().any(|(run, _, _)| run.units.iter().any(|(unit, _)| *unit == Unit::BuiltInRefrigerator))
+    }
+
     /// The boxes of what reaches above the worktop: tall units, what hangs, and what covers the wall; from and to, in the kitchen's space.
     pub fn uppers(&self) -> Vec<[Vec3; 2]> {
         let mut all = Vec::new();
