@@ -73,7 +73,7 @@ fn sh3f(file: &Path) {
 fn library() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("beds")).unwrap();
-    std::fs::write(folder.path().join("beds/old_bed_1k.glb"), glb([1.6, 0.9, 2.1])).unwrap();
+    std::fs::write(folder.path().join("beds/old_bed_1k.glb"), glb([1.8, 0.9, 2.1])).unwrap();
     std::fs::write(folder.path().join("k17.glb"), glb([0.45, 0.5, 0.4])).unwrap();
     let table = "licence = \"CC0\"\n[models.\"k17.glb\"]\nfamily = \"nightstand\"\n[models.\"t#lamp\"]\nuse = false\n";
     std::fs::write(folder.path().join("assets.toml"), table).unwrap();
