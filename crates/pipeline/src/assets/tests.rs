@@ -94,6 +94,16 @@ fn made(config: &HomeConfig) -> Result<Home, Error> {
     home(config, &located, &Quiet)
 }
 
+/// The first home of these seeds that has models of all of these names: not every room has place for everything.
+fn first_with(config: &HomeConfig, seeds: std::ops::Range<u64>, names: &[&str], cx: &dyn Cx) -> (HomeConfig, Home) {
+    let mut tried = seeds.map(|seed| HomeConfig { seed, ..config.clone() }).map(|config| {
+        let home = home(&config, &located, cx).expect("the library can be used");
+        (config, home)
+    });
+    let has = |home: &Home, name: &str| home.credits.iter().any(|credit| credit.contains(name));
+    tried.find(|(_, home)| names.iter().all(|name| has(home, name))).expect("one of the homes has them all")
+}
+
 /// What a failure says, and what to do.
 fn refused(config: &HomeConfig) -> (String, String) {
     let error = made(config).expect_err("it is refused");
@@ -103,8 +113,7 @@ fn refused(config: &HomeConfig) -> (String, String) {
 #[test]
 fn models_are_placed_like_our_own_with_labels_and_credits() {
     let folder = library();
-    let config = config(folder.path());
-    let home = made(&config).unwrap();
+    let (config, home) = first_with(&config(folder.path()), 0..30, &["Wardrobe", "k17", "old_bed"], &Quiet);
     assert_eq!(faults(&home), []);
     assert_eq!(home.scene.validate(), Ok(()));
     let of = |name: &str| home.scene.parts.iter().position(|part| part.name == name).unwrap_or_else(|| panic!("no {name}"));
@@ -164,12 +173,14 @@ impl Cx for Told {
 fn a_model_that_is_wanted_and_broken_is_an_error_unless_the_user_allows_it() {
     let folder = library();
     std::fs::write(folder.path().join("assets.toml"), "").unwrap();
-    let config = config(folder.path());
+    // Every bedside has a lamp, but not every bedroom a bedside.
+    let seeds = (0..30).map(|seed| HomeConfig { seed, ..config(folder.path()) });
+    let config = seeds.into_iter().find(|config| made(config).is_err()).expect("one of the homes wants the lamp");
     let (message, hint) = refused(&config);
     assert!(message.contains("few.sh3f: l/l.obj: the model is not in the archive") && hint.contains("use = false"), "{message}");
     let told = Told::default();
     let home = home(&HomeConfig { allow_broken_assets: true, ..config }, &located, &told).unwrap();
-    assert!(!home.credits.is_empty());
+    assert_eq!(home.scene.validate(), Ok(()));
     assert!(told.0.lock().unwrap().iter().any(|line| line.contains("l/l.obj") && line.contains("ours stands in")));
 }
 
@@ -182,9 +193,7 @@ fn poly_havens_furniture_furnishes_a_living_room() {
     let folder = Path::new(&scenes).join("polyhaven-furniture-1k");
     let told = Told::default();
     let config = HomeConfig { rooms: vec![RoomKind::Living], ..config(&folder) };
-    let home = home(&config, &located, &told).unwrap();
+    let (_, home) = first_with(&config, 0..12, &["sofa_03_1k", "wooden_bookshelf_worn_1k"], &told);
     assert_eq!(faults(&home), []);
-    let has = |name: &str| home.credits.iter().any(|credit| credit.contains(name));
-    assert!(has("sofa_03_1k") && has("wooden_bookshelf_worn_1k"), "{:?}", home.credits);
     assert!(told.0.lock().unwrap().iter().any(|line| line.contains("tea_set_01_1k.gltf")));
 }
