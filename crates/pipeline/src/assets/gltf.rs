@@ -25,7 +25,7 @@ fn model(name: &str, path: &Path, table: &Table) -> Result<Model, String> {
     let body = Arc::new(body);
     let mut model = Model::new(stem.to_string(), size, families, Box::new(move || Ok(Arc::clone(&body))));
     model.file = name.into();
-    model.licence = choice.licence.unwrap_or_else(|| "licence not stated".into());
+    model.licence = choice.licence.or(choice.licence_of_all).unwrap_or_else(|| "licence not stated".into());
     (model.shines, model.weight) = (shines, choice.weight);
     Ok(model)
 }

@@ -110,7 +110,10 @@ pub(super) struct Choice {
     pub size: Option<Vec3>,
     pub front: Front,
     pub weight: f32,
+    /// What the table says of this model.
     pub licence: Option<String>,
+    /// What it says of all models that do not say it themselves.
+    pub licence_of_all: Option<String>,
     /// False where it is not to be used.
     pub wanted: bool,
     stands: Option<Stands>,
@@ -165,7 +168,8 @@ impl Table {
             size: entry.size.map(Vec3::from_array),
             front: entry.front.or(self.0.front).unwrap_or_default(),
             weight: entry.weight.unwrap_or(1.0),
-            licence: entry.licence.or_else(|| self.0.licence.clone()),
+            licence: entry.licence,
+            licence_of_all: self.0.licence.clone(),
             wanted: entry.wanted.unwrap_or(true),
             stands: entry.stands,
         }
@@ -231,7 +235,7 @@ mod tests {
         assert!(a.families_or("chair").contains(&"sofa") && a.front == Front::X && a.size == Some(Vec3::new(2.0, 1.0, 0.8)));
         let other = table.of("stool.gltf");
         assert!(other.families_or("stool").contains(&"bar_stool") && other.front == Front::MinusX && other.weight == 1.0);
-        assert_eq!((a.licence, other.licence), (Some("CC0".into()), Some("CC0".into())));
+        assert_eq!((a.licence, other.licence_of_all), (None, Some("CC0".into())));
         let lamps = read("[models.\"a.glb\"]\nclass = \"lamp\"\nstands = \"ceiling\"\n").unwrap();
         assert_eq!(lamps.of("a.glb").families_or(""), ["pendant", "ceiling_lamp"]);
     }
