@@ -82,14 +82,14 @@ fn showroom(exhibits: &[Exhibit]) -> Scene {
             Place::AgainstWall => (0.5 * size.y + 0.01, 0.0),
             Place::Free | Place::Corner | Place::OnSurface | Place::Underfoot => (0.5 * deepest + 0.05 + 0.2 * mean, 0.0),
         };
-        b.enter_room(exhibit.palette);
+        b.enter_room(exhibit.palette, false);
         let place = pose(f64::from(x - 0.5 * size.x), f64::from(y), f64::from(z), 0.0);
         exhibit.thing.build(&mut b, place, &mut exhibit.rng.clone());
         let bounds = exhibit.family.place.bounds(size);
         (low, high) = (low.min(z + bounds.min.z), high.max(z + bounds.max.z));
         x -= size.x + gap;
     }
-    b.enter_room(Palette::all()[0]);
+    b.enter_room(Palette::all()[0], false);
     shell(&mut b, width + 12.0);
     let mut scene = b.finish().0;
     light(&mut scene);

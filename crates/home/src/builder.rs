@@ -68,6 +68,8 @@ pub struct Object {
 /// A scene in the making.
 pub struct Builder {
     materials: Materials,
+    /// No daylight comes into the room: its lamps are lit.
+    dark: bool,
     scene: Scene,
     labels: Labels,
     families: BTreeMap<String, u32>,
@@ -95,6 +97,7 @@ impl Builder {
     pub fn new(materials: Materials) -> Self {
         Self {
             materials,
+            dark: false,
             scene: Scene::default(),
             labels: Labels::default(),
             families: BTreeMap::new(),
@@ -104,8 +107,9 @@ impl Builder {
         }
     }
 
-    /// What is added from now on has the colours of `palette`.
-    pub fn enter_room(&mut self, palette: Palette) {
+    /// What is added from now on has the colours of `palette`; in a `dark` room all lamps are lit at any hour.
+    pub fn enter_room(&mut self, palette: Palette, dark: bool) {
+        self.dark = dark;
         self.materials.enter_room(palette);
     }
 
@@ -132,7 +136,7 @@ impl Builder {
     pub fn part_at(&mut self, object: &Object, name: &str, mesh: Mesh, object_from_mesh: DAffine3, made_of: impl Into<Surfacing>) {
         let material = match made_of.into() {
             Surfacing::Finish(finish) => match finish.glow(&mesh) {
-                Some(glow) => self.materials.glow(&mut self.scene, &object.name, &mesh, glow),
+                Some(glow) => self.materials.glow(&mut self.scene, &object.name, self.dark, &mesh, glow),
                 None => self.materials.get(&mut self.scene, finish),
             },
             Surfacing::Own(material) => material,
@@ -175,7 +179,7 @@ impl Builder {
 
     /// Adds a luminous part of a lamp: its flux and its mesh's area give its radiance, the light of the home whether it is lit.
     pub fn glow(&mut self, object: &Object, name: &str, mesh: Mesh, glow: Glow) {
-        let material = self.materials.glow(&mut self.scene, &object.name, &mesh, glow);
+        let material = self.materials.glow(&mut self.scene, &object.name, self.dark, &mesh, glow);
         self.part(object, name, mesh, material);
     }
 

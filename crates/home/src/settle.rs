@@ -2,14 +2,15 @@
 //! into others or floats is taken away, until nothing does.
 //!
 //! Furniture is placed by its measures; its triangles, which creases, tilts and clutter move a little, are judged as [`crate::check`]
-//! does. Of two things that meet the smaller goes; what stood on it goes with it, since it floats then.
+//! does. Of two things that meet the smaller goes; what stood on it goes with it, since it floats then. So does what stands in the only way
+//! into a room.
 
 use crate::Home;
 use crate::check::contact::Contacts;
 use crate::check::meet::Body;
-use crate::check::{Fault, bodies, is_shell, object_of};
+use crate::check::{Fault, bodies, is_shell, object_of, walk};
 use crate::gravity;
-use enfilade_math::{DAffine3, Vec3};
+use enfilade_math::{Bounds3, DAffine3, Vec2, Vec3};
 use enfilade_scene::{Part, PartLabel, is_stuff};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -31,6 +32,9 @@ pub struct Shift {
     pub by: Vec3,
 }
 
+/// What is so near to a door can be in the way, metres.
+const NEAR_DOOR: f32 = 1.0;
+
 /// Moves what can be put right, and takes away what cannot; the shell stays.
 pub fn settle(home: &mut Home) {
     let mut bodies = bodies(home);
@@ -42,7 +46,9 @@ pub fn settle(home: &mut Home) {
             part.world_from_mesh = DAffine3::from_translation(by.as_dvec3()) * part.world_from_mesh;
         }
     }
-    home.removed = condemned(&bodies, &contacts);
+    let mut gone = condemned(&bodies, &contacts);
+    clear_ways(home, &bodies, &contacts, &mut gone);
+    home.removed = gone.into_iter().map(|(i, fault)| Removal { object: bodies[i].name.clone(), fault }).collect();
     let gone: BTreeSet<&str> = home.removed.iter().map(|removal| removal.object.as_str()).collect();
     let (scene, labels) = (&mut home.scene, &mut home.labels);
     let kept = |part: &Part| !gone.contains(object_of(&part.name));
@@ -54,8 +60,8 @@ pub fn settle(home: &mut Home) {
 }
 
 /// What must go so that nothing of the rest meets or floats.
-fn condemned(bodies: &[Body], contacts: &Contacts) -> Vec<Removal> {
-    let volume = |i: usize| bodies[i].bounds.extent().max(Vec3::splat(1e-3)).element_product();
+fn condemned(bodies: &[Body], contacts: &Contacts) -> BTreeMap<usize, Fault> {
+    let volume = |i: usize| volume(&bodies[i]);
     let mut gone: BTreeMap<usize, Fault> = BTreeMap::new();
     for &(a, b) in &contacts.meeting {
         if gone.contains_key(&a) || gone.contains_key(&b) {
@@ -65,11 +71,65 @@ fn condemned(bodies: &[Body], contacts: &Contacts) -> Vec<Removal> {
         let smaller = if shell[1] || !shell[0] && volume(a) < volume(b) { a } else { b };
         gone.insert(smaller, Fault::Meets(bodies[a].name.clone(), bodies[b].name.clone()));
     }
+    let_go(bodies, contacts, &mut gone);
+    gone
+}
+
+/// What nothing carries any more goes too.
+fn let_go(bodies: &[Body], contacts: &Contacts, gone: &mut BTreeMap<usize, Fault>) {
     let held = contacts.carried(bodies, |i| !gone.contains_key(&i));
     for i in (0..bodies.len()).filter(|&i| !held[i]) {
         gone.entry(i).or_insert_with(|| Fault::Floats(bodies[i].name.clone()));
     }
-    gone.into_iter().map(|(i, fault)| Removal { object: bodies[i].name.clone(), fault }).collect()
+}
+
+/// Volume of the box around a body.
+fn volume(body: &Body) -> f32 {
+    body.bounds.extent().max(Vec3::splat(1e-3)).element_product()
+}
+
+/// Takes away what stands in the way into rooms that nobody can reach: the smallest things that open one, or else, one by one, all that
+/// stand before its doors.
+fn clear_ways(home: &Home, bodies: &[Body], contacts: &Contacts, gone: &mut BTreeMap<usize, Fault>) {
+    let lost = |gone: &BTreeMap<usize, Fault>| {
+        let names: BTreeSet<&str> = gone.keys().map(|&i| bodies[i].name.as_str()).collect();
+        walk::unreachable(home, |object| !names.contains(object))
+    };
+    let mut rooms = lost(gone);
+    if rooms.is_empty() {
+        return;
+    }
+    let near = before_doors(home, bodies, &rooms);
+    for only_if_it_helps in [true, false] {
+        for &i in &near {
+            if rooms.is_empty() {
+                return;
+            }
+            let mut without = gone.clone();
+            without.entry(i).or_insert(Fault::Unreachable(rooms[0]));
+            let_go(bodies, contacts, &mut without);
+            let left = lost(&without);
+            if left.len() < rooms.len() || !only_if_it_helps {
+                (*gone, rooms) = (without, left);
+            }
+        }
+    }
+}
+
+/// What stands within a metre of a door of one of `rooms`, on either side, the smallest first.
+fn before_doors(home: &Home, bodies: &[Body], rooms: &[usize]) -> Vec<usize> {
+    let doors: Vec<Vec2> = rooms
+        .iter()
+        .flat_map(|&room| {
+            let room = &home.plan.rooms[room];
+            room.ways().map(|way| room.before(way.wall, way.center_x(), 0.0))
+        })
+        .collect();
+    let distance = |b: &Bounds3, p: Vec2| p.distance(p.clamp(b.min.truncate(), b.max.truncate()));
+    let stands = |body: &Body| !is_shell(&body.name) && doors.iter().any(|&door| distance(&body.bounds, door) < NEAR_DOOR);
+    let mut near: Vec<usize> = (0..bodies.len()).filter(|&i| stands(&bodies[i])).collect();
+    near.sort_by(|&a, &b| volume(&bodies[a]).total_cmp(&volume(&bodies[b])));
+    near
 }
 
 /// Instances are 1, 2, 3, … in their old order.
@@ -100,4 +160,32 @@ fn retain<T>(list: &mut Vec<T>, used: impl Iterator<Item = u32>) -> BTreeMap<u32
         places.contains_key(&(index - 1))
     });
     places
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::builder::pose;
+    use crate::shape::bevelled_box;
+    use crate::{HomeConfig, RoomKind};
+
+    #[test]
+    fn what_stands_in_the_only_way_goes() {
+        let mut home = crate::home(&HomeConfig { rooms: vec![RoomKind::Study, RoomKind::Bathroom], ..HomeConfig::default() });
+        assert!(walk::unreachable(&home, |_| true).is_empty());
+        let (number, room) = home.plan.rooms.iter().enumerate().find(|(_, room)| room.kind == RoomKind::Bathroom).unwrap();
+        let way = room.ways().next().unwrap();
+        assert_eq!(room.ways().count(), 1);
+        let at = room.before(way.wall, way.center_x(), 0.3);
+        let size = Vec3::new(way.size().x + 0.2, 0.02, 1.2);
+        home.scene.meshes.push(bevelled_box(size, 0.01));
+        let world_from_mesh = pose(f64::from(at.x), f64::from(at.y), 0.601, way.wall.yaw());
+        let mesh = home.scene.meshes.len() as u32 - 1;
+        home.scene.parts.push(Part { name: "crate_1/body".into(), mesh, world_from_mesh, ..home.scene.parts[0].clone() });
+        home.labels.parts.push(home.labels.parts[0]);
+        assert_eq!(walk::unreachable(&home, |_| true), [number]);
+        settle(&mut home);
+        assert_eq!(home.removed, [Removal { object: "crate_1".into(), fault: Fault::Unreachable(number) }]);
+        assert!(walk::unreachable(&home, |_| true).is_empty());
+    }
 }

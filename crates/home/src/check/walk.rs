@@ -30,14 +30,15 @@ impl Grid {
     }
 }
 
-/// Rooms that nobody can walk into from the entrance. Doors do not count: people open them.
-pub fn unreachable(home: &Home) -> Vec<usize> {
+/// Rooms that nobody can walk into from the entrance, if only objects stand there of which `stays` is true. Doors do not count: people
+/// open them.
+pub fn unreachable(home: &Home, stays: impl Fn(&str) -> bool) -> Vec<usize> {
     let plan = &home.plan;
     let margin = 0.5;
     let min = plan.whole.min - margin;
     let size = ((plan.whole.max + margin - min) / CELL).ceil();
     let grid = Grid { min, columns: size.x as usize, rows: size.y as usize };
-    let blocked = widened(&grid, &solid(&grid, home));
+    let blocked = widened(&grid, &solid(&grid, home, stays));
     let entered = plan.doorways.first().map_or(0, |way| way.into);
     let start = plan.rooms.get(entered).and_then(|room| {
         let way = room.openings.iter().find(|o| o.is_way() && room.outer[o.wall as usize])?;
@@ -65,11 +66,12 @@ pub fn unreachable(home: &Home) -> Vec<usize> {
     (0..plan.rooms.len()).filter(|i| !entered(i)).collect()
 }
 
-/// Cells that something stands in, at the height of a body.
-fn solid(grid: &Grid, home: &Home) -> Vec<bool> {
+/// Cells that something stands in which `stays`, at the height of a body.
+fn solid(grid: &Grid, home: &Home, stays: impl Fn(&str) -> bool) -> Vec<bool> {
     let mut cells = vec![false; grid.columns * grid.rows];
     for part in &home.scene.parts {
-        if family_of(object_of(&part.name)) == "door" {
+        let object = object_of(&part.name);
+        if family_of(object) == "door" || !stays(object) {
             continue;
         }
         let mesh = &home.scene.meshes[part.mesh as usize];

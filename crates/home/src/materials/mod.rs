@@ -61,9 +61,9 @@ impl Materials {
         index
     }
 
-    /// The material of a luminous part with this mesh; the lamp's name decides whether it is lit.
-    pub fn glow(&self, scene: &mut Scene, lamp: &str, mesh: &Mesh, glow: Glow) -> u32 {
-        add(scene, glow.material(mesh, self.light.lit(lamp), self.exposure))
+    /// The material of a luminous part with this mesh; the lamp's name decides whether it is lit, unless it always is.
+    pub fn glow(&self, scene: &mut Scene, lamp: &str, always: bool, mesh: &Mesh, glow: Glow) -> u32 {
+        add(scene, glow.material(mesh, always || self.light.lit(lamp), self.exposure))
     }
 }
 

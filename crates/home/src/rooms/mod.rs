@@ -32,7 +32,7 @@ pub fn furnish(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &
     let home = decor.palette();
     for (i, room) in plan.rooms.iter().enumerate() {
         let palette = decor.room(&home, i as u64);
-        b.enter_room(palette);
+        b.enter_room(palette, room.windows().next().is_none());
         let mut f = Furnisher::new(b, plan, room, &palette, library, config.clutter, furniture.fork(i as u64));
         f.fittings();
         content(&mut f);
