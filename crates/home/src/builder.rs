@@ -1,6 +1,6 @@
 //! Puts parts, labels and materials together into a scene.
 
-use crate::assets::{Body, Model, shifted};
+use crate::assets::{Body, Model, repictured};
 use crate::light::Glow;
 use crate::materials::{Materials, Surfacing};
 use crate::palette::Palette;
@@ -160,7 +160,7 @@ impl Builder {
         let first_image = self.scene.images.len() as u32;
         self.scene.images.extend(body.images.iter().cloned());
         let dark = |m: &Material| Material { emission: Rgb::BLACK.into(), ..m.clone() };
-        let materials = body.materials.iter().map(|m| self.material(shifted(dark(m), first_image))).collect();
+        let materials = body.materials.iter().map(|m| self.material(repictured(dark(m), |k| k + first_image))).collect();
         let meshes = body.parts.iter().map(|part| self.mesh(part.mesh.clone())).collect();
         let loaned = Arc::new(Loaned { meshes, materials });
         self.loaned.insert(number, Arc::clone(&loaned));

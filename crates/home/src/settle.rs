@@ -6,6 +6,7 @@
 //! into a room.
 
 use crate::Home;
+use crate::assets::repictured;
 use crate::check::contact::Contacts;
 use crate::check::meet::Body;
 use crate::check::{Fault, bodies, is_shell, object_of, walk};
@@ -141,7 +142,7 @@ fn number_instances(home: &mut Home) {
     }
 }
 
-/// Meshes and materials that no part has any more go too.
+/// Meshes, materials and pictures that no part has any more go too.
 fn drop_unused(home: &mut Home) {
     let scene = &mut home.scene;
     let mesh = retain(&mut scene.meshes, scene.parts.iter().map(|part| part.mesh));
@@ -149,6 +150,11 @@ fn drop_unused(home: &mut Home) {
     for part in &mut scene.parts {
         (part.mesh, part.material) = (mesh[&part.mesh], material[&part.material]);
     }
+    let mut shown = Vec::new();
+    scene.materials.iter().for_each(|material| material.textures(|texture| shown.push(texture.image)));
+    let image = retain(&mut scene.images, shown.into_iter());
+    let materials = std::mem::take(&mut scene.materials).into_iter();
+    scene.materials = materials.map(|material| repictured(material, |k| image[&k])).collect();
 }
 
 /// Keeps the entries of a list that are used, in their order; where each of them has gone.

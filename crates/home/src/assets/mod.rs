@@ -15,5 +15,5 @@ pub use body::{Body, BodyPart, Bulb};
 pub use borrowed::Borrowed;
 pub use library::{Library, Model};
 pub use range::believable;
-pub(crate) use textures::shifted;
+pub(crate) use textures::repictured;
 pub use words::families_of;

@@ -2,9 +2,9 @@
 
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, ScalarParam, TextureRef};
 
-/// The material with every picture `by` places further on.
-pub(crate) fn shifted(mut material: Material, by: u32) -> Material {
-    let mut shift = |t: &mut TextureRef| t.image += by;
+/// The material with picture number k of a list at `place(k)` of another.
+pub(crate) fn repictured(mut material: Material, place: impl Fn(u32) -> u32) -> Material {
+    let mut shift = |t: &mut TextureRef| t.image = place(t.image);
     of_bsdf(&mut material.bsdf, &mut shift);
     of_color(&mut material.emission, &mut shift);
     if let Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } = &mut material.alpha {
@@ -94,7 +94,7 @@ mod tests {
             ..Material::new("m", both)
         };
         let mut seen = Vec::new();
-        shifted(material, 100).textures(|t| seen.push(t.image));
+        repictured(material, |k| k + 100).textures(|t| seen.push(t.image));
         seen.sort_unstable();
         assert_eq!(seen, (100..117).collect::<Vec<u32>>());
     }

@@ -15,7 +15,9 @@ use crate::error::Error;
 use enfilade_home::assets::{Library, Model};
 use enfilade_home::{Home, HomeConfig};
 use enfilade_scene::{Cx, Warning};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 use table::Table;
 
 /// Most places that an error or warning lists.
@@ -26,8 +28,13 @@ const LISTED: usize = 8;
 /// # Errors
 /// When a library is not there, holds nothing that can be used, or a model that the home wants is broken.
 pub(crate) fn home(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Error>, cx: &dyn Cx) -> Result<Home, Error> {
-    let library = library(config, locate, cx)?;
+    let notes = Notes::default();
+    let library = library(config, locate, &notes, cx)?;
     let home = enfilade_home::home_with(config, &library);
+    let dropped = notes.take();
+    if !dropped.is_empty() {
+        cx.warn(Warning { place: "assets".into(), message: format!("models are not as their files say: {}", listed(&dropped)) });
+    }
     let broken = library.broken();
     if config.allow_broken_assets {
         broken.into_iter().for_each(|message| cx.warn(Warning { place: "assets".into(), message: format!("{message}; ours stands in") }));
@@ -35,6 +42,25 @@ pub(crate) fn home(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf,
         return Err(refuse_broken(first));
     }
     Ok(home)
+}
+
+/// What is told while models are read, which is when a home wants them; kept until it is made.
+#[derive(Clone, Debug, Default)]
+struct Notes(Arc<Mutex<BTreeSet<String>>>);
+
+impl Notes {
+    /// Each once, sorted.
+    fn take(&self) -> Vec<String> {
+        std::mem::take(&mut *self.0.lock().unwrap_or_else(PoisonError::into_inner)).into_iter().collect()
+    }
+}
+
+impl Cx for Notes {
+    fn progress(&self, _what: &str, _done: u64, _total: u64) {}
+
+    fn warn(&self, warning: Warning) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(warning.to_string());
+    }
 }
 
 /// Every file of the libraries, in the order of their names.
@@ -92,14 +118,14 @@ fn walk(root: &Path) -> Result<Vec<PathBuf>, Error> {
     Ok(files)
 }
 
-fn library(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Error>, cx: &dyn Cx) -> Result<Library, Error> {
+fn library(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Error>, notes: &Notes, cx: &dyn Cx) -> Result<Library, Error> {
     if config.assets.is_empty() {
         return Ok(Library::default());
     }
     let mut models = Vec::new();
     for written in &config.assets {
         let root = locate(written)?;
-        let found = of_root(&root, config.allow_broken_assets, cx)?;
+        let found = of_root(&root, config.allow_broken_assets, notes, cx)?;
         if found.is_empty() {
             return Err(Error::usage(
                 format!("there are no models in {}", root.display()),
@@ -129,7 +155,7 @@ fn listed(lines: &[String]) -> String {
 }
 
 /// The models of one library.
-fn of_root(root: &Path, allow_broken: bool, cx: &dyn Cx) -> Result<Vec<Model>, Error> {
+fn of_root(root: &Path, allow_broken: bool, notes: &Notes, cx: &dyn Cx) -> Result<Vec<Model>, Error> {
     let files = walk(root)?;
     let is =
         |path: &Path, extensions: &[&str]| path.extension().is_some_and(|found| extensions.iter().any(|e| found.eq_ignore_ascii_case(e)));
@@ -149,7 +175,7 @@ fn of_root(root: &Path, allow_broken: bool, cx: &dyn Cx) -> Result<Vec<Model>, E
         }
     }
     pieces.retain(|piece| table.of(&piece.name).wanted);
-    models.extend(pieces.into_iter().map(|piece| piece.model(&table)));
+    models.extend(pieces.into_iter().map(|piece| piece.model(&table, notes.clone())));
     Ok(models)
 }
 

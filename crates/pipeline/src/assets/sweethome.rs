@@ -11,13 +11,12 @@
 //!
 //! The format is that of Sweet Home 3D's own reader, `com.eteks.sweethome3d.io.DefaultFurnitureCatalog`.
 
-use super::properties;
 use super::table::{Front, Table};
+use super::{Notes, properties};
 use crate::error::Error;
 use enfilade_home::assets::{Body, Bulb, Model};
 use enfilade_import::ImportOptions;
 use enfilade_math::{DMat3, Vec3};
-use enfilade_scene::Quiet;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufReader, Read};
@@ -119,7 +118,8 @@ fn bulbs([x, y, z, diameter]: &[Vec<f32>; 4], size: Vec3) -> Vec<Bulb> {
 
 impl Piece {
     /// The model, which is read when it is wanted.
-    pub fn model(self, table: &Table) -> Model {
+    /// What is dropped or guessed then comes to `notes`.
+    pub fn model(self, table: &Table, notes: Notes) -> Model {
         let choice = table.of(&self.name);
         let families = choice.families_or(&self.title);
         let size = choice.size.unwrap_or(self.size);
@@ -128,20 +128,20 @@ impl Piece {
         let file = format!("{archive}, {}", self.name);
         let licence = choice.licence.clone().unwrap_or_else(|| self.licence.clone());
         let turn = choice.front.turn();
-        let mut model = Model::new(title, size, families, Box::new(move || self.read(turn, size).map(Arc::new)));
+        let mut model = Model::new(title, size, families, Box::new(move || self.read(turn, size, &notes).map(Arc::new)));
         (model.file, model.licence) = (file, licence);
         (model.elevation, model.shines, model.weight) = (elevation, shines, choice.weight);
         model
     }
 
     /// What it looks like.
-    fn read(&self, turn: DMat3, size: Vec3) -> Result<Body, String> {
+    fn read(&self, turn: DMat3, size: Vec3, notes: &Notes) -> Result<Body, String> {
         let place = format!("{}: {}", self.archive.display(), self.model);
         let folder = tempfile::tempdir().map_err(|error| format!("{place}: no folder to unpack it to ({error}); set TMPDIR"))?;
         unpack(&self.archive, &self.model, folder.path()).map_err(|problem| format!("{place}: {problem}"))?;
         // A picture that a catalogue forgot is not worth a model.
         let options = ImportOptions { allow_missing_textures: true, ..ImportOptions::default() };
-        let imported = enfilade_import::load(&folder.path().join(&self.model), &options, &Quiet).map_err(|error| {
+        let imported = enfilade_import::load(&folder.path().join(&self.model), &options, notes).map_err(|error| {
             let unpacked = format!("{}/", folder.path().display());
             format!("{}: {}", self.archive.display(), error.to_string().replace(&unpacked, ""))
         })?;

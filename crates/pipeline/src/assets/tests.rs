@@ -61,7 +61,8 @@ fn sh3f(file: &Path) {
         name#3=Lamp\nid#3=t#lamp\ncategory#3=Lights\nmodel#3=/l/l.obj\nwidth#3=30\ndepth#3=30\nheight#3=45\nlightSourceX#3=15\n\
         lightSourceY#3=15\nlightSourceZ#3=30\n";
     let mut archive = zip::ZipWriter::new(std::fs::File::create(file).unwrap());
-    let entries = [("PluginFurnitureCatalog.properties", catalogue), ("w/w.obj", &obj), ("w/w.mtl", "newmtl oak\nKd 0.4 0.3 0.2\n")];
+    let entries =
+        [("PluginFurnitureCatalog.properties", catalogue), ("w/w.obj", &obj), ("w/w.mtl", "newmtl oak\nKd 0.4 0.3 0.2\nmap_Kd lost.png\n")];
     for (name, text) in entries {
         archive.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
         archive.write_all(text.as_bytes()).unwrap();
@@ -113,7 +114,10 @@ fn refused(config: &HomeConfig) -> (String, String) {
 #[test]
 fn models_are_placed_like_our_own_with_labels_and_credits() {
     let folder = library();
-    let (config, home) = first_with(&config(folder.path()), 0..30, &["Wardrobe", "k17", "old_bed"], &Quiet);
+    let told = Told::default();
+    let (config, home) = first_with(&config(folder.path()), 0..30, &["Wardrobe", "k17", "old_bed"], &told);
+    let of_wardrobe = |line: &String| line.contains("not as their files say") && line.contains("lost.png");
+    assert!(told.0.lock().unwrap().iter().any(of_wardrobe), "{told:?}");
     assert_eq!(faults(&home), []);
     assert_eq!(home.scene.validate(), Ok(()));
     let of = |name: &str| home.scene.parts.iter().position(|part| part.name == name).unwrap_or_else(|| panic!("no {name}"));
@@ -158,7 +162,7 @@ fn libraries_that_cannot_be_used_are_refused_with_file_and_remedy() {
 }
 
 /// Keeps what it is told.
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Told(Mutex<Vec<String>>);
 
 impl Cx for Told {
