@@ -175,15 +175,7 @@ pub fn plate_with_holes(min: Vec2, max: Vec2, thickness: f32, chamfer: f32, hole
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn volume(mesh: &Mesh) -> f32 {
-        (0..mesh.triangles.len())
-            .map(|t| {
-                let [a, b, c] = mesh.corners(t);
-                a.dot(b.cross(c)) / 6.0
-            })
-            .sum()
-    }
+    use crate::shape::volume;
 
     #[test]
     fn forms_are_closed_and_face_outward() {

@@ -46,19 +46,19 @@ pub fn grid(nu: usize, nv: usize, position: impl Fn(usize, usize) -> Vec3, uv: i
     mesh
 }
 
+/// Volume of a closed mesh in cubic metres: positive when the winding is outward.
+#[cfg(test)]
+pub(crate) fn volume(mesh: &Mesh) -> f32 {
+    let cone = |t| {
+        let [a, b, c] = mesh.corners(t);
+        a.dot(b.cross(c)) / 6.0
+    };
+    (0..mesh.triangles.len()).map(cone).sum()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Six times the volume: positive when the winding is outward.
-    fn volume(mesh: &Mesh) -> f32 {
-        (0..mesh.triangles.len())
-            .map(|t| {
-                let [a, b, c] = mesh.corners(t);
-                a.dot(b.cross(c)) / 6.0
-            })
-            .sum()
-    }
 
     #[test]
     fn closed_shapes_face_outward() {
