@@ -1,7 +1,7 @@
 //! `run --estimate`: what a run would take, as a table.
 
 use crate::outcome::{Verdict, say};
-use crate::stats::prices;
+use crate::price::{dollars, prices};
 use crate::{outcome::Problem, progress::Progress, summary};
 use enfilade_pipeline::{Config, Expected, Forecast};
 use enfilade_post::stats::Price;
@@ -42,14 +42,6 @@ fn row(name: &str, width: usize, forecast: &Forecast) -> String {
     format!("{name:width$}  {:6}  {cpu:>27}  {wall:>27}  {disk:>23}  {memory:>23}", forecast.frames)
 }
 
-/// Dollars, small sums to two digits that say something.
-pub fn dollars(sum: f64) -> String {
-    match sum {
-        d if d >= 0.1 || d <= 0.0 => format!("{d:.2}"),
-        d => format!("{d:.*}", (1.0 - d.log10().floor()) as usize),
-    }
-}
-
 fn paid(forecast: &Forecast, price: &Price) -> String {
     let hours = &forecast.vcpu_hours;
     let sum = |hours: f64| dollars(hours * price.dollars_per_vcpu_hour);
@@ -87,7 +79,6 @@ mod tests {
     fn times_and_sizes_have_the_unit_that_fits() {
         assert_eq!((time(3.25).as_str(), time(600.0).as_str(), time(36_000.0).as_str()), ("3.2 s", "10.0 min", "10.0 h"));
         assert_eq!((size(2.5e8).as_str(), size(2.5e9).as_str(), size(1.9e12).as_str()), ("250 MB", "2.5 GB", "1.90 TB"));
-        assert_eq!((dollars(12.345).as_str(), dollars(0.000_46).as_str(), dollars(0.0).as_str()), ("12.35", "0.00046", "0.00"));
         let expected = Expected { mean: 100.0, deviation: 10.0 };
         assert_eq!(told(&expected, |v| format!("{v:.0}")), "100 (80 to 120)");
     }

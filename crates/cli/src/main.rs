@@ -8,6 +8,7 @@ mod args;
 mod estimate;
 mod export;
 mod outcome;
+mod price;
 mod progress;
 mod scene_files;
 mod stats;

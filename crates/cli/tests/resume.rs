@@ -132,5 +132,5 @@ fn a_dataset_in_use_is_left_alone() {
     common::fail(d, &["run", "dataset.toml", "-o", "out"], 2, &["another process (process", "working on out"]);
     child.kill().unwrap();
     child.wait().unwrap();
-    succeed(d, &["carve", "out"]);
+    succeed(d, &["import", "out"]);
 }
