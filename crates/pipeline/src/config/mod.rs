@@ -198,8 +198,8 @@ pub struct Overrides {
 pub mod demo {
     /// Name of the demo's scene.
     pub const SCENE: &str = "home";
-    /// Seed.
-    pub const SEED: u64 = 0;
+    /// Seed: a living room in the evening, whose lamps leave less noise in a minute than the sun does.
+    pub const SEED: u64 = 16;
     /// The camera that the trajectory starts from; every home with a living room has it.
     pub const CAMERA: &str = "living_1";
     /// Frames of the trajectory.
