@@ -49,7 +49,7 @@ pub fn of_class(class: i16) -> &'static str {
         20 => "Bath mats and rugs, one in most rooms.",
         21 => "A pile or a coat is one instance; those of Hypersim are in 24 scenes, dozens in each.",
         23 => "A row of books is one instance; Hypersim's are mostly single.",
-        24 => "Every home has a kitchen, and every kitchen a refrigerator.",
+        24 => "Every home has a kitchen, and nearly every kitchen a refrigerator.",
         26 => "Magazines, notes and toilet paper are in every home.",
         30 => "In studies; Hypersim hardly has any.",
         31 => "There are no people in our homes.",
