@@ -58,11 +58,10 @@ impl Pile<'_> {
             return Some(self.hanging_together(root, &all));
         }
         let movable = |i: usize| !is_shell(&self.bodies[i].name) && !given_up.contains(&i);
-        let volume = |i: usize| self.bodies[i].bounds.extent().max(Vec3::splat(1e-3)).element_product();
         let mut either: Vec<usize> = Vec::new();
         for &(a, b) in &self.contacts.meeting {
             // The smaller one gives way, and the larger one where it cannot.
-            let [small, large] = if volume(a) < volume(b) { [a, b] } else { [b, a] };
+            let [small, large] = if self.bodies[a].volume() < self.bodies[b].volume() { [a, b] } else { [b, a] };
             either.extend([small, large].into_iter().find(|&i| movable(i)));
         }
         let root = either.into_iter().min_by(|a, b| low(a).total_cmp(&low(b)))?;

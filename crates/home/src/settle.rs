@@ -62,14 +62,13 @@ pub fn settle(home: &mut Home) {
 
 /// What must go so that nothing of the rest meets or floats.
 fn condemned(bodies: &[Body], contacts: &Contacts) -> BTreeMap<usize, Fault> {
-    let volume = |i: usize| volume(&bodies[i]);
     let mut gone: BTreeMap<usize, Fault> = BTreeMap::new();
     for &(a, b) in &contacts.meeting {
         if gone.contains_key(&a) || gone.contains_key(&b) {
             continue;
         }
         let shell = [a, b].map(|i| is_shell(&bodies[i].name));
-        let smaller = if shell[1] || !shell[0] && volume(a) < volume(b) { a } else { b };
+        let smaller = if shell[1] || !shell[0] && bodies[a].volume() < bodies[b].volume() { a } else { b };
         gone.insert(smaller, Fault::Meets(bodies[a].name.clone(), bodies[b].name.clone()));
     }
     let_go(bodies, contacts, &mut gone);
@@ -82,11 +81,6 @@ fn let_go(bodies: &[Body], contacts: &Contacts, gone: &mut BTreeMap<usize, Fault
     for i in (0..bodies.len()).filter(|&i| !held[i]) {
         gone.entry(i).or_insert_with(|| Fault::Floats(bodies[i].name.clone()));
     }
-}
-
-/// Volume of the box around a body.
-fn volume(body: &Body) -> f32 {
-    body.bounds.extent().max(Vec3::splat(1e-3)).element_product()
 }
 
 /// Takes away what stands in the way into rooms that nobody can reach: the smallest things that open one, or else, one by one, all that
@@ -129,7 +123,7 @@ fn before_doors(home: &Home, bodies: &[Body], rooms: &[usize]) -> Vec<usize> {
     let distance = |b: &Bounds3, p: Vec2| p.distance(p.clamp(b.min.truncate(), b.max.truncate()));
     let stands = |body: &Body| !is_shell(&body.name) && doors.iter().any(|&door| distance(&body.bounds, door) < NEAR_DOOR);
     let mut near: Vec<usize> = (0..bodies.len()).filter(|&i| stands(&bodies[i])).collect();
-    near.sort_by(|&a, &b| volume(&bodies[a]).total_cmp(&volume(&bodies[b])));
+    near.sort_by(|&a, &b| bodies[a].volume().total_cmp(&bodies[b].volume()));
     near
 }
 

@@ -1,6 +1,6 @@
 //! What one home is made of, and what it cost to make.
 
-use enfilade_home::check::faults;
+use enfilade_home::check::{family_of, faults, object_of};
 use enfilade_home::{Home, HomeConfig, home};
 use enfilade_math::{Bounds3, DVec2, Vec2, Vec3};
 use enfilade_scene::{Labels, NYU40, Part, Scene, is_stuff, to_bytes_with_labels};
@@ -81,16 +81,6 @@ pub fn measure(config: &HomeConfig) -> Result<Measured, Box<dyn std::error::Erro
     })
 }
 
-/// The family of an object or part: `sofa` of `sofa_1/seat`.
-fn family(part: &str) -> &str {
-    let object = object(part);
-    object.rsplit_once('_').map_or(object, |(family, _)| family)
-}
-
-fn object(part: &str) -> &str {
-    part.split('/').next().unwrap_or(part)
-}
-
 fn unlabelled(labels: &Labels) -> usize {
     labels.parts.iter().filter(|label| !(1..=NYU40.len() as i16).contains(&label.semantic)).count()
 }
@@ -126,12 +116,12 @@ fn objects(home: &Home) -> Vec<Object> {
     let mut parts: BTreeMap<&str, Vec<&Part>> = BTreeMap::new();
     let mut classes: BTreeMap<&str, i16> = BTreeMap::new();
     for (part, label) in scene.parts.iter().zip(&home.labels.parts).filter(|(_, label)| !is_stuff(label.semantic)) {
-        parts.entry(object(&part.name)).or_default().push(part);
-        classes.insert(object(&part.name), label.semantic);
+        parts.entry(object_of(&part.name)).or_default().push(part);
+        classes.insert(object_of(&part.name), label.semantic);
     }
     let of = |(name, parts): (&str, Vec<&Part>)| {
         let (size, middle) = boxed(scene, &parts);
-        Object { family: family(name).into(), semantic: classes[name], room: room_at(home, middle), size_m: size.to_array() }
+        Object { family: family_of(name).into(), semantic: classes[name], room: room_at(home, middle), size_m: size.to_array() }
     };
     parts.into_iter().map(of).collect()
 }

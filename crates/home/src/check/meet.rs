@@ -44,6 +44,11 @@ impl Body {
         parts.flat_map(|(_, triangles)| triangles).filter(|t| overlap(&Bounds3::from_points(**t), window, 0.0))
     }
 
+    /// Volume of the box around it, for telling the smaller one of two.
+    pub fn volume(&self) -> f32 {
+        self.bounds.extent().max(Vec3::splat(1e-3)).element_product()
+    }
+
     /// The boxes around its parts.
     pub fn boxes(&self) -> impl Iterator<Item = Bounds3> {
         self.parts.iter().map(|(bounds, _)| *bounds)

@@ -74,7 +74,7 @@ fn of_bodies(bodies: &[Body]) -> Vec<Fault> {
 }
 
 /// The object that a part belongs to: its name up to the slash.
-pub(crate) fn object_of(part: &str) -> &str {
+pub fn object_of(part: &str) -> &str {
     part.split('/').next().unwrap_or(part)
 }
 

@@ -20,7 +20,7 @@ pub struct Furnisher<'a> {
     /// The home's colours.
     pub palette: &'a Palette,
     /// Models of others.
-    pub library: &'a Library,
+    pub models: &'a Library,
     /// What stands where.
     pub floor: Floor,
     /// Density of small things.
@@ -64,13 +64,13 @@ impl<'a> Furnisher<'a> {
         plan: &'a FloorPlan,
         room: &'a Room,
         palette: &'a Palette,
-        library: &'a Library,
+        models: &'a Library,
         clutter: f32,
         rng: Rng,
     ) -> Self {
         let floor = Floor::new(room);
         let (known, built_in, plugs) = (Vec::new(), Vec::new(), Vec::new());
-        Self { b, plan, room, palette, library, floor, clutter, rng, accent: None, known, built_in, plugs }
+        Self { b, plan, room, palette, models, floor, clutter, rng, accent: None, known, built_in, plugs }
     }
 
     /// True with this probability.
@@ -106,7 +106,7 @@ impl<'a> Furnisher<'a> {
     /// A model of the library that stands in for `own`, if there is one of a size that `fits`.
     pub fn borrow(&mut self, family: &str, own: &dyn Furniture, fits: impl Fn(Vec3) -> bool) -> Option<Borrowed> {
         let family = family_named(family)?;
-        let (number, model) = self.library.pick(family, fits, &mut self.rng)?;
+        let (number, model) = self.models.pick(family, fits, &mut self.rng)?;
         Some(Borrowed { number, model, family, reach: own.reach() })
     }
 
