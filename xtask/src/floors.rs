@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 16] = [
+const FLOORS: [(&str, Floor); 17] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -31,6 +31,7 @@ const FLOORS: [(&str, Floor); 16] = [
     ("post", Floor::Number(4)),
     ("pipeline", Floor::Number(5)),
     ("export", Floor::Number(5)),
+    ("annotate", Floor::Number(6)),
     ("cli", Floor::Number(7)),
     ("testkit", Floor::Dev),
     ("xtask", Floor::Dev),

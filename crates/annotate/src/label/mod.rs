@@ -1,0 +1,1 @@
+//! Labelling the parts of a scene.

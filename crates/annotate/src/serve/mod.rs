@@ -1,0 +1,104 @@
+//! The server: binds, guards, serves, and ends in order.
+
+mod files;
+mod guard;
+mod problem;
+
+pub use files::page_files;
+pub use guard::{Guard, Token};
+pub use problem::ApiProblem;
+
+use axum::Router;
+use axum::extract::DefaultBodyLimit;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+
+/// Largest body of a request, bytes: a stroke of a million pixels fits.
+const MAX_BODY_BYTES: usize = 16 << 20;
+
+/// Where to listen, and what to do then.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Listen {
+    /// Address of the interface: loopback unless somebody asks for more.
+    pub address: IpAddr,
+    /// Port; 0 takes any that is free.
+    pub port: u16,
+    /// Demand a token on loopback too, where several people share a machine. Elsewhere it is always demanded.
+    pub token: bool,
+    /// Open the page in the user's browser.
+    pub open: bool,
+}
+
+impl Default for Listen {
+    /// This machine only, any free port, no token, page opened.
+    fn default() -> Self {
+        Self { address: Ipv4Addr::LOCALHOST.into(), port: 0, token: false, open: true }
+    }
+}
+
+/// Why there is no server.
+#[derive(Debug, thiserror::Error)]
+pub enum ServeError {
+    /// The address cannot be had.
+    #[error("cannot listen on {address}: {source}; choose another port with --port, or 0 for any that is free")]
+    Bind {
+        /// What was asked for.
+        address: SocketAddr,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// No threads, no randomness, or the network has gone.
+    #[error("the server cannot run: {0}")]
+    Run(String),
+}
+
+/// Serves `app` and the pages until the process is asked to end (Ctrl-C or SIGTERM); requests that are being answered are finished.
+///
+/// `page` is the path of the page to begin with, such as `/annotate/`; `started` is told its whole address, token included, once
+/// it can be opened.
+///
+/// # Errors
+/// When the address cannot be bound or the server cannot run.
+pub fn serve(app: Router, listen: &Listen, page: &str, started: impl FnOnce(&str)) -> Result<(), ServeError> {
+    let run = |e: std::io::Error| ServeError::Run(e.to_string());
+    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(run)?;
+    let outcome = runtime.block_on(async {
+        let address = SocketAddr::new(listen.address, listen.port);
+        let listener = tokio::net::TcpListener::bind(address).await.map_err(|source| ServeError::Bind { address, source })?;
+        let bound = listener.local_addr().map_err(run)?;
+        let guard = Guard::new(bound.ip(), listen.token).map_err(|e| ServeError::Run(format!("no random numbers for a token: {e}")))?;
+        let url = guard.url(bound, page);
+        started(&url);
+        if listen.open && open::that_detached(&url).is_err() {
+            // A machine without a browser: the address has been told.
+        }
+        let app = guarded(app, page, guard);
+        axum::serve(listener, app).with_graceful_shutdown(asked_to_end()).await.map_err(run)
+    });
+    // Pages that still listen for events would keep the runtime alive.
+    runtime.shutdown_background();
+    outcome
+}
+
+/// `app` with the files of the pages, behind the guard; `/` leads to `page`.
+pub fn guarded(app: Router, page: &str, guard: Guard) -> Router {
+    let page = page.to_string();
+    app.route("/", axum::routing::get(move || async move { axum::response::Redirect::temporary(&page) }))
+        .fallback(page_files)
+        .layer(DefaultBodyLimit::max(MAX_BODY_BYTES))
+        .layer(axum::middleware::from_fn_with_state(std::sync::Arc::new(guard), guard::check))
+}
+
+/// Returns when the process is asked to end.
+async fn asked_to_end() {
+    let interrupt = async { tokio::signal::ctrl_c().await.unwrap_or(()) };
+    #[cfg(unix)]
+    let terminate = async {
+        match tokio::signal::unix::signal(tokio::signal::unix::SignalKind::terminate()) {
+            Ok(mut signal) => signal.recv().await.unwrap_or(()),
+            Err(_) => std::future::pending().await,
+        }
+    };
+    #[cfg(not(unix))]
+    let terminate = std::future::pending::<()>();
+    tokio::select! { () = interrupt => {}, () = terminate => {} }
+}
