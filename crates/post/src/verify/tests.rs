@@ -10,12 +10,14 @@ struct Case {
     pose: Pose,
     intrinsics: Intrinsics,
     labels: Labels,
+    pieces: Vec<(u32, PartLabel)>,
 }
 
 impl Case {
     fn new() -> Self {
         let pose = testing::pose();
-        Self { frame: testing::frame(&pose), pose, intrinsics: testing::intrinsics(), labels: testing::labels() }
+        let (frame, intrinsics, labels) = (testing::frame(&pose), testing::intrinsics(), testing::labels());
+        Self { frame, pose, intrinsics, labels, pieces: Vec::new() }
     }
 
     fn card(&self) -> Card {
@@ -25,6 +27,8 @@ impl Case {
             meters_per_unit: 1.0,
             entities: self.labels.parts.len(),
             labels: Some(&self.labels),
+            pieces: &self.pieces,
+            last_class: 40,
         };
         check_frame(&self.frame, &view, "room/cam_00/frame.0000")
     }
