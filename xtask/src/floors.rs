@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 16] = [
+const FLOORS: [(&str, Floor); 17] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -28,6 +28,7 @@ const FLOORS: [(&str, Floor); 16] = [
     ("render", Floor::Number(3)),
     ("denoise", Floor::Number(3)),
     ("dataset", Floor::Number(3)),
+    ("suggest", Floor::Number(3)),
     ("post", Floor::Number(4)),
     ("pipeline", Floor::Number(5)),
     ("export", Floor::Number(5)),

@@ -12,6 +12,7 @@ mod price;
 mod progress;
 mod scene_files;
 mod stats;
+mod suggest;
 mod summary;
 mod verbs;
 
@@ -56,5 +57,6 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Replay(args) => verbs::replay(args, cli.quiet),
         Verb::Export(args) => export::export(args, cli.quiet),
         Verb::Stats(args) => stats::stats(args, cli.quiet),
+        Verb::Suggest(args) => suggest::suggest(args, cli.quiet),
     }
 }
