@@ -4,7 +4,7 @@
 
 use crate::table::{TableError, class_number, read};
 use crate::words::words;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 const FILE: &str = "words.csv";
 const BUILTIN: &str = include_str!("../words.csv");
@@ -63,6 +63,12 @@ impl Lexicon {
             at += meaning.map_or(1, |(n, _)| n);
         }
         found
+    }
+
+    /// Every word or phrase with its class, sorted.
+    pub fn entries(&self) -> Vec<(Vec<String>, i16)> {
+        let sorted: BTreeMap<&String, i16> = self.classes.iter().map(|(word, &class)| (word, class)).collect();
+        sorted.into_iter().map(|(word, class)| (words(word), class)).collect()
     }
 
     /// What the longest end of a word that is in the list means.

@@ -158,7 +158,7 @@ mod tests {
             ("AI53_005_armchair_metal_2917", "chair"),
             ("стул.003", "chair"),
             ("DiningTable01", "table"),
-            ("bookcase/shelf/book_17", "books"),
+            ("Living room/book_17", "books"),
             ("Kitchen_Cabinet", "cabinet"),
             ("curtain_left", "curtain"),
             ("Kühlschrank", "refrigerator"),

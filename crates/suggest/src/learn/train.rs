@@ -6,7 +6,6 @@ use super::groups::NameGroup;
 use crate::features::features;
 use crate::lexicon::Lexicon;
 use crate::weights::{CLASSES, Weights, softmax};
-use enfilade_scene::NYU40;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How weights are learned. The defaults did best on held-out scenes.
@@ -24,14 +23,14 @@ pub struct LearnConfig {
     pub count_power: f32,
     /// Scenes that need to have a feature. Default 1.
     pub fewest_scenes: usize,
-    /// Names that the word list counts as, for each class: names that mean the class, and have it. Without them, rare classes would
-    /// be known by nothing. Default 10.
-    pub word_list: usize,
+    /// What a word of the word list counts, as a name that has its class, beside 1 for a name of a scene. Without these, rare classes
+    /// would be known by nothing. Default 1.
+    pub word_list: f32,
 }
 
 impl Default for LearnConfig {
     fn default() -> Self {
-        Self { passes: 30, rate: 0.1, l1: 4.0, l2: 0.1, count_power: 0.1, fewest_scenes: 1, word_list: 10 }
+        Self { passes: 30, rate: 0.1, l1: 4.0, l2: 0.1, count_power: 0.1, fewest_scenes: 1, word_list: 1.0 }
     }
 }
 
@@ -68,12 +67,11 @@ pub fn learn(groups: &[&NameGroup], lexicon: &Lexicon, config: &LearnConfig) -> 
             }
         })
         .collect();
-    for class in NYU40 {
-        let known = |kind: &str| index.get(format!("{kind} {}", class.name).as_str()).copied();
-        let features: Vec<usize> = ["head", "means"].into_iter().filter_map(known).collect();
-        let shares = vec![(class.id as usize - 1, 1.0)];
-        let examples_of_class = (0..config.word_list).map(|_| Example { features: features.clone(), shares: shares.clone(), weight: 1.0 });
-        examples.extend(examples_of_class);
+    for (words, class) in lexicon.entries() {
+        // Only what the list says, so that its word is learned as one that no scene has.
+        let said = features(&words, lexicon).into_iter().filter(|f| f.starts_with("means ") || f.starts_with("head "));
+        let features = std::iter::once(0).chain(said.filter_map(|f| index.get(f.as_str()).copied())).collect();
+        examples.push(Example { features, shares: vec![(class as usize - 1, 1.0)], weight: config.word_list });
     }
     let mut states = vec![[State::default(); CLASSES]; names.len() + 1];
     let mut random = 1u64;
