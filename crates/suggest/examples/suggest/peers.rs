@@ -5,7 +5,8 @@ use enfilade_suggest::Suggestion;
 use enfilade_suggest::learn::{NameGroup, Split};
 use std::collections::BTreeMap;
 
-/// Every name's most frequent class in the scenes that are not held out; its confidence is the share of the names that have it.
+/// Every name's most frequent class in the scenes that are not held out; its confidence is the share of the names that
+/// have it, with one more that has not, so that what was seen often comes before what was seen once.
 pub fn lookup(groups: &[NameGroup], split: Split, folds: usize) -> Vec<Option<Suggestion>> {
     let mut found = vec![None; groups.len()];
     for fold in 0..folds {
@@ -26,7 +27,7 @@ pub fn lookup(groups: &[NameGroup], split: Split, folds: usize) -> Vec<Option<Su
 fn most(table: &BTreeMap<i16, f32>) -> Option<Suggestion> {
     let total: f32 = table.values().sum();
     let (&class, &n) = table.iter().max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)))?;
-    Some(Suggestion { class, confidence: n / total, alternatives: Vec::new() })
+    Some(Suggestion { class, confidence: n / (total + 1.0), alternatives: Vec::new() })
 }
 
 /// The class whose name is one of the words; the last such word counts.

@@ -49,7 +49,7 @@ impl Report<'_> {
         let ceiling = Judgement::ceiling(self.groups);
         writeln!(
             text,
-            "Made by `cargo xtask bench suggest` from the {} object names of Hypersim's 482 scenes, {labelled} of them labelled. Names are judged by \n\
+            "Made by `cargo xtask bench suggest` from the {} object names of Hypersim's 482 scenes, {labelled} of them labelled. Names are judged by\n\
             models that saw nine tenths of the scenes, or of the volumes: those of a volume were made and named by the same people, so the\n\
             second is what to expect of a scene of somebody else. *Names* are the different names of a scene, numbers aside, that have words and\n\
             labelled objects; {:.0} % of the labelled objects have names with words, the others are numbers like `AI41_005_0903`, which nothing\n\
@@ -154,8 +154,8 @@ impl Report<'_> {
         let labelled: f64 = judgement.rows.iter().map(|row| row.objects()).sum();
         writeln!(
             text,
-            "\n{:.1} % of the {all} objects that nobody labelled get a suggestion with a confidence of {} or more. Most were not labelled because no\n\
-            camera sees them, so that says little; if all of these are taken for wrong, and silence about the others for right, {:.1} % of all\n\
+            "\n{:.1} % of the {all} objects that nobody labelled get a suggestion with a confidence of {} or more. Many of them no camera\n\
+            sees, so that says little; if all of these are taken for wrong, and silence about the others for right, {:.1} % of all\n\
             objects are right.\n",
             100.0 * sure as f64 / all as f64,
             self.threshold,
@@ -203,7 +203,7 @@ impl Report<'_> {
         writeln!(
             text,
             "The tables as they ship. Rooms of other artists, labelled by material in `material_to_nyu40.csv`; homes that `enfilade home` makes,\n\
-            whose names are ours and easy.\n"
+            whose names and labels are ours.\n"
         )?;
         writeln!(
             text,
