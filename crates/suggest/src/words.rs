@@ -90,13 +90,17 @@ fn keep(found: &mut Vec<String>, word: &mut String) {
     }
 }
 
-/// The word without an English plural's s: *chairs* is *chair*, but *glass* and *glasses* stay two things.
+/// The word without an English plural's ending: *chairs* is *chair*, *boxes* are *box*; but *glass* and *glasses* stay two things.
 fn singular(word: &str) -> String {
-    let keeps = word.len() < 4 || ["ss", "us", "is", "as", "os", "sses"].iter().any(|end| word.ends_with(end));
-    match word.strip_suffix('s') {
-        Some(stem) if !keeps => stem.to_string(),
-        _ => word.to_string(),
+    const IRREGULAR: [(&str, &str); 4] = [("shelves", "shelf"), ("knives", "knife"), ("leaves", "leaf"), ("loaves", "loaf")];
+    if let Some((stem, single)) = IRREGULAR.iter().find_map(|(many, one)| Some((word.strip_suffix(many)?, one))) {
+        return format!("{stem}{single}");
     }
+    if let Some(stem) = word.strip_suffix("es").filter(|stem| ["x", "ch", "sh"].iter().any(|end| stem.ends_with(end))) {
+        return stem.to_string();
+    }
+    let keeps = word.len() < 4 || ["ss", "us", "is", "as", "os", "sses"].iter().any(|end| word.ends_with(end));
+    word.strip_suffix('s').filter(|_| !keeps).unwrap_or(word).to_string()
 }
 
 /// Adds a letter in lower case, without its accent, in Latin script where we know how.
@@ -158,6 +162,7 @@ mod tests {
             ("DiningTable01", "dining table"),
             ("TVStand.003", "tv stand"),
             ("kitchen chairs", "kitchen chair"),
+            ("Boxes_BookShelves benches", "box book shelf bench"),
             ("wine glasses / glass", "wine glasses glass"),
             ("Archinteriors8_01_55", ""),
             ("obj_185", ""),
