@@ -82,19 +82,39 @@ impl Suggester {
 
     /// What a part of these names is; `None` when they have no word of which anything is known.
     pub fn suggest(&self, names: &PartNames<'_>) -> Option<Suggestion> {
-        let words_own: Vec<String> = [names.group, names.part].into_iter().flat_map(words).collect();
-        let mut words_material = words(names.material);
-        // Exporters often name a part after its material: that is one word, not two.
-        words_material.retain(|word| !words_own.contains(word));
-        let (own, material) = (self.known(&words_own), self.known(&words_material));
-        if own.is_none() && material.is_none() {
+        let evidence = self.evidence(names);
+        if evidence.is_empty() {
             return None;
         }
         let mut sums = self.weights.start();
-        own.iter().for_each(|features| self.weights.add(features, 1.0, &mut sums));
-        let share = if own.is_some() { MATERIAL_SHARE } else { 1.0 };
-        material.iter().for_each(|features| self.weights.add(features, share, &mut sums));
+        evidence.iter().for_each(|(features, share)| self.weights.add(features, *share, &mut sums));
         Some(Suggestion::of(&softmax(&sums)).calibrated(&self.calibration))
+    }
+
+    /// What in these names speaks for a class (above 0) or against it, the strongest first: features as
+    /// [`features`](crate::features::features) writes them, and their weights, in natural logarithms of odds.
+    pub fn reasons(&self, names: &PartNames<'_>, class: i16) -> Vec<(String, f32)> {
+        let weighed = |(features, share): (Vec<String>, f32)| {
+            features.into_iter().map(move |feature| {
+                let weight = share * self.weights.of(&feature, class);
+                (feature, weight)
+            })
+        };
+        let mut reasons: Vec<_> = self.evidence(names).into_iter().flat_map(weighed).filter(|(_, weight)| *weight != 0.0).collect();
+        reasons.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        reasons
+    }
+
+    /// The features of a part's own names and of its material's, of which anything is known, and how much each list counts.
+    fn evidence(&self, names: &PartNames<'_>) -> Vec<(Vec<String>, f32)> {
+        let own: Vec<String> = [names.group, names.part].into_iter().flat_map(words).collect();
+        let mut material = words(names.material);
+        // Exporters often name a part after its material: that is one word, not two.
+        material.retain(|word| !own.contains(word));
+        let known = |words: &[String]| Some(features(words, &self.lexicon)).filter(|features| self.weights.knows(features));
+        let own = known(&own);
+        let share = if own.is_some() { MATERIAL_SHARE } else { 1.0 };
+        own.map(|features| (features, 1.0)).into_iter().chain(known(&material).map(|features| (features, share))).collect()
     }
 
     /// What every part of a scene is, in the order of `Scene::parts`.
@@ -108,11 +128,6 @@ impl Suggester {
             group: "",
         });
         names.map(|names| self.suggest(&names)).collect()
-    }
-
-    /// The features of words, if the table knows any of them.
-    fn known(&self, words: &[String]) -> Option<Vec<String>> {
-        Some(features(words, &self.lexicon)).filter(|features| self.weights.knows(features))
     }
 }
 
@@ -206,6 +221,17 @@ mod tests {
     fn groups_are_read_before_the_part() {
         let names = PartNames { part: "leg_02", material: "", group: "Living room/chair.003" };
         assert_eq!(Suggester::builtin().suggest(&names).unwrap().class, 5);
+    }
+
+    #[test]
+    fn reasons_name_what_decided() {
+        let suggester = Suggester::builtin();
+        let names = PartNames { part: "armchair_02", material: "leather", group: "" };
+        let reasons = suggester.reasons(&names, 5);
+        assert!(reasons.iter().any(|(feature, weight)| feature == "word armchair" && *weight > 0.0), "{reasons:?}");
+        assert!(reasons.iter().map(|r| r.1.abs()).is_sorted_by(|a, b| a >= b));
+        assert!(suggester.reasons(&PartNames { part: "Mesh.001", ..names }, 41).is_empty());
+        assert!(suggester.reasons(&PartNames::default(), 5).is_empty());
     }
 
     #[test]

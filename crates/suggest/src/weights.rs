@@ -79,6 +79,12 @@ impl Weights {
         features.iter().any(|feature| self.features.contains_key(feature))
     }
 
+    /// The weight of a feature for a class, 0 where the table has none.
+    pub fn of(&self, feature: &str, class: i16) -> f32 {
+        let weights = self.features.get(feature).into_iter().flatten();
+        weights.filter(|(c, _)| *c == class).map(|(_, weight)| *weight).next().unwrap_or(0.0)
+    }
+
     /// Adds the weights of features, times `factor`, to sums of the classes.
     pub(crate) fn add(&self, features: &[String], factor: f32, sums: &mut [f32; CLASSES]) {
         for &(class, weight) in features.iter().filter_map(|feature| self.features.get(feature)).flatten() {
