@@ -13,6 +13,7 @@ mod price;
 mod progress;
 mod scene_files;
 mod stats;
+mod suggest;
 mod summary;
 mod verbs;
 
@@ -58,5 +59,6 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Export(args) => export::export(args, cli.quiet),
         Verb::Stats(args) => stats::stats(args, cli.quiet),
         Verb::Annotate(args) => annotate::annotate(args, cli.quiet),
+        Verb::Suggest(args) => suggest::suggest(args, cli.quiet),
     }
 }

@@ -13,6 +13,7 @@ use super::save::{CLASSES, Snapshot};
 use super::session::{ActionError, Session};
 use super::source::{Source, SourceError};
 use super::stroke::{Picked, World};
+use super::suggestions::{Suggestion, suggestions};
 use super::worklog::{WORK_LOG, WorkLog, WorkSession};
 use enfilade_dataset::{DatasetError, MeshFiles};
 use enfilade_geometry::Bvh;
@@ -65,6 +66,7 @@ pub struct App {
     events: Events,
     worklog: Mutex<WorkLog>,
     seen: OnceLock<Seen>,
+    suggestions: OnceLock<Vec<Option<Suggestion>>>,
     saved: Mutex<Saved>,
 }
 
@@ -111,6 +113,7 @@ impl App {
             session: RwLock::new(session),
             worklog: Mutex::new(worklog),
             seen: OnceLock::new(),
+            suggestions: OnceLock::new(),
             saved: Mutex::default(),
             source,
             classes,
@@ -166,6 +169,11 @@ impl App {
     /// What the cameras see; computed by whoever asks first.
     pub fn seen(&self) -> &Seen {
         self.seen.get_or_init(|| Seen::new(&self.source, &self.bvh))
+    }
+
+    /// What is proposed for each part, and so for its pieces.
+    pub fn suggestions(&self) -> &[Option<Suggestion>] {
+        self.suggestions.get_or_init(|| suggestions(&self.source, &self.classes))
     }
 
     /// Does an action, and tells every page.

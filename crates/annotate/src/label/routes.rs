@@ -8,7 +8,6 @@ use super::clock;
 use super::progress::views;
 use super::session::ActionError;
 use super::source::PlannedFrame;
-use super::suggestions::suggestions;
 use crate::serve::ApiProblem;
 use axum::body::Bytes;
 use axum::extract::{Query, State};
@@ -93,7 +92,7 @@ async fn scene(State(app): Shared) -> Answer {
             "undo_description": standing.undo_description,
             "redo_description": standing.redo_description,
             "next_instance": standing.next_instance,
-            "has_suggestions": suggestions(source, session.pieces().list()).iter().any(Option::is_some),
+            "has_suggestions": app.suggestions().iter().any(Option::is_some),
             "autosaved": true,
         }))
         .into_response())
@@ -150,7 +149,7 @@ async fn pieces(State(app): Shared) -> Answer {
             "mins": list.iter().map(|p| p.measure.min).collect::<Vec<_>>(),
             "maxs": list.iter().map(|p| p.measure.max).collect::<Vec<_>>(),
             "geometry_keys": list.iter().map(|p| p.measure.geometry_key).collect::<Vec<_>>(),
-            "suggestions": suggestions(app.source(), list),
+            "suggestions": list.iter().map(|p| &app.suggestions()[p.part as usize]).collect::<Vec<_>>(),
         }))
         .into_response())
     })

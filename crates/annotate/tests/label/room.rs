@@ -148,3 +148,13 @@ impl Page {
 pub fn class(id: i64) -> Value {
     json!({ "layer": "semantic", "value": id })
 }
+
+/// Labels what a stroke touches.
+pub fn stroke(shape: Value, apply: Value) -> Value {
+    json!({ "type": "stroke", "camera": camera(), "shape": shape, "apply": apply })
+}
+
+/// Labels pieces.
+pub fn assign(pieces: &[u32], apply: Value) -> Value {
+    json!({ "type": "assign", "pieces": pieces, "apply": apply })
+}

@@ -1,7 +1,6 @@
 //! A dataset that was rendered, whose parts are split and labelled anew: its label images follow, and nothing is rendered.
 
-mod room;
-
+use crate::room::Page;
 use enfilade_annotate::label::AnnotateOptions;
 use enfilade_dataset::Dataset;
 use enfilade_frame::{Layer, Values};
@@ -9,7 +8,6 @@ use enfilade_geometry::Bvh;
 use enfilade_math::{Ray, Vec3};
 use enfilade_pipeline::{CameraChoice, Config, Overrides, Silent, Stage, demo, run, run_stage};
 use enfilade_scene::CameraView;
-use room::Page;
 use serde_json::json;
 use std::collections::BTreeSet;
 
