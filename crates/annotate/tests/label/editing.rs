@@ -4,7 +4,7 @@ use crate::room::{PARTS, Page, assign, camera, class, package, stroke};
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{Array, MeshFiles};
 use enfilade_scene::PartLabel;
-use serde_json::json;
+use serde_json::{Value, json};
 
 #[tokio::test]
 async fn a_room_is_labelled_from_nothing_to_hypersims_files() {
