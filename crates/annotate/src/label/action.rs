@@ -6,7 +6,7 @@ use super::log::{Edit, runs};
 use super::pieces::Pieces;
 use super::selection::{Expand, Filters, select};
 use super::split;
-use super::stroke::{Shape, World};
+use super::stroke::{Picked, Shape, World};
 use enfilade_geometry::Bvh;
 use enfilade_scene::PartLabel;
 use serde::Deserialize;
@@ -158,6 +158,21 @@ impl Context<'_> {
             Action::Split { piece, by } => self.split(*piece, by).map(Some),
             Action::Undo | Action::Redo => Ok(None),
         }
+    }
+
+    /// What lies under an image point, and its piece.
+    ///
+    /// # Errors
+    /// When the camera or a piece number is wrong, or the point is not in the image.
+    pub fn pick(&self, camera: &CameraRequest, [x, y]: [f64; 2], hidden: &[u32]) -> Result<Option<(u32, Picked)>, Refusal> {
+        let camera = camera.check().map_err(Refusal::request)?;
+        self.check_pieces("hidden", hidden)?;
+        if !(0.0..=f64::from(camera.width)).contains(&x) || !(0.0..=f64::from(camera.height)).contains(&y) {
+            return Err(Refusal::request(format!("pixel {x}, {y} is outside of the image of {}x{}", camera.width, camera.height)));
+        }
+        let hidden: HashSet<u32> = hidden.iter().copied().collect();
+        let world = World { bvh: self.bvh, piece_of_face: self.pieces.of_face(), hidden: &hidden };
+        Ok(world.meet(&camera, x, y).map(|picked| (world.piece_of_face[picked.face as usize], picked)))
     }
 
     fn check_pieces(&self, field: &str, pieces: &[u32]) -> Result<(), Refusal> {

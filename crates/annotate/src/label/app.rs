@@ -12,13 +12,12 @@ use super::progress::Seen;
 use super::save::{CLASSES, Snapshot};
 use super::session::{ActionError, Session};
 use super::source::{Source, SourceError};
-use super::stroke::{Picked, World};
+use super::stroke::Picked;
 use super::suggestions::{Suggestion, suggestions};
 use super::worklog::{WORK_LOG, WorkLog, WorkSession};
 use enfilade_dataset::{DatasetError, MeshFiles};
 use enfilade_geometry::Bvh;
 use enfilade_scene::{Cx, Warning};
-use std::collections::HashSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, RwLock, RwLockReadGuard};
@@ -203,17 +202,9 @@ impl App {
     /// What lies under an image point, and its piece.
     ///
     /// # Errors
-    /// When the camera is wrong or the point is not in its image.
-    pub fn pick(&self, camera: &CameraRequest, [x, y]: [f64; 2], hidden: &[u32]) -> Result<Option<(u32, Picked)>, Refusal> {
-        let camera = camera.check().map_err(Refusal::request)?;
-        if !(0.0..=f64::from(camera.width)).contains(&x) || !(0.0..=f64::from(camera.height)).contains(&y) {
-            return Err(Refusal::request(format!("pixel {x}, {y} is outside of the image of {}x{}", camera.width, camera.height)));
-        }
-        let session = self.session();
-        let piece_of_face = session.pieces().of_face();
-        let hidden: HashSet<u32> = hidden.iter().copied().collect();
-        let world = World { bvh: &self.bvh, piece_of_face, hidden: &hidden };
-        Ok(world.meet(&camera, x, y).map(|picked| (piece_of_face[picked.face as usize], picked)))
+    /// When the camera or a piece number is wrong, or the point is not in the image.
+    pub fn pick(&self, camera: &CameraRequest, pixel: [f64; 2], hidden: &[u32]) -> Result<Option<(u32, Picked)>, Refusal> {
+        self.session().pick(camera, pixel, hidden)
     }
 
     /// Somebody worked at this moment, seconds since 1970.

@@ -79,7 +79,7 @@ async fn scene(State(app): Shared) -> Answer {
             "source": source.origin,
             "labels_folder": source.labels_folder,
             "faces": source.corners.len(),
-            "vertices": 3 * source.corners.len(),
+            "vertices": source.vertices,
             "pieces": session.pieces().list().len(),
             "bounds": { "min": bounds.min.to_array(), "max": bounds.max.to_array() },
             "meters_per_unit": source.meters_per_unit,

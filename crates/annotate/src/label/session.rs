@@ -1,12 +1,14 @@
 //! The state of an annotation: what the pieces are and are called, and the edits that led there.
 
 use super::action::{Action, Context, Look, Refusal};
+use super::camera::CameraRequest;
 use super::change::{Change, Standing};
 use super::classes::Classes;
 use super::clock;
 use super::log::{Edit, Entry, Log, LogError, Recorded, numbers};
 use super::pieces::Pieces;
 use super::source::Source;
+use super::stroke::Picked;
 use enfilade_geometry::Bvh;
 use enfilade_scene::PartLabel;
 use std::path::Path;
@@ -85,6 +87,14 @@ impl Session {
     /// When the request is wrong.
     pub fn select(&self, look: &Look) -> Result<(Vec<u32>, Vec<u32>), Refusal> {
         look.select(&self.context())
+    }
+
+    /// What lies under an image point, and its piece.
+    ///
+    /// # Errors
+    /// When the camera or a piece number is wrong, or the point is not in the image.
+    pub fn pick(&self, camera: &CameraRequest, pixel: [f64; 2], hidden: &[u32]) -> Result<Option<(u32, Picked)>, Refusal> {
+        self.context().pick(camera, pixel, hidden)
     }
 
     /// Does what a page asks for. When this returns the change is on the disk; when it fails nothing has changed. A change of the

@@ -20,6 +20,8 @@ pub struct Source {
     pub labels_folder: PathBuf,
     /// Corners of every face in the world, metres.
     pub corners: Vec<[Vec3; 3]>,
+    /// Number of vertices in the source.
+    pub vertices: usize,
     /// The part of every face.
     pub part_of_face: Vec<u32>,
     /// The material of every face, [`NO_MATERIAL`] where it has none.
@@ -146,6 +148,7 @@ impl Source {
         Ok(Self {
             origin: path.display().to_string(),
             labels_folder: labels.map_or_else(|| path.with_added_extension("labels"), Path::to_path_buf),
+            vertices: scene.parts.iter().map(|part| scene.meshes[part.mesh as usize].positions.len()).sum(),
             material_of_face: part_of_face.iter().map(|&part| scene.parts[part as usize].material).collect(),
             part_of_face,
             corners: mesh.corners,
@@ -183,6 +186,7 @@ impl Source {
             name: name.unwrap_or_else(|| folder.file_name().map_or_else(|| "scene".into(), |n| n.to_string_lossy().into_owned())),
             origin: folder.display().to_string(),
             labels_folder: labels.unwrap_or(folder).to_path_buf(),
+            vertices: mesh.vertices.len(),
             corners: mesh.faces.iter().map(|face| face.map(vertex)).collect(),
             part_of_face: mesh.object_of_face,
             material_of_face: mesh.material_of_face.iter().map(|m| m.unwrap_or(NO_MATERIAL)).collect(),

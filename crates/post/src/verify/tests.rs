@@ -282,6 +282,17 @@ fn label_images_are_checked() {
     };
     assert_eq!(failures(|c, _| mirror_is(c, 11, 1)), []);
     assert_eq!(failures(|c, _| mirror_is(c, 41, 1)), [Law::SemanticRange]);
+    // A part that was split shows the labels of its pieces, and no others.
+    let split = |c: &mut Case, found: f64| {
+        let mirror = pixel_of(&c.frame, 3);
+        c.pieces = vec![
+            (3, enfilade_scene::PartLabel { semantic: 11, instance: 1 }),
+            (2, enfilade_scene::PartLabel { semantic: 12, instance: 1 }),
+        ];
+        c.set(Layer::Semantic, mirror, &[found]);
+    };
+    assert_eq!(failures(|c, _| split(c, 11.0)), []);
+    assert_eq!(failures(|c, _| split(c, 12.0)), [Law::SemanticJoin]);
     assert_eq!(failures(|c, _| mirror_is(c, 19, 0)), [Law::InstanceRange]);
     assert_eq!(failures(|c, p| c.set(Layer::Semantic, p, &[5.0])), [Law::SemanticJoin]);
     assert_eq!(failures(|c, p| c.set(Layer::SemanticInstance, p, &[5.0])), [Law::InstanceJoin]);
