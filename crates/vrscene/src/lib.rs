@@ -17,6 +17,7 @@
 //! Text is bytes: exporters write names and paths in the encoding of their machine.
 
 mod document;
+pub mod edit;
 mod error;
 mod packed;
 mod plugin;
