@@ -58,7 +58,7 @@ impl Furniture for CoatHooks {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(PITCH * self.hooks as f32 + 0.26, 0.33, 2.0 * HALF)
+        Vec3::new(PITCH * self.hooks as f32 + 0.34, 0.33, 2.0 * HALF)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -137,7 +137,7 @@ impl Furniture for CoatStand {
     }
 
     fn size(&self) -> Vec3 {
-        let width = if self.coats > 0 { 0.78 } else { 0.48 };
+        let width = if self.coats > 0 { 0.82 } else { 0.48 };
         Vec3::new(width, width, self.height + 0.06)
     }
 
