@@ -23,7 +23,7 @@ const FOV_X_RAD: [f64; 2] = [1.29, 1.41];
 /// Rooms with less floor are small, m².
 const SMALL: f32 = 8.0;
 /// Candidates stand on a grid of this step.
-const STEP: f32 = 0.25;
+const STEP: f32 = 0.3;
 /// Width of a view over its height.
 const ASPECT: f32 = 4.0 / 3.0;
 /// Directions around a place.
@@ -31,12 +31,14 @@ const AROUND: usize = 60;
 /// Tangents of the rays' heights: the lowest, and how many follow in steps of [`PITCH_STEP`]. Those that no view holds say how much of
 /// a thing is cut off.
 const LOWEST: f32 = -1.0;
-const PITCHES: usize = 17;
-const PITCH_STEP: f32 = 0.1;
+const PITCHES: usize = 14;
+const PITCH_STEP: f32 = 0.125;
 /// What is nearer than this is in the way.
 const NEAR: f32 = 1.05;
 /// Windows in more of a view than this blind it.
 const GLARE: f32 = 0.14;
+/// Worth of a metre of depth, beside that of things.
+const SPACE: f32 = 0.35;
 /// No thing counts for more of a view than this.
 const ENOUGH: f32 = 0.2;
 
@@ -230,7 +232,7 @@ fn view(eye: Vec3, k: usize, fov: f32, sights: &[Option<Sight>], things: &[Thing
         thing.interest * (own / area).min(ENOUGH).sqrt() * whole
     });
     let lost = 6.0 * (near / area - 0.02).max(0.0) + 4.0 * (beyond / area - 0.03).max(0.0) + 4.0 * (glare / area - GLARE).max(0.0);
-    let worth = shown.sum::<f32>() + 0.25 * depth / area - lost;
+    let worth = shown.sum::<f32>() + SPACE * depth / area - lost;
     View { eye, toward: Vec2::from_angle(TAU * k as f32 / AROUND as f32), worth }
 }
 

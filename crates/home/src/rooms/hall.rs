@@ -13,6 +13,8 @@ const RUNNER: f32 = 0.66;
 const LENGTHS: [f32; 4] = [2.4, 1.9, 1.5, 1.2];
 /// Floor that a runner leaves free to its ends.
 const BORDER: f32 = 0.5;
+/// Halls from this length on have two ceiling lamps, metres.
+const LONG: f32 = 3.2;
 /// Height of the middle of a mirror over a console.
 const MIRROR: f32 = 1.55;
 
@@ -36,7 +38,20 @@ pub fn furnish(f: &mut Furnisher) {
     if f.chance(0.8) {
         runner(f);
     }
-    f.ceiling_lamp();
+    lamps(f);
+}
+
+/// A lamp in the middle, or one over each half of a long hall.
+fn lamps(f: &mut Furnisher) {
+    let (size, center) = (f.room.size.truncate(), f.room.center);
+    let along = if size.x >= size.y { Vec2::X } else { Vec2::Y };
+    let apart = 0.25 * size.max_element() * along;
+    if size.max_element() < LONG {
+        f.ceiling_lamp();
+    } else {
+        f.ceiling_lamps(&[center - apart, center + apart]);
+    }
+    f.hang_one(0.4, "wall_lamp", 1.75, in_view);
 }
 
 /// A mirror above what stands at a wall; false where there is no room for it.
