@@ -54,7 +54,7 @@ impl CoatHooks {
 impl Furniture for CoatHooks {
     fn random(rng: &mut Rng) -> Self {
         let hooks = 3 + rng.below(4);
-        Self { hooks, coats: rng.below(hooks), shelf: rng.below(3) == 0 }
+        Self { hooks, coats: 1 + rng.below(hooks - 1), shelf: rng.below(3) == 0 }
     }
 
     fn size(&self) -> Vec3 {
@@ -133,7 +133,7 @@ impl CoatStand {
 impl Furniture for CoatStand {
     fn random(rng: &mut Rng) -> Self {
         let hooks = 4 + 2 * rng.below(2);
-        Self { height: rng.range(1.68, 1.8), hooks, coats: rng.below(4), metal: rng.below(2) == 0 }
+        Self { height: rng.range(1.68, 1.8), hooks, coats: 1 + rng.below(3), metal: rng.below(2) == 0 }
     }
 
     fn size(&self) -> Vec3 {
