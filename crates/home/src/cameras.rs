@@ -35,8 +35,8 @@ const PITCHES: usize = 14;
 const PITCH_STEP: f32 = 0.125;
 /// What is nearer than this is in the way.
 const NEAR: f32 = 1.05;
-/// Windows in more of a view than this blind it.
-const GLARE: f32 = 0.14;
+/// Windows in more of a view than this blind it: the brightest tenth of a picture decides how bright all of it is shown.
+const GLARE: f32 = 0.08;
 /// Worth of a metre of depth, beside that of things.
 const SPACE: f32 = 0.35;
 /// No thing counts for more of a view than this.
@@ -231,7 +231,7 @@ fn view(eye: Vec3, k: usize, fov: f32, sights: &[Option<Sight>], things: &[Thing
         let whole = rays / thing.all.max(1.0);
         thing.interest * (own / area).min(ENOUGH).sqrt() * whole
     });
-    let lost = 6.0 * (near / area - 0.02).max(0.0) + 4.0 * (beyond / area - 0.03).max(0.0) + 4.0 * (glare / area - GLARE).max(0.0);
+    let lost = 6.0 * (near / area - 0.02).max(0.0) + 4.0 * (beyond / area - 0.03).max(0.0) + 6.0 * (glare / area - GLARE).max(0.0);
     let worth = shown.sum::<f32>() + SPACE * depth / area - lost;
     View { eye, toward: Vec2::from_angle(TAU * k as f32 / AROUND as f32), worth }
 }

@@ -34,7 +34,7 @@ impl Furnisher<'_> {
             self.plugs.push(spot.origin);
             self.build(desk.as_ref(), poses[0]);
             self.build(chair.as_ref(), poses[1]);
-            self.litter(&desk.surfaces(), poses[0], 0.8);
+            self.litter(&desk.surfaces(), poses[0], 1.4);
             return true;
         }
         false
