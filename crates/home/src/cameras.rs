@@ -35,7 +35,7 @@ const PITCHES: usize = 14;
 const PITCH_STEP: f32 = 0.125;
 /// What is nearer than this is in the way.
 const NEAR: f32 = 1.05;
-/// Windows in more of a view than this blind it: the brightest tenth of a picture decides how bright all of it is shown.
+/// By day, windows in more of a view than this blind it: the brightest tenth of a picture decides how bright all of it is shown.
 const GLARE: f32 = 0.08;
 /// Worth of a metre of depth, beside that of things.
 const SPACE: f32 = 0.35;
@@ -43,11 +43,13 @@ const SPACE: f32 = 0.35;
 const ENOUGH: f32 = 0.2;
 
 /// Up to four views of each room, named after it: `living_1` is the best of the living room.
-pub fn cameras(scene: &Scene, labels: &Labels, plan: &FloorPlan) -> Vec<StartCamera> {
+///
+/// `sunny` says that the windows are brighter than the rooms.
+pub fn cameras(scene: &Scene, labels: &Labels, plan: &FloorPlan, sunny: bool) -> Vec<StartCamera> {
     let world = WorldMesh::new(scene);
     let bvh = Bvh::new(&world.corners, &|_| false);
     let boxes = part_boxes(scene, &world);
-    let home = Surroundings { scene, labels, world: &world, bvh: &bvh };
+    let home = Surroundings { scene, labels, world: &world, bvh: &bvh, sunny };
     let mut cameras = Vec::new();
     let mut names = BTreeMap::new();
     for room in &plan.rooms {
@@ -132,6 +134,7 @@ struct Surroundings<'a> {
     labels: &'a Labels,
     world: &'a WorldMesh,
     bvh: &'a Bvh,
+    sunny: bool,
 }
 
 /// What a ray meets.
@@ -148,7 +151,7 @@ struct Sight {
 /// A thing that a place sees.
 struct Thing {
     instance: i16,
-    class: i16,
+    glares: bool,
     interest: f32,
     /// Solid angle of all of it, in rays.
     all: f32,
@@ -177,7 +180,7 @@ impl Surroundings<'_> {
                 let front = self.scene.parts[part].world_from_mesh.matrix3.y_axis.as_vec3().truncate();
                 let behind = front.dot(eye.truncate() - at.truncate()) < 0.0;
                 let interest = interest(label.semantic, room.kind) * if behind { BEHIND } else { 1.0 };
-                things.push(Thing { instance: label.instance, class: label.semantic, interest, all: 0.0 });
+                things.push(Thing { instance: label.instance, glares: glazed && self.sunny, interest, all: 0.0 });
                 things.len() - 1
             });
             things[known].all += 1.0;
@@ -222,7 +225,7 @@ fn view(eye: Vec3, k: usize, fov: f32, sights: &[Option<Sight>], things: &[Thing
             if let Some(thing) = sight.thing {
                 rays[thing] += 1.0;
                 areas[thing] += share;
-                glare += if things[thing].class == Class::Window as i16 { share } else { 0.0 };
+                glare += if things[thing].glares { share } else { 0.0 };
             }
         }
     }
@@ -231,7 +234,7 @@ fn view(eye: Vec3, k: usize, fov: f32, sights: &[Option<Sight>], things: &[Thing
         let whole = rays / thing.all.max(1.0);
         thing.interest * (own / area).min(ENOUGH).sqrt() * whole
     });
-    let lost = 6.0 * (near / area - 0.02).max(0.0) + 4.0 * (beyond / area - 0.03).max(0.0) + 6.0 * (glare / area - GLARE).max(0.0);
+    let lost = 6.0 * (near / area - 0.02).max(0.0) + 4.0 * (beyond / area - 0.03).max(0.0) + 12.0 * (glare / area - GLARE).max(0.0);
     let worth = shown.sum::<f32>() + SPACE * depth / area - lost;
     View { eye, toward: Vec2::from_angle(TAU * k as f32 / AROUND as f32), worth }
 }
