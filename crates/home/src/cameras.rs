@@ -35,7 +35,8 @@ const PITCHES: usize = 14;
 const PITCH_STEP: f32 = 0.125;
 /// What is nearer than this is in the way.
 const NEAR: f32 = 1.05;
-/// By day, windows in more of a view than this blind it: the brightest tenth of a picture decides how bright all of it is shown.
+/// Windows in more of a view than this blind it by day, since the brightest tenth of a picture decides how bright all of it is shown.
+/// They count at any hour: the light must not move cameras.
 const GLARE: f32 = 0.08;
 /// Worth of a metre of depth, beside that of things.
 const SPACE: f32 = 0.35;
@@ -43,13 +44,11 @@ const SPACE: f32 = 0.35;
 const ENOUGH: f32 = 0.2;
 
 /// Up to four views of each room, named after it: `living_1` is the best of the living room.
-///
-/// `sunny` says that the windows are brighter than the rooms.
-pub fn cameras(scene: &Scene, labels: &Labels, plan: &FloorPlan, sunny: bool) -> Vec<StartCamera> {
+pub fn cameras(scene: &Scene, labels: &Labels, plan: &FloorPlan) -> Vec<StartCamera> {
     let world = WorldMesh::new(scene);
     let bvh = Bvh::new(&world.corners, &|_| false);
     let boxes = part_boxes(scene, &world);
-    let home = Surroundings { scene, labels, world: &world, bvh: &bvh, sunny };
+    let home = Surroundings { scene, labels, world: &world, bvh: &bvh };
     let mut cameras = Vec::new();
     let mut names = BTreeMap::new();
     for room in &plan.rooms {
@@ -134,7 +133,6 @@ struct Surroundings<'a> {
     labels: &'a Labels,
     world: &'a WorldMesh,
     bvh: &'a Bvh,
-    sunny: bool,
 }
 
 /// What a ray meets.
@@ -180,7 +178,7 @@ impl Surroundings<'_> {
                 let front = self.scene.parts[part].world_from_mesh.matrix3.y_axis.as_vec3().truncate();
                 let behind = front.dot(eye.truncate() - at.truncate()) < 0.0;
                 let interest = interest(label.semantic, room.kind) * if behind { BEHIND } else { 1.0 };
-                things.push(Thing { instance: label.instance, glares: glazed && self.sunny, interest, all: 0.0 });
+                things.push(Thing { instance: label.instance, glares: glazed, interest, all: 0.0 });
                 things.len() - 1
             });
             things[known].all += 1.0;

@@ -78,7 +78,7 @@ pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
     settle::settle(&mut home);
     home.credits = credits(&home.scene, &models);
     light.illuminate(&mut home.scene, &outlooks(&home.plan));
-    home.scene.cameras = cameras::cameras(&home.scene, &home.labels, &home.plan, light.to_sun().z > 0.0);
+    home.scene.cameras = cameras::cameras(&home.scene, &home.labels, &home.plan);
     home
 }
 
