@@ -37,7 +37,7 @@ const PITCH_STEP: f32 = 0.125;
 const NEAR: f32 = 1.05;
 /// Windows in more of a view than this blind it by day, since the brightest tenth of a picture decides how bright all of it is shown.
 /// They count at any hour: the light must not move cameras.
-const GLARE: f32 = 0.08;
+const GLARE: f32 = 0.1;
 /// Worth of a metre of depth, beside that of things.
 const SPACE: f32 = 0.35;
 /// No thing counts for more of a view than this.
