@@ -1,5 +1,6 @@
 //! The command line: one definition per verb and flag, with its help and an example.
 
+use crate::vray::VrayArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use enfilade_post::animation::AnimationFormat;
 use enfilade_post::drivers::Film;
@@ -77,6 +78,8 @@ pub enum Verb {
     Animate(AnimateArgs),
     /// What the images show and what they cost: numbers, charts, outliers
     Stats(StatsArgs),
+    /// Edits of V-Ray's scene files, for those who render with V-Ray
+    Vray(VrayArgs),
 }
 
 /// `run`.
@@ -536,7 +539,7 @@ fn parse_layer(text: &str) -> Result<enfilade_frame::Layer, String> {
     enfilade_frame::Layer::from_name(text.trim()).ok_or_else(|| format!("the layers are: {}", known()))
 }
 
-fn parse_size(text: &str) -> Result<[u32; 2], String> {
+pub fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let parsed = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
     parsed.ok_or_else(|| "expected width and height, as in 640x480".into())
 }
