@@ -77,6 +77,46 @@ pub enum Verb {
     Animate(AnimateArgs),
     /// What the images show and what they cost: numbers, charts, outliers
     Stats(StatsArgs),
+    /// Look at a dataset in the browser: every layer, values under the cursor, comparisons, the scene in 3D
+    View(ViewArgs),
+}
+
+/// `view`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  enfilade view out\n  enfilade view out --port 7000 --no-open     # on another machine: ssh -L 7000:localhost:7000 HOST\n\n\
+    The page is served from this machine to this machine alone, unless --host says otherwise. Nothing is written."
+)]
+pub struct ViewArgs {
+    /// The dataset's folder: ours, the Hypersim toolkit's, or one of unpacked Hypersim archives
+    pub dataset: PathBuf,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub listen: ListenArgs,
+}
+
+/// Where a page is served.
+#[derive(Args)]
+pub struct ListenArgs {
+    /// Port [default: any that is free]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub port: u16,
+    /// Address to listen on; beyond this machine a token is demanded, which the printed address has
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
+    pub host: std::net::IpAddr,
+    /// Demand a token on this machine too, where several people share it
+    #[arg(long)]
+    pub token: bool,
+    /// Do not open the page in the browser
+    #[arg(long)]
+    pub no_open: bool,
+}
+
+impl ListenArgs {
+    /// As the server takes it.
+    pub fn listen(&self) -> enfilade_annotate::serve::Listen {
+        enfilade_annotate::serve::Listen { address: self.host, port: self.port, token: self.token, open: !self.no_open }
+    }
 }
 
 /// `run`.

@@ -14,6 +14,7 @@ mod scene_files;
 mod stats;
 mod summary;
 mod verbs;
+mod view;
 
 use args::{Cli, Verb};
 use clap::Parser;
@@ -56,5 +57,6 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Replay(args) => verbs::replay(args, cli.quiet),
         Verb::Export(args) => export::export(args, cli.quiet),
         Verb::Stats(args) => stats::stats(args, cli.quiet),
+        Verb::View(args) => view::view(args),
     }
 }
