@@ -63,7 +63,8 @@ impl Viewer {
                 ViewVerdict::Reported => "reported",
             };
             let fault = judged.fault.map(|fault| json!({ "gate": fault.gate, "value": fault.value, "limit": fault.limit }));
-            let picture = layout.rejected_view(scene, camera, judged.frame).is_file();
+            let picture = Some(layout.rejected_view(scene, camera, judged.frame)).filter(|path| path.is_file());
+            let picture = picture.map(|path| self.in_dataset(&path));
             let gate = json!({ "verdict": verdict, "fault": fault, "picture": picture });
             views.entry(judged.frame).or_default().gate = Some(gate);
         }

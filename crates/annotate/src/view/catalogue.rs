@@ -36,8 +36,7 @@ impl Viewer {
             ("Contact sheet", self.layout().overview()),
         ];
         let pages = pages.iter().filter(|(_, path)| path.is_file()).map(|(title, path)| {
-            let path = path.strip_prefix(self.dataset.root()).unwrap_or(path).to_string_lossy().replace('\\', "/");
-            json!({ "title": title, "path": path })
+            json!({ "title": title, "path": self.in_dataset(path) })
         });
         Ok(json!({
             "name": name,

@@ -59,6 +59,12 @@ impl Viewer {
         self.dataset.layout()
     }
 
+    /// A path relative to the dataset's folder, with forward slashes.
+    pub(super) fn in_dataset(&self, path: &Path) -> String {
+        let inside = path.strip_prefix(self.dataset.root()).unwrap_or(path);
+        inside.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
+    }
+
     /// Checks that a file or folder lies in the dataset's folder once symbolic links are followed, as far as it exists.
     ///
     /// # Errors

@@ -37,8 +37,7 @@ impl Viewer {
         let instances = labels.parts.iter().map(|label| label.instance).max().unwrap_or(0).max(0) as usize;
         let pages = [("Rejected views", layout.gates_page(scene)), ("Plans", layout.plan_preview_dir(scene).join("index.html"))];
         let pages = pages.iter().filter(|(_, path)| path.is_file()).map(|(title, path)| {
-            let path = path.strip_prefix(self.dataset.root()).unwrap_or(path).to_string_lossy().replace('\\', "/");
-            json!({ "title": title, "path": path })
+            json!({ "title": title, "path": self.in_dataset(path) })
         });
         Ok(json!({
             "name": scene,

@@ -11,7 +11,7 @@ import { getJson } from "../shared/api.js";
 /** @typedef {{ names: string[], semantic: number[], instance: number[] }} Parts */
 /** @typedef {{ name: string, cameras: string[], meters_per_unit: number, parts: Parts, materials: string[], instance_colors: number[][], boxes: Record<string, (Box | null)[]>, has_geometry: boolean, has_space: boolean, pages: Page[] }} Scene */
 /** @typedef {{ position: number[], orientation: number[] }} Pose */
-/** @typedef {{ verdict: "rejected" | "reported", fault: { gate: string, value: number, limit: number } | null, picture: boolean }} Gate */
+/** @typedef {{ verdict: "rejected" | "reported", fault: { gate: string, value: number, limit: number } | null, picture: string | null }} Gate */
 /** @typedef {{ frame: number, pose: Pose | null, layers: number[], complete: boolean, gate: Gate | null }} CameraFrame */
 /** @typedef {{ kind: string, linear: boolean, width: number, height: number, corner_rays: number[][] | null, fov_y_deg: number | null }} Projection */
 /** @typedef {{ name: string, frame_time_s: number, projection: Projection | null, frames: CameraFrame[], tone: [number, number, number][] }} Camera */
