@@ -8,7 +8,6 @@ use enfilade_annotate::view::{Viewer, router};
 /// `view`: serves the page until it is asked to end.
 pub fn view(args: &ViewArgs) -> Result<Verdict, Problem> {
     let viewer = Viewer::open(&args.dataset)?;
-    let folder = args.dataset.display();
-    serve(router(viewer), &args.listen.listen(), "/view/", |url| say(&format!("{folder}: {url}\nCtrl-C ends it")))?;
+    serve(router(viewer), &args.listen.listen(), "/view/", |url| say(&format!("page     {url}\nEnd with Ctrl-C.")))?;
     Ok(Verdict::Done)
 }

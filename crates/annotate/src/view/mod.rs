@@ -13,6 +13,7 @@ mod catalogue;
 mod files;
 mod frame;
 mod layers;
+mod mesh;
 mod place;
 mod points;
 mod reply;
@@ -67,6 +68,7 @@ pub fn router(viewer: Viewer) -> Router {
     Router::new()
         .route("/api/view/dataset", get(catalogue::dataset))
         .route("/api/view/scene/{scene}", get(scene::scene))
+        .route("/api/view/scene/{scene}/geometry", get(mesh::geometry))
         .route("/api/view/scene/{scene}/space", get(space::space))
         .route("/api/view/camera/{scene}/{camera}", get(camera::camera))
         .route("/api/view/frame/{scene}/{camera}/{frame}", get(frame::frame))
