@@ -56,6 +56,12 @@ impl Viewer {
             Ok(partition) => json!({ "partition": partition.name() }),
             Err(reason) => json!({ "excluded": reason }),
         });
+        // A browser's numbers end at 2^53.
+        let seed = record.as_ref().map(|record| record.seed.to_string());
+        let mut record = json!(record);
+        if let Some(seed) = seed {
+            record["seed"] = seed.into();
+        }
         Ok(json!({ "record": record, "labels": labels, "denoised": denoised, "instances": instances, "split": split,
             "judged": self.judged(place)? }))
     }

@@ -20,6 +20,8 @@ mod reply;
 mod scene;
 mod space;
 mod summary;
+#[cfg(test)]
+mod tests;
 mod thumbnail;
 
 use crate::serve::ApiProblem;

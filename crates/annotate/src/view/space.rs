@@ -28,7 +28,7 @@ pub async fn space(
         let bytes = viewer.buffers.get(&(scene.clone(), "space"), stamp(&path), || {
             let file = std::fs::read(&path).map_err(|source| problem(DatasetError::Io { action: "read", path: path.clone(), source }))?;
             let damaged = |e| ApiProblem::failed(format!("{}: {e}", path.display()), "run the carve stage again");
-            Ok(cubes(&OccupancyTree::from_bt(&file).map_err(damaged)?, metres))
+            Ok::<_, ApiProblem>(cubes(&OccupancyTree::from_bt(&file).map_err(damaged)?, metres))
         })?;
         Ok(reply::array(bytes.to_vec(), gzip, &[]))
     })

@@ -10,6 +10,7 @@ import { objectsPanel } from "./objects.js";
 import { showReadout } from "./readout.js";
 import { framePanel, viewsPanel } from "./records.js";
 import { Session } from "./session.js";
+import { Space } from "./space.js";
 import { Stage } from "./stage.js";
 import { Store } from "./state.js";
 import { Strip } from "./strip.js";
@@ -45,6 +46,7 @@ class Page {
         this.strip = strip;
         this.travel = travel;
         this.tree = tree;
+        this.space = new Space(session);
         /** @type {import("./catalogue.js").FrameFacts | null} */
         this.known = null;
         this.panelKey = "";
@@ -54,6 +56,7 @@ class Page {
             tree.enter();
             strip.enter();
             this.controls();
+            this.space.show();
         };
         stage.hovered = (pixel) => {
             session.hover(pixel);
@@ -84,6 +87,7 @@ class Page {
             this.strip.show();
             this.known = null;
         }
+        if (["frame", "mode", "instance"].some((key) => changed.has(/** @type {keyof State} */ (key)))) this.space.show();
         this.panelKey = "";
         this.stage.refresh();
     }
@@ -226,6 +230,7 @@ class Page {
         const dark = getComputedStyle(document.documentElement).colorScheme === "dark";
         document.documentElement.dataset.theme = dark ? "light" : "dark";
         localStorage.setItem("theme", dark ? "light" : "dark");
+        this.space.theme();
         this.stage.refresh();
     }
 
@@ -290,6 +295,7 @@ class Page {
                 { keys: ["Z"], says: "a pixel for a pixel", does: () => store.set({ zoom: 1 / stage.ratio }) },
                 { keys: ["Shift+ArrowLeft", "Shift+ArrowRight"], shown: "Shift+←  Shift+→", says: "move sideways", does: (event) => stage.panBy(event.key === "ArrowLeft" ? 60 : -60, 0) },
                 { keys: ["Alt+ArrowUp", "Alt+ArrowDown"], shown: "Alt+↑  Alt+↓", says: "move up and down", does: (event) => stage.panBy(0, event.key === "ArrowUp" ? 60 : -60) },
+                { keys: ["V"], says: "in 3D: through this frame's camera", does: () => this.space.toFrame() },
                 { keys: ["B"], says: "boxes of all instances", does: () => store.set({ boxes: !store.state.boxes }) },
                 { keys: ["Escape"], shown: "Esc", says: "let go of the instance", does: () => store.set({ instance: 0 }) },
             ] },

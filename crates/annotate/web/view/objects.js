@@ -61,7 +61,7 @@ function instancesPart(session, known, repaint) {
             h("td", { class: "number" }, brief(area.pixels)),
             h("td", { class: "number" }, visibility === undefined ? "" : percent(visibility)));
     };
-    return [h("h2", {}, `${list.length} instances`), table(["Name", "Class", "px", "seen"], ["auto", "30%", "17%", "17%"], list.map(row))];
+    return [h("h2", {}, `${list.length} instances`), table(["Name", "Class", "px", "seen"], ["auto", "27%", "19%", "20%"], list.map(row))];
 }
 
 /** @param {Session} session */
@@ -72,7 +72,7 @@ function classesPart(session) {
     const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) =>
         h("tr", { "data-class": id }, h("td", {}, h("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic", id))}` }), ` ${session.looks.className(id)}`),
             h("td", { class: "number" }, id > 0 ? String(id) : "–"), h("td", { class: "number" }, percent(area.pixels / all)));
-    return [h("h2", {}, "Classes"), table(["NYU40", "id", "of image"], ["auto", "17%", "26%"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
+    return [h("h2", {}, "Classes"), table(["NYU40", "id", "of image"], ["auto", "15%", "30%"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
 }
 
 /** @param {string[]} heads @param {string[]} widths @param {Node[]} rows */
