@@ -43,14 +43,13 @@ export class Space {
         const wanted = state.mode === "space";
         this.element.hidden = !wanted;
         if (!wanted || !this.session.scene) return;
-        try {
-            if (!this.stage) this.#begin();
-            await this.#surfaces();
-            this.#trajectory();
-            await this.#points();
-            await this.#cubes();
-        } catch (error) {
-            toast(/** @type {Error} */ (error).message);
+        // What cannot be had of one kind keeps nothing else away.
+        for (const part of [() => this.stage ?? this.#begin(), () => this.#surfaces(), () => this.#trajectory(), () => this.#points(), () => this.#cubes()]) {
+            try {
+                await part();
+            } catch (error) {
+                toast(/** @type {Error} */ (error).message);
+            }
         }
     }
 
@@ -74,6 +73,7 @@ export class Space {
         const style = getComputedStyle(document.documentElement);
         const color = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
         this.stage?.setTheme({ background: color("--ground"), accent: color("--accent"), paint: color("--warn") });
+        this.stage?.renderer.setClearColor(color("--ground"));
     }
 
     #choices() {
