@@ -296,6 +296,7 @@ class Page {
                 { keys: ["Shift+ArrowLeft", "Shift+ArrowRight"], shown: "Shift+←  Shift+→", says: "move sideways", does: (event) => stage.panBy(event.key === "ArrowLeft" ? 60 : -60, 0) },
                 { keys: ["Alt+ArrowUp", "Alt+ArrowDown"], shown: "Alt+↑  Alt+↓", says: "move up and down", does: (event) => stage.panBy(0, event.key === "ArrowUp" ? 60 : -60) },
                 { keys: ["V"], says: "in 3D: through this frame's camera", does: () => this.space.toFrame() },
+                { keys: ["G"], says: "in 3D: from above, without ceilings", does: () => this.space.fromAbove() },
                 { keys: ["B"], says: "boxes of all instances", does: () => store.set({ boxes: !store.state.boxes }) },
                 { keys: ["Escape"], shown: "Esc", says: "let go of the instance", does: () => store.set({ instance: 0 }) },
             ] },

@@ -13,6 +13,8 @@ import { BOX_EDGES, boxCorners } from "./project.js";
 
 /** Length of a drawn frustum, metres. */
 const FRUSTUM_M = 0.28;
+/** NYU40's number of ceilings. */
+const CEILING = 22;
 /** Points of a frame. */
 const POINTS = 150_000;
 /** How near to a camera's place a click must be, CSS pixels. */
@@ -33,6 +35,7 @@ export class Space {
         /** @type {Partial<Record<Part, Group>>} */
         this.groups = {};
         this.coloring = "class";
+        this.above = false;
         /** What is shown, so that nothing is fetched or made twice. */
         this.shown = { scene: "", trajectory: "", frame: "", space: "" };
     }
@@ -60,6 +63,11 @@ export class Space {
         this.stage = new Stage3d(view);
         this.theme();
         this.#choices();
+        // What happens here is no affair of the pictures below.
+        for (const name of ["pointerdown", "pointermove", "pointerup", "wheel", "dblclick"]) this.element.addEventListener(name, (/** @type {Event} */ event) => event.stopPropagation());
+        view.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
+            if (this.stage?.controls.key(event)) event.stopPropagation();
+        });
         /** @type {{ x: number, y: number } | null} */
         let pressed = null;
         view.addEventListener("pointerdown", (/** @type {PointerEvent} */ event) => (pressed = { x: event.clientX, y: event.clientY }), true);
@@ -89,16 +97,34 @@ export class Space {
             this.coloring = e.target.value;
             this.#colors();
         } }, ...[["class", "Colours of classes"], ["instance", "Colours of instances"], ["part", "Colours of parts"], ["plain", "White"]].map(([value, text]) => h("option", { value, selected: value === this.coloring }, text)));
-        this.controls?.replaceChildren(...PARTS.map(box), colors, h("button", { type: "button", onclick: () => this.toFrame() }, "Through this frame's camera"));
+        this.controls?.replaceChildren(...PARTS.map(box), colors, h("button", { type: "button", onclick: () => this.toFrame() }, "Through this frame's camera"), h("button", { type: "button", onclick: () => this.fromAbove() }, "From above"));
     }
 
     /** Looks through the camera of the frame. */
     toFrame(instant = false) {
+        this.above = false;
+        this.#visibility();
         const { camera, store } = this.session;
         const pose = camera?.frames.find((one) => one.frame === store.state.frame)?.pose;
         if (!pose || !this.stage) return;
         const { width = 1024, height = 768, fov_y_deg = 60 } = camera?.projection ?? {};
         this.stage.goTo({ ...pose, fov_y_deg: Math.min(fov_y_deg ?? 60, 120), width, height }, { instant });
+    }
+
+    /** Looks down at the whole scene, with the ceilings off. */
+    fromAbove() {
+        const { stage } = this;
+        const places = (this.session.camera?.frames ?? []).flatMap(({ pose }) => (pose ? [pose.position] : []));
+        const bounds = stage?.mesh?.geometry ?? { min: least(places), max: least(places.map((p) => p.map((v) => -v))).map((v) => -v) };
+        if (!stage || !places.length) return;
+        this.above = true;
+        this.#visibility();
+        const [x, y, z] = [0, 1, 2].map((axis) => (bounds.min[axis] + bounds.max[axis]) / 2);
+        const wide = Math.max(4, bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1]);
+        // From the south and steeply: a plan that still shows heights.
+        const [s, c] = [Math.sin(1.1), Math.cos(1.1)];
+        const far = 1.05 * wide;
+        stage.goTo({ position: [x, y - c * far, z + s * far], orientation: [1, 0, 0, 0, s, -c, 0, c, s], fov_y_deg: 55, width: 1024, height: 768 });
     }
 
     async #surfaces() {
@@ -130,7 +156,9 @@ export class Space {
 
     #visibility() {
         const pieces = this.stage?.mesh?.geometry.pieces ?? 0;
-        if (pieces) this.stage?.setVisibility(this.on.surfaces ? [] : Array.from({ length: pieces }, (_, i) => i), []);
+        const parts = this.session.scene?.parts;
+        const ceiling = (/** @type {number} */ i) => parts?.semantic[i] === CEILING || /ceiling/i.test(parts?.names[i] ?? "");
+        if (pieces) this.stage?.setVisibility(Array.from({ length: pieces }, (_, i) => i).filter((i) => !this.on.surfaces || (this.above && ceiling(i))), []);
         for (const [part, group] of Object.entries(this.groups)) group.visible = this.on[/** @type {Part} */ (part)];
         this.stage?.requestFrame();
     }
@@ -222,6 +250,9 @@ export class Space {
         if (best.frame >= 0) this.session.store.set({ frame: best.frame });
     }
 }
+
+/** The least of each coordinate. @param {number[][]} points */
+const least = (points) => [0, 1, 2].map((axis) => Math.min(...points.map((point) => point[axis])));
 
 /** A point in the middle of each cube, as large as a part of it. @param {Float32Array} cubes x, y, z, edge @param {number} color @param {number} share */
 function cubeMiddles(cubes, color, share) {
