@@ -84,6 +84,22 @@ pub enum Verb {
     Annotate(AnnotateArgs),
     /// Scene file -> label table, proposed from the names of parts and materials
     Suggest(SuggestArgs),
+    /// Look at a dataset in the browser: every layer, values under the cursor, comparisons, the scene in 3D
+    View(ViewArgs),
+}
+
+/// `view`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  enfilade view out\n  enfilade view out --port 7000 --no-open     # on another machine: ssh -L 7000:localhost:7000 HOST\n\n\
+    The page is served from this machine to this machine alone, unless --host says otherwise. Nothing is written."
+)]
+pub struct ViewArgs {
+    /// The dataset's folder: ours, the Hypersim toolkit's, or one of unpacked Hypersim archives
+    pub dataset: PathBuf,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub listen: ListenArgs,
 }
 
 /// `run`.

@@ -17,6 +17,7 @@ mod suggest;
 mod summary;
 mod verbs;
 mod vray;
+mod view;
 
 use args::{Cli, Verb};
 use clap::Parser;
@@ -62,5 +63,6 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Vray(args) => vray::vray(args),
         Verb::Annotate(args) => annotate::annotate(args, cli.quiet),
         Verb::Suggest(args) => suggest::suggest(args, cli.quiet),
+        Verb::View(args) => view::view(args),
     }
 }
