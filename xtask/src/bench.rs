@@ -15,7 +15,7 @@ struct Bench {
 }
 
 /// All measurements; each is an example of the crate `crates/<room>`.
-const BENCHES: [Bench; 5] = [
+const BENCHES: [Bench; 6] = [
     Bench {
         name: "rays",
         room: "import",
@@ -24,6 +24,7 @@ const BENCHES: [Bench; 5] = [
     Bench { name: "explore", room: "explore", about: "core-seconds of carving and walking, beside those recorded of Hypersim's programs" },
     Bench { name: "noise", room: "pipeline", about: "noise that a second of rendering leaves, in the demo's room" },
     Bench { name: "memory", room: "pipeline", about: "memory for a million triangles under eight textures of 4096x4096" },
+    Bench { name: "suggest", room: "suggest", about: "how good suggested labels are on held-out scenes; needs ENFILADE_SCENES" },
     Bench { name: "denoise", room: "pipeline", about: "error with and without denoising, in the demo's room; fetches Open Image Denoise" },
 ];
 

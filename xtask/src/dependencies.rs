@@ -17,10 +17,10 @@ const CRATES_IO: &str = "registry+https://github.com/rust-lang/crates.io-index";
 /// # Errors
 /// With every crate that breaks the policy.
 pub fn check(house: &House) -> Result<String, String> {
-    let allowed = allowed_licences(&house.read("deny.toml")?)?;
+    let policy = Policy::read(&house.read("deny.toml")?)?;
     let metadata = house.metadata(&[])?;
     let built = built(&metadata);
-    let mut found: Vec<String> = built.iter().filter_map(|package| wrong(package, &allowed)).collect();
+    let mut found: Vec<String> = built.iter().filter_map(|package| wrong(package, &policy)).collect();
     for (name, manifest) in floors::manifests(house)? {
         found.extend(own_versions(&name, &manifest));
     }
@@ -35,11 +35,34 @@ pub fn check(house: &House) -> Result<String, String> {
 }
 
 /// The licences that `deny.toml` allows.
-fn allowed_licences(deny: &str) -> Result<Vec<String>, String> {
-    let table: toml::Table = deny.parse().map_err(|error| format!("deny.toml: {error}"))?;
-    let list = table.get("licenses").and_then(|licenses| licenses.get("allow")).and_then(toml::Value::as_array);
-    let list = list.ok_or("deny.toml: expected a list `allow` in [licenses]")?;
-    Ok(list.iter().filter_map(toml::Value::as_str).map(str::to_string).collect())
+struct Policy {
+    /// For every crate.
+    allowed: Vec<String>,
+    /// For single crates besides.
+    exceptions: BTreeMap<String, Vec<String>>,
+}
+
+impl Policy {
+    fn read(deny: &str) -> Result<Self, String> {
+        let table: toml::Table = deny.parse().map_err(|error| format!("deny.toml: {error}"))?;
+        let licenses = table.get("licenses").ok_or("deny.toml: expected a section [licenses]")?;
+        let list = |of: &toml::Value| {
+            let list = of.get("allow").and_then(toml::Value::as_array);
+            let list = list.ok_or("deny.toml: expected a list `allow` in [licenses] and in each of its exceptions")?;
+            Ok::<_, String>(list.iter().filter_map(toml::Value::as_str).map(str::to_string).collect::<Vec<_>>())
+        };
+        let exceptions = licenses.get("exceptions").and_then(toml::Value::as_array).into_iter().flatten();
+        let exceptions = exceptions.map(|exception| {
+            let name = exception.get("crate").and_then(toml::Value::as_str);
+            Ok((name.ok_or("deny.toml: expected the name of a `crate` in each exception of [licenses]")?.to_string(), list(exception)?))
+        });
+        Ok(Self { allowed: list(licenses)?, exceptions: exceptions.collect::<Result<_, String>>()? })
+    }
+
+    /// The licences that a crate may have.
+    fn of(&self, name: &str) -> Vec<String> {
+        self.allowed.iter().chain(self.exceptions.get(name).into_iter().flatten()).cloned().collect()
+    }
 }
 
 /// The packages that the workspace needs to be built, itself included.
@@ -66,14 +89,14 @@ fn id(value: &Value) -> String {
 }
 
 /// What is wrong with a package.
-fn wrong(package: &Value, allowed: &[String]) -> Option<String> {
+fn wrong(package: &Value, policy: &Policy) -> Option<String> {
     let text = |key: &str| package[key].as_str();
     let name = format!("{} {}", text("name").unwrap_or("?"), text("version").unwrap_or("?"));
     if let Some(source) = text("source").filter(|source| *source != CRATES_IO) {
         return Some(format!("{name} comes from {source}; expected crates.io"));
     }
     let Some(licence) = text("license") else { return Some(format!("{name} states no licence expression")) };
-    match spdx::satisfied(licence, allowed) {
+    match spdx::satisfied(licence, &policy.of(text("name").unwrap_or_default())) {
         Ok(true) => None,
         Ok(false) => Some(format!("{name} has the licence {licence}, which deny.toml does not allow")),
         Err(message) => Some(format!("{name}: {message}")),
@@ -119,13 +142,22 @@ mod tests {
 
     #[test]
     fn a_strange_source_a_missing_and_a_foreign_licence_are_found() {
-        let allowed = ["MIT".to_string()];
+        let allowed = Policy { allowed: vec!["MIT".to_string()], exceptions: BTreeMap::new() };
         assert_eq!(wrong(&package("a", Some(CRATES_IO), Some("MIT OR GPL-3.0-only")), &allowed), None);
         assert_eq!(wrong(&package("own", None, Some("MIT")), &allowed), None);
         let fork = wrong(&package("a", Some("git+https://example.org/a"), Some("MIT")), &allowed).unwrap();
         assert_eq!(fork, "a 1.0.0 comes from git+https://example.org/a; expected crates.io");
         assert!(wrong(&package("a", Some(CRATES_IO), None), &allowed).unwrap().contains("no licence expression"));
         assert!(wrong(&package("a", Some(CRATES_IO), Some("GPL-3.0-only")), &allowed).unwrap().contains("GPL-3.0-only"));
+    }
+
+    #[test]
+    fn an_exception_is_for_its_crate_alone() {
+        let deny = "[licenses]\nallow = [\"MIT\"]\n[[licenses.exceptions]]\ncrate = \"tables\"\nallow = [\"CC-BY-SA-3.0\"]";
+        let policy = Policy::read(deny).unwrap();
+        assert_eq!(wrong(&package("tables", None, Some("MIT AND CC-BY-SA-3.0")), &policy), None);
+        let other = wrong(&package("other", None, Some("MIT AND CC-BY-SA-3.0")), &policy).unwrap();
+        assert!(other.contains("which deny.toml does not allow"), "{other}");
     }
 
     #[test]
@@ -139,8 +171,9 @@ mod tests {
 
     #[test]
     fn the_list_of_licences_is_read_from_deny_toml() {
-        let allowed = allowed_licences(&House::find().unwrap().read("deny.toml").unwrap()).unwrap();
-        assert!(allowed.contains(&"MIT".to_string()) && !allowed.iter().any(|licence| licence.contains("GPL")));
-        assert!(allowed_licences("[bans]").unwrap_err().contains("[licenses]"));
+        let policy = Policy::read(&House::find().unwrap().read("deny.toml").unwrap()).unwrap();
+        assert!(policy.allowed.contains(&"MIT".to_string()) && !policy.allowed.iter().any(|licence| licence.contains("GPL")));
+        assert!(Policy::read("[bans]").err().unwrap().contains("[licenses]"));
+        assert!(Policy::read("[licenses]\nallow = []\n[[licenses.exceptions]]\nallow = []").err().unwrap().contains("`crate`"));
     }
 }

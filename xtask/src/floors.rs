@@ -28,6 +28,7 @@ const FLOORS: [(&str, Floor); 17] = [
     ("render", Floor::Number(3)),
     ("denoise", Floor::Number(3)),
     ("dataset", Floor::Number(3)),
+    ("suggest", Floor::Number(3)),
     ("post", Floor::Number(4)),
     ("pipeline", Floor::Number(5)),
     ("export", Floor::Number(5)),

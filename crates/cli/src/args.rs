@@ -77,6 +77,10 @@ pub enum Verb {
     Animate(AnimateArgs),
     /// What the images show and what they cost: numbers, charts, outliers
     Stats(StatsArgs),
+    /// Label the parts of a scene, in the browser
+    Annotate(AnnotateArgs),
+    /// Scene file -> label table, proposed from the names of parts and materials
+    Suggest(SuggestArgs),
 }
 
 /// `run`.
@@ -305,6 +309,27 @@ pub struct ImportArgs {
     pub force: bool,
 }
 
+/// `suggest`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  enfilade suggest kitchen.gltf -o labels.csv\n  enfilade suggest kitchen.gltf --min-confidence 0.6\n\n\
+    Parts of less confidence have -1 and the best guess beside it. `labels = \"labels.csv\"` of a scene in dataset.toml, or\n\
+    `enfilade label`, reads the table. Of names with a confidence of 0.94 or more, 95 of 100 are right in scenes that were held out."
+)]
+pub struct SuggestArgs {
+    /// A scene file (.gltf, .glb, .obj, .xml) or scene package (.scene)
+    pub input: PathBuf,
+    /// The table to write [default: the input's name with .labels.csv, in the current folder]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Least confidence of a label that is written, 0 to 1 [default: where nine of ten names are right]
+    #[arg(long, value_name = "SHARE")]
+    pub min_confidence: Option<f32>,
+    /// Which way is up in the file [default: as its format says]
+    #[arg(long)]
+    pub up_axis: Option<UpAxisArg>,
+}
+
 /// `--up-axis`.
 #[derive(Clone, Copy, ValueEnum)]
 pub enum UpAxisArg {
@@ -507,6 +532,49 @@ pub struct StatsArgs {
     /// The folder to write [default: statistics, in the dataset]
     #[arg(short, long, value_name = "FOLDER")]
     pub output: Option<PathBuf>,
+}
+
+/// `annotate`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  enfilade annotate room.glb\n  enfilade annotate out --scene home\n  enfilade annotate ai_001_001/_detail/mesh --classes semantic_label_descs.csv\n\n\
+    Labels are written in Hypersim's files, into the mesh folder of a dataset's scene or beside a scene file (FILE.labels). Then\n\
+    `enfilade label out` brings them into the label images; nothing is rendered again."
+)]
+pub struct AnnotateArgs {
+    /// A scene file (.gltf, .glb, .obj, .xml, .scene), a dataset, a scene's folder in it, or a Hypersim mesh folder
+    #[arg(value_name = "SCENE")]
+    pub input: PathBuf,
+    /// Which of a dataset's scenes
+    #[arg(long, value_name = "NAME")]
+    pub scene: Option<String>,
+    /// The folder of labels [default: the dataset's mesh folder, or FILE.labels beside the scene file]
+    #[arg(long, value_name = "DIR")]
+    pub labels: Option<PathBuf>,
+    /// A list of classes in the form of Hypersim's semantic_label_descs.csv [default: NYU40]
+    #[arg(long, value_name = "FILE")]
+    pub classes: Option<PathBuf>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub listen: ListenArgs,
+}
+
+/// Where a page is served, for `annotate` and `view`.
+#[derive(Args)]
+#[command(next_help_heading = "Serving")]
+pub struct ListenArgs {
+    /// Port [default: any that is free]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub port: u16,
+    /// Address to listen on; beyond this machine (0.0.0.0) a token is demanded, which the printed address carries
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
+    pub host: std::net::IpAddr,
+    /// Demand a token on this machine too, where several people share it
+    #[arg(long)]
+    pub token: bool,
+    /// Print the address, but do not open the browser
+    #[arg(long)]
+    pub no_open: bool,
 }
 
 /// The formats as `--format` shows them.

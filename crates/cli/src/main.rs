@@ -4,6 +4,7 @@
 //! not hold, 2 the command or the configuration is wrong.
 
 mod animate;
+mod annotate;
 mod args;
 mod estimate;
 mod export;
@@ -12,6 +13,7 @@ mod price;
 mod progress;
 mod scene_files;
 mod stats;
+mod suggest;
 mod summary;
 mod verbs;
 
@@ -56,5 +58,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Replay(args) => verbs::replay(args, cli.quiet),
         Verb::Export(args) => export::export(args, cli.quiet),
         Verb::Stats(args) => stats::stats(args, cli.quiet),
+        Verb::Annotate(args) => annotate::annotate(args, cli.quiet),
+        Verb::Suggest(args) => suggest::suggest(args, cli.quiet),
     }
 }

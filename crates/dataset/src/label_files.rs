@@ -1,10 +1,31 @@
 //! The label tables of the mesh folder: which class and which instance every object belongs to, and their display colours.
 
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
-use crate::{Dataset, DatasetError, check_name, replace_file};
+use crate::{Dataset, DatasetError, MeshFiles, check_name, replace_file};
 use enfilade_math::Rng;
 use enfilade_scene::{Labels, NYU40, PartLabel};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+const SEMANTIC: &str = "mesh_objects_si.hdf5";
+const COLORS: &str = "metadata_semantic_colors.hdf5";
+const INSTANCE: &str = "mesh_objects_sii.hdf5";
+
+/// What labels look like on a screen.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LabelColors {
+    /// sRGB by class: row `i` is class `i`; row 0 and numbers without a class are −1.
+    pub semantic: Vec<[i64; 3]>,
+    /// How many instance numbers were given out, whether or not they are in use: one colour each.
+    pub instances: usize,
+}
+
+impl LabelColors {
+    /// NYU40's colours, and as many of instances as the labels have.
+    pub fn nyu40(labels: &Labels) -> Self {
+        let instances = labels.parts.iter().map(|l| l.instance).max().unwrap_or(0).max(0) as usize;
+        Self { semantic: semantic_colors(), instances }
+    }
+}
 
 impl Dataset {
     /// Writes the label tables `mesh_objects_{si,sii}.hdf5` (one row per part) and both colour tables.
@@ -13,31 +34,62 @@ impl Dataset {
     /// When a file cannot be written.
     pub fn write_label_tables(&self, scene: &str, labels: &Labels) -> Result<(), DatasetError> {
         check_name("scene name", scene)?;
-        let column =
-            |of: fn(&PartLabel) -> i16| Array::i64(&[labels.parts.len(), 1], labels.parts.iter().map(|l| i64::from(of(l))).collect());
-        let instances = labels.parts.iter().map(|l| l.instance).max().unwrap_or(0).max(0) as usize;
-        let colors = |colors: Vec<[i64; 3]>| Array::i64(&[colors.len(), 3], colors.into_iter().flatten().collect());
-        let files = [
-            ("mesh_objects_si.hdf5", column(|label| label.semantic)),
-            ("mesh_objects_sii.hdf5", column(|label| label.instance)),
-            ("metadata_semantic_colors.hdf5", colors(semantic_colors())),
-            ("metadata_semantic_instance_colors.hdf5", colors(instance_colors(instances))),
-        ];
-        files.iter().try_for_each(|(name, array)| {
-            replace_file(&self.layout().mesh_file(scene, name), |aside| write_array(aside, array, Storage::Contiguous, &[]))
-        })
+        self.mesh_files(scene).write_labels(labels, &LabelColors::nyu40(labels)).map(drop)
     }
 
-    /// The label tables: `parts[i]` belongs to object `i`, which in our datasets is part `i`.
+    /// The label tables: `parts[i]` belongs to object `i`, which in our datasets is part `i` unless parts were split.
     ///
     /// # Errors
     /// When a table is missing or damaged, or the two differ in length.
     pub fn read_label_tables(&self, scene: &str) -> Result<Labels, DatasetError> {
-        let semantic = read_column(&self.layout().mesh_file(scene, "mesh_objects_si.hdf5"))?;
-        let path = self.layout().mesh_file(scene, "mesh_objects_sii.hdf5");
+        self.mesh_files(scene).read_labels()
+    }
+}
+
+impl MeshFiles {
+    /// Writes the label tables `mesh_objects_{si,sii}.hdf5` (one row per object) and both colour tables; returns the files.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn write_labels(&self, labels: &Labels, colors: &LabelColors) -> Result<Vec<PathBuf>, DatasetError> {
+        let column =
+            |of: fn(&PartLabel) -> i16| Array::i64(&[labels.parts.len(), 1], labels.parts.iter().map(|l| i64::from(of(l))).collect());
+        let rows = |colors: &[[i64; 3]]| Array::i64(&[colors.len(), 3], colors.iter().flatten().copied().collect());
+        let files = [
+            (SEMANTIC, column(|label| label.semantic)),
+            (INSTANCE, column(|label| label.instance)),
+            (COLORS, rows(&colors.semantic)),
+            ("metadata_semantic_instance_colors.hdf5", rows(&instance_colors(colors.instances))),
+        ];
+        let write = |(name, array): &(&str, Array)| {
+            let path = self.file(name);
+            replace_file(&path, |aside| write_array(aside, array, Storage::Contiguous, &[])).map(|()| path)
+        };
+        files.iter().map(write).collect()
+    }
+
+    /// The greatest class of the list that the labels choose from, by the table of colours; 40 where that is missing.
+    ///
+    /// # Errors
+    /// When the table is damaged.
+    pub fn read_last_class(&self) -> Result<i16, DatasetError> {
+        match read_array(&self.file(COLORS)) {
+            Ok(array) => Ok(array.shape.first().map_or(0, |rows| rows.saturating_sub(1)).try_into().unwrap_or(i16::MAX)),
+            Err(error) if error.is_not_found() => Ok(NYU40.len() as i16),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The label tables: `parts[i]` belongs to object `i`.
+    ///
+    /// # Errors
+    /// When a table is missing or damaged, or the two differ in length.
+    pub fn read_labels(&self) -> Result<Labels, DatasetError> {
+        let semantic = read_column(&self.file(SEMANTIC))?;
+        let path = self.file(INSTANCE);
         let instance = read_column(&path)?;
         if semantic.len() != instance.len() {
-            let problem = format!("{} rows, but mesh_objects_si.hdf5 has {}; run the label stage again", instance.len(), semantic.len());
+            let problem = format!("{} rows, but {SEMANTIC} has {}; run the label stage again", instance.len(), semantic.len());
             return Err(DatasetError::hdf5(&path, problem));
         }
         let parts = semantic.into_iter().zip(instance).map(|(semantic, instance)| PartLabel { semantic, instance }).collect();

@@ -4,7 +4,9 @@
 //! `mesh_texcoords` and `mesh_faces_vni` into `mesh_normals`, as the names say; in Hypersim's own files the two are swapped.
 //! −1 stands for "none".
 
+use crate::atomic::remove_if_there;
 use crate::hdf5::{Array, Storage, write_array};
+use crate::object_files::SPLITS;
 use crate::tables::Table;
 use crate::{DatasetError, Layout, replace_file};
 use enfilade_math::{DMat3, DVec3};
@@ -53,6 +55,8 @@ pub(crate) fn write_mesh(layout: &Layout, scene_name: &str, scene: &Scene) -> Re
         table.rows = names.into_iter().map(|name| vec![name.to_string()]).collect();
         table.write()
     };
+    // Objects are whole again, if people had split any: what they did is in their log.
+    remove_if_there(&layout.mesh_file(scene_name, SPLITS))?;
     names("metadata_objects.csv", "object_name", scene.parts.iter().map(|p| p.name.as_str()).collect())?;
     names("metadata_groups.csv", "group_name", vec![])?;
     names("metadata_materials.csv", "material_name", scene.materials.iter().map(|m| m.name.as_str()).collect())

@@ -3,9 +3,11 @@
 mod bvh;
 mod mesh;
 mod nearest;
+mod nearest_triangle;
 mod octree;
 
 pub use bvh::{Bvh, Hit, NOTHING, PinholeRays, VisibilityBuffer};
 pub use mesh::{Mesh, MeshError};
 pub use nearest::Surfaces;
+pub use nearest_triangle::NearestTriangle;
 pub use octree::{Leaf, OccupancyTree, TREE_LEVELS, TreeFileError, Voxel, VoxelKey};

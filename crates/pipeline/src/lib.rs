@@ -15,6 +15,7 @@ mod run;
 mod single;
 mod split;
 mod stages;
+mod suggest;
 mod workdir;
 
 pub use config::{
@@ -34,4 +35,5 @@ pub use run::{estimate, plan_and_draw, relabel, run, run_chosen, run_stage};
 pub use single::{Imported, MadeHome, import_file, make_home};
 pub use split::{SplitReport, split};
 pub use stages::{STAGES, Stage, StageSpec};
+pub use suggest::{SuggestedLabels, UnsurePart, suggest_labels};
 pub use workdir::WORKDIR;

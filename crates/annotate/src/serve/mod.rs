@@ -10,10 +10,15 @@ pub use problem::ApiProblem;
 
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
+use std::future::IntoFuture;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::time::Duration;
 
 /// Largest body of a request, bytes: a stroke of a million pixels fits.
 const MAX_BODY_BYTES: usize = 16 << 20;
+
+/// Requests that are being answered when the program is asked to end have this long to finish.
+const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Where to listen, and what to do then.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,10 +77,22 @@ pub fn serve(app: Router, listen: &Listen, page: &str, started: impl FnOnce(&str
             // A machine without a browser: the address has been told.
         }
         let app = guarded(app, page, guard);
-        axum::serve(listener, app).with_graceful_shutdown(asked_to_end()).await.map_err(run)
+        let (told, ending) = tokio::sync::oneshot::channel();
+        let end = async {
+            asked_to_end().await;
+            let _ = told.send(()); // nobody waits when the server has ended by itself
+        };
+        let served = axum::serve(listener, app).with_graceful_shutdown(end);
+        // Pages listen for events as long as they are open, so waiting for every answer to end would be waiting for them to be closed.
+        let patience = async {
+            match ending.await {
+                Ok(()) => tokio::time::sleep(PATIENCE).await,
+                Err(_) => std::future::pending().await,
+            }
+        };
+        tokio::select! { served = served.into_future() => served.map_err(run), () = patience => Ok(()) }
     });
-    // Pages that still listen for events would keep the runtime alive.
-    runtime.shutdown_background();
+    runtime.shutdown_timeout(PATIENCE);
     outcome
 }
 

@@ -30,6 +30,11 @@ impl ApiProblem {
         Self { status: StatusCode::FORBIDDEN, error: error.into(), help: help.into() }
     }
 
+    /// It cannot be done as things are: 409.
+    pub fn conflict(error: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { status: StatusCode::CONFLICT, error: error.into(), help: help.into() }
+    }
+
     /// Something here failed: 500.
     pub fn failed(error: impl Into<String>, help: impl Into<String>) -> Self {
         Self { status: StatusCode::INTERNAL_SERVER_ERROR, error: error.into(), help: help.into() }

@@ -6,7 +6,9 @@ use crate::report::{StageCx, count};
 use crate::workdir::Hash;
 use enfilade_post::drivers::{write_boxes, write_instances};
 use enfilade_post::instances::solids;
+use enfilade_post::label::SplitParts;
 use enfilade_scene::WorldMesh;
+use std::sync::Arc;
 
 pub(super) fn settings(_job: &Job) -> Hash {
     Hash::of(&())
@@ -14,9 +16,13 @@ pub(super) fn settings(_job: &Job) -> Hash {
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?];
-    let tables = ["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5"];
-    for table in tables {
-        inputs.push(job.input_from(Stage::Label, &job.dataset.layout().mesh_file(&job.scene.name, table))?);
+    let files = job.dataset.mesh_files(&job.scene.name);
+    for table in ["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5"] {
+        inputs.push(job.input_from(Stage::Label, &files.file(table))?);
+    }
+    let splits = ["metadata_object_splits.csv", "mesh_faces_oi.hdf5"].map(|table| files.file(table));
+    if splits[0].is_file() {
+        inputs.extend(splits.iter().map(|path| Input::of(path)).collect::<Result<Vec<_>, _>>()?);
     }
     inputs.extend(job.frame_records()?);
     inputs.extend(job.label_records()?);
@@ -25,8 +31,11 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
-    let scene = job.load_scene()?;
+    let mut scene = job.load_scene()?;
     let labels = job.dataset.read_label_tables(name).map_err(Error::stage)?;
+    if let Some(split) = SplitParts::read(&job.dataset.mesh_files(name), &scene).map_err(Error::stage)? {
+        scene = Arc::new(split.scene_of_pieces(&scene));
+    }
     let (mut outputs, boxed) = write_boxes(job.dataset, name, &scene, &labels).map_err(Error::stage)?;
     let solids = solids(&WorldMesh::new(&scene), &labels);
     let filmed = job.filmed()?;

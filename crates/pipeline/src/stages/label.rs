@@ -1,14 +1,18 @@
-//! `label`: what every part is, from a table or from the scene itself, joined to the entity ids of finished frames.
+//! `label`: what every part is, as people annotated it, from a table or from the scene itself, joined to the entity ids of finished frames.
 
 use super::{Input, Inputs, Job, Outcome, Record, Stage, import};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, read_json};
+use enfilade_dataset::MeshFiles;
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
-use enfilade_post::label::{LabelReport, LabelTable, join, part_names};
+use enfilade_post::label::{LabelReport, LabelTable, SplitParts, join, part_names};
 use enfilade_scene::{Cx, Labels, PartLabel, Warning};
 use std::path::PathBuf;
 
+/// The log of `enfilade annotate`; the tables beside it are what it says.
+const ANNOTATION_LOG: &str = "annotation_log.jsonl";
+const ANNOTATION_TABLES: [&str; 4] = ["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5", "mesh_faces_oi.hdf5", "metadata_object_splits.csv"];
 /// Names listed in a warning; the report has all.
 const NAMES_SHOWN: usize = 5;
 
@@ -21,28 +25,85 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     if let Some(labels) = &job.scene.labels {
         inputs.push(Input::of(&job.config.path(&labels.table)?)?);
     }
+    if is_annotated(job) {
+        inputs.extend(annotation_tables(job).iter().map(|path| Input::of(path)).collect::<Result<Vec<_>, _>>()?);
+    }
     inputs.extend(job.frame_records()?);
     Ok(Some(inputs))
 }
 
+/// True when `enfilade annotate` keeps the scene's labels: then its tables count, whatever else there is.
+fn is_annotated(job: &Job) -> bool {
+    let files = job.dataset.mesh_files(&job.scene.name);
+    files.file(ANNOTATION_LOG).is_file() && files.file(ANNOTATION_TABLES[0]).is_file()
+}
+
+/// The tables of an annotation that are there: without split parts one is not.
+fn annotation_tables(job: &Job) -> Vec<PathBuf> {
+    let files = job.dataset.mesh_files(&job.scene.name);
+    ANNOTATION_TABLES.map(|name| files.file(name)).into_iter().filter(|path| path.is_file()).collect()
+}
+
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
-    let (labels, report) = labels_of(job, cx)?;
-    job.dataset.write_label_tables(&job.scene.name, &labels).map_err(Error::stage)?;
-    let hash = Hash::of(&labels).0;
+    let (known, report) = if is_annotated(job) {
+        (annotated(job, cx)?, serde_json::Value::Null)
+    } else {
+        let (labels, report) = labels_of(job, cx)?;
+        job.dataset.write_label_tables(&job.scene.name, &labels).map_err(Error::stage)?;
+        (Known { labels, split: None }, report)
+    };
+    let hash = known.hash().0;
     let frames = job.frames()?;
     for (done, (camera, frame)) in frames.iter().enumerate() {
         if job.force || !job.dataset.labels_are_complete(&job.scene.name, camera, *frame, &hash) {
-            label_frame(job, camera, *frame, &labels, &hash)?;
+            label_frame(job, camera, *frame, &known, &hash)?;
         }
         cx.progress("frames", done as u64 + 1, frames.len() as u64);
     }
+    let labels = &known.labels;
     let labelled = labels.parts.iter().filter(|l| l.semantic >= 1).count();
     let parts = count(labels.parts.len(), "part");
     let mut summary = format!("{labelled} of {parts} have a class, in {}", count(frames.len(), "frame"));
-    if labelled == 0 && job.scene.labels.is_none() {
+    if is_annotated(job) {
+        summary.push_str(", as annotated");
+    } else if labelled == 0 && job.scene.labels.is_none() {
         summary.push_str("; the scene comes without labels and no table is given");
     }
     Ok(Outcome { summary, outputs: outputs(job, &frames), report, ..Outcome::default() })
+}
+
+/// What every part is called, or every piece where parts were split.
+struct Known {
+    labels: Labels,
+    split: Option<SplitParts>,
+}
+
+impl Known {
+    fn hash(&self) -> Hash {
+        match &self.split {
+            None => Hash::of(&self.labels),
+            Some(split) => Hash::of(&(&self.labels, split.pieces_of_faces().collect::<Vec<_>>())),
+        }
+    }
+}
+
+/// What people annotated.
+fn annotated(job: &Job, cx: &StageCx) -> Result<Known, Error> {
+    let files: MeshFiles = job.dataset.mesh_files(&job.scene.name);
+    let scene = job.load_scene()?;
+    let (labels, split) = (files.read_labels().map_err(Error::stage)?, SplitParts::read(&files, &scene).map_err(Error::stage)?);
+    let pieces = scene.parts.len() + split.as_ref().map_or(0, SplitParts::count);
+    if labels.parts.len() != pieces {
+        let message = format!("the annotation has labels of {} parts, the scene has {pieces}", labels.parts.len());
+        let command = format!("enfilade annotate {} --scene {}", job.out().display(), job.scene.name);
+        return Err(Error::scene(message, format!("open it, which writes the tables from its log: {command}")));
+    }
+    if let Some(source) = &job.scene.labels {
+        let message =
+            format!("not used, because the scene was annotated; to use it again, move {} away", files.file(ANNOTATION_LOG).display());
+        cx.warn(Warning { place: source.table.clone(), message });
+    }
+    Ok(Known { labels, split })
 }
 
 /// From the table if there is one, else what came with the scene, else none.
@@ -74,14 +135,19 @@ fn warn_about(report: &LabelReport, table: &str, scene: &str, cx: &StageCx) {
     }
 }
 
-fn label_frame(job: &Job, camera: &str, frame: u32, labels: &Labels, hash: &str) -> Result<(), Error> {
+fn label_frame(job: &Job, camera: &str, frame: u32, known: &Known, hash: &str) -> Result<(), Error> {
     let name = &job.scene.name;
-    let rendered = job.dataset.read_frame(name, camera, frame, &[Layer::RenderEntityId]).map_err(Error::stage)?;
+    let wanted: &[Layer] = if known.split.is_some() { &[Layer::RenderEntityId, Layer::Position] } else { &[Layer::RenderEntityId] };
+    let rendered = job.dataset.read_frame(name, camera, frame, wanted).map_err(Error::stage)?;
     let Some(Values::I16(ids)) = rendered.get(Layer::RenderEntityId) else {
         let message = format!("frame {frame} of {camera} has no entity ids");
         return Err(Error::scene(message, format!("render it again: enfilade render {} --force", job.out().display())));
     };
-    let (semantic, instance) = join(ids, labels).map_err(Error::stage)?;
+    let joined = match (&known.split, rendered.get(Layer::Position)) {
+        (Some(split), Some(positions)) => split.join(ids, positions, &known.labels),
+        _ => join(ids, &known.labels),
+    };
+    let (semantic, instance) = joined.map_err(Error::stage)?;
     let mut layers = Frame::new(rendered.width, rendered.height);
     layers.insert(Layer::Semantic, Values::I16(semantic));
     layers.insert(Layer::SemanticInstance, Values::I16(instance));

@@ -2,13 +2,15 @@
 //!
 //! Labels never enter the renderer. A [`LabelTable`] says which class the parts or materials of a scene have;
 //! [`LabelTable::assign`] applies it to the parts of a scene; [`join`] turns entity ids into label images. Changing the table
-//! therefore costs a join, not a rendering.
+//! therefore costs a join, not a rendering. Where people split parts, [`SplitParts`] says which piece a pixel shows.
 
 mod assign;
+mod pieces;
 mod table;
 
 pub use assign::{LabelReport, PartNames, UnlabelledPart, UnmatchedRow, part_names};
-pub use table::{LabelTable, Row, Subject, TableError, class_name, write_table};
+pub use pieces::SplitParts;
+pub use table::{LabelTable, Row, Subject, TableError, class_name, write_part_table, write_table};
 
 use enfilade_scene::{Labels, PartLabel};
 

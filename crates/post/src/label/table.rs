@@ -15,7 +15,7 @@
 //!
 //! At least one of the four name columns is needed; where a row fills several, the first in the order above counts.
 
-use enfilade_scene::{Labels, NYU40, Scene};
+use enfilade_scene::{Labels, NYU40, PartLabel, Scene};
 use std::collections::HashMap;
 
 /// A parsed label table.
@@ -114,12 +114,21 @@ impl LabelTable {
 /// # Panics
 /// When there is not one label per part.
 pub fn write_table(scene: &Scene, labels: &Labels) -> String {
-    assert_eq!(scene.parts.len(), labels.parts.len(), "one label per part");
+    let names: Vec<&str> = scene.parts.iter().map(|part| part.name.as_str()).collect();
+    write_part_table(&names, &labels.parts)
+}
+
+/// The table that gives parts of these names these labels.
+///
+/// # Panics
+/// When there is not one label per part.
+pub fn write_part_table(parts: &[&str], labels: &[PartLabel]) -> String {
+    assert_eq!(parts.len(), labels.len(), "one label per part");
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut write = |fields: [&str; 4]| writer.write_record(fields).expect("writing to memory cannot fail");
     write(["part", "nyu40_id", "nyu40_name", "instance"]);
-    for (part, label) in scene.parts.iter().zip(&labels.parts) {
-        write([&part.name, &label.semantic.to_string(), class_name(label.semantic), &label.instance.to_string()]);
+    for (part, label) in parts.iter().zip(labels) {
+        write([part, &label.semantic.to_string(), class_name(label.semantic), &label.instance.to_string()]);
     }
     String::from_utf8(writer.into_inner().expect("flushing memory cannot fail")).expect("names are UTF-8")
 }

@@ -3,7 +3,7 @@
 use super::card::Card;
 use super::frame_values::FrameValues;
 use super::law::Law;
-use super::read::{read_frame, read_labels, read_tree, readable};
+use super::read::{SceneLabels, read_frame, read_labels, read_tree, readable};
 use super::report::VerifyReport;
 use super::two_views::{self, PairValues, Sight};
 use super::whole::{self, join_reports};
@@ -11,7 +11,7 @@ use super::{View, boxes, camera_files, check_frame, check_trajectory};
 use enfilade_dataset::{BoxKind, Dataset, DatasetError, FrameRecord, InstanceView, StereoRecord, StereoSide};
 use enfilade_frame::LAYERS;
 use enfilade_geometry::Voxel;
-use enfilade_scene::{Camera, CameraView, Cx, Labels, Pose, Trajectory};
+use enfilade_scene::{Camera, CameraView, Cx, NYU40, Pose, Trajectory};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -65,7 +65,7 @@ struct SceneFacts {
     name: String,
     meters_per_unit: f64,
     entities: usize,
-    labels: Option<Labels>,
+    labels: Option<SceneLabels>,
     boxes: Vec<(BoxKind, boxes::Boxes)>,
     filmed: Vec<Filmed>,
 }
@@ -185,13 +185,21 @@ impl SceneFacts {
         found.values = Some(FrameValues::new([&self.name, name], number, &frame, self.meters_per_unit, record.as_ref()));
         let Some(camera) = &filmed.camera else { return found };
         let camera = CameraView::of_frame(camera, poses, index);
-        let (meters_per_unit, entities, labels) = (self.meters_per_unit, self.entities, self.labels.as_ref());
-        found.card.merge(check_frame(&frame, &View { camera, meters_per_unit, entities, labels }, &place));
+        let known = self.labels.as_ref();
+        let view = View {
+            camera,
+            meters_per_unit: self.meters_per_unit,
+            entities: self.entities,
+            labels: known.map(|known| &known.labels),
+            pieces: known.map_or(&[], |known| &known.pieces),
+            last_class: known.map_or(NYU40.len() as i16, |known| known.last_class),
+        };
+        found.card.merge(check_frame(&frame, &view, &place));
         boxes::check_positions(&self.boxes, &frame, &camera, &place, &mut found.card);
         if let Some(views) = &filmed.views {
             boxes::check_views(views, &frame, number, &place, &mut found.card);
         }
-        let sight = Sight { frame: &frame, view: camera, meters_per_unit };
+        let sight = Sight { frame: &frame, view: camera, meters_per_unit: self.meters_per_unit };
         for (other, there) in self.neighbours(filmed, index) {
             found.pairs.extend(self.compare(dataset, (name, &sight), (other, there), &mut found.card));
         }

@@ -139,10 +139,10 @@ pub const LAWS: [LawSpec; 56] = laws![
     BumpCamera 4e-3 "", "normal_bump_cam is normal_bump_world in camera axes", "pose and frame do not belong together: render again";
     Flatness 2e-2 "", "straight lines on surfaces of one normal lie in its plane (sine, 99th percentile)",
         "smooth normals over coarse facets, or normals in another space than positions: check the mesh's normals";
-    SemanticRange 0.0 "pixels", "semantic is -1 or 1 to 40", "the label files are damaged: label again";
+    SemanticRange 0.0 "pixels", "semantic is -1 or a class of the list, which is 1 to 40 of NYU40 unless metadata_semantic_colors.hdf5 is longer", "the label files are damaged: label again";
     InstanceRange 0.0 "pixels", "semantic_instance is -1 or at least 1", "the label files are damaged: label again";
-    SemanticJoin 0.0 "pixels", "semantic is the class of the part in render_entity_id", "the label table changed: label again";
-    InstanceJoin 0.0 "pixels", "semantic_instance is the instance of the part in render_entity_id", "the label table changed: label again";
+    SemanticJoin 0.0 "pixels", "semantic is the class of the part in render_entity_id, or of one of its pieces if it was split", "the label table changed: label again";
+    InstanceJoin 0.0 "pixels", "semantic_instance is the instance of the part in render_entity_id, or of one of its pieces if it was split", "the label table changed: label again";
     InstanceClass 0.0 "instances", "an instance has one class", "the label table gives one instance number to parts of several classes: correct it";
     BoxAxes 1e-9 "", "orientations of bounding boxes are orthonormal and right-handed", "the file was edited or damaged: run the boxes stage again";
     BoxExtents 0.0 "boxes", "bounding boxes are finite, no side is negative, and one is longer than 0",

@@ -35,7 +35,7 @@ pub use two_views::{Compared, PairValues};
 pub use whole::{join_reports, write_report};
 
 use enfilade_frame::{Frame, LAYERS, Pass};
-use enfilade_scene::{CameraView, Labels};
+use enfilade_scene::{CameraView, Labels, PartLabel};
 use scan::Scan;
 
 /// What a frame is checked against.
@@ -49,6 +49,10 @@ pub struct View<'a> {
     pub entities: usize,
     /// Labels by render entity (`parts[i]` is entity i + 1), where the scene has label tables.
     pub labels: Option<&'a Labels>,
+    /// Labels of the other pieces of parts that people split, by render entity; empty where nothing was split.
+    pub pieces: &'a [(u32, PartLabel)],
+    /// The greatest class of the scene's list: 40 of NYU40.
+    pub last_class: i16,
 }
 
 /// Checks every law about one frame. `place` names the frame.

@@ -59,23 +59,41 @@ fn image_size(shape: &[usize], spec: &LayerSpec) -> Option<(u32, u32)> {
     }
 }
 
+/// What a scene's label images are checked against.
+pub(super) struct SceneLabels {
+    /// By render entity.
+    pub labels: Labels,
+    /// Of the other pieces of split parts, by render entity.
+    pub pieces: Vec<(u32, PartLabel)>,
+    /// The greatest class of the scene's list.
+    pub last_class: i16,
+}
+
 /// The labels by render entity.
-pub(super) fn read_labels(dataset: &Dataset, scene: &str, nodes: &[Node], card: &mut Card) -> Option<Labels> {
-    let tables = match dataset.read_label_tables(scene) {
-        Ok(tables) => tables,
+pub(super) fn read_labels(dataset: &Dataset, scene: &str, nodes: &[Node], card: &mut Card) -> Option<SceneLabels> {
+    let files = dataset.mesh_files(scene);
+    let read = files.read_labels().and_then(|tables| Ok((tables, files.read_splits()?, files.read_last_class()?)));
+    let (tables, splits, last_class) = match read {
+        Ok(read) => read,
         Err(error) => {
             card.observe(Law::LabelTables, 1.0, || error.to_string());
             return None;
         }
     };
     let objects = nodes.iter().filter_map(|node| node.object_id).max().map_or(0, |id| id as usize + 1);
-    let enough = tables.parts.len() >= objects;
+    let enough = tables.parts.len() >= objects + splits.len();
     card.observe(Law::LabelTables, if enough { 0.0 } else { 1.0 }, || {
-        format!("{scene}: {} rows for {objects} objects", tables.parts.len())
+        format!("{scene}: {} rows for {} objects", tables.parts.len(), objects + splits.len())
     });
     card.merge(check_labels(&tables, scene));
     let label = |node: &Node| node.object_id.and_then(|id| tables.parts.get(id as usize)).copied().unwrap_or(PartLabel::NONE);
-    Some(Labels { parts: nodes.iter().map(label).collect() })
+    let first = tables.parts.len().saturating_sub(splits.len());
+    let piece = |(&parent, &label): (&u32, &PartLabel)| {
+        let node = nodes.iter().find(|node| node.object_id == Some(parent))?;
+        Some((node.node_id, label))
+    };
+    let pieces = splits.iter().zip(&tables.parts[first..]).filter_map(piece).collect();
+    Some(SceneLabels { labels: Labels { parts: nodes.iter().map(label).collect() }, pieces, last_class })
 }
 
 /// The free space, if there is one.

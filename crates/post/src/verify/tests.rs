@@ -10,12 +10,14 @@ struct Case {
     pose: Pose,
     intrinsics: Intrinsics,
     labels: Labels,
+    pieces: Vec<(u32, PartLabel)>,
 }
 
 impl Case {
     fn new() -> Self {
         let pose = testing::pose();
-        Self { frame: testing::frame(&pose), pose, intrinsics: testing::intrinsics(), labels: testing::labels() }
+        let (frame, intrinsics, labels) = (testing::frame(&pose), testing::intrinsics(), testing::labels());
+        Self { frame, pose, intrinsics, labels, pieces: Vec::new() }
     }
 
     fn card(&self) -> Card {
@@ -25,6 +27,8 @@ impl Case {
             meters_per_unit: 1.0,
             entities: self.labels.parts.len(),
             labels: Some(&self.labels),
+            pieces: &self.pieces,
+            last_class: 40,
         };
         check_frame(&self.frame, &view, "room/cam_00/frame.0000")
     }
@@ -278,6 +282,17 @@ fn label_images_are_checked() {
     };
     assert_eq!(failures(|c, _| mirror_is(c, 11, 1)), []);
     assert_eq!(failures(|c, _| mirror_is(c, 41, 1)), [Law::SemanticRange]);
+    // A part that was split shows the labels of its pieces, and no others.
+    let split = |c: &mut Case, found: f64| {
+        let mirror = pixel_of(&c.frame, 3);
+        c.pieces = vec![
+            (3, enfilade_scene::PartLabel { semantic: 11, instance: 1 }),
+            (2, enfilade_scene::PartLabel { semantic: 12, instance: 1 }),
+        ];
+        c.set(Layer::Semantic, mirror, &[found]);
+    };
+    assert_eq!(failures(|c, _| split(c, 11.0)), []);
+    assert_eq!(failures(|c, _| split(c, 12.0)), [Law::SemanticJoin]);
     assert_eq!(failures(|c, _| mirror_is(c, 19, 0)), [Law::InstanceRange]);
     assert_eq!(failures(|c, p| c.set(Layer::Semantic, p, &[5.0])), [Law::SemanticJoin]);
     assert_eq!(failures(|c, p| c.set(Layer::SemanticInstance, p, &[5.0])), [Law::InstanceJoin]);

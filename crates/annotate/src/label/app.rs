@@ -1,0 +1,271 @@
+//! A scene that is being annotated: everything that the routes ask.
+
+use super::action::{Action, Look, Refusal};
+use super::camera::CameraRequest;
+use super::change::Change;
+use super::classes::{Classes, ClassesError};
+use super::clock;
+use super::events::Events;
+use super::geometry::DisplayOrder;
+use super::log::LogError;
+use super::progress::Seen;
+use super::save::{CLASSES, Snapshot};
+use super::session::{ActionError, Session};
+use super::source::{Source, SourceError};
+use super::stroke::Picked;
+use super::suggestions::{Suggestion, suggestions};
+use super::worklog::{WORK_LOG, WorkLog, WorkSession};
+use enfilade_dataset::{DatasetError, MeshFiles};
+use enfilade_geometry::Bvh;
+use enfilade_scene::{Cx, Warning};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, RwLock, RwLockReadGuard};
+
+/// Hypersim's log of when a scene was open.
+const TOOL_LOG: &str = "metadata_scene_annotation_tool.log";
+const TOOL_PREFIX: &str = "[HYPERSIM: SCENE_ANNOTATION_TOOL]";
+
+/// What to annotate.
+#[derive(Clone, Debug, Default)]
+pub struct AnnotateOptions {
+    /// A scene file, a dataset, a scene's folder in it, or a Hypersim mesh folder.
+    pub path: PathBuf,
+    /// Which of a dataset's scenes.
+    pub scene: Option<String>,
+    /// Where labels go, if not where [`Source::load`] says.
+    pub labels: Option<PathBuf>,
+    /// A list of classes, if not the one in the folder of labels or NYU40.
+    pub classes: Option<PathBuf>,
+}
+
+/// Why there is nothing to annotate.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs)]
+pub enum OpenError {
+    #[error(transparent)]
+    Source(#[from] SourceError),
+    #[error(transparent)]
+    Classes(#[from] ClassesError),
+    #[error(transparent)]
+    Log(#[from] LogError),
+    #[error("{0}")]
+    WorkLog(String),
+    #[error(transparent)]
+    Save(#[from] DatasetError),
+}
+
+/// An open scene. Edits are done one after the other; reading goes on meanwhile.
+pub struct App {
+    source: Arc<Source>,
+    classes: Arc<Classes>,
+    bvh: Arc<Bvh>,
+    order: DisplayOrder,
+    session: RwLock<Session>,
+    events: Events,
+    worklog: Mutex<WorkLog>,
+    seen: OnceLock<Seen>,
+    suggestions: OnceLock<Vec<Option<Suggestion>>>,
+    saved: Mutex<Saved>,
+}
+
+/// What is in the files.
+#[derive(Default)]
+struct Saved {
+    revision: u64,
+    objects: Option<blake3::Hash>,
+}
+
+impl App {
+    /// Loads a scene and goes on where its log ends.
+    ///
+    /// # Errors
+    /// When the scene, the list of classes or the log cannot be read, or the folder of labels cannot be written.
+    pub fn open(options: &AnnotateOptions, cx: &dyn Cx) -> Result<Self, OpenError> {
+        let source = Arc::new(Source::load(&options.path, options.scene.as_deref(), options.labels.as_deref(), cx)?);
+        let folder = &source.labels_folder;
+        let own = folder.join(CLASSES);
+        let classes = match &options.classes {
+            Some(file) => Classes::read(file)?,
+            None if own.is_file() => Classes::read(&own)?,
+            None => Classes::nyu40(),
+        };
+        cx.progress("preparing rays", 1, 3);
+        let bvh = Arc::new(Bvh::new(&source.corners, &|_| true));
+        cx.progress("sorting faces", 2, 3);
+        let order = DisplayOrder::new(&source.corners);
+        let classes = Arc::new(classes);
+        let (session, warning) = Session::open(source.clone(), classes.clone(), bvh.clone(), folder)?;
+        if let Some(message) = warning {
+            cx.warn(Warning { place: source.name.clone(), message });
+        }
+        let strange = session.pieces().list().iter().find(|piece| classes.check(piece.label.semantic.into()).is_err());
+        if let Some(piece) = strange {
+            let message =
+                format!("{} has class {}, which the list of classes lacks; give the list with --classes", piece.name, piece.label.semantic);
+            cx.warn(Warning { place: source.name.clone(), message });
+        }
+        let worklog = WorkLog::open(folder).map_err(OpenError::WorkLog)?;
+        let revision = session.standing().revision;
+        let app = Self {
+            events: Events::new(revision),
+            session: RwLock::new(session),
+            worklog: Mutex::new(worklog),
+            seen: OnceLock::new(),
+            suggestions: OnceLock::new(),
+            saved: Mutex::default(),
+            source,
+            classes,
+            bvh,
+            order,
+        };
+        app.note("Loaded scene:  ")?;
+        if revision > 0 {
+            // The program may have died between an edit and its files.
+            app.save()?;
+        }
+        Ok(app)
+    }
+
+    /// Appends to Hypersim's log.
+    fn note(&self, what: &str) -> Result<(), DatasetError> {
+        let path = self.source.labels_folder.join(TOOL_LOG);
+        let line = format!("{TOOL_PREFIX} {what} {}\n", clock::ctime(clock::now_s()));
+        let append = std::fs::File::options().create(true).append(true).open(&path).and_then(|mut file| file.write_all(line.as_bytes()));
+        append.map_err(|source| DatasetError::Io { action: "write", path, source })
+    }
+
+    /// The scene.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// The list of classes.
+    pub fn classes(&self) -> &Classes {
+        &self.classes
+    }
+
+    /// Faces in the order of display.
+    pub fn order(&self) -> &DisplayOrder {
+        &self.order
+    }
+
+    /// Changes on their way to pages.
+    pub fn events(&self) -> &Events {
+        &self.events
+    }
+
+    /// The hierarchy over all faces.
+    pub fn bvh(&self) -> &Bvh {
+        &self.bvh
+    }
+
+    /// The state, to read.
+    pub fn session(&self) -> RwLockReadGuard<'_, Session> {
+        self.session.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What the cameras see; computed by whoever asks first.
+    pub fn seen(&self) -> &Seen {
+        self.seen.get_or_init(|| Seen::new(&self.source, &self.bvh))
+    }
+
+    /// What is proposed for each part, and so for its pieces.
+    pub fn suggestions(&self) -> &[Option<Suggestion>] {
+        self.suggestions.get_or_init(|| suggestions(&self.source, &self.classes))
+    }
+
+    /// Does an action, and tells every page.
+    ///
+    /// # Errors
+    /// When it is refused or cannot be logged; then nothing has changed.
+    pub fn act(&self, action: &Action, client: &str) -> Result<Change, ActionError> {
+        let mut session = self.session.write().unwrap_or_else(PoisonError::into_inner);
+        let before = session.standing().revision;
+        let change = session.act(action, client)?;
+        if change.revision > before {
+            // Announced while the state is held, so that pages get changes in order.
+            self.events.publish(&change);
+            self.worklog().action(clock::now_s());
+        }
+        Ok(change)
+    }
+
+    /// The visible faces and the pieces that a stroke would select.
+    ///
+    /// # Errors
+    /// When the request is wrong.
+    pub fn select(&self, look: &Look) -> Result<(Vec<u32>, Vec<u32>), Refusal> {
+        self.session().select(look)
+    }
+
+    /// What lies under an image point, and its piece.
+    ///
+    /// # Errors
+    /// When the camera or a piece number is wrong, or the point is not in the image.
+    pub fn pick(&self, camera: &CameraRequest, pixel: [f64; 2], hidden: &[u32]) -> Result<Option<(u32, Picked)>, Refusal> {
+        self.session().pick(camera, pixel, hidden)
+    }
+
+    /// Somebody worked at this moment, seconds since 1970.
+    ///
+    /// # Errors
+    /// When the work log cannot be written.
+    pub fn worked(&self, moment_s: f64) -> Result<(), DatasetError> {
+        let mut worklog = self.worklog();
+        worklog.input(moment_s);
+        worklog.write()
+    }
+
+    /// Sessions of work.
+    pub fn work_sessions(&self) -> Vec<WorkSession> {
+        self.worklog().sessions()
+    }
+
+    /// Writes Hypersim's files, and returns their paths.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn save(&self) -> Result<Vec<PathBuf>, DatasetError> {
+        let mut saved = self.saved.lock().unwrap_or_else(PoisonError::into_inner);
+        let (snapshot, revision) = {
+            let session = self.session();
+            let standing = session.standing();
+            (Snapshot::new(session.pieces(), standing.next_instance), standing.revision)
+        };
+        let objects = snapshot.objects_hash();
+        let folder = self.source.labels_folder.as_path();
+        let mut files = snapshot.write(&MeshFiles::new(folder), &self.classes, saved.objects != Some(objects))?;
+        *saved = Saved { revision, objects: Some(objects) };
+        let worklog = self.worklog();
+        worklog.write()?;
+        files.extend([super::log::LOG, TOOL_LOG, WORK_LOG].map(|name| folder.join(name)).into_iter().filter(|path| path.is_file()));
+        Ok(files)
+    }
+
+    /// True when there are edits that are not in the files yet. They are in the log all the same.
+    pub fn is_unsaved(&self) -> bool {
+        self.saved.lock().unwrap_or_else(PoisonError::into_inner).revision < self.session().standing().revision
+    }
+
+    /// Writes what is not written yet, and notes that the scene is closed.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn close(&self) -> Result<(), DatasetError> {
+        if self.is_unsaved() {
+            self.save()?;
+        }
+        self.worklog().write()?;
+        self.note("Unloaded scene:")
+    }
+
+    fn worklog(&self) -> MutexGuard<'_, WorkLog> {
+        self.worklog.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Where labels are written.
+    pub fn labels_folder(&self) -> &Path {
+        &self.source.labels_folder
+    }
+}

@@ -1,0 +1,94 @@
+//! The camera of a request, checked.
+
+use super::source::rows;
+use enfilade_geometry::PinholeRays;
+use enfilade_math::{DMat3, DVec3, Vec3};
+use serde::Deserialize;
+
+/// Pixels per side that a request may ask about.
+const MAX_SIDE: u32 = 8192;
+/// Coordinates beyond this are no place in a room, metres.
+const MAX_COORDINATE_M: f64 = 1e6;
+
+/// A camera as the page sends it.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraRequest {
+    position: [f64; 3],
+    orientation: [f64; 9],
+    fov_y_deg: f64,
+    width: u32,
+    height: u32,
+}
+
+/// A pinhole of some number of pixels in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PageCamera {
+    position: DVec3,
+    world_from_camera: DMat3,
+    /// Half the height of the image at distance 1.
+    half_height: f64,
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl CameraRequest {
+    /// The camera, if it is one.
+    ///
+    /// # Errors
+    /// Which number is wrong, and what was expected.
+    pub fn check(&self) -> Result<PageCamera, String> {
+        let wrong = |field: &str, found: String, expected: &str| Err(format!("camera.{field} is {found}; expected {expected}"));
+        let position = DVec3::from_array(self.position);
+        if !position.is_finite() || position.abs().max_element() > MAX_COORDINATE_M {
+            return wrong("position", position.to_string(), "three finite numbers, metres");
+        }
+        let m = rows(&self.orientation);
+        let error = (m * m.transpose() - DMat3::IDENTITY).to_cols_array().iter().fold(0.0f64, |most, v| most.max(v.abs()));
+        if !m.is_finite() || !error.is_finite() || error > 1e-3 || m.determinant() < 0.0 {
+            return wrong("orientation", format!("{:?}", self.orientation), "a rotation, world from camera, row by row");
+        }
+        if !(1.0..=170.0).contains(&self.fov_y_deg) {
+            return wrong("fov_y_deg", self.fov_y_deg.to_string(), "1 to 170");
+        }
+        for (field, pixels) in [("width", self.width), ("height", self.height)] {
+            if !(1..=MAX_SIDE).contains(&pixels) {
+                return wrong(field, pixels.to_string(), "1 to 8192 pixels");
+            }
+        }
+        Ok(PageCamera::new(position, m, self.fov_y_deg, [self.width, self.height]))
+    }
+}
+
+impl PageCamera {
+    /// A pinhole at `position` with a vertical field of view.
+    pub fn new(position: DVec3, world_from_camera: DMat3, fov_y_deg: f64, [width, height]: [u32; 2]) -> Self {
+        Self { position, world_from_camera, half_height: (0.5 * fov_y_deg.to_radians()).tan(), width, height }
+    }
+
+    /// The rays of the pixels from column `x` and row `y` on.
+    pub fn rays(&self, x: u32, y: u32) -> PinholeRays {
+        let pixel = 2.0 * self.half_height / f64::from(self.height);
+        let m = &self.world_from_camera;
+        let (right, down) = (m.x_axis * pixel, -m.y_axis * pixel);
+        let (from_left, from_top) = (f64::from(x) + 0.5 - 0.5 * f64::from(self.width), f64::from(y) + 0.5 - 0.5 * f64::from(self.height));
+        let corner = -m.z_axis + right * from_left + down * from_top;
+        PinholeRays { origin: self.position.as_vec3(), corner: corner.as_vec3(), right: right.as_vec3(), down: down.as_vec3() }
+    }
+
+    /// Where it stands, metres.
+    pub fn origin(&self) -> Vec3 {
+        self.position.as_vec3()
+    }
+
+    /// The unit direction through the image point (x, y), counted from the image's corner.
+    pub fn direction(&self, x: f64, y: f64) -> Vec3 {
+        let pixel = 2.0 * self.half_height / f64::from(self.height);
+        let m = &self.world_from_camera;
+        let right = m.x_axis * (pixel * (x - 0.5 * f64::from(self.width)));
+        let down = m.y_axis * (pixel * (0.5 * f64::from(self.height) - y));
+        (right + down - m.z_axis).normalize().as_vec3()
+    }
+}

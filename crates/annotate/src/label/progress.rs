@@ -1,0 +1,178 @@
+//! How far the work is: what the cameras see, piece by piece, and what of it has labels.
+
+use super::camera::PageCamera;
+use super::pieces::Pieces;
+use super::source::{PlannedCamera, PlannedFrame, Source, rows, upright};
+use enfilade_geometry::{Bvh, NOTHING, VisibilityBuffer};
+use enfilade_math::{DVec3, Ray, Vec3};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// Rows of the small pictures that are counted in.
+const ROWS: u32 = 120;
+/// Height of generated viewpoints above the lowest point of a scene, metres.
+const EYE_HEIGHT_M: f32 = 1.5;
+/// Generated viewpoints have this much room in front of them, metres.
+const FREE_M: f32 = 0.5;
+/// Generated viewpoints stand on a grid of this many by this many.
+const GRID: usize = 4;
+
+/// What some views of a scene show, face by face.
+pub struct Seen {
+    /// Where the views come from, for people.
+    pub views_of: &'static str,
+    /// The views' cameras.
+    pub cameras: Vec<PlannedCamera>,
+    views: Vec<SeenView>,
+}
+
+struct SeenView {
+    camera: usize,
+    frame: u32,
+    /// Faces and how many pixels show them.
+    faces: Vec<(u32, u32)>,
+}
+
+/// The views to judge by: the planned ones, or where there are none such as look over the scene from within.
+pub fn views(source: &Source, bvh: &Bvh) -> (&'static str, Vec<PlannedCamera>) {
+    if source.cameras.iter().any(|camera| !camera.frames.is_empty()) {
+        return ("planned cameras", source.cameras.clone());
+    }
+    ("generated viewpoints", vec![PlannedCamera { name: "generated".into(), frames: generated(bvh) }])
+}
+
+impl Seen {
+    /// Draws every view small, and counts.
+    pub fn new(source: &Source, bvh: &Bvh) -> Self {
+        let (views_of, cameras) = views(source, bvh);
+        let all: Vec<(usize, &PlannedFrame)> =
+            cameras.iter().enumerate().flat_map(|(i, camera)| camera.frames.iter().map(move |frame| (i, frame))).collect();
+        let view = |&(camera, frame): &(usize, &PlannedFrame)| {
+            let columns = (f64::from(ROWS) * frame.aspect).round().clamp(16.0, 1024.0) as u32;
+            let pinhole = PageCamera::new(DVec3::from_array(frame.position), rows(&frame.orientation), frame.fov_y_deg, [columns, ROWS]);
+            let mut buffer = VisibilityBuffer::new(columns, ROWS);
+            buffer.draw(bvh, &pinhole.rays(0, 0));
+            let mut counts: HashMap<u32, u32> = HashMap::new();
+            buffer.triangles().iter().filter(|&&face| face != NOTHING).for_each(|&face| *counts.entry(face).or_default() += 1);
+            let mut faces: Vec<(u32, u32)> = counts.into_iter().collect();
+            faces.sort_unstable();
+            SeenView { camera, frame: frame.frame, faces }
+        };
+        let views = all.par_iter().map(view).collect();
+        Self { views_of, cameras, views }
+    }
+
+    /// How far the work is, as JSON.
+    pub fn progress(&self, pieces: &Pieces) -> Value {
+        let list = pieces.list();
+        let mut pixels = vec![0u64; list.len()];
+        let mut best: Vec<(u32, usize)> = vec![(0, usize::MAX); list.len()];
+        for (number, view) in self.views.iter().enumerate() {
+            let mut here: HashMap<u32, u32> = HashMap::new();
+            view.faces.iter().for_each(|&(face, count)| *here.entry(pieces.of_face()[face as usize]).or_default() += count);
+            for (piece, count) in here {
+                pixels[piece as usize] += u64::from(count);
+                if count > best[piece as usize].0 {
+                    best[piece as usize] = (count, number);
+                }
+            }
+        }
+        let seen = pixels.iter().sum::<u64>() as f64;
+        let area: f64 = list.iter().map(|piece| piece.measure.area_m2).sum();
+        let share = |part: f64, of: f64| if of > 0.0 { part / of } else { 0.0 };
+        let layer = |has: &dyn Fn(usize) -> bool| {
+            let with = || (0..list.len()).filter(|&i| has(i));
+            json!({
+                "pieces": with().count(),
+                "area_share": share(with().map(|i| list[i].measure.area_m2).sum(), area),
+                "visible_share": share(with().map(|i| pixels[i] as f64).sum(), seen),
+            })
+        };
+        let (semantic, instance) = (layer(&|i| list[i].label.semantic >= 1), layer(&|i| list[i].label.instance >= 1));
+        let mut unlabelled: Vec<usize> = (0..list.len()).filter(|&i| list[i].label.semantic < 1).collect();
+        unlabelled
+            .sort_by(|&a, &b| pixels[b].cmp(&pixels[a]).then(list[b].measure.area_m2.total_cmp(&list[a].measure.area_m2)).then(a.cmp(&b)));
+        let best_view = |i: usize| {
+            let view = self.views.get(best[i].1)?;
+            Some(json!({ "camera": self.cameras[view.camera].name, "frame": view.frame }))
+        };
+        let row = |&i: &usize| {
+            let piece = &list[i];
+            json!({ "piece": i, "name": piece.name, "pixels": pixels[i], "area_m2": piece.measure.area_m2, "best_view": best_view(i) })
+        };
+        json!({
+            "pieces": list.len(),
+            "labelled_pieces": semantic["pieces"],
+            "area_share": semantic["area_share"],
+            "visible": { "pixels_labelled_share": semantic["visible_share"], "views": self.views.len(), "views_of": self.views_of },
+            "by_layer": { "semantic": semantic, "instance": instance },
+            "unlabelled": unlabelled.iter().map(row).collect::<Vec<_>>(),
+            "classes": classes(pieces),
+            "conflicts": conflicts(pieces),
+        })
+    }
+}
+
+/// What is there of each class in use.
+fn classes(pieces: &Pieces) -> Vec<Value> {
+    let mut classes: BTreeMap<i16, (usize, BTreeSet<i16>, f64)> = BTreeMap::new();
+    for piece in pieces.list().iter().filter(|piece| piece.label.semantic >= 1) {
+        let (count, instances, area) = classes.entry(piece.label.semantic).or_default();
+        *count += 1;
+        *area += piece.measure.area_m2;
+        if piece.label.instance >= 1 {
+            instances.insert(piece.label.instance);
+        }
+    }
+    let row = |(id, (count, instances, area)): (&i16, &(usize, BTreeSet<i16>, f64))| json!({ "id": id, "pieces": count, "instances": instances.len(), "area_m2": area });
+    classes.iter().map(row).collect()
+}
+
+/// Instances whose pieces are of different classes, or some of them of none.
+fn conflicts(pieces: &Pieces) -> Vec<Value> {
+    let mut of_instance: BTreeMap<i16, BTreeSet<i16>> = BTreeMap::new();
+    let labels = pieces.list().iter().map(|piece| piece.label).filter(|label| label.instance >= 1);
+    labels.for_each(|label| {
+        of_instance.entry(label.instance).or_default().insert(label.semantic);
+    });
+    let torn = of_instance.iter().filter(|(_, classes)| classes.len() > 1);
+    torn.map(|(instance, classes)| json!({ "instance": instance, "classes": classes })).collect()
+}
+
+/// Views in four directions from those points of a grid at eye height that have room around them; where none has, from around the
+/// scene toward its middle.
+fn generated(bvh: &Bvh) -> Vec<PlannedFrame> {
+    let bounds = bvh.bounds();
+    if bounds.is_empty() {
+        return Vec::new();
+    }
+    let (centre, extent) = (bounds.center(), bounds.extent());
+    let height = bounds.min.z + EYE_HEIGHT_M.min(0.5 * extent.z);
+    let mut frames = Vec::new();
+    let mut add = |from: Vec3, to: Vec3| {
+        if let Some(pose) = upright(frames.len() as u32, from.as_dvec3(), to.as_dvec3()) {
+            frames.push(PlannedFrame::new(&pose, 60.0, 4.0 / 3.0));
+        }
+    };
+    let share = |i: usize| (i as f32 + 0.5) / GRID as f32;
+    for (i, j) in (0..GRID * GRID).map(|k| (k % GRID, k / GRID)) {
+        let from = Vec3::new(bounds.min.x + share(i) * extent.x, bounds.min.y + share(j) * extent.y, height);
+        let directions = [Vec3::X, Vec3::Y, Vec3::NEG_X, Vec3::NEG_Y];
+        let meets = |direction: Vec3| bvh.closest(&Ray::new(from, direction));
+        // Inside of something, and with a ceiling: the roof of a house is no place to look from.
+        let enclosed = [Vec3::Z, Vec3::NEG_Z].into_iter().all(|direction| meets(direction).is_some());
+        let free = directions.into_iter().filter(|&direction| meets(direction).is_none_or(|hit| hit.t > FREE_M));
+        free.filter(|_| enclosed).for_each(|direction| add(from, from + direction));
+    }
+    if frames.is_empty() {
+        let reach = 1.2 * extent.length().max(1e-3);
+        for [x, y, z] in [[1.0, 1.0, 0.5], [-1.0, 1.0, 0.5], [-1.0, -1.0, 0.5], [1.0, -1.0, 0.5], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0f32]] {
+            let from = centre + reach * Vec3::new(x, y, z).normalize();
+            if let Some(pose) = upright(frames.len() as u32, from.as_dvec3(), centre.as_dvec3()) {
+                frames.push(PlannedFrame::new(&pose, 60.0, 4.0 / 3.0));
+            }
+        }
+    }
+    frames
+}

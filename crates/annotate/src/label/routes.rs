@@ -1,0 +1,295 @@
+//! The routes of the page that annotates. Whatever takes time runs beside the threads that answer.
+
+use super::action::{Action, Look, Refusal};
+use super::app::App;
+use super::camera::CameraRequest;
+use super::change::material_name;
+use super::clock;
+use super::progress::views;
+use super::session::ActionError;
+use super::source::PlannedFrame;
+use crate::serve::ApiProblem;
+use axum::body::Bytes;
+use axum::extract::{Query, State};
+use axum::http::{HeaderMap, header};
+use axum::response::sse::{KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use axum::{Json, Router};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Files are written this long after an edit.
+const SAVE_AFTER: Duration = Duration::from_secs(2);
+/// Level of gzip for the geometry: fast enough for loopback, and half the bytes for a tunnel.
+const GZIP_LEVEL: i32 = 1;
+/// Names of clients are random ids; longer ones are a mistake.
+const MAX_CLIENT: usize = 100;
+
+type Shared = State<Arc<App>>;
+type Answer = Result<Response, ApiProblem>;
+
+/// All routes, under `/api/annotate`.
+pub fn routes(app: Arc<App>) -> Router {
+    Router::new()
+        .route("/api/annotate/scene", get(scene))
+        .route("/api/annotate/geometry", get(geometry))
+        .route("/api/annotate/pieces", get(pieces))
+        .route("/api/annotate/edit", post(edit))
+        .route("/api/annotate/select", post(select))
+        .route("/api/annotate/pick", post(pick))
+        .route("/api/annotate/events", get(events))
+        .route("/api/annotate/progress", get(progress))
+        .route("/api/annotate/activity", post(activity))
+        .route("/api/annotate/worklog", get(worklog))
+        .route("/api/annotate/save", post(save))
+        .with_state(app)
+}
+
+impl From<Refusal> for ApiProblem {
+    fn from(refusal: Refusal) -> Self {
+        let Refusal { conflict, error, help } = refusal;
+        if conflict { Self::conflict(error, help) } else { Self::bad_request(error, help) }
+    }
+}
+
+/// Runs what takes time on a thread of its own.
+async fn beside<T: Send + 'static>(work: impl FnOnce() -> Result<T, ApiProblem> + Send + 'static) -> Result<T, ApiProblem> {
+    let failed = |e| ApiProblem::failed(format!("the request could not be finished: {e}"), "try again");
+    tokio::task::spawn_blocking(work).await.map_err(failed)?
+}
+
+/// A body as what it is to be.
+fn parse<T: DeserializeOwned>(body: &Bytes) -> Result<T, ApiProblem> {
+    let wrong =
+        |e: serde_json::Error| ApiProblem::bad_request(format!("the request is not understood: {e}"), "see docs/annotate.md for the form");
+    serde_json::from_slice(body).map_err(wrong)
+}
+
+async fn scene(State(app): Shared) -> Answer {
+    beside(move || {
+        let (source, session) = (app.source(), app.session());
+        let standing = session.standing();
+        let (bounds, start) = (app.order().bounds(), start_camera(&app));
+        Ok(Json(json!({
+            "name": source.name,
+            "source": source.origin,
+            "labels_folder": source.labels_folder,
+            "faces": source.corners.len(),
+            "vertices": source.vertices,
+            "pieces": session.pieces().list().len(),
+            "bounds": { "min": bounds.min.to_array(), "max": bounds.max.to_array() },
+            "meters_per_unit": source.meters_per_unit,
+            "classes": app.classes().list(),
+            "cameras": source.cameras,
+            "start_camera": start,
+            "revision": standing.revision,
+            "can_undo": standing.undo_description.is_some(),
+            "can_redo": standing.redo_description.is_some(),
+            "undo_description": standing.undo_description,
+            "redo_description": standing.redo_description,
+            "next_instance": standing.next_instance,
+            "has_suggestions": app.suggestions().iter().any(Option::is_some),
+            "autosaved": true,
+        }))
+        .into_response())
+    })
+    .await
+}
+
+/// From where the page shows the scene first.
+fn start_camera(app: &App) -> Option<PlannedFrame> {
+    views(app.source(), app.bvh()).1.into_iter().find_map(|camera| camera.frames.into_iter().next())
+}
+
+async fn geometry(State(app): Shared, headers: HeaderMap) -> Answer {
+    let accepted = headers.get(header::ACCEPT_ENCODING).and_then(|value| value.to_str().ok()).unwrap_or("");
+    let gzip = accepted.split(',').any(|coding| coding.trim().starts_with("gzip"));
+    beside(move || {
+        let bytes = {
+            let session = app.session();
+            app.order().encode(session.pieces().of_face(), session.pieces().list().len())
+        };
+        let kind = (header::CONTENT_TYPE, "application/octet-stream");
+        Ok(match gzip.then(|| compressed(&bytes)).flatten() {
+            Some(bytes) => ([kind, (header::CONTENT_ENCODING, "gzip")], bytes).into_response(),
+            None => ([kind], bytes).into_response(),
+        })
+    })
+    .await
+}
+
+/// As gzip; `None` if that fails, which it does for want of memory alone.
+fn compressed(bytes: &[u8]) -> Option<Vec<u8>> {
+    let level = libdeflater::CompressionLvl::new(GZIP_LEVEL).ok()?;
+    let mut compressor = libdeflater::Compressor::new(level);
+    let mut out = vec![0; compressor.gzip_compress_bound(bytes.len())];
+    let length = compressor.gzip_compress(bytes, &mut out).ok()?;
+    out.truncate(length);
+    Some(out)
+}
+
+async fn pieces(State(app): Shared) -> Answer {
+    beside(move || {
+        let session = app.session();
+        let (pieces, list) = (session.pieces(), session.pieces().list());
+        let material = |measure: &super::pieces::Measure| material_name(pieces, measure.material);
+        Ok(Json(json!({
+            "revision": session.standing().revision,
+            "names": list.iter().map(|p| &p.name).collect::<Vec<_>>(),
+            "parents": list.iter().map(|p| p.part).collect::<Vec<_>>(),
+            "materials": list.iter().map(|p| material(&p.measure)).collect::<Vec<_>>(),
+            "faces": list.iter().map(|p| p.faces.len()).collect::<Vec<_>>(),
+            "areas_m2": list.iter().map(|p| p.measure.area_m2).collect::<Vec<_>>(),
+            "semantic": list.iter().map(|p| p.label.semantic).collect::<Vec<_>>(),
+            "instance": list.iter().map(|p| p.label.instance).collect::<Vec<_>>(),
+            "mins": list.iter().map(|p| p.measure.min).collect::<Vec<_>>(),
+            "maxs": list.iter().map(|p| p.measure.max).collect::<Vec<_>>(),
+            "geometry_keys": list.iter().map(|p| p.measure.geometry_key).collect::<Vec<_>>(),
+            "suggestions": list.iter().map(|p| &app.suggestions()[p.part as usize]).collect::<Vec<_>>(),
+        }))
+        .into_response())
+    })
+    .await
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EditRequest {
+    client: String,
+    action: Action,
+}
+
+async fn edit(State(app): Shared, body: Bytes) -> Answer {
+    let EditRequest { client, action } = parse(&body)?;
+    if client.is_empty() || client.chars().count() > MAX_CLIENT || client.chars().any(char::is_control) {
+        return Err(ApiProblem::bad_request("client is no name; expected 1 to 100 characters", "send a random id of the page"));
+    }
+    let later = app.clone();
+    let change = beside(move || {
+        app.act(&action, &client).map_err(|error| match error {
+            ActionError::Refused(refusal) => refusal.into(),
+            ActionError::Log(error) => {
+                ApiProblem::failed(error.to_string(), "nothing was changed; make room on the disk or check the folder")
+            }
+        })
+    })
+    .await?;
+    tokio::spawn(save_later(later));
+    Ok(Json(change).into_response())
+}
+
+/// Writes the files a moment after an edit. Where that fails the edit is in the log, and saving or the next edit will tell.
+async fn save_later(app: Arc<App>) {
+    tokio::time::sleep(SAVE_AFTER).await;
+    let _ = beside(move || {
+        if app.is_unsaved() {
+            app.save().map_err(|e| ApiProblem::failed(e.to_string(), ""))?;
+        }
+        Ok(())
+    })
+    .await;
+}
+
+async fn select(State(app): Shared, body: Bytes) -> Answer {
+    let look: Look = parse(&body)?;
+    beside(move || {
+        let (faces, pieces) = app.select(&look)?;
+        let answer = if look.faces { json!({ "pieces": pieces, "faces": faces }) } else { json!({ "pieces": pieces }) };
+        Ok(Json(answer).into_response())
+    })
+    .await
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PickRequest {
+    camera: CameraRequest,
+    pixel: [f64; 2],
+    #[serde(default)]
+    hidden: Vec<u32>,
+}
+
+async fn pick(State(app): Shared, body: Bytes) -> Answer {
+    let PickRequest { camera, pixel, hidden } = parse(&body)?;
+    beside(move || {
+        let answer = match app.pick(&camera, pixel, &hidden)? {
+            Some((piece, at)) => {
+                json!({ "piece": piece, "face": at.face, "point": at.point.to_array(), "distance_m": at.distance_m })
+            }
+            None => json!({ "piece": -1 }),
+        };
+        Ok(Json(answer).into_response())
+    })
+    .await
+}
+
+#[derive(Deserialize)]
+struct Since {
+    since: Option<String>,
+}
+
+async fn events(State(app): Shared, Query(Since { since }): Query<Since>, headers: HeaderMap) -> Answer {
+    let last = headers.get("last-event-id").and_then(|value| value.to_str().ok()).map(Into::into);
+    let since = match last.or(since) {
+        None => None,
+        Some(text) => {
+            let wrong =
+                |_| ApiProblem::bad_request(format!("{text:?} is no revision"), "name the last revision that the page knows, a number");
+            Some(text.parse::<u64>().map_err(wrong)?)
+        }
+    };
+    Ok(Sse::new(app.events().after(since)).keep_alive(KeepAlive::default()).into_response())
+}
+
+async fn progress(State(app): Shared) -> Answer {
+    beside(move || {
+        let seen = app.seen();
+        let session = app.session();
+        let mut progress: Value = seen.progress(session.pieces());
+        progress["revision"] = json!(session.standing().revision);
+        Ok(Json(progress).into_response())
+    })
+    .await
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Activity {
+    seconds_since_last_input: f64,
+}
+
+async fn activity(State(app): Shared, body: Bytes) -> Answer {
+    let Activity { seconds_since_last_input: seconds } = parse(&body)?;
+    if !(seconds.is_finite() && seconds >= 0.0) {
+        let error = format!("seconds_since_last_input is {seconds}; expected zero or more");
+        return Err(ApiProblem::bad_request(error, "send how long ago the last key or pointer event was"));
+    }
+    beside(move || {
+        let failed = |e: enfilade_dataset::DatasetError| ApiProblem::failed(e.to_string(), "check the folder of labels");
+        app.worked(clock::now_s() - seconds).map_err(failed)?;
+        Ok(Json(json!({})).into_response())
+    })
+    .await
+}
+
+async fn worklog(State(app): Shared) -> Answer {
+    let sessions = app.work_sessions();
+    let active: f64 = sessions.iter().map(|session| session.active_seconds).sum();
+    let actions: u64 = sessions.iter().map(|session| session.actions).sum();
+    Ok(Json(json!({ "sessions": sessions, "active_seconds": active, "actions": actions })).into_response())
+}
+
+async fn save(State(app): Shared) -> Answer {
+    beside(move || {
+        let failed = |e: enfilade_dataset::DatasetError| {
+            ApiProblem::failed(e.to_string(), "the edits are in the log; check the folder and save again")
+        };
+        let files = app.save().map_err(failed)?;
+        Ok(Json(json!({ "files": files })).into_response())
+    })
+    .await
+}

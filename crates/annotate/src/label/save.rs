@@ -1,0 +1,68 @@
+//! The labels in Hypersim's files, and beside them a table for `enfilade label`.
+
+use super::classes::Classes;
+use super::pieces::Pieces;
+use enfilade_dataset::{DatasetError, LabelColors, MeshFiles, write_bytes};
+use enfilade_post::label::write_part_table;
+use enfilade_scene::{Labels, PartLabel};
+use std::path::PathBuf;
+
+/// The user's own list of classes, in the folder of labels.
+pub const CLASSES: &str = "semantic_label_descs.csv";
+
+/// Everything that is written, taken at one moment.
+pub struct Snapshot {
+    labels: Labels,
+    instances: usize,
+    whole: Vec<String>,
+    split: Vec<(String, u32)>,
+    piece_of_face: Vec<u32>,
+}
+
+impl Snapshot {
+    /// Of the pieces as they are now. `next_instance` is the first instance number that was never given out.
+    pub fn new(pieces: &Pieces, next_instance: i32) -> Self {
+        let whole = pieces.source().parts.clone();
+        Self {
+            labels: Labels { parts: pieces.list().iter().map(|piece| piece.label).collect() },
+            instances: next_instance.max(1) as usize - 1,
+            split: pieces.list()[whole.len()..].iter().map(|piece| (piece.name.clone(), piece.part)).collect(),
+            whole,
+            piece_of_face: pieces.of_face().to_vec(),
+        }
+    }
+
+    /// Tells whether the objects and their faces are the same, which is all that takes time to write.
+    pub fn objects_hash(&self) -> blake3::Hash {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(bytemuck::cast_slice(&self.piece_of_face));
+        self.split.iter().for_each(|(name, _)| {
+            hasher.update(name.as_bytes()).update(b"\n");
+        });
+        hasher.finalize()
+    }
+
+    /// Writes the label tables and colours, with `objects` also the tables of objects, and returns the files. Each is replaced whole.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn write(&self, files: &MeshFiles, classes: &Classes, objects: bool) -> Result<Vec<PathBuf>, DatasetError> {
+        let mut written = Vec::new();
+        if objects {
+            written.extend(files.write_objects(&self.whole, &self.split, &self.piece_of_face)?);
+        }
+        let colors = LabelColors { semantic: classes.color_rows(), instances: self.instances };
+        written.extend(files.write_labels(&self.labels, &colors)?);
+        let (name, text) = if classes.are_nyu40() {
+            let names: Vec<&str> = self.whole.iter().map(String::as_str).collect();
+            let labels: &[PartLabel] = &self.labels.parts[..names.len()];
+            ("labels.csv", write_part_table(&names, labels))
+        } else {
+            (CLASSES, classes.to_csv())
+        };
+        let path = files.file(name);
+        write_bytes(&path, text)?;
+        written.push(path);
+        Ok(written)
+    }
+}

@@ -1,0 +1,206 @@
+//! The state of an annotation: what the pieces are and are called, and the edits that led there.
+
+use super::action::{Action, Context, Look, Refusal};
+use super::camera::CameraRequest;
+use super::change::{Change, Standing};
+use super::classes::Classes;
+use super::clock;
+use super::log::{Edit, Entry, Log, LogError, Recorded, numbers};
+use super::pieces::Pieces;
+use super::source::Source;
+use super::stroke::Picked;
+use enfilade_geometry::Bvh;
+use enfilade_scene::PartLabel;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The one place where labels change: edits are done one after the other, each logged before it counts.
+pub struct Session {
+    pieces: Pieces,
+    classes: Arc<Classes>,
+    bvh: Arc<Bvh>,
+    next_instance: i32,
+    log: Log,
+    done: Vec<Done>,
+    undone: Vec<Edit>,
+    revision: u64,
+}
+
+/// An edit, and what it takes to undo it.
+struct Done {
+    edit: Edit,
+    /// Labels of the pieces of a [`Edit::Label`] before.
+    before: Vec<PartLabel>,
+}
+
+/// Why an action was not done.
+#[derive(Debug)]
+pub enum ActionError {
+    /// It is wrong, or cannot be done as things are.
+    Refused(Refusal),
+    /// The log cannot be written.
+    Log(LogError),
+}
+
+impl From<Refusal> for ActionError {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refused(refusal)
+    }
+}
+
+impl Session {
+    /// Goes on with the log in `folder`, or begins one; returns also what was wrong with the log, if it could be mended.
+    ///
+    /// # Errors
+    /// When the log cannot be had, is about another scene, or has an edit that cannot be done.
+    pub fn open(source: Arc<Source>, classes: Arc<Classes>, bvh: Arc<Bvh>, folder: &Path) -> Result<(Self, Option<String>), LogError> {
+        let (log, Recorded { initial, entries, warning }) = Log::open(folder, &source)?;
+        let pieces = Pieces::new(source, &initial);
+        let next_instance = initial.iter().map(|label| i32::from(label.instance)).max().unwrap_or(0).max(0) + 1;
+        let mut session = Self { pieces, classes, bvh, next_instance, log, done: Vec::new(), undone: Vec::new(), revision: 0 };
+        for entry in entries {
+            let problem = |problem: String, session: &Self| session.log.problem(entry.revision, problem);
+            session.check(&entry.edit).map_err(|e| problem(e, &session))?;
+            session.perform(&entry.edit, &entry.client);
+        }
+        Ok((session, warning))
+    }
+
+    /// What is labelled.
+    pub fn pieces(&self) -> &Pieces {
+        &self.pieces
+    }
+
+    /// Revision, and what can be undone and done again.
+    pub fn standing(&self) -> Standing<'_> {
+        Standing {
+            revision: self.revision,
+            undo_description: self.done.last().map(|done| done.edit.description()),
+            redo_description: self.undone.last().map(Edit::description),
+            next_instance: self.next_instance,
+        }
+    }
+
+    /// The visible faces and the pieces that a stroke would select.
+    ///
+    /// # Errors
+    /// When the request is wrong.
+    pub fn select(&self, look: &Look) -> Result<(Vec<u32>, Vec<u32>), Refusal> {
+        look.select(&self.context())
+    }
+
+    /// What lies under an image point, and its piece.
+    ///
+    /// # Errors
+    /// When the camera or a piece number is wrong, or the point is not in the image.
+    pub fn pick(&self, camera: &CameraRequest, pixel: [f64; 2], hidden: &[u32]) -> Result<Option<(u32, Picked)>, Refusal> {
+        self.context().pick(camera, pixel, hidden)
+    }
+
+    /// Does what a page asks for. When this returns the change is on the disk; when it fails nothing has changed. A change of the
+    /// revision that was there before is one in which nothing had to change.
+    ///
+    /// # Errors
+    /// When the action is wrong, cannot be done as things are, or cannot be logged.
+    pub fn act(&mut self, action: &Action, client: &str) -> Result<Change, ActionError> {
+        let edit = match action {
+            Action::Undo if self.done.is_empty() => {
+                return Err(Refusal::conflict("there is nothing to undo", "everything is as it was in the beginning").into());
+            }
+            Action::Redo if self.undone.is_empty() => {
+                return Err(Refusal::conflict("there is nothing to do again", "only what was undone last can be done again").into());
+            }
+            Action::Undo => Some(Edit::Undo),
+            Action::Redo => Some(Edit::Redo),
+            action => self.context().decide(action)?,
+        };
+        let Some(edit) = edit else { return Ok(Change::default().told(None, client, &self.standing())) };
+        let entry = Entry { revision: self.revision + 1, time: clock::iso(clock::now_s()), client: client.into(), edit };
+        self.log.append(&entry).map_err(ActionError::Log)?;
+        Ok(self.perform(&entry.edit, client))
+    }
+
+    fn context(&self) -> Context<'_> {
+        Context { pieces: &self.pieces, next_instance: self.next_instance, classes: &self.classes, bvh: &self.bvh }
+    }
+
+    /// Checks that an edit of the log can be done.
+    fn check(&self, edit: &Edit) -> Result<(), String> {
+        let pieces = self.pieces.list();
+        match edit {
+            Edit::Undo if self.done.is_empty() => Err("there is nothing to undo".into()),
+            Edit::Redo if self.undone.is_empty() => Err("there is nothing to do again".into()),
+            Edit::Undo | Edit::Redo => Ok(()),
+            Edit::Label { pieces: which, semantic, instance, .. } => {
+                let fits = semantic.len() == which.len() && instance.len() == which.len();
+                let known = which.iter().all(|&piece| (piece as usize) < pieces.len());
+                if fits && known { Ok(()) } else { Err("the labels do not fit the pieces".into()) }
+            }
+            Edit::Split { piece, names, faces, .. } => {
+                let known = (*piece as usize) < pieces.len() && names.len() == faces.len();
+                let of_face = self.pieces.of_face();
+                let its_own = |runs: &Vec<[u32; 2]>| {
+                    numbers(runs, of_face.len()).is_some_and(|faces| faces.iter().all(|&face| of_face[face as usize] == *piece))
+                };
+                if known && faces.iter().all(its_own) { Ok(()) } else { Err("the faces are not of the piece that is split".into()) }
+            }
+        }
+    }
+
+    /// Does an edit that was checked or decided here.
+    fn perform(&mut self, edit: &Edit, client: &str) -> Change {
+        self.revision += 1;
+        let change = match edit {
+            Edit::Undo => self.done.pop().map(|done| {
+                let change = self.revert(&done);
+                self.undone.push(done.edit);
+                change
+            }),
+            Edit::Redo => self.undone.pop().map(|edit| self.apply(edit)),
+            edit => {
+                self.undone.clear();
+                Some(self.apply(edit.clone()))
+            }
+        };
+        change.unwrap_or_default().told(Some(edit), client, &self.standing())
+    }
+
+    fn apply(&mut self, edit: Edit) -> Change {
+        let mut before = Vec::new();
+        let change = match &edit {
+            Edit::Label { pieces, semantic, instance, next_instance, .. } => {
+                self.next_instance = self.next_instance.max(*next_instance);
+                for ((&piece, &semantic), &instance) in pieces.iter().zip(semantic).zip(instance) {
+                    before.push(self.pieces.list()[piece as usize].label);
+                    self.pieces.set_label(piece, PartLabel { semantic, instance });
+                }
+                Change::labels(&self.pieces, pieces)
+            }
+            Edit::Split { piece, names, faces, .. } => {
+                let end = self.pieces.of_face().len();
+                let groups: Vec<Vec<u32>> = faces.iter().filter_map(|runs| numbers(runs, end)).collect();
+                self.pieces.split(*piece, names, &groups);
+                Change::split(&self.pieces, *piece, groups.len())
+            }
+            Edit::Undo | Edit::Redo => Change::default(),
+        };
+        self.done.push(Done { edit, before });
+        change
+    }
+
+    fn revert(&mut self, done: &Done) -> Change {
+        match &done.edit {
+            Edit::Label { pieces, .. } => {
+                pieces.iter().zip(&done.before).for_each(|(&piece, &label)| self.pieces.set_label(piece, label));
+                Change::labels(&self.pieces, pieces)
+            }
+            Edit::Split { piece, names, .. } => {
+                let first = self.pieces.list().len() - names.len();
+                let moved = self.pieces.list()[first..].iter().flat_map(|piece| piece.faces.iter().copied()).collect();
+                self.pieces.join(*piece, names.len());
+                Change::join(&self.pieces, *piece, first as u32, names.len(), moved)
+            }
+            Edit::Undo | Edit::Redo => Change::default(),
+        }
+    }
+}

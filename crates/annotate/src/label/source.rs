@@ -1,0 +1,283 @@
+//! What is annotated: a scene file, or the mesh folder of a dataset's scene.
+
+use enfilade_dataset::{Dataset, MeshFiles};
+use enfilade_import::ImportOptions;
+use enfilade_math::{DMat3, DVec3, Vec3};
+use enfilade_scene::{Camera, Cx, PartLabel, Pose, Scene, Warning, WorldMesh};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// Stands for "none" in [`Source::material_of_face`].
+pub const NO_MATERIAL: u32 = u32::MAX;
+
+/// A scene as it is annotated: triangles in the world, the parts they belong to, and what is known of them already.
+pub struct Source {
+    /// The scene's name.
+    pub name: String,
+    /// Where it comes from, for people.
+    pub origin: String,
+    /// Where labels are written.
+    pub labels_folder: PathBuf,
+    /// Corners of every face in the world, metres.
+    pub corners: Vec<[Vec3; 3]>,
+    /// Number of vertices in the source.
+    pub vertices: usize,
+    /// The part of every face.
+    pub part_of_face: Vec<u32>,
+    /// The material of every face, [`NO_MATERIAL`] where it has none.
+    pub material_of_face: Vec<u32>,
+    /// Names of the parts.
+    pub parts: Vec<String>,
+    /// Names of the materials.
+    pub materials: Vec<String>,
+    /// What the parts were called before anything is done here.
+    pub labels: Vec<PartLabel>,
+    /// From where pictures are to be taken.
+    pub cameras: Vec<PlannedCamera>,
+    /// Metres per unit of the source's files.
+    pub meters_per_unit: f64,
+    /// True when the folder of labels is the mesh folder that the scene was read from.
+    pub in_mesh_folder: bool,
+}
+
+/// A camera's planned frames.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PlannedCamera {
+    /// Its name.
+    pub name: String,
+    /// In order.
+    pub frames: Vec<PlannedFrame>,
+}
+
+/// A view of the scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PlannedFrame {
+    /// Frame number.
+    pub frame: u32,
+    /// Metres.
+    pub position: [f64; 3],
+    /// World from camera, row by row.
+    pub orientation: [f64; 9],
+    /// Vertical field of view; of cameras that are no pinhole that of a pinhole which shows about as much.
+    pub fov_y_deg: f64,
+    /// Width over height.
+    pub aspect: f64,
+}
+
+impl PlannedFrame {
+    /// The view of a pose.
+    pub fn new(pose: &Pose, fov_y_deg: f64, aspect: f64) -> Self {
+        let orientation = pose.world_from_camera.transpose().to_cols_array();
+        Self { frame: pose.frame, position: pose.position.to_array(), orientation, fov_y_deg, aspect }
+    }
+}
+
+/// Why there is nothing to annotate.
+#[derive(Debug, thiserror::Error)]
+pub enum SourceError {
+    /// The path is not one of the things that can be annotated.
+    #[error(
+        "{path}: {problem}; expected a scene file (.gltf, .glb, .obj, .xml, .scene), a dataset, a scene's folder in it, or a Hypersim mesh folder"
+    )]
+    Path {
+        /// What was named.
+        path: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// A dataset has several scenes, or not the one that was named.
+    #[error("{path}: {problem}; name one with --scene: {scenes}")]
+    Scene {
+        /// The dataset.
+        path: String,
+        /// What is wrong.
+        problem: String,
+        /// The scenes there are.
+        scenes: String,
+    },
+    /// The scene file cannot be imported.
+    #[error(transparent)]
+    Import(#[from] enfilade_import::ImportError),
+    /// The mesh folder cannot be read.
+    #[error(transparent)]
+    Dataset(#[from] enfilade_dataset::DatasetError),
+}
+
+impl Source {
+    /// Loads what lies at `path`. `scene` picks one of a dataset's scenes; `labels` is where labels go, by default the mesh folder
+    /// of a dataset's scene, and `FILE.labels` beside a scene file.
+    ///
+    /// # Errors
+    /// When there is nothing to annotate at `path`, or it cannot be read.
+    pub fn load(path: &Path, scene: Option<&str>, labels: Option<&Path>, cx: &dyn Cx) -> Result<Self, SourceError> {
+        let wrong = |problem: &str| SourceError::Path { path: path.display().to_string(), problem: problem.into() };
+        if path.is_file() {
+            return Self::of_file(path, labels, cx);
+        }
+        if !path.is_dir() {
+            return Err(wrong("there is no such file or folder"));
+        }
+        let folder = path.canonicalize().map_err(|e| wrong(&e.to_string()))?;
+        if folder.join("mesh_vertices.hdf5").is_file() {
+            return Self::of_mesh_folder(&folder, labels, cx);
+        }
+        if folder.join("_detail/mesh").is_dir() {
+            return Self::of_mesh_folder(&folder.join("_detail/mesh"), labels, cx);
+        }
+        let dataset = Dataset::open(&folder).map_err(|_| wrong("it is neither a dataset nor a mesh folder"))?;
+        let scenes = dataset.scenes()?;
+        let problem = |problem: String| SourceError::Scene { path: path.display().to_string(), problem, scenes: scenes.join(", ") };
+        let name = match (scene, scenes.as_slice()) {
+            (Some(name), _) if scenes.iter().any(|s| s == name) => name,
+            (Some(name), _) => return Err(problem(format!("it has no scene {name:?}"))),
+            (None, [only]) => only,
+            (None, all) => return Err(problem(format!("it has {} scenes", all.len()))),
+        };
+        Self::of_mesh_folder(&dataset.layout().mesh_dir(name), labels, cx)
+    }
+
+    fn of_file(path: &Path, labels: Option<&Path>, cx: &dyn Cx) -> Result<Self, SourceError> {
+        let options = ImportOptions { allow_missing_textures: true, ..ImportOptions::default() };
+        let imported = enfilade_import::load(path, &options, cx)?;
+        let scene = &imported.scene;
+        let mut known = vec![PartLabel::NONE; scene.parts.len()];
+        imported.labels.iter().flatten().for_each(|label| known[label.part as usize] = label.label);
+        let mesh = WorldMesh::new(scene);
+        let part_of_face: Vec<u32> = mesh.sources.iter().map(|source| source.part).collect();
+        let name = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy().into_owned());
+        Ok(Self {
+            origin: path.display().to_string(),
+            labels_folder: labels.map_or_else(|| path.with_added_extension("labels"), Path::to_path_buf),
+            vertices: scene.parts.iter().map(|part| scene.meshes[part.mesh as usize].positions.len()).sum(),
+            material_of_face: part_of_face.iter().map(|&part| scene.parts[part as usize].material).collect(),
+            part_of_face,
+            corners: mesh.corners,
+            parts: scene.parts.iter().map(|part| part.name.clone()).collect(),
+            materials: scene.materials.iter().map(|material| material.name.clone()).collect(),
+            labels: known,
+            cameras: cameras_of_file(scene),
+            meters_per_unit: 1.0,
+            in_mesh_folder: false,
+            name,
+        })
+    }
+
+    fn of_mesh_folder(folder: &Path, labels: Option<&Path>, cx: &dyn Cx) -> Result<Self, SourceError> {
+        let place = Place::of(folder);
+        let files = MeshFiles::new(folder);
+        let mesh = files.read()?;
+        let scale = place.as_ref().and_then(|place| place.dataset.meters_per_asset_unit(&place.scene).ok()).unwrap_or(1.0);
+        let vertex = |index: u32| (mesh.vertices[index as usize] * scale).as_vec3();
+        let mut known = vec![PartLabel::NONE; mesh.objects.len()];
+        match files.read_labels() {
+            Ok(labels) => {
+                if labels.parts.len() < known.len() {
+                    let message =
+                        format!("labels of {} objects, but there are {}: the rest begin without", labels.parts.len(), known.len());
+                    cx.warn(Warning { place: folder.display().to_string(), message });
+                }
+                known.iter_mut().zip(labels.parts).for_each(|(known, label)| *known = label);
+            }
+            Err(error) if error.is_not_found() => {}
+            Err(error) => return Err(error.into()),
+        }
+        let name = place.as_ref().map(|place| place.scene.clone());
+        Ok(Self {
+            name: name.unwrap_or_else(|| folder.file_name().map_or_else(|| "scene".into(), |n| n.to_string_lossy().into_owned())),
+            origin: folder.display().to_string(),
+            labels_folder: labels.unwrap_or(folder).to_path_buf(),
+            vertices: mesh.vertices.len(),
+            corners: mesh.faces.iter().map(|face| face.map(vertex)).collect(),
+            part_of_face: mesh.object_of_face,
+            material_of_face: mesh.material_of_face.iter().map(|m| m.unwrap_or(NO_MATERIAL)).collect(),
+            parts: mesh.objects,
+            materials: mesh.materials,
+            labels: known,
+            cameras: place.map(|place| place.cameras(scale, cx)).unwrap_or_default(),
+            meters_per_unit: scale,
+            in_mesh_folder: labels.is_none(),
+        })
+    }
+
+    /// What tells this scene from others: the names of the parts and how many faces each has.
+    pub fn hash(&self) -> String {
+        let mut faces = vec![0u64; self.parts.len()];
+        self.part_of_face.iter().for_each(|&part| faces[part as usize] += 1);
+        let mut hasher = blake3::Hasher::new();
+        for (name, faces) in self.parts.iter().zip(&faces) {
+            hasher.update(&(name.len() as u64).to_le_bytes()).update(name.as_bytes()).update(&faces.to_le_bytes());
+        }
+        hasher.finalize().to_hex().to_string()
+    }
+}
+
+/// The cameras that a scene file brings along: one frame each.
+fn cameras_of_file(scene: &Scene) -> Vec<PlannedCamera> {
+    let camera = |camera: &enfilade_scene::StartCamera| {
+        let fov_y = 2.0 * ((0.5 * camera.fov_x_rad).tan() / camera.aspect).atan();
+        let frames = vec![PlannedFrame::new(&camera.pose(0), fov_y.to_degrees(), camera.aspect)];
+        PlannedCamera { name: camera.name.clone(), frames }
+    };
+    scene.cameras.iter().map(camera).collect()
+}
+
+/// Where in a dataset a mesh folder lies.
+struct Place {
+    dataset: Dataset,
+    scene: String,
+}
+
+impl Place {
+    /// `ROOT/scenes/NAME/_detail/mesh` or `ROOT/NAME/_detail/mesh`; `None` for other folders.
+    fn of(folder: &Path) -> Option<Self> {
+        let detail = folder.parent().filter(|detail| detail.ends_with("_detail"))?;
+        let scene = detail.parent()?;
+        let scenes = scene.parent()?;
+        let root = if scenes.ends_with("scenes") { scenes.parent()? } else { scenes };
+        let dataset = Dataset::open(root).ok()?;
+        Some(Self { dataset, scene: scene.file_name()?.to_string_lossy().into_owned() })
+    }
+
+    /// The planned trajectories; those that cannot be read are told and left out.
+    fn cameras(&self, scale: f64, cx: &dyn Cx) -> Vec<PlannedCamera> {
+        let mut planned = Vec::new();
+        for name in self.dataset.cameras(&self.scene).unwrap_or_default() {
+            let (with, trajectory) = (self.dataset.read_camera(&self.scene, &name), self.dataset.read_trajectory(&self.scene, &name));
+            match (with, trajectory) {
+                (Ok(with), Ok(trajectory)) => {
+                    let (fov_y_deg, aspect) = field_of_view(&with);
+                    let scaled = |pose: &Pose| Pose { position: pose.position * scale, look_at: pose.look_at * scale, ..*pose };
+                    let frames = trajectory.poses.iter().map(|pose| PlannedFrame::new(&scaled(pose), fov_y_deg, aspect)).collect();
+                    planned.push(PlannedCamera { name, frames });
+                }
+                (Err(error), _) | (_, Err(error)) => {
+                    cx.warn(Warning { place: name, message: format!("the camera is left out: {error}") });
+                }
+            }
+        }
+        planned
+    }
+}
+
+/// Vertical field of view in degrees, and width over height, of a pinhole that shows about what the camera does.
+fn field_of_view(camera: &Camera) -> (f64, f64) {
+    /// A page shows no more than this without distorting it beyond recognition.
+    const WIDEST_DEG: f64 = 100.0;
+    let [width, height] = camera.size().map(f64::from);
+    let edge = |y: f64| camera.projection.ray(0.5 * width, y);
+    let fov = match (edge(0.0), edge(height)) {
+        (Some(top), Some(bottom)) => top.angle_between(bottom).to_degrees(),
+        _ => WIDEST_DEG,
+    };
+    (fov.clamp(1.0, WIDEST_DEG), width / height)
+}
+
+/// The pose of a view from `position` to `look_at` with z up, or with y up where the view is vertical.
+pub fn upright(frame: u32, position: DVec3, look_at: DVec3) -> Option<Pose> {
+    Pose::look_at(frame, position, look_at, DVec3::Z).or_else(|| Pose::look_at(frame, position, look_at, DVec3::Y))
+}
+
+/// World from camera of nine numbers, row by row.
+pub fn rows(orientation: &[f64; 9]) -> DMat3 {
+    DMat3::from_cols_array(orientation).transpose()
+}

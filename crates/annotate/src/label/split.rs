@@ -1,0 +1,73 @@
+//! Ways to split a piece: into groups of faces, each in ascending order, ordered by their first face.
+
+use super::pieces::Piece;
+use super::source::Source;
+use std::collections::{HashMap, HashSet};
+
+/// Groups of faces that are connected by shared corners. Corners are the same where their coordinates are, exactly.
+pub fn by_component(source: &Source, faces: &[u32]) -> Vec<Vec<u32>> {
+    let mut of_corner: HashMap<[u32; 3], u32> = HashMap::new();
+    let mut sets = Sets((0..faces.len() as u32).collect());
+    for (i, &face) in faces.iter().enumerate() {
+        for corner in &source.corners[face as usize] {
+            // −0 is 0.
+            let key = corner.to_array().map(|x| (x + 0.0).to_bits());
+            let first = *of_corner.entry(key).or_insert(i as u32);
+            sets.unite(first, i as u32);
+        }
+    }
+    grouped(faces, |i| sets.root(i as u32))
+}
+
+/// Groups of faces of one material.
+pub fn by_material(source: &Source, faces: &[u32]) -> Vec<Vec<u32>> {
+    grouped(faces, |i| source.material_of_face[faces[i] as usize])
+}
+
+/// What is left of a piece, and the painted faces.
+///
+/// # Errors
+/// When a face is not of the piece, or nothing is left on one side.
+pub fn by_faces(piece: &Piece, of_face: &[u32], number: u32, painted: &[u32]) -> Result<[Vec<u32>; 2], String> {
+    if let Some(&face) = painted.iter().find(|&&face| of_face.get(face as usize) != Some(&number)) {
+        return Err(match of_face.get(face as usize) {
+            Some(other) => format!("face {face} belongs to piece {other}, not to {number} ({:?})", piece.name),
+            None => format!("there is no face {face}; the scene has {}", of_face.len()),
+        });
+    }
+    let painted: HashSet<u32> = painted.iter().copied().collect();
+    let (new, kept): (Vec<u32>, Vec<u32>) = piece.faces.iter().partition(|&face| painted.contains(face));
+    Ok([kept, new])
+}
+
+/// Groups by the key of the face at each place, ordered by their first face.
+fn grouped(faces: &[u32], mut key: impl FnMut(usize) -> u32) -> Vec<Vec<u32>> {
+    let mut place: HashMap<u32, usize> = HashMap::new();
+    let mut groups: Vec<Vec<u32>> = Vec::new();
+    for (i, &face) in faces.iter().enumerate() {
+        let group = *place.entry(key(i)).or_insert_with(|| {
+            groups.push(Vec::new());
+            groups.len() - 1
+        });
+        groups[group].push(face);
+    }
+    groups
+}
+
+/// Disjoint sets, each a tree of parents.
+struct Sets(Vec<u32>);
+
+impl Sets {
+    fn root(&mut self, mut i: u32) -> u32 {
+        while self.0[i as usize] != i {
+            self.0[i as usize] = self.0[self.0[i as usize] as usize];
+            i = self.0[i as usize];
+        }
+        i
+    }
+
+    fn unite(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}

@@ -1,0 +1,169 @@
+//! From a stroke over the image to the faces that it touches: covered pixels, one ray through each, what the rays see.
+
+use super::camera::PageCamera;
+use enfilade_geometry::{Bvh, NOTHING, VisibilityBuffer};
+use enfilade_math::{Ray, Vec3};
+use rayon::prelude::*;
+use serde::Deserialize;
+use std::collections::{BTreeSet, HashSet};
+
+/// Points per pixel along lines, as in Hypersim's tool.
+const SAMPLES_PER_PIXEL: f64 = 4.0;
+/// Image points farther out than this are a mistake.
+const MAX_IMAGE_COORDINATE: f64 = 65_536.0;
+/// Longest stroke, in points along it.
+const MAX_SAMPLES: f64 = 16e6;
+/// Rows of a band of a rectangle: whole tiles of the visibility buffer.
+const BAND_ROWS: u32 = 64;
+
+/// What is drawn over the image. Pixels count from the upper left corner of the image, so that their centres lie at halves.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Shape {
+    /// A line through points.
+    Pen(Vec<[f64; 2]>),
+    /// A straight line.
+    Line([[f64; 2]; 2]),
+    /// Every pixel between two corners, those of the corners included.
+    Rectangle([f64; 4]),
+    /// One pixel.
+    Click([f64; 2]),
+}
+
+/// Pixels that a shape covers, within the image.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Covered {
+    /// Column and row, each once, row by row.
+    Pixels(Vec<[u32; 2]>),
+    /// From the first column and row to the last, these included.
+    Rectangle([u32; 2], [u32; 2]),
+}
+
+impl Shape {
+    /// The pixels that it covers; none where it lies beside the image.
+    ///
+    /// # Errors
+    /// When a coordinate is not finite or far away, or the stroke is longer than a person draws.
+    pub fn covered(&self, camera: &PageCamera) -> Result<Covered, String> {
+        let points: Vec<[f64; 2]> = match self {
+            Self::Pen(points) => points.clone(),
+            Self::Line(ends) => ends.to_vec(),
+            Self::Rectangle([x0, y0, x1, y1]) => vec![[*x0, *y0], [*x1, *y1]],
+            Self::Click(point) => vec![*point],
+        };
+        let bad = points.iter().flatten().find(|x| !x.is_finite() || x.abs() > MAX_IMAGE_COORDINATE);
+        if let Some(bad) = bad {
+            return Err(format!("shape: {bad} is no image coordinate; expected finite numbers within ±{MAX_IMAGE_COORDINATE}"));
+        }
+        if points.is_empty() {
+            return Err("shape.pen is empty; expected at least one point".into());
+        }
+        if let Self::Rectangle(_) = self {
+            return Ok(rectangle(points[0], points[1], camera));
+        }
+        let lengths = points.windows(2).map(|pair| f64::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]));
+        let samples = lengths.sum::<f64>() * SAMPLES_PER_PIXEL;
+        if samples > MAX_SAMPLES {
+            return Err(format!("shape: the stroke is {:.0} pixels long; expected at most 4 million", samples / SAMPLES_PER_PIXEL));
+        }
+        let mut pixels = BTreeSet::new();
+        let mut add = |[x, y]: [f64; 2]| {
+            if (0.0..f64::from(camera.width)).contains(&x) && (0.0..f64::from(camera.height)).contains(&y) {
+                pixels.insert([y as u32, x as u32]);
+            }
+        };
+        add(points[0]);
+        for pair in points.windows(2) {
+            let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
+            let steps = (f64::hypot(x1 - x0, y1 - y0) * SAMPLES_PER_PIXEL).ceil().max(1.0);
+            (1..=steps as u32).for_each(|step| {
+                let t = f64::from(step) / steps;
+                add([x0 + t * (x1 - x0), y0 + t * (y1 - y0)]);
+            });
+        }
+        Ok(Covered::Pixels(pixels.into_iter().map(|[row, column]| [column, row]).collect()))
+    }
+}
+
+fn rectangle(a: [f64; 2], b: [f64; 2], camera: &PageCamera) -> Covered {
+    let side = |a: f64, b: f64, pixels: u32| {
+        let (first, last) = (a.min(b).floor().max(0.0), a.max(b).floor().min(f64::from(pixels) - 1.0));
+        (first <= last).then_some((first as u32, last as u32))
+    };
+    match (side(a[0], b[0], camera.width), side(a[1], b[1], camera.height)) {
+        (Some((left, right)), Some((top, bottom))) => Covered::Rectangle([left, top], [right, bottom]),
+        _ => Covered::Pixels(Vec::new()),
+    }
+}
+
+/// A scene as rays meet it.
+pub struct World<'a> {
+    /// All faces; every one of them asks before it is hit.
+    pub bvh: &'a Bvh,
+    /// The piece of every face.
+    pub piece_of_face: &'a [u32],
+    /// Pieces that rays pass through.
+    pub hidden: &'a HashSet<u32>,
+}
+
+/// What a ray of the page meets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Picked {
+    /// The face.
+    pub face: u32,
+    /// In the world, metres.
+    pub point: Vec3,
+    /// From the camera, metres.
+    pub distance_m: f32,
+}
+
+impl World<'_> {
+    /// The faces seen in the covered pixels, ascending.
+    pub fn visible_faces(&self, camera: &PageCamera, covered: &Covered) -> Vec<u32> {
+        let faces: HashSet<u32> = match covered {
+            Covered::Pixels(pixels) => {
+                let centre = |&[x, y]: &[u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
+                pixels.par_iter().filter_map(centre).collect()
+            }
+            // Hidden pieces are in the hierarchy all the same, and only rays can pass through them.
+            Covered::Rectangle(first, last) if !self.hidden.is_empty() => {
+                let row = |y: u32| (first[0]..=last[0]).map(move |x| [x, y]);
+                let centre = |[x, y]: [u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
+                let seen = (first[1]..=last[1]).into_par_iter().map(|y| row(y).filter_map(centre).collect::<HashSet<u32>>());
+                seen.reduce(HashSet::new, union)
+            }
+            Covered::Rectangle(first, last) => {
+                let tops: Vec<u32> = (first[1]..=last[1]).step_by(BAND_ROWS as usize).collect();
+                let band = |&top: &u32| {
+                    let rows = (last[1] - top + 1).min(BAND_ROWS);
+                    let mut buffer = VisibilityBuffer::new(last[0] - first[0] + 1, rows);
+                    buffer.draw(self.bvh, &camera.rays(first[0], top));
+                    buffer.triangles().iter().copied().filter(|&face| face != NOTHING).collect::<HashSet<u32>>()
+                };
+                tops.par_iter().map(band).reduce(HashSet::new, union)
+            }
+        };
+        let mut faces: Vec<u32> = faces.into_iter().collect();
+        faces.sort_unstable();
+        faces
+    }
+
+    /// What the ray through an image point meets first.
+    pub fn meet(&self, camera: &PageCamera, x: f64, y: f64) -> Option<Picked> {
+        let ray = Ray::new(camera.origin(), camera.direction(x, y));
+        let hit = if self.hidden.is_empty() {
+            self.bvh.closest(&ray)
+        } else {
+            self.bvh.closest_filtered(&ray, |hit| !self.hidden.contains(&self.piece_of_face[hit.triangle as usize]))
+        }?;
+        Some(Picked { face: hit.triangle, point: ray.at(hit.t), distance_m: hit.t })
+    }
+}
+
+fn union(mut a: HashSet<u32>, b: HashSet<u32>) -> HashSet<u32> {
+    if a.len() < b.len() {
+        return union(b, a);
+    }
+    a.extend(b);
+    a
+}

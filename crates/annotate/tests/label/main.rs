@@ -1,0 +1,7 @@
+//! Labelling scenes through the routes, as the page does.
+
+mod editing;
+mod keeping;
+mod relabel;
+mod requests;
+mod room;

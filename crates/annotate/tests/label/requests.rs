@@ -1,0 +1,146 @@
+//! Answers, events, and requests that are wrong.
+
+use crate::room::{Page, assign, camera, class, package, scene, stroke};
+use serde_json::{Value, json};
+
+#[tokio::test]
+async fn two_pages_lose_no_edit_and_each_hears_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = Page::open(&package(folder.path()));
+    let ten = async |first: u32| {
+        let mut revisions = Vec::new();
+        for i in first..first + 10 {
+            let change = page.act(assign(&[i % 6], json!({ "layer": "instance", "new": true }))).await;
+            revisions.push(change["revision"].as_u64().unwrap());
+        }
+        revisions
+    };
+    let (one, other) = tokio::join!(ten(0), ten(3));
+    let mut revisions = [one, other].concat();
+    revisions.sort_unstable();
+    assert_eq!(revisions, (1..=20).collect::<Vec<u64>>());
+    let event = page.first_event("events?since=19").await;
+    assert!(event.contains("id: 20\n") && event.contains("\"revision\":20"), "{event}");
+    assert!(page.first_event("events?since=7").await.contains("id: 8\n"));
+    assert!(page.first_event("events?since=21").await.contains("event: reload\n"));
+    let listening = page.first_event("events");
+    let (event, _) = tokio::join!(listening, async {
+        tokio::task::yield_now().await;
+        page.act(assign(&[0], class(1))).await
+    });
+    assert!(event.contains("id: 21\n") && event.contains("Class wall on wall"), "{event}");
+}
+
+#[tokio::test]
+async fn malformed_requests_are_named_and_change_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = Page::open(&package(folder.path()));
+    let broken = |field: &str, value: Value| {
+        let mut camera = camera();
+        camera[field] = value;
+        json!({ "type": "stroke", "camera": camera, "shape": { "click": [1, 1] }, "apply": class(1) })
+    };
+    let skewed = json!([1, 0, 0, 0, 0, -1, 0, 1, 0.5]);
+    let cases = [
+        (broken("position", json!([1e300, 0, 0])), "camera.position"),
+        (broken("position", json!([null, 0, 0])), "not understood"),
+        (broken("orientation", skewed), "camera.orientation"),
+        (broken("orientation", json!([0, 0, 0, 0, 0, 0, 0, 0, 0])), "camera.orientation"),
+        (broken("fov_y_deg", json!(180)), "camera.fov_y_deg is 180"),
+        (broken("width", json!(8193)), "camera.width is 8193; expected 1 to 8192"),
+        (broken("height", json!(0)), "camera.height is 0"),
+        (broken("height", json!(-1)), "not understood"),
+        (stroke(json!({ "pen": [] }), class(1)), "shape.pen is empty"),
+        (stroke(json!({ "click": [1e9, 0] }), class(1)), "no image coordinate"),
+        (stroke(json!({ "circle": [0, 0, 1] }), class(1)), "circle"),
+        (stroke(json!({ "pen": ([[0, 0], [60000, 60000]].repeat(60)) }), class(1)), "expected at most"),
+        (stroke(json!({ "click": [1, 1] }), class(41)), "there is no class 41; expected one of the list's 40 classes from 1 to 40"),
+        (assign(&[6], class(1)), "pieces names piece 6, but there are 6 (0 to 5)"),
+        (assign(&[0], class(0)), "there is no class 0"),
+        (assign(&[0], json!({ "layer": "semantic" })), "apply is none of"),
+        (assign(&[0], json!({ "layer": "instance", "value": 2 })), "there is no instance 2; expected 1 to 1"),
+        (assign(&[0], json!({ "layer": "instance", "unique": true, "new": true })), "apply is none of"),
+        (assign(&[0], json!({ "layer": "material", "value": 1 })), "material"),
+        (json!({ "type": "assign_each", "pieces": [0, 1], "semantic": [1] }), "1 classes for 2 pieces"),
+        (json!({ "type": "assign_each", "pieces": [0, 0], "semantic": [1, 2] }), "named twice"),
+        (json!({ "type": "split", "piece": 7, "by": "component" }), "piece names piece 7"),
+        (json!({ "type": "split", "piece": 1, "by": "colour" }), "colour"),
+        (json!({ "type": "split", "piece": 1, "by": { "faces": [74] } }), "there is no face 74"),
+        (json!({ "type": "paint" }), "paint"),
+        (json!({ "type": "undo", "twice": true }), "twice"),
+    ];
+    for (action, expected) in cases {
+        let (status, error) = page.refused(action.clone()).await;
+        assert!(status == 400 && error.contains(expected), "{action}\n{status} {error}");
+    }
+    for (path, body) in [
+        ("edit", "{"),
+        ("edit", "[]"),
+        ("edit", r#"{"client":"","action":{"type":"redo"}}"#),
+        ("select", r#"{"shape":{"click":[1,1]}}"#),
+        ("activity", r#"{"seconds_since_last_input":-1}"#),
+        ("activity", "null"),
+    ] {
+        let (status, body) = page.post(path, body).await;
+        assert!(status == 400 && body["help"].is_string(), "{path} {body}");
+    }
+    let (status, body) = page.post("pick", json!({ "camera": camera(), "pixel": [200, 1] }).to_string()).await;
+    assert!(status == 400 && body["error"].as_str().unwrap().contains("pixel 200, 1 is outside"), "{body}");
+    let (status, _) = page.ask(axum::http::Request::get("/api/annotate/events?since=x").body(axum::body::Body::empty()).unwrap()).await;
+    assert_eq!(status, 400);
+    assert_eq!(page.get("scene").await["revision"].as_u64(), Some(0));
+    assert_eq!(page.labels().await, [(-1, -1); 6]);
+}
+
+#[tokio::test]
+async fn progress_counts_what_is_seen_and_names_what_is_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut with_camera = scene();
+    with_camera.cameras.push(enfilade_scene::StartCamera {
+        name: "door".into(),
+        position: enfilade_math::DVec3::new(0.0, -5.0, 1.0),
+        world_from_camera: enfilade_math::DMat3::from_cols_array(&[1., 0., 0., 0., 0., 1., 0., -1., 0.]),
+        fov_x_rad: 60f64.to_radians(),
+        aspect: 1.0,
+    });
+    let path = folder.path().join("room.scene");
+    std::fs::write(&path, enfilade_scene::to_bytes(&with_camera)).unwrap();
+    let page = Page::open(&path);
+    let before = page.get("progress").await;
+    assert_eq!((before["visible"]["views_of"].as_str(), before["visible"]["views"].as_u64()), (Some("planned cameras"), Some(1)));
+    let names: Vec<&str> = before["unlabelled"].as_array().unwrap().iter().map(|row| row["name"].as_str().unwrap()).collect();
+    assert_eq!((names[0], names[5]), ("wall", "behind"));
+    assert_eq!(before["unlabelled"][0]["best_view"], json!({ "camera": "door", "frame": 0 }));
+    assert_eq!(before["unlabelled"][5]["best_view"], Value::Null);
+    page.act(assign(&[0, 1], class(1))).await;
+    page.act(assign(&[1, 2], json!({ "layer": "instance", "new": true }))).await;
+    let after = page.get("progress").await;
+    let share = after["visible"]["pixels_labelled_share"].as_f64().unwrap();
+    // left, right and both of pair are 2 × 19.2² + 2 × 9.1² of 100² pixels, more or less.
+    assert!((share - 0.91).abs() < 0.02, "{share}");
+    assert_eq!((after["labelled_pieces"].as_u64(), after["unlabelled"].as_array().unwrap().len()), (Some(2), 4));
+    assert_eq!((after["classes"][0]["pieces"].as_u64(), after["classes"][0]["instances"].as_u64()), (Some(2), Some(1)));
+    assert_eq!(after["conflicts"], json!([{ "instance": 1, "classes": [-1, 1] }]));
+    // Without cameras there are viewpoints all the same.
+    std::fs::write(folder.path().join("bare.scene"), enfilade_scene::to_bytes(&scene())).unwrap();
+    let bare = Page::open(&folder.path().join("bare.scene")).get("progress").await;
+    assert_eq!(bare["visible"]["views_of"].as_str(), Some("generated viewpoints"));
+    assert!(bare["unlabelled"][0]["pixels"].as_u64().unwrap() > 0);
+}
+
+#[tokio::test]
+async fn geometry_is_packed_and_compressed_where_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = Page::open(&package(folder.path()));
+    let (_, plain) = page.bytes("geometry", &[]).await;
+    let (headers, packed) = page.bytes("geometry", &[("accept-encoding", "br, gzip;q=1.0")]).await;
+    assert_eq!(headers["content-encoding"], "gzip");
+    let mut unpacked = vec![0; plain.len()];
+    assert_eq!(libdeflater::Decompressor::new().gzip_decompress(&packed, &mut unpacked), Ok(plain.len()));
+    assert!(unpacked == plain && plain.len() == 64 + 16 + 74 * 32);
+    let (status, worked) = page.post("activity", r#"{"seconds_since_last_input":0.5}"#).await;
+    assert!(status.is_success(), "{worked}");
+    page.act(assign(&[0], class(1))).await;
+    let log = page.get("worklog").await;
+    assert_eq!((log["actions"].as_u64(), log["sessions"].as_array().unwrap().len()), (Some(1), 1));
+}

@@ -1,0 +1,102 @@
+//! `suggest`: a label table of a scene file, from the names in it.
+
+use crate::config::FileSource;
+use crate::error::Error;
+use crate::stages::load_file;
+use crate::workdir::write_whole;
+use enfilade_post::label::class_name;
+use enfilade_scene::{Cx, Scene};
+use enfilade_suggest::{Suggester, Suggestion};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Share of the names taken for granted that are right, unless a confidence is asked for.
+const PRECISION: f32 = 0.9;
+
+/// A suggested label table.
+#[derive(Clone, Debug)]
+pub struct SuggestedLabels {
+    /// Number of parts of the scene.
+    pub parts: usize,
+    /// Least confidence of what was written as a class.
+    pub min_confidence: f32,
+    /// How many parts got which class, by NYU40 number.
+    pub classes: BTreeMap<i16, usize>,
+    /// The parts that got none, in the order of the scene.
+    pub unsure: Vec<UnsurePart>,
+}
+
+/// A part that nobody knows the class of.
+#[derive(Clone, Debug)]
+pub struct UnsurePart {
+    /// Its name.
+    pub part: String,
+    /// Its material's name.
+    pub material: String,
+    /// The best guess, if its names say anything.
+    pub guess: Option<Suggestion>,
+}
+
+/// Writes the label table `output` for the scene file of `source` (a path as it stands): a row per part, −1 where the confidence
+/// is below `min_confidence`, in [0,1]; where that is not given, where fewer than nine of ten would be right.
+///
+/// # Errors
+/// When the confidence is out of range, the file cannot be imported, or the table cannot be written.
+pub fn suggest_labels(source: &FileSource, min_confidence: Option<f32>, output: &Path, cx: &dyn Cx) -> Result<SuggestedLabels, Error> {
+    let suggester = Suggester::builtin();
+    let min_confidence = min_confidence.or_else(|| suggester.min_confidence(PRECISION)).unwrap_or(1.0);
+    if !(0.0..=1.0).contains(&min_confidence) {
+        return Err(Error::usage(format!("the least confidence is {min_confidence}"), "give a number from 0 to 1"));
+    }
+    let scene = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?.scene;
+    let suggestions = suggester.suggest_scene(&scene);
+    write_whole(output, table(&scene, &suggestions, min_confidence).as_bytes())?;
+    let mut found = SuggestedLabels { parts: scene.parts.len(), min_confidence, classes: BTreeMap::new(), unsure: Vec::new() };
+    for (part, suggestion) in scene.parts.iter().zip(suggestions) {
+        match suggestion {
+            Some(sure) if sure.confidence >= min_confidence => *found.classes.entry(sure.class).or_default() += 1,
+            guess => {
+                let material = scene.materials[part.material as usize].name.clone();
+                found.unsure.push(UnsurePart { part: part.name.clone(), material, guess });
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// The table as `label` reads it, which ignores the last two columns: how sure we are, and of what.
+fn table(scene: &Scene, suggestions: &[Option<Suggestion>], min_confidence: f32) -> String {
+    let mut text = String::from("part,nyu40_id,nyu40_name,confidence,guess\n");
+    for (part, suggestion) in scene.parts.iter().zip(suggestions) {
+        let class = suggestion.as_ref().filter(|s| s.confidence >= min_confidence).map_or(-1, |s| s.class);
+        let (confidence, guess) = suggestion.as_ref().map_or((0.0, ""), |s| (s.confidence, class_name(s.class)));
+        text.push_str(&format!("{},{class},{},{confidence:.3},{guess}\n", quoted(&part.name), class_name(class)));
+    }
+    text
+}
+
+/// A CSV field, in quotes where it needs them.
+fn quoted(field: &str) -> String {
+    let plain = !field.contains(['"', ',', '\n', '\r']) && field.trim() == field && !field.is_empty();
+    if plain { field.to_string() } else { format!("\"{}\"", field.replace('"', "\"\"")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_post::label::{LabelTable, part_names};
+    use enfilade_scene::{Material, Part};
+
+    #[test]
+    fn the_table_is_one_that_label_reads_and_the_unsure_are_not_guessed() {
+        let part = |name: &str| Part { name: name.into(), mesh: 0, material: 0, world_from_mesh: enfilade_math::DAffine3::IDENTITY };
+        let parts = ["sofa \"big\", red", "Mesh.001", "thing"].map(part).to_vec();
+        let scene = Scene { parts, materials: vec![Material::diffuse("grey", enfilade_math::Rgb::WHITE)], ..Scene::default() };
+        let suggestion = |class, confidence| Some(Suggestion { class, confidence, alternatives: Vec::new() });
+        let text = table(&scene, &[suggestion(6, 0.93), None, suggestion(40, 0.3)], 0.9);
+        assert!(text.ends_with("Mesh.001,-1,unlabelled,0.000,\nthing,-1,unlabelled,0.300,otherprop\n"), "{text}");
+        let (labels, report) = LabelTable::parse(text.as_bytes(), "t").unwrap().assign("any", &part_names(&scene));
+        assert_eq!(labels.parts.iter().map(|label| label.semantic).collect::<Vec<_>>(), [6, -1, -1]);
+        assert!(report.unmatched.is_empty());
+    }
+}
