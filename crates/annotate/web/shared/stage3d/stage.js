@@ -76,6 +76,7 @@ export class Stage3d extends EventTarget {
         this.counts = { frames: 0, movedMs: 0, drawnFaces: 0 };
         this.scheduled = false;
         this.stale = true;
+        this.told = false;
         this.lastChange = -Infinity;
         this.lastMotionFrame = -Infinity;
         this.lastFrame = 0;
@@ -313,6 +314,7 @@ export class Stage3d extends EventTarget {
     /** Draws the first faces of display order, as many as keep a good rate. @param {number} now */
     drawQuick(now) {
         this.stale = false;
+        this.told = false;
         this.refinement.restart();
         if (!this.mesh) return;
         const moving = performance.now() - this.lastChange < SETTLE_MS;
@@ -350,12 +352,14 @@ export class Stage3d extends EventTarget {
             this.fine.samples = samples;
             this.refinement.restart();
         }
-        if (this.fine.complete) return true;
-        if (!(samples === 1 && this.quick.complete)) {
+        if (!(this.fine.complete || (samples === 1 && this.quick.complete))) {
             if (!this.refinement.advance(this.mesh, this.camera, width, height)) return false;
             this.shown = this.fine;
         }
-        if (this.shown.complete && !this.settled) this.dispatchEvent(new Event("settled"));
+        if (!this.told) {
+            this.told = true;
+            this.dispatchEvent(new Event("settled"));
+        }
         return true;
     }
 
