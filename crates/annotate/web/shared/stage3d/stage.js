@@ -76,6 +76,8 @@ export class Stage3d extends EventTarget {
         this.counts = { frames: 0, movedMs: 0, drawnFaces: 0 };
         this.scheduled = false;
         this.stale = true;
+        this.pictureStale = true;
+        this.told = false;
         this.lastChange = -Infinity;
         this.lastMotionFrame = -Infinity;
         this.lastFrame = 0;
@@ -271,6 +273,12 @@ export class Stage3d extends EventTarget {
 
     /** Draws soon. Cheap: many calls make one frame. */
     requestFrame() {
+        this.pictureStale = true;
+        this.schedule();
+    }
+
+    /** One more turn; the picture is drawn again only if it has changed. */
+    schedule() {
         if (this.scheduled) return;
         this.scheduled = true;
         requestAnimationFrame((now) => this.frame(now));
@@ -289,16 +297,15 @@ export class Stage3d extends EventTarget {
         if (this.stale) this.drawQuick(now);
         const restsAt = this.lastChange + SETTLE_MS;
         if (this.controls.held.size > 0 || this.flight) {
-            this.requestFrame();
+            this.schedule();
         } else if (performance.now() < restsAt) {
             clearTimeout(this.settleTimer);
-            this.settleTimer = setTimeout(() => this.requestFrame(), restsAt - performance.now() + 1);
+            this.settleTimer = setTimeout(() => this.schedule(), restsAt - performance.now() + 1);
         } else if (!this.refine()) {
             // The picture that is shown stays until the finer one is whole.
-            this.requestFrame();
-            if (this.shown !== this.quick) return;
+            this.schedule();
         }
-        this.drawPicture();
+        if (this.pictureStale) this.drawPicture();
         this.lastFrame = now;
     }
 
@@ -313,6 +320,7 @@ export class Stage3d extends EventTarget {
     /** Draws the first faces of display order, as many as keep a good rate. @param {number} now */
     drawQuick(now) {
         this.stale = false;
+        this.told = false;
         this.refinement.restart();
         if (!this.mesh) return;
         const moving = performance.now() - this.lastChange < SETTLE_MS;
@@ -350,12 +358,15 @@ export class Stage3d extends EventTarget {
             this.fine.samples = samples;
             this.refinement.restart();
         }
-        if (this.fine.complete) return true;
-        if (!(samples === 1 && this.quick.complete)) {
+        if (!(this.fine.complete || (samples === 1 && this.quick.complete))) {
             if (!this.refinement.advance(this.mesh, this.camera, width, height)) return false;
             this.shown = this.fine;
+            this.pictureStale = true;
         }
-        if (this.shown.complete && !this.settled) this.dispatchEvent(new Event("settled"));
+        if (!this.told) {
+            this.told = true;
+            this.dispatchEvent(new Event("settled"));
+        }
         return true;
     }
 
@@ -365,6 +376,7 @@ export class Stage3d extends EventTarget {
     }
 
     drawPicture() {
+        this.pictureStale = false;
         this.renderer.setRenderTarget(null);
         this.renderer.clear();
         if (this.shown.target) this.picture.draw(this.renderer, this.shown);
