@@ -128,9 +128,9 @@ mod tests {
         log.input(4020.0);
         log.write().unwrap();
         let session = WorkSession { start: clock::iso(1000.0), end: clock::iso(4020.0), active_seconds: 50.0, actions: 1 };
-        assert_eq!(log.sessions(), [session.clone()]);
+        assert_eq!(log.sessions(), std::slice::from_ref(&session));
         let mut again = WorkLog::open(folder.path()).unwrap();
-        assert_eq!(again.sessions(), [session.clone()]);
+        assert_eq!(again.sessions(), std::slice::from_ref(&session));
         again.action(9000.0);
         again.write().unwrap();
         let sessions = WorkLog::open(folder.path()).unwrap().sessions();
