@@ -151,6 +151,32 @@ describe("view", { skip: ENFILADE && ENFILADE_DATASET ? false : "ENFILADE and EN
         assert.equal((await hash()).get("instance"), null);
     });
 
+    test("the instance of a pixel is marked while the cursor is on it, with its name and class", async () => {
+        const { scenes } = await json("dataset");
+        const { cameras, parts } = await json(`scene/${scenes[0]}`);
+        await open("layer=color&frame=0&boxes=true");
+        const ids = await stored(scenes[0], cameras[0], 0, "semantic_instance");
+        const marked = [];
+        for (let y = 4; y < ids.height && !marked.length; y += 9) {
+            for (let x = 4; x < ids.width && !marked.length; x += 9) if (ids.at(x, y)[0] > 0 && ids.at(x + 1, y)[0] === ids.at(x, y)[0]) marked.push(x, y);
+        }
+        const read = await readAt(marked[0], marked[1], "color", ids);
+        const instance = page.locator('#readout [data-names="semantic_instance"]');
+        await instance.waitFor();
+        const id = ids.at(read.x, read.y)[0];
+        assert.ok((await instance.innerText()).startsWith(`${id} ${parts.names[parts.instance.indexOf(id)]}`));
+        assert.match(await page.locator('#readout [data-names="semantic"]').innerText(), new RegExp(`^${parts.semantic[parts.instance.indexOf(id)]} `));
+    });
+
+    test("the scene is shown in 3D with its free space", async () => {
+        await open("mode=space&frame=0");
+        await page.locator("#space canvas").waitFor();
+        const cubes = page.waitForResponse((response) => response.url().endsWith("/space"));
+        await page.locator('#space [data-part="free"]').check();
+        assert.equal((await cubes).status(), 200);
+        assert.deepEqual(problems, []);
+    });
+
     test("a link restores what was seen", async () => {
         await open("mode=side&layer=normal_cam&other=depth_meters&zoom=4&x=0.25&y=0.75&tone=filmic&range=depth_meters:1:3&tab=frame");
         assert.equal(await page.locator("#layer-0").inputValue(), "normal_cam");
@@ -165,10 +191,10 @@ describe("view", { skip: ENFILADE && ENFILADE_DATASET ? false : "ENFILADE and EN
 
     test("keys go from frame to frame, from layer to layer, and show the help", async () => {
         await open("layer=color&frame=0");
+        const next = await page.locator('#thumbnails [role="option"]').nth(1).getAttribute("data-frame");
         await page.keyboard.press("ArrowRight");
-        await painted();
-        assert.equal(await page.locator("#stage").getAttribute("data-frame"), (await hash()).get("frame"));
-        assert.notEqual((await hash()).get("frame"), "0");
+        await page.waitForSelector(`#stage[data-frame="${next}"]`);
+        assert.equal((await hash()).get("frame"), next);
         await page.keyboard.press("d");
         assert.equal(await page.locator("#layer-0").inputValue(), "depth_meters");
         await page.keyboard.press("3");

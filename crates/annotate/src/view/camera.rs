@@ -39,7 +39,8 @@ struct View {
 impl Viewer {
     fn camera_facts(&self, scene: &str, camera: &str) -> Result<Value, ApiProblem> {
         let layout = self.layout();
-        let keyframes = ["positions", "orientations", "look_at_positions", "frame_indices"].map(|what| layout.keyframes(scene, camera, what));
+        let keyframes =
+            ["positions", "orientations", "look_at_positions", "frame_indices"].map(|what| layout.keyframes(scene, camera, what));
         self.allow_all(keyframes)?;
         self.allow_all([layout.camera_parameters(), layout.metadata_camera(scene, camera), layout.view_gates(scene, camera)])?;
         let mut views: BTreeMap<u32, View> = BTreeMap::new();

@@ -35,9 +35,8 @@ impl Viewer {
             ("Statistics", self.layout().statistics_dir().join("statistics.html")),
             ("Contact sheet", self.layout().overview()),
         ];
-        let pages = pages.iter().filter(|(_, path)| path.is_file()).map(|(title, path)| {
-            json!({ "title": title, "path": self.in_dataset(path) })
-        });
+        let pages =
+            pages.iter().filter(|(_, path)| path.is_file()).map(|(title, path)| json!({ "title": title, "path": self.in_dataset(path) }));
         Ok(json!({
             "name": name,
             "scenes": named,

@@ -30,18 +30,26 @@ pub async fn file(State(viewer): State<Arc<Viewer>>, Path(path): Path<String>) -
     let parts = std::path::Path::new(&path);
     let plain = |part: Component| matches!(part, Component::Normal(name) if !name.to_string_lossy().starts_with('.'));
     if path.contains(['\\', '\0']) || path.is_empty() || !parts.components().all(plain) {
-        return Err(ApiProblem::bad_request(format!("{path:?} is no path within the dataset"), "give folders and a name, without dots in front"));
+        return Err(ApiProblem::bad_request(
+            format!("{path:?} is no path within the dataset"),
+            "give folders and a name, without dots in front",
+        ));
     }
     let end = path.rsplit('.').next().unwrap_or("");
     let Some((_, kind)) = KINDS.iter().find(|(known, _)| *known == end) else {
         let known: Vec<&str> = KINDS.iter().map(|(end, _)| *end).collect();
-        return Err(ApiProblem::bad_request(format!("{path:?} is no page or picture"), format!("only files in {} are sent", known.join(", "))));
+        return Err(ApiProblem::bad_request(
+            format!("{path:?} is no page or picture"),
+            format!("only files in {} are sent", known.join(", ")),
+        ));
     };
     let bytes = work(viewer, move |viewer| {
         let full = viewer.dataset.root().join(&path);
         viewer.allow(&full)?;
         std::fs::read(&full).map_err(|e| match e.kind() {
-            std::io::ErrorKind::NotFound => ApiProblem::not_found(format!("the dataset has no file {path:?}"), "run the stage that makes it"),
+            std::io::ErrorKind::NotFound => {
+                ApiProblem::not_found(format!("the dataset has no file {path:?}"), "run the stage that makes it")
+            }
             _ => ApiProblem::failed(format!("cannot read {path:?}: {e}"), "make the file readable"),
         })
     })

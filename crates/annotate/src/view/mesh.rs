@@ -13,11 +13,7 @@ use enfilade_math::Vec3;
 use std::sync::Arc;
 
 /// `GET /api/view/scene/{scene}/geometry`.
-pub async fn geometry(
-    State(viewer): State<Arc<Viewer>>,
-    Path(scene): Path<String>,
-    headers: HeaderMap,
-) -> Result<Response, ApiProblem> {
+pub async fn geometry(State(viewer): State<Arc<Viewer>>, Path(scene): Path<String>, headers: HeaderMap) -> Result<Response, ApiProblem> {
     let gzip = reply::takes_gzip(&headers);
     work(viewer, move |viewer| {
         viewer.check_scene(&scene)?;

@@ -92,7 +92,10 @@ impl Viewer {
     pub(super) fn check_scene(&self, scene: &str) -> Result<(), ApiProblem> {
         check_name("scene name", scene).map_err(problem)?;
         if !self.layout().detail_dir(scene).is_dir() && !self.layout().images_dir(scene).is_dir() {
-            return Err(ApiProblem::not_found(format!("there is no scene {scene:?}"), "look at /api/view/dataset for the names of the scenes"));
+            return Err(ApiProblem::not_found(
+                format!("there is no scene {scene:?}"),
+                "look at /api/view/dataset for the names of the scenes",
+            ));
         }
         self.allow_all([self.layout().scene_dir(scene), self.layout().detail_dir(scene), self.layout().images_dir(scene)])
     }

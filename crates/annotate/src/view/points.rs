@@ -93,7 +93,8 @@ impl Viewer {
             None => ToneMap::of_percentile(percentile((0..pixels).step_by(16).map(|i| brightness(radiance(i))).collect())),
         };
         // The curve is one of 4096 steps: a power for each channel of each pixel takes ten times as long.
-        let curve: Vec<u8> = (0..=4096).map(|i| (tone.apply(f64::from(i) / 4096.0 / tone.scale.max(1e-30)) * 255.0).round() as u8).collect();
+        let curve: Vec<u8> =
+            (0..=4096).map(|i| (tone.apply(f64::from(i) / 4096.0 / tone.scale.max(1e-30)) * 255.0).round() as u8).collect();
         let shown = |v: f64| curve[((v * tone.scale).clamp(0.0, 1.0) * 4096.0) as usize];
         Ok(Some((0..pixels).map(|i| radiance(i).map(|v| if v.is_nan() { 0 } else { shown(v) })).collect()))
     }

@@ -12,11 +12,7 @@ use serde_json::{Map, Value, json};
 use std::sync::Arc;
 
 /// `GET /api/view/scene/{scene}`.
-pub async fn scene(
-    State(viewer): State<Arc<Viewer>>,
-    Path(scene): Path<String>,
-    headers: HeaderMap,
-) -> Result<Response, ApiProblem> {
+pub async fn scene(State(viewer): State<Arc<Viewer>>, Path(scene): Path<String>, headers: HeaderMap) -> Result<Response, ApiProblem> {
     let gzip = reply::takes_gzip(&headers);
     work(viewer, move |viewer| {
         viewer.check_scene(&scene)?;
@@ -29,16 +25,20 @@ impl Viewer {
     fn scene_facts(&self, scene: &str) -> Result<Value, ApiProblem> {
         let layout = self.layout();
         let mesh = |name: &str| layout.mesh_file(scene, name);
-        self.allow_all([layout.metadata_cameras(scene), layout.metadata_nodes(scene), layout.metadata_scene(scene), layout.mesh_dir(scene)])?;
+        self.allow_all([
+            layout.metadata_cameras(scene),
+            layout.metadata_nodes(scene),
+            layout.metadata_scene(scene),
+            layout.mesh_dir(scene),
+        ])?;
         self.allow_all(["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5", "metadata_semantic_instance_colors.hdf5"].map(mesh))?;
         let nodes = optional(self.dataset.read_nodes(scene))?.unwrap_or_default();
         let labels = optional(self.dataset.read_label_tables(scene))?.unwrap_or_default();
         let label = |object: Option<u32>| object.and_then(|object| labels.parts.get(object as usize));
         let instances = labels.parts.iter().map(|label| label.instance).max().unwrap_or(0).max(0) as usize;
         let pages = [("Rejected views", layout.gates_page(scene)), ("Plans", layout.plan_preview_dir(scene).join("index.html"))];
-        let pages = pages.iter().filter(|(_, path)| path.is_file()).map(|(title, path)| {
-            json!({ "title": title, "path": self.in_dataset(path) })
-        });
+        let pages =
+            pages.iter().filter(|(_, path)| path.is_file()).map(|(title, path)| json!({ "title": title, "path": self.in_dataset(path) }));
         Ok(json!({
             "name": scene,
             "cameras": self.dataset.cameras(scene).map_err(problem)?,

@@ -14,11 +14,7 @@ use enfilade_geometry::{OccupancyTree, Voxel};
 use std::sync::Arc;
 
 /// `GET /api/view/scene/{scene}/space`.
-pub async fn space(
-    State(viewer): State<Arc<Viewer>>,
-    Path(scene): Path<String>,
-    headers: HeaderMap,
-) -> Result<Response, ApiProblem> {
+pub async fn space(State(viewer): State<Arc<Viewer>>, Path(scene): Path<String>, headers: HeaderMap) -> Result<Response, ApiProblem> {
     let gzip = reply::takes_gzip(&headers);
     work(viewer, move |viewer| {
         viewer.check_scene(&scene)?;

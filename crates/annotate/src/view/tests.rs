@@ -42,15 +42,7 @@ fn dataset(root: &Path) -> Dataset {
         LAYERS.iter().filter(|spec| passes.contains(&spec.pass)).for_each(|spec| frame.insert(spec.layer, layer_values(spec.layer, 0)));
         frame
     };
-    let info = FrameInfo {
-        seed: u64::MAX,
-        samples: 4,
-        config_hash: "c".into(),
-        pose: pose(0),
-        camera,
-        sampling: None,
-        recipe: None,
-    };
+    let info = FrameInfo { seed: u64::MAX, samples: 4, config_hash: "c".into(), pose: pose(0), camera, sampling: None, recipe: None };
     let rendered = of(&[Pass::Final, Pass::Geometry, Pass::Split, Pass::Extra]);
     dataset.write_frame("room", "cam_00", &rendered, &info, FrameTime::default()).unwrap();
     dataset.write_label_layers("room", "cam_00", 0, &of(&[Pass::Label]), "l").unwrap();
@@ -103,7 +95,10 @@ async fn small_and_compact_pictures_are_of_the_same_numbers() {
     let stored = read_array(&dataset.layout().layer("room", "cam_00", 0, Layer::DepthMeters)).unwrap().values;
     let address = "/api/view/layer/room/cam_00/0/depth_meters";
     let small = ask(folder.path(), &format!("{address}?step=4"), &[]).await;
-    assert_eq!((&small.headers()["x-enfilade-shape"], &small.headers()["x-enfilade-size"]), (&"2,3,1".parse().unwrap(), &"7,12".parse().unwrap()));
+    assert_eq!(
+        (&small.headers()["x-enfilade-shape"], &small.headers()["x-enfilade-size"]),
+        (&"2,3,1".parse().unwrap(), &"7,12".parse().unwrap())
+    );
     let pixel = |x: usize, y: usize| &stored.as_bytes()[4 * (12 * y + x)..][..4];
     let expected: Vec<u8> = [0, 4].into_iter().flat_map(|y| [0, 4, 8].map(|x| pixel(x, y).to_vec()).concat()).collect();
     assert_eq!(bytes(small).await, expected);
@@ -133,7 +128,10 @@ async fn the_dataset_its_scenes_cameras_and_frames_are_told() {
     let folder = tempfile::tempdir().unwrap();
     dataset(folder.path());
     let all = json(folder.path(), "/api/view/dataset").await;
-    assert_eq!((&all["scenes"], all["layers"].as_array().unwrap().len(), all["classes"].as_array().unwrap().len()), (&serde_json::json!(["room"]), 43, 40));
+    assert_eq!(
+        (&all["scenes"], all["layers"].as_array().unwrap().len(), all["classes"].as_array().unwrap().len()),
+        (&serde_json::json!(["room"]), 43, 40)
+    );
     assert_eq!(json(folder.path(), "/api/view/scene/room").await["cameras"], serde_json::json!(["cam_00"]));
     let camera = json(folder.path(), "/api/view/camera/room/cam_00").await;
     let frames = camera["frames"].as_array().unwrap();
@@ -258,6 +256,9 @@ async fn hypersims_own_pictures_are_shown() {
     let camera = json(&root, "/api/view/camera/ai_037_002/cam_00").await;
     assert_eq!(camera["frames"].as_array().unwrap().len(), 100);
     let depth = ask(&root, "/api/view/layer/ai_037_002/cam_00/0/depth_meters", &[]).await;
-    assert_eq!((&depth.headers()["x-enfilade-shape"], &depth.headers()["x-enfilade-dtype"]), (&"768,1024,1".parse().unwrap(), &"float16".parse().unwrap()));
+    assert_eq!(
+        (&depth.headers()["x-enfilade-shape"], &depth.headers()["x-enfilade-dtype"]),
+        (&"768,1024,1".parse().unwrap(), &"float16".parse().unwrap())
+    );
     assert_eq!(ask(&root, "/api/view/thumbnail/ai_037_002/cam_00/0", &[]).await.status(), StatusCode::OK);
 }

@@ -22,7 +22,11 @@ pub async fn thumbnail(
 ) -> Result<Response, ApiProblem> {
     let place = FramePlace::parse([scene, camera, frame])?;
     let bytes = work(viewer, move |viewer| {
-        let layer = if viewer.dataset.has_layer(&place.scene, &place.camera, place.frame, Layer::Color) { Layer::Color } else { Layer::DepthMeters };
+        let layer = if viewer.dataset.has_layer(&place.scene, &place.camera, place.frame, Layer::Color) {
+            Layer::Color
+        } else {
+            Layer::DepthMeters
+        };
         let path = viewer.layout().layer(&place.scene, &place.camera, place.frame, layer);
         viewer.allow(&path)?;
         let picture = viewer.thumbnails.get(&place, stamp(&path), || viewer.small_picture(&place, layer))?;

@@ -61,7 +61,7 @@ function instancesPart(session, known, repaint) {
             h("td", { class: "number" }, brief(area.pixels)),
             h("td", { class: "number" }, visibility === undefined ? "" : percent(visibility)));
     };
-    return [h("h2", {}, `${list.length} instances`), table(["Name", "Class", "px", "seen"], ["auto", "27%", "19%", "20%"], list.map(row))];
+    return [h("h2", {}, `${list.length} instances`), table(["Name", "Class", "px", "seen"], ["auto", "25%", "18%", "23%"], list.map(row))];
 }
 
 /** @param {Session} session */

@@ -25,14 +25,20 @@ export class Overlay {
     paint(stage, panes, places) {
         const { canvas, pen } = this;
         const { width, height } = stage.painter.canvas;
+        const { mode, wipe, boxes } = stage.store.state;
+        const needed = boxes || stage.session.marked > 0 || stage.pixel !== null || mode === "wipe" || places[0].zoom / stage.ratio >= ROOM_FOR_NUMBERS;
+        // An empty canvas would still be put over the picture by the browser, frame by frame.
+        canvas.style.display = needed ? "" : "none";
+        if (!needed) return;
         if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
         pen.setTransform(1, 0, 0, 1, 0, 0);
         pen.clearRect(0, 0, width, height);
-        const { mode, wipe, boxes } = stage.store.state;
         for (const [i, pane] of panes.entries()) {
             pen.save();
             pen.beginPath();
-            pen.rect(pane.x, pane.y, pane.width, pane.height);
+            const [high, wide] = stage.pictureSize().map((side) => side * places[i].zoom);
+            const [left, top] = [Math.max(pane.x, places[i].x), Math.max(pane.y, places[i].y)];
+            pen.rect(left, top, Math.min(pane.x + pane.width, places[i].x + wide) - left, Math.min(pane.y + pane.height, places[i].y + high) - top);
             pen.clip();
             const frame = stage.last[i]?.frame;
             if (frame !== undefined) {

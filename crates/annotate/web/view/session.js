@@ -33,6 +33,8 @@ export class Session {
         this.problem = null;
         this.direction = 1;
         this.hoveredInstance = 0;
+        /** Frames go by: what gives names to pixels is fetched when they stand still. */
+        this.travelling = false;
         /** @type {WeakMap<LayerData, Map<number, Area>>} */
         this.counted = new WeakMap();
         /** @type {() => void} */
@@ -148,7 +150,7 @@ export class Session {
         this.loader.want([
             ...sides.map((side) => this.#place(side.frame, side.layer)),
             ...neighbours.slice(0, 2).flatMap((one) => moving.map((side) => this.#place(one, side.layer))),
-            ...NAMING.filter((layer) => there.includes(layer)).map((layer) => this.#place(frame, layer)),
+            ...NAMING.filter((layer) => !this.travelling && there.includes(layer)).map((layer) => this.#place(frame, layer)),
             ...neighbours.slice(2).flatMap((one) => moving.map((side) => this.#place(one, side.layer))),
         ].filter((place) => this.layersOf(place.frame).includes(place.layer)));
         this.changed();

@@ -115,9 +115,11 @@ void main() {
             ivec2 q = clamp(p + reach * ivec2(i == 0 ? 1 : i == 1 ? -1 : 0, i == 2 ? 1 : i == 3 ? -1 : 0), ivec2(0), last);
             edge = edge || (texelFetch(ids, q, 0).r == marked) != inside;
         }
-        if (inside) rgb = mix(rgb, accent, 0.22);
-        else rgb *= 0.62;
-        if (inside && edge) rgb = accent;
+        // Where pixels are large enough to be read, the mark leaves their colours alone.
+        bool close = zoom >= 12.0;
+        if (inside && edge) rgb = mix(rgb, accent, close ? 0.4 : 1.0);
+        else if (inside) rgb = mix(rgb, accent, close ? 0.0 : 0.22);
+        else rgb *= close ? 0.85 : 0.62;
     }
     color = vec4(rgb, 1.0);
 }`;

@@ -138,6 +138,8 @@ export class Space {
         this.stage.setGeometry(readGeometry(await getBytes(`../api/view/scene/${encodeURIComponent(scene.name)}/geometry`)));
         this.#colors();
         this.#visibility();
+        // Asked for before it was known how large the scene is.
+        if (this.above) this.fromAbove();
     }
 
     /** The colours of the objects, by what is chosen. */

@@ -27,17 +27,23 @@ export class Travel {
         this.#step();
         // A single press is one step; holding begins when the key repeats.
         this.held = play;
+        this.session.travelling = play;
         requestAnimationFrame((time) => this.#tick(time));
     }
 
     /** The key repeats: it is held. */
     hold() {
         this.held = true;
+        this.session.travelling = true;
     }
 
     stop() {
+        if (!this.direction) return;
         this.direction = 0;
         this.playing = false;
+        this.held = false;
+        this.session.travelling = false;
+        this.session.refresh();
     }
 
     /** Frames per second since the journey began. */
