@@ -11,15 +11,16 @@ const SPARE = 8;
 export class PieceList {
     /**
      * @param {string} label for screen readers
+     * @param {string} empty what to say when there is none
      * @param {{ row: (piece: number) => Row, isSelected: (piece: number) => boolean, select: (piece: number, more: boolean) => void, open: (piece: number) => void }} hooks
      */
-    constructor(label, hooks) {
+    constructor(label, empty, hooks) {
         this.hooks = hooks;
         /** @type {number[]} */
         this.pieces = [];
         this.active = 0;
         this.table = el("div", { class: "table" });
-        this.element = el("div", { class: "scroll list", role: "listbox", tabindex: "0", "aria-label": label, "aria-multiselectable": "true" }, this.table);
+        this.element = el("div", { class: "scroll list", role: "listbox", tabindex: "0", "aria-label": label, "aria-multiselectable": "true", "data-empty": empty }, this.table);
         this.element.addEventListener("scroll", () => this.draw());
         this.element.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this.key(event));
         new ResizeObserver(() => this.draw()).observe(this.element);
@@ -56,6 +57,7 @@ export class PieceList {
     }
 
     draw() {
+        this.element.classList.toggle("none", this.pieces.length === 0);
         this.table.style.height = `${this.pieces.length * ROW_PX}px`;
         const first = Math.max(0, Math.floor(this.element.scrollTop / ROW_PX) - SPARE);
         const last = Math.min(this.pieces.length, first + Math.ceil(this.element.clientHeight / ROW_PX) + 2 * SPARE);

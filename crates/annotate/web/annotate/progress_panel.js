@@ -9,7 +9,7 @@ import { selecting } from "./pieces_panel.js";
 export function unlabelledPanel(state, act) {
     const byPiece = new Map();
     const words = el("p", { class: "quiet words" });
-    const list = new PieceList("Unlabelled pieces", {
+    const list = new PieceList("Unlabelled pieces", "Every piece has a class.", {
         row: (piece) => {
             const pixels = byPiece.get(piece)?.pixels ?? 0;
             return { piece, label: `${state.name(piece)}, ${pixels} pixels`, cells: [state.name(piece), "", "", spaced(pixels)] };
@@ -28,7 +28,7 @@ export function unlabelledPanel(state, act) {
     });
     state.on(["labels"], refresh);
     state.on(["selection"], () => list.draw());
-    const panel = el("div", {}, words, list.element);
+    const panel = el("div", { class: "todo" }, words, list.element);
     panel.addEventListener("shown", () => list.draw());
     return panel;
 }

@@ -9,7 +9,7 @@ export function suggestionsPanel(state, act) {
     const slider = el("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0.9", "aria-label": "Least confidence" });
     const threshold = el("output", { class: "number" });
     const confirm = el("button", { class: "primary", id: "confirm-all", onclick: () => void act.confirm(list.pieces) });
-    const list = new PieceList("Suggestions", {
+    const list = new PieceList("Suggestions", "Nothing without a class is suggested with this confidence.", {
         row: (piece) => {
             const { semantic, confidence, reason } = state.pieces.suggestions[piece];
             const name = state.classById.get(semantic)?.name ?? "";
