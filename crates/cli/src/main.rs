@@ -16,8 +16,8 @@ mod stats;
 mod suggest;
 mod summary;
 mod verbs;
-mod vray;
 mod view;
+mod vray;
 
 use args::{Cli, Verb};
 use clap::Parser;
