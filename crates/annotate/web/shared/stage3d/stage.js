@@ -24,6 +24,8 @@ import { Tables } from "./tables.js";
 
 /** The camera is at rest when it has not moved for this long, milliseconds. */
 const SETTLE_MS = 140;
+/** Drawings of a motion that are farther apart, milliseconds, belong to two motions. */
+const LONGEST_FRAME_MS = 600;
 /** Most samples of a picture at rest that is drawn finer than its pixels. */
 const MOST_SAMPLES = 9_000_000;
 
@@ -66,7 +68,7 @@ export class Stage3d extends EventTarget {
         this.fine = new SeenTarget(1);
         this.shown = this.quick;
         this.refinement = new Refinement(this.renderer, this.fine);
-        this.pace = new Pace(0);
+        this.pace = new Pace(0, this.software);
         this.controls = new Controls(element, this.camera, () => this.cameraMoved());
         /** @type {SceneMesh | null} */
         this.mesh = null;
@@ -79,6 +81,8 @@ export class Stage3d extends EventTarget {
         this.pictureStale = true;
         this.told = false;
         this.lastChange = -Infinity;
+        /** True when the camera has moved since the last drawing. */
+        this.moved = false;
         this.lastMotionFrame = -Infinity;
         this.lastFrame = 0;
         this.settleTimer = 0;
@@ -99,7 +103,7 @@ export class Stage3d extends EventTarget {
         this.picture.tables = this.tables;
         this.mesh = new SceneMesh(geometry, this.tables);
         const { fixed } = this.pace;
-        this.pace = new Pace(geometry.faces);
+        this.pace = new Pace(geometry.faces, this.software);
         this.pace.fixed = fixed;
         const diagonal = new Vector3(...geometry.max).distanceTo(new Vector3(...geometry.min));
         this.camera.far = Math.max(10, diagonal * 2);
@@ -240,6 +244,7 @@ export class Stage3d extends EventTarget {
     /** To be called after `camera` was set by hand. */
     cameraMoved() {
         this.lastChange = performance.now();
+        this.moved = true;
         this.stale = true;
         this.requestFrame();
         this.dispatchEvent(new Event("camera"));
@@ -323,14 +328,15 @@ export class Stage3d extends EventTarget {
         this.told = false;
         this.refinement.restart();
         if (!this.mesh) return;
-        const moving = performance.now() - this.lastChange < SETTLE_MS;
+        const { moved } = this;
+        this.moved = false;
         const since = now - this.lastMotionFrame;
-        if (moving && since < SETTLE_MS * 2) {
+        if (moved && since < LONGEST_FRAME_MS) {
             this.pace.frameTook(since);
             this.counts.frames++;
             this.counts.movedMs += since;
         }
-        this.lastMotionFrame = moving ? now : -Infinity;
+        this.lastMotionFrame = moved ? now : -Infinity;
         const { renderer, camera, mesh } = this;
         camera.updateProjectionMatrix();
         camera.updateMatrixWorld();
