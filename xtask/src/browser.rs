@@ -38,7 +38,7 @@ const STEPS: [Step; 5] = [
         name: "program",
         about: "the program builds",
         remedy: "mend what the messages above show",
-        run: |house| finish(house.cargo(&["build", "--locked", "--package", "enfilade"])),
+        run: |house| finish(house.cargo(&["build", "--release", "--locked", "--package", "enfilade"])),
     },
     Step {
         name: "pages",
@@ -82,7 +82,7 @@ fn vendor(house: &House) -> Result<String, String> {
 
 fn pages(house: &House) -> Result<String, String> {
     let browser = browser(house)?;
-    let program = house.target()?.join("debug").join(format!("enfilade{}", std::env::consts::EXE_SUFFIX));
+    let program = house.target()?.join("release").join(format!("enfilade{}", std::env::consts::EXE_SUFFIX));
     let mut command = house.command("node", &["--test", "--test-concurrency=1"]);
     command.args(tests(house)?).current_dir(house.root.join(ROOM)).env(BROWSER_VARIABLE, browser).env(PROGRAM_VARIABLE, program);
     finish(command)

@@ -1,7 +1,7 @@
 // What the tests share: a small room as a scene file, a server on it, a browser, and strokes on the view.
 
 import { chromium } from "playwright-core";
-import { spawn } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { once } from "node:events";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -45,11 +45,25 @@ export function room(t) {
     return { folder, file: join(folder, "room.obj"), labels: join(folder, "room.obj.labels") };
 }
 
-/** Starts the program; resolves when it tells its address. @param {import("node:test").TestContext} t @param {string} file @param {number} [port] */
-export async function serve(t, file, port = 0) {
-    const program = process.env.ENFILADE_BINARY;
-    if (!program) throw new Error("ENFILADE_BINARY names no program; run these tests by `cargo xtask browser`");
-    const child = spawn(program, ["annotate", file, "--no-open", "--port", String(port)], { stdio: ["ignore", "pipe", "pipe"] });
+/** The program under test. */
+function program() {
+    const named = process.env.ENFILADE_BINARY;
+    if (!named) throw new Error("ENFILADE_BINARY names no program; run these tests by `cargo xtask browser`");
+    return named;
+}
+
+/** A small dataset of a generated home with every layer but the denoised ones, which the test's end removes. @param {import("node:test").TestContext} t */
+export function dataset(t) {
+    const folder = mkdtempSync(join(tmpdir(), "dataset-"));
+    t.after(() => rmSync(folder, { recursive: true, force: true }));
+    const path = join(folder, "demo");
+    execFileSync(program(), ["run", "--demo", path, "--quiet", "--frames", "3", "--size", "160x120", "--samples", "2", "--extra", "--splits"], { stdio: ["ignore", "ignore", "inherit"] });
+    return path;
+}
+
+/** Starts the program; resolves when it tells its address. @param {import("node:test").TestContext} t @param {string} file @param {number} [port] @param {string} [verb] */
+export async function serve(t, file, port = 0, verb = "annotate") {
+    const child = spawn(program(), [verb, file, "--no-open", "--port", String(port)], { stdio: ["ignore", "pipe", "pipe"] });
     t.after(() => child.kill("SIGKILL"));
     let said = "";
     const url = await new Promise((resolve, reject) => {

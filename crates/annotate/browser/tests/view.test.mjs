@@ -1,42 +1,24 @@
-// The page that shows a dataset, in a real browser. ENFILADE names the binary, ENFILADE_DATASET a dataset with labels
-// (`enfilade run --demo DIR`); the whole is skipped where one of them is not set.
+// The page that shows a dataset, in a real browser.
 
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { mkdtemp, rm } from "node:fs/promises";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { chromium } from "playwright-core";
+import { browser, dataset, serve } from "./room.mjs";
 
-const { ENFILADE, ENFILADE_DATASET, CHROMIUM = "/usr/bin/chromium" } = process.env;
-const FLAGS = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
-
-describe("view", { skip: ENFILADE && ENFILADE_DATASET ? false : "ENFILADE and ENFILADE_DATASET are not set" }, () => {
-    let server, origin, context, page, profile;
+describe("view", () => {
+    let origin, page;
     const problems = [];
+    const endings = [];
 
     before(async () => {
-        server = spawn(ENFILADE, ["view", ENFILADE_DATASET, "--no-open"], { stdio: ["ignore", "pipe", "inherit"] });
-        origin = await new Promise((resolve, reject) => {
-            let said = "";
-            server.stdout.on("data", (data) => {
-                said += data;
-                const found = said.match(/http:\/\/[^\s/]+/);
-                if (found) resolve(found[0]);
-            });
-            server.on("exit", (code) => reject(new Error(`the server ended with ${code}: ${said}`)));
-        });
-        profile = await mkdtemp(join(tmpdir(), "enfilade-browser-"));
-        context = await chromium.launchPersistentContext(profile, { executablePath: CHROMIUM, args: FLAGS, viewport: { width: 1280, height: 720 } });
-        page = context.pages()[0];
+        const t = { after: (ending) => endings.push(ending) };
+        const { url } = await serve(t, dataset(t), 0, "view");
+        origin = new URL(url).origin;
+        page = await (await browser(t)).newPage({ viewport: { width: 1280, height: 720 } });
         page.on("pageerror", (error) => problems.push(error.message));
     });
 
     after(async () => {
-        await context?.close();
-        server?.kill();
-        if (profile) await rm(profile, { recursive: true, force: true });
+        for (const ending of endings.reverse()) await ending();
     });
 
     /** Opens the page anew at an address's hash, and waits until its picture is there. */
