@@ -16,7 +16,10 @@ export function helpOverlay(table) {
     const mouse = el("section", {}, el("h3", {}, "Pointer and flying"), ...GESTURES.map(([gesture, does]) => row(does, el("span", { class: "quiet" }, gesture))));
     const dialog = el("dialog", { "aria-label": "Keys", id: "help" }, el("h2", {}, "Keys"), el("div", { class: "keys" }, mouse, ...sections), el("form", { method: "dialog" }, el("button", { autofocus: true }, "Close")));
     document.body.append(dialog);
-    return () => dialog.showModal();
+    return () => {
+        dialog.showModal();
+        dialog.scrollTop = 0;
+    };
 }
 
 /** @param {Command[]} table @returns {() => void} opens it */

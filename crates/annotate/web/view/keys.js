@@ -39,4 +39,5 @@ export function showHelp(groups) {
         h("form", { method: "dialog" }, h("button", { class: "primary", autofocus: true }, "Close")),
     );
     dialog.showModal();
+    dialog.scrollTop = 0;
 }
