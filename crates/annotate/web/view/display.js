@@ -34,8 +34,8 @@ function toneFields(store) {
     const set = (/** @type {any} */ e) => Number.isFinite(e.target.valueAsNumber) && store.set({ stops: Math.min(20, Math.max(-20, e.target.valueAsNumber)) });
     return [
         h("h2", {}, "Light"),
-        choice("tone", "Curve", "tone", [["hypersim", "Hypersim (gamma 2.2)"], ["filmic", "Filmic (ACES fit)"], ["linear", "Linear (sRGB)"]]),
-        choice("expose", "Exposure by", "expose", [["frame", "this frame's 90th percentile"], ["trajectory", "the whole trajectory"], ["fixed", "nothing: 1 is white"]]),
+        choice("tone", "Curve", "tone", [["hypersim", "Hypersim"], ["filmic", "Filmic (ACES)"], ["linear", "Linear"]]),
+        choice("expose", "Exposure by", "expose", [["frame", "this frame"], ["trajectory", "trajectory"], ["fixed", "1 is white"]]),
         h("div", { class: "field" }, h("label", { for: "stops" }, "Stops"), h("span", { class: "with-number" },
             h("input", { type: "range", id: "stops", min: -8, max: 8, step: 0.25, value: state.stops, oninput: set }),
             h("input", { type: "number", "aria-label": "Stops as a number", min: -20, max: 20, step: 0.25, value: state.stops, onchange: set }))),
