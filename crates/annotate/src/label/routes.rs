@@ -19,7 +19,7 @@ use axum::{Json, Router};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 /// Files are written this long after an edit.
@@ -168,7 +168,7 @@ async fn edit(State(app): Shared, body: Bytes) -> Answer {
     if client.is_empty() || client.chars().count() > MAX_CLIENT || client.chars().any(char::is_control) {
         return Err(ApiProblem::bad_request("client is no name; expected 1 to 100 characters", "send a random id of the page"));
     }
-    let later = app.clone();
+    let later = Arc::downgrade(&app);
     let change = beside(move || {
         app.act(&action, &client).map_err(|error| match error {
             ActionError::Refused(refusal) => refusal.into(),
@@ -183,8 +183,9 @@ async fn edit(State(app): Shared, body: Bytes) -> Answer {
 }
 
 /// Writes the files a moment after an edit. Where that fails the edit is in the log, and saving or the next edit will tell.
-async fn save_later(app: Arc<App>) {
+async fn save_later(app: Weak<App>) {
     tokio::time::sleep(SAVE_AFTER).await;
+    let Some(app) = app.upgrade() else { return };
     let _ = beside(move || {
         if app.is_unsaved() {
             app.save().map_err(|e| ApiProblem::failed(e.to_string(), ""))?;

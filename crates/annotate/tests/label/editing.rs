@@ -67,7 +67,7 @@ async fn what_is_behind_is_not_touched_unless_what_hides_it_is_hidden() {
         [0, 3, 4]
     );
     let (_, picked) = page.post("pick", json!({ "camera": camera(), "pixel": [50.5, 50.5] }).to_string()).await;
-    assert_eq!((picked["piece"].as_i64(), picked["point"][1].as_f64()), (Some(1), Some(-0.5)));
+    assert!(picked["piece"] == 1 && (picked["point"][1].as_f64().unwrap() + 0.5).abs() < 1e-5, "{picked}");
     assert!((picked["distance_m"].as_f64().unwrap() - 4.5).abs() < 1e-3);
     let away = json!({ "position": [0, -5, 1], "orientation": [-1, 0, 0, 0, 0, 1, 0, 1, 0], "fov_y_deg": 60, "width": 100, "height": 100 });
     let (_, nothing) = page.post("pick", json!({ "camera": away, "pixel": [50, 50] }).to_string()).await;
@@ -81,7 +81,10 @@ async fn what_is_behind_is_not_touched_unless_what_hides_it_is_hidden() {
 async fn every_pixel_of_a_rectangle_sees_what_its_ray_sees() {
     let folder = tempfile::tempdir().unwrap();
     let page = Page::open(&package(folder.path()));
-    let look = |shape: Value, hidden: Value| json!({ "camera": camera(), "shape": shape, "faces": true, "hidden": hidden });
+    // From a place where no ray meets an edge exactly.
+    let mut camera = camera();
+    camera["position"] = json!([0.013, -5.0, 1.021]);
+    let look = |shape: Value, hidden: Value| json!({ "camera": camera, "shape": shape, "faces": true, "hidden": hidden });
     let all = page.post("select", look(json!({ "rectangle": [0, 0, 99.9, 99.9] }), json!([])).to_string()).await.1;
     let mut pixels = Vec::new();
     for y in 0..100 {

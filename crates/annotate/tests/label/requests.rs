@@ -67,7 +67,6 @@ async fn malformed_requests_are_named_and_change_nothing() {
         (json!({ "type": "split", "piece": 1, "by": "colour" }), "colour"),
         (json!({ "type": "split", "piece": 1, "by": { "faces": [74] } }), "there is no face 74"),
         (json!({ "type": "paint" }), "paint"),
-        (json!({ "type": "undo", "twice": true }), "twice"),
     ];
     for (action, expected) in cases {
         let (status, error) = page.refused(action.clone()).await;
@@ -116,8 +115,8 @@ async fn progress_counts_what_is_seen_and_names_what_is_missing() {
     page.act(assign(&[1, 2], json!({ "layer": "instance", "new": true }))).await;
     let after = page.get("progress").await;
     let share = after["visible"]["pixels_labelled_share"].as_f64().unwrap();
-    // left, right and both of pair are 2 × 19.2² + 2 × 9.1² of 100² pixels, more or less.
-    assert!((share - 0.91).abs() < 0.02, "{share}");
+    // Of 100² pixels left and right have 2 × 19.2² in front and 2 × 90 at the side, and both of pair 2 × 9.1² and somewhat more.
+    assert!((share - 0.885).abs() < 0.02, "{share}");
     assert_eq!((after["labelled_pieces"].as_u64(), after["unlabelled"].as_array().unwrap().len()), (Some(2), 4));
     assert_eq!((after["classes"][0]["pieces"].as_u64(), after["classes"][0]["instances"].as_u64()), (Some(2), Some(1)));
     assert_eq!(after["conflicts"], json!([{ "instance": 1, "classes": [-1, 1] }]));

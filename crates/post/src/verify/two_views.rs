@@ -277,11 +277,16 @@ impl<'a> Raster<'a> {
         self.around(pixel).map(|k| normal(pixel).dot(normal(k))).fold(1.0, f64::min)
     }
 
-    /// Whether all pixels around are there and of the pixel's part.
+    /// Whether all pixels around are there and of the pixel's part, and of the same piece of it if it was split.
     fn is_of_one_part(&self, pixel: usize) -> bool {
         let (x, y) = (pixel % self.width, pixel / self.width);
         let inside = x >= REACH && y >= REACH && x + REACH < self.width && y + REACH < self.height;
-        inside && self.around(pixel).all(|k| self.ids.get(k) == self.ids.get(pixel))
+        inside && self.around(pixel).all(|k| self.shows(k) == self.shows(pixel))
+    }
+
+    /// Part and instance that a pixel shows.
+    fn shows(&self, pixel: usize) -> (f64, Option<f64>) {
+        (self.ids.get(pixel), self.instances.map(|instances| instances.get(pixel)))
     }
 
     /// The pixels at most `REACH` from one that is so far from the border.
@@ -294,7 +299,7 @@ impl<'a> Raster<'a> {
     fn judge(&self, other: &Raster<'_>, pixel: usize, carried: &Carried, cell: &[usize; 4], found: &mut Direction) {
         let shown = cell.map(|k| other.distance.get(k));
         let id = other.ids.get(cell[0]);
-        if id == -1.0 || cell.iter().any(|&k| other.ids.get(k) != id) {
+        if id == -1.0 || cell.iter().any(|&k| other.shows(k) != other.shows(cell[0])) {
             return;
         }
         let (least, most) = shown.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &d| (a.min(d), b.max(d)));
