@@ -25,6 +25,7 @@ export class Actions {
         this.camera = -1;
         this.openHelp = () => {};
         this.openPalette = () => {};
+        this.openSettings = () => {};
         this.showTab = (/** @type {string} */ _name) => {};
         /** All planned frames, in order. */
         this.frames = state.scene.cameras.flatMap((/** @type {any} */ camera) => camera.frames.map((/** @type {any} */ frame) => ({ ...frame, camera: camera.name })));

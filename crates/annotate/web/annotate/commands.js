@@ -79,6 +79,7 @@ export function commands(act) {
         ["faster", "Fly faster", ["+", "="], () => act.speed(1.5)],
         ["slower", "Fly slower", ["-"], () => act.speed(1 / 1.5)],
         ["reset-look-at", "Turn about a point 2 m ahead", ["z"], () => act.stage.controls.resetLookAt(2)],
+        ["settings", "Camera and scene: speed, near plane, numbers", ["Shift+v"], () => act.openSettings()],
         ["theme", "Dark or light", ["Shift+t"], () => act.toggleTheme()],
     ]);
     add("Edits", [

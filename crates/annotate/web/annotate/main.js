@@ -16,6 +16,7 @@ import { tabs } from "./panels.js";
 import { piecesPanel } from "./pieces_panel.js";
 import { progressPanel, unlabelledPanel } from "./progress_panel.js";
 import { State } from "./state.js";
+import { settingsDialog } from "./settings.js";
 import { suggestionsPanel } from "./suggestions_panel.js";
 import { selectionBox, toolbar, topBar } from "./toolbar.js";
 
@@ -125,11 +126,11 @@ async function start() {
     if (theme) document.documentElement.dataset.theme = theme;
     // The view first: without it there is nothing to load for.
     const stage = new Stage3d(byId("stage"));
-    const [scene, pieces, bytes] = await Promise.all([getJson("/api/annotate/scene"), getJson("/api/annotate/pieces"), getBytes("/api/annotate/geometry")]);
+    const [scene, pieces, colors, bytes] = await Promise.all([getJson("/api/annotate/scene"), getJson("/api/annotate/pieces"), getBytes("/api/annotate/instance_colors"), getBytes("/api/annotate/geometry")]);
     document.title = `${scene.name} - enfilade annotate`;
     byId("scene-name").textContent = scene.name;
     byId("scene-name").title = scene.source;
-    const state = new State(scene, pieces);
+    const state = new State(scene, pieces, new Uint8Array(colors));
     const edits = new Edits(scene.source);
     const act = new Actions(state, stage, edits);
     const table = commands(act);
@@ -148,6 +149,7 @@ async function start() {
         { name: "progress", title: "Progress", element: progressPanel(state) },
     ]);
     act.openHelp = helpOverlay(table);
+    act.openSettings = settingsDialog(state, stage);
     act.openPalette = palette(table);
     listenToKeys(table, act);
     showState(stage, state);

@@ -19,8 +19,8 @@ const CONTRARY = {
 
 /** The state of the page. Everything that changes it goes through a method, which tells the listeners. */
 export class State extends EventTarget {
-    /** @param {any} scene reply of /api/annotate/scene @param {any} pieces reply of /api/annotate/pieces */
-    constructor(scene, pieces) {
+    /** @param {any} scene reply of /api/annotate/scene @param {any} pieces reply of /api/annotate/pieces @param {Uint8Array} instanceColors */
+    constructor(scene, pieces, instanceColors) {
         super();
         this.scene = scene;
         /** @type {LabelClass[]} */
@@ -30,6 +30,8 @@ export class State extends EventTarget {
         /** Columns of /api/annotate/pieces: one value per piece. */
         this.pieces = pieces;
         this.revision = pieces.revision;
+        /** Three values per instance number. @type {Uint8Array} */
+        this.instanceColors = instanceColors;
         /** Numbers that no piece has any more, after an undone split. @type {Set<number>} */
         this.removed = new Set();
         /** @type {Set<number>} */
@@ -63,6 +65,11 @@ export class State extends EventTarget {
     /** @param {number} piece */
     name(piece) {
         return this.pieces.names[piece] || `piece ${piece}`;
+    }
+
+    /** The colour of an instance, as the files have it. @param {number} instance from 1 */
+    instanceColor(instance) {
+        return this.instanceColors.subarray(3 * instance, 3 * instance + 3);
     }
 
     /** @param {number} piece */

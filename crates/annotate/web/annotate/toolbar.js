@@ -1,7 +1,7 @@
 // The tools at the left, the buttons at the top, and the box of the selection. All of them run commands of the table.
 
 import { byId, el } from "../shared/dom.js";
-import { css, instanceColor } from "./colors.js";
+import { css } from "./colors.js";
 import { keyName } from "./commands.js";
 
 /** @typedef {import("./commands.js").Command} Command */
@@ -55,7 +55,7 @@ export function toolbar(state, table) {
         const one = state.classById.get(state.currentClass);
         const bySemantic = state.layer === "semantic";
         const swatch = el("span", { class: "swatch" });
-        swatch.style.background = css(bySemantic ? one?.color ?? [255, 255, 255] : instanceColor(state.currentInstance));
+        swatch.style.background = css(bySemantic ? one?.color ?? [255, 255, 255] : state.instanceColor(state.currentInstance));
         label.replaceChildren(swatch, ` ${state.erase ? "no label" : bySemantic ? one?.name ?? "" : state.unique ? "new id each" : `instance ${state.currentInstance}`}`);
     });
     byId("tools").append(
@@ -87,9 +87,11 @@ export function topBar(state, table, act) {
         button(state, table, "show-all", "Show all"),
         button(state, table, "wireframe", "Wireframe", () => act.wireframe),
     );
-    byId("page-buttons").append(button(state, table, "theme", "◐"), button(state, table, "help", "?"));
-    byId("page-buttons").firstChild.setAttribute("aria-label", "Dark or light");
-    byId("page-buttons").lastChild.setAttribute("aria-label", "Keys");
+    for (const [id, sign, label] of [["settings", "⚙", "Camera and scene"], ["theme", "◐", "Dark or light"], ["help", "?", "Keys"]]) {
+        const made = button(state, table, id, sign);
+        made.setAttribute("aria-label", label);
+        byId("page-buttons").append(made);
+    }
     const cameras = byId("cameras");
     cameras.append(el("option", { value: "-1" }, act.frames.length > 0 ? "free" : "none planned"));
     act.frames.forEach((/** @type {any} */ frame, /** @type {number} */ i) => cameras.append(el("option", { value: String(i) }, `${frame.camera} · ${frame.frame}`)));

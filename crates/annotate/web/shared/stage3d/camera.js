@@ -30,9 +30,10 @@ export function rotation(orientation) {
  * @param {PerspectiveCamera} camera
  * @param {number} width pixels of the picture
  * @param {number} height
- * @returns {CameraJson & { width: number, height: number }}
+ * @param {number} near_m what is nearer is not seen, metres
+ * @returns {CameraJson & { width: number, height: number, near_m: number }}
  */
-export function cameraJson(camera, width, height) {
+export function cameraJson(camera, width, height, near_m) {
     camera.updateMatrixWorld();
     const m = camera.matrixWorld.elements;
     return {
@@ -41,6 +42,7 @@ export function cameraJson(camera, width, height) {
         fov_y_deg: camera.fov,
         width,
         height,
+        near_m,
     };
 }
 

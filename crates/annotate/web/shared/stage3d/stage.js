@@ -22,6 +22,8 @@ import { Refinement } from "./refine.js";
 import { HIDDEN, PREVIEWED, SELECTED, XRAY } from "./shaders.js";
 import { Tables } from "./tables.js";
 
+/** The picture begins here, metres before the camera. */
+const NEAR_M = 0.05;
 /** The camera is at rest when it has not moved for this long, milliseconds. */
 const SETTLE_MS = 140;
 /** Drawings of a motion that are farther apart, milliseconds, belong to two motions. */
@@ -58,7 +60,7 @@ export class Stage3d extends EventTarget {
         /** What pages draw beside the scene: lines, points, boxes. Call {@link requestFrame} after a change. */
         this.scene = new Scene();
         /** The camera of the view. Call {@link cameraMoved} after setting it. */
-        this.camera = new PerspectiveCamera(60, 1, 0.05, 100);
+        this.camera = new PerspectiveCamera(60, 1, NEAR_M, 100);
         this.camera.up.set(0, 0, 1);
         /** Finer than pixels at rest: null decides by the machine. @type {boolean | null} */
         this.smooth = null;
@@ -238,7 +240,19 @@ export class Stage3d extends EventTarget {
 
     /** The camera of now as the server takes it; pixels are CSS pixels of the element. */
     cameraJson() {
-        return cameraJson(this.camera, this.element.clientWidth, this.element.clientHeight);
+        return cameraJson(this.camera, this.element.clientWidth, this.element.clientHeight, this.near);
+    }
+
+    /** What is nearer along the optical axis is neither drawn nor picked, metres; 0 for nothing. */
+    get near() {
+        return this.camera.near > NEAR_M ? this.camera.near : 0;
+    }
+
+    /** @param {number} near_m */
+    setNear(near_m) {
+        this.camera.near = Math.max(NEAR_M, near_m);
+        this.camera.updateProjectionMatrix();
+        this.cameraMoved();
     }
 
     /** To be called after `camera` was set by hand. */
