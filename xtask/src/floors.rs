@@ -17,10 +17,11 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 17] = [
+const FLOORS: [(&str, Floor); 19] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
+    ("vrscene", Floor::Number(1)),
     ("scene", Floor::Number(2)),
     ("import", Floor::Number(3)),
     ("home", Floor::Number(3)),

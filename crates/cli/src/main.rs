@@ -16,6 +16,8 @@ mod stats;
 mod suggest;
 mod summary;
 mod verbs;
+mod view;
+mod vray;
 
 use args::{Cli, Verb};
 use clap::Parser;
@@ -58,7 +60,9 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Replay(args) => verbs::replay(args, cli.quiet),
         Verb::Export(args) => export::export(args, cli.quiet),
         Verb::Stats(args) => stats::stats(args, cli.quiet),
+        Verb::Vray(args) => vray::vray(args),
         Verb::Annotate(args) => annotate::annotate(args, cli.quiet),
         Verb::Suggest(args) => suggest::suggest(args, cli.quiet),
+        Verb::View(args) => view::view(args),
     }
 }

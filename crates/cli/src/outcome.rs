@@ -77,6 +77,13 @@ impl From<enfilade_export::ExportError> for Problem {
     }
 }
 
+impl From<enfilade_annotate::serve::ServeError> for Problem {
+    fn from(error: enfilade_annotate::serve::ServeError) -> Self {
+        let usage = matches!(error, enfilade_annotate::serve::ServeError::Bind { .. });
+        Self { message: error.to_string(), hint: None, usage }
+    }
+}
+
 /// Writes lines to standard output. A reader that has gone away is no error.
 pub fn say(text: &str) {
     let _ = writeln!(std::io::stdout(), "{text}");

@@ -5,6 +5,7 @@
 use enfilade_home::check::{family_of, faults};
 use enfilade_home::{HomeConfig, RoomKind, home};
 use enfilade_math::Rng;
+use enfilade_testkit::process_cpu_s;
 use std::collections::BTreeMap;
 
 /// Shifts by more than this are shown, metres.
@@ -24,14 +25,14 @@ fn main() {
     let (mut seconds, mut longest, mut triangles, mut sound) = (0.0, 0.0f64, 0, 0);
     for seed in first..first + count {
         let rooms = if random_rooms { any_rooms(seed) } else { rooms.clone() };
-        let start = processor_s();
+        let start = process_cpu_s();
         let config = HomeConfig { seed, rooms, ..HomeConfig::default() };
         let Ok(made) = std::panic::catch_unwind(|| home(&config)) else {
             println!("{seed:5}  panics with the rooms {:?}", config.rooms);
             *kinds.entry("panics".into()).or_default() += 1;
             continue;
         };
-        let took = processor_s() - start;
+        let took = process_cpu_s() - start;
         let size: usize = made.scene.parts.iter().map(|p| made.scene.meshes[p.mesh as usize].triangles.len()).sum();
         let found = faults(&made);
         (seconds, longest, triangles) = (seconds + took, longest.max(took), triangles + size);
@@ -78,12 +79,6 @@ fn show(title: &str, counts: Counts, homes: u64) {
     let mut counts: Vec<(usize, String)> = counts.into_iter().map(|(name, n)| (n, name)).collect();
     counts.sort_by(|a, b| b.cmp(a));
     counts.iter().for_each(|(n, name)| println!("{n:6}  {name}"));
-}
-
-/// Processor time of all threads so far.
-fn processor_s() -> f64 {
-    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
-    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }
 
 /// One to [`HomeConfig::MOST_ROOMS`] rooms, each of any kind, so that many homes lack what others take for granted.

@@ -1,39 +1,54 @@
 //! Where a photographer would stand to look at each room.
 //!
-//! From every free place rays go around; what they meet says how much each view shows. The best views are taken, one after another,
-//! each from another place or in another direction. All are level, so that verticals stay vertical (two-point perspective).
+//! From every free place rays go around; what they meet says how much each view shows: the things that the room is for, whole and
+//! from their fronts, and nothing in the way. The best views are taken, one after another, each from another place or in another
+//! direction. All are level, so that verticals stay vertical (two-point perspective).
 
+use crate::builder::Class;
 use crate::plan::{FloorPlan, RoomKind};
 use crate::room::Room;
 use enfilade_geometry::Bvh;
 use enfilade_math::{Bounds3, DMat3, DVec3, Ray, Vec2, Vec3};
 use enfilade_scene::{Labels, Scene, StartCamera, WorldMesh};
-use std::collections::{BTreeMap, BTreeSet};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::f32::consts::TAU;
 
 /// Distances that a camera keeps from every part's box: where there is no place with the first, the second must do.
 pub const CLEARANCES: [f32; 2] = [0.4, 0.25];
-/// Height of the eye: photographers of interiors stand a little lower than people look.
-const EYE: f32 = 1.38;
-/// Horizontal field of view, radians: that of a 28 mm lens (65°), and of a 24 mm lens (74°) in small rooms.
-const FOV_X_RAD: [f64; 2] = [1.14, 1.29];
+/// Height of the eye: photographers of interiors stand lower than people look, so that tables and beds are seen whole.
+const EYE: f32 = 1.25;
+/// Horizontal field of view, radians: that of a 24 mm lens (74°), and of a 21 mm lens (81°) in small rooms.
+const FOV_X_RAD: [f64; 2] = [1.29, 1.41];
 /// Rooms with less floor are small, m².
 const SMALL: f32 = 8.0;
 /// Candidates stand on a grid of this step.
-const STEP: f32 = 0.25;
+const STEP: f32 = 0.3;
+/// Width of a view over its height.
+const ASPECT: f32 = 4.0 / 3.0;
 /// Directions around a place.
-const AROUND: usize = 48;
-/// Tangents of the rays' heights: below, level, above.
-const PITCHES: [f32; 4] = [-0.45, -0.25, -0.08, 0.12];
+const AROUND: usize = 60;
+/// Tangents of the rays' heights: the lowest, and how many follow in steps of [`PITCH_STEP`]. Those that no view holds say how much of
+/// a thing is cut off.
+const LOWEST: f32 = -1.0;
+const PITCHES: usize = 14;
+const PITCH_STEP: f32 = 0.125;
 /// What is nearer than this is in the way.
-const NEAR: f32 = 0.85;
+const NEAR: f32 = 1.05;
+/// Windows in more of a view than this blind it by day, since the brightest tenth of a picture decides how bright all of it is shown.
+/// They count at any hour: the light must not move cameras.
+const GLARE: f32 = 0.1;
+/// Worth of a metre of depth, beside that of things.
+const SPACE: f32 = 0.35;
+/// No thing counts for more of a view than this.
+const ENOUGH: f32 = 0.2;
 
-/// Up to three views of each room, named after it: `living_1` is the best of the living room.
+/// Up to four views of each room, named after it: `living_1` is the best of the living room.
 pub fn cameras(scene: &Scene, labels: &Labels, plan: &FloorPlan) -> Vec<StartCamera> {
     let world = WorldMesh::new(scene);
     let bvh = Bvh::new(&world.corners, &|_| false);
-    let instance = |triangle: u32| labels.parts[world.sources[triangle as usize].part as usize].instance;
     let boxes = part_boxes(scene, &world);
+    let home = Surroundings { scene, labels, world: &world, bvh: &bvh };
     let mut cameras = Vec::new();
     let mut names = BTreeMap::new();
     for room in &plan.rooms {
@@ -44,8 +59,8 @@ pub fn cameras(scene: &Scene, labels: &Labels, plan: &FloorPlan) -> Vec<StartCam
             _ => 3,
         };
         let fov = FOV_X_RAD[usize::from(room.size.x * room.size.y < SMALL)];
-        let views = places(&boxes, room).into_iter().flat_map(|eye| look_around(&bvh, &instance, room, eye, fov as f32));
-        let mut views: Vec<View> = views.collect();
+        let eyes = places(&boxes, room);
+        let mut views: Vec<View> = eyes.par_iter().flat_map_iter(|&eye| home.look_around(room, eye, fov as f32)).collect();
         views.sort_by(|a, b| b.worth.total_cmp(&a.worth));
         let mut chosen: Vec<View> = Vec::new();
         for view in views {
@@ -72,7 +87,154 @@ struct View {
 fn camera(name: String, view: &View, fov_x_rad: f64) -> StartCamera {
     let z = -view.toward.extend(0.0).as_dvec3().normalize();
     let x = DVec3::Z.cross(z);
-    StartCamera { name, position: view.eye.as_dvec3(), world_from_camera: DMat3::from_cols(x, DVec3::Z, z), fov_x_rad, aspect: 4.0 / 3.0 }
+    let aspect = f64::from(ASPECT);
+    StartCamera { name, position: view.eye.as_dvec3(), world_from_camera: DMat3::from_cols(x, DVec3::Z, z), fov_x_rad, aspect }
+}
+
+/// How much people want to see a thing of this class in a room of this kind.
+fn interest(class: i16, kind: RoomKind) -> f32 {
+    const TABLE: [(Class, f32); 27] = [
+        (Class::Bed, 3.0),
+        (Class::Sofa, 3.0),
+        (Class::Desk, 2.5),
+        (Class::Table, 2.0),
+        (Class::Chair, 1.6),
+        (Class::Bathtub, 2.0),
+        (Class::Sink, 2.0),
+        (Class::Toilet, 0.8),
+        (Class::Cabinet, 1.2),
+        (Class::Counter, 1.5),
+        (Class::Bookshelf, 1.5),
+        (Class::Shelves, 1.0),
+        (Class::Dresser, 1.2),
+        (Class::NightStand, 1.2),
+        (Class::Refrigerator, 0.8),
+        (Class::Television, 0.8),
+        (Class::Lamp, 1.2),
+        (Class::Picture, 1.2),
+        (Class::Mirror, 0.8),
+        (Class::FloorMat, 1.0),
+        (Class::Window, 0.8),
+        (Class::Curtain, 0.7),
+        (Class::Blinds, 0.3),
+        (Class::Door, 0.15),
+        (Class::OtherStructure, 0.4),
+        (Class::Ceiling, 0.0),
+        (Class::Floor, 0.0),
+    ];
+    let named = TABLE.iter().find(|(c, _)| *c as i16 == class).map_or(0.7, |(_, worth)| *worth);
+    let kitchen = kind == RoomKind::Kitchen && class == Class::Cabinet as i16;
+    if kitchen { 2.5 } else { named }
+}
+
+/// What rays can meet.
+struct Surroundings<'a> {
+    scene: &'a Scene,
+    labels: &'a Labels,
+    world: &'a WorldMesh,
+    bvh: &'a Bvh,
+}
+
+/// What a ray meets.
+#[derive(Clone, Copy)]
+struct Sight {
+    /// Metres.
+    distance: f32,
+    /// Number of the thing among those that the place sees; `None` for walls and what is in other rooms.
+    thing: Option<usize>,
+    /// Ends beyond a door or passage.
+    beyond: bool,
+}
+
+/// A thing that a place sees.
+struct Thing {
+    instance: i16,
+    glares: bool,
+    interest: f32,
+    /// Solid angle of all of it, in rays.
+    all: f32,
+}
+
+impl Surroundings<'_> {
+    /// The views from one place with what each is worth.
+    fn look_around(&self, room: &Room, eye: Vec3, fov: f32) -> Vec<View> {
+        let mut things: Vec<Thing> = Vec::new();
+        let rays = (0..AROUND * PITCHES).map(|i| self.sight(room, eye, direction(i / PITCHES, i % PITCHES), &mut things));
+        let sights: Vec<Option<Sight>> = rays.collect();
+        (0..AROUND).map(|k| view(eye, k, fov, &sights, &things)).collect()
+    }
+
+    fn sight(&self, room: &Room, eye: Vec3, toward: Vec3, things: &mut Vec<Thing>) -> Option<Sight> {
+        let ray = Ray::new(eye, toward.normalize());
+        let hit = self.bvh.closest(&ray)?;
+        let part = self.world.sources[hit.triangle as usize].part as usize;
+        let label = self.labels.parts[part];
+        let at = ray.at(hit.t);
+        let within = |margin: f32| (at.truncate() - room.center).abs().cmple(0.5 * room.size.truncate() + margin).all();
+        let glazed = label.semantic == Class::Window as i16;
+        let here = within(if glazed { REVEAL } else { 0.05 });
+        let thing = (here && label.instance >= 0).then(|| {
+            let known = things.iter().position(|t| t.instance == label.instance).unwrap_or_else(|| {
+                let front = self.scene.parts[part].world_from_mesh.matrix3.y_axis.as_vec3().truncate();
+                let behind = front.dot(eye.truncate() - at.truncate()) < 0.0;
+                let interest = interest(label.semantic, room.kind) * if behind { BEHIND } else { 1.0 };
+                things.push(Thing { instance: label.instance, glares: glazed, interest, all: 0.0 });
+                things.len() - 1
+            });
+            things[known].all += 1.0;
+            known
+        });
+        Some(Sight { distance: hit.t, thing, beyond: !within(REVEAL) })
+    }
+}
+
+/// Walls are not thicker than this, metres.
+const REVEAL: f32 = 0.5;
+/// Share of its interest that a thing keeps from behind.
+const BEHIND: f32 = 0.5;
+
+/// Direction of a ray, not normalized: its level part is a unit vector.
+fn direction(around: usize, pitch: usize) -> Vec3 {
+    Vec2::from_angle(TAU * around as f32 / AROUND as f32).extend(LOWEST + PITCH_STEP * pitch as f32)
+}
+
+/// What one view holds of `sights`: many different things that are not cut off, at some distance, and nothing in the way.
+fn view(eye: Vec3, k: usize, fov: f32, sights: &[Option<Sight>], things: &[Thing]) -> View {
+    let (right, up) = ((0.5 * fov).tan(), (0.5 * fov).tan() / ASPECT);
+    let mut rays = vec![0.0f32; things.len()];
+    let mut areas = vec![0.0f32; things.len()];
+    let (mut area, mut depth, mut near, mut beyond, mut glare) = (0.0f32, 0.0f32, 0.0f32, 0.0f32, 0.0f32);
+    let reach = (0.5 * fov / TAU * AROUND as f32) as usize;
+    for i in 0..=2 * reach {
+        let around = (k + AROUND + i - reach) % AROUND;
+        let aside = TAU * (i as f32 - reach as f32) / AROUND as f32;
+        let cos = aside.cos();
+        for pitch in 0..PITCHES {
+            let height = (LOWEST + PITCH_STEP * pitch as f32) / cos;
+            let Some(sight) = sights[around * PITCHES + pitch].filter(|_| height.abs() <= up && aside.tan().abs() <= right) else {
+                continue;
+            };
+            // The picture's area of a step of azimuth and of tangent.
+            let share = cos.powi(-3);
+            area += share;
+            depth += share * sight.distance.min(5.0);
+            near += if sight.distance < NEAR { share } else { 0.0 };
+            beyond += if sight.beyond { share } else { 0.0 };
+            if let Some(thing) = sight.thing {
+                rays[thing] += 1.0;
+                areas[thing] += share;
+                glare += if things[thing].glares { share } else { 0.0 };
+            }
+        }
+    }
+    let area = area.max(1e-6);
+    let shown = things.iter().zip(&rays).zip(&areas).map(|((thing, rays), own)| {
+        let whole = rays / thing.all.max(1.0);
+        thing.interest * (own / area).min(ENOUGH).sqrt() * whole
+    });
+    let lost = 6.0 * (near / area - 0.02).max(0.0) + 4.0 * (beyond / area - 0.03).max(0.0) + 12.0 * (glare / area - GLARE).max(0.0);
+    let worth = shown.sum::<f32>() + SPACE * depth / area - lost;
+    View { eye, toward: Vec2::from_angle(TAU * k as f32 / AROUND as f32), worth }
 }
 
 /// World boxes of all parts.
@@ -104,43 +266,4 @@ fn places(boxes: &[Bounds3], room: &Room) -> Vec<Vec3> {
         }
     }
     Vec::new()
-}
-
-/// What rays in one direction meet.
-#[derive(Default)]
-struct Column {
-    distance: f32,
-    near: usize,
-    things: Vec<i16>,
-}
-
-/// The views from one place, with what each is worth: many different things, at some distance, and nothing in the way.
-fn look_around(bvh: &Bvh, instance: &dyn Fn(u32) -> i16, room: &Room, eye: Vec3, fov: f32) -> Vec<View> {
-    let inside = 0.5 * room.size.truncate() + 0.05;
-    let column = |k: usize| {
-        let toward = Vec2::from_angle(TAU * k as f32 / AROUND as f32);
-        let mut column = Column::default();
-        for pitch in PITCHES {
-            let ray = Ray::new(eye, toward.extend(pitch).normalize());
-            let Some(hit) = bvh.closest(&ray) else { continue };
-            column.distance += hit.t.min(6.0) / PITCHES.len() as f32;
-            column.near += usize::from(hit.t < NEAR);
-            let here = (ray.at(hit.t).truncate() - room.center).abs().cmple(inside).all();
-            column.things.extend((here && instance(hit.triangle) >= 0).then(|| instance(hit.triangle)));
-        }
-        column
-    };
-    let columns: Vec<Column> = (0..AROUND).map(column).collect();
-    let span = (fov / TAU * AROUND as f32 * 0.5) as usize;
-    let view = |k: usize| {
-        let seen = || (0..=2 * span).map(|i| &columns[(k + AROUND + i - span) % AROUND]);
-        let count = (2 * span + 1) as f32;
-        let things: BTreeSet<i16> = seen().flat_map(|c| c.things.iter().copied()).collect();
-        let covered = seen().map(|c| c.things.len()).sum::<usize>() as f32 / (count * PITCHES.len() as f32);
-        let distance = seen().map(|c| c.distance).sum::<f32>() / count;
-        let near = seen().map(|c| c.near).sum::<usize>() as f32 / (count * PITCHES.len() as f32);
-        let worth = (things.len() as f32).min(20.0).sqrt() + 1.5 * covered + 0.7 * distance - 12.0 * (near - 0.04).max(0.0);
-        View { eye, toward: Vec2::from_angle(TAU * k as f32 / AROUND as f32), worth }
-    };
-    (0..AROUND).map(view).collect()
 }

@@ -38,7 +38,7 @@ pub struct UnsurePart {
 }
 
 /// Writes the label table `output` for the scene file of `source` (a path as it stands): a row per part, −1 where the confidence
-/// is below `min_confidence`, in [0,1]; where that is not given, where fewer than nine of ten would be right.
+/// is below `min_confidence`, from 0 to 1; where that is not given, where fewer than nine of ten would be right.
 ///
 /// # Errors
 /// When the confidence is out of range, the file cannot be imported, or the table cannot be written.

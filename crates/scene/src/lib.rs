@@ -31,6 +31,7 @@ pub use light::{Light, SpotFalloff};
 pub use material::{Alpha, Bsdf, ColorParam, Material, NormalMap, Parameter, Principled, ScalarParam};
 pub use package::{PackageError, from_bytes, from_bytes_with_labels, to_bytes, to_bytes_with_labels};
 pub use photometry::PhotometricWeb;
+pub use pictures::{PngEffort, smallest_png};
 pub use scene::{Part, PartId, Scene, SceneError};
 pub use texture::{Filter, Image, Pixels, TextureRef, Wrap};
 pub use trajectory::{Pose, Trajectory};

@@ -65,6 +65,24 @@ fn image(packed: Packed) -> Result<Image, String> {
 
 /// A PNG file with no more channels than the picture needs: many are grey, most are opaque.
 fn png(size: &Image, texels: &[[u8; 4]]) -> Vec<u8> {
+    smallest_png([size.width, size.height], texels, PngEffort::Fast)
+}
+
+/// How long to look for a smaller file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PngEffort {
+    /// For files that are soon read again.
+    Fast,
+    /// For files that are kept and sent.
+    Balanced,
+}
+
+/// A PNG file of eight bits per channel, with no more channels than the picture needs: grey or RGB, with alpha where something is not
+/// opaque. `texels` are R, G, B, A row by row from the top, of a picture of `size` [width, height].
+///
+/// # Panics
+/// When there are not as many texels as the size says.
+pub fn smallest_png(size: [u32; 2], texels: &[[u8; 4]], effort: PngEffort) -> Vec<u8> {
     let opaque = texels.iter().all(|&[_, _, _, a]| a == 255);
     let grey = texels.iter().all(|&[r, g, b, _]| r == g && g == b);
     let (color, channels): (_, Vec<u8>) = match (grey, opaque) {
@@ -74,10 +92,13 @@ fn png(size: &Image, texels: &[[u8; 4]]) -> Vec<u8> {
         (false, false) => (ColorType::Rgba, texels.as_flattened().to_vec()),
     };
     let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, size.width, size.height);
+    let mut encoder = png::Encoder::new(&mut file, size[0], size[1]);
     encoder.set_color(color);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::Fast);
+    encoder.set_compression(match effort {
+        PngEffort::Fast => png::Compression::Fast,
+        PngEffort::Balanced => png::Compression::Balanced,
+    });
     let mut writer = encoder.write_header().expect("writing to memory cannot fail");
     writer.write_image_data(&channels).expect("as many texels as the header says");
     writer.finish().expect("writing to memory cannot fail");

@@ -18,7 +18,7 @@ pub struct Calibration {
 pub struct Judged {
     /// The largest probability.
     pub score: f32,
-    /// Share of the weight that was right, in [0,1].
+    /// Share of the weight that was right, from 0 to 1.
     pub right: f32,
     /// Weight, above 0.
     pub weight: f32,
@@ -67,7 +67,7 @@ impl Calibration {
     /// Reads `score,confidence`. `file` is what errors call it.
     ///
     /// # Errors
-    /// The first row that is no pair of numbers in [0,1], or falls.
+    /// The first row that is no pair of numbers from 0 to 1, or falls.
     pub fn parse(text: &str, file: &str) -> Result<Self, TableError> {
         let mut points: Vec<(f32, f32)> = Vec::new();
         for (line, row) in read(text, file, COLUMNS)? {
@@ -97,7 +97,7 @@ impl Calibration {
         std::iter::once(format!("{}\n", COLUMNS.join(","))).chain(rows).collect()
     }
 
-    /// The confidence of a score, both in [0,1]. Never falls with the score; outside of the curve that of its nearest end.
+    /// The confidence of a score, both from 0 to 1. Never falls with the score; outside of the curve that of its nearest end.
     pub fn confidence(&self, score: f32) -> f32 {
         let after = self.points.partition_point(|&(s, _)| s < score);
         match (after.checked_sub(1).map(|i| self.points[i]), self.points.get(after)) {
@@ -146,7 +146,7 @@ impl Thresholds {
     /// Reads `precision,min_confidence,coverage`. `file` is what errors call it.
     ///
     /// # Errors
-    /// The first row that is not three numbers in [0,1], or whose precision does not rise.
+    /// The first row that is not three numbers from 0 to 1, or whose precision does not rise.
     pub fn parse(text: &str, file: &str) -> Result<Self, TableError> {
         let mut rows: Vec<(f32, f32, f32)> = Vec::new();
         for (line, row) in read(text, file, THRESHOLD_COLUMNS)? {

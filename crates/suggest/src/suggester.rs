@@ -41,7 +41,7 @@ pub struct PartNames<'a> {
 pub struct Suggestion {
     /// NYU40 class, 1 to 40.
     pub class: i16,
-    /// Probability that it is right, in [0,1]: of names with this confidence in scenes that were held out, that share was.
+    /// Probability that it is right, from 0 to 1: of names with this confidence in scenes that were held out, that share was.
     pub confidence: f32,
     /// Up to three other classes, the likeliest first, with their probabilities, none above `confidence`.
     pub alternatives: Vec<(i16, f32)>,

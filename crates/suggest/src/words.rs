@@ -84,7 +84,7 @@ pub fn words(name: &str) -> Vec<String> {
 fn keep(found: &mut Vec<String>, word: &mut String) {
     let text = singular(&std::mem::take(word));
     let letters = text.chars().count();
-    let meant = letters > 1 || text.chars().any(|c| !c.is_ascii());
+    let meant = letters > 1 || !text.is_ascii();
     if meant && letters <= LONGEST_WORD && !EMPTY_WORDS.contains(&text.as_str()) {
         found.push(text);
     }

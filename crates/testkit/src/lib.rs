@@ -4,11 +4,13 @@
 //! Seeds are fixed; a suite of many tests keeps one family-wise level (Šidák). A failing test writes what it saw to
 //! `target/evidence/`, and is answered with more samples, never with another seed.
 
+mod clock;
 mod gamma;
 mod machine;
 mod mean;
 mod npz;
 
+pub use clock::{process_cpu_s, thread_cpu_s, wall_s};
 pub use gamma::chi_square_survival;
 pub use machine::processor;
 pub use mean::Mean;

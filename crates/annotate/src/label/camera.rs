@@ -2,7 +2,7 @@
 
 use super::source::rows;
 use enfilade_geometry::PinholeRays;
-use enfilade_math::{DMat3, DVec3, Vec3};
+use enfilade_math::{DMat3, DVec3, Ray};
 use serde::Deserialize;
 
 /// Pixels per side that a request may ask about.
@@ -19,6 +19,9 @@ pub struct CameraRequest {
     fov_y_deg: f64,
     width: u32,
     height: u32,
+    /// What is nearer along the optical axis is not seen, metres.
+    #[serde(default)]
+    near_m: f64,
 }
 
 /// A pinhole of some number of pixels in the world.
@@ -32,6 +35,8 @@ pub struct PageCamera {
     pub width: u32,
     /// Rows.
     pub height: u32,
+    /// What is nearer along the optical axis is not seen, metres.
+    pub near_m: f64,
 }
 
 impl CameraRequest {
@@ -58,14 +63,18 @@ impl CameraRequest {
                 return wrong(field, pixels.to_string(), "1 to 8192 pixels");
             }
         }
-        Ok(PageCamera::new(position, m, self.fov_y_deg, [self.width, self.height]))
+        if !(0.0..=MAX_COORDINATE_M).contains(&self.near_m) {
+            return wrong("near_m", self.near_m.to_string(), "zero or more metres");
+        }
+        let camera = PageCamera::new(position, m, self.fov_y_deg, [self.width, self.height]);
+        Ok(PageCamera { near_m: self.near_m, ..camera })
     }
 }
 
 impl PageCamera {
     /// A pinhole at `position` with a vertical field of view.
     pub fn new(position: DVec3, world_from_camera: DMat3, fov_y_deg: f64, [width, height]: [u32; 2]) -> Self {
-        Self { position, world_from_camera, half_height: (0.5 * fov_y_deg.to_radians()).tan(), width, height }
+        Self { position, world_from_camera, half_height: (0.5 * fov_y_deg.to_radians()).tan(), width, height, near_m: 0.0 }
     }
 
     /// The rays of the pixels from column `x` and row `y` on.
@@ -78,17 +87,14 @@ impl PageCamera {
         PinholeRays { origin: self.position.as_vec3(), corner: corner.as_vec3(), right: right.as_vec3(), down: down.as_vec3() }
     }
 
-    /// Where it stands, metres.
-    pub fn origin(&self) -> Vec3 {
-        self.position.as_vec3()
-    }
-
-    /// The unit direction through the image point (x, y), counted from the image's corner.
-    pub fn direction(&self, x: f64, y: f64) -> Vec3 {
+    /// The ray through the image point (x, y), counted from the image's corner; its direction is a unit vector.
+    pub fn ray(&self, x: f64, y: f64) -> Ray {
         let pixel = 2.0 * self.half_height / f64::from(self.height);
         let m = &self.world_from_camera;
         let right = m.x_axis * (pixel * (x - 0.5 * f64::from(self.width)));
         let down = m.y_axis * (pixel * (0.5 * f64::from(self.height) - y));
-        (right + down - m.z_axis).normalize().as_vec3()
+        let through = right + down - m.z_axis;
+        let ray = Ray::new(self.position.as_vec3(), through.normalize().as_vec3());
+        Ray { t_min: ray.t_min.max((self.near_m * through.length()) as f32), ..ray }
     }
 }

@@ -12,7 +12,7 @@ mod change;
 mod classes;
 mod clock;
 mod events;
-mod geometry;
+pub(crate) mod geometry;
 mod log;
 mod pieces;
 mod progress;

@@ -37,6 +37,7 @@ pub fn routes(app: Arc<App>) -> Router {
     Router::new()
         .route("/api/annotate/scene", get(scene))
         .route("/api/annotate/geometry", get(geometry))
+        .route("/api/annotate/instance_colors", get(instance_colors_of_files))
         .route("/api/annotate/pieces", get(pieces))
         .route("/api/annotate/edit", post(edit))
         .route("/api/annotate/select", post(select))
@@ -130,6 +131,16 @@ fn compressed(bytes: &[u8]) -> Option<Vec<u8>> {
     let length = compressor.gzip_compress(bytes, &mut out).ok()?;
     out.truncate(length);
     Some(out)
+}
+
+/// Colours of all instances that there can be, as the files have them: three bytes each, from number 0, which is none.
+async fn instance_colors_of_files() -> Answer {
+    beside(|| {
+        let colors = enfilade_dataset::instance_colors(i16::MAX as usize);
+        let bytes: Vec<u8> = colors.into_iter().flatten().map(|channel| u8::try_from(channel).unwrap_or(0)).collect();
+        Ok(([(header::CONTENT_TYPE, "application/octet-stream")], bytes).into_response())
+    })
+    .await
 }
 
 async fn pieces(State(app): Shared) -> Answer {

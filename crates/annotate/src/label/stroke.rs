@@ -2,7 +2,7 @@
 
 use super::camera::PageCamera;
 use enfilade_geometry::{Bvh, NOTHING, VisibilityBuffer};
-use enfilade_math::{Ray, Vec3};
+use enfilade_math::Vec3;
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::{BTreeSet, HashSet};
@@ -125,8 +125,8 @@ impl World<'_> {
                 let centre = |&[x, y]: &[u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
                 pixels.par_iter().filter_map(centre).collect()
             }
-            // Hidden pieces are in the hierarchy all the same, and only rays can pass through them.
-            Covered::Rectangle(first, last) if !self.hidden.is_empty() => {
+            // Hidden pieces and what is too near are in the hierarchy all the same, and only rays can pass through them.
+            Covered::Rectangle(first, last) if !self.hidden.is_empty() || camera.near_m > 0.0 => {
                 let row = |y: u32| (first[0]..=last[0]).map(move |x| [x, y]);
                 let centre = |[x, y]: [u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
                 let seen = (first[1]..=last[1]).into_par_iter().map(|y| row(y).filter_map(centre).collect::<HashSet<u32>>());
@@ -150,7 +150,7 @@ impl World<'_> {
 
     /// What the ray through an image point meets first.
     pub fn meet(&self, camera: &PageCamera, x: f64, y: f64) -> Option<Picked> {
-        let ray = Ray::new(camera.origin(), camera.direction(x, y));
+        let ray = camera.ray(x, y);
         let hit = if self.hidden.is_empty() {
             self.bvh.closest(&ray)
         } else {

@@ -137,7 +137,7 @@ pub(super) async fn check(State(guard): State<Arc<Guard>>, request: Request<Body
             "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; worker-src 'self' blob:",
         ),
     ] {
-        headers.insert(name, header::HeaderValue::from_static(value));
+        headers.entry(name).or_insert(header::HeaderValue::from_static(value));
     }
     response
 }

@@ -78,6 +78,29 @@ async fn what_is_behind_is_not_touched_unless_what_hides_it_is_hidden() {
 }
 
 #[tokio::test]
+async fn what_lies_before_the_near_plane_is_not_touched() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = Page::open(&package(folder.path()));
+    let mut camera = camera();
+    let mut seen = Vec::new();
+    for near_m in [0.0, 4.6, 5.6] {
+        camera["near_m"] = json!(near_m);
+        let (_, picked) = page.post("pick", json!({ "camera": camera, "pixel": [50.5, 50.5] }).to_string()).await;
+        for shape in [json!({ "click": [50, 50] }), json!({ "rectangle": [48, 48, 52, 52] })] {
+            let (_, selected) = page.post("select", json!({ "camera": camera, "shape": shape }).to_string()).await;
+            assert_eq!(selected["pieces"], json!([picked["piece"]]), "{near_m} {shape}");
+        }
+        seen.push((picked["piece"].as_i64(), picked["distance_m"].as_f64().map(|distance| (10.0 * distance).round())));
+    }
+    // The front of the box, its back from within, and what is behind it.
+    assert_eq!(seen[..2], [(Some(1), Some(45.0)), (Some(1), Some(55.0))]);
+    assert_eq!(seen[2].0, Some(2));
+    camera["near_m"] = json!(-1);
+    let (status, refused) = page.post("pick", json!({ "camera": camera, "pixel": [50, 50] }).to_string()).await;
+    assert!(status == 400 && refused["error"].as_str().unwrap().contains("near_m"), "{refused}");
+}
+
+#[tokio::test]
 async fn every_pixel_of_a_rectangle_sees_what_its_ray_sees() {
     let folder = tempfile::tempdir().unwrap();
     let page = Page::open(&package(folder.path()));

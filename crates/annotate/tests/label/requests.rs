@@ -128,6 +128,16 @@ async fn progress_counts_what_is_seen_and_names_what_is_missing() {
 }
 
 #[tokio::test]
+async fn instances_have_the_colours_of_the_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = Page::open(&package(folder.path()));
+    let (_, bytes) = page.bytes("instance_colors", &[]).await;
+    assert_eq!(bytes.len(), 3 << 15);
+    let files: Vec<i64> = enfilade_dataset::instance_colors(100).into_iter().flatten().skip(3).collect();
+    assert!(bytes[3..303].iter().map(|&channel| i64::from(channel)).eq(files));
+}
+
+#[tokio::test]
 async fn geometry_is_packed_and_compressed_where_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let page = Page::open(&package(folder.path()));

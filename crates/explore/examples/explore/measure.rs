@@ -4,7 +4,7 @@ use crate::room::{Room, Walk};
 use enfilade_explore::{CarveConfig, FreeSpace, PlanConfig, Preset, carve, plan};
 use enfilade_geometry::{Bvh, OccupancyTree, Voxel};
 use enfilade_scene::{Pose, Quiet};
-use rustix::time::{ClockId, clock_gettime};
+use enfilade_testkit::{process_cpu_s, wall_s};
 use std::collections::HashSet;
 
 /// Runs of everything.
@@ -54,14 +54,14 @@ pub fn room(room: &Room) -> Measured {
         plan(&room.world, &bvh, &space, &room.starts[camera], camera as u32, &plan_with(preset), &Quiet).expect("a trajectory begins here")
     };
     let presets = [Preset::Hypersim, Preset::Default];
-    let carve_s = presets.map(|preset| one.install(|| median(cpu_s, || drop(carved(preset)))));
+    let carve_s = presets.map(|preset| one.install(|| median(process_cpu_s, || drop(carved(preset)))));
     let cameras = 0..room.starts.len();
     let walks_s = cameras.clone().map(|camera| {
-        let ours = presets.map(|preset| one.install(|| median(cpu_s, || drop(walked(preset, camera)))));
+        let ours = presets.map(|preset| one.install(|| median(process_cpu_s, || drop(walked(preset, camera)))));
         (ours, room.walks[camera].peer_s)
     });
     let walks_s = walks_s.collect();
-    let hierarchy_s = one.install(|| median(cpu_s, || drop(Bvh::new(&room.world.corners, &|_| false))));
+    let hierarchy_s = one.install(|| median(process_cpu_s, || drop(Bvh::new(&room.world.corners, &|_| false))));
     let speedup = |work: &(dyn Fn() + Sync)| {
         let times = [&one, &all].map(|pool| median(wall_s, || pool.install(work)));
         times[0] / times[1]
@@ -131,17 +131,4 @@ fn median(clock_s: fn() -> f64, work: impl Fn()) -> f64 {
         .collect();
     times.sort_by(f64::total_cmp);
     times[RUNS / 2]
-}
-
-fn cpu_s() -> f64 {
-    seconds(ClockId::ProcessCPUTime)
-}
-
-fn wall_s() -> f64 {
-    seconds(ClockId::Monotonic)
-}
-
-fn seconds(clock: ClockId) -> f64 {
-    let t = clock_gettime(clock);
-    t.tv_sec as f64 + t.tv_nsec as f64 * 1e-9
 }

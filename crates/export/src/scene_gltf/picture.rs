@@ -2,7 +2,7 @@
 
 use super::Document;
 use enfilade_math::{Rgb, linear_from_srgb, srgb_from_linear};
-use enfilade_scene::{Environment, Filter, Image, MapRows, Pixels, Scene, TextureRef, Wrap};
+use enfilade_scene::{Environment, Filter, Image, MapRows, Pixels, PngEffort, Scene, TextureRef, Wrap, smallest_png};
 use exr::prelude::{Encoding, Image as ExrImage, Layer as ExrLayer, LayerAttributes, SpecificChannels, WritableImage};
 use serde_json::{Value, json};
 use std::io::Cursor;
@@ -28,8 +28,7 @@ pub(super) fn reference(document: &mut Document, scene: &Scene, texture: &Textur
         if matches!(image.pixels, Pixels::RgbF32(_)) {
             document.notes.push(format!("{user}: the picture {:?} was rounded to 8 bits and cut off at 1", image.name));
         }
-        let (texels, has_alpha) = bytes(image, usage);
-        add_picture(document, &image.name, image, &texels, has_alpha)
+        add_picture(document, &image.name, image, &texels(image, usage))
     });
     document.pictures.insert((texture.image, usage), source);
     referring(document, source, texture, user)
@@ -45,51 +44,37 @@ pub(super) fn computed(
 ) -> Value {
     let image = &scene.images[texture.image as usize];
     let (width, height) = (image.width as usize, image.height as usize);
-    let texels: Vec<u8> = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).flat_map(|(x, y)| texel(x, y)).collect();
-    let source = add_picture(document, name, image, &texels, false);
+    let opaque = |(x, y)| {
+        let [r, g, b] = texel(x, y);
+        [r, g, b, 255]
+    };
+    let texels: Vec<[u8; 4]> = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(opaque).collect();
+    let source = add_picture(document, name, image, &texels);
     referring(document, source, texture, name)
 }
 
-fn add_picture(document: &mut Document, name: &str, size: &Image, texels: &[u8], has_alpha: bool) -> usize {
-    let view = document.buffer.view(&png(size.width, size.height, texels, has_alpha));
+fn add_picture(document: &mut Document, name: &str, size: &Image, texels: &[[u8; 4]]) -> usize {
+    let view = document.buffer.view(&smallest_png([size.width, size.height], texels, PngEffort::Balanced));
     document.images.push(json!({ "name": name, "bufferView": view, "mimeType": "image/png" }));
     document.images.len() - 1
 }
 
-/// Bytes of RGB or, where something is transparent, RGBA.
-fn bytes(image: &Image, usage: Use) -> (Vec<u8>, bool) {
+/// Texels as glTF understands them at this place.
+fn texels(image: &Image, usage: Use) -> Vec<[u8; 4]> {
     let quantized = |v: f32| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
     let encoded = |v: f32| if usage == Use::Color { quantized(srgb_from_linear(v.clamp(0.0, 1.0))) } else { quantized(v) };
     match &image.pixels {
         Pixels::Rgba8 { srgb, texels } => {
-            let has_alpha = texels.iter().any(|t| t[3] != 255);
             let code = |v: u8| match (usage, srgb) {
                 (Use::Color, true) | (Use::Data, false) => v,
                 (Use::Color, false) => encoded(f32::from(v) / 255.0),
                 (Use::Data, true) => quantized(linear_from_srgb(f32::from(v) / 255.0)),
             };
             let table: [u8; 256] = std::array::from_fn(|v| code(v as u8));
-            let color = |t: &[u8; 4]| [table[usize::from(t[0])], table[usize::from(t[1])], table[usize::from(t[2])]];
-            let bytes = if has_alpha {
-                texels.iter().flat_map(|t| [color(t).as_slice(), &[t[3]]].concat()).collect()
-            } else {
-                texels.iter().flat_map(color).collect()
-            };
-            (bytes, has_alpha)
+            texels.iter().map(|&[r, g, b, a]| [table[usize::from(r)], table[usize::from(g)], table[usize::from(b)], a]).collect()
         }
-        Pixels::RgbF32(texels) => (texels.iter().flatten().map(|&v| encoded(v)).collect(), false),
+        Pixels::RgbF32(texels) => texels.iter().map(|&[r, g, b]| [encoded(r), encoded(g), encoded(b), 255]).collect(),
     }
-}
-
-fn png(width: u32, height: u32, texels: &[u8], has_alpha: bool) -> Vec<u8> {
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, width, height);
-    encoder.set_color(if has_alpha { png::ColorType::Rgba } else { png::ColorType::Rgb });
-    encoder.set_depth(png::BitDepth::Eight);
-    let mut writer = encoder.write_header().expect("writing to memory cannot fail");
-    writer.write_image_data(texels).expect("as many texels as the header says");
-    writer.finish().expect("writing to memory cannot fail");
-    file
 }
 
 /// Sampler, texture and transform of a picture.

@@ -4,7 +4,7 @@ use enfilade_home::check::{family_of, faults, object_of};
 use enfilade_home::{Home, HomeConfig, home};
 use enfilade_math::{Bounds3, DVec2, Vec2, Vec3};
 use enfilade_scene::{Labels, NYU40, Part, Scene, is_stuff, to_bytes_with_labels};
-use rustix::time::{ClockId, clock_gettime};
+use enfilade_testkit::process_cpu_s;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -62,7 +62,7 @@ const CARRIES: [i16; 9] = [3, 7, 10, 12, 14, 15, 17, 32, 39];
 pub fn measure(config: &HomeConfig) -> Result<Measured, Box<dyn std::error::Error>> {
     let start = Instant::now();
     let made = home(config);
-    let (wall_s, cpu_s, peak_mb) = (start.elapsed().as_secs_f64(), cpu_s(), peak_mb()?);
+    let (wall_s, cpu_s, peak_mb) = (start.elapsed().as_secs_f64(), process_cpu_s(), peak_mb()?);
     let scene = &made.scene;
     Ok(Measured {
         seed: config.seed,
@@ -139,11 +139,6 @@ fn boxed(scene: &Scene, parts: &[&Part]) -> (Vec3, Vec2) {
     }
     let middle = 0.5 * (bounds.min + bounds.max).truncate();
     (bounds.max - bounds.min, along.rotate(middle))
-}
-
-fn cpu_s() -> f64 {
-    let time = clock_gettime(ClockId::ProcessCPUTime);
-    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
 }
 
 fn peak_mb() -> Result<f64, Box<dyn std::error::Error>> {

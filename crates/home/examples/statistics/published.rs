@@ -156,7 +156,7 @@ pub const SIZES: [PublishedSize; 17] = [
         None,
         Some([0.85, 1.76]),
         "[5]",
-        "Built-in ones are the front of a unit, which has the body; those that stand free are as published.",
+        "Built-in ones are tall units, 2 m high with their plinth; those that stand free are as published.",
     ),
     size(
         "bathtub",

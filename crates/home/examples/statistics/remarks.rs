@@ -24,7 +24,7 @@ A small thing is an instance whose box holds less than 30 litres and is nowhere 
 furniture, 0.3 to 2 m above the floor. Small things on the floor and on walls are counted too. The generator aims at 9 to the m² of
 furniture outside of kitchens and dining rooms; no published counts were found.
 Laid tables and glass cabinets make dining rooms the fullest; kitchens look emptier than they are, since boards below worktops are surface
-as well; bedrooms have few things but those on nightstands and dressers.
+as well.
 ";
 
 /// Below the volumes of instances.

@@ -125,7 +125,7 @@ pub static FAMILIES: &[Family] = &[
     family::<PaperHolder>("paper_holder", Class::OtherProp, Place::OnWall, &[Bathroom]),
     family::<SoapDispenser>("soap_dispenser", Class::OtherProp, Place::OnSurface, &[Bathroom, Kitchen]),
     family::<ToothbrushMug>("toothbrush_mug", Class::OtherProp, Place::OnSurface, &[Bathroom]),
-    family::<Toiletries>("bottle", Class::OtherProp, Place::OnSurface, &[Bathroom]),
+    family::<Toiletries>("bottle", Class::OtherProp, Place::OnSurface, &[Bathroom, Bedroom]),
     family::<ToiletBrush>("toilet_brush", Class::OtherProp, Place::Corner, &[Bathroom]),
     family::<PedalBin>("bin", Class::OtherProp, Place::Corner, &[Bathroom, Bedroom, Study]),
     // Hall.
@@ -259,7 +259,7 @@ pub static FAMILIES: &[Family] = &[
     },
     family::<GameConsole>("game_console", Class::OtherProp, Place::OnSurface, &[Living, Children]),
     family::<Foliage>("foliage", Class::OtherProp, Place::Corner, DWELLING),
-    family::<HangingPlant>("hanging_plant", Class::OtherProp, Place::Ceiling, &[Living, Kitchen, Bedroom]),
+    family::<HangingPlant>("hanging_plant", Class::OtherProp, Place::Ceiling, &[Living, Kitchen, Bedroom, Study]),
     family::<FlowerVase>("flower_vase", Class::OtherProp, Place::OnSurface, &[Living, Dining, Kitchen, Bedroom, Hall]),
     // What lies about.
     family::<BookRow>("book_row", Class::Books, Place::OnSurface, &[Living, Study, Children, Bedroom]),

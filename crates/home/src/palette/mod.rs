@@ -140,7 +140,7 @@ impl Palette {
     fn details(&mut self, rng: &mut Rng) {
         let tint = |c: Rgb, share: f32| c.lerp(GLAZE, share);
         let (strong, soft) = (self.art[3], self.accents[rng.below(3)]);
-        self.wall_tile = wall_tile(rng.below(6), [tint(soft, 0.3), tint(strong, 0.15)], rng);
+        self.wall_tile = wall_tile(rng.below(6), [quiet(tint(soft, 0.3)), quiet(tint(strong, 0.15))], rng);
         self.floor_tile = floor_tile(rng.below(6), [self.art[3], self.art[4]], rng);
         let linens = [[COTTON, soft], [COTTON, strong], [tint(soft, 0.45), COTTON], [tint(strong, 0.2), tint(soft, 0.4)]];
         self.linen = linens[rng.below(4)];
@@ -164,6 +164,16 @@ impl Palette {
         }
         self
     }
+}
+
+/// Saturation of tiles that cover whole rooms: their light falls on each other and grows more colourful with every bounce.
+const TILED: f32 = 0.22;
+
+/// A colour without more saturation than tiled rooms bear, as light as before.
+fn quiet(c: Rgb) -> Rgb {
+    let (most, least) = (c.max_component(), c.r.min(c.g).min(c.b));
+    let saturation = (most - least) / most.max(1e-3);
+    c.lerp(Rgb::splat(c.luminance()), 1.0 - (TILED / saturation.max(TILED)))
 }
 
 /// A usual wall of tiles.

@@ -3,7 +3,7 @@
 use super::Furnisher;
 use super::wishes::{by_window, centred, cornered, in_view, tucked_away};
 use crate::furniture::bedroom::Bed;
-use crate::furniture::{Furniture, TableLamp};
+use crate::furniture::{Furniture, Surface, TableLamp};
 use crate::place::Piece;
 use enfilade_math::Vec2;
 
@@ -12,6 +12,21 @@ const BESIDE: f32 = 0.04;
 /// Beds for as many sleepers differ less in width.
 const WIDTHS: f32 = 0.25;
 
+/// What people keep beside the bed, and how often.
+const BEDSIDE: [(&str, f32); 9] = [
+    ("books", 0.6),
+    ("phone", 0.5),
+    ("glass", 0.5),
+    ("photo_frame", 0.4),
+    ("tissue_box", 0.25),
+    ("bottle", 0.4),
+    ("candle", 0.25),
+    ("open_book", 0.3),
+    ("mug", 0.3),
+];
+/// How much more than on other surfaces lies in open compartments of nightstands.
+const BELOW: f32 = 1.8;
+
 /// Furnishes the room.
 pub fn furnish(f: &mut Furnisher) {
     let sleepers = if f.room.size.x * f.room.size.y > 9.5 { 2 } else { 1 };
@@ -19,13 +34,17 @@ pub fn furnish(f: &mut Furnisher) {
         bed(f, 1);
     }
     f.furnish("wardrobe", cornered);
-    f.perhaps(0.6, "dresser", centred);
-    f.perhaps(0.3, "dressing_table", by_window);
-    f.perhaps(0.35, "armchair", tucked_away);
+    f.perhaps(0.85, "dresser", centred);
+    f.perhaps(0.4, "dressing_table", by_window);
+    f.perhaps(0.45, "armchair", tucked_away);
     f.perhaps(0.4, "laundry_basket", tucked_away);
-    f.perhaps(0.5, "plant", by_window);
+    f.perhaps(0.6, "plant", by_window);
     f.hang_one(0.5, "mirror", 1.5, in_view);
-    f.art(2, |_, s| s.x.abs());
+    f.art(3, |_, s| s.x.abs());
+    f.hang_one(0.45, "wall_shelf", 1.55, |_, s| s.x.abs());
+    f.hang_plant(0.25);
+    // Slippers.
+    f.perhaps(0.7, "shoes", |floor, s| floor.to_window(s.origin));
     f.ceiling_lamp();
 }
 
@@ -79,11 +98,14 @@ fn bedside(f: &mut Furnisher, stand: &dyn Furniture, pose: enfilade_math::DAffin
     let surfaces = stand.surfaces();
     let own = TableLamp::random(&mut f.rng);
     let mut things: Vec<Box<dyn Furniture>> = vec![f.or_borrowed("table_lamp", own)];
-    for family in ["books", "glass", "mug"] {
-        if f.chance(0.4) {
+    for (family, often) in BEDSIDE {
+        if f.chance(often * f.clutter) {
             things.extend(f.any(family));
         }
     }
-    let top: Vec<_> = surfaces.iter().copied().max_by(|a, b| a.z.total_cmp(&b.z)).into_iter().collect();
-    f.settle(&top, pose, &things);
+    let highest = |a: &&Surface, b: &&Surface| a.z.total_cmp(&b.z);
+    let Some(top) = surfaces.iter().max_by(highest).copied() else { return };
+    f.settle(&[top], pose, &things);
+    let below: Vec<Surface> = surfaces.into_iter().filter(|s| s.z < top.z).collect();
+    f.litter(&below, pose, BELOW);
 }

@@ -111,8 +111,15 @@ impl Furnisher<'_> {
 
     /// Hangs a lamp in the middle of the room, above people's heads, unless one hangs over a table there.
     pub fn ceiling_lamp(&mut self) {
-        let around = Footprint { center: self.room.center, half: Vec2::splat(0.3), yaw: 0.0 };
-        if !self.floor.is_free(&around, [OVERHEAD, self.room.size.z]) {
+        self.ceiling_lamps(&[self.room.center]);
+    }
+
+    /// Hangs equal lamps over points of the floor, above people's heads, but where others hang already.
+    pub fn ceiling_lamps(&mut self, points: &[Vec2]) {
+        let around = |&center: &Vec2| Footprint { center, half: Vec2::splat(0.3), yaw: 0.0 };
+        let is_free = |p: &Vec2| self.floor.is_free(&around(p), [OVERHEAD, self.room.size.z]);
+        let points: Vec<Vec2> = points.iter().copied().filter(is_free).collect();
+        if points.is_empty() {
             return;
         }
         let most = self.room.size.z - PENDANT_RIM;
@@ -124,7 +131,9 @@ impl Furnisher<'_> {
             model = self.borrow("ceiling_lamp", &pendant, |size| size.z < highest);
         }
         let own: &dyn Furniture = if other.size().z <= most { &other } else { &pendant };
-        self.above(self.room.center, model.as_ref().map_or(own, |model| model));
+        for at in points {
+            self.above(at, model.as_ref().map_or(own, |model| model));
+        }
     }
 
     /// Hangs a lamp from the ceiling over a point of the floor.

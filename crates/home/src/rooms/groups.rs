@@ -10,6 +10,8 @@ use std::f32::consts::PI;
 
 /// How far the chair's middle is from the desk's front.
 const CHAIR: f32 = 0.22;
+/// Hanging plants keep to corners: this far from both walls, metres.
+const CORNER: f32 = 0.6;
 /// Families that rooms place themselves, and that do not stand about.
 const PLACED: [&str; 10] =
     ["kitchen_unit", "kitchen_island", "radiator", "switch", "socket", "blind", "tv_bench", "picture", "plant", "fireplace"];
@@ -32,7 +34,7 @@ impl Furnisher<'_> {
             self.plugs.push(spot.origin);
             self.build(desk.as_ref(), poses[0]);
             self.build(chair.as_ref(), poses[1]);
-            self.litter(&desk.surfaces(), poses[0], 0.8);
+            self.litter(&desk.surfaces(), poses[0], 1.4);
             return true;
         }
         false
@@ -72,6 +74,25 @@ impl Furnisher<'_> {
         let spots = self.floor.everywhere(0.1, &[0.0, 0.5 * PI]);
         if let Some((_, poses)) = self.floor.place(&[piece], spots, cost) {
             self.build(mat.as_ref(), poses[0]);
+        }
+    }
+
+    /// Hangs a plant from the ceiling in the lightest corner with this probability, where nobody walks.
+    pub fn hang_plant(&mut self, probability: f32) {
+        if !self.chance(probability) {
+            return;
+        }
+        let Some(plant) = self.any("hanging_plant") else { return };
+        let (size, height) = (plant.size(), self.room.size.z);
+        let piece = Piece { z: height - size.z, ..Piece::standing(size, 0.0).at(0.0, 0.0, 0.0) };
+        let (center, half) = (self.room.center, 0.5 * self.room.size.truncate());
+        let cost = |floor: &Floor, s: &Spot| {
+            let from_walls = half - (s.origin - center).abs();
+            if from_walls.max_element() < CORNER { floor.to_window(s.origin) } else { f32::INFINITY }
+        };
+        let spots = self.floor.everywhere(0.1, &[0.0]);
+        if let Some((spot, _)) = self.floor.place(&[piece], spots, cost) {
+            self.above(spot.origin, plant.as_ref());
         }
     }
 

@@ -32,6 +32,7 @@ pub fn furnish(f: &mut Furnisher) {
     }
     f.perhaps(0.6, "waste_bin", cornered);
     f.art(1, |_, s| s.x.abs());
+    f.hang_plant(0.3);
     f.ceiling_lamp();
 }
 

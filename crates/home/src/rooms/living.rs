@@ -32,6 +32,7 @@ pub fn furnish(f: &mut Furnisher) {
     f.perhaps(0.5, "sideboard", centred);
     plant(f);
     basket(f);
+    f.hang_plant(0.4);
     f.ceiling_lamp();
 }
 

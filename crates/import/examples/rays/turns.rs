@@ -4,6 +4,7 @@ use crate::cases::{Case, Question, Room, cases};
 use crate::{Failure, Peers};
 use enfilade_geometry::Bvh;
 use enfilade_math::Ray;
+use enfilade_testkit::thread_cpu_s;
 
 /// Odd, so that there is a median.
 const TURNS: usize = 9;
@@ -147,11 +148,7 @@ fn agree(room: &str, row: &Row) -> Result<(), Failure> {
 
 /// Processor seconds of this thread, and the result.
 fn timed<T>(work: impl FnOnce() -> T) -> (f64, T) {
-    let now = || {
-        let t = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
-        t.tv_sec as f64 + t.tv_nsec as f64 * 1e-9
-    };
-    let start = now();
+    let start = thread_cpu_s();
     let result = work();
-    (now() - start, result)
+    (thread_cpu_s() - start, result)
 }

@@ -1,116 +1,15 @@
+//! Clothes on hangers, folded, and in heaps.
+
+use super::garment::Garment;
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, wire};
 use crate::furniture::soft::{Wrinkles, folded};
 use crate::furniture::{CONTACT, Furniture, on};
 use crate::materials::Finish;
-use crate::shape::{Reshape, grid, tube};
+use crate::shape::{Reshape, tube};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
-
-/// Something to wear.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Garment {
-    /// A shirt or blouse.
-    Shirt,
-    /// A jacket.
-    Jacket,
-    /// A coat.
-    Coat,
-    /// A dress without sleeves.
-    Dress,
-    /// Trousers over the bar of the hanger.
-    Trousers,
-}
-
-impl Garment {
-    /// One of those that hang in a wardrobe.
-    pub fn random(rng: &mut Rng) -> Self {
-        [Self::Shirt, Self::Shirt, Self::Jacket, Self::Coat, Self::Dress, Self::Trousers][rng.below(6)]
-    }
-
-    /// From the shoulders to the hem.
-    pub fn length(self) -> f32 {
-        match self {
-            Self::Shirt => 0.72,
-            Self::Jacket => 0.76,
-            Self::Coat => 1.04,
-            Self::Dress => 1.0,
-            Self::Trousers => 0.62,
-        }
-    }
-
-    fn thickness(self) -> f32 {
-        match self {
-            Self::Coat | Self::Jacket => 0.045,
-            Self::Shirt | Self::Dress => 0.026,
-            Self::Trousers => 0.016,
-        }
-    }
-
-    fn sleeves(self) -> bool {
-        matches!(self, Self::Shirt | Self::Jacket | Self::Coat)
-    }
-
-    /// The cloth as it hangs in the xz plane, its neck at the origin. `droop` is 0 on a hanger, 1 on a hook.
-    pub fn cloth(self, droop: f32, rng: &mut Rng) -> Mesh {
-        let (nu, nv) = (36, 26);
-        let (length, thick) = (self.length() * rng.range(0.94, 1.04), self.thickness());
-        let shoulder = rng.range(0.19, 0.22) * (1.0 - 0.35 * droop);
-        let flare = match self {
-            Self::Dress => 1.35,
-            Self::Coat => 1.12,
-            Self::Shirt | Self::Jacket => 1.04,
-            Self::Trousers => 1.0,
-        };
-        let (folds, phase) = (3.0 + rng.below(3) as f32, rng.range(0.0, TAU));
-        let wrinkles = Wrinkles::new(0.16, 0.008, rng);
-        let slope = 0.07 + 0.16 * droop;
-        let point = |i: usize, j: usize| {
-            if j == 0 {
-                return Vec3::ZERO;
-            }
-            if j == nv {
-                return Vec3::new(0.0, 0.0, -length + 0.004);
-            }
-            let a = (i % nu) as f32 / nu as f32 * TAU;
-            let z = -length * ((j.min(nv - 1)) as f32 / (nv - 1) as f32).powf(1.3);
-            let down = (-z / length).min(1.0);
-            // Shoulders slope from the neck outward, then the sides fall.
-            let yoke = (-z / slope).min(1.0);
-            let half = if self == Self::Trousers { 0.17 } else { 0.055 + (shoulder - 0.055) * yoke.powf(0.8) };
-            let half = half * (1.0 + (flare - 1.0) * down) * (1.0 - 0.12 * (TAU * 0.5 * down).sin());
-            let (sin, cos) = a.sin_cos();
-            let wave = (folds * a + phase + 2.0 * down).sin() * thick * 0.8 * down * (1.0 + droop);
-            let depth = thick * (0.55 + 0.45 * yoke) * (1.0 + 0.7 * droop) + wave + wrinkles.at(Vec2::new(half * cos + sin, z));
-            Vec3::new(half * cos.signum() * cos.abs().powf(0.75), depth * sin, z)
-        };
-        let uv = |i: usize, j: usize| Vec2::new(i as f32 / nu as f32 * 4.0 * shoulder, -length * j as f32 / nv as f32);
-        // From the top down and around counter-clockwise: inside out, so the way around is reversed.
-        let mut mesh = grid(nu, nv, |i, j| point(nu - i, j), uv).smoothed(75.0);
-        if self.sleeves() {
-            for s in [-1.0f32, 1.0] {
-                let x = s * (shoulder - 0.012);
-                let out = rng.range(0.01, 0.04) * (1.0 - droop);
-                let path: Vec<Vec3> = (0..=10)
-                    .map(|k| {
-                        let t = k as f32 / 10.0;
-                        Vec3::new(x + s * (0.02 + out * (3.0 * t).sin()), 0.012 * (4.0 * t + phase).sin(), -slope - 0.01 - 0.56 * t)
-                    })
-                    .collect();
-                let crumple = Wrinkles::new(0.10, 0.008, rng);
-                let sleeve = tube(&path, 0.042, 14)
-                    .deformed(|p| {
-                        let y = p.y * 0.62;
-                        Vec3::new(p.x, y + y.signum() * crumple.at(Vec2::new(3.0 * p.x, p.z)), p.z)
-                    })
-                    .smoothed(70.0);
-                mesh = mesh.with(sleeve);
-            }
-        }
-        mesh
-    }
-}
 
 /// A garment on a hanger: the rod that carries it is at the origin and runs along y.
 pub fn hang_garment(b: &mut Builder, pose: DAffine3, garment: Garment, rng: &mut Rng) {

@@ -5,11 +5,13 @@ mod bedding;
 mod clothes;
 mod drawers;
 mod dressing;
+mod garment;
 mod wardrobe;
 
 pub use bed::{Bed, BedFrame};
 pub use bedding::{Bedding, Cover};
-pub use clothes::{FoldedClothes, Garment, hang_garment, heap};
+pub use clothes::{FoldedClothes, hang_garment, heap};
 pub use drawers::{DrawerBody, Dresser, Nightstand};
 pub use dressing::{Bench, DressingTable, LaundryBasket};
+pub use garment::Garment;
 pub use wardrobe::{Wardrobe, WardrobeDoors};

@@ -1,4 +1,5 @@
-use super::clothes::{FoldedClothes, Garment, hang_garment};
+use super::clothes::{FoldedClothes, hang_garment};
+use super::garment::Garment;
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::form::rod;
 use crate::furniture::joinery::{Carcass, Handle, body_finish, front};

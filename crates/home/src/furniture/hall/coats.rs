@@ -54,11 +54,11 @@ impl CoatHooks {
 impl Furniture for CoatHooks {
     fn random(rng: &mut Rng) -> Self {
         let hooks = 3 + rng.below(4);
-        Self { hooks, coats: rng.below(hooks), shelf: rng.below(3) == 0 }
+        Self { hooks, coats: 1 + rng.below(hooks - 1), shelf: rng.below(3) == 0 }
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(PITCH * self.hooks as f32 + 0.26, 0.33, 2.0 * HALF)
+        Vec3::new(PITCH * self.hooks as f32 + 0.34, 0.33, 2.0 * HALF)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -133,11 +133,11 @@ impl CoatStand {
 impl Furniture for CoatStand {
     fn random(rng: &mut Rng) -> Self {
         let hooks = 4 + 2 * rng.below(2);
-        Self { height: rng.range(1.68, 1.8), hooks, coats: rng.below(4), metal: rng.below(2) == 0 }
+        Self { height: rng.range(1.68, 1.8), hooks, coats: 1 + rng.below(3), metal: rng.below(2) == 0 }
     }
 
     fn size(&self) -> Vec3 {
-        let width = if self.coats > 0 { 0.78 } else { 0.48 };
+        let width = if self.coats > 0 { 0.82 } else { 0.48 };
         Vec3::new(width, width, self.height + 0.06)
     }
 

@@ -152,7 +152,10 @@ impl Run {
 
     /// Adds everything.
     pub fn build(&self, b: &mut Builder, pose: DAffine3, style: &KitchenStyle, rng: &mut Rng) {
-        for (x, unit, above) in self.placed() {
+        // A refrigerator is a thing of its own: the run begins with its cabinets.
+        let mut placed: Vec<(f32, Unit, Above)> = self.placed().collect();
+        placed.sort_by_key(|(_, unit, _)| *unit == Unit::BuiltInRefrigerator);
+        for (x, unit, above) in placed {
             let w = unit.width();
             let at = on(pose, Vec3::new(x, 0.0, 0.0), 0.0);
             unit::base(b, at, unit, style, rng);

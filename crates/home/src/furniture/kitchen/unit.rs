@@ -17,7 +17,10 @@ pub fn base(b: &mut Builder, pose: DAffine3, unit: Unit, style: &KitchenStyle, r
     let w = unit.width();
     let [low, top] = [PLINTH[0], if unit.is_tall() { TALL } else { UNDER_TOP }];
     let finish = if unit.is_tall() { style.upper } else { style.lower };
-    let object = b.object("kitchen_unit", Class::Cabinet, pose);
+    let object = match unit {
+        Unit::BuiltInRefrigerator => b.object("refrigerator", Class::Refrigerator, pose),
+        _ => b.object("kitchen_unit", Class::Cabinet, pose),
+    };
     plinth(b, &object, w, style);
     if unit == Unit::Dishwasher && !hides_appliances(style) {
         appliance::dishwasher(b, pose, [0.0, w], [low, top], style);
@@ -25,7 +28,6 @@ pub fn base(b: &mut Builder, pose: DAffine3, unit: Unit, style: &KitchenStyle, r
     }
     let hollow = matches!(unit, Unit::Sink(_) | Unit::Oven(_) | Unit::Tower);
     carcass(b, &object, w, [low, top], hollow, finish);
-    let object = if unit == Unit::BuiltInRefrigerator { b.object("refrigerator", Class::Refrigerator, pose) } else { object };
     let side = if rng.below(2) == 0 { -1.0 } else { 1.0 };
     let mut put = |name: &str, rect: [f32; 4], opening: Opening, rng: &mut Rng| {
         front(b, &object, name, rect, BOX + CONTACT, opening, style, finish, rng);

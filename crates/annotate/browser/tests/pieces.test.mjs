@@ -1,0 +1,106 @@
+// Splitting, suggestions, two tabs, keys alone.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { browser, draw, labelOf, lookFromFront, open, pixelOf, room, saved, serve } from "./room.mjs";
+
+const select = (page, name) =>
+    page.evaluate((wanted) => {
+        const { state } = window.annotate;
+        state.select([state.pieces.names.findIndex((one) => one.includes(wanted))]);
+    }, name);
+
+test("a part of two components is split, and undo makes it whole", async (t) => {
+    const { file } = room(t);
+    const page = await open(await browser(t), (await serve(t, file)).url);
+    await lookFromFront(page);
+    const count = () => page.evaluate(() => window.annotate.state.count);
+    const before = await count();
+    await select(page, "lamps");
+    await page.keyboard.press("k");
+    await saved(page);
+    assert.equal(await count(), before + 1);
+    // The view knows the new piece at once.
+    await lookFromFront(page);
+    await pixelOf(page, "lamps~2");
+    await page.keyboard.press("Control+z");
+    await saved(page);
+    assert.equal(await count(), before);
+});
+
+test("painted faces become a piece", async (t) => {
+    const { file } = room(t);
+    const page = await open(await browser(t), (await serve(t, file)).url);
+    await lookFromFront(page);
+    const before = await page.evaluate(() => window.annotate.state.count);
+    await select(page, "table_1");
+    await page.keyboard.press("m");
+    const at = await pixelOf(page, "table_1");
+    await page.mouse.move(...at);
+    await page.mouse.down();
+    await page.mouse.move(at[0] + 3, at[1]);
+    await page.mouse.up();
+    await page.waitForFunction(() => window.annotate.state.painting.faces.size > 0);
+    await page.keyboard.press("Enter");
+    await saved(page);
+    assert.equal(await page.evaluate(() => window.annotate.state.count), before + 1);
+});
+
+test("suggestions are confirmed in bulk, as one step", async (t) => {
+    const { file } = room(t);
+    const page = await open(await browser(t), (await serve(t, file)).url);
+    await page.getByRole("tab", { name: "Suggested" }).click();
+    await page.locator('input[type="range"]').fill("0.3");
+    await page.locator("#confirm-all").click();
+    await saved(page);
+    assert.equal((await labelOf(page, "chair_1"))[0], 5);
+    assert.equal((await labelOf(page, "floor"))[0], 2);
+    await page.keyboard.press("Control+z");
+    await saved(page);
+    assert.equal((await labelOf(page, "chair_1"))[0], -1);
+    assert.equal((await labelOf(page, "floor"))[0], -1);
+});
+
+test("two tabs see each other's edits, and lose none", async (t) => {
+    const { file } = room(t);
+    const { url } = await serve(t, file);
+    const one = await browser(t);
+    const [a, b] = [await open(one, url), await open(one, url)];
+    const assign = (page, piece, value) => page.evaluate(([at, id]) => window.annotate.edits.send({ type: "assign", pieces: [at], apply: { layer: "semantic", value: id } }), [piece, value]);
+    await Promise.all([assign(a, 0, 2), assign(b, 1, 1), assign(a, 2, 5), assign(b, 3, 5)]);
+    for (const page of [a, b]) await page.waitForFunction(() => [2, 1, 5, 5].every((id, piece) => window.annotate.state.pieces.semantic[piece] === id));
+});
+
+test("a room is labelled by keys alone, and the help lists them", async (t) => {
+    const { file } = room(t);
+    const page = await open(await browser(t), (await serve(t, file)).url);
+    await page.locator("#stage").focus();
+    await page.keyboard.press("?");
+    await page.getByRole("dialog", { name: "Keys" }).waitFor();
+    const listed = await page.locator("#help .keys section > div").count();
+    assert.ok(listed > 40, `${listed} keys`);
+    await page.keyboard.press("Escape");
+    await page.waitForFunction(() => window.annotate.act.unlabelled.length > 0);
+    const total = await page.evaluate(() => window.annotate.state.count);
+    for (let i = 0; i < total; i++) {
+        await page.keyboard.press(".");
+        await page.keyboard.press("4");
+        await page.keyboard.press("0");
+        await page.keyboard.press("Enter");
+        await saved(page);
+        await page.waitForTimeout(950);
+    }
+    assert.deepEqual(await page.evaluate(() => [...new Set(window.annotate.state.pieces.semantic)]), [40]);
+});
+
+test("same names and same geometry are selected together", async (t) => {
+    const { file } = room(t);
+    const page = await open(await browser(t), (await serve(t, file)).url);
+    const chosen = () => page.evaluate(() => [...window.annotate.state.selection].map((piece) => window.annotate.state.name(piece)).sort());
+    await select(page, "chair_1");
+    await page.keyboard.press("n");
+    assert.deepEqual(await chosen(), ["chair_1", "chair_2"]);
+    await select(page, "chair_2");
+    await page.keyboard.press("j");
+    assert.ok((await chosen()).includes("chair_2"));
+});

@@ -1,0 +1,153 @@
+// What the tests share: a small room as a scene file, a server on it, a browser, and strokes on the view.
+
+import { chromium } from "playwright-core";
+import { execFileSync, spawn } from "node:child_process";
+import { once } from "node:events";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+/** Graphics by the processor, so that every machine draws alike; nothing that talks to the network. */
+const ARGUMENTS = [
+    "--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+];
+
+/** Boxes of the room: name, corner, corner, metres; two chairs are alike, and `lamps` are two boxes in one part. */
+const ROOM = [
+    ["floor", [[[-3, -3, -0.1], [3, 3, 0]]]],
+    ["wall_back", [[[-3, 2.9, 0], [3, 3, 2.5]]]],
+    ["chair_1", [[[-1.8, 0, 0], [-1.2, 0.6, 0.9]]]],
+    ["chair_2", [[[-0.6, 0, 0], [0, 0.6, 0.9]]]],
+    ["table_1", [[[0.6, 0, 0], [1.4, 0.8, 0.8]]]],
+    ["lamps", [[[-1, 1.6, 0.5], [-0.6, 2, 1.5]], [[0.8, 1.6, 1], [1.2, 2, 1.6]]]],
+];
+
+/** The room as a Wavefront file. */
+function obj() {
+    let [text, corners] = ["", 0];
+    for (const [name, boxes] of ROOM) {
+        text += `o ${name}\nusemtl ${name}\n`;
+        for (const [[x0, y0, z0], [x1, y1, z1]] of boxes) {
+            for (const z of [z0, z1]) for (const y of [y0, y1]) for (const x of [x0, x1]) text += `v ${x} ${z} ${-y}\n`;
+            for (const face of [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]]) text += `f ${face.map((v) => v + corners).join(" ")}\n`;
+            corners += 8;
+        }
+    }
+    return text;
+}
+
+/** A fresh folder with the room, which the test's end removes. @param {import("node:test").TestContext} t */
+export function room(t) {
+    const folder = mkdtempSync(join(tmpdir(), "annotate-"));
+    t.after(() => rmSync(folder, { recursive: true, force: true }));
+    writeFileSync(join(folder, "room.obj"), obj());
+    return { folder, file: join(folder, "room.obj"), labels: join(folder, "room.obj.labels") };
+}
+
+/** The program under test. */
+function program() {
+    const named = process.env.ENFILADE_BINARY;
+    if (!named) throw new Error("ENFILADE_BINARY names no program; run these tests by `cargo xtask browser`");
+    return named;
+}
+
+/** A small dataset of a generated home with every layer but the denoised ones, which the test's end removes. @param {import("node:test").TestContext} t */
+export function dataset(t) {
+    const folder = mkdtempSync(join(tmpdir(), "dataset-"));
+    t.after(() => rmSync(folder, { recursive: true, force: true }));
+    const path = join(folder, "demo");
+    execFileSync(program(), ["run", "--demo", path, "--quiet", "--frames", "3", "--size", "160x120", "--samples", "2", "--extra", "--splits"], { stdio: ["ignore", "ignore", "inherit"] });
+    return path;
+}
+
+/** Starts the program; resolves when it tells its address. @param {import("node:test").TestContext} t @param {string} file @param {number} [port] @param {string} [verb] */
+export async function serve(t, file, port = 0, verb = "annotate") {
+    const child = spawn(program(), [verb, file, "--no-open", "--port", String(port)], { stdio: ["ignore", "pipe", "pipe"] });
+    t.after(() => child.kill("SIGKILL"));
+    let said = "";
+    const url = await new Promise((resolve, reject) => {
+        const hear = (bytes) => {
+            said += bytes;
+            const found = said.match(/http:\/\/\S+/);
+            if (found) resolve(found[0]);
+        };
+        child.stdout.on("data", hear);
+        child.stderr.on("data", hear);
+        child.on("exit", (code) => reject(new Error(`the program ended with ${code}: ${said}`)));
+    });
+    const end = async (signal = "SIGTERM") => {
+        const ended = once(child, "exit");
+        child.kill(signal);
+        await ended;
+    };
+    return { url, port: Number(new URL(url).port), end };
+}
+
+/** A browser that the test's end closes. @param {import("node:test").TestContext} t */
+export async function browser(t) {
+    const one = await chromium.launch({ executablePath: process.env.ENFILADE_CHROMIUM ?? "/usr/bin/chromium", args: ARGUMENTS });
+    t.after(() => one.close());
+    return one;
+}
+
+/** The page, once all of the scene is shown. Errors of the page fail the test. @param {import("playwright-core").BrowserContext | import("playwright-core").Browser} where @param {string} url */
+export async function open(where, url) {
+    const page = await where.newPage({ viewport: { width: 1280, height: 720 }, reducedMotion: "reduce" });
+    page.on("pageerror", (error) => {
+        throw error;
+    });
+    await page.goto(url);
+    await shown(page);
+    return page;
+}
+
+/** Waits until all of the scene is shown. */
+export const shown = (page) => page.waitForFunction(() => window.annotate?.stage.settled && !document.getElementById("loading").checkVisibility());
+
+/** Looks at the room from the front, everything in sight. */
+export async function lookFromFront(page) {
+    await page.evaluate(() => window.annotate.stage.goTo({ position: [0, -5, 2], orientation: [1, 0, 0, 0, 0.1, -0.995, 0, 0.995, 0.1], fov_y_deg: 50 }, { instant: true }));
+    await shown(page);
+}
+
+/** A pixel of the window at which a piece is seen, away from its edges. @param {string} name */
+export function pixelOf(page, name) {
+    return page.evaluate((wanted) => {
+        const { stage, state } = window.annotate;
+        const piece = state.pieces.names.findIndex((one) => one.includes(wanted));
+        const { left, top, width, height } = stage.element.getBoundingClientRect();
+        const seen = (x, y) => stage.seenAt(x, y).piece === piece;
+        for (let y = 8; y < height - 8; y += 4) for (let x = 8; x < width - 8; x += 4) if (seen(x, y) && seen(x - 6, y) && seen(x + 6, y) && seen(x, y + 6) && seen(x, y - 6)) return [left + x, top + y];
+        throw new Error(`${wanted} is not seen`);
+    }, name);
+}
+
+/** Draws from one pixel to another with Shift held. */
+export async function draw(page, [x0, y0], [x1, y1]) {
+    await page.keyboard.down("Shift");
+    await page.mouse.move(x0, y0);
+    await page.mouse.down();
+    await page.mouse.move((x0 + x1) / 2, (y0 + y1) / 2);
+    await page.mouse.move(x1, y1);
+    await page.mouse.up();
+    await page.keyboard.up("Shift");
+    await saved(page);
+}
+
+/** Waits until every edit is acknowledged. */
+export async function saved(page) {
+    await page.waitForTimeout(80);
+    await page.waitForFunction(() => window.annotate.edits.queue.length === 0 && !window.annotate.edits.offline, null, { timeout: 15000 });
+}
+
+/** Class and instance of the first piece whose name has this word. */
+export const labelOf = (page, name) =>
+    page.evaluate((wanted) => {
+        const { names, semantic, instance } = window.annotate.state.pieces;
+        const piece = names.findIndex((one) => one.includes(wanted));
+        return [semantic[piece], instance[piece]];
+    }, name);
+
+/** Text of the line that screen readers are told. */
+export const told = (page) => page.locator("#live").textContent();

@@ -1,0 +1,195 @@
+// The page that shows a dataset, in a real browser.
+
+import assert from "node:assert/strict";
+import { after, before, describe, test } from "node:test";
+import { browser, dataset, serve } from "./room.mjs";
+
+describe("view", () => {
+    let origin, page;
+    const problems = [];
+    const endings = [];
+
+    before(async () => {
+        const t = { after: (ending) => endings.push(ending) };
+        const { url } = await serve(t, dataset(t), 0, "view");
+        origin = new URL(url).origin;
+        page = await (await browser(t)).newPage({ viewport: { width: 1280, height: 720 } });
+        page.on("pageerror", (error) => problems.push(error.message));
+    });
+
+    after(async () => {
+        for (const ending of endings.reverse()) await ending();
+    });
+
+    /** Opens the page anew at an address's hash, and waits until its picture is there. */
+    async function open(hash) {
+        await page.goto("about:blank");
+        await page.goto(`${origin}/view/#${hash}`);
+        await page.waitForSelector("body[data-ready=true]");
+        await painted();
+    }
+
+    const painted = () => page.waitForFunction(() => document.querySelector("#stage").dataset.frame !== "" && document.querySelector("#busy").hidden);
+    const hash = async () => {
+        await page.waitForTimeout(250);
+        return new URLSearchParams(new URL(page.url()).hash.slice(1));
+    };
+    const json = (path) => fetch(`${origin}/api/view/${path}`).then((response) => response.json());
+
+    /** The stored numbers of a layer, as the server's file has them. */
+    async function stored(scene, camera, frame, layer) {
+        const response = await fetch(`${origin}/api/view/layer/${scene}/${camera}/${frame}/${layer}`);
+        const [height, width, channels] = response.headers.get("x-enfilade-shape").split(",").map(Number);
+        const dtype = response.headers.get("x-enfilade-dtype");
+        const view = new DataView(await response.arrayBuffer());
+        const half = (bits) => (bits & 0x8000 ? -1 : 1) * ((bits >> 10) & 31 ? ((bits >> 10) & 31) === 31 ? (bits & 1023 ? NaN : Infinity) : 2 ** (((bits >> 10) & 31) - 25) * (1024 + (bits & 1023)) : 2 ** -24 * (bits & 1023));
+        const number = (i) => ({ float16: () => half(view.getUint16(2 * i, true)), float32: () => view.getFloat32(4 * i, true), int16: () => view.getInt16(2 * i, true), uint8: () => view.getUint8(i) })[dtype]();
+        return { width, height, at: (x, y) => Array.from({ length: channels }, (_, c) => number((y * width + x) * channels + c)), dtype };
+    }
+
+    /** Moves the cursor to the middle of a pixel, and returns the read-out of the first picture. */
+    async function readAt(x, y, layer, size) {
+        const box = await page.locator("#stage").boundingBox();
+        const scale = Math.min(box.width / size.width, box.height / size.height);
+        await page.mouse.move(box.x + box.width / 2 + (x + 0.5 - size.width / 2) * scale, box.y + box.height / 2 + (y + 0.5 - size.height / 2) * scale);
+        const line = page.locator(`#readout [data-layer="${layer}"][data-side="0"]`);
+        await line.locator(".value").waitFor();
+        const text = await line.innerText();
+        const [, px, py] = text.match(/^\s*(\d+),\s*(\d+)/).map(Number);
+        return { x: px, y: py, values: (await line.locator(".value").innerText()).trim().split(/\s+/) };
+    }
+
+    test("every layer is shown, and the values under the cursor are those of the files", async () => {
+        const { scenes, layers } = await json("dataset");
+        const { cameras } = await json(`scene/${scenes[0]}`);
+        const { frames } = await json(`camera/${scenes[0]}/${cameras[0]}`);
+        const { frame, layers: there } = frames.find((one) => one.layers.length);
+        await open(`scene=${scenes[0]}&camera=${cameras[0]}&frame=${frame}`);
+        for (const { name } of there.map((at) => layers[at])) {
+            await page.selectOption("#layer-0", name);
+            await painted();
+            const file = await stored(scenes[0], cameras[0], frame, name);
+            for (const [fx, fy] of [[0.3, 0.4], [0.7, 0.8]]) {
+                const read = await readAt(Math.floor(fx * file.width), Math.floor(fy * file.height), name, file);
+                const expected = file.at(read.x, read.y);
+                const same = (text, value) => (Number.isNaN(value) ? text === "NaN" : file.dtype === "float32" ? Math.fround(Number(text)) === value : Math.abs(Number(text) - value) <= Math.abs(value) * 2 ** -11 + 2 ** -25);
+                assert.ok(expected.every((value, i) => same(read.values[i], value)), `${name} at ${read.x}, ${read.y}: read ${read.values}, stored ${expected}`);
+            }
+            assert.ok(await page.locator("#message").isHidden(), `${name}: ${await page.locator("#message").innerText()}`);
+        }
+        assert.deepEqual(problems, []);
+    });
+
+    /** Mean brightness of a part of the stage, 0 to 255, as it is on the screen. */
+    async function brightness(part) {
+        const box = await page.locator("#stage").boundingBox();
+        const picture = await page.screenshot({ clip: { x: box.x + part.x * box.width, y: box.y + part.y * box.height, width: 40, height: 40 } });
+        return page.evaluate(async (bytes) => {
+            const image = await createImageBitmap(new Blob([new Uint8Array(bytes)]));
+            const canvas = new OffscreenCanvas(image.width, image.height);
+            const pen = canvas.getContext("2d");
+            pen.drawImage(image, 0, 0);
+            const { data } = pen.getImageData(0, 0, image.width, image.height);
+            let sum = 0;
+            for (let i = 0; i < data.length; i += 4) sum += data[i] + data[i + 1] + data[i + 2];
+            return sum / (data.length / 4) / 3;
+        }, [...picture]);
+    }
+
+    test("exposure is changed by keys and makes the picture brighter", async () => {
+        await open("layer=color");
+        await page.mouse.move(5, 5);
+        const before = await brightness({ x: 0.5, y: 0.6 });
+        for (let i = 0; i < 4; i++) await page.keyboard.press("e");
+        await painted();
+        await page.waitForTimeout(200);
+        assert.equal((await hash()).get("stops"), "2");
+        assert.ok((await brightness({ x: 0.5, y: 0.6 })) > before * 1.2);
+        await page.keyboard.press("q");
+        assert.equal((await hash()).get("stops"), null);
+    });
+
+    test("the border of the wipe is dragged, and both sides tell their values", async () => {
+        await open("mode=wipe&layer=color&other=depth_meters");
+        const box = await page.locator("#stage").boundingBox();
+        await page.mouse.move(box.x + box.width / 2, box.y + 100);
+        await page.mouse.down();
+        await page.mouse.move(box.x + box.width * 0.3, box.y + 100, { steps: 4 });
+        await page.mouse.up();
+        assert.ok(Math.abs(Number((await hash()).get("wipe")) - 0.3) < 0.01);
+        await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+        for (const layer of ["color", "depth_meters"]) assert.match(await page.locator(`#readout [data-layer="${layer}"]`).innerText(), /\d/);
+    });
+
+    test("an instance under the cursor is marked and named, and a click keeps it", async () => {
+        await open("layer=color&tab=objects");
+        const first = page.locator("#panel tr[data-instance]").first();
+        await first.waitFor();
+        const id = await first.getAttribute("data-instance");
+        await first.click();
+        await page.locator("#panel h2", { hasText: `Instance ${id}` }).waitFor();
+        assert.equal((await hash()).get("instance"), id);
+        await page.keyboard.press("Escape");
+        assert.equal((await hash()).get("instance"), null);
+    });
+
+    test("the instance of a pixel is marked while the cursor is on it, with its name and class", async () => {
+        const { scenes } = await json("dataset");
+        const { cameras, parts } = await json(`scene/${scenes[0]}`);
+        await open("layer=color&frame=0&boxes=true");
+        const ids = await stored(scenes[0], cameras[0], 0, "semantic_instance");
+        const marked = [];
+        for (let y = 4; y < ids.height && !marked.length; y += 9) {
+            for (let x = 4; x < ids.width && !marked.length; x += 9) if (ids.at(x, y)[0] > 0 && ids.at(x + 1, y)[0] === ids.at(x, y)[0]) marked.push(x, y);
+        }
+        const read = await readAt(marked[0], marked[1], "color", ids);
+        const instance = page.locator('#readout [data-names="semantic_instance"]');
+        await instance.waitFor();
+        const id = ids.at(read.x, read.y)[0];
+        assert.ok((await instance.innerText()).startsWith(`${id} ${parts.names[parts.instance.indexOf(id)]}`));
+        assert.match(await page.locator('#readout [data-names="semantic"]').innerText(), new RegExp(`^${parts.semantic[parts.instance.indexOf(id)]} `));
+    });
+
+    test("the scene is shown in 3D with its free space", async () => {
+        await open("mode=space&frame=0");
+        await page.locator("#space canvas").waitFor();
+        const cubes = page.waitForResponse((response) => response.url().endsWith("/space"));
+        await page.locator('#space [data-part="free"]').check();
+        assert.equal((await cubes).status(), 200);
+        assert.deepEqual(problems, []);
+    });
+
+    test("a link restores what was seen", async () => {
+        await open("mode=side&layer=normal_cam&other=depth_meters&zoom=4&x=0.25&y=0.75&tone=filmic&range=depth_meters:1:3&tab=frame");
+        assert.equal(await page.locator("#layer-0").inputValue(), "normal_cam");
+        assert.equal(await page.locator("#layer-1").inputValue(), "depth_meters");
+        assert.equal(await page.locator('#modes [data-mode="side"]').getAttribute("aria-pressed"), "true");
+        assert.equal(await page.locator('#tabs [data-tab="frame"]').getAttribute("aria-selected"), "true");
+        assert.match(await page.locator("#heading-1 .legend").innerText(), /1[\s\S]*3 m/);
+        await page.keyboard.press("ArrowRight");
+        const words = await hash();
+        assert.deepEqual(["zoom", "x", "y", "tone", "range"].map((name) => words.get(name)), ["4", "0.25", "0.75", "filmic", "depth_meters:1:3"]);
+    });
+
+    test("keys go from frame to frame, from layer to layer, and show the help", async () => {
+        await open("layer=color&frame=0");
+        const next = await page.locator('#thumbnails [role="option"]').nth(1).getAttribute("data-frame");
+        await page.keyboard.press("ArrowRight");
+        await page.waitForSelector(`#stage[data-frame="${next}"]`);
+        assert.equal((await hash()).get("frame"), next);
+        await page.keyboard.press("d");
+        assert.equal(await page.locator("#layer-0").inputValue(), "depth_meters");
+        await page.keyboard.press("3");
+        assert.equal((await hash()).get("mode"), "wipe");
+        await page.keyboard.press("?");
+        await page.locator("dialog[open]").waitFor();
+        await page.keyboard.press("Escape");
+        assert.equal(await page.locator("dialog[open]").count(), 0);
+    });
+
+    test("what an address says wrongly is as at the beginning", async () => {
+        await open("scene=..%2F..&camera=%00&frame=abc&layer=nothing&mode=x&zoom=-5&wipe=9&range=depth_meters:5:1");
+        assert.ok(await page.locator("#message").isHidden());
+        assert.deepEqual(problems, []);
+    });
+});

@@ -1,0 +1,71 @@
+//! What the dataset holds, in short: scenes, layers, classes, and how it was verified.
+
+use super::place::problem;
+use super::{Viewer, reply, work};
+use crate::serve::ApiProblem;
+use axum::extract::State;
+use axum::http::HeaderMap;
+use axum::response::Response;
+use enfilade_dataset::check_name;
+use enfilade_frame::LAYERS;
+use enfilade_post::verify::VerifyReport;
+use enfilade_scene::{NYU40, is_stuff};
+use serde_json::{Value, json};
+use std::sync::Arc;
+
+/// `GET /api/view/dataset`.
+pub async fn dataset(State(viewer): State<Arc<Viewer>>, headers: HeaderMap) -> Result<Response, ApiProblem> {
+    let gzip = reply::takes_gzip(&headers);
+    work(viewer, move |viewer| Ok(reply::json(gzip, &viewer.catalogue()?))).await
+}
+
+impl Viewer {
+    fn catalogue(&self) -> Result<Value, ApiProblem> {
+        let scenes = self.dataset.scenes().map_err(problem)?;
+        // A folder with another name cannot be asked for; it is told, not hidden.
+        let (named, unnamed): (Vec<String>, Vec<String>) = scenes.into_iter().partition(|name| check_name("scene name", name).is_ok());
+        let name = self.root.file_name().map_or_else(|| self.root.display().to_string(), |name| name.to_string_lossy().into_owned());
+        let layers = LAYERS.iter().map(|spec| {
+            json!({ "name": spec.name, "pass": spec.pass, "channels": spec.channels, "dtype": spec.dtype, "unit": spec.unit,
+                "space": spec.space, "sentinel": spec.sentinel, "description": spec.description })
+        });
+        let classes = NYU40.iter().map(|c| json!({ "id": c.id, "name": c.name, "color": c.color, "stuff": is_stuff(c.id) }));
+        let pages = [
+            ("Report card", self.layout().verify_page()),
+            ("Statistics", self.layout().statistics_dir().join("statistics.html")),
+            ("Contact sheet", self.layout().overview()),
+        ];
+        let pages =
+            pages.iter().filter(|(_, path)| path.is_file()).map(|(title, path)| json!({ "title": title, "path": self.in_dataset(path) }));
+        Ok(json!({
+            "name": name,
+            "scenes": named,
+            "scenes_with_other_names": unnamed,
+            "layers": layers.collect::<Vec<_>>(),
+            "classes": classes.collect::<Vec<_>>(),
+            "pages": pages.collect::<Vec<_>>(),
+            "verify": self.verify_summary()?,
+        }))
+    }
+
+    /// What the last verification found; null without one.
+    fn verify_summary(&self) -> Result<Value, ApiProblem> {
+        let Some(report) = self.verify_report()? else { return Ok(Value::Null) };
+        let failures: Vec<Value> = report
+            .failures()
+            .map(|law| json!({ "law": law.law, "statement": law.statement, "place": law.place, "meaning": law.meaning }))
+            .collect();
+        Ok(json!({
+            "passed": report.passed, "accepted": report.accepted, "verdict": report.verdict(), "gate_verdict": report.gate_verdict(),
+            "laws": report.laws.len(), "failures": failures, "frames": report.frames,
+        }))
+    }
+
+    /// The report of the last verification; `None` without one, and for a report of another version.
+    fn verify_report(&self) -> Result<Option<VerifyReport>, ApiProblem> {
+        let path = self.layout().verify_report();
+        self.allow(&path)?;
+        let Ok(text) = std::fs::read(&path) else { return Ok(None) };
+        Ok(serde_json::from_slice(&text).ok())
+    }
+}

@@ -1,0 +1,59 @@
+//! Pages and pictures that lie in the dataset: the report card, statistics, rejected views.
+
+use super::{Viewer, work};
+use crate::serve::ApiProblem;
+use axum::extract::{Path, State};
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use std::path::Component;
+use std::sync::Arc;
+
+/// What may be sent, by the end of its name.
+const KINDS: [(&str, &str); 10] = [
+    ("html", "text/html; charset=utf-8"),
+    ("css", "text/css; charset=utf-8"),
+    ("svg", "image/svg+xml"),
+    ("png", "image/png"),
+    ("jpg", "image/jpeg"),
+    ("webp", "image/webp"),
+    ("gif", "image/gif"),
+    ("mp4", "video/mp4"),
+    ("json", "application/json"),
+    ("csv", "text/csv; charset=utf-8"),
+];
+
+/// Pages of a dataset were perhaps made by strangers: they run no program and ask no other machine for anything.
+const PAGE_POLICY: &str = "sandbox; default-src 'none'; img-src 'self' data:; media-src 'self'; style-src 'unsafe-inline' 'self'";
+
+/// `GET /api/view/file/{path}`: a page, picture or table of the dataset, by its path in the dataset's folder.
+pub async fn file(State(viewer): State<Arc<Viewer>>, Path(path): Path<String>) -> Result<Response, ApiProblem> {
+    let parts = std::path::Path::new(&path);
+    let plain = |part: Component| matches!(part, Component::Normal(name) if !name.to_string_lossy().starts_with('.'));
+    if path.contains(['\\', '\0']) || path.is_empty() || !parts.components().all(plain) {
+        return Err(ApiProblem::bad_request(
+            format!("{path:?} is no path within the dataset"),
+            "give folders and a name, without dots in front",
+        ));
+    }
+    let end = path.rsplit('.').next().unwrap_or("");
+    let Some((_, kind)) = KINDS.iter().find(|(known, _)| *known == end) else {
+        let known: Vec<&str> = KINDS.iter().map(|(end, _)| *end).collect();
+        return Err(ApiProblem::bad_request(
+            format!("{path:?} is no page or picture"),
+            format!("only files in {} are sent", known.join(", ")),
+        ));
+    };
+    let bytes = work(viewer, move |viewer| {
+        let full = viewer.dataset.root().join(&path);
+        viewer.allow(&full)?;
+        std::fs::read(&full).map_err(|e| match e.kind() {
+            std::io::ErrorKind::NotFound => {
+                ApiProblem::not_found(format!("the dataset has no file {path:?}"), "run the stage that makes it")
+            }
+            _ => ApiProblem::failed(format!("cannot read {path:?}: {e}"), "make the file readable"),
+        })
+    })
+    .await?;
+    let headers = [(header::CONTENT_TYPE, *kind), (header::CACHE_CONTROL, "no-cache"), (header::CONTENT_SECURITY_POLICY, PAGE_POLICY)];
+    Ok((headers, bytes).into_response())
+}

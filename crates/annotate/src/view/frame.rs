@@ -1,0 +1,82 @@
+//! What is known of a frame beside its layers: its records, its split, what it shows of each instance, and how it was judged.
+
+use super::place::{FramePlace, optional, problem, stamp};
+use super::{Viewer, reply, work};
+use crate::serve::ApiProblem;
+use axum::extract::{Path, State};
+use axum::http::HeaderMap;
+use axum::response::Response;
+use enfilade_dataset::DatasetError;
+use serde_json::{Value, json};
+use std::sync::Arc;
+
+/// `GET /api/view/frame/{scene}/{camera}/{frame}`.
+pub async fn frame(
+    State(viewer): State<Arc<Viewer>>,
+    Path((scene, camera, frame)): Path<(String, String, String)>,
+    headers: HeaderMap,
+) -> Result<Response, ApiProblem> {
+    let gzip = reply::takes_gzip(&headers);
+    let place = FramePlace::parse([scene, camera, frame])?;
+    work(viewer, move |viewer| {
+        viewer.check_camera(&place.scene, &place.camera)?;
+        Ok(reply::json(gzip, &viewer.frame_facts(&place)?))
+    })
+    .await
+}
+
+impl Viewer {
+    fn frame_facts(&self, place: &FramePlace) -> Result<Value, ApiProblem> {
+        let FramePlace { scene, camera, frame } = place;
+        let layout = self.layout();
+        self.allow_all([
+            layout.frame_record(scene, camera, *frame),
+            layout.label_record(scene, camera, *frame),
+            layout.denoise_record(scene, camera, *frame),
+            layout.frame_instances(scene, camera),
+            layout.split(),
+            layout.verify_report(),
+        ])?;
+        let record = self.dataset.frame_record(scene, camera, *frame).map_err(problem)?;
+        let labels = self.dataset.label_record(scene, camera, *frame).map_err(problem)?;
+        let denoised = self.dataset.denoise_record(scene, camera, *frame).map_err(problem)?;
+        let views = optional(self.dataset.read_instance_views(scene, camera))?.unwrap_or_default();
+        let instances: Vec<Value> = views
+            .iter()
+            .filter(|view| view.frame == *frame)
+            .map(|view| {
+                json!({ "instance": view.instance, "semantic": view.semantic, "visible_pixels": view.visible.pixels,
+                    "visible_box": view.visible.bounds, "full_box": view.full.bounds,
+                    "visibility": view.visibility(), "truncation": view.truncation() })
+            })
+            .collect();
+        let split = optional(self.dataset.read_split())?.unwrap_or_default();
+        let row = split.iter().find(|row| row.scene == *scene && row.camera == *camera && row.frame == *frame);
+        let split = row.map(|row| match &row.partition {
+            Ok(partition) => json!({ "partition": partition.name() }),
+            Err(reason) => json!({ "excluded": reason }),
+        });
+        // A browser's numbers end at 2^53.
+        let seed = record.as_ref().map(|record| record.seed.to_string());
+        let mut record = json!(record);
+        if let Some(seed) = seed {
+            record["seed"] = seed.into();
+        }
+        Ok(json!({ "record": record, "labels": labels, "denoised": denoised, "instances": instances, "split": split,
+            "judged": self.judged(place)? }))
+    }
+
+    /// What verification measured of the frame.
+    fn judged(&self, place: &FramePlace) -> Result<Option<Value>, ApiProblem> {
+        let path = self.layout().verify_report();
+        if !path.is_file() {
+            return Ok(None);
+        }
+        let text = self.buffers.get(&(String::new(), "verify.json"), stamp(&path), || {
+            std::fs::read(&path).map_err(|source| problem(DatasetError::Io { action: "read", path: path.clone(), source }))
+        })?;
+        let report: Value = serde_json::from_slice(&text).unwrap_or_default();
+        let is = |row: &&Value| row["scene"] == *place.scene && row["camera"] == *place.camera && row["frame"] == place.frame;
+        Ok(report["frame_values"].as_array().and_then(|rows| rows.iter().find(is)).cloned())
+    }
+}

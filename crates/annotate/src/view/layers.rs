@@ -1,0 +1,183 @@
+//! A layer of a frame as raw little-endian numbers, for the page to colour.
+//!
+//! `?step=N` keeps every Nth pixel of every Nth row: a small picture that is there at once. `?compact=1` is for slow wires: the bytes
+//! of one significance lie together (`x-enfilade-packing: planes`), and the whole is deflated where the browser takes that.
+
+use super::cache::Weight;
+use super::place::{FramePlace, problem, stamp};
+use super::summary::Summary;
+use super::{Viewer, reply, work};
+use crate::serve::ApiProblem;
+use axum::extract::rejection::QueryRejection;
+use axum::extract::{Path, Query, State};
+use axum::http::HeaderMap;
+use axum::response::Response;
+use enfilade_dataset::hdf5::read_array;
+use enfilade_dataset::{Elements, ToneMapRow};
+use enfilade_frame::{LAYERS, Layer};
+use enfilade_post::tonemap::{ToneMap, brightness, percentile};
+use serde::Deserialize;
+use std::sync::Arc;
+
+/// Beyond this a picture would be a few pixels.
+const LARGEST_STEP: usize = 64;
+
+/// What is asked for of a layer.
+#[derive(Debug, Default, Deserialize)]
+pub struct LayerQuery {
+    /// Distance of the pixels and rows that are kept; 1 when absent.
+    step: Option<usize>,
+    /// 1: few bytes rather than little work.
+    compact: Option<u8>,
+}
+
+/// A layer in memory.
+pub struct DecodedLayer {
+    /// Height, width and channels.
+    pub shape: [usize; 3],
+    /// The stored numbers.
+    pub values: Elements,
+    /// What they come to.
+    pub summary: Summary,
+}
+
+impl Weight for DecodedLayer {
+    fn weight(&self) -> usize {
+        self.values.as_bytes().len()
+    }
+}
+
+/// `GET /api/view/layer/{scene}/{camera}/{frame}/{layer}`.
+pub async fn layer(
+    State(viewer): State<Arc<Viewer>>,
+    Path((scene, camera, frame, name)): Path<(String, String, String, String)>,
+    query: Result<Query<LayerQuery>, QueryRejection>,
+    headers: HeaderMap,
+) -> Result<Response, ApiProblem> {
+    let place = FramePlace::parse([scene, camera, frame])?;
+    let unknown = || {
+        let names: Vec<&str> = LAYERS.iter().map(|spec| spec.name).collect();
+        ApiProblem::bad_request(format!("there is no layer {name:?}"), format!("choose one of {}", names.join(", ")))
+    };
+    let layer = Layer::from_name(&name).ok_or_else(unknown)?;
+    let Query(query) = query.map_err(|e| ApiProblem::bad_request(e.body_text(), "step is a number from 1 to 64, compact is 0 or 1"))?;
+    let step = query.step.unwrap_or(1);
+    if !(1..=LARGEST_STEP).contains(&step) {
+        return Err(ApiProblem::bad_request(format!("the step is {step}"), format!("choose one from 1 to {LARGEST_STEP}")));
+    }
+    let compact = query.compact.is_some_and(|compact| compact != 0);
+    let gzip = compact && reply::takes_gzip(&headers);
+    work(viewer, move |viewer| {
+        let decoded = viewer.layer(&place, layer)?;
+        let mut summary = decoded.summary.clone();
+        if layer.spec().unit == "W/(sr m^2)" {
+            summary.tone_scale = viewer.tone_scale(&place)?;
+        }
+        let ([height, width], bytes) = decoded.every(step);
+        let size = decoded.values.element().size();
+        let planes = compact && size > 1 && !matches!(decoded.values, Elements::I16(_));
+        let bytes = if planes { planes_of(&bytes, size) } else { bytes };
+        let mut headers = vec![
+            ("x-enfilade-shape", format!("{height},{width},{}", decoded.shape[2])),
+            ("x-enfilade-size", format!("{},{}", decoded.shape[0], decoded.shape[1])),
+            ("x-enfilade-dtype", decoded.values.element().name().to_string()),
+            ("x-enfilade-summary", serde_json::to_string(&summary).expect("plain data encodes")),
+        ];
+        if planes {
+            headers.push(("x-enfilade-packing", "planes".to_string()));
+        }
+        Ok(reply::array(bytes, gzip, &headers))
+    })
+    .await
+}
+
+impl Viewer {
+    /// A layer of a frame, read where it is not in memory.
+    ///
+    /// # Errors
+    /// 404 when there is no such file, 403 when it lies outside of the dataset, 500 when it is damaged or no such layer.
+    pub(super) fn layer(&self, place: &FramePlace, layer: Layer) -> Result<Arc<DecodedLayer>, ApiProblem> {
+        let path = self.layout().layer(&place.scene, &place.camera, place.frame, layer);
+        self.allow(&path)?;
+        self.layers.get(&(place.clone(), layer), stamp(&path), || {
+            let array = read_array(&path).map_err(problem)?;
+            let spec = layer.spec();
+            let shape = match (array.shape.as_slice(), spec.channels) {
+                (&[height, width], 1) => [height, width, 1],
+                (&[height, width, found], channels) if found == channels => [height, width, channels],
+                (shape, channels) => {
+                    let error = format!("{}: expected an image of {channels} channels, found an array of shape {shape:?}", path.display());
+                    return Err(ApiProblem::failed(error, "delete the file and make it again"));
+                }
+            };
+            if matches!(array.values, Elements::F64(_) | Elements::I64(_)) {
+                let error = format!("{}: expected image values, found {}", path.display(), array.values.element().name());
+                return Err(ApiProblem::failed(error, "delete the file and make it again"));
+            }
+            Ok(DecodedLayer { shape, summary: Summary::new(layer, &array.values), values: array.values })
+        })
+    }
+
+    /// What radiance is multiplied by in Hypersim's picture of a frame, where `metadata_tonemap.csv` does not say it: `None` where it
+    /// does, and where the frame has no color or no `render_entity_id`.
+    fn tone_scale(&self, place: &FramePlace) -> Result<Option<f64>, ApiProblem> {
+        let has = |layer| self.dataset.has_layer(&place.scene, &place.camera, place.frame, layer);
+        let table = self.layout().tone_maps(&place.scene, &place.camera);
+        if table.is_file() || !has(Layer::Color) || !has(Layer::RenderEntityId) {
+            return Ok(None);
+        }
+        let (color, ids) = (self.layer(place, Layer::Color)?, self.layer(place, Layer::RenderEntityId)?);
+        let (Elements::F16(color), Elements::I16(ids)) = (&color.values, &ids.values) else { return Ok(None) };
+        let seen = color.chunks_exact(3).zip(ids).filter(|(_, id)| **id != -1);
+        let values = seen.map(|(rgb, _)| brightness([rgb[0], rgb[1], rgb[2]].map(|x| f64::from(x.to_f32())))).collect();
+        Ok(Some(ToneMap::of_percentile(percentile(values)).scale))
+    }
+
+    /// The exposures of a camera's frames, as far as a table says them.
+    pub(super) fn tone_maps(&self, scene: &str, camera: &str) -> Result<Vec<ToneMapRow>, ApiProblem> {
+        self.allow(&self.layout().tone_maps(scene, camera))?;
+        self.dataset.read_tone_maps(scene, camera).map_err(problem)
+    }
+}
+
+impl DecodedLayer {
+    /// Height, width and bytes of every `step`-th pixel of every `step`-th row.
+    fn every(&self, step: usize) -> ([usize; 2], Vec<u8>) {
+        let [height, width, channels] = self.shape;
+        let bytes = self.values.as_bytes();
+        if step == 1 {
+            return ([height, width], bytes.to_vec());
+        }
+        let pixel = channels * self.values.element().size();
+        let mut kept = Vec::with_capacity(height.div_ceil(step) * width.div_ceil(step) * pixel);
+        for row in bytes.chunks_exact(width * pixel).step_by(step) {
+            row.chunks_exact(pixel).step_by(step).for_each(|pixel| kept.extend_from_slice(pixel));
+        }
+        ([height.div_ceil(step), width.div_ceil(step)], kept)
+    }
+}
+
+/// All first bytes of the elements, then all second ones, …: like lies with like, which deflates better.
+fn planes_of(bytes: &[u8], size: usize) -> Vec<u8> {
+    (0..size).flat_map(|byte| bytes[byte..].iter().step_by(size)).copied().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn planes_gather_bytes_of_one_significance() {
+        assert_eq!(planes_of(&[1, 2, 3, 4, 5, 6], 2), [1, 3, 5, 2, 4, 6]);
+        assert_eq!(planes_of(&[1, 2, 3, 4], 4), [1, 2, 3, 4]);
+    }
+
+    #[test]
+    fn every_second_pixel_of_every_second_row_is_kept() {
+        let values = Elements::I16((0..15).collect());
+        let layer = DecodedLayer { shape: [3, 5, 1], summary: Summary::new(Layer::Semantic, &values), values };
+        let (size, bytes) = layer.every(2);
+        let kept: Vec<i16> = bytes.chunks_exact(2).map(|b| i16::from_le_bytes([b[0], b[1]])).collect();
+        assert_eq!((size, kept), ([2, 3], vec![0, 2, 4, 10, 12, 14]));
+    }
+}

@@ -1,0 +1,80 @@
+//! Answers: JSON and arrays, compressed where that is asked for and helps.
+
+use axum::http::{HeaderMap, HeaderName, HeaderValue, header};
+use axum::response::{IntoResponse, Response};
+use libdeflater::{CompressionLvl, Compressor};
+use serde::Serialize;
+
+/// Below this many bytes a packet is sent anyway.
+const WORTH_COMPRESSING: usize = 1400;
+
+/// Whether the one who asks takes gzip.
+pub fn takes_gzip(headers: &HeaderMap) -> bool {
+    let accepted = headers.get(header::ACCEPT_ENCODING).and_then(|value| value.to_str().ok()).unwrap_or("");
+    accepted.split(',').any(|one| {
+        let mut words = one.split(';').map(str::trim);
+        words.next() == Some("gzip") && !words.any(|word| matches!(word, "q=0" | "q=0.0" | "q=0.00" | "q=0.000"))
+    })
+}
+
+/// JSON.
+pub fn json(gzip: bool, value: &impl Serialize) -> Response {
+    let text = serde_json::to_vec(value).expect("plain data encodes");
+    body(text, "application/json", gzip, 6)
+}
+
+/// An array: shape, type and further headers, then its bytes. `level` is libdeflate's; the fastest suits a wire that is not slow.
+pub fn array(bytes: Vec<u8>, gzip: bool, headers: &[(&'static str, String)]) -> Response {
+    let mut response = body(bytes, "application/octet-stream", gzip, 1);
+    for (name, value) in headers {
+        if let Ok(value) = HeaderValue::from_str(value) {
+            response.headers_mut().insert(HeaderName::from_static(name), value);
+        }
+    }
+    response
+}
+
+fn body(bytes: Vec<u8>, kind: &'static str, gzip: bool, level: i32) -> Response {
+    let headers = [(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, "no-cache"), (header::VARY, "accept-encoding")];
+    if gzip
+        && bytes.len() >= WORTH_COMPRESSING
+        && let Some(packed) = pack(&bytes, level)
+    {
+        return (headers, [(header::CONTENT_ENCODING, "gzip")], packed).into_response();
+    }
+    (headers, bytes).into_response()
+}
+
+/// The bytes as gzip; `None` when that saves less than a twentieth.
+fn pack(bytes: &[u8], level: i32) -> Option<Vec<u8>> {
+    let mut compressor = Compressor::new(CompressionLvl::new(level).expect("levels 1 to 12 exist"));
+    let mut packed = vec![0; compressor.gzip_compress_bound(bytes.len())];
+    let length = compressor.gzip_compress(bytes, &mut packed).ok()?;
+    packed.truncate(length);
+    (length < bytes.len() / 20 * 19).then_some(packed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gzip_is_taken_only_by_those_who_say_so() {
+        let takes = |value: &str| takes_gzip(&HeaderMap::from_iter([(header::ACCEPT_ENCODING, HeaderValue::from_str(value).unwrap())]));
+        assert!(takes("gzip") && takes("deflate, gzip, br") && takes("br;q=1.0, gzip;q=0.8"));
+        assert!(!takes("") && !takes("br") && !takes("gzip;q=0") && !takes("xgzip") && !takes_gzip(&HeaderMap::new()));
+    }
+
+    #[test]
+    fn only_what_becomes_smaller_is_compressed() {
+        let encoded = |bytes: Vec<u8>| array(bytes, true, &[]).headers().contains_key(header::CONTENT_ENCODING);
+        assert!(encoded(vec![7; 100_000]));
+        assert!(!encoded(vec![7; 100]));
+        let mut state = 1u32;
+        let noise = std::iter::from_fn(|| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            Some((state >> 24) as u8)
+        });
+        assert!(!encoded(noise.take(100_000).collect()));
+    }
+}

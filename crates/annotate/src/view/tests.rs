@@ -1,0 +1,264 @@
+//! The routes, asked as a browser asks them.
+
+use super::{Viewer, router};
+use axum::body::{Body, to_bytes};
+use axum::http::{Request, StatusCode, header};
+use axum::response::Response;
+use enfilade_dataset::hdf5::read_array;
+use enfilade_dataset::{Dataset, FrameInfo, FrameTime, JudgedView, ViewFault, ViewVerdict};
+use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Pass, Values, f16};
+use enfilade_math::DVec3;
+use enfilade_scene::{Camera, Intrinsics, Pose, Trajectory};
+use serde_json::Value;
+use std::path::Path;
+use tower::ServiceExt;
+
+const WIDTH: u32 = 12;
+const HEIGHT: u32 = 7;
+
+/// Numbers that differ from pixel to pixel and fit the layer's type.
+fn layer_values(layer: Layer, seed: usize) -> Values {
+    let spec = layer.spec();
+    let n = (WIDTH * HEIGHT) as usize * spec.channels;
+    let wave = |i: usize| ((i * 7 + seed) as f64 * 0.31).sin() + 1.5;
+    match spec.dtype {
+        Dtype::F16 => Values::F16((0..n).map(|i| f16::from_f64(wave(i))).collect()),
+        Dtype::F32 => Values::F32((0..n).map(|i| wave(i) as f32).collect()),
+        Dtype::I16 => Values::I16((0..n).map(|i| ((i + seed) % 9) as i16 - 1).collect()),
+        Dtype::U8 => Values::U8((0..n).map(|i| ((i + seed) % 4) as u8).collect()),
+    }
+}
+
+/// A dataset of one camera: frame 0 with every layer, frame 1 rejected, frame 2 planned.
+fn dataset(root: &Path) -> Dataset {
+    let dataset = Dataset::create(root).unwrap();
+    let camera: Camera = Intrinsics::from_fov_x(WIDTH, HEIGHT, 1.0).into();
+    let pose = |frame| Pose::look_at(frame, DVec3::new(f64::from(frame), 0.5, 1.5), DVec3::new(2.0, 3.0, 1.0), DVec3::Z).unwrap();
+    let trajectory = Trajectory { name: "cam_00".into(), poses: vec![pose(0), pose(1), pose(2)] };
+    dataset.write_trajectory("room", &trajectory, &camera, None).unwrap();
+    dataset.write_camera_parameters("room", &camera).unwrap();
+    let of = |passes: &[Pass]| {
+        let mut frame = Frame::new(WIDTH, HEIGHT);
+        LAYERS.iter().filter(|spec| passes.contains(&spec.pass)).for_each(|spec| frame.insert(spec.layer, layer_values(spec.layer, 0)));
+        frame
+    };
+    let info = FrameInfo { seed: u64::MAX, samples: 4, config_hash: "c".into(), pose: pose(0), camera, sampling: None, recipe: None };
+    let rendered = of(&[Pass::Final, Pass::Geometry, Pass::Split, Pass::Extra]);
+    dataset.write_frame("room", "cam_00", &rendered, &info, FrameTime::default()).unwrap();
+    dataset.write_label_layers("room", "cam_00", 0, &of(&[Pass::Label]), "l").unwrap();
+    dataset.write_denoised_layers("room", "cam_00", 0, &of(&[Pass::Denoised]), "d", "d").unwrap();
+    let fault = ViewFault { gate: "blocked".into(), value: 0.75, limit: 0.5 };
+    let view = |frame, verdict, fault| (JudgedView { frame, verdict, fault }, vec![]);
+    let views = [view(0, ViewVerdict::Passed, None), view(1, ViewVerdict::Rejected, Some(fault)), view(2, ViewVerdict::Passed, None)];
+    dataset.write_view_gates("room", "cam_00", &[], &views).unwrap();
+    dataset
+}
+
+async fn ask(root: &Path, address: &str, headers: &[(&str, &str)]) -> Response {
+    let mut request = Request::get(address);
+    for (name, value) in headers {
+        request = request.header(*name, *value);
+    }
+    router(Viewer::open(root).unwrap()).oneshot(request.body(Body::empty()).unwrap()).await.unwrap()
+}
+
+async fn bytes(response: Response) -> Vec<u8> {
+    to_bytes(response.into_body(), usize::MAX).await.unwrap().to_vec()
+}
+
+async fn json(root: &Path, address: &str) -> Value {
+    let response = ask(root, address, &[]).await;
+    assert_eq!(response.status(), StatusCode::OK, "{address}");
+    serde_json::from_slice(&bytes(response).await).unwrap()
+}
+
+#[tokio::test]
+async fn every_layer_has_the_bytes_of_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    for spec in &LAYERS {
+        let response = ask(folder.path(), &format!("/api/view/layer/room/cam_00/0/{}", spec.name), &[]).await;
+        assert_eq!(response.status(), StatusCode::OK, "{}", spec.name);
+        let head = |name: &str| response.headers()[name].to_str().unwrap().to_string();
+        assert_eq!(head("x-enfilade-shape"), format!("{HEIGHT},{WIDTH},{}", spec.channels));
+        let stored = read_array(&dataset.layout().layer("room", "cam_00", 0, spec.layer)).unwrap().values;
+        assert_eq!(head("x-enfilade-dtype"), stored.element().name());
+        assert!(serde_json::from_str::<Value>(&head("x-enfilade-summary")).unwrap()["range"][1].is_number());
+        assert_eq!(bytes(response).await, stored.as_bytes(), "{}", spec.name);
+    }
+}
+
+#[tokio::test]
+async fn small_and_compact_pictures_are_of_the_same_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    let stored = read_array(&dataset.layout().layer("room", "cam_00", 0, Layer::DepthMeters)).unwrap().values;
+    let address = "/api/view/layer/room/cam_00/0/depth_meters";
+    let small = ask(folder.path(), &format!("{address}?step=4"), &[]).await;
+    assert_eq!(
+        (&small.headers()["x-enfilade-shape"], &small.headers()["x-enfilade-size"]),
+        (&"2,3,1".parse().unwrap(), &"7,12".parse().unwrap())
+    );
+    let pixel = |x: usize, y: usize| &stored.as_bytes()[4 * (12 * y + x)..][..4];
+    let expected: Vec<u8> = [0, 4].into_iter().flat_map(|y| [0, 4, 8].map(|x| pixel(x, y).to_vec()).concat()).collect();
+    assert_eq!(bytes(small).await, expected);
+    let compact = ask(folder.path(), &format!("{address}?compact=1"), &[]).await;
+    assert_eq!(compact.headers()["x-enfilade-packing"], "planes");
+    let planes = bytes(compact).await;
+    let n = planes.len() / 4;
+    let together: Vec<u8> = (0..n).flat_map(|i| [planes[i], planes[n + i], planes[2 * n + i], planes[3 * n + i]]).collect();
+    assert_eq!(together, stored.as_bytes());
+}
+
+#[tokio::test]
+async fn json_is_compressed_for_those_who_take_it() {
+    let folder = tempfile::tempdir().unwrap();
+    dataset(folder.path());
+    let packed = ask(folder.path(), "/api/view/dataset", &[("accept-encoding", "gzip, br")]).await;
+    assert_eq!(packed.headers()[header::CONTENT_ENCODING], "gzip");
+    let packed = bytes(packed).await;
+    let plain = bytes(ask(folder.path(), "/api/view/dataset", &[]).await).await;
+    let mut unpacked = vec![0; plain.len()];
+    libdeflater::Decompressor::new().gzip_decompress(&packed, &mut unpacked).unwrap();
+    assert!(unpacked == plain && packed.len() < plain.len() / 3);
+}
+
+#[tokio::test]
+async fn the_dataset_its_scenes_cameras_and_frames_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    dataset(folder.path());
+    let all = json(folder.path(), "/api/view/dataset").await;
+    assert_eq!(
+        (&all["scenes"], all["layers"].as_array().unwrap().len(), all["classes"].as_array().unwrap().len()),
+        (&serde_json::json!(["room"]), 43, 40)
+    );
+    assert_eq!(json(folder.path(), "/api/view/scene/room").await["cameras"], serde_json::json!(["cam_00"]));
+    let camera = json(folder.path(), "/api/view/camera/room/cam_00").await;
+    let frames = camera["frames"].as_array().unwrap();
+    assert_eq!(frames.iter().map(|frame| frame["layers"].as_array().unwrap().len()).collect::<Vec<_>>(), [43, 0, 0]);
+    assert_eq!(frames[1]["gate"]["verdict"], "rejected");
+    assert_eq!(frames[1]["gate"]["fault"], serde_json::json!({ "gate": "blocked", "value": 0.75, "limit": 0.5 }));
+    assert_eq!((&frames[0]["complete"], &frames[2]["complete"]), (&Value::Bool(true), &Value::Bool(false)));
+    assert_eq!((&camera["projection"]["kind"], camera["projection"]["corner_rays"].as_array().unwrap().len()), (&"pinhole".into(), 4));
+    let frame = json(folder.path(), "/api/view/frame/room/cam_00/0").await;
+    assert_eq!(frame["record"]["seed"], u64::MAX.to_string(), "a browser would round the number");
+}
+
+#[tokio::test]
+async fn points_lie_at_their_depth_before_the_camera() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    let buffer = bytes(ask(folder.path(), "/api/view/points/room/cam_00/0", &[]).await).await;
+    let count = u32::from_le_bytes(buffer[8..12].try_into().unwrap()) as usize;
+    assert_eq!((&buffer[..8], count, buffer.len()), (&b"ENFPNTS1"[..], 84, 16 + 84 * 16));
+    let Values::F32(depth) = dataset.read_layer("room", "cam_00", 0, Layer::DepthMeters).unwrap() else { panic!("not float32") };
+    for i in 0..count {
+        let at = |axis: usize| f64::from(f32::from_le_bytes(buffer[16 + 12 * i + 4 * axis..][..4].try_into().unwrap()));
+        let far = (DVec3::new(at(0), at(1), at(2)) - DVec3::new(0.0, 0.5, 1.5)).length();
+        assert!((far - f64::from(depth[i])).abs() < 1e-5, "{i}: {far} {}", depth[i]);
+    }
+}
+
+#[tokio::test]
+async fn what_is_not_there_is_not_found_and_what_is_malformed_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    std::fs::write(dataset.layout().layer("room", "cam_00", 0, Layer::Residual), "not an array").unwrap();
+    std::fs::write(folder.path().join("notes.txt"), "mine").unwrap();
+    for (address, status) in [
+        ("/api/view/scene/nothing", 404),
+        ("/api/view/camera/room/cam_09", 404),
+        ("/api/view/layer/room/cam_00/1/color", 404),
+        ("/api/view/layer/room/cam_00/99999999999/color", 400),
+        ("/api/view/layer/room/cam_00/-1/color", 400),
+        ("/api/view/layer/room/cam_00/+0/color", 400),
+        ("/api/view/layer/room/cam_00/0/colour", 400),
+        ("/api/view/layer/room/cam_00/0/color?step=0", 400),
+        ("/api/view/layer/room/cam_00/0/color?step=x", 400),
+        ("/api/view/layer/room/cam_00/0/residual", 500),
+        ("/api/view/points/room/cam_00/0?most=x", 400),
+        ("/api/view/points/room/cam_00/1", 404),
+        ("/api/view/thumbnail/room/cam_00/1", 404),
+        ("/api/view/scene/room/space", 404),
+        ("/api/view/scene/room/geometry", 404),
+        ("/api/view/file/verify.html", 404),
+        ("/api/view/file/notes.txt", 400),
+        ("/api/view/nothing", 404),
+    ] {
+        let response = ask(folder.path(), address, &[]).await;
+        assert_eq!(response.status().as_u16(), status, "{address}");
+        if address != "/api/view/nothing" {
+            let said: Value = serde_json::from_slice(&bytes(response).await).unwrap();
+            assert!(said["error"].as_str().unwrap().len() > 5 && said["help"].is_string(), "{address}: {said}");
+        }
+    }
+}
+
+#[tokio::test]
+async fn no_path_leaves_the_dataset() {
+    let outside = tempfile::tempdir().unwrap();
+    std::fs::write(outside.path().join("secret.json"), "{}").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    dataset(folder.path());
+    for address in [
+        "/api/view/scene/..",
+        "/api/view/scene/%2e%2e",
+        "/api/view/scene/..%2f..%2fetc",
+        "/api/view/camera/room/..%2fcam_00",
+        "/api/view/layer/..%2froom/cam_00/0/color",
+        "/api/view/layer/room/%00/0/color",
+        "/api/view/file/../secret.json",
+        "/api/view/file/%2e%2e/secret.json",
+        "/api/view/file/..%5csecret.json",
+        "/api/view/file/scenes/%2e%2e/%2e%2e/secret.json",
+        "/api/view/file//etc/passwd.json",
+        "/api/view/file/.hidden.json",
+    ] {
+        let status = ask(folder.path(), address, &[]).await.status();
+        assert!(status.is_client_error(), "{address}: {status}");
+    }
+}
+
+#[cfg(unix)]
+#[tokio::test]
+async fn symbolic_links_out_of_the_dataset_are_refused() {
+    use std::os::unix::fs::symlink;
+    let outside = tempfile::tempdir().unwrap();
+    let other = dataset(outside.path());
+    std::fs::write(outside.path().join("secret.json"), "{}").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let ours = dataset(folder.path());
+    symlink(outside.path().join("secret.json"), folder.path().join("linked.json")).unwrap();
+    symlink(other.layout().scene_dir("room"), ours.layout().scene_dir("linked")).unwrap();
+    let color = ours.layout().layer("room", "cam_00", 0, Layer::Color);
+    std::fs::remove_file(&color).unwrap();
+    symlink(other.layout().layer("room", "cam_00", 0, Layer::Color), &color).unwrap();
+    for address in [
+        "/api/view/file/linked.json",
+        "/api/view/scene/linked",
+        "/api/view/camera/linked/cam_00",
+        "/api/view/layer/linked/cam_00/0/depth_meters",
+        "/api/view/layer/room/cam_00/0/color",
+        "/api/view/thumbnail/room/cam_00/0",
+    ] {
+        assert_eq!(ask(folder.path(), address, &[]).await.status(), StatusCode::FORBIDDEN, "{address}");
+    }
+    let fine = ask(folder.path(), "/api/view/layer/room/cam_00/0/depth_meters", &[]).await;
+    assert_eq!(fine.status(), StatusCode::OK);
+}
+
+#[tokio::test]
+async fn hypersims_own_pictures_are_shown() {
+    let Some(scenes) = std::env::var_os("ENFILADE_SCENES") else {
+        return eprintln!("skipped: ENFILADE_SCENES is not set");
+    };
+    let root = Path::new(&scenes).join("hypersim-real");
+    let camera = json(&root, "/api/view/camera/ai_037_002/cam_00").await;
+    assert_eq!(camera["frames"].as_array().unwrap().len(), 100);
+    let depth = ask(&root, "/api/view/layer/ai_037_002/cam_00/0/depth_meters", &[]).await;
+    assert_eq!(
+        (&depth.headers()["x-enfilade-shape"], &depth.headers()["x-enfilade-dtype"]),
+        (&"768,1024,1".parse().unwrap(), &"float16".parse().unwrap())
+    );
+    assert_eq!(ask(&root, "/api/view/thumbnail/ai_037_002/cam_00/0", &[]).await.status(), StatusCode::OK);
+}

@@ -1,0 +1,208 @@
+// Strokes on the view: pen, line, rectangle, eyedropper; selecting by click; painting faces to split off.
+
+import { postJson } from "../shared/api.js";
+import { toastError } from "../shared/toast.js";
+import { byId } from "../shared/dom.js";
+
+/** A press that moves less than this is a click, CSS pixels. */
+const CLICK_PX = 4;
+
+/** What the pointer does on the view, beside moving the camera. */
+export class Draw {
+    /**
+     * @param {import("../shared/stage3d/stage.js").Stage3d} stage
+     * @param {import("./state.js").State} state
+     * @param {import("./edits.js").Edits} edits
+     * @param {{ newInstance: () => void, hovered: (piece: number) => void }} hooks
+     */
+    constructor(stage, state, edits, hooks) {
+        this.stage = stage;
+        this.state = state;
+        this.edits = edits;
+        this.hooks = hooks;
+        /** @type {[number, number][] | null} */
+        this.points = null;
+        /** @type {[number, number] | null} */
+        this.pressed = null;
+        this.hoverQueued = false;
+        this.at = [0, 0];
+        const { element } = stage;
+        stage.controls.claimed = (event) => this.claims(event);
+        element.addEventListener("pointerdown", (event) => this.down(event));
+        element.addEventListener("pointermove", (event) => this.move(event));
+        element.addEventListener("pointerup", (event) => this.up(event));
+        element.addEventListener("pointercancel", () => this.cancel());
+        element.addEventListener("pointerleave", () => this.hover(-1));
+        element.addEventListener("dblclick", (event) => this.lookHere(event));
+    }
+
+    /** True when a press draws. @param {PointerEvent} event */
+    claims(event) {
+        const draws = this.state.drawMode !== event.shiftKey || (this.state.painting !== null && !event.altKey);
+        return (event.button === 0 && draws) || (event.button === 2 && event.shiftKey);
+    }
+
+    /** @param {PointerEvent} event @returns {[number, number]} */
+    place(event) {
+        const box = this.stage.element.getBoundingClientRect();
+        /** @param {number} v @param {number} most */
+        const inside = (v, most) => Math.min(Math.max(v, 0), most - 0.5);
+        return [inside(event.clientX - box.left, box.width), inside(event.clientY - box.top, box.height)];
+    }
+
+    /** @param {PointerEvent} event */
+    down(event) {
+        this.stage.element.focus({ preventScroll: true });
+        if (event.button === 2 && event.shiftKey) {
+            this.hooks.newInstance();
+            return;
+        }
+        if (event.button !== 0) return;
+        const place = this.place(event);
+        if (!this.claims(event)) {
+            this.pressed = place;
+            return;
+        }
+        this.stage.element.setPointerCapture(event.pointerId);
+        this.points = [place];
+        this.show();
+    }
+
+    /** @param {PointerEvent} event */
+    move(event) {
+        const place = this.place(event);
+        this.at = place;
+        if (this.points) {
+            for (const one of event.getCoalescedEvents?.() ?? []) if (this.tool === "pen") this.points.push(this.place(one));
+            this.points.push(place);
+            if (this.tool !== "pen") this.points = [this.points[0], place];
+            this.show();
+            if (this.tool === "rectangle" && !this.state.painting) this.preview();
+        } else if (event.buttons === 0 && !this.hoverQueued) {
+            this.hoverQueued = true;
+            requestAnimationFrame(() => {
+                this.hoverQueued = false;
+                if (!this.stage.controls.active && !this.stage.flight) this.hover(this.stage.seenAt(this.at[0], this.at[1]).piece);
+            });
+        }
+    }
+
+    /** @param {PointerEvent} event */
+    up(event) {
+        const place = this.place(event);
+        if (this.points) {
+            const points = this.points;
+            this.cancel();
+            void this.finish(points);
+        } else if (this.pressed && Math.hypot(place[0] - this.pressed[0], place[1] - this.pressed[1]) < CLICK_PX) {
+            this.click(place, event.ctrlKey || event.metaKey);
+        }
+        this.pressed = null;
+    }
+
+    cancel() {
+        this.points = null;
+        byId("strokes").replaceChildren();
+        this.stage.setMarks(this.state.selection);
+    }
+
+    get tool() {
+        return this.state.painting && this.state.tool === "eyedropper" ? "pen" : this.state.tool;
+    }
+
+    /** Selects what was clicked; with a modifier adds it or takes it out. @param {[number, number]} place @param {boolean} more */
+    click(place, more) {
+        const { piece } = this.stage.seenAt(...place);
+        const selection = new Set(more ? this.state.selection : []);
+        if (piece >= 0 && !selection.delete(piece)) selection.add(piece);
+        this.state.select(selection);
+    }
+
+    /** Turns about what was double-clicked from now on. @param {MouseEvent} event */
+    lookHere(event) {
+        const point = this.stage.pointAt(...this.place(/** @type {PointerEvent} */ (event)));
+        if (!point || this.state.drawMode) return;
+        this.stage.controls.lookAt.copy(point);
+        this.stage.controls.aim();
+    }
+
+    /** @param {number} piece */
+    hover(piece) {
+        this.stage.setHovered(piece);
+        this.hooks.hovered(piece);
+    }
+
+    /** The shape of these points, as the server takes it. @param {[number, number][]} points */
+    shape(points) {
+        const [first, last] = [points[0], points[points.length - 1]];
+        if (Math.hypot(last[0] - first[0], last[1] - first[1]) < 1 && points.length < 3) return { click: first };
+        if (this.tool === "rectangle") return { rectangle: [...first, ...last] };
+        return this.tool === "line" ? { line: [first, last] } : { pen: points };
+    }
+
+    /** What the server needs to know of the view. */
+    look() {
+        return { camera: this.stage.cameraJson(), hidden: this.state.unseen };
+    }
+
+    /** @param {[number, number][]} points */
+    async finish(points) {
+        const { state } = this;
+        try {
+            if (state.painting) await this.paint(points);
+            else if (state.tool === "eyedropper") await this.takeLabel(points[points.length - 1]);
+            else await this.edits.send({ type: "stroke", ...this.look(), shape: this.shape(points), expand: state.expand, filters: state.filters, apply: state.apply });
+        } catch (error) {
+            toastError(error);
+        }
+    }
+
+    /** Takes over the label of what is at a pixel. @param {[number, number]} pixel */
+    async takeLabel(pixel) {
+        const { piece } = await postJson("/api/annotate/pick", { ...this.look(), pixel });
+        if (piece < 0) return;
+        const { semantic, instance } = this.state.pieces;
+        if (this.state.layer === "semantic" && semantic[piece] >= 1) this.state.set({ currentClass: semantic[piece], erase: false });
+        if (this.state.layer === "instance" && instance[piece] >= 1) this.state.set({ currentInstance: instance[piece], erase: false, unique: false });
+    }
+
+    /** Adds the visible faces of the piece to what is to be split off; erase takes them out. @param {[number, number][]} points */
+    async paint(points) {
+        const { painting, erase } = this.state;
+        const { mesh } = this.stage;
+        if (!painting || !mesh) return;
+        const { faces } = await postJson("/api/annotate/select", { ...this.look(), shape: this.shape(points), faces: true });
+        for (const face of faces) {
+            if (mesh.geometry.pieceOfFace[mesh.place(face)] !== painting.piece) continue;
+            if (erase) painting.faces.delete(face);
+            else painting.faces.add(face);
+        }
+        this.stage.setPaintedFaces(painting.faces);
+        this.state.tell("painting");
+    }
+
+    /** Lights up what the rectangle would select, by what is shown. */
+    preview() {
+        if (!this.points) return;
+        const { filters, pieces } = this.state;
+        const [a, b] = [this.points[0], this.points[this.points.length - 1]];
+        const seen = [...this.stage.seenIn([...a, ...b])].filter((piece) => {
+            const [labelled, instanced] = [pieces.semantic[piece] >= 1, pieces.instance[piece] >= 1];
+            return !(filters.only_without_class && labelled) && !(filters.only_with_class && !labelled) && !(filters.only_without_instance && instanced) && !(filters.only_with_instance && !instanced);
+        });
+        this.stage.setMarks([], seen);
+    }
+
+    /** Draws the stroke so far. */
+    show() {
+        const points = this.points ?? [];
+        const [[x0, y0], [x1, y1]] = [points[0], points[points.length - 1]];
+        const box = this.tool === "rectangle";
+        const shape = document.createElementNS("http://www.w3.org/2000/svg", box ? "rect" : "polyline");
+        const attributes = box
+            ? { x: Math.min(x0, x1), y: Math.min(y0, y1), width: Math.abs(x1 - x0), height: Math.abs(y1 - y0) }
+            : { points: points.map((point) => point.join(",")).join(" ") };
+        for (const [name, value] of Object.entries(attributes)) shape.setAttribute(name, String(value));
+        byId("strokes").replaceChildren(shape);
+    }
+}

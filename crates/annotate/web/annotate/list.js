@@ -1,0 +1,92 @@
+// A long list of pieces of which only the visible rows exist. One tab stop; arrows move, space selects, Enter goes there.
+
+import { el } from "../shared/dom.js";
+
+const ROW_PX = 26;
+const SPARE = 8;
+
+/** @typedef {{ piece: number, cells: (string | Node)[], label: string }} Row */
+
+/** The list. `rows` says what it shows; `selected`, `select` and `open` tie it to the page. */
+export class PieceList {
+    /**
+     * @param {string} label for screen readers
+     * @param {string} empty what to say when there is none
+     * @param {{ row: (piece: number) => Row, isSelected: (piece: number) => boolean, select: (piece: number, more: boolean) => void, open: (piece: number) => void }} hooks
+     */
+    constructor(label, empty, hooks) {
+        this.hooks = hooks;
+        /** @type {number[]} */
+        this.pieces = [];
+        this.active = 0;
+        this.table = el("div", { class: "table" });
+        this.element = el("div", { class: "scroll list", role: "listbox", tabindex: "0", "aria-label": label, "aria-multiselectable": "true", "data-empty": empty }, this.table);
+        this.element.addEventListener("scroll", () => this.draw());
+        this.element.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this.key(event));
+        new ResizeObserver(() => this.draw()).observe(this.element);
+    }
+
+    /** @param {number[]} pieces */
+    show(pieces) {
+        this.pieces = pieces;
+        this.active = Math.min(this.active, Math.max(0, pieces.length - 1));
+        this.draw();
+    }
+
+    /** Brings a piece into sight. @param {number} piece */
+    reveal(piece) {
+        const at = this.pieces.indexOf(piece);
+        if (at < 0) return;
+        this.active = at;
+        const { scrollTop, clientHeight } = this.element;
+        if (at * ROW_PX < scrollTop || (at + 1) * ROW_PX > scrollTop + clientHeight) this.element.scrollTop = at * ROW_PX - clientHeight / 2;
+    }
+
+    /** @param {KeyboardEvent} event */
+    key(event) {
+        const page = Math.max(1, Math.floor(this.element.clientHeight / ROW_PX) - 1);
+        const steps = /** @type {Record<string, number>} */ ({ ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -1e9, End: 1e9 });
+        if (event.key in steps) {
+            this.active = Math.min(this.pieces.length - 1, Math.max(0, this.active + steps[event.key]));
+            if (this.pieces.length > 0) this.hooks.select(this.pieces[this.active], event.shiftKey);
+            this.reveal(this.pieces[this.active]);
+            event.preventDefault();
+        } else if (event.key === "F2" && this.pieces.length > 0) {
+            this.hooks.open(this.pieces[this.active]);
+        }
+    }
+
+    draw() {
+        this.element.classList.toggle("none", this.pieces.length === 0);
+        this.table.style.height = `${this.pieces.length * ROW_PX}px`;
+        const first = Math.max(0, Math.floor(this.element.scrollTop / ROW_PX) - SPARE);
+        const last = Math.min(this.pieces.length, first + Math.ceil(this.element.clientHeight / ROW_PX) + 2 * SPARE);
+        this.table.replaceChildren(...this.pieces.slice(first, last).map((piece, i) => this.rowOf(piece, first + i)));
+    }
+
+    /** @param {number} piece @param {number} at */
+    rowOf(piece, at) {
+        const { cells, label } = this.hooks.row(piece);
+        const row = el(
+            "div",
+            {
+                class: "piece",
+                role: "option",
+                "aria-selected": this.hooks.isSelected(piece),
+                "aria-label": label,
+                "aria-posinset": at + 1,
+                "aria-setsize": this.pieces.length,
+                "data-piece": piece,
+                title: label,
+                onclick: (/** @type {MouseEvent} */ event) => {
+                    this.active = at;
+                    this.hooks.select(piece, event.ctrlKey || event.metaKey || event.shiftKey);
+                },
+                ondblclick: () => this.hooks.open(piece),
+            },
+            ...cells.map((cell) => el("span", {}, cell)),
+        );
+        row.style.top = `${at * ROW_PX}px`;
+        return row;
+    }
+}

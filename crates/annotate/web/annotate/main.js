@@ -1,0 +1,168 @@
+// The page that annotates: loads the scene and ties the parts together.
+
+import { getBytes, getJson, postJson } from "../shared/api.js";
+import { byId } from "../shared/dom.js";
+import { readGeometry } from "../shared/stage3d/geometry.js";
+import { Stage3d } from "../shared/stage3d/stage.js";
+import { toastError } from "../shared/toast.js";
+import { Actions } from "./actions.js";
+import { classesPanel } from "./classes_panel.js";
+import { pieceColors } from "./colors.js";
+import { commands, listenToKeys } from "./commands.js";
+import { Draw } from "./draw.js";
+import { Edits } from "./edits.js";
+import { helpOverlay, palette } from "./help.js";
+import { tabs } from "./panels.js";
+import { piecesPanel } from "./pieces_panel.js";
+import { progressPanel, unlabelledPanel } from "./progress_panel.js";
+import { State } from "./state.js";
+import { settingsDialog } from "./settings.js";
+import { suggestionsPanel } from "./suggestions_panel.js";
+import { selectionBox, toolbar, topBar } from "./toolbar.js";
+
+/** How often the server is told of work, milliseconds. */
+const ACTIVITY_MS = 15_000;
+/** Progress is asked for this long after the last edit, milliseconds. */
+const PROGRESS_AFTER_MS = 700;
+
+/** Takes the colours of the theme into the view. @param {Stage3d} stage */
+function takeTheme(stage) {
+    const style = getComputedStyle(document.documentElement);
+    const color = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
+    stage.setTheme({ background: color("--ground"), accent: color("--accent"), paint: color("--warn") });
+}
+
+/** Shows colours, marks and what is hidden as the state says. @param {Stage3d} stage @param {State} state */
+function showState(stage, state) {
+    state.on(["labels", "layer", "pieces"], () => stage.setPieceColors(pieceColors(state)));
+    state.on(["selection"], () => stage.setMarks(state.selection));
+    state.on(["visibility"], () => stage.setVisibility(state.hidden, state.xray));
+    state.on(["theme"], () => takeTheme(stage));
+    matchMedia("(prefers-color-scheme: light)").addEventListener("change", () => takeTheme(stage));
+    state.on(["drawMode", "painting"], () => stage.element.classList.toggle("drawing", state.drawMode || state.painting !== null));
+    state.on(["painting"], () => {
+        byId("mode").hidden = state.painting === null;
+        if (state.painting) byId("mode").textContent = `${state.painting.faces.size} faces of ${state.name(state.painting.piece)} painted. Drag to add (E takes out), Enter splits them off, Escape ends.`;
+    });
+    state.on(["tools"], () => {
+        if (state.tool === "eyedropper") byId("stage").title = "Eyedropper: draw on what has the label to take";
+        else byId("stage").removeAttribute("title");
+    });
+}
+
+/** Shows whether edits are saved, and takes over changes. @param {State} state @param {Edits} edits @param {Stage3d} stage @param {Actions} act */
+function followEdits(state, edits, stage, act) {
+    const saved = byId("save-state");
+    const show = () => {
+        const words = { saved: "All saved", saving: "Saving", offline: "Not connected" };
+        if (saved.textContent !== words[edits.state]) saved.textContent = words[edits.state];
+        saved.className = { saved: "good", saving: "quiet", offline: "bad" }[edits.state];
+        byId("offline").hidden = !edits.offline;
+        byId("offline").textContent = `The server does not answer. ${edits.queue.length === 0 ? "Nothing is lost" : `${edits.queue.length} edits are kept here`}; trying again. Start \`enfilade annotate\` on the same port to go on.`;
+    };
+    edits.addEventListener("state", show);
+    show();
+    let timer = 0;
+    const progressSoon = () => {
+        clearTimeout(timer);
+        timer = setTimeout(() => void act.progress().catch(() => {}), PROGRESS_AFTER_MS);
+    };
+    edits.addEventListener("change", (event) => {
+        const change = /** @type {CustomEvent} */ (event).detail;
+        if (change.revision > state.revision + 1) return void location.reload();
+        if (!state.takeChange(change)) return;
+        const [faces, pieces] = change.moved_faces ?? [[], []];
+        if (faces.length > 0) stage.moveFaces(faces, pieces);
+        byId("live").textContent = change.description;
+        progressSoon();
+    });
+    edits.listen(() => state.revision, () => location.reload());
+    void edits.work();
+    progressSoon();
+}
+
+/** Counts time at work, not idle time. */
+function reportActivity() {
+    let last = performance.now();
+    for (const kind of ["pointermove", "pointerdown", "keydown", "wheel"]) window.addEventListener(kind, () => (last = performance.now()), { passive: true, capture: true });
+    setInterval(() => {
+        const idle = (performance.now() - last) / 1000;
+        if (idle * 1000 < ACTIVITY_MS) postJson("/api/annotate/activity", { seconds_since_last_input: idle }).catch(() => {});
+    }, ACTIVITY_MS);
+}
+
+/** Name of what is under the pointer, and where the camera is. @param {Stage3d} stage @param {State} state */
+function readOuts(stage, state) {
+    const readout = byId("readout");
+    const write = () => {
+        const at = stage.camera.position.toArray().map((v) => v.toFixed(2)).join(", ");
+        readout.textContent = `camera ${at} m · ${stage.camera.fov.toFixed(0)}° · ${stage.controls.speed.toFixed(1)} m/s · ${state.scene.faces.toLocaleString("en")} faces`;
+    };
+    stage.addEventListener("camera", write);
+    state.on(["view"], write);
+    return (/** @type {number} */ piece) => {
+        byId("hover").hidden = piece < 0;
+        if (piece < 0) return;
+        const { instance } = state.pieces;
+        byId("hover").textContent = [state.name(piece), state.className(piece) || "no class", instance[piece] >= 1 ? `instance ${instance[piece]}` : ""].filter(Boolean).join(" · ");
+    };
+}
+
+/** Goes where the address says: `#camera=NAME:FRAME&piece=NUMBER`, else to the first planned camera. @param {Actions} act @param {Stage3d} stage @param {State} state */
+function followAddress(act, stage, state) {
+    const words = new URLSearchParams(location.hash.slice(1));
+    const [camera, frame] = (words.get("camera") ?? "").split(":");
+    const planned = act.frames.findIndex((/** @type {any} */ one) => one.camera === camera && String(one.frame) === (frame ?? "0"));
+    if (planned >= 0) act.goToFrame(planned);
+    else if (state.scene.start_camera) stage.goTo(state.scene.start_camera, { instant: true });
+    const piece = Number(words.get("piece") ?? -1);
+    if (!words.has("piece") || !(piece < state.count)) return;
+    if (planned >= 0) state.select([piece]);
+    else act.goToPiece(piece);
+}
+
+async function start() {
+    const theme = localStorage.getItem("enfilade.theme");
+    if (theme) document.documentElement.dataset.theme = theme;
+    // The view first: without it there is nothing to load for.
+    const stage = new Stage3d(byId("stage"));
+    const [scene, pieces, colors, bytes] = await Promise.all([getJson("/api/annotate/scene"), getJson("/api/annotate/pieces"), getBytes("/api/annotate/instance_colors"), getBytes("/api/annotate/geometry")]);
+    document.title = `${scene.name} - enfilade annotate`;
+    byId("scene-name").textContent = scene.name;
+    byId("scene-name").title = scene.source;
+    const state = new State(scene, pieces, new Uint8Array(colors));
+    const edits = new Edits(scene.source);
+    const act = new Actions(state, stage, edits);
+    const table = commands(act);
+    const byName = new Map(table.map((command) => [command.id, command]));
+    stage.setGeometry(readGeometry(bytes));
+    stage.setOutlines(act.outlines);
+    stage.addEventListener("lost", () => toastError(new Error("The browser has taken the graphics away. Reload the page.")));
+    toolbar(state, byName);
+    topBar(state, byName, act);
+    selectionBox(state, byName);
+    act.showTab = tabs([
+        { name: "classes", title: "Classes", element: classesPanel(state, act) },
+        { name: "pieces", title: "Pieces", element: piecesPanel(state, act) },
+        { name: "suggestions", title: "Suggested", element: suggestionsPanel(state, act) },
+        { name: "unlabelled", title: "To do", element: unlabelledPanel(state, act) },
+        { name: "progress", title: "Progress", element: progressPanel(state) },
+    ]);
+    act.openHelp = helpOverlay(table);
+    act.openSettings = settingsDialog(state, stage);
+    act.openPalette = palette(table);
+    listenToKeys(table, act);
+    showState(stage, state);
+    new Draw(stage, state, edits, { newInstance: () => act.newInstance(), hovered: readOuts(stage, state) });
+    followAddress(act, stage, state);
+    window.addEventListener("hashchange", () => followAddress(act, stage, state));
+    followEdits(state, edits, stage, act);
+    reportActivity();
+    byId("loading").hidden = true;
+    // For tests and the console.
+    Object.assign(window, { annotate: { state, stage, edits, act } });
+}
+
+start().catch((error) => {
+    byId("loading").replaceChildren(document.createTextNode(error.message), document.createElement("br"), document.createTextNode(error.help ?? ""));
+});

@@ -1,0 +1,44 @@
+// How the camera moves and where its picture begins, and what the scene consists of.
+
+import { el, spaced } from "../shared/dom.js";
+
+/**
+ * The dialog, and what opens it.
+ *
+ * @param {import("./state.js").State} state
+ * @param {import("../shared/stage3d/stage.js").Stage3d} stage
+ * @returns {() => void}
+ */
+export function settingsDialog(state, stage) {
+    /** @param {string} text @param {string} unit @param {Record<string, string>} limits @param {() => number} get @param {(value: number) => void} set */
+    const number = (text, unit, limits, get, set) => {
+        const input = el("input", { type: "number", ...limits });
+        input.addEventListener("change", () => {
+            if (input.checkValidity() && input.value !== "") set(Number(input.value));
+            input.value = String(Number(get().toFixed(3)));
+        });
+        return { row: el("label", { class: "setting" }, el("span", {}, text), input, el("span", { class: "quiet" }, unit)), show: () => (input.value = String(Number(get().toFixed(3)))) };
+    };
+    const { controls } = stage;
+    const speed = number("Flying speed", "m/s", { min: "0.01", max: "1000", step: "any" }, () => controls.speed, (value) => {
+        controls.speed = value;
+        state.set({});
+        stage.cameraMoved();
+    });
+    const near = number("Nothing nearer than", "m", { min: "0", max: "1000", step: "any" }, () => stage.near, (value) => stage.setNear(value));
+    const { bounds, faces, vertices } = state.scene;
+    const size = bounds.max.map((/** @type {number} */ v, /** @type {number} */ axis) => (v - bounds.min[axis]).toFixed(2)).join(" × ");
+    const pieces = el("dd", { class: "number" });
+    const facts = el("dl", { class: "facts" },
+        el("dt", {}, "Faces"), el("dd", { class: "number" }, spaced(faces)), el("dt", {}, "Vertices"), el("dd", { class: "number" }, spaced(vertices)),
+        el("dt", {}, "Pieces"), pieces, el("dt", {}, "Size"), el("dd", { class: "number" }, `${size} m`), el("dt", {}, "Drawn by"), el("dd", {}, stage.graphics));
+    const dialog = el("dialog", { class: "settings", "aria-label": "Camera and scene" }, el("h2", {}, "Camera and scene"), speed.row, near.row,
+        el("p", { class: "quiet" }, "What is nearer is neither drawn nor touched: so one looks into closed rooms."), facts, el("form", { method: "dialog" }, el("button", { autofocus: true }, "Close")));
+    document.body.append(dialog);
+    return () => {
+        speed.show();
+        near.show();
+        pieces.textContent = spaced(state.count);
+        dialog.showModal();
+    };
+}

@@ -1,0 +1,174 @@
+// What the page knows: the scene, its pieces and their labels, what is selected, the tools. Tells "change" with what has changed.
+
+/**
+ * @typedef {{ id: number, name: string, color: [number, number, number] }} LabelClass
+ * @typedef {{ semantic: number, confidence: number, alternatives: [number, number][], reason?: string }} Suggestion
+ * @typedef {"semantic" | "instance"} Layer
+ * @typedef {"pen" | "line" | "rectangle" | "eyedropper"} Tool
+ * @typedef {"piece" | "instance" | "class"} Expand
+ * @typedef {"only_without_instance" | "only_with_instance" | "only_without_class" | "only_with_class"} Filter
+ */
+
+/** Filters that contradict each other. @type {Record<Filter, Filter>} */
+const CONTRARY = {
+    only_without_instance: "only_with_instance",
+    only_with_instance: "only_without_instance",
+    only_without_class: "only_with_class",
+    only_with_class: "only_without_class",
+};
+
+/** The state of the page. Everything that changes it goes through a method, which tells the listeners. */
+export class State extends EventTarget {
+    /** @param {any} scene reply of /api/annotate/scene @param {any} pieces reply of /api/annotate/pieces @param {Uint8Array} instanceColors */
+    constructor(scene, pieces, instanceColors) {
+        super();
+        this.scene = scene;
+        /** @type {LabelClass[]} */
+        this.classes = scene.classes;
+        this.classById = new Map(this.classes.map((one) => [one.id, one]));
+        this.standing = scene;
+        /** Columns of /api/annotate/pieces: one value per piece. */
+        this.pieces = pieces;
+        this.revision = pieces.revision;
+        /** Three values per instance number. @type {Uint8Array} */
+        this.instanceColors = instanceColors;
+        /** Numbers that no piece has any more, after an undone split. @type {Set<number>} */
+        this.removed = new Set();
+        /** @type {Set<number>} */
+        this.selection = new Set();
+        /** @type {Set<number>} */
+        this.hidden = new Set();
+        /** @type {Set<number>} */
+        this.xray = new Set();
+        /** @type {Layer} */
+        this.layer = "instance";
+        /** @type {Tool} */
+        this.tool = "rectangle";
+        this.erase = false;
+        this.unique = false;
+        this.drawMode = false;
+        /** @type {Expand} */
+        this.expand = "piece";
+        /** @type {Record<Filter, boolean>} */
+        this.filters = { only_without_instance: true, only_with_instance: false, only_without_class: true, only_with_class: false };
+        this.currentClass = this.classes[0]?.id ?? 1;
+        this.currentInstance = Math.max(1, scene.next_instance);
+        /** @type {{ piece: number, faces: Set<number> } | null} painted faces to split off */
+        this.painting = null;
+        this.isolated = false;
+    }
+
+    get count() {
+        return this.pieces.names.length;
+    }
+
+    /** @param {number} piece */
+    name(piece) {
+        return this.pieces.names[piece] || `piece ${piece}`;
+    }
+
+    /** The colour of an instance, as the files have it. @param {number} instance from 1 */
+    instanceColor(instance) {
+        return this.instanceColors.subarray(3 * instance, 3 * instance + 3);
+    }
+
+    /** @param {number} piece */
+    className(piece) {
+        return this.classById.get(this.pieces.semantic[piece])?.name ?? "";
+    }
+
+    /** Says that these aspects have changed. @param {...string} aspects */
+    tell(...aspects) {
+        this.dispatchEvent(new CustomEvent("change", { detail: new Set(aspects) }));
+    }
+
+    /** Calls `act` now and after each change of any of these aspects. @param {string[]} aspects @param {() => void} act */
+    on(aspects, act) {
+        this.addEventListener("change", (event) => {
+            if (aspects.some((aspect) => /** @type {CustomEvent} */ (event).detail.has(aspect))) act();
+        });
+        act();
+    }
+
+    /** Sets a field of the tools. @param {Record<string, any>} fields */
+    set(fields) {
+        Object.assign(this, fields);
+        this.tell("tools", ...Object.keys(fields));
+    }
+
+    /** Switches a filter, and its contrary off. @param {Filter} filter @param {boolean} on */
+    setFilter(filter, on) {
+        this.filters = { ...this.filters, [filter]: on };
+        if (on) this.filters[CONTRARY[filter]] = false;
+        this.tell("tools", "filters");
+    }
+
+    /** @param {Iterable<number>} pieces */
+    select(pieces) {
+        this.selection = new Set([...pieces].filter((piece) => piece >= 0 && piece < this.count && !this.removed.has(piece)));
+        this.tell("selection");
+    }
+
+    /** @param {Iterable<number>} hidden @param {Iterable<number>} xray @param {boolean} [isolated] */
+    setVisibility(hidden, xray, isolated = false) {
+        this.hidden = new Set(hidden);
+        this.xray = new Set(xray);
+        this.isolated = isolated;
+        this.tell("visibility");
+    }
+
+    /** Pieces that rays pass through. */
+    get unseen() {
+        return [...new Set([...this.hidden, ...this.xray])].filter((piece) => piece < this.count && !this.removed.has(piece));
+    }
+
+    /** What a stroke or an assignment does now. */
+    get apply() {
+        if (this.layer === "semantic") return { layer: "semantic", value: this.erase ? -1 : this.currentClass };
+        if (this.erase) return { layer: "instance", value: -1 };
+        return this.unique ? { layer: "instance", unique: true } : { layer: "instance", value: this.currentInstance };
+    }
+
+    /** Takes over a change of labels or pieces, from whichever page. @param {any} change */
+    takeChange(change) {
+        if (change.revision <= this.revision) return false;
+        this.revision = change.revision;
+        const { pieces: columns } = this;
+        for (const one of [...(change.added ?? []), ...(change.resized ?? [])]) {
+            const at = one.piece;
+            if (one.name !== undefined) columns.names[at] = one.name;
+            if (one.parent !== undefined) columns.parents[at] = one.parent;
+            columns.materials[at] = one.material ?? columns.materials[at];
+            columns.faces[at] = one.faces;
+            columns.areas_m2[at] = one.area_m2;
+            columns.mins[at] = one.min;
+            columns.maxs[at] = one.max;
+            columns.geometry_keys[at] = one.geometry_key ?? columns.geometry_keys[at];
+            columns.semantic[at] ??= -1;
+            columns.instance[at] ??= -1;
+            columns.suggestions[at] ??= null;
+            this.removed.delete(at);
+        }
+        change.pieces.forEach((/** @type {number} */ piece, /** @type {number} */ i) => {
+            columns.semantic[piece] = change.semantic[i];
+            columns.instance[piece] = change.instance[i];
+        });
+        for (const piece of change.removed ?? []) this.forget(piece);
+        this.standing = change;
+        this.currentInstance = Math.max(1, Math.min(this.currentInstance, change.next_instance));
+        this.tell("labels", "history", ...(change.added?.length || change.removed?.length ? ["pieces", "selection", "visibility"] : []));
+        return true;
+    }
+
+    /** A piece that an undone split had made. Numbers are given from the end, so it is cut off there. @param {number} piece */
+    forget(piece) {
+        this.removed.add(piece);
+        this.selection.delete(piece);
+        this.hidden.delete(piece);
+        this.xray.delete(piece);
+        while (this.count > 0 && this.removed.has(this.count - 1)) {
+            this.removed.delete(this.count - 1);
+            for (const column of Object.values(this.pieces)) if (Array.isArray(column)) column.pop();
+        }
+    }
+}

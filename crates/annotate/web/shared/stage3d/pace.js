@@ -1,0 +1,41 @@
+// How many faces are drawn while the camera moves.
+
+/** A frame should take this long, milliseconds: 40 frames a second, with room for what else the page does. */
+const GOAL_MS = 25;
+/** Where the processor draws, fewer faces would not make frames much shorter than this. */
+const SOFTWARE_GOAL_MS = 60;
+/** Never fewer faces than this: less is no scene. */
+const FLOOR = 10_000;
+
+/**
+ * Follows the time between frames: fewer faces when they are late, more when they are early.
+ *
+ * A fixed budget, where the user has set one, is taken as it is.
+ */
+export class Pace {
+    /** @param {number} faces all faces of the scene @param {boolean} software true when the processor draws */
+    constructor(faces, software) {
+        this.all = faces;
+        /** @type {number | null} faces that the user wants while moving; null adapts */
+        this.fixed = null;
+        this.adapted = Math.min(faces, 300_000);
+        this.goal = software ? SOFTWARE_GOAL_MS : GOAL_MS;
+        this.smoothed = this.goal;
+    }
+
+    /** Faces to draw in the next frame of a motion. */
+    get budget() {
+        return Math.min(this.all, Math.round(this.fixed ?? this.adapted));
+    }
+
+    /**
+     * Learns from a frame of a motion.
+     *
+     * @param {number} ms time since the frame before
+     */
+    frameTook(ms) {
+        this.smoothed += 0.3 * (ms - this.smoothed);
+        if (this.smoothed > this.goal * 1.3 && ms > this.goal) this.adapted = Math.max(Math.min(FLOOR, this.all), this.adapted * Math.max(0.5, this.goal / this.smoothed));
+        else if (this.smoothed < this.goal) this.adapted = Math.min(this.all, this.adapted * 1.1);
+    }
+}

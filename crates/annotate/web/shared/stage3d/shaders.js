@@ -1,0 +1,146 @@
+// The two programs of the view. `mesh` writes what is seen at each pixel: piece and shade, face. `picture` turns that into colours, so a
+// change of colours or of highlights draws no triangle again.
+
+/** Width of the textures that hold one value per face of a block. */
+export const FACE_WIDTH = 512;
+/** Width of the textures that hold one value per piece. */
+export const PIECE_WIDTH = 2048;
+/** Width of the texture that holds one value per face of the scene. */
+export const MARK_WIDTH = 4096;
+
+/** Bits of a piece's flags. */
+export const HIDDEN = 1;
+export const XRAY = 2;
+
+/** Bits of a piece's marks. */
+export const SELECTED = 1;
+export const PREVIEWED = 2;
+
+export const meshVertex = /* glsl */ `
+precision highp float;
+precision highp int;
+precision highp usampler2D;
+in vec4 position;
+uniform mat4 modelViewMatrix;
+uniform mat4 projectionMatrix;
+uniform vec3 boundsMin;
+uniform vec3 boundsSize;
+uniform usampler2D pieceOfFace;
+uniform usampler2D faceNumbers;
+uniform usampler2D pieceFlags;
+flat out uint vPiece;
+flat out uint vFace;
+flat out uint vFlags;
+out vec3 vView;
+out vec3 vCorner;
+
+void main() {
+    int face = gl_VertexID / 3;
+    int corner = gl_VertexID - 3 * face;
+    ivec2 at = ivec2(face % ${FACE_WIDTH}, face / ${FACE_WIDTH});
+    vPiece = texelFetch(pieceOfFace, at, 0).r;
+    vFace = texelFetch(faceNumbers, at, 0).r;
+    vFlags = texelFetch(pieceFlags, ivec2(vPiece % ${PIECE_WIDTH}u, vPiece / ${PIECE_WIDTH}u), 0).r;
+    vCorner = vec3(corner == 0, corner == 1, corner == 2);
+    vec4 view = modelViewMatrix * vec4(boundsMin + position.xyz * boundsSize, 1.0);
+    vView = view.xyz;
+    // A hidden piece lies beyond the far plane.
+    gl_Position = (vFlags & ${HIDDEN}u) != 0u ? vec4(0.0, 0.0, 2.0, 1.0) : projectionMatrix * view;
+}`;
+
+export const meshFragment = /* glsl */ `
+precision highp float;
+precision highp int;
+flat in uint vPiece;
+flat in uint vFace;
+flat in uint vFlags;
+in vec3 vView;
+in vec3 vCorner;
+uniform vec3 upInView;
+uniform bool wireframe;
+layout(location = 0) out uvec2 seen;
+
+void main() {
+    // One pixel of four of a piece that is seen through: four samples make a quarter of its colour.
+    if ((vFlags & ${XRAY}u) != 0u && ((int(gl_FragCoord.x) | int(gl_FragCoord.y)) & 1) != 0) discard;
+    vec3 normal = cross(dFdx(vView), dFdy(vView));
+    normal *= inversesqrt(max(dot(normal, normal), 1e-30));
+    float facing = abs(dot(normal, normalize(vView)));
+    float shade = 0.5 + 0.42 * facing + 0.08 * abs(dot(normal, upInView));
+    if (wireframe) {
+        vec3 pixels = vCorner / max(fwidth(vCorner), vec3(1e-9));
+        float edge = min(pixels.x, min(pixels.y, pixels.z));
+        shade *= 0.35 + 0.65 * smoothstep(0.4, 1.4, edge);
+    }
+    seen = uvec2(((vPiece + 1u) << 8) | uint(clamp(shade, 0.0, 1.0) * 255.0 + 0.5), vFace);
+}`;
+
+export const pictureVertex = /* glsl */ `
+in vec3 position;
+void main() {
+    gl_Position = vec4(position.xy, 0.0, 1.0);
+}`;
+
+export const pictureFragment = /* glsl */ `
+precision highp float;
+precision highp int;
+precision highp usampler2D;
+uniform usampler2D seen;
+uniform highp sampler2D depth;
+uniform sampler2D pieceColors;
+uniform usampler2D pieceMarks;
+uniform usampler2D faceMarks;
+uniform bool hasFaceMarks;
+uniform bool outlines;
+uniform int samples;
+uniform uint hovered;
+uniform vec3 background;
+uniform vec3 accent;
+uniform vec3 paint;
+layout(location = 0) out vec4 color;
+
+uint pieceAt(ivec2 at) { return texelFetch(seen, at, 0).r >> 8; }
+
+uint marksOf(uint piece) {
+    if (piece == 0u) return 0u;
+    uint i = piece - 1u;
+    uint marks = texelFetch(pieceMarks, ivec2(i % ${PIECE_WIDTH}u, i / ${PIECE_WIDTH}u), 0).r;
+    return i == hovered ? marks | 4u : marks;
+}
+
+vec3 colorAt(ivec2 at, ivec2 size) {
+    uvec2 here = texelFetch(seen, at, 0).rg;
+    uint piece = here.r >> 8;
+    uint marks = marksOf(piece);
+    vec3 rgb = background;
+    if (piece != 0u) {
+        uint i = piece - 1u;
+        rgb = texelFetch(pieceColors, ivec2(i % ${PIECE_WIDTH}u, i / ${PIECE_WIDTH}u), 0).rgb;
+        rgb *= float(here.r & 255u) / 255.0;
+        if (hasFaceMarks && texelFetch(faceMarks, ivec2(here.g % ${MARK_WIDTH}u, here.g / ${MARK_WIDTH}u), 0).r != 0u) rgb = mix(rgb, paint, 0.65);
+        if ((marks & ${SELECTED | PREVIEWED}u) != 0u) rgb = mix(rgb, accent, 0.35);
+        else if (marks != 0u) rgb = mix(rgb, accent, 0.16);
+    }
+    uint right = pieceAt(min(at + ivec2(1, 0), size - 1));
+    uint above = pieceAt(min(at + ivec2(0, 1), size - 1));
+    if (right != piece || above != piece) {
+        if (((marks ^ marksOf(right)) | (marks ^ marksOf(above))) != 0u) rgb = accent;
+        else if (outlines) rgb *= 0.55;
+    }
+    return rgb;
+}
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy) * samples;
+    ivec2 size = textureSize(seen, 0);
+    vec3 sum = vec3(0.0);
+    float nearest = 1.0;
+    for (int y = 0; y < samples; y++) {
+        for (int x = 0; x < samples; x++) {
+            sum += colorAt(at + ivec2(x, y), size);
+            nearest = min(nearest, texelFetch(depth, at + ivec2(x, y), 0).r);
+        }
+    }
+    color = vec4(sum / float(samples * samples), 1.0);
+    gl_FragDepth = nearest;
+}`;

@@ -1,0 +1,91 @@
+// Values per piece and per face, as textures that the programs look them up in.
+
+import { DataTexture, RGBAFormat, RedIntegerFormat, UnsignedByteType, UnsignedIntType } from "../../vendor/three.js";
+import { MARK_WIDTH, PIECE_WIDTH } from "./shaders.js";
+
+/**
+ * A texture of whole numbers, `width` to a row. Takes `values` as they are where they fill the rows, else a copy.
+ *
+ * @param {Uint8Array | Uint32Array} values
+ * @param {number} width
+ */
+export function numbers(values, width) {
+    const rows = Math.max(1, Math.ceil(values.length / width));
+    let data = values;
+    if (values.length !== rows * width) {
+        data = values instanceof Uint8Array ? new Uint8Array(rows * width) : new Uint32Array(rows * width);
+        data.set(values);
+    }
+    const small = data instanceof Uint8Array;
+    const texture = new DataTexture(/** @type {any} */ (data), width, rows, RedIntegerFormat, small ? UnsignedByteType : UnsignedIntType);
+    texture.internalFormat = small ? "R8UI" : "R32UI";
+    texture.unpackAlignment = 1;
+    texture.needsUpdate = true;
+    return texture;
+}
+
+/** @param {Uint8Array} rgba @param {number} rows */
+function colors(rgba, rows) {
+    const texture = new DataTexture(/** @type {any} */ (rgba), PIECE_WIDTH, rows, RGBAFormat, UnsignedByteType);
+    texture.needsUpdate = true;
+    return texture;
+}
+
+/** Colour, flags and marks of every piece; marks of every face once they are asked for. Grows when pieces are added. */
+export class Tables {
+    /** @param {number} pieces */
+    constructor(pieces) {
+        this.rows = Math.max(1, Math.ceil(pieces / PIECE_WIDTH));
+        const room = this.rows * PIECE_WIDTH;
+        /** RGBA per piece, sRGB 0..255. */
+        this.colors = new Uint8Array(room * 4).fill(255);
+        this.flags = new Uint8Array(room);
+        this.marks = new Uint8Array(room);
+        this.colorTexture = colors(this.colors, this.rows);
+        this.flagTexture = numbers(this.flags, PIECE_WIDTH);
+        this.markTexture = numbers(this.marks, PIECE_WIDTH);
+        this.noFaces = numbers(new Uint8Array(1), 1);
+        /** @type {DataTexture | null} */
+        this.faceMarks = null;
+    }
+
+    /**
+     * Makes room for `pieces`, keeping what there is; new ones are white, without flags and marks.
+     *
+     * @param {number} pieces
+     */
+    grow(pieces) {
+        if (pieces <= this.rows * PIECE_WIDTH) return;
+        const larger = new Tables(pieces);
+        larger.colors.set(this.colors);
+        larger.flags.set(this.flags);
+        larger.marks.set(this.marks);
+        for (const texture of [this.colorTexture, this.flagTexture, this.markTexture]) texture.dispose();
+        const { rows, colorTexture, flagTexture, markTexture } = larger;
+        Object.assign(this, { rows, colors: larger.colors, flags: larger.flags, marks: larger.marks, colorTexture, flagTexture, markTexture });
+    }
+
+    /**
+     * Marks these faces of the scene, and no other.
+     *
+     * @param {Iterable<number>} faces scene face numbers below `count`
+     * @param {number} count faces of the scene
+     */
+    markFaces(faces, count) {
+        this.faceMarks ??= numbers(new Uint8Array(count), MARK_WIDTH);
+        const data = /** @type {Uint8Array} */ (this.faceMarks.image.data);
+        data.fill(0);
+        for (const face of faces) data[face] = 1;
+        this.faceMarks.needsUpdate = true;
+    }
+
+    /** Marks no face, and gives the memory back. */
+    unmarkFaces() {
+        this.faceMarks?.dispose();
+        this.faceMarks = null;
+    }
+
+    dispose() {
+        for (const texture of [this.colorTexture, this.flagTexture, this.markTexture, this.noFaces, this.faceMarks]) texture?.dispose();
+    }
+}

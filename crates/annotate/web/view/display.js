@@ -1,0 +1,104 @@
+// The panel "Display": how the layer becomes colours, and what its values come to.
+
+import { MAPS, MASKS, TRAITS, cssColor } from "./colors.js";
+import { rangeOf } from "./kinds.js";
+import { PERCENTILES, brief } from "./numbers.js";
+import { facts, h } from "./dom.js";
+
+/** @typedef {import("./session.js").Session} Session */
+
+/** @param {Session} session */
+export function displayPanel(session) {
+    const { store, looks } = session;
+    const sides = session.sides();
+    const kinds = sides.map((side) => looks.look(side.layer).kind);
+    const children = [];
+    if (kinds.includes("radiance")) children.push(...toneFields(store));
+    for (const [i, side] of sides.entries()) {
+        if (i > 0 && side.layer === sides[0].layer && side.frame === sides[0].frame) continue;
+        children.push(...layerPart(session, side));
+    }
+    children.push(
+        h("h2", {}, "Over the picture"),
+        h("label", { class: "field" }, "Boxes", h("span", {}, h("input", { type: "checkbox", id: "boxes", checked: store.state.boxes, onchange: (/** @type {any} */ e) => store.set({ boxes: e.target.checked }) }), " of all instances")),
+    );
+    return children;
+}
+
+/** @param {import("./state.js").Store} store */
+function toneFields(store) {
+    const { state } = store;
+    const choice = (/** @type {string} */ id, /** @type {string} */ label, /** @type {"tone" | "expose"} */ key, /** @type {[string, string][]} */ options) =>
+        h("div", { class: "field" }, h("label", { for: id }, label), h("select", { id, onchange: (/** @type {any} */ e) => store.set({ [key]: e.target.value }) },
+            ...options.map(([value, text]) => h("option", { value, selected: state[key] === value }, text))));
+    const set = (/** @type {any} */ e) => Number.isFinite(e.target.valueAsNumber) && store.set({ stops: Math.min(20, Math.max(-20, e.target.valueAsNumber)) });
+    return [
+        h("h2", {}, "Light"),
+        choice("tone", "Curve", "tone", [["hypersim", "Hypersim"], ["filmic", "Filmic (ACES)"], ["linear", "Linear"]]),
+        choice("expose", "Exposure by", "expose", [["frame", "this frame"], ["trajectory", "trajectory"], ["fixed", "1 is white"]]),
+        h("div", { class: "field" }, h("label", { for: "stops" }, "Stops"), h("span", { class: "with-number" },
+            h("input", { type: "range", id: "stops", min: -8, max: 8, step: 0.25, value: state.stops, oninput: set }),
+            h("input", { type: "number", "aria-label": "Stops as a number", min: -20, max: 20, step: 0.25, value: state.stops, onchange: set }))),
+    ];
+}
+
+/** @param {Session} session @param {import("./stage.js").Side} side */
+function layerPart(session, side) {
+    const { store, looks } = session;
+    const { layer, data, frame } = side;
+    const spec = looks.spec(layer), look = looks.look(layer);
+    const children = [h("h2", {}, layer, h("span", { class: "quiet" }, `  frame ${frame}`)), h("p", { class: "quiet" }, spec.description)];
+    if (data && (look.kind === "scalar" || look.kind === "flow" || look.kind === "stretched")) children.push(...rangeFields(store, layer, look, data.summary));
+    if (look.kind === "code") {
+        const codes = layer === "surface_traits" ? TRAITS.map(({ bit, name, color }) => ({ code: bit, name, color })) : (MASKS[layer] ?? []);
+        children.push(...codes.map(({ code, name, color }) => h("div", {}, h("span", { class: "swatch", style: `background:${cssColor(color)}` }), ` ${code}  ${name}`)));
+    }
+    if (data) {
+        const { summary, size, dtype } = data;
+        children.push(facts([
+            ["Type", `${dtype}${spec.channels > 1 ? ` × ${spec.channels}` : ""}`],
+            ["Pixels", `${size[1]} × ${size[0]}`],
+            ["Unit", spec.unit],
+            ["Space", spec.space],
+            ["Nothing hit", spec.sentinel],
+            ...(look.kind === "id" || look.kind === "code" ? [] : /** @type {[string, any][]} */ ([
+                ["Numbers of", summary.of],
+                ["Least, most", summary.range && `${brief(summary.range[0])}, ${brief(summary.range[1])}`],
+                ["Mean", brief(summary.mean)],
+                ...summary.percentiles.map((value, i) => [`${PERCENTILES[i]} %`, brief(value)]),
+                ["Without number", `${summary.without} px`],
+            ])),
+        ]));
+    }
+    return children;
+}
+
+/**
+ * @param {import("./state.js").Store} store
+ * @param {string} layer
+ * @param {import("./kinds.js").Look} look
+ * @param {import("./numbers.js").Summary} summary
+ */
+function rangeFields(store, layer, look, summary) {
+    const [low, high] = rangeOf(look, summary, store.state.ranges[layer]);
+    const chosen = layer in store.state.ranges;
+    const set = (/** @type {number} */ a, /** @type {number} */ b) => a < b && store.set({ ranges: { ...store.state.ranges, [layer]: [a, b] } });
+    const free = () => {
+        const { [layer]: _, ...ranges } = store.state.ranges;
+        store.set({ ranges });
+    };
+    const input = (/** @type {number} */ value, /** @type {string} */ label, /** @type {(v: number) => void} */ change) =>
+        h("input", { type: "number", step: "any", value: brief(value), "aria-label": `${label} of ${layer}`, onchange: (/** @type {any} */ e) => change(e.target.valueAsNumber) });
+    const fields = [
+        h("div", { class: "field" }, h("span", {}, "Range"), h("span", { class: "pair" }, input(low, "Lower end", (v) => set(v, high)), input(high, "Upper end", (v) => set(low, v)))),
+        h("div", { class: "field" }, h("span", {}), h("span", { class: "pair" },
+            h("button", { type: "button", "aria-pressed": String(!chosen), title: "1st to 99th percentile of each frame", onclick: free }, "Automatic"),
+            h("button", { type: "button", "aria-pressed": String(chosen), title: "The same for all frames", onclick: () => set(low, high) }, "Hold"))),
+    ];
+    if (look.kind === "scalar") {
+        const map = store.state.maps[layer] ?? look.map;
+        fields.unshift(h("div", { class: "field" }, h("label", { for: `map-${layer}` }, "Colours"), h("select", { id: `map-${layer}`, onchange: (/** @type {any} */ e) => store.set({ maps: { ...store.state.maps, [layer]: e.target.value } }) },
+            ...MAPS.map((name) => h("option", { value: name, selected: name === map }, name)))));
+    }
+    return fields;
+}

@@ -1,0 +1,43 @@
+// Every key, once: what it does and what the help says.
+
+import { byId, h } from "./dom.js";
+
+/** @typedef {{ keys: string[], shown?: string, says: string, does: (event: KeyboardEvent) => void, repeats?: boolean }} Key */
+/** @typedef {{ title: string, keys: Key[] }} Group */
+
+/**
+ * Listens to the groups of keys. A key is written as `Shift+R` or `ArrowLeft`, in the names of KeyboardEvent.key.
+ * @param {Group[]} groups
+ */
+export function listenToKeys(groups) {
+    const known = new Map(groups.flatMap((group) => group.keys.flatMap((key) => key.keys.map((name) => /** @type {[string, Key]} */ ([name, key])))));
+    addEventListener("keydown", (event) => {
+        const target = /** @type {HTMLElement} */ (event.target);
+        const typing = target.matches("input:not([type=range]):not([type=checkbox]), select, textarea");
+        if (event.key === "Escape" && typing) target.blur();
+        if (typing || byId("help").open) return;
+        // A control that uses a key keeps it.
+        if (target.matches("button, a, tr, [role=tab], input") && ["Enter", " "].includes(event.key)) return;
+        if (target.matches("input[type=range]") && event.key.startsWith("Arrow")) return;
+        const letter = event.key.length === 1 && /[a-z]/i.test(event.key);
+        const name = `${event.ctrlKey || event.metaKey ? "Ctrl+" : ""}${event.altKey ? "Alt+" : ""}${event.shiftKey && (letter || event.key.length > 1) ? "Shift+" : ""}${letter ? event.key.toUpperCase() : event.key}`;
+        const key = known.get(name);
+        if (!key || (event.repeat && key.repeats === false)) return;
+        event.preventDefault();
+        key.does(event);
+    });
+}
+
+/** @param {Group[]} groups */
+export function showHelp(groups) {
+    const dialog = byId("help");
+    const names = (/** @type {Key} */ key) => (key.shown ?? key.keys.join("  ")).split("  ").flatMap((name) => [h("kbd", {}, name), " "]);
+    dialog.replaceChildren(
+        h("h1", { id: "help-title" }, "Keys"),
+        h("div", { class: "keys" }, ...groups.map((group) => h("section", {}, h("h3", {}, group.title), h("dl", {}, ...group.keys.flatMap((key) => [h("dt", {}, ...names(key)), h("dd", {}, key.says)]))))),
+        h("p", { class: "quiet" }, "Mouse: wheel zooms, dragging moves, double click shows the whole picture, a click keeps an instance marked. Everything that is shown stands in the address."),
+        h("form", { method: "dialog" }, h("button", { class: "primary", autofocus: true }, "Close")),
+    );
+    dialog.showModal();
+    dialog.scrollTop = 0;
+}

@@ -1,0 +1,111 @@
+// What a layer looks like in this scene: its colour tables, and what its numbers are called.
+
+import { MASKS, TRAITS, idColor, idTable, mapTable, traitsColor } from "./colors.js";
+import { lookOf } from "./kinds.js";
+
+/** @typedef {import("./catalogue.js").Dataset} Dataset */
+/** @typedef {import("./catalogue.js").Scene} Scene */
+/** @typedef {import("./catalogue.js").LayerSpec} LayerSpec */
+
+export class Looks {
+    /** @param {Dataset} dataset */
+    constructor(dataset) {
+        this.specs = new Map(dataset.layers.map((spec) => [spec.name, spec]));
+        this.classes = new Map(dataset.classes.map((one) => [one.id, one]));
+        /** @type {Scene | null} */
+        this.scene = null;
+        /** @type {Map<string, Uint8Array>} */
+        this.tables = new Map();
+    }
+
+    /** @param {Scene} scene */
+    enter(scene) {
+        if (this.scene === scene) return;
+        this.scene = scene;
+        this.tables.clear();
+    }
+
+    /** @param {string} layer */
+    spec(layer) {
+        return /** @type {LayerSpec} */ (this.specs.get(layer) ?? this.specs.get("color"));
+    }
+
+    /** @param {string} layer */
+    look(layer) {
+        return lookOf(this.spec(layer));
+    }
+
+    /**
+     * The colours of a layer's numbers; `null` for layers that need none.
+     * @param {string} layer
+     * @param {string} map
+     */
+    table(layer, map) {
+        const { kind } = this.look(layer);
+        const key = kind === "scalar" ? map : layer;
+        if (kind !== "scalar" && kind !== "id" && kind !== "code") return null;
+        let table = this.tables.get(key);
+        if (!table) {
+            table = kind === "scalar" ? mapTable(map) : idTable((id) => this.color(layer, id), kind === "code" ? 256 : 32768);
+            this.tables.set(key, table);
+        }
+        return table;
+    }
+
+    /**
+     * The colour of a number of an id or code layer.
+     * @param {string} layer
+     * @param {number} id
+     */
+    color(layer, id) {
+        if (layer === "surface_traits") return traitsColor(id);
+        if (layer in MASKS) return MASKS[layer].find((mask) => mask.code === id)?.color ?? [255, 0, 255];
+        const { of } = this.look(layer);
+        if (of === "class") return this.classes.get(id)?.color ?? [0, 0, 0];
+        if (of === "instance") return id < 1 ? [0, 0, 0] : (this.scene?.instance_colors[id] ?? idColor(id));
+        return idColor(id);
+    }
+
+    /**
+     * What a number of an id or code layer is called; empty where it has no name.
+     * @param {string} layer
+     * @param {number} id
+     */
+    name(layer, id) {
+        if (layer === "surface_traits") return TRAITS.filter((trait) => id & trait.bit).map((trait) => trait.name).join(", ") || "nothing special";
+        if (layer in MASKS) return MASKS[layer].find((mask) => mask.code === id)?.name ?? "unknown code";
+        switch (this.look(layer).of) {
+            case "class": return this.className(id);
+            case "instance": return this.instanceName(id);
+            case "material": return id < 1 ? "none" : (this.scene?.materials[id - 1] ?? "");
+            default: return id < 1 ? "nothing" : (this.scene?.parts.names[id - 1] ?? "");
+        }
+    }
+
+    /** @param {number} id */
+    className(id) {
+        return this.classes.get(id)?.name ?? "unlabelled";
+    }
+
+    /** The names of an instance's parts, shortened. @param {number} id */
+    instanceName(id) {
+        if (id < 1) return "none";
+        const parts = this.scene?.parts;
+        const names = parts ? parts.names.filter((_, i) => parts.instance[i] === id) : [];
+        return names.length > 1 ? `${names[0]} + ${names.length - 1}` : (names[0] ?? "");
+    }
+
+    /** The class of an instance. @param {number} id */
+    classOfInstance(id) {
+        const parts = this.scene?.parts;
+        const at = parts ? parts.instance.indexOf(id) : -1;
+        return at >= 0 && parts ? parts.semantic[at] : -1;
+    }
+
+    /** The box of an instance, of the best kind that the scene has. @param {number} id */
+    box(id) {
+        const boxes = this.scene?.boxes ?? {};
+        const kind = ["object_aligned_2d", "object_aligned_3d", "axis_aligned"].find((kind) => boxes[kind]?.[id]);
+        return kind ? boxes[kind][id] : null;
+    }
+}

@@ -1,0 +1,82 @@
+// The panel "Objects": the classes and instances in the picture; pointing at one marks it.
+
+import { cssColor } from "./colors.js";
+import { brief, percent } from "./numbers.js";
+import { facts, h } from "./dom.js";
+
+/** @typedef {import("./session.js").Session} Session */
+
+/**
+ * @param {Session} session
+ * @param {import("./catalogue.js").FrameFacts | null} known
+ * @param {() => void} repaint
+ */
+export function objectsPanel(session, known, repaint) {
+    const { frame, instance } = session.store.state;
+    const there = session.layersOf(frame);
+    if (!there.includes("semantic_instance") && !there.includes("semantic")) {
+        return [h("p", { class: "quiet" }, "This frame has no labels. `enfilade label` joins them from a table, without rendering again.")];
+    }
+    return [...(instance ? chosenPart(session, known, instance) : []), ...instancesPart(session, known, repaint), ...classesPart(session)];
+}
+
+/** @param {Session} session @param {import("./catalogue.js").FrameFacts | null} known @param {number} id */
+function chosenPart(session, known, id) {
+    const { looks } = session;
+    const view = known?.instances.find((one) => one.instance === id);
+    const box = looks.box(id);
+    const parts = session.scene?.parts;
+    const names = parts ? parts.names.filter((_, i) => parts.instance[i] === id) : [];
+    return [
+        h("h2", {}, `Instance ${id}`),
+        facts([
+            ["Class", looks.className(looks.classOfInstance(id))],
+            ["Parts", names.slice(0, 6).join(", ") + (names.length > 6 ? ` and ${names.length - 6} more` : "")],
+            ["Box", box && `${box.extents.map((v) => v.toFixed(2)).join(" × ")} m`],
+            ["Centre", box && `${box.center.map((v) => v.toFixed(2)).join(", ")} m`],
+            ["Visible", view && `${view.visible_pixels} px, ${percent(view.visibility)} of it`],
+            ["Cut off", view && percent(view.truncation)],
+        ]),
+    ];
+}
+
+/** @param {Session} session @param {import("./catalogue.js").FrameFacts | null} known @param {() => void} repaint */
+function instancesPart(session, known, repaint) {
+    const { frame } = session.store.state;
+    const areas = session.areasOf(frame, "semantic_instance");
+    if (!areas) return [h("h2", {}, "Instances"), h("p", { class: "quiet" }, "Reading …")];
+    const list = [...areas].filter(([id]) => id > 0).sort((a, b) => b[1].pixels - a[1].pixels);
+    const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) => {
+        const visibility = known?.instances.find((one) => one.instance === id)?.visibility;
+        const mark = (/** @type {boolean} */ on) => {
+            session.hoveredInstance = on ? id : 0;
+            repaint();
+        };
+        const pin = () => session.store.set({ instance: session.store.state.instance === id ? 0 : id });
+        return h("tr", { tabIndex: 0, "aria-selected": String(session.store.state.instance === id), "data-instance": id, title: session.looks.instanceName(id),
+            onpointerenter: () => mark(true), onpointerleave: () => mark(false), onfocus: () => mark(true), onblur: () => mark(false), onclick: pin,
+            onkeydown: (/** @type {KeyboardEvent} */ e) => e.key === "Enter" && pin() },
+            h("td", {}, h("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic_instance", id))}` }), ` ${session.looks.instanceName(id)}`),
+            h("td", {}, session.looks.className(session.looks.classOfInstance(id))),
+            h("td", { class: "number" }, brief(area.pixels)),
+            h("td", { class: "number" }, visibility === undefined ? "" : percent(visibility)));
+    };
+    return [h("h2", {}, `${list.length} instances`), table(["Name", "Class", "px", "seen"], ["auto", "25%", "18%", "23%"], list.map(row))];
+}
+
+/** @param {Session} session */
+function classesPart(session) {
+    const areas = session.areasOf(session.store.state.frame, "semantic");
+    if (!areas) return [];
+    const all = [...areas.values()].reduce((sum, area) => sum + area.pixels, 0);
+    const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) =>
+        h("tr", { "data-class": id }, h("td", {}, h("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic", id))}` }), ` ${session.looks.className(id)}`),
+            h("td", { class: "number" }, id > 0 ? String(id) : "–"), h("td", { class: "number" }, percent(area.pixels / all)));
+    return [h("h2", {}, "Classes"), table(["NYU40", "id", "of image"], ["auto", "15%", "30%"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
+}
+
+/** @param {string[]} heads @param {string[]} widths @param {Node[]} rows */
+function table(heads, widths, rows) {
+    return h("table", { class: "rows" }, h("colgroup", {}, ...widths.map((width) => h("col", { style: `width:${width}` }))),
+        h("thead", {}, h("tr", {}, ...heads.map((head, i) => h("th", { class: i && head !== "Class" ? "number" : "" }, head)))), h("tbody", {}, ...rows));
+}

@@ -1,0 +1,231 @@
+// The dataset that is open, the scene and camera that are looked at, and the layers that this takes.
+
+import { forget, getCamera, getDataset, getScene } from "./catalogue.js";
+import { Loader } from "./loader.js";
+import { Looks } from "./looks.js";
+import { pixelOf } from "./numbers.js";
+
+/** @typedef {import("./catalogue.js").Dataset} Dataset */
+/** @typedef {import("./catalogue.js").Scene} Scene */
+/** @typedef {import("./catalogue.js").Camera} Camera */
+/** @typedef {import("./numbers.js").LayerData} LayerData */
+/** @typedef {{ pixels: number, bounds: [number, number, number, number] }} Area */
+
+/** Layers that give names to a pixel, in the order in which they are told. */
+export const NAMING = ["render_entity_id", "semantic", "semantic_instance", "material_id"];
+/** Frames that are fetched ahead in the direction of travel, and behind. */
+const AHEAD = 5, BEHIND = 1;
+
+export class Session {
+    /**
+     * @param {Dataset} dataset
+     * @param {import("./state.js").Store} store
+     */
+    constructor(dataset, store) {
+        this.dataset = dataset;
+        this.store = store;
+        this.looks = new Looks(dataset);
+        /** @type {Scene | null} */
+        this.scene = null;
+        /** @type {Camera | null} */
+        this.camera = null;
+        /** @type {{ message: string, help: string } | null} */
+        this.problem = null;
+        this.direction = 1;
+        this.hoveredInstance = 0;
+        /** Frames go by: what gives names to pixels is fetched when they stand still. */
+        this.travelling = false;
+        /** @type {WeakMap<LayerData, Map<number, Area>>} */
+        this.counted = new WeakMap();
+        /** @type {() => void} */
+        this.changed = () => {};
+        /** @type {() => void} */
+        this.entered = () => {};
+        this.loader = new Loader(() => this.changed());
+    }
+
+    /** The instance that stands out: the one under the cursor, else the one that was clicked. */
+    get marked() {
+        return this.hoveredInstance || this.store.state.instance;
+    }
+
+    /** Follows the state to its scene and camera; what does not exist becomes the first that does. */
+    async follow() {
+        const { state } = this.store;
+        try {
+            const scenes = this.dataset.scenes;
+            if (!scenes.length) throw { message: "The dataset has no scenes.", help: "Render some; this page shows them when it is loaded again." };
+            const scene = await getScene(scenes.includes(state.scene) ? state.scene : scenes[0]);
+            const name = scene.cameras.includes(state.camera) ? state.camera : scene.cameras[0];
+            const camera = name === undefined ? null : await getCamera(scene.name, name);
+            if (this.store.state.scene !== state.scene || this.store.state.camera !== state.camera) return;
+            this.scene = scene;
+            this.camera = camera;
+            this.problem = camera ? null : { message: `The scene ${scene.name} has no cameras.`, help: "Plan trajectories for it, or choose another scene." };
+            this.looks.enter(scene);
+            this.store.set({ scene: scene.name, camera: name ?? "", ...this.#nearest(state) });
+        } catch (error) {
+            const { message, help } = /** @type {any} */ (error);
+            this.problem = { message, help: help ?? "" };
+        }
+        this.entered();
+        this.refresh();
+    }
+
+    /** Reads everything anew. */
+    async reload() {
+        forget();
+        this.loader.forget();
+        this.dataset = await getDataset();
+        await this.follow();
+    }
+
+    /**
+     * The frame nearest to the one asked for that has pictures, and layers that exist there.
+     * @param {import("./state.js").State} state
+     */
+    #nearest(state) {
+        const frames = this.frames();
+        if (!frames.length) return { frame: state.frame };
+        const far = (/** @type {number} */ frame) => Math.abs(frame - state.frame);
+        const frame = frames.reduce((best, one) => (far(one) < far(best) ? one : best), frames[0]);
+        const there = this.layersOf(frame);
+        const known = (/** @type {string} */ layer, /** @type {string} */ instead) => (there.includes(layer) ? layer : there.includes(instead) ? instead : (there[0] ?? layer));
+        const layer = known(state.layer, "color");
+        return { frame, layer, other: known(state.other, "depth_meters") };
+    }
+
+    /** The numbers of the frames that have pictures. */
+    frames() {
+        return (this.camera?.frames ?? []).filter((frame) => frame.layers.length).map(({ frame }) => frame);
+    }
+
+    /** The names of a frame's layers. @param {number} frame */
+    layersOf(frame) {
+        const entry = this.camera?.frames.find((one) => one.frame === frame);
+        return (entry?.layers ?? []).map((at) => this.dataset.layers[at].name);
+    }
+
+    /** @param {number} frame @param {string} layer */
+    #place(frame, layer) {
+        return { scene: this.scene?.name ?? "", camera: this.camera?.name ?? "", frame, layer };
+    }
+
+    /** @param {number} frame @param {string} layer */
+    layer(frame, layer) {
+        return this.loader.get(this.#place(frame, layer));
+    }
+
+    /** @param {number} frame @param {string} layer */
+    failureOf(frame, layer) {
+        if (this.camera && !this.layersOf(frame).includes(layer)) return { error: `Frame ${frame} has no ${layer}.`, help: "" };
+        return this.loader.failure(this.#place(frame, layer));
+    }
+
+    /** What the pictures show, left first. @returns {import("./stage.js").Side[]} */
+    sides() {
+        const { frame, layer, other, otherFrame, mode } = this.store.state;
+        if (!this.camera) return [];
+        const first = { frame, layer, data: this.layer(frame, layer) };
+        if (mode !== "side" && mode !== "wipe") return [first];
+        const second = otherFrame ?? frame;
+        return [first, { frame: second, layer: other, data: this.layer(second, other) }];
+    }
+
+    /** Everything that is shown is here in full. */
+    get complete() {
+        return this.sides().every((side) => side.data?.step === 1 || this.failureOf(side.frame, side.layer));
+    }
+
+    /** Says what is wanted: what is shown, what comes next, and what gives names to pixels. */
+    refresh() {
+        const { frame, otherFrame } = this.store.state;
+        const sides = this.sides();
+        const frames = this.frames();
+        const at = frames.indexOf(frame);
+        const near = [...Array(AHEAD).keys()].map((i) => (i + 1) * this.direction).concat([...Array(BEHIND).keys()].map((i) => -(i + 1) * this.direction));
+        const neighbours = near.map((step) => frames[at + step]).filter((one) => one !== undefined);
+        const moving = sides.filter((_, i) => i === 0 || otherFrame === null);
+        const there = this.layersOf(frame);
+        this.loader.want([
+            ...sides.map((side) => this.#place(side.frame, side.layer)),
+            ...neighbours.slice(0, 2).flatMap((one) => moving.map((side) => this.#place(one, side.layer))),
+            ...NAMING.filter((layer) => !this.travelling && there.includes(layer)).map((layer) => this.#place(frame, layer)),
+            ...neighbours.slice(2).flatMap((one) => moving.map((side) => this.#place(one, side.layer))),
+        ].filter((place) => this.layersOf(place.frame).includes(place.layer)));
+        this.changed();
+    }
+
+    /** Goes so many frames on, and stays within the trajectory. @param {number} steps */
+    step(steps) {
+        const frames = this.frames();
+        const at = frames.indexOf(this.store.state.frame);
+        const next = frames[Math.min(frames.length - 1, Math.max(0, at + steps))];
+        this.direction = Math.sign(steps) || 1;
+        if (next !== undefined) this.store.set({ frame: next });
+    }
+
+    /** The instances of a frame's pixels. @param {number} frame */
+    idsOf(frame) {
+        return this.layer(frame, "semantic_instance");
+    }
+
+    /** How many pixels a frame has of each number of a layer, and the box around them. @param {number} frame @param {string} layer */
+    areasOf(frame, layer) {
+        const data = this.layer(frame, layer);
+        if (!data || data.step !== 1 || data.shape[2] !== 1) return null;
+        let areas = this.counted.get(data);
+        if (!areas) {
+            areas = new Map();
+            const [height, width] = data.shape;
+            /** @type {Area | undefined} */
+            let area;
+            let last = NaN;
+            for (let y = 0, i = 0; y < height; y++) {
+                for (let x = 0; x < width; x++, i++) {
+                    const id = data.values[i];
+                    if (id !== last) {
+                        last = id;
+                        area = areas.get(id);
+                        if (!area) areas.set(id, (area = { pixels: 0, bounds: [x, y, x + 1, y + 1] }));
+                    }
+                    const { bounds } = /** @type {Area} */ (area);
+                    /** @type {Area} */ (area).pixels++;
+                    if (x < bounds[0]) bounds[0] = x;
+                    if (x >= bounds[2]) bounds[2] = x + 1;
+                    bounds[3] = y + 1;
+                }
+            }
+            this.counted.set(data, areas);
+        }
+        return areas;
+    }
+
+    /** The box around the visible pixels of an instance. @param {number} frame @param {number} id */
+    boundsOf(frame, id) {
+        return this.areasOf(frame, "semantic_instance")?.get(id)?.bounds ?? null;
+    }
+
+    /** The instances that a frame shows. @param {number} frame */
+    instancesOf(frame) {
+        return [...(this.areasOf(frame, "semantic_instance")?.keys() ?? [])].filter((id) => id > 0);
+    }
+
+    /** @param {import("./stage.js").Pixel | null} pixel */
+    #instanceAt(pixel) {
+        const side = pixel && this.sides()[pixel.side];
+        const ids = side && this.idsOf(side.frame);
+        return (ids?.step === 1 && pixelOf(ids, pixel?.x ?? 0, pixel?.y ?? 0)?.[0]) || 0;
+    }
+
+    /** Marks the instance under the cursor. @param {import("./stage.js").Pixel | null} pixel */
+    hover(pixel) {
+        this.hoveredInstance = Math.max(0, this.#instanceAt(pixel));
+    }
+
+    /** Keeps the instance under the cursor marked, or lets go. @param {import("./stage.js").Pixel | null} pixel */
+    pin(pixel) {
+        const id = Math.max(0, this.#instanceAt(pixel));
+        this.store.set({ instance: id === this.store.state.instance ? 0 : id });
+    }
+}

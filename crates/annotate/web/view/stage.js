@@ -1,0 +1,228 @@
+// The pictures: one, two side by side, or two with a border that is wiped across. Zoom and pan are those of both.
+
+import { exposureOf, TONES } from "./exposure.js";
+import { rangeOf } from "./kinds.js";
+import { Painter } from "./painter.js";
+import { Overlay } from "./overlay.js";
+
+/** @typedef {import("./state.js").State} State */
+/** @typedef {import("./numbers.js").LayerData} LayerData */
+/** @typedef {import("./painter.js").Rect} Rect */
+/** @typedef {{ frame: number, layer: string, data: LayerData | undefined }} Side what one half shows */
+/** @typedef {{ x: number, y: number, side: number }} Pixel under the cursor; side 0 is the left picture */
+
+const LARGEST_ZOOM = 128;
+
+export class Stage {
+    /**
+     * @param {HTMLElement} element
+     * @param {import("./state.js").Store} store
+     * @param {import("./session.js").Session} session
+     */
+    constructor(element, store, session) {
+        this.element = element;
+        this.store = store;
+        this.session = session;
+        const [picture, above] = /** @type {NodeListOf<HTMLCanvasElement>} */ (element.querySelectorAll("canvas"));
+        this.painter = new Painter(picture);
+        this.overlay = new Overlay(above);
+        /** @type {Pixel | null} */
+        this.pixel = null;
+        /** @type {(pixel: Pixel | null) => void} */
+        this.hovered = () => {};
+        /** @type {(sides: Side[]) => void} */
+        this.painted = () => {};
+        this.waiting = false;
+        /** What was painted last on each side, for as long as the next is on its way. @type {(Side & { data: LayerData })[]} */
+        this.last = [];
+        new ResizeObserver(() => this.refresh()).observe(element);
+        this.#listen();
+    }
+
+    /** Paints before the next picture of the screen. */
+    refresh() {
+        if (this.waiting) return;
+        this.waiting = true;
+        requestAnimationFrame(() => {
+            this.waiting = false;
+            this.paint();
+        });
+    }
+
+    get ratio() {
+        return devicePixelRatio || 1;
+    }
+
+    /** The panes in device pixels: as many as pictures stand beside each other. @returns {Rect[]} */
+    panes() {
+        const { width, height } = this.painter.canvas;
+        if (this.store.state.mode !== "side") return [{ x: 0, y: 0, width, height }];
+        const gap = Math.round(2 * this.ratio);
+        const half = Math.floor((width - gap) / 2);
+        return [{ x: 0, y: 0, width: half, height }, { x: half + gap, y: 0, width: width - half - gap, height }];
+    }
+
+    /** CSS pixels per pixel when the whole picture is seen. */
+    fit() {
+        const [pane] = this.panes();
+        const [height, width] = this.pictureSize();
+        return Math.min(pane.width / width, pane.height / height) / this.ratio;
+    }
+
+    /** Height and width of the picture. */
+    pictureSize() {
+        return this.last[0]?.data.size ?? [768, 1024];
+    }
+
+    /** Where the picture lies in a pane. @param {Rect} pane */
+    placement(pane) {
+        const { zoom, x, y } = this.store.state;
+        const [height, width] = this.pictureSize();
+        const scale = (zoom || this.fit()) * this.ratio;
+        const [cx, cy] = zoom ? [x, y] : [0.5, 0.5];
+        // Whole device pixels, so that pixels of the picture have sharp borders.
+        return { x: Math.round(pane.x + pane.width / 2 - cx * width * scale), y: Math.round(pane.y + pane.height / 2 - cy * height * scale), zoom: scale };
+    }
+
+    paint() {
+        const { canvas } = this.painter;
+        const box = this.element.getBoundingClientRect();
+        const [width, height] = [Math.max(1, Math.round(box.width * this.ratio)), Math.max(1, Math.round(box.height * this.ratio))];
+        if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
+        const { state } = this.store;
+        const sides = this.session.sides();
+        for (const [i, side] of sides.entries()) {
+            const before = this.last[i];
+            // Until the next picture is here the one before stays, so that nothing flashes.
+            if (side.data) this.last[i] = /** @type {any} */ (side);
+            else if (before && this.session.failureOf(side.frame, side.layer)) delete this.last[i];
+        }
+        this.painter.begin(getComputedStyle(this.element).backgroundColor);
+        const panes = this.panes();
+        const places = panes.map((pane) => this.placement(pane));
+        for (const i of sides.keys()) {
+            const shown = this.last[i];
+            if (!shown) continue;
+            const at = state.mode === "side" ? i : 0;
+            this.painter.draw(this.#picture(shown), this.#clip(i, panes[at]), places[at]);
+        }
+        this.overlay.paint(this, panes, places);
+        this.element.dataset.frame = String(this.last[0]?.frame ?? "");
+        this.painted(sides);
+    }
+
+    /** @param {number} side @param {Rect} pane @returns {Rect} */
+    #clip(side, pane) {
+        const { mode, wipe } = this.store.state;
+        if (mode !== "wipe") return pane;
+        const border = Math.round(pane.width * wipe);
+        return side === 0 ? { ...pane, width: border } : { ...pane, x: border, width: pane.width - border };
+    }
+
+    /** @param {Side & { data: LayerData }} side @returns {import("./painter.js").Picture} */
+    #picture({ frame, layer, data }) {
+        const { state } = this.store;
+        const { looks, camera } = this.session;
+        const look = looks.look(layer);
+        const ids = this.session.idsOf(frame);
+        return {
+            data,
+            kind: look.kind,
+            table: looks.table(layer, state.maps[layer] ?? look.map),
+            range: rangeOf(look, data.summary, state.ranges[layer]),
+            exposure: camera ? exposureOf(state, camera, frame, data.summary) : 1,
+            tone: TONES.indexOf(state.tone),
+            ids: ids?.step === 1 ? ids : null,
+            marked: this.session.marked,
+            accent: [1, 0.72, 0.2],
+        };
+    }
+
+    /** The pixel under a place of the element, CSS pixels; outside of the picture, too. @param {number} x @param {number} y */
+    pixelAt(x, y) {
+        const { mode, wipe } = this.store.state;
+        const panes = this.panes();
+        const device = [x * this.ratio, y * this.ratio];
+        const at = panes.length > 1 && device[0] >= panes[1].x ? 1 : 0;
+        const place = this.placement(panes[at]);
+        const side = mode === "wipe" ? Number(device[0] >= panes[0].width * wipe) : at;
+        return { x: (device[0] - place.x) / place.zoom, y: (device[1] - place.y) / place.zoom, side };
+    }
+
+    /**
+     * Zooms by a factor with the given place of the element at rest.
+     * @param {number} factor
+     * @param {number} [x] CSS pixels
+     * @param {number} [y]
+     */
+    zoomBy(factor, x, y) {
+        const { width, height } = this.element.getBoundingClientRect();
+        const [pane] = this.panes();
+        const [sx, sy] = [x ?? pane.width / this.ratio / 2, y ?? height / 2];
+        const before = this.pixelAt(Math.min(sx, width), sy);
+        const old = this.store.state.zoom || this.fit();
+        const zoom = Math.min(LARGEST_ZOOM, Math.max(this.fit() / 2, old * factor));
+        const [h, w] = this.pictureSize();
+        const old_x = this.store.state.zoom ? this.store.state.x : 0.5, old_y = this.store.state.zoom ? this.store.state.y : 0.5;
+        const share = 1 - old / zoom;
+        this.store.set({ zoom, x: old_x + (before.x / w - old_x) * share, y: old_y + (before.y / h - old_y) * share });
+    }
+
+    /** Moves the picture. @param {number} dx CSS pixels @param {number} dy */
+    panBy(dx, dy) {
+        const { zoom, x, y } = this.store.state;
+        const scale = zoom || this.fit();
+        const [h, w] = this.pictureSize();
+        const within = (/** @type {number} */ v) => Math.min(1, Math.max(0, v));
+        this.store.set({ zoom: scale, x: within((zoom ? x : 0.5) - dx / scale / w), y: within((zoom ? y : 0.5) - dy / scale / h) });
+    }
+
+    #listen() {
+        const { element } = this;
+        const place = (/** @type {MouseEvent} */ event) => {
+            const box = element.getBoundingClientRect();
+            return { x: event.clientX - box.left, y: event.clientY - box.top };
+        };
+        element.addEventListener("wheel", (event) => {
+            event.preventDefault();
+            const { x, y } = place(event);
+            this.zoomBy(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0018)), x, y);
+        }, { passive: false });
+        /** @type {{ x: number, y: number, wiping: boolean, moved: boolean } | null} */
+        let drag = null;
+        element.addEventListener("pointerdown", (event) => {
+            const { x, y } = place(event);
+            const { mode, wipe } = this.store.state;
+            const wiping = mode === "wipe" && Math.abs(x - wipe * element.clientWidth) < 12;
+            drag = { x, y, wiping, moved: false };
+            element.setPointerCapture(event.pointerId);
+        });
+        element.addEventListener("pointermove", (event) => {
+            const { x, y } = place(event);
+            const { mode, wipe } = this.store.state;
+            element.dataset.over = mode === "wipe" && Math.abs(x - wipe * element.clientWidth) < 12 ? "border" : "";
+            if (drag && (drag.moved || Math.hypot(x - drag.x, y - drag.y) > 3)) {
+                drag.moved = true;
+                if (drag.wiping) this.store.set({ wipe: Math.min(1, Math.max(0, x / element.clientWidth)) });
+                else this.panBy(x - drag.x, y - drag.y);
+                [drag.x, drag.y] = [x, y];
+            }
+            this.#hover(this.pixelAt(x, y));
+        });
+        element.addEventListener("pointerup", () => {
+            if (drag && !drag.moved) this.session.pin(this.pixel);
+            drag = null;
+        });
+        element.addEventListener("pointerleave", () => this.#hover(null));
+        element.addEventListener("dblclick", () => this.store.set({ zoom: 0, x: 0.5, y: 0.5 }));
+    }
+
+    /** @param {Pixel | null} pixel */
+    #hover(pixel) {
+        const [height, width] = this.pictureSize();
+        const inside = pixel && pixel.x >= 0 && pixel.y >= 0 && pixel.x < width && pixel.y < height;
+        this.pixel = pixel && inside ? { x: Math.floor(pixel.x), y: Math.floor(pixel.y), side: pixel.side } : null;
+        this.hovered(this.pixel);
+        this.refresh();
+    }
+}

@@ -1,0 +1,52 @@
+// The list of scenes and their cameras.
+
+import { fileUrl } from "./catalogue.js";
+import { byId, h } from "./dom.js";
+
+/** More names than this are found by searching. */
+const MOST_SHOWN = 500;
+
+export class Tree {
+    /** @param {import("./session.js").Session} session */
+    constructor(session) {
+        this.session = session;
+        byId("scene-search").addEventListener("input", () => this.enter());
+        byId("scene-search").addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
+            const [first] = this.#found();
+            if (event.key === "Enter" && first) this.#open(first);
+        });
+    }
+
+    #found() {
+        const words = byId("scene-search").value.toLowerCase().split(/\s+/).filter(Boolean);
+        return this.session.dataset.scenes.filter((name) => words.every((/** @type {string} */ word) => name.toLowerCase().includes(word)));
+    }
+
+    /** @param {string} scene @param {string} [camera] */
+    #open(scene, camera = "") {
+        this.session.store.set({ scene, camera, otherFrame: null, instance: 0 });
+    }
+
+    enter() {
+        const { scene, camera, dataset } = this.session;
+        const found = this.#found();
+        const item = (/** @type {string} */ name) => {
+            const open = name === scene?.name;
+            const cameras = open ? h("ul", {}, ...scene.cameras.map((one) => h("li", {}, h("button", { type: "button", class: "plain", "aria-current": String(one === camera?.name), onclick: () => this.#open(name, one) }, one)))) : null;
+            return h("li", {}, h("button", { type: "button", class: "plain", "aria-current": String(open), title: name, onclick: () => this.#open(name) }, name), cameras);
+        };
+        byId("scenes").replaceChildren(...found.slice(0, MOST_SHOWN).map(item), ...(found.length > MOST_SHOWN ? [h("li", { class: "quiet" }, `and ${found.length - MOST_SHOWN} more`)] : []),
+            ...(found.length ? [] : [h("li", { class: "quiet" }, "No scene has such a name.")]));
+        byId("pages").replaceChildren(...[...dataset.pages, ...(scene?.pages ?? [])].map((page) => h("a", { href: fileUrl(page.path), target: "_blank" }, page.title)));
+    }
+
+    /** The next camera, or the first of the next scene. @param {number} step */
+    async camera(step) {
+        const { scene, camera, dataset } = this.session;
+        if (!scene || !camera) return;
+        const at = scene.cameras.indexOf(camera.name) + step;
+        if (scene.cameras[at]) return this.#open(scene.name, scene.cameras[at]);
+        const other = dataset.scenes[dataset.scenes.indexOf(scene.name) + step];
+        if (other) this.#open(other);
+    }
+}

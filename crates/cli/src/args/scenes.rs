@@ -1,0 +1,145 @@
+//! The verbs that make scene files and what belongs to them.
+
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// `home`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  enfilade home --seed 7\n  enfilade home --rooms living,kitchen,bedroom,bathroom,hall --seed 7 -o home.scene\n  enfilade home --assets furniture/ --seed 7\n\n\
+    Rooms: living, kitchen, dining, bedroom, childrens, study, bathroom, toilet, hall, laundry; each may come several times.\n\
+    The labels are in the file. In a dataset, home = { seed = 7, rooms = [...] } does the same."
+)]
+pub struct HomeArgs {
+    /// The rooms [default: four to eight, as the seed decides]
+    #[arg(long, value_name = "KIND,KIND", value_delimiter = ',', value_parser = parse_room)]
+    pub rooms: Vec<enfilade_pipeline::RoomKind>,
+    /// Seed of everything random
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// Seed of the floor plan alone
+    #[arg(long, value_name = "SEED")]
+    pub layout: Option<u64>,
+    /// Seed of the furniture alone
+    #[arg(long, value_name = "SEED")]
+    pub furniture: Option<u64>,
+    /// Seed of colours and materials alone
+    #[arg(long, value_name = "SEED")]
+    pub materials: Option<u64>,
+    /// Share of the colours that go together; the others are random
+    #[arg(long, default_value_t = 1.0, value_name = "SHARE")]
+    pub realism: f32,
+    /// Seed of the light alone
+    #[arg(long, value_name = "SEED")]
+    pub light: Option<u64>,
+    /// Part of the day [default: as the seed decides]
+    #[arg(long)]
+    pub moment: Option<MomentArg>,
+    /// Density of small things: 0 has none, 1 is a home that is lived in, 2 is untidy
+    #[arg(long, default_value_t = 1.0, value_name = "X")]
+    pub clutter: f32,
+    /// Folders of glTF models, or furniture of Sweet Home 3D (.sh3f), to take in place of our own furniture where a model fits
+    #[arg(long, value_name = "FOLDER|FILE", value_delimiter = ',')]
+    pub assets: Vec<String>,
+    /// Share of the things for which a model fits that are models
+    #[arg(long, default_value_t = 1.0, value_name = "SHARE")]
+    pub assets_share: f32,
+    /// Go on with our own furniture where a model is broken
+    #[arg(long)]
+    pub allow_broken_assets: bool,
+    /// The scene package (.scene) or binary glTF (.glb) to write, labels included
+    #[arg(short, long, value_name = "FILE", default_value = "home.scene")]
+    pub output: PathBuf,
+}
+
+/// `--moment`.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum MomentArg {
+    /// The sun is up
+    Day,
+    /// Blue dusk outside, lamps inside
+    Evening,
+    /// Lamps alone
+    Night,
+}
+
+impl MomentArg {
+    /// The moment it names.
+    pub fn moment(self) -> enfilade_pipeline::Moment {
+        use enfilade_pipeline::Moment;
+        match self {
+            Self::Day => Moment::Day,
+            Self::Evening => Moment::Evening,
+            Self::Night => Moment::Night,
+        }
+    }
+}
+
+/// `import`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  enfilade import room.gltf -o room.scene\n  enfilade import hall.xml -o hall.scene --meters-per-unit 0.4\n  \
+    enfilade import hall.xml -o hall.glb\n  \
+    enfilade import out --scene home"
+)]
+pub struct ImportArgs {
+    /// A scene file (.gltf, .glb, .obj, .xml), or the folder of a dataset to import the scenes of
+    pub input: PathBuf,
+    /// The scene package (.scene) or binary glTF (.glb) to write [default: the input's name with .scene, in the current folder]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Metres per unit of the file
+    #[arg(long, default_value_t = 1.0, value_name = "X")]
+    pub meters_per_unit: f64,
+    /// Which way is up in the file [default: as its format says]
+    #[arg(long)]
+    pub up_axis: Option<UpAxisArg>,
+    /// Light the scene with this equirectangular picture instead of the file's own surroundings
+    #[arg(long, value_name = "FILE")]
+    pub environment: Option<String>,
+    /// Go on with plain grey where a texture is missing
+    #[arg(long)]
+    pub allow_missing_textures: bool,
+    /// With a dataset: only the scenes of these names
+    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
+    pub scene: Option<String>,
+    /// With a dataset: import even if nothing has changed
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// `suggest`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  enfilade suggest kitchen.gltf -o labels.csv\n  enfilade suggest kitchen.gltf --min-confidence 0.6\n\n\
+    Parts of less confidence have -1 and the best guess beside it. `labels = \"labels.csv\"` of a scene in dataset.toml, or\n\
+    `enfilade label`, reads the table. Of names with a confidence of 0.94 or more, 95 of 100 are right in scenes that were held out."
+)]
+pub struct SuggestArgs {
+    /// A scene file (.gltf, .glb, .obj, .xml) or scene package (.scene)
+    pub input: PathBuf,
+    /// The table to write [default: the input's name with .labels.csv, in the current folder]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Least confidence of a label that is written, 0 to 1 [default: where nine of ten names are right]
+    #[arg(long, value_name = "SHARE")]
+    pub min_confidence: Option<f32>,
+    /// Which way is up in the file [default: as its format says]
+    #[arg(long)]
+    pub up_axis: Option<UpAxisArg>,
+}
+
+/// `--up-axis`.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum UpAxisArg {
+    /// +y
+    Y,
+    /// +z
+    Z,
+}
+
+fn parse_room(text: &str) -> Result<enfilade_pipeline::RoomKind, String> {
+    use enfilade_pipeline::RoomKind;
+    let known = || RoomKind::ALL.map(RoomKind::name).join(", ");
+    RoomKind::from_name(text.trim()).ok_or_else(|| format!("the kinds of rooms are: {}", known()))
+}

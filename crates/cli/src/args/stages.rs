@@ -1,0 +1,140 @@
+//! The verbs that run stages.
+
+use super::values::{parse_share, parse_size, parse_time};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// `run`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  enfilade run --demo out\n  enfilade run --demo out --seed 2 --frames 8 --size 640x480 --quality draft\n  \
+    enfilade run dataset.toml -o out --noise 2% --samples 4096\n  \
+    enfilade run dataset.toml -o out --estimate --price 0.048\n\nA second run does nothing that is already done; a killed run goes on where it was."
+)]
+pub struct RunArgs {
+    /// The scenes to use and what to make of them
+    #[arg(value_name = "DATASET.TOML", required_unless_present = "demo", conflicts_with = "demo")]
+    pub config: Option<PathBuf>,
+    /// Make the demo dataset in the folder OUT instead: a generated home
+    #[arg(long, value_name = "OUT")]
+    pub demo: Option<PathBuf>,
+    /// Output folder [default: the dataset's name, in the current folder]
+    #[arg(short, long, value_name = "OUT", conflicts_with = "demo")]
+    pub output: Option<PathBuf>,
+    /// Seed of everything random
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Frames per trajectory
+    #[arg(long, value_name = "N")]
+    pub frames: Option<u32>,
+    /// Width and height of the images in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Samples per pixel in one word
+    #[arg(long, conflicts_with = "samples")]
+    pub quality: Option<QualityArg>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub render: RenderFlags,
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scene")]
+    pub scenes: Option<String>,
+    /// Tell what time, money, disk and memory the run will take, from a pilot of a few pixels; nothing is rendered
+    #[arg(long)]
+    pub estimate: bool,
+    /// With --estimate: dollars per vCPU-hour, or a CSV table of them with names [default: 0.0165, Hypersim's median]
+    #[arg(long, value_name = "X|CSV", requires = "estimate")]
+    pub price: Option<String>,
+}
+
+/// `--quality`.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum QualityArg {
+    /// 8 samples
+    Draft,
+    /// 64 samples
+    Normal,
+    /// 512 samples
+    High,
+}
+
+/// The verbs that run one stage of a dataset.
+#[derive(Args)]
+pub struct StageArgs {
+    /// The dataset's folder, as given to `run`
+    pub dataset: PathBuf,
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
+    pub scene: Option<String>,
+    /// Do it even if nothing has changed
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// `plan`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  enfilade plan out --scene home\n  enfilade plan out --preview\n\n\
+    --preview draws what was planned: plan and sections with free space, frusta and scores, every view coloured by part, and statistics.")]
+pub struct PlanArgs {
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub stage: StageArgs,
+    /// Draw the trajectories, also those that were planned earlier
+    #[arg(long)]
+    pub preview: bool,
+}
+
+/// `render`.
+#[derive(Args)]
+pub struct RenderArgs {
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub stage: StageArgs,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub render: RenderFlags,
+}
+
+/// Choices about rendering, for `run` and `render`. None is made unless asked for.
+#[derive(Args)]
+#[command(next_help_heading = "Rendering (of an existing dataset: from now on)")]
+pub struct RenderFlags {
+    /// Samples per pixel: the mean over the image, or with --noise the most
+    #[arg(long, value_name = "N")]
+    pub samples: Option<u32>,
+    /// Stop where the noise is this small: 2% or 0.02
+    #[arg(long, value_name = "SHARE", value_parser = parse_share)]
+    pub noise: Option<f32>,
+    /// Longest path, in surfaces that scatter light after the first [default: no limit, which is unbiased]
+    #[arg(long, value_name = "N")]
+    pub max_bounces: Option<u32>,
+    /// Largest radiance of one indirect sample [default: no limit, which is unbiased]
+    #[arg(long, value_name = "X")]
+    pub clamp: Option<f32>,
+    /// Wall-clock time after which a frame ends with the samples it has: 90s, 5m; two such runs differ
+    #[arg(long, value_name = "TIME", value_parser = parse_time)]
+    pub time_limit: Option<f64>,
+    /// Also write the light of color by its way (diffuse_direct, ...) and by its source (light_environment, ...)
+    #[arg(long)]
+    pub splits: bool,
+    /// Also write material, flow to the next frame, what lies behind glass, occlusion boundaries and more, pixel by pixel
+    #[arg(long)]
+    pub extra: bool,
+    /// Make denoised companions of the color layers too (needs Open Image Denoise, see `enfilade denoise --help`)
+    #[arg(long)]
+    pub denoise: bool,
+}
+
+/// `label`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  enfilade label out\n  enfilade label out --scene home --table my_labels.csv\n\n\
+    The table is CSV: a column `part`, `object`, `material` or `name`, a column `nyu40_id` or `semantic` (number or name of a class),\n\
+    and if wanted `scene` and `instance`.")]
+pub struct LabelArgs {
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub stage: StageArgs,
+    /// Use this table from now on
+    #[arg(long, value_name = "CSV")]
+    pub table: Option<PathBuf>,
+}

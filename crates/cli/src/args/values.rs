@@ -1,0 +1,70 @@
+//! Values of flags, as people write them.
+
+/// Frame numbers: `a..b` without b, `a..`, `..b`, or one number.
+pub fn parse_range(text: &str) -> Result<std::ops::Range<u32>, String> {
+    let number = |text: &str, default: u32| if text.trim().is_empty() { Ok(default) } else { text.trim().parse() };
+    let parsed = match text.split_once("..") {
+        Some((first, end)) => number(first, 0).and_then(|first| Ok(first..number(end, u32::MAX)?)),
+        None => text.trim().parse().map(|only: u32| only..only.saturating_add(1)),
+    };
+    let expected = "expected frame numbers, as in 0..10, 5.. or 7";
+    parsed.ok().filter(|range| !range.is_empty()).ok_or_else(|| expected.into())
+}
+
+pub fn parse_layer(text: &str) -> Result<enfilade_frame::Layer, String> {
+    let known = || enfilade_frame::LAYERS.iter().map(|spec| spec.name).collect::<Vec<_>>().join(", ");
+    enfilade_frame::Layer::from_name(text.trim()).ok_or_else(|| format!("the layers are: {}", known()))
+}
+
+pub fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let parsed = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
+    parsed.ok_or_else(|| "expected width and height, as in 640x480".into())
+}
+
+/// A share of one, or a percentage.
+pub fn parse_share(text: &str) -> Result<f32, String> {
+    let parsed = match text.trim().strip_suffix('%') {
+        Some(percent) => percent.trim().parse().map(|v: f32| v / 100.0),
+        None => text.trim().parse(),
+    };
+    parsed.map_err(|_| "expected a share or a percentage, as in 0.02 or 2%".into())
+}
+
+/// Seconds.
+pub fn parse_time(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let units = [("s", 1.0), ("m", 60.0), ("h", 3600.0), ("", 1.0)];
+    let parsed = units.iter().find_map(|(unit, seconds)| Some(text.strip_suffix(unit)?.trim().parse::<f64>().ok()? * seconds));
+    parsed.filter(|s| s.is_finite()).ok_or_else(|| "expected a time, as in 90s, 5m or 1h".into())
+}
+
+pub fn parse_shares(text: &str) -> Result<[f64; 3], String> {
+    let shares: Option<Vec<f64>> = text.split(',').map(|share| share.trim().parse().ok()).collect();
+    shares.and_then(|shares| shares.try_into().ok()).ok_or_else(|| "expected three numbers, as in 80,10,10".into())
+}
+
+pub fn parse_pixel(text: &str) -> Result<(u32, u32), String> {
+    let parsed = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
+    parsed.ok_or_else(|| "expected column and row, as in 160,120".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_and_pixels_are_read() {
+        assert_eq!(parse_size("640x480"), Ok([640, 480]));
+        assert!(parse_size("640").is_err() && parse_size("axb").is_err());
+        assert_eq!(parse_pixel("3, 4"), Ok((3, 4)));
+        assert!(parse_pixel("3").is_err());
+        assert_eq!(parse_shares("80,10, 10"), Ok([80.0, 10.0, 10.0]));
+        assert!(parse_shares("80,20").is_err() && parse_shares("a,b,c").is_err());
+        assert_eq!((parse_share("2%"), parse_share("0.02")), (Ok(0.02), Ok(0.02)));
+        assert!(parse_share("two").is_err());
+        assert_eq!((parse_time("90s"), parse_time("1.5m"), parse_time("1h"), parse_time("7")), (Ok(90.0), Ok(90.0), Ok(3600.0), Ok(7.0)));
+        assert!(parse_time("soon").is_err() && parse_time("inf").is_err());
+        assert_eq!((parse_range("0..10"), parse_range("5.."), parse_range("7")), (Ok(0..10), Ok(5..u32::MAX), Ok(7..8)));
+        assert!(parse_range("3..3").is_err() && parse_range("a..b").is_err() && parse_layer("colour").is_err());
+    }
+}

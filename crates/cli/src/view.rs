@@ -1,0 +1,13 @@
+//! `view`: the page that shows a dataset.
+
+use crate::args::ViewArgs;
+use crate::outcome::{Problem, Verdict, say};
+use enfilade_annotate::serve::serve;
+use enfilade_annotate::view::{Viewer, router};
+
+/// `view`: serves the page until it is asked to end.
+pub fn view(args: &ViewArgs) -> Result<Verdict, Problem> {
+    let viewer = Viewer::open(&args.dataset)?;
+    serve(router(viewer), &args.listen.listen(), "/view/", |url| say(&format!("page     {url}\nEnd with Ctrl-C.")))?;
+    Ok(Verdict::Done)
+}

@@ -1,0 +1,187 @@
+//! `vray`: edits of V-Ray's scenes, file to file.
+
+mod args;
+mod tables;
+
+pub use args::VrayArgs;
+
+use crate::outcome::{Problem, Verdict, say};
+use args::{Copy, Edit, PassArg, Policy};
+use enfilade_dataset::{Dataset, write_bytes};
+use enfilade_vrscene::edit::{
+    CameraKeyframe, CameraPath, EntityOptions, GiCaches, IMAGE_FILTERS, Normalization, Pass, add_color_channels, add_denoiser,
+    add_geometry_channels, file_references, hypersim_quality, linear_output, make_pass, meters_per_asset_unit, normalize, reduce_quality,
+    reduce_size, remove_kinds, replace_paths, save_gi_caches, set_camera, set_entity_ids,
+};
+use enfilade_vrscene::{Document, SceneTextError};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// One edit of one file.
+pub fn vray(args: &VrayArgs) -> Result<Verdict, Problem> {
+    match &args.edit {
+        Edit::Copy(copy) => edited(copy, |_| Ok("copied".into())),
+        Edit::Info { input, files } => info(input, *files),
+        Edit::Normalize { copy, policy } => edited(copy, |scene| {
+            normalize(
+                scene,
+                match policy {
+                    Policy::V0 => Normalization::V0,
+                    Policy::V1 => Normalization::V1,
+                    Policy::V2 => Normalization::V2,
+                },
+            );
+            Ok("normalized".into())
+        }),
+        Edit::ReplacePaths { copy, old, new } => edited(copy, |scene| match replace_paths(scene, old, new) {
+            0 => Err(Problem::new(format!("no path begins with {old:?}"), "see which there are: enfilade vray info IN --files")),
+            changed => Ok(format!("{changed} paths replaced")),
+        }),
+        Edit::Remove { copy, kinds } => edited(copy, |scene| {
+            let kinds: Vec<&str> =
+                kinds.iter().flat_map(|kind| if kind == "IMAGE_FILTERS" { IMAGE_FILTERS.to_vec() } else { vec![kind.as_str()] }).collect();
+            let removed = remove_kinds(scene, &kinds);
+            Ok(format!("{} plugins and {} references to them removed", removed.plugins, removed.references))
+        }),
+        Edit::Entities { copy, objects, nodes, strings, hide_nodes_not_in_mesh, hide_lights } => edited(copy, |scene| {
+            let objects = tables::objects(objects)?;
+            let names: Vec<&str> = objects.iter().map(String::as_str).collect();
+            let options = EntityOptions { hide_nodes_not_in_mesh: *hide_nodes_not_in_mesh, hide_lights: *hide_lights };
+            let entities = set_entity_ids(scene, &names, options);
+            if let Some(path) = nodes {
+                tables::write_nodes(path, &entities, &objects)?;
+            }
+            if let Some(path) = strings {
+                tables::write_strings(path, scene)?;
+            }
+            let lights = entities.iter().filter(|entity| entity.light).count();
+            let strangers = entities.iter().filter(|entity| !entity.light && entity.object.is_none()).count();
+            Ok(format!("{} nodes, of which {strangers} are no object of the mesh, and {lights} lights numbered", entities.len() - lights))
+        }),
+        Edit::Layers { copy, denoiser, hypersim_quality: quality } => edited(copy, |scene| {
+            enfilade_vrscene::edit::prepare_for_layers(scene);
+            remove_kinds(scene, &IMAGE_FILTERS);
+            add_geometry_channels(scene);
+            add_color_channels(scene);
+            if *denoiser {
+                add_denoiser(scene);
+            }
+            if *quality {
+                hypersim_quality(scene);
+            }
+            Ok("render elements added".into())
+        }),
+        Edit::Camera { copy, dataset, scene: name, camera, fov_deg, size } => edited(copy, |scene| {
+            let path = camera_path(scene, &copy.input, &Dataset::open(dataset)?, name, camera, *fov_deg, *size)?;
+            set_camera(scene, &path);
+            Ok(format!("{} keyframes of {camera}", path.keyframes.len()))
+        }),
+        Edit::Pass { copy, pass, light_cache, irradiance_map } => edited(copy, |scene| {
+            let caches = match (pass, light_cache, irradiance_map) {
+                (PassArg::Geometry, ..) => GiCaches { light_cache: String::new(), irradiance_map: String::new() },
+                (_, Some(light_cache), Some(irradiance_map)) => {
+                    GiCaches { light_cache: light_cache.clone(), irradiance_map: irradiance_map.clone() }
+                }
+                _ => return Err(Problem::new("this pass needs indirect light", "give --light-cache and --irradiance-map")),
+            };
+            let pass = match pass {
+                PassArg::Geometry => Pass::Geometry,
+                PassArg::Pre => Pass::Pre,
+                PassArg::Final => Pass::Final,
+            };
+            make_pass(scene, pass, &caches);
+            Ok(format!("the {pass:?} pass").to_lowercase())
+        }),
+        Edit::SaveGiCaches { copy, light_cache, irradiance_map } => edited(copy, |scene| {
+            save_gi_caches(scene, &GiCaches { light_cache: light_cache.clone(), irradiance_map: irradiance_map.clone() });
+            Ok("indirect light will be kept".into())
+        }),
+        Edit::Reduce { copy, quality, size } => edited(copy, |scene| {
+            if !quality && !size {
+                return Err(Problem::new("nothing to reduce", "give --quality, --size or both"));
+            }
+            if *quality {
+                reduce_quality(scene);
+            }
+            if *size {
+                reduce_size(scene);
+            }
+            Ok("reduced".into())
+        }),
+        Edit::Linear(copy) => edited(copy, |scene| {
+            linear_output(scene);
+            Ok("linear".into())
+        }),
+    }
+}
+
+/// Reads, edits and writes a scene, and says what the edit did. The output appears whole or not at all.
+fn edited(copy: &Copy, edit: impl FnOnce(&mut Document) -> Result<String, Problem>) -> Result<Verdict, Problem> {
+    let mut scene = read(&copy.input)?;
+    let done = edit(&mut scene)?;
+    write_bytes(&copy.output, scene.to_bytes())?;
+    say(&format!("{}: {done}", copy.output.display()));
+    Ok(Verdict::Done)
+}
+
+fn read(path: &Path) -> Result<Document, Problem> {
+    let bytes = std::fs::read(path).map_err(|e| Problem::new(format!("cannot read {}: {e}", path.display()), "check the path"))?;
+    Document::parse(bytes).map_err(|error| damaged(path, &error))
+}
+
+fn damaged(path: &Path, error: &SceneTextError) -> Problem {
+    Problem::new(format!("{}:{error}", path.display()), "export the scene again, or mend it at this place")
+}
+
+fn info(path: &Path, files_only: bool) -> Result<Verdict, Problem> {
+    let scene = read(path)?;
+    let files = file_references(&scene);
+    if files_only {
+        files.iter().for_each(|file| say(&file.path));
+        return Ok(Verdict::Done);
+    }
+    let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
+    scene.plugins().for_each(|plugin| *kinds.entry(String::from_utf8_lossy(plugin.kind()).into_owned()).or_default() += 1);
+    let units = meters_per_asset_unit(&scene).map_err(|error| damaged(path, &error))?;
+    say(&format!("units    {}", units.map_or("not said".into(), |m| format!("{m} m"))));
+    say(&format!("plugins  {}", kinds.values().sum::<usize>()));
+    kinds.iter().for_each(|(kind, count)| say(&format!("{count:8} {kind}")));
+    say(&format!("files    {}", files.len()));
+    files.iter().for_each(|file| say(&format!("         {} ({}, line {})", file.path, file.plugin, file.place.line)));
+    Ok(Verdict::Done)
+}
+
+/// A trajectory in the scene's units.
+fn camera_path(
+    scene: &Document,
+    file: &Path,
+    dataset: &Dataset,
+    name: &str,
+    camera: &str,
+    fov_deg: f64,
+    size: [u32; 2],
+) -> Result<CameraPath, Problem> {
+    let trajectory = dataset.read_trajectory(name, camera)?;
+    if trajectory.poses.is_empty() {
+        return Err(Problem::new(format!("{camera} of scene {name} has no poses"), "plan the trajectory again: enfilade plan"));
+    }
+    if !(fov_deg > 0.0 && fov_deg < 180.0) || size.contains(&0) {
+        return Err(Problem::new("no camera has this field of view and size", "give 0 < --fov-deg < 180 and at least one pixel"));
+    }
+    let metres = meters_per_asset_unit(scene).map_err(|error| damaged(file, &error))?.unwrap_or(1.0);
+    let keyframe = |pose: &enfilade_scene::Pose| {
+        let r = pose.world_from_camera;
+        CameraKeyframe {
+            frame: i64::from(pose.frame),
+            position: (pose.position / metres).to_array(),
+            world_from_camera: std::array::from_fn(|row| r.row(row).to_array()),
+        }
+    };
+    Ok(CameraPath {
+        keyframes: trajectory.poses.iter().map(keyframe).collect(),
+        frame_time_s: dataset.read_frame_time(name, camera)?,
+        fov_x_rad: fov_deg.to_radians(),
+        size,
+        lens: None,
+    })
+}

@@ -1,0 +1,193 @@
+use crate::error::{Place, SceneTextError};
+use crate::plugin::{Parameter, Plugin, Text};
+use crate::scan::Scanner;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Something of a file.
+#[derive(Clone, Debug)]
+pub enum Item {
+    /// `#include "path"`.
+    Include(Include),
+    /// A plugin.
+    Plugin(Plugin),
+}
+
+/// Another file that belongs here.
+#[derive(Clone, Debug)]
+pub struct Include {
+    pub(crate) before: Text,
+    /// `#include` and the quote.
+    pub(crate) opening: Text,
+    pub(crate) path: Text,
+    /// The quote.
+    pub(crate) closing: Text,
+}
+
+impl Include {
+    /// An include on a line of its own.
+    pub fn new(path: &str) -> Self {
+        let made = |text: &str| Text::Made(text.as_bytes().to_vec());
+        Self { before: made("\n"), opening: made("#include \""), path: made(path), closing: made("\"") }
+    }
+
+    /// The path as it is written: of the machine that wrote the file.
+    pub fn path(&self) -> &[u8] {
+        self.path.bytes()
+    }
+
+    /// Points elsewhere.
+    pub fn set_path(&mut self, path: &str) {
+        self.path = Text::Made(path.as_bytes().to_vec());
+    }
+
+    /// Where it stands in the file that was read.
+    pub fn place(&self) -> Place {
+        self.opening.place()
+    }
+}
+
+/// A scene description.
+#[derive(Clone, Debug)]
+pub struct Document {
+    /// What it is made of, in order. Plugins may refer to later ones.
+    pub items: Vec<Item>,
+    /// What stands after the last item.
+    pub(crate) end: Text,
+}
+
+impl Default for Document {
+    fn default() -> Self {
+        Self { items: Vec::new(), end: Text::Made(b"\n".to_vec()) }
+    }
+}
+
+impl Document {
+    /// Reads a description. The bytes are kept, and shared by everything that is not edited.
+    ///
+    /// # Errors
+    /// The first place that is not one, with line and column.
+    pub fn parse(bytes: impl Into<Arc<[u8]>>) -> Result<Self, SceneTextError> {
+        let file: Arc<[u8]> = bytes.into();
+        let mut reader = Reader { scanner: Scanner::new(&file), file: &file };
+        let mut items = Vec::new();
+        loop {
+            let start = reader.scanner.at;
+            reader.scanner.skip_blank()?;
+            match reader.scanner.peek() {
+                None => return Ok(Self { items, end: reader.text(start..file.len()) }),
+                Some(b'#') => items.push(Item::Include(reader.include(start)?)),
+                Some(_) => items.push(Item::Plugin(reader.plugin(start)?)),
+            }
+        }
+    }
+
+    /// The plugins in order.
+    pub fn plugins(&self) -> impl Iterator<Item = &Plugin> {
+        self.items.iter().filter_map(|item| match item {
+            Item::Plugin(plugin) => Some(plugin),
+            Item::Include(_) => None,
+        })
+    }
+
+    /// The plugins in order, to be edited.
+    pub fn plugins_mut(&mut self) -> impl Iterator<Item = &mut Plugin> {
+        self.items.iter_mut().filter_map(|item| match item {
+            Item::Plugin(plugin) => Some(plugin),
+            Item::Include(_) => None,
+        })
+    }
+
+    /// The plugins of a kind.
+    pub fn of_kind<'a>(&'a self, kind: &'a str) -> impl Iterator<Item = &'a Plugin> {
+        self.plugins().filter(move |plugin| plugin.kind() == kind.as_bytes())
+    }
+
+    /// The plugins of a kind, to be edited.
+    pub fn of_kind_mut<'a>(&'a mut self, kind: &'a str) -> impl Iterator<Item = &'a mut Plugin> {
+        self.plugins_mut().filter(move |plugin| plugin.kind() == kind.as_bytes())
+    }
+
+    /// The files that belong to it.
+    pub fn includes(&self) -> impl Iterator<Item = &Include> {
+        self.items.iter().filter_map(|item| match item {
+            Item::Include(include) => Some(include),
+            Item::Plugin(_) => None,
+        })
+    }
+
+    /// Appends a plugin.
+    pub fn push(&mut self, plugin: Plugin) {
+        self.items.push(Item::Plugin(plugin));
+    }
+}
+
+struct Reader<'a> {
+    scanner: Scanner<'a>,
+    file: &'a Arc<[u8]>,
+}
+
+impl Reader<'_> {
+    fn text(&self, range: Range<usize>) -> Text {
+        Text::Read { file: self.file.clone(), range }
+    }
+
+    fn include(&mut self, start: usize) -> Result<Include, SceneTextError> {
+        let hash = self.scanner.at;
+        if self.scanner.word("`#include`")? != b"#include" {
+            return Err(self.scanner.error_at(hash, "`#include`, or a plugin"));
+        }
+        let length = self.scanner.string()?.len();
+        let quote = self.scanner.at - 1;
+        Ok(Include {
+            before: self.text(start..hash),
+            opening: self.text(hash..quote - length),
+            path: self.text(quote - length..quote),
+            closing: self.text(quote..quote + 1),
+        })
+    }
+
+    fn plugin(&mut self, before: usize) -> Result<Plugin, SceneTextError> {
+        let kind = self.word("the kind of a plugin")?;
+        let name = self.word("the name of the plugin")?;
+        self.scanner.expect(b'{', "`{` after the name of the plugin")?;
+        let opening = name.end..self.scanner.at;
+        let mut parameters = Vec::new();
+        loop {
+            let start = self.scanner.at;
+            if self.scanner.take(b'}')? {
+                return Ok(Plugin {
+                    before: self.text(before..kind.start),
+                    gap: self.text(kind.end..name.start),
+                    kind: self.text(kind),
+                    name: self.text(name),
+                    opening: self.text(opening),
+                    parameters,
+                    closing: self.text(start..self.scanner.at),
+                });
+            }
+            parameters.push(self.parameter(start)?);
+        }
+    }
+
+    fn parameter(&mut self, start: usize) -> Result<Parameter, SceneTextError> {
+        let name = self.word("the name of a parameter, or `}`")?;
+        self.scanner.expect(b'=', "`=` after the name of the parameter")?;
+        self.scanner.skip_blank()?;
+        let from = self.scanner.at;
+        let value = from..from + self.scanner.raw_value()?.len();
+        self.scanner.expect(b';', "`;` at the end of the value")?;
+        Ok(Parameter {
+            before: self.text(start..value.start),
+            after: self.text(value.end..self.scanner.at),
+            name: self.text(name),
+            value: self.text(value),
+        })
+    }
+
+    /// A word, as the place where it stands.
+    fn word(&mut self, expected: &str) -> Result<Range<usize>, SceneTextError> {
+        let length = self.scanner.word(expected)?.len();
+        Ok(self.scanner.at - length..self.scanner.at)
+    }
+}

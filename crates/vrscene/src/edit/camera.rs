@@ -1,0 +1,114 @@
+use super::{add, set_on_settings, set_where_present, text};
+use crate::{Document, Transform, Value};
+
+/// Where the camera is in a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraKeyframe {
+    /// Number of the frame; keyframes stand in rising order.
+    pub frame: i64,
+    /// Centre of the camera, asset units.
+    pub position: [f64; 3],
+    /// Its axes in the world: x right, y up, z backward, as rows of `world_from_camera`.
+    pub world_from_camera: [[f64; 3]; 3],
+}
+
+/// A camera and the way that it takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraPath {
+    /// At least one.
+    pub keyframes: Vec<CameraKeyframe>,
+    /// Seconds between frames.
+    pub frame_time_s: f64,
+    /// Horizontal field of view, radians.
+    pub fov_x_rad: f64,
+    /// Width and height of the image, pixels.
+    pub size: [u32; 2],
+    /// Where no pinhole says which ray belongs to a pixel.
+    pub lens: Option<LensTexture>,
+}
+
+/// A picture that bends the rays of a pinhole camera: red and green are the place (u, v), on [0, 1] from the lower left corner, where
+/// the pinhole image has what this place of the bent image shows. Its outermost texels belong to the corners of the image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LensTexture {
+    /// Path of the EXR file on the machine that renders.
+    pub file: String,
+    /// Columns and rows.
+    pub size: [u32; 2],
+}
+
+/// The scene as this camera sees it, frame by frame: a pinhole in focus and at rest. Keyframes of another camera go.
+///
+/// # Panics
+/// When there is no keyframe.
+pub fn set_camera(scene: &mut Document, path: &CameraPath) {
+    assert!(!path.keyframes.is_empty(), "a camera is somewhere");
+    let fov = Value::Float(path.fov_x_rad);
+    set_on_settings(
+        scene,
+        "RenderView",
+        &[("transform", transforms(&path.keyframes)), ("fov", fov.clone()), ("orthographic", Value::Int(0))],
+    );
+    set_on_settings(scene, "SettingsCamera", &[("type", Value::Int(0)), ("fov", fov.clone())]);
+    set_on_settings(scene, "SettingsCameraDof", &[("on", Value::Int(0))]);
+    let last = path.keyframes.last().map_or(0, |key| key.frame);
+    let frames = (0..=last).map(|frame| i32::try_from(frame).unwrap_or(i32::MAX)).collect();
+    set_on_settings(
+        scene,
+        "SettingsOutput",
+        &[
+            ("img_width", Value::Int(path.size[0].into())),
+            ("img_height", Value::Int(path.size[1].into())),
+            ("frames_per_second", Value::Float(1.0 / path.frame_time_s)),
+            ("frames", Value::Ints(frames)),
+        ],
+    );
+    let mut physical = vec![
+        ("specify_fov", Value::Int(1)),
+        ("fov", fov),
+        ("use_dof", Value::Int(0)),
+        ("use_moblur", Value::Int(0)),
+        ("bokeh_on", Value::Int(0)),
+        ("distortion_type", Value::Int(0)),
+        ("distortion", Value::Int(0)),
+    ];
+    let Some(lens) = &path.lens else { return set_where_present(scene, "CameraPhysical", &physical) };
+    physical[5].1 = Value::Int(3);
+    physical.push(("distortion_tex", Value::Name(format!("{LENS}_texture").into_bytes())));
+    add_lens(scene, lens);
+    set_on_settings(scene, "CameraPhysical", &physical);
+}
+
+const LENS: &str = "HYPERSIM_camera_lens_distortion";
+
+fn transforms(keyframes: &[CameraKeyframe]) -> Value {
+    let transform = |key: &CameraKeyframe| {
+        // V-Ray writes where the axes go: the columns.
+        let r = key.world_from_camera;
+        let matrix = std::array::from_fn(|axis| [r[0][axis] as f32, r[1][axis] as f32, r[2][axis] as f32]);
+        Value::Transform(Transform { matrix, offset: key.position })
+    };
+    match keyframes {
+        [only] => transform(only),
+        many => Value::Animated(many.iter().map(|key| (key.frame as f64, transform(key))).collect()),
+    }
+}
+
+/// Buffer, texture and coordinates of a lens. The corners of the image fall on the centres of the corner texels.
+fn add_lens(scene: &mut Document, lens: &LensTexture) {
+    let [c, r] = lens.size.map(|n| n as f32);
+    let matrix = [[(c - 1.0) / c, 0.0, 0.0], [0.0, (r - 1.0) / r, 0.0], [0.0, 0.0, 1.0]];
+    let offset = [f64::from(0.5 / c), f64::from(0.5 / r), 0.0];
+    let name = |part: &str| format!("{LENS}_{part}");
+    let refer = |part: &str| Value::Name(name(part).into_bytes());
+    add(
+        scene,
+        "BitmapBuffer",
+        &name("buffer"),
+        &[("file", text(&lens.file)), ("filter_type", Value::Int(0)), ("interpolation", Value::Int(0))],
+    );
+    let coordinates =
+        [("uvw_channel", Value::Int(1)), ("wrap_mode", Value::Int(1)), ("uvw_transform", Value::Transform(Transform { matrix, offset }))];
+    add(scene, "UVWGenChannel", &name("uvw"), &coordinates);
+    add(scene, "TexBitmap", &name("texture"), &[("bitmap", refer("buffer")), ("uvwgen", refer("uvw"))]);
+}

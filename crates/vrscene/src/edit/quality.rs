@@ -1,0 +1,35 @@
+use super::{set_on_settings, set_where_present};
+use crate::{Document, Value};
+
+/// Radiance of the surroundings in Hypersim's scenes: arbitrary, and white after tone mapping.
+const SURROUNDINGS: f32 = 4.0;
+
+/// Hypersim's settings of the image: progressive sampling to a noise of 0.001 for 300 minutes at most, an irradiance map and a light
+/// cache for indirect light, and surroundings of one plain colour.
+pub fn hypersim_quality(scene: &mut Document) {
+    set_on_settings(
+        scene,
+        "SettingsImageSampler",
+        &[
+            ("type", Value::Int(3)),
+            ("min_shade_rate", Value::Int(6)),
+            ("progressive_minSubdivs", Value::Int(1)),
+            ("progressive_maxSubdivs", Value::Int(24)),
+            ("progressive_threshold", Value::Float(0.001)),
+            ("progressive_maxTime", Value::Float(300.0)),
+        ],
+    );
+    set_where_present(scene, "SettingsDMCSampler", &[("subdivs_mult", Value::Float(0.0))]);
+    set_on_settings(scene, "SettingsGI", &[("on", Value::Int(1)), ("primary_engine", Value::Int(0)), ("secondary_engine", Value::Int(3))]);
+    set_on_settings(scene, "SettingsLightCache", &[("subdivs", Value::Int(1500))]);
+    set_on_settings(
+        scene,
+        "SettingsIrradianceMap",
+        &[("min_rate", Value::Int(-3)), ("max_rate", Value::Int(-1)), ("subdivs", Value::Int(50)), ("multipass", Value::Int(1))],
+    );
+    let (color, texture) = (Value::Color([SURROUNDINGS; 3]), Value::AColor([SURROUNDINGS, SURROUNDINGS, SURROUNDINGS, 1.0]));
+    for of in ["bg", "gi", "reflect", "refract", "secondary_matte"] {
+        let parameters = [(format!("{of}_color"), color.clone()), (format!("{of}_tex"), texture.clone())];
+        set_on_settings(scene, "SettingsEnvironment", &parameters.each_ref().map(|(name, value)| (name.as_str(), value.clone())));
+    }
+}

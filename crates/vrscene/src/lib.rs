@@ -1,0 +1,31 @@
+//! V-Ray's scene description, the text of `.vrscene` files, as a document that is read, edited and written without loss.
+//!
+//! A file is a run of plugins, `#include` lines, and what stands between them. [`Document::parse`] finds where each begins and ends
+//! and keeps the bytes; what is not edited is written back as it was, byte for byte, unknown plugins and comments included. The value
+//! of a parameter is decoded when somebody asks for it ([`Parameter::value`]), so that a file of hundreds of megabytes of packed
+//! meshes opens in the time that it takes to look at its bytes once.
+//!
+//! ```text
+//! #include "materials.vrscene"
+//! Node chair@node_1 {
+//!   transform=TransformHex("0000803F…");
+//!   geometry=mesh_1;                                    // the name of another plugin
+//!   visible=interpolate((0, 1), (10, 0));               // keyframes: (frame, value)
+//! }
+//! ```
+//!
+//! Text is bytes: exporters write names and paths in the encoding of their machine.
+
+mod document;
+pub mod edit;
+mod error;
+mod packed;
+mod plugin;
+mod scan;
+mod value;
+mod write;
+
+pub use document::{Document, Include, Item};
+pub use error::{Place, SceneTextError};
+pub use plugin::{Parameter, Plugin};
+pub use value::{Matrix, Transform, Value, Vector};
