@@ -80,7 +80,8 @@ impl Seen {
         }
         let seen = pixels.iter().sum::<u64>() as f64;
         let area: f64 = list.iter().map(|piece| piece.measure.area_m2).sum();
-        let share = |part: f64, of: f64| if of > 0.0 { part / of } else { 0.0 };
+        // An empty sum is −0.
+        let share = |part: f64, of: f64| if of > 0.0 { part / of + 0.0 } else { 0.0 };
         let layer = |has: &dyn Fn(usize) -> bool| {
             let with = || (0..list.len()).filter(|&i| has(i));
             json!({
