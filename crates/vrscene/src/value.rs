@@ -8,7 +8,7 @@ pub type Vector = [f32; 3];
 /// Three vectors as they are written: where the matrix takes the x, y and z axis.
 pub type Matrix = [Vector; 3];
 
-/// An affine map: p becomes p.x · m[0] + p.y · m[1] + p.z · m[2] + offset.
+/// An affine map: the matrix, then the offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
     /// Its linear part.

@@ -33,7 +33,7 @@ pub struct AnnotateOptions {
     pub path: PathBuf,
     /// Which of a dataset's scenes.
     pub scene: Option<String>,
-    /// Where labels go, if not where [`Source::load`] says.
+    /// Where labels go, if not the folder of the dataset or beside the file.
     pub labels: Option<PathBuf>,
     /// A list of classes, if not the one in the folder of labels or NYU40.
     pub classes: Option<PathBuf>,

@@ -5,7 +5,7 @@
 //! colour it has is therefore known in the browser alone, and changing an exposure asks the server for nothing.
 //!
 //! Names in addresses are checked before they become paths, and a path that a symbolic link leads out of the dataset's folder is
-//! refused ([`place`]).
+//! refused (`place`).
 
 mod cache;
 mod camera;
