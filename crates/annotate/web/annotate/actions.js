@@ -3,9 +3,7 @@
 import { getJson, postJson } from "../shared/api.js";
 import { byId } from "../shared/dom.js";
 import { toast, toastError } from "../shared/toast.js";
-
-/** The name without numbers at its end, so that chair_1 and chair.002 are alike. @param {string} name */
-export const stem = (name) => name.toLowerCase().replace(/([\s._~#-]*\d+)+$/u, "");
+import { stem } from "./names.js";
 
 /** The verbs of the page. */
 export class Actions {
