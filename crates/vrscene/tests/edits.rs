@@ -3,13 +3,13 @@
 use enfilade_vrscene::edit::*;
 use enfilade_vrscene::{Document, Plugin, Value};
 
-const SCENE: &str = r#"#include "C:\Work\lib\mats.vrscene"
+const SCENE: &str = r#"#include "C:\Jobs\lib\mats.vrscene"
 Node sofa@node_1 { geometry=mesh; material=mtl; scene_name=ListString("sofa", "layer/0"); }
 Node lost@node_2 { geometry=mesh; material=mtl; }
 MtlSingleBRDF mtl { brdf=brdf; scene_name="leather"; }
 BRDFVRayMtl brdf { diffuse=tex; self=mtl; reflect_affect_alpha=1; }
 TexBitmap tex { bitmap=buffer; }
-BitmapBuffer buffer { file="c:/work/maps/Leather.jpg"; gamma=1; }
+BitmapBuffer buffer { file="c:/jobs/maps/Leather.jpg"; gamma=1; }
 LightRectangle r { intensity=1; }
 LightMesh m { intensity=1; }
 LightDome d { intensity=1; }
@@ -37,7 +37,7 @@ fn raw<'a>(scene: &'a Document, plugin: &str, parameter: &str) -> Option<&'a str
 #[test]
 fn paths_move_whatever_their_slashes_and_letters() {
     let mut scene = scene();
-    assert_eq!(replace_paths(&mut scene, r"C:\work\", "/mnt/assets"), 2);
+    assert_eq!(replace_paths(&mut scene, r"C:\jobs\", "/mnt/assets"), 2);
     assert_eq!(raw(&scene, "buffer", "file"), Some("\"/mnt/assets/maps/Leather.jpg\""));
     let paths: Vec<String> = file_references(&scene).into_iter().map(|reference| reference.path).collect();
     assert_eq!(paths, ["/mnt/assets/lib/mats.vrscene", "/mnt/assets/maps/Leather.jpg", r"D:\lamps\a.ies"]);
@@ -80,7 +80,7 @@ fn a_node_leads_to_its_strings_and_circles_end() {
     let strings = node_strings(&scene, find(&scene, "sofa@node_1"));
     let found: Vec<_> = strings.iter().map(|s| (s.path.as_str(), s.string.as_str())).collect();
     let expected = [
-        ("sofa@node_1.material.brdf.diffuse.bitmap.file", "c:/work/maps/Leather.jpg"),
+        ("sofa@node_1.material.brdf.diffuse.bitmap.file", "c:/jobs/maps/Leather.jpg"),
         ("sofa@node_1.material.scene_name", "leather"),
         ("sofa@node_1.scene_name[0]", "sofa"),
         ("sofa@node_1.scene_name[1]", "layer/0"),
