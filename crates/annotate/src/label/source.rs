@@ -193,7 +193,7 @@ impl Source {
             parts: mesh.objects,
             materials: mesh.materials,
             labels: known,
-            cameras: place.map(|place| place.cameras(scale, cx)).unwrap_or_default(),
+            cameras: place.map(|place| place.cameras(cx)).unwrap_or_default(),
             meters_per_unit: scale,
             in_mesh_folder: labels.is_none(),
         })
@@ -239,15 +239,14 @@ impl Place {
     }
 
     /// The planned trajectories; those that cannot be read are told and left out.
-    fn cameras(&self, scale: f64, cx: &dyn Cx) -> Vec<PlannedCamera> {
+    fn cameras(&self, cx: &dyn Cx) -> Vec<PlannedCamera> {
         let mut planned = Vec::new();
         for name in self.dataset.cameras(&self.scene).unwrap_or_default() {
             let (with, trajectory) = (self.dataset.read_camera(&self.scene, &name), self.dataset.read_trajectory(&self.scene, &name));
             match (with, trajectory) {
                 (Ok(with), Ok(trajectory)) => {
                     let (fov_y_deg, aspect) = field_of_view(&with);
-                    let scaled = |pose: &Pose| Pose { position: pose.position * scale, look_at: pose.look_at * scale, ..*pose };
-                    let frames = trajectory.poses.iter().map(|pose| PlannedFrame::new(&scaled(pose), fov_y_deg, aspect)).collect();
+                    let frames = trajectory.poses.iter().map(|pose| PlannedFrame::new(pose, fov_y_deg, aspect)).collect();
                     planned.push(PlannedCamera { name, frames });
                 }
                 (Err(error), _) | (_, Err(error)) => {
