@@ -4,7 +4,8 @@ use crate::room::{Page, assign, class, package, scene, stroke};
 use enfilade_annotate::label::{AnnotateOptions, App};
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{Array, Dataset, MeshFiles};
-use enfilade_scene::Quiet;
+use enfilade_math::DVec3;
+use enfilade_scene::{Intrinsics, Pose, Quiet, Trajectory};
 use serde_json::json;
 
 #[tokio::test]
@@ -43,6 +44,26 @@ async fn a_mesh_folder_is_split_by_material_and_read_again() {
     drop(again);
     let mesh_folder = folder.path().join("scenes/room/_detail/mesh");
     assert_eq!(open(&mesh_folder).labels().await, [(-1, -1); 6]);
+}
+
+#[tokio::test]
+async fn planned_cameras_stand_in_the_scene_whatever_the_unit_of_the_dataset() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    dataset.write_scene("room", &scene()).unwrap();
+    let pose = Pose::look_at(0, DVec3::new(1.0, -4.0, 2.0), DVec3::ZERO, DVec3::Z).unwrap();
+    let trajectory = Trajectory { name: "cam_00".into(), poses: vec![pose] };
+    let camera = Intrinsics::from_fov_x(64, 48, 1.0).into();
+    dataset.write_camera_parameters("room", &camera).unwrap();
+    dataset.write_trajectory("room", &trajectory, &camera, None).unwrap();
+    let seen = |scene: serde_json::Value| [scene["cameras"][0]["frames"][0]["position"].clone(), scene["bounds"]["max"].clone()];
+    let metres = seen(Page::open(folder.path()).get("scene").await);
+    assert_eq!(metres[0], json!([1.0, -4.0, 2.0]));
+    std::fs::write(dataset.layout().metadata_scene("room"), "parameter_name,parameter_value\nmeters_per_asset_unit,0.5\n").unwrap();
+    let halves = seen(Page::open(folder.path()).get("scene").await);
+    assert_eq!(halves[0], json!([0.5, -2.0, 1.0]));
+    let half = |value: &serde_json::Value| value.as_array().unwrap().iter().map(|v| 0.5 * v.as_f64().unwrap()).collect::<Vec<_>>();
+    assert_eq!(halves[1], json!(half(&metres[1])));
 }
 
 #[tokio::test]
