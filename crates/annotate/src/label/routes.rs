@@ -8,7 +8,7 @@ use super::clock;
 use super::progress::views;
 use super::session::ActionError;
 use super::source::PlannedFrame;
-use crate::serve::ApiProblem;
+use crate::serve::{ApiProblem, beside, reply};
 use axum::body::Bytes;
 use axum::extract::{Query, State};
 use axum::http::{HeaderMap, header};
@@ -24,8 +24,6 @@ use std::time::Duration;
 
 /// Files are written this long after an edit.
 const SAVE_AFTER: Duration = Duration::from_secs(2);
-/// Level of gzip for the geometry: fast enough for loopback, and half the bytes for a tunnel.
-const GZIP_LEVEL: i32 = 1;
 /// Names of clients are random ids; longer ones are a mistake.
 const MAX_CLIENT: usize = 100;
 
@@ -55,12 +53,6 @@ impl From<Refusal> for ApiProblem {
         let Refusal { conflict, error, help } = refusal;
         if conflict { Self::conflict(error, help) } else { Self::bad_request(error, help) }
     }
-}
-
-/// Runs what takes time on a thread of its own.
-async fn beside<T: Send + 'static>(work: impl FnOnce() -> Result<T, ApiProblem> + Send + 'static) -> Result<T, ApiProblem> {
-    let failed = |e| ApiProblem::failed(format!("the request could not be finished: {e}"), "try again");
-    tokio::task::spawn_blocking(work).await.map_err(failed)?
 }
 
 /// A body as what it is to be.
@@ -107,30 +99,14 @@ fn start_camera(app: &App) -> Option<PlannedFrame> {
 }
 
 async fn geometry(State(app): Shared, headers: HeaderMap) -> Answer {
-    let accepted = headers.get(header::ACCEPT_ENCODING).and_then(|value| value.to_str().ok()).unwrap_or("");
-    let gzip = accepted.split(',').any(|coding| coding.trim().starts_with("gzip"));
+    let gzip = reply::takes_gzip(&headers);
     beside(move || {
-        let bytes = {
-            let session = app.session();
-            app.order().encode(session.pieces().of_face(), session.pieces().list().len())
-        };
-        let kind = (header::CONTENT_TYPE, "application/octet-stream");
-        Ok(match gzip.then(|| compressed(&bytes)).flatten() {
-            Some(bytes) => ([kind, (header::CONTENT_ENCODING, "gzip")], bytes).into_response(),
-            None => ([kind], bytes).into_response(),
-        })
+        let session = app.session();
+        let bytes = app.order().encode(session.pieces().of_face(), session.pieces().list().len());
+        drop(session);
+        Ok(reply::array(bytes, gzip, &[]))
     })
     .await
-}
-
-/// As gzip; `None` if that fails, which it does for want of memory alone.
-fn compressed(bytes: &[u8]) -> Option<Vec<u8>> {
-    let level = libdeflater::CompressionLvl::new(GZIP_LEVEL).ok()?;
-    let mut compressor = libdeflater::Compressor::new(level);
-    let mut out = vec![0; compressor.gzip_compress_bound(bytes.len())];
-    let length = compressor.gzip_compress(bytes, &mut out).ok()?;
-    out.truncate(length);
-    Some(out)
 }
 
 /// Colours of all instances that there can be, as the files have them: three bytes each, from number 0, which is none.

@@ -3,6 +3,7 @@
 mod files;
 mod guard;
 mod problem;
+pub(crate) mod reply;
 
 pub use files::page_files;
 pub use guard::{Guard, Token};
@@ -94,6 +95,12 @@ pub fn serve(app: Router, listen: &Listen, page: &str, started: impl FnOnce(&str
     });
     runtime.shutdown_timeout(PATIENCE);
     outcome
+}
+
+/// Does `job`, which takes time, on a thread of its own.
+pub(crate) async fn beside<T: Send + 'static>(job: impl FnOnce() -> Result<T, ApiProblem> + Send + 'static) -> Result<T, ApiProblem> {
+    let done = tokio::task::spawn_blocking(job).await;
+    done.unwrap_or_else(|_| Err(ApiProblem::failed("the program has a mistake and gave up on this request", "report what you opened")))
 }
 
 /// `app` with the files of the pages, behind the guard; `/` leads to `page`.

@@ -1,8 +1,8 @@
 //! A camera: what it is, where it stood for each frame, what became of each view.
 
 use super::place::{optional, problem};
-use super::{Viewer, reply, work};
-use crate::serve::ApiProblem;
+use super::{Viewer, work};
+use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;

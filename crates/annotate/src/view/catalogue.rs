@@ -1,8 +1,8 @@
 //! What the dataset holds, in short: scenes, layers, classes, and how it was verified.
 
 use super::place::problem;
-use super::{Viewer, reply, work};
-use crate::serve::ApiProblem;
+use super::{Viewer, work};
+use crate::serve::{ApiProblem, reply};
 use axum::extract::State;
 use axum::http::HeaderMap;
 use axum::response::Response;

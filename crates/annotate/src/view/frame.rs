@@ -1,8 +1,8 @@
 //! What is known of a frame beside its layers: its records, its split, what it shows of each instance, and how it was judged.
 
 use super::place::{FramePlace, optional, problem, stamp};
-use super::{Viewer, reply, work};
-use crate::serve::ApiProblem;
+use super::{Viewer, work};
+use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;

@@ -6,8 +6,8 @@
 use super::cache::Weight;
 use super::place::{FramePlace, problem, stamp};
 use super::summary::Summary;
-use super::{Viewer, reply, work};
-use crate::serve::ApiProblem;
+use super::{Viewer, work};
+use crate::serve::{ApiProblem, reply};
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State};
 use axum::http::HeaderMap;

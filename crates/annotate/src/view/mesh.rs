@@ -1,9 +1,9 @@
 //! The faces of a scene, in the form that the page's 3D view takes ([`DisplayOrder`]); a piece is an object of the mesh folder.
 
 use super::place::{problem, stamp};
-use super::{Viewer, reply, work};
+use super::{Viewer, work};
 use crate::label::geometry::DisplayOrder;
-use crate::serve::ApiProblem;
+use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;

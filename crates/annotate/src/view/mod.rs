@@ -16,7 +16,6 @@ mod layers;
 mod mesh;
 mod place;
 mod points;
-mod reply;
 mod scene;
 mod space;
 mod summary;
@@ -24,7 +23,7 @@ mod summary;
 mod tests;
 mod thumbnail;
 
-use crate::serve::ApiProblem;
+use crate::serve::{ApiProblem, beside};
 use axum::Router;
 use axum::routing::get;
 use cache::Cache;
@@ -86,6 +85,5 @@ async fn work<T: Send + 'static>(
     viewer: Arc<Viewer>,
     job: impl FnOnce(&Viewer) -> Result<T, ApiProblem> + Send + 'static,
 ) -> Result<T, ApiProblem> {
-    let done = tokio::task::spawn_blocking(move || job(&viewer)).await;
-    done.unwrap_or_else(|_| Err(ApiProblem::failed("the program has a mistake and gave up on this request", "report what you opened")))
+    beside(move || job(&viewer)).await
 }

@@ -4,8 +4,8 @@
 //! 255. Points are taken along the camera's own rays, so every camera model gives the right ones.
 
 use super::place::{FramePlace, problem};
-use super::{Viewer, reply, work};
-use crate::serve::ApiProblem;
+use super::{Viewer, work};
+use crate::serve::{ApiProblem, reply};
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State};
 use axum::http::HeaderMap;

@@ -1,8 +1,8 @@
 //! A scene: its cameras, the names of its parts, classes and instances, and the boxes around them.
 
 use super::place::{optional, problem};
-use super::{Viewer, reply, work};
-use crate::serve::ApiProblem;
+use super::{Viewer, work};
+use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;

@@ -4,8 +4,8 @@
 //! then for each cube f32 x, y, z of its smallest corner and f32 edge, in metres, the free ones first.
 
 use super::place::{problem, stamp};
-use super::{Viewer, reply, work};
-use crate::serve::ApiProblem;
+use super::{Viewer, work};
+use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
