@@ -11,7 +11,7 @@ use crate::check::contact::Contacts;
 use crate::check::meet::Body;
 use crate::check::{Fault, bodies, is_shell, object_of, walk};
 use crate::gravity;
-use enfilade_math::{Bounds3, DAffine3, Vec2, Vec3};
+use enfilade_math::{DAffine3, Vec3};
 use enfilade_scene::{Part, PartLabel, is_stuff};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -32,9 +32,6 @@ pub struct Shift {
     /// How far, metres.
     pub by: Vec3,
 }
-
-/// What is so near to a door can be in the way, metres.
-const NEAR_DOOR: f32 = 1.0;
 
 /// Moves what can be put right, and takes away what cannot; the shell stays.
 pub fn settle(home: &mut Home) {
@@ -83,48 +80,17 @@ fn let_go(bodies: &[Body], contacts: &Contacts, gone: &mut BTreeMap<usize, Fault
     }
 }
 
-/// Takes away what stands in the way into rooms that nobody can reach: the smallest things that open one, or else, one by one, all that
-/// stand before its doors.
+/// Takes away what stands in the way into rooms that nobody can reach.
 fn clear_ways(home: &Home, bodies: &[Body], contacts: &Contacts, gone: &mut BTreeMap<usize, Fault>) {
-    let lost = |gone: &BTreeMap<usize, Fault>| {
-        let names: BTreeSet<&str> = gone.keys().map(|&i| bodies[i].name.as_str()).collect();
-        walk::unreachable(home, |object| !names.contains(object))
-    };
-    let mut rooms = lost(gone);
-    if rooms.is_empty() {
-        return;
-    }
-    let near = before_doors(home, bodies, &rooms);
-    for only_if_it_helps in [true, false] {
-        for &i in &near {
-            if rooms.is_empty() {
-                return;
-            }
-            let mut without = gone.clone();
-            without.entry(i).or_insert(Fault::Unreachable(rooms[0]));
-            let_go(bodies, contacts, &mut without);
-            let left = lost(&without);
-            if left.len() < rooms.len() || !only_if_it_helps {
-                (*gone, rooms) = (without, left);
-            }
+    let floor = walk::Floor::new(home);
+    let numbers: BTreeMap<&str, usize> = bodies.iter().enumerate().map(|(i, body)| (body.name.as_str(), i)).collect();
+    let stays = |object: &str, gone: &BTreeMap<usize, Fault>| numbers.get(object).is_none_or(|i| !gone.contains_key(i));
+    for room in floor.unreachable(|object| stays(object, gone)) {
+        for object in floor.in_the_way(room, |object| stays(object, gone)) {
+            gone.entry(numbers[object]).or_insert(Fault::Unreachable(room));
         }
+        let_go(bodies, contacts, gone);
     }
-}
-
-/// What stands within a metre of a door of one of `rooms`, on either side, the smallest first.
-fn before_doors(home: &Home, bodies: &[Body], rooms: &[usize]) -> Vec<usize> {
-    let doors: Vec<Vec2> = rooms
-        .iter()
-        .flat_map(|&room| {
-            let room = &home.plan.rooms[room];
-            room.ways().map(|way| room.before(way.wall, way.center_x(), 0.0))
-        })
-        .collect();
-    let distance = |b: &Bounds3, p: Vec2| p.distance(p.clamp(b.min.truncate(), b.max.truncate()));
-    let stands = |body: &Body| !is_shell(&body.name) && doors.iter().any(|&door| distance(&body.bounds, door) < NEAR_DOOR);
-    let mut near: Vec<usize> = (0..bodies.len()).filter(|&i| stands(&bodies[i])).collect();
-    near.sort_by(|&a, &b| bodies[a].volume().total_cmp(&bodies[b].volume()));
-    near
 }
 
 /// Instances are 1, 2, 3, … in their old order.
@@ -172,7 +138,7 @@ mod tests {
     #[test]
     fn what_stands_in_the_only_way_goes() {
         let mut home = crate::home(&HomeConfig { rooms: vec![RoomKind::Study, RoomKind::Bathroom], ..HomeConfig::default() });
-        assert!(walk::unreachable(&home, |_| true).is_empty());
+        assert!(walk::unreachable(&home).is_empty());
         let (number, room) = home.plan.rooms.iter().enumerate().find(|(_, room)| room.kind == RoomKind::Bathroom).unwrap();
         let way = room.ways().next().unwrap();
         assert_eq!(room.ways().count(), 1);
@@ -183,9 +149,9 @@ mod tests {
         let mesh = home.scene.meshes.len() as u32 - 1;
         home.scene.parts.push(Part { name: "crate_1/body".into(), mesh, world_from_mesh, ..home.scene.parts[0].clone() });
         home.labels.parts.push(home.labels.parts[0]);
-        assert_eq!(walk::unreachable(&home, |_| true), [number]);
+        assert_eq!(walk::unreachable(&home), [number]);
         settle(&mut home);
         assert_eq!(home.removed, [Removal { object: "crate_1".into(), fault: Fault::Unreachable(number) }]);
-        assert!(walk::unreachable(&home, |_| true).is_empty());
+        assert!(walk::unreachable(&home).is_empty());
     }
 }

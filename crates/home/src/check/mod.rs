@@ -59,7 +59,7 @@ pub fn faults(home: &Home) -> Vec<Fault> {
     let bodies = bodies(home);
     let mut faults = unlabelled(home);
     faults.extend(of_bodies(&bodies));
-    faults.extend(walk::unreachable(home, |_| true).into_iter().map(Fault::Unreachable));
+    faults.extend(walk::unreachable(home).into_iter().map(Fault::Unreachable));
     faults.extend(blocked_cameras(home, &bodies));
     faults
 }

@@ -1,9 +1,12 @@
-//! Where a person can go in a finished home.
+//! Where a person can go in a finished home, and what stands in the way.
 
-use super::{family_of, object_of};
+use super::{family_of, is_shell, object_of};
 use crate::Home;
 use crate::place::BODY;
+use crate::plan::FloorPlan;
 use enfilade_math::{Vec2, Vec3};
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
 
 /// Edge of a grid cell, metres.
 const CELL: f32 = 0.05;
@@ -11,6 +14,8 @@ const CELL: f32 = 0.05;
 const HEIGHTS: [f32; 2] = [0.12, 1.9];
 /// Cells decide by their middle.
 const TOLERANCE: f32 = 0.04;
+/// What it costs to take a cubic metre of furniture away, in cells walked around it.
+const REMOVAL_COST: f32 = 10.0;
 
 struct Grid {
     min: Vec2,
@@ -19,6 +24,13 @@ struct Grid {
 }
 
 impl Grid {
+    fn of(plan: &FloorPlan) -> Self {
+        let margin = 0.5;
+        let min = plan.whole.min - margin;
+        let size = ((plan.whole.max + margin - min) / CELL).ceil();
+        Self { min, columns: size.x as usize, rows: size.y as usize }
+    }
+
     fn cell(&self, p: Vec2) -> Option<usize> {
         let q = (p - self.min) / CELL;
         let inside = q.cmpge(Vec2::ZERO).all() && (q.x as usize) < self.columns && (q.y as usize) < self.rows;
@@ -28,90 +40,163 @@ impl Grid {
     fn place(&self, cell: usize) -> Vec2 {
         self.min + CELL * (Vec2::new((cell % self.columns) as f32, (cell / self.columns) as f32) + 0.5)
     }
-}
 
-/// Rooms that nobody can walk into from the entrance, if only objects stand there of which `stays` is true. Doors do not count: people
-/// open them.
-pub fn unreachable(home: &Home, stays: impl Fn(&str) -> bool) -> Vec<usize> {
-    let plan = &home.plan;
-    let margin = 0.5;
-    let min = plan.whole.min - margin;
-    let size = ((plan.whole.max + margin - min) / CELL).ceil();
-    let grid = Grid { min, columns: size.x as usize, rows: size.y as usize };
-    let blocked = widened(&grid, &solid(&grid, home, stays));
-    let entered = plan.doorways.first().map_or(0, |way| way.into);
-    let start = plan.rooms.get(entered).and_then(|room| {
-        let way = room.openings.iter().find(|o| o.is_way() && room.outer[o.wall as usize])?;
-        grid.cell(room.before(way.wall, way.center_x(), BODY + 0.08))
-    });
-    let mut seen = vec![false; blocked.len()];
-    let mut stack: Vec<usize> = start.into_iter().filter(|&s| !blocked[s]).collect();
-    while let Some(cell) = stack.pop() {
-        if !std::mem::replace(&mut seen[cell], true) {
-            let (x, y) = (cell % grid.columns, cell / grid.columns);
-            let ways = [
-                (x > 0, cell.wrapping_sub(1)),
-                (x + 1 < grid.columns, cell + 1),
-                (y > 0, cell.wrapping_sub(grid.columns)),
-                (y + 1 < grid.rows, cell + grid.columns),
-            ];
-            stack.extend(ways.into_iter().filter(|&(there, next)| there && !blocked[next] && !seen[next]).map(|(_, next)| next));
+    /// The cells beside one.
+    fn beside(&self, cell: usize) -> impl Iterator<Item = usize> {
+        let (x, y, columns) = (cell % self.columns, cell / self.columns, self.columns);
+        let ways = [
+            (x > 0, cell.wrapping_sub(1)),
+            (x + 1 < columns, cell + 1),
+            (y > 0, cell.wrapping_sub(columns)),
+            (y + 1 < self.rows, cell + columns),
+        ];
+        ways.into_iter().filter_map(|(there, next)| there.then_some(next))
+    }
+
+    /// Marks the cells that a triangle stands in at the height of a body.
+    fn mark(&self, corners: [Vec3; 3], cells: &mut [bool]) {
+        let [a, ab, ac] = [corners[0], corners[1] - corners[0], corners[2] - corners[0]];
+        let longest = ab.length().max(ac.length()).max((ac - ab).length());
+        let steps = (2.0 * longest / CELL).ceil().max(1.0) as usize;
+        for i in 0..=steps {
+            for j in 0..=steps - i {
+                let p = a + (ab * i as f32 + ac * j as f32) / steps as f32;
+                if let Some(cell) = self.cell(p.truncate()).filter(|_| (HEIGHTS[0]..=HEIGHTS[1]).contains(&p.z)) {
+                    cells[cell] = true;
+                }
+            }
         }
     }
-    let entered = |i: &usize| {
-        let room = &plan.rooms[*i];
-        let half = 0.5 * room.size.truncate();
-        (0..seen.len()).any(|c| seen[c] && (grid.place(c) - room.center).abs().cmplt(half).all())
-    };
-    (0..plan.rooms.len()).filter(|i| !entered(i)).collect()
-}
 
-/// Cells that something stands in which `stays`, at the height of a body.
-fn solid(grid: &Grid, home: &Home, stays: impl Fn(&str) -> bool) -> Vec<bool> {
-    let mut cells = vec![false; grid.columns * grid.rows];
-    for part in &home.scene.parts {
-        let object = object_of(&part.name);
-        if family_of(object) == "door" || !stays(object) {
-            continue;
-        }
-        let mesh = &home.scene.meshes[part.mesh as usize];
-        let world: Vec<Vec3> = mesh.positions.iter().map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3()).collect();
-        for triangle in &mesh.triangles {
-            let corners = triangle.map(|i| world[i as usize]);
-            let (low, high) = (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));
-            if high.z < HEIGHTS[0] || low.z > HEIGHTS[1] {
-                continue;
-            }
-            // Large triangles are those of walls, whose boxes are as thin as they are.
-            let steps = ((high - low).truncate() / CELL).ceil();
-            for j in 0..=steps.y as usize {
-                for i in 0..=steps.x as usize {
-                    let p = low.truncate() + (high - low).truncate() * Vec2::new(i as f32, j as f32) / steps.max(Vec2::ONE);
-                    if let Some(cell) = grid.cell(p) {
-                        cells[cell] = true;
+    /// The cells where a body cannot be because of solid ones.
+    fn widened(&self, solid: &[bool]) -> Vec<usize> {
+        let reach = ((BODY - TOLERANCE) / CELL) as isize;
+        let mut blocked = vec![false; solid.len()];
+        for cell in (0..solid.len()).filter(|&c| solid[c]) {
+            let (x, y) = ((cell % self.columns) as isize, (cell / self.columns) as isize);
+            for dy in -reach..=reach {
+                for dx in -reach..=reach {
+                    let (i, j) = (x + dx, y + dy);
+                    let inside = i >= 0 && j >= 0 && i < self.columns as isize && j < self.rows as isize;
+                    if inside && dx * dx + dy * dy <= reach * reach {
+                        blocked[j as usize * self.columns + i as usize] = true;
                     }
                 }
             }
         }
+        (0..blocked.len()).filter(|&c| blocked[c]).collect()
     }
-    cells
 }
 
-/// Every solid cell widened by half a body.
-fn widened(grid: &Grid, solid: &[bool]) -> Vec<bool> {
-    let reach = ((BODY - TOLERANCE) / CELL) as isize;
-    let mut blocked = vec![false; solid.len()];
-    for cell in (0..solid.len()).filter(|&c| solid[c]) {
-        let (x, y) = ((cell % grid.columns) as isize, (cell / grid.columns) as isize);
-        for dy in -reach..=reach {
-            for dx in -reach..=reach {
-                let (i, j) = (x + dx, y + dy);
-                let inside = i >= 0 && j >= 0 && i < grid.columns as isize && j < grid.rows as isize;
-                if inside && dx * dx + dy * dy <= reach * reach {
-                    blocked[j as usize * grid.columns + i as usize] = true;
-                }
+/// Something that a body cannot walk through.
+struct Obstacle<'a> {
+    object: &'a str,
+    /// Where it keeps the middle of a body out.
+    cells: Vec<usize>,
+    /// What it costs to take it away; `None` for the shell.
+    cost: Option<u32>,
+}
+
+/// The floor of a home with everything that stands on it. Doors do not count: people open them.
+pub struct Floor<'a> {
+    plan: &'a FloorPlan,
+    grid: Grid,
+    start: Option<usize>,
+    obstacles: Vec<Obstacle<'a>>,
+}
+
+/// The cheapest ways from the entrance to every cell.
+struct Ways {
+    /// What the way costs, if there is one.
+    cost: Vec<Option<u32>>,
+    /// The cell before.
+    from: Vec<usize>,
+}
+
+impl<'a> Floor<'a> {
+    /// Of a home as it stands.
+    pub fn new(home: &'a Home) -> Self {
+        let plan = &home.plan;
+        let grid = Grid::of(plan);
+        let entered = plan.doorways.first().map_or(0, |way| way.into);
+        let start = plan.rooms.get(entered).and_then(|room| {
+            let way = room.openings.iter().find(|o| o.is_way() && room.outer[o.wall as usize])?;
+            grid.cell(room.before(way.wall, way.center_x(), BODY + 0.08))
+        });
+        let obstacles = obstacles(home, &grid);
+        Self { plan, grid, start, obstacles }
+    }
+
+    /// Rooms that nobody can walk into from the entrance if only the objects of which `stays` is true stand there.
+    pub fn unreachable(&self, stays: impl Fn(&str) -> bool) -> Vec<usize> {
+        let ways = self.ways(stays);
+        (0..self.plan.rooms.len()).filter(|&room| !self.within(room).any(|cell| ways.cost[cell] == Some(0))).collect()
+    }
+
+    /// What has to go so that people can walk into a room: few and small things; none if walls are in the way.
+    pub fn in_the_way(&self, room: usize, stays: impl Fn(&str) -> bool) -> Vec<&'a str> {
+        let ways = self.ways(&stays);
+        let nearest = self.within(room).filter(|&cell| ways.cost[cell].is_some()).min_by_key(|&cell| ways.cost[cell]);
+        let path: Vec<usize> = std::iter::successors(nearest, |&cell| (ways.from[cell] != cell).then_some(ways.from[cell])).collect();
+        let crossed = |o: &&Obstacle| stays(o.object) && path.iter().any(|cell| o.cells.binary_search(cell).is_ok());
+        self.obstacles.iter().filter(crossed).map(|o| o.object).collect()
+    }
+
+    /// The cells of a room.
+    fn within(&self, room: usize) -> impl Iterator<Item = usize> {
+        let room = &self.plan.rooms[room];
+        let half: Vec2 = 0.5 * room.size.truncate();
+        (0..self.grid.columns * self.grid.rows).filter(move |&c| (self.grid.place(c) - room.center).abs().cmplt(half).all())
+    }
+
+    /// Dijkstra's algorithm: a cell costs what stands there.
+    fn ways(&self, stays: impl Fn(&str) -> bool) -> Ways {
+        let mut toll = vec![Some(0u32); self.grid.columns * self.grid.rows];
+        for obstacle in self.obstacles.iter().filter(|o| stays(o.object)) {
+            for &cell in &obstacle.cells {
+                toll[cell] = toll[cell].and_then(|sum| Some(sum.saturating_add(obstacle.cost?)));
             }
         }
+        let mut ways = Ways { cost: vec![None; toll.len()], from: (0..toll.len()).collect() };
+        let mut queue: BinaryHeap<Reverse<(u32, usize, usize)>> = BinaryHeap::new();
+        queue.extend(self.start.and_then(|start| Some(Reverse((toll[start]?, start, start)))));
+        while let Some(Reverse((cost, cell, from))) = queue.pop() {
+            if ways.cost[cell].is_some() {
+                continue;
+            }
+            (ways.cost[cell], ways.from[cell]) = (Some(cost), from);
+            let open = |next: usize| Some(Reverse((cost.saturating_add(toll[next]?), next, cell)));
+            queue.extend(self.grid.beside(cell).filter(|&next| ways.cost[next].is_none()).filter_map(open));
+        }
+        ways
     }
-    blocked
+}
+
+/// Everything that stands at the height of a body, in the order of names.
+fn obstacles<'a>(home: &'a Home, grid: &Grid) -> Vec<Obstacle<'a>> {
+    let mut solid: BTreeMap<&str, (Vec<bool>, Vec3, Vec3)> = BTreeMap::new();
+    for part in &home.scene.parts {
+        let object = object_of(&part.name);
+        if family_of(object) == "door" {
+            continue;
+        }
+        let mesh = &home.scene.meshes[part.mesh as usize];
+        let world: Vec<Vec3> = mesh.positions.iter().map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3()).collect();
+        let empty = || (vec![false; grid.columns * grid.rows], Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let (cells, low, high) = solid.entry(object).or_insert_with(empty);
+        for point in &world {
+            (*low, *high) = (low.min(*point), high.max(*point));
+        }
+        mesh.triangles.iter().for_each(|triangle| grid.mark(triangle.map(|i| world[i as usize]), cells));
+    }
+    let obstacle = |(object, (cells, low, high)): (&'a str, (Vec<bool>, Vec3, Vec3))| {
+        let cost = 1 + (REMOVAL_COST * (high - low).element_product()) as u32;
+        Obstacle { object, cells: grid.widened(&cells), cost: (!is_shell(object)).then_some(cost) }
+    };
+    solid.into_iter().map(obstacle).filter(|o| !o.cells.is_empty()).collect()
+}
+
+/// Rooms of a finished home that nobody can walk into from the entrance.
+pub fn unreachable(home: &Home) -> Vec<usize> {
+    Floor::new(home).unreachable(|_| true)
 }
