@@ -55,12 +55,20 @@ impl Grid {
 
     /// Marks the cells that a triangle stands in at the height of a body.
     fn mark(&self, corners: [Vec3; 3], cells: &mut [bool]) {
-        let [a, ab, ac] = [corners[0], corners[1] - corners[0], corners[2] - corners[0]];
-        let longest = ab.length().max(ac.length()).max((ac - ab).length());
-        let steps = (2.0 * longest / CELL).ceil().max(1.0) as usize;
-        for i in 0..=steps {
-            for j in 0..=steps - i {
-                let p = a + (ab * i as f32 + ac * j as f32) / steps as f32;
+        if corners.iter().all(|p| p.z < HEIGHTS[0]) || corners.iter().all(|p| p.z > HEIGHTS[1]) {
+            return;
+        }
+        // From the corner between the two shorter sides, so that slivers take few steps.
+        let opposite = |i: usize| corners[(i + 1) % 3].distance_squared(corners[(i + 2) % 3]);
+        let first = if opposite(0) >= opposite(1).max(opposite(2)) { 0 } else { 1 + usize::from(opposite(2) > opposite(1)) };
+        let [a, b, c] = [0, 1, 2].map(|i| corners[(first + i) % 3]);
+        let steps = |side: Vec3| (2.0 * side.length() / CELL).ceil().max(1.0) as usize;
+        let (along_b, along_c) = (steps(b - a), steps(c - a));
+        for i in 0..=along_b {
+            let u = i as f32 / along_b as f32;
+            for j in 0..=along_c {
+                let v = (j as f32 / along_c as f32).min(1.0 - u);
+                let p = a + u * (b - a) + v * (c - a);
                 if let Some(cell) = self.cell(p.truncate()).filter(|_| (HEIGHTS[0]..=HEIGHTS[1]).contains(&p.z)) {
                     cells[cell] = true;
                 }
