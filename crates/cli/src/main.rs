@@ -1,13 +1,14 @@
 //! The `enfilade` binary: one verb per stage, and `run` for all of them.
 //!
 //! Results go to standard output, progress and errors to standard error. Exit codes: 0 done, 1 something failed or a law does
-//! not hold, 2 the command or the configuration is wrong.
+//! not hold, 2 the command or the configuration is wrong; of `farm work` also 65 and 75, see there.
 
 mod animate;
 mod annotate;
 mod args;
 mod estimate;
 mod export;
+mod farm;
 mod outcome;
 mod price;
 mod progress;
@@ -29,6 +30,8 @@ fn main() -> ExitCode {
     match start(&cli) {
         Ok(Verdict::Done) => ExitCode::SUCCESS,
         Ok(Verdict::Failed) => ExitCode::from(1),
+        Ok(Verdict::Permanent) => ExitCode::from(65),
+        Ok(Verdict::Transient) => ExitCode::from(75),
         Err(problem) => {
             problem.print();
             ExitCode::from(if problem.usage { 2 } else { 1 })
@@ -61,6 +64,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Export(args) => export::export(args, cli.quiet),
         Verb::Stats(args) => stats::stats(args, cli.quiet),
         Verb::Vray(args) => vray::vray(args),
+        Verb::Farm(args) => farm::farm(args, cli.quiet),
         Verb::Annotate(args) => annotate::annotate(args, cli.quiet),
         Verb::Suggest(args) => suggest::suggest(args, cli.quiet),
         Verb::View(args) => view::view(args),

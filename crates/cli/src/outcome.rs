@@ -10,6 +10,10 @@ pub enum Verdict {
     Done,
     /// A scene failed, or a law does not hold; what it was has been said.
     Failed,
+    /// A worker of a farm could not do its tasks, and no other could (EX_DATAERR).
+    Permanent,
+    /// A worker of a farm could not do its tasks now (EX_TEMPFAIL).
+    Transient,
 }
 
 impl Verdict {
@@ -37,6 +41,11 @@ impl Problem {
     /// A problem with what was found; the message says what to do.
     pub fn found(error: &dyn std::error::Error) -> Self {
         Self { message: error.to_string(), hint: None, usage: false }
+    }
+
+    /// A problem with a farm's job.
+    pub fn of_farm(error: &enfilade_farm::FarmError) -> Self {
+        Self { message: error.to_string(), hint: None, usage: matches!(error, enfilade_farm::FarmError::Request(_) | enfilade_farm::FarmError::Place { .. }) }
     }
 
     /// Why a scene stopped.

@@ -19,11 +19,7 @@ pub fn run(args: &RunArgs, quiet: bool) -> Result<Verdict, Problem> {
         seed: args.seed,
         frames: args.frames,
         size: args.size,
-        quality: args.quality.map(|q| match q {
-            QualityArg::Draft => Quality::Draft,
-            QualityArg::Normal => Quality::Normal,
-            QualityArg::High => Quality::High,
-        }),
+        quality: args.quality.map(quality),
         render: choices(&args.render),
     };
     let config = match &args.config {
@@ -44,6 +40,15 @@ pub fn run(args: &RunArgs, quiet: bool) -> Result<Verdict, Problem> {
         summary::print_after_demo();
     }
     Ok(Verdict::of(result.ok()))
+}
+
+/// `--quality`.
+pub fn quality(arg: QualityArg) -> Quality {
+    match arg {
+        QualityArg::Draft => Quality::Draft,
+        QualityArg::Normal => Quality::Normal,
+        QualityArg::High => Quality::High,
+    }
 }
 
 /// One stage of a dataset.
@@ -91,7 +96,7 @@ fn chosen(args: &StageArgs, choices: &RenderChoices, stages: &[Stage], quiet: bo
     Ok(conclude(&result))
 }
 
-fn choices(flags: &RenderFlags) -> RenderChoices {
+pub fn choices(flags: &RenderFlags) -> RenderChoices {
     RenderChoices {
         samples: flags.samples,
         noise: flags.noise,

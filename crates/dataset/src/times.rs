@@ -40,7 +40,10 @@ impl Dataset {
     }
 
     /// Appends a row in one write, so that rows of several threads do not mix.
-    pub(crate) fn append_time(&self, scene: &str, camera: &str, frame: u32, time: FrameTime) -> Result<(), DatasetError> {
+    ///
+    /// # Errors
+    /// When the table cannot be written.
+    pub fn append_time(&self, scene: &str, camera: &str, frame: u32, time: FrameTime) -> Result<(), DatasetError> {
         let path = self.layout().manifest_times();
         let [memory, threads] = [time.peak_memory_bytes, time.threads.map(u64::from)].map(|v| v.map_or(String::new(), |v| v.to_string()));
         let times = format!("{scene},{camera},{frame},{:.3},{:.3}", time.wall_s, time.cpu_s);

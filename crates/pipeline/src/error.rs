@@ -37,6 +37,16 @@ pub enum Error {
         /// What to do.
         hint: String,
     },
+    /// The work was to end, and was put aside within a frame.
+    #[error("interrupted within frame {frame} of {camera}, which was kept as far as it has come")]
+    Interrupted {
+        /// Trajectory of the frame.
+        camera: String,
+        /// Its number.
+        frame: u32,
+        /// What was kept of it.
+        kept: PathBuf,
+    },
     /// A stage's own error.
     #[error(transparent)]
     Stage(#[from] Box<dyn StdError + Send + Sync>),
@@ -72,7 +82,7 @@ impl Error {
             Self::Config(error) => error.help.clone(),
             Self::Usage { hint, .. } | Self::Scene { hint, .. } => Some(hint.clone()),
             Self::Io { source, .. } => hint_for(source.kind()).map(Into::into),
-            Self::Stage(_) => None, // the errors of the crates below say what to do themselves
+            Self::Interrupted { .. } | Self::Stage(_) => None, // the errors of the crates below say what to do themselves
         }
     }
 

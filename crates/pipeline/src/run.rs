@@ -21,6 +21,9 @@ use std::path::{Path, PathBuf};
 #[derive(Serialize, Deserialize)]
 struct RunFile {
     base: PathBuf,
+    /// [`Config::carried`], relative to the dataset's folder.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    carried: BTreeMap<String, PathBuf>,
     config: Config,
 }
 
@@ -125,17 +128,20 @@ pub fn run_chosen(
     Session::new(&config, &workdir)?.run(&scenes, &stages, force, reporter)
 }
 
-fn store_config(workdir: &Workdir, config: &Config) -> Result<(), Error> {
-    write_json(&workdir.file("run.json"), &RunFile { base: config.base.clone(), config: config.clone() })
+pub(crate) fn store_config(workdir: &Workdir, config: &Config) -> Result<(), Error> {
+    let inside = |path: &PathBuf| path.strip_prefix(workdir.out()).unwrap_or(path).to_path_buf();
+    let carried = config.carried.iter().map(|(written, path)| (written.clone(), inside(path))).collect();
+    write_json(&workdir.file("run.json"), &RunFile { base: config.base.clone(), carried, config: config.clone() })
 }
 
-fn open(out: &Path) -> Result<(Workdir, Config), Error> {
+pub(crate) fn open(out: &Path) -> Result<(Workdir, Config), Error> {
     let workdir = Workdir::open(out)?;
-    let Some(RunFile { base, config }) = read_json(&workdir.file("run.json")) else {
+    let Some(RunFile { base, carried, config }) = read_json(&workdir.file("run.json")) else {
         let message = format!("{} holds no configuration of this version", workdir.file("run.json").display());
         return Err(Error::usage(message, "run `enfilade run` for this folder once; what is finished is kept"));
     };
-    Ok((workdir, Config { base, ..config }))
+    let carried = carried.into_iter().map(|(written, path)| (written, out.join(path))).collect();
+    Ok((workdir, Config { base, carried, ..config }))
 }
 
 /// As [`open`], with `change` made to the chosen scenes from now on.
@@ -147,18 +153,20 @@ fn open_changed(out: &Path, pattern: Option<&str>, change: impl Fn(&mut SceneCon
     Ok((workdir, config))
 }
 
-struct Session<'a> {
+/// A run over scenes.
+pub(crate) struct Session<'a> {
     config: &'a Config,
     workdir: &'a Workdir,
     dataset: Dataset,
 }
 
 impl<'a> Session<'a> {
-    fn new(config: &'a Config, workdir: &'a Workdir) -> Result<Self, Error> {
+    pub fn new(config: &'a Config, workdir: &'a Workdir) -> Result<Self, Error> {
         Ok(Self { config, workdir, dataset: Dataset::create(workdir.out()).map_err(Error::stage)? })
     }
 
-    fn run(&self, scenes: &[&SceneConfig], stages: &[&StageSpec], force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
+    /// Runs `stages` over `scenes`.
+    pub fn run(&self, scenes: &[&SceneConfig], stages: &[&StageSpec], force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
         let time = Stopwatch::start();
         let mut outcomes: Vec<SceneOutcome> = Vec::new();
         for scene in scenes {

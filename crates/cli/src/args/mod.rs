@@ -1,5 +1,6 @@
 //! The command line: one definition per verb and flag, with its help and an example.
 
+mod farm;
 mod outputs;
 mod pages;
 mod results;
@@ -7,6 +8,7 @@ mod scenes;
 mod stages;
 mod values;
 
+pub use farm::{EngineArg, FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmSubmitArgs, FarmVerb, FarmWorkArgs};
 pub use outputs::{AnimateArgs, ExportArgs};
 pub use pages::{AnnotateArgs, ListenArgs, ViewArgs};
 pub use results::{InspectArgs, ReplayArgs, SplitArgs, StatsArgs, VerifyArgs};
@@ -91,6 +93,8 @@ pub enum Verb {
     Stats(StatsArgs),
     /// Edits of V-Ray's scene files, for those who render with V-Ray
     Vray(VrayArgs),
+    /// One dataset on many machines: plan, work, status, collect, submit
+    Farm(FarmArgs),
     /// Label the parts of a scene, in the browser
     Annotate(AnnotateArgs),
     /// Scene file -> label table, proposed from the names of parts and materials

@@ -141,7 +141,7 @@ pub(super) fn resolve(
         }
         scenes.push(resolver.scene(keys)?);
     }
-    Ok(Config { base: Default::default(), name, scenes })
+    Ok(Config { base: Default::default(), carried: Default::default(), name, scenes })
 }
 
 fn default_name(file: &Path) -> String {

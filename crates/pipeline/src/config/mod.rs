@@ -20,6 +20,7 @@ use enfilade_math::hash_u64;
 use enfilade_post::view_gates::GateConfig;
 use enfilade_render::RenderConfig;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 pub use camera::{CameraConfig, CameraModel, LensConfig, StereoConfig};
@@ -33,6 +34,10 @@ pub struct Config {
     /// Where relative paths start: the folder of the TOML file. Not part of what is made.
     #[serde(skip)]
     pub base: PathBuf,
+    /// Files that lie elsewhere now than their paths say, by the paths as they are written: a dataset that several machines make
+    /// carries with it what the others cannot reach.
+    #[serde(skip)]
+    pub carried: BTreeMap<String, PathBuf>,
     /// Name of the dataset.
     pub name: String,
     /// In the order of the file; names are unique.
@@ -258,6 +263,9 @@ impl Config {
     /// # Errors
     /// When it names an environment variable that is not set.
     pub fn path(&self, written: &str) -> Result<PathBuf, Error> {
+        if let Some(carried) = self.carried.get(written) {
+            return Ok(carried.clone());
+        }
         let expanded = expand::expand(written, &environment_variable)
             .map_err(|e| Error::scene(format!("in the path {written:?}: {e}"), "set the variable (export NAME=…) and run again"))?;
         Ok(self.base.join(expanded))

@@ -59,7 +59,7 @@ pub(crate) fn check_denoiser(job: &Job) -> Result<(), Error> {
 }
 
 /// The library that the configuration names, else the environment, else the system's.
-fn open(job: &Job) -> Result<Denoiser, Error> {
+pub(super) fn open(job: &Job) -> Result<Denoiser, Error> {
     let written = job.scene.denoise_library.as_deref().map(|path| job.config.path(path)).transpose()?;
     let place = written.or_else(|| std::env::var_os(VARIABLE).map(PathBuf::from));
     Denoiser::open(place.as_deref(), rayon::current_num_threads()).map_err(|error| match error {
@@ -74,7 +74,8 @@ fn open(job: &Job) -> Result<Denoiser, Error> {
     })
 }
 
-fn denoise_frame(job: &Job, camera: &str, frame: u32, hash: &str, denoiser: &Denoiser) -> Result<(), Error> {
+/// Denoises one frame.
+pub(super) fn denoise_frame(job: &Job, camera: &str, frame: u32, hash: &str, denoiser: &Denoiser) -> Result<(), Error> {
     let name = &job.scene.name;
     let rendered = job.dataset.read_frame(name, camera, frame, &INPUTS).map_err(Error::stage)?;
     let layers = denoise(&rendered, |noisy| denoiser.filter(noisy)).map_err(Error::stage)?;
@@ -83,7 +84,7 @@ fn denoise_frame(job: &Job, camera: &str, frame: u32, hash: &str, denoiser: &Den
 
 /// Names what a frame's denoised layers are made from. The library's version stands in their record instead, so that a finished
 /// dataset does not ask for a library.
-fn denoise_hash(job: &Job, camera: &str, frame: u32) -> Result<String, Error> {
+pub(super) fn denoise_hash(job: &Job, camera: &str, frame: u32) -> Result<String, Error> {
     let record = job.dataset.frame_record(&job.scene.name, camera, frame).map_err(Error::stage)?;
     let version = (env!("CARGO_PKG_VERSION"), Stage::Denoise.spec().version);
     Ok(Hash::of(&(version, record.map(|r| r.config_hash))).0)

@@ -1,6 +1,7 @@
 use super::{Input, Stage};
 use crate::config::{Config, SceneConfig};
 use crate::error::Error;
+use crate::parts::Shift;
 use crate::workdir::{PACKAGE, Workdir};
 use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_geometry::Bvh;
@@ -16,6 +17,8 @@ pub(crate) struct Job<'a> {
     pub dataset: &'a Dataset,
     /// Do the work even where its result is there already.
     pub force: bool,
+    /// What of it is made here, where other machines make the rest.
+    pub shift: Option<&'a Shift<'a>>,
     workdir: &'a Workdir,
     loaded: Mutex<Loaded>,
 }
@@ -34,7 +37,7 @@ pub(crate) struct World {
 
 impl<'a> Job<'a> {
     pub fn new(config: &'a Config, scene: &'a SceneConfig, dataset: &'a Dataset, workdir: &'a Workdir, force: bool) -> Self {
-        Self { config, scene, dataset, force, workdir, loaded: Mutex::default() }
+        Self { config, scene, dataset, force, shift: None, workdir, loaded: Mutex::default() }
     }
 
     /// The dataset's folder.
@@ -116,7 +119,8 @@ impl<'a> Job<'a> {
     /// The frames of a trajectory that are rendered: all but those that a gate rejects.
     pub fn frames_of(&self, trajectory: &Trajectory) -> Result<BTreeSet<u32>, Error> {
         let rejected = self.dataset.rejected_views(&self.scene.name, &trajectory.name).map_err(Error::stage)?;
-        Ok(trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !rejected.contains_key(frame)).collect())
+        let is_made = |frame: &u32| !rejected.contains_key(frame) && self.shift.is_none_or(|shift| shift.has(&trajectory.name, *frame));
+        Ok(trajectory.poses.iter().map(|pose| pose.frame).filter(is_made).collect())
     }
 
     /// The commit records of all frames as inputs: they hold the checksums of every layer.

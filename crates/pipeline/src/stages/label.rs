@@ -45,13 +45,7 @@ fn annotation_tables(job: &Job) -> Vec<PathBuf> {
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
-    let (known, report) = if is_annotated(job) {
-        (annotated(job, cx)?, serde_json::Value::Null)
-    } else {
-        let (labels, report) = labels_of(job, cx)?;
-        job.dataset.write_label_tables(&job.scene.name, &labels).map_err(Error::stage)?;
-        (Known { labels, split: None }, report)
-    };
+    let (known, report) = known(job, cx)?;
     let hash = known.hash().0;
     let frames = job.frames()?;
     for (done, (camera, frame)) in frames.iter().enumerate() {
@@ -72,14 +66,25 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     Ok(Outcome { summary, outputs: outputs(job, &frames), report, ..Outcome::default() })
 }
 
+/// What is known of a scene, with the report of how it became known; the label tables are written.
+pub(super) fn known(job: &Job, cx: &StageCx) -> Result<(Known, serde_json::Value), Error> {
+    if is_annotated(job) {
+        return Ok((annotated(job, cx)?, serde_json::Value::Null));
+    }
+    let (labels, report) = labels_of(job, cx)?;
+    job.dataset.write_label_tables(&job.scene.name, &labels).map_err(Error::stage)?;
+    Ok((Known { labels, split: None }, report))
+}
+
 /// What every part is called, or every piece where parts were split.
-struct Known {
+pub(super) struct Known {
     labels: Labels,
     split: Option<SplitParts>,
 }
 
 impl Known {
-    fn hash(&self) -> Hash {
+    /// Names it.
+    pub fn hash(&self) -> Hash {
         match &self.split {
             None => Hash::of(&self.labels),
             Some(split) => Hash::of(&(&self.labels, split.pieces_of_faces().collect::<Vec<_>>())),
@@ -135,7 +140,8 @@ fn warn_about(report: &LabelReport, table: &str, scene: &str, cx: &StageCx) {
     }
 }
 
-fn label_frame(job: &Job, camera: &str, frame: u32, known: &Known, hash: &str) -> Result<(), Error> {
+/// Joins labels to one frame.
+pub(super) fn label_frame(job: &Job, camera: &str, frame: u32, known: &Known, hash: &str) -> Result<(), Error> {
     let name = &job.scene.name;
     let wanted: &[Layer] = if known.split.is_some() { &[Layer::RenderEntityId, Layer::Position] } else { &[Layer::RenderEntityId] };
     let rendered = job.dataset.read_frame(name, camera, frame, wanted).map_err(Error::stage)?;

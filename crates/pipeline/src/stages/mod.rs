@@ -7,6 +7,7 @@
 mod boxes;
 mod carve;
 mod denoise;
+mod finisher;
 mod gate;
 mod import;
 mod job;
@@ -27,10 +28,12 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 pub(crate) use denoise::check_denoiser;
+pub(crate) use finisher::frame_finisher;
 pub(crate) use import::{describe, labels_by_part, load_file};
 pub(crate) use job::{Job, World};
 pub(crate) use pilot::pilot;
 pub(crate) use plan_preview::draw_plan;
+pub(crate) use progressive::{FOLDER as PARTIALS, file_name as kept_part};
 pub(crate) use verify::CARD;
 
 /// A stage by name.
@@ -221,6 +224,11 @@ pub(crate) struct Record {
 struct Output {
     path: PathBuf,
     bytes: u64,
+}
+
+/// Renders the frames of `job` that are not there, whatever the stage's record says.
+pub(crate) fn render_frames(job: &Job, cx: &StageCx) -> Result<(), Error> {
+    render::run(job, cx).map(drop)
 }
 
 /// Runs a stage of a scene unless it is up to date and not forced.

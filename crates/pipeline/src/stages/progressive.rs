@@ -10,9 +10,10 @@ use enfilade_render::{FrameRender, PartialError};
 use enfilade_scene::{Cx, Warning};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 
-/// Folder within the work folder of a scene.
-const FOLDER: &str = "partial";
+/// Folder of frames in the making, within the work folder of a scene.
+pub(crate) const FOLDER: &str = "partial";
 
 /// Takes the samples of the frame that is `rendering`, after those that an earlier run has kept. The time limit is one of this run.
 ///
@@ -42,11 +43,15 @@ pub(super) fn render(
         rendering.pass(cx);
         let now_s = time.wall_s();
         over = job.scene.time_limit_s.is_some_and(|limit| now_s >= limit);
-        if !over && !rendering.is_done() && now_s - kept_s >= job.scene.save_every_s {
+        let ends = job.shift.is_some_and(|shift| shift.stop.load(Ordering::Relaxed));
+        if !over && !rendering.is_done() && (ends || now_s - kept_s >= job.scene.save_every_s) {
             let folder = job.work_file(FOLDER)?;
             std::fs::create_dir_all(&folder).map_err(Error::io("create", &folder))?;
             write_whole(&path, &rendering.save(key))?;
             kept_s = time.wall_s();
+            if ends {
+                return Err(Error::Interrupted { camera: camera.to_string(), frame: info.pose.frame, kept: path });
+            }
         }
     }
     let stopped_by = match rendering.is_done() {
@@ -79,5 +84,10 @@ pub(super) fn forget_all_but<'a>(job: &Job, frames: impl Iterator<Item = (&'a st
 }
 
 fn file(job: &Job, camera: &str, frame: u32) -> Result<PathBuf, Error> {
-    Ok(job.work_file(FOLDER)?.join(format!("{camera}.{frame:04}.partial")))
+    Ok(job.work_file(FOLDER)?.join(file_name(camera, frame)))
+}
+
+/// Name under which a frame in the making is kept in [`FOLDER`].
+pub(crate) fn file_name(camera: &str, frame: u32) -> String {
+    format!("{camera}.{frame:04}.partial")
 }

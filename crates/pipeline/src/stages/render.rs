@@ -97,6 +97,9 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
             let time = time.of_frame();
             let info = FrameInfo { sampling: Some(sampling), ..info.clone() };
             job.dataset.write_frame(&job.scene.name, &trajectory.name, &frame, &info, time).map_err(Error::stage)?;
+            if let Some(shift) = job.shift {
+                (shift.finished)(job, &trajectory.name, info.pose.frame)?;
+            }
             progressive::forget(job, &trajectory.name, info.pose.frame)?;
             done += 1;
             timed_out += usize::from(sampling.stopped_by == StoppedBy::TimeLimit);

@@ -52,6 +52,23 @@ pub fn verify_scene(dataset: &Dataset, scene: &str, cx: &dyn Cx) -> Result<Verif
     Ok(VerifyReport::new(&card, 1, values, pairs))
 }
 
+/// Checks the laws about single frames as they are finished, on a machine that has only these.
+pub struct FrameVerifier(SceneFacts);
+
+impl FrameVerifier {
+    /// For frames of a scene whose tables and trajectories are there. What is wrong with these is left to [`verify_scene`].
+    pub fn new(dataset: &Dataset, scene: &str) -> Self {
+        Self(SceneFacts::read(dataset, scene, &mut Card::default()))
+    }
+
+    /// The statements of the laws that a frame breaks; normally none.
+    pub fn broken_laws(&self, dataset: &Dataset, camera: &str, frame: u32) -> Vec<&'static str> {
+        let Some(filmed) = self.0.filmed.iter().find(|filmed| filmed.trajectory.name == camera) else { return Vec::new() };
+        let Some(index) = filmed.trajectory.poses.iter().position(|pose| pose.frame == frame) else { return Vec::new() };
+        self.0.check_frame(dataset, filmed, index).card.failures().iter().map(|law| law.spec().statement).collect()
+    }
+}
+
 /// What was found about one frame.
 #[derive(Default)]
 struct Found {

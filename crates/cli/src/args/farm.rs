@@ -1,0 +1,165 @@
+//! `farm` and what it has below it.
+
+use super::stages::{QualityArg, RenderFlags};
+use super::values::parse_size;
+use clap::{Args, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// `farm`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  enfilade farm plan dataset.toml -o /shared/job\n  enfilade farm submit /shared/job --engine slurm --collect /shared/rooms\n  \
+    enfilade farm work /shared/job --shard 0/4\n  enfilade farm status /shared/job\n  enfilade farm collect /shared/job -o rooms\n\n\
+    JOB is a folder that all nodes see, or s3://bucket/prefix, gs://... or az://...; keys and regions come from the environment.\n\
+    Exit codes of work: 0 all its tasks are committed, 75 another try may succeed, 65 another would fail too. docs/farm.md says more."
+)]
+pub struct FarmArgs {
+    /// What to do
+    #[command(subcommand)]
+    pub verb: FarmVerb,
+}
+
+/// The verbs of `farm`.
+#[derive(Subcommand)]
+pub enum FarmVerb {
+    /// Package the scenes, plan what to film, and divide the work into tasks
+    Plan(FarmPlanArgs),
+    /// Render tasks, or go on with them, and commit their frames
+    Work(FarmWorkArgs),
+    /// How far the job has come; the exit code is 0 when nothing is missing, else 1
+    Status(FarmStatusArgs),
+    /// All frames into one dataset, as one machine would have made it
+    Collect(FarmCollectArgs),
+    /// Write what an engine needs to render the missing tasks, and for Slurm submit it
+    Submit(FarmSubmitArgs),
+}
+
+/// `farm plan`.
+#[derive(Args)]
+pub struct FarmPlanArgs {
+    /// The scenes to use and what to make of them
+    #[arg(value_name = "DATASET.TOML", required_unless_present = "demo", conflicts_with = "demo")]
+    pub config: Option<PathBuf>,
+    /// Plan the demo instead: a generated home
+    #[arg(long)]
+    pub demo: bool,
+    /// Where the job is to lie: a folder that all nodes see, or a URL
+    #[arg(short, long, value_name = "JOB")]
+    pub output: String,
+    /// How long a task is to take
+    #[arg(long, value_name = "MINUTES", default_value_t = 15.0)]
+    pub minutes: f64,
+    /// Threads of a worker
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
+    pub cpus: u32,
+    /// Seed of everything random
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Frames per trajectory
+    #[arg(long, value_name = "N")]
+    pub frames: Option<u32>,
+    /// Width and height of the images in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Samples per pixel in one word
+    #[arg(long, conflicts_with = "samples")]
+    pub quality: Option<QualityArg>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub render: RenderFlags,
+}
+
+/// `farm work`.
+#[derive(Args)]
+pub struct FarmWorkArgs {
+    /// The job
+    pub job: String,
+    /// Numbers of tasks: 7, 0-3 or 1,5,9-12
+    #[arg(long, value_name = "RANGES", required_unless_present = "shard", conflicts_with = "shard")]
+    pub task: Option<String>,
+    /// The i-th of N shares of all tasks, counted from 0: 3/16
+    #[arg(long, value_name = "I/N")]
+    pub shard: Option<String>,
+    /// A folder of this node, for scenes and frames in the making [default: enfilade-farm in the temporary folder]
+    #[arg(long, value_name = "DIR")]
+    pub scratch: Option<PathBuf>,
+}
+
+/// `farm status`.
+#[derive(Args)]
+pub struct FarmStatusArgs {
+    /// The job
+    pub job: String,
+    /// Print nothing but the missing tasks, as --task takes them
+    #[arg(long, conflicts_with = "json")]
+    pub missing: bool,
+    /// Print it as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `farm collect`.
+#[derive(Args)]
+pub struct FarmCollectArgs {
+    /// The job
+    pub job: String,
+    /// The dataset's folder
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+}
+
+/// `farm submit`.
+#[derive(Args)]
+pub struct FarmSubmitArgs {
+    /// The job, as the nodes name it
+    pub job: String,
+    /// What starts the workers
+    #[arg(long)]
+    pub engine: EngineArg,
+    /// Only write the files
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Folder for the files
+    #[arg(short, long, value_name = "DIR", default_value = ".")]
+    pub output: PathBuf,
+    /// The program on the nodes [default: this one for Slurm, else enfilade]
+    #[arg(long, value_name = "PATH")]
+    pub program: Option<String>,
+    /// Workers at once
+    #[arg(long, value_name = "N")]
+    pub at_once: Option<u32>,
+    /// Memory of a worker, MiB [default: by the forecast]
+    #[arg(long, value_name = "MIB")]
+    pub memory: Option<u64>,
+    /// Minutes after which a worker may be ended [default: by the forecast]
+    #[arg(long, value_name = "N")]
+    pub minutes: Option<u64>,
+    /// Tasks of one array at most (Slurm: MaxArraySize - 1)
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
+    pub array_limit: u32,
+    /// Slurm: collect into this folder when the arrays have ended
+    #[arg(long, value_name = "OUT")]
+    pub collect: Option<String>,
+    /// Kubernetes: the image that holds the program
+    #[arg(long, required_if_eq("engine", "kubernetes"))]
+    pub image: Option<String>,
+    /// AWS Batch: the queue
+    #[arg(long, required_if_eq("engine", "aws-batch"))]
+    pub queue: Option<String>,
+    /// AWS Batch: the job definition
+    #[arg(long, required_if_eq("engine", "aws-batch"))]
+    pub definition: Option<String>,
+}
+
+/// `--engine`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum EngineArg {
+    /// Slurm: job arrays
+    Slurm,
+    /// Kubernetes: an Indexed Job
+    Kubernetes,
+    /// AWS Batch: array jobs
+    AwsBatch,
+    /// Open Job Description, for AWS Deadline Cloud
+    Openjd,
+}

@@ -1,0 +1,163 @@
+//! `farm`: one dataset on many machines.
+
+mod submit;
+
+use crate::args::{FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmVerb, FarmWorkArgs};
+use crate::outcome::{Problem, Verdict, say};
+use crate::progress::Progress;
+use crate::summary;
+use crate::verbs::{choices, quality};
+use enfilade_farm::{Assignment, Attempt, Ended, FarmError, Job, PlanOptions, Store, Work, parse_ranges, print_ranges, stop_on_signals};
+use enfilade_pipeline::{Config, Overrides};
+use std::path::PathBuf;
+
+/// One of its verbs.
+pub fn farm(args: &FarmArgs, quiet: bool) -> Result<Verdict, Problem> {
+    match &args.verb {
+        FarmVerb::Plan(args) => plan(args, quiet),
+        FarmVerb::Work(args) => work(args, quiet),
+        FarmVerb::Status(args) => status(args),
+        FarmVerb::Collect(args) => collect(args, quiet),
+        FarmVerb::Submit(args) => submit::submit(args),
+    }
+}
+
+impl From<FarmError> for Problem {
+    fn from(error: FarmError) -> Self {
+        match error {
+            FarmError::Pipeline(error) => error.into(),
+            error => Self::of_farm(&error),
+        }
+    }
+}
+
+fn open(job: &str) -> Result<Job, FarmError> {
+    Job::open(Store::open(job, std::env::vars())?)
+}
+
+fn plan(args: &FarmPlanArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let overrides =
+        Overrides { seed: args.seed, frames: args.frames, size: args.size, quality: args.quality.map(quality), render: choices(&args.render) };
+    let config = match &args.config {
+        Some(file) => Config::read(file, &overrides)?,
+        None => Config::demo(&overrides)?,
+    };
+    if !(args.minutes > 0.0 && args.minutes.is_finite()) {
+        return Err(Problem::new(format!("--minutes is {}; expected a time above 0", args.minutes), "as in --minutes 15"));
+    }
+    let store = Store::open(&args.output, std::env::vars())?;
+    let scratch = tempfile::tempdir().map_err(|error| Problem::new(format!("cannot make a temporary folder: {error}"), "set TMPDIR"))?;
+    let options = PlanOptions { minutes: args.minutes, cpus: args.cpus };
+    let (result, job) = {
+        let progress = Progress::new(quiet);
+        enfilade_farm::plan(&config, store, scratch.path(), &options, &progress)?
+    };
+    let Some(job) = job else {
+        summary::print_table(&result);
+        return Ok(Verdict::Failed);
+    };
+    let plan = &job.plan;
+    let frames: usize = plan.tasks.iter().map(|task| task.part.frames.len()).sum();
+    let cpu_s: f64 = plan.tasks.iter().map(|task| task.cpu_s).sum();
+    let scenes = plan.scenes.len();
+    say(&format!("{} tasks of {frames} frames in {scenes} scenes: {:.2} vCPU-hours expected", plan.tasks.len(), cpu_s / 3600.0));
+    for nodes in [1, 10, 100] {
+        let tasks_at_once = nodes.min(plan.tasks.len().max(1)) as f64;
+        let wall_s = cpu_s / (f64::from(plan.cpus) * tasks_at_once);
+        say(&format!("  on {nodes:3} workers of {} threads about {:.1} minutes", plan.cpus, wall_s / 60.0));
+    }
+    say(&format!("The job is in {}. Start workers: enfilade farm submit {0} --engine slurm", job.store.url()));
+    Ok(Verdict::Done)
+}
+
+fn work(args: &FarmWorkArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let stop = stop_on_signals();
+    let assignment = match (&args.task, &args.shard) {
+        (Some(text), _) => Assignment::Tasks(parse_ranges(text)?),
+        (None, Some(text)) => parse_shard(text)?,
+        (None, None) => return Err(Problem::new("no tasks are named", "give --task 0-3 or --shard 0/4")),
+    };
+    let environment = |name: &str| std::env::var(name).ok();
+    let host = environment("SLURMD_NODENAME").or_else(|| std::fs::read_to_string("/proc/sys/kernel/hostname").ok());
+    let attempt = Attempt::new(host.as_deref().map_or("node", str::trim), environment);
+    let scratch = args.scratch.clone().unwrap_or_else(|| std::env::temp_dir().join("enfilade-farm"));
+    let done = open(&args.job).and_then(|job| {
+        let progress = Progress::new(quiet);
+        let records = enfilade_farm::work(&job, &assignment, &Work { scratch: &scratch, attempt: &attempt, stop: &stop }, &progress)?;
+        Ok((records, assignment.tasks(job.plan.tasks.len()).len()))
+    });
+    let (records, asked) = match done {
+        Ok(done) => done,
+        Err(error) => {
+            let verdict = if error.is_transient() { Verdict::Transient } else { Verdict::Permanent };
+            Problem::from(error).print();
+            return Ok(verdict);
+        }
+    };
+    for record in &records {
+        let ended = record.ended.map_or("open", Ended::word);
+        let why = record.error.as_ref().map_or(String::new(), |error| format!(": {error}"));
+        say(&format!("task {}: {ended}, {} frames committed, {} already there{why}", record.task, record.committed, record.lost));
+    }
+    Ok(match records.iter().filter_map(|record| record.ended).max() {
+        Some(Ended::Permanent) => Verdict::Permanent,
+        Some(Ended::Transient) => Verdict::Transient,
+        _ if records.len() < asked => Verdict::Transient,
+        _ => Verdict::Done,
+    })
+}
+
+fn parse_shard(text: &str) -> Result<Assignment, Problem> {
+    let numbers = text.split_once('/').and_then(|(i, n)| Some((i.trim().parse::<u32>().ok()?, n.trim().parse::<u32>().ok()?)));
+    match numbers {
+        Some((i, n)) if i < n => Ok(Assignment::Shard(i, n)),
+        _ => Err(Problem::new(format!("--shard is {text:?}; expected I/N with I below N"), "the first of four shares is --shard 0/4")),
+    }
+}
+
+fn status(args: &FarmStatusArgs) -> Result<Verdict, Problem> {
+    let job = open(&args.job)?;
+    let status = enfilade_farm::status(&job)?;
+    if args.json {
+        say(&serde_json::to_string_pretty(&status).map_err(|error| Problem::new(error.to_string(), "leave --json away"))?);
+    } else if args.missing {
+        say(&print_ranges(&status.missing));
+    } else {
+        say(&format!("{} of {} frames are committed; {} of {} tasks are missing", status.frames_done, status.frames, status.missing.len(), status.tasks));
+        if !status.is_complete() {
+            say(&format!("missing: {}", print_ranges(&status.missing)));
+            say(&format!("about {:.2} vCPU-hours are left", status.left_cpu_s / 3600.0));
+        }
+        let attempts: Vec<String> = status.attempts.iter().map(|(word, n)| format!("{n} {word}")).collect();
+        if !attempts.is_empty() {
+            say(&format!("attempts: {}", attempts.join(", ")));
+        }
+        status.errors.iter().for_each(|(task, error)| say(&format!("task {task}: {error}")));
+    }
+    Ok(Verdict::of(status.is_complete()))
+}
+
+fn collect(args: &FarmCollectArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let job = open(&args.job)?;
+    let out: &PathBuf = &args.output;
+    let result = {
+        let progress = Progress::new(quiet);
+        enfilade_farm::collect(&job, out, &progress)?
+    };
+    summary::print_table(&result);
+    summary::print_where_to_look(out, &result)?;
+    Ok(Verdict::of(result.ok()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_are_read_and_mistakes_are_told() {
+        assert_eq!(parse_shard("3/16").unwrap(), Assignment::Shard(3, 16));
+        for wrong in ["4/4", "x/2", "1", "1/0", "-1/2"] {
+            assert!(parse_shard(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! A dataset that several workers make is the one that a single machine makes, whatever happens to the workers.
+
+mod common;
+
+use common::{Lamp, assert_same, contents, enfilade, fail, folder, run, scene, succeed, write_config, write_room};
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+/// Two scenes of three frames, with a label table, and what one machine makes of them in `whole`.
+fn write_scenes(d: &Path) {
+    write_room(d, "room", Lamp::On);
+    write_room(d, "den", Lamp::On);
+    fs::write(d.join("labels.csv"), "material,nyu40_id\nwall,1\nwood,7\nlight,35\n").unwrap();
+    write_config(d, &[scene("room") + "labels = \"labels.csv\"\n", scene("den")]);
+}
+
+/// Tasks of one frame each, since a thousandth of a second is less than any takes.
+const PLAN: [&str; 8] = ["farm", "plan", "dataset.toml", "-o", "job", "--minutes", "1e-6", "--quiet"];
+
+#[test]
+fn shares_of_the_work_come_together_as_one_machine_would_have_made_them() {
+    let dir = folder();
+    let d = dir.path();
+    write_scenes(d);
+    succeed(d, &["run", "dataset.toml", "-o", "whole"]);
+    succeed(d, &PLAN);
+    // The same plan again is no other job; another one is refused.
+    succeed(d, &PLAN);
+    fail(d, &["farm", "plan", "dataset.toml", "-o", "job", "--seed", "4"], 1, &["holds another job"]);
+    // Nothing that the scenes were made from is needed any more.
+    for file in ["room.obj", "room.mtl", "den.obj", "den.mtl", "labels.csv"] {
+        fs::remove_file(d.join(file)).unwrap();
+    }
+    let (code, text, _) = run(d, &["farm", "status", "job"]);
+    assert!(code == 1 && text.contains("0 of 6 frames") && text.contains("missing: 0-5"), "{text}");
+    fail(d, &["farm", "collect", "job", "-o", "early"], 2, &["6 of 6 tasks are not done", "--task 0-5"]);
+    fail(d, &["farm", "work", "job", "--task", "6"], 65, &["there is no task 6"]);
+
+    // Three workers at once, two of them with the same tasks.
+    let shares: [&[&str]; 3] = [&["--shard", "0/2"], &["--shard", "1/2"], &["--task", "2-4"]];
+    let workers: Vec<_> = (0..3)
+        .map(|i| {
+            let scratch = format!("scratch{}", i % 2);
+            let mut command = enfilade(d, &["farm", "work", "job", "--scratch", &scratch, "--threads", "1"]);
+            command.args(shares[i]).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+        })
+        .collect();
+    for mut worker in workers {
+        assert_eq!(worker.wait().unwrap().code(), Some(0));
+    }
+    let text = succeed(d, &["farm", "status", "job"]);
+    assert!(text.contains("6 of 6 frames are committed; 0 of 6 tasks are missing"), "{text}");
+    assert_eq!(succeed(d, &["farm", "status", "job", "--missing"]).trim(), "");
+    succeed(d, &["farm", "collect", "job", "-o", "out"]);
+    assert_same(&contents(&d.join("whole")), &contents(&d.join("out")));
+    // A second time nothing is fetched or made, and the dataset stays what it is.
+    succeed(d, &["farm", "collect", "job", "-o", "out"]);
+    assert_same(&contents(&d.join("whole")), &contents(&d.join("out")));
+    // Stages go on from there as in any dataset.
+    succeed(d, &["verify", "out"]);
+    let left: Vec<_> = fs::read_dir(d.join("scratch0")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left, ["cache"], "workers leave nothing but the cache");
+}
+
+#[test]
+#[cfg(unix)]
+fn a_worker_that_is_asked_to_end_keeps_its_frame_and_another_goes_on_within_it() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    let size = ["--frames", "1", "--size", "96x72", "--samples", "4096", "--threads", "2"];
+    succeed(d, &[&["farm", "plan", "dataset.toml", "-o", "job"], &size[..]].concat());
+    let mut worker = enfilade(d, &["farm", "work", "job", "--task", "0", "--scratch", "a", "--threads", "2"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    // It is at work when its record is there; then it gets some time for samples.
+    let begun = Instant::now();
+    while fs::read_dir(d.join("job/attempts")).map_or(0, Iterator::count) == 0 && begun.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    std::thread::sleep(Duration::from_millis(1500));
+    let terminated = std::process::Command::new("kill").arg(worker.id().to_string()).status().unwrap();
+    assert!(terminated.success());
+    assert_eq!(worker.wait().unwrap().code(), Some(75));
+    assert_eq!(fs::read_dir(d.join("job/kept/room/cam_00")).unwrap().count(), 1, "the frame in the making is kept");
+    let text = run(d, &["farm", "status", "job"]).1;
+    assert!(text.contains("attempts: 1 transient") && text.contains("interrupted within frame 0"), "{text}");
+    succeed(d, &["farm", "work", "job", "--task", "0", "--scratch", "b", "--threads", "2"]);
+    assert!(!d.join("job/kept/room/cam_00/0000.partial").exists());
+    succeed(d, &["farm", "collect", "job", "-o", "out"]);
+    succeed(d, &[&["run", "dataset.toml", "-o", "whole"], &size[..]].concat());
+    assert_same(&contents(&d.join("whole")), &contents(&d.join("out")));
+}
+
+#[test]
+fn damage_in_the_store_is_named_and_mended_by_doing_the_task_again() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    succeed(d, &["farm", "plan", "dataset.toml", "-o", "job"]);
+    succeed(d, &["farm", "work", "job", "--shard", "0/1", "--scratch", "a"]);
+    let frames = d.join("job/frames/room/cam_00");
+    let payload = fs::read_dir(&frames).unwrap().next().unwrap().unwrap().path();
+    let mut bytes = fs::read(&payload).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&payload, bytes).unwrap();
+    let text = fail(d, &["farm", "collect", "job", "-o", "out"], 1, &["is not what done/room/cam_00/"]);
+    let marker = text.split_whitespace().find(|word| word.starts_with("done/")).unwrap();
+    fs::remove_file(d.join("job").join(marker)).unwrap();
+    fs::remove_file(&payload).unwrap();
+    succeed(d, &["farm", "work", "job", "--shard", "0/1", "--scratch", "a"]);
+    succeed(d, &["farm", "collect", "job", "-o", "out"]);
+    succeed(d, &["verify", "out"]);
+}
+
+#[test]
+fn engines_get_files_for_what_is_missing() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    succeed(d, &["farm", "plan", "dataset.toml", "-o", "job", "--minutes", "1e-6", "--cpus", "2"]);
+    succeed(d, &["farm", "work", "job", "--task", "1", "--scratch", "a"]);
+    succeed(d, &["farm", "submit", "job", "--engine", "slurm", "--dry-run", "-o", "slurm", "--collect", "out", "--at-once", "5"]);
+    let script = fs::read_to_string(d.join("slurm/enfilade-set.0.sbatch")).unwrap();
+    assert!(script.contains("tasks=(0 2)\n") && script.contains("--array=0-1%5\n") && script.contains("--cpus-per-task=2\n"), "{script}");
+    assert!(d.join("slurm/enfilade-set.collect.sbatch").is_file());
+    succeed(d, &["farm", "submit", "job", "--engine", "kubernetes", "--image", "registry/enfilade:1", "-o", "k8s"]);
+    let job: serde_json::Value = serde_json::from_slice(&fs::read(d.join("k8s/enfilade-set.job.json")).unwrap()).unwrap();
+    assert_eq!(job["spec"]["completions"], 2);
+    succeed(d, &["farm", "submit", "job", "--engine", "openjd", "-o", "openjd"]);
+    assert!(fs::read_to_string(d.join("openjd/template.json")).unwrap().contains("\"range\": \"0,2\""));
+    fail(d, &["farm", "submit", "job", "--engine", "aws-batch"], 2, &["--queue"]);
+    fail(d, &["farm", "status", "nowhere"], 2, &["holds no job"]);
+    fail(d, &["farm", "work", "ftp://x/y", "--task", "0"], 65, &["ftp://x/y"]);
+}

@@ -1,0 +1,89 @@
+//! From the store to a dataset: what one machine would have made.
+
+use crate::bundle::{unpack, write};
+use crate::commit::read_marker;
+use crate::plan::{StoredFile, object_name};
+use crate::work::missing_frames;
+use crate::{FarmError, FrameKey, Job, Marker, Ranges, print_ranges};
+use enfilade_dataset::{Dataset, FrameTime};
+use enfilade_pipeline::{Reporter, Summary, finish};
+use std::path::Path;
+
+/// Brings every frame into the folder `out`, checks it against its marker, and makes the rest of the dataset. What is there already
+/// is not fetched again.
+///
+/// # Errors
+/// When frames are missing, or something in the store is not what its marker says.
+pub fn collect(job: &Job, out: &Path, reporter: &dyn Reporter) -> Result<Summary, FarmError> {
+    let tasks = &job.plan.tasks;
+    let mut missing = Ranges::new();
+    for (number, task) in tasks.iter().enumerate() {
+        if !missing_frames(job, task)?.is_empty() {
+            missing.insert(number as u32);
+        }
+    }
+    if !missing.is_empty() {
+        let message = format!(
+            "{} of {} tasks are not done; do them first: enfilade farm work {} --task {}",
+            missing.len(),
+            tasks.len(),
+            job.store.url(),
+            print_ranges(&missing)
+        );
+        return Err(FarmError::Request(message));
+    }
+    fetch_files(job, out)?;
+    let dataset = Dataset::create(out).map_err(|error| FarmError::Request(error.to_string()))?;
+    for task in tasks {
+        let part = &task.part;
+        for &frame in &part.frames {
+            let key = FrameKey { scene: part.scene.clone(), camera: part.camera.clone(), frame };
+            let marker = read_marker(&job.store, &key)?.ok_or_else(|| damaged(&key.marker(), "is gone; do its task again"))?;
+            if dataset.frame_record(&key.scene, &key.camera, frame).ok().flatten().is_none() {
+                fetch_frame(job, &marker, out)?;
+                dataset.append_time(&key.scene, &key.camera, frame, time(&marker)).map_err(|error| FarmError::Request(error.to_string()))?;
+            }
+        }
+    }
+    Ok(finish(out, reporter)?)
+}
+
+fn time(marker: &Marker) -> FrameTime {
+    FrameTime { wall_s: marker.wall_s, cpu_s: marker.cpu_s, peak_memory_bytes: marker.peak_memory_bytes, threads: marker.threads }
+}
+
+fn fetch_frame(job: &Job, marker: &Marker, out: &Path) -> Result<(), FarmError> {
+    let bytes = job.store.get(&marker.payload)?.ok_or_else(|| damaged(&marker.payload, "is missing"))?;
+    if blake3::hash(&bytes).to_hex().as_str() != marker.blake3 {
+        let problem = format!("is not what {} says; remove both, and do the task again", marker.key.marker());
+        return Err(damaged(&marker.payload, &problem));
+    }
+    unpack(&bytes, out, &marker.payload)
+}
+
+/// The files that were there before rendering.
+fn fetch_files(job: &Job, out: &Path) -> Result<(), FarmError> {
+    let files = job.plan.files.iter().chain(job.plan.scenes.iter().flat_map(|scene| &scene.files));
+    for (path, file) in files {
+        let target = out.join(path);
+        if is_there(&target, file) {
+            continue;
+        }
+        let name = object_name(&file.blake3);
+        let bytes = job.store.get(&name)?.ok_or_else(|| damaged(&name, "is missing"))?;
+        if blake3::hash(&bytes).to_hex().as_str() != file.blake3 {
+            return Err(damaged(&name, "does not hold what its name says"));
+        }
+        write(&target, &bytes)?;
+    }
+    Ok(())
+}
+
+/// A file of that length is taken for the same: the stages know what they have written over.
+fn is_there(path: &Path, file: &StoredFile) -> bool {
+    std::fs::metadata(path).is_ok_and(|found| found.len() == file.bytes)
+}
+
+fn damaged(place: &str, problem: &str) -> FarmError {
+    FarmError::Damaged { place: place.into(), problem: problem.into() }
+}

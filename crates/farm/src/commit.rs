@@ -1,0 +1,199 @@
+//! How a frame becomes part of the result: by a marker that only one attempt can create.
+
+use crate::{Created, FarmError, Store};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+/// How often a marker is looked for that is taken and cannot be read yet, and how long is waited before each further time.
+const READ_BACKS: u32 = 6;
+const READ_BACK_PAUSE: Duration = Duration::from_millis(200);
+
+/// Variables by which engines tell what they have started; they are copied into records, so that these can be joined to the engine's own.
+const ENGINE_VARIABLES: [&str; 14] = [
+    "SLURM_JOB_ID",
+    "SLURM_ARRAY_JOB_ID",
+    "SLURM_ARRAY_TASK_ID",
+    "SLURM_RESTART_COUNT",
+    "SLURMD_NODENAME",
+    "SLURM_CLUSTER_NAME",
+    "JOB_COMPLETION_INDEX",
+    "AWS_BATCH_JOB_ID",
+    "AWS_BATCH_JOB_ARRAY_INDEX",
+    "AWS_BATCH_JOB_ATTEMPT",
+    "HQ_JOB_ID",
+    "HQ_TASK_ID",
+    "HQ_INSTANCE_ID",
+    "OPENJD_SESSION_ID",
+];
+
+/// A frame of the job.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct FrameKey {
+    /// Scene name.
+    pub scene: String,
+    /// Trajectory name.
+    pub camera: String,
+    /// Frame number.
+    pub frame: u32,
+}
+
+impl FrameKey {
+    /// The folder of a trajectory's markers.
+    pub(crate) fn done_folder(scene: &str, camera: &str) -> String {
+        format!("done/{scene}/{camera}")
+    }
+
+    pub(crate) fn marker(&self) -> String {
+        format!("{}/{:04}.json", Self::done_folder(&self.scene, &self.camera), self.frame)
+    }
+
+    /// Where another worker finds what was kept of the frame.
+    pub(crate) fn kept(&self) -> String {
+        format!("kept/{}/{}/{:04}.partial", self.scene, self.camera, self.frame)
+    }
+
+    fn payload(&self, attempt: &str) -> String {
+        format!("frames/{}/{}/{:04}.{attempt}.tar", self.scene, self.camera, self.frame)
+    }
+}
+
+/// One worker at work on one assignment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Attempt {
+    /// Different from that of every other attempt.
+    pub id: String,
+    /// Name of the machine.
+    pub host: String,
+    /// What the engine says, by variable.
+    pub engine: BTreeMap<String, String>,
+}
+
+impl Attempt {
+    /// This process, on machine `host`, started by whatever `environment` tells.
+    pub fn new(host: &str, environment: impl Fn(&str) -> Option<String>) -> Self {
+        let mut unique = [0; 6];
+        // Without random numbers of the system the process and the clock's nanoseconds tell attempts apart.
+        if getrandom::fill(&mut unique).is_err() {
+            let nanoseconds = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |time| time.subsec_nanos());
+            unique[..4].copy_from_slice(&nanoseconds.to_le_bytes());
+        }
+        let host: String = host.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
+        let unique: String = unique.iter().map(|byte| format!("{byte:02x}")).collect();
+        let engine = ENGINE_VARIABLES.iter().filter_map(|&name| Some((name.to_string(), environment(name)?))).collect();
+        Self { id: format!("{host}-{}-{unique}", std::process::id()), host, engine }
+    }
+}
+
+/// What says that a frame is done, and where it lies.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Marker {
+    /// Which frame.
+    #[serde(flatten)]
+    pub key: FrameKey,
+    /// Name of the object with its files.
+    pub payload: String,
+    /// Length of that object.
+    pub bytes: u64,
+    /// BLAKE3 of that object.
+    pub blake3: String,
+    /// The attempt that made it.
+    pub attempt: String,
+    /// Number of its task.
+    pub task: u32,
+    /// Laws of verification that it breaks; normally none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub broken: Vec<String>,
+    /// Elapsed seconds.
+    pub wall_s: f64,
+    /// Seconds of all threads together.
+    pub cpu_s: f64,
+    /// Most memory that the process had until then.
+    pub peak_memory_bytes: Option<u64>,
+    /// Threads at work.
+    pub threads: Option<u32>,
+}
+
+/// How a commit ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Commit {
+    /// The frame is this attempt's.
+    Won,
+    /// Another attempt was first.
+    Lost {
+        /// True when it made the same bytes, as it should.
+        same: bool,
+    },
+}
+
+/// The marker of a frame, if it is done.
+pub(crate) fn read_marker(store: &Store, key: &FrameKey) -> Result<Option<Marker>, FarmError> {
+    let name = key.marker();
+    let Some(bytes) = store.get(&name)? else { return Ok(None) };
+    let marker = serde_json::from_slice(&bytes);
+    marker.map(Some).map_err(|error| FarmError::Damaged { place: name, problem: format!("{error}; remove it, and the frame is made again") })
+}
+
+/// Puts a frame's files into the store, and then its marker. `marker` names no payload yet.
+pub(crate) fn commit(store: &Store, payload: Vec<u8>, marker: Marker) -> Result<Commit, FarmError> {
+    let name = marker.key.payload(&marker.attempt);
+    let marker = Marker { payload: name.clone(), bytes: payload.len() as u64, blake3: blake3::hash(&payload).to_hex().to_string(), ..marker };
+    let text = serde_json::to_vec_pretty(&marker).map_err(|error| FarmError::Request(format!("a marker has no JSON form: {error}")))?;
+    store.put(&name, payload)?;
+    for _ in 0..READ_BACKS {
+        if store.create(&marker.key.marker(), &text)? == Created::Yes {
+            return Ok(Commit::Won);
+        }
+        // Taken, perhaps by this attempt itself, where the store's answer to an earlier request was lost.
+        match read_marker(store, &marker.key)? {
+            Some(there) if there.attempt == marker.attempt => return Ok(Commit::Won),
+            Some(there) => return Ok(Commit::Lost { same: there.blake3 == marker.blake3 }),
+            None => std::thread::sleep(READ_BACK_PAUSE),
+        }
+    }
+    let problem = "is said to be there, and cannot be read".to_string();
+    Err(FarmError::Unreliable { place: format!("{}/{}", store.url(), marker.key.marker()), problem })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn marker(attempt: &str) -> Marker {
+        Marker {
+            key: FrameKey { scene: "room".into(), camera: "cam_00".into(), frame: 3 },
+            payload: String::new(),
+            bytes: 0,
+            blake3: String::new(),
+            attempt: attempt.into(),
+            task: 0,
+            broken: Vec::new(),
+            wall_s: 1.0,
+            cpu_s: 2.0,
+            peak_memory_bytes: None,
+            threads: Some(2),
+        }
+    }
+
+    #[test]
+    fn of_two_attempts_the_first_wins_and_the_other_learns_whether_it_made_the_same() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path().to_str().unwrap(), std::iter::empty()).unwrap();
+        assert_eq!(commit(&store, b"bytes".to_vec(), marker("a")).unwrap(), Commit::Won);
+        assert_eq!(commit(&store, b"bytes".to_vec(), marker("b")).unwrap(), Commit::Lost { same: true });
+        assert_eq!(commit(&store, b"other".to_vec(), marker("c")).unwrap(), Commit::Lost { same: false });
+        // The answer to the first request was lost, and the attempt tries again.
+        assert_eq!(commit(&store, b"bytes".to_vec(), marker("a")).unwrap(), Commit::Won);
+        let there = read_marker(&store, &marker("x").key).unwrap().unwrap();
+        assert_eq!(store.get(&there.payload).unwrap().unwrap(), b"bytes");
+        assert_eq!((there.attempt.as_str(), there.bytes), ("a", 5));
+    }
+
+    #[test]
+    fn attempts_have_names_of_their_own_and_know_their_engine() {
+        let slurm = |name: &str| (name == "SLURM_JOB_ID").then(|| "17".to_string());
+        let (a, b) = (Attempt::new("node 1", slurm), Attempt::new("node 1", slurm));
+        assert!(a.id != b.id && a.id.starts_with("node-1-"), "{a:?}");
+        assert_eq!(a.engine, BTreeMap::from([("SLURM_JOB_ID".to_string(), "17".to_string())]));
+    }
+}

@@ -1,0 +1,64 @@
+//! Kubernetes: an Indexed Job. Losing a node costs no retry, what would fail again is not tried again, and every index has retries of
+//! its own (Kubernetes 1.33 or later).
+
+use super::Submission;
+use serde_json::{Value, json};
+
+/// The manifest, as JSON, which `kubectl apply -f` takes. `image` holds the program.
+pub fn kubernetes_job(submission: &Submission, image: &str) -> Value {
+    let tasks: Vec<String> = submission.tasks.iter().map(u32::to_string).collect();
+    let count = tasks.len();
+    // The index counts the missing tasks; the shell looks up which one it is.
+    let look_up = format!("set -- {}; shift \"$JOB_COMPLETION_INDEX\"; exec \"$0\" --threads \"$CPUS\" farm work \"$STORE\" --task \"$1\" --scratch /scratch", tasks.join(" "));
+    json!({
+        "apiVersion": "batch/v1",
+        "kind": "Job",
+        "metadata": { "name": submission.name },
+        "spec": {
+            "completionMode": "Indexed",
+            "completions": count,
+            "parallelism": submission.at_once.map_or(count, |n| count.min(n as usize)),
+            "backoffLimitPerIndex": submission.attempts.saturating_sub(1),
+            "maxFailedIndexes": count,
+            "podFailurePolicy": { "rules": [
+                { "action": "FailIndex", "onExitCodes": { "containerName": "worker", "operator": "In", "values": [65] } },
+                { "action": "Ignore", "onPodConditions": [{ "type": "DisruptionTarget", "status": "True" }] },
+            ] },
+            "template": { "spec": {
+                "restartPolicy": "Never",
+                "terminationGracePeriodSeconds": 90,
+                "containers": [{
+                    "name": "worker",
+                    "image": image,
+                    "command": ["sh", "-c", look_up, submission.program],
+                    "env": [
+                        { "name": "STORE", "value": submission.store },
+                        { "name": "CPUS", "value": submission.cpus.to_string() },
+                    ],
+                    "resources": {
+                        "requests": { "cpu": submission.cpus.to_string(), "memory": format!("{}Mi", submission.memory_mib) },
+                        "limits": { "memory": format!("{}Mi", submission.memory_mib) },
+                    },
+                    "volumeMounts": [{ "name": "scratch", "mountPath": "/scratch" }],
+                }],
+                "volumes": [{ "name": "scratch", "emptyDir": {} }],
+            } },
+        },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engines::example;
+
+    #[test]
+    fn every_index_is_a_missing_task() {
+        let job = kubernetes_job(&example(), "registry/enfilade:1");
+        assert_eq!(job["spec"]["completions"], 4);
+        assert_eq!(job["spec"]["parallelism"], 4);
+        assert_eq!(job["spec"]["backoffLimitPerIndex"], 3);
+        let command = job["spec"]["template"]["spec"]["containers"][0]["command"][2].as_str().unwrap();
+        assert!(command.starts_with("set -- 0 1 2 7; shift \"$JOB_COMPLETION_INDEX\";"), "{command}");
+    }
+}

@@ -1,0 +1,91 @@
+//! Files for the engines that start workers. Each engine is a text that runs `enfilade farm work` once per index; none is asked what is done.
+
+mod aws_batch;
+mod kubernetes;
+mod openjd;
+mod slurm;
+
+pub use aws_batch::aws_batch_job;
+pub use kubernetes::kubernetes_job;
+pub use openjd::openjd_template;
+pub use slurm::{slurm_collect_script, slurm_scripts};
+
+use crate::{Job, Ranges};
+
+/// What every engine is told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Submission {
+    /// Name of the job, of letters, digits and `-`.
+    pub name: String,
+    /// The store, as workers name it.
+    pub store: String,
+    /// The program on the nodes, or the image that holds it.
+    pub program: String,
+    /// The tasks to be done.
+    pub tasks: Ranges,
+    /// Threads of a worker.
+    pub cpus: u32,
+    /// Memory of a worker, MiB.
+    pub memory_mib: u64,
+    /// After how many minutes an engine may end a worker.
+    pub minutes: u64,
+    /// Workers at once, where that is limited.
+    pub at_once: Option<u32>,
+    /// How often a task is tried that ends in a way that another try may change.
+    pub attempts: u32,
+    /// A folder of the node.
+    pub scratch: String,
+    /// Indices of one array at most.
+    pub array_limit: u32,
+}
+
+impl Submission {
+    /// The missing tasks of a job, sized by its forecast: twice the time of the longest task and a quarter more memory than expected.
+    pub fn of(job: &Job, tasks: Ranges) -> Self {
+        let plan = &job.plan;
+        let longest_s = tasks.iter().filter_map(|&task| plan.tasks.get(task as usize)).map(|task| task.cpu_s).fold(0.0, f64::max);
+        let memory = plan.scenes.iter().map(|scene| scene.memory_bytes.mean).fold(0.0, f64::max);
+        let name: String = plan.dataset.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect();
+        Self {
+            name: format!("enfilade-{}", name.trim_matches('-')),
+            store: job.store.url().into(),
+            program: "enfilade".into(),
+            tasks,
+            cpus: plan.cpus,
+            memory_mib: (1.25 * memory / f64::from(1 << 20)).ceil() as u64 + 512,
+            minutes: (2.0 * longest_s / 60.0 / f64::from(plan.cpus.max(1))).ceil() as u64 + 10,
+            at_once: None,
+            attempts: 4,
+            scratch: "${TMPDIR:-/tmp}/enfilade-farm".into(),
+            array_limit: 1000,
+        }
+    }
+
+    /// The tasks in arrays of at most [`Submission::array_limit`].
+    pub(crate) fn arrays(&self) -> Vec<Vec<u32>> {
+        let all: Vec<u32> = self.tasks.iter().copied().collect();
+        all.chunks(self.array_limit.max(1) as usize).map(<[u32]>::to_vec).collect()
+    }
+}
+
+/// A word that a shell takes as it is.
+pub(crate) fn quoted(word: &str) -> String {
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+#[cfg(test)]
+pub(crate) fn example() -> Submission {
+    Submission {
+        name: "enfilade-rooms".into(),
+        store: "s3://bucket/rooms".into(),
+        program: "enfilade".into(),
+        tasks: crate::parse_ranges("0-2,7").unwrap_or_default(),
+        cpus: 8,
+        memory_mib: 4096,
+        minutes: 40,
+        at_once: Some(6),
+        attempts: 4,
+        scratch: "/tmp/enfilade-farm".into(),
+        array_limit: 1000,
+    }
+}

@@ -1,0 +1,75 @@
+use std::path::{Path, PathBuf};
+
+/// Why something on a farm could not be done.
+#[derive(Debug, thiserror::Error)]
+pub enum FarmError {
+    /// The place of a job.
+    #[error("{place:?} is no place for a job: {problem}; expected a folder, or a URL such as s3://bucket/prefix, gs://… or az://…")]
+    Place {
+        /// As it was given.
+        place: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// The store did not do what it was asked.
+    #[error("the store failed at {name}: {source}")]
+    Store {
+        /// The object, or the place.
+        name: String,
+        /// Its answer.
+        source: object_store::Error,
+    },
+    /// The store does not keep what every commit rests on.
+    #[error("{place} cannot hold a job: {problem}; use a store that honours conditional writes (If-None-Match)")]
+    Unreliable {
+        /// The store.
+        place: String,
+        /// What it did.
+        problem: String,
+    },
+    /// A file of this machine.
+    #[error("cannot {action} {}: {source}", path.display())]
+    Io {
+        /// What was tried.
+        action: &'static str,
+        /// Which one.
+        path: PathBuf,
+        /// The system's answer.
+        source: std::io::Error,
+    },
+    /// What is asked for cannot be done as asked.
+    #[error("{0}")]
+    Request(String),
+    /// The job holds something that cannot be.
+    #[error("{place}: {problem}")]
+    Damaged {
+        /// The object.
+        place: String,
+        /// What was found, and what to do.
+        problem: String,
+    },
+    /// A stage.
+    #[error("{}", .0.explain())]
+    Pipeline(#[from] enfilade_pipeline::Error),
+}
+
+impl FarmError {
+    pub(crate) fn store(name: &str) -> impl FnOnce(object_store::Error) -> Self {
+        let name = name.to_string();
+        move |source| Self::Store { name, source }
+    }
+
+    pub(crate) fn io(action: &'static str, path: &Path, source: std::io::Error) -> Self {
+        Self::Io { action, path: path.into(), source }
+    }
+
+    /// True when another attempt, here or elsewhere, may succeed: the store, the network, a full disk, an interruption. False when the
+    /// same would happen again.
+    pub fn is_transient(&self) -> bool {
+        match self {
+            Self::Store { .. } | Self::Io { .. } => true,
+            Self::Pipeline(error) => matches!(error, enfilade_pipeline::Error::Io { .. } | enfilade_pipeline::Error::Interrupted { .. }),
+            Self::Place { .. } | Self::Unreliable { .. } | Self::Request(_) | Self::Damaged { .. } => false,
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! What there is to do: made once, on one machine, from the configuration of a dataset.
+
+use crate::{Created, FarmError, Store};
+use enfilade_pipeline::{Config, Expected, Part, Prepared, PreparedScene, Reporter, Summary, prepare};
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// Version of the plan's form.
+const FORMAT: u32 = 1;
+/// The plan's name in the store.
+const PLAN: &str = "plan.json";
+
+/// How work is divided.
+#[derive(Clone, Copy, Debug)]
+pub struct PlanOptions {
+    /// How long a task is to take, minutes. Shorter ones spend much of their time on loading the scene, longer ones lose more when a
+    /// node dies.
+    pub minutes: f64,
+    /// Threads of a worker.
+    pub cpus: u32,
+}
+
+impl Default for PlanOptions {
+    fn default() -> Self {
+        Self { minutes: 15.0, cpus: 8 }
+    }
+}
+
+/// Everything that there is to do, and what it is made from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    /// Version of this form.
+    pub format: u32,
+    /// The program, with its version: only the same makes the same bytes.
+    pub program: String,
+    /// Names the content of the job: two plans of one name make the same frames.
+    pub id: String,
+    /// Name of the dataset.
+    pub dataset: String,
+    /// Files of the dataset as a whole, by path within its folder.
+    pub files: BTreeMap<String, StoredFile>,
+    /// The scenes.
+    pub scenes: Vec<PlannedScene>,
+    /// The tasks; a task's number is its index.
+    pub tasks: Vec<Task>,
+    /// Threads that tasks were sized for.
+    pub cpus: u32,
+}
+
+/// A file that workers need, which lies in the store under the name of its content.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct StoredFile {
+    /// BLAKE3 of the content.
+    pub blake3: String,
+    /// Length.
+    pub bytes: u64,
+}
+
+/// One scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlannedScene {
+    /// Its name in the dataset.
+    pub name: String,
+    /// Its files, by path within the dataset's folder.
+    pub files: BTreeMap<String, StoredFile>,
+    /// Number of frames.
+    pub frames: u64,
+    /// Processor seconds that they will take in all.
+    pub cpu_s: Expected,
+    /// Most memory at any moment, bytes.
+    pub memory_bytes: Expected,
+    /// Bytes of its frames and files.
+    pub disk_bytes: Expected,
+}
+
+/// Frames that one worker makes in one go.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Task {
+    /// The frames.
+    #[serde(flatten)]
+    pub part: Part,
+    /// Processor seconds that they will take.
+    pub cpu_s: f64,
+}
+
+/// A plan in its store.
+#[derive(Debug)]
+pub struct Job {
+    /// Where everything lies.
+    pub store: Store,
+    /// What there is to do.
+    pub plan: Plan,
+}
+
+impl Job {
+    /// The job in `store`.
+    ///
+    /// # Errors
+    /// When there is none, or it was planned by another version.
+    pub fn open(store: Store) -> Result<Self, FarmError> {
+        let missing = || FarmError::Request(format!("{} holds no job; plan one: enfilade farm plan dataset.toml -o {0}", store.url()));
+        let bytes = store.get(PLAN)?.ok_or_else(missing)?;
+        let plan: Plan = serde_json::from_slice(&bytes)
+            .map_err(|error| FarmError::Damaged { place: format!("{}/{PLAN}", store.url()), problem: format!("{error}; plan the job anew in another place") })?;
+        if plan.program != program() {
+            let problem = format!("was planned by {}, this is {}; only the same version makes the same bytes", plan.program, program());
+            return Err(FarmError::Damaged { place: format!("{}/{PLAN}", store.url()), problem });
+        }
+        Ok(Self { store, plan })
+    }
+
+    /// The task of a number.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn task(&self, number: u32) -> Result<&Task, FarmError> {
+        let tasks = &self.plan.tasks;
+        let none = || FarmError::Request(format!("there is no task {number}; the job has tasks 0 to {}", tasks.len().saturating_sub(1)));
+        tasks.get(number as usize).ok_or_else(none)
+    }
+
+    /// Every file that workers on `scene` need, by path within the dataset's folder.
+    pub fn files_of(&self, scene: &str) -> impl Iterator<Item = (&String, &StoredFile)> {
+        let own = self.plan.scenes.iter().filter(move |planned| planned.name == scene);
+        self.plan.files.iter().chain(own.flat_map(|planned| &planned.files))
+    }
+}
+
+/// The name of a content in the store.
+pub(crate) fn object_name(blake3: &str) -> String {
+    format!("objects/{}/{blake3}", &blake3[..blake3.len().min(2)])
+}
+
+fn program() -> String {
+    format!("enfilade {}", env!("CARGO_PKG_VERSION"))
+}
+
+/// Plans the dataset `config` into `store`, with `scratch`, an empty folder, to work in. The same plan a second time changes nothing.
+///
+/// # Errors
+/// When a scene fails before rendering, the store does not do what commits rest on, or it holds another job.
+pub fn plan(config: &Config, store: Store, scratch: &Path, options: &PlanOptions, reporter: &dyn Reporter) -> Result<(Summary, Option<Job>), FarmError> {
+    let out = scratch.join("dataset");
+    let (summary, prepared) = prepare(config, &out, None, reporter)?;
+    if !summary.ok() {
+        return Ok((summary, None));
+    }
+    let scenes = prepared.scenes.iter().map(|scene| planned(scene, &out)).collect::<Result<Vec<_>, _>>()?;
+    let mut plan = Plan {
+        format: FORMAT,
+        program: program(),
+        id: String::new(),
+        dataset: config.name.clone(),
+        files: stored(&prepared.files, &out)?,
+        tasks: prepared.scenes.iter().flat_map(|scene| tasks(scene, options)).collect(),
+        scenes,
+        cpus: options.cpus,
+    };
+    plan.id = identity(config, &prepared, &plan);
+    store.probe(&plan.id[..16])?;
+    if let Some(there) = store.get(PLAN)? {
+        let old = serde_json::from_slice::<Plan>(&there).ok();
+        if old.as_ref().is_none_or(|old| old.id != plan.id) {
+            let problem = "holds another job; choose another place, or remove that one".to_string();
+            return Err(FarmError::Damaged { place: store.url().to_string(), problem });
+        }
+        return Job::open(store).map(|job| (summary, Some(job)));
+    }
+    for (path, file) in plan.files.iter().chain(plan.scenes.iter().flat_map(|scene| &scene.files)) {
+        upload(&store, &out.join(path), file)?;
+    }
+    let text = serde_json::to_vec_pretty(&plan).map_err(|error| FarmError::Request(format!("the plan has no JSON form: {error}")))?;
+    if store.create(PLAN, &text)? == Created::Taken {
+        return Job::open(store).map(|job| (summary, Some(job)));
+    }
+    Ok((summary, Some(Job { store, plan })))
+}
+
+fn planned(scene: &PreparedScene, out: &Path) -> Result<PlannedScene, FarmError> {
+    let forecast = &scene.forecast;
+    Ok(PlannedScene {
+        name: scene.name.clone(),
+        files: stored(&scene.files, out)?,
+        frames: scene.trajectories.iter().map(|(_, frames)| frames.len() as u64).sum(),
+        cpu_s: forecast.cpu_s,
+        memory_bytes: forecast.memory_bytes,
+        disk_bytes: forecast.disk_bytes,
+    })
+}
+
+fn stored(files: &[PathBuf], out: &Path) -> Result<BTreeMap<String, StoredFile>, FarmError> {
+    let file = |path: &PathBuf| {
+        let full = out.join(path);
+        let bytes = std::fs::read(&full).map_err(|source| FarmError::io("read", &full, source))?;
+        let name = path.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
+        Ok((name, StoredFile { blake3: blake3::hash(&bytes).to_hex().to_string(), bytes: bytes.len() as u64 }))
+    };
+    files.iter().map(file).collect()
+}
+
+fn upload(store: &Store, path: &Path, file: &StoredFile) -> Result<(), FarmError> {
+    let bytes = std::fs::read(path).map_err(|source| FarmError::io("read", path, source))?;
+    store.create(&object_name(&file.blake3), &bytes).map(drop)
+}
+
+/// Divides a scene's frames: contiguous ones of one trajectory, since its guide is learned once per task, and of equal number.
+fn tasks(scene: &PreparedScene, options: &PlanOptions) -> Vec<Task> {
+    let frames: usize = scene.trajectories.iter().map(|(_, frames)| frames.len()).sum();
+    let frame_cpu_s = scene.forecast.cpu_s.mean / frames.max(1) as f64;
+    let wanted_cpu_s = options.minutes * 60.0 * f64::from(options.cpus.max(1));
+    let most = (wanted_cpu_s / frame_cpu_s.max(1e-6)).clamp(1.0, 1e6) as usize;
+    let divide = |(camera, frames): &(String, Vec<u32>)| -> Vec<Task> {
+        let pieces = frames.len().div_ceil(most).max(1);
+        let piece = |i: usize| frames[i * frames.len() / pieces..(i + 1) * frames.len() / pieces].iter().copied().collect::<BTreeSet<u32>>();
+        let task = |frames: BTreeSet<u32>| Task {
+            cpu_s: frame_cpu_s * frames.len() as f64,
+            part: Part { scene: scene.name.clone(), camera: camera.clone(), frames },
+        };
+        (0..pieces).map(piece).filter(|frames| !frames.is_empty()).map(task).collect()
+    };
+    scene.trajectories.iter().flat_map(divide).collect()
+}
+
+/// Names what the frames depend on. Times that planning took stand in the files, so their contents do not count; scenes and
+/// trajectories do.
+fn identity(config: &Config, prepared: &Prepared, plan: &Plan) -> String {
+    let decides = |path: &str| path.ends_with(".scene") || path.ends_with("label_table.csv");
+    let contents = |scene: &PlannedScene| -> Vec<String> {
+        scene.files.iter().filter(|(path, _)| decides(path)).map(|(_, file)| file.blake3.clone()).collect()
+    };
+    let scenes: Vec<_> = plan.scenes.iter().map(|scene| (&scene.name, contents(scene))).collect();
+    let frames: Vec<_> = prepared.scenes.iter().map(|scene| &scene.trajectories).collect();
+    let text = serde_json::to_vec(&(FORMAT, program(), config, scenes, frames)).unwrap_or_default();
+    blake3::hash(&text).to_hex().to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_pipeline::Forecast;
+
+    fn scene(frames: u32, cpu_s: f64) -> PreparedScene {
+        let forecast = Forecast { cpu_s: Expected { mean: cpu_s, deviation: 0.0 }, ..Forecast::default() };
+        let trajectories = vec![("cam_00".into(), (0..frames).collect()), ("cam_01".into(), vec![3, 5])];
+        PreparedScene { name: "room".into(), forecast, trajectories, files: Vec::new() }
+    }
+
+    #[test]
+    fn tasks_take_the_time_that_is_wanted_and_hold_every_frame_once() {
+        // 102 frames of 100 s: 12 frames are 20 minutes of one thread.
+        let made = tasks(&scene(100, 10_200.0), &PlanOptions { minutes: 20.0, cpus: 1 });
+        let sizes: Vec<usize> = made.iter().map(|task| task.part.frames.len()).collect();
+        assert_eq!((sizes.len(), sizes.iter().sum::<usize>()), (10, 102), "{sizes:?}");
+        assert!(sizes[..9].iter().all(|n| (11..=12).contains(n)), "{sizes:?}");
+        assert!(made.iter().all(|task| (task.cpu_s - 100.0 * task.part.frames.len() as f64).abs() < 1e-6));
+        let all: BTreeSet<u32> = made[..9].iter().flat_map(|task| task.part.frames.clone()).collect();
+        assert_eq!(all, (0..100).collect());
+        assert_eq!(made[9].part.frames, BTreeSet::from([3, 5]));
+    }
+
+    #[test]
+    fn a_frame_that_takes_long_is_a_task_of_its_own() {
+        let made = tasks(&scene(5, 7e6), &PlanOptions::default());
+        assert!(made.iter().all(|task| task.part.frames.len() == 1), "{made:?}");
+    }
+}

@@ -1,0 +1,87 @@
+//! How far a job has come: what the store says, whatever an engine believes.
+
+use crate::work::{AttemptRecord, Ended, missing_frames};
+use crate::{FarmError, Job, Ranges};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// How far a job has come.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Status {
+    /// All frames.
+    pub frames: u64,
+    /// Frames that are committed.
+    pub frames_done: u64,
+    /// All tasks.
+    pub tasks: u32,
+    /// Tasks with frames that are not.
+    pub missing: Ranges,
+    /// Attempts by how they ended; those that are at work or were killed are "open".
+    pub attempts: BTreeMap<&'static str, u32>,
+    /// Processor seconds that are still to be spent, by the forecast.
+    pub left_cpu_s: f64,
+    /// The last error of each task that is not done and has failed.
+    pub errors: BTreeMap<u32, String>,
+}
+
+impl Status {
+    /// True when nothing is missing.
+    pub fn is_complete(&self) -> bool {
+        self.missing.is_empty()
+    }
+}
+
+/// Looks at every marker and every record of attempts.
+///
+/// # Errors
+/// When the store does not answer.
+pub fn status(job: &Job) -> Result<Status, FarmError> {
+    let plan = &job.plan;
+    let mut status = Status {
+        frames: plan.tasks.iter().map(|task| task.part.frames.len() as u64).sum(),
+        frames_done: 0,
+        tasks: plan.tasks.len() as u32,
+        missing: Ranges::new(),
+        attempts: BTreeMap::new(),
+        left_cpu_s: 0.0,
+        errors: BTreeMap::new(),
+    };
+    for (number, task) in plan.tasks.iter().enumerate() {
+        let missing = missing_frames(job, task)?.len();
+        let all = task.part.frames.len();
+        status.frames_done += (all - missing) as u64;
+        status.left_cpu_s += task.cpu_s * missing as f64 / all.max(1) as f64;
+        if missing > 0 {
+            status.missing.insert(number as u32);
+        }
+    }
+    for record in attempts(job)? {
+        *status.attempts.entry(record.ended.map_or("open", Ended::word)).or_default() += 1;
+        if let Some(error) = record.error.filter(|_| status.missing.contains(&record.task)) {
+            status.errors.insert(record.task, error);
+        }
+    }
+    Ok(status)
+}
+
+impl Ended {
+    /// As records have it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Done => "done",
+            Self::Transient => "transient",
+            Self::Permanent => "permanent",
+        }
+    }
+}
+
+/// Every record of an attempt.
+pub(crate) fn attempts(job: &Job) -> Result<Vec<AttemptRecord>, FarmError> {
+    let mut records = Vec::new();
+    for (name, _) in job.store.list("attempts")? {
+        let Some(bytes) = job.store.get(&name)? else { continue };
+        let record = serde_json::from_slice(&bytes);
+        records.push(record.map_err(|error| FarmError::Damaged { place: name, problem: format!("{error}; remove it, nothing depends on it") })?);
+    }
+    Ok(records)
+}

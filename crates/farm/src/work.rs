@@ -1,0 +1,272 @@
+//! What a worker does: takes its tasks one after the other, makes the frames that nobody has committed, and commits them.
+
+use crate::bundle::{pack, write};
+use crate::commit::{Commit, commit, read_marker};
+use crate::plan::object_name;
+use crate::{Attempt, FarmError, FrameKey, Job, Marker, Ranges, Task};
+use enfilade_pipeline::{FinishedFrame, Part, Reporter, Stopwatch, kept_frame, render_part};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
+
+/// The tasks of one worker.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Assignment {
+    /// These.
+    Tasks(Ranges),
+    /// The i-th of n shares of all tasks, each of consecutive ones.
+    Shard(u32, u32),
+}
+
+impl Assignment {
+    /// The numbers of its tasks in a job of `count`.
+    pub fn tasks(&self, count: usize) -> Ranges {
+        match self {
+            Self::Tasks(tasks) => tasks.clone(),
+            &Self::Shard(i, n) => {
+                let bound = |i: u32| (u64::from(i) * count as u64 / u64::from(n.max(1))) as u32;
+                (bound(i)..bound(i + 1)).collect()
+            }
+        }
+    }
+}
+
+/// How a worker works.
+#[derive(Debug)]
+pub struct Work<'a> {
+    /// A folder of this machine: scenes are kept there for all workers of the machine, and frames until they are committed.
+    pub scratch: &'a Path,
+    /// Which attempt this is.
+    pub attempt: &'a Attempt,
+    /// Ends the work; what was done of a frame is kept in the store.
+    pub stop: &'a AtomicBool,
+}
+
+/// What an attempt has come to, as it is kept in the store.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AttemptRecord {
+    /// Which attempt, where.
+    #[serde(flatten)]
+    pub attempt: Attempt,
+    /// Number of the task.
+    pub task: u32,
+    /// Elapsed seconds.
+    pub wall_s: f64,
+    /// Seconds of all threads together.
+    pub cpu_s: f64,
+    /// Threads at work.
+    pub threads: u32,
+    /// Frames that are this attempt's.
+    pub committed: u32,
+    /// Frames that another attempt committed first.
+    pub lost: u32,
+    /// Of these, frames of which the other had made other bytes: there should be none.
+    pub different: u32,
+    /// How it ended; `None` while it is at work, and for ever if it was killed.
+    pub ended: Option<Ended>,
+    /// Why, where it failed.
+    pub error: Option<String>,
+}
+
+/// How an attempt ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Ended {
+    /// Every frame of the task is committed.
+    Done,
+    /// Another attempt may succeed.
+    Transient,
+    /// Another attempt would fail in the same way.
+    Permanent,
+}
+
+/// Does the tasks of `assignment`. A task that fails does not keep the others from being done; the worst is what is told.
+///
+/// # Errors
+/// When there is no such task, or the store does not answer.
+pub fn work(job: &Job, assignment: &Assignment, work: &Work, reporter: &dyn Reporter) -> Result<Vec<AttemptRecord>, FarmError> {
+    let numbers = assignment.tasks(job.plan.tasks.len());
+    numbers.iter().try_for_each(|&number| job.task(number).map(drop))?;
+    let mut records = Vec::new();
+    for number in numbers {
+        if work.stop.load(std::sync::atomic::Ordering::Relaxed) {
+            break;
+        }
+        records.push(do_task(job, number, work, reporter)?);
+    }
+    Ok(records)
+}
+
+fn do_task(job: &Job, number: u32, work: &Work, reporter: &dyn Reporter) -> Result<AttemptRecord, FarmError> {
+    let name = format!("attempts/{number:06}.{}.json", work.attempt.id);
+    let time = Stopwatch::start();
+    let mut record = AttemptRecord {
+        attempt: work.attempt.clone(),
+        task: number,
+        wall_s: 0.0,
+        cpu_s: 0.0,
+        threads: rayon::current_num_threads() as u32,
+        committed: 0,
+        lost: 0,
+        different: 0,
+        ended: None,
+        error: None,
+    };
+    let missing = missing_frames(job, job.task(number)?)?;
+    if missing.is_empty() {
+        record.ended = Some(Ended::Done);
+        return Ok(record);
+    }
+    put_record(job, &name, &record)?;
+    let tally = Mutex::new((0, 0, 0));
+    let result = make(job, number, &missing, work, &tally, reporter);
+    (record.committed, record.lost, record.different) = tally.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    (record.wall_s, record.cpu_s) = (time.wall_s(), time.cpu_s());
+    record.ended = Some(match &result {
+        Ok(()) => Ended::Done,
+        Err(error) if error.is_transient() => Ended::Transient,
+        Err(_) => Ended::Permanent,
+    });
+    record.error = result.err().map(|error| error.to_string());
+    put_record(job, &name, &record)?;
+    Ok(record)
+}
+
+fn put_record(job: &Job, name: &str, record: &AttemptRecord) -> Result<(), FarmError> {
+    let text = serde_json::to_vec_pretty(record).map_err(|error| FarmError::Request(format!("a record has no JSON form: {error}")))?;
+    job.store.put(name, text)
+}
+
+/// The frames of a task that have no marker.
+pub(crate) fn missing_frames(job: &Job, task: &Task) -> Result<BTreeSet<u32>, FarmError> {
+    let part = &task.part;
+    let done = job.store.list(&FrameKey::done_folder(&part.scene, &part.camera))?;
+    let done: BTreeSet<String> = done.into_iter().map(|(name, _)| name).collect();
+    let key = |frame| FrameKey { scene: part.scene.clone(), camera: part.camera.clone(), frame };
+    Ok(part.frames.iter().copied().filter(|&frame| !done.contains(&key(frame).marker())).collect())
+}
+
+fn make(
+    job: &Job,
+    number: u32,
+    missing: &BTreeSet<u32>,
+    work: &Work,
+    tally: &Mutex<(u32, u32, u32)>,
+    reporter: &dyn Reporter,
+) -> Result<(), FarmError> {
+    let planned = &job.task(number)?.part;
+    let part = Part { frames: missing.clone(), ..planned.clone() };
+    let io = |source| FarmError::io("make a folder in", work.scratch, source);
+    std::fs::create_dir_all(work.scratch).map_err(io)?;
+    let folder = tempfile::Builder::new().prefix("work-").tempdir_in(work.scratch).map_err(io)?;
+    let out = folder.path();
+    for (path, file) in job.files_of(&part.scene) {
+        let cached = fetch(job, work.scratch, &file.blake3)?;
+        place(&cached, &out.join(path))?;
+    }
+    let key = |frame: u32| FrameKey { scene: part.scene.clone(), camera: part.camera.clone(), frame };
+    for &frame in missing {
+        if let Some(bytes) = job.store.get(&key(frame).kept())? {
+            write(&kept_frame(out, &part.scene, &part.camera, frame)?, &bytes)?;
+        }
+    }
+    let failure = Mutex::new(None);
+    let finished = |frame: &FinishedFrame| {
+        let result = hand_in(job, out, &key(frame.frame), number, frame, work.attempt);
+        match result {
+            Ok(commit) => {
+                let mut tally = tally.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+                match commit {
+                    Commit::Won => tally.0 += 1,
+                    Commit::Lost { same } => (tally.1, tally.2) = (tally.1 + 1, tally.2 + u32::from(!same)),
+                }
+                Ok(())
+            }
+            Err(error) => {
+                let told = enfilade_pipeline::Error::Stage(error.to_string().into());
+                *failure.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(error);
+                Err(told)
+            }
+        }
+    };
+    let result = render_part(out, &part, work.stop, &finished, reporter);
+    if let Err(enfilade_pipeline::Error::Interrupted { frame, kept, .. }) = &result {
+        let bytes = std::fs::read(kept).map_err(|source| FarmError::io("read", kept, source))?;
+        job.store.put(&key(*frame).kept(), bytes)?;
+    }
+    match failure.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
+        Some(error) => Err(error),
+        None => Ok(result?),
+    }
+}
+
+/// Commits a frame, and frees its place on this machine.
+fn hand_in(job: &Job, out: &Path, key: &FrameKey, task: u32, frame: &FinishedFrame, attempt: &Attempt) -> Result<Commit, FarmError> {
+    let payload = pack(out, &frame.files)?;
+    // Somebody else may have been first while this frame was in the making: then nothing has to travel.
+    let done = match read_marker(&job.store, key)? {
+        Some(there) => Commit::Lost { same: there.blake3 == blake3::hash(&payload).to_hex().to_string() },
+        None => {
+            let marker = Marker {
+                key: key.clone(),
+                payload: String::new(),
+                bytes: 0,
+                blake3: String::new(),
+                attempt: attempt.id.clone(),
+                task,
+                broken: frame.broken.iter().map(ToString::to_string).collect(),
+                wall_s: frame.time.wall_s,
+                cpu_s: frame.time.cpu_s,
+                peak_memory_bytes: frame.time.peak_memory_bytes,
+                threads: frame.time.threads,
+            };
+            commit(&job.store, payload, marker)?
+        }
+    };
+    job.store.remove(&key.kept())?;
+    for path in &frame.files {
+        let path = out.join(path);
+        std::fs::remove_file(&path).map_err(|source| FarmError::io("remove", &path, source))?;
+    }
+    Ok(done)
+}
+
+/// A content of the store in this machine's cache.
+fn fetch(job: &Job, scratch: &Path, blake3: &str) -> Result<PathBuf, FarmError> {
+    let cached = scratch.join("cache").join(blake3);
+    let whole = |bytes: &[u8]| blake3::hash(bytes).to_hex().as_str() == blake3;
+    if std::fs::read(&cached).is_ok_and(|bytes| whole(&bytes)) {
+        return Ok(cached);
+    }
+    let name = object_name(blake3);
+    let damaged = |problem: &str| FarmError::Damaged { place: name.clone(), problem: format!("{problem}; plan the job anew") };
+    let bytes = job.store.get(&name)?.ok_or_else(|| damaged("is missing"))?;
+    if !whole(&bytes) {
+        return Err(damaged("does not hold what its name says"));
+    }
+    write(&cached, &bytes)?;
+    Ok(cached)
+}
+
+/// Puts a file of the cache into a worker's folder. It is copied, since a stage may write over it.
+fn place(cached: &Path, path: &Path) -> Result<(), FarmError> {
+    if let Some(parent) = path.parent() {
+        std::fs::create_dir_all(parent).map_err(|source| FarmError::io("make", parent, source))?;
+    }
+    std::fs::copy(cached, path).map(drop).map_err(|source| FarmError::io("copy to", path, source))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_hold_every_task_once() {
+        for (count, shards) in [(10, 3), (2, 5), (0, 2), (7, 1)] {
+            let all: Vec<u32> = (0..shards).flat_map(|i| Assignment::Shard(i, shards).tasks(count)).collect();
+            assert_eq!(all, (0..count as u32).collect::<Vec<_>>());
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! A dataset that several machines make: what is done once before, what each machine does, and what is done once after.
+//!
+//! [`prepare`] does on one machine all that comes before rendering. The files that it names are all that a worker needs: put into a
+//! folder of its own, they let [`render_part`] make any frames. When all frames lie in one folder, [`finish`] makes the rest of the
+//! dataset there, byte for byte as one machine would have made it. How files travel is nobody's business here.
+
+use crate::config::Config;
+use crate::error::Error;
+use crate::forecast::Forecast;
+use crate::report::{Reporter, StageCx, Summary};
+use crate::run::{Session, estimate, open, store_config};
+use crate::stages::{Job, PARTIALS, STAGES, Stage, StageSpec, frame_finisher, kept_part, render_frames};
+use crate::workdir::{WORKDIR, Workdir};
+use enfilade_dataset::{Dataset, FrameTime};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
+
+/// The name under which a scene's label table travels.
+const TABLE: &str = "label_table.csv";
+
+/// What rendering needs of a dataset whose trajectories are planned.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    /// In the order of the configuration.
+    pub scenes: Vec<PreparedScene>,
+    /// Files that belong to no one scene, relative to the dataset's folder.
+    pub files: Vec<PathBuf>,
+}
+
+/// What rendering needs of one scene.
+#[derive(Clone, Debug)]
+pub struct PreparedScene {
+    /// Its name in the dataset.
+    pub name: String,
+    /// What its rendering will take.
+    pub forecast: Forecast,
+    /// Trajectories with the numbers of the frames that are to be rendered.
+    pub trajectories: Vec<(String, Vec<u32>)>,
+    /// Its files, relative to the dataset's folder.
+    pub files: Vec<PathBuf>,
+}
+
+/// Frames of one trajectory.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Part {
+    /// Name of the scene.
+    pub scene: String,
+    /// Name of the trajectory.
+    pub camera: String,
+    /// Numbers of the frames.
+    pub frames: BTreeSet<u32>,
+}
+
+/// A frame that [`render_part`] has made.
+#[derive(Clone, Debug)]
+pub struct FinishedFrame {
+    /// Its trajectory.
+    pub camera: String,
+    /// Its number.
+    pub frame: u32,
+    /// Its files, relative to the dataset's folder: layers, labels, and the records that vouch for them.
+    pub files: Vec<PathBuf>,
+    /// The laws of verification that it breaks; normally none.
+    pub broken: Vec<&'static str>,
+    /// What it took.
+    pub time: FrameTime,
+}
+
+/// What is made of a scene here, when, and who is told.
+pub(crate) struct Shift<'a> {
+    part: &'a Part,
+    /// Ends the work at the next occasion.
+    pub stop: &'a AtomicBool,
+    /// Hears of every frame that was rendered.
+    pub finished: &'a FrameHearer<'a>,
+}
+
+type FrameHearer<'a> = dyn Fn(&Job, &str, u32) -> Result<(), Error> + Sync + 'a;
+
+impl Shift<'_> {
+    /// True for the frames that are made here.
+    pub fn has(&self, camera: &str, frame: u32) -> bool {
+        self.part.camera == camera && self.part.frames.contains(&frame)
+    }
+}
+
+/// Does all that comes before rendering in the folder `out`, and forecasts the rest.
+///
+/// # Errors
+/// As [`estimate`]. Scenes that fail are left out, and the summary tells why.
+pub fn prepare(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Reporter) -> Result<(Summary, Prepared), Error> {
+    let (summary, forecasts) = estimate(config, out, pattern, reporter)?;
+    let (workdir, mut config) = open(out)?;
+    carry_tables(&workdir, &mut config)?;
+    store_config(&workdir, &config)?;
+    let dataset = Dataset::create(out).map_err(Error::stage)?;
+    let mut scenes = Vec::new();
+    for (name, forecast) in forecasts {
+        let Some(scene) = config.scenes.iter().find(|scene| scene.name == name) else { continue };
+        let job = Job::new(&config, scene, &dataset, &workdir, false);
+        let frames = |trajectory: &enfilade_scene::Trajectory| -> Result<_, Error> {
+            Ok((trajectory.name.clone(), job.frames_of(trajectory)?.into_iter().collect()))
+        };
+        let trajectories = job.filmed()?.iter().map(|(_, trajectory)| frames(trajectory)).collect::<Result<_, _>>()?;
+        let folders = [out.join(WORKDIR).join(&name), dataset.layout().scene_dir(&name)];
+        let mut files = Vec::new();
+        folders.iter().try_for_each(|folder| files_below(folder, out, &mut files))?;
+        files.sort();
+        scenes.push(PreparedScene { name, forecast, trajectories, files });
+    }
+    Ok((summary, Prepared { scenes, files: common_files(out)? }))
+}
+
+/// Renders and labels `part` of the dataset in `out`, whose files [`prepare`] has named. `finished` hears of every frame as soon as it
+/// is done. Of a frame in the making `stop` ends the work; what was kept of it, see [`kept_frame`], lets another worker go on.
+///
+/// # Errors
+/// [`Error::Interrupted`] when it was stopped, what `finished` answers, and as rendering.
+pub fn render_part(
+    out: &Path,
+    part: &Part,
+    stop: &AtomicBool,
+    finished: &(dyn Fn(&FinishedFrame) -> Result<(), Error> + Sync),
+    reporter: &dyn Reporter,
+) -> Result<(), Error> {
+    let (workdir, config) = open(out)?;
+    let scenes = config.select(None)?;
+    let scene = scenes.into_iter().find(|scene| scene.name == part.scene);
+    let scene = scene.ok_or_else(|| Error::usage(format!("there is no scene {:?} in {}", part.scene, out.display()), "plan the job again"))?;
+    let dataset = Dataset::create(out).map_err(Error::stage)?;
+    let cx = StageCx::new(&part.scene, Stage::Render, reporter);
+    let whole = Job::new(&config, scene, &dataset, &workdir, false);
+    let finisher = frame_finisher(&whole, &cx)?;
+    let told = Mutex::new(BTreeSet::new());
+    let tell = |job: &Job, camera: &str, frame: u32| {
+        told.lock().unwrap_or_else(std::sync::PoisonError::into_inner).insert(frame);
+        finished(&finisher.finish(job, camera, frame)?)
+    };
+    let shift = Shift { part, stop, finished: &tell };
+    let mut job = Job::new(&config, scene, &dataset, &workdir, false);
+    job.shift = Some(&shift);
+    render_frames(&job, &cx)?;
+    // Frames that an earlier attempt on this machine had rendered, but nobody has heard of.
+    let told = told.lock().unwrap_or_else(std::sync::PoisonError::into_inner).clone();
+    part.frames.difference(&told).try_for_each(|&frame| finished(&finisher.finish(&job, &part.camera, frame)?))
+}
+
+/// Where a frame in the making is kept in the worker's folder `out`: put what another worker has kept there, and it goes on from it.
+///
+/// # Errors
+/// When the folder cannot be made.
+pub fn kept_frame(out: &Path, scene: &str, camera: &str, frame: u32) -> Result<PathBuf, Error> {
+    let folder = out.join(WORKDIR).join(scene).join(PARTIALS);
+    std::fs::create_dir_all(&folder).map_err(Error::io("create", &folder))?;
+    Ok(folder.join(kept_part(camera, frame)))
+}
+
+/// Makes the rest of the dataset in `out`, whose frames are all there: what [`crate::run`] does from rendering on.
+///
+/// # Errors
+/// As [`crate::run`].
+pub fn finish(out: &Path, reporter: &dyn Reporter) -> Result<Summary, Error> {
+    let (workdir, config) = open(out)?;
+    let scenes = config.select(None)?;
+    let later: Vec<&StageSpec> = STAGES.iter().filter(|spec| spec.stage >= Stage::Render).collect();
+    Session::new(&config, &workdir)?.run(&scenes, &later, false, reporter)
+}
+
+/// Puts the label tables, which lie elsewhere, into the work folder.
+fn carry_tables(workdir: &Workdir, config: &mut Config) -> Result<(), Error> {
+    let mut carried = std::mem::take(&mut config.carried);
+    for scene in &config.scenes {
+        let Some(labels) = &scene.labels else { continue };
+        let (from, to) = (config.path(&labels.table)?, workdir.scene_file(&scene.name, TABLE)?);
+        std::fs::copy(&from, &to).map_err(Error::io("copy", &from))?;
+        carried.insert(labels.table.clone(), to);
+    }
+    config.carried = carried;
+    Ok(())
+}
+
+/// The files of the dataset as a whole, as far as rendering needs them.
+fn common_files(out: &Path) -> Result<Vec<PathBuf>, Error> {
+    let entries = std::fs::read_dir(out).map_err(Error::io("read", out))?;
+    let is_table = |path: &PathBuf| path.is_file() && path.extension().is_some_and(|extension| extension == "csv");
+    let tables = entries.filter_map(Result::ok).map(|entry| entry.path()).filter(is_table);
+    let mut files: Vec<PathBuf> = tables.chain([out.join(WORKDIR).join("run.json")]).map(|path| relative(&path, out)).collect();
+    files.sort();
+    Ok(files)
+}
+
+/// Every file below `folder` but frames in the making.
+fn files_below(folder: &Path, out: &Path, files: &mut Vec<PathBuf>) -> Result<(), Error> {
+    for entry in std::fs::read_dir(folder).map_err(Error::io("read", folder))? {
+        let path = entry.map_err(Error::io("read", folder))?.path();
+        match path.is_dir() {
+            true if path.file_name().is_some_and(|name| name == PARTIALS) => {}
+            true => files_below(&path, out, files)?,
+            false => files.push(relative(&path, out)),
+        }
+    }
+    Ok(())
+}
+
+fn relative(path: &Path, out: &Path) -> PathBuf {
+    path.strip_prefix(out).unwrap_or(path).into()
+}

@@ -1,0 +1,56 @@
+//! What is done with a frame where it was rendered, when the rest of the dataset is made elsewhere: labels, denoised layers, laws.
+
+use super::{Job, denoise, label};
+use crate::error::Error;
+use crate::parts::FinishedFrame;
+use crate::report::StageCx;
+use enfilade_post::verify::FrameVerifier;
+use std::path::PathBuf;
+
+/// What the frames of a scene are finished with.
+pub(crate) struct FrameFinisher {
+    known: label::Known,
+    verifier: FrameVerifier,
+}
+
+/// Reads what finishing takes.
+pub(crate) fn frame_finisher(job: &Job, cx: &StageCx) -> Result<FrameFinisher, Error> {
+    let known = label::known(job, cx)?.0;
+    denoise::check_denoiser(job)?;
+    Ok(FrameFinisher { known, verifier: FrameVerifier::new(job.dataset, &job.scene.name) })
+}
+
+impl FrameFinisher {
+    /// Finishes a frame that was rendered.
+    pub fn finish(&self, job: &Job, camera: &str, frame: u32) -> Result<FinishedFrame, Error> {
+        let (dataset, name) = (job.dataset, &job.scene.name);
+        label::label_frame(job, camera, frame, &self.known, &self.known.hash().0)?;
+        if job.scene.denoise {
+            denoise::denoise_frame(job, camera, frame, &denoise::denoise_hash(job, camera, frame)?, &denoise::open(job)?)?;
+        }
+        let times = dataset.read_times().map_err(Error::stage)?;
+        let time = times.get(&(name.clone(), camera.to_string(), frame)).copied().unwrap_or_default();
+        let broken = self.verifier.broken_laws(dataset, camera, frame);
+        Ok(FinishedFrame { camera: camera.into(), frame, files: files(job, camera, frame)?, broken, time })
+    }
+}
+
+/// The files of a frame, relative to the dataset's folder; every record after the files that it vouches for.
+fn files(job: &Job, camera: &str, frame: u32) -> Result<Vec<PathBuf>, Error> {
+    let (dataset, layout, name) = (job.dataset, job.dataset.layout(), &job.scene.name);
+    let rendered = dataset.frame_record(name, camera, frame).map_err(Error::stage)?.map(|record| record.files);
+    let labelled = dataset.label_record(name, camera, frame).map_err(Error::stage)?.map(|record| record.files);
+    let denoised = dataset.denoise_record(name, camera, frame).map_err(Error::stage)?.map(|record| record.files);
+    let records = [
+        (rendered, layout.frame_record(name, camera, frame)),
+        (labelled, layout.label_record(name, camera, frame)),
+        (denoised, layout.denoise_record(name, camera, frame)),
+    ];
+    let mut files: Vec<PathBuf> = Vec::new();
+    for (layers, record) in records {
+        let Some(layers) = layers else { continue };
+        files.extend(layers.keys().map(|file| layout.scene_dir(name).join(file)));
+        files.push(record);
+    }
+    Ok(files.iter().map(|path| path.strip_prefix(job.out()).unwrap_or(path).into()).collect())
+}
