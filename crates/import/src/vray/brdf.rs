@@ -23,7 +23,8 @@ impl<'n> Reader<'n, '_> {
             "BRDFMirror" => mirror(color(self)?, 0.0.into()).into(),
             "BRDFPhong" | "BRDFBlinn" | "BRDFGGX" | "BRDFWard" | "BRDFCookTorrance" => {
                 // Highlights of other shapes become GGX of the same glossiness.
-                let parameter = if plugin.plugin.parameter("reflectionGlossiness").is_some() { "reflectionGlossiness" } else { "glossiness" };
+                let parameter =
+                    if plugin.plugin.parameter("reflectionGlossiness").is_some() { "reflectionGlossiness" } else { "glossiness" };
                 let roughness = self.roughness(plugin, parameter, 0.8, false)?;
                 mirror(color(self)?, self.squared(plugin, roughness)).into()
             }
@@ -36,7 +37,7 @@ impl<'n> Reader<'n, '_> {
             "BRDFLight" => {
                 let multiplier = plugin.number("colorMultiplier", 1.0)? as f32;
                 let mut emission = color(self)?;
-                emission.factor *= multiplier;
+                emission.factor *= multiplier * if plugin.flag("compensateExposure", false)? { 1.0 } else { self.exposure };
                 let emits_both_sides = plugin.flag("emitOnBackSide", false)?;
                 Surface { emission, emits_both_sides, ..Bsdf::Diffuse { reflectance: Rgb::BLACK.into() }.into() }
             }
@@ -112,7 +113,10 @@ impl<'n> Reader<'n, '_> {
                 Ok(Some(NormalMap::Normal { texture, scale }))
             }
             other => {
-                self.warn(plugin, format!("normal maps of type {other} (object, screen or world space) are not supported; it was left out"));
+                self.warn(
+                    plugin,
+                    format!("normal maps of type {other} (object, screen or world space) are not supported; it was left out"),
+                );
                 Ok(None)
             }
         }

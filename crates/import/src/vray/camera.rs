@@ -4,7 +4,7 @@ use super::Reader;
 use super::handle::Handle;
 use super::physical::Physical;
 use crate::ImportError;
-use enfilade_math::DMat3;
+use enfilade_math::{DMat3, Rgb};
 use std::f64::consts::FRAC_PI_4;
 
 /// V-Ray's size of a picture where `SettingsOutput` does not state it.
@@ -16,11 +16,13 @@ impl<'n> Reader<'n, '_> {
         let aspect = self.aspect()?;
         let physical = self.plugins.settings("CameraPhysical");
         let settings = self.plugins.settings("SettingsCamera");
-        if let Some(settings) = settings.filter(|s| s.int("type", 0).is_ok_and(|kind| kind > 0)) {
-            let kind = settings.int("type", 0)?;
+        if let Some(settings) = settings
+            && let kind = settings.int("type", 0)?
+            && kind > 0
+        {
             self.warn(settings, format!("camera type {kind} is not supported; a pinhole of the same field of view stands in"));
         }
-        for view in self.plugins.of_kind("RenderView").collect::<Vec<_>>() {
+        for view in self.plugins.of_kind("RenderView") {
             if view.flag("orthographic", false)? {
                 self.warn(view, "an orthographic camera is not supported and was left out");
                 continue;
@@ -87,7 +89,10 @@ impl<'n> Reader<'n, '_> {
 
     fn lens_effects(&mut self, camera: Handle<'n>) -> Result<(), ImportError> {
         if camera.int("distortion_type", 0)? > 1 || camera.number("distortion", 0.0)? != 0.0 {
-            self.warn(camera, "lens distortion was left out; `radial_tangential` or `ray_grid` in [camera] of dataset.toml give all cameras one");
+            self.warn(
+                camera,
+                "lens distortion was left out; `radial_tangential` or `ray_grid` in [camera] of dataset.toml give all cameras one",
+            );
         }
         if camera.flag("use_dof", false)? {
             self.warn(camera, "depth of field was left out; `lens` in [camera] of dataset.toml gives all cameras one");
@@ -96,12 +101,14 @@ impl<'n> Reader<'n, '_> {
             self.warn(camera, "motion blur was left out; `shutter` in [camera] of dataset.toml gives all cameras one");
         }
         if camera.flag("exposure", true)? {
-            let (iso, shutter, f) = (camera.number("ISO", 200.0)?, camera.number("shutter_speed", 300.0)?, camera.number("f_number", 8.0)?);
-            let message = format!(
-                "exposure (ISO {iso}, 1/{shutter} s, f/{f}), white balance and vignetting were not applied: radiance stays as the lights \
-                 have it"
-            );
+            let message = format!("all light was multiplied by {:.4}, the camera's exposure; exposure=0 turns that off", self.exposure);
             self.warn(camera, message);
+            if camera.number("vignetting", 1.0)? != 0.0 {
+                self.warn(camera, "vignetting was left out: the picture does not darken towards its borders");
+            }
+            if camera.color("white_balance", Rgb::WHITE)? != Rgb::WHITE {
+                self.warn(camera, "white balance was left out");
+            }
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use super::Reader;
 use super::handle::Handle;
 use crate::ImportError;
 use enfilade_math::{DVec3, Rgb};
-use enfilade_scene::sky::Daylight;
+use enfilade_scene::sky::{Daylight, SUN_RADIUS_RAD};
 use enfilade_scene::{Environment, Light};
 
 /// Width of the sky's picture, texels.
@@ -16,17 +16,20 @@ const KILO: f64 = 1000.0;
 impl<'n> Reader<'n, '_> {
     /// Adds the lights of all suns.
     pub(super) fn suns(&mut self) -> Result<(), ImportError> {
-        for sun in self.plugins.of_kind("SunLight").filter(|s| self.is_on(*s)).collect::<Vec<_>>() {
+        for sun in self.plugins.of_kind("SunLight") {
+            if !self.is_on(sun)? {
+                continue;
+            }
             let daylight = self.daylight(sun)?;
             if daylight.to_sun.z <= 0.0 {
+                self.warn(sun, "the sun is below the horizon and gives no light");
                 continue;
             }
             let strength = sun.number("intensity_multiplier", 1.0)? as f32;
             let tint = sun.color("filter_color", Rgb::WHITE)? * self.light_level;
-            let (_, _, light) = daylight.lights(2, (KILO * self.photometric_scale) as f32, 0);
-            let Light::Directional { direction, irradiance, angular_radius_rad, .. } = light else { continue };
-            let angular_radius_rad = angular_radius_rad * sun.number("size_multiplier", 1.0)?.clamp(0.0, 100.0) as f32;
-            let irradiance = irradiance * tint * strength;
+            let irradiance = daylight.sun_irradiance() * tint * (strength * (KILO * self.photometric_scale) as f32);
+            let angular_radius_rad = SUN_RADIUS_RAD * sun.number("size_multiplier", 1.0)?.clamp(0.0, 100.0) as f32;
+            let direction = -daylight.to_sun;
             self.a.push_world_light(Light::Directional { name: sun.name(), direction, irradiance, angular_radius_rad });
         }
         Ok(())

@@ -22,20 +22,26 @@ impl<'n> Reader<'n, '_> {
     /// Sets the environment.
     pub(super) fn surroundings(&mut self) -> Result<(), ImportError> {
         self.suns()?;
-        let domes: Vec<Handle<'n>> = self.plugins.of_kind("LightDome").filter(|d| self.is_on(*d)).collect();
-        for dome in &domes {
-            self.dome(*dome)?;
+        let mut domes = 0;
+        for dome in self.plugins.of_kind("LightDome") {
+            if self.is_on(dome)? {
+                domes += 1;
+                self.dome(dome)?;
+            }
         }
         let Some(settings) = self.plugins.settings("SettingsEnvironment") else { return Ok(()) };
         let [background, light] = [self.backdrop(settings, "bg")?, self.backdrop(settings, "gi")?];
-        if !domes.is_empty() {
+        if domes > 0 {
             if background.is_some() {
                 self.warn(settings, "the dome light is the environment; the background was left out");
             }
             return Ok(());
         }
         if light.is_some() && background.is_some() && settings.value("gi_tex")? != settings.value("bg_tex")? {
-            self.warn(settings, "the environment that gives light (gi) differs from the one that is seen (bg); the former was used for both");
+            self.warn(
+                settings,
+                "the environment that gives light (gi) differs from the one that is seen (bg); the former was used for both",
+            );
         }
         if let Some((parameter, value, scale)) = light.or(background) {
             self.environment(settings, &parameter, &value, scale, DMat3::IDENTITY, 0)?;
@@ -46,7 +52,7 @@ impl<'n> Reader<'n, '_> {
     /// What the settings say of the background (`bg`) or of light (`gi`), with a multiplier; `None` where it is black.
     fn backdrop(&mut self, settings: Handle<'n>, kind: &str) -> Result<Option<(String, Value, Rgb)>, ImportError> {
         let texture = format!("{kind}_tex");
-        let multiplier = Rgb::splat(settings.number(&format!("{kind}_tex_mult"), 1.0)? as f32);
+        let multiplier = Rgb::splat(settings.number(&format!("{kind}_tex_mult"), 1.0)? as f32 * self.exposure);
         for parameter in [texture, format!("{kind}_color")] {
             let Some(value) = settings.value(&parameter)? else { continue };
             let black = handle::constant(&value).is_some_and(|c| c.is_black()) || value.plugin() == Some(b"NULL");
@@ -61,7 +67,8 @@ impl<'n> Reader<'n, '_> {
         if dome.flag("invisible", false)? {
             self.warn(dome, "an invisible dome is not supported: it is seen in the background");
         }
-        let strength = match self.strength(dome)? {
+        let textured = dome.flag("use_dome_tex", dome.plugin.parameter("dome_tex").is_some())?;
+        let strength = match self.strength(dome, textured)? {
             Strength::Image(radiance) => radiance,
             Strength::PerSteradian(nits, hue) => hue * (nits * self.photometric_scale) as f32,
             Strength::Power(..) => {
@@ -70,9 +77,7 @@ impl<'n> Reader<'n, '_> {
             }
         };
         let file_from_dome = dome.transform("transform")?.matrix3;
-        if dome.flag("use_dome_tex", dome.plugin.parameter("dome_tex").is_some())?
-            && let Some(texture) = dome.value("dome_tex")?
-        {
+        if textured && let Some(texture) = dome.value("dome_tex")? {
             if !dome.flag("dome_spherical", false)? {
                 self.warn(dome, "a dome of half a sphere is not supported with a texture; the texture goes all round");
             }
@@ -148,7 +153,9 @@ impl<'n> Reader<'n, '_> {
                 None | Some("spherical" | "spherical_vray" | "max_spherical") => {}
                 Some("angular") => image = self.unrolled(image, |cos| cos.acos() / PI),
                 Some("mirror_ball") => image = self.unrolled(image, |cos| (0.5 * (1.0 - cos)).max(0.0).sqrt()),
-                Some(other) => self.warn(generator, format!("mapping {other:?} is not supported; the picture was taken for a spherical one")),
+                Some(other) => {
+                    self.warn(generator, format!("mapping {other:?} is not supported; the picture was taken for a spherical one"))
+                }
             }
         }
         self.warn(texture, "how far the picture is turned about the vertical is a guess: its middle lies where y of its own space points");

@@ -122,7 +122,8 @@ impl<'n> StaticMesh<'n> {
         };
         let found = channels.iter().find(|c| number(c) == Some(wanted));
         let Some(channel) = found.or(channels.first()) else { return Ok(None) };
-        let wrong = || self.plugin.error("map_channels", "expected List(List(number, ListVector(…), ListInt(…)), …); export the mesh again");
+        let wrong =
+            || self.plugin.error("map_channels", "expected List(List(number, ListVector(…), ListInt(…)), …); export the mesh again");
         let Value::List(_, parts) = channel else { return Err(wrong()) };
         let [index, coordinates, indices] = parts.as_slice() else { return Err(wrong()) };
         let (Some(index), Some(uvs), Some(indices)) = (index.number(), handle::vectors(coordinates), handle::ints(indices)) else {

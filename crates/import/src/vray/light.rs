@@ -26,10 +26,12 @@ impl<'n> Reader<'n, '_> {
     /// Adds all lights but those of the surroundings.
     pub(super) fn lights(&mut self) -> Result<(), ImportError> {
         if let Some(settings) = self.plugins.settings("SettingsEnvironment") {
-            self.light_level = settings.color("global_light_level", Rgb::WHITE)?;
+            self.light_level = settings.color("global_light_level", Rgb::WHITE)? * self.exposure;
         }
-        for light in self.plugins.all().filter(|p| p.kind().contains("Light") && self.is_on(*p)).collect::<Vec<_>>() {
+        for light in self.plugins.all() {
             match light.kind() {
+                kind if !kind.starts_with("Light") && kind != "MayaLightDirect" => {}
+                _ if !self.is_on(light)? => {}
                 "LightRectangle" => self.rectangle(light)?,
                 "LightSphere" => self.sphere(light)?,
                 "LightMesh" => self.mesh_light(light)?,
@@ -42,16 +44,17 @@ impl<'n> Reader<'n, '_> {
     }
 
     /// True unless a light, or all light of the scene, is turned off.
-    pub(super) fn is_on(&self, light: Handle<'n>) -> bool {
-        let all = self.plugins.settings("SettingsOptions").is_none_or(|s| s.flag("light_doLights", true).unwrap_or(true));
-        all && light.flag("enabled", true).unwrap_or(true)
+    pub(super) fn is_on(&self, light: Handle<'n>) -> Result<bool, ImportError> {
+        let all = self.plugins.settings("SettingsOptions").map_or(Ok(true), |s| s.flag("light_doLights", true))?;
+        Ok(all && light.flag("enabled", true)?)
     }
 
-    /// The strength that a light's parameters state.
-    pub(super) fn strength(&mut self, light: Handle<'n>) -> Result<Strength, ImportError> {
+    /// The strength that a light's parameters state. A texture takes the place of its colour.
+    pub(super) fn strength(&mut self, light: Handle<'n>, textured: bool) -> Result<Strength, ImportError> {
         self.warn_of_animation(light, &["intensity", "color", "transform"]);
         let intensity = light.number("intensity", 1.0)?;
         let color = match light.int("color_mode", 0)? {
+            _ if textured => Rgb::WHITE,
             1 => {
                 let kelvin = light.number("temperature", 6500.0)?;
                 if !(500.0..=50_000.0).contains(&kelvin) {
@@ -104,7 +107,7 @@ impl<'n> Reader<'n, '_> {
         if light.number("directional", 0.0)? != 0.0 {
             self.warn(light, "light that goes forward more than aside (directional) is not supported; it goes to all sides");
         }
-        let texture = if light.flag("use_rect_tex", false)? { self.color(light, "rect_tex", Rgb::WHITE)? } else { Rgb::WHITE.into() };
+        let texture = self.light_texture(light, "use_rect_tex", "rect_tex")?;
         self.surface_light(light, mesh, placement, area, texture)
     }
 
@@ -112,7 +115,7 @@ impl<'n> Reader<'n, '_> {
         let radius = light.number("radius", 1.0)?;
         let placement = light.transform("transform")? * DAffine3::from_scale(DVec3::splat(radius));
         let size = placement.matrix3.determinant().abs().cbrt();
-        self.surface_light(light, primitives::sphere(), placement, 4.0 * PI * size * size, Rgb::WHITE.into())
+        self.surface_light(light, primitives::sphere(), placement, 4.0 * PI * size * size, None)
     }
 
     fn mesh_light(&mut self, light: Handle<'n>) -> Result<(), ImportError> {
@@ -121,7 +124,7 @@ impl<'n> Reader<'n, '_> {
             return Ok(());
         };
         let placement = light.transform("transform")?;
-        let texture = if light.flag("use_tex", false)? { self.color(light, "tex", Rgb::WHITE)? } else { Rgb::WHITE.into() };
+        let texture = self.light_texture(light, "use_tex", "tex")?;
         let meshes = self.geometry(geometry, 1, false)?;
         let Some(&(_, mesh)) = meshes.first() else { return Ok(()) };
         let area = area(self.a.mesh_at(mesh), placement);
@@ -136,7 +139,7 @@ impl<'n> Reader<'n, '_> {
         mesh: Mesh,
         placement: DAffine3,
         area: f64,
-        texture: ColorParam,
+        texture: Option<ColorParam>,
     ) -> Result<(), ImportError> {
         let material = self.light_material(light, area, texture)?;
         if let Some(mesh) = self.a.push_mesh(mesh, light.file, &light.place())? {
@@ -145,8 +148,16 @@ impl<'n> Reader<'n, '_> {
         Ok(())
     }
 
+    /// The texture of a light where it is turned on.
+    fn light_texture(&mut self, light: Handle<'n>, switch: &str, parameter: &str) -> Result<Option<ColorParam>, ImportError> {
+        if !light.flag(switch, false)? || light.plugin.parameter(parameter).is_none() {
+            return Ok(None);
+        }
+        self.color(light, parameter, Rgb::WHITE).map(Some)
+    }
+
     /// The material of a light's surface.
-    fn light_material(&mut self, light: Handle<'n>, area: f64, texture: ColorParam) -> Result<u32, ImportError> {
+    fn light_material(&mut self, light: Handle<'n>, area: f64, texture: Option<ColorParam>) -> Result<u32, ImportError> {
         if light.flag("invisible", false)? {
             self.warn(light, "an invisible light with a surface is not supported: it is seen by cameras and in mirrors");
         }
@@ -164,8 +175,9 @@ impl<'n> Reader<'n, '_> {
             }
         }
         let both = light.flag("doubleSided", false)?;
-        let strength = self.strength(light)?;
+        let strength = self.strength(light, texture.is_some())?;
         let radiance = self.radiance(&strength, if both { 2.0 * area } else { area });
+        let texture = texture.unwrap_or(Rgb::WHITE.into());
         let emission = ColorParam { factor: texture.factor * radiance, ..texture };
         let material = Material { emission, emits_both_sides: both, ..Material::emitter(light.name(), radiance) };
         Ok(self.a.push_material(material))

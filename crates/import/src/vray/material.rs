@@ -119,7 +119,7 @@ impl<'n> Reader<'n, '_> {
     /// What a material or BRDF plugin says; `depth` counts the plugins on the way to it.
     pub(super) fn surface(&mut self, plugin: Handle<'n>, depth: usize) -> Result<Surface, ImportError> {
         if depth > MAX_CHAIN {
-            return Err(plugin.error("", "materials refer to each other in a circle; correct the reference that closes it"));
+            return Err(plugin.error("brdf", "materials refer to each other in a circle; correct the reference that closes it"));
         }
         let plugin = self.innermost(plugin)?;
         match plugin.kind() {

@@ -17,7 +17,8 @@
 //! Radiance comes in V-Ray's own units: a light of intensity 1 in default units has radiance 1. Lights in lumens, candela per
 //! square metre or watts are turned into these by `photometric_scale`, the radiance of 1 cd/m², with 683 lm/W. Point and distant lights
 //! in default units light a white surface that faces them to a radiance of intensity × colour, at a distance of one unit where they
-//! decay (3ds Max's convention). A camera's exposure is not applied: V-Ray does not say which radiance it takes for white.
+//! decay (3ds Max's convention). The exposure of a `CameraPhysical` multiplies all light, so that the picture is V-Ray's; vignetting and
+//! white balance, which are no matter of light, are left out.
 //!
 //! # Names
 //!
@@ -80,6 +81,10 @@ const UNSUPPORTED: [&str; 14] = [
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     let plugins = Plugins::read(&mut assembly)?;
     let photometric_scale = units(&plugins, &mut assembly)?;
+    let exposure = match plugins.settings("CameraPhysical") {
+        Some(camera) => physical::exposure(camera, photometric_scale)? as f32,
+        None => 1.0,
+    };
     let mut reader = Reader {
         a: assembly,
         plugins: &plugins,
@@ -88,7 +93,8 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
         materials: HashMap::new(),
         channel: None,
         complements: HashMap::new(),
-        light_level: Rgb::WHITE,
+        exposure,
+        light_level: Rgb::splat(exposure),
     };
     reader.nodes()?;
     reader.lights()?;
@@ -135,7 +141,9 @@ struct Reader<'n, 'a> {
     channel: Option<i64>,
     /// Pictures of 1 − factor × channel of others.
     complements: HashMap<(u32, [u32; 3], Option<u8>), u32>,
-    /// Multiplies all lights.
+    /// What the camera's exposure multiplies all light by.
+    exposure: f32,
+    /// Multiplies all lights, exposure included.
     light_level: Rgb,
 }
 

@@ -44,7 +44,7 @@ impl<'n> Reader<'n, '_> {
         Ok(())
     }
 
-    /// Adds the surface of a light as parts.
+    /// Adds the surface of a light as a part.
     pub(super) fn light_part(&mut self, light: Handle<'n>, mesh: u32, material: u32, placement: DAffine3) {
         self.a.push_part(&light.name(), mesh, material, placement, PartLabel::NONE);
     }

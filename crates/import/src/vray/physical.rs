@@ -16,6 +16,27 @@ const STEPS: usize = 100;
 /// Shifts and offsets below this bend nothing.
 const NO_SHIFT: f64 = 1e-9;
 
+/// Luminous exposure at the film over luminance × time / f-number², and that which ISO speed S takes for white, times S (ISO 12232).
+const EXPOSURE_AT_FILM: f64 = 0.65;
+const SATURATION: f64 = 78.0;
+
+/// What a camera's exposure multiplies radiance by; 1 where it is turned off.
+///
+/// White is what saturates a film of this speed by ISO 12232: L · t · S · 0.65 / (78 N²) for a luminance L in cd/m². V-Ray does not
+/// publish its formula; this one gives the brightness of its own picture of Hypersim's empty scene (docs/vray.md).
+pub(super) fn exposure(camera: Handle, photometric_scale: f64) -> Result<f64, ImportError> {
+    if !camera.flag("exposure", true)? {
+        return Ok(1.0);
+    }
+    let [speed, shutter, f] = [("ISO", 200.0), ("shutter_speed", 300.0), ("f_number", 8.0)].map(|(parameter, default)| {
+        let found = camera.number(parameter, default)?;
+        let problem = format!("found {found}, expected a number above zero; correct the value, or set exposure=0");
+        if found > 0.0 { Ok(found) } else { Err(camera.error(parameter, problem)) }
+    });
+    let (speed, shutter, f) = (speed?, shutter?, f?);
+    Ok(EXPOSURE_AT_FILM * speed / (SATURATION * shutter * f * f * photometric_scale))
+}
+
 /// The lens and film of a physical camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Physical {

@@ -18,7 +18,7 @@ impl<'n> Reader<'n, '_> {
         let name = light.name();
         match light.kind() {
             "LightDirect" | "LightDirectMax" | "MayaLightDirect" => {
-                let Strength::Image(color) = self.strength(light)? else {
+                let Strength::Image(color) = self.strength(light, false)? else {
                     self.warn(light, "distant light in photometric units is not supported and was left out; give it in default units");
                     return Ok(());
                 };
@@ -50,7 +50,7 @@ impl<'n> Reader<'n, '_> {
         }
         // Photometric intensities hold at a metre, and the assembly scales intensities that hold at a unit.
         let scale = self.photometric_scale / self.a.meters_per_unit().powi(2);
-        Ok(match self.strength(light)? {
+        Ok(match self.strength(light, false)? {
             Strength::Image(color) => color * PI as f32,
             Strength::Power(lumens, hue) => hue * (lumens / solid_angle_sr * scale) as f32,
             Strength::PerSteradian(candela, hue) => hue * (candela * scale) as f32,

@@ -38,7 +38,8 @@ impl<'n> Reader<'n, '_> {
         }
         let opaque = self.opaque(m)?;
         let bsdf = self.refracting(m, opaque)?;
-        let emission = self.color(m, "self_illumination", Rgb::BLACK)?;
+        let mut emission = self.color(m, "self_illumination", Rgb::BLACK)?;
+        emission.factor *= if m.flag("compensate_camera_exposure", false)? { 1.0 } else { self.exposure };
         let alpha = self.opacity(m)?;
         let normal_map = self.bump(m, "bump_map", "bump_amount", "bump_type")?;
         Ok(Surface { bsdf, emission, emits_both_sides: true, alpha, normal_map })

@@ -27,7 +27,10 @@ impl<'n> Reader<'n, '_> {
             "UVWGenChannel" => self.by_channel(generator),
             "UVWGenMayaPlace2dTexture" => self.by_maya(generator),
             kind => {
-                self.warn(generator, format!("texture coordinates by {kind} are not supported; those of the mesh's first channel were used"));
+                self.warn(
+                    generator,
+                    format!("texture coordinates by {kind} are not supported; those of the mesh's first channel were used"),
+                );
                 Ok(Placement::default())
             }
         }

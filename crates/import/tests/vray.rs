@@ -1,0 +1,328 @@
+//! V-Ray features, one small file each.
+
+mod common;
+
+use common::{Folder, png, warnings};
+use enfilade_import::{ImportOptions, Imported};
+use enfilade_math::{DVec3, Rgb, Vec2, Vec3};
+use enfilade_scene::{Alpha, Bsdf, Environment, Light, Material, NormalMap, TiltedPinhole, Wrap};
+
+/// A triangle in the plane z = 0 and its node.
+const TRIANGLE: &str = "GeomStaticMesh mesh { vertices=ListVector(Vector(0,0,0), Vector(2,0,0), Vector(0,2,0)); faces=ListInt(0,1,2); }\n";
+const NODE: &str = "Node chair@node_1 { geometry=mesh; material=mtl; }\nMtlSingleBRDF mtl { brdf=brdf; }\n";
+const GREY: &str = "BRDFDiffuse brdf { color=Color(0.5, 0.5, 0.5); }\n";
+const UNITS: &str = "SettingsUnitsInfo units { meters_scale=1; photometric_scale=0.002; }\n";
+
+fn load_text(folder: &Folder, text: &str) -> Imported {
+    folder.write("a.vrscene", text).load("a.vrscene").unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// A scene of the triangle and something more.
+fn load(folder: &Folder, more: &str) -> Imported {
+    load_text(folder, &[TRIANGLE, NODE, GREY, UNITS, more].concat())
+}
+
+/// The material of a triangle with this BRDF, whose name is `brdf`.
+fn material(folder: &Folder, brdf: &str) -> (Material, String) {
+    let imported = load_text(folder, &[TRIANGLE, NODE, UNITS, brdf].concat());
+    (imported.scene.materials[0].clone(), warnings(&imported))
+}
+
+/// Emission of the first part that emits.
+fn emission(imported: &Imported) -> Rgb {
+    let emits = |m: &&Material| !m.emission.factor.is_black();
+    imported.scene.materials.iter().find(emits).expect("a light").emission.factor
+}
+
+fn near(a: Rgb, b: Rgb) -> bool {
+    (a - b).map(f32::abs).max_component() < 1e-4 * b.max_component().max(1e-6)
+}
+
+#[test]
+fn nodes_are_placed_in_metres_with_z_up_and_share_meshes() {
+    let folder = Folder::new();
+    let nodes = "SettingsUnitsInfo u { meters_scale=0.01; }\n\
+        Node b@node_2 { geometry=mesh; material=mtl; transform=Transform(Matrix(Vector(0,1,0), Vector(-1,0,0), Vector(0,0,2)), Vector(100,0,300)); }\n\
+        Node c { geometry=mesh; material=mtl; visible=0; }\n";
+    let text = [TRIANGLE, NODE, GREY, nodes].concat();
+    let scene = load_text(&folder, &text).scene;
+    assert_eq!(scene.parts.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(), ["chair@node_1", "b@node_2"]);
+    assert_eq!((scene.meshes.len(), scene.materials.len()), (1, 1));
+    // The x axis goes to y, as the first vector of the matrix says.
+    let corners = scene.world_corners(&scene.parts[1], 0);
+    assert!(corners[0].distance(Vec3::new(1.0, 0.0, 3.0)) < 1e-6 && corners[1].distance(Vec3::new(1.0, 0.02, 3.0)) < 1e-6, "{corners:?}");
+    // The option wins over the file unless it is 1.
+    let options = ImportOptions { meters_per_unit: 0.5, ..ImportOptions::default() };
+    let imported = folder.load_with("a.vrscene", &options).unwrap();
+    assert_eq!(imported.scene.world_corners(&imported.scene.parts[0], 0)[1], Vec3::new(1.0, 0.0, 0.0));
+    assert!(warnings(&imported).contains("the scene's unit is 0.01 m; the option meters_per_unit = 0.5 was used"));
+    let y_up = load_text(&folder, &text.replace("meters_scale=0.01;", "meters_scale=1; scene_upDir=Vector(0,1,0);")).scene;
+    assert!(y_up.world_corners(&y_up.parts[0], 0)[2].distance(Vec3::new(0.0, 0.0, 2.0)) < 1e-6);
+}
+
+#[test]
+fn corners_have_their_own_normals_and_texture_coordinates() {
+    let folder = Folder::new();
+    // Two triangles that share two positions; one of these has two texture coordinates.
+    let mesh = "GeomStaticMesh mesh {
+      vertices=ListVector(Vector(0,0,0), Vector(1,0,0), Vector(1,1,0), Vector(0,1,0));
+      faces=List(0,1,2, 0,2,3); normals=ListVector(Vector(0,0,1)); faceNormals=ListInt(0,0,0, 0,0,0);
+      map_channels=List(
+        List(1, ListVector(Vector(9,9,9)), ListInt(0,0,0, 0,0,0)),
+        List(2, ListVector(Vector(0,0,0), Vector(1,0,0), Vector(1,1,0), Vector(0,1,0), Vector(5,5,0)), ListInt(0,1,2, 4,2,3)));
+    }\n";
+    folder.write("t.png", png(2, 2, [255, 128, 0, 255]));
+    let brdf = "BRDFDiffuse brdf { color_tex=tex; }\nTexBitmap tex { bitmap=buffer; uvwgen=uvw; }\n\
+        BitmapBuffer buffer { file=\"t.png\"; gamma=0.454545; }\n\
+        UVWGenChannel uvw { uvw_channel=2; wrap_u=2; uvw_transform=Transform(Matrix(Vector(3,0,0), Vector(0,4,0), Vector(0,0,1)), Vector(0.5,0.25,0)); }\n";
+    let scene = load_text(&folder, &[mesh, NODE, UNITS, brdf].concat()).scene;
+    let mesh = &scene.meshes[0];
+    assert_eq!((mesh.positions.len(), mesh.triangles.len()), (5, 2), "the corner with two coordinates is two vertices");
+    assert_eq!(mesh.normals, vec![Vec3::Z; 5]);
+    assert_eq!(mesh.uvs[mesh.triangles[1][0] as usize], Vec2::splat(5.0));
+    let Bsdf::Diffuse { reflectance } = &scene.materials[0].bsdf else { panic!("{:?}", scene.materials[0]) };
+    let texture = reflectance.texture.unwrap();
+    assert_eq!(texture.uv_transform, [[3.0, 0.0, 0.5], [0.0, 4.0, 0.25]]);
+    assert_eq!(texture.wrap, [Wrap::Mirror, Wrap::Repeat]);
+    let (color, _) = scene.images[0].texel(0, 0);
+    assert!((color.g - 0.2159).abs() < 1e-3, "a gamma means that the picture is encoded: {color:?}");
+}
+
+#[test]
+fn faces_take_the_material_of_their_id() {
+    let folder = Folder::new();
+    let text = "GeomStaticMesh mesh { vertices=ListVector(Vector(0,0,0), Vector(1,0,0), Vector(0,1,0)); faces=ListInt(0,1,2, 0,2,1); face_mtlIDs=ListInt(7, 3); }
+      Node box@node_1 { geometry=mesh; material=outer; }
+      MtlRenderStats outer { base_mtl=multi; }
+      MtlMulti multi { mtls_list=List(red, blue); ids_list=ListInt(3, 7); }
+      MtlSingleBRDF red { brdf=r; } MtlSingleBRDF blue { brdf=b; }
+      BRDFDiffuse r { color=Color(1,0,0); } BRDFDiffuse b { color=Color(0,0,1); }\n";
+    let scene = load_text(&folder, &[text, UNITS].concat()).scene;
+    let parts: Vec<_> = scene.parts.iter().map(|p| (p.name.as_str(), scene.meshes[p.mesh as usize].triangles[0])).collect();
+    assert_eq!(parts, [("box@node_1_red", [0, 1, 2]), ("box@node_1_blue", [0, 1, 2])]);
+    let reflectance = |part: usize| match &scene.materials[scene.parts[part].material as usize].bsdf {
+        Bsdf::Diffuse { reflectance } => reflectance.factor,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!((reflectance(0), reflectance(1)), (Rgb::new(1.0, 0.0, 0.0), Rgb::new(0.0, 0.0, 1.0)));
+}
+
+#[test]
+fn included_files_are_read_from_their_own_folder_and_once() {
+    let folder = Folder::new();
+    folder.write("lib/mats.vrscene", GREY).write("lib/all.vrscene", "#include \"mats.vrscene\"\n#include \"mats.vrscene\"\n");
+    let imported = load_text(&folder, &[TRIANGLE, NODE, UNITS, "#include \"lib\\all.vrscene\"\n"].concat());
+    assert_eq!(imported.inputs.len(), 3, "{:?}", imported.inputs);
+    assert!(warnings(&imported).contains("included before"), "{}", warnings(&imported));
+    assert_eq!(imported.report.format, "vray");
+}
+
+#[test]
+fn cameras_look_along_minus_z_with_the_horizontal_field_of_view() {
+    let folder = Folder::new();
+    let view = "RenderView view { transform=interpolate((0, Transform(Matrix(Vector(0,1,0), Vector(0,0,1), Vector(1,0,0)), Vector(5,0,1))), (1, Transform(Matrix(Vector(1,0,0), Vector(0,1,0), Vector(0,0,1)), Vector(0,0,0)))); fov=1.2; }\n\
+        SettingsOutput out { img_width=800; img_height=400; img_pixelAspect=1.5; }\n";
+    let imported = load(&folder, view);
+    let camera = &imported.scene.cameras[0];
+    assert_eq!((camera.name.as_str(), camera.position, camera.aspect), ("view", DVec3::new(5.0, 0.0, 1.0), 3.0));
+    assert_eq!((camera.fov_x_rad, -camera.world_from_camera.z_axis), (1.2, DVec3::NEG_X));
+    assert!(warnings(&imported).contains("first of its 2 keyframes"));
+    let flat = load(&folder, "RenderView view { orthographic=1; }\n");
+    assert!(flat.scene.cameras.is_empty() && warnings(&flat).contains("orthographic"));
+}
+
+#[test]
+fn physical_cameras_have_the_field_of_view_of_their_film_and_report_shifts() {
+    let folder = Folder::new();
+    let with = |physical: &str| {
+        load(&folder, &format!("RenderView view {{ fov=0.5; }}\nCameraPhysical c {{ exposure=0; target_distance=1e9; {physical} }}\n"))
+    };
+    let fov = |physical: &str| with(physical).scene.cameras[0].fov_x_rad;
+    assert!((fov("film_width=36; focal_length=18; zoom_factor=1;") - std::f64::consts::FRAC_PI_2).abs() < 1e-6);
+    assert!((fov("film_width=36; focal_length=9; zoom_factor=2;") - std::f64::consts::FRAC_PI_2).abs() < 1e-6);
+    assert_eq!(fov("specify_fov=1; fov=1.0;"), 1.0);
+    let shifted = with("specify_fov=1; fov=1.0471975; target_distance=200; lens_shift=0.2; vertical_offset=0.1;");
+    let text = warnings(&shifted);
+    let rows = text.split("cam_from_uv = ").nth(1).expect("a matrix").lines().next().unwrap();
+    let numbers: Vec<f64> = rows.split(|c: char| "[], ".contains(c)).filter_map(|n| n.parse().ok()).collect();
+    let m = enfilade_math::DMat3::from_cols_slice(&numbers).transpose();
+    // Across the middle of the picture the field of view is as stated, and the axis meets it elsewhere.
+    let camera = TiltedPinhole::new(640, 480, m).unwrap();
+    let (left, right) = (camera.ray(0.0, 240.0), camera.ray(640.0, 240.0));
+    assert!((right.x - left.x - 2.0 * (0.5f64 * 1.047_197_5).tan()).abs() < 1e-6, "{left} {right}");
+    assert!(camera.ray(320.0, 240.0).y.abs() > 0.05 && camera.ray(320.0, 240.0).x.abs() < 1e-12);
+}
+
+#[test]
+fn exposure_multiplies_all_light_but_what_compensates_it() {
+    let folder = Folder::new();
+    // 0.65 / 78 × ISO 400 / 300 / f/2² for 0.002 per cd/m².
+    let k = 0.65 / 78.0 * 400.0 / (300.0 * 4.0) / 0.002;
+    let camera = "RenderView view {}\nCameraPhysical c { ISO=400; shutter_speed=300; f_number=2; EXPOSURE }\n";
+    let scene = |more: &str| load(&folder, &[camera, "LightSphere s { intensity=3; }\n"].concat().replace("EXPOSURE", more));
+    let on = scene("");
+    assert!(near(emission(&on), Rgb::splat(3.0 * k)), "{:?} and not {}", emission(&on), 3.0 * k);
+    assert!(warnings(&on).contains("the camera's exposure") && warnings(&on).contains("vignetting"));
+    assert_eq!(emission(&scene("exposure=0;")), Rgb::splat(3.0));
+    let glowing = |more: &str| {
+        let brdf = format!("BRDFVRayMtl brdf {{ self_illumination=AColor(1,1,1,1); {more} }}\n");
+        material(&folder, &[camera.replace("EXPOSURE", ""), brdf].concat()).0.emission.factor
+    };
+    assert!(near(glowing(""), Rgb::splat(k)) && glowing("compensate_camera_exposure=1;") == Rgb::WHITE);
+}
+
+#[test]
+fn lights_have_the_radiance_that_their_units_say() {
+    let folder = Folder::new();
+    let rectangle = |more: &str| {
+        let light = format!("LightRectangle lamp@light_1 {{ u_size=0.5; v_size=1; color=Color(2,2,2); {more} }}\n");
+        emission(&load(&folder, &light))
+    };
+    let pi = std::f32::consts::PI;
+    assert!(near(rectangle("intensity=3; units=0;"), Rgb::splat(6.0)));
+    // 1000 lm from 2 m² by Lambert's law, times the radiance of 1 cd/m².
+    assert!(near(rectangle("intensity=1000; units=1;"), Rgb::splat(1000.0 / (2.0 * pi) * 0.002)));
+    assert!(near(rectangle("intensity=1000; units=2;"), Rgb::splat(2.0)));
+    assert!(near(rectangle("intensity=1; units=3;"), Rgb::splat(683.0 / (2.0 * pi) * 0.002)));
+    assert!(near(rectangle("intensity=1; units=4;"), Rgb::splat(683.0 * 0.002)));
+    let scene = load(&folder, "LightRectangle lamp { u_size=0.5; v_size=1; transform=Transform(Matrix(Vector(1,0,0), Vector(0,1,0), Vector(0,0,1)), Vector(0,0,3)); }\n").scene;
+    let part = scene.parts.iter().find(|p| p.name == "lamp").unwrap();
+    let [a, b, c] = scene.world_corners(part, 0);
+    assert!((b - a).cross(c - a).normalize().distance(Vec3::NEG_Z) < 1e-6, "it shines down");
+    let sphere = load(&folder, "LightSphere bulb { radius=0.1; intensity=800; units=1; }\n");
+    assert!(near(emission(&sphere), Rgb::splat(800.0 / (pi * 4.0 * pi * 0.01) * 0.002)));
+    let mesh = load(&folder, "LightMesh glow { geometry=mesh; intensity=100; units=1; }\n");
+    assert!(near(emission(&mesh), Rgb::splat(100.0 / (pi * 2.0) * 0.002)), "a triangle of 2 m²");
+    assert!(load(&folder, "LightSphere off { enabled=0; }\n").report.counts.emissive_materials == 0);
+}
+
+#[test]
+fn points_spots_and_distant_lights_light_a_white_surface_as_3ds_max_has_it() {
+    let folder = Folder::new();
+    let pi = std::f32::consts::PI;
+    let light = |text: &str| load(&folder, text).scene.lights[0].clone();
+    let Light::Point { intensity, .. } = light("LightOmni o { intensity=2; color=Color(1,0.5,0); }\n") else { panic!("no point") };
+    // Radiance of white at one unit: irradiance over π.
+    assert!(near(intensity / pi, Rgb::new(2.0, 1.0, 0.0)));
+    let Light::Point { intensity, .. } = light("LightOmni o { intensity=1000; units=1; }\n") else { panic!("no point") };
+    assert!(near(intensity, Rgb::splat(1000.0 / (4.0 * pi) * 0.002)));
+    let Light::Spot { direction, inner_rad, outer_rad, .. } = light("LightSpot s { coneAngle=1.0; penumbraAngle=-0.2; }\n") else {
+        panic!("no spot")
+    };
+    assert_eq!((direction, inner_rad, outer_rad), (Vec3::NEG_Z, 0.3, 0.5));
+    let Light::Directional { irradiance, direction, .. } = light("LightDirectMax d { intensity=1; }\n") else { panic!("not distant") };
+    assert!(near(irradiance, Rgb::splat(pi)) && direction == Vec3::NEG_Z);
+    folder.write("lamp.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n300 300\n");
+    let Light::Profile { intensity, web, .. } = light("LightIES i { ies_file=\"lamp.ies\"; }\n") else { panic!("no profile") };
+    assert!(near(intensity, Rgb::splat(0.002)) && web.candela(Vec3::NEG_Z) == 300.0);
+}
+
+#[test]
+fn surroundings_come_from_the_dome_the_sky_or_the_settings() {
+    let folder = Folder::new();
+    let environment = |text: &str| load(&folder, text).scene.environment;
+    let settings = "SettingsEnvironment e { bg_color=Color(1,2,3); gi_color=Color(0,0,0); }\n";
+    assert_eq!(environment(settings), Some(Environment::Constant { radiance: Rgb::new(1.0, 2.0, 3.0) }));
+    assert_eq!(environment("SettingsEnvironment e { bg_tex=AColor(0,0,0,1); }\n"), None);
+    let dome = environment(&format!("{settings}LightDome d {{ dome_spherical=1; intensity=2; color=AColor(1,1,1,1); }}\n"));
+    assert_eq!(dome, Some(Environment::Constant { radiance: Rgb::splat(2.0) }));
+    let half = load(&folder, "LightDome d { intensity=2; }\n").scene;
+    let Some(Environment::Map { image, map_from_world, .. }) = half.environment else { panic!("no map") };
+    let seen = |d: Vec3| {
+        let uv = enfilade_scene::uv_from_direction(map_from_world * d);
+        half.images[image as usize].texel(0, (uv.y * 255.9) as usize).0
+    };
+    assert_eq!((seen(Vec3::new(0.6, 0.0, 0.8)), seen(Vec3::new(0.6, 0.0, -0.8))), (Rgb::WHITE, Rgb::BLACK));
+    // The sun stands where the z axis of its transform points.
+    let day = load(
+        &folder,
+        "SunLight sun { transform=Transform(Matrix(Vector(0,0,-1), Vector(0,1,0), Vector(1,0,0)), Vector(0,0,0)); intensity_multiplier=0.5; }\nLightDome d { dome_tex=sky; }\nTexSky sky { sun=sun; }\n",
+    );
+    assert!(
+        day.scene.lights.is_empty() && matches!(day.scene.environment, Some(Environment::Map { .. })),
+        "a sun on the horizon: {:?}",
+        day.scene.lights
+    );
+    let noon = load(&folder, "SunLight sun { }\n").scene;
+    let Light::Directional { direction, irradiance, .. } = &noon.lights[0] else { panic!("no sun") };
+    // About 100 kilo-lux at 0.002 per cd/m².
+    assert!(*direction == Vec3::NEG_Z && (100.0..260.0).contains(&irradiance.luminance()), "{irradiance:?}");
+}
+
+#[test]
+fn general_materials_become_what_they_do() {
+    let folder = Folder::new();
+    let bsdf = |text: &str| material(&folder, &format!("BRDFVRayMtl brdf {{ diffuse=AColor(0.2,0.4,0.6,1); {text} }}\n")).0.bsdf;
+    assert_eq!(bsdf(""), Bsdf::Diffuse { reflectance: Rgb::new(0.2, 0.4, 0.6).into() });
+    let Bsdf::Principled(p) =
+        bsdf("reflect=AColor(0.5,0.5,0.5,1); fresnel=1; fresnel_ior=1.4; fresnel_ior_lock=0; reflect_glossiness=0.7;")
+    else {
+        panic!("not principled")
+    };
+    assert!((p.roughness.factor - 0.3).abs() < 1e-6 && p.specular.factor == 0.5 && (p.ior - 1.4).abs() < 1e-6);
+    let Bsdf::Principled(p) = bsdf("metalness=1; reflect=AColor(1,1,1,1); reflect_glossiness=0.25; option_use_roughness=1;") else {
+        panic!("no metal")
+    };
+    assert_eq!((p.metallic.factor, p.roughness.factor), (1.0, 0.25));
+    let Bsdf::Blend { second, weight, .. } = bsdf("reflect=AColor(0.8,0.4,0.4,1); reflect_glossiness=0.5;") else { panic!("no mirror") };
+    let Bsdf::Conductor { reflectance, alpha, .. } = *second else { panic!("no mirror") };
+    assert_eq!((weight.factor, reflectance.factor, alpha.factor), (0.8, Rgb::new(1.0, 0.5, 0.5), 0.25));
+    let Bsdf::Dielectric { eta, absorption, .. } = bsdf("refract=AColor(1,1,1,1); refract_ior=1.5; fog_color=Color(0.5,1,1); fog_mult=2;")
+    else {
+        panic!("no glass")
+    };
+    assert!(eta == 1.5 && near(absorption, Rgb::new(2.0 * std::f32::consts::LN_2, 0.0, 0.0)));
+    assert!(matches!(bsdf("refract=AColor(1,1,1,1); refract_thin_walled=1;"), Bsdf::ThinDielectric { .. }));
+    assert!(matches!(bsdf("refract=AColor(0.5,0.5,0.5,1);"), Bsdf::Blend { weight, .. } if weight.factor == 0.5));
+    let Bsdf::Principled(p) = bsdf("coat_amount=0.7; coat_glossiness=0.9; sheen_color=AColor(1,0,0,1);") else { panic!("no coat") };
+    assert!(
+        p.clearcoat.factor == 0.7 && (p.clearcoat_roughness.factor - 0.1).abs() < 1e-6 && p.sheen_color.factor == Rgb::new(1.0, 0.0, 0.0)
+    );
+    let cut = material(&folder, "BRDFVRayMtl brdf { opacity=0.3; opacity_mode=1; self_illumination=AColor(2,2,2,1); anisotropy=0.5; }\n");
+    assert!(matches!(cut.0.alpha, Alpha::Mask { opacity, .. } if opacity.factor == 0.3) && cut.0.emission.factor == Rgb::splat(2.0));
+    assert!(cut.1.contains("anisotropy is not supported"), "{}", cut.1);
+}
+
+#[test]
+fn simple_brdfs_and_layers() {
+    let folder = Folder::new();
+    let made = |text: &str| material(&folder, text).0;
+    assert!(matches!(made("BRDFDiffuse brdf { color=Color(1,1,1); roughness=0.4; }\n").bsdf, Bsdf::RoughDiffuse { .. }));
+    assert!(matches!(made("BRDFMirror brdf { color=Color(1,1,1); }\n").bsdf, Bsdf::Conductor { alpha, .. } if alpha.factor == 0.0));
+    assert!(matches!(made("BRDFGlass brdf { ior=1.3; }\n").bsdf, Bsdf::Dielectric { eta, .. } if eta == 1.3));
+    let light = made("BRDFLight brdf { color=Color(1,0.5,0); colorMultiplier=4; emitOnBackSide=1; }\n");
+    assert!(light.emission.factor == Rgb::new(4.0, 2.0, 0.0) && light.emits_both_sides);
+    let layers = "BRDFLayered brdf { base_brdf=base; brdfs=List(top, middle); weights=List(tenth, 0.5); }\nTexAColor tenth { texture=AColor(0.1,0.1,0.1,1); }\n\
+        BRDFMirror top {} BRDFGlass middle {} BRDFDiffuse base {}\n";
+    let Bsdf::Blend { first, second, weight } = made(layers).bsdf else { panic!("no layers") };
+    assert!(matches!(*second, Bsdf::Conductor { .. }) && weight.factor == 0.1, "the first of the list is uppermost");
+    let Bsdf::Blend { first, second, weight } = *first else { panic!("no second layer") };
+    assert!(matches!(*first, Bsdf::Diffuse { .. }) && matches!(*second, Bsdf::Dielectric { .. }) && weight.factor == 0.5);
+    let (m, text) = material(&folder, "BRDFCarPaint2 brdf { base_color=AColor(1,0,0,1); }\n");
+    assert!(m.bsdf == Bsdf::Diffuse { reflectance: Rgb::new(1.0, 0.0, 0.0).into() } && text.contains("BRDFCarPaint2 is not supported"));
+}
+
+#[test]
+fn textures_are_followed_to_their_pictures() {
+    let folder = Folder::new();
+    folder.write("g.png", png(1, 1, [51, 51, 51, 255])).write("n.png", png(1, 1, [128, 128, 255, 255]));
+    let buffers = "TexBitmap pic { bitmap=buf; } BitmapBuffer buf { file=\"g.png\"; gamma=1; }\nTexBitmap nor { bitmap=nbuf; } BitmapBuffer nbuf { file=\"n.png\"; gamma=1; }\n";
+    let scene = |brdf: &str| load_text(&folder, &[TRIANGLE, NODE, UNITS, buffers, brdf].concat());
+    let glossy = scene(
+        "BRDFVRayMtl brdf { reflect=AColor(1,1,1,1); fresnel=1; reflect_glossiness=pic::out_intensity; bump_map=bump; }\nTexNormalBump bump { bump_tex_color=nor; bump_tex_mult=0.7; }\n",
+    );
+    let m = &glossy.scene.materials[0];
+    let Bsdf::Principled(p) = &m.bsdf else { panic!("{m:?}") };
+    let (texture, channel) = p.roughness.texture.unwrap();
+    let roughness = glossy.scene.images[texture.image as usize].texel(0, 0).0[usize::from(channel)];
+    assert!((roughness - 0.8).abs() < 1e-6, "roughness is 1 − glossiness, found {roughness}");
+    assert!(matches!(m.normal_map, Some(NormalMap::Normal { scale, .. }) if (scale - 0.7).abs() < 1e-6));
+    let mixed = scene(
+        "BRDFDiffuse brdf { color_tex=mix; }\nTexCombineColor mix { color=Color(1,1,1); texture=AColor(0,0,0,1); texture_multiplier=0.25; }\n",
+    );
+    assert_eq!(mixed.scene.materials[0].bsdf, Bsdf::Diffuse { reflectance: Rgb::splat(0.75).into() });
+    let inverted = scene("BRDFDiffuse brdf { color_tex=inv; }\nTexInvert inv { texture=AColor(0.25,0.5,1,1); }\n");
+    assert_eq!(inverted.scene.materials[0].bsdf, Bsdf::Diffuse { reflectance: Rgb::new(0.75, 0.5, 0.0).into() });
+    let noise = scene("BRDFDiffuse brdf { color_tex=noise; }\nTexNoiseMax noise { color1=AColor(0.3,0.3,0.3,1); }\n");
+    assert!(warnings(&noise).contains("TexNoiseMax is not supported; its color1 was used alone"), "{}", warnings(&noise));
+}
