@@ -86,7 +86,7 @@ fn quads(table: &str, tags: &Path) -> Result<String> {
              TexCombineColor quad_color_{i} {{ color=Color(0,0,0); texture=quad_tex_{i}; texture_multiplier=1; }}\n\
              TexBitmap quad_tex_{i} {{ bitmap=quad_buffer_{i}; uvwgen=quad_uvw_{i}; }}\n\
              UVWGenChannel quad_uvw_{i} {{ uvw_channel=1; wrap_u=1; wrap_v=1; wrap_mode=1; }}\n\
-             BitmapBuffer quad_buffer_{i} {{ file=\"{}\"; gamma=1; color_space=0; interpolation=3; }}\n",
+             BitmapBuffer quad_buffer_{i} {{ file=\"{}\"; gamma=1; color_space=0; filter_type=-1; interpolation=3; }}\n",
             image.display()
         )?;
     }

@@ -206,7 +206,10 @@ impl<'n> Reader<'n, '_> {
             }
             Some(_) => {}
         }
-        let picture = TextureRef { image, uv_transform, wrap, filter: Filter::Linear };
+        // −1 turns filtering off.
+        let unfiltered = t.reference("bitmap")?.map_or(Ok(1), |buffer| buffer.int("filter_type", 1))? < 0;
+        let filter = if unfiltered { Filter::Nearest } else { Filter::Linear };
+        let picture = TextureRef { image, uv_transform, wrap, filter };
         let texture = Texture { factor, picture: Some(picture), channel: None };
         Ok(if t.flag("invert", false)? { self.inverted(texture) } else { texture })
     }
