@@ -72,6 +72,15 @@ fn circles_end_with_an_error() {
 }
 
 #[test]
+fn layers_that_double_at_every_level_end_with_an_error() {
+    let layer = |i: usize| format!("BRDFLayered l{i} {{ brdfs=List(l{0}, l{0}, l{0}); }}\n", i + 1);
+    let layers: String = (0..40).map(layer).collect();
+    let text = GOOD.replace("brdf=brdf;", "brdf=l0;") + &layers + "BRDFMirror l40 {}\n";
+    let found = Folder::new().write("a.vrscene", text).error("a.vrscene");
+    assert!(found.contains("more than 256 BRDFs"), "{found}");
+}
+
+#[test]
 fn includes_that_close_a_circle_or_lead_nowhere_are_errors() {
     let folder = Folder::new();
     folder.write("a.vrscene", format!("{GOOD}#include \"b.vrscene\"\n")).write("b.vrscene", "#include \"a.vrscene\"\n");

@@ -35,12 +35,12 @@ fn edges_and_radiance_are_those_of_v_rays_picture() {
     let shift = points.iter().map(|p| p.normal * p.offset_px).sum::<enfilade_math::DVec2>() * (2.0 / points.len() as f64);
     let mut sizes: Vec<f64> = points.iter().map(|p| p.offset_px.abs()).collect();
     sizes.sort_by(f64::total_cmp);
+    assert!(sizes.len() > 500, "{} places", sizes.len());
     let (median, most) = (sizes[sizes.len() / 2], sizes[sizes.len() * 99 / 100]);
     eprintln!(
         "{} places on edges: off by {median:.3} px in the median, by less than {most:.3} for 99 %; all together {shift:.3}",
         sizes.len()
     );
-    assert!(sizes.len() > 500, "{} places", sizes.len());
     assert!(median < 0.08 && most < 0.4 && shift.length() < 0.02, "offsets of edges: median {median} px, 99 % {most} px, all {shift}");
 
     // Blocks without squares, whose pictures are not there.

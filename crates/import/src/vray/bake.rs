@@ -22,7 +22,15 @@ impl Reader<'_, '_> {
             (value * factor).map(|v| (1.0 - v).max(0.0)).to_array()
         };
         let count = source.width as usize * source.height as usize;
-        let pixels = Pixels::RgbF32((0..count).map(texel).collect());
+        let pixels = match &source.pixels {
+            // Numbers of eight bits stay so; colours are linear now and need more.
+            Pixels::Rgba8 { .. } if channel.is_some() => {
+                let byte = |v: f32| (v.min(1.0) * 255.0).round() as u8;
+                let texels = (0..count).map(|i| texel(i).map(byte)).map(|[r, g, b]| [r, g, b, 255]).collect();
+                Pixels::Rgba8 { srgb: false, texels }
+            }
+            _ => Pixels::RgbF32((0..count).map(texel).collect()),
+        };
         let name = format!("1 - {}", source.name);
         let (width, height) = (source.width, source.height);
         let made = self.a.push_image(Image { name, width, height, pixels });

@@ -1,7 +1,7 @@
 //! Material plugins to materials.
 
 use super::handle::Handle;
-use super::{MAX_CHAIN, Reader};
+use super::{MAX_CHAIN, MAX_LAYERS, Reader};
 use crate::ImportError;
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap};
@@ -104,6 +104,7 @@ impl<'n> Reader<'n, '_> {
             return Ok(made.clone());
         }
         self.channel = None;
+        self.layers = 0;
         let surface = self.surface(plugin, 0)?;
         let name = plugin.name();
         let mut material = Material::new(&name, surface.bsdf);
@@ -118,6 +119,10 @@ impl<'n> Reader<'n, '_> {
 
     /// What a material or BRDF plugin says; `depth` counts the plugins on the way to it.
     pub(super) fn surface(&mut self, plugin: Handle<'n>, depth: usize) -> Result<Surface, ImportError> {
+        self.layers += 1;
+        if self.layers > MAX_LAYERS {
+            return Err(plugin.error("brdf", format!("the material has more than {MAX_LAYERS} BRDFs; use fewer layers")));
+        }
         if depth > MAX_CHAIN {
             return Err(plugin.error("brdf", "materials refer to each other in a circle; correct the reference that closes it"));
         }

@@ -56,6 +56,9 @@ use std::collections::{BTreeSet, HashMap};
 /// Plugins that lead to each other over more steps than this do so in a circle.
 const MAX_CHAIN: usize = 48;
 
+/// A material of more BRDFs than this is one whose layers hold each other again and again.
+const MAX_LAYERS: usize = 256;
+
 /// V-Ray's own metres per unit and radiance per cd/m² where a scene does not state them.
 const DEFAULT_UNIT: (f64, f64) = (1.0, 0.002);
 
@@ -92,6 +95,7 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
         meshes: HashMap::new(),
         materials: HashMap::new(),
         channel: None,
+        layers: 0,
         complements: HashMap::new(),
         exposure,
         light_level: Rgb::splat(exposure),
@@ -139,6 +143,8 @@ struct Reader<'n, 'a> {
     materials: HashMap<usize, material::Made>,
     /// The texture channel of the material that is being made.
     channel: Option<i64>,
+    /// How many BRDFs it has so far.
+    layers: usize,
     /// Pictures of 1 − factor × channel of others.
     complements: HashMap<(u32, [u32; 3], Option<u8>), u32>,
     /// What the camera's exposure multiplies all light by.
