@@ -194,6 +194,8 @@ fn surroundings_come_from_the_dome_the_sky_or_the_settings() {
     let settings = "SettingsEnvironment e { bg_color=Color(1,2,3); gi_color=Color(0,0,0); }\n";
     assert_eq!(environment(settings), Some(Environment::Constant { radiance: Rgb::new(1.0, 2.0, 3.0) }));
     assert_eq!(environment("SettingsEnvironment e { bg_tex=AColor(0,0,0,1); }\n"), None);
+    let dark = load(&folder, "SettingsEnvironment e { bg_tex=AColor(1,1,1,1); gi_tex=AColor(0,0,0,1); }\n");
+    assert!(warnings(&dark).contains("gives no light in V-Ray"), "{}", warnings(&dark));
     let dome = environment(&format!("{settings}LightDome d {{ dome_spherical=1; intensity=2; color=AColor(1,1,1,1); }}\n"));
     assert_eq!(dome, Some(Environment::Constant { radiance: Rgb::splat(2.0) }));
     let half = load(&folder, "LightDome d { intensity=2; }\n").scene;

@@ -43,6 +43,9 @@ impl<'n> Reader<'n, '_> {
                 "the environment that gives light (gi) differs from the one that is seen (bg); the former was used for both",
             );
         }
+        if light.is_none() && background.is_some() && settings.plugin.parameter("gi_tex").is_some() {
+            self.warn(settings, "the background (bg) gives no light in V-Ray (gi is black); here it does");
+        }
         if let Some((parameter, value, scale)) = light.or(background) {
             self.environment(settings, &parameter, &value, scale, DMat3::IDENTITY, 0)?;
         }
