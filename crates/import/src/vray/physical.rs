@@ -23,7 +23,7 @@ const SATURATION: f64 = 78.0;
 /// What a camera's exposure multiplies radiance by; 1 where it is turned off.
 ///
 /// White is what saturates a film of this speed by ISO 12232: L · t · S · 0.65 / (78 N²) for a luminance L in cd/m². V-Ray does not
-/// publish its formula; this one gives the brightness of its own picture of Hypersim's empty scene (docs/vray.md).
+/// publish its formula; this one gives the brightness of its own picture of Hypersim's empty scene to 0.1 % (docs/vray.md).
 pub(super) fn exposure(camera: Handle, photometric_scale: f64) -> Result<f64, ImportError> {
     if !camera.flag("exposure", true)? {
         return Ok(1.0);
