@@ -35,6 +35,7 @@ pub(crate) struct Assembly<'a> {
     camera_names: HashSet<String>,
     reversed: HashMap<u32, u32>,
     labels: Vec<ImportedLabel>,
+    meters_per_unit: f64,
     world_from_file: DAffine3,
     scene: Scene,
 }
@@ -42,10 +43,6 @@ pub(crate) struct Assembly<'a> {
 impl<'a> Assembly<'a> {
     /// An empty scene from `file`, whose format has `up` upward unless the options say otherwise.
     pub(crate) fn new(format: Format, file: &Path, up: UpAxis, options: &'a ImportOptions, cx: &'a dyn Cx) -> Self {
-        let axes = match options.up_axis.unwrap_or(up) {
-            UpAxis::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
-            UpAxis::Z => DMat3::IDENTITY,
-        };
         Self {
             format,
             file: file.to_path_buf(),
@@ -58,7 +55,8 @@ impl<'a> Assembly<'a> {
             camera_names: HashSet::new(),
             reversed: HashMap::new(),
             labels: Vec::new(),
-            world_from_file: DAffine3::from_mat3(axes * options.meters_per_unit),
+            meters_per_unit: options.meters_per_unit,
+            world_from_file: world_from_file(options.up_axis.unwrap_or(up), options.meters_per_unit),
             scene: Scene::default(),
         }
     }
@@ -70,7 +68,15 @@ impl<'a> Assembly<'a> {
 
     /// Metres per unit of the file.
     pub(crate) fn meters_per_unit(&self) -> f64 {
-        self.options.meters_per_unit
+        self.meters_per_unit
+    }
+
+    /// Takes the unit and the axis that the file itself states, unless the options say otherwise. Nothing may have been placed yet.
+    pub(crate) fn set_conventions(&mut self, meters_per_unit: f64, up: UpAxis) {
+        if self.options.meters_per_unit == 1.0 {
+            self.meters_per_unit = meters_per_unit;
+        }
+        self.world_from_file = world_from_file(self.options.up_axis.unwrap_or(up), self.meters_per_unit);
     }
 
     /// Records something dropped, guessed or mended at a place in the scene file.
@@ -101,6 +107,24 @@ impl<'a> Assembly<'a> {
         let remedy = format!("{} refers to it; put the file there or correct the reference", self.file.display());
         let bytes = self.read_input(&file, &remedy)?;
         Ok((file, bytes))
+    }
+
+    /// The bytes of a file that `from`, a file of the scene, refers to by `path`, with the path it was found at: in the folder of
+    /// `from`, or else in that of the scene file.
+    pub(crate) fn read_from(&mut self, from: &Path, path: &str) -> Result<(PathBuf, Vec<u8>), ImportError> {
+        match self.beside(from, path) {
+            Some(beside) => {
+                let bytes = self.read_input(&beside, "check the permission to read it")?;
+                Ok((beside, bytes))
+            }
+            None => self.read(path),
+        }
+    }
+
+    /// The file in the folder of `from`, a file of the scene, that `path` means; `None` where there is none.
+    pub(crate) fn beside(&self, from: &Path, path: &str) -> Option<PathBuf> {
+        let folder = from.parent().unwrap_or(Path::new(""));
+        [folder.join(path), folder.join(path.replace('\\', "/"))].into_iter().find(|file| file.is_file())
     }
 
     /// True when there is a file where the scene file's `path` leads.
@@ -185,6 +209,11 @@ impl<'a> Assembly<'a> {
         &self.scene.images[index as usize]
     }
 
+    /// A mesh by its index.
+    pub(crate) fn mesh_at(&self, index: u32) -> &Mesh {
+        &self.scene.meshes[index as usize]
+    }
+
     /// Adds a material.
     pub(crate) fn push_material(&mut self, material: Material) -> u32 {
         self.scene.materials.push(material);
@@ -257,7 +286,7 @@ impl<'a> Assembly<'a> {
     /// Adds a light given in the file's units and axes. Point and spot lights shine so that a picture looks the same whatever
     /// the unit: their intensity grows with the square of the metres per unit.
     pub(crate) fn push_light(&mut self, light: Light) {
-        let metres = self.options.meters_per_unit as f32;
+        let metres = self.meters_per_unit as f32;
         let name = light.name().to_string();
         let place = |p: enfilade_math::Vec3| self.world_from_file.transform_point3(p.as_dvec3()).as_vec3();
         let turn = |d: enfilade_math::Vec3| self.world_from_file.transform_vector3(d.as_dvec3()).as_vec3().normalize_or_zero();
@@ -275,7 +304,7 @@ impl<'a> Assembly<'a> {
                 falloff,
             },
             Light::Profile { name, position, web_from_world: web_from_file, intensity, web } => {
-                let rotation = self.world_from_file.matrix3 * (1.0 / self.options.meters_per_unit);
+                let rotation = self.world_from_file.matrix3 * (1.0 / self.meters_per_unit);
                 let web_from_world = web_from_file * mat3_f32(rotation.transpose());
                 Light::Profile { name, position: place(position), web_from_world, intensity: intensity * (metres * metres), web }
             }
@@ -364,6 +393,15 @@ impl<'a> Assembly<'a> {
         let report = ImportReport::new(self.format, &self.scene, self.warnings.into_list());
         Ok(Imported { scene: self.scene, labels, inputs: self.inputs, report })
     }
+}
+
+/// Turns the file's up into z and its unit into metres.
+fn world_from_file(up: UpAxis, meters_per_unit: f64) -> DAffine3 {
+    let axes = match up {
+        UpAxis::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
+        UpAxis::Z => DMat3::IDENTITY,
+    };
+    DAffine3::from_mat3(axes * meters_per_unit)
 }
 
 /// The matrix in single precision.

@@ -1,4 +1,4 @@
-//! Scene files to [`Scene`]: glTF, OBJ, Mitsuba XML and scene packages, with a report of what was dropped or guessed.
+//! Scene files to [`Scene`]: glTF, OBJ, Mitsuba XML, V-Ray scenes and scene packages, with a report of what was dropped or guessed.
 //!
 //! ```no_run
 //! use enfilade_import::{ImportOptions, load};
@@ -24,7 +24,7 @@
 //!
 //! # Formats
 //!
-//! The pages of [`gltf`], [`obj`], [`mitsuba`] and [`package`] list what is supported of each.
+//! The pages of [`gltf`], [`obj`], [`mitsuba`], [`vray`] and [`package`] list what is supported of each.
 
 mod assembly;
 mod error;
@@ -38,6 +38,7 @@ pub mod obj;
 pub mod package;
 mod polygon;
 mod report;
+pub mod vray;
 
 pub use error::ImportError;
 pub use format::Format;
@@ -80,9 +81,10 @@ fn one() -> f32 {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ImportOptions {
-    /// Metres per unit of the file; 1 by default. Ignored for scene packages.
+    /// Metres per unit of the file; 1 by default. A file that states its own unit (V-Ray's) is read in that unit while this is 1, and in
+    /// this one otherwise. Ignored for scene packages.
     pub meters_per_unit: f64,
-    /// The axis that points up; by default the format's own (y for all but packages). Ignored for scene packages.
+    /// The axis that points up; by default the format's own (y for all but V-Ray scenes and packages). Ignored for scene packages.
     pub up_axis: Option<UpAxis>,
     /// Replaces or sets the environment.
     pub environment: Option<EnvironmentOverride>,
@@ -131,6 +133,7 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
         Format::Gltf => gltf::load(assembly),
         Format::Obj => obj::load(assembly),
         Format::Mitsuba => mitsuba::load(assembly),
+        Format::VRay => vray::load(assembly),
         Format::Package => package::load(assembly),
     }
 }

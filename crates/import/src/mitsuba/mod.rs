@@ -32,11 +32,11 @@
 mod bsdf;
 mod emitter;
 mod ply;
-mod primitives;
+pub(crate) mod primitives;
 mod sensor;
 mod serialized;
 mod shape;
-mod spectrum;
+pub(crate) mod spectrum;
 mod texture;
 mod transform;
 mod xml;

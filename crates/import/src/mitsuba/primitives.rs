@@ -10,7 +10,7 @@ use std::f32::consts::{PI, TAU};
 const SEGMENTS: u32 = 96;
 
 /// [−1,1]² in the plane z = 0, facing +z.
-pub(super) fn rectangle() -> Mesh {
+pub(crate) fn rectangle() -> Mesh {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     Mesh {
         positions: corners.map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec(),
@@ -21,7 +21,7 @@ pub(super) fn rectangle() -> Mesh {
 }
 
 /// The unit disk in the plane z = 0, facing +z; u is the radius, v the angle.
-pub(super) fn disk() -> Mesh {
+pub(crate) fn disk() -> Mesh {
     let mut mesh = Mesh::default();
     for i in 0..=SEGMENTS {
         let v = i as f32 / SEGMENTS as f32;
@@ -35,7 +35,7 @@ pub(super) fn disk() -> Mesh {
 }
 
 /// The unit sphere around the origin; u is the azimuth about z, v the angle from +z.
-pub(super) fn sphere() -> Mesh {
+pub(crate) fn sphere() -> Mesh {
     let rings = SEGMENTS / 2;
     let mut mesh = Mesh::default();
     for j in 0..=rings {
