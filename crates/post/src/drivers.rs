@@ -21,9 +21,9 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The layers of a frame that are there; an empty frame of one pixel when none is.
+/// The layers of a frame that are there or can be computed; an empty frame of one pixel when none is.
 fn read_present(dataset: &Dataset, scene: &str, camera: &str, frame: u32, wanted: &[Layer]) -> Result<Frame, DatasetError> {
-    let there: Vec<Layer> = wanted.iter().copied().filter(|&layer| dataset.has_layer(scene, camera, frame, layer)).collect();
+    let there: Vec<Layer> = wanted.iter().copied().filter(|&layer| dataset.gives_layer(scene, camera, frame, layer)).collect();
     if there.is_empty() { Ok(Frame::new(1, 1)) } else { dataset.read_frame(scene, camera, frame, &there) }
 }
 
