@@ -1,8 +1,9 @@
 //! The bounding boxes of semantic instances: three arrays per kind in the mesh folder, as Hypersim's toolkit writes them.
 //!
-//! Row i is instance i: `positions` (n,3) are the centres, `extents` (n,3) the side lengths, both in asset units (metres in our datasets), and `orientations`
-//! (n,3,3) take box coordinates to the world, so that their columns are the directions of the sides. Everything is float64. Row 0,
-//! and the row of every number that no object has, holds +∞, as in Hypersim's files (its maintainer speaks of NaN).
+//! Row i is instance i: `positions` (n,3) are the centres, `extents` (n,3) the side lengths, both in asset units (metres in our
+//! datasets), and `orientations` (n,3,3) take box coordinates to the world, so that their columns are the directions of the sides.
+//! Everything is float64. Row 0, and the row of every number that no object has, holds +∞, as in Hypersim's files (its maintainer speaks
+//! of NaN).
 
 use crate::camera_files::optional;
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
