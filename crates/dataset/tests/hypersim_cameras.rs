@@ -1,7 +1,7 @@
 //! The cameras of all 482 scenes of Hypersim, from the table that Apple publishes.
 //!
-//! Measured on that table: the OpenCV camera (K and turned pose) and `M_proj` agree within 1e-10 px, K and turn give `M_cam_from_uv` back
-//! within 1e-12, and V-Ray's parameters give `M_proj` within 7e-7 px, which is what the toolkit's own bisection leaves.
+//! Measured on that table: the OpenCV camera (K and turned pose) and `M_proj` agree within 4e-9 px, K and turn give `M_cam_from_uv` back
+//! within 5e-12, and V-Ray's parameters give `M_proj` within 9e-7 px, which is what the toolkit's own bisection leaves.
 
 use enfilade_dataset::{CameraTable, planar_depth};
 use enfilade_frame::Values;
@@ -80,7 +80,7 @@ fn opencv_cameras_of_all_482_scenes_reproduce_the_table() {
         naive_off += usize::from(off_naive > 1.0);
         worst_naive = worst_naive.max(off_naive);
         most_turn = most_turn.max(enfilade_math::DQuat::from_mat3(&turn).to_axis_angle().1.to_degrees());
-        assert!((k.fx - k.fy).abs() < 1e-9, "{scene}: {k:?}");
+        assert!((k.fx / k.fy - 1.0).abs() < if k.skew == 0.0 { 1e-12 } else { 1e-2 }, "{scene}: {k:?}");
     }
     eprintln!(
         "{scenes} scenes: {worst_px:.1e} px, M_cam_from_uv {worst_uv:.1e}; {tilted} turned (most {most_turn:.1} degrees), {skewed} skewed; \
