@@ -164,7 +164,12 @@ pub fn inspect_pixel(dataset: &Dataset, scene: &str, camera: &str, frame: u32, [
         return Err(InspectError::NoFrame { scene: scene.into(), camera: camera.into(), frame, there });
     };
     let layers = read_present(dataset, scene, camera, frame, &LAYERS.map(|spec| spec.layer))?;
-    let parts: Vec<String> = dataset.read_nodes(scene)?.into_iter().map(|node| node.node_name).collect();
+    // Parts of Hypersim's archives are often downloaded without tables.
+    let nodes = match dataset.read_nodes(scene) {
+        Err(error) if error.is_not_found() => Vec::new(),
+        nodes => nodes?,
+    };
+    let parts: Vec<String> = nodes.into_iter().map(|node| node.node_name).collect();
     let names = Names { parts: &parts, materials: &[] };
     let with = dataset.read_camera(scene, camera)?;
     Ok(inspect(&layers, &CameraView::of_frame(&with, &trajectory.poses, index), names, x, y)?)

@@ -40,7 +40,8 @@ pub(super) fn read_frame(stored: Stored<'_>, camera: &str, number: u32, layers: 
         let shape = array.shape.clone();
         let size = image_size(&shape, spec);
         let values = array.values.into_values().ok();
-        let is_half = values.as_ref().is_some_and(|values| values.dtype() == Dtype::F16) && spec.dtype == Dtype::F32;
+        // Only Hypersim's may be: ours are held to float32.
+        let is_half = stored.released && values.as_ref().is_some_and(|values| values.dtype() == Dtype::F16) && spec.dtype == Dtype::F32;
         if is_half {
             match spec.layer {
                 Layer::Position => rounding.position = Some(stored.meters_per_unit),
@@ -48,8 +49,7 @@ pub(super) fn read_frame(stored: Stored<'_>, camera: &str, number: u32, layers: 
                 _ => (),
             }
         }
-        let known = stored.released && is_half;
-        if size.is_none() || (!known && values.as_ref().is_none_or(|values| values.dtype() != spec.dtype)) {
+        if size.is_none() || (!is_half && values.as_ref().is_none_or(|values| values.dtype() != spec.dtype)) {
             let expected =
                 format!("expected an image of {} channels of {:?}, found shape {shape:?} or another type", spec.channels, spec.dtype);
             card.observe(Law::Readable, 1.0, || format!("{}: {expected}", path.display()));

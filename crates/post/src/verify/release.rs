@@ -46,7 +46,10 @@ const NOT_APPLICABLE: [(Law, &str); 6] = [
 
 /// What is broken in a way that is known.
 const KNOWN: [(Law, &str); 14] = [
-    (Law::FramesComplete, "frames that show people or logos were removed, so there are more poses than images (#58)"),
+    (
+        Law::FramesComplete,
+        "frames that show people or logos were removed, so there are more poses than images (#58); others were not downloaded",
+    ),
     (Law::LayersPresent, "layers that were not downloaded"),
     (Law::LabelTables, "the archives have no label tables; they are in evermotion_dataset of the toolkit's repository"),
     (Law::HasFrames, "all frames of the trajectory were removed"),
@@ -61,6 +64,9 @@ const KNOWN: [(Law, &str); 14] = [
     (Law::Recomposition, "V-Ray filters each of the three parts over its own samples, and its residual is a sum of eight channels"),
     (Law::InstanceClass, "five instances of the release have parts of several classes"),
 ];
+
+/// From here on an orientation is stretched, not merely rounded to single precision.
+pub(super) const STRETCHED: f64 = 1e-6;
 
 /// Laws about where the camera looks, which a frame that was rendered with a stretched orientation cannot keep.
 pub(super) const POSE_LAWS: [Law; 8] = [

@@ -55,7 +55,7 @@ mod tests {
         }
         let worst = (0..100_000).map(|i| 0.37 + 0.0131 * f64::from(i)).map(|v| (f16::from_f64(v).to_f64() - v).abs() / half_step(v));
         let worst = worst.fold(0.0, f64::max);
-        assert!(worst <= 1.0 && worst > 0.99, "{worst}");
+        assert!(worst < 1.0 + 1e-9 && worst > 0.99, "{worst}");
         assert_eq!([f64::INFINITY, f64::NAN, 7e4].map(half_step), [f64::INFINITY; 3]);
     }
 
