@@ -9,6 +9,7 @@ mod args;
 mod estimate;
 mod export;
 mod outcome;
+mod pictures;
 mod price;
 mod progress;
 mod scene_files;
@@ -52,7 +53,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Denoise(args) => verbs::denoise(args, cli.quiet),
         Verb::Label(args) => verbs::label(args, cli.quiet),
         Verb::Boxes(args) => verbs::stage(args, enfilade_pipeline::Stage::Boxes, cli.quiet),
-        Verb::Preview(args) => verbs::stage(args, enfilade_pipeline::Stage::Preview, cli.quiet),
+        Verb::Preview(args) => pictures::preview(args, cli.quiet),
         Verb::Verify(args) => verbs::verify(args, cli.quiet),
         Verb::Split(args) => verbs::split(args),
         Verb::Inspect(args) => verbs::inspect(args),

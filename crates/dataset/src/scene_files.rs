@@ -75,12 +75,23 @@ impl Dataset {
         (0..table.rows.len()).map(node).collect()
     }
 
-    /// Metres per asset unit; 1 in every dataset of ours.
+    /// Metres per asset unit; 1 in every dataset of ours. Where Hypersim's `metadata_scene.csv` was not downloaded, the table of cameras
+    /// says it.
     ///
     /// # Errors
-    /// When the table is missing or damaged.
+    /// When both tables are missing, or one that is there is damaged or states no positive number.
     pub fn meters_per_asset_unit(&self, scene: &str) -> Result<f64, DatasetError> {
-        Table::read(&self.layout().metadata_scene(scene))?.parameter("meters_per_asset_unit")
+        let path = self.layout().metadata_scene(scene);
+        let (metres, path) = match Table::read(&path) {
+            Err(error) if error.is_not_found() => {
+                let known = self.read_camera_table().and_then(|table| table.meters_per_asset_unit(scene));
+                // A table that lacks the scene is as good as none.
+                (known.map_err(|_| error)?, self.camera_table())
+            }
+            table => (table?.parameter("meters_per_asset_unit")?, path),
+        };
+        let problem = || format!("scene {scene:?} has {metres} metres per asset unit; expected a positive number");
+        if metres.is_finite() && metres > 0.0 { Ok(metres) } else { Err(DatasetError::text(&path, problem())) }
     }
 
     /// Writes the occupancy tree (OctoMap's `.bt` bytes) and the bounds of the free voxels' centres.

@@ -1,5 +1,6 @@
 //! The verbs that serve pages to a browser.
 
+use super::CamerasArg;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -12,6 +13,9 @@ use std::path::PathBuf;
 pub struct ViewArgs {
     /// The dataset's folder: ours, the Hypersim toolkit's, or one of unpacked Hypersim archives
     pub dataset: PathBuf,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub table: CamerasArg,
     #[command(flatten)]
     #[allow(missing_docs)]
     pub listen: ListenArgs,
