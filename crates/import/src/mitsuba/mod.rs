@@ -31,7 +31,6 @@
 
 mod bsdf;
 mod emitter;
-mod ply;
 mod primitives;
 mod sensor;
 mod serialized;

@@ -1,25 +1,46 @@
-//! Stanford PLY: text, and binary in either byte order.
+//! The bytes of a PLY file: text, and binary in either byte order.
 
 use crate::{ImportError, polygon};
 use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};
 use std::path::Path;
 
-/// Reads the `vertex` and `face` elements; others are skipped. Texture coordinates stay as they are.
-pub(super) fn read(bytes: &[u8], file: &Path) -> Result<Mesh, ImportError> {
+/// What a PLY file holds.
+#[derive(Debug, PartialEq)]
+pub(crate) struct PlyFile {
+    /// Its mesh, with texture coordinates as they are. Without faces it has no triangles.
+    pub mesh: Mesh,
+    /// Mean of the vertices' colours, 0 … 1 as they are written; `None` when they have none.
+    pub mean_color: Option<[f64; 3]>,
+    /// Elements that were skipped, such as edges and strips of triangles.
+    pub skipped: Vec<String>,
+}
+
+/// Reads the `vertex` and `face` elements.
+///
+/// # Errors
+/// When the header or a value is not what the format calls for, or a face refers to a vertex that is not there.
+pub(crate) fn read(bytes: &[u8], file: &Path) -> Result<PlyFile, ImportError> {
     let error = |(place, problem): Problem| ImportError::malformed(file, place, problem);
     let (header, body) = parse_header(bytes).map_err(error)?;
     let mut values = Values { encoding: header.encoding, bytes: body, at: 0 };
     let mut mesh = Mesh::default();
+    let (mut mean_color, mut skipped) = (None, Vec::new());
     for element in &header.elements {
         match element.name.as_str() {
-            "vertex" => read_vertices(element, &mut values, &mut mesh).map_err(error)?,
+            "vertex" => mean_color = read_vertices(element, &mut values, &mut mesh).map_err(error)?,
             "face" => read_faces(element, &mut values, &mut mesh).map_err(error)?,
-            _ if element.properties.is_empty() => (),
-            _ => (0..element.count).try_for_each(|_| element.row(&mut values, &mut |_, _| ())).map_err(error)?,
+            name => {
+                if element.count > 0 {
+                    skipped.push(name.to_string());
+                }
+                if !element.properties.is_empty() {
+                    (0..element.count).try_for_each(|_| element.row(&mut values, &mut |_, _| ())).map_err(error)?;
+                }
+            }
         }
     }
-    Ok(mesh)
+    Ok(PlyFile { mesh, mean_color, skipped })
 }
 
 /// Place and what is wrong there.
@@ -75,6 +96,19 @@ impl Kind {
             "double" | "float64" => Self::F64,
             _ => return None,
         })
+    }
+
+    /// What stands for 1 in a colour of this type.
+    fn full(self) -> f64 {
+        match self {
+            Self::I8 => 127.0,
+            Self::U8 => 255.0,
+            Self::I16 => 32_767.0,
+            Self::U16 => 65_535.0,
+            Self::I32 => f64::from(i32::MAX),
+            Self::U32 => f64::from(u32::MAX),
+            Self::F32 | Self::F64 => 1.0,
+        }
     }
 
     fn size(self) -> usize {
@@ -199,23 +233,31 @@ impl Element {
     }
 }
 
-fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Result<(), Problem> {
+/// Reads the vertices and returns the mean of their colours, if they have any.
+fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Result<Option<[f64; 3]>, Problem> {
     let [x, y, z] = ["x", "y", "z"].map(|n| element.index_of(&[n]));
     let (Some(x), Some(y), Some(z)) = (x, y, z) else { return Err(("header".into(), "the vertices have no x, y and z".into())) };
     let normal = ["nx", "ny", "nz"].map(|n| element.index_of(&[n]));
     let uv = [&["u", "s", "texture_u", "s0"], &["v", "t", "texture_v", "t0"]].map(|names| element.index_of(names));
-    let mut row = vec![0.0f32; element.properties.len()];
+    let color = [["red", "diffuse_red", "r"], ["green", "diffuse_green", "g"], ["blue", "diffuse_blue", "b"]];
+    let color = color.map(|names| element.index_of(&names));
+    let mut sum = [0.0; 3];
+    let mut row = vec![0.0; element.properties.len()];
     for _ in 0..element.count {
-        element.row(values, &mut |i, value| row[i] = value as f32)?;
-        mesh.positions.push(Vec3::new(row[x], row[y], row[z]));
+        element.row(values, &mut |i, value| row[i] = value)?;
+        mesh.positions.push(Vec3::new(row[x] as f32, row[y] as f32, row[z] as f32));
         if let [Some(a), Some(b), Some(c)] = normal {
-            mesh.normals.push(Vec3::new(row[a], row[b], row[c]));
+            mesh.normals.push(Vec3::new(row[a] as f32, row[b] as f32, row[c] as f32));
         }
         if let [Some(a), Some(b)] = uv {
-            mesh.uvs.push(Vec2::new(row[a], row[b]));
+            mesh.uvs.push(Vec2::new(row[a] as f32, row[b] as f32));
+        }
+        if let [Some(r), Some(g), Some(b)] = color {
+            [r, g, b].iter().zip(&mut sum).for_each(|(&i, sum)| *sum += row[i] / element.properties[i].kind.full());
         }
     }
-    Ok(())
+    let colored = color.iter().all(Option::is_some) && element.count > 0;
+    Ok(colored.then(|| sum.map(|s| (s / element.count as f64).clamp(0.0, 1.0))))
 }
 
 fn read_faces(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Result<(), Problem> {
@@ -229,7 +271,7 @@ fn read_faces(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Result
         element.row(values, &mut |i, value| {
             if i == indices {
                 face.push(value as u32);
-                bad = bad.or((value < 0.0 || value >= vertices as f64).then_some(value));
+                bad = bad.or((!(0.0..vertices as f64).contains(&value)).then_some(value));
             }
         })?;
         if let Some(index) = bad {
@@ -271,10 +313,10 @@ mod tests {
     #[test]
     fn text_and_binary_of_both_orders_give_the_same_mesh() {
         let text = format!("ply\nformat ascii 1.0\n{HEADER}0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n");
-        let mesh = read(text.as_bytes(), Path::new("a.ply")).unwrap();
-        assert_eq!((mesh.positions[2], mesh.triangles.len()), (Vec3::new(1.0, 1.0, 2.0), 2));
+        let ply = read(text.as_bytes(), Path::new("a.ply")).unwrap();
+        assert_eq!((ply.mesh.positions[2], ply.mesh.triangles.len(), ply.mean_color), (Vec3::new(1.0, 1.0, 2.0), 2, None));
         for big in [false, true] {
-            assert_eq!(read(&binary(big), Path::new("a.ply")).unwrap(), mesh);
+            assert_eq!(read(&binary(big), Path::new("a.ply")).unwrap(), ply);
         }
     }
 
