@@ -42,6 +42,7 @@ mod light;
 mod material;
 mod metallic;
 mod params;
+mod rough;
 mod round;
 mod shape;
 mod spectra;

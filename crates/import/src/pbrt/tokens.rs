@@ -32,6 +32,8 @@ pub(super) struct Tokens<'t> {
     line: u32,
     line_start: usize,
     peeked: Option<Token<'t>>,
+    /// Line and column of the word that was taken last.
+    last: (u32, u32),
 }
 
 impl<'t> Tokens<'t> {
@@ -41,7 +43,7 @@ impl<'t> Tokens<'t> {
         let text = std::str::from_utf8(bytes)
             .map_err(|e| ImportError::malformed(file, format!("byte {}", e.valid_up_to()), "not UTF-8 text; save the file as UTF-8"))?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        Ok(Self { text, file, at: 0, line: 1, line_start: 0, peeked: None })
+        Ok(Self { text, file, at: 0, line: 1, line_start: 0, peeked: None, last: (1, 1) })
     }
 
     /// The next word, left where it is; `None` at the end of the file.
@@ -56,12 +58,13 @@ impl<'t> Tokens<'t> {
     pub(super) fn next(&mut self) -> Result<Option<Token<'t>>, ImportError> {
         let token = self.peek()?;
         self.peeked = None;
+        self.last = token.map_or(self.last, |t| (t.line, t.column));
         Ok(token)
     }
 
-    /// An error here.
+    /// An error at the word that was taken last.
     pub(super) fn error(&self, problem: impl Into<String>) -> ImportError {
-        ImportError::malformed(self.file, format!("line {}:{}", self.line, self.column(self.at)), problem)
+        ImportError::malformed(self.file, format!("line {}:{}", self.last.0, self.last.1), problem)
     }
 
     fn column(&self, at: usize) -> u32 {
@@ -110,7 +113,10 @@ impl<'t> Tokens<'t> {
                 self.at += length + 2;
                 Ok(Kind::Quoted(&self.text[start + 1..start + 1 + length]))
             }
-            _ => Err(self.error("the quotation mark has no partner on its line; close it")),
+            _ => {
+                let place = format!("line {}:{}", self.line, self.column(start));
+                Err(ImportError::malformed(self.file, place, "the quotation mark has no partner on its line; close it"))
+            }
         }
     }
 }

@@ -14,6 +14,7 @@
 //! cameras, units or axes: name [`meters_per_unit`](crate::ImportOptions::meters_per_unit), [`up_axis`](crate::ImportOptions::up_axis)
 //! (scans of rooms often have z up; y is the default) and an [`environment`](crate::ImportOptions::environment).
 
+mod header;
 mod reader;
 
 pub(crate) use reader::read;
