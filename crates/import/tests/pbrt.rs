@@ -33,20 +33,19 @@ fn materials_of_version_3() {
     let of = |text: &str| bsdf(&folder, text).0;
     assert_eq!(of("Material \"matte\" \"rgb Kd\" [.5 .1 .2]"), Bsdf::Diffuse { reflectance: Rgb::new(0.5, 0.1, 0.2).into() });
     assert!(matches!(of("Material \"matte\" \"float sigma\" 20"), Bsdf::RoughDiffuse { roughness, .. } if roughness.factor > 0.1));
-    assert!(
-        matches!(of("Material \"mirror\""), Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance, .. } if reflectance.factor.r == 0.9)
-    );
+    assert!(matches!(of("Material \"mirror\""), Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance, .. }
+            if reflectance.factor.r == 0.9));
     let metal = of("Material \"metal\" \"rgb eta\" [1 2 3] \"rgb k\" [4 5 6] \"float roughness\" .2 \"bool remaproughness\" \"false\"");
     assert!(matches!(metal, Bsdf::Conductor { eta, k, alpha, .. } if eta.b == 3.0 && k.r == 4.0 && alpha.factor == 0.2));
     // pbrt-v3's polynomial gives 0.46176 for 0.1.
     let metal = of("Material \"metal\" \"float roughness\" .1 \"bool remaproughness\" \"true\"");
     assert!(matches!(metal, Bsdf::Conductor { alpha, .. } if (alpha.factor - 0.46176).abs() < 1e-4));
     assert!(
-        matches!(of("Material \"glass\" \"float index\" 1.33 \"rgb Kt\" [1 .5 1]"), Bsdf::Dielectric { eta: 1.33, alpha, transmittance, .. } if alpha.factor == 0.0 && transmittance.factor.g == 0.5)
+        matches!(of("Material \"glass\" \"float index\" 1.33 \"rgb Kt\" [1 .5 1]"), Bsdf::Dielectric { eta: 1.33, alpha, transmittance, .. }
+            if alpha.factor == 0.0 && transmittance.factor.g == 0.5)
     );
-    let floor = of(
-        "Material \"substrate\" \"rgb Ks\" [.04 .04 .04] \"float uroughness\" .25 \"float vroughness\" .25 \"bool remaproughness\" \"false\"",
-    );
+    let floor = of("Material \"substrate\" \"rgb Ks\" [.04 .04 .04] \"float uroughness\" .25 \"float vroughness\" .25 \
+         \"bool remaproughness\" \"false\"");
     assert!(matches!(floor, Bsdf::Principled(p) if (p.ior - 1.5).abs() < 1e-4 && (p.roughness.factor - 0.5).abs() < 1e-6));
     let imported = load(&folder, "Material \"uber\" \"rgb Ks\" [0 0 0] \"rgb Kd\" [1 1 1] \"rgb opacity\" [.5 .5 .5]\nShape \"sphere\"");
     assert!(matches!(imported.scene.materials[0].alpha, Alpha::Blend { opacity } if opacity.factor == 0.5));
@@ -72,9 +71,8 @@ fn materials_of_version_4() {
     assert!(matches!(of("Material \"thindielectric\" \"float eta\" 1.4"), Bsdf::ThinDielectric { eta: 1.4, .. }));
     let coated = of("Material \"coateddiffuse\" \"rgb reflectance\" [.5 .5 .5] \"float roughness\" .04");
     assert!(matches!(coated, Bsdf::Plastic { nonlinear: true, eta: 1.5, alpha, .. } if (alpha.factor - 0.2).abs() < 1e-6));
-    assert!(
-        matches!(of("Material \"coatedconductor\" \"rgb reflectance\" [.5 .5 .5]"), Bsdf::Principled(p) if p.metallic.factor == 1.0 && p.clearcoat.factor == 1.0)
-    );
+    assert!(matches!(of("Material \"coatedconductor\" \"rgb reflectance\" [.5 .5 .5]"), Bsdf::Principled(p)
+            if p.metallic.factor == 1.0 && p.clearcoat.factor == 1.0));
     let mix = "MakeNamedMaterial \"a\" \"string type\" \"diffuse\"\nMakeNamedMaterial \"b\" \"string type\" \"conductor\"\n\
                Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" .8";
     assert!(matches!(of(mix), Bsdf::Blend { second, weight, .. } if matches!(*second, Bsdf::Conductor { .. }) && weight.factor == 0.8));
@@ -93,9 +91,8 @@ fn lights_have_their_places_and_strengths() {
                   LightSource \"spot\" \"point3 to\" [0 -1 0] \"float coneangle\" 40 \"float conedeltaangle\" 10\n\
                   LightSource \"infinite\" \"rgb L\" [.5 .5 .5]\nMaterial \"diffuse\"\nShape \"sphere\"";
     let scene = load(&folder, lights).scene;
-    assert!(
-        matches!(&scene.lights[0], Light::Point { position, intensity, .. } if *position == Vec3::new(1.0, -4.0, 2.0) && *intensity == Rgb::new(2.0, 4.0, 6.0))
-    );
+    assert!(matches!(&scene.lights[0], Light::Point { position, intensity, .. }
+            if *position == Vec3::new(1.0, -4.0, 2.0) && *intensity == Rgb::new(2.0, 4.0, 6.0)));
     assert!(
         matches!(&scene.lights[1], Light::Directional { direction, irradiance, .. } if *direction == Vec3::NEG_Z && irradiance.g == 5.0)
     );
@@ -105,9 +102,8 @@ fn lights_have_their_places_and_strengths() {
     // Version 4 takes the hue of a black body alone; a power of 4π·7 W gives an intensity of luminance 7 everywhere.
     let scene =
         load(&folder, "LightSource \"point\" \"blackbody I\" 3000 \"float power\" 87.9646\nMaterial \"diffuse\"\nShape \"sphere\"").scene;
-    assert!(
-        matches!(&scene.lights[0], Light::Point { intensity, .. } if (intensity.luminance() - 7.0).abs() < 1e-3 && intensity.r > 2.0 * intensity.b)
-    );
+    assert!(matches!(&scene.lights[0], Light::Point { intensity, .. }
+            if (intensity.luminance() - 7.0).abs() < 1e-3 && intensity.r > 2.0 * intensity.b));
 }
 
 #[test]
@@ -115,7 +111,8 @@ fn area_lights_shine_on_their_front() {
     let folder = Folder::new();
     let quad = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 2 0 0 2 2 0 0 2 0] \"integer indices\" [0 1 2 0 2 3]";
     let text = format!(
-        "Material \"diffuse\"\nAttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [3 2 1] \"float scale\" 2\n{quad}\nReverseOrientation\n{quad}\nAttributeEnd\n\
+        "Material \"diffuse\"\nAttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [3 2 1] \"float scale\" 2\n{quad}\n\
+         ReverseOrientation\n{quad}\nAttributeEnd\n\
          AttributeBegin\nAreaLightSource \"diffuse\" \"bool twosided\" true \"float power\" 100\nShape \"sphere\"\nAttributeEnd\n{quad}"
     );
     let scene = load(&folder, &text).scene;
@@ -158,7 +155,8 @@ fn transforms_blocks_and_instances() {
 fn cameras_and_left_handed_worlds() {
     let folder = Folder::new();
     let body = format!(
-        "Film \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" 100\nCamera \"perspective\" \"float fov\" 60\nWorldBegin\nMaterial \"diffuse\"\nTranslate 1 0 0\n{TRIANGLE}"
+        "Film \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" 100\nCamera \"perspective\" \"float fov\" 60\n\
+         WorldBegin\nMaterial \"diffuse\"\nTranslate 1 0 0\n{TRIANGLE}"
     );
     let scene = folder.write("left.pbrt", format!("LookAt 0 0 -5  0 0 0  0 1 0\n{body}")).load("left.pbrt").unwrap().scene;
     let camera = &scene.cameras[0];
@@ -184,7 +182,8 @@ fn textures_masks_and_relief() {
          Texture \"half\" \"spectrum\" \"scale\" \"texture tex\" \"t\" \"float scale\" .5\n\
          Texture \"g\" \"float\" \"imagemap\" \"string filename\" \"g.png\" \"string encoding\" \"linear\"\n\
          Texture \"c\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [1 0 0] \"rgb tex2\" [0 1 0] \"float uscale\" 2 \"float vscale\" 2\n\
-         AttributeBegin\nMaterial \"diffuse\" \"texture reflectance\" \"half\" \"texture displacement\" \"g\"\nShape \"sphere\" \"texture alpha\" \"g\"\nAttributeEnd\n\
+         AttributeBegin\nMaterial \"diffuse\" \"texture reflectance\" \"half\" \"texture displacement\" \"g\"\n\
+          Shape \"sphere\" \"texture alpha\" \"g\"\nAttributeEnd\n\
          Material \"diffuse\" \"texture reflectance\" \"c\"\nShape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0]\n\
          Material \"conductor\" \"texture roughness\" \"g\"\nShape \"disk\"\n"
     );
@@ -235,11 +234,14 @@ fn mistakes_have_line_and_column_and_gaps_are_reported() {
     assert!(error("Shape \"plymesh\" \"string filename\" \"gone.ply\"").contains("gone.ply: cannot be read"));
     assert!(error("Material \"matte\" \"texture Kd\" \"t\"\nShape \"sphere\"").contains("the texture \"t\", which is not defined"));
     assert!(folder.write("b.pbrt", "Shape \"sphere\"").error("b.pbrt").contains("the shape stands before WorldBegin"));
-    let mixed = "MakeNamedMaterial \"a\" \"string type\" \"mix\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"a\"\nNamedMaterial \"a\"\nShape \"sphere\"";
+    let mixed = "MakeNamedMaterial \"a\" \"string type\" \"mix\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"a\"\n\
+     NamedMaterial \"a\"\nShape \"sphere\"";
     assert!(error(mixed).contains("materials are mixed in a circle"));
     let imported = load(
         &folder,
-        "Shape \"curve\" \"point3 P\" [0 0 0]\nLightSource \"projection\"\nMaterial \"hair\"\nShape \"sphere\" \"float wetness\" 1\nActiveTransform EndTime\nTranslate 9 9 9\nActiveTransform All\nShape \"sphere\"",
+        "Shape \"curve\" \"point3 P\" [0 0 0]\nLightSource \"projection\"\nMaterial \"hair\"\n\
+         Shape \"sphere\" \"float wetness\" 1\nActiveTransform EndTime\nTranslate 9 9 9\nActiveTransform All\n\
+         Shape \"sphere\"",
     );
     let text = warnings(&imported);
     for expected in [
@@ -258,7 +260,8 @@ fn mistakes_have_line_and_column_and_gaps_are_reported() {
 fn mangled_texts_never_panic() {
     let folder = Folder::new();
     let text = "LookAt 0 0 5 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 60\nWorldBegin\nTexture \"t\" \"float\" \"checkerboard\"\n\
-                Material \"metal\" \"texture roughness\" \"t\"\nObjectBegin \"o\"\nShape \"disk\" \"float radius\" [2]\nObjectEnd\nScale 1 2 3\nObjectInstance \"o\"\n\
+                Material \"metal\" \"texture roughness\" \"t\"\nObjectBegin \"o\"\nShape \"disk\" \"float radius\" [2]\n\
+                 ObjectEnd\nScale 1 2 3\nObjectInstance \"o\"\n\
                 AreaLightSource \"diffuse\" \"blackbody L\" [3000 2]\nShape \"trianglemesh\" \"point P\" [0 0 0 1 0 0 0 1 0]\n";
     folder.write("a.pbrt", text).load("a.pbrt").unwrap_or_else(|e| panic!("{e}"));
     for at in 0..text.len() {

@@ -12,10 +12,14 @@ use std::path::PathBuf;
 #[test]
 fn one_room_in_three_descriptions_is_one_scene() {
     let folder = Folder::new();
-    let camera = "Scale -1 1 1\nLookAt 1 2 6  0 1 0  0 1 0\nFilm \"FILM\" \"integer xresolution\" 320 \"integer yresolution\" 180\nCamera \"perspective\" \"float fov\" 40\nWorldBegin\n";
+    let camera = "Scale -1 1 1\nLookAt 1 2 6  0 1 0  0 1 0\n\
+     Film \"FILM\" \"integer xresolution\" 320 \"integer yresolution\" 180\nCamera \"perspective\" \"float fov\" 40\n\
+     WorldBegin\n";
     let quad = |m: &str| {
         format!(
-            "AttributeBegin\n{m}\nShape \"trianglemesh\" \"POINT P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0] \"integer indices\" [0 1 2 0 2 3]\nAttributeEnd\n"
+            "AttributeBegin\n{m}\n\
+             Shape \"trianglemesh\" \"POINT P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0] \"integer indices\" [0 1 2 0 2 3]\n\
+             AttributeEnd\n"
         )
     };
     let room = |point: &str, floor: &str, ball: &str, pane: &str, lamp: &str| {
@@ -80,7 +84,8 @@ fn one_room_in_three_descriptions_is_one_scene() {
     assert!((a.position - b.position).length() < 1e-9 && (a.fov_x_rad - b.fov_x_rad).abs() < 1e-9 && a.aspect == b.aspect, "{a:?} {b:?}");
     assert!((a.world_from_camera - b.world_from_camera).to_cols_array().iter().all(|v| v.abs() < 1e-9), "{a:?} {b:?}");
     assert!(
-        matches!((&v4.lights[0], &mitsuba.lights[0]), (Light::Point { position: a, intensity: b, .. }, Light::Point { position: c, intensity: d, .. }) if a == c && b == d)
+        matches!((&v4.lights[0], &mitsuba.lights[0]), (Light::Point { position: a, intensity: b, .. }, Light::Point { position: c, intensity: d, .. })
+            if a == c && b == d)
     );
 }
 

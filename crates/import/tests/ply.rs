@@ -13,7 +13,8 @@ const HEADER: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\
 fn a_mesh_is_a_scene_of_one_part_with_the_mean_of_its_colours() {
     let folder = Folder::new();
     let text = format!(
-        "{HEADER}property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+        "{HEADER}property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n\
+         property list uchar int vertex_indices\nend_header\n\
          0 0 0 255 0 0\n1 0 0 255 0 0\n1 1 0 255 0 0\n0 1 0 255 0 0\n4 0 1 2 3\n"
     );
     let imported = folder.write("hall.ply", text).load("hall.ply").unwrap();

@@ -4,18 +4,28 @@ use super::Reader;
 use enfilade_math::Rgb;
 use enfilade_scene::{Image, Pixels, ScalarParam, TextureRef};
 
+/// Pictures may be computed up to so many texels (12 bytes each) in all.
+const MAX_BAKED: usize = 1 << 28;
+
 /// Which picture, which computation, and the bits of its factors.
 pub(super) type Key = (u32, &'static str, Vec<u32>);
 
 impl Reader<'_> {
-    /// `picture` with every texel's linear colour replaced by `f` of it. `what` and `factors` tell computations apart: pictures that
-    /// agree in them are computed once.
+    /// `picture` with every texel's linear colour replaced by `f` of it; as it is, with a warning, when too much was computed already.
+    ///
+    /// `what` and `factors` tell computations apart: pictures that agree in them are computed once.
     pub(super) fn baked(&mut self, picture: TextureRef, what: &'static str, factors: &[f32], f: impl Fn(Rgb) -> Rgb) -> TextureRef {
         let key = (picture.image, what, factors.iter().map(|v| v.to_bits()).collect::<Vec<_>>());
         if let Some(&image) = self.baked.get(&key) {
             return TextureRef { image, ..picture };
         }
         let source = self.a.image_at(picture.image);
+        self.baked_texels += source.width as usize * source.height as usize;
+        if self.baked_texels > MAX_BAKED {
+            let place = format!("texture {}", source.name);
+            self.a.warn(place, format!("too many pictures to compute ({what}); it was used as it is"));
+            return picture;
+        }
         let texels = (0..source.height as usize).flat_map(|y| (0..source.width as usize).map(move |x| (x, y)));
         let texels = texels.map(|(x, y)| f(source.texel(x, y).0).to_array()).collect();
         let name = format!("{} ({what})", source.name);

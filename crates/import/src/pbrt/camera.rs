@@ -2,10 +2,11 @@
 
 use super::Reader;
 use super::params::Params;
+use super::version::Version;
 use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 
-/// Half of the shorter edge of the picture of a camera that has no field of view, seen at a right angle.
+/// Angle across the shorter edge of the picture, for cameras that have none.
 const FALLBACK_FOV_DEG: f64 = 90.0;
 
 impl Reader<'_> {
@@ -19,10 +20,19 @@ impl Reader<'_> {
         if radius > 0.0 {
             self.warn(
                 &params.place,
-                format!("the lens of radius {radius} was replaced by a pinhole: everything is in focus; `lens` in [camera] of dataset.toml gives all cameras one"),
+                format!(
+                    "the lens of radius {radius} was replaced by a pinhole: everything is in focus; `lens` in [camera] of dataset.toml \
+                     gives all cameras one"
+                ),
             );
         }
         let (fov_x, aspect) = field_of_view(&params, film.as_ref(), self.version)?;
+        if let [left, right, bottom, top] = *params.numbers("screenwindow")?
+            && (left + right != 0.0 || bottom + top != 0.0)
+        {
+            let message = "the screen window was put around the middle; `principal_point` in [camera] of dataset.toml shifts all cameras";
+            self.warn(&params.place, message);
+        }
         let fov_x = match class.as_str() {
             "perspective" => fov_x,
             _ => {
@@ -49,7 +59,7 @@ impl Reader<'_> {
         let time = camera.float_or("shutterclose", 1.0)? - camera.float_or("shutteropen", 0.0)?;
         let ratio = time * film.float_or("iso", 100.0)? / 100.0;
         let sensor = film.string("sensor")?.unwrap_or("cie1931").to_string();
-        if self.version == super::version::Version::V4 && ((ratio - 1.0).abs() > 1e-6 || sensor != "cie1931") {
+        if self.version == Version::V4 && ((ratio - 1.0).abs() > 1e-6 || sensor != "cie1931") {
             let message =
                 format!("radiances stay as they are; pbrt's picture is {ratio} times as bright, by its exposure, sensor {sensor}");
             self.warn(&film.place, message);
@@ -60,8 +70,8 @@ impl Reader<'_> {
 
 /// Horizontal field of view in radians, and width over height. `fov` spans the shorter edge of the picture, or rather −1 … 1 of the
 /// screen.
-fn field_of_view(params: &Params, film: Option<&Params>, version: super::version::Version) -> Result<(f64, f64), ImportError> {
-    let default = if version == super::version::Version::V3 { (640.0, 480.0) } else { (1280.0, 720.0) };
+fn field_of_view(params: &Params, film: Option<&Params>, version: Version) -> Result<(f64, f64), ImportError> {
+    let default = if version == Version::V3 { (640.0, 480.0) } else { (1280.0, 720.0) };
     let size = |name: &str, default: f64| film.map_or(Ok(default), |f| f.float_or(name, default));
     let (width, height) = (size("xresolution", default.0)?, size("yresolution", default.1)?);
     if !(width >= 1.0 && height >= 1.0) {

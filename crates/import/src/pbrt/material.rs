@@ -11,6 +11,9 @@ use crate::spectrum::Kind;
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, TextureRef};
 
+/// A mix may hold so many materials, those within its parts counted.
+const MAX_MIXED: usize = 64;
+
 /// A `Material` or `MakeNamedMaterial` directive.
 #[derive(Clone)]
 pub(super) struct Definition {
@@ -152,6 +155,9 @@ impl Reader<'_> {
         }
         let weight = self.scalar(params, "amount", 0.5)?;
         let (a, b) = (self.surface(first, depth + 1)?, self.surface(second, depth + 1)?);
+        if [&a, &b].iter().filter_map(|s| s.bsdf.as_ref()).map(count_of).sum::<usize>() > MAX_MIXED {
+            return Err(params.place.error(format!("mixes within mixes come to more than {MAX_MIXED} materials; simplify them")));
+        }
         if a.alpha != b.alpha || a.normal_map != b.normal_map {
             self.warn(&params.place, "masks and relief within a mix are not mixed; those of the first were used");
         }
@@ -260,5 +266,13 @@ impl Reader<'_> {
             }
             other => other,
         })
+    }
+}
+
+/// How many materials a mix is made of.
+fn count_of(bsdf: &Bsdf) -> usize {
+    match bsdf {
+        Bsdf::Blend { first, second, .. } => count_of(first) + count_of(second),
+        _ => 1,
     }
 }

@@ -98,12 +98,14 @@ struct Reader<'a> {
     /// Names of textures to indices: of colours, and of numbers.
     texture_names: [HashMap<String, usize>; 2],
     baked: HashMap<bake::Key, u32>,
+    baked_texels: usize,
     materials: Vec<material::Definition>,
     material_names: HashMap<String, usize>,
     surfaces: HashMap<usize, material::Surface>,
     finished: HashMap<String, Option<u32>>,
     media: HashMap<String, enfilade_math::Rgb>,
-    meshes: HashMap<(PathBuf, bool), Option<shape::Shape>>,
+    /// By file or measures, and whether they are turned inside out.
+    meshes: HashMap<(String, bool), Option<shape::Shape>>,
     objects: HashMap<String, Vec<shape::Placed>>,
     /// The object being defined, if any.
     object: Option<(String, Vec<shape::Placed>)>,
@@ -128,6 +130,7 @@ impl<'a> Reader<'a> {
             textures: Vec::new(),
             texture_names: [HashMap::new(), HashMap::new()],
             baked: HashMap::new(),
+            baked_texels: 0,
             materials: vec![material::Definition::default_of(version)],
             material_names: HashMap::new(),
             surfaces: HashMap::new(),

@@ -17,6 +17,16 @@ struct Ring {
     v: f64,
 }
 
+/// What tells round shapes apart: those of the same measures share a mesh. `None` for other shapes.
+pub(super) fn measures(class: &str, params: &Params) -> Result<Option<String>, ImportError> {
+    if !matches!(class, "sphere" | "disk" | "cylinder" | "cone") {
+        return Ok(None);
+    }
+    let names = ["radius", "zmin", "zmax", "phimax", "height", "innerradius"];
+    let values = names.into_iter().map(|name| params.float(name)).collect::<Result<Vec<_>, _>>()?;
+    Ok(Some(format!("{class} {values:?}")))
+}
+
 /// The mesh of a sphere, disk, cylinder or cone; `None` for other shapes.
 ///
 /// # Errors

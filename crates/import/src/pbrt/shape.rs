@@ -11,13 +11,16 @@ use crate::ply;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Vec2, Vec3};
 use enfilade_scene::{Alpha, PartLabel, ScalarParam};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A scene has at most so many parts, instances counted one by one.
 const MAX_PARTS: usize = 4_000_000;
 
-/// Cuts along each edge of a bilinear patch that is not flat.
-const PATCH_CUTS: u32 = 16;
+/// Cuts along each edge of a bilinear patch that is not flat, where there are few and many patches.
+const PATCH_CUTS: [u32; 2] = [16, 4];
+
+/// More patches than this are many.
+const MANY_PATCHES: usize = 4096;
 
 /// A mesh that shapes share.
 #[derive(Clone, Copy)]
@@ -113,7 +116,7 @@ impl Reader<'_> {
 
     /// The mesh of a PLY file, read once.
     fn ply_mesh(&mut self, path: &str, params: &Params) -> Result<Option<Shape>, ImportError> {
-        let key = (PathBuf::from(path), self.state.reversed);
+        let key = (path.to_string(), self.state.reversed);
         if let Some(&known) = self.meshes.get(&key) {
             return Ok(known);
         }
@@ -132,6 +135,10 @@ impl Reader<'_> {
 
     /// The mesh of a shape without a file. `None`, with a warning, for shapes that are not supported.
     fn own_mesh(&mut self, class: &str, params: &Params) -> Result<Option<Shape>, ImportError> {
+        let round = round::measures(class, params)?.map(|measures| (measures, self.state.reversed));
+        if let Some(known) = round.as_ref().and_then(|key| self.meshes.get(key)) {
+            return Ok(*known);
+        }
         let (mesh, pieces) = match class {
             "trianglemesh" => (triangle_mesh(params)?, None),
             "loopsubdiv" => {
@@ -154,7 +161,11 @@ impl Reader<'_> {
             },
         };
         let file = params.place.file.clone();
-        self.keep_mesh(mesh, pieces, &file, &params.place.text())
+        let shape = self.keep_mesh(mesh, pieces, &file, &params.place.text())?;
+        if let Some(key) = round {
+            self.meshes.insert(key, shape);
+        }
+        Ok(shape)
     }
 
     /// Adds a mesh whose faces have been turned to its normals, or away from them under `ReverseOrientation`.
@@ -239,11 +250,12 @@ fn bilinear_mesh(params: &Params) -> Result<(Mesh, usize), ImportError> {
         return Err(params.place.error("emissionfilename is not supported; give the light an image by AreaLightSource's filename"));
     }
     let mut mesh = Mesh::default();
+    let cuts = PATCH_CUTS[usize::from(indices.len() / 4 > MANY_PATCHES)];
     for patch in indices.chunks_exact(4) {
         let p = [0, 1, 2, 3].map(|i| v.positions[patch[i] as usize]);
         let bent = (p[3] - p[0]).dot((p[1] - p[0]).cross(p[2] - p[0])).abs();
         let size = (p[1] - p[0]).length() * (p[2] - p[0]).length() * (p[3] - p[0]).length();
-        add_patch(&mut mesh, &v, patch, if bent > 1e-4 * size { PATCH_CUTS } else { 1 });
+        add_patch(&mut mesh, &v, patch, if bent > 1e-4 * size { cuts } else { 1 });
     }
     Ok((mesh, indices.len() / 4))
 }
