@@ -24,20 +24,19 @@ fn one_room_in_three_descriptions_is_one_scene() {
     };
     let room = |point: &str, floor: &str, ball: &str, pane: &str, lamp: &str| {
         let parts = [
-            quad(&format!("NamedMaterial \"Floor\"\nRotate -90 1 0 0\nScale 3 3 1")),
-            format!("AttributeBegin\nNamedMaterial \"Ball\"\nTranslate 0 1 0\nShape \"sphere\" \"float radius\" .5\nAttributeEnd\n"),
+            quad("NamedMaterial \"Floor\"\nRotate -90 1 0 0\nScale 3 3 1"),
+            "AttributeBegin\nNamedMaterial \"Ball\"\nTranslate 0 1 0\nShape \"sphere\" \"float radius\" .5\nAttributeEnd\n".to_string(),
             quad("NamedMaterial \"Pane\"\nTranslate 0 1 1"),
             quad(&format!("NamedMaterial \"Floor\"\n{lamp}\nTranslate 0 3 0\nRotate 90 1 0 0")),
         ];
         let named = |name: &str, text: &str| format!("MakeNamedMaterial \"{name}\" \"string type\" {text}\n");
-        let text = format!(
+        format!(
             "{camera}{}{}{}{}LightSource \"point\" \"rgb I\" [4 5 6] {point} [1 2 1]\n",
             named("Floor", floor),
             named("Ball", ball),
             named("Pane", pane),
             parts.concat()
-        );
-        text
+        )
     };
     let v3 = room(
         "\"point from\"",

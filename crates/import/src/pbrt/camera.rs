@@ -86,6 +86,6 @@ fn field_of_view(params: &Params, film: Option<&Params>, version: Version) -> Re
         return Err(params.place.error(format!("screenwindow has {} numbers, expected four", window.len())));
     }
     let [left, right, bottom, top] = screen;
-    let half = params.float("halffov")?.map_or(params.float_or("fov", 90.0)? / 2.0, |h| h);
+    let half = params.float("halffov")?.unwrap_or(params.float_or("fov", 90.0)? / 2.0);
     Ok((2.0 * (half.to_radians().tan() * 0.5 * (right - left)).atan(), (right - left) / (top - bottom)))
 }

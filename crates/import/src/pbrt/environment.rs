@@ -52,7 +52,7 @@ impl Reader<'_> {
             }
             if illuminance > 0.0 {
                 let own = upper_illuminance(source);
-                scale = scale * if own > 0.0 { illuminance / own } else { 1.0 } as f32;
+                scale *= if own > 0.0 { illuminance / own } else { 1.0 } as f32;
             }
             let resampled = equirectangular(source);
             image = self.a.push_image(resampled);
@@ -93,7 +93,7 @@ fn equirectangular(source: &Image) -> Image {
             let at = |a: u32, b: u32, size: u32| (a as f32 + (b as f32 + 0.5) / n as f32) / size as f32;
             let uv = Vec2::new(at(x, i, width), at(y, j, height));
             let weight = (uv.y * std::f32::consts::PI).sin();
-            sum = sum + texel_at(source, square_from_direction(PBRT_FROM_MAP * direction_from_uv(uv).as_dvec3())) * weight;
+            sum += texel_at(source, square_from_direction(PBRT_FROM_MAP * direction_from_uv(uv).as_dvec3())) * weight;
             total += weight;
         }
         texels.push((sum * (1.0 / total)).to_array());

@@ -88,7 +88,7 @@ impl Reader<'_> {
         if params.float_or("power", -1.0)? > 0.0 && pieces > 1 {
             self.warn(&params.place, "pbrt gives each triangle of a mesh the whole power; all have the radiance of the mean one here");
         }
-        radiance.factor = radiance.factor * power_factor(params, sides * area * PI * mean / pieces as f64)?;
+        radiance.factor *= power_factor(params, sides * area * PI * mean / pieces as f64)?;
         self.report_unused(params, &["samples", "nsamples"]);
         Ok(Emission { radiance, both_sides })
     }

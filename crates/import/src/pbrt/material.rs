@@ -249,7 +249,7 @@ impl Reader<'_> {
         if class == "diffusetransmission" {
             params.ignore(&["transmittance"]);
             let mut reflectance = self.color_param(params, "reflectance", Rgb::splat(0.25))?;
-            reflectance.factor = reflectance.factor * params.float_or("scale", 1.0)? as f32;
+            reflectance.factor *= params.float_or("scale", 1.0)? as f32;
             return Ok(Bsdf::Diffuse { reflectance });
         }
         params.ignore(&["transmit"]);
@@ -260,7 +260,7 @@ impl Reader<'_> {
         let glossy = self.glossy(params, Rgb::splat(0.25), 0.1)?;
         Ok(match glossy {
             Bsdf::Principled(mut p) => {
-                p.base_color.factor = p.base_color.factor * share.factor;
+                p.base_color.factor *= share.factor;
                 p.specular.factor *= share.factor.max_component();
                 Bsdf::Principled(p)
             }

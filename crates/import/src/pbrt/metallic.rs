@@ -175,7 +175,7 @@ impl Reader<'_> {
             let share = through.factor.luminance() / (through.factor.luminance() + p.base_color.factor.luminance());
             p.transmission = share.into();
             p.solid = true;
-            p.base_color.factor = p.base_color.factor + through.factor;
+            p.base_color.factor += through.factor;
         }
         if !mirror.factor.is_black() {
             // The mirror-like part is a smooth coat of its strength.

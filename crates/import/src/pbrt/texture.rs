@@ -112,7 +112,7 @@ impl Reader<'_> {
                 self.warn(&params.place, "the corners' mean stands in for the texture");
                 let mut sum = Rgb::BLACK;
                 for (corner, default) in [("v00", 0.0), ("v01", 1.0), ("v10", 0.0), ("v11", 1.0)] {
-                    sum = sum + self.color(&params, corner, Kind::Factor, Rgb::splat(default))?;
+                    sum += self.color(&params, corner, Kind::Factor, Rgb::splat(default))?;
                 }
                 (sum * 0.25).into()
             }
