@@ -220,6 +220,25 @@ impl<'a> Assembly<'a> {
         (self.scene.materials.len() - 1) as u32
     }
 
+    /// True when a material reads any picture.
+    pub(crate) fn is_textured(&self, material: u32) -> bool {
+        let mut found = false;
+        self.scene.materials[material as usize].textures(|_| found = true);
+        found
+    }
+
+    /// The area of a mesh under a placement.
+    pub(crate) fn area(&self, mesh: u32, placement: DAffine3) -> f64 {
+        let mesh = &self.scene.meshes[mesh as usize];
+        let corners = (0..mesh.triangles.len()).map(|t| mesh.corners(t).map(|p| placement.transform_point3(p.as_dvec3())));
+        corners.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum()
+    }
+
+    /// True unless the options say which axis is up.
+    pub(crate) fn has_default_axes(&self) -> bool {
+        self.options.up_axis.is_none()
+    }
+
     /// Checks and mends a mesh and adds it. `None` (and a warning) when it is empty.
     ///
     /// # Errors

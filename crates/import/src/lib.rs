@@ -1,4 +1,4 @@
-//! Scene files to [`Scene`]: glTF, OBJ, Mitsuba XML, V-Ray scenes and scene packages, with a report of what was dropped or guessed.
+//! Scene files to [`Scene`]: glTF, OBJ, Mitsuba XML, pbrt, PLY, V-Ray scenes and scene packages, with a report of what was dropped or guessed.
 //!
 //! ```no_run
 //! use enfilade_import::{ImportOptions, load};
@@ -24,7 +24,7 @@
 //!
 //! # Formats
 //!
-//! The pages of [`gltf`], [`obj`], [`mitsuba`], [`vray`] and [`package`] list what is supported of each.
+//! The pages of [`gltf`], [`obj`], [`mitsuba`], [`pbrt`], [`ply`], [`vray`] and [`package`] list what is supported of each.
 
 mod assembly;
 mod error;
@@ -36,8 +36,13 @@ mod mesh;
 pub mod mitsuba;
 pub mod obj;
 pub mod package;
+pub mod pbrt;
+pub mod ply;
 mod polygon;
+mod primitives;
 mod report;
+mod roughness;
+mod spectrum;
 pub mod vray;
 
 pub use error::ImportError;
@@ -133,6 +138,8 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
         Format::Gltf => gltf::load(assembly),
         Format::Obj => obj::load(assembly),
         Format::Mitsuba => mitsuba::load(assembly),
+        Format::Pbrt => pbrt::load(assembly),
+        Format::Ply => ply::load(assembly),
         Format::VRay => vray::load(assembly),
         Format::Package => package::load(assembly),
     }

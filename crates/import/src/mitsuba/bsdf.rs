@@ -1,11 +1,13 @@
 //! BSDFs to materials.
 
-use super::spectrum::{self, Kind};
+use super::spectrum;
 use super::texture::Texture;
 use super::xml::Node;
 use super::{MAX_REFERENCES, Reader};
 use crate::ImportError;
 use crate::images::{self, Use};
+use crate::roughness::oren_nayar;
+use crate::spectrum::{Kind, metal};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, ScalarParam};
 
@@ -227,12 +229,13 @@ impl<'n> Reader<'n, '_> {
                 if node.plugin != "roughdiffuse" {
                     return Ok(Bsdf::Diffuse { reflectance });
                 }
+                // Mitsuba takes alpha/√2 for the deviation of the facets' angles.
                 let roughness = self.scalar(node, "alpha", 0.2)?;
                 if roughness.texture.is_some() {
                     self.warn(node, "a textured roughness of a diffuse reflector is read as that of Oren and Nayar in Portsmouth's form");
                     return Ok(Bsdf::RoughDiffuse { reflectance, roughness });
                 }
-                Ok(Bsdf::RoughDiffuse { reflectance, roughness: diffuse_roughness(roughness.factor).into() })
+                Ok(Bsdf::RoughDiffuse { reflectance, roughness: oren_nayar(0.5 * roughness.factor * roughness.factor).into() })
             }
             "plastic" | "roughplastic" | "pplastic" => {
                 const KNOWN: [&str; 9] = [
@@ -302,13 +305,13 @@ impl<'n> Reader<'n, '_> {
         const KNOWN: [&str; 10] =
             ["material", "eta", "k", "ext_eta", "specular_reflectance", "alpha", "alpha_u", "alpha_v", "distribution", "sample_visible"];
         self.report_unknown(node, &KNOWN, &[]);
-        let mut constants = spectrum::metal("cu").unwrap_or_default();
+        let mut constants = metal("cu").unwrap_or_default();
         if let Some(name) = node.raw_text("material") {
-            constants = match spectrum::metal(name) {
+            constants = match metal(name) {
                 Some(known) => known,
                 None => {
                     self.warn(node, format!("the metal {name:?} is not known; aluminium stands in"));
-                    spectrum::metal("al").unwrap_or_default()
+                    metal("al").unwrap_or_default()
                 }
             };
         }
@@ -395,13 +398,6 @@ impl<'n> Reader<'n, '_> {
 /// The name of a bsdf's material: its id, or `inline`.
 pub(super) fn name(bsdf: Option<&Node>) -> &str {
     bsdf.and_then(|b| b.id.as_deref()).unwrap_or("inline")
-}
-
-/// The roughness of a diffuse surface for Oren and Nayar's model with facets of the root-mean-square slope `alpha`: the one with
-/// their ratio of retro-reflecting to Lambertian light. Mitsuba takes alpha/√2 for the deviation of the facets' angles.
-fn diffuse_roughness(alpha: f32) -> f32 {
-    let s2 = 0.5 * alpha * alpha;
-    (0.45 * s2 / (s2 + 0.09) / (1.0 - 0.5 * s2 / (s2 + 0.33))).clamp(0.0, 1.0)
 }
 
 /// Interior over exterior index of refraction, each a number or the name of a substance.

@@ -31,12 +31,10 @@
 
 mod bsdf;
 mod emitter;
-mod ply;
-pub(crate) mod primitives;
 mod sensor;
 mod serialized;
 mod shape;
-pub(crate) mod spectrum;
+mod spectrum;
 mod texture;
 mod transform;
 mod xml;

@@ -1,10 +1,12 @@
 //! Shapes to meshes and parts.
 
 use super::xml::Node;
-use super::{MAX_REFERENCES, Reader, bsdf, emitter, ply, primitives, serialized, transform};
+use super::{MAX_REFERENCES, Reader, bsdf, emitter, serialized, transform};
 use crate::ImportError;
 use crate::mesh;
 use crate::obj::ObjFile;
+use crate::ply;
+use crate::primitives;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use enfilade_scene::PartLabel;
@@ -127,7 +129,13 @@ impl<'n> Reader<'n, '_> {
                         obj.notes.iter().for_each(|note| self.a.warn(node.place(), format!("{}: {note}", file.display())));
                         obj.mesh(obj.groups.iter())
                     }
-                    "ply" => ply::read(&bytes, &file)?,
+                    "ply" => {
+                        let ply = ply::read(&bytes, &file)?;
+                        if ply.mean_color.is_some() {
+                            self.warn(node, format!("{}: the colours of vertices were dropped", file.display()));
+                        }
+                        ply.mesh
+                    }
                     _ => serialized::read(&bytes, index, &file)?,
                 };
                 Ok((mesh, file))

@@ -3,7 +3,7 @@
 use super::handle::{self, Handle};
 use super::{MAX_CHAIN, Reader};
 use crate::ImportError;
-use crate::mitsuba::primitives;
+use crate::primitives;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};
 use enfilade_vrscene::Value;

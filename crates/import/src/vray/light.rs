@@ -3,7 +3,7 @@
 use super::Reader;
 use super::handle::Handle;
 use crate::ImportError;
-use crate::mitsuba::{primitives, spectrum};
+use crate::{primitives, spectrum};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb};
 use enfilade_scene::{ColorParam, Material};
@@ -60,7 +60,7 @@ impl<'n> Reader<'n, '_> {
                 if !(500.0..=50_000.0).contains(&kelvin) {
                     return Err(light.error("temperature", format!("found {kelvin}, expected 500 to 50000 kelvin; correct the value")));
                 }
-                let color = spectrum::planck(kelvin);
+                let color = spectrum::black_body(kelvin);
                 color / color.max_component()
             }
             _ => self.plain_color(light, "color", Rgb::WHITE)?,

@@ -62,7 +62,7 @@ pub(crate) fn sphere() -> Mesh {
 }
 
 /// The open cylinder of radius 1 about the z axis from z = 0 to z = 1, facing outward.
-pub(super) fn cylinder() -> Mesh {
+pub(crate) fn cylinder() -> Mesh {
     let mut mesh = Mesh::default();
     for i in 0..=SEGMENTS {
         let u = i as f32 / SEGMENTS as f32;
@@ -76,7 +76,7 @@ pub(super) fn cylinder() -> Mesh {
 }
 
 /// [−1,1]³ with the whole of texture space on each face.
-pub(super) fn cube() -> Mesh {
+pub(crate) fn cube() -> Mesh {
     let mut mesh = Mesh::default();
     for axis in 0..3 {
         for sign in [-1.0f32, 1.0] {
