@@ -1,4 +1,4 @@
-//! Mitsuba's analytic shapes as meshes. Texture coordinates have v downward here, as in Mitsuba.
+//! Analytic shapes as meshes, as Mitsuba defines them. Texture coordinates have v downward here.
 //!
 //! Round shapes are inscribed polygons of [`SEGMENTS`] sides: their area is 0.07 % below the true one.
 
