@@ -35,6 +35,7 @@ pub(crate) struct Assembly<'a> {
     camera_names: HashSet<String>,
     reversed: HashMap<u32, u32>,
     labels: Vec<ImportedLabel>,
+    meters_per_unit: f64,
     world_from_file: DAffine3,
     scene: Scene,
 }
@@ -42,11 +43,7 @@ pub(crate) struct Assembly<'a> {
 impl<'a> Assembly<'a> {
     /// An empty scene from `file`, whose format has `up` upward unless the options say otherwise.
     pub(crate) fn new(format: Format, file: &Path, up: UpAxis, options: &'a ImportOptions, cx: &'a dyn Cx) -> Self {
-        let axes = match options.up_axis.unwrap_or(up) {
-            UpAxis::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
-            UpAxis::Z => DMat3::IDENTITY,
-        };
-        Self {
+        let mut assembly = Self {
             format,
             file: file.to_path_buf(),
             options,
@@ -58,9 +55,23 @@ impl<'a> Assembly<'a> {
             camera_names: HashSet::new(),
             reversed: HashMap::new(),
             labels: Vec::new(),
-            world_from_file: DAffine3::from_mat3(axes * options.meters_per_unit),
+            meters_per_unit: 1.0,
+            world_from_file: DAffine3::IDENTITY,
             scene: Scene::default(),
-        }
+        };
+        assembly.set_units(1.0, up);
+        assembly
+    }
+
+    /// Sets the unit and the upward axis that the file itself states, before anything is placed. The options' unit multiplies the
+    /// file's, their axis replaces it.
+    pub(crate) fn set_units(&mut self, file_meters_per_unit: f64, file_up: UpAxis) {
+        let axes = match self.options.up_axis.unwrap_or(file_up) {
+            UpAxis::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
+            UpAxis::Z => DMat3::IDENTITY,
+        };
+        self.meters_per_unit = file_meters_per_unit * self.options.meters_per_unit;
+        self.world_from_file = DAffine3::from_mat3(axes * self.meters_per_unit);
     }
 
     /// The scene file.
@@ -70,7 +81,7 @@ impl<'a> Assembly<'a> {
 
     /// Metres per unit of the file.
     pub(crate) fn meters_per_unit(&self) -> f64 {
-        self.options.meters_per_unit
+        self.meters_per_unit
     }
 
     /// Records something dropped, guessed or mended at a place in the scene file.
@@ -101,6 +112,11 @@ impl<'a> Assembly<'a> {
         let remedy = format!("{} refers to it; put the file there or correct the reference", self.file.display());
         let bytes = self.read_input(&file, &remedy)?;
         Ok((file, bytes))
+    }
+
+    /// The path of a file that the scene file refers to by `path`, for messages.
+    pub(crate) fn path_of(&self, path: &str) -> PathBuf {
+        self.resolve(path)
     }
 
     /// True when there is a file where the scene file's `path` leads.
@@ -185,6 +201,16 @@ impl<'a> Assembly<'a> {
         &self.scene.images[index as usize]
     }
 
+    /// A mesh by its index.
+    pub(crate) fn mesh_at(&self, index: u32) -> &Mesh {
+        &self.scene.meshes[index as usize]
+    }
+
+    /// A material by its index.
+    pub(crate) fn material_at(&self, index: u32) -> &Material {
+        &self.scene.materials[index as usize]
+    }
+
     /// Adds a material.
     pub(crate) fn push_material(&mut self, material: Material) -> u32 {
         self.scene.materials.push(material);
@@ -257,7 +283,7 @@ impl<'a> Assembly<'a> {
     /// Adds a light given in the file's units and axes. Point and spot lights shine so that a picture looks the same whatever
     /// the unit: their intensity grows with the square of the metres per unit.
     pub(crate) fn push_light(&mut self, light: Light) {
-        let metres = self.options.meters_per_unit as f32;
+        let metres = self.meters_per_unit as f32;
         let name = light.name().to_string();
         let place = |p: enfilade_math::Vec3| self.world_from_file.transform_point3(p.as_dvec3()).as_vec3();
         let turn = |d: enfilade_math::Vec3| self.world_from_file.transform_vector3(d.as_dvec3()).as_vec3().normalize_or_zero();
@@ -275,7 +301,7 @@ impl<'a> Assembly<'a> {
                 falloff,
             },
             Light::Profile { name, position, web_from_world: web_from_file, intensity, web } => {
-                let rotation = self.world_from_file.matrix3 * (1.0 / self.options.meters_per_unit);
+                let rotation = self.world_from_file.matrix3 * (1.0 / self.meters_per_unit);
                 let web_from_world = web_from_file * mat3_f32(rotation.transpose());
                 Light::Profile { name, position: place(position), web_from_world, intensity: intensity * (metres * metres), web }
             }
@@ -382,7 +408,7 @@ fn unique(names: &mut HashSet<String>, name: &str) -> String {
 }
 
 /// Right-handed orthonormal axes with z along `z` and y as near to `y` as can be.
-fn orthonormal(y: DVec3, z: DVec3) -> Option<DMat3> {
+pub(crate) fn orthonormal(y: DVec3, z: DVec3) -> Option<DMat3> {
     let z = z.try_normalize()?;
     let x = y.try_normalize()?.cross(z).try_normalize()?;
     Some(DMat3::from_cols(x, z.cross(x).normalize(), z))

@@ -10,14 +10,21 @@ pub enum Format {
     Obj,
     /// Mitsuba scene description, versions 0.5 to 3.
     Mitsuba,
+    /// Universal Scene Description, as text, binary or archive.
+    Usd,
     /// The scene package that `enfilade import` writes.
     Package,
 }
 
 impl Format {
     /// Every format with its file name extensions, in lower case.
-    pub const ALL: [(Self, &'static [&'static str]); 4] =
-        [(Self::Gltf, &["gltf", "glb"]), (Self::Obj, &["obj"]), (Self::Mitsuba, &["xml"]), (Self::Package, &["scene"])];
+    pub const ALL: [(Self, &'static [&'static str]); 5] = [
+        (Self::Gltf, &["gltf", "glb"]),
+        (Self::Obj, &["obj"]),
+        (Self::Mitsuba, &["xml"]),
+        (Self::Usd, &["usd", "usda", "usdc", "usdz"]),
+        (Self::Package, &["scene"]),
+    ];
 
     /// The format of a file by the extension of its name.
     ///
@@ -47,7 +54,10 @@ mod tests {
         assert_eq!(Format::of(Path::new("a/Room.GLB")).unwrap(), Format::Gltf);
         assert_eq!(Format::of(Path::new("scene.xml")).unwrap(), Format::Mitsuba);
         let message = Format::of(Path::new("a/room.blend")).unwrap_err().to_string();
-        assert_eq!(message, "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .scene");
+        assert_eq!(
+            message,
+            "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .usd, .usda, .usdc, .usdz, .scene"
+        );
         assert!(Format::of(Path::new("room")).unwrap_err().to_string().contains("no extension"));
     }
 }

@@ -1,4 +1,4 @@
-//! Scene files to [`Scene`]: glTF, OBJ, Mitsuba XML and scene packages, with a report of what was dropped or guessed.
+//! Scene files to [`Scene`]: glTF, OBJ, Mitsuba XML, USD and scene packages, with a report of what was dropped or guessed.
 //!
 //! ```no_run
 //! use enfilade_import::{ImportOptions, load};
@@ -24,7 +24,7 @@
 //!
 //! # Formats
 //!
-//! The pages of [`gltf`], [`obj`], [`mitsuba`] and [`package`] list what is supported of each.
+//! The pages of [`gltf`], [`obj`], [`mitsuba`], [`usd`] and [`package`] list what is supported of each.
 
 mod assembly;
 mod error;
@@ -38,6 +38,7 @@ pub mod obj;
 pub mod package;
 mod polygon;
 mod report;
+pub mod usd;
 
 pub use error::ImportError;
 pub use format::Format;
@@ -80,9 +81,9 @@ fn one() -> f32 {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ImportOptions {
-    /// Metres per unit of the file; 1 by default. Ignored for scene packages.
+    /// Metres per unit of the file; 1 by default. Ignored for scene packages; multiplies the unit that USD files state.
     pub meters_per_unit: f64,
-    /// The axis that points up; by default the format's own (y for all but packages). Ignored for scene packages.
+    /// The axis that points up; by default the file's own (USD states it), else y. Ignored for scene packages.
     pub up_axis: Option<UpAxis>,
     /// Replaces or sets the environment.
     pub environment: Option<EnvironmentOverride>,
@@ -131,6 +132,7 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
         Format::Gltf => gltf::load(assembly),
         Format::Obj => obj::load(assembly),
         Format::Mitsuba => mitsuba::load(assembly),
+        Format::Usd => usd::load(assembly),
         Format::Package => package::load(assembly),
     }
 }

@@ -36,7 +36,7 @@ mod primitives;
 mod sensor;
 mod serialized;
 mod shape;
-mod spectrum;
+pub(crate) mod spectrum;
 mod texture;
 mod transform;
 mod xml;

@@ -83,11 +83,15 @@ fn blackbody(node: &Node) -> Result<Rgb, ImportError> {
     let kelvin: f64 =
         text.parse().ok().filter(|t| (1.0..1e6).contains(t)).ok_or_else(|| node.error("the temperature should be in kelvin"))?;
     let scale = node.numbers("scale")?.first().copied().unwrap_or(1.0);
-    let planck = |nm: f64| {
+    Ok(planck(kelvin) * scale as f32)
+}
+
+/// Linear RGB of a black body's radiance per nanometre.
+pub(crate) fn planck(kelvin: f64) -> Rgb {
+    rgb_of(|nm| {
         let metres = nm * 1e-9;
         1e-9 * 1.191_043e-16 / (metres.powi(5) * ((1.438_777e-2 / (metres * kelvin)).exp() - 1.0))
-    };
-    Ok(rgb_of(planck) * scale as f32)
+    })
 }
 
 /// Linear RGB of a spectrum, such that a constant one has luminance equal to its value.
