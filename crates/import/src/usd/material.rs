@@ -150,7 +150,9 @@ impl Textures<'_, '_, '_> {
     /// A surface of another renderer, by the names that its inputs usually have.
     fn foreign(&mut self, name: &str, shader: &Rc<Prim>) -> Result<Material, ImportError> {
         let kind = id(shader);
-        self.warn(format!("its surface is {kind:?}, of which base colour, roughness, metallic, emission and opacity were guessed by name"));
+        self.warn(format!(
+            "its surface is {kind:?}, of which base colour, roughness, metallic, emission and transmission were guessed by name"
+        ));
         let known = shader.properties();
         let first = |names: &[&'static str]| names.iter().copied().find(|n| known.iter().any(|k| &**k == *n)).unwrap_or("");
         let base = first(&[

@@ -12,7 +12,7 @@
 //! | binding | direct, by purpose (`full`, all, `preview`), inherited, `strongerThanDescendants`; not by collections. Without a material, the display colour, or its mean |
 //! | UsdPreviewSurface | as `Bsdf::Principled`. Opacity passes light straight, with the share of the reflection that remains; above `opacityThreshold` 0 it is a mask. In the specular workflow a bright specular colour is a metal. Displacement is left out, and so is occlusion, which light transport computes |
 //! | textures | UsdUVTexture with wrap modes (`black` is continued, `useMetadata` repeats), scale, bias, fallback and colour space (`auto`: sRGB for colours, raw for numbers), UsdTransform2d, UsdPrimvarReader, through node graphs and inputs of materials; of UDIMs the first tile. One set of texture coordinates a material |
-//! | other surfaces | MaterialX, MDL, RenderMan: a UsdPreviewSurface of another context is preferred; else base colour, roughness, metallic, emission and opacity are guessed by the names of inputs |
+//! | other surfaces | MaterialX, MDL, RenderMan: a UsdPreviewSurface of another context is preferred; else base colour, roughness, metallic, emission and transmission are guessed by the names of inputs |
 //! | lights | rectangles, disks, spheres and cylinders as emitting parts; spheres as points where they are to be one, or have a cone or a profile (IES); distant lights, domes, meshes that are lights. Light linking, filters and portals are left out |
 //! | cameras | perspective; shifted apertures are centred; clipping is left out, and focus is the renderer's configuration |
 //! | labels | `semantics:labels:*` and `semantic:*:params:semanticData` where they name a class of NYU40 |
