@@ -8,6 +8,7 @@
 
 use super::files::{Files, resolve};
 use super::layer::{Layer, MAX_PATH, child_path, field, moved, without_variants};
+use super::node::{Arc, Node, Site, Stack, Target};
 use super::value::{Item, Value};
 use crate::ImportError;
 use crate::assembly::Assembly;
@@ -20,70 +21,23 @@ const MAX_ARCS: usize = 64;
 /// Nodes of one prim beyond this are taken for a mistake.
 const MAX_NODES: usize = 4096;
 
-/// A layer and its sublayers, strongest first.
-#[derive(Debug)]
-pub(super) struct Stack {
-    /// Location of the first layer.
-    pub location: String,
-    pub layers: Vec<Rc<Layer>>,
-}
-
-/// By what a node came in, the strongest first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Arc {
-    Root,
-    Inherit,
-    Variant,
-    Reference,
-    Payload,
-    Specialize,
-}
-
-/// A path in a stack that speaks of a prim.
-#[derive(Clone, Debug)]
-pub(super) struct Node {
-    stack: Rc<Stack>,
-    path: String,
-    arc: Arc,
-    /// Number of prims between the layer's root and the prim that brought the node in.
-    depth: usize,
-    /// Prefixes of paths in the stack, and what they are on the stage.
-    map: Rc<Vec<(String, String)>>,
-    children: Vec<Node>,
-}
-
-/// A path of a layer that speaks of a prim, and how its paths become the stage's.
-#[derive(Clone, Debug)]
-pub(super) struct Site {
-    pub layer: Rc<Layer>,
-    pub path: String,
-    map: Rc<Vec<(String, String)>>,
-}
-
-impl Site {
-    /// A path that the site names, as a path on the stage. `None` when it leads out of what was referenced.
-    pub(super) fn on_stage(&self, path: &str) -> Option<String> {
-        let path = without_variants(path);
-        self.map.iter().find_map(|(from, to)| moved(&path, from, to))
-    }
-}
-
-/// A stack, and a path in it that an arc leads to.
-type Target = (Rc<Stack>, String);
+/// Nodes of the whole stage beyond this are taken for references that multiply without end.
+const MAX_STAGE_NODES: usize = 1 << 20;
 
 /// Opens layers and finds opinions.
 pub(super) struct Composer {
     pub files: Files,
+    nodes: usize,
     stacks: HashMap<String, Rc<Stack>>,
 }
 
 impl Composer {
     /// The composer of a scene file, and the node of its root.
     pub(super) fn open(location: &str, a: &mut Assembly) -> Result<(Self, Node), ImportError> {
-        let mut composer = Self { files: Files::default(), stacks: HashMap::new() };
+        let mut composer = Self { files: Files::default(), nodes: 0, stacks: HashMap::new() };
         let stack = composer.stack(location, "the scene file", a)?;
         let map = Rc::new(vec![("/".to_string(), "/".to_string())]);
-        Ok((composer, Node { stack, path: "/".into(), arc: Arc::Root, depth: 0, map, children: Vec::new() }))
+        Ok((composer, Node { stack, path: "/".into(), kind: Arc::Root, depth: 0, map, children: Vec::new() }))
     }
 
     fn stack(&mut self, location: &str, user: &str, a: &mut Assembly) -> Result<Rc<Stack>, ImportError> {
@@ -131,7 +85,12 @@ impl Composer {
     pub(super) fn child(&mut self, parent: &Node, name: &str, a: &mut Assembly) -> Result<Node, ImportError> {
         let mut node = parent.below(name);
         let mut count = 0;
+        if self.nodes > MAX_STAGE_NODES {
+            let problem = format!("the prims of the scene are made of more than {MAX_STAGE_NODES} parts of layers; make it smaller");
+            return Err(a.malformed(format!("<{}> in {}", parent.path, parent.stack.location), problem));
+        }
         self.add_arcs(&mut node, &mut Vec::new(), &mut Vec::new(), &mut count, a)?;
+        self.nodes += count;
         Ok(node)
     }
 
@@ -176,15 +135,15 @@ impl Composer {
             }
         }
         node.children.extend(added);
-        node.children.sort_by_key(|n| (n.arc, usize::MAX - n.depth));
+        node.children.sort_by_key(|n| (n.kind, usize::MAX - n.depth));
         // What is inherited first, for it may select variants; then the variants; then the rest.
         let mut children = std::mem::take(&mut node.children);
-        let first_variant = children.partition_point(|n| n.arc < Arc::Variant);
+        let first_variant = children.partition_point(|n| n.kind < Arc::Variant);
         for child in &mut children[..first_variant] {
             self.add_arcs(child, chain, stronger, count, a)?;
         }
         let mut variants = node.variants(stronger, &children, depth);
-        let first_weaker = children.partition_point(|n| n.arc <= Arc::Variant);
+        let first_weaker = children.partition_point(|n| n.kind <= Arc::Variant);
         let weaker = children.split_off(first_weaker);
         let mut old = children.split_off(first_variant);
         variants.append(&mut old);
@@ -232,94 +191,4 @@ impl Composer {
 fn overlaps(a: &str, b: &str) -> bool {
     let (a, b) = (without_variants(a), without_variants(b));
     moved(&a, &b, "/").is_some() || moved(&b, &a, "/").is_some()
-}
-
-impl Node {
-    /// The node of a child, before its own opinions are asked.
-    fn below(&self, name: &str) -> Self {
-        Self {
-            stack: self.stack.clone(),
-            path: child_path(&self.path, name),
-            arc: self.arc,
-            depth: self.depth,
-            map: self.map.clone(),
-            // Where a path is not there, nothing below it is.
-            children: self.children.iter().map(|c| c.below(name)).filter(|c| !c.children.is_empty() || !c.own_sites().is_empty()).collect(),
-        }
-    }
-
-    /// The prim's path on the stage.
-    fn stage_path(&self) -> String {
-        let path = without_variants(&self.path);
-        self.map.iter().find_map(|(from, to)| moved(&path, from, to)).unwrap_or(path)
-    }
-
-    fn arc(&self, arc: Arc, depth: usize, (stack, path): Target, same_layers: bool) -> Self {
-        let mut map = vec![(path.clone(), self.stage_path())];
-        if same_layers {
-            map.extend(self.map.iter().cloned());
-        }
-        Self { stack, path, arc, depth, map: Rc::new(map), children: Vec::new() }
-    }
-
-    fn own_sites(&self) -> Vec<Site> {
-        let has = |l: &&Rc<Layer>| l.specs.contains_key(&self.path);
-        self.stack.layers.iter().filter(has).map(|l| Site { layer: l.clone(), path: self.path.clone(), map: self.map.clone() }).collect()
-    }
-
-    /// The items of a list field over the layers of the stack, each with the layer that names it.
-    fn items(&self, name: &str) -> Vec<(Rc<Layer>, Item)> {
-        let mut list: Vec<Item> = Vec::new();
-        let mut from: Vec<(Item, Rc<Layer>)> = Vec::new();
-        for layer in self.stack.layers.iter().rev() {
-            let Some(value) = layer.get(&self.path, name) else { continue };
-            let edit = value.as_list();
-            edit.apply(&mut list);
-            let named = edit.explicit.into_iter().flatten().chain(edit.prepended).chain(edit.appended);
-            from.extend(named.map(|i| (i, layer.clone())));
-        }
-        let layer_of = |item: &Item| from.iter().rev().find(|(i, _)| i == item).map(|(_, l)| l.clone());
-        list.into_iter().filter_map(|item| Some((layer_of(&item)?, item))).collect()
-    }
-
-    /// Nodes of the chosen variants of this node's variant sets that it does not have from its parent.
-    fn variants(&self, stronger: &[Site], children: &[Node], depth: usize) -> Vec<Node> {
-        let selection = |set: &str| {
-            stronger.iter().find_map(|site| match site.layer.get(&site.path, field::VARIANTS) {
-                Some(Value::Dictionary(d)) => d.get(set).and_then(Value::as_text).map(str::to_string),
-                _ => None,
-            })
-        };
-        let mut nodes = Vec::new();
-        for (_, set) in self.items(field::VARIANT_SETS) {
-            let Some(name) = selection(&set.path).filter(|n| !n.is_empty()) else { continue };
-            let path = format!("{}{{{}={name}}}", self.path, set.path);
-            let known = children.iter().any(|c| c.path == path);
-            if !known && self.stack.layers.iter().any(|l| l.specs.contains_key(&path)) {
-                nodes.push(Self { stack: self.stack.clone(), path, arc: Arc::Variant, depth, map: self.map.clone(), children: Vec::new() });
-            }
-        }
-        nodes
-    }
-
-    /// All opinions, strongest first.
-    pub(super) fn sites(&self) -> Vec<Site> {
-        let (mut sites, mut weakest) = (Vec::new(), Vec::new());
-        self.collect(&mut sites, &mut weakest);
-        sites.extend(weakest);
-        sites
-    }
-
-    fn collect(&self, sites: &mut Vec<Site>, weakest: &mut Vec<Site>) {
-        sites.extend(self.own_sites());
-        for child in &self.children {
-            if child.arc == Arc::Specialize {
-                let mut weaker = Vec::new();
-                child.collect(weakest, &mut weaker);
-                weakest.extend(weaker);
-            } else {
-                child.collect(sites, weakest);
-            }
-        }
-    }
 }

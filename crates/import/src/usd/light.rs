@@ -186,7 +186,7 @@ impl Lamp<'_> {
         let solid = PI * half.sin().powi(2);
         let mut irradiance = radiance(self.prim, 50_000.0);
         if !is_normalized(self.prim) && solid > 0.0 {
-            irradiance = irradiance * solid as f32;
+            irradiance *= solid as f32;
         }
         let direction = self.file_from_prim.transform_vector3(DVec3::NEG_Z).normalize_or_zero().as_vec3();
         a.push_light(Light::Directional { name: name(self.prim), direction, irradiance, angular_radius_rad: half as f32 });

@@ -185,7 +185,7 @@ impl Textures<'_, '_, '_> {
         let mut emission = ColorParam::from(Rgb::BLACK);
         if enabled {
             emission = self.color(shader, glow, Rgb::WHITE)?;
-            emission.factor = emission.factor * self.scalar(shader, strength, 1.0)?.factor;
+            emission.factor *= self.scalar(shader, strength, 1.0)?.factor;
         }
         Ok(Material { emission, ..Material::new(name, Bsdf::Principled(Box::new(p))) })
     }

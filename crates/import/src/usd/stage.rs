@@ -1,7 +1,8 @@
 //! The composed scene: prims with their resolved values.
 
-use super::compose::{Composer, Node, Site};
+use super::compose::Composer;
 use super::layer::{child_path, field, property_path};
+use super::node::{Node, Site};
 use super::value::{Item, Value};
 use crate::ImportError;
 use crate::assembly::Assembly;

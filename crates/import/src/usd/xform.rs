@@ -26,7 +26,7 @@ pub(super) fn local(prim: &Prim, a: &mut Assembly) -> (DAffine3, bool) {
             Some(op) if inverse && op.matrix3.determinant() == 0.0 => {
                 a.warn(&prim.path, format!("{attribute} cannot be inverted and was left out"))
             }
-            Some(op) => matrix = matrix * if inverse { op.inverse() } else { op },
+            Some(op) => matrix *= if inverse { op.inverse() } else { op },
         }
     }
     (matrix, reset)

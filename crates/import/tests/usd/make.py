@@ -36,7 +36,7 @@ def main():
     stage = Usd.Stage.Open("room.usda")
     stage.GetRootLayer().Export("room.usdc")
     UsdUtils.CreateNewUsdzPackage("room.usda", "room.usdz")
-    cache = UsdGeom.XformCache()
+    cache = UsdGeom.XformCache(Usd.TimeCode.EarliestTime())
     expected = {"meshes": {}, "colors": {}, "cameras": {}}
     for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
         name = str(prim.GetPath())[1:]

@@ -5,6 +5,7 @@
 //! to its size. The layout is that of OpenUSD's `crateFile.cpp`.
 
 mod cursor;
+mod numbers;
 mod values;
 
 use super::layer::{Layer, MAX_PATH, child_path, property_path};

@@ -1,6 +1,7 @@
 //! usda: the text encoding.
 
 mod lexer;
+mod metadata;
 mod parser;
 mod values;
 

@@ -1,10 +1,12 @@
 //! The structure of usda: prims, properties, variants and their metadata.
 
 use super::lexer::{Lexer, Token};
+use super::metadata::add_edit;
 use crate::usd::layer::{Fields, Layer, MAX_DEPTH, MAX_PATH, child_path, field, property_path};
-use crate::usd::value::{Item, ListEdit, Value};
+use crate::usd::value::Value;
 use std::rc::Rc;
 
+/// Reads tokens into the specs of a layer.
 pub(super) struct Parser<'a> {
     lexer: Lexer<'a>,
     /// The next token.
@@ -17,7 +19,8 @@ pub(super) struct Parser<'a> {
     depth: usize,
 }
 
-type Parsed<T = ()> = Result<T, String>;
+/// What was read, or what is wrong.
+pub(super) type Parsed<T = ()> = Result<T, String>;
 
 impl<'a> Parser<'a> {
     pub(super) fn new(text: &'a str) -> Self {
@@ -60,7 +63,8 @@ impl<'a> Parser<'a> {
         if self.at_sign(close)? { Ok(()) } else { Err(self.unexpected(&format!("`,` or `{}`", char::from(close)))) }
     }
 
-    fn unexpected(&self, expected: &str) -> String {
+    /// What is wrong with the next token.
+    pub(super) fn unexpected(&self, expected: &str) -> String {
         format!("found {}, expected {expected}; correct the file or export it again", self.token.named())
     }
 
@@ -271,54 +275,6 @@ impl<'a> Parser<'a> {
         self.advance()?;
         Ok(first.map_or(Value::Block, |(_, value)| Value::Samples(Box::new(value), count)))
     }
-
-    /// `( key = value … )`.
-    fn metadata(&mut self, fields: &mut Fields) -> Parsed {
-        self.advance()?;
-        while !self.at_sign(b')')? {
-            match &self.token {
-                Token::Sign(b';' | b',') | Token::Text(_) => {
-                    self.advance()?;
-                    continue;
-                }
-                _ => (),
-            }
-            let mut key = self.key("a name of metadata")?;
-            let edit = ["prepend", "append", "add", "delete", "reorder"].into_iter().find(|e| *e == key);
-            if edit.is_some() && self.token != Token::Sign(b'=') {
-                key = self.key("a name of metadata")?;
-            }
-            self.expect(b'=')?;
-            self.metadatum(&key, edit, fields)?;
-        }
-        self.advance()
-    }
-
-    fn metadatum(&mut self, key: &str, edit: Option<&str>, fields: &mut Fields) -> Parsed {
-        let list = match key {
-            "references" => Some(field::REFERENCES),
-            "payload" => Some(field::PAYLOAD),
-            "inherits" => Some(field::INHERITS),
-            "specializes" => Some(field::SPECIALIZES),
-            "variantSets" => Some(field::VARIANT_SETS),
-            "apiSchemas" => Some(field::SCHEMAS),
-            "subLayers" => Some(field::SUBLAYERS),
-            _ => None,
-        };
-        if let Some(list) = list {
-            let items = self.items()?;
-            if list == field::SUBLAYERS {
-                fields.push((list.into(), Value::texts(items.into_iter().map(|i| Rc::from(i.asset)))));
-            } else {
-                add_edit(fields, list, edit, items);
-            }
-            return Ok(());
-        }
-        let value = self.value()?;
-        let name = if key == "variants" { field::VARIANTS } else { key };
-        fields.push((name.into(), value));
-        Ok(())
-    }
 }
 
 /// Adds a name to an array of them, once.
@@ -330,22 +286,5 @@ fn add_name(fields: &mut Fields, list: &str, name: &str) {
             }
         }
         _ => fields.push((list.into(), Value::texts([Rc::from(name)]))),
-    }
-}
-
-/// Adds an edit of a list; several edits of one list stand together.
-fn add_edit(fields: &mut Fields, list: &str, edit: Option<&str>, items: Vec<Item>) {
-    let at = fields.iter().position(|(n, _)| &**n == list).unwrap_or_else(|| {
-        fields.push((list.into(), Value::List(Rc::new(ListEdit::default()))));
-        fields.len() - 1
-    });
-    let Value::List(edits) = &mut fields[at].1 else { return };
-    let edits = Rc::make_mut(edits);
-    match edit {
-        None => edits.explicit = Some(items),
-        Some("prepend") => edits.prepended = items,
-        Some("delete") => edits.deleted = items,
-        Some("reorder") => (),
-        _ => edits.appended = items,
     }
 }
