@@ -22,7 +22,7 @@ const MAX_ARCS: usize = 64;
 const MAX_NODES: usize = 4096;
 
 /// Nodes of the whole stage beyond this are taken for references that multiply without end.
-const MAX_STAGE_NODES: usize = 1 << 20;
+const MAX_STAGE_NODES: usize = 1 << 18;
 
 /// Opens layers and finds opinions.
 pub(super) struct Composer {

@@ -10,6 +10,9 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};
 use std::collections::HashMap;
 
+/// Cutting a larger polygon into triangles could take hours.
+const MAX_CORNERS: usize = 4096;
+
 /// A mesh prim's points and faces, checked.
 pub(super) struct Polygons {
     points: Vec<Vec3>,
@@ -43,6 +46,9 @@ impl Polygons {
                     "faceVertexCounts",
                     format!("found a face of {count} corners, but there are {}; export the file again", indices.len()),
                 ));
+            }
+            if *count as usize > MAX_CORNERS {
+                return Err(bad("faceVertexCounts", format!("found a face of {count} corners, expected at most {MAX_CORNERS}; split it")));
             }
             faces.push((next, *count as usize));
             next += *count as usize;

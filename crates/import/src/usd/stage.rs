@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 /// More prims than this are taken for references that multiply without end.
-const MAX_PRIMS: usize = 1 << 19;
+const MAX_PRIMS: usize = 1 << 18;
 
 /// The composed scene.
 pub(super) struct Stage {

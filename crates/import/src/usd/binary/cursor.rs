@@ -1,5 +1,6 @@
 //! Reading numbers and packed blocks from a crate file, with every bound checked.
 
+use crate::usd::unpacked_limit;
 use lz4_flex::block::decompress_into;
 
 /// LZ4 cannot pack more tightly than this; a file that claims more is damaged.
@@ -87,7 +88,7 @@ impl<'a> Cursor<'a> {
         let here = *self;
         let bytes = self.take(packed)?;
         let Some((&chunks, mut rest)) = bytes.split_first() else { return here.error("found an empty packed block; the file is damaged") };
-        let limit = limit.min(packed * MAX_RATIO) as usize;
+        let limit = limit.min(packed * MAX_RATIO).min(unpacked_limit(self.bytes.len() as u64)) as usize;
         let broken = || here.error("a packed block cannot be unpacked; the file is damaged, so export it again");
         let mut out = vec![0; limit];
         let mut length = 0;
@@ -113,7 +114,7 @@ impl<'a> Cursor<'a> {
     pub(super) fn integers(&mut self, count: usize, wide: bool) -> Checked<Vec<i64>> {
         let here = *self;
         let packed = self.count(1)? as u64;
-        if count as u64 > packed.saturating_mul(4 * MAX_RATIO) {
+        if count as u64 > packed.saturating_mul(4 * MAX_RATIO).min(unpacked_limit(self.bytes.len() as u64) / 8) {
             return here.error(format!("found a count of {count} integers in {packed} packed bytes; the file is damaged"));
         }
         let size = if wide { 8 } else { 4 };

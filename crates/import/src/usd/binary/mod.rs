@@ -147,6 +147,9 @@ fn paths(mut c: Cursor, tokens: &[Rc<str>]) -> Checked<Vec<Rc<str>>> {
     let here = c;
     let count = packed_count(&mut c)?;
     let encoded = packed_count(&mut c)?;
+    if count > encoded {
+        return here.error(format!("{count} paths were expected, but only {encoded} are there; the file is damaged"));
+    }
     let (indices, elements, jumps) = (c.integers(encoded, false)?, c.integers(encoded, false)?, c.integers(encoded, false)?);
     let root: Rc<str> = Rc::from("/");
     let mut paths = vec![root.clone(); count];
