@@ -42,6 +42,10 @@ impl Parser<'_> {
         };
         if let Some(list) = list {
             let items = self.items()?;
+            // The offset of time of a reference within the layer.
+            if self.token == Token::Sign(b'(') {
+                self.skip_brackets()?;
+            }
             if list == field::SUBLAYERS {
                 fields.push((list.into(), Value::texts(items.into_iter().map(|i| Rc::from(i.asset)))));
             } else {

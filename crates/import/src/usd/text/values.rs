@@ -128,6 +128,9 @@ impl Parser<'_> {
                 self.advance()?;
                 while !self.at_sign(b']')? {
                     items.push(self.item()?);
+                    if self.token == Token::Sign(b'(') {
+                        self.skip_brackets()?;
+                    }
                     self.comma(b']')?;
                 }
                 self.advance()?;
@@ -152,8 +155,8 @@ impl Parser<'_> {
             item.path = (*path).to_string();
             self.advance()?;
         }
-        if self.token == Token::Sign(b'(') {
-            // Offset and scale of time, and custom data.
+        // Offset and scale of time, and custom data. Behind a path it is the metadata of a relationship.
+        if self.token == Token::Sign(b'(') && !item.asset.is_empty() {
             self.skip_brackets()?;
         }
         Ok(item)
