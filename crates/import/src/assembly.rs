@@ -43,7 +43,7 @@ pub(crate) struct Assembly<'a> {
 impl<'a> Assembly<'a> {
     /// An empty scene from `file`, whose format has `up` upward unless the options say otherwise.
     pub(crate) fn new(format: Format, file: &Path, up: UpAxis, options: &'a ImportOptions, cx: &'a dyn Cx) -> Self {
-        Self {
+        let mut assembly = Self {
             format,
             file: file.to_path_buf(),
             options,
@@ -55,10 +55,25 @@ impl<'a> Assembly<'a> {
             camera_names: HashSet::new(),
             reversed: HashMap::new(),
             labels: Vec::new(),
-            meters_per_unit: options.meters_per_unit,
-            world_from_file: world_from_file(options.up_axis.unwrap_or(up), options.meters_per_unit),
+            meters_per_unit: 1.0,
+            world_from_file: DAffine3::IDENTITY,
             scene: Scene::default(),
-        }
+        };
+        assembly.set_units(1.0, up);
+        assembly
+    }
+
+    /// Sets the unit and the upward axis that the file itself states, before anything is placed. The options' unit multiplies the
+    /// file's, their axis replaces it.
+    pub(crate) fn set_units(&mut self, file_meters_per_unit: f64, file_up: UpAxis) {
+        self.state_space(file_meters_per_unit, world_from_up(file_up));
+    }
+
+    /// As [`Assembly::set_units`] for any axes: `world_from_axes` is a rotation or a reflection.
+    pub(crate) fn state_space(&mut self, file_meters_per_unit: f64, world_from_axes: DMat3) {
+        let axes = self.options.up_axis.map_or(world_from_axes, world_from_up);
+        self.meters_per_unit = file_meters_per_unit * self.options.meters_per_unit;
+        self.world_from_file = DAffine3::from_mat3(axes * self.meters_per_unit);
     }
 
     /// The scene file.
@@ -69,14 +84,6 @@ impl<'a> Assembly<'a> {
     /// Metres per unit of the file.
     pub(crate) fn meters_per_unit(&self) -> f64 {
         self.meters_per_unit
-    }
-
-    /// Takes the unit and the axis that the file itself states, unless the options say otherwise. Nothing may have been placed yet.
-    pub(crate) fn set_conventions(&mut self, meters_per_unit: f64, up: UpAxis) {
-        if self.options.meters_per_unit == 1.0 {
-            self.meters_per_unit = meters_per_unit;
-        }
-        self.world_from_file = world_from_file(self.options.up_axis.unwrap_or(up), self.meters_per_unit);
     }
 
     /// Records something dropped, guessed or mended at a place in the scene file.
@@ -125,6 +132,11 @@ impl<'a> Assembly<'a> {
     pub(crate) fn beside(&self, from: &Path, path: &str) -> Option<PathBuf> {
         let folder = from.parent().unwrap_or(Path::new(""));
         [folder.join(path), folder.join(path.replace('\\', "/"))].into_iter().find(|file| file.is_file())
+    }
+
+    /// The path of a file that the scene file refers to by `path`, for messages.
+    pub(crate) fn path_of(&self, path: &str) -> PathBuf {
+        self.resolve(path)
     }
 
     /// True when there is a file where the scene file's `path` leads.
@@ -212,6 +224,11 @@ impl<'a> Assembly<'a> {
     /// A mesh by its index.
     pub(crate) fn mesh_at(&self, index: u32) -> &Mesh {
         &self.scene.meshes[index as usize]
+    }
+
+    /// A material by its index.
+    pub(crate) fn material_at(&self, index: u32) -> &Material {
+        &self.scene.materials[index as usize]
     }
 
     /// Adds a material.
@@ -414,13 +431,12 @@ impl<'a> Assembly<'a> {
     }
 }
 
-/// Turns the file's up into z and its unit into metres.
-fn world_from_file(up: UpAxis, meters_per_unit: f64) -> DAffine3 {
-    let axes = match up {
+/// The rotation that turns `up` to z.
+fn world_from_up(up: UpAxis) -> DMat3 {
+    match up {
         UpAxis::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
         UpAxis::Z => DMat3::IDENTITY,
-    };
-    DAffine3::from_mat3(axes * meters_per_unit)
+    }
 }
 
 /// The matrix in single precision.
@@ -439,7 +455,7 @@ fn unique(names: &mut HashSet<String>, name: &str) -> String {
 }
 
 /// Right-handed orthonormal axes with z along `z` and y as near to `y` as can be.
-fn orthonormal(y: DVec3, z: DVec3) -> Option<DMat3> {
+pub(crate) fn orthonormal(y: DVec3, z: DVec3) -> Option<DMat3> {
     let z = z.try_normalize()?;
     let x = y.try_normalize()?.cross(z).try_normalize()?;
     Some(DMat3::from_cols(x, z.cross(x).normalize(), z))

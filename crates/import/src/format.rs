@@ -16,18 +16,21 @@ pub enum Format {
     Pbrt,
     /// Stanford PLY: one mesh.
     Ply,
+    /// Universal Scene Description, as text, binary or archive.
+    Usd,
     /// The scene package that `enfilade import` writes.
     Package,
 }
 
 impl Format {
     /// Every format with its file name extensions, in lower case.
-    pub const ALL: [(Self, &'static [&'static str]); 7] = [
+    pub const ALL: [(Self, &'static [&'static str]); 8] = [
         (Self::Gltf, &["gltf", "glb"]),
         (Self::Obj, &["obj"]),
         (Self::Mitsuba, &["xml"]),
         (Self::Pbrt, &["pbrt", "pbrt.gz"]),
         (Self::Ply, &["ply"]),
+        (Self::Usd, &["usd", "usda", "usdc", "usdz"]),
         (Self::VRay, &["vrscene"]),
         (Self::Package, &["scene"]),
     ];
@@ -68,7 +71,7 @@ mod tests {
         let message = Format::of(Path::new("a/room.blend")).unwrap_err().to_string();
         assert_eq!(
             message,
-            "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .vrscene, .scene"
+            "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .vrscene, .scene"
         );
         assert!(Format::of(Path::new("room")).unwrap_err().to_string().contains("no extension"));
     }

@@ -1,4 +1,4 @@
-//! Scene files to [`Scene`]: glTF, OBJ, Mitsuba XML, pbrt, PLY, V-Ray scenes and scene packages, with a report of what was dropped or guessed.
+//! Scene files to [`Scene`]: glTF, OBJ, Mitsuba XML, pbrt, PLY, USD, V-Ray scenes and scene packages, with a report of what was dropped or guessed.
 //!
 //! ```no_run
 //! use enfilade_import::{ImportOptions, load};
@@ -24,7 +24,7 @@
 //!
 //! # Formats
 //!
-//! The pages of [`gltf`], [`obj`], [`mitsuba`], [`pbrt`], [`ply`], [`vray`] and [`package`] list what is supported of each.
+//! The pages of [`gltf`], [`obj`], [`mitsuba`], [`pbrt`], [`ply`], [`usd`], [`vray`] and [`package`] list what is supported of each.
 
 mod assembly;
 mod error;
@@ -43,6 +43,7 @@ mod primitives;
 mod report;
 mod roughness;
 mod spectrum;
+pub mod usd;
 pub mod vray;
 
 pub use error::ImportError;
@@ -86,10 +87,10 @@ fn one() -> f32 {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ImportOptions {
-    /// Metres per unit of the file; 1 by default. A file that states its own unit (V-Ray's) is read in that unit while this is 1, and in
-    /// this one otherwise. Ignored for scene packages.
+    /// Metres per unit of the file; 1 by default. Where the file states its own unit (USD, FBX, V-Ray scenes) this multiplies it.
+    /// Ignored for scene packages.
     pub meters_per_unit: f64,
-    /// The axis that points up; by default the format's own (y for all but V-Ray scenes and packages). Ignored for scene packages.
+    /// The axis that points up; by default the file's own (USD, FBX and V-Ray scenes state it), else the format's own. Ignored for scene packages.
     pub up_axis: Option<UpAxis>,
     /// Replaces or sets the environment.
     pub environment: Option<EnvironmentOverride>,
@@ -141,6 +142,7 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
         Format::Pbrt => pbrt::load(assembly),
         Format::Ply => ply::load(assembly),
         Format::VRay => vray::load(assembly),
+        Format::Usd => usd::load(assembly),
         Format::Package => package::load(assembly),
     }
 }

@@ -54,7 +54,7 @@ impl Counts {
 /// The report of an import.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ImportReport {
-    /// "gltf", "obj", "mitsuba", "pbrt", "ply", "vray" or "package".
+    /// "gltf", "obj", "mitsuba", "pbrt", "ply", "usd", "vray" or "package".
     pub format: &'static str,
     /// What the scene holds.
     pub counts: Counts,
@@ -68,6 +68,7 @@ impl ImportReport {
             Format::Gltf => "gltf",
             Format::Obj => "obj",
             Format::Mitsuba => "mitsuba",
+            Format::Usd => "usd",
             Format::Pbrt => "pbrt",
             Format::Ply => "ply",
             Format::VRay => "vray",

@@ -21,11 +21,10 @@ fn nodes_are_placed_in_metres_with_z_up_and_share_meshes() {
     // The x axis goes to y, as the first vector of the matrix says.
     let corners = scene.world_corners(&scene.parts[1], 0);
     assert!(corners[0].distance(Vec3::new(1.0, 0.0, 3.0)) < 1e-6 && corners[1].distance(Vec3::new(1.0, 0.02, 3.0)) < 1e-6, "{corners:?}");
-    // The option wins over the file unless it is 1.
-    let options = ImportOptions { meters_per_unit: 0.5, ..ImportOptions::default() };
+    // The option multiplies the file's unit.
+    let options = ImportOptions { meters_per_unit: 50.0, ..ImportOptions::default() };
     let imported = folder.load_with("a.vrscene", &options).unwrap();
     assert_eq!(imported.scene.world_corners(&imported.scene.parts[0], 0)[1], Vec3::new(1.0, 0.0, 0.0));
-    assert!(warnings(&imported).contains("the scene's unit is 0.01 m; the option meters_per_unit = 0.5 was used"));
     let y_up = load_text(&folder, &text.replace("meters_scale=0.01;", "meters_scale=1; scene_upDir=Vector(0,1,0);")).scene;
     assert!(y_up.world_corners(&y_up.parts[0], 0)[2].distance(Vec3::new(0.0, 0.0, 2.0)) < 1e-6);
 }

@@ -15,9 +15,9 @@ pub const SIZE: [u32; 2] = [1024, 768];
 /// How the example exposes its pictures (`_vray_user_params.py`).
 const EXPOSURE: [(&str, f64); 3] = [("ISO", 400.0), ("shutter_speed", 300.0), ("f_number", 2.0)];
 
-/// Metres per unit, a tenth of what the scene says, which changes nothing in the picture: the ground is 2.5 km wide, and at that size
+/// A tenth of the unit that the scene states, which changes nothing in the picture: the ground is 2.5 km wide, and at that size
 /// our renderer loses 4 % of the light of an open plane to rounding (docs/vray.md).
-const METERS_PER_UNIT: f64 = 0.002_54;
+const METERS_PER_UNIT: f64 = 0.1;
 
 /// V-Ray's own picture of the scene, linear.
 pub fn picture(scenes: &Path) -> PathBuf {

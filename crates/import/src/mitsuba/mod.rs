@@ -34,7 +34,7 @@ mod emitter;
 mod sensor;
 mod serialized;
 mod shape;
-mod spectrum;
+pub(crate) mod spectrum;
 mod texture;
 mod transform;
 mod xml;

@@ -112,7 +112,7 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
 fn units(plugins: &Plugins, a: &mut Assembly) -> Result<f64, ImportError> {
     let Some(info) = plugins.settings("SettingsUnitsInfo") else {
         a.warn("SettingsUnitsInfo", "the scene does not state its unit, so a unit is a metre; the option meters_per_unit says otherwise");
-        a.set_conventions(DEFAULT_UNIT.0, UpAxis::Z);
+        a.set_units(DEFAULT_UNIT.0, UpAxis::Z);
         return Ok(DEFAULT_UNIT.1);
     };
     let positive = |parameter: &str, default: f64| {
@@ -125,11 +125,7 @@ fn units(plugins: &Plugins, a: &mut Assembly) -> Result<f64, ImportError> {
     let meters = positive("meters_scale", DEFAULT_UNIT.0)?;
     let photometric_scale = positive("photometric_scale", DEFAULT_UNIT.1)?;
     let up = info.vector("scene_upDir", DVec3::Z)?;
-    a.set_conventions(meters, if up.y.abs() > up.z.abs() { UpAxis::Y } else { UpAxis::Z });
-    if a.meters_per_unit() != meters {
-        let message = format!("the scene's unit is {meters} m; the option meters_per_unit = {} was used instead", a.meters_per_unit());
-        a.warn(info.place(), message);
-    }
+    a.set_units(meters, if up.y.abs() > up.z.abs() { UpAxis::Y } else { UpAxis::Z });
     Ok(photometric_scale)
 }
 
