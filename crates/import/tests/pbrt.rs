@@ -177,17 +177,15 @@ fn cameras_and_left_handed_worlds() {
 fn textures_masks_and_relief() {
     let folder = Folder::new();
     folder.write("t.png", png(2, 2, [255, 0, 0, 255])).write("g.png", png(2, 2, [128, 128, 128, 255]));
-    let text = format!(
-        "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"t.png\" \"float uscale\" 2 \"float vdelta\" .5\n\
+    let text = "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"t.png\" \"float uscale\" 2 \"float vdelta\" .5\n\
          Texture \"half\" \"spectrum\" \"scale\" \"texture tex\" \"t\" \"float scale\" .5\n\
          Texture \"g\" \"float\" \"imagemap\" \"string filename\" \"g.png\" \"string encoding\" \"linear\"\n\
          Texture \"c\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [1 0 0] \"rgb tex2\" [0 1 0] \"float uscale\" 2 \"float vscale\" 2\n\
          AttributeBegin\nMaterial \"diffuse\" \"texture reflectance\" \"half\" \"texture displacement\" \"g\"\n\
           Shape \"sphere\" \"texture alpha\" \"g\"\nAttributeEnd\n\
          Material \"diffuse\" \"texture reflectance\" \"c\"\nShape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0]\n\
-         Material \"conductor\" \"texture roughness\" \"g\"\nShape \"disk\"\n"
-    );
-    let scene = load(&folder, &text).scene;
+         Material \"conductor\" \"texture roughness\" \"g\"\nShape \"disk\"\n";
+    let scene = load(&folder, text).scene;
     let Bsdf::Diffuse { reflectance } = &scene.materials[0].bsdf else { panic!("not diffuse") };
     let t = reflectance.texture.unwrap();
     assert_eq!((reflectance.factor, t.transform(Vec2::new(0.25, 0.25))), (Rgb::splat(0.5), Vec2::new(0.5, 0.75)));

@@ -67,7 +67,7 @@ fn sphere(params: &Params, radius: f64) -> Result<Vec<Ring>, ImportError> {
         let v = f64::from(i) / f64::from(bands);
         let theta = bottom + (top - bottom) * v;
         // The poles are points.
-        let sin = if theta < 1e-12 || theta > 0.5 * TAU - 1e-12 { 0.0 } else { theta.sin() };
+        let sin = if (1e-12..=0.5 * TAU - 1e-12).contains(&theta) { theta.sin() } else { 0.0 };
         Ring { r: radius * sin, z: radius * theta.cos(), normal: [sin, theta.cos()], v }
     };
     Ok((0..=bands).map(ring).collect())
