@@ -2,6 +2,7 @@
 //!
 //! An importer speaks in the file's own units and axes; [`Assembly`] turns them into the world's (metres, z up).
 
+use crate::archive::Archive;
 use crate::images::{self, Use};
 use crate::report::Warnings;
 use crate::{Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis, mesh};
@@ -28,6 +29,7 @@ pub(crate) struct Assembly<'a> {
     file: PathBuf,
     options: &'a ImportOptions,
     cx: &'a dyn Cx,
+    archive: Option<&'a Archive>,
     warnings: Warnings<'a>,
     inputs: Vec<PathBuf>,
     images: BTreeMap<(String, Use), Option<u32>>,
@@ -35,6 +37,7 @@ pub(crate) struct Assembly<'a> {
     camera_names: HashSet<String>,
     reversed: HashMap<u32, u32>,
     labels: Vec<ImportedLabel>,
+    meters_per_unit: f64,
     world_from_file: DAffine3,
     scene: Scene,
 }
@@ -51,6 +54,7 @@ impl<'a> Assembly<'a> {
             file: file.to_path_buf(),
             options,
             cx,
+            archive: None,
             warnings: Warnings::new(cx),
             inputs: Vec::new(),
             images: BTreeMap::new(),
@@ -58,9 +62,23 @@ impl<'a> Assembly<'a> {
             camera_names: HashSet::new(),
             reversed: HashMap::new(),
             labels: Vec::new(),
+            meters_per_unit: options.meters_per_unit,
             world_from_file: DAffine3::from_mat3(axes * options.meters_per_unit),
             scene: Scene::default(),
         }
+    }
+
+    /// An empty scene from the file `entry` within an archive, with the same options.
+    pub(crate) fn inside<'b>(&self, format: Format, up: UpAxis, archive: &'b Archive, entry: &str) -> Assembly<'b>
+    where
+        'a: 'b,
+    {
+        Assembly::new(format, &archive.file().join(entry), up, self.options, self.cx).within(archive)
+    }
+
+    /// The same for a scene file within an archive: all that it refers to is in there as well, and nowhere else.
+    pub(crate) fn within(self, archive: &'a Archive) -> Self {
+        Self { archive: Some(archive), ..self }
     }
 
     /// The scene file.
@@ -70,13 +88,27 @@ impl<'a> Assembly<'a> {
 
     /// Metres per unit of the file.
     pub(crate) fn meters_per_unit(&self) -> f64 {
-        self.options.meters_per_unit
+        self.meters_per_unit
+    }
+
+    /// What the file says of its own unit and axes, before anything is placed: the options' metres multiply its own, and the
+    /// options' up axis, if there is one, stands above `world_from_axes`, a rotation or reflection.
+    pub(crate) fn state_space(&mut self, meters_per_unit: f64, world_from_axes: DMat3) {
+        let stated = self.world_from_file.matrix3 * (1.0 / self.meters_per_unit);
+        let axes = if self.options.up_axis.is_some() { stated } else { world_from_axes };
+        self.meters_per_unit = self.options.meters_per_unit * meters_per_unit;
+        self.world_from_file = DAffine3::from_mat3(axes * self.meters_per_unit);
     }
 
     /// Records something dropped, guessed or mended at a place in the scene file.
     pub(crate) fn warn(&mut self, place: impl AsRef<str>, message: impl Into<String>) {
         let place = format!("{}: {}", self.file.display(), place.as_ref());
         self.warnings.push(place, message.into());
+    }
+
+    /// Takes over the warnings of an import that is part of this one.
+    pub(crate) fn pass_on(&mut self, warnings: Vec<enfilade_scene::Warning>) {
+        warnings.into_iter().for_each(|w| self.warnings.push(w.place, w.message));
     }
 
     /// Tells the caller how far the import is.
@@ -105,14 +137,15 @@ impl<'a> Assembly<'a> {
 
     /// True when there is a file where the scene file's `path` leads.
     pub(crate) fn exists(&self, path: &str) -> bool {
-        self.resolve(path).is_file()
+        self.is_file(&self.resolve(path))
     }
 
     fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
-        let bytes =
-            std::fs::read(file).map_err(|source| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() })?;
-        if !self.inputs.iter().any(|i| i == file) {
-            self.inputs.push(file.to_path_buf());
+        let read = self.archive.map_or_else(|| std::fs::read(file), |archive| archive.read_path(file));
+        let bytes = read.map_err(|source| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() })?;
+        let input = self.archive.map_or(file, Archive::file);
+        if !self.inputs.iter().any(|i| i == input) {
+            self.inputs.push(input.to_path_buf());
         }
         Ok(bytes)
     }
@@ -121,7 +154,11 @@ impl<'a> Assembly<'a> {
     fn resolve(&self, path: &str) -> PathBuf {
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let plain = folder.join(path);
-        if plain.exists() || !path.contains('\\') { plain } else { folder.join(path.replace('\\', "/")) }
+        if self.is_file(&plain) || !path.contains('\\') { plain } else { folder.join(path.replace('\\', "/")) }
+    }
+
+    fn is_file(&self, path: &Path) -> bool {
+        self.archive.map_or_else(|| path.is_file(), |archive| archive.contains_path(path))
     }
 
     /// The index of a picture, decoded at first use. `user` is the material or light that wants it. `None` when it is missing
@@ -183,6 +220,16 @@ impl<'a> Assembly<'a> {
     /// A picture by its index.
     pub(crate) fn image_at(&self, index: u32) -> &enfilade_scene::Image {
         &self.scene.images[index as usize]
+    }
+
+    /// A material by its index.
+    pub(crate) fn material_at(&self, index: u32) -> &Material {
+        &self.scene.materials[index as usize]
+    }
+
+    /// A mesh by its index.
+    pub(crate) fn mesh_at(&self, index: u32) -> &Mesh {
+        &self.scene.meshes[index as usize]
     }
 
     /// Adds a material.
@@ -257,7 +304,7 @@ impl<'a> Assembly<'a> {
     /// Adds a light given in the file's units and axes. Point and spot lights shine so that a picture looks the same whatever
     /// the unit: their intensity grows with the square of the metres per unit.
     pub(crate) fn push_light(&mut self, light: Light) {
-        let metres = self.options.meters_per_unit as f32;
+        let metres = self.meters_per_unit as f32;
         let name = light.name().to_string();
         let place = |p: enfilade_math::Vec3| self.world_from_file.transform_point3(p.as_dvec3()).as_vec3();
         let turn = |d: enfilade_math::Vec3| self.world_from_file.transform_vector3(d.as_dvec3()).as_vec3().normalize_or_zero();
@@ -275,7 +322,7 @@ impl<'a> Assembly<'a> {
                 falloff,
             },
             Light::Profile { name, position, web_from_world: web_from_file, intensity, web } => {
-                let rotation = self.world_from_file.matrix3 * (1.0 / self.options.meters_per_unit);
+                let rotation = self.world_from_file.matrix3 * (1.0 / self.meters_per_unit);
                 let web_from_world = web_from_file * mat3_f32(rotation.transpose());
                 Light::Profile { name, position: place(position), web_from_world, intensity: intensity * (metres * metres), web }
             }

@@ -10,14 +10,24 @@ pub enum Format {
     Obj,
     /// Mitsuba scene description, versions 0.5 to 3.
     Mitsuba,
+    /// Autodesk FBX, binary or as text.
+    Fbx,
+    /// Homes and furniture libraries of Sweet Home 3D.
+    SweetHome,
     /// The scene package that `enfilade import` writes.
     Package,
 }
 
 impl Format {
     /// Every format with its file name extensions, in lower case.
-    pub const ALL: [(Self, &'static [&'static str]); 4] =
-        [(Self::Gltf, &["gltf", "glb"]), (Self::Obj, &["obj"]), (Self::Mitsuba, &["xml"]), (Self::Package, &["scene"])];
+    pub const ALL: [(Self, &'static [&'static str]); 6] = [
+        (Self::Gltf, &["gltf", "glb"]),
+        (Self::Obj, &["obj"]),
+        (Self::Mitsuba, &["xml"]),
+        (Self::Fbx, &["fbx"]),
+        (Self::SweetHome, &["sh3d", "sh3f", "zip"]),
+        (Self::Package, &["scene"]),
+    ];
 
     /// The format of a file by the extension of its name.
     ///
@@ -47,7 +57,10 @@ mod tests {
         assert_eq!(Format::of(Path::new("a/Room.GLB")).unwrap(), Format::Gltf);
         assert_eq!(Format::of(Path::new("scene.xml")).unwrap(), Format::Mitsuba);
         let message = Format::of(Path::new("a/room.blend")).unwrap_err().to_string();
-        assert_eq!(message, "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .scene");
+        assert_eq!(
+            message,
+            "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .fbx, .sh3d, .sh3f, .zip, .scene"
+        );
         assert!(Format::of(Path::new("room")).unwrap_err().to_string().contains("no extension"));
     }
 }

@@ -54,7 +54,7 @@ impl Counts {
 /// The report of an import.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ImportReport {
-    /// "gltf", "obj", "mitsuba" or "package".
+    /// "gltf", "obj", "mitsuba", "fbx", "sweethome" or "package".
     pub format: &'static str,
     /// What the scene holds.
     pub counts: Counts,
@@ -68,6 +68,8 @@ impl ImportReport {
             Format::Gltf => "gltf",
             Format::Obj => "obj",
             Format::Mitsuba => "mitsuba",
+            Format::Fbx => "fbx",
+            Format::SweetHome => "sweethome",
             Format::Package => "package",
         };
         Self { format, counts: Counts::of(scene), warnings }
