@@ -83,7 +83,7 @@ impl MomentArg {
     enfilade import out --scene home"
 )]
 pub struct ImportArgs {
-    /// A scene file (.gltf, .glb, .obj, .xml), or the folder of a dataset to import the scenes of
+    /// A scene file (.gltf, .glb, .obj, .xml, .fbx, .sh3d, .sh3f), or the folder of a dataset to import the scenes of
     pub input: PathBuf,
     /// The scene package (.scene) or binary glTF (.glb) to write [default: the input's name with .scene, in the current folder]
     #[arg(short, long, value_name = "FILE")]

@@ -1,11 +1,10 @@
 //! The models of furniture within an archive.
 
-use super::home::Home;
 use crate::archive::Archive;
 use crate::assembly::Assembly;
 use crate::{Format, ImportError, ImportOptions, Imported, UpAxis, obj};
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
+use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec3};
 use enfilade_scene::{Alpha, Bsdf, Material, NormalMap, Quiet, TextureRef};
 
 /// A model within the scene in the making; its own unit, y up.
@@ -21,17 +20,33 @@ pub(super) struct ModelPart {
     pub file_from_mesh: DAffine3,
 }
 
+/// Extents below this are taken for it, model units, so that flat models can be scaled.
+const FLAT: f64 = 1e-4;
+
 impl Model {
     /// The box around the model as `placed`.
-    pub fn bounds(&self, placed: DAffine3, home: &Home) -> (DVec3, DVec3) {
-        bounds(self.parts.iter().map(|p| (home.a.mesh_at(p.mesh), placed * p.file_from_mesh)))
+    pub fn bounds(&self, placed: DAffine3, a: &Assembly) -> (DVec3, DVec3) {
+        let place = |p: &ModelPart| placed * p.file_from_mesh;
+        let points =
+            self.parts.iter().flat_map(|p| a.mesh_at(p.mesh).positions.iter().map(move |v| place(p).transform_point3(v.as_dvec3())));
+        points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
+    }
+
+    /// From the model to a box of side one around the origin, turned by `rotation`. Without `recenter` the turned model stays where
+    /// the middle of the one that was not turned lay, as older versions of Sweet Home 3D have it.
+    pub fn normalized(&self, rotation: Option<DMat3>, recenter: bool, a: &Assembly) -> DAffine3 {
+        let (min, max) = self.bounds(DAffine3::IDENTITY, a);
+        let centered = DAffine3::from_translation(-0.5 * (min + max));
+        let Some(rotation) = rotation else { return unit_scale(max - min) * centered };
+        let turned = DAffine3::from_mat3(rotation) * centered;
+        let (min, max) = self.bounds(turned, a);
+        let moved = if recenter { DAffine3::from_translation(-0.5 * (min + max)) } else { DAffine3::IDENTITY };
+        unit_scale(max - min) * moved * turned
     }
 }
 
-/// The box around meshes.
-pub(super) fn bounds<'m>(meshes: impl Iterator<Item = (&'m Mesh, DAffine3)>) -> (DVec3, DVec3) {
-    let points = meshes.flat_map(|(mesh, m)| mesh.positions.iter().map(move |p| m.transform_point3(p.as_dvec3())));
-    points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
+fn unit_scale(size: DVec3) -> DAffine3 {
+    DAffine3::from_scale(size.max(DVec3::splat(FLAT)).recip())
 }
 
 /// Reads the model that `file` names and adds its meshes, materials and pictures to the scene.

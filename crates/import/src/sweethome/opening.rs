@@ -71,7 +71,7 @@ impl Opening {
 
     fn is_along(&self, a: DVec2, b: DVec2) -> bool {
         // Faces across the opening, such as the ends of its wall, are not cut.
-        (b - a).normalize_or_zero().dot(self.along).abs() > 0.5
+        (b - a).normalize_or_zero().dot(self.along).abs() > 0.8
     }
 
     fn clip(&self, a: DVec2, b: DVec2, reach: f64) -> Option<[f64; 2]> {

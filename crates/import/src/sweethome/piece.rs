@@ -10,8 +10,6 @@ use enfilade_scene::{Alpha, Bsdf, ColorParam, Light, Material, PartLabel};
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// Extents below this are taken for it, model units, so that flat models can be scaled.
-const FLAT: f64 = 1e-4;
 /// What Sweet Home 3D's photographs multiply the square of a lamp's power with, and the largest value of a colour there.
 const LAMP: f64 = 5.0 * 255.0 * 255.0;
 /// The colour of light that homes have unless they say otherwise.
@@ -91,7 +89,7 @@ pub(super) fn add(piece: &Piece, root: &Element, home: &mut Home) -> Result<(), 
     let name = name(element, &mut home.models);
     let Some(model) = model_of(piece, home)? else { return Ok(()) };
     let size = DVec3::new(element.length("width")?, element.length("height")?, element.length("depth")?);
-    let normal = normalization(piece, root, &model, home)?;
+    let normal = normalization(element, root, &model, home)?;
     let placement = placement(piece, size, &model, normal, home)?;
     report_ignored(element, home);
     let shared = model.parts.len() > 1;
@@ -138,8 +136,7 @@ fn model_of(piece: &Piece, home: &mut Home) -> Result<Option<Rc<Model>>, ImportE
 }
 
 /// From the model to a box of side one around the origin, turned upright.
-fn normalization(piece: &Piece, root: &Element, model: &Model, home: &Home) -> Result<DAffine3, ImportError> {
-    let element = piece.element;
+fn normalization(element: Element, root: &Element, model: &Model, home: &Home) -> Result<DAffine3, ImportError> {
     let rotation = match element.numbers("modelRotation")?.as_deref() {
         None => None,
         Some(&[a, b, c, d, e, f, g, h, i]) => Some(DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]).transpose()),
@@ -147,20 +144,8 @@ fn normalization(piece: &Piece, root: &Element, model: &Model, home: &Home) -> R
             return Err(element.error(format!("found {} numbers in modelRotation, expected nine; save the home again", other.len())));
         }
     };
-    let (min, max) = model.bounds(DAffine3::IDENTITY, home);
-    let centered = DAffine3::from_translation(-0.5 * (min + max));
-    let Some(rotation) = rotation else { return Ok(unit_scale(max - min) * centered) };
-    let turned = DAffine3::from_mat3(rotation) * centered;
-    let (min, max) = model.bounds(turned, home);
-    // Older versions left the turned model where it was.
     let old = root.number_or("version", 0.0)? < 5500.0;
-    let recenter = !old && element.flag("modelCenteredAtOrigin", true);
-    let moved = if recenter { DAffine3::from_translation(-0.5 * (min + max)) } else { DAffine3::IDENTITY };
-    Ok(unit_scale(max - min) * moved * turned)
-}
-
-fn unit_scale(size: DVec3) -> DAffine3 {
-    DAffine3::from_scale(size.max(DVec3::splat(FLAT)).recip())
+    Ok(model.normalized(rotation, !old && element.flag("modelCenteredAtOrigin", true), &home.a))
 }
 
 /// From the box of side one to its place in the home: mirrored, sized, pitched and rolled about its centre, turned and moved.
@@ -172,7 +157,7 @@ fn placement(piece: &Piece, size: DVec3, model: &Model, normal: DAffine3, home: 
     let (pitch, roll) = (element.number_or("pitch", 0.0)?, element.number_or("roll", 0.0)?);
     if pitch != 0.0 || roll != 0.0 {
         sized = DAffine3::from_mat3(DMat3::from_rotation_z(-roll) * DMat3::from_rotation_x(-pitch)) * sized;
-        let (min, max) = model.bounds(sized * normal, home);
+        let (min, max) = model.bounds(sized * normal, &home.a);
         sized = DAffine3::from_translation(-0.5 * (min + max)) * sized;
         height = max.y - min.y;
     }

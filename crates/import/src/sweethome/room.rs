@@ -12,6 +12,9 @@ use enfilade_math::{DVec2, Vec3};
 /// How far the ground goes on beyond the rooms, centimetres.
 const GROUND_MARGIN: f64 = 2000.0;
 
+/// Corners of one room and of all: beyond them it takes too long to find out which floors overlap.
+const MOST_CORNERS: (usize, usize) = (1000, 20_000);
+
 type Triangles = Vec<[DVec2; 3]>;
 
 /// A room's floor plan.
@@ -26,6 +29,7 @@ struct Room<'x> {
 /// room has the place; staircases open the floor above them.
 pub(super) fn add_all(root: &Element, walls: &Walls, pieces: &[Piece], home: &mut Home) -> Result<(), ImportError> {
     let mut rooms = Vec::new();
+    let mut corners = 0;
     for element in root.children().filter(|e| e.tag() == "room") {
         let level = element.text("level");
         if !home.shows(level) {
@@ -34,6 +38,13 @@ pub(super) fn add_all(root: &Element, walls: &Walls, pieces: &[Piece], home: &mu
         let mut points = Vec::new();
         for point in element.children().filter(|e| e.tag() == "point") {
             points.push(DVec2::new(point.required("x")?, point.required("y")?));
+        }
+        corners += points.len();
+        if points.len() > MOST_CORNERS.0 || corners > MOST_CORNERS.1 {
+            let (of_room, of_home) = MOST_CORNERS;
+            let problem =
+                format!("found {} corners of {corners} so far, expected {of_room} of {of_home} at most; simplify the room", points.len());
+            return Err(element.error(problem));
         }
         if points.len() < 3 {
             home.a.warn(element.place(), "the room has fewer than three corners and was left out");

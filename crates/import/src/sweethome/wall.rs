@@ -205,8 +205,8 @@ fn add_ends(outline: &Outline, wall: &Wall, is_left: bool, cuts: &[&Opening], su
     let last = outline.left.len() - 1;
     for (at, top) in [(0, wall.tops[0]), (last, wall.tops[1])] {
         let middle = 0.5 * (outline.left[at] + outline.right[at]);
-        // Seen from outside, the start has its right side on the left.
-        let points = if (at == 0) == is_left { [middle, side[at]] } else { [side[at], middle] };
+        // Seen from outside, the start has its left side on the left.
+        let points = if (at == 0) == is_left { [side[at], middle] } else { [middle, side[at]] };
         Side { points: &points, is_left: false, bottom: wall.bottom, tops: [top; 2] }.add(cuts, surface);
     }
 }
