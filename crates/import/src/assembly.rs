@@ -78,7 +78,7 @@ impl<'a> Assembly<'a> {
 
     /// The same for a scene file within an archive: all that it refers to is in there as well, and nowhere else.
     pub(crate) fn within(self, archive: &'a Archive) -> Self {
-        Self { archive: Some(archive), ..self }
+        Self { archive: Some(archive), inputs: vec![archive.file().to_path_buf()], ..self }
     }
 
     /// The scene file.
@@ -143,9 +143,8 @@ impl<'a> Assembly<'a> {
     fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
         let read = self.archive.map_or_else(|| std::fs::read(file), |archive| archive.read_path(file));
         let bytes = read.map_err(|source| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() })?;
-        let input = self.archive.map_or(file, Archive::file);
-        if !self.inputs.iter().any(|i| i == input) {
-            self.inputs.push(input.to_path_buf());
+        if self.archive.is_none() && !self.inputs.iter().any(|i| i == file) {
+            self.inputs.push(file.to_path_buf());
         }
         Ok(bytes)
     }

@@ -115,7 +115,7 @@ fn painted(folder: &Folder, material: Record) -> enfilade_scene::Material {
 }
 
 #[test]
-fn lambert_phong_and_standard_surface_become_our_materials() {
+fn lambert_phong_and_physical_materials_become_ours() {
     let folder = Folder::new();
     let color = |name, v: [f64; 3]| reals(name, "Color", &v);
     let number = |name, v| reals(name, "Number", &[v]);
@@ -132,17 +132,19 @@ fn lambert_phong_and_standard_surface_become_our_materials() {
     assert!((alpha.factor - 0.1).abs() < 1e-6 && specular.factor == Rgb::splat(0.5));
     let clear = [color("TransparentColor", [0.5; 3]), number("TransparencyFactor", 0.5)];
     assert!(matches!(painted(&folder, material("lambert", clear.to_vec())).alpha, Alpha::Blend { opacity } if opacity.factor == 0.75));
-    let arnold = vec![
-        int("Maya|TypeId", "int", 1_138_001),
-        number("Maya|base", 1.0),
-        color("Maya|baseColor", [0.8, 0.4, 0.2]),
-        number("Maya|metalness", 1.0),
-        number("Maya|specularRoughness", 0.3),
-        number("Maya|coat", 0.25),
-        number("Maya|emission", 2.0),
-        color("Maya|emissionColor", [1.0, 0.5, 0.0]),
+    // 3ds Max's physical material is told by its class.
+    let physical = vec![
+        int("3dsMax|ClassIDa", "int", 0x3d6b_1cec),
+        int("3dsMax|ClassIDb", "int", 0xdead_c001),
+        number("3dsMax|Parameters|base_weight", 1.0),
+        color("3dsMax|Parameters|base_color", [0.8, 0.4, 0.2]),
+        number("3dsMax|Parameters|metalness", 1.0),
+        number("3dsMax|Parameters|roughness", 0.3),
+        number("3dsMax|Parameters|coating", 0.25),
+        number("3dsMax|Parameters|emission", 2.0),
+        color("3dsMax|Parameters|emit_color", [1.0, 0.5, 0.0]),
     ];
-    let m = painted(&folder, material("unknown", arnold));
+    let m = painted(&folder, material("unknown", physical));
     let Bsdf::Principled(p) = &m.bsdf else { panic!("{m:?}") };
     assert_eq!((p.metallic.factor, p.roughness.factor, p.clearcoat.factor), (1.0, 0.3, 0.25));
     assert_eq!((p.base_color.factor, m.emission.factor), (Rgb::new(0.8, 0.4, 0.2), Rgb::new(2.0, 1.0, 0.0)));
