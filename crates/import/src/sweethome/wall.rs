@@ -9,6 +9,9 @@ use crate::ImportError;
 use enfilade_math::{DVec2, DVec3};
 use std::collections::HashMap;
 
+/// The most that a round wall turns, radians: a whole circle has no ends.
+const MOST_ARC: f64 = 0.999 * std::f64::consts::TAU;
+
 /// A wall as the file has it; centimetres, plan coordinates (y down the plan).
 pub(super) struct Wall<'x> {
     element: Element<'x>,
@@ -43,7 +46,7 @@ impl<'x> Wall<'x> {
             start,
             end,
             thickness,
-            arc: element.number_or("arcExtent", 0.0)?.clamp(-6.28, 6.28),
+            arc: element.number_or("arcExtent", 0.0)?.clamp(-MOST_ARC, MOST_ARC),
             bottom,
             tops: [elevation + height, elevation + at_end],
             level: element.text("level"),
