@@ -2,6 +2,7 @@
 //!
 //! An importer speaks in the file's own units and axes; [`Assembly`] turns them into the world's (metres, z up).
 
+use crate::archive::Archive;
 use crate::images::{self, Use};
 use crate::report::Warnings;
 use crate::{Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis, mesh};
@@ -28,6 +29,7 @@ pub(crate) struct Assembly<'a> {
     file: PathBuf,
     options: &'a ImportOptions,
     cx: &'a dyn Cx,
+    archive: Option<&'a Archive>,
     warnings: Warnings<'a>,
     inputs: Vec<PathBuf>,
     images: BTreeMap<(String, Use), Option<u32>>,
@@ -48,6 +50,7 @@ impl<'a> Assembly<'a> {
             file: file.to_path_buf(),
             options,
             cx,
+            archive: None,
             warnings: Warnings::new(cx),
             inputs: Vec::new(),
             images: BTreeMap::new(),
@@ -76,6 +79,19 @@ impl<'a> Assembly<'a> {
         self.world_from_file = DAffine3::from_mat3(axes * self.meters_per_unit);
     }
 
+    /// An empty scene from the file `entry` within an archive, with the same options.
+    pub(crate) fn inside<'b>(&self, format: Format, up: UpAxis, archive: &'b Archive, entry: &str) -> Assembly<'b>
+    where
+        'a: 'b,
+    {
+        Assembly::new(format, &archive.file().join(entry), up, self.options, self.cx).within(archive)
+    }
+
+    /// The same for a scene file within an archive: all that it refers to is in there as well, and nowhere else.
+    pub(crate) fn within(self, archive: &'a Archive) -> Self {
+        Self { archive: Some(archive), inputs: vec![archive.file().to_path_buf()], ..self }
+    }
+
     /// The scene file.
     pub(crate) fn file(&self) -> &Path {
         &self.file
@@ -90,6 +106,11 @@ impl<'a> Assembly<'a> {
     pub(crate) fn warn(&mut self, place: impl AsRef<str>, message: impl Into<String>) {
         let place = format!("{}: {}", self.file.display(), place.as_ref());
         self.warnings.push(place, message.into());
+    }
+
+    /// Takes over the warnings of an import that is part of this one.
+    pub(crate) fn pass_on(&mut self, warnings: Vec<enfilade_scene::Warning>) {
+        warnings.into_iter().for_each(|w| self.warnings.push(w.place, w.message));
     }
 
     /// Tells the caller how far the import is.
@@ -141,13 +162,13 @@ impl<'a> Assembly<'a> {
 
     /// True when there is a file where the scene file's `path` leads.
     pub(crate) fn exists(&self, path: &str) -> bool {
-        self.resolve(path).is_file()
+        self.is_file(&self.resolve(path))
     }
 
     fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
-        let bytes =
-            std::fs::read(file).map_err(|source| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() })?;
-        if !self.inputs.iter().any(|i| i == file) {
+        let read = self.archive.map_or_else(|| std::fs::read(file), |archive| archive.read_path(file));
+        let bytes = read.map_err(|source| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() })?;
+        if self.archive.is_none() && !self.inputs.iter().any(|i| i == file) {
             self.inputs.push(file.to_path_buf());
         }
         Ok(bytes)
@@ -157,7 +178,11 @@ impl<'a> Assembly<'a> {
     fn resolve(&self, path: &str) -> PathBuf {
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let plain = folder.join(path);
-        if plain.exists() || !path.contains('\\') { plain } else { folder.join(path.replace('\\', "/")) }
+        if self.is_file(&plain) || !path.contains('\\') { plain } else { folder.join(path.replace('\\', "/")) }
+    }
+
+    fn is_file(&self, path: &Path) -> bool {
+        self.archive.map_or_else(|| path.is_file(), |archive| archive.contains_path(path))
     }
 
     /// The index of a picture, decoded at first use. `user` is the material or light that wants it. `None` when it is missing

@@ -18,19 +18,25 @@ pub enum Format {
     Ply,
     /// Universal Scene Description, as text, binary or archive.
     Usd,
+    /// Autodesk FBX, binary or as text.
+    Fbx,
+    /// Homes and furniture libraries of Sweet Home 3D.
+    SweetHome,
     /// The scene package that `enfilade import` writes.
     Package,
 }
 
 impl Format {
     /// Every format with its file name extensions, in lower case.
-    pub const ALL: [(Self, &'static [&'static str]); 8] = [
+    pub const ALL: [(Self, &'static [&'static str]); 10] = [
         (Self::Gltf, &["gltf", "glb"]),
         (Self::Obj, &["obj"]),
         (Self::Mitsuba, &["xml"]),
         (Self::Pbrt, &["pbrt", "pbrt.gz"]),
         (Self::Ply, &["ply"]),
         (Self::Usd, &["usd", "usda", "usdc", "usdz"]),
+        (Self::Fbx, &["fbx"]),
+        (Self::SweetHome, &["sh3d", "sh3f", "zip"]),
         (Self::VRay, &["vrscene"]),
         (Self::Package, &["scene"]),
     ];
@@ -71,7 +77,7 @@ mod tests {
         let message = Format::of(Path::new("a/room.blend")).unwrap_err().to_string();
         assert_eq!(
             message,
-            "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .vrscene, .scene"
+            "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .sh3d, .sh3f, .zip, .vrscene, .scene"
         );
         assert!(Format::of(Path::new("room")).unwrap_err().to_string().contains("no extension"));
     }

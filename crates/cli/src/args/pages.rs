@@ -29,7 +29,7 @@ pub struct ViewArgs {
     `enfilade label out` brings them into the label images; nothing is rendered again."
 )]
 pub struct AnnotateArgs {
-    /// A scene file (.gltf, .glb, .obj, .xml, .pbrt, .ply, .usd, .usda, .usdc, .usdz, .vrscene, .scene), a dataset, a scene's folder in it, or a Hypersim mesh folder
+    /// A scene file (.gltf, .glb, .obj, .xml, .pbrt, .ply, .usd, .usda, .usdc, .usdz, .fbx, .vrscene, .sh3d, .scene), a dataset, a scene's folder in it, or a Hypersim mesh folder
     #[arg(value_name = "SCENE")]
     pub input: PathBuf,
     /// Which of a dataset's scenes

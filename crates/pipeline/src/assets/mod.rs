@@ -5,7 +5,6 @@
 //! and their names are part of its settings, because they tell what a model is.
 
 mod gltf;
-mod properties;
 mod sweethome;
 mod table;
 #[cfg(test)]
