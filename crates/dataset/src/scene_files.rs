@@ -71,8 +71,7 @@ impl Dataset {
         check_name("scene name", scene)?;
         let mut table = Table::new(&self.layout().metadata_nodes(scene), &NODE_COLUMNS);
         let object = |node: &Node| node.object_id.map_or("-1".into(), |id| id.to_string());
-        table.rows =
-            nodes.iter().map(|n| vec![n.node_id.to_string(), n.node_name.clone(), object(n), n.object_name.clone()]).collect();
+        table.rows = nodes.iter().map(|n| vec![n.node_id.to_string(), n.node_name.clone(), object(n), n.object_name.clone()]).collect();
         table.write()?;
         let units = self.layout().metadata_scene(scene);
         if units.is_file() { Ok(()) } else { write_parameter(&units, METERS, 1.0) }

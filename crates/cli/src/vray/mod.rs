@@ -13,8 +13,8 @@ use enfilade_pipeline::vray::{Asset, inline_scene, read_scene, scene_assets};
 use enfilade_vrscene::Document;
 use enfilade_vrscene::edit::{
     EntityOptions, GiCaches, IMAGE_FILTERS, Normalization, Pass, add_color_channels, add_denoiser, add_geometry_channels, add_include,
-    file_references, hypersim_quality, linear_output, make_pass, normalize, reduce_quality, reduce_size, remove_kinds, replace_paths, save_gi_caches,
-    set_entity_ids,
+    file_references, hypersim_quality, linear_output, make_pass, normalize, reduce_quality, reduce_size, remove_kinds, replace_paths,
+    save_gi_caches, set_entity_ids,
 };
 use std::collections::BTreeMap;
 use std::path::Path;

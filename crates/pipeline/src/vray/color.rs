@@ -106,7 +106,10 @@ fn validity(id: i16, pixel: &Pixel) -> Validity {
 fn compare_sums(image: &VrayImage, colors: &[[f32; 3]], pixels: &[Pixel], notes: &mut Notes) -> Result<(), Error> {
     let missing: Vec<&str> = RESIDUAL.into_iter().filter(|name| !image.has(name)).collect();
     if !missing.is_empty() {
-        notes.add(&format!("without {}, so the residual I - A S is not checked against V-Ray's own parts", missing.join(", ")), &image.name());
+        notes.add(
+            &format!("without {}, so the residual I - A S is not checked against V-Ray's own parts", missing.join(", ")),
+            &image.name(),
+        );
         return Ok(());
     }
     let mut sums = vec![[0.0f64; 3]; pixels.len()];

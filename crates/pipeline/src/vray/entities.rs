@@ -115,7 +115,8 @@ mod tests {
         Node { node_id, node_name: name.into(), object_id: object, object_name: object_name.into() }
     }
 
-    const THEIRS: &str = "node_id,node_name,object_id,object_name\n1,chair@a,1,chair\n2,rail,-1,_NULL_OBJECT\n3,chair@b,1,chair\n4,wall,0,wall\n";
+    const THEIRS: &str =
+        "node_id,node_name,object_id,object_name\n1,chair@a,1,chair\n2,rail,-1,_NULL_OBJECT\n3,chair@b,1,chair\n4,wall,0,wall\n";
 
     #[test]
     fn nodes_become_the_parts_of_their_objects() {
@@ -126,8 +127,7 @@ mod tests {
         dataset.write_nodes("room", &[node(1, "wall", Some(0), "wall"), node(2, "chair", Some(1), "chair")]).unwrap();
         let entities = Entities::read(&dataset, "room", Some(&path)).unwrap();
         let found: Vec<Entity> = [-1, 0, 1, 2, 3, 4, 5].map(|id| entities.of(id)).to_vec();
-        let expected =
-            [Entity::Void, Entity::Void, Entity::Part(2), Entity::Stranger, Entity::Part(2), Entity::Part(1), Entity::Light];
+        let expected = [Entity::Void, Entity::Void, Entity::Part(2), Entity::Stranger, Entity::Part(2), Entity::Part(1), Entity::Light];
         assert_eq!(found, expected);
         dataset.write_nodes("room", &[node(1, "wall", Some(0), "wall"), node(2, "sofa", Some(1), "sofa")]).unwrap();
         let message = Entities::read(&dataset, "room", Some(&path)).unwrap_err().to_string();

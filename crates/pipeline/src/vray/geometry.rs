@@ -52,7 +52,7 @@ struct Mended {
     nowhere: usize,
     zero: usize,
     turned: usize,
-    far: usize,
+    no_uv: usize,
 }
 
 /// Adds the geometry layers to the frame. They are what our own renderer would store: where nothing of the scene was hit the layers'
@@ -116,7 +116,7 @@ impl Placed<'_> {
         let bump = facing(if turned { -bump } else { bump }, away / distance, &mut mended.zero).0;
         let halves = |n: DVec3| n.as_vec3().to_array().map(f16::from_f32);
         let finite = |v: f64| f16::from_f32((v as f32).clamp(-F16_LIMIT, F16_LIMIT));
-        mended.far += usize::from(!uv.truncate().is_finite());
+        mended.no_uv += usize::from(!uv.truncate().is_finite());
         Pixel {
             entity,
             position: stored.as_vec3().to_array(),
@@ -143,12 +143,16 @@ fn facing(normal: DVec3, toward: DVec3, zero: &mut usize) -> (DVec3, bool) {
 impl Mended {
     fn tell(&self, place: &str, notes: &mut Notes) {
         let nothing = "the pixels count as void";
-        notes.count(&format!("nodes that are no part of the dataset are seen; {nothing} (entities --hide-nodes-not-in-mesh)"), place, self.strangers);
+        notes.count(
+            &format!("nodes that are no part of the dataset are seen; {nothing} (entities --hide-nodes-not-in-mesh)"),
+            place,
+            self.strangers,
+        );
         notes.count(&format!("lights are seen; {nothing} (entities --hide-lights)"), place, self.lights);
         notes.count(&format!("surfaces have no position; {nothing}"), place, self.nowhere);
         notes.count("normals have no length and stay zero, which verify will tell", place, self.zero);
         notes.count("normals face away from the camera and are turned around", place, self.turned);
-        notes.count("texture coordinates are no numbers and become 0", place, self.far);
+        notes.count("texture coordinates are no numbers and become 0", place, self.no_uv);
     }
 }
 

@@ -79,7 +79,9 @@ impl Header {
             let same = |a: [DVec3; 3]| a.iter().enumerate().all(|(i, axis)| (row(i) - *axis).length() < AXES);
             if !same([right, backward, -up]) && !same([right, up, backward]) {
                 let found = [row(0), row(1), row(2)].map(|axis| format!("{axis:.4}")).join(" ");
-                return Some(format!("its camera's axes are {found}, and the trajectory's right, up, backward {right:.4} {up:.4} {backward:.4}"));
+                return Some(format!(
+                    "its camera's axes are {found}, and the trajectory's right, up, backward {right:.4} {up:.4} {backward:.4}"
+                ));
             }
         }
         let fov = f64::from(self.fov_x_deg?);

@@ -17,7 +17,7 @@ use super::script;
 use super::steps::{Place, steps};
 use crate::error::Error;
 use crate::workdir::{write_json, write_whole};
-use enfilade_dataset::Dataset;
+use enfilade_dataset::{Dataset, check_name};
 use enfilade_scene::{Cx, Warning};
 use enfilade_vrscene::Document;
 use enfilade_vrscene::edit::{GiCaches, LensTexture, Pass, make_pass, meters_per_asset_unit, set_camera};
@@ -113,6 +113,10 @@ pub fn write_job(scene: &Document, path: &Path, dataset: &Dataset, config: &JobC
     check_layers(scene, path)?;
     let meters_per_unit = meters_per_asset_unit(scene).map_err(|error| damaged(path, &error))?.unwrap_or(1.0);
     let names = if config.cameras.is_empty() { dataset.cameras(&config.scene).map_err(Error::stage)? } else { config.cameras.clone() };
+    if names.is_empty() {
+        return Err(Error::usage(format!("the scene {} of the dataset has no camera", config.scene), "plan one: enfilade plan"));
+    }
+    names.iter().try_for_each(|name| check_name("camera name", name)).map_err(Error::stage)?;
     let there = Place::new(&config.folder_when_rendering)?;
     let nodes = std::fs::read(&config.nodes).map_err(|e| {
         let message = format!("cannot read the table of nodes {}: {e}", config.nodes.display());

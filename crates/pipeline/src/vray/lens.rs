@@ -40,7 +40,10 @@ impl LensPicture {
         let image = projection.size();
         let size = image.map(|n| 2 * u64::from(n) + 1);
         if size[0] * size[1] > MAX_TEXELS {
-            return Err(wrong(format!("the lens of an image of {}x{} pixels would have {}x{} texels", image[0], image[1], size[0], size[1])));
+            return Err(wrong(format!(
+                "the lens of an image of {}x{} pixels would have {}x{} texels",
+                image[0], image[1], size[0], size[1]
+            )));
         }
         let [columns, rows] = size;
         let slope = |i: u64| {
@@ -148,8 +151,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("lens.exr");
         std::fs::write(&path, picture.to_exr()).unwrap();
-        let put = |pixels: &mut Vec<[f32; 3]>, at: exr::math::Vec2<usize>, (r, g, b, _): (f32, f32, f32, f32)| pixels[at.1 * 13 + at.0] = [r, g, b];
-        let read = image(&path, |size, _| vec![[9.0f32; 3]; size.area()], put).unwrap();
+        let put = |pixels: &mut Vec<[f32; 3]>, at: exr::math::Vec2<usize>, (r, g, b, _): (f32, f32, f32, f32)| {
+            pixels[at.1 * 13 + at.0] = [r, g, b]
+        };
+        let read = image(&path, |size: exr::math::Vec2<usize>, _: &_| vec![[9.0f32; 3]; size.area()], put).unwrap();
         let expected: Vec<[f32; 3]> = picture.uv.iter().map(|&[u, v]| [u, v, 0.0]).collect();
         assert_eq!(read.layer_data.channel_data.pixels, expected);
     }

@@ -8,13 +8,15 @@ pub(super) fn write(job: &Job, platform: Platform) -> String {
     let mut lines = match platform {
         Platform::Unix => vec![
             "#!/bin/sh".to_string(),
-            "# Renders the job beside this file with V-Ray. Set VRAY, IMAPVIEWER and VRIMG2EXR where the programs are not in the PATH.".into(),
+            "# Renders the job beside this file with V-Ray. Set VRAY, IMAPVIEWER and VRIMG2EXR where the programs are not in the PATH."
+                .into(),
             "set -e".into(),
             ": \"${VRAY:=vray}\" \"${IMAPVIEWER:=imapviewer}\" \"${VRIMG2EXR:=vrimg2exr}\"".into(),
         ],
         Platform::Windows => vec![
             "@echo off".to_string(),
-            "rem Renders the job beside this file with V-Ray. Set VRAY, IMAPVIEWER and VRIMG2EXR where the programs are not in the PATH.".into(),
+            "rem Renders the job beside this file with V-Ray. Set VRAY, IMAPVIEWER and VRIMG2EXR where the programs are not in the PATH."
+                .into(),
             "if not defined VRAY set VRAY=vray".into(),
             "if not defined IMAPVIEWER set IMAPVIEWER=imapviewer".into(),
             "if not defined VRIMG2EXR set VRIMG2EXR=vrimg2exr".into(),

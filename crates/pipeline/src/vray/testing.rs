@@ -3,9 +3,7 @@
 use enfilade_dataset::Dataset;
 use enfilade_math::DVec3;
 use enfilade_scene::{Camera, Pose, Trajectory};
-use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text, WritableImage,
-};
+use exr::prelude::{AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text, WritableImage};
 use std::path::Path;
 
 /// Two poses of `cam_00`, metres.
