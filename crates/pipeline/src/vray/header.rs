@@ -86,7 +86,7 @@ impl Header {
         }
         let fov = f64::from(self.fov_x_deg?);
         let off = (fov - fov_x_deg).abs();
-        (off.is_nan() || off > FOV_DEG).then(|| format!("its camera sees {fov} degrees, and the dataset's {fov_x_deg:.4} in V-Ray"))
+        (off.is_nan() || off > FOV_DEG).then(|| format!("its camera sees {fov:.4} degrees, and the dataset's {fov_x_deg:.4} in V-Ray"))
     }
 }
 
