@@ -61,7 +61,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Replay(args) => verbs::replay(args, cli.quiet),
         Verb::Export(args) => export::export(args, cli.quiet),
         Verb::Stats(args) => stats::stats(args, cli.quiet),
-        Verb::Vray(args) => vray::vray(args),
+        Verb::Vray(args) => vray::vray(args, cli.quiet),
         Verb::Annotate(args) => annotate::annotate(args, cli.quiet),
         Verb::Suggest(args) => suggest::suggest(args, cli.quiet),
         Verb::View(args) => view::view(args),

@@ -54,7 +54,7 @@ pub use manifest::{CameraEntry, Conventions, FrameEntry, FrameStatus, LayerEntry
 pub use object_files::{MeshFiles, MeshGeometry};
 pub use record::{DenoiseRecord, FileRecord, FrameRecord, LabelRecord, PoseRecord, Recipe, Sampling, StoppedBy};
 pub use release::{RELEASED_LAYERS, planar_depth};
-pub use scene_files::Node;
+pub use scene_files::{Node, read_node_table};
 pub use split_files::{Partition, SplitRow};
 pub use times::FrameTime;
 pub use tonemap_files::ToneMapRow;

@@ -16,6 +16,7 @@ mod single;
 mod split;
 mod stages;
 mod suggest;
+pub mod vray;
 mod workdir;
 
 pub use config::{
