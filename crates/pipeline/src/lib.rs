@@ -18,6 +18,8 @@ mod stages;
 mod suggest;
 mod workdir;
 
+#[doc(hidden)]
+pub use assets::read_library;
 pub use config::{
     CameraChoice, CameraConfig, CameraModel, Config, ConfigError, EnvironmentChoice, FileSource, LabelSource, LensConfig, Overrides, Place,
     Quality, RenderChoices, SceneConfig, Source, StereoConfig, demo, select,

@@ -1,0 +1,23 @@
+//! Texts that people write.
+
+use crate::Run;
+use enfilade_explore::parse_keyframes;
+use enfilade_pipeline::{Config, Overrides};
+use std::path::Path;
+
+/// Reads poses made by hand, in both forms.
+pub fn keyframes(_: &Path) -> Run {
+    Box::new(|bytes| {
+        let text = String::from_utf8_lossy(bytes);
+        drop((parse_keyframes("poses.csv", &text), parse_keyframes("poses.json", &text)));
+    })
+}
+
+/// Reads a configuration.
+pub fn config(folder: &Path) -> Run {
+    let file = folder.join("dataset.toml");
+    Box::new(move |bytes| {
+        std::fs::write(&file, bytes).expect("a folder that can be written");
+        drop(Config::read(&file, &Overrides::default()));
+    })
+}
