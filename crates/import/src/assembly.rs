@@ -109,8 +109,12 @@ impl<'a> Assembly<'a> {
     }
 
     fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
-        let bytes =
-            std::fs::read(file).map_err(|source| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() })?;
+        let unreadable = |source| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() };
+        // A device would be read without end, and a pipe would be waited for.
+        if !std::fs::metadata(file).map_err(unreadable)?.is_file() {
+            return Err(unreadable(std::io::Error::other("it is no file")));
+        }
+        let bytes = std::fs::read(file).map_err(unreadable)?;
         if !self.inputs.iter().any(|i| i == file) {
             self.inputs.push(file.to_path_buf());
         }

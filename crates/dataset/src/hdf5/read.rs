@@ -47,7 +47,7 @@ fn read_bytes(dataset: &H5Dataset, shape: &[usize], element_size: usize) -> rust
     if let (&[height, width, channels], Some(&[h, w, per_chunk])) = (shape, dataset.chunk_dims().as_deref()) {
         let filters: Vec<u16> = dataset.filters()?.iter().map(|filter| filter.id).collect();
         let known = filters == [SHUFFLE, DEFLATE] || filters == [DEFLATE];
-        if known && h <= height && w <= width && per_chunk < channels {
+        if known && (1..=height).contains(&h) && (1..=width).contains(&w) && (1..channels).contains(&per_chunk) {
             return inflate_chunks(dataset, [height, width, channels], [h, w, per_chunk], element_size, filters[0] == SHUFFLE);
         }
     }

@@ -3,7 +3,7 @@
 use super::spectrum::{self, Kind};
 use super::texture::Texture;
 use super::xml::Node;
-use super::{MAX_REFERENCES, Reader};
+use super::Reader;
 use crate::ImportError;
 use crate::images::{self, Use};
 use enfilade_math::Rgb;
@@ -67,9 +67,7 @@ impl<'n> Reader<'n, '_> {
     }
 
     fn surface(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
-        if depth > MAX_REFERENCES {
-            return Err(node.error("bsdfs go in a circle"));
-        }
+        self.visit(node, depth, "bsdfs")?;
         match node.plugin.as_str() {
             "twosided" => {
                 self.report_unknown(node, &[], &["bsdf"]);

@@ -29,8 +29,10 @@ const CATALOGUE: &str = "PluginFurnitureCatalog.properties";
 const ELSEWHERE: [&str; 5] = ["doors and windows", "exterior", "vehicles", "characters", "staircases"];
 /// Diameter of a light source that does not say its own, centimetres.
 const BULB_CM: f32 = 5.0;
-/// No file of a model is larger, bytes.
+/// No model is larger, bytes, the pictures and other files beside it included.
 const LARGEST: u64 = 1 << 30;
+/// No list of pieces is larger, bytes.
+const LONGEST_LIST: u64 = 1 << 26;
 
 /// A piece of a catalogue.
 pub(super) struct Piece {
@@ -51,7 +53,7 @@ pub(super) fn pieces(catalogues: &[&PathBuf]) -> Result<Vec<Piece>, Error> {
     let mut all = Vec::new();
     for file in catalogues {
         let mut archive = open(file).map_err(|problem| Error::usage(problem, "download the catalogue again"))?;
-        let bytes = bytes_of(&mut archive, CATALOGUE).map_err(|problem| {
+        let bytes = bytes_of(&mut archive, CATALOGUE, LONGEST_LIST).map_err(|problem| {
             Error::usage(format!("{}: {problem}", file.display()), "is it a furniture library of Sweet Home 3D? download it again")
         })?;
         all.extend(of_catalogue(file, &properties::parse(&bytes))?);
@@ -162,10 +164,14 @@ fn open(file: &Path) -> Result<ZipArchive<BufReader<File>>, String> {
     ZipArchive::new(BufReader::new(opened)).map_err(|error| format!("{at}: not an archive that can be read ({error})"))
 }
 
-fn bytes_of(archive: &mut ZipArchive<BufReader<File>>, name: &str) -> Result<Vec<u8>, String> {
+/// A file of the archive, which must not be larger than `most` bytes: what is packed can be a thousand times as large.
+fn bytes_of(archive: &mut ZipArchive<BufReader<File>>, name: &str, most: u64) -> Result<Vec<u8>, String> {
     let entry = archive.by_name(name).map_err(|error| format!("{name} is not in it ({error})"))?;
     let mut bytes = Vec::new();
-    entry.take(LARGEST).read_to_end(&mut bytes).map_err(|error| format!("{name}: damaged ({error})"))?;
+    entry.take(most + 1).read_to_end(&mut bytes).map_err(|error| format!("{name}: damaged ({error})"))?;
+    if bytes.len() as u64 > most {
+        return Err(format!("{name} is larger than the {most} bytes that it may have; leave this model out"));
+    }
     Ok(bytes)
 }
 
@@ -182,10 +188,12 @@ fn unpack(archive: &Path, model: &str, folder: &Path) -> Result<(), String> {
     if !needed.iter().any(|name| name == model) {
         return Err("the model is not in the archive; download the catalogue again".into());
     }
+    let mut most = LARGEST;
     for name in needed {
         let inside = archive.by_name(&name).ok().and_then(|entry| entry.enclosed_name());
         let target = folder.join(inside.ok_or_else(|| format!("{name} would lie outside of the archive's folder"))?);
-        let bytes = bytes_of(&mut archive, &name)?;
+        let bytes = bytes_of(&mut archive, &name, most)?;
+        most -= bytes.len() as u64;
         let written = target.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::write(&target, bytes));
         written.map_err(|error| format!("{name}: cannot be unpacked ({error}); make room in the folder for temporary files"))?;
     }
