@@ -33,7 +33,7 @@ fn read(target: &Target, inputs: &[Seed]) -> Vec<String> {
 
 #[test]
 fn every_seed_is_read_without_panic() {
-    for target in &TARGETS {
+    for target in TARGETS {
         let seeds = target.all_seeds();
         assert!(!seeds.is_empty(), "{}: a target needs files to begin with, in seeds/{} or made in src/seeds", target.name, target.name);
         let found = read(target, &seeds);

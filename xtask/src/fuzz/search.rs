@@ -80,9 +80,9 @@ fn found(program: &Path, target: &Target, scratch: &Scratch, before: &[String], 
     // A stack that overflows leaves no time to keep the input.
     let input = match new {
         Some(name) => folder.join(name),
-        None => scratch.last_input(&folder.join("killed")).ok_or_else(|| {
-            format!("{}: the program ended with {status}; see {}", target.name, target.folder.join("log").display())
-        })?,
+        None => scratch
+            .last_input(&folder.join("killed"))
+            .ok_or_else(|| format!("{}: the program ended with {status}; see {}", target.name, target.folder.join("log").display()))?,
     };
     let problem = problem(said).unwrap_or_else(|| format!("the program ended with {status}"));
     let small = folder.join(format!("small-{}", input.file_name().unwrap_or_default().to_string_lossy()));
@@ -96,7 +96,10 @@ fn found(program: &Path, target: &Target, scratch: &Scratch, before: &[String], 
 /// What the program said was wrong.
 fn problem(said: &str) -> Option<String> {
     let telling = |line: &&str| {
-        line.starts_with("panicked at") || line.contains("memory allocation of") || line.contains("ERROR: libFuzzer") || line.contains("overflow")
+        line.starts_with("panicked at")
+            || line.contains("memory allocation of")
+            || line.contains("ERROR: libFuzzer")
+            || line.contains("overflow")
     };
     let lines: Vec<&str> = said.lines().collect();
     let at = lines.iter().position(|line| telling(&line))?;

@@ -90,7 +90,7 @@ impl Search {
 /// Writes `targets.json`, and per target `<name>/seeds` and `<name>/words`.
 fn write_table(folder: &Path) {
     let row = |target: &Target| serde_json::json!({ "name": target.name, "about": target.about, "longest": target.longest });
-    for target in &TARGETS {
+    for target in TARGETS {
         let seeds = folder.join(target.name).join("seeds");
         std::fs::create_dir_all(&seeds).expect("a folder that can be written");
         for seed in target.all_seeds().into_iter().chain(target.regressions()) {

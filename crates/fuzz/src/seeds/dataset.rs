@@ -4,8 +4,8 @@ use super::seed;
 use crate::Seed;
 use enfilade_dataset::hdf5::{Packing, Storage, write_array};
 use enfilade_dataset::{
-    AmodalMask, AmodalMasks, Array, BoxKind, Dataset, Elements, InstanceView, JudgedView, ManifestInfo, Partition, PixelArea, SplitRow, ToneMapRow,
-    ViewFault, ViewVerdict,
+    AmodalMask, AmodalMasks, Array, BoxKind, Dataset, Elements, InstanceView, JudgedView, ManifestInfo, Partition, PixelArea, SplitRow,
+    ToneMapRow, ViewFault, ViewVerdict,
 };
 use enfilade_math::{DMat3, DVec3, OrientedBox};
 use enfilade_scene::Intrinsics;
@@ -86,7 +86,12 @@ pub fn arrays() -> Vec<Seed> {
     let path = folder.path().join("a.hdf5");
     let array = Array::new(&[9, 7, 3], Elements::I16((0..189).collect()));
     let image = |channels_together| Storage::Image(Packing { chunk: [4, 4], channels_together, shuffle: true, level: 6 });
-    let stored = [("one_run", Storage::Contiguous), ("compressed", Storage::Compressed), ("channels_together", image(true)), ("planes", image(false))];
+    let stored = [
+        ("one_run", Storage::Contiguous),
+        ("compressed", Storage::Compressed),
+        ("channels_together", image(true)),
+        ("planes", image(false)),
+    ];
     let stored = stored.map(|(name, storage)| {
         write_array(&path, &array, storage, &[("unit", "m")]).expect("a folder that can be written");
         seed(name, std::fs::read(&path).expect("a file that can be read"))

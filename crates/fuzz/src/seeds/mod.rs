@@ -1,11 +1,12 @@
 //! Files to begin with that are made by code: by the builders of the other crates' tests where there are any.
 
+#[cfg(feature = "dataset")]
 pub mod dataset;
 mod pictures;
 
-#[allow(dead_code, reason = "made for other tests, of which a part is used")]
 #[path = "../../../import/tests/common/mod.rs"]
 mod import;
+#[cfg(feature = "program")]
 #[allow(dead_code, reason = "made for other tests, of which a part is used")]
 #[path = "../../../annotate/tests/label/room.rs"]
 pub mod room;
@@ -17,10 +18,10 @@ use enfilade_scene::{Labels, Light, Material, Part, PartLabel, Scene, to_bytes, 
 use flate2::{Compression, write::ZlibEncoder};
 use import::Gltf;
 use serde_json::json;
-use std::io::{Cursor, Write};
+use std::io::Write;
 use std::path::Path;
-use zip::{ZipWriter, write::SimpleFileOptions};
 
+#[cfg(feature = "dataset")]
 pub use dataset::{arrays, records, tables};
 pub use pictures::pictures;
 
@@ -62,13 +63,15 @@ pub fn gltf() -> Vec<Seed> {
             "KHR_materials_clearcoat": {"clearcoatFactor": 1}, "KHR_materials_volume": {"attenuationDistance": 2}}
     });
     full.json["cameras"] = json!([{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}}]);
-    full.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"outerConeAngle": 0.5}, "intensity": 9}]}});
+    full.json["extensions"] =
+        json!({"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"outerConeAngle": 0.5}, "intensity": 9}]}});
     full.json["nodes"] = json!([
         {"name": "Chair", "mesh": 0, "scale": [1, -1, 1], "children": [1, 2], "extras": {"semantic": "chair", "instance": 3}},
         {"camera": 0, "rotation": [0, 0.7, 0, 0.7]},
         {"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [1, 2, 3]}
     ]);
-    full.json["accessors"][0]["sparse"] = json!({"count": 1, "indices": {"bufferView": 2, "componentType": 5123}, "values": {"bufferView": 0}});
+    full.json["accessors"][0]["sparse"] =
+        json!({"count": 1, "indices": {"bufferView": 2, "componentType": 5123}, "values": {"bufferView": 0}});
     full.json["scenes"][0]["extras"] = json!({"environment": {"color": [1, 1, 1]}});
     vec![seed("triangle.gltf", plain.text()), seed("triangle.glb", plain.binary()), seed("everything.gltf", full.text())]
 }
@@ -84,7 +87,10 @@ pub fn with_profile() -> Vec<u8> {
 
 /// The scenes that our pictures are compared with Mitsuba's by.
 pub fn mitsuba() -> Vec<Seed> {
-    crate::files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../xtask/oracle")).into_iter().filter(|f| f.name.ends_with(".xml")).collect()
+    crate::files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../xtask/oracle"))
+        .into_iter()
+        .filter(|f| f.name.ends_with(".xml"))
+        .collect()
 }
 
 const PLY: &str = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\n\
@@ -156,7 +162,7 @@ pub fn packages() -> Vec<Seed> {
     let labels = Labels { parts: vec![PartLabel { semantic: 2, instance: 1 }] };
     let labelled = to_bytes_with_labels(&pictured, &labels);
     // 17 bytes of the line, 32 of the checksum.
-    vec![seed("body", &labelled[49..]), seed("whole", plain), seed("room", &to_bytes(&room::scene())[49..])]
+    vec![seed("body", &labelled[49..]), seed("whole", plain)]
 }
 
 /// A small tree as `.bt` and `.ot`.
@@ -169,6 +175,7 @@ pub fn octrees() -> Vec<Seed> {
 }
 
 /// What a catalogue lists, and a whole one.
+#[cfg(feature = "program")]
 pub fn catalogues() -> Vec<Seed> {
     let text = "license=CC-BY 3.0\nname#1=Wardrobe\nid#1=t#wardrobe\ncategory#1=Bedroom\nmodel#1=/w/w.obj\nwidth#1=120\ndepth#1=60\n\
         height#1=205.5\ncreator#1=Ann\nmodelRotation#1=0 0 1 0 1 0 -1 0 0\nname#2=Door\ncategory#2=Doors and windows\nmodel#2=/d.obj\n\
@@ -179,9 +186,11 @@ pub fn catalogues() -> Vec<Seed> {
 }
 
 /// A catalogue that lists this, with a box as a model.
+#[cfg(feature = "program")]
 pub fn archive(list: &[u8]) -> Vec<u8> {
+    use zip::{ZipWriter, write::SimpleFileOptions};
     let obj = "mtllib w.mtl\nusemtl oak\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
-    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    let mut archive = ZipWriter::new(std::io::Cursor::new(Vec::new()));
     let entries: [(&str, &[u8]); 3] =
         [("PluginFurnitureCatalog.properties", list), ("w/w.obj", obj.as_bytes()), ("w/w.mtl", b"newmtl oak\nKd 0.4 0.3 0.2\n")];
     for (name, bytes) in entries {

@@ -1,10 +1,11 @@
-//! Tables and records of datasets.
+//! Arrays, tables and records of datasets.
 
 use crate::Run;
 use crate::seeds::dataset;
-use enfilade_dataset::Dataset;
+use enfilade_dataset::hdf5::read_array;
+use enfilade_dataset::{BoxKind, Dataset, read_ray_grid};
+use enfilade_frame::LAYERS;
 use enfilade_math::DVec3;
-use enfilade_post::label::LabelTable;
 use enfilade_suggest::{calibration, learn::read_names, lexicon::Lexicon, weights::Weights};
 use std::path::{Path, PathBuf};
 
@@ -27,6 +28,26 @@ fn touched(file: &Path) -> &Path {
     file
 }
 
+/// Reads an array, and where it is one, as every array that a dataset has.
+pub fn hdf5(folder: &Path) -> Run {
+    let (dataset, input) = linked(folder, "hdf5");
+    std::fs::write(dataset.mesh_files(SCENE).file("metadata_objects.csv"), "object_name\nfloor\n").expect("a folder that can be written");
+    Box::new(move |bytes| {
+        std::fs::write(&input, bytes).expect("a folder that can be written");
+        if read_array(&input).is_err() {
+            return;
+        }
+        drop(dataset.read_trajectory(SCENE, CAMERA));
+        drop(dataset.read_camera_rays(SCENE, CAMERA, [8, 6]));
+        drop(read_ray_grid(&input, [8, 6]));
+        drop(dataset.read_free_space(SCENE));
+        BoxKind::ALL.iter().for_each(|&kind| drop(dataset.read_boxes(SCENE, kind)));
+        LAYERS.iter().for_each(|spec| drop(dataset.read_frame(SCENE, CAMERA, 0, &[spec.layer])));
+        let mesh = dataset.mesh_files(SCENE);
+        drop((mesh.read(), mesh.read_labels(), mesh.read_last_class(), mesh.read_objects_of_faces()));
+    })
+}
+
 /// Reads a table as each of those that there are.
 pub fn tables(folder: &Path) -> Run {
     let (dataset, input) = linked(folder, "csv");
@@ -37,7 +58,8 @@ pub fn tables(folder: &Path) -> Run {
         drop((dataset.read_frame_time(SCENE, CAMERA), dataset.rejected_views(SCENE, CAMERA)));
         drop((dataset.read_tone_maps(SCENE, CAMERA), dataset.read_instance_views(SCENE, CAMERA)));
         drop(dataset.mesh_files(SCENE).read_splits());
-        drop(LabelTable::parse(bytes, "labels.csv"));
+        #[cfg(feature = "program")]
+        drop(enfilade_post::label::LabelTable::parse(bytes, "labels.csv"));
         drop(read_names(bytes, "names.csv"));
         let text = String::from_utf8_lossy(bytes);
         drop((Lexicon::parse(&text, "words.csv"), Weights::parse(&text, "weights.csv")));

@@ -1,18 +1,23 @@
 //! The table of targets, and what reads for each.
 
+#[cfg(feature = "program")]
 mod annotations;
-mod arrays;
+#[cfg(feature = "dataset")]
 mod datasets;
+#[cfg(feature = "program")]
 mod homes;
+mod octree;
+#[cfg(feature = "program")]
 mod partial;
 pub mod scene_files;
 mod texts;
 mod vray;
 
-use crate::{Reads, Seed, Target, seeds};
+use crate::{Reads, Run, Seed, Target, seeds};
+use std::path::Path;
 
 /// All targets.
-pub const TARGETS: [Target; 20] = [
+pub const TARGETS: &[Target] = &[
     importer("gltf", "scene.gltf", "scene.gltf", "glTF, as text and binary", seeds::gltf),
     importer("obj", "scene.obj", "scene.obj", "Wavefront OBJ", none),
     importer("mtl", "scene.mtl", "with_mtl.obj", "MTL materials of an OBJ", none),
@@ -24,15 +29,23 @@ pub const TARGETS: [Target; 20] = [
     importer("picture", "picture.tga", "with_picture.obj", "PNG, JPEG, BMP, TGA, HDR, EXR and PFM as textures", seeds::pictures),
     own("package", "scene packages, their checksum set right", 16 << 10, scene_files::package, seeds::packages),
     own("vrscene", "V-Ray's scene description, its values, and what edits them", 8 << 10, vray::document, none),
-    own("octree", "OctoMap's trees, .bt and .ot", 4 << 10, arrays::octree, seeds::octrees),
-    own("hdf5", "HDF5 arrays, and everything that a dataset has of them", 8 << 10, arrays::hdf5, seeds::arrays),
+    own("octree", "OctoMap's trees, .bt and .ot", 4 << 10, octree::trees, seeds::octrees),
+    #[cfg(feature = "dataset")]
+    own("hdf5", "HDF5 arrays, and everything that a dataset has of them", 8 << 10, datasets::hdf5, seeds::arrays),
+    #[cfg(feature = "dataset")]
     own("tables", "CSV tables of a dataset, of labels, classes and suggestions", 4 << 10, datasets::tables, seeds::tables),
+    #[cfg(feature = "dataset")]
     own("records", "JSON of a dataset: manifest, records, cameras, masks", 4 << 10, datasets::records, seeds::records),
     own("keyframes", "poses made by hand, CSV and JSON", 4 << 10, texts::keyframes, none),
+    #[cfg(feature = "program")]
     own("config", "configurations, TOML", 4 << 10, texts::config, none),
+    #[cfg(feature = "program")]
     own("library", "furniture catalogues of Sweet Home 3D, and assets.toml", 8 << 10, homes::library, seeds::catalogues),
+    #[cfg(feature = "program")]
     own("partial", "frames in the making, their checksum set right", 4 << 10, partial::partial, partial::seeds),
+    #[cfg(feature = "program")]
     own("annotations", "the logs of annotating", 8 << 10, annotations::log, annotations::logs),
+    #[cfg(feature = "program")]
     own("requests", "requests to both servers", 4 << 10, annotations::requests, none),
 ];
 
@@ -41,7 +54,7 @@ const fn importer(name: &'static str, file: &'static str, scene: &'static str, a
     Target { name, about, longest: 8 << 10, reads: Reads::Scene { file, scene }, seeds, words: &[] }
 }
 
-const fn own(name: &'static str, about: &'static str, longest: usize, run: fn(&std::path::Path) -> crate::Run, seeds: fn() -> Vec<Seed>) -> Target {
+const fn own(name: &'static str, about: &'static str, longest: usize, run: fn(&Path) -> Run, seeds: fn() -> Vec<Seed>) -> Target {
     Target { name, about, longest, reads: Reads::Own(run), seeds, words: &[] }
 }
 

@@ -2,7 +2,6 @@
 
 use crate::Run;
 use enfilade_explore::parse_keyframes;
-use enfilade_pipeline::{Config, Overrides};
 use std::path::Path;
 
 /// Reads poses made by hand, in both forms.
@@ -14,7 +13,9 @@ pub fn keyframes(_: &Path) -> Run {
 }
 
 /// Reads a configuration.
+#[cfg(feature = "program")]
 pub fn config(folder: &Path) -> Run {
+    use enfilade_pipeline::{Config, Overrides};
     let file = folder.join("dataset.toml");
     Box::new(move |bytes| {
         std::fs::write(&file, bytes).expect("a folder that can be written");

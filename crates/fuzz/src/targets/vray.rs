@@ -1,7 +1,9 @@
 //! V-Ray's scene description.
 
 use crate::Run;
-use enfilade_vrscene::edit::{IMAGE_FILTERS, file_references, linear_output, meters_per_asset_unit, node_strings, reduce_size, remove_kinds};
+use enfilade_vrscene::edit::{
+    IMAGE_FILTERS, file_references, linear_output, meters_per_asset_unit, node_strings, reduce_size, remove_kinds,
+};
 use enfilade_vrscene::{Document, Value};
 use std::path::Path;
 

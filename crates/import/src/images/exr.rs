@@ -47,7 +47,10 @@ fn check(bytes: &[u8]) -> std::result::Result<(), String> {
         check_size(u32::try_from(width).unwrap_or(u32::MAX), u32::try_from(height).unwrap_or(u32::MAX))?;
         let size = (width as u64 * height as u64).saturating_mul(header.channels.bytes_per_pixel as u64);
         if size > MAX_BYTES {
-            return Err(format!("has {width}x{height} pixels of {} bytes, expected at most {MAX_BYTES} bytes; make it smaller", header.channels.bytes_per_pixel));
+            return Err(format!(
+                "has {width}x{height} pixels of {} bytes, expected at most {MAX_BYTES} bytes; make it smaller",
+                header.channels.bytes_per_pixel
+            ));
         }
     }
     Ok(())

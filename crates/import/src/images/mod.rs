@@ -162,10 +162,12 @@ mod tests {
         let mut huge = bytes.clone();
         huge[16..24].fill(0x7f);
         assert!(decode("a.png", &huge, Use::Data).is_err());
-        assert!(decode("a.tga", &[&[0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 32, 8][..], &[0; 9]].concat(), Use::Data)
-            .err()
-            .unwrap()
-            .contains("65535x65535 pixels, expected at most"));
+        assert!(
+            decode("a.tga", &[&[0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 32, 8][..], &[0; 9]].concat(), Use::Data)
+                .err()
+                .unwrap()
+                .contains("65535x65535 pixels, expected at most")
+        );
         assert!(decode("a.exr", &[0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0], Use::Data).is_err());
     }
 

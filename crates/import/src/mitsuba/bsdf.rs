@@ -1,9 +1,9 @@
 //! BSDFs to materials.
 
+use super::Reader;
 use super::spectrum::{self, Kind};
 use super::texture::Texture;
 use super::xml::Node;
-use super::Reader;
 use crate::ImportError;
 use crate::images::{self, Use};
 use enfilade_math::Rgb;
@@ -170,6 +170,9 @@ impl<'n> Reader<'n, '_> {
                 None => self.scalar(node, "weight", 0.5)?,
             };
             blended = self.blend_two(node, first, blended, weight);
+            if blended.bsdf.as_ref().is_some_and(|bsdf| bsdf.depth() > Bsdf::DEEPEST) {
+                return Err(node.error(format!("bsdfs are blended more than {} deep; blend fewer", Bsdf::DEEPEST)));
+            }
             weight_behind = sum;
         }
         Ok(blended)

@@ -49,9 +49,9 @@ use xml::Node;
 /// References to references deeper than this are taken for a cycle.
 const MAX_REFERENCES: usize = 32;
 
-/// Shapes and bsdfs, counted as often as references lead to them, beyond this many are taken for a mistake: a group of two instances
-/// of a group of two instances … has as many shapes as it likes.
-const MAX_VISITS: usize = 1 << 20;
+/// Shapes within instances and bsdfs within bsdfs, counted as often as references lead to them, beyond this many are taken for a
+/// mistake: a group of two instances of a group of two instances … has as many shapes as it likes.
+const MAX_VISITS: usize = 1 << 19;
 
 /// Imports a Mitsuba scene.
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
@@ -74,7 +74,7 @@ struct Reader<'n, 'a> {
     aliases: HashMap<&'n str, &'n str>,
     materials: HashMap<bsdf::MaterialKey, u32>,
     meshes: HashMap<shape::MeshKey, Option<u32>>,
-    /// Shapes and bsdfs that were come to so far.
+    /// How often references led to shapes and bsdfs so far.
     visits: usize,
 }
 
@@ -149,7 +149,7 @@ impl<'n> Reader<'n, '_> {
     /// # Errors
     /// When references go in a circle, or lead to more things than a scene has.
     fn visit(&mut self, node: &Node, depth: usize, things: &str) -> Result<(), ImportError> {
-        self.visits += 1;
+        self.visits += usize::from(depth > 0);
         if depth > MAX_REFERENCES {
             return Err(node.error(format!("{things} go in a circle")));
         }

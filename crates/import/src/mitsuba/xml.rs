@@ -205,7 +205,9 @@ impl Loader<'_, '_> {
                     let name = node.attribute("filename").ok_or_else(|| node.error("there is no filename"))?.to_string();
                     self.includes += 1;
                     if self.includes > MAX_INCLUDES {
-                        return Err(node.error(format!("more than {MAX_INCLUDES} files are included; files include each other over and over")));
+                        return Err(
+                            node.error(format!("more than {MAX_INCLUDES} files are included; files include each other over and over"))
+                        );
                     }
                     let (path, bytes) = self.assembly.read(&name)?;
                     let mut included = self.parse(path, &bytes, depth + 8)?;
