@@ -29,7 +29,7 @@ const USAGE: &str = "\
 usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directions, dependency policy, docs, quick tests
        cargo xtask test [STEP...]                 all tests, then the release binary on the demo
        cargo xtask browser [STEP...]              the pages: types, bundle, tests in a browser
-       cargo xtask fuzz [--seconds N] [TARGET...] searches for bytes that break what reads them: all targets, or some
+       cargo xtask fuzz [--seconds N] [--quick] [TARGET...]   searches for bytes that break what reads them
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
        cargo xtask bench render [ROOM...]         what pictures of real rooms cost, against Mitsuba 3

@@ -1,8 +1,9 @@
-//! `cargo xtask fuzz [--seconds N] [TARGET...]`: searches for bytes that break what reads them.
+//! `cargo xtask fuzz [--seconds N] [--quick] [TARGET...]`: searches for bytes that break what reads them.
 //!
 //! libFuzzer on the stable toolchain: LLVM's coverage pass is asked for by flags of the compiler that need no `-Z`. The program is built
 //! below `target/fuzz/build`, each target's files lie in `target/fuzz/<target>/`. What was learned there (the corpus) is kept, so that a
-//! longer search goes on where a shorter one ended. Two targets are searched at a time.
+//! longer search goes on where a shorter one ended. Two targets are searched at a time. `--quick` leaves out the readers of datasets and
+//! of the whole program, without which the program that searches builds much faster.
 
 mod report;
 mod search;
@@ -35,19 +36,23 @@ const FLAGS: [&str; 6] = [
 #[derive(Debug, PartialEq)]
 struct Asked {
     seconds: u64,
+    /// Importers and V-Ray alone.
+    quick: bool,
     /// All where none is named.
     names: Vec<String>,
 }
 
 impl Asked {
     fn parse(words: &[&str]) -> Result<Self, String> {
-        let mut asked = Self { seconds: SECONDS, names: Vec::new() };
+        let mut asked = Self { seconds: SECONDS, quick: false, names: Vec::new() };
         let mut words = words.iter();
         while let Some(word) = words.next() {
             if *word == "--seconds" {
                 let found = words.next().copied().unwrap_or("nothing");
                 let seconds = found.parse().ok().filter(|seconds| *seconds > 0);
                 asked.seconds = seconds.ok_or_else(|| format!("--seconds: found {found}, expected a whole number above zero"))?;
+            } else if *word == "--quick" {
+                asked.quick = true;
             } else {
                 asked.names.push((*word).to_string());
             }
@@ -64,7 +69,7 @@ impl Asked {
 pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     let asked = Asked::parse(words)?;
     let folder = house.target()?.join("fuzz");
-    let program = build(house, &folder.join("build"))?;
+    let program = build(house, &folder.join("build"), asked.quick)?;
     let all = search::targets(&program, &folder)?;
     if let Some(unknown) = asked.names.iter().find(|name| !all.iter().any(|target| target.name == **name)) {
         let known: Vec<&str> = all.iter().map(|target| target.name.as_str()).collect();
@@ -72,7 +77,7 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     }
     let chosen: Vec<Target> = all.into_iter().filter(|t| asked.names.is_empty() || asked.names.contains(&t.name)).collect();
     let rows = search_all(&program, &chosen, asked.seconds)?;
-    let docs = if asked.names.is_empty() { house.root.join("docs/benchmarks") } else { folder };
+    let docs = if asked.names.is_empty() && !asked.quick { house.root.join("docs/benchmarks") } else { folder };
     report::write(&docs, asked.seconds, &rows)?;
     println!("{}\nwritten to {}", report::table(&rows), docs.join("fuzz.md").display());
     let found: Vec<String> = rows.iter().filter_map(|row| row.found.as_ref().map(|found| found.message(&row.name))).collect();
@@ -80,9 +85,12 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
 }
 
 /// Builds the program that searches, and says where it is.
-fn build(house: &House, target: &Path) -> Result<PathBuf, String> {
+fn build(house: &House, target: &Path, quick: bool) -> Result<PathBuf, String> {
     let arguments = ["build", "--locked", "--profile", "fuzz", "--package", "enfilade-fuzz", "--features", "libfuzzer", "--bin", "fuzz"];
     let mut command = house.cargo(&arguments);
+    if quick {
+        command.arg("--no-default-features");
+    }
     // Naming the platform keeps coverage out of what runs while it is built.
     let platform = platform(house)?;
     command.args(["--target", &platform]).env("CARGO_TARGET_DIR", target).env("RUSTFLAGS", FLAGS.join(" "));
@@ -129,8 +137,8 @@ mod tests {
     #[test]
     fn seconds_and_targets_are_told_apart() {
         let asked = |words: &[&str]| Asked::parse(words);
-        assert_eq!(asked(&[]).unwrap(), Asked { seconds: 60, names: vec![] });
-        assert_eq!(asked(&["gltf", "--seconds", "5", "obj"]).unwrap(), Asked { seconds: 5, names: vec!["gltf".into(), "obj".into()] });
+        assert_eq!(asked(&[]).unwrap(), Asked { seconds: 60, quick: false, names: vec![] });
+        assert_eq!(asked(&["gltf", "--seconds", "5", "--quick"]).unwrap(), Asked { seconds: 5, quick: true, names: vec!["gltf".into()] });
         assert_eq!(asked(&["--seconds", "0"]).unwrap_err(), "--seconds: found 0, expected a whole number above zero");
         assert!(asked(&["--seconds"]).unwrap_err().contains("found nothing"));
     }

@@ -102,7 +102,7 @@ fn problem(said: &str) -> Option<String> {
             || line.contains("overflow")
     };
     let lines: Vec<&str> = said.lines().collect();
-    let at = lines.iter().position(|line| telling(&line))?;
+    let at = lines.iter().position(telling)?;
     let more = lines.get(at + 1).filter(|_| lines[at].starts_with("panicked at")).copied().unwrap_or_default();
     Some(format!("{} {more}", lines[at]).trim_end().to_string())
 }
