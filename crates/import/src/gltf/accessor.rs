@@ -7,7 +7,7 @@ use gltf::json::validation::Checked;
 
 /// An accessor without a buffer view is all zeros. All reads of a file together may ask for this many: more is taken for damage rather
 /// than allocated.
-pub(super) const MAX_ZEROS: u64 = 1 << 24;
+pub(super) const MAX_ZEROS: u64 = 1 << 22;
 
 impl Document {
     /// The elements of an accessor of vectors of `N` components, as floats (normalized integers mapped to [0,1] or [−1,1]).

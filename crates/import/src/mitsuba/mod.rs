@@ -51,7 +51,7 @@ const MAX_REFERENCES: usize = 32;
 
 /// Shapes within instances and bsdfs within bsdfs, counted as often as references lead to them, beyond this many are taken for a
 /// mistake: a group of two instances of a group of two instances … has as many shapes as it likes.
-const MAX_VISITS: usize = 1 << 19;
+const MAX_VISITS: usize = 1 << 16;
 
 /// Imports a Mitsuba scene.
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
