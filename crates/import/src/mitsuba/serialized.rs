@@ -33,7 +33,7 @@ pub(super) fn read(bytes: &[u8], index: i64, file: &Path) -> Result<Mesh, Import
 
 /// Byte offset and version of a mesh.
 fn locate(bytes: &[u8], index: i64) -> Result<(usize, u16), String> {
-    let u32_at = |at: usize| bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+    let u32_at = |at: usize| bytes.get(at..)?.first_chunk().map(|b| u32::from_le_bytes(*b));
     let version_at = |at: usize| {
         let word = u32_at(at)?;
         (word as u16 == MAGIC).then_some((word >> 16) as u16).filter(|v| (3..=4).contains(v))
