@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 19] = [
+const FLOORS: [(&str, Floor); 20] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -36,6 +36,7 @@ const FLOORS: [(&str, Floor); 19] = [
     ("annotate", Floor::Number(6)),
     ("cli", Floor::Number(7)),
     ("testkit", Floor::Dev),
+    ("fuzz", Floor::Dev),
     ("xtask", Floor::Dev),
 ];
 

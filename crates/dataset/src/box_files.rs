@@ -77,7 +77,7 @@ impl Dataset {
         let read = |index: usize, width: usize| {
             let Array { values, shape } = read_array(&files[index])?;
             match values {
-                Elements::F64(values) if values.len() == shape[0] * width => Ok(values),
+                Elements::F64(values) if shape.first().is_some_and(|&rows| values.len() == rows * width) => Ok(values),
                 other => {
                     let found = format!("{} of shape {shape:?}", other.element().name());
                     Err(DatasetError::hdf5(&files[index], format!("expected float64 with {width} values per row, found {found}")))

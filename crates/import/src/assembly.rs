@@ -33,8 +33,8 @@ pub(crate) struct Assembly<'a> {
     warnings: Warnings<'a>,
     inputs: Vec<PathBuf>,
     images: BTreeMap<(String, Use), Option<u32>>,
-    part_names: HashSet<String>,
-    camera_names: HashSet<String>,
+    part_names: Names,
+    camera_names: Names,
     reversed: HashMap<u32, u32>,
     labels: Vec<ImportedLabel>,
     meters_per_unit: f64,
@@ -54,8 +54,8 @@ impl<'a> Assembly<'a> {
             warnings: Warnings::new(cx),
             inputs: Vec::new(),
             images: BTreeMap::new(),
-            part_names: HashSet::new(),
-            camera_names: HashSet::new(),
+            part_names: Names::default(),
+            camera_names: Names::default(),
             reversed: HashMap::new(),
             labels: Vec::new(),
             meters_per_unit: 1.0,
@@ -166,8 +166,13 @@ impl<'a> Assembly<'a> {
     }
 
     fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
+        let unreadable = |source: std::io::Error| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() };
+        // A device would be read without end, and a pipe would be waited for.
+        if self.archive.is_none() && !std::fs::metadata(file).map_err(unreadable)?.is_file() {
+            return Err(unreadable(std::io::Error::other("it is no file")));
+        }
         let read = self.archive.map_or_else(|| std::fs::read(file), |archive| archive.read_path(file));
-        let bytes = read.map_err(|source| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() })?;
+        let bytes = read.map_err(unreadable)?;
         if self.archive.is_none() && !self.inputs.iter().any(|i| i == file) {
             self.inputs.push(file.to_path_buf());
         }
@@ -310,7 +315,7 @@ impl<'a> Assembly<'a> {
             return;
         }
         let mesh = if determinant < 0.0 { self.reversed(mesh) } else { mesh };
-        let name = unique(&mut self.part_names, name);
+        let name = self.part_names.unique(name);
         if label != PartLabel::NONE {
             self.labels.push(ImportedLabel { part: self.scene.parts.len() as u32, label });
         }
@@ -336,7 +341,7 @@ impl<'a> Assembly<'a> {
         let plausible = fov_x_rad > 0.0 && fov_x_rad < std::f64::consts::PI && aspect > 0.0 && aspect.is_finite();
         match axes {
             Some(world_from_camera) if plausible && placement.translation.is_finite() => {
-                let name = unique(&mut self.camera_names, name);
+                let name = self.camera_names.unique(name);
                 let position = placement.translation;
                 self.scene.cameras.push(StartCamera { name, position, world_from_camera, fov_x_rad, aspect });
             }
@@ -469,14 +474,31 @@ pub(crate) fn mat3_f32(m: DMat3) -> Mat3 {
     Mat3::from_cols(m.x_axis.as_vec3(), m.y_axis.as_vec3(), m.z_axis.as_vec3())
 }
 
-/// `name`, or `name_2`, `name_3` … when it is taken. Control characters, which would break tables, become underscores.
-fn unique(names: &mut HashSet<String>, name: &str) -> String {
-    let name: String = name.trim().chars().map(|c| if c.is_control() { '_' } else { c }).collect();
-    let name = if name.is_empty() { "part".to_string() } else { name };
-    let free = std::iter::once(name.clone()).chain((2..).map(|i| format!("{name}_{i}"))).find(|n| !names.contains(n));
-    let free = free.unwrap_or(name);
-    names.insert(free.clone());
-    free
+/// Names that are taken.
+#[derive(Default)]
+struct Names {
+    taken: HashSet<String>,
+    /// The number to try next for a name that occurred before, so that many equal names are no long search.
+    next: HashMap<String, usize>,
+}
+
+impl Names {
+    /// `name`, or `name_2`, `name_3` … when it is taken. Control characters, which would break tables, become underscores.
+    fn unique(&mut self, name: &str) -> String {
+        let name: String = name.trim().chars().map(|c| if c.is_control() { '_' } else { c }).collect();
+        let name = if name.is_empty() { "part".to_string() } else { name };
+        if self.taken.insert(name.clone()) {
+            return name;
+        }
+        let next = self.next.entry(name.clone()).or_insert(2);
+        loop {
+            let numbered = format!("{name}_{next}");
+            *next += 1;
+            if self.taken.insert(numbered.clone()) {
+                return numbered;
+            }
+        }
+    }
 }
 
 /// Right-handed orthonormal axes with z along `z` and y as near to `y` as can be.

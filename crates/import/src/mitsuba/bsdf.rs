@@ -1,9 +1,9 @@
 //! BSDFs to materials.
 
+use super::Reader;
 use super::spectrum;
 use super::texture::Texture;
 use super::xml::Node;
-use super::{MAX_REFERENCES, Reader};
 use crate::ImportError;
 use crate::images::{self, Use};
 use crate::roughness::oren_nayar;
@@ -69,9 +69,7 @@ impl<'n> Reader<'n, '_> {
     }
 
     fn surface(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
-        if depth > MAX_REFERENCES {
-            return Err(node.error("bsdfs go in a circle"));
-        }
+        self.visit(node, depth, "bsdfs")?;
         match node.plugin.as_str() {
             "twosided" => {
                 self.report_unknown(node, &[], &["bsdf"]);
@@ -174,6 +172,9 @@ impl<'n> Reader<'n, '_> {
                 None => self.scalar(node, "weight", 0.5)?,
             };
             blended = self.blend_two(node, first, blended, weight);
+            if blended.bsdf.as_ref().is_some_and(|bsdf| bsdf.depth() > Bsdf::DEEPEST) {
+                return Err(node.error(format!("bsdfs are blended more than {} deep; blend fewer", Bsdf::DEEPEST)));
+            }
             weight_behind = sum;
         }
         Ok(blended)

@@ -1,7 +1,7 @@
 //! Shapes to meshes and parts.
 
 use super::xml::Node;
-use super::{MAX_REFERENCES, Reader, bsdf, emitter, serialized, transform};
+use super::{Reader, bsdf, emitter, serialized, transform};
 use crate::ImportError;
 use crate::mesh;
 use crate::obj::ObjFile;
@@ -23,9 +23,7 @@ impl<'n> Reader<'n, '_> {
 
     /// Adds a shape under the placement of its instance, whose name comes first.
     fn placed_shape(&mut self, node: &'n Node, outer: DAffine3, prefix: &str, depth: usize) -> Result<(), ImportError> {
-        if depth > MAX_REFERENCES {
-            return Err(node.error("instances go in a circle"));
-        }
+        self.visit(node, depth, "instances")?;
         match node.plugin.as_str() {
             // Only its instances are visible.
             "shapegroup" if depth == 0 => return Ok(()),
