@@ -32,7 +32,7 @@ impl Rounding {
 /// Half a unit in the last place of float16 at `value`: the most that rounding changes it. What is not finite is off by any amount.
 pub(super) fn half_step(value: f64) -> f64 {
     // Above the largest float16 stands infinity.
-    if !(value.abs() <= f16::MAX.to_f64()) {
+    if value.is_nan() || value.abs() > f16::MAX.to_f64() {
         return f64::INFINITY;
     }
     // Below 2^-14 numbers are 2^-24 apart; above, 11 binary digits are kept.
