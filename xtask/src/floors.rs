@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 19] = [
+const FLOORS: [(&str, Floor); 21] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -34,8 +34,10 @@ const FLOORS: [(&str, Floor); 19] = [
     ("pipeline", Floor::Number(5)),
     ("export", Floor::Number(5)),
     ("annotate", Floor::Number(6)),
+    ("farm", Floor::Number(6)),
     ("cli", Floor::Number(7)),
     ("testkit", Floor::Dev),
+    ("fuzz", Floor::Dev),
     ("xtask", Floor::Dev),
 ];
 

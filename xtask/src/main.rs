@@ -1,8 +1,8 @@
-//! The checks of the house, as `cargo xtask check`, `test`, `browser`, `bench` and `oracle`.
+//! The checks of the house, as `cargo xtask check`, `test`, `browser`, `fuzz`, `bench` and `oracle`.
 //!
 //! [`check`] holds what is quick and says nothing about numbers; [`test`](mod@test) holds everything else; [`browser`] tests the
-//! pages; [`bench`](mod@bench) measures. Each is a table of [`Step`](step::Step)s that says what it does, how long it took and, on
-//! failure, what to do.
+//! pages; [`fuzz`] searches for bytes that break what reads them; [`bench`](mod@bench) measures. Most are a table of
+//! [`Step`](step::Step)s that says what it does, how long it took and, on failure, what to do.
 
 mod acceptance;
 mod bench;
@@ -11,6 +11,7 @@ mod check;
 mod dependencies;
 mod embree;
 mod floors;
+mod fuzz;
 mod homes;
 mod house;
 mod oidn;
@@ -28,6 +29,7 @@ const USAGE: &str = "\
 usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directions, dependency policy, docs, quick tests
        cargo xtask test [STEP...]                 all tests, then the release binary on the demo
        cargo xtask browser [STEP...]              the pages: types, bundle, tests in a browser
+       cargo xtask fuzz [--seconds N] [--quick] [TARGET...]   searches for bytes that break what reads them
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
        cargo xtask bench render [ROOM...]         what pictures of real rooms cost, against Mitsuba 3
@@ -41,6 +43,7 @@ fn main() -> ExitCode {
         ["check", rest @ ..] => check::run(&house, rest),
         ["test", rest @ ..] => test::run(&house, rest),
         ["browser", rest @ ..] => browser::run(&house, rest),
+        ["fuzz", rest @ ..] => fuzz::run(&house, rest),
         ["bench", "render", rest @ ..] => peers::run(&house, "bench_render", rest),
         ["bench", "homes", rest @ ..] => homes::run(&house, rest),
         ["bench", "storage", rest @ ..] => storage::run(&house, rest),

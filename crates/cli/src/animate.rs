@@ -4,12 +4,11 @@ use crate::args::AnimateArgs;
 use crate::export::cameras;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
-use enfilade_dataset::Dataset;
 use enfilade_post::drivers::{AnimateConfig, Animated, animate_camera};
 
 /// `animate`: films of the frames of each camera.
 pub fn animate(args: &AnimateArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let dataset = Dataset::open(&args.dataset)?;
+    let dataset = args.table.open(&args.dataset)?;
     let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
     let chosen = cameras(&dataset, &scenes, args.camera.as_deref().unwrap_or("*"))?;
     let folder = args.output.clone().unwrap_or_else(|| dataset.layout().animations_dir());

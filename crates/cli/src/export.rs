@@ -8,7 +8,7 @@ use enfilade_export::{Existing, ExportConfig, Format, Selection, export as expor
 
 /// `export`: the dataset in another layout.
 pub fn export(args: &ExportArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let dataset = Dataset::open(&args.dataset)?;
+    let dataset = args.table.open(&args.dataset)?;
     let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
     let cameras = args.camera.as_ref().map(|pattern| cameras(&dataset, &scenes, pattern)).transpose()?;
     let unknown = || Problem::new(format!("no format is named {:?}", args.format), "see `enfilade export --help`");

@@ -10,6 +10,7 @@ mod estimate;
 mod export;
 mod farm;
 mod outcome;
+mod pictures;
 mod price;
 mod progress;
 mod scene_files;
@@ -55,7 +56,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Denoise(args) => verbs::denoise(args, cli.quiet),
         Verb::Label(args) => verbs::label(args, cli.quiet),
         Verb::Boxes(args) => verbs::stage(args, enfilade_pipeline::Stage::Boxes, cli.quiet),
-        Verb::Preview(args) => verbs::stage(args, enfilade_pipeline::Stage::Preview, cli.quiet),
+        Verb::Preview(args) => pictures::preview(args, cli.quiet),
         Verb::Verify(args) => verbs::verify(args, cli.quiet),
         Verb::Split(args) => verbs::split(args),
         Verb::Inspect(args) => verbs::inspect(args),
@@ -63,7 +64,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Replay(args) => verbs::replay(args, cli.quiet),
         Verb::Export(args) => export::export(args, cli.quiet),
         Verb::Stats(args) => stats::stats(args, cli.quiet),
-        Verb::Vray(args) => vray::vray(args),
+        Verb::Vray(args) => vray::vray(args, cli.quiet),
         Verb::Farm(args) => farm::farm(args, cli.quiet),
         Verb::Annotate(args) => annotate::annotate(args, cli.quiet),
         Verb::Suggest(args) => suggest::suggest(args, cli.quiet),

@@ -45,7 +45,11 @@ impl Problem {
 
     /// A problem with a farm's job.
     pub fn of_farm(error: &enfilade_farm::FarmError) -> Self {
-        Self { message: error.to_string(), hint: None, usage: matches!(error, enfilade_farm::FarmError::Request(_) | enfilade_farm::FarmError::Place { .. }) }
+        Self {
+            message: error.to_string(),
+            hint: None,
+            usage: matches!(error, enfilade_farm::FarmError::Request(_) | enfilade_farm::FarmError::Place { .. }),
+        }
     }
 
     /// Why a scene stopped.

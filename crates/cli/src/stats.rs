@@ -4,12 +4,11 @@ use crate::args::StatsArgs;
 use crate::outcome::{Problem, Verdict, say};
 use crate::price::{dollars, prices};
 use crate::progress::Progress;
-use enfilade_dataset::Dataset;
 use enfilade_post::stats::{StatsConfig, write_statistics};
 
 /// `stats`: what the images show and what they cost.
 pub fn stats(args: &StatsArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let dataset = Dataset::open(&args.dataset)?;
+    let dataset = args.table.open(&args.dataset)?;
     let config = StatsConfig {
         scenes: enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?,
         folder: args.output.clone(),

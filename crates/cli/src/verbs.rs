@@ -5,9 +5,11 @@ use crate::args::{
 };
 use crate::estimate::estimate;
 use crate::outcome::{Problem, Verdict, say};
+use crate::pictures::refuse_released;
 use crate::progress::Progress;
 use crate::summary;
-use enfilade_dataset::Dataset;
+use enfilade_dataset::CameraTable;
+use enfilade_export::intrinsics_csv;
 use enfilade_pipeline::{Config, Event, Overrides, Quality, RenderChoices, Reporter, Stage, Summary};
 use enfilade_post::drivers::inspect_pixel;
 use enfilade_post::verify::{verify_dataset, write_report};
@@ -53,6 +55,7 @@ pub fn quality(arg: QualityArg) -> Quality {
 
 /// One stage of a dataset.
 pub fn stage(args: &StageArgs, stage: Stage, quiet: bool) -> Result<Verdict, Problem> {
+    refuse_released(&args.dataset, stage)?;
     let progress = Progress::new(quiet);
     let result = enfilade_pipeline::run_stage(&args.dataset, stage, args.scene.as_deref(), args.force, &progress)?;
     drop(progress);
@@ -125,7 +128,7 @@ pub fn label(args: &LabelArgs, quiet: bool) -> Result<Verdict, Problem> {
 
 /// `verify`: the card of a dataset.
 pub fn verify(args: &VerifyArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let dataset = Dataset::open(&args.dataset)?;
+    let dataset = args.table.open(&args.dataset)?;
     let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
     let report = {
         let progress = Progress::new(quiet);
@@ -162,7 +165,8 @@ pub fn split(args: &SplitArgs) -> Result<Verdict, Problem> {
 
 /// `inspect`: all about one pixel.
 pub fn inspect(args: &InspectArgs) -> Result<Verdict, Problem> {
-    let dataset = Dataset::open(&args.dataset)?;
+    let Some((x, y)) = args.pixel else { return list_cameras(args) };
+    let dataset = args.table.open(&args.dataset)?;
     let scenes = dataset.scenes()?;
     let scene = match (&args.scene, scenes.as_slice()) {
         (Some(scene), _) => enfilade_pipeline::select("scene", &scenes, Some(scene))?.remove(0),
@@ -172,9 +176,19 @@ pub fn inspect(args: &InspectArgs) -> Result<Verdict, Problem> {
         }
     };
     let camera = enfilade_pipeline::select("camera", &dataset.cameras(&scene)?, Some(&args.camera))?.remove(0);
-    let (x, y) = args.pixel;
     let report = inspect_pixel(&dataset, &scene, &camera, args.frame, [x, y]).map_err(|e| Problem::found(&e))?;
     say(report.to_string().trim_end());
+    Ok(Verdict::Done)
+}
+
+/// `inspect --cameras`: K of every scene that the table has.
+fn list_cameras(args: &InspectArgs) -> Result<Verdict, Problem> {
+    let table = match &args.table.cameras_csv {
+        Some(table) => table.clone(),
+        None if args.dataset.is_file() => args.dataset.clone(),
+        None => args.table.open(&args.dataset)?.camera_table(),
+    };
+    say(intrinsics_csv(&CameraTable::read(&table)?).trim_end());
     Ok(Verdict::Done)
 }
 

@@ -7,7 +7,7 @@ use enfilade_annotate::view::{Viewer, router};
 
 /// `view`: serves the page until it is asked to end.
 pub fn view(args: &ViewArgs) -> Result<Verdict, Problem> {
-    let viewer = Viewer::open(&args.dataset)?;
+    let viewer = Viewer::of(args.table.open(&args.dataset)?);
     serve(router(viewer), &args.listen.listen(), "/view/", |url| say(&format!("page     {url}\nEnd with Ctrl-C.")))?;
     Ok(Verdict::Done)
 }

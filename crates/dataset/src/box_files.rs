@@ -1,9 +1,11 @@
 //! The bounding boxes of semantic instances: three arrays per kind in the mesh folder, as Hypersim's toolkit writes them.
 //!
-//! Row i is instance i: `positions` (n,3) are the centres, `extents` (n,3) the side lengths, both in metres, and `orientations`
-//! (n,3,3) take box coordinates to the world, so that their columns are the directions of the sides. Everything is float64. Row 0,
-//! and the row of every number that no object has, holds +∞, as in Hypersim's files (its maintainer speaks of NaN).
+//! Row i is instance i: `positions` (n,3) are the centres, `extents` (n,3) the side lengths, both in asset units (metres in our
+//! datasets), and `orientations` (n,3,3) take box coordinates to the world, so that their columns are the directions of the sides.
+//! Everything is float64. Row 0, and the row of every number that no object has, holds +∞, as in Hypersim's files (its maintainer speaks
+//! of NaN).
 
+use crate::camera_files::optional;
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
 use crate::{Dataset, DatasetError, check_name, replace_file};
 use enfilade_math::{DMat3, DVec3, OrientedBox};
@@ -66,7 +68,7 @@ impl Dataset {
             .try_for_each(|(path, array)| replace_file(path, |aside| write_array(aside, array, Storage::Contiguous, &[])))
     }
 
-    /// The boxes of a kind; entry i is instance i.
+    /// The boxes of a kind in metres; entry i is instance i. Without `metadata_scene.csv` the files are taken to be in metres.
     ///
     /// # Errors
     /// When a file is missing or damaged, or the three do not belong together.
@@ -75,7 +77,7 @@ impl Dataset {
         let read = |index: usize, width: usize| {
             let Array { values, shape } = read_array(&files[index])?;
             match values {
-                Elements::F64(values) if values.len() == shape[0] * width => Ok(values),
+                Elements::F64(values) if shape.first().is_some_and(|&rows| values.len() == rows * width) => Ok(values),
                 other => {
                     let found = format!("{} of shape {shape:?}", other.element().name());
                     Err(DatasetError::hdf5(&files[index], format!("expected float64 with {width} values per row, found {found}")))
@@ -87,12 +89,15 @@ impl Dataset {
             let problem = "it has another number of rows than the positions or orientations beside it; run the boxes stage again";
             return Err(DatasetError::hdf5(&files[0], problem));
         }
+        let metres = optional(self.meters_per_asset_unit(scene))?.unwrap_or(1.0);
         let row = |i: usize| OrientedBox {
-            center: DVec3::from_slice(&positions[3 * i..]),
+            center: DVec3::from_slice(&positions[3 * i..]) * metres,
             world_from_box: DMat3::from_cols_slice(&orientations[9 * i..]).transpose(),
-            extents: DVec3::from_slice(&extents[3 * i..]),
+            extents: DVec3::from_slice(&extents[3 * i..]) * metres,
         };
-        Ok((0..extents.len() / 3).map(row).map(|b| (b.extents != DVec3::INFINITY).then_some(b)).collect())
+        // Row by row infinite in Hypersim's files; its maintainer speaks of NaN.
+        let absent = |b: &OrientedBox| b.extents == DVec3::INFINITY || (b.extents.is_nan() && b.center.is_nan());
+        Ok((0..extents.len() / 3).map(row).map(|b| (!absent(&b)).then_some(b)).collect())
     }
 }
 

@@ -3,13 +3,15 @@
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
 use crate::tables::{Table, write_parameter};
 use crate::{Dataset, DatasetError, StereoRecord, check_name, replace_file, write_bytes};
-use enfilade_math::{DMat3, DVec3};
+use enfilade_math::{DMat3, DVec3, nearest_rotation};
 use enfilade_scene::{Camera, Pose, Projection, Trajectory};
 use serde::Serialize;
 use std::path::Path;
 
 /// Hypersim's time between two frames, for cameras that are at rest for each.
 const FRAME_TIME_S: f64 = 1.0;
+/// Orientations with a larger [`Pose::orthonormality_error`] are no rotations.
+const ORTHONORMAL: f64 = 1e-9;
 
 impl Dataset {
     /// Writes a trajectory: the four keyframe arrays, `metadata_camera.csv`, `cameras_opencv.json`, the camera's row in
@@ -41,7 +43,7 @@ impl Dataset {
         }
         let frame_time_s = camera.shutter.map_or(FRAME_TIME_S, |shutter| shutter.frame_time_s);
         write_parameter(&self.layout().metadata_camera(scene, name), "frame_time_seconds", frame_time_s)?;
-        write_bytes(&self.layout().cameras_opencv(scene, name), opencv_json(scene, trajectory, camera))?;
+        write_bytes(&self.layout().cameras_opencv(scene, name), opencv_cameras(scene, trajectory, camera))?;
         self.write_camera_model(scene, trajectory, camera, stereo)?;
         self.make_records_dir(scene, name)?;
         self.add_camera(scene, name)
@@ -64,12 +66,27 @@ impl Dataset {
         table.map_or(Ok(FRAME_TIME_S), |table| table.parameter("frame_time_seconds"))
     }
 
-    /// A camera's trajectory in metres; without `metadata_scene.csv` the files are taken to be in metres. Without look-at positions
+    /// A camera's trajectory in metres; where nothing says the unit, the files are taken to be in metres. Without look-at positions
     /// the point one metre ahead stands for each, and without frame numbers they count from 0.
+    ///
+    /// Orientations that are off a rotation become the nearest one: Hypersim's frame 0 has the artist's matrix, which may be stretched.
+    /// Those that mirror stay as they are.
     ///
     /// # Errors
     /// When an array is missing, damaged, or of another shape or length than the others.
     pub fn read_trajectory(&self, scene: &str, camera: &str) -> Result<Trajectory, DatasetError> {
+        let mut trajectory = self.read_stored_trajectory(scene, camera)?;
+        for pose in trajectory.poses.iter_mut().filter(|pose| pose.orthonormality_error() > ORTHONORMAL) {
+            pose.world_from_camera = nearest_rotation(pose.world_from_camera).unwrap_or(pose.world_from_camera);
+        }
+        Ok(trajectory)
+    }
+
+    /// [`Dataset::read_trajectory`] with the orientations as they are stored.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn read_stored_trajectory(&self, scene: &str, camera: &str) -> Result<Trajectory, DatasetError> {
         let keyframes = |what: &str| self.layout().keyframes(scene, camera, what);
         let positions = read_f64(&keyframes("positions"), None, &[3])?;
         let n = positions.len() / 3;
@@ -121,7 +138,7 @@ impl Dataset {
 }
 
 /// `None` instead of the error that a file does not exist.
-fn optional<T>(result: Result<T, DatasetError>) -> Result<Option<T>, DatasetError> {
+pub(crate) fn optional<T>(result: Result<T, DatasetError>) -> Result<Option<T>, DatasetError> {
     match result {
         Err(error) if error.is_not_found() => Ok(None),
         other => other.map(Some),
@@ -181,7 +198,8 @@ const OPENCV_DISTORTED: &str = "OpenCV: camera axes x right, y down, z forward; 
     models have no K: camera_rays.hdf5 has the ray of every pixel, with y and z the other way around. With a rolling shutter these poses \
     are those of the middle row; camera_row_positions.hdf5 and camera_row_orientations.hdf5 have those of all rows.";
 
-fn opencv_json(scene: &str, trajectory: &Trajectory, camera: &Camera) -> String {
+/// The text of `cameras_opencv.json` for the poses of a trajectory.
+pub fn opencv_cameras(scene: &str, trajectory: &Trajectory, camera: &Camera) -> String {
     let [width, height] = camera.size();
     // A tilted image plane is a turned camera with a straight one.
     let (intrinsics, turned) = match &camera.projection {
@@ -253,7 +271,7 @@ mod tests {
         let k = Intrinsics { width: 640, height: 480, fx: 500.0, fy: 510.0, cx: 300.0, cy: 260.0, skew: 0.0 };
         let tilt = DMat3::from_rotation_x(0.15) * k.cam_from_uv();
         for projection in [Projection::Pinhole(k), Projection::TiltedPinhole(TiltedPinhole::new(640, 480, tilt).unwrap())] {
-            let json: serde_json::Value = serde_json::from_str(&opencv_json("room", &trajectory(), &projection.clone().into())).unwrap();
+            let json: serde_json::Value = serde_json::from_str(&opencv_cameras("room", &trajectory(), &projection.clone().into())).unwrap();
             let number = |value: &serde_json::Value, i: usize, j: usize| value[i][j].as_f64().unwrap();
             let (k, pose) = (&json["K"], &json["frames"][2]["world_from_camera"]);
             let p_camera = DVec3::new(0.3, 0.2, 2.0); // OpenCV's axes

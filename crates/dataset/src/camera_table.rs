@@ -5,8 +5,8 @@
 //! they are empty for distorted and panoramic cameras, whose rays are in files of their own (`camera_model.rs`).
 
 use crate::tables::Table;
-use crate::{Dataset, DatasetError, check_name};
-use enfilade_math::{DMat3, DMat4};
+use crate::{CameraTable, Dataset, DatasetError, check_name};
+use enfilade_math::DMat4;
 use enfilade_scene::{Camera, Intrinsics, Projection, TiltedPinhole};
 
 /// Near plane of `M_proj`, metres. It scales depth only, not where a point falls in the image.
@@ -97,44 +97,28 @@ impl Dataset {
         table.write()
     }
 
-    /// The scene's pinhole, from `M_cam_from_uv`; Hypersim's tilt-shift cameras have a tilted image plane.
+    /// The table of cameras: the dataset's own, or the one that was found near it or named in its place.
+    ///
+    /// # Errors
+    /// When it is missing or damaged.
+    pub fn read_camera_table(&self) -> Result<CameraTable, DatasetError> {
+        CameraTable::read(&self.camera_table())
+    }
+
+    /// The scene's pinhole by that table: [`CameraTable::projection`].
     ///
     /// # Errors
     /// When the table is missing or damaged, has no row for the scene, or its matrix is empty or no pinhole's.
     pub fn table_projection(&self, scene: &str) -> Result<Projection, DatasetError> {
-        let path = self.layout().camera_parameters();
-        let table = Table::read(&path)?;
-        let names = table.column("scene_name")?;
-        let row = table.rows.iter().position(|row| row[names] == scene);
-        let row = row.ok_or_else(|| DatasetError::text(&path, format!("no row for the scene {scene:?}; run the plan stage for it")))?;
-        let number = |column: &str| table.parse::<f64>(row, table.column(column)?);
-        let size = (number("settings_output_img_width")? as u32, number("settings_output_img_height")? as u32);
-        let mut cam_from_uv = DMat3::ZERO;
-        for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
-            cam_from_uv.col_mut(j)[i] = number(&format!("M_cam_from_uv_{i}{j}"))?;
-        }
-        if let Some(intrinsics) = intrinsics_from_uv(size, cam_from_uv) {
-            return Ok(Projection::Pinhole(intrinsics));
-        }
-        let wrong = |error| DatasetError::text(&path, format!("line {}: scene {scene:?}: {error}", row + 2));
-        Ok(Projection::TiltedPinhole(TiltedPinhole::new(size.0, size.1, cam_from_uv).map_err(wrong)?))
+        self.read_camera_table()?.projection(scene)
     }
 
-    /// The scene's `M_proj`: takes camera space to clip space.
+    /// The scene's `M_proj` by that table: takes camera space to clip space.
     ///
     /// # Errors
     /// When the table is missing or damaged, or has no row for the scene.
     pub fn projection_matrix(&self, scene: &str) -> Result<DMat4, DatasetError> {
-        let path = self.layout().camera_parameters();
-        let table = Table::read(&path)?;
-        let names = table.column("scene_name")?;
-        let row = table.rows.iter().position(|row| row[names] == scene);
-        let row = row.ok_or_else(|| DatasetError::text(&path, format!("no row for the scene {scene:?}; run the plan stage for it")))?;
-        let mut projection = DMat4::ZERO;
-        for (i, j) in (0..16).map(|k| (k / 4, k % 4)) {
-            projection.col_mut(j)[i] = table.parse(row, table.column(&format!("M_proj_{i}{j}"))?)?;
-        }
-        Ok(projection)
+        self.read_camera_table()?.projection_matrix(scene)
     }
 
     /// The table, or an empty one with Hypersim's columns.
@@ -213,25 +197,10 @@ fn tilted_projection(tilted: &TiltedPinhole) -> DMat4 {
     DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose()
 }
 
-/// The inverse of [`Intrinsics::cam_from_uv`] up to the matrix's scale; `None` when the image plane is tilted.
-fn intrinsics_from_uv((width, height): (u32, u32), cam_from_uv: DMat3) -> Option<Intrinsics> {
-    let m = cam_from_uv * (-1.0 / cam_from_uv.z_axis.z);
-    let rest = [m.x_axis.y, m.x_axis.z, m.y_axis.z];
-    let (w, h) = (0.5 * f64::from(width), 0.5 * f64::from(height));
-    if !m.is_finite() || rest.iter().any(|v| v.abs() > 1e-9) || m.x_axis.x <= 0.0 || m.y_axis.y <= 0.0 {
-        return None;
-    }
-    let (fx, fy) = (w / m.x_axis.x, h / m.y_axis.y);
-    // A shear below what doubles resolve is none.
-    let sheared = m.y_axis.x.abs() > 1e-9;
-    let skew = if sheared { m.y_axis.x * fx * fy / h } else { 0.0 };
-    Some(Intrinsics { width, height, fx, fy, cx: w - m.z_axis.x * fx + skew * m.z_axis.y, cy: h + m.z_axis.y * fy, skew })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_math::DVec3;
+    use enfilade_math::{DMat3, DVec3};
 
     const OFF_CENTRE: Intrinsics = Intrinsics { width: 640, height: 480, fx: 500.0, fy: 510.0, cx: 300.0, cy: 260.0, skew: 6.0 };
 

@@ -1,5 +1,5 @@
 use crate::{DatasetError, Layout};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A dataset on disk.
 ///
@@ -9,6 +9,8 @@ use std::path::Path;
 #[derive(Clone, Debug)]
 pub struct Dataset {
     layout: Layout,
+    /// The table of cameras that is read, where it is not the dataset's own.
+    camera_table: Option<PathBuf>,
 }
 
 impl Dataset {
@@ -19,20 +21,25 @@ impl Dataset {
     pub fn create(root: impl AsRef<Path>) -> Result<Self, DatasetError> {
         let layout = Layout::new(root.as_ref());
         std::fs::create_dir_all(layout.scenes_dir()).map_err(DatasetError::at("create the folder", layout.scenes_dir()))?;
-        Ok(Self { layout })
+        Ok(Self { layout, camera_table: None })
     }
 
     /// The dataset at `root`: ours, the Hypersim toolkit's, or a folder of unpacked Hypersim archives, whose scenes lie directly
-    /// under the root.
+    /// under the root. Hypersim's table of cameras, which comes apart from the archives, may also lie in the folder above.
     ///
     /// # Errors
     /// When the folder cannot be read or is no dataset.
     pub fn open(root: impl AsRef<Path>) -> Result<Self, DatasetError> {
         let layout = Layout::new(root.as_ref());
         if layout.scenes_dir().is_dir() {
-            return Ok(Self { layout });
+            return Ok(Self { camera_table: table_nearby(&layout), layout });
         }
-        let dataset = Self { layout: Layout::flat(root.as_ref()) };
+        let layout = Layout::flat(root.as_ref());
+        if layout.root().join("_detail").is_dir() {
+            let problem = "it is one scene of a dataset; name the folder that it lies in, and choose it with --scene".to_string();
+            return Err(DatasetError::NotADataset { root: root.as_ref().to_path_buf(), problem });
+        }
+        let dataset = Self { camera_table: table_nearby(&layout), layout };
         if dataset.scenes()?.is_empty() {
             let problem = "it has no folder \"scenes\" and no folder with \"_detail\" or \"images\" in it; check the path".to_string();
             return Err(DatasetError::NotADataset { root: root.as_ref().to_path_buf(), problem });
@@ -45,8 +52,39 @@ impl Dataset {
         self.layout.root()
     }
 
+    /// The same dataset with the cameras of another table, in the form of Hypersim's `metadata_camera_parameters.csv`.
+    #[must_use]
+    pub fn with_camera_table(self, table: impl Into<PathBuf>) -> Self {
+        Self { camera_table: Some(table.into()), ..self }
+    }
+
+    /// The same dataset with pictures, contact sheets and exposures in another folder, which gets the same tree. Nothing is written
+    /// beside the images of others.
+    #[must_use]
+    pub fn with_pictures_in(self, folder: impl Into<PathBuf>) -> Self {
+        Self { layout: self.layout.with_pictures_in(folder), ..self }
+    }
+
+    /// The table of cameras that is read; it need not be there.
+    pub fn camera_table(&self) -> PathBuf {
+        self.camera_table.clone().unwrap_or_else(|| self.layout.camera_parameters())
+    }
+
     /// Where everything lies.
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
+}
+
+/// Folders in which people have Hypersim's table: the dataset's, the toolkit's within it, and the same of the folder above.
+fn table_nearby(layout: &Layout) -> Option<PathBuf> {
+    const TOOLKIT: &str = "contrib/mikeroberts3000";
+    let own = layout.camera_parameters();
+    let name = own.file_name()?;
+    let root = std::fs::canonicalize(layout.root()).ok()?;
+    let above = root.parent();
+    let folders =
+        [Some(layout.scenes_dir().to_path_buf()), Some(root.join(TOOLKIT)), above.map(Path::to_path_buf), above.map(|a| a.join(TOOLKIT))];
+    let mut tables = folders.into_iter().flatten().map(|folder| folder.join(name));
+    (!own.is_file()).then(|| tables.find(|table| table.is_file())).flatten()
 }

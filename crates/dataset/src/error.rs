@@ -38,6 +38,17 @@ pub enum DatasetError {
         /// What is missing, and what to do.
         problem: String,
     },
+    /// No table says what the cameras are.
+    #[error(
+        "there is no table of cameras at {}; Hypersim's comes apart from its archives: put metadata_camera_parameters.csv of \
+        github.com/apple/ml-hypersim (contrib/mikeroberts3000) into the dataset's folder or the one above, or name it with --cameras-csv; \
+        for a dataset of ours run the plan stage again",
+        path.display()
+    )]
+    NoCameraTable {
+        /// Where it was looked for.
+        path: PathBuf,
+    },
     /// A name that cannot be part of a path.
     #[error("{what} {name:?} cannot be used: names consist of letters, digits, '_', '-' and '.', and do not begin with '.'; rename it")]
     Name {
@@ -96,6 +107,6 @@ impl DatasetError {
 
     /// True when the cause is a file that does not exist.
     pub fn is_not_found(&self) -> bool {
-        matches!(self, Self::Io { source, .. } if source.kind() == io::ErrorKind::NotFound)
+        matches!(self, Self::NoCameraTable { .. }) || matches!(self, Self::Io { source, .. } if source.kind() == io::ErrorKind::NotFound)
     }
 }

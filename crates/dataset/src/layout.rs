@@ -14,6 +14,8 @@ use std::path::{Path, PathBuf};
 pub struct Layout {
     root: PathBuf,
     scenes: PathBuf,
+    /// Where pictures go, if not into the dataset.
+    pictures: Option<Box<Layout>>,
 }
 
 /// Checks that `name` can be part of a path on every system.
@@ -32,13 +34,25 @@ impl Layout {
     /// The toolkit's tree: scenes lie under `<root>/scenes`. An empty root gives paths relative to the dataset.
     pub fn new(root: impl Into<PathBuf>) -> Self {
         let root = root.into();
-        Self { scenes: root.join("scenes"), root }
+        Self { scenes: root.join("scenes"), root, pictures: None }
     }
 
     /// The tree of Hypersim's unpacked archives: scenes lie directly under the root.
     pub fn flat(root: impl Into<PathBuf>) -> Self {
         let root = root.into();
-        Self { scenes: root.clone(), root }
+        Self { scenes: root.clone(), root, pictures: None }
+    }
+
+    /// The same tree with previews, contact sheets and tables of exposures in a tree of the same form under `folder`.
+    pub(crate) fn with_pictures_in(self, folder: impl Into<PathBuf>) -> Self {
+        let folder = folder.into();
+        let pictures = if self.scenes == self.root { Self::flat(folder) } else { Self::new(folder) };
+        Self { pictures: Some(Box::new(pictures)), ..self }
+    }
+
+    /// The tree that pictures are in.
+    fn of_pictures(&self) -> &Self {
+        self.pictures.as_deref().unwrap_or(self)
     }
 
     /// The dataset's folder.
@@ -63,7 +77,7 @@ impl Layout {
 
     /// One picture per trajectory of the whole dataset.
     pub fn overview(&self) -> PathBuf {
-        self.root.join("contact_sheet.jpg")
+        self.of_pictures().root.join("contact_sheet.jpg")
     }
 
     /// The outcome of the last verification, as JSON.
@@ -234,7 +248,7 @@ impl Layout {
 
     /// How radiance became the 8-bit pictures of each frame of a camera.
     pub fn tone_maps(&self, scene: &str, camera: &str) -> PathBuf {
-        self.camera_dir(scene, camera).join("metadata_tonemap.csv")
+        self.of_pictures().camera_dir(scene, camera).join("metadata_tonemap.csv")
     }
 
     /// Where the animations lie unless another folder is named.
@@ -305,7 +319,7 @@ impl Layout {
 
     /// The previews of one pass of a camera.
     pub fn preview_dir(&self, scene: &str, camera: &str, pass: Pass) -> PathBuf {
-        self.images_dir(scene).join(format!("scene_{camera}_{}_preview", pass_name(pass)))
+        self.of_pictures().images_dir(scene).join(format!("scene_{camera}_{}_preview", pass_name(pass)))
     }
 
     /// One preview: `frame.IIII.<name>`, where `name` has its extension, as in `tonemap.jpg`.
@@ -315,7 +329,7 @@ impl Layout {
 
     /// All frames of a camera at a glance.
     pub fn contact_sheet(&self, scene: &str, camera: &str) -> PathBuf {
-        self.images_dir(scene).join(format!("scene_{camera}_contact_sheet.jpg"))
+        self.of_pictures().images_dir(scene).join(format!("scene_{camera}_contact_sheet.jpg"))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::hdf5::{Element, Elements, read_array};
 use crate::tables::Table;
-use crate::{Dataset, DatasetError};
+use crate::{Dataset, DatasetError, planar_depth};
 use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Values};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -17,7 +17,8 @@ impl Dataset {
         Ok(sorted_names(self.layout().scenes_dir())?.into_iter().filter(is_scene).collect())
     }
 
-    /// The names of a scene's cameras: those of `metadata_cameras.csv`, or without that file the camera folders, sorted.
+    /// The names of a scene's cameras: those of `metadata_cameras.csv` that have any file, or without that table the camera folders,
+    /// sorted. Hypersim's tables also name cameras that were left out of the release.
     ///
     /// # Errors
     /// When the scene is not there or cannot be read.
@@ -31,7 +32,10 @@ impl Dataset {
             table => {
                 let table = table?;
                 let names = table.column("camera_name")?;
-                Ok(table.rows.iter().map(|row| row[names].clone()).collect())
+                let layout = self.layout();
+                let images = |name: &str| LAYERS.iter().any(|spec| layout.layer_dir(scene, name, spec.pass).is_dir());
+                let there = |name: &&String| layout.camera_dir(scene, name).is_dir() || images(name);
+                Ok(table.rows.iter().map(|row| &row[names]).filter(there).cloned().collect())
             }
         }
     }
@@ -66,7 +70,9 @@ impl Dataset {
         Ok(self.read_image(scene, camera, frame, layer)?.1)
     }
 
-    /// The given layers of a frame. Values in half precision become single precision where the layer's spec says so.
+    /// The given layers of a frame, as the table of layers describes them: half precision becomes single precision where the table says
+    /// so, positions are in metres whatever the unit of the files, and planar depth that is not stored is computed from distances and
+    /// camera ([`planar_depth`]).
     ///
     /// # Errors
     /// As [`Dataset::read_layer`], and when the layers differ in size or are stored as something else.
@@ -76,9 +82,17 @@ impl Dataset {
     pub fn read_frame(&self, scene: &str, camera: &str, frame: u32, layers: &[Layer]) -> Result<Frame, DatasetError> {
         let mut whole: Option<Frame> = None;
         for &layer in layers {
-            let ([height, width], values) = self.read_image(scene, camera, frame, layer)?;
-            let path = || self.layout().layer(scene, camera, frame, layer);
-            let values = as_specified(values, layer).map_err(|problem| DatasetError::hdf5(&path(), problem))?;
+            let path = || self.layer_source(scene, camera, frame, layer);
+            let computed = layer == Layer::DepthZMeters && !self.has_layer(scene, camera, frame, layer);
+            let stored = if computed { Layer::DepthMeters } else { layer };
+            let ([height, width], values) = self.read_image(scene, camera, frame, stored)?;
+            let mut values = as_specified(values, stored).map_err(|problem| DatasetError::hdf5(&path(), problem))?;
+            if computed {
+                values = self.planar(scene, camera, [width, height], &values)?;
+            }
+            if layer == Layer::Position {
+                self.positions_in_metres(scene, &mut values)?;
+            }
             let whole = whole.get_or_insert_with(|| Frame::new(width as u32, height as u32));
             if (whole.width as usize, whole.height as usize) != (width, height) {
                 let problem = format!("{width}x{height} pixels, but other layers of the frame have {}x{}", whole.width, whole.height);
@@ -87,6 +101,20 @@ impl Dataset {
             whole.insert(layer, values);
         }
         Ok(whole.expect("at least one layer"))
+    }
+
+    /// Planar depth of an image of distances.
+    fn planar(&self, scene: &str, camera: &str, [width, height]: [usize; 2], distance: &Values) -> Result<Values, DatasetError> {
+        let projection = self.read_camera(scene, camera)?.projection;
+        let wrong = |problem: String| DatasetError::text(&self.camera_table(), problem);
+        if projection.size().map(|side| side as usize) != [width, height] {
+            let [w, h] = projection.size();
+            return Err(wrong(format!("the images of {scene}/{camera} have {width}x{height} pixels, but its camera {w}x{h}")));
+        }
+        if !projection.has_image_plane() {
+            return Err(wrong(format!("{scene}/{camera} has no image plane, so no planar depth; use depth_meters")));
+        }
+        Ok(Values::F32(planar_depth(&projection, distance)))
     }
 
     /// True when the frame has a file for `layer`.

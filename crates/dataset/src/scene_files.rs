@@ -7,9 +7,12 @@ use crate::tables::{Table, write_parameter};
 use crate::{Dataset, DatasetError, check_name, replace_file, write_bytes};
 use enfilade_math::DVec3;
 use enfilade_scene::Scene;
+use std::path::Path;
 
 /// What Hypersim writes for a node that belongs to no object.
 const NULL_OBJECT: &str = "_NULL_OBJECT";
+const NODE_COLUMNS: [&str; 4] = ["node_id", "node_name", "object_id", "object_name"];
+const METERS: &str = "meters_per_asset_unit";
 
 /// A row of `metadata_nodes.csv`: a render entity and the object it belongs to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,9 +44,8 @@ impl Dataset {
             );
             return Err(DatasetError::Unstorable { what: format!("scene {scene_name:?}"), problem });
         }
-        write_parameter(&self.layout().metadata_scene(scene_name), "meters_per_asset_unit", 1.0)?;
-        let header = ["node_id", "node_name", "object_id", "object_name"];
-        let mut nodes = Table::new(&self.layout().metadata_nodes(scene_name), &header);
+        write_parameter(&self.layout().metadata_scene(scene_name), METERS, 1.0)?;
+        let mut nodes = Table::new(&self.layout().metadata_nodes(scene_name), &NODE_COLUMNS);
         nodes.rows =
             scene.parts.iter().enumerate().map(|(i, p)| vec![(i + 1).to_string(), p.name.clone(), i.to_string(), p.name.clone()]).collect();
         nodes.write()?;
@@ -58,29 +60,40 @@ impl Dataset {
     /// # Errors
     /// When the table is missing or damaged.
     pub fn read_nodes(&self, scene: &str) -> Result<Vec<Node>, DatasetError> {
-        let path = self.layout().metadata_nodes(scene);
-        let table = Table::read(&path)?;
-        let [id, name, object, object_name] = ["node_id", "node_name", "object_id", "object_name"].map(|column| table.column(column));
-        let (id, name, object, object_name) = (id?, name?, object?, object_name?);
-        let node = |row: usize| {
-            let node_id: u32 = table.parse(row, id)?;
-            if node_id as usize != row + 1 {
-                let problem = format!("line {}: node_id is {node_id}, expected {} (1, 2, 3, … in order)", row + 2, row + 1);
-                return Err(DatasetError::text(&path, problem));
-            }
-            let text = |column: usize| table.rows[row][column].clone();
-            let object_id = u32::try_from(table.parse::<i64>(row, object)?).ok().filter(|_| text(object_name) != NULL_OBJECT);
-            Ok(Node { node_id, node_name: text(name), object_id, object_name: text(object_name) })
-        };
-        (0..table.rows.len()).map(node).collect()
+        read_node_table(&self.layout().metadata_nodes(scene))
     }
 
-    /// Metres per asset unit; 1 in every dataset of ours.
+    /// Writes `metadata_nodes.csv`, and `metadata_scene.csv` of a scene in metres: what a scene needs that was rendered elsewhere.
     ///
     /// # Errors
-    /// When the table is missing or damaged.
+    /// When a file cannot be written.
+    pub fn write_nodes(&self, scene: &str, nodes: &[Node]) -> Result<(), DatasetError> {
+        check_name("scene name", scene)?;
+        let mut table = Table::new(&self.layout().metadata_nodes(scene), &NODE_COLUMNS);
+        let object = |node: &Node| node.object_id.map_or("-1".into(), |id| id.to_string());
+        table.rows = nodes.iter().map(|n| vec![n.node_id.to_string(), n.node_name.clone(), object(n), n.object_name.clone()]).collect();
+        table.write()?;
+        let units = self.layout().metadata_scene(scene);
+        if units.is_file() { Ok(()) } else { write_parameter(&units, METERS, 1.0) }
+    }
+
+    /// Metres per asset unit; 1 in every dataset of ours. Where Hypersim's `metadata_scene.csv` was not downloaded, the table of cameras
+    /// says it.
+    ///
+    /// # Errors
+    /// When both tables are missing, or one that is there is damaged or states no positive number.
     pub fn meters_per_asset_unit(&self, scene: &str) -> Result<f64, DatasetError> {
-        Table::read(&self.layout().metadata_scene(scene))?.parameter("meters_per_asset_unit")
+        let path = self.layout().metadata_scene(scene);
+        let (metres, path) = match Table::read(&path) {
+            Err(error) if error.is_not_found() => {
+                let known = self.read_camera_table().and_then(|table| table.meters_per_asset_unit(scene));
+                // A table that lacks the scene is as good as none.
+                (known.map_err(|_| error)?, self.camera_table())
+            }
+            table => (table?.parameter(METERS)?, path),
+        };
+        let problem = || format!("scene {scene:?} has {metres} metres per asset unit; expected a positive number");
+        if metres.is_finite() && metres > 0.0 { Ok(metres) } else { Err(DatasetError::text(&path, problem())) }
     }
 
     /// Writes the occupancy tree (OctoMap's `.bt` bytes) and the bounds of the free voxels' centres.
@@ -107,6 +120,27 @@ impl Dataset {
         let min = read_f64_vec3(&self.layout().octomap_free_space_min(scene))?;
         Ok((tree, min, read_f64_vec3(&self.layout().octomap_free_space_max(scene))?))
     }
+}
+
+/// A table of render entities in the form of `metadata_nodes.csv`, wherever it lies.
+///
+/// # Errors
+/// When it is missing or damaged, or the entities are not numbered 1, 2, 3, … in order.
+pub fn read_node_table(path: &Path) -> Result<Vec<Node>, DatasetError> {
+    let table = Table::read(path)?;
+    let [id, name, object, object_name] = NODE_COLUMNS.map(|column| table.column(column));
+    let (id, name, object, object_name) = (id?, name?, object?, object_name?);
+    let node = |row: usize| {
+        let node_id: u32 = table.parse(row, id)?;
+        if node_id as usize != row + 1 {
+            let problem = format!("line {}: node_id is {node_id}, expected {} (1, 2, 3, … in order)", row + 2, row + 1);
+            return Err(DatasetError::text(path, problem));
+        }
+        let text = |column: usize| table.rows[row][column].clone();
+        let object_id = u32::try_from(table.parse::<i64>(row, object)?).ok().filter(|_| text(object_name) != NULL_OBJECT);
+        Ok(Node { node_id, node_name: text(name), object_id, object_name: text(object_name) })
+    };
+    (0..table.rows.len()).map(node).collect()
 }
 
 #[cfg(test)]

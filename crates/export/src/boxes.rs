@@ -17,14 +17,9 @@ pub(crate) fn instance_boxes(
         let extents = |mesh: &InstanceMesh| OrientedBox::around(mesh.vertices.iter().copied(), DMat3::IDENTITY);
         return Ok(meshes.iter().filter_map(|(&number, mesh)| Some((number, extents(mesh)?))).collect());
     }
-    let metres = dataset.meters_per_asset_unit(scene)?;
-    let in_metres = |b: OrientedBox| OrientedBox {
-        center: b.center * metres,
-        world_from_box: right_handed(b.world_from_box),
-        extents: b.extents * metres,
-    };
+    let upright = |b: OrientedBox| OrientedBox { world_from_box: right_handed(b.world_from_box), ..b };
     let rows = (0i16..).zip(dataset.read_boxes(scene, kind)?);
-    let known = rows.filter_map(|(number, row)| Some((number, in_metres(row?))));
+    let known = rows.filter_map(|(number, row)| Some((number, upright(row?))));
     Ok(known.filter(|(_, b)| b.center.is_finite() && b.extents.is_finite() && b.world_from_box.is_finite()).collect())
 }
 

@@ -26,7 +26,7 @@ pub(crate) struct Calibration {
 }
 
 /// Turns y and z around: our camera axes (x right, y up, z backward) to OpenCV's and back.
-const OPENCV: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z);
+pub(crate) const OPENCV: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z);
 
 impl Calibration {
     /// That of a track's camera; `None` for panoramas and grids of rays, which have no K.

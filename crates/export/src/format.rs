@@ -16,6 +16,7 @@ pub enum Format {
     DepthPng,
     Webdataset,
     Croissant,
+    Opencv,
 }
 
 /// A row of the table of formats.
@@ -44,7 +45,7 @@ const LABELLED: &[Layer] =
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.
-pub const FORMATS: [FormatSpec; 10] = [
+pub const FORMATS: [FormatSpec; 11] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
@@ -124,6 +125,14 @@ pub const FORMATS: [FormatSpec; 10] = [
         needs: &[],
         takes: None,
         readme: crate::formats::croissant::README,
+    },
+    FormatSpec {
+        format: Format::Opencv,
+        name: "opencv",
+        about: "cameras alone, in OpenCV's conventions: K and poses as JSON, and a table of K",
+        needs: &[],
+        takes: None,
+        readme: crate::formats::opencv::README,
     },
 ];
 

@@ -1,5 +1,5 @@
-//! A dataset in the layouts that other programs load: COCO, BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, depth PNG, WebDataset and
-//! Croissant.
+//! A dataset in the layouts that other programs load: COCO, BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, depth PNG, WebDataset,
+//! Croissant and OpenCV's cameras.
 //!
 //! Every export is a pure function of the dataset folder and an [`ExportConfig`]: nothing is rendered, the same input gives the
 //! same bytes, and no file carries a clock, a host or a path. [`Format`] has the table of formats, `formats/` one file for each,
@@ -17,6 +17,7 @@ mod error;
 mod format;
 mod formats;
 mod instances;
+mod intrinsics;
 mod mesh;
 mod numpy;
 mod picture;
@@ -27,6 +28,7 @@ mod source;
 
 pub use error::ExportError;
 pub use format::{FORMATS, Format, FormatSpec};
+pub use intrinsics::intrinsics_csv;
 pub use place::Existing;
 pub use scene_gltf::{SceneGltf, scene_gltf};
 pub use source::Selection;
@@ -85,6 +87,7 @@ pub fn export(dataset: &Dataset, config: &ExportConfig, out: &Path, existing: Ex
         Format::DepthPng => formats::depth_png::write(&source, &place),
         Format::Webdataset => formats::webdataset::write(&source, &place, config.shard_bytes),
         Format::Croissant => formats::croissant::write(&source, &place),
+        Format::Opencv => formats::opencv::write(&source, &place),
     }?;
     place.finish(config.format, &source)
 }

@@ -136,8 +136,13 @@ impl<'d> Source<'d> {
         self.tracks.chunk_by(|a, b| a.scene == b.scene)
     }
 
-    /// True when the frame has the layer and it is not left out.
+    /// True when the frame has the layer, or it can be computed, and it is not left out.
     pub fn has(&self, view: View<'_>, layer: Layer) -> bool {
+        self.layers.contains(&layer) && self.dataset.gives_layer(&view.track.scene, &view.track.name, view.frame(), layer)
+    }
+
+    /// True when the frame has a file for the layer and it is not left out.
+    pub fn stores(&self, view: View<'_>, layer: Layer) -> bool {
         self.layers.contains(&layer) && self.dataset.has_layer(&view.track.scene, &view.track.name, view.frame(), layer)
     }
 

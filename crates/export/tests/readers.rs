@@ -97,6 +97,6 @@ fn hypersims_own_frame_is_exported() {
     };
     let folder = tempfile::tempdir().unwrap();
     let dataset = Dataset::open(Path::new(&scenes).join("hypersim-real")).unwrap();
-    let formats = ["depth-png", "scannet", "exr", "webdataset", "croissant"];
+    let formats = ["depth-png", "scannet", "exr", "webdataset", "croissant", "opencv"];
     export_all(&dataset, folder.path(), FORMATS.iter().filter(|spec| formats.contains(&spec.name)));
 }

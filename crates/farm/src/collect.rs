@@ -41,7 +41,9 @@ pub fn collect(job: &Job, out: &Path, reporter: &dyn Reporter) -> Result<Summary
             let marker = read_marker(&job.store, &key)?.ok_or_else(|| damaged(&key.marker(), "is gone; do its task again"))?;
             if dataset.frame_record(&key.scene, &key.camera, frame).ok().flatten().is_none() {
                 fetch_frame(job, &marker, out)?;
-                dataset.append_time(&key.scene, &key.camera, frame, time(&marker)).map_err(|error| FarmError::Request(error.to_string()))?;
+                dataset
+                    .append_time(&key.scene, &key.camera, frame, time(&marker))
+                    .map_err(|error| FarmError::Request(error.to_string()))?;
             }
         }
     }

@@ -131,13 +131,16 @@ pub(crate) fn read_marker(store: &Store, key: &FrameKey) -> Result<Option<Marker
     let name = key.marker();
     let Some(bytes) = store.get(&name)? else { return Ok(None) };
     let marker = serde_json::from_slice(&bytes);
-    marker.map(Some).map_err(|error| FarmError::Damaged { place: name, problem: format!("{error}; remove it, and the frame is made again") })
+    marker
+        .map(Some)
+        .map_err(|error| FarmError::Damaged { place: name, problem: format!("{error}; remove it, and the frame is made again") })
 }
 
 /// Puts a frame's files into the store, and then its marker. `marker` names no payload yet.
 pub(crate) fn commit(store: &Store, payload: Vec<u8>, marker: Marker) -> Result<Commit, FarmError> {
     let name = marker.key.payload(&marker.attempt);
-    let marker = Marker { payload: name.clone(), bytes: payload.len() as u64, blake3: blake3::hash(&payload).to_hex().to_string(), ..marker };
+    let marker =
+        Marker { payload: name.clone(), bytes: payload.len() as u64, blake3: blake3::hash(&payload).to_hex().to_string(), ..marker };
     let text = serde_json::to_vec_pretty(&marker).map_err(|error| FarmError::Request(format!("a marker has no JSON form: {error}")))?;
     store.put(&name, payload)?;
     for _ in 0..READ_BACKS {

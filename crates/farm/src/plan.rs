@@ -101,8 +101,10 @@ impl Job {
     pub fn open(store: Store) -> Result<Self, FarmError> {
         let missing = || FarmError::Request(format!("{} holds no job; plan one: enfilade farm plan dataset.toml -o {0}", store.url()));
         let bytes = store.get(PLAN)?.ok_or_else(missing)?;
-        let plan: Plan = serde_json::from_slice(&bytes)
-            .map_err(|error| FarmError::Damaged { place: format!("{}/{PLAN}", store.url()), problem: format!("{error}; plan the job anew in another place") })?;
+        let plan: Plan = serde_json::from_slice(&bytes).map_err(|error| FarmError::Damaged {
+            place: format!("{}/{PLAN}", store.url()),
+            problem: format!("{error}; plan the job anew in another place"),
+        })?;
         if plan.program != program() {
             let problem = format!("was planned by {}, this is {}; only the same version makes the same bytes", plan.program, program());
             return Err(FarmError::Damaged { place: format!("{}/{PLAN}", store.url()), problem });
@@ -140,7 +142,13 @@ fn program() -> String {
 ///
 /// # Errors
 /// When a scene fails before rendering, the store does not do what commits rest on, or it holds another job.
-pub fn plan(config: &Config, store: Store, scratch: &Path, options: &PlanOptions, reporter: &dyn Reporter) -> Result<(Summary, Option<Job>), FarmError> {
+pub fn plan(
+    config: &Config,
+    store: Store,
+    scratch: &Path,
+    options: &PlanOptions,
+    reporter: &dyn Reporter,
+) -> Result<(Summary, Option<Job>), FarmError> {
     let out = scratch.join("dataset");
     let (summary, prepared) = prepare(config, &out, None, reporter)?;
     if !summary.ok() {
@@ -212,7 +220,8 @@ fn tasks(scene: &PreparedScene, options: &PlanOptions) -> Vec<Task> {
     let most = (wanted_cpu_s / frame_cpu_s.max(1e-6)).clamp(1.0, 1e6) as usize;
     let divide = |(camera, frames): &(String, Vec<u32>)| -> Vec<Task> {
         let pieces = frames.len().div_ceil(most).max(1);
-        let piece = |i: usize| frames[i * frames.len() / pieces..(i + 1) * frames.len() / pieces].iter().copied().collect::<BTreeSet<u32>>();
+        let piece =
+            |i: usize| frames[i * frames.len() / pieces..(i + 1) * frames.len() / pieces].iter().copied().collect::<BTreeSet<u32>>();
         let task = |frames: BTreeSet<u32>| Task {
             cpu_s: frame_cpu_s * frames.len() as f64,
             part: Part { scene: scene.name.clone(), camera: camera.clone(), frames },

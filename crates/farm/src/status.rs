@@ -81,7 +81,9 @@ pub(crate) fn attempts(job: &Job) -> Result<Vec<AttemptRecord>, FarmError> {
     for (name, _) in job.store.list("attempts")? {
         let Some(bytes) = job.store.get(&name)? else { continue };
         let record = serde_json::from_slice(&bytes);
-        records.push(record.map_err(|error| FarmError::Damaged { place: name, problem: format!("{error}; remove it, nothing depends on it") })?);
+        records.push(
+            record.map_err(|error| FarmError::Damaged { place: name, problem: format!("{error}; remove it, nothing depends on it") })?,
+        );
     }
     Ok(records)
 }

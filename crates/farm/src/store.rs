@@ -149,11 +149,19 @@ impl Store {
         for round in 0..PROBE_ROUNDS {
             let name = format!("probe/{unique}-{round}");
             let won = std::thread::scope(|scope| -> Result<usize, FarmError> {
-                let writers: Vec<_> =
-                    (0..PROBE_WRITERS).map(|i| scope.spawn({ let name = &name; move || self.create(name, format!("{i}").as_bytes()) })).collect();
+                let writers: Vec<_> = (0..PROBE_WRITERS)
+                    .map(|i| {
+                        scope.spawn({
+                            let name = &name;
+                            move || self.create(name, format!("{i}").as_bytes())
+                        })
+                    })
+                    .collect();
                 let mut won = 0;
                 for writer in writers {
-                    let created = writer.join().map_err(|_| FarmError::Unreliable { place: self.url.clone(), problem: "a writer panicked".into() })??;
+                    let created = writer
+                        .join()
+                        .map_err(|_| FarmError::Unreliable { place: self.url.clone(), problem: "a writer panicked".into() })??;
                     won += usize::from(created == Created::Yes);
                 }
                 Ok(won)
@@ -162,7 +170,8 @@ impl Store {
             self.remove(&name)?;
             let (won, again) = (won?, again?);
             if won != 1 || again == Created::Yes {
-                let problem = format!("of {PROBE_WRITERS} writers of one new object {won} were told that they made it, and a later one {again:?}");
+                let problem =
+                    format!("of {PROBE_WRITERS} writers of one new object {won} were told that they made it, and a later one {again:?}");
                 return Err(FarmError::Unreliable { place: self.url.clone(), problem });
             }
         }

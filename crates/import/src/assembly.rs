@@ -2,6 +2,7 @@
 //!
 //! An importer speaks in the file's own units and axes; [`Assembly`] turns them into the world's (metres, z up).
 
+use crate::archive::Archive;
 use crate::images::{self, Use};
 use crate::report::Warnings;
 use crate::{Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis, mesh};
@@ -28,13 +29,15 @@ pub(crate) struct Assembly<'a> {
     file: PathBuf,
     options: &'a ImportOptions,
     cx: &'a dyn Cx,
+    archive: Option<&'a Archive>,
     warnings: Warnings<'a>,
     inputs: Vec<PathBuf>,
     images: BTreeMap<(String, Use), Option<u32>>,
-    part_names: HashSet<String>,
-    camera_names: HashSet<String>,
+    part_names: Names,
+    camera_names: Names,
     reversed: HashMap<u32, u32>,
     labels: Vec<ImportedLabel>,
+    meters_per_unit: f64,
     world_from_file: DAffine3,
     scene: Scene,
 }
@@ -42,25 +45,51 @@ pub(crate) struct Assembly<'a> {
 impl<'a> Assembly<'a> {
     /// An empty scene from `file`, whose format has `up` upward unless the options say otherwise.
     pub(crate) fn new(format: Format, file: &Path, up: UpAxis, options: &'a ImportOptions, cx: &'a dyn Cx) -> Self {
-        let axes = match options.up_axis.unwrap_or(up) {
-            UpAxis::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
-            UpAxis::Z => DMat3::IDENTITY,
-        };
-        Self {
+        let mut assembly = Self {
             format,
             file: file.to_path_buf(),
             options,
             cx,
+            archive: None,
             warnings: Warnings::new(cx),
             inputs: Vec::new(),
             images: BTreeMap::new(),
-            part_names: HashSet::new(),
-            camera_names: HashSet::new(),
+            part_names: Names::default(),
+            camera_names: Names::default(),
             reversed: HashMap::new(),
             labels: Vec::new(),
-            world_from_file: DAffine3::from_mat3(axes * options.meters_per_unit),
+            meters_per_unit: 1.0,
+            world_from_file: DAffine3::IDENTITY,
             scene: Scene::default(),
-        }
+        };
+        assembly.set_units(1.0, up);
+        assembly
+    }
+
+    /// Sets the unit and the upward axis that the file itself states, before anything is placed. The options' unit multiplies the
+    /// file's, their axis replaces it.
+    pub(crate) fn set_units(&mut self, file_meters_per_unit: f64, file_up: UpAxis) {
+        self.state_space(file_meters_per_unit, world_from_up(file_up));
+    }
+
+    /// As [`Assembly::set_units`] for any axes: `world_from_axes` is a rotation or a reflection.
+    pub(crate) fn state_space(&mut self, file_meters_per_unit: f64, world_from_axes: DMat3) {
+        let axes = self.options.up_axis.map_or(world_from_axes, world_from_up);
+        self.meters_per_unit = file_meters_per_unit * self.options.meters_per_unit;
+        self.world_from_file = DAffine3::from_mat3(axes * self.meters_per_unit);
+    }
+
+    /// An empty scene from the file `entry` within an archive, with the same options.
+    pub(crate) fn inside<'b>(&self, format: Format, up: UpAxis, archive: &'b Archive, entry: &str) -> Assembly<'b>
+    where
+        'a: 'b,
+    {
+        Assembly::new(format, &archive.file().join(entry), up, self.options, self.cx).within(archive)
+    }
+
+    /// The same for a scene file within an archive: all that it refers to is in there as well, and nowhere else.
+    pub(crate) fn within(self, archive: &'a Archive) -> Self {
+        Self { archive: Some(archive), inputs: vec![archive.file().to_path_buf()], ..self }
     }
 
     /// The scene file.
@@ -70,13 +99,18 @@ impl<'a> Assembly<'a> {
 
     /// Metres per unit of the file.
     pub(crate) fn meters_per_unit(&self) -> f64 {
-        self.options.meters_per_unit
+        self.meters_per_unit
     }
 
     /// Records something dropped, guessed or mended at a place in the scene file.
     pub(crate) fn warn(&mut self, place: impl AsRef<str>, message: impl Into<String>) {
         let place = format!("{}: {}", self.file.display(), place.as_ref());
         self.warnings.push(place, message.into());
+    }
+
+    /// Takes over the warnings of an import that is part of this one.
+    pub(crate) fn pass_on(&mut self, warnings: Vec<enfilade_scene::Warning>) {
+        warnings.into_iter().for_each(|w| self.warnings.push(w.place, w.message));
     }
 
     /// Tells the caller how far the import is.
@@ -103,15 +137,43 @@ impl<'a> Assembly<'a> {
         Ok((file, bytes))
     }
 
+    /// The bytes of a file that `from`, a file of the scene, refers to by `path`, with the path it was found at: in the folder of
+    /// `from`, or else in that of the scene file.
+    pub(crate) fn read_from(&mut self, from: &Path, path: &str) -> Result<(PathBuf, Vec<u8>), ImportError> {
+        match self.beside(from, path) {
+            Some(beside) => {
+                let bytes = self.read_input(&beside, "check the permission to read it")?;
+                Ok((beside, bytes))
+            }
+            None => self.read(path),
+        }
+    }
+
+    /// The file in the folder of `from`, a file of the scene, that `path` means; `None` where there is none.
+    pub(crate) fn beside(&self, from: &Path, path: &str) -> Option<PathBuf> {
+        let folder = from.parent().unwrap_or(Path::new(""));
+        [folder.join(path), folder.join(path.replace('\\', "/"))].into_iter().find(|file| file.is_file())
+    }
+
+    /// The path of a file that the scene file refers to by `path`, for messages.
+    pub(crate) fn path_of(&self, path: &str) -> PathBuf {
+        self.resolve(path)
+    }
+
     /// True when there is a file where the scene file's `path` leads.
     pub(crate) fn exists(&self, path: &str) -> bool {
-        self.resolve(path).is_file()
+        self.is_file(&self.resolve(path))
     }
 
     fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
-        let bytes =
-            std::fs::read(file).map_err(|source| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() })?;
-        if !self.inputs.iter().any(|i| i == file) {
+        let unreadable = |source: std::io::Error| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() };
+        // A device would be read without end, and a pipe would be waited for.
+        if self.archive.is_none() && !std::fs::metadata(file).map_err(unreadable)?.is_file() {
+            return Err(unreadable(std::io::Error::other("it is no file")));
+        }
+        let read = self.archive.map_or_else(|| std::fs::read(file), |archive| archive.read_path(file));
+        let bytes = read.map_err(unreadable)?;
+        if self.archive.is_none() && !self.inputs.iter().any(|i| i == file) {
             self.inputs.push(file.to_path_buf());
         }
         Ok(bytes)
@@ -121,7 +183,11 @@ impl<'a> Assembly<'a> {
     fn resolve(&self, path: &str) -> PathBuf {
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let plain = folder.join(path);
-        if plain.exists() || !path.contains('\\') { plain } else { folder.join(path.replace('\\', "/")) }
+        if self.is_file(&plain) || !path.contains('\\') { plain } else { folder.join(path.replace('\\', "/")) }
+    }
+
+    fn is_file(&self, path: &Path) -> bool {
+        self.archive.map_or_else(|| path.is_file(), |archive| archive.contains_path(path))
     }
 
     /// The index of a picture, decoded at first use. `user` is the material or light that wants it. `None` when it is missing
@@ -185,10 +251,39 @@ impl<'a> Assembly<'a> {
         &self.scene.images[index as usize]
     }
 
+    /// A mesh by its index.
+    pub(crate) fn mesh_at(&self, index: u32) -> &Mesh {
+        &self.scene.meshes[index as usize]
+    }
+
+    /// A material by its index.
+    pub(crate) fn material_at(&self, index: u32) -> &Material {
+        &self.scene.materials[index as usize]
+    }
+
     /// Adds a material.
     pub(crate) fn push_material(&mut self, material: Material) -> u32 {
         self.scene.materials.push(material);
         (self.scene.materials.len() - 1) as u32
+    }
+
+    /// True when a material reads any picture.
+    pub(crate) fn is_textured(&self, material: u32) -> bool {
+        let mut found = false;
+        self.scene.materials[material as usize].textures(|_| found = true);
+        found
+    }
+
+    /// The area of a mesh under a placement.
+    pub(crate) fn area(&self, mesh: u32, placement: DAffine3) -> f64 {
+        let mesh = &self.scene.meshes[mesh as usize];
+        let corners = (0..mesh.triangles.len()).map(|t| mesh.corners(t).map(|p| placement.transform_point3(p.as_dvec3())));
+        corners.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum()
+    }
+
+    /// True unless the options say which axis is up.
+    pub(crate) fn has_default_axes(&self) -> bool {
+        self.options.up_axis.is_none()
     }
 
     /// Checks and mends a mesh and adds it. `None` (and a warning) when it is empty.
@@ -220,7 +315,7 @@ impl<'a> Assembly<'a> {
             return;
         }
         let mesh = if determinant < 0.0 { self.reversed(mesh) } else { mesh };
-        let name = unique(&mut self.part_names, name);
+        let name = self.part_names.unique(name);
         if label != PartLabel::NONE {
             self.labels.push(ImportedLabel { part: self.scene.parts.len() as u32, label });
         }
@@ -246,7 +341,7 @@ impl<'a> Assembly<'a> {
         let plausible = fov_x_rad > 0.0 && fov_x_rad < std::f64::consts::PI && aspect > 0.0 && aspect.is_finite();
         match axes {
             Some(world_from_camera) if plausible && placement.translation.is_finite() => {
-                let name = unique(&mut self.camera_names, name);
+                let name = self.camera_names.unique(name);
                 let position = placement.translation;
                 self.scene.cameras.push(StartCamera { name, position, world_from_camera, fov_x_rad, aspect });
             }
@@ -257,7 +352,7 @@ impl<'a> Assembly<'a> {
     /// Adds a light given in the file's units and axes. Point and spot lights shine so that a picture looks the same whatever
     /// the unit: their intensity grows with the square of the metres per unit.
     pub(crate) fn push_light(&mut self, light: Light) {
-        let metres = self.options.meters_per_unit as f32;
+        let metres = self.meters_per_unit as f32;
         let name = light.name().to_string();
         let place = |p: enfilade_math::Vec3| self.world_from_file.transform_point3(p.as_dvec3()).as_vec3();
         let turn = |d: enfilade_math::Vec3| self.world_from_file.transform_vector3(d.as_dvec3()).as_vec3().normalize_or_zero();
@@ -275,7 +370,7 @@ impl<'a> Assembly<'a> {
                 falloff,
             },
             Light::Profile { name, position, web_from_world: web_from_file, intensity, web } => {
-                let rotation = self.world_from_file.matrix3 * (1.0 / self.options.meters_per_unit);
+                let rotation = self.world_from_file.matrix3 * (1.0 / self.meters_per_unit);
                 let web_from_world = web_from_file * mat3_f32(rotation.transpose());
                 Light::Profile { name, position: place(position), web_from_world, intensity: intensity * (metres * metres), web }
             }
@@ -366,23 +461,48 @@ impl<'a> Assembly<'a> {
     }
 }
 
+/// The rotation that turns `up` to z.
+fn world_from_up(up: UpAxis) -> DMat3 {
+    match up {
+        UpAxis::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
+        UpAxis::Z => DMat3::IDENTITY,
+    }
+}
+
 /// The matrix in single precision.
 pub(crate) fn mat3_f32(m: DMat3) -> Mat3 {
     Mat3::from_cols(m.x_axis.as_vec3(), m.y_axis.as_vec3(), m.z_axis.as_vec3())
 }
 
-/// `name`, or `name_2`, `name_3` … when it is taken. Control characters, which would break tables, become underscores.
-fn unique(names: &mut HashSet<String>, name: &str) -> String {
-    let name: String = name.trim().chars().map(|c| if c.is_control() { '_' } else { c }).collect();
-    let name = if name.is_empty() { "part".to_string() } else { name };
-    let free = std::iter::once(name.clone()).chain((2..).map(|i| format!("{name}_{i}"))).find(|n| !names.contains(n));
-    let free = free.unwrap_or(name);
-    names.insert(free.clone());
-    free
+/// Names that are taken.
+#[derive(Default)]
+struct Names {
+    taken: HashSet<String>,
+    /// The number to try next for a name that occurred before, so that many equal names are no long search.
+    next: HashMap<String, usize>,
+}
+
+impl Names {
+    /// `name`, or `name_2`, `name_3` … when it is taken. Control characters, which would break tables, become underscores.
+    fn unique(&mut self, name: &str) -> String {
+        let name: String = name.trim().chars().map(|c| if c.is_control() { '_' } else { c }).collect();
+        let name = if name.is_empty() { "part".to_string() } else { name };
+        if self.taken.insert(name.clone()) {
+            return name;
+        }
+        let next = self.next.entry(name.clone()).or_insert(2);
+        loop {
+            let numbered = format!("{name}_{next}");
+            *next += 1;
+            if self.taken.insert(numbered.clone()) {
+                return numbered;
+            }
+        }
+    }
 }
 
 /// Right-handed orthonormal axes with z along `z` and y as near to `y` as can be.
-fn orthonormal(y: DVec3, z: DVec3) -> Option<DMat3> {
+pub(crate) fn orthonormal(y: DVec3, z: DVec3) -> Option<DMat3> {
     let z = z.try_normalize()?;
     let x = y.try_normalize()?.cross(z).try_normalize()?;
     Some(DMat3::from_cols(x, z.cross(x).normalize(), z))

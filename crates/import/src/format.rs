@@ -10,21 +10,47 @@ pub enum Format {
     Obj,
     /// Mitsuba scene description, versions 0.5 to 3.
     Mitsuba,
+    /// V-Ray scene description.
+    VRay,
+    /// pbrt's scene description, versions 3 and 4; its text may be compressed by gzip.
+    Pbrt,
+    /// Stanford PLY: one mesh.
+    Ply,
+    /// Universal Scene Description, as text, binary or archive.
+    Usd,
+    /// Autodesk FBX, binary or as text.
+    Fbx,
+    /// Homes and furniture libraries of Sweet Home 3D.
+    SweetHome,
     /// The scene package that `enfilade import` writes.
     Package,
 }
 
 impl Format {
     /// Every format with its file name extensions, in lower case.
-    pub const ALL: [(Self, &'static [&'static str]); 4] =
-        [(Self::Gltf, &["gltf", "glb"]), (Self::Obj, &["obj"]), (Self::Mitsuba, &["xml"]), (Self::Package, &["scene"])];
+    pub const ALL: [(Self, &'static [&'static str]); 10] = [
+        (Self::Gltf, &["gltf", "glb"]),
+        (Self::Obj, &["obj"]),
+        (Self::Mitsuba, &["xml"]),
+        (Self::Pbrt, &["pbrt", "pbrt.gz"]),
+        (Self::Ply, &["ply"]),
+        (Self::Usd, &["usd", "usda", "usdc", "usdz"]),
+        (Self::Fbx, &["fbx"]),
+        (Self::SweetHome, &["sh3d", "sh3f", "zip"]),
+        (Self::VRay, &["vrscene"]),
+        (Self::Package, &["scene"]),
+    ];
 
     /// The format of a file by the extension of its name.
     ///
     /// # Errors
     /// When no format has that extension.
     pub fn of(path: &Path) -> Result<Self, ImportError> {
-        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        let lower = |e: &std::ffi::OsStr| e.to_string_lossy().to_lowercase();
+        let extension = path.extension().map(lower).map(|e| match path.file_stem().and_then(|s| Path::new(s).extension()) {
+            Some(inner) if e == "gz" => format!("{}.gz", lower(inner)),
+            _ => e,
+        });
         let known = || Self::ALL.iter().flat_map(|(_, e)| e.iter()).map(|e| format!(".{e}")).collect::<Vec<_>>().join(", ");
         let found = match &extension {
             None => "the file name has no extension".to_string(),
@@ -46,8 +72,13 @@ mod tests {
     fn formats_are_told_by_extension_whatever_its_case() {
         assert_eq!(Format::of(Path::new("a/Room.GLB")).unwrap(), Format::Gltf);
         assert_eq!(Format::of(Path::new("scene.xml")).unwrap(), Format::Mitsuba);
+        assert_eq!(Format::of(Path::new("scene.PBRT.gz")).unwrap(), Format::Pbrt);
+        assert!(Format::of(Path::new("room.obj.gz")).unwrap_err().to_string().contains("no importer for .obj.gz files"));
         let message = Format::of(Path::new("a/room.blend")).unwrap_err().to_string();
-        assert_eq!(message, "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .scene");
+        assert_eq!(
+            message,
+            "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .sh3d, .sh3f, .zip, .vrscene, .scene"
+        );
         assert!(Format::of(Path::new("room")).unwrap_err().to_string().contains("no extension"));
     }
 }

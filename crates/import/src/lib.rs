@@ -1,4 +1,4 @@
-//! Scene files to [`Scene`]: glTF, OBJ, Mitsuba XML and scene packages, with a report of what was dropped or guessed.
+//! Scene files to [`Scene`], with a report of what was dropped or guessed.
 //!
 //! ```no_run
 //! use enfilade_import::{ImportOptions, load};
@@ -24,10 +24,13 @@
 //!
 //! # Formats
 //!
-//! The pages of [`gltf`], [`obj`], [`mitsuba`] and [`package`] list what is supported of each.
+//! The pages of [`gltf`], [`obj`], [`mitsuba`], [`pbrt`], [`ply`], [`usd`], [`fbx`], [`vray`], [`sweethome`] and [`package`] list what is
+//! supported of each.
 
+mod archive;
 mod assembly;
 mod error;
+pub mod fbx;
 mod format;
 pub mod gltf;
 mod ies;
@@ -36,8 +39,16 @@ mod mesh;
 pub mod mitsuba;
 pub mod obj;
 pub mod package;
+pub mod pbrt;
+pub mod ply;
 mod polygon;
+mod primitives;
 mod report;
+mod roughness;
+mod spectrum;
+pub mod sweethome;
+pub mod usd;
+pub mod vray;
 
 pub use error::ImportError;
 pub use format::Format;
@@ -80,9 +91,11 @@ fn one() -> f32 {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ImportOptions {
-    /// Metres per unit of the file; 1 by default. Ignored for scene packages.
+    /// Metres per unit of the file; 1 by default. Where the file states its own unit (USD, FBX, V-Ray scenes, Sweet Home 3D) this multiplies it.
+    /// Ignored for scene packages.
     pub meters_per_unit: f64,
-    /// The axis that points up; by default the format's own (y for all but packages). Ignored for scene packages.
+    /// The axis that points up; by default the file's own (USD, FBX and V-Ray scenes state it), else the format's own. Ignored for
+    /// scene packages.
     pub up_axis: Option<UpAxis>,
     /// Replaces or sets the environment.
     pub environment: Option<EnvironmentOverride>,
@@ -131,6 +144,12 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
         Format::Gltf => gltf::load(assembly),
         Format::Obj => obj::load(assembly),
         Format::Mitsuba => mitsuba::load(assembly),
+        Format::Pbrt => pbrt::load(assembly),
+        Format::Ply => ply::load(assembly),
+        Format::VRay => vray::load(assembly),
+        Format::Usd => usd::load(assembly),
+        Format::Fbx => fbx::load(assembly),
+        Format::SweetHome => sweethome::load(assembly),
         Format::Package => package::load(assembly),
     }
 }

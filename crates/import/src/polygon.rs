@@ -2,6 +2,10 @@
 
 use enfilade_math::{Vec2, Vec3};
 
+/// Corners that may be looked at per corner of a polygon while ears are cut off, so that a polygon of very many corners takes no hours.
+/// Polygons of some thousand corners need fewer.
+const LOOKS_PER_CORNER: usize = 4096;
+
 /// Triangles of a polygon as indices into its corners. A polygon of n corners gives n − 2 triangles, also when it is degenerate.
 pub(crate) fn triangulate(corners: &[Vec3]) -> Vec<[usize; 3]> {
     let fan = || (1..corners.len().saturating_sub(1)).map(|i| [0, i, i + 1]).collect::<Vec<_>>();
@@ -38,11 +42,12 @@ fn project(corners: &[Vec3], normal: Vec3) -> Vec<Vec2> {
     corners.iter().map(|p| flat(p) * turn).collect()
 }
 
-/// Ear cutting in the plane; `None` when no ear is left, as in polygons that cross themselves.
+/// Ear cutting in the plane; `None` when no ear is left, as in polygons that cross themselves, or when it takes too long.
 fn cut_ears(points: &[Vec2]) -> Option<Vec<[usize; 3]>> {
     let area = |a: usize, b: usize, c: usize| (points[b] - points[a]).perp_dot(points[c] - points[a]);
     let mut left: Vec<usize> = (0..points.len()).collect();
     let mut triangles = Vec::with_capacity(points.len() - 2);
+    let mut looks = LOOKS_PER_CORNER * points.len();
     while left.len() > 3 {
         let n = left.len();
         let ear = (0..n).find(|&i| {
@@ -51,7 +56,11 @@ fn cut_ears(points: &[Vec2]) -> Option<Vec<[usize; 3]>> {
                 let coincides = [a, b, c].iter().any(|&q| points[p] == points[q]);
                 !coincides && area(a, b, p) >= 0.0 && area(b, c, p) >= 0.0 && area(c, a, p) >= 0.0
             };
-            area(a, b, c) > 0.0 && !left.iter().any(|&p| inside(p))
+            if looks < n || area(a, b, c) <= 0.0 {
+                return false;
+            }
+            looks -= n;
+            !left.iter().any(|&p| inside(p))
         })?;
         triangles.push([left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]]);
         left.remove(ear);
@@ -94,6 +103,9 @@ mod tests {
         assert_eq!(triangulate(&[Vec3::ZERO; 5]).len(), 3);
         assert_eq!(triangulate(&[Vec3::NAN; 5]).len(), 3);
         assert!(triangulate(&[Vec3::ZERO; 2]).is_empty());
+        // A comb, none of whose ears is found soon.
+        let comb: Vec<Vec3> = (0..40_000).map(|i| Vec3::new((i / 2) as f32, if i % 2 == 0 { 0.0 } else { 1e-3 * i as f32 }, 0.0)).collect();
+        assert_eq!(triangulate(&comb).len(), comb.len() - 2);
         let bow_tie = [Vec3::ZERO, Vec3::new(2.0, 2.0, 0.0), Vec3::new(2.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
         assert_eq!(triangulate(&bow_tie).len(), 2);
     }

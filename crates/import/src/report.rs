@@ -54,7 +54,7 @@ impl Counts {
 /// The report of an import.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ImportReport {
-    /// "gltf", "obj", "mitsuba" or "package".
+    /// Name of the format in lower case: "gltf", "obj", …; see [`Format`].
     pub format: &'static str,
     /// What the scene holds.
     pub counts: Counts,
@@ -68,6 +68,12 @@ impl ImportReport {
             Format::Gltf => "gltf",
             Format::Obj => "obj",
             Format::Mitsuba => "mitsuba",
+            Format::Usd => "usd",
+            Format::Pbrt => "pbrt",
+            Format::Ply => "ply",
+            Format::VRay => "vray",
+            Format::Fbx => "fbx",
+            Format::SweetHome => "sweethome",
             Format::Package => "package",
         };
         Self { format, counts: Counts::of(scene), warnings }

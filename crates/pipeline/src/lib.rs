@@ -17,8 +17,11 @@ mod single;
 mod split;
 mod stages;
 mod suggest;
+pub mod vray;
 mod workdir;
 
+#[doc(hidden)]
+pub use assets::read_library;
 pub use config::{
     CameraChoice, CameraConfig, CameraModel, Config, ConfigError, EnvironmentChoice, FileSource, LabelSource, LensConfig, Overrides, Place,
     Quality, RenderChoices, SceneConfig, Source, StereoConfig, demo, select,

@@ -129,7 +129,8 @@ pub fn render_part(
     let (workdir, config) = open(out)?;
     let scenes = config.select(None)?;
     let scene = scenes.into_iter().find(|scene| scene.name == part.scene);
-    let scene = scene.ok_or_else(|| Error::usage(format!("there is no scene {:?} in {}", part.scene, out.display()), "plan the job again"))?;
+    let scene =
+        scene.ok_or_else(|| Error::usage(format!("there is no scene {:?} in {}", part.scene, out.display()), "plan the job again"))?;
     let dataset = Dataset::create(out).map_err(Error::stage)?;
     let cx = StageCx::new(&part.scene, Stage::Render, reporter);
     let whole = Job::new(&config, scene, &dataset, &workdir, false);

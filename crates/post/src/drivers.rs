@@ -21,9 +21,9 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The layers of a frame that are there; an empty frame of one pixel when none is.
+/// The layers of a frame that are there or can be computed; an empty frame of one pixel when none is.
 fn read_present(dataset: &Dataset, scene: &str, camera: &str, frame: u32, wanted: &[Layer]) -> Result<Frame, DatasetError> {
-    let there: Vec<Layer> = wanted.iter().copied().filter(|&layer| dataset.has_layer(scene, camera, frame, layer)).collect();
+    let there: Vec<Layer> = wanted.iter().copied().filter(|&layer| dataset.gives_layer(scene, camera, frame, layer)).collect();
     if there.is_empty() { Ok(Frame::new(1, 1)) } else { dataset.read_frame(scene, camera, frame, &there) }
 }
 
@@ -164,7 +164,12 @@ pub fn inspect_pixel(dataset: &Dataset, scene: &str, camera: &str, frame: u32, [
         return Err(InspectError::NoFrame { scene: scene.into(), camera: camera.into(), frame, there });
     };
     let layers = read_present(dataset, scene, camera, frame, &LAYERS.map(|spec| spec.layer))?;
-    let parts: Vec<String> = dataset.read_nodes(scene)?.into_iter().map(|node| node.node_name).collect();
+    // Parts of Hypersim's archives are often downloaded without tables.
+    let nodes = match dataset.read_nodes(scene) {
+        Err(error) if error.is_not_found() => Vec::new(),
+        nodes => nodes?,
+    };
+    let parts: Vec<String> = nodes.into_iter().map(|node| node.node_name).collect();
     let names = Names { parts: &parts, materials: &[] };
     let with = dataset.read_camera(scene, camera)?;
     Ok(inspect(&layers, &CameraView::of_frame(&with, &trajectory.poses, index), names, x, y)?)

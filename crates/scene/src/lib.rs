@@ -11,6 +11,7 @@ mod environment;
 mod labels;
 mod light;
 mod material;
+mod nesting;
 mod package;
 mod photometry;
 mod pictures;

@@ -1,3 +1,4 @@
+use crate::nesting::nested;
 use crate::texture::TextureRef;
 use enfilade_math::Rgb;
 use serde::{Deserialize, Serialize};
@@ -94,8 +95,10 @@ pub enum Bsdf {
     /// Two of these side by side.
     Blend {
         /// Where the weight is 0.
+        #[serde(deserialize_with = "nested")]
         first: Box<Bsdf>,
         /// Where the weight is 1.
+        #[serde(deserialize_with = "nested")]
         second: Box<Bsdf>,
         /// Share of the second.
         weight: ScalarParam,
@@ -112,6 +115,17 @@ pub enum Parameter<'a> {
 }
 
 impl Bsdf {
+    /// Blends within blends are no deeper than this.
+    pub const DEEPEST: usize = 128;
+
+    /// How deep its blends within blends are; 0 for what is no blend.
+    pub fn depth(&self) -> usize {
+        match self {
+            Self::Blend { first, second, .. } => 1 + first.depth().max(second.depth()),
+            _ => 0,
+        }
+    }
+
     /// True when light passes, so that the surface always has two sides.
     pub fn transmits(&self) -> bool {
         match self {

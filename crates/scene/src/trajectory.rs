@@ -25,6 +25,12 @@ impl Pose {
         Some(Self { frame, position, look_at, world_from_camera: DMat3::from_cols(x, y, z) })
     }
 
+    /// How far the orientation is from a rotation: the largest entry of |R Rᵀ − 1|.
+    pub fn orthonormality_error(&self) -> f64 {
+        let r = self.world_from_camera;
+        (r * r.transpose() - DMat3::IDENTITY).to_cols_array().iter().fold(0.0, |worst: f64, v| worst.max(v.abs()))
+    }
+
     /// Angle between the camera's x axis and the horizon, measured about the viewing axis.
     pub fn roll_rad(&self) -> f64 {
         let (x, y) = (self.world_from_camera.x_axis, self.world_from_camera.y_axis);

@@ -14,6 +14,8 @@ use flate2::write::ZlibEncoder;
 use std::io::{Read, Write};
 
 const MAGIC: &[u8] = b"ZIPC";
+/// No list is longer, bytes: that of a mesh of eighty million vertices. A thousandth of it can hold more when it is packed.
+const MAX_BYTES: usize = 1 << 30;
 
 /// The string of a packed list and the bracket after it; `unit` reads one value from its bytes.
 pub fn list<T, const N: usize>(scanner: &mut Scanner, unit: fn([u8; N]) -> T) -> Result<Vec<T>, SceneTextError> {
@@ -68,6 +70,9 @@ fn inflated(text: &[u8]) -> Result<Vec<u8>, String> {
     let header = text.get(..16).and_then(from_hex).ok_or("two sizes of 8 hexadecimal digits after ZIPC")?;
     let (sizes, _) = header.as_chunks::<4>();
     let [raw_size, packed_size] = [0, 1].map(|i| u32::from_le_bytes(sizes[i]) as usize);
+    if raw_size > MAX_BYTES {
+        return Err(format!("at most {MAX_BYTES} bytes unpacked and not {raw_size}"));
+    }
     let packed = STANDARD.decode(&text[16..]).map_err(|e| format!("base 64 after the sizes ({e})"))?;
     if packed.len() != packed_size {
         return Err(format!("{packed_size} packed bytes as the header says and not {}", packed.len()));

@@ -159,3 +159,58 @@ fn passes_have_what_they_need_and_nothing_else() {
     let written = whole.to_bytes();
     assert_eq!(Document::parse(written.as_slice()).unwrap().to_bytes(), written);
 }
+
+#[test]
+fn included_files_come_in_place_of_their_lines() {
+    let file = |name: &str| match name {
+        "main" => "// top\nA a { x=1; }\n#include \"one\" // kept\nB b { }\n",
+        "one" => "#include \"two\"\nC c { y=a; } // no line's end",
+        "two" => "D d { }",
+        "circle" => "#include \"back\"",
+        _ => "E e {}\n#include \"circle\"\n",
+    };
+    let inline = |name: &str| {
+        let parse = |name: &str| Document::parse(file(name).as_bytes()).unwrap();
+        inline_includes(parse(name), name.to_string(), &mut |_, include| {
+            let path = String::from_utf8(include.path().to_vec()).unwrap();
+            Ok::<_, String>((parse(&path), path))
+        })
+    };
+    let whole = inline("main").unwrap();
+    assert_eq!(whole.includes().count(), 0);
+    let again = Document::parse(whole.to_bytes()).unwrap();
+    let names: Vec<String> = again.plugins().map(|plugin| String::from_utf8_lossy(plugin.name()).into_owned()).collect();
+    assert_eq!(names, ["a", "d", "c", "b"], "{}", String::from_utf8_lossy(&whole.to_bytes()));
+    let text = String::from_utf8(whole.to_bytes()).unwrap();
+    assert!(text.contains("// top") && text.contains("// kept") && text.contains("// no line's end\n"), "{text}");
+    let circle = inline("circle").unwrap_err();
+    assert_eq!(circle.to_string(), "2:1: \"circle\" includes itself");
+    let mut scene = scene();
+    add_include(&mut scene, "/a/quads.vrscene");
+    assert_eq!(Document::parse(scene.to_bytes()).unwrap().includes().count(), 2);
+}
+
+#[test]
+fn a_lens_is_a_texture_of_numbers_and_goes_with_its_camera() {
+    let mut scene = scene();
+    let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let mut path = CameraPath {
+        keyframes: vec![CameraKeyframe { frame: 0, position: [0.0; 3], world_from_camera: identity }],
+        frame_time_s: 1.0,
+        fov_x_rad: 1.0,
+        size: [4, 2],
+        lens: Some(LensTexture { file: "/a/lens.exr".into(), size: [9, 5] }),
+    };
+    set_camera(&mut scene, &path);
+    assert_eq!(raw(&scene, "cam", "distortion_tex"), Some("HYPERSIM_camera_lens_distortion_texture"));
+    assert_eq!(raw(&scene, "HYPERSIM_camera_lens_distortion_buffer", "gamma"), Some("1"));
+    // The toolkit's scale and offset: (n - 1) / n and half a texel.
+    let transform = find(&scene, "HYPERSIM_camera_lens_distortion_uvw").get("uvw_transform").unwrap();
+    let Some(Value::Transform(transform)) = transform else { panic!() };
+    assert_eq!((transform.matrix[0][0], transform.matrix[1][1]), (8.0 / 9.0, 0.8));
+    assert!((transform.offset[0] - 1.0 / 18.0).abs() < 1e-7 && (transform.offset[1] - 0.1).abs() < 1e-7);
+    path.lens = None;
+    set_camera(&mut scene, &path);
+    assert_eq!(raw(&scene, "cam", "distortion_tex"), None);
+    assert!(!String::from_utf8(scene.to_bytes()).unwrap().contains("HYPERSIM_camera_lens"));
+}

@@ -77,7 +77,7 @@ impl PlannedFrame {
 pub enum SourceError {
     /// The path is not one of the things that can be annotated.
     #[error(
-        "{path}: {problem}; expected a scene file (.gltf, .glb, .obj, .xml, .scene), a dataset, a scene's folder in it, or a Hypersim mesh folder"
+        "{path}: {problem}; expected a scene file (.gltf, .glb, .obj, .xml, .pbrt, .ply, .usd, .usda, .usdc, .usdz, .fbx, .vrscene, .sh3d, .scene), a dataset, a scene's folder in it, or a Hypersim mesh folder"
     )]
     Path {
         /// What was named.

@@ -7,7 +7,7 @@ use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
 use enfilade_dataset::ViewVerdict;
-use enfilade_frame::{LAYERS, Pass};
+use enfilade_frame::{LAYERS, Layer, Pass};
 use enfilade_scene::{Camera, Projection};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -83,7 +83,7 @@ impl Viewer {
         }))
     }
 
-    /// For each frame that has any layer, the places of its layers in [`LAYERS`].
+    /// For each frame that has any layer, the places of its layers in [`LAYERS`], planar depth that can be computed among them.
     fn layers_of_frames(&self, scene: &str, camera: &str) -> Result<BTreeMap<u32, BTreeSet<usize>>, ApiProblem> {
         let mut found: BTreeMap<u32, BTreeSet<usize>> = BTreeMap::new();
         let folders: BTreeSet<_> = [Pass::Final, Pass::Geometry].map(|pass| self.layout().layer_dir(scene, camera, pass)).into();
@@ -99,6 +99,10 @@ impl Viewer {
                 }
             }
         }
+        let planar = self.camera_model(scene, camera)?.is_some_and(|camera| camera.projection.has_image_plane());
+        for layers in found.values_mut().filter(|layers| planar && layers.contains(&(Layer::DepthMeters as usize))) {
+            layers.insert(Layer::DepthZMeters as usize);
+        }
         Ok(found)
     }
 
@@ -106,7 +110,7 @@ impl Viewer {
     pub(super) fn camera_model(&self, scene: &str, camera: &str) -> Result<Option<Camera>, ApiProblem> {
         let layout = self.layout();
         self.allow_all([layout.camera_parameters(), layout.camera_model(scene, camera), layout.camera_ray_grid(scene, camera)])?;
-        if !layout.camera_model(scene, camera).is_file() && !layout.camera_parameters().is_file() {
+        if !layout.camera_model(scene, camera).is_file() && !self.dataset.camera_table().is_file() {
             return Ok(None);
         }
         // Hypersim's table covers its own scenes; a scene without a row has poses and pictures all the same.

@@ -92,16 +92,27 @@ pub async fn layer(
 }
 
 impl Viewer {
-    /// A layer of a frame, read where it is not in memory.
+    /// A layer of a frame, read where it is not in memory: as it is stored, but positions in metres, and planar depth that is not stored
+    /// computed from the distances.
     ///
     /// # Errors
     /// 404 when there is no such file, 403 when it lies outside of the dataset, 500 when it is damaged or no such layer.
     pub(super) fn layer(&self, place: &FramePlace, layer: Layer) -> Result<Arc<DecodedLayer>, ApiProblem> {
-        let path = self.layout().layer(&place.scene, &place.camera, place.frame, layer);
+        let FramePlace { scene, camera, frame } = place;
+        let path = self.dataset.layer_source(scene, camera, *frame, layer);
         self.allow(&path)?;
         self.layers.get(&(place.clone(), layer), stamp(&path), || {
-            let array = read_array(&path).map_err(problem)?;
             let spec = layer.spec();
+            if path != self.layout().layer(scene, camera, *frame, layer)
+                || (layer == Layer::Position && self.meters_per_unit(scene)? != 1.0)
+            {
+                let read = self.dataset.read_frame(scene, camera, *frame, &[layer]).map_err(problem)?;
+                let values = read.get(layer).map(|values| Elements::from(values.clone()));
+                let missing = || ApiProblem::not_found(format!("{}: no layer {}", path.display(), spec.name), "choose another layer");
+                let (values, shape) = (values.ok_or_else(missing)?, [read.height as usize, read.width as usize, spec.channels]);
+                return Ok(DecodedLayer { shape, summary: Summary::new(layer, &values), values });
+            }
+            let array = read_array(&path).map_err(problem)?;
             let shape = match (array.shape.as_slice(), spec.channels) {
                 (&[height, width], 1) => [height, width, 1],
                 (&[height, width, found], channels) if found == channels => [height, width, channels],

@@ -57,10 +57,14 @@ impl Viewer {
     /// # Errors
     /// When the folder cannot be read or is no dataset.
     pub fn open(folder: impl AsRef<Path>) -> Result<Self, DatasetError> {
-        let dataset = Dataset::open(&folder)?;
+        Ok(Self::of(Dataset::open(&folder)?))
+    }
+
+    /// Looks at a dataset that is open.
+    pub fn of(dataset: Dataset) -> Self {
         let root = std::fs::canonicalize(dataset.root()).unwrap_or_else(|_| dataset.root().to_path_buf());
         let (layers, buffers) = (Cache::new(LAYER_CACHE_BYTES), Cache::new(SCENE_CACHE_BYTES));
-        Ok(Self { dataset, root, layers, buffers, thumbnails: Cache::new(THUMBNAIL_CACHE_BYTES) })
+        Self { dataset, root, layers, buffers, thumbnails: Cache::new(THUMBNAIL_CACHE_BYTES) }
     }
 }
 

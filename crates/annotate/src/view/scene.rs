@@ -84,13 +84,12 @@ impl Viewer {
 
     /// By kind, one per instance in metres, null where there is none; kinds without files are absent.
     fn boxes(&self, scene: &str) -> Result<Value, ApiProblem> {
-        let metres = self.meters_per_unit(scene)?;
         let mut kinds = Map::new();
         for kind in BoxKind::ALL {
             self.allow_all(self.dataset.box_files(scene, kind))?;
             let Some(boxes) = optional(self.dataset.read_boxes(scene, kind))? else { continue };
             let one = |b: &enfilade_math::OrientedBox| {
-                json!({ "center": (b.center * metres).to_array(), "extents": (b.extents * metres).to_array(),
+                json!({ "center": b.center.to_array(), "extents": b.extents.to_array(),
                     "orientation": b.world_from_box.transpose().to_cols_array() })
             };
             kinds.insert(kind.name().to_string(), boxes.iter().map(|b| b.as_ref().map(one)).collect());

@@ -248,6 +248,21 @@ async fn symbolic_links_out_of_the_dataset_are_refused() {
 }
 
 #[tokio::test]
+async fn positions_are_shown_in_metres_whatever_the_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    let address = "/api/view/layer/room/cam_00/0/position";
+    let range = async || {
+        let reply = ask(folder.path(), address, &[]).await;
+        let summary: Value = serde_json::from_str(reply.headers()["x-enfilade-summary"].to_str().unwrap()).unwrap();
+        summary["range"][1].as_f64().unwrap()
+    };
+    let metres = range().await;
+    std::fs::write(dataset.layout().metadata_scene("room"), "parameter_name,parameter_value\nmeters_per_asset_unit,0.5\n").unwrap();
+    assert!((range().await / metres - 0.5).abs() < 1e-6);
+}
+
+#[tokio::test]
 async fn hypersims_own_pictures_are_shown() {
     let Some(scenes) = std::env::var_os("ENFILADE_SCENES") else {
         return eprintln!("skipped: ENFILADE_SCENES is not set");
@@ -260,5 +275,9 @@ async fn hypersims_own_pictures_are_shown() {
         (&depth.headers()["x-enfilade-shape"], &depth.headers()["x-enfilade-dtype"]),
         (&"768,1024,1".parse().unwrap(), &"float16".parse().unwrap())
     );
+    // Planar depth is computed, and the page is told that it can be had.
+    assert!(camera["frames"][0]["layers"].as_array().unwrap().contains(&Value::from(Layer::DepthZMeters as usize)));
+    let planar = ask(&root, "/api/view/layer/ai_037_002/cam_00/0/depth_z_meters", &[]).await;
+    assert_eq!((planar.status(), &planar.headers()["x-enfilade-dtype"]), (StatusCode::OK, &"float32".parse().unwrap()));
     assert_eq!(ask(&root, "/api/view/thumbnail/ai_037_002/cam_00/0", &[]).await.status(), StatusCode::OK);
 }

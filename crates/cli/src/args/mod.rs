@@ -3,6 +3,7 @@
 mod farm;
 mod outputs;
 mod pages;
+mod reading;
 mod results;
 mod scenes;
 mod stages;
@@ -11,9 +12,10 @@ mod values;
 pub use farm::{EngineArg, FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmSubmitArgs, FarmVerb, FarmWorkArgs};
 pub use outputs::{AnimateArgs, ExportArgs};
 pub use pages::{AnnotateArgs, ListenArgs, ViewArgs};
+pub use reading::CamerasArg;
 pub use results::{InspectArgs, ReplayArgs, SplitArgs, StatsArgs, VerifyArgs};
 pub use scenes::{HomeArgs, ImportArgs, MomentArg, SuggestArgs, UpAxisArg};
-pub use stages::{LabelArgs, PlanArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs};
+pub use stages::{LabelArgs, PlanArgs, PreviewArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs};
 pub use values::parse_size;
 
 use crate::vray::VrayArgs;
@@ -75,8 +77,7 @@ pub enum Verb {
     )]
     Boxes(StageArgs),
     /// Frames -> a picture of every layer, and a contact sheet per trajectory
-    #[command(after_help = "Example:\n  enfilade preview out")]
-    Preview(StageArgs),
+    Preview(PreviewArgs),
     /// Check the laws that tie the layers of a dataset together, and write its report card; the exit code says whether all hold
     Verify(VerifyArgs),
     /// Divide the dataset by scene into train, val and test, from now on in this way

@@ -1,5 +1,6 @@
 //! The verbs that write a dataset in other forms.
 
+use super::CamerasArg;
 use super::values::{parse_layer, parse_range};
 use clap::{Args, ValueEnum};
 use enfilade_post::animation::AnimationFormat;
@@ -39,6 +40,9 @@ pub struct ExportArgs {
     /// If OUT exists and is no export, rename it to OUT.old
     #[arg(long)]
     pub force: bool,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub table: CamerasArg,
 }
 
 /// `animate`.
@@ -67,6 +71,9 @@ pub struct AnimateArgs {
     /// The folder to write to [default: `animations` in the dataset]
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub table: CamerasArg,
 }
 
 /// `--format` of `animate`.

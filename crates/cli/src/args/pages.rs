@@ -1,5 +1,6 @@
 //! The verbs that serve pages to a browser.
 
+use super::CamerasArg;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -14,6 +15,9 @@ pub struct ViewArgs {
     pub dataset: PathBuf,
     #[command(flatten)]
     #[allow(missing_docs)]
+    pub table: CamerasArg,
+    #[command(flatten)]
+    #[allow(missing_docs)]
     pub listen: ListenArgs,
 }
 
@@ -25,7 +29,7 @@ pub struct ViewArgs {
     `enfilade label out` brings them into the label images; nothing is rendered again."
 )]
 pub struct AnnotateArgs {
-    /// A scene file (.gltf, .glb, .obj, .xml, .scene), a dataset, a scene's folder in it, or a Hypersim mesh folder
+    /// A scene file (.gltf, .glb, .obj, .xml, .pbrt, .ply, .usd, .usda, .usdc, .usdz, .fbx, .vrscene, .sh3d, .scene), a dataset, a scene's folder in it, or a Hypersim mesh folder
     #[arg(value_name = "SCENE")]
     pub input: PathBuf,
     /// Which of a dataset's scenes

@@ -1,5 +1,6 @@
 //! The verbs that judge, divide and ask a dataset.
 
+use super::CamerasArg;
 use super::values::{parse_pixel, parse_shares};
 use clap::Args;
 use std::path::PathBuf;
@@ -18,6 +19,9 @@ pub struct VerifyArgs {
     /// Fail also where a gate rejects a frame
     #[arg(long)]
     pub strict: bool,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub table: CamerasArg,
 }
 
 /// `split`.
@@ -39,7 +43,8 @@ pub struct SplitArgs {
 
 /// `inspect`.
 #[derive(Args)]
-#[command(after_help = "Example:\n  enfilade inspect out --scene home --camera cam_00 --frame 0 --pixel 160,120")]
+#[command(after_help = "Examples:\n  enfilade inspect out --scene home --camera cam_00 --frame 0 --pixel 160,120\n  \
+    enfilade inspect metadata_camera_parameters.csv --cameras > intrinsics.csv")]
 pub struct InspectArgs {
     /// The dataset's folder
     pub dataset: PathBuf,
@@ -53,8 +58,14 @@ pub struct InspectArgs {
     #[arg(long, default_value_t = 0)]
     pub frame: u32,
     /// Column and row of the pixel, from 0 at the upper left
-    #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
-    pub pixel: (u32, u32),
+    #[arg(long, value_name = "X,Y", value_parser = parse_pixel, required_unless_present = "list_cameras")]
+    pub pixel: Option<(u32, u32)>,
+    /// Instead of a pixel: K of every scene of the table of cameras, as CSV; DATASET may be that table itself
+    #[arg(long = "cameras", conflicts_with = "pixel")]
+    pub list_cameras: bool,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub table: CamerasArg,
 }
 
 /// `replay`.
@@ -93,4 +104,7 @@ pub struct StatsArgs {
     /// The folder to write [default: statistics, in the dataset]
     #[arg(short, long, value_name = "FOLDER")]
     pub output: Option<PathBuf>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub table: CamerasArg,
 }

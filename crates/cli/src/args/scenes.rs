@@ -83,7 +83,7 @@ impl MomentArg {
     enfilade import out --scene home"
 )]
 pub struct ImportArgs {
-    /// A scene file (.gltf, .glb, .obj, .xml), or the folder of a dataset to import the scenes of
+    /// A scene file (.gltf, .glb, .obj, .xml, .pbrt, .ply, .usd, .usda, .usdc, .usdz, .fbx, .vrscene, .sh3d), or the folder of a dataset to import the scenes of
     pub input: PathBuf,
     /// The scene package (.scene) or binary glTF (.glb) to write [default: the input's name with .scene, in the current folder]
     #[arg(short, long, value_name = "FILE")]
@@ -116,7 +116,7 @@ pub struct ImportArgs {
     `enfilade label`, reads the table. Of names with a confidence of 0.94 or more, 95 of 100 are right in scenes that were held out."
 )]
 pub struct SuggestArgs {
-    /// A scene file (.gltf, .glb, .obj, .xml) or scene package (.scene)
+    /// A scene file (.gltf, .glb, .obj, .xml, .pbrt, .ply, .usd, .usda, .usdc, .usdz, .fbx, .vrscene, .sh3d) or scene package (.scene)
     pub input: PathBuf,
     /// The table to write [default: the input's name with .labels.csv, in the current folder]
     #[arg(short, long, value_name = "FILE")]

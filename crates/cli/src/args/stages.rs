@@ -1,5 +1,6 @@
 //! The verbs that run stages.
 
+use super::CamerasArg;
 use super::values::{parse_share, parse_size, parse_time};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -123,6 +124,22 @@ pub struct RenderFlags {
     /// Make denoised companions of the color layers too (needs Open Image Denoise, see `enfilade denoise --help`)
     #[arg(long)]
     pub denoise: bool,
+}
+
+/// `preview`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  enfilade preview out\n  enfilade preview hypersim -o pictures --scene ai_001_001\n\n\
+    Data that others made, such as Hypersim's, have previews of the same names; with -o they are left alone.")]
+pub struct PreviewArgs {
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub stage: StageArgs,
+    /// Write the pictures below this folder, in the dataset's tree [default: into the dataset]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub table: CamerasArg,
 }
 
 /// `label`.

@@ -36,8 +36,13 @@ fn open(job: &str) -> Result<Job, FarmError> {
 }
 
 fn plan(args: &FarmPlanArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let overrides =
-        Overrides { seed: args.seed, frames: args.frames, size: args.size, quality: args.quality.map(quality), render: choices(&args.render) };
+    let overrides = Overrides {
+        seed: args.seed,
+        frames: args.frames,
+        size: args.size,
+        quality: args.quality.map(quality),
+        render: choices(&args.render),
+    };
     let config = match &args.config {
         Some(file) => Config::read(file, &overrides)?,
         None => Config::demo(&overrides)?,
@@ -123,7 +128,13 @@ fn status(args: &FarmStatusArgs) -> Result<Verdict, Problem> {
     } else if args.missing {
         say(&print_ranges(&status.missing));
     } else {
-        say(&format!("{} of {} frames are committed; {} of {} tasks are missing", status.frames_done, status.frames, status.missing.len(), status.tasks));
+        say(&format!(
+            "{} of {} frames are committed; {} of {} tasks are missing",
+            status.frames_done,
+            status.frames,
+            status.missing.len(),
+            status.tasks
+        ));
         if !status.is_complete() {
             say(&format!("missing: {}", print_ranges(&status.missing)));
             say(&format!("about {:.2} vCPU-hours are left", status.left_cpu_s / 3600.0));

@@ -30,7 +30,9 @@ pub fn submit(args: &FarmSubmitArgs) -> Result<Verdict, Problem> {
         say(&path.display().to_string());
         Ok(path)
     };
-    let named = |option: &Option<String>, flag: &str| option.clone().ok_or_else(|| Problem::new(format!("{flag} is not given"), "see enfilade farm submit --help"));
+    let named = |option: &Option<String>, flag: &str| {
+        option.clone().ok_or_else(|| Problem::new(format!("{flag} is not given"), "see enfilade farm submit --help"))
+    };
     let json = |value: &serde_json::Value| serde_json::to_string_pretty(value).unwrap_or_default() + "\n";
     match args.engine {
         EngineArg::Kubernetes => {
@@ -76,7 +78,10 @@ fn sbatch(script: &Path, options: &[&str]) -> Result<String, Problem> {
     let output = output.map_err(|error| Problem::new(format!("cannot start sbatch: {error}"), help))?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr).trim().to_string();
-        return Err(Problem::new(format!("sbatch refused {}: {said}", script.display()), "change the script and submit it by hand, or give other limits"));
+        return Err(Problem::new(
+            format!("sbatch refused {}: {said}", script.display()),
+            "change the script and submit it by hand, or give other limits",
+        ));
     }
     let number = String::from_utf8_lossy(&output.stdout).trim().split(';').next().unwrap_or_default().to_string();
     say(&format!("submitted as job {number}"));

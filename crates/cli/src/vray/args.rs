@@ -2,13 +2,15 @@
 
 use crate::args::parse_size;
 use clap::{Args, Subcommand, ValueEnum};
+use enfilade_pipeline::vray::CameraWish;
 use std::path::PathBuf;
 
 /// `vray`
 #[derive(Args)]
 #[command(after_help = "Examples:\n  enfilade vray normalize room.vrscene -o scene.vrscene --policy v1\n  \
     enfilade vray replace-paths scene.vrscene -o scene.vrscene --old 'C:\\work\\assets' --new /mnt/assets\n  \
-    enfilade vray pass scene_cam_00.vrscene -o scene_cam_00_final.vrscene --pass final --light-cache /mnt/a.vrlmap --irradiance-map /mnt/a.vrmap\n\n\
+    enfilade vray jobs scene.vrscene -o job --dataset data --scene room --folder /mnt/job --nodes metadata_nodes.csv\n  \
+    enfilade vray collect data --job job/job.json\n\n\
     What an edit does not name stays as it is, byte for byte. The output may be the input.")]
 pub struct VrayArgs {
     /// What to do
@@ -99,7 +101,7 @@ pub enum Edit {
         #[arg(long)]
         hypersim_quality: bool,
     },
-    /// The camera and trajectory of a dataset
+    /// The camera and trajectory of a dataset; a camera that is no plain pinhole by a texture of its rays
     Camera {
         #[command(flatten)]
         copy: Copy,
@@ -112,13 +114,25 @@ pub enum Edit {
         /// Its camera
         #[arg(long, default_value = "cam_00")]
         camera: String,
-        /// Horizontal field of view in degrees
-        #[arg(long, default_value_t = 60.0)]
-        fov_deg: f64,
-        /// Size of the images
-        #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1024x768")]
-        size: [u32; 2],
+        #[command(flatten)]
+        wish: WishArgs,
+        /// Where the picture of the lens is written, if the camera needs one
+        #[arg(long, value_name = "FILE")]
+        lens: Option<PathBuf>,
+        /// Path of that picture on the machine that renders
+        #[arg(long, value_name = "PATH", requires = "lens")]
+        lens_when_rendering: Option<String>,
     },
+    /// Add #include lines at the end
+    Include {
+        #[command(flatten)]
+        copy: Copy,
+        /// Path of the included scene on the machine that renders
+        #[arg(long = "file", value_name = "PATH", required = true)]
+        files: Vec<String>,
+    },
+    /// What the included files hold in place of the #include lines, so that edits reach all of the scene
+    Inline(Copy),
     /// The scene of one of the three passes: geometry, pre, final
     Pass {
         #[command(flatten)]
@@ -157,6 +171,98 @@ pub enum Edit {
     },
     /// Radiance instead of tone-mapped colours
     Linear(Copy),
+    /// The scenes of all passes and cameras, and the commands that render them
+    Jobs(JobArgs),
+    /// V-Ray's images as the frames of a dataset
+    Collect(CollectArgs),
+}
+
+/// A camera in place of the dataset's own.
+#[derive(Args)]
+pub struct WishArgs {
+    /// Horizontal field of view of a plain pinhole in degrees [default: the dataset's camera, else 60]
+    #[arg(long)]
+    pub fov_deg: Option<f64>,
+    /// Size of the images [default: the dataset's, else 1024x768]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// A grid of rays as Hypersim's camera_lens_distortion.hdf5
+    #[arg(long, value_name = "FILE")]
+    pub rays: Option<PathBuf>,
+}
+
+impl WishArgs {
+    /// What is asked for.
+    pub fn wish(&self) -> CameraWish {
+        CameraWish { fov_x_deg: self.fov_deg, size: self.size, rays: self.rays.clone() }
+    }
+}
+
+/// `vray jobs`
+#[derive(Args)]
+pub struct JobArgs {
+    /// A scene with numbered nodes and render elements
+    #[arg(value_name = "IN")]
+    pub input: PathBuf,
+    /// The folder of the job, to be copied to the machine that renders
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: PathBuf,
+    /// The dataset with the trajectories
+    #[arg(long)]
+    pub dataset: PathBuf,
+    /// Its scene
+    #[arg(long)]
+    pub scene: String,
+    /// Its cameras [default: all]
+    #[arg(long = "camera", value_name = "CAMERA")]
+    pub cameras: Vec<String>,
+    /// Absolute path of the job's folder on the machine that renders: /mnt/job, or D:\job for Windows
+    #[arg(long, value_name = "PATH")]
+    pub folder: String,
+    /// The table that `entities --nodes` wrote
+    #[arg(long, value_name = "FILE")]
+    pub nodes: PathBuf,
+    #[command(flatten)]
+    pub wish: WishArgs,
+}
+
+/// `vray collect`
+#[derive(Args)]
+pub struct CollectArgs {
+    /// The dataset with the trajectories; frames are added to it
+    pub dataset: PathBuf,
+    /// The job.json that `jobs` wrote: scene, cameras, units and nodes
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "geometry", "beauty", "meters_per_unit", "fov_deg", "size", "rays"])]
+    pub job: Option<PathBuf>,
+    /// Where the job's folder `images` is [default: beside job.json]
+    #[arg(long, value_name = "FOLDER", requires = "job")]
+    pub images: Option<PathBuf>,
+    /// The scene, without a job
+    #[arg(long, required_unless_present = "job")]
+    pub scene: Option<String>,
+    /// The camera; with a job, only this one
+    #[arg(long)]
+    pub camera: Option<String>,
+    /// Folder with the images of the geometry pass, *.0000.exr
+    #[arg(long, value_name = "FOLDER", required_unless_present = "job")]
+    pub geometry: Option<PathBuf>,
+    /// Folder with the images of the final pass
+    #[arg(long = "final", value_name = "FOLDER", required_unless_present = "job")]
+    pub beauty: Option<PathBuf>,
+    /// The table that `entities --nodes` wrote [default: the job's, else the dataset's own]
+    #[arg(long, value_name = "FILE")]
+    pub nodes: Option<PathBuf>,
+    /// Metres per unit of V-Ray's scene, as `info` shows it
+    #[arg(long, value_name = "M", required_unless_present = "job")]
+    pub meters_per_unit: Option<f64>,
+    #[command(flatten)]
+    pub wish: WishArgs,
+    /// Take images whose header tells another camera than the trajectory
+    #[arg(long)]
+    pub ignore_camera: bool,
+    /// Read again what is there already
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// How exporters' answers are put right.

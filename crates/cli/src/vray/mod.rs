@@ -1,24 +1,26 @@
-//! `vray`: edits of V-Ray's scenes, file to file.
+//! `vray`: edits of V-Ray's scenes, file to file; jobs that render them, and the images that these make.
 
 mod args;
+mod frames;
 mod tables;
 
 pub use args::VrayArgs;
 
 use crate::outcome::{Problem, Verdict, say};
 use args::{Copy, Edit, PassArg, Policy};
-use enfilade_dataset::{Dataset, write_bytes};
+use enfilade_dataset::write_bytes;
+use enfilade_pipeline::vray::{Asset, inline_scene, read_scene, scene_assets};
+use enfilade_vrscene::Document;
 use enfilade_vrscene::edit::{
-    CameraKeyframe, CameraPath, EntityOptions, GiCaches, IMAGE_FILTERS, Normalization, Pass, add_color_channels, add_denoiser,
-    add_geometry_channels, file_references, hypersim_quality, linear_output, make_pass, meters_per_asset_unit, normalize, reduce_quality,
-    reduce_size, remove_kinds, replace_paths, save_gi_caches, set_camera, set_entity_ids,
+    EntityOptions, GiCaches, IMAGE_FILTERS, Normalization, Pass, add_color_channels, add_denoiser, add_geometry_channels, add_include,
+    file_references, hypersim_quality, linear_output, make_pass, normalize, reduce_quality, reduce_size, remove_kinds, replace_paths,
+    save_gi_caches, set_entity_ids,
 };
-use enfilade_vrscene::{Document, SceneTextError};
 use std::collections::BTreeMap;
 use std::path::Path;
 
 /// One edit of one file.
-pub fn vray(args: &VrayArgs) -> Result<Verdict, Problem> {
+pub fn vray(args: &VrayArgs, quiet: bool) -> Result<Verdict, Problem> {
     match &args.edit {
         Edit::Copy(copy) => edited(copy, |_| Ok("copied".into())),
         Edit::Info { input, files } => info(input, *files),
@@ -71,11 +73,21 @@ pub fn vray(args: &VrayArgs) -> Result<Verdict, Problem> {
             }
             Ok("render elements added".into())
         }),
-        Edit::Camera { copy, dataset, scene: name, camera, fov_deg, size } => edited(copy, |scene| {
-            let path = camera_path(scene, &copy.input, &Dataset::open(dataset)?, name, camera, *fov_deg, *size)?;
-            set_camera(scene, &path);
-            Ok(format!("{} keyframes of {camera}", path.keyframes.len()))
+        Edit::Camera { copy, dataset, scene: name, camera, wish, lens, lens_when_rendering } => edited(copy, |scene| {
+            let place = lens.as_deref().map(|file| (file, lens_when_rendering.as_deref()));
+            frames::set_dataset_camera(scene, &copy.input, dataset, [name, camera], &wish.wish(), place)
         }),
+        Edit::Include { copy, files } => edited(copy, |scene| {
+            files.iter().for_each(|file| add_include(scene, file));
+            Ok(format!("{} files included", files.len()))
+        }),
+        Edit::Inline(copy) => edited(copy, |scene| {
+            let before = scene.includes().count();
+            *scene = inline_scene(std::mem::take(scene), &copy.input)?;
+            Ok(format!("{before} included files taken in"))
+        }),
+        Edit::Jobs(args) => frames::jobs(args, quiet),
+        Edit::Collect(args) => frames::collect(args, quiet),
         Edit::Pass { copy, pass, light_cache, irradiance_map } => edited(copy, |scene| {
             let caches = match (pass, light_cache, irradiance_map) {
                 (PassArg::Geometry, ..) => GiCaches { light_cache: String::new(), irradiance_map: String::new() },
@@ -117,71 +129,35 @@ pub fn vray(args: &VrayArgs) -> Result<Verdict, Problem> {
 
 /// Reads, edits and writes a scene, and says what the edit did. The output appears whole or not at all.
 fn edited(copy: &Copy, edit: impl FnOnce(&mut Document) -> Result<String, Problem>) -> Result<Verdict, Problem> {
-    let mut scene = read(&copy.input)?;
+    let mut scene = read_scene(&copy.input)?;
     let done = edit(&mut scene)?;
     write_bytes(&copy.output, scene.to_bytes())?;
     say(&format!("{}: {done}", copy.output.display()));
+    match scene.includes().count() {
+        0 => {}
+        files => say(&format!("note: {files} included files stay as they are; to edit all of the scene: enfilade vray inline")),
+    }
     Ok(Verdict::Done)
 }
 
-fn read(path: &Path) -> Result<Document, Problem> {
-    let bytes = std::fs::read(path).map_err(|e| Problem::new(format!("cannot read {}: {e}", path.display()), "check the path"))?;
-    Document::parse(bytes).map_err(|error| damaged(path, &error))
-}
-
-fn damaged(path: &Path, error: &SceneTextError) -> Problem {
-    Problem::new(format!("{}:{error}", path.display()), "export the scene again, or mend it at this place")
-}
-
 fn info(path: &Path, files_only: bool) -> Result<Verdict, Problem> {
-    let scene = read(path)?;
-    let files = file_references(&scene);
+    let scene = read_scene(path)?;
+    let (files, unseen) = scene_assets(&scene, path)?;
     if files_only {
         files.iter().for_each(|file| say(&file.path));
         return Ok(Verdict::Done);
     }
     let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
     scene.plugins().for_each(|plugin| *kinds.entry(String::from_utf8_lossy(plugin.kind()).into_owned()).or_default() += 1);
-    let units = meters_per_asset_unit(&scene).map_err(|error| damaged(path, &error))?;
+    let units = frames::units(&scene, path)?;
     say(&format!("units    {}", units.map_or("not said".into(), |m| format!("{m} m"))));
     say(&format!("plugins  {}", kinds.values().sum::<usize>()));
     kinds.iter().for_each(|(kind, count)| say(&format!("{count:8} {kind}")));
-    say(&format!("files    {}", files.len()));
-    files.iter().for_each(|file| say(&format!("         {} ({}, line {})", file.path, file.plugin, file.place.line)));
+    let own = file_references(&scene);
+    let of_others: Vec<&Asset> = files.iter().filter(|file| own.iter().all(|own| own.path != file.path)).collect();
+    say(&format!("files    {}", own.len() + of_others.len()));
+    own.iter().for_each(|file| say(&format!("         {} ({}, line {})", file.path, file.plugin, file.place.line)));
+    of_others.iter().for_each(|file| say(&format!("         {} ({}, of an included file)", file.path, file.named_by)));
+    unseen.iter().for_each(|file| say(&format!("unseen   {file}: included, but not on this machine; it may need more files")));
     Ok(Verdict::Done)
-}
-
-/// A trajectory in the scene's units.
-fn camera_path(
-    scene: &Document,
-    file: &Path,
-    dataset: &Dataset,
-    name: &str,
-    camera: &str,
-    fov_deg: f64,
-    size: [u32; 2],
-) -> Result<CameraPath, Problem> {
-    let trajectory = dataset.read_trajectory(name, camera)?;
-    if trajectory.poses.is_empty() {
-        return Err(Problem::new(format!("{camera} of scene {name} has no poses"), "plan the trajectory again: enfilade plan"));
-    }
-    if !(fov_deg > 0.0 && fov_deg < 180.0) || size.contains(&0) {
-        return Err(Problem::new("no camera has this field of view and size", "give 0 < --fov-deg < 180 and at least one pixel"));
-    }
-    let metres = meters_per_asset_unit(scene).map_err(|error| damaged(file, &error))?.unwrap_or(1.0);
-    let keyframe = |pose: &enfilade_scene::Pose| {
-        let r = pose.world_from_camera;
-        CameraKeyframe {
-            frame: i64::from(pose.frame),
-            position: (pose.position / metres).to_array(),
-            world_from_camera: std::array::from_fn(|row| r.row(row).to_array()),
-        }
-    };
-    Ok(CameraPath {
-        keyframes: trajectory.poses.iter().map(keyframe).collect(),
-        frame_time_s: dataset.read_frame_time(name, camera)?,
-        fov_x_rad: fov_deg.to_radians(),
-        size,
-        lens: None,
-    })
 }

@@ -6,6 +6,7 @@ use libdeflater::Decompressor;
 use rust_hdf5::{DatatypeMessage, H5Dataset, H5File, Hdf5Error};
 use std::fs::File;
 use std::io::Read;
+use std::panic::catch_unwind;
 use std::path::Path;
 
 /// Reads the array of a file, ours or Hypersim's.
@@ -14,6 +15,12 @@ use std::path::Path;
 /// When the file is missing or damaged, or holds anything but one dataset named `dataset` of a known element type.
 pub fn read_array(path: &Path) -> Result<Array, DatasetError> {
     let length = check_length(path)?;
+    // The library takes some of what stands in a file for granted, and panics where it is not so.
+    let gave_up = |_| Err(DatasetError::hdf5(path, format!("the HDF5 library gave up on it: {DAMAGED}")));
+    catch_unwind(|| read_dataset(path, length)).unwrap_or_else(gave_up)
+}
+
+fn read_dataset(path: &Path, length: u64) -> Result<Array, DatasetError> {
     let file = H5File::options().no_locking().open(path).map_err(|error| read_error(path, &error))?;
     let names = file.dataset_names();
     if names != ["dataset"] {
@@ -47,7 +54,7 @@ fn read_bytes(dataset: &H5Dataset, shape: &[usize], element_size: usize) -> rust
     if let (&[height, width, channels], Some(&[h, w, per_chunk])) = (shape, dataset.chunk_dims().as_deref()) {
         let filters: Vec<u16> = dataset.filters()?.iter().map(|filter| filter.id).collect();
         let known = filters == [SHUFFLE, DEFLATE] || filters == [DEFLATE];
-        if known && h <= height && w <= width && per_chunk < channels {
+        if known && (1..=height).contains(&h) && (1..=width).contains(&w) && (1..channels).contains(&per_chunk) {
             return inflate_chunks(dataset, [height, width, channels], [h, w, per_chunk], element_size, filters[0] == SHUFFLE);
         }
     }

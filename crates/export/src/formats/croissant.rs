@@ -7,7 +7,7 @@ use crate::ExportError;
 use crate::calibration::Calibration;
 use crate::place::Place;
 use crate::source::{Source, View};
-use enfilade_frame::{Dtype, LAYERS, LayerSpec};
+use enfilade_frame::{Dtype, LAYERS, Layer, LayerSpec};
 use enfilade_scene::NYU40;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -36,8 +36,8 @@ struct Table {
 }
 
 pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
-    let layers: Vec<&LayerSpec> = LAYERS.iter().filter(|spec| source.views().any(|view| source.has(view, spec.layer))).collect();
-    let tables = [frames(source, &layers), layer_table(&layers), classes()];
+    let layers: Vec<&LayerSpec> = LAYERS.iter().filter(|spec| source.views().any(|view| source.stores(view, spec.layer))).collect();
+    let tables = [frames(source, &layers), layer_table(&layers, is_released(source)), classes()];
     let mut distribution: Vec<Value> = layers.iter().map(|spec| file_set(source, spec)).collect();
     let mut record_sets = Vec::new();
     for table in tables {
@@ -53,10 +53,13 @@ fn card(source: &Source<'_>, distribution: &[Value], record_sets: &[Value]) -> R
     let manifest = source.dataset.read_manifest()?;
     let name = manifest.as_ref().and_then(|m| m.config.get("name")).and_then(Value::as_str).unwrap_or("hypersim_layout").to_string();
     let (frames, scenes) = (source.views().count(), source.scenes().count());
+    let (origin, unit) = match is_released(source) {
+        true => ("as Apple released them in Hypersim", "in the scene's asset units (meters_per_asset_unit of _detail/metadata_scene.csv)"),
+        false => ("rendered by enfilade in the layout of Hypersim", "in metres"),
+    };
     let description = format!(
-        "{frames} photorealistic images of {scenes} indoor scenes with dense ground truth for every pixel, rendered by enfilade in the \
-         layout of Hypersim (Roberts et al., ICCV 2021): one HDF5 file per layer and frame, whose array is called \"dataset\". World \
-         coordinates are right-handed with z up, in metres."
+        "{frames} photorealistic images of {scenes} indoor scenes with dense ground truth for every pixel, {origin} (Roberts et al., ICCV \
+         2021): one HDF5 file per layer and frame, whose array is called \"dataset\". World coordinates are right-handed with z up, {unit}."
     );
     Ok(json!({
         "@context": context(),
@@ -68,6 +71,11 @@ fn card(source: &Source<'_>, distribution: &[Value], record_sets: &[Value]) -> R
         "distribution": distribution,
         "recordSet": record_sets,
     }))
+}
+
+/// True when this program made none of the scenes.
+fn is_released(source: &Source<'_>) -> bool {
+    source.scenes().all(|tracks| source.dataset.is_released(&tracks[0].scene))
 }
 
 /// The context that Croissant 1.0 prescribes.
@@ -196,12 +204,13 @@ fn frame_row(source: &Source<'_>, view: View<'_>, layers: &[&LayerSpec]) -> Vec<
     row.extend(focal.iter().chain(&view.pose().position.to_array()).map(ToString::to_string));
     row.extend(layers.iter().map(|spec| {
         let path = source.dataset.layout().layer(&track.scene, &track.name, view.frame(), spec.layer);
-        if source.has(view, spec.layer) { relative(source, &path) } else { String::new() }
+        if source.stores(view, spec.layer) { relative(source, &path) } else { String::new() }
     }));
     row
 }
 
-fn layer_table(layers: &[&LayerSpec]) -> Table {
+/// In Hypersim's release everything that is no integer is float16, and positions are in asset units.
+fn layer_table(layers: &[&LayerSpec], released: bool) -> Table {
     let column = |name: &str, kind, about: &str| (name.to_string(), kind, about.to_string());
     let columns = vec![
         column("name", "sc:Text", "Name, as in frame.IIII.<name>.hdf5."),
@@ -214,12 +223,14 @@ fn layer_table(layers: &[&LayerSpec]) -> Table {
     ];
     let dtype = |dtype: Dtype| match dtype {
         Dtype::F16 => "float16",
+        Dtype::F32 if released => "float16",
         Dtype::F32 => "float32",
         Dtype::I16 => "int16",
         Dtype::U8 => "uint8",
     };
     let row = |s: &&LayerSpec| {
-        [s.name, &s.channels.to_string(), dtype(s.dtype), s.unit, s.space, s.sentinel, s.description].map(ToString::to_string).to_vec()
+        let unit = if released && s.layer == Layer::Position { "asset units" } else { s.unit };
+        [s.name, &s.channels.to_string(), dtype(s.dtype), unit, s.space, s.sentinel, s.description].map(ToString::to_string).to_vec()
     };
     Table { name: "layers", about: "One row per layer of a frame.", columns, rows: layers.iter().map(row).collect() }
 }

@@ -8,6 +8,7 @@ pub(crate) mod croissant;
 pub(crate) mod cryptomatte;
 pub(crate) mod depth_png;
 pub(crate) mod nerfstudio;
+pub(crate) mod opencv;
 pub(crate) mod openexr;
 pub(crate) mod scannet;
 pub(crate) mod webdataset;

@@ -9,7 +9,10 @@ pub fn kubernetes_job(submission: &Submission, image: &str) -> Value {
     let tasks: Vec<String> = submission.tasks.iter().map(u32::to_string).collect();
     let count = tasks.len();
     // The index counts the missing tasks; the shell looks up which one it is.
-    let look_up = format!("set -- {}; shift \"$JOB_COMPLETION_INDEX\"; exec \"$0\" --threads \"$CPUS\" farm work \"$STORE\" --task \"$1\" --scratch /scratch", tasks.join(" "));
+    let look_up = format!(
+        "set -- {}; shift \"$JOB_COMPLETION_INDEX\"; exec \"$0\" --threads \"$CPUS\" farm work \"$STORE\" --task \"$1\" --scratch /scratch",
+        tasks.join(" ")
+    );
     json!({
         "apiVersion": "batch/v1",
         "kind": "Job",

@@ -5,8 +5,9 @@ use gltf::json::Index;
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::validation::Checked;
 
-/// An accessor without a buffer view is all zeros; more of them than this is taken for damage rather than allocated.
-const MAX_ZEROS: u64 = 1 << 26;
+/// An accessor without a buffer view is all zeros. All reads of a file together may ask for this many: more is taken for damage rather
+/// than allocated.
+pub(super) const MAX_ZEROS: u64 = 1 << 22;
 
 impl Document {
     /// The elements of an accessor of vectors of `N` components, as floats (normalized integers mapped to [0,1] or [−1,1]).
@@ -49,8 +50,7 @@ impl Document {
         let count = accessor.count.0;
         let mut values = match accessor.buffer_view {
             Some(view) => self.elements(&name, view.value(), accessor.byte_offset.map_or(0, |o| o.0), count, layout)?,
-            None if count > MAX_ZEROS => return Err(format!("{name} has {count} elements and no bufferView; the file is damaged")),
-            None => vec![0.0; count as usize * per_element],
+            None => vec![0.0; self.zeros(&name, count, per_element)?],
         };
         if let Some(sparse) = &accessor.sparse {
             let Checked::Valid(kind) = sparse.indices.component_type else {
@@ -68,6 +68,16 @@ impl Document {
             }
         }
         Ok(values)
+    }
+
+    /// How many components an accessor without a bufferView has, if the file may still ask for so many.
+    fn zeros(&self, name: &str, count: u64, per_element: usize) -> Result<usize, String> {
+        let wanted = count.checked_mul(per_element as u64).filter(|&wanted| wanted <= self.zeros_left.get());
+        let wanted = wanted.ok_or_else(|| {
+            format!("{name} has {count} elements and no bufferView; expected at most {MAX_ZEROS} such numbers in a file: it is damaged")
+        })?;
+        self.zeros_left.set(self.zeros_left.get() - wanted);
+        Ok(wanted as usize)
     }
 
     fn elements(&self, name: &str, view: usize, offset: u64, count: u64, layout: Layout) -> Result<Vec<f64>, String> {

@@ -1,8 +1,10 @@
 //! The outer layer of a glTF file: text or binary, its buffers, and the URIs in it.
 
+use super::accessor::MAX_ZEROS;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use gltf::json::{Root, buffer, image};
+use std::cell::Cell;
 
 /// Extensions that an importer may be required to understand and that this one does.
 pub(super) const SUPPORTED: [&str; 12] = [
@@ -26,6 +28,8 @@ pub(super) struct Document {
     pub root: Root,
     /// Bytes of all buffers.
     pub buffers: Vec<Vec<u8>>,
+    /// Numbers that accessors without a buffer view may still ask for.
+    pub zeros_left: Cell<u64>,
 }
 
 impl Document {
@@ -49,7 +53,7 @@ impl Document {
         for (i, b) in root.buffers.iter().enumerate() {
             buffers.push(read_buffer(i, b, binary, assembly)?);
         }
-        Ok(Self { root, buffers })
+        Ok(Self { root, buffers, zeros_left: Cell::new(MAX_ZEROS) })
     }
 
     /// The bytes of a buffer view, or what is wrong with it.

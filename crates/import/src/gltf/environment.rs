@@ -10,6 +10,7 @@ use super::container::Document;
 use crate::ImportError;
 use crate::assembly::{Assembly, Source};
 use crate::images::Use;
+use crate::pbrt::PBRT_FROM_MAP;
 use enfilade_math::{DMat3, DVec3, Rgb};
 use enfilade_scene::{Environment, MapRows};
 use serde_json::Value;
@@ -31,9 +32,7 @@ pub(super) fn add_from_extras(document: &Document, a: &mut Assembly) -> Result<(
         for l in lights.filter(|l| l.get("type").and_then(Value::as_str) == Some("infinite")) {
             let name = l.get("mapname").and_then(|m| m.as_str().or_else(|| m.get(0)?.as_str()));
             let Some(file) = name else { continue };
-            // From the map's space (y up, azimuth from −z towards +x) to pbrt's (z up, azimuth from +x towards +y).
-            let pbrt_from_map = DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::NEG_X);
-            let file_from_map = rotation(l.get("transform")) * pbrt_from_map;
+            let file_from_map = rotation(l.get("transform")) * PBRT_FROM_MAP;
             return add(a, "scenes.extras.pbrt_lights", file, file_from_map, scale(l, "L") * scale(l, "scale"));
         }
     }

@@ -1,11 +1,16 @@
 //! OpenEXR: the first layer's R, G, B (or Y) at full resolution; alpha and other channels are left out.
 
-use super::FloatPicture;
+use super::{FloatPicture, check_size};
+use ::exr::meta::MetaData;
 use ::exr::prelude::*;
 use std::io::Cursor;
 
+/// Channels that take more bytes than this when they are decoded are refused.
+const MAX_BYTES: u64 = 1 << 30;
+
 /// Decodes an EXR.
 pub(super) fn decode(bytes: &[u8]) -> std::result::Result<FloatPicture, String> {
+    check(bytes)?;
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
@@ -32,6 +37,23 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<FloatPicture, String> 
     let (r, g, b) = (r.sample_data.values_as_f32(), g.sample_data.values_as_f32(), b.sample_data.values_as_f32());
     let texels = r.zip(g).zip(b).map(|((r, g), b)| [r, g, b]).collect();
     Ok(FloatPicture { width: width as u32, height: height as u32, texels })
+}
+
+/// Refuses pictures whose channels would fill the memory, before room is made for them.
+fn check(bytes: &[u8]) -> std::result::Result<(), String> {
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|e| format!("cannot be decoded ({e})"))?;
+    for header in &meta.headers {
+        let (width, height) = (header.layer_size.width(), header.layer_size.height());
+        check_size(u32::try_from(width).unwrap_or(u32::MAX), u32::try_from(height).unwrap_or(u32::MAX))?;
+        let size = (width as u64 * height as u64).saturating_mul(header.channels.bytes_per_pixel as u64);
+        if size > MAX_BYTES {
+            return Err(format!(
+                "has {width}x{height} pixels of {} bytes, expected at most {MAX_BYTES} bytes; make it smaller",
+                header.channels.bytes_per_pixel
+            ));
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

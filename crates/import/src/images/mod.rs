@@ -6,8 +6,9 @@
 mod exr;
 mod pfm;
 
-use ::image::{DynamicImage, ImageFormat};
+use ::image::{DynamicImage, ImageFormat, ImageReader};
 use enfilade_scene::{Image, Pixels};
+use std::io::Cursor;
 use std::path::Path;
 
 /// What a picture is used for: decides whether its bytes are sRGB-encoded.
@@ -27,6 +28,9 @@ pub(crate) struct Decoded {
     pub note: Option<String>,
 }
 
+/// Larger pictures are refused before they are decoded: a small file can claim and, compressed, even hold any number of equal pixels.
+const MAX_TEXELS: u64 = 1 << 27;
+
 /// The largest finite half float, which infinite texels become.
 const LARGEST_HALF: f32 = 65_504.0;
 
@@ -45,7 +49,11 @@ pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, St
         .ok()
         .or_else(|| ImageFormat::from_path(Path::new(name)).ok())
         .ok_or_else(|| "is not a picture of a known format (PNG, JPEG, BMP, TGA, HDR, EXR, PFM)".to_string())?;
-    let picture = ::image::load_from_memory_with_format(bytes, format).map_err(|e| format!("cannot be decoded ({e})"))?;
+    let undecodable = |e| format!("cannot be decoded ({e})");
+    let size = ImageReader::with_format(Cursor::new(bytes), format).into_dimensions().map_err(undecodable)?;
+    check_size(size.0, size.1)?;
+    // The library's own limit, 512 MB for what it decodes, holds too.
+    let picture = ImageReader::with_format(Cursor::new(bytes), format).decode().map_err(undecodable)?;
     let (width, height) = (picture.width(), picture.height());
     match picture {
         DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
@@ -62,6 +70,14 @@ pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, St
             finish(Image { name: name.to_string(), width, height, pixels }, note)
         }
     }
+}
+
+/// Refuses pictures that are too large.
+fn check_size(width: u32, height: u32) -> Result<(), String> {
+    if u64::from(width) * u64::from(height) > MAX_TEXELS {
+        return Err(format!("has {width}x{height} pixels, expected at most {MAX_TEXELS} of them; make it smaller"));
+    }
+    Ok(())
 }
 
 /// A linear floating-point picture, row 0 at the top.
@@ -111,7 +127,6 @@ pub(crate) fn is_grey(image: &Image) -> bool {
 mod tests {
     use super::*;
     use ::image::{ImageBuffer, Luma, Rgba};
-    use std::io::Cursor;
 
     fn png(picture: impl Into<DynamicImage>) -> Vec<u8> {
         let mut bytes = Cursor::new(Vec::new());
@@ -143,6 +158,16 @@ mod tests {
         let bytes = png(ImageBuffer::from_fn(8, 8, |x, y| Luma([(x * y) as u8])));
         assert!(decode("a.png", &bytes[..bytes.len() / 2], Use::Data).err().unwrap().contains("cannot be decoded"));
         assert!(decode("a.xyz", b"hello", Use::Data).err().unwrap().contains("not a picture of a known format"));
+        // A PNG's width and height are four bytes each from byte 16; what follows them is not looked at.
+        let mut huge = bytes.clone();
+        huge[16..24].fill(0x7f);
+        assert!(decode("a.png", &huge, Use::Data).is_err());
+        assert!(
+            decode("a.tga", &[&[0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 32, 8][..], &[0; 9]].concat(), Use::Data)
+                .err()
+                .unwrap()
+                .contains("65535x65535 pixels, expected at most")
+        );
         assert!(decode("a.exr", &[0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0], Use::Data).is_err());
     }
 

@@ -1,11 +1,13 @@
 //! BSDFs to materials.
 
-use super::spectrum::{self, Kind};
+use super::Reader;
+use super::spectrum;
 use super::texture::Texture;
 use super::xml::Node;
-use super::{MAX_REFERENCES, Reader};
 use crate::ImportError;
 use crate::images::{self, Use};
+use crate::roughness::oren_nayar;
+use crate::spectrum::{Kind, metal};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, ScalarParam};
 
@@ -67,9 +69,7 @@ impl<'n> Reader<'n, '_> {
     }
 
     fn surface(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
-        if depth > MAX_REFERENCES {
-            return Err(node.error("bsdfs go in a circle"));
-        }
+        self.visit(node, depth, "bsdfs")?;
         match node.plugin.as_str() {
             "twosided" => {
                 self.report_unknown(node, &[], &["bsdf"]);
@@ -172,6 +172,9 @@ impl<'n> Reader<'n, '_> {
                 None => self.scalar(node, "weight", 0.5)?,
             };
             blended = self.blend_two(node, first, blended, weight);
+            if blended.bsdf.as_ref().is_some_and(|bsdf| bsdf.depth() > Bsdf::DEEPEST) {
+                return Err(node.error(format!("bsdfs are blended more than {} deep; blend fewer", Bsdf::DEEPEST)));
+            }
             weight_behind = sum;
         }
         Ok(blended)
@@ -227,12 +230,13 @@ impl<'n> Reader<'n, '_> {
                 if node.plugin != "roughdiffuse" {
                     return Ok(Bsdf::Diffuse { reflectance });
                 }
+                // Mitsuba takes alpha/√2 for the deviation of the facets' angles.
                 let roughness = self.scalar(node, "alpha", 0.2)?;
                 if roughness.texture.is_some() {
                     self.warn(node, "a textured roughness of a diffuse reflector is read as that of Oren and Nayar in Portsmouth's form");
                     return Ok(Bsdf::RoughDiffuse { reflectance, roughness });
                 }
-                Ok(Bsdf::RoughDiffuse { reflectance, roughness: diffuse_roughness(roughness.factor).into() })
+                Ok(Bsdf::RoughDiffuse { reflectance, roughness: oren_nayar(0.5 * roughness.factor * roughness.factor).into() })
             }
             "plastic" | "roughplastic" | "pplastic" => {
                 const KNOWN: [&str; 9] = [
@@ -302,13 +306,13 @@ impl<'n> Reader<'n, '_> {
         const KNOWN: [&str; 10] =
             ["material", "eta", "k", "ext_eta", "specular_reflectance", "alpha", "alpha_u", "alpha_v", "distribution", "sample_visible"];
         self.report_unknown(node, &KNOWN, &[]);
-        let mut constants = spectrum::metal("cu").unwrap_or_default();
+        let mut constants = metal("cu").unwrap_or_default();
         if let Some(name) = node.raw_text("material") {
-            constants = match spectrum::metal(name) {
+            constants = match metal(name) {
                 Some(known) => known,
                 None => {
                     self.warn(node, format!("the metal {name:?} is not known; aluminium stands in"));
-                    spectrum::metal("al").unwrap_or_default()
+                    metal("al").unwrap_or_default()
                 }
             };
         }
@@ -395,13 +399,6 @@ impl<'n> Reader<'n, '_> {
 /// The name of a bsdf's material: its id, or `inline`.
 pub(super) fn name(bsdf: Option<&Node>) -> &str {
     bsdf.and_then(|b| b.id.as_deref()).unwrap_or("inline")
-}
-
-/// The roughness of a diffuse surface for Oren and Nayar's model with facets of the root-mean-square slope `alpha`: the one with
-/// their ratio of retro-reflecting to Lambertian light. Mitsuba takes alpha/√2 for the deviation of the facets' angles.
-fn diffuse_roughness(alpha: f32) -> f32 {
-    let s2 = 0.5 * alpha * alpha;
-    (0.45 * s2 / (s2 + 0.09) / (1.0 - 0.5 * s2 / (s2 + 0.33))).clamp(0.0, 1.0)
 }
 
 /// Interior over exterior index of refraction, each a number or the name of a substance.

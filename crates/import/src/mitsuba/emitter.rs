@@ -1,11 +1,12 @@
 //! Emitters that are not part of a shape.
 
-use super::spectrum::{self, Kind};
+use super::spectrum;
 use super::xml::Node;
 use super::{Reader, transform};
 use crate::ImportError;
 use crate::assembly::Source;
 use crate::images::Use;
+use crate::spectrum::Kind;
 use enfilade_math::{DVec3, Rgb, Vec3};
 use enfilade_scene::sky::Daylight;
 use enfilade_scene::{Environment, Light, MapRows, SpotFalloff};

@@ -31,12 +31,10 @@
 
 mod bsdf;
 mod emitter;
-mod ply;
-mod primitives;
 mod sensor;
 mod serialized;
 mod shape;
-mod spectrum;
+pub(crate) mod spectrum;
 mod texture;
 mod transform;
 mod xml;
@@ -49,11 +47,15 @@ use xml::Node;
 /// References to references deeper than this are taken for a cycle.
 const MAX_REFERENCES: usize = 32;
 
+/// Shapes within instances and bsdfs within bsdfs, counted as often as references lead to them, beyond this many are taken for a
+/// mistake: a group of two instances of a group of two instances … has as many shapes as it likes.
+const MAX_VISITS: usize = 1 << 16;
+
 /// Imports a Mitsuba scene.
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     let root = xml::read(&mut assembly)?;
     let mut reader =
-        Reader { a: assembly, ids: HashMap::new(), aliases: HashMap::new(), materials: HashMap::new(), meshes: HashMap::new() };
+        Reader { a: assembly, ids: HashMap::new(), aliases: HashMap::new(), materials: HashMap::new(), meshes: HashMap::new(), visits: 0 };
     reader.index(&root);
     let total = root.children.len();
     for (i, node) in root.children.iter().enumerate() {
@@ -70,6 +72,8 @@ struct Reader<'n, 'a> {
     aliases: HashMap<&'n str, &'n str>,
     materials: HashMap<bsdf::MaterialKey, u32>,
     meshes: HashMap<shape::MeshKey, Option<u32>>,
+    /// How often references led to shapes and bsdfs so far.
+    visits: usize,
 }
 
 impl<'n> Reader<'n, '_> {
@@ -136,6 +140,21 @@ impl<'n> Reader<'n, '_> {
     /// The property or object `name` of `node`, references followed.
     fn property(&self, node: &'n Node, name: &str) -> Result<Option<&'n Node>, ImportError> {
         node.child(name).map(|c| self.resolve(c)).transpose()
+    }
+
+    /// Counts one of these `things` that is come to; `depth` references have led there.
+    ///
+    /// # Errors
+    /// When references go in a circle, or lead to more things than a scene has.
+    fn visit(&mut self, node: &Node, depth: usize, things: &str) -> Result<(), ImportError> {
+        self.visits += usize::from(depth > 0);
+        if depth > MAX_REFERENCES {
+            return Err(node.error(format!("{things} go in a circle")));
+        }
+        if self.visits > MAX_VISITS {
+            return Err(node.error(format!("references lead to more than {MAX_VISITS} shapes and bsdfs; refer to each thing once")));
+        }
+        Ok(())
     }
 
     fn warn(&mut self, node: &Node, message: impl Into<String>) {

@@ -8,7 +8,7 @@ use crate::ImportError;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};
 use flate2::bufread::ZlibDecoder;
-use std::io::{BufReader, Read};
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 const MAGIC: u16 = 0x041c;
@@ -16,6 +16,11 @@ const HAS_NORMALS: u32 = 0x0001;
 const HAS_UVS: u32 = 0x0002;
 const HAS_COLORS: u32 = 0x0008;
 const DOUBLE: u32 = 0x2000;
+
+/// More vertices or triangles than this are taken for damage: compressed, a few bytes can announce and hold any number of zeros.
+const MAX_ELEMENTS: u64 = 1 << 26;
+/// Longest name of a mesh, bytes.
+const MAX_NAME: u64 = 1 << 16;
 
 /// Reads mesh `index` of the file. Texture coordinates stay as they are.
 pub(super) fn read(bytes: &[u8], index: i64, file: &Path) -> Result<Mesh, ImportError> {
@@ -28,7 +33,7 @@ pub(super) fn read(bytes: &[u8], index: i64, file: &Path) -> Result<Mesh, Import
 
 /// Byte offset and version of a mesh.
 fn locate(bytes: &[u8], index: i64) -> Result<(usize, u16), String> {
-    let u32_at = |at: usize| bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+    let u32_at = |at: usize| bytes.get(at..)?.first_chunk().map(|b| u32::from_le_bytes(*b));
     let version_at = |at: usize| {
         let word = u32_at(at)?;
         (word as u16 == MAGIC).then_some((word >> 16) as u16).filter(|v| (3..=4).contains(v))
@@ -49,13 +54,17 @@ struct Stream<R> {
     inner: R,
 }
 
-impl<R: Read> Stream<R> {
+impl<R: BufRead> Stream<R> {
     fn mesh(&mut self, version: u16) -> std::io::Result<Mesh> {
         let flags = self.u32()?;
         if version == 4 {
-            while self.bytes(1)?[0] != 0 {}
+            self.name()?;
         }
         let (vertices, triangles) = (self.u64()?, self.u64()?);
+        if vertices.max(triangles) > MAX_ELEMENTS {
+            let problem = format!("{vertices} vertices and {triangles} triangles were announced, expected at most {MAX_ELEMENTS}");
+            return Err(std::io::Error::new(std::io::ErrorKind::InvalidData, problem));
+        }
         let double = flags & DOUBLE != 0;
         let positions = self.floats(vertices, 3, double)?;
         let normals = if flags & HAS_NORMALS != 0 { self.floats(vertices, 3, double)? } else { Vec::new() };
@@ -71,6 +80,15 @@ impl<R: Read> Stream<R> {
             uvs: uvs.chunks_exact(2).map(Vec2::from_slice).collect(),
             triangles: indices.chunks_exact(12).map(|t| [word(t), word(&t[4..]), word(&t[8..])]).collect(),
         })
+    }
+
+    /// Passes the name and the zero after it.
+    fn name(&mut self) -> std::io::Result<()> {
+        let passed = self.inner.by_ref().take(MAX_NAME).skip_until(0)?;
+        if passed as u64 == MAX_NAME {
+            return Err(std::io::Error::new(std::io::ErrorKind::InvalidData, format!("the name is longer than {MAX_NAME} bytes")));
+        }
+        Ok(())
     }
 
     fn floats(&mut self, count: u64, components: u64, double: bool) -> std::io::Result<Vec<f32>> {
@@ -160,5 +178,11 @@ mod tests {
         let mut broken = file(4);
         broken[30..60].fill(0xff);
         assert!(message(&broken, 0).contains("damaged"));
+        let mut z = ZlibEncoder::new(Vec::new(), Compression::fast());
+        z.write_all(&[0, 0, 0, 0]).unwrap();
+        z.write_all(&[u64::MAX >> 8, 1].map(u64::to_le_bytes).concat()).unwrap();
+        let table = [0u32, 1].map(u32::to_le_bytes).concat();
+        let many = [&MAGIC.to_le_bytes()[..], &[3, 0], &z.finish().unwrap(), &table].concat();
+        assert!(message(&many, 0).contains("expected at most 67108864"));
     }
 }

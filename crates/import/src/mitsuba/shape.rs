@@ -1,10 +1,12 @@
 //! Shapes to meshes and parts.
 
 use super::xml::Node;
-use super::{MAX_REFERENCES, Reader, bsdf, emitter, ply, primitives, serialized, transform};
+use super::{Reader, bsdf, emitter, serialized, transform};
 use crate::ImportError;
 use crate::mesh;
 use crate::obj::ObjFile;
+use crate::ply;
+use crate::primitives;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use enfilade_scene::PartLabel;
@@ -21,9 +23,7 @@ impl<'n> Reader<'n, '_> {
 
     /// Adds a shape under the placement of its instance, whose name comes first.
     fn placed_shape(&mut self, node: &'n Node, outer: DAffine3, prefix: &str, depth: usize) -> Result<(), ImportError> {
-        if depth > MAX_REFERENCES {
-            return Err(node.error("instances go in a circle"));
-        }
+        self.visit(node, depth, "instances")?;
         match node.plugin.as_str() {
             // Only its instances are visible.
             "shapegroup" if depth == 0 => return Ok(()),
@@ -127,7 +127,13 @@ impl<'n> Reader<'n, '_> {
                         obj.notes.iter().for_each(|note| self.a.warn(node.place(), format!("{}: {note}", file.display())));
                         obj.mesh(obj.groups.iter())
                     }
-                    "ply" => ply::read(&bytes, &file)?,
+                    "ply" => {
+                        let ply = ply::read(&bytes, &file)?;
+                        if ply.mean_color.is_some() {
+                            self.warn(node, format!("{}: the colours of vertices were dropped", file.display()));
+                        }
+                        ply.mesh
+                    }
                     _ => serialized::read(&bytes, index, &file)?,
                 };
                 Ok((mesh, file))

@@ -1,12 +1,13 @@
 //! Textures, and the colour and number parameters that may hold them.
 
-use super::spectrum::{self, Kind};
+use super::spectrum;
 use super::xml::Node;
 use super::{MAX_REFERENCES, Reader, transform};
 use crate::ImportError;
 use crate::assembly::Source;
 use crate::images::{self, Use};
 use crate::mesh::flip_v_of_transform;
+use crate::spectrum::Kind;
 use enfilade_math::Rgb;
 use enfilade_scene::{ColorParam, Filter, Image, Pixels, ScalarParam, TextureRef, Wrap};
 

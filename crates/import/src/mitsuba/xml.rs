@@ -9,6 +9,12 @@ use std::rc::Rc;
 /// Elements within elements, and files within files, deeper than this are taken for a mistake.
 const MAX_DEPTH: usize = 64;
 
+/// Included files, counted as often as they are included, beyond this many are taken for a mistake.
+const MAX_INCLUDES: usize = 1000;
+
+/// Parameters that make a value longer than this, bytes, are taken for a mistake: each can hold others many times.
+const MAX_VALUE: usize = 1 << 20;
+
 /// An element.
 #[derive(Debug)]
 pub(super) struct Node {
@@ -106,7 +112,7 @@ impl Node {
 pub(super) fn read(assembly: &mut Assembly) -> Result<Node, ImportError> {
     let bytes = assembly.read_scene_file()?;
     let file = assembly.file().to_path_buf();
-    let mut loader = Loader { assembly, parameters: Vec::new() };
+    let mut loader = Loader { assembly, parameters: Vec::new(), includes: 0 };
     loader.parse(file, &bytes, 0)
 }
 
@@ -114,6 +120,8 @@ struct Loader<'l, 'a> {
     assembly: &'l mut Assembly<'a>,
     /// `$name` and its value; the first definition counts, as on Mitsuba's command line.
     parameters: Vec<(String, String)>,
+    /// Files that were included so far.
+    includes: usize,
 }
 
 impl Loader<'_, '_> {
@@ -153,9 +161,17 @@ impl Loader<'_, '_> {
     ) -> Result<(), ImportError> {
         for element in xml.children().filter(roxmltree::Node::is_element) {
             let position = document.text_pos_at(element.range().start);
-            let attributes: Vec<(String, String)> =
-                element.attributes().map(|a| (a.name().to_string(), self.filled_in(a.value()))).collect();
-            let get = |name: &str| element.attribute(name).map(|v| self.filled_in(v));
+            let filled_in = |a: roxmltree::Attribute| {
+                let value = self.filled_in(a.value()).ok_or_else(|| {
+                    let place = format!("line {}:{}", position.row, position.col);
+                    let problem = format!("the parameters in the attribute {} make it longer than {MAX_VALUE} bytes", a.name());
+                    ImportError::malformed(file, place, problem)
+                })?;
+                Ok((a.name().to_string(), value))
+            };
+            let attributes: Vec<(String, String)> = element.attributes().map(filled_in).collect::<Result<_, ImportError>>()?;
+            let get = |name: &str| attributes.iter().find(|(found, _)| found == name).map(|(_, value)| value.clone());
+            let (plugin, id, name) = (get("type").unwrap_or_default(), get("id"), get("name").map_or_else(String::new, |n| snake_case(&n)));
             let tag = element.tag_name().name().to_lowercase();
             let tag = match tag.as_str() {
                 "luminaire" => "emitter".to_string(),
@@ -164,9 +180,9 @@ impl Loader<'_, '_> {
             };
             let mut node = Node {
                 tag,
-                plugin: get("type").unwrap_or_default(),
-                id: get("id"),
-                name: get("name").map_or_else(String::new, |n| snake_case(&n)),
+                plugin,
+                id,
+                name,
                 attributes,
                 children: Vec::new(),
                 file: file.clone(),
@@ -187,6 +203,12 @@ impl Loader<'_, '_> {
                 }
                 "include" => {
                     let name = node.attribute("filename").ok_or_else(|| node.error("there is no filename"))?.to_string();
+                    self.includes += 1;
+                    if self.includes > MAX_INCLUDES {
+                        return Err(
+                            node.error(format!("more than {MAX_INCLUDES} files are included; files include each other over and over"))
+                        );
+                    }
                     let (path, bytes) = self.assembly.read(&name)?;
                     let mut included = self.parse(path, &bytes, depth + 8)?;
                     into.children.append(&mut included.children);
@@ -200,14 +222,19 @@ impl Loader<'_, '_> {
         Ok(())
     }
 
-    /// The value with every `$parameter` replaced; the longest names first, so that `$res` does not spoil `$resx`.
-    fn filled_in(&self, value: &str) -> String {
+    /// The value with every `$parameter` replaced; the longest names first, so that `$res` does not spoil `$resx`. `None` when it
+    /// would be longer than [`MAX_VALUE`].
+    fn filled_in(&self, value: &str) -> Option<String> {
         if !value.contains('$') {
-            return value.to_string();
+            return Some(value.to_string());
         }
         let mut parameters: Vec<_> = self.parameters.iter().collect();
         parameters.sort_by_key(|(name, _)| std::cmp::Reverse(name.len()));
-        parameters.into_iter().fold(value.to_string(), |text, (name, with)| text.replace(&format!("${name}"), with))
+        parameters.into_iter().try_fold(value.to_string(), |text, (name, with)| {
+            let place = format!("${name}");
+            let length = text.matches(&place).count().checked_mul(with.len())?.checked_add(text.len())?;
+            (length <= MAX_VALUE).then(|| text.replace(&place, with))
+        })
     }
 }
 

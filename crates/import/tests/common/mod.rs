@@ -3,6 +3,9 @@
 // Each test file uses a part of this.
 #![allow(dead_code, reason = "shared by several test files")]
 
+pub mod fbx;
+pub mod vray;
+
 use enfilade_import::{ImportError, ImportOptions, Imported, load};
 use enfilade_scene::Quiet;
 use serde_json::{Value, json};

@@ -5,7 +5,6 @@
 //! and their names are part of its settings, because they tell what a model is.
 
 mod gltf;
-mod properties;
 mod sweethome;
 mod table;
 #[cfg(test)]
@@ -42,6 +41,17 @@ pub(crate) fn home(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf,
         return Err(refuse_broken(first));
     }
     Ok(home)
+}
+
+/// Reads every model of the library at `root`, as homes do with those that they want: names of the broken ones, and why. It is not for
+/// users, who make homes; the search for files that break readers calls it.
+///
+/// # Errors
+/// When the library is not there or its catalogues and tables cannot be understood.
+#[doc(hidden)]
+pub fn read_library(root: &Path, cx: &dyn Cx) -> Result<Vec<String>, Error> {
+    let models = of_root(root, true, &Notes::default(), cx)?;
+    Ok(models.iter().filter_map(|model| model.body().err().map(str::to_string)).collect())
 }
 
 /// What is told while models are read, which is when a home wants them; kept until it is made.

@@ -158,7 +158,7 @@ fn libraries_that_cannot_be_used_are_refused_with_file_and_remedy() {
     std::fs::write(at.join("bed.glb"), glb([1.6, 0.9, 2.1])).unwrap();
     std::fs::write(at.join("few.sh3f"), b"no archive").unwrap();
     let (message, hint) = refused(&of);
-    assert!(message.contains("few.sh3f: not an archive") && hint.contains("download"), "{message}");
+    assert!(message.contains("few.sh3f: whole file: not an archive") && hint.contains("download"), "{message}");
 }
 
 /// Keeps what it is told.

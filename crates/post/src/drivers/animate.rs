@@ -151,7 +151,7 @@ pub fn animate_camera(
 
 impl Shot<'_> {
     fn numbers_with(&self, numbers: &[u32], layers: &[Layer]) -> Vec<u32> {
-        let has_all = |&number: &u32| layers.iter().all(|&layer| self.dataset.has_layer(self.scene, self.camera, number, layer));
+        let has_all = |&number: &u32| layers.iter().all(|&layer| self.dataset.gives_layer(self.scene, self.camera, number, layer));
         numbers.iter().copied().filter(has_all).collect()
     }
 

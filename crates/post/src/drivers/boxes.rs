@@ -67,15 +67,22 @@ pub fn write_instances(
     Ok(files)
 }
 
-/// Draws every kind of box over the given frames, and returns the files. Only instances that a frame shows are drawn over it.
+/// Draws every kind of box that the dataset has over the given frames, and returns the files. Only instances that a frame shows are drawn
+/// over it; without label tables (Hypersim's public files) they have no class.
 ///
 /// # Errors
 /// When a file cannot be read or written.
 pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32], cx: &dyn Cx) -> Result<Vec<PathBuf>, DatasetError> {
     let (with, trajectory) = (dataset.read_camera(scene, camera)?, dataset.read_trajectory(scene, camera)?);
-    let labels = dataset.read_label_tables(scene)?;
-    let boxes = BoxKind::ALL.map(|kind| dataset.read_boxes(scene, kind));
-    let boxes: Vec<Vec<Option<OrientedBox>>> = boxes.into_iter().collect::<Result<_, _>>()?;
+    let labels = match dataset.read_label_tables(scene) {
+        Err(error) if error.is_not_found() => Labels::default(),
+        labels => labels?,
+    };
+    let read = |kind: BoxKind| match dataset.read_boxes(scene, kind) {
+        Err(error) if error.is_not_found() => None,
+        boxes => Some(boxes.map(|boxes| (kind, boxes))),
+    };
+    let boxes: Vec<(BoxKind, Vec<Option<OrientedBox>>)> = BoxKind::ALL.into_iter().filter_map(read).collect::<Result<_, _>>()?;
     let done = AtomicU64::new(0);
     let one = |&number: &u32| -> Result<Vec<PathBuf>, DatasetError> {
         let Some(index) = trajectory.poses.iter().position(|pose| pose.frame == number) else { return Ok(Vec::new()) };
@@ -83,7 +90,7 @@ pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
         let wanted = [Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::SemanticInstance];
         let frame = read_present(dataset, scene, camera, number, &wanted)?;
         let mut files = Vec::new();
-        for (kind, boxes) in BoxKind::ALL.iter().zip(&boxes) {
+        for (kind, boxes) in &boxes {
             let Some(picture) = overlay(&frame, &view, boxes, &labels) else { continue };
             let path = dataset.layout().preview(scene, camera, number, Pass::Final, &format!("bb_{}.jpg", kind.name()));
             write_bytes(&path, picture)?;

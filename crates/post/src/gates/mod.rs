@@ -128,9 +128,9 @@ impl Gate {
 /// The measured value of each gate whose layers the frame has. A NaN or an infinity means that it cannot be measured.
 pub type GateValues = BTreeMap<Gate, f64>;
 
-/// All that can be measured of a frame. Positions are in units of `meters_per_unit` metres, 1 in our own datasets.
-pub fn gate_values(frame: &Frame, meters_per_unit: f64) -> GateValues {
-    let mut values = view_values(frame, meters_per_unit);
+/// All that can be measured of a frame.
+pub fn gate_values(frame: &Frame) -> GateValues {
+    let mut values = view_values(frame);
     values.extend(light_values(frame));
     values
 }

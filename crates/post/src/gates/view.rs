@@ -18,7 +18,7 @@ const SAME_OFFSET_M: f64 = 0.01;
 const NORMAL_ROUNDING: f64 = 4.3e-4;
 
 /// The values of [`Gate::DepthRange`], [`Gate::InvalidShare`] and [`Gate::PlaneShare`], as far as the layers are there.
-pub fn view_values(frame: &Frame, meters_per_unit: f64) -> GateValues {
+pub fn view_values(frame: &Frame) -> GateValues {
     let mut values = GateValues::new();
     let depth = frame.get(Layer::DepthZMeters).or(frame.get(Layer::DepthMeters));
     if let (Some(depth), Some(ids)) = (depth, frame.get(Layer::RenderEntityId)) {
@@ -27,18 +27,18 @@ pub fn view_values(frame: &Frame, meters_per_unit: f64) -> GateValues {
         let (least, greatest) = good.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &d| (a.min(d), b.max(d)));
         values.insert(Gate::DepthRange, (greatest - least).max(0.0));
     }
-    values.extend(largest_plane_share(frame, meters_per_unit).map(|share| (Gate::PlaneShare, share)));
+    values.extend(largest_plane_share(frame).map(|share| (Gate::PlaneShare, share)));
     values
 }
 
 /// Share of the image that the largest plane fills, whatever parts lie in it; `None` without positions or normals.
 ///
 /// Normals are those of the triangles where the frame has them, else the smooth ones.
-pub fn largest_plane_share(frame: &Frame, meters_per_unit: f64) -> Option<f64> {
+pub fn largest_plane_share(frame: &Frame) -> Option<f64> {
     let normals = frame.get(Layer::NormalGeometricWorld).or(frame.get(Layer::NormalWorld))?;
     let positions = frame.get(Layer::Position)?;
     let (lattice, all) = lattice(frame);
-    let point = |i: usize| PlanePoint { position_m: vector(positions, i) * meters_per_unit, normal: vector(normals, i) };
+    let point = |i: usize| PlanePoint { position_m: vector(positions, i), normal: vector(normals, i) };
     let mut rest: Vec<PlanePoint> = lattice.map(point).filter(|p| p.position_m.is_finite() && p.normal.is_finite()).collect();
     let mut largest = 0;
     while rest.len() > largest {
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn floor_wall_and_void_are_measured() {
         let frame = testing::frame(&testing::pose());
-        let values = view_values(&frame, 1.0);
+        let values = view_values(&frame);
         let void = share_of(&frame, |id| id == -1.0);
         assert!(void > 0.0 && (values[&Gate::InvalidShare] - void).abs() < 1e-12);
         // The mirror lies in the wall's plane, as a picture on a wall does.
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn a_bare_floor_is_one_plane_of_no_depth() {
-        let values = view_values(&corner(DVec3::new(0.0, -6.0, 1.5), DVec3::NEG_Z), 1.0);
+        let values = view_values(&corner(DVec3::new(0.0, -6.0, 1.5), DVec3::NEG_Z));
         assert_eq!((values[&Gate::PlaneShare], values[&Gate::InvalidShare]), (1.0, 0.0));
         assert!(values[&Gate::DepthRange] < 1e-6 && !Gate::DepthRange.passes(values[&Gate::DepthRange]), "{values:?}");
         assert!(!Gate::PlaneShare.passes(values[&Gate::PlaneShare]));
@@ -120,7 +120,7 @@ mod tests {
 
     #[test]
     fn a_view_of_nothing_is_invalid_and_has_no_depth() {
-        let values = view_values(&corner(DVec3::new(0.0, 0.0, 1.5), DVec3::Z), 1.0);
+        let values = view_values(&corner(DVec3::new(0.0, 0.0, 1.5), DVec3::Z));
         assert_eq!((values[&Gate::PlaneShare], values[&Gate::InvalidShare], values[&Gate::DepthRange]), (0.0, 1.0, 0.0));
     }
 

@@ -96,11 +96,10 @@ fn count_objects(dataset: &Dataset, scene: &str, shown: &BTreeSet<i16>, counts: 
     let labels = dataset.read_label_tables(scene).unwrap_or_default();
     let classes = classes_of(&labels);
     let boxes = dataset.read_boxes(scene, BoxKind::ObjectAligned2d).unwrap_or_default();
-    let scale = dataset.meters_per_asset_unit(scene).unwrap_or(1.0).powi(3);
     for instance in shown {
         let found = usize::try_from(*instance).ok().and_then(|i| boxes.get(i)).copied().flatten();
         let class = classes.get(instance).copied().flatten().unwrap_or(-1);
-        counts.add_object(class, found.map(|b| scale * b.extents.element_product()));
+        counts.add_object(class, found.map(|b| b.extents.element_product()));
     }
 }
 

@@ -1,14 +1,15 @@
 //! Laws of bounding boxes and of the table of what frames show of instances.
 
+use super::View;
 use super::card::Card;
 use super::law::Law;
 use super::read::readable;
+use super::rounding::beyond;
 use crate::channels::vector;
 use crate::instances::visible_areas;
 use enfilade_dataset::{BoxKind, Dataset, DatasetError, InstanceView};
 use enfilade_frame::{Frame, Layer};
 use enfilade_math::{DMat3, DVec3, OrientedBox};
-use enfilade_scene::CameraView;
 
 /// The boxes of a kind; entry i is instance i.
 pub(super) type Boxes = Vec<Option<OrientedBox>>;
@@ -49,15 +50,16 @@ fn present(boxes: &Boxes) -> impl Iterator<Item = (usize, &OrientedBox)> {
 }
 
 /// Checks that what a frame shows of each instance lies within its boxes.
-pub(super) fn check_positions(boxes: &[(BoxKind, Boxes)], frame: &Frame, view: &CameraView<'_>, place: &str, card: &mut Card) {
+pub(super) fn check_positions(boxes: &[(BoxKind, Boxes)], frame: &Frame, view: &View<'_>, place: &str, card: &mut Card) {
     let (Some(positions), Some(instances)) = (frame.get(Layer::Position), frame.get(Layer::SemanticInstance)) else { return };
-    let center = view.pose().position;
+    let center = view.camera.pose().position;
     for (kind, boxes) in boxes {
         let beyond = |pixel: usize| {
             let instance = instances.get(pixel);
             let p: DVec3 = vector(positions, pixel);
             let shape = (instance >= 1.0).then(|| boxes.get(instance as usize).copied().flatten());
-            shape.map(|shape| shape.map_or(f64::INFINITY, |shape| shape.distance_beyond(p) / p.distance(center).max(1.0)))
+            let open = view.rounding.of_position(p).length();
+            shape.map(|shape| shape.map_or(f64::INFINITY, |shape| beyond(shape.distance_beyond(p), open) / p.distance(center).max(1.0)))
         };
         let worst = (0..instances.len()).filter_map(|pixel| Some((pixel, beyond(pixel)?))).max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((pixel, value)) = worst {
@@ -92,8 +94,9 @@ pub(super) fn check_views(views: &[InstanceView], frame: &Frame, number: u32, pl
 mod tests {
     use super::*;
     use crate::testing;
+    use crate::verify::Rounding;
     use enfilade_dataset::PixelArea;
-    use enfilade_scene::Camera;
+    use enfilade_scene::{Camera, CameraView};
 
     fn mirror() -> OrientedBox {
         OrientedBox { center: DVec3::new(0.0, 2.0, 1.5), world_from_box: DMat3::IDENTITY, extents: DVec3::new(1.0, 0.0, 1.0) }
@@ -106,7 +109,9 @@ mod tests {
         let (camera, pose) = (Camera::from(testing::intrinsics()), testing::pose());
         let mut card = Card::default();
         check_boxes(&boxes, "room", &mut card);
-        check_positions(&boxes, &testing::frame(&pose), &CameraView::still(&camera, &pose), "frame", &mut card);
+        let (camera, rounding) = (CameraView::still(&camera, &pose), Rounding::default());
+        let view = View { camera, rounding, released: false, entities: 3, labels: None, pieces: &[], last_class: 40 };
+        check_positions(&boxes, &testing::frame(&pose), &view, "frame", &mut card);
         card.failures()
     }
 

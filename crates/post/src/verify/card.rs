@@ -47,6 +47,17 @@ impl Card {
         }
     }
 
+    /// Takes a finding off the card.
+    pub(super) fn take(&mut self, law: Law) -> Option<Finding> {
+        self.findings.remove(&law)
+    }
+
+    /// Takes a finding off the card if the law does not hold.
+    pub(super) fn take_failure(&mut self, law: Law) -> Option<Finding> {
+        let fails = self.findings.get(&law).is_some_and(|finding| finding.value > law.spec().bound);
+        fails.then(|| self.take(law)).flatten()
+    }
+
     /// What was found of a law, if it was checked.
     pub(super) fn finding(&self, law: Law) -> Option<&Finding> {
         self.findings.get(&law)

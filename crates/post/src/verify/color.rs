@@ -1,6 +1,7 @@
 //! Laws of the colour layers and the reason codes.
 
 use super::law::Law;
+use super::rounding::half_step;
 use super::scan::Scan;
 use enfilade_frame::{Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, Values, f16};
 use enfilade_math::Rgb;
@@ -46,12 +47,26 @@ pub(super) fn check(scan: &mut Scan<'_>) {
 fn recomposition(scan: &mut Scan<'_>, parts: [Layer; 3]) {
     let Some(reflectance) = scan.layer(Layer::DiffuseReflectance) else { return };
     let [Some(color), Some(illumination), Some(residual)] = parts.map(|layer| scan.layer(layer)) else { return };
+    if scan.view.released {
+        return rounded_recomposition(scan, [color, reflectance, illumination, residual]);
+    }
     let differs = |i: &usize| {
         let sum = reflectance.get(*i) as f32 * illumination.get(*i) as f32 + residual.get(*i) as f32;
         f16::from_f32(sum).to_f64() != color.get(*i)
     };
     let what = format!("{} is not A * S + R", parts[0].spec().name);
     scan.broken(Law::Recomposition, &what, (0..color.len()).filter(differs).map(|i| i / 3));
+}
+
+/// The same for four layers that were rounded each on its own: only what is beyond that differs. Overflown values say nothing.
+fn rounded_recomposition(scan: &mut Scan<'_>, layers: [&Values; 4]) {
+    let differs = |i: &usize| {
+        let [color, a, s, r] = layers.map(|layer| layer.get(*i));
+        let product = a.abs() * half_step(s) + s.abs() * half_step(a) + half_step(a) * half_step(s);
+        (a * s + r - color).abs() > product + half_step(r) + half_step(color)
+    };
+    let count = layers[0].len();
+    scan.broken(Law::Recomposition, "color is not A * S + R within the rounding of float16", (0..count).filter(differs).map(|i| i / 3));
 }
 
 /// Samples are not negative, so their mean's standard error is at most the mean: as much as that when all but one are zero.

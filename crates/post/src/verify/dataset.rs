@@ -3,7 +3,8 @@
 use super::card::Card;
 use super::frame_values::FrameValues;
 use super::law::Law;
-use super::read::{SceneLabels, read_frame, read_labels, read_tree, readable};
+use super::read::{SceneLabels, Stored, read_frame, read_labels, read_tree, readable};
+use super::release::{self, Excused};
 use super::report::VerifyReport;
 use super::two_views::{self, PairValues, Sight};
 use super::whole::{self, join_reports};
@@ -33,7 +34,9 @@ pub fn verify_dataset(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Resu
 pub fn verify_scene(dataset: &Dataset, scene: &str, cx: &dyn Cx) -> Result<VerifyReport, DatasetError> {
     let mut card = Card::default();
     let manifest = dataset.read_manifest()?;
-    whole::check_manifest(&mut card, dataset, manifest, scene);
+    if !dataset.is_released(scene) {
+        whole::check_manifest(&mut card, dataset, manifest, scene);
+    }
     let facts = SceneFacts::read(dataset, scene, &mut card);
     let frames: Vec<(&Filmed, usize)> = facts.frames().collect();
     let done = AtomicU64::new(0);
@@ -43,13 +46,17 @@ pub fn verify_scene(dataset: &Dataset, scene: &str, cx: &dyn Cx) -> Result<Verif
         found
     };
     let found: Vec<Found> = frames.par_iter().map(check).collect();
-    let (mut values, mut pairs) = (Vec::new(), Vec::new());
+    let (mut values, mut pairs, mut excused) = (Vec::new(), Vec::new(), Vec::new());
     for frame in found {
         card.merge(frame.card);
+        excused.extend(frame.excused);
         values.extend(frame.values);
         pairs.extend(frame.pairs);
     }
-    Ok(VerifyReport::new(&card, 1, values, pairs))
+    if facts.released {
+        excused.extend(release::excuse(&mut card));
+    }
+    Ok(VerifyReport::new(&card, 1, values, pairs, excused))
 }
 
 /// Checks the laws about single frames as they are finished, on a machine that has only these.
@@ -75,11 +82,14 @@ struct Found {
     card: Card,
     values: Option<FrameValues>,
     pairs: Vec<PairValues>,
+    excused: Vec<Excused>,
 }
 
 /// Everything about a scene that its frames are checked against.
 struct SceneFacts {
     name: String,
+    /// True for Hypersim's release.
+    released: bool,
     meters_per_unit: f64,
     entities: usize,
     labels: Option<SceneLabels>,
@@ -89,7 +99,10 @@ struct SceneFacts {
 
 /// A trajectory, what it was filmed with, and the numbers of the frames that are there.
 struct Filmed {
+    /// With rotations as orientations.
     trajectory: Trajectory,
+    /// The same with orientations as they are stored.
+    stored: Trajectory,
     frames: Vec<u32>,
     camera: Option<Camera>,
     /// What its frames show of instances, where there is a table of it.
@@ -102,11 +115,14 @@ impl SceneFacts {
     /// Reads them, and checks the laws that concern no single frame.
     fn read(dataset: &Dataset, name: &str, card: &mut Card) -> Self {
         let nodes = dataset.read_nodes(name);
-        let problem = nodes.as_ref().err().map(ToString::to_string);
+        // Parts of archives are often downloaded without tables.
+        let left_out = dataset.is_released(name) && nodes.as_ref().is_err_and(DatasetError::is_not_found);
+        let problem = nodes.as_ref().err().filter(|_| !left_out).map(ToString::to_string);
         card.observe(Law::Nodes, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
         let nodes = nodes.unwrap_or_default();
         let facts = Self {
             name: name.to_string(),
+            released: dataset.is_released(name),
             meters_per_unit: readable(card, dataset.meters_per_asset_unit(name)).unwrap_or(1.0),
             entities: nodes.len(),
             labels: read_labels(dataset, name, &nodes, card),
@@ -149,9 +165,9 @@ impl SceneFacts {
         let rendered: usize = self.filmed.iter().map(|filmed| filmed.frames.len()).sum();
         card.observe(Law::HasFrames, if rendered == 0 { 1.0 } else { 0.0 }, || format!("{name}: no rendered frame"));
         for filmed in &self.filmed {
-            let Filmed { trajectory, frames, camera, .. } = filmed;
+            let Filmed { trajectory, stored, frames, camera, .. } = filmed;
             let place = format!("{name}/{}", trajectory.name);
-            card.merge(check_trajectory(trajectory, &place));
+            card.merge(check_trajectory(stored, &place));
             let rejected = readable(card, dataset.rejected_views(name, &trajectory.name)).unwrap_or_default();
             let there = |frame: &u32| frames.contains(frame) || rejected.contains_key(frame);
             let missing: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !there(frame)).collect();
@@ -194,33 +210,48 @@ impl SceneFacts {
         let number = poses[index].frame;
         let place = format!("{}/{name}/frame.{number:04}", self.name);
         let all = LAYERS.map(|spec| spec.layer);
-        let Some(frame) = read_frame(dataset, [&self.name, name], number, &all, &mut found.card) else {
+        let Some((frame, rounding)) = read_frame(self.stored(dataset), name, number, &all, &mut found.card) else {
             found.card.observe(Law::LayersPresent, LAYERS.len() as f64, || format!("{place}: no layer can be read"));
             return found;
         };
         let record: Option<FrameRecord> = dataset.frame_record(&self.name, name, number).ok().flatten();
-        found.values = Some(FrameValues::new([&self.name, name], number, &frame, self.meters_per_unit, record.as_ref()));
+        found.values = Some(FrameValues::new([&self.name, name], number, &frame, record.as_ref()));
         let Some(camera) = &filmed.camera else { return found };
         let camera = CameraView::of_frame(camera, poses, index);
         let known = self.labels.as_ref();
         let view = View {
             camera,
-            meters_per_unit: self.meters_per_unit,
+            rounding,
+            released: self.released,
             entities: self.entities,
             labels: known.map(|known| &known.labels),
             pieces: known.map_or(&[], |known| &known.pieces),
             last_class: known.map_or(NYU40.len() as i16, |known| known.last_class),
         };
         found.card.merge(check_frame(&frame, &view, &place));
-        boxes::check_positions(&self.boxes, &frame, &camera, &place, &mut found.card);
+        boxes::check_positions(&self.boxes, &frame, &view, &place, &mut found.card);
         if let Some(views) = &filmed.views {
             boxes::check_views(views, &frame, number, &place, &mut found.card);
         }
-        let sight = Sight { frame: &frame, view: camera, meters_per_unit: self.meters_per_unit };
+        let sight = Sight { frame: &frame, view: camera, rounding };
         for (other, there) in self.neighbours(filmed, index) {
-            found.pairs.extend(self.compare(dataset, (name, &sight), (other, there), &mut found.card));
+            let mut card = Card::default();
+            found.pairs.extend(self.compare(dataset, (name, &sight), (other, there), &mut card));
+            let off = other.stored.poses[there].orthonormality_error();
+            if self.released && off > release::STRETCHED {
+                found.excused.extend(release::excuse_stretched(&mut card, off));
+            }
+            found.card.merge(card);
+        }
+        let off = filmed.stored.poses[index].orthonormality_error();
+        if self.released && off > release::STRETCHED {
+            found.excused.extend(release::excuse_stretched(&mut found.card, off));
         }
         found
+    }
+
+    fn stored<'a>(&'a self, dataset: &'a Dataset) -> Stored<'a> {
+        Stored { dataset, scene: &self.name, meters_per_unit: self.meters_per_unit, released: self.released }
     }
 
     /// The frames that a frame is compared with: the next one of its trajectory, and for the left camera of a stereo rig the right one's.
@@ -245,10 +276,10 @@ impl SceneFacts {
         let (partner, poses) = (&other.trajectory.name, &other.trajectory.poses);
         let number = poses[index].frame;
         // What cannot be read is told where that frame itself is checked.
-        let frame = read_frame(dataset, [&self.name, partner], number, &two_views::COMPARED, &mut Card::default())?;
+        let (frame, rounding) = read_frame(self.stored(dataset), partner, number, &two_views::COMPARED, &mut Card::default())?;
         let view = CameraView::of_frame(other.camera.as_ref()?, poses, index);
         let names = [(name, sight.view.pose().frame), (partner.as_str(), number)];
-        two_views::compare(&self.name, names, [sight, &Sight { frame: &frame, view, meters_per_unit: self.meters_per_unit }], card)
+        two_views::compare(&self.name, names, [sight, &Sight { frame: &frame, view, rounding }], card)
     }
 }
 
@@ -256,11 +287,12 @@ fn read_filmed(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<Filmed> {
     let mut filmed = Vec::new();
     for name in readable(card, dataset.cameras(scene)).unwrap_or_default() {
         let Some(trajectory) = readable(card, dataset.read_trajectory(scene, &name)) else { continue };
+        let Some(stored) = readable(card, dataset.read_stored_trajectory(scene, &name)) else { continue };
         let frames = readable(card, dataset.frame_numbers(scene, &name)).unwrap_or_default();
         let camera = readable(card, dataset.read_camera(scene, &name));
         let views = boxes::there(dataset.read_instance_views(scene, &name)).and_then(|read| readable(card, read));
         let stereo = dataset.read_stereo(scene, &name).ok().flatten();
-        filmed.push(Filmed { trajectory, frames, camera, views, stereo });
+        filmed.push(Filmed { trajectory, stored, frames, camera, views, stereo });
     }
     filmed
 }

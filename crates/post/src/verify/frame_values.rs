@@ -45,11 +45,11 @@ pub struct FrameValues {
 
 impl FrameValues {
     /// The values of a frame; `record` is that of its rendering, where there is one.
-    pub fn new([scene, camera]: [&str; 2], number: u32, frame: &Frame, meters_per_unit: f64, record: Option<&FrameRecord>) -> Self {
+    pub fn new([scene, camera]: [&str; 2], number: u32, frame: &Frame, record: Option<&FrameRecord>) -> Self {
         let sampling = record.and_then(|record| record.sampling);
         let noise = noise(frame);
         let noise_target = sampling.and_then(|sampling| sampling.noise_target);
-        let mut gates = gate_values(frame, meters_per_unit);
+        let mut gates = gate_values(frame);
         gates.extend(noise.zip(noise_target).map(|(noise, target)| (Gate::Noise, noise / f64::from(target))));
         let tone = ToneMap::of_frame(frame);
         let [clipped_share, black_share] = exposure(frame, tone);
@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn the_analytic_frame_has_the_values_it_was_made_with() {
         let frame = testing::frame(&testing::pose());
-        let values = FrameValues::new(["room", "cam_00"], 3, &frame, 1.0, None);
+        let values = FrameValues::new(["room", "cam_00"], 3, &frame, None);
         assert_eq!(values.place(), "room/cam_00/frame.0003");
         let ids = frame.get(Layer::RenderEntityId).unwrap();
         let of = |id: f64| share(ids.len(), |i| ids.get(i) == id);
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn an_empty_frame_has_no_values() {
-        let values = FrameValues::new(["s", "c"], 0, &Frame::new(4, 4), 1.0, None);
+        let values = FrameValues::new(["s", "c"], 0, &Frame::new(4, 4), None);
         let none = FrameValues { scene: "s".into(), camera: "c".into(), ..FrameValues::default() };
         assert_eq!(values, none);
     }

@@ -1,6 +1,7 @@
 //! Laws that tie distance, position, normals, calibration and pose together.
 
 use super::law::Law;
+use super::rounding::beyond;
 use super::scan::Scan;
 use crate::channels::vector;
 use crate::statistics::quantile;
@@ -43,7 +44,10 @@ fn finite_where_seen(scan: &mut Scan<'_>) {
     for layer in [Layer::DepthMeters, Layer::DepthZMeters, Layer::Position].into_iter().chain(NORMALS) {
         let Some(values) = scan.layer(layer) else { continue };
         let channels = layer.spec().channels;
-        let finite = |pixel: usize| (channels * pixel..channels * (pixel + 1)).all(|i| values.get(i).is_finite());
+        // Beyond float16's largest number stands infinity, which is no gap.
+        let overflows = layer == Layer::Position && scan.view.rounding.position.is_some();
+        let number = |v: f64| v.is_finite() || (overflows && !v.is_nan());
+        let finite = |pixel: usize| (channels * pixel..channels * (pixel + 1)).all(|i| number(values.get(i)));
         let differ = (0..ids.len()).filter(|&i| finite(i) != (ids.get(i) != -1.0));
         scan.broken(Law::GeometryFinite, layer.spec().name, differ);
     }
@@ -61,8 +65,12 @@ fn tex_coord(scan: &mut Scan<'_>) {
 fn distances(scan: &mut Scan<'_>, seen: &[usize]) {
     let Some(distance) = scan.layer(Layer::DepthMeters) else { return };
     if let Some(position) = scan.layer(Layer::Position) {
-        let unit = scan.view.meters_per_unit;
-        let error = |&i: &usize| (i, relative((vector(position, i) - scan.placement(i).0).length() * unit, distance.get(i)));
+        let rounding = scan.view.rounding;
+        let error = |&i: &usize| {
+            let (p, stored) = (vector(position, i), distance.get(i));
+            let open = rounding.of_position(p).length() + rounding.of_distance(stored);
+            (i, relative((p - scan.placement(i).0).length(), stored, open))
+        };
         let errors: Vec<_> = seen.iter().map(error).collect();
         scan.worst(Law::Distance, "depth_meters and position disagree", errors.into_iter());
     }
@@ -71,7 +79,7 @@ fn distances(scan: &mut Scan<'_>, seen: &[usize]) {
         let error = |&i: &usize| {
             let expected = -scan.directions[i].z * distance.get(i);
             // Cameras that see to the side and behind have planar depths of 0 and less.
-            let off = if has_plane { relative(depth_z.get(i), expected) } else { (depth_z.get(i) - expected).abs() / distance.get(i) };
+            let off = if has_plane { relative(depth_z.get(i), expected, 0.0) } else { (depth_z.get(i) - expected).abs() / distance.get(i) };
             (i, off)
         };
         let errors: Vec<_> = seen.iter().map(error).collect();
@@ -79,9 +87,10 @@ fn distances(scan: &mut Scan<'_>, seen: &[usize]) {
     }
 }
 
-/// Error of `found` against `expected`; a distance that is not positive is infinitely wrong.
-fn relative(found: f64, expected: f64) -> f64 {
-    if expected > 0.0 && found > 0.0 { (found - expected).abs() / expected.max(TINY) } else { f64::INFINITY }
+/// Error of `found` against `expected`, as far as it is more than rounding leaves open; a distance that is not positive is infinitely
+/// wrong.
+fn relative(found: f64, expected: f64, open: f64) -> f64 {
+    if expected > 0.0 && found > 0.0 { beyond((found - expected).abs(), open) / expected.max(TINY) } else { f64::INFINITY }
 }
 
 fn projection(scan: &mut Scan<'_>, seen: &[usize]) {
@@ -89,10 +98,31 @@ fn projection(scan: &mut Scan<'_>, seen: &[usize]) {
     let (view, width) = (scan.view.camera, scan.frame.width as usize);
     let error = |&pixel: &usize| {
         let centre = ((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5);
-        let (p, projection) = (view.project_in_row(vector(position, pixel), centre.1), &view.camera().projection);
-        (pixel, p.map_or(f64::INFINITY, |p| projection.image_distance(p, centre)))
+        let (p_world, projection) = (vector(position, pixel), &view.camera().projection);
+        let p = view.project_in_row(p_world, centre.1);
+        let off = p.map_or(f64::INFINITY, |p| projection.image_distance(p, centre));
+        (pixel, beyond(off, rounding_px(scan, p_world, centre)))
     };
-    scan.worst(Law::Projection, "position projects elsewhere", seen.iter().map(error));
+    let errors: Vec<_> = seen.iter().map(error).collect();
+    scan.worst(Law::Projection, "position projects elsewhere", errors.into_iter());
+}
+
+/// How far the image of a position moves, in pixels, when each of its coordinates is off by as much as rounding may do.
+fn rounding_px(scan: &Scan<'_>, p_world: DVec3, centre: (f64, f64)) -> f64 {
+    let (view, step) = (scan.view.camera, scan.view.rounding.of_position(p_world));
+    if step == DVec3::ZERO {
+        return 0.0;
+    }
+    let moved = |offset: DVec3| {
+        let at = [p_world + offset, p_world - offset].map(|p| view.project_in_row(p, centre.1));
+        match at {
+            [Some(a), Some(b)] => 0.5 * view.camera().projection.image_distance(a, b),
+            _ => f64::INFINITY,
+        }
+    };
+    let sum: f64 = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| moved(axis * step)).iter().sum();
+    // Where the steps are no numbers, neither is their image.
+    if sum.is_nan() { f64::INFINITY } else { sum }
 }
 
 fn normals(scan: &mut Scan<'_>, seen: &[usize]) {

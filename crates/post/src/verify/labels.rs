@@ -66,6 +66,8 @@ mod tests {
         let bad = Labels { parts: vec![label(5, 1), label(6, 1), label(7, 1)] };
         let card = check_labels(&bad, "s");
         assert_eq!(card.failures(), [Law::InstanceClass]);
-        assert!(super::super::VerifyReport::new(&card, 1, vec![], vec![]).to_text().contains("s: instance 1 is both chair and sofa"));
+        assert!(
+            super::super::VerifyReport::new(&card, 1, vec![], vec![], vec![]).to_text().contains("s: instance 1 is both chair and sofa")
+        );
     }
 }

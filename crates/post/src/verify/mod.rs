@@ -15,7 +15,9 @@ mod labels;
 mod law;
 mod page;
 mod read;
+mod release;
 mod report;
+mod rounding;
 mod scan;
 #[cfg(test)]
 mod tests;
@@ -29,11 +31,14 @@ pub use frame_values::FrameValues;
 pub use labels::check_labels;
 pub use law::{LAWS, Law, LawSpec};
 pub use page::report_page;
+pub use release::{Excuse, Excused};
 pub use report::{GateResult, LawResult, VerifyReport};
+pub use rounding::Rounding;
 pub use trajectory::check_trajectory;
 pub use two_views::{Compared, PairValues};
 pub use whole::{join_reports, write_report};
 
+use enfilade_dataset::RELEASED_LAYERS;
 use enfilade_frame::{Frame, LAYERS, Pass};
 use enfilade_scene::{CameraView, Labels, PartLabel};
 use scan::Scan;
@@ -43,8 +48,10 @@ use scan::Scan;
 pub struct View<'a> {
     /// What it was taken with, and where that stood.
     pub camera: CameraView<'a>,
-    /// Metres per unit of positions and poses; 1 in our own datasets.
-    pub meters_per_unit: f64,
+    /// How its distances and positions, which are in metres, were rounded when they were stored.
+    pub rounding: Rounding,
+    /// True for frames of Hypersim's release, which has fewer layers.
+    pub released: bool,
     /// Number of render entities.
     pub entities: usize,
     /// Labels by render entity (`parts[i]` is entity i + 1), where the scene has label tables.
@@ -62,7 +69,10 @@ pub fn check_frame(frame: &Frame, view: &View<'_>, place: &str) -> Card {
     let mut scan = Scan::new(frame, view, place);
     // Optional layers are there where they were asked for, and then all of their kind.
     let has = |pass: Pass| LAYERS.iter().any(|spec| spec.pass == pass && frame.get(spec.layer).is_some());
-    let expected = LAYERS.iter().filter(|spec| !spec.pass.is_optional() || has(spec.pass));
+    let expected = LAYERS.iter().filter(|spec| match view.released {
+        true => RELEASED_LAYERS.contains(&spec.layer),
+        false => !spec.pass.is_optional() || has(spec.pass),
+    });
     let missing: Vec<&str> = expected.filter(|spec| frame.get(spec.layer).is_none()).map(|spec| spec.name).collect();
     scan.card.observe(Law::LayersPresent, missing.len() as f64, || format!("{place}: without {}", missing.join(", ")));
     let [width, height] = view.camera.camera().size();

@@ -3,6 +3,7 @@
 //! However large the dataset, the page shows the worst of it; `verify.json` beside it has all.
 
 use super::frame_values::FrameValues;
+use super::release::Excuse;
 use super::report::{GateResult, LawResult, VerifyReport, count, number};
 use super::two_views::PairValues;
 use crate::gates::Gate;
@@ -25,6 +26,9 @@ pub fn report_page(dataset: &Dataset, report: &VerifyReport) -> String {
     if !failed.is_empty() {
         sections.insert(0, "failures");
     }
+    if !report.excused.is_empty() {
+        sections.push("release");
+    }
     let body = html! {
         p.verdict .(verdict(report.passed)) { (capital(&report.verdict())) "." }
         p.verdict .(if report.rejected().next().is_some() { "warn" } else { "good" }) { (capital(&report.gate_verdict())) "." }
@@ -44,6 +48,11 @@ pub fn report_page(dataset: &Dataset, report: &VerifyReport) -> String {
         (neighbours(report, &links))
         h2 id="laws" { "Laws" }
         (laws(report, &links))
+        @if !report.excused.is_empty() {
+            h2 id="release" { "Hypersim's release" }
+            p { "Laws that it is not held to, and defects of it that its makers know of." }
+            (excused(report, &links))
+        }
     };
     let about =
         html! { "What " code { "enfilade verify" } " found in this dataset; " a href="verify.json" { "verify.json" } " has every value." };
@@ -259,6 +268,25 @@ fn neighbours(report: &VerifyReport, links: &Links<'_>) -> Markup {
                 }
             }
         } }
+    }
+}
+
+/// What does not count of Hypersim's release.
+fn excused(report: &VerifyReport, links: &Links<'_>) -> Markup {
+    let kind = |excuse: Excuse| if excuse == Excuse::KnownDefect { "known defect" } else { "not applicable" };
+    html! {
+        table {
+            tr { th { "" } th { "law" } th { "worst" } th { "where" } th { "why it does not count" } }
+            @for e in &report.excused {
+                tr {
+                    td { (kind(e.excuse)) }
+                    td { (e.statement) }
+                    td { @if !e.place.is_empty() { (number(e.worst)) } }
+                    td { (links.place(&e.place)) }
+                    td { (e.reason) }
+                }
+            }
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use super::card::Card;
 use super::check_labels;
 use super::law::Law;
+use super::rounding::Rounding;
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{Dataset, DatasetError, Node};
 use enfilade_frame::{Dtype, Frame, Layer, LayerSpec, Values, f16};
@@ -16,21 +17,47 @@ pub(super) fn readable<T>(card: &mut Card, read: Result<T, DatasetError>) -> Opt
     read.ok()
 }
 
-/// Those of the layers that are there, exactly as stored: other types or sizes than the table's go on the card.
-pub(super) fn read_frame(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32, layers: &[Layer], card: &mut Card) -> Option<Frame> {
+/// A scene as its frames are read.
+#[derive(Clone, Copy)]
+pub(super) struct Stored<'d> {
+    pub dataset: &'d Dataset,
+    pub scene: &'d str,
+    /// Metres per unit of positions; 1 in our own datasets.
+    pub meters_per_unit: f64,
+    /// True for Hypersim's release, whose distances and positions are float16.
+    pub released: bool,
+}
+
+/// Those of the layers that are there as they are stored, but positions in metres, and how they were rounded. Other types or sizes than
+/// the table's go on the card.
+pub(super) fn read_frame(stored: Stored<'_>, camera: &str, number: u32, layers: &[Layer], card: &mut Card) -> Option<(Frame, Rounding)> {
+    let Stored { dataset, scene, .. } = stored;
     let mut frame: Option<Frame> = None;
+    let mut rounding = Rounding::default();
     for spec in layers.iter().map(|layer| layer.spec()).filter(|spec| dataset.has_layer(scene, camera, number, spec.layer)) {
         let path = dataset.layout().layer(scene, camera, number, spec.layer);
         let Some(array) = readable(card, read_array(&path)) else { continue };
         let shape = array.shape.clone();
         let size = image_size(&shape, spec);
         let values = array.values.into_values().ok();
-        if size.is_none() || values.as_ref().is_none_or(|values| values.dtype() != spec.dtype) {
+        // Only Hypersim's may be: ours are held to float32.
+        let is_half = stored.released && values.as_ref().is_some_and(|values| values.dtype() == Dtype::F16) && spec.dtype == Dtype::F32;
+        if is_half {
+            match spec.layer {
+                Layer::Position => rounding.position = Some(stored.meters_per_unit),
+                Layer::DepthMeters => rounding.distance = true,
+                _ => (),
+            }
+        }
+        if size.is_none() || (!is_half && values.as_ref().is_none_or(|values| values.dtype() != spec.dtype)) {
             let expected =
                 format!("expected an image of {} channels of {:?}, found shape {shape:?} or another type", spec.channels, spec.dtype);
             card.observe(Law::Readable, 1.0, || format!("{}: {expected}", path.display()));
         }
-        let (Some((width, height)), Some(values)) = (size, values.and_then(|values| as_floats(values, spec.dtype))) else { continue };
+        let (Some((width, height)), Some(mut values)) = (size, values.and_then(|values| as_floats(values, spec.dtype))) else { continue };
+        if let (Layer::Position, Values::F32(positions)) = (spec.layer, &mut values) {
+            positions.iter_mut().for_each(|v| *v = (f64::from(*v) * stored.meters_per_unit) as f32);
+        }
         let frame = frame.get_or_insert_with(|| Frame::new(width, height));
         if (frame.width, frame.height) == (width, height) {
             frame.insert(spec.layer, values);
@@ -39,7 +66,7 @@ pub(super) fn read_frame(dataset: &Dataset, [scene, camera]: [&str; 2], number: 
             card.observe(Law::Readable, 1.0, || format!("{}: {other}", path.display()));
         }
     }
-    frame
+    Some((frame?, rounding))
 }
 
 /// Values in the type of their layer: Hypersim's own distances and positions are float16, and can be looked at nevertheless.

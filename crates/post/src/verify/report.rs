@@ -3,6 +3,7 @@
 use super::card::{Card, Finding};
 use super::frame_values::FrameValues;
 use super::law::{LAWS, Law};
+use super::release::{Excuse, Excused, worst_of};
 use super::two_views::PairValues;
 use crate::gates::{GATES, Gate, Limit};
 use serde::{Deserialize, Serialize};
@@ -21,6 +22,9 @@ pub struct VerifyReport {
     pub frames: usize,
     /// One entry per law that was checked, in the order of [`LAWS`].
     pub laws: Vec<LawResult>,
+    /// Laws that Hypersim's release is not held to, and known defects of it; empty for datasets of ours.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub excused: Vec<Excused>,
     /// One entry per gate that was measured, in the order of [`GATES`].
     pub gates: Vec<GateResult>,
     /// One entry per frame, by scene, camera and number.
@@ -77,26 +81,28 @@ pub struct GateResult {
 
 impl VerifyReport {
     /// The report of a card over so many scenes, with the values of all frames and pairs.
-    pub(super) fn new(card: &Card, scenes: usize, frame_values: Vec<FrameValues>, pairs: Vec<PairValues>) -> Self {
+    pub(super) fn new(card: &Card, scenes: usize, frame_values: Vec<FrameValues>, pairs: Vec<PairValues>, excused: Vec<Excused>) -> Self {
         let laws: Vec<LawResult> = LAWS.iter().filter_map(|spec| Some(LawResult::new(spec.law, card.finding(spec.law)?))).collect();
         let gates: Vec<GateResult> = GATES.iter().filter_map(|spec| GateResult::new(spec.gate, &frame_values)).collect();
         let passed = !frame_values.is_empty() && laws.iter().all(|law| law.holds);
         let accepted = passed && gates.iter().all(|gate| gate.rejected == 0);
-        Self { passed, accepted, scenes, frames: frame_values.len(), laws, gates, frame_values, pairs }
+        let excused = worst_of(excused);
+        Self { passed, accepted, scenes, frames: frame_values.len(), laws, excused, gates, frame_values, pairs }
     }
 
     /// The report of several, and of what a card has about the dataset as a whole.
     pub(super) fn join(reports: Vec<Self>, mut card: Card) -> Self {
         let scenes = reports.iter().map(|report| report.scenes).sum();
-        let (mut frame_values, mut pairs) = (Vec::new(), Vec::new());
+        let (mut frame_values, mut pairs, mut excused) = (Vec::new(), Vec::new(), Vec::new());
         for report in reports {
             for law in report.laws {
                 card.enter(law.law, Finding { value: law.worst.unwrap_or(f64::INFINITY), place: law.place, checks: law.checks });
             }
             frame_values.extend(report.frame_values);
             pairs.extend(report.pairs);
+            excused.extend(report.excused);
         }
-        Self::new(&card, scenes, frame_values, pairs)
+        Self::new(&card, scenes, frame_values, pairs, excused)
     }
 
     /// The laws that do not hold.
@@ -117,6 +123,14 @@ impl VerifyReport {
             (_, 0) => format!("all {} laws hold {over}", self.laws.len()),
             (_, n) => format!("{n} of {} laws fail {over}", self.laws.len()),
         }
+    }
+
+    /// One line: what does not count of Hypersim's release; `None` for datasets of ours.
+    pub fn excuses(&self) -> Option<String> {
+        let count = |excuse: Excuse| self.excused.iter().filter(|e| e.excuse == excuse).count();
+        let (not_applicable, known) = (count(Excuse::NotApplicable), count(Excuse::KnownDefect));
+        let line = format!("Hypersim's release: {not_applicable} laws do not apply to it, {known} known defects of it are named above");
+        (!self.excused.is_empty()).then_some(line)
     }
 
     /// One line: how many frames the gates reject.
@@ -141,10 +155,14 @@ impl VerifyReport {
         for law in &held {
             let _ = writeln!(text, "{}", law.line("ok"));
         }
+        for excused in &self.excused {
+            let _ = writeln!(text, "{}", excused.line());
+        }
         for gate in &self.gates {
             let _ = writeln!(text, "{}", gate.line());
         }
-        text + &self.verdict() + "\n" + &self.gate_verdict() + "\n"
+        let excuses = self.excuses().map_or(String::new(), |line| line + "\n");
+        text + &self.verdict() + "\n" + &excuses + &self.gate_verdict() + "\n"
     }
 }
 
@@ -169,6 +187,18 @@ impl LawResult {
         let numbers = format!("{:>10}  of {:<7} {:<9}", number(self.worst), number(Some(self.bound)), self.unit);
         let numbers = if self.holds && self.bound == 0.0 { " ".repeat(numbers.len()) } else { numbers };
         format!("{verdict:<6}{numbers} {}", self.statement)
+    }
+}
+
+impl Excused {
+    fn line(&self) -> String {
+        let verdict = match self.excuse {
+            Excuse::NotApplicable => "n/a",
+            Excuse::KnownDefect => "known",
+        };
+        let at = if self.excuse == Excuse::KnownDefect { format!("\n        at  {}", self.place) } else { String::new() };
+        let worst = if self.place.is_empty() { String::new() } else { format!("{:>10}", number(self.worst)) };
+        format!("{verdict:<6}{worst:>10}  {:<17} {}{at}\n        because {}", "", self.statement, self.reason)
     }
 }
 
@@ -233,7 +263,7 @@ mod tests {
     }
 
     fn report(card: &Card, frames: usize) -> VerifyReport {
-        VerifyReport::new(card, 1, vec![FrameValues::default(); frames], vec![])
+        VerifyReport::new(card, 1, vec![FrameValues::default(); frames], vec![], vec![])
     }
 
     #[test]
@@ -269,7 +299,7 @@ no gate was measured
             FrameValues { scene: "room".into(), camera: "cam_00".into(), frame: number, gates: gates.into(), ..FrameValues::default() }
         };
         let frames = vec![frame(0, 2.0), frame(1, 0.25), frame(2, 0.4)];
-        let report = VerifyReport::new(&card(&[(Law::Roll, 1.0, "x")]), 1, frames, vec![]);
+        let report = VerifyReport::new(&card(&[(Law::Roll, 1.0, "x")]), 1, frames, vec![], vec![]);
         assert!(report.passed && !report.accepted);
         let found: Vec<_> = report.gates.iter().map(|g| (g.gate, g.worst, g.place.as_str(), g.rejected, g.measured)).collect();
         assert_eq!(
@@ -288,7 +318,7 @@ no gate was measured
         both.merge(b.clone());
         both.merge(card(&[(Law::SplitWhole, 0.0, "c")]));
         let joined = VerifyReport::join(vec![report(&a, 1), report(&b, 2)], card(&[(Law::SplitWhole, 0.0, "c")]));
-        assert_eq!(joined, VerifyReport::new(&both, 2, vec![FrameValues::default(); 3], vec![]));
+        assert_eq!(joined, VerifyReport::new(&both, 2, vec![FrameValues::default(); 3], vec![], vec![]));
     }
 
     #[test]

@@ -24,7 +24,8 @@ impl Case {
         let camera = Camera::from(self.intrinsics);
         let view = View {
             camera: CameraView::still(&camera, &self.pose),
-            meters_per_unit: 1.0,
+            rounding: Rounding::default(),
+            released: false,
             entities: self.labels.parts.len(),
             labels: Some(&self.labels),
             pieces: &self.pieces,
@@ -64,7 +65,7 @@ fn failures(change: impl Fn(&mut Case, usize)) -> Vec<Law> {
 fn exact_frame_satisfies_every_frame_law() {
     let card = Case::new().card();
     assert_eq!(card.failures(), []);
-    let report = VerifyReport::new(&card, 1, vec![FrameValues::default()], vec![]);
+    let report = VerifyReport::new(&card, 1, vec![FrameValues::default()], vec![], vec![]);
     assert!(report.passed);
     let checked: Vec<Law> = report.laws.iter().map(|l| l.law).collect();
     let frame_laws: Vec<Law> = LAWS
@@ -303,7 +304,7 @@ fn failures_name_frame_pixel_and_part() {
     let mut case = Case::new();
     let floor = pixel_of(&case.frame, 1);
     case.set(Layer::Semantic, floor, &[5.0]);
-    let text = VerifyReport::new(&case.card(), 1, vec![], vec![]).to_text();
+    let text = VerifyReport::new(&case.card(), 1, vec![], vec![], vec![]).to_text();
     let place = format!("at  room/cam_00/frame.0000 pixel ({}, {}), part 1: 5 where the tables say 2", floor % 64, floor / 64);
     assert!(text.contains(&place), "{text}");
 }

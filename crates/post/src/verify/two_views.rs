@@ -13,6 +13,7 @@
 
 use super::card::Card;
 use super::law::Law;
+use super::rounding::Rounding;
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::{DMat2, DVec2, DVec3};
 use enfilade_scene::CameraView;
@@ -49,8 +50,8 @@ pub(super) struct Sight<'a> {
     pub frame: &'a Frame,
     /// What it was taken with, and where that stood.
     pub view: CameraView<'a>,
-    /// Metres per unit of poses.
-    pub meters_per_unit: f64,
+    /// How its distances were rounded.
+    pub rounding: Rounding,
 }
 
 /// What the comparison of two frames came to.
@@ -138,7 +139,7 @@ struct Raster<'a> {
     width: usize,
     height: usize,
     view: CameraView<'a>,
-    meters_per_unit: f64,
+    rounding: Rounding,
     distance: &'a Values,
     normals: Option<&'a Values>,
     ids: &'a Values,
@@ -186,7 +187,7 @@ impl<'a> Raster<'a> {
             width: frame.width as usize,
             height: frame.height as usize,
             view: sight.view,
-            meters_per_unit: sight.meters_per_unit,
+            rounding: sight.rounding,
             distance: frame.get(Layer::DepthMeters)?,
             normals: frame.get(Layer::NormalWorld),
             ids: frame.get(Layer::RenderEntityId)?,
@@ -220,7 +221,7 @@ impl<'a> Raster<'a> {
             let (x, y) = ((pixel % self.width) as f64 + 0.5, (pixel / self.width) as f64 + 0.5);
             let distance = self.distance.get(pixel);
             let ray = self.view.centre_ray(x, y).filter(|_| self.ids.get(pixel) != -1.0 && distance.is_finite())?;
-            let p = ray.origin + ray.direction * (distance / self.meters_per_unit);
+            let p = ray.origin + ray.direction * distance;
             other.see(p)
         };
         (0..self.width * self.height).map(image).collect()
@@ -234,8 +235,8 @@ impl<'a> Raster<'a> {
                 at = self.view.project_in_row(p, at.1)?;
             }
         }
-        let distance = self.view.row_placement(at.1).0.distance(p) * self.meters_per_unit;
-        Some(Image { point: p * self.meters_per_unit, at: DVec2::new(at.0, at.1), distance })
+        let distance = self.view.row_placement(at.1).0.distance(p);
+        Some(Image { point: p, at: DVec2::new(at.0, at.1), distance })
     }
 
     /// The four pixels whose centres are around an image point; `None` beyond the outermost centres.
@@ -304,7 +305,9 @@ impl<'a> Raster<'a> {
         }
         let (least, most) = shown.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &d| (a.min(d), b.max(d)));
         let distance = carried.image.distance;
-        let open = carried.bend + ROUNDING * (distance + self.view.pose().position.length() * self.meters_per_unit);
+        // Both distances are rounded, and the first moves the image too, which counts as often again at slants of 45 degrees and less.
+        let halves = 2.0 * (self.rounding.of_distance(self.distance.get(pixel)) + other.rounding.of_distance(most));
+        let open = carried.bend + ROUNDING * (distance + self.view.pose().position.length()) + halves;
         if distance > most + open {
             return; // hidden
         }
@@ -388,8 +391,11 @@ mod tests {
 
         fn compare(&self) -> (PairValues, Card) {
             let mut card = Card::default();
-            let sight =
-                |i: usize| Sight { frame: &self.frames[i], view: CameraView::still(&self.camera, &self.poses[i]), meters_per_unit: 1.0 };
+            let sight = |i: usize| Sight {
+                frame: &self.frames[i],
+                view: CameraView::still(&self.camera, &self.poses[i]),
+                rounding: Rounding::default(),
+            };
             let values = compare("room", [("cam_00", 0), ("cam_00", 1)], [&sight(0), &sight(1)], &mut card).unwrap();
             (values, card)
         }
@@ -485,8 +491,11 @@ mod tests {
         let mut case = Case::new();
         board(&mut case);
         let there = {
-            let sight =
-                |i: usize| Sight { frame: &case.frames[i], view: CameraView::still(&case.camera, &case.poses[i]), meters_per_unit: 1.0 };
+            let sight = |i: usize| Sight {
+                frame: &case.frames[i],
+                view: CameraView::still(&case.camera, &case.poses[i]),
+                rounding: Rounding::default(),
+            };
             let [a, b] = [sight(0), sight(1)];
             Raster::new(&a).unwrap().compare_with(&Raster::new(&b).unwrap())
         };

@@ -41,7 +41,7 @@ impl ViewMeasures {
         let share = |n: usize| if seeing > 0 { n as f64 / seeing as f64 } else { 0.0 };
         let near = (0..distances.len()).filter(|&i| distances.get(i) < config.min_depth_m).count();
         let met = (0..distances.len()).filter(|&i| distances.get(i).is_finite()).count();
-        let values = view_values(frame, 1.0);
+        let values = view_values(frame);
         let valid = (1.0 - values[&Gate::InvalidShare]) * frame.pixels() as f64;
         let of_seeing = frame.pixels() as f64 / seeing.max(1) as f64;
         Self {

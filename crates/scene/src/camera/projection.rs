@@ -70,6 +70,15 @@ impl Projection {
         }
     }
 
+    /// The viewing axis of K in camera space, unit length: planar depth that goes with K is measured along it. It is −z but for a tilted
+    /// image plane, whose K is that of a turned camera ([`TiltedPinhole::straightened`]).
+    pub fn image_axis(&self) -> DVec3 {
+        match self {
+            Self::TiltedPinhole(tilted) => tilted.straightened().1.transpose() * DVec3::NEG_Z,
+            _ => DVec3::NEG_Z,
+        }
+    }
+
     /// Image point of a camera-space point. `None` for points that no image point shows; what is returned may lie beyond the
     /// image's border.
     pub fn project(&self, p_camera: DVec3) -> Option<(f64, f64)> {

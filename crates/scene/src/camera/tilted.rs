@@ -73,6 +73,8 @@ impl TiltedPinhole {
         let right = rows[0] / scale - cx * forward - skew * down;
         let fx = right.length();
         let rotation = DMat3::from_cols(right / fx, -down, -forward).transpose();
+        // A shear below what doubles resolve is none; formats without skew would refuse it.
+        let skew = if skew.abs() > 1e-9 * fx { skew } else { 0.0 };
         (Intrinsics { width: self.width, height: self.height, fx, fy, cx, cy, skew }, rotation)
     }
 }

@@ -1,5 +1,5 @@
 use super::{add, set_on_settings, set_where_present, text};
-use crate::{Document, Transform, Value};
+use crate::{Document, Item, Plugin, Transform, Value};
 
 /// Where the camera is in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +59,10 @@ pub fn set_camera(scene: &mut Document, path: &CameraPath) {
         &[
             ("img_width", Value::Int(path.size[0].into())),
             ("img_height", Value::Int(path.size[1].into())),
+            ("img_file_needFrameNumber", Value::Int(1)),
+            ("anim_start", Value::Int(0)),
+            ("anim_end", Value::Float(last as f64 * path.frame_time_s)),
+            ("frame_start", Value::Int(0)),
             ("frames_per_second", Value::Float(1.0 / path.frame_time_s)),
             ("frames", Value::Ints(frames)),
         ],
@@ -72,14 +76,24 @@ pub fn set_camera(scene: &mut Document, path: &CameraPath) {
         ("distortion_type", Value::Int(0)),
         ("distortion", Value::Int(0)),
     ];
-    let Some(lens) = &path.lens else { return set_where_present(scene, "CameraPhysical", &physical) };
+    // A lens of an earlier camera, which nothing refers to any more.
+    scene.items.retain(|item| !matches!(item, Item::Plugin(plugin) if plugin.name().starts_with(LENS.as_bytes())));
+    let Some(lens) = &path.lens else {
+        scene.of_kind_mut("CameraPhysical").filter(|camera| refers_to_lens(camera)).for_each(|camera| _ = camera.remove("distortion_tex"));
+        return set_where_present(scene, "CameraPhysical", &physical);
+    };
     physical[5].1 = Value::Int(3);
+    physical.push(("lens_file", text("")));
     physical.push(("distortion_tex", Value::Name(format!("{LENS}_texture").into_bytes())));
     add_lens(scene, lens);
     set_on_settings(scene, "CameraPhysical", &physical);
 }
 
 const LENS: &str = "HYPERSIM_camera_lens_distortion";
+
+fn refers_to_lens(camera: &Plugin) -> bool {
+    camera.parameter("distortion_tex").is_some_and(|texture| texture.raw().starts_with(LENS.as_bytes()))
+}
 
 fn transforms(keyframes: &[CameraKeyframe]) -> Value {
     let transform = |key: &CameraKeyframe| {
@@ -94,7 +108,8 @@ fn transforms(keyframes: &[CameraKeyframe]) -> Value {
     }
 }
 
-/// Buffer, texture and coordinates of a lens. The corners of the image fall on the centres of the corner texels.
+/// Buffer, texture and coordinates of a lens. The corners of the image fall on the centres of the corner texels. The picture holds
+/// numbers and no colours, so nothing may filter, tile or decode it.
 fn add_lens(scene: &mut Document, lens: &LensTexture) {
     let [c, r] = lens.size.map(|n| n as f32);
     let matrix = [[(c - 1.0) / c, 0.0, 0.0], [0.0, (r - 1.0) / r, 0.0], [0.0, 0.0, 1.0]];
@@ -105,10 +120,38 @@ fn add_lens(scene: &mut Document, lens: &LensTexture) {
         scene,
         "BitmapBuffer",
         &name("buffer"),
-        &[("file", text(&lens.file)), ("filter_type", Value::Int(0)), ("interpolation", Value::Int(0))],
+        &[
+            ("file", text(&lens.file)),
+            ("load_file", Value::Int(1)),
+            ("filter_type", Value::Int(0)),
+            ("filter_blur", Value::Int(1)),
+            ("interpolation", Value::Int(0)),
+            ("color_space", Value::Int(0)),
+            ("gamma", Value::Int(1)),
+        ],
     );
-    let coordinates =
-        [("uvw_channel", Value::Int(1)), ("wrap_mode", Value::Int(1)), ("uvw_transform", Value::Transform(Transform { matrix, offset }))];
+    let coordinates = [
+        ("uvw_channel", Value::Int(1)),
+        ("uvw_transform", Value::Transform(Transform { matrix, offset })),
+        ("wrap_u", Value::Int(1)),
+        ("wrap_v", Value::Int(1)),
+        ("wrap_mode", Value::Int(1)),
+        ("crop_u", Value::Int(0)),
+        ("crop_v", Value::Int(0)),
+        ("duvw_scale", Value::Int(1)),
+    ];
     add(scene, "UVWGenChannel", &name("uvw"), &coordinates);
-    add(scene, "TexBitmap", &name("texture"), &[("bitmap", refer("buffer")), ("uvwgen", refer("uvw"))]);
+    let texture = [
+        ("bitmap", refer("buffer")),
+        ("uvwgen", refer("uvw")),
+        ("tile", Value::Int(0)),
+        ("nouvw_color", Value::AColor([0.0; 4])),
+        ("placement_type", Value::Int(0)),
+        ("u", Value::Int(0)),
+        ("v", Value::Int(0)),
+        ("w", Value::Int(1)),
+        ("h", Value::Int(1)),
+        ("alpha_from_intensity", Value::Int(0)),
+    ];
+    add(scene, "TexBitmap", &name("texture"), &texture);
 }

@@ -6,6 +6,7 @@
 mod camera;
 mod channels;
 mod entities;
+mod includes;
 mod normalize;
 mod passes;
 mod paths;
@@ -16,6 +17,7 @@ mod strings;
 pub use camera::{CameraKeyframe, CameraPath, LensTexture, set_camera};
 pub use channels::{COLOR_CHANNELS, ColorChannel, add_color_channels, add_denoiser, add_geometry_channels, prepare_for_layers};
 pub use entities::{Entity, EntityOptions, set_entity_ids};
+pub use includes::{IncludeError, add_include, inline_includes};
 pub use normalize::{Normalization, meters_per_asset_unit, normalize};
 pub use passes::{GiCaches, Pass, linear_output, make_pass, reduce_quality, reduce_size, save_gi_caches};
 pub use paths::{FileReference, Platform, file_references, replace_paths};

@@ -42,6 +42,8 @@ pub struct FileReference {
     pub path: String,
     /// The plugin's name; `#include` for an included file.
     pub plugin: String,
+    /// The parameter that holds it; `#include` for an included file.
+    pub parameter: String,
     /// Where it stands.
     pub place: Place,
 }
@@ -54,6 +56,7 @@ pub fn file_references(scene: &Document) -> Vec<FileReference> {
             Item::Include(include) => found.push(FileReference {
                 path: String::from_utf8_lossy(include.path()).into_owned(),
                 plugin: "#include".into(),
+                parameter: "#include".into(),
                 place: include.place(),
             }),
             Item::Plugin(plugin) => {
@@ -63,6 +66,7 @@ pub fn file_references(scene: &Document) -> Vec<FileReference> {
                         found.push(FileReference {
                             path,
                             plugin: String::from_utf8_lossy(plugin.name()).into_owned(),
+                            parameter: String::from_utf8_lossy(parameter.name()).into_owned(),
                             place: parameter.place(),
                         });
                     }

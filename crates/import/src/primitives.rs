@@ -1,4 +1,4 @@
-//! Mitsuba's analytic shapes as meshes. Texture coordinates have v downward here, as in Mitsuba.
+//! Analytic shapes as meshes, as Mitsuba defines them. Texture coordinates have v downward here.
 //!
 //! Round shapes are inscribed polygons of [`SEGMENTS`] sides: their area is 0.07 % below the true one.
 
@@ -10,7 +10,7 @@ use std::f32::consts::{PI, TAU};
 const SEGMENTS: u32 = 96;
 
 /// [−1,1]² in the plane z = 0, facing +z.
-pub(super) fn rectangle() -> Mesh {
+pub(crate) fn rectangle() -> Mesh {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     Mesh {
         positions: corners.map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec(),
@@ -21,7 +21,7 @@ pub(super) fn rectangle() -> Mesh {
 }
 
 /// The unit disk in the plane z = 0, facing +z; u is the radius, v the angle.
-pub(super) fn disk() -> Mesh {
+pub(crate) fn disk() -> Mesh {
     let mut mesh = Mesh::default();
     for i in 0..=SEGMENTS {
         let v = i as f32 / SEGMENTS as f32;
@@ -35,7 +35,7 @@ pub(super) fn disk() -> Mesh {
 }
 
 /// The unit sphere around the origin; u is the azimuth about z, v the angle from +z.
-pub(super) fn sphere() -> Mesh {
+pub(crate) fn sphere() -> Mesh {
     let rings = SEGMENTS / 2;
     let mut mesh = Mesh::default();
     for j in 0..=rings {
@@ -62,7 +62,7 @@ pub(super) fn sphere() -> Mesh {
 }
 
 /// The open cylinder of radius 1 about the z axis from z = 0 to z = 1, facing outward.
-pub(super) fn cylinder() -> Mesh {
+pub(crate) fn cylinder() -> Mesh {
     let mut mesh = Mesh::default();
     for i in 0..=SEGMENTS {
         let u = i as f32 / SEGMENTS as f32;
@@ -76,7 +76,7 @@ pub(super) fn cylinder() -> Mesh {
 }
 
 /// [−1,1]³ with the whole of texture space on each face.
-pub(super) fn cube() -> Mesh {
+pub(crate) fn cube() -> Mesh {
     let mut mesh = Mesh::default();
     for axis in 0..3 {
         for sign in [-1.0f32, 1.0] {

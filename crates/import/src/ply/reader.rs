@@ -1,131 +1,47 @@
-//! Stanford PLY: text, and binary in either byte order.
+//! The bytes of a PLY file: text, and binary in either byte order.
 
+use super::header::{Element, Encoding, Kind, Problem, parse_header};
 use crate::{ImportError, polygon};
 use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};
 use std::path::Path;
 
-/// Reads the `vertex` and `face` elements; others are skipped. Texture coordinates stay as they are.
-pub(super) fn read(bytes: &[u8], file: &Path) -> Result<Mesh, ImportError> {
+/// What a PLY file holds.
+#[derive(Debug, PartialEq)]
+pub(crate) struct PlyFile {
+    /// Its mesh, with texture coordinates as they are. Without faces it has no triangles.
+    pub mesh: Mesh,
+    /// Mean of the vertices' colours, 0 … 1 as they are written; `None` when they have none.
+    pub mean_color: Option<[f64; 3]>,
+    /// Elements that were skipped, such as edges and strips of triangles.
+    pub skipped: Vec<String>,
+}
+
+/// Reads the `vertex` and `face` elements.
+///
+/// # Errors
+/// When the header or a value is not what the format calls for, or a face refers to a vertex that is not there.
+pub(crate) fn read(bytes: &[u8], file: &Path) -> Result<PlyFile, ImportError> {
     let error = |(place, problem): Problem| ImportError::malformed(file, place, problem);
     let (header, body) = parse_header(bytes).map_err(error)?;
     let mut values = Values { encoding: header.encoding, bytes: body, at: 0 };
     let mut mesh = Mesh::default();
+    let (mut mean_color, mut skipped) = (None, Vec::new());
     for element in &header.elements {
         match element.name.as_str() {
-            "vertex" => read_vertices(element, &mut values, &mut mesh).map_err(error)?,
+            "vertex" => mean_color = read_vertices(element, &mut values, &mut mesh).map_err(error)?,
             "face" => read_faces(element, &mut values, &mut mesh).map_err(error)?,
-            _ if element.properties.is_empty() => (),
-            _ => (0..element.count).try_for_each(|_| element.row(&mut values, &mut |_, _| ())).map_err(error)?,
-        }
-    }
-    Ok(mesh)
-}
-
-/// Place and what is wrong there.
-type Problem = (String, String);
-
-#[derive(Clone, Copy, PartialEq)]
-enum Encoding {
-    Text,
-    Little,
-    Big,
-}
-
-struct Header {
-    encoding: Encoding,
-    elements: Vec<Element>,
-}
-
-struct Element {
-    name: String,
-    count: u64,
-    properties: Vec<Property>,
-}
-
-struct Property {
-    name: String,
-    kind: Kind,
-    /// Type of the count in front, for lists.
-    list: Option<Kind>,
-}
-
-#[derive(Clone, Copy)]
-enum Kind {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
-impl Kind {
-    fn parse(name: &str) -> Option<Self> {
-        Some(match name {
-            "char" | "int8" => Self::I8,
-            "uchar" | "uint8" => Self::U8,
-            "short" | "int16" => Self::I16,
-            "ushort" | "uint16" => Self::U16,
-            "int" | "int32" => Self::I32,
-            "uint" | "uint32" => Self::U32,
-            "float" | "float32" => Self::F32,
-            "double" | "float64" => Self::F64,
-            _ => return None,
-        })
-    }
-
-    fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::F64 => 8,
-        }
-    }
-}
-
-fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8]), Problem> {
-    let mut header = Header { encoding: Encoding::Text, elements: Vec::new() };
-    let (mut at, mut number) = (0, 0);
-    loop {
-        number += 1;
-        let place = || format!("line {number}");
-        let rest = bytes.get(at..).unwrap_or_default();
-        let Some(end) = rest.iter().position(|&b| b == b'\n') else {
-            return Err((place(), "the header does not end; the file is cut short or no PLY".into()));
-        };
-        let line = String::from_utf8_lossy(&rest[..end]);
-        at += end + 1;
-        let words: Vec<&str> = line.split_whitespace().collect();
-        match words[..] {
-            ["ply"] if number == 1 => (),
-            _ if number == 1 => return Err((place(), "the file does not begin with \"ply\"".into())),
-            ["format", "ascii", _] => header.encoding = Encoding::Text,
-            ["format", "binary_little_endian", _] => header.encoding = Encoding::Little,
-            ["format", "binary_big_endian", _] => header.encoding = Encoding::Big,
-            ["element", name, count] => {
-                let count = count.parse().map_err(|_| (place(), format!("{count:?} is not a number of elements")))?;
-                header.elements.push(Element { name: name.into(), count, properties: Vec::new() });
+            name => {
+                if element.count > 0 {
+                    skipped.push(name.to_string());
+                }
+                if !element.properties.is_empty() {
+                    (0..element.count).try_for_each(|_| element.row(&mut values, &mut |_, _| ())).map_err(error)?;
+                }
             }
-            ["property", ref kinds @ .., name] => {
-                let parsed = match kinds {
-                    ["list", count, kind] => Kind::parse(count).zip(Kind::parse(kind)).map(|(c, k)| (Some(c), k)),
-                    [kind] => Kind::parse(kind).map(|k| (None, k)),
-                    _ => None,
-                };
-                let (Some((list, kind)), Some(element)) = (parsed, header.elements.last_mut()) else {
-                    return Err((place(), format!("{line:?} is not a property")));
-                };
-                element.properties.push(Property { name: name.into(), kind, list });
-            }
-            ["end_header"] => return Ok((header, &bytes[at..])),
-            ["comment" | "obj_info", ..] | [] => (),
-            _ => return Err((place(), format!("{:?} is not understood", line.trim()))),
         }
     }
+    Ok(PlyFile { mesh, mean_color, skipped })
 }
 
 /// The numbers of the body, one after the other.
@@ -199,23 +115,31 @@ impl Element {
     }
 }
 
-fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Result<(), Problem> {
+/// Reads the vertices and returns the mean of their colours, if they have any.
+fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Result<Option<[f64; 3]>, Problem> {
     let [x, y, z] = ["x", "y", "z"].map(|n| element.index_of(&[n]));
     let (Some(x), Some(y), Some(z)) = (x, y, z) else { return Err(("header".into(), "the vertices have no x, y and z".into())) };
     let normal = ["nx", "ny", "nz"].map(|n| element.index_of(&[n]));
     let uv = [&["u", "s", "texture_u", "s0"], &["v", "t", "texture_v", "t0"]].map(|names| element.index_of(names));
-    let mut row = vec![0.0f32; element.properties.len()];
+    let color = [["red", "diffuse_red", "r"], ["green", "diffuse_green", "g"], ["blue", "diffuse_blue", "b"]];
+    let color = color.map(|names| element.index_of(&names));
+    let mut sum = [0.0; 3];
+    let mut row = vec![0.0; element.properties.len()];
     for _ in 0..element.count {
-        element.row(values, &mut |i, value| row[i] = value as f32)?;
-        mesh.positions.push(Vec3::new(row[x], row[y], row[z]));
+        element.row(values, &mut |i, value| row[i] = value)?;
+        mesh.positions.push(Vec3::new(row[x] as f32, row[y] as f32, row[z] as f32));
         if let [Some(a), Some(b), Some(c)] = normal {
-            mesh.normals.push(Vec3::new(row[a], row[b], row[c]));
+            mesh.normals.push(Vec3::new(row[a] as f32, row[b] as f32, row[c] as f32));
         }
         if let [Some(a), Some(b)] = uv {
-            mesh.uvs.push(Vec2::new(row[a], row[b]));
+            mesh.uvs.push(Vec2::new(row[a] as f32, row[b] as f32));
+        }
+        if let [Some(r), Some(g), Some(b)] = color {
+            [r, g, b].iter().zip(&mut sum).for_each(|(&i, sum)| *sum += row[i] / element.properties[i].kind.full());
         }
     }
-    Ok(())
+    let colored = color.iter().all(Option::is_some) && element.count > 0;
+    Ok(colored.then(|| sum.map(|s| (s / element.count as f64).clamp(0.0, 1.0))))
 }
 
 fn read_faces(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Result<(), Problem> {
@@ -229,7 +153,7 @@ fn read_faces(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Result
         element.row(values, &mut |i, value| {
             if i == indices {
                 face.push(value as u32);
-                bad = bad.or((value < 0.0 || value >= vertices as f64).then_some(value));
+                bad = bad.or((!(0.0..vertices as f64).contains(&value)).then_some(value));
             }
         })?;
         if let Some(index) = bad {
@@ -271,10 +195,10 @@ mod tests {
     #[test]
     fn text_and_binary_of_both_orders_give_the_same_mesh() {
         let text = format!("ply\nformat ascii 1.0\n{HEADER}0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n");
-        let mesh = read(text.as_bytes(), Path::new("a.ply")).unwrap();
-        assert_eq!((mesh.positions[2], mesh.triangles.len()), (Vec3::new(1.0, 1.0, 2.0), 2));
+        let ply = read(text.as_bytes(), Path::new("a.ply")).unwrap();
+        assert_eq!((ply.mesh.positions[2], ply.mesh.triangles.len(), ply.mean_color), (Vec3::new(1.0, 1.0, 2.0), 2, None));
         for big in [false, true] {
-            assert_eq!(read(&binary(big), Path::new("a.ply")).unwrap(), mesh);
+            assert_eq!(read(&binary(big), Path::new("a.ply")).unwrap(), ply);
         }
     }
 

@@ -1,0 +1,57 @@
+//! `preview`: a stage for datasets of ours; straight from the frames where another folder is named, as for data of others.
+
+use crate::args::PreviewArgs;
+use crate::outcome::{Problem, Verdict, say};
+use crate::progress::Progress;
+use crate::verbs;
+use enfilade_dataset::Dataset;
+use enfilade_pipeline::Stage;
+use enfilade_post::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet, write_overview};
+use enfilade_post::sheet::SheetConfig;
+use std::path::Path;
+
+/// `preview`: pictures of every layer.
+pub fn preview(args: &PreviewArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let Some(folder) = &args.output else { return verbs::stage(&args.stage, Stage::Preview, quiet) };
+    let dataset = args.table.open(&args.stage.dataset)?.with_pictures_in(folder);
+    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.stage.scene.as_deref())?;
+    let progress = Progress::new(quiet);
+    let cx = progress.begin(&args.stage.dataset.display().to_string(), "preview");
+    let mut pictures = 0;
+    for scene in &scenes {
+        for camera in dataset.cameras(scene)? {
+            let frames = dataset.frame_numbers(scene, &camera)?;
+            let (exposures, _) = expose_camera(&dataset, scene, &camera, &frames)?;
+            pictures += preview_camera(&dataset, [scene, &camera], &frames, &exposures, &cx)?.len();
+            pictures += preview_boxes(&dataset, scene, &camera, &frames, &cx)?.len();
+            let sheet = write_contact_sheet(&dataset, [scene, &camera], &frames, exposures.display, &SheetConfig::default())?;
+            pictures += usize::from(sheet.is_some());
+        }
+    }
+    let name = args.stage.dataset.file_name().map_or_else(|| "dataset".into(), |name| name.to_string_lossy().into_owned());
+    let overview = write_overview(&dataset, &name, &SheetConfig::default())?;
+    drop(cx);
+    drop(progress);
+    say(&format!("{pictures} pictures below {}", folder.display()));
+    say(&format!("see  {}", overview.display()));
+    Ok(Verdict::Done)
+}
+
+/// Refuses stages of datasets that others made: what they would write is there already, or needs what is not there.
+pub fn refuse_released(folder: &Path, stage: Stage) -> Result<(), Problem> {
+    // What is no dataset is told by the stage.
+    let Ok(dataset) = Dataset::open(folder) else { return Ok(()) };
+    let scenes = dataset.scenes()?;
+    if scenes.is_empty() || !scenes.iter().all(|scene| dataset.is_released(scene)) || folder.join(".enfilade").exists() {
+        return Ok(());
+    }
+    let help = match stage {
+        Stage::Preview => "its previews have the same names as ours; name another folder with -o".to_string(),
+        Stage::Label => {
+            "its labels are in the layers semantic and semantic_instance already; `enfilade annotate` edits label tables".into()
+        }
+        Stage::Boxes => "its boxes are in _detail/mesh already; `enfilade export --format coco` has those of each image".into(),
+        other => format!("`enfilade {}` goes with datasets that `enfilade run` made", other.name()),
+    };
+    Err(Problem::new(format!("{} was not made by `enfilade run`: it is Hypersim's release, or like it", folder.display()), help))
+}

@@ -1,0 +1,70 @@
+//! What differs in Hypersim's own release, as Apple publishes it: no manifest and no records, float16 distances and positions,
+//! positions in asset units, no planar depth, and cameras in the tables that have no files.
+
+use crate::camera_files::optional;
+use crate::{Dataset, DatasetError};
+use enfilade_frame::{Layer, Values};
+use enfilade_math::DVec3;
+use enfilade_scene::Projection;
+use std::path::PathBuf;
+
+/// The layers that a frame of Hypersim's release has.
+pub const RELEASED_LAYERS: [Layer; 14] = [
+    Layer::Color,
+    Layer::DiffuseIllumination,
+    Layer::DiffuseReflectance,
+    Layer::Residual,
+    Layer::DepthMeters,
+    Layer::Position,
+    Layer::NormalWorld,
+    Layer::NormalCam,
+    Layer::NormalBumpWorld,
+    Layer::NormalBumpCam,
+    Layer::TexCoord,
+    Layer::RenderEntityId,
+    Layer::Semantic,
+    Layer::SemanticInstance,
+];
+
+impl Dataset {
+    /// True for a scene that this program did not make: the dataset has no manifest, and no camera of the scene has records.
+    pub fn is_released(&self, scene: &str) -> bool {
+        let cameras = self.cameras(scene).unwrap_or_default();
+        !self.layout().manifest().is_file() && !cameras.iter().any(|camera| self.layout().records_dir(scene, camera).is_dir())
+    }
+
+    /// True when [`Dataset::read_frame`] gives this layer of the frame: it is there, or it is planar depth of a camera with an image plane
+    /// whose distances are there.
+    pub fn gives_layer(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> bool {
+        self.has_layer(scene, camera, frame, layer)
+            || layer == Layer::DepthZMeters
+                && self.has_layer(scene, camera, frame, Layer::DepthMeters)
+                && self.read_camera(scene, camera).is_ok_and(|camera| camera.projection.has_image_plane())
+    }
+
+    /// The file that a layer is read from: its own, or that of the distances that planar depth is computed from.
+    pub fn layer_source(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> PathBuf {
+        let stored = layer != Layer::DepthZMeters || self.has_layer(scene, camera, frame, layer);
+        self.layout().layer(scene, camera, frame, if stored { layer } else { Layer::DepthMeters })
+    }
+
+    /// Positions in metres, in place.
+    pub(crate) fn positions_in_metres(&self, scene: &str, positions: &mut Values) -> Result<(), DatasetError> {
+        let metres = optional(self.meters_per_asset_unit(scene))?.unwrap_or(1.0);
+        if let (Values::F32(values), true) = (positions, metres != 1.0) {
+            values.iter_mut().for_each(|v| *v = (f64::from(*v) * metres) as f32);
+        }
+        Ok(())
+    }
+}
+
+/// Planar depth along the viewing axis of K ([`Projection::image_axis`]) for distances along the rays of all pixels, row by row, both in
+/// metres; NaN where there is no distance or no ray.
+pub fn planar_depth(projection: &Projection, distance: &Values) -> Vec<f32> {
+    let ([width, _], axis) = (projection.size(), projection.image_axis());
+    let forward = |i: usize| {
+        let (x, y) = (i as u32 % width, i as u32 / width);
+        projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).map_or(DVec3::NAN, DVec3::normalize).dot(axis)
+    };
+    (0..distance.len()).map(|i| (distance.get(i) * forward(i)) as f32).collect()
+}

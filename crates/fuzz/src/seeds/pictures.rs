@@ -1,0 +1,37 @@
+//! Pictures of every format.
+
+use super::seed;
+use crate::Seed;
+use exr::prelude::{Image, SpecificChannels, WritableImage, f16};
+use image::{DynamicImage, ImageFormat, RgbaImage};
+use std::io::Cursor;
+
+/// A picture of six pixels in every format; PNG first.
+pub fn pictures() -> Vec<Seed> {
+    let picture: DynamicImage = RgbaImage::from_fn(3, 2, |x, y| image::Rgba([80 * x as u8, 120 * y as u8, 7, 255 - x as u8])).into();
+    let rgb = DynamicImage::from(picture.to_rgb8());
+    let encoded = |picture: &DynamicImage, format| {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, format).expect("writing to memory cannot fail");
+        bytes.into_inner()
+    };
+    let mut pfm = b"PF\n2 1\n-1.0\n".to_vec();
+    pfm.extend([0.5f32, 1.0, 2.0, -1.0, 0.0, 3.0].iter().flat_map(|v| v.to_le_bytes()));
+    vec![
+        seed("rgba.png", encoded(&picture, ImageFormat::Png)),
+        seed("grey.png", encoded(&picture.to_luma16().into(), ImageFormat::Png)),
+        seed("rgb.jpg", encoded(&rgb, ImageFormat::Jpeg)),
+        seed("rgb.bmp", encoded(&rgb, ImageFormat::Bmp)),
+        seed("rgba.tga", encoded(&picture, ImageFormat::Tga)),
+        seed("rgb.hdr", encoded(&picture.to_rgb32f().into(), ImageFormat::Hdr)),
+        seed("rgb.exr", exr()),
+        seed("rgb.pfm", pfm),
+    ]
+}
+
+fn exr() -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    let pixel = |at: exr::prelude::Vec2<usize>| (f16::from_f32(at.x() as f32), f16::from_f32(at.y() as f32), f16::from_f32(0.5));
+    Image::from_channels((3, 2), SpecificChannels::rgb(pixel)).write().to_buffered(&mut bytes).expect("writing to memory cannot fail");
+    bytes.into_inner()
+}

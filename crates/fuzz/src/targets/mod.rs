@@ -1,0 +1,64 @@
+//! The table of targets, and what reads for each.
+
+#[cfg(feature = "program")]
+mod annotations;
+#[cfg(feature = "dataset")]
+mod datasets;
+#[cfg(feature = "program")]
+mod homes;
+mod octree;
+#[cfg(feature = "program")]
+mod partial;
+pub mod scene_files;
+mod texts;
+mod vray;
+
+use crate::{Reads, Run, Seed, Target, seeds};
+use std::path::Path;
+
+/// All targets.
+pub const TARGETS: &[Target] = &[
+    importer("gltf", "scene.gltf", "scene.gltf", "glTF, as text and binary", seeds::gltf),
+    importer("obj", "scene.obj", "scene.obj", "Wavefront OBJ", none),
+    importer("mtl", "scene.mtl", "with_mtl.obj", "MTL materials of an OBJ", none),
+    importer("mitsuba", "scene.xml", "scene.xml", "Mitsuba XML", seeds::mitsuba),
+    importer("ply", "mesh.ply", "with_ply.xml", "PLY meshes of a Mitsuba scene", seeds::ply),
+    importer("serialized", "mesh.serialized", "with_serialized.xml", "Mitsuba's compressed meshes", seeds::serialized),
+    importer("ies", "lamp.ies", "with_ies.gltf", "IES photometric profiles of a glTF", none),
+    // The extension is that of the one format which has no signature.
+    importer("picture", "picture.tga", "with_picture.obj", "PNG, JPEG, BMP, TGA, HDR, EXR and PFM as textures", seeds::pictures),
+    own("package", "scene packages, their checksum set right", 16 << 10, scene_files::package, seeds::packages),
+    own("vrscene", "V-Ray's scene description, its values, and what edits them", 8 << 10, vray::document, none),
+    own("octree", "OctoMap's trees, .bt and .ot", 4 << 10, octree::trees, seeds::octrees),
+    #[cfg(feature = "dataset")]
+    own("hdf5", "HDF5 arrays, and everything that a dataset has of them", 8 << 10, datasets::hdf5, seeds::arrays),
+    #[cfg(feature = "dataset")]
+    own("tables", "CSV tables of a dataset, of labels, classes and suggestions", 4 << 10, datasets::tables, seeds::tables),
+    #[cfg(feature = "dataset")]
+    own("records", "JSON of a dataset: manifest, records, cameras, masks", 4 << 10, datasets::records, seeds::records),
+    own("keyframes", "poses made by hand, CSV and JSON", 4 << 10, texts::keyframes, none),
+    #[cfg(feature = "program")]
+    own("config", "configurations, TOML", 4 << 10, texts::config, none),
+    #[cfg(feature = "program")]
+    own("library", "furniture catalogues of Sweet Home 3D, and assets.toml", 8 << 10, homes::library, seeds::catalogues),
+    #[cfg(feature = "program")]
+    own("partial", "frames in the making, their checksum set right", 4 << 10, partial::partial, partial::seeds),
+    #[cfg(feature = "program")]
+    own("annotations", "the logs of annotating", 8 << 10, annotations::log, annotations::logs),
+    #[cfg(feature = "program")]
+    own("requests", "requests to both servers", 4 << 10, annotations::requests, none),
+];
+
+/// A target that imports: `file` is made of the bytes, `scene` is imported; the files beside them are those of [`scene_files`].
+const fn importer(name: &'static str, file: &'static str, scene: &'static str, about: &'static str, seeds: fn() -> Vec<Seed>) -> Target {
+    Target { name, about, longest: 8 << 10, reads: Reads::Scene { file, scene }, seeds, words: &[] }
+}
+
+const fn own(name: &'static str, about: &'static str, longest: usize, run: fn(&Path) -> Run, seeds: fn() -> Vec<Seed>) -> Target {
+    Target { name, about, longest, reads: Reads::Own(run), seeds, words: &[] }
+}
+
+/// For targets whose seeds are all files.
+fn none() -> Vec<Seed> {
+    Vec::new()
+}

@@ -1,0 +1,17 @@
+//! Trees of OctoMap.
+
+use crate::Run;
+use enfilade_geometry::OccupancyTree;
+use std::path::Path;
+
+/// Reads trees of both kinds. What was read is written and read again.
+pub fn trees(_: &Path) -> Run {
+    Box::new(|bytes| {
+        if let Ok(tree) = OccupancyTree::from_bt(bytes) {
+            assert!(OccupancyTree::from_bt(&tree.to_bt()).is_ok(), "a tree that was written can be read");
+        }
+        if let Ok(tree) = OccupancyTree::from_ot(bytes) {
+            assert!(OccupancyTree::from_ot(&tree.to_ot()).is_ok(), "a tree that was written can be read");
+        }
+    })
+}

@@ -1,0 +1,24 @@
+//! Texts that people write.
+
+use crate::Run;
+use enfilade_explore::parse_keyframes;
+use std::path::Path;
+
+/// Reads poses made by hand, in both forms.
+pub fn keyframes(_: &Path) -> Run {
+    Box::new(|bytes| {
+        let text = String::from_utf8_lossy(bytes);
+        drop((parse_keyframes("poses.csv", &text), parse_keyframes("poses.json", &text)));
+    })
+}
+
+/// Reads a configuration.
+#[cfg(feature = "program")]
+pub fn config(folder: &Path) -> Run {
+    use enfilade_pipeline::{Config, Overrides};
+    let file = folder.join("dataset.toml");
+    Box::new(move |bytes| {
+        std::fs::write(&file, bytes).expect("a folder that can be written");
+        drop(Config::read(&file, &Overrides::default()));
+    })
+}

@@ -1,0 +1,138 @@
+//! The node tree: parts, lights and cameras with their placements.
+
+use super::light::{add_camera, add_light};
+use super::material::{self, Materials};
+use super::mesh;
+use super::reader::affine;
+use crate::ImportError;
+use crate::assembly::Assembly;
+use enfilade_math::DAffine3;
+use enfilade_scene::PartLabel;
+use std::collections::{HashMap, HashSet};
+use ufbx::{ElementType, Node, Scene};
+
+/// Adds all that the nodes carry, in the order of the tree.
+///
+/// # Errors
+/// When a mesh cannot be used, or a texture is missing.
+pub(super) fn place(scene: &Scene, a: &mut Assembly) -> Result<(), ImportError> {
+    let hidden_layers = scene.display_layers.as_ref().iter().filter(|l| !l.visible);
+    let hidden: HashSet<u32> = hidden_layers.flat_map(|l| l.nodes.as_ref().iter().map(|n| n.element.element_id)).collect();
+    let mut placer = Placer { scene, materials: Materials::default(), meshes: HashMap::new() };
+    let mut stack: Vec<(&Node, bool)> = vec![(&scene.root_node, true)];
+    let mut done = 0;
+    while let Some((node, inherited)) = stack.pop() {
+        done += 1;
+        a.progress(done, scene.nodes.count);
+        let follows = ufbx::find_prop(&node.element.props, "Visibility Inheritance").is_none_or(|p| p.value_int != 0);
+        let visible = node.visible && !hidden.contains(&node.element.element_id) && (inherited || !follows);
+        placer.node(node, visible, a)?;
+        let levels = node.attrib_type == ElementType::LodGroup;
+        if levels && node.children.count > 1 {
+            a.warn(place_of(node), "only the first of its levels of detail was used");
+        }
+        let wanted = if levels { &node.children.as_ref()[..node.children.count.min(1)] } else { node.children.as_ref() };
+        stack.extend(wanted.iter().rev().map(|child| (child.as_ref(), visible)));
+    }
+    Ok(())
+}
+
+struct Placer<'s> {
+    scene: &'s Scene,
+    materials: Materials,
+    /// Scene mesh of (mesh, part, set of texture coordinates); `None` for those without a surface.
+    meshes: HashMap<(u32, usize, usize), Option<u32>>,
+}
+
+impl Placer<'_> {
+    fn node(&mut self, node: &Node, visible: bool, a: &mut Assembly) -> Result<(), ImportError> {
+        let name = name(node);
+        if let Some(mesh) = &node.mesh {
+            if visible {
+                self.mesh(node, mesh, &name, a)?;
+            } else {
+                a.warn(place_of(node), "hidden, and left out");
+            }
+        }
+        if let Some(camera) = &node.camera {
+            add_camera(node, camera, &name, a);
+        }
+        if let Some(light) = &node.light {
+            if visible {
+                add_light(node, light, &name, self.scene.metadata.exporter, a);
+            } else {
+                a.warn(place_of(node), "the light is hidden, and was left out");
+            }
+        }
+        let surface = matches!(
+            node.attrib_type,
+            ElementType::NurbsSurface | ElementType::NurbsTrimSurface | ElementType::LineCurve | ElementType::ProceduralGeometry
+        );
+        if surface {
+            a.warn(
+                place_of(node),
+                format!("{:?} is not supported and was left out; convert it to a mesh and export again", node.attrib_type),
+            );
+        }
+        Ok(())
+    }
+
+    fn mesh(&mut self, node: &Node, mesh: &ufbx::Mesh, name: &str, a: &mut Assembly) -> Result<(), ImportError> {
+        report_dropped(node, mesh, a);
+        // Skinned meshes may stand in the world already.
+        let placement = if mesh.skinned_is_local { affine(&node.geometry_to_world) } else { DAffine3::IDENTITY };
+        let materials = if node.materials.is_empty() { mesh.materials.as_ref() } else { node.materials.as_ref() };
+        let filled = mesh.material_parts.iter().filter(|p| p.num_triangles > 0).count();
+        if filled == 0 {
+            a.warn(place_of(node), "the mesh has no faces and was left out");
+        }
+        for part in mesh.material_parts.iter().filter(|p| p.num_triangles > 0) {
+            let wanted = materials.get(part.index as usize).map(AsRef::as_ref);
+            let material = self.materials.get(wanted, a)?;
+            let set = wanted.map_or("", |m| material::uv_set(m, a));
+            let set = mesh.uv_sets.iter().position(|s| &*s.name == set).unwrap_or(0);
+            let key = (mesh.element.element_id, part.index as usize, set);
+            let index = match self.meshes.get(&key) {
+                Some(&known) => known,
+                None => {
+                    let file = a.file().to_path_buf();
+                    let built = a.push_mesh(mesh::of_part(mesh, part, set), &file, &place_of(node))?;
+                    self.meshes.insert(key, built);
+                    built
+                }
+            };
+            if let Some(index) = index {
+                let own = wanted.map_or("default".to_string(), material::name);
+                let part = if filled > 1 { format!("{name}.{own}") } else { name.to_string() };
+                a.push_part(&part, index, material, placement, PartLabel::NONE);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn report_dropped(node: &Node, mesh: &ufbx::Mesh, a: &mut Assembly) {
+    let dropped = [
+        (mesh.vertex_color.exists, "vertex colours dropped"),
+        (mesh.num_line_faces + mesh.num_point_faces > 0, "points and lines have no surface and were left out"),
+        (mesh.subdivision_render_levels > 0, "subdivision of the surface dropped; apply it before exporting"),
+        (!mesh.skin_deformers.is_empty(), "the skin was bent to one pose, and its bones were dropped"),
+        (!mesh.blend_deformers.is_empty(), "blend shapes were applied with the weights of one moment, and dropped"),
+        (!mesh.cache_deformers.is_empty(), "the cache of positions was dropped; the mesh keeps its base shape"),
+    ];
+    for (_, what) in dropped.into_iter().filter(|(found, _)| *found) {
+        a.warn(place_of(node), what);
+    }
+}
+
+/// The node's name, else its mesh's, light's or camera's, else a stable one.
+fn name(node: &Node) -> String {
+    let attribute = node.attrib.as_ref().map(|e| e.name.to_string());
+    let names = [Some(node.element.name.to_string()), attribute];
+    let named = names.into_iter().flatten().find(|n| !n.trim().is_empty());
+    named.unwrap_or_else(|| format!("node_{}", node.element.typed_id))
+}
+
+fn place_of(node: &Node) -> String {
+    format!("node {:?}", name(node))
+}

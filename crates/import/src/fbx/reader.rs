@@ -1,0 +1,118 @@
+//! The bytes of an FBX file to its objects, by the library ufbx, within limits of memory and depth.
+
+use crate::ImportError;
+use crate::assembly::Assembly;
+use enfilade_math::{DAffine3, DMat3, DVec3};
+use ufbx::{AllocatorOpts, CoordinateAxes, CoordinateAxis, ErrorType, EvaluateOpts, FileFormat, LoadOpts, Matrix, SceneRoot};
+
+/// Memory that any file may take while it is read, bytes; large ones may take [`MEMORY_PER_BYTE`] times their size more.
+const MEMORY: usize = 1 << 30;
+
+/// Meshes and pictures lie packed in the file, and are unpacked into numbers of double precision.
+const MEMORY_PER_BYTE: usize = 64;
+
+/// Nodes within nodes.
+const DEEPEST: u32 = 512;
+
+/// The scene of an FBX file in its own units and axes, in the pose of its first moment where it is animated.
+pub(super) fn read(a: &mut Assembly) -> Result<SceneRoot, ImportError> {
+    let bytes = a.read_scene_file()?;
+    let limits =
+        || AllocatorOpts { memory_limit: MEMORY.saturating_add(bytes.len().saturating_mul(MEMORY_PER_BYTE)), ..AllocatorOpts::default() };
+    let options = LoadOpts {
+        temp_allocator: limits(),
+        result_allocator: limits(),
+        file_format: FileFormat::Fbx,
+        node_depth_limit: DEEPEST,
+        use_blender_pbr_material: true,
+        generate_missing_normals: true,
+        evaluate_skinning: true,
+        ..LoadOpts::default()
+    };
+    let scene = ufbx::load_memory(&bytes, options).map_err(|e| a.malformed("whole file", problem(&e, bytes.len())))?;
+    for warning in &scene.metadata.warnings {
+        a.warn("whole file", format!("{} ({} times)", &*warning.description, warning.count));
+    }
+    report_version(&scene, a);
+    let Some(stack) = scene.anim_stacks.as_ref().iter().find(|s| s.layers.iter().any(|l| !l.anim_values.is_empty())) else {
+        return Ok(scene);
+    };
+    a.warn(
+        format!("animation {:?}", &*stack.element.name),
+        format!("animated scene; its first moment ({} s) was used, the rest was dropped", stack.time_begin),
+    );
+    let options = EvaluateOpts { temp_allocator: limits(), result_allocator: limits(), evaluate_skinning: true, ..EvaluateOpts::default() };
+    ufbx::evaluate_scene(&scene, &stack.anim, stack.time_begin, options)
+        .map_err(|e| a.malformed(format!("animation {:?}", &*stack.element.name), problem(&e, bytes.len())))
+}
+
+/// What is wrong, and what to do about it.
+fn problem(error: &ufbx::Error, length: usize) -> String {
+    let what = error.description.to_string();
+    let info = Some(error.info()).filter(|i| !i.is_empty()).map_or(String::new(), |i| format!(" ({i})"));
+    let remedy = match error.type_ {
+        ErrorType::UnrecognizedFileFormat => "expected FBX, binary or as text; check that the file is what its name says",
+        ErrorType::EmptyFile | ErrorType::TruncatedFile => "the file ends too soon; copy or export it again",
+        ErrorType::UnsupportedVersion => "expected FBX 6.1 to 7.7; export it again as FBX 2011 or later",
+        ErrorType::MemoryLimit | ErrorType::AllocationLimit | ErrorType::OutOfMemory => {
+            "unpacked it would be far larger than such a file can be; export it again, or split it"
+        }
+        ErrorType::NodeDepthLimit => "its nodes lie too deep within one another; flatten the tree and export it again",
+        _ => "the file is damaged; export it again, as binary FBX",
+    };
+    format!("{what}{info}, in a file of {length} bytes; {remedy}")
+}
+
+fn report_version(scene: &SceneRoot, a: &mut Assembly) {
+    let version = scene.metadata.version;
+    if !(6100..=7700).contains(&version) {
+        a.warn("whole file", format!("FBX version {version}; 6100 to 7700 are known, so parts of it may be misread"));
+    }
+}
+
+/// The rotation (or reflection) from the file's axes to the world's: its up axis becomes z, what it calls front −y, right x.
+/// `None` where the file does not say, or says what cannot be.
+pub(super) fn world_from_axes(axes: &CoordinateAxes) -> Option<DMat3> {
+    let (x, y, z) = (direction(axes.right)?, direction(axes.front)?, direction(axes.up)?);
+    let rows = DMat3::from_cols(x, -y, z);
+    (rows.determinant().abs() == 1.0).then(|| rows.transpose())
+}
+
+fn direction(axis: CoordinateAxis) -> Option<DVec3> {
+    Some(match axis {
+        CoordinateAxis::PositiveX => DVec3::X,
+        CoordinateAxis::NegativeX => DVec3::NEG_X,
+        CoordinateAxis::PositiveY => DVec3::Y,
+        CoordinateAxis::NegativeY => DVec3::NEG_Y,
+        CoordinateAxis::PositiveZ => DVec3::Z,
+        CoordinateAxis::NegativeZ => DVec3::NEG_Z,
+        CoordinateAxis::Unknown => return None,
+    })
+}
+
+/// A matrix of the library as ours.
+pub(super) fn affine(m: &Matrix) -> DAffine3 {
+    DAffine3::from_cols(
+        DVec3::new(m.m00, m.m10, m.m20),
+        DVec3::new(m.m01, m.m11, m.m21),
+        DVec3::new(m.m02, m.m12, m.m22),
+        DVec3::new(m.m03, m.m13, m.m23),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_axes_of_maya_and_max_both_stand_upright() {
+        let axes = |right, up, front| CoordinateAxes { right, up, front };
+        let maya = axes(CoordinateAxis::PositiveX, CoordinateAxis::PositiveY, CoordinateAxis::PositiveZ);
+        assert_eq!(world_from_axes(&maya).unwrap() * DVec3::new(1.0, 2.0, 3.0), DVec3::new(1.0, -3.0, 2.0));
+        let max = axes(CoordinateAxis::PositiveX, CoordinateAxis::PositiveZ, CoordinateAxis::NegativeY);
+        assert_eq!(world_from_axes(&max).unwrap(), DMat3::IDENTITY);
+        let twice = axes(CoordinateAxis::PositiveX, CoordinateAxis::PositiveX, CoordinateAxis::PositiveZ);
+        assert_eq!(world_from_axes(&twice), None);
+        assert_eq!(world_from_axes(&axes(CoordinateAxis::PositiveX, CoordinateAxis::Unknown, CoordinateAxis::PositiveZ)), None);
+    }
+}

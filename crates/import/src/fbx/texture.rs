@@ -1,0 +1,73 @@
+//! Textures of FBX materials: where their pictures are, and how coordinates find their way into them.
+
+use crate::ImportError;
+use crate::assembly::{Assembly, Source};
+use crate::images::Use;
+use enfilade_scene::{Image, Pixels, TextureRef, Wrap};
+use ufbx::{TextureType, WrapMode};
+
+/// The textures met so far that had to be turned from white to black.
+pub(super) type Inverted = std::collections::HashMap<u32, u32>;
+
+/// The picture of `texture` as `user` uses it. `None` where it has none, with a warning, or where it is missing and that is allowed.
+pub(super) fn texture(texture: &ufbx::Texture, usage: Use, user: &str, a: &mut Assembly) -> Result<Option<TextureRef>, ImportError> {
+    let file = match texture.type_ {
+        TextureType::File => texture,
+        kind => {
+            let name = &*texture.element.name;
+            let Some(first) = texture.file_textures.as_ref().first() else {
+                a.warn(user, format!("the texture {name:?} ({kind:?}) has no picture and was left out"));
+                return Ok(None);
+            };
+            a.warn(user, format!("the texture {name:?} is computed from pictures ({kind:?}); the first of them was used alone"));
+            first.as_ref()
+        }
+    };
+    let found = if file.content.is_empty() {
+        a.image(&Source::File(&path(file, a)), usage, user)?
+    } else {
+        let name = if file.filename.is_empty() { &*file.element.name } else { &*file.filename };
+        a.image(&Source::Embedded(format!("{} ({name})", file.element.element_id), &file.content), usage, user)?
+    };
+    let wrap = |mode| if mode == WrapMode::Clamp { Wrap::Clamp } else { Wrap::Repeat };
+    let m = &file.uv_to_texture;
+    Ok(found.map(|image| TextureRef {
+        uv_transform: [[m.m00 as f32, m.m01 as f32, m.m03 as f32], [m.m10 as f32, m.m11 as f32, m.m13 as f32]],
+        wrap: [wrap(file.wrap_u), wrap(file.wrap_v)],
+        ..TextureRef::new(image)
+    }))
+}
+
+/// Where the picture is: by its relative path, its absolute one, or, since that is often of another machine, by its name beside the
+/// file or in the folders where programs unpack pictures to. What the file says where it is in none of these places.
+fn path(texture: &ufbx::Texture, a: &Assembly) -> String {
+    let written = [&*texture.relative_filename, &*texture.filename, &*texture.absolute_filename];
+    let written: Vec<String> = written.into_iter().filter(|p| !p.is_empty()).map(|p| p.replace('\\', "/")).collect();
+    let stem = a.file().file_stem().map_or(String::new(), |s| s.to_string_lossy().into_owned());
+    let named = written.iter().filter_map(|p| p.rsplit('/').next());
+    let beside = named.flat_map(|name| ["", &format!("{stem}.fbm/"), "textures/", "Textures/"].map(|folder| format!("{folder}{name}")));
+    let beside: Vec<String> = beside.collect();
+    let found = written.iter().chain(&beside).find(|p| a.exists(p));
+    found.or(written.first()).cloned().unwrap_or_else(|| texture.element.name.to_string())
+}
+
+/// The picture with every colour channel turned from white to black: transparency for opacity, glossiness for roughness.
+pub(super) fn inverted(texture: TextureRef, known: &mut Inverted, a: &mut Assembly) -> TextureRef {
+    let image = match known.get(&texture.image) {
+        Some(&image) => image,
+        None => {
+            let Image { name, width, height, pixels } = a.image_at(texture.image).clone();
+            let pixels = match pixels {
+                Pixels::Rgba8 { srgb, texels } => {
+                    let texels = texels.into_iter().map(|[r, g, b, alpha]| [255 - r, 255 - g, 255 - b, alpha]).collect();
+                    Pixels::Rgba8 { srgb, texels }
+                }
+                Pixels::RgbF32(texels) => Pixels::RgbF32(texels.into_iter().map(|t| t.map(|v| (1.0 - v).max(0.0))).collect()),
+            };
+            let image = a.push_image(Image { name: format!("{name} (inverted)"), width, height, pixels });
+            known.insert(texture.image, image);
+            image
+        }
+    };
+    TextureRef { image, ..texture }
+}

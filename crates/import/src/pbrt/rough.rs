@@ -1,0 +1,58 @@
+//! Roughness of microfacets.
+
+use super::Reader;
+use super::params::Params;
+use super::version::Version;
+use crate::ImportError;
+use enfilade_scene::ScalarParam;
+
+impl Reader<'_> {
+    /// GGX alpha of `uroughness`, `vroughness` and `roughness`, whose names begin with `prefix`. Where `remaproughness` is on, as by
+    /// default, they are put through the version's own formula: in version 3 a polynomial (Pharr, Jakob & Humphreys 2016, 8.4.2), in
+    /// version 4 the square root.
+    pub(super) fn alpha(&mut self, params: &Params, prefix: &str, default: f32) -> Result<ScalarParam, ImportError> {
+        let names = ["roughness", "uroughness", "vroughness"].map(|n| format!("{prefix}{n}"));
+        let remap = params.flag("remaproughness", true)?;
+        let both = self.scalar(params, &names[0], default)?;
+        let mut either = [both; 2];
+        for (value, name) in either.iter_mut().zip(&names[1..]) {
+            if params.has(name) {
+                *value = self.scalar(params, name, default)?;
+            }
+        }
+        let [u, v] = either;
+        let smooth = |value: &ScalarParam| value.texture.is_none() && value.factor <= 0.0;
+        if smooth(&u) && smooth(&v) {
+            return Ok(0.0.into());
+        }
+        let roughness = if u == v {
+            u
+        } else {
+            self.warn(&params.place, "anisotropic roughness was replaced by its mean");
+            ScalarParam { factor: 0.5 * (u.factor + v.factor), texture: u.texture.or(v.texture) }
+        };
+        Ok(match (remap, self.version) {
+            (false, _) => roughness,
+            (true, Version::V3) => self.mapped(roughness, "alpha of roughness", alpha_of_roughness),
+            (true, Version::V4) => self.mapped(roughness, "alpha of roughness", |r| r.max(0.0).sqrt()),
+        })
+    }
+}
+
+/// pbrt-v3's `RoughnessToAlpha`.
+fn alpha_of_roughness(roughness: f32) -> f32 {
+    let x = roughness.max(1e-3).ln();
+    [0.819_955, 0.1734, 0.017_120_1, 0.000_640_711].iter().zip(1..).fold(1.621_42, |sum, (c, i)| sum + c * x.powi(i))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roughness_of_version_3_follows_its_polynomial() {
+        assert!((alpha_of_roughness(1.0) - 1.621_42).abs() < 1e-6);
+        assert!((alpha_of_roughness(0.1) - 0.461_76).abs() < 1e-4, "{}", alpha_of_roughness(0.1));
+        assert!(alpha_of_roughness(0.0) == alpha_of_roughness(1e-3) && alpha_of_roughness(0.0) > 0.0);
+    }
+}

@@ -1,0 +1,157 @@
+//! Finding and reading layers and other files: beside the layer that names them, or within its archive.
+//!
+//! A location is a path relative to the scene file's folder; what is in an archive has its name there in brackets behind it.
+
+use super::archive::Archive;
+use super::layer::Layer;
+use super::{binary, text};
+use crate::ImportError;
+use crate::assembly::Assembly;
+use std::collections::HashMap;
+use std::path::Path;
+use std::rc::Rc;
+
+/// The archives and layers read so far.
+#[derive(Default)]
+pub(super) struct Files {
+    archives: HashMap<String, Rc<Archive>>,
+    layers: HashMap<String, Rc<Layer>>,
+}
+
+impl Files {
+    /// The layer at a location. `user` is the layer and prim that want it.
+    ///
+    /// # Errors
+    /// When it cannot be read or is not USD.
+    pub(super) fn layer(&mut self, location: &str, user: &str, a: &mut Assembly) -> Result<Rc<Layer>, ImportError> {
+        if let Some(known) = self.layers.get(location) {
+            return Ok(known.clone());
+        }
+        if let Some(scheme) = scheme(location) {
+            let problem =
+                format!("it refers to {location}; {scheme} is not fetched, so save the scene with its files beside it (a usdz holds all)");
+            return Err(a.malformed(user, problem));
+        }
+        let (bytes, location) = self.bytes(location, user, a)?;
+        let place = |place: String| match location.split_once('[') {
+            Some((_, inner)) => format!("[{inner}, {place}"),
+            None => place,
+        };
+        let file = a.path_of(outer(&location));
+        let read = if bytes.starts_with(binary::MAGIC) {
+            binary::parse(&bytes)
+        } else if bytes.starts_with(b"#") || bytes.starts_with("\u{feff}".as_bytes()) {
+            match std::str::from_utf8(&bytes) {
+                Ok(text) => text::parse(text),
+                Err(e) => Err((format!("byte {}", e.valid_up_to()), "found bytes that are no UTF-8 text; the file is damaged".into())),
+            }
+        } else {
+            let problem =
+                "found neither `#usda` nor `PXR-USDC` at its beginning, expected a layer of USD; check that the file is one and whole";
+            Err(("byte 0".into(), problem.into()))
+        };
+        let mut layer = read.map_err(|(at, problem)| ImportError::malformed(&file, place(at), problem))?;
+        layer.location.clone_from(&location);
+        let layer = Rc::new(layer);
+        self.layers.insert(location, layer.clone());
+        Ok(layer)
+    }
+
+    /// The bytes of a layer, with its location, which for an archive is that of its first file.
+    fn bytes(&mut self, location: &str, user: &str, a: &mut Assembly) -> Result<(Vec<u8>, String), ImportError> {
+        let file = outer(location);
+        if !is_archive(file) {
+            return a.read(file).map(|(_, bytes)| (bytes, location.to_string()));
+        }
+        let archive = self.archive(file, a)?;
+        let inner = inner(location).unwrap_or(&archive.first);
+        match archive.get(inner) {
+            Some(bytes) => Ok((bytes.to_vec(), format!("{file}[{inner}]"))),
+            None => Err(a.malformed(user, format!("it refers to {inner}, which is not in the archive {file}; pack the archive anew"))),
+        }
+    }
+
+    fn archive(&mut self, file: &str, a: &mut Assembly) -> Result<Rc<Archive>, ImportError> {
+        if let Some(known) = self.archives.get(file) {
+            return Ok(known.clone());
+        }
+        let (path, bytes) = a.read(file)?;
+        let archive = Archive::open(bytes).map_err(|(place, problem)| ImportError::malformed(&path, place, problem))?;
+        let archive = Rc::new(archive);
+        self.archives.insert(file.to_string(), archive.clone());
+        Ok(archive)
+    }
+
+    /// The bytes of a file in an archive that has been opened.
+    pub(super) fn embedded(&self, location: &str) -> Option<Vec<u8>> {
+        self.archives.get(outer(location))?.get(inner(location)?).map(<[u8]>::to_vec)
+    }
+}
+
+/// What an asset path in a layer means: `./a` and `a` stand beside the layer, in its archive if it is in one.
+pub(super) fn resolve(asset: &str, layer: &str) -> String {
+    let asset = asset.replace('\\', "/");
+    if scheme(&asset).is_some() || Path::new(&asset).is_absolute() {
+        return asset;
+    }
+    match (outer(layer), inner(layer)) {
+        (file, Some(inner)) => format!("{file}[{}]", joined(inner, &asset)),
+        (file, None) => joined(file, &asset),
+    }
+}
+
+/// True where the location is inside of an archive.
+pub(super) fn is_embedded(location: &str) -> bool {
+    inner(location).is_some() && is_archive(outer(location))
+}
+
+fn joined(file: &str, asset: &str) -> String {
+    let mut steps: Vec<&str> = file.split('/').collect();
+    steps.pop();
+    for step in asset.split('/').filter(|s| !s.is_empty() && *s != ".") {
+        if step == ".." && steps.last().is_some_and(|s| *s != ".." && !s.is_empty()) {
+            steps.pop();
+        } else {
+            steps.push(step);
+        }
+    }
+    steps.join("/")
+}
+
+fn outer(location: &str) -> &str {
+    location.split_once('[').map_or(location, |(file, _)| file)
+}
+
+fn inner(location: &str) -> Option<&str> {
+    location.split_once('[')?.1.strip_suffix(']')
+}
+
+fn is_archive(file: &str) -> bool {
+    Path::new(file).extension().is_some_and(|e| e.eq_ignore_ascii_case("usdz"))
+}
+
+fn scheme(location: &str) -> Option<&str> {
+    let (scheme, _) = location.split_once("://")?;
+    (scheme.len() > 1).then_some(scheme)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn asset_paths_start_at_their_layer() {
+        for (asset, layer, expected) in [
+            ("./tex/a.png", "room.usda", "tex/a.png"),
+            ("../b.usd", "sub/deep/x.usda", "sub/b.usd"),
+            ("../b.usd", "x.usda", "../b.usd"),
+            ("c.png", "room.usdz[in/a.usdc]", "room.usdz[in/c.png]"),
+            ("..\\c.png", "room.usdz[in/a.usdc]", "room.usdz[c.png]"),
+            ("/abs/c.png", "x.usda", "/abs/c.png"),
+            ("https://x/y.usd", "x.usda", "https://x/y.usd"),
+            ("chair.usdz[a.usda]", "sub/x.usda", "sub/chair.usdz[a.usda]"),
+        ] {
+            assert_eq!(resolve(asset, layer), expected);
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Point instancers: prototypes at many places.
+
+use super::layer::field;
+use super::stage::Prim;
+use super::walk::{State, Walk};
+use super::xform::rotation;
+use crate::ImportError;
+use crate::assembly::Assembly;
+use enfilade_math::{DAffine3, DMat3, DVec3};
+use std::collections::HashSet;
+use std::rc::Rc;
+
+/// More instances than this are taken for damage or for grass, neither of which is a room.
+const MAX_INSTANCES: usize = 1 << 18;
+
+impl Walk<'_> {
+    /// Adds the instances of a point instancer. What is below it is not drawn by itself.
+    pub(super) fn instances(&mut self, prim: &Rc<Prim>, state: &State, a: &mut Assembly) -> Result<(), ImportError> {
+        let numbers = |name: &str, width: usize| prim.value(name).and_then(|v| v.as_numbers(width)).unwrap_or(&[]).to_vec();
+        let which = numbers("protoIndices", 1);
+        let (positions, scales) = (numbers("positions", 3), numbers("scales", 3));
+        let precise = numbers("orientationsf", 4);
+        let orientations = if precise.is_empty() { numbers("orientations", 4) } else { precise };
+        let bad = |problem: String| a.malformed(format!("<{}>", prim.path), problem);
+        if which.len() > MAX_INSTANCES {
+            return Err(bad(format!("found {} instances, expected at most {MAX_INSTANCES}; make the scene smaller", which.len())));
+        }
+        for (name, found, width) in
+            [("positions", positions.len(), 3), ("scales", scales.len(), 3), ("orientations", orientations.len(), 4)]
+        {
+            let optional = found == 0 && name != "positions";
+            if !optional && found / width != which.len() {
+                let problem = format!("found {} {name} for {} instances; export the file again", found / width, which.len());
+                return Err(bad(problem));
+            }
+        }
+        let hidden = self.hidden_instances(prim, which.len());
+        let mut prototypes = Vec::new();
+        for path in prim.targets("prototypes", field::TARGETS) {
+            prototypes.push(self.stage.at(&path, a)?);
+        }
+        for (i, proto) in which.iter().enumerate().filter(|(i, _)| !hidden.contains(i)) {
+            let found = if *proto >= 0.0 { prototypes.get(*proto as usize) } else { None };
+            let Some(Some(prototype)) = found else {
+                let problem = format!("found prototype {proto} at instance {i}, but there are {}; export the file again", prototypes.len());
+                return Err(a.malformed(format!("<{}>.protoIndices", prim.path), problem));
+            };
+            let vector =
+                |list: &[f64], default: f64| list.as_chunks::<3>().0.get(i).map_or(DVec3::splat(default), |v| DVec3::from_array(*v));
+            let turn = orientations.as_chunks::<4>().0.get(i).map_or(DMat3::IDENTITY, |q| rotation(*q));
+            let placed = DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(vector(&scales, 1.0)), vector(&positions, 0.0));
+            let state = State {
+                file_from_parent: state.file_from_parent * placed,
+                prefix: format!("{}{}[{i}]/", state.prefix, prim.name()),
+                ..state.clone()
+            };
+            let prototype = prototype.clone();
+            self.visit(&prototype, &state, a)?;
+        }
+        Ok(())
+    }
+
+    /// Places of the instances that are invisible or inactive; both are named by id.
+    fn hidden_instances(&self, prim: &Prim, count: usize) -> HashSet<usize> {
+        let ids = prim.value("ids").and_then(|v| v.as_numbers(1)).unwrap_or(&[]);
+        let mut hidden: Vec<i64> =
+            prim.value("invisibleIds").and_then(|v| v.as_numbers(1)).unwrap_or(&[]).iter().map(|i| *i as i64).collect();
+        let inactive = prim.field("inactiveIds").map(|v| v.as_list().explicit.unwrap_or_default()).unwrap_or_default();
+        hidden.extend(inactive.iter().filter_map(|i| i.path.parse::<i64>().ok()));
+        let id = |i: usize| ids.get(i).map_or(i as i64, |id| *id as i64);
+        (0..count).filter(|i| hidden.contains(&id(*i))).collect()
+    }
+}

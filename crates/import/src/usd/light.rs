@@ -1,0 +1,234 @@
+//! UsdLux: lights with a surface become parts that emit; those without one, lights.
+//!
+//! The radiance of a light's surface is intensity · 2^exposure · colour (· the black body's colour), nits in UsdLux and W·sr⁻¹·m⁻²
+//! here, one for the other. `normalize` divides it by the area of the surface in the stage's units; for a distant light by
+//! π·sin²(half its angle), so that intensity becomes irradiance. OpenUSD, "UsdLux": `LightAPI`, `ShapingAPI`, `DistantLight`.
+
+use super::camera::name;
+use super::shapes;
+use super::stage::{Prim, Stage};
+use super::texture::{Textures, rgb};
+use super::value::Value;
+use crate::assembly::{Assembly, orthonormal};
+use crate::images::Use;
+use crate::spectrum::black_body;
+use crate::{ImportError, ies};
+use enfilade_geometry::Mesh;
+use enfilade_math::{DAffine3, DMat3, DVec3, Rgb};
+use enfilade_scene::{ColorParam, Environment, Light, MapRows, Material, PartLabel, SpotFalloff, TextureRef};
+use std::collections::HashMap;
+use std::f64::consts::PI;
+
+/// A light prim, its placement, and where to put what it becomes.
+pub(super) struct Lamp<'l> {
+    pub prim: &'l Prim,
+    pub file_from_prim: DAffine3,
+    pub label: PartLabel,
+    pub baked: &'l mut HashMap<String, u32>,
+    /// True where z is up in the file.
+    pub z_up: bool,
+}
+
+/// An input of a light. Until 2021 they had no `inputs:` before their names.
+fn input<'p>(prim: &'p Prim, name: &str) -> Option<&'p Value> {
+    prim.value(&format!("inputs:{name}")).or_else(|| prim.value(name))
+}
+
+fn number(prim: &Prim, name: &str, default: f64) -> f64 {
+    input(prim, name).and_then(Value::as_number).unwrap_or(default)
+}
+
+/// Radiance before normalization, where `default` is the intensity that holds when none is stated.
+fn radiance(prim: &Prim, default: f64) -> Rgb {
+    let strength = number(prim, "intensity", default) * number(prim, "exposure", 0.0).exp2();
+    let mut color = input(prim, "color").and_then(rgb).unwrap_or(Rgb::WHITE);
+    if input(prim, "enableColorTemperature").and_then(Value::as_bool) == Some(true) {
+        let body = black_body(number(prim, "colorTemperature", 6500.0).clamp(1000.0, 10_000.0));
+        color = color * body * (1.0 / body.luminance());
+    }
+    color * strength as f32
+}
+
+fn is_normalized(prim: &Prim) -> bool {
+    input(prim, "normalize").and_then(Value::as_bool).unwrap_or(false)
+}
+
+/// Radiance of a surface of `area` square units of the stage.
+fn surface_radiance(prim: &Prim, area: f64) -> Rgb {
+    let radiance = radiance(prim, 1.0);
+    if is_normalized(prim) && area > 0.0 { radiance * (1.0 / area) as f32 } else { radiance }
+}
+
+/// The radiance of a mesh that is a light (`MeshLightAPI`); `None` for those that are none.
+pub(super) fn of_mesh(prim: &Prim, mesh: &Mesh, placement: DAffine3) -> Option<Rgb> {
+    prim.schemas().iter().any(|s| s == "MeshLightAPI").then(|| surface_radiance(prim, area(mesh, placement.matrix3)))
+}
+
+fn area(mesh: &Mesh, placement: DMat3) -> f64 {
+    (0..mesh.triangles.len())
+        .map(|t| mesh.corners(t).map(|p| placement * p.as_dvec3()))
+        .map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length())
+        .sum()
+}
+
+impl Lamp<'_> {
+    /// Adds the light.
+    ///
+    /// # Errors
+    /// When a texture or profile cannot be read.
+    pub(super) fn add(&mut self, stage: &mut Stage, a: &mut Assembly) -> Result<(), ImportError> {
+        for multiplier in ["diffuse", "specular"] {
+            if number(self.prim, multiplier, 1.0) != 1.0 {
+                a.warn(&self.prim.path, format!("the light's {multiplier} multiplier was left out: it is no property of light"));
+            }
+        }
+        match self.prim.kind() {
+            "DistantLight" => self.distant(a),
+            "DomeLight" | "DomeLight_1" => return self.dome(stage, a),
+            "SphereLight" => return self.sphere(stage, a),
+            "RectLight" => {
+                let (width, height) = (number(self.prim, "width", 1.0), number(self.prim, "height", 1.0));
+                let picture = self.picture("texture:file", stage, a)?;
+                self.surface(backward(shapes::plane(width as f32, height as f32)), width * height, picture, a)?;
+            }
+            "DiskLight" => {
+                let radius = number(self.prim, "radius", 0.5);
+                self.surface(backward(shapes::disk(radius as f32)), PI * radius * radius, None, a)?;
+            }
+            "CylinderLight" => {
+                let (radius, length) = (number(self.prim, "radius", 0.5), number(self.prim, "length", 1.0));
+                self.surface(shapes::tube_along_x(radius as f32, length as f32), 2.0 * PI * radius * length, None, a)?;
+            }
+            other => a.warn(&self.prim.path, format!("{other} is not supported; it was left out")),
+        }
+        Ok(())
+    }
+
+    /// A part that emits. `exact` is the area of the shape that the mesh stands for.
+    fn surface(&self, mesh: Mesh, exact: f64, picture: Option<u32>, a: &mut Assembly) -> Result<(), ImportError> {
+        let cone = number(self.prim, "shaping:cone:angle", 90.0);
+        if cone < 90.0 || number(self.prim, "shaping:focus", 0.0) != 0.0 || input(self.prim, "shaping:ies:file").is_some() {
+            a.warn(&self.prim.path, "the light's cone, focus or profile was left out: surfaces emit evenly over directions");
+        }
+        let placed = exact * area(&mesh, self.file_from_prim.matrix3) / area(&mesh, DMat3::IDENTITY);
+        let factor = surface_radiance(self.prim, placed);
+        let name = name(self.prim);
+        let mut material = Material::emitter(&name, factor);
+        material.emission = ColorParam { factor, texture: picture.map(TextureRef::new) };
+        let file = a.file().to_path_buf();
+        if let Some(mesh) = a.push_mesh(mesh, &file, &self.prim.path)? {
+            let material = a.push_material(material);
+            a.push_part(&name, mesh, material, self.file_from_prim, self.label);
+        }
+        Ok(())
+    }
+
+    /// A sphere; a point where it is to be one, or shines into a cone or by a profile, which surfaces cannot here.
+    fn sphere(&self, stage: &Stage, a: &mut Assembly) -> Result<(), ImportError> {
+        let radius = number(self.prim, "radius", 0.5);
+        let mesh = shapes::sphere(radius as f32);
+        let exact = 4.0 * PI * radius * radius;
+        let (cone, softness) = (number(self.prim, "shaping:cone:angle", 90.0), number(self.prim, "shaping:cone:softness", 0.0));
+        let profile = input(self.prim, "shaping:ies:file").and_then(Value::as_text).filter(|t| !t.is_empty()).map(str::to_string);
+        let as_point = input(self.prim, "treatAsPoint").and_then(Value::as_bool).unwrap_or(false);
+        if !as_point && cone >= 90.0 && profile.is_none() {
+            return self.surface(mesh, exact, None, a);
+        }
+        let placed = exact * area(&mesh, self.file_from_prim.matrix3) / area(&mesh, DMat3::IDENTITY);
+        // A sphere of radiance L shows the area πr² from everywhere.
+        let factor = if is_normalized(self.prim) { 0.25 } else { 0.25 * placed };
+        let intensity = radiance(self.prim, 1.0) * if factor.is_finite() { factor as f32 } else { 0.0 };
+        if !as_point {
+            a.warn(&self.prim.path, "the light shines by a cone or profile, so it was made a point of the same intensity");
+        }
+        let (name, position) = (name(self.prim), self.file_from_prim.translation.as_vec3());
+        if let Some(asset) = profile {
+            return self.profile(stage, &asset, intensity, a);
+        }
+        a.push_light(if cone < 90.0 {
+            let direction = self.file_from_prim.transform_vector3(DVec3::NEG_Z).normalize_or_zero().as_vec3();
+            let outer_rad = cone.max(0.0).to_radians() as f32;
+            let inner_rad = outer_rad * (1.0 - softness.clamp(0.0, 1.0) as f32);
+            Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff: SpotFalloff::Angle }
+        } else {
+            Light::Point { name, position, intensity }
+        });
+        Ok(())
+    }
+
+    /// A point that shines by a photometric profile, whose axis is the light's −z.
+    fn profile(&self, stage: &Stage, asset: &str, intensity: Rgb, a: &mut Assembly) -> Result<(), ImportError> {
+        let layer =
+            self.prim.value_at("inputs:shaping:ies:file").or(self.prim.value_at("shaping:ies:file")).map(|(_, site)| &site.layer.location);
+        let location = super::files::resolve(asset, layer.map_or("", String::as_str));
+        let (file, bytes) = match stage.embedded(&location) {
+            Some(bytes) => (a.path_of(&location), bytes),
+            None => a.read(&location)?,
+        };
+        let parsed = ies::parse(&bytes, &file, "")?;
+        for warning in parsed.warnings {
+            a.warn(&self.prim.path, warning);
+        }
+        let m = self.file_from_prim.matrix3;
+        let Some(axes) = orthonormal(m.y_axis, m.z_axis) else {
+            a.warn(&self.prim.path, "the light's placement makes no sense, so it was left out");
+            return Ok(());
+        };
+        let position = self.file_from_prim.translation.as_vec3();
+        let web_from_world = axes.transpose().as_mat3();
+        a.push_light(Light::Profile { name: name(self.prim), position, web_from_world, intensity, web: Box::new(parsed.web) });
+        Ok(())
+    }
+
+    /// The sun: a disk in the sky of some angle across.
+    fn distant(&self, a: &mut Assembly) {
+        let half = 0.5 * number(self.prim, "angle", 0.53).clamp(0.0, 180.0).to_radians();
+        let solid = PI * half.sin().powi(2);
+        let mut irradiance = radiance(self.prim, 50_000.0);
+        if !is_normalized(self.prim) && solid > 0.0 {
+            irradiance *= solid as f32;
+        }
+        let direction = self.file_from_prim.transform_vector3(DVec3::NEG_Z).normalize_or_zero().as_vec3();
+        a.push_light(Light::Directional { name: name(self.prim), direction, irradiance, angular_radius_rad: half as f32 });
+    }
+
+    /// The surroundings. Their pictures are OpenEXR's latitude-longitude maps: the middle is +z, +x a quarter left of it; just ours.
+    fn dome(&mut self, stage: &mut Stage, a: &mut Assembly) -> Result<(), ImportError> {
+        let scale = radiance(self.prim, 1.0);
+        let format = input(self.prim, "texture:format").and_then(Value::as_text).unwrap_or("automatic");
+        if !matches!(format, "automatic" | "latlong") {
+            a.warn(
+                &self.prim.path,
+                format!("an environment in the format {format} is not supported, only latlong; its mean was not taken either: it is plain"),
+            );
+        } else if let Some(image) = self.picture("texture:file", stage, a)? {
+            let scene_axis = self.prim.kind() == "DomeLight_1" && self.z_up && self.prim.text("poleAxis").unwrap_or("scene") == "scene";
+            let z_axis = self.prim.kind() == "DomeLight_1" && self.prim.text("poleAxis") == Some("Z");
+            let pole = if scene_axis || z_axis { DMat3::from_rotation_x(0.5 * PI) } else { DMat3::IDENTITY };
+            a.set_environment_map(image, MapRows::Bands, scale, self.file_from_prim.matrix3 * pole, &self.prim.path);
+            return Ok(());
+        }
+        a.set_environment(Environment::Constant { radiance: scale }, &self.prim.path);
+        Ok(())
+    }
+
+    /// The picture that an attribute of the light names.
+    fn picture(&mut self, attribute: &str, stage: &mut Stage, a: &mut Assembly) -> Result<Option<u32>, ImportError> {
+        let found = self.prim.value_at(&format!("inputs:{attribute}")).or(self.prim.value_at(attribute));
+        let Some((asset, layer)) = found.and_then(|(v, site)| Some((v.as_text()?.to_string(), site.layer.location.clone()))) else {
+            return Ok(None);
+        };
+        if asset.is_empty() {
+            return Ok(None);
+        }
+        let user = format!("light <{}>", self.prim.path);
+        Textures { stage, a, user, uv_name: None, baked: self.baked }.picture(&asset, &layer, Use::Color)
+    }
+}
+
+/// A mesh that faces +z turned round to −z, where these lights shine.
+fn backward(mut mesh: Mesh) -> Mesh {
+    mesh.normals.iter_mut().for_each(|n| *n = -*n);
+    mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    mesh
+}

@@ -1,0 +1,126 @@
+//! Polygon meshes.
+
+use super::primvar::{Primvar, Sizes};
+use super::stage::Prim;
+use crate::ImportError;
+use crate::assembly::Assembly;
+use crate::mesh::add_smooth_normals;
+use crate::polygon::triangulate;
+use enfilade_geometry::Mesh;
+use enfilade_math::{Vec2, Vec3};
+use std::collections::HashMap;
+
+/// Cutting a larger polygon into triangles could take hours.
+const MAX_CORNERS: usize = 4096;
+
+/// A mesh prim's points and faces, checked.
+pub(super) struct Polygons {
+    points: Vec<Vec3>,
+    /// Point of each corner.
+    corners: Vec<u32>,
+    /// First corner and number of corners of each face.
+    faces: Vec<(usize, usize)>,
+    left_handed: bool,
+    /// Faces that are not there.
+    holes: Vec<bool>,
+    normals: Option<Primvar<3>>,
+    /// True for subdivision surfaces, whose cage this is.
+    pub smooth: bool,
+}
+
+impl Polygons {
+    /// The mesh of a prim of type `Mesh`.
+    ///
+    /// # Errors
+    /// When counts and indices do not fit each other.
+    pub(super) fn read(prim: &Prim, a: &mut Assembly) -> Result<Self, ImportError> {
+        let numbers = |name: &str, width: usize| prim.value(name).and_then(|v| v.as_numbers(width)).unwrap_or(&[]);
+        let bad = |name: &str, problem: String| a.malformed(format!("<{}>.{name}", prim.path), problem);
+        let points: Vec<Vec3> = numbers("points", 3).as_chunks::<3>().0.iter().map(|p| Vec3::from_array(p.map(|c| c as f32))).collect();
+        let (counts, indices) = (numbers("faceVertexCounts", 1), numbers("faceVertexIndices", 1));
+        let mut faces = Vec::with_capacity(counts.len());
+        let mut next = 0usize;
+        for count in counts {
+            if !(*count >= 0.0 && *count <= indices.len() as f64) {
+                return Err(bad(
+                    "faceVertexCounts",
+                    format!("found a face of {count} corners, but there are {}; export the file again", indices.len()),
+                ));
+            }
+            if *count as usize > MAX_CORNERS {
+                return Err(bad("faceVertexCounts", format!("found a face of {count} corners, expected at most {MAX_CORNERS}; split it")));
+            }
+            faces.push((next, *count as usize));
+            next += *count as usize;
+        }
+        if next != indices.len() {
+            let problem = format!("the faces have {next} corners, but faceVertexIndices has {}; export the file again", indices.len());
+            return Err(bad("faceVertexCounts", problem));
+        }
+        if let Some(index) = indices.iter().find(|i| !(0.0..points.len() as f64).contains(*i)) {
+            return Err(bad("faceVertexIndices", format!("found point {index}, but there are {}; export the file again", points.len())));
+        }
+        let corners: Vec<u32> = indices.iter().map(|i| *i as u32).collect();
+        let mut holes = vec![false; faces.len()];
+        for face in numbers("holeIndices", 1) {
+            if let Some(hole) = holes.get_mut(*face as usize) {
+                *hole = true;
+            }
+        }
+        let sizes = Sizes { faces: faces.len(), points: points.len(), corners: corners.len() };
+        let normals = match Primvar::read(prim, "primvars:normals", "vertex", sizes, a)? {
+            None => Primvar::read(prim, "normals", "vertex", sizes, a)?,
+            some => some,
+        };
+        Ok(Self {
+            points,
+            corners,
+            faces,
+            left_handed: prim.text("orientation") == Some("leftHanded"),
+            holes,
+            normals,
+            smooth: prim.text("subdivisionScheme").unwrap_or("catmullClark") != "none",
+        })
+    }
+
+    /// How many faces, points and corners there are.
+    pub(super) fn sizes(&self) -> Sizes {
+        Sizes { faces: self.faces.len(), points: self.points.len(), corners: self.corners.len() }
+    }
+
+    /// Some of the faces as triangles, with texture coordinates. Where points of one place have several normals or coordinates,
+    /// they become several vertices.
+    pub(super) fn mesh(&self, faces: impl Iterator<Item = usize>, uvs: Option<&Primvar<2>>) -> Mesh {
+        let mut mesh = Mesh::default();
+        let mut vertices: HashMap<[u32; 3], u32> = HashMap::new();
+        let mut outline = Vec::new();
+        for face in faces.filter(|f| !self.holes.get(*f).copied().unwrap_or(true)) {
+            let (first, count) = self.faces[face];
+            outline.clear();
+            outline.extend((first..first + count).map(|c| self.points[self.corners[c] as usize]));
+            let mut vertex = |corner: usize| {
+                let point = self.corners[corner];
+                let normal = self.normals.as_ref().map_or(0, |n| n.element(face, point as usize, corner));
+                let uv = uvs.map_or(0, |u| u.element(face, point as usize, corner));
+                *vertices.entry([point, normal, uv]).or_insert_with(|| {
+                    mesh.positions.push(self.points[point as usize]);
+                    if let Some(normals) = &self.normals {
+                        mesh.normals.push(Vec3::from_array(normals.get(normal).map(|c| c as f32)));
+                    }
+                    if let Some(uvs) = uvs {
+                        mesh.uvs.push(Vec2::from_array(uvs.get(uv).map(|c| c as f32)));
+                    }
+                    (mesh.positions.len() - 1) as u32
+                })
+            };
+            for [a, b, c] in triangulate(&outline) {
+                let [a, b, c] = [a, b, c].map(|i| vertex(first + i));
+                mesh.triangles.push(if self.left_handed { [a, c, b] } else { [a, b, c] });
+            }
+        }
+        if self.smooth && self.normals.is_none() {
+            add_smooth_normals(&mut mesh);
+        }
+        mesh
+    }
+}

@@ -1,0 +1,54 @@
+//! Networks of shaders: what an input is connected to, through node graphs and materials.
+
+use super::layer::{field, split_property};
+use super::stage::{Prim, Stage};
+use super::value::Value;
+use crate::ImportError;
+use crate::assembly::Assembly;
+use std::rc::Rc;
+
+/// Longer ways from input to output are circles.
+const MAX_STEPS: usize = 64;
+
+/// Where an input's value comes from.
+#[derive(Debug)]
+pub(super) enum Source {
+    /// Nowhere: the shader's default holds.
+    Default,
+    /// A value, and the location of the layer that says it.
+    Value(Value, String),
+    /// The output of a shader, without `outputs:`.
+    Shader(Rc<Prim>, String),
+}
+
+/// What an input (or an output of a material) is fed by.
+///
+/// # Errors
+/// When a layer on the way cannot be read, or connections stand in a circle.
+pub(super) fn source(stage: &mut Stage, prim: &Rc<Prim>, property: &str, a: &mut Assembly) -> Result<Source, ImportError> {
+    let (mut prim, mut property) = (prim.clone(), property.to_string());
+    for _ in 0..MAX_STEPS {
+        let Some(target) = prim.targets(&property, field::CONNECTIONS).into_iter().next() else {
+            return Ok(match prim.value_at(&property) {
+                Some((value, site)) => Source::Value(value.clone(), site.layer.location.clone()),
+                None => Source::Default,
+            });
+        };
+        let (path, name) = split_property(&target);
+        let Some(next) = stage.at(path, a)? else {
+            a.warn(format!("{}.{property}", prim.path), format!("it is connected to {target}, which is not there; the default holds"));
+            return Ok(Source::Default);
+        };
+        if let (Some(output), "Shader") = (name.strip_prefix("outputs:"), next.kind()) {
+            return Ok(Source::Shader(next.clone(), output.to_string()));
+        }
+        (prim, property) = (next.clone(), name.to_string());
+    }
+    Err(a.malformed(format!("{}.{property}", prim.path), "its connections stand in a circle; take one of them out"))
+}
+
+/// The name of a shader's implementation: `info:id`, or an MDL module and what of it.
+pub(super) fn id(shader: &Prim) -> String {
+    let mdl = || shader.text("info:mdl:sourceAsset:subIdentifier").or(shader.text("info:mdl:sourceAsset"));
+    shader.text("info:id").or_else(mdl).unwrap_or("").to_string()
+}

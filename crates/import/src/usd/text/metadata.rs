@@ -1,0 +1,78 @@
+//! Metadata in usda: what stands in round brackets behind the layer, a prim, or a property.
+
+use super::lexer::Token;
+use super::parser::{Parsed, Parser};
+use crate::usd::layer::{Fields, field};
+use crate::usd::value::{Item, ListEdit, Value};
+use std::rc::Rc;
+
+impl Parser<'_> {
+    /// `( key = value … )`.
+    pub(super) fn metadata(&mut self, fields: &mut Fields) -> Parsed {
+        self.advance()?;
+        while !self.at_sign(b')')? {
+            match &self.token {
+                Token::Sign(b';' | b',') | Token::Text(_) => {
+                    self.advance()?;
+                    continue;
+                }
+                _ => (),
+            }
+            let mut key = self.key("a name of metadata")?;
+            let edit = ["prepend", "append", "add", "delete", "reorder"].into_iter().find(|e| *e == key);
+            if edit.is_some() && self.token != Token::Sign(b'=') {
+                key = self.key("a name of metadata")?;
+            }
+            self.expect(b'=')?;
+            self.metadatum(&key, edit, fields)?;
+        }
+        self.advance()
+    }
+
+    fn metadatum(&mut self, key: &str, edit: Option<&str>, fields: &mut Fields) -> Parsed {
+        let list = match key {
+            "references" => Some(field::REFERENCES),
+            "payload" => Some(field::PAYLOAD),
+            "inherits" => Some(field::INHERITS),
+            "specializes" => Some(field::SPECIALIZES),
+            "variantSets" => Some(field::VARIANT_SETS),
+            "apiSchemas" => Some(field::SCHEMAS),
+            "subLayers" => Some(field::SUBLAYERS),
+            _ => None,
+        };
+        if let Some(list) = list {
+            let items = self.items()?;
+            // The offset of time of a reference within the layer.
+            if self.token == Token::Sign(b'(') {
+                self.skip_brackets()?;
+            }
+            if list == field::SUBLAYERS {
+                fields.push((list.into(), Value::texts(items.into_iter().map(|i| Rc::from(i.asset)))));
+            } else {
+                add_edit(fields, list, edit, items);
+            }
+            return Ok(());
+        }
+        let value = self.value()?;
+        let name = if key == "variants" { field::VARIANTS } else { key };
+        fields.push((name.into(), value));
+        Ok(())
+    }
+}
+
+/// Adds an edit of a list; several edits of one list stand together.
+pub(super) fn add_edit(fields: &mut Fields, list: &str, edit: Option<&str>, items: Vec<Item>) {
+    let at = fields.iter().position(|(n, _)| &**n == list).unwrap_or_else(|| {
+        fields.push((list.into(), Value::List(Rc::new(ListEdit::default()))));
+        fields.len() - 1
+    });
+    let Value::List(edits) = &mut fields[at].1 else { return };
+    let edits = Rc::make_mut(edits);
+    match edit {
+        None => edits.explicit = Some(items),
+        Some("prepend") => edits.prepended = items,
+        Some("delete") => edits.deleted = items,
+        Some("reorder") => (),
+        _ => edits.appended = items,
+    }
+}

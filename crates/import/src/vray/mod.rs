@@ -1,0 +1,173 @@
+//! V-Ray scene descriptions (`.vrscene`), with the files that they include.
+//!
+//! | plugins | supported |
+//! |---|---|
+//! | geometry | `GeomStaticMesh` with its normals, texture channels and material ids, plain or packed; `GeomPlane`, `GeomInfinitePlane` (a square of 2000 units a side); `GeomDisplacedMesh` and `GeomStaticSmoothedMesh` (their base mesh, with a warning) |
+//! | nodes | `Node`: placement, geometry, material, `visible`. Nodes share meshes |
+//! | cameras | `RenderView` with `SettingsOutput`; `CameraPhysical`: field of view, film, focal length, zoom, shifts and offsets |
+//! | lights | `LightRectangle`, `LightSphere`, `LightMesh`, `LightDome`, `LightDirect`, `LightDirectMax`, `MayaLightDirect`, `LightOmni`, `LightOmniMax`, `LightSpot`, `LightSpotMax`, `LightIES`, `SunLight`; `SettingsEnvironment` |
+//! | materials | `MtlSingleBRDF`, `MtlMulti`; `Mtl2Sided`, `MtlDoubleSided`, `MtlOverride`, `MtlWrapper`, `MtlRenderStats`, `MtlMaterialID`, `MtlRoundEdges` as the material within; `BRDFVRayMtl`, `BRDFDiffuse`, `BRDFMirror`, `BRDFPhong`, `BRDFBlinn`, `BRDFGGX`, `BRDFWard`, `BRDFCookTorrance`, `BRDFGlass`, `BRDFGlassGlossy`, `BRDFLight`, `BRDFLayered`, `BRDFBump` |
+//! | textures | `TexBitmap` with `BitmapBuffer`, `TexAColor`, `TexCombineColor`, `TexInvert`, `TexNormalBump`, and wrappers of one texture; `UVWGenChannel`, `UVWGenMayaPlace2dTexture`, `UVWGenEnvironment`; `TexSky` |
+//! | units | `SettingsUnitsInfo`: metres per unit, the axis that points up, and the scale of photometric lights |
+//! | skipped in silence | settings of sampling, caches and files; render elements: they say how to render, not what |
+//! | dropped with a warning | every other plugin that a node, light or material leads to, or that would be seen: hair, proxies, volumes, instancers |
+//!
+//! # Units of light
+//!
+//! Radiance comes in V-Ray's own units: a light of intensity 1 in default units has radiance 1. Lights in lumens, candela per
+//! square metre or watts are turned into these by `photometric_scale`, the radiance of 1 cd/m², with 683 lm/W. Point and distant lights
+//! in default units light a white surface that faces them to a radiance of intensity × colour, at a distance of one unit where they
+//! decay (3ds Max's convention). The exposure of a `CameraPhysical` multiplies all light, so that the picture is V-Ray's; vignetting and
+//! white balance, which are no matter of light, are left out.
+//!
+//! # Names
+//!
+//! A part has the name of its node, `chair@node_12` (for Hypersim, the object is what stands before `@`); with several materials
+//! `chair@node_12_<material>`. Lights with a surface are parts of the light's name.
+//!
+//! # Animation
+//!
+//! Of animated parameters the first keyframe is used, with a warning.
+
+mod bake;
+mod brdf;
+mod camera;
+mod daylight;
+mod dome;
+mod geometry;
+mod handle;
+mod light;
+mod material;
+mod node;
+mod physical;
+mod plugins;
+mod point_light;
+mod principled;
+mod texture;
+mod uvw;
+
+use crate::assembly::Assembly;
+use crate::{ImportError, Imported, UpAxis};
+use enfilade_math::{DVec3, Rgb};
+use handle::Handle;
+use plugins::Plugins;
+use std::collections::{BTreeSet, HashMap};
+
+/// Plugins that lead to each other over more steps than this do so in a circle.
+const MAX_CHAIN: usize = 48;
+
+/// A material of more BRDFs than this is one whose layers hold each other again and again.
+const MAX_LAYERS: usize = 256;
+
+/// V-Ray's own metres per unit and radiance per cd/m² where a scene does not state them.
+const DEFAULT_UNIT: (f64, f64) = (1.0, 0.002);
+
+/// Kinds of plugins that are things to be seen or light, but not supported.
+const UNSUPPORTED: [&str; 14] = [
+    "Instancer",
+    "Instancer2",
+    "GeomParticleSystem",
+    "LightAmbient",
+    "LightAmbientMax",
+    "LightLuminaire",
+    "LightMeshLightLinking",
+    "LightOmniPortal",
+    "VolumeVRayToon",
+    "EnvironmentFog",
+    "VolumeScatterFog",
+    "PhxShaderSim",
+    "CameraDome",
+    "CameraLensEffects",
+];
+
+/// Imports a V-Ray scene.
+pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
+    let plugins = Plugins::read(&mut assembly)?;
+    let photometric_scale = units(&plugins, &mut assembly)?;
+    let exposure = match plugins.settings("CameraPhysical") {
+        Some(camera) => physical::exposure(camera, photometric_scale)? as f32,
+        None => 1.0,
+    };
+    let mut reader = Reader {
+        a: assembly,
+        plugins: &plugins,
+        photometric_scale,
+        meshes: HashMap::new(),
+        materials: HashMap::new(),
+        channel: None,
+        layers: 0,
+        complements: HashMap::new(),
+        exposure,
+        light_level: Rgb::splat(exposure),
+    };
+    reader.nodes()?;
+    reader.lights()?;
+    reader.surroundings()?;
+    reader.cameras()?;
+    reader.report_unsupported();
+    reader.a.finish()
+}
+
+/// Takes the scene's unit and up axis; returns the scale of photometric lights.
+fn units(plugins: &Plugins, a: &mut Assembly) -> Result<f64, ImportError> {
+    let Some(info) = plugins.settings("SettingsUnitsInfo") else {
+        a.warn("SettingsUnitsInfo", "the scene does not state its unit, so a unit is a metre; the option meters_per_unit says otherwise");
+        a.set_units(DEFAULT_UNIT.0, UpAxis::Z);
+        return Ok(DEFAULT_UNIT.1);
+    };
+    let positive = |parameter: &str, default: f64| {
+        let found = info.number(parameter, default)?;
+        if found > 0.0 {
+            return Ok(found);
+        }
+        Err(info.error(parameter, format!("found {found}, expected a number above zero; correct the value")))
+    };
+    let meters = positive("meters_scale", DEFAULT_UNIT.0)?;
+    let photometric_scale = positive("photometric_scale", DEFAULT_UNIT.1)?;
+    let up = info.vector("scene_upDir", DVec3::Z)?;
+    a.set_units(meters, if up.y.abs() > up.z.abs() { UpAxis::Y } else { UpAxis::Z });
+    Ok(photometric_scale)
+}
+
+/// A scene being read: its plugins, and what has been made of them.
+struct Reader<'n, 'a> {
+    a: Assembly<'a>,
+    plugins: &'n Plugins,
+    /// Radiance of 1 cd/m².
+    photometric_scale: f64,
+    meshes: HashMap<geometry::MeshKey, geometry::Meshes>,
+    materials: HashMap<usize, material::Made>,
+    /// The texture channel of the material that is being made.
+    channel: Option<i64>,
+    /// How many BRDFs it has so far.
+    layers: usize,
+    /// Pictures of 1 − factor × channel of others.
+    complements: HashMap<(u32, [u32; 3], Option<u8>), u32>,
+    /// What the camera's exposure multiplies all light by.
+    exposure: f32,
+    /// Multiplies all lights, exposure included.
+    light_level: Rgb,
+}
+
+impl Reader<'_, '_> {
+    fn warn(&mut self, plugin: Handle, message: impl Into<String>) {
+        self.a.warn(plugin.place(), message);
+    }
+
+    /// Warns of every parameter among these that the plugin animates.
+    fn warn_of_animation(&mut self, plugin: Handle, parameters: &[&str]) {
+        for parameter in parameters.iter().filter(|p| plugin.is_animated(p)) {
+            let keys = plugin.keyframes(parameter);
+            self.warn(plugin, format!("{parameter} is animated; the first of its {keys} keyframes was used"));
+        }
+    }
+
+    /// Warns of what would be seen in the picture and is not supported, once per kind.
+    fn report_unsupported(&mut self) {
+        let found: BTreeSet<&str> = self.plugins.all().map(|p| p.kind()).filter(|kind| UNSUPPORTED.contains(kind)).collect();
+        for kind in found {
+            let count = self.plugins.of_kind(kind).count();
+            self.a.warn(kind, format!("{count} of this kind, which is not supported, were left out"));
+        }
+    }
+}

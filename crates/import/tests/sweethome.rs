@@ -1,0 +1,247 @@
+//! Homes and furniture libraries of Sweet Home 3D, made on the spot.
+
+mod common;
+
+use common::{Folder, png, warnings};
+use enfilade_import::Imported;
+use enfilade_math::{Rgb, Vec3};
+use enfilade_scene::{Bsdf, Environment, Light, Part};
+use std::io::{Cursor, Write};
+use zip::write::{SimpleFileOptions, ZipWriter};
+
+fn zip(entries: &[(&str, &[u8])]) -> Vec<u8> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, bytes) in entries {
+        zip.start_file(*name, SimpleFileOptions::default()).unwrap();
+        zip.write_all(bytes).unwrap();
+    }
+    zip.finish().unwrap().into_inner()
+}
+
+/// A corner with three legs of one unit, whose ends tell the axes apart.
+const TRIPOD: &str = "mtllib tripod.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl oak\nf 1 2 3\nf 1 3 4\nf 1 4 2\n";
+const MTL: &[u8] = b"newmtl oak\nKd 0.4 0.3 0.2\n";
+
+/// A room of 4 by 3 metres between the middles of walls 20 cm thick and 250 cm high.
+fn walls(first: &str) -> String {
+    let corners = [(0, 0), (400, 0), (400, 300), (0, 300)];
+    let wall = |i: usize| {
+        let ((x, y), (to_x, to_y)) = (corners[i], corners[(i + 1) % 4]);
+        let (before, after) = ((i + 3) % 4, (i + 1) % 4);
+        let more = if i == 0 { first } else { "/>" };
+        format!(
+            "<wall id='w{i}' wallAtStart='w{before}' wallAtEnd='w{after}' xStart='{x}' yStart='{y}' xEnd='{to_x}' yEnd='{to_y}' \
+             height='250' thickness='20' leftSideColor='FFFF0000'{more}\n"
+        )
+    };
+    (0..4).map(wall).collect()
+}
+
+const ROOM: &str = "<room id='r' name='Kitchen' floorColor='FF808080'><point x='10' y='10'/><point x='390' y='10'/><point x='390' y='290'/><point x='10' y='290'/></room>";
+
+fn home(body: &str) -> Vec<u8> {
+    let xml = format!("<?xml version='1.0'?>\n<home version='7000' wallHeight='250'>\n{body}</home>");
+    zip(&[("Home.xml", xml.as_bytes()), ("1/tripod.obj", TRIPOD.as_bytes()), ("1/tripod.mtl", MTL), ("2", &png(2, 2, [0, 255, 0, 255]))])
+}
+
+fn load(body: &str) -> Imported {
+    let folder = Folder::new();
+    folder.write("a.sh3d", home(body));
+    let imported = folder.load("a.sh3d").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(imported.inputs, [folder.path("a.sh3d")]);
+    imported
+}
+
+fn part<'i>(imported: &'i Imported, name: &str) -> &'i Part {
+    let all: Vec<&str> = imported.scene.parts.iter().map(|p| p.name.as_str()).collect();
+    imported.scene.parts.iter().find(|p| p.name == name).unwrap_or_else(|| panic!("no {name} among {all:?}"))
+}
+
+fn points(imported: &Imported, name: &str) -> Vec<Vec3> {
+    let part = part(imported, name);
+    let mesh = &imported.scene.meshes[part.mesh as usize];
+    mesh.positions.iter().map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3()).collect()
+}
+
+/// The area of a part's faces, each counted by the sign of its normal along `toward`.
+fn area(imported: &Imported, name: &str, toward: Vec3) -> f32 {
+    let part = part(imported, name);
+    let triangles = imported.scene.meshes[part.mesh as usize].triangles.len();
+    let corners = (0..triangles).map(|t| imported.scene.world_corners(part, t));
+    corners.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).dot(toward)).sum()
+}
+
+fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
+    points.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(a, b), p| (a.min(*p), b.max(*p)))
+}
+
+fn near(a: f32, b: f32) {
+    assert!((a - b).abs() < 1e-4, "{a} is not {b}");
+}
+
+#[test]
+fn joined_walls_meet_in_their_corners_and_face_outward() {
+    let imported = load(&(walls("/>") + ROOM));
+    let (min, max) = bounds(&points(&imported, "wall_1.left"));
+    // The outer side: 420 cm long at the plan's y of −10, which is 10 cm up the world's y.
+    assert!((min - Vec3::new(-0.1, 0.0, 0.0)).length() < 1e-5 && (max - Vec3::new(4.1, 0.1, 2.5)).length() < 1e-5, "{min} {max}");
+    // The side itself, and half of the slanting end at each corner, which cancel each other out across but not along.
+    near(area(&imported, "wall_1.left", Vec3::Y), 4.2 * 2.5 - 2.0 * 0.1 * 2.5);
+    near(area(&imported, "wall_1.right", Vec3::NEG_Y), 3.8 * 2.5 + 2.0 * 0.1 * 2.5);
+    near(area(&imported, "Kitchen.floor", Vec3::Z), 3.8 * 2.8);
+    near(area(&imported, "Kitchen.ceiling", Vec3::NEG_Z), 3.8 * 2.8);
+    near(points(&imported, "Kitchen.ceiling")[0].z, 2.5);
+    let material = |name| &imported.scene.materials[part(&imported, name).material as usize].bsdf;
+    assert_eq!(material("wall_1.left"), &Bsdf::Diffuse { reflectance: Rgb::new(1.0, 0.0, 0.0).into() });
+    assert_eq!(material("wall_1.right"), &Bsdf::Diffuse { reflectance: Rgb::splat(0.8).into() });
+}
+
+#[test]
+fn doors_cut_through_both_sides_and_show_the_inside_of_the_wall() {
+    let door = "<doorOrWindow name='Door' model='1/tripod.obj' x='200' y='2' width='100' depth='10' height='200' cutOutShape='M0,0 v1 h1 v-1 z'/>\n";
+    let imported = load(&(door.to_string() + &walls("/>")));
+    let whole = load(&walls("/>"));
+    for (side, toward) in [("wall_1.left", Vec3::Y), ("wall_1.right", Vec3::NEG_Y)] {
+        near(area(&whole, side, toward) - area(&imported, side, toward), 2.0);
+        near(area(&whole, "wall_2.left", toward), area(&imported, "wall_2.left", toward));
+    }
+    // Two jambs of 20 by 200 cm and a head of 100 by 20; no sill on the floor.
+    let triangles = |i: &Imported| i.scene.meshes[part(i, "wall_1.top").mesh as usize].triangles.len();
+    assert_eq!(triangles(&imported) - triangles(&whole), 6);
+    assert!(points(&imported, "wall_1.left").iter().any(|p| (*p - Vec3::new(1.5, 0.1, 2.0)).length() < 1e-5));
+}
+
+#[test]
+fn windows_take_the_stated_part_of_their_size() {
+    let window = "<doorOrWindow name='W' model='1/tripod.obj' x='200' y='0' elevation='100' width='100' depth='20' height='100' \
+                  wallWidth='0.5' wallLeft='0.25' wallHeight='0.5' wallTop='0.25'/>\n";
+    let imported = load(&(window.to_string() + &walls("/>")));
+    near(area(&load(&walls("/>")), "wall_1.left", Vec3::Y) - area(&imported, "wall_1.left", Vec3::Y), 0.25);
+    assert!(points(&imported, "wall_1.left").iter().any(|p| (*p - Vec3::new(1.75, 0.1, 1.75)).length() < 1e-5));
+}
+
+#[test]
+fn round_walls_and_sloping_ones_have_their_height_and_length() {
+    // Half a circle of radius one metre to the left; its outer side is as long as half the circumference.
+    let imported = load(
+        "<wall id='w' xStart='0' yStart='0' xEnd='200' yEnd='0' height='100' heightAtEnd='200' thickness='10' arcExtent='3.1415927'/>",
+    );
+    let left = points(&imported, "wall_1.left");
+    let (min, max) = bounds(&left);
+    assert!((max.y - 1.05).abs() < 5e-3 && (min.x + 0.05).abs() < 1e-3 && (max.x - 2.05).abs() < 1e-3 && max.z == 2.0, "{min} {max}");
+    let part = part(&imported, "wall_1.left");
+    let triangles = imported.scene.meshes[part.mesh as usize].triangles.len();
+    let corners = (0..triangles).map(|t| imported.scene.world_corners(part, t));
+    let total: f32 = corners.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum();
+    let expected = std::f32::consts::PI * 1.05 * 1.5 + 0.05 * 3.0;
+    assert!((total - expected).abs() < 0.02 * expected, "{total} {expected}");
+}
+
+#[test]
+fn pieces_are_scaled_mirrored_turned_and_painted() {
+    let piece = "<pieceOfFurniture catalogId='t#tripod' name='Tripod' model='1/tripod.obj' x='200' y='100' elevation='10' angle='1.5707963' \
+                 width='100' depth='50' height='80' modelMirrored='true'><material name='oak' color='FF00FF00'/></pieceOfFurniture>";
+    let imported =
+        load(&format!("{piece}\n<furnitureGroup name='G'>{}</furnitureGroup>", piece.replace("modelMirrored='true'", "color='00FFFFFF'")));
+    let found = points(&imported, "Tripod (t#tripod)");
+    // The end at x: half of (100, −80, −50) cm from the middle, mirrored, turned to (25, −40, −50), moved to (225, 10, 50).
+    assert!(found.iter().any(|p| (*p - Vec3::new(2.25, -0.5, 0.1)).length() < 1e-5), "{found:?}");
+    let (min, max) = bounds(&found);
+    assert!((max - min - Vec3::new(0.5, 1.0, 0.8)).length() < 1e-5);
+    let bsdf = |name| &imported.scene.materials[part(&imported, name).material as usize].bsdf;
+    assert_eq!(bsdf("Tripod (t#tripod)"), &Bsdf::Diffuse { reflectance: Rgb::new(0.0, 1.0, 0.0).into() });
+    assert_eq!(bsdf("Tripod_2 (t#tripod)"), &Bsdf::Diffuse { reflectance: Rgb::WHITE.into() });
+    assert!(part(&imported, "Tripod_2 (t#tripod)").world_from_mesh.matrix3.determinant() > 0.0);
+}
+
+#[test]
+fn levels_lift_and_hide_what_is_on_them() {
+    let levels = "<level id='a' name='0' elevation='0' floorThickness='12' height='250'/>\n\
+                  <level id='b' name='1' elevation='262' floorThickness='12' height='250'/>\n\
+                  <level id='c' name='2' elevation='524' floorThickness='12' height='250' visible='false'/>\n";
+    let piece = |level| {
+        format!("<pieceOfFurniture name='T' level='{level}' model='1/tripod.obj' x='0' y='0' width='10' depth='10' height='10'/>\n")
+    };
+    let wall = "<wall id='w' level='b' xStart='0' yStart='0' xEnd='100' yEnd='0' height='200' thickness='10'/>\n";
+    let imported = load(&format!("{levels}{}{}{wall}", piece("b"), piece("c")));
+    let (min, max) = bounds(&points(&imported, "wall_1.left"));
+    assert!((min.z - 2.5).abs() < 1e-5 && (max.z - 4.62).abs() < 1e-5, "{min} {max}");
+    near(bounds(&points(&imported, "T")).0.z, 2.62);
+    assert_eq!(imported.scene.parts.iter().filter(|p| p.name.starts_with('T')).count(), 1);
+    assert!(warnings(&imported).contains("1 levels are hidden"));
+}
+
+#[test]
+fn lamps_cameras_and_sky_are_where_the_file_has_them() {
+    let body = "<environment skyColor='00FFFFFF' ceillingLightColor='00000000' lightColor='00D0D0D0' photoWidth='400' photoHeight='200'/>\n\
+                <observerCamera attribute='observerCamera' lens='PINHOLE' x='200' y='150' z='170' yaw='0' pitch='0' fieldOfView='1.0'/>\n\
+                <light name='Lamp' model='1/tripod.obj' x='100' y='100' elevation='200' width='20' depth='20' height='10' power='0.5'>\
+                <lightSource x='0.5' y='0.5' z='0' color='FFFFFFFF' diameter='0.2'/></light>\n";
+    let imported = load(body);
+    let camera = &imported.scene.cameras[0];
+    assert!((camera.position.as_vec3() - Vec3::new(2.0, -1.5, 1.7)).length() < 1e-6 && camera.aspect == 2.0 && camera.fov_x_rad == 1.0);
+    // Yaw 0 looks down the plan.
+    assert!((camera.world_from_camera.z_axis.as_vec3() - Vec3::Y).length() < 1e-6, "{camera:?}");
+    let Light::Point { position, intensity, .. } = &imported.scene.lights[0] else { panic!("no lamp") };
+    assert!((*position - Vec3::new(1.0, -1.0, 2.0)).length() < 1e-5, "{position}");
+    let expected = 5.0 * 0.25 * std::f32::consts::PI * 255.0 * 208.0 * 1e-4;
+    assert!((intensity.r - expected).abs() < 1e-3 * expected, "{intensity:?} {expected}");
+    assert_eq!(imported.scene.environment, Some(Environment::Constant { radiance: Rgb::WHITE }));
+}
+
+#[test]
+fn pictures_lie_on_walls_in_centimetres() {
+    let texture = "><texture attribute='rightSideTexture' name='Tiles' width='50' height='25' image='2'/></wall>";
+    let imported = load(&walls(texture));
+    let material = &imported.scene.materials[part(&imported, "wall_1.right").material as usize];
+    let Bsdf::Diffuse { reflectance } = &material.bsdf else { panic!("not diffuse") };
+    let picture = reflectance.texture.expect("a picture");
+    assert_eq!(imported.scene.images[picture.image as usize].texel(0, 0).0, Rgb::new(0.0, 1.0, 0.0));
+    assert_eq!(picture.uv_transform, [[1.0 / 50.0, 0.0, 0.0], [0.0, 1.0 / 25.0, 0.0]]);
+    let mesh = &imported.scene.meshes[part(&imported, "wall_1.right").mesh as usize];
+    let highest = mesh.uvs.iter().fold(0.0f32, |m, uv| m.max(uv.y));
+    assert_eq!((material.name.as_str(), highest), ("Tiles", 250.0));
+}
+
+#[test]
+fn what_cannot_be_read_says_where_and_what_to_do() {
+    let folder = Folder::new();
+    let error = |name: &str, bytes: Vec<u8>| folder.write(name, bytes).error(name);
+    assert!(error("a.sh3d", zip(&[("Home", b"java")])).contains("a.sh3d: Home: the home is stored as Java objects alone"));
+    assert!(error("b.sh3d", zip(&[("x", b"y")])).contains("b.sh3d: whole file: found neither Home.xml nor"));
+    assert!(error("c.sh3d", b"no zip".to_vec()).contains("c.sh3d: whole file: not an archive"));
+    let whole = home(&walls("/>"));
+    assert!(error("d.sh3d", whole[..whole.len() / 2].to_vec()).contains("not an archive"));
+    let message = error("e.sh3d", home("<wall id='w' xStart='zero' yStart='0' xEnd='1' yEnd='0' thickness='1'/>"));
+    assert_eq!(
+        message,
+        "e.sh3d/Home.xml: line 3 <wall>: found xStart=\"zero\", expected a finite number; mend the file or save the home again"
+    );
+    assert!(error("f.sh3d", home("<wall")).contains("f.sh3d/Home.xml: line 3"));
+    let deep = "<furnitureGroup name='g'>".repeat(100) + &"</furnitureGroup>".repeat(100);
+    assert!(error("g.sh3d", home(&deep)).contains("groups lie too deep"));
+}
+
+#[test]
+fn models_that_cannot_be_used_become_boxes() {
+    let piece = |model| format!("<pieceOfFurniture name='P' model='{model}' x='0' y='0' width='100' depth='50' height='80'/>");
+    let imported = load(&piece("9/gone.obj"));
+    assert!(warnings(&imported).contains("the model 9/gone.obj is not in the archive; a box"), "{}", warnings(&imported));
+    let (min, max) = bounds(&points(&imported, "P"));
+    assert!((max - min - Vec3::new(1.0, 0.5, 0.8)).length() < 1e-5);
+}
+
+#[test]
+fn libraries_stand_in_rows_with_their_names_and_sizes() {
+    let list = "name#1=Stool\nid#1=t#stool\ncategory#1=Living\nmodel#1=/m/tripod.obj\nwidth#1=40\ndepth#1=30\nheight#1=50\n\
+                name#2=Door\nmodel#2=/m/gone.obj\nwidth#2=90\ndepth#2=10\nheight#2=200\nname#3=Bad\nmodel#3=/m/tripod.obj\nwidth#3=0\n";
+    let entries: [(&str, &[u8]); 3] =
+        [("PluginFurnitureCatalog.properties", list.as_bytes()), ("m/tripod.obj", TRIPOD.as_bytes()), ("m/tripod.mtl", MTL)];
+    let folder = Folder::new();
+    folder.write("few.sh3f", zip(&entries));
+    let imported = folder.load("few.sh3f").unwrap();
+    let (min, max) = bounds(&points(&imported, "Stool (t#stool)"));
+    assert!(min.length() < 1.0 && (max - min - Vec3::new(0.4, 0.3, 0.5)).length() < 1e-5, "{min} {max}");
+    let told = warnings(&imported);
+    assert!(told.contains("the model m/gone.obj is not in the archive") && told.contains("width#3 (Bad): found \"0\""), "{told}");
+}

@@ -1,0 +1,45 @@
+//! Reading blends within blends, no deeper than [`Bsdf::DEEPEST`]: a file could else exhaust the stack.
+
+use crate::Bsdf;
+use serde::de::{Deserialize, Deserializer, Error as _};
+use std::cell::Cell;
+
+thread_local! {
+    /// How many blends the one that is being read lies within.
+    static WITHIN: Cell<usize> = const { Cell::new(0) };
+}
+
+/// Reads a part of a blend: what `serde(deserialize_with)` asks for.
+///
+/// # Errors
+/// When the data end too soon, or the blend lies too deep.
+pub fn nested<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Box<Bsdf>, D::Error> {
+    let within = WITHIN.get();
+    if within >= Bsdf::DEEPEST {
+        return Err(D::Error::custom(format!("blends within blends are more than {} deep", Bsdf::DEEPEST)));
+    }
+    WITHIN.set(within + 1);
+    let part = Box::deserialize(deserializer);
+    WITHIN.set(within);
+    part
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_math::Rgb;
+
+    #[test]
+    fn blends_are_read_to_the_deepest_and_no_deeper() {
+        let blend = |depth: usize| {
+            let plain = || Bsdf::Diffuse { reflectance: Rgb::WHITE.into() };
+            let around = |inner| Bsdf::Blend { first: Box::new(plain()), second: Box::new(inner), weight: 0.5.into() };
+            (0..depth).fold(plain(), |inner, _| around(inner))
+        };
+        let read = |depth: usize| postcard::from_bytes::<Bsdf>(&postcard::to_stdvec(&blend(depth)).unwrap());
+        assert_eq!(read(Bsdf::DEEPEST).unwrap().depth(), Bsdf::DEEPEST);
+        assert!(read(Bsdf::DEEPEST + 1).is_err());
+        // A failure leaves nothing behind.
+        assert!(read(Bsdf::DEEPEST).is_ok());
+    }
+}

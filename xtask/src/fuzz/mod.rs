@@ -1,0 +1,145 @@
+//! `cargo xtask fuzz [--seconds N] [--quick] [TARGET...]`: searches for bytes that break what reads them.
+//!
+//! libFuzzer on the stable toolchain: LLVM's coverage pass is asked for by flags of the compiler that need no `-Z`. The program is built
+//! below `target/fuzz/build`, each target's files lie in `target/fuzz/<target>/`. What was learned there (the corpus) is kept, so that a
+//! longer search goes on where a shorter one ended. Two targets are searched at a time. `--quick` leaves out the readers of datasets and
+//! of the whole program, without which the program that searches builds much faster.
+
+mod report;
+mod search;
+
+use crate::house::House;
+use crate::step::finish;
+use report::Row;
+use search::Target;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// How long each target is searched unless something else is said, seconds.
+const SECONDS: u64 = 60;
+/// Targets at a time.
+const AT_A_TIME: usize = 2;
+
+/// Coverage by counters in the code, a table of places, and what is compared with what; checks of the debug build come with the
+/// profile.
+const FLAGS: [&str; 6] = [
+    "-Cpasses=sancov-module",
+    "-Cllvm-args=-sanitizer-coverage-level=4",
+    "-Cllvm-args=-sanitizer-coverage-inline-8bit-counters",
+    "-Cllvm-args=-sanitizer-coverage-pc-table",
+    "-Cllvm-args=-sanitizer-coverage-trace-compares",
+    "--cfg=fuzzing",
+];
+
+/// What was asked for.
+#[derive(Debug, PartialEq)]
+struct Asked {
+    seconds: u64,
+    /// Importers and V-Ray alone.
+    quick: bool,
+    /// All where none is named.
+    names: Vec<String>,
+}
+
+impl Asked {
+    fn parse(words: &[&str]) -> Result<Self, String> {
+        let mut asked = Self { seconds: SECONDS, quick: false, names: Vec::new() };
+        let mut words = words.iter();
+        while let Some(word) = words.next() {
+            if *word == "--seconds" {
+                let found = words.next().copied().unwrap_or("nothing");
+                let seconds = found.parse().ok().filter(|seconds| *seconds > 0);
+                asked.seconds = seconds.ok_or_else(|| format!("--seconds: found {found}, expected a whole number above zero"))?;
+            } else if *word == "--quick" {
+                asked.quick = true;
+            } else {
+                asked.names.push((*word).to_string());
+            }
+        }
+        Ok(asked)
+    }
+}
+
+/// Searches the targets that are named, or all, and writes the table: to `docs/benchmarks/` when it is of all targets, else below
+/// `target/fuzz/`.
+///
+/// # Errors
+/// When the program cannot be built, a target is unknown, or something was found.
+pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
+    let asked = Asked::parse(words)?;
+    let folder = house.target()?.join("fuzz");
+    let program = build(house, &folder.join("build"), asked.quick)?;
+    let all = search::targets(&program, &folder)?;
+    if let Some(unknown) = asked.names.iter().find(|name| !all.iter().any(|target| target.name == **name)) {
+        let known: Vec<&str> = all.iter().map(|target| target.name.as_str()).collect();
+        return Err(format!("unknown target `{unknown}`; expected some of {}", known.join(", ")));
+    }
+    let chosen: Vec<Target> = all.into_iter().filter(|t| asked.names.is_empty() || asked.names.contains(&t.name)).collect();
+    let rows = search_all(&program, &chosen, asked.seconds)?;
+    let docs = if asked.names.is_empty() && !asked.quick { house.root.join("docs/benchmarks") } else { folder };
+    report::write(&docs, asked.seconds, &rows)?;
+    println!("{}\nwritten to {}", report::table(&rows), docs.join("fuzz.md").display());
+    let found: Vec<String> = rows.iter().filter_map(|row| row.found.as_ref().map(|found| found.message(&row.name))).collect();
+    if found.is_empty() { Ok(()) } else { Err(found.join("\n")) }
+}
+
+/// Builds the program that searches, and says where it is.
+fn build(house: &House, target: &Path, quick: bool) -> Result<PathBuf, String> {
+    let arguments = ["build", "--locked", "--profile", "fuzz", "--package", "enfilade-fuzz", "--features", "libfuzzer", "--bin", "fuzz"];
+    let mut command = house.cargo(&arguments);
+    if quick {
+        command.arg("--no-default-features");
+    }
+    // Naming the platform keeps coverage out of what runs while it is built.
+    let platform = platform(house)?;
+    command.args(["--target", &platform]).env("CARGO_TARGET_DIR", target).env("RUSTFLAGS", FLAGS.join(" "));
+    command.env_remove("CARGO_ENCODED_RUSTFLAGS");
+    finish(command).map_err(|error| format!("{error}; a C++ compiler is needed, on Debian: apt install g++"))?;
+    Ok(target.join(platform).join("fuzz/fuzz"))
+}
+
+/// The platform of the compiler.
+fn platform(house: &House) -> Result<String, String> {
+    let output = house.command("rustc", &["--version", "--verbose"]).output().map_err(|error| format!("cannot run rustc: {error}"))?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    let host = text.lines().find_map(|line| line.strip_prefix("host: "));
+    host.map(str::to_string).ok_or_else(|| "rustc does not say its platform".into())
+}
+
+/// Searches, [`AT_A_TIME`]; the rows are in the order of the targets.
+fn search_all(program: &Path, targets: &[Target], seconds: u64) -> Result<Vec<Row>, String> {
+    let next = AtomicUsize::new(0);
+    let done: Mutex<Vec<(usize, Result<Row, String>)>> = Mutex::default();
+    let work = || {
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            let Some(target) = targets.get(i) else { break };
+            println!("   {} of {}: {} ({seconds} s)", i + 1, targets.len(), target.name);
+            let row = search::search(program, target, seconds);
+            done.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((i, row));
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..AT_A_TIME {
+            scope.spawn(work);
+        }
+    });
+    let mut done = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    done.sort_by_key(|(i, _)| *i);
+    done.into_iter().map(|(_, row)| row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seconds_and_targets_are_told_apart() {
+        let asked = |words: &[&str]| Asked::parse(words);
+        assert_eq!(asked(&[]).unwrap(), Asked { seconds: 60, quick: false, names: vec![] });
+        assert_eq!(asked(&["gltf", "--seconds", "5", "--quick"]).unwrap(), Asked { seconds: 5, quick: true, names: vec!["gltf".into()] });
+        assert_eq!(asked(&["--seconds", "0"]).unwrap_err(), "--seconds: found 0, expected a whole number above zero");
+        assert!(asked(&["--seconds"]).unwrap_err().contains("found nothing"));
+    }
+}
