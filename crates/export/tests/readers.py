@@ -335,6 +335,33 @@ def croissant():
     return f"{len(frames)} rows, {len(layers)} layers"
 
 
+def opencv():
+    """World points fall on the pixels that show them."""
+    seen, checked = set(), 0
+    for path in glob.glob(f"{EXPORT}/*/*/cameras_opencv.json"):
+        with open(path) as file:
+            cameras = json.load(file)
+        scene, camera = cameras["scene"], cameras["camera"]
+        for frame in cameras["frames"]:
+            number, to_world = frame["frame"], np.array(frame["world_from_camera"])
+            seen.add((scene, camera, number))
+            assert np.allclose(to_world[:3, 3], pose(scene, camera, number)[0], atol=1e-12)
+            position = layer(scene, camera, number, "position")
+            if position is None or cameras.get("model") is not None:
+                continue
+            points = (position.reshape(-1, 3) - to_world[:3, 3]) @ to_world[:3, :3] @ np.array(cameras["K"]).T
+            rows, columns = np.indices(position.shape[:2]).reshape(2, -1)
+            off = np.hypot(points[:, 0] / points[:, 2] - columns, points[:, 1] / points[:, 2] - rows)
+            hit = np.isfinite(off)
+            assert hit.any() and off[hit].max() < 0.01, f"{off[hit].max()} pixels"
+            checked += 1
+    assert seen == set(record())
+    with open(f"{EXPORT}/intrinsics.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert {(row["scene_name"], row["camera_name"]) for row in rows} == {at[:2] for at in record()}
+    return f"{len(seen)} frames, {checked} projected"
+
+
 def text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 
