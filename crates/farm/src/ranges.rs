@@ -20,7 +20,9 @@ pub fn parse_ranges(text: &str) -> Result<Ranges, FarmError> {
         match (first.trim().parse::<u32>(), last.trim().parse::<u32>()) {
             (Ok(first), Ok(last)) if first <= last && last < MOST => all.extend(first..=last),
             _ => {
-                return Err(FarmError::Request(format!("{part:?} is no range of task numbers; expected something like 7, 0-3 or 1,5,9-12")));
+                return Err(FarmError::Request(format!(
+                    "{part:?} is no range of task numbers; expected something like 7, 0-3 or 1,5,9-12"
+                )));
             }
         }
     }

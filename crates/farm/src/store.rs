@@ -65,7 +65,8 @@ impl Store {
         let _ = rustls::crypto::ring::default_provider().install_default();
         let url = url::Url::parse(place).map_err(|error| FarmError::Place { place: place.into(), problem: error.to_string() })?;
         let settings = settings.map(|(name, value)| (name.to_ascii_lowercase(), value));
-        let (inner, root) = object_store::parse_url_opts(&url, settings).map_err(FarmError::store(place))?;
+        let unknown = |error: StoreError| FarmError::Place { place: place.into(), problem: error.to_string() };
+        let (inner, root) = object_store::parse_url_opts(&url, settings).map_err(unknown)?;
         Ok(Self { inner: Arc::from(inner), root, url: place.trim_end_matches('/').into(), runtime })
     }
 
