@@ -1,7 +1,7 @@
 //! What each verb does: arguments to calls of the pipeline and back to words.
 
 use crate::args::{
-    InspectArgs, LabelArgs, PlanArgs, QualityArg, RenderArgs, RenderFlags, ReplayArgs, RunArgs, SplitArgs, StageArgs, VerifyArgs,
+    InspectArgs, LabelArgs, MakeFlags, PlanArgs, QualityArg, RenderArgs, RenderFlags, ReplayArgs, RunArgs, SplitArgs, StageArgs, VerifyArgs,
 };
 use crate::estimate::estimate;
 use crate::outcome::{Problem, Verdict, say};
@@ -13,21 +13,11 @@ use enfilade_export::intrinsics_csv;
 use enfilade_pipeline::{Config, Event, Overrides, Quality, RenderChoices, Reporter, Stage, Summary};
 use enfilade_post::drivers::inspect_pixel;
 use enfilade_post::verify::{verify_dataset, write_report};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// `run`: all stages.
 pub fn run(args: &RunArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let overrides = Overrides {
-        seed: args.seed,
-        frames: args.frames,
-        size: args.size,
-        quality: args.quality.map(quality),
-        render: choices(&args.render),
-    };
-    let config = match &args.config {
-        Some(file) => Config::read(file, &overrides)?,
-        None => Config::demo(&overrides)?,
-    };
+    let config = configuration(args.config.as_deref(), &args.make)?;
     let out = args.demo.clone().or(args.output.clone()).unwrap_or_else(|| PathBuf::from(&config.name));
     if args.estimate {
         return estimate(&config, &out, args.scenes.as_deref(), args.price.as_deref(), quiet);
@@ -44,13 +34,20 @@ pub fn run(args: &RunArgs, quiet: bool) -> Result<Verdict, Problem> {
     Ok(Verdict::of(result.ok()))
 }
 
-/// `--quality`.
-pub fn quality(arg: QualityArg) -> Quality {
-    match arg {
-        QualityArg::Draft => Quality::Draft,
-        QualityArg::Normal => Quality::Normal,
-        QualityArg::High => Quality::High,
-    }
+/// That of a file, or the demo's, with what the command line says otherwise.
+pub fn configuration(file: Option<&Path>, flags: &MakeFlags) -> Result<Config, Problem> {
+    let overrides = Overrides {
+        seed: flags.seed,
+        frames: flags.frames,
+        size: flags.size,
+        quality: flags.quality.map(|q| match q {
+            QualityArg::Draft => Quality::Draft,
+            QualityArg::Normal => Quality::Normal,
+            QualityArg::High => Quality::High,
+        }),
+        render: choices(&flags.render),
+    };
+    Ok(file.map_or_else(|| Config::demo(&overrides), |file| Config::read(file, &overrides))?)
 }
 
 /// One stage of a dataset.
@@ -99,7 +96,7 @@ fn chosen(args: &StageArgs, choices: &RenderChoices, stages: &[Stage], quiet: bo
     Ok(conclude(&result))
 }
 
-pub fn choices(flags: &RenderFlags) -> RenderChoices {
+fn choices(flags: &RenderFlags) -> RenderChoices {
     RenderChoices {
         samples: flags.samples,
         noise: flags.noise,

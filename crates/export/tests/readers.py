@@ -39,13 +39,26 @@ def layer(scene, camera, frame, name):
     return None
 
 
+def metres(scene):
+    """Length of a scene's unit: the scene's own file says it, or, for what Apple released, the table of all cameras."""
+    own, released = f"{scenes_dir()}/{scene}/_detail/metadata_scene.csv", f"{DATASET}/metadata_camera_parameters.csv"
+    if os.path.exists(own):
+        with open(own) as file:
+            return float(dict(csv.reader(file))["meters_per_asset_unit"])
+    if os.path.exists(released):
+        with open(released) as file:
+            rows = {row["scene_name"]: row for row in csv.DictReader(file)}
+        return float(rows[scene]["settings_units_info_meters_scale"])
+    return 1.0
+
+
 def pose(scene, camera, frame):
-    """Camera centre and world_from_camera with y up and z backward."""
+    """Camera centre in metres and world_from_camera with y up and z backward."""
     folder = f"{scenes_dir()}/{scene}/_detail/{camera}"
     positions, rotations = (array(f"{folder}/camera_keyframe_{what}.hdf5") for what in ("positions", "orientations"))
     indices = f"{folder}/camera_keyframe_frame_indices.hdf5"
     row = list(array(indices)).index(frame) if os.path.exists(indices) else frame
-    return positions[row], rotations[row]
+    return positions[row] * metres(scene), rotations[row]
 
 
 def picture(path):
@@ -84,9 +97,17 @@ def check_points(scene, camera, frame, depth_mm, K, world_from_opencv, corner=0.
         return
     seen = depth_mm > 0
     assert np.array_equal(seen, np.isfinite(position).all(-1)), "0 stands where nothing was hit and nowhere else"
-    error = np.linalg.norm(points - position, axis=-1)[seen]
+    error = np.linalg.norm(points - position * metres(scene), axis=-1)[seen]
     bound = (0.00051 * np.sqrt(1 + x * x + y * y))[seen]
     assert np.all(error <= bound), f"{error.max()} m"
+
+
+def check_planar(name, z, scene, camera, frame):
+    """Apple released no planar depth: it is computed on the way, and lies before the distance along the ray."""
+    distance = layer(scene, camera, frame, "depth_meters").astype(float)
+    assert name == "depth_z_meters" and z.dtype == np.float32, name
+    seen = np.isfinite(distance)
+    assert np.array_equal(seen, np.isfinite(z)) and np.all(z[seen] > 0) and np.all(z[seen] <= distance[seen] * (1 + 1e-3))
 
 
 def coco():
@@ -270,6 +291,9 @@ def exr():
             if stem.startswith("crypto_"):
                 continue
             values = layer(scene, camera, frame, stem)
+            if values is None:
+                check_planar(stem, channel.pixels, scene, camera, frame)
+                continue
             part = values if values.ndim == 2 else values[..., "RGBXYZ".index(letter) % 3]
             expected = np.float16 if part.dtype == np.float16 else np.float32
             if stem in ("depth_meters", "position"):
@@ -303,6 +327,9 @@ def webdataset():
         for name, value in sample.items():
             if name.endswith(".npy"):
                 values = layer(*at, name[: -len(".npy")])
+                if values is None:
+                    check_planar(name[: -len(".npy")], value, *at)
+                    continue
                 assert np.array_equal(value.astype(float), values.astype(float), equal_nan=values.dtype.kind == "f"), name
                 arrays += 1
         if "color.png" in sample:
@@ -349,7 +376,7 @@ def opencv():
             position = layer(scene, camera, number, "position")
             if position is None or cameras.get("model") is not None:
                 continue
-            points = (position.reshape(-1, 3) - to_world[:3, 3]) @ to_world[:3, :3] @ np.array(cameras["K"]).T
+            points = (position.reshape(-1, 3) * metres(scene) - to_world[:3, 3]) @ to_world[:3, :3] @ np.array(cameras["K"]).T
             rows, columns = np.indices(position.shape[:2]).reshape(2, -1)
             off = np.hypot(points[:, 0] / points[:, 2] - columns, points[:, 1] / points[:, 2] - rows)
             hit = np.isfinite(off)

@@ -3,7 +3,7 @@
 use crate::bundle::{unpack, write};
 use crate::commit::read_marker;
 use crate::plan::{StoredFile, object_name};
-use crate::work::missing_frames;
+use crate::work::missing_by_task;
 use crate::{FarmError, FrameKey, Job, Marker, Ranges, print_ranges};
 use enfilade_dataset::{Dataset, FrameTime};
 use enfilade_pipeline::{Reporter, Summary, finish};
@@ -16,12 +16,7 @@ use std::path::Path;
 /// When frames are missing, or something in the store is not what its marker says.
 pub fn collect(job: &Job, out: &Path, reporter: &dyn Reporter) -> Result<Summary, FarmError> {
     let tasks = &job.plan.tasks;
-    let mut missing = Ranges::new();
-    for (number, task) in tasks.iter().enumerate() {
-        if !missing_frames(job, task)?.is_empty() {
-            missing.insert(number as u32);
-        }
-    }
+    let missing: Ranges = missing_by_task(job)?.into_keys().collect();
     if !missing.is_empty() {
         let message = format!(
             "{} of {} tasks are not done; do them first: enfilade farm work {} --task {}",

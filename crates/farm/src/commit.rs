@@ -27,6 +27,9 @@ const ENGINE_VARIABLES: [&str; 14] = [
     "OPENJD_SESSION_ID",
 ];
 
+/// Folder of all markers.
+pub(crate) const DONE: &str = "done";
+
 /// A frame of the job.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct FrameKey {
@@ -41,7 +44,7 @@ pub struct FrameKey {
 impl FrameKey {
     /// The folder of a trajectory's markers.
     pub(crate) fn done_folder(scene: &str, camera: &str) -> String {
-        format!("done/{scene}/{camera}")
+        format!("{DONE}/{scene}/{camera}")
     }
 
     pub(crate) fn marker(&self) -> String {

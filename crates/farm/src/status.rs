@@ -1,6 +1,6 @@
 //! How far a job has come: what the store says, whatever an engine believes.
 
-use crate::work::{AttemptRecord, Ended, missing_frames};
+use crate::work::{AttemptRecord, Ended, missing_by_task};
 use crate::{FarmError, Job, Ranges};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -46,14 +46,12 @@ pub fn status(job: &Job) -> Result<Status, FarmError> {
         left_cpu_s: 0.0,
         errors: BTreeMap::new(),
     };
-    for (number, task) in plan.tasks.iter().enumerate() {
-        let missing = missing_frames(job, task)?.len();
-        let all = task.part.frames.len();
-        status.frames_done += (all - missing) as u64;
-        status.left_cpu_s += task.cpu_s * missing as f64 / all.max(1) as f64;
-        if missing > 0 {
-            status.missing.insert(number as u32);
-        }
+    let missing = missing_by_task(job)?;
+    status.frames_done = status.frames - missing.values().map(|&count| count as u64).sum::<u64>();
+    for (&number, &count) in &missing {
+        let task = job.task(number)?;
+        status.left_cpu_s += task.cpu_s * count as f64 / task.part.frames.len() as f64;
+        status.missing.insert(number);
     }
     for record in attempts(job)? {
         *status.attempts.entry(record.ended.map_or("open", Ended::word)).or_default() += 1;

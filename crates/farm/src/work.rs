@@ -1,12 +1,12 @@
 //! What a worker does: takes its tasks one after the other, makes the frames that nobody has committed, and commits them.
 
 use crate::bundle::{pack, write};
-use crate::commit::{Commit, commit, read_marker};
+use crate::commit::{Commit, DONE, commit, read_marker};
 use crate::plan::object_name;
 use crate::{Attempt, FarmError, FrameKey, Job, Marker, Ranges, Task};
 use enfilade_pipeline::{FinishedFrame, Part, Reporter, Stopwatch, kept_frame, render_part};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
@@ -140,12 +140,27 @@ fn put_record(job: &Job, name: &str, record: &AttemptRecord) -> Result<(), FarmE
 }
 
 /// The frames of a task that have no marker.
-pub(crate) fn missing_frames(job: &Job, task: &Task) -> Result<BTreeSet<u32>, FarmError> {
+fn missing_frames(job: &Job, task: &Task) -> Result<BTreeSet<u32>, FarmError> {
+    let markers = markers(job, &FrameKey::done_folder(&task.part.scene, &task.part.camera))?;
+    Ok(without_marker(task, &markers))
+}
+
+/// By number, how many frames are missing of each task that is not done. All markers are listed once, since a listing is what
+/// stores are slow at.
+pub(crate) fn missing_by_task(job: &Job) -> Result<BTreeMap<u32, usize>, FarmError> {
+    let markers = markers(job, DONE)?;
+    let missing = job.plan.tasks.iter().map(|task| without_marker(task, &markers).len());
+    Ok((0..).zip(missing).filter(|&(_, count)| count > 0).collect())
+}
+
+fn markers(job: &Job, folder: &str) -> Result<BTreeSet<String>, FarmError> {
+    Ok(job.store.list(folder)?.into_iter().map(|(name, _)| name).collect())
+}
+
+fn without_marker(task: &Task, markers: &BTreeSet<String>) -> BTreeSet<u32> {
     let part = &task.part;
-    let done = job.store.list(&FrameKey::done_folder(&part.scene, &part.camera))?;
-    let done: BTreeSet<String> = done.into_iter().map(|(name, _)| name).collect();
     let key = |frame| FrameKey { scene: part.scene.clone(), camera: part.camera.clone(), frame };
-    Ok(part.frames.iter().copied().filter(|&frame| !done.contains(&key(frame).marker())).collect())
+    part.frames.iter().copied().filter(|&frame| !markers.contains(&key(frame).marker())).collect()
 }
 
 fn make(

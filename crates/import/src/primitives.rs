@@ -96,23 +96,28 @@ pub(crate) fn cube() -> Mesh {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+
+    /// Every face looks where its normals do, and all have this area together.
+    pub(crate) fn assert_faces_and_area(name: &str, mesh: &Mesh, area: f32) {
+        assert_eq!(mesh.validate(), Ok(()), "{name}");
+        let mut sum = 0.0;
+        for t in 0..mesh.triangles.len() {
+            let [a, b, c] = mesh.corners(t);
+            let face = 0.5 * (b - a).cross(c - a);
+            let normal: Vec3 = mesh.triangles[t].iter().map(|&i| mesh.normals[i as usize]).sum();
+            assert!(face.dot(normal) > 0.0, "{name} triangle {t}");
+            sum += face.length();
+        }
+        assert!((sum / area - 1.0).abs() < 2e-3, "{name}: {sum} instead of {area}");
+    }
 
     #[test]
     fn shapes_have_their_area_and_face_along_their_normals() {
         let shapes = [("rectangle", rectangle(), 4.0), ("disk", disk(), PI), ("sphere", sphere(), 4.0 * PI), ("cube", cube(), 24.0)];
         for (name, mesh, area) in shapes.into_iter().chain([("cylinder", cylinder(), TAU)]) {
-            assert_eq!(mesh.validate(), Ok(()), "{name}");
-            let mut sum = 0.0;
-            for t in 0..mesh.triangles.len() {
-                let [a, b, c] = mesh.corners(t);
-                let face = 0.5 * (b - a).cross(c - a);
-                let normal: Vec3 = mesh.triangles[t].iter().map(|&i| mesh.normals[i as usize]).sum();
-                assert!(face.dot(normal) > 0.0, "{name} triangle {t}");
-                sum += face.length();
-            }
-            assert!((sum / area - 1.0).abs() < 2e-3, "{name}: {sum} instead of {area}");
+            assert_faces_and_area(name, &mesh, area);
         }
     }
 }

@@ -1,7 +1,6 @@
 //! `farm` and what it has below it.
 
-use super::stages::{QualityArg, RenderFlags};
-use super::values::parse_size;
+use super::stages::MakeFlags;
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -52,21 +51,9 @@ pub struct FarmPlanArgs {
     /// Threads of a worker
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     pub cpus: u32,
-    /// Seed of everything random
-    #[arg(long)]
-    pub seed: Option<u64>,
-    /// Frames per trajectory
-    #[arg(long, value_name = "N")]
-    pub frames: Option<u32>,
-    /// Width and height of the images in pixels
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub size: Option<[u32; 2]>,
-    /// Samples per pixel in one word
-    #[arg(long, conflicts_with = "samples")]
-    pub quality: Option<QualityArg>,
     #[command(flatten)]
     #[allow(missing_docs)]
-    pub render: RenderFlags,
+    pub make: MakeFlags,
 }
 
 /// `farm work`.

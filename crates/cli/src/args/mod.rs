@@ -15,7 +15,7 @@ pub use pages::{AnnotateArgs, ListenArgs, ViewArgs};
 pub use reading::CamerasArg;
 pub use results::{InspectArgs, ReplayArgs, SplitArgs, StatsArgs, VerifyArgs};
 pub use scenes::{HomeArgs, ImportArgs, MomentArg, SuggestArgs, UpAxisArg};
-pub use stages::{LabelArgs, PlanArgs, PreviewArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs};
+pub use stages::{LabelArgs, MakeFlags, PlanArgs, PreviewArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs};
 pub use values::parse_size;
 
 use crate::vray::VrayArgs;

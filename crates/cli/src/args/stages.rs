@@ -22,6 +22,23 @@ pub struct RunArgs {
     /// Output folder [default: the dataset's name, in the current folder]
     #[arg(short, long, value_name = "OUT", conflicts_with = "demo")]
     pub output: Option<PathBuf>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub make: MakeFlags,
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scene")]
+    pub scenes: Option<String>,
+    /// Tell what time, money, disk and memory the run will take, from a pilot of a few pixels; nothing is rendered
+    #[arg(long)]
+    pub estimate: bool,
+    /// With --estimate: dollars per vCPU-hour, or a CSV table of them with names [default: 0.0165, Hypersim's median]
+    #[arg(long, value_name = "X|CSV", requires = "estimate")]
+    pub price: Option<String>,
+}
+
+/// What to make otherwise than the file says, for `run` and `farm plan`.
+#[derive(Args)]
+pub struct MakeFlags {
     /// Seed of everything random
     #[arg(long)]
     pub seed: Option<u64>,
@@ -37,15 +54,6 @@ pub struct RunArgs {
     #[command(flatten)]
     #[allow(missing_docs)]
     pub render: RenderFlags,
-    /// Only the scenes of these names ("bed*", "hall,bedroom")
-    #[arg(long, value_name = "PATTERN", visible_alias = "scene")]
-    pub scenes: Option<String>,
-    /// Tell what time, money, disk and memory the run will take, from a pilot of a few pixels; nothing is rendered
-    #[arg(long)]
-    pub estimate: bool,
-    /// With --estimate: dollars per vCPU-hour, or a CSV table of them with names [default: 0.0165, Hypersim's median]
-    #[arg(long, value_name = "X|CSV", requires = "estimate")]
-    pub price: Option<String>,
 }
 
 /// `--quality`.

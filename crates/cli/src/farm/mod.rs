@@ -6,9 +6,8 @@ use crate::args::{FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmV
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::summary;
-use crate::verbs::{choices, quality};
+use crate::verbs::configuration;
 use enfilade_farm::{Assignment, Attempt, Ended, FarmError, Job, PlanOptions, Store, Work, parse_ranges, print_ranges, stop_on_signals};
-use enfilade_pipeline::{Config, Overrides};
 use std::path::PathBuf;
 
 /// One of its verbs.
@@ -36,17 +35,7 @@ fn open(job: &str) -> Result<Job, FarmError> {
 }
 
 fn plan(args: &FarmPlanArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let overrides = Overrides {
-        seed: args.seed,
-        frames: args.frames,
-        size: args.size,
-        quality: args.quality.map(quality),
-        render: choices(&args.render),
-    };
-    let config = match &args.config {
-        Some(file) => Config::read(file, &overrides)?,
-        None => Config::demo(&overrides)?,
-    };
+    let config = configuration(args.config.as_deref(), &args.make)?;
     if !(args.minutes > 0.0 && args.minutes.is_finite()) {
         return Err(Problem::new(format!("--minutes is {}; expected a time above 0", args.minutes), "as in --minutes 15"));
     }

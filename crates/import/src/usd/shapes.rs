@@ -161,6 +161,7 @@ fn revolution(outlines: &[Vec<Outline>]) -> Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::primitives::tests::assert_faces_and_area;
 
     #[test]
     fn shapes_have_their_area_and_face_along_their_normals() {
@@ -175,16 +176,7 @@ mod tests {
             ("capsule", turned_to(capsule(0.5, 0.5, 1.0), "Y"), 2.0 * PI),
         ];
         for (name, mesh, area) in shapes {
-            assert_eq!(mesh.validate(), Ok(()), "{name}");
-            let mut sum = 0.0;
-            for t in 0..mesh.triangles.len() {
-                let [a, b, c] = mesh.corners(t);
-                let face = 0.5 * (b - a).cross(c - a);
-                let normal: Vec3 = mesh.triangles[t].iter().map(|&i| mesh.normals[i as usize]).sum();
-                assert!(face.dot(normal) > 0.0, "{name} triangle {t}");
-                sum += face.length();
-            }
-            assert!((sum / area - 1.0).abs() < 2e-3, "{name}: {sum} instead of {area}");
+            assert_faces_and_area(name, &mesh, area);
         }
     }
 }
