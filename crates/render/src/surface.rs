@@ -15,6 +15,8 @@ pub(crate) struct Surface<'s> {
     pub wo: Vec3,
     /// Unit geometric normal facing `wo`.
     pub ng: Vec3,
+    /// See [`crate::triangle::Triangle::slack`].
+    slack: f32,
     /// Unit interpolated normal, on the side of `wo`, before bump.
     pub ns_smooth: Vec3,
     /// Unit shading normal with bump, on the side of `wo`.
@@ -62,6 +64,7 @@ impl<'s> RenderScene<'s> {
             p: triangle.position(weights),
             wo,
             ng: outward * side,
+            slack: triangle.slack,
             ns_smooth: facing(smooth, wo),
             ns: facing(bumped.unwrap_or(smooth), wo),
             uv,
@@ -117,7 +120,8 @@ impl<'s> Surface<'s> {
     /// The ray that leaves in a direction, from the side of the surface that it leaves on.
     #[inline]
     pub fn ray(&self, direction: Vec3) -> Ray {
-        Ray::new(offset_origin(self.p, if direction.dot(self.ng) < 0.0 { -self.ng } else { self.ng }), direction)
+        let normal = if direction.dot(self.ng) < 0.0 { -self.ng } else { self.ng };
+        Ray::new(offset_origin(self.p, normal) + normal * self.slack, direction)
     }
 
     /// See [`shadow_ray`].

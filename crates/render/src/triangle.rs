@@ -16,6 +16,20 @@ pub(crate) struct Triangle {
     pub part: u32,
     /// The part's material.
     pub material: u32,
+    /// How far a ray must start off the face beyond [`enfilade_math::offset_origin`], metres: nothing in ordinary rooms.
+    pub slack: f32,
+}
+
+/// Points of a face are found within about this share of the coordinates of its corners: a few units in the last place.
+const ROUNDING: f32 = 4e-7;
+/// What [`enfilade_math::offset_origin`] moves points by near the world's origin, metres.
+const OFFSET: f32 = 1.0 / 65536.0;
+
+/// The origin's offset grows with a point's own coordinates. A point in the middle of a face whose corners are far away has small
+/// ones, and yet the rounding of large ones.
+fn slack(corners: &[Vec3; 3]) -> f32 {
+    let farthest = corners.iter().fold(0.0f32, |far, corner| far.max(corner.abs().max_element()));
+    (ROUNDING * farthest - OFFSET).max(0.0)
 }
 
 impl Triangle {
@@ -64,7 +78,7 @@ pub(crate) fn gather(scene: &Scene, world: &WorldMesh) -> Vec<Triangle> {
                 indices.map(|i| (normal_from_mesh * mesh.normals[i as usize]).normalize_or(face.normalize_or(Vec3::Z)))
             };
             let uvs = if mesh.uvs.is_empty() { [Vec2::ZERO; 3] } else { indices.map(|i| mesh.uvs[i as usize]) };
-            Triangle { corners, normals, uvs, part: source.part, material: part.material }
+            Triangle { corners, normals, uvs, part: source.part, material: part.material, slack: slack(&corners) }
         })
         .collect()
 }

@@ -160,6 +160,15 @@ fn lossless_spheres_vanish_in_a_white_sky() {
 }
 
 #[test]
+fn a_plain_of_kilometres_loses_no_light() {
+    let corners = [[-1300.0, -1100.0], [1200.0, -1250.0], [1250.0, 1300.0], [-1150.0, 1200.0]].map(|[x, y]| Vec3::new(x, y, 0.3));
+    let ground = || Material::diffuse("ground", Rgb::splat(0.5));
+    let scene = white_sky(scene(vec![("plain", quad(corners), ground())]));
+    let frame = picture(&scene, DVec3::new(3.0, -4.0, 2.0), DVec3::new(3.5, -3.0, 0.3), 24, 50.0, 64);
+    assert_close("radiance of a plain", mean(&frame, Layer::Color, 1), 0.5, 0.002);
+}
+
+#[test]
 fn a_thin_sheet_of_gltf_glass_passes_what_it_does_not_reflect() {
     let glass = Principled { transmission: 1.0.into(), roughness: 0.0.into(), ..Principled::default() };
     let s = white_sky(scene(vec![("sphere", sphere(32), Material::new("glass", Bsdf::Principled(Box::new(glass))))]));

@@ -1,8 +1,9 @@
-//! `cargo xtask fuzz [--seconds N] [--quick] [TARGET...]`: searches for bytes that break what reads them.
+//! `cargo xtask fuzz [--seconds N] [--seed N] [--quick] [TARGET...]`: searches for bytes that break what reads them.
 //!
 //! libFuzzer on the stable toolchain: LLVM's coverage pass is asked for by flags of the compiler that need no `-Z`. The program is built
 //! below `target/fuzz/build`, each target's files lie in `target/fuzz/<target>/`. What was learned there (the corpus) is kept, so that a
-//! longer search goes on where a shorter one ended. Two targets are searched at a time. `--quick` leaves out the readers of datasets and
+//! longer search goes on where a shorter one ended. Two targets are searched at a time. With `--seed` chance repeats itself: from the same
+//! corpus the same inputs are tried, as far as the time goes. `--quick` leaves out the readers of datasets and
 //! of the whole program, without which the program that searches builds much faster.
 
 mod report;
@@ -13,6 +14,7 @@ use crate::step::finish;
 use report::Row;
 use search::Target;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -36,6 +38,8 @@ const FLAGS: [&str; 6] = [
 #[derive(Debug, PartialEq)]
 struct Asked {
     seconds: u64,
+    /// Of chance; another one every time where none is given.
+    seed: Option<u32>,
     /// Importers and V-Ray alone.
     quick: bool,
     /// All where none is named.
@@ -44,13 +48,13 @@ struct Asked {
 
 impl Asked {
     fn parse(words: &[&str]) -> Result<Self, String> {
-        let mut asked = Self { seconds: SECONDS, quick: false, names: Vec::new() };
+        let mut asked = Self { seconds: SECONDS, seed: None, quick: false, names: Vec::new() };
         let mut words = words.iter();
         while let Some(word) = words.next() {
             if *word == "--seconds" {
-                let found = words.next().copied().unwrap_or("nothing");
-                let seconds = found.parse().ok().filter(|seconds| *seconds > 0);
-                asked.seconds = seconds.ok_or_else(|| format!("--seconds: found {found}, expected a whole number above zero"))?;
+                asked.seconds = above_zero(word, words.next())?;
+            } else if *word == "--seed" {
+                asked.seed = Some(above_zero(word, words.next())?);
             } else if *word == "--quick" {
                 asked.quick = true;
             } else {
@@ -59,6 +63,13 @@ impl Asked {
         }
         Ok(asked)
     }
+}
+
+/// The number after a flag; libFuzzer takes a seed of zero for none.
+fn above_zero<T: FromStr + Default + PartialOrd>(flag: &str, word: Option<&&str>) -> Result<T, String> {
+    let found = word.copied().unwrap_or("nothing");
+    let number = found.parse().ok().filter(|number| *number > T::default());
+    number.ok_or_else(|| format!("{flag}: found {found}, expected a whole number above zero"))
 }
 
 /// Searches the targets that are named, or all, and writes the table: to `docs/benchmarks/` when it is of all targets, else below
@@ -76,7 +87,7 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
         return Err(format!("unknown target `{unknown}`; expected some of {}", known.join(", ")));
     }
     let chosen: Vec<Target> = all.into_iter().filter(|t| asked.names.is_empty() || asked.names.contains(&t.name)).collect();
-    let rows = search_all(&program, &chosen, asked.seconds)?;
+    let rows = search_all(&program, &chosen, &asked)?;
     let docs = if asked.names.is_empty() && !asked.quick { house.root.join("docs/benchmarks") } else { folder };
     report::write(&docs, asked.seconds, &rows)?;
     println!("{}\nwritten to {}", report::table(&rows), docs.join("fuzz.md").display());
@@ -108,15 +119,15 @@ fn platform(house: &House) -> Result<String, String> {
 }
 
 /// Searches, [`AT_A_TIME`]; the rows are in the order of the targets.
-fn search_all(program: &Path, targets: &[Target], seconds: u64) -> Result<Vec<Row>, String> {
+fn search_all(program: &Path, targets: &[Target], asked: &Asked) -> Result<Vec<Row>, String> {
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<(usize, Result<Row, String>)>> = Mutex::default();
     let work = || {
         loop {
             let i = next.fetch_add(1, Ordering::Relaxed);
             let Some(target) = targets.get(i) else { break };
-            println!("   {} of {}: {} ({seconds} s)", i + 1, targets.len(), target.name);
-            let row = search::search(program, target, seconds);
+            println!("   {} of {}: {} ({} s)", i + 1, targets.len(), target.name, asked.seconds);
+            let row = search::search(program, target, asked.seconds, asked.seed);
             done.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((i, row));
         }
     };
@@ -137,8 +148,9 @@ mod tests {
     #[test]
     fn seconds_and_targets_are_told_apart() {
         let asked = |words: &[&str]| Asked::parse(words);
-        assert_eq!(asked(&[]).unwrap(), Asked { seconds: 60, quick: false, names: vec![] });
-        assert_eq!(asked(&["gltf", "--seconds", "5", "--quick"]).unwrap(), Asked { seconds: 5, quick: true, names: vec!["gltf".into()] });
+        assert_eq!(asked(&[]).unwrap(), Asked { seconds: 60, seed: None, quick: false, names: vec![] });
+        let some = Asked { seconds: 5, seed: Some(7), quick: true, names: vec!["gltf".into()] };
+        assert_eq!(asked(&["gltf", "--seconds", "5", "--seed", "7", "--quick"]).unwrap(), some);
         assert_eq!(asked(&["--seconds", "0"]).unwrap_err(), "--seconds: found 0, expected a whole number above zero");
         assert!(asked(&["--seconds"]).unwrap_err().contains("found nothing"));
     }

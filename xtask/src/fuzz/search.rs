@@ -44,11 +44,11 @@ pub fn targets(program: &Path, folder: &Path) -> Result<Vec<Target>, String> {
     table.iter().map(|row| target(row).ok_or_else(|| wrong(format!("{row} is no target")))).collect()
 }
 
-/// Searches a target for so many seconds.
+/// Searches a target for so many seconds, by chance of this seed where one is given.
 ///
 /// # Errors
 /// When the program cannot be run, or ends without having searched.
-pub fn search(program: &Path, target: &Target, seconds: u64) -> Result<Row, String> {
+pub fn search(program: &Path, target: &Target, seconds: u64, seed: Option<u32>) -> Result<Row, String> {
     let scratch = Scratch::new(target)?;
     let work = |name: &str| target.folder.join(name);
     for name in ["corpus", "found"] {
@@ -59,6 +59,9 @@ pub fn search(program: &Path, target: &Target, seconds: u64) -> Result<Row, Stri
     command.args([work("corpus"), work("seeds")]);
     command.arg(format!("-max_total_time={seconds}")).arg(format!("-max_len={}", target.longest)).arg("-print_final_stats=1");
     command.arg(format!("-artifact_prefix={}/", work("found").display())).arg("-reload=0").arg("-report_slow_units=60");
+    if let Some(seed) = seed {
+        command.arg(format!("-seed={seed}"));
+    }
     if std::fs::metadata(work("words")).is_ok_and(|words| words.len() > 0) {
         command.arg(format!("-dict={}", work("words").display()));
     }

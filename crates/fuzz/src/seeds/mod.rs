@@ -2,6 +2,7 @@
 
 #[cfg(feature = "dataset")]
 pub mod dataset;
+mod fbx;
 mod pictures;
 
 #[path = "../../../import/tests/common/mod.rs"]
@@ -23,7 +24,10 @@ use std::path::Path;
 
 #[cfg(feature = "dataset")]
 pub use dataset::{arrays, records, tables};
+pub use fbx::fbx;
 pub use pictures::pictures;
+#[cfg(feature = "program")]
+pub use pictures::vray_images;
 
 fn seed(name: &str, bytes: impl Into<Vec<u8>>) -> Seed {
     Seed { name: name.into(), bytes: bytes.into() }
@@ -174,6 +178,19 @@ pub fn octrees() -> Vec<Seed> {
     vec![seed("tree.bt", tree.to_bt()), seed("tree.ot", tree.to_ot())]
 }
 
+/// The room of the importer's tests, as text and binary.
+pub fn usd() -> Vec<Seed> {
+    vec![
+        seed("room.usda", include_bytes!("../../../import/tests/usd/room.usda")),
+        seed("room.usdc", include_bytes!("../../../import/tests/usd/room.usdc")),
+    ]
+}
+
+/// The same room as an archive.
+pub fn usdz() -> Vec<Seed> {
+    vec![seed("room.usdz", include_bytes!("../../../import/tests/usd/room.usdz"))]
+}
+
 /// What a catalogue lists, and a whole one.
 #[cfg(feature = "program")]
 pub fn catalogues() -> Vec<Seed> {
@@ -188,13 +205,16 @@ pub fn catalogues() -> Vec<Seed> {
 /// A catalogue that lists this, with a box as a model.
 #[cfg(feature = "program")]
 pub fn archive(list: &[u8]) -> Vec<u8> {
-    use zip::{ZipWriter, write::SimpleFileOptions};
     let obj = "mtllib w.mtl\nusemtl oak\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    zip(&[("PluginFurnitureCatalog.properties", list), ("w/w.obj", obj.as_bytes()), ("w/w.mtl", b"newmtl oak\nKd 0.4 0.3 0.2\n")])
+}
+
+/// An archive of these files.
+pub fn zip(files: &[(&str, &[u8])]) -> Vec<u8> {
+    use zip::{ZipWriter, write::SimpleFileOptions};
     let mut archive = ZipWriter::new(std::io::Cursor::new(Vec::new()));
-    let entries: [(&str, &[u8]); 3] =
-        [("PluginFurnitureCatalog.properties", list), ("w/w.obj", obj.as_bytes()), ("w/w.mtl", b"newmtl oak\nKd 0.4 0.3 0.2\n")];
-    for (name, bytes) in entries {
-        archive.start_file(name, SimpleFileOptions::default()).expect("writing to memory cannot fail");
+    for (name, bytes) in files {
+        archive.start_file(*name, SimpleFileOptions::default()).expect("writing to memory cannot fail");
         archive.write_all(bytes).expect("writing to memory cannot fail");
     }
     archive.finish().expect("writing to memory cannot fail").into_inner()

@@ -35,3 +35,19 @@ fn exr() -> Vec<u8> {
     Image::from_channels((3, 2), SpecificChannels::rgb(pixel)).write().to_buffered(&mut bytes).expect("writing to memory cannot fail");
     bytes.into_inner()
 }
+
+/// An image with two render elements: scan lines packed and plain.
+#[cfg(feature = "program")]
+pub fn vray_images() -> Vec<Seed> {
+    use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, LayerAttributes};
+    let colors = ["R", "G", "B", "VRayNormals.X", "VRayNormals.Y", "VRayNormals.Z"];
+    let mut channels: Vec<_> = colors.iter().map(|name| AnyChannel::new(*name, FlatSamples::F32(vec![0.5; 6]))).collect();
+    channels.push(AnyChannel::new("VRayNodeID", FlatSamples::U32(vec![1, 2, 3, u32::MAX, 5, 6])));
+    let image = |name: &str, encoding| {
+        let layer = Layer::new((3, 2), LayerAttributes::default(), encoding, AnyChannels::sort(channels.clone().into()));
+        let mut bytes = Cursor::new(Vec::new());
+        Image::from_layer(layer).write().to_buffered(&mut bytes).expect("writing to memory cannot fail");
+        seed(name, bytes.into_inner())
+    };
+    vec![image("packed.exr", Encoding::SMALL_LOSSLESS), image("plain.exr", Encoding::UNCOMPRESSED)]
+}

@@ -10,8 +10,11 @@ mod octree;
 #[cfg(feature = "program")]
 mod partial;
 pub mod scene_files;
+mod sweethome;
 mod texts;
 mod vray;
+#[cfg(feature = "program")]
+mod vray_image;
 
 use crate::{Reads, Run, Seed, Target, seeds};
 use std::path::Path;
@@ -25,11 +28,19 @@ pub const TARGETS: &[Target] = &[
     importer("ply", "mesh.ply", "with_ply.xml", "PLY meshes of a Mitsuba scene", seeds::ply),
     importer("serialized", "mesh.serialized", "with_serialized.xml", "Mitsuba's compressed meshes", seeds::serialized),
     importer("ies", "lamp.ies", "with_ies.gltf", "IES photometric profiles of a glTF", none),
+    importer("vray", "scene.vrscene", "scene.vrscene", "V-Ray's scene description, imported", none),
+    importer("pbrt", "scene.pbrt", "scene.pbrt", "pbrt's scene description, versions 3 and 4", none),
+    importer("usd", "scene.usd", "scene.usd", "Universal Scene Description, as text and binary", seeds::usd),
+    importer("usdz", "scene.usdz", "scene.usdz", "archives of Universal Scene Description", seeds::usdz),
+    importer("fbx", "scene.fbx", "scene.fbx", "FBX, as text and binary", seeds::fbx),
+    own("sweethome", "homes of Sweet Home 3D", 8 << 10, sweethome::home, none),
     // The extension is that of the one format which has no signature.
     importer("picture", "picture.tga", "with_picture.obj", "PNG, JPEG, BMP, TGA, HDR, EXR and PFM as textures", seeds::pictures),
     own("package", "scene packages, their checksum set right", 16 << 10, scene_files::package, seeds::packages),
     own("vrscene", "V-Ray's scene description, its values, and what edits them", 8 << 10, vray::document, none),
     own("octree", "OctoMap's trees, .bt and .ot", 4 << 10, octree::trees, seeds::octrees),
+    #[cfg(feature = "program")]
+    own("vray_image", "V-Ray's images with their render elements, OpenEXR", 8 << 10, vray_image::image, seeds::vray_images),
     #[cfg(feature = "dataset")]
     own("hdf5", "HDF5 arrays, and everything that a dataset has of them", 8 << 10, datasets::hdf5, seeds::arrays),
     #[cfg(feature = "dataset")]

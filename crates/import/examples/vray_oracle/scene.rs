@@ -15,10 +15,6 @@ pub const SIZE: [u32; 2] = [1024, 768];
 /// How the example exposes its pictures (`_vray_user_params.py`).
 const EXPOSURE: [(&str, f64); 3] = [("ISO", 400.0), ("shutter_speed", 300.0), ("f_number", 2.0)];
 
-/// A tenth of the unit that the scene states, which changes nothing in the picture: the ground is 2.5 km wide, and at that size
-/// our renderer loses 4 % of the light of an open plane to rounding (docs/vray.md).
-const METERS_PER_UNIT: f64 = 0.1;
-
 /// V-Ray's own picture of the scene, linear.
 pub fn picture(scenes: &Path) -> PathBuf {
     scenes.join("hypersim-real/vray_empty_scene/_empty_cam_quads_linear.0000.exr")
@@ -43,7 +39,7 @@ pub fn import(scenes: &Path, tags: Option<&Path>, folder: &Path) -> Result<Impor
     std::fs::write(folder.join("quads.vrscene"), quads(&table, tags.unwrap_or(Path::new("tags")))?)?;
     let file = folder.join("scene.vrscene");
     std::fs::write(&file, document.to_bytes())?;
-    let options = ImportOptions { allow_missing_textures: tags.is_none(), meters_per_unit: METERS_PER_UNIT, ..ImportOptions::default() };
+    let options = ImportOptions { allow_missing_textures: tags.is_none(), ..ImportOptions::default() };
     Ok(load(&file, &options, &Quiet)?)
 }
 

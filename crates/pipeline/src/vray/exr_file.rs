@@ -20,9 +20,9 @@ const IMAGE_PARTS: [&str; 4] = ["", "rgba", "rgb color", "beauty"];
 
 /// An image with its render elements.
 #[derive(Debug)]
-pub(super) struct VrayImage {
+pub struct VrayImage {
     path: PathBuf,
-    pub header: Header,
+    pub(super) header: Header,
     channels: BTreeMap<String, FlatSamples>,
 }
 

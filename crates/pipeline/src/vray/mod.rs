@@ -22,6 +22,7 @@ mod testing;
 
 pub use camera::{CameraWish, FilmedCamera, filmed_camera};
 pub use collect::{CollectConfig, Collected, collect};
+pub use exr_file::VrayImage;
 pub use files::{Asset, inline_scene, read_scene, scene_assets};
 pub use job::{Job, JobCamera, JobConfig, JobStep, read_job, write_job};
 pub use lens::LensPicture;

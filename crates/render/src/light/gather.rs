@@ -345,6 +345,7 @@ mod tests {
             uvs: [Vec2::ZERO; 3],
             part: 0,
             material: 0,
+            slack: 0.0,
         };
         let (a, b, c, d) = ([0.0, 0.0, 1.0], [2.0, 0.0, 1.0], [2.0, 1.0, 1.0], [0.0, 1.0, 1.0]);
         let frame = rectangle_of(&triangle([a, b, c]), &triangle([a, c, d])).unwrap();

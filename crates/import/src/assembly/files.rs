@@ -1,0 +1,123 @@
+//! Files that a scene is made of: those that it refers to by paths as it spells them, and its pictures.
+
+use super::Assembly;
+use crate::ImportError;
+use crate::images::{self, Use};
+use std::path::{Path, PathBuf};
+
+/// Where a picture's bytes are.
+pub(crate) enum Source<'a> {
+    /// A file, by a path as the scene file spells it.
+    File(&'a str),
+    /// Inside the scene file: the place, which is also the name, and the bytes.
+    Embedded(String, &'a [u8]),
+}
+
+impl Assembly<'_> {
+    /// The bytes of the scene file itself.
+    pub(crate) fn read_scene_file(&mut self) -> Result<Vec<u8>, ImportError> {
+        let file = self.file.clone();
+        self.read_input(&file, "check the path and the permission to read it")
+    }
+
+    /// The bytes of a file that the scene file refers to by `path`, with the path it was found at.
+    pub(crate) fn read(&mut self, path: &str) -> Result<(PathBuf, Vec<u8>), ImportError> {
+        let file = self.resolve(path);
+        let remedy = format!("{} refers to it; put the file there or correct the reference", self.file.display());
+        let bytes = self.read_input(&file, &remedy)?;
+        Ok((file, bytes))
+    }
+
+    /// The bytes of a file that `from`, a file of the scene, refers to by `path`, with the path it was found at: in the folder of
+    /// `from`, or else in that of the scene file.
+    pub(crate) fn read_from(&mut self, from: &Path, path: &str) -> Result<(PathBuf, Vec<u8>), ImportError> {
+        match self.beside(from, path) {
+            Some(beside) => {
+                let bytes = self.read_input(&beside, "check the permission to read it")?;
+                Ok((beside, bytes))
+            }
+            None => self.read(path),
+        }
+    }
+
+    /// The file in the folder of `from`, a file of the scene, that `path` means; `None` where there is none.
+    pub(crate) fn beside(&self, from: &Path, path: &str) -> Option<PathBuf> {
+        let folder = from.parent().unwrap_or(Path::new(""));
+        [folder.join(path), folder.join(path.replace('\\', "/"))].into_iter().find(|file| file.is_file())
+    }
+
+    /// The path of a file that the scene file refers to by `path`, for messages.
+    pub(crate) fn path_of(&self, path: &str) -> PathBuf {
+        self.resolve(path)
+    }
+
+    /// True when there is a file where the scene file's `path` leads.
+    pub(crate) fn exists(&self, path: &str) -> bool {
+        self.is_file(&self.resolve(path))
+    }
+
+    pub(super) fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
+        let unreadable = |source: std::io::Error| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() };
+        // A device would be read without end, and a pipe would be waited for.
+        if self.archive.is_none() && !std::fs::metadata(file).map_err(unreadable)?.is_file() {
+            return Err(unreadable(std::io::Error::other("it is no file")));
+        }
+        let read = self.archive.map_or_else(|| std::fs::read(file), |archive| archive.read_path(file));
+        let bytes = read.map_err(unreadable)?;
+        if self.archive.is_none() && !self.inputs.iter().any(|i| i == file) {
+            self.inputs.push(file.to_path_buf());
+        }
+        Ok(bytes)
+    }
+
+    /// The file that `path` in the scene file means: relative to its folder, with Windows separators understood.
+    fn resolve(&self, path: &str) -> PathBuf {
+        let folder = self.file.parent().unwrap_or(Path::new(""));
+        let plain = folder.join(path);
+        if self.is_file(&plain) || !path.contains('\\') { plain } else { folder.join(path.replace('\\', "/")) }
+    }
+
+    fn is_file(&self, path: &Path) -> bool {
+        self.archive.map_or_else(|| path.is_file(), |archive| archive.contains_path(path))
+    }
+
+    /// The index of a picture, decoded at first use. `user` is the material or light that wants it. `None` when it is missing
+    /// and the options allow that; then a plain value has to stand in.
+    pub(crate) fn image(&mut self, source: &Source, usage: Use, user: &str) -> Result<Option<u32>, ImportError> {
+        let key = match source {
+            Source::File(path) => self.resolve(path).to_string_lossy().into_owned(),
+            Source::Embedded(place, _) => place.clone(),
+        };
+        if let Some(&found) = self.images.get(&(key.clone(), usage)) {
+            if found.is_none() {
+                self.warn(user, format!("the texture {key} is missing here as well; a plain grey stands in"));
+            }
+            return Ok(found);
+        }
+        let decoded = match source {
+            Source::File(path) => match self.read(path) {
+                Ok((_, bytes)) => images::decode(&key, &bytes, usage),
+                Err(ImportError::Read { source, .. }) => Err(format!("cannot be read ({source})")),
+                Err(other) => return Err(other),
+            },
+            Source::Embedded(place, bytes) => images::decode(place, bytes, usage),
+        };
+        let index = match decoded {
+            Ok(decoded) => {
+                if let Some(note) = decoded.note {
+                    self.warn(user, format!("texture {key}: {note}"));
+                }
+                Some(self.push_image(decoded.image))
+            }
+            Err(problem) if self.options.allow_missing_textures => {
+                self.warn(user, format!("the texture {key} {problem}; a plain grey stands in, so put the file there and import again"));
+                None
+            }
+            Err(problem) => {
+                return Err(ImportError::Texture { file: self.file.clone(), user: user.to_string(), texture: key, problem });
+            }
+        };
+        self.images.insert((key, usage), index);
+        Ok(index)
+    }
+}

@@ -1,0 +1,281 @@
+//! What all importers share: reading files, pictures, units and axes, unique names, and the checks at the end.
+//!
+//! An importer speaks in the file's own units and axes; [`Assembly`] turns them into the world's (metres, z up).
+
+mod contents;
+mod files;
+mod light;
+mod names;
+
+pub(crate) use contents::orthonormal;
+pub(crate) use files::Source;
+
+use crate::archive::Archive;
+use crate::images::{self, Use};
+use crate::report::Warnings;
+use crate::{Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis};
+use enfilade_math::{DAffine3, DMat3, DVec3, Mat3, Rgb};
+use enfilade_scene::{Cx, Environment, Labels, MapRows, PartLabel, Scene};
+use names::Names;
+use std::collections::{BTreeMap, HashMap};
+use std::path::{Path, PathBuf};
+
+/// A scene in the making.
+pub(crate) struct Assembly<'a> {
+    format: Format,
+    file: PathBuf,
+    options: &'a ImportOptions,
+    cx: &'a dyn Cx,
+    archive: Option<&'a Archive>,
+    warnings: Warnings<'a>,
+    inputs: Vec<PathBuf>,
+    images: BTreeMap<(String, Use), Option<u32>>,
+    part_names: Names,
+    camera_names: Names,
+    reversed: HashMap<u32, u32>,
+    labels: Vec<ImportedLabel>,
+    meters_per_unit: f64,
+    world_from_file: DAffine3,
+    scene: Scene,
+}
+
+impl<'a> Assembly<'a> {
+    /// An empty scene from `file`, whose format has `up` upward unless the options say otherwise.
+    pub(crate) fn new(format: Format, file: &Path, up: UpAxis, options: &'a ImportOptions, cx: &'a dyn Cx) -> Self {
+        let mut assembly = Self {
+            format,
+            file: file.to_path_buf(),
+            options,
+            cx,
+            archive: None,
+            warnings: Warnings::new(cx),
+            inputs: Vec::new(),
+            images: BTreeMap::new(),
+            part_names: Names::default(),
+            camera_names: Names::default(),
+            reversed: HashMap::new(),
+            labels: Vec::new(),
+            meters_per_unit: 1.0,
+            world_from_file: DAffine3::IDENTITY,
+            scene: Scene::default(),
+        };
+        assembly.set_units(1.0, up);
+        assembly
+    }
+
+    /// Sets the unit and the upward axis that the file itself states, before anything is placed. The options' unit multiplies the
+    /// file's, their axis replaces it.
+    pub(crate) fn set_units(&mut self, file_meters_per_unit: f64, file_up: UpAxis) {
+        self.state_space(file_meters_per_unit, world_from_up(file_up));
+    }
+
+    /// As [`Assembly::set_units`] for any axes: `world_from_axes` is a rotation or a reflection.
+    pub(crate) fn state_space(&mut self, file_meters_per_unit: f64, world_from_axes: DMat3) {
+        let axes = self.options.up_axis.map_or(world_from_axes, world_from_up);
+        self.meters_per_unit = file_meters_per_unit * self.options.meters_per_unit;
+        self.world_from_file = DAffine3::from_mat3(axes * self.meters_per_unit);
+    }
+
+    /// An empty scene from the file `entry` within an archive, with the same options.
+    pub(crate) fn inside<'b>(&self, format: Format, up: UpAxis, archive: &'b Archive, entry: &str) -> Assembly<'b>
+    where
+        'a: 'b,
+    {
+        Assembly::new(format, &archive.file().join(entry), up, self.options, self.cx).within(archive)
+    }
+
+    /// The same for a scene file within an archive: all that it refers to is in there as well, and nowhere else.
+    pub(crate) fn within(self, archive: &'a Archive) -> Self {
+        Self { archive: Some(archive), inputs: vec![archive.file().to_path_buf()], ..self }
+    }
+
+    /// The scene file.
+    pub(crate) fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// Metres per unit of the file.
+    pub(crate) fn meters_per_unit(&self) -> f64 {
+        self.meters_per_unit
+    }
+
+    /// Records something dropped, guessed or mended at a place in the scene file.
+    pub(crate) fn warn(&mut self, place: impl AsRef<str>, message: impl Into<String>) {
+        let place = format!("{}: {}", self.file.display(), place.as_ref());
+        self.warnings.push(place, message.into());
+    }
+
+    /// Takes over the warnings of an import that is part of this one.
+    pub(crate) fn pass_on(&mut self, warnings: Vec<enfilade_scene::Warning>) {
+        warnings.into_iter().for_each(|w| self.warnings.push(w.place, w.message));
+    }
+
+    /// Tells the caller how far the import is.
+    pub(crate) fn progress(&self, done: usize, total: usize) {
+        self.cx.progress("import", done as u64, total as u64);
+    }
+
+    /// A [`ImportError::Malformed`] of the scene file.
+    pub(crate) fn malformed(&self, place: impl Into<String>, problem: impl Into<String>) -> ImportError {
+        ImportError::malformed(&self.file, place, problem)
+    }
+
+    /// True unless the options say which axis is up.
+    pub(crate) fn has_default_axes(&self) -> bool {
+        self.options.up_axis.is_none()
+    }
+
+    /// The rotation (and scale) from file axes to world axes.
+    pub(crate) fn world_from_file(&self) -> DAffine3 {
+        self.world_from_file
+    }
+
+    /// The finished import.
+    ///
+    /// # Errors
+    /// When nothing visible remains or something about the scene is not valid.
+    pub(crate) fn finish(mut self) -> Result<Imported, ImportError> {
+        let scene = without_unused_meshes(std::mem::take(&mut self.scene));
+        self.finish_scene(scene)
+    }
+
+    /// The labels of a scene that has them all, one per part.
+    pub(crate) fn set_labels(&mut self, labels: Option<Labels>) {
+        let labels = labels.map_or(Vec::new(), |labels| labels.parts);
+        let labelled = labels.into_iter().enumerate().filter(|(_, label)| *label != PartLabel::NONE);
+        self.labels = labelled.map(|(part, label)| ImportedLabel { part: part as u32, label }).collect();
+    }
+
+    /// The finished import of a scene that is already in the world's units and axes.
+    pub(crate) fn finish_scene(mut self, scene: Scene) -> Result<Imported, ImportError> {
+        self.scene = scene;
+        if let Some(environment) = &self.options.environment {
+            let path = environment.file.to_string_lossy().into_owned();
+            // The override's path is the caller's, not the scene file's: relative to the working directory.
+            let bytes = self.read_input(&environment.file, "the import options name it as the environment; correct the path")?;
+            let decoded = images::decode(&path, &bytes, Use::Color)
+                .map_err(|problem| ImportError::malformed(&environment.file, "environment picture", format!("it {problem}")))?;
+            let image = self.push_image(decoded.image);
+            let world_from_map = DMat3::from_rotation_z(f64::from(environment.rotation_deg).to_radians())
+                * DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
+            let scale = Rgb::splat(environment.scale);
+            let map_from_world = mat3_f32(world_from_map.transpose());
+            self.scene.environment = Some(Environment::Map { image, rows: MapRows::Bands, scale, map_from_world });
+        }
+        let file = self.file;
+        self.scene.validate().map_err(|source| ImportError::Scene { file, source })?;
+        let labels = (!self.labels.is_empty()).then_some(self.labels);
+        let report = ImportReport::new(self.format, &self.scene, self.warnings.into_list());
+        Ok(Imported { scene: self.scene, labels, inputs: self.inputs, report })
+    }
+}
+
+/// The rotation that turns `up` to z.
+fn world_from_up(up: UpAxis) -> DMat3 {
+    match up {
+        UpAxis::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
+        UpAxis::Z => DMat3::IDENTITY,
+    }
+}
+
+/// The matrix in single precision.
+pub(crate) fn mat3_f32(m: DMat3) -> Mat3 {
+    Mat3::from_cols(m.x_axis.as_vec3(), m.y_axis.as_vec3(), m.z_axis.as_vec3())
+}
+
+/// The scene without meshes that no part uses; the others keep their order.
+fn without_unused_meshes(mut scene: Scene) -> Scene {
+    let mut used = vec![false; scene.meshes.len()];
+    scene.parts.iter().for_each(|p| used[p.mesh as usize] = true);
+    let mut next = 0;
+    let new_index: Vec<u32> = used.iter().map(|&u| (next, next += u32::from(u)).0).collect();
+    scene.parts.iter_mut().for_each(|p| p.mesh = new_index[p.mesh as usize]);
+    let mut keep = used.into_iter();
+    scene.meshes.retain(|_| keep.next().unwrap_or(false));
+    scene
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_geometry::Mesh;
+    use enfilade_math::Vec3;
+    use enfilade_scene::{Light, Material, Quiet, uv_from_direction};
+
+    fn triangle() -> Mesh {
+        Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() }
+    }
+
+    fn assembled(options: &ImportOptions, fill: impl FnOnce(&mut Assembly)) -> Imported {
+        let mut a = Assembly::new(Format::Gltf, Path::new("test.gltf"), UpAxis::Y, options, &Quiet);
+        a.push_material(Material::diffuse("grey", Rgb::splat(0.5)));
+        let mesh = a.push_mesh(triangle(), Path::new("test.gltf"), "mesh").unwrap().unwrap();
+        a.push_part("part", mesh, 0, DAffine3::IDENTITY, PartLabel::NONE);
+        fill(&mut a);
+        a.finish().unwrap()
+    }
+
+    #[test]
+    fn y_up_becomes_z_up_and_units_become_metres() {
+        let options = ImportOptions { meters_per_unit: 0.5, ..ImportOptions::default() };
+        let scene = assembled(&options, |_| ()).scene;
+        let p = scene.parts[0].world_from_mesh.transform_point3(DVec3::new(2.0, 4.0, 6.0));
+        assert_eq!(p, DVec3::new(1.0, -3.0, 2.0));
+    }
+
+    #[test]
+    fn irradiance_of_a_point_light_does_not_depend_on_the_unit() {
+        let light = || Light::Point { name: "l".into(), position: Vec3::new(0.0, 2.0, 0.0), intensity: Rgb::splat(8.0) };
+        let irradiance = |meters_per_unit: f64| {
+            let options = ImportOptions { meters_per_unit, ..ImportOptions::default() };
+            let scene = assembled(&options, |a| a.push_light(light())).scene;
+            let Light::Point { position, intensity, .. } = &scene.lights[0] else { panic!("not a point light") };
+            intensity.g / position.length_squared()
+        };
+        assert!((irradiance(1.0) - 2.0).abs() < 1e-6 && (irradiance(0.4) - 2.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn mirrored_parts_keep_their_front_and_flattened_ones_go() {
+        let imported = assembled(&ImportOptions::default(), |a| {
+            a.push_part("part", 0, 0, DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0)), PartLabel::NONE);
+            a.push_part("part", 0, 0, DAffine3::from_scale(DVec3::new(1.0, 0.0, 1.0)), PartLabel::NONE);
+        });
+        let scene = imported.scene;
+        assert_eq!(scene.parts.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(), ["part", "part_2"]);
+        let normal = |i: usize| {
+            let [a, b, c] = scene.world_corners(&scene.parts[i], 0);
+            (b - a).cross(c - a).normalize()
+        };
+        assert!((normal(0) - normal(1)).length() < 1e-6);
+        assert!(imported.report.warnings[0].message.contains("flattens"));
+    }
+
+    #[test]
+    fn cameras_are_orthonormal_after_scaled_and_rounded_placements() {
+        let tilt = DMat3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 0.7) * 3.0;
+        let rounded = DMat3::from_cols_array(&tilt.to_cols_array().map(|v| f64::from(v as f32)));
+        let options = ImportOptions { meters_per_unit: 0.4, ..ImportOptions::default() };
+        let scene = assembled(&options, |a| {
+            a.push_camera("c", DAffine3::from_mat3_translation(rounded, DVec3::X), 1.0, 1.5);
+            a.push_camera("bad", DAffine3::from_mat3(DMat3::ZERO), 1.0, 1.5);
+        })
+        .scene;
+        assert_eq!(scene.cameras.len(), 1);
+        assert_eq!(scene.cameras[0].position, DVec3::new(0.4, 0.0, 0.0));
+    }
+
+    #[test]
+    fn the_middle_of_an_environment_stays_where_the_file_puts_it() {
+        let scene = assembled(&ImportOptions::default(), |a| {
+            let white = enfilade_scene::Pixels::RgbF32(vec![[1.0; 3]]);
+            let image = a.push_image(enfilade_scene::Image { name: "sky".into(), width: 1, height: 1, pixels: white });
+            a.set_environment_map(image, MapRows::Bands, Rgb::WHITE, DMat3::IDENTITY, "sky");
+        })
+        .scene;
+        let Some(Environment::Map { map_from_world, .. }) = scene.environment else { panic!("no map") };
+        // +z of the file, the middle of the picture, is −y of the world; up stays up.
+        assert!((uv_from_direction(map_from_world * Vec3::NEG_Y).x - 0.5).abs() < 1e-6);
+        assert!(uv_from_direction(map_from_world * Vec3::Z).y < 1e-3);
+    }
+}

@@ -1,0 +1,30 @@
+//! Names of parts and cameras, each of which occurs once.
+
+use std::collections::{HashMap, HashSet};
+
+/// Names that are taken.
+#[derive(Default)]
+pub(super) struct Names {
+    taken: HashSet<String>,
+    /// The number to try next for a name that occurred before, so that many equal names are no long search.
+    next: HashMap<String, usize>,
+}
+
+impl Names {
+    /// `name`, or `name_2`, `name_3` … when it is taken. Control characters, which would break tables, become underscores.
+    pub(super) fn unique(&mut self, name: &str) -> String {
+        let name: String = name.trim().chars().map(|c| if c.is_control() { '_' } else { c }).collect();
+        let name = if name.is_empty() { "part".to_string() } else { name };
+        if self.taken.insert(name.clone()) {
+            return name;
+        }
+        let next = self.next.entry(name.clone()).or_insert(2);
+        loop {
+            let numbered = format!("{name}_{next}");
+            *next += 1;
+            if self.taken.insert(numbered.clone()) {
+                return numbered;
+            }
+        }
+    }
+}
