@@ -11,7 +11,6 @@ use enfilade_math::hash_u64;
 use enfilade_post::tonemap::ToneMap;
 use enfilade_scene::{Pose, Projection};
 use std::collections::{BTreeMap, HashSet};
-use std::path::Path;
 use std::sync::OnceLock;
 
 /// Where a sample comes from.
@@ -291,16 +290,6 @@ impl Samples {
             let calibration = OpencvCalibration::of(&projection);
             Ok((projection, calibration))
         })
-    }
-}
-
-impl Samples {
-    /// Opens the dataset at `root` and takes its frames.
-    ///
-    /// # Errors
-    /// As [`Samples::open`], and when there is no dataset.
-    pub fn at(root: &Path, choice: &Choice, options: Options) -> Result<Self, LoaderError> {
-        Self::open(Dataset::open(root)?, choice, options)
     }
 }
 

@@ -88,16 +88,7 @@ impl Batch {
     pub fn of(samples: Vec<(usize, Sample)>) -> Result<Self, String> {
         let count = samples.len();
         let (_, first) = &samples[0];
-        let size = |sample: &Sample| [sample.layers[0].1.height, sample.layers[0].1.width];
-        let expected = size(first);
-        if let Some((_, other)) = samples.iter().find(|(_, sample)| size(sample) != expected) {
-            let place = format!("{}/{} frame {}", other.scene, other.camera, other.frame);
-            let [h, w] = size(other);
-            return Err(format!(
-                "{place} has {h}x{w} pixels, other samples of the batch {}x{}; give `crop` or `resize`",
-                expected[0], expected[1]
-            ));
-        }
+        check_alike(first, &samples)?;
         let stacked =
             |image: &Image, all: &mut dyn Iterator<Item = &Image>| ([&[count], &shape(image)[..]].concat(), stack(image, count, all));
         let images = first.layers.iter().enumerate().map(|(i, (layer, image))| {
@@ -147,17 +138,30 @@ impl Batch {
     }
 }
 
+/// Says which sample has images of another size or type than the first.
+fn check_alike(first: &Sample, samples: &[(usize, Sample)]) -> Result<(), String> {
+    for (_, sample) in samples {
+        for ((layer, expected), (_, found)) in first.layers.iter().zip(&sample.layers) {
+            let alike = |image: &Image| (image.height, image.width, image.values.dtype());
+            if alike(found) != alike(expected) {
+                let describe = |image: &Image| format!("{}x{} pixels of {}", image.height, image.width, dtype_name(image.values.dtype()));
+                let place = format!("{} of {}/{} frame {}", layer.spec().name, sample.scene, sample.camera, sample.frame);
+                let (found, expected) = (describe(found), describe(expected));
+                return Err(format!("{place} has {found}, the first of its batch {expected}; give `crop` or `resize`, and not `stored`"));
+            }
+        }
+    }
+    Ok(())
+}
+
 /// The values of images of one size and type, one after the other.
 fn stack(first: &Image, count: usize, all: &mut dyn Iterator<Item = &Image>) -> Values {
     macro_rules! stacked {
         ($kind:ident) => {{
             let mut values = Vec::with_capacity(count * first.values.len());
             for image in all {
-                match &image.values {
-                    Values::$kind(v) => values.extend_from_slice(v),
-                    // Files of one layer may differ in type; then single numbers are converted.
-                    other => values.extend((0..other.len()).map(|i| convert::$kind(other.get(i)))),
-                }
+                let Values::$kind(v) = &image.values else { unreachable!("images of one type") };
+                values.extend_from_slice(v);
             }
             Values::$kind(values)
         }};
@@ -167,22 +171,5 @@ fn stack(first: &Image, count: usize, all: &mut dyn Iterator<Item = &Image>) -> 
         Values::F32(_) => stacked!(F32),
         Values::I16(_) => stacked!(I16),
         Values::U8(_) => stacked!(U8),
-    }
-}
-
-/// Numbers of other types, by the names of [`Values`].
-#[allow(non_snake_case)]
-mod convert {
-    pub fn F16(v: f64) -> half::f16 {
-        half::f16::from_f64(v)
-    }
-    pub fn F32(v: f64) -> f32 {
-        v as f32
-    }
-    pub fn I16(v: f64) -> i16 {
-        v as i16
-    }
-    pub fn U8(v: f64) -> u8 {
-        v as u8
     }
 }

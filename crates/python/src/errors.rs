@@ -40,6 +40,6 @@ impl IntoPy for enfilade_pipeline::Error {
     fn into_py(self) -> PyErr {
         let hint = self.hint().map(|hint| format!("; {hint}")).unwrap_or_default();
         let message = format!("{}{hint}", self.explain());
-        if self.is_usage() { PyValueError::new_err(message) } else { StageError::new_err(message) }
+        if self.is_usage() { PyValueError::new_err(message) } else { PyRuntimeError::new_err(message) }
     }
 }

@@ -9,6 +9,7 @@ mod arrays;
 mod config;
 mod dataset;
 mod errors;
+mod interrupt;
 mod json;
 mod loader;
 mod verbs;

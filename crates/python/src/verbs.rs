@@ -3,17 +3,18 @@
 use crate::arguments::{Names, layers};
 use crate::config::Config;
 use crate::errors::{IntoPy, StageError};
+use crate::interrupt::{Interrupt, interruptible};
 use crate::json;
 use enfilade_dataset::Dataset;
-use enfilade_pipeline::{STAGES, Silent, Stage, Summary};
+use enfilade_pipeline::{STAGES, Stage, Summary};
 use enfilade_post::verify::{verify_dataset, write_report};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Makes the dataset `config` in the folder `output`: all stages of all scenes that are not up to date. A run that is ended goes on where it
-/// was when it is run again.
+/// Makes the dataset `config` in the folder `output`: all stages of all scenes that are not up to date. A run that is ended, as by Ctrl-C, goes on
+/// where it was when it is run again.
 ///
 /// config: an `enfilade.Config`; the demo unless given.
 /// scenes: only these; `*` stands for any run of characters.
@@ -27,7 +28,7 @@ pub fn run<'py>(py: Python<'py>, output: PathBuf, config: Option<Config>, scenes
         None => enfilade_pipeline::Config::demo(&Default::default()).map_err(IntoPy::into_py)?,
     };
     let pattern = scenes.map(|scenes| scenes.pattern());
-    let summary = py.detach(|| enfilade_pipeline::run(&config, &output, pattern.as_deref(), &Silent)).map_err(IntoPy::into_py)?;
+    let summary = interruptible(py, |reporter| enfilade_pipeline::run(&config, &output, pattern.as_deref(), reporter))?;
     conclude(py, &summary)
 }
 
@@ -41,8 +42,8 @@ pub fn stage<'py>(py: Python<'py>, name: &str, dataset: PathBuf, scenes: Option<
     let names = || STAGES.map(|spec| spec.name).join(", ");
     let stage = found.ok_or_else(|| PyValueError::new_err(format!("there is no stage {name:?}; the stages are: {}", names())))?;
     let pattern = scenes.map(|scenes| scenes.pattern());
-    let run = || enfilade_pipeline::run_stage(&dataset, stage, pattern.as_deref(), force, &Silent);
-    conclude(py, &py.detach(run).map_err(IntoPy::into_py)?)
+    let run = |reporter: &Interrupt| enfilade_pipeline::run_stage(&dataset, stage, pattern.as_deref(), force, reporter);
+    conclude(py, &interruptible(py, run)?)
 }
 
 /// Checks the laws that hold in every dataset, ours or Hypersim's, and gives the report as a dictionary: `passed`, `laws`, `gates` and
@@ -80,8 +81,8 @@ pub fn split<'py>(py: Python<'py>, dataset: PathBuf, seed: Option<u64>, shares: 
     json::to_python(py, &report)
 }
 
-/// Copies frames, cameras and tables of a dataset, ours or Hypersim's, to the folder `output`, with images in LZ4 instead of deflate: larger or
-/// smaller as they are, and several times as fast to read by `enfilade.Dataset`. Values and names are the same. h5py reads
+/// Copies frames, cameras and tables of a dataset, ours or Hypersim's, to the folder `output`, with images in LZ4 instead of deflate, about as
+/// large and four to sixteen times as fast to read by `enfilade.Dataset`. Values and names are the same. h5py reads
 /// the copy with the package hdf5plugin.
 ///
 /// layers: only these. Gives the number of files and their bytes before and after.

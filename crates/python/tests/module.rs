@@ -35,6 +35,8 @@ fn the_tests_in_python_pass() {
     let found = Command::new(python)
         .args(["-m", "unittest", "discover", "--start-directory"])
         .arg(&tests)
+        // The sources lie in the folder that tests are started in, and Python would take them first.
+        .current_dir(folder.path())
         .env("PYTHONPATH", folder.path())
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .output()

@@ -1,6 +1,9 @@
 """The verbs are those of the command line, and the types that are announced are those that are there."""
 
 import ast
+import os
+import signal
+import threading
 import unittest
 from pathlib import Path
 
@@ -38,6 +41,16 @@ class Verbs(unittest.TestCase):
         with self.assertRaisesRegex(enfilade.StageError, "gone.glb") as caught:
             enfilade.run(datasets.folder() / "failed", enfilade.Config.from_dict(settings))
         self.assertEqual(caught.exception.summary["scenes"][0]["stages"], [])
+
+    @unittest.skipIf(os.name == "nt", "Windows has no signal that a process can send to itself so")
+    def test_a_run_can_be_interrupted_and_goes_on(self):
+        out = datasets.folder() / "interrupted"
+        timer = threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            enfilade.run(out, enfilade.Config.demo(frames=3, size=(64, 48), samples=4096))
+        summary = enfilade.run(out, enfilade.Config.demo(frames=1, size=(64, 48), samples=1))
+        self.assertEqual(len(enfilade.Dataset(out, layers="color")), 1, summary)
 
     def test_the_split_covers_the_dataset(self):
         report = enfilade.split(datasets.made(), seed=1, shares=(1, 0, 0))
