@@ -38,6 +38,7 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
             BENCHES.iter().for_each(|bench| println!("{:<8} {}", bench.name, bench.about));
             println!("render   what pictures of real rooms cost, against Mitsuba 3; runs only when named");
             println!("homes    cost and contents of 200 generated homes, beside published numbers; runs only when named");
+            println!("loader   layers as arrays by the Python module, against h5py; runs only when named");
             println!("storage  size and reading time of the files of layers, against Hypersim's; runs only when named");
             return Ok(());
         }

@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 21] = [
+const FLOORS: [(&str, Floor); 23] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -33,9 +33,11 @@ const FLOORS: [(&str, Floor); 21] = [
     ("post", Floor::Number(4)),
     ("pipeline", Floor::Number(5)),
     ("export", Floor::Number(5)),
+    ("loader", Floor::Number(5)),
     ("annotate", Floor::Number(6)),
     ("farm", Floor::Number(6)),
     ("cli", Floor::Number(7)),
+    ("python", Floor::Number(7)),
     ("testkit", Floor::Dev),
     ("fuzz", Floor::Dev),
     ("xtask", Floor::Dev),

@@ -14,6 +14,7 @@ mod floors;
 mod fuzz;
 mod homes;
 mod house;
+mod loader;
 mod oidn;
 mod peers;
 mod python;
@@ -34,6 +35,7 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
        cargo xtask bench render [ROOM...]         what pictures of real rooms cost, against Mitsuba 3
        cargo xtask bench storage [DATASET...]     size and reading time of the files, against Hypersim's
+       cargo xtask bench loader [DATASET...]      the Python module's reading of layers, against h5py
        cargo xtask bench homes [COUNT] [FIRST]    what generated homes cost and what is in them, beside published numbers";
 
 fn main() -> ExitCode {
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
         ["fuzz", rest @ ..] => fuzz::run(&house, rest),
         ["bench", "render", rest @ ..] => peers::run(&house, "bench_render", rest),
         ["bench", "homes", rest @ ..] => homes::run(&house, rest),
+        ["bench", "loader", rest @ ..] => loader::run(&house, rest),
         ["bench", "storage", rest @ ..] => storage::run(&house, rest),
         ["oracle", rest @ ..] => peers::run(&house, "oracle", rest),
         ["bench", rest @ ..] => bench::run(&house, rest),

@@ -4,7 +4,7 @@ use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
 use crate::tables::{Table, write_parameter};
 use crate::{Dataset, DatasetError, StereoRecord, check_name, replace_file, write_bytes};
 use enfilade_math::{DMat3, DVec3, nearest_rotation};
-use enfilade_scene::{Camera, Pose, Projection, Trajectory};
+use enfilade_scene::{Camera, Intrinsics, Pose, Projection, Trajectory};
 use serde::Serialize;
 use std::path::Path;
 
@@ -201,22 +201,9 @@ const OPENCV_DISTORTED: &str = "OpenCV: camera axes x right, y down, z forward; 
 /// The text of `cameras_opencv.json` for the poses of a trajectory.
 pub fn opencv_cameras(scene: &str, trajectory: &Trajectory, camera: &Camera) -> String {
     let [width, height] = camera.size();
-    // A tilted image plane is a turned camera with a straight one.
-    let (intrinsics, turned) = match &camera.projection {
-        Projection::Pinhole(k) | Projection::RadialTangential(k, _) | Projection::Fisheye(k, _) => (Some(*k), DMat3::IDENTITY),
-        Projection::TiltedPinhole(tilted) => {
-            let (k, rotation) = tilted.straightened();
-            (Some(k), rotation.transpose())
-        }
-        Projection::Equirectangular { .. } | Projection::RayGrid(_) => (None, DMat3::IDENTITY),
-    };
-    let (model, distortion) = match &camera.projection {
-        Projection::Pinhole(_) | Projection::TiltedPinhole(_) => (None, Vec::new()),
-        Projection::RadialTangential(_, distortion) => (Some("opencv"), distortion.coefficients().to_vec()),
-        Projection::Fisheye(_, fisheye) => (Some("opencv_fisheye"), fisheye.coefficients().to_vec()),
-        Projection::Equirectangular { .. } => (Some("equirectangular"), Vec::new()),
-        Projection::RayGrid(_) => (Some("ray_grid"), Vec::new()),
-    };
+    let calibration = OpencvCalibration::of(&camera.projection);
+    let frame = |pose: &Pose| OpencvFrame { frame: pose.frame, world_from_camera: calibration.world_from_camera(pose) };
+    let model = calibration.model;
     let rolls = camera.shutter.is_some_and(|shutter| shutter.readout_s > 0.0);
     let cameras = OpencvCameras {
         convention: if model.is_some() || rolls { OPENCV_DISTORTED } else { OPENCV_CONVENTION },
@@ -226,26 +213,59 @@ pub fn opencv_cameras(scene: &str, trajectory: &Trajectory, camera: &Camera) -> 
         width,
         height,
         model,
-        k: intrinsics.map(|k| k.opencv_k()),
-        distortion,
-        frames: trajectory.poses.iter().map(|pose| opencv_frame(pose, turned)).collect(),
+        k: calibration.intrinsics.map(|k| k.opencv_k()),
+        distortion: calibration.distortion.clone(),
+        frames: trajectory.poses.iter().map(frame).collect(),
     };
     let mut text = serde_json::to_string_pretty(&cameras).expect("plain data encodes");
     text.push('\n');
     text
 }
 
-/// The pose with the camera's y and z axes turned around; `turned` goes before. Adding zero turns −0 into 0.
-fn opencv_frame(pose: &Pose, turned: DMat3) -> OpencvFrame {
-    let r = if turned == DMat3::IDENTITY { pose.world_from_camera } else { pose.world_from_camera * turned };
-    let row = |i: usize| [r.x_axis[i] + 0.0, 0.0 - r.y_axis[i], 0.0 - r.z_axis[i], pose.position[i] + 0.0];
-    OpencvFrame { frame: pose.frame, world_from_camera: [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]] }
+/// A camera in OpenCV's conventions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpencvCalibration {
+    /// The pinhole, before distortion; `None` for cameras that have none. [`Intrinsics::opencv_k`] gives K.
+    pub intrinsics: Option<Intrinsics>,
+    /// Turns the pinhole into the camera: a tilted image plane is a turned camera with a straight one. The identity for all others.
+    turned: DMat3,
+    /// What is more than a pinhole: `opencv`, `opencv_fisheye`, `equirectangular` or `ray_grid`.
+    pub model: Option<&'static str>,
+    /// Coefficients in OpenCV's order.
+    pub distortion: Vec<f64>,
+}
+
+impl OpencvCalibration {
+    /// That of a projection.
+    pub fn of(projection: &Projection) -> Self {
+        let plain = |intrinsics, model, distortion| Self { intrinsics, turned: DMat3::IDENTITY, model, distortion };
+        match projection {
+            Projection::Pinhole(k) => plain(Some(*k), None, Vec::new()),
+            Projection::TiltedPinhole(tilted) => {
+                let (k, rotation) = tilted.straightened();
+                Self { turned: rotation.transpose(), ..plain(Some(k), None, Vec::new()) }
+            }
+            Projection::RadialTangential(k, distortion) => plain(Some(*k), Some("opencv"), distortion.coefficients().to_vec()),
+            Projection::Fisheye(k, fisheye) => plain(Some(*k), Some("opencv_fisheye"), fisheye.coefficients().to_vec()),
+            Projection::Equirectangular { .. } => plain(None, Some("equirectangular"), Vec::new()),
+            Projection::RayGrid(_) => plain(None, Some("ray_grid"), Vec::new()),
+        }
+    }
+
+    /// Camera to world, row by row: camera axes x right, y down, z forward; metres.
+    pub fn world_from_camera(&self, pose: &Pose) -> [[f64; 4]; 4] {
+        let straight = self.turned == DMat3::IDENTITY;
+        let r = if straight { pose.world_from_camera } else { pose.world_from_camera * self.turned };
+        // Adding zero turns −0 into 0.
+        let row = |i: usize| [r.x_axis[i] + 0.0, 0.0 - r.y_axis[i], 0.0 - r.z_axis[i], pose.position[i] + 0.0];
+        [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]]
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_scene::{Intrinsics, TiltedPinhole};
+    use enfilade_scene::TiltedPinhole;
 
     fn trajectory() -> Trajectory {
         let pose = |frame, x| Pose::look_at(frame, DVec3::new(x, 0.5, 1.5), DVec3::new(2.0, 3.0, 1.0), DVec3::Z).unwrap();

@@ -288,14 +288,20 @@ impl Dataset {
     }
 }
 
+/// What a layer's file says of it.
+pub(crate) fn attributes_of(layer: Layer) -> Vec<(&'static str, &'static str)> {
+    let spec = layer.spec();
+    let attributes = [("unit", spec.unit), ("space", spec.space), ("sentinel", spec.sentinel), ("description", spec.description)];
+    attributes.into_iter().filter(|(_, value)| !value.is_empty()).collect()
+}
+
 /// Writes one layer under the temporary name of `path`.
 fn write_layer_aside(path: &Path, [height, width]: [usize; 2], layer: Layer, values: &Values) -> Result<FileRecord, DatasetError> {
     create_parent(path)?;
     let spec = layer.spec();
     let shape = [height, width, spec.channels];
     let shape = if spec.channels == 1 { &shape[..2] } else { &shape[..] };
-    let attributes = [("unit", spec.unit), ("space", spec.space), ("sentinel", spec.sentinel), ("description", spec.description)];
-    let attributes: Vec<_> = attributes.into_iter().filter(|(_, value)| !value.is_empty()).collect();
+    let attributes = attributes_of(layer);
     let aside = temporary(path);
     write_view(&aside, ArrayView::of_values(shape, values), Storage::Image(Packing::of_layer(layer)), &attributes)?;
     FileRecord::of(&aside)

@@ -1,9 +1,12 @@
 //! What a dataset holds, and its layers as values.
 
-use crate::hdf5::{Element, Elements, read_array};
+use crate::hdf5::{Element, Elements, Window, read_array, read_window};
+use crate::release::planar_depth_of_part;
 use crate::tables::Table;
-use crate::{Dataset, DatasetError, planar_depth};
+use crate::{Dataset, DatasetError};
 use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Values};
+use enfilade_scene::Projection;
+use half::slice::HalfFloatSliceExt;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -67,12 +70,28 @@ impl Dataset {
     /// # Errors
     /// When the file is missing, damaged, or not an image of the layer's channels.
     pub fn read_layer(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> Result<Values, DatasetError> {
-        Ok(self.read_image(scene, camera, frame, layer)?.1)
+        Ok(self.read_image(scene, camera, frame, layer, None)?.1)
+    }
+
+    /// [`Dataset::read_layer`] for a rectangle of the image, of which only the chunks that it touches are decoded. Gives height and width
+    /// too; without a window they are the image's.
+    ///
+    /// # Errors
+    /// As there, and when the window leaves the image.
+    pub fn read_layer_window(
+        &self,
+        scene: &str,
+        camera: &str,
+        frame: u32,
+        layer: Layer,
+        window: Option<Window>,
+    ) -> Result<([usize; 2], Values), DatasetError> {
+        self.read_image(scene, camera, frame, layer, window)
     }
 
     /// The given layers of a frame, as the table of layers describes them: half precision becomes single precision where the table says
     /// so, positions are in metres whatever the unit of the files, and planar depth that is not stored is computed from distances and
-    /// camera ([`planar_depth`]).
+    /// camera ([`planar_depth`](crate::planar_depth)).
     ///
     /// # Errors
     /// As [`Dataset::read_layer`], and when the layers differ in size or are stored as something else.
@@ -80,41 +99,71 @@ impl Dataset {
     /// # Panics
     /// When `layers` is empty: a frame without layers has no size.
     pub fn read_frame(&self, scene: &str, camera: &str, frame: u32, layers: &[Layer]) -> Result<Frame, DatasetError> {
+        let projection = || Ok(self.read_camera(scene, camera)?.projection);
         let mut whole: Option<Frame> = None;
         for &layer in layers {
-            let path = || self.layer_source(scene, camera, frame, layer);
-            let computed = layer == Layer::DepthZMeters && !self.has_layer(scene, camera, frame, layer);
-            let stored = if computed { Layer::DepthMeters } else { layer };
-            let ([height, width], values) = self.read_image(scene, camera, frame, stored)?;
-            let mut values = as_specified(values, stored).map_err(|problem| DatasetError::hdf5(&path(), problem))?;
-            if computed {
-                values = self.planar(scene, camera, [width, height], &values)?;
-            }
-            if layer == Layer::Position {
-                self.positions_in_metres(scene, &mut values)?;
-            }
+            let ([height, width], values) = self.read_specified(scene, camera, frame, layer, None, &projection)?;
             let whole = whole.get_or_insert_with(|| Frame::new(width as u32, height as u32));
             if (whole.width as usize, whole.height as usize) != (width, height) {
+                let path = self.layer_source(scene, camera, frame, layer);
                 let problem = format!("{width}x{height} pixels, but other layers of the frame have {}x{}", whole.width, whole.height);
-                return Err(DatasetError::hdf5(&path(), format!("{problem}; delete the frame's files and render it again")));
+                return Err(DatasetError::hdf5(&path, format!("{problem}; delete the frame's files and render it again")));
             }
             whole.insert(layer, values);
         }
         Ok(whole.expect("at least one layer"))
     }
 
-    /// Planar depth of an image of distances.
-    fn planar(&self, scene: &str, camera: &str, [width, height]: [usize; 2], distance: &Values) -> Result<Values, DatasetError> {
-        let projection = self.read_camera(scene, camera)?.projection;
+    /// One layer as in [`Dataset::read_frame`], in a rectangle of the image or whole, with its height and width. `projection` is that of the
+    /// camera; it is asked for where planar depth is computed.
+    ///
+    /// # Errors
+    /// As there, and when the window leaves the image.
+    pub fn read_specified(
+        &self,
+        scene: &str,
+        camera: &str,
+        frame: u32,
+        layer: Layer,
+        window: Option<Window>,
+        projection: &dyn Fn() -> Result<Projection, DatasetError>,
+    ) -> Result<([usize; 2], Values), DatasetError> {
+        let path = self.layer_source(scene, camera, frame, layer);
+        let computed = layer == Layer::DepthZMeters && !self.has_layer(scene, camera, frame, layer);
+        let stored = if computed { Layer::DepthMeters } else { layer };
+        let (size, values) = self.read_image(scene, camera, frame, stored, window)?;
+        let mut values = as_specified(values, stored).map_err(|problem| DatasetError::hdf5(&path, problem))?;
+        if computed {
+            let [height, width] = size;
+            let part = window.unwrap_or(Window { top: 0, left: 0, height, width });
+            values = self.planar(scene, camera, &projection()?, part, window.is_none(), &values)?;
+        }
+        if layer == Layer::Position {
+            self.positions_in_metres(scene, &mut values)?;
+        }
+        Ok((size, values))
+    }
+
+    /// Planar depth of a part of an image of distances, or of the `whole` of it.
+    fn planar(
+        &self,
+        scene: &str,
+        camera: &str,
+        projection: &Projection,
+        part: Window,
+        whole: bool,
+        distance: &Values,
+    ) -> Result<Values, DatasetError> {
         let wrong = |problem: String| DatasetError::text(&self.camera_table(), problem);
-        if projection.size().map(|side| side as usize) != [width, height] {
-            let [w, h] = projection.size();
+        let [w, h] = projection.size().map(|side| side as usize);
+        let Window { height, width, .. } = part;
+        if !part.fits(h, w) || whole && [width, height] != [w, h] {
             return Err(wrong(format!("the images of {scene}/{camera} have {width}x{height} pixels, but its camera {w}x{h}")));
         }
         if !projection.has_image_plane() {
             return Err(wrong(format!("{scene}/{camera} has no image plane, so no planar depth; use depth_meters")));
         }
-        Ok(Values::F32(planar_depth(&projection, distance)))
+        Ok(Values::F32(planar_depth_of_part(projection, part, distance)))
     }
 
     /// True when the frame has a file for `layer`.
@@ -122,10 +171,17 @@ impl Dataset {
         self.layout().layer(scene, camera, frame, layer).is_file()
     }
 
-    /// Height and width, and the values of a layer as it is stored.
-    fn read_image(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> Result<([usize; 2], Values), DatasetError> {
+    /// Height and width, and the values of a layer as it is stored, in a window or whole.
+    fn read_image(
+        &self,
+        scene: &str,
+        camera: &str,
+        frame: u32,
+        layer: Layer,
+        window: Option<Window>,
+    ) -> Result<([usize; 2], Values), DatasetError> {
         let path = self.layout().layer(scene, camera, frame, layer);
-        let array = read_array(&path)?;
+        let array = window.map_or_else(|| read_array(&path), |window| read_window(&path, window))?;
         let channels = layer.spec().channels;
         let size = match (array.shape.as_slice(), channels) {
             (&[height, width], 1) => [height, width],
@@ -169,7 +225,11 @@ pub(crate) fn sorted_names(folder: &Path) -> Result<Vec<String>, DatasetError> {
 /// Values as the layer's spec calls for; half precision becomes single without loss.
 fn as_specified(values: Values, layer: Layer) -> Result<Values, String> {
     match (values, layer.spec().dtype) {
-        (Values::F16(v), Dtype::F32) => Ok(Values::F32(v.into_iter().map(|x| x.to_f32()).collect())),
+        (Values::F16(v), Dtype::F32) => {
+            let mut wide = vec![0.0; v.len()];
+            v.convert_to_f32_slice(&mut wide);
+            Ok(Values::F32(wide))
+        }
         (values, dtype) if values.dtype() == dtype => Ok(values),
         (values, dtype) => {
             let found = Elements::from(values).element().name();

@@ -2,7 +2,7 @@
 //! positions in asset units, no planar depth, and cameras in the tables that have no files.
 
 use crate::camera_files::optional;
-use crate::{Dataset, DatasetError};
+use crate::{Dataset, DatasetError, Window};
 use enfilade_frame::{Layer, Values};
 use enfilade_math::DVec3;
 use enfilade_scene::Projection;
@@ -61,10 +61,16 @@ impl Dataset {
 /// Planar depth along the viewing axis of K ([`Projection::image_axis`]) for distances along the rays of all pixels, row by row, both in
 /// metres; NaN where there is no distance or no ray.
 pub fn planar_depth(projection: &Projection, distance: &Values) -> Vec<f32> {
-    let ([width, _], axis) = (projection.size(), projection.image_axis());
+    let [width, height] = projection.size().map(|side| side as usize);
+    planar_depth_of_part(projection, Window { top: 0, left: 0, height, width }, distance)
+}
+
+/// [`planar_depth`] of the pixels of a part of the image.
+pub(crate) fn planar_depth_of_part(projection: &Projection, part: Window, distance: &Values) -> Vec<f32> {
+    let axis = projection.image_axis();
     let forward = |i: usize| {
-        let (x, y) = (i as u32 % width, i as u32 / width);
-        projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).map_or(DVec3::NAN, DVec3::normalize).dot(axis)
+        let (x, y) = (part.left + i % part.width, part.top + i / part.width);
+        projection.ray(x as f64 + 0.5, y as f64 + 0.5).map_or(DVec3::NAN, DVec3::normalize).dot(axis)
     };
     (0..distance.len()).map(|i| (distance.get(i) * forward(i)) as f32).collect()
 }

@@ -76,27 +76,6 @@ pub(super) fn gather(bytes: &[u8], element_size: usize, shape: [usize; 3], chunk
     }
 }
 
-/// Puts the bytes of one chunk back into the array: the inverse of [`gather`].
-pub(super) fn scatter(out: &mut [u8], raw: &[u8], element_size: usize, shape: [usize; 3], chunk: [usize; 3], at: [usize; 3]) {
-    fn sized<const B: usize>(out: &mut [u8], raw: &[u8], shape: [usize; 3], chunk: [usize; 3], at: [usize; 3]) {
-        let source: &[[u8; B]] = bytemuck::cast_slice(raw);
-        let target: &mut [[u8; B]] = bytemuck::cast_slice_mut(out);
-        for_each_run(shape, chunk, at, |to, from, n| {
-            if n == 1 {
-                target[to] = source[from];
-            } else {
-                target[to..to + n].copy_from_slice(&source[from..from + n]);
-            }
-        });
-    }
-    match element_size {
-        1 => sized::<1>(out, raw, shape, chunk, at),
-        2 => sized::<2>(out, raw, shape, chunk, at),
-        4 => sized::<4>(out, raw, shape, chunk, at),
-        _ => sized::<8>(out, raw, shape, chunk, at),
-    }
-}
-
 /// HDF5's shuffle filter: first byte of every element, then second byte of every element, and so on.
 pub(super) fn shuffle(raw: &[u8], element_size: usize) -> Vec<u8> {
     fn sized<const B: usize>(raw: &[u8]) -> Vec<u8> {
@@ -115,24 +94,6 @@ pub(super) fn shuffle(raw: &[u8], element_size: usize) -> Vec<u8> {
     }
 }
 
-/// The inverse of [`shuffle`].
-pub(super) fn unshuffle(shuffled: &[u8], element_size: usize) -> Vec<u8> {
-    fn sized<const B: usize>(shuffled: &[u8]) -> Vec<u8> {
-        let mut out = vec![0u8; shuffled.len()];
-        let elements: &mut [[u8; B]] = bytemuck::cast_slice_mut(&mut out);
-        for (byte, plane) in shuffled.chunks_exact(elements.len()).enumerate() {
-            elements.iter_mut().zip(plane).for_each(|(element, &value)| element[byte] = value);
-        }
-        out
-    }
-    match element_size {
-        1 => shuffled.to_vec(),
-        2 => sized::<2>(shuffled),
-        4 => sized::<4>(shuffled),
-        _ => sized::<8>(shuffled),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -145,21 +106,5 @@ mod tests {
         assert_eq!(auto_chunk(&[1, 1], 8), [1, 1]);
         assert_eq!(auto_chunk(&[7, 5, 3], 2), [7, 5, 3]);
         assert_eq!(auto_chunk(&[97, 131], 4), [25, 66]);
-    }
-
-    #[test]
-    fn scattering_inverts_gathering_and_shuffling() {
-        for (shape, chunk) in [([97, 131, 3], [25, 33, 1]), ([1, 7, 5], [1, 7, 5]), ([10, 3, 4], [4, 2, 3])] {
-            for size in [1, 2, 4, 8] {
-                let bytes: Vec<u8> = (0..shape.iter().product::<usize>() * size).map(|i| (i * 31 % 251) as u8).collect();
-                let mut back = vec![0u8; bytes.len()];
-                let [a, b, c] = grid(shape, chunk);
-                for at in (0..a * b * c).map(|i| [i / (b * c), i / c % b, i % c]) {
-                    let raw = gather(&bytes, size, shape, chunk, at);
-                    scatter(&mut back, &unshuffle(&shuffle(&raw, size), size), size, shape, chunk, at);
-                }
-                assert_eq!(bytes, back, "{shape:?} {chunk:?} {size}");
-            }
-        }
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! The choices are those of docs/benchmarks/storage.md, by the kind of the values.
 
+use super::Element;
 use enfilade_frame::{Dtype, Layer};
 
 /// Chunks and filters of an image.
@@ -29,6 +30,12 @@ impl Packing {
             Dtype::F16 if layer == Layer::TexCoord => Self { channels_together: false, ..plain },
             Dtype::F16 => plain,
         }
+    }
+
+    /// That of [`Storage::Fast`](super::Storage::Fast), which has no level.
+    pub(super) fn fast(element: Element) -> Self {
+        let shuffle = matches!(element, Element::F16 | Element::F32 | Element::F64);
+        Self { chunk: [128, 128], channels_together: true, shuffle, level: 0 }
     }
 
     /// The chunk's shape for an image of two axes or three, none of them zero.

@@ -1,9 +1,8 @@
-use super::chunks::{grid, scatter, unshuffle};
+use super::window::read_image;
 use super::write::{datatype, os_error};
 use super::{Array, Element, Elements};
 use crate::DatasetError;
-use libdeflater::Decompressor;
-use rust_hdf5::{DatatypeMessage, H5Dataset, H5File, Hdf5Error};
+use rust_hdf5::{DatatypeMessage, H5File, Hdf5Error};
 use std::fs::File;
 use std::io::Read;
 use std::panic::catch_unwind;
@@ -15,6 +14,9 @@ use std::path::Path;
 /// When the file is missing or damaged, or holds anything but one dataset named `dataset` of a known element type.
 pub fn read_array(path: &Path) -> Result<Array, DatasetError> {
     let length = check_length(path)?;
+    if let Some(image) = read_image(path) {
+        return Ok(image);
+    }
     // The library takes some of what stands in a file for granted, and panics where it is not so.
     let gave_up = |_| Err(DatasetError::hdf5(path, format!("the HDF5 library gave up on it: {DAMAGED}")));
     catch_unwind(|| read_dataset(path, length)).unwrap_or_else(gave_up)
@@ -38,7 +40,7 @@ fn read_dataset(path: &Path, length: u64) -> Result<Array, DatasetError> {
     let impossible = || DatasetError::hdf5(path, format!("{length} bytes cannot hold shape {shape:?} of {}: {DAMAGED}", element.name()));
     // A damaged shape must not ask for more memory than there is: deflate shrinks by a factor of 1032 at most.
     let expected = expected.filter(|&n| n as u64 <= length.saturating_mul(1032)).ok_or_else(impossible)?;
-    let bytes = read_bytes(&dataset, &shape, element.size()).map_err(|error| read_error(path, &error))?;
+    let bytes = if expected == 0 { Vec::new() } else { dataset.read_raw_bytes().map_err(|error| read_error(path, &error))? };
     if expected != bytes.len() {
         return Err(impossible());
     }
@@ -46,50 +48,6 @@ fn read_dataset(path: &Path, length: u64) -> Result<Array, DatasetError> {
 }
 
 const DAMAGED: &str = "the file is damaged or cut short; copy it again, or delete it and run the stage that makes it";
-
-fn read_bytes(dataset: &H5Dataset, shape: &[usize], element_size: usize) -> rust_hdf5::Result<Vec<u8>> {
-    if dataset.total_elements() == 0 {
-        return Ok(Vec::new());
-    }
-    if let (&[height, width, channels], Some(&[h, w, per_chunk])) = (shape, dataset.chunk_dims().as_deref()) {
-        let filters: Vec<u16> = dataset.filters()?.iter().map(|filter| filter.id).collect();
-        let known = filters == [SHUFFLE, DEFLATE] || filters == [DEFLATE];
-        if known && (1..=height).contains(&h) && (1..=width).contains(&w) && (1..channels).contains(&per_chunk) {
-            return inflate_chunks(dataset, [height, width, channels], [h, w, per_chunk], element_size, filters[0] == SHUFFLE);
-        }
-    }
-    dataset.read_raw_bytes()
-}
-
-/// HDF5's number of the deflate filter.
-const DEFLATE: u16 = 1;
-/// HDF5's number of the shuffle filter.
-const SHUFFLE: u16 = 2;
-
-/// Reads an image whose channels lie in different chunks, which takes the HDF5 library twice as long.
-fn inflate_chunks(dataset: &H5Dataset, shape: [usize; 3], chunk: [usize; 3], size: usize, shuffled: bool) -> rust_hdf5::Result<Vec<u8>> {
-    let [a, b, c] = grid(shape, chunk);
-    let mut bytes = vec![0; shape.iter().product::<usize>() * size];
-    let mut raw = vec![0; chunk.iter().product::<usize>() * size];
-    let mut decompressor = Decompressor::new();
-    for at in (0..a * b * c).map(|i| [i / (b * c), i / c % b, i % c]) {
-        let (deflated, unfiltered) = dataset.read_chunk_raw_at(&at)?;
-        if unfiltered != 0 {
-            return dataset.read_raw_bytes();
-        }
-        match decompressor.zlib_decompress(&deflated, &mut raw) {
-            Ok(length) if length == raw.len() => {}
-            Ok(length) => return Err(Hdf5Error::InvalidState(format!("chunk {at:?} holds {length} bytes instead of {}", raw.len()))),
-            Err(error) => return Err(Hdf5Error::InvalidState(format!("chunk {at:?} cannot be inflated ({error})"))),
-        }
-        if shuffled {
-            scatter(&mut bytes, &unshuffle(&raw, size), size, shape, chunk, at);
-        } else {
-            scatter(&mut bytes, &raw, size, shape, chunk, at);
-        }
-    }
-    Ok(bytes)
-}
 
 /// Compares the file's length with the one in its superblock, as libhdf5 does; the library behind us does not look at it. Gives
 /// the length.

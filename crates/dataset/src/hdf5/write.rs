@@ -1,10 +1,11 @@
 use super::chunks::{MESH_LEVEL, auto_chunk, gather, grid, shuffle, three_axes};
-use super::{Array, Element, Storage};
+use super::image_map::{DEFLATE, LZ4, SHUFFLE};
+use super::{Array, Element, Packing, Storage, lz4};
 use crate::DatasetError;
 use enfilade_frame::Values;
 use libdeflater::{CompressionLvl, Compressor};
 use rust_hdf5::types::{H5Type, VarLenUnicode};
-use rust_hdf5::{ByteOrder, DatatypeMessage, H5Dataset, H5File, Hdf5Error, LibverBound};
+use rust_hdf5::{ByteOrder, DatatypeMessage, Filter, FilterPipeline, H5Dataset, H5File, Hdf5Error, LibverBound};
 use std::path::Path;
 
 /// An array whose elements lie elsewhere.
@@ -55,10 +56,14 @@ fn fill(file: &H5File, array: ArrayView, storage: Storage, attributes: &[(&str, 
     let dataset = match storage {
         _ if array.bytes.is_empty() => write_contiguous(file, array)?,
         Storage::Compressed if (1..=3).contains(&axes) => {
-            write_chunks(file, array, &auto_chunk(array.shape, array.element.size()), true, MESH_LEVEL)?
+            write_chunks(file, array, &auto_chunk(array.shape, array.element.size()), true, Some(MESH_LEVEL))?
         }
         Storage::Image(packing) if (2..=3).contains(&axes) => {
-            write_chunks(file, array, &packing.chunk_shape(array.shape), packing.shuffle, packing.level)?
+            write_chunks(file, array, &packing.chunk_shape(array.shape), packing.shuffle, Some(packing.level))?
+        }
+        Storage::Fast if (2..=3).contains(&axes) => {
+            let packing = Packing::fast(array.element);
+            write_chunks(file, array, &packing.chunk_shape(array.shape), packing.shuffle, None)?
         }
         _ => write_contiguous(file, array)?,
     };
@@ -77,28 +82,42 @@ fn write_contiguous(file: &H5File, array: ArrayView) -> rust_hdf5::Result<H5Data
     Ok(dataset)
 }
 
-/// Deflating the chunks here instead of in the HDF5 library is what makes writing fast: libdeflate takes half of zlib's time.
-fn write_chunks(file: &H5File, array: ArrayView, chunk: &[usize], shuffled: bool, level: i32) -> rust_hdf5::Result<H5Dataset> {
+/// Deflating the chunks here instead of in the HDF5 library is what makes writing fast: libdeflate takes half of zlib's time. Without a
+/// level of deflate they are under LZ4.
+fn write_chunks(file: &H5File, array: ArrayView, chunk: &[usize], shuffled: bool, level: Option<i32>) -> rust_hdf5::Result<H5Dataset> {
     let size = array.element.size();
     let builder = file.new_dataset::<u8>().datatype(datatype(array.element)).shape(array.shape).chunk(chunk);
-    // What stands in the file as the level is a remark; zlib's end at 9.
-    let said = level.clamp(1, 9) as u32;
-    let builder = if shuffled { builder.shuffle_deflate(said) } else { builder.deflate(said) };
-    let dataset = builder.create("dataset")?;
-    let mut compressor = Compressor::new(CompressionLvl::new(level).unwrap_or_default());
+    let dataset = builder.filter_pipeline(filters(shuffled.then_some(size), level)).create("dataset")?;
+    let mut compressor = Compressor::new(CompressionLvl::new(level.unwrap_or_default()).unwrap_or_default());
     let (shape3, chunk3) = (three_axes(array.shape), three_axes(chunk));
     let [a, b, c] = grid(shape3, chunk3);
     let mut deflated = Vec::new();
     for at in (0..a * b * c).map(|i| [i / (b * c), i / c % b, i % c]) {
         let raw = gather(array.bytes, size, shape3, chunk3, at);
         let filtered = if shuffled { shuffle(&raw, size) } else { raw };
+        let place = &at[3 - chunk.len()..];
+        if level.is_none() {
+            dataset.write_chunk_raw_at(place, &lz4::compress(&filtered), 0)?;
+            continue;
+        }
         deflated.resize(compressor.zlib_compress_bound(filtered.len()), 0);
         let length = compressor
             .zlib_compress(&filtered, &mut deflated)
             .map_err(|error| Hdf5Error::InvalidState(format!("deflate failed: {error}")))?;
-        dataset.write_chunk_raw_at(&at[3 - chunk.len()..], &deflated[..length], 0)?;
+        dataset.write_chunk_raw_at(place, &deflated[..length], 0)?;
     }
     Ok(dataset)
+}
+
+/// The filters of chunks: shuffle by the size of elements, if given, then deflate at a level, if given, else LZ4.
+fn filters(shuffled: Option<usize>, level: Option<i32>) -> FilterPipeline {
+    /// A filter that may be left out of chunks that it does nothing for.
+    const OPTIONAL: u16 = 1;
+    let filter = |id, values: Vec<u32>| Filter { id, flags: OPTIONAL, cd_values: values };
+    let shuffle = shuffled.map(|size| filter(SHUFFLE, vec![size as u32]));
+    // What stands in the file as the level is a remark; zlib's end at 9.
+    let codec = level.map_or_else(|| filter(LZ4, Vec::new()), |level| filter(DEFLATE, vec![level.clamp(1, 9) as u32]));
+    FilterPipeline { filters: shuffle.into_iter().chain([codec]).collect() }
 }
 
 /// IEEE 754 half precision, which the library has no Rust type for, and its own descriptions of the others.

@@ -1,0 +1,72 @@
+//! Little-endian numbers at places of a file that need not exist.
+
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::path::Path;
+
+/// What is read at once from the beginning of a file: in Hypersim's files all but the tables of chunks.
+const HEAD: usize = 4096;
+
+/// A file and its first bytes.
+pub(super) struct Source {
+    file: File,
+    /// Bytes in the file.
+    pub length: u64,
+    head: Vec<u8>,
+}
+
+impl Source {
+    /// `None` when the file cannot be read.
+    pub fn open(path: &Path) -> Option<Self> {
+        let mut file = File::open(path).ok()?;
+        let length = file.metadata().ok()?.len();
+        let mut head = Vec::with_capacity(HEAD);
+        file.by_ref().take(HEAD as u64).read_to_end(&mut head).ok()?;
+        Some(Self { file, length, head })
+    }
+
+    /// The `length` bytes from `offset`; `None` when the file has fewer.
+    pub fn bytes(&mut self, offset: u64, length: usize) -> Option<Vec<u8>> {
+        let end = offset.checked_add(length as u64)?;
+        if let (Ok(from), Ok(to)) = (usize::try_from(offset), usize::try_from(end))
+            && let Some(known) = self.head.get(from..to)
+        {
+            return Some(known.to_vec());
+        }
+        if end > self.length {
+            return None;
+        }
+        let mut bytes = vec![0; length];
+        self.read(offset, &mut bytes)?;
+        Some(bytes)
+    }
+
+    /// Fills `out` from `offset`; `None` when the file has fewer bytes.
+    pub fn read(&mut self, offset: u64, out: &mut [u8]) -> Option<()> {
+        self.file.seek(SeekFrom::Start(offset)).ok()?;
+        self.file.read_exact(out).ok()
+    }
+}
+
+/// The unsigned number of `N` bytes at `at`.
+fn number<const N: usize>(bytes: &[u8], at: usize) -> Option<u64> {
+    let found = bytes.get(at..at.checked_add(N)?)?;
+    Some(found.iter().rev().fold(0, |number, &byte| number << 8 | u64::from(byte)))
+}
+
+pub(super) fn u16_at(bytes: &[u8], at: usize) -> Option<u16> {
+    number::<2>(bytes, at).map(|n| n as u16)
+}
+
+pub(super) fn u32_at(bytes: &[u8], at: usize) -> Option<u32> {
+    number::<4>(bytes, at).map(|n| n as u32)
+}
+
+pub(super) fn u64_at(bytes: &[u8], at: usize) -> Option<u64> {
+    number::<8>(bytes, at)
+}
+
+/// A number of 8 bytes that counts elements.
+pub(super) fn usize_at(bytes: &[u8], at: usize) -> Option<usize> {
+    usize::try_from(u64_at(bytes, at)?).ok()
+}

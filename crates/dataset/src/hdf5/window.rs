@@ -1,0 +1,264 @@
+//! Decoding an image, or only the chunks that a part of it touches.
+
+use super::bytes::Source;
+use super::image_map::{Codec, ImageMap, Place};
+use super::lz4;
+use super::read::read_array;
+use super::{Array, Elements};
+use crate::DatasetError;
+use libdeflater::Decompressor;
+use std::cell::RefCell;
+use std::ops::Range;
+use std::path::Path;
+
+/// A rectangle of pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// First row.
+    pub top: usize,
+    /// First column.
+    pub left: usize,
+    /// Rows.
+    pub height: usize,
+    /// Columns.
+    pub width: usize,
+}
+
+impl Window {
+    /// True when no pixel of it lies outside an image.
+    pub fn fits(&self, height: usize, width: usize) -> bool {
+        let inside = |first: usize, count: usize, all: usize| first.checked_add(count).is_some_and(|end| end <= all);
+        inside(self.top, self.height, height) && inside(self.left, self.width, width)
+    }
+}
+
+/// Reads a rectangle of an image of two axes or three: of compressed images only the chunks that it touches.
+///
+/// # Errors
+/// When the file is missing or damaged, holds no image, or the window leaves it.
+pub fn read_window(path: &Path, window: Window) -> Result<Array, DatasetError> {
+    if let Some((mut source, map)) = open(path) {
+        check(path, &map.shape, window)?;
+        if let Some(array) = decode(&mut source, &map, window) {
+            return Ok(array);
+        }
+    }
+    let whole = read_array(path)?;
+    check(path, &whole.shape, window)?;
+    Ok(whole.cut(window))
+}
+
+/// Reads the whole image; `None` when the file is no image in the known form, or is damaged.
+pub(super) fn read_image(path: &Path) -> Option<Array> {
+    let (mut source, map) = open(path)?;
+    let [height, width, _] = map.axes();
+    decode(&mut source, &map, Window { top: 0, left: 0, height, width })
+}
+
+/// The shape of the image in a file, without decoding it where it is compressed.
+///
+/// # Errors
+/// As [`read_array`].
+pub fn image_shape(path: &Path) -> Result<Vec<usize>, DatasetError> {
+    match open(path) {
+        Some((_, map)) => Ok(map.shape),
+        None => Ok(read_array(path)?.shape),
+    }
+}
+
+fn open(path: &Path) -> Option<(Source, ImageMap)> {
+    let mut source = Source::open(path)?;
+    let map = ImageMap::read(&mut source)?;
+    Some((source, map))
+}
+
+fn check(path: &Path, shape: &[usize], window: Window) -> Result<(), DatasetError> {
+    let Window { top, left, height, width } = window;
+    match shape {
+        &[h, w] | &[h, w, _] if window.fits(h, w) => Ok(()),
+        _ => {
+            let problem = format!("expected an image with {height}x{width} pixels from row {top}, column {left}, found shape {shape:?}");
+            Err(DatasetError::hdf5(path, problem))
+        }
+    }
+}
+
+impl Array {
+    /// The elements of a rectangle of an image, which it must lie in.
+    fn cut(&self, window: Window) -> Self {
+        let size = self.values.element().size();
+        let pixel = self.shape.get(2).map_or(size, |channels| channels * size);
+        let mut values = Elements::zeroed(self.values.element(), window.height * window.width * pixel / size);
+        let run = window.width * pixel;
+        let rows = values.as_bytes_mut().chunks_exact_mut(run.max(1));
+        for (y, row) in rows.enumerate() {
+            let from = ((window.top + y) * self.shape[1] + window.left) * pixel;
+            row.copy_from_slice(&self.values.as_bytes()[from..from + run]);
+        }
+        Self { shape: cut_shape(&self.shape, window), values }
+    }
+}
+
+fn cut_shape(shape: &[usize], window: Window) -> Vec<usize> {
+    [&[window.height, window.width], &shape[2..]].concat()
+}
+
+/// Memory that is used again from image to image.
+#[derive(Default)]
+struct Scratch {
+    inflate: Option<Decompressor>,
+    /// Compressed bytes of a row of chunks.
+    stored: Vec<u8>,
+    /// The values of the chunks of one place, a channel chunk after the other.
+    raw: Vec<u8>,
+    /// The same, shuffled.
+    shuffled: Vec<u8>,
+}
+
+thread_local! {
+    static SCRATCH: RefCell<Scratch> = RefCell::default();
+}
+
+/// `None` when a chunk is damaged.
+fn decode(source: &mut Source, map: &ImageMap, window: Window) -> Option<Array> {
+    let channels = map.axes()[2];
+    let mut values = Elements::zeroed(map.element, window.height * window.width * channels);
+    if !values.is_empty() {
+        let out = values.as_bytes_mut();
+        SCRATCH.with_borrow_mut(|scratch| match map.element.size() {
+            1 => decode_sized::<1>(source, map, window, scratch, out),
+            2 => decode_sized::<2>(source, map, window, scratch, out),
+            4 => decode_sized::<4>(source, map, window, scratch, out),
+            _ => decode_sized::<8>(source, map, window, scratch, out),
+        })?;
+    }
+    Some(Array { shape: cut_shape(&map.shape, window), values })
+}
+
+/// [`decode`] for elements of `B` bytes.
+fn decode_sized<const B: usize>(source: &mut Source, map: &ImageMap, window: Window, scratch: &mut Scratch, out: &mut [u8]) -> Option<()> {
+    let ([_, columns, deep], [high, wide, _]) = (map.grid(), map.chunk);
+    let touched = |first: usize, count: usize, side: usize| first / side..(first + count).div_ceil(side);
+    let across = touched(window.left, window.width, wide);
+    let out: &mut [[u8; B]] = bytemuck::cast_slice_mut(out);
+    for row in touched(window.top, window.height, high) {
+        let places = &map.places[(row * columns + across.start) * deep..(row * columns + across.end) * deep];
+        let base = fetch(source, places, &mut scratch.stored)?;
+        for (column, places) in across.clone().zip(places.chunks_exact(deep)) {
+            inflate::<B>(map, places, base, scratch)?;
+            let part = Part::of(map, window, [row, column]);
+            part.copy::<B>(bytemuck::cast_slice(&scratch.raw), out);
+        }
+    }
+    Some(())
+}
+
+/// Reads the bytes from the first to the last of `places` and gives the offset of the first; chunks of one row lie side by side in the
+/// files that are meant here. `None` when they lie so far apart that this would be no gain.
+fn fetch(source: &mut Source, places: &[Place], stored: &mut Vec<u8>) -> Option<u64> {
+    let first = places.iter().map(|place| place.offset).min()?;
+    let last = places.iter().map(|place| place.offset + place.length as u64).max()?;
+    let needed: usize = places.iter().map(|place| place.length).sum();
+    let span = usize::try_from(last - first).ok().filter(|&span| span <= 4 * needed + (1 << 20))?;
+    if stored.len() < span {
+        stored.resize(span, 0);
+    }
+    source.read(first, &mut stored[..span])?;
+    Some(first)
+}
+
+/// Decompresses the chunks of one place into `scratch.raw`, one channel chunk after the other.
+fn inflate<const B: usize>(map: &ImageMap, places: &[Place], base: u64, scratch: &mut Scratch) -> Option<()> {
+    let bytes = map.chunk.iter().product::<usize>() * B;
+    let Scratch { inflate, stored, raw, shuffled } = scratch;
+    raw.resize(bytes * places.len(), 0);
+    shuffled.resize(if map.shuffled { bytes } else { 0 }, 0);
+    for (place, raw) in places.iter().zip(raw.chunks_exact_mut(bytes)) {
+        let from = (place.offset - base) as usize;
+        let stored = &stored[from..from + place.length];
+        let target = if map.shuffled { &mut shuffled[..] } else { &mut *raw };
+        let length = match map.codec {
+            Codec::Deflate => inflate.get_or_insert_default().zlib_decompress(stored, target).ok()?,
+            Codec::Lz4 => lz4::decompress(stored, target)?,
+        };
+        if length != bytes {
+            return None;
+        }
+        if map.shuffled {
+            unshuffle_into::<B>(shuffled, raw);
+        }
+    }
+    Some(())
+}
+
+/// HDF5's shuffle undone: first bytes of all elements, then second bytes, and so on.
+fn unshuffle_into<const B: usize>(shuffled: &[u8], raw: &mut [u8]) {
+    let elements: &mut [[u8; B]] = bytemuck::cast_slice_mut(raw);
+    let count = elements.len();
+    let planes: [&[u8]; B] = std::array::from_fn(|byte| &shuffled[byte * count..(byte + 1) * count]);
+    for (i, element) in elements.iter_mut().enumerate() {
+        *element = std::array::from_fn(|byte| planes[byte][i]);
+    }
+}
+
+/// Where the chunks of one place meet the window.
+struct Part {
+    /// Rows and columns within the chunk.
+    rows: Range<usize>,
+    columns: Range<usize>,
+    /// Row and column in the window of the first of them.
+    to: [usize; 2],
+    /// Columns of the window.
+    width: usize,
+    /// Columns of the chunk.
+    chunk_width: usize,
+    /// Elements of a chunk.
+    chunk_elements: usize,
+    /// Channels of the image, and of a chunk.
+    channels: [usize; 2],
+}
+
+impl Part {
+    fn of(map: &ImageMap, window: Window, at: [usize; 2]) -> Self {
+        let meet = |at: usize, side: usize, first: usize, count: usize| {
+            let start = (at * side).max(first);
+            let end = ((at + 1) * side).min(first + count);
+            (start - at * side..end - at * side, start - first)
+        };
+        let (rows, top) = meet(at[0], map.chunk[0], window.top, window.height);
+        let (columns, left) = meet(at[1], map.chunk[1], window.left, window.width);
+        let channels = [map.axes()[2], map.chunk[2]];
+        let (chunk_width, chunk_elements) = (map.chunk[1], map.chunk.iter().product());
+        Self { rows, columns, to: [top, left], width: window.width, chunk_width, chunk_elements, channels }
+    }
+
+    /// Puts the values of the chunks, `raw`, to their places in the window, `out`.
+    fn copy<const B: usize>(&self, raw: &[[u8; B]], out: &mut [[u8; B]]) {
+        let [all, here] = self.channels;
+        for (i, row) in self.rows.clone().enumerate() {
+            let from = (row * self.chunk_width + self.columns.start) * here;
+            let to = ((self.to[0] + i) * self.width + self.to[1]) * all;
+            let target = &mut out[to..to + self.columns.len() * all];
+            let source = |chunk: usize| &raw[chunk * self.chunk_elements + from..][..self.columns.len() * here];
+            match (all, here) {
+                _ if all == here => target.copy_from_slice(source(0)),
+                (3, 1) => interleave(target, [source(0), source(1), source(2)]),
+                _ => {
+                    for first in (0..all).step_by(here) {
+                        let (source, here) = (source(first / here), here.min(all - first));
+                        for (target, source) in target.chunks_exact_mut(all).zip(source.chunks_exact(self.channels[1])) {
+                            target[first..first + here].copy_from_slice(&source[..here]);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn interleave<const B: usize>(target: &mut [[u8; B]], [a, b, c]: [&[[u8; B]]; 3]) {
+    let (pixels, _) = target.as_chunks_mut::<3>();
+    for (((pixel, a), b), c) in pixels.iter_mut().zip(a).zip(b).zip(c) {
+        *pixel = [*a, *b, *c];
+    }
+}

@@ -1,0 +1,107 @@
+//! A copy of a dataset whose images are stored for fast reading.
+
+use crate::frames::attributes_of;
+use crate::hdf5::{Storage, read_array, write_array};
+use crate::read::sorted_names;
+use crate::{Dataset, DatasetError, Layout, replace_file, write_bytes};
+use enfilade_frame::{LAYERS, Layer};
+use rayon::prelude::*;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// What a copy came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Repacked {
+    /// Images.
+    pub files: u64,
+    /// Their bytes in the dataset.
+    pub bytes_before: u64,
+    /// Their bytes in the copy.
+    pub bytes_after: u64,
+}
+
+/// One image, and where it goes.
+struct Job {
+    layer: Layer,
+    from: PathBuf,
+    to: PathBuf,
+}
+
+impl Dataset {
+    /// Copies the frames, cameras and tables of this dataset to `out`, with images as [`Storage::Fast`] and otherwise the same values, types
+    /// and names. `layers` restricts it to some. Frames have no commit records in the copy, as in Hypersim's release; meshes, previews and
+    /// the manifest are left out. `done` hears of every image: how many are copied, of how many.
+    ///
+    /// # Errors
+    /// When a file cannot be read or written, or `out` lies in the dataset.
+    pub fn repack(&self, out: &Path, layers: Option<&[Layer]>, done: &(dyn Fn(u64, u64) + Sync)) -> Result<Repacked, DatasetError> {
+        fs::create_dir_all(out).map_err(DatasetError::at("create the folder", out))?;
+        let place = |path: &Path| fs::canonicalize(path).map_err(DatasetError::at("find", path));
+        if place(out)?.starts_with(place(self.root())?) {
+            let problem = "the copy would lie in the dataset itself; choose another folder".to_string();
+            return Err(DatasetError::Unstorable { what: out.display().to_string(), problem });
+        }
+        let copy = Dataset::create(out)?;
+        let mut jobs = Vec::new();
+        copy_file(&self.camera_table(), &copy.layout().camera_parameters())?;
+        copy_file(&self.layout().split(), &copy.layout().split())?;
+        for scene in self.scenes()? {
+            copy_files(&self.layout().detail_dir(&scene), &copy.layout().detail_dir(&scene))?;
+            for camera in self.cameras(&scene)? {
+                copy_files(&self.layout().camera_dir(&scene, &camera), &copy.layout().camera_dir(&scene, &camera))?;
+                self.list(copy.layout(), &scene, &camera, layers, &mut jobs)?;
+            }
+        }
+        let (finished, total) = (AtomicU64::new(0), jobs.len() as u64);
+        let sizes: Vec<[u64; 2]> = jobs
+            .par_iter()
+            .map(|job| {
+                let sizes = job.run()?;
+                done(finished.fetch_add(1, Ordering::Relaxed) + 1, total);
+                Ok(sizes)
+            })
+            .collect::<Result<_, DatasetError>>()?;
+        let sum = |which: usize| sizes.iter().map(|sizes| sizes[which]).sum();
+        Ok(Repacked { files: total, bytes_before: sum(0), bytes_after: sum(1) })
+    }
+
+    /// The images of a camera's complete frames.
+    fn list(&self, copy: &Layout, scene: &str, camera: &str, layers: Option<&[Layer]>, jobs: &mut Vec<Job>) -> Result<(), DatasetError> {
+        for frame in self.frame_numbers(scene, camera)? {
+            for layer in LAYERS.iter().map(|spec| spec.layer).filter(|layer| layers.is_none_or(|layers| layers.contains(layer))) {
+                let (from, to) = (self.layout().layer(scene, camera, frame, layer), copy.layer(scene, camera, frame, layer));
+                if from.is_file() {
+                    jobs.push(Job { layer, from, to });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Job {
+    /// Gives the bytes before and after.
+    fn run(&self) -> Result<[u64; 2], DatasetError> {
+        let array = read_array(&self.from)?;
+        replace_file(&self.to, |aside| write_array(aside, &array, Storage::Fast, &attributes_of(self.layer)))?;
+        let size = |path: &Path| fs::metadata(path).map(|found| found.len()).map_err(DatasetError::at("read", path));
+        Ok([size(&self.from)?, size(&self.to)?])
+    }
+}
+
+/// Copies the files of a folder, not those of the folders in it.
+fn copy_files(from: &Path, to: &Path) -> Result<(), DatasetError> {
+    if !from.is_dir() {
+        return Ok(());
+    }
+    sorted_names(from)?.iter().try_for_each(|name| copy_file(&from.join(name), &to.join(name)))
+}
+
+/// Copies a file if it is there.
+fn copy_file(from: &Path, to: &Path) -> Result<(), DatasetError> {
+    if !from.is_file() {
+        return Ok(());
+    }
+    write_bytes(to, fs::read(from).map_err(DatasetError::at("read", from))?)
+}

@@ -1,0 +1,318 @@
+//! The frames that were chosen, each as a sample.
+
+use crate::error::LoaderError;
+use crate::options::{Choice, Crop, CropPlace, Options};
+use crate::resize::{averaged, nearest};
+use crate::sample::{Image, Matrix3, Matrix4, Sample, Values, is_averaged, mask_out};
+use crate::tone::{displayed, fit};
+use enfilade_dataset::{Dataset, DatasetError, OpencvCalibration, Partition, ToneMapRow, Window, image_shape};
+use enfilade_frame::{LAYERS, Layer};
+use enfilade_math::hash_u64;
+use enfilade_post::tonemap::ToneMap;
+use enfilade_scene::{Pose, Projection};
+use std::collections::{BTreeMap, HashSet};
+use std::sync::OnceLock;
+
+/// Where a sample comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place<'a> {
+    /// Name of the scene.
+    pub scene: &'a str,
+    /// Name of the camera.
+    pub camera: &'a str,
+    /// Frame number.
+    pub frame: u32,
+}
+
+/// A list of frames, by scene, camera and frame number.
+pub struct Samples {
+    dataset: Dataset,
+    layers: Vec<Layer>,
+    options: Options,
+    cameras: Vec<Camera>,
+    frames: Vec<Frame>,
+}
+
+/// A camera of a scene, and what was read of it.
+struct Camera {
+    scene: String,
+    name: String,
+    size: OnceLock<[usize; 2]>,
+    calibration: OnceLock<(Projection, OpencvCalibration)>,
+    poses: OnceLock<BTreeMap<u32, Pose>>,
+    exposures: OnceLock<Vec<ToneMapRow>>,
+}
+
+struct Frame {
+    /// Index of its camera.
+    camera: usize,
+    number: u32,
+    exposure: OnceLock<ToneMap>,
+}
+
+impl Samples {
+    /// The frames of a dataset that `choice` is about.
+    ///
+    /// # Errors
+    /// When the dataset cannot be read, a name is not there, or no frame is left.
+    pub fn open(dataset: Dataset, choice: &Choice, options: Options) -> Result<Self, LoaderError> {
+        let mut samples = Self { dataset, layers: Vec::new(), options, cameras: Vec::new(), frames: Vec::new() };
+        let split = choice.split.map(|side| samples.side(side)).transpose()?;
+        let scenes = chosen("scene", samples.dataset.scenes()?, choice.scenes.as_deref())?;
+        let mut layers = choice.layers.clone();
+        let mut known = Vec::new();
+        for scene in &scenes {
+            for camera in samples.dataset.cameras(scene)? {
+                known.push(camera.clone());
+                if choice.cameras.as_ref().is_some_and(|names| !names.contains(&camera)) {
+                    continue;
+                }
+                let wanted = |frame: &u32| split.as_ref().is_none_or(|side| side.contains(&(scene.clone(), camera.clone(), *frame)));
+                let numbers: Vec<u32> = samples.dataset.frame_numbers(scene, &camera)?.into_iter().filter(wanted).collect();
+                let Some(&first) = numbers.first() else { continue };
+                let layers = layers.get_or_insert_with(|| samples.stored_layers(scene, &camera, first));
+                samples.add(scene, camera, &numbers, layers);
+            }
+        }
+        known.sort_unstable();
+        known.dedup();
+        chosen("camera", known, choice.cameras.as_deref())?;
+        samples.layers = layers.unwrap_or_default();
+        samples.check(choice)?;
+        Ok(samples)
+    }
+
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.frames.len()
+    }
+
+    /// False: [`Samples::open`] refuses that.
+    pub fn is_empty(&self) -> bool {
+        self.frames.is_empty()
+    }
+
+    /// The layers of each sample.
+    pub fn layers(&self) -> &[Layer] {
+        &self.layers
+    }
+
+    /// What is done to each.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Where sample `index` comes from.
+    ///
+    /// # Panics
+    /// When there are not so many.
+    pub fn place(&self, index: usize) -> Place<'_> {
+        let frame = &self.frames[index];
+        let camera = &self.cameras[frame.camera];
+        Place { scene: &camera.scene, camera: &camera.name, frame: frame.number }
+    }
+
+    /// Decodes a sample. Random crops lie elsewhere in each `epoch`.
+    ///
+    /// # Errors
+    /// When a file is missing or damaged, or the crop larger than the image.
+    ///
+    /// # Panics
+    /// When there are not so many samples.
+    pub fn sample(&self, index: usize, epoch: u64) -> Result<Sample, LoaderError> {
+        let (Place { scene, camera, frame }, options) = (self.place(index), &self.options);
+        let part = options.crop.map(|crop| self.window(index, crop, epoch)).transpose()?;
+        let mut layers = Vec::with_capacity(self.layers.len());
+        for &layer in &self.layers {
+            layers.push((layer, self.image(index, layer, part)?));
+        }
+        let (_, first) = &layers[0];
+        let [height, width] = [first.height, first.width];
+        if let Some((layer, other)) = layers.iter().find(|(_, image)| [image.height, image.width] != [height, width]) {
+            let path = self.dataset.layer_source(scene, camera, frame, *layer);
+            let sizes = format!("{}x{} pixels, but other layers of the frame have {height}x{width}", other.height, other.width);
+            return Err(LoaderError::Request(format!("{}: {sizes}; choose layers of one size, or mend the file", path.display())));
+        }
+        let mut mask = options.mask.then(|| Image { height, width, channels: 1, values: Values::U8(mask_of(&layers, height * width)) });
+        let window = part.unwrap_or(Window { top: 0, left: 0, height, width });
+        let tone = self.tone(index, &layers, part.is_none())?;
+        if let Some([height, width]) = options.resize {
+            for (layer, image) in &mut layers {
+                *image = if is_averaged(*layer) { averaged(image, height, width) } else { nearest(image, height, width) };
+            }
+            mask = mask.map(|mask| nearest(&mask, height, width));
+        }
+        if let (Some(tone), Some((_, color))) = (tone, layers.iter_mut().find(|(layer, _)| *layer == Layer::Color)) {
+            *color = displayed(color, tone);
+        }
+        let (k, world_from_camera) = if options.cameras { self.calibration(index, window)? } else { (None, None) };
+        Ok(Sample { scene: scene.into(), camera: camera.into(), frame, window, layers, mask, k, world_from_camera })
+    }
+
+    /// The images of a side of the split.
+    fn side(&self, side: Partition) -> Result<HashSet<(String, String, u32)>, LoaderError> {
+        let rows = self.dataset.read_split()?.into_iter().filter(|row| row.partition == Ok(side));
+        Ok(rows.map(|row| (row.scene, row.camera, row.frame)).collect())
+    }
+
+    fn stored_layers(&self, scene: &str, camera: &str, frame: u32) -> Vec<Layer> {
+        LAYERS.iter().map(|spec| spec.layer).filter(|&layer| self.dataset.has_layer(scene, camera, frame, layer)).collect()
+    }
+
+    /// Adds a camera with those of its frames that have all layers.
+    fn add(&mut self, scene: &str, name: String, numbers: &[u32], layers: &[Layer]) {
+        let has = |frame, layer| {
+            let computed = layer == Layer::DepthZMeters && self.dataset.has_layer(scene, &name, frame, Layer::DepthMeters);
+            computed || self.dataset.has_layer(scene, &name, frame, layer)
+        };
+        let whole = numbers.iter().filter(|&&frame| layers.iter().all(|&layer| has(frame, layer)));
+        let camera = self.cameras.len();
+        self.frames.extend(whole.map(|&number| Frame { camera, number, exposure: OnceLock::new() }));
+        let (size, calibration, poses, exposures) = Default::default();
+        self.cameras.push(Camera { scene: scene.into(), name, size, calibration, poses, exposures });
+    }
+
+    /// Refuses what can give no sample.
+    fn check(&self, choice: &Choice) -> Result<(), LoaderError> {
+        let root = self.dataset.root().display();
+        let refuse = |problem: String| Err(LoaderError::Request(problem));
+        let sizes = [self.options.crop.map(|crop| crop.size), self.options.resize];
+        if sizes.iter().flatten().flatten().any(|&side| side == 0) {
+            return refuse("crops and sizes must have at least one row and one column".into());
+        }
+        if choice.layers.as_ref().is_some_and(Vec::is_empty) {
+            return refuse("no layers were asked for; name at least one".into());
+        }
+        if !self.frames.is_empty() {
+            return Ok(());
+        }
+        match self.cameras.first() {
+            None => refuse(format!("{root} has no complete frame among the scenes, cameras and side of the split that were asked for")),
+            Some(camera) => {
+                let first = self.dataset.frame_numbers(&camera.scene, &camera.name)?.first().copied().unwrap_or_default();
+                let name = |layer: &Layer| layer.spec().name;
+                let asked: Vec<&str> = self.layers.iter().map(name).collect();
+                let there: Vec<&str> = self.stored_layers(&camera.scene, &camera.name, first).iter().map(name).collect();
+                let (asked, there) = (asked.join(", "), there.join(", "));
+                refuse(format!("no frame of {root} has all of {asked}; frame {first} of {}/{} has {there}", camera.scene, camera.name))
+            }
+        }
+    }
+
+    /// A layer of a sample, or a part of it.
+    fn image(&self, index: usize, layer: Layer, part: Option<Window>) -> Result<Image, LoaderError> {
+        let Place { scene, camera, frame } = self.place(index);
+        let projection = || Ok(self.camera_calibration(index)?.0.clone());
+        let computed = layer == Layer::DepthZMeters && !self.dataset.has_layer(scene, camera, frame, layer);
+        let ([height, width], values) = if self.options.stored && !computed {
+            self.dataset.read_layer_window(scene, camera, frame, layer, part)?
+        } else {
+            self.dataset.read_specified(scene, camera, frame, layer, part, &projection)?
+        };
+        Ok(Image { height, width, channels: layer.spec().channels, values })
+    }
+
+    /// The part of the image that a crop shows.
+    fn window(&self, index: usize, crop: Crop, epoch: u64) -> Result<Window, LoaderError> {
+        let Place { scene, camera, frame } = self.place(index);
+        let known = &self.cameras[self.frames[index].camera].size;
+        let path = self.dataset.layer_source(scene, camera, frame, self.layers[0]);
+        let [rows, columns] = match known.get() {
+            Some(size) => *size,
+            None => match *image_shape(&path)? {
+                [rows, columns, ..] => *known.get_or_init(|| [rows, columns]),
+                _ => return Err(LoaderError::Request(format!("{}: it holds no image", path.display()))),
+            },
+        };
+        let [height, width] = crop.size;
+        let random = |purpose: u64, free: usize| {
+            let mixed = [epoch, index as u64, purpose].iter().fold(hash_u64(self.options.seed), |hash, &v| hash_u64(hash ^ v));
+            ((u128::from(mixed) * (free as u128 + 1)) >> 64) as usize
+        };
+        let free = [rows.saturating_sub(height), columns.saturating_sub(width)];
+        let [top, left] = match crop.place {
+            CropPlace::Center => free.map(|free| free / 2),
+            CropPlace::Random => [random(0, free[0]), random(1, free[1])],
+            CropPlace::At(first) => first,
+        };
+        let window = Window { top, left, height, width };
+        if window.fits(rows, columns) {
+            return Ok(window);
+        }
+        let crop = format!("a crop of {height}x{width} pixels from row {top}, column {left}");
+        Err(LoaderError::Request(format!("{}: {crop} leaves the image of {rows}x{columns}", path.display())))
+    }
+
+    /// The exposure of the sample's frame, if colour is to be displayed. `whole` says that the layers are of the whole frame.
+    fn tone(&self, index: usize, layers: &[(Layer, Image)], whole: bool) -> Result<Option<ToneMap>, LoaderError> {
+        let color = layers.iter().find(|(layer, _)| *layer == Layer::Color).map(|(_, image)| image);
+        let (true, Some(color)) = (self.options.tone_map, color) else { return Ok(None) };
+        let (frame, Place { scene, camera, .. }) = (&self.frames[index], self.place(index));
+        if let Some(known) = frame.exposure.get() {
+            return Ok(Some(*known));
+        }
+        let rows = get_or_try(&self.cameras[frame.camera].exposures, || self.dataset.read_tone_maps(scene, camera))?;
+        let found = match rows.iter().find(|row| row.frame == frame.number) {
+            Some(row) => ToneMap { scale: row.scale },
+            None => {
+                let ids = self.dataset.has_layer(scene, camera, frame.number, Layer::RenderEntityId);
+                let ids = ids.then(|| self.dataset.read_layer(scene, camera, frame.number, Layer::RenderEntityId)).transpose()?;
+                if whole { fit(color, ids.as_ref()) } else { fit(&self.image(index, Layer::Color, None)?, ids.as_ref()) }
+            }
+        };
+        Ok(Some(*frame.exposure.get_or_init(|| found)))
+    }
+
+    /// K of the sample's pixels, and its pose.
+    fn calibration(&self, index: usize, window: Window) -> Result<(Option<Matrix3>, Option<Matrix4>), LoaderError> {
+        let (_, calibration) = self.camera_calibration(index)?;
+        let Place { scene, camera, frame } = self.place(index);
+        let poses = get_or_try(&self.cameras[self.frames[index].camera].poses, || {
+            let trajectory = self.dataset.read_trajectory(scene, camera)?;
+            Ok::<_, DatasetError>(trajectory.poses.into_iter().map(|pose| (pose.frame, pose)).collect())
+        })?;
+        let unknown = || LoaderError::Request(format!("{scene}/{camera} has images of frame {frame}, but no pose for it; plan it again"));
+        let pose = poses.get(&frame).ok_or_else(unknown)?;
+        let k = calibration.intrinsics.map(|mut k| {
+            let [height, width] = self.options.resize.unwrap_or([window.height, window.width]);
+            let (x, y) = (width as f64 / window.width as f64, height as f64 / window.height as f64);
+            (k.cx, k.cy) = ((k.cx - window.left as f64) * x, (k.cy - window.top as f64) * y);
+            (k.fx, k.fy, k.skew) = (k.fx * x, k.fy * y, k.skew * x);
+            k.opencv_k()
+        });
+        Ok((k, Some(calibration.world_from_camera(pose))))
+    }
+
+    fn camera_calibration(&self, index: usize) -> Result<&(Projection, OpencvCalibration), DatasetError> {
+        let Place { scene, camera, .. } = self.place(index);
+        get_or_try(&self.cameras[self.frames[index].camera].calibration, || {
+            let projection = self.dataset.read_camera(scene, camera)?.projection;
+            let calibration = OpencvCalibration::of(&projection);
+            Ok((projection, calibration))
+        })
+    }
+}
+
+fn mask_of(layers: &[(Layer, Image)], pixels: usize) -> Vec<u8> {
+    let mut mask = vec![1; pixels];
+    layers.iter().for_each(|(layer, image)| mask_out(&mut mask, *layer, image));
+    mask
+}
+
+/// The value, which is made unless it is there.
+fn get_or_try<T, E>(cell: &OnceLock<T>, make: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
+    if let Some(value) = cell.get() {
+        return Ok(value);
+    }
+    let made = make()?;
+    Ok(cell.get_or_init(|| made))
+}
+
+/// Those of `names` that are `wanted`, or all.
+fn chosen(what: &str, names: Vec<String>, wanted: Option<&[String]>) -> Result<Vec<String>, LoaderError> {
+    let Some(wanted) = wanted else { return Ok(names) };
+    if let Some(unknown) = wanted.iter().find(|name| !names.contains(name)) {
+        return Err(LoaderError::Request(format!("there is no {what} {unknown:?}; the {what}s are: {}", names.join(", "))));
+    }
+    Ok(names.into_iter().filter(|name| wanted.contains(name)).collect())
+}

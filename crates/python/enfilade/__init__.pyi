@@ -1,0 +1,114 @@
+from collections.abc import Iterable, Sequence
+from os import PathLike
+from typing import Any, Literal, TypedDict, final
+
+__version__: str
+
+Path = str | PathLike[str]
+Names = str | Sequence[str]
+Split = Literal["train", "val", "test"]
+Quality = Literal["draft", "normal", "high"]
+Sample = dict[str, Any]
+
+class Layer(TypedDict):
+    channels: int
+    dtype: str
+    unit: str
+    space: str
+    sentinel: str
+    description: str
+
+LAYERS: dict[str, Layer]
+STAGES: list[str]
+
+class DamagedFileError(OSError): ...
+
+class StageError(RuntimeError):
+    summary: dict[str, Any]
+
+class Dataset:
+    def __new__(
+        cls,
+        path: Path,
+        *,
+        layers: Names | None = None,
+        scenes: Names | None = None,
+        cameras: Names | None = None,
+        split: Split | None = None,
+        crop: tuple[int, int] | None = None,
+        crop_place: Literal["center", "random"] | tuple[int, int] = "center",
+        resize: tuple[int, int] | None = None,
+        tone_map: bool = False,
+        mask: bool = True,
+        poses: bool = True,
+        stored: bool = False,
+        seed: int = 0,
+        epoch: int = 0,
+        camera_table: Path | None = None,
+    ) -> Dataset: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int) -> Sample: ...
+    def __getitems__(self, indices: Sequence[int]) -> list[Sample]: ...
+    def place(self, index: int) -> tuple[str, str, int]: ...
+    @property
+    def layers(self) -> list[str]: ...
+    @property
+    def epoch(self) -> int: ...
+    def set_epoch(self, epoch: int) -> None: ...
+    def loader(
+        self,
+        batch_size: int | None = None,
+        *,
+        shuffle: bool = False,
+        threads: int | None = None,
+        prefetch: int | None = None,
+        drop_last: bool = False,
+    ) -> Loader: ...
+
+@final
+class Loader(Iterable[Sample]):
+    def __len__(self) -> int: ...
+    def __iter__(self) -> LoaderIterator: ...
+    @property
+    def epoch(self) -> int: ...
+    def set_epoch(self, epoch: int) -> None: ...
+
+@final
+class LoaderIterator:
+    def __iter__(self) -> LoaderIterator: ...
+    def __next__(self) -> Sample: ...
+
+@final
+class Config:
+    @staticmethod
+    def read(
+        file: Path,
+        *,
+        seed: int | None = None,
+        frames: int | None = None,
+        size: Sequence[int] | None = None,
+        quality: Quality | None = None,
+        samples: int | None = None,
+    ) -> Config: ...
+    @staticmethod
+    def demo(
+        *,
+        seed: int | None = None,
+        frames: int | None = None,
+        size: Sequence[int] | None = None,
+        quality: Quality | None = None,
+        samples: int | None = None,
+    ) -> Config: ...
+    @staticmethod
+    def from_dict(settings: dict[str, Any], base: Path = ".") -> Config: ...
+    def to_dict(self) -> dict[str, Any]: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def scenes(self) -> list[str]: ...
+
+def run(output: Path, config: Config | None = None, *, scenes: Names | None = None) -> dict[str, Any]: ...
+def stage(name: str, dataset: Path, *, scenes: Names | None = None, force: bool = False) -> dict[str, Any]: ...
+def verify(dataset: Path, *, scenes: Names | None = None) -> dict[str, Any]: ...
+def split(dataset: Path, *, seed: int | None = None, shares: Sequence[float] | None = None) -> dict[str, Any]: ...
+def repack(dataset: Path, output: Path, *, layers: Names | None = None) -> dict[str, int]: ...

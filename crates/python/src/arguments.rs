@@ -1,0 +1,72 @@
+//! Arguments in the forms in which Python has them.
+
+use enfilade_dataset::Partition;
+use enfilade_frame::{LAYERS, Layer};
+use enfilade_loader::CropPlace;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// One name or several. In names of scenes and cameras `*` stands for any run of characters.
+#[derive(Clone, FromPyObject, IntoPyObject)]
+pub enum Names {
+    /// One.
+    One(String),
+    /// Several.
+    Several(Vec<String>),
+}
+
+impl Names {
+    /// As a list.
+    pub fn list(&self) -> Vec<String> {
+        match self {
+            Self::One(name) => vec![name.clone()],
+            Self::Several(names) => names.clone(),
+        }
+    }
+
+    /// As the pattern that the command line takes.
+    pub fn pattern(&self) -> String {
+        self.list().join(",")
+    }
+}
+
+/// The layer of that name.
+pub fn layer(name: &str) -> PyResult<Layer> {
+    Layer::from_name(name).ok_or_else(|| {
+        let known: Vec<&str> = LAYERS.iter().map(|spec| spec.name).collect();
+        PyValueError::new_err(format!("there is no layer {name:?}; the layers are: {}", known.join(", ")))
+    })
+}
+
+/// The layers of these names.
+pub fn layers(names: Option<&Names>) -> PyResult<Option<Vec<Layer>>> {
+    names.map(|names| names.list().iter().map(|name| layer(name)).collect()).transpose()
+}
+
+/// The side of the split of that name.
+pub fn split(name: Option<&str>) -> PyResult<Option<Partition>> {
+    name.map(|name| name.parse().map_err(|problem| PyValueError::new_err(format!("split: {problem}")))).transpose()
+}
+
+/// Where a crop lies: `"center"`, `"random"`, or first row and column.
+#[derive(Clone, FromPyObject, IntoPyObject)]
+pub enum Place {
+    /// By name.
+    Named(String),
+    /// First row and column.
+    At((usize, usize)),
+}
+
+impl Place {
+    /// As the loader has it.
+    pub fn crop_place(&self) -> PyResult<CropPlace> {
+        match self {
+            Self::Named(name) if name == "center" => Ok(CropPlace::Center),
+            Self::Named(name) if name == "random" => Ok(CropPlace::Random),
+            Self::Named(name) => {
+                Err(PyValueError::new_err(format!("crop_place is {name:?}; expected \"center\", \"random\" or (row, column)")))
+            }
+            &Self::At((top, left)) => Ok(CropPlace::At([top, left])),
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! `enfilade.Dataset`.
+
+use crate::arguments::{Names, Place, layers, split};
+use crate::arrays;
+use crate::errors::IntoPy;
+use crate::loader::Loader;
+use enfilade_loader::{Choice, Crop, LoaderError, Options, Sample, Samples};
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Frames of a dataset as dictionaries of numpy arrays: a map-style dataset, as torch's DataLoader takes it.
+///
+/// It opens datasets of enfilade, and Hypersim's release as Apple publishes it (a folder of unpacked scenes, with
+/// metadata_camera_parameters.csv beside them). It can be pickled, and may be used in forked processes and from several threads.
+///
+/// `ds[i]` has
+///
+/// - every layer by its name: height × width, or height × width × channels; `enfilade.LAYERS` tells units, spaces and sentinels.
+///   Distances, planar depths (`depth_z_meters`, computed where it is not stored) and positions are float32 and in metres.
+/// - `mask`: bool, height × width; true where every layer has a value: floating-point values are finite, and depths above zero.
+/// - `K`: float64, 3 × 3, OpenCV's: x right, y down, (0, 0) the centre of the upper left pixel; that of the crop and size asked for, before
+///   lens distortion. Missing for panoramas and grids of rays.
+/// - `world_from_camera`: float64, 4 × 4, metres; camera axes are OpenCV's (x right, y down, z forward), the world's z is up.
+/// - `scene`, `camera`, `frame`, `index`, and `window`: row, column, height and width of the part of the frame that is shown.
+///
+/// Parameters
+/// ----------
+/// path: folder of the dataset.
+/// layers: names; all that the first frame has, unless given. Frames that lack one are left out.
+/// scenes, cameras: names, in which `*` stands for any run of characters. A camera is a trajectory.
+/// split: "train", "val" or "test", by the dataset's metadata_images_split_scene_v1.csv.
+/// crop: height and width; only the chunks of the file that it touches are decoded.
+/// crop_place: "center", "random" (by seed, epoch and index), or row and column of its first pixel.
+/// resize: height and width; light and colours are averaged over areas, of other layers the nearest value is taken.
+/// tone_map: makes `color` uint8 by Hypersim's tone map (the image's 90th percentile at 0.8, gamma 1/2.2).
+/// mask, poses: whether to give `mask`, and `K` and `world_from_camera`.
+/// stored: gives layers exactly as their files have them: type, unit and all.
+/// seed, epoch: of random crops.
+/// camera_table: another metadata_camera_parameters.csv.
+#[pyclass(module = "enfilade", subclass, frozen)]
+pub struct Dataset {
+    samples: Arc<Samples>,
+    epoch: AtomicU64,
+    arguments: Arguments,
+}
+
+/// What it was made with, to make it again in another process.
+#[derive(Clone, IntoPyObject)]
+struct Arguments {
+    layers: Option<Names>,
+    scenes: Option<Names>,
+    cameras: Option<Names>,
+    split: Option<String>,
+    crop: Option<(usize, usize)>,
+    crop_place: Place,
+    resize: Option<(usize, usize)>,
+    tone_map: bool,
+    mask: bool,
+    poses: bool,
+    stored: bool,
+    seed: u64,
+    camera_table: Option<PathBuf>,
+    path: PathBuf,
+}
+
+impl Arguments {
+    fn options(&self) -> PyResult<Options> {
+        let place = self.crop_place.crop_place()?;
+        Ok(Options {
+            crop: self.crop.map(|(height, width)| Crop { size: [height, width], place }),
+            resize: self.resize.map(|(height, width)| [height, width]),
+            tone_map: self.tone_map,
+            mask: self.mask,
+            cameras: self.poses,
+            stored: self.stored,
+            seed: self.seed,
+        })
+    }
+
+    fn open(&self, py: Python<'_>) -> PyResult<Samples> {
+        let (options, layers, split) = (self.options()?, layers(self.layers.as_ref())?, split(self.split.as_deref())?);
+        let path = std::path::absolute(&self.path)?;
+        py.detach(|| {
+            let dataset = enfilade_dataset::Dataset::open(&path).map_err(IntoPy::into_py)?;
+            let dataset = match &self.camera_table {
+                Some(table) => dataset.with_camera_table(table),
+                None => dataset,
+            };
+            let select = |what, names: &[String], pattern: Option<&Names>| {
+                let chosen = pattern.map(|pattern| enfilade_pipeline::select(what, names, Some(&pattern.pattern())));
+                chosen.transpose().map_err(IntoPy::into_py)
+            };
+            let scenes = dataset.scenes().map_err(IntoPy::into_py)?;
+            let scenes = select("scene", &scenes, self.scenes.as_ref())?.unwrap_or(scenes);
+            let mut cameras = Vec::new();
+            if self.cameras.is_some() {
+                for scene in &scenes {
+                    cameras.extend(dataset.cameras(scene).map_err(IntoPy::into_py)?);
+                }
+                cameras.sort_unstable();
+                cameras.dedup();
+            }
+            let cameras = select("camera", &cameras, self.cameras.as_ref())?;
+            Samples::open(dataset, &Choice { layers, scenes: Some(scenes), cameras, split }, options).map_err(IntoPy::into_py)
+        })
+    }
+}
+
+impl Dataset {
+    /// The index that Python means.
+    fn index(&self, index: isize) -> PyResult<usize> {
+        let count = self.samples.len();
+        let found = if index < 0 { index + count as isize } else { index };
+        let wrong = || PyIndexError::new_err(format!("index {index} of a dataset of {count} samples"));
+        usize::try_from(found).ok().filter(|&found| found < count).ok_or_else(wrong)
+    }
+}
+
+#[pymethods]
+impl Dataset {
+    #[new]
+    #[pyo3(signature = (path, *, layers=None, scenes=None, cameras=None, split=None, crop=None, crop_place=Place::Named("center".into()),
+        resize=None, tone_map=false, mask=true, poses=true, stored=false, seed=0, epoch=0, camera_table=None))]
+    fn new(
+        py: Python<'_>,
+        path: PathBuf,
+        layers: Option<Names>,
+        scenes: Option<Names>,
+        cameras: Option<Names>,
+        split: Option<String>,
+        crop: Option<(usize, usize)>,
+        crop_place: Place,
+        resize: Option<(usize, usize)>,
+        tone_map: bool,
+        mask: bool,
+        poses: bool,
+        stored: bool,
+        seed: u64,
+        epoch: u64,
+        camera_table: Option<PathBuf>,
+    ) -> PyResult<Self> {
+        let arguments =
+            Arguments { layers, scenes, cameras, split, crop, crop_place, resize, tone_map, mask, poses, stored, seed, camera_table, path };
+        Ok(Self { samples: Arc::new(arguments.open(py)?), epoch: AtomicU64::new(epoch), arguments })
+    }
+
+    fn __len__(&self) -> usize {
+        self.samples.len()
+    }
+
+    fn __getitem__<'py>(&self, py: Python<'py>, index: isize) -> PyResult<Bound<'py, PyDict>> {
+        let (index, epoch) = (self.index(index)?, self.epoch.load(Ordering::Relaxed));
+        let sample = py.detach(|| self.samples.sample(index, epoch)).map_err(IntoPy::into_py)?;
+        arrays::sample(py, index, sample)
+    }
+
+    /// The samples of several indices, decoded on all cores; torch's DataLoader asks for a batch so.
+    fn __getitems__<'py>(&self, py: Python<'py>, indices: Vec<isize>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let indices = indices.into_iter().map(|index| self.index(index)).collect::<PyResult<Vec<_>>>()?;
+        let epoch = self.epoch.load(Ordering::Relaxed);
+        let samples = py.detach(|| decode_all(&self.samples, &indices, epoch)).map_err(IntoPy::into_py)?;
+        indices.into_iter().zip(samples).map(|(index, sample)| arrays::sample(py, index, sample)).collect()
+    }
+
+    /// Scene, camera and frame number of a sample, without decoding it.
+    fn place(&self, index: isize) -> PyResult<(&str, &str, u32)> {
+        let place = self.samples.place(self.index(index)?);
+        Ok((place.scene, place.camera, place.frame))
+    }
+
+    /// Names of the layers of each sample.
+    #[getter]
+    fn layers(&self) -> Vec<&'static str> {
+        self.samples.layers().iter().map(|layer| layer.spec().name).collect()
+    }
+
+    /// Decides where random crops lie; `set_epoch` changes it.
+    #[getter]
+    fn epoch(&self) -> u64 {
+        self.epoch.load(Ordering::Relaxed)
+    }
+
+    /// Moves random crops: call it before each pass, in the process that holds the dataset.
+    fn set_epoch(&self, epoch: u64) {
+        self.epoch.store(epoch, Ordering::Relaxed);
+    }
+
+    /// Passes over the dataset in which threads decode ahead, without worker processes; see `Loader`.
+    ///
+    /// batch_size: samples per batch, whose arrays then have a first axis more; single samples unless given.
+    /// shuffle: another order in each pass, by the dataset's seed.
+    /// threads: that decode; as many as there are cores unless given.
+    /// prefetch: samples held ready; two per thread, and at least two batches, unless given.
+    /// drop_last: leaves out a last batch that is not full.
+    #[pyo3(signature = (batch_size=None, *, shuffle=false, threads=None, prefetch=None, drop_last=false))]
+    fn loader(
+        &self,
+        batch_size: Option<usize>,
+        shuffle: bool,
+        threads: Option<usize>,
+        prefetch: Option<usize>,
+        drop_last: bool,
+    ) -> PyResult<Loader> {
+        Loader::new(self.samples.clone(), self.epoch(), batch_size, shuffle, threads, prefetch, drop_last)
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
+        let named = self.arguments.clone().into_pyobject(py)?;
+        let path = std::path::absolute(&self.arguments.path)?;
+        named.del_item("path")?;
+        named.set_item("epoch", self.epoch())?;
+        Ok((PyTuple::new(py, [path])?, named))
+    }
+
+    fn __repr__(&self) -> String {
+        let layers = self.layers().join(", ");
+        format!("<enfilade.Dataset {:?}: {} samples of {layers}>", self.arguments.path, self.samples.len())
+    }
+}
+
+/// The samples in the order of their indices, decoded by as many threads as there are cores; these end before it returns.
+fn decode_all(samples: &Samples, indices: &[usize], epoch: u64) -> Result<Vec<Sample>, LoaderError> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let share = indices.len().div_ceil(cores).max(1);
+    std::thread::scope(|scope| {
+        let decode = |part: &[usize]| part.iter().map(|&index| samples.sample(index, epoch)).collect::<Result<Vec<_>, _>>();
+        let threads: Vec<_> = indices.chunks(share).map(|part| scope.spawn(move || decode(part))).collect();
+        let parts = threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        parts.collect::<Result<Vec<_>, _>>().map(|parts| parts.into_iter().flatten().collect())
+    })
+}

@@ -1,0 +1,45 @@
+//! Our errors as Python's exceptions, whose messages name the file.
+
+use enfilade_dataset::DatasetError;
+use enfilade_loader::LoaderError;
+use pyo3::create_exception;
+use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+
+create_exception!(enfilade, DamagedFileError, PyOSError, "A file of a dataset is damaged, or is not what its name says.");
+create_exception!(enfilade, StageError, PyRuntimeError, "A scene could not be finished; `summary` says how far each came.");
+
+/// Makes an exception of it.
+pub trait IntoPy {
+    /// The exception.
+    fn into_py(self) -> PyErr;
+}
+
+impl IntoPy for DatasetError {
+    fn into_py(self) -> PyErr {
+        let message = self.to_string();
+        match self {
+            Self::NotADataset { .. } | Self::Name { .. } | Self::Unstorable { .. } => PyValueError::new_err(message),
+            error if error.is_not_found() => PyFileNotFoundError::new_err(message),
+            Self::Io { .. } => PyOSError::new_err(message),
+            _ => DamagedFileError::new_err(message),
+        }
+    }
+}
+
+impl IntoPy for LoaderError {
+    fn into_py(self) -> PyErr {
+        match self {
+            Self::Dataset(error) => error.into_py(),
+            Self::Request(message) => PyValueError::new_err(message),
+        }
+    }
+}
+
+impl IntoPy for enfilade_pipeline::Error {
+    fn into_py(self) -> PyErr {
+        let hint = self.hint().map(|hint| format!("; {hint}")).unwrap_or_default();
+        let message = format!("{}{hint}", self.explain());
+        if self.is_usage() { PyValueError::new_err(message) } else { PyRuntimeError::new_err(message) }
+    }
+}

@@ -1,0 +1,50 @@
+//! Ctrl-C during long work.
+
+use crate::errors::IntoPy;
+use enfilade_pipeline::{Error, Event, Reporter, Stage};
+use pyo3::prelude::*;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+/// How long Ctrl-C may go unnoticed.
+const INTERVAL: Duration = Duration::from_millis(100);
+
+/// Ends the work at the next thing that it reports once it was interrupted. What is finished then stays, as when a run is killed.
+#[derive(Default)]
+pub struct Interrupt(AtomicBool);
+
+impl Reporter for Interrupt {
+    fn on(&self, _scene: &str, _stage: Stage, _event: Event) {
+        if self.0.load(Ordering::Relaxed) {
+            resume_unwind(Box::new("interrupted"));
+        }
+    }
+}
+
+/// Does `work` on a thread of its own, and meanwhile lets Python look after signals.
+pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&Interrupt) -> Result<T, Error> + Send) -> PyResult<T> {
+    let interrupt = Interrupt::default();
+    std::thread::scope(|scope| {
+        let (alive, ended) = channel::<()>();
+        let reporter = &interrupt;
+        let worker = scope.spawn(move || {
+            let _alive = alive;
+            work(reporter)
+        });
+        let ended = std::sync::Mutex::new(ended);
+        let still_works = || ended.lock().is_ok_and(|ended| ended.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout));
+        let mut signal = Ok(());
+        while py.detach(still_works) {
+            if let Err(raised) = py.check_signals() {
+                interrupt.0.store(true, Ordering::Relaxed);
+                signal = signal.and(Err(raised));
+            }
+        }
+        match py.detach(|| worker.join()) {
+            Ok(done) => signal.and(done.map_err(IntoPy::into_py)),
+            Err(panic) => signal.and_then(|()| resume_unwind(panic)),
+        }
+    })
+}

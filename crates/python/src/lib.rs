@@ -1,0 +1,59 @@
+//! The Python module `enfilade`: datasets as numpy arrays, and the verbs of the command line.
+//!
+//! Here is nothing but conversion: samples come from `enfilade-loader`, stages from `enfilade-pipeline`. Arrays are handed over without a
+//! copy, and the interpreter is released while anything is read, decoded or rendered. `enfilade/__init__.pyi` is the public face with
+//! its types; the doc strings stand here.
+
+mod arguments;
+mod arrays;
+mod config;
+mod dataset;
+mod errors;
+mod interrupt;
+mod json;
+mod loader;
+mod verbs;
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+/// 3D interiors as photorealistic datasets with dense ground truth.
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    module.add_class::<dataset::Dataset>()?;
+    module.add_class::<loader::Loader>()?;
+    module.add_class::<loader::LoaderIterator>()?;
+    module.add_class::<config::Config>()?;
+    module.add("DamagedFileError", py.get_type::<errors::DamagedFileError>())?;
+    module.add("StageError", py.get_type::<errors::StageError>())?;
+    module.add("LAYERS", layers(py)?)?;
+    module.add("STAGES", PyList::new(py, enfilade_pipeline::STAGES.iter().map(|spec| spec.name))?)?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    for function in [
+        wrap_pyfunction!(verbs::run, module)?,
+        wrap_pyfunction!(verbs::stage, module)?,
+        wrap_pyfunction!(verbs::verify, module)?,
+        wrap_pyfunction!(verbs::split, module)?,
+        wrap_pyfunction!(verbs::repack, module)?,
+    ] {
+        module.add_function(function)?;
+    }
+    Ok(())
+}
+
+/// The table of layers, by name.
+fn layers(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let table = PyDict::new(py);
+    for spec in &enfilade_frame::LAYERS {
+        let row = PyDict::new(py);
+        row.set_item("channels", spec.channels)?;
+        row.set_item("dtype", arrays::dtype_name(spec.dtype))?;
+        row.set_item("unit", spec.unit)?;
+        row.set_item("space", spec.space)?;
+        row.set_item("sentinel", spec.sentinel)?;
+        row.set_item("description", spec.description)?;
+        table.set_item(spec.name, row)?;
+    }
+    Ok(table)
+}

@@ -1,0 +1,124 @@
+//! The verbs of the command line.
+
+use crate::arguments::{Names, layers};
+use crate::config::Config;
+use crate::errors::{IntoPy, StageError};
+use crate::interrupt::{Interrupt, interruptible};
+use crate::json;
+use enfilade_dataset::Dataset;
+use enfilade_pipeline::{STAGES, Stage, Summary};
+use enfilade_post::verify::{verify_dataset, write_report};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Makes the dataset `config` in the folder `output`: all stages of all scenes that are not up to date. A run that is ended, as by Ctrl-C, goes on
+/// where it was when it is run again.
+///
+/// config: an `enfilade.Config`; the demo unless given.
+/// scenes: only these; `*` stands for any run of characters.
+///
+/// Gives what was done, as a dictionary. Raises StageError when a scene fails.
+#[pyfunction]
+#[pyo3(signature = (output, config=None, *, scenes=None))]
+pub fn run<'py>(py: Python<'py>, output: PathBuf, config: Option<Config>, scenes: Option<Names>) -> PyResult<Bound<'py, PyAny>> {
+    let config = match config {
+        Some(config) => config.0,
+        None => enfilade_pipeline::Config::demo(&Default::default()).map_err(IntoPy::into_py)?,
+    };
+    let pattern = scenes.map(|scenes| scenes.pattern());
+    let summary = interruptible(py, |reporter| enfilade_pipeline::run(&config, &output, pattern.as_deref(), reporter))?;
+    conclude(py, &summary)
+}
+
+/// Runs one stage of a dataset again with the configuration stored there: a name of `enfilade.STAGES`.
+///
+/// scenes: only these. force: also where it is up to date.
+#[pyfunction]
+#[pyo3(signature = (name, dataset, *, scenes=None, force=false))]
+pub fn stage<'py>(py: Python<'py>, name: &str, dataset: PathBuf, scenes: Option<Names>, force: bool) -> PyResult<Bound<'py, PyAny>> {
+    let found: Option<Stage> = STAGES.iter().find(|spec| spec.name == name).map(|spec| spec.stage);
+    let names = || STAGES.map(|spec| spec.name).join(", ");
+    let stage = found.ok_or_else(|| PyValueError::new_err(format!("there is no stage {name:?}; the stages are: {}", names())))?;
+    let pattern = scenes.map(|scenes| scenes.pattern());
+    let run = |reporter: &Interrupt| enfilade_pipeline::run_stage(&dataset, stage, pattern.as_deref(), force, reporter);
+    conclude(py, &interruptible(py, run)?)
+}
+
+/// Checks the laws that hold in every dataset, ours or Hypersim's, and gives the report as a dictionary: `passed`, `laws`, `gates` and
+/// the values of all frames.
+///
+/// scenes: only these; otherwise the report is also written to verify.json and verify.html.
+#[pyfunction]
+#[pyo3(signature = (dataset, *, scenes=None))]
+pub fn verify<'py>(py: Python<'py>, dataset: PathBuf, scenes: Option<Names>) -> PyResult<Bound<'py, PyAny>> {
+    let report = py.detach(|| {
+        let dataset = Dataset::open(&dataset).map_err(IntoPy::into_py)?;
+        let all = dataset.scenes().map_err(IntoPy::into_py)?;
+        let pattern = scenes.map(|scenes| scenes.pattern());
+        let chosen = enfilade_pipeline::select("scene", &all, pattern.as_deref()).map_err(IntoPy::into_py)?;
+        let report = verify_dataset(&dataset, &chosen, &enfilade_scene::Quiet).map_err(IntoPy::into_py)?;
+        if pattern.is_none() {
+            write_report(&dataset, &report).map_err(IntoPy::into_py)?;
+        }
+        Ok::<_, PyErr>(report)
+    })?;
+    json::to_python(py, &report)
+}
+
+/// Divides a dataset by scene into train, val and test, and gives scenes and images of each side.
+///
+/// seed: of the draw. shares: of the sides, such as (0.8, 0.1, 0.1). What is not given stays as it was.
+#[pyfunction]
+#[pyo3(signature = (dataset, *, seed=None, shares=None))]
+pub fn split<'py>(py: Python<'py>, dataset: PathBuf, seed: Option<u64>, shares: Option<[f64; 3]>) -> PyResult<Bound<'py, PyAny>> {
+    let change = |config: &mut enfilade_pipeline::SplitConfig| {
+        config.seed = seed.unwrap_or(config.seed);
+        config.shares = shares.unwrap_or(config.shares);
+    };
+    let report = py.detach(|| enfilade_pipeline::split(&dataset, change)).map_err(IntoPy::into_py)?;
+    json::to_python(py, &report)
+}
+
+/// Copies frames, cameras and tables of a dataset, ours or Hypersim's, to the folder `output`, with images in LZ4 instead of deflate, about as
+/// large and four to sixteen times as fast to read by `enfilade.Dataset`. Values and names are the same. h5py reads
+/// the copy with the package hdf5plugin.
+///
+/// layers: only these. Gives the number of files and their bytes before and after.
+#[pyfunction]
+#[pyo3(signature = (dataset, output, *, layers=None))]
+pub fn repack<'py>(py: Python<'py>, dataset: PathBuf, output: PathBuf, layers: Option<Names>) -> PyResult<Bound<'py, PyAny>> {
+    let layers = self::layers(layers.as_ref())?;
+    let copied = py.detach(|| {
+        let dataset = Dataset::open(&dataset).map_err(IntoPy::into_py)?;
+        dataset.repack(&output, layers.as_deref(), &|_, _| ()).map_err(IntoPy::into_py)
+    })?;
+    let counts = json!({ "files": copied.files, "bytes_before": copied.bytes_before, "bytes_after": copied.bytes_after });
+    json::to_python(py, &counts)
+}
+
+/// The summary as a dictionary, or what went wrong.
+fn conclude<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound<'py, PyAny>> {
+    let scenes = summary.scenes.iter().map(|scene| -> Value {
+        let stages = scene.stages.iter().map(|stage| {
+            json!({ "stage": stage.stage.name(), "up_to_date": stage.up_to_date, "summary": stage.summary, "warnings": stage.warnings, "wall_s": stage.wall_s })
+        });
+        json!({ "scene": scene.name, "stages": stages.collect::<Vec<_>>() })
+    });
+    let done =
+        json::to_python(py, &json!({ "scenes": scenes.collect::<Vec<_>>(), "warnings": summary.warnings, "wall_s": summary.wall_s }))?;
+    let failures = summary.scenes.iter().filter_map(|scene| Some((scene, scene.failure.as_ref()?)));
+    let failures: Vec<String> = failures
+        .map(|(scene, failure)| {
+            let hint = failure.hint.as_ref().map(|hint| format!("; {hint}")).unwrap_or_default();
+            format!("{}: {} failed: {}{hint}", scene.name, failure.stage.name(), failure.message)
+        })
+        .collect();
+    if failures.is_empty() {
+        return Ok(done);
+    }
+    let error = StageError::new_err(failures.join("\n"));
+    error.value(py).setattr("summary", done)?;
+    Err(error)
+}
