@@ -72,10 +72,11 @@ def request(port, method, path, body=None, headers=None):
 
 class Proxy:
     """Stands before a server. `lose` has conditional writes of markers done, and their answers lost the first time: every other
-    connection is closed without one, and every other gets status 500. `ignore` takes the conditions away."""
+    connection is closed without one, and every other gets status 500. `ignore` takes the conditions away, `keep` does nothing more than to
+    pass conditional writes on one after the other."""
 
     def __init__(self, port, mode):
-        self.to, self.mode, self.lost, self.lock = port, mode, {}, threading.Lock()
+        self.to, self.mode, self.lost, self.lock, self.one = port, mode, {}, threading.Lock(), threading.Lock()
         proxy = self
 
         class Handler(http.server.BaseHTTPRequestHandler):
@@ -107,7 +108,9 @@ class Proxy:
         conditional = headers.pop("If-None-Match", None) or headers.pop("if-none-match", None)
         if conditional and self.mode != "ignore":
             headers["If-None-Match"] = conditional
-        status, fields, answer = request(self.to, handler.command, handler.path, body, headers)
+        # moto looks and then writes: it keeps conditions only for writers that come one after the other.
+        with self.one if conditional else contextlib.nullcontext():
+            status, fields, answer = request(self.to, handler.command, handler.path, body, headers)
         loss = self.loss(handler.path) if self.mode == "lose" and conditional and "/done/" in handler.path else None
         if loss == "closed":
             handler.close_connection = True
@@ -133,7 +136,12 @@ class Proxy:
 
 def two_workers(farm, server, folder):
     """Two workers at once with all tasks each: of every frame one wins."""
-    place, env = f"s3://{BUCKET}/two", server.env()
+    with Proxy(server.port, "keep") as proxy:
+        return race(farm, server, folder, server.env(proxy.port))
+
+
+def race(farm, server, folder, env):
+    place = f"s3://{BUCKET}/two"
     farm.run("farm", "plan", str(farm.config), "-o", place, *DIVISION, env=env)
     begun = time.monotonic()
     command = [farm.program, "--threads", "1", "--quiet", "farm", "work", place, "--shard", "0/1", "--scratch"]
