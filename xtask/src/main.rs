@@ -1,4 +1,4 @@
-//! The checks of the house, as `cargo xtask check`, `test`, `browser`, `fuzz`, `bench` and `oracle`.
+//! The checks of the house, as `cargo xtask check`, `test`, `browser`, `fuzz`, `bench`, `oracle` and `cluster`.
 //!
 //! [`check`] holds what is quick and says nothing about numbers; [`test`](mod@test) holds everything else; [`browser`] tests the
 //! pages; [`fuzz`] searches for bytes that break what reads them; [`bench`](mod@bench) measures. Most are a table of
@@ -8,6 +8,7 @@ mod acceptance;
 mod bench;
 mod browser;
 mod check;
+mod cluster;
 mod dependencies;
 mod embree;
 mod floors;
@@ -18,6 +19,7 @@ mod loader;
 mod oidn;
 mod peers;
 mod python;
+mod simulate;
 mod spdx;
 mod step;
 mod storage;
@@ -33,6 +35,8 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask fuzz [--seconds N] [--quick] [TARGET...]   searches for bytes that break what reads them
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
+       cargo xtask cluster [--program PATH] [TEST...]   a farm on Slurm, S3 and by other engines' files, with faults
+       cargo xtask simulate                       the same on thousands of nodes, simulated
        cargo xtask bench render [ROOM...]         what pictures of real rooms cost, against Mitsuba 3
        cargo xtask bench storage [DATASET...]     size and reading time of the files, against Hypersim's
        cargo xtask bench loader [DATASET...]      the Python module's reading of layers, against h5py
@@ -50,6 +54,8 @@ fn main() -> ExitCode {
         ["bench", "homes", rest @ ..] => homes::run(&house, rest),
         ["bench", "loader", rest @ ..] => loader::run(&house, rest),
         ["bench", "storage", rest @ ..] => storage::run(&house, rest),
+        ["simulate"] => simulate::run(&house),
+        ["cluster", rest @ ..] => cluster::run(&house, rest),
         ["oracle", rest @ ..] => peers::run(&house, "oracle", rest),
         ["bench", rest @ ..] => bench::run(&house, rest),
         [] | ["help" | "--help" | "-h"] => {

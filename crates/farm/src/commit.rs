@@ -131,12 +131,16 @@ pub(crate) enum Commit {
 
 /// The marker of a frame, if it is done.
 pub(crate) fn read_marker(store: &Store, key: &FrameKey) -> Result<Option<Marker>, FarmError> {
-    let name = key.marker();
-    let Some(bytes) = store.get(&name)? else { return Ok(None) };
+    read_marker_at(store, &key.marker())
+}
+
+/// The marker of a name.
+pub(crate) fn read_marker_at(store: &Store, name: &str) -> Result<Option<Marker>, FarmError> {
+    let Some(bytes) = store.get(name)? else { return Ok(None) };
     let marker = serde_json::from_slice(&bytes);
     marker
         .map(Some)
-        .map_err(|error| FarmError::Damaged { place: name, problem: format!("{error}; remove it, and the frame is made again") })
+        .map_err(|error| FarmError::Damaged { place: name.into(), problem: format!("{error}; remove it, and the frame is made again") })
 }
 
 /// Puts a frame's files into the store, and then its marker. `marker` names no payload yet.

@@ -14,6 +14,7 @@
 mod bundle;
 mod collect;
 mod commit;
+mod costs;
 pub mod engines;
 mod error;
 mod plan;
@@ -25,6 +26,7 @@ mod work;
 
 pub use collect::collect;
 pub use commit::{Attempt, FrameKey, Marker};
+pub use costs::{AttemptCost, Costs, costs};
 pub use error::FarmError;
 pub use plan::{Job, Plan, PlanOptions, PlannedScene, Task, plan};
 pub use ranges::{Ranges, parse_ranges, print_ranges};

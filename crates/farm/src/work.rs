@@ -58,6 +58,9 @@ pub struct AttemptRecord {
     pub cpu_s: f64,
     /// Threads at work.
     pub threads: u32,
+    /// Most memory that the process had until then; `None` where the system does not tell.
+    #[serde(default)]
+    pub peak_memory_bytes: Option<u64>,
     /// Frames that are this attempt's.
     pub committed: u32,
     /// Frames that another attempt committed first.
@@ -108,6 +111,7 @@ fn do_task(job: &Job, number: u32, work: &Work, reporter: &dyn Reporter) -> Resu
         wall_s: 0.0,
         cpu_s: 0.0,
         threads: rayon::current_num_threads() as u32,
+        peak_memory_bytes: None,
         committed: 0,
         lost: 0,
         different: 0,
@@ -123,7 +127,8 @@ fn do_task(job: &Job, number: u32, work: &Work, reporter: &dyn Reporter) -> Resu
     let tally = Mutex::new((0, 0, 0));
     let result = make(job, number, &missing, work, &tally, reporter);
     (record.committed, record.lost, record.different) = tally.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    (record.wall_s, record.cpu_s) = (time.wall_s(), time.cpu_s());
+    let time = time.of_frame();
+    (record.wall_s, record.cpu_s, record.peak_memory_bytes) = (time.wall_s, time.cpu_s, time.peak_memory_bytes);
     record.ended = Some(match &result {
         Ok(()) => Ended::Done,
         Err(error) if error.is_transient() => Ended::Transient,

@@ -176,8 +176,8 @@ impl Stopwatch {
         process_cpu_s() - self.cpu_s
     }
 
-    /// What is recorded of a frame that began with this.
-    pub(crate) fn of_frame(&self) -> FrameTime {
+    /// What is recorded of a frame, or of more, that began with this.
+    pub fn of_frame(&self) -> FrameTime {
         let threads = Some(rayon::current_num_threads() as u32);
         FrameTime { wall_s: self.wall_s(), cpu_s: self.cpu_s(), peak_memory_bytes: peak_memory_bytes(), threads }
     }

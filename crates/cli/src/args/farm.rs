@@ -83,6 +83,12 @@ pub struct FarmStatusArgs {
     /// Print it as JSON
     #[arg(long)]
     pub json: bool,
+    /// Also what it has cost until now, at dollars per vCPU-hour or a CSV table of them with names, as in `stats`
+    #[arg(long, value_name = "X|CSV", allow_hyphen_values = true, conflicts_with_all = ["missing", "json"])]
+    pub price: Option<String>,
+    /// Write a table with a row per attempt: machine, the engine's numbers, times, memory, costs
+    #[arg(long, value_name = "CSV", conflicts_with_all = ["missing", "json"])]
+    pub attempts: Option<PathBuf>,
 }
 
 /// `farm collect`.
@@ -93,6 +99,9 @@ pub struct FarmCollectArgs {
     /// The dataset's folder
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
+    /// Dollars per vCPU-hour, or a CSV table of them with names, as in `stats`
+    #[arg(long, value_name = "X|CSV", allow_hyphen_values = true)]
+    pub price: Option<String>,
 }
 
 /// `farm submit`.

@@ -1,5 +1,6 @@
 //! `farm`: one dataset on many machines.
 
+mod costs;
 mod submit;
 
 use crate::args::{FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmVerb, FarmWorkArgs};
@@ -134,10 +135,14 @@ fn status(args: &FarmStatusArgs) -> Result<Verdict, Problem> {
         }
         status.errors.iter().for_each(|(task, error)| say(&format!("task {task}: {error}")));
     }
+    if args.price.is_some() || args.attempts.is_some() {
+        costs::say_costs(&job, args.price.as_deref(), args.attempts.as_deref())?;
+    }
     Ok(Verdict::of(status.is_complete()))
 }
 
 fn collect(args: &FarmCollectArgs, quiet: bool) -> Result<Verdict, Problem> {
+    crate::price::prices(args.price.as_deref())?;
     let job = open(&args.job)?;
     let out: &PathBuf = &args.output;
     let result = {
@@ -146,6 +151,7 @@ fn collect(args: &FarmCollectArgs, quiet: bool) -> Result<Verdict, Problem> {
     };
     summary::print_table(&result);
     summary::print_where_to_look(out, &result)?;
+    costs::say_costs(&job, args.price.as_deref(), None)?;
     Ok(Verdict::of(result.ok()))
 }
 

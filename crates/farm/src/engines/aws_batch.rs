@@ -1,29 +1,40 @@
 //! AWS Batch: an array job per at most 10,000 tasks, as `aws batch submit-job --cli-input-json` takes it.
 
-use super::Submission;
+use super::{Submission, nth_task};
 use serde_json::{Value, json};
 
 /// Children of one array job at most.
 const MOST: u32 = 10_000;
+/// Bytes of a command at most: what a request overrides may have 8192 in all.
+const MOST_BYTES: usize = 6000;
 
 /// One request per array job. `queue` and `definition` name what the account has; the definition's image holds the program.
 pub fn aws_batch_job(submission: &Submission, queue: &str, definition: &str) -> Vec<Value> {
     let limited = Submission { array_limit: submission.array_limit.min(MOST), ..submission.clone() };
-    limited.arrays().iter().enumerate().map(|(k, tasks)| request(&limited, k, tasks, queue, definition)).collect()
+    let arrays: Vec<Vec<u32>> = limited.arrays().iter().flat_map(|tasks| fitting(tasks)).collect();
+    arrays.iter().enumerate().map(|(k, tasks)| request(&limited, k, tasks, queue, definition)).collect()
+}
+
+/// The tasks, halved until their command is short enough.
+fn fitting(tasks: &[u32]) -> Vec<Vec<u32>> {
+    if look_up(tasks).len() <= MOST_BYTES || tasks.len() < 2 {
+        return vec![tasks.to_vec()];
+    }
+    let (low, high) = tasks.split_at(tasks.len() / 2);
+    [fitting(low), fitting(high)].concat()
+}
+
+fn look_up(tasks: &[u32]) -> String {
+    nth_task(tasks, "AWS_BATCH_JOB_ARRAY_INDEX", "/tmp/enfilade-farm")
 }
 
 fn request(submission: &Submission, k: usize, tasks: &[u32], queue: &str, definition: &str) -> Value {
-    let numbers: Vec<String> = tasks.iter().map(u32::to_string).collect();
-    let look_up = format!(
-        "set -- {}; shift \"${{AWS_BATCH_JOB_ARRAY_INDEX:-0}}\"; exec \"$0\" --threads \"$CPUS\" farm work \"$STORE\" --task \"$1\" --scratch /tmp/enfilade-farm",
-        numbers.join(" ")
-    );
     let mut request = json!({
         "jobName": format!("{}-{k}", submission.name),
         "jobQueue": queue,
         "jobDefinition": definition,
         "containerOverrides": {
-            "command": ["sh", "-c", look_up, submission.program],
+            "command": ["sh", "-c", look_up(tasks), submission.program],
             "environment": [
                 { "name": "STORE", "value": submission.store },
                 { "name": "CPUS", "value": submission.cpus.to_string() },
@@ -62,5 +73,16 @@ mod tests {
         assert_eq!(requests[0]["arrayProperties"]["size"], 3);
         assert!(requests[1].get("arrayProperties").is_none());
         assert_eq!(requests[0]["retryStrategy"]["evaluateOnExit"][0]["action"], "EXIT");
+    }
+
+    #[test]
+    fn commands_are_as_short_as_a_request_may_be() {
+        let all = Submission { tasks: (0..20_000).collect(), array_limit: 10_000, ..example() };
+        assert_eq!(aws_batch_job(&all, "spot", "enfilade:3").len(), 2);
+        let every_other = Submission { tasks: (0..20_000).step_by(2).collect(), array_limit: 10_000, ..example() };
+        let requests = aws_batch_job(&every_other, "spot", "enfilade:3");
+        let count: u64 = requests.iter().filter_map(|request| request["arrayProperties"]["size"].as_u64()).sum();
+        assert_eq!(count, 10_000);
+        assert!(requests.iter().all(|request| request["containerOverrides"].to_string().len() < 8192));
     }
 }

@@ -1,18 +1,15 @@
 //! Kubernetes: an Indexed Job. Losing a node costs no retry, what would fail again is not tried again, and every index has retries of
 //! its own (Kubernetes 1.33 or later).
 
-use super::Submission;
+use super::{Submission, nth_task};
 use serde_json::{Value, json};
 
 /// The manifest, as JSON, which `kubectl apply -f` takes. `image` holds the program.
 pub fn kubernetes_job(submission: &Submission, image: &str) -> Value {
-    let tasks: Vec<String> = submission.tasks.iter().map(u32::to_string).collect();
+    let tasks: Vec<u32> = submission.tasks.iter().copied().collect();
     let count = tasks.len();
     // The index counts the missing tasks; the shell looks up which one it is.
-    let look_up = format!(
-        "set -- {}; shift \"$JOB_COMPLETION_INDEX\"; exec \"$0\" --threads \"$CPUS\" farm work \"$STORE\" --task \"$1\" --scratch /scratch",
-        tasks.join(" ")
-    );
+    let look_up = nth_task(&tasks, "JOB_COMPLETION_INDEX", "/scratch");
     json!({
         "apiVersion": "batch/v1",
         "kind": "Job",
@@ -62,6 +59,6 @@ mod tests {
         assert_eq!(job["spec"]["parallelism"], 4);
         assert_eq!(job["spec"]["backoffLimitPerIndex"], 3);
         let command = job["spec"]["template"]["spec"]["containers"][0]["command"][2].as_str().unwrap();
-        assert!(command.starts_with("set -- 0 1 2 7; shift \"$JOB_COMPLETION_INDEX\";"), "{command}");
+        assert!(command.starts_with("i=${JOB_COMPLETION_INDEX:-0}; for r in 0-2 7; do "), "{command}");
     }
 }

@@ -10,7 +10,7 @@ pub use kubernetes::kubernetes_job;
 pub use openjd::openjd_template;
 pub use slurm::{slurm_collect_script, slurm_scripts};
 
-use crate::{Job, Ranges};
+use crate::{Job, Ranges, print_ranges};
 
 /// What every engine is told.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,6 +66,16 @@ impl Submission {
         let all: Vec<u32> = self.tasks.iter().copied().collect();
         all.chunks(self.array_limit.max(1) as usize).map(<[u32]>::to_vec).collect()
     }
+}
+
+/// A command for `sh -c` that does the task at the place `$index` among `tasks`; `$0` is the program. Tasks stand in it as ranges, since
+/// engines limit what a command may hold.
+pub(crate) fn nth_task(tasks: &[u32], index: &str, scratch: &str) -> String {
+    let ranges = print_ranges(&tasks.iter().copied().collect()).replace(',', " ");
+    format!(
+        "i=${{{index}:-0}}; for r in {ranges}; do n=$((${{r#*-}}-${{r%-*}}+1)); [ $i -ge $n ] || exec \"$0\" --threads \"$CPUS\" farm work \
+         \"$STORE\" --task $((${{r%-*}}+i)) --scratch {scratch}; i=$((i-n)); done; exit 65"
+    )
 }
 
 /// A word that a shell takes as it is.

@@ -47,7 +47,7 @@ fn script(submission: &Submission, tasks: &[u32]) -> String {
         text,
         "worker=$!\n\
          # Slurm tells this script alone that time is over; the worker then keeps what it has.\n\
-         trap 'kill -TERM \"$worker\"' TERM\n\
+         trap 'kill -TERM \"$worker\" 2>/dev/null' TERM\n\
          wait \"$worker\"\n\
          code=$?\n\
          while kill -0 \"$worker\" 2>/dev/null; do wait \"$worker\"; code=$?; done\n\

@@ -1,0 +1,224 @@
+//! What a job has cost, attempt by attempt: processor time that was paid, used, and spent on what came to nothing.
+//!
+//! A vCPU-second is what a cloud bills: a second of one thread of a machine, busy or idle. What an attempt paid beyond its own committed
+//! frames went into loading scenes, into frames that are kept for the next attempt, and into frames that another committed first.
+
+use crate::commit::{DONE, read_marker_at};
+use crate::status::attempts;
+use crate::work::{AttemptRecord, Ended};
+use crate::{FarmError, Job, Marker};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+const HOUR_S: f64 = 3600.0;
+const GIB: f64 = 1_073_741_824.0;
+
+/// The columns of [`Costs::table`]: those of Hypersim's tasks where there are any, and what says where an attempt ran.
+const HEADER: &str = "job_name,task_id,attempt,host,engine_ids,ended,vcpu_per_instance,time_instance_seconds,time_vcpu_seconds,\
+    time_vcpu_seconds_in_frames,cost_cloud_dollars,used_clock,total_clock,cpu_utilization,peak_memory_usage_gib,frames_committed,frames_lost\n";
+
+/// One attempt at one task.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AttemptCost {
+    /// What it says of itself. One that was killed says nothing of its time, which then counts as none.
+    pub record: AttemptRecord,
+    /// vCPU-seconds of its frames that count.
+    pub in_frames_vcpu_s: f64,
+}
+
+impl AttemptCost {
+    /// vCPU-seconds that it had.
+    pub fn vcpu_s(&self) -> f64 {
+        self.record.wall_s * f64::from(self.record.threads)
+    }
+}
+
+/// A job's attempts and frames together.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Costs {
+    /// In the order of tasks.
+    pub attempts: Vec<AttemptCost>,
+    /// vCPU-seconds of all attempts; of one that was killed, those of the frames it had committed.
+    pub vcpu_s: f64,
+    /// vCPU-seconds of the frames that count.
+    pub in_frames_vcpu_s: f64,
+    /// Processor seconds of these frames.
+    pub frames_cpu_s: f64,
+    /// Processor seconds that the plan expected of the same frames.
+    pub expected_cpu_s: f64,
+    /// Processor seconds of all attempts.
+    pub cpu_s: f64,
+    /// vCPU-seconds of attempts that ended before their tasks were done, or made frames that another committed first, beyond their own
+    /// frames. What was kept of a frame is in it, though it is not lost.
+    pub wasted_vcpu_s: f64,
+    /// Attempts beyond the first of each task.
+    pub retries: u32,
+    /// Most memory of any attempt, bytes.
+    pub peak_memory_bytes: Option<u64>,
+}
+
+/// What the job has cost until now. Every marker and every record of an attempt is read.
+///
+/// # Errors
+/// When the store does not answer, or something in it cannot be read.
+pub fn costs(job: &Job) -> Result<Costs, FarmError> {
+    let mut markers = Vec::new();
+    for (name, _) in job.store.list(DONE)? {
+        markers.extend(read_marker_at(&job.store, &name)?);
+    }
+    let expected =
+        |marker: &Marker| job.plan.tasks.get(marker.task as usize).map_or(0.0, |task| task.cpu_s / task.part.frames.len() as f64);
+    Ok(Costs { expected_cpu_s: markers.iter().map(expected).sum(), ..sum(&markers, attempts(job)?) })
+}
+
+fn sum(markers: &[Marker], records: Vec<AttemptRecord>) -> Costs {
+    let mut frames: BTreeMap<(&str, u32), f64> = BTreeMap::new();
+    for marker in markers {
+        *frames.entry((&marker.attempt, marker.task)).or_default() += marker.wall_s * f64::from(marker.threads.unwrap_or(1));
+    }
+    let mut costs = Costs { frames_cpu_s: markers.iter().map(|marker| marker.cpu_s).sum(), ..Costs::default() };
+    costs.in_frames_vcpu_s = frames.values().sum();
+    let mut tasks: BTreeMap<u32, u32> = BTreeMap::new();
+    for record in records {
+        let in_frames_vcpu_s = frames.get(&(record.attempt.id.as_str(), record.task)).copied().unwrap_or(0.0);
+        let attempt = AttemptCost { record, in_frames_vcpu_s };
+        let paid = attempt.vcpu_s().max(in_frames_vcpu_s);
+        costs.vcpu_s += paid;
+        costs.cpu_s += attempt.record.cpu_s;
+        if attempt.record.ended != Some(Ended::Done) || attempt.record.lost > 0 {
+            costs.wasted_vcpu_s += paid - in_frames_vcpu_s;
+        }
+        costs.peak_memory_bytes = costs.peak_memory_bytes.max(attempt.record.peak_memory_bytes);
+        *tasks.entry(attempt.record.task).or_default() += 1;
+        costs.attempts.push(attempt);
+    }
+    costs.retries = tasks.values().map(|count| count - 1).sum();
+    costs
+}
+
+impl Costs {
+    /// Share of the paid processor time that was used, 0 to 1.
+    pub fn utilization(&self) -> f64 {
+        share(self.cpu_s, self.vcpu_s)
+    }
+
+    /// Dollars at a price per vCPU-hour.
+    pub fn dollars(&self, dollars_per_vcpu_hour: f64) -> f64 {
+        self.vcpu_s / HOUR_S * dollars_per_vcpu_hour
+    }
+
+    /// A row of CSV per attempt.
+    pub fn table(&self, job: &Job, dollars_per_vcpu_hour: f64) -> String {
+        let name = |task: u32| {
+            job.plan.tasks.get(task as usize).map_or(String::new(), |t| format!("{}@scene_{}_final", t.part.scene, t.part.camera))
+        };
+        self.attempts
+            .iter()
+            .fold(HEADER.to_string(), |table, attempt| table + &row(attempt, &name(attempt.record.task), dollars_per_vcpu_hour))
+    }
+}
+
+fn row(attempt: &AttemptCost, job_name: &str, dollars_per_vcpu_hour: f64) -> String {
+    let (record, vcpu_s) = (&attempt.record, attempt.vcpu_s());
+    let engine: Vec<String> = record.attempt.engine.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    let ended = record.ended.map_or("open", Ended::word);
+    let memory = record.peak_memory_bytes.map_or(String::new(), |bytes| format!("{:.3}", bytes as f64 / GIB));
+    let mut row = format!(
+        "{job_name},{},{},{},{},{ended},{},",
+        record.task,
+        record.attempt.id,
+        record.attempt.host,
+        engine.join(" "),
+        record.threads
+    );
+    let _ = writeln!(
+        row,
+        "{:.3},{vcpu_s:.3},{:.3},{:.6},{:.3},{vcpu_s:.3},{:.4},{memory},{},{}",
+        record.wall_s,
+        attempt.in_frames_vcpu_s,
+        vcpu_s / HOUR_S * dollars_per_vcpu_hour,
+        record.cpu_s,
+        share(record.cpu_s, vcpu_s),
+        record.committed,
+        record.lost
+    );
+    row
+}
+
+fn share(part: f64, whole: f64) -> f64 {
+    if whole > 0.0 { part / whole } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Attempt, FrameKey};
+
+    fn marker(attempt: &str, task: u32, frame: u32) -> Marker {
+        let key = FrameKey { scene: "room".into(), camera: "cam_00".into(), frame };
+        let (payload, blake3) = (String::new(), String::new());
+        let attempt = attempt.to_string();
+        Marker {
+            key,
+            payload,
+            bytes: 0,
+            blake3,
+            attempt,
+            task,
+            broken: Vec::new(),
+            wall_s: 10.0,
+            cpu_s: 18.0,
+            peak_memory_bytes: None,
+            threads: Some(2),
+        }
+    }
+
+    fn record(id: &str, task: u32, wall_s: f64, ended: Option<Ended>, lost: u32) -> AttemptRecord {
+        let attempt = Attempt { id: id.into(), host: "n1".into(), engine: BTreeMap::from([("SLURM_JOB_ID".to_string(), "7".to_string())]) };
+        let (committed, different, error) = (0, 0, None);
+        let peak_memory_bytes = Some(1 << 30);
+        AttemptRecord {
+            attempt,
+            task,
+            wall_s,
+            cpu_s: 1.5 * wall_s,
+            threads: 2,
+            peak_memory_bytes,
+            committed,
+            lost,
+            different,
+            ended,
+            error,
+        }
+    }
+
+    #[test]
+    fn what_came_to_nothing_is_told_from_what_did() {
+        let markers = [marker("a", 0, 0), marker("c", 1, 1), marker("d", 1, 2)];
+        let records = vec![
+            record("a", 0, 12.0, Some(Ended::Done), 0),
+            record("b", 0, 5.0, Some(Ended::Done), 1),
+            record("c", 1, 0.0, None, 0),
+            record("d", 1, 14.0, Some(Ended::Transient), 0),
+        ];
+        let costs = sum(&markers, records);
+        // The killed attempt counts as its frame, 20 vCPU-seconds.
+        assert_eq!((costs.vcpu_s, costs.in_frames_vcpu_s), (24.0 + 10.0 + 20.0 + 28.0, 60.0));
+        // All of b, nothing of c that is known, and what d had beyond its frame.
+        assert_eq!((costs.wasted_vcpu_s, costs.retries), (10.0 + 8.0, 2));
+        assert_eq!((costs.frames_cpu_s, costs.peak_memory_bytes), (54.0, Some(1 << 30)));
+        assert!((costs.dollars(3600.0) - 82.0).abs() < 1e-9 && (costs.utilization() - 46.5 / 82.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn rows_have_the_columns_of_the_header() {
+        let costs = sum(&[marker("a", 0, 0)], vec![record("a", 0, 12.0, Some(Ended::Done), 0)]);
+        let row = row(&costs.attempts[0], "room@scene_cam_00_final", 0.036);
+        assert_eq!(row.split(',').count(), HEADER.split(',').count());
+        assert_eq!(
+            row,
+            "room@scene_cam_00_final,0,a,n1,SLURM_JOB_ID=7,done,2,12.000,24.000,20.000,0.000240,18.000,24.000,0.7500,1.000,0,0\n"
+        );
+    }
+}

@@ -1,0 +1,91 @@
+//! `cargo xtask cluster`: a job of a farm on a real Slurm cluster, an S3 server and other engines' files, with faults.
+//!
+//! From a bare Debian machine: what is missing of Slurm is installed (as root), Python packages go below the target folder. The tests
+//! are Python programs in `xtask/python`, because moto, `openjd` and botocore are Python packages; `xtask/cluster` holds the scenes.
+
+use crate::house::House;
+use crate::python;
+use crate::step::finish;
+use std::path::PathBuf;
+
+/// Programs that are needed, and Debian's packages that have them.
+const PROGRAMS: [(&str, &str); 5] =
+    [("slurmctld", "slurmctld"), ("slurmd", "slurmd"), ("sbatch", "slurm-client"), ("munged", "munge"), ("faketime", "faketime")];
+
+/// What is installed from the Python package index: an S3 server, and what judges the files for engines.
+const PACKAGES: [&str; 4] = ["moto[server]==5.2.5", "openjd-cli==0.8.0", "kubernetes-validate==1.37.0", "boto3"];
+
+/// Runs the tests whose names begin with one of `words`, or all; `--program PATH` takes that binary instead of building one.
+///
+/// # Errors
+/// When something cannot be installed or built, or a test fails.
+pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
+    let (program, names) = match words {
+        ["--program", path, names @ ..] => (Some(PathBuf::from(path)), names),
+        ["--program"] => return Err("--program names no file".into()),
+        names => (None, names),
+    };
+    if !cfg!(target_os = "linux") {
+        return Err("the cluster needs Linux: Slurm's daemons run nowhere else".into());
+    }
+    install(house)?;
+    let python = python::made(house, "venv-cluster", "import moto.server, flask, openjd.cli, botocore, kubernetes_validate", &PACKAGES)?;
+    let target = house.target()?;
+    let (program, which) = match program {
+        Some(path) => (path, "the one that `--program` named"),
+        None => {
+            finish(house.cargo(&["build", "--release", "--locked", "--package", "enfilade"]))?;
+            (target.join("release/enfilade"), "the release binary")
+        }
+    };
+    let mut command = house.command("python3", &["xtask/python/cluster.py", "--config", "xtask/cluster/dataset.toml"]);
+    command.arg("--program").arg(program).arg("--python").arg(python).arg("--work").arg(target.join("cluster"));
+    command.args(["--docs", "docs/benchmarks", "--program-is", which]).args(names);
+    finish(command).map(|_| ())
+}
+
+/// Installs what is missing, where that may be done.
+fn install(house: &House) -> Result<(), String> {
+    let missing: Vec<&str> = PROGRAMS.iter().filter(|(program, _)| !installed(program)).map(|&(_, package)| package).collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let line = format!("apt-get install --no-install-recommends {}", missing.join(" "));
+    let root = house.command("id", &["-u"]).output().is_ok_and(|output| output.stdout.trim_ascii() == b"0");
+    if !root || !installed("apt-get") {
+        return Err(format!("{} is missing; on Debian, as root: {line}", missing.join(", ")));
+    }
+    finish(house.command("apt-get", &["update", "--quiet"]))?;
+    let mut install = house.command("apt-get", &["install", "--yes", "--quiet", "--no-install-recommends"]);
+    // Nothing is asked: the tests bring a configuration of their own, and start the daemons themselves.
+    install.args(&missing).env("DEBIAN_FRONTEND", "noninteractive");
+    finish(install).map(|_| ())
+}
+
+/// True when a program is found, also among those for administrators.
+fn installed(program: &str) -> bool {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    std::env::split_paths(&path).chain(["/usr/sbin", "/sbin"].map(PathBuf::from)).any(|folder| folder.join(program).is_file())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_line_without_a_file_is_told() {
+        let house = House::find().unwrap();
+        assert_eq!(run(&house, &["--program"]).unwrap_err(), "--program names no file");
+        assert!(installed("sh") && !installed("no-such-program"));
+    }
+
+    #[test]
+    fn what_the_tests_are_made_of_is_there() {
+        let root = House::find().unwrap().root;
+        for file in
+            ["python/cluster.py", "python/slurm.py", "python/faults.py", "python/stores.py", "python/engines.py", "cluster/dataset.toml"]
+        {
+            assert!(root.join("xtask").join(file).is_file(), "{file}");
+        }
+    }
+}
