@@ -13,7 +13,8 @@ pub fn fbx() -> Vec<Seed> {
 fn room() -> Vec<Record> {
     let color = |name, v: [f64; 3]| reals(name, "Color", &v);
     let vector = |name, v: [f64; 3]| reals(name, "Vector3D", &v);
-    let place = vec![vector("Lcl Translation", [10.0, 20.0, 30.0]), vector("Lcl Rotation", [0.0, 0.0, 90.0]), int("RotationOrder", "enum", 2)];
+    let place =
+        vec![vector("Lcl Translation", [10.0, 20.0, 30.0]), vector("Lcl Rotation", [0.0, 0.0, 90.0]), int("RotationOrder", "enum", 2)];
     let shading = record("ShadingModel", vec![Value::Text("phong")], vec![]);
     let wood = vec![color("DiffuseColor", [0.5; 3]), color("SpecularColor", [1.0; 3]), reals("ShininessExponent", "Number", &[20.0])];
     let picture = vec![record("RelativeFilename", vec![Value::Text("texture.png")], vec![])];
@@ -26,13 +27,20 @@ fn room() -> Vec<Record> {
         node(20, "Mesh", place),
         object("Material", 30, "Wood\0\x01Material", "", vec![shading, properties(wood)]),
         object("Texture", 40, "Picture\0\x01Texture", "", picture.clone()),
-        object("Video", 41, "Picture\0\x01Video", "Clip", [picture, vec![record("Content", vec![Value::Bytes(vec![1, 2, 3])], vec![])]].concat()),
+        object(
+            "Video",
+            41,
+            "Picture\0\x01Video",
+            "Clip",
+            [picture, vec![record("Content", vec![Value::Bytes(vec![1, 2, 3])], vec![])]].concat(),
+        ),
         node(50, "Light", vec![]),
         attribute(51, "Light", lamp),
         node(60, "Camera", vec![vector("Lcl Translation", [0.0, 100.0, 300.0])]),
         attribute(61, "Camera", camera),
     ];
-    let links = [(20, 0), (10, 20), (30, 20), (41, 40), (50, 0), (51, 50), (60, 20), (61, 60)].map(|(child, parent)| belongs(child, parent));
+    let links =
+        [(20, 0), (10, 20), (30, 20), (41, 40), (50, 0), (51, 50), (60, 20), (61, 60)].map(|(child, parent)| belongs(child, parent));
     let links = [links.to_vec(), vec![feeds(40, 30, "DiffuseColor")]].concat();
     document(7400, vec![reals("UnitScaleFactor", "double", &[2.54])], objects, links)
 }
