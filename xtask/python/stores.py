@@ -178,7 +178,7 @@ def ignored_conditions(farm, server, folder):
         said = farm.run("farm", "plan", str(farm.config), "-o", f"s3://{BUCKET}/ignored", *DIVISION, code=None, env=server.env(proxy.port))
     if "cannot hold a job" not in said:
         raise FarmError(f"a store without conditional writes was accepted: {said}")
-    return {"seconds": round(time.monotonic() - begun, 1), "refused": said.strip().splitlines()[-1]}
+    return {"seconds": round(time.monotonic() - begun, 1), "refused": said.strip().splitlines()[-1].partition("cannot hold a job: ")[2]}
 
 
 def finish(farm, server, place, env, folder, begun):

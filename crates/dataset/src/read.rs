@@ -70,7 +70,7 @@ impl Dataset {
     /// # Errors
     /// When the file is missing, damaged, or not an image of the layer's channels.
     pub fn read_layer(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> Result<Values, DatasetError> {
-        Ok(self.read_image(scene, camera, frame, layer, None)?.1)
+        Ok(self.read_layer_window(scene, camera, frame, layer, None)?.1)
     }
 
     /// [`Dataset::read_layer`] for a rectangle of the image, of which only the chunks that it touches are decoded. Gives height and width
@@ -86,7 +86,19 @@ impl Dataset {
         layer: Layer,
         window: Option<Window>,
     ) -> Result<([usize; 2], Values), DatasetError> {
-        self.read_image(scene, camera, frame, layer, window)
+        let path = self.layout().layer(scene, camera, frame, layer);
+        let array = window.map_or_else(|| read_array(&path), |window| read_window(&path, window))?;
+        let channels = layer.spec().channels;
+        let size = match (array.shape.as_slice(), channels) {
+            (&[height, width], 1) => [height, width],
+            (&[height, width, found], _) if found == channels => [height, width],
+            (shape, _) => {
+                let problem = format!("expected an image of {channels} channels, found an array of shape {shape:?}");
+                return Err(DatasetError::hdf5(&path, problem));
+            }
+        };
+        let unknown = |other: Elements| DatasetError::hdf5(&path, format!("expected image values, found {}", other.element().name()));
+        Ok((size, array.values.into_values().map_err(unknown)?))
     }
 
     /// The given layers of a frame, as the table of layers describes them: half precision becomes single precision where the table says
@@ -128,12 +140,11 @@ impl Dataset {
         window: Option<Window>,
         projection: &dyn Fn() -> Result<Projection, DatasetError>,
     ) -> Result<([usize; 2], Values), DatasetError> {
-        let path = self.layer_source(scene, camera, frame, layer);
-        let computed = layer == Layer::DepthZMeters && !self.has_layer(scene, camera, frame, layer);
-        let stored = if computed { Layer::DepthMeters } else { layer };
-        let (size, values) = self.read_image(scene, camera, frame, stored, window)?;
-        let mut values = as_specified(values, stored).map_err(|problem| DatasetError::hdf5(&path, problem))?;
-        if computed {
+        let stored = self.stored_layer(scene, camera, frame, layer);
+        let (size, values) = self.read_layer_window(scene, camera, frame, stored, window)?;
+        let wrong = |problem| DatasetError::hdf5(&self.layout().layer(scene, camera, frame, stored), problem);
+        let mut values = as_specified(values, stored).map_err(wrong)?;
+        if stored != layer {
             let [height, width] = size;
             let part = window.unwrap_or(Window { top: 0, left: 0, height, width });
             values = self.planar(scene, camera, &projection()?, part, window.is_none(), &values)?;
@@ -169,30 +180,6 @@ impl Dataset {
     /// True when the frame has a file for `layer`.
     pub fn has_layer(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> bool {
         self.layout().layer(scene, camera, frame, layer).is_file()
-    }
-
-    /// Height and width, and the values of a layer as it is stored, in a window or whole.
-    fn read_image(
-        &self,
-        scene: &str,
-        camera: &str,
-        frame: u32,
-        layer: Layer,
-        window: Option<Window>,
-    ) -> Result<([usize; 2], Values), DatasetError> {
-        let path = self.layout().layer(scene, camera, frame, layer);
-        let array = window.map_or_else(|| read_array(&path), |window| read_window(&path, window))?;
-        let channels = layer.spec().channels;
-        let size = match (array.shape.as_slice(), channels) {
-            (&[height, width], 1) => [height, width],
-            (&[height, width, found], _) if found == channels => [height, width],
-            (shape, _) => {
-                let problem = format!("expected an image of {channels} channels, found an array of shape {shape:?}");
-                return Err(DatasetError::hdf5(&path, problem));
-            }
-        };
-        let unknown = |other: Elements| DatasetError::hdf5(&path, format!("expected image values, found {}", other.element().name()));
-        Ok((size, array.values.into_values().map_err(unknown)?))
     }
 
     /// The numbers of frames that have any layer, ascending.

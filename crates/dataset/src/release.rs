@@ -44,8 +44,13 @@ impl Dataset {
 
     /// The file that a layer is read from: its own, or that of the distances that planar depth is computed from.
     pub fn layer_source(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> PathBuf {
-        let stored = layer != Layer::DepthZMeters || self.has_layer(scene, camera, frame, layer);
-        self.layout().layer(scene, camera, frame, if stored { layer } else { Layer::DepthMeters })
+        self.layout().layer(scene, camera, frame, self.stored_layer(scene, camera, frame, layer))
+    }
+
+    /// The layer whose file that is: another one than `layer` where planar depth is computed.
+    pub fn stored_layer(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> Layer {
+        let computed = layer == Layer::DepthZMeters && !self.has_layer(scene, camera, frame, layer);
+        if computed { Layer::DepthMeters } else { layer }
     }
 
     /// Positions in metres, in place.

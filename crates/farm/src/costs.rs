@@ -105,7 +105,12 @@ impl Costs {
 
     /// Dollars at a price per vCPU-hour.
     pub fn dollars(&self, dollars_per_vcpu_hour: f64) -> f64 {
-        self.vcpu_s / HOUR_S * dollars_per_vcpu_hour
+        self.vcpu_hours() * dollars_per_vcpu_hour
+    }
+
+    /// What is paid: vCPU-hours of all attempts.
+    pub fn vcpu_hours(&self) -> f64 {
+        self.vcpu_s / HOUR_S
     }
 
     /// A row of CSV per attempt.

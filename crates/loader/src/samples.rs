@@ -4,6 +4,7 @@ use crate::error::LoaderError;
 use crate::options::{Choice, Crop, CropPlace, Options};
 use crate::resize::{averaged, nearest};
 use crate::sample::{Image, Matrix3, Matrix4, Sample, Values, is_averaged, mask_out};
+use crate::stream::below;
 use crate::tone::{displayed, fit};
 use enfilade_dataset::{Dataset, DatasetError, OpencvCalibration, Partition, ToneMapRow, Window, image_shape};
 use enfilade_frame::{LAYERS, Layer};
@@ -161,10 +162,7 @@ impl Samples {
 
     /// Adds a camera with those of its frames that have all layers.
     fn add(&mut self, scene: &str, name: String, numbers: &[u32], layers: &[Layer]) {
-        let has = |frame, layer| {
-            let computed = layer == Layer::DepthZMeters && self.dataset.has_layer(scene, &name, frame, Layer::DepthMeters);
-            computed || self.dataset.has_layer(scene, &name, frame, layer)
-        };
+        let has = |frame, layer| self.dataset.layer_source(scene, &name, frame, layer).is_file();
         let whole = numbers.iter().filter(|&&frame| layers.iter().all(|&layer| has(frame, layer)));
         let camera = self.cameras.len();
         self.frames.extend(whole.map(|&number| Frame { camera, number, exposure: OnceLock::new() }));
@@ -203,8 +201,8 @@ impl Samples {
     fn image(&self, index: usize, layer: Layer, part: Option<Window>) -> Result<Image, LoaderError> {
         let Place { scene, camera, frame } = self.place(index);
         let projection = || Ok(self.camera_calibration(index)?.0.clone());
-        let computed = layer == Layer::DepthZMeters && !self.dataset.has_layer(scene, camera, frame, layer);
-        let ([height, width], values) = if self.options.stored && !computed {
+        let as_stored = self.options.stored && self.dataset.stored_layer(scene, camera, frame, layer) == layer;
+        let ([height, width], values) = if as_stored {
             self.dataset.read_layer_window(scene, camera, frame, layer, part)?
         } else {
             self.dataset.read_specified(scene, camera, frame, layer, part, &projection)?
@@ -227,7 +225,7 @@ impl Samples {
         let [height, width] = crop.size;
         let random = |purpose: u64, free: usize| {
             let mixed = [epoch, index as u64, purpose].iter().fold(hash_u64(self.options.seed), |hash, &v| hash_u64(hash ^ v));
-            ((u128::from(mixed) * (free as u128 + 1)) >> 64) as usize
+            below(mixed, free + 1)
         };
         let free = [rows.saturating_sub(height), columns.saturating_sub(width)];
         let [top, left] = match crop.place {

@@ -15,10 +15,14 @@ pub fn shuffled(count: usize, seed: u64, epoch: u64) -> Vec<usize> {
     let mut order: Vec<usize> = (0..count).collect();
     for last in (1..count).rev() {
         let random = hash_u64(key ^ hash_u64(last as u64));
-        let other = ((u128::from(random) * (last as u128 + 1)) >> 64) as usize;
-        order.swap(last, other);
+        order.swap(last, below(random, last + 1));
     }
     order
+}
+
+/// A number below `count` from 64 random bits, as [`Rng::below`](enfilade_math::Rng::below) makes it from its own.
+pub(crate) fn below(random: u64, count: usize) -> usize {
+    ((u128::from(random) * count as u128) >> 64) as usize
 }
 
 /// Gives samples in order while its threads decode those that follow.

@@ -3,7 +3,7 @@
 use crate::arguments::{Names, Place, layers, split};
 use crate::arrays;
 use crate::errors::IntoPy;
-use crate::loader::Loader;
+use crate::loader::{Loader, cores};
 use enfilade_loader::{Choice, Crop, LoaderError, Options, Sample, Samples};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -224,8 +224,7 @@ impl Dataset {
 
 /// The samples in the order of their indices, decoded by as many threads as there are cores; these end before it returns.
 fn decode_all(samples: &Samples, indices: &[usize], epoch: u64) -> Result<Vec<Sample>, LoaderError> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let share = indices.len().div_ceil(cores).max(1);
+    let share = indices.len().div_ceil(cores()).max(1);
     std::thread::scope(|scope| {
         let decode = |part: &[usize]| part.iter().map(|&index| samples.sample(index, epoch)).collect::<Result<Vec<_>, _>>();
         let threads: Vec<_> = indices.chunks(share).map(|part| scope.spawn(move || decode(part))).collect();

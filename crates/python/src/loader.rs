@@ -9,6 +9,11 @@ use pyo3::types::PyDict;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// Threads that can run at once.
+pub fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
 /// Passes over a dataset, one for every `for`, whose samples threads decode ahead; made by `Dataset.loader`.
 ///
 /// A pass is an epoch: it decides the order and where random crops lie. Samples and their order do not depend on the number of threads.
@@ -37,7 +42,7 @@ impl Loader {
         if batch_size == Some(0) || threads == Some(0) || prefetch == Some(0) {
             return Err(PyValueError::new_err("batch_size, threads and prefetch must be at least 1, or None"));
         }
-        let threads = threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
+        let threads = threads.unwrap_or_else(cores);
         let prefetch = prefetch.unwrap_or_else(|| (2 * threads).max(2 * batch_size.unwrap_or(1)));
         Ok(Self { samples, epoch: AtomicU64::new(epoch), batch_size, shuffle, threads, prefetch, drop_last })
     }

@@ -1,19 +1,16 @@
 //! What a job has cost, for `farm status` and `farm collect`.
 
 use crate::outcome::{Problem, say};
-use crate::price::{dollars, prices};
+use crate::price::dollars;
 use enfilade_farm::{Costs, Job, costs};
+use enfilade_post::stats::Price;
 use std::path::Path;
 
-const HOUR_S: f64 = 3600.0;
-
 /// Says what was paid at every price, and for what; writes a row per attempt to `table` at the first price.
-pub fn say_costs(job: &Job, price: Option<&str>, table: Option<&Path>) -> Result<(), Problem> {
-    let prices = prices(price)?;
+pub fn say_costs(job: &Job, prices: &[Price], table: Option<&Path>) -> Result<(), Problem> {
     let costs = costs(job)?;
     lines(&costs).iter().for_each(|line| say(line));
-    let hours = costs.vcpu_s / HOUR_S;
-    for price in &prices {
+    for price in prices {
         say(&format!(
             "  {} dollars at {} per vCPU-hour ({})",
             dollars(costs.dollars(price.dollars_per_vcpu_hour)),
@@ -25,7 +22,7 @@ pub fn say_costs(job: &Job, price: Option<&str>, table: Option<&Path>) -> Result
     let dollars_per_vcpu_hour = prices.first().map_or(0.0, |price| price.dollars_per_vcpu_hour);
     std::fs::write(path, costs.table(job, dollars_per_vcpu_hour))
         .map_err(|error| Problem::new(format!("cannot write {}: {error}", path.display()), "name another file with --attempts"))?;
-    say(&format!("{hours:.4} vCPU-hours by attempt: {}", path.display()));
+    say(&format!("{:.4} vCPU-hours by attempt: {}", costs.vcpu_hours(), path.display()));
     Ok(())
 }
 
@@ -33,7 +30,7 @@ fn lines(costs: &Costs) -> Vec<String> {
     let share = |part: f64| if costs.vcpu_s > 0.0 { 100.0 * part / costs.vcpu_s } else { 0.0 };
     let mut lines = vec![format!(
         "{:.4} vCPU-hours paid, of which {:.1} % were used; {:.1} % went into frames that count, {:.1} % into attempts that failed or came second",
-        costs.vcpu_s / HOUR_S,
+        costs.vcpu_hours(),
         100.0 * costs.utilization(),
         share(costs.in_frames_vcpu_s),
         share(costs.wasted_vcpu_s)

@@ -5,6 +5,7 @@ mod submit;
 
 use crate::args::{FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmVerb, FarmWorkArgs};
 use crate::outcome::{Problem, Verdict, say};
+use crate::price::prices;
 use crate::progress::Progress;
 use crate::summary;
 use crate::verbs::configuration;
@@ -136,13 +137,13 @@ fn status(args: &FarmStatusArgs) -> Result<Verdict, Problem> {
         status.errors.iter().for_each(|(task, error)| say(&format!("task {task}: {error}")));
     }
     if args.price.is_some() || args.attempts.is_some() {
-        costs::say_costs(&job, args.price.as_deref(), args.attempts.as_deref())?;
+        costs::say_costs(&job, &prices(args.price.as_deref())?, args.attempts.as_deref())?;
     }
     Ok(Verdict::of(status.is_complete()))
 }
 
 fn collect(args: &FarmCollectArgs, quiet: bool) -> Result<Verdict, Problem> {
-    crate::price::prices(args.price.as_deref())?;
+    let prices = prices(args.price.as_deref())?;
     let job = open(&args.job)?;
     let out: &PathBuf = &args.output;
     let result = {
@@ -151,7 +152,7 @@ fn collect(args: &FarmCollectArgs, quiet: bool) -> Result<Verdict, Problem> {
     };
     summary::print_table(&result);
     summary::print_where_to_look(out, &result)?;
-    costs::say_costs(&job, args.price.as_deref(), None)?;
+    costs::say_costs(&job, &prices, None)?;
     Ok(Verdict::of(result.ok()))
 }
 

@@ -136,7 +136,8 @@ fn dataset_header(source: &mut Source) -> Option<u64> {
     let superblock = source.bytes(0, 96)?;
     // Superblock 0 with addresses and lengths of 8 bytes from the file's beginning, and the root group's table in the scratch pad.
     let known = superblock.starts_with(b"\x89HDF\r\n\x1a\n\x00") && superblock[13..15] == [8, 8] && u64_at(&superblock, 24)? == 0;
-    if !known || u32_at(&superblock, 72)? != 1 {
+    let cut_short = u64_at(&superblock, 40)? > source.length;
+    if !known || cut_short || u32_at(&superblock, 72)? != 1 {
         return None;
     }
     let (tree, heap) = (u64_at(&superblock, 80)?, u64_at(&superblock, 88)?);

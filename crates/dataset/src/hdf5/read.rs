@@ -13,10 +13,10 @@ use std::path::Path;
 /// # Errors
 /// When the file is missing or damaged, or holds anything but one dataset named `dataset` of a known element type.
 pub fn read_array(path: &Path) -> Result<Array, DatasetError> {
-    let length = check_length(path)?;
     if let Some(image) = read_image(path) {
         return Ok(image);
     }
+    let length = check_length(path)?;
     // The library takes some of what stands in a file for granted, and panics where it is not so.
     let gave_up = |_| Err(DatasetError::hdf5(path, format!("the HDF5 library gave up on it: {DAMAGED}")));
     catch_unwind(|| read_dataset(path, length)).unwrap_or_else(gave_up)
