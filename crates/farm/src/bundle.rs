@@ -19,8 +19,11 @@ pub(crate) fn pack(folder: &Path, files: &[PathBuf]) -> Result<Vec<u8>, FarmErro
     archive.into_inner().map_err(|source| FarmError::io("pack", folder, source))
 }
 
-/// Unpacks into `folder`, each file aside first, in the order of the archive. Files of the same content are left as they are.
-pub(crate) fn unpack(bytes: &[u8], folder: &Path, place: &str) -> Result<(), FarmError> {
+/// Unpacks the files of a frame into `folder`, each aside first, in the order of the archive; `place` names the archive in errors.
+///
+/// # Errors
+/// When it is no archive of files within the folder, or they cannot be written.
+pub fn unpack(bytes: &[u8], folder: &Path, place: &str) -> Result<(), FarmError> {
     let damaged = |problem: String| FarmError::Damaged { place: place.into(), problem };
     let mut archive = tar::Archive::new(bytes);
     for entry in archive.entries().map_err(|error| damaged(error.to_string()))? {

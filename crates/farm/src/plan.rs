@@ -101,7 +101,7 @@ impl Job {
     pub fn open(store: Store) -> Result<Self, FarmError> {
         let missing = || FarmError::Request(format!("{} holds no job; plan one: enfilade farm plan dataset.toml -o {0}", store.url()));
         let bytes = store.get(PLAN)?.ok_or_else(missing)?;
-        let plan: Plan = serde_json::from_slice(&bytes).map_err(|error| FarmError::Damaged {
+        let plan = Plan::from_json(&bytes).map_err(|error| FarmError::Damaged {
             place: format!("{}/{PLAN}", store.url()),
             problem: format!("{error}; plan the job anew in another place"),
         })?;

@@ -5,6 +5,8 @@ mod annotations;
 #[cfg(feature = "dataset")]
 mod datasets;
 #[cfg(feature = "program")]
+mod farm;
+#[cfg(feature = "program")]
 mod homes;
 mod octree;
 #[cfg(feature = "program")]
@@ -54,6 +56,8 @@ pub const TARGETS: &[Target] = &[
     own("library", "furniture catalogues of Sweet Home 3D, and assets.toml", 8 << 10, homes::library, seeds::catalogues),
     #[cfg(feature = "program")]
     own("partial", "frames in the making, their checksum set right", 4 << 10, partial::partial, partial::seeds),
+    #[cfg(feature = "program")]
+    own("farm", "plans, markers and records of a farm, and the archives of its frames", 8 << 10, farm::job, farm::seeds),
     #[cfg(feature = "program")]
     own("annotations", "the logs of annotating", 8 << 10, annotations::log, annotations::logs),
     #[cfg(feature = "program")]
