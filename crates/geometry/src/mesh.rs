@@ -23,7 +23,7 @@ pub enum MeshError {
     #[error("the mesh has no triangles; remove it or export it with faces")]
     Empty,
     /// An index beyond the vertices.
-    #[error("triangle {triangle} refers to vertex {index}, but there are {vertices} vertices (0 to {last})", last = vertices - 1)]
+    #[error("triangle {triangle} refers to vertex {index}, but there are {vertices} vertices, counted from 0")]
     IndexOutOfRange {
         /// Which triangle.
         triangle: usize,

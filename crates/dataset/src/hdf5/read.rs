@@ -36,10 +36,14 @@ fn read_dataset(path: &Path, length: u64) -> Result<Array, DatasetError> {
         DatasetError::hdf5(path, problem)
     })?;
     let shape = dataset.shape();
-    let expected = shape.iter().try_fold(element.size(), |n, &axis| n.checked_mul(axis));
-    let impossible = || DatasetError::hdf5(path, format!("{length} bytes cannot hold shape {shape:?} of {}: {DAMAGED}", element.name()));
+    let bytes_of = |shape: &[usize]| shape.iter().try_fold(element.size(), |n, &axis| n.checked_mul(axis));
     // A damaged shape must not ask for more memory than there is: deflate shrinks by a factor of 1032 at most.
-    let expected = expected.filter(|&n| n as u64 <= length.saturating_mul(1032)).ok_or_else(impossible)?;
+    let fits = |&n: &usize| n as u64 <= length.saturating_mul(1032);
+    let impossible = || DatasetError::hdf5(path, format!("{length} bytes cannot hold shape {shape:?} of {}: {DAMAGED}", element.name()));
+    let expected = bytes_of(&shape).filter(fits).ok_or_else(impossible)?;
+    if let Some(chunk) = dataset.chunk_dims().filter(|chunk| bytes_of(chunk).filter(fits).is_none()) {
+        return Err(DatasetError::hdf5(path, format!("{length} bytes cannot hold chunks of {chunk:?}: {DAMAGED}")));
+    }
     let bytes = if expected == 0 { Vec::new() } else { dataset.read_raw_bytes().map_err(|error| read_error(path, &error))? };
     if expected != bytes.len() {
         return Err(impossible());
