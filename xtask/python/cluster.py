@@ -19,6 +19,7 @@ import faults
 import slurm
 from engines import ENGINES
 from farm import Farm
+from schedulers import SCHEDULERS
 from stores import STORES, Server
 
 KEYS = ["frames", "markers", "attempts", "restarts", "lost", "payloads", "seconds"]
@@ -28,6 +29,9 @@ def parse():
     parser = argparse.ArgumentParser(prog="cargo xtask cluster", description=__doc__.split("\n")[0])
     parser.add_argument("names", nargs="*", help="only tests whose names begin so; the table then goes below the target folder")
     parser.add_argument("--program-is", default="the release binary", help=argparse.SUPPRESS)
+    parser.add_argument("--condor", type=Path, help=argparse.SUPPRESS)
+    parser.add_argument("--before", default=0, type=int, help=argparse.SUPPRESS)
+    parser.add_argument("--there", default="", help=argparse.SUPPRESS)
     for name in ["program", "config", "python", "work", "docs"]:
         parser.add_argument(f"--{name}", required=True, type=Path, help=argparse.SUPPRESS)
     return parser.parse_args()
@@ -40,7 +44,7 @@ def tests(farm, args, folder):
     with Server(str(args.python), folder / "moto.log") as server:
         for name, done, run in STORES:
             yield "store", name, done, lambda place, run=run: run(farm, server, made(place))
-    for name, done, run in ENGINES:
+    for name, done, run in [*ENGINES, *SCHEDULERS]:
         yield "engine", name, done, lambda place, run=run: run(farm, str(args.python), made(place))
 
 
@@ -62,6 +66,7 @@ def main():
     # A short path: the names of sockets have 107 bytes at most.
     folder = Path(tempfile.mkdtemp(prefix="enfilade-"))
     farm = Farm(str(args.program.resolve()), args.config.resolve(), folder)
+    farm.condor = args.condor
     rows, ok = [], True
     try:
         alone_s = farm.prepare()
@@ -79,6 +84,7 @@ def main():
         if ok:
             shutil.rmtree(folder, ignore_errors=True)
     facts = {"program": args.program_is, "slurm": slurm.version(), "python": platform.python_version(), "cores": os.cpu_count(), "load": load, "alone_s": round(alone_s, 1), "files": len(farm.reference)}
+    facts["before"], facts["there"] = args.before, args.there
     facts["seconds"] = round(time.monotonic() - begun)
     docs = args.docs if not args.names else args.work
     write(docs, facts, rows)
@@ -109,13 +115,14 @@ def page(facts, rows):
     text = [
         "# A farm and its faults",
         "",
-        "Made by `cargo xtask cluster`: a Slurm controller and three nodes of one processor each, moto's S3 server, and the files for other",
-        "engines, all as ordinary processes of one machine; no systemd, nothing of the machine is changed but that packages are installed.",
+        "Made by `cargo xtask cluster`: a Slurm controller and three nodes of one processor each, moto's S3 server, and the files and examples",
+        "for other engines, all as ordinary processes of one machine; no systemd, nothing of the machine is changed but that packages are installed.",
         f"The program is {facts['program']}. Every test has a fresh store and, with Slurm, a fresh cluster. Faults come from outside: from the",
         "script that stands for the program on the nodes, from signals, from file systems without space, from a proxy before the store, from",
         "a clock that is set wrong (libfaketime).",
         "",
-        f"{facts['slurm']}, {facts['cores']} processors, on which other programs made a load of {facts['load']:g} at the beginning; {facts['seconds']} s in all.",
+        f"{facts['slurm']}, {facts['cores']} processors, on which other programs made a load of {facts['load']:g} at the beginning.",
+        f"The whole command took {facts['seconds'] + facts['before']} s: {facts['before']} s to install and to build, {facts['seconds']} s for the tests.{there(facts)}",
         f"One machine alone makes the dataset in {facts['alone_s']} s.",
         f"After each test every frame has exactly one marker, and all {facts['files']} files of the collected dataset have the bytes of the",
         "one that a single machine makes. Exempt are `.enfilade/` and `manifest_times.csv`, which hold the times that were measured.",
@@ -132,6 +139,10 @@ def page(facts, rows):
         *table("engine", rows),
     ]
     return "\n".join(text) + "\n"
+
+
+def there(facts):
+    return f" There already: {facts['there']}." if facts["there"] else ""
 
 
 HEADS = {"Slurm": "fault", "store": "store", "engine": "engine"}

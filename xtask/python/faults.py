@@ -17,8 +17,8 @@ from slurm import Cluster, signal_to
 
 # A job of this size takes seconds on an idle machine; this is for busy ones.
 PATIENCE = 420
-# Dollars per vCPU-hour: what half of Hypersim's rendering was paid at or below.
-PRICE = 0.0165
+# Machines at the dollars per vCPU-hour that half of Hypersim's rendering was paid at or below.
+PRICE = Path(__file__).resolve().parents[1] / "cluster" / "machines.csv"
 
 
 @dataclass

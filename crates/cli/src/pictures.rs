@@ -8,6 +8,7 @@ use enfilade_dataset::Dataset;
 use enfilade_pipeline::Stage;
 use enfilade_post::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet, write_overview};
 use enfilade_post::sheet::SheetConfig;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// `preview`: pictures of every layer.
@@ -22,7 +23,7 @@ pub fn preview(args: &PreviewArgs, quiet: bool) -> Result<Verdict, Problem> {
         for camera in dataset.cameras(scene)? {
             let frames = dataset.frame_numbers(scene, &camera)?;
             let (exposures, _) = expose_camera(&dataset, scene, &camera, &frames)?;
-            pictures += preview_camera(&dataset, [scene, &camera], &frames, &exposures, &cx)?.len();
+            pictures += preview_camera(&dataset, [scene, &camera], &frames, &exposures, &BTreeSet::new(), &cx)?.len();
             pictures += preview_boxes(&dataset, scene, &camera, &frames, &cx)?.len();
             let sheet = write_contact_sheet(&dataset, [scene, &camera], &frames, exposures.display, &SheetConfig::default())?;
             pictures += usize::from(sheet.is_some());

@@ -1,27 +1,52 @@
-//! Prices of processor time, and sums of money.
+//! Prices of processor time and of machines, and sums of money.
 
 use crate::outcome::Problem;
-use enfilade_post::stats::Price;
+use enfilade_post::stats::{Machine, Price};
 use std::path::Path;
 
+/// The first line of a table that also tells the sizes of machines.
+const SIZED: [&str; 4] = ["name", "dollars_per_vcpu_hour", "vcpus", "memory_gib"];
+const HELP: &str = "give dollars per vCPU-hour, as in --price 0.04, or a table of lines like: on demand,0.048; with sizes of machines its first \
+                    line is name,dollars_per_vcpu_hour,vcpus,memory_gib";
+
 /// Prices from a number, or from a table of them.
+///
+/// A line of the table is `name,dollars_per_vcpu_hour`, with or without a first line that says so. Under the first line
+/// `name,dollars_per_vcpu_hour,vcpus,memory_gib` each line is a machine: how many threads and gibibytes it has.
 pub fn prices(given: Option<&str>) -> Result<Vec<Price>, Problem> {
     let Some(given) = given else { return Ok(vec![Price::default()]) };
     if let Ok(dollars_per_vcpu_hour) = given.trim().parse::<f64>() {
-        return Ok(vec![checked(Price { name: "given".into(), dollars_per_vcpu_hour })?]);
+        return Ok(vec![checked(Price { name: "given".into(), dollars_per_vcpu_hour, machine: None })?]);
     }
-    let help = "give dollars per vCPU-hour, as in --price 0.04, or a table of lines like: on demand,0.048";
     let text = std::fs::read_to_string(Path::new(given))
-        .map_err(|e| Problem::new(format!("the price {given:?} is no number, and no table: {e}"), help))?;
-    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty() && !line.starts_with("name,"));
+        .map_err(|e| Problem::new(format!("the price {given:?} is no number, and no table: {e}"), HELP))?;
+    let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).peekable();
+    let header = lines.next_if(|(_, line)| line.starts_with("name,"));
+    let header: Vec<&str> = header.map_or(Vec::new(), |(_, line)| line.split(',').map(str::trim).collect());
+    if header.len() > 2 && header != SIZED {
+        let problem = format!("{given}, line 1: the columns are {}; expected {}", header.join(","), SIZED.join(","));
+        return Err(Problem::new(problem, HELP));
+    }
     let price = |(i, line): (usize, &str)| {
-        let parsed = line.rsplit_once(',').and_then(|(name, dollars)| Some((name.trim(), dollars.trim().parse().ok()?)));
-        let (name, dollars_per_vcpu_hour) =
-            parsed.ok_or_else(|| Problem::new(format!("{given}, line {}: {line:?} is no price", i + 1), help))?;
-        checked(Price { name: name.into(), dollars_per_vcpu_hour })
+        let parsed = if header.len() > 2 { sized(line) } else { plain(line) };
+        let wrong = if header.len() > 2 { "is no machine with its price, vCPUs and memory" } else { "is no price" };
+        checked(parsed.ok_or_else(|| Problem::new(format!("{given}, line {}: {line:?} {wrong}", i + 1), HELP))?)
     };
     let prices: Vec<Price> = lines.map(price).collect::<Result<_, _>>()?;
-    if prices.is_empty() { Err(Problem::new(format!("{given} has no prices"), help)) } else { Ok(prices) }
+    if prices.is_empty() { Err(Problem::new(format!("{given} has no prices"), HELP)) } else { Ok(prices) }
+}
+
+fn plain(line: &str) -> Option<Price> {
+    let (name, dollars) = line.rsplit_once(',')?;
+    Some(Price { name: name.trim().into(), dollars_per_vcpu_hour: dollars.trim().parse().ok()?, machine: None })
+}
+
+fn sized(line: &str) -> Option<Price> {
+    let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+    let [name, dollars, vcpus, memory_gib] = cells[..] else { return None };
+    let machine = Machine { vcpus: vcpus.parse().ok()?, memory_gib: memory_gib.parse().ok()? };
+    let possible = machine.vcpus >= 1 && machine.memory_gib > 0.0 && machine.memory_gib.is_finite();
+    possible.then_some(Price { name: name.into(), dollars_per_vcpu_hour: dollars.parse().ok()?, machine: Some(machine) })
 }
 
 fn checked(price: Price) -> Result<Price, Problem> {
@@ -54,6 +79,25 @@ mod tests {
         assert_eq!(found, [("spot".into(), 0.0165), ("on demand".into(), 0.048)]);
         std::fs::write(&table, "spot;0.0165\n").unwrap();
         assert!(prices(table.to_str()).is_err());
+    }
+
+    #[test]
+    fn a_table_may_tell_the_sizes_of_machines() {
+        let folder = tempfile::tempdir().unwrap();
+        let table = folder.path().join("machines.csv");
+        let read = |text: &str| {
+            std::fs::write(&table, text).unwrap();
+            prices(table.to_str())
+        };
+        let found = read("name,dollars_per_vcpu_hour,vcpus,memory_gib\n\nsmall, 0.05, 2, 7.5\n").unwrap();
+        let machine = Some(Machine { vcpus: 2, memory_gib: 7.5 });
+        assert_eq!(found, [Price { name: "small".into(), dollars_per_vcpu_hour: 0.05, machine }]);
+        // Under other headers, and without one, a line stays what it was: a name, which may have commas, and a price.
+        assert_eq!(read("name,price\nm7, spot,0.05\n").unwrap()[0].name, "m7, spot");
+        for wrong in ["small,0.05,2", "small,0.05,0,8", "small,0.05,2,nan", "small,0.05,2,-8", "small,-1,2,8", "a,b,0.05,2,8"] {
+            assert!(read(&format!("{}\n{wrong}\n", SIZED.join(","))).is_err(), "{wrong}");
+        }
+        assert!(read("name,dollars_per_vcpu_hour,memory_gib\nsmall,0.05,8\n").is_err());
     }
 
     #[test]

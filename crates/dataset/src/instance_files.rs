@@ -3,11 +3,14 @@
 //! A box is in image coordinates: `x_min`, `y_min` are the left and upper border of its first pixel, `x_max`, `y_max` the right and
 //! lower border of its last, so that a box of one pixel is 1 wide. Boxes of whole objects may reach beyond the image.
 
+use crate::atomic::remove_if_there;
 use crate::frames::read_json;
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name, write_bytes};
 use enfilade_scene::NYU40;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::path::PathBuf;
 
 const HEADER: [&str; 17] = [
     "frame_id",
@@ -30,7 +33,7 @@ const HEADER: [&str; 17] = [
 ];
 
 /// A set of pixels: how many, and the box around them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PixelArea {
     /// How many.
     pub pixels: u64,
@@ -58,7 +61,7 @@ impl PixelArea {
 }
 
 /// What a frame shows of an instance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct InstanceView {
     /// Frame number.
     pub frame: u32,
@@ -160,16 +163,24 @@ impl Dataset {
         write_bytes(&self.layout().amodal_masks(scene, camera, frame), serde_json::to_vec(masks).expect("plain data encodes"))
     }
 
-    /// Removes the amodal masks of all frames of a camera, so that none of an older trajectory stays.
+    /// Removes the amodal masks of a camera but for those of the frames `kept`, so that none of an older trajectory stays.
     ///
     /// # Errors
     /// When a file cannot be removed.
-    pub fn remove_amodal_masks(&self, scene: &str, camera: &str) -> Result<(), DatasetError> {
+    pub fn remove_amodal_masks(&self, scene: &str, camera: &str, kept: impl Iterator<Item = u32>) -> Result<(), DatasetError> {
         let folder = self.layout().amodal_masks_dir(scene, camera);
-        match std::fs::remove_dir_all(&folder) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(DatasetError::io("remove", &folder, error)),
-            _ => Ok(()),
+        let kept: BTreeSet<PathBuf> = kept.map(|frame| self.layout().amodal_masks(scene, camera, frame)).collect();
+        let entries = match std::fs::read_dir(&folder) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(()),
+            entries => entries.map_err(DatasetError::at("read", &folder))?,
+        };
+        for entry in entries {
+            let path = entry.map_err(DatasetError::at("read", &folder))?.path();
+            if !kept.contains(&path) {
+                remove_if_there(&path)?;
+            }
         }
+        Ok(())
     }
 
     /// The amodal masks of a frame; `None` when it has none.
@@ -218,8 +229,10 @@ mod tests {
         let masks = AmodalMasks { size: [4, 3], instances: vec![AmodalMask { semantic_instance_id: 2, counts: vec![3, 2, 7] }] };
         dataset.write_amodal_masks("room", "cam_00", 7, &masks).unwrap();
         assert_eq!(dataset.read_amodal_masks("room", "cam_00", 7).unwrap(), Some(masks));
-        dataset.remove_amodal_masks("room", "cam_00").unwrap();
-        dataset.remove_amodal_masks("room", "cam_00").unwrap();
+        dataset.write_amodal_masks("room", "cam_00", 8, &AmodalMasks::default()).unwrap();
+        dataset.remove_amodal_masks("room", "cam_00", [8].into_iter()).unwrap();
+        dataset.remove_amodal_masks("room", "cam_01", [8].into_iter()).unwrap();
+        assert!(dataset.read_amodal_masks("room", "cam_00", 8).unwrap().is_some());
         assert_eq!(dataset.read_amodal_masks("room", "cam_00", 7).unwrap(), None);
     }
 }

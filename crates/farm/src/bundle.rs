@@ -1,6 +1,7 @@
 //! The files of a frame in one object: a tar archive, which depends on nothing but their names and contents.
 
 use crate::FarmError;
+use enfilade_dataset::write_bytes;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
@@ -34,22 +35,9 @@ pub fn unpack(bytes: &[u8], folder: &Path, place: &str) -> Result<(), FarmError>
         }
         let mut content = Vec::new();
         entry.read_to_end(&mut content).map_err(|error| damaged(error.to_string()))?;
-        write(&folder.join(path), &content)?;
+        write_bytes(&folder.join(path), &content)?;
     }
     Ok(())
-}
-
-/// Writes a file whole or not at all.
-pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), FarmError> {
-    let io = |source| FarmError::io("write", path, source);
-    if let Some(parent) = path.parent() {
-        std::fs::create_dir_all(parent).map_err(io)?;
-    }
-    let aside = path.with_added_extension(format!("{}.part", std::process::id()));
-    std::fs::write(&aside, content).and_then(|()| std::fs::rename(&aside, path)).map_err(|source| {
-        let _ = std::fs::remove_file(&aside); // best effort: the first error is the one to tell
-        FarmError::io("write", path, source)
-    })
 }
 
 #[cfg(test)]
@@ -61,7 +49,7 @@ mod tests {
         let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
         let files = [PathBuf::from("a/one.txt"), PathBuf::from("b")];
         let archives = folders.each_ref().map(|folder| {
-            files.iter().for_each(|file| write(&folder.path().join(file), file.to_string_lossy().as_bytes()).unwrap());
+            files.iter().for_each(|file| write_bytes(&folder.path().join(file), file.to_string_lossy().as_bytes()).unwrap());
             pack(folder.path(), &files).unwrap()
         });
         assert_eq!(archives[0], archives[1]);

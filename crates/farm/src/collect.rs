@@ -1,11 +1,11 @@
 //! From the store to a dataset: what one machine would have made.
 
-use crate::bundle::{unpack, write};
+use crate::bundle::unpack;
 use crate::commit::read_marker;
 use crate::plan::{StoredFile, object_name};
 use crate::work::missing_by_task;
 use crate::{FarmError, FrameKey, Job, Marker, Ranges, print_ranges};
-use enfilade_dataset::{Dataset, FrameTime};
+use enfilade_dataset::{Dataset, FrameTime, write_bytes};
 use enfilade_pipeline::{Reporter, Summary, finish};
 use std::path::Path;
 
@@ -28,7 +28,7 @@ pub fn collect(job: &Job, out: &Path, reporter: &dyn Reporter) -> Result<Summary
         return Err(FarmError::Request(message));
     }
     fetch_files(job, out)?;
-    let dataset = Dataset::create(out).map_err(|error| FarmError::Request(error.to_string()))?;
+    let dataset = Dataset::create(out)?;
     for task in tasks {
         let part = &task.part;
         for &frame in &part.frames {
@@ -36,9 +36,7 @@ pub fn collect(job: &Job, out: &Path, reporter: &dyn Reporter) -> Result<Summary
             let marker = read_marker(&job.store, &key)?.ok_or_else(|| damaged(&key.marker(), "is gone; do its task again"))?;
             if dataset.frame_record(&key.scene, &key.camera, frame).ok().flatten().is_none() {
                 fetch_frame(job, &marker, out)?;
-                dataset
-                    .append_time(&key.scene, &key.camera, frame, time(&marker))
-                    .map_err(|error| FarmError::Request(error.to_string()))?;
+                dataset.append_time(&key.scene, &key.camera, frame, time(&marker))?;
             }
         }
     }
@@ -71,7 +69,7 @@ fn fetch_files(job: &Job, out: &Path) -> Result<(), FarmError> {
         if blake3::hash(&bytes).to_hex().as_str() != file.blake3 {
             return Err(damaged(&name, "does not hold what its name says"));
         }
-        write(&target, &bytes)?;
+        write_bytes(&target, &bytes)?;
     }
     Ok(())
 }

@@ -5,8 +5,10 @@
 
 use crate::commit::{DONE, read_marker_at};
 use crate::status::attempts;
+use crate::feasible::{feasible, machine_of};
 use crate::work::{AttemptRecord, Ended};
-use crate::{FarmError, Job, Marker};
+use crate::{FarmError, Feasible, Job, Marker};
+use enfilade_post::stats::Price;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -16,7 +18,8 @@ const GIB: f64 = 1_073_741_824.0;
 
 /// The columns of [`Costs::table`]: those of Hypersim's tasks where there are any, and what says where an attempt ran.
 const HEADER: &str = "job_name,task_id,attempt,host,engine_ids,ended,vcpu_per_instance,time_instance_seconds,time_vcpu_seconds,\
-    time_vcpu_seconds_in_frames,cost_cloud_dollars,used_clock,total_clock,cpu_utilization,peak_memory_usage_gib,frames_committed,frames_lost\n";
+    time_vcpu_seconds_in_frames,cost_cloud_dollars,used_clock,total_clock,cpu_utilization,peak_memory_usage_gib,min_feasible_instance_type,\
+    frames_committed,frames_lost\n";
 
 /// One attempt at one task.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -113,21 +116,28 @@ impl Costs {
         self.vcpu_s / HOUR_S
     }
 
-    /// A row of CSV per attempt.
-    pub fn table(&self, job: &Job, dollars_per_vcpu_hour: f64) -> String {
+    /// Where the attempts could have run, of the machines of a price table.
+    pub fn feasible(&self, prices: &[Price]) -> Feasible {
+        feasible(self.attempts.iter().map(|attempt| &attempt.record), prices)
+    }
+
+    /// A row of CSV per attempt, at the first price; the smallest machine is that of all of them.
+    pub fn table(&self, job: &Job, prices: &[Price]) -> String {
         let name = |task: u32| {
             job.plan.tasks.get(task as usize).map_or(String::new(), |t| format!("{}@scene_{}_final", t.part.scene, t.part.camera))
         };
         self.attempts
             .iter()
-            .fold(HEADER.to_string(), |table, attempt| table + &row(attempt, &name(attempt.record.task), dollars_per_vcpu_hour))
+            .fold(HEADER.to_string(), |table, attempt| table + &row(attempt, &name(attempt.record.task), prices))
     }
 }
 
-fn row(attempt: &AttemptCost, job_name: &str, dollars_per_vcpu_hour: f64) -> String {
+fn row(attempt: &AttemptCost, job_name: &str, prices: &[Price]) -> String {
     let (record, vcpu_s) = (&attempt.record, attempt.vcpu_s());
     let engine: Vec<String> = record.attempt.engine.iter().map(|(name, value)| format!("{name}={value}")).collect();
     let ended = record.ended.map_or("open", Ended::word);
+    let dollars_per_vcpu_hour = prices.first().map_or(0.0, |price| price.dollars_per_vcpu_hour);
+    let machine = machine_of(record, prices).map_or("", |price| &price.name);
     let memory = record.peak_memory_bytes.map_or(String::new(), |bytes| format!("{:.3}", bytes as f64 / GIB));
     let mut row = format!(
         "{job_name},{},{},{},{},{ended},{},",
@@ -139,7 +149,7 @@ fn row(attempt: &AttemptCost, job_name: &str, dollars_per_vcpu_hour: f64) -> Str
     );
     let _ = writeln!(
         row,
-        "{:.3},{vcpu_s:.3},{:.3},{:.6},{:.3},{vcpu_s:.3},{:.4},{memory},{},{}",
+        "{:.3},{vcpu_s:.3},{:.3},{:.6},{:.3},{vcpu_s:.3},{:.4},{memory},{machine},{},{}",
         record.wall_s,
         attempt.in_frames_vcpu_s,
         vcpu_s / HOUR_S * dollars_per_vcpu_hour,
@@ -159,6 +169,7 @@ fn share(part: f64, whole: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::{Attempt, FrameKey};
+    use enfilade_post::stats::Machine;
 
     fn marker(attempt: &str, task: u32, frame: u32) -> Marker {
         let key = FrameKey { scene: "room".into(), camera: "cam_00".into(), frame };
@@ -219,11 +230,13 @@ mod tests {
     #[test]
     fn rows_have_the_columns_of_the_header() {
         let costs = sum(&[marker("a", 0, 0)], vec![record("a", 0, 12.0, Some(Ended::Done), 0)]);
-        let row = row(&costs.attempts[0], "room@scene_cam_00_final", 0.036);
+        let machine = Some(Machine { vcpus: 2, memory_gib: 2.0 });
+        let prices = [Price { name: "two".into(), dollars_per_vcpu_hour: 0.036, machine }];
+        let row = row(&costs.attempts[0], "room@scene_cam_00_final", &prices);
         assert_eq!(row.split(',').count(), HEADER.split(',').count());
         assert_eq!(
             row,
-            "room@scene_cam_00_final,0,a,n1,SLURM_JOB_ID=7,done,2,12.000,24.000,20.000,0.000240,18.000,24.000,0.7500,1.000,0,0\n"
+            "room@scene_cam_00_final,0,a,n1,SLURM_JOB_ID=7,done,2,12.000,24.000,20.000,0.000240,18.000,24.000,0.7500,1.000,two,0,0\n"
         );
     }
 }

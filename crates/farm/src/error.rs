@@ -1,3 +1,4 @@
+use enfilade_dataset::DatasetError;
 use std::path::{Path, PathBuf};
 
 /// Why something on a farm could not be done.
@@ -48,6 +49,9 @@ pub enum FarmError {
         /// What was found, and what to do.
         problem: String,
     },
+    /// A file of a dataset.
+    #[error(transparent)]
+    Dataset(#[from] DatasetError),
     /// A stage.
     #[error("{}", .0.explain())]
     Pipeline(#[from] enfilade_pipeline::Error),
@@ -67,9 +71,9 @@ impl FarmError {
     /// same would happen again.
     pub fn is_transient(&self) -> bool {
         match self {
-            Self::Store { .. } | Self::Io { .. } => true,
+            Self::Store { .. } | Self::Io { .. } | Self::Dataset(DatasetError::Io { .. }) => true,
             Self::Pipeline(error) => matches!(error, enfilade_pipeline::Error::Io { .. } | enfilade_pipeline::Error::Interrupted { .. }),
-            Self::Place { .. } | Self::Unreliable { .. } | Self::Request(_) | Self::Damaged { .. } => false,
+            Self::Place { .. } | Self::Unreliable { .. } | Self::Request(_) | Self::Damaged { .. } | Self::Dataset(_) => false,
         }
     }
 }

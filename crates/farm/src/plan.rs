@@ -1,6 +1,6 @@
 //! What there is to do: made once, on one machine, from the configuration of a dataset.
 
-use crate::{Created, FarmError, Store};
+use crate::{Attempt, Created, FarmError, Store};
 use enfilade_pipeline::{Config, Expected, Part, Prepared, PreparedScene, Reporter, Summary, prepare};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -154,29 +154,29 @@ pub fn plan(
     if !summary.ok() {
         return Ok((summary, None));
     }
-    let scenes = prepared.scenes.iter().map(|scene| planned(scene, &out)).collect::<Result<Vec<_>, _>>()?;
+    store.probe(&Attempt::new("plan", |_| None).id)?;
+    let there = store.get(PLAN)?;
+    // Contents are named by their hashes, so that they may lie in the store before the plan that names them.
+    let to = if there.is_none() { Some(&store) } else { None };
+    let scenes = prepared.scenes.iter().map(|scene| planned(scene, &out, to)).collect::<Result<Vec<_>, _>>()?;
     let mut plan = Plan {
         format: FORMAT,
         program: program(),
         id: String::new(),
         dataset: config.name.clone(),
-        files: stored(&prepared.files, &out)?,
+        files: stored(&prepared.files, &out, to)?,
         tasks: prepared.scenes.iter().flat_map(|scene| tasks(scene, options)).collect(),
         scenes,
         cpus: options.cpus,
     };
     plan.id = identity(config, &prepared, &plan);
-    store.probe(&plan.id[..16])?;
-    if let Some(there) = store.get(PLAN)? {
+    if let Some(there) = there {
         let old = serde_json::from_slice::<Plan>(&there).ok();
         if old.as_ref().is_none_or(|old| old.id != plan.id) {
             let problem = "holds another job; choose another place, or remove that one".to_string();
             return Err(FarmError::Damaged { place: store.url().to_string(), problem });
         }
         return Job::open(store).map(|job| (summary, Some(job)));
-    }
-    for (path, file) in plan.files.iter().chain(plan.scenes.iter().flat_map(|scene| &scene.files)) {
-        upload(&store, &out.join(path), file)?;
     }
     let text = serde_json::to_vec_pretty(&plan).map_err(|error| FarmError::Request(format!("the plan has no JSON form: {error}")))?;
     if store.create(PLAN, &text)? == Created::Taken {
@@ -185,11 +185,11 @@ pub fn plan(
     Ok((summary, Some(Job { store, plan })))
 }
 
-fn planned(scene: &PreparedScene, out: &Path) -> Result<PlannedScene, FarmError> {
+fn planned(scene: &PreparedScene, out: &Path, to: Option<&Store>) -> Result<PlannedScene, FarmError> {
     let forecast = &scene.forecast;
     Ok(PlannedScene {
         name: scene.name.clone(),
-        files: stored(&scene.files, out)?,
+        files: stored(&scene.files, out, to)?,
         frames: scene.trajectories.iter().map(|(_, frames)| frames.len() as u64).sum(),
         cpu_s: forecast.cpu_s,
         memory_bytes: forecast.memory_bytes,
@@ -197,19 +197,19 @@ fn planned(scene: &PreparedScene, out: &Path) -> Result<PlannedScene, FarmError>
     })
 }
 
-fn stored(files: &[PathBuf], out: &Path) -> Result<BTreeMap<String, StoredFile>, FarmError> {
+/// Names files by their contents, and puts these into a store. Each is read once.
+fn stored(files: &[PathBuf], out: &Path, to: Option<&Store>) -> Result<BTreeMap<String, StoredFile>, FarmError> {
     let file = |path: &PathBuf| {
         let full = out.join(path);
         let bytes = std::fs::read(&full).map_err(|source| FarmError::io("read", &full, source))?;
         let name = path.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
-        Ok((name, StoredFile { blake3: blake3::hash(&bytes).to_hex().to_string(), bytes: bytes.len() as u64 }))
+        let file = StoredFile { blake3: blake3::hash(&bytes).to_hex().to_string(), bytes: bytes.len() as u64 };
+        if let Some(store) = to {
+            store.create(&object_name(&file.blake3), &bytes)?;
+        }
+        Ok((name, file))
     };
     files.iter().map(file).collect()
-}
-
-fn upload(store: &Store, path: &Path, file: &StoredFile) -> Result<(), FarmError> {
-    let bytes = std::fs::read(path).map_err(|source| FarmError::io("read", path, source))?;
-    store.create(&object_name(&file.blake3), &bytes).map(drop)
 }
 
 /// Divides a scene's frames: contiguous ones of one trajectory, since its guide is learned once per task, and of equal number.

@@ -171,8 +171,8 @@ impl Store {
             self.remove(&name)?;
             let (won, again) = (won?, again?);
             if won != 1 || again == Created::Yes {
-                let problem =
-                    format!("of {PROBE_WRITERS} writers of one new object {won} were told that they made it, and a later one {again:?}");
+                let later = if again == Created::Yes { "a later one was told so too" } else { "a later one was refused" };
+                let problem = format!("of {PROBE_WRITERS} writers of one new object {won} were told that they made it, and {later}");
                 return Err(FarmError::Unreliable { place: self.url.clone(), problem });
             }
         }

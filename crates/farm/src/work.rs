@@ -1,9 +1,10 @@
 //! What a worker does: takes its tasks one after the other, makes the frames that nobody has committed, and commits them.
 
-use crate::bundle::{pack, write};
+use crate::bundle::pack;
 use crate::commit::{Commit, DONE, commit, read_marker};
 use crate::plan::object_name;
 use crate::{Attempt, FarmError, FrameKey, Job, Marker, Ranges, Task};
+use enfilade_dataset::write_bytes;
 use enfilade_pipeline::{FinishedFrame, Part, Reporter, Stopwatch, kept_frame, render_part};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -183,13 +184,13 @@ fn make(
     let folder = tempfile::Builder::new().prefix("work-").tempdir_in(work.scratch).map_err(io)?;
     let out = folder.path();
     for (path, file) in job.files_of(&part.scene) {
-        let cached = fetch(job, work.scratch, &file.blake3)?;
+        let cached = fetch(job, work, &file.blake3)?;
         place(&cached, &out.join(path))?;
     }
     let key = |frame: u32| FrameKey { scene: part.scene.clone(), camera: part.camera.clone(), frame };
     for &frame in missing {
         if let Some(bytes) = job.store.get(&key(frame).kept())? {
-            write(&kept_frame(out, &part.scene, &part.camera, frame)?, &bytes)?;
+            write_bytes(&kept_frame(out, &part.scene, &part.camera, frame)?, &bytes)?;
         }
     }
     let failure = Mutex::new(None);
@@ -254,8 +255,8 @@ fn hand_in(job: &Job, out: &Path, key: &FrameKey, task: u32, frame: &FinishedFra
 }
 
 /// A content of the store in this machine's cache.
-fn fetch(job: &Job, scratch: &Path, blake3: &str) -> Result<PathBuf, FarmError> {
-    let cached = scratch.join("cache").join(blake3);
+fn fetch(job: &Job, work: &Work, blake3: &str) -> Result<PathBuf, FarmError> {
+    let cached = work.scratch.join("cache").join(blake3);
     let whole = |bytes: &[u8]| blake3::hash(bytes).to_hex().as_str() == blake3;
     if std::fs::read(&cached).is_ok_and(|bytes| whole(&bytes)) {
         return Ok(cached);
@@ -266,7 +267,10 @@ fn fetch(job: &Job, scratch: &Path, blake3: &str) -> Result<PathBuf, FarmError> 
     if !whole(&bytes) {
         return Err(damaged("does not hold what its name says"));
     }
-    write(&cached, &bytes)?;
+    // Several workers of a machine may fetch the same at once: each writes a file of its own.
+    let aside = cached.with_added_extension(&work.attempt.id);
+    write_bytes(&aside, &bytes)?;
+    std::fs::rename(&aside, &cached).map_err(|source| FarmError::io("put in place", &cached, source))?;
     Ok(cached)
 }
 

@@ -61,7 +61,7 @@ pub struct FinishedFrame {
     pub camera: String,
     /// Its number.
     pub frame: u32,
-    /// Its files, relative to the dataset's folder: layers, labels, and the records that vouch for them.
+    /// Its files, relative to the dataset's folder: layers, labels, pictures, and the records that vouch for them.
     pub files: Vec<PathBuf>,
     /// The laws of verification that it breaks; normally none.
     pub broken: Vec<&'static str>,
@@ -133,15 +133,14 @@ pub fn render_part(
         scene.ok_or_else(|| Error::usage(format!("there is no scene {:?} in {}", part.scene, out.display()), "plan the job again"))?;
     let dataset = Dataset::create(out).map_err(Error::stage)?;
     let cx = StageCx::new(&part.scene, Stage::Render, reporter);
-    let whole = Job::new(&config, scene, &dataset, &workdir, false);
-    let finisher = frame_finisher(&whole, &cx)?;
+    let mut job = Job::new(&config, scene, &dataset, &workdir, false);
+    let finisher = frame_finisher(&job, &cx)?;
     let told = Mutex::new(BTreeSet::new());
     let tell = |job: &Job, camera: &str, frame: u32| {
         told.lock().unwrap_or_else(std::sync::PoisonError::into_inner).insert(frame);
         finished(&finisher.finish(job, camera, frame)?)
     };
     let shift = Shift { part, stop, finished: &tell };
-    let mut job = Job::new(&config, scene, &dataset, &workdir, false);
     job.shift = Some(&shift);
     render_frames(&job, &cx)?;
     // Frames that an earlier attempt on this machine had rendered, but nobody has heard of.

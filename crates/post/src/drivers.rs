@@ -5,19 +5,20 @@ mod boxes;
 mod exposure;
 
 pub use animate::{AnimateConfig, AnimateError, Animated, Film, animate_camera};
-pub use boxes::{preview_boxes, write_boxes, write_instances};
+pub use boxes::{preview_boxes, view_instances, write_boxes, write_instances};
 pub use exposure::{Exposures, expose_camera};
 
 use crate::exposure::Exposure;
 use crate::inspect::{Names, OutsideError, PixelReport, inspect};
 use crate::picture::jpeg;
-use crate::preview::{PREVIEWS, Subject, preview};
+use crate::preview::{PREVIEWS, PreviewSpec, Subject, preview};
 use crate::sheet::{OverviewTile, SheetConfig, SheetTitle, overview_sheet, spread, trajectory_sheet};
 use crate::tonemap::ToneMap;
 use enfilade_dataset::{Dataset, DatasetError, write_bytes};
 use enfilade_frame::{Frame, LAYERS, Layer};
 use enfilade_scene::{CameraView, Cx};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -28,6 +29,7 @@ fn read_present(dataset: &Dataset, scene: &str, camera: &str, frame: u32, wanted
 }
 
 /// Writes every preview that the layers of the given frames allow, and returns the files. The exposures are those of the same frames.
+/// Of the frames `made`, where [`preview_frame_alone`] has been, only those that need the whole trajectory.
 ///
 /// # Errors
 /// When a layer cannot be read or a file cannot be written.
@@ -36,11 +38,12 @@ pub fn preview_camera(
     [scene, camera]: [&str; 2],
     frames: &[u32],
     exposures: &Exposures,
+    made: &BTreeSet<u32>,
     cx: &dyn Cx,
 ) -> Result<Vec<PathBuf>, DatasetError> {
     let done = AtomicU64::new(0);
     let one = |(index, &number): (usize, &u32)| {
-        let files = preview_frame(dataset, [scene, camera], number, exposures.of(index));
+        let files = preview_frame(dataset, [scene, camera], number, exposures.of(index), |spec| spec.of_trajectory() || !made.contains(&number));
         cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
         files
     };
@@ -48,19 +51,34 @@ pub fn preview_camera(
     Ok(files.into_iter().flatten().collect())
 }
 
-fn preview_frame(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32, exposure: Exposure) -> Result<Vec<PathBuf>, DatasetError> {
-    let frame = read_present(dataset, scene, camera, number, &LAYERS.map(|spec| spec.layer))?;
-    let mut written = Vec::new();
-    for spec in PREVIEWS {
+/// Writes every preview of a frame that does not need its whole trajectory, and returns the files.
+///
+/// # Errors
+/// As [`preview_camera`].
+pub fn preview_frame_alone(dataset: &Dataset, shot: [&str; 2], number: u32) -> Result<Vec<PathBuf>, DatasetError> {
+    let exposure = Exposure { frame: exposure::frame_tone(dataset, shot, number)?, display: ToneMap::default() };
+    preview_frame(dataset, shot, number, exposure, |spec| !spec.of_trajectory())
+}
+
+fn preview_frame(
+    dataset: &Dataset,
+    [scene, camera]: [&str; 2],
+    number: u32,
+    exposure: Exposure,
+    wanted: impl Fn(&PreviewSpec) -> bool,
+) -> Result<Vec<PathBuf>, DatasetError> {
+    let specs: Vec<PreviewSpec> = PREVIEWS.into_iter().filter(wanted).collect();
+    let shown: Vec<Layer> = specs.iter().flat_map(|spec| spec.subject.layers()).collect();
+    let needed: Vec<Layer> = LAYERS.iter().map(|spec| spec.layer).filter(|layer| shown.contains(layer)).collect();
+    let frame = read_present(dataset, scene, camera, number, &needed)?;
+    let one = |spec: &PreviewSpec| -> Result<Option<PathBuf>, DatasetError> {
         let path = dataset.layout().preview(scene, camera, number, spec.pass, spec.name);
-        let Some(bytes) = spec.file(&frame, exposure) else {
-            remove_old(&path)?;
-            continue;
-        };
+        let Some(bytes) = spec.file(&frame, exposure) else { return remove_old(&path).map(|()| None) };
         write_bytes(&path, bytes)?;
-        written.push(path);
-    }
-    Ok(written)
+        Ok(Some(path))
+    };
+    let written: Vec<Option<PathBuf>> = specs.par_iter().map(one).collect::<Result<_, _>>()?;
+    Ok(written.into_iter().flatten().collect())
 }
 
 /// Removes a picture of a layer that the frame no longer has.
@@ -187,7 +205,7 @@ mod tests {
         let dataset = testing::dataset(folder.path());
         let (exposures, table) = expose_camera(&dataset, "room", "cam_00", &[0, 1]).unwrap();
         assert!(table.is_file());
-        let files = preview_camera(&dataset, ["room", "cam_00"], &[0, 1], &exposures, &Quiet).unwrap();
+        let files = preview_camera(&dataset, ["room", "cam_00"], &[0, 1], &exposures, &BTreeSet::new(), &Quiet).unwrap();
         assert_eq!(files.len(), 2 * PREVIEWS.len());
         assert!(files.iter().all(|file| file.is_file()));
         let config = SheetConfig { width: 600, frames: 1 };
@@ -200,11 +218,32 @@ mod tests {
     }
 
     #[test]
+    fn pictures_made_of_single_frames_are_those_of_the_whole_trajectory_and_only_the_rest_is_made_then() {
+        let [apart, whole] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+        let shot = ["room", "cam_00"];
+        let preview = |dataset: &Dataset, made: &[u32]| {
+            let (exposures, _) = expose_camera(dataset, "room", "cam_00", &[0, 1]).unwrap();
+            preview_camera(dataset, shot, &[0, 1], &exposures, &made.iter().copied().collect(), &Quiet).unwrap()
+        };
+        let dataset = testing::dataset(apart.path());
+        let alone: Vec<PathBuf> = [0, 1].iter().flat_map(|&frame| preview_frame_alone(&dataset, shot, frame).unwrap()).collect();
+        let rest = preview(&dataset, &[0, 1]);
+        assert_eq!((alone.len(), rest.len()), (2 * (PREVIEWS.len() - 1), 2));
+        assert!(rest.iter().all(|path| path.to_string_lossy().ends_with("display.jpg")));
+        let expected = preview(&testing::dataset(whole.path()), &[]);
+        assert_eq!(expected.len(), alone.len() + rest.len());
+        for path in expected {
+            let same = apart.path().join(path.strip_prefix(whole.path()).unwrap());
+            assert!(std::fs::read(&path).unwrap() == std::fs::read(&same).unwrap(), "{}", same.display());
+        }
+    }
+
+    #[test]
     fn pictures_give_radiance_back_by_the_stored_scales() {
         let folder = tempfile::tempdir().unwrap();
         let dataset = testing::dataset(folder.path());
         let (exposures, _) = expose_camera(&dataset, "room", "cam_00", &[0, 1]).unwrap();
-        preview_camera(&dataset, ["room", "cam_00"], &[0, 1], &exposures, &Quiet).unwrap();
+        preview_camera(&dataset, ["room", "cam_00"], &[0, 1], &exposures, &BTreeSet::new(), &Quiet).unwrap();
         let color = dataset.read_layer("room", "cam_00", 1, Layer::Color).unwrap();
         let row = dataset.read_tone_maps("room", "cam_00").unwrap()[1];
         for (name, scale) in [("tonemap.jpg", row.scale), ("display.jpg", row.display_scale)] {

@@ -113,6 +113,11 @@ pub const PREVIEWS: [PreviewSpec; 51] = [
 ];
 
 impl PreviewSpec {
+    /// True for what is exposed as its whole trajectory: all others can be made of a frame alone.
+    pub fn of_trajectory(&self) -> bool {
+        self.subject == Subject::Displayed
+    }
+
     /// The bytes of the preview's file; `None` when the frame lacks a layer it needs.
     pub fn file(&self, frame: &Frame, exposure: Exposure) -> Option<Vec<u8>> {
         let tone = if self.subject == Subject::Displayed { exposure.display } else { exposure.frame };

@@ -2,11 +2,12 @@
 
 use crate::outcome::{Problem, say};
 use crate::price::dollars;
-use enfilade_farm::{Costs, Job, costs};
-use enfilade_post::stats::Price;
+use enfilade_farm::{Costs, Feasible, Job, costs};
+use enfilade_post::stats::{Price, memory_gib, tells_sizes};
 use std::path::Path;
 
-/// Says what was paid at every price, and for what; writes a row per attempt to `table` at the first price.
+/// Says what was paid at every price, for what, and on which machines it could have run; writes a row per attempt to `table` at the
+/// first price.
 pub fn say_costs(job: &Job, prices: &[Price], table: Option<&Path>) -> Result<(), Problem> {
     let costs = costs(job)?;
     lines(&costs).iter().for_each(|line| say(line));
@@ -18,9 +19,13 @@ pub fn say_costs(job: &Job, prices: &[Price], table: Option<&Path>) -> Result<()
             price.name
         ));
     }
+    if tells_sizes(prices) {
+        machines(&costs.feasible(prices), costs.attempts.len()).iter().for_each(|line| say(line));
+    } else {
+        say("The smallest machine is not told: the prices have no sizes (--price with a table of name,dollars_per_vcpu_hour,vcpus,memory_gib)");
+    }
     let Some(path) = table else { return Ok(()) };
-    let dollars_per_vcpu_hour = prices.first().map_or(0.0, |price| price.dollars_per_vcpu_hour);
-    std::fs::write(path, costs.table(job, dollars_per_vcpu_hour))
+    std::fs::write(path, costs.table(job, prices))
         .map_err(|error| Problem::new(format!("cannot write {}: {error}", path.display()), "name another file with --attempts"))?;
     say(&format!("{:.4} vCPU-hours by attempt: {}", costs.vcpu_hours(), path.display()));
     Ok(())
@@ -45,6 +50,33 @@ fn lines(costs: &Costs) -> Vec<String> {
     lines
 }
 
+/// Where `attempts` could have run.
+fn machines(found: &Feasible, attempts: usize) -> Vec<String> {
+    let told = attempts - found.unknown as usize;
+    if told == 0 {
+        return vec!["The smallest machine is not known: no attempt has told its memory".into()];
+    }
+    let need = format!("{} threads and {:.2} GiB", found.threads, memory_gib(found.peak_memory_bytes));
+    let mut lines = vec![match &found.for_all {
+        Some(name) => format!(
+            "Smallest machine for every attempt ({need} with the system's): {name}; all of them there, whole machines: {} dollars",
+            dollars(found.for_all_dollars)
+        ),
+        None => format!("No machine of the table has room for every attempt ({need} with the system's)"),
+    }];
+    let by_machine: Vec<String> = found.machines.iter().map(|(name, count)| format!("{count} on {name}")).collect();
+    if !by_machine.is_empty() {
+        lines.push(format!("  each on the smallest for it: {}: {} dollars", by_machine.join(", "), dollars(found.dollars)));
+    }
+    if found.too_large > 0 {
+        lines.push(format!("  {} attempts fit none", found.too_large));
+    }
+    if found.unknown > 0 {
+        lines.push(format!("  {} attempts have not told their memory, as those that were killed, and are left out", found.unknown));
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -57,5 +89,22 @@ mod tests {
             "2.0000 vCPU-hours paid, of which 75.0 % were used; 90.0 % went into frames that count, 5.0 % into attempts that failed or came second"
         );
         assert_eq!(lines(&Costs::default()).len(), 2);
+    }
+
+    #[test]
+    fn machines_are_told_with_what_fits_none_and_what_is_not_known() {
+        let mut found = Feasible { threads: 8, peak_memory_bytes: 3 << 29, for_all: Some("m8".into()), ..Feasible::default() };
+        (found.for_all_dollars, found.dollars, found.machines) = (1.5, 0.75, [("m8".to_string(), 2)].into());
+        assert_eq!(
+            machines(&found, 2),
+            [
+                "Smallest machine for every attempt (8 threads and 2.00 GiB with the system's): m8; all of them there, whole machines: 1.50 dollars",
+                "  each on the smallest for it: 2 on m8: 0.75 dollars"
+            ]
+        );
+        let found = Feasible { for_all: None, too_large: 1, unknown: 1, ..found };
+        let text = machines(&found, 4).join("\n");
+        assert!(text.contains("No machine of the table") && text.contains("1 attempts fit none") && text.contains("1 attempts have not told"));
+        assert!(machines(&found, 1)[0].contains("not known"));
     }
 }

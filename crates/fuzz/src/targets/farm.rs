@@ -41,7 +41,7 @@ pub fn job(folder: &Path) -> Run {
 fn look(job: &Job) {
     drop(status(job));
     if let Ok(costs) = costs(job) {
-        drop(costs.table(job, 0.05));
+        drop(costs.table(job, &[]));
     }
 }
 

@@ -1,14 +1,13 @@
 //! `boxes`: bounding boxes of every instance, and what each frame shows of it. Nothing is rendered again.
 
-use super::{Input, Inputs, Job, Outcome, Record, Stage};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, made};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::Hash;
 use enfilade_post::drivers::{write_boxes, write_instances};
 use enfilade_post::instances::solids;
-use enfilade_post::label::SplitParts;
 use enfilade_scene::WorldMesh;
-use std::sync::Arc;
+use std::collections::BTreeMap;
 
 pub(super) fn settings(_job: &Job) -> Hash {
     Hash::of(&())
@@ -31,19 +30,22 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
-    let mut scene = job.load_scene()?;
+    let scene = made::scene_of_pieces(job)?;
     let labels = job.dataset.read_label_tables(name).map_err(Error::stage)?;
-    if let Some(split) = SplitParts::read(&job.dataset.mesh_files(name), &scene).map_err(Error::stage)? {
-        scene = Arc::new(split.scene_of_pieces(&scene));
-    }
     let (mut outputs, boxed) = write_boxes(job.dataset, name, &scene, &labels).map_err(Error::stage)?;
-    let solids = solids(&WorldMesh::new(&scene), &labels);
-    let filmed = job.filmed()?;
-    let mut frames = 0;
-    for (_, trajectory) in &filmed {
-        let rendered = job.frames_of(trajectory)?;
-        outputs.extend(write_instances(job.dataset, name, &trajectory.name, &rendered, &solids, cx).map_err(Error::stage)?);
+    let (mut frames, mut seen) = (0, Vec::new());
+    for (_, trajectory) in job.filmed()? {
+        let rendered = job.frames_of(&trajectory)?;
+        let views = |&frame: &u32| Ok(made::views(job, &trajectory.name, frame)?.map(|views| (frame, views)));
+        let made: BTreeMap<_, _> = rendered.iter().filter_map(|frame| views(frame).transpose()).collect::<Result<_, Error>>()?;
         frames += rendered.len();
+        seen.push((trajectory.name, rendered, made));
+    }
+    // Where nodes have seen all frames, solids are not asked for.
+    let needed = seen.iter().any(|(_, rendered, made)| made.len() < rendered.len());
+    let solids = if needed { solids(&WorldMesh::new(&scene), &labels) } else { Vec::new() };
+    for (camera, rendered, made) in &seen {
+        outputs.extend(write_instances(job.dataset, [name, camera], rendered, made, &solids, cx).map_err(Error::stage)?);
     }
     let summary = format!("{} of 3 kinds, seen in {}", count(boxed, "instance"), count(frames, "frame"));
     Ok(Outcome { summary, outputs, ..Outcome::default() })

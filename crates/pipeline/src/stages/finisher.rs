@@ -1,6 +1,7 @@
-//! What is done with a frame where it was rendered, when the rest of the dataset is made elsewhere: labels, denoised layers, laws.
+//! What is done with a frame where it was rendered, when the rest of the dataset is made elsewhere: labels, denoised layers, laws, what it
+//! shows of instances, and pictures.
 
-use super::{Job, denoise, label};
+use super::{Job, denoise, label, made};
 use crate::error::Error;
 use crate::parts::FinishedFrame;
 use crate::report::StageCx;
@@ -10,6 +11,7 @@ use std::path::PathBuf;
 /// What the frames of a scene are finished with.
 pub(crate) struct FrameFinisher {
     known: label::Known,
+    furniture: made::Furniture,
     verifier: FrameVerifier,
 }
 
@@ -17,7 +19,8 @@ pub(crate) struct FrameFinisher {
 pub(crate) fn frame_finisher(job: &Job, cx: &StageCx) -> Result<FrameFinisher, Error> {
     let known = label::known(job, cx)?.0;
     denoise::check_denoiser(job)?;
-    Ok(FrameFinisher { known, verifier: FrameVerifier::new(job.dataset, &job.scene.name) })
+    let furniture = made::Furniture::of(job)?;
+    Ok(FrameFinisher { known, furniture, verifier: FrameVerifier::new(job.dataset, &job.scene.name) })
 }
 
 impl FrameFinisher {
@@ -28,25 +31,26 @@ impl FrameFinisher {
         if job.scene.denoise {
             denoise::denoise_frame(job, camera, frame, &denoise::denoise_hash(job, camera, frame)?, &denoise::open(job)?)?;
         }
+        let extra = made::make(job, camera, frame, &self.furniture)?;
         let times = dataset.read_times().map_err(Error::stage)?;
         let time = times.get(&(name.clone(), camera.to_string(), frame)).copied().unwrap_or_default();
         let broken = self.verifier.broken_laws(dataset, camera, frame);
-        Ok(FinishedFrame { camera: camera.into(), frame, files: files(job, camera, frame)?, broken, time })
+        Ok(FinishedFrame { camera: camera.into(), frame, files: files(job, camera, frame, extra)?, broken, time })
     }
 }
 
-/// The files of a frame, relative to the dataset's folder; every record after the files that it vouches for.
-fn files(job: &Job, camera: &str, frame: u32) -> Result<Vec<PathBuf>, Error> {
+/// The files of a frame, relative to the dataset's folder; every record after the files that it vouches for, and that of the frame at the end.
+fn files(job: &Job, camera: &str, frame: u32, extra: Vec<PathBuf>) -> Result<Vec<PathBuf>, Error> {
     let (dataset, layout, name) = (job.dataset, job.dataset.layout(), &job.scene.name);
     let rendered = dataset.frame_record(name, camera, frame).map_err(Error::stage)?.map(|record| record.files);
     let labelled = dataset.label_record(name, camera, frame).map_err(Error::stage)?.map(|record| record.files);
     let denoised = dataset.denoise_record(name, camera, frame).map_err(Error::stage)?.map(|record| record.files);
     let records = [
-        (rendered, layout.frame_record(name, camera, frame)),
         (labelled, layout.label_record(name, camera, frame)),
         (denoised, layout.denoise_record(name, camera, frame)),
+        (rendered, layout.frame_record(name, camera, frame)),
     ];
-    let mut files: Vec<PathBuf> = Vec::new();
+    let mut files = extra;
     for (layers, record) in records {
         let Some(layers) = layers else { continue };
         files.extend(layers.keys().map(|file| layout.scene_dir(name).join(file)));

@@ -12,6 +12,7 @@ mod gate;
 mod import;
 mod job;
 mod label;
+mod made;
 mod pilot;
 mod plan;
 mod plan_preview;

@@ -1,11 +1,12 @@
 //! `preview`: pictures of every layer of finished frames, boxes drawn over them, and a contact sheet per trajectory.
 
-use super::{Inputs, Job, Outcome, Record};
+use super::{Inputs, Job, Outcome, Record, made};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, remove_if_there};
 use enfilade_post::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet};
 use enfilade_post::sheet::SheetConfig;
+use std::collections::BTreeSet;
 
 pub(super) fn settings(_job: &Job) -> Hash {
     Hash::of(&SheetConfig::default())
@@ -24,7 +25,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     remove_if_there(&job.dataset.layout().overview())?;
     remove_if_there(&job.dataset.layout().statistics())?;
     let name = &job.scene.name;
-    let filmed = job.filmed()?;
+    let (filmed, boxes) = (job.filmed()?, made::boxes(job)?);
     let mut outputs = Vec::new();
     let mut tables = Vec::new();
     let mut sheets = 0;
@@ -32,8 +33,15 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         let frames: Vec<u32> = job.frames_of(trajectory)?.into_iter().collect();
         let shot = [name.as_str(), trajectory.name.as_str()];
         let (exposures, table) = expose_camera(job.dataset, name, &trajectory.name, &frames).map_err(Error::stage)?;
-        outputs.extend(preview_camera(job.dataset, shot, &frames, &exposures, cx).map_err(Error::stage)?);
-        outputs.extend(preview_boxes(job.dataset, name, &trajectory.name, &frames, cx).map_err(Error::stage)?);
+        let mut made = BTreeSet::new();
+        for &frame in &frames {
+            let Some(pictures) = made::pictures(job, &trajectory.name, frame, &boxes)? else { continue };
+            made.insert(frame);
+            outputs.extend(pictures);
+        }
+        outputs.extend(preview_camera(job.dataset, shot, &frames, &exposures, &made, cx).map_err(Error::stage)?);
+        let unmade: Vec<u32> = frames.iter().copied().filter(|frame| !made.contains(frame)).collect();
+        outputs.extend(preview_boxes(job.dataset, name, &trajectory.name, &unmade, cx).map_err(Error::stage)?);
         let sheet = write_contact_sheet(job.dataset, shot, &frames, exposures.display, &SheetConfig::default()).map_err(Error::stage)?;
         tables.push(table);
         if sheet.is_none() {

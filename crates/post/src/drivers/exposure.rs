@@ -48,6 +48,11 @@ pub fn expose_camera(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
     Ok((Exposures { frames: tones, display }, dataset.layout().tone_maps(scene, camera)))
 }
 
+/// Hypersim's exposure of one frame.
+pub(super) fn frame_tone(dataset: &Dataset, shot: [&str; 2], frame: u32) -> Result<ToneMap, DatasetError> {
+    Ok(ToneMap::of_percentile(measure(dataset, shot, &[frame])?.first().and_then(|measured| measured.percentile)))
+}
+
 /// What each frame says about exposure.
 pub(super) fn measure(dataset: &Dataset, [scene, camera]: [&str; 2], frames: &[u32]) -> Result<Vec<Brightness>, DatasetError> {
     let one = |&number: &u32| {

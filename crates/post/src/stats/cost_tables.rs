@@ -1,6 +1,7 @@
 //! Costs from the times of a dataset, and as the tables of Hypersim's toolkit: one row per trajectory and one per frame.
 
 use super::costs::{Cost, CostReport, FrameCost, Price};
+use super::machines::smallest_feasible;
 use super::gather::NamedImage;
 use enfilade_dataset::{Dataset, DatasetError, write_bytes};
 use std::collections::BTreeMap;
@@ -17,6 +18,8 @@ const JOBS_HEADER: &str = "job_name,instance_type,vcpu_per_instance,time_instanc
 const TASKS_HEADER: &str = "job_name,task_id,time_instance_seconds,time_vcpu_seconds,cost_cloud_dollars,cost_vray_dollars,used_clock,\
     total_clock,cpu_utilization,peak_memory_usage_gib,samples_per_pixel,camera_trajectory_included_in_dataset\n";
 const HOUR_S: f64 = 3600.0;
+/// Bytes of a gibibyte.
+const GIB: f64 = 1_073_741_824.0;
 
 /// What the given images cost; `None` when no time is known of any.
 ///
@@ -33,12 +36,12 @@ pub fn costs(dataset: &Dataset, images: &[NamedImage], prices: &[Price]) -> Resu
     Ok((!frames.is_empty()).then(|| CostReport::new(&frames, prices)))
 }
 
-/// Writes the tables, at the first price.
+/// Writes the tables, at the first price; of all of them the smallest machine that could have made a trajectory is told.
 ///
 /// # Errors
 /// When a file cannot be written.
 pub fn write_tables(folder: &Path, report: &CostReport) -> Result<(), DatasetError> {
-    let free = Price { name: String::new(), dollars_per_vcpu_hour: 0.0 };
+    let free = Price { name: String::new(), dollars_per_vcpu_hour: 0.0, machine: None };
     let price = report.prices.first().unwrap_or(&free);
     let mut jobs: BTreeMap<String, Vec<&Cost>> = BTreeMap::new();
     let mut tasks = TASKS_HEADER.to_string();
@@ -46,7 +49,7 @@ pub fn write_tables(folder: &Path, report: &CostReport) -> Result<(), DatasetErr
         jobs.entry(job_name(frame)).or_default().push(&frame.cost);
         tasks += &task_row(frame, price);
     }
-    let rows: String = jobs.into_iter().map(|(name, costs)| job_row(&name, &Cost::sum(costs.into_iter()), price)).collect();
+    let rows: String = jobs.into_iter().map(|(name, costs)| job_row(&name, &Cost::sum(costs.into_iter()), price, &report.prices)).collect();
     write_bytes(&folder.join(JOBS), JOBS_HEADER.to_string() + &rows)?;
     write_bytes(&folder.join(TASKS), tasks)
 }
@@ -67,9 +70,12 @@ fn shared_cells(cost: &Cost, price: &Price) -> String {
     format!("{:.3},{vcpu_s:.3},{dollars:.6},0,{:.3},{vcpu_s:.3},{:.4}", cost.wall_s, cost.cpu_s, cost.utilization())
 }
 
-fn job_row(name: &str, cost: &Cost, price: &Price) -> String {
+fn job_row(name: &str, cost: &Cost, price: &Price, prices: &[Price]) -> String {
     let vcpus = if cost.wall_s > 0.0 { (HOUR_S * cost.vcpu_hours / cost.wall_s).round() } else { 0.0 };
-    format!("{name},,{vcpus},{},{},,True\n", shared_cells(cost, price), memory(cost))
+    let peak_bytes = cost.peak_memory_gib.map(|gib| (gib * GIB) as u64);
+    let smallest = peak_bytes.and_then(|bytes| smallest_feasible(prices, vcpus as u32, bytes));
+    let smallest = smallest.map_or(String::new(), |price| price.name.clone());
+    format!("{name},,{vcpus},{},{},{smallest},True\n", shared_cells(cost, price), memory(cost))
 }
 
 fn task_row(frame: &FrameCost, price: &Price) -> String {
@@ -81,6 +87,7 @@ fn task_row(frame: &FrameCost, price: &Price) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stats::Machine;
 
     #[test]
     fn a_trajectory_is_a_job_and_its_frames_are_tasks() {
@@ -94,11 +101,14 @@ mod tests {
             samples_per_pixel: Some(64.0),
         };
         let frames: Vec<_> = (0..2).map(|frame| (("room".to_string(), "cam_00".to_string(), frame), cost)).collect();
-        let report = CostReport::new(&frames, &[Price { name: "spot".into(), dollars_per_vcpu_hour: 0.9 }]);
+        let machine = |vcpus| Some(Machine { vcpus, memory_gib: 4.0 });
+        let price = |name: &str, dollars_per_vcpu_hour, vcpus| Price { name: name.into(), dollars_per_vcpu_hour, machine: machine(vcpus) };
+        let prices = [price("spot", 0.9, 16), price("four", 1.0, 4), price("two", 1.0, 2)];
+        let report = CostReport::new(&frames, &prices);
         write_tables(folder.path(), &report).unwrap();
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
         let (jobs, tasks) = (read(JOBS), read(TASKS));
-        assert_eq!(jobs.lines().nth(1).unwrap(), "room@scene_cam_00_final,,4,20.000,80.000,0.020000,0,60.000,80.000,0.7500,2.000,,True");
+        assert_eq!(jobs.lines().nth(1).unwrap(), "room@scene_cam_00_final,,4,20.000,80.000,0.020000,0,60.000,80.000,0.7500,2.000,four,True");
         assert_eq!(
             tasks.lines().nth(2).unwrap(),
             "room@scene_cam_00_final,1,10.000,40.000,0.010000,0,30.000,40.000,0.7500,2.000,64.000,True"

@@ -3,6 +3,7 @@
 //! A vCPU-hour is what a cloud bills: an hour of one thread of a machine, busy or idle. A frame takes its time on the wall clock
 //! times the threads at work. Hypersim paid 0.0161 to 0.0484 dollars for one, half of them 0.0165 or less.
 
+use super::Machine;
 use enfilade_dataset::FrameTime;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -19,12 +20,15 @@ pub struct Price {
     pub name: String,
     /// 0 or more.
     pub dollars_per_vcpu_hour: f64,
+    /// The machine that is paid, where its size is told.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub machine: Option<Machine>,
 }
 
 impl Default for Price {
     /// What half of Hypersim's rendering was paid at or below.
     fn default() -> Self {
-        Self { name: "Hypersim's median".into(), dollars_per_vcpu_hour: 0.0165 }
+        Self { name: "Hypersim's median".into(), dollars_per_vcpu_hour: 0.0165, machine: None }
     }
 }
 
@@ -154,7 +158,7 @@ mod tests {
     fn threads_that_wait_are_paid_for() {
         let cost = Cost::of(&time(1800.0, 5400.0, Some(4)), Some(64.0));
         assert_eq!((cost.vcpu_hours, cost.utilization(), cost.peak_memory_gib), (2.0, 0.75, Some(1.0)));
-        assert_eq!(cost.dollars(&Price { name: "spot".into(), dollars_per_vcpu_hour: 0.05 }), 0.1);
+        assert_eq!(cost.dollars(&Price { name: "spot".into(), dollars_per_vcpu_hour: 0.05, machine: None }), 0.1);
         assert_eq!(Cost::of(&time(1800.0, 5400.0, None), None).vcpu_hours, 1.5);
     }
 
@@ -166,7 +170,7 @@ mod tests {
             (key("hall", 1), Cost::of(&time(1800.0, 3600.0, Some(2)), Some(64.0))),
             (key("room", 0), Cost::of(&time(900.0, 900.0, Some(2)), None)),
         ];
-        let report = CostReport::new(&frames, &[Price { name: "a".into(), dollars_per_vcpu_hour: 2.0 }]);
+        let report = CostReport::new(&frames, &[Price { name: "a".into(), dollars_per_vcpu_hour: 2.0, machine: None }]);
         assert_eq!((report.total.frames, report.total.vcpu_hours, report.dollars["a"]), (3, 3.5, 7.0));
         assert_eq!((report.scenes["hall"].vcpu_hours, report.scenes["room"].vcpu_hours), (3.0, 0.5));
         assert_eq!((report.total.samples_per_pixel, report.frames[1].dollars["a"]), (Some(48.0), 2.0));

@@ -19,6 +19,7 @@ mod costs;
 mod gather;
 mod histogram;
 mod html;
+mod machines;
 mod maps;
 mod measure;
 mod outlier;
@@ -27,6 +28,7 @@ mod report;
 mod toolkit;
 
 pub use costs::{Cost, CostReport, Price};
+pub use machines::{Machine, memory_gib, smallest_feasible, tells_sizes};
 
 use crate::drawing::{paint, svg};
 use crate::picture::png;

@@ -1,0 +1,129 @@
+//! What a node makes of a frame beside its layers: the part of `boxes` and `preview` that the frame and its scene decide. It travels with
+//! the frame, so that these stages need not make it again where frames come together.
+//!
+//! A note in the work folder, `.enfilade/SCENE/made/CAMERA/FRAME.json`, names what the files were made from. They count as long as that is
+//! so and they are there; otherwise, and without a note, the stages make them.
+
+use super::{Job, Output, Stage, is_there, output};
+use crate::error::Error;
+use crate::workdir::{Hash, read_json, write_json};
+use enfilade_dataset::{BoxKind, InstanceView};
+use enfilade_post::drivers::{preview_boxes, preview_frame_alone, view_instances, write_boxes};
+use enfilade_post::instances::{Solid, solids};
+use enfilade_post::label::SplitParts;
+use enfilade_scene::{Quiet, Scene, WorldMesh};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+#[derive(Serialize, Deserialize)]
+struct Note {
+    instances: Made,
+    /// What the frame shows of instances.
+    views: Vec<InstanceView>,
+    pictures: Made,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Made {
+    /// Names what the files were made from, and by which version of the stage.
+    from: Hash,
+    files: Vec<Output>,
+}
+
+impl Made {
+    fn new(job: &Job, from: Hash, files: &[PathBuf]) -> Result<Self, Error> {
+        Ok(Self { from, files: files.iter().map(|path| output(job, path)).collect::<Result<_, _>>()? })
+    }
+
+    /// Its files, if they are there and made from `from`.
+    fn files(&self, job: &Job, from: &Hash) -> Option<Vec<PathBuf>> {
+        let paths = || self.files.iter().map(|file| (job.out().join(&file.path), file.bytes));
+        (self.from == *from && paths().all(|(path, bytes)| is_there(&path, bytes))).then(|| paths().map(|(path, _)| path).collect())
+    }
+}
+
+/// The solid instances of a scene; its boxes are written.
+pub(super) struct Furniture {
+    solids: Vec<Solid>,
+    boxes: Hash,
+}
+
+impl Furniture {
+    /// Of a scene whose label tables are there.
+    pub fn of(job: &Job) -> Result<Self, Error> {
+        let scene = scene_of_pieces(job)?;
+        let labels = job.dataset.read_label_tables(&job.scene.name).map_err(Error::stage)?;
+        write_boxes(job.dataset, &job.scene.name, &scene, &labels).map_err(Error::stage)?;
+        Ok(Self { solids: solids(&WorldMesh::new(&scene), &labels), boxes: boxes(job)? })
+    }
+}
+
+/// The scene, with the pieces of split parts as parts.
+pub(super) fn scene_of_pieces(job: &Job) -> Result<Arc<Scene>, Error> {
+    let scene = job.load_scene()?;
+    let split = SplitParts::read(&job.dataset.mesh_files(&job.scene.name), &scene).map_err(Error::stage)?;
+    Ok(split.map_or(scene.clone(), |split| Arc::new(split.scene_of_pieces(&scene))))
+}
+
+/// Makes it of a frame that is rendered, denoised where that is asked for, and labelled; returns the files and then the note.
+pub(super) fn make(job: &Job, camera: &str, frame: u32, furniture: &Furniture) -> Result<Vec<PathBuf>, Error> {
+    let shot = [job.scene.name.as_str(), camera];
+    let views = view_instances(job.dataset, shot, frame, &furniture.solids).map_err(Error::stage)?;
+    let mut pictures = preview_frame_alone(job.dataset, shot, frame).map_err(Error::stage)?;
+    pictures.extend(preview_boxes(job.dataset, shot[0], camera, &[frame], &Quiet).map_err(Error::stage)?);
+    let masks = vec![job.dataset.layout().amodal_masks(shot[0], camera, frame)];
+    let note = Note {
+        instances: Made::new(job, instances_from(job, camera, frame)?, &masks)?,
+        views,
+        pictures: Made::new(job, pictures_from(job, camera, frame, &furniture.boxes)?, &pictures)?,
+    };
+    let path = note_path(job, camera, frame)?;
+    let folder = path.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
+    write_json(&path, &note)?;
+    Ok([masks, pictures, vec![path]].concat())
+}
+
+/// What a frame shows of instances, if that is known and its masks are there.
+pub(super) fn views(job: &Job, camera: &str, frame: u32) -> Result<Option<Vec<InstanceView>>, Error> {
+    let Some(note) = note(job, camera, frame)? else { return Ok(None) };
+    let there = note.instances.files(job, &instances_from(job, camera, frame)?).is_some();
+    Ok(there.then_some(note.views))
+}
+
+/// The pictures of a frame that need nothing but it and the boxes of the scene, if they are there.
+pub(super) fn pictures(job: &Job, camera: &str, frame: u32, boxes: &Hash) -> Result<Option<Vec<PathBuf>>, Error> {
+    let Some(note) = note(job, camera, frame)? else { return Ok(None) };
+    Ok(note.pictures.files(job, &pictures_from(job, camera, frame, boxes)?))
+}
+
+/// Names the boxes of the scene.
+pub(super) fn boxes(job: &Job) -> Result<Hash, Error> {
+    let files = BoxKind::ALL.iter().flat_map(|&kind| job.dataset.box_files(&job.scene.name, kind));
+    Ok(Hash::of(&files.map(|path| Hash::of_file(&path)).collect::<Result<Vec<_>, _>>()?))
+}
+
+/// None where everything is to be made again.
+fn note(job: &Job, camera: &str, frame: u32) -> Result<Option<Note>, Error> {
+    if job.force { Ok(None) } else { Ok(read_json(&note_path(job, camera, frame)?)) }
+}
+
+fn note_path(job: &Job, camera: &str, frame: u32) -> Result<PathBuf, Error> {
+    Ok(job.work_file("made")?.join(camera).join(format!("{frame:04}.json")))
+}
+
+/// The records of a frame's layers name the scene and its labels too.
+fn instances_from(job: &Job, camera: &str, frame: u32) -> Result<Hash, Error> {
+    let (layout, name) = (job.dataset.layout(), &job.scene.name);
+    let records = [layout.frame_record(name, camera, frame), layout.label_record(name, camera, frame)];
+    let [rendered, labelled] = records.map(|path| Hash::of_file(&path));
+    Ok(Hash::of(&(env!("CARGO_PKG_VERSION"), Stage::Boxes.spec().version, rendered?, labelled?)))
+}
+
+fn pictures_from(job: &Job, camera: &str, frame: u32, boxes: &Hash) -> Result<Hash, Error> {
+    let denoised = job.dataset.layout().denoise_record(&job.scene.name, camera, frame);
+    let denoised = if denoised.is_file() { Some(Hash::of_file(&denoised)?) } else { None };
+    let instances = instances_from(job, camera, frame)?;
+    Ok(Hash::of(&(Stage::Preview.spec().version, instances, denoised, boxes)))
+}

@@ -1,0 +1,80 @@
+//! The smallest machine of a price table that could have done some work, as Hypersim's `min_feasible_instance_type` tells it.
+//!
+//! A machine could have done it in the same time when it has a vCPU for every thread, and memory for what the process had at most and
+//! for the system beside it. The smallest has the fewest vCPUs, then the least memory, then the lowest price.
+
+use super::Price;
+use serde::{Deserialize, Serialize};
+
+/// Bytes of a gibibyte.
+const GIB: f64 = 1_073_741_824.0;
+/// Memory that a machine's system keeps for itself, GiB; `farm submit` asks engines for as much beside the program's own.
+const SYSTEM_GIB: f64 = 0.5;
+const HOUR_S: f64 = 3600.0;
+
+/// The size of a machine that can be had at a price.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Machine {
+    /// Threads; 1 or more.
+    pub vcpus: u32,
+    /// Above 0.
+    pub memory_gib: f64,
+}
+
+impl Price {
+    /// Dollars of the whole machine for some seconds; `None` where its size is not told.
+    pub fn machine_dollars(&self, wall_s: f64) -> Option<f64> {
+        let machine = self.machine?;
+        Some(wall_s / HOUR_S * f64::from(machine.vcpus) * self.dollars_per_vcpu_hour)
+    }
+}
+
+/// The smallest machine with room for `threads` and for a process of `peak_bytes`; `None` when none is as large, or no size is told.
+pub fn smallest_feasible(prices: &[Price], threads: u32, peak_bytes: u64) -> Option<&Price> {
+    let fits = |machine: &Machine| machine.vcpus >= threads && machine.memory_gib >= memory_gib(peak_bytes);
+    let sized = prices.iter().filter_map(|price| Some((price.machine.filter(fits)?, price)));
+    let order = |(machine, price): &(Machine, &Price)| (machine.vcpus, machine.memory_gib, price.dollars_per_vcpu_hour);
+    sized.min_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal)).map(|(_, price)| price)
+}
+
+/// Memory that a machine needs for a process of `peak_bytes`, GiB.
+pub fn memory_gib(peak_bytes: u64) -> f64 {
+    peak_bytes as f64 / GIB + SYSTEM_GIB
+}
+
+/// True when the table tells the size of any machine.
+pub fn tells_sizes(prices: &[Price]) -> bool {
+    prices.iter().any(|price| price.machine.is_some())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn offer(name: &str, dollars_per_vcpu_hour: f64, vcpus: u32, memory_gib: f64) -> Price {
+        Price { name: name.into(), dollars_per_vcpu_hour, machine: Some(Machine { vcpus, memory_gib }) }
+    }
+
+    #[test]
+    fn the_smallest_machine_has_the_threads_the_memory_and_the_lowest_price() {
+        let table = [
+            offer("large", 0.05, 8, 64.0),
+            offer("small", 0.05, 2, 4.0),
+            offer("small spot", 0.02, 2, 4.0),
+            offer("lean", 0.04, 4, 8.0),
+            offer("rich", 0.06, 4, 32.0),
+            Price { name: "of no size".into(), dollars_per_vcpu_hour: 0.001, machine: None },
+        ];
+        let gib = |gib: f64| (gib * GIB) as u64;
+        let smallest = |threads, peak| smallest_feasible(&table, threads, peak).map(|price| price.name.as_str());
+        assert_eq!(smallest(1, gib(1.0)), Some("small spot"));
+        assert_eq!(smallest(2, gib(3.5)), Some("small spot"), "memory and the system's part fill it");
+        assert_eq!(smallest(2, gib(3.6)), Some("lean"));
+        assert_eq!(smallest(4, gib(8.0)), Some("rich"));
+        assert_eq!(smallest(5, gib(1.0)), Some("large"));
+        assert_eq!((smallest(9, 0), smallest(1, gib(64.0))), (None, None));
+        assert_eq!(smallest_feasible(&table[5..], 1, 0), None);
+        assert!(tells_sizes(&table) && !tells_sizes(&table[5..]));
+        assert!((table[3].machine_dollars(1800.0).unwrap() - 0.08).abs() < 1e-12, "half an hour of four vCPUs");
+    }
+}
