@@ -4,8 +4,8 @@
 //! frames went into loading scenes, into frames that are kept for the next attempt, and into frames that another committed first.
 
 use crate::commit::{DONE, read_marker_at};
-use crate::status::attempts;
 use crate::feasible::{feasible, machine_of};
+use crate::status::attempts;
 use crate::work::{AttemptRecord, Ended};
 use crate::{FarmError, Feasible, Job, Marker};
 use enfilade_post::stats::Price;
@@ -126,9 +126,7 @@ impl Costs {
         let name = |task: u32| {
             job.plan.tasks.get(task as usize).map_or(String::new(), |t| format!("{}@scene_{}_final", t.part.scene, t.part.camera))
         };
-        self.attempts
-            .iter()
-            .fold(HEADER.to_string(), |table, attempt| table + &row(attempt, &name(attempt.record.task), prices))
+        self.attempts.iter().fold(HEADER.to_string(), |table, attempt| table + &row(attempt, &name(attempt.record.task), prices))
     }
 }
 

@@ -43,7 +43,8 @@ pub fn preview_camera(
 ) -> Result<Vec<PathBuf>, DatasetError> {
     let done = AtomicU64::new(0);
     let one = |(index, &number): (usize, &u32)| {
-        let files = preview_frame(dataset, [scene, camera], number, exposures.of(index), |spec| spec.of_trajectory() || !made.contains(&number));
+        let files =
+            preview_frame(dataset, [scene, camera], number, exposures.of(index), |spec| spec.of_trajectory() || !made.contains(&number));
         cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
         files
     };

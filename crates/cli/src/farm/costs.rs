@@ -22,7 +22,9 @@ pub fn say_costs(job: &Job, prices: &[Price], table: Option<&Path>) -> Result<()
     if tells_sizes(prices) {
         machines(&costs.feasible(prices), costs.attempts.len()).iter().for_each(|line| say(line));
     } else {
-        say("The smallest machine is not told: the prices have no sizes (--price with a table of name,dollars_per_vcpu_hour,vcpus,memory_gib)");
+        say(
+            "The smallest machine is not told: the prices have no sizes (--price with a table of name,dollars_per_vcpu_hour,vcpus,memory_gib)",
+        );
     }
     let Some(path) = table else { return Ok(()) };
     std::fs::write(path, costs.table(job, prices))
@@ -104,7 +106,9 @@ mod tests {
         );
         let found = Feasible { for_all: None, too_large: 1, unknown: 1, ..found };
         let text = machines(&found, 4).join("\n");
-        assert!(text.contains("No machine of the table") && text.contains("1 attempts fit none") && text.contains("1 attempts have not told"));
+        assert!(
+            text.contains("No machine of the table") && text.contains("1 attempts fit none") && text.contains("1 attempts have not told")
+        );
         assert!(machines(&found, 1)[0].contains("not known"));
     }
 }

@@ -1,8 +1,8 @@
 //! Costs from the times of a dataset, and as the tables of Hypersim's toolkit: one row per trajectory and one per frame.
 
 use super::costs::{Cost, CostReport, FrameCost, Price};
-use super::machines::smallest_feasible;
 use super::gather::NamedImage;
+use super::machines::smallest_feasible;
 use enfilade_dataset::{Dataset, DatasetError, write_bytes};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -108,7 +108,10 @@ mod tests {
         write_tables(folder.path(), &report).unwrap();
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
         let (jobs, tasks) = (read(JOBS), read(TASKS));
-        assert_eq!(jobs.lines().nth(1).unwrap(), "room@scene_cam_00_final,,4,20.000,80.000,0.020000,0,60.000,80.000,0.7500,2.000,four,True");
+        assert_eq!(
+            jobs.lines().nth(1).unwrap(),
+            "room@scene_cam_00_final,,4,20.000,80.000,0.020000,0,60.000,80.000,0.7500,2.000,four,True"
+        );
         assert_eq!(
             tasks.lines().nth(2).unwrap(),
             "room@scene_cam_00_final,1,10.000,40.000,0.010000,0,30.000,40.000,0.7500,2.000,64.000,True"
