@@ -55,8 +55,16 @@ fn shares_of_the_work_come_together_as_one_machine_would_have_made_them() {
     assert_eq!(succeed(d, &["farm", "status", "job", "--missing"]).trim(), "");
     let text = succeed(d, &["farm", "status", "job", "--price", "0.05", "--attempts", "attempts.csv"]);
     assert!(text.contains("vCPU-hours paid") && text.contains("dollars at 0.05 per vCPU-hour (given)"), "{text}");
+    assert!(text.contains("The smallest machine is not told: the prices have no sizes"), "{text}");
     let table = fs::read_to_string(d.join("attempts.csv")).unwrap();
     assert!(table.lines().count() > 6 && table.contains("room@scene_cam_00_final,0,"), "{table}");
+    fs::write(d.join("machines.csv"), "name,dollars_per_vcpu_hour,vcpus,memory_gib\ntiny,0.05,1,0.25\nbig,0.05,2,64\nsmall,0.05,1,64\n")
+        .unwrap();
+    let text = succeed(d, &["farm", "status", "job", "--price", "machines.csv", "--attempts", "attempts.csv"]);
+    assert!(text.contains("the system's): small; all of them there"), "{text}");
+    let table = fs::read_to_string(d.join("attempts.csv")).unwrap();
+    let column = table.lines().next().unwrap().split(',').position(|name| name == "min_feasible_instance_type").unwrap();
+    assert!(table.lines().skip(1).all(|row| row.split(',').nth(column) == Some("small")), "{table}");
     succeed(d, &["farm", "collect", "job", "-o", "out"]);
     assert_same(&contents(&d.join("whole")), &contents(&d.join("out")));
     // A second time nothing is fetched or made, and the dataset stays what it is.
@@ -66,6 +74,50 @@ fn shares_of_the_work_come_together_as_one_machine_would_have_made_them() {
     succeed(d, &["verify", "out"]);
     let left: Vec<_> = fs::read_dir(d.join("scratch0")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left, ["cache"], "workers leave nothing but the cache");
+}
+
+#[test]
+fn what_nodes_have_made_of_frames_is_taken_until_what_it_was_made_from_changes() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    succeed(d, &["run", "dataset.toml", "-o", "whole"]);
+    succeed(d, &["farm", "plan", "dataset.toml", "-o", "job"]);
+    succeed(d, &["farm", "work", "job", "--shard", "0/1", "--scratch", "a"]);
+    succeed(d, &["farm", "collect", "job", "-o", "out"]);
+    let whole = contents(&d.join("whole"));
+    assert_same(&whole, &contents(&d.join("out")));
+
+    // Files of the same length in place of a node's show who made them: stages that run again leave them.
+    let room = d.join("out/scenes/room");
+    let picture = room.join("images/scene_cam_00_final_preview/frame.0000.color.jpg");
+    let overlay = room.join("images/scene_cam_00_final_preview/frame.0000.bb_axis_aligned.jpg");
+    let masks = room.join("_detail/cam_00/amodal_instances/frame.0000.json");
+    let display = room.join("images/scene_cam_00_final_preview/frame.0000.display.jpg");
+    let spoil = |path: &Path| fs::write(path, vec![b'x'; fs::read(path).unwrap().len()]).unwrap();
+    let is_spoilt = |path: &Path| fs::read(path).unwrap().iter().all(|&byte| byte == b'x');
+    let run_anew = |stages: &[&str]| {
+        for stage in stages {
+            fs::remove_file(d.join(format!("out/.enfilade/room/{stage}.json"))).unwrap();
+            succeed(d, &[stage, "out"]);
+        }
+    };
+    [&picture, &overlay, &masks, &display].iter().for_each(|path| spoil(path));
+    run_anew(&["boxes", "preview"]);
+    assert_eq!([&picture, &overlay, &masks, &display].map(|path| is_spoilt(path)), [true, true, true, false]);
+    // One that is missing is made again, and with it the others of its frame.
+    fs::remove_file(&picture).unwrap();
+    fs::remove_file(&masks).unwrap();
+    run_anew(&["boxes", "preview"]);
+    assert_same(&whole, &contents(&d.join("out")));
+    // Other labels: nothing that was made from the old ones stays.
+    fs::write(d.join("labels.csv"), "material,nyu40_id\nwall,1\nwood,7\nlight,35\n").unwrap();
+    for out in ["whole", "out"] {
+        succeed(d, &["label", out, "--table", "labels.csv"]);
+        succeed(d, &["preview", out]);
+    }
+    assert_same(&contents(&d.join("whole")), &contents(&d.join("out")));
 }
 
 #[test]
