@@ -1,8 +1,9 @@
 //! The checks of the house, as `cargo xtask check`, `test`, `python`, `browser`, `fuzz`, `bench`, `oracle` and `cluster`.
 //!
 //! [`check`] holds what is quick and says nothing about numbers; [`test`](mod@test) holds everything else; [`wheel`] tests the
-//! Python module as it is installed; [`browser`] tests the pages; [`fuzz`] searches for bytes that break what reads them; [`bench`](mod@bench) measures. Most are a table of
-//! [`Step`](step::Step)s that says what it does, how long it took and, on failure, what to do.
+//! Python module as it is installed; [`browser`] tests the pages; [`fuzz`] searches for bytes that break what reads them;
+//! [`bench`](mod@bench) measures. Most are a table of [`Step`](step::Step)s that says what it does, how long it took and, on failure, what
+//! to do.
 
 mod acceptance;
 mod bench;

@@ -1,7 +1,8 @@
 //! `cargo xtask python`: the module as users get it, by `pip install .`, beside the libraries that they have.
 //!
-//! The tests that need torch run here: its DataLoader, the notebooks, and those of `training/`, if that folder is there. Everything is installed below
-//! the target folder, which takes about 6 GB. Where that is impossible, it is a failure on unattended machines and told elsewhere.
+//! The tests that need torch run here: its DataLoader, the notebooks, and those of `training/`, if that folder is there. Everything is
+//! installed below the target folder, which takes about 6 GB. Where that is impossible, it is a failure on unattended machines and told
+//! elsewhere.
 
 use crate::house::House;
 use crate::python;

@@ -1,9 +1,9 @@
 //! What a dataset holds, and its layers as values.
 
 use crate::hdf5::{Element, Elements, Window, read_array, read_window};
+use crate::layout::camera_of_layer_dir;
 use crate::release::planar_depth_of_part;
 use crate::tables::Table;
-use crate::layout::camera_of_layer_dir;
 use crate::{Dataset, DatasetError};
 use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Values};
 use enfilade_scene::Projection;

@@ -1,8 +1,8 @@
 //! The Python module `enfilade`: datasets as numpy arrays, and the verbs of the command line.
 //!
-//! Here is nothing but conversion: samples come from `enfilade-loader`, stages from `enfilade-pipeline`, layouts from `enfilade-export`. Arrays are handed over without a
-//! copy, and the interpreter is released while anything is read, decoded or rendered. `enfilade/__init__.pyi` is the public face with
-//! its types; the doc strings stand here.
+//! Here is nothing but conversion: samples come from `enfilade-loader`, stages from `enfilade-pipeline`, layouts from `enfilade-export`.
+//! Arrays are handed over without a copy, and the interpreter is released while anything is read, decoded or rendered.
+//! `enfilade/__init__.pyi` is the public face with its types; the doc strings stand here.
 
 mod arguments;
 mod arrays;

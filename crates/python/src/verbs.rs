@@ -6,7 +6,7 @@ use crate::errors::{IntoPy, StageError};
 use crate::interrupt::{Interrupt, interruptible};
 use crate::json;
 use enfilade_dataset::Dataset;
-use enfilade_export::{ExportConfig, Existing, FORMATS, Format, Selection};
+use enfilade_export::{Existing, ExportConfig, FORMATS, Format, Selection};
 use enfilade_pipeline::{STAGES, Stage, Summary};
 use enfilade_post::verify::{verify_dataset, write_report};
 use pyo3::exceptions::PyValueError;
@@ -145,7 +145,8 @@ pub fn export<'py>(
         None => None,
         chosen => Some(select("camera", &opened.camera_names(&scenes).map_err(IntoPy::into_py)?, chosen.as_ref())?),
     };
-    let config = ExportConfig { format, selection: Selection { scenes, cameras, frames, layers }, shard_bytes: shard_mb.saturating_mul(1_000_000) };
+    let config =
+        ExportConfig { format, selection: Selection { scenes, cameras, frames, layers }, shard_bytes: shard_mb.saturating_mul(1_000_000) };
     let existing = if force { Existing::SetAside } else { Existing::Refuse };
     let exported = interruptible(py, |cx: &Interrupt| enfilade_export::export(&opened, &config, &output, existing, cx))?;
     json::to_python(py, &json!({ "frames": exported.frames, "files": exported.files, "bytes": exported.bytes }))

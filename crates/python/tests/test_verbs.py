@@ -101,7 +101,7 @@ class Verbs(unittest.TestCase):
         (other / "mine.txt").write_text("mine")
         with self.assertRaisesRegex(ValueError, "no-export cannot be the output folder"):
             enfilade.export(datasets.made(), "coco", other)
-        enfilade.export(datasets.made(), "coco", other, layers=["color"], force=True)
+        enfilade.export(datasets.made(), "coco", other, layers=["color", "semantic", "semantic_instance"], force=True)
         self.assertEqual((datasets.folder() / "no-export.old/mine.txt").read_text(), "mine")
         for wrong in ({"format": "cocoa"}, {"scenes": "hom"}, {"cameras": "cam_7"}, {"frames": range(0, 4, 2)}, {"shard_mb": 0}):
             with self.assertRaises(ValueError, msg=wrong):
