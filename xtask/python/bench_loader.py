@@ -210,10 +210,12 @@ files, which lie in memory. h5py is {h5py}. The values are the same bit by bit; 
 - **Crops.** A 512x512 crop of 1024x768 touches 24 to 35 of 64 chunks of 96x128 pixels, so about half of a file must be inflated; that is
   the limit. "crop" compares with reading all and cutting, which is what Hypersim's loaders do; "part" with h5py's slices,
   which leave out chunks as well.
-- **Native storage.** `enfilade.repack` writes the same values under LZ4, in chunks of 128x128 pixels with all channels; files are about as
-  large as Hypersim's. h5py is measured on Hypersim's files, as everywhere; for these it needs the package hdf5plugin. Colours are nearly
-  copied. Depth alone stays at four times: it compresses sixfold, so h5py has little to inflate, while LZ4 puts it together from many
-  short runs, which takes a millisecond. Sizes, MB per frame:
+- **Native storage.** `enfilade.repack` stores the same values as they are where LZ4 would save less than a quarter, as of colours, and always
+  those of depth and other images of one floating-point channel: reading is a copy. The rest is under LZ4, in chunks of 128x128 pixels with all
+  channels. h5py is measured on Hypersim's files, as everywhere; to read these under LZ4 it needs the package hdf5plugin. Depth pays for its speed in
+  bytes: gzip shrinks it sixfold and LZ4 fourfold, but LZ4 puts it together from many short runs, which takes a millisecond, and left the ratio at
+  4.3. Where the disk is slower than about 1 GB/s and files do not stay in memory, gzip is the faster storage for depth. What is left is the kernel's
+  copy of the pages, and the memory that Python gets. Sizes, MB per frame:
 
 | layers | Hypersim's gzip | native |
 |---|---|---|

@@ -1,8 +1,9 @@
-//! The checks of the house, as `cargo xtask check`, `test`, `browser`, `fuzz`, `bench`, `oracle` and `cluster`.
+//! The checks of the house, as `cargo xtask check`, `test`, `python`, `browser`, `fuzz`, `bench`, `oracle` and `cluster`.
 //!
-//! [`check`] holds what is quick and says nothing about numbers; [`test`](mod@test) holds everything else; [`browser`] tests the
-//! pages; [`fuzz`] searches for bytes that break what reads them; [`bench`](mod@bench) measures. Most are a table of
-//! [`Step`](step::Step)s that says what it does, how long it took and, on failure, what to do.
+//! [`check`] holds what is quick and says nothing about numbers; [`test`](mod@test) holds everything else; [`wheel`] tests the
+//! Python module as it is installed; [`browser`] tests the pages; [`fuzz`] searches for bytes that break what reads them;
+//! [`bench`](mod@bench) measures. Most are a table of [`Step`](step::Step)s that says what it does, how long it took and, on failure, what
+//! to do.
 
 mod acceptance;
 mod bench;
@@ -24,6 +25,7 @@ mod spdx;
 mod step;
 mod storage;
 mod test;
+mod wheel;
 
 use house::House;
 use std::process::ExitCode;
@@ -31,6 +33,7 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directions, dependency policy, docs, quick tests
        cargo xtask test [STEP...]                 all tests, then the release binary on the demo
+       cargo xtask python [STEP...]               the module as pip installs it: torch's loader, notebooks, training
        cargo xtask browser [STEP...]              the pages: types, bundle, tests in a browser
        cargo xtask fuzz [--seconds N] [--quick] [TARGET...]   searches for bytes that break what reads them
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them
@@ -48,6 +51,7 @@ fn main() -> ExitCode {
     let outcome = House::find().and_then(|house| match words.as_slice() {
         ["check", rest @ ..] => check::run(&house, rest),
         ["test", rest @ ..] => test::run(&house, rest),
+        ["python", rest @ ..] => wheel::run(&house, rest),
         ["browser", rest @ ..] => browser::run(&house, rest),
         ["fuzz", rest @ ..] => fuzz::run(&house, rest),
         ["bench", "render", rest @ ..] => peers::run(&house, "bench_render", rest),

@@ -1,7 +1,6 @@
 //! `animate`: from arguments to calls of the crate `post`, and what came of them.
 
 use crate::args::AnimateArgs;
-use crate::export::cameras;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use enfilade_post::drivers::{AnimateConfig, Animated, animate_camera};
@@ -10,7 +9,7 @@ use enfilade_post::drivers::{AnimateConfig, Animated, animate_camera};
 pub fn animate(args: &AnimateArgs, quiet: bool) -> Result<Verdict, Problem> {
     let dataset = args.table.open(&args.dataset)?;
     let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
-    let chosen = cameras(&dataset, &scenes, args.camera.as_deref().unwrap_or("*"))?;
+    let chosen = enfilade_pipeline::select("camera", &dataset.camera_names(&scenes)?, args.camera.as_deref())?;
     let folder = args.output.clone().unwrap_or_else(|| dataset.layout().animations_dir());
     let config = AnimateConfig { format: args.format.into(), fps: args.fps };
     let mut written: Vec<Animated> = Vec::new();

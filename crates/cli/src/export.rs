@@ -3,14 +3,16 @@
 use crate::args::ExportArgs;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
-use enfilade_dataset::Dataset;
 use enfilade_export::{Existing, ExportConfig, Format, Selection, export as export_dataset};
 
 /// `export`: the dataset in another layout.
 pub fn export(args: &ExportArgs, quiet: bool) -> Result<Verdict, Problem> {
     let dataset = args.table.open(&args.dataset)?;
     let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
-    let cameras = args.camera.as_ref().map(|pattern| cameras(&dataset, &scenes, pattern)).transpose()?;
+    let cameras = match args.camera.as_deref() {
+        None => None,
+        pattern => Some(enfilade_pipeline::select("camera", &dataset.camera_names(&scenes)?, pattern)?),
+    };
     let unknown = || Problem::new(format!("no format is named {:?}", args.format), "see `enfilade export --help`");
     let config = ExportConfig {
         format: Format::from_name(&args.format).ok_or_else(unknown)?,
@@ -26,12 +28,4 @@ pub fn export(args: &ExportArgs, quiet: bool) -> Result<Verdict, Problem> {
     let (frames, files, megabytes) = (exported.frames, exported.files, exported.bytes as f64 / 1e6);
     say(&format!("{}: {frames} frames, {files} files, {megabytes:.1} MB; its README.md says what is in it", args.output.display()));
     Ok(Verdict::Done)
-}
-
-/// The cameras of the scenes whose names fit the pattern.
-pub fn cameras(dataset: &Dataset, scenes: &[String], pattern: &str) -> Result<Vec<String>, Problem> {
-    let mut names = scenes.iter().map(|scene| dataset.cameras(scene)).collect::<Result<Vec<_>, _>>()?.concat();
-    names.sort();
-    names.dedup();
-    Ok(enfilade_pipeline::select("camera", &names, Some(pattern))?)
 }

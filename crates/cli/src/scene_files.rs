@@ -4,10 +4,8 @@ use crate::args::{HomeArgs, ImportArgs, MomentArg, StageArgs, UpAxisArg};
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::verbs;
-use enfilade_export::{SceneGltf, scene_gltf};
-use enfilade_pipeline::{EnvironmentChoice, Event, FileSource, HomeConfig, Reporter, Stage, UpAxis};
-use enfilade_scene::{Labels, Scene, to_bytes, to_bytes_with_labels};
-use std::path::{Path, PathBuf};
+use enfilade_export::scene_encoder;
+use enfilade_pipeline::{EnvironmentChoice, Event, FileSource, HomeConfig, Reporter, Stage, UpAxis, scene_file_of};
 
 /// `import`: of a dataset's scenes, or of one file.
 pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
@@ -25,10 +23,7 @@ pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
         environment: args.environment.clone().map(|file| EnvironmentChoice { file, scale: 1.0, rotation_deg: 0.0 }),
         allow_missing_textures: args.allow_missing_textures,
     };
-    let output = args.output.clone().unwrap_or_else(|| {
-        let name = args.input.file_name().map_or_else(|| "scene".into(), PathBuf::from);
-        name.with_extension("scene")
-    });
+    let output = args.output.clone().unwrap_or_else(|| scene_file_of(&args.input));
     let encode = scene_encoder(&output)?;
     let name = args.input.display().to_string();
     let imported = {
@@ -73,25 +68,4 @@ pub fn home(args: &HomeArgs, quiet: bool) -> Result<Verdict, Problem> {
     made.credits.iter().for_each(|credit| say(&format!("model    {credit}")));
     say(&format!("scene    {}", args.output.display()));
     Ok(Verdict::Done)
-}
-
-/// Gives the bytes of a scene with its labels, and what they cannot hold.
-type SceneEncoder = fn(&Scene, Option<&Labels>) -> (Vec<u8>, Vec<String>);
-
-/// How a scene is written to a file of this name: as a package, or as glTF.
-fn scene_encoder(output: &Path) -> Result<SceneEncoder, Problem> {
-    let extension = output.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    match extension.as_deref() {
-        Some("scene") => {
-            Ok(|scene, labels| (labels.map_or_else(|| to_bytes(scene), |labels| to_bytes_with_labels(scene, labels)), Vec::new()))
-        }
-        Some("glb") => Ok(|scene, labels| {
-            let SceneGltf { glb, notes } = scene_gltf(scene, labels.unwrap_or(&Labels::default()));
-            (glb, notes)
-        }),
-        _ => {
-            let problem = format!("cannot tell from the name {} how to write the scene", output.display());
-            Err(Problem::new(problem, "end it with .scene (a package, nothing is lost) or .glb (glTF, for other programs)"))
-        }
-    }
 }

@@ -345,6 +345,13 @@ fn pass_name(pass: Pass) -> &'static str {
     }
 }
 
+/// The camera whose layers lie in a folder of this name; `None` for other folders, such as those of previews.
+pub(crate) fn camera_of_layer_dir(name: &str) -> Option<&str> {
+    let rest = name.strip_prefix("scene_")?.strip_suffix("_hdf5")?;
+    let camera = [Pass::Final, Pass::Geometry].iter().find_map(|&pass| rest.strip_suffix(pass_name(pass))?.strip_suffix('_'))?;
+    Some(camera).filter(|camera| !camera.is_empty())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

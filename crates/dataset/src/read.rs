@@ -1,6 +1,7 @@
 //! What a dataset holds, and its layers as values.
 
 use crate::hdf5::{Element, Elements, Window, read_array, read_window};
+use crate::layout::camera_of_layer_dir;
 use crate::release::planar_depth_of_part;
 use crate::tables::Table;
 use crate::{Dataset, DatasetError};
@@ -8,7 +9,7 @@ use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Values};
 use enfilade_scene::Projection;
 use half::slice::HalfFloatSliceExt;
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 impl Dataset {
     /// The names of the scenes, sorted.
@@ -20,18 +21,16 @@ impl Dataset {
         Ok(sorted_names(self.layout().scenes_dir())?.into_iter().filter(is_scene).collect())
     }
 
-    /// The names of a scene's cameras: those of `metadata_cameras.csv` that have any file, or without that table the camera folders,
-    /// sorted. Hypersim's tables also name cameras that were left out of the release.
+    /// The names of a scene's cameras: those of `metadata_cameras.csv` that have any file, or without that table those with poses or
+    /// images, sorted. Hypersim's tables also name cameras that were left out of the release, and who downloads images alone has no
+    /// folder `_detail`.
     ///
     /// # Errors
     /// When the scene is not there or cannot be read.
     pub fn cameras(&self, scene: &str) -> Result<Vec<String>, DatasetError> {
         let path = self.layout().metadata_cameras(scene);
         match Table::read(&path) {
-            Err(error) if error.is_not_found() => {
-                let has_poses = |name: &String| self.layout().keyframes(scene, name, "positions").is_file();
-                Ok(sorted_names(&self.layout().detail_dir(scene))?.into_iter().filter(has_poses).collect())
-            }
+            Err(error) if error.is_not_found() => self.cameras_by_files(scene),
             table => {
                 let table = table?;
                 let names = table.column("camera_name")?;
@@ -41,6 +40,30 @@ impl Dataset {
                 Ok(table.rows.iter().map(|row| &row[names]).filter(there).cloned().collect())
             }
         }
+    }
+
+    /// The names of all cameras of the scenes, each once, sorted.
+    ///
+    /// # Errors
+    /// As [`Dataset::cameras`].
+    pub fn camera_names(&self, scenes: &[String]) -> Result<Vec<String>, DatasetError> {
+        let mut names = BTreeSet::new();
+        for scene in scenes {
+            names.extend(self.cameras(scene)?);
+        }
+        Ok(names.into_iter().collect())
+    }
+
+    /// The cameras that have poses or images.
+    fn cameras_by_files(&self, scene: &str) -> Result<Vec<String>, DatasetError> {
+        let names = |folder: PathBuf| if folder.is_dir() { sorted_names(&folder) } else { Ok(Vec::new()) };
+        let has_poses = |name: &String| self.layout().keyframes(scene, name, "positions").is_file();
+        let mut cameras: BTreeSet<String> = names(self.layout().detail_dir(scene))?.into_iter().filter(has_poses).collect();
+        cameras.extend(names(self.layout().images_dir(scene))?.iter().filter_map(|name| camera_of_layer_dir(name).map(String::from)));
+        if cameras.is_empty() {
+            sorted_names(&self.layout().scene_dir(scene))?;
+        }
+        Ok(cameras.into_iter().collect())
     }
 
     /// The numbers of a camera's complete frames, ascending.

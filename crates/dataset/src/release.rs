@@ -53,9 +53,10 @@ impl Dataset {
         if computed { Layer::DepthMeters } else { layer }
     }
 
-    /// Positions in metres, in place.
+    /// Positions in metres, in place. Hypersim's are in asset units, so a release that does not say what these are is an error.
     pub(crate) fn positions_in_metres(&self, scene: &str, positions: &mut Values) -> Result<(), DatasetError> {
-        let metres = optional(self.meters_per_asset_unit(scene))?.unwrap_or(1.0);
+        let metres = self.meters_per_asset_unit(scene);
+        let metres = if self.is_released(scene) { metres? } else { optional(metres)?.unwrap_or(1.0) };
         if let (Values::F32(values), true) = (positions, metres != 1.0) {
             values.iter_mut().for_each(|v| *v = (f64::from(*v) * metres) as f32);
         }

@@ -103,6 +103,33 @@ fn cameras_that_were_left_out_are_left_out() {
 }
 
 #[test]
+fn a_scene_without_detail_has_the_cameras_of_its_images() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().join("downloads");
+    let scene = root.join("ai_001_004");
+    release(&scene);
+    fs::remove_dir_all(scene.join("_detail")).unwrap();
+    for other in ["scene_cam_01_final_hdf5", "scene_cam_02_final_preview", "scene__final_hdf5", "notes"] {
+        fs::create_dir_all(scene.join("images").join(other)).unwrap();
+    }
+    let dataset = Dataset::open(&root).unwrap();
+    assert_eq!(dataset.scenes().unwrap(), ["ai_001_004"]);
+    assert_eq!(dataset.cameras("ai_001_004").unwrap(), ["cam_00", "cam_01"]);
+    assert_eq!(dataset.frame_numbers("ai_001_004", "cam_00").unwrap(), [1]);
+    let frame = dataset.read_frame("ai_001_004", "cam_00", 1, &[Layer::DepthMeters]).unwrap();
+    assert_eq!(frame.get(Layer::DepthMeters), Some(&Values::F32(vec![3.0; 4])));
+    let message = dataset.read_trajectory("ai_001_004", "cam_00").unwrap_err();
+    assert!(message.is_not_found() && message.to_string().contains("camera_keyframe_positions.hdf5"), "{message}");
+    let message = dataset.read_frame("ai_001_004", "cam_00", 1, &[Layer::Position]).unwrap_err().to_string();
+    assert!(message.contains("metadata_scene.csv"), "nothing says what a unit is: {message}");
+    fs::write(folder.path().join(TABLE), table("ai_001_004")).unwrap();
+    let dataset = Dataset::open(&root).unwrap();
+    let frame = dataset.read_frame("ai_001_004", "cam_00", 1, &[Layer::Position, Layer::DepthZMeters]).unwrap();
+    assert_eq!(frame.get(Layer::Position), Some(&Values::F32(vec![2.5; 12])));
+    assert!(dataset.cameras("ai_001_005").unwrap_err().is_not_found(), "a scene that is not there");
+}
+
+#[test]
 fn hypersims_own_distances_have_planar_depth() {
     let Some(scenes) = std::env::var_os("ENFILADE_SCENES") else {
         return eprintln!("skipped: ENFILADE_SCENES is not set");

@@ -23,6 +23,7 @@ mod numpy;
 mod picture;
 mod place;
 mod points;
+mod scene_file;
 mod scene_gltf;
 mod source;
 
@@ -30,6 +31,7 @@ pub use error::ExportError;
 pub use format::{FORMATS, Format, FormatSpec};
 pub use intrinsics::intrinsics_csv;
 pub use place::Existing;
+pub use scene_file::{SceneEncoder, scene_encoder};
 pub use scene_gltf::{SceneGltf, scene_gltf};
 pub use source::Selection;
 

@@ -71,6 +71,7 @@ impl Samples {
                 let wanted = |frame: &u32| split.as_ref().is_none_or(|side| side.contains(&(scene.clone(), camera.clone(), *frame)));
                 let numbers: Vec<u32> = samples.dataset.frame_numbers(scene, &camera)?.into_iter().filter(wanted).collect();
                 let Some(&first) = numbers.first() else { continue };
+                samples.check_poses(scene, &camera)?;
                 let layers = layers.get_or_insert_with(|| samples.stored_layers(scene, &camera, first));
                 samples.add(scene, camera, &numbers, layers);
             }
@@ -158,6 +159,16 @@ impl Samples {
 
     fn stored_layers(&self, scene: &str, camera: &str, frame: u32) -> Vec<Layer> {
         LAYERS.iter().map(|spec| spec.layer).filter(|&layer| self.dataset.has_layer(scene, camera, frame, layer)).collect()
+    }
+
+    /// Refuses a camera without poses where these are asked for: who downloads Hypersim's images alone has none.
+    fn check_poses(&self, scene: &str, camera: &str) -> Result<(), LoaderError> {
+        let poses = self.dataset.layout().keyframes(scene, camera, "positions");
+        if !self.options.cameras || poses.is_file() {
+            return Ok(());
+        }
+        let remedy = "unpack the scene's folder _detail beside its images, choose other scenes, or ask for no poses (poses=False)";
+        Err(LoaderError::Request(format!("{scene}/{camera} has images but no poses: {} is not there; {remedy}", poses.display())))
     }
 
     /// Adds a camera with those of its frames that have all layers.

@@ -31,6 +31,12 @@ struct Report<'a> {
     lost: &'a [String],
 }
 
+/// Where a scene file is imported to unless that is said: a package of its name, in the current folder.
+pub fn scene_file_of(input: &Path) -> PathBuf {
+    let name = input.file_name().map_or_else(|| "scene".into(), PathBuf::from);
+    name.with_extension("scene")
+}
+
 /// Imports the file of `source` (a path as it stands) to `output` and a report `<output>.report.json`. `encode` gives the bytes of the
 /// output from the scene and the labels that came with it, and what they cannot hold.
 ///

@@ -12,6 +12,7 @@
 """
 
 from ._native import (
+    FORMATS,
     LAYERS,
     STAGES,
     Config,
@@ -21,6 +22,9 @@ from ._native import (
     LoaderIterator,
     StageError,
     __version__,
+    export,
+    home,
+    import_scene,
     repack,
     run,
     split,
@@ -29,6 +33,7 @@ from ._native import (
 )
 
 __all__ = [
+    "FORMATS",
     "LAYERS",
     "STAGES",
     "Config",
@@ -38,6 +43,9 @@ __all__ = [
     "LoaderIterator",
     "StageError",
     "__version__",
+    "export",
+    "home",
+    "import_scene",
     "repack",
     "run",
     "split",

@@ -18,6 +18,7 @@ class Layer(TypedDict):
     sentinel: str
     description: str
 
+FORMATS: dict[str, str]
 LAYERS: dict[str, Layer]
 STAGES: list[str]
 
@@ -112,3 +113,41 @@ def stage(name: str, dataset: Path, *, scenes: Names | None = None, force: bool 
 def verify(dataset: Path, *, scenes: Names | None = None) -> dict[str, Any]: ...
 def split(dataset: Path, *, seed: int | None = None, shares: Sequence[float] | None = None) -> dict[str, Any]: ...
 def repack(dataset: Path, output: Path, *, layers: Names | None = None) -> dict[str, int]: ...
+def export(
+    dataset: Path,
+    format: str,
+    output: Path,
+    *,
+    scenes: Names | None = None,
+    cameras: Names | None = None,
+    frames: int | range | None = None,
+    layers: Names | None = None,
+    shard_mb: int = 1000,
+    force: bool = False,
+    camera_table: Path | None = None,
+) -> dict[str, int]: ...
+def import_scene(
+    file: Path,
+    output: Path | None = None,
+    *,
+    meters_per_unit: float = 1.0,
+    up_axis: Literal["y", "z"] | None = None,
+    environment: Path | None = None,
+    allow_missing_textures: bool = False,
+) -> dict[str, Any]: ...
+def home(
+    output: Path = "home.scene",
+    *,
+    rooms: Names | None = None,
+    seed: int = 0,
+    layout: int | None = None,
+    furniture: int | None = None,
+    materials: int | None = None,
+    realism: float = 1.0,
+    light: int | None = None,
+    moment: Literal["day", "evening", "night"] | None = None,
+    clutter: float = 1.0,
+    assets: Names | None = None,
+    assets_share: float = 1.0,
+    allow_broken_assets: bool = False,
+) -> dict[str, Any]: ...

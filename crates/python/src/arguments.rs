@@ -48,6 +48,33 @@ pub fn split(name: Option<&str>) -> PyResult<Option<Partition>> {
     name.map(|name| name.parse().map_err(|problem| PyValueError::new_err(format!("split: {problem}")))).transpose()
 }
 
+/// Frame numbers: one, or a `range` with a step of one.
+#[derive(FromPyObject)]
+pub enum Frames {
+    /// One.
+    One(u32),
+    /// From `start`, without `stop`.
+    Range {
+        /// The first.
+        start: u32,
+        /// One after the last.
+        stop: u32,
+        /// 1.
+        step: i64,
+    },
+}
+
+impl Frames {
+    /// As the crates have it.
+    pub fn range(&self) -> PyResult<std::ops::Range<u32>> {
+        match *self {
+            Self::One(frame) => Ok(frame..frame.saturating_add(1)),
+            Self::Range { start, stop, step: 1 } if start < stop => Ok(start..stop),
+            _ => Err(PyValueError::new_err("frames must be a number or a range with a step of 1 that is not empty, as in range(0, 10)")),
+        }
+    }
+}
+
 /// Where a crop lies: `"center"`, `"random"`, or first row and column.
 #[derive(Clone, FromPyObject, IntoPyObject)]
 pub enum Place {

@@ -96,15 +96,10 @@ impl Arguments {
             };
             let scenes = dataset.scenes().map_err(IntoPy::into_py)?;
             let scenes = select("scene", &scenes, self.scenes.as_ref())?.unwrap_or(scenes);
-            let mut cameras = Vec::new();
-            if self.cameras.is_some() {
-                for scene in &scenes {
-                    cameras.extend(dataset.cameras(scene).map_err(IntoPy::into_py)?);
-                }
-                cameras.sort_unstable();
-                cameras.dedup();
-            }
-            let cameras = select("camera", &cameras, self.cameras.as_ref())?;
+            let cameras = match &self.cameras {
+                None => None,
+                pattern => select("camera", &dataset.camera_names(&scenes).map_err(IntoPy::into_py)?, pattern.as_ref())?,
+            };
             Samples::open(dataset, &Choice { layers, scenes: Some(scenes), cameras, split }, options).map_err(IntoPy::into_py)
         })
     }

@@ -1,6 +1,7 @@
 //! Our errors as Python's exceptions, whose messages name the file.
 
 use enfilade_dataset::DatasetError;
+use enfilade_export::ExportError;
 use enfilade_loader::LoaderError;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyRuntimeError, PyValueError};
@@ -32,6 +33,16 @@ impl IntoPy for LoaderError {
         match self {
             Self::Dataset(error) => error.into_py(),
             Self::Request(message) => PyValueError::new_err(message),
+        }
+    }
+}
+
+impl IntoPy for ExportError {
+    fn into_py(self) -> PyErr {
+        match self {
+            Self::Dataset(error) => error.into_py(),
+            Self::Io { .. } => PyOSError::new_err(self.to_string()),
+            Self::Place { .. } | Self::Selection(_) | Self::Unsuitable { .. } => PyValueError::new_err(self.to_string()),
         }
     }
 }

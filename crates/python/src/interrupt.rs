@@ -1,7 +1,8 @@
 //! Ctrl-C during long work.
 
 use crate::errors::IntoPy;
-use enfilade_pipeline::{Error, Event, Reporter, Stage};
+use enfilade_pipeline::{Event, Reporter, Stage};
+use enfilade_scene::{Cx, Warning};
 use pyo3::prelude::*;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,16 +16,30 @@ const INTERVAL: Duration = Duration::from_millis(100);
 #[derive(Default)]
 pub struct Interrupt(AtomicBool);
 
-impl Reporter for Interrupt {
-    fn on(&self, _scene: &str, _stage: Stage, _event: Event) {
+impl Interrupt {
+    fn check(&self) {
         if self.0.load(Ordering::Relaxed) {
             resume_unwind(Box::new("interrupted"));
         }
     }
 }
 
+impl Reporter for Interrupt {
+    fn on(&self, _scene: &str, _stage: Stage, _event: Event) {
+        self.check();
+    }
+}
+
+impl Cx for Interrupt {
+    fn progress(&self, _what: &str, _done: u64, _total: u64) {
+        self.check();
+    }
+
+    fn warn(&self, _warning: Warning) {}
+}
+
 /// Does `work` on a thread of its own, and meanwhile lets Python look after signals.
-pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&Interrupt) -> Result<T, Error> + Send) -> PyResult<T> {
+pub fn interruptible<T: Send, E: IntoPy + Send>(py: Python<'_>, work: impl FnOnce(&Interrupt) -> Result<T, E> + Send) -> PyResult<T> {
     let interrupt = Interrupt::default();
     std::thread::scope(|scope| {
         let (alive, ended) = channel::<()>();

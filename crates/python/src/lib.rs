@@ -1,8 +1,8 @@
 //! The Python module `enfilade`: datasets as numpy arrays, and the verbs of the command line.
 //!
-//! Here is nothing but conversion: samples come from `enfilade-loader`, stages from `enfilade-pipeline`. Arrays are handed over without a
-//! copy, and the interpreter is released while anything is read, decoded or rendered. `enfilade/__init__.pyi` is the public face with
-//! its types; the doc strings stand here.
+//! Here is nothing but conversion: samples come from `enfilade-loader`, stages from `enfilade-pipeline`, layouts from `enfilade-export`.
+//! Arrays are handed over without a copy, and the interpreter is released while anything is read, decoded or rendered.
+//! `enfilade/__init__.pyi` is the public face with its types; the doc strings stand here.
 
 mod arguments;
 mod arrays;
@@ -12,6 +12,7 @@ mod errors;
 mod interrupt;
 mod json;
 mod loader;
+mod scene_files;
 mod verbs;
 
 use pyo3::prelude::*;
@@ -29,6 +30,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("StageError", py.get_type::<errors::StageError>())?;
     module.add("LAYERS", layers(py)?)?;
     module.add("STAGES", PyList::new(py, enfilade_pipeline::STAGES.iter().map(|spec| spec.name))?)?;
+    module.add("FORMATS", formats(py)?)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     for function in [
         wrap_pyfunction!(verbs::run, module)?,
@@ -36,10 +38,20 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         wrap_pyfunction!(verbs::verify, module)?,
         wrap_pyfunction!(verbs::split, module)?,
         wrap_pyfunction!(verbs::repack, module)?,
+        wrap_pyfunction!(verbs::export, module)?,
+        wrap_pyfunction!(scene_files::import_scene, module)?,
+        wrap_pyfunction!(scene_files::home, module)?,
     ] {
         module.add_function(function)?;
     }
     Ok(())
+}
+
+/// What each format of `export` is, by name.
+fn formats(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let table = PyDict::new(py);
+    enfilade_export::FORMATS.iter().try_for_each(|spec| table.set_item(spec.name, spec.about))?;
+    Ok(table)
 }
 
 /// The table of layers, by name.

@@ -1,11 +1,12 @@
 //! The verbs of the command line.
 
-use crate::arguments::{Names, layers};
+use crate::arguments::{Frames, Names, layers};
 use crate::config::Config;
 use crate::errors::{IntoPy, StageError};
 use crate::interrupt::{Interrupt, interruptible};
 use crate::json;
 use enfilade_dataset::Dataset;
+use enfilade_export::{Existing, ExportConfig, FORMATS, Format, Selection};
 use enfilade_pipeline::{STAGES, Stage, Summary};
 use enfilade_post::verify::{verify_dataset, write_report};
 use pyo3::exceptions::PyValueError;
@@ -81,9 +82,9 @@ pub fn split<'py>(py: Python<'py>, dataset: PathBuf, seed: Option<u64>, shares: 
     json::to_python(py, &report)
 }
 
-/// Copies frames, cameras and tables of a dataset, ours or Hypersim's, to the folder `output`, with images in LZ4 instead of deflate, about as
-/// large and four to sixteen times as fast to read by `enfilade.Dataset`. Values and names are the same. h5py reads
-/// the copy with the package hdf5plugin.
+/// Copies frames, cameras and tables of a dataset, ours or Hypersim's, to the folder `output`, with images that are stored as they are (depth, and
+/// what hardly shrinks, as colours) or under LZ4: larger than Hypersim's gzip, and ten and more times as fast to read by `enfilade.Dataset` as that
+/// is by h5py. Values and names are the same. h5py reads the copy with the package hdf5plugin.
 ///
 /// layers: only these. Gives the number of files and their bytes before and after.
 #[pyfunction]
@@ -96,6 +97,59 @@ pub fn repack<'py>(py: Python<'py>, dataset: PathBuf, output: PathBuf, layers: O
     })?;
     let counts = json!({ "files": copied.files, "bytes_before": copied.bytes_before, "bytes_after": copied.bytes_after });
     json::to_python(py, &counts)
+}
+
+/// Writes a dataset, ours or Hypersim's, in another layout to the folder `output`; an earlier export there is replaced. Nothing is rendered.
+///
+/// format: a name of `enfilade.FORMATS`, which tells what each is; docs/export.md has units and axes.
+/// scenes, cameras: only these; `*` stands for any run of characters.
+/// frames: only these numbers: one, or a range such as range(0, 10).
+/// layers: only these, of those that the format can hold.
+/// shard_mb: with "webdataset", the largest size of a shard in megabytes.
+/// force: if `output` exists and is no export, renames it to `output`.old.
+/// camera_table: another metadata_camera_parameters.csv.
+///
+/// Gives numbers of `frames`, `files` and `bytes`.
+#[pyfunction]
+#[pyo3(signature = (dataset, format, output, *, scenes=None, cameras=None, frames=None, layers=None, shard_mb=1000, force=false, camera_table=None))]
+pub fn export<'py>(
+    py: Python<'py>,
+    dataset: PathBuf,
+    format: &str,
+    output: PathBuf,
+    scenes: Option<Names>,
+    cameras: Option<Names>,
+    frames: Option<Frames>,
+    layers: Option<Names>,
+    shard_mb: u64,
+    force: bool,
+    camera_table: Option<PathBuf>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let known = || FORMATS.map(|spec| spec.name).join(", ");
+    let unknown = || PyValueError::new_err(format!("there is no format {format:?}; the formats are: {}", known()));
+    let format = Format::from_name(format).ok_or_else(unknown)?;
+    if shard_mb == 0 {
+        return Err(PyValueError::new_err("shard_mb must be at least 1"));
+    }
+    let (layers, frames) = (self::layers(layers.as_ref())?, frames.map(|frames| frames.range()).transpose()?);
+    let select = |what, names: &[String], chosen: Option<&Names>| {
+        enfilade_pipeline::select(what, names, chosen.map(Names::pattern).as_deref()).map_err(IntoPy::into_py)
+    };
+    let opened = Dataset::open(&dataset).map_err(IntoPy::into_py)?;
+    let opened = match camera_table {
+        Some(table) => opened.with_camera_table(table),
+        None => opened,
+    };
+    let scenes = select("scene", &opened.scenes().map_err(IntoPy::into_py)?, scenes.as_ref())?;
+    let cameras = match &cameras {
+        None => None,
+        chosen => Some(select("camera", &opened.camera_names(&scenes).map_err(IntoPy::into_py)?, chosen.as_ref())?),
+    };
+    let config =
+        ExportConfig { format, selection: Selection { scenes, cameras, frames, layers }, shard_bytes: shard_mb.saturating_mul(1_000_000) };
+    let existing = if force { Existing::SetAside } else { Existing::Refuse };
+    let exported = interruptible(py, |cx: &Interrupt| enfilade_export::export(&opened, &config, &output, existing, cx))?;
+    json::to_python(py, &json!({ "frames": exported.frames, "files": exported.files, "bytes": exported.bytes }))
 }
 
 /// The summary as a dictionary, or what went wrong.

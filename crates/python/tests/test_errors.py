@@ -56,6 +56,19 @@ class Errors(unittest.TestCase):
         self.assertIn("optical_flow", self.message(ValueError, lambda: open_with(layers="optical_flow")))
         self.assertIn("center", self.message(ValueError, lambda: open_with(crop=(9, 9), crop_place="middle")))
 
+    def test_images_without_detail_are_read_and_poses_asked_for_in_vain_are_told(self):
+        root = self.copy()
+        shutil.rmtree(root / "scenes/home/_detail")
+        message = self.message(ValueError, lambda: enfilade.Dataset(root, layers="depth_meters"))
+        for part in ("home/cam_00", "camera_keyframe_positions.hdf5", "_detail", "poses=False"):
+            self.assertIn(part, message)
+        frames = enfilade.Dataset(root, layers=["color", "depth_meters", "depth_z_meters"], poses=False)
+        whole = enfilade.Dataset(datasets.as_hypersim(), layers=["color", "depth_meters", "depth_z_meters"])
+        self.assertEqual(len(frames), 3)
+        self.assertNotIn("K", frames[0])
+        for layer in frames.layers:
+            self.assertEqual(frames[1][layer].tobytes(), whole[1][layer].tobytes())
+
     def test_crops_that_do_not_fit(self):
         frames = enfilade.Dataset(datasets.made(), layers="color", crop=(141, 10))
         self.assertIn("140x200", self.message(ValueError, lambda: frames[0]))

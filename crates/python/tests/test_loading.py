@@ -108,15 +108,6 @@ class Loading(unittest.TestCase):
         next(iterator)
         del iterator
 
-    def test_torch_takes_it(self):
-        try:
-            from torch.utils.data import DataLoader
-        except ImportError:
-            self.skipTest("torch is not installed")
-        for workers in (0, 2):
-            batch = next(iter(DataLoader(self.frames, batch_size=3, num_workers=workers)))
-            self.assertEqual(tuple(batch["color"].shape), (3, 64, 80, 3))
-
 
 class Choosing(unittest.TestCase):
     def test_scenes_cameras_and_sides_of_the_split(self):

@@ -57,6 +57,56 @@ class Verbs(unittest.TestCase):
         self.assertEqual(report["images"]["train"], 3)
         self.assertEqual(len(enfilade.Dataset(datasets.made(), layers="color", split="train")), 3)
 
+    def test_a_scene_file_is_imported_with_a_report(self):
+        folder = datasets.folder() / "imported"
+        folder.mkdir()
+        (folder / "slab.obj").write_text("mtllib gone.mtl\nv 0 0 0\nv 2 0 0\nv 2 0 -2\nf 1 2 3\n")
+        done = enfilade.import_scene(folder / "slab.obj", folder / "slab.scene", meters_per_unit=0.5)
+        self.assertEqual(Path(done["scene"]), folder / "slab.scene")
+        self.assertTrue(Path(done["scene"]).is_file() and Path(done["report"]).is_file())
+        self.assertIn("gone.mtl", str(done["warnings"]))
+        with self.assertRaisesRegex(ValueError, "slab.txt.*end it with .scene"):
+            enfilade.import_scene(folder / "slab.obj", folder / "slab.txt")
+        with self.assertRaisesRegex(ValueError, "expected \"y\" or \"z\""):
+            enfilade.import_scene(folder / "slab.obj", up_axis="x")
+        with self.assertRaisesRegex(RuntimeError, "gone.obj"):
+            enfilade.import_scene(folder / "gone.obj", folder / "gone.scene")
+
+    def test_a_home_is_made_of_rooms_and_seed(self):
+        paths = [datasets.folder() / name for name in ("a.scene", "b.scene", "c.scene", "d.glb")]
+        for path, seed in zip(paths, (7, 7, 8, 7), strict=True):
+            done = enfilade.home(path, rooms=["bathroom", "hall"], seed=seed)
+            self.assertEqual(sorted(room.split()[0] for room in done["rooms"].split(", ")), ["bathroom", "hall"])
+        first, second, other, _ = (path.read_bytes() for path in paths)
+        self.assertEqual(first, second)
+        self.assertNotEqual(first, other)
+        self.assertTrue(done["lost"] is not None and paths[3].read_bytes().startswith(b"glTF"))
+        with self.assertRaisesRegex(ValueError, "kinds are: living"):
+            enfilade.home(paths[0], rooms="garage")
+        with self.assertRaisesRegex(ValueError, "clutter must lie between"):
+            enfilade.home(paths[0], clutter=9)
+        with self.assertRaisesRegex(ValueError, "evening"):
+            enfilade.home(paths[0], moment="noon")
+
+    def test_a_dataset_is_exported(self):
+        out = datasets.folder() / "coco"
+        done = enfilade.export(datasets.made(), "coco", out, cameras="cam_*", frames=range(0, 2))
+        self.assertEqual(done["frames"], 2)
+        files = [path for path in out.rglob("*") if path.is_file()]
+        self.assertEqual((len(files), sum(path.stat().st_size for path in files)), (done["files"], done["bytes"]))
+        self.assertTrue((out / "README.md").is_file())
+        self.assertEqual(enfilade.export(datasets.made(), "coco", out, frames=2)["frames"], 1)
+        other = datasets.folder() / "no-export"
+        other.mkdir()
+        (other / "mine.txt").write_text("mine")
+        with self.assertRaisesRegex(ValueError, "no-export cannot be the output folder"):
+            enfilade.export(datasets.made(), "coco", other)
+        enfilade.export(datasets.made(), "coco", other, layers=["color", "semantic", "semantic_instance"], force=True)
+        self.assertEqual((datasets.folder() / "no-export.old/mine.txt").read_text(), "mine")
+        for wrong in ({"format": "cocoa"}, {"scenes": "hom"}, {"cameras": "cam_7"}, {"frames": range(0, 4, 2)}, {"shard_mb": 0}):
+            with self.assertRaises(ValueError, msg=wrong):
+                enfilade.export(**({"dataset": datasets.made(), "format": "coco", "output": out} | wrong))
+
     def test_stages_that_do_not_exist(self):
         with self.assertRaisesRegex(ValueError, "render"):
             enfilade.stage("rendr", datasets.made())
@@ -78,6 +128,9 @@ class Announced(unittest.TestCase):
         for name in enfilade.__all__:
             value = getattr(enfilade, name)
             self.assertTrue(value.__doc__, name)
+
+    def test_formats_are_described(self):
+        self.assertIn("COLMAP", enfilade.FORMATS["colmap"])
 
     def test_layers_are_described(self):
         self.assertEqual(enfilade.LAYERS["depth_meters"]["unit"], "m")

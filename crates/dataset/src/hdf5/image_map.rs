@@ -1,8 +1,8 @@
 //! Where the chunks of an image lie in its file.
 //!
 //! This walks the one form of HDF5 that images have, Hypersim's and ours: superblock 0, one dataset named `dataset` in the root
-//! group, an object header of version 1, chunks in a B-tree of version 1 ("HDF5 File Format Specification Version 3.0", sections II.A,
-//! III.A, III.C, IV.A). Whatever differs is `None`, and then the HDF5 library has its say.
+//! group, an object header of version 1, and the values as one run or as filtered chunks in a B-tree of version 1 ("HDF5 File Format
+//! Specification Version 3.0", sections II.A, III.A, III.C, IV.A). Whatever differs is `None`, and then the HDF5 library has its say.
 
 use super::Element;
 use super::bytes::{Source, u16_at, u32_at, u64_at, usize_at};
@@ -25,6 +25,8 @@ pub(super) enum Codec {
     Deflate,
     /// LZ4 in the framing of HDF5's registered filter.
     Lz4,
+    /// Not at all: the image is one run of bytes, one chunk of its own size.
+    Stored,
 }
 
 /// Bytes of a chunk in the file.
@@ -59,14 +61,17 @@ impl ImageMap {
         grid(self.axes(), self.chunk)
     }
 
-    /// `None` when the file is anything but a whole compressed image in the known form.
+    /// `None` when the file is anything but a whole image in the known form.
     pub fn read(source: &mut Source) -> Option<Self> {
         let header = dataset_header(source)?;
         let mut found = Description::default();
         messages(source, header, &mut |kind, body| found.take(kind, body))?;
-        let (shape, element, filters) = (found.shape?, found.element?, found.filters?);
+        let (shape, element) = (found.shape?, found.element?);
+        if let (Some((offset, length)), None) = (found.run, &found.filters) {
+            return Self::of_run(source, shape, element, offset, length);
+        }
         let (tree, sides) = found.chunks?;
-        let (shuffled, codec) = match filters.as_slice() {
+        let (shuffled, codec) = match found.filters?.as_slice() {
             [DEFLATE] => (false, Codec::Deflate),
             [SHUFFLE, DEFLATE] => (true, Codec::Deflate),
             [SHUFFLE, LZ4] => (true, Codec::Lz4),
@@ -86,6 +91,15 @@ impl ImageMap {
         map.places = vec![Place::default(); map.grid().iter().product()];
         map.walk(source, tree, 0)?;
         map.places.iter().all(|place| place.length > 0).then_some(map)
+    }
+
+    /// The map of an image that is one run of `length` bytes.
+    fn of_run(source: &Source, shape: Vec<usize>, element: Element, offset: u64, length: u64) -> Option<Self> {
+        let bytes = shape.iter().try_fold(element.size(), |n, &axis| n.checked_mul(axis))?;
+        let whole = bytes > 0 && bytes as u64 == length && offset.checked_add(length).is_some_and(|end| end <= source.length);
+        let known = matches!(shape.len(), 2 | 3) && whole;
+        let chunk = if known { image_axes(&shape) } else { return None };
+        Some(Self { element, shape, chunk, shuffled: false, codec: Codec::Stored, places: vec![Place { offset, length: bytes }] })
     }
 
     /// Enters the chunks of a node and of those below it.
@@ -193,6 +207,8 @@ struct Description {
     element: Option<Element>,
     /// Address of the tree of chunks, and a chunk's sides with the size of an element behind them.
     chunks: Option<(u64, Vec<usize>)>,
+    /// Address and bytes of values that are not in chunks.
+    run: Option<(u64, u64)>,
     /// Numbers of the filters, in the order in which they are applied in writing.
     filters: Option<Vec<u16>>,
 }
@@ -207,6 +223,8 @@ impl Description {
             }
             // Datatype.
             0x03 => self.element = Some(element(body)?),
+            // Data layout: version 3, one run.
+            0x08 if body.starts_with(&[3, 1]) => self.run = Some((u64_at(body, 2)?, u64_at(body, 10)?)),
             // Data layout: version 3, chunked.
             0x08 => {
                 let axes = usize::from(*body.get(2)?);

@@ -65,8 +65,9 @@ pub enum Storage {
     Compressed,
     /// Chunks as said: images, of two axes or three. Others are stored as one run.
     Image(Packing),
-    /// An image for fast reading: chunks of 128x128 pixels with all channels, shuffled if they are floating-point numbers, under LZ4. Our
-    /// readers take it like any other; h5py needs the package hdf5plugin for it. Arrays of other than two or three axes are stored as one run.
+    /// An image for fast reading: one run of bytes if it has one channel of floating-point numbers, or if LZ4 would save less than a
+    /// quarter; else chunks of 128x128 pixels with all channels, shuffled if they are floating-point numbers, under LZ4, for which h5py
+    /// needs the package hdf5plugin. Our readers take both like any other. Arrays of other than two or three axes are stored as one run.
     Fast,
 }
 
@@ -295,11 +296,33 @@ mod tests {
         for array in
             arrays().into_iter().filter(|array| matches!(array.shape.len(), 2 | 3) && array.shape[1] > 1 && array.shape[2..] != [3])
         {
-            for storage in storages().into_iter().filter(|storage| *storage != Storage::Contiguous) {
+            for storage in storages() {
                 write_array(&path, &array, storage, &[("unit", "m")]).unwrap();
                 assert!(window::read_image(&path).unwrap() == array, "{:?} {storage:?}", array.shape);
             }
         }
+    }
+
+    #[test]
+    fn fast_images_are_one_run_where_lz4_does_not_pay() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.hdf5");
+        let size = |shape: &[usize], values: Elements| {
+            let array = Array::new(shape, values);
+            write_array(&path, &array, Storage::Fast, &[]).unwrap();
+            assert!(read_array(&path).unwrap() == array);
+            (std::fs::metadata(&path).unwrap().len() as usize, array.values.as_bytes().len())
+        };
+        let smooth = |n: usize| Elements::F16((0..n).map(|i| f16::from_f32((i / 3000) as f32)).collect());
+        let noise = |n: usize| Elements::F16((0..n).map(|i| f16::from_bits((i as u32).wrapping_mul(2_654_435_761) as u16 >> 2)).collect());
+        let (stored, raw) = size(&[300, 400], smooth(120_000));
+        assert!(stored >= raw, "depth is copied: {stored} of {raw}");
+        let (stored, raw) = size(&[300, 400, 3], noise(360_000));
+        assert!((raw..raw + 4096).contains(&stored), "LZ4 saves nothing: {stored} of {raw}");
+        let (stored, raw) = size(&[300, 400, 3], smooth(360_000));
+        assert!(4 * stored < raw, "LZ4 saves much: {stored} of {raw}");
+        let (stored, raw) = size(&[300, 400], Elements::I16((0..120_000).map(|i| (i / 700) as i16).collect()));
+        assert!(4 * stored < raw, "so it does of classes: {stored} of {raw}");
     }
 
     #[test]

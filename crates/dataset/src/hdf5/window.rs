@@ -32,7 +32,7 @@ impl Window {
     }
 }
 
-/// Reads a rectangle of an image of two axes or three: of compressed images only the chunks that it touches.
+/// Reads a rectangle of an image of two axes or three: of an image in chunks only those that it touches.
 ///
 /// # Errors
 /// When the file is missing or damaged, holds no image, or the window leaves it.
@@ -126,6 +126,7 @@ fn decode(source: &mut Source, map: &ImageMap, window: Window) -> Option<Array> 
     if !values.is_empty() {
         let out = values.as_bytes_mut();
         SCRATCH.with_borrow_mut(|scratch| match map.element.size() {
+            _ if map.codec == Codec::Stored => copy_run(source, map, window, &mut scratch.stored, out),
             1 => decode_sized::<1>(source, map, window, scratch, out),
             2 => decode_sized::<2>(source, map, window, scratch, out),
             4 => decode_sized::<4>(source, map, window, scratch, out),
@@ -133,6 +134,24 @@ fn decode(source: &mut Source, map: &ImageMap, window: Window) -> Option<Array> 
         })?;
     }
     Some(Array { shape: cut_shape(&map.shape, window), values })
+}
+
+/// [`decode`] of an image that is one run of bytes.
+fn copy_run(source: &mut Source, map: &ImageMap, window: Window, stored: &mut Vec<u8>, out: &mut [u8]) -> Option<()> {
+    let [_, width, channels] = map.axes();
+    let pixel = channels * map.element.size();
+    let first = map.places[0].offset + ((window.top * width + window.left) * pixel) as u64;
+    if window.width == width {
+        return source.read(first, out);
+    }
+    let (row, run) = (width * pixel, window.width * pixel);
+    let span = (window.height - 1) * row + run;
+    if stored.len() < span {
+        stored.resize(span, 0);
+    }
+    source.read(first, &mut stored[..span])?;
+    out.chunks_exact_mut(run).zip(stored.chunks(row)).for_each(|(out, row)| out.copy_from_slice(&row[..run]));
+    Some(())
 }
 
 /// [`decode`] for elements of `B` bytes.
@@ -180,6 +199,7 @@ fn inflate<const B: usize>(map: &ImageMap, places: &[Place], base: u64, scratch:
         let length = match map.codec {
             Codec::Deflate => inflate.get_or_insert_default().zlib_decompress(stored, target).ok()?,
             Codec::Lz4 => lz4::decompress(stored, target)?,
+            Codec::Stored => return None,
         };
         if length != bytes {
             return None;

@@ -56,15 +56,12 @@ fn fill(file: &H5File, array: ArrayView, storage: Storage, attributes: &[(&str, 
     let dataset = match storage {
         _ if array.bytes.is_empty() => write_contiguous(file, array)?,
         Storage::Compressed if (1..=3).contains(&axes) => {
-            write_chunks(file, array, &auto_chunk(array.shape, array.element.size()), true, Some(MESH_LEVEL))?
+            write_chunks(file, array, &auto_chunk(array.shape, array.element.size()), true, MESH_LEVEL)?
         }
         Storage::Image(packing) if (2..=3).contains(&axes) => {
-            write_chunks(file, array, &packing.chunk_shape(array.shape), packing.shuffle, Some(packing.level))?
+            write_chunks(file, array, &packing.chunk_shape(array.shape), packing.shuffle, packing.level)?
         }
-        Storage::Fast if (2..=3).contains(&axes) => {
-            let packing = Packing::fast(array.element);
-            write_chunks(file, array, &packing.chunk_shape(array.shape), packing.shuffle, None)?
-        }
+        Storage::Fast if (2..=3).contains(&axes) => write_fast(file, array)?,
         _ => write_contiguous(file, array)?,
     };
     for (name, value) in attributes {
@@ -82,31 +79,54 @@ fn write_contiguous(file: &H5File, array: ArrayView) -> rust_hdf5::Result<H5Data
     Ok(dataset)
 }
 
-/// Deflating the chunks here instead of in the HDF5 library is what makes writing fast: libdeflate takes half of zlib's time. Without a
-/// level of deflate they are under LZ4.
-fn write_chunks(file: &H5File, array: ArrayView, chunk: &[usize], shuffled: bool, level: Option<i32>) -> rust_hdf5::Result<H5Dataset> {
-    let size = array.element.size();
-    let builder = file.new_dataset::<u8>().datatype(datatype(array.element)).shape(array.shape).chunk(chunk);
-    let dataset = builder.filter_pipeline(filters(shuffled.then_some(size), level)).create("dataset")?;
-    let mut compressor = Compressor::new(CompressionLvl::new(level.unwrap_or_default()).unwrap_or_default());
-    let (shape3, chunk3) = (three_axes(array.shape), three_axes(chunk));
-    let [a, b, c] = grid(shape3, chunk3);
+/// Deflating the chunks here instead of in the HDF5 library is what makes writing fast: libdeflate takes half of zlib's time.
+fn write_chunks(file: &H5File, array: ArrayView, chunk: &[usize], shuffled: bool, level: i32) -> rust_hdf5::Result<H5Dataset> {
+    let dataset = chunked(file, array, chunk, shuffled, Some(level))?;
+    let mut compressor = Compressor::new(CompressionLvl::new(level).unwrap_or_default());
     let mut deflated = Vec::new();
-    for at in (0..a * b * c).map(|i| [i / (b * c), i / c % b, i % c]) {
-        let raw = gather(array.bytes, size, shape3, chunk3, at);
-        let filtered = if shuffled { shuffle(&raw, size) } else { raw };
-        let place = &at[3 - chunk.len()..];
-        if level.is_none() {
-            dataset.write_chunk_raw_at(place, &lz4::compress(&filtered), 0)?;
-            continue;
-        }
+    for (at, filtered) in chunks(array, chunk, shuffled) {
         deflated.resize(compressor.zlib_compress_bound(filtered.len()), 0);
         let length = compressor
             .zlib_compress(&filtered, &mut deflated)
             .map_err(|error| Hdf5Error::InvalidState(format!("deflate failed: {error}")))?;
-        dataset.write_chunk_raw_at(place, &deflated[..length], 0)?;
+        dataset.write_chunk_raw_at(&at[3 - chunk.len()..], &deflated[..length], 0)?;
     }
     Ok(dataset)
+}
+
+/// Under LZ4, or as one run where that does not pay.
+fn write_fast(file: &H5File, array: ArrayView) -> rust_hdf5::Result<H5Dataset> {
+    let packing = Packing::fast(array.element);
+    let chunk = packing.chunk_shape(array.shape);
+    if Packing::is_copied(array.element, array.shape) {
+        return write_contiguous(file, array);
+    }
+    let frames: Vec<_> = chunks(array, &chunk, packing.shuffle).map(|(at, filtered)| (at, lz4::compress(&filtered))).collect();
+    if !Packing::pays(array.bytes.len(), frames.iter().map(|(_, frame)| frame.len()).sum()) {
+        return write_contiguous(file, array);
+    }
+    let dataset = chunked(file, array, &chunk, packing.shuffle, None)?;
+    for (at, frame) in &frames {
+        dataset.write_chunk_raw_at(&at[3 - chunk.len()..], frame, 0)?;
+    }
+    Ok(dataset)
+}
+
+/// A dataset of chunks yet to be written.
+fn chunked(file: &H5File, array: ArrayView, chunk: &[usize], shuffled: bool, level: Option<i32>) -> rust_hdf5::Result<H5Dataset> {
+    let builder = file.new_dataset::<u8>().datatype(datatype(array.element)).shape(array.shape).chunk(chunk);
+    builder.filter_pipeline(filters(shuffled.then_some(array.element.size()), level)).create("dataset")
+}
+
+/// The chunks with their places along three axes, shuffled if that is asked for, last axis fastest.
+fn chunks<'a>(array: ArrayView<'a>, chunk: &[usize], shuffled: bool) -> impl Iterator<Item = ([usize; 3], Vec<u8>)> + use<'a> {
+    let (size, shape3, chunk3) = (array.element.size(), three_axes(array.shape), three_axes(chunk));
+    let [a, b, c] = grid(shape3, chunk3);
+    (0..a * b * c).map(move |i| {
+        let at = [i / (b * c), i / c % b, i % c];
+        let raw = gather(array.bytes, size, shape3, chunk3, at);
+        (at, if shuffled { shuffle(&raw, size) } else { raw })
+    })
 }
 
 /// The filters of chunks: shuffle by the size of elements, if given, then deflate at a level, if given, else LZ4.
