@@ -76,7 +76,12 @@ impl Confusion {
     ///
     /// # Errors
     /// When a number is no class, or there are not as many predictions as truths.
-    pub fn add<P: Copy + Into<i64>, T: Copy + Into<i64>>(&mut self, prediction: &[P], truth: &[T], ignore: i64) -> Result<(), ConfusionError> {
+    pub fn add<P: Copy + Into<i64>, T: Copy + Into<i64>>(
+        &mut self,
+        prediction: &[P],
+        truth: &[T],
+        ignore: i64,
+    ) -> Result<(), ConfusionError> {
         if prediction.len() != truth.len() {
             return Err(ConfusionError::Lengths { predicted: prediction.len(), truths: truth.len() });
         }
@@ -112,7 +117,8 @@ impl Confusion {
     pub fn iou(&self) -> Vec<Option<f64>> {
         let at = |truth: usize, predicted: usize| self.counts[truth * self.classes + predicted];
         let class = |class: usize| {
-            let (truth, predicted): (u64, u64) = (0..self.classes).map(|other| (at(class, other), at(other, class))).fold((0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
+            let (truth, predicted): (u64, u64) =
+                (0..self.classes).map(|other| (at(class, other), at(other, class))).fold((0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
             let (both, either) = (at(class, class), truth + predicted - at(class, class));
             (either > 0).then(|| both as f64 / either as f64)
         };
@@ -172,7 +178,11 @@ mod tests {
     #[test]
     fn what_is_no_class_is_refused_and_nothing_counted() {
         let mut found = Confusion::new(4);
-        for (prediction, truth, said) in [(vec![0_i32, 4], vec![1_i32, 1], "prediction 4 at place 1"), (vec![0, 0], vec![1, 7], "true class 7"), (vec![0], vec![1, 1], "1 predictions for 2")] {
+        for (prediction, truth, said) in [
+            (vec![0_i32, 4], vec![1_i32, 1], "prediction 4 at place 1"),
+            (vec![0, 0], vec![1, 7], "true class 7"),
+            (vec![0], vec![1, 1], "1 predictions for 2"),
+        ] {
             let error = found.add(&prediction, &truth, -1).unwrap_err().to_string();
             assert!(error.contains(said), "{error}");
         }

@@ -57,10 +57,8 @@ impl Confusion {
     /// ignore: pixels of this truth are left out, whatever was predicted.
     #[pyo3(signature = (prediction, truth, ignore=-1))]
     fn add(&self, py: Python<'_>, prediction: &Bound<'_, PyAny>, truth: &Bound<'_, PyAny>, ignore: i64) -> PyResult<()> {
-        let (shapes, values) = (
-            [shape("prediction", prediction)?, shape("truth", truth)?],
-            [numbers("prediction", prediction)?, numbers("truth", truth)?],
-        );
+        let (shapes, values) =
+            ([shape("prediction", prediction)?, shape("truth", truth)?], [numbers("prediction", prediction)?, numbers("truth", truth)?]);
         if shapes[0] != shapes[1] {
             return Err(PyValueError::new_err(format!("prediction has shape {:?}, truth {:?}; expected the same", shapes[0], shapes[1])));
         }

@@ -99,7 +99,8 @@ impl Volume {
     /// When the file is missing, no HDF5, damaged, or of a newer form of HDF5.
     pub fn open(path: &Path) -> Result<Self, DatasetError> {
         std::fs::metadata(path).map_err(DatasetError::at("read", path))?;
-        let mut source = Source::open(path).ok_or_else(|| std::io::Error::other("it cannot be opened")).map_err(DatasetError::at("read", path))?;
+        let mut source =
+            Source::open(path).ok_or_else(|| std::io::Error::other("it cannot be opened")).map_err(DatasetError::at("read", path))?;
         let wrong = |problem: String| DatasetError::hdf5(path, problem);
         let base = begin(&mut source).ok_or_else(|| wrong("holds no HDF5; check that the path is right and the download whole".into()))?;
         let mut source = source.based_at(base);
@@ -173,7 +174,8 @@ impl Volume {
                     [SHUFFLE] => (true, false),
                     [SHUFFLE, DEFLATE] => (true, true),
                     other => {
-                        let problem = format!("is compressed by HDF5's filters {other:?}, expected deflate, with or without shuffle; {REWRITE}");
+                        let problem =
+                            format!("is compressed by HDF5's filters {other:?}, expected deflate, with or without shuffle; {REWRITE}");
                         return Err(wrong(&problem));
                     }
                 };
@@ -211,8 +213,8 @@ const DAMAGED: &str = "the file is damaged or cut short; copy or download it aga
 
 /// Where HDF5 begins: at the start of the file, or at 512 bytes, or at twice that, and so on.
 fn begin(source: &mut Source) -> Option<u64> {
-    let places = std::iter::once(0).chain((9..24).map(|power| 1 << power));
-    places.into_iter().take_while(|&place| place < source.length).find(|&place| source.bytes(place, 8).is_some_and(|b| b == SIGNATURE))
+    let mut places = std::iter::once(0).chain((9..24).map(|power| 1 << power));
+    places.find(|&place| source.bytes(place, 8).is_some_and(|bytes| bytes == SIGNATURE))
 }
 
 /// The members of the root group.
@@ -293,7 +295,10 @@ impl Header {
             }
             // Data layout.
             0x08 => {
-                self.known(body.first() == Some(&3), "its data lie in a way of HDF5 that is not read here; write the file again with h5repack")?;
+                self.known(
+                    body.first() == Some(&3),
+                    "its data lie in a way of HDF5 that is not read here; write the file again with h5repack",
+                )?;
                 self.layout = Some(match *body.get(1)? {
                     0 => Stored::Compact(body.get(4..4 + usize::from(u16_at(body, 2)?))?.to_vec()),
                     1 => Stored::Contiguous(u64_at(body, 2)?),

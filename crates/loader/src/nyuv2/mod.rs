@@ -55,9 +55,8 @@ impl NyuV2 {
         let volume = Volume::open(path)?;
         let mut arrays = Vec::new();
         for &layer in &choice.layers {
-            let (name, number, axes) = stored(layer).ok_or_else(|| {
-                refuse(format!("NYUv2 has no layer {}; it has color, depth_z_meters and semantic", layer.spec().name))
-            })?;
+            let (name, number, axes) = stored(layer)
+                .ok_or_else(|| refuse(format!("NYUv2 has no layer {}; it has color, depth_z_meters and semantic", layer.spec().name)))?;
             let array = volume.array(name)?;
             if array.number != number || array.shape.len() != axes || (axes == 4 && array.shape[1] != 3) {
                 let expected = if axes == 4 { "[images, 3, width, height]" } else { "[images, width, height]" };
@@ -73,7 +72,9 @@ impl NyuV2 {
             return Err(refuse(format!("{layer} has {found:?} images, columns and rows, other layers have {:?}", [count, width, height])));
         }
         if count != PUBLISHED_IMAGES && !choice.partial {
-            return Err(refuse(format!("has {count} images, expected the {PUBLISHED_IMAGES} that are published; ask for `partial` if it is meant to be a part")));
+            return Err(refuse(format!(
+                "has {count} images, expected the {PUBLISHED_IMAGES} that are published; ask for `partial` if it is meant to be a part"
+            )));
         }
         let chosen = |image: &usize| choice.split.is_none_or(|side| side_of(*image) == Some(side));
         let images: Vec<usize> = (0..count).filter(chosen).collect();
@@ -190,7 +191,8 @@ mod tests {
     fn transposed_images_are_turned_upright() {
         // Two channels would be no image, but show the order: value = 100 channel + 10 column + row.
         let (height, width) = (3, 2);
-        let bytes: Vec<u8> = (0..2).flat_map(|c| (0..width).flat_map(move |x| (0..height).map(move |y| (100 * c + 10 * x + y) as u8))).collect();
+        let bytes: Vec<u8> =
+            (0..2).flat_map(|c| (0..width).flat_map(move |x| (0..height).map(move |y| (100 * c + 10 * x + y) as u8))).collect();
         let out = upright::<2, 1, u8>(&bytes, height, width, |byte| byte[0]);
         assert_eq!(out, [0, 100, 10, 110, 1, 101, 11, 111, 2, 102, 12, 112]);
     }

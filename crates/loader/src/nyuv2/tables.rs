@@ -135,7 +135,9 @@ mod tests {
     fn classes_of_one_name_keep_their_meaning() {
         let fine = NyuClasses::All.names();
         let label = |name: &str| 1 + fine.iter().position(|&found| found == name).unwrap() as u16;
-        for (name, forty, thirteen) in [("wall", "wall", "wall"), ("chair", "chair", "chair"), ("dresser", "dresser", "furniture"), ("lamp", "lamp", "objects")] {
+        for (name, forty, thirteen) in
+            [("wall", "wall", "wall"), ("chair", "chair", "chair"), ("dresser", "dresser", "furniture"), ("lamp", "lamp", "objects")]
+        {
             let name_of = |classes: NyuClasses| classes.names()[classes.of_label(label(name)) as usize - 1];
             assert_eq!([name_of(NyuClasses::Forty), name_of(NyuClasses::Thirteen)], [forty, thirteen]);
         }
