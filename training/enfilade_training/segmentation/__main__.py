@@ -109,7 +109,7 @@ def _parser() -> argparse.ArgumentParser:
             command.add_argument("--checkpoint", type=Path, help="last.pt of the output folder, unless given")
         if verb is _predict:
             command.add_argument("--to", type=Path, required=True, metavar="FOLDER", help="where pictures are written")
-            command.add_argument("images", type=Path, nargs="*", help="pictures; those of the test data unless given")
+            command.add_argument("--images", type=Path, nargs="+", metavar="FILE", help="pictures; those of the test data unless given")
         command.set_defaults(verb=verb)
     return parser
 
