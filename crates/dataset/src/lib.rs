@@ -47,7 +47,7 @@ pub use dataset::Dataset;
 pub use error::DatasetError;
 pub use frames::FrameInfo;
 pub use gate_files::{JudgedView, ViewFault, ViewVerdict};
-pub use hdf5::{Array, Element, Elements, Window, image_shape};
+pub use hdf5::{Array, Element, Elements, Number, Volume, VolumeArray, Window, image_shape};
 pub use instance_files::{AmodalMask, AmodalMasks, InstanceView, PixelArea};
 pub use label_files::{LabelColors, instance_colors, semantic_colors};
 pub use layout::{Layout, check_name};

@@ -6,6 +6,7 @@
 pub mod animation;
 pub mod boxes;
 mod channels;
+pub mod confusion;
 mod drawing;
 pub mod drivers;
 pub mod exposure;

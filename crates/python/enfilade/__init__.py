@@ -8,18 +8,24 @@
     for batch in frames.loader(batch_size=4, shuffle=True):
         ...
 
-`Dataset` opens enfilade's datasets and Hypersim's release alike. The other functions are the verbs of the command line.
+`Dataset` opens enfilade's datasets and Hypersim's release alike, `NyuV2` that dataset's published file. The other functions are the verbs of the command line.
 """
 
 from ._native import (
     FORMATS,
     LAYERS,
+    NYU13,
+    NYU13_OF_NYU40,
+    NYU40,
+    NYU40_COLORS,
     STAGES,
     Config,
+    Confusion,
     DamagedFileError,
     Dataset,
     Loader,
     LoaderIterator,
+    NyuV2,
     StageError,
     __version__,
     export,
@@ -35,12 +41,18 @@ from ._native import (
 __all__ = [
     "FORMATS",
     "LAYERS",
+    "NYU13",
+    "NYU13_OF_NYU40",
+    "NYU40",
+    "NYU40_COLORS",
     "STAGES",
     "Config",
+    "Confusion",
     "DamagedFileError",
     "Dataset",
     "Loader",
     "LoaderIterator",
+    "NyuV2",
     "StageError",
     "__version__",
     "export",

@@ -12,6 +12,8 @@ mod errors;
 mod interrupt;
 mod json;
 mod loader;
+mod metrics;
+mod nyu;
 mod scene_files;
 mod verbs;
 
@@ -25,10 +27,13 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<dataset::Dataset>()?;
     module.add_class::<loader::Loader>()?;
     module.add_class::<loader::LoaderIterator>()?;
+    module.add_class::<nyu::NyuV2>()?;
+    module.add_class::<metrics::Confusion>()?;
     module.add_class::<config::Config>()?;
     module.add("DamagedFileError", py.get_type::<errors::DamagedFileError>())?;
     module.add("StageError", py.get_type::<errors::StageError>())?;
     module.add("LAYERS", layers(py)?)?;
+    nyu::add_tables(module)?;
     module.add("STAGES", PyList::new(py, enfilade_pipeline::STAGES.iter().map(|spec| spec.name))?)?;
     module.add("FORMATS", formats(py)?)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;

@@ -13,6 +13,8 @@ pub(super) struct Source {
     /// Bytes in the file.
     pub length: u64,
     head: Vec<u8>,
+    /// What addresses in the file count from.
+    base: u64,
 }
 
 impl Source {
@@ -22,13 +24,19 @@ impl Source {
         let length = file.metadata().ok()?.len();
         let mut head = Vec::with_capacity(HEAD);
         file.by_ref().take(HEAD as u64).read_to_end(&mut head).ok()?;
-        Some(Self { file, length, head })
+        Some(Self { file, length, head, base: 0 })
+    }
+
+    /// Lets addresses count from `base`, where an HDF5 file begins behind something else.
+    pub fn based_at(self, base: u64) -> Self {
+        Self { base, ..self }
     }
 
     /// The `length` bytes from `offset`; `None` when the file has fewer.
     pub fn bytes(&mut self, offset: u64, length: usize) -> Option<Vec<u8>> {
-        let end = offset.checked_add(length as u64)?;
-        if let (Ok(from), Ok(to)) = (usize::try_from(offset), usize::try_from(end))
+        let start = offset.checked_add(self.base)?;
+        let end = start.checked_add(length as u64)?;
+        if let (Ok(from), Ok(to)) = (usize::try_from(start), usize::try_from(end))
             && let Some(known) = self.head.get(from..to)
         {
             return Some(known.to_vec());
@@ -43,7 +51,7 @@ impl Source {
 
     /// Fills `out` from `offset`; `None` when the file has fewer bytes.
     pub fn read(&mut self, offset: u64, out: &mut [u8]) -> Option<()> {
-        self.file.seek(SeekFrom::Start(offset)).ok()?;
+        self.file.seek(SeekFrom::Start(offset.checked_add(self.base)?)).ok()?;
         self.file.read_exact(out).ok()
     }
 }

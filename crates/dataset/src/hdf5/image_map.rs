@@ -16,7 +16,7 @@ pub(super) const SHUFFLE: u16 = 2;
 pub(super) const LZ4: u16 = 32004;
 
 /// Levels of a tree and pieces of a header beyond which a file is taken for damaged.
-const DEEPEST: usize = 8;
+pub(super) const DEEPEST: usize = 8;
 
 /// How the bytes of a chunk are compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -170,7 +170,7 @@ fn dataset_header(source: &mut Source) -> Option<u64> {
 }
 
 /// Hands the messages of an object header of version 1 to `take`; `None` as soon as that gives `None`.
-fn messages(source: &mut Source, header: u64, take: &mut impl FnMut(u16, &[u8]) -> Option<()>) -> Option<()> {
+pub(super) fn messages(source: &mut Source, header: u64, take: &mut impl FnMut(u16, &[u8]) -> Option<()>) -> Option<()> {
     const CONTINUATION: u16 = 0x10;
     const SHARED: u8 = 2;
     let start = source.bytes(header, 16)?;
@@ -256,7 +256,7 @@ fn element(body: &[u8]) -> Option<Element> {
 }
 
 /// The numbers of the filters in a message of version 1.
-fn filters(body: &[u8]) -> Option<Vec<u16>> {
+pub(super) fn filters(body: &[u8]) -> Option<Vec<u16>> {
     let count = *body.get(1)?;
     let mut at = 8;
     let mut found = Vec::new();

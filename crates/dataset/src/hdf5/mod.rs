@@ -11,12 +11,15 @@ mod image_map;
 mod lz4;
 mod packing;
 mod read;
+mod slab;
+mod volume;
 mod window;
 mod write;
 
 pub use packing::Packing;
 
 pub use read::read_array;
+pub use volume::{Number, Volume, VolumeArray};
 pub use window::{Window, image_shape, read_window};
 pub use write::write_array;
 pub(crate) use write::{ArrayView, write_view};
