@@ -13,6 +13,7 @@
 
 from ._native import (
     LAYERS,
+    PIX3D_CATEGORIES,
     STAGES,
     Config,
     DamagedFileError,
@@ -21,8 +22,12 @@ from ._native import (
     LoaderIterator,
     StageError,
     __version__,
+    compare_meshes,
+    judge_shapes,
+    read_voxels,
     repack,
     run,
+    shape_precision,
     split,
     stage,
     verify,
@@ -30,6 +35,7 @@ from ._native import (
 
 __all__ = [
     "LAYERS",
+    "PIX3D_CATEGORIES",
     "STAGES",
     "Config",
     "DamagedFileError",
@@ -38,8 +44,12 @@ __all__ = [
     "LoaderIterator",
     "StageError",
     "__version__",
+    "compare_meshes",
+    "judge_shapes",
+    "read_voxels",
     "repack",
     "run",
+    "shape_precision",
     "split",
     "stage",
     "verify",

@@ -1,6 +1,6 @@
 //! The Python module `enfilade`: datasets as numpy arrays, and the verbs of the command line.
 //!
-//! Here is nothing but conversion: samples come from `enfilade-loader`, stages from `enfilade-pipeline`. Arrays are handed over without a
+//! Here is nothing but conversion: samples come from `enfilade-loader`, stages from `enfilade-pipeline`, shapes from `enfilade-shapes`. Arrays are handed over without a
 //! copy, and the interpreter is released while anything is read, decoded or rendered. `enfilade/__init__.pyi` is the public face with
 //! its types; the doc strings stand here.
 
@@ -12,6 +12,7 @@ mod errors;
 mod interrupt;
 mod json;
 mod loader;
+mod shapes;
 mod verbs;
 
 use pyo3::prelude::*;
@@ -29,6 +30,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("StageError", py.get_type::<errors::StageError>())?;
     module.add("LAYERS", layers(py)?)?;
     module.add("STAGES", PyList::new(py, enfilade_pipeline::STAGES.iter().map(|spec| spec.name))?)?;
+    module.add("PIX3D_CATEGORIES", enfilade_shapes::CATEGORIES)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     for function in [
         wrap_pyfunction!(verbs::run, module)?,
@@ -36,6 +38,10 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         wrap_pyfunction!(verbs::verify, module)?,
         wrap_pyfunction!(verbs::split, module)?,
         wrap_pyfunction!(verbs::repack, module)?,
+        wrap_pyfunction!(shapes::compare_meshes, module)?,
+        wrap_pyfunction!(shapes::judge_shapes, module)?,
+        wrap_pyfunction!(shapes::shape_precision, module)?,
+        wrap_pyfunction!(shapes::read_voxels, module)?,
     ] {
         module.add_function(function)?;
     }
