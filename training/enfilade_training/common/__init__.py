@@ -1,0 +1,1 @@
+"""What the experiments share: settings, learning rates, processes, checkpoints and logs."""
