@@ -25,7 +25,8 @@ pub fn average_precision(detections: &[(f64, bool)], truths: usize) -> f64 {
     }
     let mut recall = 0.0;
     let strip = |&(next, precision): &(f64, f64)| (next - std::mem::replace(&mut recall, next)) * precision;
-    curve.iter().map(strip).sum()
+    // The sum of nothing is −0.
+    curve.iter().map(strip).sum::<f64>() + 0.0
 }
 
 /// Average precision of boxes, masks and meshes, 0 to 1.
