@@ -63,7 +63,8 @@ pub fn compare_meshes<'py>(
     out.set_item("chamfer_l2", compared.chamfer_l2)?;
     out.set_item("normal_consistency", compared.normal_consistency)?;
     out.set_item("abs_normal_consistency", compared.abs_normal_consistency)?;
-    let parts: [(&str, fn(&enfilade_shapes::Agreement) -> f64); 3] = [("precision", |a| a.precision), ("recall", |a| a.recall), ("f1", |a| a.f1)];
+    let parts: [(&str, fn(&enfilade_shapes::Agreement) -> f64); 3] =
+        [("precision", |a| a.precision), ("recall", |a| a.recall), ("f1", |a| a.f1)];
     for (name, value) in parts {
         let by_threshold = PyDict::new(py);
         for agreement in &compared.agreement {
@@ -189,7 +190,8 @@ pub fn shape_precision<'py>(py: Python<'py>, rows: Vec<Row>, truths: BTreeMap<u3
     let (all, by_category) = enfilade_shapes::summarize(&rows.into_iter().map(judged).collect::<Vec<_>>(), &truths);
     let told = |p: &enfilade_shapes::Precision| json!({ "box_ap": p.bbox, "mask_ap": p.mask, "mesh_ap": p.mesh, "truths": p.truths });
     let mut out = told(&all);
-    let name = |id: u32| (id as usize).checked_sub(1).and_then(|i| enfilade_shapes::CATEGORIES.get(i)).map_or(id.to_string(), |n| n.to_string());
+    let name =
+        |id: u32| (id as usize).checked_sub(1).and_then(|i| enfilade_shapes::CATEGORIES.get(i)).map_or(id.to_string(), |n| n.to_string());
     out["categories"] = by_category.iter().map(|(&id, p)| (name(id), told(p))).collect::<serde_json::Map<_, _>>().into();
     json::to_python(py, &out)
 }

@@ -88,7 +88,17 @@ mod tests {
 
     #[test]
     fn the_mean_is_over_categories_that_have_objects() {
-        let row = |category, hit| Judged { category, score: 0.5, truth: 0, box_iou: 0.9, mask_iou: 0.9, f1: 0.9, box_hit: true, mask_hit: hit, mesh_hit: false };
+        let row = |category, hit| Judged {
+            category,
+            score: 0.5,
+            truth: 0,
+            box_iou: 0.9,
+            mask_iou: 0.9,
+            f1: 0.9,
+            box_hit: true,
+            mask_hit: hit,
+            mesh_hit: false,
+        };
         let truths = BTreeMap::from([(1, 1), (3, 2), (5, 0)]);
         let (all, by_category) = summarize(&[row(1, true), row(3, true), row(5, true)], &truths);
         assert_eq!((all.bbox, all.mask, all.mesh, all.truths), (0.75, 0.75, 0.0, 3));

@@ -32,7 +32,10 @@ mod tests {
     fn categories_have_mesh_r_cnns_numbers() {
         let ids: Vec<_> = CATEGORIES.iter().map(|name| category_id(name).unwrap()).collect();
         assert_eq!(ids, (1..=9).collect::<Vec<_>>());
-        assert_eq!((category_id("bed"), category_id("misc"), category_id("wardrobe"), category_id("lamp")), (Some(1), Some(5), Some(9), None));
+        assert_eq!(
+            (category_id("bed"), category_id("misc"), category_id("wardrobe"), category_id("lamp")),
+            (Some(1), Some(5), Some(9), None)
+        );
     }
 
     #[test]

@@ -77,8 +77,11 @@ pub fn ingest_pix3d(root: &Path, split: Option<&Path>) -> Result<Ingested, Shape
         }
     }
     let mismatched = entries.len() - outside_split - kept.len();
-    let objects: Vec<(Image, Annotation)> =
-        kept.par_iter().enumerate().map(|(index, entry)| object(root, &list, entry, index as u64 + 1, ids.as_ref())).collect::<Result<_, _>>()?;
+    let objects: Vec<(Image, Annotation)> = kept
+        .par_iter()
+        .enumerate()
+        .map(|(index, entry)| object(root, &list, entry, index as u64 + 1, ids.as_ref()))
+        .collect::<Result<_, _>>()?;
     let mut document = Document::empty("Pix3D (Sun et al. 2018, CC BY 4.0), for Mesh R-CNN");
     (document.images, document.annotations) = objects.into_iter().unzip();
     document.images.sort_by_key(|image| image.id);
@@ -93,7 +96,13 @@ fn read_split(path: &Path) -> Result<BTreeMap<String, u64>, ShapesError> {
 }
 
 /// Image and annotation of an entry; `id` is its number.
-fn object(root: &Path, list: &Path, entry: &Entry, id: u64, ids: Option<&BTreeMap<String, u64>>) -> Result<(Image, Annotation), ShapesError> {
+fn object(
+    root: &Path,
+    list: &Path,
+    entry: &Entry,
+    id: u64,
+    ids: Option<&BTreeMap<String, u64>>,
+) -> Result<(Image, Annotation), ShapesError> {
     let wrong = |problem: String| ShapesError::file(list, format!("{}: {problem}", entry.img));
     let category = category_id(&entry.category);
     let category_id = category.ok_or_else(|| wrong(format!("category {:?}, expected one of {}", entry.category, CATEGORIES.join(", "))))?;
@@ -109,7 +118,10 @@ fn object(root: &Path, list: &Path, entry: &Entry, id: u64, ids: Option<&BTreeMa
     }
     let [x0, y0, x1, y1] = entry.bbox;
     if !(x1 > x0 && y1 > y0 && entry.focal_length > 0.0) {
-        return Err(wrong(format!("bbox {:?} and focal length {}: expected a box with area and a length above 0", entry.bbox, entry.focal_length)));
+        return Err(wrong(format!(
+            "bbox {:?} and focal length {}: expected a box with area and a length above 0",
+            entry.bbox, entry.focal_length
+        )));
     }
     let image_id = ids.and_then(|ids| ids.get(&entry.img).copied()).unwrap_or(id);
     let image = Image { id: image_id, file_name: entry.img.clone(), width, height, scene: None, camera: None, frame: None };
@@ -190,7 +202,8 @@ mod tests {
 
     #[test]
     fn two_images_with_masks_of_other_images_are_left_out() {
-        let folder = folder(&[entry("img/table/1749.jpg", "table"), entry("img/table/0045.png", "table"), entry("img/table/0046.png", "table")]);
+        let folder =
+            folder(&[entry("img/table/1749.jpg", "table"), entry("img/table/0045.png", "table"), entry("img/table/0046.png", "table")]);
         let found = ingest_pix3d(folder.path(), None).unwrap();
         assert_eq!((found.mismatched, found.document.images.len()), (2, 1));
         assert_eq!(found.document.images[0].file_name, "img/table/0046.png");

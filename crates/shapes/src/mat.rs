@@ -134,10 +134,15 @@ impl<'b> Elements<'b> {
     fn next(&mut self) -> Result<(u32, &'b [u8]), String> {
         let tag = self.word(0)?;
         // Up to four bytes stand in the tag itself, whose upper half is then their number.
-        let (kind, from, length) =
-            if tag >> 16 != 0 { (tag & 0xffff, 4, (tag >> 16) as usize) } else { (tag, 8, self.word(4)? as usize) };
+        let (kind, from, length) = if tag >> 16 != 0 { (tag & 0xffff, 4, (tag >> 16) as usize) } else { (tag, 8, self.word(4)? as usize) };
         let data = self.bytes.get(from..).and_then(|rest| rest.get(..length)).ok_or("it ends within an element")?;
-        let padded = if from == 4 { 8 } else if kind == COMPRESSED { 8 + length } else { 8 + length.next_multiple_of(8) };
+        let padded = if from == 4 {
+            8
+        } else if kind == COMPRESSED {
+            8 + length
+        } else {
+            8 + length.next_multiple_of(8)
+        };
         self.bytes = self.bytes.get(padded..).unwrap_or_default();
         Ok((kind, data))
     }

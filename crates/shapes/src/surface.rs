@@ -140,7 +140,8 @@ pub fn compare(found: &Surface, truth: &Surface, config: &CompareConfig) -> Resu
     let there = nearest(&points, &normals, &true_points, &true_normals);
     let back = nearest(&true_points, &true_normals, &points, &normals);
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let both = |of: fn(f64) -> f64| 0.5 * [&there, &back].iter().map(|way| mean(&way.1.iter().map(|&c| of(c)).collect::<Vec<_>>())).sum::<f64>();
+    let both =
+        |of: fn(f64) -> f64| 0.5 * [&there, &back].iter().map(|way| mean(&way.1.iter().map(|&c| of(c)).collect::<Vec<_>>())).sum::<f64>();
     let within = |squared: &[f64], threshold: f64| {
         100.0 * squared.iter().filter(|d| d.sqrt() * scale < threshold).count() as f64 / squared.len() as f64
     };

@@ -36,11 +36,11 @@ fn touch(corners: [DVec3; 3], side: usize, cells: &mut [bool]) {
             let (from, to) = if normal[w] == 0.0 {
                 (min[w], max[w])
             } else {
-                let at = |di: usize, dj: usize| {
-                    a[w] - (normal[u] * ((i + di) as f64 - a[u]) + normal[v] * ((j + dj) as f64 - a[v])) / normal[w]
-                };
+                let at =
+                    |di: usize, dj: usize| a[w] - (normal[u] * ((i + di) as f64 - a[u]) + normal[v] * ((j + dj) as f64 - a[v])) / normal[w];
                 let corners = [at(0, 0), at(0, 1), at(1, 0), at(1, 1)];
-                let (low, high) = (corners.into_iter().fold(f64::INFINITY, f64::min), corners.into_iter().fold(f64::NEG_INFINITY, f64::max));
+                let (low, high) =
+                    (corners.into_iter().fold(f64::INFINITY, f64::min), corners.into_iter().fold(f64::NEG_INFINITY, f64::max));
                 (low.max(min[w]), high.min(max[w]))
             };
             if from > to {
@@ -87,7 +87,8 @@ fn flood(cells: &[bool], side: usize) -> Vec<bool> {
     let index = |x: usize, y: usize, z: usize| (x * side + y) * side + z;
     for i in 0..side {
         for j in 0..side {
-            let border = [index(0, i, j), index(side - 1, i, j), index(i, 0, j), index(i, side - 1, j), index(i, j, 0), index(i, j, side - 1)];
+            let border =
+                [index(0, i, j), index(side - 1, i, j), index(i, 0, j), index(i, side - 1, j), index(i, j, 0), index(i, j, side - 1)];
             border.into_iter().for_each(|at| enter(at, &mut next));
         }
     }

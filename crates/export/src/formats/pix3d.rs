@@ -109,7 +109,9 @@ fn camera(source: &Source<'_>, track: &Track) -> Result<Calibration, ExportError
         return Err(source.unsuitable(track.folder(), problem));
     }
     if (fx / fy - 1.0).abs() > SQUARE_TOLERANCE || skew.abs() > CENTRE_TOLERANCE_PX {
-        let problem = format!("its focal lengths are {fx:.3} and {fy:.3} pixels and its skew {skew}, and the format has one focal length; leave the camera out");
+        let problem = format!(
+            "its focal lengths are {fx:.3} and {fy:.3} pixels and its skew {skew}, and the format has one focal length; leave the camera out"
+        );
         return Err(source.unsuitable(track.folder(), problem));
     }
     Ok(calibration)
