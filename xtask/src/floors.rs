@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 23] = [
+const FLOORS: [(&str, Floor); 24] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -30,6 +30,7 @@ const FLOORS: [(&str, Floor); 23] = [
     ("denoise", Floor::Number(3)),
     ("dataset", Floor::Number(3)),
     ("suggest", Floor::Number(3)),
+    ("shapes", Floor::Number(3)),
     ("post", Floor::Number(4)),
     ("pipeline", Floor::Number(5)),
     ("export", Floor::Number(5)),

@@ -9,6 +9,7 @@ mod args;
 mod estimate;
 mod export;
 mod farm;
+mod ingest;
 mod outcome;
 mod pictures;
 mod price;
@@ -63,6 +64,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Animate(args) => animate::animate(args, cli.quiet),
         Verb::Replay(args) => verbs::replay(args, cli.quiet),
         Verb::Export(args) => export::export(args, cli.quiet),
+        Verb::Ingest(args) => ingest::ingest(args),
         Verb::Stats(args) => stats::stats(args, cli.quiet),
         Verb::Vray(args) => vray::vray(args, cli.quiet),
         Verb::Farm(args) => farm::farm(args, cli.quiet),

@@ -17,6 +17,7 @@ pub enum Format {
     Webdataset,
     Croissant,
     Opencv,
+    Pix3d,
 }
 
 /// A row of the table of formats.
@@ -40,12 +41,14 @@ const COLOR: &[Layer] = &[Layer::Color];
 const DEPTH: &[Layer] = &[Layer::DepthMeters, Layer::DepthZMeters];
 const DISTANCE: &[Layer] = &[Layer::DepthMeters];
 const INSTANCE: &[Layer] = &[Layer::SemanticInstance];
+const SEMANTIC: &[Layer] = &[Layer::Semantic];
+const SHAPED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::Semantic, Layer::SemanticInstance];
 const LABELLED: &[Layer] =
     &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters, Layer::Semantic, Layer::SemanticInstance];
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.
-pub const FORMATS: [FormatSpec; 11] = [
+pub const FORMATS: [FormatSpec; 12] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
@@ -133,6 +136,14 @@ pub const FORMATS: [FormatSpec; 11] = [
         needs: &[],
         takes: None,
         readme: crate::formats::opencv::README,
+    },
+    FormatSpec {
+        format: Format::Pix3d,
+        name: "pix3d",
+        about: "Pix3D as Mesh R-CNN reads it: images, masks, a model and voxels per instance, poses in camera space",
+        needs: &[COLOR, INSTANCE, SEMANTIC],
+        takes: Some(SHAPED),
+        readme: crate::formats::pix3d::README,
     },
 ];
 

@@ -1,5 +1,5 @@
 //! A dataset in the layouts that other programs load: COCO, BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, depth PNG, WebDataset,
-//! Croissant and OpenCV's cameras.
+//! Croissant, OpenCV's cameras and Pix3D.
 //!
 //! Every export is a pure function of the dataset folder and an [`ExportConfig`]: nothing is rendered, the same input gives the
 //! same bytes, and no file carries a clock, a host or a path. [`Format`] has the table of formats, `formats/` one file for each,
@@ -90,6 +90,7 @@ pub fn export(dataset: &Dataset, config: &ExportConfig, out: &Path, existing: Ex
         Format::Webdataset => formats::webdataset::write(&source, &place, config.shard_bytes),
         Format::Croissant => formats::croissant::write(&source, &place),
         Format::Opencv => formats::opencv::write(&source, &place),
+        Format::Pix3d => formats::pix3d::write(&source, &place),
     }?;
     place.finish(config.format, &source)
 }

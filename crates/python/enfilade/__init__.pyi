@@ -2,6 +2,8 @@ from collections.abc import Iterable, Sequence
 from os import PathLike
 from typing import Any, Literal, TypedDict, final
 
+import numpy
+
 __version__: str
 
 Path = str | PathLike[str]
@@ -24,6 +26,7 @@ NYU13: tuple[str, ...]
 NYU13_OF_NYU40: tuple[int, ...]
 NYU40: tuple[str, ...]
 NYU40_COLORS: tuple[tuple[int, int, int], ...]
+PIX3D_CATEGORIES: list[str]
 STAGES: list[str]
 
 class DamagedFileError(OSError): ...
@@ -192,3 +195,56 @@ class Confusion:
     def mean_iou(self) -> float | None: ...
     @property
     def pixel_accuracy(self) -> float | None: ...
+
+Mesh = tuple[numpy.ndarray, numpy.ndarray]
+
+class MeshComparison(TypedDict):
+    chamfer_l2: float
+    normal_consistency: float
+    abs_normal_consistency: float
+    precision: dict[float, float]
+    recall: dict[float, float]
+    f1: dict[float, float]
+
+class ShapeObject(TypedDict):
+    category: int
+    box: Sequence[float]
+    mask: numpy.ndarray
+    mesh: Mesh
+
+class ShapeDetection(ShapeObject):
+    score: float
+
+class JudgedShape(TypedDict):
+    category: int
+    score: float
+    truth: int
+    box_iou: float
+    mask_iou: float
+    f1: float
+    box_hit: bool
+    mask_hit: bool
+    mesh_hit: bool
+
+def compare_meshes(
+    found: Mesh,
+    truth: Mesh,
+    *,
+    samples: int = 10_000,
+    longest_edge: float | None = 10.0,
+    thresholds: Sequence[float] = (0.1, 0.2, 0.3, 0.4, 0.5),
+    seed: int = 0,
+) -> MeshComparison: ...
+def judge_shapes(
+    truths: Sequence[ShapeObject],
+    found: Sequence[ShapeDetection],
+    *,
+    filter_iou: float = 0.3,
+    iou: float = 0.5,
+    f1: float = 0.5,
+    f1_distance: float = 0.3,
+    samples: int = 10_000,
+    seed: int = 0,
+) -> list[JudgedShape]: ...
+def shape_precision(rows: Sequence[JudgedShape], truths: dict[int, int]) -> dict[str, Any]: ...
+def read_voxels(file: Path) -> numpy.ndarray: ...

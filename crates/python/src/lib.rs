@@ -1,8 +1,8 @@
 //! The Python module `enfilade`: datasets as numpy arrays, and the verbs of the command line.
 //!
-//! Here is nothing but conversion: samples come from `enfilade-loader`, stages from `enfilade-pipeline`, layouts from `enfilade-export`.
-//! Arrays are handed over without a copy, and the interpreter is released while anything is read, decoded or rendered.
-//! `enfilade/__init__.pyi` is the public face with its types; the doc strings stand here.
+//! Here is nothing but conversion: samples come from `enfilade-loader`, stages from `enfilade-pipeline`, layouts from `enfilade-export`,
+//! shapes from `enfilade-shapes`. Arrays are handed over without a copy, and the interpreter is released while anything is read,
+//! decoded or rendered. `enfilade/__init__.pyi` is the public face with its types; the doc strings stand here.
 
 mod arguments;
 mod arrays;
@@ -15,6 +15,7 @@ mod loader;
 mod metrics;
 mod nyu;
 mod scene_files;
+mod shapes;
 mod verbs;
 
 use pyo3::prelude::*;
@@ -36,6 +37,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     nyu::add_tables(module)?;
     module.add("STAGES", PyList::new(py, enfilade_pipeline::STAGES.iter().map(|spec| spec.name))?)?;
     module.add("FORMATS", formats(py)?)?;
+    module.add("PIX3D_CATEGORIES", enfilade_shapes::CATEGORIES)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     for function in [
         wrap_pyfunction!(verbs::run, module)?,
@@ -46,6 +48,10 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         wrap_pyfunction!(verbs::export, module)?,
         wrap_pyfunction!(scene_files::import_scene, module)?,
         wrap_pyfunction!(scene_files::home, module)?,
+        wrap_pyfunction!(shapes::compare_meshes, module)?,
+        wrap_pyfunction!(shapes::judge_shapes, module)?,
+        wrap_pyfunction!(shapes::shape_precision, module)?,
+        wrap_pyfunction!(shapes::read_voxels, module)?,
     ] {
         module.add_function(function)?;
     }

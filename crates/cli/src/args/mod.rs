@@ -1,6 +1,7 @@
 //! The command line: one definition per verb and flag, with its help and an example.
 
 mod farm;
+mod ingest;
 mod outputs;
 mod pages;
 mod reading;
@@ -10,6 +11,7 @@ mod stages;
 mod values;
 
 pub use farm::{EngineArg, FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmSubmitArgs, FarmVerb, FarmWorkArgs};
+pub use ingest::{IngestArgs, IngestVerb, Pix3dArgs};
 pub use outputs::{AnimateArgs, ExportArgs};
 pub use pages::{AnnotateArgs, ListenArgs, ViewArgs};
 pub use reading::CamerasArg;
@@ -88,6 +90,8 @@ pub enum Verb {
     Replay(ReplayArgs),
     /// The dataset in a layout that other programs load: COCO, BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, ...
     Export(ExportArgs),
+    /// A real data set in the layout that training reads
+    Ingest(IngestArgs),
     /// Frames -> MP4, GIF or animated WebP of each trajectory, layer by layer
     Animate(AnimateArgs),
     /// What the images show and what they cost: numbers, charts, outliers

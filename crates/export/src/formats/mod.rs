@@ -10,5 +10,6 @@ pub(crate) mod depth_png;
 pub(crate) mod nerfstudio;
 pub(crate) mod opencv;
 pub(crate) mod openexr;
+pub(crate) mod pix3d;
 pub(crate) mod scannet;
 pub(crate) mod webdataset;

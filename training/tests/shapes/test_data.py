@@ -1,0 +1,103 @@
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from enfilade_training.shapes.config import Data
+from enfilade_training.shapes.data import DataError, Order, Shapes, read_obj, read_voxels
+from tests.shapes import rooms
+
+
+class DataTests(unittest.TestCase):
+    def setUp(self) -> None:
+        torch.set_num_threads(1)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.file = rooms.write(self.folder, rooms.TWO)
+
+    def shapes(self, **settings: object) -> Shapes:
+        return Shapes([self.file], Data(**settings))
+
+    def test_shapes_fall_on_the_image_where_their_masks_are(self) -> None:
+        for index in range(2):
+            for flip in (False, True):
+                image, target = self.shapes()[index, flip]
+                self.assertEqual((image.shape, target["masks"].dtype), ((3, rooms.SIZE, rooms.SIZE), torch.uint8))
+                for box, mask, shape in zip(target["boxes"], target["masks"], target["shapes"]):
+                    for points, slack in ((shape["vertices"], 1.5), (shape["voxels"], 4.0)):
+                        pixels = rooms.SIZE / 2 - target["focal"] * points[:, :2] / points[:, 2:]
+                        around = torch.cat([pixels.min(0).values, pixels.max(0).values])
+                        self.assertTrue(torch.allclose(around, box, atol=slack), f"{around} {box}")
+                    rows, columns = mask.nonzero().unbind(1)
+                    seen = torch.stack([columns.min(), rows.min(), columns.max() + 1, rows.max() + 1]).float()
+                    self.assertTrue(torch.equal(seen, box))
+
+    def test_a_flip_keeps_faces_outward(self) -> None:
+        def volume(shape: dict[str, torch.Tensor]) -> float:
+            a, b, c = shape["vertices"][shape["faces"]].unbind(1)
+            return float((a * torch.linalg.cross(b, c)).sum() / 6)
+
+        plain, mirrored = (self.shapes()[0, flip][1]["shapes"][0] for flip in (False, True))
+        self.assertAlmostEqual(volume(plain), volume(mirrored), places=5)
+
+    def test_voxels_are_scaled_and_turned_as_models_are(self) -> None:
+        name = "chair_000"
+        points, (vertices, _) = read_voxels(self.folder / f"model/{name}/voxel.mat"), read_obj(self.folder / f"model/{name}/model.obj")
+        self.assertTrue(np.allclose(np.ptp(points, axis=0), np.ptp(vertices, axis=0), atol=0.08), np.ptp(points, axis=0))
+        self.assertAlmostEqual(np.linalg.norm(points, axis=1).max(), 0.5, places=6)
+
+    def test_the_voxel_reader_agrees_with_scipys(self) -> None:
+        try:
+            from scipy.io import loadmat, savemat
+        except ImportError:
+            self.skipTest("scipy is not installed")
+        voxel = np.zeros((6, 6, 6), dtype=np.uint8)
+        voxel[1:4, 2, 0:5] = 1
+        savemat(self.folder / "packed.mat", {"other": 1.0, "voxel": voxel}, do_compression=True)
+        turned = np.rot90(voxel, k=3, axes=(1, 2))  # Mesh R-CNN's read_voxel
+        cells = np.argwhere(turned > 0).astype(np.float64)
+        cells -= (cells.max(0) + cells.min(0)) / 2
+        expected = cells / (2 * np.linalg.norm(cells, axis=1).max())
+        self.assertTrue(np.allclose(read_voxels(self.folder / "packed.mat"), expected, atol=1e-6))
+        own = self.folder / "model/chair_000/voxel.mat"
+        self.assertEqual(loadmat(own)["voxel"].shape, (24, 24, 24))
+
+    def test_polygons_become_fans_and_negative_corners_count_back(self) -> None:
+        path = self.folder / "quad.obj"
+        path.write_text("v 0 0 0\nv 1 0 0\nvt 0 0\nv 1 1 0\nv 0 1 0\nf 1/1 2/1 3/1 4/1\nf -4 -3 -1\n")
+        self.assertEqual(read_obj(path)[1].tolist(), [[0, 1, 2], [0, 2, 3], [0, 1, 3]])
+
+    def test_objects_can_be_left_out_by_size(self) -> None:
+        self.assertEqual([len(image["objects"]) for image in self.shapes().images], [1, 2])
+        with self.assertRaisesRegex(DataError, "no image has an object"):
+            self.shapes(min_pixels=1e6)
+
+    def test_broken_files_are_explained(self) -> None:
+        with self.assertRaisesRegex(DataError, "cannot be read"):
+            Shapes([self.folder / "nothing.json"], Data())
+        (self.folder / "other.json").write_text("{}")
+        with self.assertRaisesRegex(DataError, "is not Mesh R-CNN's JSON"):
+            Shapes([self.folder / "other.json"], Data())
+        (self.folder / "model/chair_000/model.obj").write_text("v 0 0 0\nf 1 2 3\n")
+        with self.assertRaisesRegex(DataError, "some corners are missing"):
+            read_obj(self.folder / "model/chair_000/model.obj")
+
+
+class OrderTests(unittest.TestCase):
+    def test_an_epoch_has_every_image_once(self) -> None:
+        order = Order(12, 4, seed=3, flip=True)
+        epochs = [sorted(i for b in range(3 * e, 3 * e + 3) for i, _ in order.batch(b)) for e in range(2)]
+        self.assertEqual(epochs, [list(range(12))] * 2)
+        self.assertNotEqual(order.batch(0), order.batch(3))
+        self.assertEqual({flip for b in range(3) for _, flip in order.batch(b)}, {False, True})
+        self.assertEqual({flip for b in range(3) for _, flip in Order(12, 4, 3, False).batch(b)}, {False})
+
+    def test_replicas_share_the_batch_of_one(self) -> None:
+        alone = Order(10, 6, 1, True).batch(4)
+        shared = [Order(10, 6, 1, True, rank, 3).batch(4) for rank in range(3)]
+        self.assertEqual(sum(shared, []), alone)
+        with self.assertRaisesRegex(DataError, "6 images cannot be divided among 4"):
+            Order(10, 6, 1, True, 0, 4)
