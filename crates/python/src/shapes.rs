@@ -63,14 +63,14 @@ pub fn compare_meshes<'py>(
     out.set_item("chamfer_l2", compared.chamfer_l2)?;
     out.set_item("normal_consistency", compared.normal_consistency)?;
     out.set_item("abs_normal_consistency", compared.abs_normal_consistency)?;
-    let parts: [(&str, fn(&enfilade_shapes::Agreement) -> f64); 3] =
-        [("precision", |a| a.precision), ("recall", |a| a.recall), ("f1", |a| a.f1)];
-    for (name, value) in parts {
-        let by_threshold = PyDict::new(py);
-        for agreement in &compared.agreement {
-            by_threshold.set_item(agreement.threshold, value(agreement))?;
+    let tables = [PyDict::new(py), PyDict::new(py), PyDict::new(py)];
+    for agreement in &compared.agreement {
+        for (table, value) in tables.iter().zip([agreement.precision, agreement.recall, agreement.f1]) {
+            table.set_item(agreement.threshold, value)?;
         }
-        out.set_item(name, by_threshold)?;
+    }
+    for (name, table) in ["precision", "recall", "f1"].into_iter().zip(tables) {
+        out.set_item(name, table)?;
     }
     Ok(out)
 }

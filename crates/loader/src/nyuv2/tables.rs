@@ -90,7 +90,7 @@ mod tests {
         let of = |side| sides.iter().filter(|&&found| found == side).count();
         assert_eq!([of(NyuSplit::Train), of(NyuSplit::Test)], [795, 654]);
         // The first of each, counted from 1.
-        let first = |side| (0..PUBLISHED_IMAGES).filter(|&image| side_of(image) == Some(side)).map(|image| image + 1).take(5);
+        let first = |side| (0..PUBLISHED_IMAGES).filter(move |&image| side_of(image) == Some(side)).map(|image| image + 1).take(5);
         assert!(first(NyuSplit::Train).eq([3, 4, 5, 6, 7]) && first(NyuSplit::Test).eq([1, 2, 9, 14, 15]));
         assert_eq!(side_of(PUBLISHED_IMAGES), None);
     }
