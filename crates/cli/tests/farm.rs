@@ -110,6 +110,7 @@ fn what_nodes_have_made_of_frames_is_taken_until_what_it_was_made_from_changes()
     fs::remove_file(&picture).unwrap();
     fs::remove_file(&masks).unwrap();
     run_anew(&["boxes", "preview"]);
+    succeed(d, &["verify", "out"]);
     assert_same(&whole, &contents(&d.join("out")));
     // Other labels: nothing that was made from the old ones stays.
     fs::write(d.join("labels.csv"), "material,nyu40_id\nwall,1\nwood,7\nlight,35\n").unwrap();

@@ -389,6 +389,38 @@ def opencv():
     return f"{len(seen)} frames, {checked} projected"
 
 
+def pix3d():
+    """By COCO's own reader; masks are those of the dataset, and the vertices of models fall around them and at their depths."""
+    from pycocotools.coco import COCO
+
+    coco = COCO(f"{EXPORT}/pix3d_all.json")
+    assert {(i["scene"], i["camera"], i["frame"]) for i in coco.imgs.values()} <= set(record())
+    excluded = [entry["annotation"] for entry in coco.dataset.get("excluded", []) if "annotation" in entry]
+    whole = 0
+    for annotation in [*coco.anns.values(), *excluded]:
+        image = coco.imgs[annotation["image_id"]]
+        at = image["scene"], image["camera"], image["frame"]
+        mask = picture(f"{EXPORT}/{annotation['segmentation']}") > 0
+        assert np.array_equal(mask, layer(*at, "semantic_instance") == annotation["instance"])
+        rows, columns = np.nonzero(mask)
+        box = [columns.min(), rows.min(), columns.max() - columns.min() + 1, rows.max() - rows.min() + 1]
+        assert np.array_equal(box, annotation["bbox"]), f"{box} {annotation['bbox']}"
+        with open(f"{EXPORT}/{annotation['model']}") as file:
+            vertices = np.array([line.split()[1:4] for line in file if line.startswith("v ")], float)
+        assert np.isclose(np.linalg.norm(vertices, axis=-1).max(), 0.5)
+        x, y, z = (np.array(annotation["rot_mat"]) @ vertices.T + np.array(annotation["trans_mat"])[:, None]) * annotation["meters_per_unit"]
+        if annotation["leaves_frustum"]:
+            continue
+        f, cx, cy = annotation["K"]
+        u, v = cx - f * x / z, cy - f * y / z
+        assert u.min() < columns.min() + 1 and columns.max() < u.max() and v.min() < rows.min() + 1 and rows.max() < v.max()
+        depth = layer(*at, "depth_z_meters")[mask]
+        assert z.min() - 1e-3 < depth.min() and depth.max() < z.max() + 1e-3, f"{z.min()} {depth.min()} {depth.max()} {z.max()}"
+        whole += 1
+    assert whole > 0
+    return f"{len(coco.anns)} annotations, {len(excluded)} excluded with a model, {whole} seen whole"
+
+
 def text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// Exports the analytic dataset.
 fn exported(format: Format, shard_bytes: u64) -> (tempfile::TempDir, Dataset, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
-    let dataset = common::write(&folder.path().join("dataset"), &common::pinhole());
+    let dataset = common::write(&folder.path().join("dataset"), &common::pinhole_of(format));
     let out = folder.path().join("out");
     let config = ExportConfig { shard_bytes, ..ExportConfig::new(format, dataset.scenes().unwrap()) };
     export(&dataset, &config, &out, Existing::Refuse, &Quiet).unwrap();

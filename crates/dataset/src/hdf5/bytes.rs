@@ -1,5 +1,6 @@
 //! Little-endian numbers at places of a file that need not exist.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
@@ -15,6 +16,8 @@ pub(super) struct Source {
     head: Vec<u8>,
     /// What addresses in the file count from.
     base: u64,
+    /// Nodes of trees that were walked.
+    walked: BTreeSet<u64>,
 }
 
 impl Source {
@@ -24,7 +27,7 @@ impl Source {
         let length = file.metadata().ok()?.len();
         let mut head = Vec::with_capacity(HEAD);
         file.by_ref().take(HEAD as u64).read_to_end(&mut head).ok()?;
-        Some(Self { file, length, head, base: 0 })
+        Some(Self { file, length, head, base: 0, walked: BTreeSet::new() })
     }
 
     /// Lets addresses count from `base`, where an HDF5 file begins behind something else.
@@ -47,6 +50,16 @@ impl Source {
         let mut bytes = vec![0; length];
         self.read(offset, &mut bytes)?;
         Some(bytes)
+    }
+
+    /// Bytes that the whole file can inflate to: no codec here shrinks by more than a factor of 1032. No damaged size may ask for more memory.
+    pub fn most_inflated(&self) -> u64 {
+        self.length.saturating_mul(1032)
+    }
+
+    /// `None` when the node of a tree at `offset` was walked before: such a file is damaged, and might be walked for ever.
+    pub fn walk(&mut self, offset: u64) -> Option<()> {
+        self.walked.insert(offset).then_some(())
     }
 
     /// Fills `out` from `offset`; `None` when the file has fewer bytes.

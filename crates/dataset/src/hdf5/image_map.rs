@@ -80,9 +80,8 @@ impl ImageMap {
         };
         let known = matches!(shape.len(), 2 | 3) && sides.len() == shape.len() + 1 && sides.last() == Some(&element.size());
         let sides = &sides[..shape.len().min(sides.len())];
-        // A damaged shape must not ask for more memory than there is: no codec here shrinks by more than a factor of 1032.
         let bytes = shape.iter().try_fold(element.size(), |n, &axis| n.checked_mul(axis))?;
-        let possible = bytes > 0 && bytes as u64 <= source.length.saturating_mul(1032);
+        let possible = bytes > 0 && bytes as u64 <= source.most_inflated();
         if !known || !possible || sides.iter().zip(&shape).any(|(side, axis)| !(1..=*axis).contains(side)) {
             return None;
         }
@@ -104,6 +103,7 @@ impl ImageMap {
 
     /// Enters the chunks of a node and of those below it.
     fn walk(&mut self, source: &mut Source, node: u64, depth: usize) -> Option<()> {
+        source.walk(node)?;
         let start = source.bytes(node, 24)?;
         if depth > DEEPEST || !start.starts_with(b"TREE\x01") {
             return None;

@@ -159,15 +159,16 @@ impl Volume {
         let number = found.number.ok_or_else(|| wrong("it has no type; is it a group?"))?;
         let shape = found.shape.ok_or_else(|| wrong("it has no shape; is it a group?"))?;
         let bytes = shape.iter().try_fold(number.size(), |n, &axis| n.checked_mul(axis));
-        // A damaged shape must not ask for more memory than there is: deflate shrinks by a factor of 1032 at most.
-        if bytes.is_none_or(|bytes| bytes as u64 > source.length.saturating_mul(1032)) {
+        if bytes.is_none_or(|bytes| bytes as u64 > source.most_inflated()) {
             return Err(wrong(DAMAGED));
         }
         let layout = match found.layout.ok_or_else(|| wrong("it has no data; is it a group?"))? {
             Stored::Compact(bytes) => Layout::Compact(bytes),
             Stored::Contiguous(address) => Layout::Contiguous(address),
             Stored::Chunked { tree, sides } => {
-                let known = sides.len() == shape.len() + 1 && sides.last() == Some(&number.size()) && !sides.contains(&0);
+                let bytes = sides.iter().try_fold(1_u64, |n, &side| n.checked_mul(side as u64));
+                let possible = bytes.is_some_and(|bytes| bytes <= source.most_inflated());
+                let known = possible && sides.len() == shape.len() + 1 && sides.last() == Some(&number.size()) && !sides.contains(&0);
                 let (shuffled, deflated) = match found.filters.as_deref().unwrap_or_default() {
                     [] => (false, false),
                     [DEFLATE] => (false, true),
@@ -237,6 +238,7 @@ fn members(source: &mut Source, version: u8) -> Option<BTreeMap<String, u64>> {
 
 /// Enters the members of a node of a group's tree, and of those below it.
 fn group(source: &mut Source, node: u64, names: u64, depth: usize, members: &mut BTreeMap<String, u64>) -> Option<()> {
+    source.walk(node)?;
     const LONGEST_NAME: usize = 1024;
     let start = source.bytes(node, 24)?;
     if start.starts_with(b"SNOD") {
@@ -338,6 +340,7 @@ fn chunks(source: &mut Source, tree: u64, shape: &[usize], chunk: &[usize]) -> O
 
 /// Enters the chunks of a node of the tree, and of those below it.
 fn walk(source: &mut Source, node: u64, depth: usize, chunk: &[usize], grid: &[usize], places: &mut [Place]) -> Option<()> {
+    source.walk(node)?;
     let start = source.bytes(node, 24)?;
     if depth > DEEPEST || !start.starts_with(b"TREE\x01") {
         return None;

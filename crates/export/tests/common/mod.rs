@@ -2,6 +2,7 @@
 #![allow(dead_code)] // each test file uses a part of it
 
 use enfilade_dataset::{Dataset, FrameInfo, FrameTime, ManifestInfo};
+use enfilade_export::Format;
 use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Pass, Values, f16};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
@@ -18,6 +19,14 @@ const LABELS: [(i16, i16); 4] = [(2, -1), (1, -1), (7, 1), (5, 2)];
 /// A pinhole with an off-centre principal point and pixels that are no squares.
 pub fn pinhole() -> Camera {
     Intrinsics { width: 40, height: 30, fx: 33.0, fy: 34.5, cx: 19.25, cy: 15.75, skew: 0.0 }.into()
+}
+
+/// The pinhole that a format can have: Pix3D's cameras look through the middle of the image, and have one focal length.
+pub fn pinhole_of(format: Format) -> Camera {
+    match format {
+        Format::Pix3d => Intrinsics { width: 40, height: 30, fx: 33.0, fy: 33.0, cx: 20.0, cy: 15.0, skew: 0.0 }.into(),
+        _ => pinhole(),
+    }
 }
 
 /// What a ray meets: distance and part. The wall is 1.4 m high, and there is nothing above it.

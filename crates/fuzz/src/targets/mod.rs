@@ -14,6 +14,8 @@ mod partial;
 pub mod scene_files;
 mod sweethome;
 mod texts;
+#[cfg(feature = "program")]
+mod training;
 mod vray;
 #[cfg(feature = "program")]
 mod vray_image;
@@ -49,6 +51,10 @@ pub const TARGETS: &[Target] = &[
     own("tables", "CSV tables of a dataset, of labels, classes and suggestions", 4 << 10, datasets::tables, seeds::tables),
     #[cfg(feature = "dataset")]
     own("records", "JSON of a dataset: manifest, records, cameras, masks", 4 << 10, datasets::records, seeds::records),
+    #[cfg(feature = "program")]
+    own("nyuv2", "NYUv2's published file, MATLAB 7.3", 32 << 10, training::nyuv2, none),
+    #[cfg(feature = "program")]
+    own("pix3d", "Pix3D: pix3d.json, its splits, and voxels, MATLAB 5", 8 << 10, training::pix3d, training::pix3d_files),
     own("keyframes", "poses made by hand, CSV and JSON", 4 << 10, texts::keyframes, none),
     #[cfg(feature = "program")]
     own("config", "configurations, TOML", 4 << 10, texts::config, none),

@@ -71,6 +71,9 @@ impl NyuV2 {
             let (layer, found) = (layer.spec().name, extent(other));
             return Err(refuse(format!("{layer} has {found:?} images, columns and rows, other layers have {:?}", [count, width, height])));
         }
+        if width == 0 || height == 0 {
+            return Err(refuse(format!("its images are of {width} columns and {height} rows; download it again")));
+        }
         if count != PUBLISHED_IMAGES && !choice.partial {
             return Err(refuse(format!(
                 "has {count} images, expected the {PUBLISHED_IMAGES} that are published; ask for `partial` if it is meant to be a part"
