@@ -16,7 +16,7 @@ fn pix3d(args: &Pix3dArgs) -> Result<Verdict, Problem> {
     let write = |error: std::io::Error| Problem::new(format!("cannot write {}: {error}", args.output.display()), "choose another file");
     std::fs::write(&args.output, found.document.to_json()).map_err(write)?;
     let (images, output) = (found.document.images.len(), args.output.display());
-    say(&format!("{output}: {images} images with one object each; paths begin at {}", args.root.display()));
+    say(&format!("{output}: images with one object each: {images}; paths begin at {}", args.root.display()));
     if found.mismatched > 0 {
         say(&format!("left out, since their masks are of other images: {} of {}", found.mismatched, MISMATCHED.join(", ")));
     }
