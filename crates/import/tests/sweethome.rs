@@ -245,3 +245,22 @@ fn libraries_stand_in_rows_with_their_names_and_sizes() {
     let told = warnings(&imported);
     assert!(told.contains("the model m/gone.obj is not in the archive") && told.contains("width#3 (Bad): found \"0\""), "{told}");
 }
+
+#[test]
+fn materials_that_only_java_3d_knows_are_as_it_has_them() {
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl flltgrey\nf 1 3 2\nusemtl silver\nf 1 2 3\nusemtl unheard_of\nf 1 2 3\n";
+    let xml = "<?xml version='1.0'?>\n<home version='7000' wallHeight='250'>\n\
+               <pieceOfFurniture name='Thing' model='thing.obj' x='0' y='0' width='10' depth='10' height='10'/></home>";
+    let folder = Folder::new();
+    folder.write("a.sh3d", zip(&[("Home.xml", xml.as_bytes()), ("thing.obj", obj.as_bytes())]));
+    let imported = folder.load("a.sh3d").unwrap();
+    let bsdf = |name: &str| imported.scene.materials.iter().find(|m| m.name == name).map(|m| &m.bsdf);
+    let diffuse = |value: f32| Some(Bsdf::Diffuse { reflectance: Rgb::splat(value).into() });
+    assert_eq!(bsdf("flltgrey").cloned(), diffuse(0.825));
+    assert_eq!(bsdf("unheard_of").cloned(), diffuse(0.5));
+    for (name, kd) in [("silver", Rgb::splat(0.616)), ("default", Rgb::new(0.71, 0.702, 0.653))] {
+        assert!(matches!(bsdf(name), Some(Bsdf::Plastic { diffuse, .. }) if diffuse.factor == kd), "{name}: {:?}", bsdf(name));
+    }
+    let told = warnings(&imported);
+    assert!(told.matches("no material library").count() == 1 && told.contains("unheard_of"), "{told}");
+}

@@ -30,12 +30,22 @@ use std::collections::HashMap;
 const GREY: f32 = 0.5;
 
 /// Imports an OBJ file.
-pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
+pub(crate) fn load(assembly: Assembly) -> Result<Imported, ImportError> {
+    load_with(assembly, mtl::Library::new())
+}
+
+/// Imports an OBJ file of a program that is built on Java 3D, whose loader knows materials that no library defines.
+pub(crate) fn load_java3d(assembly: Assembly) -> Result<Imported, ImportError> {
+    load_with(assembly, mtl::java3d())
+}
+
+/// Imports an OBJ file; `known` are materials besides those of its libraries.
+fn load_with(mut assembly: Assembly, known: mtl::Library) -> Result<Imported, ImportError> {
     let file = assembly.file().to_path_buf();
     let bytes = assembly.read_scene_file()?;
     let obj = ObjFile::parse(&bytes, &file)?;
     obj.notes.iter().for_each(|note| assembly.warn("whole file", note));
-    let library = mtl::read_libraries(&obj.libraries, &mut assembly)?;
+    let library = mtl::read_libraries(&obj.libraries, known, &mut assembly)?;
     let mut materials: HashMap<Option<&str>, u32> = HashMap::new();
     for (i, group) in obj.groups.iter().enumerate() {
         assembly.progress(i + 1, obj.groups.len());
@@ -65,12 +75,11 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
 }
 
 fn convert(name: Option<&str>, library: &mtl::Library, assembly: &mut Assembly) -> Result<Material, ImportError> {
-    match name.map(|n| (n, library.get(n))) {
-        Some((_, Some(entry))) => mtl::material(entry, assembly),
-        Some((name, None)) => {
-            assembly.warn(format!("usemtl {name}"), "no material library defines this material; grey stands in");
-            Ok(Material::diffuse(name, Rgb::splat(GREY)))
-        }
-        None => Ok(Material::diffuse("default", Rgb::splat(GREY))),
+    if let Some(entry) = library.get(name.unwrap_or_default()) {
+        return mtl::material(entry, assembly);
     }
+    if let Some(name) = name {
+        assembly.warn(format!("usemtl {name}"), "no material library defines this material; grey stands in");
+    }
+    Ok(Material::diffuse(name.unwrap_or("default"), Rgb::splat(GREY)))
 }

@@ -12,6 +12,7 @@ use std::path::Path;
 const BUMP_METRES: f32 = 0.005;
 
 /// One `newmtl`: its statements by keyword in lower case, later ones replacing earlier ones.
+#[derive(Clone)]
 pub(super) struct Entry {
     name: String,
     /// Folder of the library, to which pictures are relative, as the scene file would spell it.
@@ -22,9 +23,18 @@ pub(super) struct Entry {
 /// Materials by name.
 pub(super) type Library = HashMap<String, Entry>;
 
-/// Reads the libraries that an OBJ file names. One that is not there is a warning.
-pub(super) fn read_libraries(names: &[String], assembly: &mut Assembly) -> Result<Library, ImportError> {
+/// The materials that Java 3D's loader of OBJ files knows by name, and under the empty name that of faces without one. Programs that are built on it,
+/// such as Sweet Home 3D, have many models that rely on them. Colours are rounded to a thousandth.
+pub(super) fn java3d() -> Library {
     let mut library = Library::new();
+    parse(include_str!("java3d.mtl"), "", &mut library);
+    let unnamed = library.get("default").cloned();
+    library.extend(unnamed.map(|entry| (String::new(), entry)));
+    library
+}
+
+/// Reads the libraries that an OBJ file names, whose materials replace those of `library`. One that is not there is a warning.
+pub(super) fn read_libraries(names: &[String], mut library: Library, assembly: &mut Assembly) -> Result<Library, ImportError> {
     for line in names {
         // The rest of the line is one name with spaces, or, if there is no such file, several names.
         let whole = assembly.exists(line) || !line.contains(char::is_whitespace);

@@ -12,7 +12,7 @@
 //! | `room` | `<name>.floor` and `<name>.ceiling`, single sheets; where floors overlap, the later room has the place; staircases open the floor above and the ceiling below them by their rectangle. Ceilings of the highest level have the height of the nearest wall |
 //! | `level` | elevation, height, floor thickness; what is on hidden levels is left out |
 //! | `pieceOfFurniture`, `light`, `furnitureGroup` | `<name> (<catalogId>)`, with `.<material>` where a model has several parts; turned, pitched, rolled, mirrored, sized; whole colour or picture, and those of single materials (a transparent one hides its parts). Pictures of pieces lie across their front and over their top, in centimetres |
-//! | models | OBJ with its materials and pictures, also within a further archive. Where a model is 3DS, Collada or LWS, broken or missing, a box of the piece's size stands in, with a warning. Materials without a library, as those of the models that come with Sweet Home 3D, are grey but where the home paints them |
+//! | models | OBJ with its materials and pictures, also within a further archive. Where a model is 3DS, Collada or LWS, broken or missing, a box of the piece's size stands in, with a warning. Materials that no library defines, as those of many models that come with Sweet Home 3D, are what Java 3D, on which it is built, has under their names, else grey |
 //! | `lightSource` | a point light with the intensity of Sweet Home 3D's photographs: 5·π·power²·(255·colour)·(255·home's light) W/sr per cm² |
 //! | `ceillingLightColor` | such a light below the middle of each room's ceiling, unless it is black |
 //! | `environment` | the sky's colour from everywhere; the ground as a plane 20 m beyond the rooms, unless a level lies below it |

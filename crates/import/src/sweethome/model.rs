@@ -84,7 +84,7 @@ pub(super) fn read(archive: &Archive, file: &str) -> Result<Imported, String> {
 fn read_obj(archive: &Archive, name: &str) -> Result<Imported, String> {
     let options = ImportOptions { up_axis: Some(UpAxis::Z), allow_missing_textures: true, ..ImportOptions::default() };
     let assembly = Assembly::new(Format::Obj, &archive.file().join(name), UpAxis::Z, &options, &Quiet).within(archive);
-    obj::load(assembly).map_err(|e| format!("cannot be used ({e})"))
+    obj::load_java3d(assembly).map_err(|e| format!("cannot be used ({e})"))
 }
 
 fn add(imported: Imported, a: &mut Assembly) -> Result<Model, ImportError> {
