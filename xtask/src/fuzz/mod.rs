@@ -72,8 +72,8 @@ fn above_zero<T: FromStr + Default + PartialOrd>(flag: &str, word: Option<&&str>
     number.ok_or_else(|| format!("{flag}: found {found}, expected a whole number above zero"))
 }
 
-/// Searches the targets that are named, or all, and writes the table: to `docs/benchmarks/` when it is of all targets, else below
-/// `target/fuzz/`.
+/// Searches the targets that are named, or all, and writes the table: below `target/fuzz/`, but to `docs/benchmarks/` when it is of all
+/// targets and the machine is not an unattended one.
 ///
 /// # Errors
 /// When the program cannot be built, a target is unknown, or something was found.
@@ -88,7 +88,8 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     }
     let chosen: Vec<Target> = all.into_iter().filter(|t| asked.names.is_empty() || asked.names.contains(&t.name)).collect();
     let rows = search_all(&program, &chosen, &asked)?;
-    let docs = if asked.names.is_empty() && !asked.quick { house.root.join("docs/benchmarks") } else { folder };
+    let whole = asked.names.is_empty() && !asked.quick;
+    let docs = if whole && !House::unattended() { house.root.join("docs/benchmarks") } else { folder };
     report::write(&docs, asked.seconds, &rows)?;
     println!("{}\nwritten to {}", report::table(&rows), docs.join("fuzz.md").display());
     let found: Vec<String> = rows.iter().filter_map(|row| row.found.as_ref().map(|found| found.message(&row.name))).collect();
