@@ -159,7 +159,8 @@ def _described(study: Study) -> dict[str, Any]:
     plain = settings.to_dict(study)
     for place in ("output", "homes", "rooms", "evaluation"):
         del plain[place]
-    counts = {name: len(open_source(Data("enfilade", study.output / name), study.classes)) for name in ("homes", "rooms")}
+    rooms = Data("enfilade", study.output / "rooms", scenes=tuple(study.all_rooms))
+    counts = {"homes": len(open_source(replace(rooms, path=study.output / "homes", scenes=()), study.classes)), "rooms": len(open_source(rooms, study.classes))}
     return {"images": counts, **plain}
 
 
