@@ -1,4 +1,4 @@
-"""Rendered frames of a living room, made once for all tests."""
+"""Rendered frames of a bedroom, made once for all tests."""
 
 import atexit
 import functools
@@ -11,18 +11,18 @@ import enfilade
 DATASET = """
 frames = 8
 [render]
-size = [64, 64]
-samples = 16
+size = [96, 96]
+samples = 8
 [[scene]]
 name = "home"
-home = { seed = 16, rooms = ["living"], clutter = 0 }
-cameras = ["living_1"]
+home = { seed = 3, rooms = ["bedroom"], clutter = 0 }
+cameras = ["bedroom_1"]
 """
 
 
 @functools.cache
 def rendered() -> Path:
-    """Eight labelled frames of 64 x 64 pixels."""
+    """Eight labelled frames of 96 x 96 pixels."""
     folder = Path(tempfile.mkdtemp(prefix="enfilade-training-"))
     atexit.register(lambda: shutil.rmtree(folder, ignore_errors=True))
     file = folder / "dataset.toml"
