@@ -2,7 +2,8 @@
 
 The encoder is torchvision's resnet34 without its classifier: parameters have the same names and shapes, so that weights made for it
 fit. The decoder doubles the size five times; each stage takes the encoder's features of that size in and has two convolutions with
-batch normalisation. Widths of the decoder are those that are usual with this encoder: 256, 128, 64, 32 and 16 channels.
+batch normalisation. Widths of the decoder are those that are usual with this encoder: 256, 128, 64, 32 and 16 channels. In narrower
+networks they shrink alike, but to no fewer than 16 channels, which the head needs to tell a dozen classes apart.
 """
 
 from pathlib import Path
@@ -16,6 +17,10 @@ from torchvision.models.resnet import BasicBlock
 from ..common import checkpoints
 from ..common.checkpoints import CheckpointError
 from .config import Network
+
+
+# Channels of the decoder's narrowest stage.
+LEAST = 16
 
 
 class Encoder(nn.Module):
@@ -64,7 +69,7 @@ class UNet(nn.Module):
         width = config.width
         self.encoder = Encoder(width, config.blocks)
         coarse_to_fine = [8 * width, 4 * width, 2 * width, width, width]
-        decoder = [4 * width, 2 * width, width, width // 2, width // 4]
+        decoder = [max(channels, LEAST) for channels in (4 * width, 2 * width, width, width // 2, width // 4)]
         skipped = [*coarse_to_fine[1:], 0]
         inputs = [coarse_to_fine[0], *decoder[:-1]]
         self.decoder = nn.ModuleList(Up(*sizes) for sizes in zip(inputs, skipped, decoder))

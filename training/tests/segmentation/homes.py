@@ -1,4 +1,4 @@
-"""Rendered frames of the demo's home, made once for all tests."""
+"""Rendered frames of a bedroom, made once for all tests."""
 
 import atexit
 import functools
@@ -8,12 +8,25 @@ from pathlib import Path
 
 import enfilade
 
+DATASET = """
+frames = 8
+[render]
+size = [96, 96]
+samples = 8
+[[scene]]
+name = "home"
+seed = 3
+home = { seed = 3, rooms = ["bedroom"], clutter = 0 }
+cameras = ["bedroom_1"]
+"""
+
 
 @functools.cache
 def rendered() -> Path:
-    """Eight labelled frames of 128 x 128 pixels."""
+    """Eight labelled frames of 96 x 96 pixels."""
     folder = Path(tempfile.mkdtemp(prefix="enfilade-training-"))
     atexit.register(lambda: shutil.rmtree(folder, ignore_errors=True))
-    settings = enfilade.Config.demo(frames=8, size=(128, 128), samples=4)
-    enfilade.run(folder / "home", settings, scenes=settings.scenes[0])
+    file = folder / "dataset.toml"
+    file.write_text(DATASET, encoding="utf-8")
+    enfilade.run(folder / "home", enfilade.Config.read(file))
     return folder / "home"
