@@ -116,7 +116,7 @@ def plain(found: Found) -> dict[str, Any]:
     rows = []
     for arm in found.arms:
         for seed in found.seeds:
-            row: dict[str, Any] = {"arm": arm, "seed": seed, "steps": next(r.steps for r in found.rows if r.arm == arm)}
+            row: dict[str, Any] = {"arm": arm, "seed": seed, "steps_of_folds": _steps(found, arm)}
             row |= {name: round(found.score(name, arm, [seed], found.rooms), 5) for name in SCORES}
             row["mean_iou_of_rooms"] = {room: round(found.score("mean_iou", arm, [seed], [room]), 5) for room in found.rooms}
             rows.append(row)
@@ -171,7 +171,12 @@ _OVER: dict[str, Callable[[Found, str, str, str], Difference]] = {"seeds": over_
 
 
 def _steps_on_rooms(found: Found, arm: str) -> str:
-    return "0" if arm == ALONE else " and ".join(str(n) for n in sorted({row.steps for row in found.rows if row.arm == arm}))
+    return "0" if arm == ALONE else " and ".join(map(str, _steps(found, arm)))
+
+
+def _steps(found: Found, arm: str) -> list[int]:
+    """Of the arm's runs of a seed; folds differ where they have different numbers of pictures."""
+    return sorted({row.steps for row in found.rows if row.arm == arm})
 
 
 def _mean_and_spread(values: Sequence[float]) -> str:

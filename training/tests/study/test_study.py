@@ -105,7 +105,7 @@ class Studies(unittest.TestCase):
         self.assertIn("seed 1, pre-trained, fold 2 of 2", said.getvalue())
         found = json.loads(texts["training.json"])
         self.assertEqual([(row["arm"], row["seed"]) for row in found["rows"]], [(arm, seed) for arm in (ALONE, SCRATCH, PRETRAINED, LONGER) for seed in (0, 1)])
-        self.assertEqual([row["steps"] for row in found["rows"]], [2, 2, 2, 2, 2, 2, 4, 4])
+        self.assertEqual([row["steps_of_folds"] for row in found["rows"]], [[2], [2], [2], [2], [2], [2], [4], [4]])
         self.assertTrue(all(0 <= row["mean_iou"] <= 1 and set(row["mean_iou_of_rooms"]) == {"a", "b"} for row in found["rows"]))
         self.assertNotIn(str(self.folder), "".join(map(str, texts.values())))
         # What is ready is taken as it is; a run that is lost is made again, and is the same.
