@@ -163,7 +163,7 @@ def markdown(found: Found) -> str:
     lines += ["", "Mean IoU of each room, of the pixels of all seeds together:", "", *header]
     for room in found.rooms:
         lines.append(f"| {room} | " + " | ".join(f"{100 * found.score('mean_iou', arm, seeds, [room]):.1f}" for arm in found.arms) + " |")
-    lines += ["", "![losses and scores by step](training.svg)", ""]
+    lines += ["", "![losses and scores by epoch](training.svg)", ""]
     return "\n".join(lines)
 
 
