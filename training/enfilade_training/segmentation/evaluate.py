@@ -95,7 +95,8 @@ def write_pictures(
     for index in range(len(source)):
         image, _ = source[index]
         prediction = predict(network, [torch.from_numpy(image).permute(2, 0, 1)], device)[0].numpy()
-        for kind, values in (("classes", (prediction + 1).astype(np.uint16 if config.classes > 255 else np.uint8)), ("color", colored(prediction, config.classes))):
+        numbers = (prediction + 1).astype(np.uint16 if config.classes > 255 else np.uint8)
+        for kind, values in (("classes", numbers), ("color", colored(prediction, config.classes))):
             path = folder / f"{source.name(index)}.{kind}.png"
             write(path, values)
             yield path

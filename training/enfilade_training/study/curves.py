@@ -1,4 +1,4 @@
-"""Losses and scores by step as an SVG: the mean over runs, and a band from the least to the greatest."""
+"""Losses and scores by epoch as an SVG: the mean over runs, and a band from the least to the greatest."""
 
 import math
 import statistics
@@ -22,7 +22,7 @@ class Curve:
     lines: list[dict[str, Any]]
 
 
-# Steps, and a value of each run at each.
+# Epochs finished, and a value of each run at each.
 Series = dict[int, list[float]]
 
 
@@ -50,36 +50,38 @@ def svg(curves: Sequence[Curve]) -> str:
 
 
 def _series(curves: Sequence[Curve], kind: str, name: str) -> dict[str, Series]:
-    """By arm. An arm's value at a step is there where all of its runs have one."""
+    """By arm. An arm's value at an epoch is there where all of its runs have one; epochs of folds have different numbers of steps."""
     found: dict[str, Series] = defaultdict(lambda: defaultdict(list))
     runs: dict[str, int] = defaultdict(int)
     for curve in curves:
         runs[curve.arm] += 1
         for line in curve.lines:
             if line["kind"] == kind and line.get(name) is not None:
-                found[curve.arm][line["step"]].append(line[name])
-    return {arm: {step: values for step, values in sorted(of.items()) if len(values) == runs[arm]} for arm, of in found.items()}
+                # A line of losses tells the epoch that it is of, one of scores how many are finished.
+                finished = line["epoch"] + (kind == "epoch")
+                found[curve.arm][finished].append(line[name])
+    return {arm: {epoch: values for epoch, values in sorted(of.items()) if len(values) == runs[arm]} for arm, of in found.items()}
 
 
 def _panel(left: float, title: str, series: dict[str, Series], colors: dict[str, str]) -> list[str]:
     values = [value for of in series.values() for at in of.values() for value in at]
-    most_steps = max((step for of in series.values() for step in of), default=1)
+    most = max((epoch for of in series.values() for epoch in of), default=1)
     top = _round_up(max(values, default=1.0))
 
-    def place(step: float, value: float) -> str:
-        return f"{left + WIDTH * step / most_steps:.1f} {TOP + HEIGHT * (1 - value / top):.1f}"
+    def place(epoch: float, value: float) -> str:
+        return f"{left + WIDTH * epoch / most:.1f} {TOP + HEIGHT * (1 - value / top):.1f}"
 
     parts = [f'<text x="{left}" y="{TOP - 8}" font-weight="bold">{escape(title)}</text>']
     for i in range(5):
         y, x = TOP + HEIGHT * i / 4, left + WIDTH * i / 4
         parts.append(f'<path d="M{left} {y}h{WIDTH}M{x} {TOP}v{HEIGHT}" stroke="#ddd"/>')
         parts.append(f'<text x="{left - 4}" y="{y + 4}" text-anchor="end">{top * (4 - i) / 4:.3g}</text>')
-        parts.append(f'<text x="{x}" y="{TOP + HEIGHT + 15}" text-anchor="middle">{round(most_steps * i / 4)}</text>')
-    parts.append(f'<text x="{left + WIDTH / 2}" y="{TOP + HEIGHT + 29}" text-anchor="middle">steps</text>')
+        parts.append(f'<text x="{x}" y="{TOP + HEIGHT + 15}" text-anchor="middle">{most * i / 4:g}</text>')
+    parts.append(f'<text x="{left + WIDTH / 2}" y="{TOP + HEIGHT + 29}" text-anchor="middle">epochs</text>')
     for arm, of in series.items():
-        upper = [place(step, max(at)) for step, at in of.items()]
-        lower = [place(step, min(at)) for step, at in of.items()]
-        middle = [place(step, statistics.fmean(at)) for step, at in of.items()]
+        upper = [place(epoch, max(at)) for epoch, at in of.items()]
+        lower = [place(epoch, min(at)) for epoch, at in of.items()]
+        middle = [place(epoch, statistics.fmean(at)) for epoch, at in of.items()]
         if middle:
             parts.append(f'<path d="M{"L".join(upper + lower[::-1])}Z" fill="{colors[arm]}" opacity="0.15"/>')
             parts.append(f'<path d="M{"L".join(middle)}" fill="none" stroke="{colors[arm]}" stroke-width="1.5"/>')

@@ -116,7 +116,7 @@ def plain(found: Found) -> dict[str, Any]:
     rows = []
     for arm in found.arms:
         for seed in found.seeds:
-            row: dict[str, Any] = {"arm": arm, "seed": seed, "steps": next(r.steps for r in found.rows if r.arm == arm)}
+            row: dict[str, Any] = {"arm": arm, "seed": seed, "steps_of_folds": _steps(found, arm)}
             row |= {name: round(found.score(name, arm, [seed], found.rooms), 5) for name in SCORES}
             row["mean_iou_of_rooms"] = {room: round(found.score("mean_iou", arm, [seed], [room]), 5) for room in found.rooms}
             rows.append(row)
@@ -133,12 +133,13 @@ def plain(found: Found) -> dict[str, Any]:
 def markdown(found: Found) -> str:
     """The tables of training.md; what they mean is written by people, in docs/training.md."""
     settings, seeds = found.settings, found.seeds
+    pictures = settings["images"]
     lines = [
         "# Does pre-training on generated homes help?",
         "",
-        "Made by `python -m enfilade_training.study training/studies/transfer.toml`; [training.md](../training.md) says what was",
-        f"compared and what it means. {settings['images']['homes']} pictures of homes, {settings['images']['rooms']} of {len(found.rooms)} rooms; {len(seeds)} seeds. Scores in %, of all rooms together,",
-        "each judged by networks that had not seen it: mean and standard deviation over seeds. [training.json](training.json) has each seed.",
+        "Made by `python -m enfilade_training.study training/studies/transfer.toml`; [training.md](../training.md) says what was compared and what",
+        f"it means. {pictures['homes']} pictures of homes, {pictures['rooms']} of {len(found.rooms)} rooms; {len(seeds)} seeds. Scores in %, of all rooms together, each judged by",
+        "networks that had not seen it: mean and standard deviation over seeds. [training.json](training.json) has each seed.",
         "",
         "| arm | steps on rooms | mean IoU | pixel accuracy |",
         "|---|---|---|---|",
@@ -149,7 +150,7 @@ def markdown(found: Found) -> str:
     lines += [
         "",
         "Differences between arms, in points, with 95 % intervals: over seeds, what training again on the same rooms would show; over rooms, what",
-        "rooms of this kind would show, for which six are few.".replace("six", _number(len(found.rooms))),
+        f"other rooms of this kind would show, of which {len(found.rooms)} are a sample.",
         "",
         "| difference | score | over seeds | over rooms |",
         "|---|---|---|---|",
@@ -158,10 +159,11 @@ def markdown(found: Found) -> str:
         for name, title in SCORES.items():
             cells = [_interval(of(found, name, arm, other)) for of in _OVER.values()]
             lines.append(f"| {arm} − {other} | {title} | {' | '.join(cells)} |")
-    lines += ["", "Mean IoU of each room, of the pixels of all seeds together:", "", f"| room | {' | '.join(found.arms)} |", "|---" * (len(found.arms) + 1) + "|"]
+    header = [f"| room | {' | '.join(found.arms)} |", "|---" * (len(found.arms) + 1) + "|"]
+    lines += ["", "Mean IoU of each room, of the pixels of all seeds together:", "", *header]
     for room in found.rooms:
         lines.append(f"| {room} | " + " | ".join(f"{100 * found.score('mean_iou', arm, seeds, [room]):.1f}" for arm in found.arms) + " |")
-    lines += ["", "![losses and scores by step](training.svg)", ""]
+    lines += ["", "![losses and scores by epoch](training.svg)", ""]
     return "\n".join(lines)
 
 
@@ -169,7 +171,12 @@ _OVER: dict[str, Callable[[Found, str, str, str], Difference]] = {"seeds": over_
 
 
 def _steps_on_rooms(found: Found, arm: str) -> str:
-    return "0" if arm == ALONE else " and ".join(str(n) for n in sorted({row.steps for row in found.rows if row.arm == arm}))
+    return "0" if arm == ALONE else " and ".join(map(str, _steps(found, arm)))
+
+
+def _steps(found: Found, arm: str) -> list[int]:
+    """Of the arm's runs of a seed; folds differ where they have different numbers of pictures."""
+    return sorted({row.steps for row in found.rows if row.arm == arm})
 
 
 def _mean_and_spread(values: Sequence[float]) -> str:
@@ -178,8 +185,3 @@ def _mean_and_spread(values: Sequence[float]) -> str:
 
 def _interval(value: Difference) -> str:
     return f"{100 * value.mean:+.1f} ({100 * value.low:+.1f} to {100 * value.high:+.1f}): {value.verdict}"
-
-
-def _number(count: int) -> str:
-    words = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
-    return words[count] if count < len(words) else str(count)

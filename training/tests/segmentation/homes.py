@@ -15,7 +15,7 @@ size = [96, 96]
 samples = 8
 [[scene]]
 name = "home"
-seed = 3
+seed = 5
 home = { seed = 3, rooms = ["bedroom"], clutter = 0 }
 cameras = ["bedroom_1"]
 """

@@ -72,13 +72,13 @@ class Statistics(unittest.TestCase):
 class Curves(unittest.TestCase):
     def test_panels_show_means_and_bands_where_all_runs_have_a_value(self) -> None:
         def lines(losses: list[float]) -> list[dict]:
-            return [{"kind": "epoch", "step": 10 * (i + 1), "loss": loss} for i, loss in enumerate(losses)]
+            return [{"kind": "epoch", "step": 10 * (i + 1), "epoch": i, "loss": loss} for i, loss in enumerate(losses)]
 
         drawn = ElementTree.fromstring(svg([Curve(SCRATCH, 0, 0, lines([2.0, 1.0])), Curve(SCRATCH, 1, 0, lines([1.0, 0.5, 0.1]))]))
         paths = [path.attrib["d"] for path in drawn.iter("{http://www.w3.org/2000/svg}path") if path.attrib.get("fill") == "none"]
         self.assertEqual(len(paths), 1)
         heights = [float(point.split()[1]) for point in paths[0][1:].split("L")]
-        # Means of 1.5 and 0.75 below a top of 2, 200 pixels high and 44 from above; the third step has one run alone.
+        # Means of 1.5 and 0.75 below a top of 2, 200 pixels high and 44 from above; the third epoch has one run alone.
         self.assertEqual(heights, [44 + 200 * 0.25, 44 + 200 * 0.625])
 
 
@@ -105,7 +105,7 @@ class Studies(unittest.TestCase):
         self.assertIn("seed 1, pre-trained, fold 2 of 2", said.getvalue())
         found = json.loads(texts["training.json"])
         self.assertEqual([(row["arm"], row["seed"]) for row in found["rows"]], [(arm, seed) for arm in (ALONE, SCRATCH, PRETRAINED, LONGER) for seed in (0, 1)])
-        self.assertEqual([row["steps"] for row in found["rows"]], [2, 2, 2, 2, 2, 2, 4, 4])
+        self.assertEqual([row["steps_of_folds"] for row in found["rows"]], [[2], [2], [2], [2], [2], [2], [4], [4]])
         self.assertTrue(all(0 <= row["mean_iou"] <= 1 and set(row["mean_iou_of_rooms"]) == {"a", "b"} for row in found["rows"]))
         self.assertNotIn(str(self.folder), "".join(map(str, texts.values())))
         # What is ready is taken as it is; a run that is lost is made again, and is the same.
