@@ -9,9 +9,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A confusion matrix: numbers of pixels by true and predicted class, and the scores that follow from them.
 ///
-///     scores = enfilade.Confusion(13)
-///     scores.add(prediction, truth, ignore=-1)
-///     scores.mean_iou
+/// ```python
+/// scores = enfilade.Confusion(13)
+/// scores.add(prediction, truth, ignore=-1)
+/// scores.mean_iou
+/// ```
 ///
 /// Pixels of all images go into one matrix. Intersection over union of a class is TP / (TP + FP + FN). Matrices can be pickled.
 ///
