@@ -81,8 +81,8 @@ def _table(cls: type, settings: dict[str, Any], source: str, place: tuple[str, .
     for key in settings:
         if key not in fields:
             near = difflib.get_close_matches(key, fields, n=1)
-            guess = f"; did you mean {near[0]!r}?" if near else ""
-            raise ConfigError(f"{source}: {where} has the unknown key {key!r}{guess} Expected one of: {', '.join(fields)}")
+            guess = f"; did you mean {near[0]!r}? It is" if near else ", expected"
+            raise ConfigError(f"{source}: {where} has the unknown key {key!r}{guess} one of {', '.join(fields)}")
     values = {}
     for name, field in fields.items():
         if name in settings:
