@@ -65,7 +65,8 @@ def _series(curves: Sequence[Curve], kind: str, name: str) -> dict[str, Series]:
 
 def _panel(left: float, title: str, series: dict[str, Series], colors: dict[str, str]) -> list[str]:
     values = [value for of in series.values() for at in of.values() for value in at]
-    most = max((epoch for of in series.values() for epoch in of), default=1)
+    # Up to a number that four lines divide.
+    most = 4 * math.ceil(max((epoch for of in series.values() for epoch in of), default=1) / 4)
     top = _round_up(max(values, default=1.0))
 
     def place(epoch: float, value: float) -> str:
