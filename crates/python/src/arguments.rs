@@ -3,7 +3,7 @@
 use enfilade_dataset::Partition;
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_loader::CropPlace;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 
 /// One name or several. In names of scenes and cameras `*` stands for any run of characters.
@@ -46,6 +46,13 @@ pub fn layers(names: Option<&Names>) -> PyResult<Option<Vec<Layer>>> {
 /// The side of the split of that name.
 pub fn split(name: Option<&str>) -> PyResult<Option<Partition>> {
     name.map(|name| name.parse().map_err(|problem| PyValueError::new_err(format!("split: {problem}")))).transpose()
+}
+
+/// The index that Python means: negative ones count from the end.
+pub fn position(index: isize, count: usize) -> PyResult<usize> {
+    let found = if index < 0 { index + count as isize } else { index };
+    let wrong = || PyIndexError::new_err(format!("index {index} of a dataset of {count} samples"));
+    usize::try_from(found).ok().filter(|&found| found < count).ok_or_else(wrong)
 }
 
 /// Frame numbers: one, or a `range` with a step of one.

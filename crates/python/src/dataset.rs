@@ -1,11 +1,10 @@
 //! `enfilade.Dataset`.
 
-use crate::arguments::{Names, Place, layers, split};
+use crate::arguments::{Names, Place, layers, position, split};
 use crate::arrays;
 use crate::errors::IntoPy;
-use crate::loader::{Loader, cores};
-use enfilade_loader::{Choice, Crop, LoaderError, Options, Sample, Samples};
-use pyo3::exceptions::PyIndexError;
+use crate::loader::{Loader, decode_all};
+use enfilade_loader::{Choice, Crop, Options, Samples};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::path::PathBuf;
@@ -108,10 +107,7 @@ impl Arguments {
 impl Dataset {
     /// The index that Python means.
     fn index(&self, index: isize) -> PyResult<usize> {
-        let count = self.samples.len();
-        let found = if index < 0 { index + count as isize } else { index };
-        let wrong = || PyIndexError::new_err(format!("index {index} of a dataset of {count} samples"));
-        usize::try_from(found).ok().filter(|&found| found < count).ok_or_else(wrong)
+        position(index, self.samples.len())
     }
 }
 
@@ -157,7 +153,7 @@ impl Dataset {
     fn __getitems__<'py>(&self, py: Python<'py>, indices: Vec<isize>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let indices = indices.into_iter().map(|index| self.index(index)).collect::<PyResult<Vec<_>>>()?;
         let epoch = self.epoch.load(Ordering::Relaxed);
-        let samples = py.detach(|| decode_all(&self.samples, &indices, epoch)).map_err(IntoPy::into_py)?;
+        let samples = py.detach(|| decode_all(&indices, |index| self.samples.sample(index, epoch))).map_err(IntoPy::into_py)?;
         indices.into_iter().zip(samples).map(|(index, sample)| arrays::sample(py, index, sample)).collect()
     }
 
@@ -215,15 +211,4 @@ impl Dataset {
         let layers = self.layers().join(", ");
         format!("<enfilade.Dataset {:?}: {} samples of {layers}>", self.arguments.path, self.samples.len())
     }
-}
-
-/// The samples in the order of their indices, decoded by as many threads as there are cores; these end before it returns.
-fn decode_all(samples: &Samples, indices: &[usize], epoch: u64) -> Result<Vec<Sample>, LoaderError> {
-    let share = indices.len().div_ceil(cores()).max(1);
-    std::thread::scope(|scope| {
-        let decode = |part: &[usize]| part.iter().map(|&index| samples.sample(index, epoch)).collect::<Result<Vec<_>, _>>();
-        let threads: Vec<_> = indices.chunks(share).map(|part| scope.spawn(move || decode(part))).collect();
-        let parts = threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        parts.collect::<Result<Vec<_>, _>>().map(|parts| parts.into_iter().flatten().collect())
-    })
 }

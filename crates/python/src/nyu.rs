@@ -1,11 +1,11 @@
 //! `enfilade.NyuV2`, and the tables of NYU's classes.
 
-use crate::arguments::{Names, layers};
+use crate::arguments::{Names, layers, position};
 use crate::arrays;
 use crate::errors::IntoPy;
-use crate::loader::cores;
-use enfilade_loader::{LoaderError, NYU_LAYERS, NyuChoice, NyuClasses, NyuSplit, NyuV2 as Images, Sample, nyu13_of_nyu40};
-use pyo3::exceptions::{PyIndexError, PyValueError};
+use crate::loader::decode_all;
+use enfilade_loader::{NYU_LAYERS, NyuChoice, NyuClasses, NyuSplit, NyuV2 as Images, nyu13_of_nyu40};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::path::PathBuf;
@@ -66,10 +66,7 @@ impl Arguments {
 impl NyuV2 {
     /// The index that Python means.
     fn index(&self, index: isize) -> PyResult<usize> {
-        let count = self.images.len();
-        let found = if index < 0 { index + count as isize } else { index };
-        let wrong = || PyIndexError::new_err(format!("index {index} of a dataset of {count} samples"));
-        usize::try_from(found).ok().filter(|&found| found < count).ok_or_else(wrong)
+        position(index, self.images.len())
     }
 }
 
@@ -97,7 +94,7 @@ impl NyuV2 {
     /// The samples of several indices, decoded on all cores; torch's DataLoader asks for a batch so.
     fn __getitems__<'py>(&self, py: Python<'py>, indices: Vec<isize>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let indices = indices.into_iter().map(|index| self.index(index)).collect::<PyResult<Vec<_>>>()?;
-        let samples = py.detach(|| decode_all(&self.images, &indices)).map_err(IntoPy::into_py)?;
+        let samples = py.detach(|| decode_all(&indices, |index| self.images.sample(index))).map_err(IntoPy::into_py)?;
         indices.into_iter().zip(samples).map(|(index, sample)| arrays::sample(py, index, sample)).collect()
     }
 
@@ -126,17 +123,6 @@ impl NyuV2 {
         let layers = self.layers().join(", ");
         format!("<enfilade.NyuV2 {:?}: {} samples of {layers}, {} classes>", self.images.path(), self.images.len(), self.arguments.classes)
     }
-}
-
-/// The samples in the order of their indices, decoded by as many threads as there are cores; these end before it returns.
-fn decode_all(images: &Images, indices: &[usize]) -> Result<Vec<Sample>, LoaderError> {
-    let share = indices.len().div_ceil(cores()).max(1);
-    std::thread::scope(|scope| {
-        let decode = |part: &[usize]| part.iter().map(|&index| images.sample(index)).collect::<Result<Vec<_>, _>>();
-        let threads: Vec<_> = indices.chunks(share).map(|part| scope.spawn(move || decode(part))).collect();
-        let parts = threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        parts.collect::<Result<Vec<_>, _>>().map(|parts| parts.into_iter().flatten().collect())
-    })
 }
 
 /// Adds `NYU40`, `NYU13` and `NYU13_OF_NYU40`.

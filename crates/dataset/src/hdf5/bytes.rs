@@ -52,9 +52,9 @@ impl Source {
         Some(bytes)
     }
 
-    /// Bytes that the whole file can inflate to: no codec here shrinks by more than a factor of 1032. No damaged size may ask for more memory.
+    /// [`most_inflated`] of the whole file.
     pub fn most_inflated(&self) -> u64 {
-        self.length.saturating_mul(1032)
+        most_inflated(self.length)
     }
 
     /// `None` when the node of a tree at `offset` was walked before: such a file is damaged, and might be walked for ever.
@@ -67,6 +67,11 @@ impl Source {
         self.file.seek(SeekFrom::Start(offset.checked_add(self.base)?)).ok()?;
         self.file.read_exact(out).ok()
     }
+}
+
+/// Bytes that `length` bytes can inflate to: no codec here shrinks by more than a factor of 1032. No damaged size may ask for more memory.
+pub(super) fn most_inflated(length: u64) -> u64 {
+    length.saturating_mul(1032)
 }
 
 /// The unsigned number of `N` bytes at `at`.

@@ -94,6 +94,26 @@ pub(super) fn shuffle(raw: &[u8], element_size: usize) -> Vec<u8> {
     }
 }
 
+/// HDF5's shuffle undone: first bytes of all elements, then second bytes, and so on.
+pub(super) fn unshuffle_into<const B: usize>(shuffled: &[u8], raw: &mut [u8]) {
+    let elements: &mut [[u8; B]] = bytemuck::cast_slice_mut(raw);
+    let count = elements.len();
+    let planes: [&[u8]; B] = std::array::from_fn(|byte| &shuffled[byte * count..(byte + 1) * count]);
+    for (i, element) in elements.iter_mut().enumerate() {
+        *element = std::array::from_fn(|byte| planes[byte][i]);
+    }
+}
+
+/// [`unshuffle_into`] for elements of `element_size` bytes.
+pub(super) fn unshuffle(shuffled: &[u8], element_size: usize, raw: &mut [u8]) {
+    match element_size {
+        1 => raw.copy_from_slice(shuffled),
+        2 => unshuffle_into::<2>(shuffled, raw),
+        4 => unshuffle_into::<4>(shuffled, raw),
+        _ => unshuffle_into::<8>(shuffled, raw),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

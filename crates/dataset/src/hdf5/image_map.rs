@@ -6,6 +6,7 @@
 
 use super::Element;
 use super::bytes::{Source, u16_at, u32_at, u64_at, usize_at};
+use super::chunk_tree::{self, Place};
 use super::chunks::{grid, three_axes};
 
 /// HDF5's number of the deflate filter.
@@ -29,14 +30,6 @@ pub(super) enum Codec {
     Stored,
 }
 
-/// Bytes of a chunk in the file.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Place {
-    pub offset: u64,
-    /// Never 0 in a map.
-    pub length: usize,
-}
-
 /// An image in its file.
 pub(super) struct ImageMap {
     pub element: Element,
@@ -46,7 +39,7 @@ pub(super) struct ImageMap {
     pub chunk: [usize; 3],
     pub shuffled: bool,
     pub codec: Codec,
-    /// By row, column and channel of chunks, channels innermost.
+    /// By row, column and channel of chunks, channels innermost; none is of length 0.
     pub places: Vec<Place>,
 }
 
@@ -85,10 +78,11 @@ impl ImageMap {
         if !known || !possible || sides.iter().zip(&shape).any(|(side, axis)| !(1..=*axis).contains(side)) {
             return None;
         }
-        let chunk = image_axes(sides);
+        let (axes, chunk) = (shape.len(), image_axes(sides));
         let mut map = Self { element, shape, chunk, shuffled, codec, places: Vec::new() };
-        map.places = vec![Place::default(); map.grid().iter().product()];
-        map.walk(source, tree, 0)?;
+        let grid = map.grid();
+        map.places = vec![Place::default(); grid.iter().product()];
+        chunk_tree::enter(source, tree, &chunk[..axes], &grid[..axes], &mut map.places)?;
         map.places.iter().all(|place| place.length > 0).then_some(map)
     }
 
@@ -100,48 +94,13 @@ impl ImageMap {
         let chunk = if known { image_axes(&shape) } else { return None };
         Some(Self { element, shape, chunk, shuffled: false, codec: Codec::Stored, places: vec![Place { offset, length: bytes }] })
     }
-
-    /// Enters the chunks of a node and of those below it.
-    fn walk(&mut self, source: &mut Source, node: u64, depth: usize) -> Option<()> {
-        source.walk(node)?;
-        let start = source.bytes(node, 24)?;
-        if depth > DEEPEST || !start.starts_with(b"TREE\x01") {
-            return None;
-        }
-        let (level, entries) = (start[5], usize::from(u16_at(&start, 6)?));
-        let key = 8 + 8 * (self.shape.len() + 1);
-        let body = source.bytes(node + 24, entries * (key + 8))?;
-        for entry in body.chunks_exact(key + 8) {
-            let child = u64_at(entry, key)?;
-            if level > 0 {
-                self.walk(source, child, depth + 1)?;
-                continue;
-            }
-            let (length, unfiltered) = (u32_at(entry, 0)? as usize, u32_at(entry, 4)?);
-            let inside = child.checked_add(length as u64).is_some_and(|end| end <= source.length);
-            if unfiltered != 0 || !inside {
-                return None;
-            }
-            let first: Vec<usize> = (0..self.shape.len()).map(|axis| usize_at(entry, 8 + 8 * axis)).collect::<Option<_>>()?;
-            let (first, grid) = (image_axes_from(&first, 0), self.grid());
-            let at: [usize; 3] = std::array::from_fn(|axis| first[axis] / self.chunk[axis]);
-            let whole = (0..3).all(|axis| first[axis] % self.chunk[axis] == 0 && at[axis] < grid[axis]);
-            let place = self.places.get_mut((at[0] * grid[1] + at[1]) * grid[2] + at[2]).filter(|_| whole)?;
-            *place = Place { offset: child, length };
-        }
-        Some(())
-    }
 }
 
 /// Height, width and channels, of which there is one where they are no axis.
 fn image_axes(shape: &[usize]) -> [usize; 3] {
-    image_axes_from(shape, 1)
-}
-
-fn image_axes_from(axes: &[usize], missing: usize) -> [usize; 3] {
-    match *axes {
-        [height, width] => [height, width, missing],
-        _ => three_axes(axes),
+    match *shape {
+        [height, width] => [height, width, 1],
+        _ => three_axes(shape),
     }
 }
 

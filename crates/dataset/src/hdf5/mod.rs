@@ -6,6 +6,7 @@
 //! those that it needs with libdeflate, which takes less than half of the time.
 
 mod bytes;
+mod chunk_tree;
 mod chunks;
 mod image_map;
 mod lz4;

@@ -1,3 +1,4 @@
+use super::bytes::most_inflated;
 use super::window::read_image;
 use super::write::{datatype, os_error};
 use super::{Array, Element, Elements};
@@ -37,8 +38,7 @@ fn read_dataset(path: &Path, length: u64) -> Result<Array, DatasetError> {
     })?;
     let shape = dataset.shape();
     let bytes_of = |shape: &[usize]| shape.iter().try_fold(element.size(), |n, &axis| n.checked_mul(axis));
-    // A damaged shape must not ask for more memory than there is: deflate shrinks by a factor of 1032 at most.
-    let fits = |&n: &usize| n as u64 <= length.saturating_mul(1032);
+    let fits = |&n: &usize| n as u64 <= most_inflated(length);
     let impossible = || DatasetError::hdf5(path, format!("{length} bytes cannot hold shape {shape:?} of {}: {DAMAGED}", element.name()));
     let expected = bytes_of(&shape).filter(fits).ok_or_else(impossible)?;
     if let Some(chunk) = dataset.chunk_dims().filter(|chunk| bytes_of(chunk).filter(fits).is_none()) {

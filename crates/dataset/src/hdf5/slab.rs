@@ -1,7 +1,8 @@
 //! Boxes of arrays of any number of axes.
 
 use super::bytes::Source;
-use super::image_map::Place;
+use super::chunk_tree::Place;
+use super::chunks::unshuffle;
 use super::volume::{Layout, NOWHERE, VolumeArray};
 use libdeflater::Decompressor;
 
@@ -119,10 +120,8 @@ fn decode(
         return None;
     }
     if let Some(size) = shuffled {
-        let (planes, count) = (raw.to_vec(), raw.len() / size);
-        for (i, element) in raw.chunks_exact_mut(size).enumerate() {
-            element.iter_mut().enumerate().for_each(|(byte, out)| *out = planes[byte * count + i]);
-        }
+        let shuffled = raw.to_vec();
+        unshuffle(&shuffled, size, raw);
     }
     Some(())
 }

@@ -6,7 +6,8 @@
 //! open between reads, so an array may be read from many threads and after a fork.
 
 use super::bytes::{Source, u16_at, u32_at, u64_at, usize_at};
-use super::image_map::{DEEPEST, DEFLATE, Place, SHUFFLE, filters, messages};
+use super::chunk_tree::{self, Place};
+use super::image_map::{DEEPEST, DEFLATE, SHUFFLE, filters, messages};
 use super::slab;
 use crate::DatasetError;
 use std::collections::BTreeMap;
@@ -333,39 +334,7 @@ fn chunks(source: &mut Source, tree: u64, shape: &[usize], chunk: &[usize]) -> O
     // A chunk takes at least the key and the address that the tree has of it, but those that were never written are not in the tree.
     let mut places = vec![Place::default(); Some(count).filter(|&count| count as u64 <= source.length.saturating_mul(32))?];
     if tree != NOWHERE {
-        walk(source, tree, 0, chunk, &grid, &mut places)?;
+        chunk_tree::enter(source, tree, chunk, &grid, &mut places)?;
     }
     Some(places)
-}
-
-/// Enters the chunks of a node of the tree, and of those below it.
-fn walk(source: &mut Source, node: u64, depth: usize, chunk: &[usize], grid: &[usize], places: &mut [Place]) -> Option<()> {
-    source.walk(node)?;
-    let start = source.bytes(node, 24)?;
-    if depth > DEEPEST || !start.starts_with(b"TREE\x01") {
-        return None;
-    }
-    let (level, entries, key) = (start[5], usize::from(u16_at(&start, 6)?), 8 + 8 * (chunk.len() + 1));
-    let body = source.bytes(node.checked_add(24)?, entries * (key + 8))?;
-    for entry in body.chunks_exact(key + 8) {
-        let child = u64_at(entry, key)?;
-        if level > 0 {
-            walk(source, child, depth + 1, chunk, grid, places)?;
-            continue;
-        }
-        let (length, unfiltered) = (u32_at(entry, 0)? as usize, u32_at(entry, 4)?);
-        let mut index = 0;
-        for axis in 0..chunk.len() {
-            let first = usize_at(entry, 8 + 8 * axis)?;
-            if first % chunk[axis] != 0 || first / chunk[axis] >= grid[axis] {
-                return None;
-            }
-            index = index * grid[axis] + first / chunk[axis];
-        }
-        if unfiltered != 0 || child.checked_add(length as u64).is_none_or(|end| end > source.length) {
-            return None;
-        }
-        *places.get_mut(index)? = Place { offset: child, length };
-    }
-    Some(())
 }

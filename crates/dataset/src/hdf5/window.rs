@@ -1,7 +1,9 @@
 //! Decoding an image, or only the chunks that a part of it touches.
 
 use super::bytes::Source;
-use super::image_map::{Codec, ImageMap, Place};
+use super::chunk_tree::Place;
+use super::chunks::unshuffle_into;
+use super::image_map::{Codec, ImageMap};
 use super::lz4;
 use super::read::read_array;
 use super::{Array, Elements};
@@ -209,16 +211,6 @@ fn inflate<const B: usize>(map: &ImageMap, places: &[Place], base: u64, scratch:
         }
     }
     Some(())
-}
-
-/// HDF5's shuffle undone: first bytes of all elements, then second bytes, and so on.
-fn unshuffle_into<const B: usize>(shuffled: &[u8], raw: &mut [u8]) {
-    let elements: &mut [[u8; B]] = bytemuck::cast_slice_mut(raw);
-    let count = elements.len();
-    let planes: [&[u8]; B] = std::array::from_fn(|byte| &shuffled[byte * count..(byte + 1) * count]);
-    for (i, element) in elements.iter_mut().enumerate() {
-        *element = std::array::from_fn(|byte| planes[byte][i]);
-    }
 }
 
 /// Where the chunks of one place meet the window.
