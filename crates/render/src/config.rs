@@ -37,6 +37,9 @@ pub struct RenderConfig {
     pub noise: Option<f32>,
     /// Learns before rendering where indirect light comes from and sends rays there. Changes noise, never the mean. Default true.
     pub guiding: bool,
+    /// Pixels near each other share the light that their paths find: less noise for the same time, which is no longer independent
+    /// between neighbours. Changes noise, never the mean. Default true.
+    pub reuse: bool,
     /// Longest path, counted in surfaces that scatter light after the first. Default none: Russian roulette ends paths without bias.
     pub max_bounces: Option<u32>,
     /// Largest radiance that one indirect sample may add to a pixel. Default none: a clamp darkens the picture.
@@ -63,6 +66,7 @@ impl Default for RenderConfig {
             adaptive: true,
             noise: None,
             guiding: true,
+            reuse: true,
             max_bounces: None,
             clamp: None,
             splits: false,

@@ -1,7 +1,7 @@
 //! From pixel samples to the stored colour layers.
 
+use crate::batch::PixelSample;
 use crate::budget::Estimate;
-use crate::integrator::PixelSample;
 use crate::split::Split;
 use enfilade_frame::{compose, f16};
 use enfilade_math::Rgb;

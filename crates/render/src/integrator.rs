@@ -1,49 +1,31 @@
-//! The path tracer: radiance along camera rays, split at the first surface.
-//!
-//! At the first surface the estimate is kept in three parts: the diffuse reflectance A, the *demodulated* diffuse light E
-//! (what the diffuse lobe would send for a reflectance of one) and the rest R, so that a sample's radiance is A·E + R.
+//! The path tracer: radiance along paths, and the steps that they are made of. [`crate::batch`] begins them at the camera.
 
 use crate::bsdf::{Bsdf, Value};
 use crate::config::RenderConfig;
 use crate::guide::Guide;
 use crate::light::{LightKind, LightPoint, power_heuristic};
 use crate::prepared::{Cutout, RenderScene};
-use crate::split::{Arriving, Split};
+use crate::split::Arriving;
 use crate::surface::Surface;
 use crate::texture::Cone;
 use crate::vertex::{Segment, Vertex, sides_agree};
+use enfilade_geometry::Hit;
 use enfilade_math::{Ray, Rgb, Sampler, Vec3};
-
-/// One sample of a pixel.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct PixelSample {
-    /// Diffuse reflectance A of the first surface.
-    pub reflectance: Rgb,
-    /// Demodulated diffuse light E.
-    pub illumination: Option<Rgb>,
-    /// Everything else, R.
-    pub residual: Rgb,
-    /// A·E + R in parts, where they are asked for.
-    pub split: Split,
-}
-
-/// One in this many samples of a surface without diffuse reflectance measures the light that falls on it.
-const IRRADIANCE_STRIDE: u32 = 4;
 
 /// A path goes on with this times the ratio of the light it is expected to find to that of the first surface: the light is not known
 /// exactly, and ending a path that mattered costs more than following one that did not.
 const SURVIVAL_GAIN: f32 = 0.8;
 /// The same where nothing is known of the light, and of the light that mirrors and glass find, for what the path lets through.
-const UNKNOWN_GAIN: f32 = 6.0;
+const UNKNOWN_GAIN: f32 = 12.0;
 /// Bounds of the probability that a path goes on.
 const LEAST_SURVIVAL: f32 = 0.2;
 const MOST_SURVIVAL: f32 = 0.95;
 
 /// Random numbers: set 0 is the camera's; each bounce has two more.
-const fn bsdf_set(bounce: u32) -> u32 {
+pub(crate) const fn bsdf_set(bounce: u32) -> u32 {
     1 + 2 * bounce
 }
-const fn light_set(bounce: u32) -> u32 {
+pub(crate) const fn light_set(bounce: u32) -> u32 {
     2 + 2 * bounce
 }
 
@@ -57,132 +39,136 @@ pub(crate) struct Integrator<'a, 's> {
 }
 
 /// Light sampled at a source.
-struct Direct {
+pub(crate) struct Direct {
     /// The BSDF's value over the light's density, weighted against BSDF sampling.
-    weight: Value,
+    pub weight: Value,
     /// Radiance that arrives.
-    light: Rgb,
-    kind: LightKind,
+    pub light: Rgb,
+    pub kind: LightKind,
     /// True when it reaches the surface from behind.
-    crosses: bool,
+    pub crosses: bool,
+    /// Where it comes from.
+    pub wi: Vec3,
+    /// What the BSDF's value was multiplied by.
+    pub factor: f32,
+    /// Density of the direction; `None` when no other technique can find it.
+    pub pdf: Option<f32>,
 }
 
-impl<'s> Integrator<'_, 's> {
-    /// A sample along a camera ray (unit direction); `index` is the sample's number within the pixel.
-    pub fn sample(&self, ray: Ray, sampler: &Sampler, index: u32) -> PixelSample {
-        let Some(hit) = self.scene.closest(&ray, Cutout::Random) else {
-            let background = self.scene.lights.background(ray.direction);
-            let mut split = Split::default();
-            split.add_background(background);
-            return PixelSample { residual: background.total(), split, ..PixelSample::default() };
+/// Light that arrives at a surface by way of others.
+pub(crate) struct Indirect {
+    /// The BSDF's value over the direction's density, and over the probability of having followed it.
+    pub weight: Value,
+    pub light: Arriving,
+    /// Where it comes from.
+    pub wi: Vec3,
+    /// The density times that probability; `None` unless the direction came from a density.
+    pub density: Option<f32>,
+}
+
+/// How a path goes on.
+pub(crate) struct Step {
+    /// The BSDF's value over the direction's density and over `survival`.
+    pub weight: Value,
+    /// Probability that it went on.
+    pub survival: f32,
+}
+
+impl<'a, 's> Integrator<'a, 's> {
+    /// The surface at the end of a segment, and the throughput to it. What it emits, or the background in its place, is added to
+    /// `radiance`, weighted against light sampling; `direct` says that nothing has scattered it.
+    #[inline]
+    pub fn next_surface(
+        &self,
+        segment: &Segment,
+        throughput: Rgb,
+        direct: bool,
+        radiance: &mut Arriving,
+    ) -> Option<(Surface<'s>, Hit, Rgb)> {
+        let (lights, sampled) = (&self.scene.lights, segment.sampled.as_ref());
+        let Some(hit) = self.scene.closest(&segment.ray, Cutout::Random) else {
+            let background = lights.background_weighted(&self.guide.choice, sampled, segment.ray.direction);
+            radiance.add_background(background, throughput, direct);
+            return None;
         };
-        let camera = Segment::from_camera(ray, Cone::camera(self.pixel_angle));
-        let surface = self.scene.surface(&hit, ray.direction, &camera.cone);
-        let bsdf = surface.bsdf(self.scene);
-        let vertex = Vertex::new(self.guide, &surface, &bsdf);
-        let mut sum = Value { diffuse: Rgb::BLACK, specular: surface.emission(self.scene) };
-        let mut split = Split::default();
-        if self.config.splits {
-            split.add_emission(sum.specular);
+        let surface = self.scene.surface(&hit, segment.ray.direction, &segment.cone);
+        let throughput = throughput * segment.medium.transmittance(hit.t);
+        let emission = surface.emission(self.scene);
+        if !emission.is_black() {
+            let weight = lights.surface_weight(self.scene, &self.guide.choice, sampled, segment.ray.direction, &hit, surface.p);
+            radiance.add(LightKind::Surfaces, throughput * emission * weight, direct);
         }
-
-        // Light reflected straight from the sources.
-        if let Some(Direct { weight, light, kind, crosses }) = self.sample_lights(&vertex, sampler.set(light_set(0))) {
-            sum.diffuse += weight.diffuse * light;
-            sum.specular += weight.specular * light;
-            if self.config.splits {
-                let mut arriving = Arriving::default();
-                arriving.add(kind, light, true);
-                split.add_scattered(bsdf.reflectance, &weight, &arriving, crosses);
-            }
-        }
-
-        // Light that comes by way of other surfaces, and sources that the direction happens to meet.
-        let u = sampler.set(bsdf_set(0));
-        if let Some((weight, segment)) = vertex.scatter([u[0], u[1], u[2]], &camera) {
-            let total = weight.total(bsdf.reflectance);
-            let expected = vertex.expected_indirect();
-            let crossed = segment.crossed;
-            let arriving = self.clamped(self.radiance(segment, total, expected, sampler), total);
-            sum.diffuse += weight.diffuse * arriving.total;
-            sum.specular += weight.specular * arriving.total;
-            if self.config.splits {
-                split.add_scattered(bsdf.reflectance, &weight, &arriving, crossed);
-            }
-        }
-
-        let has_diffuse = !bsdf.reflectance.is_black();
-        let illumination = if has_diffuse {
-            Some(sum.diffuse)
-        } else {
-            index.is_multiple_of(IRRADIANCE_STRIDE).then(|| self.irradiance(&surface, sampler))
-        };
-        PixelSample { reflectance: bsdf.reflectance, illumination, residual: sum.specular, split }
+        Some((surface, hit, throughput))
     }
 
-    /// Radiance along a path beyond the first surface. Two numbers concern roulette alone: `first_throughput`, what the first surface
-    /// lets through of it, and `expected`, the indirect light that the first surface is expected to reflect (0: unknown).
-    fn radiance(&self, mut segment: Segment, first_throughput: Rgb, mut expected: f32, sampler: &Sampler) -> Arriving {
+    /// Where a path goes on, and with which weight; `None` where it ends. Two numbers concern roulette alone: `so_far`, what the path
+    /// lets through to the camera, and `expected`, the indirect light that its first surface is expected to reflect (0: unknown).
+    #[inline]
+    pub fn onward(
+        &self,
+        bounce: u32,
+        vertex: &Vertex<'_, 's>,
+        so_far: Rgb,
+        before: &Segment,
+        expected: &mut f32,
+        sampler: &Sampler,
+    ) -> Option<(Step, Segment)> {
+        let u = sampler.set(bsdf_set(bounce));
+        let (weight, next) = vertex.scatter([u[0], u[1], u[2]], before)?;
+        if bounce < self.config.roulette_start {
+            return Some((Step { weight, survival: 1.0 }, next));
+        }
+        let reflectance = vertex.bsdf.reflectance;
+        let here = so_far.luminance() * vertex.expected_indirect();
+        let blurred = weight.specular.luminance() <= (reflectance * weight.diffuse).luminance();
+        let survival = if blurred && here > 0.0 && *expected > 0.0 {
+            (SURVIVAL_GAIN * here / *expected).max(LEAST_SURVIVAL)
+        } else {
+            UNKNOWN_GAIN * (so_far * weight.total(reflectance)).max_component() / next.medium.compression
+        };
+        let survival = survival.min(MOST_SURVIVAL);
+        if u[3] >= survival {
+            return None;
+        }
+        if *expected == 0.0 {
+            *expected = here;
+        }
+        Some((Step { weight: weight * (1.0 / survival), survival }, next))
+    }
+
+    /// Radiance along a path from its surface number `bounce` on, to which `so_far` of the light passes to the camera; for `expected`
+    /// see [`Integrator::onward`]. `direct` says that nothing has scattered the light.
+    pub fn radiance(
+        &self,
+        mut segment: Segment,
+        bounce: u32,
+        mut direct: bool,
+        so_far: Rgb,
+        mut expected: f32,
+        sampler: &Sampler,
+    ) -> Arriving {
         let mut radiance = Arriving::default();
         let mut throughput = Rgb::WHITE;
-        // Until something scatters light, what is met comes straight from its source.
-        let mut direct = true;
-        for bounce in 1.. {
-            // Next surface, or the surroundings.
-            let Some(hit) = self.scene.closest(&segment.ray, Cutout::Random) else {
-                let (lights, sampled) = (&self.scene.lights, segment.sampled.as_ref());
-                let background = lights.background_weighted(&self.guide.choice, sampled, segment.ray.direction);
-                radiance.add_background(background, throughput, direct);
-                return radiance;
-            };
-            let surface = self.scene.surface(&hit, segment.ray.direction, &segment.cone);
-            throughput *= segment.medium.transmittance(hit.t);
-
-            // Emission met by chance, weighted against light sampling.
-            let emission = surface.emission(self.scene);
-            if !emission.is_black() {
-                let (lights, sampled) = (&self.scene.lights, segment.sampled.as_ref());
-                let weight = lights.surface_weight(self.scene, &self.guide.choice, sampled, segment.ray.direction, &hit, surface.p);
-                radiance.add(LightKind::Surfaces, throughput * emission * weight, direct);
-            }
-
+        for bounce in bounce.. {
+            let Some((surface, _, reached)) = self.next_surface(&segment, throughput, direct, &mut radiance) else { return radiance };
+            throughput = reached;
             // The last surface only shows what it emits: light sampling before it counted on that.
             if self.config.max_bounces.is_some_and(|most| bounce > most) {
                 return radiance;
             }
-
-            // Light reflected straight from the sources.
             let bsdf = surface.bsdf(self.scene);
             if bsdf.is_black() {
                 return radiance;
             }
-            let vertex = Vertex::new(self.guide, &surface, &bsdf);
+            let vertex = Vertex::new(self.guide, surface, bsdf);
+            let reflectance = vertex.bsdf.reflectance;
             if let Some(Direct { weight, light, kind, .. }) = self.sample_lights(&vertex, sampler.set(light_set(bounce))) {
-                radiance.add(kind, throughput * weight.total(bsdf.reflectance) * light, false);
+                radiance.add(kind, throughput * weight.total(reflectance) * light, false);
             }
-
-            // Onward.
-            let u = sampler.set(bsdf_set(bounce));
-            let Some((weight, next)) = vertex.scatter([u[0], u[1], u[2]], &segment) else { return radiance };
-            if bounce >= self.config.roulette_start {
-                let so_far = throughput * first_throughput;
-                let here = so_far.luminance() * vertex.expected_indirect();
-                let blurred = weight.specular.luminance() <= (bsdf.reflectance * weight.diffuse).luminance();
-                let survival = if blurred && here > 0.0 && expected > 0.0 {
-                    (SURVIVAL_GAIN * here / expected).max(LEAST_SURVIVAL)
-                } else {
-                    UNKNOWN_GAIN * (so_far * weight.total(bsdf.reflectance)).max_component() / next.medium.compression
-                };
-                let survival = survival.min(MOST_SURVIVAL);
-                if u[3] >= survival {
-                    return radiance;
-                }
-                throughput *= 1.0 / survival;
-                if expected == 0.0 {
-                    expected = here;
-                }
-            }
-            throughput *= weight.total(bsdf.reflectance);
+            let Some((step, next)) = self.onward(bounce, &vertex, throughput * so_far, &segment, &mut expected, sampler) else {
+                return radiance;
+            };
+            throughput *= step.weight.total(reflectance);
             direct &= next.straight;
             segment = next;
         }
@@ -190,15 +176,15 @@ impl<'s> Integrator<'_, 's> {
     }
 
     /// A sample's indirect light, dimmed to the most that it may add behind the first surface's `throughput`.
-    fn clamped(&self, light: Arriving, throughput: Rgb) -> Arriving {
+    pub fn clamped(&self, light: Arriving, throughput: Rgb) -> Arriving {
         let Some(most) = self.config.clamp else { return light };
         let brightest = (light.total * throughput).max_component();
         if brightest > most { light.scaled(most / brightest) } else { light }
     }
 
     /// Direct light, where the light sample sends any.
-    fn sample_lights(&self, vertex: &Vertex<'_, 's>, u: [f32; 4]) -> Option<Direct> {
-        let surface = vertex.surface;
+    pub fn sample_lights(&self, vertex: &Vertex<'_, 's>, u: [f32; 4]) -> Option<Direct> {
+        let surface = &vertex.surface;
         let wanted = |wi: Vec3| sides_agree(wi.dot(vertex.onb.z), wi.dot(surface.ng));
         let at = LightPoint::on(surface);
         let light = self.scene.lights.sample(self.scene, &self.guide.choice, &at, [u[0], u[1], u[2]], wanted)?;
@@ -217,19 +203,21 @@ impl<'s> Integrator<'_, 's> {
             light: self.scene.lights.radiance_of(&light) * arriving,
             kind: light.kind(),
             crosses: wi.z < 0.0,
+            wi: light.wi,
+            factor: weight,
+            pdf: (!light.is_delta).then_some(light.pdf),
         })
     }
 
     /// Irradiance over π at a surface without diffuse reflectance, by a white Lambert surface in its place.
-    fn irradiance(&self, surface: &Surface<'s>, sampler: &Sampler) -> Rgb {
-        let bsdf = Bsdf::lambert(Rgb::WHITE);
-        let vertex = Vertex::new(self.guide, surface, &bsdf);
+    pub fn irradiance(&self, surface: &Surface<'s>, sampler: &Sampler) -> Rgb {
+        let vertex = Vertex::new(self.guide, surface.clone(), Bsdf::lambert(Rgb::WHITE));
         let direct = self.sample_lights(&vertex, sampler.set(light_set(0)));
         let mut irradiance = direct.map_or(Rgb::BLACK, |direct| direct.weight.diffuse * direct.light);
         let u = sampler.set(bsdf_set(0));
         let nowhere = Segment::from_camera(Ray::new(surface.p, -surface.wo), Cone::POINT);
         if let Some((weight, segment)) = vertex.scatter([u[0], u[1], u[2]], &nowhere) {
-            irradiance += weight.diffuse * self.radiance(segment, Rgb::WHITE, vertex.expected_indirect(), sampler).total;
+            irradiance += weight.diffuse * self.radiance(segment, 1, true, Rgb::WHITE, vertex.expected_indirect(), sampler).total;
         }
         irradiance
     }

@@ -8,6 +8,7 @@
 //!
 //! `bsdf` scatters, `light` emits; both have the same `sample`/`pdf` shape, so that one statistical test serves both.
 
+mod batch;
 mod bsdf;
 mod budget;
 mod config;
@@ -24,6 +25,8 @@ mod partial;
 mod prepared;
 mod probe;
 mod render;
+mod reuse;
+mod sampling;
 mod split;
 mod surface;
 mod texture;

@@ -47,7 +47,9 @@ impl<'s> Lookout<'s> {
         let bvh = Bvh::new(&world.corners, &|t| scene.materials[triangles[t as usize].material as usize].alpha != Alpha::Opaque);
         // Pictures are read at points only, so they need no pyramids.
         let (textures, lights) = (Textures::new(&scene.images, &[]), Lights::default());
-        Ok(Self { scene: RenderScene { scene, textures, triangles, bvh, bounds: world.bounds, lights, tables: Vec::new() } })
+        Ok(Self {
+            scene: RenderScene { scene, textures, triangles, bvh, bounds: world.bounds, lights, tables: Vec::new(), has_veils: false },
+        })
     }
 
     /// Looks through the centres of the view's pixels, or of every so many of them in both directions.

@@ -20,6 +20,8 @@ pub struct RenderScene<'s> {
     pub(crate) lights: Lights<'s>,
     /// Of each material.
     pub(crate) tables: Vec<Tables>,
+    /// True when some surfaces are half transparent, so that rays pass them by chance.
+    pub(crate) has_veils: bool,
 }
 
 impl<'s> RenderScene<'s> {
@@ -42,7 +44,8 @@ impl<'s> RenderScene<'s> {
         }
         cx.progress("building the ray-tracing hierarchy", 1, 1);
         let textures = Textures::new(&scene.images, &scene.materials);
-        Ok(Self { scene, textures, triangles, bvh, bounds: world.bounds, lights, tables })
+        let has_veils = scene.materials.iter().any(|m| matches!(m.alpha, Alpha::Blend { .. }));
+        Ok(Self { scene, textures, triangles, bvh, bounds: world.bounds, lights, tables, has_veils })
     }
 
     /// Every part needs an id.
@@ -87,12 +90,24 @@ impl<'s> RenderScene<'s> {
         if blocked { Rgb::BLACK } else { through.get() }
     }
 
+    /// True when nothing at all lies along a ray, not even a pane or something half transparent.
+    #[inline]
+    pub(crate) fn is_clear(&self, ray: &Ray) -> bool {
+        !self.bvh.occluded_filtered(ray, |hit| match self.material_at(hit).alpha {
+            Alpha::Mask { .. } => self.is_present(hit, Cutout::Half),
+            _ => true,
+        })
+    }
+
+    fn material_at(&self, hit: &Hit) -> &'s Material {
+        &self.scene.materials[self.triangles[hit.triangle as usize].material as usize]
+    }
+
     /// Whether the surface exists at a hit, given its cut-outs.
     pub(crate) fn is_present(&self, hit: &Hit, cut: Cutout) -> bool {
         let triangle = &self.triangles[hit.triangle as usize];
-        let material = &self.scene.materials[triangle.material as usize];
         let opacity = |p| self.textures.scalar(p, triangle.uv(hit.weights()), &Footprint::POINT);
-        match &material.alpha {
+        match &self.material_at(hit).alpha {
             Alpha::Opaque => true,
             Alpha::Mask { opacity: p, cutoff } => opacity(p) >= *cutoff,
             Alpha::Blend { opacity: p } => {

@@ -1,7 +1,8 @@
 //! A few pixels of a frame, rendered to learn what the whole frame would cost.
 //!
-//! A pixel's samples are those of the frame, since they depend on where it is and on nothing else; so a probe does what the frame
-//! will do there, and what it finds out about the pixels' noise is what the frame will find out.
+//! A pixel's samples are those of the frame, since they depend on where it is and on the few pixels that it is sampled with, which are
+//! all in the probe; so a probe does what the frame will do there, and what it finds out about the pixels' noise is what the frame
+//! will find out.
 
 use crate::budget::{Budget, Estimate};
 use crate::config::RenderConfig;
@@ -10,7 +11,8 @@ use crate::film::PixelSum;
 use crate::guide::Guide;
 use crate::integrator::Integrator;
 use crate::prepared::RenderScene;
-use crate::render::{Schedule, add_samples, check_camera, integrator};
+use crate::render::{Schedule, check_camera, integrator};
+use crate::sampling::{GROUP_GRID, add_samples};
 use enfilade_scene::CameraView;
 
 /// A square of pixels of a frame.
@@ -25,7 +27,7 @@ impl<'a, 's> Probe<'a, 's> {
     /// Side of the square in pixels.
     pub const SIDE: u32 = 8;
 
-    /// The square whose upper left pixel is `corner`, or as near as the image allows, without samples.
+    /// The square whose upper left pixel is `corner`, or near it, without samples.
     ///
     /// # Errors
     /// When the camera or the settings are not usable, or the image is smaller than a probe.
@@ -43,7 +45,8 @@ impl<'a, 's> Probe<'a, 's> {
             let problem = format!("its image has {}x{} pixels; a forecast needs 8x8", size[0], size[1]);
             return Err(RenderError::Camera { frame: view.pose().frame, problem });
         }
-        let corner = [0, 1].map(|axis| corner[axis].min(size[axis] - Self::SIDE));
+        // Pixels are sampled together with those that they are together with in the frame.
+        let corner = [0, 1].map(|axis| corner[axis].min(size[axis] - Self::SIDE) / GROUP_GRID * GROUP_GRID);
         let sums = vec![PixelSum::default(); (Self::SIDE * Self::SIDE) as usize];
         Ok(Self { integrator: integrator(scene, guide, view, config), view: *view, corner, sums })
     }
@@ -51,10 +54,8 @@ impl<'a, 's> Probe<'a, 's> {
     /// Takes samples until every pixel has `samples`.
     pub fn take(&mut self, samples: u32) {
         let [x, y] = self.corner;
-        for (sum, i) in self.sums.iter_mut().zip(0..) {
-            let pixel = (x + i % Self::SIDE, y + i / Self::SIDE);
-            add_samples(&self.integrator, &self.view, pixel, samples, sum, None);
-        }
+        let pixels: Vec<(u32, u32)> = (0..Self::SIDE * Self::SIDE).map(|i| (x + i % Self::SIDE, y + i / Self::SIDE)).collect();
+        add_samples(&self.integrator, &self.view, &pixels, &vec![samples; pixels.len()], &mut self.sums, &mut []);
     }
 }
 

@@ -6,14 +6,14 @@ use crate::error::RenderError;
 use crate::film::{PixelSum, resolve_split};
 use crate::geometry_pass::pixel_geometry;
 use crate::guide::Guide;
-use crate::integrator::{Integrator, PixelSample};
+use crate::integrator::Integrator;
 use crate::layers::{Pixel, add_splits, layers};
 use crate::partial::{self, Header, PartialError};
 use crate::prepared::RenderScene;
+use crate::sampling::add_samples;
 use crate::split::Split;
 use crate::tiles::Tiles;
 use enfilade_frame::Frame;
-use enfilade_math::{Ray, Sampler};
 use enfilade_scene::{CameraView, Cx};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -24,8 +24,6 @@ const FIRST_SHARE: u32 = 4;
 const FEWEST: u32 = 8;
 /// Mean samples per pixel of a pass at most: short enough to be interrupted after it.
 const PASS: u32 = 16;
-/// Makes the moment within the exposure independent of everything else that is random.
-const SHUTTER_SEED: u64 = 0x5a07_7e12;
 
 /// Renders every layer but the labels. The bytes depend on the arguments alone, whatever the number of threads.
 ///
@@ -133,11 +131,9 @@ impl<'a, 's> FrameRender<'a, 's> {
         let finished = AtomicU64::new(u64::from(pass) * u64::from(tiles.count()));
         let total = u64::from(schedule.passes) * u64::from(tiles.count());
         self.film.par_iter_mut().zip(0..tiles.count()).for_each(|(film, tile)| {
-            for (index, (x, y)) in tiles.pixels(tile).enumerate() {
-                let goal = schedule.goal(pass, wanted[(y * width + x) as usize]);
-                let TileFilm { sums, splits } = &mut *film;
-                add_samples(integrator, view, (x, y), goal, &mut sums[index], splits.get_mut(index));
-            }
+            let pixels: Vec<(u32, u32)> = tiles.pixels(tile).collect();
+            let goals: Vec<u32> = pixels.iter().map(|(x, y)| schedule.goal(pass, wanted[(y * width + x) as usize])).collect();
+            add_samples(integrator, view, &pixels, &goals, &mut film.sums, &mut film.splits);
             cx.progress("rendering", finished.fetch_add(1, Ordering::Relaxed) + 1, total);
         });
         self.done += 1;
@@ -256,36 +252,6 @@ pub(crate) fn integrator<'a, 's>(
     // Half of what a pixel covers: many samples resolve more than one would.
     let pixel_angle = 0.5 * view.pixel_angle(0.5 * f64::from(width), 0.5 * f64::from(height));
     Integrator { scene, config, guide, pixel_angle }
-}
-
-/// Adds samples to a pixel until it has `goal`.
-pub(crate) fn add_samples(
-    integrator: &Integrator<'_, '_>,
-    view: &CameraView<'_>,
-    (x, y): (u32, u32),
-    goal: u32,
-    sum: &mut PixelSum,
-    mut split: Option<&mut Split>,
-) {
-    let (config, frame) = (integrator.config, view.pose().frame);
-    for index in sum.samples()..goal {
-        let sampler = Sampler::new(config.seed, frame, x, y, index);
-        let u = sampler.set(0);
-        let offset = [u[0], u[1]].map(|u| f64::from(config.filter.offset(u, config.filter_radius)));
-        let time = match view.camera().shutter {
-            Some(_) => Sampler::new(config.seed ^ SHUTTER_SEED, frame, x, y, index).set(0)[0],
-            None => 0.5,
-        };
-        let ray = view.ray(f64::from(x) + 0.5 + offset[0], f64::from(y) + 0.5 + offset[1], [u[2], u[3]], time);
-        // Where the picture shows nothing it is black.
-        let sample = ray.map_or_else(PixelSample::default, |ray| {
-            integrator.sample(Ray::new(ray.origin.as_vec3(), ray.direction.as_vec3().normalize()), &sampler, index)
-        });
-        sum.add(&sample);
-        if let Some(split) = &mut split {
-            **split += &sample.split;
-        }
-    }
 }
 
 pub(crate) fn check_camera(view: &CameraView<'_>) -> Result<(), RenderError> {

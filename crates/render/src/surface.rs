@@ -8,6 +8,7 @@ use enfilade_math::{Onb, Ray, Rgb, Vec2, Vec3, offset_origin};
 use enfilade_scene::{Material, NormalMap};
 
 /// A surface point seen from the unit direction `wo`.
+#[derive(Clone)]
 pub(crate) struct Surface<'s> {
     /// World position.
     pub p: Vec3,

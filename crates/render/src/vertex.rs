@@ -40,10 +40,16 @@ impl Medium {
     /// Outside of all bodies.
     pub const AIR: Self = Self { absorption: Rgb::BLACK, compression: 1.0 };
 
+    /// True when nothing is absorbed.
+    #[inline]
+    pub fn is_clear(self) -> bool {
+        self.absorption.is_black()
+    }
+
     /// Share of the light that is left after `distance` metres (Beer and Lambert).
     #[inline]
     pub fn transmittance(self, distance: f32) -> Rgb {
-        if self.absorption.is_black() { Rgb::WHITE } else { self.absorption.map(|a| (-a * distance).exp()) }
+        if self.is_clear() { Rgb::WHITE } else { self.absorption.map(|a| (-a * distance).exp()) }
     }
 
     /// On the other side of a border: a body's when it was entered, none when it was left.
@@ -62,19 +68,19 @@ impl Medium {
 }
 
 /// A surface that a path has reached, with all that scattering there needs.
-pub(crate) struct Vertex<'v, 's> {
-    pub surface: &'v Surface<'s>,
-    bsdf: &'v Bsdf<'v>,
+pub(crate) struct Vertex<'a, 's> {
+    pub surface: Surface<'s>,
+    pub bsdf: Bsdf<'a>,
     /// Shading space.
     pub onb: Onb,
     wo: Vec3,
     /// What is known of the light here.
-    known: Option<Known<'v>>,
+    known: Option<Known<'a>>,
 }
 
 /// What is known of the light at a surface.
-struct Known<'v> {
-    light: &'v CellLight,
+struct Known<'a> {
+    light: &'a CellLight,
     /// The axes that it is stored in.
     onb: Onb,
     /// Share of the directions that follow it.
@@ -90,10 +96,10 @@ impl Segment {
     }
 }
 
-impl<'v, 's> Vertex<'v, 's> {
+impl<'a, 's> Vertex<'a, 's> {
     /// A surface with its scattering and what `guide` knows of the light there.
     #[inline]
-    pub fn new(guide: &'v Guide, surface: &'v Surface<'s>, bsdf: &'v Bsdf<'v>) -> Self {
+    pub fn new(guide: &'a Guide, surface: Surface<'s>, bsdf: Bsdf<'a>) -> Self {
         let onb = surface.onb();
         let wo = viewing(&onb, surface.wo);
         let known = match &guide.field {
@@ -128,7 +134,7 @@ impl<'v, 's> Vertex<'v, 's> {
     /// Samples a direction and begins the next segment. `None` ends the path.
     #[inline]
     pub fn scatter(&self, u: [f32; 3], before: &Segment) -> Option<(Value, Segment)> {
-        let surface = self.surface;
+        let surface = &self.surface;
         let Some(Known { light, onb, share, .. }) = &self.known else { return self.scatter_by_bsdf(u, 1.0, before) };
         if u[2] >= *share {
             let renewed = ((u[2] - share) / (1.0 - share)).min(ONE_MINUS_EPSILON);
@@ -148,7 +154,7 @@ impl<'v, 's> Vertex<'v, 's> {
 
     /// Samples the BSDF, which is given this `share` of the directions.
     fn scatter_by_bsdf(&self, u: [f32; 3], share: f32, before: &Segment) -> Option<(Value, Segment)> {
-        let surface = self.surface;
+        let surface = &self.surface;
         let sample = self.bsdf.sample(self.wo, u)?;
         let direction = if sample.event == Event::Straight { before.ray.direction } else { self.onb.to_world(sample.wi).normalize() };
         let side = direction.dot(surface.ng);

@@ -4,7 +4,8 @@ use enfilade_frame::{Frame, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
 use enfilade_render::{FrameRender, Guide, PartialError, RenderConfig, RenderScene, render_frame};
-use enfilade_scene::{Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, Pose, Quiet, Scene};
+use enfilade_scene::{Alpha, Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, Pose, Principled, Quiet, Scene};
+use enfilade_testkit::Mean;
 
 /// An axis-aligned box that is seen from inside.
 fn room(half: f32) -> Mesh {
@@ -144,6 +145,50 @@ fn parts_of_light_sum_to_the_whole_and_change_nothing_else() {
             assert_eq!(values.as_bytes(), split.get(layer).unwrap().as_bytes(), "{layer:?}");
         }
     }
+}
+
+#[test]
+fn what_pixels_share_changes_the_noise_and_never_the_mean() {
+    let mut scene = furnished();
+    let veil = Material { alpha: Alpha::Blend { opacity: 0.4.into() }, ..Material::diffuse("veil", Rgb::splat(0.8)) };
+    let metal = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::new(0.9, 0.7, 0.3).into(), alpha: 0.3.into() };
+    let cloth = Bsdf::RoughDiffuse { reflectance: Rgb::new(0.2, 0.4, 0.7).into(), roughness: 0.8.into() };
+    let lacquer = Principled { metallic: 0.5.into(), clearcoat: 1.0.into(), ..Principled::default() };
+    for (place, material) in [
+        (Vec3::new(0.2, 0.5, -0.6), veil),
+        (Vec3::new(0.5, -0.6, 0.5), Material::new("metal", metal)),
+        (Vec3::new(0.8, -0.5, 0.1), Material::new("cloth", cloth)),
+        (Vec3::new(0.4, 0.1, 0.7), Material::new("lacquer", Bsdf::Principled(Box::new(lacquer)))),
+    ] {
+        let i = scene.parts.len() as u32;
+        scene.parts.push(Part { name: material.name.clone(), mesh: i, material: i, world_from_mesh: DAffine3::IDENTITY });
+        scene.meshes.push(screen(place, 0.25));
+        scene.materials.push(material);
+    }
+    let size = [24, 16];
+    let runs = |reuse: bool| -> Vec<Frame> {
+        let config = |seed| RenderConfig { reuse, seed, samples: 64, ..RenderConfig::default() };
+        (0..24).map(|seed| picture(&scene, size, &config(seed + if reuse { 100 } else { 0 }))).collect()
+    };
+    let (shared, alone) = (runs(true), runs(false));
+    // The squared deviation of pixels from their mean over the runs, in relation to that mean; and the means of 6 x 4 blocks.
+    let (mut spread, blocks) = ([0.0; 2], (size[0] / 4) * (size[1] / 4));
+    for layer in [Layer::Color, Layer::DiffuseIllumination, Layer::Residual] {
+        for block in 0..blocks {
+            let [x, y] = [block % (size[0] / 4) * 4, block / (size[0] / 4) * 4];
+            let pixels: Vec<usize> = (0..16).map(|i| ((y + i / 4) * size[0] + x + i % 4) as usize).collect();
+            let value = |run: &Frame, pixel: usize| (0..3).map(|c| run.get(layer).unwrap().get(3 * pixel + c)).sum::<f64>() / 3.0;
+            let of = |runs: &[Frame]| Mean::of(runs.iter().map(|run| pixels.iter().map(|&p| value(run, p)).sum::<f64>()));
+            of(&shared).assert_agrees(&format!("{layer:?} in block {block}"), &of(&alone), 3 * blocks as usize);
+            for (sum, runs) in spread.iter_mut().zip([&shared, &alone]) {
+                for &p in pixels.iter().filter(|_| layer == Layer::Color) {
+                    let mean = Mean::of(runs.iter().map(|run| value(run, p)));
+                    *sum += (mean.standard_error() / (mean.value() + 0.1)).powi(2);
+                }
+            }
+        }
+    }
+    assert!(spread[0] < 0.9 * spread[1], "{} against {}", spread[0], spread[1]);
 }
 
 #[test]

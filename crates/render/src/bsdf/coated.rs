@@ -11,8 +11,9 @@ use enfilade_math::{INV_PI, Rgb, Vec3, warp};
 /// The pair of lobes, for one viewing direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Coated<'a> {
-    coat: Coat<'a>,
-    /// The coat's surface.
+    /// The coat.
+    pub coat: Coat<'a>,
+    /// Its surface.
     pub facets: Facets,
     /// Demodulated value of the base over cosine × transmittance on the way in.
     base: Rgb,

@@ -8,7 +8,7 @@ use super::coated::Coated;
 use super::ggx::{self, Facets};
 use super::rough_diffuse::RoughDiffuse;
 use super::sheen::Sheen;
-use super::{Event, Sample, Value, fresnel};
+use super::{Event, Outgoing, Sample, Value, fresnel};
 use enfilade_math::{INV_PI, Rgb, Vec3, warp};
 
 /// Fresnel term of a reflecting lobe.
@@ -85,7 +85,7 @@ pub enum Lobe<'a> {
     Sheen(Sheen),
 }
 
-impl Lobe<'_> {
+impl<'a> Lobe<'a> {
     /// Value × cosine and density with which [`Lobe::sample`] finds `wi`; smooth lobes have neither.
     #[inline]
     pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Value, f32) {
@@ -187,6 +187,21 @@ impl Lobe<'_> {
             }
             Self::Sheen(sheen) => specular(sheen.albedo(cos_o)),
         }
+    }
+
+    /// See [`super::Bsdf::outgoing`].
+    #[inline]
+    pub fn outgoing(&self) -> Option<Outgoing<'a>> {
+        match self {
+            Self::Lambert => Some(Outgoing::EVEN),
+            Self::Coated(coated) => Some(Outgoing { coat: Some(coated.coat), ..Outgoing::EVEN }),
+            _ => None,
+        }
+    }
+
+    /// True when a part of the lobe is diffuse.
+    pub fn is_diffuse(&self) -> bool {
+        matches!(self, Self::Lambert | Self::RoughDiffuse(_) | Self::Coated(_))
     }
 
     /// True when everything of the lobe but its diffuse part is nearly as blurred as that.

@@ -1,6 +1,6 @@
 //! Several lobes side by side or in layers: metals blended with dielectrics, sheen and clear-coat on top, blended materials.
 
-use super::{Bsdf, Event, Layers, Lobe, Model, Sample, Value};
+use super::{Bsdf, Event, Layers, Lobe, Model, Outgoing, Sample, Value};
 use enfilade_math::{ONE_MINUS_EPSILON, Rgb, Vec3};
 
 /// A lobe and its part in the whole.
@@ -95,6 +95,15 @@ impl<'a> Mixture<'a> {
             value.specular += v.specular * (e.specular * passes);
         }
         (value, density)
+    }
+
+    /// See [`Bsdf::outgoing`]: known where one lobe is all that is diffuse, and no sheen lies above it.
+    pub fn outgoing(&self) -> Option<Outgoing<'a>> {
+        let mut diffuse = self.entries.iter().filter(|e| e.lobe.is_diffuse() && !e.diffuse.is_black());
+        let (Some(one), None) = (diffuse.next(), diffuse.next()) else { return None };
+        let layers = one.under.map(|index| self.layers[usize::from(index)]);
+        let separable = layers.is_none_or(|layers| layers.sheen == 0.0);
+        one.lobe.outgoing().filter(|_| separable).map(|outgoing| Outgoing { layers, ..outgoing })
     }
 
     /// See [`Lobe::sample`].

@@ -117,6 +117,16 @@ impl<'a> Bsdf<'a> {
         matches!(self.model, Model::Black)
     }
 
+    /// How the light that the diffuse lobes reflect depends on the viewer, where that is known apart from where the light comes from.
+    #[inline]
+    pub fn outgoing(&self) -> Option<Outgoing<'a>> {
+        match &self.model {
+            Model::One(lobe) => lobe.outgoing(),
+            Model::Mixture(mixture) => mixture.outgoing(),
+            Model::Black => None,
+        }
+    }
+
     /// Value × cosine for light from `wi`.
     #[cfg(test)]
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> Value {
@@ -168,6 +178,26 @@ impl<'a> Bsdf<'a> {
         let diffuse = rest(self.reflectance * rough.diffuse, Rgb::BLACK);
         let glossy = rest(rough.specular, diffuse);
         Albedo { diffuse, glossy, sharp: rest(sharp.specular, diffuse + glossy) }
+    }
+}
+
+/// How diffusely reflected light depends on the viewer.
+#[derive(Clone, Copy, Debug)]
+pub struct Outgoing<'a> {
+    /// What it must pass on its way out.
+    coat: Option<coat::Coat<'a>>,
+    layers: Option<Layers>,
+}
+
+impl Outgoing<'_> {
+    /// The same to all sides.
+    const EVEN: Self = Self { coat: None, layers: None };
+
+    /// Radiance towards a viewer at this cosine, in proportion to that towards others.
+    #[inline]
+    pub fn share(&self, cos_o: f32) -> f32 {
+        let coat = self.coat.map_or(1.0, |coat| coat.transmittance(cos_o));
+        coat * self.layers.map_or(1.0, |layers| layers.passes(cos_o, 1.0))
     }
 }
 
