@@ -100,8 +100,8 @@ impl<'a> Far<'a> {
             own.add_dimmed(light, weight.specular);
             sent.add_dimmed(light, reflectance * weight.diffuse);
         }
-        let to_others = match vertex.bsdf.outgoing() {
-            _ if only_glossy && direct.is_none() => return None,
+        let to_others = match vertex.bsdf.outgoing().filter(|_| !only_glossy) {
+            _ if direct.is_none() && (only_glossy || indirect.is_none()) => return None,
             Some(_) if sent.total.is_black() => return None,
             Some(outgoing) => Sent::Share(outgoing, outgoing.share(surface.wo.dot(surface.ns))),
             None => Sent::Anew(Box::new(Arrived { hit: Hit { t: 0.0, ..*hit }, cone: surface.cone, direct, indirect })),

@@ -153,11 +153,13 @@ fn what_pixels_share_changes_the_noise_and_never_the_mean() {
     let veil = Material { alpha: Alpha::Blend { opacity: 0.4.into() }, ..Material::diffuse("veil", Rgb::splat(0.8)) };
     let metal = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::new(0.9, 0.7, 0.3).into(), alpha: 0.3.into() };
     let cloth = Bsdf::RoughDiffuse { reflectance: Rgb::new(0.2, 0.4, 0.7).into(), roughness: 0.8.into() };
+    let ebony = Bsdf::Plastic { diffuse: Rgb::BLACK.into(), eta: 1.5, alpha: 0.3.into(), specular: Rgb::WHITE.into(), nonlinear: false };
     let lacquer = Principled { metallic: 0.5.into(), clearcoat: 1.0.into(), ..Principled::default() };
     for (place, material) in [
         (Vec3::new(0.2, 0.5, -0.6), veil),
         (Vec3::new(0.5, -0.6, 0.5), Material::new("metal", metal)),
         (Vec3::new(0.8, -0.5, 0.1), Material::new("cloth", cloth)),
+        (Vec3::new(0.3, -0.7, -0.6), Material::new("ebony", ebony)),
         (Vec3::new(0.4, 0.1, 0.7), Material::new("lacquer", Bsdf::Principled(Box::new(lacquer)))),
     ] {
         let i = scene.parts.len() as u32;
