@@ -70,6 +70,8 @@ fn denoised_layers_come_by_every_way_with_the_same_bytes_and_go_again() {
     assert_same(&contents(&d.join("out")), &contents(&d.join("at-once")));
     std::fs::remove_file(&layer).unwrap();
     succeed(d, &["denoise", "out"]);
+    assert!(!d.join("out/verify.json").exists(), "what was verified is no longer there");
+    succeed(d, &["verify", "out"]);
     assert_same(&contents(&d.join("out")), &contents(&d.join("at-once")));
 
     succeed(d, &["run", "dataset.toml", "-o", "out"]);

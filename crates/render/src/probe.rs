@@ -4,7 +4,7 @@
 //! all in the probe; so a probe does what the frame will do there, and what it finds out about the pixels' noise is what the frame
 //! will find out.
 
-use crate::budget::{Budget, Estimate};
+use crate::budget::Estimate;
 use crate::config::RenderConfig;
 use crate::error::RenderError;
 use crate::film::PixelSum;
@@ -12,7 +12,7 @@ use crate::guide::Guide;
 use crate::integrator::Integrator;
 use crate::prepared::RenderScene;
 use crate::render::{Schedule, check_camera, integrator};
-use crate::sampling::{GROUP_GRID, add_samples};
+use crate::sampling::{add_samples, square};
 use enfilade_scene::CameraView;
 
 /// A square of pixels of a frame.
@@ -46,7 +46,7 @@ impl<'a, 's> Probe<'a, 's> {
             return Err(RenderError::Camera { frame: view.pose().frame, problem });
         }
         // Pixels are sampled together with those that they are together with in the frame.
-        let corner = [0, 1].map(|axis| corner[axis].min(size[axis] - Self::SIDE) / GROUP_GRID * GROUP_GRID);
+        let corner = [0, 1].map(|axis| corner[axis].min(size[axis] - Self::SIDE) / square(config) * square(config));
         let sums = vec![PixelSum::default(); (Self::SIDE * Self::SIDE) as usize];
         Ok(Self { integrator: integrator(scene, guide, view, config), view: *view, corner, sums })
     }
@@ -68,7 +68,6 @@ pub fn samples_wanted(config: &RenderConfig, probes: &[Probe<'_, '_>]) -> Vec<f6
     }
     // One probe below the other, as an image: where two meet, neighbours that are none have a little say.
     let estimates: Vec<Estimate> = probes.iter().flat_map(|probe| &probe.sums).map(PixelSum::estimate).collect();
-    let budget = Budget { first: schedule.first, mean: config.samples, noise: config.noise };
-    let wanted = budget.share(Probe::SIDE as usize, &estimates);
+    let wanted = schedule.budget(config).share(Probe::SIDE as usize, &estimates);
     wanted.chunks(pixels).map(|probe| probe.iter().map(|n| f64::from(*n)).sum::<f64>() / pixels as f64).collect()
 }

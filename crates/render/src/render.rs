@@ -10,7 +10,7 @@ use crate::integrator::Integrator;
 use crate::layers::{Pixel, add_splits, layers};
 use crate::partial::{self, Header, PartialError};
 use crate::prepared::RenderScene;
-use crate::sampling::add_samples;
+use crate::sampling::{add_samples, square};
 use crate::split::Split;
 use crate::tiles::Tiles;
 use enfilade_frame::Frame;
@@ -68,7 +68,7 @@ struct TileFilm {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Schedule {
     /// Samples that every pixel gets, which tell where the others are needed.
-    pub first: u32,
+    first: u32,
     /// Passes that take them.
     first_passes: u32,
     /// Passes in all.
@@ -81,6 +81,11 @@ impl Schedule {
         let first = if spread { (config.samples / FIRST_SHARE).max(FEWEST).min(config.samples) } else { config.samples };
         let first_passes = first.div_ceil(PASS);
         Self { first, first_passes, passes: first_passes + (config.samples - first).div_ceil(PASS) }
+    }
+
+    /// What tells how many samples each pixel gets, once the first are taken.
+    pub fn budget(&self, config: &RenderConfig) -> Budget {
+        Budget { first: self.first, mean: config.samples, noise: config.noise, square: square(config) as usize }
     }
 
     /// True when every pixel gets the same number of samples.
@@ -145,8 +150,7 @@ impl<'a, 's> FrameRender<'a, 's> {
     /// The samples of every pixel in the end.
     fn share(&self) -> Vec<u32> {
         let config = self.integrator.config;
-        let budget = Budget { first: self.schedule.first, mean: config.samples, noise: config.noise };
-        budget.share(self.view.camera().size()[0] as usize, &self.rows(PixelSum::estimate))
+        self.schedule.budget(config).share(self.view.camera().size()[0] as usize, &self.rows(PixelSum::estimate))
     }
 
     /// A value of every pixel, row by row.

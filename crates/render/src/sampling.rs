@@ -10,10 +10,15 @@ use enfilade_scene::CameraView;
 
 /// Sides of the rectangles of pixels that are sampled together. More of them share more, but have less in common.
 const GROUP: [u32; 2] = [4, 2];
-/// Places of pixels may be counted from any multiple of this without a change of the rectangles.
-pub(crate) const GROUP_GRID: u32 = 4;
+/// Side of the squares that all of these rectangles lie in.
+const SQUARE: u32 = 4;
 /// Makes the moment within the exposure independent of everything else that is random.
 const SHUTTER_SEED: u64 = 0x5a07_7e12;
+
+/// Side of the squares within which pixels share light, counted from the image's upper left; 1 where they do not.
+pub(crate) fn square(config: &RenderConfig) -> u32 {
+    if config.reuse { SQUARE } else { 1 }
+}
 
 /// Adds samples to the pixels of a tile until each has its goal. `splits` is empty unless light is split.
 pub(crate) fn add_samples(
