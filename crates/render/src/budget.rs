@@ -4,6 +4,7 @@
 //! nor have those of pixels that it shares light with, so the mean of a pixel stays unbiased, which it would not if a dark first sample
 //! could end the search for a bright one (Kirk & Arvo 1991, "Unbiased sampling techniques for image synthesis").
 
+use crate::sampling::share;
 use rayon::prelude::*;
 
 /// Neighbours within this many rows and columns speak for a pixel.
@@ -32,8 +33,8 @@ pub(crate) struct Budget {
     pub mean: u32,
     /// Noise target: see [`crate::RenderConfig::noise`].
     pub noise: Option<f32>,
-    /// Side of the squares within which pixels may share light; 1 where none do.
-    pub square: usize,
+    /// Whether pixels share light.
+    pub reuse: bool,
 }
 
 impl Budget {
@@ -65,12 +66,12 @@ impl Budget {
         errors.iter().map(|&e| self.samples(f64::from(e) * scale, most).round() as u32).collect()
     }
 
-    /// Root mean square, over the pixels around one but not in its square, of a sample's standard deviation in relation to luminance.
+    /// Root mean square, over the pixels around one that share no light with it, of a sample's standard deviation in relation to luminance.
     fn error_around(&self, estimates: &[Estimate], [width, height]: [usize; 2], [x, y]: [usize; 2], floor: f32) -> f32 {
         let (mut sum, mut weights) = (0.0, 0.0);
         for ny in y.saturating_sub(REACH)..height.min(y + REACH + 1) {
             for nx in x.saturating_sub(REACH)..width.min(x + REACH + 1) {
-                if (nx / self.square, ny / self.square) == (x / self.square, y / self.square) {
+                if share([nx, ny], [x, y], self.reuse) {
                     continue;
                 }
                 let near = 1.0 / (nx.abs_diff(x).pow(2) + ny.abs_diff(y).pow(2)) as f32;
@@ -111,7 +112,7 @@ mod tests {
 
     #[test]
     fn noisy_pixels_get_more_and_the_mean_is_kept() {
-        let counts = Budget { first: 8, mean: 64, noise: None, square: 1 }.share(64, &half_noisy());
+        let counts = Budget { first: 8, mean: 64, noise: None, reuse: false }.share(64, &half_noisy());
         let mean = counts.iter().sum::<u32>() as f32 / counts.len() as f32;
         assert!((mean - 64.0).abs() < 1.0, "mean {mean}");
         let (quiet, noisy) = (counts[10 * 64 + 5], counts[10 * 64 + 60]);
@@ -120,7 +121,7 @@ mod tests {
 
     #[test]
     fn a_noise_target_takes_what_it_needs_up_to_the_bound() {
-        let budget = |noise| Budget { first: 8, mean: 4096, noise: Some(noise), square: 1 };
+        let budget = |noise| Budget { first: 8, mean: 4096, noise: Some(noise), reuse: false };
         let counts = budget(0.05).share(64, &half_noisy());
         let left =
             half_noisy().iter().zip(&counts).map(|(e, &n)| e.variance / (1.2f32.powi(2) * n as f32)).sum::<f32>() / counts.len() as f32;
@@ -131,14 +132,14 @@ mod tests {
 
     #[test]
     fn pixels_that_share_light_have_no_say_in_the_number_of_any_of_them() {
-        let mut one = vec![Estimate { mean: 1.0, variance: 1.0 }; 144];
-        one[5 * 12 + 5].variance = 1e4;
-        let counts = Budget { first: 1, mean: 64, noise: None, square: 4 }.share(12, &one);
+        let mut one = vec![Estimate { mean: 1.0, variance: 1.0 }; 256];
+        one[5 * 16 + 5].variance = 1e4;
+        let counts = Budget { first: 1, mean: 64, noise: None, reuse: true }.share(16, &one);
         for (p, &count) in counts.iter().enumerate() {
-            let [x, y] = [p % 12, p / 12];
+            let [x, y] = [p % 16, p / 16];
             let near = x.abs_diff(5) <= REACH && y.abs_diff(5) <= REACH;
-            let together = x / 4 == 1 && y / 4 == 1;
-            assert_eq!(count > counts[143], near && !together, "{x}, {y}: {count}");
+            let together = x < 8 && y < 8 && x % 2 == 1 && y % 2 == 1;
+            assert_eq!(count > counts[255], near && !together, "{x}, {y}: {count}");
         }
     }
 
@@ -147,10 +148,10 @@ mod tests {
         let flat = vec![Estimate { mean: 1.0, variance: 1.0 }; 25];
         let mut one = flat.clone();
         one[12] = Estimate { mean: 0.0, variance: 0.0 };
-        let budget = Budget { first: 1, mean: 16, noise: None, square: 1 };
+        let budget = Budget { first: 1, mean: 16, noise: None, reuse: false };
         // Only the image's totals connect the two.
         let (a, b) = (budget.share(5, &flat)[12], budget.share(5, &one)[12]);
         assert!(a.abs_diff(b) <= 2, "{a} and {b}");
-        assert_eq!(Budget { first: 4, mean: 16, noise: None, square: 1 }.share(1, &[Estimate::default()]), [16]);
+        assert_eq!(Budget { first: 4, mean: 16, noise: None, reuse: false }.share(1, &[Estimate::default()]), [16]);
     }
 }

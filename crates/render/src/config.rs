@@ -37,8 +37,8 @@ pub struct RenderConfig {
     pub noise: Option<f32>,
     /// Learns before rendering where indirect light comes from and sends rays there. Changes noise, never the mean. Default true.
     pub guiding: bool,
-    /// Pixels near each other share the light that their paths find: less noise for the same time, which is no longer independent
-    /// between neighbours. Changes noise, never the mean. Default true.
+    /// Pixels near each other share the light that their paths find: less noise for the same time, which pixels two and four
+    /// apart then have in common. Changes noise, never the mean. Default true.
     pub reuse: bool,
     /// Longest path, counted in surfaces that scatter light after the first. Default none: Russian roulette ends paths without bias.
     pub max_bounces: Option<u32>,

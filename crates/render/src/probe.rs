@@ -12,7 +12,7 @@ use crate::guide::Guide;
 use crate::integrator::Integrator;
 use crate::prepared::RenderScene;
 use crate::render::{Schedule, check_camera, integrator};
-use crate::sampling::{add_samples, square};
+use crate::sampling::{SQUARE, add_samples};
 use enfilade_scene::CameraView;
 
 /// A square of pixels of a frame.
@@ -46,7 +46,7 @@ impl<'a, 's> Probe<'a, 's> {
             return Err(RenderError::Camera { frame: view.pose().frame, problem });
         }
         // Pixels are sampled together with those that they are together with in the frame.
-        let corner = [0, 1].map(|axis| corner[axis].min(size[axis] - Self::SIDE) / square(config) * square(config));
+        let corner = [0, 1].map(|axis| corner[axis].min(size[axis] - Self::SIDE) / SQUARE * SQUARE);
         let sums = vec![PixelSum::default(); (Self::SIDE * Self::SIDE) as usize];
         Ok(Self { integrator: integrator(scene, guide, view, config), view: *view, corner, sums })
     }

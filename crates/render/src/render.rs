@@ -10,7 +10,7 @@ use crate::integrator::Integrator;
 use crate::layers::{Pixel, add_splits, layers};
 use crate::partial::{self, Header, PartialError};
 use crate::prepared::RenderScene;
-use crate::sampling::{add_samples, square};
+use crate::sampling::add_samples;
 use crate::split::Split;
 use crate::tiles::Tiles;
 use enfilade_frame::Frame;
@@ -85,7 +85,7 @@ impl Schedule {
 
     /// What tells how many samples each pixel gets, once the first are taken.
     pub fn budget(&self, config: &RenderConfig) -> Budget {
-        Budget { first: self.first, mean: config.samples, noise: config.noise, square: square(config) as usize }
+        Budget { first: self.first, mean: config.samples, noise: config.noise, reuse: config.reuse }
     }
 
     /// True when every pixel gets the same number of samples.

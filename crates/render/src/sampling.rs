@@ -8,16 +8,18 @@ use crate::split::Split;
 use enfilade_math::{Ray, Sampler};
 use enfilade_scene::CameraView;
 
-/// Sides of the rectangles of pixels that are sampled together. More of them share more, but have less in common.
-const GROUP: [u32; 2] = [4, 2];
-/// Side of the squares that all of these rectangles lie in.
-const SQUARE: u32 = 4;
+/// Distances of the pixels that are sampled together, along both axes. Neighbours are in different lattices, so their noise is
+/// independent: denoisers take noise that neighbours share for something seen.
+const STRIDES: [u32; 2] = [2, 4];
+/// Side of the squares within which they lie, counted from the image's upper left.
+pub(crate) const SQUARE: u32 = 8;
 /// Makes the moment within the exposure independent of everything else that is random.
 const SHUTTER_SEED: u64 = 0x5a07_7e12;
 
-/// Side of the squares within which pixels share light, counted from the image's upper left; 1 where they do not.
-pub(crate) fn square(config: &RenderConfig) -> u32 {
-    if config.reuse { SQUARE } else { 1 }
+/// True when two pixels, given as x and y, may share light; a pixel shares its own.
+pub(crate) fn share(a: [usize; 2], b: [usize; 2], reuse: bool) -> bool {
+    let (square, stride) = (SQUARE as usize, STRIDES[0] as usize);
+    a == b || reuse && (0..2).all(|axis| a[axis] / square == b[axis] / square && a[axis] % stride == b[axis] % stride)
 }
 
 /// Adds samples to the pixels of a tile until each has its goal. `splits` is empty unless light is split.
@@ -66,8 +68,8 @@ fn camera_sample(config: &RenderConfig, view: &CameraView<'_>, (x, y): (u32, u32
     CameraSample { ray, sampler, index }
 }
 
-/// The rectangle that a pixel is in: they lie and stand by turns, so that what a pixel has in common with its neighbours changes.
-fn group((x, y): (u32, u32), index: u32) -> (u32, u32) {
-    let [width, height] = if index.is_multiple_of(2) { GROUP } else { [GROUP[1], GROUP[0]] };
-    (y / height, x / width)
+/// The lattice that a pixel is in: they lie and stand by turns, so that what a pixel has in common with others changes.
+fn group((x, y): (u32, u32), index: u32) -> [u32; 4] {
+    let [width, height] = if index.is_multiple_of(2) { STRIDES } else { [STRIDES[1], STRIDES[0]] };
+    [y / SQUARE, x / SQUARE, y % height, x % width]
 }
