@@ -47,8 +47,9 @@ class Notebooks(unittest.TestCase):
             text = json.dumps(read(name))
             self.assertIn("image/png", text, name)
             self.assertLess(len(text), 600_000, name)
-            for trace in ("/tmp/", "/home/", "/root/", "/Users/", "Traceback"):
-                self.assertNotIn(trace, text, name)
+            for folder in ("tmp", "home", "root", "Users"):
+                self.assertNotIn(f"/{folder}/", text, name)
+            self.assertNotIn("Traceback", text, name)
             self.assertNotRegex(words(read(name)), ABSOLUTE, name)
             counts = [cell["execution_count"] for cell in read(name)["cells"] if cell["cell_type"] == "code"]
             self.assertEqual(counts, list(range(1, len(counts) + 1)), name)

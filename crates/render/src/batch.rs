@@ -71,8 +71,8 @@ struct Gathered {
 #[derive(Default)]
 pub(crate) struct Batch<'a, 's> {
     pub heads: Vec<Head<'a, 's>>,
-    /// Of each head, what its path found next and others may use.
-    pub fars: Vec<Option<Far<'a>>>,
+    /// What paths found after a head, whose number it is, and others may use.
+    pub fars: Vec<(usize, Far<'a>)>,
     pub links: Vec<Link>,
     /// Of each camera ray, the number of the first head.
     firsts: Vec<Option<usize>>,
@@ -148,29 +148,27 @@ impl<'a, 's> Integrator<'a, 's> {
             };
             let Some((weight, next)) = step else {
                 batch.heads.push(head);
-                batch.fars.push(None);
                 break;
             };
             if next.sampled.is_some() {
                 let crossed = next.crossed;
                 let (own, far) = self.second(&head, weight, next, expected, sampler);
                 self.gather(gathered, &head, &weight, own, crossed);
+                batch.fars.extend(far.map(|far| (batch.heads.len(), far)));
                 batch.heads.push(head);
-                batch.fars.push(far);
                 break;
             }
             // By a mirror or glass to the next head.
             let mut arriving = Arriving::default();
             let reached = self.next_surface(&next, Rgb::WHITE, false, &mut arriving);
             self.gather(gathered, &head, &weight, arriving, next.crossed);
-            let passage = Passage { throughput: passed * weight.specular, crossed: before.map_or(next.crossed, |before| before.crossed) };
             batch.heads.push(head);
-            batch.fars.push(None);
             if self.config.max_bounces.is_some_and(|most| bounce + 1 > most) {
                 break;
             }
             let Some((found, _, through)) = reached else { break };
-            before = Some(Passage { throughput: passage.throughput * through, ..passage });
+            let crossed = before.map_or(next.crossed, |before| before.crossed);
+            before = Some(Passage { throughput: passed * weight.specular * through, crossed });
             (surface, segment) = (found, next);
         }
         Some(first)

@@ -115,8 +115,7 @@ impl<'a, 's> Integrator<'a, 's> {
     pub(crate) fn share(&self, batch: &mut Batch<'a, 's>) {
         let fars = std::mem::take(&mut batch.fars);
         let mut links = std::mem::take(&mut batch.links);
-        for (owner, far) in fars.iter().enumerate() {
-            let Some(far) = far else { continue };
+        for &(owner, ref far) in &fars {
             let owner_head = &batch.heads[owner];
             let Some(own) = self.own_link(owner, &owner_head.vertex, far) else {
                 self.gather_shared(batch, owner, &far.reach.weight, far.own);
