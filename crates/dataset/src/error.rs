@@ -50,7 +50,9 @@ pub enum DatasetError {
         path: PathBuf,
     },
     /// A name that cannot be part of a path.
-    #[error("{what} {name:?} cannot be used: names consist of letters, digits, '_', '-' and '.', and do not begin with '.'; rename it")]
+    #[error(
+        "{what} {name:?} cannot be used: names consist of 1 to 200 letters, digits, '_', '-' and '.', and do not begin with '.'; rename it"
+    )]
     Name {
         /// "scene name" or "camera name".
         what: &'static str,

@@ -18,13 +18,17 @@ pub struct Layout {
     pictures: Option<Box<Layout>>,
 }
 
+/// The longest name of a scene or a camera, characters: files and folders are named after them with up to some 40 more, and file systems
+/// allow 255.
+const LONGEST_NAME: usize = 200;
+
 /// Checks that `name` can be part of a path on every system.
 ///
 /// # Errors
-/// When it is empty, begins with a dot, or has characters other than letters, digits, `_`, `-` and `.`.
+/// When it is empty, longer than 200 characters, begins with a dot, or has characters other than letters, digits, `_`, `-` and `.`.
 pub fn check_name(what: &'static str, name: &str) -> Result<(), DatasetError> {
     let allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
-    if name.is_empty() || name.starts_with('.') || !name.chars().all(allowed) {
+    if name.is_empty() || name.len() > LONGEST_NAME || name.starts_with('.') || !name.chars().all(allowed) {
         return Err(DatasetError::Name { what, name: name.to_string() });
     }
     Ok(())
@@ -378,7 +382,9 @@ mod tests {
         for good in ["ai_001_001", "grey-white-room", "v1.2"] {
             check_name("scene name", good).unwrap();
         }
-        for bad in ["", ".", "..", ".hidden", "a/b", "a\\b", "my room", "küche"] {
+        let (longest, longer) = ("n".repeat(200), "n".repeat(201));
+        check_name("scene name", &longest).unwrap();
+        for bad in ["", ".", "..", ".hidden", "a/b", "a\\b", "my room", "küche", &longer] {
             let message = check_name("scene name", bad).unwrap_err().to_string();
             assert!(message.starts_with(&format!("scene name {bad:?}")), "{message}");
         }

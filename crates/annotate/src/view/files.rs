@@ -5,6 +5,7 @@ use crate::serve::ApiProblem;
 use axum::extract::{Path, State};
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
+use std::io::ErrorKind;
 use std::path::Component;
 use std::sync::Arc;
 
@@ -47,7 +48,7 @@ pub async fn file(State(viewer): State<Arc<Viewer>>, Path(path): Path<String>) -
         let full = viewer.dataset.root().join(&path);
         viewer.allow(&full)?;
         std::fs::read(&full).map_err(|e| match e.kind() {
-            std::io::ErrorKind::NotFound => {
+            ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory | ErrorKind::InvalidFilename => {
                 ApiProblem::not_found(format!("the dataset has no file {path:?}"), "run the stage that makes it")
             }
             _ => ApiProblem::failed(format!("cannot read {path:?}: {e}"), "make the file readable"),

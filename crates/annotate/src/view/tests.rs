@@ -165,7 +165,12 @@ async fn what_is_not_there_is_not_found_and_what_is_malformed_is_refused() {
     let dataset = dataset(folder.path());
     std::fs::write(dataset.layout().layer("room", "cam_00", 0, Layer::Residual), "not an array").unwrap();
     std::fs::write(folder.path().join("notes.txt"), "mine").unwrap();
+    let long = "_".repeat(300);
     for (address, status) in [
+        (format!("/api/view/scene/{long}").as_str(), 400),
+        (&format!("/api/view/layer/room/{long}/0/color"), 400),
+        (&format!("/api/view/file/{long}.json"), 404),
+        ("/api/view/file/notes.txt/a.json", 404),
         ("/api/view/scene/nothing", 404),
         ("/api/view/camera/room/cam_09", 404),
         ("/api/view/layer/room/cam_00/1/color", 404),

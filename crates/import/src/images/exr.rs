@@ -1,12 +1,16 @@
 //! OpenEXR: the first layer's R, G, B (or Y) at full resolution; alpha and other channels are left out.
 
 use super::{FloatPicture, check_size};
-use ::exr::meta::MetaData;
+use ::exr::meta::header::Header;
+use ::exr::meta::{BlockDescription, MetaData};
 use ::exr::prelude::*;
 use std::io::Cursor;
 
 /// Channels that take more bytes than this when they are decoded are refused.
 const MAX_BYTES: u64 = 1 << 30;
+/// Blocks (tiles, or the lines that are compressed together) that take more bytes than this are refused: room is made for what one says it
+/// has before it is read.
+const MAX_BLOCK_BYTES: u64 = 1 << 27;
 
 /// Decodes an EXR.
 pub(super) fn decode(bytes: &[u8]) -> std::result::Result<FloatPicture, String> {
@@ -52,8 +56,23 @@ fn check(bytes: &[u8]) -> std::result::Result<(), String> {
                 header.channels.bytes_per_pixel
             ));
         }
+        let block = block_bytes(header);
+        if block > MAX_BLOCK_BYTES {
+            return Err(format!(
+                "has blocks of {block} bytes, expected at most {MAX_BLOCK_BYTES}; save it with smaller tiles, or in scan lines"
+            ));
+        }
     }
     Ok(())
+}
+
+/// The most bytes that a block can take.
+fn block_bytes(header: &Header) -> u64 {
+    let pixels = match header.blocks {
+        BlockDescription::Tiles(tiles) => (tiles.tile_size.width() as u64).saturating_mul(tiles.tile_size.height() as u64),
+        BlockDescription::ScanLines => header.compression.scan_lines_per_block() as u64 * header.layer_size.width() as u64,
+    };
+    pixels.saturating_mul(header.channels.bytes_per_pixel as u64)
 }
 
 #[cfg(test)]
