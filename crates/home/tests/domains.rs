@@ -1,12 +1,12 @@
 //! What is varied independently: materials and light without layout and furniture, and the other way round.
 
 use enfilade_home::light::Moment;
-use enfilade_home::{HomeConfig, home};
+use enfilade_home::{HomeConfig, RoomKind, home};
 use enfilade_math::Rgb;
 use enfilade_scene::{Environment, Pixels, Scene};
 
 fn config() -> HomeConfig {
-    HomeConfig { moment: Some(Moment::Day), ..HomeConfig::of_seed(5) }
+    HomeConfig { rooms: vec![RoomKind::Living, RoomKind::Bedroom], moment: Some(Moment::Day), ..HomeConfig::of_seed(5) }
 }
 
 fn same_geometry(a: &Scene, b: &Scene) {

@@ -8,7 +8,7 @@ use enfilade_pipeline::{Config, Overrides, Silent, run};
 use enfilade_scene::Intrinsics;
 use std::path::Path;
 
-/// The demo's room, tiny, once per camera.
+/// A home of one room, tiny, once per camera.
 fn config(folder: &Path) -> Config {
     let k = Intrinsics::from_fov_x(64, 48, 1.2);
     let grid = (0..7 * 9).flat_map(|i| (k.ray(f64::from(i % 9) * 8.0, f64::from(i / 9) * 8.0) * DVec3::new(1.0, 1.1, 1.0)).to_array());
@@ -30,7 +30,8 @@ fn config(folder: &Path) -> Config {
     let mut text =
         "seed = 3\nframes = 2\n[render]\nsize = [64, 48]\nsamples = 1\nmax_bounces = 1\n[carve]\nrays = 8192\niterations = 2\n".to_string();
     for (name, keys) in cameras {
-        text += &format!("[[scene]]\nname = \"{name}\"\nhome = {{}}\ncameras = [\"living_1\"]\n[scene.camera]\n{keys}\n");
+        text +=
+            &format!("[[scene]]\nname = \"{name}\"\nhome = {{ rooms = [\"living\"] }}\ncameras = [\"living_1\"]\n[scene.camera]\n{keys}\n");
     }
     std::fs::write(folder.join("dataset.toml"), text).unwrap();
     Config::read(&folder.join("dataset.toml"), &Overrides::default()).unwrap()
