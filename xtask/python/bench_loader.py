@@ -7,7 +7,6 @@ repacks all that into storage for fast reading, and measures both readers on it 
 
 import json
 import os
-import platform
 import shutil
 import sys
 import time
@@ -16,6 +15,8 @@ from pathlib import Path
 import enfilade
 import h5py
 import numpy as np
+
+from machine import processor
 
 ROUNDS = 12
 CROP = 512
@@ -181,14 +182,6 @@ def main():
     page = PAGE.format(processor=processor(), table="\n".join(cells(row) for row in rows), sizes=volume, frames=sizes[0]["frames"], rounds=ROUNDS, h5py=h5py.__version__)
     (docs / "loader.md").write_text(page)
     (docs / "loader.json").write_text(json.dumps(rows, indent=2) + "\n")
-
-
-def processor():
-    try:
-        lines = Path("/proc/cpuinfo").read_text().splitlines()
-        return next(line.split(":")[1].strip() for line in lines if line.startswith("model name"))
-    except (OSError, StopIteration):
-        return platform.processor() or platform.machine()
 
 
 PAGE = """# Loader: layers as arrays, by enfilade's Python module and by h5py

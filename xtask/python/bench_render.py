@@ -15,6 +15,7 @@ import numpy as np
 import command
 import figures
 import rooms
+from machine import processor
 from renderers import Mitsuba, Ours, luminance
 
 SIZE, LARGE = "256x192", "1024x768"
@@ -182,11 +183,11 @@ def write(equal, large, costs, peer, docs, seconds):
     rows += [dict(case=f"{r['case']} {r['size']}: error x core-seconds per megapixel", ours=r["ours"]["error_time"], peer=r["peer"]["error_time"], ratio=r["peer"]["error_time"] / r["ours"]["error_time"]) for r in equal + large]
     rows += [dict(case=f"{r['case']} {r['size']}: peak MB", ours=r["ours"]["peak_mb"], peer=r["peer"]["peak_mb"], ratio=r["peer"]["peak_mb"] / r["ours"]["peak_mb"]) for r in equal + large]
     version = equal[0]["peer"]["version"]
-    (docs / "render.json").write_text(json.dumps(dict(mitsuba=version, rows=rows, curves=equal + large, delivered=costs), indent=1) + "\n")
+    (docs / "render.json").write_text(json.dumps(dict(processor=processor(), mitsuba=version, rows=rows, curves=equal + large, delivered=costs), indent=1) + "\n")
     lines = [
         "# Rendering, against Mitsuba 3",
         "",
-        f"`cargo xtask bench render`: enfilade and Mitsuba {version} (`llvm_ad_rgb`, LLVM {peer.llvm}, independent samples) render the same XML with the",
+        f"`cargo xtask bench render` on {processor()}: enfilade and Mitsuba {version} (`llvm_ad_rgb`, LLVM {peer.llvm}, independent samples) render the same XML with the",
         f"same camera, box filter and path depth ({DEPTH} segments: Mitsuba's `max_depth` {DEPTH}, our `max_bounces` {DEPTH - 2}). Ours writes every layer, Mitsuba color alone.",
         f"Processor seconds, user and system, of {SEEDS} seeds (median), in turn. Start-up and load are subtracted: of Mitsuba the run with one sample, of ours",
         "what passes until the scene is loaded, so that learning where light comes from and the geometry layers count.",
