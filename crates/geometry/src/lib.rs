@@ -6,7 +6,7 @@ mod nearest;
 mod nearest_triangle;
 mod octree;
 
-pub use bvh::{Bvh, Hit, NOTHING, PinholeRays, VisibilityBuffer};
+pub use bvh::{Bvh, Hit, NOTHING, PinholeRays, Placement, VisibilityBuffer};
 pub use mesh::{Mesh, MeshError};
 pub use nearest::Surfaces;
 pub use nearest_triangle::NearestTriangle;

@@ -2,6 +2,7 @@
 
 use super::collapse::collapse;
 use super::node::{Block, FILTERED, LANES, Node};
+use super::placed::{Placed, Placement};
 use enfilade_math::{Bounds3, Vec3};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{leaf_collapser, node::Bvh2Node, reinsertion::ReinsertionOptimizer};
@@ -11,19 +12,74 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 pub(super) struct Built {
     pub nodes: Vec<Node>,
     pub blocks: Vec<Block>,
+    pub placed: Vec<Placed>,
     pub bounds: Bounds3,
+}
+
+impl Built {
+    const NOTHING: Self = Self { nodes: Vec::new(), blocks: Vec::new(), placed: Vec::new(), bounds: Bounds3::EMPTY };
 }
 
 /// Builds the tree over all triangles that have finite corners and an area.
 pub(super) fn build(corners: &[[Vec3; 3]], filtered: &dyn Fn(u32) -> bool) -> Built {
-    assert!(corners.len() < FILTERED as usize, "{} triangles, at most {} fit one hierarchy", corners.len(), FILTERED - 1);
-    let hittable: Vec<u32> = (0..corners.len() as u32).filter(|&i| has_area(&corners[i as usize])).collect();
-    if hittable.is_empty() {
-        return Built { nodes: Vec::new(), blocks: Vec::new(), bounds: Bounds3::EMPTY };
+    check_count(corners.len());
+    Soup { corners, numbers: None, filtered, placed: &[] }.build(hittable(corners).collect())
+}
+
+/// Builds the tree over triangles with the given numbers, and over placements of meshes.
+pub(super) fn build_shared(
+    corners: &[[Vec3; 3]],
+    numbers: &[u32],
+    filtered: &dyn Fn(u32) -> bool,
+    meshes: &[Vec<[Vec3; 3]>],
+    placements: &[Placement],
+) -> Built {
+    assert_eq!(corners.len(), numbers.len(), "triangles and their numbers");
+    check_count(corners.len() + placements.iter().map(|placement| meshes[placement.mesh].len()).sum::<usize>());
+    let placed: Vec<PlacedBox> = placements.iter().map(|placement| PlacedBox::new(placement, &meshes[placement.mesh])).collect();
+    let soup = Soup { corners, numbers: Some(numbers), filtered, placed: &placed };
+    let boxes = (0..placed.len()).filter(|&i| !placed[i].bounds.is_empty()).map(|i| (corners.len() + i) as u32);
+    let mut built = soup.build(hittable(corners).chain(boxes).collect());
+    if built.nodes.is_empty() {
+        return built;
     }
-    let soup = Soup { corners, filtered };
-    let tree = soup.binary_tree(&hittable);
-    collapse(&soup, &tree).or_else(|| collapse(&soup, &soup.balanced_tree(&hittable))).expect("a balanced tree is not too deep")
+    // The trees of the meshes follow that of the world. Whether corners on a line have an area is for the rounding in the world to say.
+    let apart = |[a, b, c]: &[Vec3; 3]| a != b && b != c && c != a;
+    let trees: Vec<(u32, Bounds3)> = meshes
+        .iter()
+        .map(|mesh| {
+            let soup = Soup { corners: mesh, numbers: None, filtered: &|_| false, placed: &[] };
+            built.append(soup.build((0..mesh.len() as u32).filter(|&i| apart(&mesh[i as usize])).collect()))
+        })
+        .collect();
+    let ready = placements.iter().map(|placement| (placement, trees[placement.mesh]));
+    built.placed = ready.map(|(placement, (root, bounds))| Placed::new(placement, root, bounds)).collect();
+    built
+}
+
+fn check_count(triangles: usize) {
+    assert!(triangles < FILTERED as usize, "{triangles} triangles, at most {} fit one hierarchy", FILTERED - 1);
+}
+
+/// The triangles that can be hit.
+fn hittable(corners: &[[Vec3; 3]]) -> impl Iterator<Item = u32> {
+    (0..corners.len() as u32).filter(|&i| has_area(&corners[i as usize]))
+}
+
+impl Built {
+    /// Adds a tree; returns its root and its box.
+    fn append(&mut self, other: Self) -> (u32, Bounds3) {
+        let (first_node, first_block) = (self.nodes.len() as u32, self.blocks.len() as u32);
+        self.nodes.extend(other.nodes.into_iter().map(|mut node| {
+            // Blocks are numbered from the mark on, so both move by adding.
+            for child in &mut node.children.0 {
+                *child += if Node::leaf(*child).is_some() { first_block } else { first_node };
+            }
+            node
+        }));
+        self.blocks.extend(other.blocks);
+        (first_node, other.bounds)
+    }
 }
 
 /// True for finite triangles whose area is not zero. In double precision, where differences and products of `f32` are all but exact.
@@ -37,8 +93,8 @@ fn has_area(triangle: &[Vec3; 3]) -> bool {
 struct Scale(f64);
 
 impl Scale {
-    fn of(corners: &[[Vec3; 3]], triangles: &[u32]) -> Self {
-        let largest = triangles.iter().flat_map(|&i| corners[i as usize]).map(|p| p.abs().max_element()).fold(0.0, f32::max);
+    fn of(bounds: Bounds3) -> Self {
+        let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
         let exponent_only = 0x7ff0_0000_0000_0000;
         Self(f64::from_bits((1.0 / f64::from(largest.max(f32::MIN_POSITIVE))).to_bits() & exponent_only))
     }
@@ -96,33 +152,46 @@ impl BinaryNode {
     }
 }
 
-/// The triangles, and what is done with them on the way to the tree.
+/// The triangles and placements, and what is done with them on the way to the tree. A placement's index is its place after the triangles.
 pub(super) struct Soup<'a> {
     pub corners: &'a [[Vec3; 3]],
+    /// What hits report for the triangles: their indices unless it is given.
+    pub numbers: Option<&'a [u32]>,
+    /// By number.
     pub filtered: &'a dyn Fn(u32) -> bool,
+    pub placed: &'a [PlacedBox],
 }
 
 impl Soup<'_> {
+    /// The tree over some of them.
+    fn build(&self, members: Vec<u32>) -> Built {
+        if members.is_empty() {
+            return Built::NOTHING;
+        }
+        let tree = self.binary_tree(&members);
+        collapse(self, &tree).or_else(|| collapse(self, &self.balanced_tree(&members))).expect("a balanced tree is not too deep")
+    }
+
     /// A tree with little surface: clusters of near neighbours merged upward, then improved by moving subtrees (`obvhs`).
     ///
     /// Small subtrees become leaves on the way, with a cost that leaves the last word to [`collapse`]; moving then costs less. Cutting the
     /// boxes of large triangles was tried and brought nothing in rooms.
-    fn binary_tree(&self, triangles: &[u32]) -> Binary {
+    fn binary_tree(&self, members: &[u32]) -> Binary {
         const MOVED_PER_ROUND: f32 = 0.2;
         const MOVED_AFTER_COLLAPSE: f32 = 0.4;
         const BLOCK_COST_IN_TRIANGLES: f32 = 3.0;
         const ROUNDS_OF_NEXT_NEIGHBOURS: usize = 2;
-        if triangles.len() <= LANES {
-            return self.balanced_tree(triangles);
+        if members.len() <= LANES {
+            return self.balanced_tree(members);
         }
-        let scale = Scale::of(self.corners, triangles);
-        let boxes: Vec<Aabb> = triangles
+        let scale = Scale::of(self.bounds_of(members));
+        let boxes: Vec<Aabb> = members
             .iter()
             .map(|&i| self.bounds_of(&[i]))
             .map(|b| Aabb::new(scale.apply(b.min).to_vec3a(), scale.apply(b.max).to_vec3a()))
             .collect();
-        let order = (0..triangles.len() as u32).collect();
-        let mut tree = PlocBuilder::with_capacity(triangles.len()).build(
+        let order = (0..members.len() as u32).collect();
+        let mut tree = PlocBuilder::with_capacity(members.len()).build(
             PlocSearchDistance::Low,
             &boxes,
             order,
@@ -139,20 +208,27 @@ impl Soup<'_> {
         };
         let mut binary = Binary {
             nodes: tree.nodes.iter().map(node).collect(),
-            order: tree.primitive_indices.iter().map(|&i| triangles[i as usize]).collect(),
+            order: tree.primitive_indices.iter().map(|&i| members[i as usize]).collect(),
         };
-        self.fit(&mut binary);
+        self.divide(&mut binary);
         binary
     }
 
     /// A tree whose halves differ by one triangle at most: sorted along the longest axis and cut in the middle, again and again.
-    pub fn balanced_tree(&self, triangles: &[u32]) -> Binary {
-        let mut binary = Binary { nodes: vec![BinaryNode::leaf(0, triangles.len() as u32)], order: triangles.to_vec() };
+    pub fn balanced_tree(&self, members: &[u32]) -> Binary {
+        let mut binary = Binary { nodes: vec![BinaryNode::leaf(0, members.len() as u32)], order: members.to_vec() };
+        self.divide(&mut binary);
+        binary
+    }
+
+    /// Halves the leaves until they are small enough, and every placement is alone; computes the boxes.
+    fn divide(&self, binary: &mut Binary) {
         let mut next = 0;
         while next < binary.nodes.len() {
             let BinaryNode { first, count, .. } = binary.nodes[next];
-            if count as usize > LANES {
-                let range = &mut binary.order[first as usize..(first + count) as usize];
+            // Inner nodes have no members of their own.
+            let range = if count == 0 { &mut [] } else { &mut binary.order[first as usize..(first + count) as usize] };
+            if range.len() > LANES || range.len() > 1 && range.iter().any(|&i| self.placement(i).is_some()) {
                 let center = |&i: &u32| self.bounds_of(&[i]).center();
                 let axis = Bounds3::from_points(range.iter().map(center)).extent().max_position();
                 range.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
@@ -163,11 +239,10 @@ impl Soup<'_> {
             }
             next += 1;
         }
-        self.fit(&mut binary);
-        binary
+        self.fit(binary);
     }
 
-    /// Computes the box of every node from the triangles below it.
+    /// Computes the box of every node from what is below it.
     pub fn fit(&self, binary: &mut Binary) {
         for i in binary.children_first() {
             let BinaryNode { first, count, .. } = binary.nodes[i];
@@ -179,14 +254,51 @@ impl Soup<'_> {
         }
     }
 
-    /// Surface of a triangle that stops every ray; of one that is filtered, none.
-    pub fn stopping_area(&self, triangle: u32) -> f64 {
-        let [a, b, c] = self.corners[triangle as usize].map(|p| p.as_dvec3());
-        if (self.filtered)(triangle) { 0.0 } else { 0.5 * (b - a).cross(c - a).length() }
+    /// Which placement it is; `None` for triangles.
+    pub fn placement(&self, member: u32) -> Option<usize> {
+        (member as usize).checked_sub(self.corners.len())
     }
 
-    fn bounds_of(&self, triangles: &[u32]) -> Bounds3 {
-        Bounds3::from_points(triangles.iter().flat_map(|&i| self.corners[i as usize]))
+    /// What hits report for a triangle.
+    pub fn number(&self, triangle: u32) -> u32 {
+        self.numbers.map_or(triangle, |numbers| numbers[triangle as usize])
+    }
+
+    /// Surface of a triangle or placement that stops every ray; of one that is filtered, none.
+    pub fn stopping_area(&self, member: u32) -> f64 {
+        if let Some(placement) = self.placement(member) {
+            return self.placed[placement].stopping_area;
+        }
+        if (self.filtered)(self.number(member)) { 0.0 } else { area(&self.corners[member as usize]) }
+    }
+
+    fn bounds_of(&self, members: &[u32]) -> Bounds3 {
+        members.iter().fold(Bounds3::EMPTY, |bounds, &i| match self.placement(i) {
+            Some(placement) => bounds.union(self.placed[placement].bounds),
+            None => self.corners[i as usize].iter().fold(bounds, |bounds, &p| bounds.include(p)),
+        })
+    }
+}
+
+fn area(triangle: &[Vec3; 3]) -> f64 {
+    let [a, b, c] = triangle.map(|p| p.as_dvec3());
+    0.5 * (b - a).cross(c - a).length()
+}
+
+/// What the tree of the world has to know of a placement.
+pub(super) struct PlacedBox {
+    bounds: Bounds3,
+    stopping_area: f64,
+    pub triangle_count: usize,
+}
+
+impl PlacedBox {
+    fn new(placement: &Placement, mesh: &[[Vec3; 3]]) -> Self {
+        let world = mesh.iter().map(|corners| corners.map(|p| placement.world(p)));
+        let (bounds, whole) = world.filter(has_area).fold((Bounds3::EMPTY, 0.0), |(bounds, sum), corners| {
+            (corners.iter().fold(bounds, |bounds, &p| bounds.include(p)), sum + area(&corners))
+        });
+        Self { bounds, stopping_area: if placement.filtered { 0.0 } else { whole }, triangle_count: mesh.len() }
     }
 }
 

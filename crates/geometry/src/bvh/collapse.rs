@@ -4,8 +4,9 @@
 //! take up in the node above it (Ylitie, Karras & Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
 //! BVHs", section 3). The cost is the usual one: the surface of every box that is visited.
 
-use super::build::{Binary, Built, Soup};
+use super::build::{Binary, BinaryNode, Built, Soup};
 use super::node::{Block, FILTERED, LANES, LEAF, MAX_DEPTH, Node, WIDTH};
+use super::placed::PLACED;
 
 /// The best ways of handing a subtree to a node above it, by the number of its children that are subtrees of this one, less one.
 struct Ways {
@@ -29,7 +30,7 @@ const BLOCK_COST: f32 = 1.0;
 /// Makes the wide tree. `None` when it would be deeper than [`MAX_DEPTH`].
 pub(super) fn collapse(soup: &Soup, binary: &Binary) -> Option<Built> {
     let ways = ways(soup, binary);
-    let mut built = Built { nodes: vec![Node::EMPTY], blocks: Vec::new(), bounds: binary.nodes[0].bounds };
+    let mut built = Built { nodes: vec![Node::EMPTY], blocks: Vec::new(), placed: Vec::new(), bounds: binary.nodes[0].bounds };
     let mut waiting = vec![(0, 0, 1)];
     while let Some((root, slot, depth)) = waiting.pop() {
         if depth > MAX_DEPTH {
@@ -41,7 +42,9 @@ pub(super) fn collapse(soup: &Soup, binary: &Binary) -> Option<Built> {
                 built.nodes[slot].bounds[k][0].0[lane] = bounds.min[k];
                 built.nodes[slot].bounds[k][1].0[lane] = bounds.max[k];
             }
-            built.nodes[slot].children.0[lane] = if ways[child].left[0] == 0 {
+            built.nodes[slot].children.0[lane] = if let Some(placement) = placement(soup, binary, child) {
+                LEAF | PLACED | placement as u32
+            } else if ways[child].left[0] == 0 {
                 built.blocks.push(block(soup, &triangles(binary, child)));
                 LEAF | (built.blocks.len() - 1) as u32
             } else {
@@ -88,8 +91,12 @@ fn ways(soup: &Soup, binary: &Binary) -> Vec<Ways> {
         let node = binary.nodes[i];
         let surface = (node.half_area() / whole) as f32;
         ways[i] = if node.count > 0 {
-            let triangles = &binary.order[node.first as usize..(node.first + node.count) as usize];
-            Ways::of_block(surface, node.count, triangles.iter().map(|&t| soup.stopping_area(t)).sum())
+            let members = &binary.order[node.first as usize..(node.first + node.count) as usize];
+            let area = members.iter().map(|&i| soup.stopping_area(i)).sum();
+            match placement(soup, binary, i) {
+                Some(placement) => Ways::of_placement(surface, soup.placed[placement].triangle_count, area),
+                None => Ways::of_block(surface, node.count, area),
+            }
         } else {
             Ways::of_halves(surface, &ways[node.first as usize], &ways[node.first as usize + 1])
         };
@@ -103,6 +110,14 @@ impl Ways {
     fn of_block(surface: f32, triangles: u32, area: f64) -> Self {
         let mut ways = Self { triangles, area, yield_per_block: area as f32, ..Self::NONE };
         ways.cost[0] = surface * BLOCK_COST;
+        ways
+    }
+
+    /// Not to be made one block with others, however few its triangles are.
+    fn of_placement(surface: f32, triangles: usize, area: f64) -> Self {
+        let triangles = triangles.max(LANES + 1) as u32;
+        let mut ways = Self::of_block(surface, triangles, area);
+        ways.yield_per_block = (area / f64::from(triangles.div_ceil(LANES as u32))) as f32;
         ways
     }
 
@@ -132,6 +147,12 @@ impl Ways {
     }
 }
 
+/// The placement that a node of the binary tree is, if it is one.
+fn placement(soup: &Soup, binary: &Binary, node: usize) -> Option<usize> {
+    let BinaryNode { first, count, .. } = binary.nodes[node];
+    if count == 1 { soup.placement(binary.order[first as usize]) } else { None }
+}
+
 /// The triangles below a node of the binary tree.
 fn triangles(binary: &Binary, root: usize) -> Vec<u32> {
     let mut triangles = Vec::with_capacity(LANES);
@@ -155,14 +176,14 @@ fn block(soup: &Soup, triangles: &[u32]) -> Block {
                 block.corners[c][k].0[lane] = corner[k];
             }
         }
-        block.ids.0[lane] = if (soup.filtered)(triangle) { triangle | FILTERED } else { triangle };
+        let number = soup.number(triangle);
+        block.ids.0[lane] = if (soup.filtered)(number) { number | FILTERED } else { number };
     }
     block
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::build::BinaryNode;
     use super::*;
     use enfilade_math::{Bounds3, Vec3};
 
@@ -186,7 +207,7 @@ mod tests {
     #[test]
     fn a_tree_too_deep_for_the_stack_is_refused_and_a_balanced_one_is_not() {
         let corners = triangles(8 * 600);
-        let soup = Soup { corners: &corners, filtered: &|_| false };
+        let soup = Soup { corners: &corners, filtered: &|_| false, numbers: None, placed: &[] };
         assert!(collapse(&soup, &chain(&soup, 400)).is_some());
         assert!(collapse(&soup, &chain(&soup, 600)).is_none());
         let all: Vec<u32> = (0..8 * 600).collect();
@@ -196,7 +217,7 @@ mod tests {
     #[test]
     fn every_triangle_is_in_one_block_and_inside_all_boxes_above_it() {
         let corners = triangles(1000);
-        let soup = Soup { corners: &corners, filtered: &|i| i % 2 == 0 };
+        let soup = Soup { corners: &corners, filtered: &|i| i % 2 == 0, numbers: None, placed: &[] };
         let all: Vec<u32> = (0..1000).collect();
         let built = collapse(&soup, &soup.balanced_tree(&all)).expect("shallow");
         let mut ids: Vec<u32> = Vec::new();
@@ -230,7 +251,7 @@ mod tests {
         for (step, blocks) in [(0.1, 2), (1000.0, 3)] {
             let mut corners = triangles(8);
             corners.extend([0.0, step].map(|z| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p + Vec3::Z * z)));
-            let soup = Soup { corners: &corners, filtered: &|_| false };
+            let soup = Soup { corners: &corners, filtered: &|_| false, numbers: None, placed: &[] };
             let halves = [BinaryNode::leaf(0, 8), BinaryNode::children(3), BinaryNode::leaf(8, 1), BinaryNode::leaf(9, 1)];
             let mut binary = Binary { nodes: vec![BinaryNode::children(1)], order: (0..10).collect() };
             binary.nodes.extend(halves);

@@ -10,6 +10,7 @@ mod collapse;
 mod lanes;
 mod node;
 mod pages;
+mod placed;
 mod prepared;
 mod stack;
 mod triangle;
@@ -23,7 +24,9 @@ mod tests;
 use enfilade_math::{Bounds3, Ray, Vec3};
 use node::{Block, Node};
 use pages::Pages;
+use placed::Placed;
 
+pub use placed::Placement;
 pub use visibility::{NOTHING, PinholeRays, VisibilityBuffer};
 
 /// Where a ray meets a triangle.
@@ -46,6 +49,8 @@ pub struct Bvh {
     /// The root is node 0; empty when there is nothing to hit.
     nodes: Pages<Node>,
     blocks: Pages<Block>,
+    /// What leaves with [`placed::PLACED`] lead to.
+    placed: Vec<Placed>,
     bounds: Bounds3,
     /// The greatest absolute value of a coordinate.
     largest_coordinate: f32,
@@ -93,13 +98,36 @@ impl Bvh {
     /// # Panics
     /// With 2³¹ triangles or more.
     pub fn new(corners: &[[Vec3; 3]], filtered: &dyn Fn(u32) -> bool) -> Self {
-        let built = build::build(corners, filtered);
+        Self::of(&build::build(corners, filtered), corners.len())
+    }
+
+    /// Builds the hierarchy of triangles, and of meshes that are kept once for all their placements. Rays hit the same triangles at the
+    /// same parameters, bit for bit, as in a hierarchy of all triangles in the world, only a little later. (Of triangles without area,
+    /// one that is no line in the mesh may be hit.)
+    ///
+    /// `numbers` are what hits report for the `corners`. They and the numbers of the placements' triangles must differ.
+    ///
+    /// # Panics
+    /// When there are not as many numbers as corners, when a placement has no mesh, and with 2³¹ triangles or more in the world.
+    pub fn with_placements(
+        corners: &[[Vec3; 3]],
+        numbers: &[u32],
+        filtered: &dyn Fn(u32) -> bool,
+        meshes: &[Vec<[Vec3; 3]>],
+        placements: &[Placement],
+    ) -> Self {
+        let placed_count: usize = placements.iter().map(|placement| meshes[placement.mesh].len()).sum();
+        Self::of(&build::build_shared(corners, numbers, filtered, meshes, placements), corners.len() + placed_count)
+    }
+
+    fn of(built: &build::Built, triangle_count: usize) -> Self {
         Self {
             nodes: Pages::new(&built.nodes),
             blocks: Pages::new(&built.blocks),
+            placed: built.placed.clone(),
             bounds: built.bounds,
             largest_coordinate: built.bounds.min.abs().max(built.bounds.max.abs()).max_element(),
-            triangle_count: corners.len(),
+            triangle_count,
             kernel: Kernel::best_here(),
         }
     }
@@ -143,19 +171,24 @@ impl Bvh {
 
     /// Size of the hierarchy in memory, in bytes.
     pub fn memory_bytes(&self) -> usize {
-        size_of_val(&*self.nodes) + size_of_val(&*self.blocks)
+        size_of_val(&*self.nodes) + size_of_val(&*self.blocks) + size_of_val(&*self.placed)
     }
 
     #[inline]
     fn query<const ANY: bool, const ASK: bool, F: Fn(&Hit) -> bool>(&self, ray: &Ray, accept: F) -> Option<Hit> {
+        if self.placed.is_empty() { self.walk::<ANY, ASK, false, F>(ray, accept) } else { self.walk::<ANY, ASK, true, F>(ray, accept) }
+    }
+
+    #[inline]
+    fn walk<const ANY: bool, const ASK: bool, const SHARED: bool, F: Fn(&Hit) -> bool>(&self, ray: &Ray, accept: F) -> Option<Hit> {
         match self.kernel {
-            Kernel::Portable => walk::walk::<wide::Pair<lanes::Portable>, lanes::Portable, ANY, ASK, F>(self, ray, accept),
+            Kernel::Portable => walk::walk::<wide::Pair<lanes::Portable>, lanes::Portable, ANY, ASK, SHARED, F>(self, ray, accept),
             // SAFETY: this kernel is chosen only where the processor has the features.
             #[cfg(target_arch = "x86_64")]
-            Kernel::Avx2 => unsafe { walk::walk_avx2::<ANY, ASK, F>(self, ray, accept) },
+            Kernel::Avx2 => unsafe { walk::walk_avx2::<ANY, ASK, SHARED, F>(self, ray, accept) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            Kernel::Avx512 => unsafe { walk::walk_avx512::<ANY, ASK, F>(self, ray, accept) },
+            Kernel::Avx512 => unsafe { walk::walk_avx512::<ANY, ASK, SHARED, F>(self, ray, accept) },
         }
     }
 }

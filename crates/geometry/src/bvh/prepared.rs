@@ -1,6 +1,15 @@
 //! What is computed once per ray.
 
-use enfilade_math::Ray;
+use enfilade_math::{Ray, Vec3};
+
+/// By which share of a bound of the distance from a ray's origin boxes grow; see [`Prepared::new`].
+pub(super) const SLACK: f32 = 6.0 * f32::EPSILON;
+
+/// By how much boxes grow on all sides, for a ray among triangles with coordinates of at most `largest_coordinate`.
+#[inline(always)]
+pub(super) fn slack(ray: &Ray, largest_coordinate: f32) -> f32 {
+    SLACK * (largest_coordinate + ray.origin.abs().max_element())
+}
 
 /// A ray made ready: constants of the box test and of the triangle test.
 pub(super) struct Prepared {
@@ -26,9 +35,14 @@ impl Prepared {
     /// A component of the direction that is zero would make 0 · ∞ = NaN in the plane of a wall; its inverse is kept finite.
     #[inline(always)]
     pub fn new(ray: &Ray, largest_coordinate: f32) -> Self {
-        const SLACK: f32 = 6.0 * f32::EPSILON;
+        Self::with_slack(ray.origin, ray.direction, slack(ray, largest_coordinate))
+    }
+
+    /// As [`Prepared::new`], with boxes that grow on all sides by `slack`.
+    #[inline(always)]
+    pub fn with_slack(origin: Vec3, direction: Vec3, slack: f32) -> Self {
         const MAX_INVERSE: f32 = 1e18;
-        let (origin, d) = (ray.origin.to_array(), ray.direction.to_array());
+        let (origin, d) = (origin.to_array(), direction.to_array());
         let size = d.map(f32::abs);
         let x_or_y = usize::from(size[1] > size[0]);
         let z = if size[2] > size[x_or_y] { 2 } else { x_or_y };
@@ -37,7 +51,6 @@ impl Prepared {
         let shear = [d[axes[0]] * inverse_z, d[axes[1]] * inverse_z, inverse_z];
 
         let limit = (MAX_INVERSE * inverse_z.abs()).min(f32::MAX);
-        let slack = SLACK * (largest_coordinate + ray.origin.abs().max_element());
         let (mut inverse, mut behind, mut ahead, mut enters_by) = ([0.0; 3], [0.0; 3], [0.0; 3], [0; 3]);
         for k in 0..3 {
             let exact = 1.0 / d[k];

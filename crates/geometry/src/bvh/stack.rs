@@ -1,14 +1,15 @@
 //! Children that wait to be visited.
 
-use super::node::{MAX_DEPTH, WIDTH};
+use super::node::WIDTH;
+use super::placed::MAX_LEVELS;
 use std::mem::MaybeUninit;
 
-/// Room for the waiting children of every level, and for a whole vector beyond the last.
-const ROOM: usize = (WIDTH - 1) * MAX_DEPTH + 1 + WIDTH;
+/// Room for the waiting children of every level, for the mark where a placement is left, and for a whole vector beyond the last.
+const ROOM: usize = (WIDTH - 1) * MAX_LEVELS + 2 + WIDTH;
 
 /// Children and the parameters at which the ray enters them; the next to be visited is the last.
 ///
-/// The traversal keeps at most `WIDTH - 1` entries per level of a tree of at most `MAX_DEPTH` levels, so that there is always room for
+/// The traversal keeps at most `WIDTH - 1` entries per level of a tree of at most `MAX_LEVELS` levels, and one mark, so that there is always room for
 /// `WIDTH` more. Whoever writes to the arrays relies on that.
 pub(super) struct Stack {
     pub children: [MaybeUninit<u32>; ROOM],

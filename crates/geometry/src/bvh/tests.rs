@@ -134,7 +134,7 @@ pub(super) fn closed_surface(rng: &mut Rng, n: usize, center: Vec3, radius: f32)
 }
 
 /// A ray of every unkind sort: anywhere, along axes with zeros of both signs, from and to vertices, edges and planes.
-fn unkind_ray(rng: &mut Rng, triangles: &[Triangle], size: f32) -> Ray {
+pub(super) fn unkind_ray(rng: &mut Rng, triangles: &[Triangle], size: f32) -> Ray {
     let on_triangle = |rng: &mut Rng| {
         let [a, b, c] = triangles[rng.below(triangles.len())];
         match rng.below(4) {
@@ -196,7 +196,7 @@ fn soups() -> Vec<(&'static str, Vec<Triangle>, f32)> {
     ]
 }
 
-fn bits(hit: Option<Hit>) -> Option<[u32; 4]> {
+pub(super) fn bits(hit: Option<Hit>) -> Option<[u32; 4]> {
     hit.map(|h| [h.t.to_bits(), h.triangle, h.u.to_bits(), h.v.to_bits()])
 }
 

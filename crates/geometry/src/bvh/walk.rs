@@ -1,8 +1,9 @@
 //! The way of one ray through the tree.
 
 use super::lanes::{Eight, Lanes, lane_of};
-use super::node::{FILTERED, Node};
-use super::prepared::Prepared;
+use super::node::{FILTERED, LEAF, Node};
+use super::placed::{LEAVE, PLACED, Placed};
+use super::prepared::{Prepared, slack};
 use super::stack::Stack;
 use super::triangle::{Meets, TriangleTest};
 use super::wide::Wide;
@@ -15,9 +16,13 @@ use enfilade_math::Ray;
 /// The processor must have AVX2 and BMI1.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,bmi1")]
-pub(super) unsafe fn walk_avx2<const ANY: bool, const ASK: bool, F: Fn(&Hit) -> bool>(bvh: &Bvh, ray: &Ray, accept: F) -> Option<Hit> {
+pub(super) unsafe fn walk_avx2<const ANY: bool, const ASK: bool, const SHARED: bool, F: Fn(&Hit) -> bool>(
+    bvh: &Bvh,
+    ray: &Ray,
+    accept: F,
+) -> Option<Hit> {
     use super::{lanes::Avx2, wide::Pair};
-    walk::<Pair<Avx2>, Avx2, ANY, ASK, F>(bvh, ray, accept)
+    walk::<Pair<Avx2>, Avx2, ANY, ASK, SHARED, F>(bvh, ray, accept)
 }
 
 /// [`walk`] compiled for AVX-512.
@@ -26,15 +31,20 @@ pub(super) unsafe fn walk_avx2<const ANY: bool, const ASK: bool, F: Fn(&Hit) -> 
 /// The processor must have the features.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
-pub(super) unsafe fn walk_avx512<const ANY: bool, const ASK: bool, F: Fn(&Hit) -> bool>(bvh: &Bvh, ray: &Ray, accept: F) -> Option<Hit> {
-    walk::<super::wide::Avx512, super::lanes::Avx2, ANY, ASK, F>(bvh, ray, accept)
+pub(super) unsafe fn walk_avx512<const ANY: bool, const ASK: bool, const SHARED: bool, F: Fn(&Hit) -> bool>(
+    bvh: &Bvh,
+    ray: &Ray,
+    accept: F,
+) -> Option<Hit> {
+    walk::<super::wide::Avx512, super::lanes::Avx2, ANY, ASK, SHARED, F>(bvh, ray, accept)
 }
 
-/// The first hit, or with `ANY` any hit. With `ASK`, hits on filtered triangles count only when `accept` agrees.
+/// The first hit, or with `ANY` any hit. With `ASK`, hits on filtered triangles count only when `accept` agrees. `SHARED` must be said
+/// where there are placements.
 ///
 /// With `ANY` the order in which triangles are tested, and `accept` is asked, does not depend on the kernel.
 #[inline(always)]
-pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, F: Fn(&Hit) -> bool>(
+pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SHARED: bool, F: Fn(&Hit) -> bool>(
     bvh: &Bvh,
     ray: &Ray,
     accept: F,
@@ -43,7 +53,7 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, F: Fn(&H
         return None;
     }
     let prepared = Prepared::new(ray, bvh.largest_coordinate);
-    let boxes = BoxTest::<W>::new(&prepared, ray.t_min);
+    let mut boxes = BoxTest::<W>::new(&prepared, ray.t_min);
     let triangles = TriangleTest::<L>::new(&prepared, ray.t_min);
     // Triangle 0 at t_max: a hit at exactly t_max is not better, as no triangle has a lower index.
     let mut best = Hit { t: ray.t_max, triangle: 0, u: 0.0, v: 0.0 };
@@ -51,11 +61,31 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, F: Fn(&H
     let mut at = Meets { t: Eight([0.0; 8]), u: Eight([0.0; 8]), v: Eight([0.0; 8]) };
     let mut stack = Stack::new();
     let mut current = 0;
+    // With `SHARED`, the placement whose boxes are being visited.
+    let mut inside: Option<&Placed> = None;
     loop {
-        if let Some(block) = Node::leaf(current) {
+        if SHARED && current >= LEAF | PLACED {
+            // A placement begins or ends: its boxes are met by another ray.
+            inside = bvh.placed.get((current & !(LEAF | PLACED)) as usize);
+            let seen = inside.map(|placed| placed.prepared(ray, slack(ray, bvh.largest_coordinate)));
+            boxes = BoxTest::new(seen.as_ref().unwrap_or(&prepared), ray.t_min);
+            if let Some(placed) = inside {
+                stack.push(LEAVE, f32::NEG_INFINITY);
+                current = placed.root;
+                continue;
+            }
+        } else if let Some(block) = Node::leaf(current) {
             // The triangles of a leaf.
             // SAFETY: the builder makes children of existing nodes and blocks only.
             let block = unsafe { bvh.blocks.get_unchecked(block) };
+            let in_world;
+            let block = match inside {
+                Some(placed) if SHARED => {
+                    in_world = placed.in_world(block);
+                    &in_world
+                }
+                _ => block,
+            };
             let mut met = triangles.meet(block, best.t, &mut at);
             let mut nearer = false;
             while met != 0 {

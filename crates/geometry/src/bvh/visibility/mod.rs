@@ -87,7 +87,11 @@ impl VisibilityBuffer {
     }
 
     /// Draws everything that `bvh` holds, every triangle being solid and seen from both sides.
+    ///
+    /// # Panics
+    /// When there are placements in the hierarchy: this is for triangles that stand in the world.
     pub fn draw(&mut self, bvh: &Bvh, rays: &PinholeRays) {
+        assert!(bvh.placed.is_empty(), "a hierarchy with placements cannot be drawn; build it of all triangles");
         let forward = rays.forward();
         for y in (0..self.height).step_by(TILE) {
             for x in (0..self.width).step_by(TILE) {
