@@ -31,7 +31,7 @@ pub(crate) struct PixelGeometry {
 pub(crate) struct Sighting<'s> {
     pub surface: Surface<'s>,
     /// Index into the scene's triangles.
-    pub triangle: usize,
+    pub triangle: u32,
     /// From the camera centre, unit length.
     pub direction: DVec3,
     /// Along the exact ray, metres.
@@ -46,8 +46,8 @@ pub(crate) fn sighting<'s>(scene: &RenderScene<'s>, view: &CameraView<'_>, (x, y
     let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
     let hit = scene.closest(&ray, Cutout::Half)?;
     let surface = scene.surface(&hit, ray.direction, &Cone::POINT);
-    let triangle = hit.triangle as usize;
-    let distance_m = exact_distance(scene.triangles[triangle].corners, origin, direction).unwrap_or(f64::from(hit.t));
+    let triangle = hit.triangle;
+    let distance_m = exact_distance(scene.triangles.get(triangle).corners, origin, direction).unwrap_or(f64::from(hit.t));
     Some(Sighting { surface, triangle, direction, distance_m, p_world: origin + direction * distance_m })
 }
 
@@ -71,7 +71,7 @@ pub(crate) fn geometry_of(scene: &RenderScene<'_>, view: &CameraView<'_>, y: f64
         normal_bump_world: halves(surface.ns),
         normal_bump_cam: to_camera(surface.ns),
         tex_coord: [finite_half(surface.uv.x), finite_half(surface.uv.y), f16::ZERO],
-        entity: (scene.triangles[triangle].part + 1) as i16,
+        entity: (scene.triangles.get(triangle).part + 1) as i16,
     }
 }
 

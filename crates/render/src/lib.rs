@@ -32,6 +32,7 @@ mod surface;
 mod texture;
 mod tiles;
 mod triangle;
+mod triangles;
 mod vertex;
 mod walk;
 

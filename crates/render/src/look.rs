@@ -5,10 +5,9 @@ use crate::geometry_pass::{PixelGeometry, geometry_of, sighting};
 use crate::light::Lights;
 use crate::prepared::RenderScene;
 use crate::texture::Textures;
-use crate::triangle;
+use crate::triangles::Triangles;
 use enfilade_frame::{Frame, Layer, Values, f16};
-use enfilade_geometry::Bvh;
-use enfilade_scene::{Alpha, CameraView, Scene, WorldMesh};
+use enfilade_scene::{Alpha, CameraView, Scene};
 use rayon::prelude::*;
 
 /// A scene ready to be looked at: rays and cut-outs, without its light.
@@ -42,14 +41,11 @@ impl<'s> Lookout<'s> {
     /// When the scene has more parts than ids.
     pub fn new(scene: &'s Scene) -> Result<Self, RenderError> {
         RenderScene::check_parts(scene)?;
-        let world = WorldMesh::new(scene);
-        let triangles = triangle::gather(scene, &world);
-        let bvh = Bvh::new(&world.corners, &|t| scene.materials[triangles[t as usize].material as usize].alpha != Alpha::Opaque);
+        let triangles = Triangles::new(scene);
+        let bvh = triangles.hierarchy(|material| material.alpha != Alpha::Opaque);
         // Pictures are read at points only, so they need no pyramids.
         let (textures, lights) = (Textures::new(&scene.images, &[]), Lights::default());
-        Ok(Self {
-            scene: RenderScene { scene, textures, triangles, bvh, bounds: world.bounds, lights, tables: Vec::new(), has_veils: false },
-        })
+        Ok(Self { scene: RenderScene { scene, textures, triangles, bvh, lights, tables: Vec::new(), has_veils: false } })
     }
 
     /// Looks through the centres of the view's pixels, or of every so many of them in both directions.
@@ -83,7 +79,7 @@ impl<'s> Lookout<'s> {
             let seeing = view.camera().projection.ray(centre.0, centre.1).is_some();
             return Pixel { seeing, behind: false, geometry: None };
         };
-        let winding = self.scene.triangles[found.triangle].cross().as_dvec3();
+        let winding = self.scene.triangles.get(found.triangle).cross().as_dvec3();
         Pixel { seeing: true, behind: winding.dot(found.direction) > 0.0, geometry: Some(geometry_of(&self.scene, view, centre.1, &found)) }
     }
 }

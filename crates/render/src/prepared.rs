@@ -4,19 +4,18 @@ use crate::bsdf::{TableMaker, Tables};
 use crate::error::RenderError;
 use crate::light::Lights;
 use crate::texture::{Cone, Footprint, Textures};
-use crate::triangle::{self, Triangle};
+use crate::triangles::Triangles;
 use enfilade_geometry::{Bvh, Hit};
 use enfilade_math::{Bounds3, Ray, Rgb, hash_u32};
-use enfilade_scene::{Alpha, Cx, Material, Scene, WorldMesh};
+use enfilade_scene::{Alpha, Cx, Material, Scene};
 use std::cell::Cell;
 
 /// A scene ready to be rendered.
 pub struct RenderScene<'s> {
     pub(crate) scene: &'s Scene,
     pub(crate) textures: Textures<'s>,
-    pub(crate) triangles: Vec<Triangle>,
+    pub(crate) triangles: Triangles<'s>,
     pub(crate) bvh: Bvh,
-    pub(crate) bounds: Bounds3,
     pub(crate) lights: Lights<'s>,
     /// Of each material.
     pub(crate) tables: Vec<Tables>,
@@ -31,11 +30,13 @@ impl<'s> RenderScene<'s> {
     /// When the scene has more parts than ids, or no light.
     pub fn new(scene: &'s Scene, cx: &dyn Cx) -> Result<Self, RenderError> {
         Self::check_parts(scene)?;
+        Self::of(Triangles::new(scene), cx)
+    }
+
+    pub(crate) fn of(triangles: Triangles<'s>, cx: &dyn Cx) -> Result<Self, RenderError> {
+        let scene = triangles.scene();
         cx.progress("building the ray-tracing hierarchy", 0, 1);
-        let world = WorldMesh::new(scene);
-        let triangles = triangle::gather(scene, &world);
-        let filtered: Vec<bool> = scene.materials.iter().map(asks_filter).collect();
-        let bvh = Bvh::new(&world.corners, &|t| filtered[triangles[t as usize].material as usize]);
+        let bvh = triangles.hierarchy(asks_filter);
         let mut maker = TableMaker::default();
         let tables = scene.materials.iter().map(|m| maker.tables(&m.bsdf)).collect();
         let lights = Lights::new(scene, &triangles);
@@ -45,7 +46,7 @@ impl<'s> RenderScene<'s> {
         cx.progress("building the ray-tracing hierarchy", 1, 1);
         let textures = Textures::new(&scene.images, &scene.materials);
         let has_veils = scene.materials.iter().any(|m| matches!(m.alpha, Alpha::Blend { .. }));
-        Ok(Self { scene, textures, triangles, bvh, bounds: world.bounds, lights, tables, has_veils })
+        Ok(Self { scene, textures, triangles, bvh, lights, tables, has_veils })
     }
 
     /// Every part needs an id.
@@ -56,12 +57,12 @@ impl<'s> RenderScene<'s> {
 
     /// The smallest box around the scene.
     pub fn bounds(&self) -> Bounds3 {
-        self.bounds
+        self.triangles.bounds()
     }
 
     /// Number of triangles in world space.
     pub fn triangle_count(&self) -> usize {
-        self.triangles.len()
+        self.triangles.count()
     }
 
     /// The nearest surface that is there, cut-outs considered. `cut` says how partial opacity is decided.
@@ -100,13 +101,12 @@ impl<'s> RenderScene<'s> {
     }
 
     fn material_at(&self, hit: &Hit) -> &'s Material {
-        &self.scene.materials[self.triangles[hit.triangle as usize].material as usize]
+        &self.scene.materials[self.triangles.material(hit.triangle) as usize]
     }
 
     /// Whether the surface exists at a hit, given its cut-outs.
     pub(crate) fn is_present(&self, hit: &Hit, cut: Cutout) -> bool {
-        let triangle = &self.triangles[hit.triangle as usize];
-        let opacity = |p| self.textures.scalar(p, triangle.uv(hit.weights()), &Footprint::POINT);
+        let opacity = |p| self.textures.scalar(p, self.triangles.get(hit.triangle).uv(hit.weights()), &Footprint::POINT);
         match &self.material_at(hit).alpha {
             Alpha::Opaque => true,
             Alpha::Mask { opacity: p, cutoff } => opacity(p) >= *cutoff,

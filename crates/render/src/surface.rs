@@ -39,7 +39,7 @@ impl<'s> RenderScene<'s> {
     /// The surface at a hit of a ray with the unit direction `direction` and the cone `cone` at its origin.
     pub(crate) fn surface(&self, hit: &Hit, direction: Vec3, cone: &Cone) -> Surface<'s> {
         let wo = -direction;
-        let triangle = &self.triangles[hit.triangle as usize];
+        let triangle = self.triangles.get(hit.triangle);
         let weights = hit.weights();
         let [a, b, c] = triangle.normals;
         let cross = triangle.cross();

@@ -1,7 +1,7 @@
 //! What shading needs of a triangle, in one place: two cache lines instead of a walk through part, mesh and three vertices.
 
 use enfilade_math::{Mat3, Vec2, Vec3};
-use enfilade_scene::{Scene, WorldMesh};
+use enfilade_scene::{Part, Scene};
 
 /// A triangle in world space with its vertex attributes.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +33,19 @@ fn slack(corners: &[Vec3; 3]) -> f32 {
 }
 
 impl Triangle {
+    /// A triangle of a part: its corners in the world and its vertices in the mesh.
+    pub fn new(scene: &Scene, (number, part): (u32, &Part), normal_from_mesh: &Mat3, corners: [Vec3; 3], vertices: [u32; 3]) -> Self {
+        let mesh = &scene.meshes[part.mesh as usize];
+        let face = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        let normals = if mesh.normals.is_empty() {
+            [face.normalize_or(Vec3::Z); 3]
+        } else {
+            vertices.map(|i| (*normal_from_mesh * mesh.normals[i as usize]).normalize_or(face.normalize_or(Vec3::Z)))
+        };
+        let uvs = if mesh.uvs.is_empty() { [Vec2::ZERO; 3] } else { vertices.map(|i| mesh.uvs[i as usize]) };
+        Self { corners, normals, uvs, part: number, material: part.material, slack: slack(&corners) }
+    }
+
     /// A triangle's corner weights at a hit.
     #[inline]
     pub fn position(&self, [a, b, c]: [f32; 3]) -> Vec3 {
@@ -56,29 +69,4 @@ impl Triangle {
     pub fn uv(&self, [a, b, c]: [f32; 3]) -> Vec2 {
         self.uvs[0] * a + self.uvs[1] * b + self.uvs[2] * c
     }
-}
-
-/// Gathers every triangle of the scene, in the order of the world mesh.
-pub(crate) fn gather(scene: &Scene, world: &WorldMesh) -> Vec<Triangle> {
-    let normal_placements: Vec<Mat3> =
-        scene.parts.iter().map(|part| part.world_from_mesh.matrix3.inverse().transpose().as_mat3()).collect();
-    world
-        .corners
-        .iter()
-        .zip(&world.sources)
-        .map(|(&corners, source)| {
-            let part = &scene.parts[source.part as usize];
-            let normal_from_mesh = normal_placements[source.part as usize];
-            let mesh = &scene.meshes[part.mesh as usize];
-            let indices = mesh.triangles[source.triangle as usize];
-            let face = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-            let normals = if mesh.normals.is_empty() {
-                [face.normalize_or(Vec3::Z); 3]
-            } else {
-                indices.map(|i| (normal_from_mesh * mesh.normals[i as usize]).normalize_or(face.normalize_or(Vec3::Z)))
-            };
-            let uvs = if mesh.uvs.is_empty() { [Vec2::ZERO; 3] } else { indices.map(|i| mesh.uvs[i as usize]) };
-            Triangle { corners, normals, uvs, part: source.part, material: part.material, slack: slack(&corners) }
-        })
-        .collect()
 }

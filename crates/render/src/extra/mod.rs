@@ -80,7 +80,7 @@ struct Extra {
 fn extra(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<&CameraView<'_>>, (x, y): (u32, u32)) -> Option<Extra> {
     let centre = (f64::from(x) + 0.5, f64::from(y) + 0.5);
     let Sighting { surface, triangle, direction, distance_m, p_world } = sighting(scene, view, centre)?;
-    let triangle = &scene.triangles[triangle];
+    let triangle = scene.triangles.get(triangle);
     let appearance = surface.appearance(scene);
     let (behind_m, entity_behind) = behind(scene, &surface, direction.as_vec3(), distance_m as f32, triangle.part);
     let emitted = surface.emission(scene);
@@ -117,7 +117,7 @@ fn is_partial(scene: &RenderScene<'_>, view: &CameraView<'_>, (x, y): (f64, f64)
     [(-CORNER, -CORNER), (CORNER, -CORNER), (-CORNER, CORNER), (CORNER, CORNER)].into_iter().any(|(dx, dy)| {
         let Some(CameraRay { origin, direction }) = view.centre_ray(x + dx, y + dy) else { return true };
         let hit = scene.closest(&Ray::new(origin.as_vec3(), direction.as_vec3()), Cutout::Half);
-        hit.is_none_or(|hit| scene.triangles[hit.triangle as usize].part != part)
+        hit.is_none_or(|hit| scene.triangles.get(hit.triangle).part != part)
     })
 }
 
@@ -133,7 +133,7 @@ fn behind(scene: &RenderScene<'_>, first: &Surface<'_>, direction: Vec3, distanc
         let surface = scene.surface(&hit, direction, &Cone::POINT);
         far_m += surface.p.distance(p);
         if !surface.material.bsdf.transmits() {
-            return (far_m, (scene.triangles[hit.triangle as usize].part + 1) as i16);
+            return (far_m, (scene.triangles.get(hit.triangle).part + 1) as i16);
         }
         (p, ng) = (surface.p, surface.ng);
     }

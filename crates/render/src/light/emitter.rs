@@ -5,7 +5,6 @@
 
 use super::bounds::LightBounds;
 use super::spherical::{SphericalRectangle, sample_triangle, triangle_solid_angle};
-use crate::triangle::Triangle;
 use enfilade_math::{Bounds3, Rgb, Vec3, warp};
 
 /// Patches that fill more than about this solid angle, in steradians, are sampled over it. Below, the area is as even and
@@ -132,16 +131,17 @@ impl Patch {
         }
     }
 
-    /// Which triangle of the scene the point `q` is on, with its weights of the second and third corner.
+    /// Which triangle of the scene the point `q` is on, with its weights of the second and third corner; `corners` are those of a
+    /// triangle by its number.
     #[inline]
-    pub fn locate(&self, q: Vec3, triangles: &[Triangle]) -> (u32, [f32; 2]) {
+    pub fn locate(&self, q: Vec3, corners: impl Fn(u32) -> [Vec3; 3]) -> (u32, [f32; 2]) {
         let first = self.triangle;
-        let weights = barycentric(q, &triangles[first as usize].corners);
+        let weights = barycentric(q, &corners(first));
         if matches!(self.shape, Shape::Triangle(_)) {
             return (first, inside(weights));
         }
         // Beyond the diagonal lies the second triangle.
-        let other = barycentric(q, &triangles[first as usize + 1].corners);
+        let other = barycentric(q, &corners(first + 1));
         let depth = |[b, c]: [f32; 2]| b.min(c).min(1.0 - b - c);
         if depth(weights) >= depth(other) { (first, inside(weights)) } else { (first + 1, inside(other)) }
     }

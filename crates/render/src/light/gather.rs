@@ -3,6 +3,7 @@
 use super::bounds::LightBounds;
 use super::emitter::{Emission, Patch};
 use crate::triangle::Triangle;
+use crate::triangles::Triangles;
 use enfilade_math::{Vec2, Vec3};
 use enfilade_scene::{Alpha, ColorParam, Scene};
 
@@ -51,7 +52,7 @@ enum Outline {
 }
 
 impl EmissiveSurfaces {
-    pub fn new(scene: &Scene, triangles: &[Triangle]) -> Self {
+    pub fn new(scene: &Scene, triangles: &Triangles<'_>) -> Self {
         let mut found = Self { parts: vec![None; scene.parts.len()], ..Self::default() };
         let mut first = 0usize;
         for (part, data) in scene.parts.iter().enumerate() {
@@ -72,8 +73,8 @@ impl EmissiveSurfaces {
 
     /// The patch at a point of a triangle, given by its weights of the second and third corner.
     #[inline]
-    pub fn patch_at(&self, triangles: &[Triangle], triangle: u32, [b, c]: [f32; 2]) -> Option<u32> {
-        let (first_triangle, first_piece) = (*self.parts.get(triangles[triangle as usize].part as usize)?)?;
+    pub fn patch_at(&self, triangles: &Triangles<'_>, triangle: u32, [b, c]: [f32; 2]) -> Option<u32> {
+        let (first_triangle, first_piece) = (*self.parts.get(triangles.get(triangle).part as usize)?)?;
         let pieces = &self.pieces[(first_piece + triangle - first_triangle) as usize];
         let [columns, rows] = pieces.grid.map(u32::from);
         let cell = |v: f32, n: u32| ((v.max(0.0) * n as f32) as u32).min(n - 1);
@@ -84,12 +85,9 @@ impl EmissiveSurfaces {
                 if columns * rows == 1 {
                     return Some(pieces.first_patch);
                 }
-                let t = &triangles[triangle as usize];
+                let t = triangles.get(triangle);
                 let q = t.position([1.0 - b - c, b, c]);
-                let frame = rectangle_of(
-                    &triangles[(triangle - u32::from(second)) as usize],
-                    &triangles[(triangle + u32::from(!second)) as usize],
-                )?;
+                let frame = rectangle_of(&triangles.get(triangle - u32::from(second)), &triangles.get(triangle + u32::from(!second)))?;
                 let [s, r] = frame.shares(q);
                 Some(pieces.first_patch + cell(r, rows) * columns + cell(s, columns))
             }
@@ -100,7 +98,7 @@ impl EmissiveSurfaces {
 /// One emissive part while it is cut up.
 struct Part<'a> {
     scene: &'a Scene,
-    triangles: &'a [Triangle],
+    triangles: &'a Triangles<'a>,
     emission: &'a ColorParam,
     two_sided: bool,
     /// Emits the same everywhere.
@@ -109,11 +107,15 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
+    fn triangle(&self, index: usize) -> Triangle {
+        self.triangles.get(index as u32)
+    }
+
     fn add(mut self, range: std::ops::Range<usize>, found: &mut EmissiveSurfaces) {
         let first_patch_of_part = found.patches.len();
         let mut index = range.start;
         while index < range.end {
-            let rectangle = if index + 1 < range.end { rectangle_of(&self.triangles[index], &self.triangles[index + 1]) } else { None };
+            let rectangle = if index + 1 < range.end { rectangle_of(&self.triangle(index), &self.triangle(index + 1)) } else { None };
             let first_patch = found.patches.len() as u32;
             if let Some(frame) = rectangle {
                 let grid = self.add_rectangle(index, &frame, found);
@@ -143,8 +145,8 @@ impl Part<'_> {
     }
 
     fn add_triangle(&mut self, index: usize, found: &mut EmissiveSurfaces) -> u16 {
-        let triangle = &self.triangles[index];
-        let Some((normal, sides)) = self.outward(triangle) else { return 0 };
+        let triangle = self.triangle(index);
+        let Some((normal, sides)) = self.outward(&triangle) else { return 0 };
         let emission = self.emission_of(sides);
         let [[u0, u1], [_, v1]] = [[triangle.uvs[1] - triangle.uvs[0], triangle.uvs[2] - triangle.uvs[0]]; 2];
         let n = self.pieces_per_side(u0).max(self.pieces_per_side(u1)).max(self.pieces_per_side(v1 - u0));
@@ -166,16 +168,17 @@ impl Part<'_> {
     }
 
     fn add_rectangle(&mut self, index: usize, frame: &Frame, found: &mut EmissiveSurfaces) -> [u16; 2] {
-        let (first, second) = (&self.triangles[index], &self.triangles[index + 1]);
-        let Some((normal, sides)) = self.outward(first) else { return [0; 2] };
-        let sides = match self.outward(second) {
+        let (first, second) = (self.triangle(index), self.triangle(index + 1));
+        let Some((normal, sides)) = self.outward(&first) else { return [0; 2] };
+        let sides = match self.outward(&second) {
             Some((other, second_sides)) if second_sides == sides && (other.dot(normal) > 0.0 || sides == Sides::Both) => sides,
             _ => Sides::Unsure,
         };
         let emission = self.emission_of(sides);
         let uv_at = |s: f32, r: f32| {
             let whole = Patch::of_rectangle(0, frame.corner, frame.sides, normal, emission);
-            let (triangle, [b, c]) = whole.locate(frame.corner + frame.sides[0] * s + frame.sides[1] * r, &[*first, *second]);
+            let (triangle, [b, c]) =
+                whole.locate(frame.corner + frame.sides[0] * s + frame.sides[1] * r, |k| [first, second][k as usize].corners);
             [first, second][triangle as usize].uv([1.0 - b - c, b, c])
         };
         let grid = self.within_budget([

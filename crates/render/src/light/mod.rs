@@ -21,10 +21,10 @@ pub(crate) use choice::LightChoice;
 
 use crate::prepared::{Cutout, RenderScene};
 use crate::surface::Surface;
-use crate::triangle::Triangle;
+use crate::triangles::Triangles;
 use emitter::Emission;
 use enfilade_geometry::Hit;
-use enfilade_math::{Bounds3, Distribution1, Rgb, Vec3, offset_origin};
+use enfilade_math::{Distribution1, Rgb, Vec3, offset_origin};
 use enfilade_scene::{Alpha, Light, Scene};
 use environment::Sky;
 use gather::EmissiveSurfaces;
@@ -137,7 +137,7 @@ enum Source {
 
 impl<'s> Lights<'s> {
     /// Collects every source.
-    pub fn new(scene: &'s Scene, triangles: &[Triangle]) -> Self {
+    pub fn new(scene: &'s Scene, triangles: &Triangles<'_>) -> Self {
         let surfaces = EmissiveSurfaces::new(scene, triangles);
         let mut emitters = surfaces.bounds.clone();
         let (mut points, mut distant) = (Vec::new(), Vec::new());
@@ -152,7 +152,7 @@ impl<'s> Lights<'s> {
             }
         }
         let tree = LightTree::new(&emitters);
-        let diagonal = Bounds3::from_points(triangles.iter().flat_map(|t| t.corners)).extent().length();
+        let diagonal = triangles.bounds().extent().length();
         let clusters = tree.cut(MAX_CLUSTERS, SMALLEST_CLUSTER * diagonal);
         let cluster_of_emitter = tree.cluster_of_emitter(&clusters);
         let strengths: Vec<f32> = distant.iter().map(distant_strength).collect();
@@ -302,7 +302,7 @@ impl<'s> Lights<'s> {
             let sample = LightSample { wi: point.wi, target, radiance: Some(radiance), pdf: point.pdf, is_delta: false };
             return (two_sided || !behind).then_some(sample);
         }
-        let (triangle, [b, c]) = patch.locate(point.q, &scene.triangles);
+        let (triangle, [b, c]) = patch.locate(point.q, |number| scene.triangles.get(number).corners);
         let hit = Hit { t: point.distance, triangle, u: b, v: c };
         let surface = scene.surface(&hit, point.wi, &crate::texture::Cone::POINT);
         let mut radiance = surface.emission(scene);
