@@ -2,12 +2,17 @@
 //!
 //! `memory [--triangles N] [--textures N] [--side N]` writes a rolling floor and a lamp above it to a scratch folder, runs every stage
 //! on it with one frame of 640×480 at 4 samples, and prints the most memory that the process has held after each step.
+//!
+//! `memory --copies N [--triangles N] [--apart]` renders such a frame of a ball that stands in N places under the sky, each with a mesh
+//! of its own where they are `--apart`.
 
 use anyhow::{Context, Result, bail};
+use enfilade_geometry::Mesh;
 use enfilade_import::{ImportOptions, load};
-use enfilade_pipeline::{Config, Overrides, Silent, run};
-use enfilade_render::RenderScene;
-use enfilade_scene::Quiet;
+use enfilade_math::{DAffine3, DMat3, DVec3, Vec3};
+use enfilade_pipeline::{Config, Overrides, Silent, Stopwatch, run};
+use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
+use enfilade_scene::{Camera, CameraView, Environment, Intrinsics, Material, Part, Pose, Quiet, Scene};
 use image::{ImageBuffer, Rgb};
 use std::fmt::Write;
 use std::path::Path;
@@ -16,16 +21,24 @@ use std::path::Path;
 const WIDTH: f32 = 8.0;
 
 fn main() -> Result<()> {
-    let (mut triangles, mut textures, mut side) = (1_000_000u32, 8u32, 4096u32);
+    let (mut triangles, mut textures, mut side, mut copies, mut apart) = (1_000_000u32, 8u32, 4096u32, 0u32, false);
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
+        if word == "--apart" {
+            apart = true;
+            continue;
+        }
         let number = words.next().with_context(|| format!("{word} needs a number"))?.parse()?;
         match word.as_str() {
             "--triangles" => triangles = number,
             "--textures" => textures = number.max(1),
             "--side" => side = number,
-            _ => bail!("unknown option {word}; expected --triangles, --textures or --side"),
+            "--copies" => copies = number,
+            _ => bail!("unknown option {word}; expected --triangles, --textures, --side, --copies or --apart"),
         }
+    }
+    if copies > 0 {
+        return render_copies(triangles, copies, apart);
     }
     let folder = tempfile::tempdir()?;
     for k in 0..textures {
@@ -55,6 +68,54 @@ fn main() -> Result<()> {
     let summary = run(&config, &folder.path().join("out"), None, &Silent)?;
     println!("every stage: {} MB; {}", most_memory_mb()?, if summary.ok() { "all laws hold" } else { "FAILED" });
     Ok(())
+}
+
+/// One frame of a ball of about `triangles` triangles that stands in `copies` places.
+fn render_copies(triangles: u32, copies: u32, apart: bool) -> Result<()> {
+    let rows = f64::from(triangles / 4).sqrt().ceil() as u32;
+    let ball = ball(rows);
+    println!("{copies} copies of {} triangles{}", ball.triangles.len(), if apart { ", each a mesh of its own" } else { "" });
+    let mut scene = Scene { environment: Some(Environment::Constant { radiance: enfilade_math::Rgb::WHITE }), ..Scene::default() };
+    scene.materials.push(Material::diffuse("grey", enfilade_math::Rgb::splat(0.5)));
+    let columns = f64::from(copies).sqrt().ceil();
+    for i in 0..copies {
+        let at = DVec3::new((f64::from(i) % columns).floor(), (f64::from(i) / columns).floor(), 0.0) * 2.5;
+        let world_from_mesh = DAffine3 { matrix3: DMat3::from_rotation_z(f64::from(i)), translation: at };
+        scene.parts.push(Part { name: format!("ball {i}"), mesh: if apart { i } else { 0 }, material: 0, world_from_mesh });
+    }
+    scene.meshes = vec![ball; if apart { copies as usize } else { 1 }];
+    let (before, time) = (most_memory_mb()?, Stopwatch::start());
+    let prepared = RenderScene::new(&scene, &Quiet)?;
+    println!("ready for rays: {} MB more than the scene's {before} MB, in {:.1} core-s", most_memory_mb()? - before, time.cpu_s());
+    let camera = Camera::from(Intrinsics { width: 640, height: 480, fx: 500.0, fy: 500.0, cx: 320.0, cy: 240.0, skew: 0.0 });
+    let pose = Pose::look_at(0, DVec3::new(-4.0, -4.0, 3.0), DVec3::new(columns, columns, 0.0), DVec3::Z).context("a view")?;
+    let (view, config) = (CameraView::still(&camera, &pose), RenderConfig { samples: 4, ..RenderConfig::default() });
+    let time = Stopwatch::start();
+    let guide = Guide::learn(&prepared, &[view], &config);
+    render_frame(&prepared, &guide, &view, &config, &Quiet)?;
+    println!("rendered: {} MB in all, in {:.1} core-s", most_memory_mb()?, time.cpu_s());
+    Ok(())
+}
+
+/// A dented ball of 4 `rows`² triangles.
+fn ball(rows: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    for row in 0..=rows {
+        for column in 0..=2 * rows {
+            let [latitude, longitude] = [row, column].map(|i| std::f32::consts::PI * i as f32 / rows as f32);
+            let radius = 1.0 + 0.1 * (9.0 * longitude).sin() * (7.0 * latitude).sin();
+            let around = Vec3::new(longitude.cos(), longitude.sin(), 0.0);
+            mesh.positions.push((around * latitude.sin() + Vec3::Z * latitude.cos()) * radius);
+        }
+    }
+    for row in 0..rows {
+        for column in 0..2 * rows {
+            let a = row * (2 * rows + 1) + column;
+            let below = a + 2 * rows + 1;
+            mesh.triangles.extend([[a, below, a + 1], [a + 1, below, below + 1]]);
+        }
+    }
+    mesh
 }
 
 /// A floor of `rows` × `rows` squares in stripes of one texture each, and a lamp; y is up.
