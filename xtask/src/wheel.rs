@@ -74,11 +74,11 @@ fn environment(house: &House) -> Result<PathBuf, String> {
     python::made(house, "venv-torch", &check, &packages.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
-/// In the development profile, which costs a tenth of a release to build.
+/// In the profile and with the features of dependencies that the tests are built with: after them, only the module itself is compiled.
 fn install(house: &House) -> Result<String, String> {
     let python = environment(house)?;
     let mut command = house.command(python, &["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "."]);
-    command.env("MATURIN_PEP517_ARGS", "--profile dev").env("CARGO_TARGET_DIR", house.target()?);
+    command.env("MATURIN_PEP517_ARGS", "--profile dev --features as-tested").env("CARGO_TARGET_DIR", house.target()?);
     finish(command)
 }
 

@@ -8,8 +8,7 @@ use std::io::Cursor;
 
 /// Channels that take more bytes than this when they are decoded are refused.
 const MAX_BYTES: u64 = 1 << 30;
-/// Blocks (tiles, or the lines that are compressed together) that take more bytes than this are refused: room is made for what one says it
-/// has before it is read.
+/// Blocks (tiles, or the lines that are compressed together) that take more bytes than this are refused.
 const MAX_BLOCK_BYTES: u64 = 1 << 27;
 
 /// Decodes an EXR.
@@ -56,14 +55,25 @@ fn check(bytes: &[u8]) -> std::result::Result<(), String> {
                 header.channels.bytes_per_pixel
             ));
         }
-        let block = block_bytes(header);
-        if block > MAX_BLOCK_BYTES {
-            return Err(format!(
-                "has blocks of {block} bytes, expected at most {MAX_BLOCK_BYTES}; save it with smaller tiles, or in scan lines"
-            ));
-        }
     }
-    Ok(())
+    check_exr_blocks(&meta.headers)
+}
+
+/// Refuses an EXR with blocks for which the library would make room without bound.
+///
+/// What reads an EXR asks this of its headers before it reads any pixels: a tile may be far larger than the picture, and the library
+/// makes as much room as a block says it has, which is bounded by the tile's size alone.
+///
+/// # Errors
+/// When a block can take more than 128 MiB; the message is the rest of a sentence that begins with the file's name.
+pub fn check_exr_blocks(headers: &[Header]) -> std::result::Result<(), String> {
+    match headers.iter().map(block_bytes).max() {
+        Some(block) if block > MAX_BLOCK_BYTES => Err(format!(
+            "has blocks of up to {block} bytes, expected at most {MAX_BLOCK_BYTES}; save it with smaller tiles, or in scan lines with \
+             ZIP compression"
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// The most bytes that a block can take.

@@ -6,6 +6,8 @@
 mod exr;
 mod pfm;
 
+pub use exr::check_exr_blocks;
+
 use ::image::{DynamicImage, ImageFormat, ImageReader};
 use enfilade_scene::{Image, Pixels};
 use std::io::Cursor;

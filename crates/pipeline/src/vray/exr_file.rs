@@ -5,6 +5,7 @@
 
 use super::header::Header;
 use crate::error::Error;
+use enfilade_import::check_exr_blocks;
 use exr::image::FlatSamples;
 use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, read};
@@ -15,6 +16,8 @@ use std::path::{Path, PathBuf};
 
 /// More channels or parts than this has no image of a scene with all of V-Ray's render elements.
 const MAX_CHANNELS: usize = 512;
+/// Images whose channels take more bytes than this when they are decoded are refused: 4 GiB, which is 129 channels of floats at 3840x2160.
+const MAX_BYTES: u64 = 1 << 32;
 /// The part that holds the image itself, as writers call it.
 const IMAGE_PARTS: [&str; 4] = ["", "rgba", "rgb color", "beauty"];
 
@@ -146,7 +149,12 @@ fn check_headers(file: &MetaData, [width, height]: [u32; 2]) -> Result<(), Strin
             return Err(format!("its channel {} has not every pixel", channel.name));
         }
     }
-    Ok(())
+    let bytes_per_pixel: u64 = file.headers.iter().map(|header| header.channels.bytes_per_pixel as u64).sum();
+    let bytes = u64::from(width).saturating_mul(u64::from(height)).saturating_mul(bytes_per_pixel);
+    if bytes > MAX_BYTES {
+        return Err(format!("its {channels} channels take {bytes} bytes, expected at most {MAX_BYTES}; leave out render elements"));
+    }
+    check_exr_blocks(&file.headers).map_err(|problem| format!("it {problem}"))
 }
 
 #[cfg(test)]
@@ -205,5 +213,22 @@ mod tests {
             std::fs::write(path, &bytes[..bytes.len() - 20]).unwrap();
         };
         assert!(message(read_of(cut, [5, 4])).contains("cannot be read as OpenEXR"));
+    }
+
+    #[test]
+    fn what_would_fill_the_memory_is_refused_before_it_is_read() {
+        let rgb = || vec![channel("R", samples(20)), channel("G", samples(20)), channel("B", samples(20))];
+        let tiles = exr::prelude::Blocks::Tiles(exr::prelude::Vec2(1 << 16, 1 << 16));
+        let encoding = Encoding { compression: Compression::Uncompressed, blocks: tiles, line_order: LineOrder::Increasing };
+        let problem = read_of(|path| write_exr(path, [5, 4], rgb(), encoding, None), [5, 4]).unwrap_err().to_string();
+        assert!(problem.contains("frame.0000.exr: it has blocks of up to 51539607552 bytes, expected at most 134217728"), "{problem}");
+
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("frame.0000.exr");
+        write_exr(&path, [5, 4], rgb(), Encoding::SMALL_LOSSLESS, None);
+        let mut file = MetaData::read_from_file(&path, false).unwrap();
+        file.headers[0].layer_size = exr::prelude::Vec2(20_000, 20_000);
+        let problem = check_headers(&file, [20_000, 20_000]).unwrap_err();
+        assert!(problem.starts_with("its 3 channels take 4800000000 bytes, expected at most 4294967296"), "{problem}");
     }
 }
