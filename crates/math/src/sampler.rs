@@ -1,4 +1,6 @@
 use crate::hash::hash_u64;
+use sobol_burley::parts::{Int4, hash, hash_int4, owen_scramble_int4_rev, owen_scramble_rev, sobol_int4_rev};
+use std::sync::LazyLock;
 
 /// The random numbers of one pixel sample: Owen-scrambled Sobol points, each a pure function of
 /// (seed, frame, pixel, sample index, dimension).
@@ -28,7 +30,7 @@ impl Sampler {
     #[inline]
     pub fn set(&self, set: u32) -> [f32; 4] {
         if set < Self::SETS && self.index < Self::INDICES {
-            return sobol_burley::sample_4d(self.index, set, self.pixel_seed);
+            return stratified(self.index, set, self.pixel_seed);
         }
         let base = (u64::from(self.pixel_seed) << 32) ^ u64::from(self.index);
         let a = hash_u64(base ^ hash_u64(2 * u64::from(set)));
@@ -37,9 +39,42 @@ impl Sampler {
     }
 }
 
+/// Of each set, the Sobol points whose index has its four bits from `4 * i` on as given and no others, bits in reverse. A point is the
+/// sum of four of them, which takes no branch on bits that nobody can predict.
+static POINTS: LazyLock<[[[Int4; 16]; 4]; Sampler::SETS as usize]> = LazyLock::new(|| {
+    std::array::from_fn(|set| {
+        std::array::from_fn(|i| std::array::from_fn(|bits| sobol_int4_rev((bits as u32) << (16 + 4 * i), set as u32)))
+    })
+});
+
+/// What `sobol_burley::sample_4d` gives, in a quarter of the time.
+#[inline]
+fn stratified(index: u32, set: u32, seed: u32) -> [f32; 4] {
+    let shuffled = owen_scramble_rev(index.reverse_bits(), hash(seed ^ 0x79c6_8e4a)) >> 16;
+    let points = &POINTS[set as usize];
+    let part = |i: usize| points[i][(shuffled >> (4 * i)) as usize & 15];
+    let point = (part(0) ^ part(1)) ^ (part(2) ^ part(3));
+    let seeds = Int4::from([seed.wrapping_mul(0x9c8f_2d3b) ^ set; 4]) ^ [0x912f_69ba, 0x174f_18ab, 0x691e_72ca, 0xb40c_c1b8].into();
+    owen_scramble_int4_rev(point, hash_int4(seeds)).reverse_bits().to_f32_norm()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn points_are_those_of_sobol_burley() {
+        for set in 0..Sampler::SETS {
+            for index in 0..Sampler::INDICES {
+                let seed = index.wrapping_mul(0x9e37_79b9) ^ set;
+                assert_eq!(
+                    stratified(index, set, seed),
+                    sobol_burley::sample_4d(index, set, seed),
+                    "set {set}, index {index}, seed {seed}"
+                );
+            }
+        }
+    }
 
     #[test]
     fn samples_lie_in_the_unit_interval_and_average_one_half() {
