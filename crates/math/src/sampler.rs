@@ -8,6 +8,10 @@ use std::sync::LazyLock;
 /// Points come four dimensions at a time; a *set* is such a group. Sets 0 to 8 are stratified over the sample index; later sets
 /// (beyond a path's fourth surface, where strata no longer help) and sample indices of 65536 and above are hashed, hence independent.
 /// Burley 2020, "Practical Hash-based Owen Scrambling".
+///
+/// Pixels are independent of each other. Ordering them for blue noise across the image (Ahmed & Wonka 2020, and offsets optimised
+/// within tiles) lowered the variance after a Gaussian of one pixel by 5 to 6 % in the median of six rooms at 4 and 16 samples: in the
+/// rooms examined 40 to 90 % of the error is interaction between sets, which no order of the pixels within a set makes blue.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler {
     pixel_seed: u32,

@@ -125,7 +125,7 @@ mod tests {
             for triangle in triangles {
                 numbers.push(world.len() as u32);
                 corners.push(*triangle);
-                flags.push(filtered && world.len() % 3 == 0);
+                flags.push(filtered && world.len().is_multiple_of(3));
                 world.push(*triangle);
             }
         };
@@ -162,7 +162,7 @@ mod tests {
                 let mut hits = 0;
                 for _ in 0..3000 {
                     let ray = unkind_ray(&mut rng, &pair.world, room);
-                    let accept = |hit: &Hit| hit.triangle % 2 == 0;
+                    let accept = |hit: &Hit| hit.triangle.is_multiple_of(2);
                     for kernel in kernels() {
                         pair.shared.kernel = kernel;
                         let expected = pair.flat.closest(&ray);
