@@ -178,8 +178,8 @@ impl Soup<'_> {
     /// as well took half as long again, for rays that visited no fewer places in six rooms. Cutting the boxes of large triangles was
     /// tried and brought nothing in rooms.
     fn binary_tree(&self, members: &[u32]) -> Binary {
-        const MOVED_PER_ROUND: f32 = 0.6;
-        const BLOCK_COST_IN_TRIANGLES: f32 = 2.0;
+        const MOVED_PER_ROUND: f32 = 0.3;
+        const BLOCK_COST_IN_TRIANGLES: f32 = 0.5;
         const ROUNDS_OF_NEXT_NEIGHBOURS: usize = 0;
         if members.len() <= LANES {
             return self.balanced_tree(members);
