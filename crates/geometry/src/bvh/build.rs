@@ -1,5 +1,6 @@
 //! From triangles to a binary tree of boxes, and by [`collapse`](super::collapse) to the wide one.
 
+use super::binary::{Binary, BinaryNode};
 use super::collapse::collapse;
 use super::node::{Block, FILTERED, LANES, Node};
 use super::placed::{Placed, Placement};
@@ -18,6 +19,20 @@ pub(super) struct Built {
 
 impl Built {
     const NOTHING: Self = Self { nodes: Vec::new(), blocks: Vec::new(), placed: Vec::new(), bounds: Bounds3::EMPTY };
+
+    /// Adds a tree; returns its root and its box.
+    fn append(&mut self, other: Self) -> (u32, Bounds3) {
+        let (first_node, first_block) = (self.nodes.len() as u32, self.blocks.len() as u32);
+        self.nodes.extend(other.nodes.into_iter().map(|mut node| {
+            // Blocks are numbered from the mark on, so both move by adding.
+            for child in &mut node.children.0 {
+                *child += if Node::leaf(*child).is_some() { first_block } else { first_node };
+            }
+            node
+        }));
+        self.blocks.extend(other.blocks);
+        (first_node, other.bounds)
+    }
 }
 
 /// Builds the tree over all triangles that have finite corners and an area.
@@ -66,22 +81,6 @@ fn hittable(corners: &[[Vec3; 3]]) -> impl Iterator<Item = u32> {
     (0..corners.len() as u32).filter(|&i| has_area(&corners[i as usize]))
 }
 
-impl Built {
-    /// Adds a tree; returns its root and its box.
-    fn append(&mut self, other: Self) -> (u32, Bounds3) {
-        let (first_node, first_block) = (self.nodes.len() as u32, self.blocks.len() as u32);
-        self.nodes.extend(other.nodes.into_iter().map(|mut node| {
-            // Blocks are numbered from the mark on, so both move by adding.
-            for child in &mut node.children.0 {
-                *child += if Node::leaf(*child).is_some() { first_block } else { first_node };
-            }
-            node
-        }));
-        self.blocks.extend(other.blocks);
-        (first_node, other.bounds)
-    }
-}
-
 /// True for finite triangles whose area is not zero. In double precision, where differences and products of `f32` are all but exact.
 fn has_area(triangle: &[Vec3; 3]) -> bool {
     let [a, b, c] = triangle.map(|p| p.as_dvec3());
@@ -101,54 +100,6 @@ impl Scale {
 
     fn apply(self, p: Vec3) -> Vec3 {
         (p.as_dvec3() * self.0).as_vec3()
-    }
-}
-
-/// A binary tree over triangles; node 0 is the root.
-pub(super) struct Binary {
-    pub nodes: Vec<BinaryNode>,
-    /// Triangles in the order of the leaves.
-    pub order: Vec<u32>,
-}
-
-impl Binary {
-    /// The nodes that can be reached from the root, every node after its children.
-    pub fn children_first(&self) -> Vec<usize> {
-        let mut nodes = vec![0];
-        let mut next = 0;
-        while next < nodes.len() {
-            let node = self.nodes[nodes[next]];
-            if node.count == 0 {
-                nodes.extend([node.first as usize, node.first as usize + 1]);
-            }
-            next += 1;
-        }
-        nodes.reverse();
-        nodes
-    }
-}
-
-#[derive(Clone, Copy)]
-pub(super) struct BinaryNode {
-    pub bounds: Bounds3,
-    /// First of two children, or with `count > 0` the first place in the order.
-    pub first: u32,
-    pub count: u32,
-}
-
-impl BinaryNode {
-    pub fn children(first: u32) -> Self {
-        Self { bounds: Bounds3::EMPTY, first, count: 0 }
-    }
-
-    pub fn leaf(first: u32, count: u32) -> Self {
-        Self { bounds: Bounds3::EMPTY, first, count }
-    }
-
-    /// Half the surface of the box. In double precision, where it cannot overflow.
-    pub fn half_area(&self) -> f64 {
-        let e = self.bounds.max.as_dvec3() - self.bounds.min.as_dvec3();
-        e.x * e.y + e.y * e.z + e.z * e.x
     }
 }
 

@@ -4,7 +4,8 @@
 //! take up in the node above it (Ylitie, Karras & Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
 //! BVHs", section 3). The cost is the usual one: the surface of every box that is visited.
 
-use super::build::{Binary, BinaryNode, Built, Soup};
+use super::binary::{Binary, BinaryNode};
+use super::build::{Built, Soup};
 use super::node::{Block, FILTERED, LANES, LEAF, MAX_DEPTH, Node, WIDTH};
 use super::placed::PLACED;
 

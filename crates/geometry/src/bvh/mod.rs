@@ -5,6 +5,7 @@
 //! watertight (Woop, Benthin & Wald 2013): a ray cannot slip between two triangles that share an edge. What a ray hits does not
 //! depend on the machine: AVX-512 or AVX2 is used where the processor has it, and the plain path gives the same bits.
 
+mod binary;
 mod build;
 mod collapse;
 mod lanes;
@@ -102,8 +103,8 @@ impl Bvh {
     }
 
     /// Builds the hierarchy of triangles, and of meshes that are kept once for all their placements. Rays hit the same triangles at the
-    /// same parameters, bit for bit, as in a hierarchy of all triangles in the world, only a little later. (Of triangles without area,
-    /// one that is no line in the mesh may be hit.)
+    /// same parameters, bit for bit, as in a hierarchy of all triangles in the world, only a little later. (But for triangles that are
+    /// lines: rounding in the world may give them an area, or take it.)
     ///
     /// `numbers` are what hits report for the `corners`. They and the numbers of the placements' triangles must differ.
     ///

@@ -33,6 +33,8 @@ impl Placement {
 pub(super) const PLACED: u32 = 1 << 30;
 /// Stands on the stack below what waits inside of a placement.
 pub(super) const LEAVE: u32 = LEAF | PLACED | (PLACED - 1);
+/// Levels of a tree in which placements lead to trees of their own.
+pub(super) const MAX_LEVELS: usize = 2 * MAX_DEPTH;
 
 /// A placement made ready.
 #[derive(Clone, Copy)]
@@ -98,9 +100,6 @@ impl Placed {
         placed
     }
 }
-
-/// Levels of a tree in which placements lead to trees of their own.
-pub(super) const MAX_LEVELS: usize = 2 * MAX_DEPTH;
 
 #[cfg(test)]
 mod tests {

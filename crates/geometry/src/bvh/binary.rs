@@ -1,0 +1,51 @@
+//! The binary tree from which the wide one is made.
+
+use enfilade_math::Bounds3;
+
+/// A binary tree over triangles; node 0 is the root.
+pub(super) struct Binary {
+    pub nodes: Vec<BinaryNode>,
+    /// Triangles in the order of the leaves.
+    pub order: Vec<u32>,
+}
+
+impl Binary {
+    /// The nodes that can be reached from the root, every node after its children.
+    pub fn children_first(&self) -> Vec<usize> {
+        let mut nodes = vec![0];
+        let mut next = 0;
+        while next < nodes.len() {
+            let node = self.nodes[nodes[next]];
+            if node.count == 0 {
+                nodes.extend([node.first as usize, node.first as usize + 1]);
+            }
+            next += 1;
+        }
+        nodes.reverse();
+        nodes
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct BinaryNode {
+    pub bounds: Bounds3,
+    /// First of two children, or with `count > 0` the first place in the order.
+    pub first: u32,
+    pub count: u32,
+}
+
+impl BinaryNode {
+    pub fn children(first: u32) -> Self {
+        Self { bounds: Bounds3::EMPTY, first, count: 0 }
+    }
+
+    pub fn leaf(first: u32, count: u32) -> Self {
+        Self { bounds: Bounds3::EMPTY, first, count }
+    }
+
+    /// Half the surface of the box. In double precision, where it cannot overflow.
+    pub fn half_area(&self) -> f64 {
+        let e = self.bounds.max.as_dvec3() - self.bounds.min.as_dvec3();
+        e.x * e.y + e.y * e.z + e.z * e.x
+    }
+}
