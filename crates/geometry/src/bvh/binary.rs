@@ -2,10 +2,10 @@
 
 use enfilade_math::Bounds3;
 
-/// A binary tree over triangles; node 0 is the root.
+/// A binary tree over triangles and placements; node 0 is the root.
 pub(super) struct Binary {
     pub nodes: Vec<BinaryNode>,
-    /// Triangles in the order of the leaves.
+    /// Triangles and placements in the order of the leaves.
     pub order: Vec<u32>,
 }
 
