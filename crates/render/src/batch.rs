@@ -6,7 +6,7 @@
 //! Light that the paths find beyond the second surface is shared: see [`crate::reuse`].
 
 use crate::bsdf::Value;
-use crate::integrator::{Direct, Indirect, Integrator, bsdf_set, light_set};
+use crate::integrator::{Direct, Indirect, Integrator, Step, bsdf_set, light_set};
 use crate::prepared::Cutout;
 use crate::reuse::{Far, Link, Reach};
 use crate::split::{Arriving, Split};
@@ -142,18 +142,18 @@ impl<'a, 's> Integrator<'a, 's> {
             let step = if bounce == 0 {
                 expected = vertex.expected_indirect();
                 let u = sampler.set(bsdf_set(0));
-                vertex.scatter([u[0], u[1], u[2]], &segment)
+                vertex.scatter([u[0], u[1], u[2]], &segment).map(|(weight, next)| (Step { weight, survival: 1.0 }, next))
             } else {
-                self.onward(bounce, vertex, passed, &segment, &mut expected, sampler).map(|(step, next)| (step.weight, next))
+                self.onward(bounce, vertex, passed, &segment, &mut expected, sampler)
             };
-            let Some((weight, next)) = step else {
+            let Some((step, next)) = step else {
                 batch.heads.push(head);
                 break;
             };
             if next.sampled.is_some() {
                 let crossed = next.crossed;
-                let (own, far) = self.second(&head, weight, next, expected, sampler);
-                self.gather(gathered, &head, &weight, own, crossed);
+                let (own, far) = self.second(&head, &step, next, expected, sampler);
+                self.gather(gathered, &head, &step.weight, own, crossed);
                 batch.fars.extend(far.map(|far| (batch.heads.len(), far)));
                 batch.heads.push(head);
                 break;
@@ -161,14 +161,14 @@ impl<'a, 's> Integrator<'a, 's> {
             // By a mirror or glass to the next head.
             let mut arriving = Arriving::default();
             let reached = self.next_surface(&next, Rgb::WHITE, false, &mut arriving);
-            self.gather(gathered, &head, &weight, arriving, next.crossed);
+            self.gather(gathered, &head, &step.weight, arriving, next.crossed);
             batch.heads.push(head);
             if self.config.max_bounces.is_some_and(|most| bounce + 1 > most) {
                 break;
             }
             let Some((found, _, through)) = reached else { break };
             let crossed = before.map_or(next.crossed, |before| before.crossed);
-            before = Some(Passage { throughput: passed * weight.specular * through, crossed });
+            before = Some(Passage { throughput: passed * step.weight.specular * through, crossed });
             (surface, segment) = (found, next);
         }
         Some(first)
@@ -213,12 +213,12 @@ impl<'a, 's> Integrator<'a, 's> {
         PixelSample { reflectance: bsdf.reflectance, illumination, residual, split }
     }
 
-    /// What arrives along the `segment` that leaves a head with this `weight`: the light that is for this path alone, and what others
+    /// What arrives along the `segment` that leaves a head in this `step`: the light that is for this path alone, and what others
     /// may use.
     fn second(
         &self,
         head: &Head<'_, 's>,
-        weight: Value,
+        step: &Step,
         segment: Segment,
         mut expected: f32,
         sampler: &Sampler,
@@ -235,7 +235,7 @@ impl<'a, 's> Integrator<'a, 's> {
         }
         let vertex = Vertex::new(self.guide, surface, bsdf);
         let direct = self.sample_lights(&vertex, sampler.set(light_set(bounce)));
-        let so_far = throughput * head.passed() * weight.total(head.vertex.bsdf.reflectance);
+        let so_far = throughput * head.passed() * step.weight.total(head.vertex.bsdf.reflectance);
         let reflectance = vertex.bsdf.reflectance;
         let onward = self.onward(bounce, &vertex, so_far, &segment, &mut expected, sampler).map(|(step, next)| {
             let wi = next.ray.direction;
@@ -244,7 +244,7 @@ impl<'a, 's> Integrator<'a, 's> {
             let light = self.radiance(next, bounce + 1, straight, so_far * step.weight.total(reflectance), expected, sampler);
             Indirect { weight: step.weight, light, wi, density }
         });
-        if let Some(reach) = Reach::new(&segment, weight, &vertex.surface) {
+        if let Some(reach) = Reach::new(&segment, step, &vertex.surface) {
             let far = Far::new(reach, &vertex, &hit, direct, onward, &mut own);
             return (own, far);
         }

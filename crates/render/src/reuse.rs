@@ -11,7 +11,7 @@
 
 use crate::batch::{Batch, Head};
 use crate::bsdf::{Outgoing, Value};
-use crate::integrator::{Direct, Indirect, Integrator};
+use crate::integrator::{Direct, Indirect, Integrator, Step};
 use crate::light::power_heuristic;
 use crate::split::Arriving;
 use crate::surface::{MIN_COSINE, Surface, shadow_ray};
@@ -22,10 +22,12 @@ use enfilade_math::{Ray, Rgb, Vec3, offset_origin};
 
 /// How a path got from its first surface to its second.
 pub(crate) struct Reach {
-    /// The first surface's value over the density.
+    /// The first surface's value over the density and over `survival`.
     weight: Value,
     /// Density of the direction.
     pdf: f32,
+    /// Probability that the path went on in it.
+    survival: f32,
 }
 
 /// The second surface of a path, and the light there that others may use.
@@ -69,12 +71,12 @@ pub(crate) struct Link {
 }
 
 impl Reach {
-    /// Along a segment that left the first surface with this `weight` and ends at `surface`. `None` when others cannot go to the same
+    /// Along a segment that left the first surface in this `step` and ends at `surface`. `None` when others cannot go to the same
     /// place: the segment's direction came from no density, it goes through something, or the surface lets light through.
-    pub fn new(segment: &Segment, weight: Value, surface: &Surface<'_>) -> Option<Self> {
+    pub fn new(segment: &Segment, step: &Step, surface: &Surface<'_>) -> Option<Self> {
         let &(_, pdf) = segment.sampled.as_ref()?;
         let reflected = !segment.crossed && !segment.straight && segment.medium.is_clear() && !surface.material.bsdf.transmits();
-        reflected.then_some(Self { weight, pdf })
+        reflected.then_some(Self { weight: step.weight, pdf, survival: step.survival })
     }
 }
 
@@ -127,8 +129,10 @@ impl<'a, 's> Integrator<'a, 's> {
             // Where paths have a longest length, only those go on in the same way that are equally long.
             let alike = |other: &Head<'_, 's>| other.shares && (self.config.max_bounces.is_none() || other.bounce == owner_head.bounce);
             for (head, other) in batch.heads.iter().enumerate().filter(|(head, other)| *head != owner && alike(other)) {
-                if let Some((link, pdf)) = self.link(head, &other.vertex, far) {
+                if let Some((mut link, pdf)) = self.link(head, &other.vertex, far) {
                     density += pdf * link.jacobian;
+                    // As that of the path itself: what is found by paths that went on by chance counts for those that did not.
+                    link.value = link.value * (1.0 / far.reach.survival);
                     links.push(link);
                 }
             }

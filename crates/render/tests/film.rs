@@ -207,6 +207,20 @@ fn in_a_box_that_glows_every_reflection_has_its_place() {
 }
 
 #[test]
+fn a_mirror_and_a_pane_in_a_box_that_glows_show_the_box() {
+    // Pixels share what they find of the walls beyond these, by paths that end by chance.
+    let wall = Material { emission: Rgb::WHITE.into(), ..Material::diffuse("wall", Rgb::splat(0.5)) };
+    let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::WHITE.into(), alpha: 0.0.into() };
+    let pane = Bsdf::Dielectric { eta: 1.5, alpha: 0.0.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::BLACK };
+    let mut glass = room(0.2);
+    glass.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    for (name, mesh, bsdf) in [("mirror", screen(Vec3::X * 0.5, 0.9), mirror), ("glass", glass, pane)] {
+        let frame = picture(&scene(vec![(room(1.0), wall.clone()), (mesh, Material::new(name, bsdf))]), [32, 32], &splitting(256));
+        assert_close(name, mean(&frame, Layer::Color), 2.0, 5e-3);
+    }
+}
+
+#[test]
 fn glass_and_mirrors_have_their_own_parts_and_sources_theirs() {
     let through = |bsdf: Bsdf| {
         let mut s = scene(vec![(screen(Vec3::X, 9.0), Material::new("screen", bsdf))]);
