@@ -27,6 +27,14 @@ pub use ray::{Ray, offset_origin};
 pub use rgb::{Rgb, linear_from_srgb, srgb_from_linear};
 pub use sampler::Sampler;
 
+/// A point in another space: in double precision, rounded once.
+///
+/// Whatever stands in the world is placed by this function, so that it is in the same place to the last bit for all who look at it.
+#[inline]
+pub fn place(to_from: &DAffine3, p: Vec3) -> Vec3 {
+    to_from.transform_point3(p.as_dvec3()).as_vec3()
+}
+
 /// `1 / π`.
 pub const INV_PI: f32 = std::f32::consts::FRAC_1_PI;
 

@@ -18,7 +18,7 @@
 //! half of one, for there the first and the last lie on the poles.
 
 use enfilade_import::{ImportOptions, load};
-use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, srgb_from_linear};
+use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, place, srgb_from_linear};
 use enfilade_scene::{
     Alpha, Bsdf, ColorParam, Environment, Image, Light, Material, NormalMap, Part, Pixels, Principled, Quiet, ScalarParam, Scene,
     TextureRef, Wrap,
@@ -149,7 +149,7 @@ impl Writer<'_> {
         let mut bytes = ply.into_bytes();
         let mut put = |v: f32| bytes.extend(v.to_le_bytes());
         for (i, p) in mesh.positions.iter().enumerate() {
-            to_file.transform_point3(p.as_dvec3()).as_vec3().to_array().into_iter().for_each(&mut put);
+            place(&to_file, *p).to_array().into_iter().for_each(&mut put);
             if let Some(n) = mesh.normals.get(i) {
                 (normal_matrix * n.as_dvec3()).normalize_or_zero().as_vec3().to_array().into_iter().for_each(&mut put);
             }

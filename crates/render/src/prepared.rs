@@ -30,12 +30,14 @@ impl<'s> RenderScene<'s> {
     /// When the scene has more parts than ids, or no light.
     pub fn new(scene: &'s Scene, cx: &dyn Cx) -> Result<Self, RenderError> {
         Self::check_parts(scene)?;
-        Self::of(Triangles::new(scene), cx)
+        cx.progress("building the ray-tracing hierarchy", 0, 1);
+        let ready = Self::of(Triangles::new(scene))?;
+        cx.progress("building the ray-tracing hierarchy", 1, 1);
+        Ok(ready)
     }
 
-    pub(crate) fn of(triangles: Triangles<'s>, cx: &dyn Cx) -> Result<Self, RenderError> {
+    pub(crate) fn of(triangles: Triangles<'s>) -> Result<Self, RenderError> {
         let scene = triangles.scene();
-        cx.progress("building the ray-tracing hierarchy", 0, 1);
         let bvh = triangles.hierarchy(asks_filter);
         let mut maker = TableMaker::default();
         let tables = scene.materials.iter().map(|m| maker.tables(&m.bsdf)).collect();
@@ -43,7 +45,6 @@ impl<'s> RenderScene<'s> {
         if lights.is_empty() {
             return Err(RenderError::NoLight);
         }
-        cx.progress("building the ray-tracing hierarchy", 1, 1);
         let textures = Textures::new(&scene.images, &scene.materials);
         let has_veils = scene.materials.iter().any(|m| matches!(m.alpha, Alpha::Blend { .. }));
         Ok(Self { scene, textures, triangles, bvh, lights, tables, has_veils })

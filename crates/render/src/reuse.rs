@@ -129,10 +129,8 @@ impl<'a, 's> Integrator<'a, 's> {
             // Where paths have a longest length, only those go on in the same way that are equally long.
             let alike = |other: &Head<'_, 's>| other.shares && (self.config.max_bounces.is_none() || other.bounce == owner_head.bounce);
             for (head, other) in batch.heads.iter().enumerate().filter(|(head, other)| *head != owner && alike(other)) {
-                if let Some((mut link, pdf)) = self.link(head, &other.vertex, far) {
+                if let Some((link, pdf)) = self.link(head, &other.vertex, far) {
                     density += pdf * link.jacobian;
-                    // As that of the path itself: what is found by paths that went on by chance counts for those that did not.
-                    link.value = link.value * (1.0 / far.reach.survival);
                     links.push(link);
                 }
             }
@@ -156,6 +154,8 @@ impl<'a, 's> Integrator<'a, 's> {
     }
 
     /// The link of a second surface to another first one, and the density with which that would have found it.
+    ///
+    /// As for its own path, what a path found that went on by chance counts for those that did not.
     #[inline]
     fn link(&self, head: usize, vertex: &Vertex<'_, 's>, far: &Far<'_>) -> Option<(Link, f32)> {
         let (direction, jacobian) = joined(vertex, far)?;
@@ -168,7 +168,7 @@ impl<'a, 's> Integrator<'a, 's> {
         if pdf <= 0.0 || !self.scene.is_clear(&joining_ray(vertex, far, direction)) {
             return None;
         }
-        Some((Link { head, value, jacobian, wo: -direction }, pdf))
+        Some((Link { head, value: value * (1.0 / far.reach.survival), jacobian, wo: -direction }, pdf))
     }
 
     /// What a second surface sends to others in the unit direction `wo`.

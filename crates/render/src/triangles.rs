@@ -77,25 +77,28 @@ impl<'s> Triangles<'s> {
         self.bounds
     }
 
+    /// Whether all of them are kept.
+    #[inline]
+    fn all_kept(&self) -> bool {
+        self.kept.len() == self.count
+    }
+
     /// The triangle of a number.
     #[inline]
     pub fn get(&self, number: u32) -> Triangle {
-        if self.kept.len() == self.count { self.kept[number as usize] } else { self.find(number) }
+        if self.all_kept() { self.kept[number as usize] } else { self.find(number) }
     }
 
     /// The material of a triangle.
     #[inline]
     pub fn material(&self, number: u32) -> u32 {
-        if self.kept.len() == self.count { self.kept[number as usize].material } else { self.scene.parts[self.part(number)].material }
+        if self.all_kept() { self.kept[number as usize].material } else { self.scene.parts[self.part(number)].material }
     }
 
     /// The hierarchy over them, in which those of some materials ask the filter.
     pub fn hierarchy(&self, filtered: impl Fn(&Material) -> bool) -> Bvh {
         let filtered: Vec<bool> = self.scene.materials.iter().map(filtered).collect();
         let corners: Vec<[Vec3; 3]> = self.kept.iter().map(|triangle| triangle.corners).collect();
-        if self.kept.len() == self.count {
-            return Bvh::new(&corners, &|number| filtered[self.kept[number as usize].material as usize]);
-        }
         let (mut numbers, mut meshes, mut placements) = (Vec::with_capacity(corners.len()), Vec::new(), Vec::new());
         let mut mesh_of = vec![None; self.scene.meshes.len()];
         for (part, range) in self.scene.parts.iter().zip(&self.parts) {
@@ -231,7 +234,7 @@ mod tests {
         let view = CameraView::still(&camera, &pose);
         let config = RenderConfig { samples: 4, ..RenderConfig::default() };
         let frame = |triangles| {
-            let scene = RenderScene::of(triangles, &Quiet).unwrap();
+            let scene = RenderScene::of(triangles).unwrap();
             let guide = Guide::learn(&scene, &[view], &config);
             (render_frame(&scene, &guide, &view, &config, &Quiet).unwrap(), scene.bvh.memory_bytes())
         };

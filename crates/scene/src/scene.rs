@@ -1,6 +1,6 @@
 use crate::{Alpha, Environment, Image, Light, Material, Parameter, Pixels, StartCamera};
 use enfilade_geometry::{Mesh, MeshError};
-use enfilade_math::{DAffine3, Vec3};
+use enfilade_math::{DAffine3, Vec3, place};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
@@ -161,7 +161,7 @@ impl Scene {
     /// World positions of the corners of triangle `triangle` of `part`.
     pub fn world_corners(&self, part: &Part, triangle: usize) -> [Vec3; 3] {
         let mesh = &self.meshes[part.mesh as usize];
-        mesh.corners(triangle).map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3())
+        mesh.corners(triangle).map(|p| place(&part.world_from_mesh, p))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::binary::{Binary, BinaryNode};
 use super::collapse::collapse;
-use super::node::{Block, FILTERED, LANES, Node};
+use super::node::{Block, LANES, Node};
 use super::placed::{Placed, Placement};
 use enfilade_math::{Bounds3, Vec3};
 use obvhs::aabb::Aabb;
@@ -35,26 +35,21 @@ impl Built {
     }
 }
 
-/// Builds the tree over all triangles that have finite corners and an area.
-pub(super) fn build(corners: &[[Vec3; 3]], filtered: &dyn Fn(u32) -> bool) -> Built {
-    check_count(corners.len());
-    Soup { corners, numbers: None, filtered, placed: &[] }.build(hittable(corners).collect())
-}
-
-/// Builds the tree over triangles with the given numbers, and over placements of meshes.
-pub(super) fn build_shared(
+/// Builds the tree over all triangles that have finite corners and an area, and over placements of meshes. `numbers` are what hits report
+/// for the triangles: their indices unless given.
+pub(super) fn build(
     corners: &[[Vec3; 3]],
-    numbers: &[u32],
+    numbers: Option<&[u32]>,
     filtered: &dyn Fn(u32) -> bool,
     meshes: &[Vec<[Vec3; 3]>],
     placements: &[Placement],
 ) -> Built {
-    assert_eq!(corners.len(), numbers.len(), "triangles and their numbers");
-    check_count(corners.len() + placements.iter().map(|placement| meshes[placement.mesh].len()).sum::<usize>());
+    assert!(numbers.is_none_or(|numbers| numbers.len() == corners.len()), "as many numbers as triangles");
     let placed: Vec<PlacedBox> = placements.iter().map(|placement| PlacedBox::new(placement, &meshes[placement.mesh])).collect();
-    let soup = Soup { corners, numbers: Some(numbers), filtered, placed: &placed };
+    let soup = Soup { corners, numbers, filtered, placed: &placed };
+    let triangles = (0..corners.len() as u32).filter(|&i| has_area(&corners[i as usize]));
     let boxes = (0..placed.len()).filter(|&i| !placed[i].bounds.is_empty()).map(|i| (corners.len() + i) as u32);
-    let mut built = soup.build(hittable(corners).chain(boxes).collect());
+    let mut built = soup.build(triangles.chain(boxes).collect());
     if built.nodes.is_empty() {
         return built;
     }
@@ -70,15 +65,6 @@ pub(super) fn build_shared(
     let ready = placements.iter().map(|placement| (placement, trees[placement.mesh]));
     built.placed = ready.map(|(placement, (root, bounds))| Placed::new(placement, root, bounds)).collect();
     built
-}
-
-fn check_count(triangles: usize) {
-    assert!(triangles < FILTERED as usize, "{triangles} triangles, at most {} fit one hierarchy", FILTERED - 1);
-}
-
-/// The triangles that can be hit.
-fn hittable(corners: &[[Vec3; 3]]) -> impl Iterator<Item = u32> {
-    (0..corners.len() as u32).filter(|&i| has_area(&corners[i as usize]))
 }
 
 /// True for finite triangles whose area is not zero. In double precision, where differences and products of `f32` are all but exact.
@@ -260,7 +246,8 @@ mod tests {
         let mut rng = enfilade_math::Rng::new(0);
         let mut p = || Vec3::new(rng.next_f32(), rng.next_f32(), rng.next_f32());
         let corners: Vec<[Vec3; 3]> = (0..5000).map(|_| [p(), p(), p()]).collect();
-        let (one, other) = (build(&corners, &|_| false), build(&corners, &|_| false));
+        let tree = || build(&corners, None, &|_| false, &[], &[]);
+        let (one, other) = (tree(), tree());
         assert!(one.nodes == other.nodes && one.blocks.len() == other.blocks.len());
         assert!(std::iter::zip(&one.blocks, &other.blocks).all(|(a, b)| a.ids == b.ids));
     }

@@ -23,7 +23,7 @@ mod wide;
 mod tests;
 
 use enfilade_math::{Bounds3, Ray, Vec3};
-use node::{Block, Node};
+use node::{Block, FILTERED, Node};
 use pages::Pages;
 use placed::Placed;
 
@@ -35,7 +35,7 @@ pub use visibility::{NOTHING, PinholeRays, VisibilityBuffer};
 pub struct Hit {
     /// Parameter on the ray, strictly between its `t_min` and `t_max`.
     pub t: f32,
-    /// Index of the triangle in the order given to [`Bvh::new`].
+    /// Index of the triangle in the order given to [`Bvh::new`], or its number among those given to [`Bvh::with_placements`].
     pub triangle: u32,
     /// Barycentric weight of corner 1, in [0, 1].
     pub u: f32,
@@ -99,7 +99,7 @@ impl Bvh {
     /// # Panics
     /// With 2³¹ triangles or more.
     pub fn new(corners: &[[Vec3; 3]], filtered: &dyn Fn(u32) -> bool) -> Self {
-        Self::of(&build::build(corners, filtered), corners.len())
+        Self::of(corners, None, filtered, &[], &[])
     }
 
     /// Builds the hierarchy of triangles, and of meshes that are kept once for all their placements. Rays hit the same triangles at the
@@ -117,15 +117,23 @@ impl Bvh {
         meshes: &[Vec<[Vec3; 3]>],
         placements: &[Placement],
     ) -> Self {
-        let placed_count: usize = placements.iter().map(|placement| meshes[placement.mesh].len()).sum();
-        Self::of(&build::build_shared(corners, numbers, filtered, meshes, placements), corners.len() + placed_count)
+        Self::of(corners, Some(numbers), filtered, meshes, placements)
     }
 
-    fn of(built: &build::Built, triangle_count: usize) -> Self {
+    fn of(
+        corners: &[[Vec3; 3]],
+        numbers: Option<&[u32]>,
+        filtered: &dyn Fn(u32) -> bool,
+        meshes: &[Vec<[Vec3; 3]>],
+        placements: &[Placement],
+    ) -> Self {
+        let triangle_count = corners.len() + placements.iter().map(|placement| meshes[placement.mesh].len()).sum::<usize>();
+        assert!(triangle_count < FILTERED as usize, "{triangle_count} triangles, at most {} fit one hierarchy", FILTERED - 1);
+        let built = build::build(corners, numbers, filtered, meshes, placements);
         Self {
             nodes: Pages::new(&built.nodes),
             blocks: Pages::new(&built.blocks),
-            placed: built.placed.clone(),
+            placed: built.placed,
             bounds: built.bounds,
             largest_coordinate: built.bounds.min.abs().max(built.bounds.max.abs()).max_element(),
             triangle_count,

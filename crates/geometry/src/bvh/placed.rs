@@ -6,7 +6,7 @@
 use super::lanes::Eight;
 use super::node::{Block, FILTERED, LANES, LEAF, MAX_DEPTH};
 use super::prepared::{Prepared, SLACK};
-use enfilade_math::{Bounds3, DAffine3, Ray, Vec3};
+use enfilade_math::{Bounds3, DAffine3, Ray, Vec3, place};
 
 /// One of the places of a shared mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +25,7 @@ impl Placement {
     /// A point of the mesh in the world: in double precision, rounded once.
     #[inline]
     pub fn world(&self, p: Vec3) -> Vec3 {
-        self.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3()
+        place(&self.world_from_mesh, p)
     }
 }
 
@@ -74,7 +74,7 @@ impl Placed {
     /// mesh's coordinates, for the ray's own rounding.
     #[inline(always)]
     pub fn prepared(&self, ray: &Ray, world_slack: f32) -> Prepared {
-        let origin = self.mesh_from_world.transform_point3(ray.origin.as_dvec3()).as_vec3();
+        let origin = place(&self.mesh_from_world, ray.origin);
         let direction = self.mesh_from_world.transform_vector3(ray.direction.as_dvec3()).as_vec3();
         let slack = SLACK * (self.largest_coordinate + origin.abs().max_element()) + self.stretch * world_slack;
         Prepared::with_slack(origin, direction, slack)

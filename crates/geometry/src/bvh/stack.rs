@@ -9,8 +9,8 @@ const ROOM: usize = (WIDTH - 1) * MAX_LEVELS + 2 + WIDTH;
 
 /// Children and the parameters at which the ray enters them; the next to be visited is the last.
 ///
-/// The traversal keeps at most `WIDTH - 1` entries per level of a tree of at most `MAX_LEVELS` levels, and one mark, so that there is always room for
-/// `WIDTH` more. Whoever writes to the arrays relies on that.
+/// The traversal keeps at most `WIDTH - 1` entries per level of a tree of at most `MAX_LEVELS` levels, and one mark, so that there is
+/// always room for `WIDTH` more. Whoever writes to the arrays relies on that.
 pub(super) struct Stack {
     pub children: [MaybeUninit<u32>; ROOM],
     pub enter_at: [MaybeUninit<f32>; ROOM],

@@ -2,7 +2,7 @@
 
 use enfilade_home::check::{family_of, faults, object_of};
 use enfilade_home::{Home, HomeConfig, home};
-use enfilade_math::{Bounds3, DVec2, Vec2, Vec3};
+use enfilade_math::{Bounds3, DVec2, Vec2, Vec3, place};
 use enfilade_scene::{Labels, NYU40, Part, Scene, is_stuff, to_bytes_with_labels};
 use enfilade_testkit::process_cpu_s;
 use serde::{Deserialize, Serialize};
@@ -133,7 +133,7 @@ fn boxed(scene: &Scene, parts: &[&Part]) -> (Vec3, Vec2) {
     let mut bounds = Bounds3::EMPTY;
     for part in parts {
         let points = scene.meshes[part.mesh as usize].positions.iter();
-        let world = points.map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3());
+        let world = points.map(|&p| place(&part.world_from_mesh, p));
         let turned = world.map(|p| Vec3::new(along.dot(p.truncate()), along.perp_dot(p.truncate()), p.z));
         bounds = bounds.union(Bounds3::from_points(turned));
     }

@@ -100,7 +100,7 @@ mod tests {
     use crate::materials::Materials;
     use crate::palette::Palette;
     use crate::shape::bevelled_box;
-    use enfilade_math::{Bounds3, DMat3, Rgb};
+    use enfilade_math::{Bounds3, DMat3, Rgb, place};
     use enfilade_scene::{Bsdf, ColorParam, Image, Material, Part, Pixels, Scene, TextureRef};
 
     /// A box with a picture on it, its front toward −y.
@@ -134,7 +134,7 @@ mod tests {
         assert_eq!(scene.validate(), Ok(()));
         for (part, name) in scene.parts.iter().zip(["mirror_cabinet", "nightstand", "pendant", "nightstand"]) {
             let mesh = &scene.meshes[part.mesh as usize];
-            let filled = Bounds3::from_points(mesh.positions.iter().map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3()));
+            let filled = Bounds3::from_points(mesh.positions.iter().map(|&p| place(&part.world_from_mesh, p)));
             let expected = family_named(name).unwrap().place.bounds(size);
             assert!((filled.min - expected.min).abs().max_element() < 1e-5, "{name}: {filled:?}");
         }

@@ -5,7 +5,7 @@ use crate::builder::{Builder, pose};
 use crate::light::LightConfig;
 use crate::materials::Materials;
 use crate::palette::Palette;
-use enfilade_math::{Rng, Vec3};
+use enfilade_math::{Rng, Vec3, place};
 use enfilade_scene::Scene;
 
 const SEEDS: u64 = 5;
@@ -36,7 +36,7 @@ fn nothing_stands_on_a_free_surface_and_something_carries_it() {
             let mut carried = false;
             for part in &scene.parts {
                 let mesh = &scene.meshes[part.mesh as usize];
-                let world = |p: &Vec3| part.world_from_mesh.transform_point3(p.as_dvec3()).as_vec3();
+                let world = |p: &Vec3| place(&part.world_from_mesh, *p);
                 let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
                 for p in mesh.positions.iter().map(world) {
                     (low, high) = (low.min(p), high.max(p));

@@ -1,7 +1,7 @@
 //! Lights and environments, given in the file's units and axes.
 
 use super::{Assembly, mat3_f32};
-use enfilade_math::{DMat3, DVec3, Rgb};
+use enfilade_math::{DMat3, DVec3, Rgb, Vec3, place};
 use enfilade_scene::{Environment, Light, MapRows};
 
 impl Assembly<'_> {
@@ -15,15 +15,15 @@ impl Assembly<'_> {
     pub(crate) fn push_light(&mut self, light: Light) {
         let metres = self.meters_per_unit as f32;
         let name = light.name().to_string();
-        let place = |p: enfilade_math::Vec3| self.world_from_file.transform_point3(p.as_dvec3()).as_vec3();
-        let turn = |d: enfilade_math::Vec3| self.world_from_file.transform_vector3(d.as_dvec3()).as_vec3().normalize_or_zero();
+        let at = |p: Vec3| place(&self.world_from_file, p);
+        let turn = |d: Vec3| self.world_from_file.transform_vector3(d.as_dvec3()).as_vec3().normalize_or_zero();
         let light = match light {
             Light::Point { name, position, intensity } => {
-                Light::Point { name, position: place(position), intensity: intensity * (metres * metres) }
+                Light::Point { name, position: at(position), intensity: intensity * (metres * metres) }
             }
             Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff } => Light::Spot {
                 name,
-                position: place(position),
+                position: at(position),
                 direction: turn(direction),
                 intensity: intensity * (metres * metres),
                 inner_rad,
@@ -33,7 +33,7 @@ impl Assembly<'_> {
             Light::Profile { name, position, web_from_world: web_from_file, intensity, web } => {
                 let rotation = self.world_from_file.matrix3 * (1.0 / self.meters_per_unit);
                 let web_from_world = web_from_file * mat3_f32(rotation.transpose());
-                Light::Profile { name, position: place(position), web_from_world, intensity: intensity * (metres * metres), web }
+                Light::Profile { name, position: at(position), web_from_world, intensity: intensity * (metres * metres), web }
             }
             Light::Directional { name, direction, irradiance, angular_radius_rad } => {
                 Light::Directional { name, direction: turn(direction), irradiance, angular_radius_rad }

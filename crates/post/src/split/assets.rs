@@ -156,7 +156,7 @@ fn same_shape(a: &[f64; 4], b: &[f64; 4]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_math::{DAffine3, DQuat, Rgb, Rng, Vec3};
+    use enfilade_math::{DAffine3, DQuat, Rgb, Rng, Vec3, place};
     use enfilade_scene::{Material, Part};
 
     fn scene(mesh: Mesh, image: Option<Image>) -> Scene {
@@ -185,7 +185,7 @@ mod tests {
     fn a_mesh_is_found_again_however_it_was_placed() {
         let placed = DAffine3::from_scale_rotation_translation(DVec3::splat(2.5), DQuat::from_rotation_x(1.0), DVec3::new(9.0, -4.0, 1.0));
         let mut moved = fan(200, 1);
-        moved.positions.iter_mut().for_each(|p| *p = placed.transform_point3(p.as_dvec3()).as_vec3());
+        moved.positions.iter_mut().for_each(|p| *p = place(&placed, *p));
         let found = shared([scene(fan(200, 1), None), scene(moved, None)], [Partition::Train, Partition::Test]);
         assert_eq!((found.len(), found[0].kind.as_str(), found[0].name.as_str(), found[0].leaks), (1, "mesh", "vase", true));
         assert_eq!(found[0].scenes["test"], BTreeSet::from(["b".to_string()]));
