@@ -2,7 +2,7 @@
 
 use enfilade_math::Bounds3;
 
-/// A binary tree over triangles and placements; node 0 is the root.
+/// A binary tree over triangles and placements; node 0 is the root, and children come after their parents.
 pub(super) struct Binary {
     pub nodes: Vec<BinaryNode>,
     /// Triangles and placements in the order of the leaves.
@@ -10,19 +10,9 @@ pub(super) struct Binary {
 }
 
 impl Binary {
-    /// The nodes that can be reached from the root, every node after its children.
-    pub fn children_first(&self) -> Vec<usize> {
-        let mut nodes = vec![0];
-        let mut next = 0;
-        while next < nodes.len() {
-            let node = self.nodes[nodes[next]];
-            if node.count == 0 {
-                nodes.extend([node.first as usize, node.first as usize + 1]);
-            }
-            next += 1;
-        }
-        nodes.reverse();
-        nodes
+    /// Every node after its children.
+    pub fn children_first(&self) -> impl Iterator<Item = usize> + use<> {
+        (0..self.nodes.len()).rev()
     }
 }
 

@@ -1,37 +1,34 @@
 //! From triangles to a binary tree of boxes, and by [`collapse`](super::collapse) to the wide one.
 
 use super::binary::{Binary, BinaryNode};
-use super::collapse::collapse;
+use super::collapse::{Plan, collapse};
 use super::node::{Block, LANES, Node};
+use super::pages::Pages;
 use super::placed::{Placed, Placement};
+use super::reinsertion::reinsert;
 use enfilade_math::{Bounds3, Vec3};
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::{leaf_collapser, node::Bvh2Node, reinsertion::ReinsertionOptimizer};
+use obvhs::bvh2::{leaf_collapser, node::Bvh2Node};
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
-/// The finished tree.
+/// The finished trees: that of the world, whose root is node 0, and those of the shared meshes.
 pub(super) struct Built {
-    pub nodes: Vec<Node>,
-    pub blocks: Vec<Block>,
+    pub nodes: Pages<Node>,
+    pub blocks: Pages<Block>,
     pub placed: Vec<Placed>,
     pub bounds: Bounds3,
 }
 
-impl Built {
-    const NOTHING: Self = Self { nodes: Vec::new(), blocks: Vec::new(), placed: Vec::new(), bounds: Bounds3::EMPTY };
+/// A tree before there is memory for it.
+struct Tree<'a> {
+    soup: Soup<'a>,
+    binary: Binary,
+    plan: Plan,
+}
 
-    /// Adds a tree; returns its root and its box.
-    fn append(&mut self, other: Self) -> (u32, Bounds3) {
-        let (first_node, first_block) = (self.nodes.len() as u32, self.blocks.len() as u32);
-        self.nodes.extend(other.nodes.into_iter().map(|mut node| {
-            // Blocks are numbered from the mark on, so both move by adding.
-            for child in &mut node.children.0 {
-                *child += if Node::leaf(*child).is_some() { first_block } else { first_node };
-            }
-            node
-        }));
-        self.blocks.extend(other.blocks);
-        (first_node, other.bounds)
+impl Tree<'_> {
+    fn bounds(&self) -> Bounds3 {
+        self.binary.nodes[0].bounds
     }
 }
 
@@ -49,22 +46,41 @@ pub(super) fn build(
     let soup = Soup { corners, numbers, filtered, placed: &placed };
     let triangles = (0..corners.len() as u32).filter(|&i| has_area(&corners[i as usize]));
     let boxes = (0..placed.len()).filter(|&i| !placed[i].bounds.is_empty()).map(|i| (corners.len() + i) as u32);
-    let mut built = soup.build(triangles.chain(boxes).collect());
-    if built.nodes.is_empty() {
-        return built;
-    }
-    // The trees of the meshes follow that of the world. Whether corners on a line have an area is for the rounding in the world to say.
+    let Some(world) = soup.tree(triangles.chain(boxes).collect()) else {
+        return Built {
+            nodes: Pages::filled(Node::EMPTY, 0),
+            blocks: Pages::filled(Block::EMPTY, 0),
+            placed: Vec::new(),
+            bounds: Bounds3::EMPTY,
+        };
+    };
+    // Whether corners on a line have an area is for the rounding in the world to say.
     let apart = |[a, b, c]: &[Vec3; 3]| a != b && b != c && c != a;
-    let trees: Vec<(u32, Bounds3)> = meshes
+    let of_meshes: Vec<Option<Tree>> = meshes
         .iter()
         .map(|mesh| {
             let soup = Soup { corners: mesh, numbers: None, filtered: &|_| false, placed: &[] };
-            built.append(soup.build((0..mesh.len() as u32).filter(|&i| apart(&mesh[i as usize])).collect()))
+            soup.tree((0..mesh.len() as u32).filter(|&i| apart(&mesh[i as usize])).collect())
         })
         .collect();
-    let ready = placements.iter().map(|placement| (placement, trees[placement.mesh]));
-    built.placed = ready.map(|(placement, (root, bounds))| Placed::new(placement, root, bounds)).collect();
-    built
+
+    let trees = || std::iter::once(&world).chain(of_meshes.iter().flatten());
+    let mut nodes = Pages::filled(Node::EMPTY, trees().map(|tree| tree.plan.node_count()).sum());
+    let mut blocks = Pages::filled(Block::EMPTY, trees().map(|tree| tree.plan.block_count()).sum());
+    let (mut first_node, mut first_block) = (0, 0);
+    let mut write = |tree: &Tree| {
+        tree.plan.write(&tree.soup, &tree.binary, (&mut nodes, first_node), (&mut blocks, first_block));
+        let root = first_node;
+        first_node += tree.plan.node_count() as u32;
+        first_block += tree.plan.block_count() as u32;
+        (root, tree.bounds())
+    };
+    let (_, bounds) = write(&world);
+    // What has no triangles stands nowhere.
+    let roots: Vec<(u32, Bounds3)> = of_meshes.iter().map(|tree| tree.as_ref().map_or((0, Bounds3::EMPTY), &mut write)).collect();
+    let ready = placements.iter().map(|placement| (placement, roots[placement.mesh]));
+    let placed = ready.map(|(placement, (root, bounds))| Placed::new(placement, root, bounds)).collect();
+    Built { nodes, blocks, placed, bounds }
 }
 
 /// True for finite triangles whose area is not zero. In double precision, where differences and products of `f32` are all but exact.
@@ -99,23 +115,30 @@ pub(super) struct Soup<'a> {
     pub placed: &'a [PlacedBox],
 }
 
-impl Soup<'_> {
-    /// The tree over some of them.
-    fn build(&self, members: Vec<u32>) -> Built {
+impl<'a> Soup<'a> {
+    /// The tree over some of them; `None` when there are none.
+    fn tree(self, members: Vec<u32>) -> Option<Tree<'a>> {
         if members.is_empty() {
-            return Built::NOTHING;
+            return None;
         }
-        let tree = self.binary_tree(&members);
-        collapse(self, &tree).or_else(|| collapse(self, &self.balanced_tree(&members))).expect("a balanced tree is not too deep")
+        let good = self.binary_tree(&members);
+        let (binary, plan) = match collapse(&self, &good) {
+            Some(plan) => (good, plan),
+            None => {
+                let balanced = self.balanced_tree(&members);
+                let plan = collapse(&self, &balanced).expect("a balanced tree is not too deep");
+                (balanced, plan)
+            }
+        };
+        Some(Tree { soup: self, binary, plan })
     }
 
-    /// A tree with little surface: clusters of near neighbours merged upward, then improved by moving subtrees (`obvhs`).
+    /// A tree with little surface: clusters of near neighbours merged upward (`obvhs`), then improved by moving subtrees.
     ///
     /// Small subtrees become leaves before any is moved, with a cost that leaves the last word to [`collapse`]: moving single triangles
     /// as well took half as long again, for rays that visited no fewer places in six rooms. Cutting the boxes of large triangles was
     /// tried and brought nothing in rooms.
     fn binary_tree(&self, members: &[u32]) -> Binary {
-        const MOVED_PER_ROUND: f32 = 0.3;
         const BLOCK_COST_IN_TRIANGLES: f32 = 0.5;
         const ROUNDS_OF_NEXT_NEIGHBOURS: usize = 0;
         if members.len() <= LANES {
@@ -135,8 +158,9 @@ impl Soup<'_> {
             SortPrecision::U128,
             ROUNDS_OF_NEXT_NEIGHBOURS,
         );
+        drop(boxes);
         leaf_collapser::collapse(&mut tree, LANES as u32, BLOCK_COST_IN_TRIANGLES);
-        ReinsertionOptimizer::default().run(&mut tree, MOVED_PER_ROUND, None);
+        reinsert(&mut tree);
 
         let node = |n: &Bvh2Node| {
             if n.prim_count == 0 { BinaryNode::children(n.first_index) } else { BinaryNode::leaf(n.first_index, n.prim_count) }
@@ -248,7 +272,7 @@ mod tests {
         let corners: Vec<[Vec3; 3]> = (0..5000).map(|_| [p(), p(), p()]).collect();
         let tree = || build(&corners, None, &|_| false, &[], &[]);
         let (one, other) = (tree(), tree());
-        assert!(one.nodes == other.nodes && one.blocks.len() == other.blocks.len());
-        assert!(std::iter::zip(&one.blocks, &other.blocks).all(|(a, b)| a.ids == b.ids));
+        assert!(*one.nodes == *other.nodes && one.blocks.len() == other.blocks.len());
+        assert!(std::iter::zip(&*one.blocks, &*other.blocks).all(|(a, b)| a.ids == b.ids));
     }
 }

@@ -5,7 +5,7 @@
 //! BVHs", section 3). The cost is the usual one: the surface of every box that is visited.
 
 use super::binary::{Binary, BinaryNode};
-use super::build::{Built, Soup};
+use super::build::Soup;
 use super::node::{Block, FILTERED, LANES, LEAF, MAX_DEPTH, Node, WIDTH};
 use super::placed::PLACED;
 
@@ -28,34 +28,82 @@ struct Ways {
 const NODE_COST: f32 = 1.0;
 const BLOCK_COST: f32 = 1.0;
 
-/// Makes the wide tree. `None` when it would be deeper than [`MAX_DEPTH`].
-pub(super) fn collapse(soup: &Soup, binary: &Binary) -> Option<Built> {
+/// What the wide tree will look like, before there is memory for it.
+pub(super) struct Plan {
+    /// For each node its number and the end of its children among all.
+    nodes: Vec<(u32, u32)>,
+    children: Vec<Child>,
+    block_count: usize,
+}
+
+struct Child {
+    /// In the binary tree.
+    node: u32,
+    /// As it will stand in a [`Node`].
+    link: u32,
+}
+
+/// Plans the wide tree. `None` when it would be deeper than [`MAX_DEPTH`].
+pub(super) fn collapse(soup: &Soup, binary: &Binary) -> Option<Plan> {
     let ways = ways(soup, binary);
-    let mut built = Built { nodes: vec![Node::EMPTY], blocks: Vec::new(), placed: Vec::new(), bounds: binary.nodes[0].bounds };
+    let mut plan = Plan { nodes: Vec::new(), children: Vec::new(), block_count: 0 };
+    let mut node_count = 1;
     let mut waiting = vec![(0, 0, 1)];
-    while let Some((root, slot, depth)) = waiting.pop() {
+    while let Some((root, number, depth)) = waiting.pop() {
         if depth > MAX_DEPTH {
             return None;
         }
-        for (lane, child) in children(binary, &ways, root).into_iter().enumerate() {
-            let bounds = binary.nodes[child].bounds;
-            for k in 0..3 {
-                built.nodes[slot].bounds[k][0].0[lane] = bounds.min[k];
-                built.nodes[slot].bounds[k][1].0[lane] = bounds.max[k];
-            }
-            built.nodes[slot].children.0[lane] = if let Some(placement) = placement(soup, binary, child) {
+        for child in children(binary, &ways, root) {
+            let link = if let Some(placement) = placement(soup, binary, child) {
                 LEAF | PLACED | placement as u32
             } else if ways[child].left[0] == 0 {
-                built.blocks.push(block(soup, &triangles(binary, child)));
-                LEAF | (built.blocks.len() - 1) as u32
+                plan.block_count += 1;
+                LEAF | (plan.block_count - 1) as u32
             } else {
-                waiting.push((child, built.nodes.len(), depth + 1));
-                built.nodes.push(Node::EMPTY);
-                (built.nodes.len() - 1) as u32
+                waiting.push((child, node_count, depth + 1));
+                node_count += 1;
+                node_count - 1
             };
+            plan.children.push(Child { node: child as u32, link });
+        }
+        plan.nodes.push((number, plan.children.len() as u32));
+    }
+    Some(plan)
+}
+
+impl Plan {
+    pub fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    pub fn block_count(&self) -> usize {
+        self.block_count
+    }
+
+    /// Writes the tree from `first_node` and `first_block` on, in places that hold [`Node::EMPTY`] and [`Block::EMPTY`].
+    pub fn write(&self, soup: &Soup, binary: &Binary, (nodes, first_node): (&mut [Node], u32), (blocks, first_block): (&mut [Block], u32)) {
+        let mut start = 0;
+        for &(number, end) in &self.nodes {
+            let to = &mut nodes[(first_node + number) as usize];
+            to.children.0.fill(LEAF | first_block);
+            for (lane, &Child { node, link }) in self.children[start..end as usize].iter().enumerate() {
+                let bounds = binary.nodes[node as usize].bounds;
+                for k in 0..3 {
+                    to.bounds[k][0].0[lane] = bounds.min[k];
+                    to.bounds[k][1].0[lane] = bounds.max[k];
+                }
+                to.children.0[lane] = match Node::leaf(link) {
+                    None => first_node + link,
+                    Some(placement) if placement as u32 & PLACED != 0 => link,
+                    Some(block) => {
+                        fill(soup, &triangles(binary, node as usize), &mut blocks[first_block as usize + block]);
+                        first_block + link
+                    }
+                };
+            }
+            start = end as usize;
         }
     }
-    Some(built)
 }
 
 /// The children of a node, the most worthwhile for rays that want any hit last.
@@ -126,26 +174,33 @@ impl Ways {
         let (triangles, area) = (left.triangles + right.triangles, left.area + right.area);
         let blocks = triangles.div_ceil(LANES as u32);
         let mut ways = Self { triangles, area, yield_per_block: (area / f64::from(blocks)) as f32, ..Self::NONE };
-        let mut open = (f32::INFINITY, 0);
         ways.places = (left.places + right.places).min(WIDTH);
-        for count in 2..=ways.places {
-            let (mut best, mut best_left) = (f32::INFINITY, 1);
-            for on_left in count.saturating_sub(right.places).max(1)..=left.places.min(count - 1) {
-                let cost = left.cost[on_left - 1] + right.cost[count - on_left - 1];
-                if cost < best {
-                    (best, best_left) = (cost, on_left as u8);
-                }
-            }
-            (ways.cost[count - 1], ways.left[count - 1]) = (best, best_left);
-            if best < open.0 {
-                open = (best, count as u8);
-            }
-        }
-        let as_node = open.0 + surface * NODE_COST;
+        (ways.cost, ways.left) = cheapest(left, right);
+        let open = (2..=ways.places).min_by(|&a, &b| ways.cost[a - 1].total_cmp(&ways.cost[b - 1])).expect("two halves take two places");
+        let as_node = ways.cost[open - 1] + surface * NODE_COST;
         let as_block = if blocks == 1 { surface * BLOCK_COST } else { f32::INFINITY };
-        (ways.cost[0], ways.left[0]) = if as_block <= as_node { (as_block, 0) } else { (as_node, open.1) };
+        (ways.cost[0], ways.left[0]) = if as_block <= as_node { (as_block, 0) } else { (as_node, open as u8) };
         ways
     }
+}
+
+/// The least cost of two halves for each number of places, less one, that they take up together, and how many of them the left one has.
+///
+/// Sums are made for all numbers at once, so that the compiler makes vectors of them.
+fn cheapest(left: &Ways, right: &Ways) -> ([f32; WIDTH], [u8; WIDTH]) {
+    let mut right_moved = [f32::INFINITY; 2 * WIDTH];
+    right_moved[WIDTH..].copy_from_slice(&right.cost);
+    let (mut cost, mut places_on_left) = ([f32::INFINITY; WIDTH], [1; WIDTH]);
+    for on_left in 1..=left.places.min(WIDTH - 1) {
+        let right: &[f32; WIDTH] = right_moved[WIDTH - on_left..].first_chunk().expect("more than a width");
+        for k in 0..WIDTH {
+            let sum = left.cost[on_left - 1] + right[k];
+            let better = sum < cost[k];
+            cost[k] = if better { sum } else { cost[k] };
+            places_on_left[k] = if better { on_left as u32 } else { places_on_left[k] };
+        }
+    }
+    (cost, places_on_left.map(|places| places as u8))
 }
 
 /// The placement that a node of the binary tree is, if it is one.
@@ -169,8 +224,7 @@ fn triangles(binary: &Binary, root: usize) -> Vec<u32> {
     triangles
 }
 
-fn block(soup: &Soup, triangles: &[u32]) -> Block {
-    let mut block = Block::EMPTY;
+fn fill(soup: &Soup, triangles: &[u32], block: &mut Block) {
     for (lane, &triangle) in triangles.iter().enumerate() {
         for (c, corner) in soup.corners[triangle as usize].iter().enumerate() {
             for k in 0..3 {
@@ -180,7 +234,6 @@ fn block(soup: &Soup, triangles: &[u32]) -> Block {
         let number = soup.number(triangle);
         block.ids.0[lane] = if (soup.filtered)(number) { number | FILTERED } else { number };
     }
-    block
 }
 
 #[cfg(test)]
@@ -220,12 +273,15 @@ mod tests {
         let corners = triangles(1000);
         let soup = Soup { corners: &corners, filtered: &|i| i % 2 == 0, numbers: None, placed: &[] };
         let all: Vec<u32> = (0..1000).collect();
-        let built = collapse(&soup, &soup.balanced_tree(&all)).expect("shallow");
+        let binary = soup.balanced_tree(&all);
+        let plan = collapse(&soup, &binary).expect("shallow");
+        let (mut nodes, mut blocks) = (vec![Node::EMPTY; plan.node_count()], vec![Block::EMPTY; plan.block_count()]);
+        plan.write(&soup, &binary, (&mut nodes, 0), (&mut blocks, 0));
         let mut ids: Vec<u32> = Vec::new();
         let mut waiting = vec![(0, Bounds3 { min: Vec3::NEG_INFINITY, max: Vec3::INFINITY })];
         while let Some((child, bounds)) = waiting.pop() {
             if let Some(block) = Node::leaf(child) {
-                let block = &built.blocks[block];
+                let block = &blocks[block];
                 for lane in (0..LANES).filter(|&lane| block.corners[0][0].0[lane].is_finite()) {
                     ids.push(block.ids.0[lane]);
                     let triangle = corners[(block.ids.0[lane] & !FILTERED) as usize];
@@ -233,7 +289,7 @@ mod tests {
                 }
                 continue;
             }
-            let node = &built.nodes[child as usize];
+            let node = &nodes[child as usize];
             for lane in 0..WIDTH {
                 let end = |side: usize| Vec3::from([0, 1, 2].map(|k| node.bounds[k][side].0[lane]));
                 if end(0).cmple(end(1)).all() {
@@ -257,7 +313,7 @@ mod tests {
             let mut binary = Binary { nodes: vec![BinaryNode::children(1)], order: (0..10).collect() };
             binary.nodes.extend(halves);
             soup.fit(&mut binary);
-            assert_eq!(collapse(&soup, &binary).expect("shallow").blocks.len(), blocks, "{step} apart");
+            assert_eq!(collapse(&soup, &binary).expect("shallow").block_count(), blocks, "{step} apart");
         }
     }
 }

@@ -13,6 +13,7 @@ mod node;
 mod pages;
 mod placed;
 mod prepared;
+mod reinsertion;
 mod stack;
 mod triangle;
 mod visibility;
@@ -131,8 +132,8 @@ impl Bvh {
         assert!(triangle_count < FILTERED as usize, "{triangle_count} triangles, at most {} fit one hierarchy", FILTERED - 1);
         let built = build::build(corners, numbers, filtered, meshes, placements);
         Self {
-            nodes: Pages::new(&built.nodes),
-            blocks: Pages::new(&built.blocks),
+            nodes: built.nodes,
+            blocks: built.blocks,
             placed: built.placed,
             bounds: built.bounds,
             largest_coordinate: built.bounds.min.abs().max(built.bounds.max.abs()).max_element(),

@@ -4,13 +4,13 @@
 //! megabytes, rays are about a twentieth faster.
 
 use std::alloc::{Layout, alloc, dealloc, handle_alloc_error};
-use std::ops::Deref;
+use std::ops::{Deref, DerefMut};
 use std::ptr::NonNull;
 
 /// Size of a huge page.
 const HUGE: usize = 2 << 20;
 
-/// An array that does not change.
+/// An array of fixed length.
 pub(super) struct Pages<T: Copy> {
     start: NonNull<T>,
     len: usize,
@@ -23,13 +23,15 @@ unsafe impl<T: Copy + Send> Send for Pages<T> {}
 unsafe impl<T: Copy + Sync> Sync for Pages<T> {}
 
 impl<T: Copy> Pages<T> {
-    pub fn new(values: &[T]) -> Self {
-        let size = size_of_val(values);
+    /// As many times the same value.
+    pub fn filled(value: T, len: usize) -> Self {
+        let values = Layout::array::<T>(len).expect("less memory than there are addresses");
+        let size = values.size();
         if size == 0 {
-            return Self { start: NonNull::dangling(), len: values.len(), layout: Layout::new::<()>() };
+            return Self { start: NonNull::dangling(), len, layout: values };
         }
         let layout = if size < HUGE {
-            Layout::for_value(values)
+            values
         } else {
             Layout::from_size_align(size.next_multiple_of(HUGE), HUGE).expect("less memory than there are addresses")
         };
@@ -39,9 +41,11 @@ impl<T: Copy> Pages<T> {
             advise(start, layout.size());
         }
         let start = start.cast::<T>();
-        // SAFETY: the new memory is large enough, aligned, and apart from the old.
-        unsafe { start.copy_from_nonoverlapping(NonNull::from(values).cast(), values.len()) };
-        Self { start, len: values.len(), layout }
+        for i in 0..len {
+            // SAFETY: the memory is large enough and aligned.
+            unsafe { start.add(i).write(value) };
+        }
+        Self { start, len, layout }
     }
 }
 
@@ -65,6 +69,13 @@ impl<T: Copy> Deref for Pages<T> {
     }
 }
 
+impl<T: Copy> DerefMut for Pages<T> {
+    fn deref_mut(&mut self) -> &mut [T] {
+        // SAFETY: as above; nobody else has access.
+        unsafe { std::slice::from_raw_parts_mut(self.start.as_ptr(), self.len) }
+    }
+}
+
 impl<T: Copy> Drop for Pages<T> {
     fn drop(&mut self) {
         if self.layout.size() > 0 {
@@ -79,11 +90,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_values_are_those_given() {
+    fn what_is_written_stays() {
         for len in [0, 1, 1000, HUGE / 4 - 1, HUGE / 4, HUGE] {
+            let mut pages = Pages::filled(7, len);
+            assert!(*pages == *vec![7; len], "{len} values");
             let values: Vec<u32> = (0..len as u32).collect();
-            assert!(*Pages::new(&values) == *values, "{len} values");
+            pages.copy_from_slice(&values);
+            assert!(*pages == *values, "{len} values");
         }
-        assert_eq!(Pages::new(&[(); 3]).len(), 3);
+        assert_eq!(Pages::filled((), 3).len(), 3);
     }
 }
