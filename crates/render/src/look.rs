@@ -35,7 +35,7 @@ struct Pixel {
 }
 
 impl<'s> Lookout<'s> {
-    /// Builds what rays need. About one CPU second per million triangles.
+    /// Builds what rays need. About two CPU seconds per million triangles.
     ///
     /// # Errors
     /// When the scene has more parts than ids.

@@ -24,7 +24,7 @@ pub struct RenderScene<'s> {
 }
 
 impl<'s> RenderScene<'s> {
-    /// Builds everything that rays need. Costs about a microsecond per triangle.
+    /// Builds everything that rays need. About two CPU seconds per million triangles.
     ///
     /// # Errors
     /// When the scene has more parts than ids, or no light.
