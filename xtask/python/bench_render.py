@@ -178,12 +178,12 @@ def report(r):
 
 def write(equal, large, costs, peer, docs, seconds):
     docs.mkdir(parents=True, exist_ok=True)
-    (docs / "render.svg").write_text(figures.curves([(r["case"], {NAMES[w]: (r[w]["core_s"], r[w]["error"]) for w in NAMES}) for r in equal]))
     rows = [dict(case=f"{r['case']} {r['size']}: core-seconds to equal error", ours=r["peer"]["core_s"][i] / r["ratio"], peer=r["peer"]["core_s"][i], ratio=r["ratio"]) for r in equal + large for i in [r["peer"]["samples"].index(r["samples"])]]
     rows += [dict(case=f"{r['case']} {r['size']}: error x core-seconds per megapixel", ours=r["ours"]["error_time"], peer=r["peer"]["error_time"], ratio=r["peer"]["error_time"] / r["ours"]["error_time"]) for r in equal + large]
     rows += [dict(case=f"{r['case']} {r['size']}: peak MB", ours=r["ours"]["peak_mb"], peer=r["peer"]["peak_mb"], ratio=r["peer"]["peak_mb"] / r["ours"]["peak_mb"]) for r in equal + large]
     version = equal[0]["peer"]["version"]
     (docs / "render.json").write_text(json.dumps(dict(processor=processor(), mitsuba=version, rows=rows, curves=equal + large, delivered=costs), indent=1) + "\n")
+    (docs / "render.svg").write_text(figures.curves([(r["case"], {NAMES[w]: (r[w]["core_s"], r[w]["error"]) for w in NAMES}) for r in equal]))
     lines = [
         "# Rendering, against Mitsuba 3",
         "",

@@ -38,13 +38,18 @@ COLORS = ["#c33", "#36c"]
 
 
 def curves(panels, side=190, margin=34, columns=3):
-    """Error against core-seconds, both logarithmic, as SVG: a panel per (title, {name: (seconds, errors)})."""
+    """Error against core-seconds, both logarithmic, as SVG: a panel per (title, {name: (seconds, errors)}).
+
+    Points without a positive time and error, as remain where next to nothing was left after start-up, are not drawn.
+    """
     rows = -(-len(panels) // columns)
     parts = []
     for index, (title, lines) in enumerate(panels):
         x0, y0 = (index % columns) * (side + margin) + margin, (index // columns) * (side + margin) + margin
-        logs = [np.log10(np.array(line)) for line in lines.values()]
-        low, high = np.floor(np.min(logs, axis=(0, 2)) * 2) / 2, np.ceil(np.max(logs, axis=(0, 2)) * 2) / 2
+        measured = [np.array(line) for line in lines.values()]
+        logs = [np.log10(line[:, (line > 0).all(0)]) for line in measured]
+        every = np.concatenate(logs, axis=1)
+        low, high = np.floor(every.min(1) * 2) / 2, np.ceil(every.max(1) * 2) / 2
         x = lambda t: x0 + (t - low[0]) / (high[0] - low[0]) * (side - 10)
         y = lambda e: y0 + (high[1] - e) / (high[1] - low[1]) * (side - 24)
         parts.append(f'<text x="{x0}" y="{y0 - 6}" font-weight="bold">{title}</text>')
