@@ -2,7 +2,7 @@
 
 use enfilade_home::room::{Filling, Room, Wall};
 use enfilade_home::{FloorPlan, Home, HomeConfig, RoomKind, home};
-use enfilade_math::{Vec2, place};
+use enfilade_math::Vec2;
 use std::fmt::Write;
 
 /// Drawn pixels per metre.
@@ -102,9 +102,7 @@ fn things(svg: &mut String, home: &Home) {
         if label.instance < 0 || part.name.starts_with("skirting") || part.name.starts_with("door") || part.name.starts_with("window") {
             continue;
         }
-        let mesh = &scene.meshes[part.mesh as usize];
-        let points = mesh.positions.iter().map(|&p| place(&part.world_from_mesh, p));
-        let (min, max) = points.fold((Vec2::MAX, Vec2::MIN), |(a, b), p| (a.min(p.truncate()), b.max(p.truncate())));
+        let (min, max) = scene.world_positions(part).fold((Vec2::MAX, Vec2::MIN), |(a, b), p| (a.min(p.truncate()), b.max(p.truncate())));
         let hue = (u32::from(label.semantic as u16) * 67) % 360;
         let size = max - min;
         let _ = writeln!(

@@ -4,7 +4,7 @@ mod common;
 
 use common::{Folder, png, warnings};
 use enfilade_import::Imported;
-use enfilade_math::{Rgb, Vec3, place};
+use enfilade_math::{Rgb, Vec3};
 use enfilade_scene::{Bsdf, Environment, Light, Part};
 use std::io::{Cursor, Write};
 use zip::write::{SimpleFileOptions, ZipWriter};
@@ -58,9 +58,7 @@ fn part<'i>(imported: &'i Imported, name: &str) -> &'i Part {
 }
 
 fn points(imported: &Imported, name: &str) -> Vec<Vec3> {
-    let part = part(imported, name);
-    let mesh = &imported.scene.meshes[part.mesh as usize];
-    mesh.positions.iter().map(|&p| place(&part.world_from_mesh, p)).collect()
+    imported.scene.world_positions(part(imported, name)).collect()
 }
 
 /// The area of a part's faces, each counted by the sign of its normal along `toward`.

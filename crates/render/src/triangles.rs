@@ -44,8 +44,7 @@ impl<'s> Triangles<'s> {
         let mut triangles = Self { scene, kept: Vec::new(), parts: Vec::new(), count: 0, bounds: Bounds3::EMPTY };
         for (number, part) in scene.parts.iter().enumerate() {
             let mesh = &scene.meshes[part.mesh as usize];
-            let placement = placement(part, triangles.count as u32);
-            let world: Vec<Vec3> = mesh.positions.iter().map(|&p| placement.world(p)).collect();
+            let world: Vec<Vec3> = scene.world_positions(part).collect();
             let normal_from_mesh = part.world_from_mesh.matrix3.inverse().transpose().as_mat3();
             let is_kept = !shared[part.mesh as usize] || emits(scene, part);
             let kept = is_kept.then_some(triangles.kept.len() as u32);

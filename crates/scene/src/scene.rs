@@ -158,6 +158,11 @@ impl Scene {
         dangling
     }
 
+    /// World positions of the vertices of `part`.
+    pub fn world_positions<'a>(&'a self, part: &'a Part) -> impl Iterator<Item = Vec3> + 'a {
+        self.meshes[part.mesh as usize].positions.iter().map(|&p| place(&part.world_from_mesh, p))
+    }
+
     /// World positions of the corners of triangle `triangle` of `part`.
     pub fn world_corners(&self, part: &Part, triangle: usize) -> [Vec3; 3] {
         let mesh = &self.meshes[part.mesh as usize];

@@ -1,5 +1,5 @@
 use crate::{PartId, Scene, contrast};
-use enfilade_math::{Bounds3, Vec3, place};
+use enfilade_math::{Bounds3, Vec3};
 
 /// Which triangle of which part a world triangle is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ impl WorldMesh {
         let mut bounds = Bounds3::EMPTY;
         for (id, part) in scene.parts.iter().enumerate() {
             let mesh = &scene.meshes[part.mesh as usize];
-            let world: Vec<Vec3> = mesh.positions.iter().map(|&p| place(&part.world_from_mesh, p)).collect();
+            let world: Vec<Vec3> = scene.world_positions(part).collect();
             for (triangle, indices) in mesh.triangles.iter().enumerate() {
                 let triangle_corners = indices.map(|i| world[i as usize]);
                 bounds = triangle_corners.iter().fold(bounds, |b, &p| b.include(p));

@@ -26,12 +26,6 @@ struct Tree<'a> {
     plan: Plan,
 }
 
-impl Tree<'_> {
-    fn bounds(&self) -> Bounds3 {
-        self.binary.nodes[0].bounds
-    }
-}
-
 /// Builds the tree over all triangles that have finite corners and an area, and over placements of meshes. `numbers` are what hits report
 /// for the triangles: their indices unless given.
 pub(super) fn build(
@@ -73,7 +67,7 @@ pub(super) fn build(
         let root = first_node;
         first_node += tree.plan.node_count() as u32;
         first_block += tree.plan.block_count() as u32;
-        (root, tree.bounds())
+        (root, tree.binary.nodes[0].bounds)
     };
     let (_, bounds) = write(&world);
     // What has no triangles stands nowhere.

@@ -2,7 +2,7 @@
 
 use enfilade_home::check::{family_of, faults, object_of};
 use enfilade_home::{Home, HomeConfig, home};
-use enfilade_math::{Bounds3, DVec2, Vec2, Vec3, place};
+use enfilade_math::{Bounds3, DVec2, Vec2, Vec3};
 use enfilade_scene::{Labels, NYU40, Part, Scene, is_stuff, to_bytes_with_labels};
 use enfilade_testkit::process_cpu_s;
 use serde::{Deserialize, Serialize};
@@ -132,9 +132,7 @@ fn boxed(scene: &Scene, parts: &[&Part]) -> (Vec3, Vec2) {
     let along = DVec2::new(x.x, x.y).try_normalize().unwrap_or(DVec2::X).as_vec2();
     let mut bounds = Bounds3::EMPTY;
     for part in parts {
-        let points = scene.meshes[part.mesh as usize].positions.iter();
-        let world = points.map(|&p| place(&part.world_from_mesh, p));
-        let turned = world.map(|p| Vec3::new(along.dot(p.truncate()), along.perp_dot(p.truncate()), p.z));
+        let turned = scene.world_positions(part).map(|p| Vec3::new(along.dot(p.truncate()), along.perp_dot(p.truncate()), p.z));
         bounds = bounds.union(Bounds3::from_points(turned));
     }
     let middle = 0.5 * (bounds.min + bounds.max).truncate();

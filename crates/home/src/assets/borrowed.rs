@@ -100,7 +100,7 @@ mod tests {
     use crate::materials::Materials;
     use crate::palette::Palette;
     use crate::shape::bevelled_box;
-    use enfilade_math::{Bounds3, DMat3, Rgb, place};
+    use enfilade_math::{Bounds3, DMat3, Rgb};
     use enfilade_scene::{Bsdf, ColorParam, Image, Material, Part, Pixels, Scene, TextureRef};
 
     /// A box with a picture on it, its front toward −y.
@@ -133,8 +133,7 @@ mod tests {
         assert_eq!(labels.parts.iter().map(|l| l.semantic).collect::<Vec<_>>(), [3, 32, 35, 32]);
         assert_eq!(scene.validate(), Ok(()));
         for (part, name) in scene.parts.iter().zip(["mirror_cabinet", "nightstand", "pendant", "nightstand"]) {
-            let mesh = &scene.meshes[part.mesh as usize];
-            let filled = Bounds3::from_points(mesh.positions.iter().map(|&p| place(&part.world_from_mesh, p)));
+            let filled = Bounds3::from_points(scene.world_positions(part));
             let expected = family_named(name).unwrap().place.bounds(size);
             assert!((filled.min - expected.min).abs().max_element() < 1e-5, "{name}: {filled:?}");
         }

@@ -10,7 +10,7 @@ use crate::Home;
 use crate::shell::is_shell_family;
 use contact::Contacts;
 use enfilade_geometry::Mesh;
-use enfilade_math::{Bounds3, Vec3, place};
+use enfilade_math::{Bounds3, Vec3};
 use enfilade_scene::{NYU40, is_stuff};
 use meet::Body;
 use std::collections::BTreeMap;
@@ -84,7 +84,7 @@ pub(crate) fn bodies(home: &Home) -> Vec<Body> {
     let mut bodies: BTreeMap<&str, Body> = BTreeMap::new();
     for part in &scene.parts {
         let mesh: &Mesh = &scene.meshes[part.mesh as usize];
-        let world: Vec<Vec3> = mesh.positions.iter().map(|&p| place(&part.world_from_mesh, p)).collect();
+        let world: Vec<Vec3> = scene.world_positions(part).collect();
         let triangles = mesh.triangles.iter().map(|t| t.map(|i| world[i as usize])).collect();
         let name = object_of(&part.name);
         bodies.entry(name).or_insert_with(|| Body::new(name)).push(triangles);

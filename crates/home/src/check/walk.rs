@@ -4,7 +4,7 @@ use super::{family_of, is_shell, object_of};
 use crate::Home;
 use crate::place::BODY;
 use crate::plan::FloorPlan;
-use enfilade_math::{Vec2, Vec3, place};
+use enfilade_math::{Vec2, Vec3};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
@@ -189,7 +189,7 @@ fn obstacles<'a>(home: &'a Home, grid: &Grid) -> Vec<Obstacle<'a>> {
             continue;
         }
         let mesh = &home.scene.meshes[part.mesh as usize];
-        let world: Vec<Vec3> = mesh.positions.iter().map(|&p| place(&part.world_from_mesh, p)).collect();
+        let world: Vec<Vec3> = home.scene.world_positions(part).collect();
         let empty = || (vec![false; grid.columns * grid.rows], Vec3::INFINITY, Vec3::NEG_INFINITY);
         let (cells, low, high) = solid.entry(object).or_insert_with(empty);
         for point in &world {
