@@ -52,7 +52,7 @@ pub mod vray;
 
 pub use error::ImportError;
 pub use format::Format;
-pub use images::check_exr_blocks;
+pub use images::{check_exr_blocks, check_exr_table};
 pub use report::{Counts, ImportReport};
 
 use assembly::Assembly;

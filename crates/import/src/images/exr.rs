@@ -1,10 +1,12 @@
 //! OpenEXR: the first layer's R, G, B (or Y) at full resolution; alpha and other channels are left out.
 
 use super::{FloatPicture, check_size};
+use ::exr::block;
 use ::exr::meta::header::Header;
 use ::exr::meta::{BlockDescription, MetaData};
 use ::exr::prelude::*;
-use std::io::Cursor;
+use std::collections::HashSet;
+use std::io::{Cursor, Read, Seek};
 
 /// Channels that take more bytes than this when they are decoded are refused.
 const MAX_BYTES: u64 = 1 << 30;
@@ -56,7 +58,8 @@ fn check(bytes: &[u8]) -> std::result::Result<(), String> {
             ));
         }
     }
-    check_exr_blocks(&meta.headers)
+    check_exr_blocks(&meta.headers)?;
+    check_exr_table(Cursor::new(bytes), |part| part == 0)
 }
 
 /// Refuses an EXR with blocks for which the library would make room without bound.
@@ -73,6 +76,37 @@ pub fn check_exr_blocks(headers: &[Header]) -> std::result::Result<(), String> {
              ZIP compression"
         )),
         _ => Ok(()),
+    }
+}
+
+/// Refuses an EXR whose table of blocks does not lead to each block once, at full resolution, of the parts that are wanted.
+///
+/// The library finds blocks by the table and pixels by what a block says of itself. Where the two differ it would write a block
+/// of another resolution or part over the picture, stop with a panic, or leave pixels out.
+///
+/// # Errors
+/// When the table is wrong or a block cannot be read; the message is the rest of a sentence that begins with the file's name.
+pub fn check_exr_table(read: impl Read + Seek, wanted: impl Fn(usize) -> bool) -> std::result::Result<(), String> {
+    let check = || -> Result<bool> {
+        let file = block::read(read, false)?;
+        let headers = file.headers().to_vec();
+        let is_wanted = |part: usize, level: Vec2<usize>| wanted(part) && level == Vec2(0, 0);
+        let mut found = HashSet::new();
+        for chunk in file.filter_chunks(false, |_, tile, block| is_wanted(block.layer, tile.level_index))? {
+            let chunk = chunk?;
+            let Some(header) = headers.get(chunk.layer_index) else { return Ok(false) };
+            let tile = header.get_block_data_indices(&chunk.compressed_block)?;
+            let place = (chunk.layer_index, tile.tile_index.x(), tile.tile_index.y());
+            if !is_wanted(chunk.layer_index, tile.level_index) || !found.insert(place) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    };
+    match check() {
+        Ok(true) => Ok(()),
+        Ok(false) => Err("is damaged: its table of blocks does not lead to each block once; save it again".into()),
+        Err(e) => Err(format!("cannot be decoded ({e})")),
     }
 }
 
@@ -101,5 +135,35 @@ mod tests {
         let grey = SpecificChannels::build().with_channel("Y").with_pixel_fn(|Vec2(x, _)| (x as f32 * 2.0,));
         Image::from_channels((2, 1), grey).write().to_buffered(&mut bytes).unwrap();
         assert_eq!(decode(bytes.get_ref()).unwrap().texels, vec![[0.0; 3], [2.0; 3]]);
+    }
+
+    /// A picture of 4x4 in tiles of 2x2 and its smaller copies: five places in its table, from 8 bytes after what it begins with.
+    fn with_levels() -> (Vec<u8>, usize) {
+        let level = |side: usize| FlatSamples::F32((0..side * side).map(|i| i as f32).collect());
+        let levels = Levels::Mip { rounding_mode: ::exr::math::RoundingMode::Down, level_data: vec![level(4), level(2), level(1)] };
+        let encoding =
+            Encoding { compression: Compression::Uncompressed, blocks: Blocks::Tiles(Vec2(2, 2)), line_order: LineOrder::Increasing };
+        let channels = AnyChannels::sort(vec![AnyChannel::new("Y", levels)].into());
+        let layer = Layer::new((4, 4), LayerAttributes::default(), encoding, channels);
+        let mut bytes = Cursor::new(Vec::new());
+        Image::from_layer(layer).write().to_buffered(&mut bytes).unwrap();
+        let bytes = bytes.into_inner();
+        // A tile takes 20 bytes before its four floats, and the last level has a single one.
+        let table = bytes.len() - (5 * 36 + 24) - 6 * 8;
+        (bytes, table)
+    }
+
+    #[test]
+    fn blocks_of_another_resolution_and_blocks_found_twice_are_refused() {
+        let (whole, table) = with_levels();
+        assert_eq!(decode(&whole).unwrap().texels[14], [14.0; 3]);
+        let refused = |from: usize, to: usize| {
+            let mut bytes = whole.clone();
+            bytes.copy_within(table + 8 * from..table + 8 * (from + 1), table + 8 * to);
+            decode(&bytes).err().unwrap()
+        };
+        for (from, to) in [(4, 0), (5, 3), (1, 2)] {
+            assert!(refused(from, to).contains("does not lead to each block once"), "{from} {to}");
+        }
     }
 }

@@ -6,7 +6,7 @@
 mod exr;
 mod pfm;
 
-pub use exr::check_exr_blocks;
+pub use exr::{check_exr_blocks, check_exr_table};
 
 use ::image::{DynamicImage, ImageFormat, ImageReader};
 use enfilade_scene::{Image, Pixels};

@@ -5,7 +5,7 @@
 
 use super::header::Header;
 use crate::error::Error;
-use enfilade_import::check_exr_blocks;
+use enfilade_import::{check_exr_blocks, check_exr_table};
 use exr::image::FlatSamples;
 use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, read};
@@ -39,6 +39,7 @@ impl VrayImage {
         let open = || File::open(path).map(BufReader::new).map_err(Error::io("read", path));
         let damaged = |e: exr::error::Error| wrong(format!("it cannot be read as OpenEXR ({e})"));
         check_headers(&MetaData::read_from_buffered(open()?, false).map_err(damaged)?, size).map_err(wrong)?;
+        check_exr_table(open()?, |_| true).map_err(|problem| wrong(format!("it {problem}")))?;
         let image = read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
         let image = image.from_buffered(open()?).map_err(damaged)?;
         let (mut header, mut channels) = (Header::default(), BTreeMap::new());
