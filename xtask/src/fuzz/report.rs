@@ -10,7 +10,8 @@ const NOTES: &str = "\
 - `rust-hdf5`: the file's length is compared with what its superblock says, and the shape of an array with what deflate can make of the
   file; chunks without an extent are not read by our own way. Where the library panics all the same, that becomes an error.
 - `image`, `exr`: width and height are read first, and pictures of more than 2^27 pixels or a gigabyte of channels are refused; so are
-  EXRs, V-Ray's too, with blocks of more than 128 MiB, for which room is made before they are read.
+  EXRs, V-Ray's too, with blocks of more than 128 MiB, for which room is made before they are read, and with a table that does not lead
+  to each block once.
 - `png`, in scene packages: the size must be the one that the package says, and no more than deflate can make of the file.
 - `flate2`, `zip`: what is unpacked is counted, and refused beyond a bound: vertices of a mesh, bytes of a list, of a model.
 - `postcard`: blends within blends are read 128 deep, since the library has no bound of its own.
