@@ -46,6 +46,8 @@ pub(crate) struct Head<'a, 's> {
     camera: usize,
     /// Surfaces before it.
     pub bounce: u32,
+    /// How many of them might have sent the path elsewhere than by a mirror or glass.
+    pub forks: u32,
     /// What lies before it; `None` of the first surface.
     before: Option<Passage>,
     /// True unless it lies in something that absorbs light.
@@ -123,17 +125,19 @@ impl<'a, 's> Integrator<'a, 's> {
             gathered.split.add_emission(gathered.light.specular);
         }
         let first = batch.heads.len();
-        let (sampler, mut before, mut expected) = (&camera.sampler, None, 0.0);
+        let (sampler, mut before, mut expected, mut forks) = (&camera.sampler, None, 0.0, 0);
         for bounce in 0.. {
             let bsdf = surface.bsdf(self.scene);
             if before.is_some() && bsdf.is_black() {
                 break;
             }
-            let head =
-                Head { vertex: Vertex::new(self.guide, surface, bsdf), camera: number, bounce, before, shares: segment.medium.is_clear() };
+            let vertex = Vertex::new(self.guide, surface, bsdf);
+            let head = Head { vertex, camera: number, bounce, forks, before, shares: segment.medium.is_clear() };
             let (vertex, passed) = (&head.vertex, head.passed());
             // Light reflected straight from the sources.
-            if let Some(Direct { weight, light, kind, crosses, .. }) = self.sample_lights(vertex, sampler.set(light_set(bounce))) {
+            if let Some(Direct { weight, light, kind, crosses, .. }) =
+                self.sample_lights(vertex, sampler.set(light_set(bounce)), segment.medium)
+            {
                 let mut arriving = Arriving::default();
                 arriving.add(kind, light, true);
                 self.add(gathered, &head, &weight, arriving, crosses, bounce > 0);
@@ -162,6 +166,7 @@ impl<'a, 's> Integrator<'a, 's> {
             let mut arriving = Arriving::default();
             let reached = self.next_surface(&next, Rgb::WHITE, false, &mut arriving);
             self.gather(gathered, &head, &step.weight, arriving, next.crossed);
+            forks += u32::from(!vertex.bsdf.is_sharp());
             batch.heads.push(head);
             if self.config.max_bounces.is_some_and(|most| bounce + 1 > most) {
                 break;
@@ -234,7 +239,7 @@ impl<'a, 's> Integrator<'a, 's> {
             return (own, None);
         }
         let vertex = Vertex::new(self.guide, surface, bsdf);
-        let direct = self.sample_lights(&vertex, sampler.set(light_set(bounce)));
+        let direct = self.sample_lights(&vertex, sampler.set(light_set(bounce)), segment.medium);
         let so_far = throughput * head.passed() * step.weight.total(head.vertex.bsdf.reflectance);
         let reflectance = vertex.bsdf.reflectance;
         let onward = self.onward(bounce, &vertex, so_far, &segment, &mut expected, sampler).map(|(step, next)| {

@@ -42,7 +42,8 @@ pub struct RenderConfig {
     pub reuse: bool,
     /// Longest path, counted in surfaces that scatter light after the first. Default none: Russian roulette ends paths without bias.
     pub max_bounces: Option<u32>,
-    /// Largest radiance that one indirect sample may add to a pixel. Default none: a clamp darkens the picture.
+    /// Largest radiance that one indirect path may add to a pixel: its own, or with `reuse` one that it shares, of which each adds a part.
+    /// Default none: a clamp darkens the picture.
     pub clamp: Option<f32>,
     /// Keeps the light of each pixel apart by its way and by its source, as layers of their own. Changes no other layer. Default false.
     pub splits: bool,

@@ -8,7 +8,7 @@ use crate::prepared::{Cutout, RenderScene};
 use crate::split::Arriving;
 use crate::surface::Surface;
 use crate::texture::Cone;
-use crate::vertex::{Segment, Vertex, sides_agree};
+use crate::vertex::{Medium, Segment, Vertex, sides_agree};
 use enfilade_geometry::Hit;
 use enfilade_math::{Ray, Rgb, Sampler, Vec3};
 
@@ -162,7 +162,7 @@ impl<'a, 's> Integrator<'a, 's> {
             }
             let vertex = Vertex::new(self.guide, surface, bsdf);
             let reflectance = vertex.bsdf.reflectance;
-            if let Some(Direct { weight, light, kind, .. }) = self.sample_lights(&vertex, sampler.set(light_set(bounce))) {
+            if let Some(Direct { weight, light, kind, .. }) = self.sample_lights(&vertex, sampler.set(light_set(bounce)), segment.medium) {
                 radiance.add(kind, throughput * weight.total(reflectance) * light, false);
             }
             let Some((step, next)) = self.onward(bounce, &vertex, throughput * so_far, &segment, &mut expected, sampler) else {
@@ -182,8 +182,8 @@ impl<'a, 's> Integrator<'a, 's> {
         if brightest > most { light.scaled(most / brightest) } else { light }
     }
 
-    /// Direct light, where the light sample sends any.
-    pub fn sample_lights(&self, vertex: &Vertex<'_, 's>, u: [f32; 4]) -> Option<Direct> {
+    /// Direct light, where the light sample sends any. `medium` is what lies before the surface, on the viewer's side.
+    pub fn sample_lights(&self, vertex: &Vertex<'_, 's>, u: [f32; 4], medium: Medium) -> Option<Direct> {
         let surface = &vertex.surface;
         let wanted = |wi: Vec3| sides_agree(wi.dot(vertex.onb.z), wi.dot(surface.ng));
         let at = LightPoint::on(surface);
@@ -193,7 +193,9 @@ impl<'a, 's> Integrator<'a, 's> {
         if value == Value::default() {
             return None;
         }
-        let arriving = self.scene.transmittance(&surface.shadow_ray(light.wi, light.target));
+        let ray = surface.shadow_ray(light.wi, light.target);
+        let medium = if wi.z < 0.0 { medium.beyond(surface) } else { medium };
+        let arriving = self.scene.transmittance(&ray) * medium.transmittance(ray.t_max);
         if arriving.is_black() {
             return None;
         }
@@ -212,7 +214,7 @@ impl<'a, 's> Integrator<'a, 's> {
     /// Irradiance over π at a surface without diffuse reflectance, by a white Lambert surface in its place.
     pub fn irradiance(&self, surface: &Surface<'s>, sampler: &Sampler) -> Rgb {
         let vertex = Vertex::new(self.guide, surface.clone(), Bsdf::lambert(Rgb::WHITE));
-        let direct = self.sample_lights(&vertex, sampler.set(light_set(0)));
+        let direct = self.sample_lights(&vertex, sampler.set(light_set(0)), Medium::AIR);
         let mut irradiance = direct.map_or(Rgb::BLACK, |direct| direct.weight.diffuse * direct.light);
         let u = sampler.set(bsdf_set(0));
         let nowhere = Segment::from_camera(Ray::new(surface.p, -surface.wo), Cone::POINT);

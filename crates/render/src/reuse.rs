@@ -18,7 +18,7 @@ use crate::surface::{MIN_COSINE, Surface, shadow_ray};
 use crate::texture::Cone;
 use crate::vertex::{Segment, Vertex, sides_agree};
 use enfilade_geometry::Hit;
-use enfilade_math::{Ray, Rgb, Vec3, offset_origin};
+use enfilade_math::{Ray, Rgb, Vec3};
 
 /// How a path got from its first surface to its second.
 pub(crate) struct Reach {
@@ -34,6 +34,8 @@ pub(crate) struct Reach {
 pub(crate) struct Far<'a> {
     reach: Reach,
     p: Vec3,
+    /// Where rays to it end: a little before.
+    end: Vec3,
     /// Geometric and shading normal on the side that is seen.
     ng: Vec3,
     ns: Vec3,
@@ -108,7 +110,8 @@ impl<'a> Far<'a> {
             Some(outgoing) => Sent::Share(outgoing, outgoing.share(surface.wo.dot(surface.ns))),
             None => Sent::Anew(Box::new(Arrived { hit: Hit { t: 0.0, ..*hit }, cone: surface.cone, direct, indirect })),
         };
-        Some(Self { reach, p: surface.p, ng: surface.ng, ns: surface.ns, own: sent, sent: to_others })
+        let end = surface.ray(surface.wo).origin;
+        Some(Self { reach, p: surface.p, end, ng: surface.ng, ns: surface.ns, own: sent, sent: to_others })
     }
 }
 
@@ -126,8 +129,7 @@ impl<'a, 's> Integrator<'a, 's> {
             let mut density = far.reach.pdf * own.jacobian;
             links.clear();
             links.push(own);
-            // Where paths have a longest length, only those go on in the same way that are equally long.
-            let alike = |other: &Head<'_, 's>| other.shares && (self.config.max_bounces.is_none() || other.bounce == owner_head.bounce);
+            let alike = |other: &Head<'_, 's>| other.shares && self.are_alike(owner_head, other);
             for (head, other) in batch.heads.iter().enumerate().filter(|(head, other)| *head != owner && alike(other)) {
                 if let Some((link, pdf)) = self.link(head, &other.vertex, far) {
                     density += pdf * link.jacobian;
@@ -141,6 +143,15 @@ impl<'a, 's> Integrator<'a, 's> {
             }
         }
         (batch.fars, batch.links) = (fars, links);
+    }
+
+    /// True when what one of the first surfaces finds is for the other as well.
+    ///
+    /// A surface seen by a fork's mirror is there only where the fork found nothing itself, so that the two are no independent ways to
+    /// a second surface: each is joined to its like alone. Where paths have a longest length, only those go on in the same way that are
+    /// equally long, which keeps such surfaces apart too.
+    fn are_alike(&self, a: &Head<'_, 's>, b: &Head<'_, 's>) -> bool {
+        if self.config.max_bounces.is_some() { a.bounce == b.bounce } else { a.forks == b.forks }
     }
 
     /// The link of a second surface to the first surface of its own path; `None` when that goes through something half transparent, or
@@ -223,5 +234,5 @@ fn joined(vertex: &Vertex<'_, '_>, far: &Far<'_>) -> Option<(Vec3, f32)> {
 }
 
 fn joining_ray(vertex: &Vertex<'_, '_>, far: &Far<'_>, direction: Vec3) -> Ray {
-    shadow_ray(vertex.surface.ray(direction).origin, direction, Some(offset_origin(far.p, far.ng)))
+    shadow_ray(vertex.surface.ray(direction).origin, direction, Some(far.end))
 }

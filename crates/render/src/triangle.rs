@@ -46,7 +46,7 @@ impl Triangle {
         Self { corners, normals, uvs, part: number, material: part.material, slack: slack(&corners) }
     }
 
-    /// A triangle's corner weights at a hit.
+    /// World position for these weights of the corners.
     #[inline]
     pub fn position(&self, [a, b, c]: [f32; 3]) -> Vec3 {
         self.corners[0] * a + self.corners[1] * b + self.corners[2] * c

@@ -49,11 +49,11 @@ impl Medium {
     /// Share of the light that is left after `distance` metres (Beer and Lambert).
     #[inline]
     pub fn transmittance(self, distance: f32) -> Rgb {
-        if self.is_clear() { Rgb::WHITE } else { self.absorption.map(|a| (-a * distance).exp()) }
+        if self.is_clear() { Rgb::WHITE } else { self.absorption.map(|a| (-a * distance.min(f32::MAX)).exp()) }
     }
 
     /// On the other side of a border: a body's when it was entered, none when it was left.
-    fn beyond(self, border: &Surface<'_>) -> Self {
+    pub fn beyond(self, border: &Surface<'_>) -> Self {
         let (eta, absorption) = match &border.material.bsdf {
             Model::Dielectric { eta, absorption, .. } => (*eta, *absorption),
             Model::Principled(p) if p.solid => (p.ior, p.absorption),

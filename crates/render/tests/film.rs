@@ -221,6 +221,21 @@ fn a_mirror_and_a_pane_in_a_box_that_glows_show_the_box() {
 }
 
 #[test]
+fn walls_that_are_half_mirrors_keep_the_light_that_they_reflect() {
+    // Half of each wall is paint and half a mirror, of reflectance 0.5 both: a path may meet several surfaces whose light is shared.
+    let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::splat(0.5).into(), alpha: 0.0.into() };
+    let paint = Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() };
+    let both = Bsdf::Blend { first: Box::new(paint), second: Box::new(mirror), weight: 0.5.into() };
+    let wall = Material { emission: Rgb::WHITE.into(), ..Material::new("wall", both) };
+    let scene = scene(vec![(room(1.0), wall)]);
+    for (reuse, max_bounces) in [(true, None), (false, None), (true, Some(40))] {
+        let config = RenderConfig { reuse, max_bounces, samples: 256, ..RenderConfig::default() };
+        let frame = picture(&scene, [32, 32], &config);
+        assert_close(&format!("with sharing {reuse}, at most {max_bounces:?}"), mean(&frame, Layer::Color), 2.0, 2e-3);
+    }
+}
+
+#[test]
 fn glass_and_mirrors_have_their_own_parts_and_sources_theirs() {
     let through = |bsdf: Bsdf| {
         let mut s = scene(vec![(screen(Vec3::X, 9.0), Material::new("screen", bsdf))]);

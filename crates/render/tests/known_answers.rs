@@ -137,7 +137,8 @@ fn a_limit_on_bounces_cuts_the_series_of_reflections_and_nothing_else() {
 
 #[test]
 fn lossless_spheres_vanish_in_a_white_sky() {
-    let glass = |alpha: f32| Bsdf::Dielectric { eta: 1.5, alpha: alpha.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::BLACK };
+    let glass =
+        |eta: f32, alpha: f32| Bsdf::Dielectric { eta, alpha: alpha.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::BLACK };
     let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::WHITE.into(), alpha: 0.0.into() };
     let plastic = Bsdf::Plastic { diffuse: Rgb::WHITE.into(), eta: 1.5, alpha: 0.0.into(), specular: Rgb::WHITE.into(), nonlinear: true };
     let varnish = Bsdf::Principled(Box::new(Principled { roughness: 0.5.into(), ..Principled::default() }));
@@ -145,18 +146,59 @@ fn lossless_spheres_vanish_in_a_white_sky() {
     let diffuse = Bsdf::Diffuse { reflectance: Rgb::WHITE.into() };
     for (name, bsdf, tolerance) in [
         ("diffuse", diffuse, 0.01),
-        ("glass", glass(0.0), 0.01),
+        ("glass", glass(1.5, 0.0), 0.01),
         ("mirror", mirror, 0.01),
         ("plastic", plastic, 0.015),
         ("varnish", varnish, 0.015),
         ("thin", thin, 0.01),
         // One bounce off facets loses a little.
-        ("rough glass", glass(0.1), 0.03),
+        ("rough glass", glass(1.5, 0.1), 0.03),
+        ("rough air", glass(1.0, 0.3), 1e-3),
     ] {
         let s = white_sky(scene(vec![("sphere", sphere(64), Material::new(name, bsdf))]));
         let frame = picture(&s, DVec3::new(0.0, -4.0, 0.0), DVec3::ZERO, 24, 40.0, 128);
         assert_close(name, mean(&frame, Layer::Color, 1), 1.0, tolerance);
     }
+}
+
+/// A cube of what does not bend light and absorbs this much per metre.
+fn tinted_air(absorption: Rgb) -> Material {
+    Material::new("air", Bsdf::Dielectric { eta: 1.0, alpha: 0.0.into(), transmittance: Rgb::WHITE.into(), absorption })
+}
+
+#[test]
+fn light_is_absorbed_by_the_law_of_beer() {
+    let s = white_sky(scene(vec![("cube", cube(false), tinted_air(Rgb::new(0.2, 0.5, 1.5)))]));
+    let frame = picture(&s, DVec3::new(-400.0, 0.0, 0.0), DVec3::ZERO, 8, 0.1, 16);
+    for (channel, absorption) in [0.2f64, 0.5, 1.5].into_iter().enumerate() {
+        assert_close("two metres", mean(&frame, Layer::Color, channel), (-2.0 * absorption).exp(), 2e-3);
+    }
+}
+
+#[test]
+fn a_lamp_inside_a_body_that_absorbs_lights_what_is_in_it_less() {
+    let square =
+        |half: f32, z: f32, up: f32| quad([[-1.0, -up], [1.0, -up], [1.0, up], [-1.0, up]].map(|[x, y]| Vec3::new(half * x, half * y, z)));
+    let (absorption, half, height, reflectance) = (0.7, 0.5, 0.6, 0.5);
+    let s = scene(vec![
+        ("cube", cube(false), tinted_air(Rgb::splat(absorption))),
+        ("lamp", square(half, 0.5 * height, -1.0), Material { two_sided: false, ..Material::emitter("lamp", Rgb::WHITE) }),
+        ("table", square(0.1, -0.5 * height, 1.0), Material::diffuse("table", Rgb::splat(reflectance))),
+    ]);
+    let (from, to) = (DVec3::new(3.0, 0.0, 0.0), DVec3::new(0.0, 0.0, -0.5 * f64::from(height)));
+    let frame = picture(&s, from, to, 8, 0.1, 512);
+    // The radiance that the middle of the table sends back, by the midpoint rule over the lamp, and what is left of it outside.
+    let (a, steps) = (f64::from(absorption), 400);
+    let at = |i: usize| f64::from(half) * (2.0 * (i as f64 + 0.5) / steps as f64 - 1.0);
+    let area = (2.0 * f64::from(half) / steps as f64).powi(2);
+    let light = |x: f64, y: f64| {
+        let distance = DVec3::new(x, y, f64::from(height)).length();
+        (f64::from(height) / distance).powi(2) * (-a * distance).exp() / distance.powi(2) * area
+    };
+    let irradiance: f64 = (0..steps * steps).map(|k| light(at(k % steps), at(k / steps))).sum();
+    let inside = (to - from).length() / 3.0;
+    let expected = f64::from(reflectance) / PI * irradiance * (-a * inside).exp();
+    assert_close("radiance", mean(&frame, Layer::Color, 1), expected, 0.01);
 }
 
 #[test]

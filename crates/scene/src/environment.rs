@@ -23,6 +23,16 @@ pub enum Environment {
     },
 }
 
+impl Environment {
+    /// True when all its numbers are finite, those of the image apart.
+    pub(crate) fn is_finite(&self) -> bool {
+        match self {
+            Self::Constant { radiance } => radiance.is_finite(),
+            Self::Map { scale, map_from_world, .. } => scale.is_finite() && map_from_world.is_finite(),
+        }
+    }
+}
+
 /// Where the rows of an equirectangular image lie between the zenith and the nadir.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MapRows {

@@ -67,6 +67,23 @@ pub enum SpotFalloff {
 }
 
 impl Light {
+    /// True when all its numbers are finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        match self {
+            Self::Point { position, intensity, .. } => position.is_finite() && intensity.is_finite(),
+            Self::Spot { position, direction, intensity, inner_rad, outer_rad, .. } => {
+                position.is_finite() && direction.is_finite() && intensity.is_finite() && inner_rad.is_finite() && outer_rad.is_finite()
+            }
+            // A web's own numbers were checked when it was made.
+            Self::Profile { position, web_from_world, intensity, .. } => {
+                position.is_finite() && web_from_world.is_finite() && intensity.is_finite()
+            }
+            Self::Directional { direction, irradiance, angular_radius_rad, .. } => {
+                direction.is_finite() && irradiance.is_finite() && angular_radius_rad.is_finite()
+            }
+        }
+    }
+
     /// The name given in the file.
     pub fn name(&self) -> &str {
         match self {

@@ -114,6 +114,15 @@ pub enum Parameter<'a> {
     Scalar(&'a ScalarParam),
 }
 
+/// A number of a [`Bsdf`] that is the same all over the surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Constant {
+    /// An index of refraction, or the ratio of two.
+    Index(f32),
+    /// One per channel.
+    Color(Rgb),
+}
+
 impl Bsdf {
     /// Blends within blends are no deeper than this.
     pub const DEEPEST: usize = 128;
@@ -143,6 +152,27 @@ impl Bsdf {
             Self::Principled(p) => !p.solid && p.transmission.factor > 0.0,
             Self::Blend { first, second, .. } => first.is_pane() || second.is_pane(),
             _ => false,
+        }
+    }
+
+    /// Calls `found` with every number that may not be textured.
+    pub(crate) fn constants(&self, found: &mut dyn FnMut(Constant)) {
+        match self {
+            Self::Diffuse { .. } | Self::RoughDiffuse { .. } => (),
+            Self::Conductor { eta, k, .. } => [*eta, *k].into_iter().for_each(|v| found(Constant::Color(v))),
+            Self::Dielectric { eta, absorption, .. } => {
+                found(Constant::Index(*eta));
+                found(Constant::Color(*absorption));
+            }
+            Self::ThinDielectric { eta, .. } | Self::Plastic { eta, .. } => found(Constant::Index(*eta)),
+            Self::Principled(p) => {
+                found(Constant::Index(p.ior));
+                found(Constant::Color(p.absorption));
+            }
+            Self::Blend { first, second, .. } => {
+                first.constants(found);
+                second.constants(found);
+            }
         }
     }
 

@@ -1,4 +1,5 @@
-use crate::{Alpha, Environment, Image, Light, Material, Parameter, Pixels, StartCamera};
+use crate::material::Constant;
+use crate::{Alpha, Environment, Image, Light, Material, NormalMap, Parameter, Pixels, StartCamera};
 use enfilade_geometry::{Mesh, MeshError};
 use enfilade_math::{DAffine3, Vec3, place};
 use serde::{Deserialize, Serialize};
@@ -120,8 +121,15 @@ impl Scene {
                 return Err(SceneError::Value { what: format!("image {:?}", image.name), problem });
             }
         }
-        if let Some(Environment::Map { image, .. }) = &self.environment {
-            check_index(|| "the environment".to_string(), "image", *image, self.images.len())?;
+        for light in &self.lights {
+            check_finite(|| format!("light {:?}", light.name()), light.is_finite())?;
+        }
+        if let Some(environment) = &self.environment {
+            let what = || "the environment".to_string();
+            check_finite(what, environment.is_finite())?;
+            if let Environment::Map { image, .. } = environment {
+                check_index(what, "image", *image, self.images.len())?;
+            }
         }
         for camera in &self.cameras {
             let r = camera.world_from_camera;
@@ -143,11 +151,27 @@ impl Scene {
                 Parameter::Scalar(p) => p.factor.is_finite(),
             };
         });
-        if let Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } = &material.alpha {
-            finite &= opacity.factor.is_finite();
+        let mut no_index = None;
+        material.bsdf.constants(&mut |constant| match constant {
+            Constant::Color(color) => finite &= color.is_finite(),
+            Constant::Index(index) => {
+                finite &= index.is_finite();
+                no_index = no_index.or((index <= 0.0).then_some(index));
+            }
+        });
+        match &material.alpha {
+            Alpha::Opaque => {}
+            Alpha::Mask { opacity, cutoff } => finite &= opacity.factor.is_finite() && cutoff.is_finite(),
+            Alpha::Blend { opacity } => finite &= opacity.factor.is_finite(),
         }
-        if !finite {
-            return Err(SceneError::Value { what: what(), problem: "a colour or number is not finite".into() });
+        if let Some(NormalMap::Normal { scale, .. } | NormalMap::Bump { scale, .. }) = &material.normal_map {
+            finite &= scale.is_finite();
+        }
+        material.textures(|t| finite &= t.uv_transform.iter().flatten().all(|v| v.is_finite()));
+        check_finite(what, finite)?;
+        if let Some(index) = no_index {
+            let problem = format!("an index of refraction is {index}, expected more than 0");
+            return Err(SceneError::Value { what: what(), problem });
         }
         let mut dangling = Ok(());
         material.textures(|t| {
@@ -170,6 +194,64 @@ impl Scene {
     }
 }
 
+fn check_finite(what: impl Fn() -> String, finite: bool) -> Result<(), SceneError> {
+    if finite { Ok(()) } else { Err(SceneError::Value { what: what(), problem: "a colour or number is not finite".into() }) }
+}
+
 fn check_index(what: impl Fn() -> String, kind: &'static str, index: u32, count: usize) -> Result<(), SceneError> {
     if (index as usize) < count { Ok(()) } else { Err(SceneError::Dangling { what: what(), kind, index, count }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Bsdf, ScalarParam, TextureRef};
+    use enfilade_math::{Mat3, Rgb};
+
+    fn one_triangle(material: Material) -> Scene {
+        let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
+        let part = Part { name: "a".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
+        Scene { meshes: vec![mesh], parts: vec![part], materials: vec![material], ..Scene::default() }
+    }
+
+    fn glass(eta: f32, absorption: Rgb) -> Bsdf {
+        Bsdf::Dielectric { eta, alpha: 0.0.into(), transmittance: Rgb::WHITE.into(), absorption }
+    }
+
+    #[test]
+    fn materials_whose_numbers_are_not_finite_are_refused_by_name() {
+        let refused = |material: Material| one_triangle(material).validate().unwrap_err().to_string();
+        let of = |bsdf: Bsdf| Material::new("m", bsdf);
+        assert_eq!(one_triangle(of(glass(1.5, Rgb::BLACK))).validate(), Ok(()));
+        let inside =
+            Bsdf::Blend { first: Box::new(glass(f32::INFINITY, Rgb::BLACK)), second: Box::new(glass(1.5, Rgb::BLACK)), weight: 0.5.into() };
+        let mut moved = TextureRef::new(0);
+        moved.uv_transform[1][2] = f32::NAN;
+        for material in [
+            of(inside),
+            of(glass(1.5, Rgb::new(0.0, f32::NAN, 0.0))),
+            of(Bsdf::Conductor { eta: Rgb::WHITE, k: Rgb::splat(f32::INFINITY), reflectance: Rgb::WHITE.into(), alpha: 0.1.into() }),
+            Material { alpha: Alpha::Mask { opacity: ScalarParam::from(1.0), cutoff: f32::NAN }, ..Material::diffuse("m", Rgb::WHITE) },
+            Material { normal_map: Some(NormalMap::Bump { texture: moved, scale: 1.0 }), ..Material::diffuse("m", Rgb::WHITE) },
+        ] {
+            let message = refused(material);
+            assert!(message.contains("material \"m\"") && message.contains("not finite"), "{message}");
+        }
+        let message = refused(of(glass(0.0, Rgb::BLACK)));
+        assert!(message.contains("an index of refraction is 0, expected more than 0"), "{message}");
+    }
+
+    #[test]
+    fn lights_and_surroundings_whose_numbers_are_not_finite_are_refused() {
+        let mut scene = one_triangle(Material::diffuse("m", Rgb::WHITE));
+        scene.lights.push(Light::Point { name: "lamp".into(), position: Vec3::ZERO, intensity: Rgb::splat(f32::INFINITY) });
+        let message = scene.validate().unwrap_err().to_string();
+        assert!(message.contains("light \"lamp\"") && message.contains("not finite"), "{message}");
+        scene.lights.clear();
+        scene.environment = Some(Environment::Constant { radiance: Rgb::splat(f32::NAN) });
+        assert!(scene.validate().unwrap_err().to_string().contains("the environment"));
+        let map = Environment::Map { image: 3, rows: crate::MapRows::Bands, scale: Rgb::WHITE, map_from_world: Mat3::IDENTITY };
+        scene.environment = Some(map);
+        assert!(scene.validate().unwrap_err().to_string().contains("image 3"));
+    }
 }

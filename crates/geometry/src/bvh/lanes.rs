@@ -1,7 +1,7 @@
 //! Eight numbers at a time, twice: with AVX2, and in plain Rust for every other machine.
 //!
 //! Both kinds do the same IEEE operations in the same order, so the traversal gives the same bits wherever it runs. There is no
-//! fused multiply-add among them: the edge functions must not use it (see `walk`), and without it the plain kind needs no emulation.
+//! fused multiply-add among them: the edge functions must not use it (see `triangle`), and without it the plain kind needs no emulation.
 
 /// Eight `f32` values.
 ///

@@ -1,4 +1,4 @@
-//! OpenEXR: the first layer's R, G, B (or Y) at full resolution; alpha and other channels are left out.
+//! OpenEXR: the first part's R, G, B (or Y) at full resolution; alpha and other channels are left out.
 
 use super::{FloatPicture, check_size};
 use ::exr::block;
@@ -26,15 +26,9 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<FloatPicture, String> 
         .map_err(|e| format!("cannot be decoded ({e})"))?;
     let layer = &image.layer_data;
     let (width, height) = (layer.size.width(), layer.size.height());
-    let channel = |name: &str| {
-        layer.channel_data.list.iter().find(|c| {
-            let full = c.name.to_string();
-            full.rsplit('.').next().is_some_and(|last| last.eq_ignore_ascii_case(name))
-        })
-    };
-    let names = || layer.channel_data.list.iter().map(|c| c.name.to_string()).collect::<Vec<_>>().join(", ");
-    let grey = channel("Y").or(layer.channel_data.list.first());
-    let rgb = [channel("R").or(grey), channel("G").or(grey), channel("B").or(grey)];
+    let channels = &layer.channel_data.list;
+    let names = || channels.iter().map(|c| c.name.to_string()).collect::<Vec<_>>().join(", ");
+    let rgb = colors(channels);
     let [Some(r), Some(g), Some(b)] = rgb else { return Err("has no channels".into()) };
     if [r, g, b].iter().any(|c| c.sampling != Vec2(1, 1) || c.sample_data.len() != width * height) {
         return Err(format!("has subsampled channels ({}), which are not supported; save it as plain RGB", names()));
@@ -42,6 +36,26 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<FloatPicture, String> 
     let (r, g, b) = (r.sample_data.values_as_f32(), g.sample_data.values_as_f32(), b.sample_data.values_as_f32());
     let texels = r.zip(g).zip(b).map(|((r, g), b)| [r, g, b]).collect();
     Ok(FloatPicture { width: width as u32, height: height as u32, texels })
+}
+
+/// The channels that hold red, green and blue: those without a layer's name (`R`), or else of the first layer that has them
+/// (`beauty.R`); where there are none, all three are `Y` or the first channel.
+fn colors(channels: &[AnyChannel<FlatSamples>]) -> [Option<&AnyChannel<FlatSamples>>; 3] {
+    let split = |c: &AnyChannel<FlatSamples>| {
+        let name = c.name.to_string();
+        name.rsplit_once('.').map_or((String::new(), name.clone()), |(layer, last)| (layer.to_string(), last.to_string()))
+    };
+    let named = |layer: &str, last: &str| {
+        let is_it = |(in_layer, name): (String, String)| in_layer == layer && name.eq_ignore_ascii_case(last);
+        channels.iter().find(|c| is_it(split(c)))
+    };
+    let of = |layer: &str| ["R", "G", "B"].map(|last| named(layer, last));
+    let layers: Vec<String> = std::iter::once(String::new()).chain(channels.iter().map(|c| split(c).0)).collect();
+    let found = |layer: &String| of(layer).iter().flatten().count();
+    let most = layers.iter().map(found).max().unwrap_or(0);
+    let layer = layers.iter().find(|layer| found(layer) == most).map_or("", String::as_str);
+    let grey = layers.iter().find_map(|layer| named(layer, "Y")).or(channels.first());
+    of(layer).map(|channel| channel.or(grey))
 }
 
 /// Refuses pictures whose channels would fill the memory, before room is made for them.
@@ -135,6 +149,22 @@ mod tests {
         let grey = SpecificChannels::build().with_channel("Y").with_pixel_fn(|Vec2(x, _)| (x as f32 * 2.0,));
         Image::from_channels((2, 1), grey).write().to_buffered(&mut bytes).unwrap();
         assert_eq!(decode(bytes.get_ref()).unwrap().texels, vec![[0.0; 3], [2.0; 3]]);
+    }
+
+    #[test]
+    fn colours_come_from_one_layer_and_the_nameless_one_first() {
+        let picture = |names: &[&str]| {
+            let channels: Vec<_> =
+                names.iter().enumerate().map(|(i, name)| AnyChannel::new(*name, FlatSamples::F32(vec![i as f32]))).collect();
+            let layer = Layer::new((1, 1), LayerAttributes::default(), Encoding::FAST_LOSSLESS, AnyChannels::sort(channels.into()));
+            let mut bytes = Cursor::new(Vec::new());
+            Image::from_layer(layer).write().to_buffered(&mut bytes).unwrap();
+            decode(bytes.get_ref()).unwrap().texels[0]
+        };
+        assert_eq!(picture(&["AO.R", "Diffuse.B", "Diffuse.G", "Diffuse.R", "B", "G", "R", "Y"]), [6.0, 5.0, 4.0]);
+        assert_eq!(picture(&["AO.R", "beauty.b", "beauty.g", "beauty.r"]), [3.0, 2.0, 1.0]);
+        assert_eq!(picture(&["depth.Z", "main.Y"]), [1.0; 3]);
+        assert_eq!(picture(&["Z"]), [0.0; 3]);
     }
 
     /// A picture of 4x4 in tiles of 2x2 and its smaller copies: five places in its table, from 8 bytes after what it begins with.

@@ -114,7 +114,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Render,
         name: "render",
         about: "scene, trajectories -> frames",
-        version: 5,
+        version: 6,
         settings: render::settings,
         inputs: render::inputs,
         run: render::run,

@@ -160,7 +160,7 @@ fn once(cos_o: f32, alpha: f32, eta: f32) -> (f32, f32) {
         if up.z > 0.0 {
             reflected += f * ggx::g1(up, alpha);
         }
-        let down = m * (cos / eta - cos_t) - wo / eta;
+        let down = ggx::refract(wo, m, eta, cos_t);
         if down.z < 0.0 {
             transmitted += (1.0 - f) * ggx::g1(down, alpha);
         }

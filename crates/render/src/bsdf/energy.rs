@@ -112,7 +112,7 @@ fn kept_by_glass(cos_o: f32, alpha: f32, eta: f32) -> f32 {
             let m = ggx::sample_visible(wo, alpha, warp::hammersley(i, POINTS));
             let cos = wo.dot(m).max(0.0);
             let (f, cos_t) = fresnel::dielectric(cos, eta);
-            let (up, down) = (ggx::reflect(wo, m), m * (cos / eta - cos_t) - wo / eta);
+            let (up, down) = (ggx::reflect(wo, m), ggx::refract(wo, m, eta, cos_t));
             let share = |w: Vec3, right_side: bool| if right_side { ggx::g2(wo, w, alpha) / ggx::g1(wo, alpha) } else { 0.0 };
             f * share(up, up.z > 0.0) + if f < 1.0 { (1.0 - f) * share(down, down.z < 0.0) } else { 0.0 }
         })

@@ -144,6 +144,13 @@ pub fn reflect(w: Vec3, m: Vec3) -> Vec3 {
     2.0 * w.dot(m) * m - w
 }
 
+/// `wo` bent at a facet with the normal `m`, on whose other side the index is `eta` times that on this one and the refracted direction's
+/// cosine is `cos_t`. Of unit length but for rounding.
+#[inline]
+pub fn refract(wo: Vec3, m: Vec3, eta: f32, cos_t: f32) -> Vec3 {
+    m * (wo.dot(m) / eta - cos_t) - wo / eta
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -162,7 +162,7 @@ impl<'a> Lobe<'a> {
         let cos = wo.dot(m);
         let (f, cos_t) = fresnel::dielectric(cos.max(0.0), eta);
         let reflects = u[2] < f;
-        let wi = if reflects { ggx::reflect(wo, m) } else { (m * (cos / eta - cos_t) - wo / eta).normalize() };
+        let wi = if reflects { ggx::reflect(wo, m) } else { ggx::refract(wo, m, eta, cos_t).normalize() };
         if facets.smooth() {
             let weight = if reflects { Rgb::WHITE } else { tint * (1.0 / (eta * eta)) };
             return Some(Sample::delta(wi, weight));
@@ -202,6 +202,15 @@ impl<'a> Lobe<'a> {
     /// True when a part of the lobe is diffuse.
     pub fn is_diffuse(&self) -> bool {
         matches!(self, Self::Lambert | Self::RoughDiffuse(_) | Self::Coated(_))
+    }
+
+    /// True when it sends light in single directions alone.
+    pub fn is_sharp(&self) -> bool {
+        match self {
+            Self::Reflection { facets, .. } | Self::Refraction { facets, .. } => facets.smooth(),
+            Self::Thin { .. } => true,
+            Self::Lambert | Self::RoughDiffuse(_) | Self::Coated(_) | Self::Sheen(_) => false,
+        }
     }
 
     /// True when everything of the lobe but its diffuse part is nearly as blurred as that.

@@ -24,7 +24,7 @@ pub struct Mixture<'a> {
     layers: Vec<Layers>,
 }
 
-/// The most lobes that a material has, so that a mixture is allocated once.
+/// The most lobes of a material that is no blend, so that its mixture is allocated once.
 const USUAL: usize = 6;
 
 impl<'a> Mixture<'a> {
@@ -124,6 +124,11 @@ impl<'a> Mixture<'a> {
         }
         let scale = entry.specular * self.passes(entry, wo, sample.wi) / entry.select;
         Some(Sample { weight: sample.weight * scale, ..sample })
+    }
+
+    /// See [`Lobe::is_sharp`].
+    pub fn is_sharp(&self) -> bool {
+        self.entries.iter().all(|e| e.lobe.is_sharp())
     }
 
     /// See [`Lobe::albedo`]; the lobes that are rough come first, the others second.

@@ -117,6 +117,16 @@ impl<'a> Bsdf<'a> {
         matches!(self.model, Model::Black)
     }
 
+    /// True when light is scattered in single directions alone, by mirrors and clear glass.
+    #[inline]
+    pub fn is_sharp(&self) -> bool {
+        match &self.model {
+            Model::Black => true,
+            Model::One(lobe) => lobe.is_sharp(),
+            Model::Mixture(mixture) => mixture.is_sharp(),
+        }
+    }
+
     /// How the light that the diffuse lobes reflect depends on the viewer, where that is known apart from where the light comes from.
     #[inline]
     pub fn outgoing(&self) -> Option<Outgoing<'a>> {

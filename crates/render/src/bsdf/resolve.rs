@@ -99,10 +99,15 @@ fn metal<'a>(facets: Facets, fresnel: Fresnel<'a>, tint: Rgb, cos_o: f32) -> Lob
     Lobe::Reflection { facets, fresnel, tint: tint * scale }
 }
 
+/// Indices of refraction this close to 1 count as 1: the directions that rough facets bend light to could not be told apart.
+const NO_REFRACTION: f32 = 1e-3;
+
 /// The border of a transparent body of the index `ior`, with all bounces between its facets.
 #[inline]
 fn glass<'a>(ior: f32, alpha: f32, tint: Rgb, at: &Inputs<'a>) -> Lobe<'a> {
     let eta = if at.outside { ior } else { 1.0 / ior };
+    // What does not bend light does not scatter it either, however rough.
+    let alpha = if (ior - 1.0).abs() < NO_REFRACTION { 0.0 } else { alpha };
     let scale = at.tables.glass.as_ref().map_or(1.0, |table| table.scale(at.cos_o, alpha, at.outside));
     Lobe::Refraction { facets: Facets::new(alpha, at.cos_o), eta, tint, scale }
 }

@@ -11,7 +11,7 @@ use crate::surface::Surface;
 use crate::texture::Cone;
 use appearance::Appearance;
 use enfilade_frame::{Frame, Layer, Values, f16, traits};
-use enfilade_math::{Ray, Rgb, Vec3, offset_origin};
+use enfilade_math::{Ray, Rgb, Vec3};
 use enfilade_scene::{CameraRay, CameraView};
 use flow::Flow;
 use rayon::prelude::*;
@@ -126,16 +126,15 @@ fn behind(scene: &RenderScene<'_>, first: &Surface<'_>, direction: Vec3, distanc
     if !first.material.bsdf.transmits() {
         return (distance_m, (part + 1) as i16);
     }
-    let (mut far_m, mut p, mut ng) = (distance_m, first.p, first.ng);
+    let (mut far_m, mut before) = (distance_m, first.clone());
     for _ in 0..MAX_PANES {
-        let ray = Ray::new(offset_origin(p, -ng), direction);
-        let Some(hit) = scene.closest(&ray, Cutout::Half) else { break };
+        let Some(hit) = scene.closest(&before.ray(direction), Cutout::Half) else { break };
         let surface = scene.surface(&hit, direction, &Cone::POINT);
-        far_m += surface.p.distance(p);
+        far_m += surface.p.distance(before.p);
         if !surface.material.bsdf.transmits() {
             return (far_m, (scene.triangles.get(hit.triangle).part + 1) as i16);
         }
-        (p, ng) = (surface.p, surface.ng);
+        before = surface;
     }
     (f32::NAN, -1)
 }

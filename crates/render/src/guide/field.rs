@@ -200,7 +200,7 @@ fn first_surface<'s>(
         let surface = scene.surface(&hit, ray.direction, &crate::texture::Cone::POINT);
         if let Some(transmittance) = surface.straight_transmittance(scene) {
             through *= transmittance;
-            ray = Ray::new(offset_origin(surface.p, -surface.ng), ray.direction);
+            ray = surface.ray(ray.direction);
             continue;
         }
         let emission = surface.emission(scene);

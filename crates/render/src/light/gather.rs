@@ -148,8 +148,8 @@ impl Part<'_> {
         let triangle = self.triangle(index);
         let Some((normal, sides)) = self.outward(&triangle) else { return 0 };
         let emission = self.emission_of(sides);
-        let [[u0, u1], [_, v1]] = [[triangle.uvs[1] - triangle.uvs[0], triangle.uvs[2] - triangle.uvs[0]]; 2];
-        let n = self.pieces_per_side(u0).max(self.pieces_per_side(u1)).max(self.pieces_per_side(v1 - u0));
+        let [b, c] = [triangle.uvs[1] - triangle.uvs[0], triangle.uvs[2] - triangle.uvs[0]];
+        let n = self.pieces_per_side(b).max(self.pieces_per_side(c)).max(self.pieces_per_side(c - b));
         let n = self.within_budget([n, n])[0];
         for piece in 0..n * n {
             let weights = corners_of_piece(piece, n);

@@ -212,8 +212,9 @@ impl<'s> Pyramid<'s> {
 /// The texels of `n` that texel `i` of `m` ≤ `n` covers, and how much of each.
 fn covered(i: u32, n: u32, m: u32) -> impl Iterator<Item = (u32, f32)> + Clone {
     // In units of 1/(n·m) of the picture.
+    let [i, n, m] = [i, n, m].map(u64::from);
     let (from, to) = (i * n, (i + 1) * n);
-    (from / m..to.div_ceil(m)).map(move |j| (j, (to.min((j + 1) * m) - from.max(j * m)) as f32))
+    (from / m..to.div_ceil(m)).map(move |j| (j as u32, (to.min((j + 1) * m) - from.max(j * m)) as f32))
 }
 
 /// Values of the 256 codes, sRGB-encoded and linear.
