@@ -2,8 +2,8 @@
 
 use crate::f16;
 
-/// Largest finite float16.
-const F16_LIMIT: f32 = 65504.0;
+/// The largest finite float16.
+pub const F16_LIMIT: f32 = 65504.0;
 
 /// One channel of one pixel as it is stored.
 #[derive(Clone, Copy, Debug, PartialEq)]

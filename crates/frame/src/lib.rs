@@ -6,7 +6,7 @@
 mod compose;
 mod spec;
 
-pub use compose::{Composed, compose};
+pub use compose::{Composed, F16_LIMIT, compose};
 pub use half::f16;
 pub use spec::{Dtype, LAYERS, Layer, LayerSpec, Pass, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, traits};
 

@@ -3,7 +3,7 @@
 use crate::batch::PixelSample;
 use crate::budget::Estimate;
 use crate::split::Split;
-use enfilade_frame::{compose, f16};
+use enfilade_frame::{F16_LIMIT, compose, f16};
 use enfilade_math::Rgb;
 
 /// Sums of the samples of one pixel. Samples come from the reconstruction filter's distribution, so all weigh the same.
@@ -21,9 +21,6 @@ pub(crate) struct PixelSum {
     mean: f32,
     deviations: f32,
 }
-
-/// Largest finite float16.
-const F16_LIMIT: f32 = 65504.0;
 
 /// The colour values of one pixel as they are stored.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -4,7 +4,7 @@
 use crate::prepared::{Cutout, RenderScene};
 use crate::surface::Surface;
 use crate::texture::Cone;
-use enfilade_frame::f16;
+use enfilade_frame::{F16_LIMIT, f16};
 use enfilade_math::{DVec3, Ray, Vec3};
 use enfilade_scene::{CameraRay, CameraView};
 
@@ -89,5 +89,5 @@ fn halves(v: Vec3) -> [f16; 3] {
 
 /// Texture coordinates of many repeats stay finite.
 fn finite_half(v: f32) -> f16 {
-    f16::from_f32(v.clamp(-65504.0, 65504.0))
+    f16::from_f32(v.clamp(-F16_LIMIT, F16_LIMIT))
 }

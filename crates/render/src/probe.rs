@@ -25,7 +25,7 @@ pub struct Probe<'a, 's> {
 
 impl<'a, 's> Probe<'a, 's> {
     /// Side of the square in pixels.
-    pub const SIDE: u32 = 8;
+    pub const SIDE: u32 = SQUARE;
 
     /// The square whose upper left pixel is `corner`, or near it, without samples.
     ///

@@ -120,7 +120,7 @@ pub fn check_exr_table(read: impl Read + Seek, wanted: impl Fn(usize) -> bool) -
     match check() {
         Ok(true) => Ok(()),
         Ok(false) => Err("is damaged: its table of blocks does not lead to each block once; save it again".into()),
-        Err(e) => Err(format!("cannot be decoded ({e})")),
+        Err(e) => Err(format!("cannot be read as OpenEXR ({e})")),
     }
 }
 

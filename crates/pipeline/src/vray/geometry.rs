@@ -4,14 +4,12 @@ use super::entities::{Entities, Entity};
 use super::exr_file::VrayImage;
 use super::notes::Notes;
 use crate::error::Error;
-use enfilade_frame::{Frame, Layer, Values, f16};
+use enfilade_frame::{F16_LIMIT, Frame, Layer, Values, f16};
 use enfilade_math::DVec3;
 use enfilade_scene::Pose;
 
 /// Shorter than this a normal says nothing.
 const SHORT: f64 = 1e-6;
-/// Largest finite float16.
-const F16_LIMIT: f32 = 65504.0;
 
 /// What is known about the camera and the units of an image.
 pub(super) struct Placed<'a> {

@@ -90,7 +90,7 @@ impl Windows {
         }
         let mut portal_cells = PORTAL_CELLS;
         loop {
-            let (faces, portals) = crossings.portals(bounds, cell, portal_cells);
+            let (faces, portals) = crossings.portals(bounds, portal_cells);
             if portals.len() <= MAX_PORTALS {
                 return (!portals.is_empty()).then_some(Self { box_from_world, bounds, faces, portals });
             }
@@ -108,7 +108,7 @@ impl Windows {
         let p = self.box_from_world * p;
         let portal = &self.portals[portal];
         let to = 0.5 * (portal.min + portal.max) - p;
-        if holds(&self.bounds, p) { portal.area / (to.length_squared() + portal.area) } else { 0.0 }
+        if self.bounds.contains(p) { portal.area / (to.length_squared() + portal.area) } else { 0.0 }
     }
 
     /// A direction from `p` through a portal. `None` from outside the room or from the portal's own plane.
@@ -116,7 +116,7 @@ impl Windows {
     pub fn sample(&self, portal: usize, p: Vec3, u: [f32; 2]) -> Option<Vec3> {
         let p = self.box_from_world * p;
         let portal = &self.portals[portal];
-        if !holds(&self.bounds, p) || (p[portal.axis] - portal.min[portal.axis]).abs() < MIN_HEIGHT_M {
+        if !self.bounds.contains(p) || (p[portal.axis] - portal.min[portal.axis]).abs() < MIN_HEIGHT_M {
             return None;
         }
         let mut at = portal.min;
@@ -181,7 +181,7 @@ impl Crossings {
     }
 
     /// Covers the open cells with portals of at most `side` cells along a side.
-    fn portals(&self, bounds: Bounds3, cell: f32, side: usize) -> (Vec<Face>, Vec<Portal>) {
+    fn portals(&self, bounds: Bounds3, side: usize) -> (Vec<Face>, Vec<Portal>) {
         let mut portals = Vec::new();
         let mut faces = Vec::new();
         for face in 0..6 {
@@ -200,8 +200,8 @@ impl Crossings {
                 let Some([xl, xh, yl, yh]) = range else { continue };
                 let mut min = Vec3::splat(if face.is_multiple_of(2) { bounds.max[axis] } else { bounds.min[axis] });
                 let mut max = min;
-                (min[a], max[a]) = (bounds.min[a] + xl as f32 * cell, bounds.min[a] + (xh + 1) as f32 * cell);
-                (min[b], max[b]) = (bounds.min[b] + yl as f32 * cell, bounds.min[b] + (yh + 1) as f32 * cell);
+                (min[a], max[a]) = (bounds.min[a] + xl as f32 * self.cell, bounds.min[a] + (xh + 1) as f32 * self.cell);
+                (min[b], max[b]) = (bounds.min[b] + yl as f32 * self.cell, bounds.min[b] + (yh + 1) as f32 * self.cell);
                 // The last cells may reach beyond the box, where no direction from within arrives.
                 let max = max.min(bounds.max).max(min);
                 let area = (max[a] - min[a]) * (max[b] - min[b]);
@@ -210,7 +210,7 @@ impl Crossings {
                     portals.push(Portal { axis, min, max, area });
                 }
             }
-            faces.push(Face { size, tile: side as f32 * cell, portals: tiles });
+            faces.push(Face { size, tile: side as f32 * self.cell, portals: tiles });
         }
         (faces, portals)
     }
@@ -219,7 +219,7 @@ impl Crossings {
 /// The face of the box through which a ray from within leaves it (2·axis, +1 on the lower side), and where. `None` from outside.
 #[inline]
 fn exit(bounds: &Bounds3, p: Vec3, d: Vec3) -> Option<(usize, f32)> {
-    if !holds(bounds, p) {
+    if !bounds.contains(p) {
         return None;
     }
     let mut nearest = (0, f32::INFINITY);
@@ -236,11 +236,6 @@ fn exit(bounds: &Bounds3, p: Vec3, d: Vec3) -> Option<(usize, f32)> {
         }
     }
     nearest.1.is_finite().then_some(nearest)
-}
-
-#[inline]
-fn holds(bounds: &Bounds3, p: Vec3) -> bool {
-    p.cmpge(bounds.min).all() && p.cmple(bounds.max).all()
 }
 
 /// The two axes of a face.
@@ -266,7 +261,7 @@ fn place_box(surfaces: &[Vec3], escapes: &[(Vec3, Vec3)]) -> Bounds3 {
     let rays: Vec<(Vec3, Vec3)> = escapes.iter().step_by(thin(escapes.len())).copied().collect();
     let points: Vec<Vec3> = surfaces.iter().step_by(thin(surfaces.len())).copied().collect();
     let cost = |bounds: Bounds3| {
-        let held = points.iter().filter(|p| holds(&bounds, **p)).count() as f32 / points.len() as f32;
+        let held = points.iter().filter(|p| bounds.contains(**p)).count() as f32 / points.len() as f32;
         let cell = (bounds.extent().max_element() / CELLS).max(1e-3);
         let crossings = Crossings::new(bounds, cell, &rays);
         // An area that nothing crosses is no better than one cell.

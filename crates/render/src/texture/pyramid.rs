@@ -1,7 +1,7 @@
 //! A picture and its ever smaller copies.
 
 use super::Footprint;
-use enfilade_math::{Vec2, Vec4, linear_from_srgb};
+use enfilade_math::{Rgb, Vec2, Vec4, linear_from_srgb};
 use enfilade_scene::{Filter, Image, Pixels, TextureRef};
 use rayon::prelude::*;
 use std::sync::LazyLock;
@@ -203,7 +203,7 @@ impl<'s> Pyramid<'s> {
             (Full::Bytes(texels, values), 0) if self.grey => values[usize::from(texels[index][0])],
             _ => {
                 let t = self.texel(level, index);
-                if self.grey { t.x } else { 0.2126 * t.x + 0.7152 * t.y + 0.0722 * t.z }
+                if self.grey { t.x } else { Rgb::new(t.x, t.y, t.z).luminance() }
             }
         }
     }
@@ -224,7 +224,7 @@ static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| std::array::from_fn(|i| i
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_math::{Rgb, Rng};
+    use enfilade_math::Rng;
     use enfilade_scene::Wrap;
 
     fn picture(width: u32, height: u32, srgb: bool) -> Image {
