@@ -211,6 +211,23 @@ fn a_plain_of_kilometres_loses_no_light() {
 }
 
 #[test]
+fn a_luminous_ceiling_of_kilometres_lights_a_table_under_it() {
+    // Not along the axes, so that the ceiling's heights are rounded.
+    let tilt = DAffine3::from_axis_angle(DVec3::new(0.6, 0.8, 0.0), 0.3);
+    let place = |x: f64, y: f64, z: f64| tilt.transform_point3(DVec3::new(x, y, z)).as_vec3();
+    let ceiling = quad([[-1300.0, 1200.0], [1250.0, 1300.0], [1200.0, -1250.0], [-1300.0, -1100.0]].map(|[x, y]| place(x, y, 0.5)));
+    let table = quad([[-0.2, -0.2], [0.2, -0.2], [0.2, 0.2], [-0.2, 0.2]].map(|[x, y]| place(x, y, 0.0)));
+    let s = scene(vec![
+        ("ceiling", ceiling, Material { two_sided: false, ..Material::emitter("ceiling", Rgb::WHITE) }),
+        ("table", table, Material::diffuse("table", Rgb::splat(0.5))),
+    ]);
+    let (from, to) = ((0.3, 0.1, 0.4), (0.02, 0.01, 0.0));
+    let at = |(x, y, z)| tilt.transform_point3(DVec3::new(x, y, z));
+    let frame = picture(&s, at(from), at(to), 16, 10.0, 256);
+    assert_close("radiance of the table", mean(&frame, Layer::Color, 1), 0.5, 2e-3);
+}
+
+#[test]
 fn a_thin_sheet_of_gltf_glass_passes_what_it_does_not_reflect() {
     let glass = Principled { transmission: 1.0.into(), roughness: 0.0.into(), ..Principled::default() };
     let s = white_sky(scene(vec![("sphere", sphere(32), Material::new("glass", Bsdf::Principled(Box::new(glass))))]));
