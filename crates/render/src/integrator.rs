@@ -194,7 +194,8 @@ impl<'a, 's> Integrator<'a, 's> {
             return None;
         }
         let ray = surface.shadow_ray(light.wi, light.target);
-        let medium = if wi.z < 0.0 { medium.beyond(surface) } else { medium };
+        let crosses = wi.z < 0.0;
+        let medium = if crosses { medium.beyond(surface) } else { medium };
         let arriving = self.scene.transmittance(&ray) * medium.transmittance(ray.t_max);
         if arriving.is_black() {
             return None;
@@ -204,7 +205,7 @@ impl<'a, 's> Integrator<'a, 's> {
             weight: value * weight,
             light: self.scene.lights.radiance_of(&light) * arriving,
             kind: light.kind(),
-            crosses: wi.z < 0.0,
+            crosses,
             wi: light.wi,
             factor: weight,
             pdf: (!light.is_delta).then_some(light.pdf),

@@ -5,7 +5,7 @@ use ::exr::block;
 use ::exr::meta::header::Header;
 use ::exr::meta::{BlockDescription, MetaData};
 use ::exr::prelude::*;
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::io::{Cursor, Read, Seek};
 
 /// Channels that take more bytes than this when they are decoded are refused.
@@ -41,21 +41,19 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<FloatPicture, String> 
 /// The channels that hold red, green and blue: those without a layer's name (`R`), or else of the first layer that has them
 /// (`beauty.R`); where there are none, all three are `Y` or the first channel.
 fn colors(channels: &[AnyChannel<FlatSamples>]) -> [Option<&AnyChannel<FlatSamples>>; 3] {
-    let split = |c: &AnyChannel<FlatSamples>| {
-        let name = c.name.to_string();
-        name.rsplit_once('.').map_or((String::new(), name.clone()), |(layer, last)| (layer.to_string(), last.to_string()))
-    };
-    let named = |layer: &str, last: &str| {
-        let is_it = |(in_layer, name): (String, String)| in_layer == layer && name.eq_ignore_ascii_case(last);
-        channels.iter().find(|c| is_it(split(c)))
-    };
-    let of = |layer: &str| ["R", "G", "B"].map(|last| named(layer, last));
-    let layers: Vec<String> = std::iter::once(String::new()).chain(channels.iter().map(|c| split(c).0)).collect();
-    let found = |layer: &String| of(layer).iter().flatten().count();
-    let most = layers.iter().map(found).max().unwrap_or(0);
-    let layer = layers.iter().find(|layer| found(layer) == most).map_or("", String::as_str);
-    let grey = layers.iter().find_map(|layer| named(layer, "Y")).or(channels.first());
-    of(layer).map(|channel| channel.or(grey))
+    // Of each layer, the nameless one first: red, green, blue and grey.
+    let mut layers: BTreeMap<String, [Option<&AnyChannel<FlatSamples>>; 4]> = BTreeMap::new();
+    for channel in channels {
+        let name = channel.name.to_string();
+        let (layer, last) = name.rsplit_once('.').unwrap_or(("", &name));
+        if let Some(place) = ["R", "G", "B", "Y"].iter().position(|color| last.eq_ignore_ascii_case(color)) {
+            layers.entry(layer.to_string()).or_default()[place].get_or_insert(channel);
+        }
+    }
+    let grey = layers.values().find_map(|layer| layer[3]).or(channels.first());
+    // Of layers with equally many colours the first, which `max_by_key` would leave for the last.
+    let [r, g, b, _] = layers.into_values().rev().max_by_key(|layer| layer[..3].iter().flatten().count()).unwrap_or_default();
+    [r, g, b].map(|channel| channel.or(grey))
 }
 
 /// Refuses pictures whose channels would fill the memory, before room is made for them.
@@ -167,7 +165,7 @@ mod tests {
         assert_eq!(picture(&["Z"]), [0.0; 3]);
     }
 
-    /// A picture of 4x4 in tiles of 2x2 and its smaller copies: five places in its table, from 8 bytes after what it begins with.
+    /// A picture of 4x4 in tiles of 2x2 and its smaller copies, six tiles in all, and where in the file the table of their places is.
     fn with_levels() -> (Vec<u8>, usize) {
         let level = |side: usize| FlatSamples::F32((0..side * side).map(|i| i as f32).collect());
         let levels = Levels::Mip { rounding_mode: ::exr::math::RoundingMode::Down, level_data: vec![level(4), level(2), level(1)] };
