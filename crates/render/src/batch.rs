@@ -144,7 +144,7 @@ impl<'a, 's> Integrator<'a, 's> {
             }
             // Light that comes by way of other surfaces, and sources that the direction happens to meet.
             let step = if bounce == 0 {
-                expected = vertex.expected_indirect();
+                expected = vertex.expected();
                 let u = sampler.set(bsdf_set(0));
                 vertex.scatter([u[0], u[1], u[2]], &segment).map(|(weight, next)| (Step { weight, survival: 1.0 }, next))
             } else {
@@ -230,8 +230,10 @@ impl<'a, 's> Integrator<'a, 's> {
     ) -> (Arriving, Option<Far<'a>>) {
         let bounce = head.bounce + 1;
         let mut own = Arriving::default();
-        let Some((surface, hit, throughput)) = self.next_surface(&segment, Rgb::WHITE, bounce == 1, &mut own) else { return (own, None) };
+        let direct = bounce == 1;
+        let Some((surface, hit, throughput)) = self.next_surface(&segment, Rgb::WHITE, direct, &mut own) else { return (own, None) };
         if self.config.max_bounces.is_some_and(|most| bounce > most) {
+            self.beyond_panes(segment, surface, throughput, direct, &mut own);
             return (own, None);
         }
         let bsdf = surface.bsdf(self.scene);

@@ -101,8 +101,20 @@ impl<'a, 's> Integrator<'a, 's> {
         Some((surface, hit, throughput))
     }
 
+    /// Adds what the last surface, which a segment ends at, lets through of lights: light sampling saw them through panes, and counted
+    /// on them.
+    pub fn beyond_panes(&self, mut segment: Segment, mut surface: Surface<'s>, mut throughput: Rgb, direct: bool, radiance: &mut Arriving) {
+        while segment.sampled.is_some() {
+            let Some(passed) = surface.straight_transmittance(self.scene).filter(|passed| !passed.is_black()) else { return };
+            (segment.ray, segment.cone) = (surface.ray(segment.ray.direction), surface.cone);
+            let Some((next, _, reached)) = self.next_surface(&segment, throughput * passed, direct, radiance) else { return };
+            (surface, throughput) = (next, reached);
+        }
+    }
+
     /// Where a path goes on, and with which weight; `None` where it ends. Two numbers concern roulette alone: `so_far`, what the path
-    /// lets through to the camera, and `expected`, the indirect light that its first surface is expected to reflect (0: unknown).
+    /// lets through to the camera, and `expected`, the light that its first surface is expected to reflect of what directions find there
+    /// (0: unknown).
     #[inline]
     pub fn onward(
         &self,
@@ -119,7 +131,7 @@ impl<'a, 's> Integrator<'a, 's> {
             return Some((Step { weight, survival: 1.0 }, next));
         }
         let reflectance = vertex.bsdf.reflectance;
-        let here = so_far.luminance() * vertex.expected_indirect();
+        let here = so_far.luminance() * vertex.expected();
         let blurred = weight.specular.luminance() <= (reflectance * weight.diffuse).luminance();
         let survival = if blurred && here > 0.0 && *expected > 0.0 {
             (SURVIVAL_GAIN * here / *expected).max(LEAST_SURVIVAL)
@@ -154,6 +166,7 @@ impl<'a, 's> Integrator<'a, 's> {
             throughput = reached;
             // The last surface only shows what it emits: light sampling before it counted on that.
             if self.config.max_bounces.is_some_and(|most| bounce > most) {
+                self.beyond_panes(segment, surface, throughput, direct, &mut radiance);
                 return radiance;
             }
             let bsdf = surface.bsdf(self.scene);
@@ -220,7 +233,7 @@ impl<'a, 's> Integrator<'a, 's> {
         let u = sampler.set(bsdf_set(0));
         let nowhere = Segment::from_camera(Ray::new(surface.p, -surface.wo), Cone::POINT);
         if let Some((weight, segment)) = vertex.scatter([u[0], u[1], u[2]], &nowhere) {
-            irradiance += weight.diffuse * self.radiance(segment, 1, true, Rgb::WHITE, vertex.expected_indirect(), sampler).total;
+            irradiance += weight.diffuse * self.radiance(segment, 1, true, Rgb::WHITE, vertex.expected(), sampler).total;
         }
         irradiance
     }

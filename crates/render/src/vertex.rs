@@ -85,7 +85,7 @@ struct Known<'a> {
     onb: Onb,
     /// Share of the directions that follow it.
     share: f32,
-    /// Luminance of the indirect light that is expected to be reflected.
+    /// Luminance of the light, found by directions, that is expected to be reflected.
     reflected: f32,
 }
 
@@ -105,7 +105,7 @@ impl<'a, 's> Vertex<'a, 's> {
         let known = match &guide.field {
             Some(field) if !bsdf.reflectance.is_black() => field.at(surface.p, surface.ns_smooth).map(|light| {
                 let albedo = bsdf.albedo(wo.z);
-                let (share, reflected) = (GUIDED_SHARE * albedo.blurred_share(), albedo.blurred() * light.indirect);
+                let (share, reflected) = (GUIDED_SHARE * albedo.blurred_share(), albedo.blurred() * light.found);
                 let axes = if surface.ns_smooth == surface.ns { onb } else { Onb::from_z(surface.ns_smooth) };
                 Known { light, onb: axes, share, reflected: reflected.luminance() }
             }),
@@ -114,9 +114,9 @@ impl<'a, 's> Vertex<'a, 's> {
         Self { surface, bsdf, onb, wo, known }
     }
 
-    /// Luminance of the indirect light that is expected to be reflected; 0 where nothing is known.
+    /// Luminance of the light, found by [`Vertex::scatter`]'s directions, that is expected to be reflected; 0 where nothing is known.
     #[inline]
-    pub fn expected_indirect(&self) -> f32 {
+    pub fn expected(&self) -> f32 {
         self.known.as_ref().map_or(0.0, |known| known.reflected)
     }
 

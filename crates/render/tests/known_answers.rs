@@ -136,6 +136,22 @@ fn a_limit_on_bounces_cuts_the_series_of_reflections_and_nothing_else() {
 }
 
 #[test]
+fn a_limit_on_bounces_leaves_the_light_that_comes_through_panes() {
+    // A floor under a white sky, of which a grey film lets one half through; the light that directions find there is beyond the limit.
+    let floor = |z, half: f32| quad([[-half, -half], [half, -half], [half, half], [-half, half]].map(|[x, y]| Vec3::new(x, y, z)));
+    let film = Material::new("film", Bsdf::ThinDielectric { eta: 1.0, transmittance: Rgb::splat(0.5).into() });
+    let grey = Material::diffuse("floor", Rgb::splat(0.5));
+    let s = white_sky(scene(vec![("floor", floor(0.0, 50.0), grey), ("film", floor(1.0, 200.0), film)]));
+    let prepared = RenderScene::new(&s, &Quiet).unwrap();
+    let pose = Pose::look_at(0, DVec3::new(0.0, 0.0, 0.5), DVec3::ZERO, DVec3::Y).unwrap();
+    for max_bounces in [0, 1, 4] {
+        let config = RenderConfig { samples: 256, max_bounces: Some(max_bounces), ..RenderConfig::default() };
+        let frame = render(&prepared, &Intrinsics::from_fov_x(16, 16, 0.2), &pose, &config).unwrap();
+        assert_close(&format!("{max_bounces} bounces"), mean(&frame, Layer::Color, 1), 0.25, 5e-3);
+    }
+}
+
+#[test]
 fn lossless_spheres_vanish_in_a_white_sky() {
     let glass =
         |eta: f32, alpha: f32| Bsdf::Dielectric { eta, alpha: alpha.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::BLACK };

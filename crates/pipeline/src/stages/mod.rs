@@ -114,7 +114,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Render,
         name: "render",
         about: "scene, trajectories -> frames",
-        version: 6,
+        version: 7,
         settings: render::settings,
         inputs: render::inputs,
         run: render::run,

@@ -28,8 +28,9 @@ const MIN_CELL: f32 = 0.05;
 #[derive(Debug)]
 pub(crate) struct CellLight {
     density: SquareDensity,
-    /// Indirect irradiance over π: the mean radiance over the hemisphere, weighted by the cosine, without direct light.
-    pub indirect: Rgb,
+    /// Irradiance over π of the light that directions find, which is the mean radiance over the hemisphere, weighted by the cosine: what
+    /// other surfaces send, and of sources what light sampling leaves to chance.
+    pub found: Rgb,
 }
 
 /// The light in the cells of a scene.
@@ -85,7 +86,8 @@ impl Field {
             .zip(&indirect)
             .map(|((_, links), &indirect)| {
                 let values: [f32; BINS] = std::array::from_fn(|bin| links[bin].emitted + links[bin].radiance(&total).luminance());
-                CellLight { density: SquareDensity::new(&blurred(&values)), indirect }
+                let emitted = links.iter().map(|link| link.emitted).sum::<f32>() / BINS as f32;
+                CellLight { density: SquareDensity::new(&blurred(&values)), found: indirect + Rgb::splat(emitted) }
             })
             .collect();
         Some(Self { cells, lights })

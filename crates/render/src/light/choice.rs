@@ -54,11 +54,8 @@ impl Row<'_> {
     /// A source for `u` uniform on [0,1), its probability, and `u` renewed.
     #[inline]
     pub fn sample(self, u: f32) -> (usize, f32, f32) {
-        let source = if self.0.len() <= 8 {
-            self.0.iter().position(|&sum| u < sum).unwrap_or(self.0.len() - 1)
-        } else {
-            self.0.partition_point(|&sum| sum <= u).min(self.0.len() - 1)
-        };
+        // Without a branch, some dozen numbers are counted faster than searched.
+        let source = self.0.iter().map(|&sum| usize::from(sum <= u)).sum::<usize>().min(self.0.len() - 1);
         let probability = self.probability(source);
         let below = if source == 0 { 0.0 } else { self.0[source - 1] };
         (source, probability, ((u - below) / probability).clamp(0.0, ONE_MINUS_EPSILON))
