@@ -5,6 +5,7 @@
 
 mod cells;
 mod field;
+mod rays;
 mod square;
 
 pub(crate) use field::{CellLight, Field};
@@ -16,6 +17,7 @@ use crate::walk::{pixel_samples, walk};
 use cells::Site;
 use enfilade_math::{Rng, hash_u64};
 use enfilade_scene::CameraView;
+use field::Effort;
 use rayon::prelude::*;
 
 /// Paths that look for places, at most; few samples learn from fewer.
@@ -24,6 +26,10 @@ const PATHS: u64 = 1 << 16;
 const SAMPLES_PER_CELL: u64 = 1024;
 /// More cells say no more about a room.
 const MOST_CELLS: u64 = 1 << 14;
+/// A further ray through each bin of a cell costs about as much as fifty samples; this many pay for it.
+const SAMPLES_PER_ROUND: u64 = 4096;
+/// More rays say no more about a cell.
+const MOST_ROUNDS: u64 = 16;
 /// Surfaces that a path visits.
 const VERTICES: usize = 4;
 
@@ -55,8 +61,10 @@ impl Guide {
                 sites
             })
             .collect();
-        let cells = (samples / SAMPLES_PER_CELL).clamp(64, MOST_CELLS) as usize;
-        let field = if config.guiding { Field::solve(scene, &choice, &sites, cells, seed) } else { None };
+        let cells = (samples / SAMPLES_PER_CELL).clamp(64, MOST_CELLS);
+        let rounds = (samples / cells / SAMPLES_PER_ROUND).clamp(1, MOST_ROUNDS);
+        let effort = Effort { cells: cells as usize, rounds: rounds as usize };
+        let field = if config.guiding { Field::solve(scene, &choice, &sites, effort, seed) } else { None };
         Self { choice, field }
     }
 }
