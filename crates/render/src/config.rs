@@ -40,8 +40,8 @@ pub struct RenderConfig {
     /// Pixels near each other share the light that their paths find: less noise for the same time, which pixels two and four
     /// apart then have in common. Changes noise, never the mean. Default true.
     pub reuse: bool,
-    /// Longest path, counted in surfaces that scatter light after the first, panes among them. Default none: Russian roulette ends paths
-    /// without bias.
+    /// Longest path, counted in surfaces that scatter light after the first, panes among them but those before a source. Default none:
+    /// Russian roulette ends paths without bias.
     pub max_bounces: Option<u32>,
     /// Largest radiance that one indirect path may add to a pixel: its own, or with `reuse` one that it shares, of which each adds a part.
     /// Default none: a clamp darkens the picture.
