@@ -13,13 +13,24 @@ const OCCUPIED: f32 = 3.511_030_7;
 
 impl OccupancyTree {
     /// The tree as the bytes of an `.ot` file. A state becomes the probability at which OctoMap clamps, and an inner node has the
-    /// greatest one of its children.
+    /// greatest one of its children. Inner nodes below which nothing is known are left out: as nodes without children they would be free.
     pub fn to_ot(&self) -> Vec<u8> {
-        let mut bytes = Header::of(self, TITLE);
-        if self.root != UNKNOWN {
-            self.write_with_odds(self.root, &mut bytes);
+        let mut known = self.clone();
+        known.root = known.forget_empty(known.root);
+        let mut bytes = Header::of(&known, TITLE);
+        if known.root != UNKNOWN {
+            known.write_with_odds(known.root, &mut bytes);
         }
         bytes
+    }
+
+    /// Makes inner nodes unknown below which nothing is known; returns what then stands in place of `child`.
+    fn forget_empty(&mut self, child: Child) -> Child {
+        let Child::Inner(node) = child else { return child };
+        for octant in 0..8 {
+            self.nodes[node as usize][octant] = self.forget_empty(self.nodes[node as usize][octant]);
+        }
+        if self.nodes[node as usize] == [UNKNOWN; 8] { UNKNOWN } else { child }
     }
 
     /// Writes a known node and all below it; returns its log-odds.
@@ -111,6 +122,16 @@ mod tests {
             assert!(read.leaves().eq(tree.leaves()));
             assert_eq!((read.resolution_m(), read.node_count(), read.to_ot()), (tree.resolution_m(), tree.node_count(), bytes));
         }
+    }
+
+    #[test]
+    fn what_is_unknown_below_an_inner_node_stays_unknown() {
+        // Below the root an inner node without known children, and an occupied leaf.
+        let text = b"# Octomap OcTree binary file\nid OcTree\nsize 3\nres 0.1\ndata\n";
+        let tree = OccupancyTree::from_bt(&[&text[..], &[0b1011, 0, 0, 0]].concat()).unwrap();
+        let read = OccupancyTree::from_ot(&tree.to_ot()).unwrap();
+        assert!(read.leaves().eq(tree.leaves()));
+        assert_eq!((tree.node_count(), read.node_count()), (3, 2));
     }
 
     #[test]
