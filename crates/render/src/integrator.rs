@@ -21,6 +21,9 @@ const UNKNOWN_GAIN: f32 = 12.0;
 const LEAST_SURVIVAL: f32 = 0.2;
 const MOST_SURVIVAL: f32 = 0.95;
 
+/// Panes one behind the other that are looked through where a path has its last surface.
+const MOST_PANES: usize = 64;
+
 /// Random numbers: set 0 is the camera's; each bounce has two more.
 pub(crate) const fn bsdf_set(bounce: u32) -> u32 {
     1 + 2 * bounce
@@ -104,7 +107,10 @@ impl<'a, 's> Integrator<'a, 's> {
     /// Adds what the last surface, which a segment ends at, lets through of lights: light sampling saw them through panes, and counted
     /// on them.
     pub fn beyond_panes(&self, mut segment: Segment, mut surface: Surface<'s>, mut throughput: Rgb, direct: bool, radiance: &mut Arriving) {
-        while segment.sampled.is_some() {
+        if segment.sampled.is_none() {
+            return;
+        }
+        for _ in 0..MOST_PANES {
             let Some(passed) = surface.straight_transmittance(self.scene).filter(|passed| !passed.is_black()) else { return };
             (segment.ray, segment.cone) = (surface.ray(segment.ray.direction), surface.cone);
             let Some((next, _, reached)) = self.next_surface(&segment, throughput * passed, direct, radiance) else { return };
