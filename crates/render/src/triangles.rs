@@ -8,7 +8,7 @@ use enfilade_geometry::{Bvh, Placement};
 use enfilade_math::{Bounds3, Mat3, Vec3};
 use enfilade_scene::{Material, Part, Scene};
 
-/// Up to this many triangles, all are kept as they stand: rays are faster then, for about 220 bytes a triangle.
+/// Up to this many triangles, all are kept as they stand: rays are faster then, for about 200 bytes a triangle.
 const KEPT: usize = 1 << 21;
 /// Meshes of fewer triangles are always kept as they stand.
 const SMALLEST_SHARED: usize = 64;

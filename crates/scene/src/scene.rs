@@ -1,6 +1,6 @@
 use crate::material::Constant;
 use crate::{Alpha, Environment, Image, Light, Material, NormalMap, Parameter, Pixels, StartCamera};
-use enfilade_geometry::{Mesh, MeshError};
+use enfilade_geometry::{Bvh, Mesh, MeshError};
 use enfilade_math::{DAffine3, Vec3, place};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -48,6 +48,16 @@ pub enum SceneError {
     /// No parts.
     #[error("the scene has no visible parts; check that the file holds meshes and that they are not hidden")]
     NoParts,
+    /// More triangles than a ray-tracing hierarchy has room for.
+    #[error(
+        "the scene has {found} triangles, those of meshes in several places counted each time, but only {limit} can be rendered; \
+         leave out or simplify its finest meshes",
+        limit = Bvh::MOST_TRIANGLES
+    )]
+    TooManyTriangles {
+        /// Number of triangles in the world.
+        found: usize,
+    },
     /// A mesh that cannot be used.
     #[error("mesh of part {part:?}: {error}")]
     Mesh {
@@ -82,7 +92,7 @@ pub enum SceneError {
 }
 
 impl Scene {
-    /// Checks that every index points at something, every number is finite, and part names are unique.
+    /// Checks that every index points at something, every number is finite, part names are unique, and that the triangles are not too many.
     ///
     /// # Errors
     /// The first problem found, with the name of the thing concerned.
@@ -104,6 +114,10 @@ impl Scene {
                 return Err(SceneError::DuplicateName(part.name.clone()));
             }
             user_of_mesh.entry(part.mesh).or_insert(part.name.as_str());
+        }
+        let found = self.parts.iter().map(|part| self.meshes[part.mesh as usize].triangles.len()).sum();
+        if found > Bvh::MOST_TRIANGLES {
+            return Err(SceneError::TooManyTriangles { found });
         }
         for (&mesh, part) in &user_of_mesh {
             self.meshes[mesh as usize].validate().map_err(|error| SceneError::Mesh { part: (*part).to_string(), error })?;
@@ -239,6 +253,19 @@ mod tests {
         }
         let message = refused(of(glass(0.0, Rgb::BLACK)));
         assert!(message.contains("an index of refraction is 0, expected more than 0"), "{message}");
+    }
+
+    #[test]
+    fn more_triangles_than_can_be_rendered_are_refused() {
+        let mut scene = one_triangle(Material::diffuse("m", Rgb::WHITE));
+        let in_mesh = 1 << 16;
+        scene.meshes[0].triangles = vec![[0, 1, 2]; in_mesh];
+        let part = scene.parts[0].clone();
+        scene.parts = (0..Bvh::MOST_TRIANGLES / in_mesh).map(|i| Part { name: format!("part {i}"), ..part.clone() }).collect();
+        assert_eq!(scene.validate(), Ok(()));
+        scene.parts.push(part);
+        let message = scene.validate().unwrap_err().to_string();
+        assert!(message.contains("134283264 triangles") && message.contains("only 134217728"), "{message}");
     }
 
     #[test]

@@ -2,7 +2,8 @@
 
 use super::binary::{Binary, BinaryNode};
 use super::collapse::{Plan, collapse};
-use super::node::{Block, LANES, Node};
+use super::leaf::{BEYOND, LANES, MOST_TRIANGLES, WORDS};
+use super::node::Node;
 use super::pages::Pages;
 use super::placed::{Placed, Placement};
 use super::reinsertion::reinsert;
@@ -14,7 +15,8 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 /// The finished trees: that of the world, whose root is node 0, and those of the shared meshes.
 pub(super) struct Built {
     pub nodes: Pages<Node>,
-    pub blocks: Pages<Block>,
+    /// Of all leaves.
+    pub words: Pages<u32>,
     pub placed: Vec<Placed>,
     pub bounds: Bounds3,
 }
@@ -41,12 +43,7 @@ pub(super) fn build(
     let triangles = (0..corners.len() as u32).filter(|&i| has_area(&corners[i as usize]));
     let boxes = (0..placed.len()).filter(|&i| !placed[i].bounds.is_empty()).map(|i| (corners.len() + i) as u32);
     let Some(world) = soup.tree(triangles.chain(boxes).collect()) else {
-        return Built {
-            nodes: Pages::filled(Node::EMPTY, 0),
-            blocks: Pages::filled(Block::EMPTY, 0),
-            placed: Vec::new(),
-            bounds: Bounds3::EMPTY,
-        };
+        return Built { nodes: Pages::filled(Node::EMPTY, 0), words: Pages::filled(0, 0), placed: Vec::new(), bounds: Bounds3::EMPTY };
     };
     // Whether corners on a line have an area is for the rounding in the world to say.
     let apart = |[a, b, c]: &[Vec3; 3]| a != b && b != c && c != a;
@@ -60,13 +57,15 @@ pub(super) fn build(
 
     let trees = || std::iter::once(&world).chain(of_meshes.iter().flatten());
     let mut nodes = Pages::filled(Node::EMPTY, trees().map(|tree| tree.plan.node_count()).sum());
-    let mut blocks = Pages::filled(Block::EMPTY, trees().map(|tree| tree.plan.block_count()).sum());
-    let (mut first_node, mut first_block) = (0, 0);
+    let triangle_count: usize = trees().map(|tree| tree.plan.triangle_count()).sum();
+    assert!(triangle_count <= MOST_TRIANGLES, "{triangle_count} triangles to keep, at most {MOST_TRIANGLES} fit one hierarchy");
+    let mut words = Pages::filled(0, WORDS * triangle_count.max(1) + BEYOND);
+    let (mut first_node, mut first_triangle) = (0, 0);
     let mut write = |tree: &Tree| {
-        tree.plan.write(&tree.soup, &tree.binary, (&mut nodes, first_node), (&mut blocks, first_block));
+        tree.plan.write(&tree.soup, &tree.binary, (&mut nodes, first_node), (&mut words, first_triangle));
         let root = first_node;
         first_node += tree.plan.node_count() as u32;
-        first_block += tree.plan.block_count() as u32;
+        first_triangle += tree.plan.triangle_count() as u32;
         (root, tree.binary.nodes[0].bounds)
     };
     let (_, bounds) = write(&world);
@@ -74,7 +73,7 @@ pub(super) fn build(
     let roots: Vec<(u32, Bounds3)> = of_meshes.iter().map(|tree| tree.as_ref().map_or((0, Bounds3::EMPTY), &mut write)).collect();
     let ready = placements.iter().map(|placement| (placement, roots[placement.mesh]));
     let placed = ready.map(|(placement, (root, bounds))| Placed::new(placement, root, bounds)).collect();
-    Built { nodes, blocks, placed, bounds }
+    Built { nodes, words, placed, bounds }
 }
 
 /// True for finite triangles whose area is not zero. In double precision, where differences and products of `f32` are all but exact.
@@ -133,7 +132,7 @@ impl<'a> Soup<'a> {
     /// as well took half as long again, for rays that visited no fewer places in six rooms. Cutting the boxes of large triangles was
     /// tried and brought nothing in rooms.
     fn binary_tree(&self, members: &[u32]) -> Binary {
-        const BLOCK_COST_IN_TRIANGLES: f32 = 0.5;
+        const LEAF_COST_IN_TRIANGLES: f32 = 0.5;
         const ROUNDS_OF_NEXT_NEIGHBOURS: usize = 0;
         if members.len() <= LANES {
             return self.balanced_tree(members);
@@ -153,7 +152,7 @@ impl<'a> Soup<'a> {
             ROUNDS_OF_NEXT_NEIGHBOURS,
         );
         drop(boxes);
-        leaf_collapser::collapse(&mut tree, LANES as u32, BLOCK_COST_IN_TRIANGLES);
+        leaf_collapser::collapse(&mut tree, LANES as u32, LEAF_COST_IN_TRIANGLES);
         reinsert(&mut tree);
 
         let node = |n: &Bvh2Node| {
@@ -266,7 +265,6 @@ mod tests {
         let corners: Vec<[Vec3; 3]> = (0..5000).map(|_| [p(), p(), p()]).collect();
         let tree = || build(&corners, None, &|_| false, &[], &[]);
         let (one, other) = (tree(), tree());
-        assert!(*one.nodes == *other.nodes && one.blocks.len() == other.blocks.len());
-        assert!(std::iter::zip(&*one.blocks, &*other.blocks).all(|(a, b)| a.ids == b.ids));
+        assert!(*one.nodes == *other.nodes && *one.words == *other.words);
     }
 }

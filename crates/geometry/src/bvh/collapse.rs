@@ -6,34 +6,36 @@
 
 use super::binary::{Binary, BinaryNode};
 use super::build::Soup;
-use super::node::{Block, FILTERED, LANES, LEAF, MAX_DEPTH, Node, WIDTH};
+use super::leaf::{self, FILTERED, LANES, child_of, start_of};
+use super::node::{LEAF, MAX_DEPTH, Node, WIDTH};
 use super::placed::PLACED;
+use enfilade_math::Vec3;
 
 /// The best ways of handing a subtree to a node above it, by the number of its children that are subtrees of this one, less one.
 struct Ways {
     cost: [f32; WIDTH],
     /// How many of the children are in the left half. In the first place, where there is but one child: how many children that one has;
-    /// 0 when it is a block.
+    /// 0 when it is a leaf.
     left: [u8; WIDTH],
     /// In how many places it can be at most: the number of leaves of the binary tree, up to [`WIDTH`].
     places: usize,
     triangles: u32,
-    /// How much surface stops rays there, per block that they must be tested with.
-    yield_per_block: f32,
+    /// How much surface stops rays there, per leaf that they must be tested with.
+    yield_per_leaf: f32,
     /// Surface that stops rays.
     area: f64,
 }
 
-/// Visiting a node and visiting a block take about equally long.
+/// Visiting a node and visiting a leaf take about equally long.
 const NODE_COST: f32 = 1.0;
-const BLOCK_COST: f32 = 1.0;
+const LEAF_COST: f32 = 1.0;
 
 /// What the wide tree will look like, before there is memory for it.
 pub(super) struct Plan {
     /// For each node its number and the end of its children among all.
     nodes: Vec<(u32, u32)>,
     children: Vec<Child>,
-    block_count: usize,
+    triangle_count: usize,
 }
 
 struct Child {
@@ -46,7 +48,7 @@ struct Child {
 /// Plans the wide tree. `None` when it would be deeper than [`MAX_DEPTH`].
 pub(super) fn collapse(soup: &Soup, binary: &Binary) -> Option<Plan> {
     let ways = ways(soup, binary);
-    let mut plan = Plan { nodes: Vec::new(), children: Vec::new(), block_count: 0 };
+    let mut plan = Plan { nodes: Vec::new(), children: Vec::new(), triangle_count: 0 };
     let mut node_count = 1;
     let mut waiting = vec![(0, 0, 1)];
     while let Some((root, number, depth)) = waiting.pop() {
@@ -57,8 +59,9 @@ pub(super) fn collapse(soup: &Soup, binary: &Binary) -> Option<Plan> {
             let link = if let Some(placement) = placement(soup, binary, child) {
                 LEAF | PLACED | placement as u32
             } else if ways[child].left[0] == 0 {
-                plan.block_count += 1;
-                LEAF | (plan.block_count - 1) as u32
+                let (first, count) = (plan.triangle_count, ways[child].triangles as usize);
+                plan.triangle_count += count;
+                child_of(first as u32, count)
             } else {
                 waiting.push((child, node_count, depth + 1));
                 node_count += 1;
@@ -76,29 +79,30 @@ impl Plan {
         self.nodes.len()
     }
 
-    pub fn block_count(&self) -> usize {
-        self.block_count
+    pub fn triangle_count(&self) -> usize {
+        self.triangle_count
     }
 
-    /// Writes the tree from `first_node` and `first_block` on, in places that hold [`Node::EMPTY`] and [`Block::EMPTY`].
-    pub fn write(&self, soup: &Soup, binary: &Binary, (nodes, first_node): (&mut [Node], u32), (blocks, first_block): (&mut [Block], u32)) {
+    /// Writes the tree from `first_node` and `first_triangle` on, in places that hold [`Node::EMPTY`] and nothing.
+    pub fn write(&self, soup: &Soup, binary: &Binary, (nodes, first_node): (&mut [Node], u32), (words, first_triangle): (&mut [u32], u32)) {
         let mut start = 0;
         for &(number, end) in &self.nodes {
             let to = &mut nodes[(first_node + number) as usize];
-            to.children.0.fill(LEAF | first_block);
+            to.children.0.fill(LEAF | first_triangle);
             for (lane, &Child { node, link }) in self.children[start..end as usize].iter().enumerate() {
                 let bounds = binary.nodes[node as usize].bounds;
                 for k in 0..3 {
                     to.bounds[k][0].0[lane] = bounds.min[k];
                     to.bounds[k][1].0[lane] = bounds.max[k];
                 }
-                to.children.0[lane] = match Node::leaf(link) {
-                    None => first_node + link,
-                    Some(placement) if placement as u32 & PLACED != 0 => link,
-                    Some(block) => {
-                        fill(soup, &triangles(binary, node as usize), &mut blocks[first_block as usize + block]);
-                        first_block + link
-                    }
+                to.children.0[lane] = if link & LEAF == 0 {
+                    first_node + link
+                } else if link & PLACED != 0 {
+                    link
+                } else {
+                    let link = first_triangle + link;
+                    leaf::write(&triangles(soup, binary, node as usize), &mut words[start_of(link)..]);
+                    link
                 };
             }
             start = end as usize;
@@ -121,7 +125,7 @@ fn children(binary: &Binary, ways: &[Ways], root: usize) -> Vec<usize> {
             open(binary, ways, node, count, &mut waiting);
         }
     }
-    chosen.sort_by(|&a, &b| ways[a].yield_per_block.total_cmp(&ways[b].yield_per_block));
+    chosen.sort_by(|&a, &b| ways[a].yield_per_leaf.total_cmp(&ways[b].yield_per_leaf));
     chosen
 }
 
@@ -144,7 +148,7 @@ fn ways(soup: &Soup, binary: &Binary) -> Vec<Ways> {
             let area = members.iter().map(|&i| soup.stopping_area(i)).sum();
             match placement(soup, binary, i) {
                 Some(placement) => Ways::of_placement(surface, soup.placed[placement].triangle_count, area),
-                None => Ways::of_block(surface, node.count, area),
+                None => Ways::of_leaf(surface, node.count, area),
             }
         } else {
             Ways::of_halves(surface, &ways[node.first as usize], &ways[node.first as usize + 1])
@@ -154,32 +158,32 @@ fn ways(soup: &Soup, binary: &Binary) -> Vec<Ways> {
 }
 
 impl Ways {
-    const NONE: Self = Self { cost: [f32::INFINITY; WIDTH], left: [0; WIDTH], places: 1, triangles: 0, yield_per_block: 0.0, area: 0.0 };
+    const NONE: Self = Self { cost: [f32::INFINITY; WIDTH], left: [0; WIDTH], places: 1, triangles: 0, yield_per_leaf: 0.0, area: 0.0 };
 
-    fn of_block(surface: f32, triangles: u32, area: f64) -> Self {
-        let mut ways = Self { triangles, area, yield_per_block: area as f32, ..Self::NONE };
-        ways.cost[0] = surface * BLOCK_COST;
+    fn of_leaf(surface: f32, triangles: u32, area: f64) -> Self {
+        let mut ways = Self { triangles, area, yield_per_leaf: area as f32, ..Self::NONE };
+        ways.cost[0] = surface * LEAF_COST;
         ways
     }
 
-    /// Not to be made one block with others, however few its triangles are.
+    /// Not to be made one leaf with others, however few its triangles are.
     fn of_placement(surface: f32, triangles: usize, area: f64) -> Self {
         let triangles = triangles.max(LANES + 1) as u32;
-        let mut ways = Self::of_block(surface, triangles, area);
-        ways.yield_per_block = (area / f64::from(triangles.div_ceil(LANES as u32))) as f32;
+        let mut ways = Self::of_leaf(surface, triangles, area);
+        ways.yield_per_leaf = (area / f64::from(triangles.div_ceil(LANES as u32))) as f32;
         ways
     }
 
     fn of_halves(surface: f32, left: &Self, right: &Self) -> Self {
         let (triangles, area) = (left.triangles + right.triangles, left.area + right.area);
-        let blocks = triangles.div_ceil(LANES as u32);
-        let mut ways = Self { triangles, area, yield_per_block: (area / f64::from(blocks)) as f32, ..Self::NONE };
+        let leaves = triangles.div_ceil(LANES as u32);
+        let mut ways = Self { triangles, area, yield_per_leaf: (area / f64::from(leaves)) as f32, ..Self::NONE };
         ways.places = (left.places + right.places).min(WIDTH);
         (ways.cost, ways.left) = cheapest(left, right);
         let open = (2..=ways.places).min_by(|&a, &b| ways.cost[a - 1].total_cmp(&ways.cost[b - 1])).expect("two halves take two places");
         let as_node = ways.cost[open - 1] + surface * NODE_COST;
-        let as_block = if blocks == 1 { surface * BLOCK_COST } else { f32::INFINITY };
-        (ways.cost[0], ways.left[0]) = if as_block <= as_node { (as_block, 0) } else { (as_node, open as u8) };
+        let as_leaf = if leaves == 1 { surface * LEAF_COST } else { f32::INFINITY };
+        (ways.cost[0], ways.left[0]) = if as_leaf <= as_node { (as_leaf, 0) } else { (as_node, open as u8) };
         ways
     }
 }
@@ -209,8 +213,13 @@ fn placement(soup: &Soup, binary: &Binary, node: usize) -> Option<usize> {
     if count == 1 { soup.placement(binary.order[first as usize]) } else { None }
 }
 
-/// The triangles below a node of the binary tree.
-fn triangles(binary: &Binary, root: usize) -> Vec<u32> {
+/// Numbers, with [`FILTERED`], and corners of the triangles below a node of the binary tree.
+fn triangles(soup: &Soup, binary: &Binary, root: usize) -> Vec<(u32, [Vec3; 3])> {
+    let triangle = |&triangle: &u32| {
+        let number = soup.number(triangle);
+        let id = if (soup.filtered)(number) { number | FILTERED } else { number };
+        (id, soup.corners[triangle as usize])
+    };
     let mut triangles = Vec::with_capacity(LANES);
     let mut waiting = vec![root];
     while let Some(i) = waiting.pop() {
@@ -218,28 +227,17 @@ fn triangles(binary: &Binary, root: usize) -> Vec<u32> {
         if node.count == 0 {
             waiting.extend([node.first as usize + 1, node.first as usize]);
         } else {
-            triangles.extend_from_slice(&binary.order[node.first as usize..(node.first + node.count) as usize]);
+            triangles.extend(binary.order[node.first as usize..(node.first + node.count) as usize].iter().map(triangle));
         }
     }
     triangles
 }
 
-fn fill(soup: &Soup, triangles: &[u32], block: &mut Block) {
-    for (lane, &triangle) in triangles.iter().enumerate() {
-        for (c, corner) in soup.corners[triangle as usize].iter().enumerate() {
-            for k in 0..3 {
-                block.corners[c][k].0[lane] = corner[k];
-            }
-        }
-        let number = soup.number(triangle);
-        block.ids.0[lane] = if (soup.filtered)(number) { number | FILTERED } else { number };
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::leaf::{BEYOND, Leaf, WORDS};
     use super::*;
-    use enfilade_math::{Bounds3, Vec3};
+    use enfilade_math::Bounds3;
 
     fn triangles(count: u32) -> Vec<[Vec3; 3]> {
         (0..count).map(|i| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p + Vec3::Z * i as f32)).collect()
@@ -269,22 +267,28 @@ mod tests {
     }
 
     #[test]
-    fn every_triangle_is_in_one_block_and_inside_all_boxes_above_it() {
+    fn every_triangle_is_in_one_leaf_and_inside_all_boxes_above_it() {
         let corners = triangles(1000);
         let soup = Soup { corners: &corners, filtered: &|i| i % 2 == 0, numbers: None, placed: &[] };
         let all: Vec<u32> = (0..1000).collect();
         let binary = soup.balanced_tree(&all);
         let plan = collapse(&soup, &binary).expect("shallow");
-        let (mut nodes, mut blocks) = (vec![Node::EMPTY; plan.node_count()], vec![Block::EMPTY; plan.block_count()]);
-        plan.write(&soup, &binary, (&mut nodes, 0), (&mut blocks, 0));
+        let (mut nodes, mut words) = (vec![Node::EMPTY; plan.node_count()], vec![0; WORDS * plan.triangle_count() + BEYOND]);
+        plan.write(&soup, &binary, (&mut nodes, 0), (&mut words, 0));
         let mut ids: Vec<u32> = Vec::new();
         let mut waiting = vec![(0, Bounds3 { min: Vec3::NEG_INFINITY, max: Vec3::INFINITY })];
         while let Some((child, bounds)) = waiting.pop() {
-            if let Some(block) = Node::leaf(child) {
-                let block = &blocks[block];
-                for lane in (0..LANES).filter(|&lane| block.corners[0][0].0[lane].is_finite()) {
-                    ids.push(block.ids.0[lane]);
-                    let triangle = corners[(block.ids.0[lane] & !FILTERED) as usize];
+            if child & LEAF != 0 {
+                // SAFETY: it is one of the leaves that were written.
+                let leaf = unsafe { Leaf::at(&words, child) };
+                for lane in 0..leaf.count() {
+                    ids.push(leaf.id(lane));
+                    let triangle = corners[(leaf.id(lane) & !FILTERED) as usize];
+                    for (corner, expected) in triangle.iter().enumerate() {
+                        // SAFETY: there are three axes and three corners.
+                        let found = [0, 1, 2].map(|axis| unsafe { leaf.row(corner, axis)[lane] });
+                        assert_eq!(found, expected.to_array());
+                    }
                     assert!(triangle.iter().all(|p| p.cmpge(bounds.min).all() && p.cmple(bounds.max).all()));
                 }
                 continue;
@@ -303,9 +307,9 @@ mod tests {
     }
 
     #[test]
-    fn triangles_share_a_block_where_that_is_cheaper() {
-        // Beside a full block, two triangles that lie together make one block; two far apart, two.
-        for (step, blocks) in [(0.1, 2), (1000.0, 3)] {
+    fn triangles_share_a_leaf_where_that_is_cheaper() {
+        // Beside a full leaf, two triangles that lie together make one leaf; two far apart, two.
+        for (step, leaves) in [(0.1, 2), (1000.0, 3)] {
             let mut corners = triangles(8);
             corners.extend([0.0, step].map(|z| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p + Vec3::Z * z)));
             let soup = Soup { corners: &corners, filtered: &|_| false, numbers: None, placed: &[] };
@@ -313,7 +317,8 @@ mod tests {
             let mut binary = Binary { nodes: vec![BinaryNode::children(1)], order: (0..10).collect() };
             binary.nodes.extend(halves);
             soup.fit(&mut binary);
-            assert_eq!(collapse(&soup, &binary).expect("shallow").block_count(), blocks, "{step} apart");
+            let plan = collapse(&soup, &binary).expect("shallow");
+            assert_eq!(plan.children.iter().filter(|child| child.link & LEAF != 0).count(), leaves, "{step} apart");
         }
     }
 }

@@ -10,6 +10,8 @@
 pub(super) trait Lanes: Copy {
     fn splat(value: f32) -> Self;
     fn load(values: &Eight<f32>) -> Self;
+    /// From wherever they are.
+    fn read(values: &[f32; 8]) -> Self;
     fn store(self) -> Eight<f32>;
     fn add(self, o: Self) -> Self;
     fn sub(self, o: Self) -> Self;
@@ -99,6 +101,10 @@ impl Lanes for Portable {
         Self(*values)
     }
     #[inline(always)]
+    fn read(values: &[f32; 8]) -> Self {
+        Self(Eight(*values))
+    }
+    #[inline(always)]
     fn store(self) -> Eight<f32> {
         self.0
     }
@@ -179,6 +185,11 @@ mod avx2 {
         fn load(values: &Eight<f32>) -> Self {
             // SAFETY: see the type; `Eight` is 32 bytes long and aligned to 32.
             Self(unsafe { _mm256_load_ps(values.0.as_ptr()) })
+        }
+        #[inline(always)]
+        fn read(values: &[f32; 8]) -> Self {
+            // SAFETY: see the type.
+            Self(unsafe { _mm256_loadu_ps(values.as_ptr()) })
         }
         #[inline(always)]
         fn store(self) -> Eight<f32> {

@@ -9,6 +9,7 @@ mod binary;
 mod build;
 mod collapse;
 mod lanes;
+mod leaf;
 mod node;
 mod pages;
 mod placed;
@@ -24,7 +25,8 @@ mod wide;
 mod tests;
 
 use enfilade_math::{Bounds3, Ray, Vec3};
-use node::{Block, FILTERED, Node};
+use leaf::FILTERED;
+use node::Node;
 use pages::Pages;
 use placed::Placed;
 
@@ -50,7 +52,8 @@ pub struct Hit {
 pub struct Bvh {
     /// The root is node 0; empty when there is nothing to hit.
     nodes: Pages<Node>,
-    blocks: Pages<Block>,
+    /// Of all leaves.
+    words: Pages<u32>,
     /// What leaves with [`placed::PLACED`] lead to.
     placed: Vec<Placed>,
     bounds: Bounds3,
@@ -93,13 +96,16 @@ impl Hit {
 }
 
 impl Bvh {
+    /// Triangles that fit one hierarchy; those of a mesh with placements count once.
+    pub const MOST_TRIANGLES: usize = leaf::MOST_TRIANGLES;
+
     /// Builds the hierarchy of `corners`, in which triangle i asks the filter of the `_filtered` queries when `filtered(i)`.
     ///
     /// The same triangles give the same hierarchy, whatever the number of threads. About one CPU second per million triangles for a
     /// room, two where they are many millions and fit no cache.
     ///
     /// # Panics
-    /// With 2³¹ triangles or more.
+    /// With more than [`Bvh::MOST_TRIANGLES`].
     pub fn new(corners: &[[Vec3; 3]], filtered: &dyn Fn(u32) -> bool) -> Self {
         Self::of(corners, None, filtered, &[], &[])
     }
@@ -111,7 +117,8 @@ impl Bvh {
     /// `numbers` are what hits report for the `corners`. They and the numbers of the placements' triangles must differ.
     ///
     /// # Panics
-    /// When there are not as many numbers as corners, when a placement has no mesh, and with 2³¹ triangles or more in the world.
+    /// When there are not as many numbers as corners, when a placement has no mesh, with more than
+    /// [`Bvh::MOST_TRIANGLES`] in meshes and corners, and with 2³¹ or more in the world.
     pub fn with_placements(
         corners: &[[Vec3; 3]],
         numbers: &[u32],
@@ -134,7 +141,7 @@ impl Bvh {
         let built = build::build(corners, numbers, filtered, meshes, placements);
         Self {
             nodes: built.nodes,
-            blocks: built.blocks,
+            words: built.words,
             placed: built.placed,
             bounds: built.bounds,
             largest_coordinate: built.bounds.min.abs().max(built.bounds.max.abs()).max_element(),
@@ -182,7 +189,7 @@ impl Bvh {
 
     /// Size of the hierarchy in memory, in bytes.
     pub fn memory_bytes(&self) -> usize {
-        size_of_val(&*self.nodes) + size_of_val(&*self.blocks) + size_of_val(&*self.placed)
+        size_of_val(&*self.nodes) + size_of_val(&*self.words) + size_of_val(&*self.placed)
     }
 
     #[inline]

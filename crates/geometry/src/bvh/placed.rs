@@ -3,8 +3,8 @@
 //! Their boxes are met by the ray as the mesh sees it; their triangles are placed in the world as they are tested, with the rounding
 //! that they would have had if they were kept there. So rays hit the same, bit for bit, as without sharing.
 
-use super::lanes::Eight;
-use super::node::{Block, FILTERED, LANES, LEAF, MAX_DEPTH};
+use super::leaf::{FILTERED, LANES, Leaf, Words};
+use super::node::{LEAF, MAX_DEPTH};
 use super::prepared::{Prepared, SLACK};
 use enfilade_math::{Bounds3, DAffine3, Ray, Vec3, place};
 
@@ -29,7 +29,7 @@ impl Placement {
     }
 }
 
-/// Marks, within a leaf, a placement in place of a block.
+/// Marks, with [`LEAF`], a placement in place of a leaf.
 pub(super) const PLACED: u32 = 1 << 30;
 /// Stands on the stack below what waits inside of a placement.
 pub(super) const LEAVE: u32 = LEAF | PLACED | (PLACED - 1);
@@ -80,24 +80,22 @@ impl Placed {
         Prepared::with_slack(origin, direction, slack)
     }
 
-    /// A block's triangles in the world.
+    /// A leaf's triangles in the world, written to `words`.
     #[inline(always)]
-    pub fn in_world(&self, block: &Block) -> Block {
+    pub fn in_world<'w>(&self, leaf: Leaf<'_>, words: &'w mut Words) -> Leaf<'w> {
         let m = self.world_from_mesh.to_cols_array();
-        let mut placed = Block { corners: [[Eight([0.0; LANES]); 3]; 3], ids: Eight([0; LANES]) };
-        for (to, from) in placed.corners.iter_mut().zip(&block.corners) {
-            for (k, to) in to.iter_mut().enumerate() {
+        let corner = |[x, y, z]: [&[f32; LANES]; 3]| {
+            let mut world = [[0.0; LANES]; 3];
+            for (k, to) in world.iter_mut().enumerate() {
                 for lane in 0..LANES {
-                    let [x, y, z] = [from[0].0[lane], from[1].0[lane], from[2].0[lane]].map(f64::from);
+                    let [x, y, z] = [x[lane], y[lane], z[lane]].map(f64::from);
                     // In the order of `transform_point3`, so that every bit is that of `Placement::world`.
-                    to.0[lane] = (m[k] * x + m[3 + k] * y + m[6 + k] * z + m[9 + k]) as f32;
+                    to[lane] = (m[k] * x + m[3 + k] * y + m[6 + k] * z + m[9 + k]) as f32;
                 }
             }
-        }
-        for lane in 0..LANES {
-            placed.ids.0[lane] = (block.ids.0[lane] + self.first_triangle) | self.flag;
-        }
-        placed
+            world
+        };
+        leaf.map(words, |id| (id + self.first_triangle) | self.flag, corner)
     }
 }
 

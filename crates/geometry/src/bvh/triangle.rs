@@ -1,7 +1,7 @@
 //! The watertight test of eight triangles at once.
 
 use super::lanes::{Eight, Lanes, lane_of};
-use super::node::Block;
+use super::leaf::Leaf;
 use super::prepared::Prepared;
 
 /// Where the ray meets the planes of eight triangles. Only the lanes named beside it mean anything.
@@ -40,13 +40,13 @@ impl<L: Lanes> TriangleTest<L> {
 
     /// Triangles hit with `t_min < t <= limit`, and where.
     #[inline(always)]
-    pub fn meet(&self, block: &Block, limit: f32, at: &mut Meets) -> u32 {
-        let (a, b, c) = (self.sheared(block, 0), self.sheared(block, 1), self.sheared(block, 2));
+    pub fn meet(&self, leaf: Leaf<'_>, limit: f32, at: &mut Meets) -> u32 {
+        let (a, b, c) = (self.sheared(leaf, 0), self.sheared(leaf, 1), self.sheared(leaf, 2));
         let mut weights = [edge(c, b), edge(a, c), edge(b, a)];
         let zero = L::splat(0.0);
         let lowest = weights[0].min(weights[1]).min(weights[2]);
         let highest = weights[0].max(weights[1]).max(weights[2]);
-        let mut inside = zero.le(lowest) | highest.le(zero);
+        let mut inside = (zero.le(lowest) | highest.le(zero)) & leaf.lanes();
         if inside == 0 {
             return 0;
         }
@@ -66,16 +66,13 @@ impl<L: Lanes> TriangleTest<L> {
     }
 
     #[inline(always)]
-    fn sheared(&self, block: &Block, corner: usize) -> [L; 3] {
+    fn sheared(&self, leaf: Leaf<'_>, corner: usize) -> [L; 3] {
         let [x, y, z] = self.axes;
         // SAFETY: there are three axes, and `axes` is made of their numbers.
-        let [at_x, at_y, at_z] = unsafe {
-            let corner = &block.corners[corner];
-            [corner.get_unchecked(x), corner.get_unchecked(y), corner.get_unchecked(z)]
-        };
-        let pz = L::load(at_z).sub(self.origin[2]);
-        let px = L::load(at_x).sub(self.origin[0]).sub(self.shear[0].mul(pz));
-        let py = L::load(at_y).sub(self.origin[1]).sub(self.shear[1].mul(pz));
+        let [at_x, at_y, at_z] = unsafe { [leaf.row(corner, x), leaf.row(corner, y), leaf.row(corner, z)] };
+        let pz = L::read(at_z).sub(self.origin[2]);
+        let px = L::read(at_x).sub(self.origin[0]).sub(self.shear[0].mul(pz));
+        let py = L::read(at_y).sub(self.origin[1]).sub(self.shear[1].mul(pz));
         [px, py, pz]
     }
 }

@@ -1,7 +1,8 @@
 //! The way of one ray through the tree.
 
 use super::lanes::{Eight, Lanes, lane_of};
-use super::node::{FILTERED, LEAF, Node};
+use super::leaf::{FILTERED, Leaf, NO_WORDS, start_of};
+use super::node::{LEAF, Node};
 use super::placed::{LEAVE, PLACED, Placed};
 use super::prepared::{Prepared, slack};
 use super::stack::Stack;
@@ -74,23 +75,23 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SH
                 current = placed.root;
                 continue;
             }
-        } else if let Some(block) = Node::leaf(current) {
+        } else if current & LEAF != 0 {
             // The triangles of a leaf.
-            // SAFETY: the builder makes children of existing nodes and blocks only.
-            let block = unsafe { bvh.blocks.get_unchecked(block) };
-            let in_world;
-            let block = match inside {
+            // SAFETY: the builder makes children of existing nodes and leaves only.
+            let leaf = unsafe { Leaf::at(&bvh.words, current) };
+            let mut words;
+            let leaf = match inside {
                 Some(placed) if SHARED => {
-                    in_world = placed.in_world(block);
-                    &in_world
+                    words = NO_WORDS;
+                    placed.in_world(leaf, &mut words)
                 }
-                _ => block,
+                _ => leaf,
             };
-            let mut met = triangles.meet(block, best.t, &mut at);
+            let mut met = triangles.meet(leaf, best.t, &mut at);
             let mut nearer = false;
             while met != 0 {
                 let lane = lane_of(&mut met) & 7;
-                let (id, t) = (block.ids.0[lane], at.t.0[lane]);
+                let (id, t) = (leaf.id(lane), at.t.0[lane]);
                 let hit = Hit { t, triangle: id & !FILTERED, u: at.u.0[lane], v: at.v.0[lane] };
                 let better = t < best.t || (t == best.t && hit.triangle < best.triangle);
                 if better && (!ASK || id & FILTERED == 0 || accept(&hit)) {
@@ -108,7 +109,7 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SH
             // SAFETY: as above, and there is a root.
             let node = unsafe { bvh.nodes.get_unchecked(current as usize) };
             if let Some(next) = stack.last() {
-                W::prefetch(bvh.place(next));
+                bvh.prefetch::<W>(next);
             }
             let (mut entered, t) = boxes.enter(node, best.t);
             if entered != 0 {
@@ -128,15 +129,22 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SH
 }
 
 impl Bvh {
-    /// Where a child is in memory.
+    /// Asks for the memory of a child, which may be visited soon.
     #[inline(always)]
-    pub(super) fn place(&self, child: u32) -> *const u8 {
-        match Node::leaf(child) {
-            Some(block) => self.blocks.as_ptr().wrapping_add(block).cast(),
-            None => self.nodes.as_ptr().wrapping_add(child as usize).cast(),
+    pub(super) fn prefetch<W: Wide>(&self, child: u32) {
+        let start: *const u8 = if child & LEAF != 0 {
+            self.words.as_ptr().wrapping_add(start_of(child)).cast()
+        } else {
+            self.nodes.as_ptr().wrapping_add(child as usize).cast()
+        };
+        for line in 0..LINES {
+            W::prefetch(start.wrapping_add(64 * line));
         }
     }
 }
+
+/// Lines of memory of a node; a leaf has four or fewer as a rule.
+const LINES: usize = size_of::<Node>() / 64;
 
 /// The slab test with its constants in registers.
 struct BoxTest<W> {

@@ -20,8 +20,8 @@ pub(super) trait Wide: Copy {
     fn ne(self, o: Self) -> u32;
     fn div(self, o: Self) -> Self;
 
-    /// The values of two eights.
-    fn of_halves(first: &Eight<f32>, last: &Eight<f32>) -> Self;
+    /// The values of two eights, from wherever they are.
+    fn of_halves(first: &[f32; 8], last: &[f32; 8]) -> Self;
 
     /// The size of `self` with the sign of `o`.
     fn copysign(self, o: Self) -> Self;
@@ -45,7 +45,7 @@ pub(super) trait Wide: Copy {
     /// Drops what the ray enters beyond `limit`.
     fn retain(stack: &mut Stack, limit: f32);
 
-    /// Asks for the memory from `place` on, which may be read soon.
+    /// Asks for the line of memory at `place`, which may be read soon.
     fn prefetch(place: *const u8);
 }
 
@@ -104,8 +104,8 @@ impl<L: Lanes> Wide for Pair<L> {
         Self(self.0.div(o.0), self.1.div(o.1))
     }
     #[inline(always)]
-    fn of_halves(first: &Eight<f32>, last: &Eight<f32>) -> Self {
-        Self(L::load(first), L::load(last))
+    fn of_halves(first: &[f32; 8], last: &[f32; 8]) -> Self {
+        Self(L::read(first), L::read(last))
     }
     #[inline(always)]
     fn copysign(self, o: Self) -> Self {
@@ -168,7 +168,7 @@ pub(super) use avx512::Avx512;
 
 #[cfg(target_arch = "x86_64")]
 mod avx512 {
-    use super::{Eight, Sixteen, Stack, Wide};
+    use super::{Sixteen, Stack, Wide};
     use std::arch::x86_64::*;
 
     /// One AVX-512 register.
@@ -242,11 +242,11 @@ mod avx512 {
             Self(unsafe { _mm512_div_ps(self.0, o.0) })
         }
         #[inline(always)]
-        fn of_halves(first: &Eight<f32>, last: &Eight<f32>) -> Self {
-            // SAFETY: see the type; `Eight` is 32 bytes long and aligned to 32. The cast is from floats to doubles and back, bit by bit.
+        fn of_halves(first: &[f32; 8], last: &[f32; 8]) -> Self {
+            // SAFETY: see the type. The cast is from floats to doubles and back, bit by bit.
             unsafe {
-                let first = _mm512_castps_pd(_mm512_castps256_ps512(_mm256_load_ps(first.0.as_ptr())));
-                let last = _mm256_castps_pd(_mm256_load_ps(last.0.as_ptr()));
+                let first = _mm512_castps_pd(_mm512_castps256_ps512(_mm256_loadu_ps(first.as_ptr())));
+                let last = _mm256_castps_pd(_mm256_loadu_ps(last.as_ptr()));
                 Self(_mm512_castpd_ps(_mm512_insertf64x4::<1>(first, last)))
             }
         }
@@ -350,10 +350,8 @@ mod avx512 {
 
         #[inline(always)]
         fn prefetch(place: *const u8) {
-            for line in 0..5 {
-                // SAFETY: see the type; asking for memory that does not exist does nothing.
-                unsafe { _mm_prefetch::<_MM_HINT_T0>(place.wrapping_add(64 * line).cast()) };
-            }
+            // SAFETY: see the type; asking for memory that does not exist does nothing.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(place.cast()) };
         }
     }
 

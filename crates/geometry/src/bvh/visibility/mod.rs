@@ -17,7 +17,8 @@ mod tile;
 mod tests;
 
 use super::lanes::{self, lane_of};
-use super::node::{Block, Node};
+use super::leaf::Leaf;
+use super::node::LEAF;
 use super::stack::Stack;
 use super::wide::{self, Wide};
 use super::{Bvh, Kernel};
@@ -160,16 +161,16 @@ fn draw_tile<W: Wide>(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
     let (mut pixels, mut waiting) = (Pixels::<W>::new(tile), Waiting::new());
     let mut stack = Stack::new();
     // Leaves are looked at two by two.
-    let mut single: Option<&Block> = None;
+    let mut single: Option<Leaf<'_>> = None;
     let mut current = 0;
     loop {
-        if let Some(block) = Node::leaf(current) {
-            // SAFETY: the builder makes children of existing nodes and blocks only.
-            let block = unsafe { bvh.blocks.get_unchecked(block) };
+        if current & LEAF != 0 {
+            // SAFETY: the builder makes children of existing nodes and leaves only.
+            let leaf = unsafe { Leaf::at(&bvh.words, current) };
             match single.take() {
-                None => single = Some(block),
+                None => single = Some(leaf),
                 Some(other) => {
-                    setup.screen([other, block], pixels.farthest(), &mut waiting);
+                    setup.screen([other, leaf], pixels.farthest(), &mut waiting);
                     if waiting.is_full() {
                         setup.draw(&mut waiting, &mut pixels);
                     }
@@ -182,7 +183,7 @@ fn draw_tile<W: Wide>(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
             if entered != 0 {
                 let mut all = entered;
                 while all != 0 {
-                    W::prefetch(bvh.place(node.children.0[lane_of(&mut all)]));
+                    bvh.prefetch::<W>(node.children.0[lane_of(&mut all)]);
                 }
                 current = if entered & (entered - 1) == 0 {
                     node.children.0[lane_of(&mut entered)]
@@ -195,8 +196,8 @@ fn draw_tile<W: Wide>(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
         let Some(child) = stack.pop_up_to(pixels.farthest_z()) else { break };
         current = child;
     }
-    if let Some(block) = single {
-        setup.screen([block, &Block::EMPTY], pixels.farthest(), &mut waiting);
+    if let Some(leaf) = single {
+        setup.screen([leaf, Leaf::NONE], pixels.farthest(), &mut waiting);
     }
     while !waiting.is_empty() {
         setup.draw(&mut waiting, &mut pixels);

@@ -3,7 +3,8 @@
 use super::frustum::{Frustum, wide};
 use super::tile::{BLOCK, Drawn, Linear, Pixels, TILE};
 use crate::bvh::lanes::{Sixteen, lane_of};
-use crate::bvh::node::{Block, FILTERED, WIDTH};
+use crate::bvh::leaf::{FILTERED, Leaf};
+use crate::bvh::node::WIDTH;
 use crate::bvh::wide::Wide;
 
 /// Numbers that are kept of a waiting triangle: three corners, first and last pixel, least and greatest inverse depth, index.
@@ -91,15 +92,14 @@ impl<W: Wide> Setup<W> {
         }
     }
 
-    /// Lets those triangles of two blocks wait that may cover a pixel, and are not behind everything drawn, whose least inverse depth is
+    /// Lets those triangles of two leaves wait that may cover a pixel, and are not behind everything drawn, whose least inverse depth is
     /// `farthest`. There must be room for sixteen.
     #[inline(always)]
-    pub fn screen(&self, blocks: [&Block; 2], farthest: f32, waiting: &mut Waiting) {
-        let corners = [self.corner_of(blocks, 0), self.corner_of(blocks, 1), self.corner_of(blocks, 2)];
+    pub fn screen(&self, leaves: [Leaf<'_>; 2], farthest: f32, waiting: &mut Waiting) {
+        let corners = [self.corner_of(leaves, 0), self.corner_of(leaves, 1), self.corner_of(leaves, 2)];
         let extent = self.extent(corners[0], corners[1], corners[2]);
         let mut visible = W::splat(farthest).le(extent.greatest);
-        // Unused places are NaN.
-        visible &= corners[0][0].le(corners[0][0]);
+        visible &= leaves[0].lanes() | leaves[1].lanes() << 8;
         visible &= extent.first[0].le(extent.last[0]) & extent.first[1].le(extent.last[1]);
         if visible == 0 {
             return;
@@ -118,7 +118,7 @@ impl<W: Wide> Setup<W> {
         extent.greatest.compress(visible, &mut waiting.numbers[14].0, at);
         while visible != 0 {
             let lane = lane_of(&mut visible);
-            waiting.numbers[15].0[waiting.len & 31] = f32::from_bits(blocks[lane >> 3].ids.0[lane & 7]);
+            waiting.numbers[15].0[waiting.len & 31] = f32::from_bits(leaves[lane >> 3].id(lane & 7));
             waiting.len += 1;
         }
     }
@@ -184,13 +184,15 @@ impl<W: Wide> Setup<W> {
     }
 
     #[inline(always)]
-    fn corner_of(&self, [first, last]: [&Block; 2], corner: usize) -> [W; 3] {
-        let (a, b) = (&first.corners[corner], &last.corners[corner]);
-        [
-            W::of_halves(&a[0], &b[0]).sub(self.origin[0]),
-            W::of_halves(&a[1], &b[1]).sub(self.origin[1]),
-            W::of_halves(&a[2], &b[2]).sub(self.origin[2]),
-        ]
+    fn corner_of(&self, [first, last]: [Leaf<'_>; 2], corner: usize) -> [W; 3] {
+        // SAFETY: there are three axes and three corners.
+        unsafe {
+            [
+                W::of_halves(first.row(corner, 0), last.row(corner, 0)).sub(self.origin[0]),
+                W::of_halves(first.row(corner, 1), last.row(corner, 1)).sub(self.origin[1]),
+                W::of_halves(first.row(corner, 2), last.row(corner, 2)).sub(self.origin[2]),
+            ]
+        }
     }
 
     /// The function of the ray that is zero in the plane of the camera centre, `p` and `q`: (p + q) × (q − p) is twice p × q, and

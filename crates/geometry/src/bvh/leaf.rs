@@ -1,0 +1,132 @@
+//! Leaves: up to eight triangles, with nothing between them and the next.
+//!
+//! Most of a hierarchy's memory are its leaves, and few of them are full. What no cache holds is what rays wait for, so a leaf takes up
+//! as many words as it needs, although its vectors then lie on no boundary.
+
+use super::node::LEAF;
+use enfilade_math::Vec3;
+
+/// Triangles of a leaf.
+pub(super) const LANES: usize = 8;
+
+/// Words of a triangle: its number, and three coordinates of three corners.
+pub(super) const WORDS: usize = 10;
+
+/// Words behind the last leaf, which vectors may read.
+pub(super) const BEYOND: usize = LANES;
+
+/// Room for a leaf.
+pub(super) type Words = [u32; WORDS * LANES + BEYOND];
+pub(super) const NO_WORDS: Words = [0; WORDS * LANES + BEYOND];
+
+/// Triangles that leaves have room for in all: their places have as many bits as a child has for them.
+pub(super) const MOST_TRIANGLES: usize = 1 << COUNT_AT;
+
+/// Where in a child the number of triangles stands, less one; below it is the place of the first.
+const COUNT_AT: u32 = 27;
+
+/// Numbers are kept as floats a little above one, which is this: vectors of coordinates read some of the next leaf's numbers, and small
+/// integers would be denormal floats there, which processors are slow with.
+const ONE: u32 = 0x3f80_0000;
+
+/// Up to eight triangles in memory: a row of their numbers, with [`FILTERED`], then a row for each axis of each corner.
+#[derive(Clone, Copy)]
+pub(super) struct Leaf<'a> {
+    /// From the first row on, with at least [`BEYOND`] words behind the last.
+    words: &'a [u32],
+    count: usize,
+}
+
+/// Marks a triangle that asks the filter.
+pub(super) const FILTERED: u32 = 1 << 31;
+
+/// Writes a leaf to the beginning of `words`: numbers and corners of its triangles.
+pub(super) fn write(triangles: &[(u32, [Vec3; 3])], words: &mut [u32]) {
+    for (lane, (id, corners)) in triangles.iter().enumerate() {
+        words[lane] = id ^ ONE;
+        for (row, coordinate) in corners.iter().flat_map(|corner| corner.to_array()).enumerate() {
+            words[(1 + row) * triangles.len() + lane] = coordinate.to_bits();
+        }
+    }
+}
+
+/// The child that is a leaf of `count` triangles, of which the first is at place `first`.
+pub(super) fn child_of(first: u32, count: usize) -> u32 {
+    debug_assert!((1..=LANES).contains(&count) && (first as usize) < MOST_TRIANGLES);
+    LEAF | (count as u32 - 1) << COUNT_AT | first
+}
+
+/// Where the words of a child that is a leaf begin.
+#[inline(always)]
+pub(super) fn start_of(child: u32) -> usize {
+    WORDS * (child as usize & (MOST_TRIANGLES - 1))
+}
+
+impl<'a> Leaf<'a> {
+    /// Without triangles.
+    pub const NONE: Leaf<'static> = Leaf { words: &[0; BEYOND], count: 0 };
+
+    /// The leaf that a child stands for.
+    ///
+    /// # Safety
+    /// The child must be a leaf in `words`.
+    #[inline(always)]
+    pub unsafe fn at(words: &'a [u32], child: u32) -> Self {
+        // SAFETY: the caller's.
+        let words = unsafe { words.get_unchecked(start_of(child)..) };
+        Self { words, count: ((child >> COUNT_AT) as usize & (LANES - 1)) + 1 }
+    }
+
+    /// Another leaf of as many triangles, written to `words`: `id` makes its numbers of these, `corner` makes the three rows of a corner.
+    #[inline(always)]
+    pub fn map<'w>(
+        self,
+        words: &'w mut Words,
+        id: impl Fn(u32) -> u32,
+        corner: impl Fn([&[f32; LANES]; 3]) -> [[f32; LANES]; 3],
+    ) -> Leaf<'w> {
+        let count = self.count;
+        for lane in 0..count {
+            words[lane] = id(self.id(lane)) ^ ONE;
+        }
+        for k in 0..3 {
+            // SAFETY: there are three axes and three corners.
+            let rows = corner(unsafe { [self.row(k, 0), self.row(k, 1), self.row(k, 2)] });
+            for (axis, row) in rows.iter().enumerate() {
+                // What it writes beyond the row, the next one writes over.
+                let at = (1 + 3 * k + axis) * count;
+                words[at..at + LANES].copy_from_slice(&row.map(f32::to_bits));
+            }
+        }
+        Leaf { words, count }
+    }
+
+    #[cfg(test)]
+    pub fn count(self) -> usize {
+        self.count
+    }
+
+    /// One bit for each of its triangles.
+    #[inline(always)]
+    pub fn lanes(self) -> u32 {
+        (1 << self.count) - 1
+    }
+
+    /// The number of a triangle.
+    #[inline(always)]
+    pub fn id(self, lane: usize) -> u32 {
+        debug_assert!(lane < self.count);
+        // SAFETY: a leaf has a word for each of its triangles, and no lane is asked for that has none.
+        unsafe { *self.words.get_unchecked(lane) ^ ONE }
+    }
+
+    /// A coordinate of a corner, with whatever there is in the lanes beyond.
+    ///
+    /// # Safety
+    /// There are three axes and three corners.
+    #[inline(always)]
+    pub unsafe fn row(self, corner: usize, axis: usize) -> &'a [f32; LANES] {
+        // SAFETY: there are as many rows, and at least eight words behind the last; words and floats are alike to memory.
+        unsafe { &*self.words.as_ptr().add((1 + 3 * corner + axis) * self.count).cast() }
+    }
+}
