@@ -27,7 +27,7 @@ const COUNT_AT: u32 = 27;
 
 /// Numbers are kept as floats a little above one, which is this: vectors of coordinates read some of the next leaf's numbers, and small
 /// integers would be denormal floats there, which processors are slow with.
-const ONE: u32 = 0x3f80_0000;
+pub(super) const ONE: u32 = 0x3f80_0000;
 
 /// Up to eight triangles in memory: a row of their numbers, with [`FILTERED`], then a row for each axis of each corner.
 #[derive(Clone, Copy)]
@@ -77,31 +77,14 @@ impl<'a> Leaf<'a> {
         Self { words, count: ((child >> COUNT_AT) as usize & (LANES - 1)) + 1 }
     }
 
-    /// Another leaf of as many triangles, written to `words`: `id` makes its numbers of these, `corner` makes the three rows of a corner.
+    /// The leaf of `count` triangles that `words` begin with.
     #[inline(always)]
-    pub fn map<'w>(
-        self,
-        words: &'w mut Words,
-        id: impl Fn(u32) -> u32,
-        corner: impl Fn([&[f32; LANES]; 3]) -> [[f32; LANES]; 3],
-    ) -> Leaf<'w> {
-        let count = self.count;
-        for lane in 0..count {
-            words[lane] = id(self.id(lane)) ^ ONE;
-        }
-        for k in 0..3 {
-            // SAFETY: there are three axes and three corners.
-            let rows = corner(unsafe { [self.row(k, 0), self.row(k, 1), self.row(k, 2)] });
-            for (axis, row) in rows.iter().enumerate() {
-                // What it writes beyond the row, the next one writes over.
-                let at = (1 + 3 * k + axis) * count;
-                words[at..at + LANES].copy_from_slice(&row.map(f32::to_bits));
-            }
-        }
-        Leaf { words, count }
+    pub fn of(words: &'a Words, count: usize) -> Self {
+        debug_assert!(count <= LANES);
+        Self { words, count }
     }
 
-    #[cfg(test)]
+    #[inline(always)]
     pub fn count(self) -> usize {
         self.count
     }

@@ -3,7 +3,7 @@
 //! Their boxes are met by the ray as the mesh sees it; their triangles are placed in the world as they are tested, with the rounding
 //! that they would have had if they were kept there. So rays hit the same, bit for bit, as without sharing.
 
-use super::leaf::{FILTERED, LANES, Leaf, Words};
+use super::leaf::{FILTERED, LANES, Leaf, ONE, Words};
 use super::node::{LEAF, MAX_DEPTH};
 use super::prepared::{Prepared, SLACK};
 use enfilade_math::{Bounds3, DAffine3, Ray, Vec3, place};
@@ -81,21 +81,30 @@ impl Placed {
     }
 
     /// A leaf's triangles in the world, written to `words`.
+    // No closures here: they would be compiled without vector instructions, and a ray would take six times as long.
     #[inline(always)]
     pub fn in_world<'w>(&self, leaf: Leaf<'_>, words: &'w mut Words) -> Leaf<'w> {
         let m = self.world_from_mesh.to_cols_array();
-        let corner = |[x, y, z]: [&[f32; LANES]; 3]| {
-            let mut world = [[0.0; LANES]; 3];
-            for (k, to) in world.iter_mut().enumerate() {
+        let count = leaf.count();
+        for (lane, word) in words[..count].iter_mut().enumerate() {
+            *word = ((leaf.id(lane) + self.first_triangle) | self.flag) ^ ONE;
+        }
+        for corner in 0..3 {
+            // SAFETY: there are three axes and three corners.
+            let (x, y, z) = unsafe { (leaf.row(corner, 0), leaf.row(corner, 1), leaf.row(corner, 2)) };
+            for k in 0..3 {
+                let mut row = [0; LANES];
                 for lane in 0..LANES {
-                    let [x, y, z] = [x[lane], y[lane], z[lane]].map(f64::from);
+                    let (x, y, z) = (f64::from(x[lane]), f64::from(y[lane]), f64::from(z[lane]));
                     // In the order of `transform_point3`, so that every bit is that of `Placement::world`.
-                    to[lane] = (m[k] * x + m[3 + k] * y + m[6 + k] * z + m[9 + k]) as f32;
+                    row[lane] = ((m[k] * x + m[3 + k] * y + m[6 + k] * z + m[9 + k]) as f32).to_bits();
                 }
+                // What it writes beyond the row, the next one writes over.
+                let at = (1 + 3 * corner + k) * count;
+                words[at..at + LANES].copy_from_slice(&row);
             }
-            world
-        };
-        leaf.map(words, |id| (id + self.first_triangle) | self.flag, corner)
+        }
+        Leaf::of(words, count)
     }
 }
 
