@@ -25,9 +25,8 @@ pub(super) const MOST_TRIANGLES: usize = 1 << COUNT_AT;
 /// Where in a child the number of triangles stands, less one; below it is the place of the first.
 const COUNT_AT: u32 = 27;
 
-/// Numbers are kept as floats a little above one, which is this: vectors of coordinates read some of the next leaf's numbers, and small
-/// integers would be denormal floats there, which processors are slow with.
-pub(super) const ONE: u32 = 0x3f80_0000;
+/// Marks a triangle that asks the filter.
+pub(super) const FILTERED: u32 = 1 << 31;
 
 /// Up to eight triangles in memory: a row of their numbers, with [`FILTERED`], then a row for each axis of each corner.
 #[derive(Clone, Copy)]
@@ -37,15 +36,29 @@ pub(super) struct Leaf<'a> {
     count: usize,
 }
 
-/// Marks a triangle that asks the filter.
-pub(super) const FILTERED: u32 = 1 << 31;
+/// The word that a number is kept as, or the number that a word stands for.
+///
+/// Vectors of coordinates read some of the next leaf's numbers, and small integers would be denormal floats there, which processors are
+/// slow with; so they are kept as floats a little above one.
+#[inline(always)]
+pub(super) fn word_of(id: u32) -> u32 {
+    id ^ 1f32.to_bits()
+}
+
+/// Where the row of an axis of a corner begins in a leaf of `count` triangles; row after row, the numbers before the first.
+#[inline(always)]
+pub(super) fn row_at(count: usize, corner: usize, axis: usize) -> usize {
+    (1 + 3 * corner + axis) * count
+}
 
 /// Writes a leaf to the beginning of `words`: numbers and corners of its triangles.
 pub(super) fn write(triangles: &[(u32, [Vec3; 3])], words: &mut [u32]) {
     for (lane, (id, corners)) in triangles.iter().enumerate() {
-        words[lane] = id ^ ONE;
-        for (row, coordinate) in corners.iter().flat_map(|corner| corner.to_array()).enumerate() {
-            words[(1 + row) * triangles.len() + lane] = coordinate.to_bits();
+        words[lane] = word_of(*id);
+        for (k, corner) in corners.iter().enumerate() {
+            for axis in 0..3 {
+                words[row_at(triangles.len(), k, axis) + lane] = corner[axis].to_bits();
+            }
         }
     }
 }
@@ -100,7 +113,7 @@ impl<'a> Leaf<'a> {
     pub fn id(self, lane: usize) -> u32 {
         debug_assert!(lane < self.count);
         // SAFETY: a leaf has a word for each of its triangles, and no lane is asked for that has none.
-        unsafe { *self.words.get_unchecked(lane) ^ ONE }
+        word_of(unsafe { *self.words.get_unchecked(lane) })
     }
 
     /// A coordinate of a corner, with whatever there is in the lanes beyond.
@@ -110,6 +123,6 @@ impl<'a> Leaf<'a> {
     #[inline(always)]
     pub unsafe fn row(self, corner: usize, axis: usize) -> &'a [f32; LANES] {
         // SAFETY: there are as many rows, and at least eight words behind the last; words and floats are alike to memory.
-        unsafe { &*self.words.as_ptr().add((1 + 3 * corner + axis) * self.count).cast() }
+        unsafe { &*self.words.as_ptr().add(row_at(self.count, corner, axis)).cast() }
     }
 }

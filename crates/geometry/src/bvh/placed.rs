@@ -3,7 +3,7 @@
 //! Their boxes are met by the ray as the mesh sees it; their triangles are placed in the world as they are tested, with the rounding
 //! that they would have had if they were kept there. So rays hit the same, bit for bit, as without sharing.
 
-use super::leaf::{FILTERED, LANES, Leaf, ONE, Words};
+use super::leaf::{FILTERED, LANES, Leaf, Words, row_at, word_of};
 use super::node::{LEAF, MAX_DEPTH};
 use super::prepared::{Prepared, SLACK};
 use enfilade_math::{Bounds3, DAffine3, Ray, Vec3, place};
@@ -87,7 +87,7 @@ impl Placed {
         let m = self.world_from_mesh.to_cols_array();
         let count = leaf.count();
         for (lane, word) in words[..count].iter_mut().enumerate() {
-            *word = ((leaf.id(lane) + self.first_triangle) | self.flag) ^ ONE;
+            *word = word_of((leaf.id(lane) + self.first_triangle) | self.flag);
         }
         for corner in 0..3 {
             // SAFETY: there are three axes and three corners.
@@ -100,7 +100,7 @@ impl Placed {
                     row[lane] = ((m[k] * x + m[3 + k] * y + m[6 + k] * z + m[9 + k]) as f32).to_bits();
                 }
                 // What it writes beyond the row, the next one writes over.
-                let at = (1 + 3 * corner + k) * count;
+                let at = row_at(count, corner, k);
                 words[at..at + LANES].copy_from_slice(&row);
             }
         }
