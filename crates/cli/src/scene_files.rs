@@ -10,12 +10,16 @@ use enfilade_pipeline::{EnvironmentChoice, Event, FileSource, HomeConfig, Report
 /// `import`: of a dataset's scenes, or of one file.
 pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
     if args.input.is_dir() {
+        if let Some(flag) = flag_of_files(args) {
+            let hint = format!("leave {flag} out, and write what it says into the scene's table of dataset.toml");
+            return Err(Problem::new(format!("{flag} is for scene files, but {} is a folder", args.input.display()), hint));
+        }
         let stage_args = StageArgs { dataset: args.input.clone(), scene: args.scene.clone(), force: args.force };
         return verbs::stage(&stage_args, Stage::Import, quiet);
     }
     let source = FileSource {
         file: args.input.to_string_lossy().into_owned(),
-        meters_per_unit: args.meters_per_unit,
+        meters_per_unit: args.meters_per_unit.unwrap_or(1.0),
         up_axis: args.up_axis.map(|axis| match axis {
             UpAxisArg::Y => UpAxis::Y,
             UpAxisArg::Z => UpAxis::Z,
@@ -36,6 +40,18 @@ pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
     say(&format!("scene    {}", output.display()));
     say(&format!("report   {} ({} warnings)", imported.report.display(), imported.warnings.len()));
     Ok(Verdict::Done)
+}
+
+/// A flag that is given and means nothing for a dataset, whose configuration says the same.
+fn flag_of_files(args: &ImportArgs) -> Option<&'static str> {
+    let given = [
+        ("--output", args.output.is_some()),
+        ("--meters-per-unit", args.meters_per_unit.is_some()),
+        ("--up-axis", args.up_axis.is_some()),
+        ("--environment", args.environment.is_some()),
+        ("--allow-missing-textures", args.allow_missing_textures),
+    ];
+    given.into_iter().find(|(_, is_given)| *is_given).map(|(flag, _)| flag)
 }
 
 /// `home`: a furnished home of a seed.

@@ -118,7 +118,8 @@ fn conclude(result: &Summary) -> Verdict {
 pub fn label(args: &LabelArgs, quiet: bool) -> Result<Verdict, Problem> {
     let Some(table) = &args.table else { return stage(&args.stage, Stage::Label, quiet) };
     let progress = Progress::new(quiet);
-    let result = enfilade_pipeline::relabel(&args.stage.dataset, table, args.stage.scene.as_deref(), &progress)?;
+    let StageArgs { dataset, scene, force } = &args.stage;
+    let result = enfilade_pipeline::relabel(dataset, table, scene.as_deref(), *force, &progress)?;
     drop(progress);
     Ok(conclude(&result))
 }

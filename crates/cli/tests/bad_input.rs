@@ -130,6 +130,7 @@ fn arguments_out_of_their_range_are_told() {
         (&["run", "--demo", "out", "--size", "12"], "640x480"),
         (&["run", "--demo", "out", "--threads", "0"], "--threads"),
         (&["run"], "<DATASET.TOML>"),
+        (&["import", ".", "--meters-per-unit", "0.01"], "--meters-per-unit is for scene files, but . is a folder"),
         (&["inspect", "out", "--pixel", "1"], "160,120"),
     ] {
         fail(dir.path(), args, 2, &[word]);

@@ -51,6 +51,53 @@ fn a_second_run_does_nothing_and_a_changed_label_table_renders_nothing() {
 }
 
 #[test]
+fn scenes_are_imported_again_when_a_file_comes_late_or_another_one_is_meant() {
+    let dir = folder();
+    let d = dir.path();
+    for name in ["a", "b"] {
+        let folder = d.join(name);
+        fs::create_dir(&folder).unwrap();
+        let obj = write_room(&folder, "room", Lamp::On);
+        let text = fs::read_to_string(&obj).unwrap().replace("mtllib room.mtl\n", "mtllib room.mtl\nmtllib late.mtl\n");
+        fs::write(&obj, text).unwrap();
+        write_config(&folder, &[scene("room")]);
+    }
+    let late = |grey: f32| format!("newmtl wall\nKd {grey} {grey} {grey}\n");
+    let package = || fs::read(d.join("out/.enfilade/room/scene.scene")).unwrap();
+    let run = |name: &str| succeed(d, &["run", &format!("{name}/dataset.toml"), "--frames", "1", "-o", "out"]);
+    run("a");
+    assert!(run("a").contains("Nothing to do"));
+    let without = package();
+    fs::write(d.join("a/late.mtl"), late(0.5)).unwrap();
+    run("a");
+    let with = package();
+    assert_ne!(without, with, "a library that was missing is there now");
+    fs::write(d.join("b/late.mtl"), late(0.25)).unwrap();
+    run("b");
+    assert_ne!(with, package(), "the same words, another folder");
+    assert!(run("b").contains("Nothing to do"));
+}
+
+#[test]
+fn a_report_card_does_not_outlive_what_it_is_about() {
+    let dir = folder();
+    let d = dir.path();
+    ["a", "b"].iter().for_each(|name| drop(write_room(d, name, Lamp::On)));
+    write_config(d, &[scene("a"), scene("b")]);
+    succeed(d, &["run", "dataset.toml", "-o", "out", "--frames", "1"]);
+    let passed = || -> bool {
+        let card: serde_json::Value = serde_json::from_slice(&fs::read(d.join("out/verify.json")).unwrap()).unwrap();
+        card["passed"].as_bool().unwrap()
+    };
+    assert!(passed());
+    // Frames that are rendered anew have no labels yet.
+    succeed(d, &["render", "out", "--scene", "b", "--samples", "2"]);
+    assert!(!d.join("out/verify.json").exists());
+    enfilade(d, &["run", "dataset.toml", "-o", "out", "--frames", "1", "--scenes", "a"]).output().unwrap();
+    assert!(!passed(), "the other scene has changed since");
+}
+
+#[test]
 fn killed_runs_end_with_the_same_bytes_without_rendering_finished_frames_again() {
     let dir = folder();
     let d = dir.path();

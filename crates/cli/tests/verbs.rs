@@ -89,6 +89,9 @@ fn a_run_is_forecast_before_it_and_counted_after_it() {
     assert!(!d.join("out/scenes/room/images").exists() && !d.join("out/.enfilade/room/pilot").exists());
     assert!(d.join("out/scenes/room/_detail/cam_00/camera_keyframe_positions.hdf5").is_file());
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    let text = succeed(d, &["run", "dataset.toml", "-o", "out", "--estimate"]);
+    let row = text.lines().find(|line| line.starts_with("room")).unwrap_or_else(|| panic!("no row:\n{text}"));
+    assert_eq!(row.split_whitespace().nth(1), Some("0"), "nothing is still to be done: {row}");
     let page = |name: &str| d.join("out/statistics").join(name);
     assert!(page("statistics.html").is_file() && page("plots/depth_log.png").is_file() && !page("costs.json").exists());
     let numbers = fs::read(page("statistics.json")).unwrap();

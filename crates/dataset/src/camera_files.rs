@@ -194,9 +194,11 @@ const OPENCV_CONVENTION: &str = "OpenCV: camera axes x right, y down, z forward;
 
 const OPENCV_DISTORTED: &str = "OpenCV: camera axes x right, y down, z forward; the centre of the upper left pixel is (0, 0). \
     world_from_camera takes camera coordinates (column vectors) to the world, which is right-handed with z up. model opencv: K and \
-    distortion are those of cv2.projectPoints (k1 k2 p1 p2 k3 k4 k5 k6); opencv_fisheye: of cv2.fisheye.projectPoints (k1 k2 k3 k4). Other \
-    models have no K: camera_rays.hdf5 has the ray of every pixel, with y and z the other way around. With a rolling shutter these poses \
-    are those of the middle row; camera_row_positions.hdf5 and camera_row_orientations.hdf5 have those of all rows.";
+    distortion are those of cv2.projectPoints (k1 k2 p1 p2 k3 k4 k5 k6); opencv_fisheye: of cv2.fisheye.projectPoints (k1 k2 k3 k4). \
+    Neither reads the skew K[0][1]: where it is not 0, add K[0][1] (y - K[1][2]) / K[1][1] to the x of the former, and give the latter \
+    alpha = K[0][1] / K[0][0]. Other models have no K: camera_rays.hdf5 has the ray of every pixel, with y and z the other way around. \
+    With a rolling shutter these poses are those of the middle row; camera_row_positions.hdf5 and camera_row_orientations.hdf5 have those \
+    of all rows, in Hypersim's axes and, of a camera with a tilted image plane, as M_cam_from_uv wants them: not turned as these are.";
 
 /// The text of `cameras_opencv.json` for the poses of a trajectory.
 pub fn opencv_cameras(scene: &str, trajectory: &Trajectory, camera: &Camera) -> String {

@@ -128,6 +128,8 @@ pub struct Imported {
     pub labels: Option<Vec<ImportedLabel>>,
     /// Every file that was read, in order of first use, for hashing.
     pub inputs: Vec<PathBuf>,
+    /// Files that were looked for in vain, in that order: were they there, the scene would be another one.
+    pub missing: Vec<PathBuf>,
     /// What the scene holds and what was dropped or guessed.
     pub report: ImportReport,
 }

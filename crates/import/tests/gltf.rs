@@ -6,7 +6,7 @@ use common::{Folder, Gltf, base64, png, warnings};
 use enfilade_import::{ImportOptions, UpAxis};
 use enfilade_math::{DVec3, Rgb, Vec2, Vec3};
 use enfilade_scene::{Alpha, Bsdf, Filter, Light, NormalMap, PartLabel, Principled, SpotFalloff, Wrap};
-use serde_json::json;
+use serde_json::{Value, json};
 
 fn principled(bsdf: &Bsdf) -> &Principled {
     match bsdf {
@@ -153,6 +153,46 @@ fn material_extensions_are_read() {
     assert_eq!((p.clearcoat.factor, p.clearcoat_roughness.factor), (0.7, 0.2));
     assert_eq!((p.sheen_color.factor, p.sheen_roughness.factor), (Rgb::new(0.1, 0.2, 0.3), 0.4));
     assert!(warnings(&imported).contains("extension KHR_materials_iridescence ignored"));
+}
+
+#[test]
+fn a_texture_of_any_kind_chooses_the_coordinate_set() {
+    let folder = Folder::new();
+    folder.write("a.png", png(1, 1, [9, 9, 9, 255]));
+    let load = |material: &Value| {
+        let mut g = Gltf::triangle();
+        let second = g.accessor(&[0.5f32; 6].map(f32::to_le_bytes).concat(), 5126, "VEC2", 3);
+        g.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = json!(second);
+        g.json["images"] = json!([{"uri": "a.png"}]);
+        g.json["textures"] = json!([{"source": 0}]);
+        g.json["materials"] = json!([material]);
+        folder.write("a.gltf", g.text()).load("a.gltf").unwrap()
+    };
+    let texture = json!({"index": 0, "texCoord": 1});
+    let mut materials = vec![
+        json!({"normalTexture": texture}),
+        json!({"normalTexture": {"index": 0, "extensions": {"KHR_texture_transform": {"texCoord": 1}}}}),
+    ];
+    for (name, key) in [
+        ("transmission", "transmissionTexture"),
+        ("specular", "specularTexture"),
+        ("specular", "specularColorTexture"),
+        ("clearcoat", "clearcoatTexture"),
+        ("clearcoat", "clearcoatRoughnessTexture"),
+        ("sheen", "sheenColorTexture"),
+        ("sheen", "sheenRoughnessTexture"),
+    ] {
+        materials.push(json!({"extensions": {format!("KHR_materials_{name}"): {key: texture}}}));
+    }
+    for mut material in materials {
+        let imported = load(&material);
+        assert_eq!(imported.scene.meshes[0].uvs, [Vec2::splat(0.5); 3], "{material}");
+        assert!(!warnings(&imported).contains("coordinate sets"), "{material}");
+        material["pbrMetallicRoughness"] = json!({"baseColorTexture": {"index": 0}});
+        let imported = load(&material);
+        assert_eq!(imported.scene.meshes[0].uvs[1], Vec2::X, "{material}");
+        assert!(warnings(&imported).contains("its textures use several coordinate sets; all were given set 0"), "{material}");
+    }
 }
 
 #[test]

@@ -192,6 +192,8 @@ fn cameras_see_what_mitsuba_sees() {
     assert!((half(r#"<float name="fov" value="90"/><string name="fov_axis" value="diagonal"/>"#) - 2.0 / 5.0f64.sqrt()).abs() < 1e-9);
     let by_length = half(r#"<string name="focalLength" value="50mm"/>"#);
     assert!((by_length - 43.266_615_3 / 100.0 * 2.0 / 5.0f64.sqrt()).abs() < 1e-6);
+    // Without a field of view and a focal length, the latter is 50 mm.
+    assert_eq!(half(""), by_length);
 }
 
 #[test]

@@ -53,6 +53,20 @@ fn material_keys_are_read() {
     assert!(matches!(material("Kd 1 1 1\nKs 0.5 0.5 0.5\nNs 48\nTr 0\n").bsdf, Bsdf::Plastic { alpha, .. } if alpha.factor == 0.2));
 }
 
+/// Illumination models below 2 have no highlight, so `Ks` counts for nothing, on black `Kd` too.
+#[test]
+fn specular_colours_count_from_illumination_model_2_on() {
+    let folder = Folder::new();
+    folder.write("a.obj", format!("mtllib a.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n"));
+    folder.write("grey.png", png(2, 2, [9, 9, 9, 255]));
+    let bsdf = |body: &str| folder.write("a.mtl", format!("newmtl M\n{body}")).load("a.obj").unwrap().scene.materials[0].bsdf.clone();
+    for (kd, illum) in [(0.25, 0), (0.25, 1), (0.0, 1)] {
+        let found = bsdf(&format!("Kd {kd} {kd} {kd}\nKs 0.5 0.5 0.5\nmap_Ks grey.png\nillum {illum}\n"));
+        assert_eq!(found, Bsdf::Diffuse { reflectance: Rgb::splat(kd).into() }, "illum {illum}");
+    }
+    assert!(matches!(bsdf("Kd 1 1 1\nKs 0.5 0.5 0.5\nillum 2\n"), Bsdf::Plastic { specular, .. } if specular.factor == Rgb::splat(0.5)));
+}
+
 #[test]
 fn a_missing_library_is_a_warning() {
     let folder = Folder::new();

@@ -8,9 +8,12 @@ use enfilade_math::{DVec3, Rgb, Vec3};
 use enfilade_scene::{Environment, Light, Scene, uv_from_direction};
 use std::f32::consts::PI;
 
+/// 10 candela in every direction of the lower half, 20π lumens.
+const HALF: &str = "IES:LM-63-2019\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 9\n0 90\n0\n10 10\n";
+
 fn load(body: &str) -> Imported {
     let folder = Folder::new();
-    folder.write("sky.png", png(8, 4, [255; 4]));
+    folder.write("sky.png", png(8, 4, [255; 4])).write("half.ies", HALF).write("dark.ies", HALF.replace("10 10", "0 0"));
     folder.write("a.usda", format!("#usda 1.0\n( metersPerUnit = 0.5 upAxis = \"Z\" )\ndef Cube \"Box\" {{ }}\n{body}"));
     folder.load("a.usda").unwrap_or_else(|e| panic!("{e}"))
 }
@@ -82,6 +85,48 @@ fn points_spots_and_suns_keep_their_intensity() {
     assert!((*direction - Vec3::Y).length() < 1e-6 && irradiance.g == 7.0 && (angular_radius_rad.to_degrees() - 1.0).abs() < 1e-5);
     let Light::Directional { irradiance, .. } = moon else { panic!("{moon:?}") };
     assert!((irradiance.g - 100.0 * PI * 5.0f32.to_radians().sin().powi(2)).abs() < 1e-4);
+}
+
+#[test]
+fn normalized_profiles_keep_the_power_of_the_light() {
+    let lamp = |more: &str| {
+        let imported = load(&format!(
+            "def SphereLight \"Lamp\" {{ bool inputs:normalize = true\nfloat inputs:intensity = 12\n\
+             asset inputs:shaping:ies:file = @half.ies@\n{more} }}"
+        ));
+        let [Light::Profile { intensity, .. }] = imported.scene.lights[..] else { panic!("{:?}", imported.scene.lights) };
+        (intensity.g, warnings(&imported))
+    };
+    // The sphere's intensity, in units of half a metre: 12 / 4 everywhere, so 12π of power.
+    let (intensity, told) = lamp("");
+    assert!((intensity - 3.0 * 0.25).abs() < 1e-6, "{intensity}");
+    assert!(told.contains("a point of its intensity times the profile's candela") && !told.contains("left out"), "{told}");
+    let (intensity, told) = lamp("bool inputs:shaping:ies:normalize = true");
+    // In half of all directions it is twice as strong: 0.15 times 10 candela.
+    assert!((intensity - 0.15).abs() < 1e-5, "{intensity}");
+    assert!(told.contains("made a point of the same power"), "{told}");
+    let (intensity, told) = lamp("bool inputs:shaping:ies:normalize = true\nbool treatAsPoint = true");
+    assert!((intensity - 0.15).abs() < 1e-5 && told.is_empty(), "{told}");
+    let dark = load("def SphereLight \"Lamp\" { asset inputs:shaping:ies:file = @dark.ies@\nbool inputs:shaping:ies:normalize = true }");
+    assert!(warnings(&dark).contains("profile is dark, so it could not be normalized"), "{}", warnings(&dark));
+}
+
+#[test]
+fn shaping_that_points_do_not_have_is_reported() {
+    let told = |body: &str| warnings(&load(&format!("def SphereLight \"Lamp\" {{ {body} }}")));
+    let profile = "asset inputs:shaping:ies:file = @half.ies@\n";
+    for (body, what) in [
+        ("bool treatAsPoint = true\nfloat inputs:shaping:focus = 2".to_string(), "focus"),
+        ("float inputs:shaping:cone:angle = 30\nfloat inputs:shaping:focus = 2".to_string(), "focus"),
+        (format!("{profile}float inputs:shaping:focus = 2"), "focus"),
+        (format!("{profile}float inputs:shaping:cone:angle = 30"), "cone"),
+        (format!("{profile}float inputs:shaping:ies:angleScale = 0.5"), "profile's angle scale"),
+    ] {
+        let told = told(&body);
+        assert!(told.contains(&format!("the light's {what} was left out")), "{body}: {told}");
+    }
+    let cone = told("float inputs:shaping:cone:angle = 30\nfloat inputs:shaping:ies:angleScale = 0.5");
+    assert!(cone.contains("a point of the same intensity") && !cone.contains("left out"), "{cone}");
 }
 
 /// Black bodies as `UsdLux.BlackbodyTemperatureAsRgb` has them.

@@ -8,7 +8,7 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::forecast::Forecast;
 use crate::report::{Reporter, StageCx, Summary};
-use crate::run::{Session, estimate, open, store_config};
+use crate::run::{Session, forecast, open, store_config};
 use crate::stages::{Job, PARTIALS, STAGES, Stage, StageSpec, frame_finisher, kept_part, render_frames};
 use crate::workdir::{WORKDIR, Workdir};
 use enfilade_dataset::{Dataset, FrameTime};
@@ -90,9 +90,9 @@ impl Shift<'_> {
 /// Does all that comes before rendering in the folder `out`, and forecasts the rest.
 ///
 /// # Errors
-/// As [`estimate`]. Scenes that fail are left out, and the summary tells why.
+/// As [`crate::estimate`]. Scenes that fail are left out, and the summary tells why.
 pub fn prepare(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Reporter) -> Result<(Summary, Prepared), Error> {
-    let (summary, forecasts) = estimate(config, out, pattern, reporter)?;
+    let (summary, forecasts) = forecast(config, out, pattern, &|job| job.frames_by_trajectory(), reporter)?;
     let (workdir, mut config) = open(out)?;
     carry_tables(&workdir, &mut config)?;
     store_config(&workdir, &config)?;
@@ -101,10 +101,7 @@ pub fn prepare(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dy
     for (name, forecast) in forecasts {
         let Some(scene) = config.scenes.iter().find(|scene| scene.name == name) else { continue };
         let job = Job::new(&config, scene, &dataset, &workdir, false);
-        let frames = |trajectory: &enfilade_scene::Trajectory| -> Result<_, Error> {
-            Ok((trajectory.name.clone(), job.frames_of(trajectory)?.into_iter().collect()))
-        };
-        let trajectories = job.filmed()?.iter().map(|(_, trajectory)| frames(trajectory)).collect::<Result<_, _>>()?;
+        let trajectories = job.frames_by_trajectory()?.into_iter().map(|(name, frames)| (name, frames.into_iter().collect())).collect();
         let folders = [out.join(WORKDIR).join(&name), dataset.layout().scene_dir(&name)];
         let mut files = Vec::new();
         folders.iter().try_for_each(|folder| files_below(folder, out, &mut files))?;

@@ -5,8 +5,8 @@ use crate::error::Error;
 use crate::forecast::Forecast;
 use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::split::write_split;
-use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, pilot};
-use crate::workdir::{Workdir, read_json, remove_if_there, write_json};
+use crate::stages::{CARD, FramesByTrajectory, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, missing_frames, pilot};
+use crate::workdir::{Workdir, read_json, write_json};
 use enfilade_dataset::{CameraEntry, Dataset, FrameStatus, ManifestInfo};
 use enfilade_post::drivers::write_overview;
 use enfilade_post::sheet::SheetConfig;
@@ -55,7 +55,7 @@ pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, r
     Session::new(&config, &workdir)?.run(&scenes, stages, force, reporter)
 }
 
-/// Forecasts what [`run`] will take, by scene: does all that comes before rendering, which is kept, and tries out a little of the rest,
+/// Forecasts what [`run`] will still take, by scene: does all that comes before rendering, which is kept, and tries out a little of the rest,
 /// which is not. Scenes that fail before rendering are left out, and the summary tells why.
 ///
 /// # Errors
@@ -64,6 +64,17 @@ pub fn estimate(
     config: &Config,
     out: &Path,
     pattern: Option<&str>,
+    reporter: &dyn Reporter,
+) -> Result<(Summary, Vec<(String, Forecast)>), Error> {
+    forecast(config, out, pattern, &missing_frames, reporter)
+}
+
+/// Does all that comes before rendering, and forecasts what the `frames` of every scene take.
+pub(crate) fn forecast(
+    config: &Config,
+    out: &Path,
+    pattern: Option<&str>,
+    frames: &dyn Fn(&Job) -> Result<FramesByTrajectory, Error>,
     reporter: &dyn Reporter,
 ) -> Result<(Summary, Vec<(String, Forecast)>), Error> {
     let scenes = config.select(pattern)?;
@@ -75,8 +86,13 @@ pub fn estimate(
     let mut forecasts = Vec::new();
     for (scene, _) in scenes.iter().zip(&summary.scenes).filter(|(_, outcome)| outcome.failure.is_none()) {
         let job = Job::new(config, scene, &session.dataset, &workdir, false);
-        let found = pilot(&job, &StageCx::new(&scene.name, Stage::Render, reporter))?;
-        forecasts.push((scene.name.clone(), Forecast::of(&found)));
+        let frames = frames(&job)?;
+        let forecast = if frames.is_empty() {
+            Forecast::default()
+        } else {
+            Forecast::of(&pilot(&job, &frames, &StageCx::new(&scene.name, Stage::Render, reporter))?)
+        };
+        forecasts.push((scene.name.clone(), forecast));
     }
     Ok((summary, forecasts))
 }
@@ -102,11 +118,11 @@ pub fn plan_and_draw(out: &Path, pattern: Option<&str>, force: bool, reporter: &
 ///
 /// # Errors
 /// As [`run_stage`].
-pub fn relabel(out: &Path, table: &Path, pattern: Option<&str>, reporter: &dyn Reporter) -> Result<Summary, Error> {
+pub fn relabel(out: &Path, table: &Path, pattern: Option<&str>, force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
     let table = std::path::absolute(table).map_err(Error::io("find", table))?;
     let (workdir, config) = open_changed(out, pattern, |scene| scene.set_label_table(&table.to_string_lossy()))?;
     let scenes = config.select(pattern)?;
-    Session::new(&config, &workdir)?.run(&scenes, &LABELLING, false, reporter)
+    Session::new(&config, &workdir)?.run(&scenes, &LABELLING, force, reporter)
 }
 
 /// Makes choices about the rendering of scenes of the dataset in `out` from now on, and runs `stages` with that.
@@ -213,13 +229,11 @@ impl<'a> Session<'a> {
         Ok(write_split(&self.dataset, self.workdir, &manifest)?.warning())
     }
 
-    /// Writes the report card of all scenes, also of those that did not come so far as to be verified. A card that other stages have made untrue is removed.
+    /// Writes the report card of all scenes, also of those that did not come so far as to be verified. Stages that change what is verified
+    /// have removed it.
     fn write_card(&self, stages: &[&StageSpec], outcomes: &[SceneOutcome]) -> Result<(), Error> {
-        let layout = self.dataset.layout();
         if stages.iter().all(|spec| spec.stage != Stage::Verify) {
-            let changed = outcomes.iter().flat_map(|outcome| &outcome.stages).any(|done| !done.up_to_date && done.stage != Stage::Preview);
-            let old = [layout.verify_report(), layout.verify_page()];
-            return if changed { old.iter().try_for_each(|path| remove_if_there(path)) } else { Ok(()) };
+            return Ok(());
         }
         let mut reports: Vec<VerifyReport> = Vec::new();
         for scene in self.dataset.scenes().map_err(Error::stage)? {

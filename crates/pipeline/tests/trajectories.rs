@@ -6,10 +6,10 @@ use std::path::Path;
 
 /// A home of one room, tiny, once per mode; the poses made by hand are of the demo's.
 fn config(folder: &Path) -> Config {
-    let table = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z\n0,-1.1,4.2,1.4,-2.0,2.6,1.2\n3,-1.25,3.95,1.4,-2.0,2.6,1.2\n";
+    let table = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z,roll_deg\n0,-1.1,4.2,1.4,-2.0,2.6,1.2,9\n3,-1.25,3.95,1.4,-2.0,2.6,1.2,9\n";
     std::fs::write(folder.join("path.csv"), table).unwrap();
     let modes = [
-        ("walk", "overlap = [0.1, 0.95]\nmode = { kind = \"walk\" }"),
+        ("walk", "overlap = [0.1, 0.95]\nroll_limit_deg = 20\nmode = { kind = \"walk\" }"),
         ("video", "camera_height_m = [1.2, 1.7]\nlevel = true\nmode = { kind = \"video\", fps = 10 }"),
         ("stills", "mode = { kind = \"stills\", min_distance_m = 0.5 }"),
         ("coverage", "mode = { kind = \"coverage\", views = 2, poses = 100, samples = 1000 }"),
@@ -41,6 +41,8 @@ fn datasets_of_every_mode_verify_and_are_made_once() {
         let report: enfilade_explore::PlanReport = serde_json::from_str(&text).unwrap();
         assert_eq!((report.mode.as_str(), report.per_frame.frame.as_slice()), (scene, [0, 1, 2, 3].as_slice()));
         assert_eq!(report.coverage.is_some(), scene == "coverage");
+        // Beyond the usual limit, which only binds plans that have it.
+        assert_eq!(report.per_frame.roll_deg.iter().any(|roll| roll.abs() > 5.0), ["walk", "keyframes"].contains(&scene), "{scene}");
     }
     let poses = dataset.read_trajectory("keyframes", "cam_00").unwrap().poses;
     assert_eq!((poses[0].position.x, poses[3].position.x), (-1.1, -1.25));

@@ -174,6 +174,7 @@ pub(crate) fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     let second = Pose { frame: 1, position: first.position + DVec3::X * 0.1, look_at: first.look_at + DVec3::X * 0.1, ..first };
     let trajectory = enfilade_scene::Trajectory { name: "cam_00".into(), poses: vec![first, second] };
     dataset.write_trajectory("room", &trajectory, &intrinsics().into(), None).unwrap();
+    enfilade_dataset::write_bytes(&dataset.layout().plan_report("room", "cam_00"), b"{}").unwrap();
     let mut tree = OccupancyTree::new(0.1);
     for pose in &trajectory.poses {
         tree.set(tree.key(pose.position).unwrap(), Voxel::Free);

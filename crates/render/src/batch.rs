@@ -6,7 +6,7 @@
 //! Light that the paths find beyond the second surface is shared: see [`crate::reuse`].
 
 use crate::bsdf::Value;
-use crate::integrator::{Direct, Indirect, Integrator, Step, bsdf_set, light_set};
+use crate::integrator::{Direct, Indirect, Integrator, Step, bsdf_set, for_roulette, light_set};
 use crate::prepared::Cutout;
 use crate::reuse::{Far, Link, Reach};
 use crate::split::{Arriving, Split};
@@ -148,7 +148,7 @@ impl<'a, 's> Integrator<'a, 's> {
                 let u = sampler.set(bsdf_set(0));
                 vertex.scatter([u[0], u[1], u[2]], &segment).map(|(weight, next)| (Step { weight, survival: 1.0 }, next))
             } else {
-                self.onward(bounce, vertex, passed, &segment, &mut expected, sampler)
+                self.onward(bounce, vertex, for_roulette(passed), &segment, &mut expected, sampler)
             };
             let Some((step, next)) = step else {
                 batch.heads.push(head);
@@ -242,7 +242,7 @@ impl<'a, 's> Integrator<'a, 's> {
         }
         let vertex = Vertex::new(self.guide, surface, bsdf);
         let direct = self.sample_lights(&vertex, sampler.set(light_set(bounce)), segment.medium);
-        let so_far = throughput * head.passed() * step.weight.total(head.vertex.bsdf.reflectance);
+        let so_far = for_roulette(throughput * head.passed() * step.weight.total(head.vertex.bsdf.reflectance));
         let reflectance = vertex.bsdf.reflectance;
         let onward = self.onward(bounce, &vertex, so_far, &segment, &mut expected, sampler).map(|(step, next)| {
             let wi = next.ray.direction;

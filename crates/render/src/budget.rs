@@ -48,7 +48,10 @@ impl Budget {
             .collect();
         let total: f64 = errors.iter().map(|&e| f64::from(e)).sum();
         let n = errors.len() as f64;
-        if !(total > 0.0 && total.is_finite()) {
+        if !total.is_finite() {
+            return vec![self.mean; errors.len()];
+        }
+        if total == 0.0 {
             return vec![if self.noise.is_some() { self.first } else { self.mean }; errors.len()];
         }
         // The variance that is left, Σ e²/n, is least for a given number of samples when n is in proportion to e.
@@ -128,6 +131,10 @@ mod tests {
         assert!((left.sqrt() - 0.05).abs() < 0.003, "left {}", left.sqrt());
         let bounded = budget(1e-6).share(64, &half_noisy());
         assert!(bounded.iter().map(|&n| u64::from(n)).sum::<u64>() <= 4097 * 64 * 32);
+        // What is beyond all numbers is not taken for clean.
+        let wild = vec![Estimate { mean: 1.0, variance: f32::INFINITY }; 25];
+        assert_eq!(budget(0.05).share(5, &wild), [4096; 25]);
+        assert_eq!(budget(0.05).share(5, &[Estimate::default(); 25]), [8; 25]);
     }
 
     #[test]

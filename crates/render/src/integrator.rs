@@ -17,9 +17,13 @@ use enfilade_math::{Ray, Rgb, Sampler, Vec3};
 const SURVIVAL_GAIN: f32 = 0.8;
 /// The same where nothing is known of the light, and of the light that mirrors and glass find, for what the path lets through.
 const UNKNOWN_GAIN: f32 = 12.0;
-/// Bounds of the probability that a path goes on.
+/// Bounds of the probability that a path goes on; the second of them where nothing is known of the light.
 const LEAST_SURVIVAL: f32 = 0.2;
+const LEAST_UNKNOWN: f32 = 0.05;
 const MOST_SURVIVAL: f32 = 0.95;
+
+/// What a path lets through counts in each colour as at least this share of the colour that it lets through best.
+const LEAST_COLOR: f32 = 0.05;
 
 /// Panes one behind the other that are looked through where a path has its last surface.
 const MOST_PANES: usize = 64;
@@ -30,6 +34,14 @@ pub(crate) const fn bsdf_set(bounce: u32) -> u32 {
 }
 pub(crate) const fn light_set(bounce: u32) -> u32 {
     2 + 2 * bounce
+}
+
+/// What a path lets through to the camera, for roulette. No colour is wholly lost: other pixels count on what the path finds, and so does
+/// illumination, which is without the first surface's colour.
+pub(crate) fn for_roulette(passed: Rgb) -> Rgb {
+    let best = passed.max_component();
+    let least = LEAST_COLOR * if best > 0.0 { best } else { 1.0 };
+    passed.map(|v| v.max(least))
 }
 
 /// Estimates radiance along paths of one scene.
@@ -119,7 +131,7 @@ impl<'a, 's> Integrator<'a, 's> {
     }
 
     /// Where a path goes on, and with which weight; `None` where it ends. Two numbers concern roulette alone: `so_far`, what the path
-    /// lets through to the camera, and `expected`, the light that its first surface is expected to reflect of what directions find there
+    /// lets through to the camera ([`for_roulette`]), and `expected`, the light that its first surface is expected to reflect of what directions find there
     /// (0: unknown).
     #[inline]
     pub fn onward(
@@ -142,7 +154,7 @@ impl<'a, 's> Integrator<'a, 's> {
         let survival = if blurred && here > 0.0 && *expected > 0.0 {
             (SURVIVAL_GAIN * here / *expected).max(LEAST_SURVIVAL)
         } else {
-            UNKNOWN_GAIN * (so_far * weight.total(reflectance)).max_component() / next.medium.compression
+            (UNKNOWN_GAIN * (so_far * weight.total(reflectance)).max_component() / next.medium.compression).max(LEAST_UNKNOWN)
         };
         let survival = survival.min(MOST_SURVIVAL);
         if u[3] >= survival {
@@ -154,7 +166,7 @@ impl<'a, 's> Integrator<'a, 's> {
         Some((Step { weight: weight * (1.0 / survival), survival }, next))
     }
 
-    /// Radiance along a path from its surface number `bounce` on, to which `so_far` of the light passes to the camera; for `expected`
+    /// Radiance along a path from its surface number `bounce` on, to which `so_far` of the light passes to the camera; for that and `expected`
     /// see [`Integrator::onward`]. `direct` says that nothing has scattered the light.
     pub fn radiance(
         &self,
@@ -215,7 +227,9 @@ impl<'a, 's> Integrator<'a, 's> {
         let ray = surface.shadow_ray(light.wi, light.target);
         let crosses = wi.z < 0.0;
         let medium = if crosses { medium.beyond(surface) } else { medium };
-        let arriving = self.scene.transmittance(&ray) * medium.transmittance(ray.t_max);
+        // Of a body that is not closed, which light from infinity can leave, directions do not know how far it goes either.
+        let absorbed = if light.target.is_some() { medium.transmittance(ray.t_max) } else { Rgb::WHITE };
+        let arriving = self.scene.transmittance(&ray) * absorbed;
         if arriving.is_black() {
             return None;
         }

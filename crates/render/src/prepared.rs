@@ -111,17 +111,14 @@ impl<'s> RenderScene<'s> {
         match &self.material_at(hit).alpha {
             Alpha::Opaque => true,
             Alpha::Mask { opacity: p, cutoff } => opacity(p) >= *cutoff,
-            Alpha::Blend { opacity: p } => {
-                let threshold = match cut {
-                    Cutout::Half => 0.5,
-                    // Independent between rays, because no two hit at the same place; the same for the same ray.
-                    Cutout::Random => {
-                        let h = hash_u32(hit.triangle ^ hash_u32(hit.u.to_bits() ^ hash_u32(hit.v.to_bits() ^ hit.t.to_bits())));
-                        (h >> 8) as f32 * (1.0 / 16_777_216.0)
-                    }
-                };
-                opacity(p) > threshold
-            }
+            Alpha::Blend { opacity: p } => match cut {
+                Cutout::Half => opacity(p) >= 0.5,
+                // Independent between rays, because no two hit at the same place; the same for the same ray.
+                Cutout::Random => {
+                    let h = hash_u32(hit.triangle ^ hash_u32(hit.u.to_bits() ^ hash_u32(hit.v.to_bits() ^ hit.t.to_bits())));
+                    opacity(p) > (h >> 8) as f32 * (1.0 / 16_777_216.0)
+                }
+            },
         }
     }
 }

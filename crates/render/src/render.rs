@@ -22,6 +22,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 const FIRST_SHARE: u32 = 4;
 /// The fewest samples that say anything about a pixel's error.
 const FEWEST: u32 = 8;
+/// A frame has met its noise target up to this many times that.
+const NOISE_ROOM: f64 = 1.25;
 /// Mean samples per pixel of a pass at most: short enough to be interrupted after it.
 const PASS: u32 = 16;
 
@@ -175,10 +177,13 @@ impl<'a, 's> FrameRender<'a, 's> {
         noise.is_finite().then_some(noise)
     }
 
-    /// True when the frame is done with fewer samples than it might have taken, because fewer were enough for the noise target.
+    /// True when the frame is done with fewer samples than it might have taken, because fewer were enough for the noise target. The number
+    /// was decided by the first samples, so the noise in the end may lie somewhat above.
     pub fn met_noise_target(&self) -> bool {
         let config = self.integrator.config;
-        config.noise.is_some() && self.is_done() && self.samples() < 0.999 * f64::from(config.samples)
+        let Some(target) = config.noise else { return false };
+        let is_near = |noise: f64| noise <= NOISE_ROOM * f64::from(target);
+        self.is_done() && self.samples() < 0.999 * f64::from(config.samples) && self.noise().is_some_and(is_near)
     }
 
     /// All of it as bytes, for [`FrameRender::restore`]. `key` names everything that the frame depends on.

@@ -5,7 +5,7 @@ use crate::prepared::RenderScene;
 use crate::texture::{Cone, Footprint, Textures};
 use enfilade_geometry::Hit;
 use enfilade_math::{Onb, Ray, Rgb, Vec2, Vec3, offset_origin};
-use enfilade_scene::{Material, NormalMap};
+use enfilade_scene::{Material, NormalMap, TextureRef};
 
 /// A surface point seen from the unit direction `wo`.
 #[derive(Clone)]
@@ -165,6 +165,17 @@ fn tangents(corners: &[Vec3; 3], uvs: [Vec2; 3]) -> Option<(Vec3, Vec3)> {
     Some(((e1 * d2.y - e2 * d1.y) * inverse, (e2 * d1.x - e1 * d2.x) * inverse))
 }
 
+/// Along the axes of a texture that its transform has turned or mirrored; not scaled.
+fn along_texture(texture: &TextureRef, (dp_du, dp_dv): (Vec3, Vec3)) -> (Vec3, Vec3) {
+    let [[a, b, _], [c, d, _]] = texture.uv_transform;
+    let determinant = a * d - b * c;
+    if determinant == 0.0 {
+        return (dp_du, dp_dv);
+    }
+    let sign = determinant.signum();
+    ((dp_du * d - dp_dv * c) * sign, (dp_dv * a - dp_du * b) * sign)
+}
+
 /// The normal `n` (on the viewer's side; `side` is −1 on the back) perturbed by a normal or bump map.
 fn perturbed(
     textures: &Textures<'_>,
@@ -179,6 +190,7 @@ fn perturbed(
         NormalMap::Normal { texture, scale } => {
             let rgb = textures.sample(texture, uv, footprint).0;
             let local = Vec3::new((2.0 * rgb.r - 1.0) * scale, (2.0 * rgb.g - 1.0) * scale, 2.0 * rgb.b - 1.0);
+            let (dp_du, dp_dv) = along_texture(texture, (dp_du, dp_dv));
             // Tangents follow the texture as it is placed on the surface, orthogonal to the smooth normal.
             let Some(t) = (dp_du - n * n.dot(dp_du)).try_normalize() else { return n };
             let b = n.cross(t);

@@ -54,16 +54,22 @@ impl Medium {
 
     /// On the other side of a border: a body's when it was entered, none when it was left.
     pub fn beyond(self, border: &Surface<'_>) -> Self {
-        let (eta, absorption) = match &border.material.bsdf {
-            Model::Dielectric { eta, absorption, .. } => (*eta, *absorption),
-            Model::Principled(p) if p.solid => (p.ior, p.absorption),
-            _ => return self,
-        };
+        let Some((eta, absorption)) = body(&border.material.bsdf) else { return self };
         if border.outside {
             Self { absorption, compression: self.compression / (eta * eta) }
         } else {
             Self { absorption: Rgb::BLACK, compression: self.compression * eta * eta }
         }
+    }
+}
+
+/// Index and absorption of the body that a material is the border of, if it is one.
+fn body(model: &Model) -> Option<(f32, Rgb)> {
+    match model {
+        Model::Dielectric { eta, absorption, .. } => Some((*eta, *absorption)),
+        Model::Principled(p) if p.solid => Some((p.ior, p.absorption)),
+        Model::Blend { first, second, .. } => body(first).or_else(|| body(second)),
+        _ => None,
     }
 }
 
@@ -149,7 +155,8 @@ impl<'a, 's> Vertex<'a, 's> {
         }
         let (value, bsdf_pdf) = self.bsdf.eval_pdf(self.wo, wi);
         let pdf = share * light_pdf + (1.0 - share) * bsdf_pdf;
-        Some((value * (1.0 / pdf), self.segment(direction, side, Some((LightPoint::on(surface), pdf)), before.medium)))
+        let medium = if side < 0.0 { before.medium.beyond(surface) } else { before.medium };
+        Some((value * (1.0 / pdf), self.segment(direction, side, Some((LightPoint::on(surface), pdf)), medium)))
     }
 
     /// Samples the BSDF, which is given this `share` of the directions.

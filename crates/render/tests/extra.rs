@@ -4,7 +4,7 @@ use enfilade_frame::{Frame, Layer, traits};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec2, Vec3};
 use enfilade_render::{Guide, RenderConfig, RenderScene, add_extra_layers, render_frame};
-use enfilade_scene::{Bsdf, Camera, CameraView, Environment, Intrinsics, Material, Part, Pose, Quiet, Scene};
+use enfilade_scene::{Alpha, Bsdf, Camera, CameraView, Environment, Intrinsics, Material, Part, Pose, Principled, Quiet, Scene};
 
 const CAMERA: Intrinsics = Intrinsics { width: 48, height: 36, fx: 40.0, fy: 42.0, cx: 23.0, cy: 18.5, skew: 0.0 };
 
@@ -85,6 +85,28 @@ fn behind_panes_lies_the_wall_straight_on() {
         through += usize::from(glass);
     }
     assert!(through > 300 && through < 1400, "{through} pixels look through glass");
+}
+
+#[test]
+fn nothing_lies_behind_what_is_opaque_where_it_is_met() {
+    // As metal lets nothing through; and a veil of one half is there in every layer of geometry.
+    let metal = Principled { transmission: 1.0.into(), metallic: 1.0.into(), ..Principled::default() };
+    let veil = Material { alpha: Alpha::Blend { opacity: 0.5.into() }, ..grey() };
+    let s = scene(vec![
+        (board(2.0, -9.0, 0.0), of(Bsdf::Principled(Box::new(metal)))),
+        (board(2.0, 0.0, 9.0), veil),
+        (board(4.0, -30.0, 30.0), grey()),
+    ]);
+    let frame = frame(&s, &[pose(0, DVec3::ZERO)]);
+    let mut parts = [0; 4];
+    for (p, _) in pixels() {
+        let part = value(&frame, Layer::RenderEntityId, p);
+        parts[part as usize] += 1;
+        assert_eq!(value(&frame, Layer::EntityBehindId, p), part);
+        assert_eq!(value(&frame, Layer::DepthBehindMeters, p), value(&frame, Layer::DepthMeters, p));
+        assert_eq!(value(&frame, Layer::SurfaceTraits, p) as u8 & traits::GLASS, 0);
+    }
+    assert!(parts[1] > 200 && parts[2] > 200, "{parts:?}");
 }
 
 #[test]

@@ -221,6 +221,43 @@ fn a_mirror_and_a_pane_in_a_box_that_glows_show_the_box() {
 }
 
 #[test]
+fn pixels_beside_black_panes_lose_no_light() {
+    // Behind them nothing is seen, but the wall there is among what their pixels and the others know together.
+    let wall = Material { emission: Rgb::WHITE.into(), ..Material::diffuse("wall", Rgb::splat(0.5)) };
+    let black = || Material::new("black", Bsdf::ThinDielectric { eta: 1.5, transmittance: Rgb::BLACK.into() });
+    let places = (0..36).map(|i| Vec3::new(0.5, f32::from(i as i16 % 6) - 2.5, f32::from(i as i16 / 6) - 2.5) * Vec3::new(1.0, 0.2, 0.2));
+    let fence = places.map(|centre| (screen(centre, 0.06), black()));
+    let scene = scene(std::iter::once((room(1.0), wall)).chain(fence).collect());
+    let seen = |reuse| {
+        let frame = picture(&scene, [32, 32], &RenderConfig { reuse, samples: 512, ..RenderConfig::default() });
+        let (color, part) = (frame.get(Layer::Color).unwrap(), frame.get(Layer::RenderEntityId).unwrap());
+        let walls: Vec<f64> = (0..32 * 32).filter(|&p| part.get(p) == 1.0).map(|p| color.get(3 * p)).collect();
+        assert!((300..900).contains(&walls.len()), "{} pixels show the wall", walls.len());
+        walls.iter().sum::<f64>() / walls.len() as f64
+    };
+    assert_close("shared", seen(true), seen(false), 5e-3);
+}
+
+#[test]
+fn light_of_colours_that_the_first_surface_lacks_is_in_its_illumination() {
+    // The wall before the camera reflects no green; the light on it is that on a black one.
+    let glowing = |name: &str, reflectance: Rgb| Material { emission: Rgb::WHITE.into(), ..Material::diffuse(name, reflectance) };
+    let illumination = |reflectance: Rgb, guiding: bool| {
+        let parts =
+            vec![(room(1.0), glowing("green", Rgb::new(0.0, 0.5, 0.0))), (screen(Vec3::X * 0.99, 0.99), glowing("other", reflectance))];
+        let config = RenderConfig { samples: 512, reuse: false, guiding, ..RenderConfig::default() };
+        let frame = picture(&scene(parts), [16, 16], &config);
+        let values = frame.get(Layer::DiffuseIllumination).unwrap();
+        (0..16 * 16).map(|p| values.get(3 * p + 1)).sum::<f64>() / 256.0
+    };
+    let expected = illumination(Rgb::BLACK, true);
+    assert!(expected > 1.5, "{expected}");
+    for guiding in [true, false] {
+        assert_close(&format!("guiding {guiding}"), illumination(Rgb::new(0.5, 0.0, 0.0), guiding), expected, 0.02 * expected);
+    }
+}
+
+#[test]
 fn walls_that_are_half_mirrors_keep_the_light_that_they_reflect() {
     // Half of each wall is paint and half a mirror, of reflectance 0.5 both: a path may meet several surfaces whose light is shared.
     let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::splat(0.5).into(), alpha: 0.0.into() };
@@ -344,4 +381,23 @@ fn a_noise_target_is_met_with_fewer_samples_and_says_so() {
     let noise = rendering.noise().unwrap();
     assert!(rendering.met_noise_target() && rendering.samples() < 2000.0, "{} samples", rendering.samples());
     assert!(noise < 0.025, "noise {noise}");
+}
+
+#[test]
+fn a_noise_target_out_of_reach_is_not_said_to_be_met() {
+    // All noise is at the edges of something small, which get all that a pixel may have; the others need nothing.
+    let mut s = scene(vec![(screen(Vec3::X * 3.0, 0.05), Material::diffuse("board", Rgb::splat(0.2)))]);
+    s.environment = Some(Environment::Constant { radiance: Rgb::WHITE });
+    let prepared = RenderScene::new(&s, &Quiet).unwrap();
+    let (camera, pose) = place([128, 96]);
+    let view = CameraView::still(&camera, &pose);
+    let config = RenderConfig { samples: 64, noise: Some(1e-4), ..RenderConfig::default() };
+    let guide = Guide::learn(&prepared, &[view], &config);
+    let mut rendering = FrameRender::new(&prepared, &guide, &view, &config).unwrap();
+    while !rendering.is_done() {
+        rendering.pass(&Quiet);
+    }
+    let (noise, samples) = (rendering.noise().unwrap(), rendering.samples());
+    assert!(noise > 2e-4 && samples < 60.0, "noise {noise} after {samples} samples");
+    assert!(!rendering.met_noise_target());
 }

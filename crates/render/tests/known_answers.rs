@@ -184,11 +184,25 @@ fn tinted_air(absorption: Rgb) -> Material {
 
 #[test]
 fn light_is_absorbed_by_the_law_of_beer() {
-    let s = white_sky(scene(vec![("cube", cube(false), tinted_air(Rgb::new(0.2, 0.5, 1.5)))]));
-    let frame = picture(&s, DVec3::new(-400.0, 0.0, 0.0), DVec3::ZERO, 8, 0.1, 16);
-    for (channel, absorption) in [0.2f64, 0.5, 1.5].into_iter().enumerate() {
-        assert_close("two metres", mean(&frame, Layer::Color, channel), (-2.0 * absorption).exp(), 2e-3);
+    let air = tinted_air(Rgb::new(0.2, 0.5, 1.5));
+    let dust = Box::new(Bsdf::Diffuse { reflectance: Rgb::WHITE.into() });
+    let blended = Material::new("blend", Bsdf::Blend { first: dust, second: Box::new(air.bsdf.clone()), weight: 1.0.into() });
+    for material in [air, blended] {
+        let s = white_sky(scene(vec![("cube", cube(false), material)]));
+        let frame = picture(&s, DVec3::new(-400.0, 0.0, 0.0), DVec3::ZERO, 8, 0.1, 16);
+        for (channel, absorption) in [0.2f64, 0.5, 1.5].into_iter().enumerate() {
+            assert_close("two metres", mean(&frame, Layer::Color, channel), (-2.0 * absorption).exp(), 2e-3);
+        }
     }
+}
+
+#[test]
+fn the_sun_beside_a_sheet_that_encloses_nothing_lights_what_is_seen_through_it() {
+    let sheet = quad([[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]].map(|[x, y]| Vec3::new(x, y, 0.25)));
+    let direction = -Vec3::new(0.0, 1.0, 2.0).normalize();
+    let sun = Light::Directional { name: "sun".into(), direction, irradiance: Rgb::splat(3.0), angular_radius_rad: 0.0 };
+    let found = floor_radiance(Scene { lights: vec![sun], ..Scene::default() }, vec![("sheet", sheet, tinted_air(Rgb::splat(2.0)))], 16);
+    assert_close("a quarter of a metre from the sheet", found, 0.5 / PI * 3.0 * 2.0 / 5.0f64.sqrt() * (-0.5f64).exp(), 2e-3);
 }
 
 #[test]
@@ -284,7 +298,8 @@ fn point_spot_and_sun_light_a_floor_by_their_laws() {
     let web_from_world = Mat3::from_rotation_z(0.7);
     let lamp = Light::Profile { name: "l".into(), position, web_from_world, intensity: Rgb::splat(0.5), web: Box::new(web) };
     assert_close("profile", floor_radiance(with(lamp), vec![], 1), 0.5 / PI * 0.5 * candela * cos / d2, 2e-3);
-    for angular_radius_rad in [0.0, 0.00465] {
+    // As wide as it may be without setting in part: the same irradiance.
+    for angular_radius_rad in [0.0, 0.00465, 0.4] {
         let sun = Light::Directional { name: "sun".into(), direction, irradiance: Rgb::splat(3.0), angular_radius_rad };
         assert_close("sun", floor_radiance(with(sun), vec![], 64), 0.5 / PI * 3.0 * cos, 3e-3);
     }
@@ -407,6 +422,28 @@ fn no_light_leaks_through_a_wall_with_relief() {
         s.lights.push(Light::Directional { name: "sun".into(), direction, irradiance: Rgb::WHITE, angular_radius_rad: 0.01 });
         let frame = picture(&s, DVec3::new(0.0, 0.0, 3.0), DVec3::ZERO, 16, 25.0, 16);
         assert_eq!(mean(&frame, Layer::Color, 1), 0.0, "sun from below along {below}");
+    }
+}
+
+#[test]
+fn relief_turns_with_its_texture() {
+    // The texture turned by a quarter on the wall, or the wall's coordinates turned in its place, and mirrored.
+    for [[a, b], [c, d]] in [[[0.0, 1.0], [-1.0, 0.0]], [[-1.0, 0.0], [0.0, 1.0]], [[0.0, 2.0], [1.0, 0.0]]] {
+        let pictures = [false, true].map(|in_mesh| {
+            let mut s = embossed_wall();
+            if in_mesh {
+                s.meshes[0].uvs.iter_mut().for_each(|uv| *uv = Vec2::new(a * uv.x + b * uv.y, c * uv.x + d * uv.y));
+            } else if let Some(NormalMap::Normal { texture, .. }) = &mut s.materials[0].normal_map {
+                texture.uv_transform = [[a, b, 0.0], [c, d, 0.0]];
+            }
+            let direction = Vec3::new(0.3, 0.6, -0.7).normalize();
+            s.lights.push(Light::Directional { name: "sun".into(), direction, irradiance: Rgb::WHITE, angular_radius_rad: 0.0 });
+            let frame = picture(&s, DVec3::new(0.0, 0.0, 3.0), DVec3::ZERO, 16, 25.0, 4);
+            let color = frame.get(Layer::Color).unwrap();
+            (0..16 * 16).map(|p| color.get(3 * p)).collect::<Vec<f64>>()
+        });
+        let off = pictures[0].iter().zip(&pictures[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 2e-3, "off by {off}");
     }
 }
 

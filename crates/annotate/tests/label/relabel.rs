@@ -48,6 +48,8 @@ async fn split_parts_get_the_labels_of_their_pieces_without_rendering() {
     let page = Page::with(&AnnotateOptions { path: out.clone(), scene: Some(demo::SCENE.into()), ..AnnotateOptions::default() });
     let began: Vec<i64> = page.labels().await.iter().map(|label| label.0).collect();
     let tables = dataset.read_label_tables(demo::SCENE).unwrap();
+    let boxed = || dataset.read_boxes(demo::SCENE, enfilade_dataset::BoxKind::AxisAligned).unwrap().iter().flatten().count();
+    let boxed_whole = boxed();
     assert_eq!(began, tables.parts.iter().map(|label| i64::from(label.semantic)).collect::<Vec<_>>());
     let seen: BTreeSet<i16> = [ids(0), ids(1)].concat().into_iter().filter(|id| *id >= 1).collect();
     // By component where there are several, else every second face.
@@ -92,8 +94,15 @@ async fn split_parts_get_the_labels_of_their_pieces_without_rendering() {
     assert!(whole.ok(), "{:?}", whole.scenes);
     let made: Vec<Stage> = whole.scenes[0].stages.iter().filter(|stage| !stage.up_to_date).map(|stage| stage.stage).collect();
     assert_eq!(made, [Stage::Preview, Stage::Verify]);
-    let boxes = dataset.read_boxes(demo::SCENE, enfilade_dataset::BoxKind::AxisAligned).unwrap();
-    assert_eq!(boxes.iter().flatten().count(), pieces);
+    assert_eq!(boxed(), pieces);
+
+    // With the log put aside, the scene's own labels count, and objects are whole.
+    let log = dataset.mesh_files(demo::SCENE).file("annotation_log.jsonl");
+    std::fs::rename(&log, folder.path().join("aside")).unwrap();
+    let whole = run(&config, &out, None, &Silent).unwrap();
+    assert!(whole.ok(), "{:?}", whole.scenes);
+    assert_eq!((boxed(), dataset.read_label_tables(demo::SCENE).unwrap()), (boxed_whole, tables.clone()));
+    std::fs::rename(folder.path().join("aside"), &log).unwrap();
 
     // Undone, the label images are as they were.
     let steps = page.get("scene").await["revision"].as_u64().unwrap();

@@ -88,9 +88,9 @@ pub struct ImportArgs {
     /// The scene package (.scene) or binary glTF (.glb) to write [default: the input's name with .scene, in the current folder]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Metres per unit of the file
-    #[arg(long, default_value_t = 1.0, value_name = "X")]
-    pub meters_per_unit: f64,
+    /// Metres per unit of the file; multiplies what the file says itself [default: 1]
+    #[arg(long, value_name = "X")]
+    pub meters_per_unit: Option<f64>,
     /// Which way is up in the file [default: as its format says]
     #[arg(long)]
     pub up_axis: Option<UpAxisArg>,

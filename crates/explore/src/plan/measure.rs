@@ -3,7 +3,7 @@
 use super::patches::patches;
 use super::report::{Fault, FrameRow, FrameValues, PlanReport, PlanStatistics, RelaxedFrame};
 use super::rules::{pitch_rad, turned_rad};
-use super::{Draft, Planned, Planner};
+use super::{Draft, Mode, Planned, Planner};
 use crate::{Preset, ViewStats};
 use enfilade_geometry::Surfaces;
 use enfilade_scene::{Pose, Trajectory};
@@ -45,6 +45,7 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
     let report = PlanReport {
         trajectory: planner.name.to_string(),
         mode: planner.config.mode.name().to_string(),
+        roll_limit_deg: roll_limit_deg(planner),
         seen_area_share,
         seen_part_share,
         statistics: PlanStatistics::of(&per_frame),
@@ -55,6 +56,12 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
         per_frame,
     };
     Planned { trajectory: Trajectory { name: planner.name.to_string(), poses }, report }
+}
+
+/// The limit that poses are held to, if they are.
+fn roll_limit_deg(planner: &Planner) -> Option<f64> {
+    let is_held = planner.config.preset == Preset::Default && !matches!(planner.config.mode, Mode::Keyframes(_));
+    is_held.then(|| planner.rules.roll_limit_rad().to_degrees())
 }
 
 /// The values of one frame, and its faults.

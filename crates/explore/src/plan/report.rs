@@ -10,6 +10,8 @@ pub struct PlanReport {
     pub trajectory: String,
     /// Name of the mode that made it: `walk`, `video`, `stills`, `coverage` or `keyframes`.
     pub mode: String,
+    /// The greatest roll that the plan gives a camera, degrees; none where it has no limit: by Hypersim's preset, and of poses made by hand.
+    pub roll_limit_deg: Option<f64>,
     /// Share of the area of all surfaces of the scene that some frame sees.
     pub seen_area_share: f64,
     /// Share of the parts of the scene of which some frame sees something.

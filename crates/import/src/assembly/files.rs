@@ -58,9 +58,15 @@ impl Assembly<'_> {
 
     pub(super) fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
         let unreadable = |source: std::io::Error| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() };
-        // A device would be read without end, and a pipe would be waited for.
-        if self.archive.is_none() && !std::fs::metadata(file).map_err(unreadable)?.is_file() {
-            return Err(unreadable(std::io::Error::other("it is no file")));
+        if self.archive.is_none() {
+            let found = std::fs::metadata(file);
+            if found.as_ref().is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound) && !self.missing.iter().any(|m| m == file) {
+                self.missing.push(file.to_path_buf());
+            }
+            // A device would be read without end, and a pipe would be waited for.
+            if !found.map_err(unreadable)?.is_file() {
+                return Err(unreadable(std::io::Error::other("it is no file")));
+            }
         }
         let read = self.archive.map_or_else(|| std::fs::read(file), |archive| archive.read_path(file));
         let bytes = read.map_err(unreadable)?;

@@ -29,6 +29,7 @@ pub(crate) struct Assembly<'a> {
     archive: Option<&'a Archive>,
     warnings: Warnings<'a>,
     inputs: Vec<PathBuf>,
+    missing: Vec<PathBuf>,
     images: BTreeMap<(String, Use), Option<u32>>,
     part_names: Names,
     camera_names: Names,
@@ -50,6 +51,7 @@ impl<'a> Assembly<'a> {
             archive: None,
             warnings: Warnings::new(cx),
             inputs: Vec::new(),
+            missing: Vec::new(),
             images: BTreeMap::new(),
             part_names: Names::default(),
             camera_names: Names::default(),
@@ -166,7 +168,7 @@ impl<'a> Assembly<'a> {
         self.scene.validate().map_err(|source| ImportError::Scene { file, source })?;
         let labels = (!self.labels.is_empty()).then_some(self.labels);
         let report = ImportReport::new(self.format, &self.scene, self.warnings.into_list());
-        Ok(Imported { scene: self.scene, labels, inputs: self.inputs, report })
+        Ok(Imported { scene: self.scene, labels, inputs: self.inputs, missing: self.missing, report })
     }
 }
 

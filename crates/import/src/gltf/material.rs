@@ -7,7 +7,7 @@ use crate::images::{self, Use};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Filter, Material, NormalMap, Principled, ScalarParam, TextureRef, Wrap};
 use gltf::json::extensions::texture::TextureTransform;
-use gltf::json::material::{AlphaMode, Material as Json};
+use gltf::json::material::{AlphaMode, Material as Json, NormalTexture};
 use gltf::json::texture::{Info, MagFilter, WrappingMode};
 use gltf::json::validation::Checked;
 use serde_json::Value;
@@ -15,6 +15,14 @@ use std::collections::HashMap;
 
 /// Attenuation colours below this count as this: a perfectly black one would absorb without limit.
 const DARKEST_ATTENUATION: f32 = 1e-4;
+
+/// Textures of extensions that the `gltf` crate leaves as JSON: extension and key.
+const LAYER_TEXTURES: [(&str, &str); 4] = [
+    ("KHR_materials_clearcoat", "clearcoatTexture"),
+    ("KHR_materials_clearcoat", "clearcoatRoughnessTexture"),
+    ("KHR_materials_sheen", "sheenColorTexture"),
+    ("KHR_materials_sheen", "sheenRoughnessTexture"),
+];
 
 /// The materials met so far: scene index and texture coordinate set of each.
 #[derive(Default)]
@@ -61,7 +69,14 @@ fn uv_set(json: &Json, name: &str, a: &mut Assembly) -> u32 {
     let pbr = &json.pbr_metallic_roughness;
     let infos = [pbr.base_color_texture.as_ref(), pbr.metallic_roughness_texture.as_ref(), json.emissive_texture.as_ref()];
     let mut sets: Vec<u32> = infos.into_iter().flatten().map(set).collect();
-    sets.extend(json.normal_texture.as_ref().map(|n| n.tex_coord));
+    sets.extend(json.normal_texture.as_ref().map(|n| transform_of_normal(n).and_then(|t| t.tex_coord).unwrap_or(n.tex_coord)));
+    if let Some(ext) = &json.extensions {
+        let transmission = ext.transmission.as_ref().and_then(|t| t.transmission_texture.as_ref());
+        let specular = ext.specular.as_ref().map(|s| [s.specular_texture.as_ref(), s.specular_color_texture.as_ref()]);
+        sets.extend(transmission.into_iter().chain(specular.into_iter().flatten().flatten()).map(set));
+        let layers = LAYER_TEXTURES.iter().filter_map(|(extension, key)| layer_texture(ext.others.get(*extension)?, key));
+        sets.extend(layers.map(|info| set(&info)));
+    }
     let first = sets.first().copied().unwrap_or(0);
     if sets.iter().any(|&s| s != first) {
         a.warn(format!("material {name:?}"), format!("its textures use several coordinate sets; all were given set {first}"));
@@ -71,6 +86,16 @@ fn uv_set(json: &Json, name: &str, a: &mut Assembly) -> u32 {
 
 fn transform_of(info: &Info) -> Option<&TextureTransform> {
     info.extensions.as_ref()?.texture_transform.as_ref()
+}
+
+/// The `gltf` crate leaves the transform of a normal texture as JSON.
+fn transform_of_normal(normal: &NormalTexture) -> Option<TextureTransform> {
+    serde_json::from_value(normal.extensions.as_ref()?.others.get("KHR_texture_transform")?.clone()).ok()
+}
+
+/// A texture of an extension that the `gltf` crate leaves as JSON.
+fn layer_texture(extension: &Value, key: &str) -> Option<Info> {
+    serde_json::from_value(extension.get(key)?.clone()).ok()
 }
 
 struct Converter<'c, 'a> {
@@ -146,7 +171,7 @@ impl Converter<'_, '_> {
     fn json_extensions(&mut self, others: &serde_json::Map<String, Value>, p: &mut Principled) -> Result<(), ImportError> {
         for (name, value) in others {
             let number = |key: &str, default: f32| value.get(key).and_then(Value::as_f64).map_or(default, |v| v as f32);
-            let texture = |key: &str| value.get(key).and_then(|v| serde_json::from_value::<Info>(v.clone()).ok());
+            let texture = |key: &str| layer_texture(value, key);
             match name.as_str() {
                 "KHR_materials_clearcoat" => {
                     p.clearcoat = self.scalar(number("clearcoatFactor", 0.0), texture("clearcoatTexture").as_ref(), 0, 1.0)?;
@@ -183,9 +208,7 @@ impl Converter<'_, '_> {
 
     fn normal_map(&mut self, json: &Json) -> Result<Option<NormalMap>, ImportError> {
         let Some(normal) = &json.normal_texture else { return Ok(None) };
-        let transform = normal.extensions.as_ref().and_then(|e| e.others.get("KHR_texture_transform"));
-        let transform = transform.and_then(|t| serde_json::from_value::<TextureTransform>(t.clone()).ok());
-        let texture = self.texture(normal.index.value(), transform.as_ref(), Use::Data)?;
+        let texture = self.texture(normal.index.value(), transform_of_normal(normal).as_ref(), Use::Data)?;
         Ok(texture.map(|texture| NormalMap::Normal { texture, scale: normal.scale }))
     }
 

@@ -288,8 +288,8 @@ impl<'n> Reader<'n, '_> {
                     &[],
                 );
                 self.warn(node, format!("{} treated as plastic of the same roughness", node.plugin));
-                let exponent = node.float("exponent")?.map(|n| (2.0 / (n.max(0.0) + 2.0)).sqrt());
-                let alpha = exponent.or(node.float("alpha_u")?).unwrap_or(f64::from(DEFAULT_ALPHA)) as f32;
+                let exponent = self.plain(node, "exponent")?.map(|n| (2.0 / (n.max(0.0) + 2.0)).sqrt());
+                let alpha = exponent.or(self.plain(node, "alpha_u")?).unwrap_or(f64::from(DEFAULT_ALPHA)) as f32;
                 let diffuse = self.color(node, "diffuse_reflectance", Kind::Factor, Rgb::splat(0.5))?;
                 let specular = self.color(node, "specular_reflectance", Kind::Factor, Rgb::splat(0.2))?;
                 Ok(Bsdf::Plastic { diffuse, eta: 1.5, alpha: alpha.into(), specular, nonlinear: false })
@@ -306,17 +306,18 @@ impl<'n> Reader<'n, '_> {
         const KNOWN: [&str; 10] =
             ["material", "eta", "k", "ext_eta", "specular_reflectance", "alpha", "alpha_u", "alpha_v", "distribution", "sample_visible"];
         self.report_unknown(node, &KNOWN, &[]);
-        let mut constants = metal("cu").unwrap_or_default();
-        if let Some(name) = node.raw_text("material") {
-            constants = match metal(name) {
-                Some(known) => known,
-                None => {
-                    self.warn(node, format!("the metal {name:?} is not known; aluminium stands in"));
-                    metal("al").unwrap_or_default()
-                }
-            };
+        let material = node.raw_text("material").unwrap_or(if self.version < 2 { "Cu" } else { "none" });
+        let (mut eta, mut k) = match metal(material) {
+            Some(known) => known,
+            None => {
+                self.warn(node, format!("the metal {material:?} is not known; aluminium stands in"));
+                metal("al").unwrap_or_default()
+            }
+        };
+        // Mitsuba's `none` has eta 0 and k 1, which is as perfect a mirror as ours until another eta is stated.
+        if material.trim().eq_ignore_ascii_case("none") && node.child("eta").is_some() {
+            k = Rgb::WHITE;
         }
-        let (mut eta, mut k) = constants;
         for (name, value) in [("eta", &mut eta), ("k", &mut k)] {
             if let Some(property) = self.property(node, name)? {
                 if property.tag == "texture" {
@@ -326,9 +327,9 @@ impl<'n> Reader<'n, '_> {
                 }
             }
         }
-        if let Some(outside) = node.float("ext_eta")?.filter(|&e| e > 0.0) {
-            (eta, k) = (eta * (1.0 / outside as f32), k * (1.0 / outside as f32));
-        }
+        // Version 0.x takes air where nothing is stated, which is 0.03 % from nothing.
+        let outside = index(node, "ext_eta", "vacuum")? as f32;
+        (eta, k) = (eta * (1.0 / outside), k * (1.0 / outside));
         let reflectance = self.color(node, "specular_reflectance", Kind::Factor, Rgb::WHITE)?;
         Ok(Bsdf::Conductor { eta, k, reflectance, alpha: self.alpha(node)? })
     }
@@ -351,27 +352,32 @@ impl<'n> Reader<'n, '_> {
             "specular_sampling_rate",
         ];
         self.report_unknown(node, &KNOWN, &[]);
-        let specular = node.float_or("specular", 0.5)?.clamp(0.0, 0.999);
+        let specular = self.plain(node, "specular")?.unwrap_or(0.5).clamp(0.0, 0.999);
         let from_specular = 2.0 / (1.0 - (0.08 * specular).sqrt()) - 1.0;
-        let ior = match node.float("eta")? {
-            Some(eta) => eta,
-            None => from_specular,
-        };
-        let gloss = node.float_or("clearcoat_gloss", 0.0)?.clamp(0.0, 1.0);
+        let ior = self.plain(node, "eta")?.unwrap_or(from_specular);
         let base_color = self.color(node, "base_color", Kind::Factor, Rgb::splat(0.5))?;
-        let tint = node.float_or("sheen_tint", 0.0)?.clamp(0.0, 1.0) as f32;
-        let sheen = Rgb::WHITE.lerp(base_color.factor, tint) * node.float_or("sheen", 0.0)? as f32;
+        let mut share = |name: &str| Ok::<f64, ImportError>(self.plain(node, name)?.unwrap_or(0.0).clamp(0.0, 1.0));
+        let (gloss, sheen_tint, specular_tint) = (share("clearcoat_gloss")?, share("sheen_tint")?, share("spec_tint")?);
+        let sheen = self.plain(node, "sheen")?.unwrap_or(0.0);
+        if base_color.texture.is_some() && (specular_tint > 0.0 || sheen_tint * sheen > 0.0) {
+            self.warn(node, "a tint by a textured base colour is not supported; that by the texture's factor was used");
+        }
+        // Tints are by the base colour at a luminance of one.
+        let luminance = base_color.factor.luminance();
+        let hue = if luminance > 0.0 { base_color.factor * (1.0 / luminance) } else { Rgb::WHITE };
+        let clearcoat = self.scalar(node, "clearcoat", 0.0)?;
         let p = Principled {
             base_color,
             metallic: self.scalar(node, "metallic", 0.0)?,
             roughness: self.scalar(node, "roughness", 0.5)?,
             ior: ior.max(1.0) as f32,
+            specular_color: Rgb::WHITE.lerp(hue, specular_tint as f32).into(),
             transmission: self.scalar(node, "spec_trans", 0.0)?,
             solid: node.plugin == "principled",
             // The model's coat has a quarter of a dielectric's strength, and its alpha runs from 0.1 to 0.001.
-            clearcoat: (0.25 * node.float_or("clearcoat", 0.0)? as f32).into(),
+            clearcoat: ScalarParam { factor: 0.25 * clearcoat.factor, ..clearcoat },
             clearcoat_roughness: ((0.1 + (0.001 - 0.1) * gloss).sqrt() as f32).into(),
-            sheen_color: sheen.into(),
+            sheen_color: (Rgb::WHITE.lerp(hue, sheen_tint as f32) * sheen as f32).into(),
             sheen_roughness: 0.5.into(),
             ..Principled::default()
         };
@@ -401,14 +407,15 @@ pub(super) fn name(bsdf: Option<&Node>) -> &str {
     bsdf.and_then(|b| b.id.as_deref()).unwrap_or("inline")
 }
 
-/// Interior over exterior index of refraction, each a number or the name of a substance.
+/// Interior over exterior index of refraction.
 fn eta(node: &Node, default_interior: &str) -> Result<f64, ImportError> {
-    let index = |name: &str, default: &str| -> Result<f64, ImportError> {
-        let Some(property) = node.child(name) else { return Ok(spectrum::substance(default).unwrap_or(1.5)) };
-        let text = property.attribute("value").unwrap_or_default();
-        let value = spectrum::substance(text).or_else(|| text.trim().parse().ok()).filter(|v: &f64| v.is_finite() && *v > 0.0);
-        value
-            .ok_or_else(|| property.error(format!("found {text:?}, expected an index of refraction above zero or the name of a substance")))
-    };
-    Ok(index("int_ior", default_interior)? / index("ext_ior", "air")?)
+    Ok(index(node, "int_ior", default_interior)? / index(node, "ext_ior", "air")?)
+}
+
+/// An index of refraction, a number or the name of a substance; that of the substance `default` where there is none.
+fn index(node: &Node, name: &str, default: &str) -> Result<f64, ImportError> {
+    let Some(property) = node.child(name) else { return Ok(spectrum::substance(default).unwrap_or(1.5)) };
+    let text = property.attribute("value").unwrap_or_default();
+    let value = spectrum::substance(text).or_else(|| text.trim().parse().ok()).filter(|v: &f64| v.is_finite() && *v > 0.0);
+    value.ok_or_else(|| property.error(format!("found {text:?}, expected an index of refraction above zero or the name of a substance")))
 }

@@ -54,8 +54,15 @@ const MAX_VISITS: usize = 1 << 16;
 /// Imports a Mitsuba scene.
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     let root = xml::read(&mut assembly)?;
-    let mut reader =
-        Reader { a: assembly, ids: HashMap::new(), aliases: HashMap::new(), materials: HashMap::new(), meshes: HashMap::new(), visits: 0 };
+    let mut reader = Reader {
+        a: assembly,
+        version: root.attribute("version").and_then(|v| v.split('.').next()?.trim().parse().ok()).unwrap_or(0),
+        ids: HashMap::new(),
+        aliases: HashMap::new(),
+        materials: HashMap::new(),
+        meshes: HashMap::new(),
+        visits: 0,
+    };
     reader.index(&root);
     let total = root.children.len();
     for (i, node) in root.children.iter().enumerate() {
@@ -68,6 +75,8 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
 /// A scene being read: the tree's objects by id, and what has been made of them.
 struct Reader<'n, 'a> {
     a: Assembly<'a>,
+    /// The first number of the version that the scene file is for; 0 where it states none.
+    version: u32,
     ids: HashMap<&'n str, &'n Node>,
     aliases: HashMap<&'n str, &'n str>,
     materials: HashMap<bsdf::MaterialKey, u32>,

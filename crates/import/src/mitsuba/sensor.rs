@@ -11,6 +11,9 @@ const DEFAULT_FILM: (f64, f64) = (768.0, 576.0);
 /// Diagonal of 35 mm film, mm, by which `focalLength` is measured.
 const FILM_DIAGONAL_MM: f64 = 43.266_615_3;
 
+/// The focal length of a sensor that states neither it nor a field of view.
+const DEFAULT_FOCAL_LENGTH: &str = "50mm";
+
 impl<'n> Reader<'n, '_> {
     /// Adds the camera of a sensor.
     pub(super) fn sensor(&mut self, node: &'n Node) -> Result<(), ImportError> {
@@ -75,16 +78,17 @@ impl<'n> Reader<'n, '_> {
     }
 }
 
-/// The horizontal field of view that `fov` and `fovAxis`, or `focalLength`, state.
+/// The horizontal field of view that `fov` and `fovAxis`, else `focalLength`, state.
 fn fov_x_rad(node: &Node, width: f64, height: f64) -> Result<f64, ImportError> {
     let diagonal = width.hypot(height);
-    let (extent, half_tangent) = match (node.float("fov")?, node.raw_text("focal_length")) {
-        (None, Some(text)) => {
+    let (extent, half_tangent) = match node.float("fov")? {
+        None => {
+            let text = node.raw_text("focal_length").unwrap_or(DEFAULT_FOCAL_LENGTH);
             let length: Option<f64> = text.trim().trim_end_matches("mm").trim().parse().ok().filter(|l| *l > 0.0);
             let length = length.ok_or_else(|| node.error(format!("found the focal length {text:?}, expected a number of millimetres")))?;
             (diagonal, 0.5 * FILM_DIAGONAL_MM / length)
         }
-        (fov, _) => {
+        Some(fov) => {
             let extent = match node.text("fov_axis").as_deref() {
                 None | Some("x") => width,
                 Some("y") => height,
@@ -93,7 +97,7 @@ fn fov_x_rad(node: &Node, width: f64, height: f64) -> Result<f64, ImportError> {
                 Some("larger") => width.max(height),
                 Some(other) => return Err(node.error(format!("found fovAxis {other:?}, expected x, y, diagonal, smaller or larger"))),
             };
-            (extent, (0.5 * fov.unwrap_or(50.0).to_radians()).tan())
+            (extent, (0.5 * fov.to_radians()).tan())
         }
     };
     Ok(2.0 * (half_tangent * width / extent).atan())

@@ -49,6 +49,16 @@ impl<'n> Reader<'n, '_> {
         Ok(ScalarParam { factor: t.factor.r, texture: Some((picture, t.channel.unwrap_or(0))) })
     }
 
+    /// The number parameter `name` of `node`, where this workspace has no texture: `None` without it, and with a warning where it is one.
+    pub(super) fn plain(&mut self, node: &'n Node, name: &str) -> Result<Option<f64>, ImportError> {
+        let Some(property) = self.property(node, name)? else { return Ok(None) };
+        if property.attribute("value").is_none() {
+            self.warn(property, format!("a texture of {name} in {} is not supported; its default was used", node.plugin));
+            return Ok(None);
+        }
+        Ok(property.numbers("value")?.first().copied())
+    }
+
     /// A texture; `usage` is what it is for unless the texture says it is raw.
     pub(super) fn texture(&mut self, node: &'n Node, usage: Use, depth: usize) -> Result<Texture, ImportError> {
         if depth > MAX_REFERENCES {

@@ -138,7 +138,7 @@ impl Loader<'_, '_> {
             plugin: String::new(),
             id: None,
             name: String::new(),
-            attributes: Vec::new(),
+            attributes: document.root_element().attributes().map(|a| (a.name().to_string(), a.value().to_string())).collect(),
             children: Vec::new(),
             file: file.clone(),
             line: 1,

@@ -6,7 +6,7 @@
 //! | objects, groups | one part per group and material, named after the group (`o` or `g`, whichever came last), with `.<material>` appended where a group has several; without a group after the material, else `part` |
 //! | names | the whole rest of the line, so spaces are part of them |
 //! | normals | as in the file; a mesh without any is shaded flat (smoothing groups are ignored) |
-//! | `Kd Ks Ns Ni d Tr Ke illum`, `map_Kd map_Ke map_d map_Ks` | a diffuse surface; with `Ks` a clear-coated one of GGX alpha √(2/(Ns+2)); with `Ks` on black `Kd` a mirror of that colour; with `illum` 4, 6, 7 or 9 a solid dielectric |
+//! | `Kd Ks Ns Ni d Tr Ke illum`, `map_Kd map_Ke map_d map_Ks` | a diffuse surface; with `Ks`, unless `illum` is 0 or 1, a clear-coated one of GGX alpha √(2/(Ns+2)), or on black `Kd` a mirror of that colour; with `illum` 4, 6, 7 or 9 a solid dielectric |
 //! | `Pr Pm Pc Pcr Ps`, `map_Pr map_Pm` | metallic-roughness |
 //! | `norm`, `map_Bump`, `bump` | a normal map if the picture is coloured, else heights (guessed: one stands for 5 mm times `-bm`) |
 //! | options of `map_…` | `-s`, `-o`, `-clamp`, `-bm`; the others are skipped |

@@ -126,7 +126,8 @@ impl<'c> Converter<'c, '_> {
             return Ok(Bsdf::Dielectric { eta, alpha: 0.0.into(), transmittance, absorption: Rgb::BLACK });
         }
         let diffuse = self.base_color()?;
-        let shiny = !specular.is_black() || has("map_ks");
+        // Illumination models 0 and 1 have no highlight, whatever Ks says.
+        let shiny = !matches!(illum, 0 | 1) && (!specular.is_black() || has("map_ks"));
         if !shiny {
             return Ok(Bsdf::Diffuse { reflectance: diffuse });
         }

@@ -83,7 +83,7 @@ impl Reader<'_> {
         if let Some(path) = params.string("filename")?.filter(|_| self.version == Version::V4) {
             let image = self.a.image(&Source::File(path), Use::Color, &params.place.text())?;
             radiance.texture = image.map(TextureRef::new);
-            mean = radiance.texture.map_or(1.0, |t| f64::from(self.mean(t).luminance()));
+            mean = radiance.texture.map_or(1.0, |t| f64::from(self.mean(t.into()).luminance()));
         }
         if params.float_or("power", -1.0)? > 0.0 && pieces > 1 {
             self.warn(&params.place, "pbrt gives each triangle of a mesh the whole power; all have the radiance of the mean one here");

@@ -10,7 +10,7 @@
 //! | materials of version 4 | `diffuse`, `coateddiffuse`, `conductor`, `coatedconductor`, `dielectric`, `thindielectric`, `mix`, `interface` |
 //! | substituted with a warning | `translucent` and `diffusetransmission` (what they transmit is lost), `subsurface`, `kdsubsurface`, `hair`, `fourier`, `measured` |
 //! | details | `bumpmap`, `displacement`, `normalmap`, `alpha`; `remaproughness` by each version's own formula, textures included |
-//! | textures | `constant`, `imagemap`, `scale`, `mix`, `checkerboard` (baked), by `uv`; others and other mappings are mid grey or `uv`, with a warning |
+//! | textures | `constant`, `imagemap`, `scale`, `mix`, `checkerboard` (baked), by `uv`; others and other mappings are mid grey or `uv`, with a warning. Pictures of numbers count by their alpha or the mean of their channels (version 4), by their luminance (version 3) |
 //! | spectra | `rgb`, `color`, `xyz`, `blackbody`, wavelengths, `.spd` files; metals, glasses and illuminants by name |
 //! | lights | `point`, `spot`, `distant`, `infinite` (maps of both layouts), `diffuse` area lights; `power`, `illuminance`, `scale`, `twosided` |
 //! | cameras | `perspective`, as a pinhole |

@@ -1,5 +1,6 @@
 //! Textures, and the colour and number parameters that may hold them.
 
+use super::bake::Picture;
 use super::params::{Params, Values};
 use super::version::Version;
 use super::{MAX_REFERENCES, Reader};
@@ -34,7 +35,7 @@ impl Definition {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Texture {
     pub factor: Rgb,
-    pub picture: Option<TextureRef>,
+    pub picture: Option<Picture>,
 }
 
 impl From<Rgb> for Texture {
@@ -64,17 +65,17 @@ impl Reader<'_> {
     /// The colour parameter `name`, or a default.
     pub(super) fn color_param(&mut self, params: &Params, name: &str, default: Rgb) -> Result<ColorParam, ImportError> {
         let t = self.texture_param(params, name, default, false, 0)?;
-        Ok(ColorParam { factor: t.factor, texture: t.picture })
+        Ok(ColorParam { factor: t.factor, texture: t.picture.map(|p| self.as_color(p)) })
     }
 
     /// The number parameter `name`, or a default.
     pub(super) fn scalar(&mut self, params: &Params, name: &str, default: f32) -> Result<ScalarParam, ImportError> {
         let t = self.texture_param(params, name, Rgb::splat(default), true, 0)?;
-        let Some(picture) = t.picture else { return Ok(t.factor.g.into()) };
-        if !images::is_grey(self.a.image_at(picture.image)) {
+        let Some(Picture { texture, channel }) = t.picture else { return Ok(t.factor.g.into()) };
+        if channel.is_none() && !images::is_grey(self.a.image_at(texture.image)) {
             self.warn(&params.place, format!("the texture of the number {name} is coloured; its red channel was used"));
         }
-        Ok(ScalarParam { factor: t.factor.r, texture: Some((picture, 0)) })
+        Ok(ScalarParam { factor: t.factor.r, texture: Some((texture, channel.unwrap_or(0))) })
     }
 
     fn texture_param(&mut self, params: &Params, name: &str, default: Rgb, number: bool, depth: usize) -> Result<Texture, ImportError> {
@@ -98,16 +99,16 @@ impl Reader<'_> {
         if let Some(made) = definition.made {
             return Ok(made);
         }
-        let (params, class) = (definition.params.clone(), definition.class.clone());
+        let (params, class, number) = (definition.params.clone(), definition.class.clone(), definition.number);
         if depth > MAX_REFERENCES {
             return Err(params.place.error(format!("textures are nested more than {MAX_REFERENCES} deep")));
         }
         let texture = match class.as_str() {
-            "constant" => self.texture_param(&params, "value", Rgb::WHITE, false, depth + 1)?,
-            "imagemap" => self.image_map(&params)?,
-            "scale" => self.scaled(&params, depth + 1)?,
-            "mix" => self.mixed(&params, depth + 1)?,
-            "checkerboard" => self.checkerboard(&params, depth + 1)?,
+            "constant" => self.texture_param(&params, "value", Rgb::WHITE, number, depth + 1)?,
+            "imagemap" => self.image_map(&params, number)?,
+            "scale" => self.scaled(&params, number, depth + 1)?,
+            "mix" => self.mixed(&params, number, depth + 1)?,
+            "checkerboard" => self.checkerboard(&params, number, depth + 1)?,
             "bilerp" => {
                 self.warn(&params.place, "the corners' mean stands in for the texture");
                 let mut sum = Rgb::BLACK;
@@ -118,7 +119,7 @@ impl Reader<'_> {
             }
             "directionmix" => {
                 self.warn(&params.place, "textures by direction are not supported; the mean of both stands in");
-                let (a, b) = self.pair(&params, Rgb::BLACK, Rgb::WHITE, depth + 1)?;
+                let (a, b) = self.pair(&params, Rgb::BLACK, Rgb::WHITE, number, depth + 1)?;
                 self.flat(a).lerp(self.flat(b), 0.5).into()
             }
             _ => {
@@ -135,8 +136,8 @@ impl Reader<'_> {
         texture
     }
 
-    fn pair(&mut self, params: &Params, first: Rgb, second: Rgb, depth: usize) -> Result<(Texture, Texture), ImportError> {
-        Ok((self.texture_param(params, "tex1", first, false, depth)?, self.texture_param(params, "tex2", second, false, depth)?))
+    fn pair(&mut self, params: &Params, first: Rgb, second: Rgb, number: bool, depth: usize) -> Result<(Texture, Texture), ImportError> {
+        Ok((self.texture_param(params, "tex1", first, number, depth)?, self.texture_param(params, "tex2", second, number, depth)?))
     }
 
     /// One colour for a whole texture.
@@ -144,7 +145,7 @@ impl Reader<'_> {
         texture.picture.map_or(texture.factor, |p| texture.factor * self.mean(p))
     }
 
-    fn image_map(&mut self, params: &Params) -> Result<Texture, ImportError> {
+    fn image_map(&mut self, params: &Params, number: bool) -> Result<Texture, ImportError> {
         let path = params.string("filename")?.ok_or_else(|| params.place.error("the image map has no filename"))?;
         let linear = match params.string("encoding")? {
             None | Some("sRGB") => !params.flag("gamma", true)?,
@@ -166,7 +167,8 @@ impl Reader<'_> {
             }
         };
         let filter = if params.string("filter")? == Some("point") { Filter::Nearest } else { Filter::Linear };
-        let picture = TextureRef { uv_transform: self.uv_transform(params, 1.0)?, wrap: [wrap; 2], filter, ..TextureRef::new(image) };
+        let texture = TextureRef { uv_transform: self.uv_transform(params, 1.0)?, wrap: [wrap; 2], filter, ..TextureRef::new(image) };
+        let picture = if number { self.as_number(texture) } else { texture.into() };
         if params.flag("invert", false)? {
             let inverted = self.baked(picture, "inverted", &[scale], |c| (c * scale).map(|v| (1.0 - v).max(0.0)));
             return Ok(Texture { factor: Rgb::WHITE, picture: Some(inverted) });
@@ -185,11 +187,11 @@ impl Reader<'_> {
     }
 
     /// The product of two textures.
-    fn scaled(&mut self, params: &Params, depth: usize) -> Result<Texture, ImportError> {
+    fn scaled(&mut self, params: &Params, number: bool, depth: usize) -> Result<Texture, ImportError> {
         let (a, b) = match self.version {
-            Version::V3 => self.pair(params, Rgb::WHITE, Rgb::WHITE, depth)?,
+            Version::V3 => self.pair(params, Rgb::WHITE, Rgb::WHITE, number, depth)?,
             Version::V4 => (
-                self.texture_param(params, "tex", Rgb::WHITE, false, depth)?,
+                self.texture_param(params, "tex", Rgb::WHITE, number, depth)?,
                 self.texture_param(params, "scale", Rgb::WHITE, true, depth)?,
             ),
         };
@@ -203,8 +205,8 @@ impl Reader<'_> {
     }
 
     /// One texture fading into another: baked where one of the three is a picture.
-    fn mixed(&mut self, params: &Params, depth: usize) -> Result<Texture, ImportError> {
-        let (a, b) = self.pair(params, Rgb::BLACK, Rgb::WHITE, depth)?;
+    fn mixed(&mut self, params: &Params, number: bool, depth: usize) -> Result<Texture, ImportError> {
+        let (a, b) = self.pair(params, Rgb::BLACK, Rgb::WHITE, number, depth)?;
         let amount = self.texture_param(params, "amount", Rgb::splat(0.5), true, depth)?;
         let Some(picture) = a.picture.or(b.picture).or(amount.picture) else {
             return Ok(a.factor.lerp(b.factor, amount.factor.g).into());
@@ -230,13 +232,13 @@ impl Reader<'_> {
     }
 
     /// Unit squares of two colours, baked into a picture of two by two texels.
-    fn checkerboard(&mut self, params: &Params, depth: usize) -> Result<Texture, ImportError> {
+    fn checkerboard(&mut self, params: &Params, number: bool, depth: usize) -> Result<Texture, ImportError> {
         if params.float_or("dimension", 2.0)? != 2.0 {
             self.warn(&params.place, "checkerboards in space are not supported; the mean of both colours stands in");
-            let (a, b) = self.pair(params, Rgb::WHITE, Rgb::BLACK, depth)?;
+            let (a, b) = self.pair(params, Rgb::WHITE, Rgb::BLACK, number, depth)?;
             return Ok(self.flat(a).lerp(self.flat(b), 0.5).into());
         }
-        let (a, b) = self.pair(params, Rgb::WHITE, Rgb::BLACK, depth)?;
+        let (a, b) = self.pair(params, Rgb::WHITE, Rgb::BLACK, number, depth)?;
         if a.picture.is_some() || b.picture.is_some() {
             self.warn(&params.place, "pictures within a checkerboard are not supported; their means were used");
         }
@@ -246,6 +248,6 @@ impl Reader<'_> {
         let image = self.a.push_image(Image { name: "checkerboard".into(), width: 2, height: 2, pixels });
         let uv_transform = self.uv_transform(params, 0.5)?;
         let picture = TextureRef { uv_transform, filter: Filter::Nearest, ..TextureRef::new(image) };
-        Ok(Texture { factor: Rgb::WHITE, picture: Some(picture) })
+        Ok(Texture { factor: Rgb::WHITE, picture: Some(picture.into()) })
     }
 }

@@ -138,9 +138,7 @@ impl Lamp<'_> {
         // A sphere of radiance L shows the area πr² from everywhere.
         let factor = if is_normalized(self.prim) { 0.25 } else { 0.25 * placed };
         let intensity = radiance(self.prim, 1.0) * if factor.is_finite() { factor as f32 } else { 0.0 };
-        if !as_point {
-            a.warn(&self.prim.path, "the light shines by a cone or profile, so it was made a point of the same intensity");
-        }
+        self.report_shaping(as_point, profile.is_some(), a);
         let (name, position) = (name(self.prim), self.file_from_prim.translation.as_vec3());
         if let Some(asset) = profile {
             return self.profile(stage, &asset, intensity, a);
@@ -154,6 +152,32 @@ impl Lamp<'_> {
             Light::Point { name, position, intensity }
         });
         Ok(())
+    }
+
+    /// What becomes of the shaping of a sphere that was made a point.
+    fn report_shaping(&self, as_point: bool, profile: bool, a: &mut Assembly) {
+        if !as_point {
+            a.warn(
+                &self.prim.path,
+                match (profile, self.is_profile_normalized()) {
+                    (false, _) => "the light shines into a cone, so it was made a point of the same intensity",
+                    (true, false) => "the light shines by a profile, so it was made a point of its intensity times the profile's candela",
+                    (true, true) => "the light shines by a profile, so it was made a point of the same power",
+                },
+            );
+        }
+        let dropped = [
+            ("focus", number(self.prim, "shaping:focus", 0.0) != 0.0),
+            ("cone", profile && number(self.prim, "shaping:cone:angle", 90.0) < 90.0),
+            ("profile's angle scale", profile && number(self.prim, "shaping:ies:angleScale", 0.0) != 0.0),
+        ];
+        for (what, _) in dropped.iter().filter(|(_, stated)| *stated) {
+            a.warn(&self.prim.path, format!("the light's {what} was left out: points that stand for spheres do not have it"));
+        }
+    }
+
+    fn is_profile_normalized(&self) -> bool {
+        input(self.prim, "shaping:ies:normalize").and_then(Value::as_bool).unwrap_or(false)
     }
 
     /// A point that shines by a photometric profile, whose axis is the light's −z.
@@ -174,6 +198,16 @@ impl Lamp<'_> {
             a.warn(&self.prim.path, "the light's placement makes no sense, so it was left out");
             return Ok(());
         };
+        let mut intensity = intensity;
+        if self.is_profile_normalized() {
+            // Over all directions, the candela that multiply the intensity then have a mean of one.
+            let factor = (4.0 * PI / parsed.web.lumens()) as f32;
+            if factor.is_finite() {
+                intensity *= factor;
+            } else {
+                a.warn(&self.prim.path, "the light's profile is dark, so it could not be normalized");
+            }
+        }
         let position = self.file_from_prim.translation.as_vec3();
         let web_from_world = axes.transpose().as_mat3();
         a.push_light(Light::Profile { name: name(self.prim), position, web_from_world, intensity, web: Box::new(parsed.web) });

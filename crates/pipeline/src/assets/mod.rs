@@ -87,7 +87,8 @@ fn named_files(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Err
     let mut all = Vec::new();
     for written in &config.assets {
         let root = locate(written)?;
-        all.extend(walk(&root)?.into_iter().map(|file| (name_in(&root, &file), file)));
+        let beside = Some(folder_of(&root).join(table::NAME)).filter(|table| root.is_file() && table.is_file());
+        all.extend(walk(&root)?.into_iter().chain(beside).map(|file| (name_in(&root, &file), file)));
     }
     Ok(all)
 }
@@ -164,6 +165,11 @@ fn listed(lines: &[String]) -> String {
     if more > 0 { format!("{text}; and {more} more") } else { text }
 }
 
+/// Where the table of a library lies: in its folder, or beside it where it is one file.
+fn folder_of(root: &Path) -> &Path {
+    if root.is_file() { root.parent().unwrap_or(root) } else { root }
+}
+
 /// The models of one library.
 fn of_root(root: &Path, allow_broken: bool, notes: &Notes, cx: &dyn Cx) -> Result<Vec<Model>, Error> {
     let files = walk(root)?;
@@ -172,10 +178,9 @@ fn of_root(root: &Path, allow_broken: bool, notes: &Notes, cx: &dyn Cx) -> Resul
     let scenes: Vec<(String, PathBuf)> =
         files.iter().filter(|path| is(path, &["gltf", "glb"])).map(|path| (name_in(root, path), path.clone())).collect();
     let catalogues: Vec<&PathBuf> = files.iter().filter(|path| is(path, &["sh3f"])).collect();
-    let folder = if root.is_file() { root.parent().unwrap_or(root) } else { root };
     let mut pieces = sweethome::pieces(&catalogues)?;
     let known: Vec<&str> = scenes.iter().map(|(name, _)| name.as_str()).chain(pieces.iter().map(|piece| piece.name.as_str())).collect();
-    let table = Table::read(&folder.join(table::NAME), &known, root.is_dir())?;
+    let table = Table::read(&folder_of(root).join(table::NAME), &known, root.is_dir())?;
     let mut models = Vec::new();
     for (result, (name, _)) in gltf::models(&scenes, &table).into_iter().zip(&scenes) {
         match result {

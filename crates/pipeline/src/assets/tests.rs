@@ -138,6 +138,17 @@ fn models_are_placed_like_our_own_with_labels_and_credits() {
 }
 
 #[test]
+fn the_table_beside_a_single_catalogue_is_one_of_its_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let catalogue = folder.path().join("few.sh3f");
+    sh3f(&catalogue);
+    let config = HomeConfig { assets: vec![catalogue.to_string_lossy().into_owned()], ..HomeConfig::default() };
+    assert_eq!(names(&config, &located), ["few.sh3f"]);
+    std::fs::write(folder.path().join("assets.toml"), "[models.\"t#lamp\"]\nuse = false\n").unwrap();
+    assert_eq!(names(&config, &located), ["few.sh3f", "assets.toml"]);
+}
+
+#[test]
 fn libraries_that_cannot_be_used_are_refused_with_file_and_remedy() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();

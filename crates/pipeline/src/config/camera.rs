@@ -110,10 +110,19 @@ impl CameraConfig {
             RayGrid if self.ray_grid.is_none() => Some("model ray_grid needs the file `ray_grid`"),
             _ => None,
         };
-        let found = misplaced.or(both).or_else(|| missing.map(String::from));
+        let found = misplaced.or(both).or_else(|| self.problem_of_k()).or_else(|| missing.map(String::from));
         // Any grid will do to see what else is wrong.
         let flat = || Ok(Projection::Pinhole(Intrinsics::from_fov_x(size[0], size[1], 1.0)));
         found.or_else(|| self.build::<CameraError>(size, 1.0, flat).err().map(|error| error.to_string()))
+    }
+
+    /// What is wrong with K, of which [`CameraConfig::intrinsics`] reads five numbers.
+    fn problem_of_k(&self) -> Option<String> {
+        let Some([_, [below, ..], last]) = self.k else {
+            return self.k_size.map(|_| "`K_size` goes with `K`".to_string());
+        };
+        let has_form = below == 0.0 && last == [0.0, 0.0, 1.0];
+        (!has_form).then(|| "`K` should have the rows [fx, skew, cx], [0, fy, cy], [0, 0, 1]; is it transposed, or scaled?".to_string())
     }
 
     /// The camera of pictures of this size and horizontal field of view. `locate` finds the file of a grid.
@@ -238,6 +247,16 @@ mod tests {
             distortion = [-0.1, 0.01, 0, 0]";
         let Projection::RadialTangential(k, _) = camera(text, [320, 240]).unwrap().projection else { panic!() };
         assert_eq!(k, Intrinsics { width: 320, height: 240, fx: 250.0, fy: 255.0, cx: 160.0, cy: 120.0, skew: 1.0 });
+    }
+
+    #[test]
+    fn a_matrix_that_is_no_calibration_is_refused() {
+        for text in
+            ["[[500, 0, 0], [0, 500, 0], [320, 240, 1]]", "[[500, 0, 320], [0, 500, 240], [0, 0, 2]]", "[[5, 0, 3], [1, 5, 2], [0, 0, 1]]"]
+        {
+            assert!(camera(&format!("K = {text}"), [64, 48]).unwrap_err().contains("[0, fy, cy]"), "{text}");
+        }
+        assert_eq!(camera("K_size = [640, 480]", [64, 48]).unwrap_err(), "`K_size` goes with `K`");
     }
 
     #[test]

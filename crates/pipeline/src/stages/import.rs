@@ -23,13 +23,21 @@ pub(super) fn settings(job: &Job) -> Hash {
     }
 }
 
-/// The files that the last import read: which these are, only reading tells.
+/// The files that the last import read or looked for in vain: which these are, only reading tells.
 pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
-    if let Source::Home(config) = &job.scene.source {
-        return asset_inputs(job, config).map(Some);
+    let source = match &job.scene.source {
+        Source::Home(config) => return asset_inputs(job, config).map(Some),
+        Source::File(source) => source,
+    };
+    let Some(record) = previous else { return Ok(None) };
+    // What the configuration names may by now be other files than were read, which still lie where they were.
+    let was_read = |path: &Path| record.inputs.iter().any(|input| input.path == path);
+    let named = [Some(&source.file), source.environment.as_ref().map(|environment| &environment.file)];
+    if named.into_iter().flatten().any(|written| job.config.path(written).is_ok_and(|path| !was_read(&path))) {
+        return Ok(None);
     }
-    // A file that has gone makes the import run, which then says so.
-    Ok(previous.and_then(|record| record.inputs.iter().map(|input| Input::of(&input.path)).collect::<Result<_, _>>().ok()))
+    // One that cannot be read makes the import run, which then says so.
+    Ok(record.inputs.iter().map(|input| Input::of_any(&input.path)).collect::<Result<_, _>>().ok())
 }
 
 /// The files of the libraries that a home takes models of, all of them: which ones it takes, only making it tells.
@@ -49,7 +57,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             let imported = load_file(source, &job.config.path(&source.file)?, &|path| job.config.path(path), cx)?;
             let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
             let report = serde_json::to_value(&imported.report).unwrap_or_default();
-            (imported.scene, labels, imported.inputs, report)
+            (imported.scene, labels, [imported.inputs, imported.missing].concat(), report)
         }
     };
     job.dataset.write_scene(name, &scene).map_err(Error::stage)?;
@@ -60,7 +68,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     job.forget_scene();
     let layout = job.dataset.layout();
     let outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
-    let inputs = inputs.iter().map(|path| Input::of(path)).collect::<Result<_, _>>()?;
+    let inputs = inputs.iter().map(|path| Input::of_any(path)).collect::<Result<_, _>>()?;
     Ok(Outcome { summary: describe(&scene), outputs, inputs: Some(inputs), report })
 }
 

@@ -6,7 +6,7 @@ use crate::workdir::{PACKAGE, Workdir};
 use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_geometry::Bvh;
 use enfilade_scene::{Camera, Scene, Trajectory, WorldMesh};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -28,6 +28,9 @@ struct Loaded {
     scene: Option<Arc<Scene>>,
     world: Option<Arc<World>>,
 }
+
+/// Numbers of frames by the names of their trajectories.
+pub(crate) type FramesByTrajectory = BTreeMap<String, BTreeSet<u32>>;
 
 /// A scene as rays meet it, all of it solid.
 pub(crate) struct World {
@@ -121,6 +124,15 @@ impl<'a> Job<'a> {
         let rejected = self.dataset.rejected_views(&self.scene.name, &trajectory.name).map_err(Error::stage)?;
         let is_made = |frame: &u32| !rejected.contains_key(frame) && self.shift.is_none_or(|shift| shift.has(&trajectory.name, *frame));
         Ok(trajectory.poses.iter().map(|pose| pose.frame).filter(is_made).collect())
+    }
+
+    /// The same by trajectory, those without any left out.
+    pub fn frames_by_trajectory(&self) -> Result<FramesByTrajectory, Error> {
+        let filmed = self.filmed()?;
+        let frames = filmed.iter().map(|(_, trajectory)| Ok((trajectory.name.clone(), self.frames_of(trajectory)?)));
+        let mut frames: FramesByTrajectory = frames.collect::<Result<_, Error>>()?;
+        frames.retain(|_, frames| !frames.is_empty());
+        Ok(frames)
     }
 
     /// The commit records of all frames as inputs: they hold the checksums of every layer.

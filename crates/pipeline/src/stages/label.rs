@@ -12,7 +12,9 @@ use std::path::PathBuf;
 
 /// The log of `enfilade annotate`; the tables beside it are what it says.
 const ANNOTATION_LOG: &str = "annotation_log.jsonl";
-const ANNOTATION_TABLES: [&str; 4] = ["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5", "mesh_faces_oi.hdf5", "metadata_object_splits.csv"];
+const ANNOTATION_TABLES: [&str; 4] = ["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5", "mesh_faces_oi.hdf5", SPLITS];
+/// Which objects are pieces of others, where parts were split.
+const SPLITS: &str = "metadata_object_splits.csv";
 /// Names listed in a warning; the report has all.
 const NAMES_SHOWN: usize = 5;
 
@@ -70,6 +72,10 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 pub(super) fn known(job: &Job, cx: &StageCx) -> Result<(Known, serde_json::Value), Error> {
     if is_annotated(job) {
         return Ok((annotated(job, cx)?, serde_json::Value::Null));
+    }
+    if job.dataset.mesh_files(&job.scene.name).file(SPLITS).is_file() {
+        // Parts were split by an annotation that is put aside now: objects are whole again.
+        job.dataset.write_scene(&job.scene.name, &*job.load_scene()?).map_err(Error::stage)?;
     }
     let (labels, report) = labels_of(job, cx)?;
     job.dataset.write_label_tables(&job.scene.name, &labels).map_err(Error::stage)?;

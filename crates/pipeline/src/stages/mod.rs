@@ -31,10 +31,11 @@ use std::path::{Path, PathBuf};
 pub(crate) use denoise::check_denoiser;
 pub(crate) use finisher::frame_finisher;
 pub(crate) use import::{describe, labels_by_part, load_file};
-pub(crate) use job::{Job, World};
+pub(crate) use job::{FramesByTrajectory, Job, World};
 pub(crate) use pilot::pilot;
 pub(crate) use plan_preview::draw_plan;
 pub(crate) use progressive::{FOLDER as PARTIALS, file_name as kept_part};
+pub(crate) use render::missing_frames;
 pub(crate) use verify::CARD;
 
 /// A stage by name.
@@ -78,7 +79,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Import,
         name: "import",
         about: "scene file -> scene package",
-        version: 4,
+        version: 5,
         settings: import::settings,
         inputs: import::inputs,
         run: import::run,
@@ -96,7 +97,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Plan,
         name: "plan",
         about: "scene, free space -> camera trajectories",
-        version: 4,
+        version: 5,
         settings: plan::settings,
         inputs: plan::inputs,
         run: plan::run,
@@ -114,7 +115,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Render,
         name: "render",
         about: "scene, trajectories -> frames",
-        version: 7,
+        version: 8,
         settings: render::settings,
         inputs: render::inputs,
         run: render::run,
@@ -192,6 +193,11 @@ impl Input {
     pub fn of(path: &Path) -> Result<Self, Error> {
         Ok(Self { path: path.into(), content: Hash::of_file(path)? })
     }
+
+    /// The same of a file that need not be there.
+    pub fn of_any(path: &Path) -> Result<Self, Error> {
+        if path.exists() { Self::of(path) } else { Ok(Self { path: path.into(), content: Hash::of(&None::<u8>) }) }
+    }
 }
 
 /// What a stage's function leaves behind.
@@ -248,8 +254,11 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, cx: StageCx) -> Result<StageO
     }
     cx.event(Event::Started);
     let time = Stopwatch::start();
-    // From here on the old outputs are about to change, so the old record must not vouch for them.
+    // From here on the old outputs are about to change, so neither the old record nor the report card must vouch for them.
     remove_if_there(&record_path)?;
+    if !matches!(spec.stage, Stage::Preview | Stage::Verify) {
+        verify::forget(job)?;
+    }
     let outcome = (spec.run)(job, &cx)?;
     let inputs = outcome.inputs.or(inputs).unwrap_or_default();
     let outputs = outcome.outputs.iter().map(|path| output(job, path)).collect::<Result<_, _>>()?;

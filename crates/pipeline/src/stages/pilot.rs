@@ -1,7 +1,7 @@
 //! The pilot of a forecast: a few squares of pixels of a few frames, and one frame with two samples per pixel that goes through all
 //! later stages, in a dataset of its own that is removed afterwards.
 
-use super::{Job, STAGES, Stage, advance};
+use super::{FramesByTrajectory, Job, STAGES, Stage, advance};
 use crate::error::Error;
 use crate::forecast::{ProbeCost, ScenePilot};
 use crate::report::{Event, Silent, StageCx, Stopwatch, machine_is_busy, peak_memory_bytes, thread_cpu_s};
@@ -31,18 +31,19 @@ const PROBES: [f64; 2] = [12.0, 96.0];
 const FRAMES: usize = 6;
 const TRAJECTORIES: usize = 4;
 
-/// Tries out a scene whose trajectories are planned.
-pub(crate) fn pilot(job: &Job, cx: &StageCx) -> Result<ScenePilot, Error> {
+/// Tries out the rendering of `frames`, some at least, of a scene whose trajectories are planned.
+pub(crate) fn pilot(job: &Job, frames: &FramesByTrajectory, cx: &StageCx) -> Result<ScenePilot, Error> {
     cx.event(Event::Started);
     let time = Stopwatch::start();
     job.forget_world();
-    let filmed = job.filmed()?;
+    let mut filmed = job.filmed()?;
+    filmed.retain(|(_, trajectory)| frames.contains_key(&trajectory.name));
     let scene = job.load_scene()?;
     let prepared = RenderScene::new(&scene, &Quiet).map_err(Error::stage)?;
     let scene_cpu_s = time.cpu_s();
     let [width, height] = job.scene.size;
     let mut found = ScenePilot {
-        frames: filmed.iter().map(|(_, trajectory)| trajectory.poses.len() as u64).sum(),
+        frames: frames.values().map(|frames| frames.len() as u64).sum(),
         pixels: u64::from(width) * u64::from(height),
         noise_target: job.scene.render.noise.is_some(),
         time_limit_s: job.scene.time_limit_s,
@@ -60,11 +61,13 @@ pub(crate) fn pilot(job: &Job, cx: &StageCx) -> Result<ScenePilot, Error> {
         let time = Stopwatch::start();
         let guide = Guide::learn(&prepared, &views, &config);
         guides_cpu_s += time.cpu_s();
-        for i in spread(views.len(), FRAMES) {
-            found.probes.push(probe_frame(&prepared, &guide, &views[i], &config)?);
+        let wanted = &frames[&trajectory.name];
+        let wanted: Vec<usize> = (0..views.len()).filter(|&i| wanted.contains(&trajectory.poses[i].frame)).collect();
+        for i in spread(wanted.len(), FRAMES) {
+            found.probes.push(probe_frame(&prepared, &guide, &views[wanted[i]], &config)?);
         }
-        if step == 0 {
-            try_frame(job, (camera, trajectory), (&prepared, &guide, &views), &mut found)?;
+        if let (0, Some(&middle)) = (step, wanted.get(wanted.len() / 2)) {
+            try_frame(job, (camera, trajectory, middle), (&prepared, &guide, &views), &mut found)?;
         }
     }
     found.before_cpu_s = scene_cpu_s + guides_cpu_s * filmed.len() as f64 / tried.len().max(1) as f64;
@@ -118,16 +121,16 @@ fn probe_frame(scene: &RenderScene<'_>, guide: &Guide, view: &CameraView<'_>, co
     Ok(wanted.into_iter().zip(costs).map(|(samples, cpu_s)| ProbeCost { samples, cpu_s }).collect())
 }
 
-/// Renders one frame with few samples and takes it through all stages, in a dataset of its own.
+/// Renders the frame of a pose with few samples and takes it through all stages, in a dataset of its own.
 fn try_frame(
     job: &Job,
-    (camera, trajectory): (&Camera, &Trajectory),
+    filmed: (&Camera, &Trajectory, usize),
     (prepared, guide, views): (&RenderScene<'_>, &Guide, &[CameraView<'_>]),
     found: &mut ScenePilot,
 ) -> Result<(), Error> {
     let folder = job.work_file(FOLDER)?;
     remove(&folder)?;
-    let result = try_frame_in(job, &folder, (camera, trajectory), (prepared, guide, views), found);
+    let result = try_frame_in(job, &folder, filmed, (prepared, guide, views), found);
     remove(&folder)?;
     result
 }
@@ -135,13 +138,12 @@ fn try_frame(
 fn try_frame_in(
     job: &Job,
     folder: &Path,
-    (camera, trajectory): (&Camera, &Trajectory),
+    (camera, trajectory, index): (&Camera, &Trajectory, usize),
     (prepared, guide, views): (&RenderScene<'_>, &Guide, &[CameraView<'_>]),
     found: &mut ScenePilot,
 ) -> Result<(), Error> {
     let name = &job.scene.name;
-    let index = trajectory.poses.len() / 2;
-    let Some(pose) = trajectory.poses.get(index) else { return Ok(()) };
+    let pose = &trajectory.poses[index];
     let config =
         RenderConfig { samples: FRAME_SAMPLES.min(job.scene.render.samples), adaptive: false, noise: None, ..job.scene.render.clone() };
     let mut rendering = FrameRender::new(prepared, guide, &views[index], &config).map_err(Error::stage)?;

@@ -1,7 +1,7 @@
 //! `render`: trajectories to frames. Resumes frame by frame: a frame is left alone when its record names the hash of everything
 //! that its values depend on; and within a frame, see `progressive`.
 
-use super::{Input, Inputs, Job, Outcome, Record, Stage, progressive};
+use super::{FramesByTrajectory, Input, Inputs, Job, Outcome, Record, Stage, progressive};
 use crate::error::Error;
 use crate::report::{StageCx, Stopwatch, count};
 use crate::workdir::Hash;
@@ -24,14 +24,39 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
-    let package = Input::of(&job.package()?)?.content;
     let filmed = job.filmed()?;
-    let (mut total, mut missing) = (0, Vec::new());
-    for (camera, trajectory) in &filmed {
+    let mut total = 0;
+    for (_, trajectory) in &filmed {
         job.dataset.remove_temporaries(&job.scene.name, &trajectory.name).map_err(Error::stage)?;
         let wanted = job.frames_of(trajectory)?;
         total += wanted.len();
         remove_other_frames(job, trajectory, &wanted)?;
+    }
+    let missing = missing(job, &filmed)?;
+    let unfinished = missing.iter().flat_map(|m| m.frames.iter().map(|info| (m.trajectory.name.as_str(), info.pose.frame)));
+    progressive::forget_all_but(job, unfinished)?;
+    let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
+    let timed_out = if rendered > 0 { render(job, &missing, total - rendered, total, cx)? } else { 0 };
+    let [width, height] = job.scene.size;
+    let kept = if rendered < total { format!(", {} kept", total - rendered) } else { String::new() };
+    let ended = if timed_out > 0 { format!(", {timed_out} ended by the time limit") } else { String::new() };
+    let summary = format!("{} of {width}x{height} at {} samples{kept}{ended}", count(rendered, "frame"), job.scene.render.samples);
+    Ok(Outcome { summary, outputs: outputs(job)?, ..Outcome::default() })
+}
+
+/// The frames that a run of the stage would render, by trajectory; without those that have none.
+pub(crate) fn missing_frames(job: &Job) -> Result<FramesByTrajectory, Error> {
+    let filmed = job.filmed()?;
+    let frames = |m: &Missing| (m.trajectory.name.clone(), m.frames.iter().map(|info| info.pose.frame).collect());
+    Ok(missing(job, &filmed)?.iter().map(frames).collect())
+}
+
+/// What is to be rendered of each trajectory of which not all is there.
+fn missing<'a>(job: &Job, filmed: &'a [(Camera, Trajectory)]) -> Result<Vec<Missing<'a>>, Error> {
+    let package = Input::of(&job.package()?)?.content;
+    let mut missing = Vec::new();
+    for (camera, trajectory) in filmed {
+        let wanted = job.frames_of(trajectory)?;
         let config = RenderConfig { seed: job.scene.seed_for(&format!("render/{}", trajectory.name)), ..job.scene.render.clone() };
         let recipe = Recipe {
             program: program(),
@@ -55,15 +80,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             missing.push(Missing { camera, trajectory, config, frames });
         }
     }
-    let unfinished = missing.iter().flat_map(|m| m.frames.iter().map(|info| (m.trajectory.name.as_str(), info.pose.frame)));
-    progressive::forget_all_but(job, unfinished)?;
-    let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
-    let timed_out = if rendered > 0 { render(job, &missing, total - rendered, total, cx)? } else { 0 };
-    let [width, height] = job.scene.size;
-    let kept = if rendered < total { format!(", {} kept", total - rendered) } else { String::new() };
-    let ended = if timed_out > 0 { format!(", {timed_out} ended by the time limit") } else { String::new() };
-    let summary = format!("{} of {width}x{height} at {} samples{kept}{ended}", count(rendered, "frame"), job.scene.render.samples);
-    Ok(Outcome { summary, outputs: outputs(job)?, ..Outcome::default() })
+    Ok(missing)
 }
 
 /// What is to be rendered of a trajectory.

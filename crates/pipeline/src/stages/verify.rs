@@ -3,13 +3,19 @@
 use super::{Inputs, Job, Outcome, Record};
 use crate::error::Error;
 use crate::report::{StageCx, count};
-use crate::workdir::Hash;
-use crate::workdir::write_json;
+use crate::workdir::{Hash, remove_if_there, write_json};
 use enfilade_post::gates::GATES;
 use enfilade_post::verify::{LAWS, verify_scene};
 
 /// The scene's part of the report card, in its work folder; it is there also when laws do not hold.
 pub(crate) const CARD: &str = "card.json";
+
+/// Removes the card of the scene and that of the dataset, because what they are about changes.
+pub(super) fn forget(job: &Job) -> Result<(), Error> {
+    let layout = job.dataset.layout();
+    let cards = [job.work_file(CARD)?, layout.verify_report(), layout.verify_page()];
+    cards.iter().try_for_each(|path| remove_if_there(path))
+}
 
 pub(super) fn settings(_job: &Job) -> Hash {
     let laws = LAWS.map(|law| (law.statement, law.bound.to_bits()));

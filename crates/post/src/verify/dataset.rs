@@ -6,6 +6,7 @@ use super::law::Law;
 use super::read::{SceneLabels, Stored, read_frame, read_labels, read_tree, readable};
 use super::release::{self, Excused};
 use super::report::VerifyReport;
+use super::trajectory::roll_limit_deg;
 use super::two_views::{self, PairValues, Sight};
 use super::whole::{self, join_reports};
 use super::{View, boxes, camera_files, check_frame, check_trajectory};
@@ -109,6 +110,8 @@ struct Filmed {
     views: Option<Vec<InstanceView>>,
     /// The other camera of a stereo rig.
     stereo: Option<StereoRecord>,
+    /// The greatest roll that the plan allows, if it says so.
+    roll_limit_deg: Option<f64>,
 }
 
 impl SceneFacts {
@@ -167,7 +170,7 @@ impl SceneFacts {
         for filmed in &self.filmed {
             let Filmed { trajectory, stored, frames, camera, .. } = filmed;
             let place = format!("{name}/{}", trajectory.name);
-            card.merge(check_trajectory(stored, &place));
+            card.merge(check_trajectory(stored, filmed.roll_limit_deg, &place));
             let rejected = readable(card, dataset.rejected_views(name, &trajectory.name)).unwrap_or_default();
             let there = |frame: &u32| frames.contains(frame) || rejected.contains_key(frame);
             let missing: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !there(frame)).collect();
@@ -292,7 +295,10 @@ fn read_filmed(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<Filmed> {
         let camera = readable(card, dataset.read_camera(scene, &name));
         let views = boxes::there(dataset.read_instance_views(scene, &name)).and_then(|read| readable(card, read));
         let stereo = dataset.read_stereo(scene, &name).ok().flatten();
-        filmed.push(Filmed { trajectory, stored, frames, camera, views, stereo });
+        // The plan of a rig is that of its left camera.
+        let planned = stereo.as_ref().filter(|stereo| stereo.side == StereoSide::Right).map_or(&name, |stereo| &stereo.partner);
+        let roll_limit_deg = roll_limit_deg(&dataset.layout().plan_report(scene, planned));
+        filmed.push(Filmed { trajectory, stored, frames, camera, views, stereo, roll_limit_deg });
     }
     filmed
 }

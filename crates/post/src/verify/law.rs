@@ -107,7 +107,8 @@ pub const LAWS: [LawSpec; 56] = laws![
     Orthonormal 1e-9 "", "orientations are orthonormal (largest entry of |R R^T - 1|)", "an artist's camera with scale was passed through: plan again";
     RightHanded 1e-9 "", "orientations are right-handed (|det R - 1|)", "an axis is mirrored: check the importer's axes";
     LookAt 1e-6 "", "the look-at point lies on the viewing axis", "positions and orientations are not of one trajectory: plan again";
-    Roll 5.000_001 "degrees", "roll stays within 5 degrees", "the camera was tilted beyond the limit: plan again";
+    Roll 1e-6 "degrees", "roll stays within the limit of the plan, where that has one (degrees beyond it)",
+        "poses were edited after planning: plan again";
     RenderedPose 1e-9 "", "frames were rendered from the poses that are stored", "the trajectory was planned again after rendering: render again";
     FreeCamera 0.0 "poses", "cameras stand in free voxels of octomap.bt", "the camera is in a wall or outside: plan again";
     SeesScene 0.0 "frames", "some pixel of every frame sees the scene", "the camera looks into the void: plan again";

@@ -268,22 +268,22 @@ mod tests {
 
     #[test]
     fn worst_value_counts_and_the_first_of_equals() {
-        let mut a = card(&[(Law::Roll, 2.0, "a"), (Law::Roll, 4.0, "b"), (Law::Roll, 4.0, "c")]);
-        a.merge(card(&[(Law::Roll, 1.0, "d"), (Law::Distance, f64::NAN, "e")]));
+        let mut a = card(&[(Law::Albedo, 0.5, "a"), (Law::Albedo, 1.0, "b"), (Law::Albedo, 1.0, "c")]);
+        a.merge(card(&[(Law::Albedo, 0.25, "d"), (Law::Distance, f64::NAN, "e")]));
         let report = report(&a, 2);
         let found: Vec<_> = report.laws.iter().map(|l| (l.law, l.worst, l.place.as_str(), l.checks, l.holds)).collect();
-        assert_eq!(found, [(Law::Roll, Some(4.0), "b", 4, true), (Law::Distance, None, "e", 1, false)]);
+        assert_eq!(found, [(Law::Albedo, Some(1.0), "b", 4, true), (Law::Distance, None, "e", 1, false)]);
         assert_eq!(a.failures(), [Law::Distance]);
         assert!(!report.passed);
     }
 
     #[test]
     fn text_puts_failures_first_and_lines_up() {
-        let card = card(&[(Law::Readable, 0.0, "x"), (Law::Roll, 7.25, "room/cam_00/frame.0003"), (Law::Projection, 1.5e-5, "y")]);
+        let card = card(&[(Law::Readable, 0.0, "x"), (Law::Roll, 2.25, "room/cam_00/frame.0003"), (Law::Projection, 1.5e-5, "y")]);
         let expected = "\
-FAIL        7.25  of 5       degrees   roll stays within 5 degrees
+FAIL        2.25  of 1.0e-6  degrees   roll stays within the limit of the plan, where that has one (degrees beyond it)
         at  room/cam_00/frame.0003
-        may mean: the camera was tilted beyond the limit: plan again
+        may mean: poses were edited after planning: plan again
 ok                                     every file can be read and has the shape and type its name promises
 ok        1.5e-5  of 0.02    px        position projects to the centre of its own pixel
 1 of 3 laws fail over 4 frames of 1 scene
@@ -299,7 +299,7 @@ no gate was measured
             FrameValues { scene: "room".into(), camera: "cam_00".into(), frame: number, gates: gates.into(), ..FrameValues::default() }
         };
         let frames = vec![frame(0, 2.0), frame(1, 0.25), frame(2, 0.4)];
-        let report = VerifyReport::new(&card(&[(Law::Roll, 1.0, "x")]), 1, frames, vec![], vec![]);
+        let report = VerifyReport::new(&card(&[(Law::Albedo, 1.0, "x")]), 1, frames, vec![], vec![]);
         assert!(report.passed && !report.accepted);
         let found: Vec<_> = report.gates.iter().map(|g| (g.gate, g.worst, g.place.as_str(), g.rejected, g.measured)).collect();
         assert_eq!(

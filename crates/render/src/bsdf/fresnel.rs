@@ -20,10 +20,10 @@ pub fn dielectric(cos_i: f32, eta: f32) -> (f32, f32) {
 /// Reflectance of a metal with complex index `eta` + i `k`, seen from air; both zero means a perfect mirror.
 #[inline]
 pub fn conductor(cos_i: f32, eta: Rgb, k: Rgb) -> Rgb {
-    if eta.is_black() && k.is_black() {
-        return Rgb::WHITE;
-    }
     let channel = |eta: f32, k: f32| {
+        if eta == 0.0 && k == 0.0 {
+            return 1.0;
+        }
         let (c2, s2) = (cos_i * cos_i, 1.0 - cos_i * cos_i);
         let (eta2, k2) = (eta * eta, k * k);
         let t0 = eta2 - k2 - s2;
@@ -63,5 +63,6 @@ mod tests {
         let gold = conductor(1.0, Rgb::splat(0.143), Rgb::splat(3.983));
         assert!((gold.r - (0.857f32.powi(2) + 3.983f32.powi(2)) / (1.143f32.powi(2) + 3.983f32.powi(2))).abs() < 1e-5);
         assert_eq!(conductor(0.3, Rgb::BLACK, Rgb::BLACK), Rgb::WHITE);
+        assert_eq!(conductor(1.0, Rgb::new(0.0, 1.0, 1.0), Rgb::new(0.0, 2.0, 2.0)).r, 1.0, "in one channel alone");
     }
 }

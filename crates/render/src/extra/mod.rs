@@ -82,7 +82,10 @@ fn extra(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<&CameraVie
     let Sighting { surface, triangle, direction, distance_m, p_world } = sighting(scene, view, centre)?;
     let triangle = scene.triangles.get(triangle);
     let appearance = surface.appearance(scene);
-    let (behind_m, entity_behind) = behind(scene, &surface, direction.as_vec3(), distance_m as f32, triangle.part);
+    let (behind_m, entity_behind) = match appearance.transmission {
+        0.0 => (distance_m as f32, (triangle.part + 1) as i16),
+        _ => behind(scene, &surface, direction.as_vec3(), distance_m as f32),
+    };
     let emitted = surface.emission(scene);
     let one_sided = !surface.outside && !surface.material.two_sided && !surface.material.bsdf.transmits();
     let mut kind = 0;
@@ -121,17 +124,14 @@ fn is_partial(scene: &RenderScene<'_>, view: &CameraView<'_>, (x, y): (f64, f64)
     })
 }
 
-/// Distance to, and number of, the first surface straight on that lets no light through; the surface itself when that does not.
-fn behind(scene: &RenderScene<'_>, first: &Surface<'_>, direction: Vec3, distance_m: f32, part: u32) -> (f32, i16) {
-    if !first.material.bsdf.transmits() {
-        return (distance_m, (part + 1) as i16);
-    }
+/// Distance to, and number of, the first surface straight on that lets no light through where it is met.
+fn behind(scene: &RenderScene<'_>, first: &Surface<'_>, direction: Vec3, distance_m: f32) -> (f32, i16) {
     let (mut far_m, mut before) = (distance_m, first.clone());
     for _ in 0..MAX_PANES {
         let Some(hit) = scene.closest(&before.ray(direction), Cutout::Half) else { break };
         let surface = scene.surface(&hit, direction, &Cone::POINT);
         far_m += surface.p.distance(before.p);
-        if !surface.material.bsdf.transmits() {
+        if surface.appearance(scene).transmission == 0.0 {
             return (far_m, (scene.triangles.get(hit.triangle).part + 1) as i16);
         }
         before = surface;

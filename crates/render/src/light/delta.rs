@@ -48,7 +48,7 @@ pub(super) fn sample(light: &Light, at: &LightPoint, u: [f32; 2]) -> Option<Ligh
             let limit = one_minus_cos_of(*angular_radius_rad);
             let wi = Onb::from_z(-*direction).to_world(warp::cone(u, limit)).normalize();
             let pdf = warp::cone_pdf(limit);
-            Some(LightSample { wi, target: None, radiance: Some(*irradiance * pdf), pdf, is_delta: false })
+            Some(LightSample { wi, target: None, radiance: Some(disk_radiance(*irradiance, limit)), pdf, is_delta: false })
         }
     }
 }
@@ -60,10 +60,14 @@ pub(super) fn disk(light: &Light, d: Vec3) -> Option<(Rgb, f32)> {
     // 1 − cos of the angle between, without cancellation.
     let one_minus_cos = 0.5 * (d + *direction).length_squared();
     let limit = one_minus_cos_of(*angular_radius_rad);
-    (*angular_radius_rad > 0.0 && one_minus_cos <= limit).then(|| {
-        let pdf = warp::cone_pdf(limit);
-        (*irradiance * pdf, pdf)
-    })
+    (*angular_radius_rad > 0.0 && one_minus_cos <= limit).then(|| (disk_radiance(*irradiance, limit), warp::cone_pdf(limit)))
+}
+
+/// Radiance of a disk around a direction that gives this irradiance to a surface facing it. `limit` is 1 − cos of its angular radius; what
+/// is beyond the horizon gives none.
+fn disk_radiance(irradiance: Rgb, limit: f32) -> Rgb {
+    let limit = limit.min(1.0);
+    irradiance / (std::f32::consts::PI * limit * (2.0 - limit))
 }
 
 /// Share of a spot's intensity at an angle from its axis: all within the inner angle, none beyond the outer.

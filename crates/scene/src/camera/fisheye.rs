@@ -61,7 +61,9 @@ impl Fisheye {
     pub fn project(&self, direction: DVec3) -> Option<DVec2> {
         let off_axis = direction.truncate();
         let theta = off_axis.length().atan2(-direction.z);
-        if theta.is_nan() || theta > self.theta_max * (1.0 + END_SLACK) {
+        // Straight behind, all around is the same.
+        let is_everywhere = off_axis == DVec2::ZERO && direction.z > 0.0;
+        if theta.is_nan() || is_everywhere || theta > self.theta_max * (1.0 + END_SLACK) {
             return None;
         }
         Some(off_axis.try_normalize().map_or(DVec2::ZERO, |around| around * self.radius(theta).0))
@@ -124,6 +126,7 @@ mod tests {
         assert!(model.direction(DVec2::new(0.0, end * 2.0 / 3.0 - 1e-9)).is_some());
         assert_eq!(model.direction(DVec2::new(0.0, end * 2.0 / 3.0 + 1e-6)), None);
         assert_eq!(model.project(DVec3::new(0.0, 0.1, 1.0)), None);
+        assert_eq!(Fisheye::new([0.0; 4]).unwrap().project(DVec3::Z), None, "straight behind");
         assert_eq!(Fisheye::new([0.0; 4]).unwrap().direction(DVec2::new(3.2, 0.0)), None);
     }
 }

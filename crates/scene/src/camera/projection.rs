@@ -120,13 +120,13 @@ impl Projection {
     pub fn fov_x_rad(&self, limit: f64) -> f64 {
         let [width, height] = self.size().map(f64::from);
         let fov = match self {
-            Self::Pinhole(k) => k.fov_x_rad(),
+            Self::Pinhole(k) if k.cx == 0.5 * width => k.fov_x_rad(),
             Self::Equirectangular { .. } => TAU,
             _ => {
                 // Where the picture ends before its border, the first ray inward counts.
                 let side = |from: f64| (0..=64).find_map(|i| self.ray(from + (0.5 * width - from) * f64::from(i) / 64.0, 0.5 * height));
-                let angle = |ray: Option<DVec3>| ray.map_or(0.0, |r| r.x.abs().atan2(-r.z));
-                angle(side(0.0)) + angle(side(width))
+                let angle = |ray: Option<DVec3>| ray.map_or(0.0, |r| r.x.atan2(-r.z));
+                angle(side(width)) - angle(side(0.0))
             }
         };
         fov.min(limit)
@@ -215,6 +215,13 @@ pub(super) mod tests {
         assert!((fov(&Projection::Pinhole(k)) - 1.0).abs() < 1e-12);
         assert!((fov(&Projection::Fisheye(wide, Fisheye::new([0.0; 4]).unwrap())) - 3.0).abs() < 1e-12);
         assert_eq!(Projection::Equirectangular { width: 2, height: 1 }.fov_x_rad(2.0), 2.0);
+        // With the axis at the image's border, or beyond it.
+        let none = RadialTangential::new(&[0.0; 4]).unwrap();
+        for (cx, expected) in [(0.0, (64.0 / k.fx).atan()), (-10.0, (74.0 / k.fx).atan() - (10.0 / k.fx).atan())] {
+            let aside = Intrinsics { cx, ..k };
+            assert!((fov(&Projection::Pinhole(aside)) - expected).abs() < 1e-12);
+            assert!((fov(&Projection::RadialTangential(aside, none)) - expected).abs() < 1e-9);
+        }
         let broken = Projection::Pinhole(Intrinsics { fx: 0.0, ..k }).validate().unwrap_err().to_string();
         assert!(broken.starts_with("the camera's calibration is fx 0"), "{broken}");
     }

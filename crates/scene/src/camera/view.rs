@@ -140,10 +140,11 @@ impl Motion {
     }
 }
 
-/// A point of a disk across a unit direction.
+/// A point of a disk across a direction: upright, which has a meaning everywhere but straight up and down.
 fn across(direction: DVec3, point: DVec2) -> DVec3 {
-    let (a, b) = direction.any_orthonormal_pair();
-    a * point.x + b * point.y
+    let right = direction.cross(DVec3::Y).try_normalize().unwrap_or(DVec3::X);
+    let up = right.cross(direction).normalize();
+    right * point.x + up * point.y
 }
 
 #[cfg(test)]
@@ -180,6 +181,22 @@ mod tests {
         let last = CameraView::of_frame(&camera, &poses, 2).placement(0.25);
         assert!(last.0.distance(DVec3::new(4.0, 0.0, 1.0)) < 1e-14);
         assert_eq!(CameraView::of_frame(&camera, &poses[..1], 0).placement(0.2).0, poses[0].position);
+    }
+
+    #[test]
+    fn a_lens_without_an_image_plane_stands_upright_all_around() {
+        let point = DVec2::new(0.3, 0.8);
+        assert!(across(DVec3::NEG_Z, point).distance(point.extend(0.0)) < 1e-15, "as that of a pinhole");
+        for k in 0..64 {
+            let (sin, cos) = (f64::from(k) * 0.1).sin_cos();
+            let direction = DVec3::new(sin, 0.4, -cos);
+            let (up, next) = (
+                across(direction, DVec2::Y),
+                across(DVec3::new((f64::from(k) * 0.1 + 1e-6).sin(), 0.4, -(f64::from(k) * 0.1 + 1e-6).cos()), DVec2::Y),
+            );
+            assert!(up.y > 0.9 && up.dot(direction).abs() < 1e-12 && up.distance(next) < 1e-5, "{direction}");
+        }
+        assert_eq!(across(DVec3::Y, DVec2::X), DVec3::X);
     }
 
     #[test]
