@@ -54,7 +54,7 @@ pub use layout::{Layout, check_name};
 pub use manifest::{CameraEntry, Conventions, FrameEntry, FrameStatus, LayerEntry, Manifest, ManifestInfo, SceneEntry};
 pub use object_files::{MeshFiles, MeshGeometry};
 pub use record::{DenoiseRecord, FileRecord, FrameRecord, LabelRecord, PoseRecord, Recipe, Sampling, StoppedBy};
-pub use release::{RELEASED_LAYERS, planar_depth};
+pub use release::{RELEASED_LAYERS, planar_depth, turn_planar_depth};
 pub use repack::Repacked;
 pub use scene_files::{Node, read_node_table};
 pub use split_files::{Partition, SplitRow};

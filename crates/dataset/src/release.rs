@@ -71,6 +71,20 @@ pub fn planar_depth(projection: &Projection, distance: &Values) -> Vec<f32> {
     planar_depth_of_part(projection, Window { top: 0, left: 0, height, width }, distance)
 }
 
+/// Turns stored `depth_z_meters`, which is along −z of camera space, to depth along the viewing axis of K ([`Projection::image_axis`]) in a
+/// part of the image: they differ where the image plane is tilted.
+pub fn turn_planar_depth(projection: &Projection, part: Window, depth_z: &mut Values) {
+    let (axis, Values::F32(values)) = (projection.image_axis(), depth_z) else { return };
+    if axis == DVec3::NEG_Z {
+        return;
+    }
+    for (i, value) in values.iter_mut().enumerate() {
+        let (x, y) = (part.left + i % part.width, part.top + i / part.width);
+        let ray = projection.ray(x as f64 + 0.5, y as f64 + 0.5).unwrap_or(DVec3::NAN);
+        *value = (f64::from(*value) * (ray.dot(axis) / -ray.z)) as f32;
+    }
+}
+
 /// [`planar_depth`] of the pixels of a part of the image.
 pub(crate) fn planar_depth_of_part(projection: &Projection, part: Window, distance: &Values) -> Vec<f32> {
     let axis = projection.image_axis();
@@ -79,4 +93,32 @@ pub(crate) fn planar_depth_of_part(projection: &Projection, part: Window, distan
         projection.ray(x as f64 + 0.5, y as f64 + 0.5).map_or(DVec3::NAN, DVec3::normalize).dot(axis)
     };
     (0..distance.len()).map(|i| (distance.get(i) * forward(i)) as f32).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_math::DMat3;
+    use enfilade_scene::{Intrinsics, TiltedPinhole};
+
+    #[test]
+    fn stored_depth_of_a_tilted_image_plane_is_turned_to_the_axis_of_k() {
+        let k = Intrinsics { width: 40, height: 30, fx: 33.0, fy: 33.0, cx: 19.0, cy: 16.0, skew: 0.0 };
+        let straight = Projection::Pinhole(k);
+        let tilted = Projection::TiltedPinhole(TiltedPinhole::new(40, 30, DMat3::from_rotation_x(0.15) * k.cam_from_uv()).unwrap());
+        let part = Window { top: 3, left: 7, height: 20, width: 30 };
+        let ray = |projection: &Projection, i: usize| {
+            let (x, y) = (part.left + i % part.width, part.top + i / part.width);
+            projection.ray(x as f64 + 0.5, y as f64 + 0.5).unwrap().normalize()
+        };
+        for (projection, differs) in [(straight, false), (tilted, true)] {
+            let stored: Vec<f32> = (0..600).map(|i| (-4.0 * ray(&projection, i).z) as f32).collect();
+            let mut turned = Values::F32(stored.clone());
+            turn_planar_depth(&projection, part, &mut turned);
+            let Values::F32(turned) = turned else { panic!("it stays float32") };
+            let expected = planar_depth_of_part(&projection, part, &Values::F32(vec![4.0; 600]));
+            assert!(turned.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-5));
+            assert_eq!(turned != stored, differs);
+        }
+    }
 }

@@ -71,6 +71,14 @@ impl Default for Saliency {
 }
 
 impl Saliency {
+    /// Its exponents and its weight.
+    pub(crate) fn numbers(&self) -> [f64; 3] {
+        match *self {
+            Self::Triangles { alpha, beta } | Self::Parts { alpha, beta } | Self::Entropy { alpha, beta } => [alpha, beta, 0.0],
+            Self::Texture { alpha, beta, weight } => [alpha, beta, weight],
+        }
+    }
+
     /// The score of a view, 0 or more.
     pub fn score(&self, view: &ViewStats) -> f64 {
         let (n, alpha, beta) = match *self {

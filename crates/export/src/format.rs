@@ -53,7 +53,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         format: Format::Coco,
         name: "coco",
         about: "COCO instances: images, annotations with compressed RLE masks and boxes, the 40 classes of NYU40",
-        needs: &[COLOR, INSTANCE],
+        needs: &[COLOR, INSTANCE, SEMANTIC],
         takes: Some(LABELLED),
         readme: crate::formats::coco::README,
     },

@@ -327,8 +327,14 @@ def webdataset():
         for name, value in sample.items():
             if name.endswith(".npy"):
                 values = layer(*at, name[: -len(".npy")])
-                if values is None:
+                # Planar depth is along the axis of K, which is not the camera's where the image plane is tilted.
+                if values is None or name == "depth_z_meters.npy":
                     check_planar(name[: -len(".npy")], value, *at)
+                    if info["model"] == "pinhole":
+                        rows, columns = np.indices(value.shape)
+                        rays = np.stack([columns, rows, np.ones_like(rows)], -1) @ np.linalg.inv(info["K"]).T
+                        distance = layer(*at, "depth_meters").astype(float)
+                        assert np.allclose(np.linalg.norm(rays, axis=-1) * value, distance, rtol=2e-3, equal_nan=True)
                     continue
                 assert np.array_equal(value.astype(float), values.astype(float), equal_nan=values.dtype.kind == "f"), name
                 arrays += 1

@@ -6,7 +6,7 @@ use crate::resize::{averaged, nearest};
 use crate::sample::{Image, Matrix3, Matrix4, Sample, Values, is_averaged, mask_out};
 use crate::stream::below;
 use crate::tone::{displayed, fit};
-use enfilade_dataset::{Dataset, DatasetError, OpencvCalibration, Partition, ToneMapRow, Window, image_shape};
+use enfilade_dataset::{Dataset, DatasetError, OpencvCalibration, Partition, ToneMapRow, Window, image_shape, turn_planar_depth};
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_math::hash_u64;
 use enfilade_post::tonemap::ToneMap;
@@ -141,8 +141,18 @@ impl Samples {
         if let Some([height, width]) = options.resize {
             for (layer, image) in &mut layers {
                 *image = if is_averaged(*layer) { averaged(image, height, width) } else { nearest(image, height, width) };
+                if *layer == Layer::OpticalFlow && !options.stored {
+                    scale_flow(image, [width as f32 / window.width as f32, height as f32 / window.height as f32]);
+                }
             }
-            mask = mask.map(|mask| nearest(&mask, height, width));
+            mask = mask.map(|mask| {
+                let mut mask = nearest(&mask, height, width);
+                // An area has no mean where one of its values is none.
+                if let Values::U8(kept) = &mut mask.values {
+                    layers.iter().filter(|(layer, _)| is_averaged(*layer)).for_each(|(layer, image)| mask_out(kept, *layer, image));
+                }
+                mask
+            });
         }
         if let (Some(tone), Some((_, color))) = (tone, layers.iter_mut().find(|(layer, _)| *layer == Layer::Color)) {
             *color = displayed(color, tone);
@@ -212,12 +222,16 @@ impl Samples {
     fn image(&self, index: usize, layer: Layer, part: Option<Window>) -> Result<Image, LoaderError> {
         let Place { scene, camera, frame } = self.place(index);
         let projection = || Ok(self.camera_calibration(index)?.0.clone());
-        let as_stored = self.options.stored && self.dataset.stored_layer(scene, camera, frame, layer) == layer;
-        let ([height, width], values) = if as_stored {
+        let is_there = self.dataset.stored_layer(scene, camera, frame, layer) == layer;
+        let ([height, width], mut values) = if self.options.stored && is_there {
             self.dataset.read_layer_window(scene, camera, frame, layer, part)?
         } else {
             self.dataset.read_specified(scene, camera, frame, layer, part, &projection)?
         };
+        if layer == Layer::DepthZMeters && is_there && !self.options.stored && self.options.cameras {
+            let part = part.unwrap_or(Window { top: 0, left: 0, height, width });
+            turn_planar_depth(&projection()?, part, &mut values);
+        }
         Ok(Image { height, width, channels: layer.spec().channels, values })
     }
 
@@ -308,6 +322,13 @@ fn mask_of(layers: &[(Layer, Image)], pixels: usize) -> Vec<u8> {
     mask
 }
 
+/// Flow in pixels of an image that was scaled by so much along x and y.
+fn scale_flow(flow: &mut Image, scale: [f32; 2]) {
+    if let Values::F32(values) = &mut flow.values {
+        values.chunks_exact_mut(2).for_each(|pixel| pixel.iter_mut().zip(scale).for_each(|(value, scale)| *value *= scale));
+    }
+}
+
 /// The value, which is made unless it is there.
 fn get_or_try<T, E>(cell: &OnceLock<T>, make: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
     if let Some(value) = cell.get() {
@@ -324,4 +345,17 @@ fn chosen(what: &str, names: Vec<String>, wanted: Option<&[String]>) -> Result<V
         return Err(LoaderError::Request(format!("there is no {what} {unknown:?}; the {what}s are: {}", names.join(", "))));
     }
     Ok(names.into_iter().filter(|name| wanted.contains(name)).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flow_is_in_pixels_of_the_resized_image() {
+        let mut flow = Image { height: 1, width: 2, channels: 2, values: Values::F32(vec![10.0, 4.0, f32::NAN, -2.0]) };
+        scale_flow(&mut flow, [0.5, 0.25]);
+        let Values::F32(values) = flow.values else { panic!("flow is float32") };
+        assert_eq!((values[0], values[1], values[2].is_nan(), values[3]), (5.0, 1.0, true, -0.5));
+    }
 }

@@ -1,9 +1,11 @@
 """Values are those of the files, bit by bit; what is derived from them is what its definition says."""
 
 import csv
+import shutil
 import unittest
 
 import enfilade
+import h5py
 import numpy as np
 
 import datasets
@@ -109,6 +111,16 @@ class DerivedValues(unittest.TestCase):
         expected = np.isfinite(sample["depth_meters"]) & np.isfinite(sample["normal_world"]).all(-1)
         self.assertEqual(sample["mask"].dtype, bool)
         self.assertTrue(np.array_equal(sample["mask"], expected))
+
+    def test_areas_with_a_value_that_is_none_are_masked(self):
+        root = datasets.folder() / "infinite"
+        shutil.copytree(datasets.as_hypersim(), root)
+        sample = enfilade.Dataset(root, layers=["color"])[0]
+        with h5py.File(datasets.file_of(root, sample, "color"), "r+") as file:
+            file["dataset"][2, 4] = np.inf
+        half = enfilade.Dataset(root, layers=["color"], resize=(70, 100))[0]
+        self.assertFalse(half["mask"][1, 2])
+        self.assertTrue(np.array_equal(half["mask"], np.isfinite(half["color"]).all(-1)))
 
     def test_averages_keep_the_mean_and_numbers_stay_numbers(self):
         whole = enfilade.Dataset(datasets.made(), layers=["color", "semantic"], stored=True)[0]

@@ -262,6 +262,10 @@ impl PlanConfig {
         require(fov_ok, "fov_x_rad", self.fov_x_rad, "an angle between 0 and pi")?;
         self.validate_height_and_pitch()?;
         self.validate_gates()?;
+        let [alpha, beta, weight] = self.saliency.numbers();
+        let saliency_ok = [alpha, beta].iter().all(|v| (0.0..=16.0).contains(v)) && (0.0..=1000.0).contains(&weight);
+        let found = format!("alpha {alpha}, beta {beta}, weight {weight}");
+        require(saliency_ok, "saliency", found, "exponents from 0 to 16 and a weight from 0 to 1000")?;
         let walks = self.preset == Preset::Default || self.mode == Mode::Walk;
         require(walks, "preset", format!("hypersim with mode {}", self.mode.name()), "mode walk, the only one that it has")?;
         self.mode.validate()

@@ -35,6 +35,9 @@ pub use coverage::{CoverageReport, PartCoverage};
 pub use keyframes::{Keyframe, parse_keyframes};
 pub use report::{Fault, FrameValues, PlanReport, PlanStatistics, RejectedCounts, RelaxedFrame, Spread};
 
+/// Scores above this are scaled down together.
+const MOST_SCORE: f64 = 1e30;
+
 /// A trajectory and how it came out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planned {
@@ -206,8 +209,12 @@ impl<'a> Planner<'a> {
         rejected: &mut RejectedCounts,
         rng: &mut Rng,
     ) -> Option<usize> {
-        let score = |view: &ViewStats| if self.gates.is_void(view) { 0.0 } else { self.score(view) as f32 };
-        let mut weights: Vec<f32> = views.iter().map(score).collect();
+        let score = |view: &ViewStats| if self.gates.is_void(view) { 0.0 } else { self.score(view) };
+        let scores: Vec<f64> = views.iter().map(score).collect();
+        let greatest = scores.iter().fold(0.0, |most: f64, score| most.max(*score));
+        // Beyond what a sum of single precision can hold, only ratios count.
+        let unit = if greatest > MOST_SCORE { greatest } else { 1.0 };
+        let mut weights: Vec<f32> = scores.into_iter().map(|score| (score / unit) as f32).collect();
         views.iter().filter(|view| self.gates.is_void(view)).for_each(|_| rejected.add(Fault::Void));
         while let Some(distribution) = Distribution1::new(&weights) {
             let chosen = distribution.sample(rng.next_f32()).0;

@@ -22,21 +22,22 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// All places from the one nearest to `start` on for which `allowed`. Empty when there is none near the start.
-    pub fn around(rules: &Rules, start: DVec3, allowed: impl Fn(DVec3) -> bool) -> Self {
+    /// All places from the first one, which is nearest to `start`, on for which `allowed(first, place)`. Empty when there is none near the
+    /// start.
+    pub fn around(rules: &Rules, start: DVec3, allowed: impl Fn(DVec3, DVec3) -> bool) -> Self {
         let tree = &rules.space.tree;
         let clearance = rules.config.clearance_m + MARGIN_VOXELS * tree.resolution_m();
-        let is_place = |p: DVec3| {
-            rules.is_free(p) && allowed(p) && !tree.any_within(p, clearance, enfilade_geometry::Voxel::Occupied) && rules.is_at_height(p)
-        };
+        let is_place =
+            |p: DVec3| rules.is_free(p) && !tree.any_within(p, clearance, enfilade_geometry::Voxel::Occupied) && rules.is_at_height(p);
         let mut places = Self { points: Vec::new(), keys: Vec::new(), index: HashMap::new(), is_cut: false };
         let Some(first) = nearest(rules, start, &is_place) else { return places };
-        places.add(first, tree.center(first));
+        let origin = tree.center(first);
+        places.add(first, origin);
         let mut done = 0;
         while done < places.keys.len() && !places.is_cut {
             for next in neighbours(places.keys[done]) {
                 let p = tree.center(next);
-                if !places.index.contains_key(&next.0) && is_place(p) {
+                if !places.index.contains_key(&next.0) && allowed(origin, p) && is_place(p) {
                     places.add(next, p);
                 }
             }

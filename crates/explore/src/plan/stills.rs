@@ -60,7 +60,7 @@ pub(super) fn stills(planner: &Planner, first: Pose, stills: &StillsConfig, rng:
 
 /// All places within reach of a position.
 pub(super) fn reachable(planner: &Planner, position: DVec3) -> Result<Places, ExploreError> {
-    let places = Places::around(planner.rules, position, |_| true);
+    let places = Places::around(planner.rules, position, |_, _| true);
     if places.points.is_empty() {
         return Err(ExploreError::NoPlaces { trajectory: planner.name.to_string(), position, clearance_m: planner.config.clearance_m });
     }

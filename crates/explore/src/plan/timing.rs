@@ -17,7 +17,7 @@ pub(super) struct Schedule {
 }
 
 impl Schedule {
-    /// The earliest times, at rest at first. The speed is bounded, and so are its change along the path (both ways), the acceleration
+    /// The earliest times, at rest at first and at last. The speed is bounded, and so are its change along the path (both ways), the acceleration
     /// sideways where the path bends, and the rate of turning.
     pub fn earliest(nodes: &[Pose], bounds: &VideoConfig) -> Self {
         let steps: Vec<DVec3> = nodes.windows(2).map(|pair| pair[1].position - pair[0].position).collect();
@@ -25,7 +25,9 @@ impl Schedule {
         let turn = AIM * bounds.max_turn_deg_s.to_radians();
         let push = AIM * bounds.max_acceleration_m_s2;
         let mut speeds = limits(&steps, &turns, AIM * bounds.max_speed_m_s, turn, push);
+        // At rest at the end too, should the path be shorter than was thought: nothing may stop dead.
         speeds[0] = 0.0;
+        speeds[steps.len()] = 0.0;
         for k in 0..steps.len() {
             speeds[k + 1] = speeds[k + 1].min((speeds[k] * speeds[k] + 2.0 * push * steps[k].length()).sqrt());
         }

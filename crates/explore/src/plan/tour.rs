@@ -41,11 +41,15 @@ impl<'a> Polyline<'a> {
     }
 }
 
+/// Heights of places in one layer of voxels may differ by this.
+const ROUNDING_M: f64 = 1e-6;
+
 /// A way of at least `length_m`. When every waypoint was visited it goes round again.
 pub(super) fn tour(planner: &Planner, start: DVec3, length_m: f64, video: &VideoConfig, rng: &mut Rng) -> Result<Tour, ExploreError> {
-    let range = planner.config.height_range_m;
+    // From the height of the first place, since places are centres of voxels.
+    let range = planner.config.height_range_m + ROUNDING_M;
     let free_height = planner.config.camera_height_m.is_none();
-    let places = Places::around(planner.rules, start, |p| !free_height || (p.z - start.z).abs() <= range);
+    let places = Places::around(planner.rules, start, |first, p| !free_height || (p.z - first.z).abs() <= range);
     if places.points.is_empty() {
         return Err(ExploreError::NoPlaces { trajectory: planner.name.into(), position: start, clearance_m: planner.config.clearance_m });
     }
@@ -56,7 +60,7 @@ pub(super) fn tour(planner: &Planner, start: DVec3, length_m: f64, video: &Video
     while length < length_m {
         if left.is_empty() {
             if found == 0 {
-                return Err(no_way(planner, start, "there is no second place to go to"));
+                return Err(no_way(planner, start, "there is no second place to go to; lower clearance_m"));
             }
             (left, found) = (waypoints.clone(), 0);
         }
@@ -84,13 +88,19 @@ pub(super) fn no_way(planner: &Planner, position: DVec3, problem: impl Into<Stri
     ExploreError::NoWay { trajectory: planner.name.into(), position, problem: problem.into() }
 }
 
-/// Places at least `distance_m` apart, and as dense as that allows; ascending.
+/// Places at least `distance_m` apart, and as dense as that allows; where that leaves a single one, the place farthest from it as well.
+/// Ascending.
 fn waypoints(places: &Places, distance_m: f64, rng: &mut Rng) -> Vec<usize> {
     let mut chosen: Vec<usize> = Vec::new();
     for place in places.shuffled(rng) {
         if chosen.iter().all(|other| places.points[*other].distance(places.points[place]) >= distance_m) {
             chosen.push(place);
         }
+    }
+    if let [only] = chosen[..] {
+        let distance = |place: usize| places.points[place].distance(places.points[only]);
+        let farthest = (0..places.points.len()).filter(|place| *place != only);
+        chosen.extend(farthest.max_by(|a, b| distance(*a).total_cmp(&distance(*b))));
     }
     chosen.sort_unstable();
     chosen

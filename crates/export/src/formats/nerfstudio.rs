@@ -2,12 +2,12 @@
 //!
 //! `transform_matrix` is camera to world with OpenGL's axes (x right, y up, z backward), metres, the world right-handed with z up.
 //! Image coordinates count from the upper left corner, so that pixel centres lie at halves, as nerfstudio's rays do. Depth is planar,
-//! 16-bit PNG in millimetres (its default unit), 0 for none. The parser takes one `camera_model` per file, so the cameras of a scene
+//! of fisheyes the distance along the ray, 16-bit PNG in millimetres (its default unit), 0 for none. The parser takes one `camera_model` per file, so the cameras of a scene
 //! must be of one model; their calibration is told per frame.
 
 use crate::ExportError;
 use crate::calibration::{Calibration, Distortion};
-use crate::depth::{DEPTH, millimetres, planar_m};
+use crate::depth::{DEPTH, distance_m, millimetres, planar_m};
 use crate::picture::{SHOWN, color_png, grey16_png};
 use crate::place::Place;
 use crate::points::{cloud, ply};
@@ -19,7 +19,8 @@ pub(crate) const README: &str = "\
 
 `ns-train splatfacto --data <scene>` and others load `<scene>/transforms.json`.
 
-- `images/<camera>/frame.IIII.png`: tone-mapped colour. `depth/<camera>/frame.IIII.png`: planar depth, 16 bits, millimetres, 0 is none.
+- `images/<camera>/frame.IIII.png`: tone-mapped colour. `depth/<camera>/frame.IIII.png`: planar depth, of fisheyes the distance
+  along the ray, 16 bits, millimetres, 0 is none.
 - `transform_matrix`: camera to world; camera x right, y up, z backward; metres; the world is right-handed with z up.
 - Calibration stands in every frame; cx and cy count from the upper left corner of the image (pixel centres at halves).
 - `sparse_pc.ply` has coloured points on the surfaces, in the same world.
@@ -97,7 +98,12 @@ fn calibration(source: &Source<'_>, track: &Track) -> Result<Calibration, Export
 
 fn write_frame(source: &Source<'_>, place: &Place, view: View<'_>) -> Result<(), ExportError> {
     let frame = source.read(view, &[&SHOWN[..], &DEPTH].concat())?;
-    let depth = planar_m(source, view, &calibration(source, view.track)?, &frame)?;
+    let calibration = calibration(source, view.track)?;
+    // Its rays of fisheyes have unit length, which its depth is counted in.
+    let depth = match calibration.distortion {
+        Distortion::Fisheye(_) => distance_m(source, view, &frame)?,
+        _ => planar_m(source, view, &calibration, &frame)?,
+    };
     let depth: Vec<u16> = depth.into_iter().map(millimetres).collect();
     let scene = &view.track.scene;
     place.write(&format!("{scene}/{}", file(view, "images")), &color_png(source, view, &frame)?)?;

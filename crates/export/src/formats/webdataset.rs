@@ -8,7 +8,8 @@ use crate::calibration::{Calibration, Distortion};
 use crate::numpy::npy;
 use crate::picture::color_png;
 use crate::place::Place;
-use crate::source::{Source, View};
+use crate::source::{Source, Track, View};
+use enfilade_dataset::{Window, turn_planar_depth};
 use enfilade_frame::{LAYERS, Layer};
 use serde::Serialize;
 use std::fs::File;
@@ -21,7 +22,7 @@ pub(crate) const README: &str = "\
 `shard-NNNNNN.tar`: every frame is a sample with the key `<scene>/<camera>/IIII`, in the order of scene, camera and frame.
 
 - `color.png`: tone-mapped colour. `<layer>.npy`: the layer's values as the dataset has them (units and spaces: `layers` in its
-  manifest.json; `depth_meters` is the distance along the ray, `depth_z_meters` is planar).
+  manifest.json; `depth_meters` is the distance along the ray, `depth_z_meters` is planar, along the axis of K).
 - `json`: scene, camera, frame, width, height, K (OpenCV's: pixel centres at whole numbers) with model and distortion, and
   world_from_camera (x right, y down, z forward; metres; the world is right-handed with z up).
 - With the webdataset library: `wds.WebDataset('shard-{000000..000003}.tar').decode('rgb')`.
@@ -60,7 +61,14 @@ pub(crate) fn write(source: &Source<'_>, place: &Place, shard_bytes: u64) -> Res
 }
 
 fn sample(source: &Source<'_>, view: View<'_>) -> Result<Sample, ExportError> {
-    let frame = source.read(view, &LAYERS.map(|spec| spec.layer))?;
+    let mut frame = source.read(view, &LAYERS.map(|spec| spec.layer))?;
+    let Track { scene, name, .. } = view.track;
+    let is_stored = source.dataset.stored_layer(scene, name, view.frame(), Layer::DepthZMeters) == Layer::DepthZMeters;
+    if let Some(mut depth_z) = frame.get(Layer::DepthZMeters).filter(|_| is_stored).cloned() {
+        let whole = Window { top: 0, left: 0, height: frame.height as usize, width: frame.width as usize };
+        turn_planar_depth(&view.track.camera.projection, whole, &mut depth_z);
+        frame.insert(Layer::DepthZMeters, depth_z);
+    }
     if frame.pixels() == 0 {
         return Err(source.unsuitable(view.place(), "it has none of the layers asked for; choose others with --layers"));
     }

@@ -4,14 +4,31 @@ use super::{Inputs, Job, Outcome, Record, Stage};
 use crate::config::{CameraChoice, closest};
 use crate::error::Error;
 use crate::report::{StageCx, count};
-use crate::workdir::{Hash, write_json};
-use enfilade_explore::{CarveConfig, FreeSpace, StartsConfig};
+use crate::workdir::{Hash, read_json, write_json};
+use enfilade_explore::{CarveConfig, FreeSpace, StartReport, StartsConfig};
 use enfilade_math::DVec3;
 use enfilade_scene::{Pose, Scene, StartCamera};
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// The cameras where trajectories begin, in the work folder.
 pub(super) const STARTS: &str = "starts.json";
+
+/// One of them.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Start {
+    #[serde(flatten)]
+    pub camera: StartCamera,
+    /// False where it was skipped, because it stands in a wall or outside.
+    pub is_used: bool,
+}
+
+/// All of them; there is at least one.
+pub(super) fn starts(job: &Job) -> Result<Vec<Start>, Error> {
+    read_json(&job.work_file(STARTS)?)
+        .filter(|starts: &Vec<Start>| !starts.is_empty())
+        .ok_or_else(|| Error::scene("the list of start cameras cannot be read", "make it again: enfilade carve --force"))
+}
 
 pub(super) fn settings(job: &Job) -> Hash {
     Hash::of(&(&job.scene.carve, &job.scene.cameras, exploring_seed(job)))
@@ -29,8 +46,10 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let config = CarveConfig { seed: exploring_seed(job), ..job.scene.carve.clone() };
     let space = enfilade_explore::carve(&world.mesh, &world.bvh, &positions, &config, cx).map_err(Error::stage)?;
     job.dataset.write_free_space(name, &space.tree.to_bt(), space.free_min, space.free_max).map_err(Error::stage)?;
-    write_json(&job.work_file(STARTS)?, &starts)?;
     let summary = summary(&space, starts.len());
+    let start = |(camera, report): (StartCamera, &StartReport)| Start { camera, is_used: report.used.is_some() };
+    let starts: Vec<Start> = starts.into_iter().zip(&space.report.starts).map(start).collect();
+    write_json(&job.work_file(STARTS)?, &starts)?;
     let report = serde_json::to_value(&space.report).unwrap_or_default();
     Ok(Outcome { summary, outputs: outputs(job)?, report, ..Outcome::default() })
 }

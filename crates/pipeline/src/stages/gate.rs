@@ -4,7 +4,7 @@ use super::{Input, Inputs, Job, Outcome, Record, Stage, carve};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
 use crate::report::{StageCx, count};
-use crate::workdir::{Hash, read_json, remove_if_there, write_whole};
+use crate::workdir::{Hash, remove_if_there, write_whole};
 use enfilade_dataset::{JudgedView, ViewFault, ViewVerdict, write_bytes};
 use enfilade_post::picture::jpeg;
 use enfilade_post::view_gates::{GateAction, Judged, VIEW_GATES, gates_page};
@@ -28,7 +28,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     forget(job)?;
     let (layout, name, config) = (job.dataset.layout(), &job.scene.name, &job.scene.gate);
     let (scene, world) = (job.load_scene()?, job.load_world()?);
-    let keeper = Gatekeeper::new(&scene, &world, &starts(job)?, config)?;
+    let keeper = Gatekeeper::new(&scene, &world, &standing(job)?, config)?;
     let filmed = job.filmed()?;
     let total: usize = filmed.iter().map(|(_, trajectory)| trajectory.poses.len()).sum();
     let (mut judged, mut outputs): (Vec<Judged>, Vec<PathBuf>) = (Vec::new(), Vec::new());
@@ -76,11 +76,10 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     Ok(Outcome { summary, outputs, ..Outcome::default() })
 }
 
-/// Where cameras are that stand on the right side of things.
-pub(super) fn starts(job: &Job) -> Result<Vec<StartCamera>, Error> {
-    read_json(&job.work_file(carve::STARTS)?)
-        .filter(|starts: &Vec<StartCamera>| !starts.is_empty())
-        .ok_or_else(|| Error::scene("the list of start cameras cannot be read", "make it again: enfilade carve --force"))
+/// Where cameras are that stand on the right side of things: carving began there.
+pub(super) fn standing(job: &Job) -> Result<Vec<StartCamera>, Error> {
+    let used = carve::starts(job)?.into_iter().filter(|start| start.is_used);
+    Ok(used.map(|start| start.camera).collect())
 }
 
 /// The verdicts, as inputs of later stages.

@@ -88,7 +88,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Carve,
         name: "carve",
         about: "scene -> free space (octomap.bt)",
-        version: 2,
+        version: 3,
         settings: carve::settings,
         inputs: carve::inputs,
         run: carve::run,

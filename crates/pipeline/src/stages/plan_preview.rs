@@ -3,7 +3,6 @@
 use super::{Job, carve};
 use crate::error::Error;
 use crate::report::{Event, StageCx, Stopwatch, count, count_of};
-use crate::workdir::read_json;
 use enfilade_geometry::OccupancyTree;
 use enfilade_post::planview::{Planned, write_plan_preview};
 use enfilade_scene::{Camera, StartCamera, Trajectory};
@@ -15,7 +14,7 @@ pub(crate) fn draw_plan(job: &Job, cx: &StageCx) -> Result<PathBuf, Error> {
     cx.event(Event::Started);
     let name = &job.scene.name;
     let filmed: Vec<(Camera, Trajectory)> = job.filmed()?;
-    let starts: Vec<StartCamera> = read_json(&job.work_file(carve::STARTS)?).unwrap_or_default();
+    let starts: Vec<StartCamera> = carve::starts(job)?.into_iter().map(|start| start.camera).collect();
     let (bt, _, _) = job.dataset.read_free_space(name).map_err(Error::stage)?;
     let tree = OccupancyTree::from_bt(&bt).map_err(Error::stage)?;
     let world = job.load_world()?;

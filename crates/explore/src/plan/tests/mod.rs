@@ -7,7 +7,7 @@ mod walk;
 
 use super::*;
 use crate::testroom::{Room, furnished_room};
-use crate::{CarveConfig, carve};
+use crate::{CarveConfig, Saliency, carve};
 use enfilade_math::{DMat3, DVec3};
 use enfilade_scene::{Quiet, Warning};
 use std::sync::Mutex;

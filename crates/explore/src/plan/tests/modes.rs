@@ -104,6 +104,42 @@ fn a_video_keeps_its_bounds_from_frame_to_frame() {
 }
 
 #[test]
+fn a_video_of_a_small_room_goes_to_and_fro_at_one_height_and_rests_at_the_ends() {
+    // No two places are as far apart as waypoints.
+    let room = Room::with_walls(DVec3::new(2.0, 1.5, 0.0), DVec3::new(4.0, 3.5, 2.5), 0.1);
+    let space = carved(&room);
+    let video = VideoConfig { max_acceleration_m_s2: 5.0, max_turn_deg_s: 360.0, ..VideoConfig::default() };
+    let config = PlanConfig { mode: Mode::Video(video.clone()), frames: 300, height_range_m: 0.0, min_look_distance_m: 0.3, ..quick() };
+    let poses = trajectory(&room, &space, &start(), 0, &config, &Quiet).unwrap().poses;
+    let speeds: Vec<f64> = poses.windows(2).map(|pair| pair[0].position.distance(pair[1].position) * video.fps).collect();
+    let moved = speeds.iter().sum::<f64>() / video.fps;
+    assert!(moved > 2.0, "{moved} m, so further than from one end to the other");
+    assert!(poses.iter().all(|pose| (pose.position.z - poses[0].position.z).abs() < 1e-9));
+    let braking = speeds.windows(2).map(|pair| (pair[1] - pair[0]).abs() * video.fps).fold(0.0, f64::max);
+    assert!(braking <= 1.1 * 2f64.sqrt() * video.max_acceleration_m_s2, "{braking} m/s²");
+}
+
+#[test]
+fn exponents_that_leave_no_choice_are_refused_and_great_scores_are_compared() {
+    let room = furnished_room();
+    let space = carved(&room);
+    let with = |alpha| PlanConfig { saliency: Saliency::Triangles { alpha, beta: 2.0 }, ..quick() };
+    for alpha in [17.0, -1.0, f64::NAN] {
+        let error = trajectory(&room, &space, &start(), 0, &with(alpha), &Quiet).unwrap_err().to_string();
+        assert!(error.contains("saliency") && error.contains("exponents from 0 to 16"), "{error}");
+    }
+    // Hundreds of triangles to the power of 16 are more than single precision holds.
+    let config = PlanConfig { max_near_share: 1.0, ..with(16.0) };
+    with_planner(&room, &space, &config, |planner| {
+        let candidates = stills::candidates(planner, 0, start().position, &mut Rng::new(5));
+        let mut views = planner.views(&candidates);
+        views.iter_mut().for_each(|view| view.triangles += 300);
+        assert!(views.iter().any(|view| planner.score(view) > f64::from(f32::MAX)));
+        assert!(planner.choose(&candidates, &views, None, &mut RejectedCounts::default(), &mut Rng::new(1)).is_some());
+    });
+}
+
+#[test]
 fn a_slower_video_takes_the_same_path() {
     let room = furnished_room();
     let space = carved(&room);
@@ -133,7 +169,7 @@ fn stills_keep_their_distance_and_fill_the_room() {
         }
     }
     // Blue noise: as dense as the distance allows, so (nearly) no place is farther than that from all stills.
-    let places = places::Places::around(&Rules::new(&room.bvh, &space, &config), start().position, |_| true).points;
+    let places = places::Places::around(&Rules::new(&room.bvh, &space, &config), start().position, |_, _| true).points;
     let lonely = places.iter().filter(|p| poses.iter().all(|pose| pose.position.distance(**p) > 0.8 + 0.1)).count();
     assert!(poses.len() > 40 && lonely * 50 < places.len(), "{} stills, {lonely} of {} places without one near", poses.len(), places.len());
 }
