@@ -79,8 +79,7 @@ pub fn turn_planar_depth(projection: &Projection, part: Window, depth_z: &mut Va
         return;
     }
     for (i, value) in values.iter_mut().enumerate() {
-        let (x, y) = (part.left + i % part.width, part.top + i / part.width);
-        let ray = projection.ray(x as f64 + 0.5, y as f64 + 0.5).unwrap_or(DVec3::NAN);
+        let ray = ray_in_part(projection, part, i);
         *value = (f64::from(*value) * (ray.dot(axis) / -ray.z)) as f32;
     }
 }
@@ -88,11 +87,14 @@ pub fn turn_planar_depth(projection: &Projection, part: Window, depth_z: &mut Va
 /// [`planar_depth`] of the pixels of a part of the image.
 pub(crate) fn planar_depth_of_part(projection: &Projection, part: Window, distance: &Values) -> Vec<f32> {
     let axis = projection.image_axis();
-    let forward = |i: usize| {
-        let (x, y) = (part.left + i % part.width, part.top + i / part.width);
-        projection.ray(x as f64 + 0.5, y as f64 + 0.5).map_or(DVec3::NAN, DVec3::normalize).dot(axis)
-    };
+    let forward = |i: usize| ray_in_part(projection, part, i).normalize().dot(axis);
     (0..distance.len()).map(|i| (distance.get(i) * forward(i)) as f32).collect()
+}
+
+/// The ray through the centre of pixel `i` of a part of the image, in camera space; NaN where it shows nothing.
+fn ray_in_part(projection: &Projection, part: Window, i: usize) -> DVec3 {
+    let (x, y) = (part.left + i % part.width, part.top + i / part.width);
+    projection.ray(x as f64 + 0.5, y as f64 + 0.5).unwrap_or(DVec3::NAN)
 }
 
 #[cfg(test)]

@@ -230,7 +230,7 @@ impl Samples {
         };
         if layer == Layer::DepthZMeters && is_there && !self.options.stored && self.options.cameras {
             let part = part.unwrap_or(Window { top: 0, left: 0, height, width });
-            turn_planar_depth(&projection()?, part, &mut values);
+            turn_planar_depth(&self.camera_calibration(index)?.0, part, &mut values);
         }
         Ok(Image { height, width, channels: layer.spec().channels, values })
     }

@@ -48,11 +48,9 @@ impl Budget {
             .collect();
         let total: f64 = errors.iter().map(|&e| f64::from(e)).sum();
         let n = errors.len() as f64;
-        if !total.is_finite() {
-            return vec![self.mean; errors.len()];
-        }
-        if total == 0.0 {
-            return vec![if self.noise.is_some() { self.first } else { self.mean }; errors.len()];
+        if !(total > 0.0 && total.is_finite()) {
+            let is_clean = total == 0.0 && self.noise.is_some();
+            return vec![if is_clean { self.first } else { self.mean }; errors.len()];
         }
         // The variance that is left, Σ e²/n, is least for a given number of samples when n is in proportion to e.
         let most = MOST * self.mean as f32;

@@ -226,7 +226,7 @@ impl<'a, 's> Integrator<'a, 's> {
         }
         let ray = surface.shadow_ray(light.wi, light.target);
         let crosses = wi.z < 0.0;
-        let medium = if crosses { medium.beyond(surface) } else { medium };
+        let medium = medium.after(surface, crosses);
         // Of a body that is not closed, which light from infinity can leave, directions do not know how far it goes either.
         let absorbed = if light.target.is_some() { medium.transmittance(ray.t_max) } else { Rgb::WHITE };
         let arriving = self.scene.transmittance(&ray) * absorbed;

@@ -52,8 +52,13 @@ impl Medium {
         if self.is_clear() { Rgb::WHITE } else { self.absorption.map(|a| (-a * distance.min(f32::MAX)).exp()) }
     }
 
-    /// On the other side of a border: a body's when it was entered, none when it was left.
-    pub fn beyond(self, border: &Surface<'_>) -> Self {
+    /// After a border, on its other side if it `crosses` that: a body's when it was entered, none when it was left.
+    #[inline]
+    pub fn after(self, border: &Surface<'_>, crosses: bool) -> Self {
+        if crosses { self.beyond(border) } else { self }
+    }
+
+    fn beyond(self, border: &Surface<'_>) -> Self {
         let Some((eta, absorption)) = body(&border.material.bsdf) else { return self };
         if border.outside {
             Self { absorption, compression: self.compression / (eta * eta) }
@@ -155,7 +160,7 @@ impl<'a, 's> Vertex<'a, 's> {
         }
         let (value, bsdf_pdf) = self.bsdf.eval_pdf(self.wo, wi);
         let pdf = share * light_pdf + (1.0 - share) * bsdf_pdf;
-        let medium = if side < 0.0 { before.medium.beyond(surface) } else { before.medium };
+        let medium = before.medium.after(surface, side < 0.0);
         Some((value * (1.0 / pdf), self.segment(direction, side, Some((LightPoint::on(surface), pdf)), medium)))
     }
 
@@ -183,7 +188,7 @@ impl<'a, 's> Vertex<'a, 's> {
             Event::Straight => before.sampled,
         };
         let straight = sample.event == Event::Straight;
-        let medium = if side < 0.0 && !straight { before.medium.beyond(surface) } else { before.medium };
+        let medium = before.medium.after(surface, side < 0.0 && !straight);
         Some((weight, Segment { straight, ..self.segment(direction, side, sampled, medium) }))
     }
 

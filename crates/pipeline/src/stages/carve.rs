@@ -16,15 +16,25 @@ pub(super) const STARTS: &str = "starts.json";
 
 /// One of them.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Start {
+struct Start {
     #[serde(flatten)]
-    pub camera: StartCamera,
-    /// False where it was skipped, because it stands in a wall or outside.
-    pub is_used: bool,
+    camera: StartCamera,
+    /// True where it was skipped, because it stands in a wall or outside.
+    #[serde(default)]
+    is_skipped: bool,
 }
 
 /// All of them; there is at least one.
-pub(super) fn starts(job: &Job) -> Result<Vec<Start>, Error> {
+pub(super) fn starts(job: &Job) -> Result<Vec<StartCamera>, Error> {
+    Ok(read_starts(job)?.into_iter().map(|start| start.camera).collect())
+}
+
+/// Those that stand on the right side of things: carving began there.
+pub(super) fn standing(job: &Job) -> Result<Vec<StartCamera>, Error> {
+    Ok(read_starts(job)?.into_iter().filter(|start| !start.is_skipped).map(|start| start.camera).collect())
+}
+
+fn read_starts(job: &Job) -> Result<Vec<Start>, Error> {
     read_json(&job.work_file(STARTS)?)
         .filter(|starts: &Vec<Start>| !starts.is_empty())
         .ok_or_else(|| Error::scene("the list of start cameras cannot be read", "make it again: enfilade carve --force"))
@@ -47,7 +57,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let space = enfilade_explore::carve(&world.mesh, &world.bvh, &positions, &config, cx).map_err(Error::stage)?;
     job.dataset.write_free_space(name, &space.tree.to_bt(), space.free_min, space.free_max).map_err(Error::stage)?;
     let summary = summary(&space, starts.len());
-    let start = |(camera, report): (StartCamera, &StartReport)| Start { camera, is_used: report.used.is_some() };
+    let start = |(camera, report): (StartCamera, &StartReport)| Start { camera, is_skipped: report.used.is_none() };
     let starts: Vec<Start> = starts.into_iter().zip(&space.report.starts).map(start).collect();
     write_json(&job.work_file(STARTS)?, &starts)?;
     let report = serde_json::to_value(&space.report).unwrap_or_default();

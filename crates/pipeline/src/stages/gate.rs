@@ -8,7 +8,7 @@ use crate::workdir::{Hash, remove_if_there, write_whole};
 use enfilade_dataset::{JudgedView, ViewFault, ViewVerdict, write_bytes};
 use enfilade_post::picture::jpeg;
 use enfilade_post::view_gates::{GateAction, Judged, VIEW_GATES, gates_page};
-use enfilade_scene::{CameraView, Cx, StartCamera, Trajectory, Warning};
+use enfilade_scene::{CameraView, Cx, Trajectory, Warning};
 use std::path::{Path, PathBuf};
 
 /// Frames named in a warning; of the others it says that there are more.
@@ -28,7 +28,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     forget(job)?;
     let (layout, name, config) = (job.dataset.layout(), &job.scene.name, &job.scene.gate);
     let (scene, world) = (job.load_scene()?, job.load_world()?);
-    let keeper = Gatekeeper::new(&scene, &world, &standing(job)?, config)?;
+    let keeper = Gatekeeper::new(&scene, &world, &carve::standing(job)?, config)?;
     let filmed = job.filmed()?;
     let total: usize = filmed.iter().map(|(_, trajectory)| trajectory.poses.len()).sum();
     let (mut judged, mut outputs): (Vec<Judged>, Vec<PathBuf>) = (Vec::new(), Vec::new());
@@ -74,12 +74,6 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         (_, GateAction::Report) => format!("{} of {} pass, reported: {}", total - faulty, count(total, "view"), tally(&judged)),
     };
     Ok(Outcome { summary, outputs, ..Outcome::default() })
-}
-
-/// Where cameras are that stand on the right side of things: carving began there.
-pub(super) fn standing(job: &Job) -> Result<Vec<StartCamera>, Error> {
-    let used = carve::starts(job)?.into_iter().filter(|start| start.is_used);
-    Ok(used.map(|start| start.camera).collect())
 }
 
 /// The verdicts, as inputs of later stages.

@@ -43,7 +43,7 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
-    let starts: Vec<StartCamera> = carve::starts(job)?.into_iter().map(|start| start.camera).collect();
+    let starts = carve::starts(job)?;
     let fov_x_rad = job.scene.fov_x_deg.map_or(starts[0].fov_x_rad, f64::to_radians);
     let camera = job.scene.camera.camera(job.scene.size, fov_x_rad, |path| job.config.path(path))?;
     let fov_x_rad = camera.projection.fov_x_rad(std::f64::consts::TAU);
@@ -156,7 +156,7 @@ fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) ->
     }
     let scene = job.load_scene()?;
     let rejects = job.scene.gate.action == GateAction::Reject && config.preset == Preset::Default;
-    let keeper = if rejects { Some(Gatekeeper::new(&scene, &world, &gate::standing(job)?, &job.scene.gate)?) } else { None };
+    let keeper = if rejects { Some(Gatekeeper::new(&scene, &world, &carve::standing(job)?, &job.scene.gate)?) } else { None };
     let accepts = |pose: &Pose| keeper.as_ref().is_none_or(|keeper| passes(job, keeper, camera, pose));
     let mut planned = Vec::new();
     let mut first_error = None;

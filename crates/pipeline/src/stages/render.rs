@@ -25,14 +25,13 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let filmed = job.filmed()?;
-    let mut total = 0;
-    for (_, trajectory) in &filmed {
+    let wanted = wanted(job, &filmed)?;
+    let total: usize = wanted.iter().map(BTreeSet::len).sum();
+    for ((_, trajectory), wanted) in filmed.iter().zip(&wanted) {
         job.dataset.remove_temporaries(&job.scene.name, &trajectory.name).map_err(Error::stage)?;
-        let wanted = job.frames_of(trajectory)?;
-        total += wanted.len();
-        remove_other_frames(job, trajectory, &wanted)?;
+        remove_other_frames(job, trajectory, wanted)?;
     }
-    let missing = missing(job, &filmed)?;
+    let missing = missing(job, &filmed, &wanted)?;
     let unfinished = missing.iter().flat_map(|m| m.frames.iter().map(|info| (m.trajectory.name.as_str(), info.pose.frame)));
     progressive::forget_all_but(job, unfinished)?;
     let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
@@ -48,15 +47,19 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 pub(crate) fn missing_frames(job: &Job) -> Result<FramesByTrajectory, Error> {
     let filmed = job.filmed()?;
     let frames = |m: &Missing| (m.trajectory.name.clone(), m.frames.iter().map(|info| info.pose.frame).collect());
-    Ok(missing(job, &filmed)?.iter().map(frames).collect())
+    Ok(missing(job, &filmed, &wanted(job, &filmed)?)?.iter().map(frames).collect())
+}
+
+/// The frames that each trajectory should have.
+fn wanted(job: &Job, filmed: &[(Camera, Trajectory)]) -> Result<Vec<BTreeSet<u32>>, Error> {
+    filmed.iter().map(|(_, trajectory)| job.frames_of(trajectory)).collect()
 }
 
 /// What is to be rendered of each trajectory of which not all is there.
-fn missing<'a>(job: &Job, filmed: &'a [(Camera, Trajectory)]) -> Result<Vec<Missing<'a>>, Error> {
+fn missing<'a>(job: &Job, filmed: &'a [(Camera, Trajectory)], wanted: &[BTreeSet<u32>]) -> Result<Vec<Missing<'a>>, Error> {
     let package = Input::of(&job.package()?)?.content;
     let mut missing = Vec::new();
-    for (camera, trajectory) in filmed {
-        let wanted = job.frames_of(trajectory)?;
+    for ((camera, trajectory), wanted) in filmed.iter().zip(wanted) {
         let config = RenderConfig { seed: job.scene.seed_for(&format!("render/{}", trajectory.name)), ..job.scene.render.clone() };
         let recipe = Recipe {
             program: program(),

@@ -187,13 +187,11 @@ mod tests {
     fn a_lens_without_an_image_plane_stands_upright_all_around() {
         let point = DVec2::new(0.3, 0.8);
         assert!(across(DVec3::NEG_Z, point).distance(point.extend(0.0)) < 1e-15, "as that of a pinhole");
+        let direction_at = |angle: f64| DVec3::new(angle.sin(), 0.4, -angle.cos());
         for k in 0..64 {
-            let (sin, cos) = (f64::from(k) * 0.1).sin_cos();
-            let direction = DVec3::new(sin, 0.4, -cos);
-            let (up, next) = (
-                across(direction, DVec2::Y),
-                across(DVec3::new((f64::from(k) * 0.1 + 1e-6).sin(), 0.4, -(f64::from(k) * 0.1 + 1e-6).cos()), DVec2::Y),
-            );
+            let angle = f64::from(k) * 0.1;
+            let direction = direction_at(angle);
+            let (up, next) = (across(direction, DVec2::Y), across(direction_at(angle + 1e-6), DVec2::Y));
             assert!(up.y > 0.9 && up.dot(direction).abs() < 1e-12 && up.distance(next) < 1e-5, "{direction}");
         }
         assert_eq!(across(DVec3::Y, DVec2::X), DVec3::X);
