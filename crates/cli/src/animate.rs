@@ -3,7 +3,7 @@
 use crate::args::AnimateArgs;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
-use enfilade_post::drivers::{AnimateConfig, Animated, animate_camera};
+use enfilade_post::drivers::{AnimateConfig, Animated, NoFrames, animate_camera};
 
 /// `animate`: films of the frames of each camera.
 pub fn animate(args: &AnimateArgs, quiet: bool) -> Result<Verdict, Problem> {
@@ -12,20 +12,29 @@ pub fn animate(args: &AnimateArgs, quiet: bool) -> Result<Verdict, Problem> {
     let chosen = enfilade_pipeline::select("camera", &dataset.camera_names(&scenes)?, args.camera.as_deref())?;
     let folder = args.output.clone().unwrap_or_else(|| dataset.layout().animations_dir());
     let config = AnimateConfig { format: args.format.into(), fps: args.fps };
-    let mut written: Vec<Animated> = Vec::new();
+    let (mut written, mut missing): (Vec<Animated>, Vec<NoFrames>) = (Vec::new(), Vec::new());
     {
         let progress = Progress::new(quiet);
         let cx = progress.begin(&args.dataset.display().to_string(), "animate");
         for scene in &scenes {
             for camera in dataset.cameras(scene)?.iter().filter(|camera| chosen.contains(camera)) {
                 let films = animate_camera(&dataset, [scene, camera], &args.layers, config, &folder, &cx);
-                written.extend(films.map_err(|error| Problem::found(&error))?);
+                for film in films.map_err(|error| Problem::found(&error))? {
+                    match film {
+                        Ok(film) => written.push(film),
+                        Err(none) => missing.push(none),
+                    }
+                }
             }
         }
     }
     for film in &written {
         let (name, megabytes) = (film.path.display(), film.bytes as f64 / 1e6);
         say(&format!("{name}: {} frames at {:.4} per second, {megabytes:.1} MB", film.frames, film.fps));
+    }
+    match missing.first() {
+        Some(none) if written.is_empty() => return Err(Problem::found(none)),
+        _ => missing.iter().for_each(|none| say(&format!("warning: {none}"))),
     }
     Ok(Verdict::Done)
 }

@@ -14,8 +14,9 @@ pub fn estimate(config: &Config, out: &Path, pattern: Option<&str>, price: Optio
         let progress = Progress::new(quiet);
         enfilade_pipeline::estimate(config, out, pattern, &progress)?
     };
-    if !result.ok() {
-        summary::print_table(&result);
+    match result.ok() {
+        true => summary::print_warnings(&result),
+        false => summary::print_table(&result),
     }
     let all = Forecast::sum(scenes.iter().map(|(_, forecast)| *forecast));
     let mut rows = scenes;

@@ -105,10 +105,7 @@ impl Reporter for Progress {
                 state.line(&format!("  {:<8} nothing to do", stage.name()));
             }
             Event::Finished { summary, wall_s } => {
-                let more = state.warnings.saturating_sub(WARNINGS_SHOWN);
-                if more > 0 {
-                    state.line(&format!("  {:<8} … and {more} more warnings", ""));
-                }
+                state.count_the_rest();
                 state.end();
                 state.line(&format!("  {:<8} {summary} ({wall_s:.1} s)", stage.name()));
             }
@@ -162,6 +159,14 @@ impl State {
         self.warnings += 1;
         if self.warnings <= WARNINGS_SHOWN {
             self.line(&format!("  {:<8} warning: {warning}", self.stage));
+        }
+    }
+
+    /// Says how many warnings were not shown.
+    fn count_the_rest(&mut self) {
+        let more = self.warnings.saturating_sub(WARNINGS_SHOWN);
+        if more > 0 {
+            self.line(&format!("  {:<8} … and {more} more warnings", ""));
         }
     }
 
@@ -221,6 +226,12 @@ impl Cx for VerbCx<'_> {
         if !state.quiet {
             state.warn(&warning);
         }
+    }
+}
+
+impl Drop for VerbCx<'_> {
+    fn drop(&mut self) {
+        self.0.lock().count_the_rest();
     }
 }
 

@@ -9,12 +9,13 @@ use enfilade_post::stats::{StatsConfig, write_statistics};
 /// `stats`: what the images show and what they cost.
 pub fn stats(args: &StatsArgs, quiet: bool) -> Result<Verdict, Problem> {
     let dataset = args.table.open(&args.dataset)?;
-    let config = StatsConfig {
-        scenes: enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?,
-        folder: args.output.clone(),
-        compare: args.compare.clone(),
-        prices: prices(args.price.as_deref())?,
-    };
+    let all = dataset.scenes()?;
+    let scenes = enfilade_pipeline::select("scene", &all, args.scene.as_deref())?;
+    if args.output.is_none() && scenes.len() < all.len() {
+        let message = format!("the dataset's statistics are of all its scenes, and {} of {} were chosen", scenes.len(), all.len());
+        return Err(Problem::new(message, "name a folder for statistics of some scenes with -o"));
+    }
+    let config = StatsConfig { scenes, folder: args.output.clone(), compare: args.compare.clone(), prices: prices(args.price.as_deref())? };
     let written = {
         let progress = Progress::new(quiet);
         let cx = progress.begin(&args.dataset.display().to_string(), "stats");

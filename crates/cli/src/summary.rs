@@ -18,13 +18,16 @@ pub fn print_table(summary: &Summary) {
             Problem::of_scene(&scene.name, failure).print();
         }
     }
-    for warning in &summary.warnings {
-        say(&format!("warning: {warning}; split.json has all"));
-    }
+    print_warnings(summary);
     let failed = summary.scenes.iter().filter(|s| s.failure.is_some()).count();
     if failed > 0 {
         say(&format!("{failed} of {} scenes failed.", summary.scenes.len()));
     }
+}
+
+/// What concerns the dataset as a whole, a line each.
+pub fn print_warnings(summary: &Summary) {
+    summary.warnings.iter().for_each(|warning| say(&format!("warning: {warning}")));
 }
 
 fn result_of(scene: &SceneOutcome) -> String {

@@ -12,7 +12,7 @@ use enfilade_dataset::CameraTable;
 use enfilade_export::intrinsics_csv;
 use enfilade_pipeline::{Config, Event, Overrides, Quality, RenderChoices, Reporter, Stage, Summary};
 use enfilade_post::drivers::inspect_pixel;
-use enfilade_post::verify::{verify_dataset, write_report};
+use enfilade_post::verify::write_report;
 use std::path::{Path, PathBuf};
 
 /// `run`: all stages.
@@ -132,7 +132,7 @@ pub fn verify(args: &VerifyArgs, quiet: bool) -> Result<Verdict, Problem> {
         let progress = Progress::new(quiet);
         let name = args.dataset.display().to_string();
         progress.on(&name, Stage::Verify, Event::Started);
-        verify_dataset(&dataset, &scenes, &progress.cx(&name, Stage::Verify))?
+        enfilade_pipeline::verify(&dataset, &scenes, &progress.cx(&name, Stage::Verify))?
     };
     say(report.to_text().trim_end());
     if args.scene.is_none() {

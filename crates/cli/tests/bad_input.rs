@@ -27,6 +27,45 @@ fn a_missing_configuration_and_a_missing_dataset_are_told() {
 }
 
 #[test]
+fn a_scene_in_place_of_the_configuration_is_told() {
+    let dir = folder();
+    write_room(dir.path(), "room", Lamp::On);
+    fail(dir.path(), &["run", "room.obj"], 2, &["room.obj is a scene", "write dataset.toml", "file = \"room.obj\""]);
+    // No text at all.
+    fs::write(dir.path().join("room.glb"), [b"glTF".as_slice(), &[0xff; 20]].concat()).unwrap();
+    fail(dir.path(), &["run", "room.glb"], 2, &["room.glb is a scene"]);
+}
+
+#[test]
+fn a_long_line_is_shown_in_part() {
+    let dir = folder();
+    fs::write(dir.path().join("room.json"), format!("{{\"nodes\": [{}]}}", "0, ".repeat(100_000))).unwrap();
+    let text = fail(dir.path(), &["run", "room.json"], 2, &["room.json:1:1: "]);
+    assert!(text.len() < 1000, "{} bytes", text.len());
+}
+
+#[test]
+fn what_late_stages_would_refuse_is_refused_before_the_first() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    fs::write(d.join("class.csv"), "material,nyu40_id\nwall,99\n").unwrap();
+    for (keys, words) in [
+        ("labels = \"nope.csv\"", ["there is no label table nope.csv", "^^^"]),
+        ("labels = \"class.csv\"", ["class.csv:2: class 99 is out of range", "^^^"]),
+        ("render.filter_radius = -1", ["filter_radius must be 0 or more", "^^"]),
+        ("camera = { model = \"ray_grid\", ray_grid = \"nope.hdf5\" }", ["there is no ray grid nope.hdf5", "^^^"]),
+        ("plan.mode = { kind = \"keyframes\", files = [] }", ["files = []: expected at least one file of poses", "^^^"]),
+        ("carve.voxel_m = 0", ["voxel_m = 0: expected a positive length", "^"]),
+    ] {
+        write_config(d, &[format!("{}{keys}\n", scene("room"))]);
+        let text = fail(d, &["run", "dataset.toml", "-o", "out"], 2, &words);
+        assert!(text.contains("dataset.toml:15:"), "{text}");
+    }
+    assert!(!d.join("out").exists());
+}
+
+#[test]
 fn an_unset_variable_is_named_with_its_line() {
     let dir = folder();
     fs::write(dir.path().join("dataset.toml"), "[[scene]]\nname = \"a\"\nfile = \"$ENFILADE_SCENES/a.gltf\"\n").unwrap();
@@ -138,6 +177,28 @@ fn arguments_out_of_their_range_are_told() {
     assert!(!dir.path().join("out").exists());
     let (code, out, _) = run(dir.path(), &["carve", "--help"]);
     assert!(code == 0 && out.contains("Example:"));
+}
+
+#[test]
+fn negative_numbers_are_values_and_not_flags() {
+    let dir = folder();
+    write_room(dir.path(), "room", Lamp::On);
+    for (args, word) in [
+        (&["inspect", "out", "--pixel", "-1,0"][..], "expected column and row"),
+        (&["run", "--demo", "out", "--frames", "-1"], "invalid value '-1' for '--frames <N>'"),
+        (&["run", "--demo", "out", "--time-limit", "-5s"], "the time limit must be above 0, found -5"),
+        (&["run", "--demo", "out", "--noise", "-2%"], "noise must lie between 0 and 1"),
+        (&["animate", "out", "--fps", "-1"], "out"),
+        (&["import", "room.obj", "--meters-per-unit", "-1"], "meters_per_unit"),
+        (&["split", "out", "--shares", "-1,50,51"], "out"),
+        // A value that was forgotten is not taken from the next flag.
+        (&["run", "--demo", "out", "--frames", "--quiet"], "a value is required for '--frames <N>'"),
+        (&["run", "--demo", "out", "--time-limit", "--quiet"], "expected a time, as in 90s"),
+    ] {
+        let (code, out, err) = run(dir.path(), args);
+        let text = format!("{out}\n{err}");
+        assert!(code != 0 && text.contains(word) && !text.contains("unexpected argument"), "{args:?}: {text}");
+    }
 }
 
 /// A file that takes no bytes stands for a full disk.

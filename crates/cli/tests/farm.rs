@@ -8,12 +8,12 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-/// Two scenes of three frames, with a label table, and what one machine makes of them in `whole`.
+/// Two scenes of three frames, with one label table, and what one machine makes of them in `whole`.
 fn write_scenes(d: &Path) {
     write_room(d, "room", Lamp::On);
     write_room(d, "den", Lamp::On);
     fs::write(d.join("labels.csv"), "material,nyu40_id\nwall,1\nwood,7\nlight,35\n").unwrap();
-    write_config(d, &[scene("room") + "labels = \"labels.csv\"\n", scene("den")]);
+    write_config(d, &["room", "den"].map(|name| scene(name) + "labels = \"labels.csv\"\n"));
 }
 
 /// Tasks of one frame each, since a thousandth of a second is less than any takes.
@@ -74,6 +74,41 @@ fn shares_of_the_work_come_together_as_one_machine_would_have_made_them() {
     succeed(d, &["verify", "out"]);
     let left: Vec<_> = fs::read_dir(d.join("scratch0")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left, ["cache"], "workers leave nothing but the cache");
+}
+
+#[test]
+fn a_folder_of_something_else_or_of_another_job_is_not_collected_into() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    fs::create_dir(d.join("papers")).unwrap();
+    fs::write(d.join("papers/thesis.tex"), "x").unwrap();
+    for (job, seed) in [("job", "4"), ("other", "5")] {
+        succeed(d, &["farm", "plan", "dataset.toml", "-o", job, "--seed", seed]);
+        succeed(d, &["farm", "work", job, "--shard", "0/1", "--scratch", "scratch"]);
+    }
+    fail(d, &["farm", "collect", "job", "-o", "papers"], 2, &["thesis.tex"]);
+    assert_eq!(fs::read_dir(d.join("papers")).unwrap().count(), 1);
+    succeed(d, &["farm", "collect", "job", "-o", "out"]);
+    let collected = contents(&d.join("out"));
+    fail(d, &["farm", "collect", "other", "-o", "out"], 2, &["another job", "empty folder"]);
+    assert_same(&collected, &contents(&d.join("out")));
+}
+
+#[test]
+fn a_camera_that_was_moved_makes_another_job() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room") + "[scene.plan]\nmode = { kind = \"keyframes\", files = [\"poses.csv\"] }\n"]);
+    let header = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z";
+    let poses = |x: f64| fs::write(d.join("poses.csv"), format!("{header}\n0,{x},-0.9,1.4,0.0,0.9,0.6\n2,{x},-0.8,1.4,0.0,0.9,0.6\n"));
+    poses(0.2).unwrap();
+    succeed(d, &["farm", "plan", "dataset.toml", "-o", "job"]);
+    succeed(d, &["farm", "plan", "dataset.toml", "-o", "job"]);
+    poses(0.3).unwrap();
+    fail(d, &["farm", "plan", "dataset.toml", "-o", "job"], 1, &["holds another job"]);
 }
 
 #[test]
@@ -194,6 +229,6 @@ fn engines_get_files_for_what_is_missing() {
     succeed(d, &["farm", "submit", "job", "--engine", "openjd", "-o", "openjd"]);
     assert!(fs::read_to_string(d.join("openjd/template.json")).unwrap().contains("\"range\": \"0,2\""));
     fail(d, &["farm", "submit", "job", "--engine", "aws-batch"], 2, &["--queue"]);
-    fail(d, &["farm", "status", "nowhere"], 2, &["holds no job"]);
+    fail(d, &["farm", "status", "nowhere"], 2, &["nowhere does not exist", "plan a job"]);
     fail(d, &["farm", "work", "ftp://x/y", "--task", "0"], 65, &["ftp://x/y"]);
 }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Lamp, fail, folder, scene, succeed, write_config, write_room};
+use common::{Lamp, assert_same, contents, fail, folder, scene, succeed, write_config, write_room};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -30,6 +30,19 @@ fn a_frame_comes_out_the_same() {
     assert!(text.contains("room/cam_00/frame.0001: 15 of 15 files have the same bytes"), "{text}");
     succeed(d, &["replay", RECORD, "-o", "again", "--threads", "1"]);
     assert_eq!(layers(&d.join("again")), layers(&d.join("out")));
+}
+
+#[test]
+fn a_frame_that_is_there_is_not_replaced() {
+    let dir = folder();
+    let d = dir.path();
+    dataset(d, &[]);
+    let (before, times) = (contents(&d.join("out")), fs::read(d.join("out/manifest_times.csv")).unwrap());
+    for out in ["out", "./out/../out"] {
+        fail(d, &["replay", RECORD, "-o", out], 2, &["room/cam_00/frame.0001 is in", "already", "name another folder with -o"]);
+    }
+    assert_same(&contents(&d.join("out")), &before);
+    assert_eq!(fs::read(d.join("out/manifest_times.csv")).unwrap(), times);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Lamp, assert_same, contents, enfilade, folder, scene, succeed, write_config, write_room};
+use common::{Lamp, assert_same, contents, enfilade, fail, folder, scene, succeed, write_config, write_room};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -51,6 +51,43 @@ fn a_second_run_does_nothing_and_a_changed_label_table_renders_nothing() {
 }
 
 #[test]
+fn a_label_table_that_cannot_be_read_changes_nothing() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    succeed(d, &["run", "dataset.toml", "-o", "out", "--frames", "1"]);
+    let before = contents(&d.join("out"));
+    fs::write(d.join("bad.csv"), "material,nyu40_id\nwall,many\n").unwrap();
+    fail(d, &["label", "out", "--table", "nope.csv"], 1, &["nope.csv", "check the path for a typing mistake"]);
+    fail(d, &["label", "out", "--table", "bad.csv"], 1, &["bad.csv"]);
+    assert!(succeed(d, &["label", "out"]).contains("nothing to do"));
+    assert_same(&contents(&d.join("out")), &before);
+    succeed(d, &["verify", "out"]);
+}
+
+#[test]
+fn scenes_of_the_folder_that_a_run_does_not_have_are_named() {
+    let dir = folder();
+    let d = dir.path();
+    ["a", "b"].iter().for_each(|name| drop(write_room(d, name, Lamp::On)));
+    let run = |scenes: &[String]| {
+        write_config(d, scenes);
+        succeed(d, &["run", "dataset.toml", "-o", "out", "--frames", "1"])
+    };
+    let text = run(&[scene("a")]);
+    assert!(!text.contains("warning:"), "{text}");
+    let frame = d.join("out/scenes/a/images/scene_cam_00_final_hdf5/frame.0000.color.hdf5");
+    let before = fs::read(&frame).unwrap();
+    let text = run(&[scene("b")]);
+    assert!(text.contains("warning: out also holds scenes that this configuration does not have: a; they stay as they are"), "{text}");
+    assert_eq!(fs::read(&frame).unwrap(), before);
+    fail(d, &["render", "out", "--scene", "a"], 2, &["no scene is named \"a\""]);
+    run(&[scene("a"), scene("b")]);
+    assert!(succeed(d, &["render", "out", "--scene", "a"]).contains("nothing to do"));
+}
+
+#[test]
 fn scenes_are_imported_again_when_a_file_comes_late_or_another_one_is_meant() {
     let dir = folder();
     let d = dir.path();
@@ -95,6 +132,30 @@ fn a_report_card_does_not_outlive_what_it_is_about() {
     assert!(!d.join("out/verify.json").exists());
     enfilade(d, &["run", "dataset.toml", "-o", "out", "--frames", "1", "--scenes", "a"]).output().unwrap();
     assert!(!passed(), "the other scene has changed since");
+}
+
+#[test]
+fn a_run_does_not_pass_what_the_verb_verify_has_found_broken() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    let run = ["run", "dataset.toml", "-o", "out", "--frames", "1"];
+    succeed(d, &run);
+    let layer = d.join("out/scenes/room/images/scene_cam_00_geometry_hdf5/frame.0000.position.hdf5");
+    let bytes = fs::read(&layer).unwrap();
+    let mut damaged = bytes.clone();
+    damaged[bytes.len() / 2] ^= 1;
+    fs::write(&layer, damaged).unwrap();
+    fail(d, &["verify", "out"], 1, &["FAIL"]);
+    for _ in 0..2 {
+        fail(d, &run, 1, &["room: `verify` failed:", "do not hold"]);
+        let card: serde_json::Value = serde_json::from_slice(&fs::read(d.join("out/verify.json")).unwrap()).unwrap();
+        assert_eq!(card["passed"], false);
+    }
+    fs::write(&layer, bytes).unwrap();
+    assert!(succeed(d, &run).contains("laws hold"));
+    assert!(succeed(d, &run).contains("Nothing to do"));
 }
 
 #[test]
@@ -176,7 +237,7 @@ fn a_dataset_in_use_is_left_alone() {
     while !d.join("out/.enfilade/run.json").exists() {
         std::thread::sleep(Duration::from_millis(5));
     }
-    common::fail(d, &["run", "dataset.toml", "-o", "out"], 2, &["another process (process", "working on out"]);
+    fail(d, &["run", "dataset.toml", "-o", "out"], 2, &["another process (process", "working on out"]);
     child.kill().unwrap();
     child.wait().unwrap();
     succeed(d, &["import", "out"]);

@@ -79,6 +79,20 @@ fn stages_run_one_by_one_and_pixels_answer() {
 }
 
 #[test]
+fn a_scene_that_cannot_be_rendered_is_named_beside_the_forecasts_of_the_others() {
+    let dir = folder();
+    let d = dir.path();
+    for (name, lamp) in [("a", Lamp::On), ("b", Lamp::Off), ("c", Lamp::On)] {
+        write_room(d, name, lamp);
+    }
+    write_config(d, &["a", "b", "c"].map(scene));
+    let words = ["b: `render` failed: the scene has no light", "1 of 3 scenes failed"];
+    let text = fail(d, &["run", "dataset.toml", "-o", "out", "--estimate"], 1, &words);
+    let is_forecast = |name: &str| text.lines().any(|line| line.starts_with(&format!("{name} ")) && line.contains(" MB ("));
+    assert_eq!(["a", "b", "c", "all"].map(is_forecast), [true, false, true, true], "{text}");
+}
+
+#[test]
 fn a_run_is_forecast_before_it_and_counted_after_it() {
     let dir = folder();
     let d = dir.path();

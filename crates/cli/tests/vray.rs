@@ -29,7 +29,7 @@ fn a_scene_goes_through_the_toolkits_steps() {
         fs::read_to_string(d.join("nodes.csv")).unwrap(),
         "node_id,node_name,object_id,object_name\n1,chair@node_1,1,chair\n2,gone@node_2,-1,_NULL_OBJECT\n"
     );
-    assert!(fs::read_to_string(d.join("strings.csv")).unwrap().contains("1,chair@node_1.scene_name,a chair"));
+    assert!(fs::read_to_string(d.join("strings.csv")).unwrap().contains("1,<root>.scene_name,a chair"));
     step("layers", &["--denoiser", "--hypersim-quality"]);
     step("pass", &["--pass", "final", "--light-cache", "/mnt/a.vrlmap", "--irradiance-map", "/mnt/a.vrmap"]);
     step("reduce", &["--size"]);

@@ -5,7 +5,6 @@
 //! Everything is float64. Row 0, and the row of every number that no object has, holds +∞, as in Hypersim's files (its maintainer speaks
 //! of NaN).
 
-use crate::camera_files::optional;
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
 use crate::{Dataset, DatasetError, check_name, replace_file};
 use enfilade_math::{DMat3, DVec3, OrientedBox};
@@ -68,10 +67,10 @@ impl Dataset {
             .try_for_each(|(path, array)| replace_file(path, |aside| write_array(aside, array, Storage::Contiguous, &[])))
     }
 
-    /// The boxes of a kind in metres; entry i is instance i. Without `metadata_scene.csv` the files are taken to be in metres.
+    /// The boxes of a kind in metres; entry i is instance i. Where nothing says the unit, files of ours are taken to be in metres.
     ///
     /// # Errors
-    /// When a file is missing or damaged, or the three do not belong together.
+    /// When a file is missing or damaged, or the three do not belong together, and when nothing says the unit of a release.
     pub fn read_boxes(&self, scene: &str, kind: BoxKind) -> Result<Vec<Option<OrientedBox>>, DatasetError> {
         let files = self.box_files(scene, kind);
         let read = |index: usize, width: usize| {
@@ -89,7 +88,7 @@ impl Dataset {
             let problem = "it has another number of rows than the positions or orientations beside it; run the boxes stage again";
             return Err(DatasetError::hdf5(&files[0], problem));
         }
-        let metres = optional(self.meters_per_asset_unit(scene))?.unwrap_or(1.0);
+        let metres = self.meters_per_stored_unit(scene)?;
         let row = |i: usize| OrientedBox {
             center: DVec3::from_slice(&positions[3 * i..]) * metres,
             world_from_box: DMat3::from_cols_slice(&orientations[9 * i..]).transpose(),
@@ -113,6 +112,11 @@ mod tests {
         let made = OrientedBox { center: DVec3::new(1.0, 2.0, 3.0), world_from_box, extents: DVec3::new(4.0, 1.0, 0.0) };
         for kind in BoxKind::ALL {
             dataset.write_boxes("room", kind, &[None, Some(made), None]).unwrap();
+        }
+        let message = dataset.read_boxes("room", BoxKind::AxisAligned).unwrap_err().to_string();
+        assert!(message.contains("metadata_scene.csv"), "nothing says whose scene it is, nor its unit: {message}");
+        dataset.write_nodes("room", &[]).unwrap();
+        for kind in BoxKind::ALL {
             assert_eq!(dataset.read_boxes("room", kind).unwrap(), [None, Some(made), None]);
         }
         let [_, orientations, _] = dataset.box_files("room", BoxKind::ObjectAligned2d);

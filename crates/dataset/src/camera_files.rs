@@ -66,14 +66,14 @@ impl Dataset {
         table.map_or(Ok(FRAME_TIME_S), |table| table.parameter("frame_time_seconds"))
     }
 
-    /// A camera's trajectory in metres; where nothing says the unit, the files are taken to be in metres. Without look-at positions
+    /// A camera's trajectory in metres; where nothing says the unit, files of ours are taken to be in metres. Without look-at positions
     /// the point one metre ahead stands for each, and without frame numbers they count from 0.
     ///
     /// Orientations that are off a rotation become the nearest one: Hypersim's frame 0 has the artist's matrix, which may be stretched.
     /// Those that mirror stay as they are.
     ///
     /// # Errors
-    /// When an array is missing, damaged, or of another shape or length than the others.
+    /// When an array is missing, damaged, or of another shape or length than the others, and when nothing says the unit of a release.
     pub fn read_trajectory(&self, scene: &str, camera: &str) -> Result<Trajectory, DatasetError> {
         let mut trajectory = self.read_stored_trajectory(scene, camera)?;
         for pose in trajectory.poses.iter_mut().filter(|pose| pose.orthonormality_error() > ORTHONORMAL) {
@@ -99,7 +99,7 @@ impl Dataset {
             }
             frames => frames.unwrap_or_else(|| (0..n as u32).collect()),
         };
-        let metres = optional(self.meters_per_asset_unit(scene))?.unwrap_or(1.0);
+        let metres = self.meters_per_stored_unit(scene)?;
         let pose = |i: usize| {
             let rows: [f64; 9] = std::array::from_fn(|k| orientations[9 * i + k]);
             let world_from_camera = DMat3::from_cols_array(&rows).transpose();

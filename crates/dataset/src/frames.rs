@@ -2,18 +2,20 @@
 
 use crate::atomic::{create_parent, remove_if_there, rename, temporary};
 use crate::hdf5::{ArrayView, Packing, Storage, write_view};
-use crate::read::sorted_names;
+use crate::read::{frame_number, sorted_names};
 use crate::record::RECORD_FORMAT;
 use crate::{
     Dataset, DatasetError, DenoiseRecord, FileRecord, FrameRecord, FrameTime, LabelRecord, Recipe, Sampling, check_name, write_bytes,
 };
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
-use enfilade_scene::{Camera, Pose};
+use enfilade_scene::{Camera, Cx, Pose, Warning};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 use std::fs;
+use std::io;
+use std::ops::Range;
 use std::path::Path;
 
 /// What a frame was made from.
@@ -171,6 +173,46 @@ impl Dataset {
         record.is_some_and(|record| record.denoise_hash == denoise_hash && self.files_are_there(scene, &record.files))
     }
 
+    /// Why frames of a camera do not count although they have a commit record: the first file of each that is missing or has another
+    /// length. `complete` are those that count, as [`Dataset::frame_numbers`] gives them. Hypersim's own data have no records.
+    ///
+    /// # Errors
+    /// When the records' folder or a record cannot be read.
+    pub fn incomplete_frames(&self, scene: &str, camera: &str, complete: &[u32]) -> Result<BTreeMap<u32, DatasetError>, DatasetError> {
+        let records = self.layout().records_dir(scene, camera);
+        let names = if records.is_dir() { sorted_names(&records)? } else { Vec::new() };
+        let mut incomplete = BTreeMap::new();
+        for frame in names.iter().filter_map(|name| frame_number(name, "json")).filter(|frame| complete.binary_search(frame).is_err()) {
+            let record = self.frame_record(scene, camera, frame)?;
+            incomplete.extend(record.and_then(|record| self.wrong_file(scene, &record.files)).map(|problem| (frame, problem)));
+        }
+        Ok(incomplete)
+    }
+
+    /// Warns of what a reader of the `complete` frames of a camera leaves out of `range`; `None`: of all frames. One warning names the
+    /// first of [`Dataset::incomplete_frames`] and says how many more there are.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn warn_of_incomplete(
+        &self,
+        [scene, camera]: [&str; 2],
+        complete: &[u32],
+        range: Option<&Range<u32>>,
+        cx: &dyn Cx,
+    ) -> Result<(), DatasetError> {
+        let mut left_out = self.incomplete_frames(scene, camera, complete)?;
+        left_out.retain(|frame, _| range.is_none_or(|range| range.contains(frame)));
+        if let Some((frame, problem)) = left_out.first_key_value() {
+            let who = match left_out.len() - 1 {
+                0 => format!("frame {frame} is"),
+                more => format!("frame {frame} and {more} more are"),
+            };
+            cx.warn(Warning { place: format!("{scene}/{camera}"), message: format!("{who} left out: {problem}") });
+        }
+        Ok(())
+    }
+
     /// The commit record of a frame; `None` when it has none.
     ///
     /// # Errors
@@ -213,8 +255,26 @@ impl Dataset {
 
     /// True when all files of a record are there in full length.
     pub(crate) fn files_are_there(&self, scene: &str, files: &BTreeMap<String, FileRecord>) -> bool {
+        self.wrong_file(scene, files).is_none()
+    }
+
+    /// What is wrong with the first file of a frame's record that is missing or has another length.
+    fn wrong_file(&self, scene: &str, files: &BTreeMap<String, FileRecord>) -> Option<DatasetError> {
         let folder = self.layout().scene_dir(scene);
-        files.iter().all(|(name, file)| fs::metadata(folder.join(name)).is_ok_and(|found| found.len() == file.bytes))
+        files.iter().find_map(|(name, file)| {
+            let path = folder.join(name);
+            match fs::metadata(&path).map(|found| found.len()) {
+                Ok(bytes) if bytes == file.bytes => None,
+                Ok(bytes) => {
+                    let problem = format!("it has {bytes} bytes, but the record of its frame says {}; render the frame again", file.bytes);
+                    Some(DatasetError::hdf5(&path, problem))
+                }
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                    Some(DatasetError::hdf5(&path, "it is missing, but its frame has a record; render the frame again"))
+                }
+                Err(error) => Some(DatasetError::io("look for", &path, error)),
+            }
+        })
     }
 
     /// Makes the folder of a camera's records; that it exists says that only recorded frames count.
@@ -328,7 +388,7 @@ pub(crate) fn write_record(path: &Path, record: &impl Serialize) -> Result<(), D
 /// Reads a JSON file that may not exist. `remedy` is what to do when it cannot be understood.
 pub(crate) fn read_json<T: DeserializeOwned>(path: &Path, remedy: &str) -> Result<Option<T>, DatasetError> {
     match fs::read(path) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(DatasetError::io("read", path, error)),
         Ok(text) => serde_json::from_slice(&text).map(Some).map_err(|error| DatasetError::text(path, format!("{error}; {remedy}"))),
     }

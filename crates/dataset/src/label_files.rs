@@ -89,7 +89,12 @@ impl MeshFiles {
         let path = self.file(INSTANCE);
         let instance = read_column(&path)?;
         if semantic.len() != instance.len() {
-            let problem = format!("{} rows, but {SEMANTIC} has {}; run the label stage again", instance.len(), semantic.len());
+            let problem = format!(
+                "{} rows, but {SEMANTIC} has {}; if the scene was annotated, open it in `enfilade annotate`, which writes both from its log, \
+                 else run the label stage again",
+                instance.len(),
+                semantic.len()
+            );
             return Err(DatasetError::hdf5(&path, problem));
         }
         let parts = semantic.into_iter().zip(instance).map(|(semantic, instance)| PartLabel { semantic, instance }).collect();

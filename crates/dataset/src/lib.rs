@@ -9,6 +9,7 @@
 //!
 //! World coordinates are right-handed, z up, and one asset unit is one metre.
 
+mod annotation_files;
 mod atomic;
 mod box_files;
 mod camera_files;
@@ -37,6 +38,7 @@ mod tables;
 mod times;
 mod tonemap_files;
 
+pub use annotation_files::{ANNOTATION_LOG, scene_hash};
 pub use atomic::{replace_file, write_bytes};
 pub use box_files::BoxKind;
 pub use camera_files::{OpencvCalibration, opencv_cameras};

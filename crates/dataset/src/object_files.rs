@@ -61,6 +61,27 @@ impl MeshFiles {
     /// # Errors
     /// When a file is missing or damaged, or the files do not fit each other.
     pub fn read(&self) -> Result<MeshGeometry, DatasetError> {
+        let mut objects = self.names(OBJECTS, "object_name")?;
+        let parents = self.read_splits()?;
+        let object_of_face = read_indices(&self.file(FACES_OBJECTS), objects.len(), "objects")?;
+        let whole = objects.len().saturating_sub(parents.len());
+        objects.truncate(whole);
+        let before = |object: u32| parents.get((object as usize).wrapping_sub(whole)).copied().unwrap_or(object);
+        self.read_geometry(objects, object_of_face.into_iter().map(before).collect())
+    }
+
+    /// As [`MeshFiles::read`], where it is known from elsewhere that the first `whole` objects are those that did not come from splitting
+    /// others, and what every face belonged to before. The tables that say so need not fit each other then.
+    ///
+    /// # Errors
+    /// As [`MeshFiles::read`].
+    pub fn read_unsplit(&self, whole: usize, object_of_face: Vec<u32>) -> Result<MeshGeometry, DatasetError> {
+        let mut objects = self.names(OBJECTS, "object_name")?;
+        objects.truncate(whole);
+        self.read_geometry(objects, object_of_face)
+    }
+
+    fn read_geometry(&self, objects: Vec<String>, object_of_face: Vec<u32>) -> Result<MeshGeometry, DatasetError> {
         let path = self.file("mesh_vertices.hdf5");
         let vertices = match read_array(&path)? {
             Array { values: Elements::F64(values), shape } if shape.get(1) == Some(&3) => {
@@ -74,23 +95,15 @@ impl MeshFiles {
         let path = self.file("mesh_faces_vi.hdf5");
         let corners = read_indices(&path, vertices.len(), "vertices")?;
         let faces: Vec<[u32; 3]> = corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
-        let mut objects = self.names(OBJECTS, "object_name")?;
-        let parents = self.read_splits()?;
         let path = self.file(FACES_OBJECTS);
-        let object_of_face = read_indices(&path, objects.len(), "objects")?;
         check_length(&path, object_of_face.len(), faces.len())?;
-        let whole = objects.len().saturating_sub(parents.len());
-        objects.truncate(whole);
-        let before = |object: u32| parents.get((object as usize).wrapping_sub(whole)).copied().unwrap_or(object);
+        if let Some(face) = object_of_face.iter().position(|&object| object as usize >= objects.len()) {
+            let problem =
+                format!("face {face} is of object {}, but {} are whole; export the mesh again", object_of_face[face], objects.len());
+            return Err(DatasetError::hdf5(&path, problem));
+        }
         let (material_of_face, materials) = self.read_materials(faces.len())?;
-        Ok(MeshGeometry {
-            object_of_face: object_of_face.into_iter().map(before).collect(),
-            vertices,
-            faces,
-            material_of_face,
-            objects,
-            materials,
-        })
+        Ok(MeshGeometry { vertices, faces, object_of_face, material_of_face, objects, materials })
     }
 
     /// The object of every face, split objects by their pieces.
@@ -215,6 +228,11 @@ mod tests {
         assert_eq!(written.len(), 3);
         assert_eq!((files.read().unwrap(), files.read_objects_of_faces().unwrap()), (mesh.clone(), vec![0, 1, 2]));
         assert_eq!(files.read_splits().unwrap(), [1]);
+        // Without the table of what was split, it takes somebody who knows.
+        std::fs::remove_file(files.file(SPLITS)).unwrap();
+        assert_eq!(files.read().unwrap().objects.len(), 3);
+        assert_eq!(files.read_unsplit(2, vec![0, 1, 1]).unwrap(), mesh);
+        assert!(files.read_unsplit(1, vec![0, 1, 1]).unwrap_err().to_string().contains("face 1 is of object 1, but 1 are whole"));
         files.write_objects(&mesh.objects, &[], &mesh.object_of_face).unwrap();
         assert!(files.read_splits().unwrap().is_empty() && !files.file(SPLITS).exists());
     }

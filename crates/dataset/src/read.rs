@@ -1,6 +1,6 @@
 //! What a dataset holds, and its layers as values.
 
-use crate::hdf5::{Element, Elements, Window, read_array, read_window};
+use crate::hdf5::{Element, Elements, Window, image_shape, read_array, read_window};
 use crate::layout::camera_of_layer_dir;
 use crate::release::planar_depth_of_part;
 use crate::tables::Table;
@@ -153,7 +153,7 @@ impl Dataset {
     /// camera; it is asked for where planar depth is computed.
     ///
     /// # Errors
-    /// As there, and when the window leaves the image.
+    /// As there, and when the window leaves the image, or planar depth is computed of images of another size than the camera's.
     pub fn read_specified(
         &self,
         scene: &str,
@@ -170,7 +170,8 @@ impl Dataset {
         if stored != layer {
             let [height, width] = size;
             let part = window.unwrap_or(Window { top: 0, left: 0, height, width });
-            values = self.planar(scene, camera, &projection()?, part, window.is_none(), &values)?;
+            let whole = if window.is_some() { self.image_size(scene, camera, frame, stored)? } else { size };
+            values = self.planar(scene, camera, &projection()?, part, whole, &values)?;
         }
         if layer == Layer::Position {
             self.positions_in_metres(scene, &mut values)?;
@@ -178,21 +179,33 @@ impl Dataset {
         Ok((size, values))
     }
 
-    /// Planar depth of a part of an image of distances, or of the `whole` of it.
+    /// Height and width of the image that a layer is read from.
+    ///
+    /// # Errors
+    /// When the file is missing or damaged, or holds no image.
+    pub fn image_size(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> Result<[usize; 2], DatasetError> {
+        let path = self.layer_source(scene, camera, frame, layer);
+        match *image_shape(&path)? {
+            [height, width, ..] => Ok([height, width]),
+            ref shape => Err(DatasetError::hdf5(&path, format!("expected an image, found an array of shape {shape:?}"))),
+        }
+    }
+
+    /// Planar depth of a part of an image of distances, which has `height` and `width` as a whole.
     fn planar(
         &self,
         scene: &str,
         camera: &str,
         projection: &Projection,
         part: Window,
-        whole: bool,
+        [height, width]: [usize; 2],
         distance: &Values,
     ) -> Result<Values, DatasetError> {
         let wrong = |problem: String| DatasetError::text(&self.camera_table(), problem);
         let [w, h] = projection.size().map(|side| side as usize);
-        let Window { height, width, .. } = part;
-        if !part.fits(h, w) || whole && [width, height] != [w, h] {
-            return Err(wrong(format!("the images of {scene}/{camera} have {width}x{height} pixels, but its camera {w}x{h}")));
+        if [width, height] != [w, h] {
+            let found = format!("the images of {scene}/{camera} have {width}x{height} pixels, but its camera {w}x{h}");
+            return Err(wrong(format!("{found}; name a table of cameras of the images' size, or use depth_meters")));
         }
         if !projection.has_image_plane() {
             return Err(wrong(format!("{scene}/{camera} has no image plane, so no planar depth; use depth_meters")));
@@ -219,7 +232,7 @@ impl Dataset {
 }
 
 /// The number in `frame.IIII.<rest>`.
-fn frame_number(name: &str, rest: &str) -> Option<u32> {
+pub(crate) fn frame_number(name: &str, rest: &str) -> Option<u32> {
     name.strip_prefix("frame.")?.strip_suffix(rest)?.strip_suffix('.')?.parse().ok()
 }
 

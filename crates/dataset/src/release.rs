@@ -1,7 +1,6 @@
 //! What differs in Hypersim's own release, as Apple publishes it: no manifest and no records, float16 distances and positions,
 //! positions in asset units, no planar depth, and cameras in the tables that have no files.
 
-use crate::camera_files::optional;
 use crate::{Dataset, DatasetError, Window};
 use enfilade_frame::{Layer, Values};
 use enfilade_math::DVec3;
@@ -27,10 +26,12 @@ pub const RELEASED_LAYERS: [Layer; 14] = [
 ];
 
 impl Dataset {
-    /// True for a scene that this program did not make: the dataset has no manifest, and no camera of the scene has records.
+    /// True for a scene that this program did not make: the dataset has no manifest, and no camera of the scene has records or, as in
+    /// copies that [`Dataset::repack`] makes of ours, poses in OpenCV's conventions.
     pub fn is_released(&self, scene: &str) -> bool {
-        let cameras = self.cameras(scene).unwrap_or_default();
-        !self.layout().manifest().is_file() && !cameras.iter().any(|camera| self.layout().records_dir(scene, camera).is_dir())
+        let layout = self.layout();
+        let is_ours = |camera: &String| layout.records_dir(scene, camera).is_dir() || layout.cameras_opencv(scene, camera).is_file();
+        !layout.manifest().is_file() && !self.cameras(scene).unwrap_or_default().iter().any(is_ours)
     }
 
     /// True when [`Dataset::read_frame`] gives this layer of the frame: it is there, or it is planar depth of a camera with an image plane
@@ -53,10 +54,18 @@ impl Dataset {
         if computed { Layer::DepthMeters } else { layer }
     }
 
-    /// Positions in metres, in place. Hypersim's are in asset units, so a release that does not say what these are is an error.
+    /// [`Dataset::meters_per_asset_unit`] of what is stored. Where nothing says it, it is 1 for a scene of ours, and an error for one of
+    /// the release, which is in asset units.
+    pub(crate) fn meters_per_stored_unit(&self, scene: &str) -> Result<f64, DatasetError> {
+        match self.meters_per_asset_unit(scene) {
+            Err(error) if error.is_not_found() && !self.is_released(scene) => Ok(1.0),
+            metres => metres,
+        }
+    }
+
+    /// Positions in metres, in place.
     pub(crate) fn positions_in_metres(&self, scene: &str, positions: &mut Values) -> Result<(), DatasetError> {
-        let metres = self.meters_per_asset_unit(scene);
-        let metres = if self.is_released(scene) { metres? } else { optional(metres)?.unwrap_or(1.0) };
+        let metres = self.meters_per_stored_unit(scene)?;
         if let (Values::F32(values), true) = (positions, metres != 1.0) {
             values.iter_mut().for_each(|v| *v = (f64::from(*v) * metres) as f32);
         }

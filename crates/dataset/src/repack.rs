@@ -3,7 +3,7 @@
 use crate::frames::attributes_of;
 use crate::hdf5::{Storage, read_array, write_array};
 use crate::read::sorted_names;
-use crate::{Dataset, DatasetError, Layout, replace_file, write_bytes};
+use crate::{Dataset, DatasetError, FileRecord, FrameEntry, Layout, replace_file, write_bytes};
 use enfilade_frame::{LAYERS, Layer};
 use rayon::prelude::*;
 use std::fs;
@@ -23,15 +23,21 @@ pub struct Repacked {
 
 /// One image, and where it goes.
 struct Job {
-    layer: Layer,
     from: PathBuf,
     to: PathBuf,
+    /// What the copy says of itself.
+    attributes: Vec<(&'static str, &'static str)>,
 }
+
+/// What the manifest of a copy says of records.
+const RECORDS: &str = "This is a copy for fast reading: a frame counts when it has a file, and has no record; checksums are BLAKE3 of \
+    whole files.";
 
 impl Dataset {
     /// Copies the frames, cameras and tables of this dataset to `out`, with images as [`Storage::Fast`] and otherwise the same values, types
-    /// and names. `layers` restricts it to some. Frames have no commit records in the copy, as in Hypersim's release; meshes, previews and
-    /// the manifest are left out. `done` hears of every image: how many are copied, of how many.
+    /// and names. `layers` restricts it to some. Frames have no commit records in the copy, as in Hypersim's release; the manifest, where
+    /// there is one, lists the files of the copy. Geometry and previews are left out. `done` hears of every image: how many are copied, of
+    /// how many.
     ///
     /// # Errors
     /// When a file cannot be read or written, or `out` lies in the dataset.
@@ -47,9 +53,10 @@ impl Dataset {
         copy_file(&self.camera_table(), &copy.layout().camera_parameters())?;
         copy_file(&self.layout().split(), &copy.layout().split())?;
         for scene in self.scenes()? {
-            copy_files(&self.layout().detail_dir(&scene), &copy.layout().detail_dir(&scene))?;
+            copy_files(&self.layout().detail_dir(&scene), &copy.layout().detail_dir(&scene), |_| true)?;
+            copy_files(&self.layout().mesh_dir(&scene), &copy.layout().mesh_dir(&scene), is_table)?;
             for camera in self.cameras(&scene)? {
-                copy_files(&self.layout().camera_dir(&scene, &camera), &copy.layout().camera_dir(&scene, &camera))?;
+                copy_files(&self.layout().camera_dir(&scene, &camera), &copy.layout().camera_dir(&scene, &camera), |_| true)?;
                 self.list(copy.layout(), &scene, &camera, layers, &mut jobs)?;
             }
         }
@@ -62,21 +69,42 @@ impl Dataset {
                 Ok(sizes)
             })
             .collect::<Result<_, DatasetError>>()?;
+        self.copy_manifest(&copy)?;
         let sum = |which: usize| sizes.iter().map(|sizes| sizes[which]).sum();
         Ok(Repacked { files: total, bytes_before: sum(0), bytes_after: sum(1) })
     }
 
     /// The images of a camera's complete frames.
     fn list(&self, copy: &Layout, scene: &str, camera: &str, layers: Option<&[Layer]>, jobs: &mut Vec<Job>) -> Result<(), DatasetError> {
+        // The attributes are about values in metres.
+        let released = self.is_released(scene);
         for frame in self.frame_numbers(scene, camera)? {
             for layer in LAYERS.iter().map(|spec| spec.layer).filter(|layer| layers.is_none_or(|layers| layers.contains(layer))) {
                 let (from, to) = (self.layout().layer(scene, camera, frame, layer), copy.layer(scene, camera, frame, layer));
                 if from.is_file() {
-                    jobs.push(Job { layer, from, to });
+                    jobs.push(Job { from, to, attributes: if released { Vec::new() } else { attributes_of(layer) } });
                 }
             }
         }
         Ok(())
+    }
+
+    /// Writes the manifest, where there is one, with the files that the copy has.
+    fn copy_manifest(&self, copy: &Dataset) -> Result<(), DatasetError> {
+        let Some(mut manifest) = self.read_manifest()? else { return Ok(()) };
+        manifest.conventions.notes.insert("records".into(), RECORDS.into());
+        for (scene, entry) in &mut manifest.scenes {
+            let folder = copy.layout().scene_dir(scene);
+            let frames: Vec<&mut FrameEntry> = entry.cameras.values_mut().flat_map(|camera| camera.frames.iter_mut()).collect();
+            frames.into_par_iter().try_for_each(|frame| {
+                frame.files.retain(|name, _| folder.join(name).is_file());
+                frame.files.iter_mut().try_for_each(|(name, file)| {
+                    *file = FileRecord::of(&folder.join(name))?;
+                    Ok::<_, DatasetError>(())
+                })
+            })?;
+        }
+        copy.write_manifest(&manifest)
     }
 }
 
@@ -84,18 +112,24 @@ impl Job {
     /// Gives the bytes before and after.
     fn run(&self) -> Result<[u64; 2], DatasetError> {
         let array = read_array(&self.from)?;
-        replace_file(&self.to, |aside| write_array(aside, &array, Storage::Fast, &attributes_of(self.layer)))?;
+        replace_file(&self.to, |aside| write_array(aside, &array, Storage::Fast, &self.attributes))?;
         let size = |path: &Path| fs::metadata(path).map(|found| found.len()).map_err(DatasetError::at("read", path));
         Ok([size(&self.from)?, size(&self.to)?])
     }
 }
 
-/// Copies the files of a folder, not those of the folders in it.
-fn copy_files(from: &Path, to: &Path) -> Result<(), DatasetError> {
+/// Copies those files of a folder that are wanted, not those of the folders in it.
+fn copy_files(from: &Path, to: &Path, wanted: fn(&str) -> bool) -> Result<(), DatasetError> {
     if !from.is_dir() {
         return Ok(());
     }
-    sorted_names(from)?.iter().try_for_each(|name| copy_file(&from.join(name), &to.join(name)))
+    let names = sorted_names(from)?;
+    names.iter().filter(|name| wanted(name)).try_for_each(|name| copy_file(&from.join(name), &to.join(name)))
+}
+
+/// True for the files of the mesh folder that are no geometry: objects, labels and boxes.
+fn is_table(name: &str) -> bool {
+    !name.starts_with("mesh_") || name.starts_with("mesh_objects_")
 }
 
 /// Copies a file if it is there.

@@ -1,6 +1,6 @@
 //! What is known of a scene without looking at it: units, render entities, geometry, free space.
 
-use crate::camera_files::read_f64_vec3;
+use crate::camera_files::{optional, read_f64_vec3};
 use crate::hdf5::{Array, Storage, write_array};
 use crate::mesh_files::write_mesh;
 use crate::tables::{Table, write_parameter};
@@ -81,14 +81,14 @@ impl Dataset {
     /// says it.
     ///
     /// # Errors
-    /// When both tables are missing, or one that is there is damaged or states no positive number.
+    /// When both tables are missing or lack the scene, or one that is there is damaged or states no positive number.
     pub fn meters_per_asset_unit(&self, scene: &str) -> Result<f64, DatasetError> {
         let path = self.layout().metadata_scene(scene);
         let (metres, path) = match Table::read(&path) {
             Err(error) if error.is_not_found() => {
-                let known = self.read_camera_table().and_then(|table| table.meters_per_asset_unit(scene));
-                // A table that lacks the scene is as good as none.
-                (known.map_err(|_| error)?, self.camera_table())
+                // A table that lacks the scene is as good as none; one that does not say the unit is not.
+                let table = optional(self.read_camera_table())?.filter(|table| table.scenes().any(|name| name == scene));
+                (table.ok_or(error)?.meters_per_asset_unit(scene)?, self.camera_table())
             }
             table => (table?.parameter(METERS)?, path),
         };

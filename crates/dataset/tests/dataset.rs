@@ -117,6 +117,32 @@ fn the_manifest_tells_what_became_of_every_frame_and_finds_damage() {
 }
 
 #[test]
+fn a_repacked_copy_is_still_ours_and_its_manifest_is_about_its_own_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path().join("made")).unwrap();
+    analytic::write(&dataset, &small(), 3);
+    let repacked = |name: &str| {
+        let out = folder.path().join(name);
+        dataset.repack(&out, None, &|_, _| ()).unwrap();
+        Dataset::open(out).unwrap()
+    };
+    let copy = repacked("unlisted");
+    assert!(!dataset.is_released(SCENE) && !copy.is_released(SCENE));
+    assert!(copy.read_manifest().unwrap().is_none());
+    assert_eq!(copy.frame_numbers(SCENE, CAMERA).unwrap(), [0, 1]);
+    dataset.write_manifest(&dataset.collect_manifest(&ManifestInfo::default()).unwrap()).unwrap();
+    let copy = repacked("listed");
+    let manifest = copy.read_manifest().unwrap().unwrap();
+    assert_eq!(manifest.scenes[SCENE].cameras[CAMERA].frames[0].files.len(), 17);
+    assert_eq!(copy.verify_checksums(&manifest).unwrap(), [""; 0]);
+    assert!(manifest.conventions.notes["records"].contains("has no record"));
+    assert_eq!(copy.read_label_tables(SCENE).unwrap(), analytic::labels());
+    assert!(!copy.layout().mesh_file(SCENE, "mesh_vertices.hdf5").exists());
+    let position = fs::read(copy.layout().layer(SCENE, CAMERA, 0, Layer::Position)).unwrap();
+    assert!(position.windows(11).any(|bytes| bytes == b"description"), "our layers say what they are");
+}
+
+#[test]
 fn an_interrupted_frame_does_not_count() {
     let folder = tempfile::tempdir().unwrap();
     let dataset = Dataset::create(folder.path()).unwrap();
@@ -138,6 +164,25 @@ fn an_interrupted_frame_does_not_count() {
     assert!(dataset.frame_numbers(SCENE, CAMERA).unwrap().is_empty());
     dataset.remove_temporaries(SCENE, CAMERA).unwrap();
     assert!(temporaries(folder.path()).is_empty() && position.exists());
+}
+
+#[test]
+fn frames_with_a_record_that_do_not_count_are_told_with_their_first_wrong_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    analytic::write(&dataset, &small(), 4);
+    let told = || -> Vec<(u32, String)> {
+        let complete = dataset.frame_numbers(SCENE, CAMERA).unwrap();
+        let incomplete = dataset.incomplete_frames(SCENE, CAMERA, &complete).unwrap();
+        incomplete.into_iter().map(|(frame, problem)| (frame, problem.to_string())).collect()
+    };
+    assert!(told().is_empty(), "a frame without a record is only not there");
+    fs::remove_file(dataset.layout().layer(SCENE, CAMERA, 0, Layer::Position)).unwrap();
+    fs::write(dataset.layout().layer(SCENE, CAMERA, 1, Layer::DepthMeters), "half").unwrap();
+    let told = told();
+    let [(0, first), (1, second)] = told.as_slice() else { panic!("{told:?}") };
+    assert!(first.contains("frame.0000.position.hdf5: it is missing"), "{first}");
+    assert!(second.contains("frame.0001.depth_meters.hdf5: it has 4 bytes"), "{second}");
 }
 
 #[test]

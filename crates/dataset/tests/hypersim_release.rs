@@ -1,7 +1,7 @@
 //! Reading Hypersim's release: what the real files say, and what is peculiar of them.
 
 use enfilade_dataset::hdf5::{Storage, write_array};
-use enfilade_dataset::{Array, Dataset, Elements};
+use enfilade_dataset::{Array, Dataset, Elements, Window};
 use enfilade_frame::{Layer, Values, f16};
 use enfilade_math::DMat3;
 use enfilade_scene::Projection;
@@ -77,6 +77,7 @@ fn another_table_can_be_named_and_none_is_told() {
     let message = dataset.read_camera("ai_001_002", "cam_00").unwrap_err();
     assert!(message.is_not_found() && message.to_string().contains("contrib/mikeroberts3000"), "{message}");
     assert!(dataset.meters_per_asset_unit("ai_001_002").unwrap_err().is_not_found());
+    assert!(dataset.read_trajectory("ai_001_002", "cam_00").unwrap_err().is_not_found(), "nothing says what a unit is");
     assert!(!dataset.gives_layer("ai_001_002", "cam_00", 1, Layer::DepthZMeters));
     let other = folder.path().join("other.csv");
     fs::write(&other, table("ai_001_002")).unwrap();
@@ -85,9 +86,58 @@ fn another_table_can_be_named_and_none_is_told() {
     fs::write(&other, table("ai_001_002").replace(",0.01,", ",-1,")).unwrap();
     let message = dataset.meters_per_asset_unit("ai_001_002").unwrap_err().to_string();
     assert!(message.contains("other.csv") && message.contains("-1 metres per asset unit"), "{message}");
+    for silent in [table("ai_001_002").replace(",0.01,", ",,"), table("ai_001_002").replace("settings_units_info_meters_scale", "scale")] {
+        fs::write(&other, silent).unwrap();
+        let unit = dataset.meters_per_asset_unit("ai_001_002").unwrap_err();
+        let trajectory = dataset.read_trajectory("ai_001_002", "cam_00").unwrap_err();
+        for error in [unit, trajectory] {
+            let message = error.to_string();
+            assert!(!error.is_not_found() && message.contains("other.csv"), "{message}");
+            assert!(message.contains("\"settings_units_info_meters_scale\""), "{message}");
+        }
+    }
+    fs::write(&other, table("ai_001_009")).unwrap();
+    assert!(dataset.meters_per_asset_unit("ai_001_002").unwrap_err().is_not_found(), "a table that lacks the scene is as good as none");
     fs::write(&other, table("ai_001_002").replace(",2.0,2.0,", ",2.0,1e9,")).unwrap();
     let message = dataset.read_camera("ai_001_002", "cam_00").unwrap_err().to_string();
     assert!(message.contains("the image's width is 1000000000; expected a whole number of pixels"), "{message}");
+}
+
+#[test]
+fn planar_depth_of_images_of_another_size_than_the_camera_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    release(&folder.path().join("ai_001_006"));
+    fs::write(folder.path().join(TABLE), table("ai_001_006")).unwrap();
+    let dataset = Dataset::open(folder.path()).unwrap();
+    let projection = || dataset.table_projection("ai_001_006");
+    let corner = Window { top: 0, left: 0, height: 1, width: 1 };
+    let planar = |window| dataset.read_specified("ai_001_006", "cam_00", 1, Layer::DepthZMeters, window, &projection);
+    assert_eq!([planar(None), planar(Some(corner))].map(|read| read.unwrap().0), [[2, 2], [1, 1]]);
+    for side in [1, 4] {
+        let path = dataset.layout().layer("ai_001_006", "cam_00", 1, Layer::DepthMeters);
+        let distances = Elements::F16(vec![f16::from_f32(3.0); side * side]);
+        write_array(&path, &Array::new(&[side, side], distances), Storage::Contiguous, &[]).unwrap();
+        for window in [None, Some(corner)] {
+            let message = planar(window).unwrap_err().to_string();
+            assert!(message.contains(&format!("have {side}x{side} pixels, but its camera 2x2")), "{message}");
+        }
+    }
+}
+
+#[test]
+fn a_repacked_release_is_still_one_and_is_not_said_to_be_in_metres() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().join("downloads");
+    release(&root.join("ai_001_007"));
+    fs::write(folder.path().join(TABLE), table("ai_001_007")).unwrap();
+    let dataset = Dataset::open(&root).unwrap();
+    dataset.repack(&folder.path().join("copy"), None, &|_, _| ()).unwrap();
+    let copy = Dataset::open(folder.path().join("copy")).unwrap();
+    assert!(copy.is_released("ai_001_007"));
+    let position = |dataset: &Dataset| dataset.read_layer("ai_001_007", "cam_00", 1, Layer::Position).unwrap();
+    assert_eq!(position(&copy), position(&dataset));
+    let bytes = fs::read(copy.layout().layer("ai_001_007", "cam_00", 1, Layer::Position)).unwrap();
+    assert!(!bytes.windows(4).any(|bytes| bytes == b"unit"));
 }
 
 #[test]

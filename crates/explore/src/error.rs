@@ -94,7 +94,9 @@ pub enum ExploreError {
     /// No permitted place near a start camera.
     #[error(
         "camera {name:?} at {position} cannot begin a trajectory: no free position within {radius_m} m of it keeps {clearance_m} m from \
-         every surface; move the camera, lower clearance_m, or carve with this camera among the starts"
+         every surface{}; move the camera, {}lower clearance_m, or carve with this camera among the starts",
+        at_height(.height_m),
+        change_height(.height_m)
     )]
     StartBlocked {
         /// Name of the start camera.
@@ -105,6 +107,8 @@ pub enum ExploreError {
         radius_m: f64,
         /// The configured clearance.
         clearance_m: f64,
+        /// The least and the greatest height above the floor, where one is configured.
+        height_m: Option<[f64; 2]>,
     },
     /// Nothing to look at from a start camera.
     #[error(
@@ -174,6 +178,16 @@ pub enum ExploreError {
         /// What should.
         expected: &'static str,
     },
+}
+
+/// What a height that is asked for demands of a position.
+fn at_height(height_m: &Option<[f64; 2]>) -> String {
+    height_m.map_or_else(String::new, |[min, max]| format!(" and is {min} to {max} m above the floor, as camera_height_m asks"))
+}
+
+/// What to do about it.
+fn change_height(height_m: &Option<[f64; 2]>) -> &'static str {
+    if height_m.is_some() { "change camera_height_m, " } else { "" }
 }
 
 /// Checks a configured number.

@@ -1,3 +1,4 @@
+use crate::CarveConfig;
 use enfilade_geometry::Bvh;
 use enfilade_math::{DMat3, DVec3, Ray, Vec3, warp};
 use enfilade_scene::{Cx, StartCamera, Warning, WorldMesh};
@@ -31,13 +32,23 @@ pub struct StartsConfig {
     pub headroom_m: f64,
     /// Distance to every surface around, metres.
     pub clearance_m: f64,
+    /// The cameras are no further apart than this along any axis, metres: what is carved around them is no wider than
+    /// [`CarveConfig::extent_m`].
+    pub max_spread_m: f64,
     /// Horizontal field of view of the cameras made, radians.
     pub fov_x_rad: f64,
 }
 
 impl Default for StartsConfig {
     fn default() -> Self {
-        Self { max_starts: 3, eye_height_m: 1.5, headroom_m: 2.0, clearance_m: 0.35, fov_x_rad: std::f64::consts::FRAC_PI_3 }
+        Self {
+            max_starts: 3,
+            eye_height_m: 1.5,
+            headroom_m: 2.0,
+            clearance_m: 0.35,
+            max_spread_m: CarveConfig::default().extent_m,
+            fov_x_rad: std::f64::consts::FRAC_PI_3,
+        }
     }
 }
 
@@ -52,26 +63,55 @@ struct Place {
 /// Finds places to stand inside a building, for scenes without cameras: at eye height above a floor, with headroom, enclosed by
 /// surfaces in nearly all directions. The cameras look level along the longest view, and are named `start_00`, `start_01`, ….
 ///
-/// Returns at most `max_starts`, the best first; none (with a warning) when nothing in the scene looks like an interior.
+/// Returns at most `max_starts`, the best first; none (with a warning) when nothing in the scene looks like an interior. A place too
+/// far from better ones is left out with a warning.
 pub fn find_starts(world: &WorldMesh, bvh: &Bvh, config: &StartsConfig, cx: &dyn Cx) -> Vec<StartCamera> {
     let mut places = places(world, bvh, config);
     prefer_common_floors(&mut places);
     places.sort_by(|a, b| b.score.total_cmp(&a.score));
-    let mut chosen: Vec<Place> = Vec::new();
-    for place in &places {
-        if chosen.len() == config.max_starts as usize || place.score < 0.5 * places[0].score {
-            break;
-        }
-        let apart = |other: &Place| place.eye.distance(other.eye) > APART_M || is_blocked(bvh, place.eye, other.eye);
-        if chosen.iter().all(apart) {
-            chosen.push(*place);
-        }
-    }
+    let chosen = choose(&places, bvh, config, cx);
     if chosen.is_empty() {
         let message = "no place was found that has a floor, headroom and surfaces all around; check units and up axis, or add a camera";
         cx.warn(Warning { place: "start cameras".into(), message: message.into() });
     }
     chosen.iter().enumerate().map(|(i, place)| camera(bvh, i, place.eye, config)).collect()
+}
+
+/// The first of `places` that do not see each other or are far apart, but no further than is allowed.
+fn choose(places: &[Place], bvh: &Bvh, config: &StartsConfig, cx: &dyn Cx) -> Vec<Place> {
+    let mut chosen: Vec<Place> = Vec::new();
+    let mut left_out = None;
+    for place in places {
+        if chosen.len() == config.max_starts as usize || place.score < 0.5 * places[0].score {
+            break;
+        }
+        let apart = |other: &Place| place.eye.distance(other.eye) > APART_M || is_blocked(bvh, place.eye, other.eye);
+        if !chosen.iter().all(apart) {
+            continue;
+        }
+        let spread_m = spread_m(chosen.iter().chain([place]));
+        if spread_m <= config.max_spread_m {
+            chosen.push(*place);
+        } else {
+            left_out.get_or_insert((place.eye, spread_m));
+        }
+    }
+    if let Some((eye, spread_m)) = left_out {
+        let message = format!(
+            "a place to stand at {eye:.1} is left out: with it they would be {spread_m:.1} m apart along an axis, and only {} m are \
+             carved; raise extent_m in [carve], or state cameras",
+            config.max_spread_m
+        );
+        cx.warn(Warning { place: "start cameras".into(), message });
+    }
+    chosen
+}
+
+/// The longest side of the box around some places, metres.
+fn spread_m<'a>(places: impl Iterator<Item = &'a Place>) -> f64 {
+    let eyes = places.map(|place| place.eye.as_dvec3());
+    let (low, high) = eyes.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), eye| (low.min(eye), high.max(eye)));
+    (high - low).max_element()
 }
 
 /// Every place on a grid over the scene where one can stand.
@@ -177,9 +217,28 @@ fn camera(bvh: &Bvh, index: usize, eye: Vec3, config: &StartsConfig) -> StartCam
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::carve;
     use crate::testroom::{Room, cuboid, furnished_room};
-    use crate::{CarveConfig, carve};
     use enfilade_scene::Quiet;
+    use std::sync::Mutex;
+
+    /// Keeps the warnings.
+    #[derive(Default)]
+    struct Ear(Mutex<Vec<String>>);
+
+    impl Cx for Ear {
+        fn progress(&self, _what: &str, _done: u64, _total: u64) {}
+        fn warn(&self, warning: Warning) {
+            self.0.lock().unwrap().push(warning.message);
+        }
+    }
+
+    /// Two closed rooms, the second from `x` on.
+    fn two_rooms(x: f64) -> Room {
+        let mut corners = cuboid(DVec3::ZERO, DVec3::new(4.0, 3.0, 2.5), true);
+        corners.extend(cuboid(DVec3::new(x, 0.0, 0.0), DVec3::new(x + 3.8, 3.0, 2.5), true));
+        Room::from_corners(corners)
+    }
 
     #[test]
     fn starts_stand_on_the_floor_inside() {
@@ -200,12 +259,23 @@ mod tests {
 
     #[test]
     fn each_of_two_separate_rooms_gets_one() {
-        let mut corners = cuboid(DVec3::ZERO, DVec3::new(4.0, 3.0, 2.5), true);
-        corners.extend(cuboid(DVec3::new(4.2, 0.0, 0.0), DVec3::new(8.0, 3.0, 2.5), true));
-        let room = Room::from_corners(corners);
+        let room = two_rooms(4.2);
         let starts = find_starts(&room.world, &room.bvh, &StartsConfig::default(), &Quiet);
         assert_eq!(starts.len(), 2);
         assert!((starts[0].position.x - 4.1) * (starts[1].position.x - 4.1) < 0.0);
+    }
+
+    #[test]
+    fn rooms_further_apart_than_is_carved_get_one_with_a_warning() {
+        let (room, ear) = (two_rooms(40.0), Ear::default());
+        let starts = find_starts(&room.world, &room.bvh, &StartsConfig::default(), &ear);
+        let warnings = ear.0.into_inner().unwrap();
+        assert_eq!((starts.len(), warnings.len()), (1, 1), "{warnings:?}");
+        assert!(warnings[0].contains("only 30 m are carved"), "{warnings:?}");
+        let config = CarveConfig { rays: 10_000, ..CarveConfig::default() };
+        assert!(carve(&room.world, &room.bvh, &[starts[0].position], &config, &Quiet).unwrap().report.free_volume_m3 > 15.0);
+        let wide = StartsConfig { max_spread_m: 50.0, ..StartsConfig::default() };
+        assert_eq!(find_starts(&room.world, &room.bvh, &wide, &Quiet).len(), 2);
     }
 
     #[test]

@@ -30,7 +30,8 @@ pub use error::ExploreError;
 pub use find_starts::{StartsConfig, find_starts};
 pub use plan::{
     CoverageConfig, CoverageReport, Fault, FrameValues, Keyframe, KeyframesConfig, Mode, PartCoverage, PlanConfig, PlanReport,
-    PlanStatistics, Planned, RejectedCounts, RelaxedFrame, Spread, StillsConfig, VideoConfig, follow, parse_keyframes, plan, plan_accepted,
+    PlanStatistics, Planned, RejectedCounts, RelaxedFrame, Spread, StillsConfig, VideoConfig, WalkConfig, follow, parse_keyframes, plan,
+    plan_accepted,
 };
 pub use preset::Preset;
 pub use saliency::Saliency;

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 /// | domain | the cube, cut down to the scene | the whole cube |
 /// | rays end | before the first occupied voxel | also at the mesh |
 /// | starts outside or in a wall | skipped | accepted, unless no way leads out of occupied voxels |
+/// | starts at the same position | carved from one after the other | carved from once |
 /// | start in an occupied voxel | moved along the widest of 2048 pooled views, at most 8 voxels | along the widest of all rays, each pooled with its 50 nearest |
 /// | random positions | uniform in the free voxels | by rejection from the box around the centres of the free voxels, by `std::mt19937_64` |
 /// | outside the building | left unknown | kept |

@@ -52,7 +52,7 @@ pub const FORMATS: [FormatSpec; 12] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
-        about: "COCO instances: images, annotations with compressed RLE masks and boxes, the 40 classes of NYU40",
+        about: "COCO instances: images, annotations with compressed RLE masks and boxes, the 40 classes of NYU40 or of the scenes' own list",
         needs: &[COLOR, INSTANCE, SEMANTIC],
         takes: Some(LABELLED),
         readme: crate::formats::coco::README,

@@ -1,7 +1,7 @@
 //! What is exported: the chosen frames of the dataset, with their cameras, and their layers when they are asked for.
 
 use crate::{ExportError, Format, FormatSpec};
-use enfilade_dataset::Dataset;
+use enfilade_dataset::{Dataset, Window, turn_planar_depth};
 use enfilade_frame::{Frame, LAYERS, Layer};
 use enfilade_scene::{Camera, CameraView, Cx, Labels, Pose};
 use rayon::prelude::*;
@@ -94,7 +94,7 @@ impl<'d> Source<'d> {
         for scene in &selection.scenes {
             for name in dataset.cameras(scene)? {
                 if selection.cameras.as_ref().is_none_or(|names| names.contains(&name)) {
-                    source.tracks.extend(track(dataset, scene, &name, selection.frames.as_ref())?);
+                    source.tracks.extend(track(dataset, scene, &name, selection.frames.as_ref(), cx)?);
                 }
             }
         }
@@ -162,6 +162,22 @@ impl<'d> Source<'d> {
         Ok(frame)
     }
 
+    /// Every layer that the frame has and that is not left out, with planar depth along the axis of K; where it is stored, it is along the
+    /// camera's own.
+    pub fn read_all(&self, view: View<'_>) -> Result<Frame, ExportError> {
+        let mut frame = self.read(view, &LAYERS.map(|spec| spec.layer))?;
+        if frame.pixels() == 0 {
+            return Err(self.unsuitable(view.place(), "it has none of the layers asked for; choose others with --layers"));
+        }
+        let stored = frame.get(Layer::DepthZMeters).filter(|_| self.stores(view, Layer::DepthZMeters)).cloned();
+        if let Some(mut depth_z) = stored {
+            let whole = Window { top: 0, left: 0, height: frame.height as usize, width: frame.width as usize };
+            turn_planar_depth(&view.track.camera.projection, whole, &mut depth_z);
+            frame.insert(Layer::DepthZMeters, depth_z);
+        }
+        Ok(frame)
+    }
+
     /// Class and instance of every object of a scene; none where the dataset has no label tables (Hypersim's public files).
     pub fn labels(&self, scene: &str) -> Result<Labels, ExportError> {
         match self.dataset.read_label_tables(scene) {
@@ -196,9 +212,10 @@ impl<'d> Source<'d> {
     }
 }
 
-/// A camera with its finished frames within `range`; `None` when there are none.
-fn track(dataset: &Dataset, scene: &str, name: &str, range: Option<&Range<u32>>) -> Result<Option<Track>, ExportError> {
+/// A camera with its finished frames within `range`, with a warning of those that have lost a file; `None` when there are none.
+fn track(dataset: &Dataset, scene: &str, name: &str, range: Option<&Range<u32>>, cx: &dyn Cx) -> Result<Option<Track>, ExportError> {
     let finished = dataset.frame_numbers(scene, name)?;
+    dataset.warn_of_incomplete([scene, name], &finished, range, cx)?;
     let poses = dataset.read_trajectory(scene, name)?.poses;
     let wanted = |pose: &Pose| finished.binary_search(&pose.frame).is_ok() && range.is_none_or(|range| range.contains(&pose.frame));
     let chosen: Vec<usize> = (0..poses.len()).filter(|&i| wanted(&poses[i])).collect();

@@ -5,9 +5,21 @@ mod common;
 use enfilade_dataset::Dataset;
 use enfilade_export::{Existing, ExportConfig, Exported, Format, Selection, export};
 use enfilade_frame::Layer;
-use enfilade_scene::{Fisheye, Intrinsics, Projection, Quiet};
+use enfilade_scene::{Cx, Fisheye, Intrinsics, Projection, Quiet, Warning};
 use std::fs;
 use std::path::Path;
+use std::sync::Mutex;
+
+/// Keeps the warnings.
+#[derive(Default)]
+struct Ear(Mutex<Vec<String>>);
+
+impl Cx for Ear {
+    fn progress(&self, _what: &str, _done: u64, _total: u64) {}
+    fn warn(&self, warning: Warning) {
+        self.0.lock().unwrap().push(warning.to_string());
+    }
+}
 
 fn dataset(folder: &Path) -> Dataset {
     common::write(&folder.join("dataset"), &common::pinhole())
@@ -88,6 +100,26 @@ fn scenes_cameras_frames_and_layers_are_chosen() {
         ExportConfig { selection: Selection { layers: Some(vec![Layer::Color]), ..room }, ..ExportConfig::new(Format::Coco, Vec::new()) };
     let message = export(&dataset, &config, &out, Existing::Refuse, &Quiet).unwrap_err().to_string();
     assert_eq!(message, "coco needs the layer semantic_instance; add it to --layers");
+}
+
+#[test]
+fn a_chosen_frame_that_lacks_a_file_is_left_out_with_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    for (camera, frame) in [("cam_00", 0), ("cam_00", 3), ("cam_01", 0)] {
+        fs::remove_file(dataset.layout().layer("room", camera, frame, Layer::Position)).unwrap();
+    }
+    let said = |name: &str, frames: Option<std::ops::Range<u32>>| {
+        let selection = Selection { scenes: vec!["room".into()], cameras: Some(vec!["cam_00".into()]), frames, layers: None };
+        let config = ExportConfig { selection, ..ExportConfig::new(Format::Coco, Vec::new()) };
+        let ear = Ear::default();
+        assert_eq!(export(&dataset, &config, &folder.path().join(name), Existing::Refuse, &ear).unwrap().frames, 1);
+        ear.0.into_inner().unwrap()
+    };
+    let warnings = said("all", None);
+    assert!(warnings.len() == 1 && warnings[0].starts_with("room/cam_00: frame 0 and 1 more are left out: "), "{warnings:?}");
+    assert!(warnings[0].contains("frame.0000.position.hdf5: it is missing"), "{warnings:?}");
+    assert!(said("some", Some(1..3)).is_empty());
 }
 
 #[test]

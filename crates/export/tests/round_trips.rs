@@ -3,18 +3,23 @@
 mod common;
 
 use common::{files, layer};
-use enfilade_dataset::Dataset;
+use enfilade_dataset::{Dataset, planar_depth};
 use enfilade_export::{Existing, ExportConfig, Format, export};
 use enfilade_frame::{Layer, Values};
-use enfilade_math::{DQuat, DVec3};
-use enfilade_scene::Quiet;
+use enfilade_math::{DMat3, DQuat, DVec3};
+use enfilade_scene::{Camera, Intrinsics, Projection, Quiet, TiltedPinhole};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Exports the analytic dataset.
 fn exported(format: Format, shard_bytes: u64) -> (tempfile::TempDir, Dataset, PathBuf) {
+    exported_of(&common::pinhole_of(format), format, shard_bytes)
+}
+
+/// As [`exported`], taken with this camera.
+fn exported_of(camera: &Camera, format: Format, shard_bytes: u64) -> (tempfile::TempDir, Dataset, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
-    let dataset = common::write(&folder.path().join("dataset"), &common::pinhole_of(format));
+    let dataset = common::write(&folder.path().join("dataset"), camera);
     let out = folder.path().join("out");
     let config = ExportConfig { shard_bytes, ..ExportConfig::new(format, dataset.scenes().unwrap()) };
     export(&dataset, &config, &out, Existing::Refuse, &Quiet).unwrap();
@@ -141,6 +146,25 @@ fn openexr_has_every_layer_bit_by_bit_and_a_manifest_of_its_ids() {
     let manifests: Vec<&String> = attributes.iter().filter(|(name, _)| name.ends_with("/manifest")).map(|(_, value)| value).collect();
     assert!(manifests.iter().any(|m| m.contains("\"table_001\"") && m.contains("\"chair_002\"")), "{manifests:?}");
     assert!(manifests.iter().any(|m| m.contains("\"floor\"") && m.contains("\"wall\"")), "{manifests:?}");
+}
+
+#[test]
+fn planar_depth_in_openexr_is_along_the_axis_of_k_of_a_tilted_camera() {
+    use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
+    let k = Intrinsics { width: 40, height: 30, fx: 33.0, fy: 34.5, cx: 19.25, cy: 15.75, skew: 0.0 };
+    let tilted = TiltedPinhole::new(40, 30, DMat3::from_rotation_x(0.15) * k.cam_from_uv()).unwrap();
+    let camera: Camera = Projection::TiltedPinhole(tilted).into();
+    let (_folder, dataset, out) = exported_of(&camera, Format::Exr, 1);
+    let path = out.join("room/cam_00/frame.0001.exr");
+    let image =
+        read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer().all_attributes().from_file(path).unwrap();
+    let channel = image.layer_data.channel_data.list.iter().find(|channel| channel.name.eq("depth_z_meters.V")).unwrap();
+    let FlatSamples::F32(found) = &channel.sample_data else { panic!("depth is float32") };
+    let expected = planar_depth(&camera.projection, &layer(&dataset, "room", "cam_00", 1, Layer::DepthMeters));
+    let stored = layer(&dataset, "room", "cam_00", 1, Layer::DepthZMeters);
+    let seen: Vec<usize> = (0..found.len()).filter(|&i| expected[i].is_finite()).collect();
+    assert!(seen.len() > 500 && seen.iter().all(|&i| (found[i] - expected[i]).abs() < 1e-5));
+    assert!(seen.iter().any(|&i| (f64::from(found[i]) - stored.get(i)).abs() > 0.05), "the axis is another than the camera's");
 }
 
 #[test]

@@ -2,18 +2,18 @@
 
 use crate::bundle::unpack;
 use crate::commit::read_marker;
-use crate::plan::{StoredFile, object_name};
+use crate::plan::object_name;
 use crate::work::missing_by_task;
 use crate::{FarmError, FrameKey, Job, Marker, Ranges, print_ranges};
 use enfilade_dataset::{Dataset, FrameTime, write_bytes};
-use enfilade_pipeline::{Reporter, Summary, finish};
+use enfilade_pipeline::{Reporter, Summary, finish, gather};
 use std::path::Path;
 
 /// Brings every frame into the folder `out`, checks it against its marker, and makes the rest of the dataset. What is there already
-/// is not fetched again.
+/// of this job is not fetched again.
 ///
 /// # Errors
-/// When frames are missing, or something in the store is not what its marker says.
+/// When frames are missing, `out` holds something else, or something in the store is not what its marker says.
 pub fn collect(job: &Job, out: &Path, reporter: &dyn Reporter) -> Result<Summary, FarmError> {
     let tasks = &job.plan.tasks;
     let missing: Ranges = missing_by_task(job)?.into_keys().collect();
@@ -27,6 +27,7 @@ pub fn collect(job: &Job, out: &Path, reporter: &dyn Reporter) -> Result<Summary
         );
         return Err(FarmError::Request(message));
     }
+    let taken = gather(out, &job.plan.id)?;
     fetch_files(job, out)?;
     let dataset = Dataset::create(out)?;
     for task in tasks {
@@ -40,6 +41,7 @@ pub fn collect(job: &Job, out: &Path, reporter: &dyn Reporter) -> Result<Summary
             }
         }
     }
+    drop(taken);
     Ok(finish(out, reporter)?)
 }
 
@@ -61,7 +63,8 @@ fn fetch_files(job: &Job, out: &Path) -> Result<(), FarmError> {
     let files = job.plan.files.iter().chain(job.plan.scenes.iter().flat_map(|scene| &scene.files));
     for (path, file) in files {
         let target = out.join(path);
-        if is_there(&target, file) {
+        // Files appear whole, and stages may have written over them since.
+        if target.is_file() {
             continue;
         }
         let name = object_name(&file.blake3);
@@ -72,11 +75,6 @@ fn fetch_files(job: &Job, out: &Path) -> Result<(), FarmError> {
         write_bytes(&target, &bytes)?;
     }
     Ok(())
-}
-
-/// A file of that length is taken for the same: the stages know what they have written over.
-fn is_there(path: &Path, file: &StoredFile) -> bool {
-    std::fs::metadata(path).is_ok_and(|found| found.len() == file.bytes)
 }
 
 fn damaged(place: &str, problem: &str) -> FarmError {

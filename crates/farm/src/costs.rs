@@ -24,7 +24,7 @@ const HEADER: &str = "job_name,task_id,attempt,host,engine_ids,ended,vcpu_per_in
 /// One attempt at one task.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AttemptCost {
-    /// What it says of itself. One that was killed says nothing of its time, which then counts as none.
+    /// What it says of itself. One that was killed says nothing of its time: it counts as those of the frames that it had committed.
     pub record: AttemptRecord,
     /// vCPU-seconds of its frames that count.
     pub in_frames_vcpu_s: f64,
@@ -75,16 +75,31 @@ pub fn costs(job: &Job) -> Result<Costs, FarmError> {
     Ok(Costs { expected_cpu_s: markers.iter().map(expected).sum(), ..sum(&markers, attempts(job)?) })
 }
 
+/// What went into the frames that an attempt has committed.
+#[derive(Clone, Copy, Default)]
+struct InFrames {
+    wall_s: f64,
+    cpu_s: f64,
+    vcpu_s: f64,
+}
+
 fn sum(markers: &[Marker], records: Vec<AttemptRecord>) -> Costs {
-    let mut frames: BTreeMap<(&str, u32), f64> = BTreeMap::new();
+    let mut frames: BTreeMap<(&str, u32), InFrames> = BTreeMap::new();
     for marker in markers {
-        *frames.entry((&marker.attempt, marker.task)).or_default() += marker.wall_s * f64::from(marker.threads.unwrap_or(1));
+        let of_attempt = frames.entry((&marker.attempt, marker.task)).or_default();
+        of_attempt.wall_s += marker.wall_s;
+        of_attempt.cpu_s += marker.cpu_s;
+        of_attempt.vcpu_s += marker.wall_s * f64::from(marker.threads.unwrap_or(1));
     }
     let mut costs = Costs { frames_cpu_s: markers.iter().map(|marker| marker.cpu_s).sum(), ..Costs::default() };
-    costs.in_frames_vcpu_s = frames.values().sum();
+    costs.in_frames_vcpu_s = frames.values().map(|of_attempt| of_attempt.vcpu_s).sum();
     let mut tasks: BTreeMap<u32, u32> = BTreeMap::new();
-    for record in records {
-        let in_frames_vcpu_s = frames.get(&(record.attempt.id.as_str(), record.task)).copied().unwrap_or(0.0);
+    for mut record in records {
+        let in_frames = frames.get(&(record.attempt.id.as_str(), record.task)).copied().unwrap_or_default();
+        if record.ended.is_none() {
+            (record.wall_s, record.cpu_s) = (in_frames.wall_s, in_frames.cpu_s);
+        }
+        let in_frames_vcpu_s = in_frames.vcpu_s;
         let attempt = AttemptCost { record, in_frames_vcpu_s };
         let paid = attempt.vcpu_s().max(in_frames_vcpu_s);
         costs.vcpu_s += paid;
@@ -202,6 +217,7 @@ mod tests {
             committed,
             lost,
             different,
+            broken: BTreeMap::new(),
             ended,
             error,
         }
@@ -222,7 +238,10 @@ mod tests {
         // All of b, nothing of c that is known, and what d had beyond its frame.
         assert_eq!((costs.wasted_vcpu_s, costs.retries), (10.0 + 8.0, 2));
         assert_eq!((costs.frames_cpu_s, costs.peak_memory_bytes), (54.0, Some(1 << 30)));
-        assert!((costs.dollars(3600.0) - 82.0).abs() < 1e-9 && (costs.utilization() - 46.5 / 82.0).abs() < 1e-12);
+        assert!((costs.dollars(3600.0) - 82.0).abs() < 1e-9 && (costs.utilization() - 64.5 / 82.0).abs() < 1e-12);
+        // Rows sum to the totals.
+        assert_eq!(costs.attempts.iter().map(AttemptCost::vcpu_s).sum::<f64>(), costs.vcpu_s);
+        assert_eq!((costs.attempts[2].record.wall_s, costs.attempts[2].record.cpu_s), (10.0, 18.0));
     }
 
     #[test]

@@ -1,4 +1,5 @@
 use enfilade_dataset::DatasetError;
+use std::error::Error as StdError;
 use std::path::{Path, PathBuf};
 
 /// Why something on a farm could not be done.
@@ -72,8 +73,29 @@ impl FarmError {
     pub fn is_transient(&self) -> bool {
         match self {
             Self::Store { .. } | Self::Io { .. } | Self::Dataset(DatasetError::Io { .. }) => true,
+            Self::Pipeline(enfilade_pipeline::Error::Stage(error)) => is_of_the_system(error.as_ref()),
             Self::Pipeline(error) => matches!(error, enfilade_pipeline::Error::Io { .. } | enfilade_pipeline::Error::Interrupted { .. }),
             Self::Place { .. } | Self::Unreliable { .. } | Self::Request(_) | Self::Damaged { .. } | Self::Dataset(_) => false,
         }
+    }
+}
+
+/// True when the system refused something, such as space on a disk, at the bottom of `error`.
+fn is_of_the_system(error: &(dyn StdError + 'static)) -> bool {
+    std::iter::successors(Some(error), |&error| error.source()).any(|error| error.is::<std::io::Error>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::ErrorKind;
+
+    #[test]
+    fn a_full_disk_passes_wherever_it_was_met_and_a_wrong_file_does_not() {
+        let full = || DatasetError::Io { action: "write", path: "frame.hdf5".into(), source: ErrorKind::StorageFull.into() };
+        let wrong = || DatasetError::NotADataset { root: "out".into(), problem: "it is empty".into() };
+        let of_stage = |error: DatasetError| FarmError::Pipeline(enfilade_pipeline::Error::Stage(Box::new(error)));
+        assert!(FarmError::Dataset(full()).is_transient() && of_stage(full()).is_transient());
+        assert!(!FarmError::Dataset(wrong()).is_transient() && !of_stage(wrong()).is_transient());
     }
 }

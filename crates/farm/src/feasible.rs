@@ -77,6 +77,7 @@ mod tests {
             committed: 1,
             lost: 0,
             different: 0,
+            broken: std::collections::BTreeMap::new(),
             ended: peak_memory_bytes.map(|_| Ended::Done),
             error: None,
         }

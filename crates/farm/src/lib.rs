@@ -36,5 +36,5 @@ pub use plan::{Job, Plan, PlanOptions, PlannedScene, StoredFile, Task, plan};
 pub use ranges::{Ranges, parse_ranges, print_ranges};
 pub use signals::stop_on_signals;
 pub use status::{Status, status};
-pub use store::{Created, Store};
+pub use store::{Created, Store, environment};
 pub use work::{Assignment, AttemptRecord, Ended, Work, work};

@@ -1,7 +1,7 @@
 //! What there is to do: made once, on one machine, from the configuration of a dataset.
 
 use crate::{Attempt, Created, FarmError, Store};
-use enfilade_pipeline::{Config, Expected, Part, Prepared, PreparedScene, Reporter, Summary, prepare};
+use enfilade_pipeline::{Config, Expected, Part, Prepared, PreparedScene, Reporter, Summary, WORKDIR, prepare};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// Version of the plan's form.
 const FORMAT: u32 = 1;
 /// The plan's name in the store.
-const PLAN: &str = "plan.json";
+pub(crate) const PLAN: &str = "plan.json";
 
 /// How work is divided.
 #[derive(Clone, Copy, Debug)]
@@ -231,10 +231,11 @@ fn tasks(scene: &PreparedScene, options: &PlanOptions) -> Vec<Task> {
     scene.trajectories.iter().flat_map(divide).collect()
 }
 
-/// Names what the frames depend on. Times that planning took stand in the files, so their contents do not count; scenes and
-/// trajectories do.
+/// Names what the frames depend on: scenes, their labels, and all that is in the dataset by then, such as trajectories. The records of
+/// stages hold the times that these took, and do not count.
 fn identity(config: &Config, prepared: &Prepared, plan: &Plan) -> String {
-    let decides = |path: &str| path.ends_with(".scene") || path.ends_with("label_table.csv");
+    let decides =
+        |path: &str| !path.starts_with(WORKDIR) || [".scene", "label_table.csv", "labels.json"].iter().any(|end| path.ends_with(end));
     let contents = |scene: &PlannedScene| -> Vec<String> {
         scene.files.iter().filter(|(path, _)| decides(path)).map(|(_, file)| file.blake3.clone()).collect()
     };

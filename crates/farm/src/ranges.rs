@@ -1,4 +1,4 @@
-//! Sets of numbers as engines and people write them: `0-3` or `1,5,9-12`.
+//! Sets of numbers as engines and people write them: `0-3`, `1,5,9-12`, or `1-9:2` for every other one.
 
 use crate::FarmError;
 use std::collections::BTreeSet;
@@ -9,19 +9,20 @@ pub type Ranges = BTreeSet<u32>;
 /// Most numbers that one text may stand for.
 const MOST: u32 = 10_000_000;
 
-/// Reads numbers and ranges, both ends included.
+/// Reads numbers and ranges, both ends included, the latter also in steps.
 ///
 /// # Errors
 /// When the text is something else.
 pub fn parse_ranges(text: &str) -> Result<Ranges, FarmError> {
     let mut all = Ranges::new();
     for part in text.split(',').map(str::trim).filter(|part| !part.is_empty()) {
-        let (first, last) = part.split_once('-').unwrap_or((part, part));
-        match (first.trim().parse::<u32>(), last.trim().parse::<u32>()) {
-            (Ok(first), Ok(last)) if first <= last && last < MOST => all.extend(first..=last),
+        let (range, step) = part.split_once(':').unwrap_or((part, "1"));
+        let (first, last) = range.split_once('-').unwrap_or((range, range));
+        match (first.trim().parse::<u32>(), last.trim().parse::<u32>(), step.trim().parse::<usize>()) {
+            (Ok(first), Ok(last), Ok(step)) if first <= last && last < MOST && step > 0 => all.extend((first..=last).step_by(step)),
             _ => {
                 return Err(FarmError::Request(format!(
-                    "{part:?} is no range of task numbers; expected something like 7, 0-3 or 1,5,9-12"
+                    "{part:?} is no range of task numbers; expected something like 7, 0-3, 0-8:2 or 1,5,9-12"
                 )));
             }
         }
@@ -52,7 +53,8 @@ mod tests {
             assert_eq!(print_ranges(&parse_ranges(text).unwrap()), text);
         }
         assert_eq!(print_ranges(&parse_ranges(" 3, 1-2 ,2,").unwrap()), "1-3");
-        for wrong in ["x", "3-1", "-1", "1-4000000000", "1..3"] {
+        assert_eq!(print_ranges(&parse_ranges("1-7:3,9, 20-23 : 2").unwrap()), "1,4,7,9,20,22");
+        for wrong in ["x", "3-1", "-1", "1-4000000000", "1..3", "1-5:0", "1-5:x", "1-5:2:2"] {
             assert!(parse_ranges(wrong).unwrap_err().to_string().contains("no range"), "{wrong}");
         }
     }

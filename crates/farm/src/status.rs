@@ -20,6 +20,10 @@ pub struct Status {
     pub attempts: BTreeMap<&'static str, u32>,
     /// Processor seconds that are still to be spent, by the forecast.
     pub left_cpu_s: f64,
+    /// Frames of which two attempts made different bytes: there should be none.
+    pub different: u32,
+    /// Committed frames that break a law of verification, by law: there should be none.
+    pub broken: BTreeMap<String, u32>,
     /// The last error of each task that is not done and has failed.
     pub errors: BTreeMap<u32, String>,
 }
@@ -44,6 +48,8 @@ pub fn status(job: &Job) -> Result<Status, FarmError> {
         missing: Ranges::new(),
         attempts: BTreeMap::new(),
         left_cpu_s: 0.0,
+        different: 0,
+        broken: BTreeMap::new(),
         errors: BTreeMap::new(),
     };
     let missing = missing_by_task(job)?;
@@ -55,6 +61,8 @@ pub fn status(job: &Job) -> Result<Status, FarmError> {
     }
     for record in attempts(job)? {
         *status.attempts.entry(record.ended.map_or("open", Ended::word)).or_default() += 1;
+        status.different += record.different;
+        record.broken.into_iter().for_each(|(law, frames)| *status.broken.entry(law).or_default() += frames);
         if let Some(error) = record.error.filter(|_| status.missing.contains(&record.task)) {
             status.errors.insert(record.task, error);
         }

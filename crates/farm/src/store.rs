@@ -4,6 +4,7 @@
 //! [`Store::probe`] finds out whether it keeps to that.
 
 use crate::FarmError;
+use crate::plan::PLAN;
 use futures_util::TryStreamExt;
 use object_store::local::LocalFileSystem;
 use object_store::path::Path as Key;
@@ -17,6 +18,12 @@ use tokio::runtime::Runtime;
 const ATTEMPTS: u32 = 5;
 /// Before the second attempt; doubled before each further one.
 const FIRST_PAUSE: Duration = Duration::from_millis(100);
+/// What settings begin with: bare names, which buckets' libraries take as well, may be variables of anything (`TOKEN`, `ENDPOINT`).
+const PREFIXES: [&str; 3] = ["aws_", "azure_", "google_"];
+/// How long one request to a bucket may take, its whole body included, unless `AWS_TIMEOUT` or the like says otherwise: scenes are large.
+const REQUEST_TIMEOUT: &str = "900s";
+/// What lies in the folder of a job.
+const OF_JOBS: [&str; 7] = [PLAN, "objects", "frames", "done", "kept", "attempts", "probe"];
 /// Writers at once, and rounds, when a store is probed.
 const PROBE_WRITERS: usize = 16;
 const PROBE_ROUNDS: usize = 4;
@@ -39,25 +46,62 @@ pub enum Created {
     Taken,
 }
 
+/// The variables of this process that are text.
+pub fn environment() -> impl Iterator<Item = (String, String)> {
+    std::env::vars_os().filter_map(|(name, value)| Some((name.into_string().ok()?, value.into_string().ok()?)))
+}
+
+/// The local folder that a place names.
+fn local(place: &str) -> Option<&Path> {
+    match place.split_once("://") {
+        None => Some(Path::new(place)),
+        Some(("file", path)) => Some(Path::new(path)),
+        Some(_) => None,
+    }
+}
+
+/// Refuses a folder that has something else than a job, or the beginning of one.
+fn refuse_foreign_folder(folder: &Path) -> Result<(), FarmError> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
+    let names: Vec<String> = entries.filter_map(Result::ok).map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    let foreign = names.iter().find(|name| !name.starts_with('.') && !OF_JOBS.contains(&name.as_str()));
+    match foreign {
+        Some(name) if !names.iter().any(|name| name == PLAN) => Err(FarmError::Request(format!(
+            "{} holds something else (among it {name:?}), and no job; name an empty folder or one that does not exist yet",
+            folder.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
 impl Store {
-    /// The store at `place`: a folder, which is made if need be, or a URL: `file://`, `s3://bucket/prefix`, `gs://`, `az://`. Keys,
-    /// regions and endpoints are taken from `settings`, usually the environment, under the names that these services use
-    /// (`AWS_ACCESS_KEY_ID`, `AWS_ENDPOINT_URL`, `GOOGLE_APPLICATION_CREDENTIALS`, `AZURE_STORAGE_ACCOUNT_NAME`, …).
+    /// The store at `place` for a new job: a folder is made if need be, and must not hold anything else.
     ///
     /// # Errors
-    /// When the place cannot be understood or made.
+    /// As [`Store::open`], and when the folder holds something else or cannot be made.
+    pub fn begin(place: &str, settings: impl Iterator<Item = (String, String)>) -> Result<Self, FarmError> {
+        if let Some(folder) = local(place) {
+            refuse_foreign_folder(folder)?;
+            std::fs::create_dir_all(folder).map_err(|source| FarmError::io("make the folder", folder, source))?;
+        }
+        Self::open(place, settings)
+    }
+
+    /// The store at `place`: a folder, or a URL: `file://`, `s3://bucket/prefix`, `gs://`, `az://`. Keys,
+    /// regions and endpoints are taken from `settings`, usually the [`environment`], under the names that these services use
+    /// (`AWS_ACCESS_KEY_ID`, `AWS_ENDPOINT_URL`, `GOOGLE_APPLICATION_CREDENTIALS`, `AZURE_STORAGE_ACCOUNT_NAME`, …). Others are left.
+    ///
+    /// # Errors
+    /// When the place cannot be understood, or is a folder that is not there.
     pub fn open(place: &str, settings: impl Iterator<Item = (String, String)>) -> Result<Self, FarmError> {
         let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build();
         let runtime = runtime.map_err(|source| FarmError::io("start threads for", Path::new(place), source))?;
-        let folder = match place.split_once("://") {
-            None => Some(place),
-            Some(("file", path)) => Some(path),
-            Some(_) => None,
-        };
-        if let Some(folder) = folder {
-            let io = |source| FarmError::io("make the folder", Path::new(folder), source);
-            std::fs::create_dir_all(folder).map_err(io)?;
-            let absolute = std::fs::canonicalize(folder).map_err(io)?;
+        if let Some(folder) = local(place) {
+            if !folder.is_dir() {
+                let what = if folder.exists() { "is no folder" } else { "does not exist" };
+                return Err(FarmError::Request(format!("{place} {what}; plan a job: enfilade farm plan dataset.toml -o JOB")));
+            }
+            let absolute = std::fs::canonicalize(folder).map_err(|source| FarmError::io("find", folder, source))?;
             let inner = LocalFileSystem::new_with_prefix(&absolute).map_err(FarmError::store(place))?.with_fsync(true);
             return Ok(Self { inner: Arc::new(inner), root: Key::default(), url: absolute.display().to_string(), runtime });
         }
@@ -65,6 +109,8 @@ impl Store {
         let _ = rustls::crypto::ring::default_provider().install_default();
         let url = url::Url::parse(place).map_err(|error| FarmError::Place { place: place.into(), problem: error.to_string() })?;
         let settings = settings.map(|(name, value)| (name.to_ascii_lowercase(), value));
+        let settings = settings.filter(|(name, _)| PREFIXES.iter().any(|prefix| name.starts_with(prefix)));
+        let settings = std::iter::once(("timeout".to_string(), REQUEST_TIMEOUT.to_string())).chain(settings);
         let unknown = |error: StoreError| FarmError::Place { place: place.into(), problem: error.to_string() };
         let (inner, root) = object_store::parse_url_opts(&url, settings).map_err(unknown)?;
         Ok(Self { inner: Arc::from(inner), root, url: place.trim_end_matches('/').into(), runtime })
@@ -231,6 +277,33 @@ mod tests {
         assert_eq!(store.create("x", b"first").unwrap(), Created::Yes);
         assert_eq!(store.create("x", b"second").unwrap(), Created::Taken);
         assert_eq!(store.get("x").unwrap().unwrap(), b"first");
+    }
+
+    #[test]
+    fn variables_of_other_programs_are_no_settings_of_buckets() {
+        let settings =
+            [("TIMEOUT", "30"), ("TOKEN", "x"), ("AWS_REGION", "eu-west-1"), ("AWS_ACCESS_KEY_ID", "a"), ("AWS_SECRET_ACCESS_KEY", "b")];
+        let settings = settings.into_iter().map(|(name, value)| (name.to_string(), value.to_string()));
+        assert_eq!(Store::open("s3://bucket/job/", settings).unwrap().url(), "s3://bucket/job");
+        let wrong = std::iter::once(("AWS_TIMEOUT".to_string(), "30".to_string()));
+        assert!(Store::open("s3://bucket/job", wrong).unwrap_err().to_string().contains("30"), "a setting that is one counts");
+    }
+
+    #[test]
+    fn folders_of_something_else_are_left_and_none_is_made_by_looking() {
+        let dir = tempfile::tempdir().unwrap();
+        let place = |name: &str| dir.path().join(name).to_str().unwrap().to_string();
+        let begin = |name: &str| Store::begin(&place(name), std::iter::empty());
+        let error = Store::open(&place("none"), std::iter::empty()).unwrap_err().to_string();
+        assert!(error.contains("none does not exist; plan a job") && !dir.path().join("none").exists(), "{error}");
+        begin("job/new").unwrap().put("objects/a", vec![1]).unwrap();
+        begin("job/new").unwrap();
+        std::fs::write(dir.path().join("job/new/room.obj"), "v 0 0 0").unwrap();
+        let error = begin("job/new").unwrap_err().to_string();
+        assert!(error.contains("room.obj") && error.contains("an empty folder"), "{error}");
+        // Scripts of an engine may lie beside a job.
+        Store::open(&place("job/new"), std::iter::empty()).unwrap().put(PLAN, vec![1]).unwrap();
+        begin("job/new").unwrap();
     }
 
     #[test]

@@ -10,7 +10,13 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// How long a finished frame is held for a store that does not take it: a server that is started again is back by then.
+const PATIENCE: Duration = Duration::from_secs(600);
+/// Between two tries to hand it in.
+const PAUSE: Duration = Duration::from_secs(5);
 
 /// The tasks of one worker.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,6 +74,9 @@ pub struct AttemptRecord {
     pub lost: u32,
     /// Of these, frames of which the other had made other bytes: there should be none.
     pub different: u32,
+    /// Of the committed ones, how many break a law of verification, by law: normally none.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub broken: BTreeMap<String, u32>,
     /// How it ended; `None` while it is at work, and for ever if it was killed.
     pub ended: Option<Ended>,
     /// Why, where it failed.
@@ -95,7 +104,7 @@ pub fn work(job: &Job, assignment: &Assignment, work: &Work, reporter: &dyn Repo
     numbers.iter().try_for_each(|&number| job.task(number).map(drop))?;
     let mut records = Vec::new();
     for number in numbers {
-        if work.stop.load(std::sync::atomic::Ordering::Relaxed) {
+        if work.stop.load(Ordering::Relaxed) {
             break;
         }
         records.push(do_task(job, number, work, reporter)?);
@@ -116,6 +125,7 @@ fn do_task(job: &Job, number: u32, work: &Work, reporter: &dyn Reporter) -> Resu
         committed: 0,
         lost: 0,
         different: 0,
+        broken: BTreeMap::new(),
         ended: None,
         error: None,
     };
@@ -125,9 +135,10 @@ fn do_task(job: &Job, number: u32, work: &Work, reporter: &dyn Reporter) -> Resu
         return Ok(record);
     }
     put_record(job, &name, &record)?;
-    let tally = Mutex::new((0, 0, 0));
+    let tally = Mutex::new(Tally::default());
     let result = make(job, number, &missing, work, &tally, reporter);
-    (record.committed, record.lost, record.different) = tally.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let tally = tally.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    (record.committed, record.lost, record.different, record.broken) = (tally.committed, tally.lost, tally.different, tally.broken);
     let time = time.of_frame();
     (record.wall_s, record.cpu_s, record.peak_memory_bytes) = (time.wall_s, time.cpu_s, time.peak_memory_bytes);
     record.ended = Some(match &result {
@@ -169,12 +180,36 @@ fn without_marker(task: &Task, markers: &BTreeSet<String>) -> BTreeSet<u32> {
     part.frames.iter().copied().filter(|&frame| !markers.contains(&key(frame).marker())).collect()
 }
 
+/// What came of the frames that an attempt has handed in.
+#[derive(Default)]
+struct Tally {
+    committed: u32,
+    lost: u32,
+    different: u32,
+    broken: BTreeMap<String, u32>,
+}
+
+impl Tally {
+    fn count(&mut self, commit: Commit, broken: &[&'static str]) {
+        match commit {
+            Commit::Won => {
+                self.committed += 1;
+                broken.iter().for_each(|law| *self.broken.entry((*law).to_string()).or_default() += 1);
+            }
+            Commit::Lost { same } => {
+                self.lost += 1;
+                self.different += u32::from(!same);
+            }
+        }
+    }
+}
+
 fn make(
     job: &Job,
     number: u32,
     missing: &BTreeSet<u32>,
     work: &Work,
-    tally: &Mutex<(u32, u32, u32)>,
+    tally: &Mutex<Tally>,
     reporter: &dyn Reporter,
 ) -> Result<(), FarmError> {
     let planned = &job.task(number)?.part;
@@ -195,14 +230,10 @@ fn make(
     }
     let failure = Mutex::new(None);
     let finished = |frame: &FinishedFrame| {
-        let result = hand_in(job, out, &key(frame.frame), number, frame, work.attempt);
+        let result = patiently(work.stop, PAUSE, || hand_in(job, out, &key(frame.frame), number, frame, work.attempt));
         match result {
             Ok(commit) => {
-                let mut tally = tally.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-                match commit {
-                    Commit::Won => tally.0 += 1,
-                    Commit::Lost { same } => (tally.1, tally.2) = (tally.1 + 1, tally.2 + u32::from(!same)),
-                }
+                tally.lock().unwrap_or_else(std::sync::PoisonError::into_inner).count(commit, &frame.broken);
                 Ok(())
             }
             Err(error) => {
@@ -223,11 +254,25 @@ fn make(
     }
 }
 
-/// Commits a frame, and frees its place on this machine.
+/// Does `act`, and again after a `pause` while it fails for no lasting reason, up to [`PATIENCE`] or until `stop`.
+fn patiently<T>(stop: &AtomicBool, pause: Duration, mut act: impl FnMut() -> Result<T, FarmError>) -> Result<T, FarmError> {
+    let begun = Instant::now();
+    loop {
+        let result = act();
+        let again = result.as_ref().is_err_and(FarmError::is_transient) && begun.elapsed() < PATIENCE;
+        if !again || stop.load(Ordering::Relaxed) {
+            return result;
+        }
+        std::thread::sleep(pause);
+    }
+}
+
+/// Commits a frame, and frees its place on this machine. A second time it is this attempt's as well.
 fn hand_in(job: &Job, out: &Path, key: &FrameKey, task: u32, frame: &FinishedFrame, attempt: &Attempt) -> Result<Commit, FarmError> {
     let payload = pack(out, &frame.files)?;
     // Somebody else may have been first while this frame was in the making: then nothing has to travel.
     let done = match read_marker(&job.store, key)? {
+        Some(there) if there.attempt == attempt.id => Commit::Won,
         Some(there) => Commit::Lost { same: there.blake3 == blake3::hash(&payload).to_hex().to_string() },
         None => {
             let marker = Marker {
@@ -285,6 +330,26 @@ fn place(cached: &Path, path: &Path) -> Result<(), FarmError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_finished_frame_outlasts_a_store_that_is_away_for_a_while() {
+        let tries = |answers: &[Option<FarmError>], stop: bool| {
+            let mut tried = 0;
+            let result = patiently(&AtomicBool::new(stop), Duration::ZERO, || {
+                tried += 1;
+                match &answers[tried - 1] {
+                    Some(FarmError::Io { action, path, source }) => Err(FarmError::io(action, path, source.kind().into())),
+                    Some(error) => Err(FarmError::Request(error.to_string())),
+                    None => Ok(()),
+                }
+            });
+            (tried, result.is_ok())
+        };
+        let away = || Some(FarmError::io("write", Path::new("job/done"), std::io::ErrorKind::StaleNetworkFileHandle.into()));
+        assert_eq!(tries(&[away(), away(), None], false), (3, true));
+        assert_eq!(tries(&[away(), None], true), (1, false), "who asks it to end is heard");
+        assert_eq!(tries(&[Some(FarmError::Request("no such task".into())), None], false), (1, false));
+    }
 
     #[test]
     fn shards_hold_every_task_once() {

@@ -46,7 +46,8 @@ pub(crate) fn nearest_point(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
         return b;
     }
     let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+    // Of a triangle without area some edge may have no length: another then has what is nearest.
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && d1 > d3 {
         return a + ab * (d1 / (d1 - d3));
     }
     let (d5, d6) = (ab.dot(p - c), ac.dot(p - c));
@@ -54,11 +55,11 @@ pub(crate) fn nearest_point(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
         return c;
     }
     let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 && d2 > d6 {
         return a + ac * (d2 / (d2 - d6));
     }
     let va = d3 * d6 - d5 * d4;
-    if va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0 {
+    if va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0 && (d4 - d3) + (d5 - d6) > 0.0 {
         return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
     }
     a + (ab * vb + ac * vc) / (va + vb + vc)

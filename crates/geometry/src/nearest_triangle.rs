@@ -96,6 +96,16 @@ mod tests {
     use enfilade_math::Rng;
 
     #[test]
+    fn triangles_without_area_have_a_nearest_point_too() {
+        let (a, c, p) = (Vec3::ZERO, Vec3::X, DVec3::new(0.5, 1.0, 0.0));
+        for corners in [[a, a, c], [a, c, a], [c, a, a], [a, c, c], [c, c, a], [a, c, 0.25 * c], [a, a, a]] {
+            let expected = if corners == [a; 3] { 1.25f64.sqrt() } else { 1.0 };
+            assert_eq!(Surfaces::new(&[corners]).distance_m(p), Some(expected), "{corners:?}");
+            assert_eq!(NearestTriangle::new(&[corners]).nearest(p), Some((0, expected)), "{corners:?}");
+        }
+    }
+
+    #[test]
     fn the_nearest_of_many_is_found_and_ties_go_to_the_lowest_number() {
         let mut rng = Rng::new(7);
         let mut point = |scale: f32| scale * Vec3::new(rng.next_f32(), rng.next_f32(), rng.next_f32());

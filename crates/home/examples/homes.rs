@@ -2,7 +2,7 @@
 //! that renders N views of each, one room after the other: `enfilade run FOLDER/dataset.toml`.
 
 use enfilade_home::{HomeConfig, RoomKind, home};
-use enfilade_scene::to_bytes;
+use enfilade_scene::to_bytes_with_labels;
 use std::time::Instant;
 
 const HEAD: &str = "name = \"homes\"\nframes = 1\nrender.size = [480, 360]\nrender.samples = 64\n";
@@ -23,13 +23,13 @@ fn main() -> std::io::Result<()> {
         let made = home(&HomeConfig { seed, rooms: rooms.clone(), ..HomeConfig::default() });
         let seconds = start.elapsed().as_secs_f64();
         let name = format!("home_{seed:03}");
-        std::fs::write(folder.join(format!("{name}.scene")), to_bytes(&made.scene))?;
+        std::fs::write(folder.join(format!("{name}.scene")), to_bytes_with_labels(&made.scene, &made.labels))?;
         // Every home begins with another of its rooms, so that a sheet shows all kinds.
         let cameras = &made.scene.cameras;
         let firsts: Vec<&str> = cameras.iter().filter(|c| c.name.ends_with("_1")).map(|c| c.name.as_str()).collect();
         let chosen: Vec<&str> =
             (0..views.min(firsts.len())).map(|i| firsts[(i + if views == 1 { k as usize } else { 0 }) % firsts.len()]).collect();
-        dataset += &format!("[[scene]]\nname = \"{name}\"\nfile = \"{}/{name}.scene\"\ncameras = {chosen:?}\n", folder.display());
+        dataset += &format!("[[scene]]\nname = \"{name}\"\nfile = \"{name}.scene\"\ncameras = {chosen:?}\n");
         let triangles: usize = made.scene.parts.iter().map(|p| made.scene.meshes[p.mesh as usize].triangles.len()).sum();
         println!(
             "{name}: {seconds:.2} s, {} parts, {triangles} triangles, {} images, {} cameras",

@@ -183,6 +183,17 @@ impl Builder {
         self.part(object, name, mesh, material);
     }
 
+    /// How many parts there are.
+    pub(crate) fn part_count(&self) -> usize {
+        self.scene.parts.len()
+    }
+
+    /// Takes away all parts but the first `count`; what only they were made of goes when the home settles.
+    pub(crate) fn take_back(&mut self, count: usize) {
+        self.scene.parts.truncate(count);
+        self.labels.parts.truncate(count);
+    }
+
     /// Adds a material that only one object has.
     pub fn material(&mut self, material: Material) -> u32 {
         self.scene.materials.push(material);

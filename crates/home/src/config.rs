@@ -27,7 +27,7 @@ pub struct HomeConfig {
     pub light: Option<u64>,
     /// Part of the day. None: day for three of five homes, evening or night for the others.
     pub moment: Option<Moment>,
-    /// Density of small things on surfaces: 0 has none, 1 is a home that is lived in, 2 is untidy.
+    /// Density of small things on surfaces: 0 has none but what shelves and cabinets hold, 1 is a home that is lived in, 2 is untidy.
     pub clutter: f32,
     /// Folders and files of models that stand in for our own furniture, as written; who calls reads them.
     #[serde(skip_serializing_if = "Vec::is_empty")]

@@ -6,7 +6,7 @@ use common::fbx::*;
 use common::{Folder, png, warnings};
 use enfilade_import::{ImportOptions, Imported, UpAxis};
 use enfilade_math::{Rgb, Vec2, Vec3};
-use enfilade_scene::{Alpha, Bsdf, Light, Wrap};
+use enfilade_scene::{Alpha, Bsdf, Light, NormalMap, TextureRef, Wrap};
 
 const MESH: i64 = 10;
 const NODE: i64 = 20;
@@ -151,36 +151,80 @@ fn lambert_phong_and_physical_materials_become_ours() {
 }
 
 fn textured(relative: &'static str, absolute: &'static str, content: Option<Vec<u8>>) -> Vec<Record> {
+    let settings = vec![vector("Scaling", [0.5, 0.25, 1.0]), int("WrapModeU", "enum", 1)];
+    with_picture(settings, &["DiffuseColor"], relative, absolute, content)
+}
+
+/// The triangle with a picture in these slots of its material.
+fn with_picture(
+    settings: Vec<Record>,
+    slots: &[&'static str],
+    relative: &'static str,
+    absolute: &'static str,
+    content: Option<Vec<u8>>,
+) -> Vec<Record> {
     let mut video =
         vec![record("Filename", vec![Value::Text(absolute)], vec![]), record("RelativeFilename", vec![Value::Text(relative)], vec![])];
     video.extend(content.map(|bytes| record("Content", vec![Value::Bytes(bytes)], vec![])));
-    let settings = properties(vec![vector("Scaling", [0.5, 0.25, 1.0]), int("WrapModeU", "enum", 1)]);
     let names = vec![
         record("FileName", vec![Value::Text(absolute)], vec![]),
         record("RelativeFilename", vec![Value::Text(relative)], vec![]),
-        settings,
+        properties(settings),
     ];
     let objects = vec![
         material("lambert", vec![]),
         object("Texture", 40, "T\0\x01Texture", "", names),
         object("Video", 41, "V\0\x01Video", "Clip", video),
     ];
-    let links = vec![belongs(MATERIAL, NODE), feeds(40, MATERIAL, "DiffuseColor"), belongs(41, 40)];
+    let fed = slots.iter().map(|&slot| feeds(40, MATERIAL, slot));
+    let links = [belongs(MATERIAL, NODE), belongs(41, 40)].into_iter().chain(fed).collect();
     scene(vec![], vec![], objects, links)
+}
+
+fn picture_of(imported: &Imported) -> TextureRef {
+    let Bsdf::Diffuse { reflectance } = &imported.scene.materials[0].bsdf else { panic!("not diffuse") };
+    reflectance.texture.expect("a texture")
+}
+
+/// As Autodesk's programs have it: a scale of two shows the picture twice, and a translation of one is its width then.
+#[test]
+fn pictures_are_scaled_turned_and_moved_in_this_order() {
+    let folder = Folder::new();
+    let placed = |settings| load(&folder, &with_picture(settings, &["DiffuseColor"], "a.png", "a.png", Some(png(2, 2, [9; 4]))));
+    let moved = vec![vector("Scaling", [2.0, 4.0, 1.0]), vector("Translation", [0.25, -0.5, 0.0])];
+    assert_eq!(picture_of(&placed(moved)).uv_transform, [[2.0, 0.0, 0.25], [0.0, 4.0, -0.5]]);
+    let turned = vec![vector("Scaling", [2.0, 4.0, 1.0]), vector("Rotation", [0.0, 0.0, 90.0]), vector("Translation", [0.25, -0.5, 0.0])];
+    let picture = picture_of(&placed(turned));
+    for (uv, expected) in [(Vec2::ZERO, [0.25, -0.5]), (Vec2::X, [0.25, 1.5]), (Vec2::Y, [-3.75, -0.5])] {
+        assert!((picture.transform(uv) - Vec2::from(expected)).length() < 1e-6, "{uv}: {}", picture.transform(uv));
+    }
+}
+
+#[test]
+fn colour_pictures_in_the_bump_slot_are_heights_and_normals_stay_normals() {
+    let folder = Folder::new();
+    let normal_map = |slots: &[&'static str], pixel: [u8; 4]| {
+        let document = with_picture(vec![], slots, "a.png", "a.png", Some(png(2, 2, pixel)));
+        load(&folder, &document).scene.materials[0].normal_map
+    };
+    let (brown, upright) = ([150, 100, 60, 255], [128, 128, 255, 255]);
+    assert!(matches!(normal_map(&["DiffuseColor", "Bump"], brown), Some(NormalMap::Bump { .. })));
+    assert!(matches!(normal_map(&["Bump"], upright), Some(NormalMap::Normal { .. })));
+    assert!(matches!(normal_map(&["NormalMap"], brown), Some(NormalMap::Normal { .. })));
 }
 
 #[test]
 fn pictures_come_from_the_file_its_folder_or_another_machines_path() {
     let picture = |imported: &Imported| {
         let Bsdf::Diffuse { reflectance } = &imported.scene.materials[0].bsdf else { panic!("not diffuse") };
-        let texture = reflectance.texture.expect("a texture");
+        let texture = picture_of(imported);
         (imported.scene.images[texture.image as usize].texel(0, 0).0, reflectance.factor, texture)
     };
     let folder = Folder::new();
     let inside = load(&folder, &textured("no.png", "C:\\no.png", Some(png(2, 2, [255, 0, 0, 255]))));
     let (texel, factor, texture) = picture(&inside);
     assert_eq!((texel, factor), (Rgb::new(1.0, 0.0, 0.0), Rgb::WHITE));
-    assert_eq!((texture.wrap, texture.uv_transform[0][0], texture.uv_transform[1][1]), ([Wrap::Clamp, Wrap::Repeat], 2.0, 4.0));
+    assert_eq!((texture.wrap, texture.uv_transform[0][0], texture.uv_transform[1][1]), ([Wrap::Clamp, Wrap::Repeat], 0.5, 0.25));
     folder.write("maps/oak.png", png(2, 2, [0, 255, 0, 255])).write("pine.png", png(2, 2, [0, 0, 255, 255]));
     assert_eq!(picture(&load(&folder, &textured("maps\\oak.png", "C:\\x\\oak.png", None))).0, Rgb::new(0.0, 1.0, 0.0));
     assert_eq!(picture(&load(&folder, &textured("..\\..\\x\\pine.png", "C:\\x\\pine.png", None))).0, Rgb::new(0.0, 0.0, 1.0));

@@ -4,7 +4,7 @@ mod common;
 
 use common::{Folder, png, warnings};
 use enfilade_import::{ImportOptions, Imported};
-use enfilade_math::{DVec3, Rgb, Vec2, Vec3};
+use enfilade_math::{DVec3, Mat3, Rgb, Vec2, Vec3};
 use enfilade_scene::{Alpha, Bsdf, Environment, Filter, Light, MapRows, Material, NormalMap, SpotFalloff};
 
 fn load(folder: &Folder, body: &str) -> Imported {
@@ -220,6 +220,29 @@ fn emitters_of_all_kinds() {
     assert!(matches!(&scene.environment, Some(Environment::Map { rows: MapRows::PoleToPole, scale, .. }) if scale.g == 2.0));
     let imported = load(&folder, r#"<shape type="cube"/><emitter type="constant"><rgb name="radiance" value="1 2 3"/></emitter>"#);
     assert_eq!(imported.scene.environment, Some(Environment::Constant { radiance: Rgb::new(1.0, 2.0, 3.0) }));
+}
+
+#[test]
+fn a_skewed_sky_is_turned_to_the_nearest_rotation() {
+    let folder = Folder::new();
+    folder.write("sky.png", png(4, 2, [9, 9, 9, 255]));
+    let sky = |steps: &str| {
+        let sky = format!(
+            r#"<shape type="cube"/><emitter type="envmap"><string name="filename" value="sky.png"/>
+            <transform name="toWorld">{steps}</transform></emitter>"#
+        );
+        let imported = load(&folder, &sky);
+        let Some(Environment::Map { map_from_world, .. }) = imported.scene.environment else { panic!("no sky") };
+        (map_from_world, warnings(&imported).contains("skewed"))
+    };
+    let turn = r#"<rotate x="1" angle="30"/>"#;
+    let ((straight, warned), (skewed, told), (mirrored, _)) =
+        (sky(turn), sky(&format!(r#"{turn}<scale y="2"/>"#)), sky(&format!(r#"{turn}<scale x="-1"/>"#)));
+    assert!(!warned && told);
+    for (m, determinant) in [(straight, 1.0), (skewed, 1.0), (mirrored, -1.0)] {
+        assert!((m * m.transpose()).abs_diff_eq(Mat3::IDENTITY, 1e-6) && (m.determinant() - determinant).abs() < 1e-6, "{m:?}");
+    }
+    assert!((skewed - straight).to_cols_array().iter().all(|v| v.abs() < 0.4), "{skewed:?} beside {straight:?}");
 }
 
 #[test]

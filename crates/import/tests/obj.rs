@@ -68,6 +68,30 @@ fn specular_colours_count_from_illumination_model_2_on() {
 }
 
 #[test]
+fn number_signs_are_part_of_names_and_paths() {
+    let folder = Folder::new();
+    let library = "# two woods\nnewmtl Wood #1\nKd 0.25 0.25 0.25 # grey\nnewmtl Wood #2\nmap_Kd oak#3.png\n";
+    folder.write("set#1.mtl", library).write("oak#3.png", png(2, 2, [255, 0, 0, 255]));
+    let text = format!("mtllib set#1.mtl\n{TRIANGLES}usemtl Wood #1\nf 1/1 2/2 3/3 # one\nusemtl Wood #2\nf 1/1 2/2 3/3\n");
+    let scene = folder.write("a.obj", text).load("a.obj").unwrap().scene;
+    let bsdf = |name: &str| &scene.materials.iter().find(|m| m.name == name).unwrap_or_else(|| panic!("no {name}")).bsdf;
+    assert_eq!(bsdf("Wood #1"), &Bsdf::Diffuse { reflectance: Rgb::splat(0.25).into() });
+    assert!(matches!(bsdf("Wood #2"), Bsdf::Diffuse { reflectance } if reflectance.texture.is_some()));
+}
+
+/// Many libraries name the colour picture as the bump map too.
+#[test]
+fn colour_pictures_as_bump_maps_are_heights() {
+    let folder = Folder::new();
+    folder.write("a.obj", format!("mtllib a.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n"));
+    folder.write("oak.png", png(2, 2, [150, 100, 60, 255])).write("flat.png", png(2, 2, [128, 128, 255, 255]));
+    let map = |body: &str| folder.write("a.mtl", format!("newmtl M\n{body}")).load("a.obj").unwrap().scene.materials[0].normal_map;
+    assert!(matches!(map("map_Kd oak.png\nmap_Bump oak.png\n"), Some(NormalMap::Bump { .. })));
+    assert!(matches!(map("bump flat.png\n"), Some(NormalMap::Normal { .. })));
+    assert!(matches!(map("norm oak.png\n"), Some(NormalMap::Normal { .. })));
+}
+
+#[test]
 fn a_missing_library_is_a_warning() {
     let folder = Folder::new();
     let text = format!("mtllib gone.mtl\n{TRIANGLES}usemtl A\nf 1 2 3\n");

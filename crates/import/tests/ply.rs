@@ -38,5 +38,10 @@ fn clouds_of_points_are_refused_and_other_elements_reported() {
         format!("{HEADER}element edge 1\nproperty int a\nelement face 1\nproperty list uchar int vertex_index\n{points}7\n3 0 1 2\n");
     let imported = folder.write("a.ply", text).load("a.ply").unwrap();
     assert!(warnings(&imported).contains("element edge: only vertices and faces are read"), "{}", warnings(&imported));
+    let text = format!(
+        "{HEADER}element face 1\nproperty list uchar int vertex_index\nproperty list uchar float texcoord\n{points}3 0 1 2 6 0 0 1 0 1 1\n"
+    );
+    let imported = folder.write("a.ply", text).load("a.ply").unwrap();
+    assert!(warnings(&imported).contains("element face: texture coordinates of faces are not supported"), "{}", warnings(&imported));
     assert!(folder.write("a.ply", "obj").error("a.ply").contains("a.ply: line 1"));
 }

@@ -4,8 +4,8 @@ mod common;
 
 use common::{Folder, png, warnings};
 use enfilade_import::Imported;
-use enfilade_math::{Rgb, Vec3};
-use enfilade_scene::{Bsdf, Environment, Light, Part};
+use enfilade_math::{Rgb, Vec2, Vec3};
+use enfilade_scene::{Alpha, Bsdf, Environment, Light, Part, TextureRef};
 use std::io::{Cursor, Write};
 use zip::write::{SimpleFileOptions, ZipWriter};
 
@@ -40,13 +40,25 @@ fn walls(first: &str) -> String {
 const ROOM: &str = "<room id='r' name='Kitchen' floorColor='FF808080'><point x='10' y='10'/><point x='390' y='10'/><point x='390' y='290'/><point x='10' y='290'/></room>";
 
 fn home(body: &str) -> Vec<u8> {
+    home_with(body, &[])
+}
+
+/// A home with more files in its archive.
+fn home_with(body: &str, more: &[(&str, &[u8])]) -> Vec<u8> {
     let xml = format!("<?xml version='1.0'?>\n<home version='7000' wallHeight='250'>\n{body}</home>");
-    zip(&[("Home.xml", xml.as_bytes()), ("1/tripod.obj", TRIPOD.as_bytes()), ("1/tripod.mtl", MTL), ("2", &png(2, 2, [0, 255, 0, 255]))])
+    let picture = png(2, 2, [0, 255, 0, 255]);
+    let own: [(&str, &[u8]); 4] =
+        [("Home.xml", xml.as_bytes()), ("1/tripod.obj", TRIPOD.as_bytes()), ("1/tripod.mtl", MTL), ("2", &picture)];
+    zip(&[&own[..], more].concat())
 }
 
 fn load(body: &str) -> Imported {
+    load_with(body, &[])
+}
+
+fn load_with(body: &str, more: &[(&str, &[u8])]) -> Imported {
     let folder = Folder::new();
-    folder.write("a.sh3d", home(body));
+    folder.write("a.sh3d", home_with(body, more));
     let imported = folder.load("a.sh3d").unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(imported.inputs, [folder.path("a.sh3d")]);
     imported
@@ -187,6 +199,140 @@ fn lamps_cameras_and_sky_are_where_the_file_has_them() {
     assert_eq!(imported.scene.environment, Some(Environment::Constant { radiance: Rgb::WHITE }));
 }
 
+/// The piece of Sweet Home 3D's coloured sources of light is a model of lines alone, and other lamps have shapes that mark their bulbs.
+#[test]
+fn sources_of_light_shine_but_what_marks_them_is_not_seen() {
+    let light = |model: &str| {
+        format!(
+            "<light name='Lamp' model='{model}' x='100' y='100' elevation='200' width='20' depth='20' height='10'>\
+             <lightSource x='0.5' y='0.5' z='0.5' color='FFFFFFFF'/></light>\n"
+        )
+    };
+    let lines = b"g sweethome3d_light_source\nv 0 0 0\nv 1 1 1\nl 1 2\n";
+    let bulb = b"v 0 0 0\nv 1 0 0\nv 0 1 1\ng sweethome3d_light_bulb\nf 1 2 3\ng shade\nf 3 2 1\n";
+    let lamps = [light("lines.obj"), light("bulb.obj"), light("")].concat();
+    let imported = load_with(&(walls("/>") + &lamps), &[("lines.obj", lines), ("bulb.obj", bulb)]);
+    let seen: Vec<&str> = imported.scene.parts.iter().map(|p| p.name.as_str()).filter(|name| name.starts_with("Lamp")).collect();
+    assert_eq!(seen, ["Lamp_2.shade"]);
+    assert_eq!(imported.scene.lights.len(), 3);
+    for light in &imported.scene.lights {
+        let Light::Point { position, .. } = light else { panic!("{light:?}") };
+        assert!((*position - Vec3::new(1.0, -1.0, 2.05)).length() < 1e-5, "{position}");
+    }
+    assert!(!warnings(&imported).contains("a box"), "{}", warnings(&imported));
+}
+
+#[test]
+fn ceiling_lights_hang_below_the_ceiling_of_the_highest_level() {
+    let height = |walls: &str| {
+        let Light::Point { position, .. } = load(&format!("{walls}{ROOM}")).scene.lights[0].clone() else { panic!("no light") };
+        position.z
+    };
+    near(height(&walls("/>").replace("height='250'", "height='200'")), 1.75);
+    // Without walls they hang below the home's own height of walls.
+    let xml = format!("<?xml version='1.0'?>\n<home version='7000' wallHeight='300'>\n{ROOM}</home>");
+    let folder = Folder::new();
+    folder.write("a.sh3d", zip(&[("Home.xml", xml.as_bytes())]));
+    let imported = folder.load("a.sh3d").unwrap();
+    let Light::Point { position, .. } = &imported.scene.lights[0] else { panic!("no light") };
+    near(position.z, 2.75);
+    near(points(&imported, "Kitchen.ceiling")[0].z, 3.0);
+}
+
+#[test]
+fn panes_are_glass_and_mirrors_reflect_whatever_their_materials_say() {
+    let obj = b"v 0 0 0\nv 1 0 0\nv 0 1 1\nusemtl flltgrey\ng frame\nf 1 2 3\ng sweethome3d_window_pane_1\nf 1 2 3\n\
+                g sweethome3d_window_mirror\nf 1 2 3\nusemtl glasstransparent\ng sweethome3d_window_pane_2\nf 1 2 3\n";
+    let window = |more: &str| {
+        format!("<pieceOfFurniture name='W' model='w.obj' x='0' y='0' width='10' depth='10' height='10' {more}</pieceOfFurniture>\n")
+    };
+    let pieces = [">", "color='FF00FF00'>", "><material name='flltgrey' color='FF00FF00'/>", "><texture image='2'/>"].map(window).concat();
+    let imported = load_with(&pieces, &[("w.obj", obj)]);
+    let material = |piece: &str, part: &str| &imported.scene.materials[self::part(&imported, &format!("{piece}.{part}")).material as usize];
+    let green = Rgb::new(0.0, 1.0, 0.0);
+    let glass = |tint: Rgb| Bsdf::ThinDielectric { eta: 1.5, transmittance: tint.map(|c| 0.5 + 0.5 * c).into() };
+    let mirror = |reflectance: Rgb| Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: reflectance.into(), alpha: 0.0.into() };
+    let grey = Rgb::splat(0.825);
+    // A colour or picture of the whole window leaves its panes alone; a picture leaves its mirrors alone.
+    for (piece, frame, pane, reflected) in
+        [("W", Some(grey), grey, grey), ("W_2", Some(green), grey, green), ("W_3", Some(green), green, green), ("W_4", None, grey, grey)]
+    {
+        if let Some(frame) = frame {
+            assert_eq!(material(piece, "frame").bsdf, Bsdf::Diffuse { reflectance: frame.into() }, "{piece}");
+        }
+        assert!(material(piece, "sweethome3d_window_pane_1").bsdf.is_pane(), "{piece}");
+        assert_eq!(material(piece, "sweethome3d_window_pane_1").bsdf, glass(pane), "{piece}");
+        assert_eq!(material(piece, "sweethome3d_window_mirror").bsdf, mirror(reflected), "{piece}");
+    }
+    // What lets light through already stays as it is.
+    assert!(matches!(material("W", "sweethome3d_window_pane_2").alpha, Alpha::Blend { opacity } if opacity.factor == 0.25));
+}
+
+#[test]
+fn shelf_units_are_pieces_and_kinds_that_are_not_known_are_told_once() {
+    let piece = |tag: &str| format!("<{tag} name='{tag}' model='1/tripod.obj' x='0' y='0' width='100' depth='50' height='80'/>\n");
+    let imported = load(&[piece("shelfUnit"), piece("gadget"), piece("gadget")].concat());
+    let (min, max) = bounds(&points(&imported, "shelfUnit"));
+    assert!((max - min - Vec3::new(1.0, 0.5, 0.8)).length() < 1e-5);
+    assert_eq!(warnings(&imported).matches("<gadget>: this kind of furniture is not known").count(), 1, "{}", warnings(&imported));
+}
+
+/// A door that is open by a quarter turn is as deep as it is wide; the size that the home states is that of the open door.
+#[test]
+fn open_doors_are_turned_on_their_hinges_before_they_are_sized() {
+    let obj = b"v 0 0 0\nv 1 0 0\nv 0 2 0\nv 1 2 0\ng frame\nf 1 2 3\ng sweethome3d_opening_on_hinge_1\nf 1 2 4\n\
+                g sweethome3d_opening_on_hinge_10\nf 2 1 3\n";
+    let quarter = "0 0 1 0 0 1 0 0 -1 0 0 0";
+    let door = |name: &str, matrix: &str| {
+        format!(
+            "<pieceOfFurniture name='Door' model='door.obj' x='0' y='0' width='100' depth='100' height='200'>\
+             <transformation name='{name}' matrix='{matrix}'/></pieceOfFurniture>"
+        )
+    };
+    let imported = load_with(&door("sweethome3d_hinge_1", quarter), &[("door.obj", obj)]);
+    let near_box = |part: &str, min: Vec3, max: Vec3| {
+        let (a, b) = bounds(&points(&imported, part));
+        assert!((a - min).length() < 1e-5 && (b - max).length() < 1e-5, "{part}: {a} {b}");
+    };
+    near_box("Door.sweethome3d_opening_on_hinge_1", Vec3::new(-0.5, -0.5, 0.0), Vec3::new(-0.5, 0.5, 2.0));
+    for still in ["Door.frame", "Door.sweethome3d_opening_on_hinge_10"] {
+        near_box(still, Vec3::new(-0.5, -0.5, 0.0), Vec3::new(0.5, -0.5, 2.0));
+    }
+    assert!(!warnings(&imported).contains("moved"), "{}", warnings(&imported));
+    let bent = load_with(&door("sweethome3d_mannequin_neck", quarter), &[("door.obj", obj)]);
+    assert!(warnings(&bent).contains("moved at \"sweethome3d_mannequin_neck\", which is no hinge"), "{}", warnings(&bent));
+    let folder = Folder::new();
+    let message = folder.write("a.sh3d", home_with(&door("sweethome3d_hinge_1", "1 0 0"), &[("door.obj", obj)])).error("a.sh3d");
+    assert!(message.contains("<transformation>: found 3 numbers in matrix, expected twelve"), "{message}");
+}
+
+/// Sweet Home 3D lays the picture of a single material by the model's own coordinates, whatever its size in centimetres.
+#[test]
+fn pictures_of_single_materials_follow_the_models_own_coordinates() {
+    let obj = b"v 0 0 0\nv 1 0 0\nv 0 1 1\nvt 0 0\nvt 2 0\nvt 0 2\nusemtl white\nf 1/1 2/2 3/3\n";
+    let piece = |paint: &str| {
+        format!("<pieceOfFurniture name='P' model='p.obj' x='0' y='0' width='100' depth='50' height='80'>{paint}</pieceOfFurniture>\n")
+    };
+    let texture = |more: &str| format!("<texture name='T' width='50' height='25' image='2' {more}/>");
+    let single = |texture: String| piece(&format!("<material name='white'>{texture}</material>"));
+    let pieces = [single(texture("")), single(texture("scale='2' xOffset='0.25'")), piece(&texture(""))].concat();
+    let imported = load_with(&pieces, &[("p.obj", obj)]);
+    let laid = |name: &str| -> (Vec<Vec2>, TextureRef) {
+        let part = part(&imported, name);
+        let material = &imported.scene.materials[part.material as usize];
+        let mut pictures = Vec::new();
+        material.textures(|texture| pictures.push(*texture));
+        (imported.scene.meshes[part.mesh as usize].uvs.clone(), pictures[0])
+    };
+    let own = vec![Vec2::ZERO, Vec2::new(2.0, 0.0), Vec2::new(0.0, 2.0)];
+    let (uvs, picture) = laid("P");
+    assert_eq!((&uvs, picture.uv_transform), (&own, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]));
+    let (uvs, picture) = laid("P_2");
+    assert_eq!((&uvs, picture.uv_transform), (&own, [[0.5, 0.0, -0.25], [0.0, 0.5, 0.0]]));
+    let (uvs, picture) = laid("P_3");
+    assert!(uvs != own && picture.uv_transform == [[1.0 / 50.0, 0.0, 0.0], [0.0, 1.0 / 25.0, 0.0]], "{uvs:?} {picture:?}");
+}
+
 #[test]
 fn pictures_lie_on_walls_in_centimetres() {
     let texture = "><texture attribute='rightSideTexture' name='Tiles' width='50' height='25' image='2'/></wall>";
@@ -246,7 +392,8 @@ fn libraries_stand_in_rows_with_their_names_and_sizes() {
 
 #[test]
 fn materials_that_only_java_3d_knows_are_as_it_has_them() {
-    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl flltgrey\nf 1 3 2\nusemtl silver\nf 1 2 3\nusemtl unheard_of\nf 1 2 3\n";
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl flltgrey\nf 1 3 2\nusemtl silver\nf 1 2 3\nusemtl unheard_of\nf 1 2 3\n\
+               usemtl glassblutint\nf 1 2 3\nusemtl smoked_glass\nf 1 2 3\n";
     let xml = "<?xml version='1.0'?>\n<home version='7000' wallHeight='250'>\n\
                <pieceOfFurniture name='Thing' model='thing.obj' x='0' y='0' width='10' depth='10' height='10'/></home>";
     let folder = Folder::new();
@@ -258,6 +405,11 @@ fn materials_that_only_java_3d_knows_are_as_it_has_them() {
     assert_eq!(bsdf("unheard_of").cloned(), diffuse(0.5));
     for (name, kd) in [("silver", Rgb::splat(0.616)), ("default", Rgb::new(0.71, 0.702, 0.653))] {
         assert!(matches!(bsdf(name), Some(Bsdf::Plastic { diffuse, .. }) if diffuse.factor == kd), "{name}: {:?}", bsdf(name));
+    }
+    // Their `d` is opacity.
+    for (name, expected) in [("glassblutint", 0.67), ("smoked_glass", 0.02)] {
+        let alpha = imported.scene.materials.iter().find(|m| m.name == name).map(|m| &m.alpha);
+        assert!(matches!(alpha, Some(Alpha::Blend { opacity }) if opacity.factor == expected), "{name}: {alpha:?}");
     }
     let told = warnings(&imported);
     assert!(told.matches("no material library").count() == 1 && told.contains("unheard_of"), "{told}");

@@ -77,6 +77,32 @@ fn faces_take_the_material_of_their_id() {
 }
 
 #[test]
+fn every_material_of_a_list_has_a_texture_channel_of_its_own() {
+    let folder = Folder::new();
+    folder.write("t.png", png(1, 1, [255, 128, 0, 255]));
+    let text = "GeomStaticMesh mesh { vertices=ListVector(Vector(0,0,0), Vector(1,0,0), Vector(0,1,0)); faces=ListInt(0,1,2, 0,2,1); face_mtlIDs=ListInt(0, 1);
+        map_channels=List(List(1, ListVector(Vector(1,1,0)), ListInt(0,0,0, 0,0,0)), List(2, ListVector(Vector(2,2,0)), ListInt(0,0,0, 0,0,0))); }
+      Node box { geometry=mesh; material=multi; }
+      MtlMulti multi { mtls_list=List(one, two); }
+      MtlSingleBRDF one { brdf=a; } BRDFDiffuse a { color_tex=ta; } TexBitmap ta { bitmap=buf; uvwgen=ua; } UVWGenChannel ua { uvw_channel=1; }
+      MtlSingleBRDF two { brdf=b; } BRDFDiffuse b { color_tex=tb; } TexBitmap tb { bitmap=buf; uvwgen=ub; } UVWGenChannel ub { uvw_channel=2; }
+      BitmapBuffer buf { file=\"t.png\"; }\n";
+    let scene = load_text(&folder, &[text, UNITS].concat()).scene;
+    let uvs: Vec<Vec2> = scene.parts.iter().map(|p| scene.meshes[p.mesh as usize].uvs[0]).collect();
+    assert_eq!(uvs, [Vec2::splat(1.0), Vec2::splat(2.0)]);
+}
+
+#[test]
+fn of_a_scene_told_moment_by_moment_the_first_counts() {
+    let folder = Folder::new();
+    let again = "#time 1\nNode chair@node_1 { geometry=mesh; material=mtl; visible=0; }\n#time 2\n";
+    let imported = load_text(&folder, &["#time 0\n", TRIANGLE, NODE, GREY, UNITS, again].concat());
+    assert_eq!(imported.scene.parts.len(), 1);
+    let text = warnings(&imported);
+    assert!(text.matches("told moment by moment").count() == 1 && !text.contains("another plugin of this name"), "{text}");
+}
+
+#[test]
 fn included_files_are_read_from_their_own_folder_and_once() {
     let folder = Folder::new();
     folder.write("lib/mats.vrscene", GREY).write("lib/all.vrscene", "#include \"mats.vrscene\"\n#include \"mats.vrscene\"\n");
@@ -98,6 +124,18 @@ fn cameras_look_along_minus_z_with_the_horizontal_field_of_view() {
     assert!(warnings(&imported).contains("first of its 2 keyframes"));
     let flat = load(&folder, "RenderView view { orthographic=1; }\n");
     assert!(flat.scene.cameras.is_empty() && warnings(&flat).contains("orthographic"));
+}
+
+#[test]
+fn the_field_of_view_of_the_settings_overrides_the_views_unless_it_is_below_zero() {
+    let folder = Folder::new();
+    let fov = |text: &str| load(&folder, text).scene.cameras[0].fov_x_rad;
+    assert_eq!(fov("RenderView view { fov=0.5; }\nSettingsCamera s { fov=1.2; }\n"), 1.2);
+    assert_eq!(fov("RenderView view { fov=0.5; }\nSettingsCamera s { fov=-1; }\n"), 0.5);
+    assert_eq!(fov("RenderView view { fov=0.5; }\nSettingsCamera s { type=0; }\n"), 0.5);
+    assert_eq!(fov("RenderView view { }\nSettingsCamera s { fov=-1; }\n"), std::f64::consts::FRAC_PI_4);
+    let both = load(&folder, "RenderView view { fov=0.5; }\nSettingsCamera s { fov=1.2; }\n");
+    assert!(warnings(&both).contains("the 1.2 of SettingsCamera override it"), "{}", warnings(&both));
 }
 
 #[test]
@@ -133,6 +171,10 @@ fn exposure_multiplies_all_light_but_what_compensates_it() {
     assert!(near(emission(&on), Rgb::splat(3.0 * k)), "{:?} and not {}", emission(&on), 3.0 * k);
     assert!(warnings(&on).contains("the camera's exposure") && warnings(&on).contains("vignetting"));
     assert_eq!(emission(&scene("exposure=0;")), Rgb::splat(3.0));
+    // EV 8 is f²/t = 2^8 at ISO 100, whatever the other parameters say.
+    let by_value = scene("exposure=2; exposure_value=8;");
+    assert!(near(emission(&by_value), Rgb::splat(3.0 * 0.65 / 78.0 * 100.0 / 256.0 / 0.002)), "{:?}", emission(&by_value));
+    assert!(warnings(&by_value).contains("ISO 100"), "{}", warnings(&by_value));
     let glowing = |more: &str| {
         let brdf = format!("BRDFVRayMtl brdf {{ self_illumination=AColor(1,1,1,1); {more} }}\n");
         material(&folder, &[camera.replace("EXPOSURE", ""), brdf].concat()).0.emission.factor
@@ -154,6 +196,9 @@ fn lights_have_the_radiance_that_their_units_say() {
     assert!(near(rectangle("intensity=1000; units=2;"), Rgb::splat(2.0)));
     assert!(near(rectangle("intensity=1; units=3;"), Rgb::splat(683.0 / (2.0 * pi) * 0.002)));
     assert!(near(rectangle("intensity=1; units=4;"), Rgb::splat(683.0 * 0.002)));
+    let overridden = "LightSphere s { color=Color(1,1,1); color_tex=AColor(0.5,0.25,0,1); intensity=1; intensity_tex=t; }\n\
+        TexFloat t { input=4; }\n";
+    assert!(near(emission(&load(&folder, overridden)), Rgb::new(2.0, 1.0, 0.0)), "textures override colour and intensity");
     let scene = load(&folder, "LightRectangle lamp { u_size=0.5; v_size=1; transform=Transform(Matrix(Vector(1,0,0), Vector(0,1,0), Vector(0,0,1)), Vector(0,0,3)); }\n").scene;
     let part = scene.parts.iter().find(|p| p.name == "lamp").unwrap();
     let [a, b, c] = scene.world_corners(part, 0);
@@ -218,4 +263,35 @@ fn surroundings_come_from_the_dome_the_sky_or_the_settings() {
     let Light::Directional { direction, irradiance, .. } = &noon.lights[0] else { panic!("no sun") };
     // About 100 kilo-lux at 0.002 per cd/m².
     assert!(*direction == Vec3::NEG_Z && (100.0..260.0).contains(&irradiance.luminance()), "{irradiance:?}");
+}
+
+#[test]
+fn a_turned_dome_turns_its_picture_only_where_uvw_matrix_does() {
+    let folder = Folder::new();
+    let quarters = image::RgbaImage::from_fn(4, 2, |x, _| image::Rgba(if x == 1 { [255; 4] } else { [0, 0, 0, 255] }));
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    quarters.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    folder.write("env.png", bytes.into_inner());
+    // Each is the one before it, turned by 90 degrees about z.
+    let directions = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]].map(|[x, y]| Vec3::new(x, y, 0.0).normalize());
+    let bright = |dome: &str, generator: &str| {
+        let text = format!(
+            "LightDome d {{ dome_spherical=1; dome_tex=t; {dome} }}\nTexBitmap t {{ bitmap=b; uvwgen=u; }}\n\
+             UVWGenEnvironment u {{ {generator} }}\nBitmapBuffer b {{ file=\"env.png\"; transfer_function=0; }}\n"
+        );
+        let scene = load(&folder, &text).scene;
+        let Some(Environment::Map { image, map_from_world, .. }) = scene.environment else { panic!("no map") };
+        let seen = |d: Vec3| {
+            let uv = enfilade_scene::uv_from_direction(map_from_world * d);
+            scene.images[image as usize].texel((uv.x * 4.0) as usize % 4, 0).0.r
+        };
+        directions.iter().position(|d| seen(*d) > 0.5).expect("a bright quarter")
+    };
+    let still = bright("", "");
+    let turned = "transform=Transform(Matrix(Vector(0,1,0), Vector(-1,0,0), Vector(0,0,1)), Vector(0,0,0));";
+    // What exporters write for a texture that is locked to the dome: the inverse rotation.
+    let locked = "uvw_matrix=Matrix(Vector(0,-1,0), Vector(1,0,0), Vector(0,0,1));";
+    assert_eq!(bright(turned, ""), still);
+    assert_eq!(bright("", locked), (still + 1) % 4);
+    assert_eq!(bright(turned, locked), (still + 1) % 4);
 }

@@ -56,6 +56,11 @@ fn wrong_values_are_told_with_file_line_plugin_and_remedy() {
 #[test]
 fn circles_end_with_an_error() {
     for (from, to, expected) in [
+        (
+            "color=Color(0.5,0.5,0.5);\n}",
+            "color_tex=t;\n}\nTexBitmap t {\n  color_mult=t;\n}",
+            "color_mult: textures refer to each other in a circle",
+        ),
         ("brdf=brdf;", "brdf=mtl;", "materials refer to each other in a circle"),
         ("color=Color(0.5,0.5,0.5);\n}", "color_tex=t;\n}\nTexInvert t {\n  texture=t;\n}", "textures refer to each other in a circle"),
         ("material=mtl;", "material=w;\n}\nMtlWrapper w {\n  base_material=w;", "materials refer to each other in a circle"),

@@ -29,7 +29,7 @@ fn general_materials_become_what_they_do() {
     else {
         panic!("no glass")
     };
-    assert!(eta == 1.5 && near(absorption, Rgb::new(2.0 * std::f32::consts::LN_2, 0.0, 0.0)));
+    assert!(eta == 1.5 && near(absorption, Rgb::new(200.0 * std::f32::consts::LN_2, 0.0, 0.0)), "2 per centimetre: {absorption:?}");
     assert!(matches!(bsdf("refract=AColor(1,1,1,1); refract_thin_walled=1;"), Bsdf::ThinDielectric { .. }));
     assert!(matches!(bsdf("refract=AColor(0.5,0.5,0.5,1);"), Bsdf::Blend { weight, .. } if weight.factor == 0.5));
     let Bsdf::Principled(p) = bsdf("coat_amount=0.7; coat_glossiness=0.9; sheen_color=AColor(1,0,0,1);") else { panic!("no coat") };
@@ -39,6 +39,116 @@ fn general_materials_become_what_they_do() {
     let cut = material(&folder, "BRDFVRayMtl brdf { opacity=0.3; opacity_mode=1; self_illumination=AColor(2,2,2,1); anisotropy=0.5; }\n");
     assert!(matches!(cut.0.alpha, Alpha::Mask { opacity, .. } if opacity.factor == 0.3) && cut.0.emission.factor == Rgb::splat(2.0));
     assert!(cut.1.contains("anisotropy is not supported"), "{}", cut.1);
+}
+
+#[test]
+fn fog_is_per_centimetre_or_unit_and_thinner_with_depth() {
+    let folder = Folder::new();
+    let red = |fog: &str| {
+        let brdf = format!("BRDFVRayMtl brdf {{ refract=AColor(1,1,1,1); refract_ior=1.5; {fog} }}\n");
+        let (m, text) = material(&folder, &brdf);
+        let Bsdf::Dielectric { absorption, .. } = m.bsdf else { panic!("no glass: {text}") };
+        absorption.r / std::f32::consts::LN_2
+    };
+    let near = |found: f32, expected: f32| assert!((found / expected - 1.0).abs() < 1e-5, "{found} and not {expected}");
+    near(red("fog_color=Color(0.5,1,1); fog_mult=2; fog_depth=4;"), 50.0);
+    near(red("fog_color=Color(0.5,1,1); fog_mult=2; fog_depth=4; fog_unit_scale_on=0;"), 0.5);
+    near(red("fog_color=Color(1,1,1); fog_color_tex=AColor(0.5,1,1,1);"), 100.0);
+    near(red("fog_color=Color(0.5,1,1); fog_color_tex=AColor(0,0,0,0);"), 100.0);
+}
+
+#[test]
+fn opacity_is_grey_or_coloured_as_its_source_says() {
+    let folder = Folder::new();
+    for (source, expected) in [("", 0.3), ("opacity_source=0;", 0.3), ("opacity_source=1;", 0.6)] {
+        let brdf = format!("BRDFVRayMtl brdf {{ opacity=0.3; opacity_color=AColor(0.6,0.6,0.6,1); {source} }}\n");
+        let (m, _) = material(&folder, &brdf);
+        assert!(matches!(m.alpha, Alpha::Blend { opacity } if opacity.factor == expected), "{source} {:?}", m.alpha);
+    }
+}
+
+#[test]
+fn numbers_that_are_textures_are_their_mean_with_a_warning() {
+    let folder = Folder::new();
+    folder.write("half.png", png(1, 1, [128, 128, 128, 255]));
+    for (brdf, parameter) in [
+        ("BRDFVRayMtl brdf { refract=AColor(1,1,1,1); refract_ior=t; }", "refract_ior"),
+        ("BRDFVRayMtl brdf { reflect=AColor(1,1,1,1); fresnel=1; fresnel_ior_lock=0; fresnel_ior=t; }", "fresnel_ior"),
+        ("BRDFVRayMtl brdf { refract=AColor(1,1,1,1); fog_color=Color(0.5,1,1); fog_depth=t; }", "fog_depth"),
+        ("BRDFVRayMtl brdf { bump_map=t; bump_amount=t; }", "bump_amount"),
+        ("BRDFLight brdf { color=Color(1,1,1); colorMultiplier=t; }", "colorMultiplier"),
+        ("BRDFDiffuse brdf { color_tex=u; }\nTexBitmap u { bitmap=b; color_mult=t; }", "color_mult"),
+    ] {
+        let textures = "TexBitmap t { bitmap=b; }\nBitmapBuffer b { file=\"half.png\"; transfer_function=0; }\n";
+        let (_, text) = material(&folder, &format!("{brdf}\n{textures}"));
+        assert!(text.contains(&format!("a texture of {parameter} is not supported; its mean")), "{parameter}: {text}");
+    }
+    let (exact, text) = material(&folder, "BRDFVRayMtl brdf { refract=AColor(1,1,1,1); refract_ior=t; }\nTexFloat t { input=1.4; }\n");
+    assert!(matches!(exact.bsdf, Bsdf::Dielectric { eta, .. } if (eta - 1.4).abs() < 1e-6) && !text.contains("refract_ior"), "{text}");
+    let brighter = "BRDFDiffuse brdf { color_tex=u; }\nTexBitmap u { bitmap=b; color_offset=t; }\nTexFloat t { input=1; }\n\
+        BitmapBuffer b { file=\"half.png\"; }\n";
+    let (offset, text) = material(&folder, brighter);
+    assert!(matches!(offset.bsdf, Bsdf::Diffuse { .. }) && text.contains("color_offset is not supported"), "{text}");
+    let dimmed = material(&folder, "BRDFDiffuse brdf { color=Color(1,0.5,0)*0.5; }\n").0;
+    assert_eq!(dimmed.bsdf, Bsdf::Diffuse { reflectance: Rgb::new(0.5, 0.25, 0.0).into() });
+}
+
+#[test]
+fn coloured_pictures_of_reflection_are_told() {
+    let folder = Folder::new();
+    folder.write("red.png", png(1, 1, [255, 0, 0, 255]));
+    let textures = "TexBitmap t { bitmap=b; }\nBitmapBuffer b { file=\"red.png\"; }\n";
+    for (brdf, parameter) in [("reflect=t; fresnel=1;", "reflect"), ("refract=t;", "refract")] {
+        let (_, text) = material(&folder, &format!("BRDFVRayMtl brdf {{ {brdf} }}\n{textures}"));
+        assert!(text.contains(&format!("the texture of {parameter} is coloured; its red channel was used")), "{text}");
+    }
+}
+
+#[test]
+fn pictures_are_decoded_by_their_transfer_function() {
+    const LINEAR: f32 = 188.0 / 255.0;
+    const DECODED: f32 = 0.5029;
+    let folder = Folder::new();
+    for name in ["t.png", "t_srgb.png", "t_lin_srgb.png", "t_raw.png"] {
+        folder.write(name, png(1, 1, [188, 188, 188, 255]));
+    }
+    let mut grey = std::io::Cursor::new(Vec::new());
+    image::GrayImage::from_pixel(1, 1, image::Luma([188])).write_to(&mut grey, image::ImageFormat::Png).unwrap();
+    folder.write("grey.png", grey.into_inner());
+    for (file, parameters, expected) in [
+        ("t.png", "transfer_function=0; gamma=0.454545;", LINEAR),
+        ("t.png", "transfer_function=1; gamma=0.454545;", DECODED),
+        ("t.png", "transfer_function=1; gamma=1;", LINEAR),
+        ("t.png", "transfer_function=2; gamma=1;", DECODED),
+        ("t.png", "transfer_function=3; gamma=1;", DECODED),
+        ("t_srgb.png", "transfer_function=3;", DECODED),
+        ("t_lin_srgb.png", "transfer_function=3;", LINEAR),
+        ("t_raw.png", "transfer_function=3;", LINEAR),
+        ("grey.png", "transfer_function=3;", LINEAR),
+        ("t.png", "color_space=2; gamma=1;", DECODED),
+        ("t.png", "gamma=0.454545;", DECODED),
+        ("t.png", "", LINEAR),
+    ] {
+        let brdf = format!(
+            "BRDFDiffuse brdf {{ color_tex=t; }}\nTexBitmap t {{ bitmap=b; }}\nBitmapBuffer b {{ file=\"{file}\"; {parameters} }}\n"
+        );
+        let scene = load_text(&folder, &[TRIANGLE, NODE, UNITS, brdf.as_str()].concat()).scene;
+        let found = scene.images[0].texel(0, 0).0.r;
+        assert!((found - expected).abs() < 1e-3, "{file} {parameters}: {found} and not {expected}");
+    }
+}
+
+#[test]
+fn texture_parameters_override_mayas_placement() {
+    let folder = Folder::new();
+    folder.write("t.png", png(1, 1, [255, 255, 255, 255]));
+    let brdf = "BRDFDiffuse brdf { color_tex=t; }\nTexBitmap t { bitmap=b; uvwgen=uvw; }\nBitmapBuffer b { file=\"t.png\"; }\n\
+        UVWGenMayaPlace2dTexture uvw { repeat_u=2; repeat_u_tex=4; offset_v=0.5; offset_v_tex=0; rotate_uv_tex=noise; }\n\
+        TexNoiseMax noise {}\n";
+    let (m, text) = material(&folder, brdf);
+    let Bsdf::Diffuse { reflectance } = &m.bsdf else { panic!("{m:?}") };
+    assert_eq!(reflectance.texture.unwrap().uv_transform, [[4.0, 0.0, 0.0], [0.0, 1.0, 0.5]]);
+    assert!(text.contains("a texture in rotate_uv_tex is not supported"), "{text}");
 }
 
 #[test]

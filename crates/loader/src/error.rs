@@ -1,4 +1,5 @@
 use enfilade_dataset::DatasetError;
+use std::path::PathBuf;
 
 /// Why samples cannot be had.
 #[derive(Debug, thiserror::Error)]
@@ -6,6 +7,16 @@ pub enum LoaderError {
     /// A file is missing or damaged.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
+    /// A side of the split was asked for, and nothing says which frames are on it.
+    #[error(
+        "there is no split at {}; Hypersim's comes apart from its archives: put metadata_images_split_scene_v1.csv of \
+        github.com/apple/ml-hypersim (evermotion_dataset/analysis) into the dataset's folder; for a dataset of ours run `enfilade split`",
+        path.display()
+    )]
+    NoSplit {
+        /// Where it was looked for.
+        path: PathBuf,
+    },
     /// What was asked for does not fit the dataset.
     #[error("{0}")]
     Request(String),

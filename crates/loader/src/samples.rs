@@ -6,9 +6,9 @@ use crate::resize::{averaged, nearest};
 use crate::sample::{Image, Matrix3, Matrix4, Sample, Values, is_averaged, mask_out};
 use crate::stream::below;
 use crate::tone::{displayed, fit};
-use enfilade_dataset::{Dataset, DatasetError, OpencvCalibration, Partition, ToneMapRow, Window, image_shape, turn_planar_depth};
+use enfilade_dataset::{Dataset, DatasetError, OpencvCalibration, Partition, ToneMapRow, Window, turn_planar_depth};
 use enfilade_frame::{LAYERS, Layer};
-use enfilade_math::hash_u64;
+use enfilade_math::{DVec3, hash_u64};
 use enfilade_post::tonemap::ToneMap;
 use enfilade_scene::{Pose, Projection};
 use std::collections::{BTreeMap, HashSet};
@@ -117,7 +117,8 @@ impl Samples {
     /// Decodes a sample. Random crops lie elsewhere in each `epoch`.
     ///
     /// # Errors
-    /// When a file is missing or damaged, or the crop larger than the image.
+    /// When a file is missing or damaged, the crop larger than the image, or the image of another size than the camera whose K or
+    /// rays it takes.
     ///
     /// # Panics
     /// When there are not so many samples.
@@ -163,7 +164,11 @@ impl Samples {
 
     /// The images of a side of the split.
     fn side(&self, side: Partition) -> Result<HashSet<(String, String, u32)>, LoaderError> {
-        let rows = self.dataset.read_split()?.into_iter().filter(|row| row.partition == Ok(side));
+        let rows = self.dataset.read_split().map_err(|error| match error.is_not_found() {
+            true => LoaderError::NoSplit { path: self.dataset.layout().split() },
+            false => error.into(),
+        })?;
+        let rows = rows.into_iter().filter(|row| row.partition == Ok(side));
         Ok(rows.map(|row| (row.scene, row.camera, row.frame)).collect())
     }
 
@@ -228,25 +233,47 @@ impl Samples {
         } else {
             self.dataset.read_specified(scene, camera, frame, layer, part, &projection)?
         };
-        if layer == Layer::DepthZMeters && is_there && !self.options.stored && self.options.cameras {
+        if layer == Layer::DepthZMeters && is_there && !self.options.stored {
             let part = part.unwrap_or(Window { top: 0, left: 0, height, width });
-            turn_planar_depth(&self.camera_calibration(index)?.0, part, &mut values);
+            match self.camera_calibration(index) {
+                Ok((projection, _)) if projection.image_axis() == DVec3::NEG_Z => {}
+                Ok((projection, _)) => {
+                    self.check_size(index, projection, part)?;
+                    turn_planar_depth(projection, part, &mut values);
+                }
+                // Images without their `_detail`, of whose camera no table has a matrix.
+                Err(_) if !self.dataset.layout().camera_model(scene, camera).is_file() => {}
+                Err(error) => return Err(error.into()),
+            }
         }
         Ok(Image { height, width, channels: layer.spec().channels, values })
     }
 
-    /// The part of the image that a crop shows.
-    fn window(&self, index: usize, crop: Crop, epoch: u64) -> Result<Window, LoaderError> {
+    /// Height and width of a sample's image before it is cropped.
+    fn image_size(&self, index: usize) -> Result<[usize; 2], DatasetError> {
         let Place { scene, camera, frame } = self.place(index);
         let known = &self.cameras[self.frames[index].camera].size;
-        let path = self.dataset.layer_source(scene, camera, frame, self.layers[0]);
-        let [rows, columns] = match known.get() {
-            Some(size) => *size,
-            None => match *image_shape(&path)? {
-                [rows, columns, ..] => *known.get_or_init(|| [rows, columns]),
-                _ => return Err(LoaderError::Request(format!("{}: it holds no image", path.display()))),
-            },
-        };
+        get_or_try(known, || self.dataset.image_size(scene, camera, frame, self.layers[0])).copied()
+    }
+
+    /// Refuses images of another size than their camera's, whose rays and K are not theirs. `window` is the part of them that was read.
+    fn check_size(&self, index: usize, projection: &Projection, window: Window) -> Result<(), LoaderError> {
+        let whole = [window.height, window.width];
+        let [height, width] = if self.options.crop.is_some() { self.image_size(index)? } else { whole };
+        let [w, h] = projection.size().map(|side| side as usize);
+        if [width, height] == [w, h] {
+            return Ok(());
+        }
+        let Place { scene, camera, .. } = self.place(index);
+        let found = format!("the images of {scene}/{camera} have {width}x{height} pixels, but its camera {w}x{h}");
+        let remedy = "take the images as they were rendered and let `resize` shrink them, name a table of cameras of their size, or ask \
+            for neither poses (poses=False) nor planar depth";
+        Err(LoaderError::Request(format!("{found}: K and rays are not theirs; {remedy}")))
+    }
+
+    /// The part of the image that a crop shows.
+    fn window(&self, index: usize, crop: Crop, epoch: u64) -> Result<Window, LoaderError> {
+        let [rows, columns] = self.image_size(index)?;
         let [height, width] = crop.size;
         let random = |purpose: u64, free: usize| {
             let mixed = [epoch, index as u64, purpose].iter().fold(hash_u64(self.options.seed), |hash, &v| hash_u64(hash ^ v));
@@ -262,6 +289,8 @@ impl Samples {
         if window.fits(rows, columns) {
             return Ok(window);
         }
+        let Place { scene, camera, frame } = self.place(index);
+        let path = self.dataset.layer_source(scene, camera, frame, self.layers[0]);
         let crop = format!("a crop of {height}x{width} pixels from row {top}, column {left}");
         Err(LoaderError::Request(format!("{}: {crop} leaves the image of {rows}x{columns}", path.display())))
     }
@@ -288,7 +317,10 @@ impl Samples {
 
     /// K of the sample's pixels, and its pose.
     fn calibration(&self, index: usize, window: Window) -> Result<(Option<Matrix3>, Option<Matrix4>), LoaderError> {
-        let (_, calibration) = self.camera_calibration(index)?;
+        let (projection, calibration) = self.camera_calibration(index)?;
+        if calibration.intrinsics.is_some() {
+            self.check_size(index, projection, window)?;
+        }
         let Place { scene, camera, frame } = self.place(index);
         let poses = get_or_try(&self.cameras[self.frames[index].camera].poses, || {
             let trajectory = self.dataset.read_trajectory(scene, camera)?;
@@ -350,6 +382,92 @@ fn chosen(what: &str, names: Vec<String>, wanted: Option<&[String]>) -> Result<V
 #[cfg(test)]
 mod tests {
     use super::*;
+    use enfilade_dataset::{FrameInfo, FrameTime};
+    use enfilade_frame::Frame;
+    use enfilade_math::DMat3;
+    use enfilade_scene::{Camera, Intrinsics, TiltedPinhole, Trajectory};
+
+    const K: Intrinsics = Intrinsics { width: 40, height: 30, fx: 33.0, fy: 33.0, cx: 19.0, cy: 16.0, skew: 0.0 };
+
+    fn tilted() -> Projection {
+        Projection::TiltedPinhole(TiltedPinhole::new(40, 30, DMat3::from_rotation_x(0.15) * K.cam_from_uv()).unwrap())
+    }
+
+    /// A frame of planar depth 2 m, taken with a tilted image plane, without a split.
+    fn write_tilted(root: &std::path::Path) -> Dataset {
+        write(root, tilted(), [40, 30], &[Layer::DepthZMeters])
+    }
+
+    /// A frame of this size in which the layers are 2 m everywhere.
+    fn write(root: &std::path::Path, projection: Projection, [width, height]: [u32; 2], layers: &[Layer]) -> Dataset {
+        let camera: Camera = projection.into();
+        let pose = Pose { frame: 0, position: DVec3::ZERO, look_at: DVec3::NEG_Z, world_from_camera: DMat3::IDENTITY };
+        let dataset = Dataset::create(root).unwrap();
+        dataset.write_camera_parameters("room", &camera).unwrap();
+        dataset.write_trajectory("room", &Trajectory { name: "cam_00".into(), poses: vec![pose] }, &camera, None).unwrap();
+        let mut frame = Frame::new(width, height);
+        layers.iter().for_each(|&layer| frame.insert(layer, Values::F32(vec![2.0; (width * height) as usize])));
+        let info = FrameInfo { seed: 1, samples: 1, config_hash: "test".into(), pose, camera, sampling: None, recipe: None };
+        dataset.write_frame("room", "cam_00", &frame, &info, FrameTime::default()).unwrap();
+        dataset
+    }
+
+    #[test]
+    fn planar_depth_of_a_tilted_camera_is_the_same_with_and_without_poses() {
+        let folder = tempfile::tempdir().unwrap();
+        let layout = write_tilted(folder.path()).layout().clone();
+        let depth_z = |cameras, crop| {
+            let options = Options { cameras, crop, ..Options::default() };
+            let samples = Samples::open(Dataset::open(folder.path()).unwrap(), &Choice::default(), options).unwrap();
+            samples.sample(0, 0).unwrap().layers.remove(0).1.values
+        };
+        let stored = Values::F32(vec![2.0; 40 * 30]);
+        for crop in [None, Some(Crop { size: [20, 30], place: CropPlace::At([3, 7]) })] {
+            assert_eq!(depth_z(false, crop), depth_z(true, crop));
+        }
+        assert_ne!(depth_z(false, None), stored);
+        // Images alone, of whose camera nothing is known.
+        std::fs::remove_dir_all(layout.detail_dir("room")).unwrap();
+        std::fs::remove_file(layout.camera_parameters()).unwrap();
+        assert_eq!(depth_z(false, None), stored);
+    }
+
+    #[test]
+    fn images_of_another_size_than_their_camera_get_neither_k_nor_depth_by_its_rays() {
+        let error = |root: &std::path::Path, layer: Layer, cameras: bool, crop: Option<Crop>| {
+            let options = Options { cameras, crop, ..Options::default() };
+            let choice = Choice { layers: Some(vec![layer]), ..Choice::default() };
+            let samples = Samples::open(Dataset::open(root).unwrap(), &choice, options).unwrap();
+            samples.sample(0, 0).err().map(|error| error.to_string())
+        };
+        let crops = [None, Some(Crop { size: [10, 10], place: CropPlace::At([0, 0]) })];
+        for size in [[20, 15], [40, 30], [80, 60]] {
+            let (straight, turned) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+            write(straight.path(), Projection::Pinhole(K), size, &[Layer::DepthMeters]);
+            write(turned.path(), tilted(), size, &[Layer::DepthZMeters]);
+            for crop in crops {
+                assert_eq!(error(straight.path(), Layer::DepthMeters, false, crop), None, "distances have no need of a camera");
+                let asked = [
+                    error(straight.path(), Layer::DepthMeters, true, crop),
+                    error(straight.path(), Layer::DepthZMeters, false, crop),
+                    error(turned.path(), Layer::DepthZMeters, false, crop),
+                ];
+                for message in asked {
+                    let expected = format!("room/cam_00 have {}x{} pixels, but its camera 40x30", size[0], size[1]);
+                    assert_eq!(message.is_some_and(|message| message.contains(&expected)), size != [40, 30], "{size:?} {crop:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_split_that_is_not_there_is_told_with_where_hypersims_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let choice = Choice { split: Some(Partition::Train), ..Choice::default() };
+        let error = Samples::open(write_tilted(folder.path()), &choice, Options::default()).err().unwrap();
+        assert!(matches!(&error, LoaderError::NoSplit { path } if path.ends_with("metadata_images_split_scene_v1.csv")), "{error}");
+        assert!(error.to_string().contains("evermotion_dataset/analysis"), "{error}");
+    }
 
     #[test]
     fn flow_is_in_pixels_of_the_resized_image() {

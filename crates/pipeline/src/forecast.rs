@@ -5,6 +5,7 @@
 //! there). Squares and frames are samples of the image and of the trajectory, so their spread tells how sure the mean is; to that
 //! comes what no spread shows, as a share of the whole.
 
+use enfilade_render::FrameRender;
 use serde::{Deserialize, Serialize};
 use std::ops::Add;
 
@@ -84,7 +85,7 @@ pub struct ScenePilot {
     pub probes: Vec<Vec<ProbeCost>>,
     /// True where the noise decides how many samples are taken.
     pub noise_target: bool,
-    /// Seconds on the wall clock after which a frame ends.
+    /// Seconds on the wall clock after which a frame ends with the pass that is under way.
     pub time_limit_s: Option<f64>,
     /// Processor seconds before the first frame: hierarchy, lights, guides.
     pub before_cpu_s: f64,
@@ -165,10 +166,11 @@ impl Forecast {
 fn sampling(pilot: &ScenePilot) -> Expected {
     let limit_s = pilot.time_limit_s.map(|limit| limit * f64::from(pilot.threads.max(1)));
     let frame = |probes: &Vec<ProbeCost>| {
-        let costs: Vec<f64> = probes.iter().map(|probe| probe.samples * probe.cpu_s * pilot.pixels as f64).collect();
-        let (mean, variance) = mean_and_variance(&costs);
-        let of_mean = variance / costs.len().max(1) as f64;
-        if limit_s.is_some_and(|limit| mean > limit) { (limit_s.unwrap_or(mean), 0.0) } else { (mean, of_mean) }
+        let all = mean_cost(probes, |probe| probe.samples * probe.cpu_s * pilot.pixels as f64);
+        match limit_s {
+            Some(limit) if all.0 > limit => ended(limit, mean_cost(probes, |probe| probe.cpu_s * pilot.pixels as f64), all.0),
+            _ => all,
+        }
     };
     let tried: Vec<(f64, f64)> = pilot.probes.iter().filter(|probes| !probes.is_empty()).map(frame).collect();
     let n = tried.len() as f64;
@@ -183,6 +185,24 @@ fn sampling(pilot: &ScenePilot) -> Expected {
     let variance = ((between - within).max(0.0) * others + within) / n;
     let all = Expected::new(frames * mean, frames * variance.sqrt());
     if pilot.noise_target { all.unsure(NOISE_SHARE) } else { all }
+}
+
+/// Mean over probes, and its variance.
+fn mean_cost(probes: &[ProbeCost], cost: impl Fn(&ProbeCost) -> f64) -> (f64, f64) {
+    let costs: Vec<f64> = probes.iter().map(cost).collect();
+    let (mean, variance) = mean_and_variance(&costs);
+    (mean, variance / costs.len().max(1) as f64)
+}
+
+/// Processor seconds of a frame that its limit ends, and their variance, by those of one sample of every pixel, which is always taken,
+/// and of all of them.
+fn ended(limit_s: f64, one: (f64, f64), all_s: f64) -> (f64, f64) {
+    if limit_s <= one.0 {
+        return one;
+    }
+    // The time is over anywhere within a pass, which doubles the samples until it has its full number.
+    let pass_s = limit_s.min(f64::from(FrameRender::PASS) * one.0);
+    ((limit_s + 0.5 * pass_s).min(all_s), pass_s.powi(2) / 12.0)
 }
 
 /// Mean, and variance of one value; the variance of a single value is taken to be its square.
@@ -249,12 +269,23 @@ mod tests {
         let probe = ProbeCost { samples: 100.0, cpu_s: 2e-6 };
         let pilot = ScenePilot { frames: 10, pixels: 5000, probes: vec![vec![probe; 4]; 2], threads: 2, ..ScenePilot::default() };
         let limited = ScenePilot { time_limit_s: Some(0.1), ..pilot.clone() };
-        assert!((sampling(&limited).mean - 2.0).abs() < 1e-9);
+        // A sample of every pixel takes 0.01 s, so a pass is 0.16 s, half of which is to come when 0.2 s are over.
+        assert!((sampling(&limited).mean - 2.8).abs() < 1e-9 && sampling(&limited).deviation > 0.1);
         let noisy = ScenePilot { noise_target: true, ..pilot.clone() };
         assert!(sampling(&noisy).deviation > 1.0);
         let sum = Forecast::sum([Forecast::of(&pilot), Forecast::of(&limited)].into_iter());
         assert_eq!(sum.frames, 20);
-        assert!((sum.cpu_s.mean - 12.0).abs() < 1e-9);
+        assert!((sum.cpu_s.mean - 12.8).abs() < 1e-9);
+    }
+
+    #[test]
+    fn one_sample_of_every_pixel_is_taken_whatever_the_time_limit() {
+        let probe = ProbeCost { samples: 100.0, cpu_s: 2e-6 };
+        let pilot = ScenePilot { frames: 10, pixels: 5000, probes: vec![vec![probe; 4]; 2], threads: 2, ..ScenePilot::default() };
+        let hurried = sampling(&ScenePilot { time_limit_s: Some(1e-6), ..pilot.clone() });
+        assert!((hurried.mean - 0.1).abs() < 1e-9, "{hurried:?}");
+        let nearly_all = sampling(&ScenePilot { time_limit_s: Some(0.49), ..pilot });
+        assert!((nearly_all.mean - 10.0).abs() < 1e-9, "{nearly_all:?}");
     }
 
     #[test]

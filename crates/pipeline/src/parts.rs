@@ -10,7 +10,7 @@ use crate::forecast::Forecast;
 use crate::report::{Reporter, StageCx, Summary};
 use crate::run::{Session, forecast, open, store_config};
 use crate::stages::{Job, PARTIALS, STAGES, Stage, StageSpec, frame_finisher, kept_part, render_frames};
-use crate::workdir::{WORKDIR, Workdir};
+use crate::workdir::{RUN, WORKDIR, Workdir, read_json, write_json};
 use enfilade_dataset::{Dataset, FrameTime};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -20,6 +20,8 @@ use std::sync::atomic::AtomicBool;
 
 /// The name under which a scene's label table travels.
 const TABLE: &str = "label_table.csv";
+/// In the work folder: whose files were brought there.
+const GATHERED: &str = "gathered.json";
 
 /// What rendering needs of a dataset whose trajectories are planned.
 #[derive(Clone, Debug)]
@@ -105,7 +107,12 @@ pub fn prepare(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dy
         let folders = [out.join(WORKDIR).join(&name), dataset.layout().scene_dir(&name)];
         let mut files = Vec::new();
         folders.iter().try_for_each(|folder| files_below(folder, out, &mut files))?;
+        // A table that several scenes share lies with the last of them.
+        if let Some(labels) = &scene.labels {
+            files.push(relative(&config.path(&labels.table)?, out));
+        }
         files.sort();
+        files.dedup();
         scenes.push(PreparedScene { name, forecast, trajectories, files });
     }
     Ok((summary, Prepared { scenes, files: common_files(out)? }))
@@ -155,6 +162,25 @@ pub fn kept_frame(out: &Path, scene: &str, camera: &str, frame: u32) -> Result<P
     Ok(folder.join(kept_part(camera, frame)))
 }
 
+/// Takes the folder `out` for the dataset that `job` names, to bring its files and frames there: a new folder, or one that was taken for
+/// the same before. Nobody else works in it while the value lives.
+///
+/// # Errors
+/// When it holds something else, or another process works there.
+pub fn gather(out: &Path, job: &str) -> Result<Workdir, Error> {
+    let workdir = Workdir::create(out)?;
+    let note = workdir.file(GATHERED);
+    match read_json::<String>(&note) {
+        Some(there) if there == job => {}
+        None if !workdir.file(RUN).is_file() => write_json(&note, &job)?,
+        _ => {
+            let message = format!("{} holds another dataset, or one of another job", out.display());
+            return Err(Error::usage(message, "name an empty folder or one that does not exist yet"));
+        }
+    }
+    Ok(workdir)
+}
+
 /// Makes the rest of the dataset in `out`, whose frames are all there: what [`crate::run`] does from rendering on.
 ///
 /// # Errors
@@ -184,7 +210,7 @@ fn common_files(out: &Path) -> Result<Vec<PathBuf>, Error> {
     let entries = std::fs::read_dir(out).map_err(Error::io("read", out))?;
     let is_table = |path: &PathBuf| path.is_file() && path.extension().is_some_and(|extension| extension == "csv");
     let tables = entries.filter_map(Result::ok).map(|entry| entry.path()).filter(is_table);
-    let mut files: Vec<PathBuf> = tables.chain([out.join(WORKDIR).join("run.json")]).map(|path| relative(&path, out)).collect();
+    let mut files: Vec<PathBuf> = tables.chain([out.join(WORKDIR).join(RUN)]).map(|path| relative(&path, out)).collect();
     files.sort();
     Ok(files)
 }

@@ -4,8 +4,8 @@ use crate::error::Error;
 use crate::stages::Stage;
 use crate::stages::render::{add_extra, config_hash, program, views};
 use crate::workdir::{Hash, PACKAGE, WORKDIR};
-use enfilade_dataset::{Dataset, FileRecord, FrameInfo, FrameRecord, FrameTime, Recipe, StoppedBy};
-use enfilade_frame::Frame;
+use enfilade_dataset::{Dataset, FileRecord, FrameInfo, FrameRecord, FrameTime, Layout, Recipe, StoppedBy};
+use enfilade_frame::{Frame, LAYERS};
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
 use enfilade_scene::{Camera, Cx, Scene, Trajectory};
 use std::path::{Path, PathBuf};
@@ -55,9 +55,12 @@ struct Source {
 ///
 /// # Errors
 /// When the file is no record with a recipe, when what it was made from is not there any more or not the same, or when this is another
-/// version of the program.
+/// version of the program; and when `out` has this frame already.
 pub fn replay(file: &Path, out: Option<&Path>, cx: &dyn Cx) -> Result<Replay, Error> {
     let source = read(file)?;
+    if let Some(out) = out {
+        refuse_older(out, &source.record)?;
+    }
     let frame = render(&source, cx)?;
     let scratch;
     let root = match out {
@@ -82,6 +85,15 @@ pub fn replay(file: &Path, out: Option<&Path>, cx: &dyn Cx) -> Result<Replay, Er
     let same = |(name, then): (&String, &FileRecord)| ReplayedFile { name: name.clone(), same: again.files.get(name) == Some(then) };
     let files = record.files.iter().map(same).collect();
     Ok(Replay { frame: format!("{}/{}/frame.{:04}", record.scene, record.camera, record.frame), files })
+}
+
+/// A frame that lies below `out` would be replaced, and its labels and denoised layers would be gone.
+fn refuse_older(out: &Path, record: &FrameRecord) -> Result<(), Error> {
+    let (layout, FrameRecord { scene, camera, frame, .. }) = (Layout::new(out), record);
+    let layers = LAYERS.iter().map(|spec| layout.layer(scene, camera, *frame, spec.layer));
+    let Some(older) = layers.chain([layout.frame_record(scene, camera, *frame)]).find(|path| path.exists()) else { return Ok(()) };
+    let message = format!("{scene}/{camera}/frame.{frame:04} is in {} already: {}", out.display(), older.display());
+    Err(Error::usage(message, "name another folder with -o; the frame that is there would be replaced"))
 }
 
 /// Finds all that the record names, and makes sure that it is still the same.
@@ -146,7 +158,11 @@ fn render(source: &Source, cx: &dyn Cx) -> Result<Frame, Error> {
     let mut rendering = FrameRender::new(&scene, &guide, &views[*index], config).map_err(Error::stage)?;
     let ended = record.sampling.filter(|sampling| sampling.stopped_by == StoppedBy::TimeLimit);
     while !rendering.is_done() && ended.is_none_or(|sampling| rendering.samples() < sampling.samples_taken) {
-        rendering.pass(cx);
+        if ended.is_some() {
+            rendering.short_pass(cx);
+        } else {
+            rendering.pass(cx);
+        }
     }
     let mut frame = rendering.frame();
     add_extra(&scene, &views, *index, config, &mut frame);

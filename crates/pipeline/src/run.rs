@@ -5,14 +5,16 @@ use crate::error::Error;
 use crate::forecast::Forecast;
 use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::split::write_split;
-use crate::stages::{CARD, FramesByTrajectory, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, missing_frames, pilot};
-use crate::workdir::{Workdir, read_json, write_json};
-use enfilade_dataset::{CameraEntry, Dataset, FrameStatus, ManifestInfo};
+use crate::stages::{
+    CARD, FramesByTrajectory, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, missing_frames, pilot, read_table,
+};
+use crate::workdir::{RUN, WORKDIR, Workdir, read_json, remove_if_there, write_json};
+use enfilade_dataset::{CameraEntry, Dataset, DatasetError, FrameStatus, ManifestInfo};
 use enfilade_post::drivers::write_overview;
 use enfilade_post::sheet::SheetConfig;
 use enfilade_post::stats::{StatsConfig, write_statistics};
 use enfilade_post::verify::{VerifyReport, join_reports, verify_scene, write_report};
-use enfilade_scene::Quiet;
+use enfilade_scene::{Cx, Quiet, Warning};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -27,6 +29,8 @@ struct RunFile {
     config: Config,
 }
 
+/// Names listed in a warning.
+const NAMES_SHOWN: usize = 5;
 /// What follows from labels before anyone looks at them.
 const LABELLING: [&StageSpec; 2] = [&STAGES[Stage::Label as usize], &STAGES[Stage::Boxes as usize]];
 
@@ -41,7 +45,10 @@ pub fn run(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Re
     let workdir = Workdir::create(out)?;
     store_config(&workdir, config)?;
     let stages: Vec<&StageSpec> = STAGES.iter().collect();
-    Session::new(config, &workdir)?.run(&scenes, &stages, false, reporter)
+    let session = Session::new(config, &workdir)?;
+    let mut summary = session.run(&scenes, &stages, false, reporter)?;
+    summary.warnings.extend(session.unknown_scenes());
+    Ok(summary)
 }
 
 /// Runs one stage of the dataset in `out` with the configuration stored there; after new labels also the boxes of what they name.
@@ -56,10 +63,10 @@ pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, r
 }
 
 /// Forecasts what [`run`] will still take, by scene: does all that comes before rendering, which is kept, and tries out a little of the rest,
-/// which is not. Scenes that fail before rendering are left out, and the summary tells why.
+/// which is not. Scenes that fail are left out, and the summary tells why.
 ///
 /// # Errors
-/// As [`run`], and when the pilot of a scene fails.
+/// As [`run`].
 pub fn estimate(
     config: &Config,
     out: &Path,
@@ -82,19 +89,25 @@ pub(crate) fn forecast(
     store_config(&workdir, config)?;
     let before: Vec<&StageSpec> = STAGES.iter().filter(|spec| spec.stage < Stage::Render).collect();
     let session = Session::new(config, &workdir)?;
-    let summary = session.run(&scenes, &before, false, reporter)?;
+    let mut summary = session.run(&scenes, &before, false, reporter)?;
+    summary.warnings.extend(session.unknown_scenes());
     let mut forecasts = Vec::new();
-    for (scene, _) in scenes.iter().zip(&summary.scenes).filter(|(_, outcome)| outcome.failure.is_none()) {
+    for (scene, outcome) in scenes.iter().zip(&mut summary.scenes).filter(|(_, outcome)| outcome.failure.is_none()) {
         let job = Job::new(config, scene, &session.dataset, &workdir, false);
-        let frames = frames(&job)?;
-        let forecast = if frames.is_empty() {
-            Forecast::default()
-        } else {
-            Forecast::of(&pilot(&job, &frames, &StageCx::new(&scene.name, Stage::Render, reporter))?)
-        };
-        forecasts.push((scene.name.clone(), forecast));
+        match frames(&job).and_then(|frames| forecast_of(&job, &frames, reporter)) {
+            Ok(forecast) => forecasts.push((scene.name.clone(), forecast)),
+            Err(error) => outcome.failure = Some(told_failure(&scene.name, Stage::Render, &error, reporter)),
+        }
     }
     Ok((summary, forecasts))
+}
+
+/// What the `frames` of a scene take.
+fn forecast_of(job: &Job, frames: &FramesByTrajectory, reporter: &dyn Reporter) -> Result<Forecast, Error> {
+    if frames.is_empty() {
+        return Ok(Forecast::default());
+    }
+    Ok(Forecast::of(&pilot(job, frames, &StageCx::new(&job.scene.name, Stage::Render, reporter))?))
 }
 
 /// Plans as [`run_stage`] does and draws what was planned, now or earlier. Returns also the page of each scene that came through.
@@ -114,13 +127,43 @@ pub fn plan_and_draw(out: &Path, pattern: Option<&str>, force: bool, reporter: &
     Ok((summary, pages))
 }
 
+/// Checks every law over `scenes` of a dataset, whoever made it. That a scene has passed once is forgotten where it does not now, so that
+/// the next [`run`] verifies it again.
+///
+/// # Errors
+/// When the manifest cannot be read.
+pub fn verify(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<VerifyReport, DatasetError> {
+    let mut reports = Vec::new();
+    for scene in scenes {
+        let report = verify_scene(dataset, scene, cx)?;
+        if !report.passed {
+            forget_passing(dataset, scene, cx);
+        }
+        reports.push(report);
+    }
+    Ok(join_reports(dataset, reports))
+}
+
+/// Removes what a run has kept of verifying a scene, the record first, as without one the stage runs. Data of others have none.
+fn forget_passing(dataset: &Dataset, scene: &str, cx: &dyn Cx) {
+    let folder = dataset.root().join(WORKDIR).join(scene);
+    for path in [folder.join(format!("{}.json", Stage::Verify.name())), folder.join(CARD)] {
+        if let Err(error) = remove_if_there(&path) {
+            cx.warn(Warning { place: path.display().to_string(), message: error.explain() });
+        }
+    }
+}
+
 /// Gives scenes of the dataset in `out` another label table, and labels them again. `table` is a CSV file.
 ///
 /// # Errors
-/// As [`run_stage`].
+/// As [`run_stage`], and when `table` cannot be read.
 pub fn relabel(out: &Path, table: &Path, pattern: Option<&str>, force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
     let table = std::path::absolute(table).map_err(Error::io("find", table))?;
-    let (workdir, config) = open_changed(out, pattern, |scene| scene.set_label_table(&table.to_string_lossy()))?;
+    let (workdir, config) = open_with(out, pattern, |scene| scene.set_label_table(&table.to_string_lossy()))?;
+    // Before it is stored: a name that was mistyped must not cost the labels that are there.
+    read_table(&table)?;
+    store_config(&workdir, &config)?;
     let scenes = config.select(pattern)?;
     Session::new(&config, &workdir)?.run(&scenes, &LABELLING, force, reporter)
 }
@@ -138,35 +181,48 @@ pub fn run_chosen(
     reporter: &dyn Reporter,
 ) -> Result<Summary, Error> {
     choices.check()?;
-    let (workdir, config) = open_changed(out, pattern, |scene| choices.apply(scene))?;
+    let (workdir, config) = open_with(out, pattern, |scene| choices.apply(scene))?;
     let scenes = config.select(pattern)?;
+    let session = Session::new(&config, &workdir)?;
+    if stages.contains(&Stage::Denoise) {
+        // Before the choice is stored: a library that is missing must not cost what is finished.
+        let planned = scenes.iter().filter(|scene| session.dataset.layout().metadata_cameras(&scene.name).is_file());
+        planned.map(|scene| check_denoiser(&Job::new(&config, scene, &session.dataset, &workdir, force))).collect::<Result<(), Error>>()?;
+    }
+    store_config(&workdir, &config)?;
     let stages: Vec<&StageSpec> = stages.iter().map(|stage| stage.spec()).collect();
-    Session::new(&config, &workdir)?.run(&scenes, &stages, force, reporter)
+    session.run(&scenes, &stages, force, reporter)
 }
 
 pub(crate) fn store_config(workdir: &Workdir, config: &Config) -> Result<(), Error> {
     let inside = |path: &PathBuf| path.strip_prefix(workdir.out()).unwrap_or(path).to_path_buf();
     let carried = config.carried.iter().map(|(written, path)| (written.clone(), inside(path))).collect();
-    write_json(&workdir.file("run.json"), &RunFile { base: config.base.clone(), carried, config: config.clone() })
+    write_json(&workdir.file(RUN), &RunFile { base: config.base.clone(), carried, config: config.clone() })
 }
 
 pub(crate) fn open(out: &Path) -> Result<(Workdir, Config), Error> {
     let workdir = Workdir::open(out)?;
-    let Some(RunFile { base, carried, config }) = read_json(&workdir.file("run.json")) else {
-        let message = format!("{} holds no configuration of this version", workdir.file("run.json").display());
+    let Some(RunFile { base, carried, config }) = read_json(&workdir.file(RUN)) else {
+        let message = format!("{} holds no configuration of this version", workdir.file(RUN).display());
         return Err(Error::usage(message, "run `enfilade run` for this folder once; what is finished is kept"));
     };
     let carried = carried.into_iter().map(|(written, path)| (written, out.join(path))).collect();
     Ok((workdir, Config { base, carried, ..config }))
 }
 
-/// As [`open`], with `change` made to the chosen scenes from now on.
-fn open_changed(out: &Path, pattern: Option<&str>, change: impl Fn(&mut SceneConfig)) -> Result<(Workdir, Config), Error> {
+/// As [`open`], with `change` made to the chosen scenes; [`store_config`] makes it last.
+fn open_with(out: &Path, pattern: Option<&str>, change: impl Fn(&mut SceneConfig)) -> Result<(Workdir, Config), Error> {
     let (workdir, mut config) = open(out)?;
     let chosen: Vec<String> = config.select(pattern)?.iter().map(|s| s.name.clone()).collect();
     config.scenes.iter_mut().filter(|s| chosen.contains(&s.name)).for_each(change);
-    store_config(&workdir, &config)?;
     Ok((workdir, config))
+}
+
+/// Tells that a stage of a scene could not be done, and why.
+fn told_failure(scene: &str, stage: Stage, error: &Error, reporter: &dyn Reporter) -> Failure {
+    let message = error.explain();
+    reporter.on(scene, stage, Event::Failed { message: &message });
+    Failure { stage, message, hint: error.hint() }
 }
 
 /// A run over scenes.
@@ -199,9 +255,7 @@ impl<'a> Session<'a> {
                 match ready.and_then(|()| advance(spec, &job, StageCx::new(&scene.name, spec.stage, reporter))) {
                     Ok(done) => outcome.stages.push(done),
                     Err(error) => {
-                        let message = error.explain();
-                        reporter.on(&scene.name, spec.stage, Event::Failed { message: &message });
-                        outcome.failure = Some(Failure { stage: spec.stage, message, hint: error.hint() });
+                        outcome.failure = Some(told_failure(&scene.name, spec.stage, &error, reporter));
                         break;
                     }
                 }
@@ -223,10 +277,32 @@ impl<'a> Session<'a> {
         }
     }
 
+    /// A line about scenes of the folder that the configuration does not have; `None` where it has all.
+    fn unknown_scenes(&self) -> Option<String> {
+        let is_known = |name: &String| self.config.scenes.iter().any(|scene| scene.name == *name);
+        // Where the folder cannot be read, the run has said so.
+        let unknown: Vec<String> = self.dataset.scenes().unwrap_or_default().into_iter().filter(|name| !is_known(name)).collect();
+        if unknown.is_empty() {
+            return None;
+        }
+        let more = match unknown.len().saturating_sub(NAMES_SHOWN) {
+            0 => String::new(),
+            n => format!(" and {n} more"),
+        };
+        let names: Vec<&str> = unknown.iter().map(String::as_str).take(NAMES_SHOWN).collect();
+        Some(format!(
+            "{} also holds scenes that this configuration does not have: {}{more}; they stay as they are, and stages such as `render` do not \
+             know them until a configuration that has them is run",
+            self.workdir.out().display(),
+            names.join(", ")
+        ))
+    }
+
     /// Divides the dataset by scene; a line where assets are on several sides.
     fn write_split(&self) -> Result<Option<String>, Error> {
         let Some(manifest) = self.dataset.read_manifest().map_err(Error::stage)? else { return Ok(None) };
-        Ok(write_split(&self.dataset, self.workdir, &manifest)?.warning())
+        let warning = write_split(&self.dataset, self.workdir, &manifest)?.warning();
+        Ok(warning.map(|warning| format!("{warning}; split.json has all")))
     }
 
     /// Writes the report card of all scenes, also of those that did not come so far as to be verified. Stages that change what is verified

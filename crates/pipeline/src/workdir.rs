@@ -3,6 +3,7 @@
 //! ```text
 //! OUT/.enfilade/lock                 held by the process at work
 //! OUT/.enfilade/run.json             the resolved configuration, and the folder its relative paths start from
+//! OUT/.enfilade/gathered.json        of a dataset that others made: which job's files were brought here
 //! OUT/.enfilade/SCENE/scene.scene    the scene package
 //! OUT/.enfilade/SCENE/partial/       frames in the making, to go on from where a run was killed
 //! OUT/.enfilade/SCENE/STAGE.json     what the stage read and wrote, its warnings and times: written last, after all outputs
@@ -17,6 +18,8 @@ use std::path::{Path, PathBuf};
 /// Name of the folder within the dataset.
 pub const WORKDIR: &str = ".enfilade";
 
+/// The resolved configuration in the work folder.
+pub(crate) const RUN: &str = "run.json";
 /// The scene package in a scene's part of the work folder.
 pub(crate) const PACKAGE: &str = "scene.scene";
 

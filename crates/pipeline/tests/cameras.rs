@@ -30,8 +30,9 @@ fn config(folder: &Path) -> Config {
     let mut text =
         "seed = 3\nframes = 2\n[render]\nsize = [64, 48]\nsamples = 1\nmax_bounces = 1\n[carve]\nrays = 8192\niterations = 2\n".to_string();
     for (name, keys) in cameras {
-        text +=
-            &format!("[[scene]]\nname = \"{name}\"\nhome = {{ rooms = [\"living\"] }}\ncameras = [\"living_1\"]\n[scene.camera]\n{keys}\n");
+        text += &format!(
+            "[[scene]]\nname = \"{name}\"\nhome = {{ seed = 3, rooms = [\"living\"] }}\ncameras = [\"living_1\"]\n[scene.camera]\n{keys}\n"
+        );
     }
     std::fs::write(folder.join("dataset.toml"), text).unwrap();
     Config::read(&folder.join("dataset.toml"), &Overrides::default()).unwrap()

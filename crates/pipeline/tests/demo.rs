@@ -5,14 +5,21 @@ use enfilade_pipeline::{CameraChoice, Config, Event, Overrides, Reporter, Stage,
 use std::path::Path;
 use std::sync::Mutex;
 
-/// Remembers which stages began.
+/// Remembers which stages began, and what rendering said that it does.
 #[derive(Default)]
-struct Began(Mutex<Vec<Stage>>);
+struct Began(Mutex<Vec<Stage>>, Mutex<Vec<String>>);
 
 impl Reporter for Began {
     fn on(&self, _scene: &str, stage: Stage, event: Event) {
-        if matches!(event, Event::Started) {
-            self.0.lock().unwrap().push(stage);
+        match (stage, event) {
+            (_, Event::Started) => self.0.lock().unwrap().push(stage),
+            (Stage::Render, Event::Progress { what, .. }) => {
+                let mut told = self.1.lock().unwrap();
+                if told.last().is_none_or(|last| last != what) {
+                    told.push(what.to_string());
+                }
+            }
+            _ => {}
         }
     }
 }
@@ -38,7 +45,10 @@ fn the_demo_verifies_and_is_made_once() {
     let out = folder.path().join("out");
     let mut config = tiny_demo();
 
-    let (first, began) = run_and_watch(&config, &out);
+    let watch = Began::default();
+    let first = run(&config, &out, None, &watch).unwrap();
+    let (began, told) = (watch.0.into_inner().unwrap(), watch.1.into_inner().unwrap());
+    assert_eq!(told[..2], ["building the ray-tracing hierarchy", "learning where light comes from"], "{told:?}");
     assert!(first.ok(), "{:?}", first.scenes);
     assert_eq!(
         began,

@@ -1,7 +1,11 @@
 //! Datasets of every mode of trajectory: made, verified, and not made again.
 
 use enfilade_dataset::Dataset;
+use enfilade_geometry::OccupancyTree;
+use enfilade_math::DVec3;
 use enfilade_pipeline::{Config, Overrides, Silent, run};
+use enfilade_post::verify::{Law, verify_scene};
+use enfilade_scene::Quiet;
 use std::path::Path;
 
 /// A home of one room, tiny, once per mode; the poses made by hand are of the demo's.
@@ -48,6 +52,13 @@ fn datasets_of_every_mode_verify_and_are_made_once() {
     assert_eq!((poses[0].position.x, poses[3].position.x), (-1.1, -1.25));
     let time = std::fs::read_to_string(dataset.layout().metadata_camera("video", "cam_00")).unwrap();
     assert!(time.contains("frame_time_seconds,0.1"), "{time}");
+
+    // Where nothing is free, planned poses break a law. Poses made by hand are kept wherever they stand.
+    for (scene, broken) in [("walk", vec![Law::FreeCamera]), ("keyframes", vec![])] {
+        dataset.write_free_space(scene, &OccupancyTree::new(0.1).to_bt(), DVec3::ZERO, DVec3::ZERO).unwrap();
+        let report = verify_scene(&dataset, scene, &Quiet).unwrap();
+        assert_eq!(report.failures().map(|law| law.law).collect::<Vec<_>>(), broken, "{scene}");
+    }
 }
 
 #[test]

@@ -238,6 +238,8 @@ fn images_of_something_else_are_refused() {
     assert!(message(&config).contains("cannot read the folder"));
     render_as_v_ray(&job, &frames[0], &poses[1], fov_x_deg, 0);
     assert!(message(&config).contains("its camera stood at"));
+    render_as_v_ray(&job, &frames[1], &poses[0], fov_x_deg, 0);
+    assert!(message(&config).contains("pixels off the rays of the dataset's camera"));
     render_as_v_ray(&job, &frames[0], &poses[0], 30.0, 0);
     assert!(message(&config).contains("its camera sees 30"));
     let lenient = collect(&data, &CollectConfig { ignore_camera: true, ..config.clone() }, &Quiet).unwrap();

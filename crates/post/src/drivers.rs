@@ -4,7 +4,7 @@ mod animate;
 mod boxes;
 mod exposure;
 
-pub use animate::{AnimateConfig, AnimateError, Animated, Film, animate_camera};
+pub use animate::{AnimateConfig, AnimateError, Animated, Film, NoFrames, animate_camera};
 pub use boxes::{preview_boxes, view_instances, write_boxes, write_instances};
 pub use exposure::{Exposures, expose_camera};
 
@@ -12,7 +12,7 @@ use crate::exposure::Exposure;
 use crate::inspect::{Names, OutsideError, PixelReport, inspect};
 use crate::picture::jpeg;
 use crate::preview::{PREVIEWS, PreviewSpec, Subject, preview};
-use crate::sheet::{OverviewTile, SheetConfig, SheetTitle, overview_sheet, spread, trajectory_sheet};
+use crate::sheet::{MOST_TILES, OverviewTile, OverviewTitle, SheetConfig, SheetTitle, overview_sheet, spread, trajectory_sheet};
 use crate::tonemap::ToneMap;
 use enfilade_dataset::{Dataset, DatasetError, write_bytes};
 use enfilade_frame::{Frame, LAYERS, Layer};
@@ -22,9 +22,12 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The layers of a frame that are there or can be computed; an empty frame of one pixel when none is.
+/// The layers of a frame that are there or can be computed; an empty frame of one pixel when none is. Positions are left out where nothing
+/// says their unit.
 fn read_present(dataset: &Dataset, scene: &str, camera: &str, frame: u32, wanted: &[Layer]) -> Result<Frame, DatasetError> {
-    let there: Vec<Layer> = wanted.iter().copied().filter(|&layer| dataset.gives_layer(scene, camera, frame, layer)).collect();
+    let has_unit = || !dataset.is_released(scene) || !dataset.meters_per_asset_unit(scene).is_err_and(|error| error.is_not_found());
+    let is_there = |layer: Layer| dataset.gives_layer(scene, camera, frame, layer) && (layer != Layer::Position || has_unit());
+    let there: Vec<Layer> = wanted.iter().copied().filter(|&layer| is_there(layer)).collect();
     if there.is_empty() { Ok(Frame::new(1, 1)) } else { dataset.read_frame(scene, camera, frame, &there) }
 }
 
@@ -117,26 +120,36 @@ pub fn write_contact_sheet(
     Ok(Some(path))
 }
 
-/// Writes the contact sheet of the whole dataset, with the first frame of every trajectory that has one, and returns its path.
+/// Writes the contact sheet of the whole dataset, with the first frame of every trajectory that has one, and returns its path. Of more
+/// than [`MOST_TILES`] trajectories it shows that many, spread evenly.
 ///
 /// # Errors
 /// When a layer cannot be read or the file cannot be written.
 pub fn write_overview(dataset: &Dataset, title: &str, config: &SheetConfig) -> Result<PathBuf, DatasetError> {
-    let mut tiles = Vec::new();
+    let mut filmed: Vec<(String, String, Vec<u32>)> = Vec::new();
     for scene in dataset.scenes()? {
         for camera in dataset.cameras(&scene)? {
-            tiles.extend(overview_tile(dataset, &scene, &camera)?);
+            let frames = dataset.frame_numbers(&scene, &camera)?;
+            if frames.first().is_some_and(|&first| dataset.has_layer(&scene, &camera, first, Layer::Color)) {
+                filmed.push((scene.clone(), camera, frames));
+            }
         }
+    }
+    let scenes: BTreeSet<&String> = filmed.iter().map(|(scene, ..)| scene).collect();
+    let title = OverviewTitle { dataset: title, scenes: scenes.len(), cameras: filmed.len() };
+    let shown = spread(filmed.len(), MOST_TILES);
+    let mut tiles = Vec::new();
+    for &i in &shown {
+        let (scene, camera, frames) = &filmed[i];
+        tiles.extend(overview_tile(dataset, [scene, camera], frames)?.map(|tile| tile.shrunk(shown.len(), config)));
     }
     let path = dataset.layout().overview();
     write_bytes(&path, jpeg(&overview_sheet(title, &tiles, config)))?;
     Ok(path)
 }
 
-fn overview_tile(dataset: &Dataset, scene: &str, camera: &str) -> Result<Option<OverviewTile>, DatasetError> {
-    let frames = dataset.frame_numbers(scene, camera)?;
-    let Some(&first) = frames.first() else { return Ok(None) };
-    let frame = read_present(dataset, scene, camera, first, &[Layer::Color, Layer::RenderEntityId])?;
+fn overview_tile(dataset: &Dataset, [scene, camera]: [&str; 2], frames: &[u32]) -> Result<Option<OverviewTile>, DatasetError> {
+    let frame = read_present(dataset, scene, camera, frames[0], &[Layer::Color, Layer::RenderEntityId])?;
     let stored = dataset.read_tone_maps(scene, camera)?.first().map(|row| ToneMap { scale: row.display_scale });
     let tone = stored.or_else(|| ToneMap::of_frame(&frame)).unwrap_or_default();
     let shown = preview(Subject::Displayed, &frame, tone);
@@ -176,6 +189,9 @@ pub fn inspect_pixel(dataset: &Dataset, scene: &str, camera: &str, frame: u32, [
     let frames = dataset.frame_numbers(scene, camera)?;
     let index = trajectory.poses.iter().position(|pose| pose.frame == frame).filter(|_| frames.contains(&frame));
     let Some(index) = index else {
+        if let Some(problem) = dataset.incomplete_frames(scene, camera, &frames)?.remove(&frame) {
+            return Err(problem.into());
+        }
         let there = match (frames.first(), frames.last()) {
             (Some(first), Some(last)) => format!("{} from {first} to {last}", frames.len()),
             _ => "none".to_string(),
@@ -216,6 +232,22 @@ mod tests {
             assert_eq!(image::open(path).unwrap().width(), 600);
         }
         assert_eq!(write_contact_sheet(&dataset, ["room", "cam_00"], &[], exposures.display, &config).unwrap(), None);
+    }
+
+    #[test]
+    fn the_overview_of_hundreds_of_cameras_shows_as_many_as_fit() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        let color = |camera: &str| dataset.layout().layer("room", camera, 0, Layer::Color);
+        let cameras: Vec<String> = (0..MOST_TILES + 10).map(|i| format!("cam_{i:02}")).collect();
+        for camera in &cameras[1..] {
+            std::fs::create_dir_all(color(camera).parent().unwrap()).unwrap();
+            std::fs::copy(color("cam_00"), color(camera)).unwrap();
+        }
+        std::fs::write(dataset.layout().metadata_cameras("room"), format!("camera_name\n{}\n", cameras.join("\n"))).unwrap();
+        let sheet = image::open(write_overview(&dataset, "homes", &SheetConfig { width: 600, frames: 1 }).unwrap()).unwrap();
+        // Four columns of pictures 113 x 85 pixels large: 50 rows with their captions, and what stands above and below.
+        assert_eq!((sheet.width(), sheet.height()), (600, 50 * (85 + 64) + 140));
     }
 
     #[test]
@@ -269,5 +301,8 @@ mod tests {
         let error = inspect_pixel(&dataset, "room", "cam_00", 7, [0, 0]).unwrap_err().to_string();
         assert_eq!(error, "room/cam_00 has no frame 7; its frames: 2 from 0 to 1");
         assert!(inspect_pixel(&dataset, "room", "cam_00", 0, [64, 0]).unwrap_err().to_string().contains("outside of the image"));
+        std::fs::remove_file(dataset.layout().layer("room", "cam_00", 0, Layer::NormalCam)).unwrap();
+        let error = inspect_pixel(&dataset, "room", "cam_00", 0, [5, 45]).unwrap_err().to_string();
+        assert!(error.contains("frame.0000.normal_cam.hdf5") && error.contains("render the frame again"), "{error}");
     }
 }

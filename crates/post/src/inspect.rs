@@ -23,7 +23,9 @@ pub struct PixelReport {
     pub x: u32,
     /// Row, from 0 at the top.
     pub y: u32,
-    /// What the pixel's centre sees; `None` where nothing was hit.
+    /// Number of the part that the pixel's centre sees, -1 where nothing was hit; `None` where the frame does not tell.
+    pub entity: Option<i16>,
+    /// Its name, where it is known.
     pub part: Option<String>,
     /// The material of that part, where it is known.
     pub material: Option<String>,
@@ -74,8 +76,9 @@ pub fn inspect(frame: &Frame, view: &CameraView<'_>, names: Names<'_>, x: u32, y
     }
     let pixel = y as usize * frame.width as usize + x as usize;
     let number = |layer| frame.get(layer).map(|values| values.get(pixel) as i16);
-    let entity = number(Layer::RenderEntityId).and_then(|id| usize::try_from(id).ok()?.checked_sub(1));
-    let name = |list: &[String]| entity.and_then(|part| list.get(part).cloned());
+    let entity = number(Layer::RenderEntityId);
+    let part = entity.and_then(|id| usize::try_from(id).ok()?.checked_sub(1));
+    let name = |list: &[String]| part.and_then(|part| list.get(part).cloned());
     let centre = (f64::from(x) + 0.5, f64::from(y) + 0.5);
     let position = frame.get(Layer::Position).map(|values| vector(values, pixel));
     let projects_to = position.filter(|p| p.is_finite()).and_then(|p| view.project_in_row(p, centre.1));
@@ -87,9 +90,10 @@ pub fn inspect(frame: &Frame, view: &CameraView<'_>, names: Names<'_>, x: u32, y
     Ok(PixelReport {
         x,
         y,
+        entity,
         part: name(names.parts),
         material: name(names.materials),
-        class: entity.and(number(Layer::Semantic)).map(|class| class_name(class).to_string()),
+        class: part.and(number(Layer::Semantic)).map(|class| class_name(class).to_string()),
         instance: number(Layer::SemanticInstance).filter(|&i| i >= 1),
         ray: view.centre_ray(centre.0, centre.1).map(|ray| (ray.origin.to_array(), ray.direction.to_array())),
         projects_to,
@@ -100,7 +104,13 @@ pub fn inspect(frame: &Frame, view: &CameraView<'_>, names: Names<'_>, x: u32, y
 impl fmt::Display for PixelReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "pixel ({}, {})", self.x, self.y)?;
-        writeln!(f, "  part       {}", self.part.as_deref().unwrap_or("nothing: the ray meets no part"))?;
+        let part = match (&self.part, self.entity) {
+            (Some(name), _) => name.clone(),
+            (None, Some(id)) if id >= 1 => format!("{id}, of no known name"),
+            (None, Some(_)) => "nothing: the ray meets no part".into(),
+            (None, None) => "not known: the frame has no render_entity_id".into(),
+        };
+        writeln!(f, "  part       {part}")?;
         if let Some(material) = &self.material {
             writeln!(f, "  material   {material}")?;
         }
@@ -133,11 +143,13 @@ mod tests {
     use enfilade_math::DVec3;
 
     fn report(part: i16) -> PixelReport {
+        report_with(part, Names { parts: &testing::PARTS.map(String::from), materials: &[] })
+    }
+
+    fn report_with(part: i16, names: Names<'_>) -> PixelReport {
         let pose = testing::pose();
         let frame = testing::frame(&pose);
         let pixel = testing::pixel_of(&frame, part) as u32;
-        let parts = testing::PARTS.map(String::from);
-        let names = Names { parts: &parts, materials: &[] };
         inspect(&frame, &CameraView::still(&testing::intrinsics().into(), &pose), names, pixel % 64, pixel / 64).unwrap()
     }
 
@@ -164,6 +176,15 @@ mod tests {
         assert!(report.to_string().contains("nothing: the ray meets no part") && report.to_string().contains("NaN"));
         let json = serde_json::to_string(&report).unwrap();
         assert_eq!(serde_json::from_str::<PixelReport>(&json).unwrap().layers, report.layers);
+    }
+
+    #[test]
+    fn a_part_without_a_name_has_its_number() {
+        assert!(report_with(2, Names::default()).to_string().contains("  part       2, of no known name\n"));
+        assert!(report_with(-1, Names::default()).to_string().contains("  part       nothing: the ray meets no part\n"));
+        let (pose, frame) = (testing::pose(), Frame::new(2, 2));
+        let report = inspect(&frame, &CameraView::still(&testing::intrinsics().into(), &pose), Names::default(), 0, 0).unwrap();
+        assert!(report.to_string().contains("  part       not known: the frame has no render_entity_id\n"));
     }
 
     #[test]

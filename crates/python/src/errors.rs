@@ -16,6 +16,12 @@ pub trait IntoPy {
     fn into_py(self) -> PyErr;
 }
 
+impl IntoPy for PyErr {
+    fn into_py(self) -> PyErr {
+        self
+    }
+}
+
 impl IntoPy for DatasetError {
     fn into_py(self) -> PyErr {
         let message = self.to_string();
@@ -32,6 +38,7 @@ impl IntoPy for LoaderError {
     fn into_py(self) -> PyErr {
         match self {
             Self::Dataset(error) => error.into_py(),
+            error @ Self::NoSplit { .. } => PyFileNotFoundError::new_err(error.to_string()),
             Self::Request(message) => PyValueError::new_err(message),
         }
     }

@@ -144,8 +144,9 @@ fn numbers(what: &str, array: &Bound<'_, PyAny>) -> PyResult<Vec<i64>> {
     fn of<T: numpy::Element + Copy + Into<i64>>(array: &Bound<'_, PyAny>) -> Option<Vec<i64>> {
         let array = array.cast::<PyArrayDyn<T>>().ok()?.readonly();
         Some(match array.as_slice() {
-            Ok(values) => values.iter().map(|&value| value.into()).collect(),
-            Err(_) => array.as_array().iter().map(|&value| value.into()).collect(),
+            // A slice has the order of memory, which in Fortran's order is not that of the pixels.
+            Ok(values) if array.is_c_contiguous() => values.iter().map(|&value| value.into()).collect(),
+            _ => array.as_array().iter().map(|&value| value.into()).collect(),
         })
     }
     let found = of::<i64>(array).or_else(|| of::<u8>(array)).or_else(|| of::<i16>(array));

@@ -54,7 +54,7 @@ pub fn import_scene<'py>(
 /// rooms: kinds of rooms (living, kitchen, dining, bedroom, childrens, study, bathroom, toilet, hall, laundry), each as often as wanted; four to
 /// eight, as the seed decides, unless given.
 /// seed: of everything random. layout, furniture, materials, light: seeds of that alone.
-/// realism: share of the colours that go together. clutter: density of small things; 0 has none, 1 is a home that is lived in, 2 is untidy.
+/// realism: share of the colours that go together. clutter: density of small things; 0 has none but what shelves and cabinets hold, 1 is a home that is lived in, 2 is untidy.
 /// moment: "day", "evening" or "night"; as the seed decides unless given.
 /// assets: folders of glTF models, or furniture of Sweet Home 3D (.sh3f), to take in place of our own furniture where a model fits.
 /// assets_share: share of the things for which a model fits that are models.

@@ -8,7 +8,8 @@ use crate::json;
 use enfilade_dataset::Dataset;
 use enfilade_export::{Existing, ExportConfig, FORMATS, Format, Selection};
 use enfilade_pipeline::{STAGES, Stage, Summary};
-use enfilade_post::verify::{verify_dataset, write_report};
+use enfilade_post::verify::write_report;
+use enfilade_scene::Cx;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -54,12 +55,12 @@ pub fn stage<'py>(py: Python<'py>, name: &str, dataset: PathBuf, scenes: Option<
 #[pyfunction]
 #[pyo3(signature = (dataset, *, scenes=None))]
 pub fn verify<'py>(py: Python<'py>, dataset: PathBuf, scenes: Option<Names>) -> PyResult<Bound<'py, PyAny>> {
-    let report = py.detach(|| {
+    let report = interruptible(py, |cx: &Interrupt| {
         let dataset = Dataset::open(&dataset).map_err(IntoPy::into_py)?;
         let all = dataset.scenes().map_err(IntoPy::into_py)?;
         let pattern = scenes.map(|scenes| scenes.pattern());
         let chosen = enfilade_pipeline::select("scene", &all, pattern.as_deref()).map_err(IntoPy::into_py)?;
-        let report = verify_dataset(&dataset, &chosen, &enfilade_scene::Quiet).map_err(IntoPy::into_py)?;
+        let report = enfilade_pipeline::verify(&dataset, &chosen, cx).map_err(IntoPy::into_py)?;
         if pattern.is_none() {
             write_report(&dataset, &report).map_err(IntoPy::into_py)?;
         }
@@ -91,9 +92,9 @@ pub fn split<'py>(py: Python<'py>, dataset: PathBuf, seed: Option<u64>, shares: 
 #[pyo3(signature = (dataset, output, *, layers=None))]
 pub fn repack<'py>(py: Python<'py>, dataset: PathBuf, output: PathBuf, layers: Option<Names>) -> PyResult<Bound<'py, PyAny>> {
     let layers = self::layers(layers.as_ref())?;
-    let copied = py.detach(|| {
+    let copied = interruptible(py, |cx: &Interrupt| {
         let dataset = Dataset::open(&dataset).map_err(IntoPy::into_py)?;
-        dataset.repack(&output, layers.as_deref(), &|_, _| ()).map_err(IntoPy::into_py)
+        dataset.repack(&output, layers.as_deref(), &|done, total| cx.progress("images", done, total)).map_err(IntoPy::into_py)
     })?;
     let counts = json!({ "files": copied.files, "bytes_before": copied.bytes_before, "bytes_after": copied.bytes_after });
     json::to_python(py, &counts)

@@ -42,11 +42,12 @@ def made():
 
 @functools.cache
 def as_hypersim():
-    """The same frames as Hypersim's release has them: float16 and int16, gzip 9, chunks of h5py, no records and no manifest."""
+    """The same frames as Hypersim's release has them: float16 and int16, gzip 9, chunks of h5py, nothing of ours beside them."""
     out = folder() / "release"
     if out.is_dir():
         return out
-    shutil.copytree(made(), out, ignore=shutil.ignore_patterns("frames", "manifest*", ".enfilade*", "*.jpg", "*.png", "depth_z_meters"))
+    ours = ("frames", "manifest*", "cameras_opencv.json", ".enfilade*", "*.jpg", "*.png", "depth_z_meters")
+    shutil.copytree(made(), out, ignore=shutil.ignore_patterns(*ours))
     for path in out.glob("scenes/*/images/*_hdf5/*.hdf5"):
         values = read(path)
         layer = path.name.split(".")[2]

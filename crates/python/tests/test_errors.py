@@ -56,6 +56,13 @@ class Errors(unittest.TestCase):
         self.assertIn("optical_flow", self.message(ValueError, lambda: open_with(layers="optical_flow")))
         self.assertIn("center", self.message(ValueError, lambda: open_with(crop=(9, 9), crop_place="middle")))
 
+    def test_a_split_that_is_not_there(self):
+        root = self.copy()
+        (root / "metadata_images_split_scene_v1.csv").unlink(missing_ok=True)
+        message = self.message(FileNotFoundError, lambda: enfilade.Dataset(root, layers="color", split="train"))
+        for part in ("metadata_images_split_scene_v1.csv", "evermotion_dataset/analysis", "enfilade split"):
+            self.assertIn(part, message)
+
     def test_images_without_detail_are_read_and_poses_asked_for_in_vain_are_told(self):
         root = self.copy()
         shutil.rmtree(root / "scenes/home/_detail")

@@ -39,6 +39,13 @@ class Confusion(unittest.TestCase):
         scores.add(self.prediction.astype(np.uint16), np.where(self.truth < 0, 255, self.truth).astype(np.uint8), ignore=255)
         np.testing.assert_array_equal(scores.counts, expected)
 
+    def test_arrays_in_fortrans_order_count_pixel_by_pixel(self):
+        expected = by_numpy(self.prediction, self.truth, 13)
+        for prediction, truth in ((self.prediction, np.asfortranarray(self.truth)), (np.asfortranarray(self.prediction), self.truth)):
+            scores = enfilade.Confusion(13)
+            scores.add(prediction, truth)
+            np.testing.assert_array_equal(scores.counts, expected)
+
     def test_matrices_are_merged_pickled_and_made_of_counts(self):
         parts = [enfilade.Confusion(13) for _ in range(2)]
         for part, images in zip(parts, (slice(0, 1), slice(1, 4))):

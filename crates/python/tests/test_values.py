@@ -48,6 +48,12 @@ class StoredValues(unittest.TestCase):
         for old, new in zip(before, after, strict=True):
             for key in [*before.layers, "mask", "K", "world_from_camera"]:
                 self.assertTrue(same_bits(old[key], new[key]), key)
+        ours = datasets.folder() / "repacked-ours"
+        enfilade.repack(datasets.made(), ours, layers="position")
+        # Hypersim's positions are in asset units, ours in metres.
+        for root, unit in ((copy, None), (ours, "m")):
+            with h5py.File(datasets.file_of(root, after[0], "position"), "r") as file:
+                self.assertEqual(file["dataset"].attrs.get("unit"), unit)
 
     def test_crops_are_parts_of_the_whole(self):
         for root in (datasets.made(), datasets.as_hypersim()):

@@ -2,12 +2,16 @@
 
 import ast
 import os
+import shutil
 import signal
 import threading
+import time
 import unittest
 from pathlib import Path
 
 import enfilade
+import h5py
+import numpy as np
 
 import datasets
 
@@ -51,6 +55,29 @@ class Verbs(unittest.TestCase):
             enfilade.run(out, enfilade.Config.demo(frames=3, size=(64, 48), samples=4096))
         summary = enfilade.run(out, enfilade.Config.demo(frames=1, size=(64, 48), samples=1))
         self.assertEqual(len(enfilade.Dataset(out, layers="color")), 1, summary)
+
+    @unittest.skipIf(os.name == "nt", "Windows has no signal that a process can send to itself so")
+    def test_a_copy_can_be_interrupted(self):
+        root, out, layer = datasets.folder() / "long", datasets.folder() / "cut-short", "render_entity_id"
+        shutil.copytree(datasets.as_hypersim(), root)
+        first = datasets.file_of(root, enfilade.Dataset(root, layers=layer)[0], layer)
+        first.unlink()
+        # Images of zeros are small in the file, and cost 8 MB of memory to copy.
+        with h5py.File(first, "w") as file:
+            file.create_dataset("dataset", data=np.zeros((2000, 2000), dtype=np.int16), compression="gzip")
+        count = 3000
+        for frame in range(3, count):
+            os.link(first, first.with_name(f"frame.{frame:04}.{layer}.hdf5"))
+
+        def interrupt():
+            while not out.is_dir():
+                time.sleep(0.01)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        threading.Thread(target=interrupt, daemon=True).start()
+        with self.assertRaises(KeyboardInterrupt):
+            enfilade.repack(root, out, layers=layer)
+        self.assertLess(len(list(out.rglob(f"frame.*.{layer}.hdf5"))), count)
 
     def test_the_split_covers_the_dataset(self):
         report = enfilade.split(datasets.made(), seed=1, shares=(1, 0, 0))

@@ -24,8 +24,6 @@ const FIRST_SHARE: u32 = 4;
 const FEWEST: u32 = 8;
 /// A frame has met its noise target up to this many times that.
 const NOISE_ROOM: f64 = 1.25;
-/// Mean samples per pixel of a pass at most: short enough to be interrupted after it.
-const PASS: u32 = 16;
 
 /// Renders every layer but the labels. The bytes depend on the arguments alone, whatever the number of threads.
 ///
@@ -81,8 +79,8 @@ impl Schedule {
     pub fn new(config: &RenderConfig) -> Self {
         let spread = config.adaptive || config.noise.is_some();
         let first = if spread { (config.samples / FIRST_SHARE).max(FEWEST).min(config.samples) } else { config.samples };
-        let first_passes = first.div_ceil(PASS);
-        Self { first, first_passes, passes: first_passes + (config.samples - first).div_ceil(PASS) }
+        let first_passes = first.div_ceil(FrameRender::PASS);
+        Self { first, first_passes, passes: first_passes + (config.samples - first).div_ceil(FrameRender::PASS) }
     }
 
     /// What tells how many samples each pixel gets, once the first are taken.
@@ -107,6 +105,9 @@ impl Schedule {
 }
 
 impl<'a, 's> FrameRender<'a, 's> {
+    /// Mean samples per pixel of a pass at most: short enough to be interrupted after it.
+    pub const PASS: u32 = 16;
+
     /// A frame without samples.
     ///
     /// # Errors
@@ -129,20 +130,46 @@ impl<'a, 's> FrameRender<'a, 's> {
 
     /// Adds about 16 samples per pixel: the first passes the same number to each, the others where they are needed.
     pub fn pass(&mut self, cx: &dyn Cx) {
+        self.take(u32::MAX, cx);
+    }
+
+    /// As [`FrameRender::pass`], but the first pass is done in parts, of one sample per pixel and then of as many as are there: for a
+    /// frame that may have to end soon. In the end the samples are the same.
+    pub fn short_pass(&mut self, cx: &dyn Cx) {
+        let most = if self.done == 0 { self.begun().saturating_mul(2).max(1) } else { u32::MAX };
+        self.take(most, cx);
+    }
+
+    /// Samples that every pixel has, as long as the first pass is not done.
+    fn begun(&self) -> u32 {
+        self.film.first().and_then(|film| film.sums.first()).map_or(0, PixelSum::samples)
+    }
+
+    /// Does the next pass, or of the first one the part up to `most` samples of every pixel.
+    fn take(&mut self, most: u32, cx: &dyn Cx) {
         if self.is_done() {
             return;
         }
         let (integrator, view, tiles, wanted) = (&self.integrator, &self.view, self.tiles, &self.wanted);
         let (schedule, pass) = (self.schedule, self.done);
         let [width, _] = view.camera().size();
-        let finished = AtomicU64::new(u64::from(pass) * u64::from(tiles.count()));
-        let total = u64::from(schedule.passes) * u64::from(tiles.count());
+        let (begun, goal, whole) = match (pass, schedule.goal(0, schedule.first)) {
+            (0, whole) => (self.begun().min(whole), most.min(whole), whole),
+            _ => (0, 1, 1),
+        };
+        let count = u64::from(tiles.count());
+        let in_pass = |tiles: u64| (u64::from(begun) * count + u64::from(goal.saturating_sub(begun)) * tiles) / u64::from(whole);
+        let (finished, before, total) = (AtomicU64::new(0), u64::from(pass) * count, u64::from(schedule.passes) * count);
         self.film.par_iter_mut().zip(0..tiles.count()).for_each(|(film, tile)| {
             let pixels: Vec<(u32, u32)> = tiles.pixels(tile).collect();
-            let goals: Vec<u32> = pixels.iter().map(|(x, y)| schedule.goal(pass, wanted[(y * width + x) as usize])).collect();
+            let goal = |&(x, y): &(u32, u32)| schedule.goal(pass, wanted[(y * width + x) as usize]).min(most);
+            let goals: Vec<u32> = pixels.iter().map(goal).collect();
             add_samples(integrator, view, &pixels, &goals, &mut film.sums, &mut film.splits);
-            cx.progress("rendering", finished.fetch_add(1, Ordering::Relaxed) + 1, total);
+            cx.progress("rendering", before + in_pass(finished.fetch_add(1, Ordering::Relaxed) + 1), total);
         });
+        if goal < whole {
+            return;
+        }
         self.done += 1;
         if self.done == schedule.first_passes && !self.is_done() {
             self.wanted = self.share();

@@ -366,6 +366,34 @@ fn a_frame_goes_on_from_bytes_with_the_same_result_on_any_number_of_threads() {
 }
 
 #[test]
+fn a_first_pass_in_parts_begins_with_one_sample_and_ends_with_the_same_bytes() {
+    let scene = furnished();
+    let prepared = RenderScene::new(&scene, &Quiet).unwrap();
+    let (camera, pose) = place([37, 21]);
+    let view = CameraView::still(&camera, &pose);
+    let config = splitting(90);
+    let guide = Guide::learn(&prepared, &[view], &config);
+    let new = || FrameRender::new(&prepared, &guide, &view, &config).unwrap();
+    let bytes = |frame: &Frame| frame.iter().flat_map(|(_, values)| values.as_bytes().to_vec()).collect::<Vec<u8>>();
+
+    let (mut whole, mut begun, mut parts) = (new(), new(), new());
+    begun.short_pass(&Quiet);
+    assert_eq!((begun.samples(), begun.noise()), (1.0, None));
+    // Parts of a pass are kept too.
+    parts.restore(&begun.save(b"key"), b"key").unwrap();
+    let mut samples = Vec::new();
+    while !parts.is_done() {
+        parts.short_pass(&Quiet);
+        samples.push(parts.samples());
+    }
+    assert_eq!(samples[..3], [2.0, 4.0, 8.0]);
+    while !whole.is_done() {
+        whole.pass(&Quiet);
+    }
+    assert_eq!(bytes(&parts.frame()), bytes(&whole.frame()));
+}
+
+#[test]
 fn a_noise_target_is_met_with_fewer_samples_and_says_so() {
     let mut s = scene(vec![(room(1.0), Material::diffuse("wall", Rgb::splat(0.5)))]);
     s.lights.push(Light::Point { name: "p".into(), position: Vec3::new(0.0, 0.3, 0.5), intensity: Rgb::WHITE });

@@ -1,7 +1,7 @@
 use crate::material::Constant;
 use crate::{Alpha, Environment, Image, Light, Material, NormalMap, Parameter, Pixels, StartCamera};
 use enfilade_geometry::{Bvh, Mesh, MeshError};
-use enfilade_math::{DAffine3, Vec3, place};
+use enfilade_math::{DAffine3, DMat3, Vec3, place};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
@@ -141,13 +141,17 @@ impl Scene {
         if let Some(environment) = &self.environment {
             let what = || "the environment".to_string();
             check_finite(what, environment.is_finite())?;
-            if let Environment::Map { image, .. } = environment {
+            if let Environment::Map { image, map_from_world, .. } = environment {
                 check_index(what, "image", *image, self.images.len())?;
+                if off_orthonormal(map_from_world.as_dmat3()) > 1e-4 {
+                    let problem = format!("map_from_world must turn or mirror and nothing else, found {map_from_world:?}");
+                    return Err(SceneError::Value { what: what(), problem });
+                }
             }
         }
         for camera in &self.cameras {
             let r = camera.world_from_camera;
-            let error = (r * r.transpose() - enfilade_math::DMat3::IDENTITY).to_cols_array().iter().fold(0.0f64, |m, v| m.max(v.abs()));
+            let error = off_orthonormal(r);
             if !camera.position.is_finite() || error.is_nan() || error > 1e-9 || r.determinant() < 0.0 {
                 let problem = format!("its axes must be orthonormal and right-handed, found {r:?} at {}", camera.position);
                 return Err(SceneError::Value { what: format!("camera {:?}", camera.name), problem });
@@ -206,6 +210,12 @@ impl Scene {
         let mesh = &self.meshes[part.mesh as usize];
         mesh.corners(triangle).map(|p| place(&part.world_from_mesh, p))
     }
+}
+
+/// The largest difference of m·mᵀ from the identity; NaN when any is.
+fn off_orthonormal(m: DMat3) -> f64 {
+    let differences = (m * m.transpose() - DMat3::IDENTITY).to_cols_array();
+    differences.into_iter().map(f64::abs).max_by(f64::total_cmp).unwrap_or(0.0)
 }
 
 fn check_finite(what: impl Fn() -> String, finite: bool) -> Result<(), SceneError> {
@@ -280,5 +290,13 @@ mod tests {
         let map = Environment::Map { image: 3, rows: crate::MapRows::Bands, scale: Rgb::WHITE, map_from_world: Mat3::IDENTITY };
         scene.environment = Some(map);
         assert!(scene.validate().unwrap_err().to_string().contains("image 3"));
+        let skewed = Mat3::from_cols(Vec3::X, Vec3::new(0.5, 1.0, 0.0).normalize(), Vec3::Z);
+        scene.images.push(Image { name: "sky".into(), width: 1, height: 1, pixels: Pixels::RgbF32(vec![[1.0; 3]]) });
+        for (map_from_world, fits) in
+            [(skewed, false), (Mat3::from_rotation_x(0.3), true), (Mat3::from_diagonal(Vec3::new(-1.0, 1.0, 1.0)), true)]
+        {
+            scene.environment = Some(Environment::Map { image: 0, rows: crate::MapRows::Bands, scale: Rgb::WHITE, map_from_world });
+            assert_eq!(scene.validate().is_ok(), fits, "{map_from_world:?}: {:?}", scene.validate());
+        }
     }
 }

@@ -54,7 +54,7 @@ pub struct Ingested {
 }
 
 /// Reads `pix3d.json` in the folder `root`. With `split`, one of Mesh R-CNN's files (`pix3d_s1_train.json` and so on), only the images
-/// that it names, under its ids. Every file that is named must be there, and images must have the size that is said.
+/// that it names, under its ids. Every file that is named must be there, and masks must have the size that is said of their images.
 ///
 /// The focal length in pixels is focal_length / 32 mm · width, and the principal point is the middle of the image.
 ///

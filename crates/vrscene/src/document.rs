@@ -9,6 +9,8 @@ use std::sync::Arc;
 pub enum Item {
     /// `#include "path"`.
     Include(Include),
+    /// `#time frame`.
+    Time(Time),
     /// A plugin.
     Plugin(Plugin),
 }
@@ -47,6 +49,21 @@ impl Include {
     }
 }
 
+/// The moment that the plugins after it are told for; those that change come again after each.
+#[derive(Clone, Debug)]
+pub struct Time {
+    pub(crate) before: Text,
+    /// `#time`, the number, and the blank that ends it.
+    pub(crate) text: Text,
+}
+
+impl Time {
+    /// Where it stands in the file that was read.
+    pub fn place(&self) -> Place {
+        self.text.place()
+    }
+}
+
 /// A scene description.
 #[derive(Clone, Debug)]
 pub struct Document {
@@ -76,7 +93,7 @@ impl Document {
             reader.scanner.skip_blank()?;
             match reader.scanner.peek() {
                 None => return Ok(Self { items, end: reader.text(start..file.len()) }),
-                Some(b'#') => items.push(Item::Include(reader.include(start)?)),
+                Some(b'#') => items.push(reader.directive(start)?),
                 Some(_) => items.push(Item::Plugin(reader.plugin(start)?)),
             }
         }
@@ -86,7 +103,7 @@ impl Document {
     pub fn plugins(&self) -> impl Iterator<Item = &Plugin> {
         self.items.iter().filter_map(|item| match item {
             Item::Plugin(plugin) => Some(plugin),
-            Item::Include(_) => None,
+            Item::Include(_) | Item::Time(_) => None,
         })
     }
 
@@ -94,7 +111,7 @@ impl Document {
     pub fn plugins_mut(&mut self) -> impl Iterator<Item = &mut Plugin> {
         self.items.iter_mut().filter_map(|item| match item {
             Item::Plugin(plugin) => Some(plugin),
-            Item::Include(_) => None,
+            Item::Include(_) | Item::Time(_) => None,
         })
     }
 
@@ -112,7 +129,7 @@ impl Document {
     pub fn includes(&self) -> impl Iterator<Item = &Include> {
         self.items.iter().filter_map(|item| match item {
             Item::Include(include) => Some(include),
-            Item::Plugin(_) => None,
+            Item::Plugin(_) | Item::Time(_) => None,
         })
     }
 
@@ -132,11 +149,16 @@ impl Reader<'_> {
         Text::Read { file: self.file.clone(), range }
     }
 
-    fn include(&mut self, start: usize) -> Result<Include, SceneTextError> {
+    fn directive(&mut self, start: usize) -> Result<Item, SceneTextError> {
         let hash = self.scanner.at;
-        if self.scanner.word("`#include`")? != b"#include" {
-            return Err(self.scanner.error_at(hash, "`#include`, or a plugin"));
+        match self.scanner.word("`#include`")? {
+            b"#include" => self.include(start, hash).map(Item::Include),
+            b"#time" => self.time(start, hash).map(Item::Time),
+            _ => Err(self.scanner.error_at(hash, "`#include`, `#time`, or a plugin")),
         }
+    }
+
+    fn include(&mut self, start: usize, hash: usize) -> Result<Include, SceneTextError> {
         let length = self.scanner.string()?.len();
         let quote = self.scanner.at - 1;
         Ok(Include {
@@ -145,6 +167,19 @@ impl Reader<'_> {
             path: self.text(quote - length..quote),
             closing: self.text(quote..quote + 1),
         })
+    }
+
+    fn time(&mut self, start: usize, hash: usize) -> Result<Time, SceneTextError> {
+        const EXPECTED: &str = "a number after `#time`";
+        self.scanner.skip_blank()?;
+        let number = self.scanner.at;
+        let word = self.scanner.word(EXPECTED)?;
+        if std::str::from_utf8(word).ok().and_then(|text| text.parse::<f64>().ok()).is_none() {
+            return Err(self.scanner.error_at(number, EXPECTED));
+        }
+        // With the blank, the number still ends here when what comes next is removed.
+        self.scanner.at += usize::from(self.scanner.peek().is_some_and(|byte| byte.is_ascii_whitespace()));
+        Ok(Time { before: self.text(start..hash), text: self.text(hash..self.scanner.at) })
     }
 
     fn plugin(&mut self, before: usize) -> Result<Plugin, SceneTextError> {

@@ -1,8 +1,8 @@
 //! V-Ray's scene description, the text of `.vrscene` files, as a document that is read, edited and written without loss.
 //!
-//! A file is a run of plugins, `#include` lines, and what stands between them. [`Document::parse`] finds where each begins and ends
-//! and keeps the bytes; what is not edited is written back as it was, byte for byte, unknown plugins and comments included. The value
-//! of a parameter is decoded when somebody asks for it ([`Parameter::value`]), so that a file of hundreds of megabytes of packed
+//! A file is a run of plugins, `#include` and `#time` lines, and what stands between them. [`Document::parse`] finds where each begins
+//! and ends and keeps the bytes; what is not edited is written back as it was, byte for byte, unknown plugins and comments included. The
+//! value of a parameter is decoded when somebody asks for it ([`Parameter::value`]), so that a file of hundreds of megabytes of packed
 //! meshes opens in the time that it takes to look at its bytes once.
 //!
 //! ```text
@@ -25,7 +25,7 @@ mod scan;
 mod value;
 mod write;
 
-pub use document::{Document, Include, Item};
+pub use document::{Document, Include, Item, Time};
 pub use error::{Place, SceneTextError};
 pub use plugin::{Parameter, Plugin};
 pub use value::{Matrix, Transform, Value, Vector};

@@ -30,7 +30,7 @@ pub enum Value {
     Name(Vec<u8>),
     /// `Vector(x, y, z)`.
     Vector(Vector),
-    /// `Color(r, g, b)`.
+    /// `Color(r, g, b)`; multiplied where `* number` follows.
     Color(Vector),
     /// `AColor(r, g, b, a)`.
     AColor([f32; 4]),
@@ -179,7 +179,7 @@ fn read(scanner: &mut Scanner, depth: usize) -> Result<Value, SceneTextError> {
     }
     match word {
         b"Vector" => Ok(Value::Vector(numbers(scanner)?)),
-        b"Color" => Ok(Value::Color(numbers(scanner)?)),
+        b"Color" => Ok(Value::Color(multiplied(scanner)?)),
         b"AColor" => Ok(Value::AColor(numbers(scanner)?)),
         b"Matrix" => Ok(Value::Matrix(vectors(scanner, depth)?)),
         b"Transform" => transform(scanner, depth),
@@ -247,6 +247,16 @@ fn exactly<T, const N: usize>(scanner: &Scanner, values: Vec<T>) -> Result<[T; N
 fn numbers<const N: usize>(scanner: &mut Scanner) -> Result<[f32; N], SceneTextError> {
     let values = items(scanner, |s| number_of(s, "a number"))?;
     exactly(scanner, values)
+}
+
+/// Three numbers, times one that may follow.
+fn multiplied(scanner: &mut Scanner) -> Result<Vector, SceneTextError> {
+    let color: Vector = numbers(scanner)?;
+    if !scanner.take(b'*')? {
+        return Ok(color);
+    }
+    let factor: f32 = number_of(scanner, "a number after `*`")?;
+    Ok(color.map(|v| v * factor))
 }
 
 fn vectors(scanner: &mut Scanner, depth: usize) -> Result<Matrix, SceneTextError> {

@@ -23,6 +23,11 @@ impl Document {
                         out.write_all(text.bytes())?;
                     }
                 }
+                Item::Time(time) => {
+                    for text in [&time.before, &time.text] {
+                        out.write_all(text.bytes())?;
+                    }
+                }
                 Item::Plugin(plugin) => {
                     for text in [&plugin.before, &plugin.kind, &plugin.gap, &plugin.name, &plugin.opening] {
                         out.write_all(text.bytes())?;

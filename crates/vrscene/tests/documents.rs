@@ -94,6 +94,26 @@ fn edits_change_what_they_name_and_nothing_else() {
 }
 
 #[test]
+fn moments_are_kept_where_they_stand() {
+    let text = "#time 0\nNode a { x=1; }\n#time 1.5 FilterArea f {}Node a { x=2; }\n#time 2";
+    let mut read = document(text);
+    assert_eq!((read.items.len(), read.plugins().count(), read.to_bytes()), (6, 3, text.as_bytes().to_vec()));
+    let Item::Time(time) = &read.items[2] else { panic!("{:?}", read.items[2]) };
+    assert_eq!((time.place().line, time.place().column), (3, 1));
+    // The number ends where it did, whatever goes away behind it.
+    read.items.retain(|item| !matches!(item, Item::Plugin(plugin) if plugin.kind() == b"FilterArea"));
+    read.push(Plugin::new("Node", "b"));
+    assert_eq!(document(std::str::from_utf8(&read.to_bytes()).unwrap()).plugins().count(), 3);
+}
+
+#[test]
+fn colours_may_be_multiplied() {
+    assert_eq!(value("Color(1, 0.5, 0)*0.5"), Value::Color([0.5, 0.25, 0.0]));
+    assert_eq!(value("List(Color(1, 1, 1) * 2, 3)"), Value::List(b"List".to_vec(), vec![Value::Color([2.0; 3]), Value::Int(3)]));
+    assert_eq!(Value::parse(b"Color(1, 1, 1)*red").unwrap_err().to_string(), "1:16: expected a number after `*`, found `red`");
+}
+
+#[test]
 fn what_is_made_can_be_read() {
     let mut made = Document::default();
     made.items.push(Item::Include(Include::new("a.vrscene")));
@@ -112,7 +132,8 @@ fn damage_is_told_with_line_and_column() {
     assert_eq!(told("Node a {\n  x=\"b;\n}"), "2:5: expected `\"` at the end of this string, found `\"b;`");
     assert_eq!(told("Node {"), "1:6: expected the name of the plugin, found `{`");
     assert_eq!(told("Node a {"), "1:9: expected the name of a parameter, or `}`, found the end of the text");
-    assert_eq!(told("#define x"), "1:1: expected `#include`, or a plugin, found `#define x`");
+    assert_eq!(told("#define x"), "1:1: expected `#include`, `#time`, or a plugin, found `#define x`");
+    assert_eq!(told("#time soon"), "1:7: expected a number after `#time`, found `soon`");
     assert_eq!(told("/* x"), "1:1: expected `*/` at the end of this comment, found `/* x`");
     let wrong = |text: &str| document(text).plugins().next().unwrap().parameters()[0].value().unwrap_err().to_string();
     assert_eq!(wrong("A b {\n  c=Vector(1, 2);\n}"), "2:16: expected 3 values in these brackets and not 2, found `)`");

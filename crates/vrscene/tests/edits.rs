@@ -19,7 +19,8 @@ SettingsImageSampler is { type=3; filter=aaFilter; filters=List(aaFilter, mesh);
 SettingsUnitsInfo units { meters_scale=0.0254; }
 SettingsGI gi { on=1; }
 RenderView view { transform=interpolate((0, 1), (99, 2)); }
-CameraPhysical cam { fov=1; use_dof=1; }
+SettingsOutput output { img_pixelAspect=1.5; }
+CameraPhysical cam { fov=1; use_dof=1; lens_shift=0.2; horizontal_shift=0.1; horizontal_offset=0.3; vertical_offset=-0.1; zoom_factor=2; blades_enable=1; }
 "#;
 
 fn scene() -> Document {
@@ -45,6 +46,34 @@ fn paths_move_whatever_their_slashes_and_letters() {
     assert_eq!(replace_paths(&mut scene, "/mnt/assets", r"E:\a"), 2);
     assert_eq!(raw(&scene, "buffer", "file"), Some(r#""E:\a\maps\Leather.jpg""#));
     assert_eq!(Platform::Windows.join(r"E:\a\", "b.vrmap"), r"E:\a\b.vrmap");
+}
+
+#[test]
+fn every_parameter_that_names_a_file_counts_and_no_other() {
+    let text = r#"MtlVRmat a { filename="C:\jobs\a.vrmat"; }
+VRayScene b { filepath="C:\jobs\b.vrscene"; filter_type=1; }
+CameraPhysical c { lens_file="C:\jobs\c.lens"; }
+PhxShaderCache d { cache_path="C:\jobs\d.aur"; }
+TexOSL e { shader_file="C:\jobs\e.osl"; }
+SettingsOutput f { img_file="C:\jobs\f.exr"; img_dir="C:\jobs"; img_file_needFrameNumber=1; }
+BitmapBuffer g { file="C:\jobs\g.png"; load_file=1; }
+"#;
+    let mut scene = Document::parse(text.as_bytes()).unwrap();
+    assert_eq!(replace_paths(&mut scene, r"C:\jobs", "/mnt"), 6);
+    let paths: Vec<String> = file_references(&scene).into_iter().map(|reference| reference.path).collect();
+    assert_eq!(paths, ["/mnt/a.vrmat", "/mnt/b.vrscene", "/mnt/c.lens", "/mnt/d.aur", "/mnt/e.osl", "/mnt/g.png"]);
+    assert_eq!(raw(&scene, "f", "img_file"), Some(r#""C:\jobs\f.exr""#));
+}
+
+#[test]
+fn surroundings_of_one_colour_leave_pictures_and_skies_alone() {
+    let text = "SettingsEnvironment e { bg_tex=sky::color; gi_tex=AColor(0, 0, 0, 1); gi_color=Color(1, 0, 0); }\nTexSky sky {}\n";
+    let mut scene = Document::parse(text.as_bytes()).unwrap();
+    hypersim_quality(&mut scene);
+    assert_eq!(raw(&scene, "e", "bg_tex"), Some("sky::color"));
+    assert_eq!((raw(&scene, "e", "bg_color"), raw(&scene, "e", "gi_color")), (Some("Color(4, 4, 4)"), Some("Color(4, 4, 4)")));
+    // What the scene does not state is a constant of V-Ray's.
+    assert_eq!((raw(&scene, "e", "gi_tex"), raw(&scene, "e", "reflect_tex")), (Some("AColor(4, 4, 4, 1)"), Some("AColor(4, 4, 4, 1)")));
 }
 
 #[test]
@@ -80,10 +109,33 @@ fn a_node_leads_to_its_strings_and_circles_end() {
     let strings = node_strings(&scene, find(&scene, "sofa@node_1"));
     let found: Vec<_> = strings.iter().map(|s| (s.path.as_str(), s.string.as_str())).collect();
     let expected = [
-        ("sofa@node_1.material.brdf.diffuse.bitmap.file", "c:/jobs/maps/Leather.jpg"),
-        ("sofa@node_1.material.scene_name", "leather"),
-        ("sofa@node_1.scene_name[0]", "sofa"),
-        ("sofa@node_1.scene_name[1]", "layer/0"),
+        ("<root>", "sofa@node_1"),
+        ("<root>.material", "mtl"),
+        ("<root>.material.brdf", "brdf"),
+        ("<root>.material.brdf.diffuse", "tex"),
+        ("<root>.material.brdf.diffuse.bitmap", "buffer"),
+        ("<root>.material.brdf.diffuse.bitmap.file", "c:/jobs/maps/Leather.jpg"),
+        ("<root>.material.scene_name", "leather"),
+        ("<root>.scene_name[0]", "sofa"),
+        ("<root>.scene_name[1]", "layer/0"),
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn a_plugin_that_several_ways_lead_to_is_named_at_each_and_told_once() {
+    let text = "Node n { material=m; geometry=g; }\nMtl m { second=t::out; first=List(t, a); }\n\
+        Tex t { note=\"red\"; }\nTex a { back=m; }\n";
+    let scene = Document::parse(text.as_bytes()).unwrap();
+    let strings = node_strings(&scene, find(&scene, "n"));
+    let found: Vec<_> = strings.iter().map(|s| (s.path.as_str(), s.string.as_str())).collect();
+    let expected = [
+        ("<root>", "n"),
+        ("<root>.material", "m"),
+        ("<root>.material.first[0]", "t"),
+        ("<root>.material.first[0].note", "red"),
+        ("<root>.material.first[1]", "a"),
+        ("<root>.material.second", "t"),
     ];
     assert_eq!(found, expected);
 }
@@ -122,8 +174,12 @@ fn another_camera_leaves_nothing_of_the_one_before() {
     let matrix = "Matrix(Vector(1, 0, 0), Vector(0, 0, 1), Vector(0, -1, 0))";
     let expected = format!("interpolate((0, Transform({matrix}, Vector(1, 0.5, 2))), (2, Transform({matrix}, Vector(3, 0.5, 2))))");
     assert_eq!(raw(&scene, "view", "transform"), Some(expected.as_str()));
-    assert_eq!(raw(&scene, "hypersim_SettingsOutput", "frames"), Some("ListInt(0, 1, 2)"));
-    assert_eq!(raw(&scene, "hypersim_SettingsOutput", "frames_per_second"), Some("2"));
+    assert_eq!(raw(&scene, "output", "frames"), Some("ListInt(0, 1, 2)"));
+    assert_eq!(raw(&scene, "output", "frames_per_second"), Some("2"));
+    assert_eq!((raw(&scene, "output", "img_pixelAspect"), raw(&scene, "cam", "zoom_factor")), (Some("1"), Some("1")));
+    for shift in ["lens_shift", "horizontal_shift", "horizontal_offset", "vertical_offset", "blades_enable"] {
+        assert_eq!(raw(&scene, "cam", shift), Some("0"), "{shift}");
+    }
     assert_eq!((raw(&scene, "cam", "use_dof"), raw(&scene, "cam", "distortion_type")), (Some("0"), Some("3")));
     assert_eq!(scene.of_kind("TexBitmap").count(), 2);
     path.keyframes.truncate(1);
@@ -142,7 +198,14 @@ fn passes_have_what_they_need_and_nothing_else() {
     add_color_channels(&mut whole);
     add_denoiser(&mut whole);
     assert_eq!(raw(&whole, "brdf", "reflect_affect_alpha"), Some("0"));
-    assert_eq!(raw(&whole, "HYPERSIM_channel_VRayNormalBump", "texmap"), Some("HYPERSIM_sampler_VRayNormalBump::bumpNormal"));
+    let sampled = [("VRayPosition", "point"), ("VRayNormal", "normal"), ("VRayNormalBump", "bumpNormal"), ("VRayTexCoord", "uvCoord")];
+    for (name, output) in sampled {
+        // A texture in between: the sampler's outputs are vectors.
+        let color = format!("HYPERSIM_color_{name}");
+        assert_eq!(find(&whole, &color).kind(), b"TexVectorToColor");
+        assert_eq!(raw(&whole, &format!("HYPERSIM_channel_{name}"), "texmap"), Some(color.as_str()));
+        assert_eq!(raw(&whole, &color, "input"), Some(format!("HYPERSIM_sampler_{name}::{output}").as_str()));
+    }
     assert_eq!(raw(&whole, "HYPERSIM_channel_VRayDiffuseFilter", "color_mapping"), Some("0"));
     let caches = GiCaches { light_cache: "/a/b.vrlmap".into(), irradiance_map: "/a/b.vrmap".into() };
     let channels = |pass| {

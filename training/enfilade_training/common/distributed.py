@@ -86,6 +86,11 @@ def join(device: str = "auto") -> Replica:
     return Replica(rank, count, chosen)
 
 
+def has_bfloat16(device: torch.device) -> bool:
+    """True for GPUs that compute in bfloat16; older ones emulate it, which is slower than single precision."""
+    return device.type == "cuda" and torch.cuda.is_bf16_supported(including_emulation=False)
+
+
 def unwrapped(network: nn.Module) -> nn.Module:
     """The network inside of DistributedDataParallel, whose names of parameters do not depend on the number of replicas."""
     return network.module if isinstance(network, nn.parallel.DistributedDataParallel) else network

@@ -51,8 +51,8 @@ def _evaluate(config: Config, options: argparse.Namespace, replica: distributed.
 
 
 def _predict(config: Config, options: argparse.Namespace, replica: distributed.Replica) -> None:
-    network = trained(config, options.checkpoint or config.output / "last.pt", replica.device)
     source: Source = _Files(options.images) if options.images else _judged(config)
+    network = trained(config, options.checkpoint or config.output / "last.pt", replica.device)
     if replica.is_first:
         for path in evaluate.write_pictures(network, source, options.to, config, replica.device, _write):
             print(path)
@@ -63,6 +63,12 @@ class _Files:
 
     def __init__(self, paths: list[Path]):
         self._paths = paths
+        named: dict[str, Path] = {}
+        for path in paths:
+            other = named.setdefault(path.stem, path)
+            if other is not path:
+                both = f"both would be written to {path.stem}.classes.png"
+                raise ValueError(f"{other} and {path}: {both}; rename one, or predict it by itself, to another folder")
 
     def __len__(self) -> int:
         return len(self._paths)
@@ -109,7 +115,8 @@ def _parser() -> argparse.ArgumentParser:
             command.add_argument("--checkpoint", type=Path, help="last.pt of the output folder, unless given")
         if verb is _predict:
             command.add_argument("--to", type=Path, required=True, metavar="FOLDER", help="where pictures are written")
-            command.add_argument("--images", type=Path, nargs="+", metavar="FILE", help="pictures; those of the test data unless given")
+            about = "pictures of different names; those of the test data unless given"
+            command.add_argument("--images", type=Path, nargs="+", metavar="FILE", help=about)
         command.set_defaults(verb=verb)
     return parser
 

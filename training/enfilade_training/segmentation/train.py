@@ -13,7 +13,7 @@ from ..common import checkpoints
 from ..common import config as settings
 from ..common.checkpoints import CheckpointError
 from ..common.config import ConfigError
-from ..common.distributed import Replica, unwrapped
+from ..common.distributed import Replica, has_bfloat16, unwrapped
 from ..common.logs import Logs
 from ..common.schedule import one_cycle_cosine, set_learning_rate
 from . import evaluate, network
@@ -204,7 +204,7 @@ def precision(config: Config, device: torch.device) -> torch.dtype:
     if asked == "auto":
         if device.type != "cuda":
             return torch.float32
-        return torch.bfloat16 if torch.cuda.is_bf16_supported() else torch.float16
+        return torch.bfloat16 if has_bfloat16(device) else torch.float16
     return {"float32": torch.float32, "bfloat16": torch.bfloat16, "float16": torch.float16}[asked]
 
 

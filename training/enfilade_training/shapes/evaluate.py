@@ -1,6 +1,7 @@
 """AP of boxes, masks and meshes by Mesh R-CNN's rules; overlaps, F1 and AP are computed by the module `enfilade`."""
 
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,8 @@ def evaluate(config: Config, replica: distributed.Replica, checkpoint: Path) -> 
     """Judges a checkpoint on the images of `data.evaluate`: `box_ap`, `mask_ap`, `mesh_ap` in 0 to 1, and the same by category."""
     network = restored(config, checkpoint).to(replica.device).eval()
     assert config.data.evaluate is not None
-    shapes = Shapes([config.data.evaluate], config.data)
+    # `min_pixels` is a matter of training.
+    shapes = Shapes([config.data.evaluate], replace(config.data, min_pixels=0.0))
     rows, truths = [], Counter()
     for index in range(replica.rank, len(shapes), replica.count):
         image, target = shapes[index]
@@ -41,8 +43,6 @@ def evaluate(config: Config, replica: distributed.Replica, checkpoint: Path) -> 
 
 def restored(config: Config, checkpoint: Path) -> torch.nn.Module:
     """The network of a checkpoint."""
-    from dataclasses import replace
-
     # What it began with is in the checkpoint; whether its statistics are frozen is a matter of training.
     network = build(replace(config.network, weights=None), config.losses, config.evaluate)
     state = checkpoints.load(checkpoint)

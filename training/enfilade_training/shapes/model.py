@@ -1,6 +1,8 @@
 """Mesh R-CNN on torchvision's Mask R-CNN with a feature pyramid. Gkioxari et al. 2019; He et al. 2017; Lin et al. 2017."""
 
+import hashlib
 import logging
+import re
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +14,9 @@ from torchvision.models.detection._utils import Matcher
 from torchvision.models.detection.anchor_utils import AnchorGenerator
 from torchvision.models.detection.backbone_utils import resnet_fpn_backbone
 from torchvision.models.detection.faster_rcnn import FastRCNNPredictor, TwoMLPHead
+from torchvision.models.detection.image_list import ImageList
 from torchvision.models.detection.roi_heads import RoIHeads, maskrcnn_inference, maskrcnn_loss
+from torchvision.models.detection.rpn import RegionProposalNetwork
 from torchvision.ops import MultiScaleRoIAlign
 from torchvision.ops.misc import FrozenBatchNorm2d
 
@@ -25,6 +29,10 @@ from .losses import depth_loss, mesh_losses, voxel_loss
 from .meshes import Meshes
 
 CATEGORIES = 9
+# How the SHA-256 of torchvision's Mask R-CNN for COCO begins, as in the file's published name.
+COCO_V1 = "bf2d0c1e"
+# What is added to variances in batch normalisation.
+_EPS = 1e-5
 _LEVELS = ["0", "1", "2", "3"]
 _log = logging.getLogger(__name__)
 
@@ -40,6 +48,16 @@ class IgnoringMatcher(Matcher):
         matches = super().__call__(match_quality_matrix)
         far = (match_quality_matrix.max(dim=0).values < self.ignored) & (matches == self.BELOW_LOW_THRESHOLD)
         return torch.where(far, torch.full_like(matches, self.BETWEEN_THRESHOLDS), matches)
+
+
+class Proposals(RegionProposalNetwork):
+    """Torchvision's region proposals, in single precision: bfloat16 places anchors on the far side of an image pixels off."""
+
+    def forward(
+        self, images: ImageList, features: dict[str, torch.Tensor], targets: list[dict[str, Any]] | None = None
+    ) -> tuple[list[torch.Tensor], dict[str, torch.Tensor]]:
+        with torch.autocast(images.tensors.device.type, enabled=False):
+            return super().forward(images, {level: feature.float() for level, feature in features.items()}, targets)
 
 
 class ShapeHeads(RoIHeads):
@@ -202,6 +220,7 @@ def build(network: Network, losses: Losses, evaluate: Evaluate) -> MaskRCNN:
         box_score_thresh=evaluate.score,
         box_detections_per_img=evaluate.detections,
     )
+    model.rpn.__class__ = Proposals
     model.rpn.proposal_matcher = IgnoringMatcher(0.7, 0.5, 0.2, allow_low_quality_matches=True)
     heads = model.roi_heads
     heads.proposal_matcher = IgnoringMatcher(0.5, 0.5, 0.2, allow_low_quality_matches=False)
@@ -228,6 +247,10 @@ def load_weights(model: nn.Module, path: Path) -> tuple[int, list[str]]:
         state = state[key] if isinstance(state.get(key), dict) else state
     if "conv1.weight" in state:
         state = {f"backbone.body.{name}": value for name, value in state.items()}
+    # The file is known by its content: its name is the user's choice, and other files with the same tensors were trained otherwise.
+    if "rpn.head.conv.weight" in state and _sha256(path).startswith(COCO_V1):
+        state = _with_eps(state)
+    state = {_todays_name(str(name)): value for name, value in state.items()}
     own = model.state_dict()
     fits = {name: value for name, value in state.items() if name in own and own[name].shape == value.shape}
     if not fits:
@@ -235,7 +258,35 @@ def load_weights(model: nn.Module, path: Path) -> tuple[int, list[str]]:
     model.load_state_dict(fits, strict=False)
     kept = sorted(own.keys() - fits.keys())
     _log.info("%s: %d of %d tensors taken", path, len(fits), len(own))
+    left = sorted(name for name in state.keys() - fits.keys() if not name.endswith("num_batches_tracked"))
+    if left:
+        _log.info("%s: %d tensors find no place: %s", path, len(left), ", ".join(left))
     return len(fits), kept
+
+
+def _todays_name(name: str) -> str:
+    """What torchvision from 0.13 on calls a tensor; the files that it publishes are older."""
+    name = re.sub(r"(fpn\.(?:inner|layer)_blocks\.\d+)\.(weight|bias)$", r"\1.0.\2", name)
+    name = re.sub(r"(rpn\.head\.conv)\.(weight|bias)$", r"\1.0.0.\2", name)
+    return re.sub(r"(mask_head)\.mask_fcn(\d+)\.(weight|bias)$", lambda m: f"{m[1]}.{int(m[2]) - 1}.0.{m[3]}", name)
+
+
+def _sha256(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def _with_eps(state: dict[str, torch.Tensor]) -> dict[str, torch.Tensor]:
+    """A network that was trained without `_EPS`, as torchvision's for COCO was, with scales that give the same in layers that have it.
+
+    Torchvision sets the layers' eps to zero instead (`overwrite_eps`), which a checkpoint would not keep. Scales are in it.
+    """
+    scaled = dict(state)
+    for name, value in state.items():
+        if name.endswith(".running_var"):
+            weight, variance = name.replace("running_var", "weight"), value.double()
+            scaled[weight] = (state[weight].double() * ((variance + _EPS) / variance).sqrt()).to(value.dtype)
+    return scaled
 
 
 def to_device(target: dict[str, Any], device: torch.device) -> dict[str, Any]:

@@ -1,7 +1,8 @@
 """Training: iterations of one batch each, from a checkpoint where there is one.
 
 A run is a function of its settings and the number of replicas: which images, their flips, the regions and the points that are drawn are seeded by
-the iteration. So a run that goes on from a checkpoint equals one that was never interrupted.
+the iteration. So a run that goes on from a checkpoint equals one that was never interrupted: on processors to the bit, while GPUs add up in
+an order that changes from run to run.
 """
 
 import time
@@ -85,7 +86,7 @@ def step(
     torch.manual_seed(seed)
     images = [image.to(replica.device) for image, _ in batch]
     targets = [to_device(target, replica.device) for _, target in batch]
-    with torch.autocast(replica.device.type, dtype=torch.bfloat16, enabled=mixed_precision and replica.device.type == "cuda"):
+    with torch.autocast(replica.device.type, dtype=torch.bfloat16, enabled=mixed_precision and distributed.has_bfloat16(replica.device)):
         losses = network(images, targets)
     total = sum(losses.values())
     if not torch.isfinite(total):

@@ -46,6 +46,14 @@ def train(replica: Replica, shares: list[tuple[int, int]]) -> dict[str, Any]:
     return {"state": state, "evaluated": evaluated, "input": part.grad / replica.count, "sum": float(replica.sum(torch.tensor(replica.rank + 1.0)))}
 
 
+class Devices(unittest.TestCase):
+    def test_emulated_bfloat16_does_not_count(self) -> None:
+        for native in (True, False):
+            with mock.patch("torch.cuda.is_bf16_supported", lambda including_emulation=True: native or including_emulation):
+                self.assertEqual(distributed.has_bfloat16(torch.device("cuda")), native)
+                self.assertFalse(distributed.has_bfloat16(torch.device("cpu")))
+
+
 class SynchronisedStatistics(unittest.TestCase):
     def compare(self, shares: list[tuple[int, int]]) -> None:
         with tempfile.TemporaryDirectory() as folder:

@@ -96,6 +96,16 @@ class Commands(unittest.TestCase):
         status, _, err = call("evaluate", path, *options(*SMALL))
         self.assertEqual((status, "no [test_data]" in err), (2, True))
 
+    def test_pictures_of_one_name_are_refused_before_any_work(self) -> None:
+        path = self.folder / "run.toml"
+        path.write_text(f'output = "{self.folder / "out"}"\nclasses = 4\n[train_data]\nkind = "pairs"\npath = "{self.folder}"\n')
+        pictures = [self.folder / "a" / "room.jpg", self.folder / "b" / "room.png"]
+        status, _, err = call("predict", path, "--set", "device=cpu", "--to", self.folder / "seen", "--images", *pictures)
+        self.assertEqual(status, 2)
+        for part in (*map(str, pictures), "room.classes.png"):
+            self.assertIn(part, err)
+        self.assertFalse((self.folder / "seen").exists())
+
     def test_torchrun_starts_replicas(self) -> None:
         write_pairs(self.folder, 4)
         path = self.folder / "run.toml"

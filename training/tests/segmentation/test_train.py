@@ -4,6 +4,7 @@ import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import torch
 from torch.nn import functional as F
@@ -152,6 +153,11 @@ class Training(unittest.TestCase):
         self.assertEqual(self.state(settings)["network"]["head.weight"].dtype, torch.float32)
         with self.assertRaisesRegex(ConfigError, "float16.*needs a GPU"):
             train.train(self.named("half", config(self.folder, precision="float16")), ONE)
+
+    def test_a_gpu_that_emulates_bfloat16_computes_in_float16(self) -> None:
+        for native, expected in ((True, torch.bfloat16), (False, torch.float16)):
+            with mock.patch("torch.cuda.is_bf16_supported", lambda including_emulation=True: native or including_emulation):
+                self.assertEqual(train.precision(config(self.folder), torch.device("cuda")), expected)
 
     def test_adam_trains_too(self) -> None:
         settings = config(self.folder, optimizer="adam")

@@ -1,17 +1,22 @@
 import dataclasses
+import hashlib
 import json
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import torch
+from torch import nn
 from torchvision.models.detection._utils import Matcher
+from torchvision.models.detection.image_list import ImageList
 
 from enfilade_training.common import checkpoints, config as settings, logs
 from enfilade_training.common.distributed import Replica
 from enfilade_training.shapes import config as shape_config
 from enfilade_training.shapes.__main__ import main
 from enfilade_training.shapes.config import Config
+from enfilade_training.shapes.evaluate import evaluate
 from enfilade_training.shapes.model import IgnoringMatcher, build, load_weights
 from enfilade_training.shapes.train import learning_rate, step, train
 from tests.ranks import run_on_ranks
@@ -21,6 +26,8 @@ ONE = Replica(0, 1, torch.device("cpu"))
 CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 LOSSES = ["loss_classifier", "loss_box_reg", "loss_mask", "loss_depth", "loss_voxel", "loss_chamfer", "loss_normals", "loss_edge"]
 LOSSES += ["loss_objectness", "loss_rpn_box_reg"]
+# What depends on the number of classes.
+OF_CLASSES = ("box_predictor.cls_score", "box_predictor.bbox_pred", "mask_predictor.mask_fcn_logits")
 
 
 def small(folder: Path, **changes: object) -> Config:
@@ -36,6 +43,23 @@ def small(folder: Path, **changes: object) -> Config:
     return Config(
         folder / "run", data, network, shape_config.Losses(samples=100), shape_config.Train(**options | changes), evaluation
     )
+
+
+def as_published(network: nn.Module) -> dict[str, torch.Tensor]:
+    """The network's tensors by the names of torchvision's file for COCO, which has 91 classes and no heads for shapes."""
+    old = {}
+    for name, value in network.state_dict().items():
+        if any(f".{head}_head." in name for head in ("depth", "voxel", "mesh")) or name.endswith("num_batches_tracked"):
+            continue
+        if "blocks." in name or "rpn.head.conv." in name:
+            name = name.replace(".0.0.", ".") if "rpn" in name else name.replace(".0.weight", ".weight").replace(".0.bias", ".bias")
+        elif ".mask_head." in name:
+            before, number, _, kind = name.rsplit(".", 3)
+            name = f"{before}.mask_fcn{int(number) + 1}.{kind}"
+        elif any(part in name for part in OF_CLASSES):
+            value = torch.zeros(4 * 91 if "bbox_pred" in name else 91, *value.shape[1:])
+        old[name] = value
+    return old
 
 
 def train_on_ranks(replica: Replica, rooms_in: str) -> list[float]:
@@ -115,6 +139,67 @@ class TrainingTests(unittest.TestCase):
         self.assertTrue(objects and all((shown / o["mesh"]).read_text().startswith("v ") for o in objects))
         self.assertEqual(main(["evaluate", str(file), "--checkpoint", str(self.folder / "nothing.pt")]), 1)
         self.assertEqual(main(["train", str(file), "--set", "train.stepz=2"]), 2)
+
+    def test_small_objects_are_judged_though_training_leaves_them_out(self) -> None:
+        config = small(self.folder)
+        path = train(config, ONE, until=1)
+        strict = dataclasses.replace(config, data=dataclasses.replace(config.data, min_pixels=1e6))
+        self.assertEqual(evaluate(strict, ONE, path)["truths"], 3)
+
+    def test_proposals_are_in_single_precision_whatever_features_are(self) -> None:
+        config = small(self.folder)
+        torch.manual_seed(3)
+        network = build(config.network, config.losses, config.evaluate).eval()
+        images = ImageList(torch.zeros(1, 3, 64, 1344), [(64, 1344)])
+        features = {str(i): torch.randn(1, 256, 64 // stride, 1344 // stride).bfloat16() for i, stride in enumerate((4, 8, 16, 32, 64))}
+        with torch.no_grad():
+            (expected,), _ = network.rpn(images, {level: feature.float() for level, feature in features.items()})
+            with torch.autocast("cpu", dtype=torch.bfloat16):
+                (found,), _ = network.rpn(images, features)
+        self.assertEqual(found.dtype, torch.float32)
+        self.assertGreater(float(found[:, 2].max()), 1200)
+        torch.testing.assert_close(found, expected)
+
+    def test_weights_by_torchvisions_old_names_find_their_places(self) -> None:
+        config = small(self.folder)
+        torch.manual_seed(4)
+        old = as_published(build(config.network, config.losses, config.evaluate))
+        for name in ("backbone.fpn.inner_blocks.0.weight", "backbone.fpn.layer_blocks.3.bias", "rpn.head.conv.weight"):
+            self.assertIn(name, old)
+        self.assertTrue({f"roi_heads.mask_head.mask_fcn{i}.{kind}" for i in range(1, 5) for kind in ("weight", "bias")} <= old.keys())
+        file = self.folder / "coco.pth"
+        torch.save(old, file)
+        network = build(config.network, config.losses, config.evaluate)
+        with self.assertLogs("enfilade_training.shapes.model", "INFO") as told:
+            taken, kept = load_weights(network, file)
+        new = [name for name in network.state_dict() if any(f".{head}_head." in name for head in ("depth", "voxel", "mesh"))]
+        by_class = [f"roi_heads.{part}.{kind}" for part in OF_CLASSES for kind in ("weight", "bias")]
+        counters = [name for name in network.state_dict() if name.endswith("num_batches_tracked")]
+        self.assertEqual((taken, kept), (len(old) - len(by_class), sorted(new + by_class + counters)))
+        self.assertTrue(torch.equal(network.rpn.head.conv[0][0].weight, old["rpn.head.conv.weight"]))
+        self.assertTrue(torch.equal(network.roi_heads.mask_head[3][0].bias, old["roi_heads.mask_head.mask_fcn4.bias"]))
+        self.assertIn(f"{len(by_class)} tensors find no place: {', '.join(sorted(by_class))}", told.output[-1])
+
+    def test_the_network_for_coco_computes_as_it_was_trained(self) -> None:
+        config = small(self.folder)
+        old = as_published(build(config.network, config.losses, config.evaluate))
+        bn1 = {kind: old[f"backbone.body.bn1.{kind}"] for kind in ("weight", "bias", "running_mean", "running_var")}
+        # Far below the epsilon, which then decides.
+        bn1["running_var"] *= 1e-9
+        file, images = self.folder / "coco.pth", 1e-5 * torch.randn(1, 64, 4, 4)
+        torch.save(old, file)
+        frozen = dataclasses.replace(config.network, weights=file)
+        with mock.patch("enfilade_training.shapes.model.COCO_V1", hashlib.sha256(file.read_bytes()).hexdigest()):
+            network = build(frozen, config.losses, config.evaluate)
+        expected = images / bn1["running_var"].sqrt()[:, None, None]
+        torch.testing.assert_close(network.backbone.body.bn1(images), expected)
+        # Judging builds layers that can learn, and has the weights of a checkpoint.
+        again = build(config.network, config.losses, config.evaluate).eval()
+        again.load_state_dict(network.state_dict(), strict=False)
+        torch.testing.assert_close(again.backbone.body.bn1(images).detach(), expected)
+        # Other files with these names keep their scales.
+        network = build(frozen, config.losses, config.evaluate)
+        self.assertTrue(torch.equal(network.backbone.body.bn1.weight, bn1["weight"]))
 
     def test_weights_are_taken_where_they_fit(self) -> None:
         config = small(self.folder)

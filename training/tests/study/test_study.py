@@ -51,6 +51,13 @@ class Statistics(unittest.TestCase):
         self.assertEqual(report.difference([(1.1, 0.1), (1.3, 0.2), (1.2, 0.2)]).verdict, "higher")
         self.assertEqual(report.difference([(0.1, 1.1), (0.2, 1.3), (0.2, 1.2)]).verdict, "lower")
 
+    def test_intervals_go_on_beyond_the_table(self) -> None:
+        for degrees, quantile in ((15, 2.1314), (16, 2.1199), (20, 2.0860), (30, 2.0423), (100, 1.9840)):
+            self.assertAlmostEqual(report.student(degrees), quantile, delta=6e-4 if degrees == 15 else 6e-5)
+        # 20 differences of 1, as many of 3: mean 2, standard deviation sqrt(40 / 39).
+        found = report.difference([(1.0, 0.0)] * 20 + [(3.0, 0.0)] * 20)
+        self.assertAlmostEqual(found.high - found.mean, 2.0227 * (40 / 39) ** 0.5 / 40**0.5, places=4)
+
     def test_what_seeds_share_drops_out(self) -> None:
         shares = {0: 0.5, 1: 0.8}
         rows = [Row(arm, seed, room, 4, right(share + gain)) for seed, share in shares.items() for arm, gain in ((SCRATCH, 0.0), (PRETRAINED, 0.1)) for room in "ab"]

@@ -8,7 +8,8 @@ const NOTES: &str = "\
 ## Where libraries are guarded
 
 - `rust-hdf5`: the file's length is compared with what its superblock says, and the shape of an array with what deflate can make of the
-  file; chunks without an extent are not read by our own way. Where the library panics all the same, that becomes an error.
+  file; chunks without an extent are not read by our own way. Trees of chunks of version 1 are walked first, and refused where they lead
+  to a node twice or out of the file; so are more chunks than 32 per byte. Where the library panics all the same, that becomes an error.
 - `image`, `exr`: width and height are read first, and pictures of more than 2^27 pixels or a gigabyte of channels are refused; so are
   EXRs, V-Ray's too, with blocks of more than 128 MiB, for which room is made before they are read, and with a table that does not lead
   to each block once.

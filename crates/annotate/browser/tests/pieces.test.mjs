@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { browser, draw, labelOf, lookFromFront, open, pixelOf, room, saved, serve } from "./room.mjs";
+import { browser, draw, labelOf, lookFromFront, open, pixelOf, room, saved, serve, shown } from "./room.mjs";
 
 const select = (page, name) =>
     page.evaluate((wanted) => {
@@ -26,6 +26,22 @@ test("a part of two components is split, and undo makes it whole", async (t) => 
     await page.keyboard.press("Control+z");
     await saved(page);
     assert.equal(await count(), before);
+});
+
+test("the pieces of a split have the label of what was split, and what is suggested for it", async (t) => {
+    const { file } = room(t);
+    const page = await open(await browser(t), (await serve(t, file)).url);
+    await select(page, "lamps");
+    await page.evaluate(async () => {
+        const pieces = [...window.annotate.state.selection];
+        for (const apply of [{ layer: "semantic", value: 35 }, { layer: "instance", new: true }]) await window.annotate.edits.send({ type: "assign", pieces, apply });
+    });
+    await page.keyboard.press("k");
+    await saved(page);
+    assert.deepEqual(await labelOf(page, "lamps~2"), [35, 1]);
+    assert.deepEqual(await labelOf(page, "lamps"), [35, 1]);
+    const [whole, piece] = await page.evaluate(() => ["lamps", "lamps~2"].map((name) => window.annotate.state.pieces.suggestions[window.annotate.state.pieces.names.indexOf(name)]));
+    assert.deepEqual(piece, whole);
 });
 
 test("painted faces become a piece", async (t) => {
@@ -71,6 +87,35 @@ test("two tabs see each other's edits, and lose none", async (t) => {
     for (const page of [a, b]) await page.waitForFunction(() => [2, 1, 5, 5].every((id, piece) => window.annotate.state.pieces.semantic[piece] === id));
 });
 
+test("two tabs give their things instances of their own", async (t) => {
+    const { file } = room(t);
+    const { url } = await serve(t, file);
+    const one = await browser(t);
+    const tabs = [await open(one, url), await open(one, url)];
+    const instances = [];
+    for (const [page, names] of [[tabs[0], ["chair_1", "chair_2"]], [tabs[1], ["table_1"]]]) {
+        await page.bringToFront();
+        await lookFromFront(page);
+        for (const name of names) {
+            const [x, y] = await pixelOf(page, name);
+            await draw(page, [x, y], [x + 2, y + 2]);
+            instances.push((await labelOf(page, name))[1]);
+        }
+    }
+    assert.deepEqual(instances, [1, 1, 2], "a tab keeps its instance until it is asked for a new one");
+    await tabs[0].bringToFront();
+    await tabs[0].keyboard.press(" ");
+    await tabs[0].waitForFunction(() => window.annotate.state.pieces.instance.includes(2));
+    // Both are on their way before the first has its number.
+    const pieces = await tabs[0].evaluate(async () => {
+        const { act, state } = window.annotate;
+        const pieces = ["floor", "wall_back"].map((name) => state.pieces.names.indexOf(name));
+        await Promise.all(pieces.map((piece) => act.give({ type: "assign", pieces: [piece] })));
+        return pieces.map((piece) => state.pieces.instance[piece]);
+    });
+    assert.deepEqual(pieces, [3, 3]);
+});
+
 test("a room is labelled by keys alone, and the help lists them", async (t) => {
     const { file } = room(t);
     const page = await open(await browser(t), (await serve(t, file)).url);
@@ -91,6 +136,23 @@ test("a room is labelled by keys alone, and the help lists them", async (t) => {
         await page.waitForTimeout(950);
     }
     assert.deepEqual(await page.evaluate(() => [...new Set(window.annotate.state.pieces.semantic)]), [40]);
+});
+
+test("what lies before the picture is neither seen nor picked", async (t) => {
+    const { file } = room(t);
+    const page = await open(await browser(t), (await serve(t, file)).url);
+    // Within a chair, three centimetres before its back.
+    await page.evaluate(() => window.annotate.stage.goTo({ position: [-1.5, 0.57, 0.45], orientation: [1, 0, 0, 0, 0, -1, 0, 1, 0], fov_y_deg: 50 }, { instant: true }));
+    await shown(page);
+    const [seen, picked, touched] = await page.evaluate(async () => {
+        const { stage, state } = window.annotate;
+        const [x, y] = [stage.element.clientWidth / 2, stage.element.clientHeight / 2];
+        const ask = async (what, more) => (await fetch(`/api/annotate/${what}`, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify({ camera: stage.cameraJson(), ...more }) })).json();
+        const { piece } = await ask("pick", { pixel: [x, y] });
+        const { pieces } = await ask("select", { shape: { rectangle: [x - 2, y - 2, x + 2, y + 2] } });
+        return [[stage.seenAt(x, y).piece], [piece], pieces].map((all) => all.map((one) => state.name(one)));
+    });
+    assert.deepEqual([seen, picked, touched], [["wall_back"], ["wall_back"], ["wall_back"]]);
 });
 
 test("same names and same geometry are selected together", async (t) => {

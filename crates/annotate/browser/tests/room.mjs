@@ -3,7 +3,7 @@
 import { chromium } from "playwright-core";
 import { execFileSync, spawn } from "node:child_process";
 import { once } from "node:events";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { appendFileSync, cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
@@ -59,6 +59,23 @@ export function dataset(t) {
     const path = join(folder, "demo");
     execFileSync(program(), ["run", "--demo", path, "--quiet", "--frames", "3", "--size", "160x120", "--samples", "2", "--extra", "--splits"], { stdio: ["ignore", "ignore", "inherit"] });
     return path;
+}
+
+/** Adds to a dataset the camera `cam_01`, which is `cam_00` but for the seed of its records, and the scene `unmeshed`, which has no mesh folder. @param {string} path */
+export function enlarge(path) {
+    const scene = join(path, "scenes", "home");
+    const images = join(scene, "images");
+    for (const name of readdirSync(images)) cpSync(join(images, name), join(images, name.replace("cam_00", "cam_01")), { recursive: true });
+    cpSync(join(scene, "_detail", "cam_00"), join(scene, "_detail", "cam_01"), { recursive: true });
+    appendFileSync(join(scene, "_detail", "metadata_cameras.csv"), "cam_01\n");
+    const records = join(scene, "_detail", "cam_01", "frames");
+    for (const name of readdirSync(records)) {
+        const text = readFileSync(join(records, name), "utf8").replaceAll("cam_00", "cam_01").replace(/"seed": \d+/, '"seed": 4711');
+        writeFileSync(join(records, name), text);
+    }
+    const bare = join(path, "scenes", "unmeshed");
+    cpSync(scene, bare, { recursive: true });
+    rmSync(join(bare, "_detail", "mesh"), { recursive: true });
 }
 
 /** Starts the program; resolves when it tells its address. @param {import("node:test").TestContext} t @param {string} file @param {number} [port] @param {string} [verb] */

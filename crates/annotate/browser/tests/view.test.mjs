@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
-import { browser, dataset, serve } from "./room.mjs";
+import { browser, dataset, enlarge, serve } from "./room.mjs";
 
 describe("view", () => {
     let origin, page;
@@ -11,7 +11,9 @@ describe("view", () => {
 
     before(async () => {
         const t = { after: (ending) => endings.push(ending) };
-        const { url } = await serve(t, dataset(t), 0, "view");
+        const path = dataset(t);
+        enlarge(path);
+        const { url } = await serve(t, path, 0, "view");
         origin = new URL(url).origin;
         page = await (await browser(t)).newPage({ viewport: { width: 1280, height: 720 } });
         page.on("pageerror", (error) => problems.push(error.message));
@@ -132,7 +134,7 @@ describe("view", () => {
 
     test("the instance of a pixel is marked while the cursor is on it, with its name and class", async () => {
         const { scenes } = await json("dataset");
-        const { cameras, parts } = await json(`scene/${scenes[0]}`);
+        const { cameras, objects } = await json(`scene/${scenes[0]}`);
         await open("layer=color&frame=0&boxes=true");
         const ids = await stored(scenes[0], cameras[0], 0, "semantic_instance");
         const marked = [];
@@ -143,8 +145,21 @@ describe("view", () => {
         const instance = page.locator('#readout [data-names="semantic_instance"]');
         await instance.waitFor();
         const id = ids.at(read.x, read.y)[0];
-        assert.ok((await instance.innerText()).startsWith(`${id} ${parts.names[parts.instance.indexOf(id)]}`));
-        assert.match(await page.locator('#readout [data-names="semantic"]').innerText(), new RegExp(`^${parts.semantic[parts.instance.indexOf(id)]} `));
+        assert.ok((await instance.innerText()).startsWith(`${id} ${objects.names[objects.instance.indexOf(id)]}`));
+        assert.match(await page.locator('#readout [data-names="semantic"]').innerText(), new RegExp(`^${objects.semantic[objects.instance.indexOf(id)]} `));
+    });
+
+    test("what was split off has its own name, and classes are those of the scene", async () => {
+        await open("layer=color");
+        const told = await page.evaluate(async () => {
+            const { Looks } = await import("../view/looks.js");
+            const { dataset, scene } = window.view.session;
+            const looks = new Looks(dataset);
+            const objects = { names: ["harp", "harp~2"], semantic: [7, 77], instance: [1, 2] };
+            looks.enter({ ...scene, parts: ["sky", "harp"], objects, classes: [{ id: 77, name: "string", color: [1, 2, 3] }] });
+            return [looks.name("render_entity_id", 2), looks.instanceName(2), looks.className(looks.classOfInstance(2)), looks.color("semantic", 77), looks.className(7)];
+        });
+        assert.deepEqual(told, ["harp", "harp~2", "string", [1, 2, 3], "unlabelled"]);
     });
 
     test("the scene is shown in 3D with its free space", async () => {
@@ -154,6 +169,73 @@ describe("view", () => {
         await page.locator('#space [data-part="free"]').check();
         assert.equal((await cubes).status(), 200);
         assert.deepEqual(problems, []);
+    });
+
+    test("surfaces are those of the scene that is shown, also when they come late", async () => {
+        const faces = () => page.evaluate(() => window.view.space.stage?.mesh?.geometry.faces ?? 0);
+        const go = async (scene) => {
+            await page.evaluate((scene) => window.view.session.store.set({ scene, camera: "" }), scene);
+            await page.waitForFunction((scene) => window.view.space.shown.scene === scene, scene);
+        };
+        await open("mode=space&scene=home&frame=0");
+        await page.waitForFunction(() => window.view.space.stage?.mesh);
+        await go("unmeshed");
+        assert.equal(await faces(), 0);
+        let answer = () => {};
+        const held = new Promise((resolve) => (answer = resolve));
+        await page.route("**/scene/home/geometry", async (route) => {
+            await held;
+            await route.continue();
+        });
+        await go("home");
+        await go("unmeshed");
+        const late = page.waitForResponse("**/scene/home/geometry");
+        answer();
+        await (await late).finished();
+        await page.waitForTimeout(200);
+        assert.equal(await faces(), 0);
+        await page.unroute("**/scene/home/geometry");
+        assert.deepEqual(problems, []);
+    });
+
+    test("a point in 3D has the colour that the server says", async () => {
+        await open("mode=space&scene=home&camera=cam_00&frame=0");
+        await page.waitForFunction(() => window.view.space.groups.points?.children.length && window.view.space.stage.settled);
+        const [shown, said] = await page.evaluate(async () => {
+            const { stage, groups } = window.view.space;
+            const buffer = await (await fetch("../api/view/points/home/cam_00/0?most=150000")).arrayBuffer();
+            const count = new DataView(buffer).getUint32(8, true);
+            const colors = new Uint8Array(buffer, 16 + 12 * count);
+            // Neither black nor white, about in the middle of the image.
+            let at = Math.floor(count / 2);
+            while (![0, 1, 2].every((c) => colors[4 * at + c] > 40 && colors[4 * at + c] < 220)) at++;
+            stage.clear();
+            groups.views.visible = false;
+            const [points] = groups.points.children;
+            points.material.size = 9;
+            points.geometry.setDrawRange(at, 1);
+            const place = stage.camera.position.clone().fromBufferAttribute(points.geometry.attributes.position, at).project(stage.camera);
+            const { width, height } = stage.canvas;
+            stage.drawPicture();
+            const pixel = new Uint8Array(4);
+            stage.gl.readPixels(Math.floor(((place.x + 1) / 2) * width), Math.floor(((place.y + 1) / 2) * height), 1, 1, stage.gl.RGBA, stage.gl.UNSIGNED_BYTE, pixel);
+            return [[...pixel.subarray(0, 3)], [...colors.subarray(4 * at, 4 * at + 3)]];
+        });
+        assert.ok(shown.every((value, c) => Math.abs(value - said[c]) <= 1), `shown ${shown}, said ${said}`);
+    });
+
+    test("the panel tells of the camera that is shown, and of no other", async () => {
+        const seed = async (camera) => (await json(`frame/home/${camera}/0`)).record.seed;
+        const [first, second] = [await seed("cam_00"), await seed("cam_01")];
+        assert.notEqual(first, second);
+        const tells = (text) => page.locator("#panel dd", { hasText: text }).waitFor();
+        await open("scene=home&camera=cam_00&frame=0&tab=frame");
+        await tells(first);
+        await page.keyboard.press("]");
+        await addressSays("camera", "cam_01");
+        await tells(second);
+        await page.keyboard.press("[");
+        await tells(first);
     });
 
     test("a link restores what was seen", async () => {

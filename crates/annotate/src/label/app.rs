@@ -175,14 +175,14 @@ impl App {
         self.suggestions.get_or_init(|| suggestions(&self.source, &self.classes))
     }
 
-    /// Does an action, and tells every page.
+    /// Does an action, and tells every page. One that comes again with its `id`, because the answer was lost, is only answered again.
     ///
     /// # Errors
     /// When it is refused or cannot be logged; then nothing has changed.
-    pub fn act(&self, action: &Action, client: &str) -> Result<Change, ActionError> {
+    pub fn act(&self, action: &Action, client: &str, id: Option<&str>) -> Result<Change, ActionError> {
         let mut session = self.session.write().unwrap_or_else(PoisonError::into_inner);
         let before = session.standing().revision;
-        let change = session.act(action, client)?;
+        let change = session.act(action, client, id)?;
         if change.revision > before {
             // Announced while the state is held, so that pages get changes in order.
             self.events.publish(&change);

@@ -4,6 +4,7 @@
 //! order, so nothing is lost when the program dies; a last line that was cut short is dropped.
 
 use super::source::Source;
+use enfilade_dataset::MeshFiles;
 use enfilade_scene::PartLabel;
 use serde::{Deserialize, Serialize};
 use std::fs::{File, TryLockError};
@@ -11,7 +12,7 @@ use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Its name in the folder of labels.
-pub const LOG: &str = "annotation_log.jsonl";
+pub const LOG: &str = enfilade_dataset::ANNOTATION_LOG;
 const FORMAT: &str = "enfilade annotation log 1";
 
 /// The first line.
@@ -19,7 +20,7 @@ const FORMAT: &str = "enfilade annotation log 1";
 struct Header {
     format: String,
     scene: String,
-    /// Of part names and face counts.
+    /// That of [`enfilade_dataset::scene_hash`].
     scene_hash: String,
     parts: usize,
     faces: usize,
@@ -36,6 +37,9 @@ pub struct Entry {
     pub time: String,
     /// Who asked for it.
     pub client: String,
+    /// What they call it, by which it is known when it comes again. Edits that came without have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub id: Option<String>,
     /// What was done.
     pub edit: Edit,
 }
@@ -144,7 +148,8 @@ pub struct Recorded {
 }
 
 impl Log {
-    /// Opens the log in `folder`, or begins one with the labels that the source comes with.
+    /// Opens the log in `folder`, or begins one with the labels that the source comes with. One in which nothing was done begins
+    /// anew: the scene may have got its labels since somebody looked at it.
     ///
     /// # Errors
     /// When the file cannot be had, is about another scene, or has a line that makes no sense.
@@ -169,12 +174,13 @@ impl Log {
             warning = Some(format!("{}: the last line was cut short and is dropped", path.display()));
         }
         let mut log = Self { path, file, length: whole as u64 };
-        if whole == 0 {
+        let (initial, entries) = if whole == 0 { (Vec::new(), Vec::new()) } else { log.parse(&bytes[..whole], source)? };
+        if entries.is_empty() {
+            log.length = 0;
             log.begin(source)?;
-            return Ok((log, Recorded { initial: source.labels.clone(), entries: Vec::new(), warning }));
+            return Ok((log, Recorded { initial: source.labels.clone(), entries, warning }));
         }
         log.file.set_len(whole as u64).map_err(io("write"))?;
-        let (initial, entries) = log.parse(&bytes[..whole], source)?;
         Ok((log, Recorded { initial, entries, warning }))
     }
 
@@ -194,11 +200,14 @@ impl Log {
 
     fn parse(&self, bytes: &[u8], source: &Source) -> Result<(Vec<PartLabel>, Vec<Entry>), LogError> {
         let wrong = |line: usize, problem: String| LogError::Line { path: self.path.clone(), line, problem };
-        let mut lines = bytes.strip_suffix(b"\n").unwrap_or(bytes).split(|&b| b == b'\n');
+        let mut lines = bytes.strip_suffix(b"\n").unwrap_or(bytes).split(|&b| b == b'\n').peekable();
         let first = lines.next().unwrap_or_default();
         let header: Header = serde_json::from_slice(first).map_err(|e| wrong(1, format!("not the beginning of a log: {e}")))?;
         if header.format != FORMAT {
             return Err(wrong(1, format!("the format is {:?}, expected {FORMAT:?}", header.format)));
+        }
+        if lines.peek().is_none() {
+            return Ok((Vec::new(), Vec::new()));
         }
         if header.scene_hash != source.hash() {
             let describe = |name: &str, parts: usize, faces: usize| format!("{name:?} of {parts} parts and {faces} faces");
@@ -250,6 +259,34 @@ impl Log {
         self.length += line.len() as u64;
         Ok(())
     }
+}
+
+/// The object of every face of a mesh folder before any was split, and how many objects there were; `None` where none was, or
+/// where the log in the folder does not tell.
+///
+/// The folder's tables say so too, but they are written one after the other: when the program dies meanwhile they do not fit.
+pub fn unsplit(files: &MeshFiles) -> Option<(usize, Vec<u32>)> {
+    let bytes = std::fs::read(files.file(LOG)).ok()?;
+    let mut lines = bytes.split(|&b| b == b'\n');
+    let whole = serde_json::from_slice::<Header>(lines.next()?).ok()?.parts;
+    let split = |line: &[u8]| match serde_json::from_slice::<Entry>(line).ok()?.edit {
+        Edit::Split { piece, faces, .. } => Some((piece, faces)),
+        _ => None,
+    };
+    let splits: Vec<_> = lines.filter_map(split).collect();
+    if splits.is_empty() {
+        return None;
+    }
+    let mut object_of_face = files.read_objects_of_faces().ok()?;
+    let end = object_of_face.len();
+    // The faces of a piece were split off an object before, so what became of pieces tells nothing new.
+    for (object, groups) in splits.iter().filter(|(piece, _)| (*piece as usize) < whole) {
+        for face in groups.iter().filter_map(|runs| numbers(runs, end)).flatten() {
+            let now = &mut object_of_face[face as usize];
+            *now = if *now as usize >= whole { *object } else { *now };
+        }
+    }
+    object_of_face.iter().all(|&object| (object as usize) < whole).then_some((whole, object_of_face))
 }
 
 /// Ascending numbers as runs of first number and count.

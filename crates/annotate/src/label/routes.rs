@@ -24,8 +24,8 @@ use std::time::Duration;
 
 /// Files are written this long after an edit.
 const SAVE_AFTER: Duration = Duration::from_secs(2);
-/// Names of clients are random ids; longer ones are a mistake.
-const MAX_CLIENT: usize = 100;
+/// Clients and edits are named by random ids; longer ones are a mistake.
+const MAX_NAME: usize = 100;
 
 type Shared = State<Arc<App>>;
 type Answer = Result<Response, ApiProblem>;
@@ -147,25 +147,32 @@ async fn pieces(State(app): Shared) -> Answer {
 #[serde(deny_unknown_fields)]
 struct EditRequest {
     client: String,
+    /// One that was used before names an edit that was done, whose answer the client did not hear.
+    #[serde(default)]
+    id: Option<String>,
     action: Action,
 }
 
 async fn edit(State(app): Shared, body: Bytes) -> Answer {
-    let EditRequest { client, action } = parse(&body)?;
-    if client.is_empty() || client.chars().count() > MAX_CLIENT || client.chars().any(char::is_control) {
-        return Err(ApiProblem::bad_request("client is no name; expected 1 to 100 characters", "send a random id of the page"));
+    let EditRequest { client, id, action } = parse(&body)?;
+    for (what, name) in [("client", Some(&client)), ("id", id.as_ref())] {
+        if name.is_some_and(|name| name.is_empty() || name.chars().count() > MAX_NAME || name.chars().any(char::is_control)) {
+            let error = format!("{what} is no name; expected 1 to {MAX_NAME} characters");
+            return Err(ApiProblem::bad_request(error, "send a random id, one of the page as client, one of the edit as id"));
+        }
     }
-    let later = Arc::downgrade(&app);
     let change = beside(move || {
-        app.act(&action, &client).map_err(|error| match error {
-            ActionError::Refused(refusal) => refusal.into(),
+        let change = app.act(&action, &client, id.as_deref()).map_err(|error| match error {
+            ActionError::Refused(refusal) => ApiProblem::from(refusal),
             ActionError::Log(error) => {
                 ApiProblem::failed(error.to_string(), "nothing was changed; make room on the disk or check the folder")
             }
-        })
+        })?;
+        // Here, because a page that goes away takes with it whatever waits for this job to end.
+        tokio::spawn(save_later(Arc::downgrade(&app)));
+        Ok(change)
     })
     .await?;
-    tokio::spawn(save_later(later));
     Ok(Json(change).into_response())
 }
 

@@ -11,8 +11,12 @@ use super::source::Source;
 use super::stroke::Picked;
 use enfilade_geometry::Bvh;
 use enfilade_scene::PartLabel;
+use std::collections::{HashMap, VecDeque};
 use std::path::Path;
 use std::sync::Arc;
+
+/// Changes that are kept for pages that did not hear the answer and send the edit again.
+const KEPT: usize = 64;
 
 /// The one place where labels change: edits are done one after the other, each logged before it counts.
 pub struct Session {
@@ -24,6 +28,10 @@ pub struct Session {
     done: Vec<Done>,
     undone: Vec<Edit>,
     revision: u64,
+    /// Revisions of the edits that have an id.
+    known: HashMap<String, u64>,
+    /// The last changes by such edits.
+    recent: VecDeque<Change>,
 }
 
 /// An edit, and what it takes to undo it.
@@ -57,11 +65,22 @@ impl Session {
         let (log, Recorded { initial, entries, warning }) = Log::open(folder, &source)?;
         let pieces = Pieces::new(source, &initial);
         let next_instance = initial.iter().map(|label| i32::from(label.instance)).max().unwrap_or(0).max(0) + 1;
-        let mut session = Self { pieces, classes, bvh, next_instance, log, done: Vec::new(), undone: Vec::new(), revision: 0 };
+        let mut session = Self {
+            pieces,
+            classes,
+            bvh,
+            next_instance,
+            log,
+            done: Vec::new(),
+            undone: Vec::new(),
+            revision: 0,
+            known: HashMap::new(),
+            recent: VecDeque::new(),
+        };
         for entry in entries {
             let problem = |problem: String, session: &Self| session.log.problem(entry.revision, problem);
             session.check(&entry.edit).map_err(|e| problem(e, &session))?;
-            session.perform(&entry.edit, &entry.client);
+            session.perform(&entry);
         }
         Ok((session, warning))
     }
@@ -98,11 +117,14 @@ impl Session {
     }
 
     /// Does what a page asks for. When this returns the change is on the disk; when it fails nothing has changed. A change of the
-    /// revision that was there before is one in which nothing had to change.
+    /// revision that was there before is one in which nothing had to change, or that of an edit of this `id`, which is not done twice.
     ///
     /// # Errors
     /// When the action is wrong, cannot be done as things are, or cannot be logged.
-    pub fn act(&mut self, action: &Action, client: &str) -> Result<Change, ActionError> {
+    pub fn act(&mut self, action: &Action, client: &str, id: Option<&str>) -> Result<Change, ActionError> {
+        if let Some(&revision) = id.and_then(|id| self.known.get(id)) {
+            return self.told_again(revision).map_err(ActionError::Refused);
+        }
         let edit = match action {
             Action::Undo if self.done.is_empty() => {
                 return Err(Refusal::conflict("there is nothing to undo", "everything is as it was in the beginning").into());
@@ -115,9 +137,17 @@ impl Session {
             action => self.context().decide(action)?,
         };
         let Some(edit) = edit else { return Ok(Change::default().told(None, client, &self.standing())) };
-        let entry = Entry { revision: self.revision + 1, time: clock::iso(clock::now_s()), client: client.into(), edit };
+        let (time, id) = (clock::iso(clock::now_s()), id.map(Into::into));
+        let entry = Entry { revision: self.revision + 1, time, client: client.into(), id, edit };
         self.log.append(&entry).map_err(ActionError::Log)?;
-        Ok(self.perform(&entry.edit, client))
+        Ok(self.perform(&entry))
+    }
+
+    /// The change that an edit made when it came first.
+    fn told_again(&self, revision: u64) -> Result<Change, Refusal> {
+        let change = self.recent.iter().find(|change| change.revision == revision).cloned();
+        let error = || format!("this edit was done already, long ago: it made revision {revision} of {}", self.revision);
+        change.ok_or_else(|| Refusal::conflict(error(), "load the page again to see how things stand"))
     }
 
     fn context(&self) -> Context<'_> {
@@ -148,9 +178,9 @@ impl Session {
     }
 
     /// Does an edit that was checked or decided here.
-    fn perform(&mut self, edit: &Edit, client: &str) -> Change {
+    fn perform(&mut self, entry: &Entry) -> Change {
         self.revision += 1;
-        let change = match edit {
+        let change = match &entry.edit {
             Edit::Undo => self.done.pop().map(|done| {
                 let change = self.revert(&done);
                 self.undone.push(done.edit);
@@ -162,7 +192,15 @@ impl Session {
                 Some(self.apply(edit.clone()))
             }
         };
-        change.unwrap_or_default().told(Some(edit), client, &self.standing())
+        let change = change.unwrap_or_default().told(Some(&entry.edit), &entry.client, &self.standing());
+        if let Some(id) = &entry.id {
+            self.known.insert(id.clone(), self.revision);
+            self.recent.push_back(change.clone());
+            if self.recent.len() > KEPT {
+                self.recent.pop_front();
+            }
+        }
+        change
     }
 
     fn apply(&mut self, edit: Edit) -> Change {

@@ -1,6 +1,7 @@
 //! What is annotated: a scene file, or the mesh folder of a dataset's scene.
 
-use enfilade_dataset::{Dataset, MeshFiles};
+use super::log::unsplit;
+use enfilade_dataset::{Dataset, DatasetError, MeshFiles, MeshGeometry, scene_hash};
 use enfilade_import::ImportOptions;
 use enfilade_math::{DMat3, DVec3, Vec3};
 use enfilade_scene::{Camera, Cx, PartLabel, Pose, Scene, Warning, WorldMesh};
@@ -9,6 +10,9 @@ use std::path::{Path, PathBuf};
 
 /// Stands for "none" in [`Source::material_of_face`].
 pub const NO_MATERIAL: u32 = u32::MAX;
+
+/// The work folder of a dataset that `enfilade run` makes.
+const WORKDIR: &str = ".enfilade";
 
 /// A scene as it is annotated: triangles in the world, the parts they belong to, and what is known of them already.
 pub struct Source {
@@ -30,7 +34,7 @@ pub struct Source {
     pub parts: Vec<String>,
     /// Names of the materials.
     pub materials: Vec<String>,
-    /// What the parts were called before anything is done here.
+    /// What the parts were called before anything is done here; none where the log says it, because something was done already.
     pub labels: Vec<PartLabel>,
     /// From where pictures are to be taken.
     pub cameras: Vec<PlannedCamera>,
@@ -164,28 +168,19 @@ impl Source {
 
     fn of_mesh_folder(folder: &Path, labels: Option<&Path>, cx: &dyn Cx) -> Result<Self, SourceError> {
         let place = Place::of(folder);
-        let files = MeshFiles::new(folder);
-        let mesh = files.read()?;
+        let mesh = read_mesh(&MeshFiles::new(folder))?;
         let scale = place.as_ref().and_then(|place| place.dataset.meters_per_asset_unit(&place.scene).ok()).unwrap_or(1.0);
         let vertex = |index: u32| (mesh.vertices[index as usize] * scale).as_vec3();
-        let mut known = vec![PartLabel::NONE; mesh.objects.len()];
-        match files.read_labels() {
-            Ok(labels) => {
-                if labels.parts.len() < known.len() {
-                    let message =
-                        format!("labels of {} objects, but there are {}: the rest begin without", labels.parts.len(), known.len());
-                    cx.warn(Warning { place: folder.display().to_string(), message });
-                }
-                known.iter_mut().zip(labels.parts).for_each(|(known, label)| *known = label);
-            }
-            Err(error) if error.is_not_found() => {}
-            Err(error) => return Err(error.into()),
-        }
+        let labels_folder = labels.unwrap_or(folder);
+        // The tables are written again from the log then, so it does not matter what became of them.
+        let is_annotated = matches!(MeshFiles::new(labels_folder).annotated_scene(), Ok(Some(_)));
+        let parts = mesh.objects.len();
+        let known = if is_annotated { vec![PartLabel::NONE; parts] } else { read_labels(parts, folder, place.as_ref(), cx)? };
         let name = place.as_ref().map(|place| place.scene.clone());
         Ok(Self {
             name: name.unwrap_or_else(|| folder.file_name().map_or_else(|| "scene".into(), |n| n.to_string_lossy().into_owned())),
             origin: folder.display().to_string(),
-            labels_folder: labels.unwrap_or(folder).to_path_buf(),
+            labels_folder: labels_folder.to_path_buf(),
             vertices: mesh.vertices.len(),
             corners: mesh.faces.iter().map(|face| face.map(vertex)).collect(),
             part_of_face: mesh.object_of_face,
@@ -201,14 +196,43 @@ impl Source {
 
     /// What tells this scene from others: the names of the parts and how many faces each has.
     pub fn hash(&self) -> String {
-        let mut faces = vec![0u64; self.parts.len()];
+        let mut faces = vec![0; self.parts.len()];
         self.part_of_face.iter().for_each(|&part| faces[part as usize] += 1);
-        let mut hasher = blake3::Hasher::new();
-        for (name, faces) in self.parts.iter().zip(&faces) {
-            hasher.update(&(name.len() as u64).to_le_bytes()).update(name.as_bytes()).update(&faces.to_le_bytes());
-        }
-        hasher.finalize().to_hex().to_string()
+        scene_hash(self.parts.iter().map(String::as_str).zip(faces))
     }
+}
+
+/// The triangles with their objects whole: by the log beside them, if it tells, else by the tables.
+fn read_mesh(files: &MeshFiles) -> Result<MeshGeometry, DatasetError> {
+    match unsplit(files) {
+        Some((whole, object_of_face)) => files.read_unsplit(whole, object_of_face).or_else(|_| files.read()),
+        None => files.read(),
+    }
+}
+
+/// The labels of so many parts by the tables in `folder`; none where there are no tables.
+fn read_labels(parts: usize, folder: &Path, place: Option<&Place>, cx: &dyn Cx) -> Result<Vec<PartLabel>, DatasetError> {
+    let mut known = vec![PartLabel::NONE; parts];
+    let warn = |message: String| cx.warn(Warning { place: folder.display().to_string(), message });
+    match MeshFiles::new(folder).read_labels() {
+        Ok(labels) => {
+            if labels.parts.len() < parts {
+                warn(format!("labels of {} objects, but there are {parts}: the rest begin without", labels.parts.len()));
+            }
+            known.iter_mut().zip(labels.parts).for_each(|(known, label)| *known = label);
+        }
+        Err(error) if error.is_not_found() => {
+            if let Some(root) = place.map(|place| place.dataset.root()).filter(|root| root.join(WORKDIR).is_dir()) {
+                warn(format!(
+                    "the label stage has not run yet, so nothing has a label at first, whatever the scene file or a label table says; \
+                     to begin with those labels end this before the first edit, and open the scene again after: enfilade label {}",
+                    root.display()
+                ));
+            }
+        }
+        Err(error) => return Err(error),
+    }
+    Ok(known)
 }
 
 /// The cameras that a scene file brings along: one frame each.

@@ -125,8 +125,8 @@ impl World<'_> {
                 let centre = |&[x, y]: &[u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
                 pixels.par_iter().filter_map(centre).collect()
             }
-            // Hidden pieces and what is too near are in the hierarchy all the same, and only rays can pass through them.
-            Covered::Rectangle(first, last) if !self.hidden.is_empty() || camera.near_m > 0.0 => {
+            // Hidden pieces are in the hierarchy all the same, and only rays can pass through them.
+            Covered::Rectangle(first, last) if !self.hidden.is_empty() => {
                 let row = |y: u32| (first[0]..=last[0]).map(move |x| [x, y]);
                 let centre = |[x, y]: [u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
                 let seen = (first[1]..=last[1]).into_par_iter().map(|y| row(y).filter_map(centre).collect::<HashSet<u32>>());
@@ -138,7 +138,15 @@ impl World<'_> {
                     let rows = (last[1] - top + 1).min(BAND_ROWS);
                     let mut buffer = VisibilityBuffer::new(last[0] - first[0] + 1, rows);
                     buffer.draw(self.bvh, &camera.rays(first[0], top));
-                    buffer.triangles().iter().copied().filter(|&face| face != NOTHING).collect::<HashSet<u32>>()
+                    // Behind what is too near to be drawn only a ray sees.
+                    let seen = |(i, (&face, &inverse_z)): (usize, (&u32, &f32))| {
+                        if f64::from(inverse_z) * camera.near_m <= 1.0 {
+                            return (face != NOTHING).then_some(face);
+                        }
+                        let (x, y) = (first[0] as usize + i % buffer.size()[0], top as usize + i / buffer.size()[0]);
+                        self.meet(camera, x as f64 + 0.5, y as f64 + 0.5).map(|picked| picked.face)
+                    };
+                    buffer.triangles().iter().zip(buffer.inverse_z()).enumerate().filter_map(seen).collect::<HashSet<u32>>()
                 };
                 tops.par_iter().map(band).reduce(HashSet::new, union)
             }

@@ -1,4 +1,4 @@
-//! What the dataset holds, in short: scenes, layers, classes, and how it was verified.
+//! What the dataset holds, in short: scenes, layers, and how it was verified.
 
 use super::place::problem;
 use super::{Viewer, work};
@@ -9,7 +9,6 @@ use axum::response::Response;
 use enfilade_dataset::check_name;
 use enfilade_frame::LAYERS;
 use enfilade_post::verify::VerifyReport;
-use enfilade_scene::{NYU40, is_stuff};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -29,7 +28,6 @@ impl Viewer {
             json!({ "name": spec.name, "pass": spec.pass, "channels": spec.channels, "dtype": spec.dtype, "unit": spec.unit,
                 "space": spec.space, "sentinel": spec.sentinel, "description": spec.description })
         });
-        let classes = NYU40.iter().map(|c| json!({ "id": c.id, "name": c.name, "color": c.color, "stuff": is_stuff(c.id) }));
         let pages = [
             ("Report card", self.layout().verify_page()),
             ("Statistics", self.layout().statistics_dir().join("statistics.html")),
@@ -42,7 +40,6 @@ impl Viewer {
             "scenes": named,
             "scenes_with_other_names": unnamed,
             "layers": layers.collect::<Vec<_>>(),
-            "classes": classes.collect::<Vec<_>>(),
             "pages": pages.collect::<Vec<_>>(),
             "verify": self.verify_summary()?,
         }))

@@ -10,6 +10,7 @@
 mod cache;
 mod camera;
 mod catalogue;
+mod classes;
 mod files;
 mod frame;
 mod layers;

@@ -1,4 +1,4 @@
-//! A scene: its cameras, the names of its parts, classes and instances, and the boxes around them.
+//! A scene: its cameras, its classes, the names of its parts and objects, and the boxes around instances.
 
 use super::place::{optional, problem};
 use super::{Viewer, work};
@@ -7,9 +7,18 @@ use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
 use enfilade_dataset::hdf5::read_array;
-use enfilade_dataset::{BoxKind, Elements, instance_colors};
+use enfilade_dataset::{BoxKind, DatasetError, Elements, Node, instance_colors};
+use enfilade_scene::PartLabel;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
+
+/// A row of `metadata_objects.csv`.
+#[derive(Deserialize)]
+struct ObjectRow {
+    object_name: String,
+}
 
 /// `GET /api/view/scene/{scene}`.
 pub async fn scene(State(viewer): State<Arc<Viewer>>, Path(scene): Path<String>, headers: HeaderMap) -> Result<Response, ApiProblem> {
@@ -34,7 +43,6 @@ impl Viewer {
         self.allow_all(["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5", "metadata_semantic_instance_colors.hdf5"].map(mesh))?;
         let nodes = optional(self.dataset.read_nodes(scene))?.unwrap_or_default();
         let labels = optional(self.dataset.read_label_tables(scene))?.unwrap_or_default();
-        let label = |object: Option<u32>| object.and_then(|object| labels.parts.get(object as usize));
         let instances = labels.parts.iter().map(|label| label.instance).max().unwrap_or(0).max(0) as usize;
         let pages = [("Rejected views", layout.gates_page(scene)), ("Plans", layout.plan_preview_dir(scene).join("index.html"))];
         let pages =
@@ -43,12 +51,10 @@ impl Viewer {
             "name": scene,
             "cameras": self.dataset.cameras(scene).map_err(problem)?,
             "meters_per_unit": self.meters_per_unit(scene)?,
+            "classes": self.classes(scene)?,
             // By `render_entity_id` - 1.
-            "parts": {
-                "names": nodes.iter().map(|node| &node.node_name).collect::<Vec<_>>(),
-                "semantic": nodes.iter().map(|node| label(node.object_id).map_or(-1, |label| label.semantic)).collect::<Vec<_>>(),
-                "instance": nodes.iter().map(|node| label(node.object_id).map_or(-1, |label| label.instance)).collect::<Vec<_>>(),
-            },
+            "parts": nodes.iter().map(|node| &node.node_name).collect::<Vec<_>>(),
+            "objects": self.objects(scene, &nodes, &labels.parts)?,
             "materials": self.material_names(scene)?,
             "instance_colors": self.colors_of_instances(scene, instances),
             "boxes": self.boxes(scene)?,
@@ -56,6 +62,30 @@ impl Viewer {
             "has_space": layout.octomap(scene).is_file(),
             "pages": pages.collect::<Vec<_>>(),
         }))
+    }
+
+    /// By the numbers of `mesh_faces_oi.hdf5`: parts, and what was split off from them.
+    fn objects(&self, scene: &str, nodes: &[Node], labels: &[PartLabel]) -> Result<Value, ApiProblem> {
+        let names: Vec<String> = match self.mesh_table::<ObjectRow>(scene, "metadata_objects.csv")? {
+            Some(rows) => rows.into_iter().map(|row| row.object_name).collect(),
+            None => names_by_nodes(nodes),
+        };
+        Ok(json!({
+            "names": names,
+            "semantic": labels.iter().map(|label| label.semantic).collect::<Vec<_>>(),
+            "instance": labels.iter().map(|label| label.instance).collect::<Vec<_>>(),
+        }))
+    }
+
+    /// The rows of a table of the mesh folder; `None` where it is not there.
+    pub(super) fn mesh_table<T: DeserializeOwned>(&self, scene: &str, name: &str) -> Result<Option<Vec<T>>, ApiProblem> {
+        let path = self.layout().mesh_file(scene, name);
+        self.allow(&path)?;
+        let bytes = std::fs::read(&path).map_err(|source| DatasetError::Io { action: "read", path: path.clone(), source });
+        let Some(bytes) = optional(bytes)? else { return Ok(None) };
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes.as_slice());
+        let rows: Result<Vec<T>, csv::Error> = reader.deserialize().collect();
+        rows.map(Some).map_err(|e| ApiProblem::failed(format!("{}: {e}", path.display()), "mend or delete the file that is named"))
     }
 
     /// Metres per asset unit; 1 where nothing says it.
@@ -96,4 +126,17 @@ impl Viewer {
         }
         Ok(Value::Object(kinds))
     }
+}
+
+/// Names of objects where only the table of render entities says them; empty where that does not either.
+fn names_by_nodes(nodes: &[Node]) -> Vec<String> {
+    let mut names = Vec::new();
+    for node in nodes {
+        let Some(object) = node.object_id.map(|object| object as usize).filter(|&object| object <= i16::MAX as usize) else { continue };
+        if names.len() <= object {
+            names.resize(object + 1, String::new());
+        }
+        names[object].clone_from(&node.object_name);
+    }
+    names
 }

@@ -5,10 +5,10 @@ use axum::body::{Body, to_bytes};
 use axum::http::{Request, StatusCode, header};
 use axum::response::Response;
 use enfilade_dataset::hdf5::read_array;
-use enfilade_dataset::{Dataset, FrameInfo, FrameTime, JudgedView, ViewFault, ViewVerdict};
+use enfilade_dataset::{Dataset, FrameInfo, FrameTime, JudgedView, LabelColors, Node, ViewFault, ViewVerdict, write_bytes};
 use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Pass, Values, f16};
 use enfilade_math::DVec3;
-use enfilade_scene::{Camera, Intrinsics, Pose, Trajectory};
+use enfilade_scene::{Camera, Intrinsics, Labels, PartLabel, Pose, Trajectory};
 use serde_json::Value;
 use std::path::Path;
 use tower::ServiceExt;
@@ -128,11 +128,9 @@ async fn the_dataset_its_scenes_cameras_and_frames_are_told() {
     let folder = tempfile::tempdir().unwrap();
     dataset(folder.path());
     let all = json(folder.path(), "/api/view/dataset").await;
-    assert_eq!(
-        (&all["scenes"], all["layers"].as_array().unwrap().len(), all["classes"].as_array().unwrap().len()),
-        (&serde_json::json!(["room"]), 43, 40)
-    );
-    assert_eq!(json(folder.path(), "/api/view/scene/room").await["cameras"], serde_json::json!(["cam_00"]));
+    assert_eq!((&all["scenes"], all["layers"].as_array().unwrap().len()), (&serde_json::json!(["room"]), 43));
+    let scene = json(folder.path(), "/api/view/scene/room").await;
+    assert_eq!((&scene["cameras"], scene["classes"].as_array().unwrap().len()), (&serde_json::json!(["cam_00"]), 40));
     let camera = json(folder.path(), "/api/view/camera/room/cam_00").await;
     let frames = camera["frames"].as_array().unwrap();
     assert_eq!(frames.iter().map(|frame| frame["layers"].as_array().unwrap().len()).collect::<Vec<_>>(), [43, 0, 0]);
@@ -142,6 +140,47 @@ async fn the_dataset_its_scenes_cameras_and_frames_are_told() {
     assert_eq!((&camera["projection"]["kind"], camera["projection"]["corner_rays"].as_array().unwrap().len()), (&"pinhole".into(), 4));
     let frame = json(folder.path(), "/api/view/frame/room/cam_00/0").await;
     assert_eq!(frame["record"]["seed"], u64::MAX.to_string(), "a browser would round the number");
+}
+
+#[tokio::test]
+async fn objects_that_were_split_off_are_told_with_class_and_instance() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    let node = |node_id, name: &str, object_id| Node { node_id, node_name: name.into(), object_id, object_name: name.into() };
+    dataset.write_nodes("room", &[node(1, "sky", None), node(2, "harp", Some(0))]).unwrap();
+    let labels = Labels { parts: vec![PartLabel { semantic: 3, instance: 1 }, PartLabel { semantic: 7, instance: 2 }] };
+    dataset.write_label_tables("room", &labels).unwrap();
+    let objects = |names: &[&str]| serde_json::json!({ "names": names, "semantic": [3, 7], "instance": [1, 2] });
+    assert_eq!(json(folder.path(), "/api/view/scene/room").await["objects"], objects(&["harp"]), "without a table of objects");
+    dataset.mesh_files("room").write_objects(&["harp".into()], &[("harp~2".into(), 0)], &[0, 1]).unwrap();
+    let scene = json(folder.path(), "/api/view/scene/room").await;
+    assert_eq!((&scene["parts"], &scene["objects"]), (&serde_json::json!(["sky", "harp"]), &objects(&["harp", "harp~2"])));
+}
+
+#[tokio::test]
+async fn classes_are_those_of_the_scenes_list_while_its_labels_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    let files = dataset.mesh_files("room");
+    let labels = Labels { parts: vec![PartLabel { semantic: 7, instance: 1 }] };
+    let rows: Vec<String> = (1..78).map(|id| format!("{id},thing {id},{id},0,0")).collect();
+    let header = "semantic_id,semantic_name,semantic_color_r,semantic_color_g,semantic_color_b";
+    write_bytes(&files.file("semantic_label_descs.csv"), format!("{header}\n{}\n", rows.join("\n"))).unwrap();
+    files.write_labels(&labels, &LabelColors { semantic: (0..78).map(|id| [id, 0, 0]).collect(), instances: 1 }).unwrap();
+    let classes = async || json(folder.path(), "/api/view/scene/room").await["classes"].as_array().unwrap().clone();
+    let told = classes().await;
+    assert_eq!((told.len(), &told[76]), (77, &serde_json::json!({ "id": 77, "name": "thing 77", "color": [77, 0, 0] })));
+    // Labels from a table of NYU40 again: the list is left over.
+    let mut colors = LabelColors::nyu40(&labels);
+    colors.semantic[7] = [1, 2, 3];
+    files.write_labels(&labels, &colors).unwrap();
+    let told = classes().await;
+    assert_eq!((told.len(), &told[6]), (40, &serde_json::json!({ "id": 7, "name": "table", "color": [1, 2, 3] })));
+    write_bytes(&files.file("semantic_label_descs.csv"), "semantic_id,semantic_name\n1,a\n").unwrap();
+    let refused = ask(folder.path(), "/api/view/scene/room", &[]).await;
+    assert_eq!(refused.status(), StatusCode::INTERNAL_SERVER_ERROR);
+    let said = String::from_utf8(bytes(refused).await).unwrap();
+    assert!(said.contains("semantic_label_descs.csv") && said.contains("line: 2"), "{said}");
 }
 
 #[tokio::test]

@@ -5,7 +5,7 @@ use enfilade_annotate::label::{AnnotateOptions, App};
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{Array, Dataset, MeshFiles};
 use enfilade_math::DVec3;
-use enfilade_scene::{Intrinsics, Pose, Quiet, Trajectory};
+use enfilade_scene::{Intrinsics, Labels, PartLabel, Pose, Quiet, Trajectory};
 use serde_json::json;
 
 #[tokio::test]
@@ -44,6 +44,59 @@ async fn a_mesh_folder_is_split_by_material_and_read_again() {
     drop(again);
     let mesh_folder = folder.path().join("scenes/room/_detail/mesh");
     assert_eq!(open(&mesh_folder).labels().await, [(-1, -1); 6]);
+}
+
+#[tokio::test]
+async fn a_scene_that_was_only_looked_at_begins_with_the_labels_that_it_got_since() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    dataset.write_scene("room", &scene()).unwrap();
+    assert_eq!(Page::open(folder.path()).labels().await, [(-1, -1); 6]);
+    let labels = Labels { parts: (1..=6).map(|number| PartLabel { semantic: number, instance: number }).collect() };
+    dataset.write_label_tables("room", &labels).unwrap();
+    let page = Page::open(folder.path());
+    page.act(assign(&[0], class(40))).await;
+    page.post("save", "{}").await;
+    let saved = dataset.read_label_tables("room").unwrap().parts;
+    assert_eq!((saved[0].semantic, &saved[1..]), (40, &labels.parts[1..]));
+    drop(page);
+    // From the first edit on the log says what is so, whatever the tables say.
+    dataset.write_label_tables("room", &Labels { parts: vec![PartLabel::NONE; 6] }).unwrap();
+    assert_eq!(Page::open(folder.path()).labels().await[5], (6, 6));
+}
+
+#[tokio::test]
+async fn an_annotation_opens_whichever_of_its_tables_was_not_written_any_more() {
+    const TABLES: [&str; 5] =
+        ["metadata_objects.csv", "mesh_faces_oi.hdf5", "metadata_object_splits.csv", "mesh_objects_si.hdf5", "mesh_objects_sii.hdf5"];
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    dataset.write_scene("room", &scene()).unwrap();
+    let mesh = dataset.mesh_files("room");
+    let put = |table: &str, bytes: Option<&Vec<u8>>| match bytes {
+        Some(bytes) => std::fs::write(mesh.file(table), bytes).unwrap(),
+        None => drop(std::fs::remove_file(mesh.file(table))),
+    };
+    let split = |piece: u32, by: serde_json::Value| json!({ "type": "split", "piece": piece, "by": by });
+    let undo = || json!({ "type": "undo" });
+    let actions = [assign(&[0], class(3)), split(5, json!("component")), split(6, json!({ "faces": [70, 71] })), undo(), undo()];
+    let mut saves: Vec<[Option<Vec<u8>>; 5]> = Vec::new();
+    for action in actions {
+        let page = Page::open(folder.path());
+        page.act(action).await;
+        page.post("save", "{}").await;
+        let labels = page.labels().await;
+        drop(page);
+        saves.push(TABLES.map(|table| std::fs::read(mesh.file(table)).ok()));
+        let [.., before, after] = saves.as_slice() else { continue };
+        for (table, bytes) in TABLES.into_iter().zip(before) {
+            TABLES.into_iter().zip(after).for_each(|(table, bytes)| put(table, bytes.as_ref()));
+            put(table, bytes.as_ref());
+            assert_eq!(Page::open(folder.path()).labels().await, labels, "{table} of before edit {}", saves.len());
+        }
+        // All were written again.
+        assert!(TABLES.map(|table| std::fs::read(mesh.file(table)).ok()) == *after);
+    }
 }
 
 #[tokio::test]

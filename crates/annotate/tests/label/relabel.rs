@@ -1,15 +1,31 @@
 //! A dataset that was rendered, whose parts are split and labelled anew: its label images follow, and nothing is rendered.
 
-use crate::room::Page;
+use crate::room::{Page, assign};
 use enfilade_annotate::label::AnnotateOptions;
 use enfilade_dataset::Dataset;
 use enfilade_frame::{Layer, Values};
 use enfilade_geometry::Bvh;
 use enfilade_math::{Ray, Vec3};
-use enfilade_pipeline::{CameraChoice, Config, Overrides, Silent, Stage, demo, run, run_stage};
+use enfilade_pipeline::{CameraChoice, Config, Overrides, Silent, Stage, Summary, WORKDIR, demo, run, run_stage};
 use enfilade_scene::CameraView;
 use serde_json::json;
 use std::collections::BTreeSet;
+use std::path::Path;
+
+/// A small demo, made in `out`.
+fn small_demo(out: &Path) -> Config {
+    let mut config = Config::demo(&Overrides { frames: Some(2), size: Some([96, 72]), ..Overrides::default() }).unwrap();
+    let scene = &mut config.scenes[0];
+    scene.cameras = vec![CameraChoice::Named("living_1".into())];
+    (scene.render.samples, scene.render.max_bounces, scene.carve.rays, scene.carve.iterations) = (2, Some(2), 8192, 2);
+    assert!(run(&config, out, None, &Silent).unwrap().ok());
+    config
+}
+
+/// A page of the demo in `out`.
+fn page_of(out: &Path) -> Page {
+    Page::with(&AnnotateOptions { path: out.to_path_buf(), scene: Some(demo::SCENE.into()), ..AnnotateOptions::default() })
+}
 
 /// What rays through the pixels of a frame meet: part (from 1) and piece, or none.
 fn cast(dataset: &Dataset, camera: &str, frame: usize) -> Vec<Option<(i16, u32)>> {
@@ -32,11 +48,7 @@ fn cast(dataset: &Dataset, camera: &str, frame: usize) -> Vec<Option<(i16, u32)>
 async fn split_parts_get_the_labels_of_their_pieces_without_rendering() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let mut config = Config::demo(&Overrides { frames: Some(2), size: Some([96, 72]), ..Overrides::default() }).unwrap();
-    let scene = &mut config.scenes[0];
-    scene.cameras = vec![CameraChoice::Named("living_1".into())];
-    (scene.render.samples, scene.render.max_bounces, scene.carve.rays, scene.carve.iterations) = (2, Some(2), 8192, 2);
-    assert!(run(&config, &out, None, &Silent).unwrap().ok());
+    let config = small_demo(&out);
     let dataset = Dataset::open(&out).unwrap();
     let ids = |frame| match dataset.read_layer(demo::SCENE, "cam_00", frame, Layer::RenderEntityId).unwrap() {
         Values::I16(ids) => ids,
@@ -45,7 +57,7 @@ async fn split_parts_get_the_labels_of_their_pieces_without_rendering() {
     let rendered = std::fs::read(dataset.layout().layer(demo::SCENE, "cam_00", 0, Layer::RenderEntityId)).unwrap();
     let parts = dataset.read_nodes(demo::SCENE).unwrap().len();
 
-    let page = Page::with(&AnnotateOptions { path: out.clone(), scene: Some(demo::SCENE.into()), ..AnnotateOptions::default() });
+    let page = page_of(&out);
     let began: Vec<i64> = page.labels().await.iter().map(|label| label.0).collect();
     let tables = dataset.read_label_tables(demo::SCENE).unwrap();
     let boxed = || dataset.read_boxes(demo::SCENE, enfilade_dataset::BoxKind::AxisAligned).unwrap().iter().flatten().count();
@@ -114,4 +126,34 @@ async fn split_parts_get_the_labels_of_their_pieces_without_rendering() {
     let Values::I16(classes) = dataset.read_layer(demo::SCENE, "cam_00", 0, Layer::Semantic).unwrap() else { panic!() };
     let expected = |id: i16| if id < 1 { -1 } else { tables.parts[id as usize - 1].semantic };
     assert!(classes.iter().zip(ids(0)).all(|(&found, id)| found == expected(id)));
+}
+
+#[tokio::test]
+async fn an_annotation_counts_from_its_first_edit_on_and_for_the_parts_that_were_annotated() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    small_demo(&out);
+    let dataset = Dataset::open(&out).unwrap();
+    let label = || run_stage(&out, Stage::Label, None, false, &Silent).unwrap();
+    let is_annotated = |summary: &Summary| summary.scenes[0].stages[0].summary.ends_with("as annotated");
+
+    // Looked at.
+    drop(page_of(&out));
+    let looked_at = label();
+    assert!(looked_at.ok() && !is_annotated(&looked_at), "{:?}", looked_at.scenes);
+    let page = page_of(&out);
+    page.act(assign(&[0, 1], json!({ "layer": "instance", "new": true }))).await;
+    page.post("save", "{}").await;
+    let edited = label();
+    assert!(edited.ok() && is_annotated(&edited), "{:?}", edited.scenes);
+
+    // The same parts in another order, as an import leaves them.
+    let package = out.join(WORKDIR).join(demo::SCENE).join("scene.scene");
+    let mut scene = enfilade_scene::from_bytes(&std::fs::read(&package).unwrap()).unwrap();
+    scene.parts.swap(0, 1);
+    std::fs::write(&package, enfilade_scene::to_bytes(&scene)).unwrap();
+    dataset.write_scene(demo::SCENE, &scene).unwrap();
+    let swapped = label();
+    let message = &swapped.scenes[0].failure.as_ref().unwrap().message;
+    assert!(message.contains("annotation_log.jsonl is about another scene"), "{message}");
 }

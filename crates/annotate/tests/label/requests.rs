@@ -32,6 +32,56 @@ async fn two_pages_lose_no_edit_and_each_hears_all() {
 }
 
 #[tokio::test]
+async fn an_edit_that_comes_again_with_its_id_is_done_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = package(folder.path());
+    let undo = json!({ "client": "test", "id": "the undo", "action": { "type": "undo" } }).to_string();
+    let page = Page::open(&path);
+    page.act(assign(&[0], class(3))).await;
+    page.act(assign(&[1], class(5))).await;
+    let (_, first) = page.post("edit", undo.clone()).await;
+    assert_eq!((first["revision"].as_u64(), first["pieces"].clone()), (Some(3), json!([1])));
+    assert_eq!(page.post("edit", undo.clone()).await.1, first);
+    drop(page);
+    // Also after the program was started again, and after other edits.
+    let page = Page::open(&path);
+    page.act(assign(&[2], class(7))).await;
+    assert_eq!(page.post("edit", undo.clone()).await.1, first);
+    assert_eq!(page.labels().await[..3], [(3, -1), (-1, -1), (7, -1)]);
+    // After very many it is not known any more what it changed, but that it was done.
+    for revision in 5..=80_i64 {
+        let id = revision.to_string();
+        let again = json!({ "client": "test", "id": id, "action": assign(&[3], class(1 + revision % 40)) });
+        assert_eq!(page.post("edit", again.to_string()).await.1["revision"].as_i64(), Some(revision));
+    }
+    let (status, refused) = page.post("edit", undo).await;
+    assert!(status == 409 && refused["error"].as_str().unwrap().contains("done already"), "{refused}");
+    assert_eq!(page.get("scene").await["revision"].as_u64(), Some(80));
+}
+
+#[tokio::test]
+async fn an_edit_is_saved_although_its_page_goes_away_before_the_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = Page::open(&package(folder.path()));
+    let done = async {
+        while page.app.session().standing().revision == 0 {
+            tokio::task::yield_now().await;
+        }
+    };
+    let edit = json!({ "client": "test", "action": assign(&[0], class(1)) });
+    tokio::select! {
+        biased;
+        () = done => {}
+        _ = page.post("edit", edit.to_string()) => {}
+    }
+    let mut waits = 0..100;
+    while page.app.is_unsaved() && waits.next().is_some() {
+        tokio::time::sleep(std::time::Duration::from_millis(100)).await;
+    }
+    assert!(!page.app.is_unsaved());
+}
+
+#[tokio::test]
 async fn malformed_requests_are_named_and_change_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let page = Page::open(&package(folder.path()));
@@ -76,6 +126,7 @@ async fn malformed_requests_are_named_and_change_nothing() {
         ("edit", "{"),
         ("edit", "[]"),
         ("edit", r#"{"client":"","action":{"type":"redo"}}"#),
+        ("edit", r#"{"client":"c","id":"","action":{"type":"redo"}}"#),
         ("select", r#"{"shape":{"click":[1,1]}}"#),
         ("activity", r#"{"seconds_since_last_input":-1}"#),
         ("activity", "null"),

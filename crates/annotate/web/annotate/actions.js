@@ -4,6 +4,7 @@ import { getJson, postJson } from "../shared/api.js";
 import { byId } from "../shared/dom.js";
 import { toast, toastError } from "../shared/toast.js";
 import { stem } from "./names.js";
+import { newInstance } from "./state.js";
 
 /** The verbs of the page. */
 export class Actions {
@@ -16,6 +17,8 @@ export class Actions {
         this.state = state;
         this.stage = stage;
         this.edits = edits;
+        /** Edits with the label of now that are on their way. @type {Set<any>} */
+        this.giving = new Set();
         /** @type {{ piece: number, best_view: { camera: string, frame: number } | null, pixels: number, name: string }[]} */
         this.unlabelled = [];
         this.wireframe = false;
@@ -27,6 +30,23 @@ export class Actions {
         this.showTab = (/** @type {string} */ _name) => {};
         /** All planned frames, in order. */
         this.frames = state.scene.cameras.flatMap((/** @type {any} */ camera) => camera.frames.map((/** @type {any} */ frame) => ({ ...frame, camera: camera.name })));
+        // Here a number comes before the next edit of the queue is sent, which may have to share it.
+        edits.addEventListener("change", (event) => {
+            const answered = [...this.giving].find((edit) => !edits.queue.some(({ action }) => action === edit));
+            if (answered) this.given(answered, /** @type {CustomEvent} */ (event).detail);
+        });
+    }
+
+    /** Sends an edit that gives the label of now. @param {any} action all of it but what to apply */
+    async give(action) {
+        const edit = { ...action, apply: this.state.apply };
+        this.giving.add(edit);
+        this.given(edit, await this.edits.send(edit));
+    }
+
+    /** An edit is answered; one that asked for a new instance is told its number, unless it touched nothing. @param {any} edit @param {any} change null where it was refused */
+    given(edit, change) {
+        if (this.giving.delete(edit) && edit.apply.new && change?.pieces.length > 0) this.state.number(edit.apply, change.instance[0]);
     }
 
     /** The selection, or nothing with a word about it. @returns {number[] | null} */
@@ -39,7 +59,7 @@ export class Actions {
     async assign() {
         if (this.state.painting) return void (await this.paint());
         const pieces = this.chosen();
-        if (pieces) await this.edits.send({ type: "assign", pieces, apply: this.state.apply });
+        if (pieces) await this.give({ type: "assign", pieces });
     }
 
     async clearLabel() {
@@ -61,7 +81,7 @@ export class Actions {
     }
 
     newInstance() {
-        this.state.set({ layer: "instance", currentInstance: Math.max(1, this.state.standing.next_instance), erase: false });
+        this.state.set({ layer: "instance", fresh: newInstance(), erase: false });
     }
 
     /** @param {number} id */

@@ -12,13 +12,11 @@ export class Draw {
     /**
      * @param {import("../shared/stage3d/stage.js").Stage3d} stage
      * @param {import("./state.js").State} state
-     * @param {import("./edits.js").Edits} edits
-     * @param {{ newInstance: () => void, hovered: (piece: number) => void }} hooks
+     * @param {{ newInstance: () => void, give: (action: any) => Promise<void>, hovered: (piece: number) => void }} hooks
      */
-    constructor(stage, state, edits, hooks) {
+    constructor(stage, state, hooks) {
         this.stage = stage;
         this.state = state;
-        this.edits = edits;
         this.hooks = hooks;
         /** @type {[number, number][] | null} */
         this.points = null;
@@ -151,7 +149,7 @@ export class Draw {
         try {
             if (state.painting) await this.paint(points);
             else if (state.tool === "eyedropper") await this.takeLabel(points[points.length - 1]);
-            else await this.edits.send({ type: "stroke", ...this.look(), shape: this.shape(points), expand: state.expand, filters: state.filters, apply: state.apply });
+            else await this.hooks.give({ type: "stroke", ...this.look(), shape: this.shape(points), expand: state.expand, filters: state.filters });
         } catch (error) {
             toastError(error);
         }
@@ -163,7 +161,7 @@ export class Draw {
         if (piece < 0) return;
         const { semantic, instance } = this.state.pieces;
         if (this.state.layer === "semantic" && semantic[piece] >= 1) this.state.set({ currentClass: semantic[piece], erase: false });
-        if (this.state.layer === "instance" && instance[piece] >= 1) this.state.set({ currentInstance: instance[piece], erase: false, unique: false });
+        if (this.state.layer === "instance" && instance[piece] >= 1) this.state.set({ fresh: null, currentInstance: instance[piece], erase: false, unique: false });
     }
 
     /** Adds the visible faces of the piece to what is to be split off; erase takes them out. @param {[number, number][]} points */

@@ -1,4 +1,5 @@
-// Edits on their way to the server. One at a time and in order; what is not acknowledged is kept and sent again, over reloads too.
+// Edits on their way to the server. One at a time and in order; what is not acknowledged is kept and sent again, over reloads too. Each has
+// an id, by which the server knows one that had arrived although its answer was lost.
 
 import { ApiError, getJson, postJson } from "../shared/api.js";
 import { toast, toastError } from "../shared/toast.js";
@@ -6,19 +7,22 @@ import { toast, toastError } from "../shared/toast.js";
 const RETRY_MS = 1500;
 const STORE = "enfilade.annotate.unsent";
 
+/** An id that nothing else has. Beyond this machine, without https, browsers have no `randomUUID`. */
+const newId = () => crypto.randomUUID?.() ?? Array.from(crypto.getRandomValues(new Uint32Array(4)), (part) => part.toString(36)).join("-");
+
 /** Sends edits and hears of those of other tabs. Events: `state` when something about saving has changed, `change` with a CHANGE. */
 export class Edits extends EventTarget {
     /** @param {string} scene tells apart what is kept for several scenes */
     constructor(scene) {
         super();
-        this.client = crypto.randomUUID?.() ?? `tab-${Math.random().toString(36).slice(2)}`;
+        this.client = newId();
         this.store = `${STORE}:${scene}`;
-        /** @type {{ action: any, done: (change: any) => void, lost?: boolean, answer?: any }[]} */
+        /** @type {{ id: string, action: any, done: (change: any) => void }[]} */
         this.queue = [];
         this.offline = false;
         this.busy = false;
-        for (const action of JSON.parse(sessionStorage.getItem(this.store) ?? "[]")) this.queue.push({ action, done: () => {} });
-        if (this.queue.length > 0) toast(`${this.queue.length} edits had not reached the server; they are sent again.`, "", "good");
+        for (const kept of JSON.parse(sessionStorage.getItem(this.store) ?? "[]")) this.queue.push({ ...kept, done: () => {} });
+        if (this.queue.length > 0) toast(`${this.queue.length} edits were not acknowledged by the server; they are sent again.`, "", "good");
     }
 
     /** @returns {"saved" | "saving" | "offline"} */
@@ -34,14 +38,14 @@ export class Edits extends EventTarget {
      */
     send(action) {
         return new Promise((done) => {
-            this.queue.push({ action, done });
+            this.queue.push({ id: newId(), action, done });
             this.keep();
             void this.work();
         });
     }
 
     keep() {
-        sessionStorage.setItem(this.store, JSON.stringify(this.queue.map((one) => one.action)));
+        sessionStorage.setItem(this.store, JSON.stringify(this.queue.map(({ id, action }) => ({ id, action }))));
         this.dispatchEvent(new Event("state"));
     }
 
@@ -49,17 +53,14 @@ export class Edits extends EventTarget {
         if (this.busy) return;
         this.busy = true;
         while (this.queue.length > 0) {
-            const first = this.queue[0];
-            const { action, done } = first;
-            let change = first.answer ?? null;
+            const { id, action, done } = this.queue[0];
+            let change = null;
             try {
-                change ??= await postJson("/api/annotate/edit", { client: this.client, action });
+                change = await postJson("/api/annotate/edit", { client: this.client, id, action });
                 this.offline = false;
             } catch (error) {
                 if (error instanceof ApiError && error.status === 0) {
-                    first.lost = true;
                     this.setOffline(true);
-                    // Long enough for the events to tell whether it had arrived after all.
                     await new Promise((resume) => setTimeout(resume, RETRY_MS));
                     continue;
                 }
@@ -89,10 +90,7 @@ export class Edits extends EventTarget {
     listen(revision, reload) {
         const source = new EventSource(`/api/annotate/events?since=${revision()}`);
         source.addEventListener("message", (event) => {
-            const change = JSON.parse(event.data);
-            const first = this.queue[0];
-            if (change.client === this.client && first?.lost) first.answer = change;
-            this.dispatchEvent(new CustomEvent("change", { detail: change }));
+            this.dispatchEvent(new CustomEvent("change", { detail: JSON.parse(event.data) }));
         });
         source.addEventListener("reload", reload);
         source.addEventListener("open", () => this.setOffline(false));

@@ -153,7 +153,7 @@ async function start() {
     act.openPalette = palette(table);
     listenToKeys(table, act);
     showState(stage, state);
-    new Draw(stage, state, edits, { newInstance: () => act.newInstance(), hovered: readOuts(stage, state) });
+    new Draw(stage, state, { newInstance: () => act.newInstance(), give: (action) => act.give(action), hovered: readOuts(stage, state) });
     followAddress(act, stage, state);
     window.addEventListener("hashchange", () => followAddress(act, stage, state));
     followEdits(state, edits, stage, act);

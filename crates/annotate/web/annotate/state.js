@@ -4,6 +4,7 @@
  * @typedef {{ id: number, name: string, color: [number, number, number] }} LabelClass
  * @typedef {{ semantic: number, confidence: number, alternatives: [number, number][], reason?: string }} Suggestion
  * @typedef {"semantic" | "instance"} Layer
+ * @typedef {{ layer: Layer, value?: number, unique?: boolean, new?: boolean }} Apply
  * @typedef {"pen" | "line" | "rectangle" | "eyedropper"} Tool
  * @typedef {"piece" | "instance" | "class"} Expand
  * @typedef {"only_without_instance" | "only_with_instance" | "only_without_class" | "only_with_class"} Filter
@@ -16,6 +17,9 @@ const CONTRARY = {
     only_without_class: "only_with_class",
     only_with_class: "only_without_class",
 };
+
+/** What asks the server for the next instance: a number that the page took itself another page might take too. @returns {Apply} */
+export const newInstance = () => ({ layer: "instance", new: true });
 
 /** The state of the page. Everything that changes it goes through a method, which tells the listeners. */
 export class State extends EventTarget {
@@ -52,7 +56,10 @@ export class State extends EventTarget {
         /** @type {Record<Filter, boolean>} */
         this.filters = { only_without_instance: true, only_with_instance: false, only_without_class: true, only_with_class: false };
         this.currentClass = this.classes[0]?.id ?? 1;
-        this.currentInstance = Math.max(1, scene.next_instance);
+        /** Asks for a new instance, until its number has come. Edits that are to share the number share this object. @type {Apply | null} */
+        this.fresh = newInstance();
+        /** The instance to give, where it is not a new one. */
+        this.currentInstance = 1;
         /** @type {{ piece: number, faces: Set<number> } | null} painted faces to split off */
         this.painting = null;
         this.isolated = false;
@@ -122,11 +129,19 @@ export class State extends EventTarget {
         return [...new Set([...this.hidden, ...this.xray])].filter((piece) => piece < this.count && !this.removed.has(piece));
     }
 
-    /** What a stroke or an assignment does now. */
+    /** What a stroke or an assignment does now. @returns {Apply} */
     get apply() {
         if (this.layer === "semantic") return { layer: "semantic", value: this.erase ? -1 : this.currentClass };
         if (this.erase) return { layer: "instance", value: -1 };
-        return this.unique ? { layer: "instance", unique: true } : { layer: "instance", value: this.currentInstance };
+        if (this.unique) return { layer: "instance", unique: true };
+        return this.fresh ?? { layer: "instance", value: this.currentInstance };
+    }
+
+    /** The server has given the new instance that was asked for a number. @param {Apply} asked @param {number} instance */
+    number(asked, instance) {
+        delete asked.new;
+        asked.value = instance;
+        if (this.fresh === asked) this.set({ fresh: null, currentInstance: instance });
     }
 
     /** Takes over a change of labels or pieces, from whichever page. @param {any} change */
@@ -144,9 +159,10 @@ export class State extends EventTarget {
             columns.mins[at] = one.min;
             columns.maxs[at] = one.max;
             columns.geometry_keys[at] = one.geometry_key ?? columns.geometry_keys[at];
-            columns.semantic[at] ??= -1;
-            columns.instance[at] ??= -1;
-            columns.suggestions[at] ??= null;
+            columns.semantic[at] = one.semantic;
+            columns.instance[at] = one.instance;
+            // What is suggested for a part is suggested for its pieces.
+            columns.suggestions[at] = columns.suggestions[columns.parents[at]] ?? null;
             this.removed.delete(at);
         }
         change.pieces.forEach((/** @type {number} */ piece, /** @type {number} */ i) => {
@@ -155,7 +171,6 @@ export class State extends EventTarget {
         });
         for (const piece of change.removed ?? []) this.forget(piece);
         this.standing = change;
-        this.currentInstance = Math.max(1, Math.min(this.currentInstance, change.next_instance));
         this.tell("labels", "history", ...(change.added?.length || change.removed?.length ? ["pieces", "selection", "visibility"] : []));
         return true;
     }

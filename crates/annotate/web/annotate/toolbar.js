@@ -55,8 +55,10 @@ export function toolbar(state, table) {
         const one = state.classById.get(state.currentClass);
         const bySemantic = state.layer === "semantic";
         const swatch = el("span", { class: "swatch" });
-        swatch.style.background = css(bySemantic ? one?.color ?? [255, 255, 255] : state.instanceColor(state.currentInstance));
-        label.replaceChildren(swatch, ` ${state.erase ? "no label" : bySemantic ? one?.name ?? "" : state.unique ? "new id each" : `instance ${state.currentInstance}`}`);
+        const instance = state.fresh ? "new instance" : `instance ${state.currentInstance}`;
+        const color = bySemantic ? one?.color : state.fresh ? null : state.instanceColor(state.currentInstance);
+        swatch.style.background = css(color ?? [255, 255, 255]);
+        label.replaceChildren(swatch, ` ${state.erase ? "no label" : bySemantic ? one?.name ?? "" : state.unique ? "new id each" : instance}`);
     });
     byId("tools").append(
         group("Label to give", label, button(state, table, "new-instance", "New instance")),

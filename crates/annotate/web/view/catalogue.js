@@ -3,13 +3,13 @@
 import { getJson } from "../shared/api.js";
 
 /** @typedef {{ name: string, pass: string, channels: number, dtype: string, unit: string, space: string, sentinel: string, description: string }} LayerSpec */
-/** @typedef {{ id: number, name: string, color: number[], stuff: boolean }} SemanticClass */
+/** @typedef {{ id: number, name: string, color: number[] }} SemanticClass */
 /** @typedef {{ title: string, path: string }} Page */
 /** @typedef {{ passed: boolean, accepted: boolean, verdict: string, gate_verdict: string, laws: number, frames: number, failures: { law: string, statement: string, place: string, meaning: string }[] }} Verification */
-/** @typedef {{ name: string, scenes: string[], scenes_with_other_names: string[], layers: LayerSpec[], classes: SemanticClass[], pages: Page[], verify: Verification | null }} Dataset */
+/** @typedef {{ name: string, scenes: string[], scenes_with_other_names: string[], layers: LayerSpec[], pages: Page[], verify: Verification | null }} Dataset */
 /** @typedef {{ center: number[], extents: number[], orientation: number[] }} Box */
-/** @typedef {{ names: string[], semantic: number[], instance: number[] }} Parts */
-/** @typedef {{ name: string, cameras: string[], meters_per_unit: number, parts: Parts, materials: string[], instance_colors: number[][], boxes: Record<string, (Box | null)[]>, has_geometry: boolean, has_space: boolean, pages: Page[] }} Scene */
+/** @typedef {{ names: string[], semantic: number[], instance: number[] }} Objects what the pieces of the geometry are: parts, and pieces of those that people split */
+/** @typedef {{ name: string, cameras: string[], meters_per_unit: number, classes: SemanticClass[], parts: string[], objects: Objects, materials: string[], instance_colors: number[][], boxes: Record<string, (Box | null)[]>, has_geometry: boolean, has_space: boolean, pages: Page[] }} Scene */
 /** @typedef {{ position: number[], orientation: number[] }} Pose */
 /** @typedef {{ verdict: "rejected" | "reported", fault: { gate: string, value: number, limit: number } | null, picture: string | null }} Gate */
 /** @typedef {{ frame: number, pose: Pose | null, layers: number[], complete: boolean, gate: Gate | null }} CameraFrame */

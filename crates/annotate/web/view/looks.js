@@ -11,7 +11,8 @@ export class Looks {
     /** @param {Dataset} dataset */
     constructor(dataset) {
         this.specs = new Map(dataset.layers.map((spec) => [spec.name, spec]));
-        this.classes = new Map(dataset.classes.map((one) => [one.id, one]));
+        /** @type {Map<number, import("./catalogue.js").SemanticClass>} */
+        this.classes = new Map();
         /** @type {Scene | null} */
         this.scene = null;
         /** @type {Map<string, Uint8Array>} */
@@ -22,6 +23,7 @@ export class Looks {
     enter(scene) {
         if (this.scene === scene) return;
         this.scene = scene;
+        this.classes = new Map(scene.classes.map((one) => [one.id, one]));
         this.tables.clear();
     }
 
@@ -78,7 +80,7 @@ export class Looks {
             case "class": return this.className(id);
             case "instance": return this.instanceName(id);
             case "material": return id < 1 ? "none" : (this.scene?.materials[id - 1] ?? "");
-            default: return id < 1 ? "nothing" : (this.scene?.parts.names[id - 1] ?? "");
+            default: return id < 1 ? "nothing" : (this.scene?.parts[id - 1] ?? "");
         }
     }
 
@@ -87,19 +89,24 @@ export class Looks {
         return this.classes.get(id)?.name ?? "unlabelled";
     }
 
-    /** The names of an instance's parts, shortened. @param {number} id */
+    /** The names of an instance's objects. @param {number} id @returns {string[]} */
+    objectsOfInstance(id) {
+        const objects = this.scene?.objects;
+        return objects ? objects.names.filter((_, i) => objects.instance[i] === id) : [];
+    }
+
+    /** The names of an instance's objects, shortened. @param {number} id */
     instanceName(id) {
         if (id < 1) return "none";
-        const parts = this.scene?.parts;
-        const names = parts ? parts.names.filter((_, i) => parts.instance[i] === id) : [];
+        const names = this.objectsOfInstance(id);
         return names.length > 1 ? `${names[0]} + ${names.length - 1}` : (names[0] ?? "");
     }
 
     /** The class of an instance. @param {number} id */
     classOfInstance(id) {
-        const parts = this.scene?.parts;
-        const at = parts ? parts.instance.indexOf(id) : -1;
-        return at >= 0 && parts ? parts.semantic[at] : -1;
+        const objects = this.scene?.objects;
+        const at = objects ? objects.instance.indexOf(id) : -1;
+        return at >= 0 && objects ? objects.semantic[at] : -1;
     }
 
     /** The box of an instance, of the best kind that the scene has. @param {number} id */

@@ -30,6 +30,8 @@ async function begin() {
     const page = new Page(session, stage, strip, tree, travel);
     await session.follow();
     page.ready();
+    // For tests and the console.
+    Object.assign(window, { view: page });
 }
 
 class Page {
@@ -53,6 +55,7 @@ class Page {
         session.changed = () => stage.refresh();
         session.entered = () => {
             stage.last = [];
+            this.known = null;
             tree.enter();
             strip.enter();
             this.controls();
@@ -83,10 +86,8 @@ class Page {
             this.session.refresh();
             this.controls();
         }
-        if (changed.has("frame")) {
-            this.strip.show();
-            this.known = null;
-        }
+        if (["scene", "camera", "frame"].some((key) => changed.has(/** @type {keyof State} */ (key)))) this.known = null;
+        if (changed.has("frame")) this.strip.show();
         if (["frame", "mode", "instance"].some((key) => changed.has(/** @type {keyof State} */ (key)))) this.space.show();
         this.panelKey = "";
         this.stage.refresh();

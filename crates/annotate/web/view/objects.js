@@ -25,8 +25,7 @@ function chosenPart(session, known, id) {
     const { looks } = session;
     const view = known?.instances.find((one) => one.instance === id);
     const box = looks.box(id);
-    const parts = session.scene?.parts;
-    const names = parts ? parts.names.filter((_, i) => parts.instance[i] === id) : [];
+    const names = looks.objectsOfInstance(id);
     return [
         h("h2", {}, `Instance ${id}`),
         facts([
@@ -72,7 +71,7 @@ function classesPart(session) {
     const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) =>
         h("tr", { "data-class": id }, h("td", {}, h("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic", id))}` }), ` ${session.looks.className(id)}`),
             h("td", { class: "number" }, id > 0 ? String(id) : "–"), h("td", { class: "number" }, percent(area.pixels / all)));
-    return [h("h2", {}, "Classes"), table(["NYU40", "id", "of image"], ["auto", "15%", "30%"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
+    return [h("h2", {}, "Classes"), table(["Class", "id", "of image"], ["auto", "15%", "30%"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
 }
 
 /** @param {string[]} heads @param {string[]} widths @param {Node[]} rows */

@@ -3,7 +3,7 @@
 import { getBytes } from "../shared/api.js";
 import { readGeometry } from "../shared/stage3d/geometry.js";
 import { Stage3d } from "../shared/stage3d/stage.js";
-import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, LineSegments, Points, PointsMaterial, Vector3 } from "../vendor/three.js";
+import { BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments, Points, PointsMaterial, SRGBColorSpace, Vector3 } from "../vendor/three.js";
 import { idColor } from "./colors.js";
 import { byId, h, toast } from "./dom.js";
 import { BOX_EDGES, boxCorners } from "./project.js";
@@ -13,12 +13,13 @@ import { BOX_EDGES, boxCorners } from "./project.js";
 
 /** Length of a drawn frustum, metres. */
 const FRUSTUM_M = 0.28;
-/** NYU40's number of ceilings. */
-const CEILING = 22;
 /** Points of a frame. */
 const POINTS = 150_000;
 /** How near to a camera's place a click must be, CSS pixels. */
 const REACH_PX = 14;
+
+/** The light of each byte of sRGB, 0 to 1. */
+const LIGHT = Float32Array.from({ length: 256 }, (_, value) => new Color().setRGB(value / 255, 0, 0, SRGBColorSpace).r);
 
 /** @type {[Part, string][]} */
 const PARTS = [["surfaces", "Surfaces"], ["points", "Points of the frame"], ["views", "Trajectory and views"], ["boxes", "Boxes"], ["free", "Free space"], ["occupied", "Occupied space"]];
@@ -132,10 +133,13 @@ export class Space {
         if (!scene || !this.stage || this.shown.scene === scene.name) return;
         this.shown = { scene: scene.name, trajectory: "", frame: "", space: "" };
         for (const part of Object.keys(this.groups)) this.#replace(/** @type {Part} */ (part), []);
+        this.stage.clear();
         this.#choices();
         this.toFrame(true);
         if (!scene.has_geometry) return;
-        this.stage.setGeometry(readGeometry(await getBytes(`../api/view/scene/${encodeURIComponent(scene.name)}/geometry`)));
+        const buffer = await getBytes(`../api/view/scene/${encodeURIComponent(scene.name)}/geometry`);
+        if (this.shown.scene !== scene.name) return;
+        this.stage.setGeometry(readGeometry(buffer));
         this.#colors();
         this.#visibility();
         // Asked for before it was known how large the scene is.
@@ -149,7 +153,7 @@ export class Space {
         if (!pieces || !scene) return;
         const rgb = new Uint8Array(3 * pieces);
         for (let i = 0; i < pieces; i++) {
-            const semantic = scene.parts.semantic[i] ?? -1, instance = scene.parts.instance[i] ?? -1;
+            const semantic = scene.objects.semantic[i] ?? -1, instance = scene.objects.instance[i] ?? -1;
             const color = { class: semantic > 0 ? looks.color("semantic", semantic) : null, instance: instance > 0 ? looks.color("semantic_instance", instance) : null, part: idColor(i + 1) }[this.coloring];
             rgb.set(color ?? [190, 190, 190], 3 * i);
         }
@@ -158,8 +162,8 @@ export class Space {
 
     #visibility() {
         const pieces = this.stage?.mesh?.geometry.pieces ?? 0;
-        const parts = this.session.scene?.parts;
-        const ceiling = (/** @type {number} */ i) => parts?.semantic[i] === CEILING || /ceiling/i.test(parts?.names[i] ?? "");
+        const { scene, looks } = this.session;
+        const ceiling = (/** @type {number} */ i) => [looks.className(scene?.objects.semantic[i] ?? -1), scene?.objects.names[i] ?? ""].some((name) => /ceiling/i.test(name));
         if (pieces) this.stage?.setVisibility(Array.from({ length: pieces }, (_, i) => i).filter((i) => !this.on.surfaces || (this.above && ceiling(i))), []);
         for (const [part, group] of Object.entries(this.groups)) group.visible = this.on[/** @type {Part} */ (part)];
         this.stage?.requestFrame();
@@ -200,7 +204,7 @@ export class Space {
             lines(frusta(of(rejected)), 0xe05a5c),
             lines(frusta(of((frame) => frame.frame === store.state.frame), 1.6), 0xffb833),
         ]);
-        const boxes = (scene?.parts.instance ?? []).filter((id, i, all) => id > 0 && all.indexOf(id) === i);
+        const boxes = (scene?.objects.instance ?? []).filter((id, i, all) => id > 0 && all.indexOf(id) === i);
         this.#replace("boxes", boxes.flatMap((id) => {
             const box = looks.box(id);
             if (!box) return [];
@@ -220,7 +224,8 @@ export class Space {
         const count = new DataView(buffer).getUint32(8, true);
         const geometry = new BufferGeometry();
         geometry.setAttribute("position", new BufferAttribute(new Float32Array(buffer, 16, 3 * count), 3));
-        geometry.setAttribute("color", new BufferAttribute(new Uint8Array(buffer, 16 + 12 * count, 4 * count), 4, true));
+        // As light: three.js turns it back into sRGB.
+        geometry.setAttribute("color", new BufferAttribute(Float32Array.from(new Uint8Array(buffer, 16 + 12 * count, 4 * count), (value) => LIGHT[value]), 4));
         this.#replace("points", [new Points(geometry, new PointsMaterial({ size: 2.2, sizeAttenuation: false, vertexColors: true, toneMapped: false }))]);
     }
 
@@ -229,6 +234,7 @@ export class Space {
         if (!scene?.has_space || (!this.on.free && !this.on.occupied) || this.shown.space === scene.name) return;
         this.shown.space = scene.name;
         const buffer = await getBytes(`../api/view/scene/${encodeURIComponent(scene.name)}/space`);
+        if (this.shown.scene !== scene.name) return;
         const header = new DataView(buffer);
         const free = header.getUint32(12, true), occupied = header.getUint32(16, true);
         const cubes = new Float32Array(buffer, 24, 4 * (free + occupied));

@@ -46,7 +46,7 @@ pub struct FarmPlanArgs {
     #[arg(short, long, value_name = "JOB")]
     pub output: String,
     /// How long a task is to take
-    #[arg(long, value_name = "MINUTES", default_value_t = 15.0)]
+    #[arg(long, value_name = "MINUTES", default_value_t = 15.0, allow_negative_numbers = true)]
     pub minutes: f64,
     /// Threads of a worker
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
@@ -61,7 +61,7 @@ pub struct FarmPlanArgs {
 pub struct FarmWorkArgs {
     /// The job
     pub job: String,
-    /// Numbers of tasks: 7, 0-3 or 1,5,9-12
+    /// Numbers of tasks: 7, 0-3, 0-8:2 or 1,5,9-12
     #[arg(long, value_name = "RANGES", required_unless_present = "shard", conflicts_with = "shard")]
     pub task: Option<String>,
     /// The i-th of N shares of all tasks, counted from 0: 3/16

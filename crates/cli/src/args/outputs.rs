@@ -29,7 +29,7 @@ pub struct ExportArgs {
     #[arg(long, value_name = "PATTERN", visible_alias = "cameras")]
     pub camera: Option<String>,
     /// Only frames of these numbers: 0..10 (without 10), 5.. or 7
-    #[arg(long, value_name = "RANGE", value_parser = parse_range)]
+    #[arg(long, value_name = "RANGE", value_parser = parse_range, allow_negative_numbers = true)]
     pub frames: Option<std::ops::Range<u32>>,
     /// Only these layers, of those that the format can hold
     #[arg(long, value_name = "NAME,NAME", value_delimiter = ',', value_parser = parse_layer)]
@@ -66,7 +66,7 @@ pub struct AnimateArgs {
     #[arg(long, value_enum, default_value_t = AnimationFormatArg::Mp4)]
     pub format: AnimationFormatArg,
     /// Pictures per second [default: as the trajectory was timed if it is a video, else 5]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub fps: Option<f64>,
     /// The folder to write to [default: `animations` in the dataset]
     #[arg(short, long, value_name = "OUT")]

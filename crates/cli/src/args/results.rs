@@ -37,7 +37,7 @@ pub struct SplitArgs {
     #[arg(long)]
     pub seed: Option<u64>,
     /// Expected shares of train, val and test [default: the last ones, at first 80,10,10]
-    #[arg(long, value_name = "A,B,C", value_parser = parse_shares)]
+    #[arg(long, value_name = "A,B,C", value_parser = parse_shares, allow_hyphen_values = true)]
     pub shares: Option<[f64; 3]>,
 }
 
@@ -55,10 +55,10 @@ pub struct InspectArgs {
     #[arg(long, default_value = "cam_00")]
     pub camera: String,
     /// Number of the frame
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, allow_negative_numbers = true)]
     pub frame: u32,
     /// Column and row of the pixel, from 0 at the upper left
-    #[arg(long, value_name = "X,Y", value_parser = parse_pixel, required_unless_present = "list_cameras")]
+    #[arg(long, value_name = "X,Y", value_parser = parse_pixel, required_unless_present = "list_cameras", allow_hyphen_values = true)]
     pub pixel: Option<(u32, u32)>,
     /// Instead of a pixel: K of every scene of the table of cameras, as CSV; DATASET may be that table itself
     #[arg(long = "cameras", conflicts_with = "pixel")]
@@ -101,7 +101,7 @@ pub struct StatsArgs {
     /// Draw the charts over the histograms of this folder: statistics of another dataset, or Hypersim's
     #[arg(long, value_name = "FOLDER")]
     pub compare: Option<PathBuf>,
-    /// The folder to write [default: statistics, in the dataset]
+    /// The folder to write [default: statistics, in the dataset; needed with --scene]
     #[arg(short, long, value_name = "FOLDER")]
     pub output: Option<PathBuf>,
     #[command(flatten)]

@@ -27,7 +27,7 @@ pub struct HomeArgs {
     #[arg(long, value_name = "SEED")]
     pub materials: Option<u64>,
     /// Share of the colours that go together; the others are random
-    #[arg(long, default_value_t = 1.0, value_name = "SHARE")]
+    #[arg(long, default_value_t = 1.0, value_name = "SHARE", allow_negative_numbers = true)]
     pub realism: f32,
     /// Seed of the light alone
     #[arg(long, value_name = "SEED")]
@@ -35,14 +35,14 @@ pub struct HomeArgs {
     /// Part of the day [default: as the seed decides]
     #[arg(long)]
     pub moment: Option<MomentArg>,
-    /// Density of small things: 0 has none, 1 is a home that is lived in, 2 is untidy
-    #[arg(long, default_value_t = 1.0, value_name = "X")]
+    /// Density of small things: 0 has none but what shelves and cabinets hold, 1 is a home that is lived in, 2 is untidy
+    #[arg(long, default_value_t = 1.0, value_name = "X", allow_negative_numbers = true)]
     pub clutter: f32,
     /// Folders of glTF models, or furniture of Sweet Home 3D (.sh3f), to take in place of our own furniture where a model fits
     #[arg(long, value_name = "FOLDER|FILE", value_delimiter = ',')]
     pub assets: Vec<String>,
     /// Share of the things for which a model fits that are models
-    #[arg(long, default_value_t = 1.0, value_name = "SHARE")]
+    #[arg(long, default_value_t = 1.0, value_name = "SHARE", allow_negative_numbers = true)]
     pub assets_share: f32,
     /// Go on with our own furniture where a model is broken
     #[arg(long)]
@@ -89,7 +89,7 @@ pub struct ImportArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Metres per unit of the file; multiplies what the file says itself [default: 1]
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub meters_per_unit: Option<f64>,
     /// Which way is up in the file [default: as its format says]
     #[arg(long)]
@@ -122,7 +122,7 @@ pub struct SuggestArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Least confidence of a label that is written, 0 to 1 [default: where nine of ten names are right]
-    #[arg(long, value_name = "SHARE")]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     pub min_confidence: Option<f32>,
     /// Which way is up in the file [default: as its format says]
     #[arg(long)]

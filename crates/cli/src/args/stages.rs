@@ -32,18 +32,18 @@ pub struct RunArgs {
     #[arg(long)]
     pub estimate: bool,
     /// With --estimate: dollars per vCPU-hour, or a CSV table of them with names [default: 0.0165, Hypersim's median]
-    #[arg(long, value_name = "X|CSV", requires = "estimate")]
+    #[arg(long, value_name = "X|CSV", requires = "estimate", allow_negative_numbers = true)]
     pub price: Option<String>,
 }
 
 /// What to make otherwise than the file says, for `run` and `farm plan`.
 #[derive(Args)]
 pub struct MakeFlags {
-    /// Seed of everything random
+    /// Seed of everything random; homes with a seed of their own keep it
     #[arg(long)]
     pub seed: Option<u64>,
     /// Frames per trajectory
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub frames: Option<u32>,
     /// Width and height of the images in pixels
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
@@ -109,19 +109,19 @@ pub struct RenderArgs {
 #[command(next_help_heading = "Rendering (of an existing dataset: from now on)")]
 pub struct RenderFlags {
     /// Samples per pixel: the mean over the image, or with --noise the most
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub samples: Option<u32>,
     /// Stop where the noise is this small: 2% or 0.02
-    #[arg(long, value_name = "SHARE", value_parser = parse_share)]
+    #[arg(long, value_name = "SHARE", value_parser = parse_share, allow_hyphen_values = true)]
     pub noise: Option<f32>,
     /// Longest path, in surfaces that scatter light after the first [default: no limit, which is unbiased]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub max_bounces: Option<u32>,
     /// Largest radiance of one indirect sample [default: no limit, which is unbiased]
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub clamp: Option<f32>,
     /// Wall-clock time after which a frame ends with the samples it has: 90s, 5m; two such runs differ
-    #[arg(long, value_name = "TIME", value_parser = parse_time)]
+    #[arg(long, value_name = "TIME", value_parser = parse_time, allow_hyphen_values = true)]
     pub time_limit: Option<f64>,
     /// Also write the light of color by its way (diffuse_direct, ...) and by its source (light_environment, ...)
     #[arg(long)]

@@ -10,6 +10,7 @@ use crate::progress::Progress;
 use crate::summary;
 use crate::verbs::configuration;
 use enfilade_farm::{Assignment, Attempt, Ended, FarmError, Job, PlanOptions, Store, Work, parse_ranges, print_ranges, stop_on_signals};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// One of its verbs.
@@ -33,7 +34,7 @@ impl From<FarmError> for Problem {
 }
 
 fn open(job: &str) -> Result<Job, FarmError> {
-    Job::open(Store::open(job, std::env::vars())?)
+    Job::open(Store::open(job, enfilade_farm::environment())?)
 }
 
 fn plan(args: &FarmPlanArgs, quiet: bool) -> Result<Verdict, Problem> {
@@ -41,7 +42,7 @@ fn plan(args: &FarmPlanArgs, quiet: bool) -> Result<Verdict, Problem> {
     if !(args.minutes > 0.0 && args.minutes.is_finite()) {
         return Err(Problem::new(format!("--minutes is {}; expected a time above 0", args.minutes), "as in --minutes 15"));
     }
-    let store = Store::open(&args.output, std::env::vars())?;
+    let store = Store::begin(&args.output, enfilade_farm::environment())?;
     let scratch = tempfile::tempdir().map_err(|error| Problem::new(format!("cannot make a temporary folder: {error}"), "set TMPDIR"))?;
     let options = PlanOptions { minutes: args.minutes, cpus: args.cpus };
     let (result, job) = {
@@ -94,6 +95,7 @@ fn work(args: &FarmWorkArgs, quiet: bool) -> Result<Verdict, Problem> {
         let ended = record.ended.map_or("open", Ended::word);
         let why = record.error.as_ref().map_or(String::new(), |error| format!(": {error}"));
         say(&format!("task {}: {ended}, {} frames committed, {} already there{why}", record.task, record.committed, record.lost));
+        say_faults(record.different, &record.broken);
     }
     Ok(match records.iter().filter_map(|record| record.ended).max() {
         Some(Ended::Permanent) => Verdict::Permanent,
@@ -135,11 +137,20 @@ fn status(args: &FarmStatusArgs) -> Result<Verdict, Problem> {
             say(&format!("attempts: {}", attempts.join(", ")));
         }
         status.errors.iter().for_each(|(task, error)| say(&format!("task {task}: {error}")));
+        say_faults(status.different, &status.broken);
     }
     if args.price.is_some() || args.attempts.is_some() {
         costs::say_costs(&job, &prices(args.price.as_deref())?, args.attempts.as_deref())?;
     }
     Ok(Verdict::of(status.is_complete()))
+}
+
+/// What should not be: machines that make different bytes of a frame, and frames that break laws.
+fn say_faults(different: u32, broken: &BTreeMap<String, u32>) {
+    if different > 0 {
+        say(&format!("{different} frames came out differently when they were made twice: nodes differ in program, library or settings"));
+    }
+    broken.iter().for_each(|(law, frames)| say(&format!("{frames} frames break the law {law}")));
 }
 
 fn collect(args: &FarmCollectArgs, quiet: bool) -> Result<Verdict, Problem> {
@@ -152,6 +163,7 @@ fn collect(args: &FarmCollectArgs, quiet: bool) -> Result<Verdict, Problem> {
     };
     summary::print_table(&result);
     summary::print_where_to_look(out, &result)?;
+    say_faults(enfilade_farm::status(&job)?.different, &BTreeMap::new());
     costs::say_costs(&job, &prices, None)?;
     Ok(Verdict::of(result.ok()))
 }

@@ -257,7 +257,7 @@ pub struct CollectArgs {
     pub meters_per_unit: Option<f64>,
     #[command(flatten)]
     pub wish: WishArgs,
-    /// Take images whose header tells another camera than the trajectory
+    /// Take images whose header, or whose positions, tell another camera than the trajectory's
     #[arg(long)]
     pub ignore_camera: bool,
     /// Read again what is there already

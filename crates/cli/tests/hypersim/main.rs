@@ -160,6 +160,54 @@ fn pictures_statistics_and_films_go_elsewhere_and_nothing_of_the_release_changes
 }
 
 #[test]
+fn pictures_leave_out_what_cannot_be_made_of_a_part_of_the_archives() {
+    let dir = folder();
+    let root = release::write(dir.path(), Tree::Toolkit);
+    let made = |folder: &str| {
+        succeed(dir.path(), &["preview", "hypersim", "-o", folder]);
+        assert!(dir.path().join(folder).join("contact_sheet.jpg").is_file(), "{folder}");
+        let images = dir.path().join(folder).join("scenes/ai_001_001/images/scene_cam_00_");
+        let names = ["final_preview/frame.0001.bb_object_aligned_2d.jpg", "geometry_preview/frame.0001.position.png"];
+        let there = |name: &str| PathBuf::from(format!("{}{name}", images.display())).is_file();
+        assert!(there("geometry_preview/frame.0001.normal_world.png"), "{folder}");
+        names.map(there)
+    };
+    assert_eq!(made("all"), [true, true]);
+    fs::remove_file(root.join("metadata_camera_parameters.csv")).unwrap();
+    assert_eq!(made("without-cameras"), [false, true]);
+    fs::remove_dir_all(root.join("scenes/ai_001_001/_detail")).unwrap();
+    assert_eq!(made("images-alone"), [false, false]);
+    fail(dir.path(), &["animate", "hypersim", "--layers", "position", "-o", "films"], 1, &["metadata_scene.csv"]);
+}
+
+#[test]
+fn statistics_of_some_scenes_do_not_take_the_place_of_those_of_all() {
+    let dir = folder();
+    let root = release::write(dir.path(), Tree::Toolkit);
+    fs::create_dir_all(root.join("scenes/ai_001_002/images")).unwrap();
+    succeed(dir.path(), &["stats", "hypersim"]);
+    let of_all = contents(&root.join("statistics"));
+    fail(dir.path(), &["stats", "hypersim", "--scene", "ai_001_001"], 2, &["1 of 2 were chosen", "with -o"]);
+    assert!(contents(&root.join("statistics")) == of_all);
+    succeed(dir.path(), &["stats", "hypersim", "--scene", "ai_001_001", "-o", "some"]);
+    assert!(dir.path().join("some/statistics.json").is_file());
+    succeed(dir.path(), &["stats", "hypersim", "--scene", "ai_001_*"]);
+}
+
+#[test]
+fn a_camera_without_frames_does_not_stop_the_films_of_others() {
+    let dir = folder();
+    let root = release::write(dir.path(), Tree::Toolkit);
+    fs::create_dir(root.join("scenes/ai_001_001/_detail/cam_01")).unwrap();
+    let animate = ["animate", "hypersim", "--layers", "normal_world", "--format", "gif", "-o", "films"];
+    let text = succeed(dir.path(), &animate);
+    assert!(text.contains("films/ai_001_001_cam_00_normal_world.gif: 4 frames"), "{text}");
+    assert!(text.contains("warning: ai_001_001/cam_01 has no frame with normal_world"), "{text}");
+    assert!(dir.path().join("films/ai_001_001_cam_00_normal_world.gif").is_file());
+    fail(dir.path(), &[&animate[..], &["--camera", "cam_01"]].concat(), 1, &["cam_01 has no frame with normal_world"]);
+}
+
+#[test]
 fn exposures_are_the_toolkits() {
     let dir = folder();
     let root = release::write(dir.path(), Tree::Toolkit);

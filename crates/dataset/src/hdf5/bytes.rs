@@ -74,6 +74,11 @@ pub(super) fn most_inflated(length: u64) -> u64 {
     length.saturating_mul(1032)
 }
 
+/// Chunks that an array in a file of `length` bytes may have: those that were never written take no room in it, but some memory.
+pub(super) fn most_chunks(length: u64) -> u64 {
+    length.saturating_mul(32)
+}
+
 /// The unsigned number of `N` bytes at `at`.
 fn number<const N: usize>(bytes: &[u8], at: usize) -> Option<u64> {
     let found = bytes.get(at..at.checked_add(N)?)?;

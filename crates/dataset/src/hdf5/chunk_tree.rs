@@ -1,7 +1,6 @@
 //! Where chunks lie: B-trees of version 1 ("HDF5 File Format Specification Version 3.0", section III.A.1).
 
 use super::bytes::{Source, u16_at, u32_at, u64_at, usize_at};
-use super::image_map::DEEPEST;
 
 /// Bytes of a chunk in the file.
 #[derive(Clone, Copy, Debug, Default)]
@@ -11,40 +10,57 @@ pub(super) struct Place {
     pub length: usize,
 }
 
+/// Is handed a chunk's index by row of the grid of chunks, last axis fastest, where it lies, and the filters that it leaves out,
+/// a bit each. Ends the walk by `None`.
+pub(super) type Take<'a> = dyn FnMut(usize, Place, u32) -> Option<()> + 'a;
+
 /// Enters all chunks of the tree at `root` into `places`, by row of the grid of chunks, last axis fastest. `chunk` and `grid` have the axes
 /// of the array: elements of a chunk, and chunks. `None` when the file is damaged or a chunk leaves out filters.
 pub(super) fn enter(source: &mut Source, root: u64, chunk: &[usize], grid: &[usize], places: &mut [Place]) -> Option<()> {
-    walk(source, root, 0, chunk, grid, places)
+    walk(source, root, chunk, grid, &mut |index, place, left_out| {
+        *places.get_mut(index).filter(|_| left_out == 0)? = place;
+        Some(())
+    })
 }
 
-/// Enters the chunks of a node, and of those below it.
-fn walk(source: &mut Source, node: u64, depth: usize, chunk: &[usize], grid: &[usize], places: &mut [Place]) -> Option<()> {
-    source.walk(node)?;
-    let start = source.bytes(node, 24)?;
-    if depth > DEEPEST || !start.starts_with(b"TREE\x01") {
+/// Hands all chunks of the tree at `root` to `take`. `None` when `take` gave it, or the tree is damaged: it leads to something that
+/// is no node of a lower level, or twice to the same, or a chunk lies outside of the array or the file.
+pub(super) fn walk(source: &mut Source, root: u64, chunk: &[usize], grid: &[usize], take: &mut Take<'_>) -> Option<()> {
+    /// Above all levels, which are bytes.
+    const ABOVE: u16 = 256;
+    node(source, root, ABOVE, chunk, grid, take)
+}
+
+/// [`walk`] from the node at `address`, which is below that level.
+fn node(source: &mut Source, address: u64, above: u16, chunk: &[usize], grid: &[usize], take: &mut Take<'_>) -> Option<()> {
+    source.walk(address)?;
+    let start = source.bytes(address, 24)?;
+    let level = u16::from(start[5]);
+    if level >= above || !start.starts_with(b"TREE\x01") {
         return None;
     }
-    let (level, entries, key) = (start[5], usize::from(u16_at(&start, 6)?), 8 + 8 * (chunk.len() + 1));
-    let body = source.bytes(node.checked_add(24)?, entries * (key + 8))?;
+    let (entries, key) = (usize::from(u16_at(&start, 6)?), 8 + 8 * (chunk.len() + 1));
+    let body = source.bytes(address.checked_add(24)?, entries * (key + 8))?;
     for entry in body.chunks_exact(key + 8) {
         let child = u64_at(entry, key)?;
         if level > 0 {
-            walk(source, child, depth + 1, chunk, grid, places)?;
+            node(source, child, level, chunk, grid, take)?;
             continue;
         }
-        let (length, unfiltered) = (u32_at(entry, 0)? as usize, u32_at(entry, 4)?);
-        let mut index = 0;
+        let (length, left_out) = (u32_at(entry, 0)? as usize, u32_at(entry, 4)?);
+        let mut index = 0_usize;
         for axis in 0..chunk.len() {
             let first = usize_at(entry, 8 + 8 * axis)?;
             if first % chunk[axis] != 0 || first / chunk[axis] >= grid[axis] {
                 return None;
             }
-            index = index * grid[axis] + first / chunk[axis];
+            // Where the grid has places for all chunks, this is less than their number.
+            index = index.wrapping_mul(grid[axis]).wrapping_add(first / chunk[axis]);
         }
-        if unfiltered != 0 || child.checked_add(length as u64).is_none_or(|end| end > source.length) {
+        if child.checked_add(length as u64).is_none_or(|end| end > source.length) {
             return None;
         }
-        *places.get_mut(index)? = Place { offset: child, length };
+        take(index, Place { offset: child, length }, left_out)?;
     }
     Some(())
 }

@@ -16,8 +16,11 @@ pub(super) const SHUFFLE: u16 = 2;
 /// The HDF Group's registered number of the LZ4 filter.
 pub(super) const LZ4: u16 = 32004;
 
-/// Levels of a tree and pieces of a header beyond which a file is taken for damaged.
+/// Levels of a group's tree and pieces of a header beyond which a file is taken for damaged.
 pub(super) const DEEPEST: usize = 8;
+
+/// Bytes that a chunk of an image takes at least in the tree: length, filters, three offsets and address.
+const CHUNK_ENTRY: u64 = 40;
 
 /// How the bytes of a chunk are compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,7 +84,11 @@ impl ImageMap {
         let (axes, chunk) = (shape.len(), image_axes(sides));
         let mut map = Self { element, shape, chunk, shuffled, codec, places: Vec::new() };
         let grid = map.grid();
-        map.places = vec![Place::default(); grid.iter().product()];
+        let chunks: usize = grid.iter().product();
+        if chunks as u64 > source.length / CHUNK_ENTRY {
+            return None;
+        }
+        map.places = vec![Place::default(); chunks];
         chunk_tree::enter(source, tree, &chunk[..axes], &grid[..axes], &mut map.places)?;
         map.places.iter().all(|place| place.length > 0).then_some(map)
     }

@@ -297,9 +297,7 @@ mod tests {
     fn images_are_read_past_the_library() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.hdf5");
-        for array in
-            arrays().into_iter().filter(|array| matches!(array.shape.len(), 2 | 3) && array.shape[1] > 1 && array.shape[2..] != [3])
-        {
+        for array in arrays().into_iter().filter(|array| matches!(array.shape.len(), 2 | 3) && array.shape[1] > 1) {
             for storage in storages() {
                 write_array(&path, &array, storage, &[("unit", "m")]).unwrap();
                 assert!(window::read_image(&path).unwrap() == array, "{:?} {storage:?}", array.shape);

@@ -1,4 +1,5 @@
-use super::bytes::most_inflated;
+use super::bytes::{most_chunks, most_inflated};
+use super::volume::has_damaged_tree;
 use super::window::read_image;
 use super::write::{datatype, os_error};
 use super::{Array, Element, Elements};
@@ -18,6 +19,10 @@ pub fn read_array(path: &Path) -> Result<Array, DatasetError> {
         return Ok(image);
     }
     let length = check_length(path)?;
+    // The library would walk some such trees for ever, and take the chunks that it does not find for ones that were never written.
+    if has_damaged_tree(path, "dataset") == Some(true) {
+        return Err(DatasetError::hdf5(path, format!("the tree that says where its chunks lie is broken: {DAMAGED}")));
+    }
     // The library takes some of what stands in a file for granted, and panics where it is not so.
     let gave_up = |_| Err(DatasetError::hdf5(path, format!("the HDF5 library gave up on it: {DAMAGED}")));
     catch_unwind(|| read_dataset(path, length)).unwrap_or_else(gave_up)
@@ -41,7 +46,11 @@ fn read_dataset(path: &Path, length: u64) -> Result<Array, DatasetError> {
     let fits = |&n: &usize| n as u64 <= most_inflated(length);
     let impossible = || DatasetError::hdf5(path, format!("{length} bytes cannot hold shape {shape:?} of {}: {DAMAGED}", element.name()));
     let expected = bytes_of(&shape).filter(fits).ok_or_else(impossible)?;
-    if let Some(chunk) = dataset.chunk_dims().filter(|chunk| bytes_of(chunk).filter(fits).is_none()) {
+    let chunks = |chunk: &[usize]| {
+        let mut sides = shape.iter().zip(chunk).map(|(axis, &side)| axis.div_ceil(side.max(1)) as u64);
+        sides.try_fold(1_u64, u64::checked_mul).filter(|&chunks| chunks <= most_chunks(length))
+    };
+    if let Some(chunk) = dataset.chunk_dims().filter(|chunk| bytes_of(chunk).filter(fits).is_none() || chunks(chunk).is_none()) {
         return Err(DatasetError::hdf5(path, format!("{length} bytes cannot hold chunks of {chunk:?}: {DAMAGED}")));
     }
     let bytes = if expected == 0 { Vec::new() } else { dataset.read_raw_bytes().map_err(|error| read_error(path, &error))? };

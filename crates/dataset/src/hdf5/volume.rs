@@ -5,7 +5,7 @@
 //! and shuffled or as they are ("HDF5 File Format Specification Version 3.0", sections II.A, III.A, III.B, III.C, IV.A). Nothing is kept
 //! open between reads, so an array may be read from many threads and after a fork.
 
-use super::bytes::{Source, u16_at, u32_at, u64_at, usize_at};
+use super::bytes::{Source, most_chunks, u16_at, u32_at, u64_at, usize_at};
 use super::chunk_tree::{self, Place};
 use super::image_map::{DEEPEST, DEFLATE, SHUFFLE, filters, messages};
 use super::slab;
@@ -327,12 +327,36 @@ impl Header {
     }
 }
 
+/// True when the tree of the chunks of array `name` is damaged, for which [`chunk_tree::walk`] has the reasons; `None` when there is no
+/// such tree in the forms that are known here.
+pub(super) fn has_damaged_tree(path: &Path, name: &str) -> Option<bool> {
+    let volume = Volume::open(path).ok()?;
+    let mut source = Source::open(path)?.based_at(volume.base);
+    let mut found = Header::default();
+    messages(&mut source, *volume.members.get(name)?, &mut |kind, body| {
+        // What elements and filters are does not matter here.
+        found.take(kind, body);
+        Some(())
+    })?;
+    let (Some(Stored::Chunked { tree, sides }), Some(shape)) = (found.layout, found.shape) else { return None };
+    let chunk = sides.get(..shape.len())?;
+    if chunk.contains(&0) {
+        return Some(true);
+    }
+    let grid = grid(&shape, chunk);
+    Some(tree != NOWHERE && chunk_tree::walk(&mut source, tree, chunk, &grid, &mut |_, _, _| Some(())).is_none())
+}
+
+/// Number of chunks along each axis.
+fn grid(shape: &[usize], chunk: &[usize]) -> Vec<usize> {
+    shape.iter().zip(chunk).map(|(axis, side)| axis.div_ceil(*side)).collect()
+}
+
 /// The places of all chunks.
 fn chunks(source: &mut Source, tree: u64, shape: &[usize], chunk: &[usize]) -> Option<Vec<Place>> {
-    let grid: Vec<usize> = shape.iter().zip(chunk).map(|(axis, side)| axis.div_ceil(*side)).collect();
+    let grid = grid(shape, chunk);
     let count = grid.iter().try_fold(1_usize, |n, &axis| n.checked_mul(axis))?;
-    // A chunk takes at least the key and the address that the tree has of it, but those that were never written are not in the tree.
-    let mut places = vec![Place::default(); Some(count).filter(|&count| count as u64 <= source.length.saturating_mul(32))?];
+    let mut places = vec![Place::default(); Some(count).filter(|&count| count as u64 <= most_chunks(source.length))?];
     if tree != NOWHERE {
         chunk_tree::enter(source, tree, chunk, &grid, &mut places)?;
     }

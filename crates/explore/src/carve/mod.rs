@@ -50,7 +50,11 @@ impl Default for CarveConfig {
 }
 
 impl CarveConfig {
-    fn validate(&self) -> Result<(), ExploreError> {
+    /// Checks that the values make sense.
+    ///
+    /// # Errors
+    /// The first value out of its range.
+    pub fn validate(&self) -> Result<(), ExploreError> {
         let positive = |v: f64| v > 0.0 && v.is_finite();
         require(positive(self.voxel_m), "voxel_m", self.voxel_m, "a positive length in metres")?;
         require(positive(self.extent_m) && self.extent_m >= self.voxel_m, "extent_m", self.extent_m, "a length of at least one voxel")?;
@@ -85,6 +89,12 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
     let mut report = CarveReport::default();
     let mut first_problem = None;
     for (index, &asked) in starts.iter().enumerate() {
+        let earlier = starts[..index].iter().position(|other| *other == asked).filter(|_| config.preset == Preset::Hypersim);
+        if let Some(earlier) = earlier {
+            let same = report.starts[earlier].clone();
+            report.starts.push(same);
+            continue;
+        }
         let mut position = match scene.verify(index, asked) {
             Ok(used) => {
                 report.starts.push(StartReport { asked, used: Some(used), problem: None });

@@ -182,6 +182,17 @@ fn a_sealed_room_next_to_another_stays_unknown() {
 }
 
 #[test]
+fn starts_at_one_position_are_carved_from_once_by_the_original_rules() {
+    let room = house_with_thin_wall();
+    let run = |starts: &[DVec3], preset| carve(&room.world, &room.bvh, starts, &CarveConfig { preset, ..quick() }, &Quiet).unwrap();
+    let (p, q) = (DVec3::new(1.0, 1.5, 1.4), DVec3::new(3.6, 1.2, 1.0));
+    let (twice, once) = (run(&[p, p, q], Preset::Hypersim), run(&[p, q], Preset::Hypersim));
+    assert_eq!((twice.tree.to_bt(), &twice.report.positions), (once.tree.to_bt(), &once.report.positions));
+    assert_eq!(twice.report.starts.iter().map(|start| start.used).collect::<Vec<_>>(), [Some(p), Some(p), Some(q)]);
+    assert_eq!(run(&[p, p, q], Preset::Default).report.positions.len(), 15);
+}
+
+#[test]
 fn an_open_stage_is_carved_whole_with_a_warning() {
     let stage = [wall(GARDEN.0, GARDEN.1, GARDEN.2), cuboid(DVec3::splat(1.0), DVec3::splat(2.0), false)].concat();
     let stage = Room::from_corners(stage);

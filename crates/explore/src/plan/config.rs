@@ -1,6 +1,8 @@
 use crate::error::require;
 use crate::{ExploreError, Preset, Saliency};
-use serde::{Deserialize, Serialize};
+use serde::de::{Error as _, IgnoredAny};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeMap;
 
 /// How a trajectory is found. The defaults are Hypersim's, as its paper states them, with a clearance and limits added.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,7 +21,8 @@ pub struct PlanConfig {
     pub queries: u32,
     /// How far the camera and its target may each move in one step of a walk along x, y and z, metres.
     pub step_m: [f64; 3],
-    /// How far above or below those of frame 0 the camera and its target may each be in a walk or a video, metres.
+    /// How far above or below those of frame 0 the camera and its target may each be in a walk or a video, metres. Where
+    /// `camera_height_m` is given, it is about the target of a walk alone, which goes up and down with the camera.
     pub height_range_m: f64,
     /// The least and the greatest height of the camera above the floor, metres; `None` leaves it free. The floor is the lowest of the
     /// first surfaces below the camera and below eight places half a metre around it.
@@ -69,12 +72,11 @@ pub struct PlanConfig {
 }
 
 /// Kinds of trajectories.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Mode {
     /// Hypersim's: a random walk drawn to what is worth seeing. Neighbouring frames are a step apart, not a video.
-    #[default]
-    Walk,
+    Walk(WalkConfig),
     /// A smooth path at bounded speed.
     Video(VideoConfig),
     /// Pictures that keep a distance from each other, over all the space within reach.
@@ -83,6 +85,26 @@ pub enum Mode {
     Coverage(CoverageConfig),
     /// Poses made by hand.
     Keyframes(KeyframesConfig),
+}
+
+impl Default for Mode {
+    fn default() -> Self {
+        Self::Walk(WalkConfig {})
+    }
+}
+
+/// A random walk: its keys are those of [`PlanConfig`], and it has no others.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct WalkConfig {}
+
+impl<'de> Deserialize<'de> for WalkConfig {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let keys = BTreeMap::<String, IgnoredAny>::deserialize(deserializer)?;
+        match keys.into_keys().next() {
+            Some(key) => Err(D::Error::custom(format!("mode walk has no key `{key}`: the keys of walks stand beside `mode`"))),
+            None => Ok(Self {}),
+        }
+    }
 }
 
 /// A smooth path at bounded speed.
@@ -159,7 +181,7 @@ impl Mode {
     /// Its name in configurations and reports.
     pub fn name(&self) -> &'static str {
         match self {
-            Self::Walk => "walk",
+            Self::Walk(_) => "walk",
             Self::Video(_) => "video",
             Self::Stills(_) => "stills",
             Self::Coverage(_) => "coverage",
@@ -171,7 +193,7 @@ impl Mode {
         let positive = |v: f64| v > 0.0 && v.is_finite();
         let above_0 = |field, v: f64| require(positive(v), field, v, "a number above 0");
         match self {
-            Self::Walk => Ok(()),
+            Self::Walk(_) => Ok(()),
             Self::Video(v) => {
                 above_0("fps", v.fps)?;
                 above_0("max_speed_m_s", v.max_speed_m_s)?;
@@ -192,7 +214,9 @@ impl Mode {
                 let incidence = c.max_incidence_deg;
                 require(incidence > 0.0 && incidence < 90.0, "max_incidence_deg", incidence, "an angle between 0 and 90 degrees")
             }
-            Self::Keyframes(k) => require(!k.files.is_empty(), "files", "[]", "at least one file of poses"),
+            Self::Keyframes(k) => {
+                require(!k.files.is_empty(), "files", "[]", "at least one file of poses, as in files = [\"kitchen.csv\"]")
+            }
         }
     }
 }
@@ -215,7 +239,7 @@ impl Default for PlanConfig {
     fn default() -> Self {
         Self {
             preset: Preset::Default,
-            mode: Mode::Walk,
+            mode: Mode::default(),
             frames: 100,
             candidates: 20,
             queries: 1000,
@@ -244,7 +268,9 @@ impl Default for PlanConfig {
 }
 
 impl PlanConfig {
-    pub(super) fn validate(&self) -> Result<(), ExploreError> {
+    /// # Errors
+    /// When a value is out of its domain, or two of them do not go together.
+    pub fn validate(&self) -> Result<(), ExploreError> {
         let length = |v: f64| v >= 0.0 && v.is_finite();
         let counts = [("frames", self.frames), ("candidates", self.candidates), ("queries", self.queries)];
         for (field, n) in counts.into_iter().chain([("test_width", self.test_width), ("test_height", self.test_height)]) {
@@ -266,7 +292,7 @@ impl PlanConfig {
         let saliency_ok = [alpha, beta].iter().all(|v| (0.0..=16.0).contains(v)) && (0.0..=1000.0).contains(&weight);
         let found = format!("alpha {alpha}, beta {beta}, weight {weight}");
         require(saliency_ok, "saliency", found, "exponents from 0 to 16 and a weight from 0 to 1000")?;
-        let walks = self.preset == Preset::Default || self.mode == Mode::Walk;
+        let walks = self.preset == Preset::Default || matches!(self.mode, Mode::Walk(_));
         require(walks, "preset", format!("hypersim with mode {}", self.mode.name()), "mode walk, the only one that it has")?;
         self.mode.validate()
     }
@@ -301,7 +327,7 @@ impl PlanConfig {
         let Some([min, max]) = self.overlap else { return Ok(()) };
         let ok = (0.0..=1.0).contains(&min) && (min..=1.0).contains(&max);
         require(ok, "overlap", format!("[{min}, {max}]"), "two shares from 0 to 1, the lower one first")?;
-        let follows = matches!(self.mode, Mode::Walk);
+        let follows = matches!(self.mode, Mode::Walk(_));
         require(
             follows,
             "overlap",

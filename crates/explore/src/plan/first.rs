@@ -6,7 +6,7 @@ use crate::view::TestImage;
 use enfilade_math::{DVec3, Ray, warp};
 use enfilade_scene::{Cx, Pose, StartCamera, Warning};
 
-/// A start camera may be moved this far.
+/// A start camera may be moved this far, and where a height above the floor is asked for, as far up or down as that takes.
 const MOVE_M: f64 = 1.0;
 
 /// Pose 0 of the trajectory that begins at `start`.
@@ -55,7 +55,7 @@ pub(super) fn pose(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &d
 }
 
 /// The start's position, or the nearest one found that is allowed and not behind a surface; where a height above the floor is asked
-/// for, first of all the one above or below.
+/// for, each one tried is brought to it.
 fn clear_position(rules: &Rules, start: &StartCamera) -> Result<DVec3, ExploreError> {
     const SHELLS: usize = 40;
     const DIRECTIONS: usize = 200;
@@ -63,17 +63,20 @@ fn clear_position(rules: &Rules, start: &StartCamera) -> Result<DVec3, ExploreEr
     if rules.is_position(home) {
         return Ok(home);
     }
-    let at_height = rules.config.camera_height_m.and_then(|[min, max]| {
-        let floor = home.z - rules.height_m(home)?;
-        Some(DVec3::new(home.x, home.y, home.z.clamp(floor + min, floor + max)))
-    });
+    let at_height = |p: DVec3| {
+        let Some([min, max]) = rules.config.camera_height_m else { return Some(p) };
+        let floor = p.z - rules.height_m(p)?;
+        Some(DVec3::new(p.x, p.y, p.z.clamp(floor + min, floor + max)))
+    };
     let shell = |s: usize| (0..DIRECTIONS).map(move |k| home + warp::fibonacci_sphere(k, DIRECTIONS) * (MOVE_M * s as f64 / SHELLS as f64));
     let allowed = |p: &DVec3| rules.is_position(*p) && rules.sees(home, *p);
-    at_height.filter(allowed).or_else(|| (1..=SHELLS).flat_map(shell).find(allowed)).ok_or_else(|| ExploreError::StartBlocked {
+    let mut tried = std::iter::once(home).chain((1..=SHELLS).flat_map(shell)).filter_map(at_height);
+    tried.find(allowed).ok_or_else(|| ExploreError::StartBlocked {
         name: start.name.clone(),
         position: home,
         radius_m: MOVE_M,
         clearance_m: rules.config.clearance_m,
+        height_m: rules.config.camera_height_m,
     })
 }
 

@@ -30,7 +30,7 @@ use glance::Glancer;
 use rayon::prelude::*;
 use rules::Rules;
 
-pub use config::{CoverageConfig, KeyframesConfig, Mode, PlanConfig, StillsConfig, VideoConfig};
+pub use config::{CoverageConfig, KeyframesConfig, Mode, PlanConfig, StillsConfig, VideoConfig, WalkConfig};
 pub use coverage::{CoverageReport, PartCoverage};
 pub use keyframes::{Keyframe, parse_keyframes};
 pub use report::{Fault, FrameValues, PlanReport, PlanStatistics, RejectedCounts, RelaxedFrame, Spread};
@@ -69,11 +69,12 @@ pub fn plan(
     config: &PlanConfig,
     cx: &dyn Cx,
 ) -> Result<Planned, ExploreError> {
-    plan_accepted(world, bvh, space, start, trajectory_index, config, &|_| true, cx)
+    plan_accepted(world, bvh, space, start, &format!("cam_{trajectory_index:02}"), trajectory_index, config, &|_| true, cx)
 }
 
-/// As [`plan`], with a last word by the caller: a view for which `accepts` is false has [`Fault::Refused`]. It is asked about views
-/// that have no other fault, from any thread, and never about the first pose; the preset of Hypersim does not ask.
+/// As [`plan`], for a trajectory of any `name`, whose random numbers `trajectory_index` chooses, and with a last word by the caller: a
+/// view for which `accepts` is false has [`Fault::Refused`]. It is asked about views that have no other fault, from any thread, and
+/// never about the first pose; the preset of Hypersim does not ask.
 ///
 /// # Errors
 /// As [`plan`].
@@ -82,20 +83,20 @@ pub fn plan_accepted(
     bvh: &Bvh,
     space: &FreeSpace,
     start: &StartCamera,
+    name: &str,
     trajectory_index: u32,
     config: &PlanConfig,
     accepts: &(dyn Fn(&Pose) -> bool + Sync),
     cx: &dyn Cx,
 ) -> Result<Planned, ExploreError> {
     config.validate()?;
-    let name = trajectory_name(trajectory_index);
     let rules = Rules::new(bvh, space, config);
     let glancer = Glancer::new(&rules, world);
     let gates = Gates::new(&glancer, config, world, start, cx);
-    let planner = Planner { accepts, ..Planner::new(&rules, &gates, world, &name, cx) };
+    let planner = Planner { accepts, ..Planner::new(&rules, &gates, world, name, cx) };
     if config.preset == Preset::Hypersim {
         let (poses, views) =
-            hypersim::walk(world, bvh, space, start, &name, config, &|frame| planner.progress(frame as usize, config.frames as usize))?
+            hypersim::walk(world, bvh, space, start, name, config, &|frame| planner.progress(frame as usize, config.frames as usize))?
                 .into_iter()
                 .unzip();
         return Ok(measure::finish(&planner, Draft { poses, views, ..Draft::default() }));
@@ -103,7 +104,7 @@ pub fn plan_accepted(
     let rng = Rng::new(config.seed).fork(u64::from(trajectory_index));
     let first = first::pose(&rules, start, &planner.image, cx)?;
     let draft = match &config.mode {
-        Mode::Walk => walk::walk(&planner, first, &rng),
+        Mode::Walk(_) => walk::walk(&planner, first, &rng),
         Mode::Video(video) => video::video(&planner, first, video, &rng),
         Mode::Stills(stills) => stills::stills(&planner, first, stills, &rng),
         Mode::Coverage(coverage) => coverage::cover(&planner, first, coverage, &rng),
@@ -116,8 +117,8 @@ pub fn plan_accepted(
     Ok(measure::finish(&planner, draft))
 }
 
-/// The trajectory through poses made by hand, with every frame between two of them interpolated: positions and targets on splines of
-/// continuous curvature, roll evenly. Nothing is mended: frames that break a rule are named in a warning and in the report.
+/// The trajectory `name` through poses made by hand, with every frame between two of them interpolated: positions and targets on
+/// splines of continuous curvature, roll evenly. Nothing is mended: frames that break a rule are named in a warning and in the report.
 ///
 /// The first position is taken to be on the right side of things, as the start camera is in [`plan`].
 ///
@@ -128,16 +129,15 @@ pub fn follow(
     bvh: &Bvh,
     space: &FreeSpace,
     keyframes: &[Keyframe],
-    trajectory_index: u32,
+    name: &str,
     config: &PlanConfig,
     cx: &dyn Cx,
 ) -> Result<Planned, ExploreError> {
     config.validate()?;
-    let name = trajectory_name(trajectory_index);
-    let poses = keyframes::interpolate(keyframes, &name)?;
+    let poses = keyframes::interpolate(keyframes, name)?;
     let first = &poses[0];
     let start = StartCamera {
-        name: name.clone(),
+        name: name.to_string(),
         position: first.position,
         world_from_camera: first.world_from_camera,
         fov_x_rad: config.fov_x_rad,
@@ -146,13 +146,9 @@ pub fn follow(
     let rules = Rules::new(bvh, space, config);
     let glancer = Glancer::new(&rules, world);
     let gates = Gates::new(&glancer, config, world, &start, cx);
-    let planner = Planner::new(&rules, &gates, world, &name, cx);
+    let planner = Planner::new(&rules, &gates, world, name, cx);
     keyframes::warn_of_crossings(&planner, &poses);
     Ok(measure::finish(&planner, Draft { poses, ..Draft::default() }))
-}
-
-fn trajectory_name(index: u32) -> String {
-    format!("cam_{index:02}")
 }
 
 /// What every mode works with.

@@ -11,7 +11,10 @@ const MOST: usize = 1_000_000;
 /// Ways between places are clear beyond the clearance by this many voxels, so that any point on them is, and any point looked at.
 const MARGIN_VOXELS: f64 = 0.625;
 
-/// Centres of free voxels with room around them, in the order of the way from the start through their faces.
+/// Where a band of heights is thinner than a voxel, places keep this share of its width to its ends, so that ways between them do too.
+const BAND_MARGIN: f64 = 0.1;
+
+/// Points of free voxels, mostly their centres, with room around them, in the order of the way from the start through their faces.
 pub(super) struct Places {
     pub points: Vec<DVec3>,
     keys: Vec<VoxelKey>,
@@ -30,14 +33,16 @@ impl Places {
         let is_place =
             |p: DVec3| rules.is_free(p) && !tree.any_within(p, clearance, enfilade_geometry::Voxel::Occupied) && rules.is_at_height(p);
         let mut places = Self { points: Vec::new(), keys: Vec::new(), index: HashMap::new(), is_cut: false };
-        let Some(first) = nearest(rules, start, &is_place) else { return places };
-        let origin = tree.center(first);
+        let Some((first, origin)) = nearest(rules, start, &is_place) else { return places };
         places.add(first, origin);
         let mut done = 0;
         while done < places.keys.len() && !places.is_cut {
             for next in neighbours(places.keys[done]) {
-                let p = tree.center(next);
-                if !places.index.contains_key(&next.0) && allowed(origin, p) && is_place(p) {
+                if places.index.contains_key(&next.0) {
+                    continue;
+                }
+                let p = point(rules, next);
+                if allowed(origin, p) && is_place(p) {
                     places.add(next, p);
                 }
             }
@@ -81,8 +86,22 @@ impl Places {
     }
 }
 
+/// The point that stands for a voxel: its centre, or where a band of heights is thinner than a voxel and leaves out the centre, the
+/// point above or below it in the band, if there is one in the voxel.
+fn point(rules: &Rules, key: VoxelKey) -> DVec3 {
+    let (center, voxel_m) = (rules.space.tree.center(key), rules.space.tree.resolution_m());
+    let Some([min, max]) = rules.config.camera_height_m.filter(|[min, max]| max - min < voxel_m) else { return center };
+    if !rules.is_free(center) || rules.is_at_height(center) {
+        return center;
+    }
+    let Some(height_m) = rules.height_m(center) else { return center };
+    let margin = BAND_MARGIN * (max - min);
+    let up = height_m.clamp(min + margin, max - margin) - height_m;
+    if up.abs() < 0.5 * voxel_m { center + up * DVec3::Z } else { center }
+}
+
 /// The place nearest to `start` that it sees, up to a metre away.
-fn nearest(rules: &Rules, start: DVec3, is_place: &impl Fn(DVec3) -> bool) -> Option<VoxelKey> {
+fn nearest(rules: &Rules, start: DVec3, is_place: &impl Fn(DVec3) -> bool) -> Option<(VoxelKey, DVec3)> {
     let tree = &rules.space.tree;
     let home = tree.key(start)?;
     let reach = (1.0 / tree.resolution_m()).ceil().clamp(1.0, 30.0) as i32;
@@ -94,7 +113,7 @@ fn nearest(rules: &Rules, start: DVec3, is_place: &impl Fn(DVec3) -> bool) -> Op
         }
     }
     near.sort_by(|a, b| tree.center(*a).distance_squared(start).total_cmp(&tree.center(*b).distance_squared(start)));
-    near.into_iter().find(|key| is_place(tree.center(*key)) && rules.sees(start, tree.center(*key)))
+    near.into_iter().map(|key| (key, point(rules, key))).find(|(_, p)| is_place(*p) && rules.sees(start, *p))
 }
 
 /// The six voxels behind the faces of one.

@@ -218,9 +218,4 @@ impl RejectedCounts {
             Fault::Place | Fault::Sight | Fault::Tilt => {}
         }
     }
-
-    /// Of all reasons together.
-    pub fn total(&self) -> u64 {
-        self.overlap + self.void + self.near + self.back_faces + self.open
-    }
 }

@@ -15,8 +15,8 @@ const ATTEMPTS: [(u32, f64); 5] = [(1, 1.0), (4, 1.0), (4, 0.5), (4, 0.25), (4, 
 const DRAWS_PER_CANDIDATE: usize = 50;
 
 /// A walk from `first`: positions and targets move at most `step_m` a step and stay within `height_range_m` of their height in frame
-/// 0; the last position sees the new one, and the last target the new one. Among the poses that keep the rules, one is chosen in
-/// proportion to its score.
+/// 0; the last position sees the new one, and the last target the new one. Where a height above the floor is asked for, positions have
+/// that instead, and targets go up and down with them. Among the poses that keep the rules, one is chosen in proportion to its score.
 pub(super) fn walk(planner: &Planner, first: Pose, rng: &Rng) -> Result<Draft, ExploreError> {
     let frames = planner.config.frames as usize;
     let mut draft = Draft { poses: vec![first], views: planner.views(&[first]), ..Draft::default() };
@@ -51,7 +51,7 @@ impl Step<'_> {
                 positions = positions.into_iter().filter_map(|p| self.at_height(p, scale, &mut rng)).collect();
             }
             let positions = rules.positions_seen_from(last.position, positions);
-            let targets = self.points(first.look_at, last.look_at, scale, queries, &mut rng);
+            let targets = self.points(self.first_target(), last.look_at, scale, queries, &mut rng);
             let targets = rules.targets_seen_from(last.look_at, targets);
             (look_from, look_at) = (positions.len(), targets.len());
 
@@ -76,13 +76,18 @@ impl Step<'_> {
         })
     }
 
-    /// Points uniform in the box around `last`, within the heights allowed around `first`.
+    /// The target of frame 0; where the camera goes up and down with the floor, it goes with it.
+    fn first_target(&self) -> DVec3 {
+        let risen_m = self.planner.config.camera_height_m.map_or(0.0, |_| self.last.position.z - self.first.position.z);
+        self.first.look_at + risen_m * DVec3::Z
+    }
+
+    /// Points uniform in the box around `last`, within the heights allowed around `first`, or as near to them as the box is.
     fn points(&self, first: DVec3, last: DVec3, scale: f64, n: u32, rng: &mut Rng) -> Vec<DVec3> {
         let config = self.planner.config;
         let half = scale * DVec3::from(config.step_m);
         let (mut low, mut high) = (last - half, last + half);
-        low.z = low.z.max(first.z - config.height_range_m);
-        high.z = high.z.min(first.z + config.height_range_m);
+        [low.z, high.z] = [first.z - config.height_range_m, first.z + config.height_range_m].map(|z| z.clamp(low.z, high.z));
         (0..n).map(|_| low + (high - low) * DVec3::new(rng.next_f64(), rng.next_f64(), rng.next_f64())).collect()
     }
 

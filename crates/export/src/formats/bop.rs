@@ -3,7 +3,8 @@
 //! Every instance of every scene is an object of its own with one number in the whole export. Its model's axes are those of its box, with
 //! the origin at the box's centre, in millimetres. Poses are model to camera with OpenCV's axes, millimetres. K is for whole-numbered
 //! pixel centres, as bop_toolkit's functions use it. Depth is planar, 16-bit PNG, millimetres (`depth_scale` 1), 0 for none. Boxes are
-//! `[x, y, width, height]` by `calc_2d_bbox`: width is the last column minus the first.
+//! `[x, y, width, height]` by `calc_2d_bbox`: width is the last column minus the first. Whole objects are counted as `calc_gt_info.py`
+//! counts them: in an image three times as wide and high, which is what the stage `boxes` looks at.
 
 use crate::ExportError;
 use crate::boxes::instance_boxes;
@@ -14,6 +15,7 @@ use crate::mesh::{InstanceMesh, instance_meshes};
 use crate::picture::{SHOWN, color_png, grey8_png, grey16_png};
 use crate::place::Place;
 use crate::source::{Source, Track, View};
+use enfilade_dataset::{AmodalMasks, DatasetError, InstanceView, PixelArea};
 use enfilade_frame::{Frame, Layer};
 use enfilade_math::{DVec3, OrientedBox};
 use serde::Serialize;
@@ -27,8 +29,12 @@ pub(crate) const README: &str = "\
 - `rgb/`: tone-mapped colour. `depth/`: planar depth, 16 bits, times depth_scale = millimetres, 0 is none.
 - `scene_camera.json`: cam_K (pixel centres at whole numbers), cam_R_w2c and cam_t_w2c (mm); camera x right, y down, z forward.
 - `scene_gt.json`: obj_id, cam_R_m2c, cam_t_m2c (mm) of every instance that is visible and has a box.
-- `mask_visib/IIIIII_JJJJJJ.png`: the visible part of instance J of image I. **Only the visible part is known**: `mask/` has the
-  same pictures, and in `scene_gt_info.json` bbox_obj, px_count_all and visib_fract are those of the visible part (visib_fract 1).
+- `mask_visib/IIIIII_JJJJJJ.png`: the visible part of instance J of image I. `mask/`: its whole silhouette within the image, as if
+  nothing hid it.
+- `scene_gt_info.json`: px_count_all and bbox_obj are of the whole silhouette, also beyond the image, as far as the image's own width
+  and height on every side; visib_fract = px_count_visib / px_count_all.
+- **Where whole silhouettes are not known** (Hypersim's own data; frames rendered or labelled since `enfilade boxes` ran), `mask/` has
+  the pictures of `mask_visib/`, px_count_all and bbox_obj are those of the visible part, and visib_fract is 1.
 - `models/obj_NNNNNN.ply` and `models_info.json` (mm): every instance is an object of its own; `objects.json` says of which scene,
   instance and NYU40 class (-1: none). The model's origin is the centre of its box and its axes are the box's: Hypersim's
   object_aligned_2d box (z up, x along the longer side) where the dataset has box files, else the axis-aligned extents of the mesh.
@@ -77,11 +83,11 @@ struct Truth {
 
 #[derive(Serialize)]
 struct TruthInfo {
-    bbox_obj: [u32; 4],
-    bbox_visib: [u32; 4],
-    px_count_all: usize,
+    bbox_obj: [i64; 4],
+    bbox_visib: [i64; 4],
+    px_count_all: u64,
     px_count_valid: usize,
-    px_count_visib: usize,
+    px_count_visib: u64,
     visib_fract: f64,
 }
 
@@ -107,6 +113,17 @@ struct ObjectEntry {
 struct SceneEntry {
     scene: String,
     camera: String,
+}
+
+/// What frames of a camera show of instances, by frame and instance number.
+type Known = BTreeMap<(u32, i16), InstanceView>;
+
+/// An instance as if nothing hid it.
+struct Whole {
+    /// Its pixels, also those beyond the image.
+    area: PixelArea,
+    /// 255 on those in the image, 0 elsewhere.
+    mask: Vec<u8>,
 }
 
 /// What is told of one image.
@@ -164,8 +181,9 @@ fn write_track(
     objects: &BTreeMap<i16, Object>,
 ) -> Result<(), ExportError> {
     let calibration = Calibration::of_pinhole(source, track)?;
+    let known = known_instances(source, track)?;
     let views: Vec<View<'_>> = track.views().collect();
-    let told = source.each_of(&views, |view| write_frame(source, place, view, folder, &calibration, objects))?;
+    let told = source.each_of(&views, |view| write_frame(source, place, view, folder, &calibration, objects, &known))?;
     let (mut cameras, mut truths, mut infos) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
     for (view, (camera, seen)) in views.iter().zip(told) {
         let (truth, info): (Vec<Truth>, Vec<TruthInfo>) = seen.into_iter().unzip();
@@ -178,6 +196,15 @@ fn write_track(
     place.write_json(&format!("{folder}/scene_gt_info.json"), &infos)
 }
 
+/// What the stage `boxes` has found; nothing in Hypersim's own data.
+fn known_instances(source: &Source<'_>, track: &Track) -> Result<Known, ExportError> {
+    let views = match source.dataset.read_instance_views(&track.scene, &track.name) {
+        Err(error) if error.is_not_found() => Vec::new(),
+        views => views?,
+    };
+    Ok(views.into_iter().map(|view| ((view.frame, view.instance), view)).collect())
+}
+
 fn write_frame(
     source: &Source<'_>,
     place: &Place,
@@ -185,6 +212,7 @@ fn write_frame(
     folder: &str,
     calibration: &Calibration,
     objects: &BTreeMap<i16, Object>,
+    known: &Known,
 ) -> Result<Told, ExportError> {
     let frame = source.read(view, &[&SHOWN[..], &DEPTH, &[Layer::SemanticInstance]].concat())?;
     let image = format!("{:06}", view.frame());
@@ -199,28 +227,86 @@ fn write_frame(
         rotation: row_major(rotation),
         translation_mm: in_millimetres(translation),
     };
+    let masks = source.dataset.read_amodal_masks(&view.track.scene, &view.track.name, view.frame())?.unwrap_or_default();
     let mut seen = Vec::new();
     for instance in instances(&frame) {
         let Some(object) = objects.get(&instance.number) else { continue };
-        let mask = grey8_png(frame.width, frame.height, &instance.mask(&frame));
-        for kind in ["mask", "mask_visib"] {
-            place.write(&format!("{folder}/{kind}/{image}_{:06}.png", seen.len()), &mask)?;
+        let whole = whole(source, view, &frame, &instance, known, &masks)?;
+        for (kind, mask) in [("mask", &whole.mask), ("mask_visib", &instance.mask(&frame))] {
+            place.write(&format!("{folder}/{kind}/{image}_{:06}.png", seen.len()), &grey8_png(frame.width, frame.height, mask))?;
         }
         let truth = Truth {
             rotation: row_major(rotation * object.shape.world_from_box),
             translation_mm: in_millimetres(rotation * object.shape.center + translation),
             obj_id: object.id,
         };
-        seen.push((truth, info(&frame, &instance, &depth)));
+        seen.push((truth, info(visible_area(&frame, &instance), &whole, &depth)));
     }
     Ok((camera, seen))
 }
 
-fn info(frame: &Frame, instance: &Instance, depth: &[u16]) -> TruthInfo {
-    let [x_min, y_min, x_max, y_max] = instance.extent(frame.width);
-    let (bbox, count) = ([x_min, y_min, x_max - x_min, y_max - y_min], instance.pixels.len());
-    let valid = instance.pixels.iter().filter(|&&i| depth[i] > 0).count();
-    TruthInfo { bbox_obj: bbox, bbox_visib: bbox, px_count_all: count, px_count_valid: valid, px_count_visib: count, visib_fract: 1.0 }
+fn visible_area(frame: &Frame, instance: &Instance) -> PixelArea {
+    let [x_min, y_min, x_max, y_max] = instance.extent(frame.width).map(|place| place as i32);
+    PixelArea { pixels: instance.pixels.len() as u64, bounds: [x_min, y_min, x_max + 1, y_max + 1] }
+}
+
+/// The whole of an instance that the frame shows; the visible part where no more is known of this frame. Labels that were made anew since
+/// are noticed by what is visible.
+fn whole(
+    source: &Source<'_>,
+    view: View<'_>,
+    frame: &Frame,
+    instance: &Instance,
+    known: &Known,
+    masks: &AmodalMasks,
+) -> Result<Whole, ExportError> {
+    let (number, visible) = (instance.number, visible_area(frame, instance));
+    let found = known.get(&(view.frame(), number)).filter(|found| found.visible == visible && masks.size == [frame.height, frame.width]);
+    let mask = masks.instances.iter().find(|mask| mask.semantic_instance_id == number);
+    let (Some(found), Some(mask)) = (found, mask) else { return Ok(Whole { area: visible, mask: instance.mask(frame) }) };
+    let damaged = || DatasetError::Text {
+        path: source.dataset.layout().amodal_masks(&view.track.scene, &view.track.name, view.frame()),
+        problem: format!(
+            "the runs of instance {number} do not fill the {}x{} pixels of the image; delete it and run the boxes stage again",
+            frame.width, frame.height
+        ),
+    };
+    Ok(Whole { area: found.full, mask: of_runs(&mask.counts, masks.size).ok_or_else(damaged)? })
+}
+
+/// The mask of runs outside and inside by turns, which go down the columns; `None` when they do not fill it.
+fn of_runs(runs: &[u32], [height, width]: [u32; 2]) -> Option<Vec<u8>> {
+    let [height, width] = [height as usize, width as usize];
+    let mut mask = vec![0; height * width];
+    let mut end = 0;
+    for (i, &run) in runs.iter().enumerate() {
+        let begin = end;
+        end += run as usize;
+        if end > mask.len() {
+            return None;
+        }
+        if i % 2 == 1 {
+            (begin..end).for_each(|place| mask[place % height * width + place / height] = 255);
+        }
+    }
+    (end == mask.len()).then_some(mask)
+}
+
+fn info(visible: PixelArea, whole: &Whole, depth: &[u16]) -> TruthInfo {
+    let all = whole.area.pixels;
+    TruthInfo {
+        bbox_obj: bbox(whole.area),
+        bbox_visib: bbox(visible),
+        px_count_all: all,
+        px_count_valid: whole.mask.iter().zip(depth).filter(|&(&mask, &depth)| mask > 0 && depth > 0).count(),
+        px_count_visib: visible.pixels,
+        visib_fract: visible.pixels as f64 / all.max(1) as f64,
+    }
+}
+
+fn bbox(area: PixelArea) -> [i64; 4] {
+    let [left, upper, right, lower] = area.bounds.map(i64::from);
+    [left, upper, right - 1 - left, lower - 1 - upper]
 }
 
 /// Writes the object's mesh, if it is known, and tells its size.
@@ -273,6 +359,15 @@ fn ply(vertices_m: &[DVec3], faces: &[[u32; 3]]) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn runs_become_a_mask_only_when_they_fill_it() {
+        // 3 columns, 2 rows.
+        assert_eq!(of_runs(&[0, 2, 3, 1], [2, 3]).unwrap(), [255, 0, 0, 255, 0, 255]);
+        for damaged in [&[0, 2, 3][..], &[0, 2, 3, 2], &[u32::MAX, u32::MAX], &[]] {
+            assert_eq!(of_runs(damaged, [2, 3]), None, "{damaged:?}");
+        }
+    }
 
     #[test]
     fn the_diameter_is_that_of_brute_force() {

@@ -9,10 +9,15 @@ use crate::instances::{Instance, instances};
 use crate::picture::{SHOWN, color_jpeg};
 use crate::place::Place;
 use crate::source::{Source, View};
+use enfilade_dataset::DatasetError;
 use enfilade_frame::{Frame, Layer};
 use enfilade_post::instances::run_lengths;
 use enfilade_scene::{NYU40, is_stuff};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The list of classes in the mesh folder of a scene that was annotated with one.
+const LIST: &str = "semantic_label_descs.csv";
 
 pub(crate) const README: &str = "\
 # COCO
@@ -20,7 +25,8 @@ pub(crate) const README: &str = "\
 `images/<scene>/<camera>/frame.IIII.jpg` are the frames, tone-mapped with one exposure per image. `annotations/instances.json` has
 one annotation per visible instance and frame: compressed RLE mask, box `[x, y, width, height]` in pixels, area in pixels, iscrowd 0.
 
-- Categories are the 40 classes of NYU40 under their own numbers, whether they occur or not.
+- Categories are the 40 classes of NYU40 under their own numbers, whether they occur or not; of scenes that were annotated with another
+  list, those of the list.
 - Masks are of what is visible, sampled at pixel centres. An instance of no class has no annotation; walls, floors and ceilings are
   no instances.
 - `instance` in an annotation is the instance's number within its scene: the same object has it in every frame. `scene`, `camera` and
@@ -72,11 +78,18 @@ struct Rle {
     counts: String,
 }
 
-#[derive(Serialize)]
+#[derive(PartialEq, Serialize)]
 struct Category {
     id: i16,
-    name: &'static str,
+    name: String,
     supercategory: &'static str,
+}
+
+/// A row of [`LIST`], but for its colour.
+#[derive(Deserialize)]
+struct Listed {
+    semantic_id: i16,
+    semantic_name: String,
 }
 
 pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
@@ -85,9 +98,10 @@ pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportErro
         licenses: Vec::new(),
         images: Vec::new(),
         annotations: Vec::new(),
-        categories: NYU40.iter().map(category).collect(),
+        categories: categories(source)?,
     };
-    for (image, annotations) in source.each(|view| write_frame(source, place, view))? {
+    let frames = source.each(|view| write_frame(source, place, view, &all.categories))?;
+    for (image, annotations) in frames {
         let image_id = all.images.len() + 1;
         for annotation in annotations {
             all.annotations.push(Annotation { id: all.annotations.len() + 1, image_id, ..annotation });
@@ -98,28 +112,76 @@ pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportErro
     place.write("annotations/instances.json", text.as_bytes())
 }
 
-fn category(class: &enfilade_scene::SemanticClass) -> Category {
-    Category { id: class.id, name: class.name, supercategory: if is_stuff(class.id) { "stuff" } else { "thing" } }
+/// The classes of the scenes: of all the same, because a number has one meaning in a file.
+fn categories(source: &Source<'_>) -> Result<Vec<Category>, ExportError> {
+    let mut all: Option<(&str, Vec<Category>)> = None;
+    for tracks in source.scenes() {
+        let scene = tracks[0].scene.as_str();
+        let here = categories_of(source, scene)?;
+        match &all {
+            None => all = Some((scene, here)),
+            Some((_, known)) if *known == here => {}
+            Some((first, _)) => {
+                let problem = format!("its classes are not those of {first:?}, and a file has one list; export scenes apart with --scene");
+                return Err(source.unsuitable(scene, problem));
+            }
+        }
+    }
+    Ok(all.map(|(_, categories)| categories).unwrap_or_default())
+}
+
+/// The classes of a scene, by number.
+fn categories_of(source: &Source<'_>, scene: &str) -> Result<Vec<Category>, ExportError> {
+    let files = source.dataset.mesh_files(scene);
+    let mut names: BTreeMap<i16, String> = NYU40.iter().map(|class| (class.id, class.name.to_string())).collect();
+    let path = files.file(LIST);
+    if path.is_file() {
+        let wrong = |error: csv::Error| DatasetError::Text { path: path.clone(), problem: format!("not a list of classes: {error}") };
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(&path).map_err(wrong)?;
+        let row = |row: Result<Listed, csv::Error>| row.map(|row| (row.semantic_id, row.semantic_name));
+        let listed: BTreeMap<i16, String> = reader.deserialize().map(row).collect::<Result<_, _>>().map_err(wrong)?;
+        // A list that ends elsewhere than the labels' colours is left over: they were made from another since.
+        if listed.keys().next_back() == Some(&files.read_last_class()?) {
+            names = listed;
+        }
+    }
+    let stuff = |name: &str| NYU40.iter().any(|class| is_stuff(class.id) && class.name == name);
+    let category = |(id, name): (i16, String)| Category { id, supercategory: if stuff(&name) { "stuff" } else { "thing" }, name };
+    Ok(names.into_iter().map(category).collect())
 }
 
 /// The frame's picture, and what the file says of it but for the ids.
-fn write_frame(source: &Source<'_>, place: &Place, view: View<'_>) -> Result<(Image, Vec<Annotation>), ExportError> {
+fn write_frame(
+    source: &Source<'_>,
+    place: &Place,
+    view: View<'_>,
+    categories: &[Category],
+) -> Result<(Image, Vec<Annotation>), ExportError> {
     let [color, entity] = SHOWN;
     let frame = source.read(view, &[color, entity, Layer::Semantic, Layer::SemanticInstance])?;
     let name = format!("{}/frame.{:04}.jpg", view.track.folder(), view.frame());
     place.write(&format!("images/{name}"), &color_jpeg(source, view, &frame)?)?;
     let (scene, camera) = (view.track.scene.clone(), view.track.name.clone());
     let image = Image { id: 0, file_name: name, width: frame.width, height: frame.height, scene, camera, frame: view.frame() };
-    let classed = instances(&frame).into_iter().filter(|instance| instance.semantic > 0);
-    Ok((image, classed.map(|instance| annotation(&frame, &instance)).collect()))
+    let classed = |instance: Instance| Some(annotation(&frame, &instance, class_of(&frame, &instance, categories)?));
+    Ok((image, instances(&frame).into_iter().filter_map(classed).collect()))
 }
 
-fn annotation(frame: &Frame, instance: &Instance) -> Annotation {
+/// The class of most of an instance's pixels, the lowest of several; `None` where they have none of the list.
+fn class_of(frame: &Frame, instance: &Instance, categories: &[Category]) -> Option<i16> {
+    let semantic = frame.get(Layer::Semantic)?;
+    let mut counts: BTreeMap<i16, usize> = BTreeMap::new();
+    instance.pixels.iter().for_each(|&i| *counts.entry(semantic.get(i) as i16).or_default() += 1);
+    counts.retain(|class, _| categories.binary_search_by_key(class, |category| category.id).is_ok());
+    counts.into_iter().max_by_key(|&(class, count)| (count, -class)).map(|(class, _)| class)
+}
+
+fn annotation(frame: &Frame, instance: &Instance, category_id: i16) -> Annotation {
     let [x_min, y_min, x_max, y_max] = instance.extent(frame.width);
     Annotation {
         id: 0,
         image_id: 0,
-        category_id: instance.semantic,
+        category_id,
         segmentation: Rle { size: [frame.height, frame.width], counts: compress(&runs(instance, frame.width, frame.height)) },
         area: instance.pixels.len(),
         bbox: [x_min, y_min, x_max - x_min + 1, y_max - y_min + 1],

@@ -2,13 +2,14 @@
 //!
 //! `color` is the file's R, G and B; every other layer has channels `<layer>.R/G/B`, `.X/Y/Z` where it is a point or direction, or
 //! `.V` where it is one number. Values, units and "nothing hit" are those of the dataset, bit by bit: float16 is half, all else float
-//! (which holds int16 and bytes exactly). Compression is ZIP, without loss.
+//! (which holds int16 and bytes exactly). Planar depth alone is along the axis of K, which a tilted image plane turns away from the
+//! dataset's. Compression is ZIP, without loss.
 
 use crate::ExportError;
 use crate::formats::cryptomatte::Cryptomatte;
 use crate::place::Place;
 use crate::source::{Source, View};
-use enfilade_frame::{Frame, LAYERS, Layer, Values};
+use enfilade_frame::{Frame, Layer, Values};
 use enfilade_scene::{Labels, NYU40};
 use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer as ExrLayer, LayerAttributes, Text, WritableImage, f16,
@@ -23,17 +24,14 @@ pub(crate) const README: &str = "\
 - R, G, B: `color`, scene-linear, Rec. 709 primaries, W/(sr m^2). Other layers: `<layer>.R/.G/.B` for light and reflectance, `.X/.Y/.Z` for
   points and directions, `.V` for single numbers. float16 layers are half, all others float.
 - Units, spaces and what stands where nothing was hit (NaN, -1, 0) are the dataset's: `layers` in its manifest.json. `depth_meters.V` is the
-  distance along the ray; `depth_z_meters.V` is planar depth.
+  distance along the ray; `depth_z_meters.V` is planar, along the axis of K.
 - `crypto_instance00` and `crypto_class00` are Cryptomatte layers (specification 1.2.0): MurmurHash3 of the name in R, coverage in G, one
   rank, manifest in the header. Labels are point samples at pixel centres, so coverage is 0 or 1. Instances are called `<class>_<number>`.
 ";
 
 pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
     source.each(|view| {
-        let frame = source.read(view, &LAYERS.map(|spec| spec.layer))?;
-        if frame.pixels() == 0 {
-            return Err(source.unsuitable(view.place(), "it has none of the layers asked for; choose others with --layers"));
-        }
+        let frame = source.read_all(view)?;
         let labels = source.labels(&view.track.scene)?;
         let name = format!("{}/frame.{:04}.exr", view.track.folder(), view.frame());
         place.write(&name, &file(source, view, &frame, &labels)?)
@@ -118,7 +116,7 @@ fn sort_attributes(file: &mut [u8]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_frame::Dtype;
+    use enfilade_frame::{Dtype, LAYERS};
     use std::collections::BTreeSet;
 
     #[test]

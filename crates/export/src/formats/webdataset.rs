@@ -8,9 +8,8 @@ use crate::calibration::{Calibration, Distortion};
 use crate::numpy::npy;
 use crate::picture::color_png;
 use crate::place::Place;
-use crate::source::{Source, Track, View};
-use enfilade_dataset::{Window, turn_planar_depth};
-use enfilade_frame::{LAYERS, Layer};
+use crate::source::{Source, View};
+use enfilade_frame::Layer;
 use serde::Serialize;
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -61,17 +60,7 @@ pub(crate) fn write(source: &Source<'_>, place: &Place, shard_bytes: u64) -> Res
 }
 
 fn sample(source: &Source<'_>, view: View<'_>) -> Result<Sample, ExportError> {
-    let mut frame = source.read(view, &LAYERS.map(|spec| spec.layer))?;
-    let Track { scene, name, .. } = view.track;
-    let is_stored = source.dataset.stored_layer(scene, name, view.frame(), Layer::DepthZMeters) == Layer::DepthZMeters;
-    if let Some(mut depth_z) = frame.get(Layer::DepthZMeters).filter(|_| is_stored).cloned() {
-        let whole = Window { top: 0, left: 0, height: frame.height as usize, width: frame.width as usize };
-        turn_planar_depth(&view.track.camera.projection, whole, &mut depth_z);
-        frame.insert(Layer::DepthZMeters, depth_z);
-    }
-    if frame.pixels() == 0 {
-        return Err(source.unsuitable(view.place(), "it has none of the layers asked for; choose others with --layers"));
-    }
+    let frame = source.read_all(view)?;
     let key = format!("{}/{:04}", view.track.folder(), view.frame());
     let mut files = Vec::new();
     if frame.get(Layer::Color).is_some() {

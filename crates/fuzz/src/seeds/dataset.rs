@@ -14,6 +14,8 @@ use std::path::{Path, PathBuf};
 #[allow(dead_code, reason = "made for other tests, of which a part is used")]
 #[path = "../../../dataset/tests/analytic/mod.rs"]
 mod analytic;
+#[path = "../../../dataset/tests/damaged/mod.rs"]
+mod damaged;
 
 pub use analytic::{CAMERA, SCENE};
 
@@ -80,7 +82,7 @@ pub fn records() -> Vec<Seed> {
     seeds("json")
 }
 
-/// Every array, and one for each way of storing.
+/// Every array, one for each way of storing, and one whose tree of chunks could be walked for ever.
 pub fn arrays() -> Vec<Seed> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("a.hdf5");
@@ -96,5 +98,8 @@ pub fn arrays() -> Vec<Seed> {
         write_array(&path, &array, storage, &[("unit", "m")]).expect("a folder that can be written");
         seed(name, std::fs::read(&path).expect("a file that can be read"))
     });
-    stored.into_iter().chain(seeds("hdf5")).collect()
+    let list = Array::i64(&[9], (0..9).collect());
+    write_array(&path, &list, Storage::Compressed, &[]).expect("a folder that can be written");
+    let branching = damaged::branching_tree(&std::fs::read(&path).expect("a file that can be read"), 1, 32);
+    stored.into_iter().chain([seed("branching_tree", branching)]).chain(seeds("hdf5")).collect()
 }

@@ -17,7 +17,7 @@ const RECORD: &str = r#"{"id":"a","host":"n","engine":{"SLURM_JOB_ID":"1"},"task
 /// archive of a frame.
 pub fn job(folder: &Path) -> Run {
     let (place, out) = (folder.join("job"), folder.join("out"));
-    let store = Store::open(place.to_str().expect("a folder with a name in Unicode"), std::iter::empty()).expect("a folder");
+    let store = Store::begin(place.to_str().expect("a folder with a name in Unicode"), std::iter::empty()).expect("a folder");
     let mut job = Job { store, plan: Plan::from_json(PLAN.as_bytes()).expect("a plan") };
     for folder in ["attempts", "done/room/cam_00"] {
         std::fs::create_dir_all(place.join(folder)).expect("a folder that can be written");

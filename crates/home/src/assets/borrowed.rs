@@ -37,11 +37,11 @@ impl Borrowed {
         }
     }
 
-    /// The light of a whole lamp of its family.
+    /// The light of a whole lamp of its family, as ours give it.
     fn glow(&self) -> Glow {
-        match self.family.place {
-            Place::Ceiling => Glow::CEILING,
-            Place::OnSurface => Glow::SMALL,
+        match self.family.name {
+            "ceiling_lamp" => Glow::CEILING,
+            "pendant" | "floor_lamp" | "table_lamp" => Glow::WITH_SHADE,
             _ => Glow::BULB,
         }
     }
@@ -96,12 +96,15 @@ impl Furniture for Borrowed {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::assets::Bulb;
+    use crate::check::object_of;
     use crate::light::LightConfig;
     use crate::materials::Materials;
     use crate::palette::Palette;
     use crate::shape::bevelled_box;
     use enfilade_math::{Bounds3, DMat3, Rgb};
     use enfilade_scene::{Bsdf, ColorParam, Image, Material, Part, Pixels, Scene, TextureRef};
+    use std::collections::BTreeMap;
 
     /// A box with a picture on it, its front toward −y.
     fn body(size: Vec3) -> Result<Body, String> {
@@ -136,6 +139,42 @@ mod tests {
             let filled = Bounds3::from_points(scene.world_positions(part));
             let expected = family_named(name).unwrap().place.bounds(size);
             assert!((filled.min - expected.min).abs().max_element() < 1e-5, "{name}: {filled:?}");
+        }
+    }
+
+    /// The box with a bulb in it.
+    fn lamp(size: Vec3) -> Result<Arc<Body>, String> {
+        let mut body = body(size)?;
+        body.bulbs.push(Bulb { at: 0.5 * size, diameter: 0.05 });
+        Ok(Arc::new(body))
+    }
+
+    /// What each of these lamps gives off, lumens, by the names of its materials.
+    fn lumens(lamps: impl IntoIterator<Item = Box<dyn Furniture>>) -> Vec<f32> {
+        let mut b = Builder::new(Materials::new(Palette::all()[0], LightConfig::default(), Rng::new(1)));
+        lamps.into_iter().for_each(|lamp| lamp.build(&mut b, DAffine3::IDENTITY, &mut Rng::new(1)));
+        let (scene, _) = b.finish();
+        let mut sums: BTreeMap<&str, f32> = BTreeMap::new();
+        for part in &scene.parts {
+            let words = scene.materials[part.material as usize].name.split_once("lamp ");
+            let given = words.and_then(|(_, rest)| rest.split(' ').next()?.parse::<f32>().ok());
+            *sums.entry(object_of(&part.name)).or_default() += given.unwrap_or(0.0);
+        }
+        sums.into_values().collect()
+    }
+
+    #[test]
+    fn lamps_give_as_much_light_as_ours() {
+        let size = Vec3::splat(0.3);
+        for family in FAMILIES.iter().filter(|family| family.class == Class::Lamp) {
+            let ours = lumens((0..40).map(|seed| (family.random)(&mut Rng::new(seed))));
+            let model = Arc::new(Model::new("lamp".into(), size, vec![family.name], Box::new(move || lamp(size))));
+            let thing: Box<dyn Furniture> = Box::new(Borrowed { number: 7, model, family, reach: 0.0 });
+            let [given] = lumens([thing])[..] else { panic!("{}: one lamp", family.name) };
+            let (least, most) = ours.iter().fold((f32::INFINITY, 0.0f32), |(least, most), lm| (least.min(*lm), most.max(*lm)));
+            assert!((least..=most).contains(&given), "{}: {given} lm, ours {least} to {most}", family.name);
+            let shaded = ["pendant", "floor_lamp", "table_lamp"].contains(&family.name);
+            assert!(!shaded || ours.contains(&given), "{}: {given} lm, ours {ours:?}", family.name);
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Where small things can stand on a model, found from its triangles.
 //!
 //! Levels are heights at which much of the model lies flat. On each, the cells of a grid that carry (a ray down finds the level) and
-//! are free (a ray up finds nothing near) are covered by the largest rectangles that hold only such cells.
+//! are free (a ray up finds nothing near) are covered by the largest rectangles that hold only such cells. What the model closes around
+//! is left out: the inside of a cabinet with its doors shut.
 
 use crate::furniture::{CONTACT, Surface};
 use enfilade_geometry::Bvh;
@@ -31,7 +32,16 @@ pub(super) fn surfaces(triangles: &[[Vec3; 3]], size: Vec3) -> Vec<Surface> {
         return Vec::new();
     }
     let bvh = Bvh::new(triangles, &|_| false);
-    levels.into_iter().flat_map(|z| Grid::new(&bvh, size, z).surfaces()).collect()
+    levels.into_iter().flat_map(|z| Grid::new(&bvh, size, z).surfaces()).filter(|surface| !enclosed(&bvh, surface)).collect()
+}
+
+/// True where the model is on all sides of a surface: level rays from its middle, half-way up to what is above it, find it four times.
+fn enclosed(bvh: &Bvh, surface: &Surface) -> bool {
+    if surface.headroom.is_infinite() {
+        return false;
+    }
+    let from = (0.5 * (surface.min + surface.max)).extend(surface.z + 0.5 * surface.headroom);
+    [Vec3::X, Vec3::Y, Vec3::NEG_X, Vec3::NEG_Y].into_iter().all(|way| bvh.occluded(&Ray::new(from, way)))
 }
 
 /// Heights at which the model lies flat, from above.
@@ -154,6 +164,17 @@ mod tests {
         assert_eq!(heights, [92.0, 52.0, 12.0]);
         assert!(found[0].headroom.is_infinite() && (found[1].headroom - 0.37).abs() < 0.01, "{found:?}");
         assert!((found[2].max - found[2].min - Vec2::new(0.8, 0.3)).abs().max_element() < 0.03);
+    }
+
+    #[test]
+    fn nothing_stands_inside_of_what_is_closed() {
+        let closed = triangles(&[board([-0.25, -0.2, 0.15], [0.25, 0.2, 0.6], 0.0)]);
+        let heights = |triangles: &[[Vec3; 3]]| -> Vec<f32> {
+            surfaces(triangles, Vec3::new(0.5, 0.4, 0.6)).iter().map(|s| (s.z * 100.0).round()).collect()
+        };
+        assert_eq!(heights(&closed), [60.0]);
+        let open: Vec<_> = closed.iter().copied().filter(|corners| corners.iter().any(|p| p.y < 0.199)).collect();
+        assert_eq!(heights(&open), [60.0, 15.0]);
     }
 
     #[test]

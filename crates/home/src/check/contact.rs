@@ -68,9 +68,14 @@ pub fn cores_meet([a, b]: [&Body; 2], cores: [Option<&Body>; 2], offset: Vec3) -
     }
 }
 
+/// Objects of these names that are nearer than this touch, metres.
+pub fn reach(a: &str, b: &str) -> f32 {
+    if is_soft(a) || is_soft(b) { SOFT_TOUCH } else { TOUCH }
+}
+
 /// True when `a`, moved by `offset`, comes so near to `b` that either can carry the other.
 pub fn touches(a: &Body, b: &Body, offset: Vec3) -> bool {
-    let reach = if is_soft(&a.name) || is_soft(&b.name) { SOFT_TOUCH } else { TOUCH };
+    let reach = reach(&a.name, &b.name);
     a.bounds.min.cmple(b.bounds.max + reach - offset).all()
         && b.bounds.min.cmple(a.bounds.max + reach + offset).all()
         && (a.meets(b, offset) || WAYS.iter().any(|way| a.meets(b, offset + *way * reach)))

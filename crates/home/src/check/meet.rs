@@ -104,7 +104,7 @@ fn cut(a: &[Triangle], offset: Vec3, b: &[Triangle], bounds_a: &Bounds3, bounds_
 }
 
 /// True when an edge of either pierces the other; triangles in one plane do not count.
-fn triangles_cut(a: &Triangle, b: &Triangle) -> bool {
+pub fn triangles_cut(a: &Triangle, b: &Triangle) -> bool {
     let pierced = |a: &Triangle, b: &Triangle| (0..3).any(|k| pierces(a[k], a[(k + 1) % 3], b));
     pierced(a, b) || pierced(b, a)
 }

@@ -292,7 +292,7 @@ mod tests {
     use crate::materials::Materials;
     use crate::palette::Palette;
     use enfilade_geometry::Mesh;
-    use enfilade_math::DVec3;
+    use enfilade_math::{DVec3, Vec2};
     use enfilade_scene::{Labels, Scene};
     use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -372,6 +372,13 @@ mod tests {
         volumes.iter().any(|(piece, v)| !open.contains(piece) && *v < -1e-9).then_some("a closed piece is inside out")
     }
 
+    /// True when the texture coordinates run over the unit square.
+    fn covers_unit_square(mesh: &Mesh) -> bool {
+        let low = mesh.uvs.iter().fold(Vec2::INFINITY, |low, uv| low.min(*uv));
+        let high = mesh.uvs.iter().fold(Vec2::NEG_INFINITY, |high, uv| high.max(*uv));
+        low == Vec2::ZERO && high == Vec2::ONE
+    }
+
     #[test]
     fn every_family_has_a_name_of_its_own_and_rooms() {
         let names: BTreeSet<&str> = FAMILIES.iter().map(|f| f.name).collect();
@@ -391,8 +398,11 @@ mod tests {
                 problems.push(format!("{name} does not come first in itself"));
             }
             for part in &scene.parts {
-                let wrong = inside_out(&scene.meshes[part.mesh as usize]);
-                problems.extend(wrong.map(|wrong| format!("{name}, {}: {wrong}", part.name)));
+                let mesh = &scene.meshes[part.mesh as usize];
+                problems.extend(inside_out(mesh).map(|wrong| format!("{name}, {}: {wrong}", part.name)));
+                if scene.materials[part.material as usize].name == "lit screen" && !covers_unit_square(mesh) {
+                    problems.push(format!("{name}, {}, does not show its whole picture", part.name));
+                }
             }
             for (seed, (found, expected)) in filled(&scene).iter().zip(&expected).enumerate() {
                 let over = [expected.min - found.min, found.max - expected.max];

@@ -3,6 +3,7 @@ use crate::builder::{Builder, Class};
 use crate::light::Glow;
 use crate::materials::Finish;
 use crate::shape::lathe;
+use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
 /// A flat lamp under the ceiling: a dish of opal glass in a metal rim. Its origin is on the ceiling.
@@ -26,17 +27,44 @@ impl Furniture for CeilingDome {
         let r = self.radius;
         let rim = [[0.0, -0.018], [r - 0.006, -0.018], [r, -0.014], [r, 0.001], [0.0, 0.001]];
         b.part(&lamp, "rim", lathe(&rim.map(Vec2::from_array), 64), Finish::Steel);
-        // A spherical cap that is 7 cm deep, closed at the top.
-        let (rise, edge) = (0.07, r - 0.012);
+        b.glow(&lamp, "glass", self.glass(), Glow::WORK);
+    }
+}
+
+impl CeilingDome {
+    /// A spherical cap that is 7 cm deep. The rim closes it at the top: a lid of glass below the rim would take its share of the lamp's
+    /// flux where nobody sees it.
+    fn glass(&self) -> Mesh {
+        let (rise, edge) = (0.07, self.radius - 0.012);
         let ball = (edge * edge + rise * rise) / (2.0 * rise);
         let open = (edge / ball).asin();
-        let mut profile: Vec<Vec2> = (0..=16)
+        let profile: Vec<Vec2> = (0..=16)
             .map(|k| {
                 let (sin, cos) = (open * k as f32 / 16.0).sin_cos();
                 Vec2::new(if k == 0 { 0.0 } else { ball * sin }, -0.0185 - rise + ball * (1.0 - cos))
             })
             .collect();
-        profile.push(Vec2::new(0.0, -0.0182));
-        b.glow(&lamp, "glass", lathe(&profile, 64), Glow::WORK);
+        lathe(&profile, 64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::light::area_m2;
+    use std::f32::consts::PI;
+
+    #[test]
+    fn all_the_flux_of_a_dome_comes_into_the_room() {
+        for radius in [0.13, 0.2] {
+            let dish = CeilingDome { radius }.glass();
+            let faces = (0..dish.triangles.len()).map(|t| {
+                let [a, b, c] = dish.corners(t);
+                0.5 * (b - a).cross(c - a)
+            });
+            let seen_m2: f32 = faces.filter(|face| face.z < 0.0).map(Vec3::length).sum();
+            let lumens = 1000.0 * Glow::WORK.luminance_kcd(area_m2(&dish)).luminance() * PI * seen_m2;
+            assert!((lumens / Glow::WORK.lumens - 1.0).abs() < 1e-3, "{lumens} lm");
+        }
     }
 }

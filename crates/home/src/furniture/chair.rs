@@ -70,9 +70,10 @@ fn backrest() -> enfilade_geometry::Mesh {
         .collect();
     let point = |i: usize, j: usize| {
         let along = 2.0 * (j.clamp(1, N + 1) - 1) as f32 / N as f32 - 1.0;
-        let angle = 0.62 * along;
-        let radius = 0.325;
-        let center = Vec3::new(radius * angle.sin(), 0.085 - radius * angle.cos() + 0.024, 0.735);
+        // Its ends reach into the rear legs.
+        let angle = 0.32 * along;
+        let radius = 0.6;
+        let center = Vec3::new(radius * angle.sin(), 0.369 - radius * angle.cos(), 0.735);
         if j == 0 || j == N + 2 {
             return center;
         }

@@ -44,7 +44,9 @@ impl Furniture for DiningTable {
         }
         let apron = stand - 0.012;
         for i in 0..4 {
-            let rail = board([-apron + 0.02, -0.009, -0.085], [apron - 0.02, 0.009, -0.029], 0.002);
+            // Two run into the legs, the others end at them.
+            let end = if i % 2 == 0 { apron } else { apron - 0.0092 };
+            let rail = board([-end, -0.009, -0.085], [end, 0.009, -0.0275], 0.002);
             let at = DAffine3::from_rotation_z(f64::from(i) * std::f64::consts::FRAC_PI_2)
                 * DAffine3::from_translation(DVec3::new(0.0, f64::from(apron), f64::from(TOP)));
             b.part_at(&table, &format!("rail_{}", i + 1), grained(rail, rng), at, wood);

@@ -111,6 +111,12 @@ pub fn to_front(mesh: Mesh) -> Mesh {
     mesh.turned(Vec3::X, -FRAC_PI_2)
 }
 
+/// A picture of `width` × `height` that faces +y, its texture upright over the unit square for who looks at it.
+pub fn picture(width: f32, height: f32) -> Mesh {
+    let corner = |i: usize, j: usize| Vec2::new(i as f32, j as f32);
+    grid(1, 1, |i, j| Vec3::new(width * (0.5 - corner(i, j).x), 0.0, height * (corner(i, j).y - 0.5)), corner)
+}
+
 /// All in one mesh.
 pub fn all(meshes: impl IntoIterator<Item = Mesh>) -> Mesh {
     meshes.into_iter().fold(Mesh::default(), Reshape::with)

@@ -144,15 +144,28 @@ impl Feet {
     }
 }
 
+/// How far a framed front's panel lies behind its frame.
+const RECESS: f32 = 0.007;
+
+/// True when a front has a panel: small ones are plain even where `framed` ones are wanted.
+fn has_panel([x0, x1, z0, z1]: [f32; 4], framed: bool) -> bool {
+    framed && x1 - x0 >= 0.2 && z1 - z0 >= 0.14
+}
+
+/// Thickness of a [`front`] in its middle, where handles are fixed.
+pub fn thickness_at_middle(rect: [f32; 4], thick: f32, framed: bool) -> f32 {
+    if has_panel(rect, framed) { thick - RECESS } else { thick }
+}
+
 /// A front board in the xz rectangle `[x0, x1, z0, z1]`, its back at y = `back`; framed fronts have a recessed panel.
 pub fn front(rect: [f32; 4], back: f32, thick: f32, framed: bool, rng: &mut Rng) -> Mesh {
     let [x0, x1, z0, z1] = rect;
     let whole = |depth: f32, inset: f32| board([x0 + inset, back, z0 + inset], [x1 - inset, back + depth, z1 - inset], 0.0015);
-    if !framed || x1 - x0 < 0.2 || z1 - z0 < 0.14 {
+    if !has_panel(rect, framed) {
         return grained(whole(thick, 0.0), rng);
     }
     let rail = 0.05f32.min(0.3 * (z1 - z0)).min(0.3 * (x1 - x0));
-    let panel = grained(whole(thick - 0.007, rail - 0.004), rng);
+    let panel = grained(whole(thick - RECESS, rail - 0.004), rng);
     let piece = |min: [f32; 2], max: [f32; 2]| board([min[0], back, min[1]], [max[0], back + thick, max[1]], 0.0015);
     let e = 0.0001;
     let frame = [

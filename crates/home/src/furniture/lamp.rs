@@ -21,7 +21,7 @@ fn drum(bottom: f32, top: f32, height: f32) -> Mesh {
 }
 
 /// The wire ring and spokes that carry a shade of `radius` at height `z`.
-fn carrier(radius: f32, z: f32) -> Mesh {
+pub(super) fn carrier(radius: f32, z: f32) -> Mesh {
     let mut mesh = tube(&rounded_loop(2.0 * radius, 2.0 * radius, radius, 10), 0.0018, 6);
     for k in 0..3 {
         let out = Vec2::from_angle(k as f32 * std::f32::consts::TAU / 3.0) * radius;

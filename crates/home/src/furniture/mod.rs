@@ -26,6 +26,8 @@ mod lamp;
 pub mod laundry;
 pub mod living;
 mod ornament;
+#[cfg(test)]
+mod piece_tests;
 mod plant;
 mod radiator;
 mod rug;
@@ -80,6 +82,9 @@ pub trait Furniture {
     fn reach(&self) -> f32 {
         0.0
     }
+
+    /// Fits what reaches up to the ceiling to a room of this height, metres.
+    fn fit(&mut self, _height: f32) {}
 
     /// Where small things can stand on it, in its own space.
     fn surfaces(&self) -> Vec<Surface> {

@@ -63,7 +63,10 @@ impl Furniture for Vase {
             let (tall, spread) = (rng.range(0.42, 0.62), rng.range(0.05, 0.17));
             let point = |t: f32| (out * (0.4 * neck * r * (1.0 - t) + spread * t * t)).extend(0.3 * h + (h * 0.7 + tall) * t);
             let path: Vec<Vec3> = (0..=8).map(|i| point(i as f32 / 8.0)).collect();
-            let mut twigs = tube(&path, 0.0022, 6);
+            // Its foot stands on the floor of the vase.
+            let foot = path[0].truncate().extend(0.08 * h);
+            let stalk: Vec<Vec3> = [foot].into_iter().chain(path.iter().copied()).collect();
+            let mut twigs = tube(&stalk, 0.0022, 6);
             let mut leaves = None;
             for j in 4..=8 {
                 let turn = rng.range(0.0, TAU);

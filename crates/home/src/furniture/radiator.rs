@@ -61,7 +61,7 @@ impl Furniture for Radiator {
             Vec3::new(x + 0.036, 0.01, -0.001),
         ];
         b.part(&radiator, "pipe", tube(&pipe, 0.008, 12), white);
-        let valve = tube(&[Vec3::new(x + 0.005, 0.01, FOOT + h - 0.06), Vec3::new(x + 0.06, 0.01, FOOT + h - 0.06)], 0.019, 18);
+        let valve = tube(&[Vec3::new(x - 0.005, 0.01, FOOT + h - 0.06), Vec3::new(x + 0.06, 0.01, FOOT + h - 0.06)], 0.019, 18);
         b.part(&radiator, "valve", valve, Finish::WhitePlastic);
         for (name, s) in [("bracket_left", -1.0), ("bracket_right", 1.0)] {
             let arm = rounded_box(Vec3::new(0.03, 0.035, 0.05), 0.003, 1).moved(Vec3::new(s * 0.32 * w, -0.033, FOOT + 0.75 * h));

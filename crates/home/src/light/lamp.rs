@@ -19,10 +19,12 @@ pub struct Glow {
 }
 
 impl Glow {
-    /// Table lamps, bedside lamps: as a 40 W bulb (EU Regulation 874/2012, table 6).
+    /// Small globes of opal glass: as a 40 W bulb (EU Regulation 874/2012, table 6).
     pub const SMALL: Self = Self { lumens: 470.0, kelvin: 2700.0 };
-    /// Floor lamps and pendants: as a 60 W bulb.
+    /// A bare bulb: one of 60 W.
     pub const BULB: Self = Self { lumens: 806.0, kelvin: 2700.0 };
+    /// Floor lamps, table lamps and pendants with a shade: the bulb, and the shade around it.
+    pub const WITH_SHADE: Self = Self { lumens: Self::BULB.lumens + Self::BULB.shaded().lumens, ..Self::BULB };
     /// A ceiling lamp that lights a living room or bedroom alone: 100 lx over 20 m² at a utilisation of one half.
     pub const CEILING: Self = Self { lumens: 3000.0, kelvin: 3000.0 };
     /// A ceiling lamp of a kitchen, bathroom or study: neutral white.
@@ -39,7 +41,7 @@ impl Glow {
 
     /// What a shade of cloth or paper lets through of the bulb inside; a cotton drum takes a little more than half.
     #[must_use]
-    pub fn shaded(self) -> Self {
+    pub const fn shaded(self) -> Self {
         Self { lumens: 0.45 * self.lumens, ..self }
     }
 

@@ -105,8 +105,10 @@ impl Furnisher<'_> {
     /// A flat lamp of opal glass under the ceiling, for low or wet rooms.
     pub fn dome(&mut self) {
         let own = CeilingDome { radius: self.rng.range(0.14, 0.2) };
-        let lamp = self.or_borrowed("ceiling_lamp", own);
-        self.above(self.room.center, lamp.as_ref());
+        let highest = self.room.size.z - HEADS;
+        let model = self.borrow("ceiling_lamp", &own, |size| size.z < highest);
+        let lamp: &dyn Furniture = model.as_ref().map_or(&own, |model| model);
+        self.above(self.room.center, lamp);
     }
 
     /// Hangs a lamp in the middle of the room, above people's heads, unless one hangs over a table there.
@@ -140,5 +142,40 @@ impl Furnisher<'_> {
     pub fn above(&mut self, at: Vec2, lamp: &dyn Furniture) {
         let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), f64::from(self.room.size.z), 0.0);
         self.build(lamp, pose);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assets::{Body, Library, Model};
+    use crate::rooms::tests::furnished;
+    use crate::shape::bevelled_box;
+    use enfilade_math::{DMat3, Rgb};
+    use enfilade_scene::{Material, Part, Scene};
+    use std::sync::Arc;
+
+    /// A ceiling lamp of somebody's library, so high.
+    fn lantern(height: f32) -> Model {
+        let size = Vec3::new(0.4, 0.4, height);
+        let read = move || {
+            let part = Part { name: "shade".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
+            let (meshes, materials) = (vec![bevelled_box(size, 0.0)], vec![Material::diffuse("paper", Rgb::WHITE)]);
+            Body::new(Scene { meshes, materials, parts: vec![part], ..Scene::default() }, DMat3::IDENTITY, None).map(Arc::new)
+        };
+        let mut model = Model::new("lantern".into(), size, vec!["ceiling_lamp"], Box::new(read));
+        model.shines = true;
+        model
+    }
+
+    #[test]
+    fn lamps_of_a_library_hang_above_heads_in_wet_rooms_too() {
+        for (height, fits) in [(1.2, false), (0.3, true)] {
+            let library = Library::new(vec![lantern(height)], 1.0);
+            let (scene, _) = furnished(RoomKind::Toilet, 1, 1.0, &library, |f| f.dome());
+            let lowest = scene.parts.iter().flat_map(|part| scene.world_positions(part)).fold(f32::INFINITY, |low, p| low.min(p.z));
+            assert!(lowest > HEADS, "{height} m: {lowest}");
+            assert_eq!(scene.parts.iter().any(|part| part.name == "ceiling_lamp_1/shade"), fits, "{height} m");
+        }
     }
 }

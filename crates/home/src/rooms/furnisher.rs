@@ -88,6 +88,15 @@ impl<'a> Furnisher<'a> {
         thing.build(self.b, pose, &mut self.rng);
     }
 
+    /// Builds a small thing in a pose. Where the home has none it is taken back, which leaves the random numbers of what follows.
+    pub fn build_small(&mut self, thing: &dyn Furniture, pose: DAffine3) {
+        let before = self.b.part_count();
+        self.build(thing, pose);
+        if self.clutter == 0.0 {
+            self.b.take_back(before);
+        }
+    }
+
     /// One variant of a family, or a model of the library.
     pub fn any(&mut self, family: &str) -> Option<Box<dyn Furniture>> {
         let family = family_named(family)?;
@@ -96,7 +105,8 @@ impl<'a> Furnisher<'a> {
     }
 
     fn variant(&mut self, family: &'static Family) -> Box<dyn Furniture> {
-        let own = (family.random)(&mut self.rng);
+        let mut own = (family.random)(&mut self.rng);
+        own.fit(self.room.size.z);
         match self.borrow(family.name, own.as_ref(), |_| true) {
             Some(model) => Box::new(model),
             None => own,

@@ -100,23 +100,23 @@ fn on_coffee_table(f: &mut Furnisher, table: &CoffeeTable, pose: DAffine3) {
     match *table {
         CoffeeTable::Shelf { length, depth } => {
             let tray = Tray { radius: 0.165 };
-            f.build(&tray, top(side * 0.24 * length, 0.02, 0.3));
+            f.build_small(&tray, top(side * 0.24 * length, 0.02, 0.3));
             let tray_top = |x: f32, y: f32| on(pose, Vec3::new(side * 0.24 * length + x, 0.02 + y, CoffeeTable::TOP + Tray::TOP), 0.0);
-            f.build(&Vase { height: 0.19, belly: 0.06, branches: 0 }, tray_top(-0.04, -0.06));
-            f.build(&Candles { count: 1 }, tray_top(0.06, 0.05));
+            f.build_small(&Vase { height: 0.19, belly: 0.06, branches: 0 }, tray_top(-0.04, -0.06));
+            f.build_small(&Candles { count: 1 }, tray_top(0.06, 0.05));
             let turn = f.rng.range(1.2, 1.8);
-            f.build(&Magazines { count: 3 }, top(-side * 0.20 * length, 0.03, turn));
+            f.build_small(&Magazines { count: 3 }, top(-side * 0.20 * length, 0.03, turn));
             let turn = f.rng.range(0.0, 6.0);
-            f.build(&Mug, top(-side * 0.02, 0.26 * depth, turn));
+            f.build_small(&Mug, top(-side * 0.02, 0.26 * depth, turn));
             let below = on(pose, Vec3::new(-side * 0.12 * length, 0.0, 0.161), f.rng.range(-0.2, 0.2));
-            f.build(&BookStack { count: 3 }, below);
+            f.build_small(&BookStack { count: 3 }, below);
         }
         CoffeeTable::Round { diameter } => {
-            f.build(&Bowl { radius: 0.13 }, top(side * 0.16 * diameter, 0.08, 0.0));
+            f.build_small(&Bowl { radius: 0.13 }, top(side * 0.16 * diameter, 0.08, 0.0));
             let turn = f.rng.range(-0.6, 0.6);
-            f.build(&Magazines { count: 2 }, top(-side * 0.19 * diameter, -0.02, turn));
+            f.build_small(&Magazines { count: 2 }, top(-side * 0.19 * diameter, -0.02, turn));
             let turn = f.rng.range(0.0, 6.0);
-            f.build(&Mug, top(side * 0.1, -0.27 * diameter, turn));
+            f.build_small(&Mug, top(side * 0.1, -0.27 * diameter, turn));
         }
     }
 }
@@ -125,9 +125,9 @@ fn on_bench(f: &mut Furnisher, bench: &TelevisionBench, pose: DAffine3) {
     let top = |x: f32, y: f32| on(pose, Vec3::new(x, y, TelevisionBench::TOP), 0.0);
     let beside = 0.25 * (bench.width + bench.screen);
     let side = if f.rng.below(2) == 0 { 1.0 } else { -1.0 };
-    f.build(&Vase { height: 0.24, belly: 0.075, branches: 5 }, top(side * beside, 0.0));
+    f.build_small(&Vase { height: 0.24, belly: 0.075, branches: 5 }, top(side * beside, 0.0));
     let turn = f.rng.range(-0.15, 0.15);
-    f.build(&BookStack { count: 2 }, on(top(-side * beside, -0.02), Vec3::ZERO, turn));
+    f.build_small(&BookStack { count: 2 }, on(top(-side * beside, -0.02), Vec3::ZERO, turn));
 }
 
 /// A side table with a lamp at one end of the sofa, a floor lamp at the other.
@@ -152,7 +152,7 @@ fn beside_sofa(f: &mut Furnisher, sofa: &Standing) {
         } else {
             f.build(lamp.as_ref(), on(found.pose, Vec3::new(0.0, -0.05, own.height), 0.0));
             let turn = f.rng.range(0.0, 6.0);
-            f.build(&Mug, on(found.pose, Vec3::new(0.09, 0.11, own.height), turn));
+            f.build_small(&Mug, on(found.pose, Vec3::new(0.09, 0.11, own.height), turn));
         }
     }
     let own = FloorLamp::random(&mut f.rng);
@@ -230,5 +230,23 @@ fn pictures(f: &mut Furnisher, sofa: &Standing) {
     } else {
         let picture = PictureOnWall { size: Vec2::new(0.5, 0.7), mount: 0.06, style: PaintingStyle::Bands, palette, black };
         f.hang(&picture, 1.5, &others, |_, s| s.x.abs());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rooms::tests::lacks_without_clutter;
+
+    fn sofa_and_television(f: &mut Furnisher) {
+        if let Some(sofa) = seating(f) {
+            beside_sofa(f, &sofa);
+        }
+    }
+
+    #[test]
+    fn without_clutter_nothing_lies_around_the_sofa() {
+        let small = ["mug", "magazines", "vase", "bowl", "tray", "candlestick", "books"];
+        lacks_without_clutter(RoomKind::Living, sofa_and_television, &small);
     }
 }

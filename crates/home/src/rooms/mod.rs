@@ -14,6 +14,8 @@ mod kitchen;
 mod living;
 mod study;
 mod table;
+#[cfg(test)]
+mod tests;
 mod wishes;
 
 pub use furnisher::Furnisher;

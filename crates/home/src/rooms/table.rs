@@ -135,7 +135,11 @@ impl Furnisher<'_> {
             .collect();
         let spots = self.floor.everywhere(0.12, &[0.0, FRAC_PI_2]);
         let Some((spot, poses)) = self.floor.place(&deep, spots, cost) else { return false };
-        self.build(table.thing(), poses[0]);
+        match table {
+            // Without small things no table is laid; it stands where a laid one would.
+            Table::Long(table) if self.clutter == 0.0 => self.build(&LongTable { laid: None, ..*table }, poses[0]),
+            _ => self.build(table.thing(), poses[0]),
+        }
         for (piece, _) in group.iter().zip(&poses).skip(1) {
             let at = spot.point(piece.at);
             let z = f64::from(crate::furniture::CONTACT);
@@ -159,5 +163,23 @@ impl Furnisher<'_> {
         let around = Footprint { center: spot.origin, half: 0.5 * lamp.size().truncate(), yaw: spot.yaw };
         self.floor.take(around, [LAMP, self.room.size.z]);
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::RoomKind;
+    use crate::rooms::tests::lacks_without_clutter;
+
+    fn guests(f: &mut Furnisher) {
+        let center = f.room.center;
+        f.dine([4, 10], |_, s| s.origin.distance(center));
+    }
+
+    #[test]
+    fn without_clutter_no_table_is_laid() {
+        let cover = ["place_mat", "plate", "fork", "knife", "spoon", "glass", "napkin", "napkin_ring"];
+        lacks_without_clutter(RoomKind::Dining, guests, &cover);
     }
 }

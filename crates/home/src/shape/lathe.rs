@@ -5,9 +5,10 @@ use std::f32::consts::{PI, TAU};
 
 /// Turns a profile of (radius, height) about the z axis in `n` steps.
 ///
-/// The profile runs so that the outside is on its right: outward along the bottom, up the outside, down the inside. Corners
-/// sharper than 40° stay sharp.
+/// The profile runs so that the outside is on its right: outward along the bottom, up the outside, down the inside. It does not
+/// cross itself: the inside would be outside there. Corners sharper than 40° stay sharp.
 pub fn lathe(profile: &[Vec2], n: usize) -> Mesh {
+    debug_assert!(!crosses_itself(profile), "a profile crosses itself: {profile:?}");
     let widest = profile.iter().fold(0.0f32, |w, p| w.max(p.x));
     let mut length = vec![0.0];
     for pair in profile.windows(2) {
@@ -20,6 +21,18 @@ pub fn lathe(profile: &[Vec2], n: usize) -> Mesh {
     };
     let uv = |i: usize, j: usize| Vec2::new(i as f32 / n as f32 * TAU * widest, length[j]);
     grid(n, profile.len() - 1, point, uv).smoothed(40.0)
+}
+
+/// True when two pieces of a polyline cut each other by more than what rounding does.
+fn crosses_itself(line: &[Vec2]) -> bool {
+    const ROUNDING: f32 = 1e-5;
+    let apart = |[a, b]: [Vec2; 2], ends: [Vec2; 2]| {
+        let across = (b - a).perp().normalize_or_zero();
+        let [p, q] = ends.map(|end| across.dot(end - a));
+        p.min(q) < -ROUNDING && p.max(q) > ROUNDING
+    };
+    let pieces: Vec<[Vec2; 2]> = line.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    pieces.iter().enumerate().any(|(k, &s)| pieces[k + 1..].iter().any(|&t| apart(s, t) && apart(t, s)))
 }
 
 /// A sphere about the origin in `n` × `n`/2 steps.
@@ -53,4 +66,18 @@ pub fn spline(points: &[[f32; 2]], steps: usize) -> Vec<Vec2> {
     }
     curve.push(p(points.len() as isize - 1));
     curve
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_profile_whose_inside_comes_out_crosses_itself() {
+        let tub = |inside: f32| [[0.0, 0.0], [0.2, 0.0], [0.24, 0.5], [0.23, 0.5], [inside, 0.25], [0.0, 0.01]].map(Vec2::from_array);
+        assert!(!crosses_itself(&tub(0.21)));
+        assert!(crosses_itself(&tub(0.23)));
+        // It may come back along itself, and close.
+        assert!(!crosses_itself(&[[0.1, 0.0], [0.1, 0.3], [0.1, 0.1], [0.1, 0.0]].map(Vec2::from_array)));
+    }
 }

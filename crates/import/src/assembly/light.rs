@@ -1,7 +1,7 @@
 //! Lights and environments, given in the file's units and axes.
 
 use super::{Assembly, mat3_f32};
-use enfilade_math::{DMat3, DVec3, Rgb, Vec3, place};
+use enfilade_math::{DMat3, DVec3, Rgb, Vec3, nearest_rotation, place};
 use enfilade_scene::{Environment, Light, MapRows};
 
 impl Assembly<'_> {
@@ -52,7 +52,7 @@ impl Assembly<'_> {
         }
     }
 
-    /// Sets an environment picture by the matrix that takes its own space (y up) to the file's axes; its scale is taken out.
+    /// Sets an environment picture by the matrix that takes its own space (y up) to the file's axes; scale and skew are taken out.
     pub(crate) fn set_environment_map(&mut self, image: u32, rows: MapRows, scale: Rgb, file_from_map: DMat3, place: &str) {
         let world_from_map = self.world_from_file.matrix3 * file_from_map;
         let normalized = |v: DVec3| v.try_normalize();
@@ -63,10 +63,18 @@ impl Assembly<'_> {
         };
         let world_from_map = DMat3::from_cols(x, y, z);
         let skew = (world_from_map * world_from_map.transpose() - DMat3::IDENTITY).to_cols_array().iter().any(|v| v.abs() > 1e-4);
-        if skew {
-            self.warn(place, "the environment's transform is skewed; its axes were kept as they are, which distorts the picture");
-        }
-        let map_from_world = world_from_map.inverse();
+        let world_from_map = match nearest_turn(world_from_map) {
+            Some(turn) if skew => {
+                self.warn(place, "the environment's transform is skewed; the nearest rotation was taken, which turns parts of the picture");
+                turn
+            }
+            Some(_) => world_from_map,
+            None => {
+                self.warn(place, "the environment's transform has no depth, so the environment was left out");
+                return;
+            }
+        };
+        let map_from_world = world_from_map.transpose();
         self.set_environment(Environment::Map { image, rows, scale, map_from_world: mat3_f32(map_from_world) }, place);
     }
 
@@ -76,4 +84,10 @@ impl Assembly<'_> {
             self.warn(place, "the file has several environments; the last one counts");
         }
     }
+}
+
+/// The rotation nearest to `m`, mirrored where `m` is; `None` when it has no inverse.
+fn nearest_turn(m: DMat3) -> Option<DMat3> {
+    let flip = DMat3::from_diagonal(DVec3::new(m.determinant().signum(), 1.0, 1.0));
+    Some(nearest_rotation(m * flip)? * flip)
 }

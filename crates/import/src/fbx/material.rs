@@ -203,11 +203,16 @@ impl<'c> Converter<'c, '_> {
 
     fn normal_map(&mut self) -> Result<Option<NormalMap>, ImportError> {
         let (pbr, fbx) = (&self.m.pbr, &self.m.fbx);
-        let normal = [&pbr.normal_map, &fbx.normal_map].into_iter().find(|m| m.texture.is_some());
-        let Some(map) = normal.or(Some(&fbx.bump).filter(|m| m.texture.is_some())) else { return Ok(None) };
+        // 3ds Max's own materials have one slot for heights and normals.
+        let either = matches!(self.m.shader_type, ShaderType::E3DsMaxPhysicalMaterial | ShaderType::OpenpbrMaterial);
+        let slots = [(&pbr.normal_map, either), (&fbx.normal_map, false), (&fbx.bump, true)];
+        let Some((map, is_bump)) = slots.into_iter().find(|(m, _)| m.texture.is_some()) else { return Ok(None) };
         let Some(texture) = self.texture(map, Use::Data)? else { return Ok(None) };
         let strength = number(&fbx.bump_factor).unwrap_or(1.0);
-        if !images::is_grey(self.a.image_at(texture.image)) {
+        let image = self.a.image_at(texture.image);
+        // Many files name the colour picture as the bump map too.
+        let has_normals = if is_bump { images::looks_like_normals(image) } else { !images::is_grey(image) };
+        if has_normals {
             return Ok(Some(NormalMap::Normal { texture, scale: 1.0 }));
         }
         let scale = BUMP_METRES * strength;

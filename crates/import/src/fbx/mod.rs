@@ -9,8 +9,9 @@
 //! | Lambert | a diffuse surface |
 //! | Phong | a clear-coated one of GGX alpha √(2/(exponent+2)); a highlight on black is a mirror of its colour |
 //! | Arnold and OSL standard surface, OpenPBR, 3ds Max physical and PBR, Stingray, glTF, Blender's Phong | metallic-roughness with index of refraction, specular, transmission, coat, sheen, emission and opacity; glossiness becomes roughness |
-//! | normals, heights | a normal map where the picture is coloured, else heights (guessed: one stands for 5 mm times the factor) |
-//! | textures | PNG, JPEG and all that [`crate`] decodes: from the file, else by relative path, by absolute path, and by name beside the file, in `<file>.fbm/` or `textures/`; offset, turn, scale, wrapping. Of layered and computed ones the first picture |
+//! | normals | a normal map where the picture is coloured, else heights |
+//! | bump | a normal map where the picture looks like one (most texels as long as a unit vector, out of the surface on average), else heights by its luminance (guessed: one stands for 5 mm times the factor) |
+//! | textures | PNG, JPEG and all that [`crate`] decodes: from the file, else by relative path, by absolute path, and by name beside the file, in `<file>.fbm/` or `textures/`; scale (2 shows the picture twice), turn, offset, wrapping. Of layered and computed ones the first picture |
 //! | colours | taken as linear; textures as sRGB |
 //! | point, spot, directional lights | see below; spots dim evenly with the angle |
 //! | area lights | a square two units wide that shines along its axis, as FBX does not state its size |

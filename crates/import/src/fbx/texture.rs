@@ -30,7 +30,9 @@ pub(super) fn texture(texture: &ufbx::Texture, usage: Use, user: &str, a: &mut A
         a.image(&Source::Embedded(format!("{} ({name})", file.element.element_id), &file.content), usage, user)?
     };
     let wrap = |mode| if mode == WrapMode::Clamp { Wrap::Clamp } else { Wrap::Repeat };
-    let m = &file.uv_to_texture;
+    // Scaled, turned and then moved: Autodesk's library says that a scale above one compresses the picture, and that a translation of one
+    // is its width after that. So these numbers lead from coordinates to the picture, though ufbx names them the other way round.
+    let m = &file.texture_to_uv;
     Ok(found.map(|image| TextureRef {
         uv_transform: [[m.m00 as f32, m.m01 as f32, m.m03 as f32], [m.m10 as f32, m.m11 as f32, m.m13 as f32]],
         wrap: [wrap(file.wrap_u), wrap(file.wrap_v)],

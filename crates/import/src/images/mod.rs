@@ -8,7 +8,9 @@ mod pfm;
 
 pub use exr::{check_exr_blocks, check_exr_table};
 
-use ::image::{DynamicImage, ImageFormat, ImageReader};
+use ::image::codecs::hdr::HdrDecoder;
+use ::image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use enfilade_math::DVec3;
 use enfilade_scene::{Image, Pixels};
 use std::io::Cursor;
 use std::path::Path;
@@ -47,11 +49,13 @@ pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, St
     if bytes.starts_with(b"PF") || bytes.starts_with(b"Pf") {
         return float_image(name, pfm::decode(bytes)?);
     }
+    if bytes.starts_with(b"#?RGBE") {
+        return float_image(name, rgbe(bytes)?);
+    }
     let format = ::image::guess_format(bytes)
         .ok()
         .or_else(|| ImageFormat::from_path(Path::new(name)).ok())
         .ok_or_else(|| "is not a picture of a known format (PNG, JPEG, BMP, TGA, HDR, EXR, PFM)".to_string())?;
-    let undecodable = |e| format!("cannot be decoded ({e})");
     let size = ImageReader::with_format(Cursor::new(bytes), format).into_dimensions().map_err(undecodable)?;
     check_size(size.0, size.1)?;
     // The library's own limit, 512 MB for what it decodes, holds too.
@@ -72,6 +76,20 @@ pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, St
             finish(Image { name: name.to_string(), width, height, pixels }, note)
         }
     }
+}
+
+fn undecodable(e: ImageError) -> String {
+    format!("cannot be decoded ({e})")
+}
+
+/// Radiance HDR under the signature that some programs write, which the library takes for a comment where it need not find its own.
+fn rgbe(bytes: &[u8]) -> Result<FloatPicture, String> {
+    let decoder = HdrDecoder::new_nonstrict(Cursor::new(bytes)).map_err(undecodable)?;
+    let (width, height) = decoder.dimensions();
+    check_size(width, height)?;
+    Limits::default().reserve(decoder.total_bytes()).map_err(undecodable)?;
+    let picture = DynamicImage::from_decoder(decoder).map_err(undecodable)?;
+    Ok(FloatPicture { width, height, texels: picture.into_rgb32f().pixels().map(|p| p.0).collect() })
 }
 
 /// Refuses pictures that are too large.
@@ -125,6 +143,27 @@ pub(crate) fn is_grey(image: &Image) -> bool {
     }
 }
 
+/// True when a picture of numbers looks like a map of tangent-space normals: on average they point out of the surface, less than 17°
+/// aside, and most of them have lengths of 0.8 to 1.2. Greys and colour pictures, which serve as bump maps too, do not.
+pub(crate) fn looks_like_normals(image: &Image) -> bool {
+    match &image.pixels {
+        Pixels::Rgba8 { texels, .. } => are_normals(texels.iter().map(|t| [t[0], t[1], t[2]].map(|v| f64::from(v) / 255.0))),
+        Pixels::RgbF32(texels) => are_normals(texels.iter().map(|t| t.map(f64::from))),
+    }
+}
+
+fn are_normals(texels: impl ExactSizeIterator<Item = [f64; 3]>) -> bool {
+    let total = texels.len();
+    let (mut sum, mut unit) = (DVec3::ZERO, 0);
+    for texel in texels {
+        let normal = 2.0 * DVec3::from(texel) - 1.0;
+        sum += normal;
+        unit += usize::from((0.8..=1.2).contains(&normal.length()));
+    }
+    let mean = sum / total.max(1) as f64;
+    mean.z > 0.5 && mean.truncate().length() < 0.3 * mean.z && 2 * unit > total
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -171,6 +210,31 @@ mod tests {
                 .contains("65535x65535 pixels, expected at most")
         );
         assert!(decode("a.exr", &[0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0], Use::Data).is_err());
+    }
+
+    #[test]
+    fn normals_are_told_from_colours_and_greys() {
+        let looks = |r: u8, g: u8, b: u8| {
+            // A little relief.
+            let tilted = |x: u32, y: u32| Rgba([r ^ (x as u8 * 16), g ^ (y as u8 * 16), b, 255]);
+            looks_like_normals(&decode("a.png", &png(ImageBuffer::from_fn(2, 2, tilted)), Use::Data).unwrap().image)
+        };
+        assert!(looks(128, 128, 255));
+        // Wood, plaster, the sky, and greys of which one is as long as a unit vector.
+        for [r, g, b] in [[150, 100, 60], [220, 215, 200], [135, 206, 235], [128; 3], [201; 3], [255; 3]] {
+            assert!(!looks(r, g, b), "{r} {g} {b}");
+        }
+    }
+
+    #[test]
+    fn radiance_pictures_are_read_by_either_signature() {
+        let header = |signature: &str| format!("{signature}\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n");
+        let picture = |signature: &str| [header(signature).as_bytes(), &[128, 64, 32, 129]].concat();
+        let pixels = |signature| decode("a.hdr", &picture(signature), Use::Color).unwrap_or_else(|e| panic!("{e}")).image.pixels;
+        assert_eq!(pixels("#?RGBE"), Pixels::RgbF32(vec![[1.0, 0.5, 0.25]]));
+        assert_eq!(pixels("#?RADIANCE"), pixels("#?RGBE"));
+        let claims = b"#?RGBE\n\n-Y 100000 +X 100000\n";
+        assert!(decode("a.hdr", claims, Use::Color).err().unwrap().contains("pixels, expected at most"));
     }
 
     #[test]

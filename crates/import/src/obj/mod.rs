@@ -4,11 +4,12 @@
 //! |---|---|
 //! | faces | any number of corners: convex polygons as fans, concave ones cut properly; negative indices; faces before their vertices |
 //! | objects, groups | one part per group and material, named after the group (`o` or `g`, whichever came last), with `.<material>` appended where a group has several; without a group after the material, else `part` |
-//! | names | the whole rest of the line, so spaces are part of them |
+//! | names, paths | the whole rest of the line, so spaces and `#` are part of them; elsewhere `#` begins a comment |
 //! | normals | as in the file; a mesh without any is shaded flat (smoothing groups are ignored) |
 //! | `Kd Ks Ns Ni d Tr Ke illum`, `map_Kd map_Ke map_d map_Ks` | a diffuse surface; with `Ks`, unless `illum` is 0 or 1, a clear-coated one of GGX alpha √(2/(Ns+2)), or on black `Kd` a mirror of that colour; with `illum` 4, 6, 7 or 9 a solid dielectric |
 //! | `Pr Pm Pc Pcr Ps`, `map_Pr map_Pm` | metallic-roughness |
-//! | `norm`, `map_Bump`, `bump` | a normal map if the picture is coloured, else heights (guessed: one stands for 5 mm times `-bm`) |
+//! | `norm` | a normal map |
+//! | `map_Bump`, `bump` | a normal map if the picture looks like one (most texels as long as a unit vector, out of the surface on average), else heights by its luminance (guessed: one stands for 5 mm times `-bm`) |
 //! | options of `map_…` | `-s`, `-o`, `-clamp`, `-bm`; the others are skipped |
 //! | dropped with a warning | lines, points, curves, vertex colours, displacement and reflection maps |
 //!
@@ -72,6 +73,12 @@ fn load_with(mut assembly: Assembly, known: mtl::Library) -> Result<Imported, Im
         }
     }
     assembly.finish()
+}
+
+/// A line without its comment. Behind a keyword that `is_text` knows stands a name or path, which may contain `#`.
+fn without_comment(line: &str, is_text: fn(&str) -> bool) -> &str {
+    let keyword = line.split_whitespace().next().unwrap_or_default();
+    if is_text(keyword) { line } else { line.split('#').next().unwrap_or_default() }
 }
 
 fn convert(name: Option<&str>, library: &mtl::Library, assembly: &mut Assembly) -> Result<Material, ImportError> {

@@ -23,8 +23,9 @@ pub(super) struct Entry {
 /// Materials by name.
 pub(super) type Library = HashMap<String, Entry>;
 
-/// The materials that Java 3D's loader of OBJ files knows by name, and under the empty name that of faces without one. Programs that are built on it,
-/// such as Sweet Home 3D, have many models that rely on them. Colours are rounded to a thousandth.
+/// The materials that Java 3D's loader of OBJ files knows by name, and under the empty name that of faces without one. Programs
+/// that are built on it, such as Sweet Home 3D, have many models that rely on them. Colours are rounded to a thousandth. Their `d`
+/// is opacity, as in Sweet Home 3D's loader; in Java 3D's it is transparency.
 pub(super) fn java3d() -> Library {
     let mut library = Library::new();
     parse(include_str!("java3d.mtl"), "", &mut library);
@@ -60,7 +61,7 @@ pub(super) fn read_libraries(names: &[String], mut library: Library, assembly: &
 fn parse(text: &str, folder: &str, library: &mut Library) {
     let mut current: Option<String> = None;
     for line in text.lines() {
-        let line = line.split('#').next().unwrap_or_default().trim();
+        let line = super::without_comment(line, is_text).trim();
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         let (keyword, rest) = (keyword.to_ascii_lowercase(), rest.trim().to_string());
         if keyword == "newmtl" {
@@ -73,6 +74,12 @@ fn parse(text: &str, folder: &str, library: &mut Library) {
             entry.statements.insert(keyword, rest);
         }
     }
+}
+
+/// True for keywords that a name or path follows.
+fn is_text(keyword: &str) -> bool {
+    let keyword = keyword.to_ascii_lowercase();
+    keyword.starts_with("map_") || matches!(keyword.as_str(), "newmtl" | "bump" | "norm" | "disp" | "decal" | "refl")
 }
 
 /// The material of an entry.
@@ -189,7 +196,8 @@ impl<'c> Converter<'c, '_> {
         let found = ["norm", "map_bump", "bump"].iter().find_map(|key| Some((*key, self.map(key)?)));
         let Some((key, map)) = found else { return Ok(None) };
         let Some(texture) = self.texture(&map, Use::Data)? else { return Ok(None) };
-        if key == "norm" || !images::is_grey(self.a.image_at(texture.image)) {
+        // Many libraries name the colour picture as the bump map too.
+        if key == "norm" || images::looks_like_normals(self.a.image_at(texture.image)) {
             return Ok(Some(NormalMap::Normal { texture, scale: map.bump }));
         }
         self.warn(format!("the bump map's height was guessed: white is {} m above black", BUMP_METRES * map.bump));

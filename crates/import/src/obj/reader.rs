@@ -49,7 +49,7 @@ impl ObjFile {
         let mut parser = Parser { file, obj: Self::default(), by_key: HashMap::new(), name: None, material: None, current: None };
         let mut continued = String::new();
         for (number, line) in text.lines().enumerate() {
-            let line = line.split('#').next().unwrap_or_default();
+            let line = super::without_comment(line, |keyword| matches!(keyword, "o" | "g" | "usemtl" | "mtllib"));
             if let Some(start) = line.strip_suffix('\\') {
                 continued.push_str(start);
                 continued.push(' ');
@@ -285,6 +285,17 @@ mod tests {
         let mesh = obj.mesh(obj.groups[..1].iter());
         assert_eq!((mesh.triangles.len(), mesh.uvs.len(), mesh.normals.len()), (3, mesh.positions.len(), 0));
         assert_eq!(mesh.validate(), Ok(()));
+    }
+
+    #[test]
+    fn number_signs_begin_comments_but_not_within_names() {
+        let text = "# a room\nmtllib set#1.mtl\nv 0 0 0 # origin\nv 1 0 0#\nv 0 1 0\n  # faces\ng Chair #1\nusemtl Wood #1\nf 1 2 3 # one\n\
+                    usemtl Wood #2\nf 1 2 3\n";
+        let obj = parse(text).unwrap();
+        assert_eq!(obj.libraries, ["set#1.mtl"]);
+        let names: Vec<_> = obj.groups.iter().map(|g| (g.name.as_deref().unwrap(), g.material.as_deref().unwrap())).collect();
+        assert_eq!(names, [("Chair #1", "Wood #1"), ("Chair #1", "Wood #2")]);
+        assert!(obj.notes.is_empty(), "{:?}", obj.notes);
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //! | `nx ny nz` | vertex normals; a mesh without any is shaded flat |
 //! | `u v`, `s t`, `texture_u texture_v` | texture coordinates, v upward |
 //! | `red green blue` | a scene has no colours of vertices: their mean, read as sRGB, becomes the one colour of the part, and the report says so |
-//! | dropped with a warning | edges, strips of triangles, materials, whatever else is neither a vertex nor a face |
+//! | dropped with a warning | edges, strips of triangles, materials, whatever else is neither a vertex nor a face; `texcoord` of faces |
 //! | an error | a file without faces: a cloud of points has no surface |
 //!
 //! A scene from a PLY file is one part, named after the file, with a diffuse grey surface of two sides. PLY knows neither lights nor
@@ -41,6 +41,9 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     }
     for element in &ply.skipped {
         assembly.warn(format!("element {element}"), "only vertices and faces are read; it was left out");
+    }
+    if ply.has_face_uvs {
+        assembly.warn("element face", "texture coordinates of faces are not supported and were dropped; write them to the vertices");
     }
     let name = file.file_stem().map_or_else(|| "mesh".to_string(), |s| s.to_string_lossy().into_owned());
     let color = ply.mean_color.map(|[r, g, b]| Rgb::new(r as f32, g as f32, b as f32).map(linear_from_srgb));

@@ -15,6 +15,8 @@ pub(crate) struct PlyFile {
     pub mean_color: Option<[f64; 3]>,
     /// Elements that were skipped, such as edges and strips of triangles.
     pub skipped: Vec<String>,
+    /// True when faces have texture coordinates of their own, which are not read.
+    pub has_face_uvs: bool,
 }
 
 /// Reads the `vertex` and `face` elements.
@@ -26,11 +28,14 @@ pub(crate) fn read(bytes: &[u8], file: &Path) -> Result<PlyFile, ImportError> {
     let (header, body) = parse_header(bytes).map_err(error)?;
     let mut values = Values { encoding: header.encoding, bytes: body, at: 0 };
     let mut mesh = Mesh::default();
-    let (mut mean_color, mut skipped) = (None, Vec::new());
+    let (mut mean_color, mut skipped, mut has_face_uvs) = (None, Vec::new(), false);
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" => mean_color = read_vertices(element, &mut values, &mut mesh).map_err(error)?,
-            "face" => read_faces(element, &mut values, &mut mesh).map_err(error)?,
+            "face" => {
+                has_face_uvs = element.index_of(&["texcoord"]).is_some();
+                read_faces(element, &mut values, &mut mesh).map_err(error)?;
+            }
             name => {
                 if element.count > 0 {
                     skipped.push(name.to_string());
@@ -41,7 +46,7 @@ pub(crate) fn read(bytes: &[u8], file: &Path) -> Result<PlyFile, ImportError> {
             }
         }
     }
-    Ok(PlyFile { mesh, mean_color, skipped })
+    Ok(PlyFile { mesh, mean_color, skipped, has_face_uvs })
 }
 
 /// The numbers of the body, one after the other.

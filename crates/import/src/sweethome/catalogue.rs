@@ -75,8 +75,8 @@ impl CataloguePiece {
     /// When the library, or the model within it, cannot be read.
     pub fn load(&self, library: &Path) -> Result<Imported, ImportError> {
         let archive = open(library)?;
-        model::read(&archive, &self.model)
-            .map_err(|problem| ImportError::malformed(library, &self.model, format!("the model {problem}; download the catalogue again")))
+        let model = model::read(&archive, &self.model).and_then(|model| model.ok_or_else(|| "has lines alone and no surface".to_string()));
+        model.map_err(|problem| ImportError::malformed(library, &self.model, format!("the model {problem}; download the catalogue again")))
     }
 }
 

@@ -36,6 +36,8 @@ pub(super) struct Home<'h, 'a> {
     pub archive: &'a Archive,
     pub models: Models,
     levels: HashMap<&'h str, Level>,
+    /// Height of walls that do not state their own, centimetres.
+    pub wall_height: f64,
     /// Materials of models with another colour or picture.
     pub repainted: HashMap<String, u32>,
     materials: HashMap<String, u32>,
@@ -59,11 +61,19 @@ pub(super) fn load<'a>(text: &str, archive: &'a Archive, mut a: Assembly<'a>) ->
         let Some(id) = element.text("id") else { return Err(element.error("the level has no id; save the home again")) };
         levels.insert(id, read_level(element)?);
     }
-    let mut home =
-        Home { a, archive, models: Models::default(), levels, repainted: HashMap::new(), materials: HashMap::new(), unknown_levels: 0 };
+    let mut home = Home {
+        a,
+        archive,
+        models: Models::default(),
+        levels,
+        wall_height: root.number_or("wallHeight", WALL_HEIGHT)?,
+        repainted: HashMap::new(),
+        materials: HashMap::new(),
+        unknown_levels: 0,
+    };
     home.report_ignored(&root);
     let mut pieces = Vec::new();
-    piece::collect(&root, None, DEEPEST, &home, &mut pieces)?;
+    piece::collect(&root, None, DEEPEST, &mut home, &mut pieces)?;
     let mut openings = Vec::new();
     for piece in pieces.iter().filter(|p| p.is_opening) {
         openings.push(Opening::read(piece.element, piece.base + piece.element.number_or("elevation", 0.0)?, &mut home.a)?);
@@ -78,7 +88,7 @@ pub(super) fn load<'a>(text: &str, archive: &'a Archive, mut a: Assembly<'a>) ->
         home.a.progress(done + 1, total);
         piece::add(piece, &root, &mut home)?;
     }
-    view::add(&root, &mut home)?;
+    view::add(&root, &walls, &mut home)?;
     if home.unknown_levels > 0 {
         let message = format!("{} things are on levels that do not exist; they were put on the ground", home.unknown_levels);
         home.a.warn("<home>", message);
@@ -147,7 +157,6 @@ impl<'h> Home<'h, '_> {
     }
 
     fn walls(&mut self, root: &Element<'h>) -> Result<Walls<'h>, ImportError> {
-        let default_height = root.number_or("wallHeight", WALL_HEIGHT)?;
         let mut list = Vec::new();
         for element in root.children().filter(|e| e.tag() == "wall") {
             let id = element.text("level");
@@ -158,7 +167,7 @@ impl<'h> Home<'h, '_> {
             let elevation = self.elevation_of(id);
             // Walls of upper levels reach down to the ceiling below.
             let bottom = self.level(id).filter(|l| !self.is_lowest(*l)).map_or(elevation, |l| elevation - l.floor_thickness);
-            match Wall::read(element, elevation, bottom, default_height)? {
+            match Wall::read(element, elevation, bottom, self.wall_height)? {
                 Some(wall) => list.push(wall),
                 None => self.a.warn(element.place(), "the wall has no length, height or thickness and was left out"),
             }

@@ -2,17 +2,26 @@
 
 use crate::archive::Archive;
 use crate::assembly::Assembly;
-use crate::{Format, ImportError, ImportOptions, Imported, UpAxis, obj};
+use crate::{Format, ImportError, ImportOptions, ImportReport, Imported, UpAxis, obj};
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec3};
-use enfilade_scene::{Alpha, Bsdf, Material, NormalMap, Quiet, TextureRef};
+use enfilade_math::{DAffine3, DMat3, DVec3, Rgb};
+use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Quiet, SceneError, TextureRef};
+use std::collections::HashMap;
 
-/// A model within the scene in the making; its own unit, y up.
+// Sweet Home 3D knows some parts of models by how their names begin (`com.eteks.sweethome3d.j3d.ModelManager`).
+const PANE: &str = "sweethome3d_window_pane";
+const MIRROR: &str = "sweethome3d_window_mirror";
+const LIGHT_MARK: &str = "sweethome3d_light";
+/// Index of refraction of panes.
+const GLASS: f32 = 1.5;
+
+/// A model within the scene in the making; its own unit, y up. One of lines alone has no parts.
 pub(super) struct Model {
     pub parts: Vec<ModelPart>,
 }
 
 /// One mesh of a model with its material, both as indices into the scene.
+#[derive(Clone)]
 pub(super) struct ModelPart {
     pub name: String,
     pub mesh: u32,
@@ -23,13 +32,38 @@ pub(super) struct ModelPart {
 /// Extents below this are taken for it, model units, so that flat models can be scaled.
 const FLAT: f64 = 1e-4;
 
+impl ModelPart {
+    /// True for panes of windows.
+    pub fn is_pane(&self) -> bool {
+        self.name.starts_with(PANE)
+    }
+
+    /// True for mirrors.
+    pub fn is_mirror(&self) -> bool {
+        self.name.starts_with(MIRROR)
+    }
+
+    /// True for what marks a source of light in the editor.
+    pub fn is_light_mark(&self) -> bool {
+        self.name.starts_with(LIGHT_MARK)
+    }
+
+    /// True for what moves with a joint, such as `hinge_1`.
+    pub fn hangs_on(&self, joint: &str) -> bool {
+        let kinds = ["opening", "window_pane", "window_mirror", "arm"];
+        let after = kinds.iter().find_map(|kind| self.name.strip_prefix(&format!("sweethome3d_{kind}_on_{joint}")));
+        after.is_some_and(|rest| !rest.starts_with(|c: char| c.is_ascii_digit()))
+    }
+}
+
 impl Model {
-    /// The box around the model as `placed`.
+    /// The box around the model as `placed`; without parts, the one that [`cuboid`] fills.
     pub fn bounds(&self, placed: DAffine3, a: &Assembly) -> (DVec3, DVec3) {
         let place = |p: &ModelPart| placed * p.file_from_mesh;
         let points =
             self.parts.iter().flat_map(|p| a.mesh_at(p.mesh).positions.iter().map(move |v| place(p).transform_point3(v.as_dvec3())));
-        points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
+        let corners = (0..8).filter(|_| self.parts.is_empty()).map(|k| placed.transform_point3(corner(k)));
+        points.chain(corners).fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
     }
 
     /// From the model to a box of side one around the origin, turned by `rotation`. Without `recenter` the turned model stays where
@@ -54,16 +88,17 @@ fn unit_scale(size: DVec3) -> DAffine3 {
 /// # Errors
 /// Why it cannot be used, as the rest of a sentence that begins with its name.
 pub(super) fn load(archive: &Archive, file: &str, a: &mut Assembly) -> Result<Model, String> {
-    let imported = read(archive, file)?;
+    let Some(imported) = read(archive, file)? else { return Ok(Model { parts: Vec::new() }) };
     a.pass_on(imported.report.warnings.clone());
     add(imported, a).map_err(|e| format!("cannot be used ({e})"))
 }
 
-/// Reads a model of an archive as a scene of its own, in the model's unit and axes. Pictures that are missing become grey.
+/// Reads a model of an archive as a scene of its own, in the model's unit and axes. Pictures that are missing become grey. `None` for one
+/// of lines alone.
 ///
 /// # Errors
 /// Why it cannot be used, as the rest of a sentence that begins with its name.
-pub(super) fn read(archive: &Archive, file: &str) -> Result<Imported, String> {
+pub(super) fn read(archive: &Archive, file: &str) -> Result<Option<Imported>, String> {
     let found = archive.find(file).ok_or("is not in the archive")?.to_string();
     let bytes = archive.read(&found).map_err(|e| format!("cannot be read ({e})"))?;
     if bytes.starts_with(b"PK\x03\x04") {
@@ -81,10 +116,69 @@ pub(super) fn read(archive: &Archive, file: &str) -> Result<Imported, String> {
     }
 }
 
-fn read_obj(archive: &Archive, name: &str) -> Result<Imported, String> {
+fn read_obj(archive: &Archive, name: &str) -> Result<Option<Imported>, String> {
     let options = ImportOptions { up_axis: Some(UpAxis::Z), allow_missing_textures: true, ..ImportOptions::default() };
     let assembly = Assembly::new(Format::Obj, &archive.file().join(name), UpAxis::Z, &options, &Quiet).within(archive);
-    obj::load_java3d(assembly).map_err(|e| format!("cannot be used ({e})"))
+    match obj::load_java3d(assembly) {
+        Ok(imported) => Ok(Some(glazed(imported))),
+        Err(ImportError::Scene { source: SceneError::NoParts, .. }) if has_lines(archive, name) => Ok(None),
+        Err(e) => Err(format!("cannot be used ({e})")),
+    }
+}
+
+/// True for an OBJ file with lines, such as that of Sweet Home 3D's sources of light, which draws a sphere in the plan.
+fn has_lines(archive: &Archive, name: &str) -> bool {
+    archive.read(name).is_ok_and(|bytes| String::from_utf8_lossy(&bytes).lines().any(|line| line.trim_start().starts_with("l ")))
+}
+
+/// The model with panes and mirrors as in Sweet Home 3D's photographs, which tell them by the names of parts, not by their materials.
+fn glazed(imported: Imported) -> Imported {
+    let mut scene = imported.scene;
+    let mut known = HashMap::new();
+    for part in &mut scene.parts {
+        let (is_pane, is_mirror) = (part.name.starts_with(PANE), part.name.starts_with(MIRROR));
+        if !(is_pane || is_mirror) {
+            continue;
+        }
+        let own = part.material;
+        part.material = *known.entry((own, is_mirror)).or_insert_with(|| {
+            let material = scene.materials[own as usize].clone();
+            let Some(glass) = (if is_mirror { mirror(material) } else { pane(material) }) else { return own };
+            scene.materials.push(glass);
+            (scene.materials.len() - 1) as u32
+        });
+    }
+    let report = ImportReport::new(Format::Obj, &scene, imported.report.warnings);
+    Imported { scene, report, ..imported }
+}
+
+/// Glass instead of an opaque material; `None` for one that lets light through as it is.
+fn pane(mut material: Material) -> Option<Material> {
+    let transmittance = tinted(*base_color(&mut material.bsdf)?);
+    let opaque = matches!(material.alpha, Alpha::Opaque) && !material.bsdf.transmits();
+    opaque.then(|| Material { bsdf: Bsdf::ThinDielectric { eta: GLASS, transmittance }, ..material })
+}
+
+/// A mirror of a material's colour; `None` for glass.
+fn mirror(mut material: Material) -> Option<Material> {
+    let reflectance = *base_color(&mut material.bsdf)?;
+    let bsdf = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance, alpha: 0.0.into() };
+    Some(Material { bsdf, alpha: Alpha::Opaque, ..material })
+}
+
+/// What passes a pane of this colour: half of the light takes the colour. A picture is taken as it is.
+pub(super) fn tinted(color: ColorParam) -> ColorParam {
+    if color.texture.is_some() { color } else { color.factor.map(|c| 0.5 + 0.5 * c).into() }
+}
+
+/// The colour of a surface that does not let light through by itself.
+pub(super) fn base_color(bsdf: &mut Bsdf) -> Option<&mut ColorParam> {
+    match bsdf {
+        Bsdf::Diffuse { reflectance } | Bsdf::Conductor { reflectance, .. } => Some(reflectance),
+        Bsdf::Plastic { diffuse, .. } => Some(diffuse),
+        Bsdf::Principled(p) => Some(&mut p.base_color),
+        _ => None,
+    }
 }
 
 fn add(imported: Imported, a: &mut Assembly) -> Result<Model, ImportError> {
@@ -112,8 +206,7 @@ fn add(imported: Imported, a: &mut Assembly) -> Result<Model, ImportError> {
 
 /// A grey box of side one, in place of a model that cannot be used.
 pub(super) fn cuboid(a: &mut Assembly) -> Result<Model, ImportError> {
-    let at = |k: u32, bit: u32| if k >> bit & 1 == 0 { -0.5 } else { 0.5 };
-    let positions = (0..8).map(|k| Vec3::new(at(k, 0), at(k, 1), at(k, 2))).collect();
+    let positions = (0..8).map(|k| corner(k).as_vec3()).collect();
     let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles = sides.iter().flat_map(|&[p, q, r, s]| [[p, q, r], [p, r, s]]).collect();
     let file = a.file().to_path_buf();
@@ -121,6 +214,12 @@ pub(super) fn cuboid(a: &mut Assembly) -> Result<Model, ImportError> {
     let mesh = a.push_mesh(Mesh { positions, triangles, ..Mesh::default() }, &file, "stand-in")?;
     let part = |mesh| ModelPart { name: "box".into(), mesh, material, file_from_mesh: DAffine3::IDENTITY };
     Ok(Model { parts: mesh.map(part).into_iter().collect() })
+}
+
+/// One of the eight corners of the box of side one around the origin.
+fn corner(k: u32) -> DVec3 {
+    let at = |bit: u32| if k >> bit & 1 == 0 { -0.5 } else { 0.5 };
+    DVec3::new(at(0), at(1), at(2))
 }
 
 /// Calls `found` with every texture that a material of an OBJ model may have.

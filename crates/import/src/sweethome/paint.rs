@@ -57,9 +57,18 @@ pub(super) fn bsdf(diffuse: ColorParam, shininess: f64) -> Bsdf {
 
 /// A picture laid over centimetres. `None` where it is missing and may be.
 pub(super) fn texture(element: Element, user: &str, a: &mut Assembly) -> Result<Option<TextureRef>, ImportError> {
-    let file = element.text("image").ok_or_else(|| element.error("the texture has no image; save the home again"))?;
     let stated = DVec2::new(element.number_or("width", PICTURE_CM)?, element.number_or("height", PICTURE_CM)?);
-    let stated = if stated.min_element() > 0.0 { stated } else { DVec2::splat(PICTURE_CM) };
+    sized(element, if stated.min_element() > 0.0 { stated } else { DVec2::splat(PICTURE_CM) }, user, a)
+}
+
+/// A picture laid over a model's own texture coordinates, whatever its size. `None` where it is missing and may be.
+pub(super) fn texture_of_model(element: Element, user: &str, a: &mut Assembly) -> Result<Option<TextureRef>, ImportError> {
+    sized(element, DVec2::ONE, user, a)
+}
+
+/// A picture that is `stated` wide and high, unless it is scaled, in the unit of the coordinates that it is laid over.
+fn sized(element: Element, stated: DVec2, user: &str, a: &mut Assembly) -> Result<Option<TextureRef>, ImportError> {
+    let file = element.text("image").ok_or_else(|| element.error("the texture has no image; save the home again"))?;
     let scale = Some(element.number_or("scale", 1.0)?).filter(|s| *s > 0.0).unwrap_or(1.0);
     let offset = DVec2::new(element.number_or("xOffset", 0.0)?, element.number_or("yOffset", 0.0)?);
     let size = stated * scale;

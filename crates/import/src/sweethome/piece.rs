@@ -1,7 +1,7 @@
 //! Furniture, doors, windows and lamps: where they stand and what they look like.
 
 use super::home::Home;
-use super::model::{self, Model};
+use super::model::{self, Model, ModelPart};
 use super::paint::{self, Paint};
 use super::xml::Element;
 use crate::ImportError;
@@ -18,7 +18,7 @@ pub(super) const HOME_LIGHT: f64 = 208.0 / 255.0;
 /// The models met so far, and how many pieces have each name.
 #[derive(Default)]
 pub(super) struct Models {
-    known: HashMap<String, Option<Rc<Model>>>,
+    known: HashMap<String, Rc<Model>>,
     names: HashMap<String, usize>,
 }
 
@@ -37,7 +37,7 @@ pub(super) fn collect<'x>(
     parent: &Element<'x>,
     level: Option<&'x str>,
     depth: usize,
-    home: &Home,
+    home: &mut Home,
     out: &mut Vec<Piece<'x>>,
 ) -> Result<(), ImportError> {
     for element in parent.children() {
@@ -46,7 +46,12 @@ pub(super) fn collect<'x>(
         match element.tag() {
             "furnitureGroup" if shown && depth == 0 => return Err(element.error("groups lie too deep within one another; ungroup some")),
             "furnitureGroup" if shown => collect(&element, level, depth - 1, home, out)?,
-            "pieceOfFurniture" | "doorOrWindow" | "light" if shown => out.push(Piece::read(element, home.elevation_of(level))?),
+            "pieceOfFurniture" | "doorOrWindow" | "light" | "shelfUnit" if shown => {
+                out.push(Piece::read(element, home.elevation_of(level))?);
+            }
+            tag if shown && element.text("model").is_some() => {
+                home.a.warn(format!("<{tag}>"), "this kind of furniture is not known; all pieces of it were left out");
+            }
             _ => (),
         }
     }
@@ -87,19 +92,19 @@ impl<'x> Piece<'x> {
 pub(super) fn add(piece: &Piece, root: &Element, home: &mut Home) -> Result<(), ImportError> {
     let element = piece.element;
     let name = name(element, &mut home.models);
-    let Some(model) = model_of(piece, home)? else { return Ok(()) };
+    let model = deformed(element, model_of(piece, home)?, home)?;
     let size = DVec3::new(element.length("width")?, element.length("height")?, element.length("depth")?);
     let normal = normalization(element, root, &model, home)?;
     let placement = placement(piece, size, &model, normal, home)?;
-    report_ignored(element, home);
     let shared = model.parts.len() > 1;
-    for part in &model.parts {
-        let Some((material, textured)) = material_of(element, part.material, home)? else { continue };
-        let mesh = if textured { mapped(part.mesh, normal * part.file_from_mesh, size, home)? } else { part.mesh };
+    let is_light = element.tag() == "light";
+    for part in model.parts.iter().filter(|p| !(is_light && p.is_light_mark())) {
+        let Some((material, covered)) = material_of(element, part, home)? else { continue };
+        let mesh = if covered { mapped(part.mesh, normal * part.file_from_mesh, size, home)? } else { part.mesh };
         let part_name = if shared { format!("{name}.{}", part.name) } else { name.clone() };
         home.a.push_part(&part_name, mesh, material, placement * normal * part.file_from_mesh, PartLabel::NONE);
     }
-    if element.tag() == "light" {
+    if is_light {
         add_lamps(element, &name, placement, root, home)?;
     }
     Ok(())
@@ -114,25 +119,65 @@ fn name(element: Element, models: &mut Models) -> String {
     element.text("catalogId").map_or(numbered.clone(), |id| format!("{numbered} ({id})"))
 }
 
-fn model_of(piece: &Piece, home: &mut Home) -> Result<Option<Rc<Model>>, ImportError> {
+fn model_of(piece: &Piece, home: &mut Home) -> Result<Rc<Model>, ImportError> {
     let element = piece.element;
     let Some(file) = element.text("model") else {
-        home.a.warn(element.place(), "the piece has no model and was left out");
-        return Ok(None);
+        home.a.warn(element.place(), "the piece has no model, so nothing of it is seen");
+        return Ok(Rc::new(Model { parts: Vec::new() }));
     };
     if let Some(known) = home.models.known.get(file) {
         return Ok(known.clone());
     }
     let model = match model::load(home.archive, file, &mut home.a) {
-        Ok(model) => model,
+        Ok(model) => {
+            if model.parts.is_empty() && element.tag() != "light" {
+                home.a.warn(element.place(), format!("the model {file} has lines alone and no surface, so nothing of it is seen"));
+            }
+            model
+        }
         Err(problem) => {
             home.a.warn(element.place(), format!("the model {file} {problem}; a box of the piece's size stands in"));
             model::cuboid(&mut home.a)?
         }
     };
-    let model = Some(Rc::new(model));
+    let model = Rc::new(model);
     home.models.known.insert(file.to_string(), model.clone());
     Ok(model)
+}
+
+/// The model with its doors, drawers and arms as the piece has them opened, drawn and turned. The piece's size is that of this model.
+fn deformed(element: Element, model: Rc<Model>, home: &mut Home) -> Result<Rc<Model>, ImportError> {
+    let movements: Vec<Element> = element.children().filter(|c| c.tag() == "transformation").collect();
+    if movements.is_empty() {
+        return Ok(model);
+    }
+    let mut parts = model.parts.clone();
+    for movement in movements {
+        let moved_from_file = matrix(movement)?;
+        let name = movement.text("name").unwrap_or_default();
+        let joint = name.strip_prefix("sweethome3d_").filter(|joint| !joint.is_empty());
+        let mut moved = parts.iter_mut().filter(|p| joint.is_some_and(|joint| p.hangs_on(joint))).peekable();
+        if moved.peek().is_none() {
+            let message = format!("parts of the model are moved at {name:?}, which is no hinge, rail or ball of it; they stay as they are");
+            home.a.warn(element.place(), message);
+        }
+        moved.for_each(|p| p.file_from_mesh = moved_from_file * p.file_from_mesh);
+    }
+    Ok(Rc::new(Model { parts }))
+}
+
+/// A matrix of three rows and four columns.
+fn matrix(element: Element) -> Result<DAffine3, ImportError> {
+    match element.numbers("matrix")?.as_deref() {
+        Some(&[a, b, c, x, d, e, f, y, g, h, i, z]) => {
+            let turn = DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]).transpose();
+            Ok(DAffine3::from_mat3_translation(turn, DVec3::new(x, y, z)))
+        }
+        other => {
+            let found = other.map_or(0, |numbers| numbers.len());
+            Err(element.error(format!("found {found} numbers in matrix, expected twelve; save the home again")))
+        }
+    }
 }
 
 /// From the model to a box of side one around the origin, turned upright.
@@ -166,18 +211,19 @@ fn placement(piece: &Piece, size: DVec3, model: &Model, normal: DAffine3, home: 
     Ok(DAffine3::from_translation(DVec3::new(element.required("x")?, up, element.required("y")?)) * turned * sized)
 }
 
-/// The material of a model's part on this piece, and whether a picture is laid over it. `None` where the piece hides it.
-fn material_of(element: Element, material: u32, home: &mut Home) -> Result<Option<(u32, bool)>, ImportError> {
+/// The material of a model's part on this piece, and whether a picture covers it by centimetres. `None` where the piece hides it.
+fn material_of(element: Element, part: &ModelPart, home: &mut Home) -> Result<Option<(u32, bool)>, ImportError> {
+    let material = part.material;
     let whole = element.color("color")?.is_some() || element.child("texture", None).is_some();
     let own = home.a.material_at(material).clone();
     let source = if whole {
-        Some(element)
+        Some(element).filter(|_| !part.is_pane())
     } else {
         element.children().filter(|c| c.tag() == "material").find(|c| c.text("name") == Some(own.name.as_str()))
     };
     let shininess = source.map_or(Ok(None), |s| s.number("shininess"))?.or(element.number("shininess")?);
     let (color, texture) = match source {
-        Some(s) => (s.color("color")?, s.child("texture", None)),
+        Some(s) => (s.color("color")?, s.child("texture", None).filter(|_| !part.is_mirror())),
         None => (None, None),
     };
     if color.is_some_and(|(alpha, _)| alpha == 0) && texture.is_none() && !whole {
@@ -186,15 +232,19 @@ fn material_of(element: Element, material: u32, home: &mut Home) -> Result<Optio
     if color.is_none() && texture.is_none() && shininess.is_none() {
         return Ok(Some((material, false)));
     }
+    // The pictures of single materials follow the model's own coordinates.
+    let by_model = !whole && !home.a.mesh_at(part.mesh).uvs.is_empty();
+    let covered = texture.is_some() && !by_model;
     let paint = Paint { color, texture, shininess: shininess.unwrap_or(0.0) };
     let (key, _) = paint.key();
-    let key = format!("{material} {key} {shininess:?}");
+    let key = format!("{material} {key} {shininess:?} {by_model}");
     if let Some(known) = home.repainted.get(&key) {
-        return Ok(Some((*known, texture.is_some())));
+        return Ok(Some((*known, covered)));
     }
     let new = match (texture, color) {
         (Some(texture), _) => {
-            let found = paint::texture(texture, &own.name, &mut home.a)?;
+            let read = if by_model { paint::texture_of_model } else { paint::texture };
+            let found = read(texture, &own.name, &mut home.a)?;
             Some(found.map_or(Rgb::splat(0.5).into(), |t| ColorParam { factor: Rgb::WHITE, texture: Some(t) }))
         }
         (None, Some((_, rgb))) => Some(rgb.into()),
@@ -202,23 +252,20 @@ fn material_of(element: Element, material: u32, home: &mut Home) -> Result<Optio
     };
     let index = home.a.push_material(repainted(own, new, shininess));
     home.repainted.insert(key, index);
-    Ok(Some((index, texture.is_some())))
+    Ok(Some((index, covered)))
 }
 
-/// A material with another colour and shininess; panes and metals keep what they are.
+/// A material with another colour and shininess; panes and metals stay what they are.
 fn repainted(mut material: Material, color: Option<ColorParam>, shininess: Option<f64>) -> Material {
     if let (Some(color), Alpha::Opaque) = (color, &material.alpha)
         && color.texture.is_some()
     {
         material.normal_map = None;
     }
-    let base = match &mut material.bsdf {
-        Bsdf::Diffuse { reflectance } => reflectance,
-        Bsdf::Plastic { diffuse, .. } => diffuse,
-        Bsdf::Conductor { reflectance, .. } => reflectance,
-        Bsdf::Principled(p) => &mut p.base_color,
-        _ => return material,
-    };
+    if let Bsdf::ThinDielectric { transmittance, .. } = &mut material.bsdf {
+        *transmittance = color.map_or(*transmittance, model::tinted);
+    }
+    let Some(base) = model::base_color(&mut material.bsdf) else { return material };
     *base = color.unwrap_or(*base);
     let base = *base;
     if let (Some(shininess), Bsdf::Diffuse { .. } | Bsdf::Plastic { .. }) = (shininess, &material.bsdf) {
@@ -254,10 +301,4 @@ fn add_lamps(element: Element, name: &str, placement: DAffine3, root: &Element, 
         }
     }
     Ok(())
-}
-
-fn report_ignored(element: Element, home: &mut Home) {
-    if element.children().any(|c| c.tag() == "transformation") {
-        home.a.warn(element.place(), "parts of the model are moved (an open door, a bent limb); they stay as the model has them");
-    }
 }

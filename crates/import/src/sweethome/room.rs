@@ -93,7 +93,7 @@ fn add_ceiling(rooms: &[Room], index: usize, walls: &Walls, pieces: &[Piece], ho
     let level = home.level(room.level);
     let below_another = level.filter(|l| !home.is_highest(*l));
     let flat = below_another.map(|l| l.elevation + l.height);
-    let heights = |p: DVec2| flat.unwrap_or_else(|| height_at(p, room, walls, home));
+    let heights = |p: DVec2| flat.unwrap_or_else(|| height_at(p, room.level, walls, home));
     let later = rooms[index + 1..].iter().filter(|r| r.element.flag("ceilingVisible", true) && r.level == room.level);
     let over: Vec<&Room> = later.collect();
     let elevation = home.elevation_of(room.level);
@@ -133,11 +133,11 @@ fn sheet(triangles: &[[DVec2; 3]], height: &dyn Fn(DVec2) -> f64, faces_up: bool
     surface
 }
 
-/// The height of the nearest corner of a wall of the room's level; the level's own height where it has no walls.
-fn height_at(p: DVec2, room: &Room, walls: &Walls, home: &Home) -> f64 {
-    let corners = walls.list.iter().filter(|w| w.level == room.level).flat_map(|w| w.ends().into_iter().zip(w.tops));
+/// The height of the nearest corner of a wall of a level; the level's own height, or that of the home's walls, where it has none.
+pub(super) fn height_at(p: DVec2, level: Option<&str>, walls: &Walls, home: &Home) -> f64 {
+    let corners = walls.list.iter().filter(|w| w.level == level).flat_map(|w| w.ends().into_iter().zip(w.tops));
     let nearest = corners.min_by(|(a, _), (b, _)| a.distance_squared(p).total_cmp(&b.distance_squared(p)));
-    let own = home.level(room.level).map_or(250.0, |l| l.elevation + l.height);
+    let own = home.level(level).map_or(home.wall_height, |l| l.elevation + l.height);
     nearest.map_or(own, |(_, top)| top)
 }
 

@@ -2,6 +2,8 @@
 
 use super::home::Home;
 use super::piece::HOME_LIGHT;
+use super::room::height_at;
+use super::wall::Walls;
 use super::xml::Element;
 use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, Rgb, srgb_from_linear};
@@ -12,7 +14,7 @@ use std::f64::consts::PI;
 const CEILING_LIGHT: (f64, f64) = (20.0, 25.0);
 
 /// Adds cameras, the sky and the light of ceilings.
-pub(super) fn add(root: &Element, home: &mut Home) -> Result<(), ImportError> {
+pub(super) fn add(root: &Element, walls: &Walls, home: &mut Home) -> Result<(), ImportError> {
     let environment = root.child("environment", None);
     let aspect = match environment {
         Some(e) => e.number_or("photoWidth", 400.0)? / e.number_or("photoHeight", 300.0)?.max(1.0),
@@ -25,7 +27,7 @@ pub(super) fn add(root: &Element, home: &mut Home) -> Result<(), ImportError> {
     let textured = environment.is_some_and(|e| e.child("texture", Some("skyTexture")).is_some());
     let what = if textured { "the sky's picture and the sun were" } else { "the sun was" };
     home.a.warn("<environment>", format!("{what} left out; a sky of one colour lights the home from outside"));
-    add_ceiling_lights(root, environment, home)
+    add_ceiling_lights(root, environment, walls, home)
 }
 
 /// The visitor's camera first, then the stored ones, the one above the home last: trajectories begin at the first.
@@ -52,7 +54,7 @@ fn add_cameras(root: &Element, aspect: f64, home: &mut Home) -> Result<(), Impor
 }
 
 /// A light below the ceiling of each room, as bright as the room's size and the home's colours ask for.
-fn add_ceiling_lights(root: &Element, environment: Option<Element>, home: &mut Home) -> Result<(), ImportError> {
+fn add_ceiling_lights(root: &Element, environment: Option<Element>, walls: &Walls, home: &mut Home) -> Result<(), ImportError> {
     let color = |name: &str| -> Result<Rgb, ImportError> {
         let found = environment.map_or(Ok(None), |e| e.color(name))?;
         Ok(found.map_or(Rgb::splat(HOME_LIGHT as f32), |(_, c)| c.map(srgb_from_linear)))
@@ -61,7 +63,6 @@ fn add_ceiling_lights(root: &Element, environment: Option<Element>, home: &mut H
     if of_ceilings.is_black() {
         return Ok(());
     }
-    let default_height = root.number_or("wallHeight", 250.0)?;
     for (index, room) in root.children().filter(|e| e.tag() == "room").enumerate() {
         let level = room.text("level");
         if !room.flag("ceilingVisible", true) || !home.shows(level) {
@@ -76,7 +77,8 @@ fn add_ceiling_lights(root: &Element, environment: Option<Element>, home: &mut H
         }
         let (min, max) = points.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(a, b), p| (a.min(*p), b.max(*p)));
         let center = 0.5 * (min + max);
-        let top = home.level(level).map_or(default_height, |l| l.elevation + l.height);
+        let below_another = home.level(level).filter(|l| !home.is_highest(*l));
+        let top = below_another.map_or_else(|| height_at(center, level, walls, home), |l| l.elevation + l.height);
         let (radius, below) = CEILING_LIGHT;
         let radiance = super::surface::area(&points).abs().sqrt() / 3.0 / HOME_LIGHT;
         let intensity = of_ceilings * of_home * (radiance * PI * radius * radius) as f32;

@@ -3,7 +3,7 @@
 use super::Reader;
 use super::handle::Handle;
 use super::material::Surface;
-use crate::ImportError;
+use crate::{ImportError, images};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, NormalMap, ScalarParam};
 
@@ -35,7 +35,7 @@ impl<'n> Reader<'n, '_> {
                 Bsdf::Dielectric { eta, alpha, transmittance: color(self)?, absorption: Rgb::BLACK }.into()
             }
             "BRDFLight" => {
-                let multiplier = plugin.number("colorMultiplier", 1.0)? as f32;
+                let multiplier = self.plain_number(plugin, "colorMultiplier", 1.0)? as f32;
                 let mut emission = color(self)?;
                 emission.factor *= multiplier * if plugin.flag("compensateExposure", false)? { 1.0 } else { self.exposure };
                 let emits_both_sides = plugin.flag("emitOnBackSide", false)?;
@@ -100,7 +100,7 @@ impl<'n> Reader<'n, '_> {
         let [texture, amount, kind] = names;
         let map = self.color(plugin, texture, Rgb::BLACK)?;
         let Some(texture) = map.texture else { return Ok(None) };
-        let scale = plugin.number(amount, 1.0)? as f32;
+        let scale = self.plain_number(plugin, amount, 1.0)? as f32;
         match plugin.int(kind, if plugin.kind() == "TexNormalBump" { 1 } else { 0 })? {
             0 => {
                 self.warn(plugin, "the strength of the bump is a guess: heights count as units of the scene");
@@ -120,6 +120,19 @@ impl<'n> Reader<'n, '_> {
                 Ok(None)
             }
         }
+    }
+
+    /// A colour parameter that scales something as a share of it and the hue that remains: the largest component, and the colour over it.
+    pub(super) fn share_and_hue(&mut self, plugin: Handle, parameter: &str, color: ColorParam) -> (ScalarParam, Rgb) {
+        let largest = color.factor.max_component();
+        if largest <= 0.0 {
+            return (0.0.into(), Rgb::WHITE);
+        }
+        if color.texture.is_some_and(|texture| !images::is_grey(self.a.image_at(texture.image))) {
+            self.warn(plugin, format!("the texture of {parameter} is coloured; its red channel was used"));
+        }
+        let share = ScalarParam { factor: largest.min(1.0), texture: color.texture.map(|t| (t, 0)) };
+        (share, color.factor / largest)
     }
 }
 
@@ -145,14 +158,4 @@ pub(super) fn blend(under: Bsdf, over: Bsdf, weight: ScalarParam) -> Bsdf {
     } else {
         Bsdf::Blend { first: Box::new(under), second: Box::new(over), weight }
     }
-}
-
-/// A colour that scales something as a share of it and the hue that remains: the largest component, and the colour over it.
-pub(super) fn share_and_hue(color: ColorParam) -> (ScalarParam, Rgb) {
-    let largest = color.factor.max_component();
-    if largest <= 0.0 {
-        return (0.0.into(), Rgb::WHITE);
-    }
-    let share = ScalarParam { factor: largest.min(1.0), texture: color.texture.map(|t| (t, 0)) };
-    (share, color.factor / largest)
 }

@@ -2,13 +2,16 @@
 
 use super::Reader;
 use super::handle::Handle;
-use super::physical::Physical;
+use super::physical::{BY_EXPOSURE_VALUE, Physical};
 use crate::ImportError;
 use enfilade_math::{DMat3, Rgb};
 use std::f64::consts::FRAC_PI_4;
 
 /// V-Ray's size of a picture where `SettingsOutput` does not state it.
 const DEFAULT_SIZE: [f64; 2] = [640.0, 480.0];
+
+/// Angles that are stated twice and differ by less than this were rounded.
+const SAME_ANGLE_RAD: f64 = 1e-6;
 
 impl<'n> Reader<'n, '_> {
     /// Adds the cameras of the scene.
@@ -36,15 +39,27 @@ impl<'n> Reader<'n, '_> {
                 );
                 self.warn(view, message);
             }
-            let stated = settings.map_or(Ok(FRAC_PI_4), |s| s.number("fov", FRAC_PI_4))?;
-            let fov = view.number("fov", stated)?;
             let fov = match physical {
-                Some(camera) => self.physical(camera, fov, aspect)?,
-                None => fov,
+                Some(camera) => self.physical(camera, view.number("fov", FRAC_PI_4)?, aspect)?,
+                None => self.angle(view, settings)?,
             };
             self.a.push_camera(&view.name(), view.transform("transform")?, fov, aspect);
         }
         Ok(())
+    }
+
+    /// The field of view of a camera that is not physical: that of `SettingsCamera`, unless it is below zero, or else the view's.
+    fn angle(&mut self, view: Handle<'n>, settings: Option<Handle<'n>>) -> Result<f64, ImportError> {
+        let own = view.number("fov", FRAC_PI_4)?;
+        let Some(settings) = settings else { return Ok(own) };
+        let stated = settings.number("fov", -1.0)?;
+        if stated <= 0.0 {
+            return Ok(own);
+        }
+        if view.plugin.parameter("fov").is_some() && (stated - own).abs() > SAME_ANGLE_RAD {
+            self.warn(view, format!("its fov is {own}, and the {stated} of SettingsCamera override it"));
+        }
+        Ok(stated)
     }
 
     /// Width over height of the picture.
@@ -103,6 +118,9 @@ impl<'n> Reader<'n, '_> {
         if camera.flag("exposure", true)? {
             let message = format!("all light was multiplied by {:.4}, the camera's exposure; exposure=0 turns that off", self.exposure);
             self.warn(camera, message);
+            if camera.int("exposure", 1)? == BY_EXPOSURE_VALUE {
+                self.warn(camera, "its exposure value was taken for one of ISO 100; V-Ray does not publish its formula");
+            }
             if camera.number("vignetting", 1.0)? != 0.0 {
                 self.warn(camera, "vignetting was left out: the picture does not darken towards its borders");
             }

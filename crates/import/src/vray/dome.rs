@@ -47,7 +47,7 @@ impl<'n> Reader<'n, '_> {
             self.warn(settings, "the background (bg) gives no light in V-Ray (gi is black); here it does");
         }
         if let Some((parameter, value, scale)) = light.or(background) {
-            self.environment(settings, &parameter, &value, scale, DMat3::IDENTITY, 0)?;
+            self.environment(settings, &parameter, &value, scale, 0)?;
         }
         Ok(())
     }
@@ -79,17 +79,17 @@ impl<'n> Reader<'n, '_> {
                 return Ok(());
             }
         };
-        let file_from_dome = dome.transform("transform")?.matrix3;
         if textured && let Some(texture) = dome.value("dome_tex")? {
             if !dome.flag("dome_spherical", false)? {
                 self.warn(dome, "a dome of half a sphere is not supported with a texture; the texture goes all round");
             }
-            return self.environment(dome, "dome_tex", &texture, strength, file_from_dome, 0);
+            return self.environment(dome, "dome_tex", &texture, strength, 0);
         }
         if dome.flag("dome_spherical", false)? {
             self.a.set_environment(Environment::Constant { radiance: strength }, &dome.place());
             return Ok(());
         }
+        let file_from_dome = dome.transform("transform")?.matrix3;
         let row = |i: u32| if i < HALF_DOME_ROWS / 2 { [1.0; 3] } else { [0.0; 3] };
         let pixels = Pixels::RgbF32((0..HALF_DOME_ROWS).map(row).collect());
         let image = self.a.push_image(Image { name: dome.name(), width: 1, height: HALF_DOME_ROWS, pixels });
@@ -98,15 +98,10 @@ impl<'n> Reader<'n, '_> {
     }
 
     /// Sets the environment by the value of a texture parameter.
-    fn environment(
-        &mut self,
-        plugin: Handle<'n>,
-        parameter: &str,
-        value: &Value,
-        scale: Rgb,
-        file_from_light: DMat3,
-        depth: usize,
-    ) -> Result<(), ImportError> {
+    ///
+    /// V-Ray looks textures up by directions in the world, so that a dome's transform does not turn them: what exporters lock to the
+    /// dome they turn by `uvw_matrix`.
+    fn environment(&mut self, plugin: Handle<'n>, parameter: &str, value: &Value, scale: Rgb, depth: usize) -> Result<(), ImportError> {
         if depth > MAX_CHAIN {
             return Err(plugin.error(parameter, "textures refer to each other in a circle; correct the reference that closes it"));
         }
@@ -115,10 +110,10 @@ impl<'n> Reader<'n, '_> {
         {
             match texture.kind() {
                 "TexSky" => return self.sky(texture, scale),
-                "TexBitmap" => return self.environment_map(texture, scale, file_from_light),
+                "TexBitmap" => return self.environment_map(texture, scale),
                 "TexAColor" => {
                     if let Some(value) = texture.value("texture")? {
-                        return self.environment(texture, "texture", &value, scale, file_from_light, depth + 1);
+                        return self.environment(texture, "texture", &value, scale, depth + 1);
                     }
                 }
                 _ => {}
@@ -128,7 +123,7 @@ impl<'n> Reader<'n, '_> {
         let radiance = texture.factor * scale;
         if let Some(picture) = texture.picture {
             self.warn(plugin, format!("{parameter}: the picture was taken for one that goes all round (equirectangular)"));
-            self.a.set_environment_map(picture.image, MapRows::Bands, radiance, file_from_light * z_up_from_map(), &plugin.place());
+            self.a.set_environment_map(picture.image, MapRows::Bands, radiance, z_up_from_map(), &plugin.place());
         } else {
             self.a.set_environment(Environment::Constant { radiance }, &plugin.place());
         }
@@ -136,19 +131,19 @@ impl<'n> Reader<'n, '_> {
     }
 
     /// A picture all round, by the mapping that its `UVWGenEnvironment` says.
-    fn environment_map(&mut self, texture: Handle<'n>, scale: Rgb, file_from_light: DMat3) -> Result<(), ImportError> {
-        let factor = texture.color("color_mult", Rgb::WHITE)? * scale;
+    fn environment_map(&mut self, texture: Handle<'n>, scale: Rgb) -> Result<(), ImportError> {
+        let factor = self.plain_color(texture, "color_mult", Rgb::WHITE)? * scale;
         let Some(mut image) = self.picture(texture)? else {
             self.a.set_environment(Environment::Constant { radiance: factor * super::material::MID_GREY }, &texture.place());
             return Ok(());
         };
-        let mut light_from_map = z_up_from_map();
+        let mut file_from_map = z_up_from_map();
         if let Some(generator) = texture.reference("uvwgen")?.filter(|g| g.kind() == "UVWGenEnvironment") {
             let inverse = generator.transform("uvw_matrix")?.matrix3.inverse();
             if !inverse.is_finite() {
                 return Err(generator.error("uvw_matrix", "the matrix has no inverse; correct it"));
             }
-            light_from_map = inverse * light_from_map;
+            file_from_map = inverse * file_from_map;
             if generator.transform("uvw_transform")? != DAffine3::IDENTITY {
                 self.warn(generator, "a shift or scale of the picture (uvw_transform) is not supported and was left out");
             }
@@ -162,7 +157,7 @@ impl<'n> Reader<'n, '_> {
             }
         }
         self.warn(texture, "how far the picture is turned about the vertical is a guess: its middle lies where y of its own space points");
-        self.a.set_environment_map(image, MapRows::Bands, factor, file_from_light * light_from_map, &texture.place());
+        self.a.set_environment_map(image, MapRows::Bands, factor, file_from_map, &texture.place());
         Ok(())
     }
 

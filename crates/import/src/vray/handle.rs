@@ -118,6 +118,17 @@ impl<'n> Handle<'n> {
         }
     }
 
+    /// True when a parameter that holds a texture states one: black and zero are V-Ray's defaults of such parameters, and `NULL` is none.
+    pub(super) fn states_texture(self, parameter: &str) -> Result<bool, ImportError> {
+        let Some(value) = self.value(parameter)? else { return Ok(false) };
+        Ok(constant(&value).map_or_else(|| value.plugin().is_some_and(|name| name != b"NULL"), |color| !color.is_black()))
+    }
+
+    /// The parameter that counts: the one for a texture, which overrides the plain one where it is stated.
+    pub(super) fn overriding<'p>(self, plain: &'p str, texture: &'p str) -> Result<&'p str, ImportError> {
+        Ok(if self.states_texture(texture)? { texture } else { plain })
+    }
+
     /// Three numbers.
     pub(super) fn vector(self, parameter: &str, default: DVec3) -> Result<DVec3, ImportError> {
         match self.value(parameter)? {

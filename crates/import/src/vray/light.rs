@@ -52,7 +52,7 @@ impl<'n> Reader<'n, '_> {
     /// The strength that a light's parameters state. A texture takes the place of its colour.
     pub(super) fn strength(&mut self, light: Handle<'n>, textured: bool) -> Result<Strength, ImportError> {
         self.warn_of_animation(light, &["intensity", "color", "transform"]);
-        let intensity = light.number("intensity", 1.0)?;
+        let intensity = self.plain_number(light, light.overriding("intensity", "intensity_tex")?, 1.0)?;
         let color = match light.int("color_mode", 0)? {
             _ if textured => Rgb::WHITE,
             1 => {
@@ -63,7 +63,7 @@ impl<'n> Reader<'n, '_> {
                 let color = spectrum::black_body(kelvin);
                 color / color.max_component()
             }
-            _ => self.plain_color(light, "color", Rgb::WHITE)?,
+            _ => self.plain_color(light, light.overriding("color", "color_tex")?, Rgb::WHITE)?,
         };
         let hue = || if color.luminance() > 0.0 { color / color.luminance() } else { Rgb::BLACK };
         let level = f64::from(self.light_level.luminance());

@@ -9,12 +9,12 @@ use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap};
 /// Stands in for surfaces that have no counterpart.
 pub(super) const MID_GREY: f32 = 0.5;
 
-/// A material that was made: where it is in the scene, its name, and the texture channel that its textures use.
+/// A material that was made: where it is in the scene, its name, and the texture channel that its textures use, if it has any.
 #[derive(Clone, Debug)]
 pub(super) struct Made {
     pub index: u32,
     pub name: String,
-    pub channel: i64,
+    pub channel: Option<i64>,
 }
 
 /// What a material or BRDF plugin says of a surface.
@@ -93,7 +93,7 @@ impl<'n> Reader<'n, '_> {
         }
         let name = "no_material".to_string();
         let index = self.a.push_material(Material::diffuse(&name, Rgb::splat(MID_GREY)));
-        let made = Made { index, name, channel: 1 };
+        let made = Made { index, name, channel: None };
         self.materials.insert(usize::MAX, made.clone());
         made
     }
@@ -112,7 +112,7 @@ impl<'n> Reader<'n, '_> {
         material.emits_both_sides = surface.emits_both_sides;
         material.alpha = surface.alpha;
         material.normal_map = surface.normal_map;
-        let made = Made { index: self.a.push_material(material), name, channel: self.channel.unwrap_or(1) };
+        let made = Made { index: self.a.push_material(material), name, channel: self.channel };
         self.materials.insert(plugin.index, made.clone());
         Ok(made)
     }

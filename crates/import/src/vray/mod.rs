@@ -4,10 +4,10 @@
 //! |---|---|
 //! | geometry | `GeomStaticMesh` with its normals, texture channels and material ids, plain or packed; `GeomPlane`, `GeomInfinitePlane` (a square of 2000 units a side); `GeomDisplacedMesh` and `GeomStaticSmoothedMesh` (their base mesh, with a warning) |
 //! | nodes | `Node`: placement, geometry, material, `visible`. Nodes share meshes |
-//! | cameras | `RenderView` with `SettingsOutput`; `CameraPhysical`: field of view, film, focal length, zoom, shifts and offsets |
+//! | cameras | `RenderView` with `SettingsOutput` and the field of view of `SettingsCamera`; `CameraPhysical`: field of view, film, focal length, zoom, shifts and offsets |
 //! | lights | `LightRectangle`, `LightSphere`, `LightMesh`, `LightDome`, `LightDirect`, `LightDirectMax`, `MayaLightDirect`, `LightOmni`, `LightOmniMax`, `LightSpot`, `LightSpotMax`, `LightIES`, `SunLight`; `SettingsEnvironment` |
 //! | materials | `MtlSingleBRDF`, `MtlMulti`; `Mtl2Sided`, `MtlDoubleSided`, `MtlOverride`, `MtlWrapper`, `MtlRenderStats`, `MtlMaterialID`, `MtlRoundEdges` as the material within; `BRDFVRayMtl`, `BRDFDiffuse`, `BRDFMirror`, `BRDFPhong`, `BRDFBlinn`, `BRDFGGX`, `BRDFWard`, `BRDFCookTorrance`, `BRDFGlass`, `BRDFGlassGlossy`, `BRDFLight`, `BRDFLayered`, `BRDFBump` |
-//! | textures | `TexBitmap` with `BitmapBuffer`, `TexAColor`, `TexCombineColor`, `TexInvert`, `TexNormalBump`, and wrappers of one texture; `UVWGenChannel`, `UVWGenMayaPlace2dTexture`, `UVWGenEnvironment`; `TexSky` |
+//! | textures | `TexBitmap` with `BitmapBuffer` and its transfer function, `TexAColor`, `TexCombineColor`, `TexInvert`, `TexNormalBump`, and wrappers of one texture; `UVWGenChannel`, `UVWGenMayaPlace2dTexture`, `UVWGenEnvironment`; `TexSky` |
 //! | units | `SettingsUnitsInfo`: metres per unit, the axis that points up, and the scale of photometric lights |
 //! | skipped in silence | settings of sampling, caches and files; render elements: they say how to render, not what |
 //! | dropped with a warning | every other plugin that a node, light or material leads to, or that would be seen: hair, proxies, volumes, instancers |
@@ -27,7 +27,8 @@
 //!
 //! # Animation
 //!
-//! Of animated parameters the first keyframe is used, with a warning.
+//! Of animated parameters the first keyframe is used, and of a scene that is told moment by moment (`#time`) what is told of each plugin
+//! first, with a warning.
 
 mod bake;
 mod brdf;
@@ -44,6 +45,7 @@ mod plugins;
 mod point_light;
 mod principled;
 mod texture;
+mod transfer;
 mod uvw;
 
 use crate::assembly::Assembly;

@@ -32,12 +32,20 @@ impl<'n> Reader<'n, '_> {
         let placement = node.transform("transform")?;
         let materials = self.materials_of(node)?;
         let by_id = materials.len() > 1;
-        let channel = materials.first().map_or(1, |(_, made)| made.channel);
+        // Materials without textures take any channel.
+        let channel = materials.iter().find_map(|(_, made)| made.channel).unwrap_or(1);
         for (id, mesh) in self.geometry(geometry, channel, by_id)? {
             // Ids beyond the list begin it anew, as in 3ds Max.
             let found = materials.iter().find(|(own, _)| *own == id || !by_id);
             let found = found.or_else(|| materials.get(usize::try_from(id).unwrap_or(0) % materials.len().max(1)));
             let Some((_, made)) = found else { continue };
+            let mesh = match made.channel.filter(|own| *own != channel) {
+                None => mesh,
+                Some(own) => {
+                    let of_channel = self.geometry(geometry, own, by_id)?;
+                    of_channel.into_iter().find_map(|(of, other)| (of == id).then_some(other)).unwrap_or(mesh)
+                }
+            };
             let name = if by_id { format!("{}_{}", node.name(), made.name) } else { node.name() };
             self.a.push_part(&name, mesh, made.index, placement, PartLabel::NONE);
         }

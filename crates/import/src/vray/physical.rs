@@ -20,13 +20,29 @@ const NO_SHIFT: f64 = 1e-9;
 const EXPOSURE_AT_FILM: f64 = 0.65;
 const SATURATION: f64 = 78.0;
 
+/// The value of `exposure` that takes `exposure_value` for ISO, shutter and f-number.
+pub(super) const BY_EXPOSURE_VALUE: i64 = 2;
+
+/// Beyond this, brighter than the sun or darker than any night, an exposure value is a mistake.
+const MAX_EXPOSURE_VALUE: f64 = 64.0;
+
 /// What a camera's exposure multiplies radiance by; 1 where it is turned off.
 ///
 /// White is what saturates a film of this speed by ISO 12232: L · t · S · 0.65 / (78 N²) for a luminance L in cd/m². V-Ray does not
-/// publish its formula; this one gives the brightness of its own picture of Hypersim's empty scene to 0.1 % (docs/vray.md).
+/// publish its formula; this one gives the brightness of its own picture of Hypersim's empty scene to 0.1 % (docs/vray.md). An exposure
+/// value EV is N² / t = 2^EV at ISO 100.
 pub(super) fn exposure(camera: Handle, photometric_scale: f64) -> Result<f64, ImportError> {
-    if !camera.flag("exposure", true)? {
-        return Ok(1.0);
+    match camera.int("exposure", 1)? {
+        0 => return Ok(1.0),
+        BY_EXPOSURE_VALUE => {
+            let ev = camera.number("exposure_value", 0.0)?;
+            if ev.abs() > MAX_EXPOSURE_VALUE {
+                let problem = format!("found {ev}, expected {} to {MAX_EXPOSURE_VALUE}; correct the value", -MAX_EXPOSURE_VALUE);
+                return Err(camera.error("exposure_value", problem));
+            }
+            return Ok(EXPOSURE_AT_FILM * 100.0 / (SATURATION * ev.exp2() * photometric_scale));
+        }
+        _ => {}
     }
     let [speed, shutter, f] = [("ISO", 200.0), ("shutter_speed", 300.0), ("f_number", 8.0)].map(|(parameter, default)| {
         let found = camera.number(parameter, default)?;

@@ -13,11 +13,14 @@ const MAX_INCLUDES_DEEP: usize = 16;
 /// No scene has more files than this.
 const MAX_FILES: usize = 4096;
 
-/// The plugins of a scene in the order in which they are read, an included file in the place of its `#include`.
+/// The plugins of a scene in the order in which they are read, an included file in the place of its `#include`. Of a scene that is told
+/// moment by moment (`#time`), each as it is told first.
 pub(super) struct Plugins {
     list: Vec<(Plugin, usize)>,
     files: Vec<PathBuf>,
     by_name: HashMap<Vec<u8>, usize>,
+    /// True behind a `#time`: a plugin that comes again is the same at another moment.
+    timed: bool,
 }
 
 impl Plugins {
@@ -26,7 +29,7 @@ impl Plugins {
     /// # Errors
     /// When a file cannot be read, is no scene description, or includes itself.
     pub(super) fn read(a: &mut Assembly) -> Result<Self, ImportError> {
-        let mut plugins = Self { list: Vec::new(), files: Vec::new(), by_name: HashMap::new() };
+        let mut plugins = Self { list: Vec::new(), files: Vec::new(), by_name: HashMap::new(), timed: false };
         let bytes = a.read_scene_file()?;
         let file = a.file().to_path_buf();
         plugins.add(bytes, file, &mut Vec::new(), a)?;
@@ -45,6 +48,14 @@ impl Plugins {
         for item in document.items {
             match item {
                 Item::Plugin(plugin) => self.push(plugin, own, a),
+                Item::Time(time) => {
+                    if !std::mem::replace(&mut self.timed, true) {
+                        a.warn(
+                            format!("{}: #time", time.place()),
+                            "the scene is told moment by moment; each plugin was used as it is told first",
+                        );
+                    }
+                }
                 Item::Include(include) => {
                     let path = String::from_utf8_lossy(include.path()).into_owned();
                     self.include(&path, include.place(), &file, open, a)?;
@@ -74,6 +85,9 @@ impl Plugins {
     fn push(&mut self, plugin: Plugin, file: usize, a: &mut Assembly) {
         let index = self.list.len();
         let name = plugin.name().to_vec();
+        if self.timed && self.by_name.contains_key(&name) {
+            return;
+        }
         self.list.push((plugin, file));
         if self.by_name.insert(name, index).is_some() {
             let place = self.at(index).place();

@@ -93,7 +93,8 @@ impl<'n> Reader<'n, '_> {
         if light.number("power", 0.0)? > 0.0 {
             self.warn(light, "its power in lumens was not used: the light is as strong as measured");
         }
-        let tint = if light.plugin.parameter("filter_color").is_some() { "filter_color" } else { "color" };
+        let filtered = light.plugin.parameter("filter_color").is_some();
+        let tint = if filtered { "filter_color" } else { light.overriding("color", "color_tex")? };
         let color = self.plain_color(light, tint, Rgb::WHITE)? * self.light_level * light.number("intensity", 1.0)?.max(0.0) as f32;
         let placement = light.transform("transform")?;
         let m = placement.matrix3;

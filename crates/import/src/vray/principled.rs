@@ -6,12 +6,12 @@
 //! | `reflect` with `fresnel`; `metalness`, `coat_*`, `sheen_*` | principled: `reflect` scales the reflection, roughness = 1 − glossiness (or the glossiness itself with `option_use_roughness`) |
 //! | `reflect` without `fresnel` | a mirror mixed in by its strength |
 //! | `refract` | glass mixed in by its strength; thin with `refract_thin_walled` or an index of 1 |
-//! | `fog_color`, `fog_mult`, `fog_depth` | absorption, −ln(colour) · `fog_mult` per unit, or over `fog_depth` units |
-//! | `opacity`, `opacity_color`, `opacity_mode` | shares of the surface that are there; mode 1 cuts at one half |
+//! | `fog_color`, `fog_color_tex`, `fog_mult`, `fog_depth` | absorption, −ln(colour) · `fog_mult` / `fog_depth` per centimetre, or per unit of the scene where `fog_unit_scale_on` is 0 |
+//! | `opacity`, or `opacity_color` where `opacity_source` is 1; `opacity_mode` | shares of the surface that are there; mode 1 cuts at one half |
 //! | `self_illumination`, `bump_map` | emission, perturbed normals |
 
 use super::Reader;
-use super::brdf::{DEFAULT_IOR, blend, diffuse, mirror, share_and_hue};
+use super::brdf::{DEFAULT_IOR, blend, diffuse, mirror};
 use super::handle::Handle;
 use super::material::{MID_GREY, Surface};
 use crate::ImportError;
@@ -23,6 +23,9 @@ const DARKEST_FOG: f32 = 1e-4;
 
 /// A body whose index of refraction is nearer to 1 than this bends no light.
 const NO_REFRACTION: f64 = 1e-3;
+
+/// Length of the unit that V-Ray measures fog in.
+const CENTIMETRE_M: f64 = 0.01;
 
 /// Parameters without a counterpart and the values at which they do nothing.
 const UNSUPPORTED: [(&str, f64); 5] =
@@ -59,7 +62,7 @@ impl<'n> Reader<'n, '_> {
         }
         let as_roughness = m.flag("option_use_roughness", false)?;
         let roughness = self.roughness(m, "reflect_glossiness", 1.0, as_roughness)?;
-        let (share, hue) = share_and_hue(reflect);
+        let (share, hue) = self.share_and_hue(m, "reflect", reflect);
         if plain && !m.flag("fresnel", false)? {
             let alpha = self.squared(m, roughness);
             return Ok(blend(Bsdf::Diffuse { reflectance: base }, mirror(hue.into(), alpha), share));
@@ -69,7 +72,7 @@ impl<'n> Reader<'n, '_> {
             base_color: base,
             metallic,
             roughness,
-            ior: m.number(ior, DEFAULT_IOR)? as f32,
+            ior: self.plain_number(m, ior, DEFAULT_IOR)? as f32,
             specular: share,
             specular_color: hue.into(),
             clearcoat: coat,
@@ -86,9 +89,9 @@ impl<'n> Reader<'n, '_> {
         if refract.factor.is_black() {
             return Ok(opaque);
         }
-        let (share, hue) = share_and_hue(refract);
+        let (share, hue) = self.share_and_hue(m, "refract", refract);
         let transmittance = ColorParam::from(hue);
-        let ior = m.number("refract_ior", DEFAULT_IOR)?;
+        let ior = self.plain_number(m, "refract_ior", DEFAULT_IOR)?;
         if ior <= 0.0 {
             return Err(m.error("refract_ior", format!("found {ior}, expected a number above zero, such as 1.5; correct the value")));
         }
@@ -105,15 +108,19 @@ impl<'n> Reader<'n, '_> {
 
     /// Absorption within a refracting body, per metre.
     fn fog(&mut self, m: Handle<'n>) -> Result<Rgb, ImportError> {
-        let color = self.plain_color(m, "fog_color", Rgb::WHITE)?;
-        let depth = m.number("fog_depth", 0.0)?;
-        let per_unit = if depth > 0.0 { 1.0 / depth } else { m.number("fog_mult", 1.0)?.max(0.0) };
-        let per_metre = (per_unit / self.a.meters_per_unit()) as f32;
+        let color = self.plain_color(m, m.overriding("fog_color", "fog_color_tex")?, Rgb::WHITE)?;
+        let mut depth = self.plain_number(m, "fog_depth", 1.0)?;
+        if depth <= 0.0 {
+            self.warn(m, format!("fog_depth is {depth} and not above zero, so it was left out"));
+            depth = 1.0;
+        }
+        let unit_m = if m.flag("fog_unit_scale_on", true)? { CENTIMETRE_M } else { self.a.meters_per_unit() };
+        let per_metre = (m.number("fog_mult", 1.0)?.max(0.0) / depth / unit_m) as f32;
         Ok(color.map(|c| -c.clamp(DARKEST_FOG, 1.0).ln() * per_metre))
     }
 
     fn opacity(&mut self, m: Handle<'n>) -> Result<Alpha, ImportError> {
-        let parameter = if m.plugin.parameter("opacity_color").is_some() { "opacity_color" } else { "opacity" };
+        let parameter = if m.int("opacity_source", 0)? == 1 { "opacity_color" } else { "opacity" };
         let opacity = self.scalar(m, parameter, 1.0)?;
         Ok(if opacity == ScalarParam::from(1.0) {
             Alpha::Opaque

@@ -6,7 +6,7 @@ use super::uvw::Placement;
 use super::{MAX_CHAIN, Reader};
 use crate::ImportError;
 use crate::assembly::Source;
-use crate::images::{self, Use};
+use crate::images;
 use enfilade_math::Rgb;
 use enfilade_scene::{ColorParam, Filter, ScalarParam, TextureRef};
 use enfilade_vrscene::Value;
@@ -54,10 +54,28 @@ impl<'n> Reader<'n, '_> {
 
     /// A colour parameter that must not vary: the mean of a texture, with a warning.
     pub(super) fn plain_color(&mut self, plugin: Handle<'n>, parameter: &str, default: Rgb) -> Result<Rgb, ImportError> {
-        let color = self.color(plugin, parameter, default)?;
-        let Some(texture) = color.texture else { return Ok(color.factor) };
+        self.plain_color_of(plugin, parameter, default, 0)
+    }
+
+    /// [`Reader::plain_color`] of a plugin that `depth` others lead to.
+    fn plain_color_of(&mut self, plugin: Handle<'n>, parameter: &str, default: Rgb, depth: usize) -> Result<Rgb, ImportError> {
+        let Some(value) = plugin.value(parameter)?.filter(|value| value.plugin() != Some(b"NULL")) else { return Ok(default) };
+        let texture = self.texture_of(plugin, parameter, &value, depth)?;
+        let Some(picture) = texture.picture else { return Ok(texture.factor) };
         self.warn(plugin, format!("a texture of {parameter} is not supported; its mean colour was used"));
-        Ok(color.factor * self.mean_of(texture.image))
+        Ok(texture.factor * self.mean_of(picture.image))
+    }
+
+    /// A number parameter that must not vary: the mean of a texture, with a warning.
+    pub(super) fn plain_number(&mut self, plugin: Handle<'n>, parameter: &str, default: f64) -> Result<f64, ImportError> {
+        let Some(value) = plugin.value(parameter)?.filter(|value| value.plugin() != Some(b"NULL")) else { return Ok(default) };
+        if value.number().is_some() {
+            return plugin.number(parameter, default);
+        }
+        let number = self.scalar_of(plugin, parameter, &value)?;
+        let Some((picture, channel)) = number.texture else { return Ok(f64::from(number.factor)) };
+        self.warn(plugin, format!("a texture of {parameter} is not supported; its mean was used"));
+        Ok(f64::from(number.factor * self.mean_of(picture.image)[usize::from(channel.min(2))]))
     }
 
     /// A number parameter, or a default.
@@ -148,7 +166,7 @@ impl<'n> Reader<'n, '_> {
             return within(self, parameter);
         }
         match t.kind() {
-            "TexBitmap" => self.bitmap(t),
+            "TexBitmap" => self.bitmap(t, depth),
             "TexCombineColor" => {
                 let (color, mix) = (t.color("color", Rgb::BLACK)?, t.number("texture_multiplier", 1.0)? as f32);
                 let texture = within(self, "texture")?;
@@ -186,9 +204,9 @@ impl<'n> Reader<'n, '_> {
     }
 
     /// A picture on the surface.
-    fn bitmap(&mut self, t: Handle<'n>) -> Result<Texture, ImportError> {
-        let mut factor = t.color("color_mult", Rgb::WHITE)?;
-        if !t.color("color_offset", Rgb::BLACK)?.is_black() {
+    fn bitmap(&mut self, t: Handle<'n>, depth: usize) -> Result<Texture, ImportError> {
+        let mut factor = self.plain_color_of(t, "color_mult", Rgb::WHITE, depth)?;
+        if t.states_texture("color_offset")? {
             self.warn(t, "color_offset is not supported and was left out");
         }
         if t.int("placement_type", 0)? != 0 {
@@ -229,14 +247,7 @@ impl<'n> Reader<'n, '_> {
             Some(found) if !self.a.exists(&file) => found.to_string_lossy().into_owned(),
             _ => file,
         };
-        // V-Ray's gamma is that of the picture, or the one that undoes it, as 3ds Max's exporter writes it.
-        let gamma = buffer.number("gamma", 1.0)?;
-        let space = buffer.int("transfer_function", buffer.int("color_space", 0)?)?;
-        let encoded = space == 2 || gamma != 1.0;
-        if encoded && space != 2 && [2.2, 1.0 / 2.2].iter().all(|usual| (gamma / usual - 1.0).abs() > 0.15) {
-            self.warn(buffer, format!("gamma {gamma} treated as sRGB"));
-        }
-        let usage = if encoded { Use::Color } else { Use::Data };
+        let usage = self.decoding(buffer, &path)?;
         self.a.image(&Source::File(&path), usage, &buffer.place())
     }
 }

@@ -19,6 +19,17 @@ impl Default for Placement {
     }
 }
 
+/// Parameters of `UVWGenMayaPlace2dTexture` without a counterpart and the values at which they do nothing.
+const MAYA_UNSUPPORTED: [(&str, f64); 7] = [
+    ("rotate_frame", 0.0),
+    ("translate_frame_u", 0.0),
+    ("translate_frame_v", 0.0),
+    ("coverage_u", 1.0),
+    ("coverage_v", 1.0),
+    ("noise_u", 0.0),
+    ("noise_v", 0.0),
+];
+
 impl<'n> Reader<'n, '_> {
     /// The placement that a texture's `uvwgen` says.
     pub(super) fn placement(&mut self, texture: Handle<'n>) -> Result<Placement, ImportError> {
@@ -59,13 +70,12 @@ impl<'n> Reader<'n, '_> {
 
     /// uv' = (turned about the middle, then repeated) + offset.
     fn by_maya(&mut self, g: Handle<'n>) -> Result<Placement, ImportError> {
-        let number = |parameter: &str, default: f64| g.number(parameter, default);
-        let (su, sv) = (number("repeat_u", 1.0)?, number("repeat_v", 1.0)?);
-        let (ou, ov) = (number("offset_u", 0.0)?, number("offset_v", 0.0)?);
-        let (sin, cos) = number("rotate_uv", 0.0)?.sin_cos();
-        for idle in ["rotate_frame", "translate_frame_u", "translate_frame_v"] {
-            if number(idle, 0.0)? != 0.0 {
-                self.warn(g, format!("{idle} is not supported and was left out"));
+        let (su, sv) = (self.maya_number(g, "repeat_u", 1.0)?, self.maya_number(g, "repeat_v", 1.0)?);
+        let (ou, ov) = (self.maya_number(g, "offset_u", 0.0)?, self.maya_number(g, "offset_v", 0.0)?);
+        let (sin, cos) = self.maya_number(g, "rotate_uv", 0.0)?.sin_cos();
+        for (parameter, idle) in MAYA_UNSUPPORTED {
+            if self.maya_number(g, parameter, idle)? != idle {
+                self.warn(g, format!("{parameter} is not supported and was left out"));
             }
         }
         let middle = [0.5 - 0.5 * (cos - sin), 0.5 - 0.5 * (sin + cos)];
@@ -76,5 +86,18 @@ impl<'n> Reader<'n, '_> {
             uv_transform: rows.map(|row| row.map(|v| v as f32)),
             wrap: [wrap("mirror_u")?, wrap("mirror_v")?],
         })
+    }
+
+    /// A number, which one of the same name and `_tex` overrides; a texture there is not supported.
+    fn maya_number(&mut self, g: Handle<'n>, parameter: &str, default: f64) -> Result<f64, ImportError> {
+        let texture = format!("{parameter}_tex");
+        if !g.states_texture(&texture)? {
+            return g.number(parameter, default);
+        }
+        if g.value(&texture)?.is_some_and(|value| value.number().is_some()) {
+            return g.number(&texture, default);
+        }
+        self.warn(g, format!("a texture in {texture} is not supported and was left out"));
+        g.number(parameter, default)
     }
 }

@@ -1,8 +1,8 @@
 //! Libraries of models that stand in for our own furniture: folders of glTF, and the furniture catalogues of Sweet Home 3D.
 //!
-//! The `home` crate says what a model is and when one is taken; here the files are found and read. Models of glTF are read at once,
-//! since only they tell what they measure; those of catalogues when a home wants them. The files' contents are inputs of the stage,
-//! and their names are part of its settings, because they tell what a model is.
+//! The `home` crate says what a model is and when one is taken; here the files are found, and read when a home wants them. Those of
+//! glTF are read once before, and let go, since only they tell what they measure. The files' contents are inputs of the stage, and
+//! their names are part of its settings, because they tell what a model is.
 
 mod gltf;
 mod sweethome;
@@ -175,12 +175,14 @@ fn of_root(root: &Path, allow_broken: bool, notes: &Notes, cx: &dyn Cx) -> Resul
     let files = walk(root)?;
     let is =
         |path: &Path, extensions: &[&str]| path.extension().is_some_and(|found| extensions.iter().any(|e| found.eq_ignore_ascii_case(e)));
-    let scenes: Vec<(String, PathBuf)> =
+    let mut scenes: Vec<(String, PathBuf)> =
         files.iter().filter(|path| is(path, &["gltf", "glb"])).map(|path| (name_in(root, path), path.clone())).collect();
     let catalogues: Vec<&PathBuf> = files.iter().filter(|path| is(path, &["sh3f"])).collect();
     let mut pieces = sweethome::pieces(&catalogues)?;
     let known: Vec<&str> = scenes.iter().map(|(name, _)| name.as_str()).chain(pieces.iter().map(|piece| piece.name.as_str())).collect();
     let table = Table::read(&folder_of(root).join(table::NAME), &known, root.is_dir())?;
+    scenes.retain(|(name, _)| table.of(name).wanted);
+    pieces.retain(|piece| table.of(&piece.name).wanted);
     let mut models = Vec::new();
     for (result, (name, _)) in gltf::models(&scenes, &table).into_iter().zip(&scenes) {
         match result {
@@ -189,7 +191,6 @@ fn of_root(root: &Path, allow_broken: bool, notes: &Notes, cx: &dyn Cx) -> Resul
             Err(message) => return Err(refuse_broken(&message)),
         }
     }
-    pieces.retain(|piece| table.of(&piece.name).wanted);
     models.extend(pieces.into_iter().map(|piece| piece.model(&table, notes.clone())));
     Ok(models)
 }

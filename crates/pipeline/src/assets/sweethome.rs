@@ -54,31 +54,32 @@ impl Piece {
     pub fn model(self, table: &Table, notes: Notes) -> Model {
         let choice = table.of(&self.name);
         let families = choice.families_or(&self.piece.title);
-        let size = choice.size.unwrap_or(self.piece.size);
+        let front = choice.front;
+        let size = choice.size.unwrap_or_else(|| front.turned(self.piece.size));
         let archive = self.archive.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
         let (title, elevation, shines) = (self.piece.title.clone(), self.piece.elevation, !self.piece.lights.is_empty());
         let file = format!("{archive}, {}", self.name);
         let licence = choice.licence.clone().unwrap_or_else(|| self.piece.licence.clone());
-        let turn = choice.front.turn();
-        let mut model = Model::new(title, size, families, Box::new(move || self.read(turn, size, &notes).map(Arc::new)));
+        let mut model = Model::new(title, size, families, Box::new(move || self.read(front, size, &notes).map(Arc::new)));
         (model.file, model.licence) = (file, licence);
         (model.elevation, model.shines, model.weight) = (elevation, shines, choice.weight);
         model
     }
 
     /// What it looks like.
-    fn read(&self, turn: DMat3, size: Vec3, notes: &Notes) -> Result<Body, String> {
+    fn read(&self, front: Front, size: Vec3, notes: &Notes) -> Result<Body, String> {
         let imported = self.piece.load(&self.archive).map_err(|error| error.to_string())?;
         imported.report.warnings.into_iter().for_each(|warning| notes.warn(warning));
         // The model and its rotation have y up, furniture z.
         let up = DMat3::from_cols_array(&[1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0]);
         let rotation = up * self.piece.rotation.unwrap_or(DMat3::IDENTITY);
         let place = format!("{}: {}", self.archive.display(), self.piece.model);
-        let mut body = Body::new(imported.scene, turn * rotation, Some(size)).map_err(|problem| format!("{place}: {problem}"))?;
-        let turned = (turn * Front::Z.turn().transpose()).as_mat3();
+        let mut body = Body::new(imported.scene, front.turn() * rotation, Some(size)).map_err(|problem| format!("{place}: {problem}"))?;
+        let turned = (front.turn() * Front::Z.turn().transpose()).as_mat3();
+        let own = front.turned(self.piece.size);
         let moved = |light: &CatalogueLight| {
             let bulb = bulb(light, self.piece.size);
-            Bulb { at: turned * (bulb.at * size / self.piece.size), ..bulb }
+            Bulb { at: (turned * bulb.at) * size / own, ..bulb }
         };
         body.bulbs = self.piece.lights.iter().map(moved).collect();
         Ok(body)

@@ -50,6 +50,14 @@ impl Front {
         };
         DMat3::from_cols(x, y, DVec3::Z)
     }
+
+    /// Width, depth and height, seen from this front, of what has `size` seen from +z.
+    pub fn turned(self, size: Vec3) -> Vec3 {
+        match self {
+            Self::Z | Self::MinusZ => size,
+            Self::X | Self::MinusX => Vec3::new(size.y, size.x, size.z),
+        }
+    }
 }
 
 /// What carries a model.

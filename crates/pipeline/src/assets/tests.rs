@@ -1,9 +1,10 @@
 //! Libraries as users have them: tiny ones, made here, and Poly Haven's furniture where it is.
 
-use super::{home, names};
+use super::{Notes, home, names, of_root, read_library};
 use crate::error::Error;
 use enfilade_home::check::faults;
 use enfilade_home::{Home, HomeConfig, RoomKind};
+use enfilade_math::Vec3;
 use enfilade_scene::{Cx, Quiet, Warning, to_bytes};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -52,14 +53,19 @@ fn glb(size: [f32; 3]) -> Vec<u8> {
 
 /// A catalogue with a wardrobe whose model is a unit cube, a door, and a lamp whose model is not there.
 fn sh3f(file: &Path) {
-    let (corners, triangles) = cuboid([1.0; 3]);
-    let mut obj = "mtllib w.mtl\nusemtl oak\n".to_string();
-    corners.iter().for_each(|[x, y, z]| obj += &format!("v {x} {y} {z}\n"));
-    triangles.iter().map(|t| t.map(|i| i + 1)).for_each(|[a, b, c]| obj += &format!("f {a} {b} {c}\n"));
     let catalogue = "license=CC-BY 3.0\nname#1=Wardrobe\nid#1=t#wardrobe\ncategory#1=Bedroom\nmodel#1=/w/w.obj\nwidth#1=120\ndepth#1=60\n\
         height#1=205.5\ncreator#1=Ann\nmodelRotation#1=0 0 1 0 1 0 -1 0 0\nname#2=Door\ncategory#2=Doors and windows\nmodel#2=/d.obj\n\
         name#3=Lamp\nid#3=t#lamp\ncategory#3=Lights\nmodel#3=/l/l.obj\nwidth#3=30\ndepth#3=30\nheight#3=45\nlightSourceX#3=15\n\
         lightSourceY#3=15\nlightSourceZ#3=30\n";
+    archive(file, catalogue);
+}
+
+/// A catalogue of this text, with a unit cube as the model `/w/w.obj`.
+fn archive(file: &Path, catalogue: &str) {
+    let (corners, triangles) = cuboid([1.0; 3]);
+    let mut obj = "mtllib w.mtl\nusemtl oak\n".to_string();
+    corners.iter().for_each(|[x, y, z]| obj += &format!("v {x} {y} {z}\n"));
+    triangles.iter().map(|t| t.map(|i| i + 1)).for_each(|[a, b, c]| obj += &format!("f {a} {b} {c}\n"));
     let mut archive = zip::ZipWriter::new(std::fs::File::create(file).unwrap());
     let entries =
         [("PluginFurnitureCatalog.properties", catalogue), ("w/w.obj", &obj), ("w/w.mtl", "newmtl oak\nKd 0.4 0.3 0.2\nmap_Kd lost.png\n")];
@@ -197,6 +203,52 @@ fn a_model_that_is_wanted_and_broken_is_an_error_unless_the_user_allows_it() {
     let home = home(&HomeConfig { allow_broken_assets: true, ..config }, &located, &told).unwrap();
     assert_eq!(home.scene.validate(), Ok(()));
     assert!(told.0.lock().unwrap().iter().any(|line| line.contains("l/l.obj") && line.contains("ours stands in")));
+}
+
+#[test]
+fn gltf_is_let_go_until_it_is_wanted_and_that_of_no_family_is_not_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    let bed = folder.path().join("bed.glb");
+    std::fs::write(&bed, glb([1.8, 0.9, 2.1])).unwrap();
+    std::fs::write(folder.path().join("thing.glb"), b"glTF and no more").unwrap();
+    let models = of_root(folder.path(), false, &Notes::default(), &Quiet).expect("nobody looks into the broken file");
+    assert_eq!(models.len(), 2);
+    assert!((models[0].size - Vec3::new(1.8, 2.1, 0.9)).abs().max_element() < 1e-4, "{}", models[0].size);
+    std::fs::remove_file(bed).unwrap();
+    assert!(models[0].body().is_err() && models[1].body().is_err());
+}
+
+#[test]
+fn warnings_about_broken_models_name_their_files() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("armchair.glb"), glb([0.8, 0.9, 0.8])).unwrap();
+    std::fs::write(folder.path().join("bed.glb"), b"glTF and no more").unwrap();
+    std::fs::write(folder.path().join("assets.toml"), "[models.\"armchair.glb\"]\nuse = false\n").unwrap();
+    let told = Told::default();
+    read_library(folder.path(), &told).unwrap();
+    let told = told.0.lock().unwrap();
+    assert!(told.len() == 1 && told[0].starts_with("bed.glb: ") && told[0].contains("left out"), "{told:?}");
+}
+
+#[test]
+fn what_looks_aside_in_a_catalogue_keeps_its_measures_and_its_lights() {
+    let folder = tempfile::tempdir().unwrap();
+    let wide = "name#1=Lamp\nid#1=t#lamp\ncategory#1=Lights\nmodel#1=/w/w.obj\nwidth#1=120\ndepth#1=60\nheight#1=50\n\
+        lightSourceX#1=30\nlightSourceY#1=15\nlightSourceZ#1=40\n";
+    archive(&folder.path().join("few.sh3f"), wide);
+    for (table, size, at) in [
+        ("", [1.2, 0.6, 0.5], [0.3, 0.15, 0.4]),
+        ("front = \"+x\"", [0.6, 1.2, 0.5], [0.15, -0.3, 0.4]),
+        ("front = \"-x\"", [0.6, 1.2, 0.5], [-0.15, 0.3, 0.4]),
+        ("[models.\"t#lamp\"]\nfront = \"+x\"\nsize = [1.2, 1.2, 1.0]\n", [1.2, 1.2, 1.0], [0.3, -0.3, 0.8]),
+    ] {
+        std::fs::write(folder.path().join("assets.toml"), table).unwrap();
+        let models = of_root(folder.path(), false, &Notes::default(), &Quiet).unwrap();
+        let body = models[0].body().unwrap();
+        for (found, expected) in [(models[0].size, size), (body.size(), size), (body.bulbs[0].at, at)] {
+            assert!((found - Vec3::from_array(expected)).abs().max_element() < 1e-5, "{table}: {found}, not {expected:?}");
+        }
+    }
 }
 
 #[test]

@@ -5,16 +5,20 @@
 
 use super::choices::{check_noise, check_positive, check_samples};
 use super::expand::expand;
-use super::locate::{ConfigError, Source as Text};
+use super::locate::{ConfigError, Source as Text, in_words};
 use super::patch::{CarvePatch, GatePatch, PlanPatch, RenderPatch};
 use super::{CameraChoice, CameraConfig, Config, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source};
-use enfilade_explore::Mode;
+use enfilade_dataset::read_ray_grid;
+use enfilade_explore::{ExploreError, Mode};
 use enfilade_home::HomeConfig;
 use enfilade_import::UpAxis;
+use enfilade_post::label::LabelTable;
 use serde::de::{MapAccess, Visitor, value::MapAccessDeserializer};
 use serde::{Deserialize, Deserializer};
+use std::cell::RefCell;
 use std::collections::HashSet;
-use std::path::Path;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 /// Defaults of a dataset that are nobody else's.
@@ -114,7 +118,8 @@ impl<'de> Deserialize<'de> for CameraKey {
     }
 }
 
-/// The configuration in `text`, with `overrides` over it. Environment variables in paths are checked, not replaced.
+/// The configuration in `text`, with `overrides` over it. Environment variables in paths are checked, not replaced. Label tables and
+/// grids of rays are read, to refuse what a late stage could not use.
 pub(super) fn resolve(
     file: &Path,
     text: &str,
@@ -123,7 +128,7 @@ pub(super) fn resolve(
 ) -> Result<Config, ConfigError> {
     let source = Text { file, text };
     let document: Document = toml::from_str(text).map_err(|e| source.toml_error(&e))?;
-    let resolver = Resolver { source, document: &document, overrides, variable };
+    let resolver = Resolver { source, document: &document, overrides, variable, looked_at: RefCell::default() };
     let name = match &document.name {
         Some(name) => resolver.checked_name(name, "name")?,
         None => default_name(file),
@@ -141,6 +146,7 @@ pub(super) fn resolve(
         }
         scenes.push(resolver.scene(keys)?);
     }
+    resolver.check_homes(&scenes)?;
     Ok(Config { base: Default::default(), carried: Default::default(), name, scenes })
 }
 
@@ -156,6 +162,8 @@ struct Resolver<'a> {
     document: &'a Document,
     overrides: &'a Overrides,
     variable: &'a dyn Fn(&str) -> Option<String>,
+    /// Files that were read and found good: scenes share them.
+    looked_at: RefCell<HashSet<PathBuf>>,
 }
 
 impl Resolver<'_> {
@@ -201,7 +209,25 @@ impl Resolver<'_> {
             self.check_camera(&mut scene, camera)?;
         }
         self.override_with_arguments(&mut scene)?;
+        self.check_exploring(&scene, keys)?;
         Ok(scene)
+    }
+
+    /// Refuses what carving and planning would, at the key that says it.
+    fn check_exploring(&self, scene: &SceneConfig, keys: &SceneKeys) -> Result<(), ConfigError> {
+        let document = self.document;
+        let carve = |field: &str| keys.carve.span(field).or_else(|| document.carve.span(field));
+        let plan = |field: &str| keys.plan.span(field).or_else(|| document.plan.span(field));
+        let help = "the defaults are voxel_m = 0.1, extent_m = 30, rays = 262144 and iterations = 5";
+        scene.carve.validate().map_err(|e| self.misset(&e, &carve, keys, help))?;
+        scene.plan.validate().map_err(|e| self.misset(&e, &plan, keys, "the keys of [plan] are explained in docs/trajectories.md"))
+    }
+
+    /// An error of exploring at the key whose place `span` tells; those of a mode stand in its table.
+    fn misset(&self, error: &ExploreError, span: &dyn Fn(&str) -> Option<Range<usize>>, keys: &SceneKeys, help: &str) -> ConfigError {
+        let own = if let ExploreError::Config { field, .. } = error { span(field) } else { None };
+        let place = own.or_else(|| span("mode")).unwrap_or_else(|| keys.name.span());
+        ConfigError { help: Some(help.into()), ..self.source.error(Some(place), error.to_string()) }
     }
 
     fn scene_source(&self, keys: &SceneKeys, seed: u64) -> Result<Source, ConfigError> {
@@ -239,13 +265,13 @@ impl Resolver<'_> {
         }))
     }
 
-    /// A generated home; its seed is the scene's unless it has its own.
+    /// A generated home; its seed is the scene's unless it has its own. That stays whatever the command line says, or all homes of
+    /// a dataset would be one.
     fn home(&self, keys: &Spanned<toml::Table>, seed: u64) -> Result<HomeConfig, ConfigError> {
-        let own = keys.get_ref().contains_key("seed");
         let read: Result<HomeConfig, toml::de::Error> = keys.get_ref().clone().try_into();
         let help = "home = {} takes everything as it comes; home = { seed = 3, rooms = [\"living\", \"kitchen\", \"hall\"] } chooses";
-        let mut home = read.map_err(|e| self.refuse(keys, format!("in `home`: {}", e.message()), help))?;
-        if let Some(seed) = self.overrides.seed.or((!own).then_some(seed)) {
+        let mut home = read.map_err(|e| self.refuse(keys, format!("in `home`: {}", in_words(e.message()).0), help))?;
+        if !names_seed(keys) {
             home.seed = seed;
         }
         home.assets.iter().try_for_each(|path| self.check_path(path, keys))?;
@@ -253,6 +279,21 @@ impl Resolver<'_> {
             Some(problem) => Err(self.refuse(keys, format!("in `home`: {problem}"), help)),
             None => Ok(home),
         }
+    }
+
+    /// Refuses a home that an earlier scene is too: training and test could hold the same. Where both say its seed, it is meant.
+    fn check_homes(&self, scenes: &[SceneConfig]) -> Result<(), ConfigError> {
+        let homes = self.document.scene.iter().zip(scenes).filter_map(|(keys, scene)| Some((keys.home.as_ref()?, scene)));
+        let homes: Vec<(&Spanned<toml::Table>, &SceneConfig)> = homes.collect();
+        for (i, &(keys, scene)) in homes.iter().enumerate() {
+            let meant = |other: &Spanned<toml::Table>| names_seed(keys) && names_seed(other);
+            if let Some((_, earlier)) = homes[..i].iter().find(|(other, earlier)| earlier.source == scene.source && !meant(other)) {
+                let message = format!("the scenes {:?} and {:?} would be the same home", earlier.name, scene.name);
+                let help = "give each a seed, home = { seed = 1 } and home = { seed = 2 }; the same in both if one home is meant";
+                return Err(self.refuse(keys, message, help));
+            }
+        }
+        Ok(())
     }
 
     fn labels(&self, keys: &SceneKeys, name: &str) -> Result<Option<LabelSource>, ConfigError> {
@@ -264,15 +305,25 @@ impl Resolver<'_> {
                 None => return Ok(None),
             },
         };
-        self.check_path(table.get_ref(), table)?;
+        self.check_table(table)?;
         let scene = keys.label_scene.clone().unwrap_or_else(|| name.into());
         Ok(Some(LabelSource { table: table.get_ref().clone(), scene }))
     }
 
+    /// Refuses a label table that the last stages could not use.
+    fn check_table(&self, table: &Spanned<String>) -> Result<(), ConfigError> {
+        let Some(path) = self.new_file(table.get_ref(), table, "label table")? else { return Ok(()) };
+        let refuse = |message: String| self.refuse(table, message, "correct the table, or name another one");
+        let bytes = std::fs::read(&path).map_err(|e| refuse(format!("cannot read the label table {}: {e}", path.display())))?;
+        LabelTable::parse(&bytes, &path.display().to_string()).map(drop).map_err(|e| refuse(e.to_string()))
+    }
+
     /// Refuses a camera that cannot be, and notes which images its matrix is of.
     fn check_camera(&self, scene: &mut SceneConfig, camera: &Spanned<CameraConfig>) -> Result<(), ConfigError> {
-        if let Some(file) = &scene.camera.ray_grid {
-            self.check_path(file, camera)?;
+        if let Some(file) = &scene.camera.ray_grid
+            && let Some(path) = self.new_file(file, camera, "ray grid")?
+        {
+            read_ray_grid(&path, scene.size).map_err(|e| self.refuse(camera, e.to_string(), "docs/cameras.md explains the file"))?;
         }
         if scene.camera.k.is_some() {
             scene.camera.k_size.get_or_insert(scene.size);
@@ -284,8 +335,23 @@ impl Resolver<'_> {
     }
 
     fn check_path<T>(&self, path: &str, place: &Spanned<T>) -> Result<(), ConfigError> {
+        self.expanded(path, place).map(drop)
+    }
+
+    fn expanded<T>(&self, path: &str, place: &Spanned<T>) -> Result<String, ConfigError> {
         let help = "set the variable before running, as in: export NAME=/path/to/folder";
-        expand(path, self.variable).map(drop).map_err(|e| self.refuse(place, e, help))
+        expand(path, self.variable).map_err(|e| self.refuse(place, e, help))
+    }
+
+    /// The file that `path` means, which must be there; `None` when it was looked at before.
+    fn new_file<T>(&self, path: &str, place: &Spanned<T>, what: &str) -> Result<Option<PathBuf>, ConfigError> {
+        let folder = self.source.file.parent().unwrap_or(Path::new(""));
+        let found = folder.join(self.expanded(path, place)?);
+        if !found.is_file() {
+            let help = "check the path for a typing mistake; it begins in the folder of the configuration";
+            return Err(self.refuse(place, format!("there is no {what} {}", found.display()), help));
+        }
+        Ok(self.looked_at.borrow_mut().insert(found.clone()).then_some(found))
     }
 
     fn checked_name(&self, name: &Spanned<String>, what: &str) -> Result<String, ConfigError> {
@@ -364,6 +430,10 @@ impl Resolver<'_> {
             let check = check_positive("time_limit_s", *limit.get_ref());
             check.map_err(|m| self.refuse(limit, m, "for example: time_limit_s = 90; without the key there is no limit"))?;
         }
+        if let Some(radius) = render.filter_radius.as_ref().filter(|v| !(*v.get_ref() >= 0.0 && v.get_ref().is_finite())) {
+            let message = format!("filter_radius must be 0 or more pixels, found {}", radius.get_ref());
+            return Err(self.refuse(radius, message, "for example: filter_radius = 1"));
+        }
         match render.save_every_s.as_ref().filter(|v| !(*v.get_ref() >= 0.0 && v.get_ref().is_finite())) {
             Some(interval) => {
                 let message = format!("save_every_s must be at least 0, found {}", interval.get_ref());
@@ -392,6 +462,11 @@ impl Resolver<'_> {
     }
 }
 
+/// True where a home says its own seed.
+fn names_seed(home: &Spanned<toml::Table>) -> bool {
+    home.get_ref().contains_key("seed")
+}
+
 fn check_frames(frames: u32) -> Result<u32, String> {
     if (1..=MOST_FRAMES).contains(&frames) {
         Ok(frames)
@@ -405,4 +480,39 @@ fn check_size(size: [u32; 2]) -> Result<[u32; 2], String> {
         return Ok(size);
     }
     Err(format!("width and height must lie between 1 and {LARGEST_SIDE} pixels, found {} x {}", size[0], size[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The configuration of a scene for each of these homes.
+    fn homes(homes: &[&str], overrides: &Overrides) -> Result<Config, ConfigError> {
+        let scene = |(i, home): (usize, &&str)| format!("[[scene]]\nname = \"home_{i}\"\nhome = {home}\n");
+        let text: String = homes.iter().enumerate().map(scene).collect();
+        resolve(Path::new("dataset.toml"), &text, overrides, &|_| None)
+    }
+
+    #[test]
+    fn homes_keep_their_own_seeds_whatever_the_command_line_says() {
+        let overrides = Overrides { seed: Some(9), ..Overrides::default() };
+        let config = homes(&["{ seed = 1 }", "{ seed = 2 }", "{}"], &overrides).unwrap();
+        let sources: Vec<Source> = config.scenes.iter().map(|scene| scene.source.clone()).collect();
+        assert_eq!(sources, [1, 2, 9].map(|seed| Source::Home(HomeConfig::of_seed(seed))));
+        assert!(config.scenes.iter().all(|scene| scene.seed == 9));
+    }
+
+    #[test]
+    fn one_home_for_two_scenes_is_refused_unless_both_say_its_seed() {
+        for same in [["{}", "{}"], ["{ seed = 0 }", "{}"], ["{}", "{ seed = 0 }"]] {
+            let error = homes(&same, &Overrides::default()).unwrap_err();
+            let text = error.to_string();
+            let message = "the scenes \"home_0\" and \"home_1\" would be the same home";
+            assert!(text.starts_with("dataset.toml:6:") && text.contains(message), "{text}");
+            assert!(error.help.unwrap().contains("give each a seed"));
+        }
+        for allowed in [["{ seed = 4 }", "{ seed = 4 }"], ["{}", "{ clutter = 0 }"], ["{}", "{ seed = 1 }"]] {
+            assert!(homes(&allowed, &Overrides::default()).is_ok(), "{allowed:?}");
+        }
+    }
 }

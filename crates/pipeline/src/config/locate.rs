@@ -34,10 +34,31 @@ impl fmt::Display for ConfigError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.file.display())?;
         let Some(place) = &self.place else { return write!(f, ": {}", self.message) };
-        let Place { line, column, text, width } = &**place;
+        let (line, column) = (place.line, place.column);
+        let (text, indent, width) = place.excerpt();
         let gutter = line.to_string().len();
-        let marker = "^".repeat((*width).max(1));
-        write!(f, ":{line}:{column}: {}\n  {line} | {text}\n  {:gutter$} | {:indent$}{marker}", self.message, "", "", indent = column - 1)
+        let marker = "^".repeat(width.max(1));
+        write!(f, ":{line}:{column}: {}\n  {line} | {text}\n  {:gutter$} | {:indent$}{marker}", self.message, "", "")
+    }
+}
+
+/// Of a longer line this many characters are shown, ...
+const LONGEST_LINE: usize = 160;
+/// ... up to so many of them before the place.
+const BEFORE_PLACE: usize = 60;
+
+impl Place {
+    /// As much of the line as is shown, and where in it and over how many characters it is marked.
+    fn excerpt(&self) -> (String, usize, usize) {
+        let (start, length) = (self.column - 1, self.text.chars().count());
+        if length <= LONGEST_LINE {
+            return (self.text.clone(), start, self.width);
+        }
+        let first = start.saturating_sub(BEFORE_PLACE);
+        let end = first + LONGEST_LINE;
+        let shown: String = self.text.chars().skip(first).take(LONGEST_LINE).collect();
+        let [before, after] = [first > 0, end < length].map(|is_cut| if is_cut { "…" } else { "" });
+        (format!("{before}{shown}{after}"), start - first + before.chars().count(), self.width.min(end - start))
     }
 }
 
@@ -79,8 +100,45 @@ impl Source<'_> {
             located.help = Some(format!("{}known keys here: {}", proposal.unwrap_or_default(), known.join(", ")));
             return located;
         }
-        self.error(span, error.message().trim().replace('\n', "; "))
+        let (message, value) = in_words(&error.message().trim().replace('\n', "; "));
+        let key = span.as_ref().and_then(|span| self.key_of_text(span)).unwrap_or("");
+        let help = value.map(|value| format!("write {key}{value}"));
+        ConfigError { help, ..self.error(span, message) }
     }
+
+    /// The key before the text at `span`, with its sign; `None` where no text stands there, but a table that holds it.
+    fn key_of_text(&self, span: &Range<usize>) -> Option<&str> {
+        self.text.get(span.clone()).filter(|value| value.starts_with(['"', '\'']))?;
+        let before = self.text[..span.start].rsplit(|c: char| matches!(c, '\n' | '{' | ',' | '[')).next()?;
+        Some(before.trim_start())
+    }
+}
+
+/// What the TOML reader says about a value of a wrong type, with the types in words; and what could stand there instead of a text.
+pub(super) fn in_words(message: &str) -> (String, Option<String>) {
+    let Some((found, expected)) = message.rsplit_once(", expected ") else { return (message.into(), None) };
+    let text = found.strip_prefix("invalid type: string \"").and_then(|text| text.strip_suffix('"'));
+    let is_too_large = found.strip_prefix("invalid value: integer `").is_some_and(|number| !number.starts_with('-'));
+    let (expected, instead) = match expected {
+        "f32" | "f64" => ("a number", text.and_then(number)),
+        "u8" | "u16" | "u32" | "u64" | "usize" if is_too_large => ("a smaller number", None),
+        "u8" | "u16" | "u32" | "u64" | "usize" => {
+            ("a whole number of at least 0", text.filter(|text| text.parse::<u64>().is_ok()).map(str::to_string))
+        }
+        "a boolean" => ("true or false", text.map(str::to_lowercase).filter(|text| matches!(text.as_str(), "true" | "false"))),
+        _ if expected == "a map" || expected.starts_with("struct ") => ("a table, as in { key = value }", None),
+        _ if expected.starts_with("internally tagged enum ") => {
+            ("a table with its kind, as in { kind = \"...\" }", text.map(|kind| format!("{{ kind = \"{kind}\" }}")))
+        }
+        _ => return (message.into(), None),
+    };
+    (format!("{found}, expected {expected}"), instead)
+}
+
+/// The number that a text says, which may be in per cent.
+fn number(text: &str) -> Option<String> {
+    let (digits, unit) = text.trim().strip_suffix('%').map_or((text.trim(), 1.0), |percent| (percent.trim_end(), 100.0));
+    digits.parse::<f64>().ok().filter(|v| v.is_finite()).map(|v| (v / unit).to_string())
 }
 
 /// The names between backticks, in order.
@@ -111,6 +169,38 @@ mod tests {
         let error = source.error(Some(13..18), "not a value");
         assert_eq!(error.to_string(), "a.toml:2:7: not a value\n  2 |   ä = wrong # no\n    |       ^^^^^");
         assert_eq!(source.error(None, "empty").to_string(), "a.toml: empty");
+    }
+
+    #[test]
+    fn long_lines_are_cut_around_the_place() {
+        let text = format!("{}x = wrong{}", "ä".repeat(1000), " ".repeat(1000));
+        let source = Source { file: Path::new("a.toml"), text: &text };
+        let shown = source.error(Some(2004..2009), "not a value").to_string();
+        assert!(shown.starts_with("a.toml:1:1005: not a value\n  1 | …ää") && shown.chars().count() < 320, "{shown}");
+        let [line, marks] = [1, 2].map(|i| shown.lines().nth(i).unwrap().chars().collect::<Vec<_>>());
+        let marked: String = line.iter().zip(&marks).filter(|(_, mark)| **mark == '^').map(|(c, _)| c).collect();
+        assert_eq!(marked, "wrong", "{shown}");
+        // A mark as long as the line is cut with it.
+        let shown = source.error(Some(0..text.len()), "no").to_string();
+        assert!(shown.matches('^').count() == LONGEST_LINE && shown.contains("…\n"), "{shown}");
+    }
+
+    #[test]
+    fn types_are_told_in_words_with_what_to_write() {
+        for (message, words, instead) in [
+            ("invalid type: string \"2%\", expected f32", "string \"2%\", expected a number", Some("0.02")),
+            ("invalid type: string \"1\", expected u32", "expected a whole number of at least 0", Some("1")),
+            ("invalid type: string \"many\", expected u32", "expected a whole number of at least 0", None),
+            ("invalid value: integer `-1`, expected u64", "integer `-1`, expected a whole number of at least 0", None),
+            ("invalid value: integer `9999999999`, expected u32", "expected a smaller number", None),
+            ("invalid type: string \"True\", expected a boolean", "expected true or false", Some("true")),
+            ("invalid type: string \"walk\", expected internally tagged enum Mode", "with its kind", Some("{ kind = \"walk\" }")),
+            ("invalid type: string \"fisheye\", expected struct CameraConfig", "expected a table", None),
+            ("unknown variant `vidio`, expected one of `walk`, `video`", "unknown variant `vidio`, expected one of `walk`", None),
+        ] {
+            let (found, value) = in_words(message);
+            assert!(found.contains(words) && value.as_deref() == instead, "{found}: {value:?}");
+        }
     }
 
     #[test]

@@ -15,7 +15,7 @@ mod tests;
 use crate::error::Error;
 use enfilade_explore::{CarveConfig, PlanConfig, Preset};
 use enfilade_home::HomeConfig;
-use enfilade_import::UpAxis;
+use enfilade_import::{Format, UpAxis};
 use enfilade_math::hash_u64;
 use enfilade_post::view_gates::GateConfig;
 use enfilade_render::RenderConfig;
@@ -187,7 +187,7 @@ impl Quality {
 /// Choices that win over those of the configuration.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
-    /// Seed of everything.
+    /// Seed of everything; homes with a seed of their own keep it.
     pub seed: Option<u64>,
     /// Frames per trajectory.
     pub frames: Option<u32>,
@@ -220,8 +220,13 @@ impl Config {
     ///
     /// # Errors
     /// When it cannot be read, is not TOML, holds an unknown key or a value out of its range, or names an environment variable
-    /// that is not set.
+    /// that is not set, or a label table or a grid of rays that cannot be used.
     pub fn read(file: &Path, overrides: &Overrides) -> Result<Self, Error> {
+        if Format::of(file).is_ok() {
+            let message = format!("{} is a scene; expected a configuration that lists it", file.display());
+            let hint = "write dataset.toml and name that instead:\n\n  [[scene]]\n  name = \"my-room\"\n  file = ";
+            return Err(Error::usage(message, format!("{hint}{:?}", file.display().to_string())));
+        }
         let unreadable =
             |e| Error::usage(format!("cannot read {}: {e}", file.display()), "name a TOML file, or make the demo: enfilade run --demo out");
         let text = std::fs::read_to_string(file).map_err(unreadable)?;

@@ -4,6 +4,7 @@ use enfilade_explore::{CarveConfig, Mode, PlanConfig, Preset, Saliency};
 use enfilade_post::view_gates::{GateAction, GateConfig};
 use enfilade_render::{Filter, RenderConfig};
 use serde::Deserialize;
+use std::ops::Range;
 use toml::Spanned;
 
 /// Defines a section: its keys are the named fields of the target, with the same types.
@@ -23,6 +24,13 @@ macro_rules! section {
                 $(if let Some(value) = &self.$field {
                     target.$field = value.get_ref().clone().into();
                 })*
+            }
+
+            /// Where the value of the field `name` of the target stands, if it is there.
+            #[allow(dead_code)] // not every section is asked
+            pub fn span(&self, name: &str) -> Option<Range<usize>> {
+                let spans = [$((stringify!($field), self.$field.as_ref().map(Spanned::span))),*];
+                spans.into_iter().find(|(field, _)| *field == name)?.1
             }
         }
     };

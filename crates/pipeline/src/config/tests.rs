@@ -101,7 +101,8 @@ fn a_scenes_quality_wins_over_the_samples_of_the_file() {
 
 #[test]
 fn everything_about_a_scene_can_be_said() {
-    let text = "labels = \"all.csv\"\n[import]\nallow_missing_textures = true\n[[scene]]\nname = \"hall\"\nfile = \"$ROOMS/hall.xml\"\n\
+    let text = "labels = \"../../examples/real-rooms/drake_labels.csv\"\n[import]\nallow_missing_textures = true\n\
+        [[scene]]\nname = \"hall\"\nfile = \"$ROOMS/hall.xml\"\n\
         meters_per_unit = 0.4\nup_axis = \"z\"\nlabel_scene = \"modern-hall\"\nenvironment = { file = \"sky.hdr\", rotation_deg = 90 }\n\
         cameras = [\"door\", { position = [0, 1, 1.5], look_at = [3, 1, 1.2] }]\n[[scene]]\nname = \"home\"\nhome = { seed = 5 }\n";
     let config = config(text);
@@ -110,7 +111,7 @@ fn everything_about_a_scene_can_be_said() {
     assert_eq!((file.file.as_str(), file.meters_per_unit, file.up_axis), ("$ROOMS/hall.xml", 0.4, Some(UpAxis::Z)));
     assert!(file.allow_missing_textures);
     assert_eq!(file.environment, Some(EnvironmentChoice { file: "sky.hdr".into(), scale: 1.0, rotation_deg: 90.0 }));
-    assert_eq!(hall.labels, Some(LabelSource { table: "all.csv".into(), scene: "modern-hall".into() }));
+    assert_eq!(hall.labels, Some(LabelSource { table: "../../examples/real-rooms/drake_labels.csv".into(), scene: "modern-hall".into() }));
     assert_eq!(
         hall.cameras,
         [CameraChoice::Named("door".into()), CameraChoice::Placed { position: [0.0, 1.0, 1.5], look_at: [3.0, 1.0, 1.2] }]
@@ -150,17 +151,28 @@ fn cameras_that_cannot_be_are_shown_in_place() {
 #[test]
 fn a_mode_of_trajectories_has_keys_of_its_own() {
     let text = format!(
-        "[plan]\nlevel = true\ncamera_height_m = [1.4, 1.7]\n{SCENE}[scene.plan]\nmode = {{ kind = \"video\", fps = 30 }}\noverlap = [0.2, 0.8]\n"
+        "[plan]\nlevel = true\ncamera_height_m = [1.4, 1.7]\n{SCENE}[scene.plan]\nmode = {{ kind = \"video\", fps = 30 }}\nmin_depth_m = 0.4\n"
     );
     let plan = config(&text).scenes.remove(0).plan;
     let video = VideoConfig { fps: 30.0, ..VideoConfig::default() };
-    assert_eq!((plan.mode, plan.level, plan.camera_height_m, plan.overlap), (Mode::Video(video), true, Some([1.4, 1.7]), Some([0.2, 0.8])));
+    assert_eq!((plan.mode, plan.level, plan.camera_height_m, plan.min_depth_m), (Mode::Video(video), true, Some([1.4, 1.7]), 0.4));
     let text = error(&format!("{SCENE}[scene.plan]\nmode = {{ kind = \"vidio\" }}\n"));
     assert!(text.starts_with("sets/dataset.toml:5:") && text.contains("`vidio`") && text.contains("`keyframes`"), "{text}");
     let text = error(&format!("{SCENE}[scene.plan]\nmode = {{ kind = \"video\", max_sped_m_s = 2 }}\n"));
     assert!(text.starts_with("sets/dataset.toml:5:") && text.contains("did you mean `max_speed_m_s`?"), "{text}");
+    let text = error(&format!("{SCENE}[scene.plan]\nmode = {{ kind = \"walk\", step_m = [1, 1, 0] }}\n"));
+    assert!(text.starts_with("sets/dataset.toml:5:") && text.contains("mode walk has no key `step_m`"), "{text}");
     let text = error(&format!("{SCENE}[scene.plan]\nmode = {{ kind = \"keyframes\", files = [\"$NOWHERE/a.csv\"] }}\n"));
     assert!(text.contains("the environment variable NOWHERE is not set"), "{text}");
+}
+
+#[test]
+fn a_walk_is_a_mode_without_keys() {
+    let text = format!("[plan]\nmode = {{ kind = \"stills\" }}\n{SCENE}[scene.plan]\nmode = {{ kind = \"walk\" }}\n");
+    let mode = config(&text).scenes.remove(0).plan.mode;
+    assert_eq!(mode, Mode::default());
+    let stored = serde_json::to_string(&mode).unwrap();
+    assert_eq!((stored.as_str(), serde_json::from_str::<Mode>(&stored).unwrap()), ("{\"kind\":\"walk\"}", mode));
 }
 
 #[test]
@@ -183,11 +195,83 @@ fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
 #[test]
 fn wrong_types_and_syntax_are_shown_in_place() {
     let text = error("frames = \"many\"\n");
-    assert!(text.starts_with("sets/dataset.toml:1:10: invalid type: string \"many\", expected u32\n  1 | frames = \"many\""), "{text}");
+    let start = "sets/dataset.toml:1:10: invalid type: string \"many\", expected a whole number of at least 0\n  1 | frames = \"many\"";
+    assert!(text.starts_with(start), "{text}");
     let text = error("frames = 3\nname \"x\"\n");
     assert!(text.starts_with("sets/dataset.toml:2:6: "), "{text}");
     assert!(error(&format!("quality = \"best\"\n{SCENE}")).contains("`draft`, `normal`, `high`"));
     assert!(error(&format!("{SCENE}cameras = [3]\n")).contains("a camera's name, or a table"));
+}
+
+#[test]
+fn what_was_meant_by_a_text_is_proposed_with_its_key() {
+    for (text, help) in [
+        (format!("frames = \"1\"\n{SCENE}"), "help: write frames = 1"),
+        (format!("[render]\nnoise = \"2%\"\n{SCENE}"), "help: write noise = 0.02"),
+        (format!("render = {{ samples = 4, splits = \"true\" }}\n{SCENE}"), "help: write splits = true"),
+        (format!("[plan]\nmode = \"walk\"\n{SCENE}"), "help: write mode = { kind = \"walk\" }"),
+        // The reader does not tell where in the table of a mode it is.
+        (format!("[plan]\nmode = {{ kind = \"video\", fps = \"24\" }}\n{SCENE}"), "help: write 24"),
+    ] {
+        let found = error(&text);
+        assert!(found.ends_with(help) && !found.contains("u32") && !found.contains("f32") && !found.contains("enum"), "{found}");
+    }
+}
+
+#[test]
+fn values_that_carving_and_planning_refuse_are_shown_in_place() {
+    for (text, start) in [
+        (format!("[plan]\noverlap = [0.8, 0.3]\n{SCENE}"), "sets/dataset.toml:2:11: overlap = [0.8, 0.3]: expected two shares"),
+        (format!("[plan]\nclearance_m = -1\n{SCENE}"), "sets/dataset.toml:2:15: clearance_m = -1: expected a length"),
+        (format!("[plan]\nmode = {{ kind = \"video\", fps = 0 }}\n{SCENE}"), "sets/dataset.toml:2:8: fps = 0: expected a number"),
+        (
+            format!("[plan]\nmode = {{ kind = \"keyframes\", files = [] }}\n{SCENE}"),
+            "sets/dataset.toml:2:8: files = []: expected at least one file of poses",
+        ),
+        // The one that counts, and not the one that it replaces.
+        (format!("[plan]\nclearance_m = 1\n{SCENE}plan.clearance_m = -1\n"), "sets/dataset.toml:6:20: clearance_m = -1"),
+        (
+            format!("[plan]\noverlap = [0.2, 0.8]\n{SCENE}[scene.plan]\nmode = {{ kind = \"stills\" }}\n"),
+            "sets/dataset.toml:2:11: overlap = [0.2, 0.8] with mode stills: expected mode walk",
+        ),
+        (format!("[carve]\nvoxel_m = 0\n{SCENE}"), "sets/dataset.toml:2:11: voxel_m = 0: expected a positive length"),
+        (format!("[carve]\nrays = 0\n{SCENE}"), "sets/dataset.toml:2:8: rays = 0: expected 64 or more"),
+        (format!("[carve]\niterations = 0\n{SCENE}"), "sets/dataset.toml:2:14: iterations = 0: expected 1 or more"),
+        // A voxel that the given cube cannot hold.
+        (format!("[carve]\nextent_m = 1\n{SCENE}carve.voxel_m = 2\n"), "sets/dataset.toml:2:12: extent_m = 1: expected a length of at"),
+    ] {
+        let found = error(&text);
+        assert!(found.starts_with(start) && !found.ends_with("help: -"), "{found}");
+    }
+}
+
+#[test]
+fn files_of_late_stages_are_read_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("good.csv", "name,nyu40_id\na,7\n");
+    write("class.csv", "name,nyu40_id\na,99\n");
+    write("twice.csv", "name,nyu40_id\na,7\na,8\n");
+    write("header.csv", "thing,kind\na,7\n");
+    let place = folder.path().display().to_string();
+    let read = |text: &str| resolve(&folder.path().join("dataset.toml"), text, &Overrides::default(), &|_| Some(place.clone()));
+    assert!(read(&format!("labels = \"good.csv\"\n{SCENE}")).is_ok());
+    assert!(read(&format!("labels = \"$ROOMS/good.csv\"\n{SCENE}")).is_ok());
+    for (keys, words) in [
+        ("labels = \"nope.csv\"", "there is no label table"),
+        ("labels = \".\"", "there is no label table"),
+        ("labels = \"$ROOMS/class.csv\"", "class.csv:2: class 99 is out of range"),
+        ("labels = \"twice.csv\"", "twice.csv:3: \"a\" is 8"),
+        ("labels = \"header.csv\"", "header.csv:1: no column"),
+        ("camera = { model = \"ray_grid\", ray_grid = \"nope.hdf5\" }", "there is no ray grid"),
+        ("camera = { model = \"ray_grid\", ray_grid = \"good.csv\" }", "good.csv"),
+    ] {
+        let error = read(&format!("{keys}\n{SCENE}")).unwrap_err();
+        let (text, line) = (error.to_string(), error.place.as_ref().map(|place| place.line));
+        assert!(text.contains(words) && line == Some(1) && error.help.is_some(), "{text}");
+    }
+    // A table that no scene uses may be missing: a home knows its own labels.
+    assert!(read("labels = \"nope.csv\"\n[[scene]]\nname = \"home\"\nhome = {}\n").is_ok());
 }
 
 #[test]
@@ -200,6 +284,7 @@ fn values_out_of_range_are_shown_with_an_example() {
         ),
         (format!("[render]\nsamples = 0\n{SCENE}"), "sets/dataset.toml:2:11: samples must be at least 1"),
         (format!("[render]\nnoise = 2\n{SCENE}"), "sets/dataset.toml:2:9: noise must lie between 0 and 1, found 2"),
+        (format!("[render]\nfilter_radius = -1\n{SCENE}"), "sets/dataset.toml:2:17: filter_radius must be 0 or more pixels, found -1"),
         (format!("{SCENE}render.clamp = 0\n"), "sets/dataset.toml:4:16: clamp must be above 0, found 0"),
         (format!("[render]\ntime_limit_s = -1\n{SCENE}"), "sets/dataset.toml:2:16: time_limit_s must be above 0, found -1"),
         (format!("[render]\nsave_every_s = nan\n{SCENE}"), "sets/dataset.toml:2:16: save_every_s must be at least 0, found NaN"),
@@ -254,7 +339,11 @@ fn the_demo_is_one_home_and_takes_overrides() {
 fn the_example_is_a_valid_configuration() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/real-rooms/dataset.toml");
     let text = std::fs::read_to_string(&file).unwrap();
-    let config = resolve(&file, &text, &Overrides::default(), &|_| Some("/scenes".into())).unwrap_or_else(|e| panic!("{e}"));
+    // Its scenes lie elsewhere; so does the label table, which is read.
+    let scenes = tempfile::tempdir().unwrap();
+    std::fs::write(scenes.path().join("material_to_nyu40.csv"), "scene,material,nyu40_id\n").unwrap();
+    let variable = |_: &str| Some(scenes.path().display().to_string());
+    let config = resolve(&file, &text, &Overrides::default(), &variable).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(config.scenes.len(), 8);
     assert!(config.scenes.iter().all(|s| s.labels.is_some()));
 }

@@ -102,7 +102,8 @@ fn start_cameras(job: &Job, cx: &StageCx) -> Result<Vec<StartCamera>, Error> {
         return Ok(scene.cameras.clone());
     }
     let world = job.load_world()?;
-    let found = enfilade_explore::find_starts(&world.mesh, &world.bvh, &StartsConfig::default(), cx);
+    let config = StartsConfig { max_spread_m: job.scene.carve.extent_m, ..StartsConfig::default() };
+    let found = enfilade_explore::find_starts(&world.mesh, &world.bvh, &config, cx);
     if found.is_empty() {
         let message = "the scene has no camera, and no place was found where one could stand";
         return Err(Error::scene(message, "say where to begin: cameras = [{ position = [x, y, z], look_at = [x, y, z] }] (metres, z up)"));

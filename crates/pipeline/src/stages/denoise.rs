@@ -49,13 +49,21 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     Ok(Outcome { summary, outputs: outputs(job, &frames), ..Outcome::default() })
 }
 
-/// Opens the library where the scene is to be denoised for the first time.
+/// Opens the library where the scene is to be denoised for the first time, and others have not done so.
 ///
 /// # Errors
 /// When it cannot be had.
 pub(crate) fn check_denoiser(job: &Job) -> Result<(), Error> {
-    let first = job.scene.denoise && !job.work_file("denoise.json")?.is_file();
-    if first { open(job).map(drop) } else { Ok(()) }
+    if !job.scene.denoise || job.work_file("denoise.json")?.is_file() {
+        return Ok(());
+    }
+    for (camera, frame) in job.frames()? {
+        let hash = denoise_hash(job, &camera, frame)?;
+        if !job.dataset.denoised_are_complete(&job.scene.name, &camera, frame, &hash) {
+            return open(job).map(drop);
+        }
+    }
+    Ok(())
 }
 
 /// The library that the configuration names, else the environment, else the system's.

@@ -4,14 +4,13 @@ use super::{Input, Inputs, Job, Outcome, Record, Stage, import};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, read_json};
-use enfilade_dataset::MeshFiles;
+use enfilade_dataset::{ANNOTATION_LOG, MeshFiles, scene_hash};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_post::label::{LabelReport, LabelTable, SplitParts, join, part_names};
-use enfilade_scene::{Cx, Labels, PartLabel, Warning};
-use std::path::PathBuf;
+use enfilade_scene::{Cx, Labels, PartLabel, Scene, Warning};
+use std::path::{Path, PathBuf};
 
-/// The log of `enfilade annotate`; the tables beside it are what it says.
-const ANNOTATION_LOG: &str = "annotation_log.jsonl";
+/// What `enfilade annotate` writes beside its log.
 const ANNOTATION_TABLES: [&str; 4] = ["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5", "mesh_faces_oi.hdf5", SPLITS];
 /// Which objects are pieces of others, where parts were split.
 const SPLITS: &str = "metadata_object_splits.csv";
@@ -27,17 +26,17 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     if let Some(labels) = &job.scene.labels {
         inputs.push(Input::of(&job.config.path(&labels.table)?)?);
     }
-    if is_annotated(job) {
+    if annotated_scene(job)?.is_some() {
         inputs.extend(annotation_tables(job).iter().map(|path| Input::of(path)).collect::<Result<Vec<_>, _>>()?);
     }
     inputs.extend(job.frame_records()?);
     Ok(Some(inputs))
 }
 
-/// True when `enfilade annotate` keeps the scene's labels: then its tables count, whatever else there is.
-fn is_annotated(job: &Job) -> bool {
+/// Which scene people labelled in `enfilade annotate`, by its hash, if they did: then its tables count, whatever else there is.
+fn annotated_scene(job: &Job) -> Result<Option<String>, Error> {
     let files = job.dataset.mesh_files(&job.scene.name);
-    files.file(ANNOTATION_LOG).is_file() && files.file(ANNOTATION_TABLES[0]).is_file()
+    if files.file(ANNOTATION_TABLES[0]).is_file() { files.annotated_scene().map_err(Error::stage) } else { Ok(None) }
 }
 
 /// The tables of an annotation that are there: without split parts one is not.
@@ -60,7 +59,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let labelled = labels.parts.iter().filter(|l| l.semantic >= 1).count();
     let parts = count(labels.parts.len(), "part");
     let mut summary = format!("{labelled} of {parts} have a class, in {}", count(frames.len(), "frame"));
-    if is_annotated(job) {
+    if annotated_scene(job)?.is_some() {
         summary.push_str(", as annotated");
     } else if labelled == 0 && job.scene.labels.is_none() {
         summary.push_str("; the scene comes without labels and no table is given");
@@ -70,8 +69,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 
 /// What is known of a scene, with the report of how it became known; the label tables are written.
 pub(super) fn known(job: &Job, cx: &StageCx) -> Result<(Known, serde_json::Value), Error> {
-    if is_annotated(job) {
-        return Ok((annotated(job, cx)?, serde_json::Value::Null));
+    if let Some(annotated_as) = annotated_scene(job)? {
+        return Ok((annotated(job, &annotated_as, cx)?, serde_json::Value::Null));
     }
     if job.dataset.mesh_files(&job.scene.name).file(SPLITS).is_file() {
         // Parts were split by an annotation that is put aside now: objects are whole again.
@@ -98,10 +97,13 @@ impl Known {
     }
 }
 
-/// What people annotated.
-fn annotated(job: &Job, cx: &StageCx) -> Result<Known, Error> {
+/// What people annotated in the scene that `annotated_as` names.
+fn annotated(job: &Job, annotated_as: &str, cx: &StageCx) -> Result<Known, Error> {
     let files: MeshFiles = job.dataset.mesh_files(&job.scene.name);
     let scene = job.load_scene()?;
+    if hash_of(&scene) != annotated_as {
+        return Err(other_scene(job, &files));
+    }
     let (labels, split) = (files.read_labels().map_err(Error::stage)?, SplitParts::read(&files, &scene).map_err(Error::stage)?);
     let pieces = scene.parts.len() + split.as_ref().map_or(0, SplitParts::count);
     if labels.parts.len() != pieces {
@@ -117,6 +119,26 @@ fn annotated(job: &Job, cx: &StageCx) -> Result<Known, Error> {
     Ok(Known { labels, split })
 }
 
+/// The parts are not those that people labelled: the labels would go to others.
+fn other_scene(job: &Job, files: &MeshFiles) -> Error {
+    let message = format!(
+        "{} is about another scene: its parts have other names, another order or other numbers of faces than those of the scene package",
+        files.file(ANNOTATION_LOG).display()
+    );
+    let mut hint = "import the scene as it was annotated, or move the log away to label anew".to_string();
+    let (table, out, name) = (files.file("labels.csv"), job.out().display(), &job.scene.name);
+    if table.is_file() {
+        let command = format!("enfilade label {out} --scene {name} --table {}", table.display());
+        hint = format!("{hint}; with the log away, this keeps labels by the names of parts: {command}");
+    }
+    Error::scene(message, hint)
+}
+
+/// By what an annotation knows a scene. Names are as the mesh folder's tables give them back.
+fn hash_of(scene: &Scene) -> String {
+    scene_hash(scene.parts.iter().map(|part| (part.name.trim(), scene.meshes[part.mesh as usize].triangles.len())))
+}
+
 /// From the table if there is one, else what came with the scene, else none.
 fn labels_of(job: &Job, cx: &StageCx) -> Result<(Labels, serde_json::Value), Error> {
     let scene = job.load_scene()?;
@@ -126,11 +148,18 @@ fn labels_of(job: &Job, cx: &StageCx) -> Result<(Labels, serde_json::Value), Err
         return Ok((labels, serde_json::Value::Null));
     };
     let path = job.config.path(&source.table)?;
-    let bytes = std::fs::read(&path).map_err(Error::io("read the label table", &path))?;
-    let table = LabelTable::parse(&bytes, &path.display().to_string()).map_err(Error::stage)?;
-    let (labels, report) = table.assign(&source.scene, &part_names(&scene));
+    let (labels, report) = read_table(&path)?.assign(&source.scene, &part_names(&scene));
     warn_about(&report, &path.display().to_string(), &source.scene, cx);
     Ok((labels, serde_json::to_value(&report).unwrap_or_default()))
+}
+
+/// Reads a table of labels.
+///
+/// # Errors
+/// When it cannot be read, or is no such table.
+pub(crate) fn read_table(path: &Path) -> Result<LabelTable, Error> {
+    let bytes = std::fs::read(path).map_err(Error::io("read the label table", path))?;
+    LabelTable::parse(&bytes, &path.display().to_string()).map_err(Error::stage)
 }
 
 fn warn_about(report: &LabelReport, table: &str, scene: &str, cx: &StageCx) {

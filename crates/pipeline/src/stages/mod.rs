@@ -32,6 +32,7 @@ pub(crate) use denoise::check_denoiser;
 pub(crate) use finisher::frame_finisher;
 pub(crate) use import::{describe, labels_by_part, load_file};
 pub(crate) use job::{FramesByTrajectory, Job, World};
+pub(crate) use label::read_table;
 pub(crate) use pilot::pilot;
 pub(crate) use plan_preview::draw_plan;
 pub(crate) use progressive::{FOLDER as PARTIALS, file_name as kept_part};
@@ -79,7 +80,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Import,
         name: "import",
         about: "scene file -> scene package",
-        version: 5,
+        version: 6,
         settings: import::settings,
         inputs: import::inputs,
         run: import::run,
@@ -88,7 +89,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Carve,
         name: "carve",
         about: "scene -> free space (octomap.bt)",
-        version: 3,
+        version: 4,
         settings: carve::settings,
         inputs: carve::inputs,
         run: carve::run,
@@ -97,7 +98,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Plan,
         name: "plan",
         about: "scene, free space -> camera trajectories",
-        version: 5,
+        version: 6,
         settings: plan::settings,
         inputs: plan::inputs,
         run: plan::run,
@@ -115,7 +116,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Render,
         name: "render",
         about: "scene, trajectories -> frames",
-        version: 8,
+        version: 9,
         settings: render::settings,
         inputs: render::inputs,
         run: render::run,
@@ -160,7 +161,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Verify,
         name: "verify",
         about: "dataset -> report card",
-        version: 4,
+        version: 5,
         settings: verify::settings,
         inputs: verify::inputs,
         run: verify::run,

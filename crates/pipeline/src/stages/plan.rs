@@ -49,13 +49,12 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let fov_x_rad = camera.projection.fov_x_rad(std::f64::consts::TAU);
     let mut reports = Vec::new();
     let mut filmed: Vec<(Trajectory, Option<StereoRecord>)> = Vec::new();
-    for (index, Planned { trajectory, mut report }) in plan_all(job, &starts, &camera, cx)?.into_iter().enumerate() {
+    for (number, Planned { trajectory, report }) in plan_all(job, &starts, &camera, cx)?.into_iter().enumerate() {
         match job.scene.camera.stereo {
             None => filmed.push((trajectory, None)),
-            Some(stereo) => filmed.extend(rig(trajectory, index, stereo.baseline_m)),
+            Some(stereo) => filmed.extend(rig(trajectory, number, stereo.baseline_m)),
         }
-        // The report is of the planned camera, which is the left one of a rig.
-        report.trajectory = filmed[if job.scene.camera.stereo.is_some() { 2 * index } else { index }].0.name.clone();
+        // Of a rig it is the left camera's, which is the one that was planned.
         reports.push(report);
     }
     let trajectories: Vec<Trajectory> = filmed.iter().map(|(trajectory, _)| trajectory.clone()).collect();
@@ -148,9 +147,10 @@ fn plan_config(job: &Job, camera: &Camera) -> PlanConfig {
 /// One trajectory per start camera, or per file of poses made by hand. A camera from which none can begin is left out with a
 /// warning, as long as one remains.
 fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) -> Result<Vec<Planned>, Error> {
+    let config = plan_config(job, camera);
+    config.validate().map_err(Error::stage)?;
     let world = job.load_world()?;
     let space = free_space(job)?;
-    let config = plan_config(job, camera);
     if let Mode::Keyframes(keyframes) = &config.mode {
         return follow_all(job, &keyframes.files, &world, &space, &config, cx);
     }
@@ -161,7 +161,8 @@ fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) ->
     let mut planned = Vec::new();
     let mut first_error = None;
     for (index, start) in starts.iter().enumerate() {
-        match enfilade_explore::plan_accepted(&world.mesh, &world.bvh, &space, start, index as u32, &config, &accepts, cx) {
+        let name = trajectory_name(job.scene.camera.stereo.is_some(), index, planned.len());
+        match enfilade_explore::plan_accepted(&world.mesh, &world.bvh, &space, start, &name, index as u32, &config, &accepts, cx) {
             Ok(found) => planned.push(found),
             Err(error) => {
                 let message = format!("no trajectory begins here: {error}");
@@ -198,7 +199,8 @@ fn follow_all(
         let path = job.config.path(file)?;
         let text = std::fs::read_to_string(&path).map_err(Error::io("read", &path))?;
         let keyframes: Vec<Keyframe> = parse_keyframes(&path.display().to_string(), &text).map_err(misread)?;
-        let found = enfilade_explore::follow(&world.mesh, &world.bvh, space, &keyframes, index as u32, config, cx).map_err(Error::stage)?;
+        let name = trajectory_name(job.scene.camera.stereo.is_some(), index, planned.len());
+        let found = enfilade_explore::follow(&world.mesh, &world.bvh, space, &keyframes, &name, config, cx).map_err(Error::stage)?;
         planned.push(found);
     }
     Ok(planned)
@@ -208,15 +210,22 @@ fn misread(error: ExploreError) -> Error {
     Error::scene(error.to_string(), "correct the file; its format is explained in docs/trajectories.md")
 }
 
-/// The planned trajectory number `index` as the left camera of a rig, and the right one's: `cam_00` and `cam_01`, `cam_02` and
-/// `cam_03`, …
-fn rig(planned: Trajectory, index: usize, baseline_m: f64) -> [(Trajectory, Option<StereoRecord>); 2] {
-    let [left, right] = [0, 1].map(|side| format!("cam_{:02}", 2 * index + side));
-    let beside = planned.beside(right.clone(), baseline_m);
-    [
-        (Trajectory { name: left.clone(), ..planned }, Some(StereoRecord::new(StereoSide::Left, right, baseline_m))),
-        (beside, Some(StereoRecord::new(StereoSide::Right, left, baseline_m))),
-    ]
+/// The name of the trajectory from start or file number `index`, which comes after `before` others; that of its left camera where each
+/// is one of a rig. A start without a trajectory leaves a gap in the numbers of single cameras, and none in those of rigs.
+fn trajectory_name(is_rig: bool, index: usize, before: usize) -> String {
+    camera_name(if is_rig { 2 * before } else { index })
+}
+
+fn camera_name(number: usize) -> String {
+    format!("cam_{number:02}")
+}
+
+/// The trajectory of the left camera of rig `number`, and the right one's: `cam_00` and `cam_01`, `cam_02` and `cam_03`, …
+fn rig(left: Trajectory, number: usize, baseline_m: f64) -> [(Trajectory, Option<StereoRecord>); 2] {
+    let right = left.beside(camera_name(2 * number + 1), baseline_m);
+    let of_left = StereoRecord::new(StereoSide::Left, right.name.clone(), baseline_m);
+    let of_right = StereoRecord::new(StereoSide::Right, left.name.clone(), baseline_m);
+    [(left, Some(of_left)), (right, Some(of_right))]
 }
 
 /// Every file that says where the cameras are, as inputs of later stages.
@@ -264,5 +273,22 @@ fn remove_folder(path: &Path) -> Result<(), Error> {
     match std::fs::remove_dir_all(path) {
         Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io("remove", path)(e)),
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trajectories_of_rigs_are_named_by_their_left_cameras() {
+        assert_eq!([0, 1].map(|index| trajectory_name(false, index, index)), ["cam_00", "cam_01"]);
+        assert_eq!([0, 1].map(|index| trajectory_name(true, index, index)), ["cam_00", "cam_02"]);
+        // From the first start there is none.
+        assert_eq!([false, true].map(|is_rig| trajectory_name(is_rig, 1, 0)), ["cam_01", "cam_00"]);
+        let left = Trajectory { name: trajectory_name(true, 1, 1), poses: Vec::new() };
+        let [(left, of_left), (right, of_right)] = rig(left, 1, 0.1);
+        assert_eq!((left.name.as_str(), right.name.as_str()), ("cam_02", "cam_03"));
+        assert_eq!([of_left, of_right].map(|record| record.unwrap().partner), ["cam_03", "cam_02"]);
     }
 }

@@ -40,7 +40,12 @@ pub(super) fn render(
     let time = Stopwatch::start();
     let (mut over, mut kept_s) = (false, 0.0);
     while !rendering.is_done() && !over {
-        rendering.pass(cx);
+        if job.scene.time_limit_s.is_some() {
+            // The first pass may take many times as long as the frame should.
+            rendering.short_pass(cx);
+        } else {
+            rendering.pass(cx);
+        }
         let now_s = time.wall_s();
         over = job.scene.time_limit_s.is_some_and(|limit| now_s >= limit);
         let ends = job.shift.is_some_and(|shift| shift.stop.load(Ordering::Relaxed));

@@ -106,6 +106,7 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
     let (mut done, mut timed_out) = (kept, 0);
     for Missing { camera, trajectory, config, frames } in missing {
         let views = views(camera, trajectory);
+        cx.progress("learning where light comes from", done as u64, total as u64);
         let guide = Guide::learn(&scene, &views, config);
         for info in frames {
             let Some(index) = views.iter().position(|view| view.pose().frame == info.pose.frame) else { continue };

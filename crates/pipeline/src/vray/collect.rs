@@ -7,6 +7,7 @@ use super::exr_file::VrayImage;
 use super::geometry::{Placed, add_geometry};
 use super::header::Expected;
 use super::notes::Notes;
+use super::rays::Sight;
 use crate::error::Error;
 use crate::report::count;
 use crate::workdir::{Hash, WORKDIR, Workdir, remove_if_there};
@@ -36,7 +37,7 @@ pub struct CollectConfig {
     pub meters_per_unit: f64,
     /// The camera that was rendered, where it is not the dataset's own.
     pub wish: CameraWish,
-    /// A camera in an image's header that is not the trajectory's is a warning.
+    /// A camera in an image's header that is not the trajectory's, or positions that are not on its rays, are a warning.
     pub ignore_camera: bool,
     /// Read images again whose frames are there.
     pub force: bool,
@@ -166,6 +167,8 @@ impl Source {
         let image = open(&paths.geometry, notes)?;
         let (meters_per_unit, meters_in_dataset) = (config.meters_per_unit, self.meters_in_dataset);
         add_geometry(&mut frame, &image, &Placed { pose, meters_per_unit, meters_in_dataset, entities: &self.entities }, notes)?;
+        let sight = Sight { projection: &self.camera.projection, pose, meters_per_unit: meters_in_dataset };
+        sight.check(&frame, &image.name(), config.ignore_camera, notes)?;
         let geometry_s = image.header.rendering_s.unwrap_or(0.0);
         drop(image);
         let image = open(&paths.beauty, notes)?;

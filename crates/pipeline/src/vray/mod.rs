@@ -15,6 +15,7 @@ mod header;
 mod job;
 mod lens;
 mod notes;
+mod rays;
 mod script;
 mod steps;
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! Animations of a camera's frames.
 
 use super::exposure::measure;
-use super::read_present;
 use crate::animation::{Animation, AnimationError, AnimationFormat};
 use crate::exposure::display_exposure;
 use crate::picture::Picture;
@@ -91,16 +90,18 @@ pub enum AnimateError {
         /// What is wrong.
         source: AnimationError,
     },
-    /// Nothing to show.
-    #[error("{scene}/{camera} has no frame with {}", layers.join(", "))]
-    NoFrames {
-        /// Name of the scene.
-        scene: String,
-        /// Name of the camera.
-        camera: String,
-        /// The layers that were asked for.
-        layers: Vec<&'static str>,
-    },
+}
+
+/// No frame of a camera has what a film shows.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{scene}/{camera} has no frame with {}", layers.join(", "))]
+pub struct NoFrames {
+    /// Name of the scene.
+    pub scene: String,
+    /// Name of the camera.
+    pub camera: String,
+    /// The layers that were asked for.
+    pub layers: Vec<&'static str>,
 }
 
 /// The frames of one camera.
@@ -111,13 +112,15 @@ struct Shot<'a> {
     camera: &'a str,
 }
 
-/// Writes `<scene>_<camera>_<name>.<format>` to `folder` for each film, and returns what was written in that order.
+/// Writes `<scene>_<camera>_<name>.<format>` to `folder` for each film of which any frame has the layers, and returns what came of each in
+/// that order.
 ///
-/// Every film has one exposure and one range for all frames, but `tonemap`, which is Hypersim's and has that of each frame. A
-/// frame that is missing between others leaves its time to the one before.
+/// Every film has one exposure and one range for all frames, but `tonemap`, which is Hypersim's and has that of each frame. All begin with
+/// the first frame of the camera, or of either camera of a rig. A frame that is missing leaves its time to the one before, and at the
+/// beginning to the one after.
 ///
 /// # Errors
-/// When no frame has the layers of a film, or something cannot be read, encoded or written.
+/// When something cannot be read, encoded or written.
 pub fn animate_camera(
     dataset: &Dataset,
     [scene, camera]: [&str; 2],
@@ -125,37 +128,56 @@ pub fn animate_camera(
     config: AnimateConfig,
     folder: &Path,
     cx: &dyn Cx,
-) -> Result<Vec<Animated>, AnimateError> {
+) -> Result<Vec<Result<Animated, NoFrames>>, AnimateError> {
     let shot = Shot { dataset, scene, camera };
     let numbers = dataset.frame_numbers(scene, camera)?;
+    dataset.warn_of_incomplete([scene, camera], &numbers, None, cx)?;
+    let first = shot.first(&numbers)?;
     let display = display_exposure(&measure(dataset, [scene, camera], &numbers)?);
     let frame_time_s = dataset.read_frame_time(scene, camera)?;
     let timed = if frame_time_s < 1.0 { 1.0 / frame_time_s } else { STILLS_PER_SECOND };
     let fps = config.fps.unwrap_or(timed);
     let done = AtomicU64::new(0);
-    let one = |film: &Film| {
+    let one = |film: &Film| -> Result<Result<Animated, NoFrames>, AnimateError> {
         let path = folder.join(format!("{scene}_{camera}_{}.{}", film.name, config.format.name()));
         let there = shot.numbers_with(&numbers, &film.layers());
         if there.is_empty() {
             let layers = film.layers().iter().map(|layer| layer.spec().name).collect();
-            return Err(AnimateError::NoFrames { scene: scene.into(), camera: camera.into(), layers });
+            return Ok(Err(NoFrames { scene: scene.into(), camera: camera.into(), layers }));
         }
-        let bytes = shot.encode(*film, &there, display, config.format, fps)?;
+        let bytes = shot.encode(*film, (first, &there), display, config.format, fps)?;
         let animated = Animated { path, frames: there.len(), fps, bytes: bytes.len() as u64 };
         write_bytes(&animated.path, bytes)?;
         cx.progress("animations", done.fetch_add(1, Ordering::Relaxed) + 1, films.len() as u64);
-        Ok(animated)
+        Ok(Ok(animated))
     };
     films.par_iter().map(one).collect()
 }
 
 impl Shot<'_> {
+    /// The frame with which every film of the camera begins, so that they are in step, also with those of the other camera of a rig.
+    fn first(&self, numbers: &[u32]) -> Result<u32, DatasetError> {
+        let beside = match self.dataset.read_stereo(self.scene, self.camera)? {
+            Some(stereo) => self.dataset.frame_numbers(self.scene, &stereo.partner)?,
+            None => Vec::new(),
+        };
+        Ok(numbers.iter().chain(&beside).copied().min().unwrap_or(0))
+    }
+
     fn numbers_with(&self, numbers: &[u32], layers: &[Layer]) -> Vec<u32> {
         let has_all = |&number: &u32| layers.iter().all(|&layer| self.dataset.gives_layer(self.scene, self.camera, number, layer));
         numbers.iter().copied().filter(has_all).collect()
     }
 
-    fn encode(&self, film: Film, numbers: &[u32], display: ToneMap, format: AnimationFormat, fps: f64) -> Result<Vec<u8>, AnimateError> {
+    /// The film of the frames `numbers`, which begins when frame `first` would.
+    fn encode(
+        &self,
+        film: Film,
+        (first, numbers): (u32, &[u32]),
+        display: ToneMap,
+        format: AnimationFormat,
+        fps: f64,
+    ) -> Result<Vec<u8>, AnimateError> {
         let stretch = self.stretch(film, numbers)?;
         let unencodable = |source| AnimateError::Animation { scene: self.scene.into(), camera: self.camera.into(), source };
         let mut animation: Option<Animation> = None;
@@ -163,7 +185,8 @@ impl Shot<'_> {
             let pictures: Vec<Picture> =
                 batch.par_iter().map(|&i| self.picture(film, numbers[i], display, stretch.as_ref())).collect::<Result<_, _>>()?;
             for (&i, picture) in batch.iter().zip(&pictures) {
-                let times = numbers.get(i + 1).map_or(1, |next| next - numbers[i]);
+                let before = if i == 0 { numbers[0] - first } else { 0 };
+                let times = numbers.get(i + 1).map_or(1, |next| next - numbers[i]).saturating_add(before);
                 let begun = match &mut animation {
                     Some(begun) => begun,
                     None => animation.insert(Animation::begin(format, picture.dimensions(), fps).map_err(unencodable)?),
@@ -175,7 +198,7 @@ impl Shot<'_> {
     }
 
     fn picture(&self, film: Film, number: u32, display: ToneMap, stretch: Option<&Stretch>) -> Result<Picture, DatasetError> {
-        let frame = read_present(self.dataset, self.scene, self.camera, number, &film.layers())?;
+        let frame = self.dataset.read_frame(self.scene, self.camera, number, &film.layers())?;
         let tone = if film.subject == Subject::ToneMapped { ToneMap::of_frame(&frame).unwrap_or_default() } else { display };
         let shown = preview_over(film.subject, &frame, tone, stretch);
         Ok(shown.expect("the frame has all the layers").picture)
@@ -188,7 +211,7 @@ impl Shot<'_> {
             return Ok(None);
         }
         let one = |&number: &u32| {
-            let frame = read_present(self.dataset, self.scene, self.camera, number, &[layer])?;
+            let frame = self.dataset.read_frame(self.scene, self.camera, number, &[layer])?;
             let step = (frame.pixels() * numbers.len()).div_ceil(RANGE_SAMPLES);
             Ok(frame.get(layer).map(|values| shown_values(layer, values, step)).unwrap_or_default())
         };
@@ -203,12 +226,26 @@ impl Shot<'_> {
 mod tests {
     use super::*;
     use crate::testing;
-    use enfilade_scene::Quiet;
+    use enfilade_dataset::{StereoRecord, StereoSide};
+    use enfilade_scene::{Quiet, Warning};
+    use std::sync::Mutex;
 
-    fn animate(root: &Path, names: &[&str], format: AnimationFormat) -> Result<Vec<Animated>, AnimateError> {
+    /// Keeps the warnings.
+    #[derive(Default)]
+    struct Ear(Mutex<Vec<String>>);
+
+    impl Cx for Ear {
+        fn progress(&self, _what: &str, _done: u64, _total: u64) {}
+        fn warn(&self, warning: Warning) {
+            self.0.lock().unwrap().push(warning.to_string());
+        }
+    }
+
+    fn animate(root: &Path, names: &[&str], format: AnimationFormat) -> Vec<Result<Animated, NoFrames>> {
         let films: Vec<Film> = names.iter().map(|name| Film::from_name(name).unwrap()).collect();
         let dataset = Dataset::open(root).unwrap();
-        animate_camera(&dataset, ["room", "cam_00"], &films, AnimateConfig { format, fps: None }, &root.join("animations"), &Quiet)
+        let config = AnimateConfig { format, fps: None };
+        animate_camera(&dataset, ["room", "cam_00"], &films, config, &root.join("animations"), &Quiet).unwrap()
     }
 
     #[test]
@@ -217,7 +254,8 @@ mod tests {
         testing::dataset(folder.path());
         let names: Vec<&str> = enfilade_frame::LAYERS.iter().map(|spec| spec.name).collect();
         let names = [&names[..], &["tonemap", "display", "gamma", "lambertian", "non_lambertian", "diff"]].concat();
-        for animated in animate(folder.path(), &names, AnimationFormat::Gif).unwrap() {
+        for animated in animate(folder.path(), &names, AnimationFormat::Gif) {
+            let animated = animated.unwrap();
             assert_eq!((animated.frames, animated.fps), (2, 5.0));
             assert_eq!(std::fs::metadata(&animated.path).unwrap().len(), animated.bytes, "{}", animated.path.display());
         }
@@ -232,9 +270,52 @@ mod tests {
         for frame in [0, 1] {
             std::fs::remove_file(dataset.layout().layer("room", "cam_00", frame, Layer::ColorDenoised)).unwrap();
         }
-        let message = animate(folder.path(), &["color_denoised"], AnimationFormat::Webp).unwrap_err().to_string();
-        assert_eq!(message, "room/cam_00 has no frame with color_denoised");
+        let films = animate(folder.path(), &["color_denoised", "color"], AnimationFormat::Webp);
+        assert_eq!(films[0].as_ref().unwrap_err().to_string(), "room/cam_00 has no frame with color_denoised");
+        assert_eq!(films[1].as_ref().unwrap().frames, 2);
         std::fs::remove_file(dataset.layout().layer("room", "cam_00", 0, Layer::Semantic)).unwrap();
-        assert_eq!(animate(folder.path(), &["semantic"], AnimationFormat::Mp4).unwrap()[0].frames, 1);
+        assert_eq!(animate(folder.path(), &["semantic"], AnimationFormat::Mp4)[0].as_ref().unwrap().frames, 1);
+    }
+
+    #[test]
+    fn a_frame_that_lacks_a_file_of_its_record_is_left_out_with_a_warning() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        std::fs::remove_file(dataset.layout().layer("room", "cam_00", 1, Layer::NormalCam)).unwrap();
+        let (films, ear) = ([Film::from_name("color").unwrap()], Ear::default());
+        let config = AnimateConfig { format: AnimationFormat::Gif, fps: None };
+        let animated = animate_camera(&dataset, ["room", "cam_00"], &films, config, folder.path(), &ear).unwrap();
+        assert_eq!(animated[0].as_ref().unwrap().frames, 1);
+        let warnings = ear.0.into_inner().unwrap();
+        assert!(warnings.len() == 1 && warnings[0].starts_with("room/cam_00: frame 1 is left out: "), "{warnings:?}");
+        assert!(warnings[0].contains("frame.0001.normal_cam.hdf5: it is missing"), "{warnings:?}");
+    }
+
+    #[test]
+    fn films_begin_with_the_first_frame_of_the_camera_or_of_its_rig() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        let pictures_long = || {
+            let film = animate(folder.path(), &["semantic"], AnimationFormat::Gif).remove(0).unwrap();
+            let bytes = std::fs::read(film.path).unwrap();
+            let mut decoder = gif::DecodeOptions::new().read_info(&bytes[..]).unwrap();
+            let mut hundredths = 0;
+            while let Some(frame) = decoder.read_next_frame().unwrap() {
+                hundredths += frame.delay;
+            }
+            hundredths / 20
+        };
+        let layer = |camera: &str, layer: Layer| dataset.layout().layer("room", camera, 0, layer);
+        std::fs::remove_file(layer("cam_00", Layer::Semantic)).unwrap();
+        assert_eq!(pictures_long(), 2, "other films begin with frame 0");
+        std::fs::remove_file(dataset.layout().frame_record("room", "cam_00", 0)).unwrap();
+        assert_eq!(pictures_long(), 1, "no film has frame 0");
+        let rig = StereoRecord::new(StereoSide::Left, "cam_01".into(), 0.1);
+        let trajectory = dataset.read_trajectory("room", "cam_00").unwrap();
+        dataset.write_trajectory("room", &trajectory, &testing::intrinsics().into(), Some(&rig)).unwrap();
+        let beside = layer("cam_01", Layer::Color);
+        std::fs::create_dir_all(beside.parent().unwrap()).unwrap();
+        std::fs::copy(layer("cam_00", Layer::Color), beside).unwrap();
+        assert_eq!(pictures_long(), 2, "the other camera's films begin with frame 0");
     }
 }

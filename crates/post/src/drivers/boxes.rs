@@ -84,22 +84,23 @@ pub fn view_instances(
     Ok(views)
 }
 
-/// Draws every kind of box that the dataset has over the given frames, and returns the files. Only instances that a frame shows are drawn
-/// over it; without label tables (Hypersim's public files) they have no class.
+/// Draws every kind of box that the dataset has over the given frames, and returns the files: none where boxes, cameras or poses are not
+/// there, as in parts of Hypersim's archives. Only instances that a frame shows are drawn over it; without label tables (Hypersim's public
+/// files) they have no class.
 ///
 /// # Errors
 /// When a file cannot be read or written.
 pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32], cx: &dyn Cx) -> Result<Vec<PathBuf>, DatasetError> {
-    let (with, trajectory) = (dataset.read_camera(scene, camera)?, dataset.read_trajectory(scene, camera)?);
-    let labels = match dataset.read_label_tables(scene) {
-        Err(error) if error.is_not_found() => Labels::default(),
-        labels => labels?,
-    };
-    let read = |kind: BoxKind| match dataset.read_boxes(scene, kind) {
-        Err(error) if error.is_not_found() => None,
-        boxes => Some(boxes.map(|boxes| (kind, boxes))),
-    };
+    let read = |kind: BoxKind| optional(dataset.read_boxes(scene, kind).map(|boxes| (kind, boxes))).transpose();
     let boxes: Vec<(BoxKind, Vec<Option<OrientedBox>>)> = BoxKind::ALL.into_iter().filter_map(read).collect::<Result<_, _>>()?;
+    if boxes.is_empty() {
+        return Ok(Vec::new());
+    }
+    let (Some(with), Some(trajectory)) = (optional(dataset.read_camera(scene, camera))?, optional(dataset.read_trajectory(scene, camera))?)
+    else {
+        return Ok(Vec::new());
+    };
+    let labels = optional(dataset.read_label_tables(scene))?.unwrap_or_default();
     let done = AtomicU64::new(0);
     let one = |&number: &u32| -> Result<Vec<PathBuf>, DatasetError> {
         let Some(index) = trajectory.poses.iter().position(|pose| pose.frame == number) else { return Ok(Vec::new()) };
@@ -118,6 +119,14 @@ pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
     };
     let files: Vec<Vec<PathBuf>> = frames.par_iter().map(one).collect::<Result<_, _>>()?;
     Ok(files.into_iter().flatten().collect())
+}
+
+/// `None` for a file that is not there.
+fn optional<T>(read: Result<T, DatasetError>) -> Result<Option<T>, DatasetError> {
+    match read {
+        Err(error) if error.is_not_found() => Ok(None),
+        read => read.map(Some),
+    }
 }
 
 /// The boxes of what the frame shows, over the frame, as JPEG; `None` without the layers for it.

@@ -81,9 +81,9 @@ macro_rules! gates {
 pub const GATES: [GateSpec; 9] = gates![
     DepthRange "depth range" AtLeast 0.5 "m", "largest minus smallest planar depth of the pixels that see the scene",
         "Marigold#158 (min_depth_range)", "the view shows a wall from nearby: choose other poses";
-    InvalidShare "invalid pixels" AtMost 0.03 "share", "pixels with render_entity_id -1 or a depth that is not a number",
+    InvalidShare "invalid pixels" AtMost 0.03 "share", "pixels with render_entity_id -1 or a depth that is not a number, where the camera sees",
         "Marigold#158 (max_invalid_ratio)", "the view looks out of the scene: choose other poses, or close the scene";
-    PlaneShare "largest plane" AtMost 0.9 "share", "pixels of a lattice over the image whose surface points lie in one plane",
+    PlaneShare "largest plane" AtMost 0.9 "share", "pixels of a lattice over the image, where the camera sees, whose surface points lie in one plane",
         "Hypersim's complaints (walls that fill the view)", "the view shows one bare wall, floor or ceiling: choose other poses";
     RgbRange "RGB range" AtLeast 10.0 "of 255", "largest minus smallest 8-bit value of all channels of the tone-mapped color",
         "Marigold#158 (min_rgb_range)", "the picture is blank: look at the lights and at what is before the camera";
@@ -128,9 +128,9 @@ impl Gate {
 /// The measured value of each gate whose layers the frame has. A NaN or an infinity means that it cannot be measured.
 pub type GateValues = BTreeMap<Gate, f64>;
 
-/// All that can be measured of a frame.
-pub fn gate_values(frame: &Frame) -> GateValues {
-    let mut values = view_values(frame);
+/// All that can be measured of a frame, in `seeing` of whose pixels the camera sees at all.
+pub fn gate_values(frame: &Frame, seeing: usize) -> GateValues {
+    let mut values = view_values(frame, seeing);
     values.extend(light_values(frame));
     values
 }

@@ -18,16 +18,20 @@ const SAME_OFFSET_M: f64 = 0.01;
 const NORMAL_ROUNDING: f64 = 4.3e-4;
 
 /// The values of [`Gate::DepthRange`], [`Gate::InvalidShare`] and [`Gate::PlaneShare`], as far as the layers are there.
-pub fn view_values(frame: &Frame) -> GateValues {
+///
+/// In `seeing` of the pixels the camera sees at all; the others, as those outside of a fisheye's image circle, count for nothing.
+pub fn view_values(frame: &Frame, seeing: usize) -> GateValues {
     let mut values = GateValues::new();
+    let seeing = seeing.max(1) as f64;
     let depth = frame.get(Layer::DepthZMeters).or(frame.get(Layer::DepthMeters));
     if let (Some(depth), Some(ids)) = (depth, frame.get(Layer::RenderEntityId)) {
         let good: Vec<f64> = (0..ids.len()).filter(|&i| ids.get(i) != -1.0 && depth.get(i).is_finite()).map(|i| depth.get(i)).collect();
-        values.insert(Gate::InvalidShare, 1.0 - good.len() as f64 / ids.len() as f64);
+        values.insert(Gate::InvalidShare, (1.0 - good.len() as f64 / seeing).max(0.0));
         let (least, greatest) = good.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &d| (a.min(d), b.max(d)));
         values.insert(Gate::DepthRange, (greatest - least).max(0.0));
     }
-    values.extend(largest_plane_share(frame).map(|share| (Gate::PlaneShare, share)));
+    let of_seeing = frame.pixels() as f64 / seeing;
+    values.extend(largest_plane_share(frame).map(|share| (Gate::PlaneShare, (share * of_seeing).min(1.0))));
     values
 }
 
@@ -98,7 +102,7 @@ mod tests {
     #[test]
     fn floor_wall_and_void_are_measured() {
         let frame = testing::frame(&testing::pose());
-        let values = view_values(&frame);
+        let values = view_values(&frame, frame.pixels());
         let void = share_of(&frame, |id| id == -1.0);
         assert!(void > 0.0 && (values[&Gate::InvalidShare] - void).abs() < 1e-12);
         // The mirror lies in the wall's plane, as a picture on a wall does.
@@ -112,7 +116,8 @@ mod tests {
 
     #[test]
     fn a_bare_floor_is_one_plane_of_no_depth() {
-        let values = view_values(&corner(DVec3::new(0.0, -6.0, 1.5), DVec3::NEG_Z));
+        let frame = corner(DVec3::new(0.0, -6.0, 1.5), DVec3::NEG_Z);
+        let values = view_values(&frame, frame.pixels());
         assert_eq!((values[&Gate::PlaneShare], values[&Gate::InvalidShare]), (1.0, 0.0));
         assert!(values[&Gate::DepthRange] < 1e-6 && !Gate::DepthRange.passes(values[&Gate::DepthRange]), "{values:?}");
         assert!(!Gate::PlaneShare.passes(values[&Gate::PlaneShare]));
@@ -120,7 +125,8 @@ mod tests {
 
     #[test]
     fn a_view_of_nothing_is_invalid_and_has_no_depth() {
-        let values = view_values(&corner(DVec3::new(0.0, 0.0, 1.5), DVec3::Z));
+        let frame = corner(DVec3::new(0.0, 0.0, 1.5), DVec3::Z);
+        let values = view_values(&frame, frame.pixels());
         assert_eq!((values[&Gate::PlaneShare], values[&Gate::InvalidShare], values[&Gate::DepthRange]), (0.0, 1.0, 0.0));
     }
 

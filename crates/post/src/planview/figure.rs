@@ -312,8 +312,24 @@ pub(super) fn note(page: &mut Drawing, at: Point, words: String) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::with_planned;
     use super::*;
+    use crate::drawing::{Shape, svg};
     use enfilade_scene::{Intrinsics, Projection};
+
+    #[test]
+    fn a_single_pose_has_its_frustum() {
+        with_planned(|planned| {
+            let (camera, trajectory) = &planned.filmed[0];
+            let one = Trajectory { name: "cam_00".into(), poses: trajectory.poses[..1].to_vec() };
+            let measures = [FrameMeasures { score: 1.0, ..FrameMeasures::default() }];
+            let subject = Subject { planned, camera, trajectory: &one, measures: &measures, points: &[], report: None };
+            let mut page = figure(&subject, Cut { look: Look::Down, through: one.poses[0].position }, "Plan");
+            // Their bytes as text may say anything.
+            page.shapes.retain(|shape| !matches!(shape, Shape::Picture { .. }));
+            assert!(!svg(&page).contains("NaN"));
+        });
+    }
 
     #[test]
     fn frusta_span_the_field_of_view() {

@@ -38,32 +38,49 @@ pub(super) struct FrameMeasures {
     pub score: f64,
 }
 
-/// Measures every frame. `sights` are what its poses see.
-pub(super) fn measures(planned: &Planned<'_>, camera: &Camera, trajectory: &Trajectory, sights: &[Sight]) -> Vec<FrameMeasures> {
-    let poses = &trajectory.poses;
-    let floor = floor_z(planned, trajectory);
-    let surfaces = Surfaces::new(&planned.world.corners);
-    let view = |i| CameraView::of_frame(camera, poses, i);
-    let one = |i: usize| {
-        let (pose, sight) = (&poses[i], &sights[i]);
+/// Measures the frames of a trajectory, some at a time.
+pub(super) struct Measuring<'a> {
+    camera: &'a Camera,
+    poses: &'a [Pose],
+    floor: f64,
+    surfaces: Surfaces<'a>,
+}
+
+impl<'a> Measuring<'a> {
+    pub fn new(planned: &'a Planned<'_>, camera: &'a Camera, trajectory: &'a Trajectory) -> Self {
+        let surfaces = Surfaces::new(&planned.world.corners);
+        Self { camera, poses: &trajectory.poses, floor: floor_z(planned, trajectory), surfaces }
+    }
+
+    /// Of the poses from index `first` on, which see `sights`; the pose before them sees `before`.
+    pub fn measures(&self, first: usize, sights: &[Sight], before: Option<&Sight>) -> Vec<FrameMeasures> {
+        let one = |k: usize| self.measure(first + k, &sights[k], if k == 0 { before } else { Some(&sights[k - 1]) });
+        (0..sights.len()).into_par_iter().map(one).collect()
+    }
+
+    fn measure(&self, i: usize, sight: &Sight, before: Option<&Sight>) -> FrameMeasures {
+        let (pose, last) = (&self.poses[i], i.checked_sub(1));
         let (triangles, parts) = sight.distinct();
         let void_share = sight.void_share();
+        let overlap = |(last, before): (usize, &Sight)| {
+            let view = CameraView::of_frame(self.camera, self.poses, last);
+            sight.share_seen_by(&view, before)
+        };
         FrameMeasures {
             frame: pose.frame,
-            height_m: pose.position.z - floor,
+            height_m: pose.position.z - self.floor,
             roll_deg: pose.roll_rad().to_degrees(),
             pitch_deg: (-pose.world_from_camera.z_axis.z).clamp(-1.0, 1.0).asin().to_degrees(),
-            step_m: i.checked_sub(1).map(|before| pose.position.distance(poses[before].position)),
-            turn_deg: i.checked_sub(1).map(|before| turn_deg(&poses[before], pose)),
-            clearance_m: surfaces.distance_m(pose.position).unwrap_or(f64::INFINITY),
-            overlap: i.checked_sub(1).and_then(|before| sight.share_seen_by(&view(before), &sights[before])),
+            step_m: last.map(|last| pose.position.distance(self.poses[last].position)),
+            turn_deg: last.map(|last| turn_deg(&self.poses[last], pose)),
+            clearance_m: self.surfaces.distance_m(pose.position).unwrap_or(f64::INFINITY),
+            overlap: last.zip(before).and_then(overlap),
             void_share,
             triangles,
             parts,
             score: triangles as f64 * (1.0 - void_share).powi(2),
         }
-    };
-    (0..poses.len()).into_par_iter().map(one).collect()
+    }
 }
 
 /// Height of the floor of a trajectory: what most poses have below them, so the first decile of what is met straight below. The
@@ -82,9 +99,26 @@ fn turn_deg(before: &Pose, after: &Pose) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::look::look;
+    use super::super::tests::with_planned;
     use super::*;
     use crate::testing::box_room;
     use enfilade_math::Rng;
+
+    #[test]
+    fn measures_are_the_same_whatever_frames_are_measured_at_a_time() {
+        with_planned(|planned| {
+            let (camera, trajectory) = &planned.filmed[0];
+            let sight = |i| look(planned.world, planned.bvh, &CameraView::of_frame(camera, &trajectory.poses, i));
+            let sights: Vec<Sight> = (0..3).map(sight).collect();
+            let measuring = Measuring::new(planned, camera, trajectory);
+            let whole = measuring.measures(0, &sights, None);
+            let mut pieces = measuring.measures(0, &sights[..1], None);
+            pieces.extend(measuring.measures(1, &sights[1..], Some(&sights[0])));
+            assert_eq!(pieces, whole);
+            assert!(whole[0].overlap.is_none() && whole[1].overlap.is_some_and(|share| share > 0.6), "{whole:?}");
+        });
+    }
 
     #[test]
     fn clearance_in_a_box_is_the_distance_to_its_nearest_side() {

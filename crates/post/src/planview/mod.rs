@@ -2,8 +2,9 @@
 //!
 //! [`write_plan_preview`] makes, for every trajectory of a scene, a plan at the height of the camera and two sections as
 //! architects draw them (what a plane cuts in thick lines, what lies behind it as relief) with the free space, the way of the
-//! camera, its frusta and targets; a picture of every view coloured by part, as Hypersim's toolkit writes them and where; all
-//! views on one sheet; and how measures of the frames are distributed. One page for a browser shows it all.
+//! camera, its frusta and targets; a picture of every view coloured by part, as Hypersim's toolkit writes them and where; the
+//! views on one sheet, of thousands some hundreds; and how measures of the frames are distributed. One page for a browser shows it
+//! all.
 //!
 //! Every page is a list of shapes (`drawing/`) that is painted as PNG and written as SVG. The same plan gives the same bytes.
 
@@ -23,16 +24,19 @@ mod statistics;
 use crate::drawing::{Drawing, paint, svg};
 use crate::picture::{jpeg, png};
 use crate::statistics::quantile;
+use contact::Thumbnail;
 use cut::{Cut, Look};
 use enfilade_dataset::{Dataset, DatasetError, write_bytes};
 use enfilade_geometry::{Bvh, OccupancyTree, Voxel};
 use enfilade_math::DVec3;
-use enfilade_scene::{Camera, CameraView, Cx, StartCamera, Trajectory, WorldMesh};
+use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, WorldMesh};
 use figure::{Subject, figure};
 use html::{Section, Shown};
 use look::{Sight, toolkit_colors};
+use measure::{FrameMeasures, Measuring};
 use rayon::prelude::*;
 use report::Report;
+use statistics::Distances;
 use std::path::{Path, PathBuf};
 
 /// What was planned for a scene, and the scene as rays meet it.
@@ -74,9 +78,8 @@ pub fn write_plan_preview(dataset: &Dataset, planned: &Planned<'_>, cx: &dyn Cx)
     let (mut files, mut sections) = (Vec::new(), Vec::new());
     for (i, (camera, trajectory)) in planned.filmed.iter().enumerate() {
         cx.progress("trajectories drawn", i as u64, total);
-        let sights = sights(planned, camera, trajectory);
-        files.extend(write_views(dataset, planned.scene, trajectory, &sights, &colors)?);
-        sections.push(draw_trajectory(dataset, planned, (camera, trajectory), &sights, &mut files)?);
+        let seen = see(dataset, planned, (camera, trajectory), &colors, &mut files)?;
+        sections.push(draw_trajectory(dataset, planned, (camera, trajectory), seen, &mut files)?);
     }
     let page = html::plan_page(planned.scene, &about_scene(planned), &sections);
     files.push(write_page(dataset, planned.scene, "index.html", page.into_bytes())?);
@@ -89,20 +92,19 @@ fn draw_trajectory(
     dataset: &Dataset,
     planned: &Planned<'_>,
     (camera, trajectory): (&Camera, &Trajectory),
-    sights: &[Sight],
+    mut seen: Digest,
     files: &mut Vec<PathBuf>,
 ) -> Result<Section, DatasetError> {
-    let mut measures = measure::measures(planned, camera, trajectory, sights);
     let report = Report::read(&dataset.layout().plan_report(planned.scene, &trajectory.name));
-    let report = report.filter(|report| report.put_into(&mut measures));
+    let report = report.filter(|report| report.put_into(&mut seen.measures));
     let points = coverage::coverage(planned, camera, trajectory);
-    let subject = Subject { planned, camera, trajectory, measures: &measures, points: &points, report: report.as_ref() };
+    let subject = Subject { planned, camera, trajectory, measures: &seen.measures, points: &points, report: report.as_ref() };
     let mut pictures = Vec::new();
-    for page in pages(&subject, sights) {
+    for page in pages(&subject, &seen) {
         pictures.push(page.write(dataset, &subject, files)?);
     }
     if report.is_none() {
-        let table = serde_json::to_string_pretty(&measures).unwrap_or_default() + "\n";
+        let table = serde_json::to_string_pretty(&seen.measures).unwrap_or_default() + "\n";
         files.push(write_page(dataset, planned.scene, &format!("{}_statistics.json", trajectory.name), table.into_bytes())?);
     }
     Ok(Section { camera: trajectory.name.clone(), about: about(&subject), pictures })
@@ -133,27 +135,50 @@ fn write_page(dataset: &Dataset, scene: &str, file: &str, bytes: Vec<u8>) -> Res
     Ok(path)
 }
 
-/// What every pose sees.
-fn sights(planned: &Planned<'_>, camera: &Camera, trajectory: &Trajectory) -> Vec<Sight> {
-    let poses = &trajectory.poses;
-    let sight = |i| look::look(planned.world, planned.bvh, &CameraView::of_frame(camera, poses, i));
-    (0..poses.len()).into_par_iter().map(sight).collect()
+/// Views in memory at a time: one takes megabytes.
+const AT_A_TIME: usize = 64;
+
+/// What is kept of the views of a trajectory.
+#[derive(Default)]
+struct Digest {
+    /// Of every frame.
+    measures: Vec<FrameMeasures>,
+    /// Of those on the sheet.
+    thumbnails: Vec<Thumbnail>,
+    distances: Distances,
 }
 
-/// The views coloured by part, where the toolkit has them.
-fn write_views(
+/// Looks from every pose, and writes the views coloured by part where the toolkit has them; appends the files to `files`.
+fn see(
     dataset: &Dataset,
-    scene: &str,
-    trajectory: &Trajectory,
-    sights: &[Sight],
+    planned: &Planned<'_>,
+    (camera, trajectory): (&Camera, &Trajectory),
     colors: &[[u8; 3]],
-) -> Result<Vec<PathBuf>, DatasetError> {
-    let one = |(pose, sight): (&enfilade_scene::Pose, &Sight)| {
-        let path = dataset.layout().plan_view(scene, &trajectory.name, pose.frame);
-        write_bytes(&path, jpeg(&sight.in_toolkit_colors(colors)))?;
-        Ok(path)
-    };
-    trajectory.poses.par_iter().zip(sights).map(one).collect()
+    files: &mut Vec<PathBuf>,
+) -> Result<Digest, DatasetError> {
+    let poses = &trajectory.poses;
+    let shown = contact::shown(poses.len());
+    let measuring = Measuring::new(planned, camera, trajectory);
+    let mut seen = Digest::default();
+    let mut before: Option<Sight> = None;
+    for first in (0..poses.len()).step_by(AT_A_TIME) {
+        let range = first..poses.len().min(first + AT_A_TIME);
+        let sight = |i| look::look(planned.world, planned.bvh, &CameraView::of_frame(camera, poses, i));
+        let mut sights: Vec<Sight> = range.clone().into_par_iter().map(sight).collect();
+        let write = |(pose, sight): (&Pose, &Sight)| {
+            let path = dataset.layout().plan_view(planned.scene, &trajectory.name, pose.frame);
+            write_bytes(&path, jpeg(&sight.in_toolkit_colors(colors)))?;
+            Ok(path)
+        };
+        let written: Result<Vec<PathBuf>, DatasetError> = poses[range.clone()].par_iter().zip(&sights).map(write).collect();
+        files.extend(written?);
+        seen.measures.extend(measuring.measures(first, &sights, before.as_ref()));
+        let here = shown.par_iter().filter(|i| range.contains(*i));
+        seen.thumbnails.par_extend(here.map(|i| Thumbnail::new(*i, &sights[i - first], shown.len())));
+        sights.iter().for_each(|sight| seen.distances.add(sight));
+        before = sights.pop();
+    }
+    Ok(seen)
 }
 
 /// A page of a trajectory.
@@ -197,16 +222,16 @@ const DEFINITIONS: &str = "Step, turn and overlap are those since the frame befo
                            the void share counts pixels that see no surface. Surfaces are those that border free space";
 
 /// The pages of a trajectory, in reading order.
-fn pages(subject: &Subject<'_>, sights: &[Sight]) -> Vec<Page> {
+fn pages(subject: &Subject<'_>, seen: &Digest) -> Vec<Page> {
     let through = median_position(subject.trajectory);
     let cuts = [
         ("plan", "Plan", Look::Down, "seen from above"),
         ("section_xz", "Section along x", Look::AlongY, "seen along +y"),
         ("section_yz", "Section along y", Look::AgainstX, "seen along -x"),
     ];
-    let drawn = cuts.into_par_iter().map(|(name, title, look, seen)| {
+    let drawn = cuts.into_par_iter().map(|(name, title, look, from)| {
         let cut = Cut { look, through };
-        let caption = format!("{title} at {}, {seen}", cut.name());
+        let caption = format!("{title} at {}, {from}", cut.name());
         Page { name, caption, drawing: figure(subject, cut, title), format: Format::PngAndSvg }
     });
     let mut pages: Vec<Page> = drawn.collect();
@@ -217,16 +242,17 @@ fn pages(subject: &Subject<'_>, sights: &[Sight]) -> Vec<Page> {
         drawing: figure::coverage_figure(subject, cut),
         format: Format::PngAndSvg,
     });
+    let which = contact::which(seen.thumbnails.len(), seen.measures.len(), "Every view");
     pages.push(Page {
         name: "contact_sheet",
-        caption: "Every view, coloured by part and lit from the camera".into(),
-        drawing: contact::contact_sheet(subject, sights),
+        caption: format!("{which}, coloured by part and lit from the camera"),
+        drawing: contact::contact_sheet(subject, &seen.thumbnails),
         format: Format::Jpeg,
     });
     pages.push(Page {
         name: "statistics",
         caption: format!("Statistics. {DEFINITIONS}; the score is {}", subject.score_name()),
-        drawing: statistics::statistics(subject, sights),
+        drawing: statistics::statistics(subject, &seen.distances),
         format: Format::PngAndSvg,
     });
     pages
@@ -260,7 +286,7 @@ mod tests {
     use super::*;
     use crate::testing::box_room;
     use enfilade_geometry::VoxelKey;
-    use enfilade_scene::{Intrinsics, Pose, Quiet};
+    use enfilade_scene::{Intrinsics, Quiet};
     use std::collections::BTreeMap;
 
     pub(super) const SIZE: DVec3 = DVec3::new(4.0, 3.0, 2.5);

@@ -66,8 +66,34 @@ const QUANTITIES: [Quantity; 9] = [
     quantity("score", "", 1e-3, 0.0, |m| Some(m.score)),
 ];
 
-/// The page for `subject`, whose poses see `sights`.
-pub(super) fn statistics(subject: &Subject<'_>, sights: &[Sight]) -> Drawing {
+/// How far the pixels of views see.
+pub(super) struct Distances {
+    /// As [`HYPERSIM_DISTANCE`].
+    counts: [u64; HYPERSIM_DISTANCE.len()],
+    /// What lies beyond the last bin counted in.
+    total: u64,
+}
+
+impl Default for Distances {
+    fn default() -> Self {
+        Self { counts: [0; HYPERSIM_DISTANCE.len()], total: 0 }
+    }
+}
+
+impl Distances {
+    /// Counts the pixels of a view that see a surface.
+    pub fn add(&mut self, sight: &Sight) {
+        for seen in sight.pixels.iter().flatten() {
+            self.total += 1;
+            if let Some(count) = self.counts.get_mut((seen.distance_m / DISTANCE_BIN_M) as usize) {
+                *count += 1;
+            }
+        }
+    }
+}
+
+/// The page for `subject`, whose poses see as far as `distances` says.
+pub(super) fn statistics(subject: &Subject<'_>, distances: &Distances) -> Drawing {
     let rows = (QUANTITIES.len() + 3).div_ceil(COLUMNS);
     let height = 2.0 * MARGIN + HEADER + rows as f32 * PANEL[1] + (rows - 1) as f32 * GAP;
     let mut page = Drawing::new(WIDTH, height as u32, PAPER);
@@ -78,7 +104,7 @@ pub(super) fn statistics(subject: &Subject<'_>, sights: &[Sight]) -> Drawing {
     }
     seen_panel(&mut page, place(QUANTITIES.len()), subject);
     times_panel(&mut page, place(QUANTITIES.len() + 1), subject.points);
-    distance_panel(&mut page, place(QUANTITIES.len() + 2), sights);
+    distance_panel(&mut page, place(QUANTITIES.len() + 2), distances);
     page
 }
 
@@ -257,17 +283,9 @@ fn times_panel(page: &mut Drawing, [x, y]: Point, points: &[SurfacePoint]) {
 }
 
 /// How far the pixels see, with the outline of all of Hypersim.
-fn distance_panel(page: &mut Drawing, [x, y]: Point, sights: &[Sight]) {
+fn distance_panel(page: &mut Drawing, [x, y]: Point, distances: &Distances) {
     const SHOWN: usize = 30;
-    let mut counts = [0usize; HYPERSIM_DISTANCE.len()];
-    let mut total = 0;
-    for seen in sights.iter().flat_map(|sight| sight.pixels.iter().flatten()) {
-        total += 1;
-        if let Some(count) = counts.get_mut((seen.distance_m / DISTANCE_BIN_M) as usize) {
-            *count += 1;
-        }
-    }
-    let shares = counts.map(|count| count as f64 / f64::from(total.max(1)));
+    let shares = distances.counts.map(|count| count as f64 / distances.total.max(1) as f64);
     let top = shares.iter().chain(&HYPERSIM_DISTANCE).copied().fold(f64::MIN_POSITIVE, f64::max);
     title(page, [x, y], "distance of what the pixels see", "");
     let axis = Axis { left: x, width: PANEL[0], low: 0.0, high: DISTANCE_BIN_M * SHOWN as f64 };

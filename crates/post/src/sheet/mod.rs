@@ -9,6 +9,7 @@ use crate::preview::{Subject, preview};
 use crate::tonemap::ToneMap;
 use canvas::{Canvas, Color, Resize};
 use enfilade_frame::{Frame, Layer};
+use image::imageops::{self, FilterType};
 use legend::ClassShares;
 use lettering::Style;
 use serde::{Deserialize, Serialize};
@@ -29,6 +30,10 @@ const ROW_GAP: u32 = 20;
 const HEADER: u32 = 72;
 /// Width of a picture in the overview at most: a single one need not fill the sheet.
 const LARGEST_TILE: u32 = 900;
+/// Trajectories that the overview shows at most: JPEG holds 65535 rows of pixels.
+pub const MOST_TILES: usize = 200;
+/// Least width over height of the field of a picture, for the same reason; a narrower picture stands in its middle.
+const NARROWEST: f64 = 0.4;
 
 /// How large contact sheets are.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -57,6 +62,28 @@ pub struct SheetTitle<'a> {
     pub frames: usize,
 }
 
+/// What stands above a dataset's sheet.
+#[derive(Clone, Copy, Debug)]
+pub struct OverviewTitle<'a> {
+    /// Name of the dataset.
+    pub dataset: &'a str,
+    /// Number of scenes, shown or not.
+    pub scenes: usize,
+    /// Number of trajectories, shown or not.
+    pub cameras: usize,
+}
+
+impl OverviewTitle<'_> {
+    /// How much there is, and how much of it is shown.
+    fn subtitle(&self, shown: usize) -> String {
+        let mut parts = vec![count(self.scenes, "scene"), count(self.cameras, "camera")];
+        if shown < self.cameras {
+            parts.push(format!("{shown} shown"));
+        }
+        parts.join("  ·  ")
+    }
+}
+
 /// One trajectory of the overview.
 #[derive(Clone, Debug)]
 pub struct OverviewTile {
@@ -66,6 +93,21 @@ pub struct OverviewTile {
     pub detail: String,
     /// Tone-mapped colour of one frame.
     pub picture: Picture,
+}
+
+impl OverviewTile {
+    /// The same with no more pixels than an overview of `tiles` trajectories shows.
+    #[must_use]
+    pub fn shrunk(self, tiles: usize, config: &SheetConfig) -> Self {
+        let width = f64::from(columns(tiles, config).1);
+        let (w, h) = (f64::from(self.picture.width()), f64::from(self.picture.height()));
+        let scale = (width / w).min(width / NARROWEST / h);
+        if scale >= 1.0 {
+            return self;
+        }
+        let [w, h] = [w, h].map(|side| ((side * scale).round() as u32).max(1));
+        Self { picture: imageops::resize(&self.picture, w, h, FilterType::Triangle), ..self }
+    }
 }
 
 /// Up to `count` indices out of `total`, spread evenly, the first and the last included.
@@ -84,7 +126,7 @@ pub fn spread(total: usize, count: usize) -> Vec<usize> {
 /// `tone` is the exposure of all of them. Layers that a frame lacks leave an empty field. Pictures keep the aspect of the first frame.
 pub fn trajectory_sheet(title: SheetTitle<'_>, frames: &[(u32, Frame)], tone: ToneMap, config: &SheetConfig) -> Picture {
     let size = frames.first().map_or((4, 3), |(_, f)| (f.width, f.height));
-    let grid = Grid::new(config.width.max(600), f64::from(size.0) / f64::from(size.1));
+    let grid = Grid::new(config.width.max(600), (f64::from(size.0) / f64::from(size.1)).max(NARROWEST));
     let shares = ClassShares::of(frames.iter().map(|(_, frame)| frame));
     let legend_height = shares.height(grid.width - 2 * MARGIN);
     let rows_height = frames.len() as u32 * grid.row();
@@ -103,30 +145,60 @@ pub fn trajectory_sheet(title: SheetTitle<'_>, frames: &[(u32, Frame)], tone: To
     canvas.into_picture()
 }
 
-/// The sheet of a dataset: one picture per trajectory.
-pub fn overview_sheet(title: &str, tiles: &[OverviewTile], config: &SheetConfig) -> Picture {
-    let width = config.width.max(600);
-    let columns = (tiles.len() as u32).clamp(1, if tiles.len() > 6 { 4 } else { 3 });
-    let tile_width = ((width - 2 * MARGIN - (columns - 1) * 2 * GAP) / columns).min(LARGEST_TILE);
-    let width = 2 * MARGIN + columns * tile_width + (columns - 1) * 2 * GAP;
+/// The sheet of a dataset: one picture per trajectory, of at most [`MOST_TILES`].
+pub fn overview_sheet(title: OverviewTitle<'_>, tiles: &[OverviewTile], config: &SheetConfig) -> Picture {
     let aspect = tiles.first().map_or(4.0 / 3.0, |t| f64::from(t.picture.width()) / f64::from(t.picture.height()));
-    let tile_height = (f64::from(tile_width) / aspect).round() as u32;
-    let row = tile_height + 2 * CAPTION_SPACE + ROW_GAP;
-    let rows = (tiles.len() as u32).div_ceil(columns);
-    let mut canvas = Canvas::new(width, MARGIN + HEADER + rows * row + MARGIN - ROW_GAP, BACKGROUND);
-    let scenes: BTreeSet<&str> = tiles.iter().map(|t| t.scene.as_str()).collect();
-    let subtitle = format!("{}  ·  {}", count(scenes.len(), "scene"), count(tiles.len(), "camera"));
-    draw_header(&mut canvas, title, &subtitle);
+    let grid = OverviewGrid::new(tiles.len(), aspect, config);
+    let (width, height) = grid.size();
+    let mut canvas = Canvas::new(width, height, BACKGROUND);
+    draw_header(&mut canvas, title.dataset, &title.subtitle(tiles.len()));
     for (i, tile) in tiles.iter().enumerate() {
-        let (column, line) = (i as u32 % columns, i as u32 / columns);
-        let (x, y) = (MARGIN + column * (tile_width + 2 * GAP), MARGIN + HEADER + line * row);
-        place_inside(&mut canvas, [x, y, tile_width, tile_height], &tile.picture, Resize::Smooth);
-        let name = lettering::fit(&tile.scene, CAPTION, tile_width as f32);
-        lettering::draw(&mut canvas, x as f32, (y + tile_height + CAPTION_SPACE) as f32, &name, CAPTION);
-        let detail = lettering::fit(&tile.detail, DETAIL, tile_width as f32);
-        lettering::draw(&mut canvas, x as f32, (y + tile_height + 2 * CAPTION_SPACE - 2) as f32, &detail, DETAIL);
+        let ((x, y), (w, h)) = (grid.place_of(i as u32), grid.tile);
+        place_inside(&mut canvas, [x, y, w, h], &tile.picture, Resize::Smooth);
+        let name = lettering::fit(&tile.scene, CAPTION, w as f32);
+        lettering::draw(&mut canvas, x as f32, (y + h + CAPTION_SPACE) as f32, &name, CAPTION);
+        let detail = lettering::fit(&tile.detail, DETAIL, w as f32);
+        lettering::draw(&mut canvas, x as f32, (y + h + 2 * CAPTION_SPACE - 2) as f32, &detail, DETAIL);
     }
     canvas.into_picture()
+}
+
+/// Columns of an overview of that many trajectories, and the width of the pictures in them.
+fn columns(tiles: usize, config: &SheetConfig) -> (u32, u32) {
+    let columns = (tiles as u32).clamp(1, if tiles > 6 { 4 } else { 3 });
+    let width = (config.width.max(600) - 2 * MARGIN - (columns - 1) * 2 * GAP) / columns;
+    (columns, width.min(LARGEST_TILE))
+}
+
+/// Sizes of an overview: rows of equal fields, two captions below each.
+struct OverviewGrid {
+    columns: u32,
+    rows: u32,
+    tile: (u32, u32),
+}
+
+impl OverviewGrid {
+    fn new(tiles: usize, aspect: f64, config: &SheetConfig) -> Self {
+        let (columns, width) = columns(tiles, config);
+        let height = (f64::from(width) / aspect.max(NARROWEST)).round() as u32;
+        Self { columns, rows: (tiles as u32).div_ceil(columns), tile: (width, height) }
+    }
+
+    /// Of the sheet.
+    fn size(&self) -> (u32, u32) {
+        let width = 2 * MARGIN + self.columns * self.tile.0 + (self.columns - 1) * 2 * GAP;
+        (width, MARGIN + HEADER + self.rows * self.row() + MARGIN - ROW_GAP)
+    }
+
+    fn row(&self) -> u32 {
+        self.tile.1 + 2 * CAPTION_SPACE + ROW_GAP
+    }
+
+    /// Left upper corner of field `i`.
+    fn place_of(&self, i: u32) -> (u32, u32) {
+        let (column, line) = (i % self.columns, i / self.columns);
+        (MARGIN + column * (self.tile.0 + 2 * GAP), MARGIN + HEADER + line * self.row())
+    }
 }
 
 /// Sizes of a row: a large picture, then four columns of two small ones, captions below each.
@@ -258,6 +330,32 @@ mod tests {
         let sheet = trajectory_sheet(title, &[(0, Frame::new(8, 6))], ToneMap::default(), &SheetConfig { width: 100, frames: 1 });
         assert_eq!(sheet.width(), 600);
         assert_eq!(trajectory_sheet(title, &[], ToneMap::default(), &SheetConfig::default()).width(), 1920);
-        assert_eq!(overview_sheet("empty", &[], &SheetConfig::default()).width(), LARGEST_TILE + 2 * MARGIN);
+        let title = OverviewTitle { dataset: "empty", scenes: 0, cameras: 0 };
+        assert_eq!(overview_sheet(title, &[], &SheetConfig::default()).width(), LARGEST_TILE + 2 * MARGIN);
+    }
+
+    #[test]
+    fn overviews_of_more_cameras_than_a_jpeg_holds_show_some_and_say_so() {
+        let title = OverviewTitle { dataset: "homes", scenes: 461, cameras: 769 };
+        assert_eq!(title.subtitle(MOST_TILES), "461 scenes  ·  769 cameras  ·  200 shown");
+        assert_eq!(OverviewTitle { scenes: 1, cameras: 2, ..title }.subtitle(2), "1 scene  ·  2 cameras");
+        // The narrowest pictures at the width of all sheets, and in pixels at the least width.
+        assert!(OverviewGrid::new(MOST_TILES, 0.01, &SheetConfig::default()).size().1 <= 65535);
+        let tile = OverviewTile { scene: "hall".into(), detail: "cam_00".into(), picture: Picture::new(2, 60) };
+        let sheet = overview_sheet(title, &vec![tile; MOST_TILES], &SheetConfig { width: 600, frames: 1 });
+        assert!(!crate::picture::jpeg(&sheet).is_empty());
+    }
+
+    #[test]
+    fn tiles_keep_no_more_pixels_than_are_shown() {
+        let config = SheetConfig::default();
+        let width = columns(MOST_TILES, &config).1;
+        let shrunk = |width, height| {
+            let tile = OverviewTile { scene: String::new(), detail: String::new(), picture: Picture::new(width, height) };
+            tile.shrunk(MOST_TILES, &config).picture.dimensions()
+        };
+        assert_eq!(shrunk(4 * width, 3 * width), (width, (0.75 * f64::from(width)).round() as u32));
+        assert_eq!(shrunk(64, 48), (64, 48));
+        assert_eq!(shrunk(10, 10 * width).1, (f64::from(width) / NARROWEST).round() as u32);
     }
 }

@@ -122,6 +122,19 @@ pub struct CostReport {
     pub frames: Vec<FrameCost>,
 }
 
+/// True for the text of a file of [`CostReport`].
+pub fn is_costs(text: &[u8]) -> bool {
+    #[derive(Deserialize)]
+    struct Total {
+        vcpu_hours: f64,
+    }
+    #[derive(Deserialize)]
+    struct Head {
+        total: Total,
+    }
+    serde_json::from_slice(text).is_ok_and(|head: Head| head.total.vcpu_hours >= 0.0)
+}
+
 impl CostReport {
     /// Of frames by scene, camera and number.
     pub fn new(frames: &[((String, String, u32), Cost)], prices: &[Price]) -> Self {

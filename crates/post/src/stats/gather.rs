@@ -3,7 +3,7 @@
 use super::measure::{Counts, Image, WANTED, measure};
 use enfilade_dataset::{BoxKind, Dataset, DatasetError};
 use enfilade_frame::Layer;
-use enfilade_scene::{Cx, Labels};
+use enfilade_scene::{Cx, Labels, PartLabel, Projection};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -42,25 +42,29 @@ pub struct Gathered {
 /// # Errors
 /// When a file that is there cannot be read.
 pub fn gather(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<Gathered, DatasetError> {
-    let mut work = Vec::new();
+    let mut filmed = Vec::new();
     for scene in scenes {
         for camera in dataset.cameras(scene)? {
             let frames = dataset.frame_numbers(scene, &camera)?;
-            work.extend(frames.into_iter().map(|frame| (scene.as_str(), camera.clone(), frame)));
+            dataset.warn_of_incomplete([scene, &camera], &frames, None, cx)?;
+            // Hypersim's table of cameras comes apart from its archives.
+            let projection = dataset.read_camera(scene, &camera).ok().map(|camera| camera.projection);
+            filmed.push(Filmed { scene, camera, frames, projection });
         }
     }
-    let (done, total) = (AtomicU64::new(0), work.len() as u64);
+    let (done, total) = (AtomicU64::new(0), filmed.iter().map(|filmed| filmed.frames.len() as u64).sum::<u64>());
     let mut gathered = Gathered::default();
     for scene in scenes {
         // Counts are whole numbers, so the order in which threads add theirs changes nothing.
         let shared = Mutex::new((Counts::default(), BTreeSet::new()));
-        let one = |(scene, camera, frame): &(&str, String, u32)| -> Result<Option<NamedImage>, DatasetError> {
-            let named = measure_frame(dataset, scene, camera, *frame, &shared)?;
+        let one = |&(filmed, frame): &(&Filmed<'_>, u32)| -> Result<Option<NamedImage>, DatasetError> {
+            let named = measure_frame(dataset, filmed, frame, &shared)?;
             cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, total);
             Ok(named)
         };
-        let of_scene: Vec<_> = work.iter().filter(|(name, ..)| name == scene).collect();
-        let images: Vec<Option<NamedImage>> = of_scene.into_par_iter().map(one).collect::<Result<_, _>>()?;
+        let cameras = filmed.iter().filter(|filmed| filmed.scene == scene);
+        let frames: Vec<(&Filmed<'_>, u32)> = cameras.flat_map(|filmed| filmed.frames.iter().map(move |&frame| (filmed, frame))).collect();
+        let images: Vec<Option<NamedImage>> = frames.par_iter().map(one).collect::<Result<_, _>>()?;
         gathered.images.extend(images.into_iter().flatten());
         let (mut counts, shown) = shared.into_inner().unwrap_or_else(PoisonError::into_inner);
         count_objects(dataset, scene, &shown, &mut counts);
@@ -70,25 +74,34 @@ pub fn gather(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<Gathe
     Ok(gathered)
 }
 
+/// A camera whose frames are counted.
+struct Filmed<'a> {
+    scene: &'a str,
+    camera: String,
+    frames: Vec<u32>,
+    /// `None` where the camera is not known.
+    projection: Option<Projection>,
+}
+
 fn measure_frame(
     dataset: &Dataset,
-    scene: &str,
-    camera: &str,
+    filmed: &Filmed<'_>,
     frame: u32,
     shared: &Mutex<(Counts, BTreeSet<i16>)>,
 ) -> Result<Option<NamedImage>, DatasetError> {
+    let Filmed { scene, camera, projection, .. } = filmed;
     let there: Vec<Layer> = WANTED.into_iter().filter(|&layer| dataset.has_layer(scene, camera, frame, layer)).collect();
     if there.is_empty() {
         return Ok(None);
     }
-    let (mut image, counts, instances) = measure(&dataset.read_frame(scene, camera, frame, &there)?);
+    let (mut image, counts, instances) = measure(&dataset.read_frame(scene, camera, frame, &there)?, projection.as_ref());
     let sampling = dataset.frame_record(scene, camera, frame)?.and_then(|record| record.sampling);
     image.noise = sampling.and_then(|sampling| sampling.noise).or(image.noise);
     let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
     shared.0.merge(&counts);
     shared.1.extend(instances);
     let samples_per_pixel = sampling.map(|sampling| sampling.samples_taken);
-    Ok(Some(NamedImage { scene: scene.into(), camera: camera.into(), frame, samples_per_pixel, image }))
+    Ok(Some(NamedImage { scene: (*scene).into(), camera: camera.clone(), frame, samples_per_pixel, image }))
 }
 
 /// Counts the instances that a scene's images show, where it has the tables for that (Hypersim's archives have not).
@@ -103,10 +116,10 @@ fn count_objects(dataset: &Dataset, scene: &str, shown: &BTreeSet<i16>, counts: 
     }
 }
 
-/// The class of each instance; `None` where its parts disagree.
+/// The class of each instance of which any part has one; `None` where its parts disagree.
 fn classes_of(labels: &Labels) -> BTreeMap<i16, Option<i16>> {
     let mut classes: BTreeMap<i16, Option<i16>> = BTreeMap::new();
-    for label in labels.parts.iter().filter(|label| label.instance > 0) {
+    for label in labels.parts.iter().filter(|label| label.instance > 0 && label.semantic != PartLabel::NONE.semantic) {
         let class = classes.entry(label.instance).or_insert(Some(label.semantic));
         if *class != Some(label.semantic) {
             *class = None;
@@ -119,7 +132,18 @@ fn classes_of(labels: &Labels) -> BTreeMap<i16, Option<i16>> {
 mod tests {
     use super::*;
     use crate::testing;
-    use enfilade_scene::{PartLabel, Quiet};
+    use enfilade_scene::{Quiet, Warning};
+
+    /// Keeps the warnings.
+    #[derive(Default)]
+    struct Ear(Mutex<Vec<String>>);
+
+    impl Cx for Ear {
+        fn progress(&self, _what: &str, _done: u64, _total: u64) {}
+        fn warn(&self, warning: Warning) {
+            self.0.lock().unwrap().push(warning.to_string());
+        }
+    }
 
     #[test]
     fn the_whole_is_the_sum_of_its_images_on_any_number_of_threads() {
@@ -141,9 +165,23 @@ mod tests {
     }
 
     #[test]
-    fn an_instance_of_two_classes_has_none() {
+    fn a_frame_of_which_a_file_is_cut_short_is_left_out_with_a_warning() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        std::fs::write(dataset.layout().layer("room", "cam_00", 0, Layer::DepthMeters), [0u8; 100]).unwrap();
+        let ear = Ear::default();
+        assert_eq!(gather(&dataset, &["room".into()], &ear).unwrap().images.len(), 1);
+        let warnings = ear.0.into_inner().unwrap();
+        assert!(warnings.len() == 1 && warnings[0].starts_with("room/cam_00: frame 0 is left out: "), "{warnings:?}");
+        assert!(warnings[0].contains("frame.0000.depth_meters.hdf5: it has 100 bytes"), "{warnings:?}");
+    }
+
+    #[test]
+    fn an_instance_of_two_classes_has_none_and_parts_without_one_do_not_count() {
         let label = |semantic, instance| PartLabel { semantic, instance };
         let labels = Labels { parts: vec![label(5, 1), label(5, 1), label(5, 2), label(7, 2), label(1, -1)] };
         assert_eq!(classes_of(&labels), BTreeMap::from([(1, Some(5)), (2, None)]));
+        let labels = Labels { parts: vec![label(-1, 1), label(5, 1), label(7, 2), label(-1, 2), label(-1, 3)] };
+        assert_eq!(classes_of(&labels), BTreeMap::from([(1, Some(5)), (2, Some(7))]));
     }
 }

@@ -1,9 +1,12 @@
 //! What is counted of an image. Bins, weights and rules are those of Hypersim's statistics, so that both can be compared.
 
 use super::histogram::{Bins, Histogram, add_counts};
+use crate::channels::vector;
 use crate::statistics::quantile;
 use crate::tonemap::brightness;
 use enfilade_frame::{Frame, Layer, Values};
+use enfilade_math::DVec3;
+use enfilade_scene::Projection;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -102,7 +105,7 @@ pub struct Counts {
     pub depth: Histogram,
     /// Distance in metres from 0.01 to 1000.
     pub depth_log: Histogram,
-    /// Normals in camera axes, at (x, y), turned towards the camera.
+    /// Normals in camera axes, at (x, y), of unit length, turned towards the camera where its rays are known.
     pub normals: Map,
     /// Pixels by class, −1 first.
     pub pixels_per_class: Vec<u64>,
@@ -233,8 +236,8 @@ pub struct Image {
 /// Bins of an image's own histograms are so many of the dataset's.
 const COARSE: usize = 50;
 
-/// What one image comes to, its counts, and the instances that it shows.
-pub fn measure(frame: &Frame) -> (Image, Counts, BTreeSet<i16>) {
+/// What one image comes to, its counts, and the instances that it shows. `projection` is that of its camera, where it is known.
+pub fn measure(frame: &Frame, projection: Option<&Projection>) -> (Image, Counts, BTreeSet<i16>) {
     let valid = valid_pixels(frame);
     let mut counts = Counts { images: 1, pixels: frame.pixels() as u64, valid: valid.len() as u64, ..Counts::default() };
     let mut image = Image {
@@ -259,22 +262,35 @@ pub fn measure(frame: &Frame) -> (Image, Counts, BTreeSet<i16>) {
         image.depth_histogram = counts.depth_log.coarser(COARSE).shares().map(|[_, _, share]| share).collect();
     }
     if let Some(normals) = frame.get(Layer::NormalCam) {
-        valid.iter().for_each(|&i| counts.normals.add(normals.get(3 * i), normals.get(3 * i + 1)));
+        let projection = projection.filter(|projection| projection.size() == [frame.width, frame.height]);
+        for &i in &valid {
+            let [x, y] = [i % frame.width as usize, i / frame.width as usize].map(|at| at as f64 + 0.5);
+            let normal = facing(vector(normals, i), projection.and_then(|projection| projection.ray(x, y)));
+            counts.normals.add(normal.x, normal.y);
+        }
     }
     let instances = count_labels(frame, &valid, &mut image, &mut counts);
     (image, counts, instances)
 }
 
-/// Pixels that show the scene and whose values are finite.
+/// The unit vector of a normal that is not zero, turned against the ray that meets it: artists' normals may be of any length and face away.
+fn facing(normal: DVec3, ray: Option<DVec3>) -> DVec3 {
+    let away = ray.is_some_and(|ray| normal.dot(ray) > 0.0);
+    if away { -normal.normalize() } else { normal.normalize() }
+}
+
+/// Pixels that show the scene, whose values are finite, and whose normals are not zero.
 fn valid_pixels(frame: &Frame) -> Vec<usize> {
     let ids = frame.get(Layer::RenderEntityId);
+    let normals = frame.get(Layer::NormalCam);
     let floats: Vec<&Values> = WANTED[..6].iter().filter_map(|&layer| frame.get(layer)).collect();
     let is_valid = |&i: &usize| {
         let finite = |values: &&Values| {
             let channels = values.len() / frame.pixels();
             (channels * i..channels * (i + 1)).all(|k| values.get(k).is_finite())
         };
-        ids.is_none_or(|ids| ids.get(i) != -1.0) && floats.iter().all(finite)
+        let has_normal = |normals: &Values| vector(normals, i) != DVec3::ZERO;
+        ids.is_none_or(|ids| ids.get(i) != -1.0) && floats.iter().all(finite) && normals.is_none_or(has_normal)
     };
     (0..frame.pixels()).filter(is_valid).collect()
 }
@@ -351,6 +367,7 @@ fn noise(frame: &Frame) -> Option<f64> {
 mod tests {
     use super::*;
     use enfilade_frame::f16;
+    use enfilade_scene::Intrinsics;
 
     /// Four pixels: the last shows nothing.
     fn frame() -> Frame {
@@ -370,7 +387,7 @@ mod tests {
 
     #[test]
     fn a_frame_of_known_pixels_has_the_counts_that_it_should() {
-        let (image, counts, instances) = measure(&frame());
+        let (image, counts, instances) = measure(&frame(), None);
         assert_eq!((counts.pixels, counts.valid, image.valid), (4, 3, 0.75));
         let light = &counts.lights[0];
         // 0.504, 2.004 and 0.3 × 0.0625, in bins of 0.01.
@@ -392,10 +409,24 @@ mod tests {
     }
 
     #[test]
+    fn normals_are_of_unit_length_and_turned_towards_the_camera_and_pixels_without_one_do_not_count() {
+        let mut frame = frame();
+        let [away, half, zero] = [[0.61, 0.0, -0.79], [0.305, 0.0, 0.395], [0.0; 3]];
+        let normals = [away, half, zero, [f64::NAN; 3]].concat();
+        frame.insert(Layer::NormalCam, Values::F16(normals.into_iter().map(f16::from_f64).collect()));
+        let projection = Projection::Pinhole(Intrinsics::from_fov_x(2, 2, 1.0));
+        let (_, counts, instances) = measure(&frame, Some(&projection));
+        assert_eq!([19, 80].map(|column| counts.normals.counts[50 * SIDE + column]), [1, 1]);
+        assert_eq!((counts.valid, counts.depth.total(), instances), (2, 2, BTreeSet::from([3])));
+        // Of a camera that is not known nobody can say what faces it.
+        assert_eq!(measure(&frame, None).1.normals.counts[50 * SIDE + 80], 2);
+    }
+
+    #[test]
     fn layers_that_are_missing_are_left_out() {
         let mut frame = Frame::new(2, 1);
         frame.insert(Layer::DepthMeters, Values::F32(vec![1.0, 3.0]));
-        let (image, counts, instances) = measure(&frame);
+        let (image, counts, instances) = measure(&frame, None);
         assert_eq!((counts.valid, image.depth_m.unwrap().median), (2, 2.0));
         assert!(image.brightness.is_empty() && image.objects.is_none() && image.noise.is_none() && instances.is_empty());
     }

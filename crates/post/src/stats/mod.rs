@@ -32,6 +32,7 @@ pub use machines::{Machine, memory_gib, smallest_feasible, tells_sizes};
 
 use crate::drawing::{paint, svg};
 use crate::picture::png;
+use costs::is_costs;
 use enfilade_dataset::{Dataset, DatasetError, write_bytes};
 use enfilade_frame::Pass;
 use enfilade_scene::Cx;
@@ -39,11 +40,14 @@ use html::{Shown, statistics_page};
 use outlier::Outlier;
 use plots::{Plot, Reference, cost_plots, plots};
 use rayon::prelude::*;
-use report::{Report, cost_outliers};
+use report::{Report, cost_outliers, is_report};
 use std::path::{Path, PathBuf};
 
 /// Files of costs, which are removed where costs are not asked for.
 const COST_FILES: [&str; 3] = ["costs.json", cost_tables::JOBS, cost_tables::TASKS];
+
+/// Of the files of a chart, as [`write_plot`] writes them.
+const EXTENSIONS: [&str; 2] = ["png", "svg"];
 
 /// What is asked for.
 #[derive(Clone, Debug, Default)]
@@ -71,7 +75,7 @@ pub struct StatsSummary {
     pub cost: Option<Cost>,
 }
 
-/// Writes the statistics of a dataset; older ones in the folder are replaced.
+/// Writes the statistics of a dataset; older ones in the folder are replaced, and files of others there are left alone.
 ///
 /// # Errors
 /// When a file cannot be read or written, or there is nothing to compare with.
@@ -79,7 +83,7 @@ pub fn write_statistics(dataset: &Dataset, config: &StatsConfig, cx: &dyn Cx) ->
     let folder = config.folder.clone().unwrap_or_else(|| dataset.layout().statistics_dir());
     let reference = config.compare.as_deref().map(read_reference).transpose()?;
     let gathered = gather::gather(dataset, &config.scenes, cx)?;
-    remove_older(&folder)?;
+    remove_older(&folder, config.folder.is_none())?;
     let costs = if config.prices.is_empty() { None } else { cost_tables::costs(dataset, &gathered.images, &config.prices)? };
     toolkit::write_histograms(&folder.join(toolkit::FOLDER), &gathered.all)?;
     let shown = plots(&gathered.all, reference.as_ref());
@@ -132,15 +136,20 @@ fn read_reference(folder: &Path) -> Result<Reference, DatasetError> {
     Ok(Reference { name, counts })
 }
 
-/// Charts and costs of earlier statistics would be taken for these.
-fn remove_older(folder: &Path) -> Result<(), DatasetError> {
-    let plots = folder.join("plots");
-    let removed = std::fs::remove_dir_all(&plots).map_err(|error| (plots, error));
-    let files = COST_FILES.map(|name| folder.join(name));
-    let files = files.into_iter().map(|file| std::fs::remove_file(&file).map_err(|error| (file, error)));
-    for result in std::iter::once(removed).chain(files) {
-        match result {
-            Err((path, source)) if source.kind() != std::io::ErrorKind::NotFound => {
+/// Charts and costs of earlier statistics would be taken for these. Unless the folder `is_own`, the dataset's, files of others may have
+/// their names.
+fn remove_older(folder: &Path, is_own: bool) -> Result<(), DatasetError> {
+    let holds = |name: &str, is_ours: fn(&[u8]) -> bool| is_own || std::fs::read(folder.join(name)).is_ok_and(|text| is_ours(&text));
+    let mut older = Vec::new();
+    if holds("statistics.json", is_report) {
+        older.extend(plots::names().into_iter().flat_map(|name| EXTENSIONS.map(|extension| format!("plots/{name}.{extension}"))));
+    }
+    if holds("costs.json", is_costs) {
+        older.extend(COST_FILES.map(String::from));
+    }
+    for path in older.iter().map(|name| folder.join(name)) {
+        match std::fs::remove_file(&path) {
+            Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
                 return Err(DatasetError::Io { action: "remove", path, source });
             }
             _ => {}
@@ -232,6 +241,29 @@ mod tests {
         assert!(!dataset.layout().statistics_dir().join("costs.json").exists());
         let nothing = StatsConfig { compare: Some(folder.path().join("a/scenes")), ..config };
         assert!(write_statistics(&dataset, &nothing, &Quiet).unwrap_err().to_string().contains("metadata_*_hist_*.hdf5"));
+    }
+
+    #[test]
+    fn charts_of_earlier_statistics_are_removed_and_files_of_others_never() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(&folder.path().join("a"));
+        let out = folder.path().join("own");
+        for name in ["plots/mine.pdf", "costs.json"] {
+            write_bytes(&out.join(name), "mine").unwrap();
+        }
+        let config = StatsConfig { scenes: vec!["room".into()], folder: Some(out.clone()), ..StatsConfig::default() };
+        for _ in 0..2 {
+            write_statistics(&dataset, &config, &Quiet).unwrap();
+            assert_eq!(std::fs::read_to_string(out.join("costs.json")).unwrap(), "mine");
+        }
+        write_statistics(&dataset, &StatsConfig { prices: vec![Price::default()], ..config.clone() }, &Quiet).unwrap();
+        let is_known = |path: &PathBuf| plots::names().iter().any(|name| path.file_stem().unwrap() == name.as_str());
+        let unknown: Vec<PathBuf> = files(&out.join("plots")).into_keys().filter(|path| !is_known(path)).collect();
+        assert_eq!(unknown, [PathBuf::from("mine.pdf")]);
+        assert!(out.join("plots/cost_wall.svg").is_file());
+        write_statistics(&dataset, &config, &Quiet).unwrap();
+        assert!(!out.join("plots/cost_wall.svg").exists() && !out.join("costs.json").exists());
+        assert_eq!(std::fs::read_to_string(out.join("plots/mine.pdf")).unwrap(), "mine");
     }
 
     #[test]

@@ -32,6 +32,27 @@ pub struct Reference {
 const POINTS: usize = 200;
 /// Classes that a chart lists.
 const MOST_CLASSES: usize = 30;
+/// Names of the charts that are not of light.
+const NAMES: [&str; 12] = [
+    "depth_log",
+    "depth_linear",
+    "normals",
+    "pixels_per_class",
+    "objects_per_class",
+    "classes_per_image",
+    "objects_per_image",
+    "object_volume",
+    "cost_cpu",
+    "cost_wall",
+    "cost_samples",
+    "cost_memory",
+];
+
+/// The name of every chart that may be drawn.
+pub fn names() -> Vec<String> {
+    let of_light = LIGHTS.iter().flat_map(|light| ["brightness", "hue_saturation"].map(|what| format!("{}_{what}", light.stem)));
+    of_light.chain(NAMES.map(String::from)).collect()
+}
 
 /// Charts of what the pictures show, over those of a reference where there is one.
 pub fn plots(counts: &Counts, reference: Option<&Reference>) -> Vec<Plot> {

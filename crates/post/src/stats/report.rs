@@ -6,7 +6,7 @@ use super::histogram::{Histogram, Scale};
 use super::measure::{Counts, LIGHTS};
 use super::outlier::{LIMIT, Outlier, scores};
 use crate::label::class_name;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// What the file calls itself.
@@ -26,6 +26,15 @@ pub struct Report {
     pub outliers: Vec<Outlier>,
     /// One by one.
     pub images: Vec<NamedImage>,
+}
+
+/// True for the text of such a file.
+pub fn is_report(text: &[u8]) -> bool {
+    #[derive(Deserialize)]
+    struct Head {
+        format: String,
+    }
+    serde_json::from_slice(text).is_ok_and(|head: Head| head.format == FORMAT)
 }
 
 /// Any number of images together.

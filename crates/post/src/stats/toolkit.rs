@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn histograms_come_back_and_batches_add_up() {
         let folder = tempfile::tempdir().unwrap();
-        let (_, counts, _) = super::super::measure::measure(&testing::frame(&testing::pose()));
+        let (_, counts, _) = super::super::measure::measure(&testing::frame(&testing::pose()), None);
         let files = write_histograms(&folder.path().join("a"), &counts).unwrap();
         assert!(files.iter().any(|file| file.ends_with("metadata_rgb_color_brightness_hist_log.hdf5")));
         let once = read_histograms(folder.path()).unwrap().unwrap();

@@ -6,7 +6,7 @@ use super::law::Law;
 use super::read::{SceneLabels, Stored, read_frame, read_labels, read_tree, readable};
 use super::release::{self, Excused};
 use super::report::VerifyReport;
-use super::trajectory::roll_limit_deg;
+use super::trajectory::PlanRules;
 use super::two_views::{self, PairValues, Sight};
 use super::whole::{self, join_reports};
 use super::{View, boxes, camera_files, check_frame, check_trajectory};
@@ -110,8 +110,7 @@ struct Filmed {
     views: Option<Vec<InstanceView>>,
     /// The other camera of a stereo rig.
     stereo: Option<StereoRecord>,
-    /// The greatest roll that the plan allows, if it says so.
-    roll_limit_deg: Option<f64>,
+    rules: PlanRules,
 }
 
 impl SceneFacts {
@@ -168,16 +167,17 @@ impl SceneFacts {
         let rendered: usize = self.filmed.iter().map(|filmed| filmed.frames.len()).sum();
         card.observe(Law::HasFrames, if rendered == 0 { 1.0 } else { 0.0 }, || format!("{name}: no rendered frame"));
         for filmed in &self.filmed {
-            let Filmed { trajectory, stored, frames, camera, .. } = filmed;
+            let Filmed { trajectory, stored, frames, camera, stereo, rules, .. } = filmed;
             let place = format!("{name}/{}", trajectory.name);
-            card.merge(check_trajectory(stored, filmed.roll_limit_deg, &place));
+            card.merge(check_trajectory(stored, rules, &place));
+            let is_second = stereo.as_ref().is_some_and(|stereo| stereo.side == StereoSide::Right);
             let rejected = readable(card, dataset.rejected_views(name, &trajectory.name)).unwrap_or_default();
             let there = |frame: &u32| frames.contains(frame) || rejected.contains_key(frame);
             let missing: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !there(frame)).collect();
             card.observe(Law::FramesComplete, missing.len() as f64, || format!("{place}: frames {missing:?} are missing"));
             for pose in trajectory.poses.iter().filter(|pose| !rejected.contains_key(&pose.frame)) {
                 self.check_record(dataset, &trajectory.name, camera.as_ref(), pose, card);
-                if let Some(tree) = &tree {
+                if let Some(tree) = tree.as_ref().filter(|_| rules.stands_free(pose.frame, is_second)) {
                     let state = tree.state(pose.position);
                     let at = || format!("{place}/frame.{:04}: {:.3} m is {state:?}", pose.frame, pose.position);
                     card.observe(Law::FreeCamera, if state == Voxel::Free { 0.0 } else { 1.0 }, at);
@@ -218,7 +218,7 @@ impl SceneFacts {
             return found;
         };
         let record: Option<FrameRecord> = dataset.frame_record(&self.name, name, number).ok().flatten();
-        found.values = Some(FrameValues::new([&self.name, name], number, &frame, record.as_ref()));
+        found.values = Some(FrameValues::new([&self.name, name], number, &frame, filmed.camera.as_ref(), record.as_ref()));
         let Some(camera) = &filmed.camera else { return found };
         let camera = CameraView::of_frame(camera, poses, index);
         let known = self.labels.as_ref();
@@ -297,8 +297,8 @@ fn read_filmed(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<Filmed> {
         let stereo = dataset.read_stereo(scene, &name).ok().flatten();
         // The plan of a rig is that of its left camera.
         let planned = stereo.as_ref().filter(|stereo| stereo.side == StereoSide::Right).map_or(&name, |stereo| &stereo.partner);
-        let roll_limit_deg = roll_limit_deg(&dataset.layout().plan_report(scene, planned));
-        filmed.push(Filmed { trajectory, stored, frames, camera, views, stereo, roll_limit_deg });
+        let rules = PlanRules::of(&dataset.layout().plan_report(scene, planned));
+        filmed.push(Filmed { trajectory, stored, frames, camera, views, stereo, rules });
     }
     filmed
 }
@@ -453,6 +453,25 @@ mod tests {
             d.write_camera_parameters("room", &k.into()).unwrap();
         };
         assert_eq!(failures(other_lens).0, [Law::Calibration]);
+    }
+
+    #[test]
+    fn given_poses_may_stand_in_a_wall_and_planned_ones_may_not() {
+        let in_a_wall = |report: &'static str, frame: usize| {
+            let wall = move |d: &Dataset| {
+                write_bytes(&d.layout().plan_report("room", "cam_00"), report).unwrap();
+                let free = d.read_trajectory("room", "cam_00").unwrap().poses[1 - frame].position;
+                let mut tree = OccupancyTree::new(0.1);
+                tree.set(tree.key(free).unwrap(), Voxel::Free);
+                d.write_free_space("room", &tree.to_bt(), free, free).unwrap();
+            };
+            failures(wall).0
+        };
+        let preset = r#"{"mode": "walk", "roll_limit_deg": null}"#;
+        assert_eq!([in_a_wall(preset, 0), in_a_wall(preset, 1)], [vec![], vec![Law::FreeCamera]]);
+        let by_hand = r#"{"mode": "keyframes", "roll_limit_deg": null}"#;
+        assert_eq!([in_a_wall(by_hand, 0), in_a_wall(by_hand, 1)], [vec![], vec![]]);
+        assert_eq!(in_a_wall(r#"{"mode": "walk", "roll_limit_deg": 5.0}"#, 0), [Law::FreeCamera]);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use crate::tonemap::ToneMap;
 use enfilade_dataset::FrameRecord;
 use enfilade_frame::{Frame, Layer, Validity, Values, traits};
 use enfilade_math::Rgb;
+use enfilade_scene::Camera;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -44,12 +45,12 @@ pub struct FrameValues {
 }
 
 impl FrameValues {
-    /// The values of a frame; `record` is that of its rendering, where there is one.
-    pub fn new([scene, camera]: [&str; 2], number: u32, frame: &Frame, record: Option<&FrameRecord>) -> Self {
+    /// The values of a frame; `filmed_with` is its camera, where that is known, and `record` that of its rendering, where there is one.
+    pub fn new([scene, camera]: [&str; 2], number: u32, frame: &Frame, filmed_with: Option<&Camera>, record: Option<&FrameRecord>) -> Self {
         let sampling = record.and_then(|record| record.sampling);
         let noise = noise(frame);
         let noise_target = sampling.and_then(|sampling| sampling.noise_target);
-        let mut gates = gate_values(frame);
+        let mut gates = gate_values(frame, seeing(frame, filmed_with));
         gates.extend(noise.zip(noise_target).map(|(noise, target)| (Gate::Noise, noise / f64::from(target))));
         let tone = ToneMap::of_frame(frame);
         let [clipped_share, black_share] = exposure(frame, tone);
@@ -80,6 +81,13 @@ impl FrameValues {
     pub fn place(&self) -> String {
         format!("{}/{}/frame.{:04}", self.scene, self.camera, self.frame)
     }
+}
+
+/// In how many pixels of a frame its camera sees at all: in all of them, where it is not known or the frame is of another size.
+fn seeing(frame: &Frame, camera: Option<&Camera>) -> usize {
+    let Some(camera) = camera.filter(|camera| camera.size() == [frame.width, frame.height]) else { return frame.pixels() };
+    let sees = |x: u32, y: u32| camera.projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).is_some();
+    (0..frame.height).map(|y| (0..frame.width).filter(|x| sees(*x, y)).count()).sum()
 }
 
 /// Share of `all` for which `holds`.
@@ -147,11 +155,12 @@ fn special_pixels(frame: &Frame) -> BTreeMap<String, f64> {
 mod tests {
     use super::*;
     use crate::testing;
+    use enfilade_scene::{Fisheye, Intrinsics, Projection};
 
     #[test]
     fn the_analytic_frame_has_the_values_it_was_made_with() {
         let frame = testing::frame(&testing::pose());
-        let values = FrameValues::new(["room", "cam_00"], 3, &frame, None);
+        let values = FrameValues::new(["room", "cam_00"], 3, &frame, None, None);
         assert_eq!(values.place(), "room/cam_00/frame.0003");
         let ids = frame.get(Layer::RenderEntityId).unwrap();
         let of = |id: f64| share(ids.len(), |i| ids.get(i) == id);
@@ -169,9 +178,26 @@ mod tests {
 
     #[test]
     fn an_empty_frame_has_no_values() {
-        let values = FrameValues::new(["s", "c"], 0, &Frame::new(4, 4), None);
+        let values = FrameValues::new(["s", "c"], 0, &Frame::new(4, 4), None, None);
         let none = FrameValues { scene: "s".into(), camera: "c".into(), ..FrameValues::default() };
         assert_eq!(values, none);
+    }
+
+    #[test]
+    fn pixels_outside_of_the_image_circle_are_not_invalid() {
+        // All around, in a closed room: the circle touches the borders of the image.
+        let (size, focal) = (32, 16.0 / std::f64::consts::PI);
+        let k = Intrinsics { width: size, height: size, fx: focal, fy: focal, cx: 16.0, cy: 16.0, skew: 0.0 };
+        let camera: Camera = Projection::Fisheye(k, Fisheye::new([0.0; 4]).unwrap()).into();
+        let sees = |i: u32| camera.projection.ray(f64::from(i % size) + 0.5, f64::from(i / size) + 0.5).is_some();
+        let mut frame = Frame::new(size, size);
+        for (layer, there, nothing) in [(Layer::RenderEntityId, 1.0, -1.0), (Layer::DepthMeters, 2.0, f64::NAN)] {
+            let values = (0..size * size).map(|i| if sees(i) { there } else { nothing }).collect();
+            frame.insert(layer, testing::store(layer, values));
+        }
+        let invalid = |camera| FrameValues::new(["s", "c"], 0, &frame, camera, None).gates[&Gate::InvalidShare].unwrap();
+        assert_eq!(invalid(Some(&camera)), 0.0);
+        assert!((0.2..0.25).contains(&invalid(None)), "{}", invalid(None));
     }
 
     #[test]

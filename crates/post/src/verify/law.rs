@@ -101,7 +101,7 @@ pub const LAWS: [LawSpec; 56] = laws![
         "the camera's files are of another plan: plan again";
     Stereo 1e-9 "m", "the cameras of a stereo rig keep their baseline and look the same way", "one of the two was planned again or edited: plan again";
     LabelTables 0.0 "tables", "the label tables are there and have one row per part", "the scene was not labelled: run the label stage";
-    HasFrames 0.0 "", "every scene has a trajectory with rendered frames", "planning or rendering found nothing: see the run's summary";
+    HasFrames 0.0 "", "every scene has a trajectory with rendered frames", "a stage of the scene failed, or planning or rendering found nothing: see the run's summary";
     FrameNumbers 0.0 "frames", "frames are numbered 0, 1, 2, ... without a gap", "the trajectory was cut or edited: plan it again";
     PosesFinite 0.0 "poses", "poses hold no NaN or infinity", "planning went wrong: plan again";
     Orthonormal 1e-9 "", "orientations are orthonormal (largest entry of |R R^T - 1|)", "an artist's camera with scale was passed through: plan again";

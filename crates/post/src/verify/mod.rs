@@ -34,7 +34,7 @@ pub use page::report_page;
 pub use release::{Excuse, Excused};
 pub use report::{GateResult, LawResult, VerifyReport};
 pub use rounding::Rounding;
-pub use trajectory::check_trajectory;
+pub use trajectory::{PlanRules, check_trajectory};
 pub use two_views::{Compared, PairValues};
 pub use whole::{join_reports, write_report};
 

@@ -10,22 +10,46 @@ use std::path::Path;
 /// The roll that was the limit of every plan before plans said what theirs is, degrees.
 const USUAL_ROLL_LIMIT_DEG: f64 = 5.0;
 
-/// The greatest roll that the plan whose report is at `path` allows, degrees; `None` where it has no limit, or nothing was planned here.
-pub(super) fn roll_limit_deg(path: &Path) -> Option<f64> {
-    #[derive(Deserialize)]
-    struct Plan {
-        #[serde(default = "usual")]
-        roll_limit_deg: Option<f64>,
-    }
-    fn usual() -> Option<f64> {
-        Some(USUAL_ROLL_LIMIT_DEG)
-    }
-    serde_json::from_slice::<Plan>(&std::fs::read(path).ok()?).ok()?.roll_limit_deg
+/// What a plan keeps to, by its report; the default is that of poses that were not planned here.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+pub struct PlanRules {
+    /// Name of the mode; empty where it is not known.
+    #[serde(default)]
+    pub mode: String,
+    /// The greatest roll, degrees; `None` where it has no limit.
+    #[serde(default = "usual")]
+    pub roll_limit_deg: Option<f64>,
 }
 
-/// Checks every law about the poses of a trajectory. `roll_limit_deg` is the roll that its plan allows, if it has a limit; `place` names
-/// the camera.
-pub fn check_trajectory(trajectory: &Trajectory, roll_limit_deg: Option<f64>, place: &str) -> Card {
+fn usual() -> Option<f64> {
+    Some(USUAL_ROLL_LIMIT_DEG)
+}
+
+impl PlanRules {
+    /// Those of the plan whose report is at `path`.
+    pub(super) fn of(path: &Path) -> Self {
+        std::fs::read(path).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default()
+    }
+
+    /// Whether the camera of this frame stands in free space. Poses made by hand are kept wherever they stand, and so is the artist's
+    /// pose, with which Hypersim's preset begins; the preset looks for no room for the second camera of a rig.
+    pub(super) fn stands_free(&self, frame: u32, is_second: bool) -> bool {
+        self.mode != "keyframes" && (!self.is_preset() || frame > 0 && !is_second)
+    }
+
+    /// Whether this frame looks at its look-at point, which the preset takes beside the axis where nothing on the artist's is free.
+    fn looks_at_target(&self, frame: u32) -> bool {
+        !self.is_preset() || frame > 0
+    }
+
+    /// Hypersim's preset alone walks without a limit of roll.
+    fn is_preset(&self) -> bool {
+        self.mode == "walk" && self.roll_limit_deg.is_none()
+    }
+}
+
+/// Checks every law about the poses of a trajectory, as far as its plan keeps to it. `place` names the camera.
+pub fn check_trajectory(trajectory: &Trajectory, rules: &PlanRules, place: &str) -> Card {
     let mut card = Card::default();
     for (index, pose) in trajectory.poses.iter().enumerate() {
         let at = || format!("{place}/frame.{:04}", pose.frame);
@@ -35,20 +59,22 @@ pub fn check_trajectory(trajectory: &Trajectory, roll_limit_deg: Option<f64>, pl
         let finite = pose.position.is_finite() && pose.look_at.is_finite() && pose.world_from_camera.is_finite();
         card.observe(Law::PosesFinite, if finite { 0.0 } else { 1.0 }, at);
         if finite {
-            check_pose(&mut card, pose, roll_limit_deg, at);
+            check_pose(&mut card, pose, rules, at);
         }
     }
     card
 }
 
-fn check_pose(card: &mut Card, pose: &Pose, roll_limit_deg: Option<f64>, at: impl Fn() -> String) {
+fn check_pose(card: &mut Card, pose: &Pose, rules: &PlanRules, at: impl Fn() -> String) {
     let r = pose.world_from_camera;
     let off_identity = (r * r.transpose() - DMat3::IDENTITY).to_cols_array();
     card.observe(Law::Orthonormal, off_identity.iter().fold(0.0, |worst: f64, v| worst.max(v.abs())), &at);
     card.observe(Law::RightHanded, (r.determinant() - 1.0).abs(), &at);
-    let ahead = (pose.look_at - pose.position).try_normalize();
-    card.observe(Law::LookAt, ahead.map_or(f64::INFINITY, |ahead| (ahead + r.z_axis).abs().max_element()), &at);
-    if let Some(limit) = roll_limit_deg {
+    if rules.looks_at_target(pose.frame) {
+        let ahead = (pose.look_at - pose.position).try_normalize();
+        card.observe(Law::LookAt, ahead.map_or(f64::INFINITY, |ahead| (ahead + r.z_axis).abs().max_element()), &at);
+    }
+    if let Some(limit) = rules.roll_limit_deg {
         card.observe(Law::Roll, (pose.roll_rad().abs().to_degrees() - limit).max(0.0), &at);
     }
 }
@@ -66,10 +92,18 @@ mod tests {
         Trajectory { name: "cam_00".into(), poses: (0..5).map(pose).collect() }
     }
 
-    fn failures(change: impl Fn(&mut Trajectory)) -> Vec<Law> {
+    fn rules(mode: &str, roll_limit_deg: Option<f64>) -> PlanRules {
+        PlanRules { mode: mode.into(), roll_limit_deg }
+    }
+
+    fn failures_of(rules: &PlanRules, change: impl Fn(&mut Trajectory)) -> Vec<Law> {
         let mut t = trajectory();
         change(&mut t);
-        check_trajectory(&t, Some(5.0), "s/cam_00").failures()
+        check_trajectory(&t, rules, "s/cam_00").failures()
+    }
+
+    fn failures(change: impl Fn(&mut Trajectory)) -> Vec<Law> {
+        failures_of(&rules("walk", Some(5.0)), change)
     }
 
     #[test]
@@ -81,10 +115,23 @@ mod tests {
     fn the_limit_of_roll_is_that_of_the_plan() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("plan_report.json");
-        assert_eq!(roll_limit_deg(&path), None, "nothing was planned here");
+        assert_eq!(PlanRules::of(&path), rules("", None), "nothing was planned here");
         for (text, limit) in [("{}", Some(5.0)), (r#"{"roll_limit_deg": 12.5}"#, Some(12.5)), (r#"{"roll_limit_deg": null}"#, None)] {
             std::fs::write(&path, text).unwrap();
-            assert_eq!(roll_limit_deg(&path), limit, "{text}");
+            assert_eq!(PlanRules::of(&path).roll_limit_deg, limit, "{text}");
+        }
+    }
+
+    #[test]
+    fn the_target_of_the_presets_start_may_lie_beside_the_axis_and_no_other() {
+        for (rules, at_start) in [
+            (rules("walk", None), vec![]),
+            (rules("walk", Some(5.0)), vec![Law::LookAt]),
+            (rules("keyframes", None), vec![Law::LookAt]),
+            (PlanRules::default(), vec![Law::LookAt]),
+        ] {
+            let beside = |frame: usize| failures_of(&rules, move |t| t.poses[frame].look_at.z += 0.01);
+            assert_eq!((beside(0), beside(1)), (at_start, vec![Law::LookAt]), "{rules:?}");
         }
     }
 
@@ -108,7 +155,7 @@ mod tests {
         let mut rolled = trajectory();
         roll(&mut rolled);
         for limit in [Some(15.0), None] {
-            assert_eq!(check_trajectory(&rolled, limit, "s/cam_00").failures(), [], "{limit:?}");
+            assert_eq!(check_trajectory(&rolled, &rules("walk", limit), "s/cam_00").failures(), [], "{limit:?}");
         }
     }
 }

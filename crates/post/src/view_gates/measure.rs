@@ -41,9 +41,7 @@ impl ViewMeasures {
         let share = |n: usize| if seeing > 0 { n as f64 / seeing as f64 } else { 0.0 };
         let near = (0..distances.len()).filter(|&i| distances.get(i) < config.min_depth_m).count();
         let met = (0..distances.len()).filter(|&i| distances.get(i).is_finite()).count();
-        let values = view_values(frame);
-        let valid = (1.0 - values[&Gate::InvalidShare]) * frame.pixels() as f64;
-        let of_seeing = frame.pixels() as f64 / seeing.max(1) as f64;
+        let values = view_values(frame, seeing);
         Self {
             void_share: 1.0 - share(met),
             enclosed_share: place.enclosed_share,
@@ -51,8 +49,8 @@ impl ViewMeasures {
             back_face_share: share(wrong_side.iter().filter(|wrong| **wrong).count()),
             near_share: share(near),
             depth_range_m: values[&Gate::DepthRange],
-            plane_share: (values[&Gate::PlaneShare] * of_seeing).min(1.0),
-            invalid_share: 1.0 - share(valid.round() as usize),
+            plane_share: values[&Gate::PlaneShare],
+            invalid_share: values[&Gate::InvalidShare],
         }
     }
 

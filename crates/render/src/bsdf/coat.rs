@@ -7,6 +7,10 @@ use enfilade_math::{Vec3, warp};
 const COSINES: usize = 64;
 /// Roughnesses (i/15)² where the roughness varies over the surface.
 const ALPHAS: usize = 16;
+/// Highest index of refraction: such a coat reflects all but 0.04 %, and beyond it float32 no longer tells what it lets through.
+const MOST_ETA: f32 = 1e4;
+/// Least share of the base's light that a coat lets out.
+const LEAST_ESCAPE: f32 = 1e-12;
 
 /// What becomes of light that meets several facets of the coat in a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,8 +45,8 @@ struct Row {
     transmittance: [f32; COSINES],
     /// Cosine-weighted mean transmittance over the hemisphere.
     mean: f32,
-    /// Share of the base's light that the coat reflects back inside.
-    inner: f32,
+    /// Share of the base's light that comes out through the coat; the rest is reflected back inside. Small where the index is high.
+    escapes: f32,
 }
 
 /// A coat at the roughness of a point.
@@ -76,7 +80,8 @@ impl CoatTable {
     /// The coat at the roughness `alpha`, which must be the table's if it was made for one.
     #[inline]
     pub fn at(&self, alpha: f32) -> Coat<'_> {
-        let CoatSpec { eta, bounces, .. } = self.spec;
+        let CoatSpec { bounces, .. } = self.spec;
+        let eta = self.spec.eta.min(MOST_ETA);
         let smooth = alpha < ggx::SMOOTH_ALPHA;
         if let [row] = &self.rows[..] {
             return Coat { low: row, high: row, share: 0.0, smooth, eta, bounces };
@@ -89,7 +94,7 @@ impl CoatTable {
 
 impl Row {
     fn new(spec: &CoatSpec, alpha: f32) -> Self {
-        let eta = spec.eta;
+        let eta = spec.eta.min(MOST_ETA);
         let cosine = |i: usize| (i as f32 / (COSINES - 1) as f32).max(1e-6);
         let bounces = if alpha < ggx::SMOOTH_ALPHA { Bounces::All } else { spec.bounces };
         let transmittance: [f32; COSINES] = std::array::from_fn(|i| match bounces {
@@ -103,13 +108,15 @@ impl Row {
             step * (c * (a + b) + step * (a + 2.0 * b) / 3.0)
         };
         let mean: f32 = (0..COSINES - 1).map(piece).sum();
-        let inner = match bounces {
+        let escapes = match bounces {
             // By energy balance and reciprocity.
-            Bounces::All => 1.0 - mean / (eta * eta),
+            Bounces::All => mean / (eta * eta),
             // The sum that Mitsuba takes; it falls short of the integral by 1/64.
-            Bounces::Single => (0..COSINES).map(|i| 2.0 * cosine(i) * once(cosine(i), alpha, 1.0 / eta).0).sum::<f32>() / COSINES as f32,
+            Bounces::Single => {
+                1.0 - (0..COSINES).map(|i| 2.0 * cosine(i) * once(cosine(i), alpha, 1.0 / eta).0).sum::<f32>() / COSINES as f32
+            }
         };
-        Self { transmittance, mean, inner }
+        Self { transmittance, mean, escapes: escapes.max(LEAST_ESCAPE) }
     }
 
     #[inline]
@@ -138,10 +145,10 @@ impl Coat<'_> {
         self.low.mean * (1.0 - self.share) + self.high.mean * self.share
     }
 
-    /// Share of diffuse light from the base that the coat reflects back inside.
+    /// Share of diffuse light from the base that the coat lets out; it reflects the rest back inside.
     #[inline]
-    pub fn inner_reflectance(&self) -> f32 {
-        self.low.inner * (1.0 - self.share) + self.high.inner * self.share
+    pub fn inner_transmittance(&self) -> f32 {
+        self.low.escapes * (1.0 - self.share) + self.high.escapes * self.share
     }
 }
 
@@ -182,7 +189,7 @@ mod tests {
         for bounces in [Bounces::All, Bounces::Single] {
             let table = table(Some(0.0), bounces);
             let coat = table.at(0.0);
-            assert!((coat.inner_reflectance() - 0.5963).abs() < 1e-3, "{}", coat.inner_reflectance());
+            assert!((coat.inner_transmittance() - 0.4037).abs() < 1e-3, "{}", coat.inner_transmittance());
             assert!((coat.transmittance(1.0) - 0.96).abs() < 1e-5);
             assert!(coat.transmittance(0.02) < 0.5);
         }

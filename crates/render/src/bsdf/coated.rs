@@ -32,8 +32,9 @@ impl<'a> Coated<'a> {
     pub fn new(coat: Coat<'a>, alpha: f32, reflectance: Rgb, tint: Rgb, saturating: bool, cos_o: f32) -> Self {
         let through_o = coat.transmittance(cos_o);
         let once = through_o * INV_PI / (coat.eta * coat.eta);
-        let back = coat.inner_reflectance();
-        let base = if saturating { reflectance.map(|r| once / (1.0 - r * back)) } else { Rgb::splat(once / (1.0 - back)) };
+        let escapes = coat.inner_transmittance();
+        // 1 − r · (1 − escapes), without the cancellation where hardly anything escapes.
+        let base = if saturating { reflectance.map(|r| once / ((1.0 - r) + r * escapes)) } else { Rgb::splat(once / escapes) };
         let facets = match coat.bounces {
             Bounces::All => Facets::new(alpha, cos_o),
             Bounces::Single => Facets::separable(alpha, cos_o),

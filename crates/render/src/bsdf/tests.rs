@@ -282,3 +282,34 @@ fn tiles_under_plastic_reflect_as_much_to_wide_rays_as_their_halves_do() {
         assert!((wide - halves).abs() < 1e-5 * halves, "nonlinear {nonlinear}: {wide} for {halves}");
     }
 }
+
+/// Chrome is often written as a coat of an index of refraction in the hundreds.
+#[test]
+fn coats_of_very_high_index_stay_finite_and_reflect_what_their_transmittance_says() {
+    for (ior, roughness, base) in [(100.0, 0.0, 0.5), (999.0, 0.0, 0.0), (999.0, 0.3, 0.5), (999.0, 0.0, 1.0), (1e30, 0.3, 1.0)] {
+        let bsdf = scene::Bsdf::Principled(Box::new(Principled {
+            base_color: Rgb::splat(base).into(),
+            ior,
+            roughness: f32::into(roughness),
+            ..Principled::default()
+        }));
+        let material = Material::new("chrome", bsdf);
+        let (tables, textures) = (tables(&material), Textures::default());
+        for cos_o in [0.9, 0.3] {
+            let inputs = Inputs { textures: &textures, uv: Vec2::ZERO, footprint: Footprint::POINT, tables: &tables, cos_o, outside: true };
+            let bsdf = Bsdf::new(&material.bsdf, &inputs);
+            let mut rng = Rng::new(3);
+            let albedo = Mean::of((0..20_000).map(|_| {
+                let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
+                bsdf.sample(direction(cos_o), u).map_or(0.0, |s| {
+                    let value = f64::from(s.weight.total(bsdf.reflectance).g);
+                    assert!(value.is_finite(), "ior {ior}, roughness {roughness}, base {base}");
+                    value
+                })
+            }));
+            // Nearly all is reflected, and nothing is made.
+            let (mean, error) = (albedo.value(), 5.0 * albedo.standard_error() + 2e-3);
+            assert!((0.95..=1.0 + error).contains(&mean), "ior {ior}, roughness {roughness}, base {base}: {mean} ± {error}");
+        }
+    }
+}

@@ -120,10 +120,21 @@ fn pooled(texels: &[f32], image: &Image, limit: usize) -> (Vec<f32>, usize) {
     let (w, h) = (image.width as usize, image.height as usize);
     let (columns, rows) = (w.min(limit), h.min(limit / 2));
     let mut cells = vec![0.0; columns * rows];
-    for (i, weight) in texels.iter().enumerate() {
-        cells[(i / w) * rows / h * columns + (i % w) * columns / w] += weight;
+    for (i, weight) in texels.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
+        for (row, of_row) in shares(i / w, h, rows) {
+            for (column, of_column) in shares(i % w, w, columns) {
+                cells[row * columns + column] += weight * of_row * of_column;
+            }
+        }
     }
     (cells, columns)
+}
+
+/// The cells that texel `i` of `texels` lies in, at most two of as many `cells` or fewer, with its share in each.
+fn shares(i: usize, texels: usize, cells: usize) -> impl Iterator<Item = (usize, f32)> {
+    let first = i * cells / texels;
+    let inside = ((first + 1) * texels - i * cells).min(cells) as f32 / cells as f32;
+    std::iter::once((first, inside)).chain((inside < 1.0).then_some((first + 1, 1.0 - inside)))
 }
 
 /// Luminance × solid angle of each texel, smeared over the neighbours, because lookups interpolate between texels: wherever
@@ -176,6 +187,28 @@ mod tests {
             for k in 0..400 {
                 let d = at((k % 20) as f32 / 9.5 - 1.0, (k / 20) as f32 / 9.5 - 1.0);
                 assert!(sky.pdf(d) > 0.0 || sky.radiance(d).is_black(), "{rows:?} {d}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_texel_across_two_cells_has_density_in_both() {
+        for width in [1500u32, 3000] {
+            let height = width / 2;
+            for x in 5..15 {
+                let (x, y) = (width / 2 + x, height / 3 + x);
+                let mut texels = vec![[0.0; 3]; (width * height) as usize];
+                texels[(y * width + x) as usize] = [1e4; 3];
+                let images = [Image { name: "sun".into(), width, height, pixels: Pixels::RgbF32(texels) }];
+                let map = Environment::Map { image: 0, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world: Mat3::IDENTITY };
+                let sky = Sky::new(&map, &images).unwrap();
+                for k in 0..400 {
+                    let place = |i: u32, k: i32| {
+                        (i as f32 + 0.5 + (k as f32 / 9.5 - 1.0) * 0.98) / if i == x { width as f32 } else { height as f32 }
+                    };
+                    let d = direction_from_uv(Vec2::new(place(x, k % 20), place(y, k / 20)));
+                    assert!(sky.pdf(d) > 0.0 || sky.radiance(d).is_black(), "{width}: {x}, {k}");
+                }
             }
         }
     }

@@ -37,7 +37,8 @@ pub struct LensTexture {
     pub size: [u32; 2],
 }
 
-/// The scene as this camera sees it, frame by frame: a pinhole in focus and at rest. Keyframes of another camera go.
+/// The scene as this camera sees it, frame by frame: a pinhole in focus and at rest, with square pixels. Of another camera the keyframes
+/// go, and so do its shifts, which would move the picture although the field of view is stated.
 ///
 /// # Panics
 /// When there is no keyframe.
@@ -59,6 +60,7 @@ pub fn set_camera(scene: &mut Document, path: &CameraPath) {
         &[
             ("img_width", Value::Int(path.size[0].into())),
             ("img_height", Value::Int(path.size[1].into())),
+            ("img_pixelAspect", Value::Int(1)),
             ("img_file_needFrameNumber", Value::Int(1)),
             ("anim_start", Value::Int(0)),
             ("anim_end", Value::Float(last as f64 * path.frame_time_s)),
@@ -70,10 +72,16 @@ pub fn set_camera(scene: &mut Document, path: &CameraPath) {
     let mut physical = vec![
         ("specify_fov", Value::Int(1)),
         ("fov", fov),
+        ("zoom_factor", Value::Int(1)),
+        ("lens_shift", Value::Int(0)),
+        ("horizontal_shift", Value::Int(0)),
+        ("horizontal_offset", Value::Int(0)),
+        ("vertical_offset", Value::Int(0)),
         ("use_dof", Value::Int(0)),
         ("use_moblur", Value::Int(0)),
-        ("bokeh_on", Value::Int(0)),
-        ("distortion_type", Value::Int(0)),
+        ("blades_enable", Value::Int(0)),
+        // A texture bends the rays, or nothing does.
+        ("distortion_type", Value::Int(if path.lens.is_some() { 3 } else { 0 })),
         ("distortion", Value::Int(0)),
     ];
     // A lens of an earlier camera, which nothing refers to any more.
@@ -82,7 +90,6 @@ pub fn set_camera(scene: &mut Document, path: &CameraPath) {
         scene.of_kind_mut("CameraPhysical").filter(|camera| refers_to_lens(camera)).for_each(|camera| _ = camera.remove("distortion_tex"));
         return set_where_present(scene, "CameraPhysical", &physical);
     };
-    physical[5].1 = Value::Int(3);
     physical.push(("lens_file", text("")));
     physical.push(("distortion_tex", Value::Name(format!("{LENS}_texture").into_bytes())));
     add_lens(scene, lens);

@@ -63,16 +63,17 @@ pub fn prepare_for_layers(scene: &mut Document) {
 pub fn add_geometry_channels(scene: &mut Document) {
     let sampled = [("VRayPosition", "point"), ("VRayNormal", "normal"), ("VRayNormalBump", "bumpNormal"), ("VRayTexCoord", "uvCoord")];
     for (name, output) in sampled {
-        let sampler = format!("HYPERSIM_sampler_{name}");
+        let (sampler, color) = (format!("HYPERSIM_sampler_{name}"), format!("HYPERSIM_color_{name}"));
         add(scene, "TexSampler", &sampler, &[("uv_index", Value::Int(1))]);
-        let texmap = Value::Name(format!("{sampler}::{output}").into_bytes());
+        // The sampler puts out vectors, and a render element takes a texture.
+        add(scene, "TexVectorToColor", &color, &[("input", Value::Name(format!("{sampler}::{output}").into_bytes()))]);
         let parameters = [
             ("name", text(name)),
             ("consider_for_aa", Value::Int(0)),
             ("affect_matte_objects", Value::Int(1)),
             ("filtering", Value::Int(0)),
             ("force_32_bit_output", Value::Int(1)),
-            ("texmap", texmap),
+            ("texmap", Value::Name(color.into_bytes())),
         ];
         add(scene, "RenderChannelExtraTex", &format!("HYPERSIM_channel_{name}"), &parameters);
     }

@@ -104,6 +104,7 @@ fn after(between: &mut Vec<u8>, mut item: Item) -> Item {
         let before = match &mut item {
             Item::Plugin(plugin) => &mut plugin.before,
             Item::Include(include) => &mut include.before,
+            Item::Time(time) => &mut time.before,
         };
         *before = Text::Made(joined(&std::mem::take(between), before.bytes()));
     }

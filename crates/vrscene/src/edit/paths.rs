@@ -32,8 +32,11 @@ impl Platform {
     }
 }
 
-/// Parameters that hold the path of a file, whatever their plugin.
-const FILE_PARAMETERS: [&[u8]; 3] = [b"file", b"ies_file", b"auto_save_file"];
+/// True for a parameter that holds the path of a file, whatever its plugin: whose name begins with `file`, as the toolkit has it, or ends
+/// in `_file` and is not that of the picture that V-Ray writes; and the cache of a simulation.
+fn holds_path(parameter: &[u8]) -> bool {
+    parameter.starts_with(b"file") || parameter == b"cache_path" || parameter.ends_with(b"_file") && parameter != b"img_file"
+}
 
 /// A file that a scene refers to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,8 +62,9 @@ pub fn file_references(scene: &Document) -> Vec<FileReference> {
                 parameter: "#include".into(),
                 place: include.place(),
             }),
+            Item::Time(_) => {}
             Item::Plugin(plugin) => {
-                for parameter in plugin.parameters().iter().filter(|p| FILE_PARAMETERS.contains(&p.name())) {
+                for parameter in plugin.parameters().iter().filter(|p| holds_path(p.name())) {
                     if let Ok(Value::Text(path)) = parameter.value() {
                         let path = String::from_utf8_lossy(&path).into_owned();
                         found.push(FileReference {
@@ -92,8 +96,9 @@ pub fn replace_paths(scene: &mut Document, old: &str, new: &str) -> usize {
                     changed += 1;
                 }
             }
+            Item::Time(_) => {}
             Item::Plugin(plugin) => {
-                for parameter in plugin.parameters_mut().iter_mut().filter(|p| FILE_PARAMETERS.contains(&p.name())) {
+                for parameter in plugin.parameters_mut().iter_mut().filter(|p| holds_path(p.name())) {
                     let Ok(Value::Text(path)) = parameter.value() else { continue };
                     if let Some(path) = replaced(&path, old, new) {
                         parameter.set(&super::text(&path));

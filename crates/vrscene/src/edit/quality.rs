@@ -4,8 +4,11 @@ use crate::{Document, Value};
 /// Radiance of the surroundings in Hypersim's scenes: arbitrary, and white after tone mapping.
 const SURROUNDINGS: f32 = 4.0;
 
+/// What rays see that leave the scene: in the picture, for indirect light, in mirrors, through glass, and from matte objects.
+const SURROUNDINGS_OF: [&str; 5] = ["bg", "gi", "reflect", "refract", "secondary_matte"];
+
 /// Hypersim's settings of the image: progressive sampling to a noise of 0.001 for 300 minutes at most, an irradiance map and a light
-/// cache for indirect light, and surroundings of one plain colour.
+/// cache for indirect light, and surroundings of one plain colour where no texture, such as a picture or a sky, makes them.
 pub fn hypersim_quality(scene: &mut Document) {
     set_on_settings(
         scene,
@@ -28,8 +31,13 @@ pub fn hypersim_quality(scene: &mut Document) {
         &[("min_rate", Value::Int(-3)), ("max_rate", Value::Int(-1)), ("subdivs", Value::Int(50)), ("multipass", Value::Int(1))],
     );
     let (color, texture) = (Value::Color([SURROUNDINGS; 3]), Value::AColor([SURROUNDINGS, SURROUNDINGS, SURROUNDINGS, 1.0]));
-    for of in ["bg", "gi", "reflect", "refract", "secondary_matte"] {
-        let parameters = [(format!("{of}_color"), color.clone()), (format!("{of}_tex"), texture.clone())];
-        set_on_settings(scene, "SettingsEnvironment", &parameters.each_ref().map(|(name, value)| (name.as_str(), value.clone())));
+    let colors = SURROUNDINGS_OF.map(|of| format!("{of}_color"));
+    set_on_settings(scene, "SettingsEnvironment", &colors.each_ref().map(|name| (name.as_str(), color.clone())));
+    for environment in scene.of_kind_mut("SettingsEnvironment") {
+        for name in SURROUNDINGS_OF.map(|of| format!("{of}_tex")) {
+            if matches!(environment.get(&name), Ok(None | Some(Value::AColor(_) | Value::Color(_)))) {
+                environment.set(&name, &texture);
+            }
+        }
     }
 }

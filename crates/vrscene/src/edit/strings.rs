@@ -1,20 +1,25 @@
-use crate::{Document, Plugin, Value};
-use std::collections::{HashMap, HashSet};
+use crate::{Document, Parameter, Plugin, Value};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// A string that a node leads to: names of materials, files of textures, notes of exporters. They tell people what the node is.
+/// A string that a node leads to: names of plugins and materials, files of textures, notes of exporters. They tell people what the
+/// node is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NodeString {
-    /// From the node to the string: `node.parameter.parameter[i]…`.
+    /// From the node to the string: `<root>.parameter.parameter[i]…`.
     pub path: String,
     /// The string.
     pub string: String,
 }
 
-/// All strings that a node leads to, depth first, parameters in their order. Each plugin is visited once, so circles end.
+/// All strings that a node leads to: its own name and, depth first, those behind its parameters, which are taken by their names.
+///
+/// The paths and their order are the toolkit's. A plugin that several ways lead to is named at each of them, and what lies behind it
+/// is told at the first, where the toolkit repeats it; a way that closes a circle ends before it. A plugin's output counts as the plugin,
+/// where the toolkit stops. What only V-Ray knows is missing: strings of parameters that the scene does not state.
 pub fn node_strings(scene: &Document, node: &Plugin) -> Vec<NodeString> {
     let plugins: HashMap<&[u8], &Plugin> = scene.plugins().map(|plugin| (plugin.name(), plugin)).collect();
-    let mut walk = Walk { plugins: &plugins, visited: HashSet::from([node.name()]), found: Vec::new() };
-    walk.plugin(&String::from_utf8_lossy(node.name()), node, 0);
+    let mut walk = Walk { plugins: &plugins, way: Vec::new(), visited: HashSet::new(), found: Vec::new() };
+    walk.plugin("<root>", node);
     walk.found
 }
 
@@ -23,49 +28,58 @@ const MAX_CHAIN: usize = 256;
 
 struct Walk<'a> {
     plugins: &'a HashMap<&'a [u8], &'a Plugin>,
+    /// The plugins from the node to this place.
+    way: Vec<&'a [u8]>,
     visited: HashSet<&'a [u8]>,
     found: Vec<NodeString>,
 }
 
 impl<'a> Walk<'a> {
-    fn plugin(&mut self, path: &str, plugin: &'a Plugin, chain: usize) {
-        if chain > MAX_CHAIN {
+    fn plugin(&mut self, path: &str, plugin: &'a Plugin) {
+        if self.way.len() > MAX_CHAIN || self.way.contains(&plugin.name()) {
             return;
         }
-        for parameter in plugin.parameters() {
+        self.string(path, plugin.name());
+        if !self.visited.insert(plugin.name()) {
+            return;
+        }
+        self.way.push(plugin.name());
+        let parameters: BTreeMap<&[u8], &Parameter> = plugin.parameters().iter().map(|p| (p.name(), p)).collect();
+        for (name, parameter) in parameters {
             // Packed numbers lead nowhere.
             if parameter.raw().windows(4).take(32).any(|bytes| bytes == b"Hex(") {
                 continue;
             }
             if let Ok(value) = parameter.value() {
-                let path = format!("{path}.{}", String::from_utf8_lossy(parameter.name()));
-                self.value(&path, &value, chain);
+                self.value(&format!("{path}.{}", String::from_utf8_lossy(name)), &value);
             }
         }
+        self.way.pop();
     }
 
-    fn value(&mut self, path: &str, value: &Value, chain: usize) {
+    fn value(&mut self, path: &str, value: &Value) {
         match value {
-            Value::Text(text) => {
-                self.found.push(NodeString { path: path.to_string(), string: String::from_utf8_lossy(text).into_owned() });
-            }
+            Value::Text(text) => self.string(path, text),
             Value::Name(_) => {
-                let plugin = value.plugin().and_then(|name| self.plugins.get(name)).copied();
-                if let Some(plugin) = plugin.filter(|plugin| self.visited.insert(plugin.name())) {
-                    self.plugin(path, plugin, chain + 1);
+                if let Some(plugin) = value.plugin().and_then(|name| self.plugins.get(name)).copied() {
+                    self.plugin(path, plugin);
                 }
             }
             Value::List(_, values) => {
                 for (i, value) in values.iter().enumerate() {
-                    self.value(&format!("{path}[{i}]"), value, chain);
+                    self.value(&format!("{path}[{i}]"), value);
                 }
             }
             Value::Animated(keys) => {
                 if let Some((_, first)) = keys.first() {
-                    self.value(path, first, chain);
+                    self.value(path, first);
                 }
             }
             _ => {}
         }
+    }
+
+    fn string(&mut self, path: &str, string: &[u8]) {
+        self.found.push(NodeString { path: path.to_string(), string: String::from_utf8_lossy(string).into_owned() });
     }
 }

@@ -24,6 +24,8 @@ import { Tables } from "./tables.js";
 
 /** The picture begins here, metres before the camera. */
 const NEAR_M = 0.05;
+/** It ends here where there are no faces, metres. */
+const FAR_M = 100;
 /** The camera is at rest when it has not moved for this long, milliseconds. */
 const SETTLE_MS = 140;
 /** Drawings of a motion that are farther apart, milliseconds, belong to two motions. */
@@ -60,7 +62,7 @@ export class Stage3d extends EventTarget {
         /** What pages draw beside the scene: lines, points, boxes. Call {@link requestFrame} after a change. */
         this.scene = new Scene();
         /** The camera of the view. Call {@link cameraMoved} after setting it. */
-        this.camera = new PerspectiveCamera(60, 1, NEAR_M, 100);
+        this.camera = new PerspectiveCamera(60, 1, NEAR_M, FAR_M);
         this.camera.up.set(0, 0, 1);
         /** Finer than pixels at rest: null decides by the machine. @type {boolean | null} */
         this.smooth = null;
@@ -109,6 +111,16 @@ export class Stage3d extends EventTarget {
         this.pace.fixed = fixed;
         const diagonal = new Vector3(...geometry.max).distanceTo(new Vector3(...geometry.min));
         this.camera.far = Math.max(10, diagonal * 2);
+        this.meshChanged();
+    }
+
+    /** Shows no faces, until the next scene. */
+    clear() {
+        this.mesh?.dispose();
+        this.mesh = null;
+        this.quick.dispose();
+        this.fine.dispose();
+        this.camera.far = FAR_M;
         this.meshChanged();
     }
 
@@ -243,9 +255,9 @@ export class Stage3d extends EventTarget {
         return cameraJson(this.camera, this.element.clientWidth, this.element.clientHeight, this.near);
     }
 
-    /** What is nearer along the optical axis is neither drawn nor picked, metres; 0 for nothing. */
+    /** What is nearer along the optical axis is neither drawn nor picked, metres. */
     get near() {
-        return this.camera.near > NEAR_M ? this.camera.near : 0;
+        return this.camera.near;
     }
 
     /** @param {number} near_m */
@@ -341,6 +353,9 @@ export class Stage3d extends EventTarget {
         this.stale = false;
         this.told = false;
         this.refinement.restart();
+        // What is drawn beside the scene needs it too.
+        this.camera.updateProjectionMatrix();
+        this.camera.updateMatrixWorld();
         if (!this.mesh) return;
         const { moved } = this;
         this.moved = false;
@@ -352,8 +367,6 @@ export class Stage3d extends EventTarget {
         }
         this.lastMotionFrame = moved ? now : -Infinity;
         const { renderer, camera, mesh } = this;
-        camera.updateProjectionMatrix();
-        camera.updateMatrixWorld();
         mesh.shared.upInView.value.set(0, 0, 1).transformDirection(camera.matrixWorldInverse);
         const [width, height] = [this.canvas.width, this.canvas.height];
         const budget = this.pace.budget;

@@ -134,6 +134,55 @@ fn cameras_stand_at_the_height_asked_for_and_look_level() {
 }
 
 #[test]
+fn a_band_of_heights_thinner_than_a_voxel_has_places() {
+    // Between the centres of voxels 1.48 and 1.58 m above the floor.
+    let band = [1.5, 1.54];
+    let room = furnished_room();
+    let space = carved(&room);
+    for mode in modes() {
+        let config = PlanConfig { mode, camera_height_m: Some(band), frames: 12, ..quick() };
+        let planned = plan(&room.world, &room.bvh, &space, &start(), 0, &config, &Quiet).unwrap();
+        let (height, name) = (planned.report.statistics.height_m, config.mode.name());
+        assert!(height.min >= band[0] - 1e-6 && height.max <= band[1] + 1e-6, "{name}: {height:?}");
+        assert!(planned.trajectory.poses.len() >= 10, "{name}: {} poses", planned.trajectory.poses.len());
+    }
+}
+
+#[test]
+fn a_start_camera_above_a_table_is_brought_down_beside_it() {
+    let room = furnished_room();
+    let space = carved(&room);
+    let above = camera(DVec3::new(1.6, 1.3, 1.7), DVec3::new(3.0, 4.0, 1.2), DVec3::Z);
+    let config = PlanConfig { camera_height_m: Some([0.3, 0.6]), frames: 1, ..quick() };
+    let listener = Listener::default();
+    let first = trajectory(&room, &space, &above, 0, &config, &listener).unwrap().poses[0];
+    let height_m = first.position.z + 0.03;
+    assert!((0.3 - 1e-6..=0.6 + 1e-6).contains(&height_m), "{height_m} m");
+    assert!((first.position - above.position).truncate().length() <= 1.0, "{}", first.position);
+    assert!(listener.0.into_inner().unwrap().join("\n").contains("not at the height asked for"));
+}
+
+#[test]
+fn targets_go_up_a_platform_with_the_camera() {
+    // Most of the room is 0.9 m above the rest, more than `height_range_m`.
+    let shell = cuboid(DVec3::new(2.03, -0.03, -0.03), DVec3::new(11.93, 4.93, 3.63), true);
+    let platform = cuboid(DVec3::new(4.0, -0.5, -0.5), DVec3::new(12.5, 5.5, 0.87), false);
+    let room = Room::from_corners([shell, platform].concat());
+    let space = carved(&room);
+    let band = [1.4, 1.7];
+    let config = PlanConfig { camera_height_m: Some(band), step_m: [1.5, 1.5, 1.2], frames: 200, ..quick() };
+    let poses = trajectory(&room, &space, &start(), 0, &config, &Quiet).unwrap().poses;
+    let down_m = |pose: &Pose| pose.look_at.z - pose.position.z;
+    let on_platform = |pose: &Pose| pose.position.z > 2.0;
+    let pairs: Vec<&[Pose]> = poses.windows(2).filter(|pair| pair.iter().all(on_platform)).collect();
+    assert!(pairs.len() > 5, "{} frames on the platform", pairs.len());
+    for pair in pairs {
+        let change_m = (down_m(&pair[1]) - down_m(&poses[0])).abs();
+        assert!(change_m <= config.height_range_m + band[1] - band[0] + 1e-6, "frame {}: {change_m} m", pair[1].frame);
+    }
+}
+
+#[test]
 fn views_stay_within_the_limits_of_pitch() {
     let room = furnished_room();
     let space = carved(&room);

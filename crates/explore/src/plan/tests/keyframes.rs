@@ -17,7 +17,7 @@ fn tables_of_both_kinds_are_read_and_every_frame_between_their_poses_is_there() 
     assert_eq!(keyframes, parse_keyframes("PATH.JSON", JSON).unwrap());
     let room = furnished_room();
     let (space, listener) = (carved(&room), Listener::default());
-    let planned = follow(&room.world, &room.bvh, &space, &keyframes, 4, &quick(), &listener).unwrap();
+    let planned = follow(&room.world, &room.bvh, &space, &keyframes, "cam_04", &quick(), &listener).unwrap();
     let poses = &planned.trajectory.poses;
     assert_eq!((planned.trajectory.name.as_str(), poses.len()), ("cam_04", 17));
     for keyframe in &keyframes {
@@ -45,7 +45,7 @@ fn a_written_trajectory_comes_back_as_it_was() {
     let header = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z,up_x,up_y,up_z\n";
     let text: String = std::iter::once(header.to_string()).chain(walk.poses.iter().map(row)).collect();
     let keyframes = parse_keyframes("walk.csv", &text).unwrap();
-    let again = follow(&room.world, &room.bvh, &space, &keyframes, 0, &quick(), &Quiet).unwrap().trajectory;
+    let again = follow(&room.world, &room.bvh, &space, &keyframes, "cam_00", &quick(), &Quiet).unwrap().trajectory;
     for (a, b) in again.poses.iter().zip(&walk.poses) {
         assert_eq!((a.frame, a.position, a.look_at), (b.frame, b.position, b.look_at));
         assert!((a.world_from_camera - b.world_from_camera).to_cols_array().iter().all(|v| v.abs() < 1e-9));
@@ -58,7 +58,7 @@ fn frames_in_a_wall_are_named_and_left_as_they_are() {
     let (space, listener) = (carved(&room), Listener::default());
     let text = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z\n0,3,2.5,1.5,3,4,1.2\n2,7,2.5,1.5,3,4,1.2\n";
     let keyframes = parse_keyframes("path.csv", text).unwrap();
-    let planned = follow(&room.world, &room.bvh, &space, &keyframes, 0, &quick(), &listener).unwrap();
+    let planned = follow(&room.world, &room.bvh, &space, &keyframes, "cam_00", &quick(), &listener).unwrap();
     assert_eq!(planned.trajectory.poses[2].position, DVec3::new(7.0, 2.5, 1.5));
     let places: Vec<u32> = planned.report.relaxed.iter().filter(|r| r.fault == Fault::Place).map(|r| r.frame).collect();
     assert_eq!(places, [2]);

@@ -70,7 +70,7 @@ fn with_planner<T>(room: &Room, space: &FreeSpace, config: &PlanConfig, test: im
 fn modes() -> [Mode; 4] {
     let coverage = CoverageConfig { poses: 150, samples: 1000, views: 2, ..CoverageConfig::default() };
     [
-        Mode::Walk,
+        Mode::default(),
         Mode::Video(VideoConfig::default()),
         Mode::Stills(StillsConfig { min_distance_m: 0.5, ..StillsConfig::default() }),
         Mode::Coverage(coverage),

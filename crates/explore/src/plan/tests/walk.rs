@@ -98,6 +98,10 @@ fn impossible_starts_are_errors_that_say_where() {
     let outside = camera(DVec3::new(9.0, 9.0, 1.5), DVec3::new(3.0, 4.0, 1.2), DVec3::Z);
     assert!(matches!(run(outside, quick()), ExploreError::StartBlocked { .. }));
     assert!(matches!(run(start(), PlanConfig { clearance_m: 5.0, ..quick() }), ExploreError::StartBlocked { .. }));
+    // A height that no room has is not blamed on the clearance alone.
+    let high = run(start(), PlanConfig { camera_height_m: Some([5.0, 6.0]), ..quick() }).to_string();
+    assert!(high.contains("is 5 to 6 m above the floor, as camera_height_m asks; move the camera, change camera_height_m"), "{high}");
+    assert!(!run(start(), PlanConfig { clearance_m: 5.0, ..quick() }).to_string().contains("camera_height_m"));
     assert!(matches!(run(start(), PlanConfig { min_look_distance_m: 50.0, ..quick() }), ExploreError::NothingToLookAt { .. }));
     assert!(run(start(), PlanConfig { frames: 0, ..quick() }).to_string().starts_with("frames = 0: expected"));
 }
@@ -116,6 +120,20 @@ fn a_walk_that_cannot_go_on_says_where_it_is_stuck() {
     let config = PlanConfig { queries: 1, step_m: [15.0, 15.0, 0.25], ..quick() };
     let error = trajectory(&room, &space, &camera, 2, &config, &Quiet).unwrap_err();
     assert!(error.to_string().starts_with("trajectory cam_02 is stuck at frame 1, position [3, 2.5, 1.5]: of 4 "), "{error}");
+}
+
+#[test]
+fn warnings_name_a_trajectory_as_its_caller_does() {
+    let mut room = furnished_room();
+    room.remove_ceiling();
+    let (space, listener) = (carved(&room), Listener::default());
+    let config = PlanConfig { max_void_share: 0.0, frames: 3, fov_x_rad: 2.6, ..quick() };
+    // The left camera of the second rig.
+    let named = plan_accepted(&room.world, &room.bvh, &space, &start(), "cam_02", 1, &config, &|_| true, &listener).unwrap();
+    assert_eq!((named.trajectory.name.as_str(), named.report.trajectory.as_str()), ("cam_02", "cam_02"));
+    let warnings = listener.0.into_inner().unwrap().join("\n");
+    assert!(warnings.contains("cam_02") && !warnings.contains("cam_01"), "{warnings}");
+    assert_eq!(named.trajectory.poses, trajectory(&room, &space, &start(), 1, &config, &Quiet).unwrap().poses);
 }
 
 #[test]

@@ -40,7 +40,8 @@ const RIM: f32 = 0.58;
 const RAIL: f32 = 2.0;
 
 impl Bathtub {
-    fn oval(&self) -> ([Section; 2], Vec<Section>) {
+    /// The sections of a free one, from the floor up to the rim, and those of its inside, from there down.
+    fn oval(&self) -> [Vec<Section>; 2] {
         let [w, d] = self.size.to_array();
         let at = |w: f32, d: f32, z: f32| rectangle(w, d, 0.5 * d - 0.001, 0.0, z);
         let (foot, rim) = (at(0.82 * w, 0.80 * d, 0.0), at(w, d, RIM));
@@ -48,15 +49,10 @@ impl Bathtub {
             at(w - 0.012, d - 0.012, RIM + 0.006),
             at(w - 0.04, d - 0.04, RIM + 0.006),
             at(w - 0.052, d - 0.052, RIM),
-            at(w - 0.12, d - 0.10, 0.72 * RIM),
+            at(0.90 * w, d - 0.10, 0.72 * RIM),
             at(0.80 * w - 0.06, 0.80 * d - 0.06, 0.26),
             at(0.66 * w - 0.06, 0.62 * d - 0.06, 0.13),
         ];
-        ([foot, rim], inside)
-    }
-
-    fn free_standing(&self, b: &mut Builder, tub: &Object) {
-        let ([foot, rim], inside) = self.oval();
         let raised = Section { z: 0.01, ..foot.clone() };
         let mut outside = vec![foot, raised.clone()];
         outside.extend((1..8).map(|k| {
@@ -65,6 +61,11 @@ impl Bathtub {
             Section { outline, y: 0.0, z: 0.01 + (RIM - 0.01) * t }
         }));
         outside.push(rim);
+        [outside, inside]
+    }
+
+    fn free_standing(&self, b: &mut Builder, tub: &Object) {
+        let [outside, inside] = self.oval();
         b.part(tub, "body", hollow(&outside, &inside), Finish::Porcelain);
         b.part(tub, "waste", waste(0.033).moved(Vec3::new(0.0, 0.0, 0.1305)), self.metal);
         // A tap on the floor beside it.
@@ -102,8 +103,8 @@ impl Bathtub {
             b.part(tub, "panel", panel, Finish::WallTile);
         }
         b.part(tub, "waste", waste(0.033).moved(Vec3::new(0.0, 0.0, 0.1505)), self.metal);
-        let x = 0.5 * w - 0.093;
-        let overflow = waste(0.032).turned(Vec3::Y, -0.25 * TAU).moved(Vec3::new(x - 0.001, 0.0, 0.46));
+        // On the wall between throat and slope, which is 10.26 cm from the tub's end there and leans out by 16 degrees.
+        let overflow = waste(0.032).turned(Vec3::Y, 0.2826 - 0.25 * TAU).moved(Vec3::new(0.5 * w - 0.1021, 0.0, 0.46));
         b.part(tub, "overflow", overflow, self.metal);
     }
 
@@ -278,5 +279,37 @@ impl Furniture for Shower {
             b.part(&shower, "handle", handle.moved(Vec3::new(x - 0.1, y - 0.01, 1.05)), self.metal);
         }
         shower_set(b, &shower, Vec3::new(-0.05, back, 1.05), self.rain, self.metal);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ceramic::{body, lining};
+    use super::*;
+    use crate::furniture::piece_tests::{bounds_of, encloses, scene_of, triangles};
+
+    #[test]
+    fn the_inside_of_a_free_tub_stays_within_its_outside() {
+        for size in [Vec2::new(1.6, 0.74), Vec2::new(1.6, 0.82), Vec2::new(1.8, 0.74), Vec2::new(1.8, 0.82)] {
+            let tub = Bathtub { size, free: true, screen: TubScreen::None, tiled: false, metal: Finish::Chrome };
+            let [outside, inside] = tub.oval();
+            let whole = triangles(&body(&outside));
+            // The first sections make the rim.
+            for section in lining(&inside[3..]) {
+                assert!(section.points().all(|p| encloses(&whole, p)), "{size} at height {}", section.z);
+            }
+        }
+    }
+
+    #[test]
+    fn the_overflow_of_a_tub_lies_on_the_wall_inside() {
+        for size in [Vec2::new(1.7, 0.75), Vec2::new(1.6, 0.7), Vec2::new(1.8, 0.8)] {
+            let tub = Bathtub { size, free: false, screen: TubScreen::None, tiled: false, metal: Finish::Chrome };
+            let found = bounds_of(&scene_of(&tub, 0), "bathtub_1/overflow");
+            let wall = |z: f32| 0.5 * size.x - 0.075 - 0.045 * (RIM - 0.025 - z) / (RIM - 0.425);
+            // Its upper edge touches the wall, and its cover stands out before the middle.
+            assert!((found.max.x - wall(found.max.z)).abs() < 0.003, "{found:?}");
+            assert!(found.min.x < wall(found.min.z) - 0.001, "{found:?}");
+        }
     }
 }

@@ -17,6 +17,14 @@ pub struct Section {
     pub z: f32,
 }
 
+impl Section {
+    /// The points of its outline.
+    #[cfg(test)]
+    pub fn points(&self) -> impl Iterator<Item = Vec3> {
+        self.outline.iter().map(move |p| Vec3::new(p.x, p.y + self.y, self.z))
+    }
+}
+
 /// A rectangle with round corners.
 pub fn rectangle(width: f32, depth: f32, radius: f32, y: f32, z: f32) -> Section {
     Section { outline: rounded_rectangle(width, depth, radius.min(0.499 * width.min(depth)), 8), y, z }
@@ -66,14 +74,18 @@ pub fn rounding(from: &Section, to: &Section, steps: usize, upright: bool) -> Ve
 /// A hollow body: `outside` goes up to the rim, `inside` down from it, each smoothed between its sections where they are far apart.
 pub fn hollow(outside: &[Section], inside: &[Section]) -> Mesh {
     let mut sections = outside.to_vec();
-    for (k, section) in inside.iter().enumerate() {
-        // The last step, from the wall to the floor, is round.
-        if k + 1 == inside.len() {
-            sections.extend(rounding(&inside[k - 1], section, 7, true));
-        }
-        sections.push(section.clone());
-    }
+    sections.extend(lining(inside));
     body(&sections)
+}
+
+/// The sections of a hollow body's `inside`; the last step, from the wall to the floor, is round.
+pub fn lining(inside: &[Section]) -> Vec<Section> {
+    let [upper @ .., wall, floor] = inside else { return inside.to_vec() };
+    let mut sections = upper.to_vec();
+    sections.push(wall.clone());
+    sections.extend(rounding(wall, floor, 7, true));
+    sections.push(floor.clone());
+    sections
 }
 
 /// The waste of a basin or tub: a cover and its ring, its middle at the origin.

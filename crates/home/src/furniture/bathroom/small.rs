@@ -227,7 +227,7 @@ impl Furniture for ToiletBrush {
         let bristles = turned(&[[0.0, 0.012], [0.03, 0.014], [0.036, 0.04], [0.034, 0.09], [0.012, 0.1], [0.0, 0.1]], 24);
         b.part(&brush, "bristles", bristles, Finish::WhitePlastic);
         let lid = turned(&[[0.0, 0.131], [0.048, 0.131], [0.05, 0.134], [0.046, 0.139], [0.0, 0.142]], 32);
-        let handle = turned(&[[0.0, 0.14], [0.006, 0.14], [0.0065, 0.38], [0.0115, 0.388], [0.0115, 0.4], [0.0, 0.404]], 16);
+        let handle = turned(&[[0.0, 0.095], [0.006, 0.095], [0.0065, 0.38], [0.0115, 0.388], [0.0115, 0.4], [0.0, 0.404]], 16);
         b.part(&brush, "handle", lid.with(handle), Finish::Steel);
     }
 }

@@ -35,46 +35,64 @@ impl Toilet {
         egg(width, front - back, 0.5 * (back + front) - 0.5 * self.depth, z)
     }
 
-    fn bowl(&self, b: &mut Builder, toilet: &Object) {
+    /// The bowl's sections from the floor, or its lower end, up to the rim.
+    fn outside(&self) -> Vec<Section> {
         let (d, back) = (self.depth, self.back());
         let rim = self.at(WIDTH, back, d - 0.004, RIM - 0.012);
-        let outside = if self.hung {
-            vec![
+        let lip = self.at(WIDTH - 0.010, back + 0.005, d - 0.009, RIM);
+        if self.hung {
+            return vec![
                 self.at(0.20, back, 0.44 * d, 0.065),
                 self.at(0.235, back, 0.50 * d, 0.075),
-                self.at(0.285, back, 0.74 * d, 0.16),
+                self.at(0.285, back, 0.77 * d, 0.16),
                 self.at(0.33, back, 0.91 * d, 0.26),
                 self.at(0.358, back, d - 0.016, 0.34),
                 rim,
-                self.at(WIDTH - 0.010, back + 0.005, d - 0.009, RIM),
-            ]
-        } else {
-            vec![
-                self.at(0.225, back + 0.05, 0.80 * d, 0.0),
-                self.at(0.225, back + 0.05, 0.80 * d, 0.02),
-                self.at(0.215, back + 0.05, 0.78 * d, 0.12),
-                self.at(0.25, back + 0.03, 0.84 * d, 0.22),
-                self.at(0.32, back + 0.01, 0.94 * d, 0.31),
-                self.at(0.358, back, d - 0.014, 0.36),
-                rim,
-                self.at(WIDTH - 0.010, back + 0.005, d - 0.009, RIM),
-            ]
-        };
-        let mouth = d - 0.40;
-        let inside = [
+                lip,
+            ];
+        }
+        vec![
+            self.at(0.225, back + 0.05, 0.80 * d, 0.0),
+            self.at(0.225, back + 0.05, 0.80 * d, 0.02),
+            self.at(0.215, back + 0.05, 0.78 * d, 0.12),
+            self.at(0.28, back + 0.03, 0.90 * d, 0.22),
+            self.at(0.32, back + 0.01, 0.94 * d, 0.31),
+            self.at(0.358, back, d - 0.014, 0.36),
+            rim,
+            lip,
+        ]
+    }
+
+    /// Where the mouth of the bowl begins behind, from the wall.
+    fn mouth(&self) -> f32 {
+        self.depth - 0.40
+    }
+
+    /// Its sections from the rim down.
+    fn inside(&self) -> [Section; 5] {
+        let (d, mouth) = (self.depth, self.mouth());
+        [
             self.at(0.245, mouth, d - 0.055, RIM),
             self.at(0.225, mouth + 0.01, d - 0.065, RIM - 0.02),
             self.at(0.255, mouth - 0.005, d - 0.05, RIM - 0.06),
             self.at(0.20, mouth + 0.02, d - 0.10, 0.24),
             self.at(0.10, mouth + 0.07, d - 0.20, 0.15),
-        ];
-        b.part(toilet, "bowl", hollow(&outside, &inside), Finish::Porcelain);
-        b.part(
-            toilet,
-            "water",
-            body(&[self.at(0.13, mouth + 0.05, d - 0.16, 0.178), self.at(0.13, mouth + 0.05, d - 0.16, 0.18)]),
-            Finish::Water,
-        );
+        ]
+    }
+
+    /// The water's sections: they reach a little into the ceramic, so that no air is between the two.
+    fn water(&self) -> [Section; 3] {
+        let (d, mouth) = (self.depth, self.mouth());
+        [
+            self.at(0.12, mouth + 0.06, d - 0.19, 0.149),
+            self.at(0.157, mouth + 0.041, d - 0.148, 0.16),
+            self.at(0.185, mouth + 0.028, d - 0.12, 0.18),
+        ]
+    }
+
+    fn bowl(&self, b: &mut Builder, toilet: &Object) {
+        b.part(toilet, "bowl", hollow(&self.outside(), &self.inside()), Finish::Porcelain);
+        b.part(toilet, "water", body(&self.water()), Finish::Water);
     }
 
     fn seat(&self, b: &mut Builder, toilet: &Object, hinge: f32) {
@@ -100,7 +118,9 @@ impl Toilet {
         let lid = [seat(0.012, top), seat(0.0, top + 0.004), seat(0.002, top + 0.010), seat(0.02, top + 0.015), seat(0.10, top + 0.018)];
         let mesh = body(&lid);
         let axis = Vec3::new(0.0, hinge + 0.012 - 0.5 * d, top + 0.006);
-        let lid = if self.open { mesh.moved(-axis).turned(Vec3::X, 1.72).moved(axis + Vec3::Z * 0.004) } else { mesh };
+        // Before a cistern it leans back less.
+        let angle = if self.hung { 1.72 } else { 1.60 };
+        let lid = if self.open { mesh.moved(-axis).turned(Vec3::X, angle).moved(axis + Vec3::Z * 0.004) } else { mesh };
         b.part(toilet, "lid", lid, white);
         let hinges = [-0.075f32, 0.075].map(|x| cylinder(0.013, 0.022, 18).moved(Vec3::new(x, hinge - 0.5 * d - 0.008, RIM - 0.001)));
         b.part(toilet, "hinges", all(hinges), Finish::Chrome);
@@ -176,5 +196,46 @@ impl Furniture for Toilet {
             self.cistern(b, &toilet);
         }
         self.seat(b, &toilet, if self.hung { 0.07 } else { CISTERN + 0.04 });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ceramic::lining;
+    use super::*;
+    use crate::furniture::piece_tests::{bounds_of, encloses, scene_of, triangles};
+
+    fn toilets() -> impl Iterator<Item = Toilet> {
+        let of = |(hung, depth)| Toilet { hung, open: true, depth, plate: Finish::Chrome };
+        [(false, 0.64), (false, 0.69), (true, 0.52), (true, 0.56)].into_iter().map(of)
+    }
+
+    #[test]
+    fn the_inside_of_a_bowl_stays_within_its_outside() {
+        for toilet in toilets() {
+            let whole = triangles(&body(&toilet.outside()));
+            for section in lining(&toilet.inside()).iter().filter(|section| section.z < RIM) {
+                assert!(section.points().all(|p| encloses(&whole, p)), "{toilet:?} at height {}", section.z);
+            }
+        }
+    }
+
+    #[test]
+    fn the_water_in_a_bowl_ends_in_the_ceramic() {
+        for toilet in toilets() {
+            let bowl = triangles(&hollow(&toilet.outside(), &toilet.inside()));
+            for section in toilet.water() {
+                assert!(section.points().all(|p| encloses(&bowl, p)), "{toilet:?} at height {}", section.z);
+            }
+        }
+    }
+
+    #[test]
+    fn an_open_lid_stands_before_the_cistern() {
+        for toilet in toilets().filter(|toilet| !toilet.hung) {
+            let scene = scene_of(&toilet, 0);
+            let [lid, cistern] = ["toilet_1/lid", "toilet_1/cistern_cover"].map(|part| bounds_of(&scene, part));
+            assert!(lid.min.y > cistern.max.y, "{toilet:?}: {lid:?} {cistern:?}");
+        }
     }
 }

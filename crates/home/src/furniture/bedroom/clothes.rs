@@ -15,6 +15,8 @@ use std::f32::consts::TAU;
 pub fn hang_garment(b: &mut Builder, pose: DAffine3, garment: Garment, rng: &mut Rng) {
     const NECK: f32 = 0.085;
     let object = b.object("clothes", Class::Clothes, pose);
+    // It ends at the top of the hanger; that of other clothes is inside of them, below the lining of the collar.
+    let end = if garment == Garment::Trousers { NECK } else { NECK + 0.065 };
     let hook = wire(
         &[
             [-0.014, 0.0, 0.002],
@@ -23,7 +25,7 @@ pub fn hang_garment(b: &mut Builder, pose: DAffine3, garment: Garment, rng: &mut
             [0.015, 0.0, 0.006],
             [0.010, 0.0, -0.012],
             [0.0, 0.0, -0.03],
-            [0.0, 0.0, -NECK],
+            [0.0, 0.0, -end],
         ],
         0.0016,
         6,

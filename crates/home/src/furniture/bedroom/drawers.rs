@@ -1,5 +1,5 @@
 use crate::builder::{Builder, Class, Object};
-use crate::furniture::joinery::{Carcass, Feet, Handle, body_finish, front};
+use crate::furniture::joinery::{Carcass, Feet, Handle, body_finish, front, thickness_at_middle};
 use crate::furniture::{Furniture, Surface, board, grained};
 use crate::materials::Finish;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -71,7 +71,7 @@ impl DrawerBody {
         b.part(object, name, front(rect, back, FRONT, self.framed, rng), self.fronts);
         let wide = x1 - x0;
         let middle = 0.5 * (z0 + z1);
-        let face = |x: f32| Vec3::new(x, back + FRONT, middle);
+        let face = |x: f32| Vec3::new(x, back + thickness_at_middle(rect, FRONT, self.framed), middle);
         let length = (0.4 * wide).clamp(0.09, 0.32);
         if wide > 0.7 && !matches!(self.handle, Handle::Bar(_)) {
             for (k, s) in [-1.0f32, 1.0].into_iter().enumerate() {

@@ -209,8 +209,9 @@ impl Furniture for LaundryBasket {
         profile.extend((0..=steps).map(|k| wall(k as f32 / steps as f32, 0.0)));
         profile.push(Vec2::new(r - 0.004, h + 0.006));
         profile.push(Vec2::new(r - 0.010, h + 0.002));
-        profile.push(Vec2::new(r - 0.016, 0.5 * h));
-        profile.push(Vec2::new(0.82 * r, 0.012));
+        // The inside narrows as the outside does, which is 0.92 r half way up.
+        profile.push(Vec2::new(0.92 * r - 0.014, 0.5 * h));
+        profile.push(Vec2::new(0.78 * r, 0.012));
         profile.push(Vec2::new(0.0, 0.012));
         b.part(&basket, "body", lathe(&profile, 48).moved(Vec3::Z * CONTACT), finish);
         if self.lid {

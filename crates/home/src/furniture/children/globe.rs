@@ -79,8 +79,8 @@ impl Furniture for Globe {
         let axis = Vec3::new(TILT.sin(), 0.0, TILT.cos());
         let arc: Vec<Vec3> = (0..=24)
             .map(|k| {
-                // From the lower pole around the left side to the upper pole.
-                let a = -0.5 * PI - TILT - PI * k as f32 / 24.0;
+                // From the lower pole below the ball, where the foot holds it, and up the right side to the upper pole.
+                let a = -0.5 * PI - TILT + PI * k as f32 / 24.0;
                 Vec3::new((r + 0.012) * a.cos(), 0.0, (r + 0.012) * a.sin() + z)
             })
             .collect();

@@ -87,8 +87,10 @@ impl Guitar {
             rods.push(rod([s * 0.09, 0.235, 0.1], [s * 0.09, 0.24, 0.135], 0.0065, 8));
         }
         rods.push(rod([0.0, -0.04, 0.3], [0.0, -0.19, 0.008], 0.0075, 8));
-        rods.push(rod([0.0, -0.04, 0.29], [0.0, -0.035, 0.43], 0.0075, 8));
-        rods.push(rod([-0.1, 0.0, 0.43], [0.1, 0.0, 0.43], 0.0065, 8).moved(Vec3::new(0.0, -0.035, 0.0)));
+        // The bar on which the guitar leans.
+        let (y, z) = (0.0165, 0.43);
+        rods.push(rod([0.0, -0.04, 0.29], [0.0, y, z], 0.0075, 8));
+        rods.push(rod([-0.1, y, z], [0.1, y, z], 0.0065, 8));
         let feet = [[0.16, 0.17], [-0.16, 0.17], [0.0, -0.19]].map(|[x, y]| cylinder(0.011, 0.016, 12).moved(Vec3::new(x, y, 0.0)));
         rods.extend(feet);
         b.part(&stand, "frame", all(rods), Finish::BlackMetal);
@@ -165,5 +167,23 @@ impl Furniture for MusicKeyboard {
                 .turned(Vec3::X, 0.3);
             b.part(&music, &format!("sheet_{}", i + 1), sheet, Finish::Paper);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::furniture::piece_tests::scene_of;
+    use enfilade_math::place;
+
+    #[test]
+    fn a_guitar_leans_on_the_bar_of_its_stand() {
+        let scene = scene_of(&Guitar { dark: false }, 0);
+        let [body, frame] = ["guitar_1/body", "guitar_stand_1/frame"]
+            .map(|name| scene.parts.iter().find(|part| part.name == name).expect("the scene has the part"));
+        // The back is the plane y = 0 of the upright guitar, the bar what is highest of the stand.
+        let upright = body.world_from_mesh.inverse();
+        let bar = scene.world_positions(frame).filter(|p| p.z > 0.42).map(|p| place(&upright, p).y).fold(f32::NEG_INFINITY, f32::max);
+        assert!(bar.abs() < 0.003, "{bar} m before the back");
     }
 }

@@ -180,8 +180,26 @@ impl Furniture for MagazineRack {
         for k in 0..self.count {
             let y = 0.1 * ((k as f32 + 0.5) / self.count as f32 - 0.5);
             let place = on(pose, Vec3::new(rng.range(-0.015, 0.015), y, 0.2275), 0.0)
-                * DAffine3::from_rotation_x(std::f64::consts::FRAC_PI_2 - f64::from(1.4 * y));
+                * DAffine3::from_rotation_x(-std::f64::consts::FRAC_PI_2 - f64::from(1.4 * y));
             Magazines { count: 1 }.build(b, place, &mut Rng::new(rng.next_u64() | 1));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::furniture::piece_tests::{bounds_of, scene_of};
+
+    #[test]
+    fn magazines_in_a_rack_are_upright_and_show_their_covers() {
+        for count in [3, 7] {
+            let scene = scene_of(&MagazineRack { wood: true, count }, 0);
+            for k in 1..=count {
+                let of = |part: &str| bounds_of(&scene, &format!("magazines_{k}/{part}")).center();
+                let (issue, photo, title) = (of("issue_1"), of("photo"), of("title"));
+                assert!(title.z > photo.z && photo.y > issue.y, "{issue} {photo} {title}");
+            }
         }
     }
 }

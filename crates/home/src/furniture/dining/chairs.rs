@@ -199,8 +199,9 @@ impl Furniture for ShellChair {
         b.part(&chair, "shell", grained(shell(), rng), self.shell);
         let mut legs = Vec::new();
         for s in [-1.0f32, 1.0] {
-            for (top, foot) in [([0.11, 0.12], [0.2, 0.235]), ([0.11, -0.08], [0.2, -0.225])] {
-                let path = [Vec3::new(s * foot[0], foot[1], 0.0), Vec3::new(s * top[0], top[1], 0.405)];
+            // Each ends within the shell, which is higher at the rear.
+            for (top, foot) in [([0.11, 0.12, 0.414], [0.2, 0.235]), ([0.11, -0.08, 0.423], [0.2, -0.225])] {
+                let path = [Vec3::new(s * foot[0], foot[1], 0.0), Vec3::new(s * top[0], top[1], top[2])];
                 legs.push(standing(tube(&path, if self.wooden { 0.0135 } else { 0.0075 }, 12)));
             }
         }
@@ -211,7 +212,7 @@ impl Furniture for ShellChair {
             all([brace([-x, y[0]], [x, y[0]]), brace([-x, y[1]], [x, y[1]]), brace([-x, y[0]], [x, y[1]]), brace([-x, y[1]], [x, y[0]])]);
         b.part(&chair, "braces", braces, Finish::BlackMetal);
         if self.pad {
-            let pad = crate::shape::pillow(Vec2::new(0.36, 0.35), 0.035, rng).moved(Vec3::new(0.0, 0.045, SEAT + 0.004 + CONTACT));
+            let pad = crate::shape::pillow(Vec2::new(0.36, 0.35), 0.035, rng).moved(Vec3::new(0.0, 0.045, SEAT - 0.016 + CONTACT));
             b.part(&chair, "pad", pad, Finish::Accent(2));
         }
     }

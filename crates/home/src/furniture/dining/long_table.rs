@@ -193,8 +193,9 @@ impl Furniture for LongTable {
 
     fn surfaces(&self) -> Vec<Surface> {
         let half = 0.5 * Vec2::new(self.length, self.width) - 0.05;
-        // Of a laid table only the middle between the glasses is free.
-        let half = if self.laid.is_some() { Vec2::new(half.x, half.y - 0.37) } else { half };
+        // Of a laid table only the middle between the glasses is free; they stand further in where there are mats.
+        let taken = self.laid.map_or(0.0, |laid| if laid.mat { 0.395 } else { 0.37 });
+        let half = Vec2::new(half.x, half.y - taken);
         if half.y < 0.05 {
             return Vec::new();
         }

@@ -42,6 +42,13 @@ const PITCH: f32 = 0.17;
 const HALF: f32 = 0.62;
 
 impl CoatHooks {
+    /// The hook of coat `k` when the first hangs on hook `first`: every other one, then those between. Where their number is odd, the
+    /// second way around comes to those of itself.
+    fn hook_of(&self, first: usize, k: usize) -> usize {
+        let aside = if self.hooks % 2 == 0 { k * 2 / self.hooks } else { 0 };
+        (first + 2 * k + aside) % self.hooks
+    }
+
     fn hook() -> Mesh {
         let upper = wire(&[[0.0, 0.002, 0.0], [0.0, 0.03, -0.004], [0.0, 0.055, 0.01], [0.0, 0.06, 0.035]], 0.005, 10);
         let lower = wire(&[[0.0, 0.002, -0.02], [0.0, 0.02, -0.04], [0.0, 0.035, -0.035], [0.0, 0.038, -0.018]], 0.0045, 10);
@@ -86,7 +93,7 @@ impl Furniture for CoatHooks {
         b.part(&rack, "hooks", all((0..self.hooks).map(|k| Self::hook().moved(at(k)))), metal);
         let first = rng.below(self.hooks);
         for k in 0..self.coats {
-            let place = at((first + 2 * k + k * 2 / self.hooks) % self.hooks) + Vec3::new(0.0, 0.03, -0.004);
+            let place = at(self.hook_of(first, k)) + Vec3::new(0.0, 0.03, -0.004);
             hang_on_hook(b, on(pose, place, rng.range(-0.05, 0.05)), 0.005, -0.018, outdoor(rng), rng);
         }
     }
@@ -220,6 +227,25 @@ impl Furniture for UmbrellaStand {
             let foot = (d * tip + d.perp() * ASIDE).extend(0.0048);
             let tilt = DAffine3::from_axis_angle(Vec3::new(-d.y, d.x, 0.0).as_dvec3(), f64::from(lean));
             Self::umbrella(b, on(pose, foot, 0.0) * tilt * DAffine3::from_rotation_z(f64::from(turn + rng.range(1.0, 2.2))), rng);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_coat_has_a_hook_of_its_own() {
+        for hooks in 3..=6 {
+            for coats in 1..hooks {
+                let rack = CoatHooks { hooks, coats, shelf: false };
+                for first in 0..hooks {
+                    let taken: BTreeSet<usize> = (0..coats).map(|k| rack.hook_of(first, k)).collect();
+                    assert_eq!(taken.len(), coats, "{rack:?} from hook {first}");
+                }
+            }
         }
     }
 }

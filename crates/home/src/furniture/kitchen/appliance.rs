@@ -122,8 +122,10 @@ pub fn hood(b: &mut Builder, pose: DAffine3, width: f32, style: &KitchenStyle, r
     let hood = b.object("extractor_hood", Class::OtherStructure, pose);
     let (w, finish) = (width - 0.004, if style.steel { Finish::Steel } else { Finish::BlackMetal });
     let d = 0.47;
-    let shaft = board([-0.14, CONTACT, low + 0.1], [0.14, 0.27, top], 0.002);
     let kind = rng.below(3);
+    // It stands on a flat canopy and comes out of the others.
+    let foot = if kind == 1 { 0.0748 } else { 0.1 };
+    let shaft = board([-0.14, CONTACT, low + foot], [0.14, 0.27, top], 0.002);
     match kind {
         0 => {
             let skirt = board([-0.5 * w, CONTACT, low], [0.5 * w, d, low + 0.05], 0.002);

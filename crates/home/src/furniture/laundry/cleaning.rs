@@ -141,7 +141,7 @@ impl Furniture for Bucket {
         let arc: Vec<Vec3> = (0..=20)
             .map(|k| {
                 let (sin, cos) = (0.5 * TAU * k as f32 / 20.0).sin_cos();
-                Vec3::new((r + 0.008) * cos, (r + 0.004) * sin * 0.985, h - 0.012 - 0.05 * sin)
+                Vec3::new((r + 0.008) * cos, (r + 0.004) * sin * 0.985, h - 0.005 - 0.057 * sin)
             })
             .collect();
         b.part(&bucket, "handle", tube(&arc, 0.003, 8), Finish::Steel);

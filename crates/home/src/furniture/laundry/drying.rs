@@ -51,7 +51,9 @@ impl Furniture for DryingRack {
             };
             [leg(1.0, 0.0), leg(-1.0, 0.018)]
         });
-        let bars = [-1.0f32, 1.0].map(|s| rod([-x + 0.04, s * (y + 0.018), 0.05], [x - 0.04, s * (y + 0.018), 0.05], 0.006, 10));
+        // The legs have come that far inward there.
+        let bar = y - 0.007;
+        let bars = [-1.0f32, 1.0].map(|s| rod([-x + 0.03, s * bar, 0.05], [x - 0.03, s * bar, 0.05], 0.006, 10));
         b.part(&rack, "legs", all(legs.chain(bars)), finish);
         let mut from = -x + 0.05;
         for k in 0..self.laundry {

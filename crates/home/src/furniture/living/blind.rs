@@ -106,8 +106,10 @@ impl Blind {
             Finish::WhitePlastic,
         );
         let x = 0.5 * w + 0.005;
-        let beads = (0..(0.6 * self.height / 0.012) as usize).map(|k| sphere(0.0022, 6).moved(Vec3::new(x, 0.067, top - 0.012 * k as f32)));
-        b.part(object, "chain", all(beads), Finish::Chrome);
+        let count = (0.6 * self.height / 0.012) as usize;
+        let beads = (0..count).map(|k| sphere(0.0022, 6).moved(Vec3::new(x, 0.067, top - 0.012 * k as f32)));
+        let cord = rod([x, 0.067, top], [x, 0.067, top - 0.012 * count as f32], 0.0006, 4);
+        b.part(object, "chain", all(beads).with(cord), Finish::Chrome);
     }
 
     fn roman(&self, b: &mut Builder, object: &Object, cloth: Finish) {

@@ -89,6 +89,9 @@ impl CeilingLamp {
         shell.extend(profile.iter().rev().map(|p| Vec2::new((p.x - 0.001).max(0.001), p.y)));
         shell.push(profile[0]);
         b.part(lamp, "paper", lathe(&shell, 56), Finish::Lampshade);
+        // A wire across its upper opening hangs on the cord.
+        let rim = profile[profile.len() - 1];
+        b.part(lamp, "spoke", rod([-rim.x, 0.0, rim.y], [rim.x, 0.0, rim.y], 0.0012, 6), Finish::WhitePlastic);
         b.part(lamp, "bulb", sphere(0.045, 20).moved(Vec3::new(0.0, 0.0, -drop - 0.045)), Finish::Bulb);
     }
 
@@ -112,6 +115,8 @@ impl CeilingLamp {
             let finish = if kind == 0 { metal } else { Finish::Ceramic(k as u8) };
             b.part(lamp, &format!("shade_{}", k + 1), turned(&shade, 40).moved(move_to), finish);
             b.part(lamp, &format!("bulb_{}", k + 1), sphere(0.035, 20).moved(move_to - Vec3::new(0.0, 0.0, 0.08)), Finish::Bulb);
+            let socket = cylinder(0.011, 0.048, 16).moved(move_to - Vec3::new(0.0, 0.0, 0.049));
+            b.part(lamp, &format!("socket_{}", k + 1), socket, Finish::BlackPlastic);
         }
     }
 
@@ -131,6 +136,9 @@ impl CeilingLamp {
             board.turned(Vec3::X, 0.2).moved(Vec3::new(0.4, 0.0, -0.3)).turned(Vec3::Z, d.to_angle())
         };
         b.part(lamp, "blades", all(around(5, 0.4).map(blade)), Finish::Wood);
+        // Each blade is held by an iron that comes out of the motor.
+        let iron = |d: Vec2| rod((d * 0.09).extend(-0.3).to_array(), (d * 0.2).extend(-0.3).to_array(), 0.008, 12);
+        b.part(lamp, "irons", all(around(5, 0.4).map(iron)), Finish::BlackMetal);
         b.part(
             lamp,
             "globe",

@@ -53,12 +53,15 @@ impl Furniture for WallClock {
             );
         }
         let dark = Finish::BlackMetal;
+        // Without a face the rim holds them.
+        let outer = if self.skeleton { r - 0.013 } else { 0.86 * r };
         let marks = around(12, 0.0).enumerate().map(|(k, d)| {
-            let long = if k % 3 == 0 { 0.14 * r } else { 0.08 * r };
-            bevelled_box(Vec3::new(long, 0.0016, 0.02 * r), 0.0003).turned(Vec3::Y, -d.to_angle()).moved(Vec3::new(
-                d.x * (0.86 * r - 0.5 * long),
+            let inner = 0.86 * r - if k % 3 == 0 { 0.14 * r } else { 0.08 * r };
+            let middle = 0.5 * (inner + outer);
+            bevelled_box(Vec3::new(outer - inner, 0.0016, 0.02 * r), 0.0003).turned(Vec3::Y, -d.to_angle()).moved(Vec3::new(
+                d.x * middle,
                 face + 0.0012,
-                d.y * (0.86 * r - 0.5 * long),
+                d.y * middle,
             ))
         });
         b.part(&clock, "marks", all(marks), dark);

@@ -46,7 +46,8 @@ impl Furniture for DayBed {
         b.part(&bed, "frame", grained(rails, rng), Finish::Wood);
         for (i, s) in [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)].into_iter().enumerate() {
             let at = (s * (half - Vec2::new(0.14, 0.07))).extend(0.0);
-            b.part(&bed, &format!("leg_{}", i + 1), leg(FRAME - 0.089, [0.014, 0.022], s * 0.03).moved(at), Finish::Wood);
+            // Up to the board between the rails.
+            b.part(&bed, &format!("leg_{}", i + 1), leg(FRAME - 0.0298, [0.014, 0.022], s * 0.03).moved(at), Finish::Wood);
         }
         let pad = padded_box(Vec3::new(self.length - 0.03, DEPTH - 0.03, PAD - 0.024), 0.035, 0.012).uv_moved(Vec2::splat(rng.next_f32()));
         b.part(&bed, "mattress", pad.moved(Vec3::new(0.0, 0.0, FRAME + CONTACT + 0.5 * PAD)), self.cover);
@@ -71,7 +72,7 @@ impl DayBed {
     fn drape(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let (width, phase) = (0.55, rng.range(0.0, 6.0));
         let half = 0.5 * DEPTH - 0.026;
-        let top = FRAME + PAD + 0.021;
+        let top = FRAME + PAD + 0.003;
         let fall = 0.2;
         let total = 2.0 * (half + fall);
         let point = |i: usize, j: usize| {
@@ -88,5 +89,19 @@ impl DayBed {
         let cloth = crate::shape::grid(16, 48, point, |i, j| Vec2::new(i as f32 / 16.0 * width, j as f32 / 48.0 * total)).smoothed(80.0);
         let throw = b.object("throw", Class::OtherProp, on(pose, Vec3::new(0.3 - 0.5 * self.length + 0.28, 0.0, 0.0), 0.0));
         b.part(&throw, "knit", cloth, Finish::KnittedThrow);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::furniture::piece_tests::{bounds_of, scene_of};
+
+    #[test]
+    fn a_throw_lies_on_the_mattress() {
+        let bed = DayBed { length: 1.9, bolsters: 1, cover: Finish::Velvet, throw: true };
+        let scene = scene_of(&bed, 0);
+        let [knit, mattress] = ["throw_1/knit", "day_bed_1/mattress"].map(|part| bounds_of(&scene, part).max.z);
+        assert!(knit > mattress && knit < mattress + 0.006, "{knit} {mattress}");
     }
 }

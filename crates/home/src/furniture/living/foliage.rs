@@ -357,7 +357,7 @@ impl Furniture for FlowerVase {
             let (foot, rim) = (-0.06 * h * d, 0.15 * h * t * d);
             let out = d * t * (0.1 + 0.12 * h);
             let z = h * rng.range(1.55, 1.85) - 0.1 * h * t;
-            let path = [[foot.x, foot.y, 0.06 * h], [rim.x, rim.y, 0.95 * h], [out.x, out.y, z]];
+            let path = [[foot.x, foot.y, 0.005], [rim.x, rim.y, 0.95 * h], [out.x, out.y, z]];
             stems.push(wire(&path, 0.0018, 5));
             let size = rng.range(0.03, 0.04);
             let tilt = 0.9 * t;

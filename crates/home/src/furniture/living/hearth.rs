@@ -9,15 +9,16 @@ use std::f32::consts::FRAC_PI_2;
 
 /// Logs that lie along x on z = 0, two below and one above.
 fn logs(length: f32, rng: &mut Rng) -> Mesh {
+    // Each by its place and the height of its lowest line.
     let mut log = |at: Vec3, yaw: f32| {
         let r = rng.range(0.042, 0.052);
         cylinder(r, length * rng.range(0.85, 1.0), 18)
             .moved(Vec3::new(0.0, 0.0, -0.5 * length))
             .turned(Vec3::Y, FRAC_PI_2)
             .turned(Vec3::Z, yaw)
-            .moved(at)
+            .moved(at + Vec3::Z * r)
     };
-    all([log(Vec3::new(0.0, -0.05, 0.052), 0.06), log(Vec3::new(0.0, 0.055, 0.052), -0.08), log(Vec3::new(0.01, 0.0, 0.135), 0.25)])
+    all([log(Vec3::new(0.0, -0.05, 0.0), 0.06), log(Vec3::new(0.0, 0.055, 0.0), -0.08), log(Vec3::new(0.01, 0.0, 0.083), 0.25)])
 }
 
 /// An open fireplace in a surround with a mantelpiece, on a hearth.
@@ -107,11 +108,12 @@ impl Furniture for Fireplace {
         let bars = (0..7).map(|k| rod([0.06 * (k as f32 - 3.0), -0.1, -0.006], [0.06 * (k as f32 - 3.0), 0.11, -0.006], 0.006, 8));
         let ends = [-0.18f32, 0.18]
             .map(|x| rod([x, 0.1, 0.0], [x, 0.1, -0.033], 0.008, 8).with(rod([x, -0.09, 0.0], [x, -0.09, -0.033], 0.008, 8)));
-        b.part(&wood, "grate", all(bars.chain(ends)), Finish::BlackMetal);
+        let across = [-0.09f32, 0.1].map(|y| rod([-0.18, y, -0.016], [0.18, y, -0.016], 0.006, 8));
+        b.part(&wood, "grate", all(bars.chain(ends).chain(across)), Finish::BlackMetal);
     }
 }
 
-/// An iron stove with a window, its pipe into the wall or up to the ceiling.
+/// An iron stove with a window, its pipe up to the ceiling.
 #[derive(Clone, Copy, Debug)]
 pub struct Stove {
     /// Round instead of square.
@@ -133,6 +135,10 @@ impl Furniture for Stove {
 
     fn reach(&self) -> f32 {
         0.6
+    }
+
+    fn fit(&mut self, height: f32) {
+        self.pipe = height;
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
@@ -193,7 +199,7 @@ impl Furniture for Stove {
             b.part(&stove, "window", window.moved(middle), Finish::GlossBlack);
         }
         let handle = rod([0.165, 0.25, 0.58 * h], [0.165, 0.25, 0.74 * h], 0.008, 12).with(rod(
-            [0.165, 0.18, 0.6 * h],
+            [0.165, 0.15, 0.6 * h],
             [0.165, 0.25, 0.6 * h],
             0.005,
             8,
@@ -202,5 +208,22 @@ impl Furniture for Stove {
         let pipe = cylinder(0.075, self.pipe - h - 0.008, 32).moved(at + Vec3::new(0.0, -0.02, h - 0.0004));
         let collar = cylinder(0.088, 0.03, 32).moved(at + Vec3::new(0.0, -0.02, h - 0.0002));
         b.part(&stove, "pipe", pipe.with(collar), iron);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::furniture::piece_tests::{bounds_of, scene_of};
+
+    #[test]
+    fn the_pipe_of_a_stove_ends_at_the_ceiling_of_its_room() {
+        for round in [false, true] {
+            let mut stove = Stove { round, height: 0.9, pipe: 2.4 };
+            stove.fit(2.75);
+            let top = bounds_of(&scene_of(&stove, 0), "stove_1/pipe").max.z;
+            assert!((top - 2.75).abs() < 0.001, "it ends at {top} m");
+            assert_eq!(stove.size().z, 2.75);
+        }
     }
 }

@@ -68,7 +68,7 @@ impl Furniture for RecordPlayer {
                 pane(Vec3::new(t, h - t, d), Vec3::new(-0.5 * (w - t), 0.5 * h, 0.5 * d)),
                 pane(Vec3::new(w - 2.0 * t, h - t, t), Vec3::new(0.0, 0.5 * h, d - 0.5 * t)),
             ]);
-            b.part(&player, "lid", lid.turned(Vec3::X, 0.2).moved(Vec3::new(0.0, -0.19, 0.09)), Finish::DrinkingGlass);
+            b.part(&player, "lid", lid.turned(Vec3::X, 0.2).moved(Vec3::new(0.0, -0.178, 0.08)), Finish::DrinkingGlass);
         }
     }
 }

@@ -1,6 +1,7 @@
 use crate::builder::{Builder, Class};
 use crate::furniture::Furniture;
 use crate::furniture::form::{all, cylinder, rod, to_front, turned, wire};
+use crate::furniture::lamp::carrier;
 use crate::materials::Finish;
 use crate::shape::{Reshape, rounded_box, sphere};
 use enfilade_math::{DAffine3, Rng, Vec3};
@@ -71,6 +72,7 @@ impl Furniture for WallLamp {
                     [0.083, -0.03],
                 ];
                 b.part(&lamp, "shade", turned(&shade, 48).moved(Vec3::new(0.0, 0.14, 0.0)), Finish::Lampshade);
+                b.part(&lamp, "carrier", carrier(0.073, 0.012).moved(Vec3::new(0.0, 0.14, 0.0)), metal);
                 b.part(&lamp, "bulb", sphere(0.028, 18).moved(Vec3::new(0.0, 0.14, 0.05)), Finish::Bulb);
                 b.part(&lamp, "socket", cylinder(0.013, 0.026, 16).moved(Vec3::new(0.0, 0.14, -0.002)), metal);
             }

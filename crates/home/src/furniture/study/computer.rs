@@ -3,18 +3,12 @@
 //! Their classes are those of the NYU labels of 40 classes: monitors and laptops are other props, `television` is for televisions.
 
 use crate::builder::{Builder, Class};
-use crate::furniture::form::{all, cut_out, cylinder, rounded_rectangle, wire};
+use crate::furniture::form::{all, cut_out, cylinder, picture, rounded_rectangle, wire};
 use crate::furniture::{CONTACT, Furniture, board, on};
 use crate::materials::Finish;
-use crate::shape::{Reshape, bevelled_box, grid, rounded_box};
+use crate::shape::{Reshape, bevelled_box, rounded_box};
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
-
-/// A picture of `width` × `height` that faces +y, its texture upright over the unit square for who looks at it.
-fn picture(width: f32, height: f32) -> Mesh {
-    let corner = |i: usize, j: usize| Vec2::new(i as f32, j as f32);
-    grid(1, 1, |i, j| Vec3::new(width * (0.5 - corner(i, j).x), 0.0, height * (corner(i, j).y - 0.5)), corner)
-}
+use enfilade_math::{DAffine3, Rng, Vec3};
 
 /// A monitor on its foot.
 #[derive(Clone, Copy, Debug)]

@@ -26,6 +26,8 @@ pub struct OfficeChair {
 
 /// Radius to the castors' swivels.
 const BASE: f32 = 0.29;
+/// Where the spine holds the back, above its lower edge.
+const HELD: f32 = 0.18;
 
 impl OfficeChair {
     fn base(&self, b: &mut Builder, chair: &crate::builder::Object, turn: f32) {
@@ -56,13 +58,27 @@ impl OfficeChair {
 
     /// The back's sheet: x across, z up, bent around the sitter and to the small of the back.
     fn bent(&self, mesh: Mesh) -> Mesh {
-        let h = self.back;
-        mesh.deformed(|p| {
-            let t = p.z / h;
-            let lumbar = 0.03 * (-((t - 0.28) / 0.2).powi(2)).exp();
-            let round = 0.9 * p.x * p.x;
-            Vec3::new(p.x * (1.0 - 0.18 * t * t), p.y + round + lumbar - 0.26 - 0.13 * t, p.z + self.seat + 0.07)
-        })
+        mesh.deformed(|p| self.bend(p))
+    }
+
+    fn bend(&self, p: Vec3) -> Vec3 {
+        let t = p.z / self.back;
+        let lumbar = 0.03 * (-((t - 0.28) / 0.2).powi(2)).exp();
+        let round = 0.9 * p.x * p.x;
+        Vec3::new(p.x * (1.0 - 0.18 * t * t), p.y + round + lumbar - 0.26 - 0.13 * t, p.z + self.seat + 0.07)
+    }
+
+    /// What holds the back: it ends in the padding, or on a cross piece between the sides of a net's frame.
+    fn spine(&self) -> Mesh {
+        let behind = if self.net { 0.035 } else { 0.046 };
+        let on_back = |z: f32| self.bend(Vec3::new(0.0, -behind, z)).to_array();
+        let spine = [[0.0, -0.12, self.seat - 0.09], [0.0, -0.27, self.seat - 0.06], on_back(0.0), on_back(HELD)];
+        let spine = wire(&spine, 0.017, 12);
+        if !self.net {
+            return spine;
+        }
+        let across: Vec<Vec3> = (0..=12).map(|k| self.bend(Vec3::new(0.218 * (k as f32 / 6.0 - 1.0), -0.014, HELD))).collect();
+        spine.with(tube(&across, 0.008, 10))
     }
 }
 
@@ -108,13 +124,7 @@ impl Furniture for OfficeChair {
             let pad = padded_box(Vec3::new(0.46, h, 0.05), 0.024, 0.01).turned(Vec3::X, FRAC_PI_2).moved(Vec3::new(0.0, 0.0, 0.5 * h));
             b.part(&chair, "back", self.bent(pad).smoothed(60.0).uv_moved(Vec2::splat(rng.next_f32())), self.cloth);
         }
-        let spine = [
-            [0.0, -0.12, self.seat - 0.09],
-            [0.0, -0.27, self.seat - 0.06],
-            [0.0, -0.325, self.seat + 0.06],
-            [0.0, -0.335, self.seat + 0.25],
-        ];
-        b.part(&chair, "spine", wire(&spine, 0.017, 12), Finish::BlackPlastic);
+        b.part(&chair, "spine", self.spine(), Finish::BlackPlastic);
         if self.arms {
             for (name, s) in [("left", -1.0f32), ("right", 1.0)] {
                 let (x, z) = (s * 0.28, self.seat + 0.21);

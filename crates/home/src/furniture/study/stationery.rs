@@ -77,7 +77,7 @@ impl Furniture for PenCup {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(0.115, 0.115, 0.19)
+        Vec3::new(0.135, 0.135, 0.19)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -86,16 +86,36 @@ impl Furniture for PenCup {
         b.part(&cup, "body", body, [Finish::Ceramic(0), Finish::BlackMetal, Finish::Wood, Finish::Leather][rng.below(4)]);
         for (k, d) in around(self.pens, rng.next_f32()).enumerate() {
             let length = rng.range(0.14, 0.175);
-            let tilt = rng.range(0.14, 0.22);
+            // From the floor on one side to the rim on the other, each on its own side of the axis.
+            let tilt = rng.range(0.45, 0.47);
             let pencil = k % 2 == 0;
             let pen = if pencil {
                 turned(&[[0.0, 0.0], [0.0036, 0.0], [0.0036, length - 0.016], [0.0008, length], [0.0, length]], 6)
             } else {
                 turned(&[[0.0, 0.0], [0.0045, 0.0], [0.0045, length - 0.03], [0.0038, length - 0.004], [0.0, length]], 12)
             };
-            let foot = d * -0.018;
+            let foot = d * -0.018 + d.perp() * 0.014;
             let lean = pen.turned(Vec3::Y, tilt).turned(Vec3::Z, d.to_angle()).moved(foot.extend(0.0045));
             b.part(&cup, &format!("pen_{}", k + 1), lean, if pencil { Finish::Wood } else { Finish::Plastic(k as u8) });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::furniture::piece_tests::{bodies_of, scene_of};
+
+    #[test]
+    fn no_pen_in_a_cup_runs_through_another() {
+        for (pens, seed) in (3..=8).flat_map(|pens| [0, 1, 2].map(|seed| (pens, seed))) {
+            let found = bodies_of(&scene_of(&PenCup { pens }, seed), "/pen_");
+            assert_eq!(found.len(), pens);
+            for (k, a) in found.iter().enumerate() {
+                for b in &found[k + 1..] {
+                    assert!(!a.meets(b, Vec3::ZERO), "{pens} pens: {} meets {}", a.name, b.name);
+                }
+            }
         }
     }
 }

@@ -120,7 +120,7 @@ impl Furniture for PlaceSetting {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(0.58, 0.41, 0.22)
+        Vec3::new(0.58, if self.mat { 0.46 } else { 0.41 }, 0.22)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -143,9 +143,11 @@ impl Furniture for PlaceSetting {
         Piece::Fork.build(b, piece(0.165), rng);
         Piece::Knife.build(b, piece(-0.165), rng);
         Piece::Spoon.build(b, piece(-0.195), rng);
-        Drinkware::Tumbler.build(b, at(-0.15, -0.14, -lift), rng);
+        // Glasses stand behind the mat.
+        let [tumbler, wine] = if self.mat { [-0.18, -0.185] } else { [-0.14, -0.16] };
+        Drinkware::Tumbler.build(b, at(-0.15, tumbler, -lift), rng);
         if self.wine {
-            Drinkware::Wine.build(b, at(-0.06, -0.16, -lift), rng);
+            Drinkware::Wine.build(b, at(-0.06, wine, -lift), rng);
         }
         let on_plate = rng.below(2) == 0;
         let napkin = if on_plate { at(0.0, 0.02, if self.starter { 0.017 } else { 0.009 }) } else { at(0.235, 0.02, -lift) };
@@ -159,5 +161,19 @@ impl Furniture for PlaceSetting {
             .deformed(|p| Vec3::new(p.x, -p.z, 0.12 * p.y + 0.0065))
             .smoothed(40.0);
         b.part(&ring, "band", band, Finish::Brass);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::furniture::piece_tests::{bodies_of, scene_of};
+
+    #[test]
+    fn no_glass_stands_through_a_mat() {
+        let scene = scene_of(&PlaceSetting { starter: true, wine: true, mat: true, color: 0 }, 0);
+        let (glasses, mats) = (bodies_of(&scene, "glass_"), bodies_of(&scene, "place_mat_"));
+        assert_eq!([glasses.len(), mats.len()], [2, 1]);
+        assert!(glasses.iter().all(|glass| !glass.meets(&mats[0], Vec3::ZERO)));
     }
 }

@@ -1,9 +1,10 @@
 use crate::builder::{Builder, Class, Object};
-use crate::furniture::form::{all, cylinder, loft, rod, to_front, turned, vessel, wire};
+use crate::furniture::form::{all, cylinder, loft, picture, rod, to_front, turned, vessel, wire};
 use crate::furniture::{CONTACT, Furniture, board, on};
 use crate::materials::Finish;
 use crate::shape::{Reshape, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec3};
+use std::f32::consts::FRAC_PI_2;
 
 /// Small machines that stand on a worktop; their fronts face +y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +99,7 @@ fn toaster(b: &mut Builder, toaster: &Object, body: Finish) {
         b.part(toaster, &format!("slot_{}", i + 1), board([-0.10, y - 0.012, 0.19], [0.10, y + 0.012, 0.1966], 0.0005), Finish::Soil);
     }
     let lever = board([0.138, -0.018, 0.13], [0.162, 0.018, 0.148], 0.004);
-    let dial = cylinder(0.016, 0.012, 24).turned(Vec3::Y, std::f32::consts::FRAC_PI_2).moved(Vec3::new(0.139, 0.0, 0.065));
+    let dial = cylinder(0.016, 0.012, 24).turned(Vec3::Y, FRAC_PI_2).moved(Vec3::new(0.139, 0.0, 0.065));
     b.part(toaster, "lever", lever.with(dial), Finish::BlackPlastic);
 }
 
@@ -115,12 +116,9 @@ fn coffee_machine(b: &mut Builder, machine: &Object, body: Finish) {
     let dial = |x: f32| to_front(cylinder(0.018, 0.014, 28)).moved(Vec3::new(x, 0.1448, 0.285));
     b.part(machine, "dials", dial(-0.075).with(dial(0.075)), Finish::Chrome);
     b.part(machine, "gauge", to_front(cylinder(0.022, 0.006, 32)).moved(Vec3::new(0.0, 0.1448, 0.285)), Finish::WhitePlastic);
-    b.part(
-        machine,
-        "cup_rail",
-        wire(&[[-0.11, -0.13, 0.345], [-0.11, 0.12, 0.345], [0.11, 0.12, 0.345], [0.11, -0.13, 0.345]], 0.003, 8),
-        Finish::Chrome,
-    );
+    let corners = [[-0.11, -0.13, 0.345], [-0.11, 0.12, 0.345], [0.11, 0.12, 0.345], [0.11, -0.13, 0.345]];
+    let posts = corners.map(|[x, y, z]| rod([x, y, 0.325], [x, y, z], 0.003, 8));
+    b.part(machine, "cup_rail", wire(&corners, 0.003, 8).with(all(posts)), Finish::Chrome);
 }
 
 fn blender(b: &mut Builder, blender: &Object, body: Finish) {
@@ -145,7 +143,9 @@ fn blender(b: &mut Builder, blender: &Object, body: Finish) {
 
 fn scales(b: &mut Builder, scales: &Object) {
     b.part(scales, "plate", rounded_box(Vec3::new(0.155, 0.215, 0.014), 0.005, 3).moved(Vec3::new(0.0, 0.0, 0.0105)), Finish::GlossBlack);
-    b.part(scales, "display", board([-0.032, 0.068, 0.0172], [0.032, 0.094, 0.0182], 0.0004), Finish::ScreenOn(0));
+    // Upright for who stands before it.
+    let display = picture(0.064, 0.026).turned(Vec3::X, FRAC_PI_2).moved(Vec3::new(0.0, 0.081, 0.0178));
+    b.part(scales, "display", display, Finish::ScreenOn(0));
     let feet = all([(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)]
         .map(|(x, y): (f32, f32)| cylinder(0.009, 0.005, 14).moved(Vec3::new(0.06 * x, 0.09 * y, 0.0))));
     b.part(scales, "feet", feet, Finish::Rubber);
@@ -158,7 +158,7 @@ fn microwave(b: &mut Builder, oven: &Object, body: Finish) {
     b.part(oven, "door", board([-0.5 * w, y + CONTACT, 0.014], [0.115, y + 0.02, 0.01 + h], 0.003), body);
     b.part(oven, "window", board([-0.5 * w + 0.03, y + 0.0195, 0.05], [0.075, y + 0.0208, h - 0.028], 0.0006), Finish::GlossBlack);
     b.part(oven, "panel", board([0.117, y + CONTACT, 0.014], [0.5 * w, y + 0.018, 0.01 + h], 0.003), Finish::BlackPlastic);
-    b.part(oven, "display", board([0.13, y + 0.0175, 0.215], [0.216, y + 0.0185, 0.245], 0.0004), Finish::ScreenOn(0));
+    b.part(oven, "display", picture(0.086, 0.03).moved(Vec3::new(0.173, y + 0.0183, 0.23)), Finish::ScreenOn(0));
     let buttons = all((0..12).map(|k| {
         let (x, z) = (0.145 + 0.028 * (k % 3) as f32, 0.19 - 0.027 * (k / 3) as f32);
         board([x - 0.010, y + 0.0175, z - 0.007], [x + 0.010, y + 0.0195, z + 0.007], 0.001)
@@ -193,10 +193,5 @@ fn stand_mixer(b: &mut Builder, mixer: &Object, body: Finish) {
     let bowl = vessel(&[[0.05, 0.041], [0.055, 0.046], [0.085, 0.075], [0.095, 0.12], [0.098, 0.165]], 0.0018, 44);
     b.part(mixer, "bowl", bowl.moved(Vec3::new(0.0, 0.07, 0.0)), Finish::Chrome);
     b.part(mixer, "shaft", cylinder(0.013, 0.12, 20).moved(Vec3::new(0.0, 0.07, 0.12)), Finish::Chrome);
-    b.part(
-        mixer,
-        "lever",
-        cylinder(0.012, 0.02, 20).turned(Vec3::Y, std::f32::consts::FRAC_PI_2).moved(Vec3::new(0.055, -0.1, 0.275)),
-        Finish::Chrome,
-    );
+    b.part(mixer, "lever", cylinder(0.012, 0.02, 20).turned(Vec3::Y, FRAC_PI_2).moved(Vec3::new(0.055, -0.1, 0.275)), Finish::Chrome);
 }

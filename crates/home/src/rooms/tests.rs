@@ -1,0 +1,44 @@
+//! Rooms that tests furnish by hand, thing by thing.
+
+use super::Furnisher;
+use crate::assets::Library;
+use crate::builder::Builder;
+use crate::check::{family_of, object_of};
+use crate::light::LightConfig;
+use crate::materials::Materials;
+use crate::palette::Palette;
+use crate::plan::{FloorPlan, RoomKind};
+use enfilade_math::Rng;
+use enfilade_scene::{Part, Scene};
+
+/// Most rooms that are tried.
+const SEEDS: u64 = 24;
+
+/// What `furnish` puts into the one room of a home, and the next random number then.
+pub(super) fn furnished(kind: RoomKind, seed: u64, clutter: f32, library: &Library, furnish: impl FnOnce(&mut Furnisher)) -> (Scene, u64) {
+    let plan = FloorPlan::new(&[kind], &Rng::new(1));
+    let palette = Palette::all()[0];
+    let mut b = Builder::new(Materials::new(palette, LightConfig::default(), Rng::new(1)));
+    let mut f = Furnisher::new(&mut b, &plan, &plan.rooms[0], &palette, library, clutter, Rng::new(seed));
+    furnish(&mut f);
+    let next = f.rng.next_u64();
+    (b.finish().0, next)
+}
+
+/// Checks that without clutter a room lacks the things of the families `small` and nothing else, and draws the same random numbers.
+pub(super) fn lacks_without_clutter(kind: RoomKind, furnish: fn(&mut Furnisher), small: &[&str]) {
+    let is_small = |part: &Part| small.contains(&family_of(object_of(&part.name)));
+    let placed = |part: &Part| (part.name.clone(), part.world_from_mesh);
+    for seed in 0..SEEDS {
+        // The least clutter is too little for things that gather by chance.
+        let [with, without] = [f32::MIN_POSITIVE, 0.0].map(|clutter| furnished(kind, seed, clutter, &Library::default(), furnish));
+        let rest: Vec<_> = with.0.parts.iter().filter(|part| !is_small(part)).map(placed).collect();
+        let bare: Vec<_> = without.0.parts.iter().map(placed).collect();
+        let lacking = with.0.parts.len() - rest.len();
+        assert_eq!((bare, without.1), (rest, with.1), "seed {seed}");
+        if lacking > 0 {
+            return;
+        }
+    }
+    panic!("no room of {SEEDS} has any of {small:?}");
+}
