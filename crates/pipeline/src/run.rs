@@ -186,8 +186,8 @@ pub fn run_chosen(
     let session = Session::new(&config, &workdir)?;
     if stages.contains(&Stage::Denoise) {
         // Before the choice is stored: a library that is missing must not cost what is finished.
-        let planned = scenes.iter().filter(|scene| session.dataset.layout().metadata_cameras(&scene.name).is_file());
-        planned.map(|scene| check_denoiser(&Job::new(&config, scene, &session.dataset, &workdir, force))).collect::<Result<(), Error>>()?;
+        let mut planned = scenes.iter().filter(|scene| session.dataset.layout().metadata_cameras(&scene.name).is_file());
+        planned.try_for_each(|scene| check_denoiser(&Job::new(&config, scene, &session.dataset, &workdir, force)))?;
     }
     store_config(&workdir, &config)?;
     let stages: Vec<&StageSpec> = stages.iter().map(|stage| stage.spec()).collect();

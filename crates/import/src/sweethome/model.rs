@@ -156,7 +156,7 @@ fn glazed(imported: Imported) -> Imported {
 fn pane(mut material: Material) -> Option<Material> {
     let transmittance = tinted(*base_color(&mut material.bsdf)?);
     let opaque = matches!(material.alpha, Alpha::Opaque) && !material.bsdf.transmits();
-    opaque.then(|| Material { bsdf: Bsdf::ThinDielectric { eta: GLASS, transmittance }, ..material })
+    opaque.then_some(Material { bsdf: Bsdf::ThinDielectric { eta: GLASS, transmittance }, ..material })
 }
 
 /// A mirror of a material's colour; `None` for glass.

@@ -109,7 +109,7 @@ impl Source<'_> {
     /// The key before the text at `span`, with its sign; `None` where no text stands there, but a table that holds it.
     fn key_of_text(&self, span: &Range<usize>) -> Option<&str> {
         self.text.get(span.clone()).filter(|value| value.starts_with(['"', '\'']))?;
-        let before = self.text[..span.start].rsplit(|c: char| matches!(c, '\n' | '{' | ',' | '[')).next()?;
+        let before = self.text[..span.start].rsplit(['\n', '{', ',', '[']).next()?;
         Some(before.trim_start())
     }
 }

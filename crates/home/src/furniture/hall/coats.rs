@@ -45,7 +45,7 @@ impl CoatHooks {
     /// The hook of coat `k` when the first hangs on hook `first`: every other one, then those between. Where their number is odd, the
     /// second way around comes to those of itself.
     fn hook_of(&self, first: usize, k: usize) -> usize {
-        let aside = if self.hooks % 2 == 0 { k * 2 / self.hooks } else { 0 };
+        let aside = if self.hooks.is_multiple_of(2) { k * 2 / self.hooks } else { 0 };
         (first + 2 * k + aside) % self.hooks
     }
 
