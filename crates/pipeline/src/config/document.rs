@@ -3,16 +3,13 @@
 //! From the weakest to the strongest: built-in defaults, the file's top level, the scene's own keys, the command line. On each
 //! level `quality` sets the samples and `render.samples` wins over it.
 
-use super::choices::{check_noise, check_positive, check_samples};
-use super::expand::expand;
+use super::checks::{check_frames, check_size};
 use super::locate::{ConfigError, Source as Text, in_words};
 use super::patch::{CarvePatch, GatePatch, PlanPatch, RenderPatch};
 use super::{CameraChoice, CameraConfig, Config, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source};
-use enfilade_dataset::read_ray_grid;
 use enfilade_explore::{ExploreError, Mode};
 use enfilade_home::HomeConfig;
 use enfilade_import::UpAxis;
-use enfilade_post::label::LabelTable;
 use serde::de::{MapAccess, Visitor, value::MapAccessDeserializer};
 use serde::{Deserialize, Deserializer};
 use std::cell::RefCell;
@@ -24,9 +21,6 @@ use toml::Spanned;
 /// Defaults of a dataset that are nobody else's.
 const SIZE: [u32; 2] = [1024, 768];
 const QUALITY: Quality = Quality::Normal;
-const LARGEST_SIDE: u32 = 16_384;
-/// Frame numbers have four digits.
-const MOST_FRAMES: u32 = 10_000;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -157,17 +151,18 @@ fn default_name(file: &Path) -> String {
     if stem == "dataset" { folder.unwrap_or(stem) } else { stem }
 }
 
-struct Resolver<'a> {
-    source: Text<'a>,
+/// From keys to a configuration; `checks.rs` has what it refuses.
+pub(super) struct Resolver<'a> {
+    pub(super) source: Text<'a>,
     document: &'a Document,
     overrides: &'a Overrides,
-    variable: &'a dyn Fn(&str) -> Option<String>,
+    pub(super) variable: &'a dyn Fn(&str) -> Option<String>,
     /// Files that were read and found good: scenes share them.
-    looked_at: RefCell<HashSet<PathBuf>>,
+    pub(super) looked_at: RefCell<HashSet<PathBuf>>,
 }
 
 impl Resolver<'_> {
-    fn refuse<T>(&self, value: &Spanned<T>, message: impl Into<String>, help: impl Into<String>) -> ConfigError {
+    pub(super) fn refuse<T>(&self, value: &Spanned<T>, message: impl Into<String>, help: impl Into<String>) -> ConfigError {
         let mut error = self.source.error(Some(value.span()), message);
         error.help = Some(help.into());
         error
@@ -230,6 +225,21 @@ impl Resolver<'_> {
         ConfigError { help: Some(help.into()), ..self.source.error(Some(place), error.to_string()) }
     }
 
+    /// Refuses a home that an earlier scene is too: training and test could hold the same. Where both say its seed, it is meant.
+    fn check_homes(&self, scenes: &[SceneConfig]) -> Result<(), ConfigError> {
+        let homes = self.document.scene.iter().zip(scenes).filter_map(|(keys, scene)| Some((keys.home.as_ref()?, scene)));
+        let homes: Vec<(&Spanned<toml::Table>, &SceneConfig)> = homes.collect();
+        for (i, &(keys, scene)) in homes.iter().enumerate() {
+            let meant = |other: &Spanned<toml::Table>| names_seed(keys) && names_seed(other);
+            if let Some((_, earlier)) = homes[..i].iter().find(|(other, earlier)| earlier.source == scene.source && !meant(other)) {
+                let message = format!("the scenes {:?} and {:?} would be the same home", earlier.name, scene.name);
+                let help = "give each a seed, home = { seed = 1 } and home = { seed = 2 }; the same in both if one home is meant";
+                return Err(self.refuse(keys, message, help));
+            }
+        }
+        Ok(())
+    }
+
     fn scene_source(&self, keys: &SceneKeys, seed: u64) -> Result<Source, ConfigError> {
         let file = match (&keys.file, &keys.home) {
             (Some(file), None) => file,
@@ -281,21 +291,6 @@ impl Resolver<'_> {
         }
     }
 
-    /// Refuses a home that an earlier scene is too: training and test could hold the same. Where both say its seed, it is meant.
-    fn check_homes(&self, scenes: &[SceneConfig]) -> Result<(), ConfigError> {
-        let homes = self.document.scene.iter().zip(scenes).filter_map(|(keys, scene)| Some((keys.home.as_ref()?, scene)));
-        let homes: Vec<(&Spanned<toml::Table>, &SceneConfig)> = homes.collect();
-        for (i, &(keys, scene)) in homes.iter().enumerate() {
-            let meant = |other: &Spanned<toml::Table>| names_seed(keys) && names_seed(other);
-            if let Some((_, earlier)) = homes[..i].iter().find(|(other, earlier)| earlier.source == scene.source && !meant(other)) {
-                let message = format!("the scenes {:?} and {:?} would be the same home", earlier.name, scene.name);
-                let help = "give each a seed, home = { seed = 1 } and home = { seed = 2 }; the same in both if one home is meant";
-                return Err(self.refuse(keys, message, help));
-            }
-        }
-        Ok(())
-    }
-
     fn labels(&self, keys: &SceneKeys, name: &str) -> Result<Option<LabelSource>, ConfigError> {
         let table = match (&keys.labels, &keys.home) {
             (Some(table), _) => table,
@@ -308,60 +303,6 @@ impl Resolver<'_> {
         self.check_table(table)?;
         let scene = keys.label_scene.clone().unwrap_or_else(|| name.into());
         Ok(Some(LabelSource { table: table.get_ref().clone(), scene }))
-    }
-
-    /// Refuses a label table that the last stages could not use.
-    fn check_table(&self, table: &Spanned<String>) -> Result<(), ConfigError> {
-        let Some(path) = self.new_file(table.get_ref(), table, "label table")? else { return Ok(()) };
-        let refuse = |message: String| self.refuse(table, message, "correct the table, or name another one");
-        let bytes = std::fs::read(&path).map_err(|e| refuse(format!("cannot read the label table {}: {e}", path.display())))?;
-        LabelTable::parse(&bytes, &path.display().to_string()).map(drop).map_err(|e| refuse(e.to_string()))
-    }
-
-    /// Refuses a camera that cannot be, and notes which images its matrix is of.
-    fn check_camera(&self, scene: &mut SceneConfig, camera: &Spanned<CameraConfig>) -> Result<(), ConfigError> {
-        if let Some(file) = &scene.camera.ray_grid
-            && let Some(path) = self.new_file(file, camera, "ray grid")?
-        {
-            read_ray_grid(&path, scene.size).map_err(|e| self.refuse(camera, e.to_string(), "docs/cameras.md explains the file"))?;
-        }
-        if scene.camera.k.is_some() {
-            scene.camera.k_size.get_or_insert(scene.size);
-        }
-        match scene.camera.problem(scene.size) {
-            Some(problem) => Err(self.refuse(camera, problem, "the keys of [camera] are explained in docs/cameras.md")),
-            None => Ok(()),
-        }
-    }
-
-    fn check_path<T>(&self, path: &str, place: &Spanned<T>) -> Result<(), ConfigError> {
-        self.expanded(path, place).map(drop)
-    }
-
-    fn expanded<T>(&self, path: &str, place: &Spanned<T>) -> Result<String, ConfigError> {
-        let help = "set the variable before running, as in: export NAME=/path/to/folder";
-        expand(path, self.variable).map_err(|e| self.refuse(place, e, help))
-    }
-
-    /// The file that `path` means, which must be there; `None` when it was looked at before.
-    fn new_file<T>(&self, path: &str, place: &Spanned<T>, what: &str) -> Result<Option<PathBuf>, ConfigError> {
-        let folder = self.source.file.parent().unwrap_or(Path::new(""));
-        let found = folder.join(self.expanded(path, place)?);
-        if !found.is_file() {
-            let help = "check the path for a typing mistake; it begins in the folder of the configuration";
-            return Err(self.refuse(place, format!("there is no {what} {}", found.display()), help));
-        }
-        Ok(self.looked_at.borrow_mut().insert(found.clone()).then_some(found))
-    }
-
-    fn checked_name(&self, name: &Spanned<String>, what: &str) -> Result<String, ConfigError> {
-        let text = name.get_ref();
-        let allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
-        if text.is_empty() || text.starts_with('.') || !text.chars().all(allowed) {
-            let help = "names become folders: use letters, digits, '-', '_' and '.', and do not begin with '.'";
-            return Err(self.refuse(name, format!("{text:?} cannot be the {what}"), help));
-        }
-        Ok(text.clone())
     }
 
     fn lay_over(
@@ -414,35 +355,6 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    /// Refuses numbers out of their range.
-    fn check_render(&self, render: &RenderPatch) -> Result<(), ConfigError> {
-        if let Some(samples) = &render.samples {
-            check_samples(*samples.get_ref()).map_err(|m| self.refuse(samples, m, "for example: samples = 64"))?;
-        }
-        if let Some(noise) = &render.noise {
-            check_noise(*noise.get_ref()).map_err(|m| self.refuse(noise, m, "for example: noise = 0.02 for two per cent"))?;
-        }
-        if let Some(clamp) = &render.clamp {
-            let check = check_positive("clamp", f64::from(*clamp.get_ref()));
-            check.map_err(|m| self.refuse(clamp, m, "for example: clamp = 10; without the key nothing is clamped"))?;
-        }
-        if let Some(limit) = &render.time_limit_s {
-            let check = check_positive("time_limit_s", *limit.get_ref());
-            check.map_err(|m| self.refuse(limit, m, "for example: time_limit_s = 90; without the key there is no limit"))?;
-        }
-        if let Some(radius) = render.filter_radius.as_ref().filter(|v| !(*v.get_ref() >= 0.0 && v.get_ref().is_finite())) {
-            let message = format!("filter_radius must be 0 or more pixels, found {}", radius.get_ref());
-            return Err(self.refuse(radius, message, "for example: filter_radius = 1"));
-        }
-        match render.save_every_s.as_ref().filter(|v| !(*v.get_ref() >= 0.0 && v.get_ref().is_finite())) {
-            Some(interval) => {
-                let message = format!("save_every_s must be at least 0, found {}", interval.get_ref());
-                Err(self.refuse(interval, message, "for example: save_every_s = 30"))
-            }
-            None => Ok(()),
-        }
-    }
-
     fn override_with_arguments(&self, scene: &mut SceneConfig) -> Result<(), ConfigError> {
         let refuse = |message: String| ConfigError { file: "the command line".into(), ..self.source.error(None, message) };
         if let Some(frames) = self.overrides.frames {
@@ -465,54 +377,4 @@ impl Resolver<'_> {
 /// True where a home says its own seed.
 fn names_seed(home: &Spanned<toml::Table>) -> bool {
     home.get_ref().contains_key("seed")
-}
-
-fn check_frames(frames: u32) -> Result<u32, String> {
-    if (1..=MOST_FRAMES).contains(&frames) {
-        Ok(frames)
-    } else {
-        Err(format!("frames must lie between 1 and {MOST_FRAMES}, found {frames}"))
-    }
-}
-
-fn check_size(size: [u32; 2]) -> Result<[u32; 2], String> {
-    if size.iter().all(|s| (1..=LARGEST_SIDE).contains(s)) {
-        return Ok(size);
-    }
-    Err(format!("width and height must lie between 1 and {LARGEST_SIDE} pixels, found {} x {}", size[0], size[1]))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The configuration of a scene for each of these homes.
-    fn homes(homes: &[&str], overrides: &Overrides) -> Result<Config, ConfigError> {
-        let scene = |(i, home): (usize, &&str)| format!("[[scene]]\nname = \"home_{i}\"\nhome = {home}\n");
-        let text: String = homes.iter().enumerate().map(scene).collect();
-        resolve(Path::new("dataset.toml"), &text, overrides, &|_| None)
-    }
-
-    #[test]
-    fn homes_keep_their_own_seeds_whatever_the_command_line_says() {
-        let overrides = Overrides { seed: Some(9), ..Overrides::default() };
-        let config = homes(&["{ seed = 1 }", "{ seed = 2 }", "{}"], &overrides).unwrap();
-        let sources: Vec<Source> = config.scenes.iter().map(|scene| scene.source.clone()).collect();
-        assert_eq!(sources, [1, 2, 9].map(|seed| Source::Home(HomeConfig::of_seed(seed))));
-        assert!(config.scenes.iter().all(|scene| scene.seed == 9));
-    }
-
-    #[test]
-    fn one_home_for_two_scenes_is_refused_unless_both_say_its_seed() {
-        for same in [["{}", "{}"], ["{ seed = 0 }", "{}"], ["{}", "{ seed = 0 }"]] {
-            let error = homes(&same, &Overrides::default()).unwrap_err();
-            let text = error.to_string();
-            let message = "the scenes \"home_0\" and \"home_1\" would be the same home";
-            assert!(text.starts_with("dataset.toml:6:") && text.contains(message), "{text}");
-            assert!(error.help.unwrap().contains("give each a seed"));
-        }
-        for allowed in [["{ seed = 4 }", "{ seed = 4 }"], ["{}", "{ clutter = 0 }"], ["{}", "{ seed = 1 }"]] {
-            assert!(homes(&allowed, &Overrides::default()).is_ok(), "{allowed:?}");
-        }
-    }
 }

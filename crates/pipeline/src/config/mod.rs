@@ -4,6 +4,7 @@
 //! reads are hashed to tell whether the stage must run again.
 
 mod camera;
+mod checks;
 mod choices;
 mod document;
 mod expand;

@@ -376,3 +376,33 @@ fn seeds_differ_by_scene_and_purpose() {
     assert_ne!(scene.seed_for("plan"), scene.seed_for("render"));
     assert_ne!(scene.seed_for("plan"), other.seed_for("plan"));
 }
+
+/// The configuration of a scene for each of these homes.
+fn homes(homes: &[&str], overrides: &Overrides) -> Result<Config, ConfigError> {
+    let scene = |(i, home): (usize, &&str)| format!("[[scene]]\nname = \"home_{i}\"\nhome = {home}\n");
+    let text: String = homes.iter().enumerate().map(scene).collect();
+    resolve(Path::new("dataset.toml"), &text, overrides, &|_| None)
+}
+
+#[test]
+fn homes_keep_their_own_seeds_whatever_the_command_line_says() {
+    let overrides = Overrides { seed: Some(9), ..Overrides::default() };
+    let config = homes(&["{ seed = 1 }", "{ seed = 2 }", "{}"], &overrides).unwrap();
+    let sources: Vec<Source> = config.scenes.iter().map(|scene| scene.source.clone()).collect();
+    assert_eq!(sources, [1, 2, 9].map(|seed| Source::Home(HomeConfig::of_seed(seed))));
+    assert!(config.scenes.iter().all(|scene| scene.seed == 9));
+}
+
+#[test]
+fn one_home_for_two_scenes_is_refused_unless_both_say_its_seed() {
+    for same in [["{}", "{}"], ["{ seed = 0 }", "{}"], ["{}", "{ seed = 0 }"]] {
+        let error = homes(&same, &Overrides::default()).unwrap_err();
+        let text = error.to_string();
+        let message = "the scenes \"home_0\" and \"home_1\" would be the same home";
+        assert!(text.starts_with("dataset.toml:6:") && text.contains(message), "{text}");
+        assert!(error.help.unwrap().contains("give each a seed"));
+    }
+    for allowed in [["{ seed = 4 }", "{ seed = 4 }"], ["{}", "{ clutter = 0 }"], ["{}", "{ seed = 1 }"]] {
+        assert!(homes(&allowed, &Overrides::default()).is_ok(), "{allowed:?}");
+    }
+}
