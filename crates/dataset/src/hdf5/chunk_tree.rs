@@ -1,6 +1,7 @@
 //! Where chunks lie: B-trees of version 1 ("HDF5 File Format Specification Version 3.0", section III.A.1).
 
 use super::bytes::{Source, u16_at, u32_at, u64_at, usize_at};
+use std::collections::HashSet;
 
 /// Bytes of a chunk in the file.
 #[derive(Clone, Copy, Debug, Default)]
@@ -29,6 +30,24 @@ pub(super) fn walk(source: &mut Source, root: u64, chunk: &[usize], grid: &[usiz
     /// Above all levels, which are bytes.
     const ABOVE: u16 = 256;
     node(source, root, ABOVE, chunk, grid, take)
+}
+
+/// True when two entries of nodes above the lowest, wherever these lie in `bytes`, lead to the same node: a reader that does not remember
+/// where it was takes twice as long for each level below. Of what rank the array is, which says how long entries are, need not be known.
+pub(super) fn meet_again(bytes: &[u8]) -> bool {
+    const MOST_AXES: usize = 32;
+    const NODE: &[u8] = b"TREE\x01";
+    let is_node = |address: usize| bytes.get(address..).is_some_and(|rest| rest.starts_with(NODE));
+    let inner: Vec<usize> = (0..bytes.len().saturating_sub(24)).filter(|&at| is_node(at) && bytes[at + 5] > 0).collect();
+    (1..=MOST_AXES).any(|axes| {
+        let key = 8 + 8 * (axes + 1);
+        let mut met = HashSet::new();
+        inner.iter().any(|&at| {
+            let entries = usize::from(u16_at(bytes, at + 6).unwrap_or(0));
+            let children = (0..entries).map_while(|entry| usize_at(bytes, at + 24 + entry * (key + 8) + key));
+            children.filter(|&child| is_node(child)).any(|child| !met.insert(child))
+        })
+    })
 }
 
 /// [`walk`] from the node at `address`, which is below that level.

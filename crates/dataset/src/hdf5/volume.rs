@@ -327,9 +327,17 @@ impl Header {
     }
 }
 
-/// True when the tree of the chunks of array `name` is damaged, for which [`chunk_tree::walk`] has the reasons; `None` when there is no
-/// such tree in the forms that are known here.
-pub(super) fn has_damaged_tree(path: &Path, name: &str) -> Option<bool> {
+/// True when the tree of the chunks of array `name` is damaged, for which [`chunk_tree::walk`] has the reasons. In a file of another form
+/// than is known here, when two nodes of any tree of chunks lead to the same.
+pub(super) fn has_damaged_tree(path: &Path, name: &str) -> bool {
+    walks_into_damage(path, name).unwrap_or_else(|| {
+        let base = Source::open(path).and_then(|mut source| begin(&mut source)).unwrap_or(0);
+        std::fs::read(path).is_ok_and(|bytes| chunk_tree::meet_again(bytes.get(base as usize..).unwrap_or_default()))
+    })
+}
+
+/// `None` when there is no tree in the forms that are known here.
+fn walks_into_damage(path: &Path, name: &str) -> Option<bool> {
     let volume = Volume::open(path).ok()?;
     let mut source = Source::open(path)?.based_at(volume.base);
     let mut found = Header::default();
