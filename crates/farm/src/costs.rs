@@ -121,6 +121,11 @@ impl Costs {
         share(self.cpu_s, self.vcpu_s)
     }
 
+    /// Frames of which two attempts made different bytes: there should be none.
+    pub fn different(&self) -> u32 {
+        self.attempts.iter().map(|attempt| attempt.record.different).sum()
+    }
+
     /// Dollars at a price per vCPU-hour.
     pub fn dollars(&self, dollars_per_vcpu_hour: f64) -> f64 {
         self.vcpu_hours() * dollars_per_vcpu_hour

@@ -230,7 +230,7 @@ fn make(
     }
     let failure = Mutex::new(None);
     let finished = |frame: &FinishedFrame| {
-        let result = patiently(work.stop, PAUSE, || hand_in(job, out, &key(frame.frame), number, frame, work.attempt));
+        let result = hand_in(job, out, &key(frame.frame), number, frame, work);
         match result {
             Ok(commit) => {
                 tally.lock().unwrap_or_else(std::sync::PoisonError::into_inner).count(commit, &frame.broken);
@@ -267,31 +267,32 @@ fn patiently<T>(stop: &AtomicBool, pause: Duration, mut act: impl FnMut() -> Res
     }
 }
 
-/// Commits a frame, and frees its place on this machine. A second time it is this attempt's as well.
-fn hand_in(job: &Job, out: &Path, key: &FrameKey, task: u32, frame: &FinishedFrame, attempt: &Attempt) -> Result<Commit, FarmError> {
+/// Commits a frame, and frees its place on this machine.
+fn hand_in(job: &Job, out: &Path, key: &FrameKey, task: u32, frame: &FinishedFrame, work: &Work) -> Result<Commit, FarmError> {
     let payload = pack(out, &frame.files)?;
-    // Somebody else may have been first while this frame was in the making: then nothing has to travel.
-    let done = match read_marker(&job.store, key)? {
-        Some(there) if there.attempt == attempt.id => Commit::Won,
-        Some(there) => Commit::Lost { same: there.blake3 == blake3::hash(&payload).to_hex().to_string() },
-        None => {
-            let marker = Marker {
-                key: key.clone(),
-                payload: String::new(),
-                bytes: 0,
-                blake3: String::new(),
-                attempt: attempt.id.clone(),
-                task,
-                broken: frame.broken.iter().map(ToString::to_string).collect(),
-                wall_s: frame.time.wall_s,
-                cpu_s: frame.time.cpu_s,
-                peak_memory_bytes: frame.time.peak_memory_bytes,
-                threads: frame.time.threads,
-            };
-            commit(&job.store, payload, marker)?
-        }
+    let marker = Marker {
+        key: key.clone(),
+        payload: String::new(),
+        bytes: 0,
+        blake3: String::new(),
+        attempt: work.attempt.id.clone(),
+        task,
+        broken: frame.broken.iter().map(ToString::to_string).collect(),
+        wall_s: frame.time.wall_s,
+        cpu_s: frame.time.cpu_s,
+        peak_memory_bytes: frame.time.peak_memory_bytes,
+        threads: frame.time.threads,
     };
-    job.store.remove(&key.kept())?;
+    let done = patiently(work.stop, PAUSE, || {
+        // Somebody else may have been first while this frame was in the making: then nothing has to travel.
+        let done = match read_marker(&job.store, key)? {
+            Some(there) if there.attempt == marker.attempt => Commit::Won,
+            Some(there) => Commit::Lost { same: there.blake3 == blake3::hash(&payload).to_hex().to_string() },
+            None => commit(&job.store, payload.clone(), marker.clone())?,
+        };
+        job.store.remove(&key.kept())?;
+        Ok(done)
+    })?;
     for path in &frame.files {
         let path = out.join(path);
         std::fs::remove_file(&path).map_err(|source| FarmError::io("remove", &path, source))?;

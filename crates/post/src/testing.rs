@@ -7,9 +7,21 @@ use enfilade_dataset::{BoxKind, InstanceView, Partition, SplitRow};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, OrientedBox, Rgb};
-use enfilade_scene::{Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, WorldMesh};
+use enfilade_scene::{Cx, Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, Warning, WorldMesh};
+use std::sync::Mutex;
 
 pub(crate) const PARTS: [&str; 3] = ["floor", "wall", "wall/mirror"];
+
+/// Keeps the warnings.
+#[derive(Default)]
+pub(crate) struct Ear(pub Mutex<Vec<String>>);
+
+impl Cx for Ear {
+    fn progress(&self, _what: &str, _done: u64, _total: u64) {}
+    fn warn(&self, warning: Warning) {
+        self.0.lock().unwrap().push(warning.to_string());
+    }
+}
 
 pub(crate) fn intrinsics() -> Intrinsics {
     Intrinsics::from_fov_x(64, 48, 70f64.to_radians())

@@ -323,6 +323,11 @@ fn where_nothing_varies_there_is_no_error_and_one_sample_says_nothing() {
     assert!(errors(1).iter().all(|e| e.is_nan()));
 }
 
+/// All layers of a frame, one after the other.
+fn bytes(frame: &Frame) -> Vec<u8> {
+    frame.iter().flat_map(|(_, values)| values.as_bytes().to_vec()).collect()
+}
+
 #[test]
 fn a_frame_goes_on_from_bytes_with_the_same_result_on_any_number_of_threads() {
     let scene = furnished();
@@ -332,7 +337,6 @@ fn a_frame_goes_on_from_bytes_with_the_same_result_on_any_number_of_threads() {
     let config = splitting(90);
     let guide = Guide::learn(&prepared, &[view], &config);
     let new = || FrameRender::new(&prepared, &guide, &view, &config).unwrap();
-    let bytes = |frame: &Frame| frame.iter().flat_map(|(_, values)| values.as_bytes().to_vec()).collect::<Vec<u8>>();
     let with = |threads: usize| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
 
     let mut whole = new();
@@ -374,7 +378,6 @@ fn a_first_pass_in_parts_begins_with_one_sample_and_ends_with_the_same_bytes() {
     let config = splitting(90);
     let guide = Guide::learn(&prepared, &[view], &config);
     let new = || FrameRender::new(&prepared, &guide, &view, &config).unwrap();
-    let bytes = |frame: &Frame| frame.iter().flat_map(|(_, values)| values.as_bytes().to_vec()).collect::<Vec<u8>>();
 
     let (mut whole, mut begun, mut parts) = (new(), new(), new());
     begun.short_pass(&Quiet);

@@ -7,8 +7,8 @@ use enfilade_post::stats::{Price, memory_gib, tells_sizes};
 use std::path::Path;
 
 /// Says what was paid at every price, for what, and on which machines it could have run; writes a row per attempt to `table` at the
-/// first price.
-pub fn say_costs(job: &Job, prices: &[Price], table: Option<&Path>) -> Result<(), Problem> {
+/// first price. Gives what it has read.
+pub fn say_costs(job: &Job, prices: &[Price], table: Option<&Path>) -> Result<Costs, Problem> {
     let costs = costs(job)?;
     lines(&costs).iter().for_each(|line| say(line));
     for price in prices {
@@ -26,11 +26,11 @@ pub fn say_costs(job: &Job, prices: &[Price], table: Option<&Path>) -> Result<()
             "The smallest machine is not told: the prices have no sizes (--price with a table of name,dollars_per_vcpu_hour,vcpus,memory_gib)",
         );
     }
-    let Some(path) = table else { return Ok(()) };
+    let Some(path) = table else { return Ok(costs) };
     std::fs::write(path, costs.table(job, prices))
         .map_err(|error| Problem::new(format!("cannot write {}: {error}", path.display()), "name another file with --attempts"))?;
     say(&format!("{:.4} vCPU-hours by attempt: {}", costs.vcpu_hours(), path.display()));
-    Ok(())
+    Ok(costs)
 }
 
 fn lines(costs: &Costs) -> Vec<String> {

@@ -163,8 +163,8 @@ fn collect(args: &FarmCollectArgs, quiet: bool) -> Result<Verdict, Problem> {
     };
     summary::print_table(&result);
     summary::print_where_to_look(out, &result)?;
-    say_faults(enfilade_farm::status(&job)?.different, &BTreeMap::new());
-    costs::say_costs(&job, &prices, None)?;
+    let costs = costs::say_costs(&job, &prices, None)?;
+    say_faults(costs.different(), &BTreeMap::new());
     Ok(Verdict::of(result.ok()))
 }
 

@@ -225,21 +225,9 @@ impl Shot<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing;
+    use crate::testing::{self, Ear};
     use enfilade_dataset::{StereoRecord, StereoSide};
-    use enfilade_scene::{Quiet, Warning};
-    use std::sync::Mutex;
-
-    /// Keeps the warnings.
-    #[derive(Default)]
-    struct Ear(Mutex<Vec<String>>);
-
-    impl Cx for Ear {
-        fn progress(&self, _what: &str, _done: u64, _total: u64) {}
-        fn warn(&self, warning: Warning) {
-            self.0.lock().unwrap().push(warning.to_string());
-        }
-    }
+    use enfilade_scene::Quiet;
 
     fn animate(root: &Path, names: &[&str], format: AnimationFormat) -> Vec<Result<Animated, NoFrames>> {
         let films: Vec<Film> = names.iter().map(|name| Film::from_name(name).unwrap()).collect();

@@ -131,19 +131,8 @@ fn classes_of(labels: &Labels) -> BTreeMap<i16, Option<i16>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing;
-    use enfilade_scene::{Quiet, Warning};
-
-    /// Keeps the warnings.
-    #[derive(Default)]
-    struct Ear(Mutex<Vec<String>>);
-
-    impl Cx for Ear {
-        fn progress(&self, _what: &str, _done: u64, _total: u64) {}
-        fn warn(&self, warning: Warning) {
-            self.0.lock().unwrap().push(warning.to_string());
-        }
-    }
+    use crate::testing::{self, Ear};
+    use enfilade_scene::Quiet;
 
     #[test]
     fn the_whole_is_the_sum_of_its_images_on_any_number_of_threads() {
