@@ -219,19 +219,7 @@ mod tests {
     use super::*;
     use crate::carve;
     use crate::testroom::{Room, cuboid, furnished_room};
-    use enfilade_scene::Quiet;
-    use std::sync::Mutex;
-
-    /// Keeps the warnings.
-    #[derive(Default)]
-    struct Ear(Mutex<Vec<String>>);
-
-    impl Cx for Ear {
-        fn progress(&self, _what: &str, _done: u64, _total: u64) {}
-        fn warn(&self, warning: Warning) {
-            self.0.lock().unwrap().push(warning.message);
-        }
-    }
+    use enfilade_scene::{Heard, Quiet};
 
     /// Two closed rooms, the second from `x` on.
     fn two_rooms(x: f64) -> Room {
@@ -267,9 +255,9 @@ mod tests {
 
     #[test]
     fn rooms_further_apart_than_is_carved_get_one_with_a_warning() {
-        let (room, ear) = (two_rooms(40.0), Ear::default());
-        let starts = find_starts(&room.world, &room.bvh, &StartsConfig::default(), &ear);
-        let warnings = ear.0.into_inner().unwrap();
+        let (room, heard) = (two_rooms(40.0), Heard::default());
+        let starts = find_starts(&room.world, &room.bvh, &StartsConfig::default(), &heard);
+        let warnings = heard.lines();
         assert_eq!((starts.len(), warnings.len()), (1, 1), "{warnings:?}");
         assert!(warnings[0].contains("only 30 m are carved"), "{warnings:?}");
         let config = CarveConfig { rays: 10_000, ..CarveConfig::default() };

@@ -5,21 +5,9 @@ mod common;
 use enfilade_dataset::Dataset;
 use enfilade_export::{Existing, ExportConfig, Exported, Format, Selection, export};
 use enfilade_frame::Layer;
-use enfilade_scene::{Cx, Fisheye, Intrinsics, Projection, Quiet, Warning};
+use enfilade_scene::{Fisheye, Heard, Intrinsics, Projection, Quiet};
 use std::fs;
 use std::path::Path;
-use std::sync::Mutex;
-
-/// Keeps the warnings.
-#[derive(Default)]
-struct Ear(Mutex<Vec<String>>);
-
-impl Cx for Ear {
-    fn progress(&self, _what: &str, _done: u64, _total: u64) {}
-    fn warn(&self, warning: Warning) {
-        self.0.lock().unwrap().push(warning.to_string());
-    }
-}
 
 fn dataset(folder: &Path) -> Dataset {
     common::write(&folder.join("dataset"), &common::pinhole())
@@ -112,9 +100,9 @@ fn a_chosen_frame_that_lacks_a_file_is_left_out_with_a_warning() {
     let said = |name: &str, frames: Option<std::ops::Range<u32>>| {
         let selection = Selection { scenes: vec!["room".into()], cameras: Some(vec!["cam_00".into()]), frames, layers: None };
         let config = ExportConfig { selection, ..ExportConfig::new(Format::Coco, Vec::new()) };
-        let ear = Ear::default();
-        assert_eq!(export(&dataset, &config, &folder.path().join(name), Existing::Refuse, &ear).unwrap().frames, 1);
-        ear.0.into_inner().unwrap()
+        let heard = Heard::default();
+        assert_eq!(export(&dataset, &config, &folder.path().join(name), Existing::Refuse, &heard).unwrap().frames, 1);
+        heard.lines()
     };
     let warnings = said("all", None);
     assert!(warnings.len() == 1 && warnings[0].starts_with("room/cam_00: frame 0 and 1 more are left out: "), "{warnings:?}");

@@ -39,13 +39,14 @@ const LABELLING: [&StageSpec; 2] = [&STAGES[Stage::Label as usize], &STAGES[Stag
 /// `pattern` restricts it to some scenes ([`Config::select`]). A scene that fails is reported and the others go on.
 ///
 /// # Errors
-/// Only what concerns the run as a whole: the output folder, the lock, the pattern.
+/// Only what concerns the run as a whole: the output folder, the lock, the pattern, a library for denoising that is asked for and missing.
 pub fn run(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Reporter) -> Result<Summary, Error> {
     let scenes = config.select(pattern)?;
     let workdir = Workdir::create(out)?;
     store_config(&workdir, config)?;
     let stages: Vec<&StageSpec> = STAGES.iter().collect();
     let session = Session::new(config, &workdir)?;
+    session.check_denoisers(&scenes)?;
     let mut summary = session.run(&scenes, &stages, false, reporter)?;
     summary.warnings.extend(session.unknown_scenes());
     Ok(summary)
@@ -89,6 +90,7 @@ pub(crate) fn forecast(
     store_config(&workdir, config)?;
     let before: Vec<&StageSpec> = STAGES.iter().filter(|spec| spec.stage < Stage::Render).collect();
     let session = Session::new(config, &workdir)?;
+    session.check_denoisers(&scenes)?;
     let mut summary = session.run(&scenes, &before, false, reporter)?;
     summary.warnings.extend(session.unknown_scenes());
     let mut forecasts = Vec::new();
@@ -275,6 +277,11 @@ impl<'a> Session<'a> {
             Err(error) if summary.ok() => Err(error),
             _ => Ok(summary),
         }
+    }
+
+    /// Better at once than after the stages that come before rendering.
+    fn check_denoisers(&self, scenes: &[&SceneConfig]) -> Result<(), Error> {
+        scenes.iter().try_for_each(|scene| check_denoiser(&Job::new(self.config, scene, &self.dataset, self.workdir, false)))
     }
 
     /// A line about scenes of the folder that the configuration does not have; `None` where it has all.

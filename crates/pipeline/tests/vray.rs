@@ -3,8 +3,7 @@
 use enfilade_dataset::Dataset;
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_pipeline::vray::{CameraWish, CollectConfig, Job, JobConfig, collect, read_job, read_scene, write_job};
-use enfilade_pipeline::{Config, Overrides, Silent, Stage, run, run_stage};
-use enfilade_post::verify::verify_dataset;
+use enfilade_pipeline::{Config, Overrides, Silent, Stage, run, run_stage, verify};
 use enfilade_scene::{Pose, Quiet};
 use enfilade_vrscene::edit::{add_color_channels, add_geometry_channels};
 use exr::prelude::{AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, LayerAttributes, Text, WritableImage};
@@ -223,7 +222,7 @@ fn v_rays_images_become_the_frames_that_our_renderer_writes() {
         let done = run_stage(&data, stage, None, false, &Silent).unwrap();
         assert!(done.ok(), "{:?}", done.scenes[0].failure.as_ref().map(|f| &f.message));
     }
-    let card = verify_dataset(&dataset, &["room".to_string()], &Quiet).unwrap();
+    let card = verify(&dataset, &["room".to_string()], &Quiet).unwrap();
     assert!(card.passed, "{}", card.to_text());
     let again = collect(&data, &of_job(&job), &Quiet).unwrap();
     assert_eq!((again.written, again.kept), (0, 2));

@@ -1,7 +1,7 @@
 //! Labels, previews, verification and questions about finished frames.
 //!
 //! Everything here is a pure function of frames, labels and poses, but for [`drivers`], [`planview`], [`stats`] and
-//! [`verify::verify_dataset`], which run these over a dataset on disk.
+//! [`verify::verify_scene`], which run these over a dataset on disk.
 
 pub mod animation;
 pub mod boxes;

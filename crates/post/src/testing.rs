@@ -7,21 +7,9 @@ use enfilade_dataset::{BoxKind, InstanceView, Partition, SplitRow};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, OrientedBox, Rgb};
-use enfilade_scene::{Cx, Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, Warning, WorldMesh};
-use std::sync::Mutex;
+use enfilade_scene::{Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, WorldMesh};
 
 pub(crate) const PARTS: [&str; 3] = ["floor", "wall", "wall/mirror"];
-
-/// Keeps the warnings.
-#[derive(Default)]
-pub(crate) struct Ear(pub Mutex<Vec<String>>);
-
-impl Cx for Ear {
-    fn progress(&self, _what: &str, _done: u64, _total: u64) {}
-    fn warn(&self, warning: Warning) {
-        self.0.lock().unwrap().push(warning.to_string());
-    }
-}
 
 pub(crate) fn intrinsics() -> Intrinsics {
     Intrinsics::from_fov_x(64, 48, 70f64.to_radians())
@@ -232,4 +220,10 @@ pub(crate) fn box_room(min: DVec3, max: DVec3) -> WorldMesh {
     let part = Part { name: "room".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
     let materials = vec![Material::diffuse("grey", Rgb::splat(0.5))];
     WorldMesh::new(&Scene { meshes: vec![mesh], parts: vec![part], materials, ..Scene::default() })
+}
+
+/// The report card of [`dataset`].
+pub(crate) fn verified(dataset: &enfilade_dataset::Dataset) -> crate::verify::VerifyReport {
+    let report = crate::verify::verify_scene(dataset, "room", &enfilade_scene::Quiet).unwrap();
+    crate::verify::join_reports(dataset, vec![report])
 }

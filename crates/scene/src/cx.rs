@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::sync::{Mutex, PoisonError};
 
 /// Something that was dropped, guessed or mended: the work went on, and the stage's report shows it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,6 +26,25 @@ pub trait Cx: Sync {
 
     /// Records a warning for the stage's report.
     fn warn(&self, warning: Warning);
+}
+
+/// A [`Cx`] that keeps the warnings, in the order in which they come, for tests.
+#[derive(Debug, Default)]
+pub struct Heard(Mutex<Vec<Warning>>);
+
+impl Heard {
+    /// The warnings so far, each in a line.
+    pub fn lines(&self) -> Vec<String> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).iter().map(Warning::to_string).collect()
+    }
+}
+
+impl Cx for Heard {
+    fn progress(&self, _what: &str, _done: u64, _total: u64) {}
+
+    fn warn(&self, warning: Warning) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(warning);
+    }
 }
 
 /// A [`Cx`] that hears nothing, for tests and one-off calls.

@@ -1,12 +1,12 @@
 //! What a page can ask for, and what it becomes: an edit with everything decided.
 
 use super::camera::CameraRequest;
-use super::classes::Classes;
 use super::log::{Edit, runs};
 use super::pieces::Pieces;
 use super::selection::{Expand, Filters, select};
 use super::split;
 use super::stroke::{Picked, Shape, World};
+use enfilade_dataset::Classes;
 use enfilade_geometry::Bvh;
 use enfilade_scene::PartLabel;
 use serde::Deserialize;

@@ -3,19 +3,18 @@
 use super::action::{Action, Look, Refusal};
 use super::camera::CameraRequest;
 use super::change::Change;
-use super::classes::{Classes, ClassesError};
 use super::clock;
 use super::events::Events;
 use super::geometry::DisplayOrder;
 use super::log::LogError;
 use super::progress::Seen;
-use super::save::{CLASSES, Snapshot};
+use super::save::Snapshot;
 use super::session::{ActionError, Session};
 use super::source::{Source, SourceError};
 use super::stroke::Picked;
 use super::suggestions::{Suggestion, suggestions};
 use super::worklog::{WORK_LOG, WorkLog, WorkSession};
-use enfilade_dataset::{DatasetError, MeshFiles};
+use enfilade_dataset::{Classes, DatasetError, MeshFiles};
 use enfilade_geometry::Bvh;
 use enfilade_scene::{Cx, Warning};
 use std::io::Write;
@@ -46,13 +45,11 @@ pub enum OpenError {
     #[error(transparent)]
     Source(#[from] SourceError),
     #[error(transparent)]
-    Classes(#[from] ClassesError),
-    #[error(transparent)]
     Log(#[from] LogError),
     #[error("{0}")]
     WorkLog(String),
     #[error(transparent)]
-    Save(#[from] DatasetError),
+    File(#[from] DatasetError),
 }
 
 /// An open scene. Edits are done one after the other; reading goes on meanwhile.
@@ -84,11 +81,9 @@ impl App {
     pub fn open(options: &AnnotateOptions, cx: &dyn Cx) -> Result<Self, OpenError> {
         let source = Arc::new(Source::load(&options.path, options.scene.as_deref(), options.labels.as_deref(), cx)?);
         let folder = &source.labels_folder;
-        let own = folder.join(CLASSES);
         let classes = match &options.classes {
             Some(file) => Classes::read(file)?,
-            None if own.is_file() => Classes::read(&own)?,
-            None => Classes::nyu40(),
+            None => MeshFiles::new(folder).read_own_classes()?.unwrap_or_else(Classes::nyu40),
         };
         cx.progress("preparing rays", 1, 3);
         let bvh = Arc::new(Bvh::new(&source.corners, &|_| true));

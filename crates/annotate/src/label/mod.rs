@@ -9,7 +9,6 @@ mod action;
 mod app;
 mod camera;
 mod change;
-mod classes;
 mod clock;
 mod events;
 pub(crate) mod geometry;

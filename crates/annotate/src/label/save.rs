@@ -1,14 +1,10 @@
 //! The labels in Hypersim's files, and beside them a table for `enfilade label`.
 
-use super::classes::Classes;
 use super::pieces::Pieces;
-use enfilade_dataset::{DatasetError, LabelColors, MeshFiles, write_bytes};
+use enfilade_dataset::{Classes, DatasetError, LabelColors, MeshFiles, write_bytes};
 use enfilade_post::label::write_part_table;
 use enfilade_scene::{Labels, PartLabel};
 use std::path::PathBuf;
-
-/// The user's own list of classes, in the folder of labels.
-pub const CLASSES: &str = "semantic_label_descs.csv";
 
 /// Everything that is written, taken at one moment.
 pub struct Snapshot {
@@ -53,16 +49,15 @@ impl Snapshot {
         }
         let colors = LabelColors { semantic: classes.color_rows(), instances: self.instances };
         written.extend(files.write_labels(&self.labels, &colors)?);
-        let (name, text) = if classes.are_nyu40() {
+        if classes.are_nyu40() {
             let names: Vec<&str> = self.whole.iter().map(String::as_str).collect();
             let labels: &[PartLabel] = &self.labels.parts[..names.len()];
-            ("labels.csv", write_part_table(&names, labels))
+            let path = files.file("labels.csv");
+            write_bytes(&path, write_part_table(&names, labels))?;
+            written.push(path);
         } else {
-            (CLASSES, classes.to_csv())
-        };
-        let path = files.file(name);
-        write_bytes(&path, text)?;
-        written.push(path);
+            written.push(files.write_classes(classes)?);
+        }
         Ok(written)
     }
 }

@@ -3,12 +3,12 @@
 use super::action::{Action, Context, Look, Refusal};
 use super::camera::CameraRequest;
 use super::change::{Change, Standing};
-use super::classes::Classes;
 use super::clock;
 use super::log::{Edit, Entry, Log, LogError, Recorded, numbers};
 use super::pieces::Pieces;
 use super::source::Source;
 use super::stroke::Picked;
+use enfilade_dataset::Classes;
 use enfilade_geometry::Bvh;
 use enfilade_scene::PartLabel;
 use std::collections::{HashMap, VecDeque};

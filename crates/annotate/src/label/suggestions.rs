@@ -1,7 +1,7 @@
 //! Labels that are proposed from the names of parts and materials.
 
-use super::classes::Classes;
 use super::source::Source;
+use enfilade_dataset::Classes;
 use enfilade_suggest::{PartNames, Suggester};
 use serde::Serialize;
 

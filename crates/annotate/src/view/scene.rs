@@ -78,7 +78,7 @@ impl Viewer {
     }
 
     /// The rows of a table of the mesh folder; `None` where it is not there.
-    pub(super) fn mesh_table<T: DeserializeOwned>(&self, scene: &str, name: &str) -> Result<Option<Vec<T>>, ApiProblem> {
+    fn mesh_table<T: DeserializeOwned>(&self, scene: &str, name: &str) -> Result<Option<Vec<T>>, ApiProblem> {
         let path = self.layout().mesh_file(scene, name);
         self.allow(&path)?;
         let bytes = std::fs::read(&path).map_err(|source| DatasetError::Io { action: "read", path: path.clone(), source });

@@ -196,17 +196,10 @@ fn starts_at_one_position_are_carved_from_once_by_the_original_rules() {
 fn an_open_stage_is_carved_whole_with_a_warning() {
     let stage = [wall(GARDEN.0, GARDEN.1, GARDEN.2), cuboid(DVec3::splat(1.0), DVec3::splat(2.0), false)].concat();
     let stage = Room::from_corners(stage);
-    let heard = std::sync::Mutex::new(Vec::new());
-    struct Ear<'a>(&'a std::sync::Mutex<Vec<String>>);
-    impl Cx for Ear<'_> {
-        fn progress(&self, _what: &str, _done: u64, _total: u64) {}
-        fn warn(&self, warning: Warning) {
-            self.0.lock().unwrap().push(warning.message);
-        }
-    }
-    let space = carve(&stage.world, &stage.bvh, &[DVec3::new(0.0, 1.5, 1.4)], &quick(), &Ear(&heard)).unwrap();
+    let heard = Heard::default();
+    let space = carve(&stage.world, &stage.bvh, &[DVec3::new(0.0, 1.5, 1.4)], &quick(), &heard).unwrap();
     assert!(space.report.free_voxels > 100_000 && space.report.outside_voxels == 0);
-    assert!(heard.lock().unwrap().iter().any(|message| message.contains("no start camera stands inside")));
+    assert!(heard.lines().iter().any(|line| line.contains("no start camera stands inside")));
 }
 
 #[test]

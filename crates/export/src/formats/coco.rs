@@ -9,15 +9,12 @@ use crate::instances::{Instance, instances};
 use crate::picture::{SHOWN, color_jpeg};
 use crate::place::Place;
 use crate::source::{Source, View};
-use enfilade_dataset::DatasetError;
+use enfilade_dataset::{Class, Classes};
 use enfilade_frame::{Frame, Layer};
 use enfilade_post::instances::run_lengths;
 use enfilade_scene::{NYU40, is_stuff};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BTreeMap;
-
-/// The list of classes in the mesh folder of a scene that was annotated with one.
-const LIST: &str = "semantic_label_descs.csv";
 
 pub(crate) const README: &str = "\
 # COCO
@@ -85,13 +82,6 @@ struct Category {
     supercategory: &'static str,
 }
 
-/// A row of [`LIST`], but for its colour.
-#[derive(Deserialize)]
-struct Listed {
-    semantic_id: i16,
-    semantic_name: String,
-}
-
 pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
     let mut all = Annotations {
         info: Info { description: "Rendered by enfilade; see README.md", version: env!("CARGO_PKG_VERSION") },
@@ -132,22 +122,14 @@ fn categories(source: &Source<'_>) -> Result<Vec<Category>, ExportError> {
 
 /// The classes of a scene, by number.
 fn categories_of(source: &Source<'_>, scene: &str) -> Result<Vec<Category>, ExportError> {
-    let files = source.dataset.mesh_files(scene);
-    let mut names: BTreeMap<i16, String> = NYU40.iter().map(|class| (class.id, class.name.to_string())).collect();
-    let path = files.file(LIST);
-    if path.is_file() {
-        let wrong = |error: csv::Error| DatasetError::Text { path: path.clone(), problem: format!("not a list of classes: {error}") };
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(&path).map_err(wrong)?;
-        let row = |row: Result<Listed, csv::Error>| row.map(|row| (row.semantic_id, row.semantic_name));
-        let listed: BTreeMap<i16, String> = reader.deserialize().map(row).collect::<Result<_, _>>().map_err(wrong)?;
-        // A list that ends elsewhere than the labels' colours is left over: they were made from another since.
-        if listed.keys().next_back() == Some(&files.read_last_class()?) {
-            names = listed;
-        }
-    }
+    let classes = source.dataset.mesh_files(scene).read_classes()?.unwrap_or_else(Classes::nyu40);
     let stuff = |name: &str| NYU40.iter().any(|class| is_stuff(class.id) && class.name == name);
-    let category = |(id, name): (i16, String)| Category { id, supercategory: if stuff(&name) { "stuff" } else { "thing" }, name };
-    Ok(names.into_iter().map(category).collect())
+    let category = |Class { id, name, .. }: &Class| Category {
+        id: *id,
+        supercategory: if stuff(name) { "stuff" } else { "thing" },
+        name: name.clone(),
+    };
+    Ok(classes.list().iter().map(category).collect())
 }
 
 /// The frame's picture, and what the file says of it but for the ids.

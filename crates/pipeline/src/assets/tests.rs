@@ -5,10 +5,9 @@ use crate::error::Error;
 use enfilade_home::check::faults;
 use enfilade_home::{Home, HomeConfig, RoomKind};
 use enfilade_math::Vec3;
-use enfilade_scene::{Cx, Quiet, Warning, to_bytes};
+use enfilade_scene::{Cx, Heard, Quiet, to_bytes};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 
 /// The corners and triangles of a box of this size that stands on y = 0.
 fn cuboid([w, h, d]: [f32; 3]) -> (Vec<[f32; 3]>, Vec<[u16; 3]>) {
@@ -120,10 +119,10 @@ fn refused(config: &HomeConfig) -> (String, String) {
 #[test]
 fn models_are_placed_like_our_own_with_labels_and_credits() {
     let folder = library();
-    let told = Told::default();
-    let (config, home) = first_with(&config(folder.path()), 0..30, &["Wardrobe", "k17", "old_bed"], &told);
+    let heard = Heard::default();
+    let (config, home) = first_with(&config(folder.path()), 0..30, &["Wardrobe", "k17", "old_bed"], &heard);
     let of_wardrobe = |line: &String| line.contains("not as their files say") && line.contains("lost.png");
-    assert!(told.0.lock().unwrap().iter().any(of_wardrobe), "{told:?}");
+    assert!(heard.lines().iter().any(of_wardrobe), "{heard:?}");
     assert_eq!(faults(&home), []);
     assert_eq!(home.scene.validate(), Ok(()));
     let of = |name: &str| home.scene.parts.iter().position(|part| part.name == name).unwrap_or_else(|| panic!("no {name}"));
@@ -178,18 +177,6 @@ fn libraries_that_cannot_be_used_are_refused_with_file_and_remedy() {
     assert!(message.contains("few.sh3f: whole file: not an archive") && hint.contains("download"), "{message}");
 }
 
-/// Keeps what it is told.
-#[derive(Debug, Default)]
-struct Told(Mutex<Vec<String>>);
-
-impl Cx for Told {
-    fn progress(&self, _: &str, _: u64, _: u64) {}
-
-    fn warn(&self, warning: Warning) {
-        self.0.lock().unwrap().push(warning.to_string());
-    }
-}
-
 #[test]
 fn a_model_that_is_wanted_and_broken_is_an_error_unless_the_user_allows_it() {
     let folder = library();
@@ -199,10 +186,10 @@ fn a_model_that_is_wanted_and_broken_is_an_error_unless_the_user_allows_it() {
     let config = seeds.into_iter().find(|config| made(config).is_err()).expect("one of the homes wants the lamp");
     let (message, hint) = refused(&config);
     assert!(message.contains("few.sh3f: l/l.obj: the model is not in the archive") && hint.contains("use = false"), "{message}");
-    let told = Told::default();
-    let home = home(&HomeConfig { allow_broken_assets: true, ..config }, &located, &told).unwrap();
+    let heard = Heard::default();
+    let home = home(&HomeConfig { allow_broken_assets: true, ..config }, &located, &heard).unwrap();
     assert_eq!(home.scene.validate(), Ok(()));
-    assert!(told.0.lock().unwrap().iter().any(|line| line.contains("l/l.obj") && line.contains("ours stands in")));
+    assert!(heard.lines().iter().any(|line| line.contains("l/l.obj") && line.contains("ours stands in")));
 }
 
 #[test]
@@ -224,10 +211,10 @@ fn warnings_about_broken_models_name_their_files() {
     std::fs::write(folder.path().join("armchair.glb"), glb([0.8, 0.9, 0.8])).unwrap();
     std::fs::write(folder.path().join("bed.glb"), b"glTF and no more").unwrap();
     std::fs::write(folder.path().join("assets.toml"), "[models.\"armchair.glb\"]\nuse = false\n").unwrap();
-    let told = Told::default();
-    read_library(folder.path(), &told).unwrap();
-    let told = told.0.lock().unwrap();
-    assert!(told.len() == 1 && told[0].starts_with("bed.glb: ") && told[0].contains("left out"), "{told:?}");
+    let heard = Heard::default();
+    read_library(folder.path(), &heard).unwrap();
+    let heard = heard.lines();
+    assert!(heard.len() == 1 && heard[0].starts_with("bed.glb: ") && heard[0].contains("left out"), "{heard:?}");
 }
 
 #[test]
@@ -258,9 +245,9 @@ fn poly_havens_furniture_furnishes_a_living_room() {
         return;
     };
     let folder = Path::new(&scenes).join("polyhaven-furniture-1k");
-    let told = Told::default();
+    let heard = Heard::default();
     let config = HomeConfig { rooms: vec![RoomKind::Living], ..config(&folder) };
-    let (_, home) = first_with(&config, 0..12, &["sofa_03_1k", "wooden_bookshelf_worn_1k"], &told);
+    let (_, home) = first_with(&config, 0..12, &["sofa_03_1k", "wooden_bookshelf_worn_1k"], &heard);
     assert_eq!(faults(&home), []);
-    assert!(told.0.lock().unwrap().iter().any(|line| line.contains("tea_set_01_1k.gltf")));
+    assert!(heard.lines().iter().any(|line| line.contains("tea_set_01_1k.gltf")));
 }

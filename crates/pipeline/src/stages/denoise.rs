@@ -57,13 +57,18 @@ pub(crate) fn check_denoiser(job: &Job) -> Result<(), Error> {
     if !job.scene.denoise || job.work_file("denoise.json")?.is_file() {
         return Ok(());
     }
+    // A scene that is not planned, or whose plan is damaged, has frames to come.
+    if all_are_denoised(job).unwrap_or(false) { Ok(()) } else { open(job).map(drop) }
+}
+
+fn all_are_denoised(job: &Job) -> Result<bool, Error> {
     for (camera, frame) in job.frames()? {
         let hash = denoise_hash(job, &camera, frame)?;
         if !job.dataset.denoised_are_complete(&job.scene.name, &camera, frame, &hash) {
-            return open(job).map(drop);
+            return Ok(false);
         }
     }
-    Ok(())
+    Ok(true)
 }
 
 /// The library that the configuration names, else the environment, else the system's.

@@ -225,9 +225,9 @@ impl Shot<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{self, Ear};
+    use crate::testing;
     use enfilade_dataset::{StereoRecord, StereoSide};
-    use enfilade_scene::Quiet;
+    use enfilade_scene::{Heard, Quiet};
 
     fn animate(root: &Path, names: &[&str], format: AnimationFormat) -> Vec<Result<Animated, NoFrames>> {
         let films: Vec<Film> = names.iter().map(|name| Film::from_name(name).unwrap()).collect();
@@ -270,11 +270,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let dataset = testing::dataset(folder.path());
         std::fs::remove_file(dataset.layout().layer("room", "cam_00", 1, Layer::NormalCam)).unwrap();
-        let (films, ear) = ([Film::from_name("color").unwrap()], Ear::default());
+        let (films, heard) = ([Film::from_name("color").unwrap()], Heard::default());
         let config = AnimateConfig { format: AnimationFormat::Gif, fps: None };
-        let animated = animate_camera(&dataset, ["room", "cam_00"], &films, config, folder.path(), &ear).unwrap();
+        let animated = animate_camera(&dataset, ["room", "cam_00"], &films, config, folder.path(), &heard).unwrap();
         assert_eq!(animated[0].as_ref().unwrap().frames, 1);
-        let warnings = ear.0.into_inner().unwrap();
+        let warnings = heard.lines();
         assert!(warnings.len() == 1 && warnings[0].starts_with("room/cam_00: frame 1 is left out: "), "{warnings:?}");
         assert!(warnings[0].contains("frame.0001.normal_cam.hdf5: it is missing"), "{warnings:?}");
     }

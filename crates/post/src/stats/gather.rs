@@ -131,8 +131,8 @@ fn classes_of(labels: &Labels) -> BTreeMap<i16, Option<i16>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{self, Ear};
-    use enfilade_scene::Quiet;
+    use crate::testing;
+    use enfilade_scene::{Heard, Quiet};
 
     #[test]
     fn the_whole_is_the_sum_of_its_images_on_any_number_of_threads() {
@@ -158,9 +158,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let dataset = testing::dataset(folder.path());
         std::fs::write(dataset.layout().layer("room", "cam_00", 0, Layer::DepthMeters), [0u8; 100]).unwrap();
-        let ear = Ear::default();
-        assert_eq!(gather(&dataset, &["room".into()], &ear).unwrap().images.len(), 1);
-        let warnings = ear.0.into_inner().unwrap();
+        let heard = Heard::default();
+        assert_eq!(gather(&dataset, &["room".into()], &heard).unwrap().images.len(), 1);
+        let warnings = heard.lines();
         assert!(warnings.len() == 1 && warnings[0].starts_with("room/cam_00: frame 0 is left out: "), "{warnings:?}");
         assert!(warnings[0].contains("frame.0000.depth_meters.hdf5: it has 100 bytes"), "{warnings:?}");
     }

@@ -8,7 +8,7 @@ use super::release::{self, Excused};
 use super::report::VerifyReport;
 use super::trajectory::PlanRules;
 use super::two_views::{self, PairValues, Sight};
-use super::whole::{self, join_reports};
+use super::whole;
 use super::{View, boxes, camera_files, check_frame, check_trajectory};
 use enfilade_dataset::{BoxKind, Dataset, DatasetError, FrameRecord, InstanceView, StereoRecord, StereoSide};
 use enfilade_frame::LAYERS;
@@ -17,18 +17,10 @@ use enfilade_scene::{Camera, CameraView, Cx, NYU40, Pose, Trajectory};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Checks every law over the given scenes and the dataset as a whole. What cannot be read counts as a violation, not as an error.
+/// Checks every law of a scene; [`join_reports`] adds those of the dataset as a whole. What cannot be read counts as a violation, not as
+/// an error.
 ///
 /// Frames are read in parallel, no more than two per thread at a time; the report is the same for every number of threads.
-///
-/// # Errors
-/// When the manifest cannot be read.
-pub fn verify_dataset(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<VerifyReport, DatasetError> {
-    let reports = scenes.iter().map(|scene| verify_scene(dataset, scene, cx)).collect::<Result<_, _>>()?;
-    Ok(join_reports(dataset, reports))
-}
-
-/// As [`verify_dataset`] for one scene, without the laws of the dataset as a whole, which [`join_reports`] adds.
 ///
 /// # Errors
 /// When the manifest cannot be read.
@@ -311,18 +303,14 @@ mod tests {
     use enfilade_dataset::{Array, Elements, FrameInfo, FrameTime, ManifestInfo, Partition, write_bytes};
     use enfilade_frame::{Layer, f16};
     use enfilade_geometry::OccupancyTree;
-    use enfilade_scene::{Intrinsics, Quiet};
-
-    fn verify(dataset: &Dataset) -> VerifyReport {
-        verify_dataset(dataset, &["room".to_string()], &Quiet).unwrap()
-    }
+    use enfilade_scene::Intrinsics;
 
     /// The laws that fail after `change`, and the card.
     fn failures(change: impl Fn(&Dataset)) -> (Vec<Law>, String) {
         let folder = tempfile::tempdir().unwrap();
         let dataset = testing::dataset(folder.path());
         change(&dataset);
-        let report = verify(&dataset);
+        let report = testing::verified(&dataset);
         (report.failures().map(|law| law.law).collect(), report.to_text())
     }
 
@@ -334,7 +322,7 @@ mod tests {
     #[test]
     fn a_good_dataset_passes_and_every_law_was_checked() {
         let folder = tempfile::tempdir().unwrap();
-        let report = verify(&testing::dataset(folder.path()));
+        let report = testing::verified(&testing::dataset(folder.path()));
         assert!(report.passed, "{}", report.to_text());
         assert_eq!((report.frames, report.scenes), (2, 1));
         assert_eq!(report.laws.len(), super::super::LAWS.len());
@@ -345,7 +333,7 @@ mod tests {
     fn reports_do_not_depend_on_the_number_of_threads() {
         let folder = tempfile::tempdir().unwrap();
         let dataset = testing::dataset(folder.path());
-        let with = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| verify(&dataset));
+        let with = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| testing::verified(&dataset));
         assert_eq!(with(1), with(7));
     }
 

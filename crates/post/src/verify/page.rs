@@ -314,9 +314,7 @@ fn laws(report: &VerifyReport, links: &Links<'_>) -> Markup {
 mod tests {
     use super::*;
     use crate::testing;
-    use crate::verify::verify_dataset;
     use enfilade_dataset::write_bytes;
-    use enfilade_scene::Quiet;
 
     #[test]
     fn names_of_frames_are_found_in_places() {
@@ -338,7 +336,7 @@ mod tests {
         let dataset = testing::dataset(folder.path());
         let picture = dataset.layout().preview("room", "cam_00", 0, Pass::Final, "tonemap.jpg");
         write_bytes(&picture, b"picture").unwrap();
-        let mut report = verify_dataset(&dataset, &["room".to_string()], &Quiet).unwrap();
+        let mut report = testing::verified(&dataset);
         let good = report_page(&dataset, &report);
         assert!(good.contains("laws hold over 2 frames of 1 scene") && !good.contains("Laws that fail"), "{good}");
         let law = report.laws.iter_mut().find(|law| law.law == crate::verify::Law::Roll).unwrap();
@@ -354,7 +352,7 @@ mod tests {
     fn a_page_of_thousands_of_frames_shows_the_worst() {
         let folder = tempfile::tempdir().unwrap();
         let dataset = testing::dataset(folder.path());
-        let mut report = verify_dataset(&dataset, &["room".to_string()], &Quiet).unwrap();
+        let mut report = testing::verified(&dataset);
         let mut frame = report.frame_values[0].clone();
         frame.gates.insert(Gate::DepthRange, Some(0.1));
         report.frame_values = (0..3000).map(|number| FrameValues { frame: number, ..frame.clone() }).collect();

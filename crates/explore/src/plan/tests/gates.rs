@@ -154,12 +154,12 @@ fn a_start_camera_above_a_table_is_brought_down_beside_it() {
     let space = carved(&room);
     let above = camera(DVec3::new(1.6, 1.3, 1.7), DVec3::new(3.0, 4.0, 1.2), DVec3::Z);
     let config = PlanConfig { camera_height_m: Some([0.3, 0.6]), frames: 1, ..quick() };
-    let listener = Listener::default();
-    let first = trajectory(&room, &space, &above, 0, &config, &listener).unwrap().poses[0];
+    let heard = Heard::default();
+    let first = trajectory(&room, &space, &above, 0, &config, &heard).unwrap().poses[0];
     let height_m = first.position.z + 0.03;
     assert!((0.3 - 1e-6..=0.6 + 1e-6).contains(&height_m), "{height_m} m");
     assert!((first.position - above.position).truncate().length() <= 1.0, "{}", first.position);
-    assert!(listener.0.into_inner().unwrap().join("\n").contains("not at the height asked for"));
+    assert!(heard.lines().join("\n").contains("not at the height asked for"));
 }
 
 #[test]
@@ -233,10 +233,10 @@ fn an_open_start_is_taken_as_it_is_with_a_warning() {
     // Only the floor and the furniture stay.
     let low = |t: &[Vec3; 3]| t.iter().all(|p| p.z < 2.0) && t.iter().any(|p| p.z > -0.02) || t.iter().all(|p| p.z < 0.0);
     room = Room::from_corners(room.world.corners.iter().copied().filter(low).collect());
-    let (space, listener) = (carved(&room), Listener::default());
+    let (space, heard) = (carved(&room), Heard::default());
     let config = PlanConfig { frames: 2, max_void_share: 1.0, ..quick() };
-    plan(&room.world, &room.bvh, &space, &start(), 0, &config, &listener).unwrap();
-    assert!(listener.0.into_inner().unwrap().join("\n").contains("stands in the open"));
+    plan(&room.world, &room.bvh, &space, &start(), 0, &config, &heard).unwrap();
+    assert!(heard.lines().join("\n").contains("stands in the open"));
 }
 
 #[test]

@@ -16,8 +16,8 @@ fn tables_of_both_kinds_are_read_and_every_frame_between_their_poses_is_there() 
     let keyframes = parse_keyframes("path.csv", CSV).unwrap();
     assert_eq!(keyframes, parse_keyframes("PATH.JSON", JSON).unwrap());
     let room = furnished_room();
-    let (space, listener) = (carved(&room), Listener::default());
-    let planned = follow(&room.world, &room.bvh, &space, &keyframes, "cam_04", &quick(), &listener).unwrap();
+    let (space, heard) = (carved(&room), Heard::default());
+    let planned = follow(&room.world, &room.bvh, &space, &keyframes, "cam_04", &quick(), &heard).unwrap();
     let poses = &planned.trajectory.poses;
     assert_eq!((planned.trajectory.name.as_str(), poses.len()), ("cam_04", 17));
     for keyframe in &keyframes {
@@ -30,7 +30,7 @@ fn tables_of_both_kinds_are_read_and_every_frame_between_their_poses_is_there() 
     assert!((2..15).all(|i| (bend(i) - bend(i + 1 - 1)).length() < 0.01));
     assert!((poses[5].roll_rad() - 1.5f64.to_radians()).abs() < 1e-12);
     poses.iter().for_each(|pose| assert_keeps_rules(&room, &space, &quick(), pose));
-    assert_eq!(listener.0.into_inner().unwrap().join("\n"), "");
+    assert_eq!(heard.lines().join("\n"), "");
 }
 
 #[test]
@@ -55,14 +55,14 @@ fn a_written_trajectory_comes_back_as_it_was() {
 #[test]
 fn frames_in_a_wall_are_named_and_left_as_they_are() {
     let room = furnished_room();
-    let (space, listener) = (carved(&room), Listener::default());
+    let (space, heard) = (carved(&room), Heard::default());
     let text = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z\n0,3,2.5,1.5,3,4,1.2\n2,7,2.5,1.5,3,4,1.2\n";
     let keyframes = parse_keyframes("path.csv", text).unwrap();
-    let planned = follow(&room.world, &room.bvh, &space, &keyframes, "cam_00", &quick(), &listener).unwrap();
+    let planned = follow(&room.world, &room.bvh, &space, &keyframes, "cam_00", &quick(), &heard).unwrap();
     assert_eq!(planned.trajectory.poses[2].position, DVec3::new(7.0, 2.5, 1.5));
     let places: Vec<u32> = planned.report.relaxed.iter().filter(|r| r.fault == Fault::Place).map(|r| r.frame).collect();
     assert_eq!(places, [2]);
-    let warnings = listener.0.into_inner().unwrap().join("\n");
+    let warnings = heard.lines().join("\n");
     assert!(warnings.contains("1 of 3 views are not from free space with 0.2 m to every surface (frames 2)"), "{warnings}");
     assert!(warnings.contains("1 ways from one frame to the next pass through a surface (those to frames 2)"), "{warnings}");
 }

@@ -9,19 +9,7 @@ use super::*;
 use crate::testroom::{Room, furnished_room};
 use crate::{CarveConfig, Saliency, carve};
 use enfilade_math::{DMat3, DVec3};
-use enfilade_scene::{Quiet, Warning};
-use std::sync::Mutex;
-
-/// Keeps the warnings.
-#[derive(Default)]
-struct Listener(Mutex<Vec<String>>);
-
-impl Cx for Listener {
-    fn progress(&self, _what: &str, _done: u64, _total: u64) {}
-    fn warn(&self, warning: Warning) {
-        self.0.lock().unwrap().push(warning.to_string());
-    }
-}
+use enfilade_scene::{Heard, Quiet};
 
 fn camera(position: DVec3, look_at: DVec3, up: DVec3) -> StartCamera {
     let pose = Pose::look_at(0, position, look_at, up).unwrap();

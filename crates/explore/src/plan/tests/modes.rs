@@ -160,9 +160,9 @@ fn stills_keep_their_distance_and_fill_the_room() {
     let space = carved(&room);
     let stills = StillsConfig { min_distance_m: 0.8, ..StillsConfig::default() };
     let config = PlanConfig { mode: Mode::Stills(stills), frames: 10_000, candidates: 6, ..quick() };
-    let listener = Listener::default();
-    let poses = trajectory(&room, &space, &start(), 0, &config, &listener).unwrap().poses;
-    assert!(listener.0.into_inner().unwrap().join("\n").contains("of 10000 stills were found"));
+    let heard = Heard::default();
+    let poses = trajectory(&room, &space, &start(), 0, &config, &heard).unwrap().poses;
+    assert!(heard.lines().join("\n").contains("of 10000 stills were found"));
     for (i, a) in poses.iter().enumerate() {
         for b in &poses[..i] {
             assert!(a.position.distance(b.position) >= 0.8);

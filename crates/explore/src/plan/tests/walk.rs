@@ -75,9 +75,9 @@ fn a_start_camera_that_breaks_a_rule_is_mended_with_a_warning() {
     let space = carved(&room);
     let config = PlanConfig { frames: 1, ..quick() };
     let first = |start: &StartCamera| {
-        let listener = Listener::default();
-        let walk = trajectory(&room, &space, start, 0, &config, &listener).unwrap();
-        (walk.poses[0], listener.0.into_inner().unwrap().join("\n"))
+        let heard = Heard::default();
+        let walk = trajectory(&room, &space, start, 0, &config, &heard).unwrap();
+        (walk.poses[0], heard.lines().join("\n"))
     };
     assert_eq!(first(&start()).1, "");
     let (pose, warnings) = first(&camera(DVec3::new(0.05, 2.5, 1.5), DVec3::new(3.0, 2.5, 1.5), DVec3::Z));
@@ -126,12 +126,12 @@ fn a_walk_that_cannot_go_on_says_where_it_is_stuck() {
 fn warnings_name_a_trajectory_as_its_caller_does() {
     let mut room = furnished_room();
     room.remove_ceiling();
-    let (space, listener) = (carved(&room), Listener::default());
+    let (space, heard) = (carved(&room), Heard::default());
     let config = PlanConfig { max_void_share: 0.0, frames: 3, fov_x_rad: 2.6, ..quick() };
     // The left camera of the second rig.
-    let named = plan_accepted(&room.world, &room.bvh, &space, &start(), "cam_02", 1, &config, &|_| true, &listener).unwrap();
+    let named = plan_accepted(&room.world, &room.bvh, &space, &start(), "cam_02", 1, &config, &|_| true, &heard).unwrap();
     assert_eq!((named.trajectory.name.as_str(), named.report.trajectory.as_str()), ("cam_02", "cam_02"));
-    let warnings = listener.0.into_inner().unwrap().join("\n");
+    let warnings = heard.lines().join("\n");
     assert!(warnings.contains("cam_02") && !warnings.contains("cam_01"), "{warnings}");
     assert_eq!(named.trajectory.poses, trajectory(&room, &space, &start(), 1, &config, &Quiet).unwrap().poses);
 }
@@ -140,8 +140,8 @@ fn warnings_name_a_trajectory_as_its_caller_does() {
 fn open_rooms_are_planned_with_a_warning_when_every_view_is_empty() {
     let mut room = furnished_room();
     room.remove_ceiling();
-    let (space, listener) = (carved(&room), Listener::default());
+    let (space, heard) = (carved(&room), Heard::default());
     let config = PlanConfig { max_void_share: 0.0, frames: 3, fov_x_rad: 2.6, ..quick() };
-    assert_eq!(trajectory(&room, &space, &start(), 0, &config, &listener).unwrap().poses.len(), 3);
-    assert!(listener.0.into_inner().unwrap().join("\n").contains("views"));
+    assert_eq!(trajectory(&room, &space, &start(), 0, &config, &heard).unwrap().poses.len(), 3);
+    assert!(heard.lines().join("\n").contains("views"));
 }

@@ -1,12 +1,15 @@
-//! The classes that labels choose from: NYU40, or a list of the user's.
+//! The classes that labels choose from: NYU40, or a list of the user's, `semantic_label_descs.csv` of the mesh folder.
 
+use crate::{DatasetError, MeshFiles, write_bytes};
 use enfilade_scene::NYU40;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Columns of Hypersim's `semantic_label_descs.csv`.
+/// The user's own list of classes in the mesh folder, where the labels choose from one.
+pub const CLASS_LIST: &str = "semantic_label_descs.csv";
+/// Its columns, as in Hypersim.
 const COLUMNS: [&str; 5] = ["semantic_id", "semantic_name", "semantic_color_r", "semantic_color_g", "semantic_color_b"];
 
 /// A class that a part can have.
@@ -26,12 +29,38 @@ pub struct Classes {
     list: Vec<Class>,
 }
 
-/// Why a file is no list of classes.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{file}: {problem}; expected the columns {}, as in Hypersim's semantic_label_descs.csv", COLUMNS.join(", "))]
-pub struct ClassesError {
-    file: String,
-    problem: String,
+impl MeshFiles {
+    /// The user's own list as it lies there, whether or not the labels were made with it; `None` where there is none.
+    ///
+    /// # Errors
+    /// As [`Classes::read`].
+    pub fn read_own_classes(&self) -> Result<Option<Classes>, DatasetError> {
+        match Classes::read(&self.file(CLASS_LIST)) {
+            Ok(classes) => Ok(Some(classes)),
+            Err(error) if error.is_not_found() => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The user's own list that the labels choose from; `None` where they choose from NYU40. A list that ends elsewhere than the labels'
+    /// colours is left over: they were made from another since.
+    ///
+    /// # Errors
+    /// As [`Classes::read`], and when the table of colours is damaged.
+    pub fn read_classes(&self) -> Result<Option<Classes>, DatasetError> {
+        let Some(own) = self.read_own_classes()? else { return Ok(None) };
+        let last = self.read_last_class()?;
+        Ok(Some(own).filter(|own| own.list.last().is_some_and(|class| class.id == last)))
+    }
+
+    /// Writes a list of the user's own, and returns the file.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_classes(&self, classes: &Classes) -> Result<PathBuf, DatasetError> {
+        let path = self.file(CLASS_LIST);
+        write_bytes(&path, classes.to_csv()).map(|()| path)
+    }
 }
 
 impl Classes {
@@ -45,10 +74,12 @@ impl Classes {
     ///
     /// # Errors
     /// When the file cannot be read, a column is missing, an id is below 1, beyond int16 or there twice, or a colour is not 0 to 255.
-    pub fn read(file: &Path) -> Result<Self, ClassesError> {
-        let problem = |problem: String| ClassesError { file: file.display().to_string(), problem };
-        let bytes = std::fs::read(file).map_err(|e| problem(e.to_string()))?;
-        Self::parse(&bytes).map_err(problem)
+    pub fn read(file: &Path) -> Result<Self, DatasetError> {
+        let bytes = std::fs::read(file).map_err(|source| DatasetError::Io { action: "read", path: file.into(), source })?;
+        Self::parse(&bytes).map_err(|problem| DatasetError::Text {
+            path: file.into(),
+            problem: format!("{problem}; expected the columns {}, as in Hypersim's {CLASS_LIST}", COLUMNS.join(", ")),
+        })
     }
 
     fn parse(bytes: &[u8]) -> Result<Self, String> {
@@ -83,7 +114,7 @@ impl Classes {
     }
 
     /// The list in the form of Hypersim's `semantic_label_descs.csv`.
-    pub fn to_csv(&self) -> String {
+    fn to_csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut write = |fields: &[&str]| writer.write_record(fields).expect("writing to memory cannot fail");
         write(&COLUMNS);
@@ -154,7 +185,7 @@ mod tests {
         let nyu = Classes::nyu40();
         assert_eq!(Classes::parse(nyu.to_csv().as_bytes()).unwrap(), nyu);
         assert!(nyu.are_nyu40() && !classes.are_nyu40());
-        assert_eq!(nyu.color_rows(), enfilade_dataset::semantic_colors());
+        assert_eq!(nyu.color_rows(), crate::semantic_colors());
     }
 
     #[test]
