@@ -2,7 +2,7 @@ use super::*;
 use crate::testroom::{Room, cuboid, house_with_thin_wall};
 use enfilade_geometry::Voxel;
 use enfilade_math::Vec3;
-use enfilade_scene::Quiet;
+use enfilade_scene::{Heard, Quiet};
 
 fn quick() -> CarveConfig {
     CarveConfig { rays: 40_000, ..CarveConfig::default() }
