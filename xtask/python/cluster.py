@@ -48,6 +48,18 @@ def tests(farm, args, folder):
         yield "engine", name, done, lambda place, run=run: run(farm, str(args.python), made(place))
 
 
+def refuse_unknown(names):
+    """Ends the program where a name is the beginning of no test's."""
+    known = [*(fault.name for fault in faults.FAULTS), *(name for name, *_ in [*STORES, *ENGINES, *SCHEDULERS])]
+    for each in names:
+        if not any(begins(name, each) for name in known):
+            sys.exit(f"no test begins with {each!r}; the tests are: {', '.join(known)}")
+
+
+def begins(name, beginning):
+    return name.lower().startswith(beginning.lower())
+
+
 def run_fault(farm, fault, place):
     if fault.mounts and os.geteuid() != 0:
         return {"left_out": "needs root, to mount a small file system"}
@@ -61,6 +73,7 @@ def made(place):
 
 def main():
     args = parse()
+    refuse_unknown(args.names)
     begun, load = time.monotonic(), round(os.getloadavg()[0], 1)
     args.work.mkdir(parents=True, exist_ok=True)
     # A short path: the names of sockets have 107 bytes at most.
@@ -72,7 +85,7 @@ def main():
         alone_s = farm.prepare()
         print(f"   {len(farm.reference)} files of the dataset that one machine makes, in {alone_s:.1f} s", flush=True)
         for number, (kind, name, done, run) in enumerate(tests(farm, args, folder)):
-            if args.names and not any(name.lower().startswith(each.lower()) for each in args.names):
+            if args.names and not any(begins(name, each) for each in args.names):
                 continue
             rows.append({"kind": kind, "name": name, "done": done, **attempt(run, folder / str(number))})
             faults.unmount(folder)

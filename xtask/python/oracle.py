@@ -41,7 +41,7 @@ def main():
     if unknown := [name for name in chosen if name not in cases]:
         sys.exit(f"no case {unknown[0]!r}; expected some of {', '.join(cases)}" + ("" if job.scenes else " (rooms need ENFILADE_SCENES)"))
     if not job.scenes:
-        print("note: ENFILADE_SCENES names no folder, so the shared rooms are left out")
+        print("note: ENFILADE_SCENES names no folder, so the shared rooms are left out, and the tables go below the target folder")
     ours, peer = Ours(job.measure), Mitsuba()
     explanations = json.loads((Path(__file__).parent.parent / "oracle/explanations.json").read_text())
     results, started = [], time.time()
@@ -56,7 +56,7 @@ def main():
         results.append(result | dict(pictures=(a.pictures.mean(0), b.pictures.mean(0))))
         print(summary(result), flush=True)
     # What only some cases tell does not replace the tables of all.
-    docs = Path(job.work) / "docs" if job.cases else Path(job.docs)
+    docs = Path(job.work) / "docs" if job.cases or not job.scenes else Path(job.docs)
     write(results, docs, time.time() - started)
     print(f"tables and figures: {docs}")
     unexplained = [r["case"] for r in results if r["significant"] and not r["explanation"]]

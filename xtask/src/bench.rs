@@ -28,6 +28,14 @@ const BENCHES: [Bench; 6] = [
     Bench { name: "denoise", room: "pipeline", about: "error with and without denoising, in the demo's room; fetches Open Image Denoise" },
 ];
 
+/// Measurements that run only when they are named, and what they measure; `main` starts them.
+const ALONE: [(&str, &str); 4] = [
+    ("render", "what pictures of real rooms cost, against Mitsuba 3"),
+    ("homes", "cost and contents of 200 generated homes, beside published numbers"),
+    ("loader", "layers as arrays by the Python module, against h5py"),
+    ("storage", "size and reading time of the files of layers, against Hypersim's"),
+];
+
 /// Lists the measurements, runs the one that is named, or runs all.
 ///
 /// # Errors
@@ -36,10 +44,7 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     let chosen: Vec<&Bench> = match words {
         ["--list"] => {
             BENCHES.iter().for_each(|bench| println!("{:<8} {}", bench.name, bench.about));
-            println!("render   what pictures of real rooms cost, against Mitsuba 3; runs only when named");
-            println!("homes    cost and contents of 200 generated homes, beside published numbers; runs only when named");
-            println!("loader   layers as arrays by the Python module, against h5py; runs only when named");
-            println!("storage  size and reading time of the files of layers, against Hypersim's; runs only when named");
+            ALONE.iter().for_each(|(name, about)| println!("{name:<8} {about}; runs only when named"));
             return Ok(());
         }
         [] => BENCHES.iter().collect(),
@@ -47,7 +52,8 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
         _ => return Err("expected at most one name".into()),
     };
     if chosen.is_empty() {
-        return Err(format!("no measurement `{}`; expected one of {}", words.join(" "), BENCHES.map(|bench| bench.name).join(", ")));
+        let known: Vec<&str> = BENCHES.iter().map(|bench| bench.name).chain(ALONE.map(|(name, _)| name)).collect();
+        return Err(format!("no measurement `{}`; expected one of {}", words.join(" "), known.join(", ")));
     }
     for bench in chosen {
         println!("\n== {}: {}", bench.name, bench.about);
@@ -67,6 +73,13 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_unknown_measurement_is_told_with_all_that_there_are() {
+        let message = run(&House::find().unwrap(), &["nonsense"]).unwrap_err();
+        assert!(BENCHES.iter().all(|bench| message.contains(bench.name)), "{message}");
+        assert!(ALONE.iter().all(|(name, _)| message.contains(name)), "{message}");
+    }
 
     #[test]
     fn every_measurement_is_there() {

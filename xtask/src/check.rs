@@ -65,6 +65,9 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     let (flags, names): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| **word == "--no-tests");
     let mut chosen = choose(&STEPS, &names)?;
     chosen.retain(|step| flags.is_empty() || step.name != QUICK_TESTS);
+    if chosen.is_empty() {
+        return Err(format!("--no-tests leaves out the only step that is named; expected another one beside `{QUICK_TESTS}`, or no flag"));
+    }
     let failures: Vec<String> = chosen.iter().filter_map(|step| step.take(house).err()).collect();
     println!();
     match failures.len() {
@@ -73,5 +76,16 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
             Ok(())
         }
         n => Err(format!("{n} of {} steps failed\n{}", chosen.len(), failures.join("\n"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_check_of_nothing_is_refused() {
+        let message = run(&House::find().unwrap(), &["--no-tests", "tests"]).unwrap_err();
+        assert!(message.contains("--no-tests") && message.contains("`tests`"), "{message}");
     }
 }

@@ -48,6 +48,10 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    if asks_for_usage(&words) {
+        println!("{USAGE}");
+        return ExitCode::SUCCESS;
+    }
     let outcome = House::find().and_then(|house| match words.as_slice() {
         ["check", rest @ ..] => check::run(&house, rest),
         ["test", rest @ ..] => test::run(&house, rest),
@@ -62,10 +66,6 @@ fn main() -> ExitCode {
         ["cluster", rest @ ..] => cluster::run(&house, rest),
         ["oracle", rest @ ..] => peers::run(&house, "oracle", rest),
         ["bench", rest @ ..] => bench::run(&house, rest),
-        [] | ["help" | "--help" | "-h"] => {
-            println!("{USAGE}");
-            Ok(())
-        }
         _ => Err(format!("unknown command `{}`\n{USAGE}", words.join(" "))),
     });
     match outcome {
@@ -73,6 +73,31 @@ fn main() -> ExitCode {
         Err(message) => {
             eprintln!("error: {message}");
             ExitCode::FAILURE
+        }
+    }
+}
+
+/// True where nothing but the usage is asked for; the programs of `oracle` and `bench render` tell about themselves.
+fn asks_for_usage(words: &[&str]) -> bool {
+    match words {
+        [] | ["help"] => true,
+        ["oracle", ..] | ["bench", "render", ..] => false,
+        words => words.iter().any(|word| matches!(*word, "--help" | "-h")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_is_given_before_anything_is_installed_or_built() {
+        assert!(asks_for_usage(&[]) && asks_for_usage(&["help"]));
+        for words in [&["-h"][..], &["check", "--help"], &["cluster", "--help"], &["fuzz", "gltf", "--help"], &["bench", "-h"]] {
+            assert!(asks_for_usage(words), "{words:?}");
+        }
+        for words in [&["check"][..], &["oracle", "--help"], &["bench", "render", "--help"], &["bench", "--list"]] {
+            assert!(!asks_for_usage(words), "{words:?}");
         }
     }
 }

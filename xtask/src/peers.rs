@@ -1,7 +1,7 @@
 //! `cargo xtask oracle` and `cargo xtask bench render`: our renderer beside Mitsuba 3, on the same scenes.
 //!
 //! The comparisons are Python programs in `xtask/python`, because Mitsuba is a Python package. Here our side is built and they
-//! are started. They write tables and figures to `docs/benchmarks`, or below the target folder when only some scenes are named.
+//! are started. They write tables and figures to `docs/benchmarks`, or below the target folder when they are about some scenes only.
 
 use crate::house::House;
 use crate::step::finish;

@@ -12,6 +12,12 @@ pub const VARIABLE: &str = "ENFILADE_PYTHON";
 /// Names a Python with Mitsuba 3, numpy and Pillow.
 const PEERS_VARIABLE: &str = "ENFILADE_PEERS_PYTHON";
 
+/// What interpreters are called; the names with a version are for machines whose `python3` is too old for our module.
+const PYTHONS: [&str; 6] = ["python3", "python", "python3.14", "python3.13", "python3.12", "python3.11"];
+
+/// Succeeds in a Python for which our module is built, and that can make an environment.
+const NEW_ENOUGH: &str = "import sys, venv, ensurepip; assert sys.version_info >= (3, 11)";
+
 /// What the tests of exports read them with, beside numpy and h5py, as far as it is small; a test whose library is missing says so.
 const READERS: [&str; 4] = ["pillow", "pycocotools", "OpenEXR", "webdataset"];
 
@@ -41,9 +47,8 @@ fn found_or_made(house: &House) -> Result<PathBuf, String> {
         Ok(python) => return Ok(python),
         Err(reason) => println!("   note: {reason}; some tests of exports are left out"),
     }
-    let system = ["python3", "python"].map(PathBuf::from);
-    if let Some(python) = system.iter().find(|python| reads_hdf5(house, python)) {
-        return Ok(python.clone());
+    if let Some(python) = PYTHONS.iter().find(|python| reads_hdf5(house, Path::new(python))) {
+        return Ok(python.into());
     }
     made(house, "venv", "import numpy, h5py", &["numpy", "h5py"])
 }
@@ -61,18 +66,20 @@ pub fn with_peers(house: &House) -> Result<PathBuf, String> {
     made(house, "venv-peers", IMPORTS, &["mitsuba==3.9.1", "numpy", "pillow"])
 }
 
-/// A virtual environment below the target folder that `imports` succeeds in, made and filled with `packages` unless it is there.
+/// A virtual environment below the target folder that `imports` succeeds in, made and filled with `packages` unless it is there. It is of
+/// Python 3.11 or newer, which our module needs, unless there is only an older one.
 ///
 /// # Errors
 /// When there is no Python, or no network to install from.
 pub fn made(house: &House, name: &str, imports: &str, packages: &[&str]) -> Result<PathBuf, String> {
     let folder = house.target()?.join(name);
     let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    if succeeds(house, &own, imports) {
+    let system = |code: &str| PYTHONS.iter().find(|python| succeeds(house, Path::new(python), code));
+    let new = system(NEW_ENOUGH);
+    if succeeds(house, &own, imports) && (new.is_none() || succeeds(house, &own, NEW_ENOUGH)) {
         return Ok(own);
     }
-    let system = ["python3", "python"].map(PathBuf::from);
-    let python = system.iter().find(|python| succeeds(house, python, "import venv")).ok_or("there is no Python with the module venv")?;
+    let python = new.or_else(|| system("import venv")).ok_or("there is no Python with the module venv")?;
     let mut make = house.command(python, &["-m", "venv", "--clear"]);
     make.arg(&folder);
     finish(make).map_err(|error| format!("cannot make a virtual environment (on Debian, install python3-venv): {error}"))?;

@@ -2,7 +2,9 @@
 
 use crate::args::{IngestArgs, IngestVerb, Pix3dArgs};
 use crate::outcome::{Problem, Verdict, say};
-use enfilade_shapes::{MISMATCHED, ingest_pix3d};
+use enfilade_dataset::{DatasetError, write_bytes};
+use enfilade_shapes::{Document, MISMATCHED, ingest_pix3d};
+use std::path::PathBuf;
 
 /// `ingest`.
 pub fn ingest(args: &IngestArgs) -> Result<Verdict, Problem> {
@@ -13,8 +15,9 @@ pub fn ingest(args: &IngestArgs) -> Result<Verdict, Problem> {
 
 fn pix3d(args: &Pix3dArgs) -> Result<Verdict, Problem> {
     let found = ingest_pix3d(&args.root, args.split.as_deref()).map_err(|error| Problem::found(&error))?;
-    let write = |error: std::io::Error| Problem::new(format!("cannot write {}: {error}", args.output.display()), "choose another file");
-    std::fs::write(&args.output, found.document.to_json()).map_err(write)?;
+    refuse_overwriting(args, &found.document)?;
+    let write = |error: DatasetError| Problem::new(error.to_string(), "choose another file");
+    write_bytes(&args.output, found.document.to_json()).map_err(write)?;
     let (images, output) = (found.document.images.len(), args.output.display());
     say(&format!("{output}: images with one object each: {images}; paths begin at {}", args.root.display()));
     if found.mismatched > 0 {
@@ -24,4 +27,22 @@ fn pix3d(args: &Pix3dArgs) -> Result<Verdict, Problem> {
         say(&format!("left out, since the split does not name them: {}", found.outside_split));
     }
     Ok(Verdict::Done)
+}
+
+/// Refuses an output that is a file of Pix3D or the split.
+fn refuse_overwriting(args: &Pix3dArgs, document: &Document) -> Result<(), Problem> {
+    // One that is not there is none of them.
+    let Ok(place) = args.output.canonicalize() else { return Ok(()) };
+    let images = document.images.iter().map(|image| &image.file_name);
+    let others = document.annotations.iter().flat_map(|object| [&object.segmentation, &object.model, &object.voxel]);
+    let named = images.chain(others).map(|name| args.root.join(name));
+    let mut inputs = [args.root.join("pix3d.json")].into_iter().chain(args.split.clone()).chain(named);
+    let is_output = |input: &PathBuf| input.canonicalize().is_ok_and(|input| input == place);
+    match inputs.find(is_output) {
+        Some(input) => Err(Problem::new(
+            format!("the output {} is the file {} that it would be made from", args.output.display(), input.display()),
+            "nothing was written; choose another file with -o",
+        )),
+        None => Ok(()),
+    }
 }

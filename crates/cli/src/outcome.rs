@@ -38,6 +38,11 @@ impl Problem {
         Self { message: message.into(), hint: Some(hint.into()), usage: true }
     }
 
+    /// A problem with what was found, and what to do.
+    pub fn of_data(message: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self { usage: false, ..Self::new(message, hint) }
+    }
+
     /// A problem with what was found; the message says what to do.
     pub fn found(error: &dyn std::error::Error) -> Self {
         Self { message: error.to_string(), hint: None, usage: false }
@@ -97,7 +102,26 @@ impl From<enfilade_annotate::serve::ServeError> for Problem {
     }
 }
 
+/// A word as a shell takes it, for commands to be copied: in quotes where it holds what a shell would read as something else.
+pub fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./:,=+@%".contains(c) || c == std::path::MAIN_SEPARATOR;
+    if !word.is_empty() && word.chars().all(is_plain) { word.into() } else { format!("'{}'", word.replace('\'', r"'\''")) }
+}
+
 /// Writes lines to standard output. A reader that has gone away is no error.
 pub fn say(text: &str) {
     let _ = writeln!(std::io::stdout(), "{text}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_with_blanks_and_signs_of_the_shell_are_quoted() {
+        assert_eq!(quoted("../out/räume_2"), "../out/räume_2");
+        assert_eq!(quoted("my rooms"), "'my rooms'");
+        assert_eq!(quoted("a$b; it's"), r"'a$b; it'\''s'");
+        assert_eq!(quoted(""), "''");
+    }
 }

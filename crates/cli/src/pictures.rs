@@ -6,14 +6,20 @@ use crate::progress::Progress;
 use crate::verbs;
 use enfilade_dataset::Dataset;
 use enfilade_pipeline::Stage;
-use enfilade_post::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet, write_overview};
+use enfilade_post::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet, write_overview_of};
 use enfilade_post::sheet::SheetConfig;
 use std::collections::BTreeSet;
 use std::path::Path;
 
 /// `preview`: pictures of every layer.
 pub fn preview(args: &PreviewArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let Some(folder) = &args.output else { return verbs::stage(&args.stage, Stage::Preview, quiet) };
+    let Some(folder) = &args.output else {
+        if args.table.cameras_csv.is_some() {
+            let problem = "--cameras-csv is for previews that are written elsewhere; a dataset of ours has its own cameras";
+            return Err(Problem::new(problem, "leave it out, or name a folder with -o"));
+        }
+        return verbs::stage(&args.stage, Stage::Preview, quiet);
+    };
     let dataset = args.table.open(&args.stage.dataset)?.with_pictures_in(folder);
     let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.stage.scene.as_deref())?;
     let progress = Progress::new(quiet);
@@ -22,6 +28,7 @@ pub fn preview(args: &PreviewArgs, quiet: bool) -> Result<Verdict, Problem> {
     for scene in &scenes {
         for camera in dataset.cameras(scene)? {
             let frames = dataset.frame_numbers(scene, &camera)?;
+            dataset.warn_of_incomplete([scene, &camera], &frames, None, &cx)?;
             let (exposures, _) = expose_camera(&dataset, scene, &camera, &frames)?;
             pictures += preview_camera(&dataset, [scene, &camera], &frames, &exposures, &BTreeSet::new(), &cx)?.len();
             pictures += preview_boxes(&dataset, scene, &camera, &frames, &cx)?.len();
@@ -30,7 +37,7 @@ pub fn preview(args: &PreviewArgs, quiet: bool) -> Result<Verdict, Problem> {
         }
     }
     let name = args.stage.dataset.file_name().map_or_else(|| "dataset".into(), |name| name.to_string_lossy().into_owned());
-    let overview = write_overview(&dataset, &name, &SheetConfig::default())?;
+    let overview = write_overview_of(&dataset, &scenes, &name, &SheetConfig::default())?;
     drop(cx);
     drop(progress);
     say(&format!("{pictures} pictures below {}", folder.display()));

@@ -30,7 +30,7 @@ pub fn suggest(args: &SuggestArgs, quiet: bool) -> Result<Verdict, Problem> {
     let found = {
         let progress = Progress::new(quiet);
         let cx = progress.begin(&args.input.display().to_string(), "suggest");
-        suggest_labels(&source, args.min_confidence, &output, &cx)?
+        suggest_labels(&source, args.min_confidence, &output, args.force, &cx)?
     };
     let sure = found.parts - found.unsure.len();
     let percent = 100.0 * sure as f64 / found.parts.max(1) as f64;

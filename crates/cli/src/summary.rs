@@ -1,6 +1,6 @@
 //! The last words of a run: a table of scenes, what failed and why, and where to look.
 
-use crate::outcome::{Problem, say};
+use crate::outcome::{Problem, quoted, say};
 use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_pipeline::{SceneOutcome, Summary};
@@ -88,15 +88,19 @@ pub fn print_where_to_look(out: &Path, summary: &Summary) -> Result<(), DatasetE
         say(&format!("report card      {}", layout.verify_page().display()));
     }
     let size = dataset.read_camera(&scene, &camera).map_or([2, 2], |camera| camera.size());
-    let program = std::env::args().next().unwrap_or_else(|| "enfilade".into());
     let at = format!("--scene {scene} --camera {camera} --frame {frame} --pixel {},{}", size[0] / 2, size[1] / 2);
-    say(&format!("ask a pixel      {program} inspect {out} {at}"));
+    say(&format!("ask a pixel      {} inspect {} {at}", program(), quoted(&out.to_string())));
     Ok(())
+}
+
+/// This program, as a command names it.
+fn program() -> String {
+    quoted(&std::env::args().next().unwrap_or_else(|| "enfilade".into()))
 }
 
 /// What to try after the demo.
 pub fn print_after_demo() {
-    let program = std::env::args().next().unwrap_or_else(|| "enfilade".into());
+    let program = program();
     say(&format!("another room     {program} run --demo out2 --seed 2 --frames 8 --quality high"));
     say(&format!("rooms of yours   {program} run dataset.toml      (see examples/real-rooms/dataset.toml)"));
 }

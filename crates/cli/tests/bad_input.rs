@@ -138,6 +138,15 @@ fn of_many_scenes_each_bad_one_is_reported_and_the_good_one_is_made() {
 }
 
 #[test]
+fn films_of_a_dataset_without_any_frame_are_told() {
+    let dir = folder();
+    let d = dir.path();
+    write_config(d, &[format!("[[scene]]\nname = \"missing\"\nfile = \"nowhere.gltf\"\n{CAMERA}")]);
+    fail(d, &["run", "dataset.toml", "-o", "out"], 1, &["nowhere.gltf"]);
+    fail(d, &["animate", "out"], 1, &["no camera has frames in out", "enfilade run"]);
+}
+
+#[test]
 fn textures_may_be_missing_when_that_is_allowed() {
     let dir = folder();
     write_room(dir.path(), "room", Lamp::On);

@@ -29,6 +29,9 @@ fn shares_of_the_work_come_together_as_one_machine_would_have_made_them() {
     // The same plan again is no other job; another one is refused.
     succeed(d, &PLAN);
     fail(d, &["farm", "plan", "dataset.toml", "-o", "job", "--seed", "4"], 1, &["holds another job"]);
+    let words = ["divided by --minutes 0.000001 --cpus 8", "--minutes 15 --cpus 8 would divide it otherwise", "another place"];
+    fail(d, &["farm", "plan", "dataset.toml", "-o", "job"], 2, &words);
+    fail(d, &[&PLAN[..], &["--cpus", "2"]].concat(), 2, &["--cpus 2 would divide it otherwise"]);
     // Nothing that the scenes were made from is needed any more.
     for file in ["room.obj", "room.mtl", "den.obj", "den.mtl", "labels.csv"] {
         fs::remove_file(d.join(file)).unwrap();

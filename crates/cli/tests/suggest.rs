@@ -33,11 +33,33 @@ fn more_confidence_means_fewer_labels() {
     let d = dir.path();
     write_room(d, "room", Lamp::On);
     let labelled = |least: &str| {
-        succeed(d, &["suggest", "room.obj", "-o", "t.csv", "--min-confidence", least]);
+        succeed(d, &["suggest", "room.obj", "-o", "t.csv", "--min-confidence", least, "--force"]);
         rows(&fs::read_to_string(d.join("t.csv")).unwrap()).iter().filter(|(_, class)| *class > 0).count()
     };
     let counts = ["0", "0.5", "0.8", "1"].map(labelled);
     assert!(counts.is_sorted_by(|a, b| a >= b) && counts[0] > 0 && counts[3] == 0, "{counts:?}");
+}
+
+#[test]
+fn a_table_that_was_corrected_and_a_scene_file_are_not_written_over() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    succeed(d, &["suggest", "room.obj"]);
+    // The same once more takes nothing from anyone.
+    succeed(d, &["suggest", "room.obj"]);
+    let suggested = fs::read(d.join("room.labels.csv")).unwrap();
+    let corrected = [suggested.as_slice(), b"box,29,box,1.000,\n"].concat();
+    fs::write(d.join("room.labels.csv"), &corrected).unwrap();
+    fail(d, &["suggest", "room.obj"], 2, &["room.labels.csv is there and differs", "--force"]);
+    assert_eq!(fs::read(d.join("room.labels.csv")).unwrap(), corrected);
+    succeed(d, &["suggest", "room.obj", "--force"]);
+    assert_eq!(fs::read(d.join("room.labels.csv")).unwrap(), suggested);
+    for file in ["room.obj", "room.mtl"] {
+        let before = fs::read(d.join(file)).unwrap();
+        fail(d, &["suggest", "room.obj", "-o", file, "--force"], 2, &[file, "choose another file with -o"]);
+        assert_eq!(fs::read(d.join(file)).unwrap(), before);
+    }
 }
 
 #[test]

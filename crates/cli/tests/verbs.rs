@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Lamp, fail, folder, scene, succeed, write_config, write_room};
+use common::{Lamp, assert_same, contents, fail, folder, run, scene, succeed, write_config, write_room};
 use std::fs;
 
 #[test]
@@ -18,6 +18,23 @@ fn a_file_becomes_a_package_and_a_package_is_a_scene_file() {
     assert!(text.contains("4.0 x 3.0 x 2.5 m"), "{text}");
     assert_eq!(fs::read(d.join("metres.scene")).unwrap(), fs::read(d.join("again.scene")).unwrap());
     assert!(d.join("metres.report.json").is_file());
+    let words = ["meters_per_unit", "metres.scene is a scene package", "in metres with z up"];
+    fail(d, &["import", "metres.scene", "-o", "feet.scene", "--meters-per-unit", "0.3048"], 1, &words);
+    fail(d, &["import", "metres.scene", "-o", "feet.scene", "--up-axis", "y"], 1, &["up_axis", "metres.scene is a scene package"]);
+}
+
+#[test]
+fn an_import_does_not_write_over_what_it_reads() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    succeed(d, &["import", "room.obj", "-o", "room.glb"]);
+    succeed(d, &["import", "room.obj", "-o", "room.scene"]);
+    for (file, args) in [("room.glb", &["-o", "room.glb"][..]), ("room.glb", &["-o", "./room.glb"]), ("room.scene", &[])] {
+        let before = fs::read(d.join(file)).unwrap();
+        fail(d, &[&["import", file][..], args].concat(), 2, &[file, "choose another file with -o"]);
+        assert_eq!(fs::read(d.join(file)).unwrap(), before);
+    }
 }
 
 #[test]
@@ -76,6 +93,32 @@ fn stages_run_one_by_one_and_pixels_answer() {
     fail(d, &["verify", "out"], 1, &["FAIL", "frame.0001"]);
     let text = succeed(d, &["run", "dataset.toml", "-o", "out"]);
     assert!(text.contains("all") && fs::read(&layer).unwrap() == bytes, "{text}");
+}
+
+#[test]
+fn frames_that_lack_files_are_not_previewed_until_they_are_whole_again() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    let whole = contents(&d.join("out"));
+    let images = d.join("out/scenes/room/images");
+    fs::remove_file(images.join("scene_cam_00_geometry_hdf5/frame.0002.semantic.hdf5")).unwrap();
+    let words = ["frame 2 of room/cam_00", "`label`", "enfilade label out --scene room"];
+    fail(d, &["preview", "out", "--force"], 1, &words);
+    succeed(d, &["label", "out", "--scene", "room"]);
+
+    fs::remove_file(images.join("scene_cam_00_final_hdf5/frame.0001.color.hdf5")).unwrap();
+    fail(d, &["preview", "out", "--force"], 1, &["frame.0001.color.hdf5: it is missing", "render the frame again"]);
+    // Elsewhere there are pictures of the others.
+    let (code, _, told) = run(d, &["preview", "out", "-o", "pictures"]);
+    assert!(code == 0 && told.contains("room/cam_00: frame 1 is left out: "), "{told}");
+    let pictures = d.join("pictures/scenes/room/images/scene_cam_00_final_preview");
+    assert_eq!([1, 2].map(|frame| pictures.join(format!("frame.000{frame}.color.jpg")).is_file()), [false, true]);
+    succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    assert_same(&whole, &contents(&d.join("out")));
+    fail(d, &["preview", "out", "--cameras-csv", "cameras.csv"], 2, &["--cameras-csv", "-o"]);
 }
 
 #[test]

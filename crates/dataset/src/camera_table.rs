@@ -97,6 +97,17 @@ impl Dataset {
         table.write()
     }
 
+    /// Removes the rows of scenes that do not stay from `metadata_camera_parameters.csv`.
+    ///
+    /// # Errors
+    /// When the table cannot be read or written.
+    pub fn retain_camera_parameters(&self, stays: impl Fn(&str) -> bool) -> Result<(), DatasetError> {
+        let mut table = self.read_camera_parameters()?;
+        let (names, before) = (table.column("scene_name")?, table.rows.len());
+        table.rows.retain(|row| stays(&row[names]));
+        if table.rows.len() < before { table.write() } else { Ok(()) }
+    }
+
     /// The table of cameras: the dataset's own, or the one that was found near it or named in its place.
     ///
     /// # Errors
@@ -224,6 +235,8 @@ mod tests {
             assert_eq!(dataset.projection_matrix(scene).unwrap(), projection(&expected));
         }
         assert!(dataset.table_projection("room_c").unwrap_err().to_string().contains("no row for the scene \"room_c\""));
+        dataset.retain_camera_parameters(|scene| scene == "room_b").unwrap();
+        assert_eq!(dataset.read_camera_table().unwrap().scenes().collect::<Vec<_>>(), ["room_b"]);
     }
 
     #[test]

@@ -36,7 +36,7 @@ impl Dataset {
         }
         let layout = Layout::flat(root.as_ref());
         if layout.root().join("_detail").is_dir() {
-            let problem = "it is one scene of a dataset; name the folder that it lies in, and choose it with --scene".to_string();
+            let problem = "it is one scene of a dataset; name the dataset's folder, and --scene if the command has that".to_string();
             return Err(DatasetError::NotADataset { root: root.as_ref().to_path_buf(), problem });
         }
         let dataset = Self { camera_table: table_nearby(&layout), layout };

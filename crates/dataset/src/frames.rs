@@ -155,6 +155,31 @@ impl Dataset {
         denoised.try_for_each(|spec| remove_if_there(&self.layout().layer(scene, camera, frame, spec.layer)))
     }
 
+    /// True when any frame of the scene has denoised layers, whole or not: a stage that was killed leaves layers without a record.
+    pub fn has_denoised_layers(&self, scene: &str) -> bool {
+        let layout = self.layout();
+        let folders = |camera: &String| [layout.records_dir(scene, camera), layout.layer_dir(scene, camera, Pass::Denoised)];
+        let is_denoised = |name: &String| name.starts_with("frame.") && name.contains("denoised.");
+        let cameras = self.cameras(scene).unwrap_or_default();
+        cameras.iter().flat_map(folders).any(|folder| sorted_names(&folder).unwrap_or_default().iter().any(is_denoised))
+    }
+
+    /// Removes the frames of a camera whose record is not one that `stays`, or cannot be read: their layers and all their records.
+    ///
+    /// # Errors
+    /// When the folder of records cannot be read, or a file cannot be removed.
+    pub fn retain_frames(&self, scene: &str, camera: &str, stays: impl Fn(&FrameRecord) -> bool) -> Result<(), DatasetError> {
+        let records = self.layout().records_dir(scene, camera);
+        let names = if records.is_dir() { sorted_names(&records)? } else { Vec::new() };
+        for frame in names.iter().filter_map(|name| frame_number(name, "json")) {
+            let record = self.frame_record(scene, camera, frame).ok().flatten();
+            if record.is_none_or(|record| !stays(&record)) {
+                self.remove_frame(scene, camera, frame)?;
+            }
+        }
+        Ok(())
+    }
+
     /// True when the frame was made with `config_hash` and all its files are there in full length.
     pub fn frame_is_complete(&self, scene: &str, camera: &str, frame: u32, config_hash: &str) -> bool {
         let record = self.frame_record(scene, camera, frame).ok().flatten();
@@ -243,9 +268,11 @@ impl Dataset {
     /// # Errors
     /// When a folder cannot be read or a file cannot be removed.
     pub fn remove_temporaries(&self, scene: &str, camera: &str) -> Result<(), DatasetError> {
-        let images = [Pass::Final, Pass::Geometry].map(|pass| self.layout().layer_dir(scene, camera, pass));
-        let details = [self.layout().camera_dir(scene, camera), self.layout().records_dir(scene, camera)];
-        for folder in images.iter().chain(&details).filter(|folder| folder.is_dir()) {
+        let layout = self.layout();
+        let folders_of = |pass| [layout.layer_dir(scene, camera, pass), layout.preview_dir(scene, camera, pass)];
+        let images = [Pass::Final, Pass::Geometry].map(folders_of);
+        let details = [layout.camera_dir(scene, camera), layout.records_dir(scene, camera)];
+        for folder in images.as_flattened().iter().chain(&details).filter(|folder| folder.is_dir()) {
             for name in sorted_names(folder)?.iter().filter(|name| crate::atomic::is_temporary(name)) {
                 remove_if_there(&folder.join(name))?;
             }
@@ -391,5 +418,44 @@ pub(crate) fn read_json<T: DeserializeOwned>(path: &Path, remedy: &str) -> Resul
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(DatasetError::io("read", path, error)),
         Ok(text) => serde_json::from_slice(&text).map(Some).map_err(|error| DatasetError::text(path, format!("{error}; {remedy}"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn temporaries_of_layers_records_and_previews_are_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        let layout = dataset.layout();
+        let folders = [
+            layout.layer_dir("room", "cam_00", Pass::Geometry),
+            layout.preview_dir("room", "cam_00", Pass::Final),
+            layout.preview_dir("room", "cam_00", Pass::Geometry),
+            layout.records_dir("room", "cam_00"),
+        ];
+        for folder in &folders {
+            fs::create_dir_all(folder).unwrap();
+            for name in [".frame.0000.x.partial", "frame.0000.x"] {
+                fs::write(folder.join(name), "x").unwrap();
+            }
+        }
+        dataset.remove_temporaries("room", "cam_00").unwrap();
+        for folder in &folders {
+            assert_eq!(sorted_names(folder).unwrap(), ["frame.0000.x"], "{}", folder.display());
+        }
+    }
+
+    #[test]
+    fn denoised_layers_without_a_record_are_found() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        let write = |path: &Path| write_bytes(path, "x").unwrap();
+        write(&dataset.layout().layer("room", "cam_00", 0, Layer::Color));
+        assert!(!dataset.has_denoised_layers("room") && !dataset.has_denoised_layers("hall"));
+        write(&dataset.layout().layer("room", "cam_00", 0, Layer::ColorDenoised));
+        assert!(dataset.has_denoised_layers("room"));
     }
 }

@@ -1,5 +1,6 @@
 //! `manifest.json`: what the dataset is, how to read it, and what has become of every frame.
 
+use crate::camera_files::optional;
 use crate::frames::{read_json, write_record};
 use crate::{Dataset, DatasetError, FileRecord, ViewFault};
 use enfilade_frame::{Dtype, LAYERS, LayerSpec, Pass};
@@ -200,7 +201,9 @@ impl Dataset {
         for scene in self.scenes()? {
             let mut entry = SceneEntry::default();
             for camera in self.cameras(&scene)? {
-                let (frames, rejected) = (self.frame_indices(&scene, &camera)?, self.rejected_views(&scene, &camera)?);
+                // A camera that was being removed when the program was killed has none.
+                let frames = optional(self.frame_indices(&scene, &camera))?.unwrap_or_default();
+                let rejected = self.rejected_views(&scene, &camera)?;
                 let entry_of = |frame: u32| self.frame_entry(&scene, &camera, frame, rejected.get(&frame), info);
                 let frames = frames.into_iter().map(entry_of).collect::<Result<_, _>>()?;
                 entry.cameras.insert(camera, CameraEntry { frames });

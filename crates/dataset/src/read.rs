@@ -54,8 +54,11 @@ impl Dataset {
         Ok(names.into_iter().collect())
     }
 
-    /// The cameras that have poses or images.
-    fn cameras_by_files(&self, scene: &str) -> Result<Vec<String>, DatasetError> {
+    /// The cameras that have poses or images, whatever `metadata_cameras.csv` says, sorted.
+    ///
+    /// # Errors
+    /// As [`Dataset::cameras`].
+    pub fn cameras_by_files(&self, scene: &str) -> Result<Vec<String>, DatasetError> {
         let names = |folder: PathBuf| if folder.is_dir() { sorted_names(&folder) } else { Ok(Vec::new()) };
         let has_poses = |name: &String| self.layout().keyframes(scene, name, "positions").is_file();
         let mut cameras: BTreeSet<String> = names(self.layout().detail_dir(scene))?.into_iter().filter(has_poses).collect();

@@ -8,6 +8,10 @@ use std::collections::BTreeMap;
 
 /// Version of the records' form.
 pub(crate) const RECORD_FORMAT: u32 = 1;
+/// Poses that differ by no more, metres and parts of a rotation, are the same: what `verify` allows too.
+const SAME_POSE: f64 = 1e-9;
+/// The same of two calibrations, pixels: the table of cameras has them as matrices.
+const SAME_CAMERA_PX: f64 = 1e-6;
 
 /// Size and checksum of a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -141,6 +145,15 @@ impl FrameRecord {
             (None, None, Some(record)) if *record == camera.into() => 0.0,
             _ => f64::INFINITY,
         }
+    }
+
+    /// True when the frame was taken with `camera` from where `pose` stands.
+    pub fn is_taken(&self, camera: &Camera, pose: &Pose) -> bool {
+        let then = self.pose.to_pose(pose.frame);
+        let moved = (then.position - pose.position).abs().max_element();
+        let turned = (then.world_from_camera - pose.world_from_camera).to_cols_array();
+        let differs = turned.iter().fold(moved, |m: f64, v| m.max(v.abs()));
+        differs <= SAME_POSE && self.camera_differs_by(camera) <= SAME_CAMERA_PX
     }
 }
 

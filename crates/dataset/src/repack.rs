@@ -6,6 +6,7 @@ use crate::read::sorted_names;
 use crate::{Dataset, DatasetError, FileRecord, FrameEntry, Layout, replace_file, write_bytes};
 use enfilade_frame::{LAYERS, Layer};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -29,6 +30,21 @@ struct Job {
     attributes: Vec<(&'static str, &'static str)>,
 }
 
+/// The sign by which a copy is known: nothing else is replaced.
+const MARK: &str = "enfilade_repack.json";
+
+/// What [`MARK`] calls itself.
+const MARK_KIND: &str = "enfilade repack 1";
+
+/// Where a copy grows, within its folder: that may be a disk of its own.
+const GROWING: &str = ".repack.partial";
+
+#[derive(Serialize, Deserialize)]
+struct Mark {
+    kind: String,
+    enfilade_version: String,
+}
+
 /// What the manifest of a copy says of records.
 const RECORDS: &str = "This is a copy for fast reading: a frame counts when it has a file, and has no record; checksums are BLAKE3 of \
     whole files.";
@@ -39,16 +55,13 @@ impl Dataset {
     /// there is one, lists the files of the copy. Geometry and previews are left out. `done` hears of every image: how many are copied, of
     /// how many.
     ///
+    /// An earlier copy at `out` is replaced as a whole, when all of the new one is there; anything else there is refused.
+    ///
     /// # Errors
-    /// When a file cannot be read or written, or `out` lies in the dataset.
+    /// When a file cannot be read or written, `out` holds something else than a copy, or it or the dataset lies in the other.
     pub fn repack(&self, out: &Path, layers: Option<&[Layer]>, done: &(dyn Fn(u64, u64) + Sync)) -> Result<Repacked, DatasetError> {
-        fs::create_dir_all(out).map_err(DatasetError::at("create the folder", out))?;
-        let place = |path: &Path| fs::canonicalize(path).map_err(DatasetError::at("find", path));
-        if place(out)?.starts_with(place(self.root())?) {
-            let problem = "the copy would lie in the dataset itself; choose another folder".to_string();
-            return Err(DatasetError::Unstorable { what: out.display().to_string(), problem });
-        }
-        let copy = Dataset::create(out)?;
+        let growing = Growing::prepare(out, self.root())?;
+        let copy = &growing.copy;
         let mut jobs = Vec::new();
         copy_file(&self.camera_table(), &copy.layout().camera_parameters())?;
         copy_file(&self.layout().split(), &copy.layout().split())?;
@@ -69,7 +82,8 @@ impl Dataset {
                 Ok(sizes)
             })
             .collect::<Result<_, DatasetError>>()?;
-        self.copy_manifest(&copy)?;
+        self.copy_manifest(copy)?;
+        growing.take_place()?;
         let sum = |which: usize| sizes.iter().map(|sizes| sizes[which]).sum();
         Ok(Repacked { files: total, bytes_before: sum(0), bytes_after: sum(1) })
     }
@@ -105,6 +119,77 @@ impl Dataset {
             })?;
         }
         copy.write_manifest(&manifest)
+    }
+}
+
+/// A copy in the making; it is removed unless it takes its place.
+struct Growing<'a> {
+    /// The folder that it is for.
+    out: &'a Path,
+    copy: Dataset,
+}
+
+impl<'a> Growing<'a> {
+    /// Makes the folder in which the copy grows, and removes one that a killed copy left.
+    fn prepare(out: &'a Path, dataset: &Path) -> Result<Self, DatasetError> {
+        fs::create_dir_all(out).map_err(DatasetError::at("create the folder", out))?;
+        let place = |path: &Path| fs::canonicalize(path).map_err(DatasetError::at("find", path));
+        let (target, source) = (place(out)?, place(dataset)?);
+        let problem = if target.starts_with(&source) {
+            "it would lie in the dataset itself; choose another folder"
+        } else if source.starts_with(&target) {
+            "the dataset lies in that folder; choose another one"
+        } else if !entries(out, &[GROWING])?.is_empty() && !is_copy(out) {
+            "the folder is not empty, and what is there was not made by `repack`; choose another one, or move away what is there"
+        } else {
+            let copy = out.join(GROWING);
+            remove(&copy)?;
+            return Ok(Self { out, copy: Dataset::create(copy)? });
+        };
+        Err(DatasetError::Unstorable { what: format!("a copy in {}", out.display()), problem: problem.into() })
+    }
+
+    /// Replaces what an earlier copy left. The mark comes first, so that what is killed from here on is still known as a copy.
+    fn take_place(&self) -> Result<(), DatasetError> {
+        let mark = Mark { kind: MARK_KIND.into(), enfilade_version: env!("CARGO_PKG_VERSION").into() };
+        write_bytes(&self.out.join(MARK), serde_json::to_string_pretty(&mark).expect("plain data encodes") + "\n")?;
+        entries(self.out, &[GROWING, MARK])?.iter().try_for_each(|path| remove(path))?;
+        for path in entries(self.copy.root(), &[])? {
+            let to = self.out.join(path.file_name().unwrap_or_default());
+            fs::rename(&path, &to).map_err(DatasetError::at("put in place", &to))?;
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Growing<'_> {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(self.copy.root()); // empty by now if it has taken its place
+    }
+}
+
+/// What lies in a folder but for these names, sorted.
+fn entries(folder: &Path, without: &[&str]) -> Result<Vec<PathBuf>, DatasetError> {
+    let found: std::io::Result<Vec<PathBuf>> = fs::read_dir(folder).and_then(|all| all.map(|entry| Ok(entry?.path())).collect());
+    let mut paths = found.map_err(DatasetError::at("read the folder", folder))?;
+    paths.retain(|path| !without.iter().any(|name| path.ends_with(name)));
+    paths.sort_unstable();
+    Ok(paths)
+}
+
+/// True for a folder with the mark of a copy.
+fn is_copy(folder: &Path) -> bool {
+    let mark = fs::read(folder.join(MARK)).ok().and_then(|bytes| serde_json::from_slice::<Mark>(&bytes).ok());
+    mark.is_some_and(|mark| mark.kind == MARK_KIND)
+}
+
+/// Removes a file, or a folder with all that is in it, that may not exist.
+fn remove(path: &Path) -> Result<(), DatasetError> {
+    let is_folder = path.symlink_metadata().is_ok_and(|found| found.is_dir());
+    let removed = if is_folder { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+    match removed {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(DatasetError::io("remove", path, error)),
+        _ => Ok(()),
     }
 }
 

@@ -143,6 +143,47 @@ fn a_repacked_copy_is_still_ours_and_its_manifest_is_about_its_own_files() {
 }
 
 #[test]
+fn a_repacked_copy_takes_the_place_of_an_earlier_one_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path().join("made")).unwrap();
+    analytic::write(&dataset, &small(), 3);
+    let (out, fresh) = (folder.path().join("copy"), folder.path().join("fresh"));
+    // What a copy left that was killed.
+    fs::create_dir_all(out.join(".repack.partial/scenes/attic/_detail")).unwrap();
+    dataset.repack(&out, None, &|_, _| ()).unwrap();
+    let whole = files(&out);
+    assert_eq!(Dataset::open(&out).unwrap().frame_numbers(SCENE, CAMERA).unwrap(), [0, 1]);
+
+    // One that is interrupted leaves the earlier one as it was.
+    fs::remove_file(dataset.layout().frame_record(SCENE, CAMERA, 0)).unwrap();
+    let interrupted = || dataset.repack(&out, None, &|_, _| std::panic::resume_unwind(Box::new("interrupted")));
+    assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(interrupted)).is_err());
+    assert_eq!(files(&out), whole);
+
+    dataset.repack(&out, Some(&[Layer::Color]), &|_, _| ()).unwrap();
+    dataset.repack(&fresh, Some(&[Layer::Color]), &|_, _| ()).unwrap();
+    let copy = Dataset::open(&out).unwrap();
+    assert_eq!(copy.frame_numbers(SCENE, CAMERA).unwrap(), [1]);
+    assert!(copy.has_layer(SCENE, CAMERA, 1, Layer::Color) && !copy.has_layer(SCENE, CAMERA, 1, Layer::Position));
+    assert_eq!(files(&out), files(&fresh));
+}
+
+#[test]
+fn what_is_no_copy_is_not_replaced_by_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let [dataset, other] = ["made", "other"].map(|name| Dataset::create(folder.path().join(name)).unwrap());
+    analytic::write(&dataset, &small(), 3);
+    analytic::write(&other, &small(), 2);
+    let before = files(folder.path());
+    let refused = |out: &Path| dataset.repack(out, None, &|_, _| ()).unwrap_err().to_string();
+    let message = refused(other.root());
+    assert!(message.contains("other") && message.contains("not made by `repack`"), "{message}");
+    assert!(refused(&dataset.root().join("scenes")).contains("in the dataset itself"));
+    assert!(refused(folder.path()).contains("the dataset lies in that folder"));
+    assert_eq!(files(folder.path()), before);
+}
+
+#[test]
 fn an_interrupted_frame_does_not_count() {
     let folder = tempfile::tempdir().unwrap();
     let dataset = Dataset::create(folder.path()).unwrap();

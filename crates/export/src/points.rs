@@ -79,9 +79,7 @@ fn sightings_of(source: &Source<'_>, view: View<'_>, points: &[CloudPoint]) -> R
     let camera = view.camera();
     let (width, height) = (f64::from(frame.width), f64::from(frame.height));
     let sees = |point: &CloudPoint| {
-        // With a rolling shutter the row decides where the camera is; from the middle row, one step is near enough for a pixel.
-        let (_, row) = camera.project_in_row(point.position, 0.5 * height)?;
-        let (x, y) = camera.project_in_row(point.position, row)?;
+        let (x, y) = camera.project(point.position)?;
         if !(x >= 0.0 && x < width && y >= 0.0 && y < height) {
             return None;
         }

@@ -46,6 +46,8 @@ pub struct Plan {
     pub tasks: Vec<Task>,
     /// Threads that tasks were sized for.
     pub cpus: u32,
+    /// Minutes that tasks were sized for; `None` in plans of before this was kept.
+    pub minutes: Option<f64>,
 }
 
 /// A file that workers need, which lies in the store under the name of its content.
@@ -141,7 +143,7 @@ fn program() -> String {
 /// Plans the dataset `config` into `store`, with `scratch`, an empty folder, to work in. The same plan a second time changes nothing.
 ///
 /// # Errors
-/// When a scene fails before rendering, the store does not do what commits rest on, or it holds another job.
+/// When a scene fails before rendering, the store does not do what commits rest on, or it holds another job or one otherwise divided.
 pub fn plan(
     config: &Config,
     store: Store,
@@ -168,14 +170,16 @@ pub fn plan(
         tasks: prepared.scenes.iter().flat_map(|scene| tasks(scene, options)).collect(),
         scenes,
         cpus: options.cpus,
+        minutes: Some(options.minutes),
     };
     plan.id = identity(config, &prepared, &plan);
     if let Some(there) = there {
         let old = serde_json::from_slice::<Plan>(&there).ok();
-        if old.as_ref().is_none_or(|old| old.id != plan.id) {
+        let Some(old) = old.filter(|old| old.id == plan.id) else {
             let problem = "holds another job; choose another place, or remove that one".to_string();
             return Err(FarmError::Damaged { place: store.url().to_string(), problem });
-        }
+        };
+        refuse_other_division(&old, options, store.url())?;
         return Job::open(store).map(|job| (summary, Some(job)));
     }
     let text = serde_json::to_vec_pretty(&plan).map_err(|error| FarmError::Request(format!("the plan has no JSON form: {error}")))?;
@@ -183,6 +187,18 @@ pub fn plan(
         return Job::open(store).map(|job| (summary, Some(job)));
     }
     Ok((summary, Some(Job { store, plan })))
+}
+
+/// Refuses to divide a job anew, since workers and engines know its tasks by their numbers. It goes by the options: times are measured
+/// with every plan, and the same options may divide a little otherwise.
+fn refuse_other_division(old: &Plan, options: &PlanOptions, place: &str) -> Result<(), FarmError> {
+    if old.cpus == options.cpus && old.minutes.is_none_or(|minutes| minutes == options.minutes) {
+        return Ok(());
+    }
+    let PlanOptions { minutes, cpus } = options;
+    let divided = old.minutes.map_or(String::new(), |minutes| format!("--minutes {minutes} ")) + &format!("--cpus {}", old.cpus);
+    let problem = format!("{place} holds this job, divided by {divided}; --minutes {minutes} --cpus {cpus} would divide it otherwise");
+    Err(FarmError::Request(format!("{problem}: give the same, or plan it into another place")))
 }
 
 fn planned(scene: &PreparedScene, out: &Path, to: Option<&Store>) -> Result<PlannedScene, FarmError> {
@@ -267,6 +283,29 @@ mod tests {
         let all: BTreeSet<u32> = made[..9].iter().flat_map(|task| task.part.frames.clone()).collect();
         assert_eq!(all, (0..100).collect());
         assert_eq!(made[9].part.frames, BTreeSet::from([3, 5]));
+    }
+
+    #[test]
+    fn a_job_is_not_divided_by_other_options_than_the_first() {
+        let old = |minutes| Plan {
+            format: FORMAT,
+            program: program(),
+            id: String::new(),
+            dataset: "rooms".into(),
+            files: BTreeMap::new(),
+            scenes: Vec::new(),
+            tasks: tasks(&scene(10, 100.0), &PlanOptions::default()),
+            cpus: 8,
+            minutes,
+        };
+        let again = |minutes, cpus| refuse_other_division(&old(Some(15.0)), &PlanOptions { minutes, cpus }, "/shared/job");
+        again(15.0, 8).unwrap();
+        let error = again(15.0, 4).unwrap_err().to_string();
+        assert!(error.starts_with("/shared/job holds this job, divided by --minutes 15 --cpus 8; --minutes 15 --cpus 4 would"), "{error}");
+        assert!(matches!(again(30.0, 8), Err(FarmError::Request(_))));
+        // What an older plan does not tell is not held against it.
+        refuse_other_division(&old(None), &PlanOptions { minutes: 30.0, cpus: 8 }, "/shared/job").unwrap();
+        assert!(refuse_other_division(&old(None), &PlanOptions { minutes: 30.0, cpus: 4 }, "/shared/job").is_err());
     }
 
     #[test]

@@ -5,6 +5,9 @@ use crate::f16;
 /// The largest finite float16.
 pub const F16_LIMIT: f32 = 65504.0;
 
+/// What is below this rounds to a finite float16: halfway from the largest to what would be the next.
+const OVERFLOW: f32 = 65520.0;
+
 /// One channel of one pixel as it is stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Composed {
@@ -14,7 +17,8 @@ pub struct Composed {
     pub illumination: f16,
     /// Rounded to float16, at most what keeps `color` finite.
     pub residual: f16,
-    /// True when a value was beyond float16, or no number, and is stored at the limit.
+    /// True when a value is stored at the limit, or was cut because the colour would lie beyond it, or is no number. Then `color` is at the
+    /// limit or, where rounding leaves nothing between, next below it; or `illumination` is at the limit.
     pub saturated: bool,
 }
 
@@ -23,22 +27,13 @@ pub struct Composed {
 pub fn compose(reflectance: f16, illumination: f32, residual: f32) -> Composed {
     let stored = f16::from_f32(illumination.min(F16_LIMIT));
     let product = reflectance.to_f32() * stored.to_f32();
-    let room = F16_LIMIT - product;
-    let nearest = f16::from_f32(residual);
+    let room = OVERFLOW - product;
+    let nearest = f16::from_f32(residual.min(room).min(F16_LIMIT));
     // Rounding may go up, beyond what keeps the sum finite.
-    let rest = if nearest.to_f32() <= room { nearest } else { round_down(room) };
-    Composed {
-        color: f16::from_f32(product + rest.to_f32()),
-        illumination: stored,
-        residual: rest,
-        saturated: illumination.is_nan() || illumination > F16_LIMIT || residual.is_nan() || residual > room,
-    }
-}
-
-/// The largest float16 not above `v` ≥ 0.
-fn round_down(v: f32) -> f16 {
-    let h = f16::from_f32(v);
-    if h.to_f32() > v { f16::from_bits(h.to_bits() - 1) } else { h }
+    let rest = if product + nearest.to_f32() < OVERFLOW { nearest } else { f16::from_bits(nearest.to_bits().saturating_sub(1)) };
+    let color = f16::from_f32(product + rest.to_f32());
+    let at_limit = [color, stored, rest].into_iter().any(|value| value >= f16::MAX);
+    Composed { color, illumination: stored, residual: rest, saturated: at_limit || residual.is_nan() || residual >= room }
 }
 
 #[cfg(test)]
@@ -52,6 +47,30 @@ mod tests {
             let c = compose(half, illumination, residual);
             assert!(c.saturated && c.color.is_finite() && c.residual.is_finite(), "{illumination} {residual}: {c:?}");
         }
+    }
+
+    #[test]
+    fn a_colour_beyond_the_limit_is_stored_as_the_limit_whatever_the_diffuse_light() {
+        for (reflectance, illumination) in [(0.5, 2.66), (0.5, 0.01), (0.3, 60.0), (0.9, 31_000.0), (1.0, 1e9)] {
+            for residual in [65_505.0, 1e6, f32::INFINITY] {
+                let c = compose(f16::from_f32(reflectance), illumination, residual);
+                assert!(c.saturated && c.color == f16::MAX, "{reflectance} × {illumination} + {residual}: {c:?}");
+            }
+        }
+        for illumination in (0..0x7c00).map(|bits| f16::from_bits(bits).to_f32()) {
+            let c = compose(f16::from_f32(0.5), illumination, 1e6);
+            // Where the sum lies halfway between the two largest, it is rounded to the even one, and one step more would be infinite.
+            let is_halfway = (16.0 - 0.5 * illumination).rem_euclid(32.0) < 0.01;
+            assert!(c.saturated && (c.color == f16::MAX || (is_halfway && c.color.to_f32() == 65_472.0)), "{illumination}: {c:?}");
+        }
+    }
+
+    #[test]
+    fn a_residual_that_leaves_the_sum_finite_is_stored_as_it_is() {
+        let c = compose(f16::ONE, 64_992.0, 520.0);
+        assert_eq!((c.color, c.residual.to_f32(), c.saturated), (f16::MAX, 520.0, true));
+        let c = compose(f16::ONE, 64_992.0, 480.0);
+        assert_eq!((c.color.to_f32(), c.residual.to_f32(), c.saturated), (65_472.0, 480.0, false));
     }
 
     #[test]

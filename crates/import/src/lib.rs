@@ -93,10 +93,10 @@ fn one() -> f32 {
 #[serde(deny_unknown_fields, default)]
 pub struct ImportOptions {
     /// Metres per unit of the file; 1 by default. Where the file states its own unit (USD, FBX, V-Ray scenes, Sweet Home 3D) this multiplies it.
-    /// Ignored for scene packages.
+    /// Scene packages are in metres, and anything but 1 is an error.
     pub meters_per_unit: f64,
-    /// The axis that points up; by default the file's own (USD, FBX and V-Ray scenes state it), else the format's own. Ignored for
-    /// scene packages.
+    /// The axis that points up; by default the file's own (USD, FBX and V-Ray scenes state it), else the format's own. In scene
+    /// packages z points up, and y is an error.
     pub up_axis: Option<UpAxis>,
     /// Replaces or sets the environment.
     pub environment: Option<EnvironmentOverride>,
@@ -153,7 +153,7 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
         Format::Usd => usd::load(assembly),
         Format::Fbx => fbx::load(assembly),
         Format::SweetHome => sweethome::load(assembly),
-        Format::Package => package::load(assembly),
+        Format::Package => package::load(assembly, options),
     }
 }
 

@@ -1,13 +1,52 @@
-//! The scene package: read, checked and passed on.
+//! The scene package: read, checked and passed on. It is in metres with z up: other units and axes are refused.
 
 use crate::assembly::Assembly;
-use crate::{ImportError, Imported};
+use crate::{ImportError, ImportOptions, Imported, UpAxis};
+use std::path::Path;
 
 /// Reads a scene package. Units and axes are already the world's, so only the environment can be overridden.
-pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
+pub(crate) fn load(mut assembly: Assembly, options: &ImportOptions) -> Result<Imported, ImportError> {
     let file = assembly.file().to_path_buf();
+    check_space(&file, options)?;
     let bytes = assembly.read_scene_file()?;
     let (scene, labels) = enfilade_scene::from_bytes_with_labels(&bytes).map_err(|source| ImportError::Package { file, source })?;
     assembly.set_labels(labels);
     assembly.finish_scene(scene)
+}
+
+/// Refuses units and axes that the package does not have: the scene would come out as if they had not been given.
+fn check_space(file: &Path, options: &ImportOptions) -> Result<(), ImportError> {
+    let refused = |option: &'static str, found: &str, expected: &str| {
+        let problem = format!(
+            "found {found}, expected {expected}: {} is a scene package, which is in metres with z up; leave the option out, or import what \
+             the package was made from",
+            file.display()
+        );
+        Err(ImportError::Option { option, problem })
+    };
+    match options.up_axis {
+        _ if options.meters_per_unit != 1.0 => refused("meters_per_unit", &options.meters_per_unit.to_string(), "1"),
+        Some(UpAxis::Y) => refused("up_axis", "y", "z"),
+        Some(UpAxis::Z) | None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_scene::Quiet;
+
+    #[test]
+    fn units_and_axes_that_a_package_does_not_have_are_refused() {
+        // The file is not there: what is said of it is said before it is read, and only what is wrong.
+        let error = |options: &ImportOptions| crate::load(Path::new("room.scene"), options, &Quiet).unwrap_err().to_string();
+        let whole = ImportOptions::default();
+        let feet = error(&ImportOptions { meters_per_unit: 0.3048, ..whole.clone() });
+        assert!(feet.starts_with("import option meters_per_unit: found 0.3048, expected 1: room.scene is a scene package"), "{feet}");
+        let y_up = error(&ImportOptions { up_axis: Some(UpAxis::Y), ..whole.clone() });
+        assert!(y_up.starts_with("import option up_axis: found y, expected z: room.scene is a scene package"), "{y_up}");
+        for options in [whole.clone(), ImportOptions { meters_per_unit: 1.0, up_axis: Some(UpAxis::Z), ..whole }] {
+            assert!(error(&options).starts_with("room.scene: cannot be read"), "{options:?}");
+        }
+    }
 }

@@ -1,5 +1,5 @@
 use crate::Format;
-use enfilade_scene::{Bsdf, Cx, Scene, Warning};
+use enfilade_scene::{Cx, Scene, Warning};
 use serde::Serialize;
 use std::collections::HashSet;
 use std::fmt;
@@ -31,18 +31,13 @@ pub struct Counts {
 
 impl Counts {
     fn of(scene: &Scene) -> Self {
-        let transmits = |bsdf: &Bsdf| match bsdf {
-            Bsdf::Dielectric { .. } | Bsdf::ThinDielectric { .. } => true,
-            Bsdf::Principled(p) => p.transmission.factor > 0.0,
-            _ => false,
-        };
         Self {
             parts: scene.parts.len(),
             meshes: scene.meshes.len(),
             triangles: scene.parts.iter().map(|p| scene.meshes[p.mesh as usize].triangles.len()).sum(),
             materials: scene.materials.len(),
             emissive_materials: scene.materials.iter().filter(|m| !m.emission.factor.is_black()).count(),
-            transmitting_materials: scene.materials.iter().filter(|m| transmits(&m.bsdf)).count(),
+            transmitting_materials: scene.materials.iter().filter(|m| m.bsdf.transmits()).count(),
             images: scene.images.len(),
             lights: scene.lights.len(),
             cameras: scene.cameras.len(),

@@ -1,6 +1,8 @@
 //! Spectra to linear Rec. 709 RGB, and the optical constants of metals, for all formats that have them.
 
+use crate::ImportError;
 use enfilade_math::Rgb;
+use std::path::Path;
 
 /// Range of visible wavelengths, nm.
 const VISIBLE: (u32, u32) = (360, 830);
@@ -33,6 +35,27 @@ pub(crate) fn sampled(pairs: &mut [(f64, f64)], kind: Kind) -> Rgb {
             Rgb::new(rgb.r / white.r, rgb.g / white.g, rgb.b / white.b)
         }
     }
+}
+
+/// The samples (wavelength in nm, value) that a file lists, between spaces, commas and ends of lines; comments begin with `#`.
+///
+/// # Errors
+/// When a word is not a finite number, or the last one stands alone.
+pub(crate) fn pairs(bytes: &[u8], file: &Path) -> Result<Vec<(f64, f64)>, ImportError> {
+    let mut numbers = Vec::new();
+    for (i, line) in String::from_utf8_lossy(bytes).lines().enumerate() {
+        let values = line.split('#').next().unwrap_or_default();
+        for word in values.split(|c: char| c.is_whitespace() || c == ',').filter(|w| !w.is_empty()) {
+            let number = word.parse::<f64>().ok().filter(|n| n.is_finite());
+            let problem = || ImportError::malformed(file, format!("line {}", i + 1), format!("{word:?} is not a finite number"));
+            numbers.push(number.ok_or_else(problem)?);
+        }
+    }
+    if numbers.len() < 2 || !numbers.len().is_multiple_of(2) {
+        let problem = format!("found {} numbers, expected pairs of wavelength and value", numbers.len());
+        return Err(ImportError::malformed(file, "whole file", problem));
+    }
+    Ok(numbers.chunks_exact(2).map(|p| (p[0], p[1])).collect())
 }
 
 /// Planck's radiance of a temperature in kelvin at a wavelength in nm, W·m⁻²·sr⁻¹·nm⁻¹.

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Folder, png, warnings};
-use enfilade_import::{ImportOptions, Imported};
+use enfilade_import::{ImportOptions, Imported, UpAxis};
 use enfilade_math::{DVec3, Mat3, Rgb, Vec2, Vec3};
 use enfilade_scene::{Alpha, Bsdf, Environment, Filter, Light, MapRows, Material, NormalMap, SpotFalloff};
 
@@ -77,6 +77,9 @@ fn blends_keep_both_and_a_blend_with_nothing_is_a_mask() {
     let Bsdf::Blend { second, weight, .. } = *second else { panic!("expected a blend within the blend") };
     assert!(matches!(*second, Bsdf::Conductor { .. }) && (weight.factor - 0.6).abs() < 1e-6);
 
+    let pane = r#"<bsdf type="blendbsdf"><float name="weight" value="0.5"/><bsdf type="diffuse"/><bsdf type="dielectric"/></bsdf>"#;
+    assert_eq!(load(&folder, &format!(r#"<shape type="cube">{pane}</shape>"#)).report.counts.transmitting_materials, 1);
+
     let lace = r#"<bsdf type="blendbsdf"><float name="weight" value="0.3"/><bsdf type="null"/><bsdf type="diffuse"/></bsdf>"#;
     let (m, _) = material(&folder, lace);
     assert!(matches!(m.bsdf, Bsdf::Diffuse { .. }));
@@ -146,7 +149,8 @@ fn shapes_are_placed_named_and_face_outward() {
     assert_eq!(names, ["Wood_Chair 1", "inline_Chair 1", "Ball", "inline_cylinder", "inline_disk", "inline_cube", "inline_rectangle"]);
     // The front is where the normals point: the triangle was turned round.
     assert_eq!(scene.meshes[0].triangles, [[0, 2, 1]]);
-    assert!(scene.meshes[1].normals.is_empty());
+    // With `faceNormals` these say nothing.
+    assert!(scene.meshes[1].normals.is_empty() && scene.meshes[1].triangles == [[0, 1, 2]]);
     assert_eq!(scene.parts[1].world_from_mesh.transform_point3(DVec3::Y), DVec3::new(1.0, 0.0, 2.0));
     let ball = scene.parts[2].world_from_mesh.transform_point3(DVec3::X);
     assert!((ball - DVec3::new(1.5, -3.0, 2.0)).length() < 1e-12, "{ball}");
@@ -154,6 +158,69 @@ fn shapes_are_placed_named_and_face_outward() {
     assert!((top - DVec3::new(0.0, 0.0, 3.0)).length() < 1e-12, "{top}");
     assert_eq!(scene.meshes[scene.parts[4].mesh as usize].normals[0], Vec3::NEG_Z);
     assert!(imported.report.warnings.is_empty(), "{}", warnings(&imported));
+}
+
+/// Water and Glass as groups of their materials, and a group without one.
+const AQUARIUM: &str = "mtllib aquarium.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\ng tank\nusemtl Glass\nf 1 2 3\nusemtl Water\nf 1 2 3\n\
+                        g lid\nusemtl Steel\nf 3 2 1\n";
+
+#[test]
+fn meshes_of_an_obj_file_have_materials_of_their_own() {
+    let folder = Folder::new();
+    folder
+        .write("models/aquarium.obj", AQUARIUM)
+        .write("models/aquarium.mtl", "newmtl Water\nKd 0 0 1\nnewmtl Glass\nKd 0 1 0\nKe 9 9 9\n");
+    let file = r#"<string name="filename" value="models/aquarium.obj"/>"#;
+    let parts = |properties: &str| {
+        let imported = load(&folder, &format!(r#"<shape type="obj">{file}{properties}</shape>"#));
+        let material = |part: u32| imported.scene.materials[part as usize].clone();
+        let parts: Vec<_> = imported.scene.parts.iter().map(|p| (p.name.clone(), material(p.material))).collect();
+        (parts, warnings(&imported))
+    };
+    let names = |parts: &[(String, Material)]| parts.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
+    let color = |(_, material): &(String, Material)| match &material.bsdf {
+        Bsdf::Diffuse { reflectance } => reflectance.factor,
+        other => panic!("not diffuse: {other:?}"),
+    };
+    let glass = r#"<bsdf name="Glass" type="dielectric" id="Pane"/>"#;
+    let (mixed, told) = parts(glass);
+    assert_eq!(names(&mixed), ["Pane_aquarium.tank", "Water_aquarium.tank", "inline_aquarium.lid"]);
+    assert!(matches!(mixed[0].1.bsdf, Bsdf::Dielectric { .. }) && !mixed[1].1.two_sided);
+    assert_eq!((color(&mixed[1]), color(&mixed[2])), (Rgb::new(0.0, 0.0, 1.0), Rgb::splat(0.5)));
+    assert!(told.contains("the material \"Water\" is the OBJ file's"), "{told}");
+
+    let (libraries, _) = parts("");
+    assert_eq!(color(&libraries[0]), Rgb::new(0.0, 1.0, 0.0));
+    assert!(libraries[0].1.emission.factor.is_black(), "Mitsuba reads no Ke");
+    let (plain, told) = parts(r#"<boolean name="loadMaterials" value="false"/>"#);
+    assert!(plain.iter().all(|part| color(part) == Rgb::splat(0.5)) && told.is_empty(), "{told}");
+    let (one, told) = parts(r#"<bsdf type="plastic"/><boolean name="collapse" value="true"/><float name="maxSmoothAngle" value="30"/>"#);
+    assert!(one.iter().all(|(_, material)| matches!(material.bsdf, Bsdf::Plastic { .. })));
+    assert!(told.contains("<boolean name=\"collapse\">: ignored in obj") && told.contains("max_smooth_angle"), "{told}");
+    // The last one counts, as in Mitsuba.
+    let (last, _) = parts(&format!(r#"{glass}<bsdf type="plastic"/>"#));
+    assert!(matches!(last[0].1.bsdf, Bsdf::Plastic { .. }));
+    let (guessed, told) = parts(r#"<bsdf name="bsdf" type="plastic"/><boolean name="loadMaterials" value="false"/>"#);
+    assert!(matches!(guessed[0].1.bsdf, Bsdf::Plastic { .. }));
+    assert!(told.contains("the OBJ file has no material \"bsdf\""), "{told}");
+}
+
+#[test]
+fn the_shape_index_picks_one_mesh_of_an_obj_file() {
+    let folder = Folder::new();
+    folder.write("aquarium.obj", AQUARIUM);
+    let scene = |index: &str| {
+        let shape = format!(
+            r#"<shape type="obj" id="Fish"><string name="filename" value="aquarium.obj"/><bsdf type="diffuse"/>
+            <integer name="shapeIndex" value="{index}"/></shape>"#
+        );
+        folder.write("a.xml", format!("<scene version=\"0.6.0\">{shape}</scene>"))
+    };
+    let names = |index: &str| scene(index).load("a.xml").unwrap().scene.parts.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names("2"), ["Fish.lid"]);
+    assert_eq!(names("-1"), ["Fish.tank", "Fish.tank_2", "Fish.lid"]);
+    let message = scene("3").error("a.xml");
+    assert!(message.contains("found shapeIndex 3, but there are only 3 meshes in aquarium.obj"), "{message}");
 }
 
 #[test]
@@ -169,6 +236,23 @@ fn instances_share_the_meshes_of_their_group() {
     assert_eq!(names, ["left_crown", "left_trunk", "tree_crown", "tree_trunk"]);
     assert_eq!(imported.scene.meshes.len(), 2);
     assert_eq!(imported.scene.parts[2].world_from_mesh.translation, DVec3::new(5.0, 0.0, 0.0));
+}
+
+/// The limit for references in a circle counted each instance; and finding the place of each element took minutes.
+#[test]
+fn a_forest_of_seventy_thousand_trees_is_imported() {
+    let folder = Folder::new();
+    let trees = r#"<shape type="instance"><ref id="tree"/></shape>"#.repeat(70_000);
+    let imported = load(&folder, &format!(r#"<shape type="shapegroup" id="tree"><shape type="cube"/></shape>{trees}"#));
+    assert_eq!((imported.scene.parts.len(), imported.scene.meshes.len()), (70_000, 1));
+}
+
+#[test]
+fn bsdfs_within_many_bsdfs_are_no_mistake() {
+    let folder = Folder::new();
+    let bsdf = r#"<bsdf type="twosided"><bsdf type="mask"><bsdf type="diffuse"/></bsdf></bsdf>"#;
+    let imported = load(&folder, &format!(r#"<shape type="cube">{bsdf}</shape>"#).repeat(40_000));
+    assert_eq!(imported.scene.materials.len(), 40_000);
 }
 
 #[test]
@@ -197,6 +281,19 @@ fn cameras_see_what_mitsuba_sees() {
 }
 
 #[test]
+fn cameras_without_an_up_look_any_way_and_roll_as_in_mitsuba() {
+    let folder = Folder::new();
+    for (target, right) in [("0 -1 0", DVec3::NEG_Y), ("0 0 -1", DVec3::NEG_Z)] {
+        let camera = format!(
+            r#"<shape type="cube"/><sensor type="perspective">
+            <transform name="toWorld"><lookAt origin="0 0 0" target="{target}"/></transform></sensor>"#
+        );
+        let found = load(&folder, &camera).scene.cameras[0].world_from_camera.x_axis;
+        assert!((found - right).length() < 1e-12, "{target}: {found}");
+    }
+}
+
+#[test]
 fn emitters_of_all_kinds() {
     let folder = Folder::new();
     folder.write("sky.png", png(4, 2, [9, 9, 9, 255]));
@@ -220,6 +317,51 @@ fn emitters_of_all_kinds() {
     assert!(matches!(&scene.environment, Some(Environment::Map { rows: MapRows::PoleToPole, scale, .. }) if scale.g == 2.0));
     let imported = load(&folder, r#"<shape type="cube"/><emitter type="constant"><rgb name="radiance" value="1 2 3"/></emitter>"#);
     assert_eq!(imported.scene.environment, Some(Environment::Constant { radiance: Rgb::new(1.0, 2.0, 3.0) }));
+}
+
+#[test]
+fn spectra_may_be_objects_or_files() {
+    let folder = Folder::new();
+    folder.write("lamp.spd", "# nm, value\n400 0.1\n700 0.2\n");
+    let radiance = |spectrum: &str| {
+        let imported = load(&folder, &format!(r#"<shape type="cube"><emitter type="area">{spectrum}</emitter></shape>"#));
+        assert!(imported.report.warnings.is_empty(), "{spectrum}: {}", warnings(&imported));
+        imported.scene.materials[0].emission.factor
+    };
+    let object = |kind: &str, more: &str| radiance(&format!(r#"<spectrum type="{kind}" name="radiance">{more}</spectrum>"#));
+    let black = radiance(r#"<blackbody name="radiance" temperature="5000K" scale="2"/>"#);
+    assert_eq!(object("blackbody", r#"<float name="temperature" value="5000"/>"#) * 2.0, black);
+    assert_eq!(object("d65", ""), Rgb::WHITE);
+    let tinted = r#"<rgb name="color" value="1 2 3"/><float name="scale" value="2"/>"#;
+    assert_eq!(object("d65", tinted), Rgb::new(2.0, 4.0, 6.0));
+    assert_eq!(object("uniform", r#"<float name="value" value="0.25"/>"#), Rgb::splat(0.25));
+    let expected = radiance(r#"<spectrum name="radiance" value="400:0.1 700:0.2"/>"#);
+    let values = r#"<string name="values" value="0.1, 0.2"/>"#;
+    assert_eq!(object("irregular", &format!(r#"<string name="wavelengths" value="400, 700"/>{values}"#)), expected);
+    assert_eq!(object("regular", &format!(r#"<string name="range" value="400, 700"/>{values}"#)), expected);
+    let range = r#"<float name="wavelength_min" value="400"/><float name="wavelength_max" value="700"/>"#;
+    assert_eq!(object("regular", &format!("{range}{values}")), expected);
+    assert_eq!(radiance(r#"<spectrum name="radiance" filename="lamp.spd"/>"#), expected);
+    let message = |spectrum: &str| {
+        let scene = format!(r#"<scene><shape type="cube"><emitter type="area">{spectrum}</emitter></shape></scene>"#);
+        folder.write("a.xml", scene).error("a.xml")
+    };
+    let laser = message(r#"<spectrum type="laser" name="radiance"/>"#);
+    assert!(laser.contains("spectra of the type \"laser\" are not supported; expected blackbody, d65"), "{laser}");
+    let short = message(&format!(r#"<spectrum type="irregular" name="radiance">{values}</spectrum>"#));
+    assert!(short.contains("found 2 values at 0 wavelengths"), "{short}");
+    folder.write("odd.spd", "400 0.1 700");
+    assert!(message(r#"<spectrum name="radiance" filename="odd.spd"/>"#).starts_with("odd.spd: whole file: found 3 numbers"));
+}
+
+#[test]
+fn daylight_by_a_texture_is_the_texture() {
+    let folder = Folder::new();
+    folder.write("t.png", png(2, 2, [9, 9, 9, 255]));
+    let texture = r#"<texture type="bitmap"><string name="filename" value="t.png"/></texture>"#;
+    let lamp = format!(r#"<emitter type="area"><spectrum type="d65" name="radiance">{texture}</spectrum></emitter>"#);
+    let imported = load(&folder, &format!(r#"<shape type="rectangle">{lamp}</shape>"#));
+    assert!(imported.scene.materials[0].emission.texture.is_some());
 }
 
 #[test]
@@ -259,6 +401,27 @@ fn daylight_puts_the_sun_where_the_file_says() {
 }
 
 #[test]
+fn skies_of_version_3_have_z_up_a_lighter_ground_and_suns_by_their_aperture() {
+    let folder = Folder::new();
+    let sky = |version: &str, up_axis: Option<UpAxis>, more: &str| {
+        let sun = r#"<vector name="sunDirection" x="0" y="0.6" z="0.8"/>"#;
+        let body = format!(r#"<shape type="cube"/><emitter type="sunsky">{sun}{more}</emitter>"#);
+        folder.write("a.xml", format!("<scene version=\"{version}\">{body}</scene>"));
+        let options = ImportOptions { up_axis, ..ImportOptions::default() };
+        folder.load_with("a.xml", &options).unwrap_or_else(|e| panic!("{e}"))
+    };
+    let third = sky("3.5.0", Some(UpAxis::Z), r#"<float name="sun_aperture" value="2"/>"#);
+    let Light::Directional { direction, angular_radius_rad, .. } = &third.scene.lights[0] else { panic!("no sun") };
+    assert!((*direction - Vec3::new(0.0, -0.6, -0.8)).length() < 1e-6, "{direction}");
+    assert!((*angular_radius_rad - 1f32.to_radians()).abs() < 1e-6, "{angular_radius_rad}");
+    let told = |imported: &Imported| warnings(imported).contains("the sky's own up is not the scene's");
+    assert!(!told(&third) && told(&sky("3.5.0", None, "")) && !told(&sky("0.6.0", None, "")));
+    let albedo = |value: &str| format!(r#"<spectrum name="albedo" value="{value}"/>"#);
+    assert!(third.scene.images == sky("3.5.0", Some(UpAxis::Z), &albedo("0.3")).scene.images);
+    assert!(sky("0.6.0", None, "").scene.images == sky("0.6.0", None, &albedo("0.15")).scene.images);
+}
+
+#[test]
 fn parameters_aliases_and_includes_are_followed() {
     let folder = Folder::new();
     folder.write(
@@ -272,4 +435,30 @@ fn parameters_aliases_and_includes_are_followed() {
     );
     assert_eq!(imported.scene.materials[0].bsdf, Bsdf::Diffuse { reflectance: Rgb::splat(0.25).into() });
     assert_eq!(imported.inputs.len(), 2);
+}
+
+#[test]
+fn included_files_include_what_lies_beside_them() {
+    let folder = Folder::new();
+    folder.write("parts/all.xml", r#"<scene><include filename="ball.xml"/></scene>"#);
+    folder.write("parts/ball.xml", r#"<scene><shape type="sphere" id="Near"/></scene>"#);
+    folder.write("ball.xml", r#"<scene><shape type="sphere" id="Far"/></scene>"#);
+    let imported = load(&folder, r#"<include filename="parts/all.xml"/><include filename="ball.xml"/>"#);
+    let names: Vec<&str> = imported.scene.parts.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["Near", "Far"]);
+}
+
+#[test]
+fn files_are_looked_for_in_the_folders_of_paths() {
+    let folder = Folder::new();
+    let obj = |x: u32| format!("v {x} 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("models/a.obj", obj(7)).write("a.obj", obj(5)).write("b.obj", obj(3)).write("more/t.png", png(2, 2, [9, 9, 9, 255]));
+    let shape = |file: &str| format!(r#"<shape type="obj"><string name="filename" value="{file}"/></shape>"#);
+    let texture = r#"<texture type="bitmap" name="reflectance"><string name="filename" value="t.png"/></texture>"#;
+    let textured = format!(r#"<shape type="rectangle"><bsdf type="diffuse">{texture}</bsdf></shape>"#);
+    let paths = r#"<path value="models"/><path value="more"/><path value="gone"/>"#;
+    let imported = load(&folder, &format!("{paths}{}{}{textured}", shape("a.obj"), shape("b.obj")));
+    let x = |part: usize| imported.scene.meshes[part].positions[0].x;
+    assert_eq!((x(0), x(1), imported.scene.images.len()), (7.0, 3.0, 1));
+    assert!(warnings(&imported).contains("<path>: there is no folder \"gone\""), "{}", warnings(&imported));
 }

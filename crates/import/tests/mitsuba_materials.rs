@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Folder, png, warnings};
-use enfilade_math::Rgb;
+use enfilade_math::{Rgb, linear_from_srgb};
 use enfilade_scene::{Bsdf, Principled};
 
 /// The bsdf of a sphere in a file of this version, and what was reported. `grey.png` may be referred to.
@@ -35,6 +35,14 @@ fn texture(name: &str) -> String {
 }
 
 #[test]
+fn hexadecimal_colours_are_encoded_in_srgb_alone() {
+    for (tag, expected) in [("rgb", 128.0 / 255.0), ("srgb", linear_from_srgb(128.0 / 255.0))] {
+        let text = format!(r##"<bsdf type="diffuse"><{tag} name="reflectance" value="#808080"/></bsdf>"##);
+        assert_eq!(bsdf("0.6.0", &text).0, Bsdf::Diffuse { reflectance: Rgb::splat(expected).into() }, "{tag}");
+    }
+}
+
+#[test]
 fn conductors_without_a_material_are_copper_in_version_0_and_mirrors_since() {
     let copper = (Rgb::new(0.2004, 0.924, 1.1022), Rgb::new(3.9129, 2.4529, 2.1422));
     assert_eq!(conductor("0.6.0", ""), copper);
@@ -59,6 +67,26 @@ fn metals_may_lie_in_a_substance_by_its_name() {
     assert!(near(eta.g, 2.0 / 1.000_277) && near(k.g, 4.0 / 1.000_277), "{eta:?} {k:?}");
     assert_eq!(metal(r#"<float name="ext_eta" value="2"/>"#), (Rgb::WHITE, Rgb::splat(2.0)));
     assert_eq!(metal(""), (Rgb::splat(2.0), Rgb::splat(4.0)));
+}
+
+#[test]
+fn substances_have_the_indices_of_mitsubas_table() {
+    let table = [("Helium", 1.000_036), ("carbon tetrachloride", 1.461), ("silicone oil", 1.520_45), ("sodium chloride", 1.544)];
+    for (name, expected) in table {
+        let glass = format!(r#"<string name="intIOR" value="{name}"/><string name="extIOR" value="vacuum"/>"#);
+        let (found, _) = bsdf("0.6.0", &format!("<bsdf type=\"dielectric\">{glass}</bsdf>"));
+        assert!(matches!(found, Bsdf::Dielectric { eta, .. } if eta == expected), "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn phong_without_an_exponent_has_one_of_thirty() {
+    let alpha = |properties: &str| match bsdf("0.6.0", &format!("<bsdf type=\"phong\">{properties}</bsdf>")).0 {
+        Bsdf::Plastic { alpha, .. } => alpha.factor,
+        other => panic!("not plastic: {other:?}"),
+    };
+    assert_eq!((alpha(""), alpha(r#"<float name="exponent" value="30"/>"#)), (0.25, 0.25));
+    assert!((alpha(r#"<float name="exponent" value="198"/>"#) - 0.1).abs() < 1e-6);
 }
 
 #[test]

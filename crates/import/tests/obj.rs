@@ -28,6 +28,15 @@ fn groups_and_materials_become_named_parts() {
     assert_eq!(imported.inputs, [folder.path("a.obj"), folder.path("my room.mtl")]);
 }
 
+/// Each group was compared with all others, which took minutes.
+#[test]
+fn a_hundred_thousand_groups_are_a_hundred_thousand_parts() {
+    let folder = Folder::new();
+    let groups: String = (0..100_000).map(|i| format!("g group {i}\nf 1 2 3\n")).collect();
+    let imported = folder.write("a.obj", format!("{TRIANGLES}{groups}")).load("a.obj").unwrap();
+    assert_eq!((imported.scene.parts.len(), imported.scene.parts[99_999].name.as_str()), (100_000, "group 99999"));
+}
+
 #[test]
 fn material_keys_are_read() {
     let folder = Folder::new();

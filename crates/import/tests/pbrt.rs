@@ -44,6 +44,13 @@ fn materials_of_version_3() {
         matches!(of("Material \"glass\" \"float index\" 1.33 \"rgb Kt\" [1 .5 1]"), Bsdf::Dielectric { eta: 1.33, alpha, transmittance, .. }
             if alpha.factor == 0.0 && transmittance.factor.g == 0.5)
     );
+    // That of 0 is 0.04725, but for glass, which is smooth there.
+    let metal = of("Material \"metal\" \"float roughness\" 0");
+    assert!(matches!(metal, Bsdf::Conductor { alpha, .. } if (alpha.factor - 0.04725).abs() < 1e-4));
+    let plastic = of("Material \"plastic\" \"float roughness\" 0");
+    assert!(matches!(plastic, Bsdf::Principled(p) if (p.roughness.factor * p.roughness.factor - 0.04725).abs() < 1e-4));
+    let smooth = of("Material \"glass\" \"float uroughness\" 0 \"float vroughness\" 0");
+    assert!(matches!(smooth, Bsdf::Dielectric { alpha, .. } if alpha.factor == 0.0));
     let floor = of("Material \"substrate\" \"rgb Ks\" [.04 .04 .04] \"float uroughness\" .25 \"float vroughness\" .25 \
          \"bool remaproughness\" \"false\"");
     assert!(matches!(floor, Bsdf::Principled(p) if (p.ior - 1.5).abs() < 1e-4 && (p.roughness.factor - 0.5).abs() < 1e-6));
@@ -81,6 +88,20 @@ fn materials_of_version_4() {
     let wine = "MakeNamedMedium \"wine\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 2 3] \"rgb sigma_s\" [0 0 0]\n\
                 MediumInterface \"wine\" \"\"\nMaterial \"dielectric\"";
     assert!(matches!(of(wine), Bsdf::Dielectric { absorption, .. } if absorption == Rgb::new(1.0, 2.0, 3.0)));
+}
+
+#[test]
+fn attributes_of_inner_blocks_stand_above_those_of_outer_ones() {
+    let folder = Folder::new();
+    let text = "Attribute \"material\" \"rgb reflectance\" [.1 .1 .1]\nAttributeBegin\n\
+                Attribute \"material\" \"rgb reflectance\" [.7 .7 .7]\nMaterial \"diffuse\"\nShape \"sphere\"\nAttributeEnd\n\
+                Material \"diffuse\"\nShape \"sphere\"\nMaterial \"diffuse\" \"rgb reflectance\" [.4 .4 .4]\nShape \"sphere\"";
+    let scene = load(&folder, text).scene;
+    let reflectance = |part: usize| match &scene.materials[scene.parts[part].material as usize].bsdf {
+        Bsdf::Diffuse { reflectance } => reflectance.factor,
+        other => panic!("not diffuse: {other:?}"),
+    };
+    assert_eq!([0, 1, 2].map(reflectance), [0.7, 0.1, 0.4].map(Rgb::splat));
 }
 
 #[test]

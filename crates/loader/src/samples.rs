@@ -306,13 +306,26 @@ impl Samples {
         let rows = get_or_try(&self.cameras[frame.camera].exposures, || self.dataset.read_tone_maps(scene, camera))?;
         let found = match rows.iter().find(|row| row.frame == frame.number) {
             Some(row) => ToneMap { scale: row.scale },
-            None => {
-                let ids = self.dataset.has_layer(scene, camera, frame.number, Layer::RenderEntityId);
-                let ids = ids.then(|| self.dataset.read_layer(scene, camera, frame.number, Layer::RenderEntityId)).transpose()?;
-                if whole { fit(color, ids.as_ref()) } else { fit(&self.image(index, Layer::Color, None)?, ids.as_ref()) }
-            }
+            None if whole => self.fitted(index, color)?,
+            None => self.fitted(index, &self.image(index, Layer::Color, None)?)?,
         };
         Ok(Some(*frame.exposure.get_or_init(|| found)))
+    }
+
+    /// The exposure of a frame's whole colour, by the pixels that show the scene where the frame says which do.
+    fn fitted(&self, index: usize, color: &Image) -> Result<ToneMap, LoaderError> {
+        let (Place { scene, camera, frame }, layer) = (self.place(index), Layer::RenderEntityId);
+        if !self.dataset.has_layer(scene, camera, frame, layer) {
+            return Ok(fit(color, None));
+        }
+        let ([height, width], ids) = self.dataset.read_layer_window(scene, camera, frame, layer, None)?;
+        if [height, width] == [color.height, color.width] {
+            return Ok(fit(color, Some(&ids)));
+        }
+        let path = self.dataset.layout().layer(scene, camera, frame, layer);
+        let sizes = format!("{height}x{width} pixels, but color has {}x{}", color.height, color.width);
+        let remedy = "the tone map goes by the pixels with an id; mend the file, move it away, or ask for no tone map (tone_map=False)";
+        Err(LoaderError::Request(format!("{}: {sizes}: {remedy}", path.display())))
     }
 
     /// K of the sample's pixels, and its pose.
@@ -382,8 +395,9 @@ fn chosen(what: &str, names: Vec<String>, wanted: Option<&[String]>) -> Result<V
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_dataset::{FrameInfo, FrameTime};
-    use enfilade_frame::Frame;
+    use enfilade_dataset::hdf5::{Storage, write_array};
+    use enfilade_dataset::{Array, Elements, FrameInfo, FrameTime};
+    use enfilade_frame::{Frame, f16};
     use enfilade_math::DMat3;
     use enfilade_scene::{Camera, Intrinsics, TiltedPinhole, Trajectory};
 
@@ -456,6 +470,33 @@ mod tests {
                     let expected = format!("room/cam_00 have {}x{} pixels, but its camera 40x30", size[0], size[1]);
                     assert_eq!(message.is_some_and(|message| message.contains(&expected)), size != [40, 30], "{size:?} {crop:?}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn ids_of_another_size_than_color_are_refused_by_the_tone_map() {
+        let error = |color: [usize; 2], ids: [usize; 2], crop: Option<Crop>| {
+            let folder = tempfile::tempdir().unwrap();
+            let dataset = write(folder.path(), Projection::Pinhole(K), [40, 30], &[Layer::DepthMeters]);
+            let put = |layer: Layer, shape: &[usize], values: Elements| {
+                let path = dataset.layout().layer("room", "cam_00", 0, layer);
+                std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+                write_array(&path, &Array::new(shape, values), Storage::Contiguous, &[]).unwrap();
+            };
+            put(Layer::Color, &[color[0], color[1], 3], Elements::F16(vec![f16::ONE; 3 * color[0] * color[1]]));
+            put(Layer::RenderEntityId, &ids, Elements::I16(vec![1; ids[0] * ids[1]]));
+            let options = Options { tone_map: true, cameras: false, crop, ..Options::default() };
+            let choice = Choice { layers: Some(vec![Layer::Color]), ..Choice::default() };
+            let samples = Samples::open(Dataset::open(folder.path()).unwrap(), &choice, options).unwrap();
+            samples.sample(0, 0).err().map(|error| error.to_string())
+        };
+        for crop in [None, Some(Crop { size: [10, 10], place: CropPlace::At([0, 0]) })] {
+            assert_eq!(error([30, 40], [30, 40], crop), None);
+            for (color, ids) in [([60, 80], [30, 40]), ([30, 40], [60, 80])] {
+                let message = error(color, ids, crop).unwrap();
+                let sizes = format!("{}x{} pixels, but color has {}x{}", ids[0], ids[1], color[0], color[1]);
+                assert!(message.contains(&format!("frame.0000.render_entity_id.hdf5: {sizes}")), "{message}");
             }
         }
     }

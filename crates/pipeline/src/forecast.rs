@@ -97,7 +97,7 @@ pub struct ScenePilot {
     pub later_cpu_s: f64,
     /// Bytes of a frame's files.
     pub frame_bytes: u64,
-    /// Bytes of the scene's other files.
+    /// Bytes of the scene's other files, its work folder's among them.
     pub scene_bytes: u64,
     /// Most memory that the pilot's process had.
     pub peak_memory_bytes: u64,

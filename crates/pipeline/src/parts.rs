@@ -21,7 +21,7 @@ use std::sync::atomic::AtomicBool;
 /// The name under which a scene's label table travels.
 const TABLE: &str = "label_table.csv";
 /// In the work folder: whose files were brought there.
-const GATHERED: &str = "gathered.json";
+pub(crate) const GATHERED: &str = "gathered.json";
 
 /// What rendering needs of a dataset whose trajectories are planned.
 #[derive(Clone, Debug)]
@@ -94,7 +94,8 @@ impl Shift<'_> {
 /// # Errors
 /// As [`crate::estimate`]. Scenes that fail are left out, and the summary tells why.
 pub fn prepare(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Reporter) -> Result<(Summary, Prepared), Error> {
-    let (summary, forecasts) = forecast(config, out, pattern, &|job| job.frames_by_trajectory(), reporter)?;
+    let chosen = config.select(pattern)?;
+    let (summary, forecasts) = forecast(config, &chosen, &Workdir::create(out)?, &|job| job.frames_by_trajectory(), reporter)?;
     let (workdir, mut config) = open(out)?;
     carry_tables(&workdir, &mut config)?;
     store_config(&workdir, &config)?;

@@ -6,7 +6,8 @@ use crate::forecast::Forecast;
 use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::split::write_split;
 use crate::stages::{
-    CARD, FramesByTrajectory, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, missing_frames, pilot, read_table,
+    CARD, FramesByTrajectory, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, is_up_to_date, missing_frames, pilot,
+    read_table,
 };
 use crate::workdir::{RUN, WORKDIR, Workdir, read_json, remove_if_there, write_json};
 use enfilade_dataset::{CameraEntry, Dataset, DatasetError, FrameStatus, ManifestInfo};
@@ -16,7 +17,7 @@ use enfilade_post::stats::{StatsConfig, write_statistics};
 use enfilade_post::verify::{VerifyReport, join_reports, verify_scene, write_report};
 use enfilade_scene::{Cx, Quiet, Warning};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// What is kept of a run so that single stages can be run again.
@@ -63,45 +64,55 @@ pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, r
     Session::new(&config, &workdir)?.run(&scenes, stages, force, reporter)
 }
 
+/// How scenes fared before rendering, and the forecasts of those that came through.
+type Forecasts = (Summary, Vec<(String, Forecast)>);
+
 /// Forecasts what [`run`] will still take, by scene: does all that comes before rendering, which is kept, and tries out a little of the rest,
 /// which is not. Scenes that fail are left out, and the summary tells why.
 ///
+/// Where a scene that has finished frames would be planned anew, the folder and the configuration stored in it stay as they are.
+///
 /// # Errors
 /// As [`run`].
-pub fn estimate(
-    config: &Config,
-    out: &Path,
-    pattern: Option<&str>,
-    reporter: &dyn Reporter,
-) -> Result<(Summary, Vec<(String, Forecast)>), Error> {
-    forecast(config, out, pattern, &missing_frames, reporter)
+pub fn estimate(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Reporter) -> Result<Forecasts, Error> {
+    let scenes = config.select(pattern)?;
+    let workdir = Workdir::create(out)?;
+    let session = Session::new(config, &workdir)?;
+    let replanned: Vec<&str> =
+        scenes.iter().filter(|scene| session.has_frames(scene) && !session.is_planned(scene)).map(|scene| scene.name.as_str()).collect();
+    if replanned.is_empty() {
+        return forecast(config, &scenes, &workdir, &missing_frames, reporter);
+    }
+    let (mut summary, forecasts) = session.forecast_aside(&scenes, reporter)?;
+    summary.warnings.push(format!(
+        "{} has finished frames of {}, which this configuration plans anew: all their frames are counted, and the folder stays as it \
+         is; to keep what was planned, name another one with -o",
+        out.display(),
+        first_of(&replanned)
+    ));
+    Ok((summary, forecasts))
 }
 
 /// Does all that comes before rendering, and forecasts what the `frames` of every scene take.
 pub(crate) fn forecast(
     config: &Config,
-    out: &Path,
-    pattern: Option<&str>,
+    scenes: &[&SceneConfig],
+    workdir: &Workdir,
     frames: &dyn Fn(&Job) -> Result<FramesByTrajectory, Error>,
     reporter: &dyn Reporter,
-) -> Result<(Summary, Vec<(String, Forecast)>), Error> {
-    let scenes = config.select(pattern)?;
-    let workdir = Workdir::create(out)?;
-    store_config(&workdir, config)?;
-    let before: Vec<&StageSpec> = STAGES.iter().filter(|spec| spec.stage < Stage::Render).collect();
-    let session = Session::new(config, &workdir)?;
-    session.check_denoisers(&scenes)?;
-    let mut summary = session.run(&scenes, &before, false, reporter)?;
+) -> Result<Forecasts, Error> {
+    store_config(workdir, config)?;
+    let session = Session::new(config, workdir)?;
+    session.check_denoisers(scenes)?;
+    let mut summary = session.run(scenes, &before_rendering(), false, reporter)?;
     summary.warnings.extend(session.unknown_scenes());
-    let mut forecasts = Vec::new();
-    for (scene, outcome) in scenes.iter().zip(&mut summary.scenes).filter(|(_, outcome)| outcome.failure.is_none()) {
-        let job = Job::new(config, scene, &session.dataset, &workdir, false);
-        match frames(&job).and_then(|frames| forecast_of(&job, &frames, reporter)) {
-            Ok(forecast) => forecasts.push((scene.name.clone(), forecast)),
-            Err(error) => outcome.failure = Some(told_failure(&scene.name, Stage::Render, &error, reporter)),
-        }
-    }
+    let outcomes = scenes.iter().zip(&mut summary.scenes);
+    let forecasts = outcomes.filter_map(|(scene, outcome)| session.forecast(scene, outcome, frames, reporter)).collect();
     Ok((summary, forecasts))
+}
+
+fn before_rendering() -> Vec<&'static StageSpec> {
+    STAGES.iter().filter(|spec| spec.stage < Stage::Render).collect()
 }
 
 /// What the `frames` of a scene take.
@@ -220,6 +231,15 @@ fn open_with(out: &Path, pattern: Option<&str>, change: impl Fn(&mut SceneConfig
     Ok((workdir, config))
 }
 
+/// Some of the names, and how many more there are.
+fn first_of(names: &[&str]) -> String {
+    let shown = names[..names.len().min(NAMES_SHOWN)].join(", ");
+    match names.len().saturating_sub(NAMES_SHOWN) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
+
 /// Tells that a stage of a scene could not be done, and why.
 fn told_failure(scene: &str, stage: Stage, error: &Error, reporter: &dyn Reporter) -> Failure {
     let message = error.explain();
@@ -244,24 +264,7 @@ impl<'a> Session<'a> {
         let time = Stopwatch::start();
         let mut outcomes: Vec<SceneOutcome> = Vec::new();
         for scene in scenes {
-            let job = Job::new(self.config, scene, &self.dataset, self.workdir, force);
-            let mut outcome = SceneOutcome { name: scene.name.clone(), stages: Vec::new(), failure: None };
-            for spec in stages.iter().filter(|spec| job.wants(spec.stage)) {
-                let ready = match spec.stage {
-                    // The manifest is part of what is verified.
-                    Stage::Verify => self.write_manifest(&outcomes, Some(&scene.name)),
-                    // Better before hours of rendering than after them.
-                    Stage::Render if stages.iter().any(|s| s.stage == Stage::Denoise) => check_denoiser(&job),
-                    _ => Ok(()),
-                };
-                match ready.and_then(|()| advance(spec, &job, StageCx::new(&scene.name, spec.stage, reporter))) {
-                    Ok(done) => outcome.stages.push(done),
-                    Err(error) => {
-                        outcome.failure = Some(told_failure(&scene.name, spec.stage, &error, reporter));
-                        break;
-                    }
-                }
-            }
+            let outcome = self.run_scene(scene, stages, force, &outcomes, reporter);
             outcomes.push(outcome);
         }
         let finished = self
@@ -279,6 +282,90 @@ impl<'a> Session<'a> {
         }
     }
 
+    /// Runs `stages` over a scene, after those with the outcomes `earlier`.
+    fn run_scene(
+        &self,
+        scene: &SceneConfig,
+        stages: &[&StageSpec],
+        force: bool,
+        earlier: &[SceneOutcome],
+        reporter: &dyn Reporter,
+    ) -> SceneOutcome {
+        let job = Job::new(self.config, scene, &self.dataset, self.workdir, force);
+        let mut outcome = SceneOutcome { name: scene.name.clone(), stages: Vec::new(), failure: None };
+        for spec in stages.iter().filter(|spec| job.wants(spec.stage)) {
+            let ready = match spec.stage {
+                // The manifest is part of what is verified.
+                Stage::Verify => self.write_manifest(earlier, Some(&scene.name)),
+                // Better before hours of rendering than after them.
+                Stage::Render if stages.iter().any(|s| s.stage == Stage::Denoise) => check_denoiser(&job),
+                _ => Ok(()),
+            };
+            match ready.and_then(|()| advance(spec, &job, StageCx::new(&scene.name, spec.stage, reporter))) {
+                Ok(done) => outcome.stages.push(done),
+                Err(error) => {
+                    outcome.failure = Some(told_failure(&scene.name, spec.stage, &error, reporter));
+                    break;
+                }
+            }
+        }
+        outcome
+    }
+
+    /// As [`forecast`], and nothing of the folder changes: scenes that are planned are tried out as they are, and the others, all of whose
+    /// frames count, in a folder that is removed.
+    fn forecast_aside(&self, scenes: &[&SceneConfig], reporter: &dyn Reporter) -> Result<Forecasts, Error> {
+        let time = Stopwatch::start();
+        let folder = self.workdir.aside()?;
+        let workdir = Workdir::create(folder.path())?;
+        let aside = Session::new(self.config, &workdir)?;
+        let sessions: Vec<&Session> = scenes.iter().map(|scene| if self.is_planned(scene) { self } else { &aside }).collect();
+        sessions.iter().zip(scenes).try_for_each(|(session, scene)| session.check_denoisers(&[*scene]))?;
+        let (mut outcomes, mut forecasts) = (Vec::new(), Vec::new());
+        for (session, scene) in sessions.iter().zip(scenes) {
+            let mut outcome = session.run_scene(scene, &before_rendering(), false, &outcomes, reporter);
+            forecasts.extend(session.forecast(scene, &mut outcome, &missing_frames, reporter));
+            outcomes.push(outcome);
+        }
+        let warnings = self.unknown_scenes().into_iter().collect();
+        Ok((Summary { scenes: outcomes, warnings, wall_s: time.wall_s() }, forecasts))
+    }
+
+    /// Forecasts what the `frames` of a scene take, with its name, unless its `outcome` is a failure by now.
+    fn forecast(
+        &self,
+        scene: &SceneConfig,
+        outcome: &mut SceneOutcome,
+        frames: &dyn Fn(&Job) -> Result<FramesByTrajectory, Error>,
+        reporter: &dyn Reporter,
+    ) -> Option<(String, Forecast)> {
+        if outcome.failure.is_some() {
+            return None;
+        }
+        let job = Job::new(self.config, scene, &self.dataset, self.workdir, false);
+        match frames(&job).and_then(|frames| forecast_of(&job, &frames, reporter)) {
+            Ok(forecast) => Some((scene.name.clone(), forecast)),
+            Err(error) => {
+                outcome.failure = Some(told_failure(&scene.name, Stage::Render, &error, reporter));
+                None
+            }
+        }
+    }
+
+    /// True when any frame of the scene is finished, or cannot be told from one that is.
+    fn has_frames(&self, scene: &SceneConfig) -> bool {
+        let name = &scene.name;
+        let has_none = |camera: &String| self.dataset.frame_numbers(name, camera).is_ok_and(|frames| frames.is_empty());
+        !self.dataset.cameras(name).unwrap_or_default().iter().all(has_none)
+    }
+
+    /// True when nothing is to be done for the scene before rendering.
+    fn is_planned(&self, scene: &SceneConfig) -> bool {
+        let job = Job::new(self.config, scene, &self.dataset, self.workdir, false);
+        let is_there = self.dataset.layout().metadata_cameras(&scene.name).is_file();
+        is_there && before_rendering().iter().all(|spec| is_up_to_date(spec, &job).unwrap_or(false))
+    }
+
     /// Better at once than after the stages that come before rendering.
     fn check_denoisers(&self, scenes: &[&SceneConfig]) -> Result<(), Error> {
         scenes.iter().try_for_each(|scene| check_denoiser(&Job::new(self.config, scene, &self.dataset, self.workdir, false)))
@@ -292,16 +379,12 @@ impl<'a> Session<'a> {
         if unknown.is_empty() {
             return None;
         }
-        let more = match unknown.len().saturating_sub(NAMES_SHOWN) {
-            0 => String::new(),
-            n => format!(" and {n} more"),
-        };
-        let names: Vec<&str> = unknown.iter().map(String::as_str).take(NAMES_SHOWN).collect();
+        let names: Vec<&str> = unknown.iter().map(String::as_str).collect();
         Some(format!(
-            "{} also holds scenes that this configuration does not have: {}{more}; they stay as they are, and stages such as `render` do not \
+            "{} also holds scenes that this configuration does not have: {}; they stay as they are, and stages such as `render` do not \
              know them until a configuration that has them is run",
             self.workdir.out().display(),
-            names.join(", ")
+            first_of(&names)
         ))
     }
 
@@ -357,8 +440,10 @@ impl<'a> Session<'a> {
     /// Writes the manifest of what is on disk, unless it is there already. The scene `at_work` has not failed (any more).
     fn write_manifest(&self, outcomes: &[SceneOutcome], at_work: Option<&str>) -> Result<(), Error> {
         let old = self.dataset.read_manifest().unwrap_or_default();
+        let there: BTreeSet<String> = self.dataset.scenes().map_err(Error::stage)?.into_iter().collect();
+        let is_known = |name: &String| there.contains(name) || self.config.scenes.iter().any(|scene| scene.name == *name);
         let mut failed_scenes: BTreeMap<String, String> = BTreeMap::new();
-        for (name, entry) in old.iter().flat_map(|m| &m.scenes) {
+        for (name, entry) in old.iter().flat_map(|m| &m.scenes).filter(|(name, _)| is_known(name)) {
             failed_scenes.extend(entry.failed.clone().map(|reason| (name.clone(), reason)));
         }
         for name in outcomes.iter().map(|o| o.name.as_str()).chain(at_work) {
@@ -376,9 +461,19 @@ impl<'a> Session<'a> {
             ..ManifestInfo::default()
         };
         let manifest = self.dataset.collect_manifest(&info).map_err(Error::stage)?;
-        if old.as_ref() != Some(&manifest) {
-            self.dataset.write_manifest(&manifest).map_err(Error::stage)?;
+        if old.as_ref() == Some(&manifest) {
+            return Ok(());
         }
-        Ok(())
+        if old.is_none_or(|old| !old.scenes.keys().eq(manifest.scenes.keys())) {
+            self.forget_other_scenes(&there)?;
+        }
+        self.dataset.write_manifest(&manifest).map_err(Error::stage)
+    }
+
+    /// Removes what other scenes than these have left in files of the dataset as a whole. A run makes its sheet and statistics again.
+    fn forget_other_scenes(&self, scenes: &BTreeSet<String>) -> Result<(), Error> {
+        let layout = self.dataset.layout();
+        [layout.overview(), layout.statistics()].iter().try_for_each(|path| remove_if_there(path))?;
+        self.dataset.retain_camera_parameters(|scene| scenes.contains(scene)).map_err(Error::stage)
     }
 }

@@ -41,7 +41,7 @@ pub fn scene_file_of(input: &Path) -> PathBuf {
 /// output from the scene and the labels that came with it, and what they cannot hold.
 ///
 /// # Errors
-/// When the file cannot be imported or the output cannot be written.
+/// When the file cannot be imported, or the output is a file that was read for it or cannot be written.
 pub fn import_file(
     source: &FileSource,
     output: &Path,
@@ -49,6 +49,7 @@ pub fn import_file(
     cx: &dyn Cx,
 ) -> Result<Imported, Error> {
     let imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
+    refuse_overwriting(output, &imported.inputs)?;
     let summary = describe(&imported.scene);
     let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
     let (bytes, lost) = encode(&imported.scene, labels.as_ref());
@@ -56,6 +57,19 @@ pub fn import_file(
     let report = output.with_extension("report.json");
     write_json(&report, &Report { scene: &summary, import: &imported.report, lost: &lost })?;
     Ok(Imported { summary, report, warnings: imported.report.warnings, lost })
+}
+
+/// Refuses an output that is one of the files that it is made from.
+pub(crate) fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error> {
+    // One that is not there is none of them.
+    let Ok(place) = output.canonicalize() else { return Ok(()) };
+    match inputs.iter().find(|input| input.canonicalize().is_ok_and(|input| input == place)) {
+        Some(input) => Err(Error::usage(
+            format!("the output {} is the file {} that it would be made from", output.display(), input.display()),
+            "nothing was written; choose another file with -o",
+        )),
+        None => Ok(()),
+    }
 }
 
 /// What making a home made.
@@ -86,4 +100,23 @@ pub fn make_home(
     write_whole(output, &bytes)?;
     let rooms = home.plan.rooms.iter().map(|room| format!("{} {:.1} m2", room.kind.name(), room.size.x * room.size.y));
     Ok(MadeHome { summary: describe(&home.scene), rooms: rooms.collect::<Vec<_>>().join(", "), lost, credits: home.credits })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_output_that_is_an_input_is_refused_however_it_is_spelled() {
+        let folder = tempfile::tempdir().unwrap();
+        let input = folder.path().join("room.glb");
+        let inputs = [folder.path().join("gone.png"), input.clone()];
+        // Before anything is there, nothing can be lost.
+        refuse_overwriting(&input, &inputs).unwrap();
+        std::fs::write(&input, "glTF").unwrap();
+        std::fs::create_dir(folder.path().join("out")).unwrap();
+        let error = refuse_overwriting(&folder.path().join("out/../room.glb"), &inputs).unwrap_err();
+        assert!(error.is_usage() && error.to_string().contains("room.glb that it would be made from"), "{error}");
+        refuse_overwriting(&folder.path().join("other.glb"), &inputs).unwrap();
+    }
 }

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// The choice that was made with [`split`], in the work folder.
-const CHOICE: &str = "split.json";
+pub(crate) const CHOICE: &str = "split.json";
 
 /// What stands in the dataset's `split.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -2,12 +2,15 @@
 
 use crate::config::FileSource;
 use crate::error::Error;
+use crate::single::refuse_overwriting;
 use crate::stages::load_file;
 use crate::workdir::write_whole;
+use enfilade_import::Imported;
 use enfilade_post::label::class_name;
 use enfilade_scene::{Cx, Scene};
 use enfilade_suggest::{Suggester, Suggestion};
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// Share of the names taken for granted that are right, unless a confidence is asked for.
@@ -38,19 +41,32 @@ pub struct UnsurePart {
 }
 
 /// Writes the label table `output` for the scene file of `source` (a path as it stands): a row per part, −1 where the confidence
-/// is below `min_confidence`, from 0 to 1; where that is not given, where fewer than nine of ten would be right.
+/// is below `min_confidence`, from 0 to 1; where that is not given, where fewer than nine of ten would be right. A table that is there and
+/// differs is replaced with `force` alone.
 ///
 /// # Errors
-/// When the confidence is out of range, the file cannot be imported, or the table cannot be written.
-pub fn suggest_labels(source: &FileSource, min_confidence: Option<f32>, output: &Path, cx: &dyn Cx) -> Result<SuggestedLabels, Error> {
+/// When the confidence is out of range, the file cannot be imported, or the table is a file that was read for it, holds something else or
+/// cannot be written.
+pub fn suggest_labels(
+    source: &FileSource,
+    min_confidence: Option<f32>,
+    output: &Path,
+    force: bool,
+    cx: &dyn Cx,
+) -> Result<SuggestedLabels, Error> {
     let suggester = Suggester::builtin();
     let min_confidence = min_confidence.or_else(|| suggester.min_confidence(PRECISION)).unwrap_or(1.0);
     if !(0.0..=1.0).contains(&min_confidence) {
         return Err(Error::usage(format!("the least confidence is {min_confidence}"), "give a number from 0 to 1"));
     }
-    let scene = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?.scene;
+    let Imported { scene, inputs, .. } = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
+    refuse_overwriting(output, &inputs)?;
     let suggestions = suggester.suggest_scene(&scene);
-    write_whole(output, table(&scene, &suggestions, min_confidence).as_bytes())?;
+    let table = table(&scene, &suggestions, min_confidence);
+    if !force {
+        refuse_another(output, &table)?;
+    }
+    write_whole(output, table.as_bytes())?;
     let mut found = SuggestedLabels { parts: scene.parts.len(), min_confidence, classes: BTreeMap::new(), unsure: Vec::new() };
     for (part, suggestion) in scene.parts.iter().zip(suggestions) {
         match suggestion {
@@ -62,6 +78,19 @@ pub fn suggest_labels(source: &FileSource, min_confidence: Option<f32>, output: 
         }
     }
     Ok(found)
+}
+
+/// Refuses to replace a file that is not `table`: people correct these by hand.
+fn refuse_another(output: &Path, table: &str) -> Result<(), Error> {
+    match std::fs::read(output) {
+        Ok(there) if there == table.as_bytes() => Ok(()),
+        Ok(_) => Err(Error::usage(
+            format!("{} is there and differs from what is suggested; someone may have corrected it", output.display()),
+            "name another file with -o, or replace it with --force",
+        )),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(Error::io("read", output)(error)),
+    }
 }
 
 /// The table as `label` reads it, which ignores the last two columns: how sure we are, and of what.

@@ -4,22 +4,33 @@
 //! OUT/.enfilade/lock                 held by the process at work
 //! OUT/.enfilade/run.json             the resolved configuration, and the folder its relative paths start from
 //! OUT/.enfilade/gathered.json        of a dataset that others made: which job's files were brought here
+//! OUT/.enfilade/split.json           how the dataset is divided, where that was chosen
+//! OUT/.enfilade/.estimate/           what a forecast tries out where the folder is to stay as it is
 //! OUT/.enfilade/SCENE/scene.scene    the scene package
 //! OUT/.enfilade/SCENE/partial/       frames in the making, to go on from where a run was killed
 //! OUT/.enfilade/SCENE/STAGE.json     what the stage read and wrote, its warnings and times: written last, after all outputs
 //! ```
 
 use crate::error::Error;
+use crate::parts::GATHERED;
+use crate::split::CHOICE;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::fs::{self, File, TryLockError};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
+use tempfile::TempDir;
 
 /// Name of the folder within the dataset.
 pub const WORKDIR: &str = ".enfilade";
 
 /// The resolved configuration in the work folder.
 pub(crate) const RUN: &str = "run.json";
+/// Held by the process at work.
+const LOCK: &str = "lock";
+/// What is tried out, while it is.
+const ASIDE: &str = ".estimate";
+/// The files beside the folders of scenes: no scene can have such a name.
+pub(crate) const OWN_FILES: [&str; 4] = [LOCK, RUN, GATHERED, CHOICE];
 /// The scene package in a scene's part of the work folder.
 pub(crate) const PACKAGE: &str = "scene.scene";
 
@@ -40,7 +51,10 @@ impl Workdir {
             refuse_foreign_folder(out)?;
             fs::create_dir_all(out.join(WORKDIR)).map_err(Error::io("create", &out.join(WORKDIR)))?;
         }
-        Ok(Self { out: out.into(), _lock: lock(out)? })
+        let workdir = Self { out: out.into(), _lock: lock(out)? };
+        // A forecast that was killed has left it.
+        remove_folder(&workdir.file(ASIDE))?;
+        Ok(workdir)
     }
 
     /// Opens the work folder of an existing dataset, and locks it.
@@ -65,6 +79,10 @@ impl Workdir {
 
     /// A file of a scene's work folder; the folder exists afterwards.
     pub(crate) fn scene_file(&self, scene: &str, file: &str) -> Result<PathBuf, Error> {
+        if OWN_FILES.contains(&scene) {
+            let message = format!("no scene can be named {scene:?}: the work folder has a file of that name");
+            return Err(Error::usage(message, "give the scene another name"));
+        }
         let folder = self.out.join(WORKDIR).join(scene);
         fs::create_dir_all(&folder).map_err(Error::io("create", &folder))?;
         Ok(folder.join(file))
@@ -73,6 +91,12 @@ impl Workdir {
     /// A file of the work folder itself.
     pub(crate) fn file(&self, file: &str) -> PathBuf {
         self.out.join(WORKDIR).join(file)
+    }
+
+    /// An empty folder to try things out in, which is removed with the value.
+    pub(crate) fn aside(&self) -> Result<TempDir, Error> {
+        let made = tempfile::Builder::new().prefix(ASIDE).rand_bytes(0).tempdir_in(self.out.join(WORKDIR));
+        made.map_err(Error::io("create", &self.file(ASIDE)))
     }
 }
 
@@ -92,7 +116,7 @@ fn refuse_foreign_folder(out: &Path) -> Result<(), Error> {
 
 /// Takes the lock, which the system gives back when this process ends in whatever way.
 fn lock(out: &Path) -> Result<File, Error> {
-    let path = out.join(WORKDIR).join("lock");
+    let path = out.join(WORKDIR).join(LOCK);
     let mut options = File::options();
     let mut file = options.create(true).truncate(false).read(true).write(true).open(&path).map_err(Error::io("write", &path))?;
     match file.try_lock() {
@@ -144,6 +168,14 @@ pub(crate) fn remove_if_there(path: &Path) -> Result<(), Error> {
     }
 }
 
+/// Removes a folder that may not exist, with all that is in it.
+pub(crate) fn remove_folder(path: &Path) -> Result<(), Error> {
+    match fs::remove_dir_all(path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io("remove", path)(e)),
+        _ => Ok(()),
+    }
+}
+
 /// A BLAKE3 hash as hexadecimal text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Hash(pub String);
@@ -181,6 +213,31 @@ mod tests {
         assert!(error.to_string().contains(&format!("another process (process {})", std::process::id())), "{error}");
         drop(first);
         Workdir::open(&out).unwrap();
+    }
+
+    #[test]
+    fn a_folder_to_try_things_out_in_goes_again_even_where_it_was_left_behind() {
+        let dir = tempfile::tempdir().unwrap();
+        let workdir = Workdir::create(dir.path()).unwrap();
+        let aside = workdir.aside().unwrap();
+        fs::write(aside.path().join("file"), "x").unwrap();
+        let left = aside.keep();
+        drop(workdir);
+        let workdir = Workdir::open(dir.path()).unwrap();
+        assert!(!left.exists());
+        drop(workdir.aside().unwrap());
+        assert!(!left.exists());
+    }
+
+    #[test]
+    fn a_scene_with_the_name_of_a_file_of_the_work_folder_is_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let workdir = Workdir::create(dir.path()).unwrap();
+        for name in ["lock", "run.json", "split.json", "gathered.json"] {
+            let error = workdir.scene_file(name, PACKAGE).unwrap_err();
+            assert!(error.is_usage() && error.to_string().contains(name), "{error}");
+        }
+        workdir.scene_file("clock", PACKAGE).unwrap();
     }
 
     #[test]

@@ -4,7 +4,7 @@ use enfilade_dataset::Dataset;
 use enfilade_dataset::hdf5::{Array, Storage, write_array};
 use enfilade_frame::Layer;
 use enfilade_math::DVec3;
-use enfilade_pipeline::{Config, Overrides, Silent, run};
+use enfilade_pipeline::{Config, Overrides, Silent, Stage, run, run_stage};
 use enfilade_scene::Intrinsics;
 use std::path::Path;
 
@@ -52,6 +52,11 @@ fn datasets_of_every_camera_verify_and_are_made_once() {
     assert!(run(&config, &out, None, &Silent).unwrap().nothing_done());
 
     let dataset = Dataset::open(&out).unwrap();
+    let finished = |scene: &String| dataset.frame_numbers(scene, "cam_00").unwrap();
+    let frames = || dataset.scenes().unwrap().iter().map(finished).collect::<Vec<_>>();
+    let before = frames();
+    assert!(run_stage(&out, Stage::Plan, None, true, &Silent).unwrap().ok());
+    assert_eq!(frames(), before, "the same plan costs no frame");
     assert_eq!(dataset.cameras("stereo").unwrap(), ["cam_00", "cam_01"]);
     let eyes = ["cam_00", "cam_01"].map(|camera| dataset.read_trajectory("stereo", camera).unwrap().poses[1]);
     assert!((eyes[0].position.distance(eyes[1].position) - 0.12).abs() < 1e-12);

@@ -126,11 +126,19 @@ pub fn write_contact_sheet(
 /// # Errors
 /// When a layer cannot be read or the file cannot be written.
 pub fn write_overview(dataset: &Dataset, title: &str, config: &SheetConfig) -> Result<PathBuf, DatasetError> {
+    write_overview_of(dataset, &dataset.scenes()?, title, config)
+}
+
+/// As [`write_overview`], with these scenes alone.
+///
+/// # Errors
+/// As there.
+pub fn write_overview_of(dataset: &Dataset, scenes: &[String], title: &str, config: &SheetConfig) -> Result<PathBuf, DatasetError> {
     let mut filmed: Vec<(String, String, Vec<u32>)> = Vec::new();
-    for scene in dataset.scenes()? {
-        for camera in dataset.cameras(&scene)? {
-            let frames = dataset.frame_numbers(&scene, &camera)?;
-            if frames.first().is_some_and(|&first| dataset.has_layer(&scene, &camera, first, Layer::Color)) {
+    for scene in scenes {
+        for camera in dataset.cameras(scene)? {
+            let frames = dataset.frame_numbers(scene, &camera)?;
+            if frames.first().is_some_and(|&first| dataset.has_layer(scene, &camera, first, Layer::Color)) {
                 filmed.push((scene.clone(), camera, frames));
             }
         }
@@ -248,6 +256,24 @@ mod tests {
         let sheet = image::open(write_overview(&dataset, "homes", &SheetConfig { width: 600, frames: 1 }).unwrap()).unwrap();
         // Four columns of pictures 113 x 85 pixels large: 50 rows with their captions, and what stands above and below.
         assert_eq!((sheet.width(), sheet.height()), (600, 50 * (85 + 64) + 140));
+    }
+
+    #[test]
+    fn the_overview_of_some_scenes_shows_no_others() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        let config = SheetConfig { width: 600, frames: 1 };
+        let alone = std::fs::read(write_overview(&dataset, "homes", &config).unwrap()).unwrap();
+        let color = |scene: &str| dataset.layout().layer(scene, "cam_00", 0, Layer::Color);
+        for path in [color("hall"), dataset.layout().metadata_cameras("hall")] {
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        }
+        std::fs::copy(color("room"), color("hall")).unwrap();
+        std::fs::write(dataset.layout().metadata_cameras("hall"), "camera_name\ncam_00\n").unwrap();
+        let of_both = write_overview(&dataset, "homes", &config).unwrap();
+        assert!(std::fs::read(&of_both).unwrap() != alone);
+        let of_one = write_overview_of(&dataset, &["room".to_string()], "homes", &config).unwrap();
+        assert!(of_one == of_both && std::fs::read(of_one).unwrap() == alone);
     }
 
     #[test]

@@ -57,11 +57,13 @@ impl Config {
         enfilade_pipeline::Config::demo(&overrides).map(Self).map_err(IntoPy::into_py)
     }
 
-    /// The configuration that `to_dict` gave, changed or not. `base` is the folder where relative paths in it start.
+    /// The configuration that `to_dict` gave, changed or not; unknown keys, and values that `read` refuses, are a ValueError. `base` is the
+    /// folder where relative paths in it start.
     #[staticmethod]
     #[pyo3(signature = (settings, base=PathBuf::from(".")))]
     fn from_dict(settings: &Bound<'_, PyAny>, base: PathBuf) -> PyResult<Self> {
         let config: enfilade_pipeline::Config = json::from_python(settings)?;
+        config.check().map_err(IntoPy::into_py)?;
         Ok(Self(enfilade_pipeline::Config { base: std::path::absolute(base)?, ..config }))
     }
 

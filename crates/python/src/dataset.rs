@@ -3,11 +3,11 @@
 use crate::arguments::{Names, Place, layers, position, split};
 use crate::arrays;
 use crate::errors::IntoPy;
-use crate::loader::{Loader, decode_all};
+use crate::loader::{Loader, decode_all, gives_own_samples};
 use enfilade_loader::{Choice, Crop, Options, Samples};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -24,6 +24,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// - `K`: float64, 3 × 3, OpenCV's: x right, y down, (0, 0) the centre of the upper left pixel; that of the crop and size asked for, before
 ///   lens distortion. Missing for panoramas and grids of rays.
 /// - `world_from_camera`: float64, 4 × 4, metres; camera axes are OpenCV's (x right, y down, z forward), the world's z is up.
+///   A tilted image plane, as most of Apple's cameras have, is straightened by a turn of the camera, which is in `K` and pose. It is not in
+///   `normal_cam`, `normal_bump_cam` and `scene_flow`, which have the camera's own axes (x right, y up, z backward): normals in the axes of
+///   `K` are `normal_world @ world_from_camera[:3, :3]`.
 /// - `scene`, `camera`, `frame`, `index`, and `window`: row, column, height and width of the part of the frame that is shown.
 ///
 /// Parameters
@@ -44,6 +47,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct Dataset {
     samples: Arc<Samples>,
     epoch: AtomicU64,
+    /// Absolute, as its table of cameras is: the current folder may change.
+    root: PathBuf,
     arguments: Arguments,
 }
 
@@ -80,11 +85,11 @@ impl Arguments {
         })
     }
 
-    fn open(&self, py: Python<'_>) -> PyResult<Samples> {
+    /// `root` is the absolute path of the dataset.
+    fn open(&self, py: Python<'_>, root: &Path) -> PyResult<Samples> {
         let (options, layers, split) = (self.options()?, layers(self.layers.as_ref())?, split(self.split.as_deref())?);
-        let path = std::path::absolute(&self.path)?;
         py.detach(|| {
-            let dataset = enfilade_dataset::Dataset::open(&path).map_err(IntoPy::into_py)?;
+            let dataset = enfilade_dataset::Dataset::open(root).map_err(IntoPy::into_py)?;
             let dataset = match &self.camera_table {
                 Some(table) => dataset.with_camera_table(table),
                 None => dataset,
@@ -134,9 +139,10 @@ impl Dataset {
         epoch: u64,
         camera_table: Option<PathBuf>,
     ) -> PyResult<Self> {
+        let (root, camera_table) = (std::path::absolute(&path)?, camera_table.map(std::path::absolute).transpose()?);
         let arguments =
             Arguments { layers, scenes, cameras, split, crop, crop_place, resize, tone_map, mask, poses, stored, seed, camera_table, path };
-        Ok(Self { samples: Arc::new(arguments.open(py)?), epoch: AtomicU64::new(epoch), arguments })
+        Ok(Self { samples: Arc::new(arguments.open(py, &root)?), epoch: AtomicU64::new(epoch), root, arguments })
     }
 
     fn __len__(&self) -> usize {
@@ -149,12 +155,17 @@ impl Dataset {
         arrays::sample(py, index, sample)
     }
 
-    /// The samples of several indices, decoded on all cores; torch's DataLoader asks for a batch so.
-    fn __getitems__<'py>(&self, py: Python<'py>, indices: Vec<isize>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let indices = indices.into_iter().map(|index| self.index(index)).collect::<PyResult<Vec<_>>>()?;
-        let epoch = self.epoch.load(Ordering::Relaxed);
-        let samples = py.detach(|| decode_all(&indices, |index| self.samples.sample(index, epoch))).map_err(IntoPy::into_py)?;
-        indices.into_iter().zip(samples).map(|(index, sample)| arrays::sample(py, index, sample)).collect()
+    /// The samples of several indices, decoded on all cores; torch's DataLoader asks for a batch so. Those of a subclass with a
+    /// `__getitem__` of its own come from there, one by one.
+    fn __getitems__<'py>(this: &Bound<'py, Self>, indices: Vec<isize>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        if gives_own_samples(this)? {
+            return indices.into_iter().map(|index| this.as_any().get_item(index)).collect();
+        }
+        let (py, frames) = (this.py(), this.get());
+        let indices = indices.into_iter().map(|index| frames.index(index)).collect::<PyResult<Vec<_>>>()?;
+        let epoch = frames.epoch.load(Ordering::Relaxed);
+        let samples = py.detach(|| decode_all(&indices, |index| frames.samples.sample(index, epoch))).map_err(IntoPy::into_py)?;
+        indices.into_iter().zip(samples).map(|(index, sample)| Ok(arrays::sample(py, index, sample)?.into_any())).collect()
     }
 
     /// Scene, camera and frame number of a sample, without decoding it.
@@ -201,10 +212,9 @@ impl Dataset {
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
         let named = self.arguments.clone().into_pyobject(py)?;
-        let path = std::path::absolute(&self.arguments.path)?;
         named.del_item("path")?;
         named.set_item("epoch", self.epoch())?;
-        Ok((PyTuple::new(py, [path])?, named))
+        Ok((PyTuple::new(py, [&self.root])?, named))
     }
 
     fn __repr__(&self) -> String {

@@ -14,5 +14,7 @@ pub fn to_python<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound
 /// The inverse of [`to_python`].
 pub fn from_python<T: DeserializeOwned>(value: &Bound<'_, PyAny>) -> PyResult<T> {
     let text: String = value.py().import("json")?.call_method1("dumps", (value,))?.extract()?;
-    serde_json::from_str(&text).map_err(|error| PyValueError::new_err(error.to_string()))
+    let wrong = |error: serde_json::Error| PyValueError::new_err(error.to_string());
+    // By way of a value: errors then name no line of a text that nobody has seen.
+    serde_json::from_value(serde_json::from_str(&text).map_err(wrong)?).map_err(wrong)
 }

@@ -3,6 +3,7 @@
 use crate::arrays::{self, Batch};
 use crate::errors::IntoPy;
 use enfilade_loader::{LoaderError, Sample, Samples, Stream, shuffled};
+use pyo3::PyTypeInfo;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -23,6 +24,12 @@ pub fn decode_all(indices: &[usize], decode: impl Fn(usize) -> Result<Sample, Lo
         let parts = threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
         parts.collect::<Result<Vec<_>, _>>().map(|parts| parts.into_iter().flatten().collect())
     })
+}
+
+/// True for a dataset of a subclass whose `__getitem__` is not ours: it is to be asked for samples.
+pub fn gives_own_samples<T: PyTypeInfo>(dataset: &Bound<'_, T>) -> PyResult<bool> {
+    let ours = dataset.py().get_type::<T>().getattr("__getitem__")?;
+    Ok(!dataset.as_any().get_type().getattr("__getitem__")?.is(&ours))
 }
 
 /// Passes over a dataset, one for every `for`, whose samples threads decode ahead; made by `Dataset.loader`.

@@ -136,19 +136,23 @@ fn shape(what: &str, array: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
 
 fn no_array(what: &str, found: &Bound<'_, PyAny>) -> PyErr {
     let kind = found.getattr("dtype").map_or_else(|_| format!("a {}", found.get_type()), |dtype| format!("an array of {dtype}"));
-    PyTypeError::new_err(format!("{what} is {kind}; expected a numpy array of uint8, int16, uint16, int32 or int64"))
+    PyTypeError::new_err(format!("{what} is {kind}; expected a numpy array of integers"))
 }
 
 /// The values of an array of integers.
 fn numbers(what: &str, array: &Bound<'_, PyAny>) -> PyResult<Vec<i64>> {
-    fn of<T: numpy::Element + Copy + Into<i64>>(array: &Bound<'_, PyAny>) -> Option<Vec<i64>> {
+    fn of<T: numpy::Element + Copy>(array: &Bound<'_, PyAny>, number: impl Fn(T) -> i64) -> Option<Vec<i64>> {
         let array = array.cast::<PyArrayDyn<T>>().ok()?.readonly();
         Some(match array.as_slice() {
             // A slice has the order of memory, which in Fortran's order is not that of the pixels.
-            Ok(values) if array.is_c_contiguous() => values.iter().map(|&value| value.into()).collect(),
-            _ => array.as_array().iter().map(|&value| value.into()).collect(),
+            Ok(values) if array.is_c_contiguous() => values.iter().map(|&value| number(value)).collect(),
+            _ => array.as_array().iter().map(|&value| number(value)).collect(),
         })
     }
-    let found = of::<i64>(array).or_else(|| of::<u8>(array)).or_else(|| of::<i16>(array));
-    found.or_else(|| of::<u16>(array)).or_else(|| of::<i32>(array)).ok_or_else(|| no_array(what, array))
+    let found = of::<i64>(array, |value| value).or_else(|| of::<u8>(array, i64::from)).or_else(|| of::<i16>(array, i64::from));
+    let found = found.or_else(|| of::<u16>(array, i64::from)).or_else(|| of::<i32>(array, i64::from));
+    let found = found.or_else(|| of::<i8>(array, i64::from)).or_else(|| of::<u32>(array, i64::from));
+    // What is larger than any int64 is no class, as the largest is none.
+    let found = found.or_else(|| of::<u64>(array, |value| i64::try_from(value).unwrap_or(i64::MAX)));
+    found.ok_or_else(|| no_array(what, array))
 }

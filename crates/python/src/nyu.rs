@@ -3,7 +3,7 @@
 use crate::arguments::{Names, layers, position};
 use crate::arrays;
 use crate::errors::IntoPy;
-use crate::loader::decode_all;
+use crate::loader::{decode_all, gives_own_samples};
 use enfilade_loader::{NYU_LAYERS, NyuChoice, NyuClasses, NyuSplit, NyuV2 as Images, nyu13_of_nyu40};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -91,11 +91,16 @@ impl NyuV2 {
         arrays::sample(py, index, sample)
     }
 
-    /// The samples of several indices, decoded on all cores; torch's DataLoader asks for a batch so.
-    fn __getitems__<'py>(&self, py: Python<'py>, indices: Vec<isize>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let indices = indices.into_iter().map(|index| self.index(index)).collect::<PyResult<Vec<_>>>()?;
-        let samples = py.detach(|| decode_all(&indices, |index| self.images.sample(index))).map_err(IntoPy::into_py)?;
-        indices.into_iter().zip(samples).map(|(index, sample)| arrays::sample(py, index, sample)).collect()
+    /// The samples of several indices, decoded on all cores; torch's DataLoader asks for a batch so. Those of a subclass with a
+    /// `__getitem__` of its own come from there, one by one.
+    fn __getitems__<'py>(this: &Bound<'py, Self>, indices: Vec<isize>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        if gives_own_samples(this)? {
+            return indices.into_iter().map(|index| this.as_any().get_item(index)).collect();
+        }
+        let (py, frames) = (this.py(), this.get());
+        let indices = indices.into_iter().map(|index| frames.index(index)).collect::<PyResult<Vec<_>>>()?;
+        let samples = py.detach(|| decode_all(&indices, |index| frames.images.sample(index))).map_err(IntoPy::into_py)?;
+        indices.into_iter().zip(samples).map(|(index, sample)| Ok(arrays::sample(py, index, sample)?.into_any())).collect()
     }
 
     /// Number of a sample's image in the file, from 1, without decoding it.

@@ -51,21 +51,23 @@ pub fn stage<'py>(py: Python<'py>, name: &str, dataset: PathBuf, scenes: Option<
 /// Checks the laws that hold in every dataset, ours or Hypersim's, and gives the report as a dictionary: `passed`, `laws`, `gates` and
 /// the values of all frames.
 ///
-/// scenes: only these; otherwise the report is also written to verify.json and verify.html.
+/// scenes: only these; otherwise the report is also written to verify.json and verify.html, and a warning tells where that cannot be done.
 #[pyfunction]
 #[pyo3(signature = (dataset, *, scenes=None))]
 pub fn verify<'py>(py: Python<'py>, dataset: PathBuf, scenes: Option<Names>) -> PyResult<Bound<'py, PyAny>> {
-    let report = interruptible(py, |cx: &Interrupt| {
+    let (report, unstored) = interruptible(py, |cx: &Interrupt| {
         let dataset = Dataset::open(&dataset).map_err(IntoPy::into_py)?;
         let all = dataset.scenes().map_err(IntoPy::into_py)?;
         let pattern = scenes.map(|scenes| scenes.pattern());
         let chosen = enfilade_pipeline::select("scene", &all, pattern.as_deref()).map_err(IntoPy::into_py)?;
         let report = enfilade_pipeline::verify(&dataset, &chosen, cx).map_err(IntoPy::into_py)?;
-        if pattern.is_none() {
-            write_report(&dataset, &report).map_err(IntoPy::into_py)?;
-        }
-        Ok::<_, PyErr>(report)
+        let stored = if pattern.is_none() { write_report(&dataset, &report) } else { Ok(()) };
+        Ok::<_, PyErr>((report, stored.err()))
     })?;
+    // Data of others may lie where nothing can be written.
+    if let Some(error) = unstored {
+        py.import("warnings")?.call_method1("warn", (format!("the report is not stored: {error}"),))?;
+    }
     json::to_python(py, &report)
 }
 
@@ -86,6 +88,8 @@ pub fn split<'py>(py: Python<'py>, dataset: PathBuf, seed: Option<u64>, shares: 
 /// Copies frames, cameras and tables of a dataset, ours or Hypersim's, to the folder `output`, with images that are stored as they are (depth, and
 /// what hardly shrinks, as colours) or under LZ4: larger than Hypersim's gzip, and ten and more times as fast to read by `enfilade.Dataset` as that
 /// is by h5py. Values and names are the same. h5py reads the copy with the package hdf5plugin.
+///
+/// An earlier copy in `output` is replaced as a whole, when the new one is complete; what is no copy is refused.
 ///
 /// layers: only these. Gives the number of files and their bytes before and after.
 #[pyfunction]

@@ -1,7 +1,9 @@
 """Order, threads, worker processes and pickling change no value."""
 
+import contextlib
 import multiprocessing
 import pickle
+import shutil
 import threading
 import unittest
 
@@ -46,6 +48,29 @@ class Loading(unittest.TestCase):
             with self.assertRaises(IndexError):
                 self.frames[wrong]
         self.assertEqual([digest(sample) for sample in self.frames.__getitems__([2, 0])], [self.expected[2], self.expected[0]])
+
+    def test_a_subclass_gives_its_own_samples_in_batches_too(self):
+        class Named(enfilade.Dataset):
+            def __getitem__(self, index):
+                return super().__getitem__(index) | {"name": "/".join(map(str, self.place(index)))}
+
+        class Plain(enfilade.Dataset):
+            pass
+
+        names = [sample["name"] for sample in Named(datasets.made(), layers="color").__getitems__([2, -3])]
+        self.assertEqual(names, ["home/cam_00/2", "home/cam_00/0"])
+        self.assertEqual(len(Plain(datasets.made(), layers="color").__getitems__([2, 0])), 2)
+
+    def test_relative_paths_begin_where_the_dataset_was_opened(self):
+        root = datasets.folder() / "relative"
+        shutil.copytree(datasets.as_hypersim(), root)
+        table = root / "metadata_camera_parameters.csv"
+        table.rename(root / "cameras.csv")
+        with contextlib.chdir(root):
+            frames = enfilade.Dataset(".", layers="depth_meters", camera_table="cameras.csv")
+        again = pickle.loads(pickle.dumps(frames))
+        self.assertEqual([digest(sample) for sample in frames], [digest(sample) for sample in again])
+        self.assertIn("K", frames[0])
 
     def test_arrays_are_not_copied_and_can_be_written_to(self):
         color = self.frames[0]["color"]

@@ -31,9 +31,9 @@ class Confusion(unittest.TestCase):
 
     def test_integers_of_every_type_and_order_count_alike(self):
         expected = by_numpy(self.prediction, self.truth, 13)
-        for kind in (np.int16, np.int32, np.int64):
+        for signed, unsigned in ((np.int8, np.uint8), (np.int16, np.uint16), (np.int32, np.uint32), (np.int64, np.uint64)):
             scores = enfilade.Confusion(13)
-            scores.add(self.prediction.astype(np.uint8)[:, ::-1], self.truth.astype(kind)[:, ::-1])
+            scores.add(self.prediction.astype(unsigned)[:, ::-1], self.truth.astype(signed)[:, ::-1])
             np.testing.assert_array_equal(scores.counts, expected)
         scores = enfilade.Confusion(13)
         scores.add(self.prediction.astype(np.uint16), np.where(self.truth < 0, 255, self.truth).astype(np.uint8), ignore=255)
@@ -69,8 +69,9 @@ class Confusion(unittest.TestCase):
         cases = [
             ((np.array([0, 1, 3]), right), ValueError, "prediction 3 at place 2 is no class: expected 0 to 2"),
             ((right, np.array([0, 7, -1])), ValueError, "true class 7 at place 1"),
+            ((right, np.array([0, 2**64 - 1, 1], dtype=np.uint64)), ValueError, "true class .* at place 1"),
             ((right, np.array([[0, 1, 2]])), ValueError, "expected the same"),
-            ((right.astype(float), right), TypeError, "an array of float64; expected a numpy array of uint8"),
+            ((right.astype(float), right), TypeError, "an array of float64; expected a numpy array of integers"),
             (([0, 1], right), TypeError, "prediction is a .*list"),
         ]
         for arguments, error, said in cases:

@@ -115,6 +115,14 @@ class NyuV2(unittest.TestCase):
         for index, sample in zip([4, 0, -1], dataset.__getitems__([4, 0, -1])):
             np.testing.assert_array_equal(sample["color"], color[index])
 
+    def test_a_subclass_gives_its_own_samples_in_batches_too(self):
+        class Named(enfilade.NyuV2):
+            def __getitem__(self, index):
+                return super().__getitem__(index) | {"name": f"image {self.frame(index)}"}
+
+        self.make()
+        self.assertEqual([sample["name"] for sample in Named(self.path, partial=True).__getitems__([4, -5])], ["image 5", "image 1"])
+
     def test_threads_and_processes_read_at_the_same_time(self):
         color, _, _ = self.make(chunks=(16, 12))
         dataset = self.open()

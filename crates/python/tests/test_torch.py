@@ -62,6 +62,16 @@ class TorchDataLoader(unittest.TestCase):
         self.assertEqual(windows[2], windows[3])
         self.assertNotEqual(windows[0], windows[2])
 
+    def test_batches_of_a_subclass_are_of_its_own_samples(self):
+        class Brighter(enfilade.Dataset):
+            def __getitem__(self, index):
+                sample = super().__getitem__(index)
+                return sample | {"color": 2 * sample["color"]}
+
+        batch = next(iter(DataLoader(Brighter(datasets.made(), layers="color"), batch_size=3)))
+        plain = enfilade.Dataset(datasets.made(), layers="color")
+        self.assertTrue(torch.equal(batch["color"], torch.from_numpy(np.stack([2 * sample["color"] for sample in plain]))))
+
     def test_batches_of_ours_become_tensors_without_a_copy(self):
         batch = next(iter(self.frames.loader(batch_size=3)))
         self.check({key: torch.from_numpy(batch[key]) for key in [*ARRAYS, "index"]} | {"scene": batch["scene"]}, [0, 1, 2])

@@ -55,6 +55,17 @@ class StoredValues(unittest.TestCase):
             with h5py.File(datasets.file_of(root, after[0], "position"), "r") as file:
                 self.assertEqual(file["dataset"].attrs.get("unit"), unit)
 
+    def test_only_a_copy_is_replaced_by_a_repacked_one(self):
+        made, other, copy = datasets.made(), datasets.folder() / "finished", datasets.folder() / "repacked-again"
+        shutil.copytree(made, other)
+        table = (other / "metadata_camera_parameters.csv").read_bytes()
+        with self.assertRaisesRegex(ValueError, "finished .*not made by `repack`"):
+            enfilade.repack(datasets.as_hypersim(), other)
+        self.assertEqual((other / "metadata_camera_parameters.csv").read_bytes(), table)
+        enfilade.repack(made, copy)
+        enfilade.repack(datasets.as_hypersim(), copy, layers=["color", "depth_meters"])
+        self.assertEqual(enfilade.Dataset(copy).layers, ["color", "depth_meters"])
+
     def test_crops_are_parts_of_the_whole(self):
         for root in (datasets.made(), datasets.as_hypersim()):
             whole = enfilade.Dataset(root)

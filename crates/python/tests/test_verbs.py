@@ -29,6 +29,15 @@ class Verbs(unittest.TestCase):
         self.assertTrue(report["passed"], [law for law in report["laws"] if not law["holds"]])
         self.assertEqual(report["frames"], 3)
 
+    def test_a_report_that_cannot_be_stored_is_given_all_the_same(self):
+        root = datasets.folder() / "unwritable"
+        shutil.copytree(datasets.made(), root)
+        (root / "verify.json").unlink(missing_ok=True)
+        (root / "verify.json").mkdir()
+        with self.assertWarnsRegex(UserWarning, "the report is not stored: .*verify.json"):
+            report = enfilade.verify(root)
+        self.assertEqual(report["frames"], 3)
+
     def test_a_configuration_is_plain_data(self):
         config = datasets.small_config()
         settings = config.to_dict()
@@ -38,6 +47,21 @@ class Verbs(unittest.TestCase):
             enfilade.Config.read("nowhere.toml")
         with self.assertRaisesRegex(ValueError, "quality"):
             enfilade.Config.demo(quality="best")
+
+    def test_a_configuration_that_cannot_be_is_refused(self):
+        changes = [
+            (lambda settings: settings.update(sampels=3), "unknown field `sampels`"),
+            (lambda settings: settings["scenes"][0].update(sede=3), "unknown field `sede`"),
+            (lambda settings: settings["scenes"].clear(), "has no scenes"),
+            (lambda settings: settings["scenes"].extend(settings["scenes"]), "two scenes have the name \"home\""),
+            (lambda settings: settings["scenes"][0].update(name="../x"), "\"../x\" cannot be the name of a scene; names become folders"),
+            (lambda settings: settings["scenes"][0].update(size=[0, 5]), "scene \"home\": width and height .*found 0 x 5"),
+        ]
+        for change, said in changes:
+            settings = datasets.small_config().to_dict()
+            change(settings)
+            with self.assertRaisesRegex(ValueError, said):
+                enfilade.Config.from_dict(settings)
 
     def test_a_scene_that_fails_is_an_exception_with_the_summary(self):
         settings = datasets.small_config().to_dict()

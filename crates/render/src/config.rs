@@ -2,6 +2,10 @@ use crate::error::RenderError;
 use enfilade_math::warp;
 use serde::{Deserialize, Serialize};
 
+/// The smallest radius of the filter, in pixels. Where a ray meets what is half transparent decides whether it passes, so the rays of a
+/// pixel must not all be the same. Nobody sees a thousandth of a pixel, and float32 still has hundreds of directions within it.
+const LEAST_RADIUS: f32 = 1e-3;
+
 /// The reconstruction filter: how samples are spread about a pixel's centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -16,6 +20,7 @@ pub enum Filter {
 impl Filter {
     /// Offset from the pixel's centre along one axis, in pixels, distributed as the filter; `u` is uniform on [0,1).
     pub(crate) fn offset(self, u: f32, radius: f32) -> f32 {
+        let radius = radius.max(LEAST_RADIUS);
         match self {
             Self::Tent => warp::tent(u, radius),
             Self::Box => (2.0 * u - 1.0) * radius,
@@ -33,7 +38,8 @@ pub struct RenderConfig {
     /// Spreads the samples over the pixels in proportion to the error that each one has left. Default true.
     pub adaptive: bool,
     /// Stops below `samples` where this noise is reached: the root mean square over the image of each pixel's standard error over
-    /// (its luminance + 0.2 × the image's mean). Default none; 0.02 is a clean picture.
+    /// (its luminance + 0.2 × the image's mean). The first samples tell how many it takes: a quarter of `samples`, at most 64. Default
+    /// none; 0.02 is a clean picture.
     pub noise: Option<f32>,
     /// Learns before rendering where indirect light comes from and sends rays there. Changes noise, never the mean. Default true.
     pub guiding: bool,
@@ -54,7 +60,7 @@ pub struct RenderConfig {
     pub roulette_start: u32,
     /// Shape of the reconstruction filter. Default a tent.
     pub filter: Filter,
-    /// Radius of the reconstruction filter, in pixels. Default 1, as Mitsuba's `tent`.
+    /// Radius of the reconstruction filter, in pixels; what is below 0.001 counts as that. Default 1, as Mitsuba's `tent`.
     pub filter_radius: f32,
     /// Seed of all random numbers. A frame depends on the scene, the camera, all views that the guide has learned from, the frame's
     /// number and this configuration, and on nothing else.

@@ -22,6 +22,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 const FIRST_SHARE: u32 = 4;
 /// The fewest samples that say anything about a pixel's error.
 const FEWEST: u32 = 8;
+/// With a noise target no more than this many are spread evenly: `samples` may be far beyond what the target takes, and the pixels around
+/// one, which speak for it, have three thousand of them.
+const FIRST_FOR_NOISE: u32 = 64;
 /// A frame has met its noise target up to this many times that.
 const NOISE_ROOM: f64 = 1.25;
 
@@ -77,10 +80,24 @@ pub(crate) struct Schedule {
 
 impl Schedule {
     pub fn new(config: &RenderConfig) -> Self {
-        let spread = config.adaptive || config.noise.is_some();
-        let first = if spread { (config.samples / FIRST_SHARE).max(FEWEST).min(config.samples) } else { config.samples };
+        let share = (config.samples / FIRST_SHARE).max(FEWEST).min(config.samples);
+        let first = match (config.noise, config.adaptive) {
+            (Some(_), _) => share.min(FIRST_FOR_NOISE),
+            (None, true) => share,
+            (None, false) => config.samples,
+        };
         let first_passes = first.div_ceil(FrameRender::PASS);
         Self { first, first_passes, passes: first_passes + (config.samples - first).div_ceil(FrameRender::PASS) }
+    }
+
+    /// The schedule with the passes that the `wanted` samples of the pixels take: with a noise target fewer than there might have been.
+    fn settled(self, config: &RenderConfig, wanted: &[u32]) -> Self {
+        if config.noise.is_none() {
+            return self;
+        }
+        let later: u64 = wanted.iter().map(|&samples| u64::from(samples.saturating_sub(self.first))).sum();
+        let per_pass = u64::from(FrameRender::PASS) * wanted.len() as u64;
+        Self { passes: self.passes.min(self.first_passes + later.div_ceil(per_pass) as u32), ..self }
     }
 
     /// What tells how many samples each pixel gets, once the first are taken.
@@ -125,7 +142,7 @@ impl<'a, 's> FrameRender<'a, 's> {
 
     /// True when every pixel has the samples that it should have.
     pub fn is_done(&self) -> bool {
-        self.done == self.schedule.passes
+        self.done >= self.schedule.passes
     }
 
     /// Adds about 16 samples per pixel: the first passes the same number to each, the others where they are needed.
@@ -173,6 +190,7 @@ impl<'a, 's> FrameRender<'a, 's> {
         self.done += 1;
         if self.done == schedule.first_passes && !self.is_done() {
             self.wanted = self.share();
+            self.schedule = self.schedule.settled(self.integrator.config, &self.wanted);
         }
     }
 
@@ -240,6 +258,9 @@ impl<'a, 's> FrameRender<'a, 's> {
         let mut next = || words.next().unwrap_or_default();
         self.done = header.done;
         self.wanted.iter_mut().for_each(|wanted| *wanted = next());
+        if self.done >= self.schedule.first_passes {
+            self.schedule = self.schedule.settled(self.integrator.config, &self.wanted);
+        }
         let sums = self.film.iter_mut().flat_map(|film| &mut film.sums);
         sums.for_each(|sum| *sum = PixelSum::from_words(&std::array::from_fn(|_| next())));
         let splits = self.film.iter_mut().flat_map(|film| &mut film.splits);

@@ -4,7 +4,7 @@ use enfilade_frame::{Frame, Layer, traits};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec2, Vec3};
 use enfilade_render::{Guide, RenderConfig, RenderScene, add_extra_layers, render_frame};
-use enfilade_scene::{Alpha, Bsdf, Camera, CameraView, Environment, Intrinsics, Material, Part, Pose, Principled, Quiet, Scene};
+use enfilade_scene::{Alpha, Bsdf, Camera, CameraView, Environment, Intrinsics, Material, Part, Pose, Principled, Quiet, Scene, Shutter};
 
 const CAMERA: Intrinsics = Intrinsics { width: 48, height: 36, fx: 40.0, fy: 42.0, cx: 23.0, cy: 18.5, skew: 0.0 };
 
@@ -40,11 +40,16 @@ fn of(bsdf: Bsdf) -> Material {
 
 /// The frame of the first pose, with the second as the next.
 fn frame(s: &Scene, poses: &[Pose]) -> Frame {
-    let config = RenderConfig { samples: 1, ..RenderConfig::default() };
-    let prepared = RenderScene::new(s, &Quiet).unwrap();
     let camera = Camera::from(CAMERA);
     let views: Vec<CameraView> = (0..poses.len()).map(|i| CameraView::of_frame(&camera, poses, i)).collect();
-    let guide = Guide::learn(&prepared, &views, &config);
+    frame_of(s, &views)
+}
+
+/// The frame of the first view, with the second as the next.
+fn frame_of(s: &Scene, views: &[CameraView<'_>]) -> Frame {
+    let config = RenderConfig { samples: 1, ..RenderConfig::default() };
+    let prepared = RenderScene::new(s, &Quiet).unwrap();
+    let guide = Guide::learn(&prepared, views, &config);
     let mut frame = render_frame(&prepared, &guide, &views[0], &config, &Quiet).unwrap();
     add_extra_layers(&prepared, &views[0], views.get(1), &mut frame);
     frame
@@ -141,6 +146,33 @@ fn flow_leads_to_where_the_next_frame_shows_the_point() {
         }
     }
     assert!(visible > 800 && hidden > 20 && left > 50, "{visible} visible, {hidden} hidden, {left} outside");
+}
+
+#[test]
+fn flow_leads_to_the_row_of_a_rolling_shutter_that_shows_the_point_however_fast_the_camera_turns() {
+    let s = scene(vec![(board(4.0, -30.0, 30.0), grey())]);
+    let shutter = Shutter { exposure_s: 0.01, readout_s: 0.03, frame_time_s: 1.0 / 30.0 };
+    let camera = Camera { shutter: Some(shutter), ..CAMERA.into() };
+    // Down by 30 degrees from one frame to the next.
+    let poses = [0u32, 1].map(|number| {
+        let (sin, cos) = ((-30f64).to_radians() * f64::from(number)).sin_cos();
+        let position = f64::from(number) * DVec3::new(0.1, 0.05, 0.02);
+        Pose::look_at(number, position, position + DVec3::new(cos, 0.0, sin), DVec3::Z).unwrap()
+    });
+    let views = [0, 1].map(|index| CameraView::of_frame(&camera, &poses, index));
+    let frame = frame_of(&s, &views);
+    let mut visible = 0;
+    for p in 0..48 * 36 {
+        let at = ((p % 48) as f64 + 0.5, (p / 48) as f64 + 0.5);
+        let seen = views[0].centre_ray(at.0, at.1).unwrap();
+        let point = seen.origin + seen.direction * value(&frame, Layer::DepthMeters, p);
+        let [x, y] = [at.0 + value(&frame, Layer::OpticalFlow, 2 * p), at.1 + value(&frame, Layer::OpticalFlow, 2 * p + 1)];
+        // What no row shows is where the border's row has it.
+        let there = views[1].project_in_row(point, y.clamp(0.0, 36.0)).unwrap();
+        assert!((there.0 - x).abs() < 1e-3 && (there.1 - y).abs() < 1e-3, "pixel {p}: ({x}, {y}), but its row has it at {there:?}");
+        visible += usize::from(value(&frame, Layer::FlowVisibility, p) == 1.0);
+    }
+    assert!((500..1500).contains(&visible), "{visible} of 1728 points are seen again");
 }
 
 #[test]

@@ -292,6 +292,20 @@ fn glass_and_mirrors_have_their_own_parts_and_sources_theirs() {
 }
 
 #[test]
+fn rays_pass_a_veil_by_chance_without_a_filter_too() {
+    let veil = Material { alpha: Alpha::Blend { opacity: 0.5.into() }, ..Material::diffuse("veil", Rgb::BLACK) };
+    let mut s = scene(vec![(screen(Vec3::X, 9.0), veil)]);
+    s.environment = Some(Environment::Constant { radiance: Rgb::WHITE });
+    let config = RenderConfig { samples: 256, adaptive: false, filter_radius: 0.0, ..RenderConfig::default() };
+    let frame = picture(&s, [16, 16], &config);
+    let color = frame.get(Layer::Color).unwrap();
+    for pixel in 0..256 {
+        // Half of the rays, within five standard errors.
+        assert_close(&format!("pixel {pixel}"), color.get(3 * pixel), 0.5, 5.0 * 0.5 / 256f64.sqrt());
+    }
+}
+
+#[test]
 fn the_standard_error_is_about_the_spread_over_seeds_and_not_below_it() {
     let mut s = scene(vec![(room(1.0), Material::diffuse("wall", Rgb::splat(0.7)))]);
     s.lights.push(Light::Point { name: "p".into(), position: Vec3::new(0.0, 0.3, 0.5), intensity: Rgb::WHITE });
@@ -412,6 +426,36 @@ fn a_noise_target_is_met_with_fewer_samples_and_says_so() {
     let noise = rendering.noise().unwrap();
     assert!(rendering.met_noise_target() && rendering.samples() < 2000.0, "{} samples", rendering.samples());
     assert!(noise < 0.025, "noise {noise}");
+}
+
+#[test]
+fn a_noise_target_takes_what_it_needs_however_many_samples_it_might_take() {
+    let mut s = scene(vec![(room(1.0), Material::diffuse("wall", Rgb::splat(0.5)))]);
+    s.lights.push(Light::Point { name: "p".into(), position: Vec3::new(0.0, 0.3, 0.5), intensity: Rgb::WHITE });
+    let prepared = RenderScene::new(&s, &Quiet).unwrap();
+    let (camera, pose) = place([24, 24]);
+    let view = CameraView::still(&camera, &pose);
+    let config = RenderConfig { samples: 8192, noise: Some(0.07), ..RenderConfig::default() };
+    let guide = Guide::learn(&prepared, &[view], &config);
+    let new = || FrameRender::new(&prepared, &guide, &view, &config).unwrap();
+
+    let (mut whole, mut kept) = (new(), Vec::new());
+    while !whole.is_done() {
+        whole.pass(&Quiet);
+        kept.push(whole.save(b"key"));
+    }
+    let (samples, passes) = (whole.samples(), kept.len());
+    assert!(whole.met_noise_target() && samples < 400.0, "noise {:?} after {samples} samples", whole.noise());
+    assert!(passes as f64 <= (samples / f64::from(FrameRender::PASS)).ceil() + 1.0, "{passes} passes for {samples} samples");
+    // It goes on the same from any of them.
+    for kept in [&kept[passes / 2], &kept[passes - 1]] {
+        let mut next = new();
+        next.restore(kept, b"key").unwrap();
+        while !next.is_done() {
+            next.pass(&Quiet);
+        }
+        assert_eq!(bytes(&next.frame()), bytes(&whole.frame()));
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! How datasets are opened that are read and not made.
 
 use clap::Args;
-use enfilade_dataset::{Dataset, DatasetError};
+use enfilade_dataset::{CameraTable, Dataset, DatasetError};
 use std::path::{Path, PathBuf};
 
 /// `--cameras-csv`.
@@ -18,7 +18,11 @@ impl CamerasArg {
     pub fn open(&self, folder: &Path) -> Result<Dataset, DatasetError> {
         let dataset = Dataset::open(folder)?;
         Ok(match &self.cameras_csv {
-            Some(table) => dataset.with_camera_table(table),
+            Some(table) => {
+                // What needs little of it makes do without one, and a mistyped name would pass for that.
+                CameraTable::read(table)?;
+                dataset.with_camera_table(table)
+            }
             None => dataset,
         })
     }

@@ -88,10 +88,10 @@ pub struct ImportArgs {
     /// The scene package (.scene) or binary glTF (.glb) to write [default: the input's name with .scene, in the current folder]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Metres per unit of the file; multiplies what the file says itself [default: 1]
+    /// Metres per unit of the file; multiplies what the file says itself [default: 1, which packages (.scene) always have]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub meters_per_unit: Option<f64>,
-    /// Which way is up in the file [default: as its format says]
+    /// Which way is up in the file [default: as its format says; in packages always z]
     #[arg(long)]
     pub up_axis: Option<UpAxisArg>,
     /// Light the scene with this equirectangular picture instead of the file's own surroundings
@@ -124,9 +124,12 @@ pub struct SuggestArgs {
     /// Least confidence of a label that is written, 0 to 1 [default: where nine of ten names are right]
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     pub min_confidence: Option<f32>,
-    /// Which way is up in the file [default: as its format says]
+    /// Which way is up in the file [default: as its format says; in packages always z]
     #[arg(long)]
     pub up_axis: Option<UpAxisArg>,
+    /// Replace a table that is there, also one that was corrected since
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// `--up-axis`.

@@ -28,7 +28,7 @@ pub struct RunArgs {
     /// Only the scenes of these names ("bed*", "hall,bedroom")
     #[arg(long, value_name = "PATTERN", visible_alias = "scene")]
     pub scenes: Option<String>,
-    /// Tell what time, money, disk and memory the run will take, from a pilot of a few pixels; nothing is rendered
+    /// Tell what time, money, disk and memory the run will take, from a pilot of a few pixels; nothing is rendered, and nothing that is finished changes
     #[arg(long)]
     pub estimate: bool,
     /// With --estimate: dollars per vCPU-hour, or a CSV table of them with names [default: 0.0165, Hypersim's median]
@@ -137,7 +137,7 @@ pub struct RenderFlags {
 /// `preview`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  enfilade preview out\n  enfilade preview hypersim -o pictures --scene ai_001_001\n\n\
-    Data that others made, such as Hypersim's, have previews of the same names; with -o they are left alone.")]
+    Data that others made, such as Hypersim's, have previews of the same names; with -o they are left alone. --cameras-csv goes with -o.")]
 pub struct PreviewArgs {
     #[command(flatten)]
     #[allow(missing_docs)]

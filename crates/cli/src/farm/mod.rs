@@ -4,7 +4,7 @@ mod costs;
 mod submit;
 
 use crate::args::{FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmVerb, FarmWorkArgs};
-use crate::outcome::{Problem, Verdict, say};
+use crate::outcome::{Problem, Verdict, quoted, say};
 use crate::price::prices;
 use crate::progress::Progress;
 use crate::summary;
@@ -63,7 +63,8 @@ fn plan(args: &FarmPlanArgs, quiet: bool) -> Result<Verdict, Problem> {
         let wall_s = cpu_s / (f64::from(plan.cpus) * tasks_at_once);
         say(&format!("  on {nodes:3} workers of {} threads about {:.1} minutes", plan.cpus, wall_s / 60.0));
     }
-    say(&format!("The job is in {}. Start workers: enfilade farm submit {0} --engine slurm", job.store.url()));
+    let place = job.store.url();
+    say(&format!("The job is in {place}. Start workers: enfilade farm submit {} --engine slurm", quoted(place)));
     Ok(Verdict::Done)
 }
 

@@ -60,6 +60,23 @@ fn verify_finds_the_camera_without_its_shifts() {
 }
 
 #[test]
+fn a_table_of_cameras_that_is_named_and_not_there_is_told() {
+    let dir = folder();
+    release::write(dir.path(), Tree::Toolkit);
+    for args in [
+        &["verify", "hypersim"][..],
+        &["stats", "hypersim", "-o", "numbers"],
+        &["preview", "hypersim", "-o", "pictures"],
+        &["animate", "hypersim", "-o", "films"],
+        &["export", "hypersim", "--format", "coco", "-o", "coco"],
+        &["inspect", "hypersim", "--pixel", "3,4"],
+    ] {
+        fail(dir.path(), &[args, &["--cameras-csv", "camera.csv"]].concat(), 2, &["no table of cameras at camera.csv"]);
+    }
+    assert!(["numbers", "pictures", "films", "coco"].iter().all(|name| !dir.path().join(name).exists()));
+}
+
+#[test]
 fn a_release_without_the_table_of_cameras_says_where_to_get_it() {
     let dir = folder();
     let root = release::write(dir.path(), Tree::Toolkit);

@@ -46,6 +46,17 @@ impl Assembly<'_> {
         [folder.join(path), folder.join(path.replace('\\', "/"))].into_iter().find(|file| file.is_file())
     }
 
+    /// Looks for files in `folder` from now on, and in those before it and beside the scene file only where it lacks them. It is as
+    /// `from`, a file of the scene, spells it. False where there is no such folder.
+    pub(crate) fn look_in(&mut self, from: &Path, folder: &str) -> bool {
+        let folder = folder.replace('\\', "/");
+        let places = [from, self.file.as_path()].map(|file| file.parent().unwrap_or(Path::new("")).join(&folder));
+        let found = places.into_iter().find(|place| place.is_dir());
+        let is_there = found.is_some();
+        self.folders.extend(found);
+        is_there
+    }
+
     /// The path of a file that the scene file refers to by `path`, for messages.
     pub(crate) fn path_of(&self, path: &str) -> PathBuf {
         self.resolve(path)
@@ -76,9 +87,14 @@ impl Assembly<'_> {
         Ok(bytes)
     }
 
-    /// The file that `path` in the scene file means: relative to its folder, with Windows separators understood.
+    /// The file that `path` in the scene file means: relative to the folders to look in, or else to its own.
     fn resolve(&self, path: &str) -> PathBuf {
-        let folder = self.file.parent().unwrap_or(Path::new(""));
+        let found = self.folders.iter().rev().map(|folder| self.within_folder(folder, path)).find(|file| self.is_file(file));
+        found.unwrap_or_else(|| self.within_folder(self.file.parent().unwrap_or(Path::new("")), path))
+    }
+
+    /// The file `path` in a folder, with Windows separators understood.
+    fn within_folder(&self, folder: &Path, path: &str) -> PathBuf {
         let plain = folder.join(path);
         if self.is_file(&plain) || !path.contains('\\') { plain } else { folder.join(path.replace('\\', "/")) }
     }

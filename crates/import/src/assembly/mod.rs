@@ -24,6 +24,8 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Assembly<'a> {
     format: Format,
     file: PathBuf,
+    /// Folders in which files are looked for before that of the scene file, the last one first.
+    folders: Vec<PathBuf>,
     options: &'a ImportOptions,
     cx: &'a dyn Cx,
     archive: Option<&'a Archive>,
@@ -46,6 +48,7 @@ impl<'a> Assembly<'a> {
         let mut assembly = Self {
             format,
             file: file.to_path_buf(),
+            folders: Vec::new(),
             options,
             cx,
             archive: None,

@@ -17,6 +17,9 @@ pub(super) type MaterialKey = (Option<*const Node>, Option<*const Node>);
 /// GGX roughness where a rough bsdf does not state one.
 const DEFAULT_ALPHA: f32 = 0.1;
 
+/// Exponent of Phong's lobe where the bsdf does not state one.
+const DEFAULT_EXPONENT: f64 = 30.0;
+
 /// A bsdf in the making: what it scatters, and what the adapters around it add.
 struct Surface {
     /// `None` for `null`, which scatters nothing.
@@ -288,8 +291,9 @@ impl<'n> Reader<'n, '_> {
                     &[],
                 );
                 self.warn(node, format!("{} treated as plastic of the same roughness", node.plugin));
-                let exponent = self.plain(node, "exponent")?.map(|n| (2.0 / (n.max(0.0) + 2.0)).sqrt());
-                let alpha = exponent.or(self.plain(node, "alpha_u")?).unwrap_or(f64::from(DEFAULT_ALPHA)) as f32;
+                let exponent = self.plain(node, "exponent")?.or((node.plugin == "phong").then_some(DEFAULT_EXPONENT));
+                let alpha_of_exponent = exponent.map(|n| (2.0 / (n.max(0.0) + 2.0)).sqrt());
+                let alpha = alpha_of_exponent.or(self.plain(node, "alpha_u")?).unwrap_or(f64::from(DEFAULT_ALPHA)) as f32;
                 let diffuse = self.color(node, "diffuse_reflectance", Kind::Factor, Rgb::splat(0.5))?;
                 let specular = self.color(node, "specular_reflectance", Kind::Factor, Rgb::splat(0.2))?;
                 Ok(Bsdf::Plastic { diffuse, eta: 1.5, alpha: alpha.into(), specular, nonlinear: false })

@@ -85,7 +85,7 @@ impl<'n> Reader<'n, '_> {
 
     /// The sky as an environment and the sun as a light, by our own model in the units of Mitsuba's.
     fn daylight(&mut self, node: &'n Node) -> Result<(), ImportError> {
-        const KNOWN: [&str; 12] = [
+        const KNOWN: [&str; 13] = [
             "sun_direction",
             "turbidity",
             "albedo",
@@ -93,6 +93,7 @@ impl<'n> Reader<'n, '_> {
             "sun_scale",
             "sky_scale",
             "sun_radius_scale",
+            "sun_aperture",
             "to_world",
             "resolution",
             "sampling_weight",
@@ -102,24 +103,25 @@ impl<'n> Reader<'n, '_> {
         self.report_unknown(node, &KNOWN, &[]);
         let scale = node.float_or("scale", 1.0)?;
         let (sun_scale, sky_scale) = (node.float_or("sun_scale", scale)? as f32, node.float_or("sky_scale", scale)? as f32);
-        let direction = match node.child("sun_direction") {
-            Some(d) => vector(d)?,
+        let to_sun = match node.child("sun_direction") {
+            Some(d) => self.a.world_from_file().transform_vector3(vector(d)?),
             None => {
                 self.warn(node, "the sun's place by date and location is not supported; it was put 45° high");
-                DVec3::new(0.5, std::f64::consts::FRAC_1_SQRT_2, 0.5)
+                DVec3::new(0.5, -0.5, std::f64::consts::FRAC_1_SQRT_2)
             }
         };
-        let to_sun = self.a.world_from_file().transform_vector3(direction).normalize_or_zero().as_vec3();
-        let to_world = transform::of(node, "to_world")?;
-        let up = self.a.world_from_file().transform_vector3(to_world.transform_vector3(DVec3::Y)).normalize_or_zero();
-        if node.child("to_world").is_some() && up.z < 0.999 {
+        let to_sun = to_sun.normalize_or_zero().as_vec3();
+        let (own_up, albedo) = if self.version < 3 { (DVec3::Y, 0.15) } else { (DVec3::Z, 0.3) };
+        let up = self.a.world_from_file() * transform::of(node, "to_world")?;
+        if up.transform_vector3(own_up).normalize_or_zero().z < 0.999 {
             self.warn(node, "the sky's own up is not the scene's; the scene's was used");
         }
         if to_sun == Vec3::ZERO {
             return Err(node.error("the sun's direction is zero"));
         }
         let turbidity = node.float_or("turbidity", 3.0)?.clamp(1.7, 10.0) as f32;
-        let ground_albedo = self.property(node, "albedo")?.map_or(Ok(Rgb::splat(0.15)), |p| spectrum::color(p, Kind::Factor))?.luminance();
+        let ground_albedo =
+            self.property(node, "albedo")?.map_or(Ok(Rgb::splat(albedo)), |p| spectrum::color(p, Kind::Factor))?.luminance();
         let daylight = Daylight { to_sun, turbidity, ground_albedo };
         self.warn(node, "daylight was computed by the atmosphere of Hillaire 2020; expect other colours than Mitsuba's");
         let image = self.a.next_image();
@@ -134,7 +136,11 @@ impl<'n> Reader<'n, '_> {
             && node.plugin != "sky"
             && to_sun.z > 0.0
         {
-            let angular_radius_rad = angular_radius_rad * node.float_or("sun_radius_scale", 1.0)?.max(0.0) as f32;
+            let angular_radius_rad = match node.float("sun_aperture")? {
+                Some(degrees) if degrees > 0.0 && degrees < 180.0 => (0.5 * degrees.to_radians()) as f32,
+                Some(other) => return Err(node.error(format!("found a sun_aperture of {other}, expected degrees between 0 and 180"))),
+                None => angular_radius_rad * node.float_or("sun_radius_scale", 1.0)?.max(0.0) as f32,
+            };
             let irradiance = irradiance * sun_scale;
             self.a.push_world_light(Light::Directional { name: "sun".into(), direction, irradiance, angular_radius_rad });
         }

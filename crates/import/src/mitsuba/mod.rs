@@ -1,14 +1,14 @@
 //! Mitsuba scene descriptions (XML) of versions 0.5, 0.6, 2 and 3.
 //!
-//! Property names may be in camel case (`toWorld`) or snake case (`to_world`). `<default>` parameters, `<include>`, `<alias>` and
-//! `<ref>` are followed.
+//! Property names may be in camel case (`toWorld`) or snake case (`to_world`). `<default>` parameters, `<include>`, `<alias>`, `<ref>`
+//! and `<path>` are followed.
 //!
 //! | element | supported |
 //! |---|---|
-//! | shapes | `obj`, `ply` (text and binary), `serialized`, `rectangle`, `disk`, `sphere`, `cube`, `cylinder`, `shapegroup` and `instance`; `faceNormals`, `flipNormals`. Round shapes become meshes of 96 segments with smooth normals, which have 0.07 % less area |
+//! | shapes | `obj` (in version 0.x one part per group and material, of the bsdf of the material's name, else of one without a name, else as the `.mtl` library has it; `shapeIndex`, `loadMaterials`), `ply` (text and binary), `serialized`, `rectangle`, `disk`, `sphere`, `cube`, `cylinder`, `shapegroup` and `instance`; `faceNormals`, `flipNormals`. Round shapes become meshes of 96 segments with smooth normals, which have 0.07 % less area |
 //! | bsdfs | `diffuse`, `roughdiffuse`, `plastic`, `roughplastic`, `conductor`, `roughconductor`, `dielectric`, `roughdielectric`, `thindielectric`, `principled`, `principledthin`, `phong` and `ward` (as plastic), `coating` and `roughcoating` (a diffuse base becomes plastic, others lose the coat), `twosided`, `mask`, `bumpmap`, `normalmap`, `blendbsdf`, `mixturebsdf`, `null` (the shape is left out) |
 //! | textures | `bitmap`, `checkerboard` (baked), `scale`; filter, wrapping, channel, `uscale … voffset`, `to_uv` |
-//! | spectra | `rgb`, `srgb`, `spectrum` (one value or wavelengths), `blackbody`, `float`; metals and substances by name |
+//! | spectra | `rgb`, `srgb`, `spectrum` (one value, wavelengths, a file, or of the type `blackbody`, `d65`, `uniform`, `regular`, `irregular`), `blackbody`, `float`; metals and substances by name |
 //! | emitters | `area`, `constant`, `envmap`, `point`, `spot`, `directional`, `sunsky`, `sky`, `sun` (by Hillaire's model in place of Hosek's) |
 //! | sensors | `perspective`, `thinlens` (as a pinhole) |
 //! | skipped in silence | integrators, samplers, films (but for their size), reconstruction filters: they are no part of the scene |
@@ -17,7 +17,7 @@
 //! # Sides
 //!
 //! A surface has two sides only inside `twosided`, as in Mitsuba; area emitters shine on the front alone. The front of a mesh with
-//! vertex normals is where these point.
+//! vertex normals is where these point; with `faceNormals`, which drops them, the corners' order decides.
 //!
 //! # Opacity
 //!
@@ -27,10 +27,12 @@
 //! # Names
 //!
 //! A part is named by the shape's `id`, else `<material>_<mesh file or shape type>`, where the material is the `id` of the bsdf or
-//! `inline`. Materials carry the bsdf's `id`; those of emitters `<id>_emitter`.
+//! `inline`. Materials carry the bsdf's `id`; those of emitters `<id>_emitter`. Where version 0.x finds several meshes in
+//! an OBJ file, `.<group>` is appended.
 
 mod bsdf;
 mod emitter;
+mod obj;
 mod sensor;
 mod serialized;
 mod shape;
@@ -47,7 +49,10 @@ use xml::Node;
 /// References to references deeper than this are taken for a cycle.
 const MAX_REFERENCES: usize = 32;
 
-/// Shapes within instances and bsdfs within bsdfs, counted as often as references lead to them, beyond this many are taken for a
+/// A scene has at most so many parts, instances counted one by one.
+const MAX_PARTS: usize = 4_000_000;
+
+/// References within references may lead to so many more shapes and bsdfs than the file has elements; beyond them is taken for a
 /// mistake: a group of two instances of a group of two instances … has as many shapes as it likes.
 const MAX_VISITS: usize = 1 << 16;
 
@@ -61,6 +66,9 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
         aliases: HashMap::new(),
         materials: HashMap::new(),
         meshes: HashMap::new(),
+        obj: obj::Files::default(),
+        elements: 0,
+        parts: 0,
         visits: 0,
     };
     reader.index(&root);
@@ -81,13 +89,19 @@ struct Reader<'n, 'a> {
     aliases: HashMap<&'n str, &'n str>,
     materials: HashMap<bsdf::MaterialKey, u32>,
     meshes: HashMap<shape::MeshKey, Option<u32>>,
-    /// How often references led to shapes and bsdfs so far.
+    obj: obj::Files,
+    /// Elements of the file and of those that it includes.
+    elements: usize,
+    /// Parts so far.
+    parts: usize,
+    /// How often references within references led to shapes and bsdfs so far.
     visits: usize,
 }
 
 impl<'n> Reader<'n, '_> {
     /// Notes the ids of a tree. Depth is bounded by the parser.
     fn index(&mut self, node: &'n Node) {
+        self.elements += node.children.len();
         for child in &node.children {
             if child.tag == "alias" {
                 if let (Some(id), Some(new)) = (child.attribute("id"), child.attribute("as")) {
@@ -108,7 +122,7 @@ impl<'n> Reader<'n, '_> {
             "emitter" => self.emitter(node),
             "sensor" => self.sensor(node),
             // Definitions are read where they are referred to; the rest says how to render, not what.
-            "bsdf" | "texture" | "medium" | "alias" | "integrator" | "sampler" | "film" | "rfilter" | "spectrum" | "path" => Ok(()),
+            "bsdf" | "texture" | "medium" | "alias" | "integrator" | "sampler" | "film" | "rfilter" | "spectrum" => Ok(()),
             "ref" => match self.resolve(node)? {
                 target if target.tag == "ref" => Ok(()),
                 target => self.scene_element(target),
@@ -148,7 +162,11 @@ impl<'n> Reader<'n, '_> {
 
     /// The property or object `name` of `node`, references followed.
     fn property(&self, node: &'n Node, name: &str) -> Result<Option<&'n Node>, ImportError> {
-        node.child(name).map(|c| self.resolve(c)).transpose()
+        let Some(child) = node.child(name) else { return Ok(None) };
+        let found = self.resolve(child)?;
+        // Daylight times a texture is the texture in RGB.
+        let texture = if found.plugin == "d65" { self.objects(found, "texture")?.first().copied() } else { None };
+        Ok(Some(texture.unwrap_or(found)))
     }
 
     /// Counts one of these `things` that is come to; `depth` references have led there.
@@ -156,12 +174,13 @@ impl<'n> Reader<'n, '_> {
     /// # Errors
     /// When references go in a circle, or lead to more things than a scene has.
     fn visit(&mut self, node: &Node, depth: usize, things: &str) -> Result<(), ImportError> {
-        self.visits += usize::from(depth > 0);
+        self.visits += usize::from(depth > 1);
         if depth > MAX_REFERENCES {
             return Err(node.error(format!("{things} go in a circle")));
         }
-        if self.visits > MAX_VISITS {
-            return Err(node.error(format!("references lead to more than {MAX_VISITS} shapes and bsdfs; refer to each thing once")));
+        let most = MAX_VISITS + self.elements;
+        if self.visits > most {
+            return Err(node.error(format!("references lead to more than {most} shapes and bsdfs; refer to each thing once")));
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! Shapes to meshes and parts.
 
 use super::xml::Node;
-use super::{Reader, bsdf, emitter, serialized, transform};
+use super::{MAX_PARTS, Reader, bsdf, emitter, serialized, transform};
 use crate::ImportError;
 use crate::mesh;
 use crate::obj::ObjFile;
@@ -39,17 +39,41 @@ impl<'n> Reader<'n, '_> {
         if let Some(emitter) = emitter {
             self.report_unknown(emitter, &["radiance", "sampling_weight"], &[]);
         }
+        if node.plugin == "obj" && self.version < 2 {
+            return self.obj_shape(node, emitter, outer, prefix);
+        }
         let Some((mesh, in_shape, stem)) = self.mesh(node)? else { return Ok(()) };
         let Some(material) = self.material(bsdf, emitter)? else {
             self.warn(node, "the shape scatters nothing (null bsdf) and was left out");
             return Ok(());
         };
+        let file_from_mesh = self.placement(node, outer)? * in_shape;
+        let name = node.id.clone().unwrap_or_else(|| format!("{}_{stem}", bsdf::name(bsdf)));
+        self.place(node, &format!("{prefix}{name}"), mesh, material, file_from_mesh)
+    }
+
+    /// Where a shape stands under the placement of its instance, at the first moment.
+    pub(super) fn placement(&mut self, node: &'n Node, outer: DAffine3) -> Result<DAffine3, ImportError> {
         if transform::is_animated(node, "to_world") {
             self.warn(node, "the shape is animated; its first moment was used");
         }
-        let file_from_mesh = outer * transform::of(node, "to_world")? * in_shape;
-        let name = node.id.clone().unwrap_or_else(|| format!("{}_{stem}", bsdf::name(bsdf)));
-        self.a.push_part(&format!("{prefix}{name}"), mesh, material, file_from_mesh, PartLabel::NONE);
+        Ok(outer * transform::of(node, "to_world")?)
+    }
+
+    /// Adds a part of a shape.
+    pub(super) fn place(
+        &mut self,
+        node: &'n Node,
+        name: &str,
+        mesh: u32,
+        material: u32,
+        file_from_mesh: DAffine3,
+    ) -> Result<(), ImportError> {
+        self.parts += 1;
+        if self.parts > MAX_PARTS {
+            return Err(node.error(format!("the scene has more than {MAX_PARTS} parts; check the instances")));
+        }
+        self.a.push_part(name, mesh, material, file_from_mesh, PartLabel::NONE);
         Ok(())
     }
 
@@ -66,22 +90,13 @@ impl<'n> Reader<'n, '_> {
         Ok(())
     }
 
-    /// The mesh of a shape, the placement that its own parameters add, and the stem of its name. `None` when there is none.
-    fn mesh(&mut self, node: &'n Node) -> Result<Option<(u32, DAffine3, String)>, ImportError> {
+    /// The path of a shape's file, which is empty for shapes without one, and its flags. Reports what is not read of it.
+    pub(super) fn stated(&mut self, node: &'n Node) -> Result<(&'n str, [bool; 3]), ImportError> {
         const TAGS: [&str; 7] = ["bsdf", "emitter", "medium", "texture", "sensor", "subsurface", "shape"];
-        const FILES: [&str; 9] = [
-            "filename",
-            "to_world",
-            "face_normals",
-            "flip_normals",
-            "flip_tex_coords",
-            "shape_index",
-            "max_smooth_angle",
-            "collapse",
-            "sub_mesh_index",
-        ];
+        const FILES: [&str; 7] =
+            ["filename", "to_world", "face_normals", "flip_normals", "flip_tex_coords", "shape_index", "load_materials"];
         const PRIMITIVES: [&str; 7] = ["to_world", "flip_normals", "center", "radius", "p0", "p1", "face_normals"];
-        let from_file = matches!(node.plugin.as_str(), "obj" | "ply" | "serialized");
+        let from_file = is_file(node);
         self.report_unknown(node, if from_file { &FILES } else { &PRIMITIVES }, &TAGS);
         for unsupported in node.children.iter().filter(|c| matches!(c.tag.as_str(), "medium" | "subsurface")) {
             self.warn(unsupported, "media are not supported; the shape is empty inside");
@@ -90,9 +105,16 @@ impl<'n> Reader<'n, '_> {
         if from_file && path.is_empty() {
             return Err(node.error("the shape has no filename"));
         }
-        let index = node.float_or("shape_index", 0.0)? as i64;
         let flags =
             [node.flag("face_normals", false), node.flag("flip_normals", false), node.flag("flip_tex_coords", node.plugin == "obj")];
+        Ok((path, flags))
+    }
+
+    /// The mesh of a shape, the placement that its own parameters add, and the stem of its name. `None` when there is none.
+    fn mesh(&mut self, node: &'n Node) -> Result<Option<(u32, DAffine3, String)>, ImportError> {
+        let (path, flags) = self.stated(node)?;
+        let from_file = is_file(node);
+        let index = node.float_or("shape_index", 0.0)? as i64;
         let Some(in_shape) = self.shape_parameters(node)? else { return Ok(None) };
         let stem = if from_file { stem(path) } else { node.plugin.clone() };
         let key = (node.plugin.clone(), path.to_string(), index, flags);
@@ -172,22 +194,24 @@ impl<'n> Reader<'n, '_> {
     }
 }
 
+/// True for shapes whose mesh is in a file.
+fn is_file(node: &Node) -> bool {
+    matches!(node.plugin.as_str(), "obj" | "ply" | "serialized")
+}
+
 /// Applies a shape's flags ([faceNormals, flipNormals, flipTexCoords]) and turns v upward.
-fn finish(mut mesh: Mesh, from_file: bool, [face_normals, flip_normals, flip_uvs]: [bool; 3]) -> Mesh {
+pub(super) fn finish(mut mesh: Mesh, from_file: bool, [face_normals, flip_normals, flip_uvs]: [bool; 3]) -> Mesh {
     // OBJ files have v upward, which `flipTexCoords` (on for them) makes Mitsuba's downward; here it is turned upward again.
     if !flip_uvs {
         mesh.uvs.iter_mut().for_each(|uv| *uv = Vec2::new(uv.x, 1.0 - uv.y));
     }
-    if from_file && !face_normals {
-        if mesh.normals.is_empty() {
-            mesh::add_smooth_normals(&mut mesh);
-        } else {
-            mesh::turn_faces_to_normals(&mut mesh);
-        }
-    }
     if face_normals {
-        mesh::turn_faces_to_normals(&mut mesh);
+        // The front is where the corners run counter-clockwise, wherever the file's normals point.
         mesh.normals.clear();
+    } else if from_file && mesh.normals.is_empty() {
+        mesh::add_smooth_normals(&mut mesh);
+    } else if from_file {
+        mesh::turn_faces_to_normals(&mut mesh);
     }
     if flip_normals {
         mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
@@ -196,7 +220,8 @@ fn finish(mut mesh: Mesh, from_file: bool, [face_normals, flip_normals, flip_uvs
     mesh
 }
 
-fn stem(path: &str) -> String {
+/// The name of a file without folder and extension.
+pub(super) fn stem(path: &str) -> String {
     let path = path.replace('\\', "/");
     Path::new(&path).file_stem().map_or_else(|| "mesh".to_string(), |s| s.to_string_lossy().into_owned())
 }

@@ -5,7 +5,8 @@ use crate::ImportError;
 use crate::spectrum::{self, Kind};
 use enfilade_math::{Rgb, linear_from_srgb};
 
-/// The colour of a property: `rgb`, `srgb`, `spectrum`, `blackbody`, `color`, or a plain `float`.
+/// The colour of a property: `rgb`, `srgb`, `spectrum`, `blackbody`, `color`, or a plain `float`. The samples of a spectrum in a file
+/// stand in its value.
 ///
 /// # Errors
 /// When the value is none of what these may hold.
@@ -13,12 +14,55 @@ pub(super) fn color(node: &Node, kind: Kind) -> Result<Rgb, ImportError> {
     let text = node.attribute("value").unwrap_or_default().trim();
     match node.tag.as_str() {
         "blackbody" => blackbody(node),
-        "rgb" | "srgb" | "color" if text.starts_with('#') => hex(node, text),
+        // Hexadecimal digits are encoded in `srgb` alone.
+        "rgb" | "color" if text.starts_with('#') => hex(node, text),
+        "srgb" if text.starts_with('#') => Ok(hex(node, text)?.map(linear_from_srgb)),
         "srgb" => Ok(triple(node)?.map(linear_from_srgb)),
+        "spectrum" if !node.plugin.is_empty() && text.is_empty() => object(node, kind),
         "spectrum" if text.contains(':') => sampled(node, text, kind),
         "rgb" | "spectrum" | "color" | "float" | "integer" => triple(node),
         other => Err(node.error(format!("<{other}> is not a colour; expected rgb, srgb, spectrum, blackbody or float"))),
     }
+}
+
+/// A spectrum with properties of its own, as Mitsuba 2 and 3 have them.
+fn object(node: &Node, kind: Kind) -> Result<Rgb, ImportError> {
+    let list = |name: &str| node.child(name).map_or(Ok(Vec::new()), |c| c.numbers("value"));
+    match node.plugin.as_str() {
+        "blackbody" => blackbody(node),
+        // Light is relative to daylight in RGB, so that daylight itself is white.
+        "d65" => {
+            let color = node.child("color").map_or(Ok(Rgb::WHITE), |c| color(c, kind))?;
+            Ok(color * node.float_or("scale", 1.0)? as f32)
+        }
+        "uniform" => {
+            let value = node.float("value")?.ok_or_else(|| node.error("there is no float named value; add it"))?;
+            Ok(Rgb::splat(value as f32))
+        }
+        "irregular" => pairs(node, &list("wavelengths")?, &list("values")?, kind),
+        "regular" => {
+            let (values, range) = (list("values")?, list("range")?);
+            let end = |name: &str, i: usize| Ok::<_, ImportError>(node.float(name)?.or(range.get(i).copied()).unwrap_or(0.0));
+            let (first, last) = (end("wavelength_min", 0)?, end("wavelength_max", 1)?);
+            let step = (last - first) / values.len().saturating_sub(1).max(1) as f64;
+            let wavelengths: Vec<f64> = (0..values.len()).map(|i| first + step * i as f64).collect();
+            pairs(node, &wavelengths, &values, kind)
+        }
+        other => {
+            let known = "blackbody, d65, uniform, regular or irregular";
+            Err(node.error(format!("spectra of the type {other:?} are not supported; expected {known}")))
+        }
+    }
+}
+
+/// As many values as wavelengths, which ascend.
+fn pairs(node: &Node, wavelengths: &[f64], values: &[f64], kind: Kind) -> Result<Rgb, ImportError> {
+    if values.len() < 2 || wavelengths.len() != values.len() || wavelengths.windows(2).any(|w| w[0] >= w[1]) {
+        let found = format!("found {} values at {} wavelengths", values.len(), wavelengths.len());
+        return Err(node.error(format!("{found}, expected two or more values at as many wavelengths that ascend")));
+    }
+    let mut pairs: Vec<(f64, f64)> = wavelengths.iter().copied().zip(values.iter().copied()).collect();
+    Ok(spectrum::sampled(&mut pairs, kind))
 }
 
 fn triple(node: &Node) -> Result<Rgb, ImportError> {
@@ -29,12 +73,12 @@ fn triple(node: &Node) -> Result<Rgb, ImportError> {
     }
 }
 
-/// `#rrggbb`, always sRGB-encoded.
+/// `#rrggbb` as it stands.
 fn hex(node: &Node, text: &str) -> Result<Rgb, ImportError> {
     let digits = &text[1..];
     let byte = |i: usize| digits.get(i..i + 2).and_then(|d| u8::from_str_radix(d, 16).ok());
     match (digits.len(), byte(0), byte(2), byte(4)) {
-        (6, Some(r), Some(g), Some(b)) => Ok(Rgb::new(f32::from(r), f32::from(g), f32::from(b)).map(|c| linear_from_srgb(c / 255.0))),
+        (6, Some(r), Some(g), Some(b)) => Ok(Rgb::new(f32::from(r), f32::from(g), f32::from(b)).map(|c| c / 255.0)),
         _ => Err(node.error(format!("found the colour {text:?}, expected # and six hexadecimal digits"))),
     }
 }
@@ -50,31 +94,39 @@ fn sampled(node: &Node, text: &str, kind: Kind) -> Result<Rgb, ImportError> {
     Ok(spectrum::sampled(&mut pairs, kind))
 }
 
-/// Planck's radiance of a `temperature` (kelvin) per nanometre, times `scale`.
+/// Planck's radiance of a `temperature` (kelvin) per nanometre, times `scale`: attributes of `blackbody`, properties of `spectrum`.
 fn blackbody(node: &Node) -> Result<Rgb, ImportError> {
-    let text = node.attribute("temperature").or(node.attribute("value")).unwrap_or_default().trim_end_matches(['K', 'k', ' ']);
+    let text = node.raw_text("temperature").or(node.attribute("temperature")).or(node.attribute("value"));
+    let text = text.unwrap_or_default().trim_end_matches(['K', 'k', ' ']);
     let kelvin: f64 =
         text.parse().ok().filter(|t| (1.0..1e6).contains(t)).ok_or_else(|| node.error("the temperature should be in kelvin"))?;
-    let scale = node.numbers("scale")?.first().copied().unwrap_or(1.0);
+    let scale = node.float("scale")?.or(node.numbers("scale")?.first().copied()).unwrap_or(1.0);
     Ok(spectrum::black_body(kelvin) * scale as f32)
 }
 
 /// Index of refraction of a clear substance by Mitsuba's name for it.
 pub(super) fn substance(name: &str) -> Option<f64> {
-    const SUBSTANCES: [(&str, f64); 16] = [
+    const SUBSTANCES: [(&str, f64); 23] = [
         ("vacuum", 1.0),
+        ("helium", 1.000_036),
+        ("hydrogen", 1.000_132),
         ("air", 1.000_277),
+        ("carbon dioxide", 1.000_45),
         ("water", 1.333),
         ("water ice", 1.31),
         ("acetone", 1.36),
         ("ethanol", 1.361),
+        ("carbon tetrachloride", 1.461),
         ("glycerol", 1.472_9),
         ("benzene", 1.501),
+        ("silicone oil", 1.520_45),
+        ("bromine", 1.661),
         ("fused quartz", 1.458),
         ("pyrex", 1.47),
         ("acrylic glass", 1.49),
         ("polypropylene", 1.49),
         ("bk7", 1.504_6),
+        ("sodium chloride", 1.544),
         ("amber", 1.55),
         ("pet", 1.575),
         ("diamond", 2.419),

@@ -72,9 +72,11 @@ fn look_at(operation: &Node) -> Result<DAffine3, ImportError> {
             _ => Err(operation.error(format!("{name} should be three numbers"))),
         }
     };
-    let (origin, target, up) = (point("origin", None)?, point("target", None)?, point("up", Some(DVec3::Y))?);
+    let (origin, target, up) = (point("origin", None)?, point("target", None)?, point("up", Some(DVec3::ZERO))?);
     let problem = || operation.error("origin and target coincide, or up points along the view");
     let forward = (target - origin).try_normalize().ok_or_else(problem)?;
+    // Without an up, Mitsuba 2 and 3 take the first tangent of this basis (Duff et al. 2017).
+    let up = if up == DVec3::ZERO { forward.any_orthonormal_pair().0 } else { up };
     let left = up.cross(forward).try_normalize().ok_or_else(problem)?;
     Ok(DAffine3::from_mat3_translation(DMat3::from_cols(left, forward.cross(left), forward), origin))
 }

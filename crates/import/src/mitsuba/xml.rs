@@ -1,8 +1,9 @@
 //! The XML of a Mitsuba scene as a tree in which versions no longer differ: property names are in snake case, `$parameters`
-//! are filled in, and included files are in their place.
+//! are filled in, included files and the samples of spectra are in their place, and folders in which to look for files are known.
 
 use crate::ImportError;
 use crate::assembly::Assembly;
+use crate::spectrum;
 use std::path::PathBuf;
 use std::rc::Rc;
 
@@ -116,6 +117,25 @@ pub(super) fn read(assembly: &mut Assembly) -> Result<Node, ImportError> {
     loader.parse(file, &bytes, 0)
 }
 
+/// Lines and columns of a text. The parser finds each by counting from the text's beginning; here each byte is passed once.
+struct Places<'t> {
+    text: &'t str,
+    at: usize,
+    line: u32,
+    column: u32,
+}
+
+impl Places<'_> {
+    /// Line and column, both from 1, of the byte `at`, which comes no earlier than the one asked for last.
+    fn of(&mut self, at: usize) -> (u32, u32) {
+        for c in self.text.get(self.at..at).unwrap_or_default().chars() {
+            (self.line, self.column) = if c == '\n' { (self.line + 1, 1) } else { (self.line, self.column + 1) };
+        }
+        self.at = self.at.max(at);
+        (self.line, self.column)
+    }
+}
+
 struct Loader<'l, 'a> {
     assembly: &'l mut Assembly<'a>,
     /// `$name` and its value; the first definition counts, as on Mitsuba's command line.
@@ -132,7 +152,7 @@ impl Loader<'_, '_> {
             let place = format!("line {}:{}", e.pos().row, e.pos().col);
             ImportError::malformed(&file, place, format!("not well-formed XML: {e}"))
         })?;
-        let file = Rc::new(file);
+        let (file, mut places) = (Rc::new(file), Places { text, at: 0, line: 1, column: 1 });
         let mut root = Node {
             tag: document.root_element().tag_name().name().to_lowercase(),
             plugin: String::new(),
@@ -147,23 +167,23 @@ impl Loader<'_, '_> {
         if root.tag != "scene" {
             return Err(root.error(format!("the outermost element is <{}>, expected <scene>", root.tag)));
         }
-        self.children(document.root_element(), &document, &file, &mut root, depth)?;
+        self.children(document.root_element(), &mut places, &file, &mut root, depth)?;
         Ok(root)
     }
 
     fn children(
         &mut self,
         xml: roxmltree::Node,
-        document: &roxmltree::Document,
+        places: &mut Places,
         file: &Rc<PathBuf>,
         into: &mut Node,
         depth: usize,
     ) -> Result<(), ImportError> {
         for element in xml.children().filter(roxmltree::Node::is_element) {
-            let position = document.text_pos_at(element.range().start);
+            let (line, column) = places.of(element.range().start);
             let filled_in = |a: roxmltree::Attribute| {
                 let value = self.filled_in(a.value()).ok_or_else(|| {
-                    let place = format!("line {}:{}", position.row, position.col);
+                    let place = format!("line {line}:{column}");
                     let problem = format!("the parameters in the attribute {} make it longer than {MAX_VALUE} bytes", a.name());
                     ImportError::malformed(file, place, problem)
                 })?;
@@ -178,21 +198,15 @@ impl Loader<'_, '_> {
                 "camera" => "sensor".to_string(),
                 _ => tag,
             };
-            let mut node = Node {
-                tag,
-                plugin,
-                id,
-                name,
-                attributes,
-                children: Vec::new(),
-                file: file.clone(),
-                line: position.row,
-                column: position.col,
-            };
+            let mut node = Node { tag, plugin, id, name, attributes, children: Vec::new(), file: file.clone(), line, column };
             if depth >= MAX_DEPTH {
                 return Err(node.error(format!("elements (or included files) are nested more than {MAX_DEPTH} deep")));
             }
+            if node.tag == "spectrum" && node.attribute("value").is_none() {
+                self.fill_in_samples(&mut node)?;
+            }
             match node.tag.as_str() {
+                "path" => self.look_in(&node),
                 "default" => {
                     let (name, value) = (node.attribute("name"), node.attribute("value"));
                     if let (Some(name), Some(value)) = (name, value)
@@ -209,17 +223,34 @@ impl Loader<'_, '_> {
                             node.error(format!("more than {MAX_INCLUDES} files are included; files include each other over and over"))
                         );
                     }
-                    let (path, bytes) = self.assembly.read(&name)?;
+                    let (path, bytes) = self.assembly.read_from(file, &name)?;
                     let mut included = self.parse(path, &bytes, depth + 8)?;
                     into.children.append(&mut included.children);
                 }
                 _ => {
-                    self.children(element, document, file, &mut node, depth + 1)?;
+                    self.children(element, places, file, &mut node, depth + 1)?;
                     into.children.push(node);
                 }
             }
         }
         Ok(())
+    }
+
+    /// Gives a spectrum that is in a file its samples as value.
+    fn fill_in_samples(&mut self, node: &mut Node) -> Result<(), ImportError> {
+        let Some(name) = node.attribute("filename") else { return Ok(()) };
+        let (file, bytes) = self.assembly.read_from(&node.file, name)?;
+        let samples: Vec<String> = spectrum::pairs(&bytes, &file)?.iter().map(|(nm, value)| format!("{nm:e}:{value:e}")).collect();
+        node.attributes.push(("value".to_string(), samples.join(" ")));
+        Ok(())
+    }
+
+    /// Has files looked for in the folder of a `path`.
+    fn look_in(&mut self, node: &Node) {
+        let folder = node.attribute("value").unwrap_or_default();
+        if !self.assembly.look_in(&node.file, folder) {
+            self.assembly.warn(node.place(), format!("there is no folder {folder:?}; files are not looked for in it"));
+        }
     }
 
     /// The value with every `$parameter` replaced; the longest names first, so that `$res` does not spoil `$resx`. `None` when it
@@ -255,6 +286,18 @@ fn snake_case(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn places_are_those_of_the_parser() {
+        let text = "<a>\n <b é='ü'/><c/>\r\n<d><e/>é</d>\n\n</a>";
+        let document = roxmltree::Document::parse(text).unwrap();
+        let mut places = Places { text, at: 0, line: 1, column: 1 };
+        for element in document.descendants().filter(roxmltree::Node::is_element) {
+            let expected = document.text_pos_at(element.range().start);
+            assert_eq!(places.of(element.range().start), (expected.row, expected.col));
+        }
+        assert_eq!((places.line, places.column), (3, 4));
+    }
 
     #[test]
     fn names_of_old_versions_become_those_of_the_new() {

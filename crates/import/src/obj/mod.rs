@@ -19,6 +19,7 @@
 mod mtl;
 mod reader;
 
+pub(crate) use mtl::Library;
 pub(crate) use reader::ObjFile;
 
 use crate::assembly::Assembly;
@@ -46,8 +47,10 @@ fn load_with(mut assembly: Assembly, known: mtl::Library) -> Result<Imported, Im
     let bytes = assembly.read_scene_file()?;
     let obj = ObjFile::parse(&bytes, &file)?;
     obj.notes.iter().for_each(|note| assembly.warn("whole file", note));
-    let library = mtl::read_libraries(&obj.libraries, known, &mut assembly)?;
+    let library = mtl::read_libraries(&obj.libraries, "", known, &mut assembly)?;
     let mut materials: HashMap<Option<&str>, u32> = HashMap::new();
+    let mut sharing: HashMap<Option<&str>, usize> = HashMap::new();
+    obj.groups.iter().for_each(|group| *sharing.entry(group.name.as_deref()).or_default() += 1);
     for (i, group) in obj.groups.iter().enumerate() {
         assembly.progress(i + 1, obj.groups.len());
         let wanted = group.material.as_deref();
@@ -60,7 +63,7 @@ fn load_with(mut assembly: Assembly, known: mtl::Library) -> Result<Imported, Im
                 index
             }
         };
-        let shared = obj.groups.iter().filter(|g| g.name == group.name).count() > 1;
+        let shared = sharing[&group.name.as_deref()] > 1;
         let name = match (&group.name, wanted) {
             (Some(name), Some(material)) if shared => format!("{name}.{material}"),
             (Some(name), _) => name.clone(),
@@ -73,6 +76,16 @@ fn load_with(mut assembly: Assembly, known: mtl::Library) -> Result<Imported, Im
         }
     }
     assembly.finish()
+}
+
+/// The materials of the libraries `names`, which the OBJ file at `path` names; a scene of another format refers to it by that path.
+pub(crate) fn libraries(names: &[String], path: &str, assembly: &mut Assembly) -> Result<Library, ImportError> {
+    mtl::read_libraries(names, &mtl::folder_of(path), Library::new(), assembly)
+}
+
+/// The material of a name; `None` where the library does not define it.
+pub(crate) fn material(name: &str, library: &Library, assembly: &mut Assembly) -> Result<Option<Material>, ImportError> {
+    library.get(name).map(|entry| mtl::material(entry, assembly)).transpose()
 }
 
 /// A line without its comment. Behind a keyword that `is_text` knows stands a name or path, which may contain `#`.

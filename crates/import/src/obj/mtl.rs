@@ -13,7 +13,7 @@ const BUMP_METRES: f32 = 0.005;
 
 /// One `newmtl`: its statements by keyword in lower case, later ones replacing earlier ones.
 #[derive(Clone)]
-pub(super) struct Entry {
+pub(crate) struct Entry {
     name: String,
     /// Folder of the library, to which pictures are relative, as the scene file would spell it.
     folder: String,
@@ -21,7 +21,7 @@ pub(super) struct Entry {
 }
 
 /// Materials by name.
-pub(super) type Library = HashMap<String, Entry>;
+pub(crate) type Library = HashMap<String, Entry>;
 
 /// The materials that Java 3D's loader of OBJ files knows by name, and under the empty name that of faces without one. Programs
 /// that are built on it, such as Sweet Home 3D, have many models that rely on them. Colours are rounded to a thousandth. Their `d`
@@ -34,18 +34,22 @@ pub(super) fn java3d() -> Library {
     library
 }
 
-/// Reads the libraries that an OBJ file names, whose materials replace those of `library`. One that is not there is a warning.
-pub(super) fn read_libraries(names: &[String], mut library: Library, assembly: &mut Assembly) -> Result<Library, ImportError> {
+/// Reads the libraries that an OBJ file in `folder` names, whose materials replace those of `library`. One that is not there is a
+/// warning.
+pub(super) fn read_libraries(
+    names: &[String],
+    folder: &str,
+    mut library: Library,
+    assembly: &mut Assembly,
+) -> Result<Library, ImportError> {
+    let spelled = |name: &str| Path::new(folder).join(name).to_string_lossy().into_owned();
     for line in names {
         // The rest of the line is one name with spaces, or, if there is no such file, several names.
-        let whole = assembly.exists(line) || !line.contains(char::is_whitespace);
+        let whole = assembly.exists(&spelled(line)) || !line.contains(char::is_whitespace);
         let candidates: Vec<&str> = if whole { vec![line] } else { line.split_whitespace().collect() };
-        for name in candidates {
-            match assembly.read(name) {
-                Ok((_, bytes)) => {
-                    let folder = name.replace('\\', "/").rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
-                    parse(&String::from_utf8_lossy(&bytes), &folder, &mut library);
-                }
+        for name in candidates.into_iter().map(spelled) {
+            match assembly.read(&name) {
+                Ok((_, bytes)) => parse(&String::from_utf8_lossy(&bytes), &folder_of(&name), &mut library),
                 Err(ImportError::Read { file, source, .. }) => {
                     let message =
                         format!("the material library {} cannot be read ({source}); grey stands in for its materials", file.display());
@@ -56,6 +60,11 @@ pub(super) fn read_libraries(names: &[String], mut library: Library, assembly: &
         }
     }
     Ok(library)
+}
+
+/// The folder of a file as the scene file spells it, with a slash at its end; empty where that is the scene file's own.
+pub(super) fn folder_of(path: &str) -> String {
+    path.replace('\\', "/").rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"))
 }
 
 fn parse(text: &str, folder: &str, library: &mut Library) {

@@ -152,7 +152,8 @@ impl Reader<'_> {
     /// The parameters of a directive of a kind, with those that `Attribute` adds to that kind.
     fn params(&self, tokens: &mut Tokens, place: Place, target: &str) -> Result<Params, ImportError> {
         let params = Params::read(tokens, place)?;
-        let params = params.with_defaults(self.state.defaults.iter().filter(|(kind, _)| kind == target).map(|(_, p)| p));
+        // Those of the innermost block come first.
+        let params = params.with_defaults(self.state.defaults.iter().rev().filter(|(kind, _)| kind == target).map(|(_, p)| p));
         self.bind(&params);
         Ok(params)
     }

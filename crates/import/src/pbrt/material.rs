@@ -239,7 +239,7 @@ impl Reader<'_> {
             self.warn(&params.place, "the reflectance of glass was set to one");
         }
         let transmittance = self.color_param(params, "Kt", Rgb::WHITE)?;
-        let (eta, alpha) = (self.index_of_refraction(params)?, self.alpha(params, "", 0.0)?);
+        let (eta, alpha) = (self.index_of_refraction(params)?, self.alpha_of_glass(params)?);
         Ok(Bsdf::Dielectric { eta, alpha, transmittance, absorption: Rgb::BLACK })
     }
 

@@ -11,8 +11,23 @@ impl Reader<'_> {
     /// default, they are put through the version's own formula: in version 3 a polynomial (Pharr, Jakob & Humphreys 2016, 8.4.2), in
     /// version 4 the square root.
     pub(super) fn alpha(&mut self, params: &Params, prefix: &str, default: f32) -> Result<ScalarParam, ImportError> {
-        let names = ["roughness", "uroughness", "vroughness"].map(|n| format!("{prefix}{n}"));
         let remap = params.flag("remaproughness", true)?;
+        let roughness = self.roughness(params, prefix, default)?;
+        Ok(self.remapped(roughness, remap))
+    }
+
+    /// The same for glass, which is smooth where its roughness is zero. The other materials of version 3 are not: its polynomial is
+    /// 0.047 there.
+    pub(super) fn alpha_of_glass(&mut self, params: &Params) -> Result<ScalarParam, ImportError> {
+        let remap = params.flag("remaproughness", true)?;
+        let roughness = self.roughness(params, "", 0.0)?;
+        let smooth = roughness.texture.is_none() && roughness.factor <= 0.0;
+        Ok(if smooth { 0.0.into() } else { self.remapped(roughness, remap) })
+    }
+
+    /// As the file states it; the mean of both directions.
+    fn roughness(&mut self, params: &Params, prefix: &str, default: f32) -> Result<ScalarParam, ImportError> {
+        let names = ["roughness", "uroughness", "vroughness"].map(|n| format!("{prefix}{n}"));
         let both = self.scalar(params, &names[0], default)?;
         let mut either = [both; 2];
         for (value, name) in either.iter_mut().zip(&names[1..]) {
@@ -21,21 +36,19 @@ impl Reader<'_> {
             }
         }
         let [u, v] = either;
-        let smooth = |value: &ScalarParam| value.texture.is_none() && value.factor <= 0.0;
-        if smooth(&u) && smooth(&v) {
-            return Ok(0.0.into());
+        if u == v {
+            return Ok(u);
         }
-        let roughness = if u == v {
-            u
-        } else {
-            self.warn(&params.place, "anisotropic roughness was replaced by its mean");
-            ScalarParam { factor: 0.5 * (u.factor + v.factor), texture: u.texture.or(v.texture) }
-        };
-        Ok(match (remap, self.version) {
-            (false, _) => roughness,
+        self.warn(&params.place, "anisotropic roughness was replaced by its mean");
+        Ok(ScalarParam { factor: 0.5 * (u.factor + v.factor), texture: u.texture.or(v.texture) })
+    }
+
+    fn remapped(&mut self, roughness: ScalarParam, remap: bool) -> ScalarParam {
+        match (remap, self.version) {
+            (false, _) => ScalarParam { factor: roughness.factor.max(0.0), ..roughness },
             (true, Version::V3) => self.mapped(roughness, "alpha of roughness", alpha_of_roughness),
             (true, Version::V4) => self.mapped(roughness, "alpha of roughness", |r| r.max(0.0).sqrt()),
-        })
+        }
     }
 }
 

@@ -66,22 +66,7 @@ impl Reader<'_> {
             return Err(params.place.error(format!("pbrt knows no spectrum {name:?}; correct the name")));
         }
         let (file, bytes) = self.a.read(name)?;
-        let text = String::from_utf8_lossy(&bytes);
-        let mut numbers = Vec::new();
-        for (i, line) in text.lines().enumerate() {
-            for word in line.split('#').next().unwrap_or_default().split(|c: char| c.is_whitespace() || c == ',').filter(|w| !w.is_empty())
-            {
-                let number = word.parse::<f64>().ok().filter(|n| n.is_finite());
-                let problem = || ImportError::malformed(&file, format!("line {}", i + 1), format!("{word:?} is not a finite number"));
-                numbers.push(number.ok_or_else(problem)?);
-            }
-        }
-        if numbers.len() < 2 || !numbers.len().is_multiple_of(2) {
-            let problem = format!("found {} numbers, expected pairs of wavelength and value", numbers.len());
-            return Err(ImportError::malformed(&file, "whole file", problem));
-        }
-        let mut pairs: Vec<(f64, f64)> = numbers.chunks_exact(2).map(|p| (p[0], p[1])).collect();
-        Ok(self.pairs(&mut pairs, kind))
+        Ok(self.pairs(&mut spectrum::pairs(&bytes, &file)?, kind))
     }
 
     /// The index of refraction of a clear substance: `eta`, or in version 3 also `index`; 1.5 where neither is given.

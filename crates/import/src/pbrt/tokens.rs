@@ -30,7 +30,8 @@ pub(super) struct Tokens<'t> {
     file: &'t Path,
     at: usize,
     line: u32,
-    line_start: usize,
+    /// A byte of the line and its column, from which columns are counted on: a line may hold a whole mesh.
+    counted: (usize, u32),
     peeked: Option<Token<'t>>,
     /// Line and column of the word that was taken last.
     last: (u32, u32),
@@ -43,7 +44,7 @@ impl<'t> Tokens<'t> {
         let text = std::str::from_utf8(bytes)
             .map_err(|e| ImportError::malformed(file, format!("byte {}", e.valid_up_to()), "not UTF-8 text; save the file as UTF-8"))?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        Ok(Self { text, file, at: 0, line: 1, line_start: 0, peeked: None, last: (1, 1) })
+        Ok(Self { text, file, at: 0, line: 1, counted: (0, 1), peeked: None, last: (1, 1) })
     }
 
     /// The next word, left where it is; `None` at the end of the file.
@@ -67,8 +68,12 @@ impl<'t> Tokens<'t> {
         ImportError::malformed(self.file, format!("line {}:{}", self.last.0, self.last.1), problem)
     }
 
-    fn column(&self, at: usize) -> u32 {
-        self.text.get(self.line_start..at).map_or(0, |t| t.chars().count() as u32) + 1
+    /// Column of the byte `at`, which comes no earlier than the one asked for last.
+    fn column(&mut self, at: usize) -> u32 {
+        let (from, column) = self.counted;
+        let passed = self.text.get(from..at).map_or(0, |t| t.chars().count() as u32);
+        self.counted = (at, column.saturating_add(passed));
+        self.counted.1
     }
 
     fn cut(&mut self) -> Result<Option<Token<'t>>, ImportError> {
@@ -79,7 +84,7 @@ impl<'t> Tokens<'t> {
                 Some(b'\n') => {
                     self.at += 1;
                     self.line += 1;
-                    self.line_start = self.at;
+                    self.counted = (self.at, 1);
                 }
                 Some(b'#') => self.at += bytes[self.at..].iter().position(|&b| b == b'\n').unwrap_or(bytes.len() - self.at),
                 Some(b) if b.is_ascii_whitespace() => self.at += 1,
@@ -114,7 +119,8 @@ impl<'t> Tokens<'t> {
                 Ok(Kind::Quoted(&self.text[start + 1..start + 1 + length]))
             }
             _ => {
-                let place = format!("line {}:{}", self.line, self.column(start));
+                let column = self.column(start);
+                let place = format!("line {}:{column}", self.line);
                 Err(ImportError::malformed(self.file, place, "the quotation mark has no partner on its line; close it"))
             }
         }
@@ -142,6 +148,18 @@ mod tests {
             (Kind::Bare("é"), 2, 13),
         ];
         assert_eq!(found, expected);
+    }
+
+    /// Counting each column from the line's beginning took minutes.
+    #[test]
+    fn a_million_words_may_stand_on_one_line() {
+        let text = "é ".repeat(1_000_000);
+        let mut tokens = Tokens::new(text.as_bytes(), Path::new("a.pbrt")).unwrap();
+        let (mut words, mut column) = (0, 0);
+        while let Some(token) = tokens.next().unwrap() {
+            (words, column) = (words + 1, token.column);
+        }
+        assert_eq!((words, column), (1_000_000, 1_999_999));
     }
 
     #[test]

@@ -1,13 +1,16 @@
 //! What is refused while a configuration is read: values out of their ranges, names and files that cannot be.
 
-use super::choices::{check_noise, check_positive, check_samples};
+use super::choices::{check_filter_radius, check_noise, check_positive, check_samples, check_save_interval};
 use super::document::Resolver;
 use super::expand::expand;
 use super::locate::ConfigError;
-use super::patch::RenderPatch;
-use super::{CameraConfig, SceneConfig};
-use enfilade_dataset::read_ray_grid;
+use super::patch::{RenderPatch, gate_problem};
+use super::{CameraConfig, Config, SceneConfig, Source};
+use crate::error::Error;
+use crate::workdir::OWN_FILES;
+use enfilade_dataset::{check_name, read_ray_grid};
 use enfilade_post::label::LabelTable;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
@@ -15,6 +18,60 @@ use toml::Spanned;
 const LARGEST_SIDE: u32 = 16_384;
 /// Frame numbers have four digits.
 const MOST_FRAMES: u32 = 10_000;
+/// What names of scenes are made of.
+const NAMES: &str = "names become folders: use 1 to 200 letters, digits, '-', '_' and '.', and do not begin with '.'";
+
+impl Config {
+    /// Refuses what [`Config::read`] refuses of names and numbers: for a configuration that a program has put together. Files are
+    /// looked at by the stages that read them.
+    ///
+    /// # Errors
+    /// When there is no scene, two have one name, a name cannot be a folder's, or a value is out of its range.
+    pub fn check(&self) -> Result<(), Error> {
+        if self.scenes.is_empty() {
+            return Err(Error::usage("the configuration has no scenes", "add at least one; that of the demo has one"));
+        }
+        let mut names = HashSet::new();
+        for scene in &self.scenes {
+            if !names.insert(scene.name.as_str()) {
+                return Err(Error::usage(format!("two scenes have the name {:?}", scene.name), "names of scenes must be unique"));
+            }
+            if check_name("scene name", &scene.name).is_err() || OWN_FILES.contains(&scene.name.as_str()) {
+                return Err(Error::usage(format!("{:?} cannot be the name of a scene", scene.name), NAMES));
+            }
+            let good = "the configuration of the demo has good values";
+            scene.check().map_err(|problem| Error::usage(format!("scene {:?}: {problem}", scene.name), good))?;
+        }
+        Ok(())
+    }
+}
+
+impl SceneConfig {
+    fn check(&self) -> Result<(), String> {
+        let within = |section: &str, problem: Option<String>| problem.map_or(Ok(()), |problem| Err(format!("in `{section}`: {problem}")));
+        match &self.source {
+            Source::File(file) => check_meters_per_unit(file.meters_per_unit)?,
+            Source::Home(home) => within("home", home.problem())?,
+        }
+        check_size(self.size)?;
+        self.fov_x_deg.map_or(Ok(()), |fov| check_fov(fov, &self.camera))?;
+        within("camera", self.camera.problem(self.size))?;
+        within("carve", self.carve.validate().err().map(|e| e.to_string()))?;
+        check_frames(self.plan.frames)?;
+        within("plan", self.plan.validate().err().map(|e| e.to_string()))?;
+        within("gate", gate_problem(&self.gate))?;
+        self.check_rendering()
+    }
+
+    fn check_rendering(&self) -> Result<(), String> {
+        check_samples(self.render.samples)?;
+        self.render.noise.map_or(Ok(()), check_noise)?;
+        self.render.clamp.map_or(Ok(()), |clamp| check_positive("clamp", f64::from(clamp)))?;
+        check_filter_radius(self.render.filter_radius)?;
+        self.time_limit_s.map_or(Ok(()), |limit| check_positive("time_limit_s", limit))?;
+        check_save_interval(self.save_every_s)
+    }
+}
 
 impl Resolver<'_> {
     /// Refuses a label table that the last stages could not use.
@@ -63,10 +120,8 @@ impl Resolver<'_> {
 
     pub(super) fn checked_name(&self, name: &Spanned<String>, what: &str) -> Result<String, ConfigError> {
         let text = name.get_ref();
-        let allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
-        if text.is_empty() || text.starts_with('.') || !text.chars().all(allowed) {
-            let help = "names become folders: use letters, digits, '-', '_' and '.', and do not begin with '.'";
-            return Err(self.refuse(name, format!("{text:?} cannot be the {what}"), help));
+        if check_name("name", text).is_err() {
+            return Err(self.refuse(name, format!("{text:?} cannot be the {what}"), NAMES));
         }
         Ok(text.clone())
     }
@@ -87,17 +142,13 @@ impl Resolver<'_> {
             let check = check_positive("time_limit_s", *limit.get_ref());
             check.map_err(|m| self.refuse(limit, m, "for example: time_limit_s = 90; without the key there is no limit"))?;
         }
-        if let Some(radius) = render.filter_radius.as_ref().filter(|v| !(*v.get_ref() >= 0.0 && v.get_ref().is_finite())) {
-            let message = format!("filter_radius must be 0 or more pixels, found {}", radius.get_ref());
-            return Err(self.refuse(radius, message, "for example: filter_radius = 1"));
+        if let Some(radius) = &render.filter_radius {
+            check_filter_radius(*radius.get_ref()).map_err(|m| self.refuse(radius, m, "for example: filter_radius = 1"))?;
         }
-        match render.save_every_s.as_ref().filter(|v| !(*v.get_ref() >= 0.0 && v.get_ref().is_finite())) {
-            Some(interval) => {
-                let message = format!("save_every_s must be at least 0, found {}", interval.get_ref());
-                Err(self.refuse(interval, message, "for example: save_every_s = 30"))
-            }
-            None => Ok(()),
+        if let Some(interval) = &render.save_every_s {
+            check_save_interval(*interval.get_ref()).map_err(|m| self.refuse(interval, m, "for example: save_every_s = 30"))?;
         }
+        Ok(())
     }
 }
 
@@ -114,4 +165,16 @@ pub(super) fn check_size(size: [u32; 2]) -> Result<[u32; 2], String> {
         return Ok(size);
     }
     Err(format!("width and height must lie between 1 and {LARGEST_SIDE} pixels, found {} x {}", size[0], size[1]))
+}
+
+pub(super) fn check_fov(fov_x_deg: f64, camera: &CameraConfig) -> Result<(), String> {
+    let limit = camera.fov_limit_deg();
+    if fov_x_deg > 0.0 && fov_x_deg < limit {
+        return Ok(());
+    }
+    Err(format!("fov_x_deg must lie between 0 and {limit}, found {fov_x_deg}"))
+}
+
+pub(super) fn check_meters_per_unit(meters: f64) -> Result<(), String> {
+    if meters > 0.0 && meters.is_finite() { Ok(()) } else { Err(format!("meters_per_unit must be a positive number, found {meters}")) }
 }

@@ -66,3 +66,11 @@ pub(super) fn check_noise(noise: f32) -> Result<(), String> {
 pub(super) fn check_positive(what: &str, value: f64) -> Result<(), String> {
     if value > 0.0 && value.is_finite() { Ok(()) } else { Err(format!("{what} must be above 0, found {value}")) }
 }
+
+pub(super) fn check_filter_radius(radius: f32) -> Result<(), String> {
+    if radius >= 0.0 && radius.is_finite() { Ok(()) } else { Err(format!("filter_radius must be 0 or more pixels, found {radius}")) }
+}
+
+pub(super) fn check_save_interval(seconds: f64) -> Result<(), String> {
+    if seconds >= 0.0 && seconds.is_finite() { Ok(()) } else { Err(format!("save_every_s must be at least 0, found {seconds}")) }
+}

@@ -3,10 +3,11 @@
 //! From the weakest to the strongest: built-in defaults, the file's top level, the scene's own keys, the command line. On each
 //! level `quality` sets the samples and `render.samples` wins over it.
 
-use super::checks::{check_frames, check_size};
+use super::checks::{check_fov, check_frames, check_meters_per_unit, check_size};
 use super::locate::{ConfigError, Source as Text, in_words};
 use super::patch::{CarvePatch, GatePatch, PlanPatch, RenderPatch};
 use super::{CameraChoice, CameraConfig, Config, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source};
+use crate::workdir::OWN_FILES;
 use enfilade_explore::{ExploreError, Mode};
 use enfilade_home::HomeConfig;
 use enfilade_import::UpAxis;
@@ -171,6 +172,13 @@ impl Resolver<'_> {
     fn scene(&self, keys: &SceneKeys) -> Result<SceneConfig, ConfigError> {
         let document = self.document;
         let name = self.checked_name(&keys.name, "name of a scene")?;
+        if OWN_FILES.contains(&name.as_str()) {
+            return Err(self.refuse(
+                &keys.name,
+                format!("{name:?} cannot be the name of a scene"),
+                "a file of the work folder has it; take another",
+            ));
+        }
         let seed = self.overrides.seed.or(keys.seed).or(document.seed).unwrap_or(0);
         let camera = keys.camera.as_ref().or(document.camera.as_ref());
         let mut scene = SceneConfig {
@@ -255,12 +263,9 @@ impl Resolver<'_> {
         };
         let defaults = &self.document.import;
         let meters_per_unit = keys.meters_per_unit.as_ref().or(defaults.meters_per_unit.as_ref());
-        if let Some(value) = meters_per_unit.filter(|v| !(v.get_ref().is_finite() && *v.get_ref() > 0.0)) {
-            return Err(self.refuse(
-                value,
-                "meters_per_unit must be a positive number",
-                "0.01 for a file in centimetres, 1 for one in metres",
-            ));
+        if let Some(value) = meters_per_unit {
+            let help = "0.01 for a file in centimetres, 1 for one in metres";
+            check_meters_per_unit(*value.get_ref()).map_err(|m| self.refuse(value, m, help))?;
         }
         if let Some(environment) = &keys.environment {
             self.check_path(&environment.get_ref().file, environment)?;
@@ -324,10 +329,7 @@ impl Resolver<'_> {
             scene.size = check_size(*size.get_ref()).map_err(|m| self.refuse(size, m, "for example: size = [1024, 768]"))?;
         }
         if let Some(fov) = &render.fov_x_deg {
-            let limit = scene.camera.fov_limit_deg();
-            if !(*fov.get_ref() > 0.0 && *fov.get_ref() < limit) {
-                return Err(self.refuse(fov, format!("fov_x_deg must lie between 0 and {limit}"), "60 is a common choice"));
-            }
+            check_fov(*fov.get_ref(), &scene.camera).map_err(|m| self.refuse(fov, m, "60 is a common choice"))?;
             scene.fov_x_deg = Some(*fov.get_ref());
         }
         if let Some(mode) = &plan.mode

@@ -31,6 +31,7 @@ pub use locate::{ConfigError, Place};
 
 /// A dataset to make.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Config {
     /// Where relative paths start: the folder of the TOML file. Not part of what is made.
     #[serde(skip)]
@@ -47,6 +48,7 @@ pub struct Config {
 
 /// One scene of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SceneConfig {
     /// Name in the dataset: letters, digits, `-`, `_` and `.`.
     pub name: String,
@@ -102,6 +104,7 @@ pub enum Source {
 
 /// A scene file and what it does not say itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct FileSource {
     /// As written: may be relative and may hold environment variables.
     pub file: String,
@@ -140,6 +143,7 @@ fn one() -> f32 {
 
 /// A label table and the rows of it that count.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LabelSource {
     /// A CSV file; as written.
     pub table: String,
@@ -149,7 +153,7 @@ pub struct LabelSource {
 
 /// A camera where a trajectory begins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, deny_unknown_fields)]
 pub enum CameraChoice {
     /// One of the file's, by name.
     Named(String),

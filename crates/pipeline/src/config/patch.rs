@@ -84,16 +84,27 @@ impl GatePatch {
     /// A value out of its range, what is wrong with it, and a good one.
     pub fn problem(&self) -> Option<(&Spanned<f64>, String, &'static str)> {
         let shares = [&self.max_void_share, &self.max_enclosed_share, &self.max_open_share, &self.max_back_face_share];
-        let shares = shares.into_iter().chain([&self.max_near_share, &self.max_plane_share, &self.max_invalid_share]).flatten();
-        let lengths = [&self.enclosed_m, &self.min_depth_m, &self.min_depth_range_m].into_iter().flatten();
-        let no_share = shares.into_iter().find(|v| !(0.0..=1.0).contains(v.get_ref()));
-        let no_share =
-            no_share.map(|v| (v, format!("a share must lie between 0 and 1, found {}", v.get_ref()), "for example: max_plane_share = 0.9"));
-        let no_length = lengths.into_iter().find(|v| !(*v.get_ref() >= 0.0 && v.get_ref().is_finite()));
-        no_share.or_else(|| {
-            no_length.map(|v| (v, format!("a length must be 0 or more metres, found {}", v.get_ref()), "for example: min_depth_m = 0.3"))
-        })
+        let mut shares = shares.into_iter().chain([&self.max_near_share, &self.max_plane_share, &self.max_invalid_share]).flatten();
+        let mut lengths = [&self.enclosed_m, &self.min_depth_m, &self.min_depth_range_m].into_iter().flatten();
+        let no_share = shares.find_map(|v| Some((v, share_problem(*v.get_ref())?, "for example: max_plane_share = 0.9")));
+        no_share.or_else(|| lengths.find_map(|v| Some((v, length_problem(*v.get_ref())?, "for example: min_depth_m = 0.3"))))
     }
+}
+
+/// What is out of its range, if anything.
+pub(super) fn gate_problem(gate: &GateConfig) -> Option<String> {
+    let shares = [gate.max_void_share, gate.max_enclosed_share, gate.max_open_share, gate.max_back_face_share];
+    let shares = shares.into_iter().chain([gate.max_near_share, gate.max_plane_share, gate.max_invalid_share]);
+    let lengths = [gate.enclosed_m, gate.min_depth_m, gate.min_depth_range_m];
+    shares.filter_map(share_problem).chain(lengths.into_iter().filter_map(length_problem)).next()
+}
+
+fn share_problem(share: f64) -> Option<String> {
+    (!(0.0..=1.0).contains(&share)).then(|| format!("a share must lie between 0 and 1, found {share}"))
+}
+
+fn length_problem(length: f64) -> Option<String> {
+    (!(length >= 0.0 && length.is_finite())).then(|| format!("a length must be 0 or more metres, found {length}"))
 }
 
 // The frames are a key of the level above; the test images have the field of view and the shape of the pictures.

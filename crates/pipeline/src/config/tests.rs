@@ -316,6 +316,55 @@ fn resolved_configurations_survive_json() {
 }
 
 #[test]
+fn stored_configurations_of_older_versions_are_read_and_unknown_keys_refused() {
+    let config = config(&format!(
+        "labels = \"../../examples/real-rooms/drake_labels.csv\"\n{SCENE}cameras = [{{ position = [0, 1, 1], look_at = [3, 1, 1] }}]\n"
+    ));
+    let stored = serde_json::to_value(&config).unwrap();
+    for place in ["", "/scenes/0", "/scenes/0/source/file", "/scenes/0/labels", "/scenes/0/cameras/0"] {
+        let mut changed = stored.clone();
+        changed.pointer_mut(place).unwrap()["sampels"] = 3.into();
+        assert!(serde_json::from_value::<Config>(changed).is_err(), "{place}");
+    }
+    // What the first version did not have.
+    let mut old = stored;
+    for key in ["camera", "gate", "time_limit_s", "save_every_s", "denoise", "denoise_library"] {
+        old["scenes"][0].as_object_mut().unwrap().remove(key);
+    }
+    assert_eq!(serde_json::from_value::<Config>(old).unwrap(), Config { base: PathBuf::new(), ..config });
+}
+
+#[test]
+fn what_a_program_puts_together_is_refused_as_a_file_is() {
+    let demo = Config::demo(&Overrides::default()).unwrap();
+    demo.check().unwrap();
+    config(&format!("[gate]\nmin_depth_m = 0.2\n[camera]\nmodel = \"fisheye\"\n[render]\nfov_x_deg = 200\n{SCENE}")).check().unwrap();
+    let refused = |change: &dyn Fn(&mut Config)| {
+        let mut config = demo.clone();
+        change(&mut config);
+        config.check().unwrap_err().to_string()
+    };
+    assert_eq!(refused(&|config| config.scenes.clear()), "the configuration has no scenes");
+    assert_eq!(refused(&|config| config.scenes.push(config.scenes[0].clone())), "two scenes have the name \"home\"");
+    assert_eq!(refused(&|config| config.scenes[0].name = "../x".into()), "\"../x\" cannot be the name of a scene");
+    let changes: [(fn(&mut SceneConfig), &str); 9] = [
+        (|scene| scene.size = [0, 5], "width and height must lie between 1 and 16384 pixels, found 0 x 5"),
+        (|scene| scene.plan.frames = 0, "frames must lie between 1 and 10000, found 0"),
+        (|scene| scene.render.samples = 0, "samples must be at least 1"),
+        (|scene| scene.fov_x_deg = Some(180.0), "fov_x_deg must lie between 0 and 180, found 180"),
+        (|scene| scene.save_every_s = -1.0, "save_every_s must be at least 0, found -1"),
+        (|scene| scene.source = Source::Home(HomeConfig { clutter: 9.0, ..HomeConfig::default() }), "in `home`: clutter must lie between"),
+        (|scene| scene.camera.cam_from_uv = Some([[0.0; 3]; 3]), "in `camera`: `cam_from_uv` goes with model tilted_pinhole"),
+        (|scene| scene.carve.rays = 0, "in `carve`: rays = 0: expected"),
+        (|scene| scene.gate.max_plane_share = 1.5, "in `gate`: a share must lie between 0 and 1, found 1.5"),
+    ];
+    for (change, expected) in changes {
+        let found = refused(&|config| change(&mut config.scenes[0]));
+        assert!(found.starts_with(&format!("scene \"home\": {expected}")), "{found}");
+    }
+}
+
+#[test]
 fn the_demo_is_one_home_and_takes_overrides() {
     let config = Config::demo(&Overrides {
         seed: Some(4),

@@ -4,12 +4,12 @@ use super::{Input, Inputs, Job, Outcome, Record, Stage, carve};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
 use crate::report::{StageCx, count};
-use crate::workdir::{Hash, remove_if_there, write_whole};
+use crate::workdir::{Hash, remove_folder, remove_if_there, write_whole};
 use enfilade_dataset::{JudgedView, ViewFault, ViewVerdict, write_bytes};
 use enfilade_post::picture::jpeg;
 use enfilade_post::view_gates::{GateAction, Judged, VIEW_GATES, gates_page};
 use enfilade_scene::{CameraView, Cx, Trajectory, Warning};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Frames named in a warning; of the others it says that there are more.
 const FRAMES_NAMED: usize = 12;
@@ -87,21 +87,11 @@ pub(super) fn verdicts(job: &Job) -> Result<Vec<Input>, Error> {
 pub(super) fn forget(job: &Job) -> Result<(), Error> {
     let (layout, name) = (job.dataset.layout(), &job.scene.name);
     remove_if_there(&layout.gates_page(name))?;
-    if !layout.metadata_cameras(name).is_file() {
-        return Ok(());
-    }
     for camera in job.dataset.cameras(name).map_err(Error::stage)? {
         remove_if_there(&layout.view_gates(name, &camera))?;
         remove_folder(&layout.rejected_dir(name, &camera))?;
     }
     Ok(())
-}
-
-fn remove_folder(path: &Path) -> Result<(), Error> {
-    match std::fs::remove_dir_all(path) {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io("remove", path)(e)),
-        _ => Ok(()),
-    }
 }
 
 fn write_verdicts(job: &Job, trajectory: &Trajectory, views: &[Judged]) -> Result<(), Error> {

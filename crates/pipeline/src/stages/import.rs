@@ -6,10 +6,12 @@ use crate::config::{FileSource, Source};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, write_json, write_whole};
+use enfilade_dataset::FrameRecord;
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, ImportOptions, ImportedLabel};
 use enfilade_scene::{Cx, Labels, PartLabel, Scene, WorldMesh};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 /// Labels that came with the scene, in the work folder.
 pub(super) const LABELS: &str = "labels.json";
@@ -51,25 +53,76 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         Source::Home(config) => {
             let home = assets::home(config, &|path| job.config.path(path), cx)?;
             let report = if home.credits.is_empty() { serde_json::Value::Null } else { serde_json::json!({ "credits": home.credits }) };
-            (home.scene, Some(home.labels), assets::files(config, &|path| job.config.path(path))?, report)
+            // Its files were known before, and hashed.
+            (home.scene, Some(home.labels), None, report)
         }
         Source::File(source) => {
+            let watch = Watch::start(job, source);
             let imported = load_file(source, &job.config.path(&source.file)?, &|path| job.config.path(path), cx)?;
             let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
             let report = serde_json::to_value(&imported.report).unwrap_or_default();
-            (imported.scene, labels, [imported.inputs, imported.missing].concat(), report)
+            let inputs = watch.inputs(&[imported.inputs, imported.missing].concat())?;
+            (imported.scene, labels, Some(inputs), report)
         }
     };
+    let (package, bytes) = (job.package()?, enfilade_scene::to_bytes(&scene));
+    remove_other_frames(job, &package, &bytes)?;
     job.dataset.write_scene(name, &scene).map_err(Error::stage)?;
-    let package = job.package()?;
-    write_whole(&package, &enfilade_scene::to_bytes(&scene))?;
+    write_whole(&package, &bytes)?;
     let labels_file = job.work_file(LABELS)?;
     write_json(&labels_file, &labels)?;
     job.forget_scene();
     let layout = job.dataset.layout();
     let outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
-    let inputs = inputs.iter().map(|path| Input::of_any(path)).collect::<Result<_, _>>()?;
-    Ok(Outcome { summary: describe(&scene), outputs, inputs: Some(inputs), report })
+    Ok(Outcome { summary: describe(&scene), outputs, inputs, report })
+}
+
+/// Pictures of another scene would be taken for pictures of this one, whose parts may have other numbers. `bytes` are those of the package
+/// that comes in place of the one that is there.
+fn remove_other_frames(job: &Job, package: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let name = &job.scene.name;
+    if !job.dataset.layout().images_dir(name).is_dir() {
+        return Ok(());
+    }
+    let hash = Hash::of_bytes(bytes);
+    let is_replaced = package.is_file() && Hash::of_file(package)? != hash;
+    let stays = |record: &FrameRecord| match &record.recipe {
+        Some(recipe) if !recipe.scene_blake3.is_empty() => recipe.scene_blake3 == hash.0,
+        // V-Ray's frames, and those of earlier versions, do not tell their scene: it is that which was there.
+        _ => !is_replaced,
+    };
+    let cameras = job.dataset.cameras(name).map_err(Error::stage)?;
+    cameras.iter().try_for_each(|camera| job.dataset.retain_frames(name, camera, stays)).map_err(Error::stage)
+}
+
+/// Finds the files that are saved while a scene is read from them: nobody knows which of their contents were read.
+struct Watch {
+    start: SystemTime,
+    /// The files that the configuration names, as they were before.
+    named: Vec<Input>,
+}
+
+impl Watch {
+    fn start(job: &Job, source: &FileSource) -> Self {
+        let written = [Some(&source.file), source.environment.as_ref().map(|environment| &environment.file)];
+        let files = written.into_iter().flatten().filter_map(|written| job.config.path(written).ok()).filter(|path| path.is_file());
+        // What cannot be read here, the import says.
+        let named = files.filter_map(|path| Input::of(&path).ok()).collect();
+        Self { start: SystemTime::now(), named }
+    }
+
+    /// The files at `paths` as they were read. One that was saved meanwhile gets a hash that no content has, so that the next run imports
+    /// again; named ones, which were hashed before, differ from then on anyway.
+    fn inputs(&self, paths: &[PathBuf]) -> Result<Vec<Input>, Error> {
+        let meanwhile = self.start..=SystemTime::now();
+        let is_saved = |path: &Path| path.metadata().and_then(|data| data.modified()).is_ok_and(|time| meanwhile.contains(&time));
+        let input = |path: &PathBuf| match self.named.iter().find(|input| input.path == *path) {
+            Some(named) => Ok(named.clone()),
+            None if is_saved(path) => Ok(Input { path: path.clone(), content: Hash(String::new()) }),
+            None => Input::of_any(path),
+        };
+        paths.iter().map(input).collect()
+    }
 }
 
 /// Imports `file` with the choices of `source`; `locate` finds the other files that these name.

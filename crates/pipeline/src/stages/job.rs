@@ -159,9 +159,12 @@ impl<'a> Job<'a> {
         if self.scene.denoise { self.frames()?.iter().map(record).collect() } else { Ok(Vec::new()) }
     }
 
-    /// True unless the stage is one that nobody asks for, nor has asked for.
+    /// True unless the stage is one that nobody asks for, nor has asked for. One that was killed has left no record of itself, but layers.
     pub fn wants(&self, stage: Stage) -> bool {
-        stage != Stage::Denoise || self.scene.denoise || self.work_file("denoise.json").is_ok_and(|record| record.is_file())
+        stage != Stage::Denoise
+            || self.scene.denoise
+            || self.work_file("denoise.json").is_ok_and(|record| record.is_file())
+            || self.dataset.has_denoised_layers(&self.scene.name)
     }
 
     fn run_first(&self, stage: Stage) -> Error {

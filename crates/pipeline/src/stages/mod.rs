@@ -80,7 +80,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Import,
         name: "import",
         about: "scene file -> scene package",
-        version: 6,
+        version: 7,
         settings: import::settings,
         inputs: import::inputs,
         run: import::run,
@@ -116,7 +116,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Render,
         name: "render",
         about: "scene, trajectories -> frames",
-        version: 9,
+        version: 10,
         settings: render::settings,
         inputs: render::inputs,
         run: render::run,
@@ -125,7 +125,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Denoise,
         name: "denoise",
         about: "frames -> denoised colour layers, where asked for",
-        version: 2,
+        version: 3,
         settings: denoise::settings,
         inputs: denoise::inputs,
         run: denoise::run,
@@ -239,6 +239,22 @@ pub(crate) fn render_frames(job: &Job, cx: &StageCx) -> Result<(), Error> {
     render::run(job, cx).map(drop)
 }
 
+/// True when [`advance`] would find nothing to do.
+pub(crate) fn is_up_to_date(spec: &StageSpec, job: &Job) -> Result<bool, Error> {
+    let record: Option<Record> = read_json(&job.work_file(&format!("{}.json", spec.name))?);
+    let Some(record) = record else { return Ok(false) };
+    let inputs = (spec.inputs)(job, Some(&record))?;
+    Ok(inputs.is_some_and(|inputs| holds(spec, job, &record, &(spec.settings)(job), &inputs)))
+}
+
+/// Whether the stage ran with these settings and inputs, and what it wrote is there.
+fn holds(spec: &StageSpec, job: &Job, record: &Record, settings: &Hash, inputs: &[Input]) -> bool {
+    record.key == key(spec, settings, inputs)
+        && record.outputs.iter().all(|o| is_there(&job.out().join(&o.path), o.bytes))
+        // A table that scenes share, so its length tells nothing.
+        && (spec.stage != Stage::Plan || plan::is_listed(job))
+}
+
 /// Runs a stage of a scene unless it is up to date and not forced.
 pub(crate) fn advance(spec: &StageSpec, job: &Job, cx: StageCx) -> Result<StageOutcome, Error> {
     let record_path = job.work_file(&format!("{}.json", spec.name))?;
@@ -246,8 +262,7 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, cx: StageCx) -> Result<StageO
     let inputs = (spec.inputs)(job, previous.as_ref())?;
     let settings = (spec.settings)(job);
     if let (false, Some(record), Some(inputs)) = (job.force, &previous, &inputs)
-        && record.key == key(spec, &settings, inputs)
-        && record.outputs.iter().all(|o| is_there(&job.out().join(&o.path), o.bytes))
+        && holds(spec, job, record, &settings, inputs)
     {
         cx.event(Event::UpToDate);
         let warnings = record.warnings.len();

@@ -1,11 +1,11 @@
 //! The pilot of a forecast: a few squares of pixels of a few frames, and one frame with two samples per pixel that goes through all
 //! later stages, in a dataset of its own that is removed afterwards.
 
-use super::{FramesByTrajectory, Job, STAGES, Stage, advance};
+use super::{FramesByTrajectory, Job, PARTIALS, STAGES, Stage, advance};
 use crate::error::Error;
 use crate::forecast::{ProbeCost, ScenePilot};
 use crate::report::{Event, Silent, StageCx, Stopwatch, machine_is_busy, peak_memory_bytes, thread_cpu_s};
-use crate::workdir::{PACKAGE, Workdir};
+use crate::workdir::{PACKAGE, Workdir, remove_folder};
 use enfilade_dataset::{Dataset, FrameInfo};
 use enfilade_frame::Frame;
 use enfilade_post::boxes::scene_boxes;
@@ -71,7 +71,9 @@ pub(crate) fn pilot(job: &Job, frames: &FramesByTrajectory, cx: &StageCx) -> Res
         }
     }
     found.before_cpu_s = scene_cpu_s + guides_cpu_s * filmed.len() as f64 / tried.len().max(1) as f64;
-    found.scene_bytes = folder_bytes(&job.dataset.layout().detail_dir(&job.scene.name));
+    found.scene_bytes += folder_bytes(&job.dataset.layout().detail_dir(&job.scene.name));
+    // The package is most of the work folder. Frames in the making go again.
+    found.scene_bytes += folder_bytes(&job.work_file("")?).saturating_sub(folder_bytes(&job.work_file(PARTIALS)?));
     found.peak_memory_bytes = peak_memory_bytes().unwrap_or(0);
     let summary = format!("a pilot of {} frames took {:.1} processor seconds", found.probes.len(), time.cpu_s());
     cx.event(Event::Finished { summary: &summary, wall_s: time.wall_s() });
@@ -129,9 +131,9 @@ fn try_frame(
     found: &mut ScenePilot,
 ) -> Result<(), Error> {
     let folder = job.work_file(FOLDER)?;
-    remove(&folder)?;
+    remove_folder(&folder)?;
     let result = try_frame_in(job, &folder, filmed, (prepared, guide, views), found);
-    remove(&folder)?;
+    remove_folder(&folder)?;
     result
 }
 
@@ -175,10 +177,12 @@ fn try_frame_in(
     dataset.write_scene(name, &scene).map_err(Error::stage)?;
     dataset.write_trajectory(name, &alone, camera, None).map_err(Error::stage)?;
     dataset.write_camera_parameters(name, camera).map_err(Error::stage)?;
-    let before_bytes =
-        folder_bytes(&dataset.layout().detail_dir(name)) - folder_bytes(&dataset.layout().records_dir(name, &trajectory.name));
+    let folder = dataset.layout().scene_dir(name);
+    let before_bytes = bytes_below(&folder, &|file| !is_of_frame(file));
     later_stages(job, &dataset, &scratch, found)?;
-    found.frame_bytes = folder_bytes(&dataset.layout().scene_dir(name)).saturating_sub(before_bytes);
+    found.frame_bytes = bytes_below(&folder, &is_of_frame);
+    // Tables and sheets, of which a frame more is a row or a small picture.
+    found.scene_bytes = bytes_below(&folder, &|file| !is_of_frame(file)).saturating_sub(before_bytes);
     // The parts of `boxes` that do not depend on frames.
     let labels = dataset.read_label_tables(name).unwrap_or_default();
     let time = Stopwatch::start();
@@ -211,22 +215,25 @@ fn layers_bytes(frame: &Frame) -> u64 {
     frame.iter().map(|(_, values)| values.as_bytes().len() as u64).sum()
 }
 
-/// Bytes of all files below a folder.
-fn folder_bytes(folder: &Path) -> u64 {
-    let Ok(entries) = std::fs::read_dir(folder) else { return 0 };
-    let size = |entry: std::fs::DirEntry| match entry.metadata() {
-        Ok(data) if data.is_dir() => folder_bytes(&entry.path()),
-        Ok(data) => data.len(),
-        Err(_) => 0,
-    };
-    entries.filter_map(Result::ok).map(size).sum()
+/// True for the files that every frame has: layers, records, pictures, masks.
+fn is_of_frame(file: &str) -> bool {
+    file.starts_with("frame.")
 }
 
-fn remove(folder: &Path) -> Result<(), Error> {
-    match std::fs::remove_dir_all(folder) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(Error::io("remove", folder)(error)),
-        _ => Ok(()),
-    }
+/// Bytes of all files below a folder.
+fn folder_bytes(folder: &Path) -> u64 {
+    bytes_below(folder, &|_| true)
+}
+
+/// Bytes of the files below a folder whose names are wanted.
+fn bytes_below(folder: &Path, is_wanted: &dyn Fn(&str) -> bool) -> u64 {
+    let Ok(entries) = std::fs::read_dir(folder) else { return 0 };
+    let size = |entry: std::fs::DirEntry| match entry.metadata() {
+        Ok(data) if data.is_dir() => bytes_below(&entry.path(), is_wanted),
+        Ok(data) if is_wanted(&entry.file_name().to_string_lossy()) => data.len(),
+        _ => 0,
+    };
+    entries.filter_map(Result::ok).map(size).sum()
 }
 
 #[cfg(test)]
@@ -238,6 +245,18 @@ mod tests {
         assert_eq!(spread(4, 6), [0, 1, 2, 3]);
         assert_eq!(spread(100, 4), [12, 37, 62, 87]);
         assert_eq!(spread(0, 4), Vec::<usize>::new());
+    }
+
+    #[test]
+    fn files_of_frames_are_counted_apart_from_those_of_the_scene() {
+        let folder = tempfile::tempdir().unwrap();
+        for (file, bytes) in [("images/frame.0003.color.hdf5", 100), ("frame.0003.json", 20), ("images/contact_sheet.jpg", 3)] {
+            let path = folder.path().join(file);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, vec![0u8; bytes]).unwrap();
+        }
+        assert_eq!(bytes_below(folder.path(), &is_of_frame), 120);
+        assert_eq!(folder_bytes(folder.path()), 123);
     }
 
     #[test]

@@ -5,13 +5,14 @@ use super::{Input, Inputs, Job, Outcome, Record, Stage, carve, gate};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
 use crate::report::{StageCx, count, count_of};
-use crate::workdir::{Hash, remove_if_there, write_json};
-use enfilade_dataset::{StereoRecord, StereoSide};
+use crate::workdir::{Hash, remove_folder, remove_if_there, write_json};
+use enfilade_dataset::{FrameRecord, StereoRecord, StereoSide};
 use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, Preset, parse_keyframes};
 use enfilade_geometry::OccupancyTree;
 use enfilade_post::planview::remove_plan_preview;
 use enfilade_post::view_gates::GateAction;
 use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, Warning};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The four arrays of a trajectory.
@@ -58,10 +59,14 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         reports.push(report);
     }
     let trajectories: Vec<Trajectory> = filmed.iter().map(|(trajectory, _)| trajectory.clone()).collect();
-    // Pictures of an earlier plan would be taken for pictures of this one.
+    // What was made from an earlier plan would be taken for what is made from this one.
     remove_plan_preview(job.dataset, name).map_err(Error::stage)?;
     gate::forget(job)?;
     remove_other_cameras(job, &trajectories)?;
+    for trajectory in &trajectories {
+        remove_other_frames(job, trajectory, &camera)?;
+        remove_if_there(&job.dataset.layout().plan_report(name, &trajectory.name))?;
+    }
     for (trajectory, stereo) in &filmed {
         job.dataset.write_trajectory(name, trajectory, &camera, stereo.as_ref()).map_err(Error::stage)?;
         if let Mode::Video(video) = &job.scene.plan.mode {
@@ -243,37 +248,57 @@ fn outputs_of(job: &Job, trajectories: &[Trajectory]) -> Vec<PathBuf> {
     keyframes.chain(opencv).chain(models).collect()
 }
 
-/// Cameras of an earlier plan that are not in this one would be taken for cameras of this dataset.
+/// True when the cameras of the dataset as a whole have those of this scene: without its row nothing can be filmed.
+pub(super) fn is_listed(job: &Job) -> bool {
+    job.dataset.read_camera_table().is_ok_and(|table| table.scenes().any(|scene| scene == job.scene.name))
+}
+
+/// Pictures taken from elsewhere, or with another camera, would be taken for pictures of these poses. While a shutter is open, and where
+/// flow is asked for, a frame depends on the poses beside its own too.
+fn remove_other_frames(job: &Job, trajectory: &Trajectory, camera: &Camera) -> Result<(), Error> {
+    let name = &job.scene.name;
+    let is_alone = camera.shutter.is_none() && !job.scene.render.extra;
+    let stays = is_alone || job.dataset.read_trajectory(name, &trajectory.name).is_ok_and(|old| old == *trajectory);
+    let poses: BTreeMap<u32, &Pose> = trajectory.poses.iter().map(|pose| (pose.frame, pose)).collect();
+    let is_taken = |record: &FrameRecord| poses.get(&record.frame).is_some_and(|pose| record.is_taken(camera, pose));
+    job.dataset.retain_frames(name, &trajectory.name, |record| stays && is_taken(record)).map_err(Error::stage)
+}
+
+/// Cameras of an earlier plan that are not in this one would be taken for cameras of this dataset. Files tell of those whose removal was
+/// killed, whatever the table says.
 fn remove_other_cameras(job: &Job, trajectories: &[Trajectory]) -> Result<(), Error> {
+    let name = &job.scene.name;
+    let mut old: BTreeSet<String> = job.dataset.cameras(name).map_err(Error::stage)?.into_iter().collect();
+    old.extend(job.dataset.cameras_by_files(name).map_err(Error::stage)?);
+    let others = old.iter().filter(|camera| trajectories.iter().all(|t| t.name != **camera));
+    others.map(String::as_str).try_for_each(|camera| remove_camera(job, camera))?;
+    // Last, as it names what is still to be removed.
+    remove_if_there(&job.dataset.layout().metadata_cameras(name))
+}
+
+/// Removes all that is of a camera: its frames first, so that none counts without its layers, and its poses last, by which it is found
+/// where that is killed.
+fn remove_camera(job: &Job, camera: &str) -> Result<(), Error> {
     let (layout, name) = (job.dataset.layout(), &job.scene.name);
-    let table = layout.metadata_cameras(name);
-    if !table.is_file() {
-        return Ok(());
-    }
-    let old = job.dataset.cameras(name).map_err(Error::stage)?;
-    remove_if_there(&table)?;
-    for camera in old.iter().filter(|camera| trajectories.iter().all(|t| &t.name != *camera)) {
-        remove_folder(&layout.camera_dir(name, camera))?;
-        let images = layout.images_dir(name);
-        let Ok(entries) = std::fs::read_dir(&images) else { continue };
-        for entry in entries {
-            let path = entry.map_err(Error::io("read", &images))?.path();
-            let of_camera = path.file_name().and_then(|n| n.to_str()).is_some_and(|n| n.starts_with(&format!("scene_{camera}_")));
-            match (of_camera, path.is_dir()) {
-                (false, _) => {}
-                (true, true) => remove_folder(&path)?,
-                (true, false) => std::fs::remove_file(&path).map_err(Error::io("remove", &path))?,
-            }
+    job.dataset.retain_frames(name, camera, |_| false).map_err(Error::stage)?;
+    let prefix = format!("scene_{camera}_");
+    let is_picture = |path: &Path| path.file_name().and_then(|name| name.to_str()).is_some_and(|name| name.starts_with(&prefix));
+    remove_within(&layout.images_dir(name), is_picture)?;
+    let (folder, poses) = (layout.camera_dir(name, camera), layout.keyframes(name, camera, "positions"));
+    remove_within(&folder, |path| path != poses)?;
+    remove_folder(&folder)
+}
+
+/// Removes the files and folders in `folder` that are to go.
+fn remove_within(folder: &Path, goes: impl Fn(&Path) -> bool) -> Result<(), Error> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
+    for entry in entries {
+        let path = entry.map_err(Error::io("read", folder))?.path();
+        if goes(&path) {
+            if path.is_dir() { remove_folder(&path)? } else { remove_if_there(&path)? }
         }
     }
     Ok(())
-}
-
-fn remove_folder(path: &Path) -> Result<(), Error> {
-    match std::fs::remove_dir_all(path) {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io("remove", path)(e)),
-        _ => Ok(()),
-    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! `preview`: pictures of every layer of finished frames, boxes drawn over them, and a contact sheet per trajectory.
 
-use super::{Inputs, Job, Outcome, Record, made};
+use super::{Inputs, Job, Outcome, Record, Stage, made};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, remove_if_there};
 use enfilade_post::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet};
 use enfilade_post::sheet::SheetConfig;
+use enfilade_scene::Trajectory;
 use std::collections::BTreeSet;
 
 pub(super) fn settings(_job: &Job) -> Hash {
@@ -21,11 +22,13 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
+    let filmed = job.filmed()?;
+    filmed.iter().try_for_each(|(_, trajectory)| refuse_incomplete(job, trajectory))?;
     // The dataset's own sheet and statistics show these frames: the run makes them again at its end.
     remove_if_there(&job.dataset.layout().overview())?;
     remove_if_there(&job.dataset.layout().statistics())?;
     let name = &job.scene.name;
-    let (filmed, boxes) = (job.filmed()?, made::boxes(job)?);
+    let boxes = made::boxes(job)?;
     let mut outputs = Vec::new();
     let mut tables = Vec::new();
     let mut sheets = 0;
@@ -53,4 +56,35 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let summary = format!("{}, {}", count(outputs.len() - sheets, "picture"), count(sheets, "contact sheet"));
     outputs.extend(tables);
     Ok(Outcome { summary, outputs, ..Outcome::default() })
+}
+
+/// Refuses frames of which a file is missing or cut short: an exposure without them would be taken for that of the whole trajectory, and
+/// would stay when they are there again.
+fn refuse_incomplete(job: &Job, trajectory: &Trajectory) -> Result<(), Error> {
+    let (dataset, name, camera) = (job.dataset, job.scene.name.as_str(), trajectory.name.as_str());
+    let wanted = job.frames_of(trajectory)?;
+    let complete = dataset.frame_numbers(name, camera).map_err(Error::stage)?;
+    let mut incomplete = dataset.incomplete_frames(name, camera, &complete).map_err(Error::stage)?;
+    incomplete.retain(|frame, _| wanted.contains(frame));
+    if let Some((_, problem)) = incomplete.pop_first() {
+        return Err(Error::stage(problem));
+    }
+    for &frame in &wanted {
+        let labels = dataset.label_record(name, camera, frame).map_err(Error::stage)?;
+        if labels.is_some_and(|record| !dataset.labels_are_complete(name, camera, frame, &record.labels_hash)) {
+            return Err(lacks_layers_of(Stage::Label, job, camera, frame));
+        }
+        let denoised = dataset.denoise_record(name, camera, frame).map_err(Error::stage)?;
+        let is_whole = |hash: &str| !job.scene.denoise || dataset.denoised_are_complete(name, camera, frame, hash);
+        if denoised.is_some_and(|record| !is_whole(&record.denoise_hash)) {
+            return Err(lacks_layers_of(Stage::Denoise, job, camera, frame));
+        }
+    }
+    Ok(())
+}
+
+fn lacks_layers_of(stage: Stage, job: &Job, camera: &str, frame: u32) -> Error {
+    let (verb, name) = (stage.name(), &job.scene.name);
+    let message = format!("frame {frame} of {name}/{camera} has a record of `{verb}`, but not all layers of it in full length");
+    Error::scene(message, format!("make them again: enfilade {verb} {} --scene {name}", job.out().display()))
 }

@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Raised when the same images give other frames.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Which images become frames of which camera.
 #[derive(Clone, Debug)]

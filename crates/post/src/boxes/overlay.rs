@@ -96,7 +96,7 @@ fn trace_box(depth: &Values, view: &CameraView<'_>, shape: &OrientedBox) -> Vec<
 /// Follows a piece of an edge; halves it where it is long.
 fn trace(depth: &Values, view: &CameraView<'_>, [a, b]: [DVec3; 2], halvings: u32, length: &mut f32, pieces: &mut Vec<Piece>) {
     let [width, height] = view.camera().size().map(f64::from);
-    let ends = project(view, a).zip(project(view, b));
+    let ends = view.project(a).zip(view.project(b));
     let middle = a.midpoint(b);
     let short = ends.is_some_and(|(p, q)| (p.0 - q.0).hypot(p.1 - q.1) < STRAIGHT_PX);
     // Far beyond one side of the image nothing comes back into it.
@@ -119,17 +119,6 @@ fn trace(depth: &Values, view: &CameraView<'_>, [a, b]: [DVec3; 2], halvings: u3
         pieces.push(Piece { from: point(p), to: point(q), hidden: surface < far * (1.0 - SLACK) - SLACK_M, start: *length });
     }
     *length += (p.0 - q.0).hypot(p.1 - q.1) as f32;
-}
-
-/// Where a point is in the image; with a rolling shutter, as the row that sees it does.
-fn project(view: &CameraView<'_>, p: DVec3) -> Option<(f64, f64)> {
-    let mut at = view.project_in_row(p, 0.5 * f64::from(view.camera().size()[1]))?;
-    if view.camera().shutter.is_some() {
-        for _ in 0..3 {
-            at = view.project_in_row(p, at.1)?;
-        }
-    }
-    Some(at)
 }
 
 /// The farthest surface seen in the pixel at `at` or next to it, so that edges on an outline count as visible; infinite where

@@ -4,10 +4,11 @@ use super::exposure::measure;
 use crate::animation::{Animation, AnimationError, AnimationFormat};
 use crate::exposure::display_exposure;
 use crate::picture::Picture;
+use crate::planview::Report;
 use crate::preview::{PREVIEWS, Subject, preview_over};
 use crate::stretch::{Stretch, is_stretched, shown_values};
 use crate::tonemap::ToneMap;
-use enfilade_dataset::{Dataset, DatasetError, write_bytes};
+use enfilade_dataset::{Dataset, DatasetError, StereoSide, write_bytes};
 use enfilade_frame::Layer;
 use enfilade_scene::Cx;
 use rayon::prelude::*;
@@ -134,9 +135,7 @@ pub fn animate_camera(
     dataset.warn_of_incomplete([scene, camera], &numbers, None, cx)?;
     let first = shot.first(&numbers)?;
     let display = display_exposure(&measure(dataset, [scene, camera], &numbers)?);
-    let frame_time_s = dataset.read_frame_time(scene, camera)?;
-    let timed = if frame_time_s < 1.0 { 1.0 / frame_time_s } else { STILLS_PER_SECOND };
-    let fps = config.fps.unwrap_or(timed);
+    let fps = config.fps.map_or_else(|| shot.pictures_per_second(), Ok)?;
     let done = AtomicU64::new(0);
     let one = |film: &Film| -> Result<Result<Animated, NoFrames>, AnimateError> {
         let path = folder.join(format!("{scene}_{camera}_{}.{}", film.name, config.format.name()));
@@ -162,6 +161,19 @@ impl Shot<'_> {
             None => Vec::new(),
         };
         Ok(numbers.iter().chain(&beside).copied().min().unwrap_or(0))
+    }
+
+    /// A video keeps the time that it was planned for. Where no plan says what a trajectory is, less than a second between frames makes it
+    /// a video: Hypersim's have one.
+    fn pictures_per_second(&self) -> Result<f64, DatasetError> {
+        let stereo = self.dataset.read_stereo(self.scene, self.camera)?;
+        // The plan of a rig is that of its left camera.
+        let right = stereo.as_ref().filter(|stereo| stereo.side == StereoSide::Right);
+        let planned = right.map_or(self.camera, |stereo| stereo.partner.as_str());
+        let plan = Report::read(&self.dataset.layout().plan_report(self.scene, planned)).filter(|plan| !plan.mode.is_empty());
+        let frame_time_s = self.dataset.read_frame_time(self.scene, self.camera)?;
+        let is_video = plan.map_or(frame_time_s < 1.0, |plan| plan.mode == "video");
+        Ok(if is_video { 1.0 / frame_time_s } else { STILLS_PER_SECOND })
     }
 
     fn numbers_with(&self, numbers: &[u32], layers: &[Layer]) -> Vec<u32> {
@@ -226,7 +238,7 @@ impl Shot<'_> {
 mod tests {
     use super::*;
     use crate::testing;
-    use enfilade_dataset::{StereoRecord, StereoSide};
+    use enfilade_dataset::StereoRecord;
     use enfilade_scene::{Heard, Quiet};
 
     fn animate(root: &Path, names: &[&str], format: AnimationFormat) -> Vec<Result<Animated, NoFrames>> {
@@ -277,6 +289,37 @@ mod tests {
         let warnings = heard.lines();
         assert!(warnings.len() == 1 && warnings[0].starts_with("room/cam_00: frame 1 is left out: "), "{warnings:?}");
         assert!(warnings[0].contains("frame.0001.normal_cam.hdf5: it is missing"), "{warnings:?}");
+    }
+
+    #[test]
+    fn videos_keep_their_time_whatever_it_is_and_others_have_five_pictures_a_second() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        let fps = |report: &str, frame_time_s: f64| {
+            write_bytes(&dataset.layout().plan_report("room", "cam_00"), report).unwrap();
+            dataset.write_frame_time("room", "cam_00", frame_time_s).unwrap();
+            animate(folder.path(), &["semantic"], AnimationFormat::Gif).remove(0).unwrap().fps
+        };
+        let (video, walk, unknown) = (r#"{"mode": "video"}"#, r#"{"mode": "walk"}"#, "{}");
+        for (report, frame_time_s, expected) in
+            [(video, 0.04, 25.0), (video, 1.0, 1.0), (video, 2.0, 0.5), (walk, 0.04, 5.0), (unknown, 0.04, 25.0), (unknown, 1.0, 5.0)]
+        {
+            assert_eq!(fps(report, frame_time_s), expected, "{report} with {frame_time_s} s");
+        }
+    }
+
+    #[test]
+    fn both_films_of_a_rig_have_the_time_of_its_plan() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        let trajectory = dataset.read_trajectory("room", "cam_00").unwrap();
+        for (side, expected) in [(StereoSide::Left, 5.0), (StereoSide::Right, 1.0)] {
+            let rig = StereoRecord::new(side, "cam_01".into(), 0.1);
+            dataset.write_trajectory("room", &trajectory, &testing::intrinsics().into(), Some(&rig)).unwrap();
+            write_bytes(&dataset.layout().plan_report("room", "cam_01"), r#"{"mode": "video"}"#).unwrap();
+            let film = animate(folder.path(), &["semantic"], AnimationFormat::Gif).remove(0).unwrap();
+            assert_eq!(film.fps, expected, "{side:?}");
+        }
     }
 
     #[test]

@@ -72,7 +72,7 @@ fn in_sight(planned: &Planned<'_>, origin: DVec3, p: DVec3) -> bool {
 
 fn sees(planned: &Planned<'_>, view: &CameraView<'_>, p: DVec3) -> bool {
     let [width, height] = view.camera().size().map(f64::from);
-    let Some((x, y)) = view.project_in_row(p, 0.5 * height) else { return false };
+    let Some((x, y)) = view.project(p) else { return false };
     if !(0.0..width).contains(&x) || !(0.0..height).contains(&y) {
         return false;
     }

@@ -73,7 +73,7 @@ impl Sight {
     pub fn share_seen_by(&self, view: &CameraView<'_>, other: &Self) -> Option<f64> {
         let [width, height] = view.camera().size().map(f64::from);
         let shared = |seen: &Seen| {
-            let (x, y) = view.project_in_row(seen.p_world, 0.5 * height)?;
+            let (x, y) = view.project(seen.p_world)?;
             let (column, row) = ((x / width * f64::from(other.width)).floor(), (y / height * f64::from(other.height)).floor());
             let inside = column >= 0.0 && row >= 0.0 && column < f64::from(other.width) && row < f64::from(other.height);
             let there = other.pixels[if inside { row as usize * other.width as usize + column as usize } else { return None }]?;

@@ -35,7 +35,7 @@ use html::{Section, Shown};
 use look::{Sight, toolkit_colors};
 use measure::{FrameMeasures, Measuring};
 use rayon::prelude::*;
-use report::Report;
+pub(crate) use report::Report;
 use statistics::Distances;
 use std::path::{Path, PathBuf};
 

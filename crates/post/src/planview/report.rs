@@ -7,7 +7,7 @@ use std::path::Path;
 /// The part of `plan_report.json` that pictures show. Fields that a report lacks are empty.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
-pub(super) struct Report {
+pub(crate) struct Report {
     /// What kind of trajectory was asked for.
     pub mode: String,
     per_frame: Values,
@@ -32,7 +32,7 @@ impl Report {
     }
 
     /// Replaces what was measured by what the report says. False, and nothing changed, when it is about other frames.
-    pub fn put_into(&self, measures: &mut [FrameMeasures]) -> bool {
+    pub(super) fn put_into(&self, measures: &mut [FrameMeasures]) -> bool {
         let values = &self.per_frame;
         if !measures.iter().map(|m| m.frame).eq(values.frame.iter().copied()) {
             return false;

@@ -3,12 +3,17 @@
 //! A glyph is a list of strokes on a grid where the baseline is y = 0, small letters reach 7, capitals 10 and descenders −3.
 //! A stroke is a run of two-character points: x and y + 3, each a base-36 digit. It begins with `~` where the line is smooth
 //! and with `o` where it is smooth and closed: then its points are the control polygon of a quadratic B-spline, which touches
-//! the middle of every side. Without a sign its points are joined by straight lines.
+//! the middle of every side. Without a sign its points are joined by straight lines. Latin letters with a mark are the letter and
+//! the mark; what is in no table is drawn as a box.
 
 use super::canvas::{Canvas, Color};
 
 /// Capital height of the grid.
 const CAPITAL: f32 = 10.0;
+/// Height of small letters.
+const SMALL: f32 = 7.0;
+/// Where the middle of a letter is, for marks.
+const MIDDLE: f32 = 3.0;
 /// Free space between two glyphs, in grid units.
 const SPACING: f32 = 3.4;
 /// Width of a blank.
@@ -71,9 +76,39 @@ fn advance(c: char) -> f32 {
     if right.is_finite() { right + SPACING } else { BLANK + SPACING }
 }
 
-/// The strokes of a glyph in grid units.
+/// The strokes of a character in grid units.
 fn strokes(c: char) -> Vec<Vec<[f32; 2]>> {
-    glyph(c).split(' ').filter(|s| !s.is_empty()).map(parse_stroke).collect()
+    let Some((letter, mark)) = marked(c) else { return parse(glyph(c)) };
+    let (mut strokes, mut mark) = (parse(glyph(letter)), parse(mark));
+    let [left, right] = extent(&strokes);
+    let is_above = mark.iter().flatten().all(|p| p[1] > 0.0);
+    let up = if is_above && letter.is_uppercase() { CAPITAL - SMALL } else { 0.0 };
+    let aside = 0.5 * (left + right) - MIDDLE;
+    mark.iter_mut().flatten().for_each(|p| *p = [p[0] + aside, p[1] + up]);
+    strokes.append(&mut mark);
+    // A mark that is wider than its letter would stand in the one before.
+    let left = extent(&strokes)[0].min(0.0);
+    strokes.iter_mut().flatten().for_each(|p| p[0] -= left);
+    strokes
+}
+
+/// Least and greatest x.
+fn extent(strokes: &[Vec<[f32; 2]>]) -> [f32; 2] {
+    let xs = || strokes.iter().flatten().map(|p| p[0]);
+    [xs().fold(f32::INFINITY, f32::min), xs().fold(f32::NEG_INFINITY, f32::max)]
+}
+
+/// The letter without its mark, and the mark.
+fn marked(c: char) -> Option<(char, &'static str)> {
+    let find = |&(mark, letters): &(&'static str, &str)| {
+        let place = letters.chars().position(|letter| letter == c).filter(|place| place % 2 == 0)?;
+        Some((letters.chars().nth(place + 1)?, mark))
+    };
+    if c.is_ascii() { None } else { MARKS.iter().find_map(find) }
+}
+
+fn parse(glyph: &str) -> Vec<Vec<[f32; 2]>> {
+    glyph.split(' ').filter(|s| !s.is_empty()).map(parse_stroke).collect()
 }
 
 fn parse_stroke(text: &str) -> Vec<[f32; 2]> {
@@ -135,13 +170,42 @@ fn glyph(c: char) -> &'static str {
         '\'' => "0d0b", '"' => "0d0b 2d2b", '!' => "0d06 0303", '?' => "~0b0d5d5a2826 2323", '#' => "233d 536d 0676 0a7a",
         '*' => "3d37 0c68 6c08", '&' => "~731a1d4d4a07035377", '@' => "o03838d0d o26565a2a", '<' => "5a0754", '>' => "0a5704",
         '|' => "0e01", '~' => "~082a4668", '^' => "0a3d6a", '$' => "~6b6d0d0967630305 3e32", '`' => "0d2b", '·' => "0707", '°' => "o0a3a3d0d",
-        _ => "03636d0d03",
+        '²' => "~0c0d3d3a08 0838", '³' => "~0d3d3b1b ~1b3b3808", '–' => "0777", '—' => "07a7", '…' => "0303 3333 6363", '×' => "1955 1559",
+        'ß' => "~030d5d5929 ~29696323", 'ı' => "0a03", 'ø' => "o03636a0a 036a", 'Ø' => "o03838d0d 038d", 'ł' => "2d23 074a",
+        'Ł' => "2d2383 0749", 'đ' | 'ð' => "6d63 o03636a0a 4b8b", 'Đ' | 'Ð' => "030d ~0d7d7303 0848", 'þ' => "0d00 o03636a0a",
+        'Þ' => "030d ~0b6b6505", 'æ' => "o03535a0a 5a53 57b7 ~b7ba5a53b3b5", 'œ' => "o03535a0a 57b7 ~b7ba5a53b3b5",
+        'ď' => "6d63 o03636a0a 9d8b", 'ť' => "~2d252353 0a5a 6e5c", 'ľ' => "0d03 3d2b", 'Ľ' => "0d0363 4d3b",
+        'Æ' => "035d 1656 5d53 5dad 5898 53a3", 'Œ' => "o03636d0d 6d63 6dbd 68a8 63b3",
+        _ => UNKNOWN,
     }
 }
+
+/// A box.
+const UNKNOWN: &str = "03636d0d03";
+
+/// Marks as they stand at a small letter around [`MIDDLE`], and after each the letters that have it, each before the one without it.
+#[rustfmt::skip]
+const MARKS: [(&str, &str); 13] = [
+    ("2c4e", "áaéeíıóoúuýyćcńnśsźzŕrÁAÉEÍIÓOÚUÝYĆCŃNŚSŹZ"),
+    ("2e4c", "àaèeìıòoùuÀAÈEÌIÒOÙU"),
+    ("1c3e5c", "âaêeîıôoûuŵwŷyÂAÊEÎIÔOÛU"),
+    ("1e3c5e", "čcěeňnřršsžzČCĎDĚEŇNŘRŠSŤTŽZ"),
+    ("~0c2e4c6e", "ãañnõoÃAÑNÕO"),
+    ("1d1d 5d5d", "äaëeïıöoüuÿyÄAËEÏIÖOÜUŸY"),
+    ("o2c4c4e2e", "åaůuÅAŮU"),
+    ("1d5d", "āaēeīıōoūuĀAĒEĪIŌOŪU"),
+    ("~1e1c5c5e", "ăağgĂAĞG"),
+    ("3d3d", "ėeżzĖEİIŻZ"),
+    ("1c2e 4c5e", "őoűuŐOŰU"),
+    ("~33425120", "çcşsșsţtțtÇCŞSȘSŢTȚT"),
+    ("~53324050", "ąaęeįıųuĄAĘEĮIŲU"),
+];
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
+    use std::path::Path;
 
     const STYLE: Style = Style { height: 10.0, weight: 0.12, color: [255, 255, 255] };
 
@@ -158,6 +222,48 @@ mod tests {
                 assert!((0.0..=12.0).contains(&p[0]) && (-3.0..=11.0).contains(&p[1]), "{c}: {p:?}");
             }
         }
+    }
+
+    /// The characters beyond ASCII in the sources below a folder, comments apart.
+    fn written(folder: &Path) -> BTreeSet<char> {
+        let mut found = BTreeSet::new();
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                found.extend(written(&path));
+                continue;
+            }
+            let text = std::fs::read_to_string(&path).unwrap();
+            let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+            found.extend(code.flat_map(|line| line.split(" // ").next()).flat_map(str::chars).filter(|c| !c.is_ascii()));
+        }
+        found
+    }
+
+    #[test]
+    fn every_character_that_this_crate_writes_has_a_glyph() {
+        let written = written(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"));
+        assert!("³°·".chars().all(|c| written.contains(&c)), "{written:?}");
+        let boxes: Vec<&char> = written.iter().filter(|&&c| marked(c).is_none() && glyph(c) == UNKNOWN).collect();
+        assert!(boxes.is_empty(), "{boxes:?}");
+        // What nobody has drawn is seen to be missing.
+        assert_eq!(glyph('\u{416}'), UNKNOWN);
+    }
+
+    #[test]
+    fn letters_with_marks_are_their_letters_with_something_over_or_under_them() {
+        let letters: Vec<char> = MARKS.iter().flat_map(|(_, letters)| letters.chars()).collect();
+        for pair in letters.chunks(2) {
+            let (c, letter) = (pair[0], pair[1]);
+            let [with, without] = [c, letter].map(strokes);
+            assert!(glyph(letter) != UNKNOWN && with.len() > without.len(), "{c}");
+            assert!(extent(&with)[0] >= 0.0, "{c} stands in the letter before it");
+            let top = if letter.is_uppercase() { CAPITAL } else { SMALL };
+            let is_apart = |p: &[f32; 2]| if p[1] > 0.1 { p[1] > top + 1.0 } else { (-3.0..=0.1).contains(&p[1]) };
+            assert!(with[without.len()..].iter().flatten().all(is_apart), "{c}: {with:?}");
+        }
+        let dots = &strokes('Ü')[1..];
+        assert_eq!((dots.len(), dots[0][0][1]), (2, 13.0));
     }
 
     #[test]

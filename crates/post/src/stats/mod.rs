@@ -97,7 +97,6 @@ pub fn write_statistics(dataset: &Dataset, config: &StatsConfig, cx: &dyn Cx) ->
         cost_tables::write_tables(&folder, costs)?;
     }
     shown.par_iter().chain(&cost_shown).try_for_each(|plot| write_plot(&folder, plot))?;
-    write_json(&folder.join("statistics.json"), &report)?;
     let preview = |outlier: &Outlier| preview_from(dataset, &folder, outlier);
     let name = name_of(dataset)?;
     let page = statistics_page(&Shown {
@@ -112,6 +111,8 @@ pub fn write_statistics(dataset: &Dataset, config: &StatsConfig, cx: &dyn Cx) ->
     });
     let path = folder.join("statistics.html");
     write_bytes(&path, page)?;
+    // Last: that it is there says that all is.
+    write_json(&folder.join("statistics.json"), &report)?;
     let cost = costs.map(|costs| costs.total);
     Ok(StatsSummary { page: path, images: report.dataset.images, outliers: outliers.len(), cost })
 }
@@ -143,6 +144,7 @@ fn remove_older(folder: &Path, is_own: bool) -> Result<(), DatasetError> {
     let mut older = Vec::new();
     if holds("statistics.json", is_report) {
         older.extend(plots::names().into_iter().flat_map(|name| EXTENSIONS.map(|extension| format!("plots/{name}.{extension}"))));
+        older.push("statistics.json".into());
     }
     if holds("costs.json", is_costs) {
         older.extend(COST_FILES.map(String::from));
@@ -264,6 +266,20 @@ mod tests {
         write_statistics(&dataset, &config, &Quiet).unwrap();
         assert!(!out.join("plots/cost_wall.svg").exists() && !out.join("costs.json").exists());
         assert_eq!(std::fs::read_to_string(out.join("plots/mine.pdf")).unwrap(), "mine");
+    }
+
+    #[test]
+    fn statistics_that_are_not_finished_have_no_numbers() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testing::dataset(folder.path());
+        let config = StatsConfig { scenes: vec!["room".into()], ..StatsConfig::default() };
+        let page = write_statistics(&dataset, &config, &Quiet).unwrap().page;
+        assert!(dataset.layout().statistics().is_file());
+        // A folder lies where the page should go.
+        std::fs::remove_file(&page).unwrap();
+        std::fs::create_dir_all(page.join("in the way")).unwrap();
+        write_statistics(&dataset, &config, &Quiet).unwrap_err();
+        assert!(!dataset.layout().statistics().exists());
     }
 
     #[test]

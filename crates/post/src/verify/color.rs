@@ -8,6 +8,8 @@ use enfilade_math::Rgb;
 
 /// Where a colour is this large, one of its parts may have been beyond float16.
 const NEAR_LIMIT: f64 = 65_000.0;
+/// The largest float16 but one: what a colour beyond the largest becomes where no residual makes A * S + R that.
+const BELOW_LIMIT: f64 = 65_472.0;
 /// Below this radiance the rounding of float16 is no longer relative.
 const DIM: f64 = 1e-3;
 
@@ -73,6 +75,7 @@ fn rounded_recomposition(scan: &mut Scan<'_>, layers: [&Values; 4]) {
 fn standard_error(scan: &mut Scan<'_>) {
     let (Some(errors), Some(color)) = (scan.layer(Layer::ColorStandardError), scan.layer(Layer::Color)) else { return };
     let all_unknown = (0..errors.len()).all(|pixel| errors.get(pixel).is_nan());
+    let is_cut = may_be_cut(scan, color);
     let excess = |pixel: usize| {
         let error = errors.get(pixel);
         let [r, g, b] = [0, 1, 2].map(|channel| color.get(3 * pixel + channel));
@@ -80,7 +83,7 @@ fn standard_error(scan: &mut Scan<'_>) {
         match (all_unknown, error < 0.0 || !error.is_finite()) {
             (true, _) => 0.0,
             (false, true) => f64::INFINITY,
-            (false, false) if is_near_limit(color, pixel) || !luminance.is_finite() => 0.0,
+            (false, false) if is_cut(pixel) || !luminance.is_finite() => 0.0,
             (false, false) => (error - luminance).max(0.0) / luminance.max(DIM),
         }
     };
@@ -95,20 +98,21 @@ fn splits(scan: &mut Scan<'_>, parts: &[Layer], whole: Layer) {
     if layers.len() < parts.len() {
         return;
     }
-    let illumination = scan.layer(Layer::DiffuseIllumination);
-    let saturated = |pixel: usize| is_near_limit(color, pixel) || illumination.is_some_and(|values| is_near_limit(values, pixel));
+    let is_cut = may_be_cut(scan, color);
     let error = |i: usize| {
         let sum: f64 = layers.iter().map(|layer| layer.get(i)).sum();
         (sum - values.get(i)).abs() / values.get(i).max(DIM)
     };
-    let errors = (0..values.len()).filter(|i| !saturated(i / 3)).map(|i| (i / 3, error(i)));
+    let errors = (0..values.len()).filter(|i| !is_cut(i / 3)).map(|i| (i / 3, error(i)));
     let first = parts.first().map_or("", |layer| layer.spec().name);
     scan.worst(Law::LightSplits, &format!("{first} and the layers that go with it do not sum to {}", whole.spec().name), errors);
 }
 
-/// True where some channel may have been cut at the largest float16, or is no number.
-fn is_near_limit(values: &Values, pixel: usize) -> bool {
-    (3 * pixel..3 * pixel + 3).any(|i| values.get(i).is_nan() || values.get(i) >= NEAR_LIMIT)
+/// True where some channel of the colour, or of the illumination that is in it, may have been cut at the largest float16, or is no number.
+fn may_be_cut<'a>(scan: &Scan<'a>, color: &'a Values) -> impl Fn(usize) -> bool + use<'a> {
+    let illumination = scan.layer(Layer::DiffuseIllumination);
+    let is_near_limit = |values: &Values, i: usize| values.get(i).is_nan() || values.get(i) >= NEAR_LIMIT;
+    move |pixel| (3 * pixel..3 * pixel + 3).any(|i| is_near_limit(color, i) || illumination.is_some_and(|values| is_near_limit(values, i)))
 }
 
 fn void_codes(scan: &mut Scan<'_>) {
@@ -122,16 +126,15 @@ fn reason_codes(scan: &mut Scan<'_>) {
     let (Some(codes), Some(reflectance)) = (scan.layer(Layer::Valid), scan.layer(Layer::DiffuseReflectance)) else { return };
     let radiance: Vec<_> = [Layer::Color, Layer::DiffuseIllumination, Layer::Residual].into_iter().filter_map(|l| scan.layer(l)).collect();
     let any = |pixel: usize, test: &dyn Fn(usize) -> bool| (3 * pixel..3 * pixel + 3).any(test);
-    let expected = |pixel: usize| {
-        let saturated = any(pixel, &|i| radiance.iter().any(|values| values.get(i) >= f16::MAX.to_f64()));
+    let reaches = |pixel: usize, value: f64| any(pixel, &|i| radiance.iter().any(|values| values.get(i) >= value));
+    let is_right = |pixel: usize| {
         let diffuse = any(pixel, &|i| reflectance.get(i) != 0.0);
-        match (saturated, diffuse) {
-            (true, _) => Validity::Saturated,
-            (false, false) => Validity::NoDiffuse,
-            (false, true) => Validity::Valid,
+        let unsaturated = if diffuse { Validity::Valid } else { Validity::NoDiffuse };
+        match codes.get(pixel) {
+            code if code == f64::from(Validity::Saturated as u8) => reaches(pixel, BELOW_LIMIT),
+            code => code == f64::from(unsaturated as u8) && !reaches(pixel, f16::MAX.to_f64()),
         }
     };
-    let wrong =
-        (0..codes.len()).filter(|&i| codes.get(i) != f64::from(Validity::Void as u8) && codes.get(i) != f64::from(expected(i) as u8));
+    let wrong = (0..codes.len()).filter(|&i| codes.get(i) != f64::from(Validity::Void as u8) && !is_right(i));
     scan.broken(Law::ReasonCodes, "another reason code would be right", wrong);
 }

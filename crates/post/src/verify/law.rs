@@ -114,7 +114,7 @@ pub const LAWS: [LawSpec; 56] = laws![
     SeesScene 0.0 "frames", "some pixel of every frame sees the scene", "the camera looks into the void: plan again";
     EntityIds 0.0 "pixels", "entity ids are -1 or the number of a part", "the frame is of another version of the scene: render again";
     VoidCode 0.0 "pixels", "valid is 0 exactly where render_entity_id is -1", "renderer defect: please report it";
-    ReasonCodes 0.0 "pixels", "valid is 2 exactly where a colour is 65504, else 3 exactly where reflectance is 0",
+    ReasonCodes 0.0 "pixels", "valid is 2 exactly where a colour is at the limit of float16, else 3 exactly where reflectance is 0",
         "renderer defect: please report it";
     GeometryFinite 0.0 "pixels", "distance, depth, position and normals are finite exactly where render_entity_id is not -1",
         "a degenerate triangle or a NaN in the mesh: import again and read its warnings";

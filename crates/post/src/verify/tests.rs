@@ -1,6 +1,6 @@
 use super::*;
 use crate::testing::{self, pixel_of, set};
-use enfilade_frame::{Layer, Values, f16};
+use enfilade_frame::{Layer, Values, compose, f16};
 use enfilade_math::DVec3;
 use enfilade_scene::{Camera, Intrinsics, Pose};
 
@@ -117,6 +117,40 @@ fn ids_and_codes_are_checked() {
     assert_eq!(failures(|c, p| c.set(Layer::Valid, p, &[0.0])), [Law::VoidCode]);
     assert_eq!(failures(|c, p| c.set(Layer::Valid, p, &[3.0])), [Law::ReasonCodes]);
     assert_eq!(failures(|c, p| c.set(Layer::Valid, p, &[4.0])), [Law::ReasonCodes]);
+}
+
+#[test]
+fn pixels_brighter_than_float16_hold_to_every_law() {
+    let half = f16::from_f64(0.5);
+    let brightness = [(2.66f32, 1e6f32), (32.0, 1e6), (1e6, 0.05)];
+    for (illumination, residual) in brightness {
+        let stored = compose(half, illumination, residual);
+        assert!(stored.saturated);
+        let too_bright = |c: &mut Case, p: usize| {
+            c.forget_parts_and_error(p);
+            c.set(Layer::DiffuseReflectance, p, &[0.5; 3]);
+            let values = [
+                (stored.color, [Layer::Color, Layer::ColorDenoised]),
+                (stored.illumination, [Layer::DiffuseIllumination, Layer::DiffuseIlluminationDenoised]),
+                (stored.residual, [Layer::Residual, Layer::ResidualDenoised]),
+            ];
+            for (value, layers) in values {
+                layers.into_iter().for_each(|layer| c.set(layer, p, &[value.to_f64(); 3]));
+            }
+            // The error is that of the light before it was cut.
+            c.set(Layer::ColorStandardError, p, &[60_000.0]);
+            c.set(Layer::Valid, p, &[2.0]);
+        };
+        assert_eq!(failures(too_bright), [], "{illumination}, {residual}");
+        let unmarked = |c: &mut Case, p: usize| {
+            too_bright(c, p);
+            c.set(Layer::Valid, p, &[1.0]);
+        };
+        // Where rounding leaves the colour below the limit, either code may stand.
+        let expected: &[Law] = if illumination == 32.0 { &[] } else { &[Law::ReasonCodes] };
+        assert_eq!(failures(unmarked), expected, "{illumination}, {residual}");
+    }
+    assert_eq!(failures(|c, p| c.set(Layer::Valid, p, &[2.0])), [Law::ReasonCodes]);
 }
 
 #[test]

@@ -7,9 +7,6 @@ use enfilade_scene::{CameraRay, CameraView};
 /// A point is seen when the ray to it is free up to this share of its length.
 const REACH: f64 = 0.999;
 
-/// With a rolling shutter the row that shows a point depends on when it is shown; so often is it looked for.
-const ROW_STEPS: usize = 8;
-
 /// The motion of one surface point as the camera sees it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Flow {
@@ -32,15 +29,8 @@ pub(super) fn flow(
     if !p_world.is_finite() {
         return None;
     }
-    let mut row = y;
-    let mut there = next.project_in_row(p_world, row);
-    if next.camera().shutter.is_some() {
-        for _ in 0..ROW_STEPS {
-            let Some((_, found)) = there else { break };
-            row = found.clamp(0.0, f64::from(next.camera().size()[1]));
-            there = next.project_in_row(p_world, row);
-        }
-    }
+    let there = next.project(p_world);
+    let row = there.map_or(y, |(_, row)| row.clamp(0.0, f64::from(next.camera().size()[1])));
     let in_camera = |view: &CameraView, row: f64| {
         let (position, world_from_camera) = view.row_placement(row);
         world_from_camera.transpose() * (p_world - position)

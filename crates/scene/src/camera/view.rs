@@ -4,6 +4,13 @@ use super::Camera;
 use crate::Pose;
 use enfilade_math::{DMat3, DQuat, DVec2, DVec3};
 
+/// The row of a rolling shutter that shows a point is looked for in so many stretches of the image, two in each of the two motions.
+const STRETCHES: usize = 4;
+/// A row shows a point that appears at most so far from it, pixels: below what float32 tells apart in an image.
+const ROW_TOLERANCE: f64 = 1e-6;
+/// Steps of the search for a row. Every second one halves what is left, and 32 halves of a stretch of 16,000 rows are short enough.
+const ROW_STEPS: u32 = 64;
+
 /// A ray of a camera, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraRay {
@@ -115,6 +122,54 @@ impl<'c> CameraView<'c> {
         self.camera.projection.project(world_from_camera.transpose() * (p_world - position))
     }
 
+    /// Image point of a world point; with a rolling shutter, where the row that shows it has it. `None` when it has none.
+    ///
+    /// A point that passes the upper or the lower border unseen is where that border's row has it, beyond the border. A camera that
+    /// turns as fast as it is read out may show a point in several rows; the result is one of them.
+    pub fn project(&self, p_world: DVec3) -> Option<(f64, f64)> {
+        if self.camera.shutter.is_none_or(|shutter| shutter.readout_s == 0.0) {
+            return self.project_in_row(p_world, 0.0);
+        }
+        let height = f64::from(self.camera.size()[1]);
+        let rows: [Row; STRETCHES + 1] = std::array::from_fn(|i| self.row(p_world, height * i as f64 / STRETCHES as f64));
+        let shown = (0..STRETCHES).find_map(|i| self.own_row(p_world, rows[i], rows[i + 1]));
+        let [upper, lower] = [rows[0], rows[STRETCHES]];
+        let above = || upper.off.is_some_and(|off| off < 0.0).then_some(upper.y);
+        let below = || lower.off.is_some_and(|off| off >= 0.0).then_some(lower.y);
+        self.project_in_row(p_world, shown.or_else(above).or_else(below)?)
+    }
+
+    fn row(&self, p_world: DVec3, y: f64) -> Row {
+        Row { y, off: self.project_in_row(p_world, y).map(|at| at.1 - y).filter(|off| off.is_finite()) }
+    }
+
+    /// The row between two that has the point in itself: the middle and the false position by turns. A row that has no image of the
+    /// point counts as on the other side. `None` when both are on one side, or there is a leap between the sides.
+    fn own_row(&self, p_world: DVec3, first: Row, second: Row) -> Option<f64> {
+        let (mut near, mut far) = if first.off.is_some() { (first, second) } else { (second, first) };
+        let side = near.off?;
+        if far.off.is_some_and(|off| off * side > 0.0) {
+            return None;
+        }
+        for step in 0..ROW_STEPS {
+            let off = near.off?;
+            if off.abs() <= ROW_TOLERANCE {
+                return Some(near.y);
+            }
+            let middle = match far.off {
+                Some(far_off) if step % 2 == 1 => near.y + (far.y - near.y) * off / (off - far_off),
+                _ => 0.5 * (near.y + far.y),
+            };
+            let next = self.row(p_world, middle);
+            match next.off {
+                None => far = next,
+                Some(next_off) if next_off * off > 0.0 => near = next,
+                Some(_) => (near, far) = (next, near),
+            }
+        }
+        None
+    }
+
     /// Width of the cone that the pixel around the image point (x, y) sees, radians: the square root of its solid angle. Zero where
     /// the picture shows nothing.
     pub fn pixel_angle(&self, x: f64, y: f64) -> f32 {
@@ -127,6 +182,15 @@ impl<'c> CameraView<'c> {
     fn row_time_s(&self, y: f64) -> f64 {
         self.camera.shutter.as_ref().map_or(0.0, |shutter| shutter.row_time_s(y, f64::from(self.camera.size()[1])))
     }
+}
+
+/// A row of the image, and how it has a point.
+#[derive(Clone, Copy)]
+struct Row {
+    /// Image coordinate.
+    y: f64,
+    /// How far below the row it has the point, pixels; `None` when it has no image of it.
+    off: Option<f64>,
 }
 
 impl Motion {
@@ -210,6 +274,72 @@ mod tests {
         let seen = view.centre_ray(10.0, 40.0).unwrap();
         let (px, py) = view.project_in_row(seen.origin + seen.direction * 3.0, 40.0).unwrap();
         assert!((px - 10.0).abs() < 1e-9 && (py - 40.0).abs() < 1e-9);
+    }
+
+    /// A quick turn about the camera's x axis, or its y axis, and the frame in the middle of it.
+    fn turning(about_x: bool, rad_per_frame: f64) -> [Pose; 3] {
+        [0u32, 1, 2].map(|frame| {
+            let (sin, cos) = (rad_per_frame * (f64::from(frame) - 1.0)).sin_cos();
+            let position = DVec3::new(0.0, 0.0, 0.1 * f64::from(frame));
+            let ahead = if about_x { DVec3::new(0.0, cos, sin) } else { DVec3::new(sin, cos, 0.0) };
+            Pose::look_at(frame, position, position + ahead, DVec3::Z).unwrap()
+        })
+    }
+
+    #[test]
+    fn what_any_row_sees_projects_back_to_it_however_fast_the_camera_turns() {
+        let camera = camera(Some(SHUTTER), None);
+        // As fast as this a point moves half the image during the readout, or more than all of it, against the rows or with them.
+        for rad_per_frame in [-1.0, -0.5, 0.01, 0.5, 1.0] {
+            let poses = turning(true, rad_per_frame);
+            let view = CameraView::of_frame(&camera, &poses, 1);
+            for (x, y) in (0..=48).map(|i| (f64::from(i) + 3.25, f64::from(i))) {
+                let seen = view.centre_ray(x, y).unwrap();
+                let (px, py) = view.project(seen.origin + seen.direction * 3.0).unwrap();
+                assert!((px - x).abs() < 1e-4 && (py - y).abs() < 1e-4, "at {rad_per_frame}: ({x}, {y}) became ({px}, {py})");
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_that_is_behind_the_camera_for_some_rows_is_where_the_others_see_it() {
+        let camera = camera(Some(SHUTTER), None);
+        let poses = turning(false, 2.5);
+        let view = CameraView::of_frame(&camera, &poses, 1);
+        for y in [8.0, 40.0] {
+            let seen = view.centre_ray(32.0, y).unwrap();
+            let p = seen.origin + seen.direction * 3.0;
+            assert_eq!(view.project_in_row(p, 48.0 - 1.2 * y), None);
+            let (px, py) = view.project(p).unwrap();
+            assert!((px - 32.0).abs() < 1e-4 && (py - y).abs() < 1e-4, "row {y} became ({px}, {py})");
+        }
+    }
+
+    #[test]
+    fn what_no_row_sees_lies_beyond_the_border_and_what_is_behind_has_no_image() {
+        let camera = camera(Some(SHUTTER), None);
+        for rad_per_frame in [-0.5, 0.5] {
+            let poses = turning(true, rad_per_frame);
+            let view = CameraView::of_frame(&camera, &poses, 1);
+            for beyond in [-9.0, 57.0] {
+                let (origin, world_from_camera) = view.row_placement(beyond);
+                let p = origin + world_from_camera * camera.projection.ray(20.0, beyond).unwrap();
+                let (_, y) = view.project(p).unwrap();
+                assert!(if beyond < 0.0 { y < 0.0 } else { y > 48.0 }, "{beyond} became {y}");
+            }
+            assert_eq!(view.project(DVec3::new(0.0, -9.0, 0.0)), None);
+        }
+    }
+
+    #[test]
+    fn without_a_readout_a_point_has_the_image_that_every_row_has() {
+        let p = DVec3::new(0.3, 2.0, 1.2);
+        for shutter in [None, Some(Shutter { readout_s: 0.0, ..SHUTTER })] {
+            let camera = camera(shutter, None);
+            let poses = turning(true, 0.5);
+            let view = CameraView::of_frame(&camera, &poses, 1);
+            assert_eq!(view.project(p), view.project_in_row(p, 7.0));
+        }
     }
 
     #[test]

@@ -1,0 +1,154 @@
+//! `obj` shapes of version 0.x, whose files hold several meshes, each of a material of its own.
+//!
+//! A mesh is what the file has of one group and material. It is of the last bsdf of the shape that has no name or the material's, else
+//! of what the libraries of the file say about the material, on its front alone.
+
+use super::xml::Node;
+use super::{Reader, bsdf, shape};
+use crate::ImportError;
+use crate::obj::{self, Library, ObjFile};
+use enfilade_math::{DAffine3, Rgb};
+use enfilade_scene::Material;
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// What shapes share of OBJ files.
+#[derive(Default)]
+pub(super) struct Files {
+    /// By path and the flags that change meshes.
+    files: HashMap<(String, [bool; 3]), Rc<File>>,
+    /// By path of the OBJ file.
+    libraries: HashMap<String, Rc<Library>>,
+    /// By path of the OBJ file and name; `None` where no library defines it.
+    materials: HashMap<(String, String), Option<u32>>,
+}
+
+/// An OBJ file.
+struct File {
+    meshes: Vec<FileMesh>,
+    /// Names of its material libraries.
+    libraries: Vec<String>,
+}
+
+/// What a file has of one group and material.
+struct FileMesh {
+    /// Of the group, else of the material.
+    name: String,
+    material: Option<String>,
+    /// `None` where it is empty.
+    mesh: Option<u32>,
+}
+
+impl<'n> Reader<'n, '_> {
+    /// Adds the parts of an `obj` shape: all, or the one of `shapeIndex`.
+    pub(super) fn obj_shape(
+        &mut self,
+        node: &'n Node,
+        emitter: Option<&'n Node>,
+        outer: DAffine3,
+        prefix: &str,
+    ) -> Result<(), ImportError> {
+        let (path, flags) = self.stated(node)?;
+        let file = self.obj_file(node, path, flags)?;
+        let only = usize::try_from(node.float_or("shape_index", -1.0)? as i64).ok();
+        if let Some(only) = only.filter(|&only| only >= file.meshes.len()) {
+            return Err(node.error(format!("found shapeIndex {only}, but there are only {} meshes in {path}", file.meshes.len())));
+        }
+        let bsdfs = self.named_bsdfs(node)?;
+        let stray = self.stray(node, &bsdfs, &file);
+        let file_from_mesh = self.placement(node, outer)?;
+        let chosen = file.meshes.iter().enumerate().filter(|(i, _)| only.is_none_or(|only| only == *i));
+        for part in chosen.map(|(_, part)| part) {
+            let Some(mesh) = part.mesh else { continue };
+            let material = part.material.as_deref();
+            let own = bsdfs.iter().rev().find(|(name, _)| name.is_empty() || Some(*name) == material).map(|(_, bsdf)| *bsdf);
+            let from_library = match material {
+                Some(name) if own.is_none() && emitter.is_none() && node.flag("load_materials", true) => {
+                    self.library_material(node, path, &file, name)?.map(|index| (name, index))
+                }
+                _ => None,
+            };
+            let bsdf = own.or(stray);
+            let (title, material) = match from_library {
+                Some((name, index)) => (name, Some(index)),
+                None => (bsdf::name(bsdf), self.material(bsdf, emitter)?),
+            };
+            let Some(material) = material else {
+                self.warn(node, "the shape scatters nothing (null bsdf) and was left out");
+                continue;
+            };
+            let name = node.id.clone().unwrap_or_else(|| format!("{title}_{}", shape::stem(path)));
+            let name = if file.meshes.len() > 1 { format!("{name}.{}", part.name) } else { name };
+            self.place(node, &format!("{prefix}{name}"), mesh, material, file_from_mesh)?;
+        }
+        Ok(())
+    }
+
+    /// The file, read once.
+    fn obj_file(&mut self, node: &'n Node, path: &str, flags: [bool; 3]) -> Result<Rc<File>, ImportError> {
+        let key = (path.to_string(), flags);
+        if let Some(known) = self.obj.files.get(&key) {
+            return Ok(known.clone());
+        }
+        let (file, bytes) = self.a.read(path)?;
+        let obj = ObjFile::parse(&bytes, &file)?;
+        obj.notes.iter().for_each(|note| self.a.warn(node.place(), format!("{}: {note}", file.display())));
+        if obj.groups.is_empty() {
+            self.warn(node, format!("{}: there are no faces; the shape was left out", file.display()));
+        }
+        let mut meshes = Vec::with_capacity(obj.groups.len());
+        for group in &obj.groups {
+            let name = group.name.clone().or_else(|| group.material.clone()).unwrap_or_else(|| "mesh".to_string());
+            let place = if obj.groups.len() > 1 { format!("mesh {name:?}") } else { "mesh".to_string() };
+            let mesh = shape::finish(obj.mesh(std::iter::once(group)), true, flags);
+            let mesh = self.a.push_mesh(mesh, &file, &place)?;
+            meshes.push(FileMesh { name, material: group.material.clone(), mesh });
+        }
+        let read = Rc::new(File { meshes, libraries: obj.libraries });
+        self.obj.files.insert(key, read.clone());
+        Ok(read)
+    }
+
+    /// The bsdfs of a shape, each with the name that says for which material of the file it is.
+    fn named_bsdfs(&self, node: &'n Node) -> Result<Vec<(&'n str, &'n Node)>, ImportError> {
+        let mut found = Vec::new();
+        for child in node.children.iter().filter(|c| matches!(c.tag.as_str(), "bsdf" | "ref")) {
+            let target = self.resolve(child)?;
+            if target.tag == "bsdf" {
+                found.push((child.attribute("name").unwrap_or_default(), target));
+            }
+        }
+        Ok(found)
+    }
+
+    /// A bsdf for a material that the file does not have. It is the best guess for what has no other.
+    fn stray(&mut self, node: &'n Node, bsdfs: &[(&'n str, &'n Node)], file: &File) -> Option<&'n Node> {
+        let has = |name: &str| file.meshes.iter().any(|part| part.material.as_deref() == Some(name));
+        let (name, bsdf) = bsdfs.iter().find(|(name, _)| !name.is_empty() && !has(name))?;
+        self.warn(node, format!("the OBJ file has no material {name:?}; the bsdf of this name was used for what has no other"));
+        Some(*bsdf)
+    }
+
+    /// The material that the libraries of an OBJ file define by a name. `None` where they do not.
+    fn library_material(&mut self, node: &'n Node, path: &str, file: &File, name: &str) -> Result<Option<u32>, ImportError> {
+        let key = (path.to_string(), name.to_string());
+        if let Some(&known) = self.obj.materials.get(&key) {
+            return Ok(known);
+        }
+        let library = match self.obj.libraries.get(path) {
+            Some(known) => known.clone(),
+            None => {
+                let read = Rc::new(obj::libraries(&file.libraries, path, &mut self.a)?);
+                self.obj.libraries.insert(path.to_string(), read.clone());
+                read
+            }
+        };
+        let found = obj::material(name, &library, &mut self.a)?;
+        let found = found.map(|material| {
+            self.warn(node, format!("the material {name:?} is the OBJ file's; expect other colours than Mitsuba's, which decodes them"));
+            self.a.push_material(Material { two_sided: false, emission: Rgb::BLACK.into(), emits_both_sides: false, ..material })
+        });
+        self.obj.materials.insert(key, found);
+        Ok(found)
+    }
+}

@@ -1,0 +1,256 @@
+//! What becomes of finished work when scenes, cameras or the list of scenes change, and where a run was killed.
+
+use enfilade_dataset::Dataset;
+use enfilade_frame::{Layer, Pass};
+use enfilade_pipeline::{Config, Event, Overrides, Reporter, Silent, Stage, Summary, estimate, run, run_stage};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// A closed room of 4 x 3 x 2.5 m (z up) with a table and a lamp, and files of poses.
+fn write_room(folder: &Path) {
+    let mut obj = "mtllib room.mtl\n".to_string();
+    let mut vertices = 0;
+    let mut block = |material: &str, min: [f64; 3], max: [f64; 3], inward: bool| {
+        writeln!(obj, "o {material}\nusemtl {material}").unwrap();
+        for i in 0..8 {
+            let [x, y, z] = [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { min[axis] } else { max[axis] });
+            writeln!(obj, "v {x} {y} {z}").unwrap();
+        }
+        for face in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
+            let mut corners = face.map(|i| (vertices + i + 1).to_string());
+            if inward {
+                corners.reverse();
+            }
+            writeln!(obj, "f {}", corners.join(" ")).unwrap();
+        }
+        vertices += 8;
+    };
+    block("wall", [-2.0, -1.5, 0.0], [2.0, 1.5, 2.5], true);
+    block("table", [-0.9, 0.6, 0.0], [0.3, 1.2, 0.7], false);
+    block("lamp", [-0.3, -0.3, 2.3], [0.3, 0.3, 2.4], false);
+    fs::write(folder.join("room.obj"), obj).unwrap();
+    let mtl = "newmtl wall\nKd 0.7 0.7 0.7\nnewmtl table\nKd 0.4 0.25 0.1\nnewmtl lamp\nKd 0 0 0\nKe 12 11 10\n";
+    fs::write(folder.join("room.mtl"), mtl).unwrap();
+    fs::write(folder.join("broken.obj"), "f 1 2 3\n").unwrap();
+    write_poses(folder, "one.json", 0.2);
+    write_poses(folder, "two.json", 0.3);
+}
+
+/// Two poses, the first of them at `x`.
+fn write_poses(folder: &Path, file: &str, x: f64) {
+    let poses = format!(
+        "[{{\"frame\": 0, \"position\": [{x}, -0.9, 1.4], \"look_at\": [0.0, 0.9, 0.6]}}, \
+         {{\"frame\": 1, \"position\": [0.2, -0.9, 1.4], \"look_at\": [-0.5, 0.9, 0.6]}}]"
+    );
+    fs::write(folder.join(file), poses).unwrap();
+}
+
+/// Scenes by name, file, files of poses and further keys.
+fn config(folder: &Path, scenes: &[(&str, &str, &[&str], &str)]) -> Config {
+    let mut text = "name = \"set\"\nseed = 3\nframes = 2\n[render]\nsize = [64, 48]\nsamples = 2\nmax_bounces = 2\n".to_string();
+    text += "[carve]\nrays = 8192\niterations = 2\n[gate]\naction = \"report\"\n";
+    for (name, file, poses, keys) in scenes {
+        let from = "cameras = [{ position = [0.2, -0.9, 1.4], look_at = [0.0, 0.9, 0.6] }]";
+        writeln!(text, "[[scene]]\nname = \"{name}\"\nfile = \"{file}\"\nup_axis = \"z\"\n{from}").unwrap();
+        writeln!(text, "[scene.plan]\nmode = {{ kind = \"keyframes\", files = {poses:?} }}\n{keys}").unwrap();
+    }
+    fs::write(folder.join("dataset.toml"), text).unwrap();
+    Config::read(&folder.join("dataset.toml"), &Overrides::default()).unwrap()
+}
+
+const ONE: &[&str] = &["one.json"];
+const TWO: &[&str] = &["one.json", "two.json"];
+
+/// The content of every file but the lock.
+fn files(root: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let (mut found, mut folders) = (BTreeMap::new(), vec![root.to_path_buf()]);
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.file_name().unwrap() != "lock" {
+                found.insert(path.strip_prefix(root).unwrap().to_path_buf(), fs::read(&path).unwrap());
+            }
+        }
+    }
+    found
+}
+
+fn failures(summary: &Summary) -> Vec<&str> {
+    summary.scenes.iter().filter_map(|scene| scene.failure.as_ref()).map(|failure| failure.message.as_str()).collect()
+}
+
+#[test]
+fn frames_count_for_the_poses_and_the_scene_alone_that_they_were_taken_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    write_room(folder.path());
+    let config = config(folder.path(), &[("a", "room.obj", ONE, "")]);
+    run(&config, &out, None, &Silent).unwrap();
+    let dataset = Dataset::open(&out).unwrap();
+    let frames = || dataset.frame_numbers("a", "cam_00").unwrap();
+    for stage in [Stage::Import, Stage::Plan] {
+        run_stage(&out, stage, None, true, &Silent).unwrap();
+    }
+    assert_eq!(frames(), [0, 1], "the scene and the plan are the same");
+
+    write_poses(folder.path(), "one.json", 0.3);
+    run_stage(&out, Stage::Plan, None, false, &Silent).unwrap();
+    assert_eq!(frames(), [1], "the camera of frame 0 stands elsewhere");
+    assert!(!dataset.has_layer("a", "cam_00", 0, Layer::Color) && !dataset.has_layer("a", "cam_00", 0, Layer::Semantic));
+
+    let scene = folder.path().join("room.obj");
+    fs::write(&scene, fs::read_to_string(&scene).unwrap().replace("o table", "o desk")).unwrap();
+    run_stage(&out, Stage::Import, None, false, &Silent).unwrap();
+    assert!(frames().is_empty(), "its parts have other names");
+    let summary = run(&config, &out, None, &Silent).unwrap();
+    assert!(summary.ok(), "{:?}", failures(&summary));
+    assert_eq!(frames(), [0, 1]);
+}
+
+#[test]
+fn a_forecast_with_fewer_cameras_leaves_the_folder_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    write_room(folder.path());
+    let two = config(folder.path(), &[("a", "room.obj", TWO, "")]);
+    run(&two, &out, None, &Silent).unwrap();
+    let before = files(&out);
+    let one = config(folder.path(), &[("a", "room.obj", ONE, ""), ("b", "room.obj", ONE, "")]);
+    let (summary, forecasts) = estimate(&one, &out, None, &Silent).unwrap();
+    assert!(summary.ok(), "{:?}", failures(&summary));
+    assert!(summary.warnings.iter().any(|warning| warning.contains("finished frames of a,")), "{:?}", summary.warnings);
+    let frames: Vec<(&str, u64)> = forecasts.iter().map(|(name, forecast)| (name.as_str(), forecast.frames)).collect();
+    assert_eq!(frames, [("a", 2), ("b", 2)]);
+    let after = files(&out);
+    let differ: Vec<_> = before.keys().chain(after.keys()).filter(|path| before.get(*path) != after.get(*path)).collect();
+    assert!(differ.is_empty(), "{differ:?}");
+
+    // What a scene of that folder still takes is forecast where it lies.
+    let (_, forecasts) = estimate(&two, &out, None, &Silent).unwrap();
+    assert_eq!(forecasts[0].1.frames, 0);
+}
+
+/// Saves a file again as soon as a scene is being imported.
+struct Saver {
+    path: PathBuf,
+    has_saved: AtomicBool,
+}
+
+impl Reporter for Saver {
+    fn on(&self, _scene: &str, stage: Stage, event: Event) {
+        if stage != Stage::Import || !matches!(event, Event::Progress { .. }) || self.has_saved.swap(true, Ordering::Relaxed) {
+            return;
+        }
+        // The clock of file systems goes in steps.
+        std::thread::sleep(Duration::from_millis(50));
+        let text = fs::read_to_string(&self.path).unwrap();
+        fs::write(&self.path, text + "# saved again\n").unwrap();
+    }
+}
+
+#[test]
+fn a_file_that_is_saved_while_it_is_imported_is_imported_again() {
+    for file in ["room.obj", "room.mtl"] {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out");
+        write_room(folder.path());
+        let config = config(folder.path(), &[("a", "room.obj", ONE, "")]);
+        let saver = Saver { path: folder.path().join(file), has_saved: AtomicBool::new(false) };
+        estimate(&config, &out, None, &saver).unwrap();
+        assert!(saver.has_saved.load(Ordering::Relaxed));
+        let is_up_to_date = || run_stage(&out, Stage::Import, None, false, &Silent).unwrap().nothing_done();
+        assert_eq!([is_up_to_date(), is_up_to_date()], [false, true], "{file}");
+    }
+}
+
+#[test]
+fn a_camera_whose_removal_was_killed_goes_with_the_next_plan_and_troubles_no_other_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    write_room(folder.path());
+    let scenes = |of_b| [("a", "room.obj", ONE, ""), ("b", "room.obj", of_b, "")];
+    run(&config(folder.path(), &scenes(TWO)), &out, None, &Silent).unwrap();
+    let dataset = Dataset::open(&out).unwrap();
+    let layout = dataset.layout();
+    // The table is gone, and some of the camera.
+    fs::remove_file(layout.metadata_cameras("b")).unwrap();
+    fs::remove_dir_all(layout.camera_dir("b", "cam_01")).unwrap();
+    let fewer = config(folder.path(), &scenes(ONE));
+    let summary = run(&fewer, &out, Some("a"), &Silent).unwrap();
+    assert!(summary.ok(), "{:?}", failures(&summary));
+    run(&fewer, &out, None, &Silent).unwrap();
+    assert_eq!(dataset.cameras("b").unwrap(), ["cam_00"]);
+    for pass in [Pass::Final, Pass::Geometry] {
+        assert!(!layout.layer_dir("b", "cam_01", pass).exists() && !layout.preview_dir("b", "cam_01", pass).exists());
+    }
+    assert_eq!(dataset.frame_numbers("b", "cam_00").unwrap(), [0, 1]);
+}
+
+#[test]
+fn denoised_layers_that_a_killed_stage_has_left_go_where_they_are_not_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    write_room(folder.path());
+    let config = config(folder.path(), &[("a", "room.obj", ONE, "")]);
+    run(&config, &out, None, &Silent).unwrap();
+    let layer = Dataset::open(&out).unwrap().layout().layer("a", "cam_00", 1, Layer::ColorDenoised);
+    fs::write(&layer, "half").unwrap();
+    run(&config, &out, None, &Silent).unwrap();
+    assert!(!layer.exists());
+    assert!(run(&config, &out, None, &Silent).unwrap().nothing_done());
+}
+
+#[test]
+fn scenes_that_are_gone_are_named_nowhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, fresh) = (folder.path().join("out"), folder.path().join("fresh"));
+    write_room(folder.path());
+    let all = config(folder.path(), &[("a", "room.obj", ONE, ""), ("b", "room.obj", ONE, ""), ("c", "broken.obj", ONE, "")]);
+    assert!(!run(&all, &out, None, &Silent).unwrap().ok());
+    let dataset = Dataset::open(&out).unwrap();
+    assert!(dataset.read_manifest().unwrap().unwrap().scenes["c"].failed.is_some());
+    let rest = config(folder.path(), &[("a", "room.obj", ONE, "")]);
+    fs::remove_dir_all(dataset.layout().scene_dir("b")).unwrap();
+    run(&rest, &out, None, &Silent).unwrap();
+    run(&rest, &fresh, None, &Silent).unwrap();
+    let expected = Dataset::open(&fresh).unwrap();
+    let told = |dataset: &Dataset| {
+        let layout = dataset.layout();
+        [layout.manifest(), layout.camera_parameters(), layout.split(), layout.overview(), layout.statistics()]
+            .map(|path| fs::read(path).unwrap())
+    };
+    assert!(told(&dataset) == told(&expected));
+}
+
+#[test]
+fn reports_of_an_earlier_plan_do_not_outlive_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    write_room(folder.path());
+    let reports = || ["cam_00", "cam_01"].map(|camera| Dataset::open(&out).unwrap().layout().plan_report("a", camera).is_file());
+    estimate(&config(folder.path(), &[("a", "room.obj", TWO, "")]), &out, None, &Silent).unwrap();
+    assert_eq!(reports(), [true, true]);
+    let rig = "[scene.camera]\nstereo = { baseline_m = 0.1 }\n";
+    estimate(&config(folder.path(), &[("a", "room.obj", ONE, rig)]), &out, None, &Silent).unwrap();
+    assert_eq!(Dataset::open(&out).unwrap().cameras("a").unwrap(), ["cam_00", "cam_01"]);
+    assert_eq!(reports(), [true, false], "a rig's report is its left camera's");
+}
+
+#[test]
+fn a_table_of_cameras_that_was_removed_is_made_again_by_planning() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    write_room(folder.path());
+    estimate(&config(folder.path(), &[("a", "room.obj", ONE, ""), ("b", "room.obj", ONE, "")]), &out, None, &Silent).unwrap();
+    let dataset = Dataset::open(&out).unwrap();
+    fs::remove_file(dataset.layout().camera_parameters()).unwrap();
+    assert!(run_stage(&out, Stage::Plan, None, false, &Silent).unwrap().ok());
+    assert_eq!(dataset.read_camera_table().unwrap().scenes().collect::<Vec<_>>(), ["a", "b"]);
+    assert!(run_stage(&out, Stage::Plan, None, false, &Silent).unwrap().nothing_done());
+}
