@@ -6,9 +6,10 @@
 
 use crate::config::Config;
 use crate::error::Error;
+use crate::estimate::forecast;
 use crate::forecast::Forecast;
 use crate::report::{Reporter, StageCx, Summary};
-use crate::run::{Session, forecast, open, store_config};
+use crate::run::{Session, open, store_config};
 use crate::stages::{Job, PARTIALS, STAGES, Stage, StageSpec, frame_finisher, kept_part, render_frames};
 use crate::workdir::{RUN, WORKDIR, Workdir, read_json, write_json};
 use enfilade_dataset::{Dataset, FrameTime};

@@ -2,13 +2,9 @@
 
 use crate::config::{Config, RenderChoices, SceneConfig};
 use crate::error::Error;
-use crate::forecast::Forecast;
 use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::split::write_split;
-use crate::stages::{
-    CARD, FramesByTrajectory, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, is_up_to_date, missing_frames, pilot,
-    read_table,
-};
+use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, read_table};
 use crate::workdir::{RUN, WORKDIR, Workdir, read_json, remove_if_there, write_json};
 use enfilade_dataset::{CameraEntry, Dataset, DatasetError, FrameStatus, ManifestInfo};
 use enfilade_post::drivers::write_overview;
@@ -62,65 +58,6 @@ pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, r
     let scenes = config.select(pattern)?;
     let stages: &[&StageSpec] = if stage == Stage::Label { &LABELLING } else { &[stage.spec()] };
     Session::new(&config, &workdir)?.run(&scenes, stages, force, reporter)
-}
-
-/// How scenes fared before rendering, and the forecasts of those that came through.
-type Forecasts = (Summary, Vec<(String, Forecast)>);
-
-/// Forecasts what [`run`] will still take, by scene: does all that comes before rendering, which is kept, and tries out a little of the rest,
-/// which is not. Scenes that fail are left out, and the summary tells why.
-///
-/// Where a scene that has finished frames would be planned anew, the folder and the configuration stored in it stay as they are.
-///
-/// # Errors
-/// As [`run`].
-pub fn estimate(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Reporter) -> Result<Forecasts, Error> {
-    let scenes = config.select(pattern)?;
-    let workdir = Workdir::create(out)?;
-    let session = Session::new(config, &workdir)?;
-    let replanned: Vec<&str> =
-        scenes.iter().filter(|scene| session.has_frames(scene) && !session.is_planned(scene)).map(|scene| scene.name.as_str()).collect();
-    if replanned.is_empty() {
-        return forecast(config, &scenes, &workdir, &missing_frames, reporter);
-    }
-    let (mut summary, forecasts) = session.forecast_aside(&scenes, reporter)?;
-    summary.warnings.push(format!(
-        "{} has finished frames of {}, which this configuration plans anew: all their frames are counted, and the folder stays as it \
-         is; to keep what was planned, name another one with -o",
-        out.display(),
-        first_of(&replanned)
-    ));
-    Ok((summary, forecasts))
-}
-
-/// Does all that comes before rendering, and forecasts what the `frames` of every scene take.
-pub(crate) fn forecast(
-    config: &Config,
-    scenes: &[&SceneConfig],
-    workdir: &Workdir,
-    frames: &dyn Fn(&Job) -> Result<FramesByTrajectory, Error>,
-    reporter: &dyn Reporter,
-) -> Result<Forecasts, Error> {
-    store_config(workdir, config)?;
-    let session = Session::new(config, workdir)?;
-    session.check_denoisers(scenes)?;
-    let mut summary = session.run(scenes, &before_rendering(), false, reporter)?;
-    summary.warnings.extend(session.unknown_scenes());
-    let outcomes = scenes.iter().zip(&mut summary.scenes);
-    let forecasts = outcomes.filter_map(|(scene, outcome)| session.forecast(scene, outcome, frames, reporter)).collect();
-    Ok((summary, forecasts))
-}
-
-fn before_rendering() -> Vec<&'static StageSpec> {
-    STAGES.iter().filter(|spec| spec.stage < Stage::Render).collect()
-}
-
-/// What the `frames` of a scene take.
-fn forecast_of(job: &Job, frames: &FramesByTrajectory, reporter: &dyn Reporter) -> Result<Forecast, Error> {
-    if frames.is_empty() {
-        return Ok(Forecast::default());
-    }
-    Ok(Forecast::of(&pilot(job, frames, &StageCx::new(&job.scene.name, Stage::Render, reporter))?))
 }
 
 /// Plans as [`run_stage`] does and draws what was planned, now or earlier. Returns also the page of each scene that came through.
@@ -232,7 +169,7 @@ fn open_with(out: &Path, pattern: Option<&str>, change: impl Fn(&mut SceneConfig
 }
 
 /// Some of the names, and how many more there are.
-fn first_of(names: &[&str]) -> String {
+pub(crate) fn first_of(names: &[&str]) -> String {
     let shown = names[..names.len().min(NAMES_SHOWN)].join(", ");
     match names.len().saturating_sub(NAMES_SHOWN) {
         0 => shown,
@@ -241,7 +178,7 @@ fn first_of(names: &[&str]) -> String {
 }
 
 /// Tells that a stage of a scene could not be done, and why.
-fn told_failure(scene: &str, stage: Stage, error: &Error, reporter: &dyn Reporter) -> Failure {
+pub(crate) fn told_failure(scene: &str, stage: Stage, error: &Error, reporter: &dyn Reporter) -> Failure {
     let message = error.explain();
     reporter.on(scene, stage, Event::Failed { message: &message });
     Failure { stage, message, hint: error.hint() }
@@ -249,9 +186,9 @@ fn told_failure(scene: &str, stage: Stage, error: &Error, reporter: &dyn Reporte
 
 /// A run over scenes.
 pub(crate) struct Session<'a> {
-    config: &'a Config,
-    workdir: &'a Workdir,
-    dataset: Dataset,
+    pub config: &'a Config,
+    pub workdir: &'a Workdir,
+    pub dataset: Dataset,
 }
 
 impl<'a> Session<'a> {
@@ -283,7 +220,7 @@ impl<'a> Session<'a> {
     }
 
     /// Runs `stages` over a scene, after those with the outcomes `earlier`.
-    fn run_scene(
+    pub fn run_scene(
         &self,
         scene: &SceneConfig,
         stages: &[&StageSpec],
@@ -312,67 +249,13 @@ impl<'a> Session<'a> {
         outcome
     }
 
-    /// As [`forecast`], and nothing of the folder changes: scenes that are planned are tried out as they are, and the others, all of whose
-    /// frames count, in a folder that is removed.
-    fn forecast_aside(&self, scenes: &[&SceneConfig], reporter: &dyn Reporter) -> Result<Forecasts, Error> {
-        let time = Stopwatch::start();
-        let folder = self.workdir.aside()?;
-        let workdir = Workdir::create(folder.path())?;
-        let aside = Session::new(self.config, &workdir)?;
-        let sessions: Vec<&Session> = scenes.iter().map(|scene| if self.is_planned(scene) { self } else { &aside }).collect();
-        sessions.iter().zip(scenes).try_for_each(|(session, scene)| session.check_denoisers(&[*scene]))?;
-        let (mut outcomes, mut forecasts) = (Vec::new(), Vec::new());
-        for (session, scene) in sessions.iter().zip(scenes) {
-            let mut outcome = session.run_scene(scene, &before_rendering(), false, &outcomes, reporter);
-            forecasts.extend(session.forecast(scene, &mut outcome, &missing_frames, reporter));
-            outcomes.push(outcome);
-        }
-        let warnings = self.unknown_scenes().into_iter().collect();
-        Ok((Summary { scenes: outcomes, warnings, wall_s: time.wall_s() }, forecasts))
-    }
-
-    /// Forecasts what the `frames` of a scene take, with its name, unless its `outcome` is a failure by now.
-    fn forecast(
-        &self,
-        scene: &SceneConfig,
-        outcome: &mut SceneOutcome,
-        frames: &dyn Fn(&Job) -> Result<FramesByTrajectory, Error>,
-        reporter: &dyn Reporter,
-    ) -> Option<(String, Forecast)> {
-        if outcome.failure.is_some() {
-            return None;
-        }
-        let job = Job::new(self.config, scene, &self.dataset, self.workdir, false);
-        match frames(&job).and_then(|frames| forecast_of(&job, &frames, reporter)) {
-            Ok(forecast) => Some((scene.name.clone(), forecast)),
-            Err(error) => {
-                outcome.failure = Some(told_failure(&scene.name, Stage::Render, &error, reporter));
-                None
-            }
-        }
-    }
-
-    /// True when any frame of the scene is finished, or cannot be told from one that is.
-    fn has_frames(&self, scene: &SceneConfig) -> bool {
-        let name = &scene.name;
-        let has_none = |camera: &String| self.dataset.frame_numbers(name, camera).is_ok_and(|frames| frames.is_empty());
-        !self.dataset.cameras(name).unwrap_or_default().iter().all(has_none)
-    }
-
-    /// True when nothing is to be done for the scene before rendering.
-    fn is_planned(&self, scene: &SceneConfig) -> bool {
-        let job = Job::new(self.config, scene, &self.dataset, self.workdir, false);
-        let is_there = self.dataset.layout().metadata_cameras(&scene.name).is_file();
-        is_there && before_rendering().iter().all(|spec| is_up_to_date(spec, &job).unwrap_or(false))
-    }
-
     /// Better at once than after the stages that come before rendering.
-    fn check_denoisers(&self, scenes: &[&SceneConfig]) -> Result<(), Error> {
+    pub fn check_denoisers(&self, scenes: &[&SceneConfig]) -> Result<(), Error> {
         scenes.iter().try_for_each(|scene| check_denoiser(&Job::new(self.config, scene, &self.dataset, self.workdir, false)))
     }
 
     /// A line about scenes of the folder that the configuration does not have; `None` where it has all.
-    fn unknown_scenes(&self) -> Option<String> {
+    pub fn unknown_scenes(&self) -> Option<String> {
         let is_known = |name: &String| self.config.scenes.iter().any(|scene| scene.name == *name);
         // Where the folder cannot be read, the run has said so.
         let unknown: Vec<String> = self.dataset.scenes().unwrap_or_default().into_iter().filter(|name| !is_known(name)).collect();
