@@ -80,7 +80,8 @@ fn a_list_that_labels_were_not_made_from_is_left_over() {
     let folder = tempfile::tempdir().unwrap();
     let dataset = common::write(&folder.path().join("dataset"), &common::pinhole());
     let path = dataset.mesh_files("room").file("semantic_label_descs.csv");
-    write_bytes(&path, "semantic_id,semantic_name\n7,desk\n77,harp\n").unwrap();
+    let header = "semantic_id,semantic_name,semantic_color_r,semantic_color_g,semantic_color_b";
+    write_bytes(&path, format!("{header}\n7,desk,1,2,3\n77,harp,1,2,3\n")).unwrap();
     assert_eq!(exported(&dataset, &folder.path().join("out")).unwrap()["categories"].as_array().unwrap().len(), 40);
     write_bytes(&path, "semantic_id,name\n7,desk\n").unwrap();
     let message = exported(&dataset, &folder.path().join("bad")).unwrap_err().to_string();

@@ -148,6 +148,10 @@ impl<'c> CameraView<'c> {
     fn own_row(&self, p_world: DVec3, first: Row, second: Row) -> Option<f64> {
         let (mut near, mut far) = if first.off.is_some() { (first, second) } else { (second, first) };
         let side = near.off?;
+        // Rounding may put a row that ends the stretch on either side.
+        if let Some(end) = [near, far].into_iter().find(|end| end.off.is_some_and(|off| off.abs() <= ROW_TOLERANCE)) {
+            return Some(end.y);
+        }
         if far.off.is_some_and(|off| off * side > 0.0) {
             return None;
         }
