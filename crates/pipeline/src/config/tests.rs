@@ -334,6 +334,9 @@ fn stored_configurations_of_older_versions_are_read_and_unknown_keys_refused() {
     assert_eq!(serde_json::from_value::<Config>(old).unwrap(), Config { base: PathBuf::new(), ..config });
 }
 
+/// A change of a scene, and what refuses it.
+type Change = (fn(&mut SceneConfig), &'static str);
+
 #[test]
 fn what_a_program_puts_together_is_refused_as_a_file_is() {
     let demo = Config::demo(&Overrides::default()).unwrap();
@@ -347,7 +350,7 @@ fn what_a_program_puts_together_is_refused_as_a_file_is() {
     assert_eq!(refused(&|config| config.scenes.clear()), "the configuration has no scenes");
     assert_eq!(refused(&|config| config.scenes.push(config.scenes[0].clone())), "two scenes have the name \"home\"");
     assert_eq!(refused(&|config| config.scenes[0].name = "../x".into()), "\"../x\" cannot be the name of a scene");
-    let changes: [(fn(&mut SceneConfig), &str); 9] = [
+    let changes: [Change; 9] = [
         (|scene| scene.size = [0, 5], "width and height must lie between 1 and 16384 pixels, found 0 x 5"),
         (|scene| scene.plan.frames = 0, "frames must lie between 1 and 10000, found 0"),
         (|scene| scene.render.samples = 0, "samples must be at least 1"),

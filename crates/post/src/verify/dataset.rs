@@ -17,7 +17,7 @@ use enfilade_scene::{Camera, CameraView, Cx, NYU40, Pose, Trajectory};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Checks every law of a scene; [`join_reports`] adds those of the dataset as a whole. What cannot be read counts as a violation, not as
+/// Checks every law of a scene; [`join_reports`](super::join_reports) adds those of the dataset as a whole. What cannot be read counts as a violation, not as
 /// an error.
 ///
 /// Frames are read in parallel, no more than two per thread at a time; the report is the same for every number of threads.
