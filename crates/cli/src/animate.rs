@@ -36,7 +36,7 @@ pub fn animate(args: &AnimateArgs, quiet: bool) -> Result<Verdict, Problem> {
     match missing.first() {
         Some(none) if written.is_empty() => return Err(Problem::found(none)),
         None if written.is_empty() => {
-            let problem = format!("no camera has frames in {}", args.dataset.display());
+            let problem = format!("no camera that was chosen has frames in {}", args.dataset.display());
             return Err(Problem::of_data(problem, "make them with `enfilade run`, which also tells what has failed"));
         }
         _ => missing.iter().for_each(|none| say(&format!("warning: {none}"))),

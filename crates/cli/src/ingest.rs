@@ -4,7 +4,7 @@ use crate::args::{IngestArgs, IngestVerb, Pix3dArgs};
 use crate::outcome::{Problem, Verdict, say};
 use enfilade_dataset::{DatasetError, write_bytes};
 use enfilade_shapes::{Document, MISMATCHED, ingest_pix3d};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// `ingest`.
 pub fn ingest(args: &IngestArgs) -> Result<Verdict, Problem> {
@@ -17,7 +17,10 @@ fn pix3d(args: &Pix3dArgs) -> Result<Verdict, Problem> {
     let found = ingest_pix3d(&args.root, args.split.as_deref()).map_err(|error| Problem::found(&error))?;
     refuse_overwriting(args, &found.document)?;
     let write = |error: DatasetError| Problem::new(error.to_string(), "choose another file");
-    write_bytes(&args.output, found.document.to_json()).map_err(write)?;
+    let is_file = args.output.symlink_metadata().map_or(true, |found| found.is_file());
+    // What is a device, a pipe or a link is written to, not replaced.
+    let written = if is_file { write_bytes(&args.output, found.document.to_json()) } else { write_to(&args.output, &found.document) };
+    written.map_err(write)?;
     let (images, output) = (found.document.images.len(), args.output.display());
     say(&format!("{output}: images with one object each: {images}; paths begin at {}", args.root.display()));
     if found.mismatched > 0 {
@@ -27,6 +30,10 @@ fn pix3d(args: &Pix3dArgs) -> Result<Verdict, Problem> {
         say(&format!("left out, since the split does not name them: {}", found.outside_split));
     }
     Ok(Verdict::Done)
+}
+
+fn write_to(output: &Path, document: &Document) -> Result<(), DatasetError> {
+    std::fs::write(output, document.to_json()).map_err(|source| DatasetError::Io { action: "write", path: output.into(), source })
 }
 
 /// Refuses an output that is a file of Pix3D or the split.

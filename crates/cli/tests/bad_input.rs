@@ -143,7 +143,7 @@ fn films_of_a_dataset_without_any_frame_are_told() {
     let d = dir.path();
     write_config(d, &[format!("[[scene]]\nname = \"missing\"\nfile = \"nowhere.gltf\"\n{CAMERA}")]);
     fail(d, &["run", "dataset.toml", "-o", "out"], 1, &["nowhere.gltf"]);
-    fail(d, &["animate", "out"], 1, &["no camera has frames in out", "enfilade run"]);
+    fail(d, &["animate", "out"], 1, &["no camera that was chosen has frames in out", "enfilade run"]);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::{Dataset, DatasetError, FileRecord, FrameEntry, Layout, replace_file,
 use enfilade_frame::{LAYERS, Layer};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::fs;
+use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -38,6 +38,15 @@ const MARK_KIND: &str = "enfilade repack 1";
 
 /// Where a copy grows, within its folder: that may be a disk of its own.
 const GROWING: &str = ".repack.partial";
+
+/// Where an earlier copy lies until it is removed.
+const OLD: &str = ".repack.old";
+
+/// Held while a copy is made.
+const LOCK: &str = ".repack.lock";
+
+/// Names in the folder of a copy that are not of the copy; the last is what a disk of its own begins with.
+const BESIDE: [&str; 5] = [GROWING, OLD, LOCK, MARK, "lost+found"];
 
 #[derive(Serialize, Deserialize)]
 struct Mark {
@@ -127,6 +136,8 @@ struct Growing<'a> {
     /// The folder that it is for.
     out: &'a Path,
     copy: Dataset,
+    is_whole: bool,
+    _lock: File,
 }
 
 impl<'a> Growing<'a> {
@@ -139,40 +150,73 @@ impl<'a> Growing<'a> {
             "it would lie in the dataset itself; choose another folder"
         } else if source.starts_with(&target) {
             "the dataset lies in that folder; choose another one"
-        } else if !entries(out, &[GROWING])?.is_empty() && !is_copy(out) {
+        } else if !entries(out)?.is_empty() && !is_copy(out) {
             "the folder is not empty, and what is there was not made by `repack`; choose another one, or move away what is there"
         } else {
-            let copy = out.join(GROWING);
-            remove(&copy)?;
-            return Ok(Self { out, copy: Dataset::create(copy)? });
+            match lock(out)? {
+                Some(lock) => {
+                    let copy = out.join(GROWING);
+                    remove(&copy)?;
+                    remove(&out.join(OLD))?;
+                    return Ok(Self { out, copy: Dataset::create(copy)?, is_whole: false, _lock: lock });
+                }
+                None => "another `repack` is at work there; wait until it has finished, or choose another folder",
+            }
         };
         Err(DatasetError::Unstorable { what: format!("a copy in {}", out.display()), problem: problem.into() })
     }
 
-    /// Replaces what an earlier copy left. The mark comes first, so that what is killed from here on is still known as a copy.
-    fn take_place(&self) -> Result<(), DatasetError> {
+    /// Replaces an earlier copy, of which nothing is removed before. The mark comes first, so that what is killed from here on is still
+    /// known as a copy.
+    fn take_place(mut self) -> Result<(), DatasetError> {
+        self.is_whole = true;
         let mark = Mark { kind: MARK_KIND.into(), enfilade_version: env!("CARGO_PKG_VERSION").into() };
         write_bytes(&self.out.join(MARK), serde_json::to_string_pretty(&mark).expect("plain data encodes") + "\n")?;
-        entries(self.out, &[GROWING, MARK])?.iter().try_for_each(|path| remove(path))?;
-        for path in entries(self.copy.root(), &[])? {
-            let to = self.out.join(path.file_name().unwrap_or_default());
-            fs::rename(&path, &to).map_err(DatasetError::at("put in place", &to))?;
-        }
+        let old = self.out.join(OLD);
+        fs::create_dir_all(&old).map_err(DatasetError::at("create the folder", &old))?;
+        move_entries(self.out, &old)?;
+        move_entries(self.copy.root(), self.out)?;
+        // What is still in use, the next copy removes.
+        let _ = fs::remove_dir_all(&old);
+        let _ = fs::remove_dir(self.copy.root());
         Ok(())
     }
 }
 
 impl Drop for Growing<'_> {
     fn drop(&mut self) {
-        let _ = fs::remove_dir_all(self.copy.root()); // empty by now if it has taken its place
+        if !self.is_whole {
+            let _ = fs::remove_dir_all(self.copy.root());
+        }
+        let _ = fs::remove_file(self.out.join(LOCK));
     }
 }
 
-/// What lies in a folder but for these names, sorted.
-fn entries(folder: &Path, without: &[&str]) -> Result<Vec<PathBuf>, DatasetError> {
+/// Takes the lock of a folder; `None` where another has it. Some network file systems know no locks.
+fn lock(out: &Path) -> Result<Option<File>, DatasetError> {
+    let path = out.join(LOCK);
+    let file = File::create(&path).map_err(DatasetError::at("write", &path))?;
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Ok(None),
+        Err(TryLockError::Error(error)) if error.kind() != std::io::ErrorKind::Unsupported => Err(DatasetError::io("lock", &path, error)),
+        _ => Ok(Some(file)),
+    }
+}
+
+/// Moves what lies in a folder into another one.
+fn move_entries(from: &Path, to: &Path) -> Result<(), DatasetError> {
+    for path in entries(from)? {
+        let to = to.join(path.file_name().unwrap_or_default());
+        fs::rename(&path, &to).map_err(DatasetError::at("put in place", &to))?;
+    }
+    Ok(())
+}
+
+/// What lies in a folder but for [`BESIDE`], sorted.
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, DatasetError> {
     let found: std::io::Result<Vec<PathBuf>> = fs::read_dir(folder).and_then(|all| all.map(|entry| Ok(entry?.path())).collect());
     let mut paths = found.map_err(DatasetError::at("read the folder", folder))?;
-    paths.retain(|path| !without.iter().any(|name| path.ends_with(name)));
+    paths.retain(|path| !BESIDE.iter().any(|name| path.ends_with(name)));
     paths.sort_unstable();
     Ok(paths)
 }

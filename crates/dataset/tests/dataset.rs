@@ -166,6 +166,18 @@ fn a_repacked_copy_takes_the_place_of_an_earlier_one_whole() {
     assert_eq!(copy.frame_numbers(SCENE, CAMERA).unwrap(), [1]);
     assert!(copy.has_layer(SCENE, CAMERA, 1, Layer::Color) && !copy.has_layer(SCENE, CAMERA, 1, Layer::Position));
     assert_eq!(files(&out), files(&fresh));
+
+    // What another one at work there has done so far is left to it.
+    let second = |_, _| {
+        let error = dataset.repack(&out, None, &|_, _| ()).unwrap_err();
+        assert!(error.to_string().contains("another `repack` is at work there"), "{error}");
+    };
+    dataset.repack(&out, None, &second).unwrap();
+    fs::create_dir(fresh.join("lost+found")).unwrap();
+    dataset.repack(&fresh, None, &|_, _| ()).unwrap();
+    assert!(fresh.join("lost+found").is_dir());
+    fs::remove_dir(fresh.join("lost+found")).unwrap();
+    assert_eq!(files(&out), files(&fresh));
 }
 
 #[test]

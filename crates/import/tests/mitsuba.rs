@@ -206,6 +206,18 @@ fn meshes_of_an_obj_file_have_materials_of_their_own() {
 }
 
 #[test]
+fn a_library_of_an_obj_file_whose_pictures_are_gone_is_not_used() {
+    let folder = Folder::new();
+    folder
+        .write("stale.obj", "mtllib stale.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n")
+        .write("stale.mtl", "newmtl x\nmap_Kd C:\\work\\wood.jpg\n");
+    let file = r#"<string name="filename" value="stale.obj"/>"#;
+    let imported = load(&folder, &format!(r#"<shape type="obj">{file}<bsdf name="bsdf" type="plastic"/></shape>"#));
+    assert!(matches!(imported.scene.materials[imported.scene.parts[0].material as usize].bsdf, Bsdf::Plastic { .. }));
+    assert!(warnings(&imported).contains("the material \"x\" of the OBJ file was not used"), "{}", warnings(&imported));
+}
+
+#[test]
 fn the_shape_index_picks_one_mesh_of_an_obj_file() {
     let folder = Folder::new();
     folder.write("aquarium.obj", AQUARIUM);
@@ -341,6 +353,7 @@ fn spectra_may_be_objects_or_files() {
     assert_eq!(object("regular", &format!(r#"<string name="range" value="400, 700"/>{values}"#)), expected);
     let range = r#"<float name="wavelength_min" value="400"/><float name="wavelength_max" value="700"/>"#;
     assert_eq!(object("regular", &format!("{range}{values}")), expected);
+    assert_eq!(object("regular", &format!("{}{values}", range.replace("wavelength", "lambda"))), expected);
     assert_eq!(radiance(r#"<spectrum name="radiance" filename="lamp.spd"/>"#), expected);
     let message = |spectrum: &str| {
         let scene = format!(r#"<scene><shape type="cube"><emitter type="area">{spectrum}</emitter></shape></scene>"#);

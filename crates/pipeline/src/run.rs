@@ -347,7 +347,7 @@ impl<'a> Session<'a> {
         if old.as_ref() == Some(&manifest) {
             return Ok(());
         }
-        if old.is_none_or(|old| !old.scenes.keys().eq(manifest.scenes.keys())) {
+        if old.is_none_or(|old| old.scenes.keys().any(|name| !manifest.scenes.contains_key(name))) {
             self.forget_other_scenes(&there)?;
         }
         self.dataset.write_manifest(&manifest).map_err(Error::stage)

@@ -134,6 +134,11 @@ fn a_forecast_with_fewer_cameras_leaves_the_folder_as_it_is() {
     // What a scene of that folder still takes is forecast where it lies.
     let (_, forecasts) = estimate(&two, &out, None, &Silent).unwrap();
     assert_eq!(forecasts[0].1.frames, 0);
+    // So is a scene that comes to it, which takes nothing away from the others.
+    let three = config(folder.path(), &[("a", "room.obj", TWO, ""), ("c", "room.obj", ONE, "")]);
+    estimate(&three, &out, None, &Silent).unwrap();
+    let layout = Dataset::open(&out).unwrap().layout().clone();
+    assert!(layout.overview().is_file() && layout.statistics().is_file());
 }
 
 /// Saves a file again as soon as a scene is being imported.

@@ -28,7 +28,7 @@ pub struct RunArgs {
     /// Only the scenes of these names ("bed*", "hall,bedroom")
     #[arg(long, value_name = "PATTERN", visible_alias = "scene")]
     pub scenes: Option<String>,
-    /// Tell what time, money, disk and memory the run will take, from a pilot of a few pixels; nothing is rendered, and nothing that is finished changes
+    /// Tell what time, money, disk and memory the run will take, from a pilot of a few pixels; nothing is rendered, and no finished frame changes
     #[arg(long)]
     pub estimate: bool,
     /// With --estimate: dollars per vCPU-hour, or a CSV table of them with names [default: 0.0165, Hypersim's median]

@@ -143,7 +143,14 @@ impl<'n> Reader<'n, '_> {
                 read
             }
         };
-        let found = obj::material(name, &library, &mut self.a)?;
+        let found = match obj::material(name, &library, &mut self.a) {
+            // Mitsuba goes on too.
+            Err(error @ ImportError::Texture { .. }) => {
+                self.warn(node, format!("{error}; the material {name:?} of the OBJ file was not used"));
+                None
+            }
+            found => found?,
+        };
         let found = found.map(|material| {
             self.warn(node, format!("the material {name:?} is the OBJ file's; expect other colours than Mitsuba's, which decodes them"));
             self.a.push_material(Material { two_sided: false, emission: Rgb::BLACK.into(), emits_both_sides: false, ..material })

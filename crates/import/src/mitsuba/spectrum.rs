@@ -42,8 +42,11 @@ fn object(node: &Node, kind: Kind) -> Result<Rgb, ImportError> {
         "irregular" => pairs(node, &list("wavelengths")?, &list("values")?, kind),
         "regular" => {
             let (values, range) = (list("values")?, list("range")?);
-            let end = |name: &str, i: usize| Ok::<_, ImportError>(node.float(name)?.or(range.get(i).copied()).unwrap_or(0.0));
-            let (first, last) = (end("wavelength_min", 0)?, end("wavelength_max", 1)?);
+            let end = |names: [&str; 2], i: usize| {
+                let named = node.float(names[0])?.or(node.float(names[1])?).or(range.get(i).copied());
+                named.ok_or_else(|| node.error(format!("there is no float named {}; add it", names[0])))
+            };
+            let (first, last) = (end(["wavelength_min", "lambda_min"], 0)?, end(["wavelength_max", "lambda_max"], 1)?);
             let step = (last - first) / values.len().saturating_sub(1).max(1) as f64;
             let wavelengths: Vec<f64> = (0..values.len()).map(|i| first + step * i as f64).collect();
             pairs(node, &wavelengths, &values, kind)

@@ -143,8 +143,9 @@ fn remove_older(folder: &Path, is_own: bool) -> Result<(), DatasetError> {
     let holds = |name: &str, is_ours: fn(&[u8]) -> bool| is_own || std::fs::read(folder.join(name)).is_ok_and(|text| is_ours(&text));
     let mut older = Vec::new();
     if holds("statistics.json", is_report) {
-        older.extend(plots::names().into_iter().flat_map(|name| EXTENSIONS.map(|extension| format!("plots/{name}.{extension}"))));
+        // First: that it is there says that all is.
         older.push("statistics.json".into());
+        older.extend(plots::names().into_iter().flat_map(|name| EXTENSIONS.map(|extension| format!("plots/{name}.{extension}"))));
     }
     if holds("costs.json", is_costs) {
         older.extend(COST_FILES.map(String::from));
