@@ -1,5 +1,8 @@
 //! What becomes of finished work when scenes, cameras or the list of scenes change, and where a run was killed.
 
+mod common;
+
+use common::{LAMP, TABLE, WALL, write_blocks};
 use enfilade_dataset::Dataset;
 use enfilade_frame::{Layer, Pass};
 use enfilade_pipeline::{Config, Event, Overrides, Reporter, Silent, Stage, Summary, estimate, run, run_stage};
@@ -12,29 +15,7 @@ use std::time::Duration;
 
 /// A closed room of 4 x 3 x 2.5 m (z up) with a table and a lamp, and files of poses.
 fn write_room(folder: &Path) {
-    let mut obj = "mtllib room.mtl\n".to_string();
-    let mut vertices = 0;
-    let mut block = |material: &str, min: [f64; 3], max: [f64; 3], inward: bool| {
-        writeln!(obj, "o {material}\nusemtl {material}").unwrap();
-        for i in 0..8 {
-            let [x, y, z] = [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { min[axis] } else { max[axis] });
-            writeln!(obj, "v {x} {y} {z}").unwrap();
-        }
-        for face in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
-            let mut corners = face.map(|i| (vertices + i + 1).to_string());
-            if inward {
-                corners.reverse();
-            }
-            writeln!(obj, "f {}", corners.join(" ")).unwrap();
-        }
-        vertices += 8;
-    };
-    block("wall", [-2.0, -1.5, 0.0], [2.0, 1.5, 2.5], true);
-    block("table", [-0.9, 0.6, 0.0], [0.3, 1.2, 0.7], false);
-    block("lamp", [-0.3, -0.3, 2.3], [0.3, 0.3, 2.4], false);
-    fs::write(folder.join("room.obj"), obj).unwrap();
-    let mtl = "newmtl wall\nKd 0.7 0.7 0.7\nnewmtl table\nKd 0.4 0.25 0.1\nnewmtl lamp\nKd 0 0 0\nKe 12 11 10\n";
-    fs::write(folder.join("room.mtl"), mtl).unwrap();
+    write_blocks(folder, &[WALL, TABLE, LAMP]);
     fs::write(folder.join("broken.obj"), "f 1 2 3\n").unwrap();
     write_poses(folder, "one.json", 0.2);
     write_poses(folder, "two.json", 0.3);

@@ -1,8 +1,10 @@
 //! Gates of views: each fault is found for what it is, rejected views are left out everywhere, and planning looks for better ones.
 
+mod common;
+
+use common::{Block, LAMP, TABLE, WALL, block, write_blocks};
 use enfilade_dataset::{Dataset, FrameStatus, ViewVerdict};
 use enfilade_pipeline::{Config, Overrides, Silent, Stage, Summary, run, run_stage};
-use std::fmt::Write;
 use std::path::Path;
 
 /// Views, the first of them good: what is wrong with each, where it is taken from, and what it looks at.
@@ -16,38 +18,11 @@ const VIEWS: [(&str, [f64; 3], [f64; 3]); 7] = [
     ("", [0.2, -0.9, 1.4], [-0.5, 0.9, 0.6]),
 ];
 
-/// A closed room of 4 x 3 x 2.5 m (z up) with a table, a cupboard and a lamp.
-fn write_room(folder: &Path) {
-    let mut obj = "mtllib room.mtl\n".to_string();
-    let mut vertices = 0;
-    let mut block = |material: &str, min: [f64; 3], max: [f64; 3], inward: bool| {
-        writeln!(obj, "o {material}\nusemtl {material}").unwrap();
-        for i in 0..8 {
-            let [x, y, z] = [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { min[axis] } else { max[axis] });
-            writeln!(obj, "v {x} {y} {z}").unwrap();
-        }
-        for face in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
-            let mut corners = face.map(|i| (vertices + i + 1).to_string());
-            if inward {
-                corners.reverse();
-            }
-            writeln!(obj, "f {}", corners.join(" ")).unwrap();
-        }
-        vertices += 8;
-    };
-    block("wall", [-2.0, -1.5, 0.0], [2.0, 1.5, 2.5], true);
-    block("table", [-0.9, 0.6, 0.0], [0.3, 1.2, 0.7], false);
-    block("cupboard", [1.4, 0.9, 0.0], [1.9, 1.4, 2.0], false);
-    block("lamp", [-0.3, -0.3, 2.3], [0.3, 0.3, 2.4], false);
-    std::fs::write(folder.join("room.obj"), obj).unwrap();
-    let mtl =
-        "newmtl wall\nKd 0.7 0.7 0.7\nnewmtl table\nKd 0.4 0.25 0.1\nnewmtl cupboard\nKd 0.6 0.1 0.1\nnewmtl lamp\nKd 0 0 0\nKe 12 11 10\n";
-    std::fs::write(folder.join("room.mtl"), mtl).unwrap();
-}
+const CUPBOARD: Block = block("cupboard", [1.4, 0.9, 0.0], [1.9, 1.4, 2.0], [0.6, 0.1, 0.1]);
 
-/// A dataset of that room, by the keys of its plan and its gates.
+/// A dataset of a room, by the keys of its plan and its gates.
 fn config(folder: &Path, plan: &str, gate: &str) -> Config {
-    write_room(folder);
+    write_blocks(folder, &[WALL, TABLE, CUPBOARD, LAMP]);
     let pose = |(i, (_, position, look_at)): (usize, &(&str, [f64; 3], [f64; 3]))| {
         format!("{{\"frame\": {i}, \"position\": {position:?}, \"look_at\": {look_at:?}}}")
     };
