@@ -3,6 +3,7 @@
 use crate::args::{IngestArgs, IngestVerb, Pix3dArgs};
 use crate::outcome::{Problem, Verdict, say};
 use enfilade_dataset::{DatasetError, write_bytes};
+use enfilade_pipeline::refuse_overwriting;
 use enfilade_shapes::{Document, MISMATCHED, ingest_pix3d};
 use std::path::{Path, PathBuf};
 
@@ -15,7 +16,7 @@ pub fn ingest(args: &IngestArgs) -> Result<Verdict, Problem> {
 
 fn pix3d(args: &Pix3dArgs) -> Result<Verdict, Problem> {
     let found = ingest_pix3d(&args.root, args.split.as_deref()).map_err(|error| Problem::found(&error))?;
-    refuse_overwriting(args, &found.document)?;
+    refuse_overwriting(&args.output, &inputs(args, &found.document))?;
     let write = |error: DatasetError| Problem::new(error.to_string(), "choose another file");
     let is_file = args.output.symlink_metadata().map_or(true, |found| found.is_file());
     // What is a device, a pipe or a link is written to, not replaced.
@@ -36,20 +37,10 @@ fn write_to(output: &Path, document: &Document) -> Result<(), DatasetError> {
     std::fs::write(output, document.to_json()).map_err(|source| DatasetError::Io { action: "write", path: output.into(), source })
 }
 
-/// Refuses an output that is a file of Pix3D or the split.
-fn refuse_overwriting(args: &Pix3dArgs, document: &Document) -> Result<(), Problem> {
-    // One that is not there is none of them.
-    let Ok(place) = args.output.canonicalize() else { return Ok(()) };
+/// The files that the document is made from: those of Pix3D that it names, and the split.
+fn inputs(args: &Pix3dArgs, document: &Document) -> Vec<PathBuf> {
     let images = document.images.iter().map(|image| &image.file_name);
     let others = document.annotations.iter().flat_map(|object| [&object.segmentation, &object.model, &object.voxel]);
     let named = images.chain(others).map(|name| args.root.join(name));
-    let mut inputs = [args.root.join("pix3d.json")].into_iter().chain(args.split.clone()).chain(named);
-    let is_output = |input: &PathBuf| input.canonicalize().is_ok_and(|input| input == place);
-    match inputs.find(is_output) {
-        Some(input) => Err(Problem::new(
-            format!("the output {} is the file {} that it would be made from", args.output.display(), input.display()),
-            "nothing was written; choose another file with -o",
-        )),
-        None => Ok(()),
-    }
+    [args.root.join("pix3d.json")].into_iter().chain(args.split.clone()).chain(named).collect()
 }

@@ -6,7 +6,7 @@ use crate::progress::Progress;
 use crate::verbs;
 use enfilade_dataset::Dataset;
 use enfilade_pipeline::Stage;
-use enfilade_post::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet, write_overview_of};
+use enfilade_post::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet, write_overview};
 use enfilade_post::sheet::SheetConfig;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -37,7 +37,7 @@ pub fn preview(args: &PreviewArgs, quiet: bool) -> Result<Verdict, Problem> {
         }
     }
     let name = args.stage.dataset.file_name().map_or_else(|| "dataset".into(), |name| name.to_string_lossy().into_owned());
-    let overview = write_overview_of(&dataset, &scenes, &name, &SheetConfig::default())?;
+    let overview = write_overview(&dataset, &scenes, &name, &SheetConfig::default())?;
     drop(cx);
     drop(progress);
     say(&format!("{pictures} pictures below {}", folder.display()));

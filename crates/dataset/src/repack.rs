@@ -156,8 +156,8 @@ impl<'a> Growing<'a> {
             match lock(out)? {
                 Some(lock) => {
                     let copy = out.join(GROWING);
-                    remove(&copy)?;
-                    remove(&out.join(OLD))?;
+                    remove_folder(&copy)?;
+                    remove_folder(&out.join(OLD))?;
                     return Ok(Self { out, copy: Dataset::create(copy)?, is_whole: false, _lock: lock });
                 }
                 None => "another `repack` is at work there; wait until it has finished, or choose another folder",
@@ -227,11 +227,9 @@ fn is_copy(folder: &Path) -> bool {
     mark.is_some_and(|mark| mark.kind == MARK_KIND)
 }
 
-/// Removes a file, or a folder with all that is in it, that may not exist.
-fn remove(path: &Path) -> Result<(), DatasetError> {
-    let is_folder = path.symlink_metadata().is_ok_and(|found| found.is_dir());
-    let removed = if is_folder { fs::remove_dir_all(path) } else { fs::remove_file(path) };
-    match removed {
+/// Removes a folder with all that is in it, which may not exist.
+fn remove_folder(path: &Path) -> Result<(), DatasetError> {
+    match fs::remove_dir_all(path) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(DatasetError::io("remove", path, error)),
         _ => Ok(()),
     }

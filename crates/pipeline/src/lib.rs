@@ -39,7 +39,7 @@ pub use parts::{FinishedFrame, Part, Prepared, PreparedScene, finish, gather, ke
 pub use replay::{Replay, ReplayedFile, replay};
 pub use report::{Event, Failure, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
 pub use run::{plan_and_draw, relabel, run, run_chosen, run_stage, verify};
-pub use single::{Imported, MadeHome, import_file, make_home, scene_file_of};
+pub use single::{Imported, MadeHome, import_file, make_home, refuse_overwriting, scene_file_of};
 pub use split::{SplitReport, split};
 pub use stages::{STAGES, Stage, StageSpec};
 pub use suggest::{SuggestedLabels, UnsurePart, suggest_labels};

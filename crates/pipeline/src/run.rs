@@ -304,7 +304,8 @@ impl<'a> Session<'a> {
         let complete = |c: &CameraEntry| c.frames.iter().any(|f| f.status == FrameStatus::Complete);
         let any_frame = manifest.iter().flat_map(|m| m.scenes.values()).flat_map(|s| s.cameras.values()).any(complete);
         if any_frame {
-            write_overview(&self.dataset, &self.config.name, &SheetConfig::default()).map_err(Error::stage)?;
+            let scenes = self.dataset.scenes().map_err(Error::stage)?;
+            write_overview(&self.dataset, &scenes, &self.config.name, &SheetConfig::default()).map_err(Error::stage)?;
         }
         Ok(())
     }

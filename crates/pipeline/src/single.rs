@@ -60,7 +60,10 @@ pub fn import_file(
 }
 
 /// Refuses an output that is one of the files that it is made from.
-pub(crate) fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error> {
+///
+/// # Errors
+/// When it is, however the two are spelled.
+pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error> {
     // One that is not there is none of them.
     let Ok(place) = output.canonicalize() else { return Ok(()) };
     match inputs.iter().find(|input| input.canonicalize().is_ok_and(|input| input == place)) {

@@ -12,13 +12,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
+use tempfile::TempDir;
 
-/// A closed room of 4 x 3 x 2.5 m (z up) with a table and a lamp, and files of poses.
-fn write_room(folder: &Path) {
+/// A folder with a room in which a table and a lamp are, a broken scene and files of poses, and where a dataset goes.
+fn place() -> (TempDir, PathBuf) {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
     write_blocks(folder, &[WALL, TABLE, LAMP]);
     fs::write(folder.join("broken.obj"), "f 1 2 3\n").unwrap();
     write_poses(folder, "one.json", 0.2);
     write_poses(folder, "two.json", 0.3);
+    let out = folder.join("out");
+    (place, out)
 }
 
 /// Two poses, the first of them at `x`.
@@ -68,9 +73,7 @@ fn failures(summary: &Summary) -> Vec<&str> {
 
 #[test]
 fn frames_count_for_the_poses_and_the_scene_alone_that_they_were_taken_of() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    write_room(folder.path());
+    let (folder, out) = place();
     let config = config(folder.path(), &[("a", "room.obj", ONE, "")]);
     run(&config, &out, None, &Silent).unwrap();
     let dataset = Dataset::open(&out).unwrap();
@@ -96,9 +99,7 @@ fn frames_count_for_the_poses_and_the_scene_alone_that_they_were_taken_of() {
 
 #[test]
 fn a_forecast_with_fewer_cameras_leaves_the_folder_as_it_is() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    write_room(folder.path());
+    let (folder, out) = place();
     let two = config(folder.path(), &[("a", "room.obj", TWO, "")]);
     run(&two, &out, None, &Silent).unwrap();
     let before = files(&out);
@@ -143,9 +144,7 @@ impl Reporter for Saver {
 #[test]
 fn a_file_that_is_saved_while_it_is_imported_is_imported_again() {
     for file in ["room.obj", "room.mtl"] {
-        let folder = tempfile::tempdir().unwrap();
-        let out = folder.path().join("out");
-        write_room(folder.path());
+        let (folder, out) = place();
         let config = config(folder.path(), &[("a", "room.obj", ONE, "")]);
         let saver = Saver { path: folder.path().join(file), has_saved: AtomicBool::new(false) };
         estimate(&config, &out, None, &saver).unwrap();
@@ -157,9 +156,7 @@ fn a_file_that_is_saved_while_it_is_imported_is_imported_again() {
 
 #[test]
 fn a_camera_whose_removal_was_killed_goes_with_the_next_plan_and_troubles_no_other_scene() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    write_room(folder.path());
+    let (folder, out) = place();
     let scenes = |of_b| [("a", "room.obj", ONE, ""), ("b", "room.obj", of_b, "")];
     run(&config(folder.path(), &scenes(TWO)), &out, None, &Silent).unwrap();
     let dataset = Dataset::open(&out).unwrap();
@@ -180,9 +177,7 @@ fn a_camera_whose_removal_was_killed_goes_with_the_next_plan_and_troubles_no_oth
 
 #[test]
 fn denoised_layers_that_a_killed_stage_has_left_go_where_they_are_not_asked_for() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    write_room(folder.path());
+    let (folder, out) = place();
     let config = config(folder.path(), &[("a", "room.obj", ONE, "")]);
     run(&config, &out, None, &Silent).unwrap();
     let layer = Dataset::open(&out).unwrap().layout().layer("a", "cam_00", 1, Layer::ColorDenoised);
@@ -194,9 +189,8 @@ fn denoised_layers_that_a_killed_stage_has_left_go_where_they_are_not_asked_for(
 
 #[test]
 fn scenes_that_are_gone_are_named_nowhere() {
-    let folder = tempfile::tempdir().unwrap();
-    let (out, fresh) = (folder.path().join("out"), folder.path().join("fresh"));
-    write_room(folder.path());
+    let (folder, out) = place();
+    let fresh = folder.path().join("fresh");
     let all = config(folder.path(), &[("a", "room.obj", ONE, ""), ("b", "room.obj", ONE, ""), ("c", "broken.obj", ONE, "")]);
     assert!(!run(&all, &out, None, &Silent).unwrap().ok());
     let dataset = Dataset::open(&out).unwrap();
@@ -216,9 +210,7 @@ fn scenes_that_are_gone_are_named_nowhere() {
 
 #[test]
 fn reports_of_an_earlier_plan_do_not_outlive_it() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    write_room(folder.path());
+    let (folder, out) = place();
     let reports = || ["cam_00", "cam_01"].map(|camera| Dataset::open(&out).unwrap().layout().plan_report("a", camera).is_file());
     estimate(&config(folder.path(), &[("a", "room.obj", TWO, "")]), &out, None, &Silent).unwrap();
     assert_eq!(reports(), [true, true]);
@@ -230,9 +222,7 @@ fn reports_of_an_earlier_plan_do_not_outlive_it() {
 
 #[test]
 fn a_table_of_cameras_that_was_removed_is_made_again_by_planning() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    write_room(folder.path());
+    let (folder, out) = place();
     estimate(&config(folder.path(), &[("a", "room.obj", ONE, ""), ("b", "room.obj", ONE, "")]), &out, None, &Silent).unwrap();
     let dataset = Dataset::open(&out).unwrap();
     fs::remove_file(dataset.layout().camera_parameters()).unwrap();

@@ -120,20 +120,12 @@ pub fn write_contact_sheet(
     Ok(Some(path))
 }
 
-/// Writes the contact sheet of the whole dataset, with the first frame of every trajectory that has one, and returns its path. Of more
+/// Writes the contact sheet of these scenes, with the first frame of every trajectory that has one, and returns its path. Of more
 /// than [`MOST_TILES`] trajectories it shows that many, spread evenly.
 ///
 /// # Errors
 /// When a layer cannot be read or the file cannot be written.
-pub fn write_overview(dataset: &Dataset, title: &str, config: &SheetConfig) -> Result<PathBuf, DatasetError> {
-    write_overview_of(dataset, &dataset.scenes()?, title, config)
-}
-
-/// As [`write_overview`], with these scenes alone.
-///
-/// # Errors
-/// As there.
-pub fn write_overview_of(dataset: &Dataset, scenes: &[String], title: &str, config: &SheetConfig) -> Result<PathBuf, DatasetError> {
+pub fn write_overview(dataset: &Dataset, scenes: &[String], title: &str, config: &SheetConfig) -> Result<PathBuf, DatasetError> {
     let mut filmed: Vec<(String, String, Vec<u32>)> = Vec::new();
     for scene in scenes {
         for camera in dataset.cameras(scene)? {
@@ -235,7 +227,7 @@ mod tests {
         assert!(files.iter().all(|file| file.is_file()));
         let config = SheetConfig { width: 600, frames: 1 };
         let sheet = write_contact_sheet(&dataset, ["room", "cam_00"], &[0, 1], exposures.display, &config).unwrap().unwrap();
-        let overview = write_overview(&dataset, "homes", &config).unwrap();
+        let overview = write_overview(&dataset, &["room".to_string()], "homes", &config).unwrap();
         for path in [sheet, overview] {
             assert_eq!(image::open(path).unwrap().width(), 600);
         }
@@ -253,7 +245,8 @@ mod tests {
             std::fs::copy(color("cam_00"), color(camera)).unwrap();
         }
         std::fs::write(dataset.layout().metadata_cameras("room"), format!("camera_name\n{}\n", cameras.join("\n"))).unwrap();
-        let sheet = image::open(write_overview(&dataset, "homes", &SheetConfig { width: 600, frames: 1 }).unwrap()).unwrap();
+        let sheet =
+            image::open(write_overview(&dataset, &["room".to_string()], "homes", &SheetConfig { width: 600, frames: 1 }).unwrap()).unwrap();
         // Four columns of pictures 113 x 85 pixels large: 50 rows with their captions, and what stands above and below.
         assert_eq!((sheet.width(), sheet.height()), (600, 50 * (85 + 64) + 140));
     }
@@ -263,16 +256,18 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let dataset = testing::dataset(folder.path());
         let config = SheetConfig { width: 600, frames: 1 };
-        let alone = std::fs::read(write_overview(&dataset, "homes", &config).unwrap()).unwrap();
+        let overview =
+            |scenes: &[&str]| write_overview(&dataset, &scenes.iter().map(ToString::to_string).collect::<Vec<_>>(), "homes", &config);
+        let alone = std::fs::read(overview(&["room"]).unwrap()).unwrap();
         let color = |scene: &str| dataset.layout().layer(scene, "cam_00", 0, Layer::Color);
         for path in [color("hall"), dataset.layout().metadata_cameras("hall")] {
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         }
         std::fs::copy(color("room"), color("hall")).unwrap();
         std::fs::write(dataset.layout().metadata_cameras("hall"), "camera_name\ncam_00\n").unwrap();
-        let of_both = write_overview(&dataset, "homes", &config).unwrap();
+        let of_both = overview(&["room", "hall"]).unwrap();
         assert!(std::fs::read(&of_both).unwrap() != alone);
-        let of_one = write_overview_of(&dataset, &["room".to_string()], "homes", &config).unwrap();
+        let of_one = overview(&["room"]).unwrap();
         assert!(of_one == of_both && std::fs::read(of_one).unwrap() == alone);
     }
 

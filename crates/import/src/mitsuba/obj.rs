@@ -64,7 +64,7 @@ impl<'n> Reader<'n, '_> {
             let own = bsdfs.iter().rev().find(|(name, _)| name.is_empty() || Some(*name) == material).map(|(_, bsdf)| *bsdf);
             let from_library = match material {
                 Some(name) if own.is_none() && emitter.is_none() && node.flag("load_materials", true) => {
-                    self.library_material(node, path, &file, name)?.map(|index| (name, index))
+                    self.material_of_library(node, path, &file, name)?.map(|index| (name, index))
                 }
                 _ => None,
             };
@@ -130,7 +130,7 @@ impl<'n> Reader<'n, '_> {
     }
 
     /// The material that the libraries of an OBJ file define by a name. `None` where they do not.
-    fn library_material(&mut self, node: &'n Node, path: &str, file: &File, name: &str) -> Result<Option<u32>, ImportError> {
+    fn material_of_library(&mut self, node: &'n Node, path: &str, file: &File, name: &str) -> Result<Option<u32>, ImportError> {
         let key = (path.to_string(), name.to_string());
         if let Some(&known) = self.obj.materials.get(&key) {
             return Ok(known);

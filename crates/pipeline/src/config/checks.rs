@@ -36,9 +36,7 @@ impl Config {
             if !names.insert(scene.name.as_str()) {
                 return Err(Error::usage(format!("two scenes have the name {:?}", scene.name), "names of scenes must be unique"));
             }
-            if check_name("scene name", &scene.name).is_err() || OWN_FILES.contains(&scene.name.as_str()) {
-                return Err(Error::usage(format!("{:?} cannot be the name of a scene", scene.name), NAMES));
-            }
+            check_scene_name(&scene.name).map_err(|help| Error::usage(no_scene_name(&scene.name), help))?;
             let good = "the configuration of the demo has good values";
             scene.check().map_err(|problem| Error::usage(format!("scene {:?}: {problem}", scene.name), good))?;
         }
@@ -118,11 +116,16 @@ impl Resolver<'_> {
         Ok(self.looked_at.borrow_mut().insert(found.clone()).then_some(found))
     }
 
-    pub(super) fn checked_name(&self, name: &Spanned<String>, what: &str) -> Result<String, ConfigError> {
+    /// The name of the dataset.
+    pub(super) fn checked_name(&self, name: &Spanned<String>) -> Result<String, ConfigError> {
         let text = name.get_ref();
-        if check_name("name", text).is_err() {
-            return Err(self.refuse(name, format!("{text:?} cannot be the {what}"), NAMES));
-        }
+        check_name("name", text).map_err(|_| self.refuse(name, format!("{text:?} cannot be the name"), NAMES))?;
+        Ok(text.clone())
+    }
+
+    pub(super) fn checked_scene_name(&self, name: &Spanned<String>) -> Result<String, ConfigError> {
+        let text = name.get_ref();
+        check_scene_name(text).map_err(|help| self.refuse(name, no_scene_name(text), help))?;
         Ok(text.clone())
     }
 
@@ -165,6 +168,19 @@ pub(super) fn check_size(size: [u32; 2]) -> Result<[u32; 2], String> {
         return Ok(size);
     }
     Err(format!("width and height must lie between 1 and {LARGEST_SIDE} pixels, found {} x {}", size[0], size[1]))
+}
+
+/// Gives what to do where this cannot be the name of a scene.
+fn check_scene_name(name: &str) -> Result<(), &'static str> {
+    match check_name("scene name", name) {
+        Err(_) => Err(NAMES),
+        Ok(()) if OWN_FILES.contains(&name) => Err("a file of the work folder has it; take another"),
+        Ok(()) => Ok(()),
+    }
+}
+
+fn no_scene_name(name: &str) -> String {
+    format!("{name:?} cannot be the name of a scene")
 }
 
 pub(super) fn check_fov(fov_x_deg: f64, camera: &CameraConfig) -> Result<(), String> {

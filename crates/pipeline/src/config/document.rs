@@ -7,7 +7,6 @@ use super::checks::{check_fov, check_frames, check_meters_per_unit, check_size};
 use super::locate::{ConfigError, Source as Text, in_words};
 use super::patch::{CarvePatch, GatePatch, PlanPatch, RenderPatch};
 use super::{CameraChoice, CameraConfig, Config, EnvironmentChoice, FileSource, LabelSource, Overrides, Quality, SceneConfig, Source};
-use crate::workdir::OWN_FILES;
 use enfilade_explore::{ExploreError, Mode};
 use enfilade_home::HomeConfig;
 use enfilade_import::UpAxis;
@@ -125,7 +124,7 @@ pub(super) fn resolve(
     let document: Document = toml::from_str(text).map_err(|e| source.toml_error(&e))?;
     let resolver = Resolver { source, document: &document, overrides, variable, looked_at: RefCell::default() };
     let name = match &document.name {
-        Some(name) => resolver.checked_name(name, "name")?,
+        Some(name) => resolver.checked_name(name)?,
         None => default_name(file),
     };
     if document.scene.is_empty() {
@@ -171,14 +170,7 @@ impl Resolver<'_> {
 
     fn scene(&self, keys: &SceneKeys) -> Result<SceneConfig, ConfigError> {
         let document = self.document;
-        let name = self.checked_name(&keys.name, "name of a scene")?;
-        if OWN_FILES.contains(&name.as_str()) {
-            return Err(self.refuse(
-                &keys.name,
-                format!("{name:?} cannot be the name of a scene"),
-                "a file of the work folder has it; take another",
-            ));
-        }
+        let name = self.checked_scene_name(&keys.name)?;
         let seed = self.overrides.seed.or(keys.seed).or(document.seed).unwrap_or(0);
         let camera = keys.camera.as_ref().or(document.camera.as_ref());
         let mut scene = SceneConfig {
