@@ -238,8 +238,10 @@ fn lights_cameras_and_constant_surroundings_come_back() {
         }
     }
     assert!((imported.scene.cameras[0].fov_x_rad - 1.0).abs() < 1e-6 && imported.scene.cameras[0].position.distance(position) < 1e-6);
-    scene.lights = vec![spot(SpotFalloff::Angle)];
-    assert_eq!(round_trip(&scene, &Labels::default()).1.len(), 1, "what is lost is said");
+    for falloff in [SpotFalloff::Angle, SpotFalloff::SmoothCosine, SpotFalloff::SmoothAngle] {
+        scene.lights = vec![spot(falloff)];
+        assert_eq!(round_trip(&scene, &Labels::default()).1.len(), 1, "what is lost is said");
+    }
 }
 
 #[test]

@@ -6,7 +6,8 @@ use common::fbx::*;
 use common::{Folder, png, warnings};
 use enfilade_import::{ImportOptions, Imported, UpAxis};
 use enfilade_math::{Rgb, Vec2, Vec3};
-use enfilade_scene::{Alpha, Bsdf, Light, NormalMap, TextureRef, Wrap};
+use enfilade_scene::{Alpha, Bsdf, Light, NormalMap, SpotFalloff, TextureRef, Wrap};
+use std::f64::consts::PI;
 
 const MESH: i64 = 10;
 const NODE: i64 = 20;
@@ -128,8 +129,8 @@ fn lambert_phong_and_physical_materials_become_ours() {
         number("ShininessExponent", 198.0),
     ];
     let m = painted(&folder, material("phong", shiny.to_vec()));
-    let Bsdf::Plastic { alpha, specular, .. } = &m.bsdf else { panic!("{m:?}") };
-    assert!((alpha.factor - 0.1).abs() < 1e-6 && specular.factor == Rgb::splat(0.5));
+    let Bsdf::Principled(p) = &m.bsdf else { panic!("{m:?}") };
+    assert!((p.roughness.factor.powi(2) - 0.1).abs() < 1e-6 && p.specular_color.factor == Rgb::splat(0.5));
     let clear = [color("TransparentColor", [0.5; 3]), number("TransparencyFactor", 0.5)];
     assert!(matches!(painted(&folder, material("lambert", clear.to_vec())).alpha, Alpha::Blend { opacity } if opacity.factor == 0.75));
     // 3ds Max's physical material is told by its class.
@@ -163,6 +164,17 @@ fn with_picture(
     absolute: &'static str,
     content: Option<Vec<u8>>,
 ) -> Vec<Record> {
+    with_picture_on(material("lambert", vec![]), settings, slots, relative, absolute, content)
+}
+
+fn with_picture_on(
+    material: Record,
+    settings: Vec<Record>,
+    slots: &[&'static str],
+    relative: &'static str,
+    absolute: &'static str,
+    content: Option<Vec<u8>>,
+) -> Vec<Record> {
     let mut video =
         vec![record("Filename", vec![Value::Text(absolute)], vec![]), record("RelativeFilename", vec![Value::Text(relative)], vec![])];
     video.extend(content.map(|bytes| record("Content", vec![Value::Bytes(bytes)], vec![])));
@@ -171,11 +183,7 @@ fn with_picture(
         record("RelativeFilename", vec![Value::Text(relative)], vec![]),
         properties(settings),
     ];
-    let objects = vec![
-        material("lambert", vec![]),
-        object("Texture", 40, "T\0\x01Texture", "", names),
-        object("Video", 41, "V\0\x01Video", "Clip", video),
-    ];
+    let objects = vec![material, object("Texture", 40, "T\0\x01Texture", "", names), object("Video", 41, "V\0\x01Video", "Clip", video)];
     let fed = slots.iter().map(|&slot| feeds(40, MATERIAL, slot));
     let links = [belongs(MATERIAL, NODE), belongs(41, 40)].into_iter().chain(fed).collect();
     scene(vec![], vec![], objects, links)
@@ -198,6 +206,38 @@ fn pictures_are_scaled_turned_and_moved_in_this_order() {
     for (uv, expected) in [(Vec2::ZERO, [0.25, -0.5]), (Vec2::X, [0.25, 1.5]), (Vec2::Y, [-3.75, -0.5])] {
         assert!((picture.transform(uv) - Vec2::from(expected)).length() < 1e-6, "{uv}: {}", picture.transform(uv));
     }
+}
+
+/// A mapping of scale (2, 3), turned by 30 degrees and moved by (0.2, 0.3).
+#[test]
+fn blenders_mapping_is_undone_as_its_exporter_writes_it() {
+    let folder = Folder::new();
+    let settings =
+        vec![vector("Scaling", [0.5, 1.0 / 3.0, 1.0]), vector("Rotation", [0.0, 0.0, -PI / 6.0]), vector("Translation", [0.2, 0.3, 0.0])];
+    let document = of_blender(with_picture(settings, &["DiffuseColor"], "a.png", "a.png", Some(png(2, 2, [9; 4]))));
+    let imported = load(&folder, &document);
+    let Bsdf::Principled(p) = &imported.scene.materials[0].bsdf else { panic!("{:?}", imported.scene.materials) };
+    let picture = p.base_color.texture.expect("a texture");
+    let (sin, cos) = (PI as f32 / 6.0).sin_cos();
+    for (uv, expected) in
+        [(Vec2::ZERO, [0.2, 0.3]), (Vec2::X, [0.2 + 2.0 * cos, 0.3 + 2.0 * sin]), (Vec2::Y, [0.2 - 3.0 * sin, 0.3 + 3.0 * cos])]
+    {
+        assert!((picture.transform(uv) - Vec2::from(expected)).length() < 1e-6, "{uv}: {}", picture.transform(uv));
+    }
+}
+
+#[test]
+fn normal_maps_have_blenders_strength_in_its_files_alone() {
+    let folder = Folder::new();
+    let of = |strength| {
+        let wood = material("phong", vec![reals("BumpFactor", "Number", &[strength])]);
+        with_picture_on(wood, vec![], &["NormalMap"], "a.png", "a.png", Some(png(2, 2, [128, 128, 255, 255])))
+    };
+    let scale = |document: Vec<Record>| match load(&folder, &document).scene.materials[0].normal_map {
+        Some(NormalMap::Normal { scale, .. }) => scale,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!((scale(of_blender(of(0.5))), scale(of(0.5)), scale(of(0.0))), (0.5, 1.0, 1.0));
 }
 
 #[test]
@@ -259,6 +299,25 @@ fn lights_shine_down_their_node_with_the_stated_strength() {
     assert!(direction == Vec3::NEG_Z && (inner_rad.to_degrees() - 20.0).abs() < 1e-4 && (outer_rad.to_degrees() - 30.0).abs() < 1e-4);
     let Light::Directional { direction, irradiance, .. } = light(1, vec![]) else { panic!("no sun") };
     assert!(direction == Vec3::NEG_Z && irradiance == Rgb::splat(3.0));
+}
+
+/// Blender writes (1 − blend) · outer as the inner angle, and dims over the share `blend` of 1 − cos(outer).
+#[test]
+fn blenders_spots_dim_by_its_own_law() {
+    let folder = Folder::new();
+    let spot = |inner, turned: fn(Vec<Record>) -> Vec<Record>| {
+        let cone = [("InnerAngle", inner), ("OuterAngle", 60.0)].map(|(name, angle)| reals(name, "Number", &[angle]));
+        let list = [vec![int("LightType", "enum", 2)], cone.to_vec()].concat();
+        match load(&folder, &turned(with_attribute("Light", vec![], list))).scene.lights[0] {
+            Light::Spot { inner_rad, outer_rad, falloff, .. } => (inner_rad.cos(), outer_rad.cos(), falloff),
+            ref other => panic!("{other:?}"),
+        }
+    };
+    for blend in [0.0, 0.3, 1.0] {
+        let (inner, outer, falloff) = spot(60.0 * (1.0 - f64::from(blend)), of_blender);
+        assert!((inner - (outer + (1.0 - outer) * blend)).abs() < 1e-6 && falloff == SpotFalloff::SmoothCosine, "{blend}: {inner} {outer}");
+    }
+    assert_eq!(spot(30.0, |document| document).2, SpotFalloff::Angle);
 }
 
 #[test]

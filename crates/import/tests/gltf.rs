@@ -269,6 +269,39 @@ fn photometric_profiles_shine_along_minus_z_of_their_node() {
 }
 
 #[test]
+fn instanced_meshes_stand_in_every_place_of_their_node() {
+    let mut g = Gltf::triangle();
+    let translations = [1.0f32, 0.0, 0.0, 2.0, 0.0, 0.0].map(f32::to_le_bytes).concat();
+    let translations = g.accessor(&translations, 5126, "VEC3", 2);
+    // Normalized shorts: no turn, then half a turn about y.
+    let rotations = g.accessor(&[0i16, 0, 0, 32_767, 0, 32_767, 0, 0].map(i16::to_le_bytes).concat(), 5122, "VEC4", 2);
+    g.json["accessors"][rotations]["normalized"] = json!(true);
+    let scales = g.accessor(&[1.0f32, 1.0, 1.0, 3.0, 3.0, 3.0].map(f32::to_le_bytes).concat(), 5126, "VEC3", 2);
+    let attributes = json!({"TRANSLATION": translations, "ROTATION": rotations, "SCALE": scales});
+    g.json["nodes"][0]["translation"] = json!([0, 5, 0]);
+    g.json["nodes"][0]["extensions"] = json!({"EXT_mesh_gpu_instancing": {"attributes": attributes}});
+    g.json["extensionsRequired"] = json!(["EXT_mesh_gpu_instancing"]);
+    let folder = Folder::new();
+    let imported = folder.write("a.gltf", g.text()).load("a.gltf").unwrap();
+    assert!(imported.report.warnings.is_empty(), "{}", warnings(&imported));
+    let parts = &imported.scene.parts;
+    assert_eq!(parts.iter().map(|p| (p.name.as_str(), p.mesh)).collect::<Vec<_>>(), [("Chair", 0), ("Chair_2", 0)]);
+    // The file's x, with y up: it stays x in the world, and the node's height is z.
+    let at = |part: usize| parts[part].world_from_mesh.transform_point3(DVec3::X);
+    assert!(at(0).distance(DVec3::new(2.0, 0.0, 5.0)) < 1e-6 && at(1).distance(DVec3::new(-1.0, 0.0, 5.0)) < 1e-6, "{} {}", at(0), at(1));
+
+    g.json["accessors"][scales]["count"] = json!(1);
+    let error = folder.write("b.gltf", g.text()).error("b.gltf");
+    assert!(
+        error.contains("nodes[0].extensions.EXT_mesh_gpu_instancing.attributes: found 2, 2, 1 of TRANSLATION, ROTATION, SCALE"),
+        "{error}"
+    );
+    g.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = json!({"ROTATION": "x"});
+    let error = folder.write("c.gltf", g.text()).error("c.gltf");
+    assert!(error.contains("attributes.ROTATION: found \"x\", expected an accessor"), "{error}");
+}
+
+#[test]
 fn labels_in_extras_are_inherited_and_mistakes_are_told() {
     let mut g = Gltf::triangle();
     g.json["nodes"] = json!([
@@ -296,13 +329,11 @@ fn dropped_features_are_in_the_report() {
     g.json["materials"][0]["extensions"] = json!({"KHR_materials_unlit": {}});
     g.json["animations"] = json!([{"channels": [], "samplers": []}]);
     g.json["skins"] = json!([{"joints": [0]}]);
-    g.json["extensionsUsed"] = json!(["EXT_mesh_gpu_instancing"]);
+    g.json["extensionsUsed"] = json!(["MSFT_lod"]);
     let folder = Folder::new();
     let imported = folder.write("a.gltf", g.text()).load("a.gltf").unwrap();
     let text = warnings(&imported);
-    for expected in
-        ["vertex colours", "morph targets", "points and lines", "unlit", "animations dropped", "skins dropped", "EXT_mesh_gpu_instancing"]
-    {
+    for expected in ["vertex colours", "morph targets", "points and lines", "unlit", "animations dropped", "skins dropped", "MSFT_lod"] {
         assert!(text.contains(expected), "{expected} in {text}");
     }
     assert!(matches!(imported.scene.materials[0].bsdf, Bsdf::Diffuse { .. }));

@@ -59,7 +59,8 @@ fn material_keys_are_read() {
     assert!(matches!(m.normal_map, Some(NormalMap::Normal { .. })));
     assert!(matches!(m.alpha, Alpha::Blend { opacity } if opacity.texture.unwrap().1 == 3));
     assert!(matches!(material("illum 7\nNi 1.33\nTf 1 1 1\n").bsdf, Bsdf::Dielectric { eta: 1.33, .. }));
-    assert!(matches!(material("Kd 1 1 1\nKs 0.5 0.5 0.5\nNs 48\nTr 0\n").bsdf, Bsdf::Plastic { alpha, .. } if alpha.factor == 0.2));
+    let shiny = material("Kd 1 1 1\nKs 0.5 0.5 0.5\nNs 48\nTr 0\n").bsdf;
+    assert!(matches!(shiny, Bsdf::Principled(p) if (p.roughness.factor.powi(2) - 0.2).abs() < 1e-6));
 }
 
 /// Illumination models below 2 have no highlight, so `Ks` counts for nothing, on black `Kd` too.
@@ -73,7 +74,72 @@ fn specular_colours_count_from_illumination_model_2_on() {
         let found = bsdf(&format!("Kd {kd} {kd} {kd}\nKs 0.5 0.5 0.5\nmap_Ks grey.png\nillum {illum}\n"));
         assert_eq!(found, Bsdf::Diffuse { reflectance: Rgb::splat(kd).into() }, "illum {illum}");
     }
-    assert!(matches!(bsdf("Kd 1 1 1\nKs 0.5 0.5 0.5\nillum 2\n"), Bsdf::Plastic { specular, .. } if specular.factor == Rgb::splat(0.5)));
+    let coated = bsdf("Kd 1 1 1\nKs 0.5 0.5 0.5\nillum 2\n");
+    assert!(matches!(coated, Bsdf::Principled(p) if p.specular_color.factor == Rgb::splat(0.5)));
+}
+
+/// A plastic, which has one bounce of light between coat and facets, took most of the light of these surfaces.
+#[test]
+fn highlights_are_energy_conserving_coats_and_of_blenders_roughness_in_its_files() {
+    let folder = Folder::new();
+    folder.write("a.obj", format!("mtllib a.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n"));
+    let coat = |head: &str, kd: f32, ns: f32| {
+        let library = format!("{head}newmtl M\nNs {ns}\nKd {kd} {kd} {kd}\nKs 0.5 0.5 0.5\nNi 1.5\nillum 2\n");
+        match folder.write("a.mtl", library).load("a.obj").unwrap().scene.materials[0].bsdf.clone() {
+            Bsdf::Principled(p) => (p.base_color.factor.r, p.roughness.factor, p.specular_color.factor.r),
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(coat("", 0.25, 0.0), (0.25, 1.0, 0.5));
+    // Its Ks of one half is a highlight of full strength, and its black is no mirror.
+    let blender = "# Blender 4.5.0 MTL File: 'None'\n# www.blender.org\n";
+    for (kd, ns, roughness) in [(0.25, 0.0, 1.0), (0.25, 250.0, 0.5), (0.0, 1000.0, 0.0)] {
+        assert_eq!(coat(blender, kd, ns), (kd, roughness, 1.0));
+    }
+    // Versions before 3.2 had other laws.
+    assert_eq!(coat("# Blender MTL File: 'None'\n", 0.25, 0.0), (0.25, 1.0, 0.5));
+}
+
+/// Blender writes 9 for whatever has an alpha below one; it became clear glass.
+#[test]
+fn illumination_models_4_and_9_are_glass_only_where_nothing_else_is_stated() {
+    let folder = Folder::new();
+    folder.write("a.obj", format!("mtllib a.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n"));
+    let made = |body: &str| folder.write("a.mtl", format!("newmtl M\n{body}")).load("a.obj").unwrap().scene.materials[0].clone();
+    for illum in [4, 9] {
+        let veil = made(&format!("Kd 0.2 0.6 0.2\nd 0.5\nillum {illum}\n"));
+        assert_eq!(veil.bsdf, Bsdf::Diffuse { reflectance: Rgb::new(0.2, 0.6, 0.2).into() });
+        assert!(matches!(veil.alpha, Alpha::Blend { opacity } if opacity.factor == 0.5));
+        for body in ["Kd 0.5 0.5 0.5", "Kd 0 0 0\nd 0.5", "Kd 0 0 0\nTr 0.5"] {
+            assert!(!matches!(made(&format!("{body}\nillum {illum}\n")).bsdf, Bsdf::Dielectric { .. }), "{body}");
+        }
+        for body in ["Kd 0 0 0", "Tf 1 1 1\nd 1"] {
+            assert!(matches!(made(&format!("{body}\nillum {illum}\n")).bsdf, Bsdf::Dielectric { .. }), "{body}");
+        }
+    }
+    assert!(matches!(made("Kd 0.5 0.5 0.5\nd 0.5\nillum 6\n").bsdf, Bsdf::Dielectric { .. }));
+}
+
+/// Blender writes the name of its mesh once for each of its instances.
+#[test]
+fn objects_of_one_name_stay_objects() {
+    let folder = Folder::new();
+    let text = format!(
+        "{TRIANGLES}o Ape\nf 1 2 3\no Ape\nusemtl A\nf 1 2 3\nusemtl B\nf 1 2 3\no Ape\nusemtl A\nf 1 2 3\ng x\nf 1 2 3\ng y\nf 1 2 3\ng x\nf 1 2 3\n"
+    );
+    let scene = folder.write("a.obj", text).load("a.obj").unwrap().scene;
+    let names: Vec<&str> = scene.parts.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["Ape", "Ape.A", "Ape.B", "Ape_2", "x", "y"]);
+}
+
+#[test]
+fn statements_without_effect_are_not_reported_and_maps_of_exponents_are() {
+    let folder = Folder::new();
+    folder.write("a.obj", format!("mtllib a.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n"));
+    let told = |body: &str| warnings(&folder.write("a.mtl", format!("newmtl M\n{body}")).load("a.obj").unwrap());
+    assert!(!told("Kd 1 1 1\nPr 0.5\naniso 0.000000\n").contains("ignored"));
+    assert!(told("Kd 1 1 1\nPr 0.5\naniso 0.3\n").contains("aniso ignored"));
+    assert!(told("Kd 1 1 1\nmap_Ns rough.png\n").contains("map_ns ignored"));
 }
 
 #[test]

@@ -404,7 +404,7 @@ fn materials_that_only_java_3d_knows_are_as_it_has_them() {
     assert_eq!(bsdf("flltgrey").cloned(), diffuse(0.825));
     assert_eq!(bsdf("unheard_of").cloned(), diffuse(0.5));
     for (name, kd) in [("silver", Rgb::splat(0.616)), ("default", Rgb::new(0.71, 0.702, 0.653))] {
-        assert!(matches!(bsdf(name), Some(Bsdf::Plastic { diffuse, .. }) if diffuse.factor == kd), "{name}: {:?}", bsdf(name));
+        assert!(matches!(bsdf(name), Some(Bsdf::Principled(p)) if p.base_color.factor == kd), "{name}: {:?}", bsdf(name));
     }
     // Their `d` is opacity.
     for (name, expected) in [("glassblutint", 0.67), ("smoked_glass", 0.02)] {

@@ -166,11 +166,23 @@ fn the_composition_of_layers_follows_the_order_of_strength() {
 }
 
 #[test]
-fn circles_and_missing_layers_are_errors_that_name_them() {
+fn references_that_lead_back_are_left_out() {
     let folder = Folder::new();
     folder.write("a.usda", layer(r#"def "World" ( references = @b.usda@ ) { }"#));
-    folder.write("b.usda", layer(r#"def "World" { def "X" ( references = @a.usda@ ) { } }"#));
-    assert!(folder.error("a.usda").contains("it is made of itself"), "{}", folder.error("a.usda"));
+    folder.write("b.usda", layer(r#"def "World" { def Cube "X" ( references = @a.usda@ ) { } }"#));
+    // As Blender writes instances of curves.
+    folder.write("c.usda", layer(r#"def "Ring" { def Cube "Ring" { } def "Ring_0" ( prepend references = </Ring> ) { } }"#));
+    for (file, expected, place) in [("a.usda", vec!["World/X"], "World/X"), ("c.usda", vec!["Ring/Ring"], "Ring/Ring_0")] {
+        let imported = folder.load(file).unwrap();
+        assert_eq!(names(&imported.scene), expected);
+        let told = warnings(&imported);
+        assert!(told.contains("it refers to itself, by way of <") && told.contains("left out"), "{place}: {told}");
+    }
+}
+
+#[test]
+fn circles_of_layers_and_missing_layers_are_errors_that_name_them() {
+    let folder = Folder::new();
     folder.write("s.usda", "#usda 1.0\n( subLayers = [@s.usda@] )\n");
     assert!(folder.error("s.usda").contains("sublayers stand in a circle or too deep: s.usda → s.usda"));
     folder.write("m.usda", layer(r#"def "World" ( payload = @gone.usd@ ) { }"#));
@@ -257,4 +269,84 @@ fn preview_surfaces_and_their_textures_become_principled() {
     assert_eq!(scene.meshes[0].uvs, [Vec2::ZERO, Vec2::X, Vec2::Y]);
     std::fs::remove_file(folder.path("tex/normal.png")).unwrap();
     assert!(folder.error("a.usda").contains("material </Looks/Paint> needs the texture"));
+}
+
+/// What Blender writes for MaterialX: with a preview surface, and with its viewport's colour in place of one.
+fn blender(preview: &str, open_pbr: &str) -> String {
+    layer(&format!(
+        r#"def Mesh "M" ( apiSchemas = ["MaterialBindingAPI"] ) {{ TRIANGLE
+            rel material:binding = </P> }}
+        def Material "P" {{
+            token outputs:mtlx:surface.connect = </P/Open.outputs:surface>
+            token outputs:surface.connect = </P/{preview}.outputs:surface>
+            def Shader "previewShader" {{ uniform token info:id = "UsdPreviewSurface"
+                color3f inputs:diffuseColor = (0.8, 0.8, 0.8) }}
+            def Shader "Plain" {{ uniform token info:id = "UsdPreviewSurface"
+                color3f inputs:diffuseColor = (0.5, 0.25, 0)
+                float inputs:clearcoat = 1 }}
+            def Shader "Glowing" {{ uniform token info:id = "UsdPreviewSurface"
+                color3f inputs:emissiveColor.connect = </P/Glow.outputs:rgb> }}
+            def Shader "Glow" {{ uniform token info:id = "UsdUVTexture"
+                asset inputs:file = @color.png@ }}
+            def Shader "Open" {{ uniform token info:id = "ND_open_pbr_surface_surfaceshader"
+                float3 inputs:geometry_tangent.connect = </P/N.outputs:tangent>
+                {open_pbr} }}
+            def NodeGraph "N" {{
+                float3 outputs:tangent.connect = </P/N/Tangent.outputs:out>
+                color3f outputs:color.connect = </P/N/Color.outputs:out>
+                float outputs:blue.connect = </P/N/Blue.outputs:out>
+                def Shader "Tangent" {{ uniform token info:id = "ND_tangent_vector3" }}
+                def Shader "Color" {{ uniform token info:id = "ND_convert_color4_color3"
+                    color4f inputs:in.connect = </P/N/Image.outputs:out> }}
+                def Shader "Blue" {{ uniform token info:id = "ND_extract_vector4"
+                    int inputs:index = 2
+                    float4 inputs:in.connect = </P/N/Image.outputs:out> }}
+                def Shader "Image" {{ uniform token info:id = "ND_image_color4"
+                    asset inputs:file = @color.png@ ( colorSpace = "srgb_texture" )
+                    float2 inputs:texcoord.connect = </P/N/At.outputs:out>
+                    string inputs:uaddressmode = "clamp" }}
+                def Shader "At" {{ uniform token info:id = "ND_texcoord_vector2" }} }} }}"#
+    ))
+}
+
+#[test]
+fn materialx_is_taken_where_the_preview_surface_only_stands_in_for_it() {
+    let folder = Folder::new();
+    folder.write("color.png", png(1, 1, [255, 0, 0, 255]));
+    let load = |preview: &str, open_pbr: &str| {
+        let imported = folder.write("a.usda", blender(preview, open_pbr)).load("a.usda").unwrap();
+        let told = warnings(&imported);
+        (imported.scene, told)
+    };
+    let picture = "color3f inputs:base_color.connect = </P/N.outputs:color>\nfloat inputs:specular_roughness.connect = </P/N.outputs:blue>";
+    for preview in ["previewShader", "Plain"] {
+        let (scene, told) = load(preview, picture);
+        let p = principled(&scene, "M");
+        let texture = p.base_color.texture.unwrap();
+        assert_eq!((texture.wrap, p.roughness.texture.unwrap().1), ([Wrap::Clamp, Wrap::Repeat], 2));
+        assert!(told.contains("its surface is \"ND_open_pbr_surface_surfaceshader\""), "{told}");
+    }
+    let (scene, _) = load("previewShader", "color3f inputs:base_color = (0.6, 0.1, 0.1)\nfloat inputs:geometry_opacity = 0.5");
+    assert_eq!(principled(&scene, "M").base_color.factor, Rgb::new(0.6, 0.1, 0.1));
+    let material = &scene.materials[part(&scene, "M").material as usize];
+    assert!(matches!(material.alpha, enfilade_scene::Alpha::Blend { opacity } if opacity.factor == 0.5));
+    // A preview surface that says what it can is kept, and what is not taken is told.
+    let (scene, told) = load("Plain", "color3f inputs:base_color = (0.5, 0.25, 0)");
+    assert_eq!((principled(&scene, "M").clearcoat.factor, principled(&scene, "M").transmission.factor), (1.0, 0.0));
+    assert!(told.contains("beside its UsdPreviewSurface it has a \"ND_open_pbr_surface_surfaceshader\""), "{told}");
+}
+
+#[test]
+fn preview_surfaces_take_glass_and_strength_of_emission_from_materialx() {
+    let folder = Folder::new();
+    folder.write("color.png", png(1, 1, [255, 0, 0, 255]));
+    let load = |preview: &str, open_pbr: &str| folder.write("a.usda", blender(preview, open_pbr)).load("a.usda").unwrap().scene;
+    for (thin, solid) in [("", true), ("bool inputs:geometry_thin_walled = 1", false)] {
+        let scene = load("Plain", &format!("float inputs:transmission_weight = 1\n{thin}"));
+        let p = principled(&scene, "M");
+        assert_eq!((p.transmission.factor, p.solid, p.clearcoat.factor), (1.0, solid, 1.0));
+    }
+    let scene = load("Glowing", "float inputs:emission_luminance = 4");
+    let emission = &scene.materials[part(&scene, "M").material as usize].emission;
+    assert_eq!((emission.factor, emission.texture.is_some()), (Rgb::splat(4.0), true));
 }

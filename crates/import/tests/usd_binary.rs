@@ -42,6 +42,36 @@ fn text_binary_and_archive_give_the_same_scene() {
     assert_eq!(archive.inputs, [fixture("room.usdz")]);
 }
 
+/// Some writers of archives leave out the flag that says so.
+#[test]
+fn names_in_archives_are_utf8_with_and_without_the_flag() {
+    use std::io::Write;
+    let scene = r#"#usda 1.0
+        def Cube "Box" { rel material:binding = </P> }
+        def Material "P" { token outputs:surface.connect = </P/S.outputs:surface>
+            def Shader "S" { uniform token info:id = "UsdPreviewSurface"
+                color3f inputs:diffuseColor.connect = </P/T.outputs:rgb> }
+            def Shader "T" { uniform token info:id = "UsdUVTexture"
+                asset inputs:file = @tex/grün.png@ } }"#;
+    let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for (name, bytes) in [("a.usda", scene.as_bytes()), ("tex/gruen.png", &common::png(1, 1, COLOR)[..])] {
+        let stored = zip::write::SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+        zip.start_file(name, stored).unwrap();
+        zip.write_all(bytes).unwrap();
+    }
+    let mut bytes = zip.finish().unwrap().into_inner();
+    let folder = Folder::new();
+    let error = folder.write("a.usdz", &bytes).error("a.usdz");
+    assert!(error.contains("a.usdz[tex/grün.png]") && error.contains("is not in the archive"), "{error}");
+    // An ASCII name of the same length had no flag.
+    let (plain, umlaut) = (b"tex/gruen.png", "tex/grün.png".as_bytes());
+    while let Some(at) = bytes.windows(plain.len()).position(|w| w == plain) {
+        bytes[at..at + plain.len()].copy_from_slice(umlaut);
+    }
+    let imported = folder.write("a.usdz", &bytes).load("a.usdz").unwrap();
+    assert_eq!(imported.scene.images.len(), 1);
+}
+
 #[test]
 fn points_colours_and_cameras_are_those_of_pixars_library() {
     let scene = beside_its_picture("room.usdc").scene;

@@ -5,7 +5,7 @@ mod common;
 use common::{Folder, png, warnings};
 use enfilade_import::Imported;
 use enfilade_math::{DVec3, Rgb, Vec3};
-use enfilade_scene::{Environment, Light, Scene, uv_from_direction};
+use enfilade_scene::{Environment, Light, Scene, SpotFalloff, uv_from_direction};
 use std::f32::consts::PI;
 
 /// 10 candela in every direction of the lower half, 20π lumens.
@@ -78,7 +78,9 @@ fn points_spots_and_suns_keep_their_intensity() {
     let [Light::Point { intensity, .. }, spot, sun, moon] = &scene.lights[..] else { panic!("{:?}", scene.lights) };
     // L·πr² in units of half a metre.
     assert!((intensity.g - 8.0 * PI * 0.25 * 0.25).abs() < 1e-3, "{intensity:?}");
-    let Light::Spot { intensity, inner_rad, outer_rad, direction, .. } = spot else { panic!("{spot:?}") };
+    let Light::Spot { intensity, inner_rad, outer_rad, direction, falloff: SpotFalloff::SmoothAngle, .. } = spot else {
+        panic!("{spot:?}")
+    };
     assert!((intensity.g - 12.0 / 4.0 * 0.25).abs() < 1e-5 && *direction == Vec3::NEG_Z);
     assert!((inner_rad.to_degrees() - 15.0).abs() < 1e-4 && (outer_rad.to_degrees() - 30.0).abs() < 1e-4);
     let Light::Directional { direction, irradiance, angular_radius_rad, .. } = sun else { panic!("{sun:?}") };
@@ -129,14 +131,46 @@ fn shaping_that_points_do_not_have_is_reported() {
     assert!(cone.contains("a point of the same intensity") && !cone.contains("left out"), "{cone}");
 }
 
-/// Black bodies as `UsdLux.BlackbodyTemperatureAsRgb` has them.
+/// A quarter is what all versions of Blender write that write `normalize`, which older ones did not; other programs write the whole.
+#[test]
+fn suns_of_blender_are_as_strong_as_in_blender() {
+    let folder = Folder::new();
+    for (doc, normalized, expected, told) in
+        [("Blender v4.5.0", true, 3.0, true), ("Blender v3.0.0", false, 0.0, false), ("Maya", true, 0.75, false)]
+    {
+        let metadata = format!("doc = \"{doc}\" metersPerUnit = 1 upAxis = \"Z\"");
+        let normalize = if normalized { "bool inputs:normalize = 1" } else { "" };
+        let sun = format!("def DistantLight \"Sun\" {{ float inputs:intensity = 0.75\nfloat inputs:angle = 0.5\n{normalize} }}");
+        folder.write("a.usda", format!("#usda 1.0\n( {metadata} )\ndef Cube \"Box\" {{ }}\n{sun}"));
+        let imported = folder.load("a.usda").unwrap();
+        let [Light::Directional { irradiance, angular_radius_rad, .. }] = imported.scene.lights[..] else {
+            panic!("{:?}", imported.scene.lights)
+        };
+        assert!((irradiance.g - expected).abs() < 1e-4, "{doc}: {irradiance:?}");
+        let across: f32 = if told { 1.0 } else { 0.5 };
+        assert!((2.0 * angular_radius_rad - across.to_radians()).abs() < 1e-6, "{doc}: {angular_radius_rad}");
+        assert_eq!(warnings(&imported).contains("four times as strong"), told, "{doc}");
+    }
+}
+
+#[test]
+fn lights_of_the_default_temperature_are_white() {
+    for stated in ["", "float inputs:colorTemperature = 6500"] {
+        let found = radiance(&load(&format!("def DiskLight \"D\" {{ bool inputs:enableColorTemperature = 1\n{stated} }}")).scene, "D");
+        assert!([found.r, found.g, found.b].iter().all(|c| (c - 1.0).abs() < 1e-6), "{found:?}");
+    }
+}
+
+/// Black bodies as `UsdLux.BlackbodyTemperatureAsRgb` has them, over that of 6500 K, which is to be white.
 #[test]
 fn colour_temperatures_agree_with_usdlux() {
+    let white = (1.043_33, 0.983_62, 1.034_61);
     for (kelvin, r, g, b) in
         [(3000.0, 1.771_03, 0.844_29, 0.272_03), (6500.0, 1.043_33, 0.983_62, 1.034_61), (10_000.0, 0.871_84, 0.994_69, 1.43)]
     {
         let body = format!("def DiskLight \"D\" {{ bool inputs:enableColorTemperature = 1\nfloat inputs:colorTemperature = {kelvin} }}");
         let found = radiance(&load(&body).scene, "D");
+        let (r, g, b) = (r / white.0, g / white.1, b / white.2);
         assert!((found.r - r).abs() < 0.03 && (found.g - g).abs() < 0.03 && (found.b - b).abs() < 0.03, "{kelvin}: {found:?}");
     }
 }

@@ -64,6 +64,10 @@ pub enum SpotFalloff {
     CosineSquare,
     /// A line in the angle (Mitsuba's `spot`).
     Angle,
+    /// 3x² − 2x³ of a line x in the angle's cosine (Blender's spots).
+    SmoothCosine,
+    /// 3x² − 2x³ of a line x in the angle (UsdLux's `shaping:cone:softness`).
+    SmoothAngle,
 }
 
 impl Light {

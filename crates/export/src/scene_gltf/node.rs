@@ -86,8 +86,8 @@ fn add_light(document: &mut Document, light: &Light) {
     let (kind, strength, position, direction, spot) = match light {
         Light::Point { position, intensity, .. } => ("point", *intensity, *position, Vec3::NEG_Z, None),
         Light::Spot { position, direction, intensity, inner_rad, outer_rad, falloff, .. } => {
-            if *falloff == SpotFalloff::Angle {
-                document.notes.push(format!("light {:?}: it dims by the angle, glTF's by the square of the cosine", light.name()));
+            if *falloff != SpotFalloff::CosineSquare {
+                document.notes.push(format!("light {:?}: it dims by another law than glTF's, the square of the cosine", light.name()));
             }
             // The specification wants the inner angle below the outer one.
             let inner = inner_rad.min(outer_rad - 1e-4).max(0.0);

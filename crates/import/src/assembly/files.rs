@@ -11,6 +11,8 @@ pub(crate) enum Source<'a> {
     File(&'a str),
     /// Inside the scene file: the place, which is also the name, and the bytes.
     Embedded(String, &'a [u8]),
+    /// Nowhere: a place inside an archive that does not have it.
+    Missing(String),
 }
 
 impl Assembly<'_> {
@@ -108,7 +110,7 @@ impl Assembly<'_> {
     pub(crate) fn image(&mut self, source: &Source, usage: Use, user: &str) -> Result<Option<u32>, ImportError> {
         let key = match source {
             Source::File(path) => self.resolve(path).to_string_lossy().into_owned(),
-            Source::Embedded(place, _) => place.clone(),
+            Source::Embedded(place, _) | Source::Missing(place) => place.clone(),
         };
         if let Some(&found) = self.images.get(&(key.clone(), usage)) {
             if found.is_none() {
@@ -123,6 +125,7 @@ impl Assembly<'_> {
                 Err(other) => return Err(other),
             },
             Source::Embedded(place, bytes) => images::decode(place, bytes, usage),
+            Source::Missing(_) => Err("is not in the archive".to_string()),
         };
         let index = match decoded {
             Ok(decoded) => {

@@ -1,15 +1,15 @@
 //! Lights and cameras of FBX nodes.
 
-use super::reader::affine;
+use super::reader::{affine, of_blender};
 use crate::assembly::Assembly;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec3};
 use enfilade_scene::{Light, Material, PartLabel, SpotFalloff};
 use std::f32::consts::{FRAC_PI_4, PI};
-use ufbx::{Exporter, LightAreaShape, LightDecay, LightType, ProjectionMode};
+use ufbx::{LightAreaShape, LightDecay, LightType, ProjectionMode};
 
 /// Adds the light of a node. Lights shine along the node's −y, unless the file says otherwise.
-pub(super) fn add_light(node: &ufbx::Node, light: &ufbx::Light, name: &str, exporter: Exporter, a: &mut Assembly) {
+pub(super) fn add_light(node: &ufbx::Node, light: &ufbx::Light, name: &str, a: &mut Assembly) {
     let place = format!("light {name:?}");
     if !light.cast_light {
         a.warn(place, "the light is switched off and was left out");
@@ -20,7 +20,7 @@ pub(super) fn add_light(node: &ufbx::Node, light: &ufbx::Light, name: &str, expo
     let direction = file_from_node.transform_vector3(DVec3::new(d.x, d.y, d.z)).normalize_or_zero().as_vec3();
     let position = file_from_node.translation.as_vec3();
     let strength = Rgb::new(light.color.x as f32, light.color.y as f32, light.color.z as f32) * light.intensity as f32;
-    let of_blender = matches!(exporter, Exporter::BlenderBinary | Exporter::BlenderAscii);
+    let of_blender = of_blender(&light.element);
     let intensity = strength * point_scale(light.decay, of_blender, a);
     let name = name.to_string();
     match light.type_ {
@@ -29,7 +29,11 @@ pub(super) fn add_light(node: &ufbx::Node, light: &ufbx::Light, name: &str, expo
             let half = |angle: f64| 0.5 * (angle as f32).to_radians();
             let outer_rad = Some(half(light.outer_angle)).filter(|r| *r > 0.0).unwrap_or(FRAC_PI_4);
             let inner_rad = half(light.inner_angle).clamp(0.0, outer_rad);
-            a.push_light(Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff: SpotFalloff::Angle });
+            let (inner_rad, falloff) = match of_blender {
+                true => (blend_start(inner_rad, outer_rad), SpotFalloff::SmoothCosine),
+                false => (inner_rad, SpotFalloff::Angle),
+            };
+            a.push_light(Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff });
         }
         LightType::Area => add_area(&name, light, file_from_node, strength, of_blender, a),
         LightType::Point | LightType::Volume => {
@@ -56,6 +60,11 @@ fn point_scale(decay: LightDecay, of_blender: bool, a: &Assembly) -> f32 {
         (false, LightDecay::Quadratic) => 1.0,
         (false, _) => per_square_metre,
     }
+}
+
+/// Where Blender's spots begin to dim: it writes (1 − blend)·outer as the inner angle, but dims over the share `blend` of 1 − cos(outer).
+fn blend_start(inner_rad: f32, outer_rad: f32) -> f32 {
+    2.0 * ((0.5 * outer_rad).sin() * (inner_rad / outer_rad).sqrt()).asin()
 }
 
 /// A square from −1 to 1 across the light's axis, as in Maya, that shines on one side. Blender's watts leave it altogether; the

@@ -1,5 +1,6 @@
 //! FBX materials to [`Material`], from the maps that the library makes the same for all shaders.
 
+use super::reader::of_blender;
 use super::texture::{Inverted, inverted, texture};
 use crate::ImportError;
 use crate::assembly::Assembly;
@@ -97,7 +98,8 @@ impl<'c> Converter<'c, '_> {
         Ok(color)
     }
 
-    /// Phong's highlight as a clear coat of GGX alpha √(2/(exponent+2)); a highlight on black as a mirror of its colour.
+    /// Phong's highlight as a clear coat of GGX alpha √(2/(exponent+2)), which loses no light however rough; a highlight on black as a
+    /// mirror of its colour.
     fn phong(&mut self) -> Result<Bsdf, ImportError> {
         let fbx = &self.m.fbx;
         let diffuse = self.base_color()?;
@@ -108,11 +110,12 @@ impl<'c> Converter<'c, '_> {
             return Ok(Bsdf::Diffuse { reflectance: diffuse });
         }
         let exponent = number(&fbx.specular_exponent).unwrap_or(20.0).max(0.0);
-        let alpha = (2.0 / (exponent + 2.0)).sqrt().into();
+        let alpha = (2.0 / (exponent + 2.0)).sqrt();
         if diffuse.factor.is_black() {
-            return Ok(Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: specular, alpha });
+            return Ok(Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: specular, alpha: alpha.into() });
         }
-        Ok(Bsdf::Plastic { diffuse, eta: 1.5, alpha, specular, nonlinear: false })
+        let roughness = alpha.sqrt().into();
+        Ok(Bsdf::Principled(Box::new(Principled { base_color: diffuse, roughness, specular_color: specular, ..Principled::default() })))
     }
 
     fn principled(&mut self) -> Result<Principled, ImportError> {
@@ -213,7 +216,9 @@ impl<'c> Converter<'c, '_> {
         // Many files name the colour picture as the bump map too.
         let has_normals = if is_bump { images::looks_like_normals(image) } else { !images::is_grey(image) };
         if has_normals {
-            return Ok(Some(NormalMap::Normal { texture, scale: 1.0 }));
+            // Some programs write a factor of zero whatever they mean, but Blender the strength of its map.
+            let scale = if of_blender(&self.m.element) { strength } else { 1.0 };
+            return Ok(Some(NormalMap::Normal { texture, scale }));
         }
         let scale = BUMP_METRES * strength;
         self.warn(format!("the bump map's height was guessed: white is {scale} m above black"));

@@ -18,7 +18,7 @@ use ufbx::{ElementType, Node, Scene};
 pub(super) fn place(scene: &Scene, a: &mut Assembly) -> Result<(), ImportError> {
     let hidden_layers = scene.display_layers.as_ref().iter().filter(|l| !l.visible);
     let hidden: HashSet<u32> = hidden_layers.flat_map(|l| l.nodes.as_ref().iter().map(|n| n.element.element_id)).collect();
-    let mut placer = Placer { scene, materials: Materials::default(), meshes: HashMap::new() };
+    let mut placer = Placer { materials: Materials::default(), meshes: HashMap::new() };
     let mut stack: Vec<(&Node, bool)> = vec![(&scene.root_node, true)];
     let mut done = 0;
     while let Some((node, inherited)) = stack.pop() {
@@ -37,14 +37,13 @@ pub(super) fn place(scene: &Scene, a: &mut Assembly) -> Result<(), ImportError> 
     Ok(())
 }
 
-struct Placer<'s> {
-    scene: &'s Scene,
+struct Placer {
     materials: Materials,
     /// Scene mesh of (mesh, part, set of texture coordinates); `None` for those without a surface.
     meshes: HashMap<(u32, usize, usize), Option<u32>>,
 }
 
-impl Placer<'_> {
+impl Placer {
     fn node(&mut self, node: &Node, visible: bool, a: &mut Assembly) -> Result<(), ImportError> {
         let name = name(node);
         if let Some(mesh) = &node.mesh {
@@ -59,7 +58,7 @@ impl Placer<'_> {
         }
         if let Some(light) = &node.light {
             if visible {
-                add_light(node, light, &name, self.scene.metadata.exporter, a);
+                add_light(node, light, &name, a);
             } else {
                 a.warn(place_of(node), "the light is hidden, and was left out");
             }

@@ -3,7 +3,9 @@
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::{DAffine3, DMat3, DVec3};
-use ufbx::{AllocatorOpts, CoordinateAxes, CoordinateAxis, ErrorType, EvaluateOpts, FileFormat, LoadOpts, Matrix, SceneRoot};
+use ufbx::{
+    AllocatorOpts, CoordinateAxes, CoordinateAxis, Element, ErrorType, EvaluateOpts, Exporter, FileFormat, LoadOpts, Matrix, SceneRoot,
+};
 
 /// Memory that any file may take while it is read, bytes; large ones may take [`MEMORY_PER_BYTE`] times their size more.
 const MEMORY: usize = 1 << 30;
@@ -68,6 +70,11 @@ fn report_version(scene: &SceneRoot, a: &mut Assembly) {
     if !(6100..=7700).contains(&version) {
         a.warn("whole file", format!("FBX version {version}; 6100 to 7700 are known, so parts of it may be misread"));
     }
+}
+
+/// True where Blender wrote the file that the element is of.
+pub(super) fn of_blender(element: &Element) -> bool {
+    matches!(element.scene.metadata.exporter, Exporter::BlenderBinary | Exporter::BlenderAscii)
 }
 
 /// The rotation (or reflection) from the file's axes to the world's: its up axis becomes z, what it calls front −y, right x.

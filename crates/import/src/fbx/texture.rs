@@ -1,5 +1,6 @@
 //! Textures of FBX materials: where their pictures are, and how coordinates find their way into them.
 
+use super::reader::of_blender;
 use crate::ImportError;
 use crate::assembly::{Assembly, Source};
 use crate::images::Use;
@@ -30,14 +31,29 @@ pub(super) fn texture(texture: &ufbx::Texture, usage: Use, user: &str, a: &mut A
         a.image(&Source::Embedded(format!("{} ({name})", file.element.element_id), &file.content), usage, user)?
     };
     let wrap = |mode| if mode == WrapMode::Clamp { Wrap::Clamp } else { Wrap::Repeat };
-    // Scaled, turned and then moved: Autodesk's library says that a scale above one compresses the picture, and that a translation of one
-    // is its width after that. So these numbers lead from coordinates to the picture, though ufbx names them the other way round.
-    let m = &file.texture_to_uv;
     Ok(found.map(|image| TextureRef {
-        uv_transform: [[m.m00 as f32, m.m01 as f32, m.m03 as f32], [m.m10 as f32, m.m11 as f32, m.m13 as f32]],
+        uv_transform: uv_transform(file),
         wrap: [wrap(file.wrap_u), wrap(file.wrap_v)],
         ..TextureRef::new(image)
     }))
+}
+
+/// From texture coordinates to the picture: scaled, turned and then moved.
+///
+/// Autodesk's library says that a scale above one compresses the picture, and that a translation of one is its width after that. So the
+/// matrix is this one, though ufbx names it the other way round. Blender writes one over the scale, and the turn backwards and in radians.
+fn uv_transform(texture: &ufbx::Texture) -> [[f32; 3]; 2] {
+    if !of_blender(&texture.element) {
+        let m = &texture.texture_to_uv;
+        return [[m.m00 as f32, m.m01 as f32, m.m03 as f32], [m.m10 as f32, m.m11 as f32, m.m13 as f32]];
+    }
+    let property = |name, default| {
+        ufbx::find_prop(&texture.element.props, name).map_or([default; 3], |p| [p.value_vec4.x, p.value_vec4.y, p.value_vec4.z])
+    };
+    let [translation, rotation, scaling] = [property("Translation", 0.0), property("Rotation", 0.0), property("Scaling", 1.0)];
+    let (sin, cos) = (-rotation[2]).sin_cos();
+    let [x, y, _] = scaling.map(|s| if s == 0.0 { 1.0 } else { s.recip() });
+    [[cos * x, -sin * y, translation[0]], [sin * x, cos * y, translation[1]]].map(|row| row.map(|v| v as f32))
 }
 
 /// Where the picture is: by its relative path, its absolute one, or, since that is often of another machine, by its name beside the

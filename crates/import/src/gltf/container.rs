@@ -7,8 +7,9 @@ use gltf::json::{Root, buffer, image};
 use std::cell::Cell;
 
 /// Extensions that an importer may be required to understand and that this one does.
-pub(super) const SUPPORTED: [&str; 12] = [
+pub(super) const SUPPORTED: [&str; 13] = [
     "EXT_lights_ies",
+    "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",

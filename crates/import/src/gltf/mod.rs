@@ -9,7 +9,7 @@
 //! | buffers | files, data URIs, the binary chunk; Draco and meshopt compression are an error |
 //! | pictures | PNG, JPEG and all that [`crate`] decodes, from files, data URIs and buffer views; sampler wrapping and magnification filter |
 //! | materials | metallic-roughness to `Bsdf::Principled`; base colour, metallic-roughness, normal and emissive textures; alpha modes; surfaces scatter on both sides, and emit on both when they are double-sided. The occlusion texture is dropped, because light transport computes occlusion |
-//! | extensions | `KHR_materials_emissive_strength`, `_ior`, `_transmission`, `_volume`, `_specular`, `_clearcoat` (but its normal map), `_sheen`, `_unlit` (as a diffuse surface of that colour); `KHR_texture_transform`; `KHR_lights_punctual` (candela as W/sr, lux as W/m²); `EXT_lights_ies` (the same; type C) |
+//! | extensions | `KHR_materials_emissive_strength`, `_ior`, `_transmission`, `_volume`, `_specular`, `_clearcoat` (but its normal map), `_sheen`, `_unlit` (as a diffuse surface of that colour); `KHR_texture_transform`; `KHR_lights_punctual` (candela as W/sr, lux as W/m²); `EXT_lights_ies` (the same; type C); `EXT_mesh_gpu_instancing` (a part per instance) |
 //! | texture coordinates | one set per primitive: that of the base colour, or of the first texture there is |
 //! | cameras | perspective; orthographic ones are dropped |
 //! | dropped with a warning | vertex colours, skins, morph targets, animations, light ranges, other extensions |
@@ -29,6 +29,7 @@
 mod accessor;
 mod container;
 mod environment;
+mod instancing;
 mod light;
 mod material;
 mod node;

@@ -2,7 +2,7 @@
 
 use super::container::Document;
 use super::material::Materials;
-use super::{light, primitive, profile};
+use super::{instancing, light, primitive, profile};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::{DAffine3, DMat3, DVec3};
@@ -84,7 +84,11 @@ impl Placer<'_> {
         let fallback = || format!("node_{index}");
         let name = node.name.clone().filter(|n| !n.trim().is_empty());
         if let Some(mesh) = node.mesh {
-            self.mesh(mesh.value(), index, name.as_deref(), file_from_node, label, a)?;
+            let places = match node.extensions.as_ref().and_then(|e| e.others.get(instancing::NAME)) {
+                Some(extension) => instancing::places(self.document, extension, index, file_from_node, a)?,
+                None => vec![file_from_node],
+            };
+            self.mesh(mesh.value(), index, name.as_deref(), &places, label, a)?;
         }
         if let Some(camera) = node.camera {
             let camera = self.document.root.cameras.get(camera.value());
@@ -105,19 +109,20 @@ impl Placer<'_> {
             if let Some(instance) = extras.get("EXT_lights_ies") {
                 profile::add(self.document, instance, name.as_deref(), index, file_from_node, a)?;
             }
-            for extension in extras.keys().filter(|e| *e != "EXT_lights_ies") {
+            for extension in extras.keys().filter(|e| !["EXT_lights_ies", instancing::NAME].contains(&e.as_str())) {
                 a.warn(format!("nodes[{index}]"), format!("extension {extension} ignored"));
             }
         }
         Ok(())
     }
 
+    /// Adds a mesh of the file at every one of `places`.
     fn mesh(
         &mut self,
         mesh: usize,
         node: usize,
         name: Option<&str>,
-        file_from_node: DAffine3,
+        places: &[DAffine3],
         label: PartLabel,
         a: &mut Assembly,
     ) -> Result<(), ImportError> {
@@ -142,7 +147,9 @@ impl Placer<'_> {
             };
             if let Some(index) = index {
                 let part = if json.primitives.len() > 1 { format!("{name}.{i}") } else { name.clone() };
-                a.push_part(&part, index, material, file_from_node, label);
+                for &file_from_mesh in places {
+                    a.push_part(&part, index, material, file_from_mesh, label);
+                }
             }
         }
         Ok(())
@@ -155,9 +162,13 @@ fn local_transform(node: &Node) -> DAffine3 {
         let column = |i: usize| DVec3::new(f64::from(m[i]), f64::from(m[i + 1]), f64::from(m[i + 2]));
         return DAffine3::from_mat3_translation(DMat3::from_cols(column(0), column(4), column(8)), column(12));
     }
-    let vec = |v: Option<[f32; 3]>, default: f64| v.map_or(DVec3::splat(default), |v| DVec3::from_array(v.map(f64::from)));
-    let rotation = node.rotation.as_ref().map_or(DMat3::IDENTITY, |q| rotation_of(q.0));
-    DAffine3::from_mat3_translation(rotation * DMat3::from_diagonal(vec(node.scale, 1.0)), vec(node.translation, 0.0))
+    placement(node.translation.unwrap_or([0.0; 3]), node.rotation.as_ref().map_or([0.0; 4], |q| q.0), node.scale.unwrap_or([1.0; 3]))
+}
+
+/// Scale first, then rotation, then translation.
+pub(super) fn placement(translation: [f32; 3], rotation: [f32; 4], scale: [f32; 3]) -> DAffine3 {
+    let vec = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
+    DAffine3::from_mat3_translation(rotation_of(rotation) * DMat3::from_diagonal(vec(scale)), vec(translation))
 }
 
 /// The rotation of a quaternion (x, y, z, w), which need not be of unit length; a zero one turns nothing.

@@ -3,15 +3,16 @@
 //! | feature | what becomes of it |
 //! |---|---|
 //! | faces | any number of corners: convex polygons as fans, concave ones cut properly; negative indices; faces before their vertices |
-//! | objects, groups | one part per group and material, named after the group (`o` or `g`, whichever came last), with `.<material>` appended where a group has several; without a group after the material, else `part` |
+//! | objects, groups | one part per object, group and material, named after the group (`o` or `g`, whichever came last), with `.<material>` appended where a group has several; without a group after the material, else `part`. Each `o` begins an object, also of a name that occurred before |
 //! | names, paths | the whole rest of the line, so spaces and `#` are part of them; elsewhere `#` begins a comment |
 //! | normals | as in the file; a mesh without any is shaded flat (smoothing groups are ignored) |
-//! | `Kd Ks Ns Ni d Tr Ke illum`, `map_Kd map_Ke map_d map_Ks` | a diffuse surface; with `Ks`, unless `illum` is 0 or 1, a clear-coated one of GGX alpha √(2/(Ns+2)), or on black `Kd` a mirror of that colour; with `illum` 4, 6, 7 or 9 a solid dielectric |
+//! | `Kd Ks Ns Ni d Tr Ke illum`, `map_Kd map_Ke map_d map_Ks` | a diffuse surface; with `Ks`, unless `illum` is 0 or 1, a clear-coated one of GGX alpha √(2/(Ns+2)), or on black `Kd` a mirror of that colour; with `illum` 6 or 7 a solid dielectric, with 4 or 9 only where `Kd` is black and `d` is 1 |
+//! | the same of Blender (3.2 or newer) | a clear-coated surface of roughness 1 − √(Ns/1000), its highlight tinted by twice `Ks`; on black `Kd` too |
 //! | `Pr Pm Pc Pcr Ps`, `map_Pr map_Pm` | metallic-roughness |
 //! | `norm` | a normal map |
 //! | `map_Bump`, `bump` | a normal map if the picture looks like one (most texels as long as a unit vector, out of the surface on average), else heights by its luminance (guessed: one stands for 5 mm times `-bm`) |
 //! | options of `map_…` | `-s`, `-o`, `-clamp`, `-bm`; the others are skipped |
-//! | dropped with a warning | lines, points, curves, vertex colours, displacement and reflection maps |
+//! | dropped with a warning | lines, points, curves, vertex colours, displacement and reflection maps, anisotropy, `map_Ns` |
 //!
 //! OBJ knows no sides, so every surface has two, and emits on both. It knows neither lights nor cameras nor units. A material
 //! library or material that is not there is a warning, and grey stands in.
@@ -49,8 +50,8 @@ fn load_with(mut assembly: Assembly, known: mtl::Library) -> Result<Imported, Im
     obj.notes.iter().for_each(|note| assembly.warn("whole file", note));
     let library = mtl::read_libraries(&obj.libraries, "", known, &mut assembly)?;
     let mut materials: HashMap<Option<&str>, u32> = HashMap::new();
-    let mut sharing: HashMap<Option<&str>, usize> = HashMap::new();
-    obj.groups.iter().for_each(|group| *sharing.entry(group.name.as_deref()).or_default() += 1);
+    let mut sharing: HashMap<(usize, Option<&str>), usize> = HashMap::new();
+    obj.groups.iter().for_each(|group| *sharing.entry((group.object, group.name.as_deref())).or_default() += 1);
     for (i, group) in obj.groups.iter().enumerate() {
         assembly.progress(i + 1, obj.groups.len());
         let wanted = group.material.as_deref();
@@ -63,7 +64,7 @@ fn load_with(mut assembly: Assembly, known: mtl::Library) -> Result<Imported, Im
                 index
             }
         };
-        let shared = sharing[&group.name.as_deref()] > 1;
+        let shared = sharing[&(group.object, group.name.as_deref())] > 1;
         let name = match (&group.name, wanted) {
             (Some(name), Some(material)) if shared => format!("{name}.{material}"),
             (Some(name), _) => name.clone(),

@@ -17,6 +17,8 @@ pub(crate) struct Entry {
     name: String,
     /// Folder of the library, to which pictures are relative, as the scene file would spell it.
     folder: String,
+    /// True where Blender's own exporter wrote the library.
+    of_blender: bool,
     statements: BTreeMap<String, String>,
 }
 
@@ -68,13 +70,14 @@ pub(super) fn folder_of(path: &str) -> String {
 }
 
 fn parse(text: &str, folder: &str, library: &mut Library) {
+    let of_blender = is_of_blender(text);
     let mut current: Option<String> = None;
     for line in text.lines() {
         let line = super::without_comment(line, is_text).trim();
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         let (keyword, rest) = (keyword.to_ascii_lowercase(), rest.trim().to_string());
         if keyword == "newmtl" {
-            let entry = Entry { name: rest.clone(), folder: folder.to_string(), statements: BTreeMap::new() };
+            let entry = Entry { name: rest.clone(), folder: folder.to_string(), of_blender, statements: BTreeMap::new() };
             library.insert(rest.clone(), entry);
             current = Some(rest);
         } else if !keyword.is_empty()
@@ -83,6 +86,12 @@ fn parse(text: &str, folder: &str, library: &mut Library) {
             entry.statements.insert(keyword, rest);
         }
     }
+}
+
+/// True for a library that Blender 3.2 or newer wrote: "# Blender 4.5.0 MTL File: …". Older ones have no version there, and other laws.
+fn is_of_blender(text: &str) -> bool {
+    let version = text.strip_prefix("# Blender ").filter(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+    version.and_then(|rest| rest.lines().next()).is_some_and(|line| line.contains(" MTL File"))
 }
 
 /// True for keywords that a name or path follows.
@@ -130,28 +139,48 @@ struct Map<'m> {
 impl<'c> Converter<'c, '_> {
     fn bsdf(&mut self) -> Result<Bsdf, ImportError> {
         let has = |key: &str| self.entry.statements.contains_key(key);
-        let specular = self.rgb("ks").unwrap_or(Rgb::BLACK).map(|c| c.clamp(0.0, 1.0));
-        let alpha = alpha_of_exponent(self.number("ns").unwrap_or(0.0));
         let eta = self.number("ni").filter(|&n| n > 1.0 && n.is_finite()).unwrap_or(1.5);
         let illum = self.number("illum").unwrap_or(2.0) as i32;
         if ["pr", "pm", "pc", "ps", "map_pr", "map_pm"].iter().any(|k| has(k)) {
             return self.principled(eta);
         }
-        if matches!(illum, 4 | 6 | 7 | 9) {
+        if self.is_glass(illum) {
             let transmittance = self.rgb("tf").unwrap_or(Rgb::WHITE).map(|c| c.clamp(0.0, 1.0)).into();
             return Ok(Bsdf::Dielectric { eta, alpha: 0.0.into(), transmittance, absorption: Rgb::BLACK });
         }
         let diffuse = self.base_color()?;
+        let (specular, roughness) = self.highlight();
         // Illumination models 0 and 1 have no highlight, whatever Ks says.
         let shiny = !matches!(illum, 0 | 1) && (!specular.is_black() || has("map_ks"));
         if !shiny {
             return Ok(Bsdf::Diffuse { reflectance: diffuse });
         }
         let specular = self.color(if specular.is_black() { Rgb::WHITE } else { specular }, "map_ks", 0.5)?;
-        if diffuse.factor.is_black() {
-            return Ok(Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: specular, alpha: alpha.into() });
+        if diffuse.factor.is_black() && !self.entry.of_blender {
+            return Ok(Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: specular, alpha: roughness.powi(2).into() });
         }
-        Ok(Bsdf::Plastic { diffuse, eta, alpha: alpha.into(), specular, nonlinear: false })
+        // Not a plastic, whose rough coat loses light.
+        let roughness = roughness.into();
+        let p = Principled { base_color: diffuse, roughness, ior: eta, specular_color: specular, ..Principled::default() };
+        Ok(Bsdf::Principled(Box::new(p)))
+    }
+
+    /// True for solid glass. Only models 6 and 7 refract; 4 and 9, "glass on", keep the colour `Kd` and let straight through what `d` says.
+    /// But where they state neither, glass is meant.
+    fn is_glass(&self, illum: i32) -> bool {
+        let has_color = self.entry.statements.contains_key("map_kd") || self.rgb("kd").is_some_and(|kd| !kd.is_black());
+        let see_through = self.opacity() < 1.0 || self.entry.statements.contains_key("map_d");
+        matches!(illum, 6 | 7) || matches!(illum, 4 | 9) && !has_color && !see_through
+    }
+
+    /// Colour and roughness of the highlight. Blender writes half its strength as `Ks`, and its roughness r as `Ns` = 1000·(1 − r)².
+    fn highlight(&self) -> (Rgb, f32) {
+        let (ks, ns) = (self.rgb("ks").unwrap_or(Rgb::BLACK), self.number("ns").unwrap_or(0.0).max(0.0));
+        let (specular, roughness) = match self.entry.of_blender {
+            true => (ks * 2.0, 1.0 - (ns / 1000.0).sqrt()),
+            false => (ks, alpha_of_exponent(ns).sqrt()),
+        };
+        (specular.map(|c| c.clamp(0.0, 1.0)), roughness.clamp(0.0, 1.0))
     }
 
     fn principled(&mut self, ior: f32) -> Result<Bsdf, ImportError> {
@@ -189,7 +218,7 @@ impl<'c> Converter<'c, '_> {
         if matches!(bsdf, Bsdf::Dielectric { .. }) {
             return Ok(Alpha::Opaque);
         }
-        let opacity = self.number("d").or_else(|| self.number("tr").map(|t| 1.0 - t)).unwrap_or(1.0).clamp(0.0, 1.0);
+        let opacity = self.opacity();
         let mut texture = None;
         if let Some(map) = self.map("map_d") {
             texture = self.texture(&map, Use::Data)?.map(|t| {
@@ -199,6 +228,10 @@ impl<'c> Converter<'c, '_> {
         }
         let opacity = ScalarParam { factor: opacity, texture };
         Ok(if opacity.factor < 1.0 || texture.is_some() { Alpha::Blend { opacity } } else { Alpha::Opaque })
+    }
+
+    fn opacity(&self) -> f32 {
+        self.number("d").or_else(|| self.number("tr").map(|t| 1.0 - t)).unwrap_or(1.0).clamp(0.0, 1.0)
     }
 
     fn normal_map(&mut self) -> Result<Option<NormalMap>, ImportError> {
@@ -255,9 +288,12 @@ impl<'c> Converter<'c, '_> {
     }
 
     fn report_ignored(&mut self) {
-        const IGNORED: [&str; 5] = ["disp", "map_disp", "refl", "decal", "aniso"];
-        for key in IGNORED.into_iter().filter(|k| self.entry.statements.contains_key(*k)) {
-            self.warn(format!("{key} ignored"));
+        const IGNORED: [&str; 6] = ["disp", "map_disp", "refl", "decal", "aniso", "map_ns"];
+        for key in IGNORED {
+            // An anisotropy of zero is none.
+            if self.entry.statements.contains_key(key) && self.number(key) != Some(0.0) {
+                self.warn(format!("{key} ignored"));
+            }
         }
     }
 

@@ -15,7 +15,7 @@ pub(crate) struct ObjFile {
     positions: Vec<Vec3>,
     uvs: Vec<Vec2>,
     normals: Vec<Vec3>,
-    /// Faces by group and material, in order of first appearance.
+    /// Faces by object, group and material, in order of first appearance.
     pub(crate) groups: Vec<Group>,
     /// Names of material libraries, each the whole rest of its line.
     pub(crate) libraries: Vec<String>,
@@ -25,6 +25,8 @@ pub(crate) struct ObjFile {
 
 /// Faces of one group (or object) that share a material.
 pub(crate) struct Group {
+    /// Number of the object; each `o` begins one, also of a name that occurred before.
+    pub(crate) object: usize,
     /// Name of the object or group, whichever was set last.
     pub(crate) name: Option<String>,
     /// Name of the material.
@@ -46,7 +48,8 @@ impl ObjFile {
     /// A number or index that makes no sense, with its line.
     pub(crate) fn parse(bytes: &[u8], file: &Path) -> Result<Self, ImportError> {
         let text = String::from_utf8_lossy(bytes);
-        let mut parser = Parser { file, obj: Self::default(), by_key: HashMap::new(), name: None, material: None, current: None };
+        let mut parser =
+            Parser { file, obj: Self::default(), by_key: HashMap::new(), object: 0, name: None, material: None, current: None };
         let mut continued = String::new();
         for (number, line) in text.lines().enumerate() {
             let line = super::without_comment(line, |keyword| matches!(keyword, "o" | "g" | "usemtl" | "mtllib"));
@@ -135,7 +138,8 @@ impl Group {
 struct Parser<'p> {
     file: &'p Path,
     obj: ObjFile,
-    by_key: HashMap<(Option<String>, Option<String>), usize>,
+    by_key: HashMap<(usize, Option<String>, Option<String>), usize>,
+    object: usize,
     name: Option<String>,
     material: Option<String>,
     current: Option<usize>,
@@ -170,6 +174,7 @@ impl Parser<'_> {
             }
             "f" | "fo" => self.face(rest, number)?,
             "o" | "g" => {
+                self.object += usize::from(keyword == "o");
                 self.name = text();
                 self.current = None;
             }
@@ -205,10 +210,10 @@ impl Parser<'_> {
     }
 
     fn open_group(&mut self) -> usize {
-        let key = (self.name.clone(), self.material.clone());
+        let key = (self.object, self.name.clone(), self.material.clone());
         let groups = &mut self.obj.groups;
         let index = *self.by_key.entry(key.clone()).or_insert_with(|| {
-            groups.push(Group { name: key.0, material: key.1, corners: Vec::new(), faces: Vec::new() });
+            groups.push(Group { object: key.0, name: key.1, material: key.2, corners: Vec::new(), faces: Vec::new() });
             groups.len() - 1
         });
         self.current = Some(index);

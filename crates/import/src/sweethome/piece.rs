@@ -268,7 +268,12 @@ fn repainted(mut material: Material, color: Option<ColorParam>, shininess: Optio
     let Some(base) = model::base_color(&mut material.bsdf) else { return material };
     *base = color.unwrap_or(*base);
     let base = *base;
-    if let (Some(shininess), Bsdf::Diffuse { .. } | Bsdf::Plastic { .. }) = (shininess, &material.bsdf) {
+    let takes_shine = match &material.bsdf {
+        Bsdf::Diffuse { .. } => true,
+        Bsdf::Principled(p) => p.metallic.factor == 0.0,
+        _ => false,
+    };
+    if let Some(shininess) = shininess.filter(|_| takes_shine) {
         material.bsdf = paint::bsdf(base, shininess);
     }
     material

@@ -30,7 +30,8 @@ impl Archive {
             if file.is_dir() {
                 continue;
             }
-            let name = file.name().to_string();
+            // Writers of usdz do not always say that their names are UTF-8.
+            let name = String::from_utf8(file.name_raw().to_vec()).unwrap_or_else(|_| file.name().to_string());
             if file.compression() != CompressionMethod::Stored || file.encrypted() {
                 let problem = format!(
                     "it is compressed ({}) or encrypted, which usdz does not allow; pack the archive with usdzip",

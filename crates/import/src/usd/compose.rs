@@ -81,7 +81,7 @@ impl Composer {
     /// The node of a child.
     ///
     /// # Errors
-    /// When a layer cannot be read, or references stand in a circle.
+    /// When a layer cannot be read, or there are too many parts of layers.
     pub(super) fn child(&mut self, parent: &Node, name: &str, a: &mut Assembly) -> Result<Node, ImportError> {
         let mut node = parent.below(name);
         let mut count = 0;
@@ -128,12 +128,15 @@ impl Composer {
                 }
             }
         }
-        for new in &added {
-            if let Some((stack, path)) = chain.iter().find(|(s, p)| Rc::ptr_eq(s, &new.stack) && overlaps(p, &new.path)) {
-                let problem = format!("it is made of itself, by way of <{path}> in {}; take the reference out", stack.location);
-                return Err(a.malformed(place(), problem));
+        // OpenUSD, too, opens the stage without arcs that lead back ("Cycle detected").
+        added.retain(|new| {
+            let back = chain.iter().find(|(s, p)| Rc::ptr_eq(s, &new.stack) && overlaps(p, &new.path));
+            if let Some((stack, path)) = back {
+                let problem = format!("it refers to itself, by way of <{path}> in {}; that reference was left out", stack.location);
+                a.warn(place(), problem);
             }
-        }
+            back.is_none()
+        });
         node.children.extend(added);
         node.children.sort_by_key(|n| (n.kind, usize::MAX - n.depth));
         // What is inherited first, for it may select variants; then the variants; then the rest.

@@ -19,6 +19,15 @@ use enfilade_scene::{ColorParam, Environment, Light, MapRows, Material, PartLabe
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
+/// The temperature that UsdLux calls white, and the one that holds where none is stated.
+const WHITE_KELVIN: f64 = 6500.0;
+
+/// Blender's exporter writes this part of a sun's irradiance, "approximately matching Karma" (`usd_writer_light.cc`), in all versions that
+/// write `normalize` (since 3.6).
+const BLENDERS_SUN: f32 = 0.25;
+/// The same writes this part of the sun's angle across.
+const BLENDERS_ANGLE: f64 = 0.5;
+
 /// A light prim, its placement, and where to put what it becomes.
 pub(super) struct Lamp<'l> {
     pub prim: &'l Prim,
@@ -43,10 +52,23 @@ fn radiance(prim: &Prim, default: f64) -> Rgb {
     let strength = number(prim, "intensity", default) * number(prim, "exposure", 0.0).exp2();
     let mut color = input(prim, "color").and_then(rgb).unwrap_or(Rgb::WHITE);
     if input(prim, "enableColorTemperature").and_then(Value::as_bool) == Some(true) {
-        let body = black_body(number(prim, "colorTemperature", 6500.0).clamp(1000.0, 10_000.0));
-        color = color * body * (1.0 / body.luminance());
+        let tint = tint(number(prim, "colorTemperature", WHITE_KELVIN).clamp(1000.0, 10_000.0));
+        color = color * tint * (1.0 / tint.luminance());
     }
     color * strength as f32
+}
+
+/// The colour of a black body where that of [`WHITE_KELVIN`] is white.
+fn tint(kelvin: f64) -> Rgb {
+    let (body, white) = (black_body(kelvin), black_body(WHITE_KELVIN));
+    Rgb::new(body.r / white.r, body.g / white.g, body.b / white.b)
+}
+
+/// True for a normalized light of a layer that Blender wrote: its `doc` says so.
+fn is_normalized_by_blender(prim: &Prim) -> bool {
+    let stated = prim.value_at("inputs:intensity").map(|(_, site)| &site.layer);
+    let doc = stated.and_then(|layer| layer.get("/", "doc").or(layer.get("/", "documentation"))).and_then(Value::as_text);
+    is_normalized(prim) && doc.is_some_and(|doc| doc.starts_with("Blender v"))
 }
 
 fn is_normalized(prim: &Prim) -> bool {
@@ -147,7 +169,7 @@ impl Lamp<'_> {
             let direction = self.file_from_prim.transform_vector3(DVec3::NEG_Z).normalize_or_zero().as_vec3();
             let outer_rad = cone.max(0.0).to_radians() as f32;
             let inner_rad = outer_rad * (1.0 - softness.clamp(0.0, 1.0) as f32);
-            Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff: SpotFalloff::Angle }
+            Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff: SpotFalloff::SmoothAngle }
         } else {
             Light::Point { name, position, intensity }
         });
@@ -216,11 +238,20 @@ impl Lamp<'_> {
 
     /// The sun: a disk in the sky of some angle across.
     fn distant(&self, a: &mut Assembly) {
-        let half = 0.5 * number(self.prim, "angle", 0.53).clamp(0.0, 180.0).to_radians();
+        let of_blender = is_normalized_by_blender(self.prim);
+        let across = number(self.prim, "angle", 0.53) / if of_blender { BLENDERS_ANGLE } else { 1.0 };
+        let half = 0.5 * across.clamp(0.0, 180.0).to_radians();
         let solid = PI * half.sin().powi(2);
         let mut irradiance = radiance(self.prim, 50_000.0);
         if !is_normalized(self.prim) && solid > 0.0 {
             irradiance *= solid as f32;
+        }
+        if of_blender {
+            irradiance *= 1.0 / BLENDERS_SUN;
+            a.warn(
+                &self.prim.path,
+                "Blender wrote a quarter of the sun's strength and half its angle; it was made four times as strong and twice as wide, as in Blender",
+            );
         }
         let direction = self.file_from_prim.transform_vector3(DVec3::NEG_Z).normalize_or_zero().as_vec3();
         a.push_light(Light::Directional { name: name(self.prim), direction, irradiance, angular_radius_rad: half as f32 });

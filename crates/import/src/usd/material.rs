@@ -1,5 +1,6 @@
 //! Materials: `UsdPreviewSurface`, and what can be known of other surfaces.
 
+use super::mtlx::{first, is_solid, named};
 use super::shader::{Source, id, source};
 use super::stage::{Prim, Stage};
 use super::texture::Textures;
@@ -71,7 +72,7 @@ impl Textures<'_, '_, '_> {
         for output in CONTEXTS {
             if let Source::Shader(shader, _) = source(self.stage, prim, output, self.a)? {
                 if id(&shader) == "UsdPreviewSurface" {
-                    return self.preview_surface(prim.name(), &shader);
+                    return self.preview_or_mtlx(prim, &shader);
                 }
                 other.get_or_insert(shader);
             }
@@ -85,6 +86,17 @@ impl Textures<'_, '_, '_> {
         }
     }
 
+    /// The surface of a material that has a preview surface, and perhaps one of MaterialX beside it.
+    fn preview_or_mtlx(&mut self, prim: &Rc<Prim>, preview: &Rc<Prim>) -> Result<Material, ImportError> {
+        let Some(mtlx) = self.mtlx_surface(prim)? else { return self.preview_surface(prim.name(), preview) };
+        if self.stands_in(preview, &mtlx)? {
+            return self.foreign(prim.name(), &mtlx);
+        }
+        let mut material = self.preview_surface(prim.name(), preview)?;
+        self.complete(&mut material, &mtlx)?;
+        Ok(material)
+    }
+
     /// UsdPreviewSurface 2.6 as the metallic-roughness model.
     fn preview_surface(&mut self, name: &str, shader: &Rc<Prim>) -> Result<Material, ImportError> {
         let ior = self.scalar(shader, "inputs:ior", 1.5)?.factor;
@@ -93,7 +105,7 @@ impl Textures<'_, '_, '_> {
             roughness: self.scalar(shader, "inputs:roughness", 0.5)?,
             clearcoat: self.scalar(shader, "inputs:clearcoat", 0.0)?,
             clearcoat_roughness: self.scalar(shader, "inputs:clearcoatRoughness", 0.01)?,
-            ior: if ior > 1.0 && ior.is_finite() { ior } else { 1.5 },
+            ior: index_of_refraction(ior),
             ..Principled::default()
         };
         if self.scalar(shader, "inputs:useSpecularWorkflow", 0.0)?.factor != 0.0 {
@@ -102,7 +114,7 @@ impl Textures<'_, '_, '_> {
             p.metallic = self.scalar(shader, "inputs:metallic", 0.0)?;
         }
         let emission = self.color(shader, "inputs:emissiveColor", Rgb::BLACK)?;
-        let alpha = self.alpha(shader)?;
+        let alpha = self.alpha(shader, "inputs:opacity")?;
         let normal_map = self.normal(shader, "inputs:normal")?;
         for (input, what) in [("inputs:displacement", "displacement"), ("inputs:occlusion", "occlusion")] {
             let used = match source(self.stage, shader, input, self.a)? {
@@ -136,8 +148,8 @@ impl Textures<'_, '_, '_> {
         Ok(())
     }
 
-    fn alpha(&mut self, shader: &Rc<Prim>) -> Result<Alpha, ImportError> {
-        let opacity = self.scalar(shader, "inputs:opacity", 1.0)?;
+    fn alpha(&mut self, shader: &Rc<Prim>, opacity: &str) -> Result<Alpha, ImportError> {
+        let opacity = self.scalar(shader, opacity, 1.0)?;
         let cutoff = self.scalar(shader, "inputs:opacityThreshold", 0.0)?.factor;
         let opaque = |t: &(enfilade_scene::TextureRef, u8)| t.1 == 3 && crate::images::is_opaque(self.a.image_at(t.0.image));
         let opacity = ScalarParam { texture: opacity.texture.filter(|t| !opaque(t)), ..opacity };
@@ -151,30 +163,25 @@ impl Textures<'_, '_, '_> {
     fn foreign(&mut self, name: &str, shader: &Rc<Prim>) -> Result<Material, ImportError> {
         let kind = id(shader);
         self.warn(format!(
-            "its surface is {kind:?}, of which base colour, roughness, metallic, emission and transmission were guessed by name"
+            "its surface is {kind:?}, of which base colour, opacity, roughness, metallic, emission and transmission were guessed by name"
         ));
-        let known = shader.properties();
-        let first = |names: &[&'static str]| names.iter().copied().find(|n| known.iter().any(|k| &**k == *n)).unwrap_or("");
-        let base = first(&[
-            "inputs:base_color",
-            "inputs:diffuse_color_constant",
-            "inputs:diffuseColor",
-            "inputs:baseColor",
-            "inputs:diffuse_tint",
-        ]);
+        let first = |names: &[&'static str]| first(shader, names);
+        let base = first(named::BASE);
         let picture = first(&["inputs:diffuse_texture", "inputs:base_color_texture"]);
         let roughness = first(&["inputs:specular_roughness", "inputs:reflection_roughness_constant", "inputs:roughness"]);
         let metallic = first(&["inputs:metalness", "inputs:base_metalness", "inputs:metallic_constant", "inputs:metallic"]);
         let glow = first(&["inputs:emission_color", "inputs:emissive_color", "inputs:emissive"]);
-        let strength = first(&["inputs:emission", "inputs:emission_luminance", "inputs:emissive_intensity"]);
-        let transmission = first(&["inputs:transmission", "inputs:transmission_weight"]);
+        let strength = first(named::GLOW_STRENGTH);
+        let ior = self.scalar(shader, first(&["inputs:specular_ior", "inputs:specular_IOR"]), 1.5)?.factor;
         let mut p = Principled {
             base_color: self.color(shader, base, Rgb::splat(0.5))?,
             roughness: self.scalar(shader, roughness, 0.5)?,
             metallic: self.scalar(shader, metallic, 0.0)?,
-            transmission: self.scalar(shader, transmission, 0.0)?,
+            transmission: self.scalar(shader, first(named::TRANSMISSION), 0.0)?,
+            ior: index_of_refraction(ior),
             ..Principled::default()
         };
+        p.solid = p.transmission.factor > 0.0 && is_solid(shader);
         if let (false, Source::Value(value, layer)) = (picture.is_empty(), source(self.stage, shader, picture, self.a)?)
             && let Some(asset) = value.as_text().filter(|t| !t.is_empty()).map(str::to_string)
         {
@@ -187,6 +194,12 @@ impl Textures<'_, '_, '_> {
             emission = self.color(shader, glow, Rgb::WHITE)?;
             emission.factor *= self.scalar(shader, strength, 1.0)?.factor;
         }
-        Ok(Material { emission, ..Material::new(name, Bsdf::Principled(Box::new(p))) })
+        let alpha = self.alpha(shader, first(&["inputs:geometry_opacity"]))?;
+        Ok(Material { emission, alpha, ..Material::new(name, Bsdf::Principled(Box::new(p))) })
     }
+}
+
+/// An index of refraction, where it is one; else that of glass.
+fn index_of_refraction(found: f32) -> f32 {
+    if found > 1.0 && found.is_finite() { found } else { 1.5 }
 }

@@ -3,7 +3,7 @@
 //! | feature | what becomes of it |
 //! |---|---|
 //! | units and axes | `metersPerUnit` (0.01 where none is stated) and `upAxis` (y) of the scene file; [`ImportOptions::meters_per_unit`](crate::ImportOptions::meters_per_unit) multiplies the former, [`ImportOptions::up_axis`](crate::ImportOptions::up_axis) replaces the latter |
-//! | composition | sublayers, references, payloads (all are loaded), variants, inherits, specializes, over, class, `active`, list edits; circles and a depth of 64 are errors, and so is a layer that is not there. Relocates, value clips and classes overridden from outside of a reference are not applied |
+//! | composition | sublayers, references, payloads (all are loaded), variants, inherits, specializes, over, class, `active`, list edits; references that lead back are left out with a warning; circles of sublayers, a depth of 64 and a layer that is not there are errors. Relocates, value clips and classes overridden from outside of a reference are not applied |
 //! | time | values without time, else the first sample |
 //! | placement | every `xformOp`, `!invert!`, `!resetXformStack!` |
 //! | parts | one for each gprim and subset that binds a material, named by its path; prims of the same opinions, such as instances, share their meshes. Prims that are invisible or of the purpose `guide` or `proxy` are left out |
@@ -12,8 +12,8 @@
 //! | binding | direct, by purpose (`full`, all, `preview`), inherited, `strongerThanDescendants`; not by collections. Without a material, the display colour, or its mean |
 //! | UsdPreviewSurface | as `Bsdf::Principled`. Opacity passes light straight, with the share of the reflection that remains; above `opacityThreshold` 0 it is a mask. In the specular workflow a bright specular colour is a metal. Displacement is left out, and so is occlusion, which light transport computes |
 //! | textures | UsdUVTexture with wrap modes (`black` is continued, `useMetadata` repeats), scale, bias, fallback and colour space (`auto`: sRGB for colours, raw for numbers), UsdTransform2d, UsdPrimvarReader, through node graphs and inputs of materials; of UDIMs the first tile. One set of texture coordinates a material |
-//! | other surfaces | MaterialX, MDL, RenderMan: a UsdPreviewSurface of another context is preferred; else base colour, roughness, metallic, emission and transmission are guessed by the names of inputs |
-//! | lights | rectangles, disks, spheres and cylinders as emitting parts; spheres as points where they are to be one, or have a cone or a profile (IES); distant lights, domes, meshes that are lights. Light linking, filters and portals are left out |
+//! | other surfaces | MaterialX, MDL, RenderMan: a UsdPreviewSurface of another context is preferred, and takes transmission and strength of emission from a MaterialX surface beside it, unless it only stands in for that one (it has no textures where the other's base colour has one, or is that of Blender's viewport); else base colour, opacity, roughness, metallic, emission and transmission are guessed by the names of inputs. Pictures of MaterialX are read where an input leads to one by itself |
+//! | lights | rectangles, disks, spheres and cylinders as emitting parts; spheres as points where they are to be one, or have a cone or a profile (IES); distant lights, domes, meshes that are lights. 6500 K is white. Suns of Blender, which writes a quarter, are made four times as strong. Light linking, filters and portals are left out |
 //! | cameras | perspective; shifted apertures are centred; clipping is left out, and focus is the renderer's configuration |
 //! | labels | `semantics:labels:*` and `semantic:*:params:semanticData` where they name a class of NYU40 |
 //!
@@ -36,6 +36,7 @@ mod label;
 mod layer;
 mod light;
 mod material;
+mod mtlx;
 mod node;
 mod polygons;
 mod primvar;

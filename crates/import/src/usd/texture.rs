@@ -46,6 +46,9 @@ impl Textures<'_, '_, '_> {
     /// The texture that an output of a shader is; `None`, with a warning, for other shaders.
     pub(super) fn read(&mut self, shader: &Rc<Prim>, output: &str, usage: Use) -> Result<Option<Texture>, ImportError> {
         let kind = id(shader);
+        if kind.starts_with("ND_") {
+            return self.mtlx_texture(shader, usage);
+        }
         if kind != "UsdUVTexture" {
             self.warn(format!("{} is a {kind:?}, which is not supported as a texture; its fallback or the default holds", shader.path));
             return Ok(None);
@@ -81,18 +84,18 @@ impl Textures<'_, '_, '_> {
         source(self.stage, prim, name, self.a)
     }
 
-    fn token(&mut self, prim: &Rc<Prim>, name: &str) -> Result<String, ImportError> {
+    pub(super) fn token(&mut self, prim: &Rc<Prim>, name: &str) -> Result<String, ImportError> {
         Ok(match self.source(prim, name)? {
             Source::Value(value, _) => value.as_text().unwrap_or("").to_string(),
             _ => String::new(),
         })
     }
 
-    fn wrap(&mut self, shader: &Rc<Prim>, name: &str) -> Result<Wrap, ImportError> {
+    pub(super) fn wrap(&mut self, shader: &Rc<Prim>, name: &str) -> Result<Wrap, ImportError> {
         Ok(match self.token(shader, name)?.as_str() {
             "clamp" => Wrap::Clamp,
             "mirror" => Wrap::Mirror,
-            "black" => {
+            "black" | "constant" => {
                 self.warn("a texture that is black beyond its border is continued with its border instead");
                 Wrap::Clamp
             }
@@ -101,7 +104,7 @@ impl Textures<'_, '_, '_> {
     }
 
     /// The picture of a texture.
-    fn image(&mut self, shader: &Rc<Prim>, usage: Use) -> Result<Option<u32>, ImportError> {
+    pub(super) fn image(&mut self, shader: &Rc<Prim>, usage: Use) -> Result<Option<u32>, ImportError> {
         let Source::Value(value, layer) = self.source(shader, "inputs:file")? else {
             self.warn(format!("{} names no file; its fallback or the default holds", shader.path));
             return Ok(None);
@@ -123,7 +126,7 @@ impl Textures<'_, '_, '_> {
         let user = self.user.clone();
         match self.stage.embedded(&location) {
             Some(bytes) => self.a.image(&Picture::Embedded(location, &bytes), usage, &user),
-            None if is_embedded(&location) => self.a.image(&Picture::Embedded(location, &[]), usage, &user),
+            None if is_embedded(&location) => self.a.image(&Picture::Missing(location), usage, &user),
             None => self.a.image(&Picture::File(&location), usage, &user),
         }
     }
@@ -158,6 +161,12 @@ impl Textures<'_, '_, '_> {
             return Ok(transform);
         }
         let name = Some(self.token(&reader, "inputs:varname")?).filter(|n| !n.is_empty()).unwrap_or_else(|| "st".into());
+        self.read_at(name);
+        Ok(transform)
+    }
+
+    /// Notes the primvar of a texture's coordinates.
+    pub(super) fn read_at(&mut self, name: String) {
         match &self.uv_name {
             Some(known) if *known != name => {
                 let message = format!("it uses the texture coordinates {known:?} and {name:?}; all textures get the first");
@@ -166,7 +175,6 @@ impl Textures<'_, '_, '_> {
             Some(_) => (),
             None => self.uv_name = Some(name),
         }
-        Ok(transform)
     }
 
     /// A picture whose texels are `change` of those of another one: their linear red, green, blue and alpha.

@@ -77,6 +77,12 @@ pub fn document(version: i64, settings: Vec<Record>, objects: Vec<Record>, conne
     ]
 }
 
+/// The document as Blender would have written it.
+pub fn of_blender(mut document: Vec<Record>) -> Vec<Record> {
+    document[0].children.push(record("Creator", vec![Value::Text("Blender (stable FBX IO) - 4.5.0 - 5.13.0")], vec![]));
+    document
+}
+
 /// The document as text.
 pub fn text(document: &[Record], version: u32) -> Vec<u8> {
     let mut out = format!("; FBX {}.{}.0 project file\n", version / 1000, version / 100 % 10);

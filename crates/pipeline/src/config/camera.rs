@@ -84,6 +84,11 @@ impl CameraConfig {
         *self == Self::default()
     }
 
+    /// True for a model that is as wide as the field of view says.
+    pub(crate) fn takes_field_of_view(&self) -> bool {
+        self.k.is_none() && matches!(self.model, CameraModel::Pinhole | CameraModel::RadialTangential | CameraModel::Fisheye)
+    }
+
     /// The horizontal fields of view that the model can have end here, degrees.
     pub(super) fn fov_limit_deg(&self) -> f64 {
         if self.model == CameraModel::Fisheye { 360.0 } else { 180.0 }

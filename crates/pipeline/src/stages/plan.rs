@@ -21,6 +21,9 @@ const KEYFRAMES: [&str; 4] = ["frame_indices", "positions", "look_at_positions",
 /// Trajectories of cameras that see to the side and behind are planned by what is within this angle before them.
 const WIDEST_VIEW_RAD: f64 = 2.1;
 
+/// Fields of view that differ by less count as one: files round them.
+const SAME_VIEW_RAD: f64 = 1e-3;
+
 pub(super) fn settings(job: &Job) -> Hash {
     let scene = job.scene;
     Hash::of(&(&scene.plan, scene.size, scene.fov_x_deg, &scene.camera, &scene.gate, scene.exploring_seed("plan", scene.plan.preset)))
@@ -47,6 +50,9 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let starts = carve::starts(job)?;
     let fov_x_rad = job.scene.fov_x_deg.map_or(starts[0].fov_x_rad, f64::to_radians);
     let camera = job.scene.camera.camera(job.scene.size, fov_x_rad, |path| job.config.path(path))?;
+    if job.scene.fov_x_deg.is_none() && job.scene.camera.takes_field_of_view() && !matches!(job.scene.plan.mode, Mode::Keyframes(_)) {
+        warn_of_other_views(&starts, cx);
+    }
     let fov_x_rad = camera.projection.fov_x_rad(std::f64::consts::TAU);
     let mut reports = Vec::new();
     let mut filmed: Vec<(Trajectory, Option<StereoRecord>)> = Vec::new();
@@ -95,6 +101,23 @@ fn warn_of_frame_time(job: &Job, camera: &Camera, cx: &StageCx) {
         let message =
             format!("its shutter counts {found} s between frames, but the video has {fps} a second: set frame_time_s = {expected:.5}");
         cx.warn(Warning { place: "[camera]".into(), message });
+    }
+}
+
+/// All trajectories of a scene are filmed with one camera, whose field of view is that of the first start.
+fn warn_of_other_views(starts: &[StartCamera], cx: &dyn Cx) {
+    let first = &starts[0];
+    let degrees = |camera: &StartCamera| format!("{:.1}", camera.fov_x_rad.to_degrees());
+    for other in starts.iter().filter(|other| (other.fov_x_rad - first.fov_x_rad).abs() > SAME_VIEW_RAD) {
+        let message = format!(
+            "it is {} degrees wide, but its pictures will be {}, as those of camera {:?}: a scene has one field of view. Give this camera a \
+             [[scene]] of its own (cameras = [{:?}]), or set render.fov_x_deg",
+            degrees(other),
+            degrees(first),
+            first.name,
+            other.name
+        );
+        cx.warn(Warning { place: format!("camera {:?}", other.name), message });
     }
 }
 
@@ -304,6 +327,25 @@ fn remove_within(folder: &Path, goes: impl Fn(&Path) -> bool) -> Result<(), Erro
 #[cfg(test)]
 mod tests {
     use super::*;
+    use enfilade_math::{DMat3, DVec3};
+    use enfilade_scene::Heard;
+
+    #[test]
+    fn starts_of_another_field_of_view_than_the_first_are_named() {
+        let start = |name: &str, degrees: f64| StartCamera {
+            name: name.into(),
+            position: DVec3::ZERO,
+            world_from_camera: DMat3::IDENTITY,
+            fov_x_rad: degrees.to_radians(),
+            aspect: 1.5,
+        };
+        let heard = Heard::default();
+        warn_of_other_views(&[start("hall", 60.0), start("detail", 25.0), start("door", 60.01)], &heard);
+        let [line] = &heard.lines()[..] else { panic!("{:?}", heard.lines()) };
+        for expected in ["camera \"detail\"", "25.0 degrees", "will be 60.0", "camera \"hall\"", "render.fov_x_deg"] {
+            assert!(line.contains(expected), "{expected} is not in {line}");
+        }
+    }
 
     #[test]
     fn trajectories_of_rigs_are_named_by_their_left_cameras() {

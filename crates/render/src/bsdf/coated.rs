@@ -7,6 +7,7 @@ use super::coat::{Bounces, Coat};
 use super::ggx::Facets;
 use super::{Event, Sample, Value, fresnel, lobe};
 use enfilade_math::{INV_PI, Rgb, Vec3, warp};
+use std::f32::consts::PI;
 
 /// The pair of lobes, for one viewing direction.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +18,8 @@ pub struct Coated<'a> {
     pub facets: Facets,
     /// Demodulated value of the base over cosine × transmittance on the way in.
     base: Rgb,
+    /// The same over the cosine alone, of the part of the base that has no coat.
+    bare: f32,
     /// Transmittance of the coat towards the viewer.
     through_o: f32,
     /// Multiplies the coat's reflection.
@@ -27,9 +30,10 @@ pub struct Coated<'a> {
 
 impl<'a> Coated<'a> {
     /// A base of colour `reflectance` under `coat` of roughness `alpha`, whose reflection is multiplied by `tint`. `saturating`: light
-    /// that goes to and fro takes the base's colour each time; otherwise the base counts as white between.
+    /// that goes to and fro takes the base's colour each time; otherwise the base counts as white between. The coat lies over the share
+    /// `covered` of the base, and `tint` has that share in it.
     #[inline]
-    pub fn new(coat: Coat<'a>, alpha: f32, reflectance: Rgb, tint: Rgb, saturating: bool, cos_o: f32) -> Self {
+    pub fn new(coat: Coat<'a>, alpha: f32, reflectance: Rgb, tint: Rgb, saturating: bool, covered: f32, cos_o: f32) -> Self {
         let through_o = coat.transmittance(cos_o);
         let once = through_o * INV_PI / (coat.eta * coat.eta);
         let escapes = coat.inner_transmittance();
@@ -39,14 +43,15 @@ impl<'a> Coated<'a> {
             Bounces::All => Facets::new(alpha, cos_o),
             Bounces::Single => Facets::separable(alpha, cos_o),
         };
-        let (diffuse, specular) = (reflectance.luminance() * through_o, (1.0 - through_o) * tint.luminance());
+        let through = covered * through_o + (1.0 - covered);
+        let (diffuse, specular) = (reflectance.luminance() * through, (1.0 - through_o) * tint.luminance());
         // Neither starves.
         let select_base = match (diffuse > 0.0, specular > 0.0) {
             (true, true) => 0.05 + 0.9 * diffuse / (diffuse + specular),
             (true, false) => 1.0,
             _ => 0.0,
         };
-        Self { coat, facets, base, through_o, tint, select_base }
+        Self { coat, facets, base: base * covered, bare: (1.0 - covered) * INV_PI, through_o, tint, select_base }
     }
 
     /// See [`lobe::Lobe::eval_pdf`].
@@ -55,7 +60,7 @@ impl<'a> Coated<'a> {
         if wi.z <= 0.0 {
             return (Value::default(), 0.0);
         }
-        let diffuse = self.base * (wi.z * self.coat.transmittance(wi.z));
+        let diffuse = self.base * (wi.z * self.coat.transmittance(wi.z)) + Rgb::splat(self.bare * wi.z);
         let density = self.select_base * wi.z * INV_PI;
         if self.facets.smooth() {
             return (Value { diffuse, specular: Rgb::BLACK }, density);
@@ -80,10 +85,15 @@ impl<'a> Coated<'a> {
         (pdf > 0.0).then(|| Sample { wi, weight: value * (1.0 / pdf), pdf, event: Event::Finite })
     }
 
+    /// True when the coat lies over all of the base.
+    pub fn is_whole(&self) -> bool {
+        self.bare == 0.0
+    }
+
     /// See [`lobe::Lobe::albedo`].
     #[inline]
     pub fn albedo(&self, cos_o: f32) -> Value {
-        let diffuse = self.base * (self.coat.mean_transmittance() * std::f32::consts::PI);
+        let diffuse = self.base * (self.coat.mean_transmittance() * PI) + Rgb::splat(self.bare * PI);
         Value { diffuse, specular: self.tint * fresnel::dielectric(cos_o, self.coat.eta).0 }
     }
 }

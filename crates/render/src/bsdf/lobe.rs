@@ -194,7 +194,7 @@ impl<'a> Lobe<'a> {
     pub fn outgoing(&self) -> Option<Outgoing<'a>> {
         match self {
             Self::Lambert => Some(Outgoing::EVEN),
-            Self::Coated(coated) => Some(Outgoing { coat: Some(coated.coat), ..Outgoing::EVEN }),
+            Self::Coated(coated) if coated.is_whole() => Some(Outgoing { coat: Some(coated.coat), ..Outgoing::EVEN }),
             _ => None,
         }
     }

@@ -70,7 +70,7 @@ impl<'a> Bsdf<'a> {
             scene::Bsdf::Plastic { diffuse, alpha, specular, nonlinear, .. } => {
                 // What saturates reflects more on average than its average colour would, so no average is taken.
                 let base = Inputs { footprint: if *nonlinear { Footprint::POINT } else { at.footprint }, ..*at };
-                coated(at, base.reflectance(diffuse), at.scalar(alpha), at.reflectance(specular), *nonlinear)
+                coated(at, base.reflectance(diffuse), at.scalar(alpha), at.reflectance(specular), *nonlinear, 1.0)
             }
             scene::Bsdf::Principled(p) => principled(p, at),
             scene::Bsdf::Blend { first, second, weight } => blend([first, second], at.share(weight), at),
@@ -82,11 +82,11 @@ impl<'a> Bsdf<'a> {
     }
 }
 
-/// A diffuse base under the point's coat; without one (an index of one or less) the base alone.
+/// A diffuse base of which the share `covered` lies under the point's coat; without one (an index of one or less) the base alone.
 #[inline]
-fn coated<'a>(at: &Inputs<'a>, reflectance: Rgb, alpha: f32, tint: Rgb, saturating: bool) -> Bsdf<'a> {
-    let Some(table) = &at.tables.coat else { return Bsdf::lambert(reflectance) };
-    let lobe = Lobe::Coated(Coated::new(table.at(alpha), alpha, reflectance, tint, saturating, at.cos_o));
+fn coated<'a>(at: &Inputs<'a>, reflectance: Rgb, alpha: f32, tint: Rgb, saturating: bool, covered: f32) -> Bsdf<'a> {
+    let Some(table) = at.tables.coat.as_ref().filter(|_| covered > 0.0) else { return Bsdf::lambert(reflectance) };
+    let lobe = Lobe::Coated(Coated::new(table.at(alpha), alpha, reflectance, tint, saturating, covered, at.cos_o));
     Bsdf { reflectance, model: Model::One(lobe) }
 }
 
@@ -144,9 +144,9 @@ fn principled<'a>(p: &Principled, at: &Inputs<'a>) -> Bsdf<'a> {
 
     let coated_base = || {
         // Fresnel's equations instead of glTF's Schlick, so that coat and base share out exactly all light; the specular
-        // colour tints at every angle.
+        // colour tints at every angle. What its largest component does not reflect reaches the base: KHR_materials_specular.
         let tint = at.reflectance(&p.specular_color) * at.share(&p.specular);
-        coated(at, base, alpha, tint, false)
+        coated(at, base, alpha, tint, false, tint.max_component())
     };
     let metal = || metal(Facets::new(alpha, at.cos_o), Fresnel::Schlick { f0: base }, Rgb::WHITE, at.cos_o);
     let body = || if p.solid { glass(p.ior, alpha, base, at) } else { Lobe::Thin { eta: p.ior, tint: base } };

@@ -39,6 +39,14 @@ fn models() -> Vec<(&'static str, Material, bool)> {
         (material("plastic 0.5 linear", plastic(0.5, false)), false),
         (material("principled rough", principled(Principled::default())), true),
         (material("principled 0.3", principled(Principled { roughness: 0.3.into(), ..Principled::default() })), true),
+        (material("principled specular 0", principled(Principled { specular: 0.0.into(), ..Principled::default() })), true),
+        (
+            material(
+                "principled specular 0.4",
+                principled(Principled { specular: 0.4.into(), roughness: 0.5.into(), ..Principled::default() }),
+            ),
+            true,
+        ),
         (
             material("principled metal", principled(Principled { metallic: 1.0.into(), roughness: 0.5.into(), ..Principled::default() })),
             false,
@@ -280,6 +288,35 @@ fn tiles_under_plastic_reflect_as_much_to_wide_rays_as_their_halves_do() {
         let wide = 0.5 * (reflected(&tiled, 0.25, 1.0) + reflected(&tiled, 0.75, 1.0));
         let halves = 0.5 * (reflected(&plastic(Rgb::BLACK.into()), 0.5, 0.0) + reflected(&plastic(Rgb::WHITE.into()), 0.5, 0.0));
         assert!((wide - halves).abs() < 1e-5 * halves, "nonlinear {nonlinear}: {wide} for {halves}");
+    }
+}
+
+/// KHR_materials_specular mixes with the weight specular × Fresnel: without it the base is all there is.
+#[test]
+fn what_the_specular_factor_takes_from_the_coat_reaches_the_base() {
+    let furnace = |specular: f32, tint: Rgb| {
+        let bsdf = Principled {
+            base_color: Rgb::splat(0.5).into(),
+            specular: specular.into(),
+            specular_color: tint.into(),
+            ..Principled::default()
+        };
+        let material = Material::new("dull", scene::Bsdf::Principled(Box::new(bsdf)));
+        let (tables, textures) = (tables(&material), Textures::default());
+        let inputs =
+            Inputs { textures: &textures, uv: Vec2::ZERO, footprint: Footprint::POINT, tables: &tables, cos_o: 0.6, outside: true };
+        let bsdf = Bsdf::new(&material.bsdf, &inputs);
+        let mut rng = Rng::new(3);
+        let albedo = Mean::of((0..100_000).map(|_| {
+            let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
+            bsdf.sample(direction(0.6), u).map_or(0.0, |s| f64::from(s.weight.total(bsdf.reflectance).g))
+        }));
+        (albedo.value(), 4.0 * albedo.standard_error())
+    };
+    let ((whole, a), (half, b)) = (furnace(1.0, Rgb::WHITE), furnace(0.5, Rgb::WHITE));
+    for (none, error) in [furnace(0.0, Rgb::WHITE), furnace(1.0, Rgb::BLACK)] {
+        assert!((none - 0.5).abs() < error + 1e-4, "{none}");
+        assert!((half - 0.5 * (whole + none)).abs() < a + b + error, "{half} between {none} and {whole}");
     }
 }
 

@@ -17,6 +17,11 @@ pub(super) const SITES: usize = 4;
 /// No cell.
 pub(super) const NONE: u32 = u32::MAX;
 
+/// What a voxel adds to a key along each axis. The lowest three bits tell the facing axis.
+const STEP_X: i64 = 1 << 43;
+const STEP_Y: i64 = 1 << 23;
+const STEP_Z: i64 = 1 << 3;
+
 /// Cells, numbered in the order in which they were found.
 #[derive(Debug)]
 pub(super) struct Cells {
@@ -25,6 +30,8 @@ pub(super) struct Cells {
     scale: f32,
     /// Open addressing: key and number; key 0 is empty. A power of two long, at most half full.
     slots: Vec<(u64, u32)>,
+    /// Of each cell, its key.
+    keys: Vec<u64>,
     /// Of each cell, up to [`SITES`] places in it.
     pub sites: Vec<[Option<Site>; SITES]>,
 }
@@ -33,12 +40,13 @@ impl Cells {
     /// The cells of `size` metres that the sites lie in.
     pub fn new(origin: Vec3, size: f32, sites: &[Site]) -> Self {
         let slots = vec![(0, NONE); (4 * sites.len()).next_power_of_two().max(64)];
-        let mut cells = Self { origin, scale: 1.0 / size, slots, sites: Vec::new() };
+        let mut cells = Self { origin, scale: 1.0 / size, slots, keys: Vec::new(), sites: Vec::new() };
         for site in sites {
             let key = cells.key(site.p, site.n);
             let slot = cells.slot(key);
             if cells.slots[slot].0 == 0 {
                 cells.slots[slot] = (key, cells.sites.len() as u32);
+                cells.keys.push(key);
                 cells.sites.push([None; SITES]);
             }
             let number = cells.slots[slot].1 as usize;
@@ -58,6 +66,18 @@ impl Cells {
     #[inline]
     pub fn find(&self, p: Vec3, n: Vec3) -> u32 {
         self.slots[self.slot(self.key(p, n))].1
+    }
+
+    /// The cells that touch a cell on its surface and face the same way, itself among them.
+    pub fn around(&self, cell: usize) -> impl Iterator<Item = usize> {
+        let packed = (self.keys[cell] - 1) as i64;
+        let steps: [i64; 2] = match (packed & 7) / 2 {
+            0 => [STEP_Y, STEP_Z],
+            1 => [STEP_X, STEP_Z],
+            _ => [STEP_X, STEP_Y],
+        };
+        let keys = (-1..=1).flat_map(move |a| (-1..=1).map(move |b| (packed + a * steps[0] + b * steps[1]) as u64 + 1));
+        keys.map(|key| self.slots[self.slot(key)].1).filter(|&number| number != NONE).map(|number| number as usize)
     }
 
     /// Where a key is or would be.
@@ -85,6 +105,22 @@ impl Cells {
             (2, n.z)
         };
         let facing = 2 * axis + u64::from(along < 0.0);
-        ((coordinate(at.x) << 40 | coordinate(at.y) << 20 | coordinate(at.z)) << 3 | facing) + 1
+        coordinate(at.x) * STEP_X as u64 + coordinate(at.y) * STEP_Y as u64 + coordinate(at.z) * STEP_Z as u64 + facing + 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_around_a_cell_lie_on_its_surface_and_face_its_way() {
+        let site = |x: f32, y: f32, z: f32, n: Vec3| Site { p: Vec3::new(x, y, z), n };
+        let floor: Vec<Site> = (0..25).map(|i| site((i % 5) as f32 + 0.5, (i / 5) as f32 + 0.5, 0.1, Vec3::Z)).collect();
+        let others = [site(2.5, 2.5, 0.1, -Vec3::Z), site(2.5, 2.5, 1.1, Vec3::Z), site(2.5, 2.5, 0.1, Vec3::X)];
+        let cells = Cells::new(Vec3::ZERO, 1.0, &[&floor[..], &others].concat());
+        let near = |x: f32, y: f32| cells.around(cells.find(Vec3::new(x, y, 0.1), Vec3::Z) as usize).collect::<Vec<_>>();
+        assert_eq!(near(2.5, 2.5), [6, 11, 16, 7, 12, 17, 8, 13, 18]);
+        assert_eq!(near(0.5, 0.5), [0, 5, 1, 6], "at a corner");
     }
 }

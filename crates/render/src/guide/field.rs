@@ -3,8 +3,10 @@
 //! From every cell one ray goes out through each bin of the cosine-weighted hemisphere; what it meets is remembered as a cell and a
 //! reflectance. With the direct light of each cell this is a radiosity system (Goral et al. 1984), solved by a few sweeps without
 //! tracing another ray. With the cells' light known, rays through the bins, those that are there and further ones where many samples pay
-//! for them, say what rendering wants: where light comes from in each cell, and how much.
+//! for them, say what rendering wants: where light comes from in each cell, and how much. What is small and bright is looked for from
+//! the cells around as well (see [`super::bright`]).
 
+use super::bright::Bright;
 use super::cells::{Cells, Site};
 use super::rays::{Link, Rays};
 use super::square::{BINS, SIDE, SquareDensity};
@@ -72,6 +74,7 @@ impl Field {
             indirect = gathered.par_iter().map(|(_, links)| links.iter().map(|l| l.radiance(&total)).sum::<Rgb>() / BINS as f32).collect();
         }
         let total = total(&indirect);
+        let bright: Vec<Vec<Bright>> = gathered.par_iter().enumerate().map(|(cell, (_, links))| rays.bright(cell, links, &total)).collect();
         let lights = gathered
             .par_iter()
             .enumerate()
@@ -81,6 +84,7 @@ impl Field {
                 for round in 1..effort.rounds {
                     rays.links(cell, round).enumerate().for_each(|(bin, link)| arriving.add(bin, &link, &total));
                 }
+                arriving.spread(&rays, cell, &bright);
                 arriving.learned()
             })
             .collect();
@@ -135,8 +139,29 @@ impl Arriving {
         self.rays += 1;
     }
 
+    /// Spreads the bright places of a cell and of those around it over all of them.
+    fn spread(&mut self, rays: &Rays<'_, '_>, cell: usize, bright: &[Vec<Bright>]) {
+        let around: Vec<usize> = rays.cells.around(cell).collect();
+        let share = 1.0 / around.len() as f32;
+        for own in &bright[cell] {
+            self.change(own.bin, own.radiance * (share - 1.0));
+        }
+        let of_others = around.iter().filter(|&&other| other != cell).flat_map(|&other| &bright[other]);
+        for (number, place) in of_others.enumerate() {
+            if let Some((bin, radiance)) = rays.seen(cell, number, place) {
+                self.change(bin, radiance * share);
+            }
+        }
+    }
+
+    /// Changes what arrives through a bin.
+    fn change(&mut self, bin: usize, by: Rgb) {
+        self.bins[bin] = (self.bins[bin] + by.luminance()).max(0.0);
+        self.sum += by;
+    }
+
     fn learned(&self) -> CellLight {
-        CellLight { density: SquareDensity::new(&blurred(&self.bins)), found: self.sum / self.rays as f32 }
+        CellLight { density: SquareDensity::new(&blurred(&self.bins)), found: self.sum.map(|v| v.max(0.0)) / self.rays as f32 }
     }
 }
 

@@ -3,6 +3,7 @@
 //! It steers samples and nothing else. Whatever was learned, every direction and every light keeps a chance, so a poor guide means
 //! more noise, never another mean.
 
+mod bright;
 mod cells;
 mod field;
 mod rays;

@@ -6,7 +6,7 @@ use crate::bsdf::Event;
 use crate::light::{LightChoice, LightPoint};
 use crate::prepared::{Cutout, RenderScene};
 use crate::surface::Surface;
-use enfilade_math::{Onb, Ray, Rgb, Rng, hash_u64, offset_origin, warp};
+use enfilade_math::{Onb, Ray, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
 
 /// Panes that a gathering ray passes.
 const PANES: usize = 8;
@@ -17,6 +17,8 @@ const MIRRORS: usize = 6;
 /// gloss; and what sources send by it.
 #[derive(Clone, Copy)]
 pub(super) struct Link {
+    /// The place that the cell was met in.
+    pub p: Vec3,
     diffuse: (u32, Rgb),
     mirrored: (u32, Rgb),
     /// Luminance that sources send by it, as far as light sampling leaves them to chance.
@@ -26,9 +28,17 @@ pub(super) struct Link {
 impl Link {
     /// Radiance that arrives, given the light of the cells.
     pub fn radiance(&self, total: &[Rgb]) -> Rgb {
-        let sent = |(cell, share): (u32, Rgb)| if cell == NONE { Rgb::BLACK } else { share * total[cell as usize] };
-        sent(self.diffuse) + sent(self.mirrored)
+        self.unmirrored(total) + sent(self.mirrored, total)
     }
+
+    /// The part of it that comes straight from the cell.
+    pub fn unmirrored(&self, total: &[Rgb]) -> Rgb {
+        sent(self.diffuse, total)
+    }
+}
+
+fn sent((cell, share): (u32, Rgb), total: &[Rgb]) -> Rgb {
+    if cell == NONE { Rgb::BLACK } else { share * total[cell as usize] }
 }
 
 /// The rays that leave the cells.
@@ -40,7 +50,7 @@ pub(super) struct Rays<'a, 's> {
 }
 
 impl Rays<'_, '_> {
-    fn sites(&self, cell: usize) -> Vec<Site> {
+    pub(super) fn sites(&self, cell: usize) -> Vec<Site> {
         self.cells.sites[cell].iter().flatten().copied().collect()
     }
 
@@ -59,7 +69,7 @@ impl Rays<'_, '_> {
     pub fn links(&self, cell: usize, round: usize) -> impl Iterator<Item = Link> {
         let (sites, mut rng) = (self.sites(cell), self.rng(cell, 1 + round));
         (0..BINS).map(move |bin| {
-            let site = sites[(bin + bin / SIDE + round) % sites.len()];
+            let site = sites[turn(bin, round) % sites.len()];
             let u = [((bin % SIDE) as f32 + rng.next_f32()) / SIDE as f32, ((bin / SIDE) as f32 + rng.next_f32()) / SIDE as f32];
             let wi = warp::cosine_hemisphere(u);
             let ray = Ray::new(offset_origin(site.p, site.n), Onb::from_z(site.n).to_world(wi));
@@ -69,12 +79,18 @@ impl Rays<'_, '_> {
     }
 }
 
+/// Which of a cell's sites the ray through a bin leaves from, counted round.
+pub(super) fn turn(bin: usize, round: usize) -> usize {
+    bin + bin / SIDE + round
+}
+
 /// What a ray meets, beyond panes, and what is reflected there. It was sampled at `from` with density `pdf`.
 fn link(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, from: &LightPoint, ray: Ray, pdf: f32, rng: &mut Rng) -> Link {
-    let mut link = Link { diffuse: (NONE, Rgb::BLACK), mirrored: (NONE, Rgb::BLACK), emitted: 0.0 };
+    let mut link = Link { p: Vec3::ZERO, diffuse: (NONE, Rgb::BLACK), mirrored: (NONE, Rgb::BLACK), emitted: 0.0 };
     let Some((surface, through)) = first_surface(scene, choice, ray, Some((*from, pdf)), &mut link.emitted) else { return link };
     let mut bsdf = surface.bsdf(scene);
     let mut albedo = bsdf.albedo(surface.wo.dot(surface.ns));
+    link.p = surface.p;
     link.diffuse = (cells.find(surface.p, surface.ns_smooth), through * albedo.blurred());
     // One sample of what the surface mirrors, by way of others that only mirror or bend.
     let (mut surface, mut share) = (surface, through);

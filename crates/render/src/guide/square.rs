@@ -47,10 +47,20 @@ impl SquareDensity {
     /// The density at a point of the square.
     #[inline]
     pub fn density(&self, u: [f32; 2]) -> f32 {
-        let bin = |v: f32| ((v * SIDE as f32) as usize).min(SIDE - 1);
-        let (row, column) = (bin(u[1]), bin(u[0]));
+        let (row, column) = (row_of(u[1]), row_of(u[0]));
         width(&self.rows, ROWS_END, row) * width(&self.columns[row], COLUMNS_END, column)
     }
+}
+
+/// The bin that a point of the square lies in, row by row.
+pub(super) fn bin_of(u: [f32; 2]) -> usize {
+    row_of(u[1]) * SIDE + row_of(u[0])
+}
+
+/// The row, or the column, of a coordinate.
+#[inline]
+fn row_of(v: f32) -> usize {
+    ((v * SIDE as f32) as usize).min(SIDE - 1)
 }
 
 /// Starts of the bins in whole steps of 1/`end`; every bin keeps at least one step.

@@ -76,9 +76,14 @@ fn spot_share(falloff: SpotFalloff, cos: f32, inner_rad: f32, outer_rad: f32) ->
     if inner <= outer {
         return if cos >= outer { 1.0 } else { 0.0 };
     }
+    let by_cosine = || ((cos - outer) / (inner - outer)).clamp(0.0, 1.0);
+    let by_angle = || ((outer_rad - angle::acos(cos)) / (outer_rad - inner_rad)).clamp(0.0, 1.0);
+    let smooth = |x: f32| x * x * (3.0 - 2.0 * x);
     match falloff {
-        SpotFalloff::CosineSquare => ((cos - outer) / (inner - outer)).clamp(0.0, 1.0).powi(2),
-        SpotFalloff::Angle => ((outer_rad - angle::acos(cos)) / (outer_rad - inner_rad)).clamp(0.0, 1.0),
+        SpotFalloff::CosineSquare => by_cosine().powi(2),
+        SpotFalloff::Angle => by_angle(),
+        SpotFalloff::SmoothCosine => smooth(by_cosine()),
+        SpotFalloff::SmoothAngle => smooth(by_angle()),
     }
 }
 
@@ -94,7 +99,7 @@ mod tests {
 
     #[test]
     fn spot_is_full_inside_and_dark_outside() {
-        for falloff in [SpotFalloff::CosineSquare, SpotFalloff::Angle] {
+        for falloff in [SpotFalloff::CosineSquare, SpotFalloff::Angle, SpotFalloff::SmoothCosine, SpotFalloff::SmoothAngle] {
             assert_eq!(spot_share(falloff, 1.0, 0.2, 0.5), 1.0);
             assert_eq!(spot_share(falloff, 0.6f32.cos(), 0.2, 0.5), 0.0);
         }
@@ -106,5 +111,9 @@ mod tests {
         assert!((share(SpotFalloff::Angle, 0.3f32.cos()) - 0.75).abs() < 1e-5);
         let halfway = 0.5 * (0.2f32.cos() + 0.6f32.cos());
         assert!((share(SpotFalloff::CosineSquare, halfway) - 0.25).abs() < 1e-5);
+        // A quarter of the way: 3/16 − 2/64.
+        let quarter = 0.75 * 0.6f32.cos() + 0.25 * 0.2f32.cos();
+        assert!((share(SpotFalloff::SmoothCosine, quarter) - 0.15625).abs() < 1e-5);
+        assert!((share(SpotFalloff::SmoothAngle, 0.5f32.cos()) - 0.15625).abs() < 1e-5);
     }
 }
