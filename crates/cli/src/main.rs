@@ -28,24 +28,35 @@ use outcome::{Problem, Verdict};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
-    match start(&cli) {
-        Ok(Verdict::Done) => ExitCode::SUCCESS,
-        Ok(Verdict::Failed) => ExitCode::from(1),
-        Ok(Verdict::Permanent) => ExitCode::from(65),
-        Ok(Verdict::Transient) => ExitCode::from(75),
+    let code = match Cli::try_parse() {
+        Ok(cli) => code_of(start(&cli)),
+        // Help and the version are answers of this kind too.
+        Err(answer) => {
+            outcome::note(answer.print());
+            answer.exit_code() as u8
+        }
+    };
+    let unsaid = outcome::unsaid();
+    unsaid.iter().for_each(Problem::print);
+    // What else went wrong is told by its own code.
+    ExitCode::from(if unsaid.is_some() { code.max(1) } else { code })
+}
+
+fn code_of(result: Result<Verdict, Problem>) -> u8 {
+    match result {
+        Ok(Verdict::Done) => 0,
+        Ok(Verdict::Failed) => 1,
+        Ok(Verdict::Permanent) => 65,
+        Ok(Verdict::Transient) => 75,
         Err(problem) => {
             problem.print();
-            ExitCode::from(if problem.usage { 2 } else { 1 })
+            if problem.usage { 2 } else { 1 }
         }
     }
 }
 
 fn start(cli: &Cli) -> Result<Verdict, Problem> {
-    if let Some(threads) = cli.threads {
-        let built = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global();
-        built.map_err(|e| Problem::new(format!("cannot start {threads} threads: {e}"), "ask for fewer with --threads"))?;
-    }
+    start_threads(cli.threads.map(usize::from))?;
     match &cli.verb {
         Verb::Run(args) => verbs::run(args, cli.quiet),
         Verb::Import(args) => scene_files::import(args, cli.quiet),
@@ -72,4 +83,13 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Suggest(args) => suggest::suggest(args, cli.quiet),
         Verb::View(args) => view::view(args),
     }
+}
+
+/// Starts the threads that work is shared among, one per processor unless told otherwise. Begun later, their failure would be a panic.
+fn start_threads(count: Option<usize>) -> Result<(), Problem> {
+    let built = rayon::ThreadPoolBuilder::new().num_threads(count.unwrap_or(0)).build_global();
+    built.map_err(|error| {
+        let hint = "raise the limit of processes (ulimit -u), or ask for fewer threads with --threads 1";
+        Problem::new(format!("cannot start threads: {error}"), hint)
+    })
 }

@@ -1,7 +1,11 @@
 //! How a verb ends, and how it speaks.
 
 use enfilade_pipeline::Failure;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
+use std::sync::OnceLock;
+
+/// Why standard output did not take what was said first that it did not.
+static UNSAID: OnceLock<String> = OnceLock::new();
 
 /// How a verb that could do its work ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,7 +56,7 @@ impl Problem {
     pub fn of_farm(error: &enfilade_farm::FarmError) -> Self {
         Self {
             message: error.to_string(),
-            hint: None,
+            hint: error.hint().map(Into::into),
             usage: matches!(error, enfilade_farm::FarmError::Request(_) | enfilade_farm::FarmError::Place { .. }),
         }
     }
@@ -108,9 +112,29 @@ pub fn quoted(word: &str) -> String {
     if !word.is_empty() && word.chars().all(is_plain) { word.into() } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }
 
-/// Writes lines to standard output. A reader that has gone away is no error.
+/// Writes lines to standard output; [`unsaid`] tells whether that was possible.
 pub fn say(text: &str) {
-    let _ = writeln!(std::io::stdout(), "{text}");
+    note(writeln!(std::io::stdout(), "{text}"));
+}
+
+/// Keeps in mind that something could not be written to standard output. A reader that has gone away is no error.
+pub fn note(written: std::io::Result<()>) {
+    if let Err(error) = written
+        && error.kind() != ErrorKind::BrokenPipe
+    {
+        let _ = UNSAID.set(error.to_string()); // the first one tells why
+    }
+}
+
+/// That something which was said is not where it should be.
+pub fn unsaid() -> Option<Problem> {
+    let error = UNSAID.get()?;
+    Some(Problem::of_data(format!("cannot write the output: {error}"), "free some space, or send standard output elsewhere"))
+}
+
+/// Says on standard error what is wrong and keeps nothing from being done.
+pub fn warn(text: &str) {
+    let _ = writeln!(std::io::stderr(), "warning: {text}"); // nobody left to tell
 }
 
 #[cfg(test)]

@@ -52,10 +52,10 @@ impl Progress {
             warnings: 0,
         }));
         let (stop, stopped) = channel();
-        let heart = (!quiet && !live).then(|| {
-            let state = state.clone();
-            std::thread::spawn(move || beat(&state, &stopped))
-        });
+        let beating = state.clone();
+        let heart = || std::thread::Builder::new().spawn(move || beat(&beating, &stopped));
+        // Where the system gives no further thread, a heart that does not beat is the least loss.
+        let heart = (!quiet && !live).then(heart).and_then(Result::ok);
         Self { state, stop: Some(stop), heart }
     }
 

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{CAMERA, Lamp, fail, folder, run, scene, succeed, write_config, write_room};
+use common::{CAMERA, Lamp, enfilade, fail, folder, run, scene, succeed, write_config, write_room};
 use std::fs;
 
 #[test]
@@ -53,7 +53,7 @@ fn what_late_stages_would_refuse_is_refused_before_the_first() {
     for (keys, words) in [
         ("labels = \"nope.csv\"", ["there is no label table nope.csv", "^^^"]),
         ("labels = \"class.csv\"", ["class.csv:2: class 99 is out of range", "^^^"]),
-        ("render.filter_radius = -1", ["filter_radius must be 0 or more", "^^"]),
+        ("render.filter_radius = -1", ["filter_radius must lie between 0 and 16", "^^"]),
         ("camera = { model = \"ray_grid\", ray_grid = \"nope.hdf5\" }", ["there is no ray grid nope.hdf5", "^^^"]),
         ("plan.mode = { kind = \"keyframes\", files = [] }", ["files = []: expected at least one file of poses", "^^^"]),
         ("carve.voxel_m = 0", ["voxel_m = 0: expected a positive length", "^"]),
@@ -229,4 +229,50 @@ fn a_full_disk_is_told_and_leaves_nothing_half_written() {
     assert!(text.contains("1 of 1 scenes failed"), "{text}");
     assert!(!d.join("out/.enfilade/room/scene.scene").exists() && !d.join("out/.enfilade/room/import.json").exists());
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
+}
+
+/// A program that reads what a verb says must not take nothing for the answer.
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_told() {
+    let dir = folder();
+    write_room(dir.path(), "room", Lamp::On);
+    for args in [&["--help"][..], &["import", "room.obj", "-o", "room.scene"]] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let output = enfilade(dir.path(), args).stdout(full).output().unwrap();
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{args:?}: {told}");
+        assert!(told.contains("error: cannot write the output: No space left on device"), "{args:?}: {told}");
+    }
+}
+
+/// Stacks that no memory can hold stand for a system that gives no threads.
+#[cfg(target_os = "linux")]
+#[test]
+fn threads_that_cannot_be_started_are_told() {
+    let output = enfilade(folder().path(), &["verify", "out"]).env("RUST_MIN_STACK", (1u64 << 47).to_string()).output().unwrap();
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("error: cannot start threads") && told.contains("--threads 1") && !told.contains("panicked"), "{told}");
+}
+
+/// They failed when the first record was written, after the scene had been imported.
+#[cfg(target_os = "linux")]
+#[test]
+fn folders_that_are_not_spelled_in_utf_8_are_refused_at_once() {
+    let dir = folder();
+    let name: &std::ffi::OsStr = std::os::unix::ffi::OsStrExt::from_bytes(b"r\xe4ume");
+    let sources = dir.path().join(name);
+    fs::create_dir(&sources).unwrap();
+    write_room(&sources, "room", Lamp::On);
+    write_config(&sources, &[scene("room")]);
+    write_room(dir.path(), "room", Lamp::On);
+    write_config(dir.path(), &[scene("room")]);
+    for (folder, out) in [(sources.as_path(), std::ffi::OsStr::new("out")), (dir.path(), name)] {
+        let output = enfilade(folder, &["run", "dataset.toml", "-o"]).arg(out).output().unwrap();
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains("is not UTF-8") && told.contains("rename the folder"), "{told}");
+    }
+    assert!(!sources.join("out").exists());
 }

@@ -214,6 +214,39 @@ fn damage_in_the_store_is_named_and_mended_by_doing_the_task_again() {
     succeed(d, &["verify", "out"]);
 }
 
+/// Such a frame counted as done, so that nothing was left to do and nothing could be collected.
+#[test]
+fn a_frame_without_its_files_is_missing_until_its_task_is_done_again() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::On);
+    write_config(d, &[scene("room")]);
+    succeed(d, &PLAN);
+    let work = |tasks: &str| succeed(d, &["farm", "work", "job", "--task", tasks, "--scratch", "a"]);
+    work("0-2");
+    let payload = |frame: &str| {
+        let files = fs::read_dir(d.join("job/frames/room/cam_00")).unwrap().map(|entry| entry.unwrap().path());
+        files.into_iter().find(|path| path.file_name().unwrap().to_string_lossy().starts_with(frame)).unwrap()
+    };
+    fs::remove_file(payload("0001")).unwrap();
+    fail(d, &["farm", "status", "job"], 1, &["2 of 3 frames are committed", "missing: 1\n"]);
+    fail(d, &["farm", "collect", "job", "-o", "out"], 2, &["1 of 3 tasks are not done", "--task 1"]);
+    assert!(work("0-2").contains("task 1: done, 1 frames committed"));
+    assert!(succeed(d, &["farm", "status", "job"]).contains("3 of 3 frames are committed"));
+
+    // A payload that was cut short is seen where it is read.
+    fs::File::options().write(true).open(payload("0002")).unwrap().set_len(100).unwrap();
+    fail(d, &["farm", "collect", "job", "-o", "out"], 1, &["job/frames/room/cam_00/0002.", "has 100 bytes, expected", "--task 2"]);
+    assert!(work("2").contains("task 2: done, 1 frames committed"));
+    // So is a marker that is no text, and a record that is none keeps nothing from being done.
+    fs::write(d.join("job/done/room/cam_00/0000.json"), "").unwrap();
+    assert!(work("0").contains("task 0: done, 1 frames committed"));
+    fs::write(d.join("job/attempts/000000.node.json"), "{").unwrap();
+    fail(d, &["farm", "status", "job"], 0, &["warning: ", "attempts/000000.node.json: EOF", "remove it", "3 of 3 frames"]);
+    succeed(d, &["farm", "collect", "job", "-o", "out"]);
+    succeed(d, &["verify", "out"]);
+}
+
 #[test]
 fn engines_get_files_for_what_is_missing() {
     let dir = folder();

@@ -115,6 +115,28 @@ fn scenes_are_imported_again_when_a_file_comes_late_or_another_one_is_meant() {
     assert!(run("b").contains("Nothing to do"));
 }
 
+/// Pictures were named by where they lay, so that a scene was another one once its folder had another name.
+#[test]
+fn sources_that_were_moved_make_the_same_bytes_and_cost_no_frame() {
+    let dir = folder();
+    let d = dir.path();
+    fs::create_dir(d.join("here")).unwrap();
+    write_room(&d.join("here"), "room", Lamp::On);
+    let library = d.join("here/room.mtl");
+    fs::write(&library, fs::read_to_string(&library).unwrap().replace("newmtl wall\n", "newmtl wall\nmap_Kd grey.pfm\n")).unwrap();
+    fs::write(d.join("here/grey.pfm"), [b"PF\n1 1\n-1.0\n".as_slice(), [0.5f32; 3].map(f32::to_le_bytes).as_flattened()].concat()).unwrap();
+    fs::write(d.join("here/labels.csv"), "material,nyu40_id\nwall,1\nwood,7\nlight,35\n").unwrap();
+    write_config(&d.join("here"), &[scene("room") + "environment = { file = \"grey.pfm\" }\nlabels = \"labels.csv\"\n"]);
+    succeed(d, &["run", "here/dataset.toml", "-o", "out"]);
+    let (before, times) = (contents(&d.join("out")), color_times(&d.join("out")));
+    fs::rename(d.join("here"), d.join("there")).unwrap();
+    // Where they lay is what the dataset knows until it is run again.
+    fail(d, &["label", "out"], 1, &["run again with the dataset.toml that lies with them now"]);
+    succeed(d, &["run", "there/dataset.toml", "-o", "out"]);
+    assert_same(&before, &contents(&d.join("out")));
+    assert_eq!(times, color_times(&d.join("out")));
+}
+
 #[test]
 fn a_report_card_does_not_outlive_what_it_is_about() {
     let dir = folder();

@@ -24,12 +24,25 @@ impl CameraTable {
             true => DatasetError::NoCameraTable { path: path.to_path_buf() },
             false => error,
         })?;
-        Ok(Self { path: path.to_path_buf(), names: table.column("scene_name")?, table })
+        let strange = |_| {
+            let problem = "line 1: no column \"scene_name\", so it is no table of cameras; for a dataset of ours run the plan stage again";
+            DatasetError::text(path, problem)
+        };
+        Ok(Self { path: path.to_path_buf(), names: table.column("scene_name").map_err(strange)?, table })
     }
 
     /// The scenes that have a row, in the order of the rows.
     pub fn scenes(&self) -> impl Iterator<Item = &str> {
         self.table.rows.iter().map(|row| row[self.names].as_str())
+    }
+
+    /// The scene's row: names of columns and what stands there.
+    ///
+    /// # Errors
+    /// When the scene has none.
+    pub fn cells(&self, scene: &str) -> Result<Vec<[&str; 2]>, DatasetError> {
+        let row = &self.table.rows[self.row(scene)?];
+        Ok(self.table.header.iter().zip(row).map(|(name, cell)| [name.as_str(), cell]).collect())
     }
 
     /// The scene's pinhole, from `M_cam_from_uv`; Hypersim's tilt-shift cameras have a tilted image plane.

@@ -80,13 +80,14 @@ const SETTINGS_CAMERA: [&str; 12] = [
 ];
 
 impl Dataset {
-    /// Sets the scene's row of `metadata_camera_parameters.csv`; the rows of other scenes stay as they are.
+    /// Sets the scene's row of `metadata_camera_parameters.csv`; the rows of other scenes stay as they are. A table that is damaged is begun
+    /// anew: then the result says what was wrong, and the rows of other scenes are gone.
     ///
     /// # Errors
-    /// When the table cannot be read or written.
-    pub fn write_camera_parameters(&self, scene: &str, camera: &Camera) -> Result<(), DatasetError> {
+    /// When the file cannot be read or written.
+    pub fn write_camera_parameters(&self, scene: &str, camera: &Camera) -> Result<Option<DatasetError>, DatasetError> {
         check_name("scene name", scene)?;
-        let mut table = self.read_camera_parameters()?;
+        let (mut table, damage) = self.read_camera_parameters()?;
         let names = table.column("scene_name")?;
         let row = row_values(scene, camera);
         let cell = |column: &String| row.iter().find(|(name, _)| name == column).map_or(String::new(), |(_, value)| value.clone());
@@ -94,15 +95,16 @@ impl Dataset {
         table.rows.retain(|row| row[names] != scene);
         table.rows.push(cells);
         table.rows.sort_by(|a, b| a[names].cmp(&b[names]));
-        table.write()
+        table.write()?;
+        Ok(damage)
     }
 
-    /// Removes the rows of scenes that do not stay from `metadata_camera_parameters.csv`.
+    /// Removes the rows of scenes that do not stay from `metadata_camera_parameters.csv`. A table that is damaged stays as it is.
     ///
     /// # Errors
-    /// When the table cannot be read or written.
+    /// When the file cannot be read or written.
     pub fn retain_camera_parameters(&self, stays: impl Fn(&str) -> bool) -> Result<(), DatasetError> {
-        let mut table = self.read_camera_parameters()?;
+        let (mut table, _) = self.read_camera_parameters()?;
         let (names, before) = (table.column("scene_name")?, table.rows.len());
         table.rows.retain(|row| stays(&row[names]));
         if table.rows.len() < before { table.write() } else { Ok(()) }
@@ -132,15 +134,17 @@ impl Dataset {
         self.read_camera_table()?.projection_matrix(scene)
     }
 
-    /// The table, or an empty one with Hypersim's columns.
-    fn read_camera_parameters(&self) -> Result<Table, DatasetError> {
+    /// The table; an empty one with Hypersim's columns where there is none or it is damaged, which is then told.
+    fn read_camera_parameters(&self) -> Result<(Table, Option<DatasetError>), DatasetError> {
         let path = self.layout().camera_parameters();
-        match Table::read(&path) {
-            Err(error) if error.is_not_found() => {
-                let header = header();
-                Ok(Table::new(&path, &header.iter().map(String::as_str).collect::<Vec<_>>()))
-            }
-            table => table,
+        let header = header();
+        let empty = || Table::new(&path, &header.iter().map(String::as_str).collect::<Vec<_>>());
+        let whole = |table: Table| header.iter().try_for_each(|name| table.column(name).map(drop)).map(|()| table);
+        match Table::read(&path).and_then(whole) {
+            Ok(table) => Ok((table, None)),
+            Err(error) if error.is_not_found() => Ok((empty(), None)),
+            Err(damage @ DatasetError::Text { .. }) => Ok((empty(), Some(damage))),
+            Err(error) => Err(error),
         }
     }
 }
@@ -237,6 +241,24 @@ mod tests {
         assert!(dataset.table_projection("room_c").unwrap_err().to_string().contains("no row for the scene \"room_c\""));
         dataset.retain_camera_parameters(|scene| scene == "room_b").unwrap();
         assert_eq!(dataset.read_camera_table().unwrap().scenes().collect::<Vec<_>>(), ["room_b"]);
+    }
+
+    #[test]
+    fn a_damaged_table_is_begun_anew_and_what_was_wrong_is_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        assert!(dataset.write_camera_parameters("room_b", &OFF_CENTRE.into()).unwrap().is_none());
+        let path = dataset.layout().camera_parameters();
+        let whole = std::fs::read_to_string(&path).unwrap();
+        let damages = [String::new(), whole[..whole.len() - 20].into(), whole.replace("M_proj_00", "M_proi_00"), "\u{0}\u{1}".into()];
+        for damaged in damages {
+            std::fs::write(&path, &damaged).unwrap();
+            dataset.retain_camera_parameters(|_| false).unwrap();
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), damaged);
+            let told = dataset.write_camera_parameters("room_a", &OFF_CENTRE.into()).unwrap().unwrap().to_string();
+            assert!(told.contains("metadata_camera_parameters.csv"), "{told}");
+            assert_eq!(dataset.read_camera_table().unwrap().scenes().collect::<Vec<_>>(), ["room_a"]);
+        }
     }
 
     #[test]

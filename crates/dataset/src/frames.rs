@@ -198,6 +198,28 @@ impl Dataset {
         record.is_some_and(|record| record.denoise_hash == denoise_hash && self.files_are_there(scene, &record.files))
     }
 
+    /// True when the record of a frame's layers of `pass` can be read and all its files are there in full length. Labels and denoised layers
+    /// have records of their own.
+    pub fn layers_are_whole(&self, scene: &str, camera: &str, frame: u32, pass: Pass) -> bool {
+        let files = self.recorded_files(scene, camera, frame, pass).ok().flatten();
+        files.is_some_and(|files| self.files_are_there(scene, &files))
+    }
+
+    /// The files of the record that layers of `pass` have; `None` where there is no such record.
+    fn recorded_files(
+        &self,
+        scene: &str,
+        camera: &str,
+        frame: u32,
+        pass: Pass,
+    ) -> Result<Option<BTreeMap<String, FileRecord>>, DatasetError> {
+        Ok(match pass {
+            Pass::Label => self.label_record(scene, camera, frame)?.map(|record| record.files),
+            Pass::Denoised => self.denoise_record(scene, camera, frame)?.map(|record| record.files),
+            _ => self.frame_record(scene, camera, frame)?.map(|record| record.files),
+        })
+    }
+
     /// Why frames of a camera do not count although they have a commit record: the first file of each that is missing or has another
     /// length. `complete` are those that count, as [`Dataset::frame_numbers`] gives them. Hypersim's own data have no records.
     ///
@@ -209,13 +231,14 @@ impl Dataset {
         let mut incomplete = BTreeMap::new();
         for frame in names.iter().filter_map(|name| frame_number(name, "json")).filter(|frame| complete.binary_search(frame).is_err()) {
             let record = self.frame_record(scene, camera, frame)?;
-            incomplete.extend(record.and_then(|record| self.wrong_file(scene, &record.files)).map(|problem| (frame, problem)));
+            incomplete.extend(record.and_then(|record| self.wrong_file(scene, &record.files, Pass::Final)).map(|problem| (frame, problem)));
         }
         Ok(incomplete)
     }
 
     /// Warns of what a reader of the `complete` frames of a camera leaves out of `range`; `None`: of all frames. One warning names the
-    /// first of [`Dataset::incomplete_frames`] and says how many more there are.
+    /// first of [`Dataset::incomplete_frames`] and says how many more there are; one each does so for frames whose labels or denoised
+    /// layers have a record, but are not whole.
     ///
     /// # Errors
     /// As there.
@@ -226,14 +249,25 @@ impl Dataset {
         range: Option<&Range<u32>>,
         cx: &dyn Cx,
     ) -> Result<(), DatasetError> {
+        let is_asked_for = |frame: &u32| range.is_none_or(|range| range.contains(frame));
+        let warn = |message| cx.warn(Warning { place: format!("{scene}/{camera}"), message });
         let mut left_out = self.incomplete_frames(scene, camera, complete)?;
-        left_out.retain(|frame, _| range.is_none_or(|range| range.contains(frame)));
+        left_out.retain(|frame, _| is_asked_for(frame));
         if let Some((frame, problem)) = left_out.first_key_value() {
-            let who = match left_out.len() - 1 {
-                0 => format!("frame {frame} is"),
-                more => format!("frame {frame} and {more} more are"),
-            };
-            cx.warn(Warning { place: format!("{scene}/{camera}"), message: format!("{who} left out: {problem}") });
+            match left_out.len() - 1 {
+                0 => warn(format!("frame {frame} is left out: {problem}")),
+                more => warn(format!("frame {frame} and {more} more are left out: {problem}")),
+            }
+        }
+        for (pass, layers) in [(Pass::Label, "labels"), (Pass::Denoised, "denoised layers")] {
+            let asked_for = complete.iter().copied().filter(is_asked_for);
+            let mut lacking = asked_for.filter_map(|frame| Some((frame, self.wrong_layers(scene, camera, frame, pass)?)));
+            if let Some((frame, problem)) = lacking.next() {
+                match lacking.count() {
+                    0 => warn(format!("the {layers} of frame {frame} are not whole: {problem}")),
+                    more => warn(format!("the {layers} of frame {frame} and {more} more are not whole: {problem}")),
+                }
+            }
         }
         Ok(())
     }
@@ -282,22 +316,35 @@ impl Dataset {
 
     /// True when all files of a record are there in full length.
     pub(crate) fn files_are_there(&self, scene: &str, files: &BTreeMap<String, FileRecord>) -> bool {
-        self.wrong_file(scene, files).is_none()
+        self.wrong_file(scene, files, Pass::Final).is_none()
     }
 
-    /// What is wrong with the first file of a frame's record that is missing or has another length.
-    fn wrong_file(&self, scene: &str, files: &BTreeMap<String, FileRecord>) -> Option<DatasetError> {
+    /// What is wrong with the layers of `pass` that a frame has a record of, if anything.
+    fn wrong_layers(&self, scene: &str, camera: &str, frame: u32, pass: Pass) -> Option<DatasetError> {
+        match self.recorded_files(scene, camera, frame, pass) {
+            Ok(files) => self.wrong_file(scene, &files?, pass),
+            Err(error) => Some(error),
+        }
+    }
+
+    /// What is wrong with the first file of a frame's record, which is that of its layers of `pass`, that is missing or has another length.
+    fn wrong_file(&self, scene: &str, files: &BTreeMap<String, FileRecord>, pass: Pass) -> Option<DatasetError> {
         let folder = self.layout().scene_dir(scene);
+        let remedy = match pass {
+            Pass::Label => "run the label stage again",
+            Pass::Denoised => "run the denoise stage again",
+            _ => "render the frame again",
+        };
         files.iter().find_map(|(name, file)| {
             let path = folder.join(name);
             match fs::metadata(&path).map(|found| found.len()) {
                 Ok(bytes) if bytes == file.bytes => None,
                 Ok(bytes) => {
-                    let problem = format!("it has {bytes} bytes, but the record of its frame says {}; render the frame again", file.bytes);
+                    let problem = format!("it has {bytes} bytes, but the record of its frame says {}; {remedy}", file.bytes);
                     Some(DatasetError::hdf5(&path, problem))
                 }
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                    Some(DatasetError::hdf5(&path, "it is missing, but its frame has a record; render the frame again"))
+                    Some(DatasetError::hdf5(&path, format!("it is missing, but its frame has a record; {remedy}")))
                 }
                 Err(error) => Some(DatasetError::io("look for", &path, error)),
             }

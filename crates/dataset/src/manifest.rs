@@ -7,6 +7,7 @@ use enfilade_frame::{Dtype, LAYERS, LayerSpec, Pass};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 /// The manifest. The same dataset always gives the same bytes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -283,16 +284,25 @@ impl Dataset {
     /// # Errors
     /// When a file that is there cannot be read.
     pub fn verify_checksums(&self, manifest: &Manifest) -> Result<Vec<String>, DatasetError> {
-        let cameras = manifest.scenes.iter().flat_map(|(scene, entry)| entry.cameras.values().map(move |camera| (scene, camera)));
-        let frames = cameras.flat_map(|(scene, camera)| camera.frames.iter().map(move |frame| (scene, frame)));
-        let files: Vec<_> = frames.flat_map(|(scene, frame)| frame.files.iter().map(move |file| (scene, file))).collect();
-        let check = |(scene, (name, expected)): (&String, (&String, &FileRecord))| self.check_file(scene, name, expected);
+        let cameras = manifest.scenes.iter().flat_map(|(scene, entry)| entry.cameras.iter().map(move |camera| (scene, camera)));
+        let frames = cameras.flat_map(|(scene, (camera, entry))| entry.frames.iter().map(move |frame| (scene, camera, frame)));
+        let files: Vec<_> =
+            frames.flat_map(|(scene, camera, f)| f.files.iter().map(move |file| ([scene, camera], f.frame, file))).collect();
+        let check = |(shot, frame, (name, expected)): ([&String; 2], u32, (&String, &FileRecord))| {
+            self.check_file(shot.map(String::as_str), frame, name, expected)
+        };
         let problems: Vec<Option<String>> = files.into_par_iter().map(check).collect::<Result<_, _>>()?;
         Ok(problems.into_iter().flatten().collect())
     }
 
     /// What is wrong with one file, if anything.
-    fn check_file(&self, scene: &str, name: &str, expected: &FileRecord) -> Result<Option<String>, DatasetError> {
+    fn check_file(
+        &self,
+        [scene, camera]: [&str; 2],
+        frame: u32,
+        name: &str,
+        expected: &FileRecord,
+    ) -> Result<Option<String>, DatasetError> {
         let path = self.layout().scene_dir(scene).join(name);
         let problem = match FileRecord::of(&path) {
             Err(error) if error.is_not_found() => "it is missing".to_string(),
@@ -300,6 +310,22 @@ impl Dataset {
             Ok(found) if found.blake3 != expected.blake3 => "its content is not what was written (checksums differ)".to_string(),
             found => return found.map(|_| None),
         };
-        Ok(Some(format!("{}: {problem}; delete the frame's record and render it again", path.display())))
+        let (record, stage) = self.made_by(scene, camera, frame, &path);
+        let remedy = match record.is_file() {
+            true => format!("delete {} and run the {stage} stage again", record.display()),
+            false => "copy it again, or make it again where it was made".to_string(),
+        };
+        Ok(Some(format!("{}: {problem}; {remedy}", path.display())))
+    }
+
+    /// The record that a layer at `path` has, and the stage that makes both.
+    fn made_by(&self, scene: &str, camera: &str, frame: u32, path: &Path) -> (PathBuf, &'static str) {
+        let layout = self.layout();
+        let spec = LAYERS.iter().find(|spec| layout.layer(scene, camera, frame, spec.layer) == path);
+        match spec.map(|spec| spec.pass) {
+            Some(Pass::Label) => (layout.label_record(scene, camera, frame), "label"),
+            Some(Pass::Denoised) => (layout.denoise_record(scene, camera, frame), "denoise"),
+            _ => (layout.frame_record(scene, camera, frame), "render"),
+        }
     }
 }

@@ -5,7 +5,7 @@ mod analytic;
 use analytic::{CAMERA, SCENE};
 use enfilade_dataset::{Dataset, DatasetError, FrameStatus, FrameTime, ManifestInfo};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values, f16};
-use enfilade_scene::Intrinsics;
+use enfilade_scene::{Heard, Intrinsics};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -110,8 +110,11 @@ fn the_manifest_tells_what_became_of_every_frame_and_finds_damage() {
     *bytes.last_mut().unwrap() ^= 1;
     fs::write(&path, bytes).unwrap();
     fs::remove_file(dataset.layout().layer(SCENE, CAMERA, 0, Layer::Color)).unwrap();
+    fs::write(dataset.layout().layer(SCENE, CAMERA, 2, Layer::Semantic), "half").unwrap();
     let problems = dataset.verify_checksums(&manifest).unwrap();
-    assert_eq!(problems.len(), 2, "{problems:?}");
+    assert_eq!(problems.len(), 3, "{problems:?}");
+    let says = |problem: &str, record: &str, stage: &str| problem.ends_with(&format!("{record} and run the {stage} stage again"));
+    assert!(says(&problems[1], "frame.0002.json", "render") && says(&problems[2], "frame.0002.labels.json", "label"), "{problems:?}");
     assert!(problems[0].contains("frame.0000.color.hdf5: it is missing"), "{problems:?}");
     assert!(problems[1].contains("frame.0002.position.hdf5: its content is not what was written"), "{problems:?}");
 }
@@ -236,6 +239,28 @@ fn frames_with_a_record_that_do_not_count_are_told_with_their_first_wrong_file()
     let [(0, first), (1, second)] = told.as_slice() else { panic!("{told:?}") };
     assert!(first.contains("frame.0000.position.hdf5: it is missing"), "{first}");
     assert!(second.contains("frame.0001.depth_meters.hdf5: it has 4 bytes"), "{second}");
+}
+
+#[test]
+fn readers_are_warned_of_labels_that_have_a_record_but_are_not_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    analytic::write(&dataset, &small(), 4);
+    let told = |range: Option<std::ops::Range<u32>>| {
+        let heard = Heard::default();
+        dataset.warn_of_incomplete([SCENE, CAMERA], &[0, 1, 2], range.as_ref(), &heard).unwrap();
+        heard.lines()
+    };
+    assert!(told(None).is_empty());
+    fs::remove_file(dataset.layout().layer(SCENE, CAMERA, 1, Layer::Semantic)).unwrap();
+    fs::write(dataset.layout().label_record(SCENE, CAMERA, 2), "half").unwrap();
+    let [message] = told(None).try_into().unwrap();
+    assert!(message.contains("the labels of frame 1 and 1 more are not whole:"), "{message}");
+    assert!(message.contains("frame.0001.semantic.hdf5") && message.ends_with("run the label stage again"), "{message}");
+    assert!(told(Some(0..1)).is_empty());
+    assert!(told(Some(2..3))[0].contains("the labels of frame 2 are not whole:"));
+    let has_labels = |frame| dataset.layers_are_whole(SCENE, CAMERA, frame, Pass::Label);
+    assert_eq!([0, 1, 2, 3].map(has_labels), [true, false, false, false]);
 }
 
 #[test]

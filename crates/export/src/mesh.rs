@@ -15,11 +15,16 @@ pub(crate) struct InstanceMesh {
     pub faces: Vec<[u32; 3]>,
 }
 
+/// The first file that is missing of those that the surfaces of instances are made from.
+pub(crate) fn missing_mesh_file(dataset: &Dataset, scene: &str) -> Option<&'static str> {
+    let needed = ["mesh_vertices.hdf5", "mesh_faces_vi.hdf5", "mesh_faces_oi.hdf5", "mesh_objects_si.hdf5", "mesh_objects_sii.hdf5"];
+    needed.into_iter().find(|name| !dataset.layout().mesh_file(scene, name).is_file())
+}
+
 /// The surfaces of the scene's instances by number; empty where the dataset has no mesh or no label tables (Hypersim's public files).
 pub(crate) fn instance_meshes(dataset: &Dataset, scene: &str) -> Result<BTreeMap<i16, InstanceMesh>, ExportError> {
     let file = |name: &str| dataset.layout().mesh_file(scene, name);
-    let needed = ["mesh_vertices.hdf5", "mesh_faces_vi.hdf5", "mesh_faces_oi.hdf5", "mesh_objects_si.hdf5", "mesh_objects_sii.hdf5"];
-    if !needed.iter().all(|name| file(name).is_file()) {
+    if missing_mesh_file(dataset, scene).is_some() {
         return Ok(BTreeMap::new());
     }
     let metres = dataset.meters_per_asset_unit(scene)?;

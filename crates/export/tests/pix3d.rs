@@ -167,5 +167,5 @@ fn a_scene_without_a_labelled_mesh_is_refused() {
     let (folder, dataset) = written(&camera(64, 48, 40.0));
     std::fs::remove_file(dataset.layout().mesh_file("room", "mesh_vertices.hdf5")).unwrap();
     let found = exported(folder.path(), &dataset).unwrap_err().to_string();
-    assert!(found.contains("room cannot be exported as pix3d: it has no labelled mesh"), "{found}");
+    assert!(found.contains("room cannot be exported as pix3d: mesh_vertices.hdf5 is missing in _detail/mesh"), "{found}");
 }

@@ -3,7 +3,7 @@
 use crate::bundle::unpack;
 use crate::commit::read_marker;
 use crate::plan::object_name;
-use crate::work::missing_by_task;
+use crate::work::{damaged_object, missing_by_task};
 use crate::{FarmError, FrameKey, Job, Marker, Ranges, print_ranges};
 use enfilade_dataset::{Dataset, FrameTime, write_bytes};
 use enfilade_pipeline::{Reporter, Summary, finish, gather};
@@ -30,11 +30,11 @@ pub fn collect(job: &Job, out: &Path, reporter: &dyn Reporter) -> Result<Summary
     let taken = gather(out, &job.plan.id)?;
     fetch_files(job, out)?;
     let dataset = Dataset::create(out)?;
-    for task in tasks {
+    for (number, task) in (0..).zip(tasks) {
         let part = &task.part;
         for &frame in &part.frames {
             let key = FrameKey { scene: part.scene.clone(), camera: part.camera.clone(), frame };
-            let marker = read_marker(&job.store, &key)?.ok_or_else(|| damaged(&key.marker(), "is gone; do its task again"))?;
+            let marker = read_marker(&job.store, &key)?.ok_or_else(|| damaged(job, &key.marker(), "is gone", number))?;
             if dataset.frame_record(&key.scene, &key.camera, frame).ok().flatten().is_none() {
                 fetch_frame(job, &marker, out)?;
                 dataset.append_time(&key.scene, &key.camera, frame, time(&marker))?;
@@ -50,10 +50,14 @@ fn time(marker: &Marker) -> FrameTime {
 }
 
 fn fetch_frame(job: &Job, marker: &Marker, out: &Path) -> Result<(), FarmError> {
-    let bytes = job.store.get(&marker.payload)?.ok_or_else(|| damaged(&marker.payload, "is missing"))?;
+    let wrong = |problem: &str| damaged(job, &marker.payload, problem, marker.task);
+    let bytes = job.store.get(&marker.payload)?.ok_or_else(|| wrong("is missing"))?;
+    if bytes.len() as u64 != marker.bytes {
+        return Err(wrong(&format!("has {} bytes, expected {}", bytes.len(), marker.bytes)));
+    }
     if blake3::hash(&bytes).to_hex().as_str() != marker.blake3 {
-        let problem = format!("is not what {} says; remove both, and do the task again", marker.key.marker());
-        return Err(damaged(&marker.payload, &problem));
+        // Workers look at lengths alone.
+        return Err(wrong(&format!("is not what {} says; remove both", marker.key.marker())));
     }
     unpack(&bytes, out, &marker.payload)
 }
@@ -68,15 +72,17 @@ fn fetch_files(job: &Job, out: &Path) -> Result<(), FarmError> {
             continue;
         }
         let name = object_name(&file.blake3);
-        let bytes = job.store.get(&name)?.ok_or_else(|| damaged(&name, "is missing"))?;
+        let bytes = job.store.get(&name)?.ok_or_else(|| damaged_object(job, &name, "is missing"))?;
         if blake3::hash(&bytes).to_hex().as_str() != file.blake3 {
-            return Err(damaged(&name, "does not hold what its name says"));
+            return Err(damaged_object(job, &name, "does not hold what its name says"));
         }
         write_bytes(&target, &bytes)?;
     }
     Ok(())
 }
 
-fn damaged(place: &str, problem: &str) -> FarmError {
-    FarmError::Damaged { place: place.into(), problem: problem.into() }
+/// Something of a frame that its task makes again.
+fn damaged(job: &Job, name: &str, problem: &str, task: u32) -> FarmError {
+    let problem = format!("{problem}; do its task again: enfilade farm work {} --task {task}", job.store.url());
+    FarmError::Damaged { place: job.store.full_name(name), problem }
 }

@@ -29,6 +29,8 @@ const ENGINE_VARIABLES: [&str; 14] = [
 
 /// Folder of all markers.
 pub(crate) const DONE: &str = "done";
+/// Folder of all payloads.
+pub(crate) const FRAMES: &str = "frames";
 
 /// A frame of the job.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -56,8 +58,13 @@ impl FrameKey {
         format!("kept/{}/{}/{:04}.partial", self.scene, self.camera, self.frame)
     }
 
+    /// What the names of its payloads begin with, whoever made them.
+    pub(crate) fn payloads(&self) -> String {
+        format!("{FRAMES}/{}/{}/{:04}.", self.scene, self.camera, self.frame)
+    }
+
     fn payload(&self, attempt: &str) -> String {
-        format!("frames/{}/{}/{:04}.{attempt}.tar", self.scene, self.camera, self.frame)
+        format!("{}{attempt}.tar", self.payloads())
     }
 }
 
@@ -138,9 +145,19 @@ pub(crate) fn read_marker(store: &Store, key: &FrameKey) -> Result<Option<Marker
 pub(crate) fn read_marker_at(store: &Store, name: &str) -> Result<Option<Marker>, FarmError> {
     let Some(bytes) = store.get(name)? else { return Ok(None) };
     let marker = serde_json::from_slice(&bytes);
-    marker
-        .map(Some)
-        .map_err(|error| FarmError::Damaged { place: name.into(), problem: format!("{error}; remove it, and the frame is made again") })
+    marker.map(Some).map_err(|error| FarmError::Damaged {
+        place: store.full_name(name),
+        problem: format!("{error}; remove it and do its task again, which makes the frame anew"),
+    })
+}
+
+/// Whether what a marker names is there and as long as it says. A marker that cannot be read names nothing.
+pub(crate) fn is_whole(store: &Store, key: &FrameKey) -> Result<bool, FarmError> {
+    match read_marker(store, key) {
+        Ok(Some(marker)) => Ok(store.size(&marker.payload)? == Some(marker.bytes)),
+        Ok(None) | Err(FarmError::Damaged { .. }) => Ok(false),
+        Err(error) => Err(error),
+    }
 }
 
 /// Puts a frame's files into the store, and then its marker. `marker` names no payload yet.
@@ -197,6 +214,22 @@ mod tests {
         let there = read_marker(&store, &marker("x").key).unwrap().unwrap();
         assert_eq!(store.get(&there.payload).unwrap().unwrap(), b"bytes");
         assert_eq!((there.attempt.as_str(), there.bytes), ("a", 5));
+    }
+
+    #[test]
+    fn a_marker_counts_while_its_payload_is_there_and_as_long_as_it_says() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path().to_str().unwrap(), std::iter::empty()).unwrap();
+        let key = marker("a").key;
+        assert!(!is_whole(&store, &key).unwrap());
+        commit(&store, b"bytes".to_vec(), marker("a")).unwrap();
+        assert!(is_whole(&store, &key).unwrap());
+        store.put(&key.payload("a"), b"byte".to_vec()).unwrap();
+        assert!(!is_whole(&store, &key).unwrap());
+        store.remove(&key.payload("a")).unwrap();
+        assert!(!is_whole(&store, &key).unwrap());
+        store.put(&key.marker(), b"{".to_vec()).unwrap();
+        assert!(!is_whole(&store, &key).unwrap());
     }
 
     #[test]

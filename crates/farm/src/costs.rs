@@ -59,6 +59,8 @@ pub struct Costs {
     pub retries: u32,
     /// Most memory of any attempt, bytes.
     pub peak_memory_bytes: Option<u64>,
+    /// Records of attempts that cannot be read and do not count, each with what is wrong.
+    pub unreadable: Vec<String>,
 }
 
 /// What the job has cost until now. Every marker and every record of an attempt is read.
@@ -72,7 +74,8 @@ pub fn costs(job: &Job) -> Result<Costs, FarmError> {
     }
     let expected =
         |marker: &Marker| job.plan.tasks.get(marker.task as usize).map_or(0.0, |task| task.cpu_s / task.part.frames.len() as f64);
-    Ok(Costs { expected_cpu_s: markers.iter().map(expected).sum(), ..sum(&markers, attempts(job)?) })
+    let (records, unreadable) = attempts(job)?;
+    Ok(Costs { expected_cpu_s: markers.iter().map(expected).sum(), unreadable, ..sum(&markers, records) })
 }
 
 /// What went into the frames that an attempt has committed.

@@ -1,5 +1,6 @@
 use enfilade_dataset::DatasetError;
 use std::error::Error as StdError;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Why something on a farm could not be done.
@@ -68,6 +69,16 @@ impl FarmError {
         Self::Io { action, path: path.into(), source }
     }
 
+    /// What to do about it, where the message does not say it.
+    pub fn hint(&self) -> Option<&'static str> {
+        match of_the_system(self)?.kind() {
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+                Some("free some space and give the same command again: what the job has already is not made again")
+            }
+            _ => None,
+        }
+    }
+
     /// True when another attempt, here or elsewhere, may succeed: the store, the network, a full disk, an interruption. False when the
     /// same would happen again.
     pub fn is_transient(&self) -> bool {
@@ -82,13 +93,17 @@ impl FarmError {
 
 /// True when the system refused something, such as space on a disk, at the bottom of `error`.
 fn is_of_the_system(error: &(dyn StdError + 'static)) -> bool {
-    std::iter::successors(Some(error), |&error| error.source()).any(|error| error.is::<std::io::Error>())
+    of_the_system(error).is_some()
+}
+
+/// What the system said, at the bottom of `error`.
+fn of_the_system<'e>(error: &'e (dyn StdError + 'static)) -> Option<&'e std::io::Error> {
+    std::iter::successors(Some(error), |&error| error.source()).find_map(|error| error.downcast_ref())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::ErrorKind;
 
     #[test]
     fn a_full_disk_passes_wherever_it_was_met_and_a_wrong_file_does_not() {
@@ -97,5 +112,17 @@ mod tests {
         let of_stage = |error: DatasetError| FarmError::Pipeline(enfilade_pipeline::Error::Stage(Box::new(error)));
         assert!(FarmError::Dataset(full()).is_transient() && of_stage(full()).is_transient());
         assert!(!FarmError::Dataset(wrong()).is_transient() && !of_stage(wrong()).is_transient());
+    }
+
+    #[test]
+    fn a_full_disk_under_a_store_is_told_with_what_to_do() {
+        let failed = |kind: ErrorKind| {
+            let source = object_store::Error::Generic { store: "LocalFileSystem", source: Box::new(std::io::Error::from(kind)) };
+            FarmError::store("/shared/job/objects/ab/abc")(source)
+        };
+        let full = failed(ErrorKind::StorageFull);
+        assert!(full.to_string().starts_with("the store failed at /shared/job/objects/ab/abc: "), "{full}");
+        assert!(full.hint().is_some_and(|hint| hint.starts_with("free some space")));
+        assert_eq!(failed(ErrorKind::TimedOut).hint(), None);
     }
 }

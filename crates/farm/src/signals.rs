@@ -10,7 +10,8 @@ pub fn stop_on_signals() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = stop.clone();
     let (ready, is_ready) = channel();
-    std::thread::spawn(move || {
+    // Without a thread nobody waits for them either.
+    let _ = std::thread::Builder::new().spawn(move || {
         let Ok(runtime) = tokio::runtime::Builder::new_current_thread().enable_all().build() else { return };
         runtime.block_on(asked_to_end(ready));
         flag.store(true, Ordering::Relaxed);

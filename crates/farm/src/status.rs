@@ -26,6 +26,8 @@ pub struct Status {
     pub broken: BTreeMap<String, u32>,
     /// The last error of each task that is not done and has failed.
     pub errors: BTreeMap<u32, String>,
+    /// Records of attempts that cannot be read and are left out, each with what is wrong.
+    pub unreadable: Vec<String>,
 }
 
 impl Status {
@@ -51,6 +53,7 @@ pub fn status(job: &Job) -> Result<Status, FarmError> {
         different: 0,
         broken: BTreeMap::new(),
         errors: BTreeMap::new(),
+        unreadable: Vec::new(),
     };
     let missing = missing_by_task(job)?;
     status.frames_done = status.frames - missing.values().map(|&count| count as u64).sum::<u64>();
@@ -59,7 +62,9 @@ pub fn status(job: &Job) -> Result<Status, FarmError> {
         status.left_cpu_s += task.cpu_s * count as f64 / task.part.frames.len() as f64;
         status.missing.insert(number);
     }
-    for record in attempts(job)? {
+    let (records, unreadable) = attempts(job)?;
+    status.unreadable = unreadable;
+    for record in records {
         *status.attempts.entry(record.ended.map_or("open", Ended::word)).or_default() += 1;
         status.different += record.different;
         record.broken.into_iter().for_each(|(law, frames)| *status.broken.entry(law).or_default() += frames);
@@ -81,15 +86,17 @@ impl Ended {
     }
 }
 
-/// Every record of an attempt.
-pub(crate) fn attempts(job: &Job) -> Result<Vec<AttemptRecord>, FarmError> {
-    let mut records = Vec::new();
+/// Every record of an attempt, and what is wrong with those that cannot be read: no frame depends on them.
+pub(crate) fn attempts(job: &Job) -> Result<(Vec<AttemptRecord>, Vec<String>), FarmError> {
+    let (mut records, mut unreadable) = (Vec::new(), Vec::new());
     for (name, _) in job.store.list("attempts")? {
         let Some(bytes) = job.store.get(&name)? else { continue };
-        let record = serde_json::from_slice(&bytes);
-        records.push(
-            record.map_err(|error| FarmError::Damaged { place: name, problem: format!("{error}; remove it, nothing depends on it") })?,
-        );
+        match serde_json::from_slice(&bytes) {
+            Ok(record) => records.push(record),
+            Err(error) => {
+                unreadable.push(format!("{}: {error}; it was left out, and no frame depends on it: remove it", job.store.full_name(&name)));
+            }
+        }
     }
-    Ok(records)
+    Ok((records, unreadable))
 }

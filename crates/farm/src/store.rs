@@ -62,6 +62,10 @@ fn local(place: &str) -> Option<&Path> {
 
 /// Refuses a folder that has something else than a job, or the beginning of one.
 fn refuse_foreign_folder(folder: &Path) -> Result<(), FarmError> {
+    if folder.is_symlink() && !folder.exists() {
+        let problem = "is a link that leads nowhere; make the folder that it leads to, or name another one";
+        return Err(FarmError::Request(format!("{} {problem}", folder.display())));
+    }
     let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
     let names: Vec<String> = entries.filter_map(Result::ok).map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
     let foreign = names.iter().find(|name| !name.starts_with('.') && !OF_JOBS.contains(&name.as_str()));
@@ -127,7 +131,7 @@ impl Store {
     /// When the store cannot take it.
     pub fn put(&self, name: &str, bytes: Vec<u8>) -> Result<(), FarmError> {
         let (key, payload) = (self.key(name), PutPayload::from(bytes));
-        self.again(|| self.inner.put(&key, payload.clone())).map(drop).map_err(FarmError::store(name))
+        self.again(|| self.inner.put(&key, payload.clone())).map(drop).map_err(|error| self.failed(name, error))
     }
 
     /// Writes an object of whose writers only one may succeed.
@@ -142,7 +146,7 @@ impl Store {
         match self.again(|| self.inner.put_opts(&key, payload.clone(), options())) {
             Ok(_) => Ok(Created::Yes),
             Err(StoreError::AlreadyExists { .. } | StoreError::Precondition { .. }) => Ok(Created::Taken),
-            Err(error) => Err(FarmError::store(name)(error)),
+            Err(error) => Err(self.failed(name, error)),
         }
     }
 
@@ -155,7 +159,20 @@ impl Store {
         match self.again(read) {
             Ok(bytes) => Ok(Some(bytes.to_vec())),
             Err(StoreError::NotFound { .. }) => Ok(None),
-            Err(error) => Err(FarmError::store(name)(error)),
+            Err(error) => Err(self.failed(name, error)),
+        }
+    }
+
+    /// An object's length in bytes; `None` when there is none of that name.
+    ///
+    /// # Errors
+    /// When the store does not answer.
+    pub fn size(&self, name: &str) -> Result<Option<u64>, FarmError> {
+        let key = self.key(name);
+        match self.again(|| self.inner.head(&key)) {
+            Ok(meta) => Ok(Some(meta.size)),
+            Err(StoreError::NotFound { .. }) => Ok(None),
+            Err(error) => Err(self.failed(name, error)),
         }
     }
 
@@ -167,7 +184,7 @@ impl Store {
         let key = self.key(name);
         match self.again(|| self.inner.delete(&key)) {
             Ok(()) | Err(StoreError::NotFound { .. }) => Ok(()),
-            Err(error) => Err(FarmError::store(name)(error)),
+            Err(error) => Err(self.failed(name, error)),
         }
     }
 
@@ -178,7 +195,7 @@ impl Store {
     pub fn list(&self, folder: &str) -> Result<Vec<(String, u64)>, FarmError> {
         let prefix = self.key(folder);
         let read = || async { self.inner.list(Some(&prefix)).try_collect::<Vec<_>>().await };
-        let found = self.again(read).map_err(FarmError::store(folder))?;
+        let found = self.again(read).map_err(|error| self.failed(folder, error))?;
         let name = |key: &Key| {
             let parts = key.prefix_match(&self.root)?;
             Some(parts.map(|part| part.as_ref().to_string()).collect::<Vec<_>>().join("/"))
@@ -225,6 +242,15 @@ impl Store {
         Ok(())
     }
 
+    /// An object's name with the place, for messages.
+    pub(crate) fn full_name(&self, name: &str) -> String {
+        format!("{}/{name}", self.url)
+    }
+
+    fn failed(&self, name: &str, error: StoreError) -> FarmError {
+        FarmError::store(&self.full_name(name))(error)
+    }
+
     fn key(&self, name: &str) -> Key {
         name.split('/').filter(|part| !part.is_empty()).fold(self.root.clone(), |key, part| key.join(part))
     }
@@ -262,6 +288,7 @@ mod tests {
         store.put("b/one", b"11".to_vec()).unwrap();
         assert_eq!(store.get("b/one").unwrap().unwrap(), b"11");
         assert_eq!(store.get("b/three").unwrap(), None);
+        assert_eq!([store.size("b/two").unwrap(), store.size("b/three").unwrap()], [Some(20), None]);
         assert_eq!(store.list("b").unwrap(), [("b/one".to_string(), 2), ("b/two".to_string(), 20)]);
         assert_eq!(store.list("none").unwrap(), []);
         store.remove("b/one").unwrap();
@@ -304,6 +331,16 @@ mod tests {
         // Scripts of an engine may lie beside a job.
         Store::open(&place("job/new"), std::iter::empty()).unwrap().put(PLAN, vec![1]).unwrap();
         begin("job/new").unwrap();
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_link_that_leads_nowhere_is_no_place_for_a_job() {
+        let dir = tempfile::tempdir().unwrap();
+        let link = dir.path().join("job");
+        std::os::unix::fs::symlink("gone", &link).unwrap();
+        let error = Store::begin(link.to_str().unwrap(), std::iter::empty()).unwrap_err().to_string();
+        assert!(error.contains("job is a link that leads nowhere"), "{error}");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What a worker does: takes its tasks one after the other, makes the frames that nobody has committed, and commits them.
 
 use crate::bundle::pack;
-use crate::commit::{Commit, DONE, commit, read_marker};
+use crate::commit::{Commit, DONE, FRAMES, commit, is_whole, read_marker};
 use crate::plan::object_name;
 use crate::{Attempt, FarmError, FrameKey, Job, Marker, Ranges, Task};
 use enfilade_dataset::write_bytes;
@@ -156,28 +156,44 @@ fn put_record(job: &Job, name: &str, record: &AttemptRecord) -> Result<(), FarmE
     job.store.put(name, text)
 }
 
-/// The frames of a task that have no marker.
+/// The frames of a task that are to be made. Markers of payloads that are not whole are removed: none could be committed beside them.
 fn missing_frames(job: &Job, task: &Task) -> Result<BTreeSet<u32>, FarmError> {
-    let markers = markers(job, &FrameKey::done_folder(&task.part.scene, &task.part.camera))?;
-    Ok(without_marker(task, &markers))
+    let part = &task.part;
+    let markers = names(job, &FrameKey::done_folder(&part.scene, &part.camera), 0)?;
+    let mut missing = BTreeSet::new();
+    for key in keys(task) {
+        let is_marked = markers.contains(&key.marker());
+        if is_marked && is_whole(&job.store, &key)? {
+            continue;
+        }
+        if is_marked {
+            job.store.remove(&key.marker())?;
+        }
+        missing.insert(key.frame);
+    }
+    Ok(missing)
 }
 
-/// By number, how many frames are missing of each task that is not done. All markers are listed once, since a listing is what
-/// stores are slow at.
+/// By number, how many frames are missing of each task that is not done: those without a marker or without any payload. All of these
+/// are listed once, since a listing is what stores are slow at, and none is opened.
 pub(crate) fn missing_by_task(job: &Job) -> Result<BTreeMap<u32, usize>, FarmError> {
-    let markers = markers(job, DONE)?;
-    let missing = job.plan.tasks.iter().map(|task| without_marker(task, &markers).len());
+    // In this order, since a frame that is committed meanwhile gets its payload first.
+    let (markers, payloads) = (names(job, DONE, 1)?, names(job, FRAMES, 1)?);
+    let has_payload = |start: String| payloads.range(start.clone()..).next().is_some_and(|name| name.starts_with(&start));
+    let is_there = |key: &FrameKey| markers.contains(&key.marker()) && has_payload(key.payloads());
+    let missing = job.plan.tasks.iter().map(|task| keys(task).filter(|key| !is_there(key)).count());
     Ok((0..).zip(missing).filter(|&(_, count)| count > 0).collect())
 }
 
-fn markers(job: &Job, folder: &str) -> Result<BTreeSet<String>, FarmError> {
-    Ok(job.store.list(folder)?.into_iter().map(|(name, _)| name).collect())
+/// The objects below `folder` that have at least so many bytes.
+fn names(job: &Job, folder: &str, least_bytes: u64) -> Result<BTreeSet<String>, FarmError> {
+    Ok(job.store.list(folder)?.into_iter().filter(|(_, bytes)| *bytes >= least_bytes).map(|(name, _)| name).collect())
 }
 
-fn without_marker(task: &Task, markers: &BTreeSet<String>) -> BTreeSet<u32> {
+/// The frames of a task.
+fn keys(task: &Task) -> impl Iterator<Item = FrameKey> {
     let part = &task.part;
-    let key = |frame| FrameKey { scene: part.scene.clone(), camera: part.camera.clone(), frame };
-    part.frames.iter().copied().filter(|&frame| !markers.contains(&key(frame).marker())).collect()
+    part.frames.iter().map(move |&frame| FrameKey { scene: part.scene.clone(), camera: part.camera.clone(), frame })
 }
 
 /// What came of the frames that an attempt has handed in.
@@ -308,7 +324,7 @@ fn fetch(job: &Job, work: &Work, blake3: &str) -> Result<PathBuf, FarmError> {
         return Ok(cached);
     }
     let name = object_name(blake3);
-    let damaged = |problem: &str| FarmError::Damaged { place: name.clone(), problem: format!("{problem}; plan the job anew") };
+    let damaged = |problem: &str| damaged_object(job, &name, problem);
     let bytes = job.store.get(&name)?.ok_or_else(|| damaged("is missing"))?;
     if !whole(&bytes) {
         return Err(damaged("does not hold what its name says"));
@@ -318,6 +334,12 @@ fn fetch(job: &Job, work: &Work, blake3: &str) -> Result<PathBuf, FarmError> {
     write_bytes(&aside, &bytes)?;
     std::fs::rename(&aside, &cached).map_err(|source| FarmError::io("put in place", &cached, source))?;
     Ok(cached)
+}
+
+/// An object that the plan names is not what it should be; planning into the same place does not put it there again.
+pub(crate) fn damaged_object(job: &Job, name: &str, problem: &str) -> FarmError {
+    let problem = format!("{problem}; plan the job anew, in another place");
+    FarmError::Damaged { place: job.store.full_name(name), problem }
 }
 
 /// Puts a file of the cache into a worker's folder. It is copied, since a stage may write over it.

@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Folder, png, warnings};
+use enfilade_import::{EnvironmentOverride, ImportOptions};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, NormalMap, Wrap};
 
@@ -26,6 +27,26 @@ fn groups_and_materials_become_named_parts() {
     assert!(reflectance.factor == Rgb::new(0.6, 0.6, 0.7) && (alpha.factor - 0.1).abs() < 1e-6);
     assert!(warnings(&imported).contains("usemtl Unknown"), "{}", warnings(&imported));
     assert_eq!(imported.inputs, [folder.path("a.obj"), folder.path("my room.mtl")]);
+}
+
+/// Pictures had absolute paths as names, so that a copy of a scene in another folder was another scene.
+#[test]
+fn a_scene_is_the_same_wherever_its_files_lie() {
+    let imported = || {
+        let folder = Folder::new();
+        for picture in ["room/tex/wood.png", "grey.png", "sky.png"] {
+            folder.write(picture, png(2, 2, [9, 9, 9, 255]));
+        }
+        folder.write("room/a.mtl", "newmtl M\nmap_Kd tex/wood.png\nmap_Bump ../grey.png\n");
+        folder.write("room/a.obj", format!("mtllib a.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n"));
+        let environment = EnvironmentOverride { file: folder.path("sky.png"), scale: 1.0, rotation_deg: 0.0 };
+        let options = ImportOptions { environment: Some(environment), ..ImportOptions::default() };
+        folder.load_with("room/a.obj", &options).unwrap().scene
+    };
+    let scene = imported();
+    assert_eq!(scene, imported());
+    let names: Vec<&str> = scene.images.iter().map(|image| image.name.as_str()).collect();
+    assert_eq!(names, ["tex/wood.png", "../grey.png", "sky.png"]);
 }
 
 /// Each group was compared with all others, which took minutes.

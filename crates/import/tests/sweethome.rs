@@ -391,6 +391,18 @@ fn libraries_stand_in_rows_with_their_names_and_sizes() {
 }
 
 #[test]
+fn pictures_of_models_are_called_by_their_places_in_the_archive() {
+    let piece = "<pieceOfFurniture name='Chair' model='3/chair.obj' x='200' y='150' width='10' depth='10' height='10'/>";
+    let chair = TRIPOD.replace("tripod", "chair");
+    let picture = png(2, 2, [9, 9, 9, 255]);
+    let more: [(&str, &[u8]); 3] =
+        [("3/chair.obj", chair.as_bytes()), ("3/chair.mtl", b"newmtl oak\nmap_Kd oak.png\n"), ("3/oak.png", &picture)];
+    let scene = load_with(piece, &more).scene;
+    assert_eq!(scene.images.iter().map(|image| image.name.as_str()).collect::<Vec<_>>(), ["3/oak.png"]);
+    assert_eq!(scene, load_with(piece, &more).scene);
+}
+
+#[test]
 fn materials_that_only_java_3d_knows_are_as_it_has_them() {
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl flltgrey\nf 1 3 2\nusemtl silver\nf 1 2 3\nusemtl unheard_of\nf 1 2 3\n\
                usemtl glassblutint\nf 1 2 3\nusemtl smoked_glass\nf 1 2 3\n";

@@ -110,7 +110,9 @@ fn hint_for(kind: io::ErrorKind) -> Option<&'static str> {
         io::ErrorKind::PermissionDenied => Some("check who owns the file and its folder, or choose another output folder with -o"),
         io::ErrorKind::ReadOnlyFilesystem => Some("the file system is mounted read-only; choose another output folder with -o"),
         io::ErrorKind::NotADirectory => Some("a part of the path is a file; choose another output folder with -o"),
-        io::ErrorKind::NotFound => Some("check the path for a typing mistake"),
+        io::ErrorKind::NotFound => {
+            Some("check the path for a typing mistake; if the files were moved, run again with the dataset.toml that lies with them now")
+        }
         _ => None,
     }
 }

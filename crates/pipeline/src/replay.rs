@@ -7,7 +7,7 @@ use crate::workdir::{Hash, PACKAGE, WORKDIR};
 use enfilade_dataset::{Dataset, FileRecord, FrameInfo, FrameRecord, FrameTime, Layout, Recipe, StoppedBy};
 use enfilade_frame::{Frame, LAYERS};
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
-use enfilade_scene::{Camera, Cx, Scene, Trajectory};
+use enfilade_scene::{Camera, Cx, Scene, Trajectory, Warning};
 use std::path::{Path, PathBuf};
 
 /// What a frame came to when it was rendered again.
@@ -37,6 +37,8 @@ impl Replay {
 
 /// Everything that a frame is made from.
 struct Source {
+    /// The scene's folder.
+    folder: PathBuf,
     record: FrameRecord,
     recipe: Recipe,
     config: RenderConfig,
@@ -51,7 +53,7 @@ struct Source {
 /// files with those of the record. They are written below `out` as a dataset of their own; without it nothing is kept.
 ///
 /// Layers that are made from a frame afterwards (labels, denoised ones) are no part of its record. A frame that a time limit has ended
-/// is given as many samples as it had.
+/// is given as many samples as it had. Of files that are in the dataset by now with other bytes than its record tells, `cx` is warned.
 ///
 /// # Errors
 /// When the file is no record with a recipe, when what it was made from is not there any more or not the same, or when this is another
@@ -61,6 +63,7 @@ pub fn replay(file: &Path, out: Option<&Path>, cx: &dyn Cx) -> Result<Replay, Er
     if let Some(out) = out {
         refuse_older(out, &source.record)?;
     }
+    warn_of_changed(&source, cx);
     let frame = render(&source, cx)?;
     let scratch;
     let root = match out {
@@ -85,6 +88,15 @@ pub fn replay(file: &Path, out: Option<&Path>, cx: &dyn Cx) -> Result<Replay, Er
     let same = |(name, then): (&String, &FileRecord)| ReplayedFile { name: name.clone(), same: again.files.get(name) == Some(then) };
     let files = record.files.iter().map(same).collect();
     Ok(Replay { frame: format!("{}/{}/frame.{:04}", record.scene, record.camera, record.frame), files })
+}
+
+/// Warns of the dataset's own files that are not what the record tells: only what is rendered is compared with that.
+fn warn_of_changed(source: &Source, cx: &dyn Cx) {
+    let is_changed = |name: &str, then: &FileRecord| FileRecord::of(&source.folder.join(name)).is_ok_and(|found| found != *then);
+    for (name, _) in source.record.files.iter().filter(|(name, then)| is_changed(name, then)) {
+        let message = "its bytes in the dataset are not those that the frame's record tells, with which the replay is compared";
+        cx.warn(Warning { place: source.folder.join(name).display().to_string(), message: message.into() });
+    }
 }
 
 /// A frame that lies below `out` would be replaced, and its labels and denoised layers would be gone.
@@ -127,7 +139,8 @@ fn read(file: &Path) -> Result<Source, Error> {
     if config_hash(&package, &config, recipe.time_limit_s, &camera, &trajectory, &trajectory.poses[index]) != record.config_hash {
         return Err(changed(format!("the camera or the trajectory of {} is not the one that the frame was rendered with", record.camera)));
     }
-    Ok(Source { record, recipe, config, scene, camera, trajectory, index })
+    let folder = dataset.layout().scene_dir(&record.scene);
+    Ok(Source { folder, record, recipe, config, scene, camera, trajectory, index })
 }
 
 /// The dataset's folder, where the file lies in it as the record says.

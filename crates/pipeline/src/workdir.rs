@@ -45,8 +45,9 @@ impl Workdir {
     /// Opens or creates the work folder of `out`, and locks it.
     ///
     /// # Errors
-    /// When `out` is something other than a dataset, cannot be written, or another process works on it.
+    /// When `out` is something other than a dataset, cannot be written or is not spelled in UTF-8, or another process works on it.
     pub fn create(out: &Path) -> Result<Self, Error> {
+        refuse_other_text(out)?;
         if !out.join(WORKDIR).is_dir() {
             refuse_foreign_folder(out)?;
             fs::create_dir_all(out.join(WORKDIR)).map_err(Error::io("create", &out.join(WORKDIR)))?;
@@ -100,8 +101,20 @@ impl Workdir {
     }
 }
 
+/// Records and tables hold paths as text, so that another path would only fail when they are written.
+pub(crate) fn refuse_other_text(path: &Path) -> Result<(), Error> {
+    if path.to_str().is_some() {
+        return Ok(());
+    }
+    Err(Error::usage(format!("the path {} is not UTF-8", path.display()), "rename the folder, or choose another one"))
+}
+
 /// A folder that holds something else must not be filled with a dataset.
 fn refuse_foreign_folder(out: &Path) -> Result<(), Error> {
+    if out.is_symlink() && !out.exists() {
+        let message = format!("the output {} is a link that leads nowhere", out.display());
+        return Err(Error::usage(message, "make the folder that it leads to, or name another one"));
+    }
     if out.is_file() {
         return Err(Error::usage(format!("the output {} is a file", out.display()), "name a folder that does not exist yet"));
     }
@@ -213,6 +226,18 @@ mod tests {
         assert!(error.to_string().contains(&format!("another process (process {})", std::process::id())), "{error}");
         drop(first);
         Workdir::open(&out).unwrap();
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn links_that_lead_nowhere_or_in_a_circle_are_refused_in_words() {
+        let dir = tempfile::tempdir().unwrap();
+        for (name, target) in [("dangling", "gone"), ("circle", "circle")] {
+            let link = dir.path().join(name);
+            std::os::unix::fs::symlink(target, &link).unwrap();
+            let error = Workdir::create(&link).unwrap_err();
+            assert!(error.is_usage() && error.to_string().ends_with(&format!("{name} is a link that leads nowhere")), "{error}");
+        }
     }
 
     #[test]

@@ -3,9 +3,10 @@
 mod common;
 
 use common::{LAMP, TABLE, WALL, write_blocks};
-use enfilade_dataset::Dataset;
+use enfilade_dataset::{BoxKind, Dataset};
 use enfilade_frame::{Layer, Pass};
-use enfilade_pipeline::{Config, Event, Overrides, Reporter, Silent, Stage, Summary, estimate, run, run_stage};
+use enfilade_pipeline::{Config, Event, Overrides, Reporter, Silent, Stage, Summary, estimate, replay, run, run_stage};
+use enfilade_scene::Heard;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
@@ -218,6 +219,96 @@ fn reports_of_an_earlier_plan_do_not_outlive_it() {
     estimate(&config(folder.path(), &[("a", "room.obj", ONE, rig)]), &out, None, &Silent).unwrap();
     assert_eq!(Dataset::open(&out).unwrap().cameras("a").unwrap(), ["cam_00", "cam_01"]);
     assert_eq!(reports(), [true, false], "a rig's report is its left camera's");
+}
+
+/// Runs `config` over files of `out` after each of them was changed by `damage`: then they are as they were, and no frame is rendered.
+fn assert_healed(config: &Config, out: &Path, paths: &[PathBuf], damage: impl Fn(&mut Vec<u8>)) {
+    let color = Dataset::open(out).unwrap().layout().layer("a", "cam_00", 0, Layer::Color);
+    let rendered = fs::metadata(&color).unwrap().modified().unwrap();
+    for path in paths {
+        let whole = fs::read(path).unwrap();
+        let mut bytes = whole.clone();
+        damage(&mut bytes);
+        assert_ne!(bytes, whole);
+        fs::write(path, bytes).unwrap();
+        let summary = run(config, out, None, &Silent).unwrap();
+        assert!(summary.ok(), "{}: {:?}", path.display(), failures(&summary));
+        assert!(fs::read(path).unwrap() == whole, "{} was not made again", path.display());
+        assert_eq!(fs::metadata(&color).unwrap().modified().unwrap(), rendered, "{} cost a frame", path.display());
+    }
+    assert!(run(config, out, None, &Silent).unwrap().nothing_done());
+}
+
+/// A dataset of scene a with one camera, and the files of its stages before rendering.
+fn dataset_of_one(folder: &Path, out: &Path) -> (Config, Dataset, Vec<PathBuf>) {
+    let config = config(folder, &[("a", "room.obj", ONE, "")]);
+    let summary = run(&config, out, None, &Silent).unwrap();
+    assert!(summary.ok(), "{:?}", failures(&summary));
+    let dataset = Dataset::open(out).unwrap();
+    let layout = dataset.layout();
+    let of_plan = [layout.keyframes("a", "cam_00", "positions"), layout.cameras_opencv("a", "cam_00"), layout.metadata_cameras("a")];
+    let of_others =
+        [out.join(".enfilade/a/starts.json"), layout.octomap("a"), layout.camera_parameters(), layout.view_gates("a", "cam_00")];
+    let tables = ["mesh_vertices.hdf5", "mesh_objects_si.hdf5"].map(|file| layout.mesh_file("a", file));
+    let boxes = dataset.box_files("a", BoxKind::ALL[0]);
+    let files = [of_plan.to_vec(), of_others.to_vec(), tables.to_vec(), boxes[..1].to_vec(), vec![layout.metadata_scene("a")]].concat();
+    (config, dataset, files)
+}
+
+#[test]
+fn files_that_were_changed_in_one_bit_are_made_again_and_cost_no_frame() {
+    let (folder, out) = place();
+    let (config, _, files) = dataset_of_one(folder.path(), &out);
+    // Of tables the last digit, so that they can still be read.
+    let change = |bytes: &mut Vec<u8>| match bytes.iter().rposition(u8::is_ascii_digit) {
+        Some(digit) if bytes.is_ascii() => bytes[digit] ^= 1,
+        _ => *bytes.last_mut().unwrap() ^= 1,
+    };
+    assert_healed(&config, &out, &files, change);
+}
+
+#[test]
+fn files_that_were_overwritten_or_emptied_are_made_again_and_cost_no_frame() {
+    let (folder, out) = place();
+    let (config, _, mut files) = dataset_of_one(folder.path(), &out);
+    files.push(out.join(".enfilade/a/scene.scene"));
+    assert_healed(&config, &out, &files, |bytes| bytes.fill(b'x'));
+    assert_healed(&config, &out, &files[..7], Vec::clear);
+}
+
+#[test]
+fn frames_and_labels_whose_records_are_damaged_are_made_again() {
+    let (folder, out) = place();
+    let (config, dataset, _) = dataset_of_one(folder.path(), &out);
+    let layout = dataset.layout();
+    for path in [layout.frame_record("a", "cam_00", 1), layout.label_record("a", "cam_00", 1)] {
+        let whole = fs::read_to_string(&path).unwrap();
+        let other_length = whole.replacen("\"bytes\": ", "\"bytes\": 9", 1).replacen("  ", " ", 1);
+        assert_eq!(other_length.len(), whole.len());
+        for damaged in ["x".repeat(whole.len()), other_length] {
+            fs::write(&path, damaged).unwrap();
+            let summary = run(&config, &out, None, &Silent).unwrap();
+            assert!(summary.ok(), "{}: {:?}", path.display(), failures(&summary));
+            assert_eq!(fs::read_to_string(&path).unwrap(), whole);
+        }
+    }
+    assert!(run(&config, &out, None, &Silent).unwrap().nothing_done());
+}
+
+#[test]
+fn a_replay_warns_of_layers_that_were_changed_since() {
+    let (folder, out) = place();
+    let (_, dataset, _) = dataset_of_one(folder.path(), &out);
+    let layout = dataset.layout();
+    let warnings = || {
+        let heard = Heard::default();
+        assert!(replay(&layout.frame_record("a", "cam_00", 0), None, &heard).unwrap().is_same());
+        heard.lines()
+    };
+    assert!(warnings().is_empty());
+    fs::write(layout.layer("a", "cam_00", 0, Layer::Color), "").unwrap();
+    let told = warnings();
+    assert!(told.len() == 1 && told[0].contains("frame.0000.color.hdf5"), "{told:?}");
 }
 
 #[test]

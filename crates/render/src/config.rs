@@ -60,7 +60,8 @@ pub struct RenderConfig {
     pub roulette_start: u32,
     /// Shape of the reconstruction filter. Default a tent.
     pub filter: Filter,
-    /// Radius of the reconstruction filter, in pixels; what is below 0.001 counts as that. Default 1, as Mitsuba's `tent`.
+    /// Radius of the reconstruction filter, in pixels, up to [`RenderConfig::LARGEST_FILTER_RADIUS`]; what is below 0.001 counts as that.
+    /// Default 1, as Mitsuba's `tent`.
     pub filter_radius: f32,
     /// Seed of all random numbers. A frame depends on the scene, the camera, all views that the guide has learned from, the frame's
     /// number and this configuration, and on nothing else.
@@ -88,6 +89,9 @@ impl Default for RenderConfig {
 }
 
 impl RenderConfig {
+    /// The largest radius of the filter, in pixels. Filters in use reach 4; one of 16 leaves a blur, and a larger number is a mistake.
+    pub const LARGEST_FILTER_RADIUS: f32 = 16.0;
+
     /// # Errors
     /// When a number is out of its range.
     pub(crate) fn check(&self) -> Result<(), RenderError> {
@@ -96,8 +100,8 @@ impl RenderConfig {
         if self.samples == 0 {
             return wrong("samples", "0".into(), "at least 1");
         }
-        if !(self.filter_radius >= 0.0 && self.filter_radius.is_finite()) {
-            return wrong("filter_radius", self.filter_radius.to_string(), "0 or more pixels");
+        if !(0.0..=Self::LARGEST_FILTER_RADIUS).contains(&self.filter_radius) {
+            return wrong("filter_radius", self.filter_radius.to_string(), "0 to 16 pixels");
         }
         if !positive(self.noise) {
             return wrong("noise", self.noise.unwrap_or_default().to_string(), "more than 0, such as 0.02 for two per cent");

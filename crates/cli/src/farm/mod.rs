@@ -4,7 +4,7 @@ mod costs;
 mod submit;
 
 use crate::args::{FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmVerb, FarmWorkArgs};
-use crate::outcome::{Problem, Verdict, quoted, say};
+use crate::outcome::{Problem, Verdict, quoted, say, warn};
 use crate::price::prices;
 use crate::progress::Progress;
 use crate::summary;
@@ -140,10 +140,16 @@ fn status(args: &FarmStatusArgs) -> Result<Verdict, Problem> {
         status.errors.iter().for_each(|(task, error)| say(&format!("task {task}: {error}")));
         say_faults(status.different, &status.broken);
     }
+    warn_of(&status.unreadable);
     if args.price.is_some() || args.attempts.is_some() {
         costs::say_costs(&job, &prices(args.price.as_deref())?, args.attempts.as_deref())?;
     }
     Ok(Verdict::of(status.is_complete()))
+}
+
+/// Records that were left out, on standard error, since `--json` and `--missing` are for programs.
+fn warn_of(unreadable: &[String]) {
+    unreadable.iter().for_each(|warning| warn(warning));
 }
 
 /// What should not be: machines that make different bytes of a frame, and frames that break laws.
@@ -165,6 +171,7 @@ fn collect(args: &FarmCollectArgs, quiet: bool) -> Result<Verdict, Problem> {
     summary::print_table(&result);
     summary::print_where_to_look(out, &result)?;
     let costs = costs::say_costs(&job, &prices, None)?;
+    warn_of(&costs.unreadable);
     say_faults(costs.different(), &BTreeMap::new());
     Ok(Verdict::of(result.ok()))
 }

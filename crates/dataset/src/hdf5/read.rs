@@ -72,7 +72,7 @@ fn check_length(path: &Path) -> Result<u64, DatasetError> {
     let mut head = Vec::new();
     file.by_ref().take(64).read_to_end(&mut head).map_err(at_path())?;
     if !head.starts_with(&SIGNATURE[..head.len().min(SIGNATURE.len())]) {
-        return Err(DatasetError::hdf5(path, "it does not begin like an HDF5 file; check that the path is right"));
+        return Err(DatasetError::hdf5(path, format!("it does not begin like an HDF5 file: {DAMAGED}")));
     }
     let end_of_file_at = match head.get(8) {
         Some(0) => 40,

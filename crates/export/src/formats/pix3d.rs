@@ -7,7 +7,7 @@
 use crate::ExportError;
 use crate::calibration::Calibration;
 use crate::instances::{Instance, instances};
-use crate::mesh::{InstanceMesh, instance_meshes};
+use crate::mesh::{InstanceMesh, instance_meshes, missing_mesh_file};
 use crate::picture::{SHOWN, color_jpeg, grey8_png};
 use crate::place::Place;
 use crate::source::{Source, Track, View};
@@ -72,8 +72,7 @@ pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportErro
         let cameras = tracks.iter().map(|track| camera(source, track)).collect::<Result<Vec<_>, _>>()?;
         let meshes = instance_meshes(source.dataset, scene)?;
         if meshes.is_empty() {
-            let problem = "it has no labelled mesh in _detail/mesh, so shapes are not known; label it, or leave it out";
-            return Err(source.unsuitable(scene, problem));
+            return Err(source.unsuitable(scene, shapeless(source, scene)));
         }
         let models = write_models(source, place, scene, meshes)?;
         for (track, calibration) in tracks.iter().zip(&cameras) {
@@ -94,6 +93,16 @@ pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportErro
         place.write(&format!("pix3d_{}.json", side.name()), &all.only(|image| side_of(image) == Some(side)).to_json())?;
     }
     Ok(())
+}
+
+/// Why a scene has no meshes of instances, and what to do.
+fn shapeless(source: &Source<'_>, scene: &str) -> String {
+    let (problem, remedy) = match missing_mesh_file(source.dataset, scene) {
+        Some(file) if file.contains("_objects_") => (format!("{file} is missing in _detail/mesh"), "label it"),
+        Some(file) => (format!("{file} is missing in _detail/mesh"), "make it again with `enfilade import --force`"),
+        None => ("no part of it is an instance".to_string(), "label it"),
+    };
+    format!("{problem}, so shapes are not known; {remedy}, or leave it out")
 }
 
 /// The track's camera, which must look straight through square pixels at the middle of the image.

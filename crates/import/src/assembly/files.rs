@@ -2,8 +2,9 @@
 
 use super::Assembly;
 use crate::ImportError;
+use crate::archive::Archive;
 use crate::images::{self, Use};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// Where a picture's bytes are.
 pub(crate) enum Source<'a> {
@@ -105,6 +106,16 @@ impl Assembly<'_> {
         self.archive.map_or_else(|| path.is_file(), |archive| archive.contains_path(path))
     }
 
+    /// What the picture in `file` is called in the scene: its path from the scene file's folder or within the archive, or its name alone
+    /// where it lies elsewhere. So scenes are equal wherever their files lie.
+    pub(super) fn picture_name(&self, file: &Path) -> String {
+        let home = self.archive.map_or_else(|| self.file.parent().unwrap_or(Path::new("")), Archive::file);
+        let inside = file.strip_prefix(home).ok().filter(|path| path.is_relative());
+        let name = inside.unwrap_or_else(|| file.file_name().map_or(file, Path::new));
+        let parts = name.components().filter(|part| *part != Component::CurDir);
+        parts.map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
+    }
+
     /// The index of a picture, decoded at first use. `user` is the material or light that wants it. `None` when it is missing
     /// and the options allow that; then a plain value has to stand in.
     pub(crate) fn image(&mut self, source: &Source, usage: Use, user: &str) -> Result<Option<u32>, ImportError> {
@@ -120,7 +131,7 @@ impl Assembly<'_> {
         }
         let decoded = match source {
             Source::File(path) => match self.read(path) {
-                Ok((_, bytes)) => images::decode(&key, &bytes, usage),
+                Ok((file, bytes)) => images::decode(&self.picture_name(&file), &bytes, usage),
                 Err(ImportError::Read { source, .. }) => Err(format!("cannot be read ({source})")),
                 Err(other) => return Err(other),
             },

@@ -155,10 +155,9 @@ impl<'a> Assembly<'a> {
     pub(crate) fn finish_scene(mut self, scene: Scene) -> Result<Imported, ImportError> {
         self.scene = scene;
         if let Some(environment) = &self.options.environment {
-            let path = environment.file.to_string_lossy().into_owned();
             // The override's path is the caller's, not the scene file's: relative to the working directory.
             let bytes = self.read_input(&environment.file, "the import options name it as the environment; correct the path")?;
-            let decoded = images::decode(&path, &bytes, Use::Color)
+            let decoded = images::decode(&self.picture_name(&environment.file), &bytes, Use::Color)
                 .map_err(|problem| ImportError::malformed(&environment.file, "environment picture", format!("it {problem}")))?;
             let image = self.push_image(decoded.image);
             let world_from_map = DMat3::from_rotation_z(f64::from(environment.rotation_deg).to_radians())
@@ -226,6 +225,21 @@ mod tests {
         let scene = assembled(&options, |_| ()).scene;
         let p = scene.parts[0].world_from_mesh.transform_point3(DVec3::new(2.0, 4.0, 6.0));
         assert_eq!(p, DVec3::new(1.0, -3.0, 2.0));
+    }
+
+    #[test]
+    fn pictures_are_called_by_their_paths_from_the_scene_or_by_their_names() {
+        let options = ImportOptions::default();
+        for (scene, file, expected) in [
+            ("/rooms/hall/a.gltf", "/rooms/hall/./tex/wood.png", "tex/wood.png"),
+            ("/rooms/hall/a.gltf", "/rooms/hall/../wood.png", "../wood.png"),
+            ("/rooms/hall/a.gltf", "/elsewhere/wood.png", "wood.png"),
+            ("a.gltf", "tex/wood.png", "tex/wood.png"),
+            ("a.gltf", "/elsewhere/wood.png", "wood.png"),
+        ] {
+            let a = Assembly::new(Format::Gltf, Path::new(scene), UpAxis::Y, &options, &Quiet);
+            assert_eq!(a.picture_name(Path::new(file)), expected, "{file} of {scene}");
+        }
     }
 
     #[test]

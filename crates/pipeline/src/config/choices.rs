@@ -2,6 +2,7 @@
 
 use super::SceneConfig;
 use crate::error::Error;
+use enfilade_render::RenderConfig;
 
 /// Choices about rendering that win over those of the configuration; `None` and `false` leave it as it is.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -68,7 +69,8 @@ pub(super) fn check_positive(what: &str, value: f64) -> Result<(), String> {
 }
 
 pub(super) fn check_filter_radius(radius: f32) -> Result<(), String> {
-    if radius >= 0.0 && radius.is_finite() { Ok(()) } else { Err(format!("filter_radius must be 0 or more pixels, found {radius}")) }
+    let most = RenderConfig::LARGEST_FILTER_RADIUS;
+    if (0.0..=most).contains(&radius) { Ok(()) } else { Err(format!("filter_radius must lie between 0 and {most} pixels, found {radius}")) }
 }
 
 pub(super) fn check_save_interval(seconds: f64) -> Result<(), String> {

@@ -14,6 +14,7 @@ mod patch;
 mod tests;
 
 use crate::error::Error;
+use crate::workdir::refuse_other_text;
 use enfilade_explore::{CarveConfig, PlanConfig, Preset};
 use enfilade_home::HomeConfig;
 use enfilade_import::{Format, UpAxis};
@@ -224,7 +225,7 @@ impl Config {
     /// Reads and resolves `file`.
     ///
     /// # Errors
-    /// When it cannot be read, is not TOML, holds an unknown key or a value out of its range, or names an environment variable
+    /// When it cannot be read, lies where the path is not UTF-8, is not TOML, holds an unknown key or a value out of its range, or names an environment variable
     /// that is not set, or a label table or a grid of rays that cannot be used.
     pub fn read(file: &Path, overrides: &Overrides) -> Result<Self, Error> {
         if Format::of(file).is_ok() {
@@ -235,8 +236,9 @@ impl Config {
         let unreadable =
             |e| Error::usage(format!("cannot read {}: {e}", file.display()), "name a TOML file, or make the demo: enfilade run --demo out");
         let text = std::fs::read_to_string(file).map_err(unreadable)?;
-        let mut config = document::resolve(file, &text, overrides, &environment_variable)?;
         let absolute = std::path::absolute(file).map_err(Error::io("find", file))?;
+        refuse_other_text(&absolute)?;
+        let mut config = document::resolve(file, &text, overrides, &environment_variable)?;
         config.base = absolute.parent().map(Path::to_path_buf).unwrap_or_default();
         Ok(config)
     }

@@ -284,7 +284,11 @@ fn values_out_of_range_are_shown_with_an_example() {
         ),
         (format!("[render]\nsamples = 0\n{SCENE}"), "sets/dataset.toml:2:11: samples must be at least 1"),
         (format!("[render]\nnoise = 2\n{SCENE}"), "sets/dataset.toml:2:9: noise must lie between 0 and 1, found 2"),
-        (format!("[render]\nfilter_radius = -1\n{SCENE}"), "sets/dataset.toml:2:17: filter_radius must be 0 or more pixels, found -1"),
+        (
+            format!("[render]\nfilter_radius = -1\n{SCENE}"),
+            "sets/dataset.toml:2:17: filter_radius must lie between 0 and 16 pixels, found -1",
+        ),
+        (format!("[render]\nfilter_radius = 17\n{SCENE}"), "sets/dataset.toml:2:17: filter_radius must lie between 0 and 16"),
         (format!("{SCENE}render.clamp = 0\n"), "sets/dataset.toml:4:16: clamp must be above 0, found 0"),
         (format!("[render]\ntime_limit_s = -1\n{SCENE}"), "sets/dataset.toml:2:16: time_limit_s must be above 0, found -1"),
         (format!("[render]\nsave_every_s = nan\n{SCENE}"), "sets/dataset.toml:2:16: save_every_s must be at least 0, found NaN"),

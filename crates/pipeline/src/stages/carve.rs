@@ -35,9 +35,9 @@ pub(super) fn standing(job: &Job) -> Result<Vec<StartCamera>, Error> {
 }
 
 fn read_starts(job: &Job) -> Result<Vec<Start>, Error> {
-    read_json(&job.work_file(STARTS)?)
-        .filter(|starts: &Vec<Start>| !starts.is_empty())
-        .ok_or_else(|| Error::scene("the list of start cameras cannot be read", "make it again: enfilade carve --force"))
+    let path = job.work_file(STARTS)?;
+    let unreadable = || Error::scene(format!("{}: the list of start cameras cannot be read", path.display()), job.again(Stage::Carve));
+    read_json(&path).filter(|starts: &Vec<Start>| !starts.is_empty()).ok_or_else(unreadable)
 }
 
 pub(super) fn settings(job: &Job) -> Hash {

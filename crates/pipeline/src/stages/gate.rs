@@ -87,7 +87,7 @@ pub(super) fn verdicts(job: &Job) -> Result<Vec<Input>, Error> {
 pub(super) fn forget(job: &Job) -> Result<(), Error> {
     let (layout, name) = (job.dataset.layout(), &job.scene.name);
     remove_if_there(&layout.gates_page(name))?;
-    for camera in job.dataset.cameras(name).map_err(Error::stage)? {
+    for camera in job.there()? {
         remove_if_there(&layout.view_gates(name, &camera))?;
         remove_folder(&layout.rejected_dir(name, &camera))?;
     }

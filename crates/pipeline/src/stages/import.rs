@@ -15,6 +15,9 @@ use std::time::SystemTime;
 
 /// Labels that came with the scene, in the work folder.
 pub(super) const LABELS: &str = "labels.json";
+/// Files of the mesh folder that no annotation changes.
+const GEOMETRY: [&str; 6] =
+    ["mesh_vertices.hdf5", "mesh_normals.hdf5", "mesh_texcoords.hdf5", "mesh_faces_vi.hdf5", "mesh_faces_vni.hdf5", "mesh_faces_vti.hdf5"];
 
 pub(super) fn settings(job: &Job) -> Hash {
     match &job.scene.source {
@@ -73,7 +76,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     write_json(&labels_file, &labels)?;
     job.forget_scene();
     let layout = job.dataset.layout();
-    let outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
+    let mut outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
+    outputs.extend(GEOMETRY.map(|file| layout.mesh_file(name, file)));
     Ok(Outcome { summary: describe(&scene), outputs, inputs, report })
 }
 
@@ -91,8 +95,7 @@ fn remove_other_frames(job: &Job, package: &Path, bytes: &[u8]) -> Result<(), Er
         // V-Ray's frames, and those of earlier versions, do not tell their scene: it is that which was there.
         _ => !is_replaced,
     };
-    let cameras = job.dataset.cameras(name).map_err(Error::stage)?;
-    cameras.iter().try_for_each(|camera| job.dataset.retain_frames(name, camera, stays)).map_err(Error::stage)
+    job.there()?.iter().try_for_each(|camera| job.dataset.retain_frames(name, camera, stays)).map_err(Error::stage)
 }
 
 /// Finds the files that are saved while a scene is read from them: nobody knows which of their contents were read.

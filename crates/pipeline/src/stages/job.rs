@@ -98,6 +98,12 @@ impl<'a> Job<'a> {
         Ok(loaded.world.insert(Arc::new(World { mesh, bvh })).clone())
     }
 
+    /// The cameras that are there; by their files where the table of them is damaged, as planning has still to make it again.
+    pub fn there(&self) -> Result<Vec<String>, Error> {
+        let name = &self.scene.name;
+        self.dataset.cameras(name).or_else(|_| self.dataset.cameras_by_files(name)).map_err(Error::stage)
+    }
+
     /// The planned trajectories and what each is filmed with.
     pub fn filmed(&self) -> Result<Vec<(Camera, Trajectory)>, Error> {
         let name = &self.scene.name;
@@ -172,7 +178,8 @@ impl<'a> Job<'a> {
         Error::scene(message, format!("run first: {}", self.command(stage)))
     }
 
-    fn again(&self, stage: Stage) -> String {
+    /// The command that makes the results of a stage anew, in words.
+    pub fn again(&self, stage: Stage) -> String {
         format!("make it again: {} --force", self.command(stage))
     }
 

@@ -2,7 +2,7 @@
 //!
 //! A stage is a pure function of some other crate plus the thin file here that reads its inputs from the work folder and the
 //! dataset and writes its outputs there. It is up to date when its record says that it ran with the same configuration, the
-//! same content of the same inputs and the same version of the code, and all its outputs are there.
+//! same content of the same inputs and the same version of the code, and all its outputs are there as it wrote them.
 
 mod boxes;
 mod carve;
@@ -24,6 +24,7 @@ mod verify;
 use crate::error::Error;
 use crate::report::{Event, StageCx, StageOutcome, Stopwatch};
 use crate::workdir::{Hash, read_json, remove_if_there, write_json};
+use enfilade_frame::Pass;
 use enfilade_scene::Warning;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -226,12 +227,27 @@ pub(crate) struct Record {
     pub cpu_s: f64,
     inputs: Vec<Input>,
     outputs: Vec<Output>,
+    /// Of planning: what [`plan::listed`] said afterwards. Earlier versions did not note it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    listed: Option<Hash>,
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Output {
     path: PathBuf,
     bytes: u64,
+    /// Of files that [`is_read_later`]. Earlier versions did not note it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    content: Option<Hash>,
+}
+
+impl Output {
+    /// Its file is there in full length and, where that was noted, with the same content.
+    fn is_there(&self, job: &Job) -> bool {
+        let path = job.out().join(&self.path);
+        let is_same = |content: &Hash| Hash::of_file(&path).is_ok_and(|found| found == *content);
+        is_there(&path, self.bytes) && self.content.as_ref().is_none_or(is_same)
+    }
 }
 
 /// Renders the frames of `job` that are not there, whatever the stage's record says.
@@ -250,9 +266,22 @@ pub(crate) fn is_up_to_date(spec: &StageSpec, job: &Job) -> Result<bool, Error> 
 /// Whether the stage ran with these settings and inputs, and what it wrote is there.
 fn holds(spec: &StageSpec, job: &Job, record: &Record, settings: &Hash, inputs: &[Input]) -> bool {
     record.key == key(spec, settings, inputs)
-        && record.outputs.iter().all(|o| is_there(&job.out().join(&o.path), o.bytes))
+        && record.outputs.iter().all(|output| output.is_there(job))
+        && frames_are_whole(spec.stage, job)
         // A table that scenes share, so its length tells nothing.
-        && (spec.stage != Stage::Plan || plan::is_listed(job))
+        && (spec.stage != Stage::Plan || plan::listed(job).is_some_and(|row| record.listed.as_ref().is_none_or(|then| row == *then)))
+}
+
+/// Whether every frame has a record of the stage that can be read, and all files of that record in full length.
+fn frames_are_whole(stage: Stage, job: &Job) -> bool {
+    let pass = match stage {
+        Stage::Render => Pass::Final,
+        Stage::Denoise if job.scene.denoise => Pass::Denoised,
+        Stage::Label => Pass::Label,
+        _ => return true,
+    };
+    let is_whole = |(camera, frame): &(String, u32)| job.dataset.layers_are_whole(&job.scene.name, camera, *frame, pass);
+    job.frames().is_ok_and(|frames| frames.iter().all(is_whole))
 }
 
 /// Runs a stage of a scene unless it is up to date and not forced.
@@ -277,7 +306,11 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, cx: StageCx) -> Result<StageO
     }
     let outcome = (spec.run)(job, &cx)?;
     let inputs = outcome.inputs.or(inputs).unwrap_or_default();
-    let outputs = outcome.outputs.iter().map(|path| output(job, path)).collect::<Result<_, _>>()?;
+    let noted = |path: &PathBuf| {
+        let content = is_read_later(spec.stage, path).then(|| Hash::of_file(path)).transpose()?;
+        Ok(Output { content, ..output(job, path)? })
+    };
+    let outputs = outcome.outputs.iter().map(noted).collect::<Result<_, Error>>()?;
     let (wall_s, cpu_s) = (time.wall_s(), time.cpu_s());
     cx.event(Event::Finished { summary: &outcome.summary, wall_s });
     let record = Record {
@@ -289,6 +322,7 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, cx: StageCx) -> Result<StageO
         cpu_s,
         inputs,
         outputs,
+        listed: if spec.stage == Stage::Plan { plan::listed(job) } else { None },
     };
     write_json(&record_path, &record)?;
     let warnings = record.warnings.len();
@@ -301,13 +335,20 @@ fn key(spec: &StageSpec, settings: &Hash, inputs: &[Input]) -> Hash {
     Hash::of(&(env!("CARGO_PKG_VERSION"), spec.name, spec.version, settings, contents))
 }
 
+/// True for outputs that later stages take values from. Files of frames are too many bytes to be read in every run; they have checksums in
+/// their records.
+fn is_read_later(stage: Stage, path: &Path) -> bool {
+    let is_of_frame = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("frame."));
+    stage < Stage::Preview && !is_of_frame
+}
+
 fn is_there(path: &Path, bytes: u64) -> bool {
     std::fs::metadata(path).is_ok_and(|m| m.len() == bytes)
 }
 
 fn output(job: &Job, path: &Path) -> Result<Output, Error> {
     let bytes = std::fs::metadata(path).map_err(Error::io("read", path))?.len();
-    Ok(Output { path: path.strip_prefix(job.out()).unwrap_or(path).into(), bytes })
+    Ok(Output { path: path.strip_prefix(job.out()).unwrap_or(path).into(), bytes, content: None })
 }
 
 #[cfg(test)]

@@ -80,10 +80,11 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         }
     }
     warn_of_frame_time(job, &camera, cx);
-    job.dataset.write_camera_parameters(name, &camera).map_err(Error::stage)?;
+    write_camera_row(job, &camera, cx)?;
     let layout = job.dataset.layout();
     let mut outputs = outputs_of(job, &trajectories);
     outputs.push(layout.metadata_cameras(name));
+    outputs.extend(trajectories.iter().map(|trajectory| layout.metadata_camera(name, &trajectory.name)));
     for report in &reports {
         let path = layout.plan_report(name, &report.trajectory);
         write_json(&path, report)?;
@@ -91,6 +92,15 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     }
     let report = serde_json::to_value(&reports).unwrap_or_default();
     Ok(Outcome { summary: summary(&reports, fov_x_rad), outputs, report, ..Outcome::default() })
+}
+
+/// Sets the scene's row of the table that scenes share, and tells where what stood there could not be read.
+fn write_camera_row(job: &Job, camera: &Camera, cx: &StageCx) -> Result<(), Error> {
+    if let Some(damage) = job.dataset.write_camera_parameters(&job.scene.name, camera).map_err(Error::stage)? {
+        let message = format!("{damage}; the table was begun anew, and the next `plan` or `run` of the other scenes adds their rows");
+        cx.warn(Warning { place: "table of cameras".into(), message });
+    }
+    Ok(())
 }
 
 /// A shutter blurs by the time between frames, so it should be told that of the video.
@@ -149,7 +159,9 @@ fn summary(reports: &[PlanReport], fov_x_rad: f64) -> String {
 /// The space that was carved, with the bounds that were written: those of Hypersim's programs are of voxel centres.
 fn free_space(job: &Job) -> Result<FreeSpace, Error> {
     let (bt, free_min, free_max) = job.dataset.read_free_space(&job.scene.name).map_err(Error::stage)?;
-    let tree = OccupancyTree::from_bt(&bt).map_err(Error::stage)?;
+    let damaged =
+        |error| Error::scene(format!("{}: {error}", job.dataset.layout().octomap(&job.scene.name).display()), job.again(Stage::Carve));
+    let tree = OccupancyTree::from_bt(&bt).map_err(damaged)?;
     let space = FreeSpace::new(tree, CarveReport::default()).map_err(Error::stage)?;
     Ok(FreeSpace { free_min, free_max, ..space })
 }
@@ -271,9 +283,9 @@ fn outputs_of(job: &Job, trajectories: &[Trajectory]) -> Vec<PathBuf> {
     keyframes.chain(opencv).chain(models).collect()
 }
 
-/// True when the cameras of the dataset as a whole have those of this scene: without its row nothing can be filmed.
-pub(super) fn is_listed(job: &Job) -> bool {
-    job.dataset.read_camera_table().is_ok_and(|table| table.scenes().any(|scene| scene == job.scene.name))
+/// Names the scene's row among the cameras of the dataset as a whole; `None` where there is none, without which nothing can be filmed.
+pub(super) fn listed(job: &Job) -> Option<Hash> {
+    job.dataset.read_camera_table().ok()?.cells(&job.scene.name).ok().map(|cells| Hash::of(&cells))
 }
 
 /// Pictures taken from elsewhere, or with another camera, would be taken for pictures of these poses. While a shutter is open, and where
@@ -288,10 +300,10 @@ fn remove_other_frames(job: &Job, trajectory: &Trajectory, camera: &Camera) -> R
 }
 
 /// Cameras of an earlier plan that are not in this one would be taken for cameras of this dataset. Files tell of those whose removal was
-/// killed, whatever the table says.
+/// killed, whatever the table says, and where it cannot be read.
 fn remove_other_cameras(job: &Job, trajectories: &[Trajectory]) -> Result<(), Error> {
     let name = &job.scene.name;
-    let mut old: BTreeSet<String> = job.dataset.cameras(name).map_err(Error::stage)?.into_iter().collect();
+    let mut old: BTreeSet<String> = job.dataset.cameras(name).unwrap_or_default().into_iter().collect();
     old.extend(job.dataset.cameras_by_files(name).map_err(Error::stage)?);
     let others = old.iter().filter(|camera| trajectories.iter().all(|t| t.name != **camera));
     others.map(String::as_str).try_for_each(|camera| remove_camera(job, camera))?;

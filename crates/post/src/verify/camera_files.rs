@@ -3,9 +3,10 @@
 use super::card::Card;
 use super::law::Law;
 use enfilade_dataset::hdf5::read_array;
-use enfilade_dataset::{Array, Dataset, Elements, StereoRecord};
+use enfilade_dataset::{Array, Dataset, Elements, StereoRecord, opencv_cameras};
 use enfilade_math::DVec3;
 use enfilade_scene::{Camera, CameraView, Pose, Trajectory};
+use serde_json::Value;
 
 /// Checks the files of one camera. They are recomputed from `camera.json` and the poses.
 pub(super) fn check(dataset: &Dataset, scene: &str, trajectory: &Trajectory, camera: &Camera, card: &mut Card) {
@@ -13,6 +14,7 @@ pub(super) fn check(dataset: &Dataset, scene: &str, trajectory: &Trajectory, cam
     let place = format!("{scene}/{name}");
     let off = ray_error(dataset, scene, name, camera);
     card.observe(Law::CameraFiles, off, || format!("{place}: camera_rays.hdf5"));
+    check_opencv(dataset, scene, trajectory, camera, card);
     if camera.shutter.is_some_and(|shutter| shutter.readout_s > 0.0) {
         for what in ["positions", "orientations"] {
             let path = layout.camera_rows(scene, name, what);
@@ -24,6 +26,33 @@ pub(super) fn check(dataset: &Dataset, scene: &str, trajectory: &Trajectory, cam
         Err(error) => card.observe(Law::Stereo, f64::INFINITY, || error.to_string()),
         Ok(None) => card.observe(Law::Stereo, 0.0, || place),
         Ok(Some(stereo)) => check_stereo(dataset, scene, trajectory, &stereo, card),
+    }
+}
+
+/// `cameras_opencv.json` has the poses and the calibration that the other files have.
+fn check_opencv(dataset: &Dataset, scene: &str, trajectory: &Trajectory, camera: &Camera, card: &mut Card) {
+    let path = dataset.layout().cameras_opencv(scene, &trajectory.name);
+    if !path.is_file() {
+        return;
+    }
+    let value = |text: &[u8]| serde_json::from_slice::<Value>(text).unwrap_or_default();
+    let stored = value(&std::fs::read(&path).unwrap_or_default());
+    let expected = value(opencv_cameras(scene, trajectory, camera).as_bytes());
+    for (law, key) in [(Law::Calibration, "K"), (Law::CameraFiles, "distortion"), (Law::CameraFiles, "frames")] {
+        card.observe(law, difference(&stored[key], &expected[key]), || format!("{key} in {}", path.display()));
+    }
+}
+
+/// Largest difference between numbers at the same places; infinite where the places differ.
+fn difference(a: &Value, b: &Value) -> f64 {
+    match (a, b) {
+        (Value::Number(a), Value::Number(b)) => (a.as_f64().unwrap_or(f64::NAN) - b.as_f64().unwrap_or(f64::NAN)).abs(),
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => a.iter().zip(b).map(|(a, b)| difference(a, b)).fold(0.0, f64::max),
+        (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {
+            a.values().zip(b.values()).map(|(a, b)| difference(a, b)).fold(0.0, f64::max)
+        }
+        _ if a == b => 0.0,
+        _ => f64::INFINITY,
     }
 }
 
@@ -144,6 +173,25 @@ mod tests {
         assert_eq!(failures(&rolling, gone), [Law::CameraFiles]);
         let left_over = |d: &Dataset| d.write_trajectory("room", &trajectory(), &cameras()[0], None).unwrap();
         assert_eq!(failures(&pinhole, left_over), [Law::CameraFiles]);
+    }
+
+    #[test]
+    fn poses_and_calibration_for_opencv_that_are_not_the_cameras_are_found() {
+        let [_, pinhole] = cameras();
+        let rewritten = |from: &str, to: &str| {
+            failures(&pinhole, |d| {
+                let path = d.layout().cameras_opencv("room", "cam_00");
+                let text = std::fs::read_to_string(&path).unwrap();
+                assert!(text.contains(from), "{text}");
+                std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
+            })
+        };
+        assert_eq!(rewritten("OpenCV:", "As OpenCV has it:"), []);
+        assert_eq!(rewritten("\"frame\": 1", "\"frame\": 2"), [Law::CameraFiles]);
+        let fx = format!("{:?}", testing::intrinsics().fx);
+        assert_eq!(rewritten(&fx, &format!("{:?}", testing::intrinsics().fx + 1e-3)), [Law::Calibration]);
+        assert_eq!(rewritten("{", "["), [Law::Calibration, Law::CameraFiles]);
+        assert_eq!(failures(&pinhole, |d| std::fs::remove_file(d.layout().cameras_opencv("room", "cam_00")).unwrap()), []);
     }
 
     #[test]

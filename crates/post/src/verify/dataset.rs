@@ -3,7 +3,7 @@
 use super::card::Card;
 use super::frame_values::FrameValues;
 use super::law::Law;
-use super::read::{SceneLabels, Stored, read_frame, read_labels, read_tree, readable};
+use super::read::{SceneLabels, Stored, check_mesh, read_frame, read_labels, read_tree, readable};
 use super::release::{self, Excused};
 use super::report::VerifyReport;
 use super::trajectory::PlanRules;
@@ -128,6 +128,7 @@ impl SceneFacts {
             camera_files::check(dataset, name, &f.trajectory, camera, card);
         });
         facts.check_trajectories(dataset, card);
+        check_mesh(dataset, name, card);
         boxes::check_boxes(&facts.boxes, name, card);
         facts
     }
@@ -364,6 +365,12 @@ mod tests {
         let (laws, text) = failures(|d| write_bytes(&d.layout().octomap("room"), b"# not a tree").unwrap());
         assert_eq!(laws, [Law::Readable]);
         assert!(text.contains("octomap.bt"), "{text}");
+        let meshless = |d: &Dataset| std::fs::remove_file(d.layout().mesh_file("room", "mesh_normals.hdf5")).unwrap();
+        let (laws, text) = failures(meshless);
+        assert_eq!(laws, [Law::Readable]);
+        assert!(text.contains("mesh_normals.hdf5"), "{text}");
+        let nameless = |d: &Dataset| write_bytes(&d.layout().mesh_file("room", "metadata_objects.csv"), "object_name\n").unwrap();
+        assert_eq!(failures(nameless).0, [Law::Readable]);
         let unlabelled = |d: &Dataset| {
             for name in [Layer::Semantic, Layer::SemanticInstance] {
                 std::fs::remove_file(d.layout().layer("room", "cam_00", 0, name)).unwrap();

@@ -89,15 +89,15 @@ macro_rules! laws {
 /// The table of laws; `LAWS[law as usize].law == law`.
 pub const LAWS: [LawSpec; 56] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
-        "the file is damaged or was cut short: render the frame again";
+        "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
     FramesComplete 0.0 "frames", "every frame of a trajectory is complete", "a frame failed or was never rendered: run again";
     LayersPresent 0.0 "layers", "every frame has every layer, and of each optional kind (denoised, split, extra) all or none", "the frame was rendered or labelled by another version: render or label it again";
     Checksums 0.0 "files", "files are what the manifest says was written", "a file was changed or damaged after it was written: render again or restore it";
     Nodes 0.0 "tables", "metadata_nodes.csv can be read and numbers its nodes 1, 2, ...", "the table was edited or cut: import the scene again";
-    Calibration 1e-6 "px", "size and calibration agree between metadata_camera_parameters.csv, records and images",
+    Calibration 1e-6 "px", "size and calibration agree between metadata_camera_parameters.csv, cameras_opencv.json, records and images",
         "the images were rendered with other settings than the table states: render again";
-    CameraFiles 1e-9 "", "camera_rays.hdf5 and the poses of rows are there where they are needed and are those of camera.json",
+    CameraFiles 1e-9 "", "camera_rays.hdf5 and the poses of rows are there where they are needed, and they and cameras_opencv.json are the camera's",
         "the camera's files are of another plan: plan again";
     Stereo 1e-9 "m", "the cameras of a stereo rig keep their baseline and look the same way", "one of the two was planned again or edited: plan again";
     LabelTables 0.0 "tables", "the label tables are there and have one row per part", "the scene was not labelled: run the label stage";

@@ -123,6 +123,20 @@ pub(super) fn read_labels(dataset: &Dataset, scene: &str, nodes: &[Node], card: 
     Some(SceneLabels { labels: Labels { parts: nodes.iter().map(label).collect() }, pieces, last_class })
 }
 
+/// The geometry of the mesh folder, of which all is there or nothing: scenes that were rendered elsewhere, and copies for fast reading, have
+/// none, and of Hypersim's release parts are downloaded.
+pub(super) fn check_mesh(dataset: &Dataset, scene: &str, card: &mut Card) {
+    let files = dataset.mesh_files(scene);
+    let is_there = |name: &&str| files.file(name).is_file();
+    if dataset.is_released(scene) || !["mesh_vertices.hdf5", "mesh_normals.hdf5", "mesh_faces_vi.hdf5"].iter().any(is_there) {
+        return;
+    }
+    readable(card, files.read());
+    for name in ["mesh_normals.hdf5", "mesh_texcoords.hdf5", "mesh_faces_vni.hdf5", "mesh_faces_vti.hdf5"] {
+        readable(card, read_array(&files.file(name)));
+    }
+}
+
 /// The free space, if there is one.
 pub(super) fn read_tree(dataset: &Dataset, scene: &str, card: &mut Card) -> Option<OccupancyTree> {
     let path = dataset.layout().octomap(scene);
