@@ -49,6 +49,12 @@ impl Assembly<'_> {
         [folder.join(path), folder.join(path.replace('\\', "/"))].into_iter().find(|file| file.is_file())
     }
 
+    /// A file of the scene as the scene file itself would spell it.
+    pub(crate) fn spelled(&self, file: &Path) -> String {
+        let home = self.file.parent().unwrap_or(Path::new(""));
+        file.strip_prefix(home).unwrap_or(file).to_string_lossy().into_owned()
+    }
+
     /// Looks for files in `folder` from now on, and in those before it and beside the scene file only where it lacks them. It is as
     /// `from`, a file of the scene, spells it. False where there is no such folder.
     pub(crate) fn look_in(&mut self, from: &Path, folder: &str) -> bool {

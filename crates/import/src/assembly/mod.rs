@@ -228,6 +228,19 @@ mod tests {
     }
 
     #[test]
+    fn files_beside_included_ones_are_spelled_from_the_scene_on() {
+        let options = ImportOptions::default();
+        for (scene, file, expected) in [
+            ("hall/a.vrscene", "hall/../shared/wood.png", "../shared/wood.png"),
+            ("a.vrscene", "parts/wood.png", "parts/wood.png"),
+            ("hall/a.vrscene", "/elsewhere/wood.png", "/elsewhere/wood.png"),
+        ] {
+            let a = Assembly::new(Format::VRay, Path::new(scene), UpAxis::Z, &options, &Quiet);
+            assert_eq!(a.spelled(Path::new(file)), expected, "{file} of {scene}");
+        }
+    }
+
+    #[test]
     fn pictures_are_called_by_their_paths_from_the_scene_or_by_their_names() {
         let options = ImportOptions::default();
         for (scene, file, expected) in [

@@ -244,7 +244,7 @@ impl<'n> Reader<'n, '_> {
             return Ok(None);
         };
         let path = match self.a.beside(buffer.file, &file) {
-            Some(found) if !self.a.exists(&file) => found.to_string_lossy().into_owned(),
+            Some(found) if !self.a.exists(&file) => self.a.spelled(&found),
             _ => file,
         };
         let usage = self.decoding(buffer, &path)?;
