@@ -154,6 +154,22 @@ fn suns_of_blender_are_as_strong_as_in_blender() {
 }
 
 #[test]
+fn spots_of_blender_dim_as_in_blender() {
+    let folder = Folder::new();
+    let shaping = "float inputs:shaping:cone:angle = 60\nfloat inputs:shaping:cone:softness = 0.5";
+    for (doc, inner, law) in
+        [("Blender v4.5.0", 0.75f32.acos(), SpotFalloff::SmoothCosine), ("Maya", 30f32.to_radians(), SpotFalloff::SmoothAngle)]
+    {
+        let spot = format!("def SphereLight \"Spot\" {{ float inputs:intensity = 1\nbool inputs:normalize = 1\n{shaping} }}");
+        folder.write("a.usda", format!("#usda 1.0\n( doc = \"{doc}\" metersPerUnit = 1 )\ndef Cube \"Box\" {{ }}\n{spot}"));
+        let imported = folder.load("a.usda").unwrap();
+        let [Light::Spot { inner_rad, outer_rad, falloff, .. }] = imported.scene.lights[..] else { panic!("{:?}", imported.scene.lights) };
+        assert!((inner_rad - inner).abs() < 1e-6 && (outer_rad - 60f32.to_radians()).abs() < 1e-6, "{doc}: {inner_rad}, {outer_rad}");
+        assert_eq!(falloff, law, "{doc}");
+    }
+}
+
+#[test]
 fn lights_of_the_default_temperature_are_white() {
     for stated in ["", "float inputs:colorTemperature = 6500"] {
         let found = radiance(&load(&format!("def DiskLight \"D\" {{ bool inputs:enableColorTemperature = 1\n{stated} }}")).scene, "D");

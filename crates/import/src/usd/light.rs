@@ -167,9 +167,13 @@ impl Lamp<'_> {
         }
         a.push_light(if cone < 90.0 {
             let direction = self.file_from_prim.transform_vector3(DVec3::NEG_Z).normalize_or_zero().as_vec3();
-            let outer_rad = cone.max(0.0).to_radians() as f32;
-            let inner_rad = outer_rad * (1.0 - softness.clamp(0.0, 1.0) as f32);
-            Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff: SpotFalloff::SmoothAngle }
+            let (outer, softness) = (cone.max(0.0).to_radians(), softness.clamp(0.0, 1.0));
+            // Blender writes its blend as it is, a share of the cosine's range.
+            let (inner, falloff) = match is_normalized_by_blender(self.prim) {
+                true => ((outer.cos() + softness * (1.0 - outer.cos())).acos(), SpotFalloff::SmoothCosine),
+                false => (outer * (1.0 - softness), SpotFalloff::SmoothAngle),
+            };
+            Light::Spot { name, position, direction, intensity, inner_rad: inner as f32, outer_rad: outer as f32, falloff }
         } else {
             Light::Point { name, position, intensity }
         });
