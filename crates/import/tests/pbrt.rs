@@ -5,7 +5,7 @@ mod common;
 use common::{Folder, png, warnings};
 use enfilade_import::{ImportOptions, Imported};
 use enfilade_math::{DVec3, Rgb, Vec2, Vec3};
-use enfilade_scene::{Alpha, Bsdf, Environment, Light, NormalMap, Scene};
+use enfilade_scene::{Alpha, Bsdf, Environment, Light, NormalMap, Scene, SpotFalloff};
 use std::io::Write;
 
 /// A camera that mirrors, so that the world is right-handed as it stands, and the world's beginning.
@@ -117,8 +117,8 @@ fn lights_have_their_places_and_strengths() {
     assert!(
         matches!(&scene.lights[1], Light::Directional { direction, irradiance, .. } if *direction == Vec3::NEG_Z && irradiance.g == 5.0)
     );
-    assert!(matches!(&scene.lights[2], Light::Spot { direction, outer_rad, inner_rad, .. } if *direction == Vec3::NEG_Z
-        && (outer_rad.to_degrees() - 40.0).abs() < 1e-4 && (inner_rad.to_degrees() - 30.0).abs() < 1e-4));
+    assert!(matches!(&scene.lights[2], Light::Spot { direction, outer_rad, inner_rad, falloff, .. }
+        if *direction == Vec3::NEG_Z && *falloff == SpotFalloff::SmoothCosine && (outer_rad.to_degrees() - 40.0).abs() < 1e-4 && (inner_rad.to_degrees() - 30.0).abs() < 1e-4));
     assert_eq!(scene.environment, Some(Environment::Constant { radiance: Rgb::splat(0.5) }));
     // Version 4 takes the hue of a black body alone; a power of 4π·7 W gives an intensity of luminance 7 everywhere.
     let scene =

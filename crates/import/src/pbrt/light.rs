@@ -59,8 +59,12 @@ impl Reader<'_> {
         let cosines = [inner, outer].map(|angle| angle.to_radians().cos());
         let solid_angle = 2.0 * PI * ((1.0 - cosines[0]) + 0.5 * (cosines[0] - cosines[1]));
         let intensity = self.emitted(params, "I")? * power_factor(params, solid_angle)?;
-        if inner < outer {
-            self.warn(&params.place, "between its two angles the light dims by the square of a line in the cosine, not by pbrt's curve");
+        let falloff = if self.version == Version::V4 { SpotFalloff::SmoothCosine } else { SpotFalloff::CosineSquare };
+        if inner < outer && self.version == Version::V3 {
+            self.warn(
+                &params.place,
+                "between its two angles the light dims by the second power of a line in the cosine, not by the fourth",
+            );
         }
         self.a.push_light(Light::Spot {
             name,
@@ -69,7 +73,7 @@ impl Reader<'_> {
             intensity,
             inner_rad: inner.to_radians() as f32,
             outer_rad: outer.to_radians() as f32,
-            falloff: SpotFalloff::CosineSquare,
+            falloff,
         });
         Ok(())
     }
