@@ -29,6 +29,7 @@
 
 mod archive;
 mod assembly;
+mod blender;
 mod error;
 pub mod fbx;
 mod format;

@@ -16,6 +16,11 @@ pub(crate) enum Source<'a> {
     Missing(String),
 }
 
+/// The folder that a file lies in; the working directory has no name.
+fn folder_of(file: &Path) -> &Path {
+    file.parent().unwrap_or(Path::new(""))
+}
+
 impl Assembly<'_> {
     /// The bytes of the scene file itself.
     pub(crate) fn read_scene_file(&mut self) -> Result<Vec<u8>, ImportError> {
@@ -45,21 +50,20 @@ impl Assembly<'_> {
 
     /// The file in the folder of `from`, a file of the scene, that `path` means; `None` where there is none.
     pub(crate) fn beside(&self, from: &Path, path: &str) -> Option<PathBuf> {
-        let folder = from.parent().unwrap_or(Path::new(""));
+        let folder = folder_of(from);
         [folder.join(path), folder.join(path.replace('\\', "/"))].into_iter().find(|file| file.is_file())
     }
 
     /// A file of the scene as the scene file itself would spell it.
     pub(crate) fn spelled(&self, file: &Path) -> String {
-        let home = self.file.parent().unwrap_or(Path::new(""));
-        file.strip_prefix(home).unwrap_or(file).to_string_lossy().into_owned()
+        file.strip_prefix(folder_of(&self.file)).unwrap_or(file).to_string_lossy().into_owned()
     }
 
     /// Looks for files in `folder` from now on, and in those before it and beside the scene file only where it lacks them. It is as
     /// `from`, a file of the scene, spells it. False where there is no such folder.
     pub(crate) fn look_in(&mut self, from: &Path, folder: &str) -> bool {
         let folder = folder.replace('\\', "/");
-        let places = [from, self.file.as_path()].map(|file| file.parent().unwrap_or(Path::new("")).join(&folder));
+        let places = [from, self.file.as_path()].map(|file| folder_of(file).join(&folder));
         let found = places.into_iter().find(|place| place.is_dir());
         let is_there = found.is_some();
         self.folders.extend(found);
@@ -99,7 +103,7 @@ impl Assembly<'_> {
     /// The file that `path` in the scene file means: relative to the folders to look in, or else to its own.
     fn resolve(&self, path: &str) -> PathBuf {
         let found = self.folders.iter().rev().map(|folder| self.within_folder(folder, path)).find(|file| self.is_file(file));
-        found.unwrap_or_else(|| self.within_folder(self.file.parent().unwrap_or(Path::new("")), path))
+        found.unwrap_or_else(|| self.within_folder(folder_of(&self.file), path))
     }
 
     /// The file `path` in a folder, with Windows separators understood.
@@ -115,7 +119,7 @@ impl Assembly<'_> {
     /// What the picture in `file` is called in the scene: its path from the scene file's folder or within the archive, or its name alone
     /// where it lies elsewhere. So scenes are equal wherever their files lie.
     pub(super) fn picture_name(&self, file: &Path) -> String {
-        let home = self.archive.map_or_else(|| self.file.parent().unwrap_or(Path::new("")), Archive::file);
+        let home = self.archive.map_or_else(|| folder_of(&self.file), Archive::file);
         let inside = file.strip_prefix(home).ok().filter(|path| path.is_relative());
         let name = inside.unwrap_or_else(|| file.file_name().map_or(file, Path::new));
         let parts = name.components().filter(|part| *part != Component::CurDir);

@@ -2,6 +2,7 @@
 
 use super::reader::{affine, of_blender};
 use crate::assembly::Assembly;
+use crate::blender::spot_inner_rad;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec3};
 use enfilade_scene::{Light, Material, PartLabel, SpotFalloff};
@@ -30,7 +31,8 @@ pub(super) fn add_light(node: &ufbx::Node, light: &ufbx::Light, name: &str, a: &
             let outer_rad = Some(half(light.outer_angle)).filter(|r| *r > 0.0).unwrap_or(FRAC_PI_4);
             let inner_rad = half(light.inner_angle).clamp(0.0, outer_rad);
             let (inner_rad, falloff) = match of_blender {
-                true => (blend_start(inner_rad, outer_rad), SpotFalloff::SmoothCosine),
+                // It writes (1 − blend)·outer as the inner angle.
+                true => (spot_inner_rad(f64::from(outer_rad), f64::from(1.0 - inner_rad / outer_rad)) as f32, SpotFalloff::SmoothCosine),
                 false => (inner_rad, SpotFalloff::Angle),
             };
             a.push_light(Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff });
@@ -60,11 +62,6 @@ fn point_scale(decay: LightDecay, of_blender: bool, a: &Assembly) -> f32 {
         (false, LightDecay::Quadratic) => 1.0,
         (false, _) => per_square_metre,
     }
-}
-
-/// Where Blender's spots begin to dim: it writes (1 − blend)·outer as the inner angle, but dims over the share `blend` of 1 − cos(outer).
-fn blend_start(inner_rad: f32, outer_rad: f32) -> f32 {
-    2.0 * ((0.5 * outer_rad).sin() * (inner_rad / outer_rad).sqrt()).asin()
 }
 
 /// A square from −1 to 1 across the light's axis, as in Maya, that shines on one side. Blender's watts leave it altogether; the

@@ -10,6 +10,7 @@ use super::stage::{Prim, Stage};
 use super::texture::{Textures, rgb};
 use super::value::Value;
 use crate::assembly::{Assembly, orthonormal};
+use crate::blender::spot_inner_rad;
 use crate::images::Use;
 use crate::spectrum::black_body;
 use crate::{ImportError, ies};
@@ -168,9 +169,9 @@ impl Lamp<'_> {
         a.push_light(if cone < 90.0 {
             let direction = self.file_from_prim.transform_vector3(DVec3::NEG_Z).normalize_or_zero().as_vec3();
             let (outer, softness) = (cone.max(0.0).to_radians(), softness.clamp(0.0, 1.0));
-            // Blender writes its blend as it is, a share of the cosine's range.
+            // Blender writes its blend as it is.
             let (inner, falloff) = match is_normalized_by_blender(self.prim) {
-                true => ((outer.cos() + softness * (1.0 - outer.cos())).acos(), SpotFalloff::SmoothCosine),
+                true => (spot_inner_rad(outer, softness), SpotFalloff::SmoothCosine),
                 false => (outer * (1.0 - softness), SpotFalloff::SmoothAngle),
             };
             Light::Spot { name, position, direction, intensity, inner_rad: inner as f32, outer_rad: outer as f32, falloff }

@@ -225,8 +225,8 @@ impl Config {
     /// Reads and resolves `file`.
     ///
     /// # Errors
-    /// When it cannot be read, lies where the path is not UTF-8, is not TOML, holds an unknown key or a value out of its range, or names an environment variable
-    /// that is not set, or a label table or a grid of rays that cannot be used.
+    /// When it cannot be read, lies where the path is not UTF-8, is not TOML, holds an unknown key or a value out of its range, or names
+    /// an environment variable that is not set, or a label table or a grid of rays that cannot be used.
     pub fn read(file: &Path, overrides: &Overrides) -> Result<Self, Error> {
         if Format::of(file).is_ok() {
             let message = format!("{} is a scene; expected a configuration that lists it", file.display());

@@ -3,7 +3,7 @@
 //! What one cell's rays met is looked for from the cells around it: each counts for all of them, where they see it. That is spatial
 //! resampling, as of reservoirs of paths (Ouyang et al. 2021, "ReSTIR GI"), for a radiosity system.
 
-use super::rays::{Link, Rays, turn};
+use super::rays::{Link, Rays, site_of};
 use super::square::{BINS, bin_of};
 use crate::prepared::Cutout;
 use crate::texture::Cone;
@@ -41,7 +41,7 @@ impl Rays<'_, '_> {
             .iter()
             .enumerate()
             .map(|(bin, link)| {
-                let site = sites[turn(bin, 0) % sites.len()];
+                let site = site_of(&sites, bin, 0);
                 let way = link.p - site.p;
                 Bright { bin, radiance: link.unmirrored(total), p: link.p, way, cosine: way.normalize().dot(site.n) }
             })

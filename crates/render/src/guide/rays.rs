@@ -69,7 +69,7 @@ impl Rays<'_, '_> {
     pub fn links(&self, cell: usize, round: usize) -> impl Iterator<Item = Link> {
         let (sites, mut rng) = (self.sites(cell), self.rng(cell, 1 + round));
         (0..BINS).map(move |bin| {
-            let site = sites[turn(bin, round) % sites.len()];
+            let site = site_of(&sites, bin, round);
             let u = [((bin % SIDE) as f32 + rng.next_f32()) / SIDE as f32, ((bin / SIDE) as f32 + rng.next_f32()) / SIDE as f32];
             let wi = warp::cosine_hemisphere(u);
             let ray = Ray::new(offset_origin(site.p, site.n), Onb::from_z(site.n).to_world(wi));
@@ -79,9 +79,9 @@ impl Rays<'_, '_> {
     }
 }
 
-/// Which of a cell's sites the ray through a bin leaves from, counted round.
-pub(super) fn turn(bin: usize, round: usize) -> usize {
-    bin + bin / SIDE + round
+/// The one of a cell's sites that the ray through a bin leaves from.
+pub(super) fn site_of(sites: &[Site], bin: usize, round: usize) -> Site {
+    sites[(bin + bin / SIDE + round) % sites.len()]
 }
 
 /// What a ray meets, beyond panes, and what is reflected there. It was sampled at `from` with density `pdf`.
