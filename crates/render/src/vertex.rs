@@ -138,7 +138,7 @@ impl<'a, 's> Vertex<'a, 's> {
         let (value, pdf) = self.bsdf.eval_pdf(self.wo, wi);
         match &self.known {
             None => (value, pdf),
-            Some(k) => (value, k.share * k.light.pdf(k.onb.to_local(wi_world)) + (1.0 - k.share) * pdf),
+            Some(k) => (value, k.share * k.light.pdf(wi_world, self.surface.p, &k.onb) + (1.0 - k.share) * pdf),
         }
     }
 
@@ -151,8 +151,7 @@ impl<'a, 's> Vertex<'a, 's> {
             let renewed = ((u[2] - share) / (1.0 - share)).min(ONE_MINUS_EPSILON);
             return self.scatter_by_bsdf([u[0], u[1], renewed], 1.0 - share, before);
         }
-        let (wi, light_pdf) = light.sample([u[0], u[1]]);
-        let direction = onb.to_world(wi);
+        let (direction, light_pdf) = light.sample([u[0], u[1]], surface.p, onb);
         let wi = self.onb.to_local(direction);
         let side = direction.dot(surface.ng);
         if light_pdf <= 0.0 || !sides_agree(wi.z, side) {
@@ -178,7 +177,7 @@ impl<'a, 's> Vertex<'a, 's> {
             Event::Finite => {
                 let mut pdf = share * sample.pdf;
                 if let Some(k) = &self.known {
-                    pdf += k.share * k.light.pdf(k.onb.to_local(direction));
+                    pdf += k.share * k.light.pdf(direction, surface.p, &k.onb);
                     weight = sample.weight * (sample.pdf / pdf);
                 }
                 Some((LightPoint::on(surface), pdf))

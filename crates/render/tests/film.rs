@@ -325,6 +325,38 @@ fn the_standard_error_is_about_the_spread_over_seeds_and_not_below_it() {
 }
 
 #[test]
+fn light_by_way_of_a_small_bright_place_is_the_same_and_steadier_where_it_is_learned() {
+    // A lamp shines up into a small white shade, and nowhere else: the shade alone lights the room.
+    let face = |z: f32, half: f32, up: bool| {
+        let positions = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec3::new(0.3 + half * x, half * y, z)).to_vec();
+        Mesh { positions, triangles: if up { vec![[0, 1, 2], [0, 2, 3]] } else { vec![[0, 2, 1], [0, 3, 2]] }, ..Mesh::default() }
+    };
+    let lamp = Material { emission: Rgb::splat(200.0).into(), ..Material::diffuse("lamp", Rgb::BLACK) };
+    let s = scene(vec![
+        (room(1.0), Material::diffuse("wall", Rgb::splat(0.2))),
+        (face(0.6, 0.05, false), Material::diffuse("shade", Rgb::splat(0.8))),
+        (face(0.57, 0.02, true), lamp),
+    ]);
+    // The mean over the picture and the mean square of what its pixels state as their error.
+    let brightness = |guiding: bool| {
+        let (mut mean, mut error) = (Mean::default(), 0.0);
+        for seed in 0..4 {
+            let config = RenderConfig { samples: 256, adaptive: false, reuse: false, guiding, seed, ..RenderConfig::default() };
+            let frame = picture(&s, [32, 32], &config);
+            let color = frame.get(Layer::Color).unwrap();
+            let stated = frame.get(Layer::ColorStandardError).unwrap();
+            mean.add((0..1024).map(|pixel| color.get(3 * pixel)).sum::<f64>() / 1024.0);
+            error += (0..1024).map(|pixel| stated.get(pixel).powi(2)).sum::<f64>() / 1024.0;
+        }
+        (mean, error)
+    };
+    let ((learned, error), (plain, plain_error)) = (brightness(true), brightness(false));
+    learned.assert_agrees("learned against plain", &plain, 1);
+    let gain = plain_error / error;
+    assert!(gain > 3.0, "variance of the plain picture over that of the learned one: {gain}");
+}
+
+#[test]
 fn where_nothing_varies_there_is_no_error_and_one_sample_says_nothing() {
     let mut s = scene(vec![(screen(Vec3::new(-9.0, 0.0, 0.0), 1.0), Material::diffuse("behind", Rgb::WHITE))]);
     s.environment = Some(Environment::Constant { radiance: Rgb::splat(0.3) });

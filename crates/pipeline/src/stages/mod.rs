@@ -117,7 +117,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Render,
         name: "render",
         about: "scene, trajectories -> frames",
-        version: 11,
+        version: 12,
         settings: render::settings,
         inputs: render::inputs,
         run: render::run,

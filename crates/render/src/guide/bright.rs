@@ -3,14 +3,15 @@
 //! What one cell's rays met is looked for from the cells around it: each counts for all of them, where they see it. That is spatial
 //! resampling, as of reservoirs of paths (Ouyang et al. 2021, "ReSTIR GI"), for a radiosity system.
 
+use super::patch::mean;
 use super::rays::{Link, Rays, site_of};
-use super::square::{BINS, bin_of};
+use super::square::bin_of;
 use crate::prepared::Cutout;
 use crate::texture::Cone;
 use enfilade_math::{Onb, Ray, Rgb, Vec3, offset_origin, warp};
 
 /// How many times brighter than a cell's mean a place is to be shared.
-const BRIGHT: f32 = 8.0;
+pub(super) const BRIGHT: f32 = 8.0;
 /// Places that a cell shares, at most.
 const MOST: usize = 4;
 /// No place fills so many times more of another cell's bins.
@@ -25,7 +26,8 @@ pub(super) struct Bright {
     pub bin: usize,
     /// Radiance that the place sends.
     pub radiance: Rgb,
-    p: Vec3,
+    /// Where it is.
+    pub p: Vec3,
     /// From the cell's site to the place.
     way: Vec3,
     /// Cosine at the site.
@@ -36,7 +38,7 @@ impl Rays<'_, '_> {
     /// The brightest places that a cell's `links` met, given the light of the cells.
     pub fn bright(&self, cell: usize, links: &[Link], total: &[Rgb]) -> Vec<Bright> {
         let sites = self.sites(cell);
-        let mean = links.iter().map(|link| link.emitted + link.radiance(total).luminance()).sum::<f32>() / BINS as f32;
+        let mean = mean(links, total);
         let mut bright: Vec<Bright> = links
             .iter()
             .enumerate()

@@ -3,16 +3,18 @@
 //! From every cell one ray goes out through each bin of the cosine-weighted hemisphere; what it meets is remembered as a cell and a
 //! reflectance. With the direct light of each cell this is a radiosity system (Goral et al. 1984), solved by a few sweeps without
 //! tracing another ray. With the cells' light known, rays through the bins, those that are there and further ones where many samples pay
-//! for them, say what rendering wants: where light comes from in each cell, and how much. What is small and bright is looked for from
-//! the cells around as well (see [`super::bright`]).
+//! for them, say what rendering wants: where light comes from in each cell, and how much. What is small and bright is aimed at apart from
+//! the bins (see [`super::patch`]), and looked for from the cells around as well (see [`super::bright`]).
 
+use super::aim::Aims;
 use super::bright::Bright;
 use super::cells::{Cells, Site};
+use super::patch::{Aimed, patches, shares};
 use super::rays::{Link, Rays};
 use super::square::{BINS, SIDE, SquareDensity};
 use crate::light::LightChoice;
 use crate::prepared::RenderScene;
-use enfilade_math::{Bounds3, Rgb, Vec3, warp};
+use enfilade_math::{Bounds3, Onb, Rgb, Vec3, warp};
 use rayon::prelude::*;
 
 /// Sweeps of the radiosity system: each adds a bounce.
@@ -25,7 +27,9 @@ const MIN_CELL: f32 = 0.05;
 /// What is known of the light in a cell.
 #[derive(Debug)]
 pub(crate) struct CellLight {
+    /// Of the directions that are not aimed.
     density: SquareDensity,
+    aims: Aims,
     /// Irradiance over π of the light that directions find, which is the mean radiance over the hemisphere, weighted by the cosine: what
     /// other surfaces send, and of sources what light sampling leaves to chance.
     pub found: Rgb,
@@ -47,12 +51,13 @@ pub(super) struct Effort {
     pub rounds: usize,
 }
 
-/// Light that arrives in a cell.
+/// Light that arrives in a cell from elsewhere than what it aims at.
 struct Arriving {
     /// Luminance by bin.
     bins: [f32; BINS],
     sum: Rgb,
     rays: usize,
+    aims: Aims,
 }
 
 impl Field {
@@ -75,17 +80,19 @@ impl Field {
         }
         let total = total(&indirect);
         let bright: Vec<Vec<Bright>> = gathered.par_iter().enumerate().map(|(cell, (_, links))| rays.bright(cell, links, &total)).collect();
+        let patches = patches(gathered.iter().map(|(_, links)| &links[..]), &total, cells.size());
         let lights = gathered
             .par_iter()
             .enumerate()
             .map(|(cell, (_, links))| {
-                let mut arriving = Arriving::NONE;
+                let aimed = rays.aimed(cell, links, &patches, &total);
+                let mut arriving = Arriving::beside(&aimed);
                 links.iter().enumerate().for_each(|(bin, link)| arriving.add(bin, link, &total));
                 for round in 1..effort.rounds {
                     rays.links(cell, round).enumerate().for_each(|(bin, link)| arriving.add(bin, &link, &total));
                 }
                 arriving.spread(&rays, cell, &bright);
-                arriving.learned()
+                arriving.learned(&aimed)
             })
             .collect();
         Some(Self { cells, lights })
@@ -109,31 +116,43 @@ impl Field {
 }
 
 impl CellLight {
-    /// A direction in the space of `onb`'s axes, for `u` uniform on [0,1)², and its density per solid angle: in proportion to
-    /// the radiance that directions find, times cosine.
+    /// A unit direction in the world from `p`, for `u` uniform on [0,1)², and its density per solid angle: in proportion to the radiance
+    /// that directions find, times cosine. `onb` holds the axes that the light is stored in.
     #[inline]
-    pub fn sample(&self, u: [f32; 2]) -> (Vec3, f32) {
-        let (v, density) = self.density.sample(u);
-        let wi = warp::cosine_hemisphere(v);
-        (wi, density * warp::cosine_hemisphere_pdf(wi.z))
+    pub fn sample(&self, u: [f32; 2], p: Vec3, onb: &Onb) -> (Vec3, f32) {
+        match self.aims.sample(u, p) {
+            Ok(direction) => (direction, self.pdf(direction, p, onb)),
+            Err(rest) => {
+                let (v, density) = self.density.sample(rest);
+                let wi = warp::cosine_hemisphere(v);
+                let direction = onb.to_world(wi);
+                let (aimed, left) = self.aims.pdf(direction, p);
+                (direction, aimed + left * density * warp::cosine_hemisphere_pdf(wi.z))
+            }
+        }
     }
 
-    /// Density of [`CellLight::sample`].
+    /// Density of [`CellLight::sample`]; 0 below the horizon, where directions are in vain.
     #[inline]
-    pub fn pdf(&self, wi: Vec3) -> f32 {
+    pub fn pdf(&self, direction: Vec3, p: Vec3, onb: &Onb) -> f32 {
+        let wi = onb.to_local(direction);
         if wi.z <= 0.0 {
             return 0.0;
         }
-        self.density.density(warp::square_from_cosine_hemisphere(wi)) * warp::cosine_hemisphere_pdf(wi.z)
+        let (aimed, left) = self.aims.pdf(direction, p);
+        aimed + left * self.density.density(warp::square_from_cosine_hemisphere(wi)) * warp::cosine_hemisphere_pdf(wi.z)
     }
 }
 
 impl Arriving {
-    const NONE: Self = Self { bins: [0.0; BINS], sum: Rgb::BLACK, rays: 0 };
+    /// None yet, beside what is aimed at.
+    fn beside(aimed: &[Aimed]) -> Self {
+        Self { bins: [0.0; BINS], sum: Rgb::BLACK, rays: 0, aims: Aims::new(aimed.iter().map(|(aim, _)| *aim)) }
+    }
 
     /// Adds what a ray through a bin met, given the light of the cells.
     fn add(&mut self, bin: usize, link: &Link, total: &[Rgb]) {
-        let sent = link.radiance(total);
+        let sent = if self.aims.hold(link.p) { link.mirrored(total) } else { link.radiance(total) };
         self.bins[bin] += link.emitted + sent.luminance();
         self.sum += sent + Rgb::splat(link.emitted);
         self.rays += 1;
@@ -144,11 +163,15 @@ impl Arriving {
         let around: Vec<usize> = rays.cells.around(cell).collect();
         let share = 1.0 / around.len() as f32;
         for own in &bright[cell] {
-            self.change(own.bin, own.radiance * (share - 1.0));
+            if !self.aims.hold(own.p) {
+                self.change(own.bin, own.radiance * (share - 1.0));
+            }
         }
         let of_others = around.iter().filter(|&&other| other != cell).flat_map(|&other| &bright[other]);
         for (number, place) in of_others.enumerate() {
-            if let Some((bin, radiance)) = rays.seen(cell, number, place) {
+            if !self.aims.hold(place.p)
+                && let Some((bin, radiance)) = rays.seen(cell, number, place)
+            {
                 self.change(bin, radiance * share);
             }
         }
@@ -160,8 +183,10 @@ impl Arriving {
         self.sum += by;
     }
 
-    fn learned(&self) -> CellLight {
-        CellLight { density: SquareDensity::new(&blurred(&self.bins)), found: self.sum.map(|v| v.max(0.0)) / self.rays as f32 }
+    fn learned(&self, aimed: &[Aimed]) -> CellLight {
+        let found = self.sum.map(|v| v.max(0.0)) / self.rays as f32 + aimed.iter().map(|(_, light)| *light).sum::<Rgb>();
+        let aims = Aims::new(shares(aimed, found.luminance()));
+        CellLight { density: SquareDensity::new(&blurred(&self.bins)), aims, found }
     }
 }
 

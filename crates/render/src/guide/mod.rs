@@ -3,9 +3,11 @@
 //! It steers samples and nothing else. Whatever was learned, every direction and every light keeps a chance, so a poor guide means
 //! more noise, never another mean.
 
+mod aim;
 mod bright;
 mod cells;
 mod field;
+mod patch;
 mod rays;
 mod square;
 

@@ -13,6 +13,11 @@ const PANES: usize = 8;
 /// Mirrors and bends by which a gathering ray goes on.
 const MIRRORS: usize = 6;
 
+/// What a cell's random numbers are for: its direct light, rays through its bins by their round, and small bright places.
+const DIRECT: usize = 0;
+const ROUNDS: usize = 1;
+pub(super) const LOOKING: usize = u16::MAX as usize;
+
 /// What a gathering ray met: a cell, the share of its light that comes back along the ray; the same of a cell seen in a mirror or
 /// gloss; and what sources send by it.
 #[derive(Clone, Copy)]
@@ -28,12 +33,17 @@ pub(super) struct Link {
 impl Link {
     /// Radiance that arrives, given the light of the cells.
     pub fn radiance(&self, total: &[Rgb]) -> Rgb {
-        self.unmirrored(total) + sent(self.mirrored, total)
+        self.unmirrored(total) + self.mirrored(total)
     }
 
     /// The part of it that comes straight from the cell.
     pub fn unmirrored(&self, total: &[Rgb]) -> Rgb {
         sent(self.diffuse, total)
+    }
+
+    /// The part of it that comes by way of a mirror or gloss.
+    pub fn mirrored(&self, total: &[Rgb]) -> Rgb {
+        sent(self.mirrored, total)
     }
 }
 
@@ -54,28 +64,32 @@ impl Rays<'_, '_> {
         self.cells.sites[cell].iter().flatten().copied().collect()
     }
 
-    fn rng(&self, cell: usize, purpose: usize) -> Rng {
+    pub(super) fn rng(&self, cell: usize, purpose: usize) -> Rng {
         Rng::new(hash_u64(self.seed ^ hash_u64((purpose as u64) << 32 | cell as u64)))
     }
 
     /// Direct irradiance over π in a cell, the mean over its sites.
     pub fn direct(&self, cell: usize) -> Rgb {
-        let (sites, mut rng) = (self.sites(cell), self.rng(cell, 0));
+        let (sites, mut rng) = (self.sites(cell), self.rng(cell, DIRECT));
         let lights = &self.scene.lights;
         sites.iter().map(|site| lights.irradiance(self.scene, self.choice, site.p, site.n, &mut rng)).sum::<Rgb>() / sites.len() as f32
     }
 
     /// What is met through each bin of a cell, from its sites in turn.
     pub fn links(&self, cell: usize, round: usize) -> impl Iterator<Item = Link> {
-        let (sites, mut rng) = (self.sites(cell), self.rng(cell, 1 + round));
+        let (sites, mut rng) = (self.sites(cell), self.rng(cell, ROUNDS + round));
         (0..BINS).map(move |bin| {
             let site = site_of(&sites, bin, round);
             let u = [((bin % SIDE) as f32 + rng.next_f32()) / SIDE as f32, ((bin / SIDE) as f32 + rng.next_f32()) / SIDE as f32];
             let wi = warp::cosine_hemisphere(u);
-            let ray = Ray::new(offset_origin(site.p, site.n), Onb::from_z(site.n).to_world(wi));
-            let from = LightPoint { p: site.p, n: site.n };
-            link(self.scene, self.choice, self.cells, &from, ray, warp::cosine_hemisphere_pdf(wi.z), &mut rng)
+            self.link(&site, Onb::from_z(site.n).to_world(wi), warp::cosine_hemisphere_pdf(wi.z), &mut rng)
         })
+    }
+
+    /// What is met from a site in a unit direction, sampled with density `pdf`.
+    pub fn link(&self, site: &Site, direction: Vec3, pdf: f32, rng: &mut Rng) -> Link {
+        let ray = Ray::new(offset_origin(site.p, site.n), direction);
+        link(self.scene, self.choice, self.cells, &LightPoint { p: site.p, n: site.n }, ray, pdf, rng)
     }
 }
 
