@@ -3,7 +3,7 @@
 import argparse
 
 # What `cargo xtask` itself says: our programs, the folders for work, tables and the shared rooms.
-GIVEN = ["measure", "exporter", "work", "docs", "scenes"]
+GIVEN = ["measure", "exporter", "program", "work", "docs", "scenes"]
 
 
 def parse(program, description, names, which):

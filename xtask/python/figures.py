@@ -34,7 +34,7 @@ def sheet(rows, columns):
     return page
 
 
-COLORS = ["#c33", "#36c"]
+COLORS = ["#c33", "#36c", "#393"]
 
 
 def curves(panels, side=190, margin=34, columns=3):

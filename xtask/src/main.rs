@@ -10,6 +10,7 @@ mod bench;
 mod browser;
 mod check;
 mod cluster;
+mod cycles;
 mod dependencies;
 mod embree;
 mod floors;
@@ -41,6 +42,7 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask cluster [--program PATH] [TEST...]   a farm on Slurm, S3 and by other engines' files, with faults
        cargo xtask simulate                       the same on thousands of nodes, simulated
        cargo xtask bench render [ROOM...]         what pictures of real rooms cost, against Mitsuba 3
+       cargo xtask bench cycles [VIEW...]         the noise that a core-second leaves, against Blender's Cycles
        cargo xtask bench storage [DATASET...]     size and reading time of the files, against Hypersim's
        cargo xtask bench loader [DATASET...]      the Python module's reading of layers, against h5py
        cargo xtask bench homes [COUNT] [FIRST]    what generated homes cost and what is in them, beside published numbers";
@@ -59,6 +61,7 @@ fn main() -> ExitCode {
         ["browser", rest @ ..] => browser::run(&house, rest),
         ["fuzz", rest @ ..] => fuzz::run(&house, rest),
         ["bench", "render", rest @ ..] => peers::run(&house, "bench_render", rest),
+        ["bench", "cycles", rest @ ..] => cycles::run(&house, rest),
         ["bench", "homes", rest @ ..] => homes::run(&house, rest),
         ["bench", "loader", rest @ ..] => loader::run(&house, rest),
         ["bench", "storage", rest @ ..] => storage::run(&house, rest),
@@ -77,11 +80,11 @@ fn main() -> ExitCode {
     }
 }
 
-/// True where nothing but the usage is asked for; the programs of `oracle` and `bench render` tell about themselves.
+/// True where nothing but the usage is asked for; the programs of `oracle`, `bench render` and `bench cycles` tell about themselves.
 fn asks_for_usage(words: &[&str]) -> bool {
     match words {
         [] | ["help"] => true,
-        ["oracle", ..] | ["bench", "render", ..] => false,
+        ["oracle", ..] | ["bench", "render" | "cycles", ..] => false,
         words => words.iter().any(|word| matches!(*word, "--help" | "-h")),
     }
 }
@@ -96,7 +99,7 @@ mod tests {
         for words in [&["-h"][..], &["check", "--help"], &["cluster", "--help"], &["fuzz", "gltf", "--help"], &["bench", "-h"]] {
             assert!(asks_for_usage(words), "{words:?}");
         }
-        for words in [&["check"][..], &["oracle", "--help"], &["bench", "render", "--help"], &["bench", "--list"]] {
+        for words in [&["check"][..], &["oracle", "--help"], &["bench", "cycles", "--help"], &["bench", "--list"]] {
             assert!(!asks_for_usage(words), "{words:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! A Python that reads HDF5 and exports, for the tests that compare with other libraries, and one with the renderers that we compare
+//! A Python that reads HDF5 and exports, for the tests that compare with other libraries, and those with the renderers that we compare
 //! with.
 
 use crate::house::House;
@@ -12,11 +12,17 @@ pub const VARIABLE: &str = "ENFILADE_PYTHON";
 /// Names a Python with Mitsuba 3, numpy and Pillow.
 const PEERS_VARIABLE: &str = "ENFILADE_PEERS_PYTHON";
 
+/// Names a Python with Blender's module, numpy and Pillow.
+const BLENDER_VARIABLE: &str = "ENFILADE_BLENDER_PYTHON";
+
 /// What interpreters are called; the names with a version are for machines whose `python3` is too old for our module.
 const PYTHONS: [&str; 6] = ["python3", "python", "python3.14", "python3.13", "python3.12", "python3.11"];
 
 /// Succeeds in a Python for which our module is built, and that can make an environment.
 const NEW_ENOUGH: &str = "import sys, venv, ensurepip; assert sys.version_info >= (3, 11)";
+
+/// Succeeds in the one Python for which Blender's module is built, if it can make an environment.
+const BLENDERS: &str = "import sys, venv, ensurepip; assert sys.version_info[:2] == (3, 11)";
 
 /// What the tests of exports read them with, beside numpy and h5py, as far as it is small; a test whose library is missing says so.
 const READERS: [&str; 4] = ["pillow", "pycocotools", "OpenEXR", "webdataset"];
@@ -59,11 +65,34 @@ fn found_or_made(house: &House) -> Result<PathBuf, String> {
 /// When there is no Python, or no network to install from.
 pub fn with_peers(house: &House) -> Result<PathBuf, String> {
     const IMPORTS: &str = "import mitsuba, numpy, PIL";
-    if let Some(named) = std::env::var_os(PEERS_VARIABLE) {
-        let works = succeeds(house, Path::new(&named), IMPORTS);
-        return if works { Ok(named.into()) } else { Err(format!("{PEERS_VARIABLE} names a Python that cannot {IMPORTS}")) };
+    match named(house, PEERS_VARIABLE, IMPORTS)? {
+        Some(python) => Ok(python),
+        None => made(house, "venv-peers", IMPORTS, &["mitsuba==3.9.1", "numpy", "pillow"]),
     }
-    made(house, "venv-peers", IMPORTS, &["mitsuba==3.9.1", "numpy", "pillow"])
+}
+
+/// The Python that [`BLENDER_VARIABLE`] names, else one with Blender's module made below the target folder.
+///
+/// # Errors
+/// When there is no Python 3.11, or no network to install from.
+pub fn with_blender(house: &House) -> Result<PathBuf, String> {
+    const IMPORTS: &str = "import bpy, numpy, PIL";
+    if let Some(python) = named(house, BLENDER_VARIABLE, IMPORTS)? {
+        return Ok(python);
+    }
+    let (folder, own) = place(house, "venv-blender")?;
+    if succeeds(house, &own, IMPORTS) {
+        return Ok(own);
+    }
+    let python = system(house, BLENDERS).ok_or("Blender's module needs Python 3.11 with the module venv, and there is none")?;
+    fill(house, python, &folder, &own, &["bpy==4.5.15", "numpy", "pillow"])
+}
+
+/// The Python that `variable` names, if it does.
+fn named(house: &House, variable: &str, imports: &str) -> Result<Option<PathBuf>, String> {
+    let Some(named) = std::env::var_os(variable) else { return Ok(None) };
+    let works = succeeds(house, Path::new(&named), imports);
+    if works { Ok(Some(named.into())) } else { Err(format!("{variable} names a Python that cannot {imports}")) }
 }
 
 /// A virtual environment below the target folder that `imports` succeeds in, made and filled with `packages` unless it is there. It is of
@@ -72,21 +101,36 @@ pub fn with_peers(house: &House) -> Result<PathBuf, String> {
 /// # Errors
 /// When there is no Python, or no network to install from.
 pub fn made(house: &House, name: &str, imports: &str, packages: &[&str]) -> Result<PathBuf, String> {
-    let folder = house.target()?.join(name);
-    let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let system = |code: &str| PYTHONS.iter().find(|python| succeeds(house, Path::new(python), code));
-    let new = system(NEW_ENOUGH);
+    let (folder, own) = place(house, name)?;
+    let new = system(house, NEW_ENOUGH);
     if succeeds(house, &own, imports) && (new.is_none() || succeeds(house, &own, NEW_ENOUGH)) {
         return Ok(own);
     }
-    let python = new.or_else(|| system("import venv")).ok_or("there is no Python with the module venv")?;
+    let python = new.or_else(|| system(house, "import venv")).ok_or("there is no Python with the module venv")?;
+    fill(house, python, &folder, &own, packages)
+}
+
+/// Where the virtual environment of that name is, and the Python in it.
+fn place(house: &House, name: &str) -> Result<(PathBuf, PathBuf), String> {
+    let folder = house.target()?.join(name);
+    let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    Ok((folder, own))
+}
+
+/// The first Python of the system in which `code` succeeds.
+fn system(house: &House, code: &str) -> Option<&'static str> {
+    PYTHONS.into_iter().find(|python| succeeds(house, Path::new(python), code))
+}
+
+/// Makes a virtual environment anew and installs `packages` there; `own` is its Python.
+fn fill(house: &House, python: &str, folder: &Path, own: &Path, packages: &[&str]) -> Result<PathBuf, String> {
     let mut make = house.command(python, &["-m", "venv", "--clear"]);
-    make.arg(&folder);
+    make.arg(folder);
     finish(make).map_err(|error| format!("cannot make a virtual environment (on Debian, install python3-venv): {error}"))?;
-    let mut install = house.command(&own, &["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+    let mut install = house.command(own, &["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
     install.args(packages);
     finish(install).map_err(|error| format!("cannot install {} (is there a network?): {error}", packages.join(", ")))?;
-    Ok(own)
+    Ok(own.into())
 }
 
 fn reads_hdf5(house: &House, python: &Path) -> bool {

@@ -231,14 +231,14 @@ impl<'a> Session<'a> {
         let job = Job::new(self.config, scene, &self.dataset, self.workdir, force);
         let mut outcome = SceneOutcome { name: scene.name.clone(), stages: Vec::new(), failure: None };
         for spec in stages.iter().filter(|spec| job.wants(spec.stage)) {
-            let ready = match spec.stage {
-                // The manifest is part of what is verified.
+            let ready = || match spec.stage {
+                // The manifest is part of what is verified. It lists all scenes, so it is not gathered for each that has nothing to do.
                 Stage::Verify => self.write_manifest(earlier, Some(&scene.name)),
                 // Better before hours of rendering than after them.
                 Stage::Render if stages.iter().any(|s| s.stage == Stage::Denoise) => check_denoiser(&job),
                 _ => Ok(()),
             };
-            match ready.and_then(|()| advance(spec, &job, StageCx::new(&scene.name, spec.stage, reporter))) {
+            match advance(spec, &job, ready, StageCx::new(&scene.name, spec.stage, reporter)) {
                 Ok(done) => outcome.stages.push(done),
                 Err(error) => {
                     outcome.failure = Some(told_failure(&scene.name, spec.stage, &error, reporter));

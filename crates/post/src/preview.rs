@@ -10,7 +10,7 @@ use crate::palette::{id_color, semantic_color, traits_color, validity_color};
 use crate::picture::{Picture, byte, from_pixels, jpeg, png};
 use crate::stretch::{self, Stretch};
 use crate::tonemap::{ToneMap, encode};
-use enfilade_frame::{Frame, Layer, Pass, Values};
+use enfilade_frame::{Frame, Layer, Pass, Values, f16};
 
 /// A preview that can be made of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,9 +153,9 @@ pub fn preview_over(subject: Subject, frame: &Frame, tone: ToneMap, stretch: Opt
     let lambertian = || Some((layer(Layer::DiffuseReflectance)?, layer(Layer::DiffuseIllumination)?));
     let plain = |picture| Some(Preview { picture, note: String::new() });
     match subject {
-        Subject::ToneMapped | Subject::Displayed => color.and_then(|c| plain(rgb(frame, |i| tone.apply(c.get(i))))),
-        Subject::Clipped => color.and_then(|c| plain(rgb(frame, |i| c.get(i)))),
-        Subject::Gamma => color.and_then(|c| plain(rgb(frame, |i| encode(c.get(i))))),
+        Subject::ToneMapped | Subject::Displayed => color.and_then(|c| plain(shown(frame, c, |v| tone.apply(v)))),
+        Subject::Clipped => color.and_then(|c| plain(shown(frame, c, |v| v))),
+        Subject::Gamma => color.and_then(|c| plain(shown(frame, c, encode))),
         Subject::Lambertian => {
             let (a, s) = lambertian()?;
             plain(rgb(frame, |i| tone.apply(a.get(i) * s.get(i))))
@@ -195,14 +195,14 @@ fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap, ra
         | Layer::LightDistant
         | Layer::LightSurfaces
         | Layer::LightPoints
-        | Layer::EmittedRadiance => rgb(frame, |i| tone.apply(values.get(i))),
-        Layer::ColorStandardError => rgb(frame, |i| tone.apply(values.get(i / 3))),
-        Layer::DiffuseReflectance | Layer::BaseColor => rgb(frame, |i| encode(values.get(i))),
+        | Layer::EmittedRadiance => shown(frame, values, |v| tone.apply(v)),
+        Layer::ColorStandardError => shown(frame, values, |v| tone.apply(v)),
+        Layer::DiffuseReflectance | Layer::BaseColor => shown(frame, values, encode),
         Layer::NormalWorld | Layer::NormalCam | Layer::NormalBumpWorld | Layer::NormalBumpCam | Layer::NormalGeometricWorld => {
-            rgb(frame, |i| 0.5 * (values.get(i) + 1.0))
+            shown(frame, values, |v| 0.5 * (v + 1.0))
         }
-        Layer::Metallic | Layer::Roughness | Layer::TransmissionWeight => rgb(frame, |i| values.get(i / 3)),
-        Layer::TexCoord => rgb(frame, |i| values.get(i) - values.get(i).floor()),
+        Layer::Metallic | Layer::Roughness | Layer::TransmissionWeight => shown(frame, values, |v| v),
+        Layer::TexCoord => shown(frame, values, |v| v - v.floor()),
         Layer::RenderEntityId | Layer::SemanticInstance | Layer::MaterialId | Layer::EntityBehindId => ids(frame, values, id_color),
         Layer::Semantic => ids(frame, values, semantic_color),
         Layer::Valid => ids(frame, values, |code| validity_color(code as u8)),
@@ -213,11 +213,33 @@ fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap, ra
     Preview { picture, note: String::new() }
 }
 
+/// Each value of a layer as `show` has it; one channel is grey. There are fewer float16 values than an image has pixels, so each of them
+/// is shown once.
+fn shown(frame: &Frame, values: &Values, show: impl Fn(f64) -> f64) -> Picture {
+    let channels = values.len() / frame.pixels().max(1);
+    let place = |i: usize| if channels == 1 { i / 3 } else { i };
+    match values {
+        Values::F16(halves) if halves.len() > usize::from(u16::MAX) => {
+            let levels: Vec<Option<u8>> = (0..=u16::MAX).map(|bits| level(show(f16::from_bits(bits).to_f64()))).collect();
+            from_levels(frame, |i| levels[usize::from(halves[place(i)].to_bits())])
+        }
+        _ => rgb(frame, |i| show(values.get(place(i)))),
+    }
+}
+
 /// Three channels, value by value; transparent where one is NaN.
 fn rgb(frame: &Frame, value: impl Fn(usize) -> f64) -> Picture {
-    from_pixels(frame.width, frame.height, |i| {
-        let v = [0, 1, 2].map(|c| value(3 * i + c));
-        if v.iter().all(|v| !v.is_nan()) { [byte(v[0]), byte(v[1]), byte(v[2]), 255] } else { [0; 4] }
+    from_levels(frame, |i| level(value(i)))
+}
+
+fn level(value: f64) -> Option<u8> {
+    (!value.is_nan()).then(|| byte(value))
+}
+
+fn from_levels(frame: &Frame, level: impl Fn(usize) -> Option<u8>) -> Picture {
+    from_pixels(frame.width, frame.height, |i| match [0, 1, 2].map(|c| level(3 * i + c)) {
+        [Some(r), Some(g), Some(b)] => [r, g, b, 255],
+        _ => [0; 4],
     })
 }
 

@@ -284,8 +284,8 @@ fn frames_are_whole(stage: Stage, job: &Job) -> bool {
     job.frames().is_ok_and(|frames| frames.iter().all(is_whole))
 }
 
-/// Runs a stage of a scene unless it is up to date and not forced.
-pub(crate) fn advance(spec: &StageSpec, job: &Job, cx: StageCx) -> Result<StageOutcome, Error> {
+/// Runs a stage of a scene unless it is up to date and not forced. `ready` is called before it does, and not where there is nothing to do.
+pub(crate) fn advance(spec: &StageSpec, job: &Job, ready: impl FnOnce() -> Result<(), Error>, cx: StageCx) -> Result<StageOutcome, Error> {
     let record_path = job.work_file(&format!("{}.json", spec.name))?;
     let previous: Option<Record> = read_json(&record_path);
     let inputs = (spec.inputs)(job, previous.as_ref())?;
@@ -297,6 +297,7 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, cx: StageCx) -> Result<StageO
         let warnings = record.warnings.len();
         return Ok(StageOutcome { stage: spec.stage, up_to_date: true, summary: record.summary.clone(), warnings, wall_s: 0.0 });
     }
+    ready()?;
     cx.event(Event::Started);
     let time = Stopwatch::start();
     // From here on the old outputs are about to change, so neither the old record nor the report card must vouch for them.

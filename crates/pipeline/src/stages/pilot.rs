@@ -202,7 +202,7 @@ fn later_stages(job: &Job, dataset: &Dataset, scratch: &Workdir, found: &mut Sce
     let once = Job::new(job.config, job.scene, dataset, scratch, true);
     let time = Stopwatch::start();
     for spec in STAGES.iter().filter(|spec| spec.stage > Stage::Render && once.wants(spec.stage)) {
-        match advance(spec, &once, StageCx::new(name, spec.stage, &Silent)) {
+        match advance(spec, &once, || Ok(()), StageCx::new(name, spec.stage, &Silent)) {
             Err(error) if spec.stage != Stage::Verify => return Err(error),
             _ => {}
         }

@@ -5,11 +5,11 @@ use crate::boxes::{DrawnBox, draw_boxes, of_kind, scene_boxes};
 use crate::instances::{Solid, frame_instances, visible_areas};
 use crate::label::class_name;
 use crate::palette::{id_color, semantic_color};
-use crate::picture::jpeg;
+use crate::picture::{Picture, jpeg};
 use crate::preview::{Subject, preview};
 use crate::tonemap::ToneMap;
 use enfilade_dataset::{BoxKind, Dataset, DatasetError, InstanceView, write_bytes};
-use enfilade_frame::{Frame, Layer, Pass};
+use enfilade_frame::{Frame, Layer, Pass, Values};
 use enfilade_math::OrientedBox;
 use enfilade_scene::{CameraView, Cx, Labels, Scene};
 use rayon::prelude::*;
@@ -108,8 +108,9 @@ pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
         let wanted = [Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::SemanticInstance];
         let frame = read_present(dataset, scene, camera, number, &wanted)?;
         let mut files = Vec::new();
+        let Some(backdrop) = Backdrop::new(&frame, &labels) else { return Ok(files) };
         for (kind, boxes) in &boxes {
-            let Some(picture) = overlay(&frame, &view, boxes, &labels) else { continue };
+            let picture = backdrop.overlay(&view, boxes);
             let path = dataset.layout().preview(scene, camera, number, Pass::Final, &format!("bb_{}.jpg", kind.name()));
             write_bytes(&path, picture)?;
             files.push(path);
@@ -129,19 +130,36 @@ fn optional<T>(read: Result<T, DatasetError>) -> Result<Option<T>, DatasetError>
     }
 }
 
-/// The boxes of what the frame shows, over the frame, as JPEG; `None` without the layers for it.
-fn overlay(frame: &Frame, view: &CameraView<'_>, boxes: &[Option<OrientedBox>], labels: &Labels) -> Option<Vec<u8>> {
-    let (depth, instances) = (frame.get(Layer::DepthMeters)?, frame.get(Layer::SemanticInstance)?);
-    let shown = preview(Subject::ToneMapped, frame, ToneMap::of_frame(frame)?)?;
-    let drawn = visible_areas(instances, frame.width).into_iter().filter_map(|(instance, area)| {
-        let shape = (*boxes.get(instance as usize)?)?;
-        let class = labels.parts.iter().find(|label| label.instance == instance).map_or(-1, |label| label.semantic);
-        let color = if class >= 1 { semantic_color(class) } else { id_color(instance) };
-        let large = area.pixels as f64 >= TEXT_SHARE * frame.pixels() as f64;
-        let text = if large { format!("{} {instance}", class_name(class)) } else { String::new() };
-        Some(DrawnBox { shape, color, text })
-    });
-    Some(jpeg(&draw_boxes(&shown.picture, depth, view, &drawn.collect::<Vec<_>>())))
+/// What boxes are drawn over.
+struct Backdrop<'a> {
+    picture: Picture,
+    depth: &'a Values,
+    /// What the frame shows: number and class of each instance, and whether it is large enough for text.
+    instances: Vec<(i16, i16, bool)>,
+}
+
+impl<'a> Backdrop<'a> {
+    /// `None` without the layers for it.
+    fn new(frame: &'a Frame, labels: &Labels) -> Option<Self> {
+        let (depth, instances) = (frame.get(Layer::DepthMeters)?, frame.get(Layer::SemanticInstance)?);
+        let picture = preview(Subject::ToneMapped, frame, ToneMap::of_frame(frame)?)?.picture;
+        let shown = visible_areas(instances, frame.width).into_iter().map(|(instance, area)| {
+            let class = labels.parts.iter().find(|label| label.instance == instance).map_or(-1, |label| label.semantic);
+            (instance, class, area.pixels as f64 >= TEXT_SHARE * frame.pixels() as f64)
+        });
+        Some(Self { picture, depth, instances: shown.collect() })
+    }
+
+    /// The boxes of what the frame shows, over the frame, as JPEG.
+    fn overlay(&self, view: &CameraView<'_>, boxes: &[Option<OrientedBox>]) -> Vec<u8> {
+        let drawn = self.instances.iter().filter_map(|&(instance, class, large)| {
+            let shape = (*boxes.get(instance as usize)?)?;
+            let color = if class >= 1 { semantic_color(class) } else { id_color(instance) };
+            let text = if large { format!("{} {instance}", class_name(class)) } else { String::new() };
+            Some(DrawnBox { shape, color, text })
+        });
+        jpeg(&draw_boxes(&self.picture, self.depth, view, &drawn.collect::<Vec<_>>()))
+    }
 }
 
 #[cfg(test)]

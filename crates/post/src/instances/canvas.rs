@@ -8,6 +8,8 @@ use rayon::prelude::*;
 
 /// Side of the squares of pixels whose rays are compared with whole objects before they are cast.
 const TILE: i32 = 16;
+/// Side of the squares of tiles that are compared with all objects, so that each tile need only be compared with some.
+const BLOCK: i32 = 8 * TILE;
 
 /// The pixels in which silhouettes are looked for: the image and as much again on every side. A panorama has nothing beside it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,45 +40,55 @@ impl Canvas {
 
     /// What each of `solids` covers, each as if it were alone.
     pub(super) fn silhouettes(&self, solids: &[Solid], view: &CameraView<'_>) -> Vec<Silhouette> {
-        let tiles = |from: i32, to: i32| (from..to).step_by(TILE as usize).collect::<Vec<_>>();
         let [left, above] = self.margin;
-        let columns = tiles(-left, self.width + left);
-        let rows: Vec<Vec<Silhouette>> = tiles(-above, self.height + above)
-            .into_par_iter()
-            .map(|y| {
-                let mut found = vec![Silhouette::default(); solids.len()];
-                columns.iter().for_each(|&x| self.cast_tile(solids, view, [x, y], &mut found));
-                found
-            })
-            .collect();
+        let blocks: Vec<[i32; 4]> = squares([-left, -above, self.width + left, self.height + above], BLOCK).collect();
+        let found: Vec<Vec<(usize, Silhouette)>> = blocks.into_par_iter().map(|block| self.cast_block(solids, view, block)).collect();
         let mut whole = vec![Silhouette::default(); solids.len()];
-        for row in rows {
-            for (whole, part) in whole.iter_mut().zip(row) {
-                whole.full = whole.full.union(part.full);
-                whole.inside.extend(part.inside);
-            }
+        for (solid, part) in found.into_iter().flatten() {
+            whole[solid].full = whole[solid].full.union(part.full);
+            whole[solid].inside.extend(part.inside);
         }
         whole
     }
 
-    /// Casts the rays of the tile whose first pixel is (x, y) at the solids that they may meet.
-    fn cast_tile(&self, solids: &[Solid], view: &CameraView<'_>, [x, y]: [i32; 2], found: &mut [Silhouette]) {
-        let (end_x, end_y) = ((x + TILE).min(self.width + self.margin[0]), (y + TILE).min(self.height + self.margin[1]));
-        let pixels = (y..end_y).flat_map(|y| (x..end_x).map(move |x| (x, y)));
-        let rays: Vec<(i32, i32, CameraRay)> =
-            pixels.filter_map(|(x, y)| Some((x, y, view.centre_ray(f64::from(x) + 0.5, f64::from(y) + 0.5)?))).collect();
-        let Some(cone) = Cone::around(&rays) else { return };
-        for (solid, found) in solids.iter().zip(found).filter(|(solid, _)| cone.meets(solid)) {
-            for (x, y, ray) in &rays {
-                if solid.bvh.occluded(&Ray::new(ray.origin.as_vec3(), ray.direction.as_vec3())) {
-                    found.full = found.full.with(*x, *y);
-                    if (0..self.width).contains(x) && (0..self.height).contains(y) {
-                        found.inside.push((x * self.height + y) as u32);
-                    }
+    /// What solids cover of a block, by their places in `solids`; a solid may come several times.
+    fn cast_block(&self, solids: &[Solid], view: &CameraView<'_>, block: [i32; 4]) -> Vec<(usize, Silhouette)> {
+        let tile = |[left, above, right, below]: [i32; 4]| {
+            let pixels = (above..below).flat_map(|y| (left..right).map(move |x| (x, y)));
+            let ray = |(x, y): (i32, i32)| Some((x, y, view.centre_ray(f64::from(x) + 0.5, f64::from(y) + 0.5)?));
+            let rays: Vec<(i32, i32, CameraRay)> = pixels.filter_map(ray).collect();
+            Some((Cone::around(&rays)?, rays))
+        };
+        let tiles: Vec<(Cone, Vec<(i32, i32, CameraRay)>)> = squares(block, TILE).filter_map(tile).collect();
+        let around = Cone::around_cones(tiles.iter().map(|(cone, _)| cone));
+        let near: Vec<usize> = (0..solids.len()).filter(|&i| around.as_ref().is_none_or(|cone| cone.meets(&solids[i]))).collect();
+        let mut found = Vec::new();
+        for (cone, rays) in &tiles {
+            let met = near.iter().filter(|&&i| cone.meets(&solids[i]));
+            found.extend(met.map(|&i| (i, self.cast(&solids[i], rays))).filter(|(_, part)| part.full.pixels > 0));
+        }
+        found
+    }
+
+    /// What a solid covers of the pixels of `rays`.
+    fn cast(&self, solid: &Solid, rays: &[(i32, i32, CameraRay)]) -> Silhouette {
+        let mut found = Silhouette::default();
+        for (x, y, ray) in rays {
+            if solid.bvh.occluded(&Ray::new(ray.origin.as_vec3(), ray.direction.as_vec3())) {
+                found.full = found.full.with(*x, *y);
+                if (0..self.width).contains(x) && (0..self.height).contains(y) {
+                    found.inside.push((x * self.height + y) as u32);
                 }
             }
         }
+        found
     }
+}
+
+/// The squares of this side that make up a rectangle of pixels (left, upper, right and lower border), cut off at its borders.
+fn squares([left, above, right, below]: [i32; 4], side: i32) -> impl Iterator<Item = [i32; 4]> {
+    let places = move |from: i32, to: i32| (from..to).step_by(side as usize).map(move |at| (at, (at + side).min(to)));
+    places(above, below).flat_map(move |(y, end_y)| places(left, right).map(move |(x, end_x)| [x, y, end_x, end_y]))
 }
 
 /// A cone that holds some rays but for `spread`.
@@ -92,8 +104,17 @@ impl Cone {
     fn around(rays: &[(i32, i32, CameraRay)]) -> Option<Self> {
         let apex = rays.first()?.2.origin;
         let axis = rays.iter().map(|(.., ray)| ray.direction).sum::<DVec3>().try_normalize()?;
-        let half_angle_rad = rays.iter().map(|(.., ray)| axis.angle_between(ray.direction)).fold(0.0, f64::max);
+        let half_angle_rad = rays.iter().map(|(.., ray)| axis.dot(ray.direction)).fold(1.0, f64::min).max(-1.0).acos();
         let spread = rays.iter().map(|(.., ray)| ray.origin.distance(apex)).fold(0.0, f64::max);
+        Some(Self { apex, axis, half_angle_rad, spread })
+    }
+
+    /// A cone that holds what `cones` hold; `None` where they point away from each other.
+    fn around_cones<'a>(cones: impl Iterator<Item = &'a Self> + Clone) -> Option<Self> {
+        let apex = cones.clone().next()?.apex;
+        let axis = cones.clone().map(|cone| cone.axis).sum::<DVec3>().try_normalize()?;
+        let half_angle_rad = cones.clone().map(|cone| axis.angle_between(cone.axis) + cone.half_angle_rad).fold(0.0, f64::max);
+        let spread = cones.map(|cone| cone.apex.distance(apex) + cone.spread).fold(0.0, f64::max);
         Some(Self { apex, axis, half_angle_rad, spread })
     }
 

@@ -14,6 +14,7 @@
 use super::card::Card;
 use super::law::Law;
 use super::rounding::Rounding;
+use crate::channels::vector;
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::{DMat2, DVec2, DVec3};
 use enfilade_scene::CameraView;
@@ -141,9 +142,12 @@ struct Raster<'a> {
     view: CameraView<'a>,
     rounding: Rounding,
     distance: &'a Values,
-    normals: Option<&'a Values>,
+    /// By pixel, unit length; (0, 0, 0) where there is none.
+    normals: Option<Vec<DVec3>>,
     ids: &'a Values,
     instances: Option<&'a Values>,
+    /// Part and instance that each pixel shows; without instances 0 for these.
+    shown: Vec<(i16, i16)>,
     /// Only of cameras in focus and at rest: lens and shutter blur it.
     reflectance: Option<&'a Values>,
 }
@@ -183,15 +187,20 @@ impl<'a> Raster<'a> {
         let camera = sight.view.camera();
         let sharp = camera.lens.is_none() && camera.shutter.is_none();
         (camera.size() == [frame.width, frame.height]).then_some(())?;
+        let (ids, instances) = (frame.get(Layer::RenderEntityId)?, frame.get(Layer::SemanticInstance));
+        let shown = |pixel: usize| (ids.get(pixel) as i16, instances.map_or(0, |instances| instances.get(pixel) as i16));
         Some(Self {
             width: frame.width as usize,
             height: frame.height as usize,
             view: sight.view,
             rounding: sight.rounding,
             distance: frame.get(Layer::DepthMeters)?,
-            normals: frame.get(Layer::NormalWorld),
-            ids: frame.get(Layer::RenderEntityId)?,
-            instances: frame.get(Layer::SemanticInstance),
+            normals: frame
+                .get(Layer::NormalWorld)
+                .map(|values| (0..frame.pixels()).map(|i| vector(values, i).normalize_or_zero()).collect()),
+            ids,
+            instances,
+            shown: (0..frame.pixels()).map(shown).collect(),
             reflectance: frame.get(Layer::DiffuseReflectance).filter(|_| sharp),
         })
     }
@@ -268,21 +277,15 @@ impl<'a> Raster<'a> {
 
     /// Cosine of the largest angle between a pixel's normal and those around it; 1 without normals.
     fn least_cosine(&self, pixel: usize) -> f64 {
-        let Some(normals) = self.normals else { return 1.0 };
-        let normal = |k: usize| DVec3::from_array([0, 1, 2].map(|c| normals.get(3 * k + c))).normalize_or_zero();
-        self.around(pixel).map(|k| normal(pixel).dot(normal(k))).fold(1.0, f64::min)
+        let Some(normals) = &self.normals else { return 1.0 };
+        self.around(pixel).map(|k| normals[pixel].dot(normals[k])).fold(1.0, f64::min)
     }
 
     /// Whether all pixels around are there and of the pixel's part, and of the same piece of it if it was split.
     fn is_of_one_part(&self, pixel: usize) -> bool {
         let (x, y) = (pixel % self.width, pixel / self.width);
         let inside = x >= REACH && y >= REACH && x + REACH < self.width && y + REACH < self.height;
-        inside && self.around(pixel).all(|k| self.shows(k) == self.shows(pixel))
-    }
-
-    /// Part and instance that a pixel shows.
-    fn shows(&self, pixel: usize) -> (f64, Option<f64>) {
-        (self.ids.get(pixel), self.instances.map(|instances| instances.get(pixel)))
+        inside && self.around(pixel).all(|k| self.shown[k] == self.shown[pixel])
     }
 
     /// The pixels at most `REACH` from one that is so far from the border.
@@ -295,7 +298,7 @@ impl<'a> Raster<'a> {
     fn judge(&self, other: &Raster<'_>, pixel: usize, carried: &Carried, cell: &[usize; 4], found: &mut Direction) {
         let shown = cell.map(|k| other.distance.get(k));
         let id = other.ids.get(cell[0]);
-        if id == -1.0 || cell.iter().any(|&k| other.shows(k) != other.shows(cell[0])) {
+        if id == -1.0 || cell.iter().any(|&k| other.shown[k] != other.shown[cell[0]]) {
             return;
         }
         let (least, most) = shown.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &d| (a.min(d), b.max(d)));
