@@ -56,10 +56,10 @@ impl Canvas {
         let tile = |[left, above, right, below]: [i32; 4]| {
             let pixels = (above..below).flat_map(|y| (left..right).map(move |x| (x, y)));
             let ray = |(x, y): (i32, i32)| Some((x, y, view.centre_ray(f64::from(x) + 0.5, f64::from(y) + 0.5)?));
-            let rays: Vec<(i32, i32, CameraRay)> = pixels.filter_map(ray).collect();
+            let rays: Rays = pixels.filter_map(ray).collect();
             Some((Cone::around(&rays)?, rays))
         };
-        let tiles: Vec<(Cone, Vec<(i32, i32, CameraRay)>)> = squares(block, TILE).filter_map(tile).collect();
+        let tiles: Vec<(Cone, Rays)> = squares(block, TILE).filter_map(tile).collect();
         let around = Cone::around_cones(tiles.iter().map(|(cone, _)| cone));
         let near: Vec<usize> = (0..solids.len()).filter(|&i| around.as_ref().is_none_or(|cone| cone.meets(&solids[i]))).collect();
         let mut found = Vec::new();
@@ -90,6 +90,9 @@ fn squares([left, above, right, below]: [i32; 4], side: i32) -> impl Iterator<It
     let places = move |from: i32, to: i32| (from..to).step_by(side as usize).map(move |at| (at, (at + side).min(to)));
     places(above, below).flat_map(move |(y, end_y)| places(left, right).map(move |(x, end_x)| [x, y, end_x, end_y]))
 }
+
+/// Rays, and the pixels that they are of: column and row.
+type Rays = Vec<(i32, i32, CameraRay)>;
 
 /// A cone that holds some rays but for `spread`.
 struct Cone {
