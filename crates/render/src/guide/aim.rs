@@ -83,7 +83,7 @@ impl AimCone {
 
 impl Aims {
     /// Nothing is aimed at.
-    pub const NONE: Self = Self { aims: [Aim::NONE; MOST], count: 0 };
+    const NONE: Self = Self { aims: [Aim::NONE; MOST], count: 0 };
 
     /// The first [`MOST`] of the spheres.
     pub fn new(spheres: impl IntoIterator<Item = Aim>) -> Self {
@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn directions_come_as_often_as_their_density_says() {
-        // Two spheres that overlap, one too near, and a point that is close to what float32 can tell apart.
+        // Two spheres that overlap, and one that is too near.
         let sphere = |x: f32, radius: f32, share: f32| Aim { center: Vec3::new(x, 0.0, 3.0), radius, share };
         let aims = Aims::new([sphere(0.0, 0.4, 0.3), sphere(0.5, 0.5, 0.2), sphere(0.0, 2.9, 0.4)]);
         let mut rng = Rng::new(1);

@@ -3,8 +3,7 @@
 //! What one cell's rays met is looked for from the cells around it: each counts for all of them, where they see it. That is spatial
 //! resampling, as of reservoirs of paths (Ouyang et al. 2021, "ReSTIR GI"), for a radiosity system.
 
-use super::patch::mean;
-use super::rays::{Link, Rays, site_of};
+use super::rays::{Link, Rays, mean, site_of};
 use super::square::bin_of;
 use crate::prepared::Cutout;
 use crate::texture::Cone;

@@ -7,7 +7,7 @@
 use super::aim::{Aim, MOST};
 use super::bright::BRIGHT;
 use super::cells::Site;
-use super::rays::{LOOKING, Link, Rays, site_of};
+use super::rays::{LOOKING, Link, Rays, mean, site_of};
 use super::square::BINS;
 use enfilade_math::{Bounds3, Rgb, Rng, Vec3};
 use std::f32::consts::PI;
@@ -72,16 +72,10 @@ pub(super) fn patches<'a>(cells: impl Iterator<Item = &'a [Link]>, total: &[Rgb]
     patches
 }
 
-/// Mean luminance over the bins of a cell, which is irradiance over π.
-pub(super) fn mean(links: &[Link], total: &[Rgb]) -> f32 {
-    links.iter().map(|link| link.emitted + link.radiance(total).luminance()).sum::<f32>() / BINS as f32
-}
-
-/// The same of the bins that meet no bright place.
-pub(super) fn dim_mean(links: &[Link], total: &[Rgb]) -> f32 {
+/// The mean luminance of a cell without the bins that meet a bright place.
+fn dim_mean(links: &[Link], total: &[Rgb]) -> f32 {
     let most = BRIGHT * mean(links, total);
-    let luminance = links.iter().map(|link| link.emitted + link.radiance(total).luminance());
-    luminance.filter(|&luminance| luminance <= most).sum::<f32>() / BINS as f32
+    links.iter().map(|link| link.luminance(total)).filter(|&luminance| luminance <= most).sum::<f32>() / BINS as f32
 }
 
 /// The shares of spheres in proportion to what comes from them, where `found` comes in all.

@@ -36,6 +36,11 @@ impl Link {
         self.unmirrored(total) + self.mirrored(total)
     }
 
+    /// Luminance that arrives, of what sources send by it too.
+    pub fn luminance(&self, total: &[Rgb]) -> f32 {
+        self.emitted + self.radiance(total).luminance()
+    }
+
     /// The part of it that comes straight from the cell.
     pub fn unmirrored(&self, total: &[Rgb]) -> Rgb {
         sent(self.diffuse, total)
@@ -45,6 +50,11 @@ impl Link {
     pub fn mirrored(&self, total: &[Rgb]) -> Rgb {
         sent(self.mirrored, total)
     }
+}
+
+/// Mean luminance that arrives by the bins of a cell, which is irradiance over π.
+pub(super) fn mean(links: &[Link], total: &[Rgb]) -> f32 {
+    links.iter().map(|link| link.luminance(total)).sum::<f32>() / BINS as f32
 }
 
 fn sent((cell, share): (u32, Rgb), total: &[Rgb]) -> Rgb {
