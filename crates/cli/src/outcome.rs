@@ -106,12 +106,6 @@ impl From<enfilade_annotate::serve::ServeError> for Problem {
     }
 }
 
-/// A word as a shell takes it, for commands to be copied: in quotes where it holds what a shell would read as something else.
-pub fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_alphanumeric() || "-_./:,=+@%".contains(c) || c == std::path::MAIN_SEPARATOR;
-    if !word.is_empty() && word.chars().all(is_plain) { word.into() } else { format!("'{}'", word.replace('\'', r"'\''")) }
-}
-
 /// Writes lines to standard output; [`unsaid`] tells whether that was possible.
 pub fn say(text: &str) {
     note(writeln!(std::io::stdout(), "{text}"));
@@ -135,17 +129,4 @@ pub fn unsaid() -> Option<Problem> {
 /// Says on standard error what is wrong and keeps nothing from being done.
 pub fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "warning: {text}"); // nobody left to tell
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn words_with_blanks_and_signs_of_the_shell_are_quoted() {
-        assert_eq!(quoted("../out/räume_2"), "../out/räume_2");
-        assert_eq!(quoted("my rooms"), "'my rooms'");
-        assert_eq!(quoted("a$b; it's"), r"'a$b; it'\''s'");
-        assert_eq!(quoted(""), "''");
-    }
 }

@@ -1,7 +1,7 @@
 //! The last words of a run: a table of scenes, what failed and why, and where to look.
 
-use crate::outcome::{Problem, quoted, say};
-use enfilade_dataset::{Dataset, DatasetError};
+use crate::outcome::{Problem, say};
+use enfilade_dataset::{Dataset, DatasetError, quoted};
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_pipeline::{SceneOutcome, Summary};
 use std::path::Path;
@@ -89,13 +89,13 @@ pub fn print_where_to_look(out: &Path, summary: &Summary) -> Result<(), DatasetE
     }
     let size = dataset.read_camera(&scene, &camera).map_or([2, 2], |camera| camera.size());
     let at = format!("--scene {scene} --camera {camera} --frame {frame} --pixel {},{}", size[0] / 2, size[1] / 2);
-    say(&format!("ask a pixel      {} inspect {} {at}", program(), quoted(&out.to_string())));
+    say(&format!("ask a pixel      {} inspect {} {at}", program(), quoted(out)));
     Ok(())
 }
 
 /// This program, as a command names it.
 fn program() -> String {
-    quoted(&std::env::args().next().unwrap_or_else(|| "enfilade".into()))
+    quoted(std::env::args().next().unwrap_or_else(|| "enfilade".into()))
 }
 
 /// What to try after the demo.

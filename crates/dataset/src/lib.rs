@@ -34,6 +34,7 @@ mod record;
 mod release;
 mod repack;
 mod scene_files;
+mod shell;
 mod split_files;
 mod tables;
 mod times;
@@ -61,6 +62,7 @@ pub use record::{DenoiseRecord, FileRecord, FrameRecord, LabelRecord, PoseRecord
 pub use release::{RELEASED_LAYERS, planar_depth, turn_planar_depth};
 pub use repack::Repacked;
 pub use scene_files::{Node, read_node_table};
+pub use shell::quoted;
 pub use split_files::{Partition, SplitRow};
 pub use times::FrameTime;
 pub use tonemap_files::ToneMapRow;

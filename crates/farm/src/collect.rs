@@ -5,7 +5,7 @@ use crate::commit::read_marker;
 use crate::plan::object_name;
 use crate::work::{damaged_object, missing_by_task};
 use crate::{FarmError, FrameKey, Job, Marker, Ranges, print_ranges};
-use enfilade_dataset::{Dataset, FrameTime, write_bytes};
+use enfilade_dataset::{Dataset, FrameTime, quoted, write_bytes};
 use enfilade_pipeline::{Reporter, Summary, finish, gather};
 use std::path::Path;
 
@@ -22,7 +22,7 @@ pub fn collect(job: &Job, out: &Path, reporter: &dyn Reporter) -> Result<Summary
             "{} of {} tasks are not done; do them first: enfilade farm work {} --task {}",
             missing.len(),
             tasks.len(),
-            job.store.url(),
+            quoted(job.store.url()),
             print_ranges(&missing)
         );
         return Err(FarmError::Request(message));
@@ -83,6 +83,6 @@ fn fetch_files(job: &Job, out: &Path) -> Result<(), FarmError> {
 
 /// Something of a frame that its task makes again.
 fn damaged(job: &Job, name: &str, problem: &str, task: u32) -> FarmError {
-    let problem = format!("{problem}; do its task again: enfilade farm work {} --task {task}", job.store.url());
+    let problem = format!("{problem}; do its task again: enfilade farm work {} --task {task}", quoted(job.store.url()));
     FarmError::Damaged { place: job.store.full_name(name), problem }
 }

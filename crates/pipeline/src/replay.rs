@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::stages::Stage;
 use crate::stages::render::{add_extra, config_hash, program, views};
 use crate::workdir::{Hash, PACKAGE, WORKDIR};
-use enfilade_dataset::{Dataset, FileRecord, FrameInfo, FrameRecord, FrameTime, Layout, Recipe, StoppedBy};
+use enfilade_dataset::{Dataset, FileRecord, FrameInfo, FrameRecord, FrameTime, Layout, Recipe, StoppedBy, quoted};
 use enfilade_frame::{Frame, LAYERS};
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
 use enfilade_scene::{Camera, Cx, Scene, Trajectory, Warning};
@@ -118,7 +118,7 @@ fn read(file: &Path) -> Result<Source, Error> {
     let root = root_of(&file, &record).ok_or_else(|| {
         Error::usage(format!("{} does not lie where a dataset has the record of {}/{}", file.display(), record.scene, record.camera), hint)
     })?;
-    let again = format!("render the frame again: enfilade render {} --scene {} --force", root.display(), record.scene);
+    let again = format!("render the frame again: enfilade render {} --scene {} --force", quoted(root.display()), quoted(&record.scene));
     let changed = |what: String| Error::scene(format!("{what}, so the frame cannot be replayed"), again.clone());
     let recipe =
         record.recipe.clone().ok_or_else(|| changed("its record is of an earlier version, which did not tell the settings".into()))?;

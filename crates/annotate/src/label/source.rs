@@ -1,7 +1,7 @@
 //! What is annotated: a scene file, or the mesh folder of a dataset's scene.
 
 use super::log::unsplit;
-use enfilade_dataset::{Dataset, DatasetError, MeshFiles, MeshGeometry, scene_hash};
+use enfilade_dataset::{Dataset, DatasetError, MeshFiles, MeshGeometry, quoted, scene_hash};
 use enfilade_import::ImportOptions;
 use enfilade_math::{DMat3, DVec3, Vec3};
 use enfilade_scene::{Camera, Cx, PartLabel, Pose, Scene, Warning, WorldMesh};
@@ -226,7 +226,7 @@ fn read_labels(parts: usize, folder: &Path, place: Option<&Place>, cx: &dyn Cx) 
                 warn(format!(
                     "the label stage has not run yet, so nothing has a label at first, whatever the scene file or a label table says; \
                      to begin with those labels end this before the first edit, and open the scene again after: enfilade label {}",
-                    root.display()
+                    quoted(root.display())
                 ));
             }
         }

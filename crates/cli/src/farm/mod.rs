@@ -4,11 +4,12 @@ mod costs;
 mod submit;
 
 use crate::args::{FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmVerb, FarmWorkArgs};
-use crate::outcome::{Problem, Verdict, quoted, say, warn};
+use crate::outcome::{Problem, Verdict, say, warn};
 use crate::price::prices;
 use crate::progress::Progress;
 use crate::summary;
 use crate::verbs::configuration;
+use enfilade_dataset::quoted;
 use enfilade_farm::{Assignment, Attempt, Ended, FarmError, Job, PlanOptions, Store, Work, parse_ranges, print_ranges, stop_on_signals};
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -3,6 +3,7 @@
 use super::open;
 use crate::args::{EngineArg, FarmSubmitArgs};
 use crate::outcome::{Problem, Verdict, say};
+use enfilade_dataset::quoted;
 use enfilade_farm::engines::{Submission, aws_batch_job, kubernetes_job, openjd_template, slurm_collect_script, slurm_scripts};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -12,7 +13,7 @@ pub fn submit(args: &FarmSubmitArgs) -> Result<Verdict, Problem> {
     let job = open(&args.job)?;
     let missing = enfilade_farm::status(&job)?.missing;
     if missing.is_empty() {
-        say(&format!("nothing is missing; collect the dataset: enfilade farm collect {} -o OUT", args.job));
+        say(&format!("nothing is missing; collect the dataset: enfilade farm collect {} -o OUT", quoted(&args.job)));
         return Ok(Verdict::Done);
     }
     let here = || std::env::current_exe().ok().map(|path| path.display().to_string());

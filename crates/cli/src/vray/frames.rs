@@ -3,7 +3,7 @@
 use super::args::{CollectArgs, JobArgs};
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
-use enfilade_dataset::{Dataset, write_bytes};
+use enfilade_dataset::{Dataset, quoted, write_bytes};
 use enfilade_pipeline::vray::{
     self, CameraWish, CollectConfig, FilmedCamera, Job, JobCamera, JobConfig, filmed_camera, read_job, read_scene, write_job,
 };
@@ -66,7 +66,8 @@ pub fn jobs(args: &JobArgs, quiet: bool) -> Result<Verdict, Problem> {
     }
     say(&format!("files    {} that the scenes need, listed in job.json", job.assets.len()));
     say(&format!("render   copy {} to {} and run the script there", args.output.display(), job.folder));
-    say(&format!("then     enfilade vray collect {} --job {}", args.dataset.display(), args.output.join("job.json").display()));
+    let (dataset, file) = (quoted(args.dataset.display()), quoted(args.output.join("job.json").display()));
+    say(&format!("then     enfilade vray collect {dataset} --job {file}"));
     Ok(Verdict::Done)
 }
 
@@ -81,7 +82,7 @@ pub fn collect(args: &CollectArgs, quiet: bool) -> Result<Verdict, Problem> {
         };
         say(&format!("{}/{}: {}", config.scene, config.camera, collected.summary()));
     }
-    say(&format!("then  enfilade label, boxes, preview and verify {}", args.dataset.display()));
+    say(&format!("then  enfilade label, boxes, preview and verify {}", quoted(args.dataset.display())));
     Ok(Verdict::Done)
 }
 

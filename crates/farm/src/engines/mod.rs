@@ -78,11 +78,6 @@ pub(crate) fn nth_task(tasks: &[u32], index: &str, scratch: &str) -> String {
     )
 }
 
-/// A word that a shell takes as it is.
-pub(crate) fn quoted(word: &str) -> String {
-    format!("'{}'", word.replace('\'', r"'\''"))
-}
-
 #[cfg(test)]
 pub(crate) fn example() -> Submission {
     Submission {

@@ -3,7 +3,8 @@
 //! A task is tried again by the script itself, since a site's `RequeueExit` is not the user's to set. It names the element by array
 //! and index: `scontrol requeue $SLURM_JOB_ID` would start every element again where it is the array's last.
 
-use super::{Submission, quoted};
+use super::Submission;
+use enfilade_dataset::quoted;
 use std::fmt::Write;
 
 /// One batch script per array.
@@ -75,7 +76,7 @@ mod tests {
             "#SBATCH --array=0-3%6",
             "#SBATCH --mem=4096M",
             "tasks=(0 1 2 7)",
-            "'enfilade' --threads \"${SLURM_CPUS_PER_TASK:-1}\" farm work 's3://bucket/rooms' --task \"${tasks[SLURM_ARRAY_TASK_ID]}\" --scratch \"/tmp/enfilade-farm\" &",
+            "enfilade --threads \"${SLURM_CPUS_PER_TASK:-1}\" farm work s3://bucket/rooms --task \"${tasks[SLURM_ARRAY_TASK_ID]}\" --scratch \"/tmp/enfilade-farm\" &",
             "  scontrol requeue \"${SLURM_ARRAY_JOB_ID}_${SLURM_ARRAY_TASK_ID}\" && sleep 120",
         ] {
             assert!(script.lines().any(|found| found == line), "{line:?} is not in\n{script}");
@@ -93,6 +94,6 @@ mod tests {
     #[test]
     fn words_with_quotes_reach_the_program_whole() {
         let script = slurm_collect_script(&example(), "it's here");
-        assert!(script.ends_with("'enfilade' farm collect 's3://bucket/rooms' -o 'it'\\''s here'\n"), "{script}");
+        assert!(script.ends_with("enfilade farm collect s3://bucket/rooms -o 'it'\\''s here'\n"), "{script}");
     }
 }

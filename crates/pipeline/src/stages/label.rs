@@ -4,7 +4,7 @@ use super::{Input, Inputs, Job, Outcome, Record, Stage, import};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, read_json};
-use enfilade_dataset::{ANNOTATION_LOG, MeshFiles, scene_hash};
+use enfilade_dataset::{ANNOTATION_LOG, MeshFiles, quoted, scene_hash};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_post::label::{LabelReport, LabelTable, SplitParts, join, part_names};
 use enfilade_scene::{Cx, Labels, PartLabel, Scene, Warning};
@@ -108,7 +108,7 @@ fn annotated(job: &Job, annotated_as: &str, cx: &StageCx) -> Result<Known, Error
     let pieces = scene.parts.len() + split.as_ref().map_or(0, SplitParts::count);
     if labels.parts.len() != pieces {
         let message = format!("the annotation has labels of {} parts, the scene has {pieces}", labels.parts.len());
-        let command = format!("enfilade annotate {} --scene {}", job.out().display(), job.scene.name);
+        let command = format!("enfilade annotate {} --scene {}", quoted(job.out().display()), quoted(&job.scene.name));
         return Err(Error::scene(message, format!("open it, which writes the tables from its log: {command}")));
     }
     if let Some(source) = &job.scene.labels {
@@ -126,9 +126,9 @@ fn other_scene(job: &Job, files: &MeshFiles) -> Error {
         files.file(ANNOTATION_LOG).display()
     );
     let mut hint = "import the scene as it was annotated, or move the log away to label anew".to_string();
-    let (table, out, name) = (files.file("labels.csv"), job.out().display(), &job.scene.name);
+    let (table, out, name) = (files.file("labels.csv"), quoted(job.out().display()), quoted(&job.scene.name));
     if table.is_file() {
-        let command = format!("enfilade label {out} --scene {name} --table {}", table.display());
+        let command = format!("enfilade label {out} --scene {name} --table {}", quoted(table.display()));
         hint = format!("{hint}; with the log away, this keeps labels by the names of parts: {command}");
     }
     Error::scene(message, hint)
@@ -182,7 +182,7 @@ pub(super) fn label_frame(job: &Job, camera: &str, frame: u32, known: &Known, ha
     let rendered = job.dataset.read_frame(name, camera, frame, wanted).map_err(Error::stage)?;
     let Some(Values::I16(ids)) = rendered.get(Layer::RenderEntityId) else {
         let message = format!("frame {frame} of {camera} has no entity ids");
-        return Err(Error::scene(message, format!("render it again: enfilade render {} --force", job.out().display())));
+        return Err(Error::scene(message, format!("render it again: enfilade render {} --force", quoted(job.out().display()))));
     };
     let joined = match (&known.split, rendered.get(Layer::Position)) {
         (Some(split), Some(positions)) => split.join(ids, positions, &known.labels),

@@ -4,6 +4,7 @@ use super::{Inputs, Job, Outcome, Record};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, remove_if_there, write_json};
+use enfilade_dataset::quoted;
 use enfilade_post::gates::GATES;
 use enfilade_post::verify::{LAWS, verify_scene};
 
@@ -40,7 +41,10 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     if !report.passed {
         let broken: Vec<String> = report.failures().map(|law| format!("{} (at {})", law.statement, law.place)).collect();
         let message = format!("{} of {} laws do not hold: {}", broken.len(), report.laws.len(), broken.join("; "));
-        return Err(Error::scene(message, format!("see the card: enfilade verify {} --scene {name}", job.out().display())));
+        return Err(Error::scene(
+            message,
+            format!("see the card: enfilade verify {} --scene {}", quoted(job.out().display()), quoted(name)),
+        ));
     }
     let rejected = match report.rejected().count() {
         0 => String::new(),

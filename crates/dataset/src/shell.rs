@@ -1,0 +1,19 @@
+/// A word as a shell takes it, for commands that people copy: in quotes where it holds what a shell would read as something else.
+pub fn quoted(word: impl std::fmt::Display) -> String {
+    let word = word.to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./:,=+@%".contains(c) || c == std::path::MAIN_SEPARATOR;
+    if !word.is_empty() && word.chars().all(is_plain) { word } else { format!("'{}'", word.replace('\'', r"'\''")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_with_blanks_and_signs_of_the_shell_are_quoted() {
+        assert_eq!(quoted("../out/räume_2"), "../out/räume_2");
+        assert_eq!(quoted("my rooms"), "'my rooms'");
+        assert_eq!(quoted("a$b; it's"), r"'a$b; it'\''s'");
+        assert_eq!(quoted(""), "''");
+    }
+}
