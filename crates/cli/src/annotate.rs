@@ -9,8 +9,14 @@ use std::sync::Arc;
 
 /// `annotate`: serves the page until the program is asked to end.
 pub fn annotate(args: &AnnotateArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let options =
-        AnnotateOptions { path: args.input.clone(), scene: args.scene.clone(), labels: args.labels.clone(), classes: args.classes.clone() };
+    let options = AnnotateOptions {
+        path: args.input.clone(),
+        scene: args.scene.clone(),
+        labels: args.labels.clone(),
+        classes: args.classes.clone(),
+        meters_per_unit: args.meters_per_unit,
+        up_axis: args.up_axis.map(Into::into),
+    };
     let app = {
         let progress = Progress::new(quiet);
         let cx = progress.begin(&args.input.display().to_string(), "annotate");

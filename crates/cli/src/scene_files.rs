@@ -1,11 +1,11 @@
 //! The verbs that make scene files: `import` and `home`.
 
-use crate::args::{HomeArgs, ImportArgs, MomentArg, StageArgs, UpAxisArg};
+use crate::args::{HomeArgs, ImportArgs, MomentArg, StageArgs};
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::verbs;
 use enfilade_export::scene_encoder;
-use enfilade_pipeline::{EnvironmentChoice, Event, FileSource, HomeConfig, Reporter, Stage, UpAxis, scene_file_of};
+use enfilade_pipeline::{EnvironmentChoice, Event, FileSource, HomeConfig, Reporter, Stage, scene_file_of};
 
 /// `import`: of a dataset's scenes, or of one file.
 pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
@@ -20,10 +20,7 @@ pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
     let source = FileSource {
         file: args.input.to_string_lossy().into_owned(),
         meters_per_unit: args.meters_per_unit.unwrap_or(1.0),
-        up_axis: args.up_axis.map(|axis| match axis {
-            UpAxisArg::Y => UpAxis::Y,
-            UpAxisArg::Z => UpAxis::Z,
-        }),
+        up_axis: args.up_axis.map(Into::into),
         environment: args.environment.clone().map(|file| EnvironmentChoice { file, scale: 1.0, rotation_deg: 0.0 }),
         allow_missing_textures: args.allow_missing_textures,
     };

@@ -1,9 +1,9 @@
 //! `suggest`: a label table from the names in a scene file, and what it leaves to people.
 
-use crate::args::{SuggestArgs, UpAxisArg};
+use crate::args::SuggestArgs;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
-use enfilade_pipeline::{FileSource, UnsurePart, UpAxis, suggest_labels};
+use enfilade_pipeline::{FileSource, UnsurePart, suggest_labels};
 use enfilade_post::label::class_name;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -16,10 +16,7 @@ pub fn suggest(args: &SuggestArgs, quiet: bool) -> Result<Verdict, Problem> {
     let source = FileSource {
         file: args.input.to_string_lossy().into_owned(),
         meters_per_unit: 1.0,
-        up_axis: args.up_axis.map(|axis| match axis {
-            UpAxisArg::Y => UpAxis::Y,
-            UpAxisArg::Z => UpAxis::Z,
-        }),
+        up_axis: args.up_axis.map(Into::into),
         environment: None,
         allow_missing_textures: true,
     };

@@ -16,6 +16,7 @@ use super::suggestions::{Suggestion, suggestions};
 use super::worklog::{WORK_LOG, WorkLog, WorkSession};
 use enfilade_dataset::{Classes, DatasetError, MeshFiles};
 use enfilade_geometry::Bvh;
+use enfilade_import::UpAxis;
 use enfilade_scene::{Cx, Warning};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -36,6 +37,10 @@ pub struct AnnotateOptions {
     pub labels: Option<PathBuf>,
     /// A list of classes, if not the one in the folder of labels or NYU40.
     pub classes: Option<PathBuf>,
+    /// Metres per unit of a scene file, if not 1; multiplies what the file says itself.
+    pub meters_per_unit: Option<f64>,
+    /// The axis that points up in a scene file, if not the one that its format says.
+    pub up_axis: Option<UpAxis>,
 }
 
 /// Why there is nothing to annotate.
@@ -79,7 +84,7 @@ impl App {
     /// # Errors
     /// When the scene, the list of classes or the log cannot be read, or the folder of labels cannot be written.
     pub fn open(options: &AnnotateOptions, cx: &dyn Cx) -> Result<Self, OpenError> {
-        let source = Arc::new(Source::load(&options.path, options.scene.as_deref(), options.labels.as_deref(), cx)?);
+        let source = Arc::new(Source::load(options, cx)?);
         let folder = &source.labels_folder;
         let classes = match &options.classes {
             Some(file) => Classes::read(file)?,

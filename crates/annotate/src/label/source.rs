@@ -1,5 +1,6 @@
 //! What is annotated: a scene file, or the mesh folder of a dataset's scene.
 
+use super::app::AnnotateOptions;
 use super::log::unsplit;
 use enfilade_dataset::{Dataset, DatasetError, MeshFiles, MeshGeometry, quoted, scene_hash};
 use enfilade_import::ImportOptions;
@@ -108,18 +109,22 @@ pub enum SourceError {
 }
 
 impl Source {
-    /// Loads what lies at `path`. `scene` picks one of a dataset's scenes; `labels` is where labels go, by default the mesh folder
-    /// of a dataset's scene, and `FILE.labels` beside a scene file.
+    /// Loads what is to be annotated.
     ///
     /// # Errors
-    /// When there is nothing to annotate at `path`, or it cannot be read.
-    pub fn load(path: &Path, scene: Option<&str>, labels: Option<&Path>, cx: &dyn Cx) -> Result<Self, SourceError> {
+    /// When there is nothing to annotate at the path, or it cannot be read.
+    pub fn load(options: &AnnotateOptions, cx: &dyn Cx) -> Result<Self, SourceError> {
+        let AnnotateOptions { path, scene, labels, .. } = options;
+        let (scene, labels) = (scene.as_deref(), labels.as_deref());
         let wrong = |problem: &str| SourceError::Path { path: path.display().to_string(), problem: problem.into() };
         if path.is_file() {
-            return Self::of_file(path, labels, cx);
+            return Self::of_file(options, cx);
         }
         if !path.is_dir() {
             return Err(wrong("there is no such file or folder"));
+        }
+        if options.meters_per_unit.is_some() || options.up_axis.is_some() {
+            return Err(wrong("units and the axis that points up are given for scene files, and this is a folder"));
         }
         let folder = path.canonicalize().map_err(|e| wrong(&e.to_string()))?;
         if folder.join("mesh_vertices.hdf5").is_file() {
@@ -140,9 +145,11 @@ impl Source {
         Self::of_mesh_folder(&dataset.layout().mesh_dir(name), labels, cx)
     }
 
-    fn of_file(path: &Path, labels: Option<&Path>, cx: &dyn Cx) -> Result<Self, SourceError> {
-        let options = ImportOptions { allow_missing_textures: true, ..ImportOptions::default() };
-        let imported = enfilade_import::load(path, &options, cx)?;
+    fn of_file(options: &AnnotateOptions, cx: &dyn Cx) -> Result<Self, SourceError> {
+        let AnnotateOptions { path, labels, up_axis, .. } = options;
+        let meters_per_unit = options.meters_per_unit.unwrap_or(1.0);
+        let import = ImportOptions { meters_per_unit, up_axis: *up_axis, allow_missing_textures: true, ..ImportOptions::default() };
+        let imported = enfilade_import::load(path, &import, cx)?;
         let scene = &imported.scene;
         let mut known = vec![PartLabel::NONE; scene.parts.len()];
         imported.labels.iter().flatten().for_each(|label| known[label.part as usize] = label.label);
@@ -151,7 +158,7 @@ impl Source {
         let name = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy().into_owned());
         Ok(Self {
             origin: path.display().to_string(),
-            labels_folder: labels.map_or_else(|| path.with_added_extension("labels"), Path::to_path_buf),
+            labels_folder: labels.clone().unwrap_or_else(|| path.with_added_extension("labels")),
             vertices: scene.parts.iter().map(|part| scene.meshes[part.mesh as usize].positions.len()).sum(),
             material_of_face: part_of_face.iter().map(|&part| scene.parts[part as usize].material).collect(),
             part_of_face,

@@ -1,6 +1,6 @@
 //! The verbs that serve pages to a browser.
 
-use super::CamerasArg;
+use super::{CamerasArg, UpAxisArg};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -41,6 +41,12 @@ pub struct AnnotateArgs {
     /// A list of classes in the form of Hypersim's semantic_label_descs.csv [default: NYU40]
     #[arg(long, value_name = "FILE")]
     pub classes: Option<PathBuf>,
+    /// Metres per unit of a scene file; multiplies what the file says itself [default: 1]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    pub meters_per_unit: Option<f64>,
+    /// Which way is up in a scene file [default: as its format says]
+    #[arg(long)]
+    pub up_axis: Option<UpAxisArg>,
     #[command(flatten)]
     #[allow(missing_docs)]
     pub listen: ListenArgs,

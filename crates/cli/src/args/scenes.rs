@@ -141,6 +141,15 @@ pub enum UpAxisArg {
     Z,
 }
 
+impl From<UpAxisArg> for enfilade_pipeline::UpAxis {
+    fn from(axis: UpAxisArg) -> Self {
+        match axis {
+            UpAxisArg::Y => Self::Y,
+            UpAxisArg::Z => Self::Z,
+        }
+    }
+}
+
 fn parse_room(text: &str) -> Result<enfilade_pipeline::RoomKind, String> {
     use enfilade_pipeline::RoomKind;
     let known = || RoomKind::ALL.map(RoomKind::name).join(", ");
