@@ -22,7 +22,7 @@ pub(crate) fn triangulate(corners: &[Vec3]) -> Vec<[usize; 3]> {
 }
 
 /// Twice the area vector of a closed polygon; it points to the side from which the corners run counter-clockwise.
-fn newell_normal(corners: &[Vec3]) -> Vec3 {
+pub(crate) fn newell_normal(corners: &[Vec3]) -> Vec3 {
     let next = corners.iter().cycle().skip(1);
     let sum = corners.iter().zip(next).fold(Vec3::ZERO, |sum, (a, b)| sum + (*a - corners[0]).cross(*b - corners[0]));
     if sum.is_finite() { sum } else { Vec3::ZERO }

@@ -272,6 +272,42 @@ fn pictures_come_from_the_file_its_folder_or_another_machines_path() {
     assert!(folder.error("a.fbx").contains("a.fbx: material \"Wood\" needs the texture gone.png"), "{}", folder.error("a.fbx"));
 }
 
+#[test]
+fn textures_that_are_not_read_are_named_by_their_property() {
+    let folder = Folder::new();
+    let told = |slot| warnings(&load(&folder, &with_picture(vec![], &[slot], "a.png", "a.png", Some(png(2, 2, [9; 4])))));
+    assert!(
+        told("ReflectionColor").contains("of its property \"ReflectionColor\" is not read and was dropped"),
+        "{}",
+        told("ReflectionColor")
+    );
+    for slot in ["DiffuseColor", "AmbientColor"] {
+        assert!(!told(slot).contains("is not read"), "{}", told(slot));
+    }
+}
+
+#[test]
+fn the_views_of_the_program_are_no_cameras() {
+    let camera = |name: &str| {
+        format!(
+            " Model: \"Model::{name}\", \"Camera\" {{\n Version: 232\n TypeFlags: \"Camera\"\n GeometryVersion: 124\n Position: 0,0,9\n LookAt: 0,0,0\n }}\n"
+        )
+    };
+    let file = format!(
+        "; FBX 6.1.0 project file\nFBXHeaderExtension: {{\n FBXHeaderVersion: 1003\n FBXVersion: 6100\n}}\nObjects: {{\n{}{}\
+         Model: \"Model::Box\", \"Mesh\" {{\n Version: 232\n Vertices: 0,0,0,1,0,0,0,1,0\n PolygonVertexIndex: 0,1,-3\n }}\n}}\n\
+         Connections: {{\n Connect: \"OO\", \"Model::Box\", \"Model::Scene\"\n Connect: \"OO\", \"Model::Producer Front\", \"Model::Scene\"\n \
+         Connect: \"OO\", \"Model::Door\", \"Model::Scene\"\n}}\n",
+        camera("Producer Front"),
+        camera("Door")
+    );
+    let folder = Folder::new();
+    let imported = folder.write("old.fbx", file).load("old.fbx").unwrap();
+    // Without a lens the other one is left out too, but not without a word.
+    let told = warnings(&imported);
+    assert!(told.contains("camera \"Door\"") && !told.contains("Producer") && imported.scene.cameras.is_empty(), "{told}");
+}
+
 /// The triangle, and a node that carries a light or camera with these properties.
 fn with_attribute(kind: &'static str, of_node: Vec<Record>, list: Vec<Record>) -> Vec<Record> {
     let objects = vec![

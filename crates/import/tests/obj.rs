@@ -187,6 +187,95 @@ fn colour_pictures_as_bump_maps_are_heights() {
     assert!(matches!(map("norm oak.png\n"), Some(NormalMap::Normal { .. })));
 }
 
+/// What one material says, and what the report says of it, on a triangle with texture coordinates.
+fn made(folder: &Folder, body: &str) -> (enfilade_scene::Material, String) {
+    folder.write("a.obj", format!("mtllib a.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n"));
+    let imported = folder.write("a.mtl", format!("newmtl M\n{body}")).load("a.obj").unwrap();
+    (imported.scene.materials[0].clone(), warnings(&imported))
+}
+
+#[test]
+fn paths_of_other_machines_are_looked_for_by_name() {
+    let folder = Folder::new();
+    folder.write("oak.png", png(2, 2, [150, 100, 60, 255])).write("textures/ash.png", png(2, 2, [150, 100, 60, 255]));
+    folder.write("a b.mtl", "newmtl M\nKd 1 1 1\nmap_Kd \"C:\\maps\\oak.png\"\nnewmtl N\nmap_Kd /home/me/ash.png\n");
+    let library = "D:\\My Rooms\\a b.mtl";
+    let text = format!("mtllib {library}\n{TRIANGLES}usemtl M\nf 1/1 2/2 3/3\nusemtl N\nf 1/1 2/2 3/3\n");
+    let scene = folder.write("a.obj", text).load("a.obj").unwrap().scene;
+    let names: Vec<&str> = scene.images.iter().map(|i| i.name.as_str()).collect();
+    assert_eq!(names, ["oak.png", "textures/ash.png"]);
+}
+
+#[test]
+fn names_that_differ_in_case_alone_are_found_with_a_warning() {
+    let folder = Folder::new();
+    folder.write("Oak.PNG", png(2, 2, [150, 100, 60, 255])).write("Room.MTL", "newmtl M\nKd 1 1 1\nmap_Kd oak.png\n");
+    let imported = folder.write("a.obj", format!("mtllib room.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n")).load("a.obj").unwrap();
+    let told = warnings(&imported);
+    assert!(told.contains("\"Room.MTL\", which differs in case") && told.contains("\"Oak.PNG\", which differs in case"), "{told}");
+    assert_eq!(imported.scene.images[0].name, "Oak.PNG");
+    // Two of them: which is meant is not known.
+    folder.write("oaK.png", png(2, 2, [150, 100, 60, 255]));
+    assert!(folder.error("a.obj").contains("oak.png"));
+}
+
+#[test]
+fn a_library_called_like_the_file_stands_in_for_a_missing_one() {
+    let folder = Folder::new();
+    folder.write("a.mtl", "newmtl M\nKd 0.25 0.25 0.25\n");
+    let imported = folder.write("a.obj", format!("mtllib old.mtl\nusemtl M\n{TRIANGLES}f 1 2 3\n")).load("a.obj").unwrap();
+    assert!(warnings(&imported).contains("a.mtl, which is called like the OBJ file, was read in its place"), "{}", warnings(&imported));
+    assert_eq!(imported.scene.materials[0].bsdf, Bsdf::Diffuse { reflectance: Rgb::splat(0.25).into() });
+}
+
+#[test]
+fn what_is_not_read_of_a_material_is_reported() {
+    let folder = Folder::new();
+    folder.write("oak.png", png(2, 2, [150, 100, 60, 255]));
+    for (body, expected) in [
+        ("Kd 0,5 0,5 0,5", "kd ignored: found \"0,5 0,5 0,5\", expected numbers such as 0.5"),
+        ("Ns 1e400", "ns ignored"),
+        ("Kd spectral oak.rfl", "kd ignored: found a file of spectral samples"),
+        ("d -halo 0.3", "d -halo, which depends on the direction"),
+        ("map_opacity oak.png", "map_opacity ignored"),
+        ("map_Kd", "map_kd ignored: it names no picture"),
+        ("map_Kd -imfchan r -mm 0.5 1 oak.png", "map_kd: options -mm, -imfchan ignored"),
+        ("Ke 0 0 0\nmap_Ke oak.png", "beside a black Ke"),
+    ] {
+        let told = made(&folder, &format!("{body}\n")).1;
+        assert!(told.contains(expected), "{body}: {told}");
+    }
+    assert_eq!(made(&folder, "Ka 1 1 1\nKd 1 1 1\nKs 0 0 0\nNs 10\nNi 1.5\nd 1\nillum 2\nTf 1 1 1\nsharpness 60\nmap_Kd oak.png\n").1, "");
+    assert!(matches!(made(&folder, "d -halo 0.3\n").0.alpha, Alpha::Blend { opacity } if opacity.factor == 0.3));
+    let Bsdf::Diffuse { reflectance } = made(&folder, "Kd xyz 0.4 0.4 0.2\n").0.bsdf else { panic!("not diffuse") };
+    assert!(reflectance.factor.g > reflectance.factor.b, "{:?}", reflectance.factor);
+    assert_eq!(made(&folder, "Ke 0 0 0\nmap_Ke oak.png\n").0.emission.factor, Rgb::WHITE);
+    let told = warnings(&folder.write("a.mtl", "Kd 1 1 1\nnewmtl M\n").load("a.obj").unwrap());
+    assert!(told.contains("before the first newmtl"), "{told}");
+}
+
+#[test]
+fn surfaces_that_would_not_be_seen_are_reported() {
+    let folder = Folder::new();
+    let (material, told) = made(&folder, "Kd 1 1 1\nd 0\n");
+    assert!(matches!(material.alpha, Alpha::Blend { opacity } if opacity.factor == 0.0) && told.contains("found d 0"), "{told}");
+    let (material, told) = made(&folder, "Kd 1 1 1\nTr 1\n");
+    assert!(material.alpha == Alpha::Opaque && told.contains("an opacity of 1 was used"), "{told}");
+    assert!(matches!(made(&folder, "Tr 0.25\n").0.alpha, Alpha::Blend { opacity } if opacity.factor == 0.75));
+}
+
+#[test]
+fn parts_without_material_have_the_mean_of_their_colours() {
+    let folder = Folder::new();
+    let vertices = "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nv 0 0 1 0 1 0\nv 1 0 1 0 1 0\nv 0 1 1 0 1 0\n";
+    let imported = folder.write("a.obj", format!("{vertices}o A\nf 1 2 3\no B\nf 4 5 6\n")).load("a.obj").unwrap();
+    let reflectances = [Rgb::new(1.0, 0.0, 0.0), Rgb::new(0.0, 1.0, 0.0)].map(|c| Bsdf::Diffuse { reflectance: c.into() });
+    assert_eq!(imported.scene.materials.iter().map(|m| m.bsdf.clone()).collect::<Vec<_>>(), reflectances);
+    assert!(warnings(&imported).contains("the mean of a part's is its colour"));
+    let told = warnings(&folder.write("a.obj", format!("{vertices}usemtl M\nf 1 2 3\n")).load("a.obj").unwrap());
+    assert!(told.contains("vertex colours dropped"), "{told}");
+}
+
 #[test]
 fn a_missing_library_is_a_warning() {
     let folder = Folder::new();

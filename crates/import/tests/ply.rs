@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Folder, warnings};
+use common::{Folder, png, warnings};
 use enfilade_import::{ImportOptions, UpAxis};
 use enfilade_math::{Rgb, Vec3};
 use enfilade_scene::Bsdf;
@@ -38,10 +38,22 @@ fn clouds_of_points_are_refused_and_other_elements_reported() {
         format!("{HEADER}element edge 1\nproperty int a\nelement face 1\nproperty list uchar int vertex_index\n{points}7\n3 0 1 2\n");
     let imported = folder.write("a.ply", text).load("a.ply").unwrap();
     assert!(warnings(&imported).contains("element edge: only vertices and faces are read"), "{}", warnings(&imported));
-    let text = format!(
-        "{HEADER}element face 1\nproperty list uchar int vertex_index\nproperty list uchar float texcoord\n{points}3 0 1 2 6 0 0 1 0 1 1\n"
-    );
-    let imported = folder.write("a.ply", text).load("a.ply").unwrap();
-    assert!(warnings(&imported).contains("element face: texture coordinates of faces are not supported"), "{}", warnings(&imported));
     assert!(folder.write("a.ply", "obj").error("a.ply").contains("a.ply: line 1"));
+}
+
+#[test]
+fn pictures_are_those_that_comments_name() {
+    let folder = Folder::new();
+    let file = |comment: &str, texcoord: &str, values: &str| {
+        let text = HEADER.replace("element", &format!("comment TextureFile {comment}\nelement"));
+        let end = "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2";
+        folder.write("a.ply", format!("{text}element face 1\nproperty list uchar int vertex_index\n{texcoord}{end}{values}\n"));
+    };
+    folder.write("my oak.png", png(2, 2, [150, 100, 60, 255]));
+    file("C:\\scans\\my oak.png", "property list uchar float texcoord\nproperty int texnumber\n", " 6 0 0 1 0 1 1 0");
+    let imported = folder.load("a.ply").unwrap();
+    assert!(matches!(&imported.scene.materials[0].bsdf, Bsdf::Diffuse { reflectance } if reflectance.texture.is_some()));
+    assert_eq!(warnings(&imported), "a.ply: element face: the properties texnumber are not read\n");
+    file("my oak.png", "", "");
+    assert!(warnings(&folder.load("a.ply").unwrap()).contains("my oak.png was not used"));
 }

@@ -3,11 +3,12 @@
 use crate::assets;
 use crate::config::FileSource;
 use crate::error::Error;
-use crate::stages::{describe, labels_by_part, load_file};
+use crate::stages::{describe, describe_and_measure, labels_by_part, load_file};
 use crate::workdir::{write_json, write_whole};
 use enfilade_home::HomeConfig;
 use enfilade_scene::{Cx, Labels, Scene, Warning};
 use serde::Serialize;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 /// What importing a file made.
@@ -37,6 +38,9 @@ pub fn scene_file_of(input: &Path) -> PathBuf {
     name.with_extension("scene")
 }
 
+/// Largest extents of what may be a room or a building, m; beyond them the unit is probably another.
+const ROOMS: RangeInclusive<f32> = 0.5..=500.0;
+
 /// Imports the file of `source` (a path as it stands) to `output` and a report `<output>.report.json`. `encode` gives the bytes of the
 /// output from the scene and the labels that came with it, and what they cannot hold.
 ///
@@ -50,7 +54,10 @@ pub fn import_file(
 ) -> Result<Imported, Error> {
     let imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
     refuse_overwriting(output, &imported.inputs)?;
-    let summary = describe(&imported.scene);
+    let (mut summary, largest) = describe_and_measure(&imported.scene);
+    if source.meters_per_unit == 1.0 && !ROOMS.contains(&largest) {
+        summary.push_str(" (if this is a room, its unit is another: name it with --meters-per-unit)");
+    }
     let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
     let (bytes, lost) = encode(&imported.scene, labels.as_ref());
     write_whole(output, &bytes)?;

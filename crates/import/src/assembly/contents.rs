@@ -74,18 +74,23 @@ impl Assembly<'_> {
         Ok(Some((self.scene.meshes.len() - 1) as u32))
     }
 
-    /// Places a mesh in the world under a unique name made from `name`. Parts that a placement flattens are left out with a
-    /// warning. A mirrored placement gets a copy of the mesh with its triangles reversed, so that fronts stay fronts.
-    pub(crate) fn push_part(&mut self, name: &str, mesh: u32, material: u32, file_from_mesh: DAffine3, label: PartLabel) {
-        let world_from_mesh = self.world_from_file * file_from_mesh;
+    /// Places a mesh in the world under a unique name made from `name`. Of parts that a placement flattens only what keeps an area
+    /// remains, with a warning. A mirrored placement gets a copy of the mesh with its triangles reversed, so that fronts stay fronts.
+    pub(crate) fn push_part(&mut self, name: &str, mut mesh: u32, material: u32, file_from_mesh: DAffine3, label: PartLabel) {
+        let mut world_from_mesh = self.world_from_file * file_from_mesh;
         let m = world_from_mesh.matrix3;
         let determinant = m.determinant();
         let size = m.x_axis.length() * m.y_axis.length() * m.z_axis.length();
         if !world_from_mesh.is_finite() || !determinant.is_finite() || determinant.abs() <= SINGULAR * size {
-            self.warn(format!("part {name:?}"), "its placement flattens it to nothing (a scale of zero), so it was left out");
-            return;
+            let Some((sheet, placement)) = self.flattened(mesh, world_from_mesh) else {
+                self.warn(format!("part {name:?}"), "its placement flattens it to nothing (a scale of zero), so it was left out");
+                return;
+            };
+            self.warn(format!("part {name:?}"), "its placement flattens it (a scale of zero); the faces that have an area then were kept");
+            (mesh, world_from_mesh) = (sheet, placement);
+        } else if determinant < 0.0 {
+            mesh = self.reversed(mesh);
         }
-        let mesh = if determinant < 0.0 { self.reversed(mesh) } else { mesh };
         let name = self.part_names.unique(name);
         if label != PartLabel::NONE {
             self.labels.push(ImportedLabel { part: self.scene.parts.len() as u32, label });

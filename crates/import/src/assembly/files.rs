@@ -17,7 +17,7 @@ pub(crate) enum Source<'a> {
 }
 
 /// The folder that a file lies in; the working directory has no name.
-fn folder_of(file: &Path) -> &Path {
+pub(super) fn folder_of(file: &Path) -> &Path {
     file.parent().unwrap_or(Path::new(""))
 }
 
@@ -31,6 +31,7 @@ impl Assembly<'_> {
     /// The bytes of a file that the scene file refers to by `path`, with the path it was found at.
     pub(crate) fn read(&mut self, path: &str) -> Result<(PathBuf, Vec<u8>), ImportError> {
         let file = self.resolve(path);
+        self.report_case(path, &file);
         let remedy = format!("{} refers to it; put the file there or correct the reference", self.file.display());
         let bytes = self.read_input(&file, &remedy)?;
         Ok((file, bytes))
@@ -70,16 +71,6 @@ impl Assembly<'_> {
         is_there
     }
 
-    /// The path of a file that the scene file refers to by `path`, for messages.
-    pub(crate) fn path_of(&self, path: &str) -> PathBuf {
-        self.resolve(path)
-    }
-
-    /// True when there is a file where the scene file's `path` leads.
-    pub(crate) fn exists(&self, path: &str) -> bool {
-        self.is_file(&self.resolve(path))
-    }
-
     pub(super) fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
         let unreadable = |source: std::io::Error| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() };
         if self.archive.is_none() {
@@ -98,22 +89,6 @@ impl Assembly<'_> {
             self.inputs.push(file.to_path_buf());
         }
         Ok(bytes)
-    }
-
-    /// The file that `path` in the scene file means: relative to the folders to look in, or else to its own.
-    fn resolve(&self, path: &str) -> PathBuf {
-        let found = self.folders.iter().rev().map(|folder| self.within_folder(folder, path)).find(|file| self.is_file(file));
-        found.unwrap_or_else(|| self.within_folder(folder_of(&self.file), path))
-    }
-
-    /// The file `path` in a folder, with Windows separators understood.
-    fn within_folder(&self, folder: &Path, path: &str) -> PathBuf {
-        let plain = folder.join(path);
-        if self.is_file(&plain) || !path.contains('\\') { plain } else { folder.join(path.replace('\\', "/")) }
-    }
-
-    fn is_file(&self, path: &Path) -> bool {
-        self.archive.map_or_else(|| path.is_file(), |archive| archive.contains_path(path))
     }
 
     /// What the picture in `file` is called in the scene: its path from the scene file's folder or within the archive, or its name alone

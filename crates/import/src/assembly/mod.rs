@@ -4,11 +4,14 @@
 
 mod contents;
 mod files;
+mod find;
+mod flat;
 mod light;
 mod names;
 
 pub(crate) use contents::orthonormal;
 pub(crate) use files::Source;
+pub(crate) use find::is_absolute;
 
 use crate::archive::Archive;
 use crate::images::{self, Use};
@@ -36,6 +39,8 @@ pub(crate) struct Assembly<'a> {
     part_names: Names,
     camera_names: Names,
     reversed: HashMap<u32, u32>,
+    /// Triangles kept of flattened parts.
+    flattened: usize,
     labels: Vec<ImportedLabel>,
     meters_per_unit: f64,
     world_from_file: DAffine3,
@@ -59,6 +64,7 @@ impl<'a> Assembly<'a> {
             part_names: Names::default(),
             camera_names: Names::default(),
             reversed: HashMap::new(),
+            flattened: 0,
             labels: Vec::new(),
             meters_per_unit: 1.0,
             world_from_file: DAffine3::IDENTITY,
@@ -281,6 +287,15 @@ mod tests {
         };
         assert!((normal(0) - normal(1)).length() < 1e-6);
         assert!(imported.report.warnings[0].message.contains("flattens"));
+    }
+
+    #[test]
+    fn sheets_flattened_along_their_normal_stay() {
+        let flat = DAffine3::from_scale_rotation_translation(DVec3::new(2.0, 2.0, 0.0), enfilade_math::DQuat::IDENTITY, DVec3::Y);
+        let imported = assembled(&ImportOptions::default(), |a| a.push_part("sheet", 0, 0, flat, PartLabel::NONE));
+        let scene = imported.scene;
+        assert_eq!(scene.world_corners(&scene.parts[1], 0), [Vec3::Z, Vec3::new(2.0, 0.0, 1.0), Vec3::new(0.0, 0.0, 3.0)]);
+        assert!(imported.report.warnings[0].message.contains("the faces that have an area then were kept"));
     }
 
     #[test]

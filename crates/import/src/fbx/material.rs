@@ -7,7 +7,7 @@ use crate::assembly::Assembly;
 use crate::images::{self, Use};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, ScalarParam, TextureRef};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use ufbx::{MaterialMap, ShaderType};
 
 /// Reflectance of surfaces without a material.
@@ -35,7 +35,8 @@ impl Materials {
             None => Material::diffuse("default", Rgb::splat(GREY)),
             Some(m) => {
                 let name = name(m);
-                Converter { m, user: format!("material {name:?}"), inverted: &mut self.inverted, a }.material(name)?
+                let user = format!("material {name:?}");
+                Converter { m, user, inverted: &mut self.inverted, used: HashSet::new(), a }.material(name)?
             }
         };
         let index = a.push_material(made);
@@ -67,6 +68,8 @@ struct Converter<'c, 'a> {
     m: &'c ufbx::Material,
     user: String,
     inverted: &'c mut Inverted,
+    /// The textures that count for something, by their elements.
+    used: HashSet<u32>,
     a: &'c mut Assembly<'a>,
 }
 
@@ -88,6 +91,7 @@ impl<'c> Converter<'c, '_> {
         let emission = self.color(&m.pbr.emission_color, Rgb::BLACK, strength, 0.0)?;
         let alpha = if classic { self.transparency()? } else { self.opacity()? };
         let normal_map = self.normal_map()?;
+        self.report_unused_textures();
         Ok(Material { name, bsdf, emission, two_sided: true, emits_both_sides: true, alpha, normal_map })
     }
 
@@ -242,6 +246,7 @@ impl<'c> Converter<'c, '_> {
     /// glTF's material, where they multiply. `stand_in` is the grey for a texture that is missing and may be.
     fn color(&mut self, map: &'c MaterialMap, default: Rgb, strength: f32, stand_in: f32) -> Result<ColorParam, ImportError> {
         let value = rgb(map).unwrap_or(default);
+        self.uses(map);
         if strength == 0.0 || !map.texture_enabled || map.texture.is_none() {
             return Ok((value * strength).into());
         }
@@ -252,6 +257,7 @@ impl<'c> Converter<'c, '_> {
     }
 
     fn scalar(&mut self, map: &MaterialMap, default: f32, stand_in: f32) -> Result<ScalarParam, ImportError> {
+        self.uses(map);
         if !map.texture_enabled || map.texture.is_none() {
             return Ok(number(map).unwrap_or(default).clamp(0.0, 1.0).into());
         }
@@ -260,15 +266,36 @@ impl<'c> Converter<'c, '_> {
     }
 
     fn texture(&mut self, map: &MaterialMap, usage: Use) -> Result<Option<TextureRef>, ImportError> {
+        self.uses(map);
         match map.texture.as_ref().filter(|_| map.texture_enabled) {
             Some(found) => texture(found, usage, &self.user, self.a),
             None => Ok(None),
         }
     }
 
+    /// Takes note that the texture of a map is read, or does not count because it is switched off.
+    fn uses(&mut self, map: &MaterialMap) {
+        self.used.extend(map.texture.as_ref().map(|texture| texture.element.element_id));
+    }
+
+    /// Names the properties whose textures are not read. That of ambient light has no place where light is computed.
+    fn report_unused_textures(&mut self) {
+        for slot in self.m.textures.iter().filter(|slot| !self.used.contains(&slot.texture.element.element_id)) {
+            let property = &*slot.material_prop;
+            if !property.contains("Ambient") {
+                let message =
+                    format!("the texture {:?} of its property {property:?} is not read and was dropped", &*slot.texture.element.name);
+                self.a.warn(&self.user, message);
+            }
+        }
+    }
+
     fn report_ignored(&mut self) {
         let pbr = &self.m.pbr;
         let on = |map: &MaterialMap| map.texture.is_some() || number(map).is_some_and(|v| v != 0.0);
+        for map in [&pbr.subsurface_factor, &pbr.displacement_map, &self.m.fbx.displacement, &pbr.coat_normal, &pbr.ambient_occlusion] {
+            self.uses(map);
+        }
         let ignored = [
             ("subsurface scattering", on(&pbr.subsurface_factor)),
             ("anisotropy", on(&pbr.specular_anisotropy)),

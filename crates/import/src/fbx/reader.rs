@@ -31,7 +31,7 @@ pub(super) fn read(a: &mut Assembly) -> Result<SceneRoot, ImportError> {
         evaluate_skinning: true,
         ..LoadOpts::default()
     };
-    let scene = ufbx::load_memory(&bytes, options).map_err(|e| a.malformed("whole file", problem(&e, bytes.len())))?;
+    let scene = ufbx::load_memory(&bytes, options).map_err(|e| a.malformed("whole file", problem(&e, &bytes)))?;
     for warning in &scene.metadata.warnings {
         a.warn("whole file", format!("{} ({} times)", &*warning.description, warning.count));
     }
@@ -45,11 +45,11 @@ pub(super) fn read(a: &mut Assembly) -> Result<SceneRoot, ImportError> {
     );
     let options = EvaluateOpts { temp_allocator: limits(), result_allocator: limits(), evaluate_skinning: true, ..EvaluateOpts::default() };
     ufbx::evaluate_scene(&scene, &stack.anim, stack.time_begin, options)
-        .map_err(|e| a.malformed(format!("animation {:?}", &*stack.element.name), problem(&e, bytes.len())))
+        .map_err(|e| a.malformed(format!("animation {:?}", &*stack.element.name), problem(&e, &bytes)))
 }
 
 /// What is wrong, and what to do about it.
-fn problem(error: &ufbx::Error, length: usize) -> String {
+fn problem(error: &ufbx::Error, bytes: &[u8]) -> String {
     let what = error.description.to_string();
     let info = Some(error.info()).filter(|i| !i.is_empty()).map_or(String::new(), |i| format!(" ({i})"));
     let remedy = match error.type_ {
@@ -60,9 +60,10 @@ fn problem(error: &ufbx::Error, length: usize) -> String {
             "unpacked it would be far larger than such a file can be; export it again, or split it"
         }
         ErrorType::NodeDepthLimit => "its nodes lie too deep within one another; flatten the tree and export it again",
+        _ if bytes.starts_with(b"Kaydara FBX Binary") => "the file is damaged; copy or export it again",
         _ => "the file is damaged; export it again, as binary FBX",
     };
-    format!("{what}{info}, in a file of {length} bytes; {remedy}")
+    format!("{what}{info}, in a file of {} bytes; {remedy}", bytes.len())
 }
 
 fn report_version(scene: &SceneRoot, a: &mut Assembly) {

@@ -61,12 +61,10 @@ fn uv_transform(texture: &ufbx::Texture) -> [[f32; 3]; 2] {
 fn path(texture: &ufbx::Texture, a: &Assembly) -> String {
     let written = [&*texture.relative_filename, &*texture.filename, &*texture.absolute_filename];
     let written: Vec<String> = written.into_iter().filter(|p| !p.is_empty()).map(|p| p.replace('\\', "/")).collect();
+    let written: Vec<&str> = written.iter().map(String::as_str).collect();
     let stem = a.file().file_stem().map_or(String::new(), |s| s.to_string_lossy().into_owned());
-    let named = written.iter().filter_map(|p| p.rsplit('/').next());
-    let beside = named.flat_map(|name| ["", &format!("{stem}.fbm/"), "textures/", "Textures/"].map(|folder| format!("{folder}{name}")));
-    let beside: Vec<String> = beside.collect();
-    let found = written.iter().chain(&beside).find(|p| a.exists(p));
-    found.or(written.first()).cloned().unwrap_or_else(|| texture.element.name.to_string())
+    let found = a.find(&written, &["", &format!("{stem}.fbm/"), "textures/", "Textures/"]);
+    found.or(written.first().map(|first| (*first).to_string())).unwrap_or_else(|| texture.element.name.to_string())
 }
 
 /// The picture with every colour channel turned from white to black: transparency for opacity, glossiness for roughness.

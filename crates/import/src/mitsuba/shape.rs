@@ -154,9 +154,6 @@ impl<'n> Reader<'n, '_> {
                         if ply.mean_color.is_some() {
                             self.warn(node, format!("{}: the colours of vertices were dropped", file.display()));
                         }
-                        if ply.has_face_uvs {
-                            self.warn(node, format!("{}: the texture coordinates of faces were dropped", file.display()));
-                        }
                         ply.mesh
                     }
                     _ => serialized::read(&bytes, index, &file)?,

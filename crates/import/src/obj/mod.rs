@@ -5,27 +5,38 @@
 //! | faces | any number of corners: convex polygons as fans, concave ones cut properly; negative indices; faces before their vertices |
 //! | objects, groups | one part per object, group and material, named after the group (`o` or `g`, whichever came last), with `.<material>` appended where a group has several; without a group after the material, else `part`. Each `o` begins an object, also of a name that occurred before |
 //! | names, paths | the whole rest of the line, so spaces and `#` are part of them; elsewhere `#` begins a comment |
-//! | normals | as in the file; a mesh without any is shaded flat (smoothing groups are ignored) |
+//! | normals | as in the file; without any, smooth within smoothing groups (`s 1` and above), across parts too, and flat elsewhere |
+//! | colours of vertices | their mean, read as sRGB, is the colour of a part without a material, and the report says so |
+//! | text | UTF-8, or UTF-16 with a byte order mark; lines end as on any system |
+//! | libraries, pictures | at their path; else by their name beside the file that names them (pictures also in `textures/`), a name in other case with a warning; for a library that is missing that which is called like the OBJ file |
 //! | `Kd Ks Ns Ni d Tr Ke illum`, `map_Kd map_Ke map_d map_Ks` | a diffuse surface; with `Ks`, unless `illum` is 0 or 1, a clear-coated one of GGX alpha √(2/(Ns+2)), or on black `Kd` a mirror of that colour; with `illum` 6 or 7 a solid dielectric, with 4 or 9 only where `Kd` is black and `d` is 1 |
 //! | the same of Blender (3.2 or newer) | a clear-coated surface of roughness 1 − √(Ns/1000), its highlight tinted by twice `Ks`; on black `Kd` too |
 //! | `Pr Pm Pc Pcr Ps`, `map_Pr map_Pm` | metallic-roughness |
 //! | `norm` | a normal map |
 //! | `map_Bump`, `bump` | a normal map if the picture looks like one (most texels as long as a unit vector, out of the surface on average), else heights by its luminance (guessed: one stands for 5 mm times `-bm`) |
-//! | options of `map_…` | `-s`, `-o`, `-clamp`, `-bm`; the others are skipped |
-//! | dropped with a warning | lines, points, curves, vertex colours, displacement and reflection maps, anisotropy, `map_Ns` |
+//! | `d 0`, `Tr 1` | `d 0` is not seen, a `Tr` of one without `d` is taken for opaque, each with a warning |
+//! | `map_Ke` with a black `Ke` | taken for white, with a warning |
+//! | options of `map_…` | `-s`, `-o`, `-clamp`, `-bm`, `-imfchan` for numbers; the others are skipped, with a warning |
+//! | ambient colours, `sharpness` | without effect |
+//! | dropped with a warning | lines, points, curves, and all other statements of materials, such as displacement and reflection maps, anisotropy, `map_Ns` |
 //!
 //! OBJ knows no sides, so every surface has two, and emits on both. It knows neither lights nor cameras nor units. A material
 //! library or material that is not there is a warning, and grey stands in.
 
+mod check;
+mod library;
+mod map;
 mod mtl;
 mod reader;
+mod smooth;
+mod text;
 
-pub(crate) use mtl::Library;
+pub(crate) use library::Library;
 pub(crate) use reader::ObjFile;
 
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported};
-use enfilade_math::{DAffine3, Rgb};
+use enfilade_math::{DAffine3, Rgb, linear_from_srgb};
 use enfilade_scene::{Material, PartLabel};
 use std::collections::HashMap;
 
@@ -34,33 +45,39 @@ const GREY: f32 = 0.5;
 
 /// Imports an OBJ file.
 pub(crate) fn load(assembly: Assembly) -> Result<Imported, ImportError> {
-    load_with(assembly, mtl::Library::new())
+    load_with(assembly, Library::new())
 }
 
 /// Imports an OBJ file of a program that is built on Java 3D, whose loader knows materials that no library defines.
 pub(crate) fn load_java3d(assembly: Assembly) -> Result<Imported, ImportError> {
-    load_with(assembly, mtl::java3d())
+    load_with(assembly, library::java3d())
 }
 
 /// Imports an OBJ file; `known` are materials besides those of its libraries.
-fn load_with(mut assembly: Assembly, known: mtl::Library) -> Result<Imported, ImportError> {
+fn load_with(mut assembly: Assembly, known: Library) -> Result<Imported, ImportError> {
     let file = assembly.file().to_path_buf();
     let bytes = assembly.read_scene_file()?;
-    let obj = ObjFile::parse(&bytes, &file)?;
-    obj.notes.iter().for_each(|note| assembly.warn("whole file", note));
-    let library = mtl::read_libraries(&obj.libraries, "", known, &mut assembly)?;
-    let mut materials: HashMap<Option<&str>, u32> = HashMap::new();
+    let mut obj = ObjFile::parse(&bytes, &file)?;
+    obj.smooth();
+    report(&obj, &mut assembly);
+    let own = file.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
+    let library = library::read_libraries(&obj.libraries, &own, known, &mut assembly)?;
+    let mut materials: HashMap<(Option<&str>, Option<[u8; 3]>), u32> = HashMap::new();
     let mut sharing: HashMap<(usize, Option<&str>), usize> = HashMap::new();
     obj.groups.iter().for_each(|group| *sharing.entry((group.object, group.name.as_deref())).or_default() += 1);
     for (i, group) in obj.groups.iter().enumerate() {
         assembly.progress(i + 1, obj.groups.len());
         let wanted = group.material.as_deref();
-        let material = match materials.get(&wanted) {
+        let color = if wanted.is_none() { obj.mean_color(group).map(|c| (c * 255.0).to_array().map(|v| v.round() as u8)) } else { None };
+        let material = match materials.get(&(wanted, color)) {
             Some(&known) => known,
             None => {
-                let material = convert(wanted, &library, &mut assembly)?;
+                let material = match color {
+                    Some(rgb) => Material::diffuse("colours", Rgb::from(rgb.map(|v| linear_from_srgb(f32::from(v) / 255.0)))),
+                    None => convert(wanted, &library, &mut assembly)?,
+                };
                 let index = assembly.push_material(material);
-                materials.insert(wanted, index);
+                materials.insert((wanted, color), index);
                 index
             }
         };
@@ -79,9 +96,19 @@ fn load_with(mut assembly: Assembly, known: mtl::Library) -> Result<Imported, Im
     assembly.finish()
 }
 
+/// Reports what was ignored. The mean of the vertices' colours stands in where a part has no material.
+fn report(obj: &ObjFile, a: &mut Assembly) {
+    let has_parts_without = obj.groups.iter().any(|group| group.material.is_none() && obj.mean_color(group).is_some());
+    for note in &obj.notes {
+        let used = note == reader::COLORS_DROPPED && has_parts_without;
+        let mean = "colours of vertices are not supported; the mean of a part's is its colour where it has no material";
+        a.warn("whole file", if used { mean } else { note });
+    }
+}
+
 /// The materials of the libraries `names`, which the OBJ file at `path` names; a scene of another format refers to it by that path.
 pub(crate) fn libraries(names: &[String], path: &str, assembly: &mut Assembly) -> Result<Library, ImportError> {
-    mtl::read_libraries(names, &mtl::folder_of(path), Library::new(), assembly)
+    library::read_libraries(names, path, Library::new(), assembly)
 }
 
 /// The material of a name; `None` where the library does not define it.
@@ -89,13 +116,7 @@ pub(crate) fn material(name: &str, library: &Library, assembly: &mut Assembly) -
     library.get(name).map(|entry| mtl::material(entry, assembly)).transpose()
 }
 
-/// A line without its comment. Behind a keyword that `is_text` knows stands a name or path, which may contain `#`.
-fn without_comment(line: &str, is_text: fn(&str) -> bool) -> &str {
-    let keyword = line.split_whitespace().next().unwrap_or_default();
-    if is_text(keyword) { line } else { line.split('#').next().unwrap_or_default() }
-}
-
-fn convert(name: Option<&str>, library: &mtl::Library, assembly: &mut Assembly) -> Result<Material, ImportError> {
+fn convert(name: Option<&str>, library: &Library, assembly: &mut Assembly) -> Result<Material, ImportError> {
     if let Some(entry) = library.get(name.unwrap_or_default()) {
         return mtl::material(entry, assembly);
     }

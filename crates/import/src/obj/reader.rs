@@ -1,5 +1,6 @@
 //! Reading the OBJ text: vertices, faces, groups and material names. Mitsuba's `obj` shapes use it as well.
 
+use super::text;
 use crate::{ImportError, polygon};
 use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};
@@ -7,14 +8,19 @@ use std::collections::HashMap;
 use std::path::Path;
 
 /// Marks a corner without a texture coordinate or normal.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
+
+/// What is said of colours of vertices.
+pub(super) const COLORS_DROPPED: &str = "vertex colours dropped";
 
 /// The content of an OBJ file.
 #[derive(Default)]
 pub(crate) struct ObjFile {
-    positions: Vec<Vec3>,
+    pub(super) positions: Vec<Vec3>,
     uvs: Vec<Vec2>,
-    normals: Vec<Vec3>,
+    pub(super) normals: Vec<Vec3>,
+    /// Colours of the vertices up to the last that has one.
+    colors: Vec<Option<Vec3>>,
     /// Faces by object, group and material, in order of first appearance.
     pub(crate) groups: Vec<Group>,
     /// Names of material libraries, each the whole rest of its line.
@@ -32,13 +38,17 @@ pub(crate) struct Group {
     /// Name of the material.
     pub(crate) material: Option<String>,
     /// Corner indices of all faces, and where each face begins.
-    corners: Vec<[u32; 3]>,
-    faces: Vec<Face>,
+    pub(super) corners: Vec<[u32; 3]>,
+    pub(super) faces: Vec<Face>,
 }
 
-struct Face {
-    first: u32,
+/// One polygon.
+pub(super) struct Face {
+    /// Its first corner.
+    pub(super) first: u32,
     line: u32,
+    /// Its smoothing group; 0 is none.
+    pub(super) smoothing: u32,
 }
 
 impl ObjFile {
@@ -47,12 +57,20 @@ impl ObjFile {
     /// # Errors
     /// A number or index that makes no sense, with its line.
     pub(crate) fn parse(bytes: &[u8], file: &Path) -> Result<Self, ImportError> {
-        let text = String::from_utf8_lossy(bytes);
-        let mut parser =
-            Parser { file, obj: Self::default(), by_key: HashMap::new(), object: 0, name: None, material: None, current: None };
+        let text = text::decoded(bytes);
+        let mut parser = Parser {
+            file,
+            obj: Self::default(),
+            by_key: HashMap::new(),
+            object: 0,
+            name: None,
+            material: None,
+            smoothing: 0,
+            current: None,
+        };
         let mut continued = String::new();
-        for (number, line) in text.lines().enumerate() {
-            let line = super::without_comment(line, |keyword| matches!(keyword, "o" | "g" | "usemtl" | "mtllib"));
+        for (number, line) in text::lines(&text).enumerate() {
+            let line = text::without_comment(line, |keyword| matches!(keyword, "o" | "g" | "usemtl" | "mtllib"));
             if let Some(start) = line.strip_suffix('\\') {
                 continued.push_str(start);
                 continued.push(' ');
@@ -89,6 +107,13 @@ impl ObjFile {
             }
         }
         Ok(())
+    }
+
+    /// The mean colour of a group's corners, 0 … 1 as they are written; `None` where none has a colour.
+    pub(crate) fn mean_color(&self, group: &Group) -> Option<Vec3> {
+        let colors = group.corners.iter().filter_map(|corner| *self.colors.get(corner[0] as usize)?);
+        let (sum, count) = colors.fold((Vec3::ZERO, 0u32), |(sum, count), color| (sum + color, count + 1));
+        (count > 0).then(|| (sum / count as f32).clamp(Vec3::ZERO, Vec3::ONE))
     }
 
     /// The mesh of some groups. Vertices are shared by corners with the same indices, polygons are cut into triangles. Normals
@@ -129,7 +154,7 @@ impl ObjFile {
 }
 
 impl Group {
-    fn corners_of(&self, face: usize) -> &[[u32; 3]] {
+    pub(super) fn corners_of(&self, face: usize) -> &[[u32; 3]] {
         let end = self.faces.get(face + 1).map_or(self.corners.len(), |f| f.first as usize);
         &self.corners[self.faces[face].first as usize..end]
     }
@@ -142,6 +167,7 @@ struct Parser<'p> {
     object: usize,
     name: Option<String>,
     material: Option<String>,
+    smoothing: u32,
     current: Option<usize>,
 }
 
@@ -152,15 +178,21 @@ impl Parser<'_> {
         let rest = rest.trim();
         let text = || (!rest.is_empty()).then(|| rest.to_string());
         match keyword {
-            "" | "s" | "vp" => (),
+            "" | "vp" => (),
+            // "off" is 0; groups without a number, as some programs write, are one.
+            "s" => self.smoothing = if rest == "off" { 0 } else { rest.parse().unwrap_or(1) },
             "v" => {
                 let [x, y, z] = self.numbers(rest, 3, number, false)?;
                 if !(x.is_finite() && y.is_finite() && z.is_finite()) {
                     let problem = format!("the vertex {rest:?} is not finite; clean the mesh in the program that made it");
                     return Err(self.error(number, problem));
                 }
-                if rest.split_whitespace().nth(5).is_some() {
-                    self.note("vertex colours dropped");
+                if let [_, _, _, red, green, blue] = rest.split_whitespace().collect::<Vec<_>>()[..] {
+                    self.note(COLORS_DROPPED);
+                    let channel = |word: &str| word.parse::<f32>().ok().filter(|v| v.is_finite());
+                    let color = channel(red).zip(channel(green)).zip(channel(blue)).map(|((r, g), b)| Vec3::new(r, g, b));
+                    self.obj.colors.resize(self.obj.positions.len(), None);
+                    self.obj.colors.push(color);
                 }
                 self.obj.positions.push(Vec3::new(x, y, z));
             }
@@ -204,7 +236,7 @@ impl Parser<'_> {
             group.corners.truncate(first);
             self.note("faces with fewer than three corners left out");
         } else {
-            group.faces.push(Face { first: first as u32, line: number as u32 });
+            group.faces.push(Face { first: first as u32, line: number as u32, smoothing: self.smoothing });
         }
         Ok(())
     }

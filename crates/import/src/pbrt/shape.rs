@@ -125,9 +125,6 @@ impl Reader<'_> {
         if ply.mean_color.is_some() {
             self.warn(&params.place, "the colours of vertices were dropped");
         }
-        if ply.has_face_uvs {
-            self.warn(&params.place, format!("{}: the texture coordinates of faces were dropped", file.display()));
-        }
         for element in ply.skipped {
             self.warn(&params.place, format!("{}: the elements {element} were left out", file.display()));
         }

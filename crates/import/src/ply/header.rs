@@ -13,6 +13,8 @@ pub(super) enum Encoding {
 pub(super) struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
+    /// Pictures that comments name (`comment TextureFile wood.png`), as MeshLab and others write them.
+    pub pictures: Vec<String>,
 }
 
 pub(super) struct Element {
@@ -79,7 +81,7 @@ impl Kind {
 }
 
 pub(super) fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8]), Problem> {
-    let mut header = Header { encoding: Encoding::Text, elements: Vec::new() };
+    let mut header = Header { encoding: Encoding::Text, elements: Vec::new(), pictures: Vec::new() };
     let (mut at, mut number) = (0, 0);
     loop {
         number += 1;
@@ -93,12 +95,14 @@ pub(super) fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8]), Problem> {
         let words: Vec<&str> = line.split_whitespace().collect();
         match words[..] {
             ["ply"] if number == 1 => (),
-            _ if number == 1 => return Err((place(), "the file does not begin with \"ply\"".into())),
+            _ if number == 1 => return Err((place(), "the file does not begin with \"ply\"; check that it is what its name says".into())),
             ["format", "ascii", _] => header.encoding = Encoding::Text,
             ["format", "binary_little_endian", _] => header.encoding = Encoding::Little,
             ["format", "binary_big_endian", _] => header.encoding = Encoding::Big,
             ["element", name, count] => {
-                let count = count.parse().map_err(|_| (place(), format!("{count:?} is not a number of elements")))?;
+                let count = count.parse().map_err(|_| {
+                    (place(), format!("{count:?} is not a number of elements; expected a whole number, so export the file again"))
+                })?;
                 header.elements.push(Element { name: name.into(), count, properties: Vec::new() });
             }
             ["property", ref kinds @ .., name] => {
@@ -108,13 +112,26 @@ pub(super) fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8]), Problem> {
                     _ => None,
                 };
                 let (Some((list, kind)), Some(element)) = (parsed, header.elements.last_mut()) else {
-                    return Err((place(), format!("{line:?} is not a property")));
+                    return Err((
+                        place(),
+                        format!(
+                            "{:?} is not a property; expected property <type> <name> or property list <type> <type> <name> after an element, with \
+                         types such as float and uchar; export the file again",
+                            line.trim()
+                        ),
+                    ));
                 };
                 element.properties.push(Property { name: name.into(), kind, list });
             }
             ["end_header"] => return Ok((header, &bytes[at..])),
+            ["comment", "TextureFile", _, ..] => {
+                header.pictures.extend(line.split_once("TextureFile").map(|(_, name)| name.trim().to_string()));
+            }
             ["comment" | "obj_info", ..] | [] => (),
-            _ => return Err((place(), format!("{:?} is not understood", line.trim()))),
+            _ => {
+                let expected = "expected format, element, property, comment, obj_info or end_header; export the file again";
+                return Err((place(), format!("{:?} is not understood; {expected}", line.trim())));
+            }
         }
     }
 }

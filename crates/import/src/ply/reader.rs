@@ -1,25 +1,38 @@
 //! The bytes of a PLY file: text, and binary in either byte order.
 
+use super::faces::Faces;
 use super::header::{Element, Encoding, Kind, Problem, parse_header};
-use crate::{ImportError, polygon};
+use crate::ImportError;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};
 use std::path::Path;
+
+const COORDINATES: [&str; 3] = ["x", "y", "z"];
+const NORMAL: [&str; 3] = ["nx", "ny", "nz"];
+const U: &[&str] = &["u", "s", "texture_u", "s0"];
+const V: &[&str] = &["v", "t", "texture_v", "t0"];
+const RED: [&str; 3] = ["red", "diffuse_red", "r"];
+const GREEN: [&str; 3] = ["green", "diffuse_green", "g"];
+const BLUE: [&str; 3] = ["blue", "diffuse_blue", "b"];
+const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
+const TEXCOORD: [&str; 1] = ["texcoord"];
 
 /// What a PLY file holds.
 #[derive(Debug, PartialEq)]
 pub(crate) struct PlyFile {
     /// Its mesh, with texture coordinates as they are. Without faces it has no triangles.
     pub mesh: Mesh,
-    /// Mean of the vertices' colours, 0 … 1 as they are written; `None` when they have none.
+    /// Mean of the colours of the vertices, or of the faces, 0 … 1 as they are written; `None` when they have none.
     pub mean_color: Option<[f64; 3]>,
-    /// Elements that were skipped, such as edges and strips of triangles.
+    /// Elements that were skipped, such as edges.
     pub skipped: Vec<String>,
-    /// True when faces have texture coordinates of their own, which are not read.
-    pub has_face_uvs: bool,
+    /// Elements and their properties that are not read.
+    pub unused: Vec<(String, Vec<String>)>,
+    /// Pictures that comments name.
+    pub pictures: Vec<String>,
 }
 
-/// Reads the `vertex` and `face` elements.
+/// Reads the elements `vertex`, `face` and `tristrips`, in any order.
 ///
 /// # Errors
 /// When the header or a value is not what the format calls for, or a face refers to a vertex that is not there.
@@ -27,14 +40,21 @@ pub(crate) fn read(bytes: &[u8], file: &Path) -> Result<PlyFile, ImportError> {
     let error = |(place, problem): Problem| ImportError::malformed(file, place, problem);
     let (header, body) = parse_header(bytes).map_err(error)?;
     let mut values = Values { encoding: header.encoding, bytes: body, at: 0 };
-    let mut mesh = Mesh::default();
-    let (mut mean_color, mut skipped, mut has_face_uvs) = (None, Vec::new(), false);
+    let (mut mesh, mut faces) = (Mesh::default(), Faces::default());
+    let (mut of_vertices, mut of_faces, mut skipped, mut unused) = (None, None, Vec::new(), Vec::new());
     for element in &header.elements {
         match element.name.as_str() {
-            "vertex" => mean_color = read_vertices(element, &mut values, &mut mesh).map_err(error)?,
+            "vertex" => {
+                of_vertices = read_vertices(element, &mut values, &mut mesh).map_err(error)?;
+                unused.extend(element.unread(&[&COORDINATES, &NORMAL, U, V, &RED, &GREEN, &BLUE]));
+            }
             "face" => {
-                has_face_uvs = element.index_of(&["texcoord"]).is_some();
-                read_faces(element, &mut values, &mut mesh).map_err(error)?;
+                of_faces = read_faces(element, &mut values, &mut faces).map_err(error)?;
+                unused.extend(element.unread(&[&INDICES, &TEXCOORD, &RED, &GREEN, &BLUE]));
+            }
+            "tristrips" => {
+                read_strips(element, &mut values, &mut faces).map_err(error)?;
+                unused.extend(element.unread(&[&INDICES]));
             }
             name => {
                 if element.count > 0 {
@@ -46,7 +66,8 @@ pub(crate) fn read(bytes: &[u8], file: &Path) -> Result<PlyFile, ImportError> {
             }
         }
     }
-    Ok(PlyFile { mesh, mean_color, skipped, has_face_uvs })
+    faces.cut_into(&mut mesh).map_err(error)?;
+    Ok(PlyFile { mesh, mean_color: of_vertices.or(of_faces), skipped, unused, pictures: header.pictures })
 }
 
 /// The numbers of the body, one after the other.
@@ -92,7 +113,7 @@ impl Values<'_> {
         let place = || format!("byte {} of the body", self.at + start);
         let value = match word.as_ref() {
             "" => Err((place(), "the file is cut short; copy or export it again".to_string())),
-            word => word.parse().map_err(|_| (place(), format!("{word:?} is not a number"))),
+            word => word.parse().map_err(|_| (place(), format!("{word:?} is not a number; export the file again"))),
         };
         self.at += start + length;
         value
@@ -104,7 +125,7 @@ impl Element {
     fn row(&self, values: &mut Values, take: &mut dyn FnMut(usize, f64)) -> Result<(), Problem> {
         for (i, property) in self.properties.iter().enumerate() {
             let count = property.list.map_or(Ok(1.0), |kind| values.next(kind))?;
-            if !(0.0..=1e6).contains(&count) {
+            if !(0.0..=f64::from(u32::MAX)).contains(&count) {
                 let problem = format!("a list of {count} items in property {}; the file is damaged", property.name);
                 return Err((format!("byte {} of the body", values.at), problem));
             }
@@ -118,17 +139,30 @@ impl Element {
     fn index_of(&self, names: &[&str]) -> Option<usize> {
         self.properties.iter().position(|p| names.contains(&p.name.as_str()))
     }
+
+    /// The list of the corners of a face.
+    fn indices(&self) -> Result<usize, Problem> {
+        let problem = || format!("the elements {} have no vertex_indices; export the file with them", self.name);
+        self.index_of(&INDICES).ok_or_else(|| ("header".to_string(), problem()))
+    }
+
+    /// The element with its properties that are none of `read`; `None` where all are read, or there is no row.
+    fn unread(&self, read: &[&[&str]]) -> Option<(String, Vec<String>)> {
+        let names = self.properties.iter().map(|p| p.name.clone());
+        let unread: Vec<String> = names.filter(|name| !read.iter().any(|names| names.contains(&name.as_str()))).collect();
+        (self.count > 0 && !unread.is_empty()).then(|| (self.name.clone(), unread))
+    }
 }
 
 /// Reads the vertices and returns the mean of their colours, if they have any.
 fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Result<Option<[f64; 3]>, Problem> {
-    let [x, y, z] = ["x", "y", "z"].map(|n| element.index_of(&[n]));
-    let (Some(x), Some(y), Some(z)) = (x, y, z) else { return Err(("header".into(), "the vertices have no x, y and z".into())) };
-    let normal = ["nx", "ny", "nz"].map(|n| element.index_of(&[n]));
-    let uv = [&["u", "s", "texture_u", "s0"], &["v", "t", "texture_v", "t0"]].map(|names| element.index_of(names));
-    let color = [["red", "diffuse_red", "r"], ["green", "diffuse_green", "g"], ["blue", "diffuse_blue", "b"]];
-    let color = color.map(|names| element.index_of(&names));
-    let mut sum = [0.0; 3];
+    let [x, y, z] = COORDINATES.map(|n| element.index_of(&[n]));
+    let (Some(x), Some(y), Some(z)) = (x, y, z) else {
+        return Err(("header".into(), "the vertices have no x, y and z; export the file with them".into()));
+    };
+    let normal = NORMAL.map(|n| element.index_of(&[n]));
+    let uv = [U, V].map(|names| element.index_of(names));
+    let mut colors = Colors::of(element);
     let mut row = vec![0.0; element.properties.len()];
     for _ in 0..element.count {
         element.row(values, &mut |i, value| row[i] = value)?;
@@ -139,33 +173,69 @@ fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Res
         if let [Some(a), Some(b)] = uv {
             mesh.uvs.push(Vec2::new(row[a] as f32, row[b] as f32));
         }
-        if let [Some(r), Some(g), Some(b)] = color {
-            [r, g, b].iter().zip(&mut sum).for_each(|(&i, sum)| *sum += row[i] / element.properties[i].kind.full());
-        }
+        colors.add(&row);
     }
-    let colored = color.iter().all(Option::is_some) && element.count > 0;
-    Ok(colored.then(|| sum.map(|s| (s / element.count as f64).clamp(0.0, 1.0))))
+    Ok(colors.mean())
 }
 
-fn read_faces(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Result<(), Problem> {
-    let indices = element.index_of(&["vertex_indices", "vertex_index"]);
-    let indices = indices.ok_or_else(|| ("header".to_string(), "the faces have no vertex_indices".to_string()))?;
-    let vertices = mesh.positions.len();
-    let mut face: Vec<u32> = Vec::new();
+/// The sum of the colours of an element's rows.
+struct Colors<'e> {
+    element: &'e Element,
+    places: Option<[usize; 3]>,
+    sum: [f64; 3],
+}
+
+impl<'e> Colors<'e> {
+    fn of(element: &'e Element) -> Self {
+        let places = [RED, GREEN, BLUE].map(|names| element.index_of(&names));
+        let places = if let [Some(r), Some(g), Some(b)] = places { Some([r, g, b]) } else { None };
+        Self { element, places, sum: [0.0; 3] }
+    }
+
+    fn add(&mut self, row: &[f64]) {
+        for (i, sum) in self.places.iter().flatten().zip(&mut self.sum) {
+            *sum += row[*i] / self.element.properties[*i].kind.full();
+        }
+    }
+
+    fn mean(&self) -> Option<[f64; 3]> {
+        let rows = self.element.count as f64;
+        self.places.filter(|_| rows > 0.0).map(|_| self.sum.map(|s| (s / rows).clamp(0.0, 1.0)))
+    }
+}
+
+/// Reads the polygons and returns the mean of their colours, if they have any.
+fn read_faces(element: &Element, values: &mut Values, faces: &mut Faces) -> Result<Option<[f64; 3]>, Problem> {
+    let indices = element.indices()?;
+    let texcoord = element.index_of(&TEXCOORD);
+    let mut colors = Colors::of(element);
+    let mut row = vec![0.0; element.properties.len()];
+    let (mut polygon, mut uvs) = (Vec::new(), Vec::new());
     for number in 0..element.count {
-        face.clear();
-        let mut bad = None;
+        polygon.clear();
+        uvs.clear();
+        element.row(values, &mut |i, value| match i {
+            i if i == indices => polygon.push(value),
+            i if Some(i) == texcoord => uvs.push(value),
+            i => row[i] = value,
+        })?;
+        faces.push(number, &polygon, texcoord.map(|_| uvs.as_slice()));
+        colors.add(&row);
+    }
+    Ok(colors.mean())
+}
+
+fn read_strips(element: &Element, values: &mut Values, faces: &mut Faces) -> Result<(), Problem> {
+    let indices = element.indices()?;
+    let mut strip = Vec::new();
+    for number in 0..element.count {
+        strip.clear();
         element.row(values, &mut |i, value| {
             if i == indices {
-                face.push(value as u32);
-                bad = bad.or((!(0.0..vertices as f64).contains(&value)).then_some(value));
+                strip.push(value);
             }
         })?;
-        if let Some(index) = bad {
-            return Err((format!("face {number}"), format!("it refers to vertex {index}, but there are {vertices}, counted from 0")));
-        }
-        let points: Vec<Vec3> = face.iter().map(|&i| mesh.positions[i as usize]).collect();
-        mesh.triangles.extend(polygon::triangulate(&points).into_iter().map(|t| t.map(|i| face[i])));
+        faces.push_strip(number, &strip);
     }
     Ok(())
 }
@@ -215,5 +285,32 @@ mod tests {
         assert!(message(b"ply\nformat ascii 1.0\nelement vertex 1\n").contains("header does not end"));
         let text = format!("ply\nformat ascii 1.0\n{HEADER}0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n3 0 1 7\n");
         assert!(message(text.as_bytes()).contains("face 0: it refers to vertex 7, but there are 4"));
+        assert!(message(b"ply\nformat ascii 1.0\nelements 3\n").contains("\"elements 3\" is not understood; expected format, element"));
+    }
+
+    #[test]
+    fn faces_may_come_before_vertices_and_as_strips() {
+        let vertices = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+        let strips = "element tristrips 1\nproperty list int int vertex_indices\n";
+        let faces = "element face 2\nproperty list uchar int vertex_indices\n";
+        let points = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+        let triangles =
+            |text: String| read(format!("ply\nformat ascii 1.0\n{text}").as_bytes(), Path::new("a.ply")).unwrap().mesh.triangles;
+        let expected = vec![[0, 1, 2], [2, 1, 3]];
+        assert_eq!(triangles(format!("{faces}{vertices}end_header\n3 0 1 2\n3 2 1 3\n{points}")), expected);
+        assert_eq!(triangles(format!("{vertices}{strips}end_header\n{points}4 0 1 2 3\n")), expected);
+        assert_eq!(triangles(format!("{strips}{vertices}end_header\n8 0 1 2 -1 2 1 3 -1\n{points}")), expected);
+    }
+
+    #[test]
+    fn corners_with_texture_coordinates_of_their_own_are_vertices_of_their_own() {
+        let text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar alpha\n\
+                    element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty uchar red\n\
+                    property uchar green\nproperty uchar blue\nend_header\n0 0 0 1\n1 0 0 1\n0 1 0 1\n\
+                    3 0 1 2 6 0 0 1 0 0 1 255 0 0\n3 2 1 0 6 0 1 1 0 0.5 0.5 255 0 0\n";
+        let ply = read(text.as_bytes(), Path::new("a.ply")).unwrap();
+        assert_eq!(ply.mesh.triangles, [[0, 1, 2], [2, 1, 3]]);
+        assert_eq!(ply.mesh.uvs, [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::splat(0.5)]);
+        assert_eq!((ply.mean_color, ply.unused), (Some([1.0, 0.0, 0.0]), vec![("vertex".to_string(), vec!["alpha".to_string()])]));
     }
 }

@@ -158,16 +158,38 @@ pub(crate) fn labels_by_part(scene: &Scene, labels: &[ImportedLabel]) -> Labels 
 
 /// One line about a scene.
 pub(crate) fn describe(scene: &Scene) -> String {
+    describe_and_measure(scene).0
+}
+
+/// One line about a scene, and its largest extent, m.
+pub(crate) fn describe_and_measure(scene: &Scene) -> (String, f32) {
     let triangles: usize = scene.parts.iter().map(|p| scene.meshes[p.mesh as usize].triangles.len()).sum();
     let extent = WorldMesh::new(scene).bounds.extent();
-    format!(
-        "{}, {}, {}, {}; {:.1} x {:.1} x {:.1} m",
+    let line = format!(
+        "{}, {}, {}, {}; {} x {} x {} m",
         count(scene.parts.len(), "part"),
         count(triangles, "triangle"),
         count(scene.materials.len(), "material"),
         count(scene.images.len(), "image"),
-        extent.x,
-        extent.y,
-        extent.z
-    )
+        metres(extent.x),
+        metres(extent.y),
+        metres(extent.z)
+    );
+    (line, extent.max_element())
+}
+
+/// A length to a tenth, or, where it is below that, to two significant digits, so that a scene in a wrong unit shows its size.
+fn metres(length: f32) -> String {
+    let digits = if length > 0.0 && length < 0.1 { (1.0 - length.log10().floor()).min(12.0) as usize } else { 1 };
+    format!("{length:.digits$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_lengths_keep_two_digits() {
+        assert_eq!([0.0, 12.34, 0.94, 0.05, 0.00123, 1e-30].map(metres), ["0.0", "12.3", "0.9", "0.050", "0.0012", "0.000000000000"]);
+    }
 }

@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 
 pub(crate) use denoise::check_denoiser;
 pub(crate) use finisher::frame_finisher;
-pub(crate) use import::{describe, labels_by_part, load_file};
+pub(crate) use import::{describe, describe_and_measure, labels_by_part, load_file};
 pub(crate) use job::{FramesByTrajectory, Job, World};
 pub(crate) use label::read_table;
 pub(crate) use pilot::pilot;

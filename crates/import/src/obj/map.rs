@@ -1,0 +1,103 @@
+//! `map_…` statements of MTL: options and the path of a picture.
+
+use super::text::unquoted;
+
+/// A `map_…` statement.
+pub(super) struct Map<'m> {
+    pub path: &'m str,
+    pub scale: [f32; 2],
+    pub offset: [f32; 2],
+    pub clamp: bool,
+    pub bump: f32,
+    /// The channel that `-imfchan` chooses for a number.
+    pub channel: Option<u8>,
+    /// Options that have an effect but are not read.
+    pub ignored: Vec<&'m str>,
+}
+
+impl<'m> Map<'m> {
+    /// Splits a statement into its options and the path, which may hold spaces. `None` where there is no path.
+    pub(super) fn parse(statement: &'m str) -> Option<Self> {
+        let mut map = Map { path: "", scale: [1.0; 2], offset: [0.0; 2], clamp: false, bump: 1.0, channel: None, ignored: Vec::new() };
+        let mut rest = statement.trim();
+        while rest.starts_with('-') {
+            let (option, after) = rest.split_once(char::is_whitespace)?;
+            rest = after.trim_start();
+            let most = match option {
+                "-s" | "-o" | "-t" => 3,
+                "-mm" => 2,
+                _ => 1,
+            };
+            let textual = matches!(option, "-clamp" | "-blendu" | "-blendv" | "-cc" | "-imfchan" | "-type");
+            let (mut values, mut word) = (Vec::new(), "");
+            while values.len() < most {
+                word = rest.split_whitespace().next()?;
+                match word.parse::<f32>() {
+                    Ok(value) => values.push(value),
+                    Err(_) if textual => values.push(f32::from(u8::from(word == "on"))),
+                    Err(_) => break,
+                }
+                rest = rest[word.len()..].trim_start();
+            }
+            map.set(option, word, &values);
+        }
+        map.path = unquoted(rest);
+        (!map.path.is_empty()).then_some(map)
+    }
+
+    /// Takes over an option of these values, of which `word` is the last.
+    fn set(&mut self, option: &'m str, word: &str, values: &[f32]) {
+        let value = |i: usize, default: f32| values.get(i).copied().filter(|v| v.is_finite()).unwrap_or(default);
+        let changes = match option {
+            "-s" => {
+                self.scale = [value(0, 1.0), value(1, 1.0)];
+                false
+            }
+            "-o" => {
+                self.offset = [value(0, 0.0), value(1, 0.0)];
+                false
+            }
+            "-clamp" => {
+                self.clamp = value(0, 0.0) > 0.0;
+                false
+            }
+            "-bm" => {
+                self.bump = value(0, 1.0);
+                false
+            }
+            "-imfchan" => {
+                self.channel = ["r", "g", "b", "m"].iter().position(|c| *c == word).map(|c| c as u8);
+                // Luminance is what a grey picture has in every channel.
+                self.channel.is_none() && word != "l"
+            }
+            // How a picture is filtered; blending is the rule.
+            "-blendu" | "-blendv" | "-texres" | "-boost" | "-cc" => false,
+            "-mm" => values.len() < 2 || values != [0.0, 1.0],
+            "-t" => values.iter().any(|v| *v != 0.0),
+            _ => true,
+        };
+        if changes {
+            self.ignored.push(option);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn map_statements_have_options_and_paths_with_spaces() {
+        let map = Map::parse("-s 2 3 1 -o 0.5 0 0 -clamp on -bm 0.3 my wood texture.png").unwrap();
+        assert_eq!((map.path, map.scale, map.offset, map.clamp, map.bump), ("my wood texture.png", [2.0, 3.0], [0.5, 0.0], true, 0.3));
+        assert_eq!(Map::parse("3 chairs.png").unwrap().path, "3 chairs.png");
+        assert_eq!(Map::parse("-imfchan m \"my wood.png\"").map(|m| (m.path, m.channel)), Some(("my wood.png", Some(3))));
+        assert!(Map::parse("-bm 1").is_none());
+    }
+
+    #[test]
+    fn options_that_change_nothing_are_not_reported() {
+        assert!(Map::parse("-mm 0 1 -t 0 0 0 -blendu on a.png").unwrap().ignored.is_empty());
+        assert_eq!(Map::parse("-mm 0.2 1 -type sphere -imfchan z a.png").unwrap().ignored, ["-mm", "-type", "-imfchan"]);
+    }
+}
