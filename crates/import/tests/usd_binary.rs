@@ -168,3 +168,14 @@ fn errors_name_the_file_and_the_place() {
     old[8..11].copy_from_slice(&[0, 3, 0]);
     assert!(folder.write("e.usdc", &old).error("e.usdc").contains("byte 8: found version 0.3.0 of usdc, expected 0.4 to 0.13"));
 }
+
+/// Their tables of paths hold an empty one that the tree leaves out, and tables of nothing hold not even a first number.
+#[test]
+fn references_without_a_prim_and_empty_layers_are_read() {
+    let folder = Folder::new();
+    folder.write("box.usda", "#usda 1.0\n( defaultPrim = \"Box\" )\ndef Cube \"Box\" { }");
+    folder.write("empty.usdc", bytes("empty.usdc")).write("reference.usdc", bytes("reference.usdc"));
+    let imported = folder.load("reference.usdc").unwrap();
+    assert_eq!(imported.scene.parts[0].name, "A");
+    assert!(imported.report.warnings.is_empty(), "{}", warnings(&imported));
+}

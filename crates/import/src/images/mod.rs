@@ -54,7 +54,8 @@ pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, St
     }
     let format = ::image::guess_format(bytes)
         .ok()
-        .or_else(|| ImageFormat::from_path(Path::new(name)).ok())
+        // What is in an archive has a bracket behind its name.
+        .or_else(|| ImageFormat::from_path(Path::new(name.trim_end_matches(']'))).ok())
         .ok_or_else(|| "is not a picture of a known format (PNG, JPEG, BMP, TGA, HDR, EXR, PFM)".to_string())?;
     let size = ImageReader::with_format(Cursor::new(bytes), format).into_dimensions().map_err(undecodable)?;
     check_size(size.0, size.1)?;

@@ -22,6 +22,9 @@ pub(super) fn add(prim: &Prim, file_from_prim: DAffine3, a: &mut Assembly) {
             "the camera's f-stop and distance of focus were left out: everything is in focus (a dataset's [camera] may have a lens)",
         );
     }
+    if number("exposure", 0.0) != 0.0 {
+        a.warn(&prim.path, "the camera's exposure was left out: pictures hold radiance");
+    }
     a.push_camera(&name(prim), file_from_prim, 2.0 * (0.5 * width / focal).atan(), width / height);
 }
 

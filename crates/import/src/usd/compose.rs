@@ -6,7 +6,7 @@
 //! with longer paths. What specializes is weakest of all. This is the prim index of OpenUSD's `Pcp` without relocates, and without
 //! classes that are overridden from outside of a reference ("implied inherits").
 
-use super::files::{Files, resolve};
+use super::files::{Files, is_materialx, resolve};
 use super::layer::{Layer, MAX_PATH, child_path, field, moved, without_variants};
 use super::node::{Arc, Node, Site, Stack, Target};
 use super::value::{Item, Value};
@@ -181,6 +181,8 @@ impl Composer {
         let path = if item.path.is_empty() { default() } else { Some(item.path.clone()) };
         match path {
             Some(path) if stack.layers.iter().any(|l| l.specs.contains_key(&path)) => Ok(Some((stack, path))),
+            // Its layer is empty, which has been said.
+            _ if is_materialx(&stack.location) => Ok(None),
             path => {
                 let what = path.map_or("its default prim, but it names none".to_string(), |p| format!("<{p}>, which is not there"));
                 a.warn(format!("<{}>", node.path), format!("a reference to {} asks for {what}; it was left out", stack.location));

@@ -11,6 +11,9 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
 
+/// The first bytes of a zip archive.
+const ARCHIVE: &[u8] = b"PK\x03\x04";
+
 /// The archives and layers read so far.
 #[derive(Default)]
 pub(super) struct Files {
@@ -32,6 +35,12 @@ impl Files {
                 format!("it refers to {location}; {scheme} is not fetched, so save the scene with its files beside it (a usdz holds all)");
             return Err(a.malformed(user, problem));
         }
+        if location.ends_with('`') {
+            let problem = format!(
+                "it refers to {location}, an expression of variables, which is not evaluated; flatten the scene (usdcat --flatten)"
+            );
+            return Err(a.malformed(user, problem));
+        }
         let (bytes, location) = self.bytes(location, user, a)?;
         let place = |place: String| match location.split_once('[') {
             Some((_, inner)) => format!("[{inner}, {place}"),
@@ -45,6 +54,17 @@ impl Files {
                 Ok(text) => text::parse(text),
                 Err(e) => Err((format!("byte {}", e.valid_up_to()), "found bytes that are no UTF-8 text; the file is damaged".into())),
             }
+        } else if is_materialx(&location) {
+            a.warn(
+                &location,
+                "MaterialX documents are not read: materials that are in it are grey; with a USD that reads them, `usdcat --flatten` brings \
+                 them into the scene",
+            );
+            Ok(Layer::default())
+        } else if bytes.starts_with(ARCHIVE) {
+            let problem = "found an archive within an archive, or one without the extension usdz; expected a layer, so name it .usdz and put it \
+                           beside the scene";
+            Err(("byte 0".into(), problem.into()))
         } else {
             let problem =
                 "found neither `#usda` nor `PXR-USDC` at its beginning, expected a layer of USD; check that the file is one and whole";
@@ -52,6 +72,9 @@ impl Files {
         };
         let mut layer = read.map_err(|(at, problem)| ImportError::malformed(&file, place(at), problem))?;
         layer.location.clone_from(&location);
+        if layer.specs.values().flatten().any(|(name, _)| matches!(&**name, "relocates" | "layerRelocates")) {
+            a.warn(&location, "relocates were left out: prims stay where they were before; flatten the scene (usdcat --flatten)");
+        }
         let layer = Rc::new(layer);
         self.layers.insert(location, layer.clone());
         Ok(layer)
@@ -65,6 +88,10 @@ impl Files {
         }
         let archive = self.archive(file, a)?;
         let inner = inner(location).unwrap_or(&archive.first);
+        if let Some((nested, _)) = inner.split_once('[') {
+            let problem = format!("it refers to {nested}, an archive within the archive {file}; put it beside the scene");
+            return Err(a.malformed(user, problem));
+        }
         match archive.get(inner) {
             Some(bytes) => Ok((bytes.to_vec(), format!("{file}[{inner}]"))),
             None => Err(a.malformed(user, format!("it refers to {inner}, which is not in the archive {file}; pack the archive anew"))),
@@ -128,6 +155,11 @@ fn inner(location: &str) -> Option<&str> {
 
 fn is_archive(file: &str) -> bool {
     Path::new(file).extension().is_some_and(|e| e.eq_ignore_ascii_case("usdz"))
+}
+
+/// True for the location of a document of MaterialX.
+pub(super) fn is_materialx(location: &str) -> bool {
+    location.trim_end_matches(']').ends_with(".mtlx")
 }
 
 fn scheme(location: &str) -> Option<&str> {

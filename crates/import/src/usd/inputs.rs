@@ -1,8 +1,9 @@
 //! Inputs of a surface shader as parameters: a value, or a texture times a scale plus a bias.
 
-use super::shader::{Source, source};
+use super::foreign::number;
+use super::shader::{Source, id, source};
 use super::stage::Prim;
-use super::texture::{Texture, Textures, rgb};
+use super::texture::{Kept, Texture, Textures, rgb};
 use crate::ImportError;
 use crate::images::Use;
 use enfilade_math::Rgb;
@@ -24,6 +25,11 @@ impl Textures<'_, '_, '_> {
             Source::Value(value, _) => return Ok(rgb(&value).unwrap_or(default).into()),
             Source::Shader(prim, output) => (prim, output),
         };
+        if name == "inputs:diffuseColor" && id(&prim) == "UsdPrimvarReader_float3" {
+            let primvar = self.token(&prim, "inputs:varname")?;
+            self.color_name = Some(format!("primvars:{primvar}"));
+            return Ok(self.fallback_of(&prim)?.unwrap_or(default).into());
+        }
         let Some(t) = self.read(&prim, &output, Use::Color)? else {
             return Ok(self.fallback_of(&prim)?.unwrap_or(default).into());
         };
@@ -35,18 +41,20 @@ impl Textures<'_, '_, '_> {
             return Ok(ColorParam { factor: Rgb::new(t.scale[0], t.scale[1], t.scale[2]), texture: Some(texture) });
         }
         let Texture { scale, bias, output, .. } = t;
-        texture.image = self.baked(texture.image, &format!("{scale:?}{bias:?}{output}"), false, |texel| {
+        let read = channel(&output).map_or(0..3, |c| c..c + 1);
+        let kept = self.kept(texture.image, &scale[read.clone()], &bias[read]);
+        texture.image = self.baked(texture.image, &format!("{scale:?}{bias:?}{output}"), kept, |texel| {
             let v: [f32; 4] = std::array::from_fn(|i| texel[i] * scale[i] + bias[i]);
             channel(&output).map_or([v[0], v[1], v[2]], |c| [v[c]; 3])
         });
         Ok(ColorParam { factor: Rgb::WHITE, texture: Some(texture) })
     }
 
-    /// A number.
+    /// A number; of a colour the mean.
     pub(super) fn scalar(&mut self, shader: &Rc<Prim>, name: &str, default: f32) -> Result<ScalarParam, ImportError> {
         let (prim, output) = match source(self.stage, shader, name, self.a)? {
             Source::Default => return Ok(default.into()),
-            Source::Value(value, _) => return Ok(value.as_number().map_or(default, |v| v as f32).into()),
+            Source::Value(value, _) => return Ok(number(&value).unwrap_or(default).into()),
             Source::Shader(prim, output) => (prim, output),
         };
         let Some(t) = self.read(&prim, &output, Use::Data)? else {
@@ -58,7 +66,8 @@ impl Textures<'_, '_, '_> {
         if bias == 0.0 {
             return Ok(ScalarParam { factor: scale, texture: Some((texture, c as u8)) });
         }
-        texture.image = self.baked(texture.image, &format!("{scale} {bias} {c}"), false, |texel| [texel[c] * scale + bias; 3]);
+        let kept = self.kept(texture.image, &[scale], &[bias]);
+        texture.image = self.baked(texture.image, &format!("{scale} {bias} {c}"), kept, |texel| [texel[c] * scale + bias; 3]);
         Ok(ScalarParam { factor: 1.0, texture: Some((texture, 0)) })
     }
 
@@ -79,7 +88,7 @@ impl Textures<'_, '_, '_> {
         if standard {
             return Ok(Some(NormalMap::Normal { texture, scale: strength }));
         }
-        texture.image = self.baked(texture.image, &format!("normal {scale:?}{bias:?}"), true, |texel| {
+        texture.image = self.baked(texture.image, &format!("normal {scale:?}{bias:?}"), Kept::Linear, |texel| {
             std::array::from_fn(|i| 0.5 * (texel[i] * scale[i] + bias[i]) + 0.5)
         });
         Ok(Some(NormalMap::Normal { texture, scale: 1.0 }))

@@ -1,8 +1,11 @@
 //! Point instancers: prototypes at many places.
 
+use super::bind::{self, Bindings};
+use super::constants::Constants;
+use super::label::{self, Unknown};
 use super::layer::field;
 use super::stage::Prim;
-use super::walk::{State, Walk};
+use super::walk::{State, Walk, is_aside};
 use super::xform::rotation;
 use crate::ImportError;
 use crate::assembly::Assembly;
@@ -21,29 +24,33 @@ impl Walk<'_> {
         let (positions, scales) = (numbers("positions", 3), numbers("scales", 3));
         let precise = numbers("orientationsf", 4);
         let orientations = if precise.is_empty() { numbers("orientations", 4) } else { precise };
-        let bad = |problem: String| a.malformed(format!("<{}>", prim.path), problem);
         if which.len() > MAX_INSTANCES {
-            return Err(bad(format!("found {} instances, expected at most {MAX_INSTANCES}; make the scene smaller", which.len())));
+            return Err(a.malformed(
+                format!("<{}>", prim.path),
+                format!("found {} instances, expected at most {MAX_INSTANCES}; make the scene smaller", which.len()),
+            ));
         }
         for (name, found, width) in
             [("positions", positions.len(), 3), ("scales", scales.len(), 3), ("orientations", orientations.len(), 4)]
         {
             let optional = found == 0 && name != "positions";
             if !optional && found / width != which.len() {
-                let problem = format!("found {} {name} for {} instances; export the file again", found / width, which.len());
-                return Err(bad(problem));
+                let problem = format!("found {} {name} for {} instances; the instancer was left out", found / width, which.len());
+                a.warn(&prim.path, problem);
+                return Ok(());
             }
         }
         let hidden = self.hidden_instances(prim, which.len());
         let mut prototypes = Vec::new();
         for path in prim.targets("prototypes", field::TARGETS) {
-            prototypes.push(self.stage.at(&path, a)?);
+            prototypes.push(self.prototype(&path, state, a)?);
         }
         for (i, proto) in which.iter().enumerate().filter(|(i, _)| !hidden.contains(i)) {
             let found = if *proto >= 0.0 { prototypes.get(*proto as usize) } else { None };
-            let Some(Some(prototype)) = found else {
-                let problem = format!("found prototype {proto} at instance {i}, but there are {}; export the file again", prototypes.len());
-                return Err(a.malformed(format!("<{}>.protoIndices", prim.path), problem));
+            let Some(Some((prototype, inherited))) = found else {
+                let problem = format!("found prototype {proto}, but there are {}; its instances were left out", prototypes.len());
+                a.warn(format!("<{}>.protoIndices", prim.path), problem);
+                continue;
             };
             let vector =
                 |list: &[f64], default: f64| list.as_chunks::<3>().0.get(i).map_or(DVec3::splat(default), |v| DVec3::from_array(*v));
@@ -52,12 +59,27 @@ impl Walk<'_> {
             let state = State {
                 file_from_parent: state.file_from_parent * placed,
                 prefix: format!("{}{}[{i}]/", state.prefix, prim.name()),
-                ..state.clone()
+                ..inherited.clone()
             };
-            let prototype = prototype.clone();
-            self.visit(&prototype, &state, a)?;
+            self.visit(&prototype.clone(), &state, a)?;
         }
         Ok(())
+    }
+
+    /// A prototype and what it has from those above it: bindings, colours and purpose along its own path; the label, where they have none, of
+    /// the instancer. `None` where nothing is at the path.
+    fn prototype(&mut self, path: &str, state: &State, a: &mut Assembly) -> Result<Option<(Rc<Prim>, State)>, ImportError> {
+        let Some(prim) = self.stage.at(path, a)? else { return Ok(None) };
+        let (mut bindings, mut constants) = (Bindings::default(), Constants::default());
+        let (mut label, mut hidden) = (state.label, state.hidden);
+        for (end, _) in path.match_indices('/').skip(1) {
+            let Some(above) = self.stage.at(&path[..end], a)? else { continue };
+            bindings = bind::at(&above, &bindings, self.stage, a)?;
+            constants = constants.below(&above);
+            label = label::at(&above, label, &mut Unknown::default());
+            hidden = is_aside(&above, hidden);
+        }
+        Ok(Some((prim, State { bindings, constants, label, hidden, ..state.clone() })))
     }
 
     /// Places of the instances that are invisible or inactive; both are named by id.

@@ -292,7 +292,7 @@ impl Lamp<'_> {
             return Ok(None);
         }
         let user = format!("light <{}>", self.prim.path);
-        Textures { stage, a, user, uv_name: None, baked: self.baked }.picture(&asset, &layer, Use::Color)
+        Textures { stage, a, user, uv_name: None, color_name: None, baked: self.baked }.picture(&asset, &layer, Use::Color)
     }
 }
 

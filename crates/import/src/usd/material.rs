@@ -1,6 +1,5 @@
-//! Materials: `UsdPreviewSurface`, and what can be known of other surfaces.
+//! Materials: which surface of a material is read, and `UsdPreviewSurface`.
 
-use super::mtlx::{first, is_solid, named};
 use super::shader::{Source, id, source};
 use super::stage::{Prim, Stage};
 use super::texture::Textures;
@@ -28,40 +27,57 @@ const METAL_F0: f32 = 0.5;
 /// The materials met so far.
 #[derive(Default)]
 pub(super) struct Materials {
-    known: HashMap<(String, bool), (u32, String)>,
-    colors: HashMap<[u32; 3], u32>,
+    known: HashMap<(String, bool), Surface>,
+    colors: HashMap<[u32; 4], u32>,
     pub(super) baked: HashMap<String, u32>,
 }
 
+/// A material as the prims that bind it need it.
+#[derive(Clone)]
+pub(super) struct Surface {
+    /// Scene index of the material.
+    pub material: u32,
+    /// Primvar of its texture coordinates.
+    pub uv_name: String,
+    /// The primvar of each prim that is its base colour, where one is.
+    pub color_name: Option<String>,
+}
+
 impl Materials {
-    /// Scene index of the material at a path, and the primvar of its texture coordinates. `None` when there is no material there.
+    /// The material at a path. `None` when there is none.
     pub(super) fn get(
         &mut self,
         stage: &mut Stage,
         path: &str,
         double_sided: bool,
         a: &mut Assembly,
-    ) -> Result<Option<(u32, String)>, ImportError> {
+    ) -> Result<Option<Surface>, ImportError> {
         let Some(prim) = stage.at(path, a)?.filter(|p| p.kind() == "Material") else { return Ok(None) };
         let key = (prim.identity(), double_sided);
         if let Some(known) = self.known.get(&key) {
             return Ok(Some(known.clone()));
         }
-        let mut reader = Textures { stage, a, user: format!("material <{path}>"), uv_name: None, baked: &mut self.baked };
+        let mut reader = Textures { stage, a, user: format!("material <{path}>"), uv_name: None, color_name: None, baked: &mut self.baked };
         let mut material = reader.material(&prim)?;
         material.emits_both_sides = double_sided && !material.emission.factor.is_black();
-        let uv_name = reader.uv_name.unwrap_or_else(|| "st".into());
-        let found = (a.push_material(material), uv_name);
+        let (uv_name, color_name) = (reader.uv_name.unwrap_or_else(|| "st".into()), reader.color_name);
+        let found = Surface { material: a.push_material(material), uv_name, color_name };
         self.known.insert(key, found.clone());
         Ok(Some(found))
     }
 
     /// A plain material of a colour, for prims that have nothing but that.
-    pub(super) fn plain(&mut self, color: Rgb, a: &mut Assembly) -> u32 {
-        *self.colors.entry([color.r, color.g, color.b].map(f32::to_bits)).or_insert_with(|| {
+    pub(super) fn plain(&mut self, color: Rgb, opacity: f32, a: &mut Assembly) -> u32 {
+        *self.colors.entry([color.r, color.g, color.b, opacity].map(f32::to_bits)).or_insert_with(|| {
             let base_color = color.map(|c| c.clamp(0.0, 1.0)).into();
             let bsdf = Bsdf::Principled(Box::new(Principled { base_color, roughness: 0.5.into(), ..Principled::default() }));
-            a.push_material(Material::new(format!("displayColor {:.3} {:.3} {:.3}", color.r, color.g, color.b), bsdf))
+            let mut name = format!("displayColor {:.3} {:.3} {:.3}", color.r, color.g, color.b);
+            let mut alpha = Alpha::Opaque;
+            if opacity < 1.0 {
+                name += &format!(" {opacity:.3}");
+                alpha = Alpha::Blend { opacity: opacity.max(0.0).into() };
+            }
+            a.push_material(Material { alpha, ..Material::new(name, bsdf) })
         })
     }
 }
@@ -114,7 +130,7 @@ impl Textures<'_, '_, '_> {
             p.metallic = self.scalar(shader, "inputs:metallic", 0.0)?;
         }
         let emission = self.color(shader, "inputs:emissiveColor", Rgb::BLACK)?;
-        let alpha = self.alpha(shader, "inputs:opacity")?;
+        let alpha = self.alpha(shader, "inputs:opacity", "inputs:opacityThreshold")?;
         let normal_map = self.normal(shader, "inputs:normal")?;
         for (input, what) in [("inputs:displacement", "displacement"), ("inputs:occlusion", "occlusion")] {
             let used = match source(self.stage, shader, input, self.a)? {
@@ -148,9 +164,10 @@ impl Textures<'_, '_, '_> {
         Ok(())
     }
 
-    fn alpha(&mut self, shader: &Rc<Prim>, opacity: &str) -> Result<Alpha, ImportError> {
+    /// What inputs for opacity and for the threshold below which nothing is there say. Without the latter's name light is blended.
+    pub(super) fn alpha(&mut self, shader: &Rc<Prim>, opacity: &str, threshold: &str) -> Result<Alpha, ImportError> {
         let opacity = self.scalar(shader, opacity, 1.0)?;
-        let cutoff = self.scalar(shader, "inputs:opacityThreshold", 0.0)?.factor;
+        let cutoff = self.scalar(shader, threshold, 0.0)?.factor;
         let opaque = |t: &(enfilade_scene::TextureRef, u8)| t.1 == 3 && crate::images::is_opaque(self.a.image_at(t.0.image));
         let opacity = ScalarParam { texture: opacity.texture.filter(|t| !opaque(t)), ..opacity };
         if opacity.texture.is_none() && opacity.factor >= 1.0 {
@@ -158,48 +175,9 @@ impl Textures<'_, '_, '_> {
         }
         Ok(if cutoff > 0.0 { Alpha::Mask { opacity, cutoff } } else { Alpha::Blend { opacity } })
     }
-
-    /// A surface of another renderer, by the names that its inputs usually have.
-    fn foreign(&mut self, name: &str, shader: &Rc<Prim>) -> Result<Material, ImportError> {
-        let kind = id(shader);
-        self.warn(format!(
-            "its surface is {kind:?}, of which base colour, opacity, roughness, metallic, emission and transmission were guessed by name"
-        ));
-        let first = |names: &[&'static str]| first(shader, names);
-        let base = first(named::BASE);
-        let picture = first(&["inputs:diffuse_texture", "inputs:base_color_texture"]);
-        let roughness = first(&["inputs:specular_roughness", "inputs:reflection_roughness_constant", "inputs:roughness"]);
-        let metallic = first(&["inputs:metalness", "inputs:base_metalness", "inputs:metallic_constant", "inputs:metallic"]);
-        let glow = first(&["inputs:emission_color", "inputs:emissive_color", "inputs:emissive"]);
-        let strength = first(named::GLOW_STRENGTH);
-        let ior = self.scalar(shader, first(&["inputs:specular_ior", "inputs:specular_IOR"]), 1.5)?.factor;
-        let mut p = Principled {
-            base_color: self.color(shader, base, Rgb::splat(0.5))?,
-            roughness: self.scalar(shader, roughness, 0.5)?,
-            metallic: self.scalar(shader, metallic, 0.0)?,
-            transmission: self.scalar(shader, first(named::TRANSMISSION), 0.0)?,
-            ior: index_of_refraction(ior),
-            ..Principled::default()
-        };
-        p.solid = p.transmission.factor > 0.0 && is_solid(shader);
-        if let (false, Source::Value(value, layer)) = (picture.is_empty(), source(self.stage, shader, picture, self.a)?)
-            && let Some(asset) = value.as_text().filter(|t| !t.is_empty()).map(str::to_string)
-        {
-            let image = self.picture(&asset, &layer, crate::images::Use::Color)?;
-            p.base_color = ColorParam { factor: Rgb::WHITE, texture: image.map(enfilade_scene::TextureRef::new) };
-        }
-        let enabled = shader.value("inputs:enable_emission").and_then(|v| v.as_bool()).unwrap_or(!strength.is_empty());
-        let mut emission = ColorParam::from(Rgb::BLACK);
-        if enabled {
-            emission = self.color(shader, glow, Rgb::WHITE)?;
-            emission.factor *= self.scalar(shader, strength, 1.0)?.factor;
-        }
-        let alpha = self.alpha(shader, first(&["inputs:geometry_opacity"]))?;
-        Ok(Material { emission, alpha, ..Material::new(name, Bsdf::Principled(Box::new(p))) })
-    }
 }
 
 /// An index of refraction, where it is one; else that of glass.
-fn index_of_refraction(found: f32) -> f32 {
+pub(super) fn index_of_refraction(found: f32) -> f32 {
     if found > 1.0 && found.is_finite() { found } else { 1.5 }
 }

@@ -6,13 +6,13 @@
 //! | composition | sublayers, references, payloads (all are loaded), variants, inherits, specializes, over, class, `active`, list edits; references that lead back are left out with a warning; circles of sublayers, a depth of 64 and a layer that is not there are errors. Relocates, value clips and classes overridden from outside of a reference are not applied |
 //! | time | values without time, else the first sample |
 //! | placement | every `xformOp`, `!invert!`, `!resetXformStack!` |
-//! | parts | one for each gprim and subset that binds a material, named by its path; prims of the same opinions, such as instances, share their meshes. Prims that are invisible or of the purpose `guide` or `proxy` are left out |
+//! | parts | one for each gprim and subset that binds a material, named by its path; prims of the same opinions, such as instances, share their meshes. Prims that are invisible or of the purpose `guide` or `proxy` are left out, and with a warning meshes, instancers and primvars whose numbers do not fit each other |
 //! | meshes | polygons with holes, both orientations, normals and texture coordinates of every interpolation with or without indices. Subdivision surfaces are taken as their cages, with smooth normals where none are stated |
 //! | other shapes | cubes, spheres, cylinders, cones, capsules, planes; point instancers. Points, curves, patches, volumes and skins are left out |
-//! | binding | direct, by purpose (`full`, all, `preview`), inherited, `strongerThanDescendants`; not by collections. Without a material, the display colour, or its mean |
+//! | binding | direct, by purpose (`full`, all, `preview`), inherited, `strongerThanDescendants`, by collections with what they include and exclude by path. Without a material, the display colour and opacity, or their means, inherited where they are constant |
 //! | UsdPreviewSurface | as `Bsdf::Principled`. Opacity passes light straight, with the share of the reflection that remains; above `opacityThreshold` 0 it is a mask. In the specular workflow a bright specular colour is a metal. Displacement is left out, and so is occlusion, which light transport computes |
 //! | textures | UsdUVTexture with wrap modes (`black` is continued, `useMetadata` repeats), scale, bias, fallback and colour space (`auto`: sRGB for colours, raw for numbers), UsdTransform2d, UsdPrimvarReader, through node graphs and inputs of materials; of UDIMs the first tile. One set of texture coordinates a material |
-//! | other surfaces | MaterialX, MDL, RenderMan: a UsdPreviewSurface of another context is preferred, and takes transmission and strength of emission from a MaterialX surface beside it, unless it only stands in for that one (it has no textures where the other's base colour has one, or is that of Blender's viewport); else base colour, opacity, roughness, metallic, emission and transmission are guessed by the names of inputs. Pictures of MaterialX are read where an input leads to one by itself |
+//! | other surfaces | MaterialX, MDL, RenderMan: a UsdPreviewSurface of another context is preferred, and takes transmission and strength of emission from a MaterialX surface beside it, unless it only stands in for that one (it has no textures where the other's base colour has one, or is that of Blender's viewport); else base colour, opacity, roughness, metallic, coat, emission and transmission are guessed by the names of inputs. MaterialX's node of the preview surface is one. Pictures of MaterialX are read where an input leads to one by itself, tiled ones too; documents of MaterialX (`.mtlx`) are not |
 //! | lights | rectangles, disks, spheres and cylinders as emitting parts; spheres as points where they are to be one, or have a cone or a profile (IES); distant lights, domes, meshes that are lights. 6500 K is white. Suns of Blender, which writes a quarter of their strength and half their angle, are as in Blender. Light linking, filters and portals are left out |
 //! | cameras | perspective; shifted apertures are centred; clipping is left out, and focus is the renderer's configuration |
 //! | labels | `semantics:labels:*` and `semantic:*:params:semanticData` where they name a class of NYU40 |
@@ -28,8 +28,11 @@ mod archive;
 mod binary;
 mod bind;
 mod camera;
+mod collection;
 mod compose;
+mod constants;
 mod files;
+mod foreign;
 mod inputs;
 mod instancer;
 mod label;
@@ -38,6 +41,7 @@ mod light;
 mod material;
 mod mtlx;
 mod node;
+mod parts;
 mod polygons;
 mod primvar;
 mod shader;

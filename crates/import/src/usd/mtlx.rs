@@ -1,5 +1,6 @@
 //! What is read of MaterialX: the surface beside a `UsdPreviewSurface`, and the pictures of its network.
 
+use super::foreign::default_strength;
 use super::shader::{Source, id, source};
 use super::stage::Prim;
 use super::texture::{Texture, Textures};
@@ -22,7 +23,8 @@ pub(super) mod named {
     pub const BASE: &[&str] =
         &["inputs:base_color", "inputs:diffuse_color_constant", "inputs:diffuseColor", "inputs:baseColor", "inputs:diffuse_tint"];
     pub const TRANSMISSION: &[&str] = &["inputs:transmission", "inputs:transmission_weight"];
-    pub const GLOW_STRENGTH: &[&str] = &["inputs:emission", "inputs:emission_luminance", "inputs:emissive_intensity"];
+    pub const GLOW_STRENGTH: &[&str] =
+        &["inputs:emission", "inputs:emission_luminance", "inputs:emissive_intensity", "inputs:emissive_strength"];
 }
 
 /// The first of these inputs that a shader has; empty where it has none.
@@ -74,7 +76,8 @@ impl Textures<'_, '_, '_> {
         }
         let emission = &mut material.emission;
         if emission.texture.is_some() && emission.factor == Rgb::WHITE {
-            emission.factor *= self.scalar(mtlx, first(mtlx, named::GLOW_STRENGTH), 1.0)?.factor;
+            let strength = first(mtlx, named::GLOW_STRENGTH);
+            emission.factor *= self.factor(mtlx, strength, default_strength(mtlx, strength))?;
         }
         let kind = id(mtlx);
         self.warn(format!(
@@ -98,8 +101,10 @@ impl Textures<'_, '_, '_> {
         let mut texture = self.image(&node, usage)?.map(TextureRef::new);
         let wrap = [self.wrap(&node, "inputs:uaddressmode")?, self.wrap(&node, "inputs:vaddressmode")?];
         self.mtlx_coordinates(&node)?;
+        let tiles = self.mtlx_tiles(&node)?;
         if let Some(texture) = &mut texture {
             texture.wrap = wrap;
+            texture.uv_transform = tiles;
         }
         Ok(Some(Texture { texture, scale: [1.0; 4], bias: [0.0; 4], fallback: None, output: output.to_string() }))
     }
@@ -109,7 +114,7 @@ impl Textures<'_, '_, '_> {
         let (mut node, mut output) = (shader.clone(), "out");
         for _ in 0..MAX_STEPS {
             let kind = id(&node);
-            if kind.starts_with("ND_image_") {
+            if kind.starts_with("ND_image_") || kind.starts_with("ND_tiledimage_") {
                 return Ok(Some((node, output)));
             }
             if kind.starts_with("ND_extract_") {
@@ -122,6 +127,24 @@ impl Textures<'_, '_, '_> {
             node = next;
         }
         Ok(None)
+    }
+
+    /// The transform of texture coordinates of a tiled image: (uv · tiling − offset) · size of a tile / size of the image.
+    fn mtlx_tiles(&mut self, node: &Rc<Prim>) -> Result<[[f32; 3]; 2], ImportError> {
+        let mut pair = |name: &str, default: f32| -> Result<[f32; 2], ImportError> {
+            Ok(match source(self.stage, node, name, self.a)? {
+                Source::Value(v, _) => v.as_tuple::<2>().map_or([default; 2], |v| v.map(|c| c as f32)),
+                _ => [default; 2],
+            })
+        };
+        if !id(node).starts_with("ND_tiledimage_") {
+            return Ok(TextureRef::new(0).uv_transform);
+        }
+        let (tiling, offset) = (pair("inputs:uvtiling", 1.0)?, pair("inputs:uvoffset", 0.0)?);
+        let (image, tile) = (pair("inputs:realworldimagesize", 1.0)?, pair("inputs:realworldtilesize", 1.0)?);
+        let size = |i: usize| if image[i] == 0.0 { 1.0 } else { tile[i] / image[i] };
+        let (x, y) = (size(0), size(1));
+        Ok([[tiling[0] * x, 0.0, -offset[0] * x], [0.0, tiling[1] * y, -offset[1] * y]])
     }
 
     /// Notes the primvar that an image node is read at.

@@ -2,7 +2,6 @@
 
 use super::primvar::{Primvar, Sizes};
 use super::stage::Prim;
-use crate::ImportError;
 use crate::assembly::Assembly;
 use crate::mesh::add_smooth_normals;
 use crate::polygon::triangulate;
@@ -32,33 +31,29 @@ impl Polygons {
     /// The mesh of a prim of type `Mesh`.
     ///
     /// # Errors
-    /// When counts and indices do not fit each other.
-    pub(super) fn read(prim: &Prim, a: &mut Assembly) -> Result<Self, ImportError> {
+    /// The attribute, and what is wrong with it, when counts and indices do not fit each other.
+    pub(super) fn read(prim: &Prim, a: &mut Assembly) -> Result<Self, (&'static str, String)> {
         let numbers = |name: &str, width: usize| prim.value(name).and_then(|v| v.as_numbers(width)).unwrap_or(&[]);
-        let bad = |name: &str, problem: String| a.malformed(format!("<{}>.{name}", prim.path), problem);
         let points: Vec<Vec3> = numbers("points", 3).as_chunks::<3>().0.iter().map(|p| Vec3::from_array(p.map(|c| c as f32))).collect();
         let (counts, indices) = (numbers("faceVertexCounts", 1), numbers("faceVertexIndices", 1));
         let mut faces = Vec::with_capacity(counts.len());
         let mut next = 0usize;
         for count in counts {
             if !(*count >= 0.0 && *count <= indices.len() as f64) {
-                return Err(bad(
-                    "faceVertexCounts",
-                    format!("found a face of {count} corners, but there are {}; export the file again", indices.len()),
-                ));
+                return Err(("faceVertexCounts", format!("found a face of {count} corners, but there are {}", indices.len())));
             }
             if *count as usize > MAX_CORNERS {
-                return Err(bad("faceVertexCounts", format!("found a face of {count} corners, expected at most {MAX_CORNERS}; split it")));
+                return Err(("faceVertexCounts", format!("found a face of {count} corners, expected at most {MAX_CORNERS}")));
             }
             faces.push((next, *count as usize));
             next += *count as usize;
         }
         if next != indices.len() {
-            let problem = format!("the faces have {next} corners, but faceVertexIndices has {}; export the file again", indices.len());
-            return Err(bad("faceVertexCounts", problem));
+            let problem = format!("the faces have {next} corners, but faceVertexIndices has {}", indices.len());
+            return Err(("faceVertexCounts", problem));
         }
         if let Some(index) = indices.iter().find(|i| !(0.0..points.len() as f64).contains(*i)) {
-            return Err(bad("faceVertexIndices", format!("found point {index}, but there are {}; export the file again", points.len())));
+            return Err(("faceVertexIndices", format!("found point {index}, but there are {}", points.len())));
         }
         let corners: Vec<u32> = indices.iter().map(|i| *i as u32).collect();
         let mut holes = vec![false; faces.len()];
@@ -68,10 +63,8 @@ impl Polygons {
             }
         }
         let sizes = Sizes { faces: faces.len(), points: points.len(), corners: corners.len() };
-        let normals = match Primvar::read(prim, "primvars:normals", "vertex", sizes, a)? {
-            None => Primvar::read(prim, "normals", "vertex", sizes, a)?,
-            some => some,
-        };
+        let normals =
+            Primvar::read(prim, "primvars:normals", "vertex", sizes, a).or_else(|| Primvar::read(prim, "normals", "vertex", sizes, a));
         Ok(Self {
             points,
             corners,

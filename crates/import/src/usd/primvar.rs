@@ -1,7 +1,7 @@
 //! Primvars: values over a surface, per surface, face, vertex or corner, with or without indices.
 
 use super::stage::Prim;
-use crate::ImportError;
+use super::value::Value;
 use crate::assembly::Assembly;
 use std::rc::Rc;
 
@@ -32,16 +32,18 @@ pub(super) struct Sizes {
 
 impl<const N: usize> Primvar<N> {
     /// The primvar of an attribute; `None` where there is no such attribute or it has no values. `default` is its interpolation
-    /// where none is stated.
-    ///
-    /// # Errors
-    /// When it has values of the wrong kind, or too few.
-    pub(super) fn read(prim: &Prim, attribute: &str, default: &str, sizes: Sizes, a: &mut Assembly) -> Result<Option<Self>, ImportError> {
-        let Some((value, site)) = prim.value_at(attribute) else { return Ok(None) };
-        let place = || format!("<{}>.{attribute} in {}", prim.path, site.layer.location);
-        let Some(numbers) = value.as_numbers(N) else {
-            return Err(a.malformed(place(), format!("expected values of {N} numbers each; correct the attribute's type")));
-        };
+    /// where none is stated. One of the wrong kind, or with too few values, is left out with a warning.
+    pub(super) fn read(prim: &Prim, attribute: &str, default: &str, sizes: Sizes, a: &mut Assembly) -> Option<Self> {
+        let (value, site) = prim.value_at(attribute)?;
+        Self::checked(prim, value, attribute, default, sizes).unwrap_or_else(|problem| {
+            let place = format!("<{}>.{attribute} in {}", prim.path, site.layer.location);
+            a.warn(place, format!("{problem}; it was left out"));
+            None
+        })
+    }
+
+    fn checked(prim: &Prim, value: &Value, attribute: &str, default: &str, sizes: Sizes) -> Result<Option<Self>, String> {
+        let Some(numbers) = value.as_numbers(N) else { return Err(format!("expected values of {N} numbers each")) };
         if numbers.is_empty() {
             return Ok(None);
         }
@@ -63,10 +65,10 @@ impl<const N: usize> Primvar<N> {
         let found = indices.map_or(values, <[f64]>::len);
         if found < wanted {
             let what = if indices.is_some() { "indices" } else { "values" };
-            return Err(a.malformed(place(), format!("found {found} {what}, expected {wanted} ({interpolation:?}); export the file again")));
+            return Err(format!("found {found} {what}, expected {wanted} ({interpolation:?})"));
         }
         if let Some(bad) = indices.into_iter().flatten().find(|i| **i < 0.0 || **i >= values as f64) {
-            return Err(a.malformed(place(), format!("found index {bad}, but there are only {values} values; export the file again")));
+            return Err(format!("found index {bad}, but there are only {values} values"));
         }
         Ok(Some(Self { data: Rc::new(numbers.to_vec()), indices: indices.map(|i| Rc::new(i.to_vec())), interpolation }))
     }

@@ -47,8 +47,12 @@ pub(super) fn source(stage: &mut Stage, prim: &Rc<Prim>, property: &str, a: &mut
     Err(a.malformed(format!("{}.{property}", prim.path), "its connections stand in a circle; take one of them out"))
 }
 
-/// The name of a shader's implementation: `info:id`, or an MDL module and what of it.
+/// The name of a shader's implementation: `info:id`, or an MDL module and what of it. MaterialX's nodes for the shaders of previews
+/// have the names that these have.
 pub(super) fn id(shader: &Prim) -> String {
     let mdl = || shader.text("info:mdl:sourceAsset:subIdentifier").or(shader.text("info:mdl:sourceAsset"));
-    shader.text("info:id").or_else(mdl).unwrap_or("").to_string()
+    let id = shader.text("info:id").or_else(mdl).unwrap_or("");
+    let twin = id.strip_prefix("ND_").filter(|name| name.starts_with("Usd"));
+    let of_previews = ["UsdPreviewSurface", "UsdUVTexture", "UsdTransform2d"];
+    twin.and_then(|name| of_previews.into_iter().find(|known| name.starts_with(known))).or(twin).unwrap_or(id).to_string()
 }

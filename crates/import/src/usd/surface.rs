@@ -1,7 +1,8 @@
 //! What a prim's surface is: its bound material or its display colour, and which texture coordinates that asks for.
 
-use super::bind::Binding;
+use super::constants::Constants;
 use super::layer::field;
+use super::material::Surface;
 use super::primvar::{Primvar, Sizes};
 use super::stage::Prim;
 use super::value::Value;
@@ -9,33 +10,40 @@ use super::walk::Walk;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::Rgb;
-use enfilade_scene::{ColorParam, Material};
+use enfilade_scene::{Bsdf, ColorParam, Material};
 
 impl Walk<'_> {
-    /// Scene index of the bound material, and the primvar of its texture coordinates.
-    pub(super) fn material_of(
-        &mut self,
-        prim: &Prim,
-        binding: Option<&Binding>,
-        a: &mut Assembly,
-    ) -> Result<Option<(u32, String)>, ImportError> {
-        let Some(binding) = binding else { return Ok(None) };
+    /// The bound material.
+    pub(super) fn material_of(&mut self, prim: &Prim, path: Option<&str>, a: &mut Assembly) -> Result<Option<Surface>, ImportError> {
+        let Some(path) = path else { return Ok(None) };
         let double_sided = prim.value("doubleSided").and_then(Value::as_bool).unwrap_or(false);
-        let found = self.materials.get(self.stage, &binding.material, double_sided, a)?;
+        let found = self.materials.get(self.stage, path, double_sided, a)?;
         if found.is_none() {
-            a.warn(&prim.path, format!("its material <{}> is not there; its display colour stands in", binding.material));
+            a.warn(&prim.path, format!("its material <{path}> is not there; its display colour stands in"));
         }
         Ok(found)
     }
 
     /// A material of the display colour of a prim without a material.
-    pub(super) fn display_color(&mut self, prim: &Prim, sizes: Sizes, a: &mut Assembly) -> Result<u32, ImportError> {
-        let color = Primvar::<3>::read(prim, "primvars:displayColor", "constant", sizes, a)?;
-        if color.as_ref().is_some_and(|c| !c.is_constant()) {
-            a.warn(&prim.path, "its display colours vary over the surface; their mean was taken");
-        }
-        let color = color.map_or(Rgb::splat(0.5), |c| Rgb::from(c.mean().map(|v| v as f32)));
-        Ok(self.materials.plain(color, a))
+    pub(super) fn display_color(&mut self, prim: &Prim, sizes: Sizes, constants: &Constants, a: &mut Assembly) -> u32 {
+        let color = constants.value(prim, "primvars:displayColor", sizes, a).map_or(Rgb::splat(0.5), rgb);
+        let opacity = constants.value(prim, "primvars:displayOpacity", sizes, a).map_or(1.0, |[v]| v as f32);
+        self.materials.plain(color, opacity, a)
+    }
+
+    /// The material of a surface in the colour of a prim, where that is the prim's.
+    pub(super) fn colored(&mut self, surface: &Surface, prim: &Prim, sizes: Sizes, constants: &Constants, a: &mut Assembly) -> u32 {
+        let Some(color) = surface.color_name.as_ref().and_then(|name| constants.value(prim, name, sizes, a)).map(rgb) else {
+            return surface.material;
+        };
+        *self.colored.entry((surface.material, [color.r, color.g, color.b].map(f32::to_bits))).or_insert_with(|| {
+            let mut own = a.material_at(surface.material).clone();
+            if let Bsdf::Principled(p) = &mut own.bsdf {
+                p.base_color = color.map(|c| c.clamp(0.0, 1.0)).into();
+            }
+            own.name = format!("{} {:.3} {:.3} {:.3}", own.name, color.r, color.g, color.b);
+            a.push_material(own)
+        })
     }
 
     /// A material that emits as a mesh light says; one that glows by itself keeps its own strength, tinted.
@@ -55,8 +63,12 @@ impl Walk<'_> {
     }
 }
 
+fn rgb(color: [f64; 3]) -> Rgb {
+    Rgb::from(color.map(|v| v as f32))
+}
+
 /// Texture coordinates by the name that the material asks for, else `st`, else the first that there are.
-pub(super) fn uvs(prim: &Prim, wanted: &str, sizes: Sizes, a: &mut Assembly) -> Result<Option<Primvar<2>>, ImportError> {
+pub(super) fn uvs(prim: &Prim, wanted: &str, sizes: Sizes, a: &mut Assembly) -> Option<Primvar<2>> {
     let is_pair = |property: &str| {
         let kind = prim.property(property, field::TYPE).and_then(|v| v.as_text()).unwrap_or("");
         kind.starts_with("texCoord2") || kind.starts_with("float2") && property.to_ascii_lowercase().contains("uv")
@@ -65,6 +77,6 @@ pub(super) fn uvs(prim: &Prim, wanted: &str, sizes: Sizes, a: &mut Assembly) -> 
     let has = |name: &&str| properties.iter().any(|p| &**p == *name);
     let wanted = format!("primvars:{wanted}");
     let first = properties.iter().map(|p| &**p).filter(|p| p.starts_with("primvars:") && !p.ends_with(":indices")).find(|p| is_pair(p));
-    let Some(name) = [wanted.as_str(), "primvars:st"].into_iter().find(has).or(first) else { return Ok(None) };
+    let name = [wanted.as_str(), "primvars:st"].into_iter().find(has).or(first)?;
     Primvar::read(prim, name, "constant", sizes, a)
 }

@@ -7,7 +7,7 @@ use super::value::Value;
 use crate::ImportError;
 use crate::assembly::{Assembly, Source as Picture};
 use crate::images::Use;
-use enfilade_math::Rgb;
+use enfilade_math::{Rgb, srgb_from_linear};
 use enfilade_scene::{Image, Pixels, TextureRef, Wrap};
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -33,6 +33,8 @@ pub(super) struct Textures<'t, 'a, 'b> {
     pub user: String,
     /// Primvar of the texture coordinates, once one is known.
     pub uv_name: Option<String>,
+    /// The primvar that the base colour is, where it is one.
+    pub color_name: Option<String>,
     /// Pictures whose texels were changed: from which, and how.
     pub baked: &'b mut HashMap<String, u32>,
 }
@@ -178,7 +180,7 @@ impl Textures<'_, '_, '_> {
     }
 
     /// A picture whose texels are `change` of those of another one: their linear red, green, blue and alpha.
-    pub(super) fn baked(&mut self, image: u32, key: &str, data: bool, change: impl Fn([f32; 4]) -> [f32; 3]) -> u32 {
+    pub(super) fn baked(&mut self, image: u32, key: &str, kept: Kept, change: impl Fn([f32; 4]) -> [f32; 3]) -> u32 {
         let key = format!("{image} {key}");
         if let Some(&known) = self.baked.get(&key) {
             return known;
@@ -189,17 +191,40 @@ impl Textures<'_, '_, '_> {
             let (Rgb { r, g, b }, alpha) = from.texel(i % width, i / width);
             change([r, g, b, alpha])
         });
-        let pixels = if data {
-            let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0).round() as u8;
-            Pixels::Rgba8 { srgb: false, texels: texels.map(|[r, g, b]| [byte(r), byte(g), byte(b), 255]).collect() }
-        } else {
-            Pixels::RgbF32(texels.map(|t| t.map(|v| v.max(0.0))).collect())
+        let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0).round() as u8;
+        let bytes = |encode: fn(f32) -> f32| move |t: [f32; 3]| [byte(encode(t[0])), byte(encode(t[1])), byte(encode(t[2])), 255];
+        let pixels = match kept {
+            Kept::Srgb => Pixels::Rgba8 { srgb: true, texels: texels.map(bytes(srgb_from_linear)).collect() },
+            Kept::Linear => Pixels::Rgba8 { srgb: false, texels: texels.map(bytes(|v| v)).collect() },
+            Kept::Float => Pixels::RgbF32(texels.map(|t| t.map(|v| v.max(0.0))).collect()),
         };
         let image = Image { name: format!("{} × scale + bias", from.name), width: from.width, height: from.height, pixels };
         let index = self.a.push_image(image);
         self.baked.insert(key, index);
         index
     }
+
+    /// How texels times a scale plus a bias, one pair for each channel that is read, are kept: as the picture's own where they stay
+    /// within 0 and 1.
+    pub(super) fn kept(&self, image: u32, scale: &[f32], bias: &[f32]) -> Kept {
+        let fits = scale.iter().zip(bias).all(|(s, b)| [*b, s + b].iter().all(|end| (0.0..=1.0).contains(end)));
+        match &self.a.image_at(image).pixels {
+            Pixels::Rgba8 { srgb: true, .. } if fits => Kept::Srgb,
+            Pixels::Rgba8 { srgb: false, .. } if fits => Kept::Linear,
+            _ => Kept::Float,
+        }
+    }
+}
+
+/// How the texels of a changed picture are kept.
+#[derive(Clone, Copy)]
+pub(super) enum Kept {
+    /// Eight bits, encoded as sRGB.
+    Srgb,
+    /// Eight bits as they are.
+    Linear,
+    /// Floating point.
+    Float,
 }
 
 /// A colour of three numbers.

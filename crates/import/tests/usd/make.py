@@ -1,7 +1,8 @@
 """Makes the fixtures of tests/usd_binary.rs with Pixar's own library: `pip install usd-core`, then `python make.py` here.
 
 room.usda is written by hand; this makes room.usdc and room.usdz of it, and room.json with what the library itself computes from it:
-world points of meshes, in metres with z up, the field of view and place of the camera, and the colours bound.
+world points of meshes, in metres with z up, the field of view and place of the camera, and the colours bound. reference.usdc has a
+reference that names no prim, to the layer `box.usda`, and a sublayer, empty.usdc, that is empty.
 """
 
 import json
@@ -10,7 +11,7 @@ import os
 import struct
 import zlib
 
-from pxr import Usd, UsdGeom, UsdShade, UsdUtils
+from pxr import Sdf, Usd, UsdGeom, UsdShade, UsdUtils
 
 
 def png(path):
@@ -29,6 +30,14 @@ def world(stage, cache, prim, points):
     matrix = cache.GetLocalToWorldTransform(prim)
     moved = [matrix.Transform(p) for p in points]
     return [[p[0] * metres, -p[2] * metres, p[1] * metres] for p in moved]
+
+
+def bare():
+    Sdf.Layer.CreateNew("empty.usdc").Save()
+    stage = Usd.Stage.CreateNew("reference.usdc")
+    stage.GetRootLayer().subLayerPaths = ["empty.usdc"]
+    stage.DefinePrim("/A").GetReferences().SetReferences([Sdf.Reference("box.usda")])
+    stage.Save()
 
 
 def main():
@@ -63,4 +72,5 @@ def main():
     os.remove("color.png")
 
 
+bare()
 main()

@@ -114,6 +114,10 @@ impl<'a> Cursor<'a> {
     pub(super) fn integers(&mut self, count: usize, wide: bool) -> Checked<Vec<i64>> {
         let here = *self;
         let packed = self.count(1)? as u64;
+        if count == 0 {
+            self.take(packed)?;
+            return Ok(Vec::new());
+        }
         if count as u64 > packed.saturating_mul(4 * MAX_RATIO).min(unpacked_limit(self.bytes.len() as u64) / 8) {
             return here.error(format!("found a count of {count} integers in {packed} packed bytes; the file is damaged"));
         }

@@ -142,19 +142,20 @@ fn field_sets(mut c: Cursor) -> Checked<Vec<i64>> {
     c.integers(count, false)
 }
 
-/// The paths: a tree in the order of a walk through it, depth first.
+/// The paths: a tree in the order of a walk through it, depth first. One that the tree leaves out is empty, as are those of references
+/// to a default prim.
 fn paths(mut c: Cursor, tokens: &[Rc<str>]) -> Checked<Vec<Rc<str>>> {
     let here = c;
     let count = packed_count(&mut c)?;
     let encoded = packed_count(&mut c)?;
-    if count > encoded {
-        return here.error(format!("{count} paths were expected, but only {encoded} are there; the file is damaged"));
+    // Long paths of many prims could otherwise take far more memory than the file.
+    let mut budget = super::unpacked_limit(c.bytes.len() as u64);
+    if count as u64 > budget / 16 {
+        return here.error(format!("found {count} paths, which is more than the file can hold; the file is damaged"));
     }
     let (indices, elements, jumps) = (c.integers(encoded, false)?, c.integers(encoded, false)?, c.integers(encoded, false)?);
     let root: Rc<str> = Rc::from("/");
-    let mut paths = vec![root.clone(); count];
-    // Long paths of many prims could otherwise take far more memory than the file.
-    let mut budget = super::unpacked_limit(c.bytes.len() as u64);
+    let mut paths = vec![Rc::from(""); count];
     let mut visits: Vec<(usize, Option<Rc<str>>)> = if encoded > 0 { vec![(0, None)] } else { Vec::new() };
     let mut seen = vec![false; encoded];
     while let Some((at, parent)) = visits.pop() {

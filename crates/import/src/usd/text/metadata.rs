@@ -53,6 +53,13 @@ impl Parser<'_> {
             }
             return Ok(());
         }
+        // Their keys are paths.
+        if key == "relocates" {
+            self.skip_lines()?;
+            self.skip_brackets()?;
+            fields.push((key.into(), Value::Other("relocates")));
+            return Ok(());
+        }
         let value = self.value()?;
         let name = if key == "variants" { field::VARIANTS } else { key };
         fields.push((name.into(), value));

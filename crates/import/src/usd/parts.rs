@@ -1,0 +1,161 @@
+//! Parts: the meshes of a gprim, one for each subset that binds a material, placed with their materials.
+
+use super::bind::{self, Bindings};
+use super::camera::name;
+use super::layer::{child_path, field};
+use super::light;
+use super::polygons::Polygons;
+use super::primvar::Sizes;
+use super::stage::Prim;
+use super::surface::uvs;
+use super::walk::{State, Walk};
+use crate::ImportError;
+use crate::assembly::Assembly;
+use enfilade_geometry::Mesh;
+use std::rc::Rc;
+
+/// Some faces of a mesh: their scene mesh, the subset's name, and what it binds.
+#[derive(Clone)]
+pub(super) struct Piece {
+    mesh: u32,
+    name: String,
+    bindings: Bindings,
+}
+
+/// What the meshes of a prim are made of.
+#[derive(Clone)]
+pub(super) struct Shape {
+    pieces: Vec<Piece>,
+    sizes: Sizes,
+    /// True for subdivision surfaces.
+    smooth: bool,
+}
+
+impl Walk<'_> {
+    pub(super) fn shape(&mut self, prim: &Rc<Prim>, mesh: Mesh, state: &State, a: &mut Assembly) -> Result<(), ImportError> {
+        let key = prim.identity();
+        let shape = match self.pieces.get(&key) {
+            Some(known) => known.clone(),
+            None => {
+                let mesh = pushed(mesh, prim, a)?;
+                let pieces = mesh.into_iter().map(|mesh| Piece { mesh, name: String::new(), bindings: Bindings::default() }).collect();
+                Shape { pieces, sizes: Sizes { faces: 1, points: 1, corners: 1 }, smooth: false }
+            }
+        };
+        self.pieces.insert(key, shape.clone());
+        self.place(prim, &shape, state, a)
+    }
+
+    pub(super) fn mesh(&mut self, prim: &Rc<Prim>, state: &State, a: &mut Assembly) -> Result<(), ImportError> {
+        if prim.schemas().iter().any(|s| s == "SkelBindingAPI") || !prim.targets("skel:skeleton", field::TARGETS).is_empty() {
+            a.warn(&prim.path, "the mesh's skeleton and blend shapes were left out; it stays in its rest pose");
+        }
+        // Texture coordinates are those of the material, so meshes are shared among instances of one material.
+        let uv_name = self.material_of(prim, state.bindings.material(&prim.path), a)?.map_or_else(|| "st".into(), |s| s.uv_name);
+        let key = format!("{} {uv_name}", prim.identity());
+        let shape = match self.pieces.get(&key) {
+            Some(known) => known.clone(),
+            None => {
+                let polygons = match Polygons::read(prim, a) {
+                    Ok(polygons) => polygons,
+                    Err((attribute, problem)) => {
+                        a.warn(format!("<{}>.{attribute}", prim.path), format!("{problem}; the mesh was left out"));
+                        return Ok(());
+                    }
+                };
+                let pieces = self.split(prim, &polygons, &uv_name, a)?;
+                Shape { pieces, sizes: polygons.sizes(), smooth: polygons.smooth }
+            }
+        };
+        self.cages += usize::from(shape.smooth);
+        self.pieces.insert(key, shape.clone());
+        self.place(prim, &shape, state, a)
+    }
+
+    /// The meshes of a prim: one for each subset that binds a material, and one for the remaining faces.
+    fn split(&mut self, prim: &Rc<Prim>, polygons: &Polygons, uv_name: &str, a: &mut Assembly) -> Result<Vec<Piece>, ImportError> {
+        let sizes = polygons.sizes();
+        let mut taken = vec![false; sizes.faces];
+        let mut parts: Vec<(String, Vec<usize>, Bindings)> = Vec::new();
+        for name in prim.children() {
+            let subset = self.stage.child(prim, &name, a)?;
+            if subset.kind() != "GeomSubset" {
+                continue;
+            }
+            let bindings = bind::at(&subset, &Bindings::default(), self.stage, a)?;
+            let is_face = subset.text("elementType").unwrap_or("face") == "face";
+            if !bindings.is_empty() && is_face {
+                parts.push((name.to_string(), faces_of(&subset, &mut taken, a), bindings));
+            }
+        }
+        let rest: Vec<usize> = (0..sizes.faces).filter(|f| !taken[*f]).collect();
+        if !rest.is_empty() || parts.is_empty() {
+            parts.insert(0, (String::new(), rest, Bindings::default()));
+        }
+        let mut pieces = Vec::new();
+        for (name, faces, bindings) in parts {
+            let wanted = match bindings.material(&child_path(&prim.path, &name)) {
+                Some(material) => self.materials.get(self.stage, material, false, a)?.map(|s| s.uv_name),
+                None => None,
+            };
+            let uvs = uvs(prim, wanted.as_deref().unwrap_or(uv_name), sizes, a);
+            let mesh = polygons.mesh(faces.into_iter(), uvs.as_ref());
+            if let Some(mesh) = pushed(mesh, prim, a)? {
+                pieces.push(Piece { mesh, name, bindings });
+            }
+        }
+        Ok(pieces)
+    }
+
+    fn place(&mut self, prim: &Rc<Prim>, shape: &Shape, state: &State, a: &mut Assembly) -> Result<(), ImportError> {
+        for piece in &shape.pieces {
+            let path = if piece.name.is_empty() { prim.path.clone() } else { child_path(&prim.path, &piece.name) };
+            let bindings = state.bindings.and(&piece.bindings);
+            let mut material = match self.material_of(prim, bindings.material(&path), a)? {
+                Some(surface) => self.colored(&surface, prim, shape.sizes, &state.constants, a),
+                None => self.display_color(prim, shape.sizes, &state.constants, a),
+            };
+            if let Some(radiance) = light::of_mesh(prim, a.mesh_at(piece.mesh), state.file_from_parent) {
+                material = self.glowing(material, radiance, a);
+            }
+            let own = name(prim);
+            let suffix = if piece.name.is_empty() { String::new() } else { format!(".{}", piece.name) };
+            a.push_part(&format!("{}{own}{suffix}", state.prefix), piece.mesh, material, state.file_from_parent, state.label);
+        }
+        Ok(())
+    }
+}
+
+/// The faces of a subset that no other has taken. Those that are not there are left out with a warning.
+fn faces_of(subset: &Prim, taken: &mut [bool], a: &mut Assembly) -> Vec<usize> {
+    let indices = subset.value("indices").and_then(|v| v.as_numbers(1)).unwrap_or(&[]);
+    let mut faces = Vec::with_capacity(indices.len());
+    let mut missing = None;
+    for &index in indices {
+        match (index >= 0.0).then(|| taken.get_mut(index as usize)).flatten() {
+            Some(flag) => {
+                if !std::mem::replace(flag, true) {
+                    faces.push(index as usize);
+                }
+            }
+            None => missing = missing.or(Some(index)),
+        }
+    }
+    if let Some(index) = missing {
+        let problem = format!("found face {index}, but there are {}; faces that are not there were left out", taken.len());
+        a.warn(format!("<{}>.indices", subset.path), problem);
+    }
+    faces
+}
+
+/// Scene index of a mesh; `None` for an empty one, and with a warning for one that makes no sense.
+fn pushed(mesh: Mesh, prim: &Prim, a: &mut Assembly) -> Result<Option<u32>, ImportError> {
+    let file = a.file().to_path_buf();
+    match a.push_mesh(mesh, &file, &prim.path) {
+        Err(ImportError::Malformed { problem, .. }) => {
+            a.warn(&prim.path, format!("{problem}; the mesh was left out"));
+            Ok(None)
+        }
+        other => other,
+    }
+}
