@@ -79,6 +79,22 @@ fn a_home_keeps_its_parts_places_labels_cameras_and_sky() {
 }
 
 #[test]
+fn mirrored_parts_keep_their_fronts_for_all_readers() {
+    let mut scene = shelf(vec![Material::diffuse("grey", Rgb::splat(0.5))], vec![]);
+    let mirrored = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+    scene.parts.push(Part { name: "mirrored".into(), world_from_mesh: mirrored, ..scene.parts[0].clone() });
+    let (imported, _) = round_trip(&scene, &Labels::default());
+    for (found, part) in imported.scene.parts.iter().zip(&scene.parts) {
+        let front = |scene: &Scene, part: &Part| {
+            let [a, b, c] = scene.world_corners(part, 0);
+            (b - a).cross(c - a).normalize()
+        };
+        assert!(front(&imported.scene, found).distance(front(&scene, part)) < 1e-5, "{}", part.name);
+    }
+    assert_eq!(imported.scene.parts.len(), 2);
+}
+
+#[test]
 fn metallic_roughness_materials_come_back_as_they_were() {
     let texture =
         TextureRef { uv_transform: [[0.5, 0.0, 0.125], [0.0, 2.0, -0.25]], wrap: [Wrap::Clamp, Wrap::Mirror], ..TextureRef::new(0) };

@@ -77,20 +77,18 @@ pub(crate) fn cylinder() -> Mesh {
 
 /// [−1,1]³ with the whole of texture space on each face.
 pub(crate) fn cube() -> Mesh {
+    // From the corner of u = 0, v = 1 on, counter-clockwise: by the bits of x, y and z, of which 1 stands for +1.
+    const FACES: [[u8; 4]; 6] = [[1, 5, 4, 0], [3, 2, 6, 7], [1, 3, 7, 5], [5, 7, 6, 4], [4, 6, 2, 0], [3, 1, 0, 2]];
+    const UVS: [Vec2; 4] = [Vec2::new(0.0, 1.0), Vec2::new(1.0, 1.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 0.0)];
     let mut mesh = Mesh::default();
-    for axis in 0..3 {
-        for sign in [-1.0f32, 1.0] {
-            let unit = |i: usize| Vec3::from(std::array::from_fn::<f32, 3, _>(|k| f32::from(u8::from(k == i % 3))));
-            let normal = unit(axis) * sign;
-            let (s, t) = (unit(axis + 1) * sign, unit(axis + 2));
-            let base = mesh.positions.len() as u32;
-            for (x, y) in [(-1.0f32, -1.0f32), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
-                mesh.positions.push(normal + s * x + t * y);
-                mesh.normals.push(normal);
-                mesh.uvs.push(Vec2::new(0.5 * (x + 1.0), 0.5 * (1.0 - y)));
-            }
-            mesh.triangles.extend([[base, base + 1, base + 2], [base, base + 2, base + 3]]);
-        }
+    for face in FACES {
+        let corners = face.map(|corner| Vec3::from([1, 2, 4].map(|bit| if corner & bit == 0 { -1.0 } else { 1.0 })));
+        let base = mesh.positions.len() as u32;
+        mesh.positions.extend(corners);
+        // The middle of the face.
+        mesh.normals.extend([0.5 * (corners[0] + corners[2]); 4]);
+        mesh.uvs.extend(UVS);
+        mesh.triangles.extend([[base, base + 1, base + 2], [base, base + 2, base + 3]]);
     }
     mesh
 }
@@ -111,6 +109,26 @@ pub(crate) mod tests {
             sum += face.length();
         }
         assert!((sum / area - 1.0).abs() < 2e-3, "{name}: {sum} instead of {area}");
+    }
+
+    #[test]
+    fn every_face_of_a_cube_is_upright_where_mitsubas_is() {
+        let mesh = cube();
+        // Where u = 0 and v = 1 (downward) is, and the ways of u and of v, for the faces of −y, +y, +x, +z, −x, −z.
+        let expected = [
+            ([1, -1, -1], Vec3::Z, Vec3::X),
+            ([1, 1, -1], -Vec3::X, -Vec3::Z),
+            ([1, -1, -1], Vec3::Y, -Vec3::Z),
+            ([1, -1, 1], Vec3::Y, Vec3::X),
+            ([-1, -1, 1], Vec3::Y, Vec3::Z),
+            ([1, 1, -1], -Vec3::Y, Vec3::X),
+        ];
+        for (face, (corner, u, v)) in expected.into_iter().enumerate() {
+            let at = |uv: Vec2| mesh.positions[(4 * face..4 * face + 4).find(|&i| mesh.uvs[i] == uv).unwrap()];
+            let start = at(Vec2::Y);
+            assert_eq!(start.to_array(), corner.map(|c: i8| f32::from(c)), "{face}");
+            assert_eq!((at(Vec2::ONE) - start, start - at(Vec2::ZERO)), (2.0 * u, 2.0 * v), "{face}");
+        }
     }
 
     #[test]

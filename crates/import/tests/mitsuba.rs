@@ -61,6 +61,8 @@ fn guesses_and_gaps_are_reported_with_their_place() {
     for expected in ["hair shapes", "laser emitters", "orthographic sensors", "<gizmo>: unknown element"] {
         assert!(text.contains(expected), "{expected} in {text}");
     }
+    let text = warnings(&load(&folder, r#"<shape type="sphere"/><shape type="Rectangle"/>"#));
+    assert!(text.contains("Rectangle shapes are not supported (plugins have small letters: \"rectangle\"); it was left out"), "{text}");
 }
 
 #[test]

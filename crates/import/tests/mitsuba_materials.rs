@@ -96,10 +96,11 @@ fn principled_textures_are_read_or_reported() {
     assert!(p.clearcoat.factor == 0.25 && p.clearcoat.texture.is_some() && told.is_empty(), "{told}");
     let (p, told) = principled(r#"<float name="clearcoat" value="0.8"/><float name="sheen" value="0.5"/>"#);
     assert!((p.clearcoat.factor - 0.2).abs() < 1e-6 && p.sheen_color.factor == Rgb::splat(0.5) && told.is_empty(), "{told}");
+    let grey = linear_from_srgb(9.0 / 255.0);
     for name in ["sheen", "sheen_tint", "clearcoat_gloss", "spec_tint", "specular", "eta"] {
         let (p, told) = principled(&texture(name));
-        assert!(told.contains(&format!("a texture of {name} in principled is not supported; its default was used")), "{told}");
-        assert_eq!(p, principled("").0, "{name}");
+        assert!(told.contains(&format!("a texture of {name} in principled is not supported; its mean was used")), "{told}");
+        assert_eq!(p, principled(&format!("<float name=\"{name}\" value=\"{grey}\"/>")).0, "{name}");
     }
     let (_, told) = bsdf("0.6.0", &format!("<bsdf type=\"phong\">{}</bsdf>", texture("exponent")));
     assert!(told.contains("a texture of exponent in phong"), "{told}");

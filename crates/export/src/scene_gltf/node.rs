@@ -13,13 +13,16 @@ const GLTF_FROM_WORLD: [f32; 16] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0
 /// Adds the root and everything below it.
 pub(super) fn add_all(document: &mut Document, scene: &Scene, labels: &Labels) {
     document.nodes.push(Value::Null);
-    let mut attributes: Vec<Option<Value>> = vec![None; scene.meshes.len()];
-    let mut meshes: HashMap<(u32, u32), usize> = HashMap::new();
+    let mut vertices: HashMap<u32, Value> = HashMap::new();
+    let mut faces: HashMap<(u32, bool), Value> = HashMap::new();
+    let mut meshes: HashMap<(u32, u32, bool), usize> = HashMap::new();
     for (index, part) in scene.parts.iter().enumerate() {
-        let mesh = *meshes.entry((part.mesh, part.material)).or_insert_with(|| {
+        let mirrored = part.world_from_mesh.matrix3.determinant() < 0.0;
+        let mesh = *meshes.entry((part.mesh, part.material, mirrored)).or_insert_with(|| {
             let shape = &scene.meshes[part.mesh as usize];
-            let mut primitive = attributes[part.mesh as usize].get_or_insert_with(|| primitive(document, shape)).clone();
-            primitive["material"] = json!(part.material);
+            let attributes = vertices.entry(part.mesh).or_insert_with(|| attributes(document, shape)).clone();
+            let indices = faces.entry((part.mesh, mirrored)).or_insert_with(|| indices(document, shape, mirrored)).clone();
+            let primitive = json!({ "attributes": attributes, "indices": indices, "material": part.material });
             document.meshes.push(json!({ "primitives": [primitive] }));
             document.meshes.len() - 1
         });
@@ -36,8 +39,14 @@ pub(super) fn add_all(document: &mut Document, scene: &Scene, labels: &Labels) {
     document.nodes[0] = json!({ "name": "z_up_to_y_up", "matrix": GLTF_FROM_WORLD, "children": children });
 }
 
-/// The mesh's arrays. Texture coordinates point down in glTF.
-fn primitive(document: &mut Document, mesh: &Mesh) -> Value {
+/// The mesh's triangles. Under a mirroring matrix glTF takes the other side for the front, so the corners of those parts are swapped.
+fn indices(document: &mut Document, mesh: &Mesh, mirrored: bool) -> Value {
+    let triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect();
+    json!(document.buffer.indices(&triangles))
+}
+
+/// The mesh's vertices. Texture coordinates point down in glTF.
+fn attributes(document: &mut Document, mesh: &Mesh) -> Value {
     let buffer = &mut document.buffer;
     let positions: Vec<[f32; 3]> = mesh.positions.iter().map(|p| p.to_array()).collect();
     let mut attributes = json!({ "POSITION": buffer.vectors(&positions, true) });
@@ -49,7 +58,7 @@ fn primitive(document: &mut Document, mesh: &Mesh) -> Value {
         let uvs: Vec<[f32; 2]> = mesh.uvs.iter().map(|uv| [uv.x, 1.0 - uv.y]).collect();
         attributes["TEXCOORD_0"] = json!(buffer.vectors(&uvs, false));
     }
-    json!({ "attributes": attributes, "indices": buffer.indices(&mesh.triangles) })
+    attributes
 }
 
 /// Gives a node its matrix, unless it is the identity.

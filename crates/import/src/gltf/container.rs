@@ -1,13 +1,14 @@
 //! The outer layer of a glTF file: text or binary, its buffers, and the URIs in it.
 
 use super::accessor::MAX_ZEROS;
+use super::{light, mend};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use gltf::json::{Root, buffer, image};
 use std::cell::Cell;
 
 /// Extensions that an importer may be required to understand and that this one does.
-pub(super) const SUPPORTED: [&str; 13] = [
+pub(super) const SUPPORTED: [&str; 15] = [
     "EXT_lights_ies",
     "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
@@ -18,8 +19,10 @@ pub(super) const SUPPORTED: [&str; 13] = [
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_node_visibility",
     "KHR_texture_transform",
 ];
 
@@ -31,6 +34,8 @@ pub(super) struct Document {
     pub buffers: Vec<Vec<u8>>,
     /// Numbers that accessors without a buffer view may still ask for.
     pub zeros_left: Cell<u64>,
+    /// What the strengths of its lights are divided by.
+    pub lumens_per_watt: f32,
 }
 
 impl Document {
@@ -45,16 +50,16 @@ impl Document {
         } else {
             (bytes.as_slice(), None)
         };
-        let root = Root::from_slice(json).map_err(|e| {
-            assembly
-                .malformed(format!("line {} column {}", e.line(), e.column()), format!("not valid glTF JSON: {e}; export the file again"))
-        })?;
+        let root = mend::parse(json).map_err(|(place, problem)| assembly.malformed(place, problem))?;
         check_version(&root, assembly)?;
         let mut buffers = Vec::with_capacity(root.buffers.len());
         for (i, b) in root.buffers.iter().enumerate() {
-            buffers.push(read_buffer(i, b, binary, assembly)?);
+            let lacking = b.uri.is_none() && (i > 0 || binary.is_none());
+            let unused = lacking && root.buffer_views.iter().all(|view| view.buffer.value() != i);
+            buffers.push(if unused { Vec::new() } else { read_buffer(i, b, binary, assembly)? });
         }
-        Ok(Self { root, buffers, zeros_left: Cell::new(MAX_ZEROS) })
+        let lumens_per_watt = light::lumens_per_watt(&root, assembly);
+        Ok(Self { root, buffers, zeros_left: Cell::new(MAX_ZEROS), lumens_per_watt })
     }
 
     /// The bytes of a buffer view, or what is wrong with it.

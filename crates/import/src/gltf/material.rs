@@ -16,6 +16,9 @@ use std::collections::HashMap;
 /// Attenuation colours below this count as this: a perfectly black one would absorb without limit.
 const DARKEST_ATTENUATION: f32 = 1e-4;
 
+/// Stands for the index of refraction 0, by which `KHR_materials_ior` means that all light is reflected.
+const MIRROR_IOR: f32 = 1000.0;
+
 /// Textures of extensions that the `gltf` crate leaves as JSON: extension and key.
 const LAYER_TEXTURES: [(&str, &str); 4] = [
     ("KHR_materials_clearcoat", "clearcoatTexture"),
@@ -144,9 +147,13 @@ impl Converter<'_, '_> {
         };
         let Some(ext) = &json.extensions else { return Ok(p) };
         if let Some(ior) = &ext.ior {
-            p.ior = if ior.ior.0 >= 1.0 { ior.ior.0 } else { 1.5 };
-            if ior.ior.0 < 1.0 {
-                self.warn(format!("found the index of refraction {}, expected at least 1; 1.5 was used", ior.ior.0));
+            p.ior = match ior.ior.0 {
+                0.0 => MIRROR_IOR,
+                stated if stated >= 1.0 => stated,
+                _ => 1.5,
+            };
+            if p.ior == 1.5 && ior.ior.0 != 1.5 {
+                self.warn(format!("found the index of refraction {}, expected 0 or at least 1; 1.5 was used", ior.ior.0));
             }
         }
         if let Some(t) = &ext.transmission {
@@ -154,6 +161,9 @@ impl Converter<'_, '_> {
         }
         if let Some(v) = &ext.volume {
             p.solid = v.thickness_factor.0 > 0.0 && p.transmission.factor > 0.0;
+            if v.thickness_texture.is_some() {
+                self.warn("thickness texture dropped: light goes through the body's own shape");
+            }
             let distance = v.attenuation_distance.0 * self.a.meters_per_unit() as f32;
             if p.solid && distance > 0.0 && distance.is_finite() {
                 p.absorption = Rgb::from(v.attenuation_color.0).map(|c| -c.clamp(DARKEST_ATTENUATION, 1.0).ln() / distance);
@@ -170,6 +180,11 @@ impl Converter<'_, '_> {
     /// Extensions that the `gltf` crate leaves as JSON.
     fn json_extensions(&mut self, others: &serde_json::Map<String, Value>, p: &mut Principled) -> Result<(), ImportError> {
         for (name, value) in others {
+            for (_, key) in LAYER_TEXTURES.iter().filter(|(extension, _)| extension == name) {
+                if value.get(key).is_some() && layer_texture(value, key).is_none() {
+                    self.warn(format!("{name}.{key} is malformed, so the texture was left out; export the file again"));
+                }
+            }
             let number = |key: &str, default: f32| value.get(key).and_then(Value::as_f64).map_or(default, |v| v as f32);
             let texture = |key: &str| layer_texture(value, key);
             match name.as_str() {
@@ -208,7 +223,11 @@ impl Converter<'_, '_> {
 
     fn normal_map(&mut self, json: &Json) -> Result<Option<NormalMap>, ImportError> {
         let Some(normal) = &json.normal_texture else { return Ok(None) };
-        let texture = self.texture(normal.index.value(), transform_of_normal(normal).as_ref(), Use::Data)?;
+        let transform = transform_of_normal(normal);
+        if transform.is_none() && normal.extensions.as_ref().is_some_and(|e| e.others.contains_key("KHR_texture_transform")) {
+            self.warn("the normal texture's KHR_texture_transform is malformed and was left out; export the file again");
+        }
+        let texture = self.texture(normal.index.value(), transform.as_ref(), Use::Data)?;
         Ok(texture.map(|texture| NormalMap::Normal { texture, scale: normal.scale }))
     }
 

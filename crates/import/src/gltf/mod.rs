@@ -9,7 +9,7 @@
 //! | buffers | files, data URIs, the binary chunk; Draco and meshopt compression are an error |
 //! | pictures | PNG, JPEG and all that [`crate`] decodes, from files, data URIs and buffer views; sampler wrapping and magnification filter |
 //! | materials | metallic-roughness to `Bsdf::Principled`; base colour, metallic-roughness, normal and emissive textures; alpha modes; surfaces scatter on both sides, and emit on both when they are double-sided. The occlusion texture is dropped, because light transport computes occlusion |
-//! | extensions | `KHR_materials_emissive_strength`, `_ior`, `_transmission`, `_volume`, `_specular`, `_clearcoat` (but its normal map), `_sheen`, `_unlit` (as a diffuse surface of that colour); `KHR_texture_transform`; `KHR_lights_punctual` (candela as W/sr, lux as W/m²); `EXT_lights_ies` (the same; type C); `EXT_mesh_gpu_instancing` (a part per instance) |
+//! | extensions | `KHR_materials_emissive_strength`, `_ior`, `_transmission`, `_volume`, `_specular`, `_clearcoat` (but its normal map), `_sheen`, `_unlit` (as a diffuse surface of that colour); `KHR_texture_transform`; `KHR_lights_punctual` (candela as W/sr, lux as W/m²; divided by 683 where Blender has multiplied them, see `light.rs`); `EXT_lights_ies` (the same; type C); `EXT_mesh_gpu_instancing` (a part per instance); `KHR_node_visibility` (what is invisible is left out); `KHR_materials_variants` (the default materials) |
 //! | texture coordinates | one set per primitive: that of the base colour, or of the first texture there is |
 //! | cameras | perspective; orthographic ones are dropped |
 //! | dropped with a warning | vertex colours, skins, morph targets, animations, light ranges, other extensions |
@@ -32,6 +32,7 @@ mod environment;
 mod instancing;
 mod light;
 mod material;
+mod mend;
 mod node;
 mod primitive;
 mod profile;
@@ -57,6 +58,9 @@ fn report_dropped(document: &Document, assembly: &mut Assembly) {
         if count > 0 {
             assembly.warn(what, format!("{count} {what} dropped; parts stay in the pose of their nodes"));
         }
+    }
+    if root.extensions_used.iter().any(|e| e == "KHR_materials_variants") {
+        assembly.warn("extensions.KHR_materials_variants", "variants of materials dropped; every part has its default material");
     }
     for extension in &root.extensions_used {
         if !container::SUPPORTED.contains(&extension.as_str()) {

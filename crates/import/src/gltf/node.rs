@@ -13,6 +13,9 @@ use std::collections::HashMap;
 /// Aspect of a camera that does not state one: that of the pictures this workspace makes by default.
 const DEFAULT_ASPECT: f64 = 4.0 / 3.0;
 
+/// The extension that says whether a node is shown.
+const VISIBILITY: &str = "KHR_node_visibility";
+
 /// Indices of the nodes that a scene begins with: the default scene's, else the first one's, else all nodes without a parent.
 pub(super) fn roots(document: &Document, assembly: &mut Assembly) -> Result<Vec<usize>, ImportError> {
     let root = &document.root;
@@ -63,6 +66,10 @@ pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembl
         }
         done += 1;
         assembly.progress(done, nodes.len());
+        if is_invisible(node) {
+            assembly.warn(format!("nodes[{index}]"), "the node is invisible (KHR_node_visibility); it was left out with all below it");
+            continue;
+        }
         let file_from_node = file_from_parent * local_transform(node);
         let label = label_of(node, index, label, assembly);
         placer.node(node, index, file_from_node, label, assembly)?;
@@ -109,7 +116,7 @@ impl Placer<'_> {
             if let Some(instance) = extras.get("EXT_lights_ies") {
                 profile::add(self.document, instance, name.as_deref(), index, file_from_node, a)?;
             }
-            for extension in extras.keys().filter(|e| !["EXT_lights_ies", instancing::NAME].contains(&e.as_str())) {
+            for extension in extras.keys().filter(|e| !["EXT_lights_ies", instancing::NAME, VISIBILITY].contains(&e.as_str())) {
                 a.warn(format!("nodes[{index}]"), format!("extension {extension} ignored"));
             }
         }
@@ -154,6 +161,12 @@ impl Placer<'_> {
         }
         Ok(())
     }
+}
+
+/// True for nodes that are not to be shown.
+fn is_invisible(node: &Node) -> bool {
+    let visibility = node.extensions.as_ref().and_then(|e| e.others.get(VISIBILITY));
+    visibility.and_then(|v| v.get("visible")).and_then(serde_json::Value::as_bool) == Some(false)
 }
 
 /// The node's own transform: its matrix, or translation, rotation and scale.

@@ -4,9 +4,11 @@
 //! without alpha, in which a value that is not a number or below zero becomes 0 and an infinite one the largest half float.
 
 mod exr;
+mod mean;
 mod pfm;
 
 pub use exr::{check_exr_blocks, check_exr_table};
+pub(crate) use mean::{mean, mean_color};
 
 use ::image::codecs::hdr::HdrDecoder;
 use ::image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
@@ -133,6 +135,14 @@ pub(crate) fn is_opaque(image: &Image) -> bool {
     match &image.pixels {
         Pixels::Rgba8 { texels, .. } => texels.iter().all(|t| t[3] == 255),
         Pixels::RgbF32(_) => true,
+    }
+}
+
+/// True when a part of the picture is more transparent than not.
+pub(crate) fn cuts_out(image: &Image) -> bool {
+    match &image.pixels {
+        Pixels::Rgba8 { texels, .. } => texels.iter().any(|t| t[3] < 128),
+        Pixels::RgbF32(_) => false,
     }
 }
 

@@ -1,18 +1,18 @@
 //! BSDFs to materials.
 
-use super::Reader;
 use super::spectrum;
 use super::texture::Texture;
 use super::xml::Node;
+use super::{Reader, spelling};
 use crate::ImportError;
-use crate::images::{self, Use};
+use crate::images::Use;
 use crate::roughness::oren_nayar;
 use crate::spectrum::{Kind, metal};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, ScalarParam};
 
-/// Which bsdf element (by its address, for the tree outlives the reader) and which emitter a material was made of.
-pub(super) type MaterialKey = (Option<*const Node>, Option<*const Node>);
+/// Which bsdf element (by its address, for the tree outlives the reader), which emitter and which mesh's attributes a material was made of.
+pub(super) type MaterialKey = (Option<*const Node>, Option<*const Node>, Option<u32>);
 
 /// GGX roughness where a rough bsdf does not state one.
 const DEFAULT_ALPHA: f32 = 0.1;
@@ -21,11 +21,11 @@ const DEFAULT_ALPHA: f32 = 0.1;
 const DEFAULT_EXPONENT: f64 = 30.0;
 
 /// A bsdf in the making: what it scatters, and what the adapters around it add.
-struct Surface {
+pub(super) struct Surface {
     /// `None` for `null`, which scatters nothing.
     bsdf: Option<Bsdf>,
     two_sided: bool,
-    alpha: Alpha,
+    pub alpha: Alpha,
     normal_map: Option<NormalMap>,
 }
 
@@ -38,7 +38,7 @@ impl Surface {
 impl<'n> Reader<'n, '_> {
     /// The material of a bsdf and an area emitter, and its name. `None` where there is nothing to see.
     pub(super) fn material(&mut self, bsdf: Option<&'n Node>, emitter: Option<&'n Node>) -> Result<Option<u32>, ImportError> {
-        let key = (bsdf.map(std::ptr::from_ref), emitter.map(std::ptr::from_ref));
+        let key = (bsdf.map(std::ptr::from_ref), emitter.map(std::ptr::from_ref), self.attributes.current);
         if let Some(&known) = self.materials.get(&key) {
             return Ok(Some(known));
         }
@@ -92,36 +92,10 @@ impl<'n> Reader<'n, '_> {
     }
 
     /// The bsdf within an adapter.
-    fn inner(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
+    pub(super) fn inner(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
         let inner = self.objects(node, "bsdf")?.first().copied();
         let inner = inner.ok_or_else(|| node.error(format!("there is no bsdf within the {}", node.plugin)))?;
         self.surface(inner, depth + 1)
-    }
-
-    fn mask(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
-        self.report_unknown(node, &["opacity"], &["bsdf"]);
-        let surface = self.inner(node, depth)?;
-        let opacity = match self.property(node, "opacity")? {
-            Some(texture) if texture.tag == "texture" => {
-                let t = self.texture(texture, Use::Color, 0)?;
-                match t.picture {
-                    None => ScalarParam::from(1.0),
-                    Some(picture) => {
-                        let image = self.a.image_at(picture.image);
-                        let (has_alpha, grey) = (!images::is_opaque(image), images::is_grey(image));
-                        if !has_alpha && !grey && t.channel.is_none() {
-                            self.warn(texture, "the opacity texture is coloured; its red channel was used");
-                        }
-                        let channel = t.channel.unwrap_or(if has_alpha { 3 } else { 0 });
-                        ScalarParam { factor: t.factor.r, texture: Some((picture, channel)) }
-                    }
-                }
-            }
-            Some(value) => spectrum::color(value, Kind::Factor)?.luminance().into(),
-            None => 0.5.into(),
-        };
-        let solid = opacity.texture.is_none() && opacity.factor >= 1.0;
-        Ok(Surface { alpha: if solid { surface.alpha } else { Alpha::Blend { opacity } }, ..surface })
     }
 
     fn bump_map(&mut self, node: &'n Node, depth: usize) -> Result<Surface, ImportError> {
@@ -300,7 +274,7 @@ impl<'n> Reader<'n, '_> {
             }
             "principled" | "principledthin" => self.principled(node),
             other => {
-                self.warn(node, format!("{other} bsdfs are not supported; a diffuse mid grey stands in"));
+                self.warn(node, format!("{other} bsdfs are not supported{}; a diffuse mid grey stands in", spelling(other)));
                 Ok(Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() })
             }
         }

@@ -2,10 +2,10 @@
 
 use super::spectrum;
 use super::xml::Node;
-use super::{Reader, transform};
+use super::{Reader, spelling, transform};
 use crate::ImportError;
 use crate::assembly::Source;
-use crate::images::Use;
+use crate::images::{self, Use};
 use crate::spectrum::Kind;
 use enfilade_math::{DVec3, Rgb, Vec3};
 use enfilade_scene::sky::Daylight;
@@ -42,8 +42,14 @@ impl<'n> Reader<'n, '_> {
                 Ok(())
             }
             "sunsky" | "sky" | "sun" => self.daylight(node),
+            // What shapes refer to is read with them.
+            "area" if self.is_referred_to(node) => Ok(()),
+            "area" => {
+                self.warn(node, "no shape refers to the area emitter; it was left out");
+                Ok(())
+            }
             other => {
-                self.warn(node, format!("{other} emitters are not supported; it was left out"));
+                self.warn(node, format!("{other} emitters are not supported{}; it was left out", spelling(other)));
                 Ok(())
             }
         }
@@ -66,8 +72,9 @@ impl<'n> Reader<'n, '_> {
     }
 
     fn point_or_spot(&mut self, node: &'n Node) -> Result<(), ImportError> {
-        self.report_unknown(node, &["intensity", "position", "to_world", "cutoff_angle", "beam_width", "sampling_weight"], &[]);
-        let intensity = self.emission(node, "intensity")?;
+        const KNOWN: [&str; 7] = ["intensity", "position", "to_world", "cutoff_angle", "beam_width", "sampling_weight", "texture"];
+        self.report_unknown(node, if node.plugin == "spot" { &KNOWN } else { &KNOWN[..6] }, &[]);
+        let mut intensity = self.emission(node, "intensity")?;
         let placement = transform::of(node, "to_world")?;
         let position = node.child("position").map_or(Ok(placement.translation), vector)?.as_vec3();
         if node.plugin == "point" {
@@ -77,6 +84,12 @@ impl<'n> Reader<'n, '_> {
         let outer = node.float_or("cutoff_angle", 20.0)?;
         let inner = node.float_or("beam_width", 0.75 * outer)?.min(outer);
         let direction = placement.transform_vector3(DVec3::Z).normalize_or_zero().as_vec3();
+        if let Some(texture) = self.property(node, "texture")?.filter(|p| p.tag == "texture") {
+            self.warn(texture, "spots that project a picture are not supported; its mean colour was used");
+            let t = self.texture(texture, Use::Color, 0)?;
+            let mean = t.picture.map_or(Rgb::WHITE, |picture| images::mean_color(self.a.image_at(picture.image)));
+            intensity = intensity * t.factor * mean;
+        }
         let (inner_rad, outer_rad) = (inner.to_radians() as f32, outer.to_radians() as f32);
         let falloff = SpotFalloff::Angle;
         self.a.push_light(Light::Spot { name: name(node), position, direction, intensity, inner_rad, outer_rad, falloff });

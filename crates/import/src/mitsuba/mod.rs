@@ -7,7 +7,7 @@
 //! |---|---|
 //! | shapes | `obj` (in version 0.x one part per group and material, of the bsdf of the material's name, else of one without a name, else as the `.mtl` library has it; `shapeIndex`, `loadMaterials`), `ply` (text and binary), `serialized`, `rectangle`, `disk`, `sphere`, `cube`, `cylinder`, `shapegroup` and `instance`; `faceNormals`, `flipNormals`. Round shapes become meshes of 96 segments with smooth normals, which have 0.07 % less area |
 //! | bsdfs | `diffuse`, `roughdiffuse`, `plastic`, `roughplastic`, `conductor`, `roughconductor`, `dielectric`, `roughdielectric`, `thindielectric`, `principled`, `principledthin`, `phong` and `ward` (as plastic), `coating` and `roughcoating` (a diffuse base becomes plastic, others lose the coat), `twosided`, `mask`, `bumpmap`, `normalmap`, `blendbsdf`, `mixturebsdf`, `null` (the shape is left out) |
-//! | textures | `bitmap`, `checkerboard` (baked), `scale`; filter, wrapping, channel, `uscale … voffset`, `to_uv` |
+//! | textures | `bitmap`, `checkerboard` (baked), `scale`, `mesh_attribute` of a PLY file (its mean); filter, wrapping, channel, `uscale … voffset`, `to_uv` |
 //! | spectra | `rgb`, `srgb`, `spectrum` (one value, wavelengths, a file, or of the type `blackbody`, `d65`, `uniform`, `regular`, `irregular`), `blackbody`, `float`; metals and substances by name |
 //! | emitters | `area`, `constant`, `envmap`, `point`, `spot`, `directional`, `sunsky`, `sky`, `sun` (by Hillaire's model in place of Hosek's) |
 //! | sensors | `perspective`, `thinlens` (as a pinhole) |
@@ -21,8 +21,9 @@
 //!
 //! # Opacity
 //!
-//! The `opacity` bitmap of a `mask` is read from its alpha channel if that varies, as in the renderers from which the well-known
-//! rooms were converted, and else from its red channel.
+//! The `opacity` bitmap of a `mask` is read from its colours, as in Mitsuba; in version 0.x from its alpha where that cuts something
+//! out and no channel is named, as in the renderers from which the well-known rooms were converted. Coloured pictures of numbers count
+//! by their luminance, in version 0.x by the mean of their channels.
 //!
 //! # Names
 //!
@@ -30,9 +31,13 @@
 //! `inline`. Materials carry the bsdf's `id`; those of emitters `<id>_emitter`. Where version 0.x finds several meshes in
 //! an OBJ file, `.<group>` is appended.
 
+mod attribute;
 mod bsdf;
 mod emitter;
+mod mask;
+mod number;
 mod obj;
+mod placement;
 mod sensor;
 mod serialized;
 mod shape;
@@ -43,7 +48,8 @@ mod xml;
 
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported};
-use std::collections::HashMap;
+use attribute::Attributes;
+use std::collections::{HashMap, HashSet};
 use xml::Node;
 
 /// References to references deeper than this are taken for a cycle.
@@ -63,9 +69,12 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
         a: assembly,
         version: root.attribute("version").and_then(|v| v.split('.').next()?.trim().parse().ok()).unwrap_or(0),
         ids: HashMap::new(),
+        referred_to: HashSet::new(),
         aliases: HashMap::new(),
         materials: HashMap::new(),
         meshes: HashMap::new(),
+        greys: HashMap::new(),
+        attributes: Attributes::default(),
         obj: obj::Files::default(),
         elements: 0,
         parts: 0,
@@ -86,9 +95,14 @@ struct Reader<'n, 'a> {
     /// The first number of the version that the scene file is for; 0 where it states none.
     version: u32,
     ids: HashMap<&'n str, &'n Node>,
+    /// The ids in the file's references.
+    referred_to: HashSet<&'n str>,
     aliases: HashMap<&'n str, &'n str>,
     materials: HashMap<bsdf::MaterialKey, u32>,
     meshes: HashMap<shape::MeshKey, Option<u32>>,
+    /// The grey pictures of coloured ones.
+    greys: HashMap<u32, u32>,
+    attributes: Attributes,
     obj: obj::Files,
     /// Elements of the file and of those that it includes.
     elements: usize,
@@ -112,6 +126,10 @@ impl<'n> Reader<'n, '_> {
             {
                 self.warn(child, "the id is used twice; the later one counts");
             }
+            if child.tag == "ref" {
+                self.referred_to.extend(child.id.as_deref());
+            }
+            self.attributes.wanted |= child.plugin == "mesh_attribute";
             self.index(child);
         }
     }
@@ -146,6 +164,12 @@ impl<'n> Reader<'n, '_> {
             node = self.ids.get(id).copied().ok_or_else(|| node.error(format!("nothing in the scene has the id {id:?}")))?;
         }
         Err(node.error("references go in a circle"))
+    }
+
+    /// True when any reference leads to `node`.
+    fn is_referred_to(&self, node: &Node) -> bool {
+        let meant = |id: &&str| self.ids.get(self.aliases.get(id).unwrap_or(id)).is_some_and(|found| std::ptr::eq(*found, node));
+        self.referred_to.iter().any(meant)
     }
 
     /// The objects of a tag directly within `node`, references followed.
@@ -199,4 +223,10 @@ impl<'n> Reader<'n, '_> {
             }
         }
     }
+}
+
+/// What a message about an unknown plugin adds where its name has capitals: Mitsuba's have none.
+fn spelling(plugin: &str) -> String {
+    let small = plugin.to_lowercase();
+    if small == plugin { String::new() } else { format!(" (plugins have small letters: {small:?})") }
 }

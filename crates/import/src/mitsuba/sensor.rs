@@ -1,7 +1,7 @@
 //! Sensors to cameras.
 
 use super::xml::Node;
-use super::{Reader, transform};
+use super::{Reader, spelling, transform};
 use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3};
 
@@ -45,7 +45,7 @@ impl<'n> Reader<'n, '_> {
                 );
             }
             other => {
-                self.warn(node, format!("{other} sensors are not supported; the camera was left out"));
+                self.warn(node, format!("{other} sensors are not supported{}; the camera was left out", spelling(other)));
                 return Ok(());
             }
         }

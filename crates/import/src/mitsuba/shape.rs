@@ -1,16 +1,16 @@
 //! Shapes to meshes and parts.
 
 use super::xml::Node;
-use super::{MAX_PARTS, Reader, bsdf, emitter, serialized, transform};
+use super::{MAX_PARTS, Reader, bsdf, serialized, transform};
 use crate::ImportError;
 use crate::mesh;
 use crate::obj::ObjFile;
-use crate::ply;
+use crate::ply::{self, Means};
 use crate::primitives;
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+use enfilade_math::{DAffine3, Vec2, Vec3};
 use enfilade_scene::PartLabel;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What tells meshes apart: plugin, file, index within it, and the flags that change it.
 pub(super) type MeshKey = (String, String, i64, [bool; 3]);
@@ -40,9 +40,11 @@ impl<'n> Reader<'n, '_> {
             self.report_unknown(emitter, &["radiance", "sampling_weight"], &[]);
         }
         if node.plugin == "obj" && self.version < 2 {
+            self.attributes.turn_to(None);
             return self.obj_shape(node, emitter, outer, prefix);
         }
         let Some((mesh, in_shape, stem)) = self.mesh(node)? else { return Ok(()) };
+        self.attributes.turn_to(Some(mesh));
         let Some(material) = self.material(bsdf, emitter)? else {
             self.warn(node, "the shape scatters nothing (null bsdf) and was left out");
             return Ok(());
@@ -98,8 +100,10 @@ impl<'n> Reader<'n, '_> {
         const PRIMITIVES: [&str; 7] = ["to_world", "flip_normals", "center", "radius", "p0", "p1", "face_normals"];
         let from_file = is_file(node);
         self.report_unknown(node, if from_file { &FILES } else { &PRIMITIVES }, &TAGS);
-        for unsupported in node.children.iter().filter(|c| matches!(c.tag.as_str(), "medium" | "subsurface")) {
-            self.warn(unsupported, "media are not supported; the shape is empty inside");
+        for child in node.children.iter().filter(|c| matches!(c.tag.as_str(), "medium" | "subsurface" | "ref")) {
+            if matches!(self.resolve(child)?.tag.as_str(), "medium" | "subsurface") {
+                self.warn(child, "media are not supported; the shape is empty inside");
+            }
         }
         let path = node.raw_text("filename").unwrap_or_default();
         if from_file && path.is_empty() {
@@ -121,10 +125,11 @@ impl<'n> Reader<'n, '_> {
         let mesh = match self.meshes.get(&key) {
             Some(&known) => known,
             None => {
-                let (mesh, file) = self.build(node, path, index)?;
+                let (mesh, means, file) = self.build(node, path, index)?;
                 let mesh = finish(mesh, from_file, flags);
                 let place = if from_file { "mesh".to_string() } else { node.place() };
                 let built = self.a.push_mesh(mesh, &file, &place)?;
+                built.into_iter().for_each(|mesh| self.attributes.insert(mesh, means.clone()));
                 self.meshes.insert(key, built);
                 built
             }
@@ -132,15 +137,16 @@ impl<'n> Reader<'n, '_> {
         Ok(mesh.map(|mesh| (mesh, in_shape, stem)))
     }
 
-    /// The mesh as the file or the formula has it, with v downward as Mitsuba has it, and the file to name in messages.
-    fn build(&mut self, node: &'n Node, path: &str, index: i64) -> Result<(Mesh, std::path::PathBuf), ImportError> {
+    /// The mesh as the file or the formula has it, with v downward as Mitsuba has it, its attributes, and the file to name in messages.
+    fn build(&mut self, node: &'n Node, path: &str, index: i64) -> Result<(Mesh, Means, PathBuf), ImportError> {
+        let mut means = Means::default();
         let scene = self.a.file().to_path_buf();
         match node.plugin.as_str() {
-            "rectangle" => Ok((primitives::rectangle(), scene)),
-            "disk" => Ok((primitives::disk(), scene)),
-            "sphere" => Ok((primitives::sphere(), scene)),
-            "cube" => Ok((primitives::cube(), scene)),
-            "cylinder" => Ok((primitives::cylinder(), scene)),
+            "rectangle" => Ok((primitives::rectangle(), means, scene)),
+            "disk" => Ok((primitives::disk(), means, scene)),
+            "sphere" => Ok((primitives::sphere(), means, scene)),
+            "cube" => Ok((primitives::cube(), means, scene)),
+            "cylinder" => Ok((primitives::cylinder(), means, scene)),
             plugin => {
                 let (file, bytes) = self.a.read(path)?;
                 let mesh = match plugin {
@@ -151,43 +157,17 @@ impl<'n> Reader<'n, '_> {
                     }
                     "ply" => {
                         let ply = ply::read(&bytes, &file)?;
-                        if ply.mean_color.is_some() {
+                        if ply.mean_color.is_some() && !self.attributes.wanted {
                             self.warn(node, format!("{}: the colours of vertices were dropped", file.display()));
                         }
+                        means = ply.means;
                         ply.mesh
                     }
                     _ => serialized::read(&bytes, index, &file)?,
                 };
-                Ok((mesh, file))
+                Ok((mesh, means, file))
             }
         }
-    }
-
-    /// The placement that centre, radius and end points add to a unit shape. `None`, with a warning, for unknown shapes.
-    fn shape_parameters(&mut self, node: &'n Node) -> Result<Option<DAffine3>, ImportError> {
-        let point = |name: &str, default: DVec3| node.child(name).map_or(Ok(default), emitter::vector);
-        let radius = node.float_or("radius", 1.0)?;
-        Ok(match node.plugin.as_str() {
-            "obj" | "ply" | "serialized" | "rectangle" | "disk" | "cube" => Some(DAffine3::IDENTITY),
-            "sphere" => {
-                let center = match node.child("center") {
-                    Some(c) => emitter::vector(c)?,
-                    None => DVec3::ZERO,
-                };
-                Some(DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(radius)), center))
-            }
-            "cylinder" => {
-                let (p0, p1) = (point("p0", DVec3::ZERO)?, point("p1", DVec3::Z)?);
-                let axis = p1 - p0;
-                let z = axis.try_normalize().ok_or_else(|| node.error("both ends of the cylinder coincide"))?;
-                let x = z.any_orthonormal_vector();
-                Some(DAffine3::from_mat3_translation(DMat3::from_cols(x * radius, z.cross(x) * radius, axis), p0))
-            }
-            other => {
-                self.warn(node, format!("{other} shapes are not supported; it was left out"));
-                None
-            }
-        })
     }
 }
 

@@ -2,14 +2,14 @@
 
 use super::spectrum;
 use super::xml::Node;
-use super::{MAX_REFERENCES, Reader, transform};
+use super::{MAX_REFERENCES, Reader, spelling, transform};
 use crate::ImportError;
 use crate::assembly::Source;
-use crate::images::{self, Use};
+use crate::images::Use;
 use crate::mesh::flip_v_of_transform;
 use crate::spectrum::Kind;
 use enfilade_math::Rgb;
-use enfilade_scene::{ColorParam, Filter, Image, Pixels, ScalarParam, TextureRef, Wrap};
+use enfilade_scene::{ColorParam, Filter, Image, Pixels, TextureRef, Wrap};
 
 /// Stands in for textures that have no counterpart.
 const MID_GREY: f32 = 0.5;
@@ -33,32 +33,6 @@ impl<'n> Reader<'n, '_> {
         Ok(ColorParam { factor: t.factor, texture: t.picture })
     }
 
-    /// The number parameter `name` of `node`, or a default.
-    pub(super) fn scalar(&mut self, node: &'n Node, name: &str, default: f32) -> Result<ScalarParam, ImportError> {
-        let Some(property) = self.property(node, name)? else { return Ok(default.into()) };
-        if property.tag != "texture" {
-            let c = spectrum::color(property, Kind::Factor)?;
-            return Ok(if c.r == c.g && c.g == c.b { c.r } else { c.luminance() }.into());
-        }
-        // Mitsuba linearizes number textures like colours unless they are marked raw.
-        let t = self.texture(property, Use::Color, 0)?;
-        let Some(picture) = t.picture else { return Ok(t.factor.g.into()) };
-        if t.channel.is_none() && !images::is_grey(self.a.image_at(picture.image)) {
-            self.warn(property, "the texture of a number is coloured; its red channel was used");
-        }
-        Ok(ScalarParam { factor: t.factor.r, texture: Some((picture, t.channel.unwrap_or(0))) })
-    }
-
-    /// The number parameter `name` of `node`, where this workspace has no texture: `None` without it, and with a warning where it is one.
-    pub(super) fn plain(&mut self, node: &'n Node, name: &str) -> Result<Option<f64>, ImportError> {
-        let Some(property) = self.property(node, name)? else { return Ok(None) };
-        if property.attribute("value").is_none() {
-            self.warn(property, format!("a texture of {name} in {} is not supported; its default was used", node.plugin));
-            return Ok(None);
-        }
-        Ok(property.numbers("value")?.first().copied())
-    }
-
     /// A texture; `usage` is what it is for unless the texture says it is raw.
     pub(super) fn texture(&mut self, node: &'n Node, usage: Use, depth: usize) -> Result<Texture, ImportError> {
         if depth > MAX_REFERENCES {
@@ -79,8 +53,12 @@ impl<'n> Reader<'n, '_> {
                 let t = self.texture(inner, usage, depth + 1)?;
                 Ok(Texture { factor: t.factor * factor, ..t })
             }
+            "mesh_attribute" => {
+                let factor = self.mesh_attribute(node)?.unwrap_or(Rgb::splat(MID_GREY));
+                Ok(Texture { factor, picture: None, channel: None })
+            }
             other => {
-                self.warn(node, format!("{other} textures are not supported; a mid grey stands in"));
+                self.warn(node, format!("{other} textures are not supported{}; a mid grey stands in", spelling(other)));
                 Ok(Texture { factor: Rgb::splat(MID_GREY), picture: None, channel: None })
             }
         }

@@ -16,10 +16,13 @@
 //! cameras, units or axes: name [`meters_per_unit`](crate::ImportOptions::meters_per_unit), [`up_axis`](crate::ImportOptions::up_axis)
 //! (scans of rooms often have z up; y is the default) and an [`environment`](crate::ImportOptions::environment).
 
+mod attributes;
 mod faces;
 mod header;
 mod reader;
+mod values;
 
+pub(crate) use attributes::Means;
 pub(crate) use reader::read;
 
 use crate::assembly::{Assembly, Source};

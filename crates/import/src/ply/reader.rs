@@ -1,7 +1,9 @@
 //! The bytes of a PLY file: text, and binary in either byte order.
 
+use super::attributes::{Means, Sums};
 use super::faces::Faces;
-use super::header::{Element, Encoding, Kind, Problem, parse_header};
+use super::header::{Element, Problem, parse_header};
+use super::values::Values;
 use crate::ImportError;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};
@@ -24,6 +26,8 @@ pub(crate) struct PlyFile {
     pub mesh: Mesh,
     /// Mean of the colours of the vertices, or of the faces, 0 … 1 as they are written; `None` when they have none.
     pub mean_color: Option<[f64; 3]>,
+    /// Means of the attributes of vertices and faces.
+    pub means: Means,
     /// Elements that were skipped, such as edges.
     pub skipped: Vec<String>,
     /// Elements and their properties that are not read.
@@ -42,14 +46,15 @@ pub(crate) fn read(bytes: &[u8], file: &Path) -> Result<PlyFile, ImportError> {
     let mut values = Values { encoding: header.encoding, bytes: body, at: 0 };
     let (mut mesh, mut faces) = (Mesh::default(), Faces::default());
     let (mut of_vertices, mut of_faces, mut skipped, mut unused) = (None, None, Vec::new(), Vec::new());
+    let mut means = Means::default();
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" => {
-                of_vertices = read_vertices(element, &mut values, &mut mesh).map_err(error)?;
+                of_vertices = read_vertices(element, &mut values, &mut mesh, &mut means).map_err(error)?;
                 unused.extend(element.unread(&[&COORDINATES, &NORMAL, U, V, &RED, &GREEN, &BLUE]));
             }
             "face" => {
-                of_faces = read_faces(element, &mut values, &mut faces).map_err(error)?;
+                of_faces = read_faces(element, &mut values, &mut faces, &mut means).map_err(error)?;
                 unused.extend(element.unread(&[&INDICES, &TEXCOORD, &RED, &GREEN, &BLUE]));
             }
             "tristrips" => {
@@ -67,75 +72,10 @@ pub(crate) fn read(bytes: &[u8], file: &Path) -> Result<PlyFile, ImportError> {
         }
     }
     faces.cut_into(&mut mesh).map_err(error)?;
-    Ok(PlyFile { mesh, mean_color: of_vertices.or(of_faces), skipped, unused, pictures: header.pictures })
-}
-
-/// The numbers of the body, one after the other.
-struct Values<'b> {
-    encoding: Encoding,
-    bytes: &'b [u8],
-    at: usize,
-}
-
-impl Values<'_> {
-    fn next(&mut self, kind: Kind) -> Result<f64, Problem> {
-        if self.encoding == Encoding::Text {
-            return self.next_word();
-        }
-        let place = self.at;
-        let bytes = self.bytes.get(place..place + kind.size());
-        let bytes =
-            bytes.ok_or_else(|| (format!("byte {place} of the body"), "the file is cut short; copy or export it again".to_string()))?;
-        self.at += kind.size();
-        let mut le = [0u8; 8];
-        le[..kind.size()].copy_from_slice(bytes);
-        if self.encoding == Encoding::Big {
-            le[..kind.size()].reverse();
-        }
-        let word = u32::from_le_bytes([le[0], le[1], le[2], le[3]]);
-        Ok(match kind {
-            Kind::I8 => f64::from(le[0] as i8),
-            Kind::U8 => f64::from(le[0]),
-            Kind::I16 => f64::from(word as u16 as i16),
-            Kind::U16 => f64::from(word as u16),
-            Kind::I32 => f64::from(word as i32),
-            Kind::U32 => f64::from(word),
-            Kind::F32 => f64::from(f32::from_bits(word)),
-            Kind::F64 => f64::from_le_bytes(le),
-        })
-    }
-
-    fn next_word(&mut self) -> Result<f64, Problem> {
-        let rest = &self.bytes[self.at..];
-        let start = rest.iter().position(|b| !b.is_ascii_whitespace()).unwrap_or(rest.len());
-        let length = rest[start..].iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len() - start);
-        let word = String::from_utf8_lossy(&rest[start..start + length]);
-        let place = || format!("byte {} of the body", self.at + start);
-        let value = match word.as_ref() {
-            "" => Err((place(), "the file is cut short; copy or export it again".to_string())),
-            word => word.parse().map_err(|_| (place(), format!("{word:?} is not a number; export the file again"))),
-        };
-        self.at += start + length;
-        value
-    }
+    Ok(PlyFile { mesh, mean_color: of_vertices.or(of_faces), means, skipped, unused, pictures: header.pictures })
 }
 
 impl Element {
-    /// Reads one row and hands every value over with the index of its property. List items come one by one.
-    fn row(&self, values: &mut Values, take: &mut dyn FnMut(usize, f64)) -> Result<(), Problem> {
-        for (i, property) in self.properties.iter().enumerate() {
-            let count = property.list.map_or(Ok(1.0), |kind| values.next(kind))?;
-            if !(0.0..=f64::from(u32::MAX)).contains(&count) {
-                let problem = format!("a list of {count} items in property {}; the file is damaged", property.name);
-                return Err((format!("byte {} of the body", values.at), problem));
-            }
-            for _ in 0..count as u64 {
-                take(i, values.next(property.kind)?);
-            }
-        }
-        Ok(())
-    }
-
     fn index_of(&self, names: &[&str]) -> Option<usize> {
         self.properties.iter().position(|p| names.contains(&p.name.as_str()))
     }
@@ -155,17 +95,20 @@ impl Element {
 }
 
 /// Reads the vertices and returns the mean of their colours, if they have any.
-fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Result<Option<[f64; 3]>, Problem> {
+fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh, means: &mut Means) -> Result<Option<[f64; 3]>, Problem> {
     let [x, y, z] = COORDINATES.map(|n| element.index_of(&[n]));
     let (Some(x), Some(y), Some(z)) = (x, y, z) else {
         return Err(("header".into(), "the vertices have no x, y and z; export the file with them".into()));
     };
     let normal = NORMAL.map(|n| element.index_of(&[n]));
     let uv = [U, V].map(|names| element.index_of(names));
-    let mut colors = Colors::of(element);
+    let (mut colors, mut attributes) = (Colors::of(element), Sums::new(element));
     let mut row = vec![0.0; element.properties.len()];
     for _ in 0..element.count {
-        element.row(values, &mut |i, value| row[i] = value)?;
+        element.row(values, &mut |i, value| {
+            row[i] = value;
+            attributes.add(i, value);
+        })?;
         mesh.positions.push(Vec3::new(row[x] as f32, row[y] as f32, row[z] as f32));
         if let [Some(a), Some(b), Some(c)] = normal {
             mesh.normals.push(Vec3::new(row[a] as f32, row[b] as f32, row[c] as f32));
@@ -175,6 +118,7 @@ fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh) -> Res
         }
         colors.add(&row);
     }
+    attributes.finish(means);
     Ok(colors.mean())
 }
 
@@ -205,10 +149,10 @@ impl<'e> Colors<'e> {
 }
 
 /// Reads the polygons and returns the mean of their colours, if they have any.
-fn read_faces(element: &Element, values: &mut Values, faces: &mut Faces) -> Result<Option<[f64; 3]>, Problem> {
+fn read_faces(element: &Element, values: &mut Values, faces: &mut Faces, means: &mut Means) -> Result<Option<[f64; 3]>, Problem> {
     let indices = element.indices()?;
     let texcoord = element.index_of(&TEXCOORD);
-    let mut colors = Colors::of(element);
+    let (mut colors, mut attributes) = (Colors::of(element), Sums::new(element));
     let mut row = vec![0.0; element.properties.len()];
     let (mut polygon, mut uvs) = (Vec::new(), Vec::new());
     for number in 0..element.count {
@@ -217,11 +161,15 @@ fn read_faces(element: &Element, values: &mut Values, faces: &mut Faces) -> Resu
         element.row(values, &mut |i, value| match i {
             i if i == indices => polygon.push(value),
             i if Some(i) == texcoord => uvs.push(value),
-            i => row[i] = value,
+            i => {
+                row[i] = value;
+                attributes.add(i, value);
+            }
         })?;
         faces.push(number, &polygon, texcoord.map(|_| uvs.as_slice()));
         colors.add(&row);
     }
+    attributes.finish(means);
     Ok(colors.mean())
 }
 

@@ -99,19 +99,13 @@ impl<'s> Walk<'s> {
             a.warn("timeSamples", format!("{sampled} values change with time; those of the first moment were taken"));
         }
         if self.hidden > 0 {
-            a.warn(
-                "visibility",
-                format!(
-                    "{} prims that are invisible, or have the purpose guide or proxy, were left out with what is below them",
-                    self.hidden
-                ),
-            );
+            a.warn("visibility", format!("{} prims that are invisible, or have the purpose guide or proxy, were left out", self.hidden));
         }
         if self.panels > 0 && self.skies > 0 {
             a.warn(
                 "lights",
                 format!(
-                    "{} lights are rectangles or disks, whose dark backs keep out the sun and sky, though USD's lights let them through; \
+                    "{} lights are rectangles or disks, whose dark backs keep out the sun and sky; \
                      take away those that stand in for daylight before windows and above rooms",
                     self.panels
                 ),

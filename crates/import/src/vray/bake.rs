@@ -1,6 +1,7 @@
 //! Pictures made from pictures.
 
 use super::Reader;
+use crate::images;
 use enfilade_math::Rgb;
 use enfilade_scene::{Image, Pixels};
 
@@ -40,13 +41,6 @@ impl Reader<'_, '_> {
 
     /// The mean colour of a picture.
     pub(super) fn mean_of(&self, image: u32) -> Rgb {
-        let image = self.a.image_at(image);
-        let (width, count) = (image.width as usize, image.width as usize * image.height as usize);
-        let mut sum = [0.0f64; 3];
-        for i in 0..count {
-            let (color, _) = image.texel(i % width, i / width);
-            (0..3).for_each(|c| sum[c] += f64::from(color[c]));
-        }
-        Rgb::from(sum.map(|s| (s / count.max(1) as f64) as f32))
+        images::mean_color(self.a.image_at(image))
     }
 }

@@ -81,7 +81,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Import,
         name: "import",
         about: "scene file -> scene package",
-        version: 8,
+        version: 9,
         settings: import::settings,
         inputs: import::inputs,
         run: import::run,

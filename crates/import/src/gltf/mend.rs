@@ -1,0 +1,50 @@
+//! The JSON of a glTF file, typed; small omissions are mended, but only when the file cannot be read without.
+
+use gltf::json::Root;
+use serde_json::{Value, json};
+
+/// The typed JSON, or the place and the problem.
+///
+/// # Errors
+/// When the text is not JSON, or not that of glTF 2.0.
+pub(super) fn parse(text: &[u8]) -> Result<Root, (String, String)> {
+    let error = match Root::from_slice(text) {
+        Ok(root) => return Ok(root),
+        Err(error) => error,
+    };
+    let problem =
+        || (format!("line {} column {}", error.line(), error.column()), format!("not valid glTF JSON: {error}; export the file again"));
+    let mut value: Value = serde_json::from_slice(text).map_err(|_| problem())?;
+    if let Some(version) = old_version(&value) {
+        return Err(("asset.version".into(), format!("found glTF {version}, expected 2.0; convert the file to glTF 2.0")));
+    }
+    complete(&mut value);
+    Root::from_slice(value.to_string().as_bytes()).map_err(|_| problem())
+}
+
+/// The version of a file before glTF 2.0, whose lists are maps by name.
+fn old_version(root: &Value) -> Option<String> {
+    let version = root.get("asset").and_then(|a| a.get("version"));
+    let stated = version.map(|v| v.as_str().map_or_else(|| v.to_string(), str::to_string));
+    let is_old = stated.as_ref().is_some_and(|v| v.starts_with("0.") || v.starts_with("1."));
+    let has_maps = ["buffers", "meshes", "nodes", "scenes"].iter().any(|list| root.get(*list).is_some_and(Value::is_object));
+    (is_old || has_maps).then(|| stated.unwrap_or_else(|| "1.0".into()))
+}
+
+/// Gives scenes without nodes an empty list of them, and takes channels of animations out that move no node: an extension's, or none's.
+fn complete(root: &mut Value) {
+    let list = |root: &mut Value, key: &str| root.get_mut(key).and_then(Value::as_array_mut).map(std::mem::take).unwrap_or_default();
+    let mut scenes = list(root, "scenes");
+    for scene in scenes.iter_mut().filter_map(Value::as_object_mut) {
+        scene.entry("nodes").or_insert_with(|| json!([]));
+    }
+    let mut animations = list(root, "animations");
+    for channels in animations.iter_mut().filter_map(|a| a.get_mut("channels")?.as_array_mut()) {
+        channels.retain(|channel| channel.get("target").and_then(|target| target.get("node")).is_some());
+    }
+    for (key, list) in [("scenes", scenes), ("animations", animations)] {
+        if let Some(place) = root.get_mut(key).filter(|place| place.is_array()) {
+            *place = list.into();
+        }
+    }
+}
