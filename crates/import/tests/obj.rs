@@ -198,7 +198,7 @@ fn made(folder: &Folder, body: &str) -> (enfilade_scene::Material, String) {
 fn paths_of_other_machines_are_looked_for_by_name() {
     let folder = Folder::new();
     folder.write("oak.png", png(2, 2, [150, 100, 60, 255])).write("textures/ash.png", png(2, 2, [150, 100, 60, 255]));
-    folder.write("a b.mtl", "newmtl M\nKd 1 1 1\nmap_Kd \"C:\\maps\\oak.png\"\nnewmtl N\nmap_Kd /home/me/ash.png\n");
+    folder.write("a b.mtl", "newmtl M\nKd 1 1 1\nmap_Kd \"C:\\maps\\oak.png\"\nnewmtl N\nmap_Kd /maps/ash.png\n");
     let library = "D:\\My Rooms\\a b.mtl";
     let text = format!("mtllib {library}\n{TRIANGLES}usemtl M\nf 1/1 2/2 3/3\nusemtl N\nf 1/1 2/2 3/3\n");
     let scene = folder.write("a.obj", text).load("a.obj").unwrap().scene;
