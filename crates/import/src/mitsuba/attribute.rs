@@ -21,7 +21,7 @@ pub(super) struct Attributes {
 impl Attributes {
     /// Notes those of a mesh.
     pub(super) fn insert(&mut self, mesh: u32, means: Means) {
-        if self.wanted && !means.is_empty() {
+        if !means.is_empty() {
             self.of_mesh.insert(mesh, means);
         }
     }

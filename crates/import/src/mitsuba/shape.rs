@@ -156,7 +156,7 @@ impl<'n> Reader<'n, '_> {
                         obj.mesh(obj.groups.iter())
                     }
                     "ply" => {
-                        let ply = ply::read(&bytes, &file)?;
+                        let ply = ply::read(&bytes, &file, self.attributes.wanted)?;
                         if ply.mean_color.is_some() && !self.attributes.wanted {
                             self.warn(node, format!("{}: the colours of vertices were dropped", file.display()));
                         }

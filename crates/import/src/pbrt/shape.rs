@@ -121,7 +121,7 @@ impl Reader<'_> {
             return Ok(known);
         }
         let (file, bytes) = self.a.read(path)?;
-        let ply = ply::read(&unpacked(bytes, &file)?, &file)?;
+        let ply = ply::read(&unpacked(bytes, &file)?, &file, false)?;
         if ply.mean_color.is_some() {
             self.warn(&params.place, "the colours of vertices were dropped");
         }

@@ -34,10 +34,13 @@ pub(super) struct Sums<'e> {
 }
 
 impl<'e> Sums<'e> {
-    /// `element` is `vertex` or `face`.
-    pub(super) fn new(element: &'e Element) -> Self {
+    /// `element` is `vertex` or `face`. Where they are not `wanted` there are none.
+    pub(super) fn new(element: &'e Element, wanted: bool) -> Self {
         let at = |name: String| element.properties.iter().position(|p| p.name == name && p.list.is_none());
         let mut attributes = Vec::new();
+        if !wanted {
+            return Self { element, attributes, sums: Vec::new() };
+        }
         for names in [["red", "green", "blue"], ["r", "g", "b"]] {
             if let [Some(r), Some(g), Some(b)] = names.map(|n| at(n.to_string())) {
                 attributes.push((format!("{}_color", element.name), [r, g, b]));

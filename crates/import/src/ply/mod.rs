@@ -39,7 +39,7 @@ const GREY: f32 = 0.5;
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     let file = assembly.file().to_path_buf();
     let bytes = assembly.read_scene_file()?;
-    let ply = read(&bytes, &file)?;
+    let ply = read(&bytes, &file, false)?;
     if ply.mesh.triangles.is_empty() {
         let problem = format!(
             "the file has {} vertices but no faces: a cloud of points has no surface to render; make a mesh of it first",

@@ -26,7 +26,7 @@ pub(crate) struct PlyFile {
     pub mesh: Mesh,
     /// Mean of the colours of the vertices, or of the faces, 0 … 1 as they are written; `None` when they have none.
     pub mean_color: Option<[f64; 3]>,
-    /// Means of the attributes of vertices and faces.
+    /// Means of the attributes of vertices and faces, where they were wanted.
     pub means: Means,
     /// Elements that were skipped, such as edges.
     pub skipped: Vec<String>,
@@ -36,25 +36,25 @@ pub(crate) struct PlyFile {
     pub pictures: Vec<String>,
 }
 
-/// Reads the elements `vertex`, `face` and `tristrips`, in any order.
+/// Reads the elements `vertex`, `face` and `tristrips`, in any order; the means of attributes where they are `wanted`.
 ///
 /// # Errors
 /// When the header or a value is not what the format calls for, or a face refers to a vertex that is not there.
-pub(crate) fn read(bytes: &[u8], file: &Path) -> Result<PlyFile, ImportError> {
+pub(crate) fn read(bytes: &[u8], file: &Path, wanted: bool) -> Result<PlyFile, ImportError> {
     let error = |(place, problem): Problem| ImportError::malformed(file, place, problem);
     let (header, body) = parse_header(bytes).map_err(error)?;
     let mut values = Values { encoding: header.encoding, bytes: body, at: 0 };
     let (mut mesh, mut faces) = (Mesh::default(), Faces::default());
     let (mut of_vertices, mut of_faces, mut skipped, mut unused) = (None, None, Vec::new(), Vec::new());
-    let mut means = Means::default();
+    let mut means = wanted.then(Means::default);
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" => {
-                of_vertices = read_vertices(element, &mut values, &mut mesh, &mut means).map_err(error)?;
+                of_vertices = read_vertices(element, &mut values, &mut mesh, means.as_mut()).map_err(error)?;
                 unused.extend(element.unread(&[&COORDINATES, &NORMAL, U, V, &RED, &GREEN, &BLUE]));
             }
             "face" => {
-                of_faces = read_faces(element, &mut values, &mut faces, &mut means).map_err(error)?;
+                of_faces = read_faces(element, &mut values, &mut faces, means.as_mut()).map_err(error)?;
                 unused.extend(element.unread(&[&INDICES, &TEXCOORD, &RED, &GREEN, &BLUE]));
             }
             "tristrips" => {
@@ -72,7 +72,7 @@ pub(crate) fn read(bytes: &[u8], file: &Path) -> Result<PlyFile, ImportError> {
         }
     }
     faces.cut_into(&mut mesh).map_err(error)?;
-    Ok(PlyFile { mesh, mean_color: of_vertices.or(of_faces), means, skipped, unused, pictures: header.pictures })
+    Ok(PlyFile { mesh, mean_color: of_vertices.or(of_faces), means: means.unwrap_or_default(), skipped, unused, pictures: header.pictures })
 }
 
 impl Element {
@@ -95,14 +95,14 @@ impl Element {
 }
 
 /// Reads the vertices and returns the mean of their colours, if they have any.
-fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh, means: &mut Means) -> Result<Option<[f64; 3]>, Problem> {
+fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh, means: Option<&mut Means>) -> Result<Option<[f64; 3]>, Problem> {
     let [x, y, z] = COORDINATES.map(|n| element.index_of(&[n]));
     let (Some(x), Some(y), Some(z)) = (x, y, z) else {
         return Err(("header".into(), "the vertices have no x, y and z; export the file with them".into()));
     };
     let normal = NORMAL.map(|n| element.index_of(&[n]));
     let uv = [U, V].map(|names| element.index_of(names));
-    let (mut colors, mut attributes) = (Colors::of(element), Sums::new(element));
+    let (mut colors, mut attributes) = (Colors::of(element), Sums::new(element, means.is_some()));
     let mut row = vec![0.0; element.properties.len()];
     for _ in 0..element.count {
         element.row(values, &mut |i, value| {
@@ -118,7 +118,9 @@ fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh, means:
         }
         colors.add(&row);
     }
-    attributes.finish(means);
+    if let Some(means) = means {
+        attributes.finish(means);
+    }
     Ok(colors.mean())
 }
 
@@ -149,10 +151,10 @@ impl<'e> Colors<'e> {
 }
 
 /// Reads the polygons and returns the mean of their colours, if they have any.
-fn read_faces(element: &Element, values: &mut Values, faces: &mut Faces, means: &mut Means) -> Result<Option<[f64; 3]>, Problem> {
+fn read_faces(element: &Element, values: &mut Values, faces: &mut Faces, means: Option<&mut Means>) -> Result<Option<[f64; 3]>, Problem> {
     let indices = element.indices()?;
     let texcoord = element.index_of(&TEXCOORD);
-    let (mut colors, mut attributes) = (Colors::of(element), Sums::new(element));
+    let (mut colors, mut attributes) = (Colors::of(element), Sums::new(element, means.is_some()));
     let mut row = vec![0.0; element.properties.len()];
     let (mut polygon, mut uvs) = (Vec::new(), Vec::new());
     for number in 0..element.count {
@@ -169,7 +171,9 @@ fn read_faces(element: &Element, values: &mut Values, faces: &mut Faces, means: 
         faces.push(number, &polygon, texcoord.map(|_| uvs.as_slice()));
         colors.add(&row);
     }
-    attributes.finish(means);
+    if let Some(means) = means {
+        attributes.finish(means);
+    }
     Ok(colors.mean())
 }
 
@@ -218,16 +222,16 @@ mod tests {
     #[test]
     fn text_and_binary_of_both_orders_give_the_same_mesh() {
         let text = format!("ply\nformat ascii 1.0\n{HEADER}0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n");
-        let ply = read(text.as_bytes(), Path::new("a.ply")).unwrap();
+        let ply = read(text.as_bytes(), Path::new("a.ply"), false).unwrap();
         assert_eq!((ply.mesh.positions[2], ply.mesh.triangles.len(), ply.mean_color), (Vec3::new(1.0, 1.0, 2.0), 2, None));
         for big in [false, true] {
-            assert_eq!(read(&binary(big), Path::new("a.ply")).unwrap(), ply);
+            assert_eq!(read(&binary(big), Path::new("a.ply"), false).unwrap(), ply);
         }
     }
 
     #[test]
     fn damage_is_named() {
-        let message = |bytes: &[u8]| read(bytes, Path::new("a.ply")).unwrap_err().to_string();
+        let message = |bytes: &[u8]| read(bytes, Path::new("a.ply"), false).unwrap_err().to_string();
         let whole = binary(false);
         assert!(message(&whole[..whole.len() - 3]).contains("cut short"));
         assert!(message(b"ply\nformat ascii 1.0\nelement vertex 1\n").contains("header does not end"));
@@ -243,7 +247,7 @@ mod tests {
         let faces = "element face 2\nproperty list uchar int vertex_indices\n";
         let points = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
         let triangles =
-            |text: String| read(format!("ply\nformat ascii 1.0\n{text}").as_bytes(), Path::new("a.ply")).unwrap().mesh.triangles;
+            |text: String| read(format!("ply\nformat ascii 1.0\n{text}").as_bytes(), Path::new("a.ply"), false).unwrap().mesh.triangles;
         let expected = vec![[0, 1, 2], [2, 1, 3]];
         assert_eq!(triangles(format!("{faces}{vertices}end_header\n3 0 1 2\n3 2 1 3\n{points}")), expected);
         assert_eq!(triangles(format!("{vertices}{strips}end_header\n{points}4 0 1 2 3\n")), expected);
@@ -256,7 +260,7 @@ mod tests {
                     element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty uchar red\n\
                     property uchar green\nproperty uchar blue\nend_header\n0 0 0 1\n1 0 0 1\n0 1 0 1\n\
                     3 0 1 2 6 0 0 1 0 0 1 255 0 0\n3 2 1 0 6 0 1 1 0 0.5 0.5 255 0 0\n";
-        let ply = read(text.as_bytes(), Path::new("a.ply")).unwrap();
+        let ply = read(text.as_bytes(), Path::new("a.ply"), false).unwrap();
         assert_eq!(ply.mesh.triangles, [[0, 1, 2], [2, 1, 3]]);
         assert_eq!(ply.mesh.uvs, [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::splat(0.5)]);
         assert_eq!((ply.mean_color, ply.unused), (Some([1.0, 0.0, 0.0]), vec![("vertex".to_string(), vec!["alpha".to_string()])]));
