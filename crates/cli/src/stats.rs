@@ -4,7 +4,8 @@ use crate::args::StatsArgs;
 use crate::outcome::{Problem, Verdict, say};
 use crate::price::{dollars, prices};
 use crate::progress::Progress;
-use enfilade_post::stats::{StatsConfig, write_statistics};
+use enfilade_pipeline::write_statistics;
+use enfilade_post::stats::StatsConfig;
 
 /// `stats`: what the images show and what they cost.
 pub fn stats(args: &StatsArgs, quiet: bool) -> Result<Verdict, Problem> {

@@ -59,3 +59,14 @@ pub(crate) fn remove_if_there(path: &Path) -> Result<(), DatasetError> {
         _ => Ok(()),
     }
 }
+
+/// Removes a folder with all that is in it, which may not exist.
+///
+/// # Errors
+/// When something in it cannot be removed.
+pub fn remove_folder(path: &Path) -> Result<(), DatasetError> {
+    match fs::remove_dir_all(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(DatasetError::io("remove", path, error)),
+        _ => Ok(()),
+    }
+}

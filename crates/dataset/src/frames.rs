@@ -186,6 +186,13 @@ impl Dataset {
         record.is_some_and(|record| record.config_hash == config_hash && self.files_are_there(scene, &record.files))
     }
 
+    /// True when the record of the frame of `pose` can be read and says that it was taken from there with `with`, and all its files are
+    /// there in full length.
+    pub fn frame_is_taken(&self, scene: &str, camera: &str, with: &Camera, pose: &Pose) -> bool {
+        let record = self.frame_record(scene, camera, pose.frame).ok().flatten();
+        record.is_some_and(|record| record.is_taken(with, pose) && self.files_are_there(scene, &record.files))
+    }
+
     /// True when the frame's label layers were joined from the tables `labels_hash` and are there in full length.
     pub fn labels_are_complete(&self, scene: &str, camera: &str, frame: u32, labels_hash: &str) -> bool {
         let record = self.label_record(scene, camera, frame).ok().flatten();
@@ -206,7 +213,7 @@ impl Dataset {
     }
 
     /// The files of the record that layers of `pass` have; `None` where there is no such record.
-    fn recorded_files(
+    pub(crate) fn recorded_files(
         &self,
         scene: &str,
         camera: &str,

@@ -41,7 +41,7 @@ mod times;
 mod tonemap_files;
 
 pub use annotation_files::{ANNOTATION_LOG, scene_hash};
-pub use atomic::{replace_file, write_bytes};
+pub use atomic::{remove_folder, replace_file, write_bytes};
 pub use box_files::BoxKind;
 pub use camera_files::{OpencvCalibration, opencv_cameras};
 pub use camera_model::{StereoRecord, StereoSide, read_ray_grid};

@@ -267,7 +267,7 @@ impl Dataset {
     /// When it cannot be read or understood.
     pub fn read_manifest(&self) -> Result<Option<Manifest>, DatasetError> {
         let path = self.layout().manifest();
-        let manifest: Option<Manifest> = read_json(&path, "run the last stage again, which writes it anew")?;
+        let manifest: Option<Manifest> = read_json(&path, "run again, which writes it anew")?;
         match manifest {
             Some(manifest) if manifest.format != FORMAT => {
                 let problem =
@@ -284,12 +284,19 @@ impl Dataset {
     /// # Errors
     /// When a file that is there cannot be read.
     pub fn verify_checksums(&self, manifest: &Manifest) -> Result<Vec<String>, DatasetError> {
-        let cameras = manifest.scenes.iter().flat_map(|(scene, entry)| entry.cameras.iter().map(move |camera| (scene, camera)));
-        let frames = cameras.flat_map(|(scene, (camera, entry))| entry.frames.iter().map(move |frame| (scene, camera, frame)));
-        let files: Vec<_> =
-            frames.flat_map(|(scene, camera, f)| f.files.iter().map(move |file| ([scene, camera], f.frame, file))).collect();
-        let check = |(shot, frame, (name, expected)): ([&String; 2], u32, (&String, &FileRecord))| {
-            self.check_file(shot.map(String::as_str), frame, name, expected)
+        let problems = manifest.scenes.iter().map(|(scene, entry)| self.verify_checksums_of(scene, entry));
+        Ok(problems.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+    }
+
+    /// [`Dataset::verify_checksums`] of one scene.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn verify_checksums_of(&self, scene: &str, entry: &SceneEntry) -> Result<Vec<String>, DatasetError> {
+        let frames = entry.cameras.iter().flat_map(|(camera, entry)| entry.frames.iter().map(move |frame| (camera, frame)));
+        let files: Vec<_> = frames.flat_map(|(camera, f)| f.files.iter().map(move |file| (camera, f.frame, file))).collect();
+        let check = |(camera, frame, (name, expected)): (&String, u32, (&String, &FileRecord))| {
+            self.check_file([scene, camera], frame, name, expected)
         };
         let problems: Vec<Option<String>> = files.into_par_iter().map(check).collect::<Result<_, _>>()?;
         Ok(problems.into_iter().flatten().collect())
@@ -304,28 +311,40 @@ impl Dataset {
         expected: &FileRecord,
     ) -> Result<Option<String>, DatasetError> {
         let path = self.layout().scene_dir(scene).join(name);
-        let problem = match FileRecord::of(&path) {
-            Err(error) if error.is_not_found() => "it is missing".to_string(),
-            Ok(found) if found.bytes != expected.bytes => format!("{} bytes long instead of {}", found.bytes, expected.bytes),
-            Ok(found) if found.blake3 != expected.blake3 => "its content is not what was written (checksums differ)".to_string(),
-            found => return found.map(|_| None),
+        let found = match FileRecord::of(&path) {
+            Err(error) if error.is_not_found() => None,
+            found => Some(found?),
         };
-        let (record, stage) = self.made_by(scene, camera, frame, &path);
+        let problem = match &found {
+            None => "it is missing".to_string(),
+            Some(found) if found.bytes != expected.bytes => format!("{} bytes long instead of {}", found.bytes, expected.bytes),
+            Some(found) if found.blake3 != expected.blake3 => "its content is not what was written (checksums differ)".to_string(),
+            Some(_) => return Ok(None),
+        };
+        let (record, pass) = self.made_by(scene, camera, frame, &path);
+        let recorded = self.recorded_files(scene, camera, frame, pass).ok().flatten();
+        let is_recorded = found.is_some() && recorded.is_some_and(|files| files.get(name) == found.as_ref());
+        let stage = match pass {
+            Pass::Label => "label",
+            Pass::Denoised => "denoise",
+            _ => "render",
+        };
         let remedy = match record.is_file() {
+            true if is_recorded => "but it is what its record says, so run again, which writes the manifest anew".to_string(),
             true => format!("delete {} and run the {stage} stage again", record.display()),
             false => "copy it again, or make it again where it was made".to_string(),
         };
         Ok(Some(format!("{}: {problem}; {remedy}", path.display())))
     }
 
-    /// The record that a layer at `path` has, and the stage that makes both.
-    fn made_by(&self, scene: &str, camera: &str, frame: u32, path: &Path) -> (PathBuf, &'static str) {
+    /// The record that a layer at `path` has, and which layers are in it.
+    fn made_by(&self, scene: &str, camera: &str, frame: u32, path: &Path) -> (PathBuf, Pass) {
         let layout = self.layout();
         let spec = LAYERS.iter().find(|spec| layout.layer(scene, camera, frame, spec.layer) == path);
         match spec.map(|spec| spec.pass) {
-            Some(Pass::Label) => (layout.label_record(scene, camera, frame), "label"),
-            Some(Pass::Denoised) => (layout.denoise_record(scene, camera, frame), "denoise"),
-            _ => (layout.frame_record(scene, camera, frame), "render"),
+            Some(Pass::Label) => (layout.label_record(scene, camera, frame), Pass::Label),
+            Some(Pass::Denoised) => (layout.denoise_record(scene, camera, frame), Pass::Denoised),
+            _ => (layout.frame_record(scene, camera, frame), Pass::Final),
         }
     }
 }

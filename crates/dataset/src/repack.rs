@@ -1,5 +1,6 @@
 //! A copy of a dataset whose images are stored for fast reading.
 
+use crate::atomic::remove_folder;
 use crate::frames::attributes_of;
 use crate::hdf5::{Storage, read_array, write_array};
 use crate::read::sorted_names;
@@ -225,14 +226,6 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, DatasetError> {
 fn is_copy(folder: &Path) -> bool {
     let mark = fs::read(folder.join(MARK)).ok().and_then(|bytes| serde_json::from_slice::<Mark>(&bytes).ok());
     mark.is_some_and(|mark| mark.kind == MARK_KIND)
-}
-
-/// Removes a folder with all that is in it, which may not exist.
-fn remove_folder(path: &Path) -> Result<(), DatasetError> {
-    match fs::remove_dir_all(path) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(DatasetError::io("remove", path, error)),
-        _ => Ok(()),
-    }
 }
 
 impl Job {

@@ -3,6 +3,9 @@ use std::error::Error as StdError;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+/// Of an error for want of threads.
+pub(crate) const START_THREADS: &str = "start threads for";
+
 /// Why something on a farm could not be done.
 #[derive(Debug, thiserror::Error)]
 pub enum FarmError {
@@ -71,6 +74,11 @@ impl FarmError {
 
     /// What to do about it, where the message does not say it.
     pub fn hint(&self) -> Option<&'static str> {
+        if matches!(self, Self::Io { action: START_THREADS, .. }) {
+            return Some(
+                "the system gives no more threads: end other programs, or raise the limit of processes (ulimit -u) or of the node's group",
+            );
+        }
         match of_the_system(self)?.kind() {
             ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
                 Some("free some space and give the same command again: what the job has already is not made again")

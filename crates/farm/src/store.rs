@@ -4,13 +4,15 @@
 //! [`Store::probe`] finds out whether it keeps to that.
 
 use crate::FarmError;
+use crate::error::START_THREADS;
 use crate::plan::PLAN;
 use futures_util::TryStreamExt;
 use object_store::local::LocalFileSystem;
 use object_store::path::Path as Key;
 use object_store::{Error as StoreError, ObjectStore, ObjectStoreExt, PutMode, PutOptions, PutPayload};
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
 use std::time::Duration;
 use tokio::runtime::Runtime;
 
@@ -44,6 +46,33 @@ pub enum Created {
     Yes,
     /// The name is taken: by somebody else, or by an earlier try whose answer was lost.
     Taken,
+}
+
+/// Threads that requests go on with; files are read and written by one more.
+const WORKERS: usize = 2;
+/// The size of a thread's stack, bytes: what the runtime gives its own.
+const STACK: usize = 2 << 20;
+
+/// What requests go on in. It would end this process where it gets no threads, so these are asked for before.
+fn runtime() -> std::io::Result<Runtime> {
+    ask_for_threads(WORKERS + 1, STACK)?;
+    tokio::runtime::Builder::new_multi_thread().worker_threads(WORKERS).thread_stack_size(STACK).enable_all().build()
+}
+
+/// Starts so many threads at once, which end again.
+fn ask_for_threads(count: usize, stack: usize) -> std::io::Result<()> {
+    // All of them wait until this is dropped, so that none makes room for another.
+    let (hold, held) = std::sync::mpsc::channel::<()>();
+    let held = Arc::new(Mutex::new(held));
+    let start = |_| {
+        let held = held.clone();
+        let wait = move || drop(held.lock().map(|held| held.recv()));
+        std::thread::Builder::new().stack_size(stack).spawn(wait)
+    };
+    let started: Vec<std::io::Result<JoinHandle<()>>> = (0..count).map(start).collect();
+    drop(hold);
+    let ended = started.into_iter().map(|thread| thread.map(|thread| drop(thread.join())));
+    ended.collect::<Vec<_>>().into_iter().collect()
 }
 
 /// The variables of this process that are text.
@@ -96,10 +125,9 @@ impl Store {
     /// (`AWS_ACCESS_KEY_ID`, `AWS_ENDPOINT_URL`, `GOOGLE_APPLICATION_CREDENTIALS`, `AZURE_STORAGE_ACCOUNT_NAME`, …). Others are left.
     ///
     /// # Errors
-    /// When the place cannot be understood, or is a folder that is not there.
+    /// When the place cannot be understood, or is a folder that is not there, and when the system gives no threads.
     pub fn open(place: &str, settings: impl Iterator<Item = (String, String)>) -> Result<Self, FarmError> {
-        let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build();
-        let runtime = runtime.map_err(|source| FarmError::io("start threads for", Path::new(place), source))?;
+        let runtime = runtime().map_err(|source| FarmError::io(START_THREADS, Path::new(place), source))?;
         if let Some(folder) = local(place) {
             if !folder.is_dir() {
                 let what = if folder.exists() { "is no folder" } else { "does not exist" };
@@ -277,6 +305,16 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(folder.path().to_str().unwrap(), std::iter::empty()).unwrap();
         (folder, store)
+    }
+
+    #[test]
+    fn threads_that_cannot_be_had_are_told_with_what_to_do() {
+        ask_for_threads(WORKERS + 1, STACK).unwrap();
+        // No machine has room for such a stack.
+        let refused = ask_for_threads(2, 1 << (usize::BITS - 4)).unwrap_err();
+        let error = FarmError::io(START_THREADS, Path::new("/shared/job"), refused);
+        assert!(error.to_string().starts_with("cannot start threads for /shared/job: "), "{error}");
+        assert!(error.hint().is_some_and(|hint| hint.contains("ulimit -u")) && error.is_transient());
     }
 
     #[test]

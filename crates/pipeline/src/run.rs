@@ -5,12 +5,13 @@ use crate::error::Error;
 use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::split::write_split;
 use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, read_table};
+use crate::statistics::{statistics_are_whole, write_statistics};
 use crate::workdir::{RUN, WORKDIR, Workdir, read_json, remove_if_there, write_json};
 use enfilade_dataset::{CameraEntry, Dataset, DatasetError, FrameStatus, ManifestInfo};
 use enfilade_post::drivers::write_overview;
 use enfilade_post::sheet::SheetConfig;
-use enfilade_post::stats::{StatsConfig, write_statistics};
-use enfilade_post::verify::{VerifyReport, join_reports, verify_scene, write_report};
+use enfilade_post::stats::StatsConfig;
+use enfilade_post::verify::{VerifyReport, join_reports, verify_listed_scene, write_report};
 use enfilade_scene::{Cx, Quiet, Warning};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -83,9 +84,10 @@ pub fn plan_and_draw(out: &Path, pattern: Option<&str>, force: bool, reporter: &
 /// # Errors
 /// When the manifest cannot be read.
 pub fn verify(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<VerifyReport, DatasetError> {
+    let manifest = dataset.read_manifest()?;
     let mut reports = Vec::new();
     for scene in scenes {
-        let report = verify_scene(dataset, scene, cx)?;
+        let report = verify_listed_scene(dataset, manifest.as_ref(), scene, cx);
         if !report.passed {
             forget_passing(dataset, scene, cx);
         }
@@ -284,11 +286,12 @@ impl<'a> Session<'a> {
         if stages.iter().all(|spec| spec.stage != Stage::Verify) {
             return Ok(());
         }
+        let manifest = self.dataset.read_manifest().map_err(Error::stage)?;
         let mut reports: Vec<VerifyReport> = Vec::new();
         for scene in self.dataset.scenes().map_err(Error::stage)? {
             let stopped = outcomes.iter().filter(|outcome| outcome.name == scene).any(|outcome| outcome.stopped_before(Stage::Verify));
             let kept = if stopped { None } else { read_json(&self.workdir.scene_file(&scene, CARD)?) };
-            reports.push(kept.map_or_else(|| verify_scene(&self.dataset, &scene, &Quiet).map_err(Error::stage), Ok)?);
+            reports.push(kept.unwrap_or_else(|| verify_listed_scene(&self.dataset, manifest.as_ref(), &scene, &Quiet)));
         }
         let report = join_reports(&self.dataset, reports);
         write_report(&self.dataset, &report).map_err(Error::stage)
@@ -310,15 +313,14 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// Writes the statistics of all scenes, without costs, which would differ between two runs; unless they are there already: the
-    /// preview stage removes them.
+    /// Writes the statistics of all scenes, without costs, which would differ between two runs; unless they are there already, as they
+    /// were written: the preview stage removes them.
     fn write_statistics(&self, stages: &[&StageSpec]) -> Result<(), Error> {
-        if self.dataset.layout().statistics().is_file() || stages.iter().all(|spec| spec.stage != Stage::Preview) {
+        if stages.iter().all(|spec| spec.stage != Stage::Preview) || statistics_are_whole(&self.dataset) {
             return Ok(());
         }
         let scenes = self.dataset.scenes().map_err(Error::stage)?;
-        write_statistics(&self.dataset, &StatsConfig { scenes, ..StatsConfig::default() }, &Quiet).map_err(Error::stage)?;
-        Ok(())
+        write_statistics(&self.dataset, &StatsConfig { scenes, ..StatsConfig::default() }, &Quiet).map_err(Error::stage).map(drop)
     }
 
     /// Writes the manifest of what is on disk, unless it is there already. The scene `at_work` has not failed (any more).

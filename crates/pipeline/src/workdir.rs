@@ -5,6 +5,7 @@
 //! OUT/.enfilade/run.json             the resolved configuration, and the folder its relative paths start from
 //! OUT/.enfilade/gathered.json        of a dataset that others made: which job's files were brought here
 //! OUT/.enfilade/split.json           how the dataset is divided, where that was chosen
+//! OUT/.enfilade/statistics.json      what was written to OUT/statistics
 //! OUT/.enfilade/.estimate/           what a forecast tries out where the folder is to stay as it is
 //! OUT/.enfilade/SCENE/scene.scene    the scene package
 //! OUT/.enfilade/SCENE/partial/       frames in the making, to go on from where a run was killed
@@ -27,10 +28,12 @@ pub const WORKDIR: &str = ".enfilade";
 pub(crate) const RUN: &str = "run.json";
 /// Held by the process at work.
 const LOCK: &str = "lock";
+/// What was written of statistics.
+pub(crate) const STATISTICS: &str = "statistics.json";
 /// What is tried out, while it is.
 const ASIDE: &str = ".estimate";
 /// The files beside the folders of scenes: no scene can have such a name.
-pub(crate) const OWN_FILES: [&str; 4] = [LOCK, RUN, GATHERED, CHOICE];
+pub(crate) const OWN_FILES: [&str; 5] = [LOCK, RUN, GATHERED, CHOICE, STATISTICS];
 /// The scene package in a scene's part of the work folder.
 pub(crate) const PACKAGE: &str = "scene.scene";
 
@@ -258,7 +261,7 @@ mod tests {
     fn a_scene_with_the_name_of_a_file_of_the_work_folder_is_refused() {
         let dir = tempfile::tempdir().unwrap();
         let workdir = Workdir::create(dir.path()).unwrap();
-        for name in ["lock", "run.json", "split.json", "gathered.json"] {
+        for name in ["lock", "run.json", "split.json", "gathered.json", "statistics.json"] {
             let error = workdir.scene_file(name, PACKAGE).unwrap_err();
             assert!(error.is_usage() && error.to_string().contains(name), "{error}");
         }

@@ -1,76 +1,19 @@
 //! What becomes of finished work when scenes, cameras or the list of scenes change, and where a run was killed.
 
 mod common;
+mod rooms;
 
-use common::{LAMP, TABLE, WALL, write_blocks};
-use enfilade_dataset::{BoxKind, Dataset};
+use enfilade_dataset::Dataset;
 use enfilade_frame::{Layer, Pass};
-use enfilade_pipeline::{Config, Event, Overrides, Reporter, Silent, Stage, Summary, estimate, replay, run, run_stage};
-use enfilade_scene::Heard;
-use std::collections::BTreeMap;
-use std::fmt::Write;
+use enfilade_pipeline::{Event, Reporter, Silent, Stage, estimate, run, run_stage};
+use rooms::{ONE, config, failures, files, place, write_poses};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
-use tempfile::TempDir;
 
-/// A folder with a room in which a table and a lamp are, a broken scene and files of poses, and where a dataset goes.
-fn place() -> (TempDir, PathBuf) {
-    let place = tempfile::tempdir().unwrap();
-    let folder = place.path();
-    write_blocks(folder, &[WALL, TABLE, LAMP]);
-    fs::write(folder.join("broken.obj"), "f 1 2 3\n").unwrap();
-    write_poses(folder, "one.json", 0.2);
-    write_poses(folder, "two.json", 0.3);
-    let out = folder.join("out");
-    (place, out)
-}
-
-/// Two poses, the first of them at `x`.
-fn write_poses(folder: &Path, file: &str, x: f64) {
-    let poses = format!(
-        "[{{\"frame\": 0, \"position\": [{x}, -0.9, 1.4], \"look_at\": [0.0, 0.9, 0.6]}}, \
-         {{\"frame\": 1, \"position\": [0.2, -0.9, 1.4], \"look_at\": [-0.5, 0.9, 0.6]}}]"
-    );
-    fs::write(folder.join(file), poses).unwrap();
-}
-
-/// Scenes by name, file, files of poses and further keys.
-fn config(folder: &Path, scenes: &[(&str, &str, &[&str], &str)]) -> Config {
-    let mut text = "name = \"set\"\nseed = 3\nframes = 2\n[render]\nsize = [64, 48]\nsamples = 2\nmax_bounces = 2\n".to_string();
-    text += "[carve]\nrays = 8192\niterations = 2\n[gate]\naction = \"report\"\n";
-    for (name, file, poses, keys) in scenes {
-        let from = "cameras = [{ position = [0.2, -0.9, 1.4], look_at = [0.0, 0.9, 0.6] }]";
-        writeln!(text, "[[scene]]\nname = \"{name}\"\nfile = \"{file}\"\nup_axis = \"z\"\n{from}").unwrap();
-        writeln!(text, "[scene.plan]\nmode = {{ kind = \"keyframes\", files = {poses:?} }}\n{keys}").unwrap();
-    }
-    fs::write(folder.join("dataset.toml"), text).unwrap();
-    Config::read(&folder.join("dataset.toml"), &Overrides::default()).unwrap()
-}
-
-const ONE: &[&str] = &["one.json"];
+/// Files of poses.
 const TWO: &[&str] = &["one.json", "two.json"];
-
-/// The content of every file but the lock.
-fn files(root: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let (mut found, mut folders) = (BTreeMap::new(), vec![root.to_path_buf()]);
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.file_name().unwrap() != "lock" {
-                found.insert(path.strip_prefix(root).unwrap().to_path_buf(), fs::read(&path).unwrap());
-            }
-        }
-    }
-    found
-}
-
-fn failures(summary: &Summary) -> Vec<&str> {
-    summary.scenes.iter().filter_map(|scene| scene.failure.as_ref()).map(|failure| failure.message.as_str()).collect()
-}
 
 #[test]
 fn frames_count_for_the_poses_and_the_scene_alone_that_they_were_taken_of() {
@@ -219,96 +162,6 @@ fn reports_of_an_earlier_plan_do_not_outlive_it() {
     estimate(&config(folder.path(), &[("a", "room.obj", ONE, rig)]), &out, None, &Silent).unwrap();
     assert_eq!(Dataset::open(&out).unwrap().cameras("a").unwrap(), ["cam_00", "cam_01"]);
     assert_eq!(reports(), [true, false], "a rig's report is its left camera's");
-}
-
-/// Runs `config` over files of `out` after each of them was changed by `damage`: then they are as they were, and no frame is rendered.
-fn assert_healed(config: &Config, out: &Path, paths: &[PathBuf], damage: impl Fn(&mut Vec<u8>)) {
-    let color = Dataset::open(out).unwrap().layout().layer("a", "cam_00", 0, Layer::Color);
-    let rendered = fs::metadata(&color).unwrap().modified().unwrap();
-    for path in paths {
-        let whole = fs::read(path).unwrap();
-        let mut bytes = whole.clone();
-        damage(&mut bytes);
-        assert_ne!(bytes, whole);
-        fs::write(path, bytes).unwrap();
-        let summary = run(config, out, None, &Silent).unwrap();
-        assert!(summary.ok(), "{}: {:?}", path.display(), failures(&summary));
-        assert!(fs::read(path).unwrap() == whole, "{} was not made again", path.display());
-        assert_eq!(fs::metadata(&color).unwrap().modified().unwrap(), rendered, "{} cost a frame", path.display());
-    }
-    assert!(run(config, out, None, &Silent).unwrap().nothing_done());
-}
-
-/// A dataset of scene a with one camera, and the files of its stages before rendering.
-fn dataset_of_one(folder: &Path, out: &Path) -> (Config, Dataset, Vec<PathBuf>) {
-    let config = config(folder, &[("a", "room.obj", ONE, "")]);
-    let summary = run(&config, out, None, &Silent).unwrap();
-    assert!(summary.ok(), "{:?}", failures(&summary));
-    let dataset = Dataset::open(out).unwrap();
-    let layout = dataset.layout();
-    let of_plan = [layout.keyframes("a", "cam_00", "positions"), layout.cameras_opencv("a", "cam_00"), layout.metadata_cameras("a")];
-    let of_others =
-        [out.join(".enfilade/a/starts.json"), layout.octomap("a"), layout.camera_parameters(), layout.view_gates("a", "cam_00")];
-    let tables = ["mesh_vertices.hdf5", "mesh_objects_si.hdf5"].map(|file| layout.mesh_file("a", file));
-    let boxes = dataset.box_files("a", BoxKind::ALL[0]);
-    let files = [of_plan.to_vec(), of_others.to_vec(), tables.to_vec(), boxes[..1].to_vec(), vec![layout.metadata_scene("a")]].concat();
-    (config, dataset, files)
-}
-
-#[test]
-fn files_that_were_changed_in_one_bit_are_made_again_and_cost_no_frame() {
-    let (folder, out) = place();
-    let (config, _, files) = dataset_of_one(folder.path(), &out);
-    // Of tables the last digit, so that they can still be read.
-    let change = |bytes: &mut Vec<u8>| match bytes.iter().rposition(u8::is_ascii_digit) {
-        Some(digit) if bytes.is_ascii() => bytes[digit] ^= 1,
-        _ => *bytes.last_mut().unwrap() ^= 1,
-    };
-    assert_healed(&config, &out, &files, change);
-}
-
-#[test]
-fn files_that_were_overwritten_or_emptied_are_made_again_and_cost_no_frame() {
-    let (folder, out) = place();
-    let (config, _, mut files) = dataset_of_one(folder.path(), &out);
-    files.push(out.join(".enfilade/a/scene.scene"));
-    assert_healed(&config, &out, &files, |bytes| bytes.fill(b'x'));
-    assert_healed(&config, &out, &files[..7], Vec::clear);
-}
-
-#[test]
-fn frames_and_labels_whose_records_are_damaged_are_made_again() {
-    let (folder, out) = place();
-    let (config, dataset, _) = dataset_of_one(folder.path(), &out);
-    let layout = dataset.layout();
-    for path in [layout.frame_record("a", "cam_00", 1), layout.label_record("a", "cam_00", 1)] {
-        let whole = fs::read_to_string(&path).unwrap();
-        let other_length = whole.replacen("\"bytes\": ", "\"bytes\": 9", 1).replacen("  ", " ", 1);
-        assert_eq!(other_length.len(), whole.len());
-        for damaged in ["x".repeat(whole.len()), other_length] {
-            fs::write(&path, damaged).unwrap();
-            let summary = run(&config, &out, None, &Silent).unwrap();
-            assert!(summary.ok(), "{}: {:?}", path.display(), failures(&summary));
-            assert_eq!(fs::read_to_string(&path).unwrap(), whole);
-        }
-    }
-    assert!(run(&config, &out, None, &Silent).unwrap().nothing_done());
-}
-
-#[test]
-fn a_replay_warns_of_layers_that_were_changed_since() {
-    let (folder, out) = place();
-    let (_, dataset, _) = dataset_of_one(folder.path(), &out);
-    let layout = dataset.layout();
-    let warnings = || {
-        let heard = Heard::default();
-        assert!(replay(&layout.frame_record("a", "cam_00", 0), None, &heard).unwrap().is_same());
-        heard.lines()
-    };
-    assert!(warnings().is_empty());
-    fs::write(layout.layer("a", "cam_00", 0, Layer::Color), "").unwrap();
-    let told = warnings();
-    assert!(told.len() == 1 && told[0].contains("frame.0000.color.hdf5"), "{told:?}");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use gltf::json::validation::Checked;
 pub(super) const MAX_ZEROS: u64 = 1 << 22;
 
 impl Document {
-    /// The elements of an accessor of vectors of `N` components, as floats (normalized integers mapped to [0,1] or [−1,1]).
+    /// The elements of an accessor of vectors of `N` components, or of 4×4 matrices column by column, as floats (normalized integers mapped to [0,1] or [−1,1]).
     ///
     /// # Errors
     /// What is wrong with the accessor, as the rest of a sentence.
@@ -41,7 +41,8 @@ impl Document {
             Checked::Valid(Type::Vec2) => 2,
             Checked::Valid(Type::Vec3) => 3,
             Checked::Valid(Type::Vec4) => 4,
-            _ => return Err(format!("{name} holds matrices or an unknown type, expected {per_element} components")),
+            Checked::Valid(Type::Mat4) => 16,
+            _ => return Err(format!("{name} holds small matrices or an unknown type, expected {per_element} components")),
         };
         if found != per_element {
             return Err(format!("{name} holds {found} components an element, expected {per_element}"));

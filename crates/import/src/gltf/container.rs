@@ -8,13 +8,14 @@ use gltf::json::{Root, buffer, image};
 use std::cell::Cell;
 
 /// Extensions that an importer may be required to understand and that this one does.
-pub(super) const SUPPORTED: [&str; 15] = [
+pub(super) const SUPPORTED: [&str; 16] = [
     "EXT_lights_ies",
     "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_sheen",
     "KHR_materials_specular",
     "KHR_materials_transmission",

@@ -1,17 +1,18 @@
 //! glTF materials to [`Material`].
 
 use super::container::{Document, ImageAt};
+use super::gloss;
+use super::materials::Known;
 use crate::ImportError;
 use crate::assembly::{Assembly, Source};
 use crate::images::{self, Use};
 use enfilade_math::Rgb;
-use enfilade_scene::{Alpha, Bsdf, ColorParam, Filter, Material, NormalMap, Principled, ScalarParam, TextureRef, Wrap};
+use enfilade_scene::{Bsdf, ColorParam, Filter, Material, NormalMap, Principled, ScalarParam, TextureRef, Wrap};
 use gltf::json::extensions::texture::TextureTransform;
 use gltf::json::material::{AlphaMode, Material as Json, NormalTexture};
 use gltf::json::texture::{Info, MagFilter, WrappingMode};
 use gltf::json::validation::Checked;
 use serde_json::Value;
-use std::collections::HashMap;
 
 /// Attenuation colours below this count as this: a perfectly black one would absorb without limit.
 const DARKEST_ATTENUATION: f32 = 1e-4;
@@ -27,51 +28,17 @@ const LAYER_TEXTURES: [(&str, &str); 4] = [
     ("KHR_materials_sheen", "sheenRoughnessTexture"),
 ];
 
-/// The materials met so far: scene index and texture coordinate set of each.
-#[derive(Default)]
-pub(super) struct Materials {
-    known: HashMap<Option<usize>, (u32, u32)>,
-}
-
-impl Materials {
-    /// Scene index and texture coordinate set of material `index`; `None` is glTF's default material.
-    pub(super) fn get(
-        &mut self,
-        document: &Document,
-        index: Option<usize>,
-        place: &str,
-        a: &mut Assembly,
-    ) -> Result<(u32, u32), ImportError> {
-        if let Some(&known) = self.known.get(&index) {
-            return Ok(known);
-        }
-        let materials = &document.root.materials;
-        let default = Json::default();
-        let json = match index {
-            Some(i) => materials
-                .get(i)
-                .ok_or_else(|| a.malformed(place, format!("it refers to material {i}, but there are only {}", materials.len())))?,
-            None => {
-                a.warn(place, "no material; glTF's default, a rough white metal, was used");
-                &default
-            }
-        };
-        let fallback = || index.map_or("default".to_string(), |i| format!("material_{i}"));
-        let name = json.name.clone().filter(|n| !n.trim().is_empty()).unwrap_or_else(fallback);
-        let uv_set = uv_set(json, &name, a);
-        let material = Converter { document, user: format!("material {name:?}"), a }.material(name, json)?;
-        let known = (a.push_material(material), uv_set);
-        self.known.insert(index, known);
-        Ok(known)
-    }
-}
-
 /// The texture coordinate set that a material uses: its base colour's, or that of the first other texture.
-fn uv_set(json: &Json, name: &str, a: &mut Assembly) -> u32 {
+pub(super) fn uv_set(json: &Json, name: &str, a: &mut Assembly) -> u32 {
     let set = |info: &Info| transform_of(info).and_then(|t| t.tex_coord).unwrap_or(info.tex_coord);
     let pbr = &json.pbr_metallic_roughness;
-    let infos = [pbr.base_color_texture.as_ref(), pbr.metallic_roughness_texture.as_ref(), json.emissive_texture.as_ref()];
-    let mut sets: Vec<u32> = infos.into_iter().flatten().map(set).collect();
+    let gloss = json.extensions.as_ref().and_then(|e| e.pbr_specular_glossiness.as_ref());
+    let surface = match gloss {
+        Some(gloss) => [gloss.diffuse_texture.as_ref(), gloss.specular_glossiness_texture.as_ref()],
+        None => [pbr.base_color_texture.as_ref(), pbr.metallic_roughness_texture.as_ref()],
+    };
+    let infos = surface.into_iter().chain([json.emissive_texture.as_ref()]);
+    let mut sets: Vec<u32> = infos.flatten().map(set).collect();
     sets.extend(json.normal_texture.as_ref().map(|n| transform_of_normal(n).and_then(|t| t.tex_coord).unwrap_or(n.tex_coord)));
     if let Some(ext) = &json.extensions {
         let transmission = ext.transmission.as_ref().and_then(|t| t.transmission_texture.as_ref());
@@ -101,24 +68,34 @@ fn layer_texture(extension: &Value, key: &str) -> Option<Info> {
     serde_json::from_value(extension.get(key)?.clone()).ok()
 }
 
-struct Converter<'c, 'a> {
-    document: &'c Document,
-    user: String,
-    a: &'c mut Assembly<'a>,
+/// What reads one material.
+pub(super) struct Converter<'c, 'a> {
+    pub(super) document: &'c Document,
+    pub(super) user: String,
+    pub(super) made: &'c mut gloss::Pictures,
+    pub(super) a: &'c mut Assembly<'a>,
 }
 
 impl Converter<'_, '_> {
-    fn material(&mut self, name: String, json: &Json) -> Result<Material, ImportError> {
+    /// The material, but for its index and its coordinate set.
+    pub(super) fn material(&mut self, name: String, json: &Json) -> Result<Known, ImportError> {
         let pbr = &json.pbr_metallic_roughness;
-        let [r, g, b, opacity] = pbr.base_color_factor.0;
-        let base_texture = pbr.base_color_texture.as_ref();
+        let gloss = json.extensions.as_ref().and_then(|e| e.pbr_specular_glossiness.as_ref());
+        let ([r, g, b, opacity], base_texture) = match gloss {
+            Some(gloss) => (gloss.diffuse_factor.0, gloss.diffuse_texture.as_ref()),
+            None => (pbr.base_color_factor.0, pbr.base_color_texture.as_ref()),
+        };
         let base_color = self.color(Rgb::new(r, g, b), base_texture, 0.5)?;
         let unlit = json.extensions.as_ref().is_some_and(|e| e.unlit.is_some());
         let bsdf = if unlit {
             self.warn("unlit material; treated as a diffuse surface of its colour");
             Bsdf::Diffuse { reflectance: base_color }
         } else {
-            Bsdf::Principled(Box::new(self.principled(json, base_color)?))
+            let p = self.principled(json, base_color)?;
+            match gloss {
+                Some(gloss) => self.glossy(gloss, p)?,
+                None => Bsdf::Principled(Box::new(p)),
+            }
         };
         let strength = json.extensions.as_ref().and_then(|e| e.emissive_strength.as_ref()).map_or(1.0, |s| s.emissive_strength.0);
         let emission_factor = Rgb::from(json.emissive_factor.0) * strength;
@@ -126,25 +103,29 @@ impl Converter<'_, '_> {
             true => Rgb::BLACK.into(),
             false => self.color(emission_factor, json.emissive_texture.as_ref(), 0.0)?,
         };
-        let alpha = self.alpha(json, opacity, base_color.texture);
+        let has_color = !matches!(&bsdf, Bsdf::Principled(p) if gloss.is_some() && p.metallic.factor == 1.0);
+        let cut_out = base_color.texture.filter(|t| !images::is_opaque(self.a.image_at(t.image)));
+        let opacity = ScalarParam { factor: opacity, texture: cut_out.map(|t| (t, 3)) };
+        let alpha_mode = if let Checked::Valid(mode) = json.alpha_mode { mode } else { AlphaMode::Opaque };
         let normal_map = self.normal_map(json)?;
         if json.occlusion_texture.is_some() {
             self.warn("occlusion texture dropped: light transport computes occlusion");
         }
         // A single-sided surface is one that viewers may leave out from behind. Light transport cannot: the back scatters as the front
         // does, or rooms modelled as shells would be black outside-in.
-        Ok(Material { name, bsdf, emission, two_sided: true, emits_both_sides: json.double_sided, alpha, normal_map })
+        let material = Material { emission, emits_both_sides: json.double_sided, normal_map, ..Material::new(name, bsdf) };
+        let cutoff = json.alpha_cutoff.map_or(0.5, |c| c.0);
+        Ok(Known { index: None, material, uv_set: 0, opacity, alpha_mode, cutoff, has_color })
     }
 
     fn principled(&mut self, json: &Json, base_color: ColorParam) -> Result<Principled, ImportError> {
         let pbr = &json.pbr_metallic_roughness;
         let rough = pbr.metallic_roughness_texture.as_ref();
-        let mut p = Principled {
-            base_color,
-            metallic: self.scalar(pbr.metallic_factor.0, rough, 2, 0.0)?,
-            roughness: self.scalar(pbr.roughness_factor.0, rough, 1, 0.6)?,
-            ..Principled::default()
-        };
+        let mut p = Principled { base_color, ..Principled::default() };
+        if json.extensions.as_ref().is_none_or(|e| e.pbr_specular_glossiness.is_none()) {
+            p.metallic = self.scalar(pbr.metallic_factor.0, rough, 2, 0.0)?;
+            p.roughness = self.scalar(pbr.roughness_factor.0, rough, 1, 0.6)?;
+        }
         let Some(ext) = &json.extensions else { return Ok(p) };
         if let Some(ior) = &ext.ior {
             p.ior = match ior.ior.0 {
@@ -210,17 +191,6 @@ impl Converter<'_, '_> {
         Ok(())
     }
 
-    fn alpha(&self, json: &Json, factor: f32, texture: Option<TextureRef>) -> Alpha {
-        let texture = texture.filter(|t| !images::is_opaque(self.a.image_at(t.image)));
-        let opacity = ScalarParam { factor, texture: texture.map(|t| (t, 3)) };
-        let transparent = factor < 1.0 || texture.is_some();
-        match json.alpha_mode {
-            Checked::Valid(AlphaMode::Mask) if transparent => Alpha::Mask { opacity, cutoff: json.alpha_cutoff.map_or(0.5, |c| c.0) },
-            Checked::Valid(AlphaMode::Blend) if transparent => Alpha::Blend { opacity },
-            _ => Alpha::Opaque,
-        }
-    }
-
     fn normal_map(&mut self, json: &Json) -> Result<Option<NormalMap>, ImportError> {
         let Some(normal) = &json.normal_texture else { return Ok(None) };
         let transform = transform_of_normal(normal);
@@ -232,7 +202,7 @@ impl Converter<'_, '_> {
     }
 
     /// A colour; `stand_in` multiplies the factor when the texture is missing and that is allowed.
-    fn color(&mut self, factor: Rgb, info: Option<&Info>, stand_in: f32) -> Result<ColorParam, ImportError> {
+    pub(super) fn color(&mut self, factor: Rgb, info: Option<&Info>, stand_in: f32) -> Result<ColorParam, ImportError> {
         let Some(info) = info else { return Ok(factor.into()) };
         let texture = self.texture(info.index.value(), transform_of(info), Use::Color)?;
         Ok(ColorParam { factor: if texture.is_some() { factor } else { factor * stand_in }, texture })
@@ -279,7 +249,7 @@ impl Converter<'_, '_> {
         }))
     }
 
-    fn warn(&mut self, message: impl Into<String>) {
+    pub(super) fn warn(&mut self, message: impl Into<String>) {
         let user = self.user.clone();
         self.a.warn(user, message);
     }

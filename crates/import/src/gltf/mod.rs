@@ -8,11 +8,14 @@
 //! | accessors | all component types, normalized integers, sparse ones, strides; `KHR_mesh_quantization` |
 //! | buffers | files, data URIs, the binary chunk; Draco and meshopt compression are an error |
 //! | pictures | PNG, JPEG and all that [`crate`] decodes, from files, data URIs and buffer views; sampler wrapping and magnification filter |
-//! | materials | metallic-roughness to `Bsdf::Principled`; base colour, metallic-roughness, normal and emissive textures; alpha modes; surfaces scatter on both sides, and emit on both when they are double-sided. The occlusion texture is dropped, because light transport computes occlusion |
+//! | materials | metallic-roughness to `Bsdf::Principled`; base colour, metallic-roughness, normal and emissive textures; alpha modes; surfaces scatter on both sides, and emit on both when they are double-sided; `KHR_materials_pbrSpecularGlossiness` (see `gloss.rs`). The occlusion texture is dropped, because light transport computes occlusion |
 //! | extensions | `KHR_materials_emissive_strength`, `_ior`, `_transmission`, `_volume`, `_specular`, `_clearcoat` (but its normal map), `_sheen`, `_unlit` (as a diffuse surface of that colour); `KHR_texture_transform`; `KHR_lights_punctual` (candela as W/sr, lux as W/m²; divided by 683 where Blender has multiplied them, see `light.rs`); `EXT_lights_ies` (the same; type C); `EXT_mesh_gpu_instancing` (a part per instance); `KHR_node_visibility` (what is invisible is left out); `KHR_materials_variants` (the default materials) |
 //! | texture coordinates | one set per primitive: that of the base colour, or of the first texture there is |
 //! | cameras | perspective; orthographic ones are dropped |
-//! | dropped with a warning | vertex colours, skins, morph targets, animations, light ranges, other extensions |
+//! | `COLOR_0` | multiplies base colour and opacity; where it varies, its mean over the primitive, and the report says so |
+//! | skins | in the pose of the nodes; the transform of the node that bears the mesh does not count |
+//! | morph targets | by the weights of the node, else of the mesh |
+//! | dropped with a warning | further vertex colours, animations, light ranges, other extensions |
 //!
 //! A file that requires an extension outside this list is an error.
 //!
@@ -27,15 +30,21 @@
 //! scenes leave them, their environment map is used, and reported as guessed.
 
 mod accessor;
+mod color;
 mod container;
 mod environment;
+mod gloss;
 mod instancing;
 mod light;
 mod material;
+mod materials;
 mod mend;
+mod morph;
 mod node;
+mod parts;
 mod primitive;
 mod profile;
+mod skin;
 
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported};
@@ -54,10 +63,9 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
 /// Warns of whole features that the file uses and that have no counterpart here.
 fn report_dropped(document: &Document, assembly: &mut Assembly) {
     let root = &document.root;
-    for (count, what) in [(root.animations.len(), "animations"), (root.skins.len(), "skins")] {
-        if count > 0 {
-            assembly.warn(what, format!("{count} {what} dropped; parts stay in the pose of their nodes"));
-        }
+    if !root.animations.is_empty() {
+        let message = format!("{} animations dropped; parts stay in the pose of their nodes", root.animations.len());
+        assembly.warn("animations", message);
     }
     if root.extensions_used.iter().any(|e| e == "KHR_materials_variants") {
         assembly.warn("extensions.KHR_materials_variants", "variants of materials dropped; every part has its default material");

@@ -1,14 +1,13 @@
 //! The node tree: parts, cameras and lights with their placements.
 
 use super::container::Document;
-use super::material::Materials;
-use super::{instancing, light, primitive, profile};
+use super::parts::{Parts, Stand};
+use super::{instancing, light, profile};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use enfilade_scene::{NYU40, PartLabel};
 use gltf::json::scene::Node;
-use std::collections::HashMap;
 
 /// Aspect of a camera that does not state one: that of the pictures this workspace makes by default.
 const DEFAULT_ASPECT: f64 = 4.0 / 3.0;
@@ -51,7 +50,7 @@ struct Visit {
 /// When a mesh or material cannot be read, or an index points at nothing.
 pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembly) -> Result<(), ImportError> {
     let nodes = &document.root.nodes;
-    let mut placer = Placer { document, materials: Materials::default(), meshes: HashMap::new() };
+    let mut placer = Placer { document, parts: Parts::new(document) };
     let visit = |file_from_parent, label| move |&node: &usize| Visit { node, file_from_parent, label };
     let mut stack: Vec<Visit> = roots.iter().rev().map(visit(DAffine3::IDENTITY, PartLabel::NONE)).collect();
     let mut seen = vec![false; nodes.len()];
@@ -76,14 +75,13 @@ pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembl
         let children: Vec<usize> = node.children.iter().flatten().map(|c| c.value()).collect();
         stack.extend(children.iter().rev().map(visit(file_from_node, label)));
     }
+    placer.parts.finish(assembly);
     Ok(())
 }
 
 struct Placer<'d> {
     document: &'d Document,
-    materials: Materials,
-    /// Scene mesh of (glTF mesh, primitive); `None` for those without a surface.
-    meshes: HashMap<(usize, usize), Option<u32>>,
+    parts: Parts<'d>,
 }
 
 impl Placer<'_> {
@@ -95,7 +93,7 @@ impl Placer<'_> {
                 Some(extension) => instancing::places(self.document, extension, index, file_from_node, a)?,
                 None => vec![file_from_node],
             };
-            self.mesh(mesh.value(), index, name.as_deref(), &places, label, a)?;
+            self.parts.add(mesh.value(), &Stand { node, index, name: name.as_deref(), label }, &places, a)?;
         }
         if let Some(camera) = node.camera {
             let camera = self.document.root.cameras.get(camera.value());
@@ -122,45 +120,6 @@ impl Placer<'_> {
         }
         Ok(())
     }
-
-    /// Adds a mesh of the file at every one of `places`.
-    fn mesh(
-        &mut self,
-        mesh: usize,
-        node: usize,
-        name: Option<&str>,
-        places: &[DAffine3],
-        label: PartLabel,
-        a: &mut Assembly,
-    ) -> Result<(), ImportError> {
-        let meshes = &self.document.root.meshes;
-        let Some(json) = meshes.get(mesh) else {
-            return Err(a.malformed(format!("nodes[{node}]"), format!("it refers to mesh {mesh}, but there are only {}", meshes.len())));
-        };
-        let mesh_name = json.name.as_deref().filter(|n| !n.trim().is_empty());
-        let name = name.or(mesh_name).map_or_else(|| format!("node_{node}"), str::to_string);
-        for (i, primitive) in json.primitives.iter().enumerate() {
-            let place = format!("meshes[{mesh}].primitives[{i}]");
-            let (material, uv_set) = self.materials.get(self.document, primitive.material.map(|m| m.value()), &place, a)?;
-            let index = match self.meshes.get(&(mesh, i)) {
-                Some(&known) => known,
-                None => {
-                    let built = primitive::mesh(self.document, primitive, uv_set, &place, a)?;
-                    let file = a.file().to_path_buf();
-                    let index = built.map(|m| a.push_mesh(m, &file, &place)).transpose()?.flatten();
-                    self.meshes.insert((mesh, i), index);
-                    index
-                }
-            };
-            if let Some(index) = index {
-                let part = if json.primitives.len() > 1 { format!("{name}.{i}") } else { name.clone() };
-                for &file_from_mesh in places {
-                    a.push_part(&part, index, material, file_from_mesh, label);
-                }
-            }
-        }
-        Ok(())
-    }
 }
 
 /// True for nodes that are not to be shown.
@@ -170,7 +129,7 @@ fn is_invisible(node: &Node) -> bool {
 }
 
 /// The node's own transform: its matrix, or translation, rotation and scale.
-fn local_transform(node: &Node) -> DAffine3 {
+pub(super) fn local_transform(node: &Node) -> DAffine3 {
     if let Some(m) = node.matrix {
         let column = |i: usize| DVec3::new(f64::from(m[i]), f64::from(m[i + 1]), f64::from(m[i + 2]));
         return DAffine3::from_mat3_translation(DMat3::from_cols(column(0), column(4), column(8)), column(12));

@@ -1,18 +1,28 @@
 //! Primitives to triangle meshes.
 
 use super::container::Document;
+use super::{morph, skin};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_geometry::Mesh;
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{DAffine3, Vec2, Vec3};
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
+
+/// What moves the vertices of a primitive.
+pub(super) struct Pose<'p> {
+    /// Of morph targets.
+    pub weights: &'p [f32],
+    /// Of its skin, if it has one.
+    pub joints: Option<&'p [DAffine3]>,
+}
 
 /// The mesh of a primitive with texture coordinate set `uv_set`; `None` for what has no surface.
 pub(super) fn mesh(
     document: &Document,
     primitive: &Primitive,
     uv_set: u32,
+    pose: &Pose,
     place: &str,
     assembly: &mut Assembly,
 ) -> Result<Option<Mesh>, ImportError> {
@@ -25,7 +35,6 @@ pub(super) fn mesh(
         assembly.warn(place, "points and lines have no surface and were left out");
         return Ok(None);
     }
-    report_dropped(primitive, place, assembly);
     let attribute = |semantic: Semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
     let bad = |what: &str, problem: String| assembly.malformed(format!("{place}.{what}"), problem);
     let Some(positions) = attribute(Semantic::Positions) else { return Err(bad("attributes", "there is no POSITION".into())) };
@@ -37,21 +46,20 @@ pub(super) fn mesh(
         Some(accessor) => document.indices(accessor).map_err(|e| bad("indices", e))?,
         None => (0..positions.len() as u32).collect(),
     };
-    Ok(Some(Mesh {
+    let mut mesh = Mesh {
         positions: positions.into_iter().map(Vec3::from).collect(),
         normals: normals.unwrap_or_default().into_iter().map(Vec3::from).collect(),
         uvs: uvs.unwrap_or_default().into_iter().map(|[u, v]| Vec2::new(u, 1.0 - v)).collect(),
         triangles: triangles(mode, &indices),
-    }))
-}
-
-fn report_dropped(primitive: &Primitive, place: &str, assembly: &mut Assembly) {
-    if primitive.attributes.keys().any(|k| matches!(k, Checked::Valid(Semantic::Colors(_)))) {
-        assembly.warn(place, "vertex colours dropped");
+    };
+    morph::apply(document, primitive, pose.weights, &mut mesh.positions, &mut mesh.normals).map_err(|(what, e)| bad(&what, e))?;
+    if let Some(joints) = pose.joints {
+        let unweighted = skin::apply(document, primitive, joints, &mut mesh).map_err(|(what, e)| bad(&what, e))?;
+        if unweighted > 0 {
+            assembly.warn(place, format!("{unweighted} vertices have no weights; they follow the first joint they name"));
+        }
     }
-    if primitive.targets.as_ref().is_some_and(|t| !t.is_empty()) {
-        assembly.warn(place, "morph targets dropped; the mesh keeps its base shape");
-    }
+    Ok(Some(mesh))
 }
 
 /// Triangles of a list, strip or fan; those of strips and fans with a repeated vertex only steer the strip and are left out.

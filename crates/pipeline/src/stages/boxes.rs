@@ -34,12 +34,12 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let labels = job.dataset.read_label_tables(name).map_err(Error::stage)?;
     let (mut outputs, boxed) = write_boxes(job.dataset, name, &scene, &labels).map_err(Error::stage)?;
     let (mut frames, mut seen) = (0, Vec::new());
-    for (_, trajectory) in job.filmed()? {
-        let rendered = job.frames_of(&trajectory)?;
+    for (_, trajectory) in job.filmed()?.iter() {
+        let rendered = job.frames_of(trajectory)?;
         let views = |&frame: &u32| Ok(made::views(job, &trajectory.name, frame)?.map(|views| (frame, views)));
         let made: BTreeMap<_, _> = rendered.iter().filter_map(|frame| views(frame).transpose()).collect::<Result<_, Error>>()?;
         frames += rendered.len();
-        seen.push((trajectory.name, rendered, made));
+        seen.push((trajectory.name.clone(), rendered, made));
     }
     // Where nodes have seen all frames, solids are not asked for.
     let needed = seen.iter().any(|(_, rendered, made)| made.len() < rendered.len());

@@ -32,7 +32,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let filmed = job.filmed()?;
     let total: usize = filmed.iter().map(|(_, trajectory)| trajectory.poses.len()).sum();
     let (mut judged, mut outputs): (Vec<Judged>, Vec<PathBuf>) = (Vec::new(), Vec::new());
-    for (camera, trajectory) in &filmed {
+    for (camera, trajectory) in filmed.iter() {
         let first = judged.len();
         for (index, pose) in trajectory.poses.iter().enumerate() {
             let view = CameraView::of_frame(camera, &trajectory.poses, index);

@@ -6,7 +6,7 @@ use crate::config::{FileSource, Source};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, write_json, write_whole};
-use enfilade_dataset::FrameRecord;
+use enfilade_dataset::{ANNOTATION_LOG, FrameRecord};
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, ImportOptions, ImportedLabel};
 use enfilade_scene::{Cx, Labels, PartLabel, Scene, WorldMesh};
@@ -16,8 +16,20 @@ use std::time::SystemTime;
 /// Labels that came with the scene, in the work folder.
 pub(super) const LABELS: &str = "labels.json";
 /// Files of the mesh folder that no annotation changes.
-const GEOMETRY: [&str; 6] =
-    ["mesh_vertices.hdf5", "mesh_normals.hdf5", "mesh_texcoords.hdf5", "mesh_faces_vi.hdf5", "mesh_faces_vni.hdf5", "mesh_faces_vti.hdf5"];
+const GEOMETRY: [&str; 10] = [
+    "mesh_vertices.hdf5",
+    "mesh_normals.hdf5",
+    "mesh_texcoords.hdf5",
+    "mesh_faces_vi.hdf5",
+    "mesh_faces_vni.hdf5",
+    "mesh_faces_vti.hdf5",
+    "mesh_faces_gi.hdf5",
+    "mesh_faces_mi.hdf5",
+    "metadata_groups.csv",
+    "metadata_materials.csv",
+];
+/// Those that `enfilade annotate` writes anew where people split parts.
+const OBJECTS: [&str; 2] = ["mesh_faces_oi.hdf5", "metadata_objects.csv"];
 
 pub(super) fn settings(job: &Job) -> Hash {
     match &job.scene.source {
@@ -77,8 +89,13 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     job.forget_scene();
     let layout = job.dataset.layout();
     let mut outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
-    outputs.extend(GEOMETRY.map(|file| layout.mesh_file(name, file)));
+    outputs.extend(GEOMETRY.iter().chain(&OBJECTS).map(|file| layout.mesh_file(name, file)));
     Ok(Outcome { summary: describe(&scene), outputs, inputs, report })
+}
+
+/// Whether a file that importing wrote may be another by now, because people annotated the scene.
+pub(super) fn is_annotated(job: &Job, path: &Path) -> bool {
+    OBJECTS.iter().any(|name| path.ends_with(name)) && job.dataset.mesh_files(&job.scene.name).file(ANNOTATION_LOG).is_file()
 }
 
 /// Pictures of another scene would be taken for pictures of this one, whose parts may have other numbers. `bytes` are those of the package

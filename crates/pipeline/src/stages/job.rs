@@ -27,7 +27,11 @@ pub(crate) struct Job<'a> {
 struct Loaded {
     scene: Option<Arc<Scene>>,
     world: Option<Arc<World>>,
+    filmed: Option<Filmed>,
 }
+
+/// Trajectories and what each is filmed with.
+pub(crate) type Filmed = Arc<Vec<(Camera, Trajectory)>>;
 
 /// Numbers of frames by the names of their trajectories.
 pub(crate) type FramesByTrajectory = BTreeMap<String, BTreeSet<u32>>;
@@ -104,8 +108,21 @@ impl<'a> Job<'a> {
         self.dataset.cameras(name).or_else(|_| self.dataset.cameras_by_files(name)).map_err(Error::stage)
     }
 
-    /// The planned trajectories and what each is filmed with.
-    pub fn filmed(&self) -> Result<Vec<(Camera, Trajectory)>, Error> {
+    /// The planned trajectories and what each is filmed with, read once per run.
+    pub fn filmed(&self) -> Result<Filmed, Error> {
+        let mut loaded = self.loaded.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(filmed) = &loaded.filmed {
+            return Ok(filmed.clone());
+        }
+        Ok(loaded.filmed.insert(Arc::new(self.read_filmed()?)).clone())
+    }
+
+    /// Forgets what was read of trajectories, because they are planned anew.
+    pub fn forget_filmed(&self) {
+        self.loaded.lock().unwrap_or_else(PoisonError::into_inner).filmed = None;
+    }
+
+    fn read_filmed(&self) -> Result<Vec<(Camera, Trajectory)>, Error> {
         let name = &self.scene.name;
         if !self.dataset.layout().metadata_cameras(name).is_file() {
             return Err(self.run_first(Stage::Plan));
@@ -119,8 +136,8 @@ impl<'a> Job<'a> {
     /// Every frame that is rendered, by camera name.
     pub fn frames(&self) -> Result<Vec<(String, u32)>, Error> {
         let mut frames = Vec::new();
-        for (_, trajectory) in self.filmed()? {
-            frames.extend(self.frames_of(&trajectory)?.into_iter().map(|frame| (trajectory.name.clone(), frame)));
+        for (_, trajectory) in self.filmed()?.iter() {
+            frames.extend(self.frames_of(trajectory)?.into_iter().map(|frame| (trajectory.name.clone(), frame)));
         }
         Ok(frames)
     }
@@ -176,6 +193,13 @@ impl<'a> Job<'a> {
     fn run_first(&self, stage: Stage) -> Error {
         let message = format!("the results of `{}` for scene {} are not there", stage.name(), self.scene.name);
         Error::scene(message, format!("run first: {}", self.command(stage)))
+    }
+
+    /// A file of an earlier stage is not what it wrote.
+    pub fn not_as_written(&self, stage: Stage, path: &Path) -> Error {
+        let (path, verb) = (path.display(), stage.name());
+        let message = format!("{path} is not as `{verb}` wrote it, and frames made by it would take the place of those that are finished");
+        Error::scene(message, format!("make it again, which keeps these: {}", self.command(stage)))
     }
 
     /// The command that makes the results of a stage anew, in words.

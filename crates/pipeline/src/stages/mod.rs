@@ -11,6 +11,7 @@ mod finisher;
 mod gate;
 mod import;
 mod job;
+mod kept;
 mod label;
 mod made;
 mod pilot;
@@ -236,7 +237,7 @@ pub(crate) struct Record {
 struct Output {
     path: PathBuf,
     bytes: u64,
-    /// Of files that [`is_read_later`]. Earlier versions did not note it.
+    /// Of those that [`is_noted`] names. Earlier versions did not note it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     content: Option<Hash>,
 }
@@ -265,17 +266,42 @@ pub(crate) fn is_up_to_date(spec: &StageSpec, job: &Job) -> Result<bool, Error> 
 
 /// Whether the stage ran with these settings and inputs, and what it wrote is there.
 fn holds(spec: &StageSpec, job: &Job, record: &Record, settings: &Hash, inputs: &[Input]) -> bool {
+    let is_there = |output: &Output| output.is_there(job) || (spec.stage == Stage::Import && import::is_annotated(job, &output.path));
     record.key == key(spec, settings, inputs)
-        && record.outputs.iter().all(|output| output.is_there(job))
+        && record.outputs.iter().all(is_there)
         && frames_are_whole(spec.stage, job)
-        // A table that scenes share, so its length tells nothing.
-        && (spec.stage != Stage::Plan || plan::listed(job).is_some_and(|row| record.listed.as_ref().is_none_or(|then| row == *then)))
+        && (spec.stage != Stage::Plan || is_listed(job, record))
 }
 
-/// Whether every frame has a record of the stage that can be read, and all files of that record in full length.
+/// Whether the scene's row of the table of cameras is as planning left it: scenes share that, so its length tells nothing.
+fn is_listed(job: &Job, record: &Record) -> bool {
+    plan::listed(job).is_some_and(|row| record.listed.as_ref().is_none_or(|then| row == *then))
+}
+
+/// Refuses inputs that are not as an earlier stage wrote them, where what is made of them would take the place of finished frames.
+fn refuse_damaged(spec: &StageSpec, job: &Job, inputs: &[Input]) -> Result<(), Error> {
+    if spec.stage > Stage::Render {
+        return Ok(());
+    }
+    for earlier in &STAGES[..spec.stage as usize] {
+        let Some(record) = read_json::<Record>(&job.work_file(&format!("{}.json", earlier.name))?) else { continue };
+        let is_other = |path: &Path, content: &Hash| inputs.iter().any(|input| input.path == path && input.content != *content);
+        let noted = record.outputs.iter().filter_map(|output| Some((job.out().join(&output.path), output.content.as_ref()?)));
+        let mut damaged: Vec<PathBuf> = noted.filter(|(path, content)| is_other(path, content)).map(|(path, _)| path).collect();
+        if earlier.stage == Stage::Plan && !is_listed(job, &record) {
+            damaged.push(job.dataset.camera_table());
+        }
+        if let Some(path) = damaged.first() {
+            return Err(job.not_as_written(earlier.stage, path));
+        }
+    }
+    Ok(())
+}
+
+/// Whether every frame has a record of the stage that can be read and is about this frame, and all files of that record in full length.
 fn frames_are_whole(stage: Stage, job: &Job) -> bool {
     let pass = match stage {
-        Stage::Render => Pass::Final,
+        Stage::Render => return render::frames_are_taken(job).unwrap_or(false),
         Stage::Denoise if job.scene.denoise => Pass::Denoised,
         Stage::Label => Pass::Label,
         _ => return true,
@@ -297,6 +323,7 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, ready: impl FnOnce() -> Resul
         let warnings = record.warnings.len();
         return Ok(StageOutcome { stage: spec.stage, up_to_date: true, summary: record.summary.clone(), warnings, wall_s: 0.0 });
     }
+    refuse_damaged(spec, job, inputs.as_deref().unwrap_or_default())?;
     ready()?;
     cx.event(Event::Started);
     let time = Stopwatch::start();
@@ -308,7 +335,7 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, ready: impl FnOnce() -> Resul
     let outcome = (spec.run)(job, &cx)?;
     let inputs = outcome.inputs.or(inputs).unwrap_or_default();
     let noted = |path: &PathBuf| {
-        let content = is_read_later(spec.stage, path).then(|| Hash::of_file(path)).transpose()?;
+        let content = is_noted(path).then(|| Hash::of_file(path)).transpose()?;
         Ok(Output { content, ..output(job, path)? })
     };
     let outputs = outcome.outputs.iter().map(noted).collect::<Result<_, Error>>()?;
@@ -336,11 +363,9 @@ fn key(spec: &StageSpec, settings: &Hash, inputs: &[Input]) -> Hash {
     Hash::of(&(env!("CARGO_PKG_VERSION"), spec.name, spec.version, settings, contents))
 }
 
-/// True for outputs that later stages take values from. Files of frames are too many bytes to be read in every run; they have checksums in
-/// their records.
-fn is_read_later(stage: Stage, path: &Path) -> bool {
-    let is_of_frame = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("frame."));
-    stage < Stage::Preview && !is_of_frame
+/// True for outputs whose content is noted. Files of frames are too many bytes to be read in every run; they have checksums in their records.
+fn is_noted(path: &Path) -> bool {
+    !path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("frame."))
 }
 
 fn is_there(path: &Path, bytes: u64) -> bool {

@@ -36,8 +36,8 @@ pub(crate) fn pilot(job: &Job, frames: &FramesByTrajectory, cx: &StageCx) -> Res
     cx.event(Event::Started);
     let time = Stopwatch::start();
     job.forget_world();
-    let mut filmed = job.filmed()?;
-    filmed.retain(|(_, trajectory)| frames.contains_key(&trajectory.name));
+    let planned = job.filmed()?;
+    let filmed: Vec<_> = planned.iter().filter(|(_, trajectory)| frames.contains_key(&trajectory.name)).collect();
     let scene = job.load_scene()?;
     let prepared = RenderScene::new(&scene, &Quiet).map_err(Error::stage)?;
     let scene_cpu_s = time.cpu_s();

@@ -1,18 +1,19 @@
 //! `plan`: free space to one trajectory per start camera.
 
 use super::job::World;
+use super::kept::{Plan, remove_other_frames};
 use super::{Input, Inputs, Job, Outcome, Record, Stage, carve, gate};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
 use crate::report::{StageCx, count, count_of};
 use crate::workdir::{Hash, remove_folder, remove_if_there, write_json};
-use enfilade_dataset::{FrameRecord, StereoRecord, StereoSide};
+use enfilade_dataset::{StereoRecord, StereoSide};
 use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, Preset, parse_keyframes};
 use enfilade_geometry::OccupancyTree;
 use enfilade_post::planview::remove_plan_preview;
 use enfilade_post::view_gates::GateAction;
 use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, Warning};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The four arrays of a trajectory.
@@ -69,8 +70,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     remove_plan_preview(job.dataset, name).map_err(Error::stage)?;
     gate::forget(job)?;
     remove_other_cameras(job, &trajectories)?;
-    for trajectory in &trajectories {
-        remove_other_frames(job, trajectory, &camera)?;
+    for (trajectory, stereo) in &filmed {
+        remove_other_frames(job, &Plan { trajectory, camera: &camera, stereo: stereo.as_ref() })?;
         remove_if_there(&job.dataset.layout().plan_report(name, &trajectory.name))?;
     }
     for (trajectory, stereo) in &filmed {
@@ -81,6 +82,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     }
     warn_of_frame_time(job, &camera, cx);
     write_camera_row(job, &camera, cx)?;
+    job.forget_filmed();
     let layout = job.dataset.layout();
     let mut outputs = outputs_of(job, &trajectories);
     outputs.push(layout.metadata_cameras(name));
@@ -270,7 +272,7 @@ fn rig(left: Trajectory, number: usize, baseline_m: f64) -> [(Trajectory, Option
 
 /// Every file that says where the cameras are, as inputs of later stages.
 pub(super) fn outputs(job: &Job) -> Result<Vec<Input>, Error> {
-    let trajectories: Vec<Trajectory> = job.filmed()?.into_iter().map(|(_, trajectory)| trajectory).collect();
+    let trajectories: Vec<Trajectory> = job.filmed()?.iter().map(|(_, trajectory)| trajectory.clone()).collect();
     let files = outputs_of(job, &trajectories).into_iter();
     files.map(|path| job.input_from(Stage::Plan, &path)).collect()
 }
@@ -286,17 +288,6 @@ fn outputs_of(job: &Job, trajectories: &[Trajectory]) -> Vec<PathBuf> {
 /// Names the scene's row among the cameras of the dataset as a whole; `None` where there is none, without which nothing can be filmed.
 pub(super) fn listed(job: &Job) -> Option<Hash> {
     job.dataset.read_camera_table().ok()?.cells(&job.scene.name).ok().map(|cells| Hash::of(&cells))
-}
-
-/// Pictures taken from elsewhere, or with another camera, would be taken for pictures of these poses. While a shutter is open, and where
-/// flow is asked for, a frame depends on the poses beside its own too.
-fn remove_other_frames(job: &Job, trajectory: &Trajectory, camera: &Camera) -> Result<(), Error> {
-    let name = &job.scene.name;
-    let is_alone = camera.shutter.is_none() && !job.scene.render.extra;
-    let stays = is_alone || job.dataset.read_trajectory(name, &trajectory.name).is_ok_and(|old| old == *trajectory);
-    let poses: BTreeMap<u32, &Pose> = trajectory.poses.iter().map(|pose| (pose.frame, pose)).collect();
-    let is_taken = |record: &FrameRecord| poses.get(&record.frame).is_some_and(|pose| record.is_taken(camera, pose));
-    job.dataset.retain_frames(name, &trajectory.name, |record| stays && is_taken(record)).map_err(Error::stage)
 }
 
 /// Cameras of an earlier plan that are not in this one would be taken for cameras of this dataset. Files tell of those whose removal was

@@ -5,7 +5,6 @@ use crate::error::Error;
 use crate::report::{Event, StageCx, Stopwatch, count, count_of};
 use enfilade_geometry::OccupancyTree;
 use enfilade_post::planview::{Planned, write_plan_preview};
-use enfilade_scene::{Camera, Trajectory};
 use std::path::PathBuf;
 
 /// Draws the trajectories of a scene and returns the page that shows them.
@@ -13,7 +12,7 @@ pub(crate) fn draw_plan(job: &Job, cx: &StageCx) -> Result<PathBuf, Error> {
     let time = Stopwatch::start();
     cx.event(Event::Started);
     let name = &job.scene.name;
-    let filmed: Vec<(Camera, Trajectory)> = job.filmed()?;
+    let filmed = job.filmed()?;
     let starts = carve::starts(job).unwrap_or_default();
     let (bt, _, _) = job.dataset.read_free_space(name).map_err(Error::stage)?;
     let tree = OccupancyTree::from_bt(&bt).map_err(Error::stage)?;

@@ -32,7 +32,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let mut outputs = Vec::new();
     let mut tables = Vec::new();
     let mut sheets = 0;
-    for (_, trajectory) in &filmed {
+    for (_, trajectory) in filmed.iter() {
         let frames: Vec<u32> = job.frames_of(trajectory)?.into_iter().collect();
         let shot = [name.as_str(), trajectory.name.as_str()];
         let (exposures, table) = expose_camera(job.dataset, name, &trajectory.name, &frames).map_err(Error::stage)?;

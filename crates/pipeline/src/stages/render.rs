@@ -9,7 +9,7 @@ use enfilade_dataset::{CameraRecord, FrameInfo, Recipe, StoppedBy};
 use enfilade_frame::{Frame, LAYERS, Pass};
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 pub(super) fn settings(job: &Job) -> Hash {
@@ -60,7 +60,7 @@ fn missing<'a>(job: &Job, filmed: &'a [(Camera, Trajectory)], wanted: &[BTreeSet
     let package = Input::of(&job.package()?)?.content;
     let mut missing = Vec::new();
     for ((camera, trajectory), wanted) in filmed.iter().zip(wanted) {
-        let config = RenderConfig { seed: job.scene.seed_for(&format!("render/{}", trajectory.name)), ..job.scene.render.clone() };
+        let config = settings_of(job, trajectory);
         let recipe = Recipe {
             program: program(),
             render_version: Stage::Render.spec().version,
@@ -86,6 +86,19 @@ fn missing<'a>(job: &Job, filmed: &'a [(Camera, Trajectory)], wanted: &[BTreeSet
     Ok(missing)
 }
 
+/// The settings that a trajectory is rendered with.
+fn settings_of(job: &Job, trajectory: &Trajectory) -> RenderConfig {
+    RenderConfig { seed: job.scene.seed_for(&format!("render/{}", trajectory.name)), ..job.scene.render.clone() }
+}
+
+/// The [`config_hash`] of every frame of a trajectory that was read from files.
+pub(super) fn config_hashes(job: &Job, camera: &Camera, trajectory: &Trajectory) -> Result<BTreeMap<u32, String>, Error> {
+    let package = Input::of(&job.package()?)?.content;
+    let config = settings_of(job, trajectory);
+    let hash = |pose: &Pose| (pose.frame, config_hash(&package, &config, job.scene.time_limit_s, camera, trajectory, pose));
+    Ok(trajectory.poses.iter().map(hash).collect())
+}
+
 /// What is to be rendered of a trajectory.
 struct Missing<'a> {
     camera: &'a Camera,
@@ -95,7 +108,22 @@ struct Missing<'a> {
 }
 
 fn is_complete(job: &Job, trajectory: &Trajectory, info: &FrameInfo) -> bool {
-    job.dataset.frame_is_complete(&job.scene.name, &trajectory.name, info.pose.frame, &info.config_hash)
+    let (name, of) = (&job.scene.name, &trajectory.name);
+    job.dataset.frame_is_complete(name, of, info.pose.frame, &info.config_hash)
+        && job.dataset.frame_is_taken(name, of, &info.camera, &info.pose)
+}
+
+/// Whether every frame is there, and was taken as its trajectory says.
+pub(super) fn frames_are_taken(job: &Job) -> Result<bool, Error> {
+    let name = &job.scene.name;
+    for (camera, trajectory) in job.filmed()?.iter() {
+        let wanted = job.frames_of(trajectory)?;
+        let mut poses = trajectory.poses.iter().filter(|pose| wanted.contains(&pose.frame));
+        if !poses.all(|pose| job.dataset.frame_is_taken(name, &trajectory.name, camera, pose)) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 /// Renders and writes the frames that are `missing`; `kept` of the `total` are there. Returns how many the time limit has ended.

@@ -26,7 +26,7 @@ use crate::picture::{jpeg, png};
 use crate::statistics::quantile;
 use contact::Thumbnail;
 use cut::{Cut, Look};
-use enfilade_dataset::{Dataset, DatasetError, write_bytes};
+use enfilade_dataset::{Dataset, DatasetError, remove_folder, write_bytes};
 use enfilade_geometry::{Bvh, OccupancyTree, Voxel};
 use enfilade_math::DVec3;
 use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, WorldMesh};
@@ -37,7 +37,7 @@ use measure::{FrameMeasures, Measuring};
 use rayon::prelude::*;
 pub(crate) use report::Report;
 use statistics::Distances;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// What was planned for a scene, and the scene as rays meet it.
 pub struct Planned<'a> {
@@ -118,15 +118,6 @@ pub fn remove_plan_preview(dataset: &Dataset, scene: &str) -> Result<(), Dataset
     let cameras = dataset.cameras(scene).unwrap_or_default();
     let views = cameras.iter().map(|camera| dataset.layout().plan_views_dir(scene, camera));
     views.chain([dataset.layout().plan_preview_dir(scene)]).try_for_each(|folder| remove_folder(&folder))
-}
-
-fn remove_folder(path: &Path) -> Result<(), DatasetError> {
-    match std::fs::remove_dir_all(path) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-            Err(DatasetError::Io { action: "remove", path: path.into(), source: error })
-        }
-        _ => Ok(()),
-    }
 }
 
 fn write_page(dataset: &Dataset, scene: &str, file: &str, bytes: Vec<u8>) -> Result<PathBuf, DatasetError> {

@@ -67,6 +67,8 @@ pub struct StatsConfig {
 pub struct StatsSummary {
     /// The page.
     pub page: PathBuf,
+    /// All files.
+    pub files: Vec<PathBuf>,
     /// Images counted.
     pub images: u64,
     /// Images that stand apart in some respect.
@@ -85,7 +87,7 @@ pub fn write_statistics(dataset: &Dataset, config: &StatsConfig, cx: &dyn Cx) ->
     let gathered = gather::gather(dataset, &config.scenes, cx)?;
     remove_older(&folder, config.folder.is_none())?;
     let costs = if config.prices.is_empty() { None } else { cost_tables::costs(dataset, &gathered.images, &config.prices)? };
-    toolkit::write_histograms(&folder.join(toolkit::FOLDER), &gathered.all)?;
+    let mut files = toolkit::write_histograms(&folder.join(toolkit::FOLDER), &gathered.all)?;
     let shown = plots(&gathered.all, reference.as_ref());
     let report = Report::new(gathered);
     let mut outliers = report.outliers.clone();
@@ -95,8 +97,10 @@ pub fn write_statistics(dataset: &Dataset, config: &StatsConfig, cx: &dyn Cx) ->
         cost_shown = cost_plots(costs);
         write_json(&folder.join("costs.json"), costs)?;
         cost_tables::write_tables(&folder, costs)?;
+        files.extend(COST_FILES.map(|name| folder.join(name)));
     }
-    shown.par_iter().chain(&cost_shown).try_for_each(|plot| write_plot(&folder, plot))?;
+    let drawn: Vec<[PathBuf; 2]> = shown.par_iter().chain(&cost_shown).map(|plot| write_plot(&folder, plot)).collect::<Result<_, _>>()?;
+    files.extend(drawn.into_iter().flatten());
     let preview = |outlier: &Outlier| preview_from(dataset, &folder, outlier);
     let name = name_of(dataset)?;
     let page = statistics_page(&Shown {
@@ -112,9 +116,11 @@ pub fn write_statistics(dataset: &Dataset, config: &StatsConfig, cx: &dyn Cx) ->
     let path = folder.join("statistics.html");
     write_bytes(&path, page)?;
     // Last: that it is there says that all is.
-    write_json(&folder.join("statistics.json"), &report)?;
+    let numbers = folder.join("statistics.json");
+    write_json(&numbers, &report)?;
+    files.extend([path.clone(), numbers]);
     let cost = costs.map(|costs| costs.total);
-    Ok(StatsSummary { page: path, images: report.dataset.images, outliers: outliers.len(), cost })
+    Ok(StatsSummary { page: path, files, images: report.dataset.images, outliers: outliers.len(), cost })
 }
 
 /// The name that the dataset was given, or without one that of its folder.
@@ -161,10 +167,11 @@ fn remove_older(folder: &Path, is_own: bool) -> Result<(), DatasetError> {
     Ok(())
 }
 
-fn write_plot(folder: &Path, plot: &Plot) -> Result<(), DatasetError> {
-    let file = |extension: &str| folder.join("plots").join(format!("{}.{extension}", plot.name));
-    write_bytes(&file("png"), png(&paint(&plot.drawing), None))?;
-    write_bytes(&file("svg"), svg(&plot.drawing))
+fn write_plot(folder: &Path, plot: &Plot) -> Result<[PathBuf; 2], DatasetError> {
+    let files = EXTENSIONS.map(|extension| folder.join("plots").join(format!("{}.{extension}", plot.name)));
+    write_bytes(&files[0], png(&paint(&plot.drawing), None))?;
+    write_bytes(&files[1], svg(&plot.drawing))?;
+    Ok(files)
 }
 
 fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), DatasetError> {
@@ -222,6 +229,9 @@ mod tests {
         };
         let (one, four) = (on(1), on(4));
         assert!(one == four);
+        let mut told = write_statistics(&dataset, &config, &Quiet).unwrap().files;
+        told.sort();
+        assert!(told.iter().eq(one.keys().map(|name| folder.path().join("statistics").join(name)).collect::<Vec<_>>().iter()));
         let page = String::from_utf8(one[Path::new("statistics.html")].clone()).unwrap();
         let linked: Vec<&str> = page.split(['"']).filter(|part| part.starts_with("plots/")).collect();
         assert!(linked.len() > 30 && linked.iter().all(|file| one.contains_key(Path::new(file))), "{linked:?}");

@@ -26,7 +26,7 @@ mod two_views;
 mod whole;
 
 pub use card::Card;
-pub use dataset::{FrameVerifier, verify_scene};
+pub use dataset::{FrameVerifier, verify_listed_scene, verify_scene};
 pub use frame_values::FrameValues;
 pub use labels::check_labels;
 pub use law::{LAWS, Law, LawSpec};

@@ -6,7 +6,7 @@ use super::law::Law;
 use super::page::report_page;
 use super::read::readable;
 use super::report::VerifyReport;
-use enfilade_dataset::{Dataset, DatasetError, FrameStatus, Manifest, Partition, write_bytes};
+use enfilade_dataset::{Dataset, DatasetError, FrameStatus, Manifest, Partition, SceneEntry, write_bytes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -37,23 +37,23 @@ fn store(path: &Path, text: String) -> Result<(), DatasetError> {
 }
 
 /// What the manifest says of a scene, and whether its files are what it says.
-pub(super) fn check_manifest(card: &mut Card, dataset: &Dataset, manifest: Option<Manifest>, scene: &str) {
-    let Some(mut manifest) = manifest else {
+pub(super) fn check_manifest(card: &mut Card, dataset: &Dataset, manifest: Option<&Manifest>, scene: &str) {
+    let Some(manifest) = manifest else {
         return card.observe(Law::Manifest, 1.0, || format!("{}: there is none", dataset.layout().manifest().display()));
     };
-    manifest.scenes.retain(|name, _| name == scene);
-    card.observe(Law::Manifest, if manifest.scenes.is_empty() { 1.0 } else { 0.0 }, || format!("{scene}: not in the manifest"));
-    for (scene, entry) in &manifest.scenes {
-        if let Some(reason) = &entry.failed {
-            card.observe(Law::HasFrames, 1.0, || format!("{scene}: failed: {reason}"));
-        }
-        for (camera, frame) in entry.cameras.iter().flat_map(|(name, camera)| camera.frames.iter().map(move |frame| (name, frame))) {
-            let reason = frame.reason.as_deref().unwrap_or("planned, but not rendered");
-            let broken = if matches!(frame.status, FrameStatus::Complete | FrameStatus::Rejected) { 0.0 } else { 1.0 };
-            card.observe(Law::FramesComplete, broken, || format!("{scene}/{camera}/frame.{:04}: {reason}", frame.frame));
-        }
+    let none = SceneEntry::default();
+    let listed = manifest.scenes.get(scene);
+    card.observe(Law::Manifest, if listed.is_none() { 1.0 } else { 0.0 }, || format!("{scene}: not in the manifest"));
+    let entry = listed.unwrap_or(&none);
+    if let Some(reason) = &entry.failed {
+        card.observe(Law::HasFrames, 1.0, || format!("{scene}: failed: {reason}"));
     }
-    if let Some(problems) = readable(card, dataset.verify_checksums(&manifest)) {
+    for (camera, frame) in entry.cameras.iter().flat_map(|(name, camera)| camera.frames.iter().map(move |frame| (name, frame))) {
+        let reason = frame.reason.as_deref().unwrap_or("planned, but not rendered");
+        let broken = if matches!(frame.status, FrameStatus::Complete | FrameStatus::Rejected) { 0.0 } else { 1.0 };
+        card.observe(Law::FramesComplete, broken, || format!("{scene}/{camera}/frame.{:04}: {reason}", frame.frame));
+    }
+    if let Some(problems) = readable(card, dataset.verify_checksums_of(scene, entry)) {
         card.observe(Law::Checksums, problems.len() as f64, || problems.into_iter().next().unwrap_or_default());
     }
 }

@@ -1,0 +1,141 @@
+//! Parts: the primitives of a node's mesh with their materials.
+
+use super::color::{self, Several, Tint};
+use super::container::Document;
+use super::materials::Materials;
+use super::morph;
+use super::primitive::{self, Pose};
+use super::skin::{self, Skins};
+use crate::ImportError;
+use crate::assembly::Assembly;
+use enfilade_math::DAffine3;
+use enfilade_scene::PartLabel;
+use gltf::json::mesh::Primitive;
+use gltf::json::scene::Node;
+use std::collections::{BTreeSet, HashMap};
+
+/// Where a mesh of the file stands, and what its parts are called.
+pub(super) struct Stand<'n> {
+    pub node: &'n Node,
+    pub index: usize,
+    pub name: Option<&'n str>,
+    pub label: PartLabel,
+}
+
+/// Makes parts of the file's meshes, which share what they can.
+pub(super) struct Parts<'d> {
+    document: &'d Document,
+    materials: Materials,
+    skins: Skins<'d>,
+    /// `None` for those without a surface.
+    shapes: HashMap<Key, Option<Shape>>,
+    /// Meshes and primitives whose vertices have several colours that show.
+    varied: BTreeSet<(usize, usize)>,
+}
+
+/// A shape of a primitive: what of the nodes moves its vertices.
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct Key {
+    mesh: usize,
+    primitive: usize,
+    skin: Option<usize>,
+    /// Bits of the weights of its morph targets.
+    weights: Vec<u32>,
+}
+
+/// A mesh of the scene, and what the colours of its vertices do to its material.
+#[derive(Clone, Copy)]
+struct Shape {
+    mesh: u32,
+    tint: Tint,
+    several: Several,
+}
+
+impl<'d> Parts<'d> {
+    pub(super) fn new(document: &'d Document) -> Self {
+        Self { document, materials: Materials::default(), skins: Skins::new(document), shapes: HashMap::new(), varied: BTreeSet::new() }
+    }
+
+    /// Adds mesh `mesh` of the file at every one of `places`.
+    ///
+    /// # Errors
+    /// When the mesh or its material cannot be read.
+    pub(super) fn add(&mut self, mesh: usize, stand: &Stand, places: &[DAffine3], a: &mut Assembly) -> Result<(), ImportError> {
+        let meshes = &self.document.root.meshes;
+        let Some(json) = meshes.get(mesh) else {
+            let problem = format!("it refers to mesh {mesh}, but there are only {}", meshes.len());
+            return Err(a.malformed(format!("nodes[{}]", stand.index), problem));
+        };
+        let mesh_name = json.name.as_deref().filter(|n| !n.trim().is_empty());
+        let name = stand.name.or(mesh_name).map_or_else(|| format!("node_{}", stand.index), str::to_string);
+        let weights = morph::weights(stand.node, json);
+        for (i, primitive) in json.primitives.iter().enumerate() {
+            let place = format!("meshes[{mesh}].primitives[{i}]");
+            let material = self.materials.read(self.document, primitive.material.map(|m| m.value()), &place, a)?;
+            let skin = self.skin(stand, primitive, places, &place, a);
+            let key = Key { mesh, primitive: i, skin, weights: weights.iter().map(|w| w.to_bits()).collect() };
+            let shape = match self.shapes.get(&key) {
+                Some(&known) => known,
+                None => {
+                    let joints = skin.map(|skin| self.skins.joints(skin, stand.index, a)).transpose()?;
+                    let pose = Pose { weights, joints: joints.as_deref() };
+                    let built = self.shape(primitive, material.uv_set, &pose, &place, a)?;
+                    self.shapes.insert(key, built);
+                    if built.is_some_and(|shape| material.shows(shape.several)) {
+                        self.varied.insert((mesh, i));
+                    }
+                    built
+                }
+            };
+            let Some(shape) = shape else { continue };
+            let material = self.materials.tinted(&material, shape.tint, a);
+            let part = if json.primitives.len() > 1 { format!("{name}.{i}") } else { name.clone() };
+            // Joints place a skinned mesh in the file by themselves.
+            let places = if skin.is_some() { &[DAffine3::IDENTITY] } else { places };
+            for &file_from_mesh in places {
+                a.push_part(&part, shape.mesh, material, file_from_mesh, stand.label);
+            }
+        }
+        Ok(())
+    }
+
+    /// The skin of the node, where the primitive is bound to one.
+    fn skin(&self, stand: &Stand, primitive: &Primitive, places: &[DAffine3], place: &str, a: &mut Assembly) -> Option<usize> {
+        let skin = stand.node.skin?.value();
+        if !skin::is_bound(primitive) {
+            a.warn(place, "a node has a skin for it, but it has neither joints nor weights; it stands where the node does");
+            return None;
+        }
+        if places.len() > 1 {
+            a.warn(format!("nodes[{}]", stand.index), "instances of a mesh with a skin have no meaning; it was placed once");
+        }
+        Some(skin)
+    }
+
+    fn shape(
+        &mut self,
+        primitive: &Primitive,
+        uv_set: u32,
+        pose: &Pose,
+        place: &str,
+        a: &mut Assembly,
+    ) -> Result<Option<Shape>, ImportError> {
+        let Some(mesh) = primitive::mesh(self.document, primitive, uv_set, pose, place, a)? else { return Ok(None) };
+        let (tint, several) = color::mean(self.document, primitive, &mesh, place, a)?;
+        let file = a.file().to_path_buf();
+        let Some(mesh) = a.push_mesh(mesh, &file, place)? else { return Ok(None) };
+        Ok(Some(Shape { mesh, tint, several }))
+    }
+
+    /// Reports what concerns many parts.
+    pub(super) fn finish(self, a: &mut Assembly) {
+        let Some((mesh, primitive)) = self.varied.first() else { return };
+        let others = match self.varied.len() {
+            1 => String::new(),
+            2 => " and one other primitive".to_string(),
+            n => format!(" and {} other primitives", n - 1),
+        };
+        let first = format!("meshes[{mesh}].primitives[{primitive}]");
+        a.warn("meshes", format!("vertex colours vary over {first}{others}; their mean over each multiplies its base colour"));
+    }
+}
