@@ -10,7 +10,8 @@ use gltf::json::validation::Checked;
 pub(super) const MAX_ZEROS: u64 = 1 << 22;
 
 impl Document {
-    /// The elements of an accessor of vectors of `N` components, or of 4×4 matrices column by column, as floats (normalized integers mapped to [0,1] or [−1,1]).
+    /// The elements of an accessor of vectors of `N` components, or of 4×4 matrices column by column, as floats (normalized integers mapped
+    /// to [0,1] or [−1,1]).
     ///
     /// # Errors
     /// What is wrong with the accessor, as the rest of a sentence.

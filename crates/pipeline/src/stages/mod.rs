@@ -82,7 +82,7 @@ pub const STAGES: [StageSpec; 10] = [
         stage: Stage::Import,
         name: "import",
         about: "scene file -> scene package",
-        version: 9,
+        version: 10,
         settings: import::settings,
         inputs: import::inputs,
         run: import::run,

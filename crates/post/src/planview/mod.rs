@@ -279,6 +279,7 @@ mod tests {
     use enfilade_geometry::VoxelKey;
     use enfilade_scene::{Intrinsics, Quiet};
     use std::collections::BTreeMap;
+    use std::path::Path;
 
     pub(super) const SIZE: DVec3 = DVec3::new(4.0, 3.0, 2.5);
 
