@@ -1,10 +1,15 @@
 //! Polygons to triangles: convex ones as fans, concave ones by cutting off ears.
 
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{DVec3, Vec2, Vec3};
 
 /// Corners that may be looked at per corner of a polygon while ears are cut off, so that a polygon of very many corners takes no hours.
 /// Polygons of some thousand corners need fewer.
 const LOOKS_PER_CORNER: usize = 4096;
+
+/// The area of a triangle.
+pub(crate) fn triangle_area([a, b, c]: [DVec3; 3]) -> f64 {
+    0.5 * (b - a).cross(c - a).length()
+}
 
 /// Triangles of a polygon as indices into its corners. A polygon of n corners gives n − 2 triangles, also when it is degenerate.
 pub(crate) fn triangulate(corners: &[Vec3]) -> Vec<[usize; 3]> {

@@ -2,18 +2,11 @@
 
 mod common;
 
-use common::{Folder, Gltf, base64, png, warnings};
+use common::{Folder, Gltf, base64, png, principled, warnings};
 use enfilade_import::{ImportOptions, UpAxis};
 use enfilade_math::{DVec3, Rgb, Vec2, Vec3};
-use enfilade_scene::{Alpha, Bsdf, Filter, Light, NormalMap, PartLabel, Principled, SpotFalloff, Wrap};
+use enfilade_scene::{Alpha, Bsdf, Filter, Light, NormalMap, PartLabel, SpotFalloff, Wrap};
 use serde_json::{Value, json};
-
-fn principled(bsdf: &Bsdf) -> &Principled {
-    match bsdf {
-        Bsdf::Principled(p) => p,
-        other => panic!("not principled: {other:?}"),
-    }
-}
 
 #[test]
 fn text_and_binary_files_give_the_same_scene() {

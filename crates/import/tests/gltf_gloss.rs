@@ -2,10 +2,10 @@
 
 mod common;
 
-use common::{Folder, Gltf, base64, png, warnings};
+use common::{Folder, Gltf, base64, png, principled, warnings};
 use enfilade_import::{ImportOptions, Imported};
 use enfilade_math::Rgb;
-use enfilade_scene::{Alpha, Bsdf, Pixels, Principled};
+use enfilade_scene::{Alpha, Bsdf, Pixels};
 use serde_json::{Value, json};
 
 const NAME: &str = "KHR_materials_pbrSpecularGlossiness";
@@ -25,13 +25,6 @@ fn load(extension: &Value, picture: &[u8]) -> Imported {
     let imported = Folder::new().write("a.gltf", document(extension, picture).text()).load("a.gltf").unwrap();
     assert_eq!(warnings(&imported), "", "{extension}");
     imported
-}
-
-fn principled(bsdf: &Bsdf) -> &Principled {
-    match bsdf {
-        Bsdf::Principled(p) => p,
-        other => panic!("not principled: {other:?}"),
-    }
 }
 
 #[test]

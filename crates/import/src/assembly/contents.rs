@@ -1,6 +1,7 @@
 //! Pictures, materials, meshes, parts and cameras of the scene in the making.
 
 use super::Assembly;
+use crate::polygon::triangle_area;
 use crate::{ImportError, ImportedLabel, mesh};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3};
@@ -54,7 +55,7 @@ impl Assembly<'_> {
     pub(crate) fn area(&self, mesh: u32, placement: DAffine3) -> f64 {
         let mesh = &self.scene.meshes[mesh as usize];
         let corners = (0..mesh.triangles.len()).map(|t| mesh.corners(t).map(|p| placement.transform_point3(p.as_dvec3())));
-        corners.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum()
+        corners.map(triangle_area).sum()
     }
 
     /// Checks and mends a mesh and adds it. `None` (and a warning) when it is empty.

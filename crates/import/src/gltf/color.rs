@@ -3,6 +3,7 @@
 use super::container::Document;
 use crate::ImportError;
 use crate::assembly::Assembly;
+use crate::polygon::triangle_area;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DVec3, Rgb};
 use gltf::json::accessor::Type;
@@ -87,8 +88,7 @@ fn over_triangles(mesh: &Mesh, colors: &[[f32; 4]]) -> (Tint, Several) {
 /// The area of a triangle; 0 where that is not a number.
 fn area(mesh: &Mesh, triangle: usize) -> f64 {
     let corner = |k: usize| mesh.positions.get(mesh.triangles[triangle][k] as usize).map_or(DVec3::ZERO, |p| p.as_dvec3());
-    let [a, b, c] = [0, 1, 2].map(corner);
-    let area = 0.5 * (b - a).cross(c - a).length();
+    let area = triangle_area([0, 1, 2].map(corner));
     if area.is_finite() { area } else { 0.0 }
 }
 

@@ -130,11 +130,16 @@ fn is_invisible(node: &Node) -> bool {
 
 /// The node's own transform: its matrix, or translation, rotation and scale.
 pub(super) fn local_transform(node: &Node) -> DAffine3 {
-    if let Some(m) = node.matrix {
-        let column = |i: usize| DVec3::new(f64::from(m[i]), f64::from(m[i + 1]), f64::from(m[i + 2]));
-        return DAffine3::from_mat3_translation(DMat3::from_cols(column(0), column(4), column(8)), column(12));
+    if let Some(matrix) = &node.matrix {
+        return affine(matrix);
     }
     placement(node.translation.unwrap_or([0.0; 3]), node.rotation.as_ref().map_or([0.0; 4], |q| q.0), node.scale.unwrap_or([1.0; 3]))
+}
+
+/// A matrix of 16 numbers, column by column.
+pub(super) fn affine(m: &[f32; 16]) -> DAffine3 {
+    let column = |i: usize| DVec3::new(f64::from(m[i]), f64::from(m[i + 1]), f64::from(m[i + 2]));
+    DAffine3::from_mat3_translation(DMat3::from_cols(column(0), column(4), column(8)), column(12))
 }
 
 /// Scale first, then rotation, then translation.

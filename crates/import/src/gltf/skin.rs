@@ -3,7 +3,7 @@
 //! As the specification has it, the transform of the node that bears the mesh has no part in this.
 
 use super::container::Document;
-use super::node::local_transform;
+use super::node::{affine, local_transform};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_geometry::Mesh;
@@ -62,12 +62,6 @@ impl<'d> Skins<'d> {
         self.known.insert(skin, Rc::clone(&joints));
         Ok(joints)
     }
-}
-
-/// A matrix of 16 numbers, column by column.
-fn affine(m: &[f32; 16]) -> DAffine3 {
-    let column = |i: usize| DVec3::new(f64::from(m[i]), f64::from(m[i + 1]), f64::from(m[i + 2]));
-    DAffine3::from_mat3_translation(DMat3::from_cols(column(0), column(4), column(8)), column(12))
 }
 
 /// Where all nodes stand; a node with several parents belongs to the first.

@@ -12,6 +12,7 @@ use super::value::Value;
 use crate::assembly::{Assembly, orthonormal};
 use crate::blender::spot_inner_rad;
 use crate::images::Use;
+use crate::polygon::triangle_area;
 use crate::spectrum::black_body;
 use crate::{ImportError, ies};
 use enfilade_geometry::Mesh;
@@ -88,10 +89,7 @@ pub(super) fn of_mesh(prim: &Prim, mesh: &Mesh, placement: DAffine3) -> Option<R
 }
 
 fn area(mesh: &Mesh, placement: DMat3) -> f64 {
-    (0..mesh.triangles.len())
-        .map(|t| mesh.corners(t).map(|p| placement * p.as_dvec3()))
-        .map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length())
-        .sum()
+    (0..mesh.triangles.len()).map(|t| mesh.corners(t).map(|p| placement * p.as_dvec3())).map(triangle_area).sum()
 }
 
 impl Lamp<'_> {

@@ -7,7 +7,7 @@ pub mod fbx;
 pub mod vray;
 
 use enfilade_import::{ImportError, ImportOptions, Imported, load};
-use enfilade_scene::Quiet;
+use enfilade_scene::{Bsdf, Principled, Quiet};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -147,5 +147,13 @@ impl Gltf {
             binary,
         ]
         .concat()
+    }
+}
+
+/// The principled surface that a material has.
+pub fn principled(bsdf: &Bsdf) -> &Principled {
+    match bsdf {
+        Bsdf::Principled(p) => p,
+        other => panic!("not principled: {other:?}"),
     }
 }
