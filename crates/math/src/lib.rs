@@ -18,7 +18,7 @@ pub mod warp;
 
 pub use bounds::Bounds3;
 pub use distribution::{Distribution1, Distribution2};
-pub use glam::{Affine3A, DAffine3, DMat2, DMat3, DMat4, DQuat, DVec2, DVec3, Mat2, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec4};
+pub use glam::{Affine3A, DAffine3, DMat2, DMat3, DMat4, DQuat, DVec2, DVec3, Mat2, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec3A, Vec4};
 pub use hash::{Rng, hash_u32, hash_u64};
 pub use nearest_rotation::nearest_rotation;
 pub use onb::Onb;

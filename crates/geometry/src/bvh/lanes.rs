@@ -188,8 +188,8 @@ mod avx2 {
         }
         #[inline(always)]
         fn read(values: &[f32; 8]) -> Self {
-            // SAFETY: see the type.
-            Self(unsafe { _mm256_loadu_ps(values.as_ptr()) })
+            // SAFETY: see the type. Of `loadu` compilers make two halves, which was faster on processors of 2011.
+            Self(unsafe { _mm256_castsi256_ps(_mm256_lddqu_si256(values.as_ptr().cast())) })
         }
         #[inline(always)]
         fn store(self) -> Eight<f32> {

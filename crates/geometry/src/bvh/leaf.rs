@@ -28,7 +28,7 @@ const COUNT_AT: u32 = 27;
 /// Marks a triangle that asks the filter.
 pub(super) const FILTERED: u32 = 1 << 31;
 
-/// Up to eight triangles in memory: a row of their numbers, with [`FILTERED`], then a row for each axis of each corner.
+/// Up to eight triangles in memory: a row of their numbers, with [`FILTERED`], then for each axis a row of each corner.
 #[derive(Clone, Copy)]
 pub(super) struct Leaf<'a> {
     /// From the first row on, with at least [`BEYOND`] words behind the last.
@@ -45,10 +45,11 @@ pub(super) fn word_of(id: u32) -> u32 {
     id ^ 1f32.to_bits()
 }
 
-/// Where the row of an axis of a corner begins in a leaf of `count` triangles; row after row, the numbers before the first.
+/// Where the row of an axis of a corner begins in a leaf of `count` triangles; row after row, the numbers before the first. Rays reorder
+/// axes, not corners: with the corners of an axis side by side, one multiplication finds all three.
 #[inline(always)]
 pub(super) fn row_at(count: usize, corner: usize, axis: usize) -> usize {
-    (1 + 3 * corner + axis) * count
+    (1 + 3 * axis + corner) * count
 }
 
 /// Writes a leaf to the beginning of `words`: numbers and corners of its triangles.
@@ -116,13 +117,26 @@ impl<'a> Leaf<'a> {
         word_of(unsafe { *self.words.get_unchecked(lane) })
     }
 
+    /// An axis of the three corners, with whatever there is in the lanes beyond.
+    ///
+    /// # Safety
+    /// There are three axes.
+    #[inline(always)]
+    pub unsafe fn rows(self, axis: usize) -> [&'a [f32; LANES]; 3] {
+        // SAFETY: there are as many rows, and at least eight words behind the last; words and floats are alike to memory.
+        unsafe {
+            let first = self.words.as_ptr().add(row_at(self.count, 0, axis));
+            [&*first.cast(), &*first.add(self.count).cast(), &*first.add(2 * self.count).cast()]
+        }
+    }
+
     /// A coordinate of a corner, with whatever there is in the lanes beyond.
     ///
     /// # Safety
     /// There are three axes and three corners.
     #[inline(always)]
     pub unsafe fn row(self, corner: usize, axis: usize) -> &'a [f32; LANES] {
-        // SAFETY: there are as many rows, and at least eight words behind the last; words and floats are alike to memory.
+        // SAFETY: as in `rows`.
         unsafe { &*self.words.as_ptr().add(row_at(self.count, corner, axis)).cast() }
     }
 }

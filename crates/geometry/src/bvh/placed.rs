@@ -89,10 +89,10 @@ impl Placed {
         for (lane, word) in words[..count].iter_mut().enumerate() {
             *word = word_of((leaf.id(lane) + self.first_triangle) | self.flag);
         }
-        for corner in 0..3 {
-            // SAFETY: there are three axes and three corners.
-            let (x, y, z) = unsafe { (leaf.row(corner, 0), leaf.row(corner, 1), leaf.row(corner, 2)) };
-            for k in 0..3 {
+        for k in 0..3 {
+            for corner in 0..3 {
+                // SAFETY: there are three axes and three corners.
+                let (x, y, z) = unsafe { (leaf.row(corner, 0), leaf.row(corner, 1), leaf.row(corner, 2)) };
                 let mut row = [0; LANES];
                 for lane in 0..LANES {
                     let (x, y, z) = (f64::from(x[lane]), f64::from(y[lane]), f64::from(z[lane]));

@@ -1,6 +1,6 @@
 //! What is computed once per ray.
 
-use enfilade_math::{Ray, Vec3};
+use enfilade_math::{Ray, Vec3, Vec3A};
 
 /// By which share of a bound of the distance from a ray's origin boxes grow; see [`Prepared::new`].
 pub(super) const SLACK: f32 = 6.0 * f32::EPSILON;
@@ -11,20 +11,16 @@ pub(super) fn slack(ray: &Ray, largest_coordinate: f32) -> f32 {
     SLACK * (largest_coordinate + ray.origin.abs().max_element())
 }
 
-/// A ray made ready: constants of the box test and of the triangle test.
+/// A ray made ready for the box test.
 pub(super) struct Prepared {
-    pub origin: [f32; 3],
     /// 1/direction, finite (see [`Prepared::new`]).
-    pub inverse: [f32; 3],
+    pub inverse: Vec3A,
     /// The origin moved back, for the planes by which the ray leaves boxes.
-    pub behind: [f32; 3],
+    pub behind: Vec3A,
     /// The origin moved ahead, for the planes by which it enters them.
-    pub ahead: [f32; 3],
+    pub ahead: Vec3A,
     /// Per axis, which bound of a box the ray enters by: 0 (min) or 1 (max).
     pub enters_by: [usize; 3],
-    /// The axes of the sheared space; the last is the one of the largest component of the direction.
-    pub axes: [usize; 3],
-    pub shear: [f32; 3],
 }
 
 impl Prepared {
@@ -42,23 +38,15 @@ impl Prepared {
     #[inline(always)]
     pub fn with_slack(origin: Vec3, direction: Vec3, slack: f32) -> Self {
         const MAX_INVERSE: f32 = 1e18;
-        let (origin, d) = (origin.to_array(), direction.to_array());
-        let size = d.map(f32::abs);
-        let x_or_y = usize::from(size[1] > size[0]);
-        let z = if size[2] > size[x_or_y] { 2 } else { x_or_y };
-        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][z];
-        let inverse_z = 1.0 / d[z];
-        let shear = [d[axes[0]] * inverse_z, d[axes[1]] * inverse_z, inverse_z];
-
-        let limit = (MAX_INVERSE * inverse_z.abs()).min(f32::MAX);
-        let (mut inverse, mut behind, mut ahead, mut enters_by) = ([0.0; 3], [0.0; 3], [0.0; 3], [0; 3]);
-        for k in 0..3 {
-            let exact = 1.0 / d[k];
-            inverse[k] = if exact.abs() < limit { exact } else { limit.copysign(d[k]) };
-            behind[k] = origin[k] - slack.copysign(d[k]);
-            ahead[k] = origin[k] + slack.copysign(d[k]);
-            enters_by[k] = usize::from(d[k].is_sign_negative());
-        }
-        Self { origin, inverse, behind, ahead, enters_by, axes, shear }
+        let (origin, direction) = (Vec3A::from(origin), Vec3A::from(direction));
+        let exact = Vec3A::ONE / direction;
+        let size = exact.abs();
+        // The least inverse is that of the largest component.
+        let limit = Vec3A::splat((MAX_INVERSE * size.min_element()).min(f32::MAX));
+        let inverse = Vec3A::select(size.cmplt(limit), exact, limit.copysign(direction));
+        let slack = Vec3A::splat(slack).copysign(direction);
+        let negative = direction.is_negative_bitmask() as usize;
+        let enters_by = [negative & 1, negative >> 1 & 1, negative >> 2 & 1];
+        Self { inverse, behind: origin - slack, ahead: origin + slack, enters_by }
     }
 }

@@ -11,17 +11,30 @@ const ROOM: usize = (WIDTH - 1) * MAX_LEVELS + 2 + WIDTH;
 ///
 /// The traversal keeps at most `WIDTH - 1` entries per level of a tree of at most `MAX_LEVELS` levels, and one mark, so that there is
 /// always room for `WIDTH` more. Whoever writes to the arrays relies on that.
-pub(super) struct Stack {
-    pub children: [MaybeUninit<u32>; ROOM],
-    pub enter_at: [MaybeUninit<f32>; ROOM],
+pub(super) struct Stack<'r> {
+    pub children: &'r mut [MaybeUninit<u32>; ROOM],
+    pub enter_at: &'r mut [MaybeUninit<f32>; ROOM],
     /// Below it, everything has been written.
     pub len: usize,
 }
 
-impl Stack {
+/// Memory of a [`Stack`], apart from its length, which so stays in a register.
+pub(super) struct Room {
+    children: [MaybeUninit<u32>; ROOM],
+    enter_at: [MaybeUninit<f32>; ROOM],
+}
+
+impl Room {
     #[inline(always)]
     pub fn new() -> Self {
-        Self { children: [const { MaybeUninit::uninit() }; ROOM], enter_at: [const { MaybeUninit::uninit() }; ROOM], len: 0 }
+        Self { children: [const { MaybeUninit::uninit() }; ROOM], enter_at: [const { MaybeUninit::uninit() }; ROOM] }
+    }
+}
+
+impl<'r> Stack<'r> {
+    #[inline(always)]
+    pub fn new(room: &'r mut Room) -> Self {
+        Self { children: &mut room.children, enter_at: &mut room.enter_at, len: 0 }
     }
 
     #[inline(always)]

@@ -1,8 +1,8 @@
 //! The watertight test of eight triangles at once.
 
 use super::lanes::{Eight, Lanes, lane_of};
-use super::leaf::Leaf;
-use super::prepared::Prepared;
+use super::leaf::{LANES, Leaf};
+use enfilade_math::Ray;
 
 /// Where the ray meets the planes of eight triangles. Only the lanes named beside it mean anything.
 pub(super) struct Meets {
@@ -19,6 +19,7 @@ pub(super) struct Meets {
 /// multiply-add would round one of the products only and break that. Rounding turns no sign over but can make a value zero, which
 /// [`settle_zeros`] looks into.
 pub(super) struct TriangleTest<L> {
+    /// The axes of the sheared space; the last is the one of the largest component of the direction.
     axes: [usize; 3],
     origin: [L; 3],
     shear: [L; 3],
@@ -28,20 +29,29 @@ pub(super) struct TriangleTest<L> {
 // No closures and no `array::map` here: they would be compiled without AVX2 and called for every operation.
 impl<L: Lanes> TriangleTest<L> {
     #[inline(always)]
-    pub fn new(ray: &Prepared, t_min: f32) -> Self {
-        let [x, y, z] = ray.axes;
+    pub fn new(ray: &Ray) -> Self {
+        let (origin, direction): (&[f32; 3], &[f32; 3]) = (ray.origin.as_ref(), ray.direction.as_ref());
+        let [along_x, along_y, along_z] = ray.direction.abs().to_array();
+        let x_or_y = usize::from(along_y > along_x);
+        let along = if x_or_y == 1 { along_y } else { along_x };
+        let axes = AXES[if along_z > along { 2 } else { x_or_y }];
+        let [x, y, z] = axes;
+        let inverse_z = 1.0 / direction[z];
         Self {
-            axes: ray.axes,
-            origin: splat([ray.origin[x], ray.origin[y], ray.origin[z]]),
-            shear: splat(ray.shear),
-            t_min: L::splat(t_min),
+            axes,
+            origin: [L::splat(origin[x]), L::splat(origin[y]), L::splat(origin[z])],
+            shear: [L::splat(direction[x] * inverse_z), L::splat(direction[y] * inverse_z), L::splat(inverse_z)],
+            t_min: L::splat(ray.t_min),
         }
     }
 
     /// Triangles hit with `t_min < t <= limit`, and where.
     #[inline(always)]
     pub fn meet(&self, leaf: Leaf<'_>, limit: f32, at: &mut Meets) -> u32 {
-        let (a, b, c) = (self.sheared(leaf, 0), self.sheared(leaf, 1), self.sheared(leaf, 2));
+        let [x, y, z] = self.axes;
+        // SAFETY: there are three axes, and `axes` is made of their numbers.
+        let [x, y, z] = unsafe { [leaf.rows(x), leaf.rows(y), leaf.rows(z)] };
+        let (a, b, c) = (self.sheared(x[0], y[0], z[0]), self.sheared(x[1], y[1], z[1]), self.sheared(x[2], y[2], z[2]));
         let mut weights = [edge(c, b), edge(a, c), edge(b, a)];
         let zero = L::splat(0.0);
         let lowest = weights[0].min(weights[1]).min(weights[2]);
@@ -66,10 +76,7 @@ impl<L: Lanes> TriangleTest<L> {
     }
 
     #[inline(always)]
-    fn sheared(&self, leaf: Leaf<'_>, corner: usize) -> [L; 3] {
-        let [x, y, z] = self.axes;
-        // SAFETY: there are three axes, and `axes` is made of their numbers.
-        let [at_x, at_y, at_z] = unsafe { [leaf.row(corner, x), leaf.row(corner, y), leaf.row(corner, z)] };
+    fn sheared(&self, at_x: &[f32; LANES], at_y: &[f32; LANES], at_z: &[f32; LANES]) -> [L; 3] {
         let pz = L::read(at_z).sub(self.origin[2]);
         let px = L::read(at_x).sub(self.origin[0]).sub(self.shear[0].mul(pz));
         let py = L::read(at_y).sub(self.origin[1]).sub(self.shear[1].mul(pz));
@@ -77,10 +84,8 @@ impl<L: Lanes> TriangleTest<L> {
     }
 }
 
-#[inline(always)]
-fn splat<L: Lanes>(v: [f32; 3]) -> [L; 3] {
-    [L::splat(v[0]), L::splat(v[1]), L::splat(v[2])]
-}
+/// Of the sheared space, by the last one.
+static AXES: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
 
 /// Twice the area of the triangle of the origin, `p` and `q`; the sign turns over exactly with their order.
 #[inline(always)]

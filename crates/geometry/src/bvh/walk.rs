@@ -1,15 +1,15 @@
 //! The way of one ray through the tree.
 
-use super::lanes::{Eight, Lanes, lane_of};
+use super::lanes::{Eight, Lanes, Sixteen, lane_of};
 use super::leaf::{FILTERED, Leaf, NO_WORDS, start_of};
 use super::node::{LEAF, Node};
 use super::placed::{LEAVE, PLACED, Placed};
 use super::prepared::{Prepared, slack};
-use super::stack::Stack;
+use super::stack::{Room, Stack};
 use super::triangle::{Meets, TriangleTest};
 use super::wide::Wide;
 use super::{Bvh, Hit};
-use enfilade_math::Ray;
+use enfilade_math::{Ray, Vec3A};
 
 /// [`walk`] compiled for AVX2.
 ///
@@ -55,12 +55,13 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SH
     }
     let prepared = Prepared::new(ray, bvh.largest_coordinate);
     let mut boxes = BoxTest::<W>::new(&prepared, ray.t_min);
-    let triangles = TriangleTest::<L>::new(&prepared, ray.t_min);
+    let triangles = TriangleTest::<L>::new(ray);
     // Triangle 0 at t_max: a hit at exactly t_max is not better, as no triangle has a lower index.
     let mut best = Hit { t: ray.t_max, triangle: 0, u: 0.0, v: 0.0 };
     let mut found = false;
     let mut at = Meets { t: Eight([0.0; 8]), u: Eight([0.0; 8]), v: Eight([0.0; 8]) };
-    let mut stack = Stack::new();
+    let mut room = Room::new();
+    let mut stack = Stack::new(&mut room);
     let mut current = 0;
     // With `SHARED`, the placement whose boxes are being visited.
     let mut inside: Option<&Placed> = None;
@@ -146,12 +147,16 @@ impl Bvh {
 /// Lines of memory of a node; a leaf has four or fewer as a rule.
 const LINES: usize = size_of::<Node>() / 64;
 
+/// Bytes of one bound of all children.
+const ROW: usize = size_of::<Sixteen<f32>>();
+
 /// The slab test with its constants in registers.
 struct BoxTest<W> {
     inverse: [W; 3],
     behind: [W; 3],
     ahead: [W; 3],
-    enters_by: [usize; 3],
+    /// Where, in bytes from the first of a node, the bounds stand that the ray enters by; those that it leaves by lie one [`ROW`] beside.
+    near: [usize; 3],
     t_min: W,
 }
 
@@ -159,11 +164,12 @@ struct BoxTest<W> {
 impl<W: Wide> BoxTest<W> {
     #[inline(always)]
     fn new(ray: &Prepared, t_min: f32) -> Self {
+        let near = ray.enters_by;
         Self {
             inverse: splat(ray.inverse),
             behind: splat(ray.behind),
             ahead: splat(ray.ahead),
-            enters_by: ray.enters_by,
+            near: [ROW * near[0], ROW * (2 + near[1]), ROW * (4 + near[2])],
             t_min: W::splat(t_min),
         }
     }
@@ -178,16 +184,23 @@ impl<W: Wide> BoxTest<W> {
 
     #[inline(always)]
     fn enters(&self, node: &Node, axis: usize) -> W {
-        W::load(&node.bounds[axis][self.enters_by[axis] & 1]).sub(self.ahead[axis]).mul(self.inverse[axis])
+        W::load(self.bounds(node, self.near[axis])).sub(self.ahead[axis]).mul(self.inverse[axis])
     }
 
     #[inline(always)]
     fn leaves(&self, node: &Node, axis: usize) -> W {
-        W::load(&node.bounds[axis][(self.enters_by[axis] & 1) ^ 1]).sub(self.behind[axis]).mul(self.inverse[axis])
+        W::load(self.bounds(node, self.near[axis] ^ ROW)).sub(self.behind[axis]).mul(self.inverse[axis])
+    }
+
+    /// The bounds `at` so many bytes from the first.
+    #[inline(always)]
+    fn bounds<'n>(&self, node: &'n Node, at: usize) -> &'n Sixteen<f32> {
+        // SAFETY: `at` is one of the six multiples of `ROW` that `new` makes, or its neighbour within an axis.
+        unsafe { &*node.bounds.as_ptr().byte_add(at).cast() }
     }
 }
 
 #[inline(always)]
-fn splat<W: Wide>(v: [f32; 3]) -> [W; 3] {
-    [W::splat(v[0]), W::splat(v[1]), W::splat(v[2])]
+fn splat<W: Wide>(v: Vec3A) -> [W; 3] {
+    [W::splat(v.x), W::splat(v.y), W::splat(v.z)]
 }

@@ -37,13 +37,13 @@ pub(super) trait Wide: Copy {
     fn least(self) -> f32;
 
     /// Of two or more children that the ray enters at `self`, returns the nearest and puts the others on the stack, the farthest first.
-    fn push_by_distance(self, entered: u32, children: &Sixteen<u32>, stack: &mut Stack) -> u32;
+    fn push_by_distance(self, entered: u32, children: &Sixteen<u32>, stack: &mut Stack<'_>) -> u32;
 
     /// Of the children that the ray enters (at least one), returns the last and puts the others on the stack in their order.
-    fn push_in_order(entered: u32, children: &Sixteen<u32>, stack: &mut Stack) -> u32;
+    fn push_in_order(entered: u32, children: &Sixteen<u32>, stack: &mut Stack<'_>) -> u32;
 
     /// Drops what the ray enters beyond `limit`.
-    fn retain(stack: &mut Stack, limit: f32);
+    fn retain(stack: &mut Stack<'_>, limit: f32);
 
     /// Asks for the line of memory at `place`, which may be read soon.
     fn prefetch(place: *const u8);
@@ -131,7 +131,7 @@ impl<L: Lanes> Wide for Pair<L> {
     }
 
     #[inline(always)]
-    fn push_by_distance(self, mut entered: u32, children: &Sixteen<u32>, stack: &mut Stack) -> u32 {
+    fn push_by_distance(self, mut entered: u32, children: &Sixteen<u32>, stack: &mut Stack<'_>) -> u32 {
         let t: [Eight<f32>; 2] = [self.0.store(), self.1.store()];
         let at = |lane: usize| t[lane >> 3].0[lane & 7];
         let mut nearest = lane_of(&mut entered);
@@ -145,7 +145,7 @@ impl<L: Lanes> Wide for Pair<L> {
     }
 
     #[inline(always)]
-    fn push_in_order(mut entered: u32, children: &Sixteen<u32>, stack: &mut Stack) -> u32 {
+    fn push_in_order(mut entered: u32, children: &Sixteen<u32>, stack: &mut Stack<'_>) -> u32 {
         let mut lane = lane_of(&mut entered);
         while entered != 0 {
             stack.push(children.0[lane], 0.0);
@@ -155,7 +155,7 @@ impl<L: Lanes> Wide for Pair<L> {
     }
 
     #[inline(always)]
-    fn retain(stack: &mut Stack, limit: f32) {
+    fn retain(stack: &mut Stack<'_>, limit: f32) {
         stack.retain_up_to(limit);
     }
 
@@ -243,11 +243,10 @@ mod avx512 {
         }
         #[inline(always)]
         fn of_halves(first: &[f32; 8], last: &[f32; 8]) -> Self {
-            // SAFETY: see the type. The cast is from floats to doubles and back, bit by bit.
+            // SAFETY: see the type. Of `loadu` compilers make two halves; see `Lanes::read`.
             unsafe {
-                let first = _mm512_castps_pd(_mm512_castps256_ps512(_mm256_loadu_ps(first.as_ptr())));
-                let last = _mm256_castps_pd(_mm256_loadu_ps(last.as_ptr()));
-                Self(_mm512_castpd_ps(_mm512_insertf64x4::<1>(first, last)))
+                let (first, last) = (_mm256_lddqu_si256(first.as_ptr().cast()), _mm256_lddqu_si256(last.as_ptr().cast()));
+                Self(_mm512_castsi512_ps(_mm512_inserti64x4::<1>(_mm512_castsi256_si512(first), last)))
             }
         }
         #[inline(always)]
@@ -281,17 +280,19 @@ mod avx512 {
         /// The network sorts integers: the bits of the distance, whose four lowest are replaced by the lane. So distances that differ
         /// by less than 2⁻¹⁹ count as equal, and those below zero too, which costs nothing but order.
         #[inline(always)]
-        fn push_by_distance(self, entered: u32, children: &Sixteen<u32>, stack: &mut Stack) -> u32 {
+        fn push_by_distance(self, entered: u32, children: &Sixteen<u32>, stack: &mut Stack<'_>) -> u32 {
             const LANE: i32 = 15;
             let count = entered.count_ones() as usize;
             if count == 2 {
-                let mut t = Sixteen([0.0; 16]);
-                // SAFETY: see the type and `load`.
-                unsafe { _mm512_store_ps(t.0.as_mut_ptr(), self.0) };
-                let (a, b) = (entered.trailing_zeros() as usize & 15, (31 - entered.leading_zeros()) as usize & 15);
-                let (near, far) = if t.0[a] <= t.0[b] { (a, b) } else { (b, a) };
-                stack.push(children.0[far], t.0[far]);
-                return children.0[near];
+                // SAFETY: see the type.
+                let (t, ids) = unsafe {
+                    let t = _mm512_castps512_ps128(_mm512_maskz_compress_ps(entered as u16, self.0));
+                    let ids = _mm512_maskz_compress_epi32(entered as u16, _mm512_load_si512(children.0.as_ptr().cast()));
+                    ([_mm_cvtss_f32(t), _mm_cvtss_f32(_mm_movehdup_ps(t))], _mm_cvtsi128_si64(_mm512_castsi512_si128(ids)) as u64)
+                };
+                let (near, far, at) = if t[0] <= t[1] { (ids, ids >> 32, t[1]) } else { (ids >> 32, ids, t[0]) };
+                stack.push(far as u32, at);
+                return near as u32;
             }
             // SAFETY: see the type; the stack has room for sixteen entries beyond its last.
             unsafe {
@@ -315,7 +316,7 @@ mod avx512 {
         }
 
         #[inline(always)]
-        fn push_in_order(entered: u32, children: &Sixteen<u32>, stack: &mut Stack) -> u32 {
+        fn push_in_order(entered: u32, children: &Sixteen<u32>, stack: &mut Stack<'_>) -> u32 {
             // SAFETY: see the type; the stack has room for sixteen entries beyond its last. `enter_at` is not read by those who push so,
             // and need not be initialised for `pop`.
             unsafe {
@@ -328,7 +329,7 @@ mod avx512 {
         }
 
         #[inline(always)]
-        fn retain(stack: &mut Stack, limit: f32) {
+        fn retain(stack: &mut Stack<'_>, limit: f32) {
             let mut kept = 0;
             let mut at = 0;
             // SAFETY: see the type; there is room for sixteen entries beyond the last, and what is read there is masked out.

@@ -19,7 +19,7 @@ mod tests;
 use super::lanes::{self, lane_of};
 use super::leaf::Leaf;
 use super::node::LEAF;
-use super::stack::Stack;
+use super::stack::{Room, Stack};
 use super::wide::{self, Wide};
 use super::{Bvh, Kernel};
 use enfilade_math::Vec3;
@@ -159,7 +159,8 @@ fn draw_tile<W: Wide>(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
     }
     let (planes, setup) = (Planes::<W>::new(frustum), Setup::<W>::new(frustum));
     let (mut pixels, mut waiting) = (Pixels::<W>::new(tile), Waiting::new());
-    let mut stack = Stack::new();
+    let mut room = Room::new();
+    let mut stack = Stack::new(&mut room);
     // Leaves are looked at two by two.
     let mut single: Option<Leaf<'_>> = None;
     let mut current = 0;
