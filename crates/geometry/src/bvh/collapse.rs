@@ -285,8 +285,8 @@ mod tests {
                     ids.push(leaf.id(lane));
                     let triangle = corners[(leaf.id(lane) & !FILTERED) as usize];
                     for (corner, expected) in triangle.iter().enumerate() {
-                        // SAFETY: there are three axes and three corners.
-                        let found = [0, 1, 2].map(|axis| unsafe { leaf.row(corner, axis)[lane] });
+                        // SAFETY: there are three axes.
+                        let found = [0, 1, 2].map(|axis| unsafe { leaf.rows(axis)[corner][lane] });
                         assert_eq!(found, expected.to_array());
                     }
                     assert!(triangle.iter().all(|p| p.cmpge(bounds.min).all() && p.cmple(bounds.max).all()));

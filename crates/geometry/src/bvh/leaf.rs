@@ -129,14 +129,4 @@ impl<'a> Leaf<'a> {
             [&*first.cast(), &*first.add(self.count).cast(), &*first.add(2 * self.count).cast()]
         }
     }
-
-    /// A coordinate of a corner, with whatever there is in the lanes beyond.
-    ///
-    /// # Safety
-    /// There are three axes and three corners.
-    #[inline(always)]
-    pub unsafe fn row(self, corner: usize, axis: usize) -> &'a [f32; LANES] {
-        // SAFETY: as in `rows`.
-        unsafe { &*self.words.as_ptr().add(row_at(self.count, corner, axis)).cast() }
-    }
 }

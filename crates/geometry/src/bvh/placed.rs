@@ -89,19 +89,23 @@ impl Placed {
         for (lane, word) in words[..count].iter_mut().enumerate() {
             *word = word_of((leaf.id(lane) + self.first_triangle) | self.flag);
         }
+        // SAFETY: there are three axes.
+        let [x, y, z] = unsafe { [leaf.rows(0), leaf.rows(1), leaf.rows(2)] };
+        let mut rows = [[[0; LANES]; 3]; 3];
+        for corner in 0..3 {
+            for lane in 0..LANES {
+                let (x, y, z) = (f64::from(x[corner][lane]), f64::from(y[corner][lane]), f64::from(z[corner][lane]));
+                for k in 0..3 {
+                    // In the order of `transform_point3`, so that every bit is that of `Placement::world`.
+                    rows[k][corner][lane] = ((m[k] * x + m[3 + k] * y + m[6 + k] * z + m[9 + k]) as f32).to_bits();
+                }
+            }
+        }
         for k in 0..3 {
             for corner in 0..3 {
-                // SAFETY: there are three axes and three corners.
-                let (x, y, z) = unsafe { (leaf.row(corner, 0), leaf.row(corner, 1), leaf.row(corner, 2)) };
-                let mut row = [0; LANES];
-                for lane in 0..LANES {
-                    let (x, y, z) = (f64::from(x[lane]), f64::from(y[lane]), f64::from(z[lane]));
-                    // In the order of `transform_point3`, so that every bit is that of `Placement::world`.
-                    row[lane] = ((m[k] * x + m[3 + k] * y + m[6 + k] * z + m[9 + k]) as f32).to_bits();
-                }
                 // What it writes beyond the row, the next one writes over.
                 let at = row_at(count, corner, k);
-                words[at..at + LANES].copy_from_slice(&row);
+                words[at..at + LANES].copy_from_slice(&rows[k][corner]);
             }
         }
         Leaf::of(words, count)

@@ -164,12 +164,12 @@ struct BoxTest<W> {
 impl<W: Wide> BoxTest<W> {
     #[inline(always)]
     fn new(ray: &Prepared, t_min: f32) -> Self {
-        let near = ray.enters_by;
+        let [x, y, z] = ray.enters_by;
         Self {
             inverse: splat(ray.inverse),
             behind: splat(ray.behind),
             ahead: splat(ray.ahead),
-            near: [ROW * near[0], ROW * (2 + near[1]), ROW * (4 + near[2])],
+            near: [ROW * x, ROW * (2 + y), ROW * (4 + z)],
             t_min: W::splat(t_min),
         }
     }

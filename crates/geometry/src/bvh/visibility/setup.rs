@@ -185,12 +185,12 @@ impl<W: Wide> Setup<W> {
 
     #[inline(always)]
     fn corner_of(&self, [first, last]: [Leaf<'_>; 2], corner: usize) -> [W; 3] {
-        // SAFETY: there are three axes and three corners.
+        // SAFETY: there are three axes.
         unsafe {
             [
-                W::of_halves(first.row(corner, 0), last.row(corner, 0)).sub(self.origin[0]),
-                W::of_halves(first.row(corner, 1), last.row(corner, 1)).sub(self.origin[1]),
-                W::of_halves(first.row(corner, 2), last.row(corner, 2)).sub(self.origin[2]),
+                W::of_halves(first.rows(0)[corner], last.rows(0)[corner]).sub(self.origin[0]),
+                W::of_halves(first.rows(1)[corner], last.rows(1)[corner]).sub(self.origin[1]),
+                W::of_halves(first.rows(2)[corner], last.rows(2)[corner]).sub(self.origin[2]),
             ]
         }
     }
