@@ -2,13 +2,13 @@
 
 use crate::house::House;
 use crate::step::{Step, choose, finish};
-use crate::{dependencies, floors};
+use crate::{circles, dependencies, floors};
 
 /// The last and slowest step, left out by `--no-tests` where all tests follow anyway.
 const QUICK_TESTS: &str = "tests";
 
 /// All steps.
-const STEPS: [Step; 6] = [
+const STEPS: [Step; 7] = [
     Step {
         name: "format",
         about: "files are formatted",
@@ -20,6 +20,12 @@ const STEPS: [Step; 6] = [
         about: "imports point down",
         remedy: "move the code to the floor that needs it, or hand it down as an argument; the floors stand in xtask/src/floors.rs",
         run: floors::check,
+    },
+    Step {
+        name: "circles",
+        about: "no file of a crate imports another in a circle",
+        remedy: "move what both need to a file of its own, below them; if the circle is right, say why in xtask/src/circles/mod.rs",
+        run: circles::check,
     },
     Step {
         name: "dependencies",

@@ -9,6 +9,7 @@ mod acceptance;
 mod bench;
 mod browser;
 mod check;
+mod circles;
 mod cluster;
 mod cycles;
 mod dependencies;

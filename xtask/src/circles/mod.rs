@@ -1,0 +1,108 @@
+//! Circles: within a crate, no file imports another that imports it back, by whatever way round.
+//!
+//! A file imports another where it names an item that the other defines, in a `use` or in a path. Names are followed through
+//! re-exports to the file that defines them, so a parent that re-exports its children imports nothing by that, and who takes a
+//! child's item by way of its parent imports the child. Tests are not looked at, and neither are methods, whose file no path names.
+
+mod graph;
+mod modules;
+
+use crate::floors;
+use crate::house::House;
+use modules::Crate;
+
+/// Circles that stay: a file of the circle, and why.
+const KEPT: [(&str, &str); 0] = [];
+
+/// Checks all crates.
+///
+/// # Errors
+/// With every circle, and what ties it.
+pub fn check(house: &House) -> Result<String, String> {
+    let (mut files, mut found) = (0, Vec::new());
+    for name in floors::manifests(house)?.keys() {
+        let folder = if name == "xtask" { name.clone() } else { format!("crates/{name}") };
+        let modules = Crate::read(house, &folder)?;
+        files += modules.files.len();
+        let circles = graph::circles(&modules.imports());
+        found.extend(circles.iter().filter(|circle| !is_kept(&modules, circle)).map(|circle| told(&modules, circle)));
+    }
+    if found.is_empty() { Ok(format!("{files} files, {} circles kept", KEPT.len())) } else { Err(found.join("\n  ")) }
+}
+
+fn is_kept(modules: &Crate, circle: &[usize]) -> bool {
+    circle.iter().any(|&file| KEPT.iter().any(|(kept, _)| *kept == modules.files[file]))
+}
+
+/// A circle in words: its files, then which imports what from which.
+fn told(modules: &Crate, circle: &[usize]) -> String {
+    let names: Vec<&str> = circle.iter().map(|&file| modules.files[file].as_str()).collect();
+    let mut text = format!("{} files import each other in a circle: {}", circle.len(), names.join(", "));
+    let imports = modules.imports();
+    for (&(from, to), items) in imports.iter().filter(|((from, to), _)| circle.contains(from) && circle.contains(to)) {
+        let items: Vec<&str> = items.iter().map(String::as_str).collect();
+        text += &format!("\n    {} -> {}: {}", modules.files[from], modules.files[to], items.join(", "));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn circles(files: &[(&str, &str)]) -> Vec<String> {
+        let modules = Crate::parse("src/lib.rs", &|path| files.iter().find(|(name, _)| *name == path).map(|(_, text)| (*text).into()));
+        let modules = modules.unwrap();
+        graph::circles(&modules.imports()).iter().map(|circle| told(&modules, circle)).collect()
+    }
+
+    #[test]
+    fn two_files_that_name_each_others_items_are_a_circle() {
+        let found = circles(&[
+            ("src/lib.rs", "mod a; mod b;"),
+            ("src/a.rs", "use crate::b::Roof; pub struct Wall(Roof);"),
+            ("src/b.rs", "pub struct Roof; fn f() -> super::a::Wall { loop {} }"),
+        ]);
+        assert_eq!(
+            found,
+            ["2 files import each other in a circle: src/a.rs, src/b.rs\n    src/a.rs -> src/b.rs: Roof\n    src/b.rs -> src/a.rs: Wall"]
+        );
+    }
+
+    #[test]
+    fn a_parent_that_only_re_exports_its_children_is_in_no_circle() {
+        let parent = "mod a; mod b; pub use a::Wall; pub(crate) use b::*;";
+        let child = ("src/a.rs", "use super::Roof; pub struct Wall;");
+        assert!(circles(&[("src/lib.rs", parent), child, ("src/b.rs", "pub struct Roof;")]).is_empty());
+        let found = circles(&[("src/lib.rs", parent), child, ("src/b.rs", "pub struct Roof(crate::Wall);")]);
+        assert_eq!(found.len(), 1, "{found:?}");
+    }
+
+    #[test]
+    fn a_parent_that_calls_a_child_which_takes_its_types_is_a_circle() {
+        let child = ("src/a.rs", "use super::*; pub fn wall(_: House) {}");
+        assert_eq!(circles(&[("src/lib.rs", "mod a; pub struct House; fn f() { a::wall(House) }"), child]).len(), 1);
+        assert!(circles(&[("src/lib.rs", "mod a; pub struct House;"), child]).is_empty());
+    }
+
+    #[test]
+    fn tests_and_inline_modules_of_one_file_are_no_circle() {
+        let tests = "pub struct Wall; #[cfg(test)] mod tests { use crate::b::Roof; }";
+        let files = [("src/lib.rs", "mod a; mod b;"), ("src/a.rs", tests), ("src/b.rs", "use crate::a::Wall; pub struct Roof;")];
+        assert!(circles(&files).is_empty());
+        assert!(circles(&[("src/lib.rs", "mod a { pub fn f() { super::g() } } fn g() { a::f() }")]).is_empty());
+    }
+
+    #[test]
+    fn modules_lie_beside_their_parent_or_below_it() {
+        let files = [
+            ("src/lib.rs", "mod a;"),
+            ("src/a/mod.rs", "mod b; fn f() { b::c::g() }"),
+            ("src/a/b.rs", "pub mod c;"),
+            ("src/a/b/c.rs", "pub fn g() {}"),
+        ];
+        assert!(circles(&files).is_empty());
+        let error = Crate::parse("src/lib.rs", &|path| (path == "src/lib.rs").then(|| "mod gone;".into())).err().unwrap();
+        assert!(error.contains("src/gone.rs"), "{error}");
+    }
+}
