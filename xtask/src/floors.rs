@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 24] = [
+const FLOORS: [(&str, Floor); 27] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -31,15 +31,18 @@ const FLOORS: [(&str, Floor); 24] = [
     ("dataset", Floor::Number(3)),
     ("suggest", Floor::Number(3)),
     ("shapes", Floor::Number(3)),
-    ("post", Floor::Number(4)),
-    ("pipeline", Floor::Number(5)),
-    ("export", Floor::Number(5)),
-    ("loader", Floor::Number(5)),
-    ("annotate", Floor::Number(6)),
-    ("farm", Floor::Number(6)),
-    ("cli", Floor::Number(7)),
-    ("python", Floor::Number(7)),
+    ("label", Floor::Number(4)),
+    ("loader", Floor::Number(4)),
+    ("verify", Floor::Number(5)),
+    ("show", Floor::Number(6)),
+    ("pipeline", Floor::Number(7)),
+    ("export", Floor::Number(7)),
+    ("annotate", Floor::Number(8)),
+    ("farm", Floor::Number(8)),
+    ("cli", Floor::Number(9)),
+    ("python", Floor::Number(9)),
     ("testkit", Floor::Dev),
+    ("testroom", Floor::Dev),
     ("fuzz", Floor::Dev),
     ("xtask", Floor::Dev),
 ];

@@ -6,8 +6,8 @@ use crate::progress::Progress;
 use crate::verbs;
 use enfilade_dataset::Dataset;
 use enfilade_pipeline::Stage;
-use enfilade_post::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet, write_overview};
-use enfilade_post::sheet::SheetConfig;
+use enfilade_show::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet, write_overview};
+use enfilade_show::sheet::SheetConfig;
 use std::collections::BTreeSet;
 use std::path::Path;
 

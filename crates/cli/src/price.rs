@@ -1,7 +1,7 @@
 //! Prices of processor time and of machines, and sums of money.
 
 use crate::outcome::Problem;
-use enfilade_post::stats::{Machine, Price};
+use enfilade_show::stats::{Machine, Price};
 use std::path::Path;
 
 /// The first line of a table that also tells the sizes of machines.

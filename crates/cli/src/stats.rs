@@ -1,11 +1,11 @@
-//! `stats`: from arguments to a call of `post`'s statistics, and what came of it.
+//! `stats`: from arguments to a call of `show`'s statistics, and what came of it.
 
 use crate::args::StatsArgs;
 use crate::outcome::{Problem, Verdict, say};
 use crate::price::{dollars, prices};
 use crate::progress::Progress;
 use enfilade_pipeline::write_statistics;
-use enfilade_post::stats::StatsConfig;
+use enfilade_show::stats::StatsConfig;
 
 /// `stats`: what the images show and what they cost.
 pub fn stats(args: &StatsArgs, quiet: bool) -> Result<Verdict, Problem> {

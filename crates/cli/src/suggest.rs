@@ -3,8 +3,8 @@
 use crate::args::SuggestArgs;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
+use enfilade_label::class_name;
 use enfilade_pipeline::{FileSource, UnsurePart, suggest_labels};
-use enfilade_post::label::class_name;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 

@@ -11,8 +11,8 @@ use crate::summary;
 use enfilade_dataset::CameraTable;
 use enfilade_export::intrinsics_csv;
 use enfilade_pipeline::{Config, Event, Overrides, Quality, RenderChoices, Reporter, Stage, Summary};
-use enfilade_post::drivers::inspect_pixel;
-use enfilade_post::verify::write_report;
+use enfilade_show::drivers::inspect_pixel;
+use enfilade_show::report_card::write_report;
 use std::path::{Path, PathBuf};
 
 /// `run`: all stages.

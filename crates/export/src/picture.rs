@@ -2,10 +2,10 @@
 
 use crate::ExportError;
 use crate::source::{Source, View};
+use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, Layer};
-use enfilade_post::picture::{Picture, jpeg};
-use enfilade_post::preview::{Subject, preview};
-use enfilade_post::tonemap::ToneMap;
+use enfilade_show::picture::{Picture, jpeg};
+use enfilade_show::preview::{Subject, preview};
 
 /// The layers that the picture of a frame is made from.
 pub(crate) const SHOWN: [Layer; 2] = [Layer::Color, Layer::RenderEntityId];

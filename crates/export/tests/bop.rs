@@ -5,7 +5,7 @@ mod common;
 use enfilade_dataset::{AmodalMask, AmodalMasks, Dataset, InstanceView, PixelArea};
 use enfilade_export::{Existing, ExportConfig, Format, export};
 use enfilade_frame::Layer;
-use enfilade_post::instances::visible_areas;
+use enfilade_label::instances::visible_areas;
 use enfilade_scene::Quiet;
 use serde_json::{Value, json};
 use std::path::Path;

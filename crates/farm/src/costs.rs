@@ -8,7 +8,7 @@ use crate::feasible::{feasible, machine_of};
 use crate::status::attempts;
 use crate::work::{AttemptRecord, Ended};
 use crate::{FarmError, Feasible, Job, Marker};
-use enfilade_post::stats::Price;
+use enfilade_show::stats::Price;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -190,7 +190,7 @@ fn share(part: f64, whole: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::{Attempt, FrameKey};
-    use enfilade_post::stats::Machine;
+    use enfilade_show::stats::Machine;
 
     fn marker(attempt: &str, task: u32, frame: u32) -> Marker {
         let key = FrameKey { scene: "room".into(), camera: "cam_00".into(), frame };

@@ -3,9 +3,12 @@
 //! [`LAYERS`] is the one table of layers. The renderer's outputs, file names, dtypes, documentation and verification all follow
 //! it. A [`Frame`] holds values exactly as they are stored.
 
+mod channels;
 mod compose;
 mod spec;
+pub mod tonemap;
 
+pub use channels::vector;
 pub use compose::{Composed, F16_LIMIT, compose};
 pub use half::f16;
 pub use spec::{Dtype, LAYERS, Layer, LayerSpec, Pass, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, traits};

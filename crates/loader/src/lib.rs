@@ -8,6 +8,7 @@
 //!
 //! Nothing here keeps threads between calls but a [`Stream`], so a process may be forked while it holds [`Samples`].
 
+pub mod confusion;
 mod error;
 mod nyuv2;
 mod options;

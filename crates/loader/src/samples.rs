@@ -7,9 +7,9 @@ use crate::sample::{Image, Matrix3, Matrix4, Sample, Values, is_averaged, mask_o
 use crate::stream::below;
 use crate::tone::{displayed, fit};
 use enfilade_dataset::{Dataset, DatasetError, OpencvCalibration, Partition, ToneMapRow, Window, turn_planar_depth};
+use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_math::{DVec3, hash_u64};
-use enfilade_post::tonemap::ToneMap;
 use enfilade_scene::{Pose, Projection};
 use std::collections::{BTreeMap, HashSet};
 use std::sync::OnceLock;

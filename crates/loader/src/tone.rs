@@ -1,8 +1,8 @@
 //! Hypersim's tone map on half-precision colour.
 
 use crate::sample::Image;
+use enfilade_frame::tonemap::{ToneMap, brightness, encode};
 use enfilade_frame::{Values, f16};
-use enfilade_post::tonemap::{ToneMap, brightness, encode};
 use half::slice::HalfFloatSliceExt;
 
 /// The tone map of an image: 90th percentile of the brightness of the pixels that `seen` says show the scene, of all where it is `None`.

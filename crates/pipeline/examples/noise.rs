@@ -5,11 +5,11 @@
 //! core-second, and error × core-seconds per megapixel, which does not depend on the number of samples.
 
 use anyhow::{Context, Result};
+use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, Layer};
 use enfilade_home::{HomeConfig, home};
 use enfilade_import::{ImportOptions, load};
 use enfilade_pipeline::Stopwatch;
-use enfilade_post::tonemap::ToneMap;
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet, Scene};
 

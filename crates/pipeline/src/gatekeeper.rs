@@ -4,10 +4,11 @@ use crate::error::Error;
 use crate::stages::World;
 use enfilade_explore::Surroundings;
 use enfilade_frame::Layer;
-use enfilade_post::picture::Picture;
-use enfilade_post::view_gates::{GateConfig, Place, ViewGate, ViewMeasures, thumbnail};
 use enfilade_render::{Look, Lookout};
 use enfilade_scene::{CameraView, Scene, StartCamera};
+use enfilade_show::picture::Picture;
+use enfilade_show::thumbnail::thumbnail;
+use enfilade_verify::view_gates::{GateConfig, Place, ViewGate, ViewMeasures};
 
 /// Views are looked at through about this many of their columns; those that are close to a limit then in full.
 const COLUMNS: u32 = 256;
@@ -53,7 +54,7 @@ impl<'a> Gatekeeper<'a> {
     }
 
     fn measure(&self, look: &Look, place: Place) -> ViewMeasures {
-        ViewMeasures::new(&look.frame, &self.wrong_side(look), look.seeing, place, self.config)
+        ViewMeasures::new(&look.frame, &self.wrong_side(look), look.seeing, place, self.config.min_depth_m)
     }
 
     /// By pixel, whether it shows the back of something that has a front.

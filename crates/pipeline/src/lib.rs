@@ -31,8 +31,8 @@ pub use config::{
 pub use enfilade_home::light::Moment;
 pub use enfilade_home::{HomeConfig, RoomKind};
 pub use enfilade_import::UpAxis;
-pub use enfilade_post::split::SplitConfig;
-pub use enfilade_post::view_gates::{GateAction, GateConfig};
+pub use enfilade_label::split::SplitConfig;
+pub use enfilade_verify::view_gates::{GateAction, GateConfig};
 pub use error::Error;
 pub use estimate::estimate;
 pub use forecast::{Expected, Forecast};

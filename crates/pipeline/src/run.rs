@@ -8,11 +8,12 @@ use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, check_denoiser
 use crate::statistics::{statistics_are_whole, write_statistics};
 use crate::workdir::{RUN, WORKDIR, Workdir, read_json, remove_if_there, write_json};
 use enfilade_dataset::{CameraEntry, Dataset, DatasetError, FrameStatus, ManifestInfo};
-use enfilade_post::drivers::write_overview;
-use enfilade_post::sheet::SheetConfig;
-use enfilade_post::stats::StatsConfig;
-use enfilade_post::verify::{VerifyReport, join_reports, verify_listed_scene, write_report};
 use enfilade_scene::{Cx, Quiet, Warning};
+use enfilade_show::drivers::write_overview;
+use enfilade_show::report_card::write_report;
+use enfilade_show::sheet::SheetConfig;
+use enfilade_show::stats::StatsConfig;
+use enfilade_verify::{VerifyReport, join_reports, verify_listed_scene};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::workdir::{Hash, PACKAGE, Workdir, read_json, remove_if_there, write_json};
 use enfilade_dataset::{Dataset, Manifest, Partition, SplitRow, ViewFault};
-use enfilade_post::split::{SceneAssets, SharedAsset, SplitConfig, shared_assets};
+use enfilade_label::split::{SceneAssets, SharedAsset, SplitConfig, shared_assets};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

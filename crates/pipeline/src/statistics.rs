@@ -2,8 +2,8 @@
 
 use crate::workdir::{STATISTICS, WORKDIR, read_json};
 use enfilade_dataset::{Dataset, DatasetError, FileRecord, write_bytes};
-use enfilade_post::stats::{self, StatsConfig, StatsSummary};
 use enfilade_scene::Cx;
+use enfilade_show::stats::{self, StatsConfig, StatsSummary};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

@@ -6,7 +6,7 @@ use crate::single::refuse_overwriting;
 use crate::stages::load_file;
 use crate::workdir::write_whole;
 use enfilade_import::Imported;
-use enfilade_post::label::class_name;
+use enfilade_label::class_name;
 use enfilade_scene::{Cx, Scene};
 use enfilade_suggest::{Suggester, Suggestion};
 use std::collections::BTreeMap;
@@ -113,7 +113,7 @@ fn quoted(field: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_post::label::{LabelTable, part_names};
+    use enfilade_label::{LabelTable, part_names};
     use enfilade_scene::{Material, Part};
 
     #[test]

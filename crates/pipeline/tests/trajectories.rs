@@ -4,8 +4,8 @@ use enfilade_dataset::Dataset;
 use enfilade_geometry::OccupancyTree;
 use enfilade_math::DVec3;
 use enfilade_pipeline::{Config, Overrides, Silent, run};
-use enfilade_post::verify::{Law, verify_scene};
 use enfilade_scene::Quiet;
+use enfilade_verify::{Law, verify_scene};
 use std::path::Path;
 
 /// A home of one room, tiny, once per mode; the poses made by hand are of the demo's.

@@ -1,6 +1,6 @@
 //! `enfilade.Confusion`.
 
-use enfilade_post::confusion::{Confusion as Matrix, ConfusionError};
+use enfilade_loader::confusion::{Confusion as Matrix, ConfusionError};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;

@@ -2,7 +2,7 @@
 
 use super::pieces::Pieces;
 use enfilade_dataset::{Classes, DatasetError, LabelColors, MeshFiles, write_bytes};
-use enfilade_post::label::write_part_table;
+use enfilade_label::write_part_table;
 use enfilade_scene::{Labels, PartLabel};
 use std::path::PathBuf;
 

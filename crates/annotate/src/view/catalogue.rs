@@ -8,7 +8,7 @@ use axum::http::HeaderMap;
 use axum::response::Response;
 use enfilade_dataset::check_name;
 use enfilade_frame::LAYERS;
-use enfilade_post::verify::VerifyReport;
+use enfilade_verify::VerifyReport;
 use serde_json::{Value, json};
 use std::sync::Arc;
 

@@ -14,8 +14,8 @@ use axum::http::HeaderMap;
 use axum::response::Response;
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{Elements, ToneMapRow};
+use enfilade_frame::tonemap::{ToneMap, brightness, percentile};
 use enfilade_frame::{LAYERS, Layer};
-use enfilade_post::tonemap::{ToneMap, brightness, percentile};
 use serde::Deserialize;
 use std::sync::Arc;
 

@@ -12,7 +12,7 @@ use axum::http::HeaderMap;
 use axum::response::Response;
 use enfilade_dataset::Elements;
 use enfilade_frame::Layer;
-use enfilade_post::tonemap::{ToneMap, brightness, percentile};
+use enfilade_frame::tonemap::{ToneMap, brightness, percentile};
 use enfilade_scene::CameraView;
 use serde::Deserialize;
 use std::sync::Arc;

@@ -2,7 +2,7 @@
 
 use enfilade_dataset::Elements;
 use enfilade_frame::Layer;
-use enfilade_post::tonemap::brightness;
+use enfilade_frame::tonemap::brightness;
 use serde::Serialize;
 
 /// Percentiles are taken of this many pixels at most, evenly spread; the extremes and the mean are of all.

@@ -8,8 +8,8 @@ use axum::extract::{Path, State};
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use enfilade_frame::Layer;
-use enfilade_post::palette::viridis;
-use enfilade_post::picture::{Picture, jpeg};
+use enfilade_show::palette::viridis;
+use enfilade_show::picture::{Picture, jpeg};
 use std::sync::Arc;
 
 /// Width of a thumbnail, pixels.

@@ -3,8 +3,8 @@
 use super::CamerasArg;
 use super::values::{parse_layer, parse_range};
 use clap::{Args, ValueEnum};
-use enfilade_post::animation::AnimationFormat;
-use enfilade_post::drivers::Film;
+use enfilade_show::animation::AnimationFormat;
+use enfilade_show::drivers::Film;
 use std::path::PathBuf;
 
 /// `export`.

@@ -11,7 +11,7 @@ use crate::place::Place;
 use crate::source::{Source, View};
 use enfilade_dataset::{Class, Classes};
 use enfilade_frame::{Frame, Layer};
-use enfilade_post::instances::run_lengths;
+use enfilade_label::instances::run_lengths;
 use enfilade_scene::{NYU40, is_stuff};
 use serde::Serialize;
 use std::collections::BTreeMap;

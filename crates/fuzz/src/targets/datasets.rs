@@ -59,7 +59,7 @@ pub fn tables(folder: &Path) -> Run {
         drop((dataset.read_tone_maps(SCENE, CAMERA), dataset.read_instance_views(SCENE, CAMERA)));
         drop(dataset.mesh_files(SCENE).read_splits());
         #[cfg(feature = "program")]
-        drop(enfilade_post::label::LabelTable::parse(bytes, "labels.csv"));
+        drop(enfilade_label::LabelTable::parse(bytes, "labels.csv"));
         drop(read_names(bytes, "names.csv"));
         let text = String::from_utf8_lossy(bytes);
         drop((Lexicon::parse(&text, "words.csv"), Weights::parse(&text, "weights.csv")));

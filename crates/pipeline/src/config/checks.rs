@@ -9,7 +9,7 @@ use super::{CameraConfig, Config, SceneConfig, Source};
 use crate::error::Error;
 use crate::workdir::OWN_FILES;
 use enfilade_dataset::{check_name, read_ray_grid};
-use enfilade_post::label::LabelTable;
+use enfilade_label::LabelTable;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use toml::Spanned;

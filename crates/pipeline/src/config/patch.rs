@@ -1,8 +1,8 @@
 //! The sections of `dataset.toml` that say how stages work: every key is optional, and what is there replaces the value below.
 
 use enfilade_explore::{CarveConfig, Mode, PlanConfig, Preset, Saliency};
-use enfilade_post::view_gates::{GateAction, GateConfig};
 use enfilade_render::{Filter, RenderConfig};
+use enfilade_verify::view_gates::{GateAction, GateConfig};
 use serde::Deserialize;
 use std::ops::Range;
 use toml::Spanned;

@@ -53,7 +53,7 @@ fn limits_of_gates_have_defaults_and_the_scene_wins() {
     assert_eq!(config(SCENE).scenes[0].gate, GateConfig::default());
     let text = format!("[gate]\nmax_plane_share = 0.8\nmin_depth_m = 0.2\n{SCENE}[scene.gate]\nmax_plane_share = 1\naction = \"report\"\n");
     let gate = config(&text).scenes.remove(0).gate;
-    assert_eq!((gate.max_plane_share, gate.min_depth_m, gate.action), (1.0, 0.2, enfilade_post::view_gates::GateAction::Report));
+    assert_eq!((gate.max_plane_share, gate.min_depth_m, gate.action), (1.0, 0.2, enfilade_verify::view_gates::GateAction::Report));
     let share = error(&format!("[gate]\nmax_plane_share = 1.5\n{SCENE}"));
     assert!(share.contains("a share must lie between 0 and 1, found 1.5") && share.contains("2:19"), "{share}");
     assert!(error(&format!("[gate]\nmin_depth_m = -1\n{SCENE}")).contains("0 or more metres, found -1"));

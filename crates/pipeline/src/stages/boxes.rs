@@ -4,8 +4,9 @@ use super::{Input, Inputs, Job, Outcome, Record, Stage, made};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::Hash;
-use enfilade_post::drivers::{write_boxes, write_instances};
-use enfilade_post::instances::solids;
+use enfilade_label::boxes::write_boxes;
+use enfilade_label::instances::solids;
+use enfilade_label::instances::write_instances;
 use enfilade_scene::WorldMesh;
 use std::collections::BTreeMap;
 

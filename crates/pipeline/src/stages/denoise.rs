@@ -6,8 +6,8 @@ use crate::report::{StageCx, count};
 use crate::workdir::{Hash, remove_if_there};
 use enfilade_denoise::{DenoiseError, Denoiser, INPUTS, denoise};
 use enfilade_frame::{LAYERS, Pass};
-use enfilade_post::preview::PREVIEWS;
 use enfilade_scene::Cx;
+use enfilade_show::preview::PREVIEWS;
 use std::path::PathBuf;
 
 /// Names the library where the configuration does not.

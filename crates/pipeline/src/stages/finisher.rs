@@ -5,7 +5,7 @@ use super::{Job, denoise, label, made};
 use crate::error::Error;
 use crate::parts::FinishedFrame;
 use crate::report::StageCx;
-use enfilade_post::verify::FrameVerifier;
+use enfilade_verify::FrameVerifier;
 use std::path::PathBuf;
 
 /// What the frames of a scene are finished with.

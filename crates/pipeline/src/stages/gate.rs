@@ -6,9 +6,10 @@ use crate::gatekeeper::Gatekeeper;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, remove_folder, remove_if_there, write_whole};
 use enfilade_dataset::{JudgedView, ViewFault, ViewVerdict, write_bytes};
-use enfilade_post::picture::jpeg;
-use enfilade_post::view_gates::{GateAction, Judged, VIEW_GATES, gates_page};
 use enfilade_scene::{CameraView, Cx, Trajectory, Warning};
+use enfilade_show::gates_page::{Judged, gates_page};
+use enfilade_show::picture::jpeg;
+use enfilade_verify::view_gates::{GateAction, VIEW_GATES};
 use std::path::PathBuf;
 
 /// Frames named in a warning; of the others it says that there are more.

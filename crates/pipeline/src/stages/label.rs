@@ -6,7 +6,7 @@ use crate::report::{StageCx, count};
 use crate::workdir::{Hash, read_json};
 use enfilade_dataset::{ANNOTATION_LOG, MeshFiles, quoted, scene_hash};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
-use enfilade_post::label::{LabelReport, LabelTable, SplitParts, join, part_names};
+use enfilade_label::{LabelReport, LabelTable, SplitParts, join, part_names};
 use enfilade_scene::{Cx, Labels, PartLabel, Scene, Warning};
 use std::path::{Path, PathBuf};
 

@@ -8,8 +8,8 @@ use crate::report::{Event, Silent, StageCx, Stopwatch, machine_is_busy, peak_mem
 use crate::workdir::{PACKAGE, Workdir, remove_folder};
 use enfilade_dataset::{Dataset, FrameInfo};
 use enfilade_frame::Frame;
-use enfilade_post::boxes::scene_boxes;
-use enfilade_post::instances::solids;
+use enfilade_label::boxes::scene_boxes;
+use enfilade_label::instances::solids;
 use enfilade_render::{FrameRender, Guide, Probe, RenderConfig, RenderScene, add_extra_layers, samples_wanted};
 use enfilade_scene::{Camera, CameraView, Cx, Quiet, Trajectory, WorldMesh};
 use rayon::prelude::*;

@@ -10,9 +10,9 @@ use crate::workdir::{Hash, remove_folder, remove_if_there, write_json};
 use enfilade_dataset::{StereoRecord, StereoSide};
 use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, Preset, parse_keyframes};
 use enfilade_geometry::OccupancyTree;
-use enfilade_post::planview::remove_plan_preview;
-use enfilade_post::view_gates::GateAction;
 use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, Warning};
+use enfilade_show::planview::remove_plan_preview;
+use enfilade_verify::view_gates::GateAction;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

@@ -4,7 +4,7 @@ use super::{Job, carve};
 use crate::error::Error;
 use crate::report::{Event, StageCx, Stopwatch, count, count_of};
 use enfilade_geometry::OccupancyTree;
-use enfilade_post::planview::{Planned, write_plan_preview};
+use enfilade_show::planview::{Planned, write_plan_preview};
 use std::path::PathBuf;
 
 /// Draws the trajectories of a scene and returns the page that shows them.

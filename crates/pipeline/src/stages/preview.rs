@@ -4,9 +4,9 @@ use super::{Inputs, Job, Outcome, Record, Stage, made};
 use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, remove_if_there};
-use enfilade_post::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet};
-use enfilade_post::sheet::SheetConfig;
 use enfilade_scene::Trajectory;
+use enfilade_show::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet};
+use enfilade_show::sheet::SheetConfig;
 use std::collections::BTreeSet;
 
 pub(super) fn settings(_job: &Job) -> Hash {

@@ -5,8 +5,8 @@ use crate::error::Error;
 use crate::report::{StageCx, count};
 use crate::workdir::{Hash, remove_if_there, write_json};
 use enfilade_dataset::quoted;
-use enfilade_post::gates::GATES;
-use enfilade_post::verify::{LAWS, verify_scene};
+use enfilade_verify::frame_gates::GATES;
+use enfilade_verify::{LAWS, verify_scene};
 
 /// The scene's part of the report card, in its work folder; it is there also when laws do not hold.
 pub(crate) const CARD: &str = "card.json";

@@ -1,0 +1,59 @@
+//! What the frames of a dataset show of each instance, found and stored.
+
+use super::{Solid, frame_instances};
+use enfilade_dataset::{Dataset, DatasetError, InstanceView};
+use enfilade_frame::Layer;
+use enfilade_scene::{CameraView, Cx};
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Writes what the frames of a camera show of each instance, and the amodal masks, which replace all older ones; returns the files. What
+/// [`view_instances`] has found of frames stands in `made`, and is not looked for again.
+///
+/// # Errors
+/// When a file cannot be read or written.
+pub fn write_instances(
+    dataset: &Dataset,
+    [scene, camera]: [&str; 2],
+    frames: &BTreeSet<u32>,
+    made: &BTreeMap<u32, Vec<InstanceView>>,
+    solids: &[Solid],
+    cx: &dyn Cx,
+) -> Result<Vec<PathBuf>, DatasetError> {
+    let done = AtomicU64::new(0);
+    let one = |&number: &u32| -> Result<Vec<InstanceView>, DatasetError> {
+        let views = match made.get(&number) {
+            Some(views) => views.clone(),
+            None => view_instances(dataset, [scene, camera], number, solids)?,
+        };
+        cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
+        Ok(views)
+    };
+    dataset.remove_amodal_masks(scene, camera, made.keys().copied())?;
+    let numbers: Vec<u32> = frames.iter().copied().collect();
+    let views: Vec<Vec<InstanceView>> = numbers.par_iter().map(one).collect::<Result<_, _>>()?;
+    dataset.write_instance_views(scene, camera, &views.concat())?;
+    let masks = frames.iter().map(|&frame| dataset.layout().amodal_masks(scene, camera, frame));
+    Ok(masks.chain([dataset.layout().frame_instances(scene, camera)]).collect())
+}
+
+/// What one frame shows of each instance; its amodal masks are written.
+///
+/// # Errors
+/// As [`write_instances`], and when the trajectory has no such frame.
+pub fn view_instances(
+    dataset: &Dataset,
+    [scene, camera]: [&str; 2],
+    number: u32,
+    solids: &[Solid],
+) -> Result<Vec<InstanceView>, DatasetError> {
+    let (with, trajectory) = (dataset.read_camera(scene, camera)?, dataset.read_trajectory(scene, camera)?);
+    let Some(index) = trajectory.poses.iter().position(|pose| pose.frame == number) else { return Ok(Vec::new()) };
+    let seen = dataset.read_layer(scene, camera, number, Layer::SemanticInstance)?;
+    let view = CameraView::of_frame(&with, &trajectory.poses, index);
+    let (views, masks) = frame_instances(solids, &view, number, &seen);
+    dataset.write_amodal_masks(scene, camera, number, &masks)?;
+    Ok(views)
+}

@@ -1,0 +1,18 @@
+//! What is it: from a table that people write to what every part is, and from there to label images, boxes and sides of a split.
+//!
+//! Labels never enter the renderer. A [`LabelTable`] says which class the parts or materials of a scene have;
+//! [`LabelTable::assign`] applies it to the parts of a scene; [`join`] turns entity ids into label images. Changing the table
+//! therefore costs a join, not a rendering. Where people split parts, [`SplitParts`] says which piece a pixel shows.
+
+mod assign;
+pub mod boxes;
+pub mod instances;
+mod join;
+mod pieces;
+pub mod split;
+mod table;
+
+pub use assign::{LabelReport, PartNames, UnlabelledPart, UnmatchedRow, part_names};
+pub use join::{JoinError, join};
+pub use pieces::SplitParts;
+pub use table::{LabelTable, Row, Subject, TableError, class_name, write_part_table, write_table};

@@ -1,0 +1,65 @@
+//! How a camera's frames are exposed.
+
+use super::read_present;
+use crate::exposure::{Brightness, Exposure, display_exposure};
+use enfilade_dataset::{Dataset, DatasetError, ToneMapRow};
+use enfilade_frame::Layer;
+use enfilade_frame::tonemap::{GAMMA, PERCENTILE, ToneMap};
+use rayon::prelude::*;
+use std::path::PathBuf;
+
+/// Pixels that the exposure of a trajectory is measured from, at most: as many as say it within a thousandth.
+const SAMPLES: usize = 4_000_000;
+
+/// The exposures of a camera's frames, in their order; without frames, what shows radiance 1 as white.
+#[derive(Clone, Debug, Default)]
+pub struct Exposures {
+    /// Hypersim's, frame by frame.
+    frames: Vec<ToneMap>,
+    /// The one of the trajectory.
+    pub display: ToneMap,
+}
+
+impl Exposures {
+    /// Those of the `index`-th frame.
+    pub fn of(&self, index: usize) -> Exposure {
+        Exposure { frame: self.frames.get(index).copied().unwrap_or_default(), display: self.display }
+    }
+}
+
+/// Measures how the frames of a camera are exposed and writes it to `metadata_tonemap.csv`; returns that file too.
+///
+/// # Errors
+/// When a layer cannot be read or the file cannot be written.
+pub fn expose_camera(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32]) -> Result<(Exposures, PathBuf), DatasetError> {
+    let measured = measure(dataset, [scene, camera], frames)?;
+    let display = display_exposure(&measured);
+    let tones: Vec<ToneMap> = measured.iter().map(|frame| ToneMap::of_percentile(frame.percentile)).collect();
+    let row = |((&frame, measured), tone): ((&u32, &Brightness), &ToneMap)| ToneMapRow {
+        frame,
+        percentile: 100.0 * PERCENTILE,
+        brightness: measured.percentile,
+        scale: tone.scale,
+        gamma: GAMMA,
+        display_scale: display.scale,
+    };
+    let rows: Vec<ToneMapRow> = frames.iter().zip(&measured).zip(&tones).map(row).collect();
+    dataset.write_tone_maps(scene, camera, &rows)?;
+    Ok((Exposures { frames: tones, display }, dataset.layout().tone_maps(scene, camera)))
+}
+
+/// Hypersim's exposure of one frame.
+pub(super) fn frame_tone(dataset: &Dataset, shot: [&str; 2], frame: u32) -> Result<ToneMap, DatasetError> {
+    Ok(ToneMap::of_percentile(measure(dataset, shot, &[frame])?.first().and_then(|measured| measured.percentile)))
+}
+
+/// What each frame says about exposure.
+pub(super) fn measure(dataset: &Dataset, [scene, camera]: [&str; 2], frames: &[u32]) -> Result<Vec<Brightness>, DatasetError> {
+    let one = |&number: &u32| {
+        let layers = [Layer::Color, Layer::Residual, Layer::RenderEntityId];
+        let frame = read_present(dataset, scene, camera, number, &layers)?;
+        let step = (frame.pixels() * frames.len()).div_ceil(SAMPLES);
+        Ok(Brightness::of_frame(&frame, step).unwrap_or_default())
+    };
+    frames.par_iter().map(one).collect()
+}

@@ -1,0 +1,44 @@
+//! Is it true, and is it worth having: the laws that tie the layers, poses, labels and files of a dataset together, and the gates.
+//!
+//! [`LAWS`] states them. A [`Card`] collects the worst value of each; a [`VerifyReport`] is its outcome, for machines and
+//! people, together with what the [gates](frame_gates) measured of each frame and how well neighbouring frames agree. Every law is
+//! computed here anew from the stored values, in double precision, with nothing taken from the renderer.
+
+mod boxes;
+mod camera_files;
+mod card;
+mod color;
+mod dataset;
+mod extra;
+mod frame;
+pub mod frame_gates;
+mod frame_values;
+mod geometry;
+mod labels;
+mod law;
+mod read;
+mod release;
+mod report;
+mod rounding;
+mod scan;
+#[cfg(test)]
+mod tests;
+mod trajectory;
+mod two_views;
+mod view;
+pub mod view_gates;
+mod whole;
+
+pub use card::Card;
+pub use dataset::{FrameVerifier, verify_listed_scene, verify_scene};
+pub use frame::check_frame;
+pub use frame_values::FrameValues;
+pub use labels::check_labels;
+pub use law::{LAWS, Law, LawSpec};
+pub use release::{Excuse, Excused};
+pub use report::{GateResult, LawResult, VerifyReport, count, number};
+pub use rounding::Rounding;
+pub use trajectory::{PlanRules, check_trajectory};
+pub use two_views::{Compared, PairValues};
+pub use view::View;
+pub use whole::{join_reports, write_changed, write_json};

@@ -1,0 +1,23 @@
+//! What a frame is checked against: its camera, its labels, how its values were stored.
+
+use crate::rounding::Rounding;
+use enfilade_scene::{CameraView, Labels, PartLabel};
+
+/// What a frame is checked against.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// What it was taken with, and where that stood.
+    pub camera: CameraView<'a>,
+    /// How its distances and positions, which are in metres, were rounded when they were stored.
+    pub rounding: Rounding,
+    /// True for frames of Hypersim's release, which has fewer layers.
+    pub released: bool,
+    /// Number of render entities.
+    pub entities: usize,
+    /// Labels by render entity (`parts[i]` is entity i + 1), where the scene has label tables.
+    pub labels: Option<&'a Labels>,
+    /// Labels of the other pieces of parts that people split, by render entity; empty where nothing was split.
+    pub pieces: &'a [(u32, PartLabel)],
+    /// The greatest class of the scene's list: 40 of NYU40.
+    pub last_class: i16,
+}
