@@ -5,6 +5,15 @@ use image::codecs::jpeg::JpegEncoder;
 /// A picture, row by row from the top.
 pub type Picture = image::RgbaImage;
 
+/// A picture of something measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Preview {
+    /// The picture.
+    pub picture: Picture,
+    /// The range of what it shows, where values were stretched; otherwise empty.
+    pub note: String,
+}
+
 /// JPEG quality of every picture that is not exact.
 const JPEG_QUALITY: u8 = 92;
 

@@ -9,6 +9,8 @@ use crate::exposure::Exposure;
 use crate::palette::{id_color, semantic_color, traits_color, validity_color};
 use crate::picture::{Picture, byte, from_pixels, jpeg, png};
 use crate::stretch::{self, Stretch};
+
+pub use crate::picture::Preview;
 use enfilade_frame::tonemap::{ToneMap, encode};
 use enfilade_frame::{Frame, Layer, Pass, Values, f16};
 
@@ -42,15 +44,6 @@ pub enum Subject {
     Difference,
     /// The layer in the way that suits it.
     Layer(Layer),
-}
-
-/// A preview.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Preview {
-    /// The picture.
-    pub picture: Picture,
-    /// The range of what it shows, where values were stretched; otherwise empty.
-    pub note: String,
 }
 
 const fn spec(pass: Pass, name: &'static str, subject: Subject) -> PreviewSpec {

@@ -4,8 +4,7 @@
 //! after the other.
 
 use crate::palette::{direction_color, viridis};
-use crate::picture::{byte, from_pixels};
-use crate::preview::Preview;
+use crate::picture::{Preview, byte, from_pixels};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::quantile;
 

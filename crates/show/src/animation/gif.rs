@@ -1,4 +1,5 @@
-use super::{AnimationError, AnimationFormat, few_colors, refused};
+use super::colors::few_colors;
+use super::format::{AnimationError, AnimationFormat, refused};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use quantette::deps::palette::Srgb;
 use quantette::{ImageRef, Pipeline};
@@ -45,7 +46,7 @@ impl Gif {
             ..Frame::default()
         };
         self.written += times;
-        self.encoder.write_frame(&frame).map_err(|e| super::refused(AnimationFormat::Gif)(e.to_string()))
+        self.encoder.write_frame(&frame).map_err(|e| super::format::refused(AnimationFormat::Gif)(e.to_string()))
     }
 
     pub fn finish(self) -> Result<Vec<u8>, AnimationError> {

@@ -3,80 +3,15 @@
 //! Each encoder runs on one thread, so that the bytes do not depend on the number of threads. Transparency is laid over black,
 //! since H.264 has none. GIF and WebP keep a picture of at most 256 colours exactly.
 
+mod colors;
+mod format;
 mod gif;
 mod mp4;
 mod webp;
 
+pub use format::{AnimationError, AnimationFormat};
+
 use crate::picture::Picture;
-use std::collections::BTreeSet;
-
-/// The form of an animation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AnimationFormat {
-    /// H.264 in MP4: small, and every browser and player shows it. At most 3840 × 2160 pixels or 2160 × 3840.
-    Mp4,
-    /// 256 colours per picture, dithered; shown wherever pictures are.
-    Gif,
-    /// Animated WebP: all colours, shown by browsers.
-    Webp,
-}
-
-impl AnimationFormat {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Mp4, Self::Gif, Self::Webp];
-
-    /// Its name, which is the extension of its files too.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Mp4 => "mp4",
-            Self::Gif => "gif",
-            Self::Webp => "webp",
-        }
-    }
-
-    /// The longest long side and the longest short side of a picture in it.
-    const fn longest_sides(self) -> [u32; 2] {
-        match self {
-            Self::Mp4 => [3840, 2160],
-            Self::Gif => [65535, 65535],
-            Self::Webp => [16383, 16383],
-        }
-    }
-}
-
-/// Why an animation cannot be made.
-#[derive(Debug, thiserror::Error)]
-pub enum AnimationError {
-    /// The rate is no rate.
-    #[error("{0} pictures per second; expected more than 0.01 and at most 100")]
-    Rate(f64),
-    /// The pictures are too large for the format.
-    #[error("pictures of {found}, but {format} holds at most {most}; choose another --format, which may be webp or gif")]
-    TooLarge {
-        /// Name of the format.
-        format: &'static str,
-        /// Size of the pictures.
-        found: String,
-        /// Largest size, the long side first.
-        most: String,
-    },
-    /// A picture has another size than the first.
-    #[error("a picture of {found} after one of {expected}; all of an animation have one size")]
-    Size {
-        /// Its size.
-        found: String,
-        /// That of the first.
-        expected: String,
-    },
-    /// The encoder refuses.
-    #[error("{format} cannot be encoded: {message}")]
-    Encoder {
-        /// Name of the format.
-        format: &'static str,
-        /// What the library says.
-        message: String,
-    },
-}
 
 /// An animation in the making.
 pub struct Animation {
@@ -146,24 +81,6 @@ fn sides((width, height): (u32, u32)) -> String {
 
 fn over_black([r, g, b, alpha]: [u8; 4]) -> [u8; 3] {
     [r, g, b].map(|v| (u16::from(v) * u16::from(alpha) / 255) as u8)
-}
-
-/// The colours of a picture, ascending; `None` when there are more than 256.
-fn few_colors(rgb: &[[u8; 3]]) -> Option<Vec<[u8; 3]>> {
-    let mut colors = BTreeSet::new();
-    let mut last = None;
-    for &color in rgb {
-        if last != Some(color) && colors.insert(color) && colors.len() > 256 {
-            return None;
-        }
-        last = Some(color);
-    }
-    Some(colors.into_iter().collect())
-}
-
-/// An encoder's refusal.
-fn refused(format: AnimationFormat) -> impl Fn(String) -> AnimationError {
-    move |message| AnimationError::Encoder { format: format.name(), message }
 }
 
 #[cfg(test)]

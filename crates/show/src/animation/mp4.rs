@@ -1,4 +1,4 @@
-use super::{AnimationError, AnimationFormat, refused};
+use super::format::{AnimationError, AnimationFormat, refused};
 use muxide::api::{Muxer, MuxerBuilder, VideoCodec};
 use openh264::OpenH264API;
 use openh264::encoder::{

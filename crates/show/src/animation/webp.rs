@@ -1,4 +1,5 @@
-use super::{AnimationError, AnimationFormat, few_colors, refused};
+use super::colors::few_colors;
+use super::format::{AnimationError, AnimationFormat, refused};
 use webp_animation::{ColorMode, Encoder, EncoderOptions, EncodingConfig, EncodingType, LossyEncodingConfig};
 
 /// Of 100; photographs are usually stored with 75 to 90.

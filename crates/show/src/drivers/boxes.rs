@@ -1,6 +1,6 @@
 //! Previews of boxes: every kind that a dataset has, drawn over its frames.
 
-use super::read_present;
+use super::present::read_present;
 use crate::overlay::{DrawnBox, draw_boxes};
 use crate::palette::{id_color, semantic_color};
 use crate::picture::{Picture, jpeg};

@@ -1,6 +1,6 @@
 //! How a camera's frames are exposed.
 
-use super::read_present;
+use super::present::read_present;
 use crate::exposure::{Brightness, Exposure, display_exposure};
 use enfilade_dataset::{Dataset, DatasetError, ToneMapRow};
 use enfilade_frame::Layer;

@@ -3,6 +3,7 @@
 mod animate;
 mod boxes;
 mod exposure;
+mod present;
 
 pub use animate::{AnimateConfig, AnimateError, Animated, Film, NoFrames, animate_camera};
 pub use boxes::preview_boxes;
@@ -17,19 +18,11 @@ use enfilade_dataset::{Dataset, DatasetError, write_bytes};
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, LAYERS, Layer};
 use enfilade_scene::{CameraView, Cx};
+use present::read_present;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
-
-/// The layers of a frame that are there or can be computed; an empty frame of one pixel when none is. Positions are left out where nothing
-/// says their unit.
-fn read_present(dataset: &Dataset, scene: &str, camera: &str, frame: u32, wanted: &[Layer]) -> Result<Frame, DatasetError> {
-    let has_unit = || !dataset.is_released(scene) || !dataset.meters_per_asset_unit(scene).is_err_and(|error| error.is_not_found());
-    let is_there = |layer: Layer| dataset.gives_layer(scene, camera, frame, layer) && (layer != Layer::Position || has_unit());
-    let there: Vec<Layer> = wanted.iter().copied().filter(|&layer| is_there(layer)).collect();
-    if there.is_empty() { Ok(Frame::new(1, 1)) } else { dataset.read_frame(scene, camera, frame, &there) }
-}
 
 /// Writes every preview that the layers of the given frames allow, and returns the files. The exposures are those of the same frames.
 /// Of the frames `made`, where [`preview_frame_alone`] has been, only those that need the whole trajectory.

@@ -1,8 +1,10 @@
 //! Views of a trajectory at a glance.
 
-use super::figure::{PAPER, Subject, time_color};
-use super::legend::{INK, MUTED, header, significant};
+use super::legend::header;
 use super::look::Sight;
+use super::marks::{INK, MUTED, significant};
+use super::marks::{PAPER, time_color};
+use super::subject::Subject;
 use crate::drawing::{Anchor, Drawing, Ink, Text};
 use crate::picture::Picture;
 

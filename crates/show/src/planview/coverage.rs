@@ -1,6 +1,6 @@
 //! Which surfaces a trajectory sees, and how often: points spread over the surfaces by area, so that tessellation does not count.
 
-use super::Planned;
+use super::planned::Planned;
 use enfilade_geometry::Voxel;
 use enfilade_math::{DVec3, Distribution1, Ray, Rng};
 use enfilade_scene::{Camera, CameraView, Trajectory};

@@ -1,19 +1,17 @@
 //! A trajectory on a chart: surfaces that the plane cuts, the way of the camera, its frusta and targets.
 
-use super::Planned;
 use super::chart::Chart;
 use super::coverage::SurfacePoint;
 use super::cut::{Cut, Look, joined};
-use super::legend::{self, INK, MUTED};
-use super::measure::FrameMeasures;
+use super::legend;
+use super::marks::{INK, PAPER, START, WALL, WALL_PX, dashes, draw_target, score_opacity, start_mark, time_color, times_color};
+use super::planned::Planned;
 use super::relief::relief;
-use super::report::Report;
+use super::subject::Subject;
 use crate::drawing::{Anchor, Drawing, Ink, Point, Text};
-use crate::palette::viridis;
 use enfilade_math::DVec3;
 use enfilade_math::quantile;
-use enfilade_scene::{Camera, Pose, Trajectory};
-use std::f64::consts::TAU;
+use enfilade_scene::{Camera, Pose};
 
 /// Width of the pages, pixels.
 const WIDTH: u32 = 1600;
@@ -30,33 +28,7 @@ const SURROUNDINGS_M: f64 = 0.35;
 /// Every so many poses one is numbered, and its target joined to it.
 const NUMBERED: usize = 10;
 
-pub(super) const PAPER: [u8; 3] = [255; 3];
-pub(super) const WALL: Ink = Ink::solid([26, 27, 30]);
-pub(super) const WALL_PX: f32 = 2.6;
-pub(super) const START: [u8; 3] = [200, 30, 70];
 const WHITE: Ink = Ink::solid([255; 3]);
-
-/// A trajectory and what is known of it.
-pub(super) struct Subject<'a> {
-    pub planned: &'a Planned<'a>,
-    pub camera: &'a Camera,
-    pub trajectory: &'a Trajectory,
-    pub measures: &'a [FrameMeasures],
-    /// Points of the surfaces.
-    pub points: &'a [SurfacePoint],
-    /// The plan's own report, whose values the measures are then.
-    pub report: Option<&'a Report>,
-}
-
-impl Subject<'_> {
-    /// What the scores are, in words.
-    pub fn score_name(&self) -> &'static str {
-        match self.report {
-            Some(_) => "the plan's",
-            None => "Hypersim's: the number of triangles seen times the square of the share of pixels that see a surface",
-        }
-    }
-}
 
 /// The page that shows `subject` cut by the chart's plane. `title` says what kind of drawing it is.
 pub(super) fn figure(subject: &Subject<'_>, cut: Cut, title: &str) -> Drawing {
@@ -101,11 +73,6 @@ pub(super) fn coverage_figure(subject: &Subject<'_>, cut: Cut) -> Drawing {
     }
     legend::coverage_column(&mut page, legend_place(&chart), subject, most);
     page
-}
-
-/// The colour of how often a point is seen: red for never, then viridis by the logarithm of the number of frames.
-pub(super) fn times_color(times: u32, most: u32) -> [u8; 3] {
-    if times == 0 { START } else { time_color(f64::from(times).ln() / f64::from(most.max(2)).ln()) }
 }
 
 /// Free space within the scene, and all of the trajectory, with some surroundings.
@@ -163,16 +130,6 @@ fn clipped(chart: &Chart, run: Vec<Point>) -> Vec<Vec<Point>> {
         }
     }
     pieces
-}
-
-/// The colour of time: viridis without its brightest end, which does not show on a light ground.
-pub(super) fn time_color(place: f64) -> [u8; 3] {
-    viridis(0.93 * place)
-}
-
-/// Opacity of a frustum by its score over the greatest one.
-pub(super) fn score_opacity(share: f64) -> f32 {
-    (0.04 + 0.36 * share.clamp(0.0, 1.0)) as f32
 }
 
 fn draw_way(page: &mut Drawing, subject: &Subject<'_>, chart: &Chart) {
@@ -263,22 +220,6 @@ fn draw_frustum(page: &mut Drawing, chart: &Chart, camera: &Camera, pose: &Pose,
     page.line(&[apex, left, right, apex], 0.9, edge);
 }
 
-/// A cross.
-pub(super) fn draw_target(page: &mut Drawing, [x, y]: Point, color: [u8; 3], opacity: f32) {
-    const ARM: f32 = 3.6;
-    let arms = vec![vec![[x - ARM, y - ARM], [x + ARM, y + ARM]], vec![[x - ARM, y + ARM], [x + ARM, y - ARM]]];
-    page.lines(arms.clone(), 3.2, Ink::veil([255; 3], 0.7 * opacity));
-    page.lines(arms, 1.4, Ink::veil(color, opacity));
-}
-
-/// A dashed line.
-pub(super) fn dashes(from: Point, to: Point) -> Vec<Vec<Point>> {
-    const DASH: f32 = 5.0;
-    let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-    let at = |s: f32| [0, 1].map(|c| from[c] + (to[c] - from[c]) * (s / length).min(1.0));
-    (0..(length / (2.0 * DASH)).ceil() as usize).map(|i| 2.0 * DASH * i as f32).map(|s| vec![at(s), at(s + DASH)]).collect()
-}
-
 fn draw_starts(page: &mut Drawing, planned: &Planned<'_>, chart: &Chart) {
     for start in planned.starts {
         let center = chart.to_page(start.position);
@@ -296,25 +237,13 @@ fn draw_starts(page: &mut Drawing, planned: &Planned<'_>, chart: &Chart) {
     }
 }
 
-/// A ring with a gap for what stands within.
-pub(super) fn start_mark(page: &mut Drawing, [x, y]: Point) {
-    let ring = |radius: f32| -> Vec<Point> {
-        (0..=48).map(|i| (f64::from(i) / 48.0 * TAU) as f32).map(|a| [x + radius * a.cos(), y + radius * a.sin()]).collect()
-    };
-    page.line(&ring(10.0), 4.6, Ink::veil([255; 3], 0.85));
-    page.line(&ring(10.0), 2.2, Ink::solid(START));
-}
-
-/// A small note in the legend's colour.
-pub(super) fn note(page: &mut Drawing, at: Point, words: String) {
-    page.text(at, words, 9.5, MUTED);
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::tests::with_planned;
     use super::*;
     use crate::drawing::{Shape, svg};
+    use crate::planview::measure::FrameMeasures;
+    use enfilade_scene::Trajectory;
     use enfilade_scene::{Intrinsics, Projection};
 
     #[test]

@@ -2,12 +2,11 @@
 
 use super::chart::{Chart, round_below};
 use super::cut::Look;
-use super::figure::{Subject, WALL, WALL_PX, draw_target, note, score_opacity, start_mark, time_color, times_color};
+use super::marks::{INK, MUTED, WALL, WALL_PX, draw_target, note, score_opacity, significant, start_mark, time_color, times_color};
 use super::relief::{FREE, FREE_OVER_VOID, NEAR, OCCUPIED, UNKNOWN, UNKNOWN_HATCH};
+use super::subject::Subject;
 use crate::drawing::{Anchor, Drawing, Ink, Point, Text};
 
-pub(super) const INK: Ink = Ink::solid([34, 35, 40]);
-pub(super) const MUTED: Ink = Ink::solid([104, 107, 114]);
 const LETTERS: f32 = 10.5;
 const LINE: f32 = 27.0;
 /// Width of the signs before their meanings.
@@ -164,12 +163,6 @@ fn signs(page: &mut Drawing, [x, mut y]: Point, chart: &Chart) -> f32 {
         "unknown",
     );
     y + 18.0
-}
-
-/// Three digits that count, or all before the point.
-pub(super) fn significant(value: f64) -> String {
-    let digits = (2.0 - value.abs().max(1e-3).log10().floor()).clamp(0.0, 5.0) as usize;
-    format!("{value:.digits$}")
 }
 
 fn corners([x, y, w, h]: [f32; 4]) -> [Point; 5] {

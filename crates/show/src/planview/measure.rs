@@ -1,7 +1,7 @@
 //! Numbers about every frame of a trajectory.
 
-use super::Planned;
 use super::look::Sight;
+use super::planned::Planned;
 use enfilade_geometry::Surfaces;
 use enfilade_math::DVec3;
 use enfilade_scene::{Camera, CameraView, Pose, Trajectory};

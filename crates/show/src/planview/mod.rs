@@ -16,56 +16,33 @@ mod figure;
 mod html;
 mod legend;
 mod look;
+mod marks;
 mod measure;
+mod planned;
 mod relief;
 mod report;
 mod statistics;
+mod subject;
 
 use crate::drawing::{Drawing, paint, svg};
 use crate::picture::{jpeg, png};
 use contact::Thumbnail;
 use cut::{Cut, Look};
 use enfilade_dataset::{Dataset, DatasetError, remove_folder, write_bytes};
-use enfilade_geometry::{Bvh, OccupancyTree, Voxel};
+use enfilade_geometry::Voxel;
 use enfilade_math::DVec3;
 use enfilade_math::quantile;
-use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, WorldMesh};
-use figure::{Subject, figure};
+use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory};
+use figure::figure;
 use html::{Section, Shown};
 use look::{Sight, toolkit_colors};
 use measure::{FrameMeasures, Measuring};
+pub use planned::Planned;
 use rayon::prelude::*;
 pub(crate) use report::Report;
 use statistics::Distances;
 use std::path::PathBuf;
-
-/// What was planned for a scene, and the scene as rays meet it.
-pub struct Planned<'a> {
-    /// Name of the scene in the dataset.
-    pub scene: &'a str,
-    /// Its triangles.
-    pub world: &'a WorldMesh,
-    /// The hierarchy over them, all solid.
-    pub bvh: &'a Bvh,
-    /// Its free space.
-    pub tree: &'a OccupancyTree,
-    /// Where carving and planning began.
-    pub starts: &'a [StartCamera],
-    /// The trajectories, and what each is filmed with.
-    pub filmed: &'a [(Camera, Trajectory)],
-}
-
-impl Planned<'_> {
-    /// Number of parts, those without triangles at the end left out.
-    fn parts(&self) -> usize {
-        self.world.sources.iter().map(|source| source.part as usize + 1).max().unwrap_or(0)
-    }
-
-    /// The box around the free voxels, metres.
-    fn free_bounds(&self) -> Option<(DVec3, DVec3)> {
-        self.tree.bounds(Voxel::Free)
-    }
-}
+use subject::Subject;
 
 /// Draws everything planned for a scene into the dataset, and returns the files written. Old previews of the scene are removed.
 ///
@@ -276,6 +253,8 @@ fn about_scene(planned: &Planned<'_>) -> String {
 mod tests {
     use super::*;
     use enfilade_geometry::VoxelKey;
+    use enfilade_geometry::{Bvh, OccupancyTree};
+    use enfilade_scene::StartCamera;
     use enfilade_scene::{Intrinsics, Quiet};
     use enfilade_testroom::box_room;
     use std::collections::BTreeMap;

@@ -1,8 +1,8 @@
 //! The ground of a chart: what is known of space on the plane, and the surfaces behind it.
 
-use super::Planned;
 use super::chart::Chart;
 use super::look::{Seen, meet};
+use super::planned::Planned;
 use crate::picture::Picture;
 use enfilade_geometry::Voxel;
 use enfilade_math::DVec3;

@@ -2,10 +2,12 @@
 
 use super::chart::round_below;
 use super::coverage::{SurfacePoint, seen_so_far};
-use super::figure::{PAPER, Subject, time_color};
-use super::legend::{INK, MUTED, header};
+use super::legend::header;
 use super::look::Sight;
+use super::marks::{INK, MUTED};
+use super::marks::{PAPER, time_color};
 use super::measure::FrameMeasures;
+use super::subject::Subject;
 use crate::drawing::{Anchor, Drawing, Ink, Point, Text};
 use enfilade_math::quantile;
 

@@ -2,7 +2,7 @@
 
 use super::canvas::{Canvas, Color};
 use super::lettering::{self, Style};
-use super::{CAPTION, DETAIL, SUBTITLE};
+use super::style::{CAPTION, DETAIL, SUBTITLE};
 use crate::palette::semantic_color;
 use enfilade_frame::{Frame, Layer};
 use enfilade_label::class_name;

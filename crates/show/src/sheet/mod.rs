@@ -3,6 +3,7 @@
 pub(crate) mod canvas;
 mod legend;
 pub(crate) mod lettering;
+mod style;
 
 use crate::picture::Picture;
 use crate::preview::{Subject, preview};
@@ -14,13 +15,11 @@ use legend::ClassShares;
 use lettering::Style;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
+use style::{CAPTION, DETAIL, SUBTITLE};
 
 const BACKGROUND: Color = [24, 25, 28];
 const EMPTY: Color = [38, 40, 44];
 const TITLE: Style = Style { height: 26.0, weight: 0.13, color: [244, 244, 240] };
-const SUBTITLE: Style = Style { height: 13.0, weight: 0.11, color: [168, 170, 174] };
-const CAPTION: Style = Style { height: 11.0, weight: 0.115, color: [214, 214, 210] };
-const DETAIL: Style = Style { height: 11.0, weight: 0.105, color: [142, 144, 150] };
 
 const MARGIN: u32 = 44;
 const GAP: u32 = 10;

@@ -3,7 +3,6 @@
 //! A vCPU-hour is what a cloud bills: an hour of one thread of a machine, busy or idle. A frame takes its time on the wall clock
 //! times the threads at work. Hypersim paid 0.0161 to 0.0484 dollars for one, half of them 0.0165 or less.
 
-use super::Machine;
 use enfilade_dataset::FrameTime;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -12,6 +11,15 @@ use std::collections::BTreeMap;
 const HOUR_S: f64 = 3600.0;
 /// Bytes of a gibibyte.
 const GIB: f64 = 1_073_741_824.0;
+
+/// The size of a machine that can be had at a price.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Machine {
+    /// Threads; 1 or more.
+    pub vcpus: u32,
+    /// Above 0.
+    pub memory_gib: f64,
+}
 
 /// Dollars per vCPU-hour, with the name of what is paid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

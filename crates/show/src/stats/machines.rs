@@ -3,23 +3,13 @@
 //! A machine could have done it in the same time when it has a vCPU for every thread, and memory for what the process had at most and
 //! for the system beside it. The smallest has the fewest vCPUs, then the least memory, then the lowest price.
 
-use super::Price;
-use serde::{Deserialize, Serialize};
+use super::{Machine, Price};
 
 /// Bytes of a gibibyte.
 const GIB: f64 = 1_073_741_824.0;
 /// Memory that a machine's system keeps for itself, GiB; `farm submit` asks engines for as much beside the program's own.
 const SYSTEM_GIB: f64 = 0.5;
 const HOUR_S: f64 = 3600.0;
-
-/// The size of a machine that can be had at a price.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Machine {
-    /// Threads; 1 or more.
-    pub vcpus: u32,
-    /// Above 0.
-    pub memory_gib: f64,
-}
 
 impl Price {
     /// Dollars of the whole machine for some seconds; `None` where its size is not told.

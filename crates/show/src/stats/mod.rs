@@ -27,8 +27,8 @@ mod plots;
 mod report;
 mod toolkit;
 
-pub use costs::{Cost, CostReport, Price};
-pub use machines::{Machine, memory_gib, smallest_feasible, tells_sizes};
+pub use costs::{Cost, CostReport, Machine, Price};
+pub use machines::{memory_gib, smallest_feasible, tells_sizes};
 
 use crate::drawing::{paint, svg};
 use crate::picture::png;
