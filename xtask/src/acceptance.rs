@@ -1,4 +1,4 @@
-//! The release binary at work: a small demo dataset, judged by itself and by a program that does not know us.
+//! The program at work: a small demo dataset, judged by itself and by a program that does not know us.
 
 use crate::house::House;
 use crate::python;
@@ -54,9 +54,7 @@ pub fn independent(house: &House) -> Result<String, String> {
 }
 
 fn enfilade(house: &House, arguments: &[&str]) -> Result<String, String> {
-    let mut command = house.cargo(&["run", "--release", "--locked", "--quiet", "--package", "enfilade", "--"]);
-    command.args(arguments);
-    finish(command)
+    finish(house.command(house.tested("enfilade")?, arguments))
 }
 
 fn folder(house: &House) -> Result<PathBuf, String> {

@@ -2,6 +2,7 @@
 
 use crate::house::House;
 use crate::step::{Step, choose, finish};
+use crate::test;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -34,12 +35,7 @@ const STEPS: [Step; 5] = [
         remedy: "run `npm run vendor` in crates/annotate/browser and commit what it writes",
         run: vendor,
     },
-    Step {
-        name: "program",
-        about: "the program builds",
-        remedy: "mend what the messages above show",
-        run: |house| finish(house.cargo(&["build", "--release", "--locked", "--package", "enfilade"])),
-    },
+    Step { name: "program", about: "the program builds, as for the tests", remedy: "fix what the messages above show", run: test::build },
     Step {
         name: "pages",
         about: "the pages do what they should, in a browser",
@@ -82,7 +78,7 @@ fn vendor(house: &House) -> Result<String, String> {
 
 fn pages(house: &House) -> Result<String, String> {
     let browser = browser(house)?;
-    let program = house.target()?.join("release").join(format!("enfilade{}", std::env::consts::EXE_SUFFIX));
+    let program = house.tested("enfilade")?;
     let mut command = house.command("node", &["--test", "--test-concurrency=1"]);
     command.args(tests(house)?).current_dir(house.root.join(ROOM)).env(BROWSER_VARIABLE, browser).env(PROGRAM_VARIABLE, program);
     finish(command)

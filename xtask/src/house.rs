@@ -67,6 +67,14 @@ impl House {
         Ok(folder.into())
     }
 
+    /// A program that was built with the tests.
+    ///
+    /// # Errors
+    /// When cargo fails.
+    pub fn tested(&self, program: &str) -> Result<PathBuf, String> {
+        Ok(self.target()?.join("debug").join(format!("{program}{}", std::env::consts::EXE_SUFFIX)))
+    }
+
     /// True when `cargo NAME` is installed.
     pub fn has_cargo_command(&self, name: &str) -> bool {
         let status = self.cargo(&[name, "--version"]).stdout(Stdio::null()).stderr(Stdio::null()).status();

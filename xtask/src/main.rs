@@ -34,10 +34,10 @@ use std::process::ExitCode;
 
 const USAGE: &str = "\
 usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directions, dependency policy, docs, quick tests
-       cargo xtask test [STEP...]                 all tests, then the release binary on the demo
+       cargo xtask test [STEP...]                 all tests, then the demo
        cargo xtask python [STEP...]               the module as pip installs it: torch's loader, notebooks, training
        cargo xtask browser [STEP...]              the pages: types, bundle, tests in a browser
-       cargo xtask fuzz [--seconds N] [--quick] [TARGET...]   searches for bytes that break what reads them
+       cargo xtask fuzz [--seconds N] [--quick | --as-tested] [TARGET...]   searches for bytes that break what reads them
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
        cargo xtask cluster [--program PATH] [TEST...]   a farm on Slurm, S3 and by other engines' files, with faults

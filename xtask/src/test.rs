@@ -1,26 +1,28 @@
-//! `cargo xtask test`: all tests, then the release binary on the demo.
+//! `cargo xtask test`: all tests, then the program that they were built with on the demo.
 
 use crate::house::House;
 use crate::step::{Step, choose, finish};
 use crate::{acceptance, oidn, python};
+use std::process::Command;
 
 /// All steps, in the order in which a failure tells most.
-const STEPS: [Step; 4] = [
+const STEPS: [Step; 5] = [
+    Step { name: "build", about: "the tests and the programs that they run build", remedy: "fix what the messages above show", run: build },
     Step {
         name: "tests",
         about: "all tests of the workspace pass",
-        remedy: "mend the code or the test; `cargo test -p CRATE NAME` runs one, failing pictures and counts lie in target/evidence",
+        remedy: "fix the code or the test; `cargo test -p CRATE NAME` runs one, failing pictures and counts lie in target/evidence",
         run: all_tests,
     },
     Step {
-        name: "release",
-        about: "the release binary builds",
-        remedy: "mend what the messages above show",
-        run: |house| finish(house.cargo(&["build", "--release", "--locked", "--package", "enfilade"])),
+        name: "examples",
+        about: "the examples in the documentation are true",
+        remedy: "fix the code or the example; `cargo test -p CRATE --doc` runs those of a crate",
+        run: |house| finish(cargo(house, &["test", "--doc", "--quiet"])),
     },
     Step {
         name: "demo",
-        about: "the binary makes a small demo dataset, does nothing the second time, and finds it true",
+        about: "the program makes a small demo dataset, does nothing the second time, and finds it true",
         remedy: "the dataset is left in target/acceptance/demo; `enfilade inspect` tells about single pixels of it",
         run: acceptance::demo,
     },
@@ -31,6 +33,26 @@ const STEPS: [Step; 4] = [
         run: acceptance::independent,
     },
 ];
+
+/// What is tested, and with which features: the same for every step, so that everything is built once. On unattended machines the program
+/// that `cargo xtask fuzz --as-tested` searches with is built among the tests.
+fn cargo(house: &House, arguments: &[&str]) -> Command {
+    let mut command = house.cargo(arguments);
+    command.args(["--workspace", "--locked"]);
+    if House::unattended() {
+        command.args(["--features", "enfilade-fuzz/libfuzzer"]);
+    }
+    command
+}
+
+/// Builds all tests, and the programs of the packages that have any: `enfilade` among them.
+///
+/// # Errors
+/// When something does not build.
+pub fn build(house: &House) -> Result<String, String> {
+    let runner: &[&str] = if house.has_cargo_command("nextest") { &["nextest", "run"] } else { &["test"] };
+    finish(cargo(house, &[runner, &["--no-run"]].concat()))
+}
 
 /// Takes the steps with these names, or all; ends with the first that fails.
 ///
@@ -46,20 +68,13 @@ pub fn run(house: &House, names: &[&str]) -> Result<(), String> {
 fn all_tests(house: &House) -> Result<String, String> {
     let python = python::with_h5py(house)?;
     let denoiser = oidn::found(house);
-    let cargo = |arguments: &[&str]| {
-        let mut command = house.cargo(arguments);
-        if let Some(python) = &python {
-            command.env(python::VARIABLE, python);
-        }
-        if let Some(denoiser) = &denoiser {
-            command.env(oidn::VARIABLE, denoiser);
-        }
-        finish(command)
-    };
-    if !house.has_cargo_command("nextest") {
-        return cargo(&["test", "--workspace", "--locked", "--no-fail-fast"]);
+    let runner: &[&str] = if house.has_cargo_command("nextest") { &["nextest", "run"] } else { &["test", "--all-targets"] };
+    let mut command = cargo(house, &[runner, &["--no-fail-fast"]].concat());
+    if let Some(python) = &python {
+        command.env(python::VARIABLE, python);
     }
-    // nextest does not run the examples in the documentation.
-    cargo(&["test", "--workspace", "--locked", "--doc", "--quiet"])?;
-    cargo(&["nextest", "run", "--workspace", "--locked", "--no-fail-fast"])
+    if let Some(denoiser) = &denoiser {
+        command.env(oidn::VARIABLE, denoiser);
+    }
+    finish(command)
 }

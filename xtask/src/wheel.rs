@@ -21,7 +21,13 @@ const PACKAGES: [(&str, &str); 7] = [
 ];
 
 /// All steps.
-const STEPS: [Step; 4] = [
+const STEPS: [Step; 5] = [
+    Step {
+        name: "environment",
+        about: "torch and what else the module is used with are installed",
+        remedy: "see what pip says above; it takes about 3 GB from PyPI the first time",
+        run: |house| environment(house).map(|_| String::new()),
+    },
     Step {
         name: "install",
         about: "`pip install .` builds and installs the module",

@@ -1,16 +1,18 @@
-//! `cargo xtask fuzz [--seconds N] [--seed N] [--quick] [TARGET...]`: searches for bytes that break what reads them.
+//! `cargo xtask fuzz [--seconds N] [--seed N] [--quick | --as-tested] [TARGET...]`: searches for bytes that break what reads them.
 //!
 //! libFuzzer on the stable toolchain: LLVM's coverage pass is asked for by flags of the compiler that need no `-Z`. The program is built
 //! below `target/fuzz/build`, each target's files lie in `target/fuzz/<target>/`. What was learned there (the corpus) is kept, so that a
 //! longer search goes on where a shorter one ended. Two targets are searched at a time. With `--seed` chance repeats itself: from the same
 //! corpus the same inputs are tried, as far as the time goes. `--quick` leaves out the readers of datasets and
-//! of the whole program, without which the program that searches builds much faster.
+//! of the whole program, without which the program that searches builds much faster. `--as-tested` searches with the program that
+//! `cargo xtask test` has built on unattended machines: without coverage, so seeds are only varied and nothing is learned, but nothing is built either.
 
 mod report;
 mod search;
 
 use crate::house::House;
 use crate::step::finish;
+use crate::test;
 use report::Row;
 use search::Target;
 use std::path::{Path, PathBuf};
@@ -42,13 +44,15 @@ struct Asked {
     seed: Option<u32>,
     /// Importers and V-Ray alone.
     quick: bool,
+    /// With the program that the tests have built, without coverage.
+    as_tested: bool,
     /// All where none is named.
     names: Vec<String>,
 }
 
 impl Asked {
     fn parse(words: &[&str]) -> Result<Self, String> {
-        let mut asked = Self { seconds: SECONDS, seed: None, quick: false, names: Vec::new() };
+        let mut asked = Self { seconds: SECONDS, seed: None, quick: false, as_tested: false, names: Vec::new() };
         let mut words = words.iter();
         while let Some(word) = words.next() {
             if *word == "--seconds" {
@@ -57,6 +61,8 @@ impl Asked {
                 asked.seed = Some(above_zero(word, words.next())?);
             } else if *word == "--quick" {
                 asked.quick = true;
+            } else if *word == "--as-tested" {
+                asked.as_tested = true;
             } else {
                 asked.names.push((*word).to_string());
             }
@@ -80,7 +86,7 @@ fn above_zero<T: FromStr + Default + PartialOrd>(flag: &str, word: Option<&&str>
 pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     let asked = Asked::parse(words)?;
     let folder = house.target()?.join("fuzz");
-    let program = build(house, &folder.join("build"), asked.quick)?;
+    let program = if asked.as_tested { as_tested(house)? } else { build(house, &folder.join("build"), asked.quick)? };
     let all = search::targets(&program, &folder)?;
     if let Some(unknown) = asked.names.iter().find(|name| !all.iter().any(|target| target.name == **name)) {
         let known: Vec<&str> = all.iter().map(|target| target.name.as_str()).collect();
@@ -88,7 +94,7 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     }
     let chosen: Vec<Target> = all.into_iter().filter(|t| asked.names.is_empty() || asked.names.contains(&t.name)).collect();
     let rows = search_all(&program, &chosen, &asked)?;
-    let whole = asked.names.is_empty() && !asked.quick;
+    let whole = asked.names.is_empty() && !asked.quick && !asked.as_tested;
     let docs = if whole && !House::unattended() { house.root.join("docs/benchmarks") } else { folder };
     report::write(&docs, asked.seconds, &rows)?;
     println!("{}\nwritten to {}", report::table(&rows), docs.join("fuzz.md").display());
@@ -109,6 +115,12 @@ fn build(house: &House, target: &Path, quick: bool) -> Result<PathBuf, String> {
     command.env_remove("CARGO_ENCODED_RUSTFLAGS");
     finish(command).map_err(|error| format!("{error}; a C++ compiler is needed, on Debian: apt install g++"))?;
     Ok(target.join(platform).join("fuzz/fuzz"))
+}
+
+/// The program as [`test::build`] leaves it; builds what of it is missing.
+fn as_tested(house: &House) -> Result<PathBuf, String> {
+    test::build(house)?;
+    house.tested("fuzz")
 }
 
 /// The platform of the compiler.
@@ -149,8 +161,8 @@ mod tests {
     #[test]
     fn seconds_and_targets_are_told_apart() {
         let asked = |words: &[&str]| Asked::parse(words);
-        assert_eq!(asked(&[]).unwrap(), Asked { seconds: 60, seed: None, quick: false, names: vec![] });
-        let some = Asked { seconds: 5, seed: Some(7), quick: true, names: vec!["gltf".into()] };
+        assert_eq!(asked(&[]).unwrap(), Asked { seconds: 60, seed: None, quick: false, as_tested: false, names: vec![] });
+        let some = Asked { seconds: 5, seed: Some(7), quick: true, as_tested: false, names: vec!["gltf".into()] };
         assert_eq!(asked(&["gltf", "--seconds", "5", "--seed", "7", "--quick"]).unwrap(), some);
         assert_eq!(asked(&["--seconds", "0"]).unwrap_err(), "--seconds: found 0, expected a whole number above zero");
         assert!(asked(&["--seconds"]).unwrap_err().contains("found nothing"));
