@@ -12,9 +12,9 @@ use enfilade_scene::Intrinsics;
 use std::path::{Path, PathBuf};
 
 #[allow(dead_code, reason = "made for other tests, of which a part is used")]
-#[path = "../../../dataset/tests/analytic/mod.rs"]
+#[path = "../../../dataset/tests/all/analytic/mod.rs"]
 mod analytic;
-#[path = "../../../dataset/tests/damaged/mod.rs"]
+#[path = "../../../dataset/tests/all/damaged/mod.rs"]
 mod damaged;
 
 pub use analytic::{CAMERA, SCENE};

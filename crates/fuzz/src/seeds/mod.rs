@@ -5,7 +5,7 @@ pub mod dataset;
 mod fbx;
 mod pictures;
 
-#[path = "../../../import/tests/common/mod.rs"]
+#[path = "../../../import/tests/all/common/mod.rs"]
 mod import;
 #[cfg(feature = "program")]
 #[allow(dead_code, reason = "made for other tests, of which a part is used")]

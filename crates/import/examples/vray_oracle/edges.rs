@@ -1,6 +1,6 @@
 //! Where V-Ray's picture has the edges of the squares, measured from where the imported geometry and camera put them.
 
-use crate::picture::Picture;
+use super::picture::Picture;
 use enfilade_geometry::Bvh;
 use enfilade_math::{DVec2, DVec3, Ray, Vec3};
 use enfilade_scene::{CameraView, Part, Scene, WorldMesh};

@@ -1,0 +1,14 @@
+//! The program as people run it: its verbs, their files and their messages.
+
+mod bad_input;
+mod common;
+mod denoise;
+mod farm;
+mod hypersim;
+mod ingest;
+mod rendering;
+mod replay;
+mod resume;
+mod suggest;
+mod verbs;
+mod vray;

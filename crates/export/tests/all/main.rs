@@ -1,0 +1,10 @@
+//! Exports, read back by what they were made for.
+
+mod bop;
+mod coco;
+mod common;
+mod pix3d;
+mod place;
+mod readers;
+mod round_trips;
+mod scene_gltf;

@@ -1,0 +1,29 @@
+//! Files of every format, written by the tests, and what scenes become of them.
+
+mod bad_input;
+mod common;
+mod fbx;
+mod gltf;
+mod gltf_colors;
+mod gltf_gloss;
+mod gltf_poses;
+mod gltf_writers;
+mod mitsuba;
+mod mitsuba_materials;
+mod mitsuba_pictures;
+mod mitsuba_references;
+mod obj;
+mod pbrt;
+mod pbrt_numbers;
+mod pbrt_rooms;
+mod ply;
+mod rooms;
+mod sweethome;
+mod usd;
+mod usd_binary;
+mod usd_lights;
+mod usd_looks;
+mod vray;
+mod vray_bad_input;
+mod vray_materials;
+mod vray_oracle;

@@ -1,0 +1,11 @@
+//! Stages over folders: what is made, what is made again, what damage does.
+
+mod cameras;
+mod changes;
+mod common;
+mod damage;
+mod demo;
+mod gates;
+mod rooms;
+mod trajectories;
+mod vray;

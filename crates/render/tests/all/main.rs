@@ -1,0 +1,8 @@
+//! Pictures against known answers.
+
+mod cameras;
+mod extra;
+mod film;
+mod known_answers;
+mod layers;
+mod look;
