@@ -379,7 +379,7 @@ impl Dataset {
         written
     }
 
-    /// Removes what [`Self::write_aside`] wrote, as far as that goes: an error is on its way already.
+    /// Removes what [`Self::write_aside`] wrote. Failures are ignored, since an earlier error is being returned.
     fn remove_aside(&self, scene: &str, camera: &str, number: u32, frame: &Frame) {
         for (layer, _) in frame.iter() {
             let _ = fs::remove_file(temporary(&self.layout().layer(scene, camera, number, layer)));
@@ -429,7 +429,7 @@ impl Dataset {
     }
 }
 
-/// What a layer's file says of it.
+/// The attributes of a layer's file.
 pub(crate) fn attributes_of(layer: Layer) -> Vec<(&'static str, &'static str)> {
     let spec = layer.spec();
     let attributes = [("unit", spec.unit), ("space", spec.space), ("sentinel", spec.sentinel), ("description", spec.description)];

@@ -1,4 +1,4 @@
-//! The mesh folder as whoever labels it needs it: triangles, the objects they belong to, and objects that were split.
+//! Reading the mesh folder for labelling: triangles, the objects that they belong to, and objects that were split.
 //!
 //! An object that was split keeps its number for what is left of it; the others are appended. `mesh_faces_oi.hdf5` then says
 //! which face belongs to which, and `metadata_object_splits.csv` which object each of the appended ones was a part of.
@@ -188,7 +188,7 @@ fn read_i64(path: &Path) -> Result<Vec<i64>, DatasetError> {
     }
 }
 
-/// Indices of things of which there are `count`.
+/// Reads indices into a list of `count` things.
 fn read_indices(path: &Path, count: usize, what: &str) -> Result<Vec<u32>, DatasetError> {
     let index = |(place, value): (usize, i64)| {
         u32::try_from(value).ok().filter(|&i| (i as usize) < count).ok_or_else(|| {
@@ -224,7 +224,7 @@ mod tests {
         assert_eq!(written.len(), 3);
         assert_eq!((files.read().unwrap(), files.read_objects_of_faces().unwrap()), (mesh.clone(), vec![0, 1, 2]));
         assert_eq!(files.read_splits().unwrap(), [1]);
-        // Without the table of what was split, it takes somebody who knows.
+        // Without the table of splits, the caller must say which objects are whole.
         std::fs::remove_file(files.file(OBJECT_SPLITS)).unwrap();
         assert_eq!(files.read().unwrap().objects.len(), 3);
         assert_eq!(files.read_unsplit(2, vec![0, 1, 1]).unwrap(), mesh);
