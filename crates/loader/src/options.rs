@@ -1,3 +1,5 @@
+//! What users choose: which frames and layers, and what is done to each sample.
+
 use enfilade_dataset::Partition;
 use enfilade_frame::Layer;
 
