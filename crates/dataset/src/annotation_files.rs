@@ -16,7 +16,7 @@ struct Header {
 
 /// What tells a scene from others: the names of its parts, in order, and how many faces each has.
 ///
-/// A BLAKE3 hash as hexadecimal text. Tables give names back without blanks at their ends.
+/// A BLAKE3 hash as hexadecimal text. Blanks at the ends of names do not count, since tables lose them.
 pub fn scene_hash<'a>(parts: impl IntoIterator<Item = (&'a str, usize)>) -> String {
     let mut hasher = blake3::Hasher::new();
     for (name, faces) in parts {
@@ -42,7 +42,7 @@ impl MeshFiles {
             Ok(line)
         };
         let (header, first_edit) = (line()?, line()?);
-        // One that was cut short when the machine died never counted.
+        // A last line that was cut short when the machine died does not count.
         if !first_edit.ends_with(b"\n") {
             return Ok(None);
         }

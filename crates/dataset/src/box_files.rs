@@ -15,9 +15,9 @@ use std::path::PathBuf;
 pub enum BoxKind {
     /// Along the world's axes.
     AxisAligned,
-    /// Upright: the rectangle of least area in the ground plane.
+    /// Upright: the rectangle of minimum area in the ground plane.
     ObjectAligned2d,
-    /// Of nearly the least volume.
+    /// Of nearly minimum volume.
     ObjectAligned3d,
 }
 

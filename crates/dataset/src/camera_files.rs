@@ -85,7 +85,7 @@ impl Dataset {
     /// [`Dataset::read_trajectory`] with the orientations as they are stored.
     ///
     /// # Errors
-    /// As there.
+    /// As [`Dataset::read_trajectory`].
     pub fn read_stored_trajectory(&self, scene: &str, camera: &str) -> Result<Trajectory, DatasetError> {
         let keyframes = |what: &str| self.layout().keyframes(scene, camera, what);
         let positions = read_f64(&keyframes("positions"), None, &[3])?;
@@ -224,7 +224,17 @@ pub fn opencv_cameras(scene: &str, trajectory: &Trajectory, camera: &Camera) -> 
     text
 }
 
-/// A camera in OpenCV's conventions.
+/// A camera in OpenCV's conventions: axes x right, y down, z forward, and the centre of the upper left pixel at (0, 0).
+///
+/// ```
+/// use enfilade_dataset::OpencvCalibration;
+/// use enfilade_scene::{Intrinsics, Projection};
+/// // Counted from the corner of the image, the middle of 1024 x 768 pixels is (512, 384).
+/// let pinhole = Intrinsics { width: 1024, height: 768, fx: 887.0, fy: 887.0, cx: 512.0, cy: 384.0, skew: 0.0 };
+/// let calibration = OpencvCalibration::of(&Projection::Pinhole(pinhole));
+/// let k = calibration.intrinsics.unwrap().opencv_k();
+/// assert_eq!(k, [[887.0, 0.0, 511.5], [0.0, 887.0, 383.5], [0.0, 0.0, 1.0]]);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpencvCalibration {
     /// The pinhole, before distortion; `None` for cameras that have none. [`Intrinsics::opencv_k`] gives K.

@@ -111,7 +111,7 @@ fn intrinsics_from_uv((width, height): (u32, u32), cam_from_uv: DMat3) -> Option
         return None;
     }
     let (fx, fy) = (w / m.x_axis.x, h / m.y_axis.y);
-    // A shear below what doubles resolve is none.
+    // A shear this small is a rounding error.
     let sheared = m.y_axis.x.abs() > 1e-9;
     let skew = if sheared { m.y_axis.x * fx * fy / h } else { 0.0 };
     Some(Intrinsics { width, height, fx, fy, cx: w - m.z_axis.x * fx + skew * m.z_axis.y, cy: h + m.z_axis.y * fy, skew })

@@ -1,3 +1,5 @@
+//! A dataset as a handle: its layout, and the table of cameras that is read. What it reads and writes is in the files beside this one.
+
 use crate::{DatasetError, Layout};
 use std::path::{Path, PathBuf};
 
@@ -6,6 +8,16 @@ use std::path::{Path, PathBuf};
 /// It holds nothing but its paths, so it is cheap to clone and can be shared by threads. What is read is read at the moment of
 /// the call. Different frames may be written at the same time; the tables of one scene, and the tables at the root, are
 /// written by one thread at a time.
+///
+/// ```
+/// use enfilade_dataset::{Dataset, Partition, SplitRow};
+/// # let folder = tempfile::tempdir()?;
+/// let dataset = Dataset::create(folder.path().join("homes"))?;
+/// let row = SplitRow { scene: "home_001".into(), camera: "cam_00".into(), frame: 7, partition: Ok(Partition::Train) };
+/// dataset.write_split(&[row.clone()])?;
+/// assert_eq!(Dataset::open(dataset.root())?.read_split()?, [row]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Dataset {
     layout: Layout,

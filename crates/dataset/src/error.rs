@@ -1,3 +1,5 @@
+//! What can be wrong with a dataset on disk, told with the file and what to do about it.
+
 use std::io;
 use std::path::{Path, PathBuf};
 

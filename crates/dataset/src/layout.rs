@@ -9,7 +9,22 @@ use crate::DatasetError;
 use enfilade_frame::{Layer, Pass};
 use std::path::{Path, PathBuf};
 
+/// The pipeline's own folder within a dataset: scenes, plans, hashes of what was made from what. No part of the dataset's format.
+pub const WORKDIR: &str = ".enfilade";
+
 /// The paths of a dataset. All methods are pure functions of the root and the names.
+///
+/// ```
+/// use enfilade_dataset::Layout;
+/// use enfilade_frame::Layer;
+/// use std::path::Path;
+/// let layout = Layout::new("homes");
+/// assert_eq!(
+///     layout.layer("home_001", "cam_00", 7, Layer::DepthMeters),
+///     Path::new("homes/scenes/home_001/images/scene_cam_00_geometry_hdf5/frame.0007.depth_meters.hdf5")
+/// );
+/// assert_eq!(layout.metadata_nodes("home_001"), Path::new("homes/scenes/home_001/_detail/metadata_nodes.csv"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     root: PathBuf,
@@ -18,17 +33,23 @@ pub struct Layout {
     pictures: Option<Box<Layout>>,
 }
 
-/// The longest name of a scene or a camera, characters: files and folders are named after them with up to some 40 more, and file systems
+/// Characters that the name of a scene or a camera may have: files and folders are named after it with about 40 more, and file systems
 /// allow 255.
-const LONGEST_NAME: usize = 200;
+const MAX_NAME: usize = 200;
 
 /// Checks that `name` can be part of a path on every system.
 ///
 /// # Errors
 /// When it is empty, longer than 200 characters, begins with a dot, or has characters other than letters, digits, `_`, `-` and `.`.
+///
+/// ```
+/// use enfilade_dataset::check_name;
+/// assert!(check_name("scene name", "ai_001_001").is_ok());
+/// assert!(check_name("scene name", "../secrets").is_err());
+/// ```
 pub fn check_name(what: &'static str, name: &str) -> Result<(), DatasetError> {
     let allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
-    if name.is_empty() || name.len() > LONGEST_NAME || name.starts_with('.') || !name.chars().all(allowed) {
+    if name.is_empty() || name.len() > MAX_NAME || name.starts_with('.') || !name.chars().all(allowed) {
         return Err(DatasetError::Name { what, name: name.to_string() });
     }
     Ok(())
@@ -280,7 +301,7 @@ impl Layout {
         self.detail_dir(scene).join("mesh")
     }
 
-    /// A file of the mesh folder: `mesh_vertices.hdf5`, `metadata_objects.csv`, …
+    /// A file of the mesh folder; [`crate::mesh_names`] has the names.
     pub fn mesh_file(&self, scene: &str, name: &str) -> PathBuf {
         self.mesh_dir(scene).join(name)
     }

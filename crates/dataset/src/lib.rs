@@ -3,7 +3,7 @@
 //! [`Layout`] knows where everything lies, [`hdf5`] reads and writes one array per file, and [`Dataset`] puts them together:
 //! scenes, cameras, frames and labels go in and come out as the types of `enfilade-scene` and `enfilade-frame`.
 //!
-//! Three rules hold everywhere. A file is complete or absent: it is written under a temporary name and renamed into place. A
+//! Three rules apply to every file. A file is complete or absent: it is written under a temporary name and renamed into place. A
 //! frame is complete or absent: its commit record `_detail/<camera>/frames/frame.IIII.json` is written last, and only a frame
 //! with a record counts. Every byte is a function of what was given; times lie apart in `manifest_times.csv`.
 //!
@@ -28,20 +28,22 @@ mod label_files;
 mod layout;
 mod manifest;
 mod mesh_files;
+pub mod mesh_names;
+mod number_ranges;
 mod object_files;
 mod read;
 mod record;
 mod release;
 mod repack;
 mod scene_files;
-mod shell;
 mod split_files;
 mod tables;
 mod times;
 mod tonemap_files;
+mod wording;
 
 pub use annotation_files::{ANNOTATION_LOG, scene_hash};
-pub use atomic::{remove_folder, replace_file, write_bytes};
+pub use atomic::{remove_folder, replace_file, write_bytes, write_json};
 pub use box_files::BoxKind;
 pub use camera_files::{OpencvCalibration, opencv_cameras};
 pub use camera_model::{StereoRecord, StereoSide, read_ray_grid};
@@ -55,14 +57,15 @@ pub use gate_files::{JudgedView, ViewFault, ViewVerdict};
 pub use hdf5::{Array, Element, Elements, Number, Volume, VolumeArray, Window, image_shape};
 pub use instance_files::{AmodalMask, AmodalMasks, InstanceView, PixelArea};
 pub use label_files::{LabelColors, instance_colors, semantic_colors};
-pub use layout::{Layout, check_name};
+pub use layout::{Layout, WORKDIR, check_name};
 pub use manifest::{CameraEntry, Conventions, FrameEntry, FrameStatus, LayerEntry, Manifest, ManifestInfo, SceneEntry};
+pub use number_ranges::{number_runs, parse_number_ranges, print_number_ranges};
 pub use object_files::{MeshFiles, MeshGeometry};
 pub use record::{DenoiseRecord, FileRecord, FrameRecord, LabelRecord, PoseRecord, Recipe, Sampling, StoppedBy};
 pub use release::{RELEASED_LAYERS, planar_depth, turn_planar_depth};
 pub use repack::Repacked;
 pub use scene_files::{Node, read_node_table};
-pub use shell::quoted;
 pub use split_files::{Partition, SplitRow};
 pub use times::FrameTime;
 pub use tonemap_files::ToneMapRow;
+pub use wording::{counted, counted_as, quoted};

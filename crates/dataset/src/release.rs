@@ -75,6 +75,16 @@ impl Dataset {
 
 /// Planar depth along the viewing axis of K ([`Projection::image_axis`]) for distances along the rays of all pixels, row by row, both in
 /// metres; NaN where there is no distance or no ray.
+///
+/// ```
+/// use enfilade_dataset::planar_depth;
+/// use enfilade_frame::Values;
+/// use enfilade_scene::{Intrinsics, Projection};
+/// // One row of three pixels, 45 degrees between neighbours: the outer rays are longer than their depth by the root of 2.
+/// let camera = Projection::Pinhole(Intrinsics { width: 3, height: 1, fx: 1.0, fy: 1.0, cx: 1.5, cy: 0.5, skew: 0.0 });
+/// let depth_z_m = planar_depth(&camera, &Values::F32(vec![2.0_f32.sqrt(), 1.0, 2.0_f32.sqrt()]));
+/// assert!(depth_z_m.iter().all(|z| (z - 1.0).abs() < 1e-6));
+/// ```
 pub fn planar_depth(projection: &Projection, distance: &Values) -> Vec<f32> {
     let [width, height] = projection.size().map(|side| side as usize);
     planar_depth_of_part(projection, Window { top: 0, left: 0, height, width }, distance)

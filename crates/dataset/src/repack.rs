@@ -4,7 +4,7 @@ use crate::atomic::remove_folder;
 use crate::frames::attributes_of;
 use crate::hdf5::{Storage, read_array, write_array};
 use crate::read::sorted_names;
-use crate::{Dataset, DatasetError, FileRecord, FrameEntry, Layout, replace_file, write_bytes};
+use crate::{Dataset, DatasetError, FileRecord, FrameEntry, Layout, replace_file, write_bytes, write_json};
 use enfilade_frame::{LAYERS, Layer};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -23,8 +23,8 @@ pub struct Repacked {
     pub bytes_after: u64,
 }
 
-/// One image, and where it goes.
-struct Job {
+/// One image to be copied.
+struct ImageCopy {
     from: PathBuf,
     to: PathBuf,
     /// What the copy says of itself.
@@ -46,7 +46,7 @@ const OLD: &str = ".repack.old";
 /// Held while a copy is made.
 const LOCK: &str = ".repack.lock";
 
-/// Names in the folder of a copy that are not of the copy; the last is what a disk of its own begins with.
+/// Names in the folder of a copy that are not part of it. `lost+found` is there where the folder is a disk of its own.
 const BESIDE: [&str; 5] = [GROWING, OLD, LOCK, MARK, "lost+found"];
 
 #[derive(Serialize, Deserialize)]
@@ -55,7 +55,7 @@ struct Mark {
     enfilade_version: String,
 }
 
-/// What the manifest of a copy says of records.
+/// What the manifest of a copy says about records.
 const RECORDS: &str = "This is a copy for fast reading: a frame counts when it has a file, and has no record; checksums are BLAKE3 of \
     whole files.";
 
@@ -72,7 +72,7 @@ impl Dataset {
     pub fn repack(&self, out: &Path, layers: Option<&[Layer]>, done: &(dyn Fn(u64, u64) + Sync)) -> Result<Repacked, DatasetError> {
         let growing = Growing::prepare(out, self.root())?;
         let copy = &growing.copy;
-        let mut jobs = Vec::new();
+        let mut images = Vec::new();
         copy_file(&self.camera_table(), &copy.layout().camera_parameters())?;
         copy_file(&self.layout().split(), &copy.layout().split())?;
         for scene in self.scenes()? {
@@ -80,14 +80,14 @@ impl Dataset {
             copy_files(&self.layout().mesh_dir(&scene), &copy.layout().mesh_dir(&scene), is_table)?;
             for camera in self.cameras(&scene)? {
                 copy_files(&self.layout().camera_dir(&scene, &camera), &copy.layout().camera_dir(&scene, &camera), |_| true)?;
-                self.list(copy.layout(), &scene, &camera, layers, &mut jobs)?;
+                self.list(copy.layout(), &scene, &camera, layers, &mut images)?;
             }
         }
-        let (finished, total) = (AtomicU64::new(0), jobs.len() as u64);
-        let sizes: Vec<[u64; 2]> = jobs
+        let (finished, total) = (AtomicU64::new(0), images.len() as u64);
+        let sizes: Vec<[u64; 2]> = images
             .par_iter()
-            .map(|job| {
-                let sizes = job.run()?;
+            .map(|image| {
+                let sizes = image.run()?;
                 done(finished.fetch_add(1, Ordering::Relaxed) + 1, total);
                 Ok(sizes)
             })
@@ -99,14 +99,21 @@ impl Dataset {
     }
 
     /// The images of a camera's complete frames.
-    fn list(&self, copy: &Layout, scene: &str, camera: &str, layers: Option<&[Layer]>, jobs: &mut Vec<Job>) -> Result<(), DatasetError> {
+    fn list(
+        &self,
+        copy: &Layout,
+        scene: &str,
+        camera: &str,
+        layers: Option<&[Layer]>,
+        images: &mut Vec<ImageCopy>,
+    ) -> Result<(), DatasetError> {
         // The attributes are about values in metres.
         let released = self.is_released(scene);
         for frame in self.frame_numbers(scene, camera)? {
             for layer in LAYERS.iter().map(|spec| spec.layer).filter(|layer| layers.is_none_or(|layers| layers.contains(layer))) {
                 let (from, to) = (self.layout().layer(scene, camera, frame, layer), copy.layer(scene, camera, frame, layer));
                 if from.is_file() {
-                    jobs.push(Job { from, to, attributes: if released { Vec::new() } else { attributes_of(layer) } });
+                    images.push(ImageCopy { from, to, attributes: if released { Vec::new() } else { attributes_of(layer) } });
                 }
             }
         }
@@ -172,12 +179,12 @@ impl<'a> Growing<'a> {
     fn take_place(mut self) -> Result<(), DatasetError> {
         self.is_whole = true;
         let mark = Mark { kind: MARK_KIND.into(), enfilade_version: env!("CARGO_PKG_VERSION").into() };
-        write_bytes(&self.out.join(MARK), serde_json::to_string_pretty(&mark).expect("plain data encodes") + "\n")?;
+        write_json(&self.out.join(MARK), &mark)?;
         let old = self.out.join(OLD);
         fs::create_dir_all(&old).map_err(DatasetError::at("create the folder", &old))?;
         move_entries(self.out, &old)?;
         move_entries(self.copy.root(), self.out)?;
-        // What is still in use, the next copy removes.
+        // Files that are still in use are removed by the next copy.
         let _ = fs::remove_dir_all(&old);
         let _ = fs::remove_dir(self.copy.root());
         Ok(())
@@ -228,7 +235,7 @@ fn is_copy(folder: &Path) -> bool {
     mark.is_some_and(|mark| mark.kind == MARK_KIND)
 }
 
-impl Job {
+impl ImageCopy {
     /// Gives the bytes before and after.
     fn run(&self) -> Result<[u64; 2], DatasetError> {
         let array = read_array(&self.from)?;

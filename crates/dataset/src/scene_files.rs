@@ -1,4 +1,4 @@
-//! What is known of a scene without looking at it: units, render entities, geometry, free space.
+//! The files of a scene as a whole, apart from its cameras: units, render entities, geometry, free space.
 
 use crate::camera_files::{optional, read_f64_vec3};
 use crate::hdf5::{Array, Storage, write_array};
@@ -28,15 +28,15 @@ pub struct Node {
 }
 
 impl Dataset {
-    /// Writes what is known of a scene without looking at it: `metadata_scene.csv`, `metadata_nodes.csv`,
+    /// Writes the files of a scene as a whole: `metadata_scene.csv`, `metadata_nodes.csv`,
     /// `metadata_materials.csv` and the mesh folder's geometry and names. Every part is one node and one object.
     ///
     /// # Errors
     /// When a file cannot be written, or the scene has more parts or materials than int16 can number (32767).
     pub fn write_scene(&self, scene_name: &str, scene: &Scene) -> Result<(), DatasetError> {
         check_name("scene name", scene_name)?;
-        let most = i16::MAX as usize;
-        if scene.parts.len() > most || scene.materials.len() > most {
+        let max = i16::MAX as usize;
+        if scene.parts.len() > max || scene.materials.len() > max {
             let problem = format!(
                 "{} parts and {} materials, but render_entity_id and material_id are int16 and hold 32767; join small parts",
                 scene.parts.len(),
@@ -86,7 +86,7 @@ impl Dataset {
         let path = self.layout().metadata_scene(scene);
         let (metres, path) = match Table::read(&path) {
             Err(error) if error.is_not_found() => {
-                // A table that lacks the scene is as good as none; one that does not say the unit is not.
+                // A table without the scene counts as missing; one that has the scene without its unit is an error.
                 let table = optional(self.read_camera_table())?.filter(|table| table.scenes().any(|name| name == scene));
                 (table.ok_or(error)?.meters_per_asset_unit(scene)?, self.camera_table())
             }

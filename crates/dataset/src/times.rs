@@ -18,7 +18,7 @@ pub struct FrameTime {
     pub wall_s: f64,
     /// Seconds of all threads together.
     pub cpu_s: f64,
-    /// Most memory that the process ever had until the frame was finished; `None` where the system does not tell.
+    /// Peak memory of the process until the frame was finished; `None` where the system does not tell.
     pub peak_memory_bytes: Option<u64>,
     /// Threads at work.
     pub threads: Option<u32>,

@@ -1,7 +1,7 @@
 //! A camera in the words of other programs: K, distortion, and poses in OpenCV's axes (x right, y down, z forward).
 
 use crate::ExportError;
-use crate::source::{Source, Track, View};
+use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_math::{DMat3, DVec3};
 use enfilade_scene::{Intrinsics, Pose, Projection};
 
@@ -45,9 +45,9 @@ impl Calibration {
     }
 
     /// That of a track whose camera must be a pinhole.
-    pub fn of_pinhole(source: &Source<'_>, track: &Track) -> Result<Self, ExportError> {
+    pub fn of_pinhole(selected: &SelectedFrames<'_>, track: &Track) -> Result<Self, ExportError> {
         let found = Self::of(track).filter(|c| c.distortion == Distortion::None);
-        found.ok_or_else(|| source.unsuitable(track.folder(), "its camera is no pinhole, and the format has no distortion; leave it out"))
+        found.ok_or_else(|| selected.unsuitable(track.folder(), "its camera is no pinhole, and the format has no distortion; leave it out"))
     }
 
     /// Rotation from OpenCV's camera axes to the world.

@@ -2,7 +2,7 @@
 
 use crate::ExportError;
 use crate::calibration::Calibration;
-use crate::source::{Source, View};
+use crate::selected_frames::{SelectedFrames, View};
 use enfilade_frame::{Frame, Layer};
 
 /// The layers that depth is made from.
@@ -12,19 +12,24 @@ pub(crate) const DEPTH: [Layer; 2] = [Layer::DepthMeters, Layer::DepthZMeters];
 ///
 /// `depth_z_meters` where it is there and means this axis, else `depth_meters` (the distance along the ray, as in Hypersim) times
 /// the cosine between the pixel's ray and the axis. `frame` has at least one of them.
-pub(crate) fn planar_m(source: &Source<'_>, view: View<'_>, calibration: &Calibration, frame: &Frame) -> Result<Vec<f64>, ExportError> {
+pub(crate) fn planar_m(
+    selected: &SelectedFrames<'_>,
+    view: View<'_>,
+    calibration: &Calibration,
+    frame: &Frame,
+) -> Result<Vec<f64>, ExportError> {
     if let (Some(depth_z), true) = (frame.get(Layer::DepthZMeters), calibration.is_straight()) {
         return Ok((0..depth_z.len()).map(|i| depth_z.get(i)).collect());
     }
-    let distance = distance_m(source, view, frame)?;
+    let distance = distance_m(selected, view, frame)?;
     let ray = |i: usize| pixel_ray(view, frame, i);
     Ok((0..frame.pixels()).map(|i| ray(i).map_or(f64::NAN, |ray| distance[i] * calibration.forward(ray))).collect())
 }
 
 /// Distance from the camera centre along the ray of every pixel, metres; NaN where nothing was hit.
-pub(crate) fn distance_m(source: &Source<'_>, view: View<'_>, frame: &Frame) -> Result<Vec<f64>, ExportError> {
+pub(crate) fn distance_m(selected: &SelectedFrames<'_>, view: View<'_>, frame: &Frame) -> Result<Vec<f64>, ExportError> {
     let depth = frame.get(Layer::DepthMeters);
-    let missing = || source.unsuitable(view.place(), "it needs the layer depth_meters here; render it, or add it to --layers");
+    let missing = || selected.unsuitable(view.name(), "it needs the layer depth_meters here; render it, or add it to --layers");
     let depth = depth.ok_or_else(missing)?;
     Ok((0..depth.len()).map(|i| depth.get(i)).collect())
 }

@@ -1,3 +1,5 @@
+//! Why an export cannot be made: the dataset, the selection, the folder, or the format.
+
 use crate::Format;
 use enfilade_dataset::DatasetError;
 use std::io;

@@ -3,6 +3,14 @@
 use enfilade_frame::Layer;
 
 /// A layout that other programs load.
+///
+/// ```
+/// use enfilade_export::Format;
+/// use enfilade_frame::Layer;
+/// let coco = Format::from_name("coco").unwrap();
+/// assert!(coco.spec().needs.contains(&[Layer::SemanticInstance].as_slice()));
+/// assert_eq!(Format::from_name("yolo"), None);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)] // FORMATS documents each one
 pub enum Format {
@@ -55,7 +63,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         about: "COCO instances: images, annotations with compressed RLE masks and boxes, the 40 classes of NYU40 or of the scenes' own list",
         needs: &[COLOR, INSTANCE, SEMANTIC],
         takes: Some(LABELLED),
-        readme: crate::formats::coco::README,
+        readme: include_str!("readmes/coco.md"),
     },
     FormatSpec {
         format: Format::Bop,
@@ -63,7 +71,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         about: "BOP: colour, depth, masks, object poses, camera matrices, models of the objects",
         needs: &[COLOR, DEPTH, INSTANCE],
         takes: Some(LABELLED),
-        readme: crate::formats::bop::README,
+        readme: include_str!("readmes/bop.md"),
     },
     FormatSpec {
         format: Format::Nerfstudio,
@@ -71,7 +79,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         about: "nerfstudio: transforms.json, images, depth, a coloured point cloud",
         needs: &[COLOR, DISTANCE],
         takes: Some(POSED),
-        readme: crate::formats::nerfstudio::README,
+        readme: include_str!("readmes/nerfstudio.md"),
     },
     FormatSpec {
         format: Format::Colmap,
@@ -79,7 +87,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         about: "COLMAP: a sparse model in binary files, and its images",
         needs: &[COLOR, DISTANCE],
         takes: Some(POSED),
-        readme: crate::formats::colmap::README,
+        readme: include_str!("readmes/colmap.md"),
     },
     FormatSpec {
         format: Format::ColmapText,
@@ -87,7 +95,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         about: "COLMAP: a sparse model in text files, and its images",
         needs: &[COLOR, DISTANCE],
         takes: Some(POSED),
-        readme: crate::formats::colmap::README,
+        readme: include_str!("readmes/colmap.md"),
     },
     FormatSpec {
         format: Format::Scannet,
@@ -95,7 +103,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         about: "ScanNet: colour, depth, poses, intrinsics, label and instance images",
         needs: &[DEPTH],
         takes: Some(LABELLED),
-        readme: crate::formats::scannet::README,
+        readme: include_str!("readmes/scannet.md"),
     },
     FormatSpec {
         format: Format::Exr,
@@ -103,7 +111,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         about: "multi-layer OpenEXR with every layer of a frame, and Cryptomatte layers of instances and classes",
         needs: &[],
         takes: None,
-        readme: crate::formats::openexr::README,
+        readme: include_str!("readmes/openexr.md"),
     },
     FormatSpec {
         format: Format::DepthPng,
@@ -111,7 +119,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         about: "16-bit PNG depth in millimetres, with cameras in JSON",
         needs: &[DEPTH],
         takes: Some(&[Layer::DepthMeters, Layer::DepthZMeters]),
-        readme: crate::formats::depth_png::README,
+        readme: include_str!("readmes/depth_png.md"),
     },
     FormatSpec {
         format: Format::Webdataset,
@@ -119,7 +127,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         about: "WebDataset: tar shards with a PNG of the colour, a numpy array per layer, and JSON",
         needs: &[],
         takes: None,
-        readme: crate::formats::webdataset::README,
+        readme: include_str!("readmes/webdataset.md"),
     },
     FormatSpec {
         format: Format::Croissant,
@@ -127,7 +135,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         about: "Croissant: a card of the dataset in JSON-LD, with tables of its frames, layers and classes",
         needs: &[],
         takes: None,
-        readme: crate::formats::croissant::README,
+        readme: include_str!("readmes/croissant.md"),
     },
     FormatSpec {
         format: Format::Opencv,
@@ -135,7 +143,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         about: "cameras alone, in OpenCV's conventions: K and poses as JSON, and a table of K",
         needs: &[],
         takes: None,
-        readme: crate::formats::opencv::README,
+        readme: include_str!("readmes/opencv.md"),
     },
     FormatSpec {
         format: Format::Pix3d,
@@ -143,7 +151,7 @@ pub const FORMATS: [FormatSpec; 12] = [
         about: "Pix3D as Mesh R-CNN reads it: images, masks, a model and voxels per instance, poses in camera space",
         needs: &[COLOR, INSTANCE, SEMANTIC],
         takes: Some(SHAPED),
-        readme: crate::formats::pix3d::README,
+        readme: include_str!("readmes/pix3d.md"),
     },
 ];
 

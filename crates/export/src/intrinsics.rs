@@ -1,4 +1,4 @@
-//! K of many cameras in one table, for those who want the numbers alone.
+//! K of many cameras in one table (`intrinsics.csv`), in OpenCV's conventions.
 
 use crate::calibration::OPENCV;
 use enfilade_dataset::CameraTable;

@@ -3,17 +3,18 @@
 //!
 //! Every export is a pure function of the dataset folder and an [`ExportConfig`]: nothing is rendered, the same input gives the
 //! same bytes, and no file carries a clock, a host or a path. [`Format`] has the table of formats, `formats/` one file for each,
-//! whose first lines say what it writes and in which units, axes and pixel coordinates. `docs/export.md` has all of them in one table.
+//! whose first lines say what it writes and in which units, axes and pixel coordinates, `readmes/` the page that goes with its files. `docs/export.md` has all of them in one table.
 //!
 //! An export is complete or absent: it grows under another name beside its place and is renamed when all is written.
 //!
-//! Three things change between formats, and each changes in one place: camera axes and K in `calibration.rs`, depth in `depth.rs`,
+//! Three things change between formats, and each changes in one out: camera axes and K in `calibration.rs`, depth in `depth.rs`,
 //! and pixels of colour in `picture.rs`.
 
 mod boxes;
 mod calibration;
 mod depth;
 mod error;
+mod export_folder;
 mod format;
 mod formats;
 mod instances;
@@ -21,24 +22,23 @@ mod intrinsics;
 mod mesh;
 mod numpy;
 mod picture;
-mod place;
 mod points;
 mod scene_file;
 mod scene_gltf;
-mod source;
+mod selected_frames;
 
 pub use error::ExportError;
+pub use export_folder::{Existing, Exported};
 pub use format::{FORMATS, Format, FormatSpec};
 pub use intrinsics::intrinsics_csv;
-pub use place::Existing;
 pub use scene_file::{SceneEncoder, scene_encoder};
 pub use scene_gltf::{SceneGltf, scene_gltf};
-pub use source::Selection;
+pub use selected_frames::Selection;
 
 use enfilade_dataset::Dataset;
 use enfilade_scene::Cx;
-use place::Place;
-use source::Source;
+use export_folder::ExportFolder;
+use selected_frames::SelectedFrames;
 use std::path::Path;
 
 /// What to export and how.
@@ -59,38 +59,27 @@ impl ExportConfig {
     }
 }
 
-/// What was written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Exported {
-    /// Frames of the dataset that are in it.
-    pub frames: usize,
-    /// Files, the record and the page for people included.
-    pub files: usize,
-    /// Their bytes.
-    pub bytes: u64,
-}
-
 /// Writes `dataset` to the folder `out` as `config` says. `existing` says what becomes of a folder that is there and no export.
 ///
 /// # Errors
 /// When nothing is selected, a layer or camera is not what the format needs, or a file cannot be read or written. Then `out` is as
 /// it was.
 pub fn export(dataset: &Dataset, config: &ExportConfig, out: &Path, existing: Existing, cx: &dyn Cx) -> Result<Exported, ExportError> {
-    let source = Source::open(dataset, config.format.spec(), &config.selection, cx)?;
-    let place = Place::prepare(out, dataset.root(), existing)?;
+    let selected = SelectedFrames::open(dataset, config.format.spec(), &config.selection, cx)?;
+    let out = ExportFolder::prepare(out, dataset.root(), existing)?;
     match config.format {
-        Format::Coco => formats::coco::write(&source, &place),
-        Format::Bop => formats::bop::write(&source, &place),
-        Format::Nerfstudio => formats::nerfstudio::write(&source, &place),
-        Format::Colmap => formats::colmap::write(&source, &place, formats::colmap::binary),
-        Format::ColmapText => formats::colmap::write(&source, &place, formats::colmap_text::text),
-        Format::Scannet => formats::scannet::write(&source, &place),
-        Format::Exr => formats::openexr::write(&source, &place),
-        Format::DepthPng => formats::depth_png::write(&source, &place),
-        Format::Webdataset => formats::webdataset::write(&source, &place, config.shard_bytes),
-        Format::Croissant => formats::croissant::write(&source, &place),
-        Format::Opencv => formats::opencv::write(&source, &place),
-        Format::Pix3d => formats::pix3d::write(&source, &place),
+        Format::Coco => formats::coco::write(&selected, &out),
+        Format::Bop => formats::bop::write(&selected, &out),
+        Format::Nerfstudio => formats::nerfstudio::write(&selected, &out),
+        Format::Colmap => formats::colmap::write(&selected, &out, formats::colmap::binary),
+        Format::ColmapText => formats::colmap::write(&selected, &out, formats::colmap_text::text),
+        Format::Scannet => formats::scannet::write(&selected, &out),
+        Format::Exr => formats::openexr::write(&selected, &out),
+        Format::DepthPng => formats::depth_png::write(&selected, &out),
+        Format::Webdataset => formats::webdataset::write(&selected, &out, config.shard_bytes),
+        Format::Croissant => formats::croissant::write(&selected, &out),
+        Format::Opencv => formats::opencv::write(&selected, &out),
+        Format::Pix3d => formats::pix3d::write(&selected, &out),
     }?;
-    place.finish(config.format, &source)
+    out.finish(config.format, &selected)
 }

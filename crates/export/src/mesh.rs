@@ -2,6 +2,7 @@
 
 use crate::ExportError;
 use enfilade_dataset::hdf5::read_array;
+use enfilade_dataset::mesh_names::{FACES_OBJECTS, FACES_VERTICES, OBJECTS_INSTANCE, OBJECTS_SEMANTIC, VERTICES};
 use enfilade_dataset::{Dataset, DatasetError, Elements};
 use enfilade_math::DVec3;
 use std::collections::BTreeMap;
@@ -17,7 +18,7 @@ pub(crate) struct InstanceMesh {
 
 /// The first file that is missing of those that the surfaces of instances are made from.
 pub(crate) fn missing_mesh_file(dataset: &Dataset, scene: &str) -> Option<&'static str> {
-    let needed = ["mesh_vertices.hdf5", "mesh_faces_vi.hdf5", "mesh_faces_oi.hdf5", "mesh_objects_si.hdf5", "mesh_objects_sii.hdf5"];
+    let needed = [VERTICES, FACES_VERTICES, FACES_OBJECTS, OBJECTS_SEMANTIC, OBJECTS_INSTANCE];
     needed.into_iter().find(|name| !dataset.layout().mesh_file(scene, name).is_file())
 }
 
@@ -28,10 +29,10 @@ pub(crate) fn instance_meshes(dataset: &Dataset, scene: &str) -> Result<BTreeMap
         return Ok(BTreeMap::new());
     }
     let metres = dataset.meters_per_asset_unit(scene)?;
-    let vertices = read_f64(&file("mesh_vertices.hdf5"))?;
-    let (corners, objects) = (read_i64(&file("mesh_faces_vi.hdf5"))?, read_i64(&file("mesh_faces_oi.hdf5"))?);
+    let vertices = read_f64(&file(VERTICES))?;
+    let (corners, objects) = (read_i64(&file(FACES_VERTICES))?, read_i64(&file(FACES_OBJECTS))?);
     let labels = dataset.read_label_tables(scene)?;
-    let wrong = |problem: String| DatasetError::Hdf5 { path: file("mesh_faces_vi.hdf5"), problem };
+    let wrong = |problem: String| DatasetError::Hdf5 { path: file(FACES_VERTICES), problem };
     if corners.len() != 3 * objects.len() {
         return Err(wrong(format!("{} corners for {} faces; import the scene again", corners.len(), objects.len())).into());
     }

@@ -1,7 +1,7 @@
 //! Pictures of a frame as bytes of PNG and JPEG files.
 
 use crate::ExportError;
-use crate::source::{Source, View};
+use crate::selected_frames::{SelectedFrames, View};
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, Layer};
 use enfilade_show::picture::{Picture, jpeg};
@@ -11,20 +11,20 @@ use enfilade_show::preview::{Subject, preview};
 pub(crate) const SHOWN: [Layer; 2] = [Layer::Color, Layer::RenderEntityId];
 
 /// The frame's colour as the preview `tonemap` shows it: one exposure per image, gamma 1/2.2. `frame` has `color`.
-pub(crate) fn tone_mapped(source: &Source<'_>, view: View<'_>, frame: &Frame) -> Result<Picture, ExportError> {
+pub(crate) fn tone_mapped(selected: &SelectedFrames<'_>, view: View<'_>, frame: &Frame) -> Result<Picture, ExportError> {
     let tone = ToneMap::of_frame(frame).unwrap_or_default();
     let shown = preview(Subject::ToneMapped, frame, tone);
-    shown.map(|shown| shown.picture).ok_or_else(|| source.unsuitable(view.place(), "it has no layer color; render it"))
+    shown.map(|shown| shown.picture).ok_or_else(|| selected.unsuitable(view.name(), "it has no layer color; render it"))
 }
 
 /// The bytes of a JPEG file of a frame's colour.
-pub(crate) fn color_jpeg(source: &Source<'_>, view: View<'_>, frame: &Frame) -> Result<Vec<u8>, ExportError> {
-    Ok(jpeg(&tone_mapped(source, view, frame)?))
+pub(crate) fn color_jpeg(selected: &SelectedFrames<'_>, view: View<'_>, frame: &Frame) -> Result<Vec<u8>, ExportError> {
+    Ok(jpeg(&tone_mapped(selected, view, frame)?))
 }
 
 /// The bytes of an RGB PNG file of a frame's colour.
-pub(crate) fn color_png(source: &Source<'_>, view: View<'_>, frame: &Frame) -> Result<Vec<u8>, ExportError> {
-    let picture = tone_mapped(source, view, frame)?;
+pub(crate) fn color_png(selected: &SelectedFrames<'_>, view: View<'_>, frame: &Frame) -> Result<Vec<u8>, ExportError> {
+    let picture = tone_mapped(selected, view, frame)?;
     let rgb: Vec<u8> = picture.pixels().flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
     Ok(encode(frame.width, frame.height, png::ColorType::Rgb, png::BitDepth::Eight, &rgb))
 }

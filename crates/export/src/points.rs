@@ -6,7 +6,7 @@
 use crate::ExportError;
 use crate::depth::distance_m;
 use crate::picture::{SHOWN, tone_mapped};
-use crate::source::{Source, Track, View};
+use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_frame::Layer;
 use enfilade_math::DVec3;
 
@@ -38,11 +38,11 @@ pub(crate) struct Sighting {
 type Seen = (usize, (f64, f64));
 
 /// The cloud of some cameras' frames, in their order.
-pub(crate) fn cloud(source: &Source<'_>, tracks: &[Track]) -> Result<Vec<CloudPoint>, ExportError> {
+pub(crate) fn cloud(selected: &SelectedFrames<'_>, tracks: &[Track]) -> Result<Vec<CloudPoint>, ExportError> {
     let views: Vec<View<'_>> = tracks.iter().flat_map(Track::views).collect();
-    let given = source.each_of(&views, |view| points_of(source, view))?;
+    let given = selected.each_of(&views, |view| points_of(selected, view))?;
     let mut points: Vec<CloudPoint> = given.into_iter().flatten().collect();
-    let seen = source.each_of(&views, |view| sightings_of(source, view, &points))?;
+    let seen = selected.each_of(&views, |view| sightings_of(selected, view, &points))?;
     for (view, sightings) in seen.into_iter().enumerate() {
         for (point, at) in sightings {
             points[point].sightings.push(Sighting { view, at });
@@ -53,10 +53,10 @@ pub(crate) fn cloud(source: &Source<'_>, tracks: &[Track]) -> Result<Vec<CloudPo
 }
 
 /// The points that a frame gives, row by row.
-fn points_of(source: &Source<'_>, view: View<'_>) -> Result<Vec<CloudPoint>, ExportError> {
-    let frame = source.read(view, &[&SHOWN[..], &[Layer::DepthMeters]].concat())?;
-    let distance = distance_m(source, view, &frame)?;
-    let picture = tone_mapped(source, view, &frame)?;
+fn points_of(selected: &SelectedFrames<'_>, view: View<'_>) -> Result<Vec<CloudPoint>, ExportError> {
+    let frame = selected.read(view, &[&SHOWN[..], &[Layer::DepthMeters]].concat())?;
+    let distance = distance_m(selected, view, &frame)?;
+    let picture = tone_mapped(selected, view, &frame)?;
     let stride = ((frame.pixels() as f64 / POINTS_PER_FRAME).sqrt().ceil() as usize).max(1);
     let camera = view.camera();
     let mut points = Vec::new();
@@ -73,9 +73,9 @@ fn points_of(source: &Source<'_>, view: View<'_>) -> Result<Vec<CloudPoint>, Exp
 }
 
 /// Which points a frame sees, and where.
-fn sightings_of(source: &Source<'_>, view: View<'_>, points: &[CloudPoint]) -> Result<Vec<Seen>, ExportError> {
-    let frame = source.read(view, &[Layer::DepthMeters])?;
-    let distance = distance_m(source, view, &frame)?;
+fn sightings_of(selected: &SelectedFrames<'_>, view: View<'_>, points: &[CloudPoint]) -> Result<Vec<Seen>, ExportError> {
+    let frame = selected.read(view, &[Layer::DepthMeters])?;
+    let distance = distance_m(selected, view, &frame)?;
     let camera = view.camera();
     let (width, height) = (f64::from(frame.width), f64::from(frame.height));
     let sees = |point: &CloudPoint| {

@@ -2,7 +2,7 @@
 
 use crate::bundle::unpack;
 use crate::commit::read_marker;
-use crate::plan::object_name;
+use crate::object_names::object_name;
 use crate::work::{damaged_object, missing_by_task};
 use crate::{FarmError, FrameKey, Job, Marker, Ranges, print_ranges};
 use enfilade_dataset::{Dataset, FrameTime, quoted, write_bytes};

@@ -1,11 +1,12 @@
 //! How a frame becomes part of the result: by a marker that only one attempt can create.
 
+use crate::object_names::{DONE, FRAMES, KEPT};
 use crate::{Created, FarmError, Store};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// How often a marker is looked for that is taken and cannot be read yet, and how long is waited before each further time.
+/// How often to look for a marker that is taken but cannot be read yet, and the pause before each further look.
 const READ_BACKS: u32 = 6;
 const READ_BACK_PAUSE: Duration = Duration::from_millis(200);
 
@@ -26,11 +27,6 @@ const ENGINE_VARIABLES: [&str; 14] = [
     "HQ_INSTANCE_ID",
     "OPENJD_SESSION_ID",
 ];
-
-/// Folder of all markers.
-pub(crate) const DONE: &str = "done";
-/// Folder of all payloads.
-pub(crate) const FRAMES: &str = "frames";
 
 /// A frame of the job.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -55,7 +51,7 @@ impl FrameKey {
 
     /// Where another worker finds what was kept of the frame.
     pub(crate) fn kept(&self) -> String {
-        format!("kept/{}/{}/{:04}.partial", self.scene, self.camera, self.frame)
+        format!("{KEPT}/{}/{}/{:04}.partial", self.scene, self.camera, self.frame)
     }
 
     /// What the names of its payloads begin with, whoever made them.
@@ -118,7 +114,7 @@ pub struct Marker {
     pub wall_s: f64,
     /// Seconds of all threads together.
     pub cpu_s: f64,
-    /// Most memory that the process had until then.
+    /// Peak memory of the process until then.
     pub peak_memory_bytes: Option<u64>,
     /// Threads at work.
     pub threads: Option<u32>,

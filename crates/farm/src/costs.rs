@@ -3,8 +3,9 @@
 //! A vCPU-second is what a cloud bills: a second of one thread of a machine, busy or idle. What an attempt paid beyond its own committed
 //! frames went into loading scenes, into frames that are kept for the next attempt, and into frames that another committed first.
 
-use crate::commit::{DONE, read_marker_at};
+use crate::commit::read_marker_at;
 use crate::feasible::{feasible, machine_of};
+use crate::object_names::DONE;
 use crate::status::attempts;
 use crate::work::{AttemptRecord, Ended};
 use crate::{FarmError, Feasible, Job, Marker};
@@ -24,7 +25,7 @@ const HEADER: &str = "job_name,task_id,attempt,host,engine_ids,ended,vcpu_per_in
 /// One attempt at one task.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AttemptCost {
-    /// What it says of itself. One that was killed says nothing of its time: it counts as those of the frames that it had committed.
+    /// Its own record. An attempt that was killed has recorded no time; it counts with the times of the frames that it had committed.
     pub record: AttemptRecord,
     /// vCPU-seconds of its frames that count.
     pub in_frames_vcpu_s: f64,
@@ -57,7 +58,7 @@ pub struct Costs {
     pub wasted_vcpu_s: f64,
     /// Attempts beyond the first of each task.
     pub retries: u32,
-    /// Most memory of any attempt, bytes.
+    /// Largest peak memory of an attempt, bytes.
     pub peak_memory_bytes: Option<u64>,
     /// Records of attempts that cannot be read and do not count, each with what is wrong.
     pub unreadable: Vec<String>,

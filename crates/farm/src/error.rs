@@ -1,3 +1,5 @@
+//! What can go wrong on a farm, and whether another attempt may help.
+
 use enfilade_dataset::DatasetError;
 use std::error::Error as StdError;
 use std::io::ErrorKind;

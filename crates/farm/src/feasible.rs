@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 /// A job on the smallest machines.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Feasible {
-    /// Most threads and most memory, bytes, of any attempt.
+    /// Maximum threads and peak memory, bytes, of an attempt.
     pub threads: u32,
     /// See `threads`.
     pub peak_memory_bytes: u64,

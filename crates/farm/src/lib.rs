@@ -18,6 +18,7 @@ mod costs;
 pub mod engines;
 mod error;
 mod feasible;
+mod object_names;
 mod plan;
 mod plan_file;
 mod ranges;

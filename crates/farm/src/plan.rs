@@ -1,15 +1,15 @@
 //! What there is to do: made once, on one machine, from the configuration of a dataset.
 
+use crate::object_names::{PLAN, object_name};
 use crate::{Attempt, Created, FarmError, Store};
-use enfilade_pipeline::{Config, Expected, Part, Prepared, PreparedScene, Reporter, Summary, WORKDIR, prepare};
+use enfilade_dataset::WORKDIR;
+use enfilade_pipeline::{Config, Expected, Part, Prepared, PreparedScene, Reporter, Summary, prepare};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Version of the plan's form.
 const FORMAT: u32 = 1;
-/// The plan's name in the store.
-pub(crate) const PLAN: &str = "plan.json";
 
 /// How work is divided.
 #[derive(Clone, Copy, Debug)]
@@ -70,7 +70,7 @@ pub struct PlannedScene {
     pub frames: u64,
     /// Processor seconds that they will take in all.
     pub cpu_s: Expected,
-    /// Most memory at any moment, bytes.
+    /// Peak memory, bytes.
     pub memory_bytes: Expected,
     /// Bytes of its frames and files.
     pub disk_bytes: Expected,
@@ -129,11 +129,6 @@ impl Job {
         let own = self.plan.scenes.iter().filter(move |planned| planned.name == scene);
         self.plan.files.iter().chain(own.flat_map(|planned| &planned.files))
     }
-}
-
-/// The name of a content in the store.
-pub(crate) fn object_name(blake3: &str) -> String {
-    format!("objects/{}/{blake3}", &blake3[..blake3.len().min(2)])
 }
 
 fn program() -> String {
@@ -233,9 +228,9 @@ fn tasks(scene: &PreparedScene, options: &PlanOptions) -> Vec<Task> {
     let frames: usize = scene.trajectories.iter().map(|(_, frames)| frames.len()).sum();
     let frame_cpu_s = scene.forecast.cpu_s.mean / frames.max(1) as f64;
     let wanted_cpu_s = options.minutes * 60.0 * f64::from(options.cpus.max(1));
-    let most = (wanted_cpu_s / frame_cpu_s.max(1e-6)).clamp(1.0, 1e6) as usize;
+    let max_frames = (wanted_cpu_s / frame_cpu_s.max(1e-6)).clamp(1.0, 1e6) as usize;
     let divide = |(camera, frames): &(String, Vec<u32>)| -> Vec<Task> {
-        let pieces = frames.len().div_ceil(most).max(1);
+        let pieces = frames.len().div_ceil(max_frames).max(1);
         let piece =
             |i: usize| frames[i * frames.len() / pieces..(i + 1) * frames.len() / pieces].iter().copied().collect::<BTreeSet<u32>>();
         let task = |frames: BTreeSet<u32>| Task {

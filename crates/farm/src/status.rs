@@ -1,5 +1,6 @@
 //! How far a job has come: what the store says, whatever an engine believes.
 
+use crate::object_names::ATTEMPTS;
 use crate::work::{AttemptRecord, Ended, missing_by_task};
 use crate::{FarmError, Job, Ranges};
 use serde::Serialize;
@@ -89,7 +90,7 @@ impl Ended {
 /// Every record of an attempt, and what is wrong with those that cannot be read: no frame depends on them.
 pub(crate) fn attempts(job: &Job) -> Result<(Vec<AttemptRecord>, Vec<String>), FarmError> {
     let (mut records, mut unreadable) = (Vec::new(), Vec::new());
-    for (name, _) in job.store.list("attempts")? {
+    for (name, _) in job.store.list(ATTEMPTS)? {
         let Some(bytes) = job.store.get(&name)? else { continue };
         match serde_json::from_slice(&bytes) {
             Ok(record) => records.push(record),

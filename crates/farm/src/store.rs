@@ -5,7 +5,7 @@
 
 use crate::FarmError;
 use crate::error::START_THREADS;
-use crate::plan::PLAN;
+use crate::object_names::{ALL, PLAN, PROBE};
 use futures_util::TryStreamExt;
 use object_store::local::LocalFileSystem;
 use object_store::path::Path as Key;
@@ -16,16 +16,15 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 use tokio::runtime::Runtime;
 
-/// How often something is tried that fails for no lasting reason.
+/// How often a request is tried that fails for a reason which may pass.
 const ATTEMPTS: u32 = 5;
 /// Before the second attempt; doubled before each further one.
 const FIRST_PAUSE: Duration = Duration::from_millis(100);
-/// What settings begin with: bare names, which buckets' libraries take as well, may be variables of anything (`TOKEN`, `ENDPOINT`).
+/// Prefixes of the variables that are settings of a store. The library also takes bare names such as `TOKEN` or `ENDPOINT`, but these
+/// may belong to any program.
 const PREFIXES: [&str; 3] = ["aws_", "azure_", "google_"];
 /// How long one request to a bucket may take, its whole body included, unless `AWS_TIMEOUT` or the like says otherwise: scenes are large.
 const REQUEST_TIMEOUT: &str = "900s";
-/// What lies in the folder of a job.
-const OF_JOBS: [&str; 7] = [PLAN, "objects", "frames", "done", "kept", "attempts", "probe"];
 /// Writers at once, and rounds, when a store is probed.
 const PROBE_WRITERS: usize = 16;
 const PROBE_ROUNDS: usize = 4;
@@ -53,13 +52,13 @@ const WORKERS: usize = 2;
 /// The size of a thread's stack, bytes: what the runtime gives its own.
 const STACK: usize = 2 << 20;
 
-/// What requests go on in. It would end this process where it gets no threads, so these are asked for before.
+/// The runtime that requests run in. It would abort this process if the system gave it no threads, so we ask for them first.
 fn runtime() -> std::io::Result<Runtime> {
     ask_for_threads(WORKERS + 1, STACK)?;
     tokio::runtime::Builder::new_multi_thread().worker_threads(WORKERS).thread_stack_size(STACK).enable_all().build()
 }
 
-/// Starts so many threads at once, which end again.
+/// Finds out whether the system gives so many threads at once, by starting and ending them.
 fn ask_for_threads(count: usize, stack: usize) -> std::io::Result<()> {
     // All of them wait until this is dropped, so that none makes room for another.
     let (hold, held) = std::sync::mpsc::channel::<()>();
@@ -97,7 +96,7 @@ fn refuse_foreign_folder(folder: &Path) -> Result<(), FarmError> {
     }
     let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
     let names: Vec<String> = entries.filter_map(Result::ok).map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-    let foreign = names.iter().find(|name| !name.starts_with('.') && !OF_JOBS.contains(&name.as_str()));
+    let foreign = names.iter().find(|name| !name.starts_with('.') && !ALL.contains(&name.as_str()));
     match foreign {
         Some(name) if !names.iter().any(|name| name == PLAN) => Err(FarmError::Request(format!(
             "{} holds something else (among it {name:?}), and no job; name an empty folder or one that does not exist yet",
@@ -239,7 +238,7 @@ impl Store {
     /// When it is not so, or the store cannot be written.
     pub fn probe(&self, unique: &str) -> Result<(), FarmError> {
         for round in 0..PROBE_ROUNDS {
-            let name = format!("probe/{unique}-{round}");
+            let name = format!("{PROBE}/{unique}-{round}");
             let won = std::thread::scope(|scope| -> Result<usize, FarmError> {
                 let writers: Vec<_> = (0..PROBE_WRITERS)
                     .map(|i| {

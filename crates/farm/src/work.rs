@@ -1,8 +1,8 @@
 //! What a worker does: takes its tasks one after the other, makes the frames that nobody has committed, and commits them.
 
 use crate::bundle::pack;
-use crate::commit::{Commit, DONE, FRAMES, commit, is_whole, read_marker};
-use crate::plan::object_name;
+use crate::commit::{Commit, commit, is_whole, read_marker};
+use crate::object_names::{ATTEMPTS, DONE, FRAMES, object_name};
 use crate::{Attempt, FarmError, FrameKey, Job, Marker, Ranges, Task};
 use enfilade_dataset::write_bytes;
 use enfilade_pipeline::{FinishedFrame, Part, Reporter, Stopwatch, kept_frame, render_part};
@@ -65,7 +65,7 @@ pub struct AttemptRecord {
     pub cpu_s: f64,
     /// Threads at work.
     pub threads: u32,
-    /// Most memory that the process had until then; `None` where the system does not tell.
+    /// Peak memory of the process until then; `None` where the system does not tell.
     #[serde(default)]
     pub peak_memory_bytes: Option<u64>,
     /// Frames that are this attempt's.
@@ -95,7 +95,7 @@ pub enum Ended {
     Permanent,
 }
 
-/// Does the tasks of `assignment`. A task that fails does not keep the others from being done; the worst is what is told.
+/// Does the tasks of `assignment`, and returns a record of each. A task that fails does not stop the others.
 ///
 /// # Errors
 /// When there is no such task, or the store does not answer.
@@ -113,7 +113,7 @@ pub fn work(job: &Job, assignment: &Assignment, work: &Work, reporter: &dyn Repo
 }
 
 fn do_task(job: &Job, number: u32, work: &Work, reporter: &dyn Reporter) -> Result<AttemptRecord, FarmError> {
-    let name = format!("attempts/{number:06}.{}.json", work.attempt.id);
+    let name = format!("{ATTEMPTS}/{number:06}.{}.json", work.attempt.id);
     let time = Stopwatch::start();
     let mut record = AttemptRecord {
         attempt: work.attempt.clone(),
@@ -220,6 +220,7 @@ impl Tally {
     }
 }
 
+/// Makes the missing frames of a task in a folder of its own, and hands each in as it is finished.
 fn make(
     job: &Job,
     number: u32,
@@ -230,6 +231,8 @@ fn make(
 ) -> Result<(), FarmError> {
     let planned = &job.task(number)?.part;
     let part = Part { frames: missing.clone(), ..planned.clone() };
+
+    // Fetch what the scene needs, and what earlier attempts kept of the frames
     let io = |source| FarmError::io("make a folder in", work.scratch, source);
     std::fs::create_dir_all(work.scratch).map_err(io)?;
     let folder = tempfile::Builder::new().prefix("work-").tempdir_in(work.scratch).map_err(io)?;
@@ -244,6 +247,8 @@ fn make(
             write_bytes(&kept_frame(out, &part.scene, &part.camera, frame)?, &bytes)?;
         }
     }
+
+    // Render; the first frame that cannot be handed in ends the work
     let failure = Mutex::new(None);
     let finished = |frame: &FinishedFrame| {
         let result = hand_in(job, out, &key(frame.frame), number, frame, work);
@@ -260,6 +265,8 @@ fn make(
         }
     };
     let result = render_part(out, &part, work.stop, &finished, reporter);
+
+    // Keep the frame in the making for the next attempt
     if let Err(enfilade_pipeline::Error::Interrupted { frame, kept, .. }) = &result {
         let bytes = std::fs::read(kept).map_err(|source| FarmError::io("read", kept, source))?;
         job.store.put(&key(*frame).kept(), bytes)?;

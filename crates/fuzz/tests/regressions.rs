@@ -1,13 +1,13 @@
 //! Every file to begin with and every input that was once found is read again, with the bounds of a search.
 
 use cap::Cap;
-use enfilade_fuzz::{MOST_MEMORY, Seed, TARGETS, Target};
+use enfilade_fuzz::{MAX_MEMORY, Seed, TARGETS, Target};
 use std::alloc::System;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
 #[global_allocator]
-static MEMORY: Cap<System> = Cap::new(System, MOST_MEMORY);
+static MEMORY: Cap<System> = Cap::new(System, MAX_MEMORY);
 
 /// Longer than any takes on a busy machine, and short of a hang.
 const PATIENCE: Duration = Duration::from_secs(20);

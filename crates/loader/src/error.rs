@@ -1,7 +1,9 @@
+//! Why samples cannot be read: the dataset, a missing split, or a request that does not fit it.
+
 use enfilade_dataset::DatasetError;
 use std::path::PathBuf;
 
-/// Why samples cannot be had.
+/// Why samples cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum LoaderError {
     /// A file is missing or damaged.

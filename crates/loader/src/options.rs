@@ -1,3 +1,5 @@
+//! What users choose: which frames and layers, and what is done to each sample.
+
 use enfilade_dataset::Partition;
 use enfilade_frame::Layer;
 
@@ -15,6 +17,12 @@ pub struct Choice {
 }
 
 /// What is done to a sample.
+///
+/// ```
+/// use enfilade_loader::Options;
+/// let options = Options { resize: Some([192, 256]), tone_map: true, ..Options::default() };
+/// assert!(options.crop.is_none() && options.mask && options.cameras && !options.stored);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// A rectangle of the image instead of the whole.

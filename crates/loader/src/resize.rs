@@ -1,4 +1,4 @@
-//! Images of another size.
+//! Images of another size: means over the area of each new pixel, or the nearest old pixel.
 
 use crate::sample::Image;
 use enfilade_frame::{Values, f16};

@@ -1,3 +1,5 @@
+//! A sample: layers as arrays, mask, K and pose; and which pixels of a layer have a value.
+
 use enfilade_dataset::Window;
 use enfilade_frame::{Layer, Pass, f16};
 

@@ -2,9 +2,9 @@
 
 use crate::error::LoaderError;
 use crate::options::{Choice, Crop, CropPlace, Options};
+use crate::order::below;
 use crate::resize::{averaged, nearest};
 use crate::sample::{Image, Matrix3, Matrix4, Sample, Values, is_averaged, mask_out};
-use crate::stream::below;
 use crate::tone::{displayed, fit};
 use enfilade_dataset::{Dataset, DatasetError, OpencvCalibration, Partition, ToneMapRow, Window, turn_planar_depth};
 use enfilade_frame::tonemap::ToneMap;
@@ -14,9 +14,9 @@ use enfilade_scene::{Pose, Projection};
 use std::collections::{BTreeMap, HashSet};
 use std::sync::OnceLock;
 
-/// Where a sample comes from.
+/// Which frame of the dataset a sample is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place<'a> {
+pub struct FrameName<'a> {
     /// Name of the scene.
     pub scene: &'a str,
     /// Name of the camera.
@@ -89,7 +89,7 @@ impl Samples {
         self.frames.len()
     }
 
-    /// False: [`Samples::open`] refuses that.
+    /// Always false: [`Samples::open`] refuses a choice without frames.
     pub fn is_empty(&self) -> bool {
         self.frames.is_empty()
     }
@@ -104,14 +104,14 @@ impl Samples {
         &self.options
     }
 
-    /// Where sample `index` comes from.
+    /// The frame that sample `index` is.
     ///
     /// # Panics
     /// When there are not so many.
-    pub fn place(&self, index: usize) -> Place<'_> {
+    pub fn place(&self, index: usize) -> FrameName<'_> {
         let frame = &self.frames[index];
         let camera = &self.cameras[frame.camera];
-        Place { scene: &camera.scene, camera: &camera.name, frame: frame.number }
+        FrameName { scene: &camera.scene, camera: &camera.name, frame: frame.number }
     }
 
     /// Decodes a sample. Random crops lie elsewhere in each `epoch`.
@@ -123,7 +123,8 @@ impl Samples {
     /// # Panics
     /// When there are not so many samples.
     pub fn sample(&self, index: usize, epoch: u64) -> Result<Sample, LoaderError> {
-        let (Place { scene, camera, frame }, options) = (self.place(index), &self.options);
+        let (FrameName { scene, camera, frame }, options) = (self.place(index), &self.options);
+        // Decode the layers, or the part of them that the crop shows
         let part = options.crop.map(|crop| self.window(index, crop, epoch)).transpose()?;
         let mut layers = Vec::with_capacity(self.layers.len());
         for &layer in &self.layers {
@@ -134,11 +135,15 @@ impl Samples {
         if let Some((layer, other)) = layers.iter().find(|(_, image)| [image.height, image.width] != [height, width]) {
             let path = self.dataset.layer_source(scene, camera, frame, *layer);
             let sizes = format!("{}x{} pixels, but other layers of the frame have {height}x{width}", other.height, other.width);
-            return Err(LoaderError::Request(format!("{}: {sizes}; choose layers of one size, or mend the file", path.display())));
+            return Err(LoaderError::Request(format!("{}: {sizes}; choose layers of one size, or replace the file", path.display())));
         }
+
+        // Find the pixels that have values, and the exposure, before anything is resized
         let mut mask = options.mask.then(|| Image { height, width, channels: 1, values: Values::U8(mask_of(&layers, height * width)) });
         let window = part.unwrap_or(Window { top: 0, left: 0, height, width });
         let tone = self.tone(index, &layers, part.is_none())?;
+
+        // Resize layers and mask
         if let Some([height, width]) = options.resize {
             for (layer, image) in &mut layers {
                 *image = if is_averaged(*layer) { averaged(image, height, width) } else { nearest(image, height, width) };
@@ -148,13 +153,15 @@ impl Samples {
             }
             mask = mask.map(|mask| {
                 let mut mask = nearest(&mask, height, width);
-                // An area has no mean where one of its values is none.
+                // A mean over an area in which a value is missing is missing too.
                 if let Values::U8(kept) = &mut mask.values {
                     layers.iter().filter(|(layer, _)| is_averaged(*layer)).for_each(|(layer, image)| mask_out(kept, *layer, image));
                 }
                 mask
             });
         }
+
+        // Tone-map the colour, and bring K to the pixels of the sample
         if let (Some(tone), Some((_, color))) = (tone, layers.iter_mut().find(|(layer, _)| *layer == Layer::Color)) {
             *color = displayed(color, tone);
         }
@@ -225,7 +232,7 @@ impl Samples {
 
     /// A layer of a sample, or a part of it.
     fn image(&self, index: usize, layer: Layer, part: Option<Window>) -> Result<Image, LoaderError> {
-        let Place { scene, camera, frame } = self.place(index);
+        let FrameName { scene, camera, frame } = self.place(index);
         let projection = || Ok(self.camera_calibration(index)?.0.clone());
         let is_there = self.dataset.stored_layer(scene, camera, frame, layer) == layer;
         let ([height, width], mut values) = if self.options.stored && is_there {
@@ -251,7 +258,7 @@ impl Samples {
 
     /// Height and width of a sample's image before it is cropped.
     fn image_size(&self, index: usize) -> Result<[usize; 2], DatasetError> {
-        let Place { scene, camera, frame } = self.place(index);
+        let FrameName { scene, camera, frame } = self.place(index);
         let known = &self.cameras[self.frames[index].camera].size;
         get_or_try(known, || self.dataset.image_size(scene, camera, frame, self.layers[0])).copied()
     }
@@ -264,7 +271,7 @@ impl Samples {
         if [width, height] == [w, h] {
             return Ok(());
         }
-        let Place { scene, camera, .. } = self.place(index);
+        let FrameName { scene, camera, .. } = self.place(index);
         let found = format!("the images of {scene}/{camera} have {width}x{height} pixels, but its camera {w}x{h}");
         let remedy = "take the images as they were rendered and let `resize` shrink them, name a table of cameras of their size, or ask \
             for neither poses (poses=False) nor planar depth";
@@ -289,7 +296,7 @@ impl Samples {
         if window.fits(rows, columns) {
             return Ok(window);
         }
-        let Place { scene, camera, frame } = self.place(index);
+        let FrameName { scene, camera, frame } = self.place(index);
         let path = self.dataset.layer_source(scene, camera, frame, self.layers[0]);
         let crop = format!("a crop of {height}x{width} pixels from row {top}, column {left}");
         Err(LoaderError::Request(format!("{}: {crop} leaves the image of {rows}x{columns}", path.display())))
@@ -299,7 +306,7 @@ impl Samples {
     fn tone(&self, index: usize, layers: &[(Layer, Image)], whole: bool) -> Result<Option<ToneMap>, LoaderError> {
         let color = layers.iter().find(|(layer, _)| *layer == Layer::Color).map(|(_, image)| image);
         let (true, Some(color)) = (self.options.tone_map, color) else { return Ok(None) };
-        let (frame, Place { scene, camera, .. }) = (&self.frames[index], self.place(index));
+        let (frame, FrameName { scene, camera, .. }) = (&self.frames[index], self.place(index));
         if let Some(known) = frame.exposure.get() {
             return Ok(Some(*known));
         }
@@ -314,7 +321,7 @@ impl Samples {
 
     /// The exposure of a frame's whole colour, by the pixels that show the scene where the frame says which do.
     fn fitted(&self, index: usize, color: &Image) -> Result<ToneMap, LoaderError> {
-        let (Place { scene, camera, frame }, layer) = (self.place(index), Layer::RenderEntityId);
+        let (FrameName { scene, camera, frame }, layer) = (self.place(index), Layer::RenderEntityId);
         if !self.dataset.has_layer(scene, camera, frame, layer) {
             return Ok(fit(color, None));
         }
@@ -324,7 +331,7 @@ impl Samples {
         }
         let path = self.dataset.layout().layer(scene, camera, frame, layer);
         let sizes = format!("{height}x{width} pixels, but color has {}x{}", color.height, color.width);
-        let remedy = "the tone map goes by the pixels with an id; mend the file, move it away, or ask for no tone map (tone_map=False)";
+        let remedy = "the tone map goes by the pixels with an id; replace the file, move it away, or ask for no tone map (tone_map=False)";
         Err(LoaderError::Request(format!("{}: {sizes}: {remedy}", path.display())))
     }
 
@@ -334,7 +341,7 @@ impl Samples {
         if calibration.intrinsics.is_some() {
             self.check_size(index, projection, window)?;
         }
-        let Place { scene, camera, frame } = self.place(index);
+        let FrameName { scene, camera, frame } = self.place(index);
         let poses = get_or_try(&self.cameras[self.frames[index].camera].poses, || {
             let trajectory = self.dataset.read_trajectory(scene, camera)?;
             Ok::<_, DatasetError>(trajectory.poses.into_iter().map(|pose| (pose.frame, pose)).collect())
@@ -352,7 +359,7 @@ impl Samples {
     }
 
     fn camera_calibration(&self, index: usize) -> Result<&(Projection, OpencvCalibration), DatasetError> {
-        let Place { scene, camera, .. } = self.place(index);
+        let FrameName { scene, camera, .. } = self.place(index);
         get_or_try(&self.cameras[self.frames[index].camera].calibration, || {
             let projection = self.dataset.read_camera(scene, camera)?.projection;
             let calibration = OpencvCalibration::of(&projection);
@@ -367,14 +374,14 @@ fn mask_of(layers: &[(Layer, Image)], pixels: usize) -> Vec<u8> {
     mask
 }
 
-/// Flow in pixels of an image that was scaled by so much along x and y.
+/// Scales flow, which is in pixels, as its image was scaled along x and y.
 fn scale_flow(flow: &mut Image, scale: [f32; 2]) {
     if let Values::F32(values) = &mut flow.values {
         values.chunks_exact_mut(2).for_each(|pixel| pixel.iter_mut().zip(scale).for_each(|(value, scale)| *value *= scale));
     }
 }
 
-/// The value, which is made unless it is there.
+/// The cell's value, made on the first call. An error leaves the cell empty.
 fn get_or_try<T, E>(cell: &OnceLock<T>, make: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
     if let Some(value) = cell.get() {
         return Ok(value);

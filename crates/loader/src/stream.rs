@@ -1,29 +1,12 @@
-//! Samples in an order, decoded ahead.
+//! Samples in a given order, decoded ahead by threads.
 
 use crate::error::LoaderError;
 use crate::sample::Sample;
-use crate::samples::Samples;
-use enfilade_math::hash_u64;
+use crate::samples::{FrameName, Samples};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
-
-/// The numbers below `count` in an order that seed and epoch decide.
-pub fn shuffled(count: usize, seed: u64, epoch: u64) -> Vec<usize> {
-    let key = hash_u64(hash_u64(seed) ^ epoch);
-    let mut order: Vec<usize> = (0..count).collect();
-    for last in (1..count).rev() {
-        let random = hash_u64(key ^ hash_u64(last as u64));
-        order.swap(last, below(random, last + 1));
-    }
-    order
-}
-
-/// A number below `count` from 64 random bits, as [`Rng::below`](enfilade_math::Rng::below) makes it from its own.
-pub(crate) fn below(random: u64, count: usize) -> usize {
-    ((u128::from(random) * count as u128) >> 64) as usize
-}
 
 /// Gives samples in order while its threads decode those that follow.
 ///
@@ -76,7 +59,8 @@ impl Work {
     fn decode(&self) {
         while let Some(place) = self.next_place() {
             let index = self.order[place];
-            let gave_up = |_| Err(LoaderError::Request(format!("sample {index} {:?}: the decoder gave up", self.samples.place(index))));
+            let FrameName { scene, camera, frame } = self.samples.place(index);
+            let gave_up = |_| Err(LoaderError::Request(format!("sample {index}, {scene}/{camera} frame {frame}: the decoder gave up")));
             let sample = catch_unwind(AssertUnwindSafe(|| self.samples.sample(index, self.epoch))).unwrap_or_else(gave_up);
             self.lock().ready.insert(place, sample);
             self.changed.notify_all();
@@ -125,19 +109,5 @@ impl Drop for Stream {
         for thread in self.threads.drain(..) {
             let _ = thread.join();
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn orders_are_permutations_that_seed_and_epoch_decide() {
-        let mut order = shuffled(100, 1, 0);
-        assert_eq!(order, shuffled(100, 1, 0));
-        assert!(order != shuffled(100, 1, 1) && order != shuffled(100, 2, 0));
-        order.sort_unstable();
-        assert_eq!(order, (0..100).collect::<Vec<_>>());
     }
 }

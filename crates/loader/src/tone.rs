@@ -1,4 +1,4 @@
-//! Hypersim's tone map on half-precision colour.
+//! Hypersim's tone map for samples: the exposure of an image, and its colour as displayed bytes, by a table for half precision.
 
 use crate::sample::Image;
 use enfilade_frame::tonemap::{ToneMap, brightness, encode};

@@ -6,6 +6,13 @@ use std::collections::BTreeMap;
 
 /// The area below the curve, 0 to 1, of detections with their scores and whether each is a hit, where there are `truths` objects to find.
 /// Detections of one score keep their order. Without objects it is 0.
+///
+/// ```
+/// use enfilade_shapes::average_precision;
+/// // The first hit finds half of the objects at precision 1, the second the other half at precision 2/3.
+/// let detections = [(0.9, true), (0.8, false), (0.7, true)];
+/// assert!((average_precision(&detections, 2) - (0.5 + 0.5 * 2.0 / 3.0)).abs() < 1e-12);
+/// ```
 pub fn average_precision(detections: &[(f64, bool)], truths: usize) -> f64 {
     if truths == 0 {
         return 0.0;

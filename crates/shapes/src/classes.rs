@@ -9,6 +9,13 @@ pub fn category_id(name: &str) -> Option<u32> {
 }
 
 /// The category that an NYU40 class becomes; `None` for classes that take no part. Roberts et al. 2021, supplementary material.
+///
+/// ```
+/// use enfilade_shapes::{CATEGORIES, category_from_nyu40};
+/// let bookshelf = category_from_nyu40(10).unwrap();
+/// assert_eq!(CATEGORIES[bookshelf as usize - 1], "bookcase");
+/// assert_eq!(category_from_nyu40(1), None, "walls have no shape to predict");
+/// ```
 pub fn category_from_nyu40(semantic: i16) -> Option<u32> {
     let name = match semantic {
         4 => "bed",

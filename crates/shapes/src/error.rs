@@ -1,3 +1,5 @@
+//! Why shapes cannot be read or compared.
+
 use std::io;
 use std::path::{Path, PathBuf};
 

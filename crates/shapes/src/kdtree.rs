@@ -1,4 +1,4 @@
-//! The nearest of many points.
+//! Nearest neighbours of points: a balanced k-d tree in three dimensions, with exact distances.
 
 use enfilade_math::DVec3;
 

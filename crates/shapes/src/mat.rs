@@ -9,7 +9,7 @@ use std::io::{Read, Write};
 const HEADER: usize = 128;
 
 /// What one element may grow to when it is inflated: a grid of 512³ doubles and a little more.
-const LARGEST: u64 = 1 << 30;
+const MAX_INFLATED: u64 = 1 << 30;
 
 const INT8: u32 = 1;
 const INT32: u32 = 5;
@@ -112,9 +112,9 @@ fn array(flags: &[u8], shape: Vec<usize>, parts: &mut Elements<'_>, big_endian: 
 
 fn inflate(data: &[u8]) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
-    let read = ZlibDecoder::new(data).take(LARGEST + 1).read_to_end(&mut bytes);
+    let read = ZlibDecoder::new(data).take(MAX_INFLATED + 1).read_to_end(&mut bytes);
     read.map_err(|error| format!("a compressed element is damaged: {error}"))?;
-    if bytes.len() as u64 > LARGEST { Err("an element is larger than one gigabyte".into()) } else { Ok(bytes) }
+    if bytes.len() as u64 > MAX_INFLATED { Err("an element is larger than one gigabyte".into()) } else { Ok(bytes) }
 }
 
 /// Elements one after the other.

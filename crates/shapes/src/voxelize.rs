@@ -1,4 +1,4 @@
-//! From triangles to the cells that they touch and enclose.
+//! From triangles to the cells of a cube that they touch (separating axes) or enclose (flood fill from outside).
 
 use crate::surface::Surface;
 use enfilade_math::DVec3;

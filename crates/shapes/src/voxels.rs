@@ -14,6 +14,17 @@ use std::path::Path;
 const NAME: &str = "voxel";
 
 /// Which cells of a cube are inside of a model.
+///
+/// ```
+/// use enfilade_math::DVec3;
+/// use enfilade_shapes::{Surface, Voxels};
+/// // The tetrahedron at a corner of the unit cube: it fills the corner's cell, and leaves the opposite one free.
+/// let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+/// let surface = Surface::new(corners, vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]).unwrap();
+/// let voxels = Voxels::of(&surface, 8).unwrap();
+/// assert!(voxels.get([0; 3]) && !voxels.get([7; 3]));
+/// assert_eq!(Voxels::from_mat(&voxels.to_mat(), "voxel.mat".as_ref()).unwrap(), voxels);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Voxels {
     side: usize,

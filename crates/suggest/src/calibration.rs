@@ -108,16 +108,16 @@ impl Calibration {
     }
 }
 
-/// The least confidence from which on names are right often enough, for several shares of right ones.
+/// The minimum confidence from which on names are right often enough, for several shares of right ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Thresholds {
-    /// Share that is right, least confidence, and share of the names that have it; the first rising.
+    /// Share that is right, minimum confidence, and share of the names that have it; the first rising.
     rows: Vec<(f32, f32, f32)>,
 }
 
 const THRESHOLD_COLUMNS: [&str; 3] = ["precision", "min_confidence", "coverage"];
 /// Names that a threshold must rest on.
-const FEWEST: usize = 100;
+const MIN_JUDGED: usize = 100;
 
 impl Thresholds {
     /// The thresholds for `precisions` of names judged in held-out scenes, whose scores are confidences. A precision that is not
@@ -131,14 +131,14 @@ impl Thresholds {
         for (i, one) in sorted.iter().enumerate() {
             right += f64::from(one.right * one.weight);
             weight += f64::from(one.weight);
-            if i + 1 >= FEWEST && sorted.get(i + 1).is_none_or(|next| next.score < one.score) {
+            if i + 1 >= MIN_JUDGED && sorted.get(i + 1).is_none_or(|next| next.score < one.score) {
                 reached.push((right / weight, one.score, weight / total));
             }
         }
         // Confidences are given in thousandths, rounded upwards.
         let row = |&precision: &f32| {
-            let least = reached.iter().rfind(|(share, ..)| *share >= f64::from(precision))?;
-            Some((precision, (least.1 * 1000.0).ceil() / 1000.0, (least.2 as f32 * 1000.0).round() / 1000.0))
+            let min = reached.iter().rfind(|(share, ..)| *share >= f64::from(precision))?;
+            Some((precision, (min.1 * 1000.0).ceil() / 1000.0, (min.2 as f32 * 1000.0).round() / 1000.0))
         };
         Self { rows: precisions.iter().filter_map(row).collect() }
     }
@@ -170,7 +170,7 @@ impl Thresholds {
         std::iter::once(format!("{}\n", THRESHOLD_COLUMNS.join(","))).chain(rows).collect()
     }
 
-    /// The least confidence for `precision`, by the first listed precision that is not below it; `None` where there is none.
+    /// The minimum confidence for `precision`, by the first listed precision that is not below it; `None` where there is none.
     pub fn min_confidence(&self, precision: f32) -> Option<f32> {
         self.rows.iter().find(|row| row.0 >= precision).map(|row| row.1)
     }

@@ -9,11 +9,18 @@ use std::collections::{BTreeMap, HashMap};
 const FILE: &str = "words.csv";
 const BUILTIN: &str = include_str!("../words.csv");
 /// Words of the longest phrase.
-const LONGEST_PHRASE: usize = 3;
+const MAX_PHRASE: usize = 3;
 /// Letters that the end of a compound needs to count: `Esstisch` is a *tisch*. Words of other scripts need only be in the list.
-const SHORTEST_END: usize = 4;
+const MIN_END: usize = 4;
 
 /// Words and phrases with their classes.
+///
+/// ```
+/// use enfilade_suggest::{lexicon::Lexicon, words::words};
+/// let lexicon = Lexicon::builtin()?;
+/// assert_eq!(lexicon.meanings(&words("Gartentisch_02")), [7]); // table, by the end of the compound
+/// # Ok::<(), enfilade_suggest::TableError>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Lexicon {
     classes: HashMap<String, i16>,
@@ -38,9 +45,9 @@ impl Lexicon {
             let error = |problem: String| TableError { file: file.into(), line, problem };
             let class = class_number(&class).map_err(error)?;
             let written = words(&word).join(" ");
-            if written != word || word.split(' ').count() > LONGEST_PHRASE {
+            if written != word || word.split(' ').count() > MAX_PHRASE {
                 return Err(error(format!(
-                    "{word:?} is no word or phrase as names are taken apart; expected up to {LONGEST_PHRASE} words like {written:?}"
+                    "{word:?} is no word or phrase as names are taken apart; expected up to {MAX_PHRASE} words like {written:?}"
                 )));
             }
             if classes.insert(word.clone(), class).is_some() {
@@ -56,7 +63,7 @@ impl Lexicon {
         let mut found = Vec::new();
         let mut at = 0;
         while at < words.len() {
-            let lengths = (1..=LONGEST_PHRASE.min(words.len() - at)).rev();
+            let lengths = (1..=MAX_PHRASE.min(words.len() - at)).rev();
             let phrase = lengths.clone().find_map(|n| Some((n, *self.classes.get(&words[at..at + n].join(" "))?)));
             let meaning = phrase.or_else(|| Some((1, self.of_compound(&words[at])?)));
             found.extend(meaning.map(|(_, class)| class));
@@ -74,7 +81,7 @@ impl Lexicon {
     /// What the longest end of a word that is in the list means.
     fn of_compound(&self, word: &str) -> Option<i16> {
         let ends = word.char_indices().skip(1).map(|(i, _)| &word[i..]);
-        let long_enough = |end: &&str| !end.is_ascii() || end.len() >= SHORTEST_END;
+        let long_enough = |end: &&str| !end.is_ascii() || end.len() >= MIN_END;
         ends.filter(long_enough).find_map(|end| self.classes.get(end).copied())
     }
 }

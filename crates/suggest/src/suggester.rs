@@ -1,4 +1,4 @@
-//! Names in, suggestions out.
+//! The whole way from a part's names to a suggestion: words, features, weights, probabilities, confidence.
 
 use crate::calibration::{Calibration, Thresholds};
 use crate::features::features;
@@ -11,12 +11,19 @@ use enfilade_scene::Scene;
 const WEIGHTS: (&str, &str) = ("data/weights.csv", include_str!("../data/weights.csv"));
 const CALIBRATION: (&str, &str) = ("data/calibration.csv", include_str!("../data/calibration.csv"));
 const THRESHOLDS: (&str, &str) = ("data/thresholds.csv", include_str!("../data/thresholds.csv"));
-/// Most alternatives of a suggestion.
-const ALTERNATIVES: usize = 3;
+/// Alternatives that a suggestion may have.
+const MAX_ALTERNATIVES: usize = 3;
 /// What a material's name counts beside a part's: half, because it says what a thing is made of more often than what it is.
 const MATERIAL_SHARE: f32 = 0.5;
 
 /// Knows which classes names stand for. The same names always get the same suggestion; nothing is read or kept.
+///
+/// ```
+/// use enfilade_suggest::{PartNames, Suggester};
+/// let names = PartNames { part: "Object_12", material: "pillow_fabric", group: "bedroom/bed_double" };
+/// let suggestion = Suggester::builtin().suggest(&names).unwrap();
+/// assert!(suggestion.alternatives.iter().all(|(_, confidence)| *confidence <= suggestion.confidence));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Suggester {
     weights: Weights,
@@ -74,7 +81,7 @@ impl Suggester {
         Self { weights, lexicon, calibration: Calibration::identity(), thresholds: Thresholds::default() }
     }
 
-    /// The least confidence from which on at least the share `precision` of names is right, as measured in held-out volumes of
+    /// The minimum confidence from which on at least the share `precision` of names is right, as measured in held-out volumes of
     /// scenes; 0.95 is the highest that is known. `None` where none is.
     pub fn min_confidence(&self, precision: f32) -> Option<f32> {
         self.thresholds.min_confidence(precision)
@@ -138,7 +145,7 @@ impl Suggestion {
         order.sort_by(|&a, &b| probabilities[b].total_cmp(&probabilities[a]));
         let pair = |i: usize| (i as i16 + 1, probabilities[i]);
         let (class, confidence) = pair(order[0]);
-        Self { class, confidence, alternatives: order[1..=ALTERNATIVES].iter().map(|&i| pair(i)).collect() }
+        Self { class, confidence, alternatives: order[1..=MAX_ALTERNATIVES].iter().map(|&i| pair(i)).collect() }
     }
 
     /// With a score turned into a confidence; the alternatives share what is left as before.
@@ -238,7 +245,7 @@ mod tests {
     fn confidences_are_probabilities_and_alternatives_are_no_likelier() {
         for name in ["sofa", "floor lamp", "box", "thing", "bed pillow", "glass"] {
             let Some(found) = of(name, "") else { continue };
-            assert!((0.0..=1.0).contains(&found.confidence) && found.alternatives.len() == ALTERNATIVES, "{found:?}");
+            assert!((0.0..=1.0).contains(&found.confidence) && found.alternatives.len() == MAX_ALTERNATIVES, "{found:?}");
             assert!(
                 found.alternatives.iter().all(|&(class, p)| class != found.class && (0.0..=found.confidence).contains(&p)),
                 "{found:?}"

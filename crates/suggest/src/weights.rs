@@ -10,7 +10,7 @@ pub(crate) const CLASSES: usize = NYU40.len();
 /// The feature that every name has.
 const BIAS: &str = "every name";
 /// Weights smaller than this change no answer and fill half of the table.
-const LEAST: f32 = 0.1;
+const MIN_WEIGHT: f32 = 0.1;
 const COLUMNS: [&str; 3] = ["feature", "class", "weight"];
 
 /// Weights by feature; classes without a weight have 0.
@@ -21,11 +21,11 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Of rows, in two decimals; weights below [`LEAST`] are left out.
+    /// Of rows, in two decimals; weights below [`MIN_WEIGHT`] are left out.
     pub(crate) fn new(bias: &[f32; CLASSES], features: &BTreeMap<&str, &[f32]>) -> Self {
         let list = |weights: &[f32]| {
             let rounded = weights.iter().map(|w| (w * 100.0).round() / 100.0);
-            (1..).zip(rounded).filter(|&(_, w)| w.abs() >= LEAST).collect::<Vec<(i16, f32)>>()
+            (1..).zip(rounded).filter(|&(_, w)| w.abs() >= MIN_WEIGHT).collect::<Vec<(i16, f32)>>()
         };
         let features = features.iter().map(|(name, weights)| ((*name).to_string(), list(weights))).filter(|(_, list)| !list.is_empty());
         Self { bias: list(bias), features: features.collect() }

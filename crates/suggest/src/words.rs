@@ -5,9 +5,9 @@
 //! only tell which program or archive a thing comes from are left out.
 
 /// Letters of a word that are looked at; what is longer was not written by a person.
-const LONGEST_WORD: usize = 32;
+const MAX_LETTERS: usize = 32;
 /// Words of a name that are looked at, from its end: that is where the thing itself stands in a path.
-const MOST_WORDS: usize = 12;
+const MAX_WORDS: usize = 12;
 
 /// Words that name no thing: makers of models, programs, and kinds of node.
 const EMPTY_WORDS: [&str; 42] = [
@@ -56,10 +56,16 @@ const EMPTY_WORDS: [&str; 42] = [
 ];
 
 /// The words of a name in order, without those that name no thing.
+///
+/// ```
+/// use enfilade_suggest::words::words;
+/// assert_eq!(words("AI53_005_armchairMetal_2917"), ["armchair", "metal"]);
+/// assert_eq!(words("Étagères.001"), ["etagere"]);
+/// ```
 pub fn words(name: &str) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     let mut word = String::new();
-    let letters: Vec<char> = name.chars().rev().take(LONGEST_WORD * MOST_WORDS).collect();
+    let letters: Vec<char> = name.chars().rev().take(MAX_LETTERS * MAX_WORDS).collect();
     let letters = composed(letters.into_iter().rev());
     for (i, &letter) in letters.iter().enumerate() {
         let before = i.checked_sub(1).map(|i| letters[i]);
@@ -75,7 +81,7 @@ pub fn words(name: &str) -> Vec<String> {
         }
     }
     keep(&mut found, &mut word);
-    let surplus = found.len().saturating_sub(MOST_WORDS);
+    let surplus = found.len().saturating_sub(MAX_WORDS);
     found.drain(..surplus);
     found
 }
@@ -85,7 +91,7 @@ fn keep(found: &mut Vec<String>, word: &mut String) {
     let text = singular(&std::mem::take(word));
     let letters = text.chars().count();
     let meant = letters > 1 || !text.is_ascii();
-    if meant && letters <= LONGEST_WORD && !EMPTY_WORDS.contains(&text.as_str()) {
+    if meant && letters <= MAX_LETTERS && !EMPTY_WORDS.contains(&text.as_str()) {
         found.push(text);
     }
 }
@@ -211,7 +217,7 @@ mod tests {
         assert!(words("").is_empty());
         assert!(words("\u{0}\u{301}🛋️ 42 ___").is_empty());
         assert!(words(&"x".repeat(1_000_000)).is_empty());
-        assert_eq!(words(&format!("{}/chair", "room ".repeat(100_000))).len(), MOST_WORDS);
+        assert_eq!(words(&format!("{}/chair", "room ".repeat(100_000))).len(), MAX_WORDS);
         assert_eq!(words(&format!("{}/chair", "a".repeat(100_000))).last().unwrap(), "chair");
     }
 }

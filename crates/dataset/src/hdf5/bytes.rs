@@ -1,15 +1,15 @@
-//! Little-endian numbers at places of a file that need not exist.
+//! Bytes and little-endian numbers at offsets of a file, which a damaged file may not have.
 
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
-/// What is read at once from the beginning of a file: in Hypersim's files all but the tables of chunks.
+/// Bytes that are read at once from the beginning of a file. In Hypersim's files only the tables of chunks lie beyond.
 const HEAD: usize = 4096;
 
 /// A file and its first bytes.
-pub(super) struct Source {
+pub(super) struct FileBytes {
     file: File,
     /// Bytes in the file.
     pub length: u64,
@@ -20,7 +20,7 @@ pub(super) struct Source {
     walked: BTreeSet<u64>,
 }
 
-impl Source {
+impl FileBytes {
     /// `None` when the file cannot be read.
     pub fn open(path: &Path) -> Option<Self> {
         let mut file = File::open(path).ok()?;
@@ -52,9 +52,9 @@ impl Source {
         Some(bytes)
     }
 
-    /// [`most_inflated`] of the whole file.
-    pub fn most_inflated(&self) -> u64 {
-        most_inflated(self.length)
+    /// [`max_inflated`] of the whole file.
+    pub fn max_inflated(&self) -> u64 {
+        max_inflated(self.length)
     }
 
     /// `None` when the node of a tree at `offset` was walked before: such a file is damaged, and might be walked for ever.
@@ -70,12 +70,12 @@ impl Source {
 }
 
 /// Bytes that `length` bytes can inflate to: no codec here shrinks by more than a factor of 1032. No damaged size may ask for more memory.
-pub(super) fn most_inflated(length: u64) -> u64 {
+pub(super) fn max_inflated(length: u64) -> u64 {
     length.saturating_mul(1032)
 }
 
 /// Chunks that an array in a file of `length` bytes may have: those that were never written take no room in it, but some memory.
-pub(super) fn most_chunks(length: u64) -> u64 {
+pub(super) fn max_chunks(length: u64) -> u64 {
     length.saturating_mul(32)
 }
 

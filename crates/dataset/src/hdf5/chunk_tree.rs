@@ -1,11 +1,11 @@
 //! Where chunks lie: B-trees of version 1 ("HDF5 File Format Specification Version 3.0", section III.A.1).
 
-use super::bytes::{Source, u16_at, u32_at, u64_at, usize_at};
+use super::bytes::{FileBytes, u16_at, u32_at, u64_at, usize_at};
 use std::collections::HashSet;
 
-/// Bytes of a chunk in the file.
+/// Where the bytes of a chunk lie in the file.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Place {
+pub(super) struct ChunkSpan {
     pub offset: u64,
     /// 0 where the chunk was never written.
     pub length: usize,
@@ -13,11 +13,11 @@ pub(super) struct Place {
 
 /// Is handed a chunk's index by row of the grid of chunks, last axis fastest, where it lies, and the filters that it leaves out,
 /// a bit each. Ends the walk by `None`.
-pub(super) type Take<'a> = dyn FnMut(usize, Place, u32) -> Option<()> + 'a;
+pub(super) type Take<'a> = dyn FnMut(usize, ChunkSpan, u32) -> Option<()> + 'a;
 
-/// Enters all chunks of the tree at `root` into `places`, by row of the grid of chunks, last axis fastest. `chunk` and `grid` have the axes
+/// Writes where all chunks of the tree at `root` lie into `places`, by row of the grid of chunks, last axis fastest. `chunk` and `grid` have the axes
 /// of the array: elements of a chunk, and chunks. `None` when the file is damaged or a chunk leaves out filters.
-pub(super) fn enter(source: &mut Source, root: u64, chunk: &[usize], grid: &[usize], places: &mut [Place]) -> Option<()> {
+pub(super) fn enter(source: &mut FileBytes, root: u64, chunk: &[usize], grid: &[usize], places: &mut [ChunkSpan]) -> Option<()> {
     walk(source, root, chunk, grid, &mut |index, place, left_out| {
         *places.get_mut(index).filter(|_| left_out == 0)? = place;
         Some(())
@@ -26,20 +26,20 @@ pub(super) fn enter(source: &mut Source, root: u64, chunk: &[usize], grid: &[usi
 
 /// Hands all chunks of the tree at `root` to `take`. `None` when `take` gave it, or the tree is damaged: it leads to something that
 /// is no node of a lower level, or twice to the same, or a chunk lies outside of the array or the file.
-pub(super) fn walk(source: &mut Source, root: u64, chunk: &[usize], grid: &[usize], take: &mut Take<'_>) -> Option<()> {
+pub(super) fn walk(source: &mut FileBytes, root: u64, chunk: &[usize], grid: &[usize], take: &mut Take<'_>) -> Option<()> {
     /// Above all levels, which are bytes.
     const ABOVE: u16 = 256;
     node(source, root, ABOVE, chunk, grid, take)
 }
 
-/// True when two entries of nodes above the lowest, wherever these lie in `bytes`, lead to the same node: a reader that does not remember
-/// where it was takes twice as long for each level below. Of what rank the array is, which says how long entries are, need not be known.
+/// True when two entries of inner nodes, anywhere in `bytes`, lead to the same node: a reader that does not remember where it was takes
+/// twice as long for each level below. How long entries are depends on the array's rank, which is not known here: every rank is tried.
 pub(super) fn meet_again(bytes: &[u8]) -> bool {
-    const MOST_AXES: usize = 32;
+    const MAX_AXES: usize = 32;
     const NODE: &[u8] = b"TREE\x01";
     let is_node = |address: usize| bytes.get(address..).is_some_and(|rest| rest.starts_with(NODE));
     let inner: Vec<usize> = (0..bytes.len().saturating_sub(24)).filter(|&at| is_node(at) && bytes[at + 5] > 0).collect();
-    (1..=MOST_AXES).any(|axes| {
+    (1..=MAX_AXES).any(|axes| {
         let key = 8 + 8 * (axes + 1);
         let mut met = HashSet::new();
         inner.iter().any(|&at| {
@@ -51,7 +51,7 @@ pub(super) fn meet_again(bytes: &[u8]) -> bool {
 }
 
 /// [`walk`] from the node at `address`, which is below that level.
-fn node(source: &mut Source, address: u64, above: u16, chunk: &[usize], grid: &[usize], take: &mut Take<'_>) -> Option<()> {
+fn node(source: &mut FileBytes, address: u64, above: u16, chunk: &[usize], grid: &[usize], take: &mut Take<'_>) -> Option<()> {
     source.walk(address)?;
     let start = source.bytes(address, 24)?;
     let level = u16::from(start[5]);
@@ -79,7 +79,7 @@ fn node(source: &mut Source, address: u64, above: u16, chunk: &[usize], grid: &[
         if child.checked_add(length as u64).is_none_or(|end| end > source.length) {
             return None;
         }
-        take(index, Place { offset: child, length }, left_out)?;
+        take(index, ChunkSpan { offset: child, length }, left_out)?;
     }
     Some(())
 }

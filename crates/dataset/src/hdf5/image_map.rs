@@ -2,11 +2,11 @@
 //!
 //! This walks the one form of HDF5 that images have, Hypersim's and ours: superblock 0, one dataset named `dataset` in the root
 //! group, an object header of version 1, and the values as one run or as filtered chunks in a B-tree of version 1 ("HDF5 File Format
-//! Specification Version 3.0", sections II.A, III.A, III.C, IV.A). Whatever differs is `None`, and then the HDF5 library has its say.
+//! Specification Version 3.0", sections II.A, III.A, III.C, IV.A). A file of any other form gives `None`, and the HDF5 library reads it.
 
-use super::Element;
-use super::bytes::{Source, u16_at, u32_at, u64_at, usize_at};
-use super::chunk_tree::{self, Place};
+use super::array::Element;
+use super::bytes::{FileBytes, u16_at, u32_at, u64_at, usize_at};
+use super::chunk_tree::{self, ChunkSpan};
 use super::chunks::{grid, three_axes};
 
 /// HDF5's number of the deflate filter.
@@ -17,7 +17,7 @@ pub(super) const SHUFFLE: u16 = 2;
 pub(super) const LZ4: u16 = 32004;
 
 /// Levels of a group's tree and pieces of a header beyond which a file is taken for damaged.
-pub(super) const DEEPEST: usize = 8;
+pub(super) const MAX_DEPTH: usize = 8;
 
 /// Bytes that a chunk of an image takes at least in the tree: length, filters, three offsets and address.
 const CHUNK_ENTRY: u64 = 40;
@@ -43,7 +43,7 @@ pub(super) struct ImageMap {
     pub shuffled: bool,
     pub codec: Codec,
     /// By row, column and channel of chunks, channels innermost; none is of length 0.
-    pub places: Vec<Place>,
+    pub places: Vec<ChunkSpan>,
 }
 
 impl ImageMap {
@@ -58,7 +58,7 @@ impl ImageMap {
     }
 
     /// `None` when the file is anything but a whole image in the known form.
-    pub fn read(source: &mut Source) -> Option<Self> {
+    pub fn read(source: &mut FileBytes) -> Option<Self> {
         let header = dataset_header(source)?;
         let mut found = Description::default();
         messages(source, header, &mut |kind, body| found.take(kind, body))?;
@@ -77,7 +77,7 @@ impl ImageMap {
         let known = matches!(shape.len(), 2 | 3) && sides.len() == shape.len() + 1 && sides.last() == Some(&element.size());
         let sides = &sides[..shape.len().min(sides.len())];
         let bytes = shape.iter().try_fold(element.size(), |n, &axis| n.checked_mul(axis))?;
-        let possible = bytes > 0 && bytes as u64 <= source.most_inflated();
+        let possible = bytes > 0 && bytes as u64 <= source.max_inflated();
         if !known || !possible || sides.iter().zip(&shape).any(|(side, axis)| !(1..=*axis).contains(side)) {
             return None;
         }
@@ -88,18 +88,18 @@ impl ImageMap {
         if chunks as u64 > source.length / CHUNK_ENTRY {
             return None;
         }
-        map.places = vec![Place::default(); chunks];
+        map.places = vec![ChunkSpan::default(); chunks];
         chunk_tree::enter(source, tree, &chunk[..axes], &grid[..axes], &mut map.places)?;
         map.places.iter().all(|place| place.length > 0).then_some(map)
     }
 
     /// The map of an image that is one run of `length` bytes.
-    fn of_run(source: &Source, shape: Vec<usize>, element: Element, offset: u64, length: u64) -> Option<Self> {
+    fn of_run(source: &FileBytes, shape: Vec<usize>, element: Element, offset: u64, length: u64) -> Option<Self> {
         let bytes = shape.iter().try_fold(element.size(), |n, &axis| n.checked_mul(axis))?;
         let whole = bytes > 0 && bytes as u64 == length && offset.checked_add(length).is_some_and(|end| end <= source.length);
         let known = matches!(shape.len(), 2 | 3) && whole;
         let chunk = if known { image_axes(&shape) } else { return None };
-        Some(Self { element, shape, chunk, shuffled: false, codec: Codec::Stored, places: vec![Place { offset, length: bytes }] })
+        Some(Self { element, shape, chunk, shuffled: false, codec: Codec::Stored, places: vec![ChunkSpan { offset, length: bytes }] })
     }
 }
 
@@ -112,7 +112,7 @@ fn image_axes(shape: &[usize]) -> [usize; 3] {
 }
 
 /// The address of the object header of `dataset`, the only thing in the root group.
-fn dataset_header(source: &mut Source) -> Option<u64> {
+fn dataset_header(source: &mut FileBytes) -> Option<u64> {
     let superblock = source.bytes(0, 96)?;
     // Superblock 0 with addresses and lengths of 8 bytes from the file's beginning, and the root group's table in the scratch pad.
     let known = superblock.starts_with(b"\x89HDF\r\n\x1a\n\x00") && superblock[13..15] == [8, 8] && u64_at(&superblock, 24)? == 0;
@@ -136,7 +136,7 @@ fn dataset_header(source: &mut Source) -> Option<u64> {
 }
 
 /// Hands the messages of an object header of version 1 to `take`; `None` as soon as that gives `None`.
-pub(super) fn messages(source: &mut Source, header: u64, take: &mut impl FnMut(u16, &[u8]) -> Option<()>) -> Option<()> {
+pub(super) fn messages(source: &mut FileBytes, header: u64, take: &mut impl FnMut(u16, &[u8]) -> Option<()>) -> Option<()> {
     const CONTINUATION: u16 = 0x10;
     const SHARED: u8 = 2;
     let start = source.bytes(header, 16)?;
@@ -146,7 +146,7 @@ pub(super) fn messages(source: &mut Source, header: u64, take: &mut impl FnMut(u
     let mut pieces = vec![(header + 16, u32_at(&start, 8)? as usize)];
     let mut next = 0;
     while let Some(&(offset, length)) = pieces.get(next) {
-        if next > DEEPEST || length as u64 > source.length {
+        if next > MAX_DEPTH || length as u64 > source.length {
             return None;
         }
         let piece = source.bytes(offset, length)?;

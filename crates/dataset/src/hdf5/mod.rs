@@ -1,233 +1,49 @@
 //! One array per file, exactly as Hypersim's files are: one dataset named `dataset`, no groups.
 //!
 //! Images are stored in chunks, deflated and where that pays shuffled (see [`Packing`]), which every HDF5 reader understands; camera
-//! arrays are stored as they are. Files have superblock version 0, as h5py writes by default, so that any libhdf5 since 1.6 opens them. The library behind
-//! [`write_array`] and [`read_array`] shows nowhere else. Images are read past it: [`read_window`] finds the chunks itself and inflates
-//! those that it needs with libdeflate, which takes less than half of the time.
+//! arrays are stored as they are. Files have superblock version 0, as h5py writes by default, so that any libhdf5 since 1.6 opens them.
+//! The HDF5 library is used in [`write_array`] and [`read_array`] alone. [`read_window`] does not use it for images: it finds the chunks
+//! itself and inflates those that it needs with libdeflate, in less than half of the library's time.
+//!
+//! ```
+//! use enfilade_dataset::hdf5::{Array, Storage, read_array, write_array};
+//! # let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("camera_keyframe_positions.hdf5");
+//! let positions = Array::f64(&[2, 3], vec![0.0, 0.0, 1.5, 1.0, 0.0, 1.5]);
+//! write_array(&path, &positions, Storage::Contiguous, &[("unit", "m")])?;
+//! assert_eq!(read_array(&path)?, positions);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
+mod array;
 mod bytes;
 mod chunk_tree;
 mod chunks;
+mod image_decoder;
 mod image_map;
 mod lz4;
 mod packing;
 mod read;
-mod slab;
 mod volume;
+mod volume_array;
 mod window;
 mod write;
 
-pub use packing::Packing;
-
-pub use read::read_array;
-pub use volume::{Number, Volume, VolumeArray};
-pub use window::{Window, image_shape, read_window};
+pub(crate) use array::ArrayView;
+pub use array::{Array, Element, Elements};
+pub use packing::{Packing, Storage};
+pub use read::{image_shape, read_array, read_window};
+pub use volume::Volume;
+pub use volume_array::{Number, VolumeArray};
+pub use window::Window;
 pub use write::write_array;
-pub(crate) use write::{ArrayView, write_view};
-
-use enfilade_frame::{Values, f16};
-
-/// How an element is stored; always little-endian.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Element {
-    F16,
-    F32,
-    F64,
-    I16,
-    I64,
-    U8,
-}
-
-/// The elements of an array, last index fastest.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub enum Elements {
-    F16(Vec<f16>),
-    F32(Vec<f32>),
-    F64(Vec<f64>),
-    I16(Vec<i16>),
-    I64(Vec<i64>),
-    U8(Vec<u8>),
-}
-
-/// An array of any rank.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Array {
-    /// Length of each axis, slowest first.
-    pub shape: Vec<usize>,
-    /// As many as the product of the shape.
-    pub values: Elements,
-}
-
-/// How a file stores its array.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Storage {
-    /// One run of bytes: Hypersim's camera arrays.
-    Contiguous,
-    /// Chunks of h5py's shape, shuffled and deflated: meshes. Arrays of more than three axes or without elements are stored as one run.
-    Compressed,
-    /// Chunks as said: images, of two axes or three. Others are stored as one run.
-    Image(Packing),
-    /// An image for fast reading: one run of bytes if it has one channel of floating-point numbers, or if LZ4 would save less than a
-    /// quarter; else chunks of 128x128 pixels with all channels, shuffled if they are floating-point numbers, under LZ4, for which h5py
-    /// needs the package hdf5plugin. Our readers take both like any other. Arrays of other than two or three axes are stored as one run.
-    Fast,
-}
-
-impl Element {
-    /// Bytes per element.
-    pub const fn size(self) -> usize {
-        match self {
-            Self::F64 | Self::I64 => 8,
-            Self::F32 => 4,
-            Self::F16 | Self::I16 => 2,
-            Self::U8 => 1,
-        }
-    }
-
-    /// numpy's name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::F16 => "float16",
-            Self::F32 => "float32",
-            Self::F64 => "float64",
-            Self::I16 => "int16",
-            Self::I64 => "int64",
-            Self::U8 => "uint8",
-        }
-    }
-}
-
-impl Elements {
-    /// Number of elements.
-    pub fn len(&self) -> usize {
-        self.as_bytes().len() / self.element().size()
-    }
-
-    /// True when there are none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// How they are stored.
-    pub fn element(&self) -> Element {
-        match self {
-            Self::F16(_) => Element::F16,
-            Self::F32(_) => Element::F32,
-            Self::F64(_) => Element::F64,
-            Self::I16(_) => Element::I16,
-            Self::I64(_) => Element::I64,
-            Self::U8(_) => Element::U8,
-        }
-    }
-
-    /// Little-endian bytes, as in the file.
-    pub fn as_bytes(&self) -> &[u8] {
-        match self {
-            Self::F16(v) => bytemuck::cast_slice(v),
-            Self::F32(v) => bytemuck::cast_slice(v),
-            Self::F64(v) => bytemuck::cast_slice(v),
-            Self::I16(v) => bytemuck::cast_slice(v),
-            Self::I64(v) => bytemuck::cast_slice(v),
-            Self::U8(v) => v,
-        }
-    }
-
-    /// As many zeros.
-    pub(crate) fn zeroed(element: Element, count: usize) -> Self {
-        match element {
-            Element::F16 => Self::F16(bytemuck::zeroed_vec(count)),
-            Element::F32 => Self::F32(bytemuck::zeroed_vec(count)),
-            Element::F64 => Self::F64(bytemuck::zeroed_vec(count)),
-            Element::I16 => Self::I16(bytemuck::zeroed_vec(count)),
-            Element::I64 => Self::I64(bytemuck::zeroed_vec(count)),
-            Element::U8 => Self::U8(bytemuck::zeroed_vec(count)),
-        }
-    }
-
-    /// Little-endian bytes, to be filled.
-    pub(crate) fn as_bytes_mut(&mut self) -> &mut [u8] {
-        match self {
-            Self::F16(v) => bytemuck::cast_slice_mut(v),
-            Self::F32(v) => bytemuck::cast_slice_mut(v),
-            Self::F64(v) => bytemuck::cast_slice_mut(v),
-            Self::I16(v) => bytemuck::cast_slice_mut(v),
-            Self::I64(v) => bytemuck::cast_slice_mut(v),
-            Self::U8(v) => v,
-        }
-    }
-
-    /// The elements whose bytes are `bytes`, a whole number of them.
-    fn from_bytes(element: Element, bytes: &[u8]) -> Self {
-        match element {
-            Element::F16 => Self::F16(bytemuck::pod_collect_to_vec(bytes)),
-            Element::F32 => Self::F32(bytemuck::pod_collect_to_vec(bytes)),
-            Element::F64 => Self::F64(bytemuck::pod_collect_to_vec(bytes)),
-            Element::I16 => Self::I16(bytemuck::pod_collect_to_vec(bytes)),
-            Element::I64 => Self::I64(bytemuck::pod_collect_to_vec(bytes)),
-            Element::U8 => Self::U8(bytes.to_vec()),
-        }
-    }
-
-    /// As layer values; gives the elements back when no layer is stored so.
-    pub fn into_values(self) -> Result<Values, Self> {
-        match self {
-            Self::F16(v) => Ok(Values::F16(v)),
-            Self::F32(v) => Ok(Values::F32(v)),
-            Self::I16(v) => Ok(Values::I16(v)),
-            Self::U8(v) => Ok(Values::U8(v)),
-            other => Err(other),
-        }
-    }
-}
-
-impl From<Values> for Elements {
-    fn from(values: Values) -> Self {
-        match values {
-            Values::F16(v) => Self::F16(v),
-            Values::F32(v) => Self::F32(v),
-            Values::I16(v) => Self::I16(v),
-            Values::U8(v) => Self::U8(v),
-        }
-    }
-}
-
-impl Array {
-    /// An array of doubles.
-    ///
-    /// # Panics
-    /// When the shape does not hold that many.
-    pub fn f64(shape: &[usize], values: Vec<f64>) -> Self {
-        Self::new(shape, Elements::F64(values))
-    }
-
-    /// An array of 64-bit integers.
-    ///
-    /// # Panics
-    /// When the shape does not hold that many.
-    pub fn i64(shape: &[usize], values: Vec<i64>) -> Self {
-        Self::new(shape, Elements::I64(values))
-    }
-
-    /// An array of any elements.
-    ///
-    /// # Panics
-    /// When the shape does not hold that many.
-    pub fn new(shape: &[usize], values: Elements) -> Self {
-        assert_eq!(shape.iter().product::<usize>(), values.len(), "array of shape {shape:?}");
-        Self { shape: shape.to_vec(), values }
-    }
-
-    fn view(&self) -> ArrayView<'_> {
-        ArrayView { shape: &self.shape, element: self.values.element(), bytes: self.values.as_bytes() }
-    }
-}
+pub(crate) use write::write_view;
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::DatasetError;
+    use enfilade_frame::f16;
     use std::path::Path;
 
     const SHAPES: [&[usize]; 6] = [&[1, 1], &[7, 5], &[97, 131], &[97, 131, 3], &[300, 400, 3], &[13]];
@@ -300,7 +116,7 @@ mod tests {
         for array in arrays().into_iter().filter(|array| matches!(array.shape.len(), 2 | 3) && array.shape[1] > 1) {
             for storage in storages() {
                 write_array(&path, &array, storage, &[("unit", "m")]).unwrap();
-                assert!(window::read_image(&path).unwrap() == array, "{:?} {storage:?}", array.shape);
+                assert!(image_decoder::read_image(&path).unwrap() == array, "{:?} {storage:?}", array.shape);
             }
         }
     }

@@ -1,9 +1,24 @@
-//! How the layers of images are cut into chunks and compressed.
+//! How a file stores its array: as one run of bytes, or cut into chunks that are compressed.
 //!
-//! The choices are those of docs/benchmarks/storage.md, by the kind of the values.
+//! The choices for layers of images are by the kind of their values; docs/benchmarks/storage.md has the measurements behind them.
 
-use super::Element;
+use super::array::Element;
 use enfilade_frame::{Dtype, Layer};
+
+/// How a file stores its array.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// One run of bytes: Hypersim's camera arrays.
+    Contiguous,
+    /// Chunks of h5py's shape, shuffled and deflated: meshes. Arrays of more than three axes or without elements are stored as one run.
+    Compressed,
+    /// Chunks as said: images, of two axes or three. Others are stored as one run.
+    Image(Packing),
+    /// An image for fast reading: one run of bytes if it has one channel of floating-point numbers, or if LZ4 would save less than a
+    /// quarter; else chunks of 128x128 pixels with all channels, shuffled if they are floating-point numbers, under LZ4, for which h5py
+    /// needs the package hdf5plugin. Our readers take both like any other. Arrays of other than two or three axes are stored as one run.
+    Fast,
+}
 
 /// Chunks and filters of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,13 +47,13 @@ impl Packing {
         }
     }
 
-    /// That of [`Storage::Fast`](super::Storage::Fast), which has no level.
+    /// That of [`Storage::Fast`], which has no level.
     pub(super) fn fast(element: Element) -> Self {
         let shuffle = matches!(element, Element::F16 | Element::F32 | Element::F64);
         Self { chunk: [128, 128], channels_together: true, shuffle, level: 0 }
     }
 
-    /// True for images that [`Storage::Fast`](super::Storage::Fast) has as one run of bytes whatever LZ4 would save: of one channel of
+    /// True for images that [`Storage::Fast`] has as one run of bytes whatever LZ4 would save: of one channel of
     /// floating-point numbers, as depth is. It shrinks to a quarter, but takes four times as long to put together as to copy.
     pub(super) fn is_copied(element: Element, shape: &[usize]) -> bool {
         Self::fast(element).shuffle && shape.get(2).is_none_or(|&channels| channels == 1)

@@ -1,8 +1,11 @@
-use super::bytes::{most_chunks, most_inflated};
+//! Reading an array, or a rectangle of an image: by our own decoder where it knows the file's form, else through the HDF5 library.
+
+use super::array::{Array, Element, Elements};
+use super::bytes::{max_chunks, max_inflated};
+use super::image_decoder::{decode, open, read_image};
 use super::volume::has_damaged_tree;
-use super::window::read_image;
+use super::window::Window;
 use super::write::{datatype, os_error};
-use super::{Array, Element, Elements};
 use crate::DatasetError;
 use rust_hdf5::{DatatypeMessage, H5File, Hdf5Error};
 use std::fs::File;
@@ -28,6 +31,45 @@ pub fn read_array(path: &Path) -> Result<Array, DatasetError> {
     catch_unwind(|| read_dataset(path, length)).unwrap_or_else(gave_up)
 }
 
+/// Reads a rectangle of an image of two axes or three: of an image in chunks only those that it touches.
+///
+/// # Errors
+/// When the file is missing or damaged, holds no image, or the window leaves it.
+///
+/// ```
+/// use enfilade_dataset::hdf5::{Array, Elements, Packing, Storage, Window, read_window, write_array};
+/// use enfilade_frame::Layer;
+/// # let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("frame.0000.semantic.hdf5");
+/// let classes = Array::new(&[2, 3], Elements::I16(vec![1, 2, 3, 4, 5, 6]));
+/// write_array(&path, &classes, Storage::Image(Packing::of_layer(Layer::Semantic)), &[])?;
+/// let right = read_window(&path, Window { top: 0, left: 1, height: 2, width: 2 })?;
+/// assert_eq!(right, Array::new(&[2, 2], Elements::I16(vec![2, 3, 5, 6])));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn read_window(path: &Path, window: Window) -> Result<Array, DatasetError> {
+    if let Some((mut source, map)) = open(path) {
+        check(path, &map.shape, window)?;
+        if let Some(array) = decode(&mut source, &map, window) {
+            return Ok(array);
+        }
+    }
+    let whole = read_array(path)?;
+    check(path, &whole.shape, window)?;
+    Ok(whole.cut(window))
+}
+
+/// The shape of the image in a file, without decoding it where it is compressed.
+///
+/// # Errors
+/// As [`read_array`].
+pub fn image_shape(path: &Path) -> Result<Vec<usize>, DatasetError> {
+    match open(path) {
+        Some((_, map)) => Ok(map.shape),
+        None => Ok(read_array(path)?.shape),
+    }
+}
+
 fn read_dataset(path: &Path, length: u64) -> Result<Array, DatasetError> {
     let file = H5File::options().no_locking().open(path).map_err(|error| read_error(path, &error))?;
     let names = file.dataset_names();
@@ -43,12 +85,12 @@ fn read_dataset(path: &Path, length: u64) -> Result<Array, DatasetError> {
     })?;
     let shape = dataset.shape();
     let bytes_of = |shape: &[usize]| shape.iter().try_fold(element.size(), |n, &axis| n.checked_mul(axis));
-    let fits = |&n: &usize| n as u64 <= most_inflated(length);
+    let fits = |&n: &usize| n as u64 <= max_inflated(length);
     let impossible = || DatasetError::hdf5(path, format!("{length} bytes cannot hold shape {shape:?} of {}: {DAMAGED}", element.name()));
     let expected = bytes_of(&shape).filter(fits).ok_or_else(impossible)?;
     let chunks = |chunk: &[usize]| {
         let mut sides = shape.iter().zip(chunk).map(|(axis, &side)| axis.div_ceil(side.max(1)) as u64);
-        sides.try_fold(1_u64, u64::checked_mul).filter(|&chunks| chunks <= most_chunks(length))
+        sides.try_fold(1_u64, u64::checked_mul).filter(|&chunks| chunks <= max_chunks(length))
     };
     if let Some(chunk) = dataset.chunk_dims().filter(|chunk| bytes_of(chunk).filter(fits).is_none() || chunks(chunk).is_none()) {
         return Err(DatasetError::hdf5(path, format!("{length} bytes cannot hold chunks of {chunk:?}: {DAMAGED}")));
@@ -58,6 +100,17 @@ fn read_dataset(path: &Path, length: u64) -> Result<Array, DatasetError> {
         return Err(impossible());
     }
     Ok(Array { values: Elements::from_bytes(element, &bytes), shape })
+}
+
+fn check(path: &Path, shape: &[usize], window: Window) -> Result<(), DatasetError> {
+    let Window { top, left, height, width } = window;
+    match shape {
+        &[h, w] | &[h, w, _] if window.fits(h, w) => Ok(()),
+        _ => {
+            let problem = format!("expected an image with {height}x{width} pixels from row {top}, column {left}, found shape {shape:?}");
+            Err(DatasetError::hdf5(path, problem))
+        }
+    }
 }
 
 const DAMAGED: &str = "the file is damaged or cut short; copy it again, or delete it and run the stage that makes it";

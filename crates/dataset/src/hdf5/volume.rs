@@ -5,30 +5,16 @@
 //! and shuffled or as they are ("HDF5 File Format Specification Version 3.0", sections II.A, III.A, III.B, III.C, IV.A). Nothing is kept
 //! open between reads, so an array may be read from many threads and after a fork.
 
-use super::bytes::{Source, most_chunks, u16_at, u32_at, u64_at, usize_at};
-use super::chunk_tree::{self, Place};
-use super::image_map::{DEEPEST, DEFLATE, SHUFFLE, filters, messages};
-use super::slab;
+use super::bytes::{FileBytes, max_chunks, u16_at, u32_at, u64_at, usize_at};
+use super::chunk_tree::{self, ChunkSpan};
+use super::image_map::{DEFLATE, MAX_DEPTH, SHUFFLE, filters, messages};
+use super::volume_array::{DAMAGED, Layout, NOWHERE, Number, VolumeArray, grid};
 use crate::DatasetError;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
-/// The address of what has no place in the file.
-pub(super) const NOWHERE: u64 = u64::MAX;
 const REWRITE: &str = "write the file again in HDF5's oldest form, as MATLAB's -v7.3 and h5py without libver do";
-
-/// The numbers that an array has; little-endian.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Number {
-    U8,
-    U16,
-    F32,
-    F64,
-    /// Addresses of other objects of the file.
-    Reference,
-}
 
 /// A file of several arrays.
 #[derive(Debug)]
@@ -40,59 +26,6 @@ pub struct Volume {
     members: BTreeMap<String, u64>,
 }
 
-/// An array of a [`Volume`].
-#[derive(Debug)]
-pub struct VolumeArray {
-    pub(super) path: PathBuf,
-    pub(super) base: u64,
-    /// For messages.
-    pub(super) name: String,
-    /// Kind of its elements.
-    pub number: Number,
-    /// Length of each axis, slowest first.
-    pub shape: Vec<usize>,
-    pub(super) layout: Layout,
-}
-
-/// Where the elements are.
-#[derive(Debug)]
-pub(super) enum Layout {
-    Compact(Vec<u8>),
-    /// At this address.
-    Contiguous(u64),
-    Chunked {
-        chunk: Vec<usize>,
-        shuffled: bool,
-        deflated: bool,
-        /// By the chunk's place in the grid of chunks, last axis fastest; chunks that were never written have no length.
-        places: Vec<Place>,
-    },
-}
-
-impl Number {
-    /// Bytes per element.
-    pub const fn size(self) -> usize {
-        match self {
-            Self::U8 => 1,
-            Self::U16 => 2,
-            Self::F32 => 4,
-            Self::F64 | Self::Reference => 8,
-        }
-    }
-
-    /// The type of a datatype message of version 1: unsigned, IEEE 754, or references to objects, little-endian.
-    fn of(body: &[u8]) -> Option<Self> {
-        const TYPES: [(Number, &[u8]); 5] = [
-            (Number::U8, b"\x10\0\0\0\x01\0\0\0\0\0\x08\0"),
-            (Number::U16, b"\x10\0\0\0\x02\0\0\0\0\0\x10\0"),
-            (Number::F32, b"\x11\x20\x1f\0\x04\0\0\0\0\0\x20\0\x17\x08\0\x17\x7f\0\0\0"),
-            (Number::F64, b"\x11\x20\x3f\0\x08\0\0\0\0\0\x40\0\x34\x0b\0\x34\xff\x03\0\0"),
-            (Number::Reference, b"\x17\0\0\0\x08\0\0\0"),
-        ];
-        TYPES.iter().find(|(_, pattern)| body.starts_with(pattern)).map(|&(number, _)| number)
-    }
-}
-
 impl Volume {
     /// Reads the list of a file's arrays.
     ///
@@ -101,7 +34,7 @@ impl Volume {
     pub fn open(path: &Path) -> Result<Self, DatasetError> {
         std::fs::metadata(path).map_err(DatasetError::at("read", path))?;
         let mut source =
-            Source::open(path).ok_or_else(|| std::io::Error::other("it cannot be opened")).map_err(DatasetError::at("read", path))?;
+            FileBytes::open(path).ok_or_else(|| std::io::Error::other("it cannot be opened")).map_err(DatasetError::at("read", path))?;
         let wrong = |problem: String| DatasetError::hdf5(path, problem);
         let base = begin(&mut source).ok_or_else(|| wrong("holds no HDF5; check that the path is right and the download whole".into()))?;
         let mut source = source.based_at(base);
@@ -154,13 +87,13 @@ impl Volume {
 
     fn array_at(&self, name: &str, header: u64) -> Result<VolumeArray, DatasetError> {
         let wrong = |problem: &str| DatasetError::hdf5(&self.path, format!("array {name:?}: {problem}"));
-        let mut source = Source::open(&self.path).ok_or_else(|| wrong("the file is gone"))?.based_at(self.base);
+        let mut source = FileBytes::open(&self.path).ok_or_else(|| wrong("the file is gone"))?.based_at(self.base);
         let mut found = Header::default();
         messages(&mut source, header, &mut |kind, body| found.take(kind, body)).ok_or_else(|| wrong(found.problem.unwrap_or(DAMAGED)))?;
         let number = found.number.ok_or_else(|| wrong("it has no type; is it a group?"))?;
         let shape = found.shape.ok_or_else(|| wrong("it has no shape; is it a group?"))?;
         let bytes = shape.iter().try_fold(number.size(), |n, &axis| n.checked_mul(axis));
-        if bytes.is_none_or(|bytes| bytes as u64 > source.most_inflated()) {
+        if bytes.is_none_or(|bytes| bytes as u64 > source.max_inflated()) {
             return Err(wrong(DAMAGED));
         }
         let layout = match found.layout.ok_or_else(|| wrong("it has no data; is it a group?"))? {
@@ -168,7 +101,7 @@ impl Volume {
             Stored::Contiguous(address) => Layout::Contiguous(address),
             Stored::Chunked { tree, sides } => {
                 let bytes = sides.iter().try_fold(1_u64, |n, &side| n.checked_mul(side as u64));
-                let possible = bytes.is_some_and(|bytes| bytes <= source.most_inflated());
+                let possible = bytes.is_some_and(|bytes| bytes <= source.max_inflated());
                 let known = possible && sides.len() == shape.len() + 1 && sides.last() == Some(&number.size()) && !sides.contains(&0);
                 let (shuffled, deflated) = match found.filters.as_deref().unwrap_or_default() {
                     [] => (false, false),
@@ -190,37 +123,14 @@ impl Volume {
     }
 }
 
-impl VolumeArray {
-    /// Little-endian bytes of the elements from `first`, `count` along each axis, last axis fastest.
-    ///
-    /// # Errors
-    /// When the file is damaged or cannot be read.
-    ///
-    /// # Panics
-    /// When that leaves the array.
-    pub fn read(&self, first: &[usize], count: &[usize]) -> Result<Vec<u8>, DatasetError> {
-        slab::read(self, first, count).ok_or_else(|| DatasetError::hdf5(&self.path, format!("array {:?}: {DAMAGED}", self.name)))
-    }
-
-    /// All its elements.
-    ///
-    /// # Errors
-    /// As [`VolumeArray::read`].
-    pub fn read_all(&self) -> Result<Vec<u8>, DatasetError> {
-        self.read(&vec![0; self.shape.len()], &self.shape)
-    }
-}
-
-const DAMAGED: &str = "the file is damaged or cut short; copy or download it again";
-
 /// Where HDF5 begins: at the start of the file, or at 512 bytes, or at twice that, and so on.
-fn begin(source: &mut Source) -> Option<u64> {
+fn begin(source: &mut FileBytes) -> Option<u64> {
     let mut places = std::iter::once(0).chain((9..24).map(|power| 1 << power));
     places.find(|&place| source.bytes(place, 8).is_some_and(|bytes| bytes == SIGNATURE))
 }
 
 /// The members of the root group.
-fn members(source: &mut Source, version: u8) -> Option<BTreeMap<String, u64>> {
+fn members(source: &mut FileBytes, version: u8) -> Option<BTreeMap<String, u64>> {
     // Version 1 has four bytes more in front of the addresses.
     let addresses = if version == 0 { 24 } else { 28 };
     let superblock = source.bytes(0, 100)?;
@@ -238,16 +148,16 @@ fn members(source: &mut Source, version: u8) -> Option<BTreeMap<String, u64>> {
 }
 
 /// Enters the members of a node of a group's tree, and of those below it.
-fn group(source: &mut Source, node: u64, names: u64, depth: usize, members: &mut BTreeMap<String, u64>) -> Option<()> {
+fn group(source: &mut FileBytes, node: u64, names: u64, depth: usize, members: &mut BTreeMap<String, u64>) -> Option<()> {
     source.walk(node)?;
-    const LONGEST_NAME: usize = 1024;
+    const MAX_NAME: usize = 1024;
     let start = source.bytes(node, 24)?;
     if start.starts_with(b"SNOD") {
         let count = usize::from(u16_at(&start, 6)?);
         for entry in source.bytes(node.checked_add(8)?, count * 40)?.chunks_exact(40) {
             let name = names.checked_add(u64_at(entry, 0)?)?;
             let mut text = Vec::new();
-            while text.len() < LONGEST_NAME {
+            while text.len() < MAX_NAME {
                 match source.bytes(name.checked_add(text.len() as u64)?, 1)?[0] {
                     0 => break,
                     byte => text.push(byte),
@@ -257,7 +167,7 @@ fn group(source: &mut Source, node: u64, names: u64, depth: usize, members: &mut
         }
         return Some(());
     }
-    if depth > DEEPEST || !start.starts_with(b"TREE\0") {
+    if depth > MAX_DEPTH || !start.starts_with(b"TREE\0") {
         return None;
     }
     let entries = usize::from(u16_at(&start, 6)?);
@@ -331,7 +241,7 @@ impl Header {
 /// than is known here, when two nodes of any tree of chunks lead to the same.
 pub(super) fn has_damaged_tree(path: &Path, name: &str) -> bool {
     walks_into_damage(path, name).unwrap_or_else(|| {
-        let base = Source::open(path).and_then(|mut source| begin(&mut source)).unwrap_or(0);
+        let base = FileBytes::open(path).and_then(|mut source| begin(&mut source)).unwrap_or(0);
         std::fs::read(path).is_ok_and(|bytes| chunk_tree::meet_again(bytes.get(base as usize..).unwrap_or_default()))
     })
 }
@@ -339,7 +249,7 @@ pub(super) fn has_damaged_tree(path: &Path, name: &str) -> bool {
 /// `None` when there is no tree in the forms that are known here.
 fn walks_into_damage(path: &Path, name: &str) -> Option<bool> {
     let volume = Volume::open(path).ok()?;
-    let mut source = Source::open(path)?.based_at(volume.base);
+    let mut source = FileBytes::open(path)?.based_at(volume.base);
     let mut found = Header::default();
     messages(&mut source, *volume.members.get(name)?, &mut |kind, body| {
         // What elements and filters are does not matter here.
@@ -355,16 +265,11 @@ fn walks_into_damage(path: &Path, name: &str) -> Option<bool> {
     Some(tree != NOWHERE && chunk_tree::walk(&mut source, tree, chunk, &grid, &mut |_, _, _| Some(())).is_none())
 }
 
-/// Number of chunks along each axis.
-fn grid(shape: &[usize], chunk: &[usize]) -> Vec<usize> {
-    shape.iter().zip(chunk).map(|(axis, side)| axis.div_ceil(*side)).collect()
-}
-
 /// The places of all chunks.
-fn chunks(source: &mut Source, tree: u64, shape: &[usize], chunk: &[usize]) -> Option<Vec<Place>> {
+fn chunks(source: &mut FileBytes, tree: u64, shape: &[usize], chunk: &[usize]) -> Option<Vec<ChunkSpan>> {
     let grid = grid(shape, chunk);
     let count = grid.iter().try_fold(1_usize, |n, &axis| n.checked_mul(axis))?;
-    let mut places = vec![Place::default(); Some(count).filter(|&count| count as u64 <= most_chunks(source.length))?];
+    let mut places = vec![ChunkSpan::default(); Some(count).filter(|&count| count as u64 <= max_chunks(source.length))?];
     if tree != NOWHERE {
         chunk_tree::enter(source, tree, chunk, &grid, &mut places)?;
     }

@@ -1,36 +1,15 @@
+//! Writing an array: attributes, chunks and filters, through the HDF5 library, with the chunks compressed here.
+
+use super::array::{Array, ArrayView, Element};
 use super::chunks::{MESH_LEVEL, auto_chunk, gather, grid, shuffle, three_axes};
 use super::image_map::{DEFLATE, LZ4, SHUFFLE};
-use super::{Array, Element, Packing, Storage, lz4};
+use super::lz4;
+use super::packing::{Packing, Storage};
 use crate::DatasetError;
-use enfilade_frame::Values;
 use libdeflater::{CompressionLvl, Compressor};
 use rust_hdf5::types::{H5Type, VarLenUnicode};
 use rust_hdf5::{ByteOrder, DatatypeMessage, Filter, FilterPipeline, H5Dataset, H5File, Hdf5Error, LibverBound};
 use std::path::Path;
-
-/// An array whose elements lie elsewhere.
-#[derive(Clone, Copy)]
-pub(crate) struct ArrayView<'a> {
-    /// Length of each axis, slowest first.
-    pub shape: &'a [usize],
-    /// How an element is stored.
-    pub element: Element,
-    /// Little-endian bytes of all elements.
-    pub bytes: &'a [u8],
-}
-
-impl<'a> ArrayView<'a> {
-    /// The values of a layer.
-    pub fn of_values(shape: &'a [usize], values: &'a Values) -> Self {
-        let element = match values {
-            Values::F16(_) => Element::F16,
-            Values::F32(_) => Element::F32,
-            Values::I16(_) => Element::I16,
-            Values::U8(_) => Element::U8,
-        };
-        Self { shape, element, bytes: values.as_bytes() }
-    }
-}
 
 /// Writes `array` to a new file at `path`; see [`crate::replace_file`] for doing so in one step. The same array gives the same
 /// bytes. `attributes` become text attributes of the dataset.

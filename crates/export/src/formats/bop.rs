@@ -10,37 +10,16 @@ use crate::ExportError;
 use crate::boxes::instance_boxes;
 use crate::calibration::{Calibration, row_major};
 use crate::depth::{DEPTH, millimetres, planar_m};
+use crate::export_folder::ExportFolder;
 use crate::instances::{Instance, instances};
 use crate::mesh::{InstanceMesh, instance_meshes};
 use crate::picture::{SHOWN, color_png, grey8_png, grey16_png};
-use crate::place::Place;
-use crate::source::{Source, Track, View};
+use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_dataset::{AmodalMasks, DatasetError, InstanceView, PixelArea};
 use enfilade_frame::{Frame, Layer};
 use enfilade_math::{DVec3, OrientedBox};
 use serde::Serialize;
 use std::collections::BTreeMap;
-
-pub(crate) const README: &str = "\
-# BOP
-
-`train_pbr/NNNNNN/` is one camera of one scene (`scenes.json` says which), image ids are frame numbers.
-
-- `rgb/`: tone-mapped colour. `depth/`: planar depth, 16 bits, times depth_scale = millimetres, 0 is none.
-- `scene_camera.json`: cam_K (pixel centres at whole numbers), cam_R_w2c and cam_t_w2c (mm); camera x right, y down, z forward.
-- `scene_gt.json`: obj_id, cam_R_m2c, cam_t_m2c (mm) of every instance that is visible and has a box.
-- `mask_visib/IIIIII_JJJJJJ.png`: the visible part of instance J of image I. `mask/`: its whole silhouette within the image, as if
-  nothing hid it.
-- `scene_gt_info.json`: px_count_all and bbox_obj are of the whole silhouette, also beyond the image, as far as the image's own width
-  and height on every side; visib_fract = px_count_visib / px_count_all.
-- **Where whole silhouettes are not known** (Hypersim's own data; frames rendered or labelled since `enfilade boxes` ran), `mask/` has
-  the pictures of `mask_visib/`, px_count_all and bbox_obj are those of the visible part, and visib_fract is 1.
-- `models/obj_NNNNNN.ply` and `models_info.json` (mm): every instance is an object of its own; `objects.json` says of which scene,
-  instance and NYU40 class (-1: none). The model's origin is the centre of its box and its axes are the box's: Hypersim's
-  object_aligned_2d box (z up, x along the longer side) where the dataset has box files, else the axis-aligned extents of the mesh.
-- `camera.json` is the first camera; each image's own stands in `scene_camera.json`.
-- Without a mesh in the dataset there are boxes and poses but no .ply files.
-";
 
 /// A BOP object.
 struct Object {
@@ -129,30 +108,30 @@ struct Whole {
 /// What is told of one image.
 type Told = (ImageCamera, Vec<(Truth, TruthInfo)>);
 
-pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
     let (mut models, mut entries) = (BTreeMap::new(), BTreeMap::new());
     let mut folders = BTreeMap::new();
     let mut first_id = 1;
-    for tracks in source.scenes() {
+    for tracks in selected.scenes() {
         let scene = &tracks[0].scene;
-        let objects = objects_of(source, scene, first_id)?;
+        let objects = objects_of(selected, scene, first_id)?;
         first_id += objects.len() as u32;
-        let labels = source.labels(scene)?.parts;
+        let labels = selected.labels(scene)?.parts;
         for (&instance, object) in &objects {
-            models.insert(object.id, write_model(place, object)?);
+            models.insert(object.id, write_model(out, object)?);
             let nyu40 = labels.iter().find(|label| label.instance == instance).map_or(-1, |label| label.semantic);
             entries.insert(object.id, ObjectEntry { scene: scene.clone(), instance, nyu40 });
         }
         for track in tracks {
             let folder = format!("train_pbr/{:06}", folders.len());
-            write_track(source, place, track, &folder, &objects)?;
+            write_track(selected, out, track, &folder, &objects)?;
             folders.insert(folders.len(), SceneEntry { scene: scene.clone(), camera: track.name.clone() });
         }
     }
-    place.write_json("camera.json", &dataset_camera(&Calibration::of_pinhole(source, &source.tracks[0])?))?;
-    place.write_json("models/models_info.json", &models)?;
-    place.write_json("objects.json", &entries)?;
-    place.write_json("scenes.json", &folders)
+    out.write_json("camera.json", &dataset_camera(&Calibration::of_pinhole(selected, &selected.tracks[0])?))?;
+    out.write_json("models/models_info.json", &models)?;
+    out.write_json("objects.json", &entries)?;
+    out.write_json("scenes.json", &folders)
 }
 
 fn dataset_camera(calibration: &Calibration) -> DatasetCamera {
@@ -162,28 +141,28 @@ fn dataset_camera(calibration: &Calibration) -> DatasetCamera {
 }
 
 /// The objects of a scene by instance number, numbered from `first_id`.
-fn objects_of(source: &Source<'_>, scene: &str, first_id: u32) -> Result<BTreeMap<i16, Object>, ExportError> {
-    let mut meshes = instance_meshes(source.dataset, scene)?;
-    let boxes = instance_boxes(source.dataset, scene, &meshes)?;
+fn objects_of(selected: &SelectedFrames<'_>, scene: &str, first_id: u32) -> Result<BTreeMap<i16, Object>, ExportError> {
+    let mut meshes = instance_meshes(selected.dataset, scene)?;
+    let boxes = instance_boxes(selected.dataset, scene, &meshes)?;
     if boxes.is_empty() {
         let problem = "it has neither box files nor a labelled mesh, so poses of objects are not known; add them to _detail/mesh";
-        return Err(source.unsuitable(scene, problem));
+        return Err(selected.unsuitable(scene, problem));
     }
     let object = |(id, (number, shape))| (number, Object { id, shape, mesh: meshes.remove(&number) });
     Ok((first_id..).zip(boxes).map(object).collect())
 }
 
 fn write_track(
-    source: &Source<'_>,
-    place: &Place,
+    selected: &SelectedFrames<'_>,
+    out: &ExportFolder,
     track: &Track,
     folder: &str,
     objects: &BTreeMap<i16, Object>,
 ) -> Result<(), ExportError> {
-    let calibration = Calibration::of_pinhole(source, track)?;
-    let known = known_instances(source, track)?;
+    let calibration = Calibration::of_pinhole(selected, track)?;
+    let known = known_instances(selected, track)?;
     let views: Vec<View<'_>> = track.views().collect();
-    let told = source.each_of(&views, |view| write_frame(source, place, view, folder, &calibration, objects, &known))?;
+    let told = selected.each_of(&views, |view| write_frame(selected, out, view, folder, &calibration, objects, &known))?;
     let (mut cameras, mut truths, mut infos) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
     for (view, (camera, seen)) in views.iter().zip(told) {
         let (truth, info): (Vec<Truth>, Vec<TruthInfo>) = seen.into_iter().unzip();
@@ -191,14 +170,14 @@ fn write_track(
         truths.insert(view.frame(), truth);
         infos.insert(view.frame(), info);
     }
-    place.write_json(&format!("{folder}/scene_camera.json"), &cameras)?;
-    place.write_json(&format!("{folder}/scene_gt.json"), &truths)?;
-    place.write_json(&format!("{folder}/scene_gt_info.json"), &infos)
+    out.write_json(&format!("{folder}/scene_camera.json"), &cameras)?;
+    out.write_json(&format!("{folder}/scene_gt.json"), &truths)?;
+    out.write_json(&format!("{folder}/scene_gt_info.json"), &infos)
 }
 
 /// What the stage `boxes` has found; nothing in Hypersim's own data.
-fn known_instances(source: &Source<'_>, track: &Track) -> Result<Known, ExportError> {
-    let views = match source.dataset.read_instance_views(&track.scene, &track.name) {
+fn known_instances(selected: &SelectedFrames<'_>, track: &Track) -> Result<Known, ExportError> {
+    let views = match selected.dataset.read_instance_views(&track.scene, &track.name) {
         Err(error) if error.is_not_found() => Vec::new(),
         views => views?,
     };
@@ -206,19 +185,19 @@ fn known_instances(source: &Source<'_>, track: &Track) -> Result<Known, ExportEr
 }
 
 fn write_frame(
-    source: &Source<'_>,
-    place: &Place,
+    selected: &SelectedFrames<'_>,
+    out: &ExportFolder,
     view: View<'_>,
     folder: &str,
     calibration: &Calibration,
     objects: &BTreeMap<i16, Object>,
     known: &Known,
 ) -> Result<Told, ExportError> {
-    let frame = source.read(view, &[&SHOWN[..], &DEPTH, &[Layer::SemanticInstance]].concat())?;
+    let frame = selected.read(view, &[&SHOWN[..], &DEPTH, &[Layer::SemanticInstance]].concat())?;
     let image = format!("{:06}", view.frame());
-    let depth: Vec<u16> = planar_m(source, view, calibration, &frame)?.into_iter().map(millimetres).collect();
-    place.write(&format!("{folder}/rgb/{image}.png"), &color_png(source, view, &frame)?)?;
-    place.write(&format!("{folder}/depth/{image}.png"), &grey16_png(frame.width, frame.height, &depth))?;
+    let depth: Vec<u16> = planar_m(selected, view, calibration, &frame)?.into_iter().map(millimetres).collect();
+    out.write(&format!("{folder}/rgb/{image}.png"), &color_png(selected, view, &frame)?)?;
+    out.write(&format!("{folder}/depth/{image}.png"), &grey16_png(frame.width, frame.height, &depth))?;
     let (rotation, translation) = calibration.opencv_from_world(view);
     let k = calibration.intrinsics.opencv_k().concat();
     let camera = ImageCamera {
@@ -227,13 +206,13 @@ fn write_frame(
         rotation: row_major(rotation),
         translation_mm: in_millimetres(translation),
     };
-    let masks = source.dataset.read_amodal_masks(&view.track.scene, &view.track.name, view.frame())?.unwrap_or_default();
+    let masks = selected.dataset.read_amodal_masks(&view.track.scene, &view.track.name, view.frame())?.unwrap_or_default();
     let mut seen = Vec::new();
     for instance in instances(&frame) {
         let Some(object) = objects.get(&instance.number) else { continue };
-        let whole = whole(source, view, &frame, &instance, known, &masks)?;
+        let whole = whole(selected, view, &frame, &instance, known, &masks)?;
         for (kind, mask) in [("mask", &whole.mask), ("mask_visib", &instance.mask(&frame))] {
-            place.write(&format!("{folder}/{kind}/{image}_{:06}.png", seen.len()), &grey8_png(frame.width, frame.height, mask))?;
+            out.write(&format!("{folder}/{kind}/{image}_{:06}.png", seen.len()), &grey8_png(frame.width, frame.height, mask))?;
         }
         let truth = Truth {
             rotation: row_major(rotation * object.shape.world_from_box),
@@ -253,7 +232,7 @@ fn visible_area(frame: &Frame, instance: &Instance) -> PixelArea {
 /// The whole of an instance that the frame shows; the visible part where no more is known of this frame. Labels that were made anew since
 /// are noticed by what is visible.
 fn whole(
-    source: &Source<'_>,
+    selected: &SelectedFrames<'_>,
     view: View<'_>,
     frame: &Frame,
     instance: &Instance,
@@ -265,7 +244,7 @@ fn whole(
     let mask = masks.instances.iter().find(|mask| mask.semantic_instance_id == number);
     let (Some(found), Some(mask)) = (found, mask) else { return Ok(Whole { area: visible, mask: instance.mask(frame) }) };
     let damaged = || DatasetError::Text {
-        path: source.dataset.layout().amodal_masks(&view.track.scene, &view.track.name, view.frame()),
+        path: selected.dataset.layout().amodal_masks(&view.track.scene, &view.track.name, view.frame()),
         problem: format!(
             "the runs of instance {number} do not fill the {}x{} pixels of the image; delete it and run the boxes stage again",
             frame.width, frame.height
@@ -310,12 +289,12 @@ fn bbox(area: PixelArea) -> [i64; 4] {
 }
 
 /// Writes the object's mesh, if it is known, and tells its size.
-fn write_model(place: &Place, object: &Object) -> Result<ModelInfo, ExportError> {
+fn write_model(out: &ExportFolder, object: &Object) -> Result<ModelInfo, ExportError> {
     let half = 0.5 * object.shape.extents;
     let mut model = (vec![-half, half], -half, half);
     if let Some(mesh) = &object.mesh {
         let vertices: Vec<DVec3> = mesh.vertices.iter().map(|&v| object.shape.local(v)).collect();
-        place.write(&format!("models/obj_{:06}.ply", object.id), &ply(&vertices, &mesh.faces))?;
+        out.write(&format!("models/obj_{:06}.ply", object.id), &ply(&vertices, &mesh.faces))?;
         let (min, max) = vertices.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
         model = (vertices, min, max);
     }

@@ -5,30 +5,16 @@
 //! the upper left corner of the image and hold the mask exactly, as `toBbox` has them.
 
 use crate::ExportError;
+use crate::export_folder::ExportFolder;
 use crate::instances::{Instance, instances};
 use crate::picture::{SHOWN, color_jpeg};
-use crate::place::Place;
-use crate::source::{Source, View};
+use crate::selected_frames::{SelectedFrames, View};
 use enfilade_dataset::{Class, Classes};
 use enfilade_frame::{Frame, Layer};
 use enfilade_label::instances::run_lengths;
 use enfilade_scene::{NYU40, is_stuff};
 use serde::Serialize;
 use std::collections::BTreeMap;
-
-pub(crate) const README: &str = "\
-# COCO
-
-`images/<scene>/<camera>/frame.IIII.jpg` are the frames, tone-mapped with one exposure per image. `annotations/instances.json` has
-one annotation per visible instance and frame: compressed RLE mask, box `[x, y, width, height]` in pixels, area in pixels, iscrowd 0.
-
-- Categories are the 40 classes of NYU40 under their own numbers, whether they occur or not; of scenes that were annotated with another
-  list, those of the list.
-- Masks are of what is visible, sampled at pixel centres. An instance of no class has no annotation; walls, floors and ceilings are
-  no instances.
-- `instance` in an annotation is the instance's number within its scene: the same object has it in every frame. `scene`, `camera` and
-  `frame` in an image say where it comes from. Image and annotation ids count from 1.
-";
 
 #[derive(Serialize)]
 struct Annotations {
@@ -82,15 +68,15 @@ struct Category {
     supercategory: &'static str,
 }
 
-pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
     let mut all = Annotations {
         info: Info { description: "Rendered by enfilade; see README.md", version: env!("CARGO_PKG_VERSION") },
         licenses: Vec::new(),
         images: Vec::new(),
         annotations: Vec::new(),
-        categories: categories(source)?,
+        categories: categories(selected)?,
     };
-    let frames = source.each(|view| write_frame(source, place, view, &all.categories))?;
+    let frames = selected.each(|view| write_frame(selected, out, view, &all.categories))?;
     for (image, annotations) in frames {
         let image_id = all.images.len() + 1;
         for annotation in annotations {
@@ -99,21 +85,21 @@ pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportErro
         all.images.push(Image { id: image_id, ..image });
     }
     let text = serde_json::to_string(&all).expect("plain data encodes");
-    place.write("annotations/instances.json", text.as_bytes())
+    out.write("annotations/instances.json", text.as_bytes())
 }
 
 /// The classes of the scenes: of all the same, because a number has one meaning in a file.
-fn categories(source: &Source<'_>) -> Result<Vec<Category>, ExportError> {
+fn categories(selected: &SelectedFrames<'_>) -> Result<Vec<Category>, ExportError> {
     let mut all: Option<(&str, Vec<Category>)> = None;
-    for tracks in source.scenes() {
+    for tracks in selected.scenes() {
         let scene = tracks[0].scene.as_str();
-        let here = categories_of(source, scene)?;
+        let here = categories_of(selected, scene)?;
         match &all {
             None => all = Some((scene, here)),
             Some((_, known)) if *known == here => {}
             Some((first, _)) => {
                 let problem = format!("its classes are not those of {first:?}, and a file has one list; export scenes apart with --scene");
-                return Err(source.unsuitable(scene, problem));
+                return Err(selected.unsuitable(scene, problem));
             }
         }
     }
@@ -121,8 +107,8 @@ fn categories(source: &Source<'_>) -> Result<Vec<Category>, ExportError> {
 }
 
 /// The classes of a scene, by number.
-fn categories_of(source: &Source<'_>, scene: &str) -> Result<Vec<Category>, ExportError> {
-    let classes = source.dataset.mesh_files(scene).read_classes()?.unwrap_or_else(Classes::nyu40);
+fn categories_of(selected: &SelectedFrames<'_>, scene: &str) -> Result<Vec<Category>, ExportError> {
+    let classes = selected.dataset.mesh_files(scene).read_classes()?.unwrap_or_else(Classes::nyu40);
     let stuff = |name: &str| NYU40.iter().any(|class| is_stuff(class.id) && class.name == name);
     let category = |Class { id, name, .. }: &Class| Category {
         id: *id,
@@ -134,15 +120,15 @@ fn categories_of(source: &Source<'_>, scene: &str) -> Result<Vec<Category>, Expo
 
 /// The frame's picture, and what the file says of it but for the ids.
 fn write_frame(
-    source: &Source<'_>,
-    place: &Place,
+    selected: &SelectedFrames<'_>,
+    out: &ExportFolder,
     view: View<'_>,
     categories: &[Category],
 ) -> Result<(Image, Vec<Annotation>), ExportError> {
     let [color, entity] = SHOWN;
-    let frame = source.read(view, &[color, entity, Layer::Semantic, Layer::SemanticInstance])?;
+    let frame = selected.read(view, &[color, entity, Layer::Semantic, Layer::SemanticInstance])?;
     let name = format!("{}/frame.{:04}.jpg", view.track.folder(), view.frame());
-    place.write(&format!("images/{name}"), &color_jpeg(source, view, &frame)?)?;
+    out.write(&format!("images/{name}"), &color_jpeg(selected, view, &frame)?)?;
     let (scene, camera) = (view.track.scene.clone(), view.track.name.clone());
     let image = Image { id: 0, file_name: name, width: frame.width, height: frame.height, scene, camera, frame: view.frame() };
     let classed = |instance: Instance| Some(annotation(&frame, &instance, class_of(&frame, &instance, categories)?));

@@ -6,23 +6,11 @@
 
 use crate::ExportError;
 use crate::calibration::{Calibration, Distortion};
+use crate::export_folder::ExportFolder;
 use crate::picture::{SHOWN, color_png};
-use crate::place::Place;
 use crate::points::{CloudPoint, cloud};
-use crate::source::{Source, Track, View};
+use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_math::DQuat;
-
-pub(crate) const README: &str = "\
-# COLMAP
-
-`<scene>/images/<camera>/frame.IIII.png` is tone-mapped colour, `<scene>/sparse/0` the model: cameras, images and points3D, in COLMAP's
-binary form (`colmap`) or its text form (`colmap-text`).
-
-- Poses are world to camera; camera x right, y down, z forward; metres; the world is right-handed with z up. They are exact.
-- Cameras are PINHOLE, OPENCV, FULL_OPENCV or OPENCV_FISHEYE; pixel centres lie at halves.
-- Points are samples of the visible surfaces, about 1000 per frame on a regular grid; their tracks name every image whose depth
-  agrees within 1 %. Reprojection errors are 0.
-";
 
 /// A model in COLMAP's terms. Ids are the index plus 1.
 pub(crate) struct Model {
@@ -80,18 +68,18 @@ pub(crate) struct PointEntry {
 /// The three files of a model by name.
 pub(crate) type Files = [(&'static str, Vec<u8>); 3];
 
-pub(crate) fn write(source: &Source<'_>, place: &Place, encode: fn(&Model) -> Files) -> Result<(), ExportError> {
-    for tracks in source.scenes() {
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder, encode: fn(&Model) -> Files) -> Result<(), ExportError> {
+    for tracks in selected.scenes() {
         let scene = &tracks[0].scene;
-        let cameras = tracks.iter().map(|track| camera(source, track)).collect::<Result<_, _>>()?;
+        let cameras = tracks.iter().map(|track| camera(selected, track)).collect::<Result<_, _>>()?;
         let views: Vec<View<'_>> = tracks.iter().flat_map(Track::views).collect();
-        source.each_of(&views, |view| {
-            let frame = source.read(view, &SHOWN)?;
-            place.write(&format!("{scene}/images/{}", name(view)), &color_png(source, view, &frame)?)
+        selected.each_of(&views, |view| {
+            let frame = selected.read(view, &SHOWN)?;
+            out.write(&format!("{scene}/images/{}", name(view)), &color_png(selected, view, &frame)?)
         })?;
-        let model = model(cameras, images(source, tracks)?, &cloud(source, tracks)?);
+        let model = model(cameras, images(selected, tracks)?, &cloud(selected, tracks)?);
         for (file, bytes) in encode(&model) {
-            place.write(&format!("{scene}/sparse/0/{file}"), &bytes)?;
+            out.write(&format!("{scene}/sparse/0/{file}"), &bytes)?;
         }
     }
     Ok(())
@@ -101,8 +89,8 @@ fn name(view: View<'_>) -> String {
     format!("{}/frame.{:04}.png", view.track.name, view.frame())
 }
 
-fn camera(source: &Source<'_>, track: &Track) -> Result<CameraEntry, ExportError> {
-    let wrong = |problem: &str| source.unsuitable(track.folder(), format!("{problem}; leave the camera out"));
+fn camera(selected: &SelectedFrames<'_>, track: &Track) -> Result<CameraEntry, ExportError> {
+    let wrong = |problem: &str| selected.unsuitable(track.folder(), format!("{problem}; leave the camera out"));
     let calibration = Calibration::of(track).ok_or_else(|| wrong("COLMAP has no such camera (panorama, grid of rays)"))?;
     let k = calibration.intrinsics;
     if k.skew != 0.0 {
@@ -118,10 +106,10 @@ fn camera(source: &Source<'_>, track: &Track) -> Result<CameraEntry, ExportError
 }
 
 /// The images without their points.
-fn images(source: &Source<'_>, tracks: &[Track]) -> Result<Vec<ImageEntry>, ExportError> {
+fn images(selected: &SelectedFrames<'_>, tracks: &[Track]) -> Result<Vec<ImageEntry>, ExportError> {
     let mut images = Vec::new();
     for (camera, track) in tracks.iter().enumerate() {
-        let missing = || source.unsuitable(track.folder(), "its camera has no calibration; leave it out");
+        let missing = || selected.unsuitable(track.folder(), "its camera has no calibration; leave it out");
         let calibration = Calibration::of(track).ok_or_else(missing)?;
         for view in track.views() {
             let (rotation, translation) = calibration.opencv_from_world(view);

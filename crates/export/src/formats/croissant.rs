@@ -5,26 +5,14 @@
 
 use crate::ExportError;
 use crate::calibration::Calibration;
-use crate::place::Place;
-use crate::source::{Source, View};
+use crate::export_folder::ExportFolder;
+use crate::selected_frames::{SelectedFrames, View};
 use enfilade_frame::{Dtype, LAYERS, Layer, LayerSpec};
 use enfilade_scene::NYU40;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use std::path::Path;
-
-pub(crate) const README: &str = "\
-# Croissant
-
-`croissant.json` describes the dataset for programs and data catalogues (schema.org, Croissant 1.0). Copy these files into the dataset's
-folder, beside `scenes`: patterns of files in the card are relative to it. Add licence, authors and where it is published before you give it
-away; only you know them.
-
-- `frames.csv`: one row per frame: scene, camera, number, image size, camera centre in metres, and the path of every layer's file.
-- `layers.csv`: what every layer is, with unit, space, type, and what stands where nothing was hit.
-- `classes.csv`: the 40 classes of NYU40 with their display colours.
-";
 
 /// A table of the card.
 struct Table {
@@ -35,25 +23,25 @@ struct Table {
     rows: Vec<Vec<String>>,
 }
 
-pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
-    let layers: Vec<&LayerSpec> = LAYERS.iter().filter(|spec| source.views().any(|view| source.stores(view, spec.layer))).collect();
-    let tables = [frames(source, &layers), layer_table(&layers, is_released(source)), classes()];
-    let mut distribution: Vec<Value> = layers.iter().map(|spec| file_set(source, spec)).collect();
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
+    let layers: Vec<&LayerSpec> = LAYERS.iter().filter(|spec| selected.views().any(|view| selected.stores(view, spec.layer))).collect();
+    let tables = [frames(selected, &layers), layer_table(&layers, is_released(selected)), classes()];
+    let mut distribution: Vec<Value> = layers.iter().map(|spec| file_set(selected, spec)).collect();
     let mut record_sets = Vec::new();
     for table in tables {
         let bytes = csv_bytes(&table);
         distribution.push(file_object(&table, &bytes));
         record_sets.push(record_set(&table));
-        place.write(&format!("{}.csv", table.name), &bytes)?;
+        out.write(&format!("{}.csv", table.name), &bytes)?;
     }
-    place.write_json("croissant.json", &card(source, &distribution, &record_sets)?)
+    out.write_json("croissant.json", &card(selected, &distribution, &record_sets)?)
 }
 
-fn card(source: &Source<'_>, distribution: &[Value], record_sets: &[Value]) -> Result<Value, ExportError> {
-    let manifest = source.dataset.read_manifest()?;
+fn card(selected: &SelectedFrames<'_>, distribution: &[Value], record_sets: &[Value]) -> Result<Value, ExportError> {
+    let manifest = selected.dataset.read_manifest()?;
     let name = manifest.as_ref().and_then(|m| m.config.get("name")).and_then(Value::as_str).unwrap_or("hypersim_layout").to_string();
-    let (frames, scenes) = (source.views().count(), source.scenes().count());
-    let (origin, unit) = match is_released(source) {
+    let (frames, scenes) = (selected.views().count(), selected.scenes().count());
+    let (origin, unit) = match is_released(selected) {
         true => ("as Apple released them in Hypersim", "in the scene's asset units (meters_per_asset_unit of _detail/metadata_scene.csv)"),
         false => ("rendered by enfilade in the layout of Hypersim", "in metres"),
     };
@@ -74,8 +62,8 @@ fn card(source: &Source<'_>, distribution: &[Value], record_sets: &[Value]) -> R
 }
 
 /// True when this program made none of the scenes.
-fn is_released(source: &Source<'_>) -> bool {
-    source.scenes().all(|tracks| source.dataset.is_released(&tracks[0].scene))
+fn is_released(selected: &SelectedFrames<'_>) -> bool {
+    selected.scenes().all(|tracks| selected.dataset.is_released(&tracks[0].scene))
 }
 
 /// The context that Croissant 1.0 prescribes.
@@ -125,8 +113,8 @@ fn context() -> Value {
 }
 
 /// All files of a layer.
-fn file_set(source: &Source<'_>, spec: &LayerSpec) -> Value {
-    let folder = relative(source, source.dataset.layout().scenes_dir());
+fn file_set(selected: &SelectedFrames<'_>, spec: &LayerSpec) -> Value {
+    let folder = relative(selected, selected.dataset.layout().scenes_dir());
     let pattern = format!("*/images/*/frame.*.{}.hdf5", spec.name);
     let unit = if spec.unit.is_empty() { String::new() } else { format!(" Unit: {}.", spec.unit) };
     json!({
@@ -177,7 +165,7 @@ fn record_set(table: &Table) -> Value {
     })
 }
 
-fn frames(source: &Source<'_>, layers: &[&LayerSpec]) -> Table {
+fn frames(selected: &SelectedFrames<'_>, layers: &[&LayerSpec]) -> Table {
     let column = |name: &str, kind, about: &str| (name.to_string(), kind, about.to_string());
     let mut columns = vec![
         column("scene", "sc:Text", "Name of the scene."),
@@ -193,18 +181,18 @@ fn frames(source: &Source<'_>, layers: &[&LayerSpec]) -> Table {
     ];
     columns.extend(layers.iter().map(|spec| column(spec.name, "sc:Text", &format!("File, relative to the dataset: {}", spec.description))));
     let about = "One row per frame: where it was taken, and the files of its layers.";
-    Table { name: "frames", about, columns, rows: source.views().map(|view| frame_row(source, view, layers)).collect() }
+    Table { name: "frames", about, columns, rows: selected.views().map(|view| frame_row(selected, view, layers)).collect() }
 }
 
-fn frame_row(source: &Source<'_>, view: View<'_>, layers: &[&LayerSpec]) -> Vec<String> {
+fn frame_row(selected: &SelectedFrames<'_>, view: View<'_>, layers: &[&LayerSpec]) -> Vec<String> {
     let track = view.track;
     let [width, height] = track.camera.size();
     let focal = Calibration::of(track).map_or([f64::NAN; 2], |c| [c.intrinsics.fx, c.intrinsics.fy]);
     let mut row = vec![track.scene.clone(), track.name.clone(), view.frame().to_string(), width.to_string(), height.to_string()];
     row.extend(focal.iter().chain(&view.pose().position.to_array()).map(ToString::to_string));
     row.extend(layers.iter().map(|spec| {
-        let path = source.dataset.layout().layer(&track.scene, &track.name, view.frame(), spec.layer);
-        if source.stores(view, spec.layer) { relative(source, &path) } else { String::new() }
+        let path = selected.dataset.layout().layer(&track.scene, &track.name, view.frame(), spec.layer);
+        if selected.stores(view, spec.layer) { relative(selected, &path) } else { String::new() }
     }));
     row
 }
@@ -260,7 +248,7 @@ fn csv_bytes(table: &Table) -> Vec<u8> {
 }
 
 /// A path relative to the dataset's folder, with forward slashes.
-fn relative(source: &Source<'_>, path: &Path) -> String {
-    let relative = path.strip_prefix(source.dataset.root()).unwrap_or(path);
+fn relative(selected: &SelectedFrames<'_>, path: &Path) -> String {
+    let relative = path.strip_prefix(selected.dataset.root()).unwrap_or(path);
     relative.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
 }

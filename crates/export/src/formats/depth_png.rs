@@ -6,23 +6,10 @@
 use crate::ExportError;
 use crate::calibration::{Calibration, Distortion};
 use crate::depth::{DEPTH, distance_m, millimetres, planar_m};
+use crate::export_folder::ExportFolder;
 use crate::picture::grey16_png;
-use crate::place::Place;
-use crate::source::{Source, Track, View};
+use crate::selected_frames::{SelectedFrames, Track, View};
 use serde::Serialize;
-
-pub(crate) const README: &str = "\
-# Depth in 16-bit PNG
-
-`<scene>/<camera>/frame.IIII.png` is depth in whole millimetres; 0 is no depth (nothing hit, or beyond 65.535 m).
-`<scene>/<camera>/cameras.json` has the camera and the pose of every frame.
-
-- `depth` is `planar` (along the viewing axis) or `distance` (along the pixel's ray; fisheyes, panoramas and grids of rays).
-- `K` is OpenCV's: pixel centres are whole numbers. `K_corner` is the same camera with pixel centres at halves. `model` and
-  `distortion` are OpenCV's (`opencv`: k1 k2 p1 p2 k3 k4 k5 k6; `opencv_fisheye`: k1 k2 k3 k4).
-- `world_from_camera` has axes x right, y down, z forward, and metres; the world is right-handed with z up.
-- So the point of pixel (column x, row y) is world_from_camera [z (x - cx) / fx, z (y - cy) / fy, z, 1], z = value / 1000.
-";
 
 #[derive(Serialize)]
 struct Cameras {
@@ -47,17 +34,17 @@ struct FrameEntry {
     world_from_camera: [[f64; 4]; 4],
 }
 
-pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
-    source.each(|view| {
-        let frame = source.read(view, &DEPTH)?;
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
+    selected.each(|view| {
+        let frame = selected.read(view, &DEPTH)?;
         let depth = match planar(view.track) {
-            Some(calibration) => planar_m(source, view, &calibration, &frame)?,
-            None => distance_m(source, view, &frame)?,
+            Some(calibration) => planar_m(selected, view, &calibration, &frame)?,
+            None => distance_m(selected, view, &frame)?,
         };
         let values: Vec<u16> = depth.into_iter().map(millimetres).collect();
-        place.write(&format!("{}/{}", view.track.folder(), file_name(view)), &grey16_png(frame.width, frame.height, &values))
+        out.write(&format!("{}/{}", view.track.folder(), file_name(view)), &grey16_png(frame.width, frame.height, &values))
     })?;
-    source.tracks.iter().try_for_each(|track| place.write_json(&format!("{}/cameras.json", track.folder()), &cameras(track)))
+    selected.tracks.iter().try_for_each(|track| out.write_json(&format!("{}/cameras.json", track.folder()), &cameras(track)))
 }
 
 /// The calibration of a camera whose depth is planar.

@@ -1,4 +1,4 @@
-//! One file per format.
+//! One file per format. Each `write` makes the files of its format in an export folder from the selected frames.
 
 pub(crate) mod bop;
 pub(crate) mod coco;

@@ -8,25 +8,11 @@
 use crate::ExportError;
 use crate::calibration::{Calibration, Distortion};
 use crate::depth::{DEPTH, distance_m, millimetres, planar_m};
+use crate::export_folder::ExportFolder;
 use crate::picture::{SHOWN, color_png, grey16_png};
-use crate::place::Place;
 use crate::points::{cloud, ply};
-use crate::source::{Source, Track, View};
+use crate::selected_frames::{SelectedFrames, Track, View};
 use serde::Serialize;
-
-pub(crate) const README: &str = "\
-# nerfstudio
-
-`ns-train splatfacto --data <scene>` and others load `<scene>/transforms.json`.
-
-- `images/<camera>/frame.IIII.png`: tone-mapped colour. `depth/<camera>/frame.IIII.png`: planar depth, of fisheyes the distance
-  along the ray, 16 bits, millimetres, 0 is none.
-- `transform_matrix`: camera to world; camera x right, y up, z backward; metres; the world is right-handed with z up.
-- Calibration stands in every frame; cx and cy count from the upper left corner of the image (pixel centres at halves).
-- `sparse_pc.ply` has coloured points on the surfaces, in the same world.
-- Poses are exact: train with `--pipeline.model.camera-optimizer.mode off`, and with `--orientation-method none
-  --center-method none --auto-scale-poses False` of the data parser the world stays as it is.
-";
 
 #[derive(Serialize)]
 struct Transforms {
@@ -54,36 +40,36 @@ struct FrameEntry {
     transform_matrix: [[f64; 4]; 4],
 }
 
-pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
-    for tracks in source.scenes() {
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
+    for tracks in selected.scenes() {
         let scene = &tracks[0].scene;
-        let model = model_of(source, tracks)?;
-        source.each_of(&tracks.iter().flat_map(Track::views).collect::<Vec<_>>(), |view| write_frame(source, place, view))?;
-        let frames = tracks.iter().flat_map(Track::views).map(|view| entry(source, view)).collect::<Result<_, _>>()?;
-        place.write(&format!("{scene}/sparse_pc.ply"), &ply(&cloud(source, tracks)?))?;
+        let model = model_of(selected, tracks)?;
+        selected.each_of(&tracks.iter().flat_map(Track::views).collect::<Vec<_>>(), |view| write_frame(selected, out, view))?;
+        let frames = tracks.iter().flat_map(Track::views).map(|view| entry(selected, view)).collect::<Result<_, _>>()?;
+        out.write(&format!("{scene}/sparse_pc.ply"), &ply(&cloud(selected, tracks)?))?;
         let transforms = Transforms { camera_model: model, ply_file_path: "sparse_pc.ply", frames };
-        place.write_json(&format!("{scene}/transforms.json"), &transforms)?;
+        out.write_json(&format!("{scene}/transforms.json"), &transforms)?;
     }
     Ok(())
 }
 
 /// nerfstudio's name of the model that all cameras of a scene share.
-fn model_of(source: &Source<'_>, tracks: &[Track]) -> Result<&'static str, ExportError> {
+fn model_of(selected: &SelectedFrames<'_>, tracks: &[Track]) -> Result<&'static str, ExportError> {
     let name = |track: &Track| {
-        let is_fisheye = matches!(calibration(source, track)?.distortion, Distortion::Fisheye(_));
+        let is_fisheye = matches!(calibration(selected, track)?.distortion, Distortion::Fisheye(_));
         Ok(if is_fisheye { "OPENCV_FISHEYE" } else { "OPENCV" })
     };
     let names = tracks.iter().map(name).collect::<Result<Vec<_>, ExportError>>()?;
     if names.iter().any(|&name| name != names[0]) {
         let problem = "its cameras are of different models, and the format has one for all; choose with --camera";
-        return Err(source.unsuitable(&tracks[0].scene, problem));
+        return Err(selected.unsuitable(&tracks[0].scene, problem));
     }
     Ok(names[0])
 }
 
 /// The calibration of a camera that nerfstudio can have.
-fn calibration(source: &Source<'_>, track: &Track) -> Result<Calibration, ExportError> {
-    let wrong = |problem: &str| source.unsuitable(track.folder(), format!("{problem}; leave the camera out"));
+fn calibration(selected: &SelectedFrames<'_>, track: &Track) -> Result<Calibration, ExportError> {
+    let wrong = |problem: &str| selected.unsuitable(track.folder(), format!("{problem}; leave the camera out"));
     let calibration = Calibration::of(track).ok_or_else(|| wrong("panoramas and grids of rays have no calibration here"))?;
     if calibration.intrinsics.skew != 0.0 {
         return Err(wrong("its pixels are skewed, which the format cannot say"));
@@ -96,26 +82,26 @@ fn calibration(source: &Source<'_>, track: &Track) -> Result<Calibration, Export
     }
 }
 
-fn write_frame(source: &Source<'_>, place: &Place, view: View<'_>) -> Result<(), ExportError> {
-    let frame = source.read(view, &[&SHOWN[..], &DEPTH].concat())?;
-    let calibration = calibration(source, view.track)?;
+fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>) -> Result<(), ExportError> {
+    let frame = selected.read(view, &[&SHOWN[..], &DEPTH].concat())?;
+    let calibration = calibration(selected, view.track)?;
     // Its rays of fisheyes have unit length, which its depth is counted in.
     let depth = match calibration.distortion {
-        Distortion::Fisheye(_) => distance_m(source, view, &frame)?,
-        _ => planar_m(source, view, &calibration, &frame)?,
+        Distortion::Fisheye(_) => distance_m(selected, view, &frame)?,
+        _ => planar_m(selected, view, &calibration, &frame)?,
     };
     let depth: Vec<u16> = depth.into_iter().map(millimetres).collect();
     let scene = &view.track.scene;
-    place.write(&format!("{scene}/{}", file(view, "images")), &color_png(source, view, &frame)?)?;
-    place.write(&format!("{scene}/{}", file(view, "depth")), &grey16_png(frame.width, frame.height, &depth))
+    out.write(&format!("{scene}/{}", file(view, "images")), &color_png(selected, view, &frame)?)?;
+    out.write(&format!("{scene}/{}", file(view, "depth")), &grey16_png(frame.width, frame.height, &depth))
 }
 
 fn file(view: View<'_>, folder: &str) -> String {
     format!("{folder}/{}/frame.{:04}.png", view.track.name, view.frame())
 }
 
-fn entry(source: &Source<'_>, view: View<'_>) -> Result<FrameEntry, ExportError> {
-    let calibration = calibration(source, view.track)?;
+fn entry(selected: &SelectedFrames<'_>, view: View<'_>) -> Result<FrameEntry, ExportError> {
+    let calibration = calibration(selected, view.track)?;
     let k = calibration.intrinsics;
     let ([k1, k2, k3, k4], [p1, p2]) = match calibration.distortion {
         Distortion::None => ([0.0; 4], [0.0; 2]),

@@ -6,9 +6,9 @@
 //! dataset's. Compression is ZIP, without loss.
 
 use crate::ExportError;
+use crate::export_folder::ExportFolder;
 use crate::formats::cryptomatte::Cryptomatte;
-use crate::place::Place;
-use crate::source::{Source, View};
+use crate::selected_frames::{SelectedFrames, View};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_scene::{Labels, NYU40};
 use exr::prelude::{
@@ -16,31 +16,18 @@ use exr::prelude::{
 };
 use std::io::Cursor;
 
-pub(crate) const README: &str = "\
-# OpenEXR
-
-`<scene>/<camera>/frame.IIII.exr` has every layer of the frame in one part, without loss.
-
-- R, G, B: `color`, scene-linear, Rec. 709 primaries, W/(sr m^2). Other layers: `<layer>.R/.G/.B` for light and reflectance, `.X/.Y/.Z` for
-  points and directions, `.V` for single numbers. float16 layers are half, all others float.
-- Units, spaces and what stands where nothing was hit (NaN, -1, 0) are the dataset's: `layers` in its manifest.json. `depth_meters.V` is the
-  distance along the ray; `depth_z_meters.V` is planar, along the axis of K.
-- `crypto_instance00` and `crypto_class00` are Cryptomatte layers (specification 1.2.0): MurmurHash3 of the name in R, coverage in G, one
-  rank, manifest in the header. Labels are point samples at pixel centres, so coverage is 0 or 1. Instances are called `<class>_<number>`.
-";
-
-pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
-    source.each(|view| {
-        let frame = source.read_all(view)?;
-        let labels = source.labels(&view.track.scene)?;
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
+    selected.each(|view| {
+        let frame = selected.read_all(view)?;
+        let labels = selected.labels(&view.track.scene)?;
         let name = format!("{}/frame.{:04}.exr", view.track.folder(), view.frame());
-        place.write(&name, &file(source, view, &frame, &labels)?)
+        out.write(&name, &file(selected, view, &frame, &labels)?)
     })?;
     Ok(())
 }
 
 /// The bytes of a frame's file.
-fn file(source: &Source<'_>, view: View<'_>, frame: &Frame, labels: &Labels) -> Result<Vec<u8>, ExportError> {
+fn file(selected: &SelectedFrames<'_>, view: View<'_>, frame: &Frame, labels: &Labels) -> Result<Vec<u8>, ExportError> {
     let mut channels: Vec<AnyChannel<FlatSamples>> = frame.iter().flat_map(|(layer, values)| channels_of(layer, values)).collect();
     let mut attributes = LayerAttributes::default();
     for matte in mattes(frame, labels) {
@@ -55,7 +42,7 @@ fn file(source: &Source<'_>, view: View<'_>, frame: &Frame, labels: &Labels) -> 
     let layer = ExrLayer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.into_iter().collect()));
     let mut bytes = Vec::new();
     let written = Image::from_layer(layer).write().non_parallel().to_buffered(Cursor::new(&mut bytes));
-    written.map_err(|error| source.unsuitable(view.place(), format!("OpenEXR refuses it: {error}")))?;
+    written.map_err(|error| selected.unsuitable(view.name(), format!("OpenEXR refuses it: {error}")))?;
     sort_attributes(&mut bytes);
     Ok(bytes)
 }

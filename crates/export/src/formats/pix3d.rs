@@ -6,11 +6,11 @@
 
 use crate::ExportError;
 use crate::calibration::Calibration;
+use crate::export_folder::ExportFolder;
 use crate::instances::{Instance, instances};
 use crate::mesh::{InstanceMesh, instance_meshes, missing_mesh_file};
 use crate::picture::{SHOWN, color_jpeg, grey8_png};
-use crate::place::Place;
-use crate::source::{Source, Track, View};
+use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_dataset::{InstanceView, Partition};
 use enfilade_frame::{Frame, Layer};
 use enfilade_math::{DMat3, DVec3};
@@ -18,24 +18,6 @@ use enfilade_scene::Intrinsics;
 use enfilade_shapes::{Annotation, Document, Excluded, Image, Reason, Rendered, Surface, Voxels, category_from_nyu40};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-
-pub(crate) const README: &str = "\
-# Pix3D, as Mesh R-CNN reads it
-
-- `pix3d_all.json`: images, annotations, categories (Pix3D's nine). Where the dataset is divided, `pix3d_train.json`, `pix3d_val.json`
-  and `pix3d_test.json` are its sides. Paths begin at this folder.
-- `img/<scene>/<camera>/frame.IIII.jpg`: tone-mapped colour. `mask/<scene>/<camera>/frame.IIII.NNNN.png`: 255 where instance NNNN is seen.
-- `model/<scene>/NNNN/model.obj`: the instance's mesh; x left, y up, z inward (the world's -x, z, y), in the ball of diameter 1 around the
-  middle of its box. `voxel.mat`: 128 x 128 x 128 cells that the mesh touches or encloses, in Pix3D's axes.
-- An annotation has `bbox` [x, y, width, height] and `segmentation` of what is seen, `K` [f, cx, cy] in pixels, and `rot_mat`, `trans_mat`:
-  the model's point v is at rot_mat v + trans_mat in the camera, x left, y up, z forward, and falls on the image at
-  (cx - f x/z, cy - f y/z), counted from the upper left corner of the image. Times `meters_per_unit` lengths are metres.
-- `excluded` has the instances that are seen but take no part, each with its `reason`: `class` (none of Pix3D's categories),
-  `behind_camera` (a vertex is nearer than 1 cm or behind the camera), `outside_image` (a vertex falls outside of the image), `no_mesh`.
-  Where there is a mesh, `annotation` has all the rest, with `leaves_frustum`.
-- NYU40's classes become: bed, chair, sofa, table, desk as they are; bookshelf bookcase; dresser wardrobe; nightstand table; pillow,
-  refrigerator, television, box and sink misc; no other takes part.
-";
 
 /// Vertices that are nearer to the camera's plane than this leave the frustum, metres: the perspective is undefined at 0.
 const NEAR_M: f64 = 0.01;
@@ -64,40 +46,40 @@ struct Model {
 /// What a frame shows.
 type Told = (Image, Vec<Annotation>, Vec<Excluded>);
 
-pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
     let mut all = Document::empty("Rendered by enfilade; see README.md");
     let mut sides = BTreeMap::new();
-    for tracks in source.scenes() {
+    for tracks in selected.scenes() {
         let scene = &tracks[0].scene;
-        let cameras = tracks.iter().map(|track| camera(source, track)).collect::<Result<Vec<_>, _>>()?;
-        let meshes = instance_meshes(source.dataset, scene)?;
+        let cameras = tracks.iter().map(|track| camera(selected, track)).collect::<Result<Vec<_>, _>>()?;
+        let meshes = instance_meshes(selected.dataset, scene)?;
         if meshes.is_empty() {
-            return Err(source.unsuitable(scene, shapeless(source, scene)));
+            return Err(selected.unsuitable(scene, shapeless(selected, scene)));
         }
-        let models = write_models(source, place, scene, meshes)?;
+        let models = write_models(selected, out, scene, meshes)?;
         for (track, calibration) in tracks.iter().zip(&cameras) {
-            let views = instance_views(source, track)?;
-            let selected: Vec<View<'_>> = track.views().collect();
-            let told = source.each_of(&selected, |view| write_frame(source, place, view, calibration, &models, &views))?;
+            let views = instance_views(selected, track)?;
+            let track_views: Vec<View<'_>> = track.views().collect();
+            let told = selected.each_of(&track_views, |view| write_frame(selected, out, view, calibration, &models, &views))?;
             told.into_iter().for_each(|told| add(&mut all, told));
         }
     }
-    match source.dataset.read_split() {
+    match selected.dataset.read_split() {
         Err(error) if error.is_not_found() => {}
         rows => sides.extend(rows?.into_iter().filter_map(|row| Some(((row.scene, row.camera, row.frame), row.partition.ok()?)))),
     }
-    place.write("pix3d_all.json", &all.to_json())?;
+    out.write("pix3d_all.json", &all.to_json())?;
     let side_of = |image: &Image| sides.get(&(image.scene.clone()?, image.camera.clone()?, image.frame?)).copied();
     let present: BTreeSet<Partition> = all.images.iter().filter_map(side_of).collect();
     for side in present {
-        place.write(&format!("pix3d_{}.json", side.name()), &all.only(|image| side_of(image) == Some(side)).to_json())?;
+        out.write(&format!("pix3d_{}.json", side.name()), &all.only(|image| side_of(image) == Some(side)).to_json())?;
     }
     Ok(())
 }
 
 /// Why a scene has no meshes of instances, and what to do.
-fn shapeless(source: &Source<'_>, scene: &str) -> String {
-    let (problem, remedy) = match missing_mesh_file(source.dataset, scene) {
+fn shapeless(selected: &SelectedFrames<'_>, scene: &str) -> String {
+    let (problem, remedy) = match missing_mesh_file(selected.dataset, scene) {
         Some(file) if file.contains("_objects_") => (format!("{file} is missing in _detail/mesh"), "label it"),
         Some(file) => (format!("{file} is missing in _detail/mesh"), "make it again with `enfilade import --force`"),
         None => ("no part of it is an instance".to_string(), "label it"),
@@ -106,8 +88,8 @@ fn shapeless(source: &Source<'_>, scene: &str) -> String {
 }
 
 /// The track's camera, which must look straight through square pixels at the middle of the image.
-fn camera(source: &Source<'_>, track: &Track) -> Result<Calibration, ExportError> {
-    let calibration = Calibration::of_pinhole(source, track)?;
+fn camera(selected: &SelectedFrames<'_>, track: &Track) -> Result<Calibration, ExportError> {
+    let calibration = Calibration::of_pinhole(selected, track)?;
     let Intrinsics { width, height, fx, fy, cx, cy, skew } = calibration.intrinsics;
     let (off_x, off_y) = (cx - f64::from(width) / 2.0, cy - f64::from(height) / 2.0);
     if off_x.abs().max(off_y.abs()) > CENTRE_TOLERANCE_PX {
@@ -115,37 +97,37 @@ fn camera(source: &Source<'_>, track: &Track) -> Result<Calibration, ExportError
         let problem = format!(
             "its principal point is {off_x:.2}, {off_y:.2} pixels from the middle of the image{tilted}, and the format has it there; leave the camera out"
         );
-        return Err(source.unsuitable(track.folder(), problem));
+        return Err(selected.unsuitable(track.folder(), problem));
     }
     if (fx / fy - 1.0).abs() > SQUARE_TOLERANCE || skew.abs() > CENTRE_TOLERANCE_PX {
         let problem = format!(
             "its focal lengths are {fx:.3} and {fy:.3} pixels and its skew {skew}, and the format has one focal length; leave the camera out"
         );
-        return Err(source.unsuitable(track.folder(), problem));
+        return Err(selected.unsuitable(track.folder(), problem));
     }
     Ok(calibration)
 }
 
 /// Writes the models of a scene that take part, and tells where they stand.
 fn write_models(
-    source: &Source<'_>,
-    place: &Place,
+    selected: &SelectedFrames<'_>,
+    out: &ExportFolder,
     scene: &str,
     meshes: BTreeMap<i16, InstanceMesh>,
 ) -> Result<BTreeMap<i16, Model>, ExportError> {
-    let labels = source.labels(scene)?;
+    let labels = selected.labels(scene)?;
     let takes_part = |number: i16| {
         let parts = labels.parts.iter().filter(|part| part.instance == number);
         parts.into_iter().any(|part| category_from_nyu40(part.semantic).is_some())
     };
     let wanted: Vec<_> = meshes.into_iter().filter(|(number, _)| takes_part(*number)).collect();
-    let one = |(number, mesh): (i16, InstanceMesh)| Ok(write_model(place, scene, number, mesh)?.map(|model| (number, model)));
+    let one = |(number, mesh): (i16, InstanceMesh)| Ok(write_model(out, scene, number, mesh)?.map(|model| (number, model)));
     let written: Result<Vec<_>, ExportError> = wanted.into_par_iter().map(one).collect();
     Ok(written?.into_iter().flatten().collect())
 }
 
 /// Writes a model and its voxels; `None` when the mesh has no extent.
-fn write_model(place: &Place, scene: &str, number: i16, mesh: InstanceMesh) -> Result<Option<Model>, ExportError> {
+fn write_model(out: &ExportFolder, scene: &str, number: i16, mesh: InstanceMesh) -> Result<Option<Model>, ExportError> {
     let (min, max) = mesh.vertices.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
     let center = 0.5 * (min + max);
     let meters_per_unit = 2.0 * mesh.vertices.iter().map(|v| v.distance(center)).fold(0.0, f64::max);
@@ -155,8 +137,8 @@ fn write_model(place: &Place, scene: &str, number: i16, mesh: InstanceMesh) -> R
     let vertices = mesh.vertices.iter().map(|&v| MODEL_FROM_WORLD * (v - center) / meters_per_unit).collect();
     let surface = Surface::new(vertices, mesh.faces).expect("faces of a mesh that was read have their corners");
     let Some(voxels) = Voxels::of(&surface, Voxels::PIX3D_SIDE) else { return Ok(None) };
-    place.write(&model_file(scene, number, "model.obj"), &obj(&surface))?;
-    place.write(&model_file(scene, number, "voxel.mat"), &voxels.to_mat())?;
+    out.write(&model_file(scene, number, "model.obj"), &obj(&surface))?;
+    out.write(&model_file(scene, number, "voxel.mat"), &voxels.to_mat())?;
     Ok(Some(Model { world: mesh.vertices, center, meters_per_unit }))
 }
 
@@ -174,8 +156,8 @@ fn obj(surface: &Surface) -> Vec<u8> {
 }
 
 /// What the dataset has counted of each instance, by frame and instance; nothing where it has not.
-fn instance_views(source: &Source<'_>, track: &Track) -> Result<BTreeMap<(u32, i16), InstanceView>, ExportError> {
-    match source.dataset.read_instance_views(&track.scene, &track.name) {
+fn instance_views(selected: &SelectedFrames<'_>, track: &Track) -> Result<BTreeMap<(u32, i16), InstanceView>, ExportError> {
+    match selected.dataset.read_instance_views(&track.scene, &track.name) {
         Err(error) if error.is_not_found() => Ok(BTreeMap::new()),
         views => Ok(views?.into_iter().map(|view| ((view.frame, view.instance), view)).collect()),
     }
@@ -183,17 +165,17 @@ fn instance_views(source: &Source<'_>, track: &Track) -> Result<BTreeMap<(u32, i
 
 /// The frame's picture and masks, and what the file says of it but for the ids.
 fn write_frame(
-    source: &Source<'_>,
-    place: &Place,
+    selected: &SelectedFrames<'_>,
+    out: &ExportFolder,
     view: View<'_>,
     calibration: &Calibration,
     models: &BTreeMap<i16, Model>,
     views: &BTreeMap<(u32, i16), InstanceView>,
 ) -> Result<Told, ExportError> {
     let [color, entity] = SHOWN;
-    let frame = source.read(view, &[color, entity, Layer::Semantic, Layer::SemanticInstance])?;
+    let frame = selected.read(view, &[color, entity, Layer::Semantic, Layer::SemanticInstance])?;
     let image_name = format!("img/{}/frame.{:04}.jpg", view.track.folder(), view.frame());
-    place.write(&image_name, &color_jpeg(source, view, &frame)?)?;
+    out.write(&image_name, &color_jpeg(selected, view, &frame)?)?;
     let mut told = (image(view, &frame, image_name), Vec::new(), Vec::new());
     for instance in instances(&frame) {
         let bbox = bbox(&instance, frame.width);
@@ -210,7 +192,7 @@ fn write_frame(
             continue;
         };
         let segmentation = format!("mask/{}/frame.{:04}.{:04}.png", view.track.folder(), view.frame(), instance.number);
-        place.write(&segmentation, &grey8_png(frame.width, frame.height, &instance.mask(&frame)))?;
+        out.write(&segmentation, &grey8_png(frame.width, frame.height, &instance.mask(&frame)))?;
         let leaves = leaves_frustum(view, calibration, model);
         let counted = views.get(&(view.frame(), instance.number));
         let rendered = Rendered {

@@ -7,38 +7,25 @@
 use crate::ExportError;
 use crate::calibration::Calibration;
 use crate::depth::{DEPTH, millimetres, planar_m};
+use crate::export_folder::ExportFolder;
 use crate::picture::{SHOWN, color_jpeg, grey8_png, grey16_png};
-use crate::place::Place;
-use crate::source::{Source, Track, View};
+use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_frame::{Frame, Layer, Values};
 use std::fmt::Write;
 
-pub(crate) const README: &str = "\
-# ScanNet
-
-`scans/<scene>_<camera>/` looks like an exported ScanNet scan; N is the frame number.
-
-- `color/N.jpg`: tone-mapped colour. `depth/N.png`: planar depth, 16 bits, millimetres, 0 is none.
-- `pose/N.txt`: camera to world, 4 x 4; camera x right, y down, z forward; metres; the world is right-handed with z up.
-- `intrinsic/`: 4 x 4 matrices, pixel centres at whole numbers. Colour and depth are of one camera: extrinsics are the identity.
-- `label-filt/N.png`: 16 bits, NYU40 class (ScanNet's own files have numbers of its raw vocabulary), 0 is none.
-- `instance-filt/N.png`: instance number within the scene, 0 is none; 8 bits as ScanNet's, or 16 where a number is above 255.
-- `<scan>.txt`: sizes and focal lengths as ScanNet's. A layer that the dataset lacks has no folder.
-";
-
-pub(crate) fn write(source: &Source<'_>, place: &Place) -> Result<(), ExportError> {
-    for track in &source.tracks {
-        let k = Calibration::of_pinhole(source, track)?;
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
+    for track in &selected.tracks {
+        let k = Calibration::of_pinhole(selected, track)?;
         let folder = folder(track);
         let intrinsic = matrix(&four_by_four(k.intrinsics.opencv_k()));
         let identity = matrix(&four_by_four([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]));
         for what in ["color", "depth"] {
-            place.write(&format!("{folder}/intrinsic/intrinsic_{what}.txt"), intrinsic.as_bytes())?;
-            place.write(&format!("{folder}/intrinsic/extrinsic_{what}.txt"), identity.as_bytes())?;
+            out.write(&format!("{folder}/intrinsic/intrinsic_{what}.txt"), intrinsic.as_bytes())?;
+            out.write(&format!("{folder}/intrinsic/extrinsic_{what}.txt"), identity.as_bytes())?;
         }
-        place.write(&format!("{folder}/{}.txt", scan(track)), about(track, &k).as_bytes())?;
+        out.write(&format!("{folder}/{}.txt", scan(track)), about(track, &k).as_bytes())?;
     }
-    source.each(|view| write_frame(source, place, view))?;
+    selected.each(|view| write_frame(selected, out, view))?;
     Ok(())
 }
 
@@ -50,21 +37,21 @@ fn folder(track: &Track) -> String {
     format!("scans/{}", scan(track))
 }
 
-fn write_frame(source: &Source<'_>, place: &Place, view: View<'_>) -> Result<(), ExportError> {
+fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>) -> Result<(), ExportError> {
     let (folder, n) = (folder(view.track), view.frame());
-    let k = Calibration::of_pinhole(source, view.track)?;
-    let frame = source.read(view, &[&SHOWN[..], &DEPTH, &[Layer::Semantic, Layer::SemanticInstance]].concat())?;
-    place.write(&format!("{folder}/pose/{n}.txt"), matrix(&k.opencv_pose(view)).as_bytes())?;
-    let depth: Vec<u16> = planar_m(source, view, &k, &frame)?.into_iter().map(millimetres).collect();
-    place.write(&format!("{folder}/depth/{n}.png"), &grey16_png(frame.width, frame.height, &depth))?;
+    let k = Calibration::of_pinhole(selected, view.track)?;
+    let frame = selected.read(view, &[&SHOWN[..], &DEPTH, &[Layer::Semantic, Layer::SemanticInstance]].concat())?;
+    out.write(&format!("{folder}/pose/{n}.txt"), matrix(&k.opencv_pose(view)).as_bytes())?;
+    let depth: Vec<u16> = planar_m(selected, view, &k, &frame)?.into_iter().map(millimetres).collect();
+    out.write(&format!("{folder}/depth/{n}.png"), &grey16_png(frame.width, frame.height, &depth))?;
     if frame.get(Layer::Color).is_some() {
-        place.write(&format!("{folder}/color/{n}.jpg"), &color_jpeg(source, view, &frame)?)?;
+        out.write(&format!("{folder}/color/{n}.jpg"), &color_jpeg(selected, view, &frame)?)?;
     }
     if let Some(semantic) = frame.get(Layer::Semantic) {
-        place.write(&format!("{folder}/label-filt/{n}.png"), &grey16_png(frame.width, frame.height, &numbers(semantic)))?;
+        out.write(&format!("{folder}/label-filt/{n}.png"), &grey16_png(frame.width, frame.height, &numbers(semantic)))?;
     }
     if let Some(instance) = frame.get(Layer::SemanticInstance) {
-        place.write(&format!("{folder}/instance-filt/{n}.png"), &instance_png(&frame, &numbers(instance)))?;
+        out.write(&format!("{folder}/instance-filt/{n}.png"), &instance_png(&frame, &numbers(instance)))?;
     }
     Ok(())
 }

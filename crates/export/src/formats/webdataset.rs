@@ -5,27 +5,15 @@
 
 use crate::ExportError;
 use crate::calibration::{Calibration, Distortion};
+use crate::export_folder::ExportFolder;
 use crate::numpy::npy;
 use crate::picture::color_png;
-use crate::place::Place;
-use crate::source::{Source, View};
+use crate::selected_frames::{SelectedFrames, View};
 use enfilade_frame::Layer;
 use serde::Serialize;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::PathBuf;
-
-pub(crate) const README: &str = "\
-# WebDataset
-
-`shard-NNNNNN.tar`: every frame is a sample with the key `<scene>/<camera>/IIII`, in the order of scene, camera and frame.
-
-- `color.png`: tone-mapped colour. `<layer>.npy`: the layer's values as the dataset has them (units and spaces: `layers` in its
-  manifest.json; `depth_meters` is the distance along the ray, `depth_z_meters` is planar, along the axis of K).
-- `json`: scene, camera, frame, width, height, K (OpenCV's: pixel centres at whole numbers) with model and distortion, and
-  world_from_camera (x right, y down, z forward; metres; the world is right-handed with z up).
-- With the webdataset library: `wds.WebDataset('shard-{000000..000003}.tar').decode('rgb')`.
-";
 
 /// What a tar file adds to a member: its header, and what fills the last block of 512 bytes.
 const MEMBER_OVERHEAD: u64 = 1024;
@@ -47,24 +35,24 @@ struct SampleInfo<'s> {
 /// Files of a sample: name and content.
 type Sample = Vec<(String, Vec<u8>)>;
 
-pub(crate) fn write(source: &Source<'_>, place: &Place, shard_bytes: u64) -> Result<(), ExportError> {
-    let views: Vec<View<'_>> = source.views().collect();
-    let mut shards = Shards { place, limit: shard_bytes, count: 0, current: None };
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder, shard_bytes: u64) -> Result<(), ExportError> {
+    let views: Vec<View<'_>> = selected.views().collect();
+    let mut shards = Shards { out, limit: shard_bytes, count: 0, current: None };
     // As many samples as threads at a time: a sample of all layers at 1024 x 768 has 70 MB.
     for batch in views.chunks(rayon::current_num_threads()) {
-        for sample in source.each_of(batch, |view| sample(source, view))? {
+        for sample in selected.each_of(batch, |view| sample(selected, view))? {
             shards.add(&sample)?;
         }
     }
     shards.close()
 }
 
-fn sample(source: &Source<'_>, view: View<'_>) -> Result<Sample, ExportError> {
-    let frame = source.read_all(view)?;
+fn sample(selected: &SelectedFrames<'_>, view: View<'_>) -> Result<Sample, ExportError> {
+    let frame = selected.read_all(view)?;
     let key = format!("{}/{:04}", view.track.folder(), view.frame());
     let mut files = Vec::new();
     if frame.get(Layer::Color).is_some() {
-        files.push((format!("{key}.color.png"), color_png(source, view, &frame)?));
+        files.push((format!("{key}.color.png"), color_png(selected, view, &frame)?));
     }
     for (layer, values) in frame.iter() {
         let shape = [frame.height as usize, frame.width as usize, layer.spec().channels];
@@ -98,7 +86,7 @@ fn info(view: View<'_>, width: u32, height: u32) -> SampleInfo<'_> {
 
 /// The archives, one after the other.
 struct Shards<'p> {
-    place: &'p Place,
+    out: &'p ExportFolder,
     limit: u64,
     count: usize,
     current: Option<Shard>,
@@ -118,7 +106,7 @@ impl Shards<'_> {
             self.close()?;
         }
         if self.current.is_none() {
-            let path = self.place.path(&format!("shard-{:06}.tar", self.count))?;
+            let path = self.out.path(&format!("shard-{:06}.tar", self.count))?;
             let file = File::create(&path).map_err(ExportError::at("write", &path))?;
             self.current = Some(Shard { path, archive: tar::Builder::new(BufWriter::new(file)), bytes: 0 });
             self.count += 1;
@@ -137,7 +125,7 @@ impl Shards<'_> {
         let mut writer = shard.archive.into_inner().map_err(ExportError::at("write", &shard.path))?;
         writer.flush().map_err(ExportError::at("write", &shard.path))?;
         let bytes = writer.get_ref().metadata().map_err(ExportError::at("write", &shard.path))?.len();
-        self.place.count(bytes);
+        self.out.count(bytes);
         Ok(())
     }
 }

@@ -10,8 +10,8 @@
 //! | blend | the heavier of the two |
 //! | height map | normal map, by the mean size of texture coordinates on the parts that have the material |
 
-use super::Document;
-use super::picture::{Use, computed, reference};
+use super::document::{Document, TextureUse};
+use super::picture::{computed, reference};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, ScalarParam, Scene, TextureRef, Wrap};
 use serde_json::{Map, Value, json};
@@ -102,7 +102,7 @@ impl Writer<'_, '_> {
         let [r, g, b] = p.base_color.factor.to_array().map(|v| v.clamp(0.0, 1.0));
         body.pbr.insert("baseColorFactor".into(), json!([r, g, b, 1.0]));
         if let Some(texture) = &p.base_color.texture {
-            body.pbr.insert("baseColorTexture".into(), self.texture(texture, Use::Color));
+            body.pbr.insert("baseColorTexture".into(), self.texture(texture, TextureUse::Color));
         }
         self.roughness(&mut body, p, roughness_is_alpha);
         self.dielectric(&mut body, p);
@@ -122,7 +122,7 @@ impl Writer<'_, '_> {
         if let Some((texture, _)) = p.roughness.texture.or(p.metallic.texture) {
             let in_place = |param: &ScalarParam, channel: u8| param.texture == Some((texture, channel));
             let map = if !is_alpha && in_place(&p.roughness, 1) && in_place(&p.metallic, 2) {
-                self.texture(&texture, Use::Data)
+                self.texture(&texture, TextureUse::Data)
             } else {
                 self.roughness_map(&texture, p, is_alpha)
             };
@@ -158,7 +158,7 @@ impl Writer<'_, '_> {
             let mut specular = json!({ "specularFactor": p.specular.factor, "specularColorFactor": p.specular_color.factor.to_array() });
             self.scalar_texture(&mut specular, "specularTexture", &p.specular, 3);
             if let Some(texture) = &p.specular_color.texture {
-                specular["specularColorTexture"] = self.texture(texture, Use::Color);
+                specular["specularColorTexture"] = self.texture(texture, TextureUse::Color);
             }
             self.extend(body, "KHR_materials_specular", specular);
         }
@@ -190,7 +190,7 @@ impl Writer<'_, '_> {
             let mut sheen =
                 json!({ "sheenColorFactor": p.sheen_color.factor.to_array(), "sheenRoughnessFactor": p.sheen_roughness.factor });
             if let Some(texture) = &p.sheen_color.texture {
-                sheen["sheenColorTexture"] = self.texture(texture, Use::Color);
+                sheen["sheenColorTexture"] = self.texture(texture, TextureUse::Color);
             }
             self.scalar_texture(&mut sheen, "sheenRoughnessTexture", &p.sheen_roughness, 3);
             self.extend(body, "KHR_materials_sheen", sheen);
@@ -218,7 +218,7 @@ impl Writer<'_, '_> {
         let strength = emission.factor.max_component();
         json["emissiveFactor"] = json!((emission.factor / strength).to_array());
         if let Some(texture) = &emission.texture {
-            json["emissiveTexture"] = self.texture(texture, Use::Color);
+            json["emissiveTexture"] = self.texture(texture, TextureUse::Color);
         }
         self.extend(body, "KHR_materials_emissive_strength", json!({ "emissiveStrength": strength }));
     }
@@ -226,7 +226,7 @@ impl Writer<'_, '_> {
     fn normal_map(&mut self, material: u32, map: &NormalMap) -> Value {
         match map {
             NormalMap::Normal { texture, scale } => {
-                let mut json = self.texture(texture, Use::Data);
+                let mut json = self.texture(texture, TextureUse::Data);
                 json["scale"] = json!(scale);
                 json
             }
@@ -256,14 +256,14 @@ impl Writer<'_, '_> {
         }
     }
 
-    fn texture(&mut self, texture: &TextureRef, usage: Use) -> Value {
+    fn texture(&mut self, texture: &TextureRef, usage: TextureUse) -> Value {
         reference(self.document, self.scene, texture, usage, &self.user)
     }
 
     /// The texture of a number, which glTF reads from one certain channel.
     fn scalar_texture(&mut self, json: &mut Value, key: &str, param: &ScalarParam, channel: u8) {
         match &param.texture {
-            Some((texture, c)) if *c == channel => json[key] = self.texture(texture, Use::Data),
+            Some((texture, c)) if *c == channel => json[key] = self.texture(texture, TextureUse::Data),
             Some((_, c)) => self.note(&format!("{key} is read from channel {channel} in glTF and comes from channel {c}; it was left out")),
             None => {}
         }

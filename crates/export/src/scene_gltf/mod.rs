@@ -11,14 +11,14 @@
 //!   `extras.environment` of the scene. Lengths are metres, radiances those of the scene.
 
 mod buffer;
+mod document;
 mod material;
 mod node;
 mod picture;
 
-use buffer::Buffer;
+use document::Document;
 use enfilade_scene::{Labels, Scene};
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// A scene as glTF.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,27 +29,16 @@ pub struct SceneGltf {
     pub notes: Vec<String>,
 }
 
-/// Lists of the file that grow while the scene is gone through.
-#[derive(Default)]
-struct Document {
-    buffer: Buffer,
-    meshes: Vec<Value>,
-    materials: Vec<Value>,
-    textures: Vec<Value>,
-    samplers: Vec<Value>,
-    images: Vec<Value>,
-    nodes: Vec<Value>,
-    cameras: Vec<Value>,
-    lights: Vec<Value>,
-    extensions: BTreeSet<&'static str>,
-    /// glTF images by picture of the scene and use.
-    pictures: BTreeMap<(u32, picture::Use), usize>,
-    notes: Vec<String>,
-}
-
 /// The scene as glTF; `labels` are joined to the parts in their order, and may be empty.
 ///
 /// The scene must be valid ([`Scene::validate`]).
+///
+/// ```
+/// use enfilade_export::scene_gltf;
+/// use enfilade_scene::{Labels, Scene};
+/// let gltf = scene_gltf(&Scene::default(), &Labels::default());
+/// assert!(gltf.glb.starts_with(b"glTF") && gltf.notes.is_empty());
+/// ```
 pub fn scene_gltf(scene: &Scene, labels: &Labels) -> SceneGltf {
     let mut document = Document::default();
     material::add_all(&mut document, scene);

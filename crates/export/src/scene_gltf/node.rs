@@ -1,6 +1,6 @@
-//! Parts, cameras and lights as nodes.
+//! Parts, cameras and lights as nodes below a root that turns our z up into glTF's y up.
 
-use super::Document;
+use super::document::Document;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec3};
 use enfilade_scene::{Labels, Light, NYU40, PartLabel, Scene, SpotFalloff, StartCamera};

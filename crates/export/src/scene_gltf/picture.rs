@@ -1,6 +1,6 @@
-//! Pictures: as they are, computed from others, and the surroundings.
+//! Textures as PNG pictures in the file, as they are or computed texel by texel, and the surroundings as OpenEXR.
 
-use super::Document;
+use super::document::{Document, TextureUse};
 use enfilade_math::{Rgb, linear_from_srgb, srgb_from_linear};
 use enfilade_scene::{Environment, Filter, Image, MapRows, Pixels, PngEffort, Scene, TextureRef, Wrap, smallest_png};
 use exr::prelude::{Encoding, Image as ExrImage, Layer as ExrLayer, LayerAttributes, SpecificChannels, WritableImage};
@@ -12,17 +12,8 @@ const NEAREST: u32 = 9728;
 const LINEAR: u32 = 9729;
 const LINEAR_MIPMAP_LINEAR: u32 = 9987;
 
-/// What a picture's bytes mean in glTF, which decides it by the place where a texture is used.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Use {
-    /// Colours, sRGB-encoded.
-    Color,
-    /// Numbers.
-    Data,
-}
-
 /// A reference to a picture of the scene, as glTF writes it. The same picture with the same sampler is one texture.
-pub(super) fn reference(document: &mut Document, scene: &Scene, texture: &TextureRef, usage: Use, user: &str) -> Value {
+pub(super) fn reference(document: &mut Document, scene: &Scene, texture: &TextureRef, usage: TextureUse, user: &str) -> Value {
     let image = &scene.images[texture.image as usize];
     let source = document.pictures.get(&(texture.image, usage)).copied().unwrap_or_else(|| {
         if matches!(image.pixels, Pixels::RgbF32(_)) {
@@ -60,15 +51,15 @@ fn add_picture(document: &mut Document, name: &str, size: &Image, texels: &[[u8;
 }
 
 /// Texels as glTF understands them at this place.
-fn texels(image: &Image, usage: Use) -> Vec<[u8; 4]> {
+fn texels(image: &Image, usage: TextureUse) -> Vec<[u8; 4]> {
     let quantized = |v: f32| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-    let encoded = |v: f32| if usage == Use::Color { quantized(srgb_from_linear(v.clamp(0.0, 1.0))) } else { quantized(v) };
+    let encoded = |v: f32| if usage == TextureUse::Color { quantized(srgb_from_linear(v.clamp(0.0, 1.0))) } else { quantized(v) };
     match &image.pixels {
         Pixels::Rgba8 { srgb, texels } => {
             let code = |v: u8| match (usage, srgb) {
-                (Use::Color, true) | (Use::Data, false) => v,
-                (Use::Color, false) => encoded(f32::from(v) / 255.0),
-                (Use::Data, true) => quantized(linear_from_srgb(f32::from(v) / 255.0)),
+                (TextureUse::Color, true) | (TextureUse::Data, false) => v,
+                (TextureUse::Color, false) => encoded(f32::from(v) / 255.0),
+                (TextureUse::Data, true) => quantized(linear_from_srgb(f32::from(v) / 255.0)),
             };
             let table: [u8; 256] = std::array::from_fn(|v| code(v as u8));
             texels.iter().map(|&[r, g, b, a]| [table[usize::from(r)], table[usize::from(g)], table[usize::from(b)], a]).collect()

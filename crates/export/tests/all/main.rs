@@ -3,8 +3,8 @@
 mod bop;
 mod coco;
 mod common;
+mod export_folder;
 mod pix3d;
-mod place;
 mod readers;
 mod round_trips;
 mod scene_gltf;

@@ -4,20 +4,20 @@ use super::{Submission, nth_task};
 use serde_json::{Value, json};
 
 /// Children of one array job at most.
-const MOST: u32 = 10_000;
+const MAX_ARRAY: u32 = 10_000;
 /// Bytes of a command at most: what a request overrides may have 8192 in all.
-const MOST_BYTES: usize = 6000;
+const MAX_BYTES: usize = 6000;
 
 /// One request per array job. `queue` and `definition` name what the account has; the definition's image holds the program.
 pub fn aws_batch_job(submission: &Submission, queue: &str, definition: &str) -> Vec<Value> {
-    let limited = Submission { array_limit: submission.array_limit.min(MOST), ..submission.clone() };
+    let limited = Submission { array_limit: submission.array_limit.min(MAX_ARRAY), ..submission.clone() };
     let arrays: Vec<Vec<u32>> = limited.arrays().iter().flat_map(|tasks| fitting(tasks)).collect();
     arrays.iter().enumerate().map(|(k, tasks)| request(&limited, k, tasks, queue, definition)).collect()
 }
 
 /// The tasks, halved until their command is short enough.
 fn fitting(tasks: &[u32]) -> Vec<Vec<u32>> {
-    if look_up(tasks).len() <= MOST_BYTES || tasks.len() < 2 {
+    if look_up(tasks).len() <= MAX_BYTES || tasks.len() < 2 {
         return vec![tasks.to_vec()];
     }
     let (low, high) = tasks.split_at(tasks.len() / 2);

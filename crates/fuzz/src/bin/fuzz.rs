@@ -7,7 +7,7 @@
 #![no_main]
 
 use cap::Cap;
-use enfilade_fuzz::{MOST_MEMORY, Run, TARGETS, Target};
+use enfilade_fuzz::{MAX_MEMORY, Run, TARGETS, Target};
 use libfuzzer_sys::fuzz_target;
 use std::alloc::System;
 use std::cell::RefCell;
@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 
 /// More memory than this is refused, which ends the process: libFuzzer keeps the input.
 #[global_allocator]
-static MEMORY: Cap<System> = Cap::new(System, MOST_MEMORY);
+static MEMORY: Cap<System> = Cap::new(System, MAX_MEMORY);
 
 /// What the last panic said. It is shown if it comes out of the target: what is caught on the way is no mistake.
 static PANIC: Mutex<String> = Mutex::new(String::new());

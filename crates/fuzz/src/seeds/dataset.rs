@@ -1,4 +1,4 @@
-//! A small dataset with every kind of file.
+//! A small dataset with every kind of file, and its tables, records and arrays as seeds.
 
 use super::seed;
 use crate::Seed;
@@ -20,7 +20,7 @@ mod damaged;
 pub use analytic::{CAMERA, SCENE};
 
 /// Seeds longer than this make searching slow and show nothing that shorter ones do not.
-const LONGEST: usize = 6 << 10;
+const MAX_SEED: usize = 6 << 10;
 
 /// Writes the dataset.
 pub fn write(root: &Path) -> Dataset {
@@ -69,7 +69,7 @@ fn seeds(extension: &str) -> Vec<Seed> {
         let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
         seed(&name, std::fs::read(&file).expect("a file that can be read"))
     };
-    files(folder.path(), extension).into_iter().map(read).filter(|seed| seed.bytes.len() <= LONGEST).collect()
+    files(folder.path(), extension).into_iter().map(read).filter(|seed| seed.bytes.len() <= MAX_SEED).collect()
 }
 
 /// Every table.

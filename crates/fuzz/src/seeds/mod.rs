@@ -91,7 +91,7 @@ pub fn with_profile() -> Vec<u8> {
 
 /// The scenes that our pictures are compared with Mitsuba's by.
 pub fn mitsuba() -> Vec<Seed> {
-    crate::files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../xtask/oracle"))
+    Seed::of_folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../xtask/oracle"))
         .into_iter()
         .filter(|f| f.name.ends_with(".xml"))
         .collect()

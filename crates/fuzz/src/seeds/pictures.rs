@@ -1,4 +1,4 @@
-//! Pictures of every format.
+//! Pictures of a few pixels in every format that is read, and an image of V-Ray's.
 
 use super::seed;
 use crate::Seed;

@@ -63,7 +63,7 @@ pub fn logs() -> Vec<Seed> {
 }
 
 /// Requests that change something are told to a new program after this many, so that its log does not fill the memory.
-const AT_MOST: usize = 400;
+const MAX_REQUESTS: usize = 400;
 
 /// Answers requests: a line of method and address, then the body. Whatever is asked, nothing may fail within.
 pub fn requests(folder: &Path) -> Run {
@@ -73,7 +73,7 @@ pub fn requests(folder: &Path) -> Run {
     let mut asked = Asked::new(options.clone(), &folder);
     Box::new(move |bytes| {
         count += usize::from(bytes.starts_with(b"POST"));
-        if count > AT_MOST {
+        if count > MAX_REQUESTS {
             count = 0;
             asked.close();
             asked = Asked::new(options.clone(), &folder);

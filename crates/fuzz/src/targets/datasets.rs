@@ -1,8 +1,9 @@
-//! Arrays, tables and records of datasets.
+//! Arrays, tables and records of datasets: each input stands in for every file of its kind in a small dataset.
 
 use crate::Run;
 use crate::seeds::dataset;
 use enfilade_dataset::hdf5::read_array;
+use enfilade_dataset::mesh_names::OBJECTS;
 use enfilade_dataset::{BoxKind, Dataset, read_ray_grid};
 use enfilade_frame::LAYERS;
 use enfilade_math::DVec3;
@@ -31,7 +32,7 @@ fn touched(file: &Path) -> &Path {
 /// Reads an array, and where it is one, as every array that a dataset has.
 pub fn hdf5(folder: &Path) -> Run {
     let (dataset, input) = linked(folder, "hdf5");
-    std::fs::write(dataset.mesh_files(SCENE).file("metadata_objects.csv"), "object_name\nfloor\n").expect("a folder that can be written");
+    std::fs::write(dataset.mesh_files(SCENE).file(OBJECTS), "object_name\nfloor\n").expect("a folder that can be written");
     Box::new(move |bytes| {
         std::fs::write(&input, bytes).expect("a folder that can be written");
         if read_array(&input).is_err() {

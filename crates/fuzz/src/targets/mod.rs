@@ -1,4 +1,4 @@
-//! The table of targets, and what reads for each.
+//! The table of targets, what a target is, and how it gets its inputs. Beside it, one file per subject reads them.
 
 #[cfg(feature = "program")]
 mod annotations;
@@ -11,7 +11,7 @@ mod homes;
 mod octree;
 #[cfg(feature = "program")]
 mod partial;
-pub mod scene_files;
+mod scene_files;
 mod sweethome;
 mod texts;
 #[cfg(feature = "program")]
@@ -20,8 +20,38 @@ mod vray;
 #[cfg(feature = "program")]
 mod vray_image;
 
-use crate::{Reads, Run, Seed, Target, seeds};
-use std::path::Path;
+use crate::seeds;
+use crate::{Run, Seed};
+use std::path::{Path, PathBuf};
+
+/// Something that reads bytes.
+pub struct Target {
+    /// What to call it; also the name of its folders.
+    pub name: &'static str,
+    /// What it reads.
+    pub about: &'static str,
+    /// The longest input that is tried, bytes: some times as long as a file in which everything is used.
+    pub longest: usize,
+    /// How it reads.
+    pub reads: Reads,
+    /// Makes files to begin with, beside those in `seeds/<name>/`.
+    pub seeds: fn() -> Vec<Seed>,
+    /// Words of the format that no seed has.
+    pub words: &'static [&'static str],
+}
+
+/// How a target reads.
+pub enum Reads {
+    /// Imports the scene file `scene` of a folder in which `file` holds the bytes. Both may be the same.
+    Scene {
+        /// The file that is made of the bytes.
+        file: &'static str,
+        /// The file that is imported.
+        scene: &'static str,
+    },
+    /// By a function of its own, which is told of a folder where it may write.
+    Own(fn(&Path) -> Run),
+}
 
 /// All targets.
 pub const TARGETS: &[Target] = &[
@@ -69,6 +99,46 @@ pub const TARGETS: &[Target] = &[
     #[cfg(feature = "program")]
     own("requests", "requests to both servers", 4 << 10, annotations::requests, none),
 ];
+
+impl Target {
+    /// The target of that name.
+    pub fn of(name: &str) -> Option<&'static Self> {
+        TARGETS.iter().find(|target| target.name == name)
+    }
+
+    /// What reads inputs, with files in `folder`, which must be empty.
+    ///
+    /// # Panics
+    /// When the folder cannot be written.
+    pub fn prepare(&self, folder: &Path) -> Run {
+        match self.reads {
+            Reads::Scene { file, scene } => scene_files::prepare(folder, file, scene),
+            Reads::Own(prepare) => prepare(folder),
+        }
+    }
+
+    /// All files to begin with: those that are made and those of `seeds/<name>/`.
+    ///
+    /// # Panics
+    /// When a file cannot be read.
+    pub fn all_seeds(&self) -> Vec<Seed> {
+        let mut all = (self.seeds)();
+        all.extend(Seed::of_folder(&self.folder("seeds")));
+        all
+    }
+
+    /// The inputs that were once found.
+    ///
+    /// # Panics
+    /// When a file cannot be read.
+    pub fn regressions(&self) -> Vec<Seed> {
+        Seed::of_folder(&self.folder("regressions"))
+    }
+
+    fn folder(&self, kind: &str) -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join(kind).join(self.name)
+    }
+}
 
 /// A target that imports: `file` is made of the bytes, `scene` is imported; the files beside them are those of [`scene_files`].
 const fn importer(name: &'static str, file: &'static str, scene: &'static str, about: &'static str, seeds: fn() -> Vec<Seed>) -> Target {

@@ -1,4 +1,4 @@
-//! Trees of OctoMap.
+//! OctoMap's occupancy trees, `.bt` and `.ot`: what was read can be written and read again.
 
 use crate::Run;
 use enfilade_geometry::OccupancyTree;

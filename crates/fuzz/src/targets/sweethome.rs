@@ -1,4 +1,4 @@
-//! Homes of Sweet Home 3D.
+//! Homes of Sweet Home 3D: zip archives with `Home.xml`, models and pictures.
 
 use crate::{Run, seeds};
 use enfilade_import::{ImportOptions, load};

@@ -1,4 +1,4 @@
-//! Texts that people write.
+//! Texts that people write by hand: poses as CSV and JSON, and configurations as TOML.
 
 use crate::Run;
 use enfilade_explore::parse_keyframes;

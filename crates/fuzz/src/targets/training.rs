@@ -1,4 +1,4 @@
-//! Other data sets as published, which training reads.
+//! NYUv2 and Pix3D as published, which training reads.
 
 use crate::{Run, Seed};
 use enfilade_loader::{NYU_LAYERS, NyuChoice, NyuClasses, NyuV2};

@@ -1,4 +1,4 @@
-//! V-Ray's scene description.
+//! V-Ray's scene description: reading, writing back byte by byte, and the edits that a job makes.
 
 use crate::Run;
 use enfilade_vrscene::edit::{

@@ -1,4 +1,4 @@
-//! V-Ray's images.
+//! V-Ray's images: OpenEXR files with render elements, read as layers of a frame.
 
 use crate::Run;
 use enfilade_pipeline::vray::VrayImage;

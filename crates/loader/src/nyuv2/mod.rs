@@ -93,7 +93,7 @@ impl NyuV2 {
         self.images.len()
     }
 
-    /// False: [`NyuV2::open`] refuses that.
+    /// Always false: [`NyuV2::open`] refuses a choice without images.
     pub fn is_empty(&self) -> bool {
         self.images.is_empty()
     }

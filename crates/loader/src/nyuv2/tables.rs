@@ -59,6 +59,13 @@ impl NyuClasses {
 }
 
 /// The class of NYU13 that a class of NYU40 counts as; −1 for all other numbers.
+///
+/// ```
+/// use enfilade_loader::{NyuClasses, nyu13_of_nyu40};
+/// assert_eq!(NyuClasses::Forty.names()[5 - 1], "chair");
+/// assert_eq!(nyu13_of_nyu40(5), 4);
+/// assert_eq!(NyuClasses::Thirteen.names()[4 - 1], "chair");
+/// ```
 pub fn nyu13_of_nyu40(nyu40: i16) -> i16 {
     usize::try_from(nyu40).ok().and_then(|class| class.checked_sub(1)).and_then(|row| CLASSES_40.get(row)).map_or(-1, |row| row.1)
 }

@@ -27,14 +27,12 @@ enum Choice<'a> {
     Name(&'a [String], i16),
 }
 
-/// The actions of every scene that has labelled objects. `suggestions` are of `groups`; the sure ones have `least` confidence.
-pub fn per_scene(objects: &[NamedObject], groups: &[NameGroup], suggestions: &[Option<Suggestion>], least: f32) -> Vec<Actions> {
+/// The actions of every scene that has labelled objects. `suggestions` are of `groups`; the sure ones have `min` confidence.
+pub fn per_scene(objects: &[NamedObject], groups: &[NameGroup], suggestions: &[Option<Suggestion>], min: f32) -> Vec<Actions> {
     let sure: BTreeMap<(&str, &[String]), i16> = groups
         .iter()
         .zip(suggestions)
-        .filter_map(|(group, s)| {
-            Some(((group.scene.as_str(), group.words.as_slice()), s.as_ref().filter(|s| s.confidence >= least)?.class))
-        })
+        .filter_map(|(group, s)| Some(((group.scene.as_str(), group.words.as_slice()), s.as_ref().filter(|s| s.confidence >= min)?.class)))
         .collect();
     let mut scenes: BTreeMap<&str, Vec<(&NamedObject, Vec<String>)>> = BTreeMap::new();
     for object in objects.iter().filter(|object| object.class > 0) {

@@ -55,9 +55,9 @@ pub fn measure(suggester: &Suggester, scenes: &Path) -> Result<Vec<Other>, Box<d
 fn judge(name: &str, suggester: &Suggester, scene: &Scene, classes: &[i16]) -> Other {
     let suggestions = suggester.suggest_scene(scene);
     let pairs: Vec<_> = suggestions.iter().zip(classes).filter(|(_, class)| **class > 0).collect();
-    let from = |least: f32| {
+    let from = |min: f32| {
         let sure: Vec<bool> =
-            pairs.iter().filter_map(|(s, class)| Some(s.as_ref().filter(|s| s.confidence >= least)?.class == **class)).collect();
+            pairs.iter().filter_map(|(s, class)| Some(s.as_ref().filter(|s| s.confidence >= min)?.class == **class)).collect();
         [sure.len(), sure.iter().filter(|right| **right).count()]
     };
     let threshold = |precision: f32| suggester.min_confidence(precision).unwrap_or(1.0);

@@ -1,4 +1,4 @@
-//! The most obvious ways: looking whole names up, and searching them for the names of classes.
+//! The obvious ways to compare with: looking whole names up, and searching them for the names of classes.
 
 use enfilade_scene::NYU40;
 use enfilade_suggest::Suggestion;
@@ -18,13 +18,13 @@ pub fn lookup(groups: &[NameGroup], split: Split, folds: usize) -> Vec<Option<Su
             }
         }
         for (i, group) in groups.iter().enumerate().filter(|(_, group)| split.fold(&group.scene, folds) == fold) {
-            found[i] = tables.get(group.words.as_slice()).and_then(most);
+            found[i] = tables.get(group.words.as_slice()).and_then(most_frequent);
         }
     }
     found
 }
 
-fn most(table: &BTreeMap<i16, f32>) -> Option<Suggestion> {
+fn most_frequent(table: &BTreeMap<i16, f32>) -> Option<Suggestion> {
     let total: f32 = table.values().sum();
     let (&class, &n) = table.iter().max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)))?;
     Some(Suggestion { class, confidence: n / (total + 1.0), alternatives: Vec::new() })

@@ -1,4 +1,4 @@
-//! The report as Markdown and JSON.
+//! The report on suggestions, as Markdown (`suggest.md`) and JSON (`suggest.json`).
 
 use crate::actions::Actions;
 use crate::others::Other;
@@ -132,10 +132,10 @@ impl Report<'_> {
         )?;
         writeln!(text, "|---|---|---|---|---|---|")?;
         for precision in [0.8, 0.85, 0.9, 0.95] {
-            let Some(least) = self.suggester.min_confidence(precision) else { continue };
-            let [names, covered] = judgement.of_confidence(f64::from(least), By::Name).map(|x| 100.0 * x);
-            let [objects, of_objects] = judgement.of_confidence(f64::from(least), By::Object).map(|x| 100.0 * x);
-            writeln!(text, "| {:.0} % | {least} | {names:.1} | {covered:.1} | {objects:.1} | {of_objects:.1} |", 100.0 * precision)?;
+            let Some(min) = self.suggester.min_confidence(precision) else { continue };
+            let [names, covered] = judgement.of_confidence(f64::from(min), By::Name).map(|x| 100.0 * x);
+            let [objects, of_objects] = judgement.of_confidence(f64::from(min), By::Object).map(|x| 100.0 * x);
+            writeln!(text, "| {:.0} % | {min} | {names:.1} | {covered:.1} | {objects:.1} | {of_objects:.1} |", 100.0 * precision)?;
         }
         Ok(())
     }

@@ -79,8 +79,8 @@ impl Judgement {
     }
 
     /// Precision and coverage from a confidence on; coverage is of those whose names have words.
-    pub fn of_confidence(&self, least: f64, by: By) -> [f64; 2] {
-        let sure = || self.rows.iter().filter(|row| row.suggested.is_some_and(|(_, confidence)| confidence >= least));
+    pub fn of_confidence(&self, min: f64, by: By) -> [f64; 2] {
+        let sure = || self.rows.iter().filter(|row| row.suggested.is_some_and(|(_, confidence)| confidence >= min));
         let all: f64 = self.rows.iter().filter(|row| row.worded).map(|row| by.count(row)[1]).sum();
         [share(sure().map(|row| by.count(row))), sure().map(|row| by.count(row)[1]).sum::<f64>() / all]
     }

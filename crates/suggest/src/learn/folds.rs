@@ -1,4 +1,4 @@
-//! Models asked about scenes that they have not seen.
+//! Cross-validation: models learned without some scenes or volumes, and asked about those.
 
 use super::groups::NameGroup;
 use super::train::{LearnConfig, learn};

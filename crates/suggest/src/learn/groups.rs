@@ -1,4 +1,4 @@
-//! Labelled names, and those of a scene that differ in their numbers only.
+//! Tables of labelled names, and groups of those of a scene that differ in their numbers alone.
 
 use crate::lexicon::Lexicon;
 use crate::table::TableError;

@@ -42,7 +42,7 @@ pub(crate) struct View<'s> {
 }
 
 /// The chosen frames, by scene, camera and number.
-pub(crate) struct Source<'d> {
+pub(crate) struct SelectedFrames<'d> {
     pub dataset: &'d Dataset,
     pub tracks: Vec<Track>,
     format: Format,
@@ -79,27 +79,27 @@ impl<'s> View<'s> {
     }
 
     /// For messages.
-    pub fn place(&self) -> String {
+    pub fn name(&self) -> String {
         format!("{} frame {}", self.track.folder(), self.frame())
     }
 }
 
-impl<'d> Source<'d> {
+impl<'d> SelectedFrames<'d> {
     /// Finds the chosen frames and checks that each has the layers that the format needs.
     pub fn open(dataset: &'d Dataset, spec: &FormatSpec, selection: &Selection, cx: &'d dyn Cx) -> Result<Self, ExportError> {
         let taken = |layer: &Layer| spec.takes.is_none_or(|takes| takes.contains(layer));
         let wanted = |layer: &Layer| selection.layers.as_ref().is_none_or(|layers| layers.contains(layer));
         let layers: Vec<Layer> = LAYERS.iter().map(|row| row.layer).filter(|layer| taken(layer) && wanted(layer)).collect();
-        let mut source = Self { dataset, tracks: Vec::new(), format: spec.format, layers, cx };
+        let mut selected = Self { dataset, tracks: Vec::new(), format: spec.format, layers, cx };
         for scene in &selection.scenes {
             for name in dataset.cameras(scene)? {
                 if selection.cameras.as_ref().is_none_or(|names| names.contains(&name)) {
-                    source.tracks.extend(track(dataset, scene, &name, selection.frames.as_ref(), cx)?);
+                    selected.tracks.extend(track(dataset, scene, &name, selection.frames.as_ref(), cx)?);
                 }
             }
         }
-        source.check(spec, selection)?;
-        Ok(source)
+        selected.check(spec, selection)?;
+        Ok(selected)
     }
 
     fn check(&self, spec: &FormatSpec, selection: &Selection) -> Result<(), ExportError> {
@@ -120,7 +120,7 @@ impl<'d> Source<'d> {
             let missing = spec.needs.iter().find(|group| !group.iter().any(|&layer| self.has(view, layer)));
             if let Some(group) = missing {
                 let problem = format!("it has no layer {}; make it (label, render), or leave the frame out", names(group));
-                return Err(self.unsuitable(view.place(), problem));
+                return Err(self.unsuitable(view.name(), problem));
             }
         }
         Ok(())
@@ -157,7 +157,7 @@ impl<'d> Source<'d> {
         if found != [width, height] {
             let problem =
                 format!("its layers have {}x{} pixels, its camera {width}x{height}; plan and render it again", found[0], found[1]);
-            return Err(self.unsuitable(view.place(), problem));
+            return Err(self.unsuitable(view.name(), problem));
         }
         Ok(frame)
     }
@@ -167,7 +167,7 @@ impl<'d> Source<'d> {
     pub fn read_all(&self, view: View<'_>) -> Result<Frame, ExportError> {
         let mut frame = self.read(view, &LAYERS.map(|spec| spec.layer))?;
         if frame.pixels() == 0 {
-            return Err(self.unsuitable(view.place(), "it has none of the layers asked for; choose others with --layers"));
+            return Err(self.unsuitable(view.name(), "it has none of the layers asked for; choose others with --layers"));
         }
         let stored = frame.get(Layer::DepthZMeters).filter(|_| self.stores(view, Layer::DepthZMeters)).cloned();
         if let Some(mut depth_z) = stored {
@@ -191,7 +191,7 @@ impl<'d> Source<'d> {
         self.each_of(&self.views().collect::<Vec<_>>(), work)
     }
 
-    /// As [`Source::each`], for some of the frames.
+    /// As [`SelectedFrames::each`], for some of the frames.
     pub fn each_of<T: Send>(
         &self,
         views: &[View<'_>],

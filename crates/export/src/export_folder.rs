@@ -1,20 +1,31 @@
-//! Where an export lies: it grows in a folder beside its place, and takes it when everything is written.
+//! The folder of an export: it grows under another name beside the target, and is renamed when everything is written.
 
-use crate::source::Source;
-use crate::{ExportError, Exported, Format};
+use crate::selected_frames::SelectedFrames;
+use crate::{ExportError, Format};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
-/// What becomes of a folder that has the export's place and is no export.
+/// What to do with a folder that is at the target and is no export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
     /// It stays, and nothing is exported.
     Refuse,
     /// It is renamed to `<name>.old`.
     SetAside,
+}
+
+/// What was written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Exported {
+    /// Frames of the dataset that are in it.
+    pub frames: usize,
+    /// Files, the record and the page for people included.
+    pub files: usize,
+    /// Their bytes.
+    pub bytes: u64,
 }
 
 /// Last file of an export, and the sign by which one is known.
@@ -35,7 +46,7 @@ struct Record {
 }
 
 /// The folder in the making; it is removed unless the export is finished.
-pub(crate) struct Place {
+pub(crate) struct ExportFolder {
     target: PathBuf,
     aside: PathBuf,
     existing: Existing,
@@ -43,7 +54,7 @@ pub(crate) struct Place {
     bytes: AtomicU64,
 }
 
-impl Place {
+impl ExportFolder {
     /// Makes the folder in which the export grows, and removes one that an interrupted export left.
     pub fn prepare(target: &Path, dataset: &Path, existing: Existing) -> Result<Self, ExportError> {
         check_apart(target, dataset)?;
@@ -80,17 +91,17 @@ impl Place {
         Ok(path)
     }
 
-    /// Takes note of a file that was written at [`Place::path`].
+    /// Takes note of a file that was written at [`ExportFolder::path`].
     pub fn count(&self, bytes: u64) {
         self.files.fetch_add(1, Ordering::Relaxed);
         self.bytes.fetch_add(bytes, Ordering::Relaxed);
     }
 
     /// Adds the page for people and the record, and puts the export in its place.
-    pub fn finish(self, format: Format, source: &Source<'_>) -> Result<Exported, ExportError> {
+    pub fn finish(self, format: Format, selected: &SelectedFrames<'_>) -> Result<Exported, ExportError> {
         self.write("README.md", format.spec().readme.as_bytes())?;
         let mut frames: BTreeMap<String, BTreeMap<String, Vec<u32>>> = BTreeMap::new();
-        for view in source.views() {
+        for view in selected.views() {
             frames.entry(view.track.scene.clone()).or_default().entry(view.track.name.clone()).or_default().push(view.frame());
         }
         let (files, bytes) = (self.files.load(Ordering::Relaxed), self.bytes.load(Ordering::Relaxed));
@@ -98,7 +109,7 @@ impl Place {
         self.write_json(RECORD, &Record { kind, format: format.spec().name.into(), enfilade_version, files, bytes, frames })?;
         self.take_place()?;
         let (files, bytes) = (self.files.load(Ordering::Relaxed), self.bytes.load(Ordering::Relaxed));
-        Ok(Exported { frames: source.views().count(), files, bytes })
+        Ok(Exported { frames: selected.views().count(), files, bytes })
     }
 
     fn take_place(&self) -> Result<(), ExportError> {
@@ -115,7 +126,7 @@ impl Place {
     }
 }
 
-impl Drop for Place {
+impl Drop for ExportFolder {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.aside); // after `finish` there is none
     }

@@ -1,0 +1,32 @@
+//! The glTF document in the making: its lists, which grow while the scene is gone through.
+
+use super::buffer::Buffer;
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Lists of the file that grow while the scene is gone through.
+#[derive(Default)]
+pub(super) struct Document {
+    pub buffer: Buffer,
+    pub meshes: Vec<Value>,
+    pub materials: Vec<Value>,
+    pub textures: Vec<Value>,
+    pub samplers: Vec<Value>,
+    pub images: Vec<Value>,
+    pub nodes: Vec<Value>,
+    pub cameras: Vec<Value>,
+    pub lights: Vec<Value>,
+    pub extensions: BTreeSet<&'static str>,
+    /// glTF images by picture of the scene and use.
+    pub pictures: BTreeMap<(u32, TextureUse), usize>,
+    pub notes: Vec<String>,
+}
+
+/// What a picture's bytes mean in glTF, which decides it by the place where a texture is used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum TextureUse {
+    /// Colours, sRGB-encoded.
+    Color,
+    /// Numbers.
+    Data,
+}
