@@ -7,6 +7,7 @@ use super::node::Node;
 use super::pages::Pages;
 use super::placed::{Placed, Placement};
 use super::reinsertion::reinsert;
+use super::soup::{PlacedBox, Soup, has_area};
 use enfilade_math::{Bounds3, Vec3};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{leaf_collapser, node::Bvh2Node};
@@ -42,7 +43,7 @@ pub(super) fn build(
     let soup = Soup { corners, numbers, filtered, placed: &placed };
     let triangles = (0..corners.len() as u32).filter(|&i| has_area(&corners[i as usize]));
     let boxes = (0..placed.len()).filter(|&i| !placed[i].bounds.is_empty()).map(|i| (corners.len() + i) as u32);
-    let Some(world) = soup.tree(triangles.chain(boxes).collect()) else {
+    let Some(world) = tree(soup, triangles.chain(boxes).collect()) else {
         return Built { nodes: Pages::filled(Node::EMPTY, 0), words: Pages::filled(0, 0), placed: Vec::new(), bounds: Bounds3::EMPTY };
     };
     // Whether corners on a line have an area is for the rounding in the world to say.
@@ -51,7 +52,7 @@ pub(super) fn build(
         .iter()
         .map(|mesh| {
             let soup = Soup { corners: mesh, numbers: None, filtered: &|_| false, placed: &[] };
-            soup.tree((0..mesh.len() as u32).filter(|&i| apart(&mesh[i as usize])).collect())
+            tree(soup, (0..mesh.len() as u32).filter(|&i| apart(&mesh[i as usize])).collect())
         })
         .collect();
 
@@ -76,10 +77,89 @@ pub(super) fn build(
     Built { nodes, words, placed, bounds }
 }
 
-/// True for finite triangles whose area is not zero. In double precision, where differences and products of `f32` are all but exact.
-fn has_area(triangle: &[Vec3; 3]) -> bool {
-    let [a, b, c] = triangle.map(|p| p.as_dvec3());
-    triangle.iter().all(|p| p.is_finite()) && (b - a).cross(c - a).length_squared() > 0.0
+/// The tree over some members of a soup; `None` when there are none.
+fn tree(soup: Soup<'_>, members: Vec<u32>) -> Option<Tree<'_>> {
+    if members.is_empty() {
+        return None;
+    }
+    let good = binary_tree(&soup, &members);
+    let (binary, plan) = match collapse(&soup, &good) {
+        Some(plan) => (good, plan),
+        None => {
+            let balanced = balanced_tree(&soup, &members);
+            let plan = collapse(&soup, &balanced).expect("a balanced tree is not too deep");
+            (balanced, plan)
+        }
+    };
+    Some(Tree { soup, binary, plan })
+}
+
+/// A tree with little surface: clusters of near neighbours merged upward (`obvhs`), then improved by moving subtrees.
+///
+/// Small subtrees become leaves before any is moved, with a cost that leaves the last word to [`collapse`]: moving single triangles
+/// as well took half as long again, for rays that visited no fewer places in six rooms. Cutting the boxes of large triangles was
+/// tried and brought nothing in rooms.
+fn binary_tree(soup: &Soup, members: &[u32]) -> Binary {
+    const LEAF_COST_IN_TRIANGLES: f32 = 0.5;
+    const ROUNDS_OF_NEXT_NEIGHBOURS: usize = 0;
+    if members.len() <= LANES {
+        return balanced_tree(soup, members);
+    }
+    let scale = Scale::of(soup.bounds_of(members));
+    let boxes: Vec<Aabb> = members
+        .iter()
+        .map(|&i| soup.bounds_of(&[i]))
+        .map(|b| Aabb::new(scale.apply(b.min).to_vec3a(), scale.apply(b.max).to_vec3a()))
+        .collect();
+    let order = (0..members.len() as u32).collect();
+    let mut tree = PlocBuilder::with_capacity(members.len()).build(
+        PlocSearchDistance::Low,
+        &boxes,
+        order,
+        SortPrecision::U128,
+        ROUNDS_OF_NEXT_NEIGHBOURS,
+    );
+    drop(boxes);
+    leaf_collapser::collapse(&mut tree, LANES as u32, LEAF_COST_IN_TRIANGLES);
+    reinsert(&mut tree);
+
+    let node = |n: &Bvh2Node| {
+        if n.prim_count == 0 { BinaryNode::children(n.first_index) } else { BinaryNode::leaf(n.first_index, n.prim_count) }
+    };
+    let mut binary = Binary {
+        nodes: tree.nodes.iter().map(node).collect(),
+        order: tree.primitive_indices.iter().map(|&i| members[i as usize]).collect(),
+    };
+    divide(soup, &mut binary);
+    binary
+}
+
+/// A tree whose halves differ by one triangle at most: sorted along the longest axis and cut in the middle, again and again.
+pub(super) fn balanced_tree(soup: &Soup, members: &[u32]) -> Binary {
+    let mut binary = Binary { nodes: vec![BinaryNode::leaf(0, members.len() as u32)], order: members.to_vec() };
+    divide(soup, &mut binary);
+    binary
+}
+
+/// Halves the leaves until they are small enough, and every placement is alone; computes the boxes.
+fn divide(soup: &Soup, binary: &mut Binary) {
+    let mut next = 0;
+    while next < binary.nodes.len() {
+        let BinaryNode { first, count, .. } = binary.nodes[next];
+        // Inner nodes have no members of their own.
+        let range = if count == 0 { &mut [] } else { &mut binary.order[first as usize..(first + count) as usize] };
+        if range.len() > LANES || range.len() > 1 && range.iter().any(|&i| soup.placement(i).is_some()) {
+            let center = |&i: &u32| soup.bounds_of(&[i]).center();
+            let axis = Bounds3::from_points(range.iter().map(center)).extent().max_position();
+            range.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
+            let half = count / 2;
+            binary.nodes[next] = BinaryNode::children(binary.nodes.len() as u32);
+            binary.nodes.push(BinaryNode::leaf(first, half));
+            binary.nodes.push(BinaryNode::leaf(first + half, count - half));
+        }
+        next += 1;
+    }
+    soup.fit(binary);
 }
 
 /// A power of two that brings all coordinates to about one, so that no area overflows or vanishes.
@@ -95,162 +175,6 @@ impl Scale {
 
     fn apply(self, p: Vec3) -> Vec3 {
         (p.as_dvec3() * self.0).as_vec3()
-    }
-}
-
-/// The triangles and placements, and what is done with them on the way to the tree. A placement's index is its place after the triangles.
-pub(super) struct Soup<'a> {
-    pub corners: &'a [[Vec3; 3]],
-    /// What hits report for the triangles: their indices unless it is given.
-    pub numbers: Option<&'a [u32]>,
-    /// By number.
-    pub filtered: &'a dyn Fn(u32) -> bool,
-    pub placed: &'a [PlacedBox],
-}
-
-impl<'a> Soup<'a> {
-    /// The tree over some of them; `None` when there are none.
-    fn tree(self, members: Vec<u32>) -> Option<Tree<'a>> {
-        if members.is_empty() {
-            return None;
-        }
-        let good = self.binary_tree(&members);
-        let (binary, plan) = match collapse(&self, &good) {
-            Some(plan) => (good, plan),
-            None => {
-                let balanced = self.balanced_tree(&members);
-                let plan = collapse(&self, &balanced).expect("a balanced tree is not too deep");
-                (balanced, plan)
-            }
-        };
-        Some(Tree { soup: self, binary, plan })
-    }
-
-    /// A tree with little surface: clusters of near neighbours merged upward (`obvhs`), then improved by moving subtrees.
-    ///
-    /// Small subtrees become leaves before any is moved, with a cost that leaves the last word to [`collapse`]: moving single triangles
-    /// as well took half as long again, for rays that visited no fewer places in six rooms. Cutting the boxes of large triangles was
-    /// tried and brought nothing in rooms.
-    fn binary_tree(&self, members: &[u32]) -> Binary {
-        const LEAF_COST_IN_TRIANGLES: f32 = 0.5;
-        const ROUNDS_OF_NEXT_NEIGHBOURS: usize = 0;
-        if members.len() <= LANES {
-            return self.balanced_tree(members);
-        }
-        let scale = Scale::of(self.bounds_of(members));
-        let boxes: Vec<Aabb> = members
-            .iter()
-            .map(|&i| self.bounds_of(&[i]))
-            .map(|b| Aabb::new(scale.apply(b.min).to_vec3a(), scale.apply(b.max).to_vec3a()))
-            .collect();
-        let order = (0..members.len() as u32).collect();
-        let mut tree = PlocBuilder::with_capacity(members.len()).build(
-            PlocSearchDistance::Low,
-            &boxes,
-            order,
-            SortPrecision::U128,
-            ROUNDS_OF_NEXT_NEIGHBOURS,
-        );
-        drop(boxes);
-        leaf_collapser::collapse(&mut tree, LANES as u32, LEAF_COST_IN_TRIANGLES);
-        reinsert(&mut tree);
-
-        let node = |n: &Bvh2Node| {
-            if n.prim_count == 0 { BinaryNode::children(n.first_index) } else { BinaryNode::leaf(n.first_index, n.prim_count) }
-        };
-        let mut binary = Binary {
-            nodes: tree.nodes.iter().map(node).collect(),
-            order: tree.primitive_indices.iter().map(|&i| members[i as usize]).collect(),
-        };
-        self.divide(&mut binary);
-        binary
-    }
-
-    /// A tree whose halves differ by one triangle at most: sorted along the longest axis and cut in the middle, again and again.
-    pub fn balanced_tree(&self, members: &[u32]) -> Binary {
-        let mut binary = Binary { nodes: vec![BinaryNode::leaf(0, members.len() as u32)], order: members.to_vec() };
-        self.divide(&mut binary);
-        binary
-    }
-
-    /// Halves the leaves until they are small enough, and every placement is alone; computes the boxes.
-    fn divide(&self, binary: &mut Binary) {
-        let mut next = 0;
-        while next < binary.nodes.len() {
-            let BinaryNode { first, count, .. } = binary.nodes[next];
-            // Inner nodes have no members of their own.
-            let range = if count == 0 { &mut [] } else { &mut binary.order[first as usize..(first + count) as usize] };
-            if range.len() > LANES || range.len() > 1 && range.iter().any(|&i| self.placement(i).is_some()) {
-                let center = |&i: &u32| self.bounds_of(&[i]).center();
-                let axis = Bounds3::from_points(range.iter().map(center)).extent().max_position();
-                range.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
-                let half = count / 2;
-                binary.nodes[next] = BinaryNode::children(binary.nodes.len() as u32);
-                binary.nodes.push(BinaryNode::leaf(first, half));
-                binary.nodes.push(BinaryNode::leaf(first + half, count - half));
-            }
-            next += 1;
-        }
-        self.fit(binary);
-    }
-
-    /// Computes the box of every node from what is below it.
-    pub fn fit(&self, binary: &mut Binary) {
-        for i in binary.children_first() {
-            let BinaryNode { first, count, .. } = binary.nodes[i];
-            binary.nodes[i].bounds = if count == 0 {
-                binary.nodes[first as usize].bounds.union(binary.nodes[first as usize + 1].bounds)
-            } else {
-                self.bounds_of(&binary.order[first as usize..(first + count) as usize])
-            };
-        }
-    }
-
-    /// Which placement it is; `None` for triangles.
-    pub fn placement(&self, member: u32) -> Option<usize> {
-        (member as usize).checked_sub(self.corners.len())
-    }
-
-    /// What hits report for a triangle.
-    pub fn number(&self, triangle: u32) -> u32 {
-        self.numbers.map_or(triangle, |numbers| numbers[triangle as usize])
-    }
-
-    /// Surface of a triangle or placement that stops every ray; of one that is filtered, none.
-    pub fn stopping_area(&self, member: u32) -> f64 {
-        if let Some(placement) = self.placement(member) {
-            return self.placed[placement].stopping_area;
-        }
-        if (self.filtered)(self.number(member)) { 0.0 } else { area(&self.corners[member as usize]) }
-    }
-
-    fn bounds_of(&self, members: &[u32]) -> Bounds3 {
-        members.iter().fold(Bounds3::EMPTY, |bounds, &i| match self.placement(i) {
-            Some(placement) => bounds.union(self.placed[placement].bounds),
-            None => self.corners[i as usize].iter().fold(bounds, |bounds, &p| bounds.include(p)),
-        })
-    }
-}
-
-fn area(triangle: &[Vec3; 3]) -> f64 {
-    let [a, b, c] = triangle.map(|p| p.as_dvec3());
-    0.5 * (b - a).cross(c - a).length()
-}
-
-/// What the tree of the world has to know of a placement.
-pub(super) struct PlacedBox {
-    bounds: Bounds3,
-    stopping_area: f64,
-    pub triangle_count: usize,
-}
-
-impl PlacedBox {
-    fn new(placement: &Placement, mesh: &[[Vec3; 3]]) -> Self {
-        let world = mesh.iter().map(|corners| corners.map(|p| placement.world(p)));
-        let (bounds, whole) = world.filter(has_area).fold((Bounds3::EMPTY, 0.0), |(bounds, sum), corners| {
-            (corners.iter().fold(bounds, |bounds, &p| bounds.include(p)), sum + area(&corners))
-        });
-        Self { bounds, stopping_area: if placement.filtered { 0.0 } else { whole }, triangle_count: mesh.len() }
     }
 }
 

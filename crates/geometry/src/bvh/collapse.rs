@@ -5,10 +5,10 @@
 //! BVHs", section 3). The cost is the usual one: the surface of every box that is visited.
 
 use super::binary::{Binary, BinaryNode};
-use super::build::Soup;
 use super::leaf::{self, FILTERED, LANES, child_of, start_of};
 use super::node::{LEAF, MAX_DEPTH, Node, WIDTH};
 use super::placed::PLACED;
+use super::soup::Soup;
 use enfilade_math::Vec3;
 
 /// The best ways of handing a subtree to a node above it, by the number of its children that are subtrees of this one, less one.
@@ -235,6 +235,7 @@ fn triangles(soup: &Soup, binary: &Binary, root: usize) -> Vec<(u32, [Vec3; 3])>
 
 #[cfg(test)]
 mod tests {
+    use super::super::build::balanced_tree;
     use super::super::leaf::{BEYOND, Leaf, WORDS};
     use super::*;
     use enfilade_math::Bounds3;
@@ -263,7 +264,7 @@ mod tests {
         assert!(collapse(&soup, &chain(&soup, 400)).is_some());
         assert!(collapse(&soup, &chain(&soup, 600)).is_none());
         let all: Vec<u32> = (0..8 * 600).collect();
-        assert!(collapse(&soup, &soup.balanced_tree(&all)).is_some());
+        assert!(collapse(&soup, &balanced_tree(&soup, &all)).is_some());
     }
 
     #[test]
@@ -271,7 +272,7 @@ mod tests {
         let corners = triangles(1000);
         let soup = Soup { corners: &corners, filtered: &|i| i % 2 == 0, numbers: None, placed: &[] };
         let all: Vec<u32> = (0..1000).collect();
-        let binary = soup.balanced_tree(&all);
+        let binary = balanced_tree(&soup, &all);
         let plan = collapse(&soup, &binary).expect("shallow");
         let (mut nodes, mut words) = (vec![Node::EMPTY; plan.node_count()], vec![0; WORDS * plan.triangle_count() + BEYOND]);
         plan.write(&soup, &binary, (&mut nodes, 0), (&mut words, 0));

@@ -1,5 +1,7 @@
 //! The way of one ray through the tree.
 
+use super::hierarchy::Bvh;
+use super::hit::Hit;
 use super::lanes::{Eight, Lanes, Sixteen, lane_of};
 use super::leaf::{FILTERED, Leaf, NO_WORDS, start_of};
 use super::node::{LEAF, Node};
@@ -8,7 +10,6 @@ use super::prepared::{Prepared, slack};
 use super::stack::{Room, Stack};
 use super::triangle::{Meets, TriangleTest};
 use super::wide::Wide;
-use super::{Bvh, Hit};
 use enfilade_math::{Ray, Vec3A};
 
 /// [`walk`] compiled for AVX2.

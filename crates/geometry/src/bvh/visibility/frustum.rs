@@ -1,6 +1,6 @@
 //! Which boxes reach into a tile?
 
-use super::PinholeRays;
+use super::pinhole::PinholeRays;
 use super::tile::TILE;
 use crate::bvh::node::Node;
 use crate::bvh::wide::Wide;

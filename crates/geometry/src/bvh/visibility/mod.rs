@@ -10,49 +10,25 @@
 //! multiply-add, and of triangles at the same depth the one with the lowest index is seen.
 
 mod frustum;
+mod pinhole;
 mod setup;
 mod tile;
 
 #[cfg(test)]
 mod tests;
 
+use super::hierarchy::{Bvh, Kernel};
 use super::lanes::{self, lane_of};
 use super::leaf::Leaf;
 use super::node::LEAF;
 use super::stack::{Room, Stack};
 use super::wide::{self, Wide};
-use super::{Bvh, Kernel};
-use enfilade_math::Vec3;
 use frustum::{Frustum, Planes};
 use setup::{Setup, Waiting};
-use tile::{Pixels, TILE, Tile, place};
+use tile::{Pixels, TILE, Tile, block_and_lane};
 
-/// Rays of a pinhole image: the one through the centre of pixel (x, y) has the direction `corner + x · right + y · down`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PinholeRays {
-    /// Camera centre.
-    pub origin: Vec3,
-    /// Through the centre of the pixel in the upper left corner. Its length along the optical axis is 1.
-    pub corner: Vec3,
-    /// From a pixel to the next in its row; at a right angle to the optical axis.
-    pub right: Vec3,
-    /// From a pixel to the one below; at a right angle to the optical axis.
-    pub down: Vec3,
-}
-
-impl PinholeRays {
-    /// The ray through the centre of a pixel. Not a unit vector.
-    #[inline]
-    pub fn direction(&self, x: f32, y: f32) -> Vec3 {
-        self.corner + x * self.right + y * self.down
-    }
-
-    /// The unit vector along the optical axis.
-    pub fn forward(&self) -> Vec3 {
-        let axis = self.right.cross(self.down).normalize();
-        if axis.dot(self.corner) < 0.0 { -axis } else { axis }
-    }
-}
+pub use pinhole::PinholeRays;
+pub use tile::NOTHING;
 
 /// Triangle and depth of every pixel of an image; its memory serves for one image after the other.
 pub struct VisibilityBuffer {
@@ -61,9 +37,6 @@ pub struct VisibilityBuffer {
     triangles: Vec<u32>,
     inverse_z: Vec<f32>,
 }
-
-/// Stands for no triangle in [`VisibilityBuffer::triangles`].
-pub const NOTHING: u32 = u32::MAX;
 
 impl VisibilityBuffer {
     /// An image of `width` × `height` pixels in which nothing is seen.
@@ -107,7 +80,7 @@ impl VisibilityBuffer {
     fn keep(&mut self, tile: &Tile, x: usize, y: usize) {
         for row in 0..TILE.min(self.height - y) {
             for column in 0..TILE.min(self.width - x) {
-                let (block, lane) = place(column, row);
+                let (block, lane) = block_and_lane(column, row);
                 let pixel = (y + row) * self.width + x + column;
                 self.triangles[pixel] = tile.triangles[block].0[lane].to_bits();
                 self.inverse_z[pixel] = tile.inverse_z[block].0[lane];

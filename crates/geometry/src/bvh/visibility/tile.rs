@@ -1,6 +1,5 @@
 //! The pixels of a tile, and drawing one triangle into them.
 
-use super::NOTHING;
 use crate::bvh::lanes::{Sixteen, lane_of};
 use crate::bvh::wide::Wide;
 
@@ -9,9 +8,12 @@ use crate::bvh::wide::Wide;
 pub(super) const TILE: usize = 16;
 pub(super) const BLOCK: usize = 4;
 
+/// Stands for no triangle in [`VisibilityBuffer::triangles`](super::VisibilityBuffer::triangles).
+pub const NOTHING: u32 = u32::MAX;
+
 /// Block and lane of a pixel of a tile.
 #[inline(always)]
-pub(super) fn place(column: usize, row: usize) -> (usize, usize) {
+pub(super) fn block_and_lane(column: usize, row: usize) -> (usize, usize) {
     ((row / BLOCK) * BLOCK + column / BLOCK, (row % BLOCK) * BLOCK + column % BLOCK)
 }
 
@@ -32,7 +34,7 @@ impl Tile {
             Self { triangles: [nothing; 16], inverse_z: [Sixteen([f32::INFINITY; 16]); 16], farthest: Sixteen([f32::INFINITY; 16]) };
         for row in 0..rows {
             for column in 0..columns {
-                let (block, lane) = place(column, row);
+                let (block, lane) = block_and_lane(column, row);
                 tile.inverse_z[block].0[lane] = 0.0;
                 tile.farthest.0[block] = 0.0;
             }
