@@ -1,4 +1,4 @@
-use crate::nesting::nested;
+use crate::nesting::{self, nested};
 use crate::texture::TextureRef;
 use enfilade_math::Rgb;
 use serde::{Deserialize, Serialize};
@@ -125,7 +125,7 @@ pub(crate) enum Constant {
 
 impl Bsdf {
     /// Blends within blends are no deeper than this.
-    pub const DEEPEST: usize = 128;
+    pub const DEEPEST: usize = nesting::MAX_DEPTH;
 
     /// How deep its blends within blends are; 0 for what is no blend.
     pub fn depth(&self) -> usize {
