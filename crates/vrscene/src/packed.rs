@@ -5,7 +5,7 @@
 
 use crate::error::SceneTextError;
 use crate::scan::Scanner;
-use crate::value::{Transform, Vector};
+use crate::transform::{Transform, Vector};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;

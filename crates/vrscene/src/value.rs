@@ -1,21 +1,7 @@
 use crate::error::SceneTextError;
 use crate::packed;
 use crate::scan::Scanner;
-
-/// Three numbers of a point, a direction or a colour.
-pub type Vector = [f32; 3];
-
-/// Three vectors as they are written: where the matrix takes the x, y and z axis.
-pub type Matrix = [Vector; 3];
-
-/// An affine map: the matrix, then the offset.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Transform {
-    /// Its linear part.
-    pub matrix: Matrix,
-    /// Where it takes the origin, asset units.
-    pub offset: [f64; 3],
-}
+use crate::transform::{Matrix, Transform, Vector};
 
 /// The value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
