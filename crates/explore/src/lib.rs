@@ -24,6 +24,7 @@ mod saliency;
 mod space;
 mod surroundings;
 mod view;
+mod view_stats;
 
 pub use carve::{CarveConfig, carve};
 pub use error::ExploreError;
@@ -37,7 +38,8 @@ pub use preset::Preset;
 pub use saliency::Saliency;
 pub use space::{CarveReport, FreeSpace, Leak, StartReport};
 pub use surroundings::Surroundings;
-pub use view::{ViewStats, view_stats};
+pub use view::view_stats;
+pub use view_stats::ViewStats;
 
 #[cfg(test)]
 mod testroom;

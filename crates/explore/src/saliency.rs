@@ -1,3 +1,5 @@
+//! What makes a view worth taking: scores by what a test image of it shows.
+
 use crate::ViewStats;
 use serde::{Deserialize, Serialize};
 

@@ -4,48 +4,20 @@
 //! differs from those of the views chosen before. The next view is always the one that adds most area. What a view adds only ever
 //! shrinks as others are chosen, so gains are computed again only for the view on top of the queue (lazy greedy: Minoux 1978).
 
+use super::CoverageConfig;
 use super::patches::{Patch, patches};
 use super::places::Places;
+use super::planner::{Draft, Planner};
+use super::report::{CoverageReport, Fault, PartCoverage};
 use super::stills::{candidates, reachable};
-use super::{CoverageConfig, Draft, Fault, Planner};
 use crate::{ExploreError, ViewStats};
 use enfilade_math::{DVec3, Rng};
-use enfilade_scene::{PartId, Pose};
+use enfilade_scene::Pose;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use std::collections::BinaryHeap;
 
 /// Places tried for a view of a patch that no pose drawn at random sees often enough.
 const TRIES: usize = 64;
-
-/// How much of the surfaces was seen how often. Areas are measured by points spread evenly over all surfaces, so they do not depend
-/// on how things are cut into triangles.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct CoverageReport {
-    /// Views wanted of every surface.
-    pub views: u32,
-    /// Area of all surfaces, square metres.
-    pub area_m2: f64,
-    /// Share of the area that was seen exactly 0, 1, … times from different angles; the last one is `views` times or more.
-    pub seen_share: Vec<f64>,
-    /// Share of the area that some pose of those considered sees; the rest is inside of things, hidden or out of reach.
-    pub reachable_share: f64,
-    /// Parts of which nothing was seen, in order.
-    pub never_seen: Vec<PartId>,
-    /// Every part that has area, in order.
-    pub parts: Vec<PartCoverage>,
-}
-
-/// How much of one part was seen how often.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct PartCoverage {
-    /// The part; its `node_id` in `metadata_nodes.csv` is one more.
-    pub part: PartId,
-    /// Its area, square metres.
-    pub area_m2: f64,
-    /// As [`CoverageReport::seen_share`].
-    pub seen_share: Vec<f64>,
-}
 
 /// Views that see as much as can be seen as often as asked for. The first one is the start camera's.
 ///

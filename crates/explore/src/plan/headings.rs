@@ -1,6 +1,6 @@
 //! Which way to face along a path: always toward free space, as near as can be to what was asked for, and turning no more than needed.
 
-use super::Planner;
+use super::planner::Planner;
 use super::rules::posed;
 use enfilade_math::DVec3;
 use rayon::prelude::*;

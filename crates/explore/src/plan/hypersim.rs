@@ -5,8 +5,8 @@
 
 use super::PlanConfig;
 use crate::armadillo::Armadillo;
-use crate::view::{TestImage, ViewStats};
-use crate::{ExploreError, FreeSpace};
+use crate::view::TestImage;
+use crate::{ExploreError, FreeSpace, ViewStats};
 use enfilade_geometry::{Bvh, Voxel};
 use enfilade_math::{DVec3, Ray};
 use enfilade_scene::{Intrinsics, Pose, StartCamera, WorldMesh};

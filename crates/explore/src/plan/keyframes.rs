@@ -1,6 +1,6 @@
 //! Poses made by hand: read from a table, every frame between them interpolated.
 
-use super::Planner;
+use super::planner::Planner;
 use super::rules::posed;
 use super::spline::ThroughSpline;
 use crate::ExploreError;

@@ -1,9 +1,10 @@
 //! Measures a finished trajectory: fills the report, and warns of frames that break a rule.
 
+use super::Mode;
 use super::patches::patches;
-use super::report::{Fault, FrameRow, FrameValues, PlanReport, PlanStatistics, RelaxedFrame};
+use super::planner::{Draft, Planner};
+use super::report::{Fault, FrameRow, FrameValues, PlanReport, PlanStatistics, Planned, RelaxedFrame};
 use super::rules::{pitch_rad, turned_rad};
-use super::{Draft, Mode, Planned, Planner};
 use crate::{Preset, ViewStats};
 use enfilade_geometry::Surfaces;
 use enfilade_scene::{Pose, Trajectory};

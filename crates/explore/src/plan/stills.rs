@@ -1,8 +1,10 @@
 //! Stills: pictures that keep a distance from each other, over all the space within reach.
 
+use super::StillsConfig;
 use super::places::Places;
+use super::planner::{Draft, Planner};
+use super::report::Fault;
 use super::rules::Rules;
-use super::{Draft, Fault, Planner, StillsConfig};
 use crate::ExploreError;
 use enfilade_math::{DVec3, Rng};
 use enfilade_scene::Pose;

@@ -1,7 +1,8 @@
 //! The way of a video: through places all over the free space, the nearest unvisited one next, along shortest ways pulled straight.
 
+use super::VideoConfig;
 use super::places::Places;
-use super::{Planner, VideoConfig};
+use super::planner::Planner;
 use crate::ExploreError;
 use enfilade_math::{DVec3, Rng};
 

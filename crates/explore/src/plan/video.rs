@@ -5,13 +5,14 @@
 //! parameter, and what remains is when to be where: as early as the bounds on speed, turning and acceleration allow. Slowing down
 //! changes no pose, so the bounds hold by construction; they are measured on the result all the same.
 
+use super::VideoConfig;
 use super::headings::{HEADINGS, Headings, direction};
+use super::planner::{Draft, Planner};
 use super::rules::{pitch_rad, posed, turned_rad};
 use super::spline::NearSpline;
 use super::stills::candidates;
 use super::timing::Schedule;
 use super::tour::{Polyline, Tour, no_way, tour};
-use super::{Draft, Planner, VideoConfig};
 use crate::ExploreError;
 use enfilade_math::{DVec3, Rng};
 use enfilade_scene::Pose;

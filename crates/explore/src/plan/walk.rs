@@ -1,8 +1,8 @@
 //! Hypersim's random walk: every step draws poses near the last one and chooses among them in proportion to what they show.
 
+use super::planner::{Draft, Planner};
 use super::report::{Fault, RejectedCounts};
 use super::rules::posed;
-use super::{Draft, Planner};
 use crate::{ExploreError, ViewStats};
 use enfilade_math::{DVec3, Rng};
 use enfilade_scene::Pose;
