@@ -1,3 +1,7 @@
+//! Materials: how a surface scatters and emits light, what is cut out of it, and how its normals are perturbed.
+//!
+//! The variants of [`Bsdf`] are what scene files can say; the renderer resolves each at a point to the lobes that it samples.
+
 use crate::nesting::{self, nested};
 use crate::texture::TextureRef;
 use enfilade_math::Rgb;

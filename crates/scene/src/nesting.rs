@@ -28,7 +28,6 @@ pub(crate) fn nested<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserialize
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::Bsdf;
     use enfilade_math::Rgb;
 

@@ -2,7 +2,7 @@
 
 use super::binary::{Binary, BinaryNode};
 use super::collapse::{Plan, collapse};
-use super::leaf::{BEYOND, LANES, MOST_TRIANGLES, WORDS};
+use super::leaf::{BEYOND, LANES, MAX_TRIANGLES, WORDS};
 use super::node::Node;
 use super::pages::Pages;
 use super::placed::{Placed, Placement};
@@ -39,6 +39,8 @@ pub(super) fn build(
     placements: &[Placement],
 ) -> Built {
     assert!(numbers.is_none_or(|numbers| numbers.len() == corners.len()), "as many numbers as triangles");
+
+    // The tree of the world: over all triangles with an area, and over the boxes of all placements.
     let placed: Vec<PlacedBox> = placements.iter().map(|placement| PlacedBox::new(placement, &meshes[placement.mesh])).collect();
     let soup = Soup { corners, numbers, filtered, placed: &placed };
     let triangles = (0..corners.len() as u32).filter(|&i| has_area(&corners[i as usize]));
@@ -46,7 +48,8 @@ pub(super) fn build(
     let Some(world) = tree(soup, triangles.chain(boxes).collect()) else {
         return Built { nodes: Pages::filled(Node::EMPTY, 0), words: Pages::filled(0, 0), placed: Vec::new(), bounds: Bounds3::EMPTY };
     };
-    // Whether corners on a line have an area is for the rounding in the world to say.
+
+    // The tree of each shared mesh. Corners on a line are kept: by rounding in the world they may have an area there.
     let apart = |[a, b, c]: &[Vec3; 3]| a != b && b != c && c != a;
     let of_meshes: Vec<Option<Tree>> = meshes
         .iter()
@@ -56,11 +59,14 @@ pub(super) fn build(
         })
         .collect();
 
+    // Memory for all of them: the world's tree first, then the meshes'.
     let trees = || std::iter::once(&world).chain(of_meshes.iter().flatten());
     let mut nodes = Pages::filled(Node::EMPTY, trees().map(|tree| tree.plan.node_count()).sum());
     let triangle_count: usize = trees().map(|tree| tree.plan.triangle_count()).sum();
-    assert!(triangle_count <= MOST_TRIANGLES, "{triangle_count} triangles to keep, at most {MOST_TRIANGLES} fit one hierarchy");
+    assert!(triangle_count <= MAX_TRIANGLES, "{triangle_count} triangles to keep, at most {MAX_TRIANGLES} fit one hierarchy");
     let mut words = Pages::filled(0, WORDS * triangle_count.max(1) + BEYOND);
+
+    // Write one tree after the other, and note where each begins.
     let (mut first_node, mut first_triangle) = (0, 0);
     let mut write = |tree: &Tree| {
         tree.plan.write(&tree.soup, &tree.binary, (&mut nodes, first_node), (&mut words, first_triangle));
@@ -70,7 +76,7 @@ pub(super) fn build(
         (root, tree.binary.nodes[0].bounds)
     };
     let (_, bounds) = write(&world);
-    // What has no triangles stands nowhere.
+    // A mesh without triangles has an empty box, which no ray enters.
     let roots: Vec<(u32, Bounds3)> = of_meshes.iter().map(|tree| tree.as_ref().map_or((0, Bounds3::EMPTY), &mut write)).collect();
     let ready = placements.iter().map(|placement| (placement, roots[placement.mesh]));
     let placed = ready.map(|(placement, (root, bounds))| Placed::new(placement, root, bounds)).collect();
@@ -96,21 +102,25 @@ fn tree(soup: Soup<'_>, members: Vec<u32>) -> Option<Tree<'_>> {
 
 /// A tree with little surface: clusters of near neighbours merged upward (`obvhs`), then improved by moving subtrees.
 ///
-/// Small subtrees become leaves before any is moved, with a cost that leaves the last word to [`collapse`]: moving single triangles
-/// as well took half as long again, for rays that visited no fewer places in six rooms. Cutting the boxes of large triangles was
-/// tried and brought nothing in rooms.
+/// Small subtrees become leaves before any is moved, at a cost that leaves the final decision to [`collapse`]: moving single triangles
+/// too took half as long again, and rays visited no fewer nodes in six rooms. Splitting the boxes of large triangles was tried and gained
+/// nothing in rooms.
 fn binary_tree(soup: &Soup, members: &[u32]) -> Binary {
     const LEAF_COST_IN_TRIANGLES: f32 = 0.5;
     const ROUNDS_OF_NEXT_NEIGHBOURS: usize = 0;
     if members.len() <= LANES {
         return balanced_tree(soup, members);
     }
+
+    // Boxes at a scale at which no area overflows.
     let scale = Scale::of(soup.bounds_of(members));
     let boxes: Vec<Aabb> = members
         .iter()
         .map(|&i| soup.bounds_of(&[i]))
         .map(|b| Aabb::new(scale.apply(b.min).to_vec3a(), scale.apply(b.max).to_vec3a()))
         .collect();
+
+    // Merge near neighbours upward, make small subtrees leaves, move subtrees to better places.
     let order = (0..members.len() as u32).collect();
     let mut tree = PlocBuilder::with_capacity(members.len()).build(
         PlocSearchDistance::Low,
@@ -123,6 +133,7 @@ fn binary_tree(soup: &Soup, members: &[u32]) -> Binary {
     leaf_collapser::collapse(&mut tree, LANES as u32, LEAF_COST_IN_TRIANGLES);
     reinsert(&mut tree);
 
+    // The same tree in our own nodes, with placements alone in their leaves.
     let node = |n: &Bvh2Node| {
         if n.prim_count == 0 { BinaryNode::children(n.first_index) } else { BinaryNode::leaf(n.first_index, n.prim_count) }
     };

@@ -12,6 +12,34 @@ use enfilade_math::{Bounds3, Vec3};
 /// A hierarchy over triangles. Both sides of a triangle are hit; its edges belong to it; triangles without area are never hit.
 ///
 /// Of several triangles at the same distance the one with the lowest index is reported.
+///
+/// ```
+/// use enfilade_geometry::Bvh;
+/// use enfilade_math::{Ray, Vec3};
+///
+/// // Two triangles, one above the other, and a ray that looks up at them from below.
+/// let triangle = |z: f32| [Vec3::new(0.0, 0.0, z), Vec3::new(1.0, 0.0, z), Vec3::new(0.0, 1.0, z)];
+/// let bvh = Bvh::new(&[triangle(3.0), triangle(2.0)], &|_| false);
+/// let ray = Ray::new(Vec3::new(0.25, 0.5, 0.0), Vec3::Z);
+///
+/// let hit = bvh.closest(&ray).unwrap();
+/// assert_eq!((hit.triangle, hit.t), (1, 2.0));
+/// assert_eq!(hit.weights(), [0.25, 0.25, 0.5]);
+/// assert!(!bvh.occluded(&Ray { t_max: 2.0, ..ray }));
+/// ```
+///
+/// Triangles that the second argument marks, such as leaves cut out of a picture, are hit only where a filter accepts the hit. The others
+/// are solid:
+///
+/// ```
+/// # use enfilade_geometry::Bvh;
+/// # use enfilade_math::{Ray, Vec3};
+/// # let triangle = |z: f32| [Vec3::new(0.0, 0.0, z), Vec3::new(1.0, 0.0, z), Vec3::new(0.0, 1.0, z)];
+/// # let ray = Ray::new(Vec3::new(0.25, 0.5, 0.0), Vec3::Z);
+/// let bvh = Bvh::new(&[triangle(3.0), triangle(2.0)], &|triangle| triangle == 1);
+/// let hit = bvh.closest_filtered(&ray, |hit| hit.u > 0.9).unwrap();
+/// assert_eq!(hit.triangle, 0);
+/// ```
 pub struct Bvh {
     /// The root is node 0; empty when there is nothing to hit.
     pub(super) nodes: Pages<Node>,
@@ -53,7 +81,7 @@ impl Kernel {
 
 impl Bvh {
     /// Triangles that fit one hierarchy; those of a mesh with placements count once.
-    pub const MOST_TRIANGLES: usize = leaf::MOST_TRIANGLES;
+    pub const MAX_TRIANGLES: usize = leaf::MAX_TRIANGLES;
 
     /// Builds the hierarchy of `corners`, in which triangle i asks the filter of the `_filtered` queries when `filtered(i)`.
     ///
@@ -61,20 +89,20 @@ impl Bvh {
     /// room, two where they are many millions and fit no cache.
     ///
     /// # Panics
-    /// With more than [`Bvh::MOST_TRIANGLES`].
+    /// With more than [`Bvh::MAX_TRIANGLES`].
     pub fn new(corners: &[[Vec3; 3]], filtered: &dyn Fn(u32) -> bool) -> Self {
         Self::of(corners, None, filtered, &[], &[])
     }
 
     /// Builds the hierarchy of triangles, and of meshes that are kept once for all their placements. Rays hit the same triangles at the
-    /// same parameters, bit for bit, as in a hierarchy of all triangles in the world, only a little later. (But for triangles that are
+    /// same parameters, bit for bit, as in a hierarchy of all triangles in the world, at a little more cost. (But for triangles that are
     /// lines: rounding in the world may give them an area, or take it.)
     ///
     /// `numbers` are what hits report for the `corners`. They and the numbers of the placements' triangles must differ.
     ///
     /// # Panics
     /// When there are not as many numbers as corners, when a placement has no mesh, with more than
-    /// [`Bvh::MOST_TRIANGLES`] in meshes and corners, and with 2³¹ or more in the world.
+    /// [`Bvh::MAX_TRIANGLES`] in meshes and corners, and with 2³¹ or more in the world.
     pub fn with_placements(
         corners: &[[Vec3; 3]],
         numbers: &[u32],
