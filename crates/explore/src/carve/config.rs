@@ -5,6 +5,15 @@ use crate::{ExploreError, Preset};
 use serde::{Deserialize, Serialize};
 
 /// How free space is carved. The defaults are Hypersim's.
+///
+/// ```
+/// use enfilade_explore::CarveConfig;
+///
+/// let fine = CarveConfig { voxel_m: 0.05, ..CarveConfig::default() };
+/// assert_eq!(fine.validate(), Ok(()));
+/// let error = CarveConfig { rays: 10, ..fine }.validate().unwrap_err();
+/// assert_eq!(error.to_string(), "rays = 10: expected 64 or more");
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CarveConfig {

@@ -23,6 +23,7 @@ const TRIES: usize = 64;
 ///
 /// It ends when no pose considered adds anything, or with `frames` poses.
 pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng: &Rng) -> Result<Draft, ExploreError> {
+    // Poses to choose from: the start camera's, random ones, and some aimed at patches that the random ones see too rarely.
     let frames = planner.config.frames as usize;
     let mut draft = Draft::default();
     let patches = patches(planner.world, config.samples as usize);
@@ -34,6 +35,7 @@ pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng
     seen.extend(seen_by_each(planner, &patches, &aimed, config));
     poses.extend(aimed);
 
+    // The start camera's view comes first.
     let mut tally = Tally::new(&patches, config);
     let take = |i: usize, view: ViewStats, tally: &mut Tally, draft: &mut Draft| {
         tally.add(&poses[i], &seen[i]);
@@ -43,6 +45,8 @@ pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng
     };
     let look = |i: usize| planner.views(&poses[i..=i])[0];
     take(0, look(0), &mut tally, &mut draft);
+
+    // Then always the view that adds most area, until none adds any or there are enough.
     let mut queue: BinaryHeap<Gain> = (1..poses.len()).map(|i| Gain { area_m2: tally.gain(&poses[i], &seen[i]), pose: i }).collect();
     while let Some(top) = queue.pop().filter(|top| draft.poses.len() < frames && top.area_m2 > 0.0) {
         let gain = Gain { area_m2: tally.gain(&poses[top.pose], &seen[top.pose]), pose: top.pose };
@@ -50,7 +54,8 @@ pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng
             queue.push(gain);
             continue;
         }
-        // The best one, now that its gain is up to date; a closer look may find too little in it after all.
+
+        // Its gain is up to date and still the largest. A closer look may yet find a fault.
         let view = look(top.pose);
         let fault = match planner.gates.is_void(&view) {
             true => Some(Fault::Void),
@@ -63,6 +68,8 @@ pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng
         }
     }
     planner.progress(frames, frames);
+
+    // What was seen how often, and what no pose could have seen.
     let mut reachable = vec![false; patches.len()];
     seen.iter().flatten().for_each(|patch| reachable[*patch as usize] = true);
     draft.coverage = Some(tally.report(&reachable));
@@ -108,7 +115,7 @@ fn without_faults(planner: &Planner, poses: Vec<Pose>, draft: &mut Draft) -> Vec
     poses.into_iter().zip(faults).filter(|(_, fault)| fault.is_none()).map(|(pose, _)| pose).collect()
 }
 
-/// Poses that look at patches which too few others see.
+/// Poses aimed at patches that fewer poses see than asked for.
 fn aimed(
     planner: &Planner,
     places: &Places,
@@ -121,7 +128,7 @@ fn aimed(
     let mut times = vec![0u32; patches.len()];
     seen.iter().flatten().for_each(|patch| times[*patch as usize] += 1);
     let wanting: Vec<usize> = (0..patches.len()).filter(|i| times[*i] < config.views).collect();
-    // Evenly over what is wanting, so that no part is forgotten.
+    // Evenly over the patches that lack views, so that no part is forgotten.
     let n = (config.poses as usize / 2).max(1);
     let chosen: Vec<usize> = wanting.iter().step_by(wanting.len().div_ceil(n).max(1)).copied().collect();
     let one = |i: &usize| {
@@ -160,7 +167,7 @@ fn is_near(patch: &Patch, position: DVec3, config: &CoverageConfig) -> bool {
 pub(super) struct Tally<'a> {
     patches: &'a [Patch],
     views: usize,
-    /// Cosine of the least angle between two views that count.
+    /// Cosine of the minimum angle between two views that count.
     cos_apart: f64,
     directions: Vec<Vec<DVec3>>,
 }
@@ -175,7 +182,7 @@ impl<'a> Tally<'a> {
     fn new_direction(&self, pose: &Pose, patch: u32) -> Option<DVec3> {
         let seen = &self.directions[patch as usize];
         let direction = (pose.position - self.patches[patch as usize].p_world).normalize_or_zero();
-        // An angle of 0 asks for nothing.
+        // With an angle of 0 every view counts.
         let is_new = seen.len() < self.views && (self.cos_apart == 1.0 || seen.iter().all(|other| other.dot(direction) <= self.cos_apart));
         is_new.then_some(direction)
     }

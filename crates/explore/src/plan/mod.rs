@@ -43,7 +43,7 @@ pub use report::{
 /// within their limits; a second camera of a stereo rig has room too. Views with a [`Fault`] are taken only when nothing better is
 /// found, with a warning, and stand in the report.
 ///
-/// A start camera that breaks a rule is mended with a warning: moved to the nearest position that is clear, its roll and pitch
+/// A start camera that breaks a rule is fixed with a warning: moved to the nearest position that is clear, its roll and pitch
 /// brought within the limits, its view turned when there is nothing before it.
 ///
 /// # Errors
@@ -78,11 +78,14 @@ pub fn plan_accepted(
     accepts: &(dyn Fn(&Pose) -> bool + Sync),
     cx: &dyn Cx,
 ) -> Result<Planned, ExploreError> {
+    // What every mode works with: the rules of a pose, the gates of a view, and what was given.
     config.validate()?;
     let rules = Rules::new(bvh, space, config);
     let glancer = Glancer::new(&rules, world);
     let gates = Gates::new(&glancer, config, world, start, cx);
     let planner = Planner { accepts, ..Planner::new(&rules, &gates, world, name, cx) };
+
+    // Hypersim's program, step by step.
     if config.preset == Preset::Hypersim {
         let (poses, views) =
             hypersim::walk(world, bvh, space, start, name, config, &|frame| planner.progress(frame as usize, config.frames as usize))?
@@ -90,6 +93,8 @@ pub fn plan_accepted(
                 .unzip();
         return Ok(measure::finish(&planner, Draft { poses, views, ..Draft::default() }));
     }
+
+    // The first pose, then the others by the configured mode.
     let rng = Rng::new(config.seed).fork(u64::from(trajectory_index));
     let first = first::pose(&rules, start, &planner.image, cx)?;
     let draft = match &config.mode {
@@ -103,11 +108,13 @@ pub fn plan_accepted(
             expected: "a mode that finds poses; poses that are given go to `follow`",
         }),
     }?;
+
+    // Measure what came out.
     Ok(measure::finish(&planner, draft))
 }
 
 /// The trajectory `name` through poses made by hand, with every frame between two of them interpolated: positions and targets on
-/// splines of continuous curvature, roll evenly. Nothing is mended: frames that break a rule are named in a warning and in the report.
+/// splines of continuous curvature, roll evenly. Nothing is fixed: frames that break a rule are named in a warning and in the report.
 ///
 /// The first position is taken to be on the right side of things, as the start camera is in [`plan`].
 ///

@@ -11,7 +11,7 @@ use enfilade_scene::{Cx, Intrinsics, Pose, WorldMesh};
 use rayon::prelude::*;
 
 /// Scores above this are scaled down together.
-const MOST_SCORE: f64 = 1e30;
+const MAX_SCORE: f64 = 1e30;
 
 /// What every mode works with.
 pub(super) struct Planner<'a> {
@@ -57,8 +57,8 @@ impl<'a> Planner<'a> {
         self.config.saliency.score(view)
     }
 
-    /// The index of a candidate without a fault, drawn in proportion to the scores. Coarse looks are dear, so only what is drawn is
-    /// looked at; one with a fault is drawn no more. `before` is the pose before them.
+    /// The index of a candidate without a fault, drawn in proportion to the scores. Looking for faults is expensive, so only candidates
+    /// that are drawn are looked at, and one with a fault is not drawn again. `before` is the pose before them.
     pub fn choose(
         &self,
         candidates: &[Pose],
@@ -67,13 +67,16 @@ impl<'a> Planner<'a> {
         rejected: &mut RejectedCounts,
         rng: &mut Rng,
     ) -> Option<usize> {
+        // Weights in proportion to the scores; none for views of too little.
         let score = |view: &ViewStats| if self.gates.is_void(view) { 0.0 } else { self.score(view) };
         let scores: Vec<f64> = views.iter().map(score).collect();
-        let greatest = scores.iter().fold(0.0, |most: f64, score| most.max(*score));
-        // Beyond what a sum of single precision can hold, only ratios count.
-        let unit = if greatest > MOST_SCORE { greatest } else { 1.0 };
+        let greatest = scores.iter().fold(0.0, |max: f64, score| max.max(*score));
+        // Sums are in single precision: scores too large for that are all divided by the largest one.
+        let unit = if greatest > MAX_SCORE { greatest } else { 1.0 };
         let mut weights: Vec<f32> = scores.into_iter().map(|score| (score / unit) as f32).collect();
         views.iter().filter(|view| self.gates.is_void(view)).for_each(|_| rejected.add(Fault::Void));
+
+        // Draw until a view has no fault.
         while let Some(distribution) = Distribution1::new(&weights) {
             let chosen = distribution.sample(rng.next_f32()).0;
             let pose = &candidates[chosen];

@@ -19,7 +19,8 @@ pub struct PlanReport {
     pub trajectory: String,
     /// Name of the mode that made it: `walk`, `video`, `stills`, `coverage` or `keyframes`.
     pub mode: String,
-    /// The greatest roll that the plan gives a camera, degrees; none where it has no limit: by Hypersim's preset, and of poses made by hand.
+    /// The greatest roll that the plan gives a camera, degrees; none where it has no limit: by Hypersim's preset, and for poses made by
+    /// hand.
     pub roll_limit_deg: Option<f64>,
     /// Share of the area of all surfaces of the scene that some frame sees.
     pub seen_area_share: f64,
@@ -89,7 +90,7 @@ pub struct PlanStatistics {
     pub overlap: Spread,
 }
 
-/// The least, the mean and the greatest of the values that there are; all zero where there are none.
+/// The minimum, mean and maximum of the values that there are; all zero where there are none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs)] // plain words
 pub struct Spread {
