@@ -1,3 +1,5 @@
+//! Errors of exploration. Each message says where, what was found, and which setting to change.
+
 use enfilade_math::DVec3;
 
 /// Why free space or a trajectory could not be found: where, what was found, and what to do.
@@ -107,7 +109,7 @@ pub enum ExploreError {
         radius_m: f64,
         /// The configured clearance.
         clearance_m: f64,
-        /// The least and the greatest height above the floor, where one is configured.
+        /// The minimum and maximum height above the floor, where one is configured.
         height_m: Option<[f64; 2]>,
     },
     /// Nothing to look at from a start camera.

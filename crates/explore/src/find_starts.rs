@@ -1,3 +1,5 @@
+//! Start cameras for scenes that come without any: places to stand, judged by floor, headroom and the surfaces around them.
+
 use crate::CarveConfig;
 use enfilade_geometry::Bvh;
 use enfilade_math::{DMat3, DVec3, Ray, Vec3, warp};
@@ -54,7 +56,7 @@ impl Default for StartsConfig {
 
 /// A place to stand.
 #[derive(Clone, Copy)]
-struct Place {
+struct Standpoint {
     eye: Vec3,
     floor_z: f32,
     score: f32,
@@ -78,14 +80,14 @@ pub fn find_starts(world: &WorldMesh, bvh: &Bvh, config: &StartsConfig, cx: &dyn
 }
 
 /// The first of `places` that do not see each other or are far apart, but no further than is allowed.
-fn choose(places: &[Place], bvh: &Bvh, config: &StartsConfig, cx: &dyn Cx) -> Vec<Place> {
-    let mut chosen: Vec<Place> = Vec::new();
+fn choose(places: &[Standpoint], bvh: &Bvh, config: &StartsConfig, cx: &dyn Cx) -> Vec<Standpoint> {
+    let mut chosen: Vec<Standpoint> = Vec::new();
     let mut left_out = None;
     for place in places {
         if chosen.len() == config.max_starts as usize || place.score < 0.5 * places[0].score {
             break;
         }
-        let apart = |other: &Place| place.eye.distance(other.eye) > APART_M || is_blocked(bvh, place.eye, other.eye);
+        let apart = |other: &Standpoint| place.eye.distance(other.eye) > APART_M || is_blocked(bvh, place.eye, other.eye);
         if !chosen.iter().all(apart) {
             continue;
         }
@@ -108,14 +110,14 @@ fn choose(places: &[Place], bvh: &Bvh, config: &StartsConfig, cx: &dyn Cx) -> Ve
 }
 
 /// The longest side of the box around some places, metres.
-fn spread_m<'a>(places: impl Iterator<Item = &'a Place>) -> f64 {
+fn spread_m<'a>(places: impl Iterator<Item = &'a Standpoint>) -> f64 {
     let eyes = places.map(|place| place.eye.as_dvec3());
     let (low, high) = eyes.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), eye| (low.min(eye), high.max(eye)));
     (high - low).max_element()
 }
 
 /// Every place on a grid over the scene where one can stand.
-fn places(world: &WorldMesh, bvh: &Bvh, config: &StartsConfig) -> Vec<Place> {
+fn places(world: &WorldMesh, bvh: &Bvh, config: &StartsConfig) -> Vec<Standpoint> {
     let size = world.bounds.extent();
     if world.bounds.is_empty() {
         return Vec::new();
@@ -133,7 +135,7 @@ fn places(world: &WorldMesh, bvh: &Bvh, config: &StartsConfig) -> Vec<Place> {
             let eyes = floors.into_iter().map(move |z| (Vec3::new(x, y, z + config.eye_height_m as f32), z));
             eyes.filter_map(|(eye, floor_z)| {
                 let score = judge(bvh, eye, config.clearance_m as f32, &directions)?;
-                Some(Place { eye, floor_z, score })
+                Some(Standpoint { eye, floor_z, score })
             })
             .collect::<Vec<_>>()
         })
@@ -172,14 +174,14 @@ fn judge(bvh: &Bvh, eye: Vec3, clearance: f32, directions: &[Vec3]) -> Option<f3
 
 /// Most of a storey's places stand on its floor, few on its tables: each score is weighted by the share of places whose floor is at
 /// the same height.
-fn prefer_common_floors(places: &mut [Place]) {
+fn prefer_common_floors(places: &mut [Standpoint]) {
     let mut heights: Vec<f32> = places.iter().map(|p| p.floor_z).collect();
     heights.sort_by(f32::total_cmp);
     let below = |z: f32| heights.partition_point(|h| *h < z);
     let popularity = |z: f32| (below(z + 0.1) - below(z - 0.1)) as f32;
-    let most = heights.iter().map(|z| popularity(*z)).fold(1.0, f32::max);
+    let max = heights.iter().map(|z| popularity(*z)).fold(1.0, f32::max);
     for place in places {
-        place.score *= popularity(place.floor_z) / most;
+        place.score *= popularity(place.floor_z) / max;
     }
 }
 

@@ -1,6 +1,8 @@
+//! The choice between the paper's rules and those of Hypersim's published programs, with the list of all differences.
+
 use serde::{Deserialize, Serialize};
 
-/// Whose rules are followed: the paper's with mended defects, or those of Hypersim's published programs to the letter.
+/// Whose rules are followed: the paper's with its defects fixed, or those of Hypersim's published programs to the letter.
 ///
 /// This is the one list of what [`Preset::Hypersim`] does differently in carving ([`crate::carve`]):
 ///
@@ -21,7 +23,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// | | default | hypersim |
 /// |---|---|---|
-/// | first pose | mended where it breaks a rule | the start camera's, as it is |
+/// | first pose | fixed where it breaks a rule | the start camera's, as it is |
 /// | a pose | keeps its clearance, sees its target, is at least `min_look_distance_m` from it | need not |
 /// | roll | uniform within `roll_limit_deg` | the up vector's components deviate by 0.1 each, the same in every trajectory |
 /// | queries | in the box around the last point, cut to the heights allowed | in the whole box; those at other heights are dropped |

@@ -1,3 +1,5 @@
+//! What makes a view worth taking: scores by what a test image of it shows.
+
 use crate::ViewStats;
 use serde::{Deserialize, Serialize};
 
@@ -5,6 +7,15 @@ use serde::{Deserialize, Serialize};
 /// Poses are chosen in proportion to it.
 ///
 /// All but the first depend on what things are and where, not on how finely they are tessellated.
+///
+/// ```
+/// use enfilade_explore::{Saliency, ViewStats};
+///
+/// // A view whose lower half shows four parts of equal area, and whose upper half shows nothing.
+/// let view = ViewStats { pixels: 100, hits: 50, triangles: 12, parts: 4, perplexity: 4.0, contrast: 0.0 };
+/// assert_eq!(Saliency::Triangles { alpha: 1.0, beta: 2.0 }.score(&view), 3.0);
+/// assert_eq!(Saliency::Entropy { alpha: 1.0, beta: 2.0 }.score(&view), 1.0);
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Saliency {
@@ -90,7 +101,7 @@ impl Saliency {
         n.powf(alpha) * (1.0 - view.void_share()).powf(beta)
     }
 
-    /// Whether the score looks at parts, which costs a little to count.
+    /// Whether the score needs counts of parts, which take a little time.
     pub(crate) const fn asks_for_parts(&self) -> bool {
         !matches!(self, Self::Triangles { .. })
     }

@@ -1,3 +1,5 @@
+//! The result of carving: the octree with the box around its free voxels, and a report of how it came out.
+
 use crate::ExploreError;
 use enfilade_geometry::{OccupancyTree, Voxel};
 use enfilade_math::DVec3;

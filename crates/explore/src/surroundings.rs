@@ -107,7 +107,7 @@ fn fronts(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3]) -> Vec<bool> {
         let places = (0..PLACES).map(|k| {
             let direction = warp::fibonacci_sphere(k, PLACES);
             let free = meet(world, bvh, *start, direction).map_or(PLACE_DISTANCE_M, |point| point.distance_m.min(PLACE_DISTANCE_M));
-            // Spread over the way to the surface, the surface itself left out.
+            // Points spread over the way to the surface, without its ends.
             start + direction * free * (0.1 + 0.8 * ((k * 5) % PLACES) as f64 / PLACES as f64)
         });
         std::iter::once(*start).chain(places).collect::<Vec<DVec3>>()

@@ -1,34 +1,12 @@
-use crate::Saliency;
+//! Looking at a view by a small test image: which triangles it shows, and the numbers that come of it.
+
+use crate::{Saliency, ViewStats};
 use enfilade_geometry::{Bvh, NOTHING, PinholeRays, VisibilityBuffer};
 use enfilade_math::DVec3;
 use enfilade_scene::{Intrinsics, PartId, Pose, WorldMesh};
 
-/// A part counts as seen when it covers at least one pixel in so many.
+/// A part counts as seen when it covers at least one pixel of this many.
 const PIXELS_PER_PART: u32 = 2000;
-
-/// What a test image of a view shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ViewStats {
-    /// Pixels of the test image.
-    pub pixels: u32,
-    /// Pixels that show a surface.
-    pub hits: u32,
-    /// Distinct triangles seen.
-    pub triangles: u32,
-    /// Distinct parts seen, each in at least one pixel of 2000.
-    pub parts: u32,
-    /// Perplexity of the parts' projected areas: exp(−Σ p ln p) with p a part's share of the pixels that show a surface; 0 for none.
-    pub perplexity: f64,
-    /// Mean over the pixels that show a surface of the contrast of what they show ([`WorldMesh::contrasts`]).
-    pub contrast: f64,
-}
-
-impl ViewStats {
-    /// Share of the pixels that show no surface.
-    pub fn void_share(&self) -> f64 {
-        1.0 - f64::from(self.hits) / f64::from(self.pixels)
-    }
-}
 
 /// Looks through the centre of every pixel and counts what is seen.
 pub fn view_stats(world: &WorldMesh, bvh: &Bvh, intrinsics: &Intrinsics, pose: &Pose) -> ViewStats {
@@ -54,7 +32,7 @@ impl TestImage {
         let direction = |x: u32, y: u32| k.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).normalize();
         let mut sorted: Vec<DVec3> = (0..k.height).flat_map(|y| (0..k.width).map(move |x| direction(x, y))).collect();
         sorted.reverse();
-        // Rounding must not tell the four around the centre apart.
+        // Rounding must not decide the order of the four pixels around the centre.
         sorted.sort_by_key(|d| (d.z * 1e9).round() as i64);
         sorted
     }
@@ -67,7 +45,7 @@ impl TestImage {
         PinholeRays { origin: pose.position.as_vec3(), corner: corner.as_vec3(), right: step(ray(1.0, 0.0)), down: step(ray(0.0, 1.0)) }
     }
 
-    /// What is needed to look, for one view after the other.
+    /// A buffer and counters for looking at one view after the other.
     pub(crate) fn sight(&self, world: &WorldMesh) -> Sight {
         Sight {
             buffer: VisibilityBuffer::new(self.intrinsics.width, self.intrinsics.height),

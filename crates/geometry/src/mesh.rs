@@ -1,9 +1,29 @@
+//! Indexed triangle meshes: positions, optional normals and texture coordinates, and the checks that the rest relies on.
+
 use enfilade_math::{Bounds3, Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// An indexed triangle mesh in its own space.
 ///
 /// `normals` and `uvs` are per vertex and either empty or as long as `positions`. Counter-clockwise triangles face outward.
+///
+/// ```
+/// use enfilade_geometry::Mesh;
+/// use enfilade_math::{Vec2, Vec3};
+///
+/// let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from);
+/// let mut mesh = Mesh {
+///     positions: square.map(|uv| uv.extend(0.0)).to_vec(),
+///     uvs: square.to_vec(),
+///     triangles: vec![[0, 1, 2], [0, 2, 3]],
+///     ..Mesh::default()
+/// };
+/// assert_eq!(mesh.validate(), Ok(()));
+/// assert_eq!(mesh.bounds().extent(), Vec3::new(1.0, 1.0, 0.0));
+///
+/// mesh.triangles[1][2] = 4;
+/// assert_eq!(mesh.validate().unwrap_err().to_string(), "triangle 1 refers to vertex 4, but there are 4 vertices, counted from 0");
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
     /// Vertex positions.

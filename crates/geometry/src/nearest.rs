@@ -1,4 +1,4 @@
-//! How far is the nearest surface?
+//! The distance to the nearest surface, for a few questions about many triangles: no tree, only boxes around runs of triangles.
 
 use enfilade_math::{Bounds3, DVec3, Vec3};
 
@@ -20,16 +20,17 @@ impl<'a> Surfaces<'a> {
 
     /// Distance from a point to the nearest triangle, metres; `None` without triangles.
     pub fn distance_m(&self, p: DVec3) -> Option<f64> {
-        let least = |bounds: &Bounds3| p.clamp(bounds.min.as_dvec3(), bounds.max.as_dvec3()).distance_squared(p);
+        // Squared: no triangle of a block is nearer than its box.
+        let lower_bound = |bounds: &Bounds3| p.clamp(bounds.min.as_dvec3(), bounds.max.as_dvec3()).distance_squared(p);
         let blocks = || self.bounds.iter().zip(self.corners.chunks(BLOCK));
         let nearest = |block: &[[Vec3; 3]]| {
             let distances = block.iter().map(|corners| nearest_point(p, corners.map(|c| c.as_dvec3())).distance_squared(p));
             distances.fold(f64::INFINITY, f64::min)
         };
-        // Begin with the block whose bounds are nearest, so that most others are out of the question.
-        let (_, first) = blocks().min_by(|(a, _), (b, _)| least(a).total_cmp(&least(b)))?;
+        // Begin with the block whose bounds are nearest: most others are then too far away to be looked at.
+        let (_, first) = blocks().min_by(|(a, _), (b, _)| lower_bound(a).total_cmp(&lower_bound(b)))?;
         let best =
-            blocks().fold(nearest(first), |best, (bounds, block)| if least(bounds) < best { best.min(nearest(block)) } else { best });
+            blocks().fold(nearest(first), |best, (bounds, block)| if lower_bound(bounds) < best { best.min(nearest(block)) } else { best });
         Some(best.sqrt())
     }
 }
@@ -46,7 +47,7 @@ pub(crate) fn nearest_point(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
         return b;
     }
     let vc = d1 * d4 - d3 * d2;
-    // Of a triangle without area some edge may have no length: another then has what is nearest.
+    // In a triangle without area, an edge may have length 0; the nearest point is then on another edge.
     if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && d1 > d3 {
         return a + ab * (d1 / (d1 - d3));
     }

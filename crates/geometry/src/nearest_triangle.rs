@@ -1,4 +1,4 @@
-//! Which triangle is nearest? For many questions about the same triangles.
+//! The nearest triangle and its distance, for many questions about the same triangles: a binary tree of boxes.
 
 use crate::nearest::nearest_point;
 use enfilade_math::{Bounds3, DVec3, Vec3};
@@ -7,6 +7,15 @@ use enfilade_math::{Bounds3, DVec3, Vec3};
 const LEAF: usize = 8;
 
 /// A binary tree of boxes over triangles, halved at the median of their middles.
+///
+/// ```
+/// use enfilade_geometry::NearestTriangle;
+/// use enfilade_math::{DVec3, Vec3};
+///
+/// let triangle = |z: f32| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p + z * Vec3::Z);
+/// let shelves = NearestTriangle::new(&[triangle(0.0), triangle(1.0), triangle(2.0)]);
+/// assert_eq!(shelves.nearest(DVec3::new(0.2, 0.2, 1.25)), Some((1, 0.25)));
+/// ```
 pub struct NearestTriangle {
     /// In the order of the leaves.
     corners: Vec<[Vec3; 3]>,
@@ -40,21 +49,22 @@ impl NearestTriangle {
     pub fn nearest(&self, p: DVec3) -> Option<(u32, f64)> {
         let mut best = (f64::INFINITY, u32::MAX);
         let mut stack = Vec::with_capacity(64);
-        let least = |node: usize| {
+        // Squared: no triangle below a node is nearer than its box.
+        let lower_bound = |node: usize| {
             let Bounds3 { min, max } = self.nodes[node].bounds;
             p.clamp(min.as_dvec3(), max.as_dvec3()).distance_squared(p)
         };
         if !self.nodes.is_empty() {
-            stack.push((0, least(0)));
+            stack.push((0, lower_bound(0)));
         }
         while let Some((index, distance)) = stack.pop() {
-            // What is as near may have a lower number.
+            // At an equal distance there may still be a triangle with a lower number.
             if distance > best.0 {
                 continue;
             }
             let node = &self.nodes[index];
             if node.count == 0 {
-                let children = [index + 1, node.first as usize].map(|child| (child, least(child)));
+                let children = [index + 1, node.first as usize].map(|child| (child, lower_bound(child)));
                 let nearer_last = children[0].1 < children[1].1;
                 stack.extend(if nearer_last { [children[1], children[0]] } else { children });
                 continue;

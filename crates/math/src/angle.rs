@@ -57,7 +57,7 @@ pub(crate) fn sin_cos_eighth(x: f32) -> (f32, f32) {
 pub(crate) fn atan_below_one(x: f32) -> f32 {
     const C: [f32; 8] =
         [-0.333_331_45, 0.199_935_51, -0.142_089, 0.106_562_64, -0.075_289_64, 0.042_909_61, -0.016_165_737, 0.002_866_225_7];
-    // By Estrin's scheme, whose steps do not wait for each other.
+    // Estrin's scheme: its steps are independent of each other and run in parallel.
     let x2 = x * x;
     let x4 = x2 * x2;
     let pairs = [C[0] + C[1] * x2, C[2] + C[3] * x2, C[4] + C[5] * x2, C[6] + C[7] * x2];

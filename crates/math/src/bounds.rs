@@ -1,6 +1,17 @@
+//! Axis-aligned boxes, grown point by point and joined; the empty box is the neutral element.
+
 use glam::Vec3;
 
 /// An axis-aligned box. [`Bounds3::EMPTY`] contains nothing and is the neutral element of `union`.
+///
+/// ```
+/// use enfilade_math::{Bounds3, Vec3};
+///
+/// let room = Bounds3::from_points([Vec3::ZERO, Vec3::new(4.0, 3.0, 2.5)]);
+/// assert_eq!(room.center(), Vec3::new(2.0, 1.5, 1.25));
+/// assert!(room.contains(Vec3::ONE) && !room.contains(Vec3::NEG_X));
+/// assert_eq!(room.union(Bounds3::EMPTY), room);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds3 {
     /// The corner with the smallest coordinates.

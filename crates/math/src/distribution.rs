@@ -3,6 +3,18 @@
 use crate::ONE_MINUS_EPSILON;
 
 /// A discrete distribution over indices in proportion to weights.
+///
+/// ```
+/// use enfilade_math::Distribution1;
+///
+/// // Lamps of 60, 0 and 20 watts: the first is chosen three times in four, the second never.
+/// let lamps = Distribution1::new(&[60.0, 0.0, 20.0]).unwrap();
+/// let (index, probability, rest) = lamps.sample(0.875);
+/// assert_eq!((index, probability), (2, 0.25));
+/// // The rest of the random number can be used again: 0.875 lies in the middle of the last quarter.
+/// assert_eq!(rest, 0.5);
+/// assert_eq!([0, 1, 2].map(|i| lamps.pmf(i)), [0.75, 0.0, 0.25]);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distribution1 {
     /// `cdf[i]` is the probability of an index below i+1; the last is 1.
@@ -76,6 +88,17 @@ impl Distribution1 {
 }
 
 /// A distribution on the unit square, constant on the cells of a grid.
+///
+/// ```
+/// use enfilade_math::Distribution2;
+///
+/// // Two rows of two cells; only the lower right one and the one above it have weight.
+/// let d = Distribution2::new(&[0.0, 1.0, 0.0, 3.0], 2).unwrap();
+/// assert_eq!(d.pdf([0.75, 0.75]), 3.0);
+/// assert_eq!(d.pdf([0.25, 0.75]), 0.0);
+/// let (point, density) = d.sample([0.5, 0.5]);
+/// assert!(point[0] >= 0.5 && density == d.pdf(point));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Distribution2 {
     rows: Vec<Option<Distribution1>>,

@@ -22,6 +22,16 @@ pub fn hash_u64(mut x: u64) -> u64 {
 /// A stream of random numbers (SplitMix64): small, fast, and good enough wherever stratification does not matter.
 ///
 /// The same seed gives the same stream on every machine. Streams for different purposes come from [`Rng::fork`].
+///
+/// ```
+/// use enfilade_math::Rng;
+///
+/// let mut chairs = Rng::new(42).fork(1);
+/// let mut lamps = Rng::new(42).fork(2);
+/// assert_ne!(chairs.next_u64(), lamps.next_u64());
+/// assert!(chairs.below(6) < 6);
+/// assert_eq!(Rng::new(42).next_f64(), Rng::new(42).next_f64());
+/// ```
 #[derive(Clone, Debug)]
 pub struct Rng {
     state: u64,

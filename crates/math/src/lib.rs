@@ -31,7 +31,7 @@ pub use sampler::Sampler;
 
 /// A point in another space: in double precision, rounded once.
 ///
-/// Whatever stands in the world is placed by this function, so that it is in the same place to the last bit for all who look at it.
+/// Everything that is placed in the world goes through this function, so that all users get the same position to the last bit.
 #[inline]
 pub fn place(to_from: &DAffine3, p: Vec3) -> Vec3 {
     to_from.transform_point3(p.as_dvec3()).as_vec3()

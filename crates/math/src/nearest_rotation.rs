@@ -1,21 +1,23 @@
+//! The rotation nearest to a matrix: what to make of axes that a file gives only roughly orthonormal, or scaled.
+
 use crate::DMat3;
 
 /// Iterations after which a matrix that has not come to rest is given up; a matrix within a factor of 1000 of a rotation needs 15.
-const MOST_STEPS: usize = 100;
+const MAX_STEPS: usize = 100;
 
 /// The rotation nearest to `m` (sum of squared differences of the entries): the orthogonal factor of its polar decomposition.
 ///
 /// A scale of the whole matrix does not matter. `None` when `m` is not finite, has no inverse, or mirrors (determinant not above 0), for
 /// then there is no one nearest rotation. Newton's iteration, R ← (R + R⁻ᵀ)/2; Higham 1986, "Computing the Polar Decomposition".
 pub fn nearest_rotation(m: DMat3) -> Option<DMat3> {
-    let largest = m.to_cols_array().iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    let largest = m.to_cols_array().iter().fold(0.0, |max: f64, v| max.max(v.abs()));
     let mut r = m * (1.0 / largest);
     if !(r.is_finite() && r.determinant() > 0.0) {
         return None;
     }
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let next = (r + r.inverse().transpose()) * 0.5;
-        let moved = (next - r).to_cols_array().iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let moved = (next - r).to_cols_array().iter().fold(0.0, |max: f64, v| max.max(v.abs()));
         if !next.is_finite() {
             return None;
         }
@@ -32,7 +34,7 @@ mod tests {
     use super::*;
 
     fn off(a: DMat3, b: DMat3) -> f64 {
-        (a - b).to_cols_array().iter().fold(0.0, |most: f64, v| most.max(v.abs()))
+        (a - b).to_cols_array().iter().fold(0.0, |max: f64, v| max.max(v.abs()))
     }
 
     #[test]

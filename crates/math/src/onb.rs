@@ -1,6 +1,18 @@
+//! Orthonormal bases around a normal, with the changes of coordinates into and out of them: the shading space of a surface point.
+
 use glam::Vec3;
 
 /// A right-handed orthonormal basis: the local space of a surface point, z along the normal.
+///
+/// ```
+/// use enfilade_math::{Onb, Vec3};
+///
+/// // A wall that faces along x: a direction along the wall has no z in its local space, one away from it has nothing else.
+/// let wall = Onb::from_z(Vec3::X);
+/// assert_eq!(wall.to_local(Vec3::X), Vec3::Z);
+/// assert_eq!(wall.to_local(Vec3::Y).z, 0.0);
+/// assert_eq!(wall.to_world(Vec3::Z), Vec3::X);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Onb {
     /// First tangent.

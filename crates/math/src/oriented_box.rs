@@ -1,6 +1,19 @@
+//! Boxes of any orientation: a middle, three orthonormal axes and three side lengths, in double precision.
+
 use glam::{DMat3, DVec3};
 
 /// A box of any orientation.
+///
+/// ```
+/// use enfilade_math::{DMat3, DVec3, OrientedBox};
+///
+/// // A table top of 2 m by 1 m, turned by 30 degrees.
+/// let turned = DMat3::from_rotation_z(30f64.to_radians());
+/// let corners = [[-1.0, -0.5], [1.0, -0.5], [1.0, 0.5], [-1.0, 0.5]].map(|[x, y]| turned * DVec3::new(x, y, 0.75));
+/// let tight = OrientedBox::around(corners, turned).unwrap();
+/// assert!((tight.extents - DVec3::new(2.0, 1.0, 0.0)).length() < 1e-12);
+/// assert!((tight.distance_beyond(turned * DVec3::new(1.5, 0.0, 0.75)) - 0.5).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrientedBox {
     /// Its middle.

@@ -1,3 +1,5 @@
+//! Rays with a parameter range, and how to start one on a surface without hitting that surface again.
+
 use glam::Vec3;
 
 /// A half-line with a parameter range. `direction` need not be unit length; distances are in its units.

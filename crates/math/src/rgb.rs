@@ -1,7 +1,22 @@
+//! Linear colour with Rec. 709 primaries, componentwise arithmetic on it, and the sRGB encoding.
+
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, AddAssign, Div, Index, Mul, MulAssign, Sub};
 
 /// Linear RGB with Rec. 709 (sRGB) primaries: radiance, irradiance, reflectance or throughput.
+///
+/// ```
+/// use enfilade_math::Rgb;
+///
+/// let irradiance = Rgb::new(3.0, 2.0, 1.0);
+/// let reflectance = Rgb::splat(0.5);
+/// assert_eq!(irradiance * reflectance, Rgb::new(1.5, 1.0, 0.5));
+/// assert_eq!(Rgb::WHITE.luminance(), 1.0);
+///
+/// // Middle grey of a screen is a fifth of the light of white.
+/// let grey = Rgb::from_srgb8([127; 3]);
+/// assert!((grey.g - 0.2122).abs() < 1e-4);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Rgb {

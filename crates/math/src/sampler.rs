@@ -1,3 +1,5 @@
+//! Every random number of the renderer: Owen-scrambled Sobol points as a pure function of seed, frame, pixel, sample and dimension.
+
 use crate::hash::hash_u64;
 use sobol_burley::parts::{Int4, hash, hash_int4, owen_scramble_int4_rev, owen_scramble_rev, sobol_int4_rev};
 use std::sync::LazyLock;
@@ -12,6 +14,25 @@ use std::sync::LazyLock;
 /// Pixels are independent of each other. Ordering them for blue noise across the image (Ahmed & Wonka 2020, and offsets optimised
 /// within tiles) lowered the variance after a Gaussian of one pixel by 5 to 6 % in the median of six rooms at 4 and 16 samples: in the
 /// rooms examined 40 to 90 % of the error is interaction between sets, which no order of the pixels within a set makes blue.
+///
+/// Each sample of a pixel has its own sampler, and each decision of a path takes a set of its own:
+///
+/// ```
+/// use enfilade_math::Sampler;
+///
+/// let (seed, frame, x, y) = (7, 0, 120, 40);
+/// let sample = Sampler::new(seed, frame, x, y, 3);
+/// let [u, v, ..] = sample.set(0);
+/// assert!((0.0..1.0).contains(&u) && (0.0..1.0).contains(&v));
+///
+/// // The same arguments give the same numbers, on every machine and in any order.
+/// assert_eq!(sample.set(0), Sampler::new(seed, frame, x, y, 3).set(0));
+///
+/// // The first sixteen samples of a pixel have one number in each sixteenth of the unit interval.
+/// let mut strata: Vec<u32> = (0..16).map(|index| (16.0 * Sampler::new(seed, frame, x, y, index).set(0)[0]) as u32).collect();
+/// strata.sort();
+/// assert!(strata.into_iter().eq(0..16));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler {
     pixel_seed: u32,

@@ -1,4 +1,18 @@
 //! Maps from the unit square to the domains of rendering, each with its density.
+//!
+//! ```
+//! use enfilade_math::{Vec3, warp};
+//!
+//! // The middle of the square is straight up; a direction's density falls with the cosine of its angle to the normal.
+//! let up = warp::cosine_hemisphere([0.5, 0.5]);
+//! assert_eq!(up, Vec3::Z);
+//! assert_eq!(warp::cosine_hemisphere_pdf(up.z), std::f32::consts::FRAC_1_PI);
+//!
+//! // The maps to the disk and the hemisphere can be inverted.
+//! let wi = warp::cosine_hemisphere([0.2, 0.7]);
+//! let [u, v] = warp::square_from_cosine_hemisphere(wi);
+//! assert!((u - 0.2).abs() < 1e-5 && (v - 0.7).abs() < 1e-5);
+//! ```
 
 use crate::angle::{atan_below_one, sin_cos_eighth, sin_cos_turns};
 use crate::{INV_PI, Vec2, Vec3};

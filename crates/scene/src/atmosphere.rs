@@ -85,6 +85,7 @@ impl Atmosphere {
 
     /// The sky seen from the ground, with the unit direction to the sun, z up.
     pub fn dome(&self, to_sun: DVec3) -> Dome {
+        // Light scattered twice or more, by height and by the sun's angle from the zenith.
         let [rows, columns] = MULTIPLE_TABLE;
         let multiple: Vec<Spectrum> = (0..rows * columns)
             .map(|i| {
@@ -93,6 +94,8 @@ impl Atmosphere {
                 self.gathered(GROUND_KM + height.max(EYE_KM), mu_sun)
             })
             .collect();
+
+        // The three parts of the sky, by elevation and by azimuth from the sun.
         let sun = DVec3::new(to_sun.x.hypot(to_sun.y), 0.0, to_sun.z);
         let [rows, columns] = DOME_TABLE;
         let mut parts: [Vec<Spectrum>; 3] = Default::default();
@@ -120,9 +123,13 @@ impl Atmosphere {
             let p = eye + d * (0.5 * (near + far));
             let r = p.length();
             let mu_sun = p.dot(to_sun) / r;
+
+            // What arrives there and is scattered: sunlight, and light that was scattered before.
             let (air, haze, extinction) = self.coefficients(r);
             let sun = self.to_sun(r, mu_sun);
             let many = bilinear(multiple, MULTIPLE_TABLE, (r - GROUND_KM) / (TOP_KM - GROUND_KM), 0.5 * mu_sun + 0.5);
+
+            // What of it reaches the eye, with the extinction within the step integrated exactly.
             for c in 0..3 {
                 let step = (-extinction[c] * (far - near)).exp();
                 let weight = through[c] * if extinction[c] > 1e-12 { (1.0 - step) / extinction[c] } else { far - near };
@@ -167,7 +174,7 @@ impl Atmosphere {
         if meets_ground(r, mu) {
             return [0.0; 3];
         }
-        let (x, y) = table_place(r, mu);
+        let (x, y) = table_coordinates(r, mu);
         bilinear(&self.transmittance, TRANSMITTANCE_TABLE, x, y)
     }
 
@@ -181,6 +188,8 @@ impl Atmosphere {
             let d = warp::fibonacci_sphere(k, GATHER_DIRECTIONS);
             let ground = to_ground(r, d.z);
             let length = ground.unwrap_or_else(|| to_top(r, d.z));
+
+            // Along the ray: sunlight scattered toward the point, and the share of light from all sides that would be.
             let mut through = [1.0; 3];
             for step in 0..GATHER_STEPS {
                 let dt = length / GATHER_STEPS as f64;
@@ -197,6 +206,8 @@ impl Atmosphere {
                     through[c] *= dimmed;
                 }
             }
+
+            // At its end: sunlight that the ground reflects.
             if ground.is_some() {
                 let p = eye + d * length;
                 let cos = (p.dot(to_sun) / p.length()).max(0.0);
@@ -206,6 +217,8 @@ impl Atmosphere {
                 }
             }
         }
+
+        // All further orders: second · (1 + again + again² + …).
         std::array::from_fn(|c| {
             let n = GATHER_DIRECTIONS as f64;
             second[c] / n / (1.0 - (again[c] / n).min(0.99))
@@ -258,16 +271,16 @@ fn meets_ground(r: f64, mu: f64) -> bool {
     mu < 0.0 && r * r * (mu * mu - 1.0) + GROUND_KM * GROUND_KM >= 0.0
 }
 
-/// Place of a height and an angle in the table of transmittances, on [0, 1]²: by distances to the horizon and to the top, which
+/// Coordinates of a height and an angle in the table of transmittances, on [0, 1]²: by distances to the horizon and to the top, which
 /// resolves the horizon (Bruneton & Neyret 2008, section 4).
-fn table_place(r: f64, mu: f64) -> (f64, f64) {
+fn table_coordinates(r: f64, mu: f64) -> (f64, f64) {
     let horizon = (TOP_KM * TOP_KM - GROUND_KM * GROUND_KM).sqrt();
     let rho = (r * r - GROUND_KM * GROUND_KM).max(0.0).sqrt();
     let (nearest, farthest) = (TOP_KM - r, rho + horizon);
     (rho / horizon, (to_top(r, mu) - nearest) / (farthest - nearest))
 }
 
-/// The inverse of [`table_place`].
+/// The inverse of [`table_coordinates`].
 fn radius_and_angle(x: f64, y: f64) -> (f64, f64) {
     let horizon = (TOP_KM * TOP_KM - GROUND_KM * GROUND_KM).sqrt();
     let rho = x * horizon;

@@ -14,15 +14,15 @@ pub(crate) fn of_parts(scene: &Scene) -> Vec<f32> {
         .materials
         .iter()
         .map(|material| {
-            let mut most = 0.0f32;
+            let mut max = 0.0f32;
             material.bsdf.parameters(&mut |parameter| {
                 if let Parameter::Color(color) = parameter
                     && let Some(texture) = color.texture
                 {
-                    most = most.max(of_images.get(texture.image as usize).copied().unwrap_or(0.0));
+                    max = max.max(of_images.get(texture.image as usize).copied().unwrap_or(0.0));
                 }
             });
-            most
+            max
         })
         .collect();
     scene.parts.iter().map(|part| of_materials.get(part.material as usize).copied().unwrap_or(0.0)).collect()

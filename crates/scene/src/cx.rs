@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
 
-/// Something that was dropped, guessed or mended: the work went on, and the stage's report shows it.
+/// Something that was dropped, guessed or fixed: the work went on, and the stage's report shows it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Warning {
     /// File, and place in it, or the part or frame concerned.

@@ -1,3 +1,5 @@
+//! Light from infinitely far away: one radiance, or an equirectangular image with Mitsuba's layout and a map from directions to it.
+
 use enfilade_math::{Mat3, Rgb, Vec2, Vec3, angle};
 use serde::{Deserialize, Serialize};
 use std::f32::consts::{PI, TAU};

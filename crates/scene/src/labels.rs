@@ -1,3 +1,5 @@
+//! Semantic labels: NYUv2's forty classes with Hypersim's names and colours, and the class and instance of every part.
+
 use serde::{Deserialize, Serialize};
 
 /// A semantic class: id, name and display colour.

@@ -1,3 +1,5 @@
+//! Lights without a surface: point, spot, measured and directional ones. Emission is RGB, in radiometric units.
+
 use crate::PhotometricWeb;
 use enfilade_math::{Mat3, Rgb, Vec3};
 use serde::{Deserialize, Serialize};

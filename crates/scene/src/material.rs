@@ -1,4 +1,8 @@
-use crate::nesting::nested;
+//! Materials: how a surface scatters and emits light, what is cut out of it, and how its normals are perturbed.
+//!
+//! The variants of [`Bsdf`] are what scene files can say; the renderer resolves each at a point to the lobes that it samples.
+
+use crate::nesting::{self, nested};
 use crate::texture::TextureRef;
 use enfilade_math::Rgb;
 use serde::{Deserialize, Serialize};
@@ -125,7 +129,7 @@ pub(crate) enum Constant {
 
 impl Bsdf {
     /// Blends within blends are no deeper than this.
-    pub const DEEPEST: usize = 128;
+    pub const DEEPEST: usize = nesting::MAX_DEPTH;
 
     /// How deep its blends within blends are; 0 for what is no blend.
     pub fn depth(&self) -> usize {

@@ -1,8 +1,10 @@
-//! Reading blends within blends, no deeper than [`Bsdf::DEEPEST`]: a file could else exhaust the stack.
+//! Reading blends within blends with a limit on their depth: without one, a file could exhaust the stack.
 
-use crate::Bsdf;
 use serde::de::{Deserialize, Deserializer, Error as _};
 use std::cell::Cell;
+
+/// Blends within blends are no deeper than this.
+pub(crate) const MAX_DEPTH: usize = 128;
 
 thread_local! {
     /// How many blends the one that is being read lies within.
@@ -13,10 +15,10 @@ thread_local! {
 ///
 /// # Errors
 /// When the data end too soon, or the blend lies too deep.
-pub fn nested<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Box<Bsdf>, D::Error> {
+pub(crate) fn nested<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Box<T>, D::Error> {
     let within = WITHIN.get();
-    if within >= Bsdf::DEEPEST {
-        return Err(D::Error::custom(format!("blends within blends are more than {} deep", Bsdf::DEEPEST)));
+    if within >= MAX_DEPTH {
+        return Err(D::Error::custom(format!("blends within blends are more than {MAX_DEPTH} deep")));
     }
     WITHIN.set(within + 1);
     let part = Box::deserialize(deserializer);
@@ -26,7 +28,7 @@ pub fn nested<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Box<Bsdf>, D
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::Bsdf;
     use enfilade_math::Rgb;
 
     #[test]

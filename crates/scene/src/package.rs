@@ -2,6 +2,23 @@
 //!
 //! Layout: the magic line, the BLAKE3 hash of the body (32 bytes), the body in postcard encoding: the scene and, where the package has
 //! them, the labels of its parts. Reading checks the hash, so a truncated or altered package is told from a scene that is wrong.
+//!
+//! ```
+//! # use enfilade_geometry::Mesh;
+//! # use enfilade_math::{DAffine3, Rgb, Vec3};
+//! # use enfilade_scene::{Material, Part, Scene};
+//! # let scene = Scene {
+//! #     meshes: vec![Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() }],
+//! #     materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
+//! #     parts: vec![Part { name: "floor".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+//! #     ..Scene::default()
+//! # };
+//! let mut bytes = enfilade_scene::to_bytes(&scene);
+//! assert_eq!(enfilade_scene::from_bytes(&bytes).unwrap(), scene);
+//!
+//! *bytes.last_mut().unwrap() ^= 1;
+//! assert!(enfilade_scene::from_bytes(&bytes).unwrap_err().to_string().starts_with("the package is damaged"));
+//! ```
 
 use crate::{Labels, Scene, SceneError};
 

@@ -1,3 +1,5 @@
+//! Measured luminaires: intensity by direction as IES files state it, interpolated between the measured angles.
+
 use enfilade_math::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -46,7 +48,7 @@ impl PhotometricWeb {
     /// Candela in the unit direction `d` of the web's own space; none beyond the vertical angles that were measured.
     pub fn candela(&self, d: Vec3) -> f32 {
         let vertical = (d.x.hypot(d.y)).atan2(-d.z).to_degrees();
-        // A rounding error beyond the ends is no direction that was not measured.
+        // A direction that is beyond the ends by a rounding error was measured.
         let (first, last) = (self.vertical_deg[0], self.vertical_deg[self.vertical_deg.len() - 1]);
         if vertical < first - 1e-3 || vertical > last + 1e-3 {
             return 0.0;

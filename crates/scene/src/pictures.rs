@@ -106,7 +106,7 @@ pub fn smallest_png(size: [u32; 2], texels: &[[u8; 4]], effort: PngEffort) -> Ve
 }
 
 /// Deflate makes at most this many bytes of one, so a file that claims more pixels does not have them.
-const DEFLATE_AT_MOST: usize = 1032;
+const MAX_DEFLATE_RATIO: usize = 1032;
 
 fn texels(file: &[u8], expected: [u32; 2]) -> Result<Vec<[u8; 4]>, String> {
     let mut decoder = png::Decoder::new_with_limits(Cursor::new(file), png::Limits { bytes: usize::MAX });
@@ -116,7 +116,7 @@ fn texels(file: &[u8], expected: [u32; 2]) -> Result<Vec<[u8; 4]>, String> {
     if found != expected {
         return Err(format!("expected {} x {} pixels, found {} x {}", expected[0], expected[1], found[0], found[1]));
     }
-    let size = reader.output_buffer_size().filter(|&size| size / DEFLATE_AT_MOST <= file.len());
+    let size = reader.output_buffer_size().filter(|&size| size / MAX_DEFLATE_RATIO <= file.len());
     let size = size.ok_or_else(|| format!("{} bytes cannot hold {} x {} pixels", file.len(), found[0], found[1]))?;
     let mut channels = vec![0; size];
     let found = reader.next_frame(&mut channels).map_err(|error| error.to_string())?;

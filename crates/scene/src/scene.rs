@@ -1,3 +1,5 @@
+//! A scene: meshes, the parts that place them, materials, pictures, lights and cameras as plain data, with the check that it is whole.
+
 use crate::material::Constant;
 use crate::{Alpha, Environment, Image, Light, Material, NormalMap, Parameter, Pixels, StartCamera};
 use enfilade_geometry::{Bvh, Mesh, MeshError};
@@ -22,7 +24,30 @@ pub struct Part {
     pub world_from_mesh: DAffine3,
 }
 
-/// A scene. [`Scene::validate`] holds for every one that an importer or generator returns.
+/// A scene. Every one that an importer or generator returns passes [`Scene::validate`].
+///
+/// A floor of one metre by one, in code:
+///
+/// ```
+/// use enfilade_geometry::Mesh;
+/// use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
+/// use enfilade_scene::{Material, Part, Scene};
+///
+/// let corners = [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
+/// let mut scene = Scene {
+///     meshes: vec![Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }],
+///     materials: vec![Material::diffuse("oak", Rgb::new(0.5, 0.3, 0.2))],
+///     parts: vec![Part { name: "floor".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+///     ..Scene::default()
+/// };
+/// assert_eq!(scene.validate(), Ok(()));
+///
+/// // A second part may share the mesh; what it refers to must exist.
+/// let world_from_mesh = DAffine3::from_translation(DVec3::Z * 2.5);
+/// scene.parts.push(Part { name: "ceiling".into(), mesh: 0, material: 1, world_from_mesh });
+/// assert_eq!(scene.validate().unwrap_err().to_string(), "part \"ceiling\" refers to material 1, but there are only 1");
+/// assert_eq!(scene.world_corners(&scene.parts[1], 0)[1], Vec3::new(1.0, 0.0, 2.5));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
     /// Shared triangle meshes.
@@ -52,7 +77,7 @@ pub enum SceneError {
     #[error(
         "the scene has {found} triangles, those of meshes in several places counted each time, but only {limit} can be rendered; \
          leave out or simplify its finest meshes",
-        limit = Bvh::MOST_TRIANGLES
+        limit = Bvh::MAX_TRIANGLES
     )]
     TooManyTriangles {
         /// Number of triangles in the world.
@@ -116,7 +141,7 @@ impl Scene {
             user_of_mesh.entry(part.mesh).or_insert(part.name.as_str());
         }
         let found = self.parts.iter().map(|part| self.meshes[part.mesh as usize].triangles.len()).sum();
-        if found > Bvh::MOST_TRIANGLES {
+        if found > Bvh::MAX_TRIANGLES {
             return Err(SceneError::TooManyTriangles { found });
         }
         for (&mesh, part) in &user_of_mesh {
@@ -271,7 +296,7 @@ mod tests {
         let in_mesh = 1 << 16;
         scene.meshes[0].triangles = vec![[0, 1, 2]; in_mesh];
         let part = scene.parts[0].clone();
-        scene.parts = (0..Bvh::MOST_TRIANGLES / in_mesh).map(|i| Part { name: format!("part {i}"), ..part.clone() }).collect();
+        scene.parts = (0..Bvh::MAX_TRIANGLES / in_mesh).map(|i| Part { name: format!("part {i}"), ..part.clone() }).collect();
         assert_eq!(scene.validate(), Ok(()));
         scene.parts.push(part);
         let message = scene.validate().unwrap_err().to_string();

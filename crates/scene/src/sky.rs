@@ -1,4 +1,4 @@
-//! Sky and sun by day, at dusk and at dawn.
+//! Sky and sun by day, at dusk and at dawn, as an environment map and a directional light.
 
 use crate::atmosphere::Atmosphere;
 use crate::{Environment, Image, Light, MapRows, Pixels, direction_from_uv};

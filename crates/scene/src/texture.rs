@@ -1,7 +1,22 @@
+//! Pictures and how they are read: wrapping, filtering, and the transform from a mesh's texture coordinates (v upward) to texels.
+
 use enfilade_math::{Rgb, Vec2};
 use serde::{Deserialize, Serialize};
 
 /// A decoded picture. Row 0 is the top.
+///
+/// ```
+/// use enfilade_math::{Rgb, Vec2};
+/// use enfilade_scene::{Filter, Image, Pixels, TextureRef};
+///
+/// // Black and white side by side. Halfway between their centres bilinear filtering mixes them.
+/// let pixels = Pixels::RgbF32(vec![[0.0; 3], [1.0; 3]]);
+/// let image = Image { name: "stripes".into(), width: 2, height: 1, pixels };
+/// let smooth = TextureRef::new(0);
+/// assert_eq!(image.sample(&smooth, Vec2::new(0.5, 0.5)), (Rgb::splat(0.5), 1.0));
+/// let sharp = TextureRef { filter: Filter::Nearest, ..smooth };
+/// assert_eq!(image.sample(&sharp, Vec2::new(0.49, 0.5)).0, Rgb::BLACK);
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Image {
     /// Where it came from, for messages.
@@ -90,7 +105,7 @@ impl Wrap {
         let (a, b, share) = self.neighbours(coordinate, n);
         let position = self.reduced(coordinate) * n as f32 - 0.5;
         let first = floor(position);
-        // One texel further out than `index` is made for.
+        // These may be one texel further out than `index` accepts.
         let outer = |i: i32| self.nearest((i as f32 + 0.5) / n as f32, n);
         ([outer(first - 1), a, b, outer(first + 2)], share)
     }

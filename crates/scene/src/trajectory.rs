@@ -1,3 +1,5 @@
+//! Poses, one per frame, and named sequences of them. Camera axes are x right, y up, z backward.
+
 use enfilade_math::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -18,6 +20,19 @@ impl Pose {
     /// The pose that looks from `position` to `look_at` with `up` as close to the image's vertical as can be.
     ///
     /// `None` when the two points coincide or the view is along `up`.
+    ///
+    /// ```
+    /// use enfilade_math::DVec3;
+    /// use enfilade_scene::Pose;
+    ///
+    /// // A camera at eye height that looks along y: x to its right, y up, z backward.
+    /// let eye = DVec3::new(1.0, 0.0, 1.6);
+    /// let pose = Pose::look_at(0, eye, eye + DVec3::Y, DVec3::Z).unwrap();
+    /// let axes = pose.world_from_camera;
+    /// assert_eq!([axes.x_axis, axes.y_axis, axes.z_axis], [DVec3::X, DVec3::Z, DVec3::NEG_Y]);
+    /// assert_eq!(pose.roll_rad(), 0.0);
+    /// assert_eq!(Pose::look_at(0, eye, eye + DVec3::Z, DVec3::Z), None);
+    /// ```
     pub fn look_at(frame: u32, position: DVec3, look_at: DVec3, up: DVec3) -> Option<Self> {
         let z = (position - look_at).try_normalize()?;
         let x = up.cross(z).try_normalize()?;

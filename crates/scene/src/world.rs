@@ -1,3 +1,5 @@
+//! All triangles of a scene in world space, each with the part that it comes from: what rays meet.
+
 use crate::{PartId, Scene, contrast};
 use enfilade_math::{Bounds3, Vec3};
 
@@ -12,6 +14,30 @@ pub struct TriangleSource {
 
 /// All triangles of a scene in world space, in the order of parts and their triangles. This is what rays meet, in the
 /// renderer and in the exploration of free space alike. Shared meshes are written out once per part.
+///
+/// ```
+/// use enfilade_geometry::{Bvh, Mesh};
+/// use enfilade_math::{DAffine3, DVec3, Ray, Rgb, Vec3};
+/// use enfilade_scene::{Material, Part, Scene, WorldMesh};
+///
+/// let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
+/// let part = |name: &str, z: f64| {
+///     Part { name: name.into(), mesh: 0, material: 0, world_from_mesh: DAffine3::from_translation(DVec3::Z * z) }
+/// };
+/// let scene = Scene {
+///     meshes: vec![mesh],
+///     materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
+///     parts: vec![part("floor", 0.0), part("ceiling", 2.5)],
+///     ..Scene::default()
+/// };
+///
+/// // A ray upward meets the ceiling.
+/// let world = WorldMesh::new(&scene);
+/// let bvh = Bvh::new(&world.corners, &|_| false);
+/// let hit = bvh.closest(&Ray::new(Vec3::new(0.25, 0.25, 1.5), Vec3::Z)).unwrap();
+/// let source = world.sources[hit.triangle as usize];
+/// assert_eq!((scene.parts[source.part as usize].name.as_str(), hit.t), ("ceiling", 1.0));
+/// ```
 #[derive(Clone, Debug)]
 pub struct WorldMesh {
     /// Corners of every triangle.

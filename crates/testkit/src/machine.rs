@@ -1,4 +1,4 @@
-//! What a benchmark was run on.
+//! The machine that a benchmark was run on, by the name of its processor.
 
 /// The name of the processor, where the system tells: for the pages of benchmarks.
 pub fn processor() -> String {

@@ -1,3 +1,5 @@
+//! A running mean with its standard error, and tests whether it is credibly the expected one.
+
 use crate::{chi_square_survival, threshold, write_evidence};
 
 /// The mean of independent samples, with how sure it is: for estimators that must be right on average.

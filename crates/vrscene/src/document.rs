@@ -1,3 +1,5 @@
+//! A scene description as a run of items (includes, times, plugins), each of which keeps the bytes that it was read from.
+
 use crate::error::{Place, SceneTextError};
 use crate::plugin::{Parameter, Plugin, Text};
 use crate::scan::Scanner;
@@ -49,7 +51,7 @@ impl Include {
     }
 }
 
-/// The moment that the plugins after it are told for; those that change come again after each.
+/// The frame for which the plugins after it are stated; plugins that change are stated again after each such line.
 #[derive(Clone, Debug)]
 pub struct Time {
     pub(crate) before: Text,
@@ -65,6 +67,32 @@ impl Time {
 }
 
 /// A scene description.
+///
+/// ```
+/// use enfilade_vrscene::{Document, Plugin, Value};
+///
+/// let text = "Node chair { geometry=mesh_1; /* the seat */  visible=1; }\n";
+/// let mut scene = Document::parse(text.as_bytes()).unwrap();
+/// assert_eq!(scene.to_bytes(), text.as_bytes());
+///
+/// // An edit changes what it names and leaves everything around it.
+/// let chair = scene.of_kind_mut("Node").next().unwrap();
+/// assert_eq!(chair.get("geometry").unwrap(), Some(Value::Name(b"mesh_1".to_vec())));
+/// chair.set("visible", &Value::Int(0));
+/// assert_eq!(scene.to_bytes(), text.replace("visible=1", "visible=0").as_bytes());
+///
+/// // New plugins are written as exporters write them.
+/// scene.push(Plugin::new("SettingsGI", "gi"));
+/// assert!(scene.to_bytes().ends_with(b"SettingsGI gi {\n}\n"));
+/// ```
+///
+/// What cannot be read is an error with line and column:
+///
+/// ```
+/// # use enfilade_vrscene::Document;
+/// let error = Document::parse("Node chair {\n  geometry mesh_1;\n}".as_bytes()).unwrap_err();
+/// assert_eq!(error.to_string(), "2:12: expected `=` after the name of the parameter, found `mesh_1;`");
+/// ```
 #[derive(Clone, Debug)]
 pub struct Document {
     /// What it is made of, in order. Plugins may refer to later ones.
@@ -177,7 +205,7 @@ impl Reader<'_> {
         if std::str::from_utf8(word).ok().and_then(|text| text.parse::<f64>().ok()).is_none() {
             return Err(self.scanner.error_at(number, EXPECTED));
         }
-        // With the blank, the number still ends here when what comes next is removed.
+        // The blank belongs to it, so that the number still ends here when the next item is removed.
         self.scanner.at += usize::from(self.scanner.peek().is_some_and(|byte| byte.is_ascii_whitespace()));
         Ok(Time { before: self.text(start..hash), text: self.text(hash..self.scanner.at) })
     }

@@ -1,3 +1,5 @@
+//! Errors of text: where it stands, what was expected there, and what was found.
+
 use std::fmt;
 
 /// A place in a file: line and column from 1, the column counted in bytes.

@@ -22,10 +22,12 @@ mod error;
 mod packed;
 mod plugin;
 mod scan;
+mod transform;
 mod value;
 mod write;
 
 pub use document::{Document, Include, Item, Time};
 pub use error::{Place, SceneTextError};
 pub use plugin::{Parameter, Plugin};
-pub use value::{Matrix, Transform, Value, Vector};
+pub use transform::{Matrix, Transform, Vector};
+pub use value::Value;

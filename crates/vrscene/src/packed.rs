@@ -1,11 +1,11 @@
-//! Numbers as text that is not for people: hexadecimal, or compressed by zlib and written in base 64.
+//! Lists of numbers packed into a string: hexadecimal, or compressed by zlib and written in base 64.
 //!
 //! `ZIPC`, then the number of bytes unpacked and packed (each a little-endian u32 in 8 hexadecimal digits), then base 64. Without
 //! `ZIPC` the string is plain hexadecimal.
 
 use crate::error::SceneTextError;
 use crate::scan::Scanner;
-use crate::value::{Transform, Vector};
+use crate::transform::{Transform, Vector};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
@@ -14,7 +14,8 @@ use flate2::write::ZlibEncoder;
 use std::io::{Read, Write};
 
 const MAGIC: &[u8] = b"ZIPC";
-/// No list is longer, bytes: that of a mesh of eighty million vertices. A thousandth of it can hold more when it is packed.
+/// A list longer than this is refused, bytes; a mesh of eighty million vertices fits. The limit is needed because a small packed string
+/// can expand a thousandfold.
 const MAX_BYTES: usize = 1 << 30;
 
 /// The string of a packed list and the bracket after it; `unit` reads one value from its bytes.

@@ -1,3 +1,5 @@
+//! Plugins and their parameters. What is read keeps its bytes; what is set is written as exporters write it.
+
 use crate::error::{Place, SceneTextError};
 use crate::value::Value;
 use std::ops::Range;
@@ -18,7 +20,7 @@ impl Text {
         }
     }
 
-    /// Where it stands in its file; the beginning for what was made.
+    /// Where it is in its file; the beginning for bytes that were made.
     pub fn place(&self) -> Place {
         match self {
             Self::Read { file, range } => Place::of(file, range.start),
@@ -159,7 +161,7 @@ impl Plugin {
         &mut self.parameters
     }
 
-    /// Gives it another name. Those who refer to it are not told.
+    /// Gives it another name. References to it are not changed.
     pub fn rename(&mut self, name: &str) {
         self.name = Text::Made(name.as_bytes().to_vec());
     }

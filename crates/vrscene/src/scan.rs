@@ -41,7 +41,7 @@ impl<'a> Scanner<'a> {
                     Some(end) => self.at += end + 4,
                     None => return Err(self.error("`*/` at the end of this comment")),
                 },
-                // What an editor on Windows may put before everything.
+                // The byte order mark, which editors on Windows may put first.
                 [0xef, 0xbb, 0xbf, ..] if self.at == 0 => self.at += 3,
                 _ => return Ok(()),
             }

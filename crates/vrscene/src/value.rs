@@ -1,23 +1,27 @@
+//! Values of parameters: numbers, strings, references, vectors, lists and keyframes, read from text and written back.
+
 use crate::error::SceneTextError;
 use crate::packed;
 use crate::scan::Scanner;
-
-/// Three numbers of a point, a direction or a colour.
-pub type Vector = [f32; 3];
-
-/// Three vectors as they are written: where the matrix takes the x, y and z axis.
-pub type Matrix = [Vector; 3];
-
-/// An affine map: the matrix, then the offset.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Transform {
-    /// Its linear part.
-    pub matrix: Matrix,
-    /// Where it takes the origin, asset units.
-    pub offset: [f64; 3],
-}
+use crate::transform::{Matrix, Transform, Vector};
 
 /// The value of a parameter.
+///
+/// ```
+/// use enfilade_vrscene::Value;
+///
+/// let color = Value::parse(b"Color(1, 0.5, 0) * 2").unwrap();
+/// assert_eq!(color, Value::Color([2.0, 1.0, 0.0]));
+/// assert_eq!(color.to_bytes(), b"Color(2, 1, 0)");
+///
+/// // Lists come back the same, though long ones are packed when they are written.
+/// let faces = Value::Ints((0..300).collect());
+/// assert!(faces.to_bytes().starts_with(b"ListIntHex(\"ZIPC"));
+/// assert_eq!(Value::parse(&faces.to_bytes()).unwrap(), faces);
+///
+/// let animated = Value::parse(b"interpolate((0, 1), (10, 0))").unwrap();
+/// assert_eq!(animated, Value::Animated(vec![(0.0, Value::Int(1)), (10.0, Value::Int(0))]));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A whole number; truth values are 0 and 1.
@@ -52,7 +56,7 @@ pub enum Value {
     Animated(Vec<(f64, Value)>),
 }
 
-/// Lists within lists beyond this many are no scene's.
+/// No scene nests lists deeper than this.
 const MAX_DEPTH: usize = 32;
 
 /// Lists longer than this are packed when they are written.
@@ -201,7 +205,7 @@ fn read(scanner: &mut Scanner, depth: usize) -> Result<Value, SceneTextError> {
     }
 }
 
-/// What is no call and no string.
+/// A word that is neither a call nor a string: a number, or the name of a plugin.
 fn plain(word: &[u8]) -> Value {
     let text = std::str::from_utf8(word).unwrap_or("");
     let begins_like_a_number = word.first().is_some_and(|b| b.is_ascii_digit() || matches!(b, b'-' | b'+' | b'.'));
@@ -216,7 +220,7 @@ fn plain(word: &[u8]) -> Value {
     Value::Name(word.to_vec())
 }
 
-/// What is in brackets that are open already, each read by `read`, and the closing one.
+/// The items up to the closing bracket, each read by `read`; the opening one was read before.
 fn items<T>(scanner: &mut Scanner, read: impl Fn(&mut Scanner) -> Result<T, SceneTextError>) -> Result<Vec<T>, SceneTextError> {
     let mut values = Vec::new();
     if scanner.take(b')')? {

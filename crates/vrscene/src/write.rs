@@ -1,4 +1,4 @@
-//! Back to bytes.
+//! Writes a document back to bytes: those that were read, except where something was edited.
 
 use crate::document::{Document, Item};
 use std::io::{self, Write};

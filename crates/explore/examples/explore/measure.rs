@@ -1,4 +1,4 @@
-//! Runs everything on one room.
+//! Runs carving and walking on one room, by both presets, and compares times and results with those of Hypersim's programs.
 
 use crate::room::{Room, Walk};
 use enfilade_explore::{CarveConfig, FreeSpace, PlanConfig, Preset, carve, plan};

@@ -1,4 +1,4 @@
-//! The table, on the terminal and in `docs/benchmarks`.
+//! The table of results, on the terminal and in `docs/benchmarks`.
 
 use crate::measure::Measured;
 use enfilade_testkit::processor;

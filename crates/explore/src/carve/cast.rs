@@ -1,4 +1,4 @@
-//! All rays from one position.
+//! Casts all rays from one position and frees what they pass, with as little walked twice as can be.
 
 use super::rays::{Fan, Rays, Tile};
 use crate::grid::{Leaps, VoxelGrid, WalkEnd};
@@ -8,9 +8,9 @@ use rayon::prelude::*;
 
 /// Casts all rays from `position`, frees what they pass, and returns how many left the domain.
 ///
-/// `end_t` gives the parameter at which a ray ends, in voxels; see [`VoxelGrid::walk`]. What is freed is what walking along every ray
-/// by itself would free, but little is walked twice: a few rays go ahead, and the others begin where the cone around their tile
-/// first meets something that is not known to be free.
+/// `end_t` gives the parameter at which a ray ends, in voxels; see [`VoxelGrid::walk`]. The result is the same as if every ray were
+/// walked by itself from its origin, but little is walked twice: a few rays go ahead, and the others begin where the cone around their
+/// tile first meets something that is not known to be free.
 pub(super) fn cast(grid: &VoxelGrid, leaps: &mut Leaps, rays: &Rays, position: DVec3, end_t: impl Fn(DVec3) -> f64 + Sync) -> usize {
     let p = grid.cells(position);
     let walk = |leaps: &Leaps, ray: usize, from_t: f64| {
@@ -19,7 +19,7 @@ pub(super) fn cast(grid: &VoxelGrid, leaps: &mut Leaps, rays: &Rays, position: D
     };
     let clear_in_fan = |leaps: &Leaps, fan: &Fan| leaps.clear_until(grid, p, fan.cone.axis, fan.cone.tan, 0.0);
 
-    // One ray of every fan, where nothing is known yet.
+    // Where nothing is known yet, one ray of every fan goes ahead.
     leaps.refresh(grid);
     if grid.state(position) != Voxel::Free {
         rays.fans.par_iter().with_min_len(64).filter_map(|fan| fan.tiles.first()).for_each(|tile| {
@@ -28,7 +28,7 @@ pub(super) fn cast(grid: &VoxelGrid, leaps: &mut Leaps, rays: &Rays, position: D
         leaps.refresh(grid);
     }
 
-    // One of every tile.
+    // One ray of every tile, from where the cone around its fan first meets something not known to be free.
     rays.fans.par_iter().with_min_len(8).for_each(|fan| {
         let from_t = clear_in_fan(leaps, fan);
         for tile in &fan.tiles {
@@ -37,7 +37,7 @@ pub(super) fn cast(grid: &VoxelGrid, leaps: &mut Leaps, rays: &Rays, position: D
     });
     leaps.refresh(grid);
 
-    // All.
+    // All rays, from where the cone around their tile does.
     let leaps = &*leaps;
     let left_of_tile = |tile: &Tile, from_t: f64| {
         let from_t = leaps.clear_until(grid, p, tile.cone.axis, tile.cone.tan, from_t);

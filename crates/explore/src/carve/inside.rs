@@ -1,10 +1,11 @@
 //! What is inside the building? Free space that rays reached through a door, a missing wall or a window without a pane is not.
 //!
-//! A place is judged by the surfaces around it, from whichever side they are seen: in how many level directions is there one, and
-//! in how many upward? Inside, nearly all directions end at a surface; before a wall only half of the level ones do. The roof counts
-//! less than the walls, so that a room may lack its ceiling: space below the height of its walls is inside, space above is not.
+//! A point is judged by the surfaces around it, from whichever side they are seen: in what share of the level directions is there one, and
+//! in what share of the upward ones? Inside, nearly all directions end at a surface; outside, before a wall, only half of the level ones
+//! do. The roof counts less than the walls, so that a room may lack its ceiling: space below the height of its walls is inside, space
+//! above is not.
 //!
-//! What is inside is then what can be reached from the start cameras through places that are inside. So a courtyard or a shed that
+//! Inside is then whatever can be reached from the start cameras through enclosed points alone. So a courtyard or a shed that
 //! is seen through the door is not inside, however enclosed.
 
 use crate::grid::{Cube, VoxelGrid};
@@ -50,7 +51,8 @@ impl<'a> Enclosure<'a> {
         Self { bvh, directions: level.chain(upward).collect(), reach_m: reach_m as f32 }
     }
 
-    pub(super) fn holds(&self, p: DVec3) -> bool {
+    /// Whether surfaces enclose a point of the world.
+    pub(super) fn encloses(&self, p: DVec3) -> bool {
         let ends = |direction: &Vec3| {
             let mut ray = Ray::new(p.as_vec3(), *direction);
             ray.t_max = self.reach_m;
@@ -69,13 +71,13 @@ pub(super) struct Inside(BTreeMap<Cube, u64>);
 impl Inside {
     /// Floods the free space from `starts`; `None` when none of them is inside.
     pub(super) fn find(grid: &VoxelGrid, enclosure: &Enclosure, starts: &[DVec3]) -> Option<Self> {
-        // Whole cubes by one place in each: those that the flood looks at, enclosed or not.
+        // Flood from the starts, cube by cube. A cube is judged by one point in it; the flood goes on from those that are enclosed.
         let mut judged: BTreeMap<Cube, bool> = BTreeMap::new();
         let mut wave: Vec<Cube> = starts.iter().map(|start| grid.cube_at(*start)).filter(|cube| grid.free_in(*cube) != 0).collect();
         while !wave.is_empty() {
             wave.sort_unstable();
             wave.dedup();
-            let enclosed: Vec<bool> = wave.par_iter().map(|cube| enclosure.holds(middle_voxel(grid, *cube))).collect();
+            let enclosed: Vec<bool> = wave.par_iter().map(|cube| enclosure.encloses(middle_voxel(grid, *cube))).collect();
             judged.extend(wave.iter().copied().zip(enclosed));
             let touching = |cube: Cube| {
                 let beside = neighbours(cube).into_iter().enumerate();
@@ -85,7 +87,7 @@ impl Inside {
             wave = reached.filter(|cube| !judged.contains_key(cube)).collect();
         }
         judged.values().any(|enclosed| *enclosed).then(|| {
-            // Voxel by voxel where the two meet.
+            // Where enclosed cubes and others meet, judge voxel by voxel.
             let cubes: Vec<(&Cube, &bool)> = judged.iter().collect();
             let at_border = |cube: &Cube, enclosed: bool| neighbours(*cube).iter().any(|other| judged.get(other) == Some(&!enclosed));
             let voxels = |&(cube, enclosed): &(&Cube, &bool)| {
@@ -94,7 +96,7 @@ impl Inside {
                     (false, true) => free,
                     (false, false) => 0,
                     (true, _) => (0..64)
-                        .filter(|bit| (free >> bit) & 1 != 0 && enclosure.holds(grid.voxel_center(*cube, *bit)))
+                        .filter(|bit| (free >> bit) & 1 != 0 && enclosure.encloses(grid.voxel_center(*cube, *bit)))
                         .fold(0, |b, i| b | 1 << i),
                 }
             };
@@ -124,8 +126,11 @@ impl Inside {
             let beside = neighbours(*cube).iter().enumerate().map(|(side, other)| contact(inside(cube), outside(other), side)).sum::<u32>();
             beside + faces_within(inside(cube), outside(cube))
         };
+        // Cubes with faces between inside and outside.
         let border = self.0.keys().map(|cube| (*cube, faces(cube)));
         let mut rest: BTreeMap<Cube, u32> = border.filter(|(_, faces)| *faces > 0).collect();
+
+        // Group those that touch, even at a corner; each group is a leak.
         let mut leaks = Vec::new();
         while let Some(first) = rest.pop_first() {
             let (mut group, mut next) = (vec![first], 0);

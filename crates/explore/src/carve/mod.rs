@@ -1,6 +1,7 @@
 //! Free space by space carving (Kutulakos & Seitz 2000), as Hypersim does it.
 
 mod cast;
+mod config;
 mod hypersim;
 mod inside;
 mod rays;
@@ -10,7 +11,6 @@ mod start;
 mod tests;
 
 use crate::armadillo::Armadillo;
-use crate::error::require;
 use crate::grid::{Leaps, VoxelGrid};
 use crate::{CarveReport, ExploreError, FreeSpace, Preset, StartReport};
 use enfilade_geometry::Bvh;
@@ -18,50 +18,11 @@ use enfilade_math::{DVec3, Rng};
 use enfilade_scene::{Cx, Warning, WorldMesh};
 use inside::{Enclosure, Inside};
 use rays::Rays;
-use serde::{Deserialize, Serialize};
 
-/// More escaping rays than this are worth a warning.
+pub use config::CarveConfig;
+
+/// When a larger share of the rays than this leaves the domain, there is a warning.
 const ESCAPE_WARNING: f64 = 0.01;
-
-/// How free space is carved. The defaults are Hypersim's.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct CarveConfig {
-    /// Whose rules are followed.
-    pub preset: Preset,
-    /// Edge of a voxel, metres.
-    pub voxel_m: f64,
-    /// Side of the cube to be carved, metres. It is centred on the box around the start cameras.
-    pub extent_m: f64,
-    /// Rays cast from each position, spread evenly over the sphere.
-    pub rays: u32,
-    /// Positions to carve from for each start camera: its own, then random free ones.
-    pub iterations: u32,
-    /// Free voxels outside the building stay free. ([`Preset::Hypersim`] keeps them in any case.)
-    pub keep_outside: bool,
-    /// Seed of the random positions. The published programs use 0.
-    pub seed: u64,
-}
-
-impl Default for CarveConfig {
-    fn default() -> Self {
-        Self { preset: Preset::Default, voxel_m: 0.1, extent_m: 30.0, rays: 512 * 512, iterations: 5, keep_outside: false, seed: 0 }
-    }
-}
-
-impl CarveConfig {
-    /// Checks that the values make sense.
-    ///
-    /// # Errors
-    /// The first value out of its range.
-    pub fn validate(&self) -> Result<(), ExploreError> {
-        let positive = |v: f64| v > 0.0 && v.is_finite();
-        require(positive(self.voxel_m), "voxel_m", self.voxel_m, "a positive length in metres")?;
-        require(positive(self.extent_m) && self.extent_m >= self.voxel_m, "extent_m", self.extent_m, "a length of at least one voxel")?;
-        require(self.rays >= 64, "rays", self.rays, "64 or more")?;
-        require(self.iterations >= 1, "iterations", self.iterations, "1 or more")
-    }
-}
 
 /// Finds the free space around `starts` (positions of start cameras).
 ///
@@ -70,31 +31,35 @@ impl CarveConfig {
 /// voxels, the rays need not be tested against the triangles themselves. Everything else stays unknown. The domain is the cube of
 /// the configuration, cut down to the box around the scene and the starts; space beyond the scene is never free.
 ///
-/// Where rays leave the domain, free voxels are judged to be inside the building or outside, by the surfaces around them and by whether
-/// the start cameras reach them through inside. Those outside become unknown again, unless `keep_outside` is set.
+/// Where rays leave the domain, free voxels are judged to be inside the building or outside: by the surfaces around them, and by whether
+/// they can be reached from the start cameras without going outside. Those outside become unknown again, unless `keep_outside` is set.
 ///
 /// A start that is outside or inside a wall is skipped with a warning as long as another one serves.
 ///
-/// [`Preset::Hypersim`] differs as its page says.
+/// [`Preset`] lists what the preset of Hypersim does differently.
 ///
 /// # Errors
 /// A configuration out of its domain, no usable start, or a domain beyond the octree's key space or the memory for it.
 pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfig, cx: &dyn Cx) -> Result<FreeSpace, ExploreError> {
+    // The grid with the voxels that surfaces touch.
     config.validate()?;
     let total = starts.len() as u64 * u64::from(config.iterations);
     cx.progress("carve", 0, total);
     let mut scene = Carving::new(world, bvh, starts, config)?;
 
-    // From every start camera, then from random free places.
+    // Carve from every start camera: from its own position, then from random free ones.
     let mut report = CarveReport::default();
     let mut first_problem = None;
     for (index, &asked) in starts.iter().enumerate() {
+        // The original carves once from starts at the same position.
         let earlier = starts[..index].iter().position(|other| *other == asked).filter(|_| config.preset == Preset::Hypersim);
         if let Some(earlier) = earlier {
             let same = report.starts[earlier].clone();
             report.starts.push(same);
             continue;
         }
+
+        // The start's own position, or one nearby when it lies in an occupied voxel; a start in a bad place is skipped.
         let mut position = match scene.verify(index, asked) {
             Ok(used) => {
                 report.starts.push(StartReport { asked, used: Some(used), problem: None });
@@ -106,6 +71,8 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
                 continue;
             }
         };
+
+        // Cast all rays, and go on from somewhere in what they freed.
         for iteration in 0..config.iterations {
             scene.carve_from(position)?;
             report.positions.push(position);
@@ -118,10 +85,13 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
     }
     cx.progress("carve", total, total);
 
+    // Where rays left the domain, tell inside from outside.
     report.escaped_share = scene.escaped as f64 / (report.positions.len() as f64 * f64::from(config.rays));
     if scene.escaped > 0 && config.preset == Preset::Default {
-        scene.sort_out(config.keep_outside, &mut report, cx);
+        scene.find_outside(config.keep_outside, &mut report, cx);
     }
+
+    // Count, warn, and make the octree.
     let grid = &scene.grid;
     (report.free_voxels, report.occupied_voxels) = grid.counts();
     report.free_volume_m3 = report.free_voxels as f64 * config.voxel_m.powi(3);
@@ -134,7 +104,7 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
     Ok(space)
 }
 
-/// What is known while carving goes on.
+/// The state of carving: the grid as carved so far, and what is needed to carve on.
 struct Carving<'a> {
     world: &'a WorldMesh,
     bvh: &'a Bvh,
@@ -196,13 +166,13 @@ impl<'a> Carving<'a> {
             Random::Default(rng) => {
                 let first = self.grid.random_free(rng)?;
                 let more = (0..TRIES).filter_map(|_| self.grid.random_free(rng));
-                Some(std::iter::once(first).chain(more).find(|p| self.enclosure.holds(*p)).unwrap_or(first))
+                Some(std::iter::once(first).chain(more).find(|p| self.enclosure.encloses(*p)).unwrap_or(first))
             }
         }
     }
 
     /// Finds what is outside the building, and makes it unknown unless it is to be kept.
-    fn sort_out(&self, keep_outside: bool, report: &mut CarveReport, cx: &dyn Cx) {
+    fn find_outside(&self, keep_outside: bool, report: &mut CarveReport, cx: &dyn Cx) {
         let starts: Vec<DVec3> = report.starts.iter().filter_map(|start| start.used).collect();
         let Some(inside) = Inside::find(&self.grid, &self.enclosure, &starts) else {
             let message = "no start camera stands inside a building: too few directions around them meet a wall or a roof. All space that \

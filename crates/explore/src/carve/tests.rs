@@ -1,3 +1,5 @@
+//! Claims about carving, on analytic rooms: volumes, leaks, starts in bad places, and the preset of Hypersim.
+
 use super::*;
 use crate::testroom::{Room, cuboid, house_with_thin_wall};
 use enfilade_geometry::Voxel;

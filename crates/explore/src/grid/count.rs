@@ -32,7 +32,7 @@ impl VoxelGrid {
         let (row, bits) = rows.iter().map(|row| row.load(Relaxed)).enumerate().find(|(_, row)| take(&mut rank, row.count_ones().into()))?;
         let bit = (0..rank).fold(bits, |bits, _| bits & (bits - 1)).trailing_zeros() as usize;
         let cell = self.cell(index, [bit, row % BLOCK, row / BLOCK]);
-        // A hair inside the voxel, so that rounding cannot put the point into its neighbour.
+        // Not quite at the voxel's faces, so that rounding cannot put the point into a neighbour.
         let jitter = DVec3::from([0; 3].map(|_| 0.01 + 0.98 * rng.next_f64()));
         Some(self.key(cell).corner(self.voxel_m) + self.voxel_m * jitter)
     }

@@ -1,8 +1,8 @@
-//! How far a ray may go without looking: a byte for every voxel of the blocks in which something is free.
+//! How far a ray may leap without looking at voxels: a byte for every voxel of the blocks in which something is free.
 //!
 //! A voxel whose neighbours up to a distance of 1, 2, 4, 8 or 16 voxels along each axis are all known to be free has a leap of that
-//! length. Walking through them would change nothing. The field is a copy of what was known when it was last refreshed; what was
-//! freed since is only missing leaps.
+//! length: walking through them would change nothing. The field is a copy of what was known when it was last refreshed. Voxels freed
+//! since then only lack leaps; nothing else about them is wrong.
 
 use super::{BLOCK, BLOCK_LEVEL, ROWS, VOLUME, VoxelGrid};
 use enfilade_math::DVec3;
@@ -36,12 +36,15 @@ pub(crate) struct Leaps {
 impl Leaps {
     /// Brings the field up to date where anything was freed.
     pub(crate) fn refresh(&mut self, grid: &VoxelGrid) {
+        // Blocks in whose neighbourhood anything was freed since the last time.
         let free: Vec<u32> =
             grid.blocks.par_iter().with_min_len(64).map(|block| block.get().map_or(0, |b| b.free_count.load(Relaxed))).collect();
         self.codes.resize_with(grid.blocks.len(), || None);
         self.free.resize(grid.blocks.len(), 0);
         let changed = |index: usize| grid.around(index).into_iter().flatten().any(|other| free[other] != self.free[other]);
         let stale: Vec<usize> = (0..free.len()).filter(|&index| free[index] > 0 && changed(index)).collect();
+
+        // Of those without a field yet, only as many as there is room for.
         let room = MAX_BLOCKS - self.codes.iter().flatten().count();
         let new = stale.iter().filter(|index| self.codes[**index].is_none()).take(room).count();
         let stale: Vec<usize> = stale
@@ -49,6 +52,8 @@ impl Leaps {
             .scan(new, |left, index| Some((index, self.codes[index].is_some() || std::mem::replace(left, left.saturating_sub(1)) > 0)))
             .filter_map(|(index, fits)| fits.then_some(index))
             .collect();
+
+        // Their fields, from the grid.
         let made: Vec<Box<Codes>> = stale.par_iter().map(|&index| codes(grid, index)).collect();
         for (index, codes) in stale.into_iter().zip(made) {
             self.codes[index] = Some(codes);
@@ -114,7 +119,9 @@ impl VoxelGrid {
 /// Rows of 64 voxels of the window, row y + 64 z.
 type Window = [u64; WINDOW * WINDOW];
 
+/// The codes of a block.
 fn codes(grid: &VoxelGrid, index: usize) -> Box<Codes> {
+    // Eight voxels' codes in one word: each pass adds to the bytes of those voxels that it is about.
     let mut sums = [0u64; VOLUME / 8];
     let mut window = free_window(grid, index);
     let mut spare = Box::new([0; WINDOW * WINDOW]);
@@ -123,6 +130,8 @@ fn codes(grid: &VoxelGrid, index: usize) -> Box<Codes> {
         let occupied = block.map_or(0, |b| b.occupied[row].load(Relaxed));
         add(&mut sums, row, occupied, OCCUPIED);
     }
+
+    // A free voxel has the code FREE, and one more for every length of leap whose cube around it is free.
     add_center(&mut sums, &window, FREE);
     erode(&mut window, &mut spare, 1, true);
     add_center(&mut sums, &window, 1);
@@ -130,6 +139,7 @@ fn codes(grid: &VoxelGrid, index: usize) -> Box<Codes> {
         erode(&mut window, &mut spare, radius, false);
         add_center(&mut sums, &window, 1);
     }
+
     let mut codes = Box::new([UNKNOWN; VOLUME]);
     for (bytes, sum) in codes.chunks_exact_mut(8).zip(&sums) {
         bytes.copy_from_slice(&sum.to_le_bytes());
@@ -154,8 +164,10 @@ fn free_window(grid: &VoxelGrid, index: usize) -> Box<Window> {
     window
 }
 
-/// Keeps the bits whose neighbours `radius` away on both sides along each axis are set, and (`middle`) that are set themselves.
-/// On bits eroded by `radius` before, both sides alone make it an erosion by twice the radius.
+/// Keeps the bits whose neighbours `radius` away on both sides along each axis are set, and with `middle` only those set themselves.
+///
+/// With `middle` and a radius of 1 this is an erosion by one voxel. On bits that were eroded by `radius` before, the two sides overlap in
+/// the middle, and without it this is an erosion by `radius` more.
 fn erode(window: &mut Window, spare: &mut Window, radius: usize, middle: bool) {
     let keep = |w: u64| if middle { w } else { u64::MAX };
     for w in window.iter_mut() {
@@ -171,6 +183,7 @@ fn erode(window: &mut Window, spare: &mut Window, radius: usize, middle: bool) {
     }
 }
 
+/// Adds `value` to the bytes of the voxels of the middle block whose bits are set in the window.
 fn add_center(sums: &mut [u64; VOLUME / 8], window: &Window, value: u8) {
     for row in 0..ROWS {
         let (y, z) = (row % BLOCK + HALO, row / BLOCK + HALO);

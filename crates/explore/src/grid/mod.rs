@@ -1,4 +1,4 @@
-//! Two bits for every voxel of a box in the octree's key space: occupied, free.
+//! The grid that carving works on: two bits, occupied and free, for every voxel of a box in the octree's key space.
 
 mod cells;
 mod count;
@@ -29,10 +29,10 @@ const ROWS: usize = BLOCK * BLOCK;
 /// Voxels in a block.
 const VOLUME: usize = ROWS * BLOCK;
 
-/// More than this much memory for the grid is refused.
+/// A grid that needs more memory than this is refused, bytes.
 const MAX_BYTES: u64 = 4 << 30;
 
-/// And more than this much for the octree, whose memory may for a moment be three times as much while it grows.
+/// An octree that needs more than this is refused, bytes; while it grows it may for a moment take three times as much.
 const MAX_TREE_BYTES: u64 = 2 << 30;
 
 /// The grid. Blocks of 32³ voxels come into being when a surface or a ray first touches them, so that a large domain costs what is

@@ -20,6 +20,7 @@ impl VoxelGrid {
     }
 
     fn occupy_triangle(&self, corners: [DVec3; 3]) {
+        // The cells of the box around the triangle, within the domain.
         let slack = DVec3::splat(SLACK);
         let lowest = (corners[0].min(corners[1]).min(corners[2]) - slack).floor().to_array();
         let highest = (corners[0].max(corners[1]).max(corners[2]) + slack).floor().to_array();
@@ -28,9 +29,13 @@ impl VoxelGrid {
         if (0..3).any(|a| first[a] > last[a]) {
             return;
         }
+
+        // A triangle within one voxel, the usual case, needs no test.
         if first == last && lowest == highest {
             return self.occupy_row(first, 1);
         }
+
+        // Others are tested voxel by voxel, in bricks that are tested first when the triangle is large.
         let test = OverlapTest::new(corners);
         let touches = |cell: [i32; 3], edge: i32| {
             let half = DVec3::splat(0.5 * f64::from(edge));

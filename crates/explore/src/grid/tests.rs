@@ -1,3 +1,5 @@
+//! The grid against plain versions of itself: occupied voxels, walks with and without leaps, random free points, and the octree made of it.
+
 use super::*;
 use enfilade_math::{Rng, Vec3, warp};
 

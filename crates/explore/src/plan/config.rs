@@ -1,3 +1,5 @@
+//! What a user may say about trajectories: the modes and their settings, the rules of a pose, and the gates of a view, all checked here.
+
 use crate::error::require;
 use crate::{ExploreError, Preset, Saliency};
 use serde::de::{Error as _, IgnoredAny};
@@ -5,6 +7,18 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 
 /// How a trajectory is found. The defaults are Hypersim's, as its paper states them, with a clearance and limits added.
+///
+/// ```
+/// use enfilade_explore::{Mode, PlanConfig, VideoConfig};
+///
+/// let mode = Mode::Video(VideoConfig { fps: 30.0, ..VideoConfig::default() });
+/// let video = PlanConfig { mode, frames: 300, camera_height_m: Some([1.4, 1.7]), ..PlanConfig::default() };
+/// assert_eq!(video.validate(), Ok(()));
+///
+/// // A share is a number from 0 to 1, not a percentage.
+/// let error = PlanConfig { max_void_share: 20.0, ..video }.validate().unwrap_err();
+/// assert_eq!(error.to_string(), "max_void_share = 20: expected a share from 0 to 1");
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PlanConfig {
@@ -24,7 +38,7 @@ pub struct PlanConfig {
     /// How far above or below those of frame 0 the camera and its target may each be in a walk or a video, metres. Where
     /// `camera_height_m` is given, it is about the target of a walk alone, which goes up and down with the camera.
     pub height_range_m: f64,
-    /// The least and the greatest height of the camera above the floor, metres; `None` leaves it free. The floor is the lowest of the
+    /// The minimum and maximum height of the camera above the floor, metres; `None` leaves it free. The floor is the lowest of the
     /// first surfaces below the camera and below eight places half a metre around it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera_height_m: Option<[f64; 2]>,
@@ -40,7 +54,7 @@ pub struct PlanConfig {
     pub min_look_distance_m: f64,
     /// Roll is uniform within plus and minus this, degrees (less than 90).
     pub roll_limit_deg: f64,
-    /// Of the surface points in view, the least and the greatest share that the view before it saw too, each from 0 to 1; for walks.
+    /// Of the surface points in view, the minimum and maximum share that the view before it saw too, each from 0 to 1; for walks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overlap: Option<[f64; 2]>,
     /// Views that show no surface in more than this share of the pixels are taken only when nothing better is found.

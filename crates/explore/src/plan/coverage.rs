@@ -4,53 +4,26 @@
 //! differs from those of the views chosen before. The next view is always the one that adds most area. What a view adds only ever
 //! shrinks as others are chosen, so gains are computed again only for the view on top of the queue (lazy greedy: Minoux 1978).
 
+use super::CoverageConfig;
 use super::patches::{Patch, patches};
 use super::places::Places;
+use super::planner::{Draft, Planner};
+use super::report::{CoverageReport, Fault, PartCoverage};
 use super::stills::{candidates, reachable};
-use super::{CoverageConfig, Draft, Fault, Planner};
 use crate::{ExploreError, ViewStats};
 use enfilade_math::{DVec3, Rng};
-use enfilade_scene::{PartId, Pose};
+use enfilade_scene::Pose;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use std::collections::BinaryHeap;
 
 /// Places tried for a view of a patch that no pose drawn at random sees often enough.
 const TRIES: usize = 64;
 
-/// How much of the surfaces was seen how often. Areas are measured by points spread evenly over all surfaces, so they do not depend
-/// on how things are cut into triangles.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct CoverageReport {
-    /// Views wanted of every surface.
-    pub views: u32,
-    /// Area of all surfaces, square metres.
-    pub area_m2: f64,
-    /// Share of the area that was seen exactly 0, 1, … times from different angles; the last one is `views` times or more.
-    pub seen_share: Vec<f64>,
-    /// Share of the area that some pose of those considered sees; the rest is inside of things, hidden or out of reach.
-    pub reachable_share: f64,
-    /// Parts of which nothing was seen, in order.
-    pub never_seen: Vec<PartId>,
-    /// Every part that has area, in order.
-    pub parts: Vec<PartCoverage>,
-}
-
-/// How much of one part was seen how often.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct PartCoverage {
-    /// The part; its `node_id` in `metadata_nodes.csv` is one more.
-    pub part: PartId,
-    /// Its area, square metres.
-    pub area_m2: f64,
-    /// As [`CoverageReport::seen_share`].
-    pub seen_share: Vec<f64>,
-}
-
 /// Views that see as much as can be seen as often as asked for. The first one is the start camera's.
 ///
 /// It ends when no pose considered adds anything, or with `frames` poses.
 pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng: &Rng) -> Result<Draft, ExploreError> {
+    // Poses to choose from: the start camera's, random ones, and some aimed at patches that the random ones see too rarely.
     let frames = planner.config.frames as usize;
     let mut draft = Draft::default();
     let patches = patches(planner.world, config.samples as usize);
@@ -62,6 +35,7 @@ pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng
     seen.extend(seen_by_each(planner, &patches, &aimed, config));
     poses.extend(aimed);
 
+    // The start camera's view comes first.
     let mut tally = Tally::new(&patches, config);
     let take = |i: usize, view: ViewStats, tally: &mut Tally, draft: &mut Draft| {
         tally.add(&poses[i], &seen[i]);
@@ -71,6 +45,8 @@ pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng
     };
     let look = |i: usize| planner.views(&poses[i..=i])[0];
     take(0, look(0), &mut tally, &mut draft);
+
+    // Then always the view that adds most area, until none adds any or there are enough.
     let mut queue: BinaryHeap<Gain> = (1..poses.len()).map(|i| Gain { area_m2: tally.gain(&poses[i], &seen[i]), pose: i }).collect();
     while let Some(top) = queue.pop().filter(|top| draft.poses.len() < frames && top.area_m2 > 0.0) {
         let gain = Gain { area_m2: tally.gain(&poses[top.pose], &seen[top.pose]), pose: top.pose };
@@ -78,7 +54,8 @@ pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng
             queue.push(gain);
             continue;
         }
-        // The best one, now that its gain is up to date; a closer look may find too little in it after all.
+
+        // Its gain is up to date and still the largest. A closer look may yet find a fault.
         let view = look(top.pose);
         let fault = match planner.gates.is_void(&view) {
             true => Some(Fault::Void),
@@ -91,6 +68,8 @@ pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng
         }
     }
     planner.progress(frames, frames);
+
+    // What was seen how often, and what no pose could have seen.
     let mut reachable = vec![false; patches.len()];
     seen.iter().flatten().for_each(|patch| reachable[*patch as usize] = true);
     draft.coverage = Some(tally.report(&reachable));
@@ -136,7 +115,7 @@ fn without_faults(planner: &Planner, poses: Vec<Pose>, draft: &mut Draft) -> Vec
     poses.into_iter().zip(faults).filter(|(_, fault)| fault.is_none()).map(|(pose, _)| pose).collect()
 }
 
-/// Poses that look at patches which too few others see.
+/// Poses aimed at patches that fewer poses see than asked for.
 fn aimed(
     planner: &Planner,
     places: &Places,
@@ -149,7 +128,7 @@ fn aimed(
     let mut times = vec![0u32; patches.len()];
     seen.iter().flatten().for_each(|patch| times[*patch as usize] += 1);
     let wanting: Vec<usize> = (0..patches.len()).filter(|i| times[*i] < config.views).collect();
-    // Evenly over what is wanting, so that no part is forgotten.
+    // Evenly over the patches that lack views, so that no part is forgotten.
     let n = (config.poses as usize / 2).max(1);
     let chosen: Vec<usize> = wanting.iter().step_by(wanting.len().div_ceil(n).max(1)).copied().collect();
     let one = |i: &usize| {
@@ -188,7 +167,7 @@ fn is_near(patch: &Patch, position: DVec3, config: &CoverageConfig) -> bool {
 pub(super) struct Tally<'a> {
     patches: &'a [Patch],
     views: usize,
-    /// Cosine of the least angle between two views that count.
+    /// Cosine of the minimum angle between two views that count.
     cos_apart: f64,
     directions: Vec<Vec<DVec3>>,
 }
@@ -203,7 +182,7 @@ impl<'a> Tally<'a> {
     fn new_direction(&self, pose: &Pose, patch: u32) -> Option<DVec3> {
         let seen = &self.directions[patch as usize];
         let direction = (pose.position - self.patches[patch as usize].p_world).normalize_or_zero();
-        // An angle of 0 asks for nothing.
+        // With an angle of 0 every view counts.
         let is_new = seen.len() < self.views && (self.cos_apart == 1.0 || seen.iter().all(|other| other.dot(direction) <= self.cos_apart));
         is_new.then_some(direction)
     }

@@ -1,4 +1,4 @@
-//! The first pose of a trajectory: the start camera's, mended where it breaks a rule.
+//! The first pose of a trajectory: the start camera's, fixed where it breaks a rule.
 
 use super::rules::{Rules, pitch_rad};
 use crate::ExploreError;

@@ -1,4 +1,4 @@
-//! A coarse look at a view: where a few hundred of its rays end. It is enough to tell views that are not worth taking, and how much of
+//! A coarse look at a view: where a few hundred of its rays end. That is enough to find views that are not worth taking, and how much of
 //! a view was in another one.
 
 use super::rules::Rules;
@@ -89,7 +89,7 @@ impl<'a> Glancer<'a> {
 }
 
 impl Glance {
-    /// Share of the rays for which `what` holds where they end.
+    /// Share of the rays whose end `what` is true for.
     pub fn share(&self, what: impl Fn(&SurfacePoint) -> bool) -> f64 {
         self.points.iter().filter(|point| what(point)).count() as f64 / self.rays as f64
     }

@@ -1,6 +1,6 @@
 //! Which way to face along a path: always toward free space, as near as can be to what was asked for, and turning no more than needed.
 
-use super::Planner;
+use super::planner::Planner;
 use super::rules::posed;
 use enfilade_math::DVec3;
 use rayon::prelude::*;
@@ -36,7 +36,7 @@ impl Headings {
             };
             let mut open = sees(wanted);
             if !open.contains(&true) {
-                // Nothing to see so high or low: as level as may be.
+                // No free view at the pitch asked for: use the allowed pitch nearest to level.
                 wanted.y = 0f64.clamp(level[0], level[1]);
                 open = sees(wanted);
             }
@@ -58,7 +58,7 @@ impl Headings {
         for (j, &y) in chosen.iter().enumerate() {
             turned += if j == 0 { y as i64 } else { steps_between(chosen[j - 1], y) };
             let heading = TAU * turned as f64 / HEADINGS as f64;
-            // What is asked for lies between two headings.
+            // Between two headings, come as near to the one asked for as half a step allows.
             let half = 0.5 * TAU / HEADINGS as f64;
             let off = ((self.wanted[j].x - heading + PI).rem_euclid(TAU) - PI).clamp(-half, half);
             angles.push(DVec3::new(heading + off, self.wanted[j].y, self.wanted[j].z));
@@ -72,6 +72,8 @@ impl Headings {
             let off = (self.wanted[j].x - angle(y) + PI).rem_euclid(TAU) - PI;
             if self.allowed[j][y] { (off * HEADINGS as f64 / TAU).powi(2) } else { f64::INFINITY }
         };
+
+        // Forward: the lowest cost of reaching each heading at each control point, and from which heading.
         let mut cost: Vec<f64> = (0..HEADINGS).map(|y| stray(0, y)).collect();
         let mut came_from: Vec<[u8; HEADINGS]> = Vec::with_capacity(self.allowed.len());
         for j in 1..self.allowed.len() {
@@ -80,15 +82,17 @@ impl Headings {
             let next = (0..HEADINGS).map(|y| {
                 let before = |turn: i64| (y as i64 - turn).rem_euclid(HEADINGS as i64) as usize;
                 let turns = (-stride..=stride).map(|turn| (cost[before(turn)] + TURN_COST * (turn * turn) as f64, before(turn)));
-                let (least, from) = turns.fold((f64::INFINITY, y), |best, found| if found.0 < best.0 { found } else { best });
+                let (lowest, from) = turns.fold((f64::INFINITY, y), |best, found| if found.0 < best.0 { found } else { best });
                 row[y] = from as u8;
-                least + stray(j, y)
+                lowest + stray(j, y)
             });
             cost = next.collect();
             came_from.push(row);
         }
-        let (mut y, least) = (0..HEADINGS).map(|y| (y, cost[y])).min_by(|a, b| a.1.total_cmp(&b.1))?;
-        if least.is_infinite() {
+
+        // Backward: from the cheapest heading at the end.
+        let (mut y, lowest) = (0..HEADINGS).map(|y| (y, cost[y])).min_by(|a, b| a.1.total_cmp(&b.1))?;
+        if lowest.is_infinite() {
             return None;
         }
         let mut chosen = vec![y];

@@ -5,8 +5,8 @@
 
 use super::PlanConfig;
 use crate::armadillo::Armadillo;
-use crate::view::{TestImage, ViewStats};
-use crate::{ExploreError, FreeSpace};
+use crate::view::TestImage;
+use crate::{ExploreError, FreeSpace, ViewStats};
 use enfilade_geometry::{Bvh, Voxel};
 use enfilade_math::{DVec3, Ray};
 use enfilade_scene::{Intrinsics, Pose, StartCamera, WorldMesh};
@@ -24,7 +24,7 @@ const TARGET_MARGIN_VOXELS: f64 = 1.75;
 /// ... but at least this far from the camera, metres.
 const MIN_TARGET_M: f64 = 1e-4;
 
-/// When the start camera has no target on its axis, its image is searched from so many places, ...
+/// When the start camera has no target on its axis, its image is searched from this many positions, ...
 const TRIES: u32 = 8;
 
 /// ... each this many voxels behind the one before.
@@ -50,6 +50,8 @@ pub(super) fn walk(
         config,
         image: TestImage::new(&Intrinsics::from_fov_x(config.test_width, config.test_height, config.fov_x_rad)),
     };
+
+    // The first pose is the start camera's; all noise of the up vectors is drawn before the walk, as in the program.
     let first = walker.first(start)?;
     let mut rng = Armadillo::new(config.seed);
     let noise = Armadillo::rows(config.frames as usize, || rng.normal());
@@ -57,6 +59,8 @@ pub(super) fn walk(
     for frame in 1..config.frames {
         progress(frame);
         let last = poses[poses.len() - 1].0;
+
+        // Free and visible points around the last pose, for the camera and for its target.
         let up = DVec3::Z + UP_NOISE * noise[frame as usize];
         let positions = walker.near(last.position, first.position, &mut rng);
         let targets = walker.near(last.look_at, first.look_at, &mut rng);
@@ -71,6 +75,8 @@ pub(super) fn walk(
         if positions.is_empty() || targets.is_empty() {
             return Err(stuck());
         }
+
+        // Random pairs of them, and a choice by score.
         let mut draw = |n: usize| -> Vec<usize> { (0..config.candidates).map(|_| rng.below(n)).collect() };
         let (from, at) = (draw(positions.len()), draw(targets.len()));
         let candidates: Vec<Pose> =
@@ -159,7 +165,7 @@ impl Walker<'_> {
         let directions: Vec<DVec3> = self.image.center_first().into_iter().map(|d| start.world_from_camera * d).collect();
         for k in 0..TRIES {
             let origin = start.position + f64::from(k) * TRY_STEP_VOXELS * voxel_m * start.world_from_camera.z_axis;
-            // The distance is that from the moved origin, the target counts from the camera's own: as in the program.
+            // As in the program: the distance is measured from the moved origin, but the target lies that far from the camera itself.
             let reach = |d: &DVec3| {
                 let hit = self.distance_m(origin, *d);
                 let clipped = (hit.min(self.leaves_m(origin, *d)) - TARGET_MARGIN_VOXELS * voxel_m).max(MIN_TARGET_M);

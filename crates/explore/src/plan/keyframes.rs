@@ -1,6 +1,6 @@
 //! Poses made by hand: read from a table, every frame between them interpolated.
 
-use super::Planner;
+use super::planner::Planner;
 use super::rules::posed;
 use super::spline::ThroughSpline;
 use crate::ExploreError;
@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 const CROSSINGS_NAMED: usize = 12;
 
 /// More frames than this have no number of four digits.
-const MOST_FRAMES: u32 = 10_000;
+const MAX_FRAMES: u32 = 10_000;
 
 /// A pose made by hand.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ pub struct Keyframe {
     pub roll_rad: f64,
 }
 
-/// A row as it stands in the file.
+/// A row of the file, before it is checked.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Row {
@@ -63,12 +63,28 @@ struct FlatRow {
 ///
 /// # Errors
 /// [`ExploreError::Keyframes`] with the row, what was found there, and what was expected.
+///
+/// # Examples
+///
+/// ```
+/// use enfilade_explore::parse_keyframes;
+/// use enfilade_math::DVec3;
+///
+/// let table = "frame, position_x, position_y, position_z, look_at_x, look_at_y, look_at_z\n\
+///              0, 1, 1, 1.6, 3, 1, 1.6\n\
+///              24, 2, 1, 1.6, 3, 2, 1.6\n";
+/// let keyframes = parse_keyframes("walk.csv", table).unwrap();
+/// assert_eq!((keyframes[1].frame, keyframes[1].position), (24, DVec3::new(2.0, 1.0, 1.6)));
+///
+/// let above = r#"[{"frame": 0, "position": [1, 1, 1], "look_at": [1, 1, 0]}]"#;
+/// assert!(parse_keyframes("down.json", above).unwrap_err().to_string().starts_with("down.json, pose 1: found a view from"));
+/// ```
 pub fn parse_keyframes(file: &str, text: &str) -> Result<Vec<Keyframe>, ExploreError> {
     let rows = if file.to_lowercase().ends_with(".json") { json_rows(file, text)? } else { csv_rows(file, text)? };
     let mut keyframes: Vec<Keyframe> = Vec::with_capacity(rows.len());
     for (i, row) in rows.into_iter().enumerate() {
         let keyframe = keyframe(&row).map_err(|(found, expected)| wrong(file, i + 1, found, expected))?;
-        let in_order = keyframes.last().map_or(row.frame == 0, |last| row.frame > last.frame) && row.frame < MOST_FRAMES;
+        let in_order = keyframes.last().map_or(row.frame == 0, |last| row.frame > last.frame) && row.frame < MAX_FRAMES;
         if !in_order {
             return Err(wrong(file, i + 1, format!("frame {}", row.frame), "frames that ascend from 0 and stay below 10000"));
         }

@@ -1,9 +1,10 @@
 //! Measures a finished trajectory: fills the report, and warns of frames that break a rule.
 
+use super::Mode;
 use super::patches::patches;
-use super::report::{Fault, FrameRow, FrameValues, PlanReport, PlanStatistics, RelaxedFrame};
+use super::planner::{Draft, Planner};
+use super::report::{Fault, FrameRow, FrameValues, PlanReport, PlanStatistics, Planned, RelaxedFrame};
 use super::rules::{pitch_rad, turned_rad};
-use super::{Draft, Mode, Planned, Planner};
 use crate::{Preset, ViewStats};
 use enfilade_geometry::Surfaces;
 use enfilade_scene::{Pose, Trajectory};
@@ -24,6 +25,7 @@ const FRAMES_NAMED: usize = 12;
 
 /// The trajectory of a draft, with its report.
 pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
+    // Values and faults of every frame.
     let poses = draft.poses;
     let views = if draft.views.len() == poses.len() { draft.views } else { planner.views(&poses) };
     let surfaces = Surfaces::new(&planner.world.corners);
@@ -37,7 +39,8 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
         bare_frames.extend(Some(row.frame).filter(|_| row.plane_share > BARE_SHARE));
         per_frame.push(row);
     }
-    // Breaking these rules is what that preset is for.
+
+    // Warn of frames with a fault, except where Hypersim's program is followed, which has no such rules.
     if planner.config.preset == Preset::Default {
         warn_of_faults(planner, &relaxed, poses.len());
     }
@@ -130,7 +133,7 @@ fn warn_of_faults(planner: &Planner, relaxed: &[RelaxedFrame], frames: usize) {
     }
 }
 
-/// What is wrong with frames of a fault, and what may help.
+/// What is wrong with frames that have a fault, and which setting may help.
 fn describe(planner: &Planner, fault: Fault) -> String {
     let config = planner.config;
     let percent = |share: f64| format!("{:.0} %", 100.0 * share);

@@ -4,7 +4,7 @@ use enfilade_math::{DVec3, Rng};
 use enfilade_scene::{PartId, WorldMesh};
 
 /// Small parts get this many points all the same.
-const LEAST_PER_PART: usize = 8;
+const MIN_PER_PART: usize = 8;
 
 /// A point of a surface, and the area that it stands for.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +28,7 @@ pub(super) fn patches(world: &WorldMesh, samples: usize) -> Vec<Patch> {
         let end = first + world.sources[first..].iter().take_while(|source| source.part == part).count();
         let area: f64 = areas[first..end].iter().sum();
         if area > 0.0 {
-            let n = ((samples as f64 * area / total).round() as usize).max(LEAST_PER_PART);
+            let n = ((samples as f64 * area / total).round() as usize).max(MIN_PER_PART);
             spread(world, part, first, &areas[first..end], area / n as f64, &mut patches);
         }
         first = end;

@@ -6,7 +6,7 @@ use enfilade_math::{DVec3, Rng};
 use std::collections::HashMap;
 
 /// More places than this are not looked for: a scene that leaks has any number of them. The nearest come first.
-const MOST: usize = 1_000_000;
+const MAX_PLACES: usize = 1_000_000;
 
 /// Ways between places are clear beyond the clearance by this many voxels, so that any point on them is, and any point looked at.
 const MARGIN_VOXELS: f64 = 0.625;
@@ -47,7 +47,7 @@ impl Places {
                 }
             }
             done += 1;
-            places.is_cut = places.keys.len() >= MOST;
+            places.is_cut = places.keys.len() >= MAX_PLACES;
         }
         places
     }

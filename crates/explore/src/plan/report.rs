@@ -1,7 +1,16 @@
 //! What a trajectory came to: one value per frame for pictures and later tools, and what they come to together.
 
-use super::coverage::CoverageReport;
+use enfilade_scene::{PartId, Trajectory};
 use serde::{Deserialize, Serialize};
+
+/// A trajectory and how it came out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned {
+    /// Poses numbered from 0 without a gap.
+    pub trajectory: Trajectory,
+    /// Its measurements.
+    pub report: PlanReport,
+}
 
 /// How a trajectory came out, in metres and degrees.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -10,7 +19,8 @@ pub struct PlanReport {
     pub trajectory: String,
     /// Name of the mode that made it: `walk`, `video`, `stills`, `coverage` or `keyframes`.
     pub mode: String,
-    /// The greatest roll that the plan gives a camera, degrees; none where it has no limit: by Hypersim's preset, and of poses made by hand.
+    /// The greatest roll that the plan gives a camera, degrees; none where it has no limit: by Hypersim's preset, and for poses made by
+    /// hand.
     pub roll_limit_deg: Option<f64>,
     /// Share of the area of all surfaces of the scene that some frame sees.
     pub seen_area_share: f64,
@@ -80,7 +90,7 @@ pub struct PlanStatistics {
     pub overlap: Spread,
 }
 
-/// The least, the mean and the greatest of the values that there are; all zero where there are none.
+/// The minimum, mean and maximum of the values that there are; all zero where there are none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs)] // plain words
 pub struct Spread {
@@ -133,6 +143,35 @@ pub struct RelaxedFrame {
     pub frame: u32,
     /// What is wrong with it.
     pub fault: Fault,
+}
+
+/// How much of the surfaces was seen how often. Areas are measured by points spread evenly over all surfaces, so they do not depend
+/// on how things are cut into triangles.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CoverageReport {
+    /// Views wanted of every surface.
+    pub views: u32,
+    /// Area of all surfaces, square metres.
+    pub area_m2: f64,
+    /// Share of the area that was seen exactly 0, 1, … times from different angles; the last one is `views` times or more.
+    pub seen_share: Vec<f64>,
+    /// Share of the area that some pose of those considered sees; the rest is inside of things, hidden or out of reach.
+    pub reachable_share: f64,
+    /// Parts of which nothing was seen, in order.
+    pub never_seen: Vec<PartId>,
+    /// Every part that has area, in order.
+    pub parts: Vec<PartCoverage>,
+}
+
+/// How much of one part was seen how often.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PartCoverage {
+    /// The part; its `node_id` in `metadata_nodes.csv` is one more.
+    pub part: PartId,
+    /// Its area, square metres.
+    pub area_m2: f64,
+    /// As [`CoverageReport::seen_share`].
+    pub seen_share: Vec<f64>,
 }
 
 /// One entry of each of [`FrameValues`].

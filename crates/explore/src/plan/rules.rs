@@ -106,7 +106,7 @@ impl<'a> Rules<'a> {
     pub fn is_clear_way(&self, from: DVec3, to: DVec3) -> bool {
         let step_m = WAY_STEP_VOXELS * self.space.tree.resolution_m();
         let steps = (from.distance(to) / step_m).ceil().max(1.0);
-        // Every point of the way is within half a step of one that is looked at.
+        // Every point of the way is within half a step of one that is tested, so each is tested with that much more clearance.
         let clearance = self.config.clearance_m + 0.5 * from.distance(to) / steps;
         (0..=steps as usize).all(|i| {
             let p = from.lerp(to, i as f64 / steps);

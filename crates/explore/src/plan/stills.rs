@@ -1,8 +1,10 @@
 //! Stills: pictures that keep a distance from each other, over all the space within reach.
 
+use super::StillsConfig;
 use super::places::Places;
+use super::planner::{Draft, Planner};
+use super::report::Fault;
 use super::rules::Rules;
-use super::{Draft, Fault, Planner, StillsConfig};
 use crate::ExploreError;
 use enfilade_math::{DVec3, Rng};
 use enfilade_scene::Pose;
@@ -27,6 +29,8 @@ pub(super) fn stills(planner: &Planner, first: Pose, stills: &StillsConfig, rng:
             break;
         }
         planner.progress(draft.poses.len(), frames);
+
+        // A position in the voxel, far enough from the other stills or at least free to look elsewhere, and not in the open.
         let mut rng = rng.fork(place as u64 + 1);
         let position = jittered(planner.rules, places.points[place], &mut rng);
         let near: Vec<Pose> = draft.poses.iter().filter(|pose| pose.position.distance(position) < stills.min_distance_m).copied().collect();
@@ -37,6 +41,8 @@ pub(super) fn stills(planner: &Planner, first: Pose, stills: &StillsConfig, rng:
             draft.rejected.add(Fault::Open);
             continue;
         }
+
+        // Random directions there, and a choice among them.
         let frame = draft.poses.len() as u32;
         let mut candidates = candidates(planner, frame, position, &mut rng);
         let apart = |a: &Pose, b: &Pose| {

@@ -5,7 +5,7 @@ use super::rules::turned_rad;
 use enfilade_math::DVec3;
 use enfilade_scene::Pose;
 
-/// The bounds are aimed at with this factor, so that rounding and the finite steps of the path do not break them.
+/// The schedule keeps to this share of each bound, so that rounding and the finite steps of the path do not break it.
 const AIM: f64 = 0.98;
 
 /// Times along a path that is given as many poses close to each other, its nodes.
@@ -17,23 +17,27 @@ pub(super) struct Schedule {
 }
 
 impl Schedule {
-    /// The earliest times, at rest at first and at last. The speed is bounded, and so are its change along the path (both ways), the acceleration
-    /// sideways where the path bends, and the rate of turning.
+    /// The earliest times, at rest at both ends. The speed is bounded, and so are its change along the path (faster and slower), the
+    /// acceleration sideways where the path bends, and the rate of turning.
     pub fn earliest(nodes: &[Pose], bounds: &VideoConfig) -> Self {
+        // The highest speed at each node by itself.
         let steps: Vec<DVec3> = nodes.windows(2).map(|pair| pair[1].position - pair[0].position).collect();
         let turns: Vec<f64> = nodes.windows(2).map(|pair| turned_rad(&pair[0], &pair[1])).collect();
         let turn = AIM * bounds.max_turn_deg_s.to_radians();
-        let push = AIM * bounds.max_acceleration_m_s2;
-        let mut speeds = limits(&steps, &turns, AIM * bounds.max_speed_m_s, turn, push);
-        // At rest at the end too, should the path be shorter than was thought: nothing may stop dead.
+        let acceleration = AIM * bounds.max_acceleration_m_s2;
+        let mut speeds = limits(&steps, &turns, AIM * bounds.max_speed_m_s, turn, acceleration);
+
+        // At rest at both ends, and no node faster than can be reached from the one before or slowed down from before the next.
         speeds[0] = 0.0;
         speeds[steps.len()] = 0.0;
         for k in 0..steps.len() {
-            speeds[k + 1] = speeds[k + 1].min((speeds[k] * speeds[k] + 2.0 * push * steps[k].length()).sqrt());
+            speeds[k + 1] = speeds[k + 1].min((speeds[k] * speeds[k] + 2.0 * acceleration * steps[k].length()).sqrt());
         }
         for k in (0..steps.len()).rev() {
-            speeds[k] = speeds[k].min((speeds[k + 1] * speeds[k + 1] + 2.0 * push * steps[k].length()).sqrt());
+            speeds[k] = speeds[k].min((speeds[k + 1] * speeds[k + 1] + 2.0 * acceleration * steps[k].length()).sqrt());
         }
+
+        // The time that each step takes, or longer where the view turns much in it.
         let mut times_s = vec![0.0];
         for k in 0..steps.len() {
             let sum = speeds[k] + speeds[k + 1];
@@ -58,13 +62,13 @@ impl Schedule {
     }
 }
 
-/// The greatest speed at each node by what is beside it alone.
-fn limits(steps: &[DVec3], turns: &[f64], speed: f64, turn: f64, push: f64) -> Vec<f64> {
+/// The highest speed at each node by the steps on both sides of it alone.
+fn limits(steps: &[DVec3], turns: &[f64], speed: f64, turn: f64, acceleration: f64) -> Vec<f64> {
     let of_step = |k: usize| if turns[k] > 0.0 { turn * steps[k].length() / turns[k] } else { f64::INFINITY };
     let of_bend = |k: usize| {
         let bend = if steps[k - 1].length() * steps[k].length() > 0.0 { steps[k - 1].angle_between(steps[k]) } else { 0.0 };
         // On a circle: acceleration = speed² · bend / length.
-        if bend > 0.0 { (push * steps[k - 1].length().min(steps[k].length()) / bend).sqrt() } else { f64::INFINITY }
+        if bend > 0.0 { (acceleration * steps[k - 1].length().min(steps[k].length()) / bend).sqrt() } else { f64::INFINITY }
     };
     let node = |k: usize| {
         let before = if k > 0 { of_step(k - 1) } else { f64::INFINITY };

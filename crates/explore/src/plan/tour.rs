@@ -1,7 +1,8 @@
 //! The way of a video: through places all over the free space, the nearest unvisited one next, along shortest ways pulled straight.
 
+use super::VideoConfig;
 use super::places::Places;
-use super::{Planner, VideoConfig};
+use super::planner::Planner;
 use crate::ExploreError;
 use enfilade_math::{DVec3, Rng};
 
@@ -46,7 +47,7 @@ const ROUNDING_M: f64 = 1e-6;
 
 /// A way of at least `length_m`. When every waypoint was visited it goes round again.
 pub(super) fn tour(planner: &Planner, start: DVec3, length_m: f64, video: &VideoConfig, rng: &mut Rng) -> Result<Tour, ExploreError> {
-    // From the height of the first place, since places are centres of voxels.
+    // Heights count from the first place, not from the start camera, since places are centres of voxels.
     let range = planner.config.height_range_m + ROUNDING_M;
     let free_height = planner.config.camera_height_m.is_none();
     let places = Places::around(planner.rules, start, |first, p| !free_height || (p.z - first.z).abs() <= range);
@@ -124,7 +125,7 @@ fn pulled_straight(planner: &Planner, mut way: Vec<DVec3>) -> Vec<DVec3> {
         let mut kept = vec![way[0]];
         let mut i = 0;
         while i + 1 < way.len() {
-            // The farthest corner that can be reached, among those that lie half as far each.
+            // The farthest corner with a clear way to it; each try halves the number of corners skipped.
             let mut ahead = way.len() - 1 - i;
             while ahead > 1 && !(planner.rules.is_clear_way(way[i], way[i + ahead]) && keeps_height(planner, way[i], way[i + ahead])) {
                 ahead /= 2;

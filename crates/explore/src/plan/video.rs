@@ -3,15 +3,16 @@
 //! The position follows a spline near a [`tour`], refined wherever a point of it has no room around it. The view turns between
 //! directions worth seeing, by headings that always have free space before them. The pose is then a smooth function of one
 //! parameter, and what remains is when to be where: as early as the bounds on speed, turning and acceleration allow. Slowing down
-//! changes no pose, so the bounds hold by construction; they are measured on the result all the same.
+//! changes no pose, so the bounds are kept by construction; they are measured on the result all the same.
 
+use super::VideoConfig;
 use super::headings::{HEADINGS, Headings, direction};
+use super::planner::{Draft, Planner};
 use super::rules::{pitch_rad, posed, turned_rad};
 use super::spline::NearSpline;
 use super::stills::candidates;
 use super::timing::Schedule;
 use super::tour::{Polyline, Tour, no_way, tour};
-use super::{Draft, Planner, VideoConfig};
 use crate::ExploreError;
 use enfilade_math::{DVec3, Rng};
 use enfilade_scene::Pose;
@@ -25,11 +26,12 @@ const CLOSEST_SPACING_M: f64 = 0.02;
 /// Poses looked at between two control points.
 const SUBSTEPS: usize = 16;
 
-/// Times that headings are chosen anew, without those that turned out to look at nothing.
+/// How often headings are chosen again, each time without those that turned out to have no free view.
 const REPAIRS: usize = 40;
 
 /// A smooth path of `frames` frames from near `first` on.
 pub(super) fn video(planner: &Planner, first: Pose, video: &VideoConfig, rng: &Rng) -> Result<Draft, ExploreError> {
+    // A tour long enough for the camera at its highest speed.
     let frames = planner.config.frames as usize;
     let duration_s = (frames.max(2) - 1) as f64 / video.fps;
     let tour = tour(planner, first.position, video.max_speed_m_s * duration_s, video, &mut rng.fork(0))?;
@@ -37,6 +39,8 @@ pub(super) fn video(planner: &Planner, first: Pose, video: &VideoConfig, rng: &R
     if moved > planner.rules.space.tree.resolution_m() {
         planner.warn(format!("begins {moved:.2} m away from its start, where there is room to move"));
     }
+
+    // A smooth path along it, views worth seeing on the way, headings that lead through them, and the frames.
     let mut draft = Draft::default();
     let path = Path::along(planner, &tour)?;
     let wishes = wishes(planner, &first, &path, &mut draft, rng);

@@ -1,14 +1,14 @@
 //! Hypersim's random walk: every step draws poses near the last one and chooses among them in proportion to what they show.
 
+use super::planner::{Draft, Planner};
 use super::report::{Fault, RejectedCounts};
 use super::rules::posed;
-use super::{Draft, Planner};
 use crate::{ExploreError, ViewStats};
 use enfilade_math::{DVec3, Rng};
 use enfilade_scene::Pose;
 use std::cmp::Reverse;
 
-/// What one step tries, one after the other, until a pose is found: factor on the number of samples, factor on the step.
+/// Attempts of one step, until a pose is found: a factor on the number of random points, and one on how far they may be.
 const ATTEMPTS: [(u32, f64); 5] = [(1, 1.0), (4, 1.0), (4, 0.5), (4, 0.25), (4, 0.1)];
 
 /// Pairs drawn per candidate wanted, before an attempt makes do with fewer.
@@ -44,7 +44,7 @@ impl Step<'_> {
         let (mut look_from, mut look_at, mut queries) = (0, 0, 0);
         let mut spare = Vec::new();
         for (sampling, scale) in ATTEMPTS {
-            // Where the camera and its target may go.
+            // Random points around the last pose where the camera may be, and where its target may be.
             queries = planner.config.queries.saturating_mul(sampling);
             let mut positions = self.points(first.position, last.position, scale, queries, &mut rng);
             if planner.config.camera_height_m.is_some() {
@@ -55,7 +55,7 @@ impl Step<'_> {
             let targets = rules.targets_seen_from(last.look_at, targets);
             (look_from, look_at) = (positions.len(), targets.len());
 
-            // Candidate poses, what each is worth, and one that is.
+            // Pairs of them that see each other are candidate poses; one is chosen in proportion to its score.
             let candidates = self.pair(&positions, &targets, frame, &mut rng);
             let views = planner.views(&candidates);
             if let Some(chosen) = planner.choose(&candidates, &views, Some(&last), rejected, &mut rng) {
@@ -63,8 +63,10 @@ impl Step<'_> {
             }
             spare.extend(candidates.into_iter().zip(views));
         }
+
+        // No attempt found a view without a fault.
         let worst = |(pose, view): &(Pose, ViewStats)| worst_fault(planner, pose, view, &last);
-        // The first of the least bad.
+        // Of the candidates with a fault, the first among those whose fault is least bad and that show most surface.
         let best = spare.into_iter().min_by_key(|found| (worst(found), Reverse(found.1.hits)));
         best.ok_or_else(|| ExploreError::Stuck {
             trajectory: planner.name.to_string(),
@@ -98,7 +100,7 @@ impl Step<'_> {
         let wanted = min + (max - min) * rng.next_f64();
         let from = DVec3::new(p.x, p.y, self.last.position.z);
         let moved = wanted - self.planner.rules.height_m(from)?;
-        // A step of a stair is no higher than this, whatever the step of the walk.
+        // No further up or down than the walk's step, or than the range asked for where that is larger: a step of a stair.
         let limit = (scale * config.step_m[2]).max(max - min);
         (moved.abs() <= limit).then(|| from + moved * DVec3::Z)
     }

@@ -1,4 +1,4 @@
-//! The binary tree from which the wide one is made.
+//! The binary tree over triangles and placements that is built first; the wide tree is made of it.
 
 use enfilade_math::Bounds3;
 

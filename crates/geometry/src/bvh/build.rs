@@ -2,11 +2,12 @@
 
 use super::binary::{Binary, BinaryNode};
 use super::collapse::{Plan, collapse};
-use super::leaf::{BEYOND, LANES, MOST_TRIANGLES, WORDS};
+use super::leaf::{BEYOND, LANES, MAX_TRIANGLES, WORDS};
 use super::node::Node;
 use super::pages::Pages;
 use super::placed::{Placed, Placement};
 use super::reinsertion::reinsert;
+use super::soup::{PlacedBox, Soup, has_area};
 use enfilade_math::{Bounds3, Vec3};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{leaf_collapser, node::Bvh2Node};
@@ -38,28 +39,34 @@ pub(super) fn build(
     placements: &[Placement],
 ) -> Built {
     assert!(numbers.is_none_or(|numbers| numbers.len() == corners.len()), "as many numbers as triangles");
+
+    // The tree of the world: over all triangles with an area, and over the boxes of all placements.
     let placed: Vec<PlacedBox> = placements.iter().map(|placement| PlacedBox::new(placement, &meshes[placement.mesh])).collect();
     let soup = Soup { corners, numbers, filtered, placed: &placed };
     let triangles = (0..corners.len() as u32).filter(|&i| has_area(&corners[i as usize]));
     let boxes = (0..placed.len()).filter(|&i| !placed[i].bounds.is_empty()).map(|i| (corners.len() + i) as u32);
-    let Some(world) = soup.tree(triangles.chain(boxes).collect()) else {
+    let Some(world) = tree(soup, triangles.chain(boxes).collect()) else {
         return Built { nodes: Pages::filled(Node::EMPTY, 0), words: Pages::filled(0, 0), placed: Vec::new(), bounds: Bounds3::EMPTY };
     };
-    // Whether corners on a line have an area is for the rounding in the world to say.
+
+    // The tree of each shared mesh. Corners on a line are kept: by rounding in the world they may have an area there.
     let apart = |[a, b, c]: &[Vec3; 3]| a != b && b != c && c != a;
     let of_meshes: Vec<Option<Tree>> = meshes
         .iter()
         .map(|mesh| {
             let soup = Soup { corners: mesh, numbers: None, filtered: &|_| false, placed: &[] };
-            soup.tree((0..mesh.len() as u32).filter(|&i| apart(&mesh[i as usize])).collect())
+            tree(soup, (0..mesh.len() as u32).filter(|&i| apart(&mesh[i as usize])).collect())
         })
         .collect();
 
+    // Memory for all of them: the world's tree first, then the meshes'.
     let trees = || std::iter::once(&world).chain(of_meshes.iter().flatten());
     let mut nodes = Pages::filled(Node::EMPTY, trees().map(|tree| tree.plan.node_count()).sum());
     let triangle_count: usize = trees().map(|tree| tree.plan.triangle_count()).sum();
-    assert!(triangle_count <= MOST_TRIANGLES, "{triangle_count} triangles to keep, at most {MOST_TRIANGLES} fit one hierarchy");
+    assert!(triangle_count <= MAX_TRIANGLES, "{triangle_count} triangles to keep, at most {MAX_TRIANGLES} fit one hierarchy");
     let mut words = Pages::filled(0, WORDS * triangle_count.max(1) + BEYOND);
+
+    // Write one tree after the other, and note where each begins.
     let (mut first_node, mut first_triangle) = (0, 0);
     let mut write = |tree: &Tree| {
         tree.plan.write(&tree.soup, &tree.binary, (&mut nodes, first_node), (&mut words, first_triangle));
@@ -69,17 +76,101 @@ pub(super) fn build(
         (root, tree.binary.nodes[0].bounds)
     };
     let (_, bounds) = write(&world);
-    // What has no triangles stands nowhere.
+    // A mesh without triangles has an empty box, which no ray enters.
     let roots: Vec<(u32, Bounds3)> = of_meshes.iter().map(|tree| tree.as_ref().map_or((0, Bounds3::EMPTY), &mut write)).collect();
     let ready = placements.iter().map(|placement| (placement, roots[placement.mesh]));
     let placed = ready.map(|(placement, (root, bounds))| Placed::new(placement, root, bounds)).collect();
     Built { nodes, words, placed, bounds }
 }
 
-/// True for finite triangles whose area is not zero. In double precision, where differences and products of `f32` are all but exact.
-fn has_area(triangle: &[Vec3; 3]) -> bool {
-    let [a, b, c] = triangle.map(|p| p.as_dvec3());
-    triangle.iter().all(|p| p.is_finite()) && (b - a).cross(c - a).length_squared() > 0.0
+/// The tree over some members of a soup; `None` when there are none.
+fn tree(soup: Soup<'_>, members: Vec<u32>) -> Option<Tree<'_>> {
+    if members.is_empty() {
+        return None;
+    }
+    let good = binary_tree(&soup, &members);
+    let (binary, plan) = match collapse(&soup, &good) {
+        Some(plan) => (good, plan),
+        None => {
+            let balanced = balanced_tree(&soup, &members);
+            let plan = collapse(&soup, &balanced).expect("a balanced tree is not too deep");
+            (balanced, plan)
+        }
+    };
+    Some(Tree { soup, binary, plan })
+}
+
+/// A tree with little surface: clusters of near neighbours merged upward (`obvhs`), then improved by moving subtrees.
+///
+/// Small subtrees become leaves before any is moved, at a cost that leaves the final decision to [`collapse`]: moving single triangles
+/// too took half as long again, and rays visited no fewer nodes in six rooms. Splitting the boxes of large triangles was tried and gained
+/// nothing in rooms.
+fn binary_tree(soup: &Soup, members: &[u32]) -> Binary {
+    const LEAF_COST_IN_TRIANGLES: f32 = 0.5;
+    const ROUNDS_OF_NEXT_NEIGHBOURS: usize = 0;
+    if members.len() <= LANES {
+        return balanced_tree(soup, members);
+    }
+
+    // Boxes at a scale at which no area overflows.
+    let scale = Scale::of(soup.bounds_of(members));
+    let boxes: Vec<Aabb> = members
+        .iter()
+        .map(|&i| soup.bounds_of(&[i]))
+        .map(|b| Aabb::new(scale.apply(b.min).to_vec3a(), scale.apply(b.max).to_vec3a()))
+        .collect();
+
+    // Merge near neighbours upward, make small subtrees leaves, move subtrees to better places.
+    let order = (0..members.len() as u32).collect();
+    let mut tree = PlocBuilder::with_capacity(members.len()).build(
+        PlocSearchDistance::Low,
+        &boxes,
+        order,
+        SortPrecision::U128,
+        ROUNDS_OF_NEXT_NEIGHBOURS,
+    );
+    drop(boxes);
+    leaf_collapser::collapse(&mut tree, LANES as u32, LEAF_COST_IN_TRIANGLES);
+    reinsert(&mut tree);
+
+    // The same tree in our own nodes, with placements alone in their leaves.
+    let node = |n: &Bvh2Node| {
+        if n.prim_count == 0 { BinaryNode::children(n.first_index) } else { BinaryNode::leaf(n.first_index, n.prim_count) }
+    };
+    let mut binary = Binary {
+        nodes: tree.nodes.iter().map(node).collect(),
+        order: tree.primitive_indices.iter().map(|&i| members[i as usize]).collect(),
+    };
+    divide(soup, &mut binary);
+    binary
+}
+
+/// A tree whose halves differ by one triangle at most: sorted along the longest axis and cut in the middle, again and again.
+pub(super) fn balanced_tree(soup: &Soup, members: &[u32]) -> Binary {
+    let mut binary = Binary { nodes: vec![BinaryNode::leaf(0, members.len() as u32)], order: members.to_vec() };
+    divide(soup, &mut binary);
+    binary
+}
+
+/// Halves the leaves until they are small enough, and every placement is alone; computes the boxes.
+fn divide(soup: &Soup, binary: &mut Binary) {
+    let mut next = 0;
+    while next < binary.nodes.len() {
+        let BinaryNode { first, count, .. } = binary.nodes[next];
+        // Inner nodes have no members of their own.
+        let range = if count == 0 { &mut [] } else { &mut binary.order[first as usize..(first + count) as usize] };
+        if range.len() > LANES || range.len() > 1 && range.iter().any(|&i| soup.placement(i).is_some()) {
+            let center = |&i: &u32| soup.bounds_of(&[i]).center();
+            let axis = Bounds3::from_points(range.iter().map(center)).extent().max_position();
+            range.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
+            let half = count / 2;
+            binary.nodes[next] = BinaryNode::children(binary.nodes.len() as u32);
+            binary.nodes.push(BinaryNode::leaf(first, half));
+            binary.nodes.push(BinaryNode::leaf(first + half, count - half));
+        }
+        next += 1;
+    }
+    soup.fit(binary);
 }
 
 /// A power of two that brings all coordinates to about one, so that no area overflows or vanishes.
@@ -95,162 +186,6 @@ impl Scale {
 
     fn apply(self, p: Vec3) -> Vec3 {
         (p.as_dvec3() * self.0).as_vec3()
-    }
-}
-
-/// The triangles and placements, and what is done with them on the way to the tree. A placement's index is its place after the triangles.
-pub(super) struct Soup<'a> {
-    pub corners: &'a [[Vec3; 3]],
-    /// What hits report for the triangles: their indices unless it is given.
-    pub numbers: Option<&'a [u32]>,
-    /// By number.
-    pub filtered: &'a dyn Fn(u32) -> bool,
-    pub placed: &'a [PlacedBox],
-}
-
-impl<'a> Soup<'a> {
-    /// The tree over some of them; `None` when there are none.
-    fn tree(self, members: Vec<u32>) -> Option<Tree<'a>> {
-        if members.is_empty() {
-            return None;
-        }
-        let good = self.binary_tree(&members);
-        let (binary, plan) = match collapse(&self, &good) {
-            Some(plan) => (good, plan),
-            None => {
-                let balanced = self.balanced_tree(&members);
-                let plan = collapse(&self, &balanced).expect("a balanced tree is not too deep");
-                (balanced, plan)
-            }
-        };
-        Some(Tree { soup: self, binary, plan })
-    }
-
-    /// A tree with little surface: clusters of near neighbours merged upward (`obvhs`), then improved by moving subtrees.
-    ///
-    /// Small subtrees become leaves before any is moved, with a cost that leaves the last word to [`collapse`]: moving single triangles
-    /// as well took half as long again, for rays that visited no fewer places in six rooms. Cutting the boxes of large triangles was
-    /// tried and brought nothing in rooms.
-    fn binary_tree(&self, members: &[u32]) -> Binary {
-        const LEAF_COST_IN_TRIANGLES: f32 = 0.5;
-        const ROUNDS_OF_NEXT_NEIGHBOURS: usize = 0;
-        if members.len() <= LANES {
-            return self.balanced_tree(members);
-        }
-        let scale = Scale::of(self.bounds_of(members));
-        let boxes: Vec<Aabb> = members
-            .iter()
-            .map(|&i| self.bounds_of(&[i]))
-            .map(|b| Aabb::new(scale.apply(b.min).to_vec3a(), scale.apply(b.max).to_vec3a()))
-            .collect();
-        let order = (0..members.len() as u32).collect();
-        let mut tree = PlocBuilder::with_capacity(members.len()).build(
-            PlocSearchDistance::Low,
-            &boxes,
-            order,
-            SortPrecision::U128,
-            ROUNDS_OF_NEXT_NEIGHBOURS,
-        );
-        drop(boxes);
-        leaf_collapser::collapse(&mut tree, LANES as u32, LEAF_COST_IN_TRIANGLES);
-        reinsert(&mut tree);
-
-        let node = |n: &Bvh2Node| {
-            if n.prim_count == 0 { BinaryNode::children(n.first_index) } else { BinaryNode::leaf(n.first_index, n.prim_count) }
-        };
-        let mut binary = Binary {
-            nodes: tree.nodes.iter().map(node).collect(),
-            order: tree.primitive_indices.iter().map(|&i| members[i as usize]).collect(),
-        };
-        self.divide(&mut binary);
-        binary
-    }
-
-    /// A tree whose halves differ by one triangle at most: sorted along the longest axis and cut in the middle, again and again.
-    pub fn balanced_tree(&self, members: &[u32]) -> Binary {
-        let mut binary = Binary { nodes: vec![BinaryNode::leaf(0, members.len() as u32)], order: members.to_vec() };
-        self.divide(&mut binary);
-        binary
-    }
-
-    /// Halves the leaves until they are small enough, and every placement is alone; computes the boxes.
-    fn divide(&self, binary: &mut Binary) {
-        let mut next = 0;
-        while next < binary.nodes.len() {
-            let BinaryNode { first, count, .. } = binary.nodes[next];
-            // Inner nodes have no members of their own.
-            let range = if count == 0 { &mut [] } else { &mut binary.order[first as usize..(first + count) as usize] };
-            if range.len() > LANES || range.len() > 1 && range.iter().any(|&i| self.placement(i).is_some()) {
-                let center = |&i: &u32| self.bounds_of(&[i]).center();
-                let axis = Bounds3::from_points(range.iter().map(center)).extent().max_position();
-                range.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
-                let half = count / 2;
-                binary.nodes[next] = BinaryNode::children(binary.nodes.len() as u32);
-                binary.nodes.push(BinaryNode::leaf(first, half));
-                binary.nodes.push(BinaryNode::leaf(first + half, count - half));
-            }
-            next += 1;
-        }
-        self.fit(binary);
-    }
-
-    /// Computes the box of every node from what is below it.
-    pub fn fit(&self, binary: &mut Binary) {
-        for i in binary.children_first() {
-            let BinaryNode { first, count, .. } = binary.nodes[i];
-            binary.nodes[i].bounds = if count == 0 {
-                binary.nodes[first as usize].bounds.union(binary.nodes[first as usize + 1].bounds)
-            } else {
-                self.bounds_of(&binary.order[first as usize..(first + count) as usize])
-            };
-        }
-    }
-
-    /// Which placement it is; `None` for triangles.
-    pub fn placement(&self, member: u32) -> Option<usize> {
-        (member as usize).checked_sub(self.corners.len())
-    }
-
-    /// What hits report for a triangle.
-    pub fn number(&self, triangle: u32) -> u32 {
-        self.numbers.map_or(triangle, |numbers| numbers[triangle as usize])
-    }
-
-    /// Surface of a triangle or placement that stops every ray; of one that is filtered, none.
-    pub fn stopping_area(&self, member: u32) -> f64 {
-        if let Some(placement) = self.placement(member) {
-            return self.placed[placement].stopping_area;
-        }
-        if (self.filtered)(self.number(member)) { 0.0 } else { area(&self.corners[member as usize]) }
-    }
-
-    fn bounds_of(&self, members: &[u32]) -> Bounds3 {
-        members.iter().fold(Bounds3::EMPTY, |bounds, &i| match self.placement(i) {
-            Some(placement) => bounds.union(self.placed[placement].bounds),
-            None => self.corners[i as usize].iter().fold(bounds, |bounds, &p| bounds.include(p)),
-        })
-    }
-}
-
-fn area(triangle: &[Vec3; 3]) -> f64 {
-    let [a, b, c] = triangle.map(|p| p.as_dvec3());
-    0.5 * (b - a).cross(c - a).length()
-}
-
-/// What the tree of the world has to know of a placement.
-pub(super) struct PlacedBox {
-    bounds: Bounds3,
-    stopping_area: f64,
-    pub triangle_count: usize,
-}
-
-impl PlacedBox {
-    fn new(placement: &Placement, mesh: &[[Vec3; 3]]) -> Self {
-        let world = mesh.iter().map(|corners| corners.map(|p| placement.world(p)));
-        let (bounds, whole) = world.filter(has_area).fold((Bounds3::EMPTY, 0.0), |(bounds, sum), corners| {
-            (corners.iter().fold(bounds, |bounds, &p| bounds.include(p)), sum + area(&corners))
-        });
-        Self { bounds, stopping_area: if placement.filtered { 0.0 } else { whole }, triangle_count: mesh.len() }
     }
 }
 

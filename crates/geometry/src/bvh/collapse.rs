@@ -1,26 +1,27 @@
-//! From the binary tree to the wide one, with the least expected cost.
+//! From the binary tree to the wide one, with the lowest expected cost.
 //!
-//! What a node may look like is decided from below: the least cost of every subtree is known for each number of children that it may
-//! take up in the node above it (Ylitie, Karras & Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
+//! It is decided bottom up: for every subtree, the lowest cost is computed for each number of children that it may become in the node
+//! above it (Ylitie, Karras & Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
 //! BVHs", section 3). The cost is the usual one: the surface of every box that is visited.
 
 use super::binary::{Binary, BinaryNode};
-use super::build::Soup;
 use super::leaf::{self, FILTERED, LANES, child_of, start_of};
 use super::node::{LEAF, MAX_DEPTH, Node, WIDTH};
 use super::placed::PLACED;
+use super::soup::Soup;
 use enfilade_math::Vec3;
 
-/// The best ways of handing a subtree to a node above it, by the number of its children that are subtrees of this one, less one.
+/// The cheapest ways to put a subtree of the binary tree under a wide node, as 1, 2, … [`WIDTH`] of that node's children. Entry k of
+/// each array is for k + 1 children.
 struct Ways {
     cost: [f32; WIDTH],
-    /// How many of the children are in the left half. In the first place, where there is but one child: how many children that one has;
+    /// How many of the children are in the left half. Entry 0, where the subtree is a single child: how many children that one has itself,
     /// 0 when it is a leaf.
     left: [u8; WIDTH],
-    /// In how many places it can be at most: the number of leaves of the binary tree, up to [`WIDTH`].
+    /// The most children that it can become: the number of its leaves in the binary tree, up to [`WIDTH`].
     places: usize,
     triangles: u32,
-    /// How much surface stops rays there, per leaf that they must be tested with.
+    /// Surface that stops rays, per leaf that a ray must be tested against.
     yield_per_leaf: f32,
     /// Surface that stops rays.
     area: f64,
@@ -41,7 +42,7 @@ pub(super) struct Plan {
 struct Child {
     /// In the binary tree.
     node: u32,
-    /// As it will stand in a [`Node`].
+    /// The value for [`Node::children`], counted from the tree's first node and first triangle.
     link: u32,
 }
 
@@ -51,6 +52,8 @@ pub(super) fn collapse(soup: &Soup, binary: &Binary) -> Option<Plan> {
     let mut plan = Plan { nodes: Vec::new(), children: Vec::new(), triangle_count: 0 };
     let mut node_count = 1;
     let mut waiting = vec![(0, 0, 1)];
+
+    // From the root down: the children of every node, each a placement, a leaf, or a node that waits for its turn.
     while let Some((root, number, depth)) = waiting.pop() {
         if depth > MAX_DEPTH {
             return None;
@@ -83,7 +86,7 @@ impl Plan {
         self.triangle_count
     }
 
-    /// Writes the tree from `first_node` and `first_triangle` on, in places that hold [`Node::EMPTY`] and nothing.
+    /// Writes the tree from `first_node` and `first_triangle` on, where so far there are [`Node::EMPTY`] and zeros.
     pub fn write(&self, soup: &Soup, binary: &Binary, (nodes, first_node): (&mut [Node], u32), (words, first_triangle): (&mut [u32], u32)) {
         let mut start = 0;
         for &(number, end) in &self.nodes {
@@ -110,7 +113,7 @@ impl Plan {
     }
 }
 
-/// The children of a node, the most worthwhile for rays that want any hit last.
+/// The children of a node, in ascending order of the surface that stops rays per leaf: rays that want any hit take the last first.
 fn children(binary: &Binary, ways: &[Ways], root: usize) -> Vec<usize> {
     let mut chosen = Vec::with_capacity(WIDTH);
     let mut waiting = Vec::new();
@@ -129,14 +132,14 @@ fn children(binary: &Binary, ways: &[Ways], root: usize) -> Vec<usize> {
     chosen
 }
 
-/// Replaces a subtree that takes up `count` ≥ 2 places by its halves.
+/// Replaces a subtree that becomes `count` ≥ 2 children by its two halves.
 fn open(binary: &Binary, ways: &[Ways], node: usize, count: u8, waiting: &mut Vec<(usize, u8)>) {
     let left = ways[node].left[usize::from(count) - 1];
     let first = binary.nodes[node].first as usize;
     waiting.extend([(first + 1, count - left), (first, left)]);
 }
 
-/// The ways of all nodes.
+/// The ways of all nodes, every node after its children.
 fn ways(soup: &Soup, binary: &Binary) -> Vec<Ways> {
     let whole = binary.nodes[0].half_area();
     let mut ways: Vec<Ways> = binary.nodes.iter().map(|_| Ways::NONE).collect();
@@ -180,6 +183,7 @@ impl Ways {
         let mut ways = Self { triangles, area, yield_per_leaf: (area / f64::from(leaves)) as f32, ..Self::NONE };
         ways.places = (left.places + right.places).min(WIDTH);
         (ways.cost, ways.left) = cheapest(left, right);
+        // As a single child: an inner node with the cheapest number of children, or a leaf where the triangles fit one.
         let open = (2..=ways.places).min_by(|&a, &b| ways.cost[a - 1].total_cmp(&ways.cost[b - 1])).expect("two halves take two places");
         let as_node = ways.cost[open - 1] + surface * NODE_COST;
         let as_leaf = if leaves == 1 { surface * LEAF_COST } else { f32::INFINITY };
@@ -188,7 +192,7 @@ impl Ways {
     }
 }
 
-/// The least cost of two halves for each number of places, less one, that they take up together, and how many of them the left one has.
+/// The lowest cost of two halves for each number of children that they become together, and how many of these are in the left one.
 ///
 /// Sums are made for all numbers at once, so that the compiler makes vectors of them.
 fn cheapest(left: &Ways, right: &Ways) -> ([f32; WIDTH], [u8; WIDTH]) {
@@ -235,6 +239,7 @@ fn triangles(soup: &Soup, binary: &Binary, root: usize) -> Vec<(u32, [Vec3; 3])>
 
 #[cfg(test)]
 mod tests {
+    use super::super::build::balanced_tree;
     use super::super::leaf::{BEYOND, Leaf, WORDS};
     use super::*;
     use enfilade_math::Bounds3;
@@ -263,7 +268,7 @@ mod tests {
         assert!(collapse(&soup, &chain(&soup, 400)).is_some());
         assert!(collapse(&soup, &chain(&soup, 600)).is_none());
         let all: Vec<u32> = (0..8 * 600).collect();
-        assert!(collapse(&soup, &soup.balanced_tree(&all)).is_some());
+        assert!(collapse(&soup, &balanced_tree(&soup, &all)).is_some());
     }
 
     #[test]
@@ -271,7 +276,7 @@ mod tests {
         let corners = triangles(1000);
         let soup = Soup { corners: &corners, filtered: &|i| i % 2 == 0, numbers: None, placed: &[] };
         let all: Vec<u32> = (0..1000).collect();
-        let binary = soup.balanced_tree(&all);
+        let binary = balanced_tree(&soup, &all);
         let plan = collapse(&soup, &binary).expect("shallow");
         let (mut nodes, mut words) = (vec![Node::EMPTY; plan.node_count()], vec![0; WORDS * plan.triangle_count() + BEYOND]);
         plan.write(&soup, &binary, (&mut nodes, 0), (&mut words, 0));

@@ -1,7 +1,7 @@
-//! Leaves: up to eight triangles, with nothing between them and the next.
+//! Leaves: up to eight triangles each, packed one after the other without padding.
 //!
-//! Most of a hierarchy's memory are its leaves, and few of them are full. What no cache holds is what rays wait for, so a leaf takes up
-//! as many words as it needs, although its vectors then lie on no boundary.
+//! Leaves take up most of a hierarchy's memory, and few of them are full. Rays mostly wait for memory that is in no cache, so a leaf has
+//! only as many words as it needs, although its rows are then not aligned to vectors.
 
 use super::node::LEAF;
 use enfilade_math::Vec3;
@@ -12,17 +12,17 @@ pub(super) const LANES: usize = 8;
 /// Words of a triangle: its number, and three coordinates of three corners.
 pub(super) const WORDS: usize = 10;
 
-/// Words behind the last leaf, which vectors may read.
+/// Words after the last leaf: vectors that begin in it may read them.
 pub(super) const BEYOND: usize = LANES;
 
 /// Room for a leaf.
 pub(super) type Words = [u32; WORDS * LANES + BEYOND];
 pub(super) const NO_WORDS: Words = [0; WORDS * LANES + BEYOND];
 
-/// Triangles that leaves have room for in all: their places have as many bits as a child has for them.
-pub(super) const MOST_TRIANGLES: usize = 1 << COUNT_AT;
+/// Triangles that all leaves together can hold: a child has [`COUNT_AT`] bits for the place of its leaf's first triangle.
+pub(super) const MAX_TRIANGLES: usize = 1 << COUNT_AT;
 
-/// Where in a child the number of triangles stands, less one; below it is the place of the first.
+/// The bit of a child from which on the number of its triangles, less one, is stored; the bits below are the place of the first.
 const COUNT_AT: u32 = 27;
 
 /// Marks a triangle that asks the filter.
@@ -36,7 +36,7 @@ pub(super) struct Leaf<'a> {
     count: usize,
 }
 
-/// The word that a number is kept as, or the number that a word stands for.
+/// The word in which a triangle's number is stored, or the number that such a word stands for.
 ///
 /// Vectors of coordinates read some of the next leaf's numbers, and small integers would be denormal floats there, which processors are
 /// slow with; so they are kept as floats a little above one.
@@ -66,14 +66,14 @@ pub(super) fn write(triangles: &[(u32, [Vec3; 3])], words: &mut [u32]) {
 
 /// The child that is a leaf of `count` triangles, of which the first is at place `first`.
 pub(super) fn child_of(first: u32, count: usize) -> u32 {
-    debug_assert!((1..=LANES).contains(&count) && (first as usize) < MOST_TRIANGLES);
+    debug_assert!((1..=LANES).contains(&count) && (first as usize) < MAX_TRIANGLES);
     LEAF | (count as u32 - 1) << COUNT_AT | first
 }
 
 /// Where the words of a child that is a leaf begin.
 #[inline(always)]
 pub(super) fn start_of(child: u32) -> usize {
-    WORDS * (child as usize & (MOST_TRIANGLES - 1))
+    WORDS * (child as usize & (MAX_TRIANGLES - 1))
 }
 
 impl<'a> Leaf<'a> {

@@ -13,7 +13,7 @@ pub(super) struct Node {
     pub bounds: [[Sixteen<f32>; 2]; 3],
     /// A node, or with [`LEAF`] a leaf. Unused places lead to the first leaf, where a ray full of NaN does no harm.
     ///
-    /// Where any hit will do, the last are visited first: they are those that are likely to stop a ray for little work.
+    /// Where any hit will do, the last are visited first: they are likely to stop a ray for little work.
     pub children: Sixteen<u32>,
 }
 

@@ -1,7 +1,7 @@
 //! Meshes that stand in several places and are kept once.
 //!
-//! Their boxes are met by the ray as the mesh sees it; their triangles are placed in the world as they are tested, with the rounding
-//! that they would have had if they were kept there. So rays hit the same, bit for bit, as without sharing.
+//! Their boxes are tested in the mesh's own space, by the ray brought there. Their triangles are placed in the world when they are
+//! tested, with the rounding that they would have if they were stored there. So hits are the same, bit for bit, as without sharing.
 
 use super::leaf::{FILTERED, LANES, Leaf, Words, row_at, word_of};
 use super::node::{LEAF, MAX_DEPTH};
@@ -103,7 +103,7 @@ impl Placed {
         }
         for k in 0..3 {
             for corner in 0..3 {
-                // What it writes beyond the row, the next one writes over.
+                // It writes beyond the row; the next row overwrites that.
                 let at = row_at(count, corner, k);
                 words[at..at + LANES].copy_from_slice(&rows[k][corner]);
             }

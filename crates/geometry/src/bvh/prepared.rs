@@ -1,8 +1,8 @@
-//! What is computed once per ray.
+//! A ray made ready for box tests: what is computed once per ray, and by how much boxes grow to make up for rounding.
 
 use enfilade_math::{Ray, Vec3, Vec3A};
 
-/// By which share of a bound of the distance from a ray's origin boxes grow; see [`Prepared::new`].
+/// By how much boxes grow, as a share of an upper bound on their distance from the ray's origin; see [`Prepared::new`].
 pub(super) const SLACK: f32 = 6.0 * f32::EPSILON;
 
 /// By how much boxes grow on all sides, for a ray among triangles with coordinates of at most `largest_coordinate`.
@@ -25,7 +25,7 @@ pub(super) struct Prepared {
 
 impl Prepared {
     /// The triangle test moves corners by up to 3 ε of their distance from the origin, and the box test errs by up to 2 ε; a box must not
-    /// be missed that holds a triangle accepted with those roundings (nor whose thickness is zero, nor in whose side the ray lies). So
+    /// be missed that has a triangle accepted with those roundings (nor whose thickness is zero, nor in whose side the ray lies). So
     /// boxes grow on all sides by 6 ε of a bound of that distance, by moving the origin the other way.
     ///
     /// A component of the direction that is zero would make 0 · ∞ = NaN in the plane of a wall; its inverse is kept finite.
@@ -41,7 +41,7 @@ impl Prepared {
         let (origin, direction) = (Vec3A::from(origin), Vec3A::from(direction));
         let exact = Vec3A::ONE / direction;
         let size = exact.abs();
-        // The least inverse is that of the largest component.
+        // The smallest inverse is that of the largest component.
         let limit = Vec3A::splat((MAX_INVERSE * size.min_element()).min(f32::MAX));
         let inverse = Vec3A::select(size.cmplt(limit), exact, limit.copysign(direction));
         let slack = Vec3A::splat(slack).copysign(direction);

@@ -1,4 +1,4 @@
-//! Children that wait to be visited.
+//! The stack of a traversal: children that wait to be visited, each with the parameter at which the ray enters it.
 
 use super::node::WIDTH;
 use super::placed::MAX_LEVELS;

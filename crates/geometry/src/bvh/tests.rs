@@ -1,5 +1,8 @@
+//! Hits against brute force: the same on every kernel, watertight, and exact at ties, borders and degenerate triangles.
+
+use super::hierarchy::Kernel;
 use super::*;
-use enfilade_math::{Rng, warp};
+use enfilade_math::{Ray, Rng, Vec3, warp};
 use std::cell::Cell;
 
 pub(super) type Triangle = [Vec3; 3];

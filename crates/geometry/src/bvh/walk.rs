@@ -1,5 +1,7 @@
-//! The way of one ray through the tree.
+//! The traversal: the way of one ray through the tree, to its first hit or to any.
 
+use super::hierarchy::Bvh;
+use super::hit::Hit;
 use super::lanes::{Eight, Lanes, Sixteen, lane_of};
 use super::leaf::{FILTERED, Leaf, NO_WORDS, start_of};
 use super::node::{LEAF, Node};
@@ -8,7 +10,6 @@ use super::prepared::{Prepared, slack};
 use super::stack::{Room, Stack};
 use super::triangle::{Meets, TriangleTest};
 use super::wide::Wide;
-use super::{Bvh, Hit};
 use enfilade_math::{Ray, Vec3A};
 
 /// [`walk`] compiled for AVX2.
@@ -40,7 +41,7 @@ pub(super) unsafe fn walk_avx512<const ANY: bool, const ASK: bool, const SHARED:
     walk::<super::wide::Avx512, super::lanes::Avx2, ANY, ASK, SHARED, F>(bvh, ray, accept)
 }
 
-/// The first hit, or with `ANY` any hit. With `ASK`, hits on filtered triangles count only when `accept` agrees. `SHARED` must be said
+/// The first hit, or with `ANY` any hit. With `ASK`, hits on filtered triangles count only when `accept` agrees. `SHARED` must be true
 /// where there are placements.
 ///
 /// With `ANY` the order in which triangles are tested, and `accept` is asked, does not depend on the kernel.
@@ -53,13 +54,18 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SH
     if bvh.nodes.is_empty() {
         return None;
     }
+
+    // Prepare the ray for the tests of boxes and of triangles.
     let prepared = Prepared::new(ray, bvh.largest_coordinate);
     let mut boxes = BoxTest::<W>::new(&prepared, ray.t_min);
     let triangles = TriangleTest::<L>::new(ray);
-    // Triangle 0 at t_max: a hit at exactly t_max is not better, as no triangle has a lower index.
+
+    // The best hit so far. Triangle 0 at t_max: a hit at exactly t_max is not better, as no triangle has a lower index.
     let mut best = Hit { t: ray.t_max, triangle: 0, u: 0.0, v: 0.0 };
     let mut found = false;
     let mut at = Meets { t: Eight([0.0; 8]), u: Eight([0.0; 8]), v: Eight([0.0; 8]) };
+
+    // Walk from the root: `current` is a node or a leaf, the stack has those that wait.
     let mut room = Room::new();
     let mut stack = Stack::new(&mut room);
     let mut current = 0;
@@ -67,7 +73,7 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SH
     let mut inside: Option<&Placed> = None;
     loop {
         if SHARED && current >= LEAF | PLACED {
-            // A placement begins or ends: its boxes are met by another ray.
+            // A placement begins or ends: from here on, boxes are tested by the ray as the mesh sees it, or by the ray itself again.
             inside = bvh.placed.get((current & !(LEAF | PLACED)) as usize);
             let seen = inside.map(|placed| placed.prepared(ray, slack(ray, bvh.largest_coordinate)));
             boxes = BoxTest::new(seen.as_ref().unwrap_or(&prepared), ray.t_min);
@@ -77,7 +83,7 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SH
                 continue;
             }
         } else if current & LEAF != 0 {
-            // The triangles of a leaf.
+            // A leaf: test its triangles, those of a placement as they stand in the world.
             // SAFETY: the builder makes children of existing nodes and leaves only.
             let leaf = unsafe { Leaf::at(&bvh.words, current) };
             let mut words;
@@ -88,6 +94,8 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SH
                 }
                 _ => leaf,
             };
+
+            // Of the triangles that the ray meets, keep the nearest; of several at one distance, the one with the lowest index.
             let mut met = triangles.meet(leaf, best.t, &mut at);
             let mut nearer = false;
             while met != 0 {
@@ -102,11 +110,13 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SH
                     (best, found, nearer) = (hit, true, true);
                 }
             }
+
+            // What waits farther away than the new hit is no longer needed.
             if nearer {
                 W::retain(&mut stack, best.t);
             }
         } else {
-            // The boxes of a node: go on with one, keep the others for later.
+            // An inner node: test its boxes, go on with the nearest child (or, where any hit will do, the most promising), keep the others.
             // SAFETY: as above, and there is a root.
             let node = unsafe { bvh.nodes.get_unchecked(current as usize) };
             if let Some(next) = stack.last() {
@@ -124,13 +134,15 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SH
                 continue;
             }
         }
+
+        // Nothing left to enter here: take the next child from the stack, or be done.
         let Some(child) = stack.pop() else { return found.then_some(best) };
         current = child;
     }
 }
 
 impl Bvh {
-    /// Asks for the memory of a child, which may be visited soon.
+    /// Asks the processor to load a child, which may be visited soon.
     #[inline(always)]
     pub(super) fn prefetch<W: Wide>(&self, child: u32) {
         let start: *const u8 = if child & LEAF != 0 {
@@ -144,7 +156,7 @@ impl Bvh {
     }
 }
 
-/// Lines of memory of a node; a leaf has four or fewer as a rule.
+/// Cache lines of a node; a leaf usually has four or fewer.
 const LINES: usize = size_of::<Node>() / 64;
 
 /// Bytes of one bound of all children.
@@ -155,7 +167,8 @@ struct BoxTest<W> {
     inverse: [W; 3],
     behind: [W; 3],
     ahead: [W; 3],
-    /// Where, in bytes from the first of a node, the bounds stand that the ray enters by; those that it leaves by lie one [`ROW`] beside.
+    /// Per axis, how many bytes after a node's first bound the row begins by which the ray enters boxes. The row by which it leaves them is
+    /// the axis' other one, [`ROW`] bytes before or after.
     near: [usize; 3],
     t_min: W,
 }
@@ -192,7 +205,7 @@ impl<W: Wide> BoxTest<W> {
         W::load(self.bounds(node, self.near[axis] ^ ROW)).sub(self.behind[axis]).mul(self.inverse[axis])
     }
 
-    /// The bounds `at` so many bytes from the first.
+    /// The row of bounds that begins `at` bytes after the first bound.
     #[inline(always)]
     fn bounds<'n>(&self, node: &'n Node, at: usize) -> &'n Sixteen<f32> {
         // SAFETY: `at` is one of the six multiples of `ROW` that `new` makes, or its neighbour within an axis.

@@ -33,8 +33,8 @@ pub(super) trait Wide: Copy {
     /// The lanes of `mask` from `self`, bit by bit, the others from `other`.
     fn select(self, mask: u32, other: Self) -> Self;
 
-    /// The least of the lanes, none of which may be NaN.
-    fn least(self) -> f32;
+    /// The smallest of the lanes, none of which may be NaN.
+    fn min_lane(self) -> f32;
 
     /// Of two or more children that the ray enters at `self`, returns the nearest and puts the others on the stack, the farthest first.
     fn push_by_distance(self, entered: u32, children: &Sixteen<u32>, stack: &mut Stack<'_>) -> u32;
@@ -124,7 +124,7 @@ impl<L: Lanes> Wide for Pair<L> {
         Self(self.0.select(mask, other.0), self.1.select(mask >> 8, other.1))
     }
     #[inline(always)]
-    fn least(self) -> f32 {
+    fn min_lane(self) -> f32 {
         let low = self.0.min(self.1).store().0;
         let low = [low[0].min(low[4]), low[1].min(low[5]), low[2].min(low[6]), low[3].min(low[7])];
         low[0].min(low[2]).min(low[1].min(low[3]))
@@ -270,7 +270,7 @@ mod avx512 {
             Self(unsafe { _mm512_mask_mov_ps(other.0, mask as u16, self.0) })
         }
         #[inline(always)]
-        fn least(self) -> f32 {
+        fn min_lane(self) -> f32 {
             // SAFETY: see the type.
             unsafe { _mm512_reduce_min_ps(self.0) }
         }

@@ -1,3 +1,5 @@
+//! Addresses of voxels: OctoMap's keys, three times 16 bits, with the origin of the world in the middle of their range.
+
 use enfilade_math::DVec3;
 
 /// Levels of the tree below its root: a voxel key has this many bits per axis.
@@ -7,6 +9,15 @@ pub const TREE_LEVELS: u32 = 16;
 const CENTER: i64 = 1 << (TREE_LEVELS - 1);
 
 /// The address of a voxel in OctoMap's key space: per axis floor(coordinate / resolution) + 32768.
+///
+/// ```
+/// use enfilade_geometry::VoxelKey;
+/// use enfilade_math::DVec3;
+///
+/// let key = VoxelKey::at(DVec3::new(-0.01, 0.25, 0.0), 0.1).unwrap();
+/// assert_eq!(key, VoxelKey([32767, 32770, 32768]));
+/// assert!((key.center(0.1) - DVec3::new(-0.05, 0.25, 0.05)).length() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct VoxelKey(pub [u16; 3]);
 

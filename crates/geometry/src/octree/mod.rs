@@ -34,6 +34,26 @@ pub enum Voxel {
 ///
 /// Two trees of the same states can differ in structure until both are pruned; [`OccupancyTree::from_states`] and
 /// [`OccupancyTree::prune`] give the unique smallest tree.
+///
+/// ```
+/// use enfilade_geometry::{OccupancyTree, Voxel};
+/// use enfilade_math::DVec3;
+///
+/// // Voxels of 10 cm: a metre of free space along x, with a wall at its end.
+/// let mut tree = OccupancyTree::new(0.1);
+/// for i in 0..10 {
+///     let p = DVec3::new(0.05 + 0.1 * f64::from(i), 0.05, 0.05);
+///     tree.set(tree.key(p).unwrap(), if i < 9 { Voxel::Free } else { Voxel::Occupied });
+/// }
+/// assert_eq!((tree.count(Voxel::Free), tree.count(Voxel::Occupied)), (9, 1));
+/// assert_eq!(tree.state(DVec3::new(0.42, 0.02, 0.09)), Voxel::Free);
+/// assert_eq!(tree.state(DVec3::new(0.42, 0.02, 0.11)), Voxel::Unknown);
+/// assert!(tree.any_within(DVec3::new(0.55, 0.05, 0.05), 0.4, Voxel::Occupied));
+///
+/// // OctoMap's programs read what is written here, and the other way round.
+/// tree.prune();
+/// assert_eq!(OccupancyTree::from_bt(&tree.to_bt()).unwrap().count(Voxel::Free), 9);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct OccupancyTree {
     resolution_m: f64,

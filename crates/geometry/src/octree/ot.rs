@@ -24,7 +24,7 @@ impl OccupancyTree {
         bytes
     }
 
-    /// Makes inner nodes unknown below which nothing is known; returns what then stands in place of `child`.
+    /// Replaces inner nodes below which nothing is known by unknown leaves; returns the replacement of `child`.
     fn forget_empty(&mut self, child: Child) -> Child {
         let Child::Inner(node) = child else { return child };
         for octant in 0..8 {

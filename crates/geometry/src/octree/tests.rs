@@ -1,3 +1,5 @@
+//! Trees against the plain list of their voxels: states, counts, bounds, neighbourhoods and pruning.
+
 use super::*;
 use enfilade_math::Rng;
 

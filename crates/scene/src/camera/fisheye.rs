@@ -1,4 +1,4 @@
-//! OpenCV's fisheye model.
+//! OpenCV's fisheye model: the distance from the principal point as an odd polynomial of the angle from the viewing axis.
 
 use super::CameraError;
 use super::roots::{first_fall, solve_rising};
@@ -6,7 +6,7 @@ use enfilade_math::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Directions so little beyond the image circle, relatively, count as on it: the rounding of single precision.
+/// Directions beyond the image circle by no more than this share of its angle count as on it: the rounding of single precision.
 const END_SLACK: f64 = 1e-6;
 
 /// Kannala and Brandt's model as OpenCV's `fisheye` module has it: a ray at the angle θ from the viewing axis falls

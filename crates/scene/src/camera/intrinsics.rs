@@ -1,3 +1,5 @@
+//! The calibration of a pinhole: K in Hypersim's convention, where image coordinates count from the image's corner, and in OpenCV's.
+
 use enfilade_math::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -5,6 +7,21 @@ use serde::{Deserialize, Serialize};
 ///
 /// Image coordinates have x to the right and y downward, and (0,0) is the upper left *corner* of the image, so that the
 /// centre of the upper left pixel is (0.5, 0.5). OpenCV's matrices put (0,0) at that centre: [`Intrinsics::opencv_k`].
+///
+/// ```
+/// use enfilade_math::DVec3;
+/// use enfilade_scene::Intrinsics;
+///
+/// // 640 pixels across 90 degrees: the focal length is half the width.
+/// let k = Intrinsics::from_fov_x(640, 480, 90f64.to_radians());
+/// assert!((k.fx - 320.0).abs() < 1e-9);
+///
+/// // The middle of the image looks ahead, and a point up and to the right of the axis is up and to the right in the image.
+/// assert_eq!(k.ray(320.0, 240.0), DVec3::NEG_Z);
+/// let (x, y) = k.project(DVec3::new(1.0, 0.5, -2.0));
+/// assert!((x - 480.0).abs() < 1e-9 && (y - 160.0).abs() < 1e-9);
+/// assert_eq!(k.opencv_k()[0][2], 319.5);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Intrinsics {
     /// Pixels per row.

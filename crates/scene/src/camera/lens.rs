@@ -1,4 +1,4 @@
-//! The aperture of a lens, and the shutter behind it.
+//! The aperture of a thin lens, which blurs what is out of focus, and the shutter, which blurs what moves.
 
 use super::CameraError;
 use enfilade_math::{DVec2, DVec3, warp};
@@ -60,7 +60,8 @@ impl ThinLens {
         self.aperture_radius_m * (corner(at.floor()) * within.x + corner(at.floor() + 1.0) * within.y)
     }
 
-    /// Direction, from the point `p` of the aperture, of the light that the ray `direction` through the centre stands for.
+    /// The direction of the ray from the point `p` of the aperture that meets the ray `direction` through the lens's centre where that
+    /// one is in focus.
     #[inline]
     pub(super) fn refract(&self, direction: DVec3, p: DVec3, has_plane: bool) -> DVec3 {
         if !has_plane {

@@ -4,6 +4,7 @@
 //! *corner* of the image. One [`Projection`] serves the renderer, the files and their verification, so that pictures and
 //! calibration cannot differ. [`CameraView`] is a camera at the moment of a frame.
 
+mod error;
 mod fisheye;
 mod intrinsics;
 mod lens;
@@ -15,6 +16,7 @@ mod start;
 mod tilted;
 mod view;
 
+pub use error::CameraError;
 pub use fisheye::Fisheye;
 pub use intrinsics::Intrinsics;
 pub use lens::{Shutter, ThinLens};
@@ -34,24 +36,6 @@ pub struct Camera {
     pub lens: Option<ThinLens>,
     /// `None`: the camera stands still for each frame.
     pub shutter: Option<Shutter>,
-}
-
-/// A camera setting out of its domain.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("the camera's {field} is {found}; expected {expected}")]
-pub struct CameraError {
-    /// Name of the field.
-    pub field: &'static str,
-    /// Its value.
-    pub found: String,
-    /// What it must be.
-    pub expected: &'static str,
-}
-
-impl CameraError {
-    fn new(field: &'static str, found: String, expected: &'static str) -> Self {
-        Self { field, found, expected }
-    }
 }
 
 impl From<Intrinsics> for Camera {

@@ -1,10 +1,29 @@
-//! The camera models.
+//! The camera models under one name: which direction belongs to an image point, and which image point to a camera-space point.
 
 use super::{CameraError, Fisheye, Intrinsics, RadialTangential, RayGrid, TiltedPinhole};
 use enfilade_math::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
 /// Image size, and which direction belongs to which image point.
+///
+/// ```
+/// use enfilade_math::DVec3;
+/// use enfilade_scene::{Fisheye, Intrinsics, Projection};
+///
+/// // A panorama sees everything, a pinhole only what is in front of it.
+/// let behind = DVec3::new(0.5, 0.0, 1.0);
+/// let panorama = Projection::Equirectangular { width: 360, height: 180 };
+/// assert!(panorama.project(behind).is_some());
+/// let k = Intrinsics::from_fov_x(64, 48, 1.0);
+/// assert!(Projection::Pinhole(k).project(behind).is_none());
+/// let (x, y) = panorama.project(DVec3::X).unwrap();
+/// assert!((x - 270.0).abs() < 1e-9 && (y - 90.0).abs() < 1e-9, "90 degrees to the right of the middle");
+///
+/// // `project` inverts `ray`, whatever the model.
+/// let fisheye = Projection::Fisheye(k, Fisheye::new([-0.01, 0.002, 0.0, 0.0]).unwrap());
+/// let (x, y) = fisheye.project(2.0 * fisheye.ray(10.5, 20.5).unwrap()).unwrap();
+/// assert!((x - 10.5).abs() < 1e-9 && (y - 20.5).abs() < 1e-9);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Projection {
     /// K alone; with an off-centre principal point also a shifted lens.

@@ -1,4 +1,4 @@
-//! OpenCV's lens distortion of ordinary lenses.
+//! OpenCV's distortion of ordinary lenses, radial and tangential, and its inverse by Newton's method.
 
 use super::CameraError;
 use super::roots::{first_fall, solve_rising};
@@ -11,7 +11,7 @@ const R_LIMIT: f64 = 573.0;
 const STEPS: usize = 30;
 /// How often a step is halved in search of a nearer point.
 const HALVINGS: i32 = 12;
-/// Points so little beyond the end, relatively, count as on it: the rounding of single precision.
+/// Points beyond the largest radius by no more than this share of it count as on it: the rounding of single precision.
 const END_SLACK: f64 = 1e-6;
 /// Largest error of an inverse, as a multiple of the focal length.
 const TOLERANCE: f64 = 1e-13;
@@ -61,7 +61,7 @@ impl RadialTangential {
         [k1, k2, p1, p2, k3, k4, k5, k6]
     }
 
-    /// Where the lens puts a point of the undistorted image plane. `None` where the model does not hold.
+    /// Where the lens puts a point of the undistorted image plane. `None` beyond the radii that the model is meant for.
     pub fn distort(&self, p: DVec2) -> Option<DVec2> {
         (p.length() <= self.r_max * (1.0 + END_SLACK)).then(|| self.map(p))
     }
@@ -79,7 +79,7 @@ impl RadialTangential {
                 break;
             }
             let step = jacobian.inverse() * error;
-            // Half as far, until it is nearer: near the fold a whole step leads beyond it.
+            // Halve the step until it leads nearer: near the fold a whole step leads beyond it.
             let tries = (0..HALVINGS).map(|i| p - step * 0.5f64.powi(i));
             let nearer = tries.map(|next| (next, self.map(next) - q)).find(|(_, e)| e.length_squared() < error.length_squared());
             let Some(next) = nearer else { break };
@@ -95,7 +95,7 @@ impl RadialTangential {
         let [k1, k2, k3, k4, k5, k6] = self.k;
         let (n, dn) = (1.0 + s * (k1 + s * (k2 + s * k3)), k1 + s * (2.0 * k2 + s * 3.0 * k3));
         let (d, dd) = (1.0 + s * (k4 + s * (k5 + s * k6)), k4 + s * (2.0 * k5 + s * 3.0 * k6));
-        // At a pole of the fraction the model has ended.
+        // The model ends at the latest where the denominator is zero.
         if d > 0.0 { (n / d, (dn * d - n * dd) / (d * d)) } else { (f64::NAN, f64::NAN) }
     }
 

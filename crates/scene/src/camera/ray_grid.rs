@@ -1,4 +1,4 @@
-//! Hypersim's non-parametric camera: a table of rays.
+//! Hypersim's non-parametric camera: a table of rays over the image, interpolated between its points.
 
 use super::CameraError;
 use enfilade_math::{DMat2, DVec2, DVec3};
@@ -83,7 +83,7 @@ impl RayGrid {
                 return Some((image.x, image.y));
             }
             let step = jacobian.inverse() * error;
-            // Half as far, until it is nearer.
+            // Halve the step until it leads nearer.
             let tries = (0..30).map(|i| at - step * 0.5f64.powi(i));
             let nearer = tries.map(|next| (next, self.slope(next))).find(|(_, (s, _))| (*s - wanted).length() < error.length());
             (at, (slope, jacobian)) = nearer?;

@@ -1,3 +1,5 @@
+//! Cameras that come with a scene file: from where its free space is carved and where trajectories begin.
+
 use crate::Pose;
 use enfilade_math::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! Pinholes whose image plane is tilted.
+//! Pinholes whose image plane is tilted (tilt-shift), as Hypersim's matrices describe them.
 
 use super::{CameraError, Intrinsics};
 use enfilade_math::{DMat3, DVec3};
@@ -73,7 +73,7 @@ impl TiltedPinhole {
         let right = rows[0] / scale - cx * forward - skew * down;
         let fx = right.length();
         let rotation = DMat3::from_cols(right / fx, -down, -forward).transpose();
-        // A shear below what doubles resolve is none; formats without skew would refuse it.
+        // A skew within rounding error counts as none: formats without skew would refuse the camera.
         let skew = if skew.abs() > 1e-9 * fx { skew } else { 0.0 };
         (Intrinsics { width: self.width, height: self.height, fx, fy, cx, cy, skew }, rotation)
     }

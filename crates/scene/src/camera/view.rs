@@ -1,14 +1,15 @@
-//! A camera at the moment of a frame.
+//! A camera at the moment of a frame: rays from image points and back, with lens, shutter and the motion between poses.
 
 use super::Camera;
 use crate::Pose;
 use enfilade_math::{DMat3, DQuat, DVec2, DVec3};
 
-/// The row of a rolling shutter that shows a point is looked for in so many stretches of the image, two in each of the two motions.
+/// The row of a rolling shutter that shows a point is searched for in this many stretches of the image: two before its middle row, while
+/// the camera comes from the pose before, and two after it, while it goes on to the next.
 const STRETCHES: usize = 4;
-/// A row shows a point that appears at most so far from it, pixels: below what float32 tells apart in an image.
+/// The search ends at a row from which the point appears no farther away than this, pixels: less than float32 resolves in an image.
 const ROW_TOLERANCE: f64 = 1e-6;
-/// Steps of the search for a row. Every second one halves what is left, and 32 halves of a stretch of 16,000 rows are short enough.
+/// Steps of the search for a row. Every second one halves what is left, and after 32 halvings a stretch of 16,000 rows is short enough.
 const ROW_STEPS: u32 = 64;
 
 /// A ray of a camera, in the world.
@@ -24,6 +25,20 @@ pub struct CameraRay {
 ///
 /// Colour is the mean over the pixel, the aperture and the exposure ([`CameraView::ray`]). Geometry is a point sample: through the
 /// pixel's centre and the lens's centre, in the middle of the exposure of the pixel's row ([`CameraView::centre_ray`]).
+///
+/// ```
+/// use enfilade_math::DVec3;
+/// use enfilade_scene::{Camera, CameraView, Intrinsics, Pose};
+///
+/// let camera = Camera::from(Intrinsics::from_fov_x(640, 480, 1.0));
+/// let pose = Pose::look_at(0, DVec3::new(0.0, -2.0, 1.5), DVec3::new(0.0, 0.0, 1.5), DVec3::Z).unwrap();
+/// let view = CameraView::still(&camera, &pose);
+///
+/// // The middle of the image shows what the camera looks at, and back.
+/// let ray = view.centre_ray(320.0, 240.0).unwrap();
+/// assert_eq!((ray.origin, ray.direction), (pose.position, DVec3::Y));
+/// assert_eq!(view.project(pose.look_at), Some((320.0, 240.0)));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct CameraView<'c> {
     camera: &'c Camera,
@@ -131,8 +146,12 @@ impl<'c> CameraView<'c> {
             return self.project_in_row(p_world, 0.0);
         }
         let height = f64::from(self.camera.size()[1]);
+
+        // The row that has the point in itself, in the first stretch of the image that contains one.
         let rows: [Row; STRETCHES + 1] = std::array::from_fn(|i| self.row(p_world, height * i as f64 / STRETCHES as f64));
         let shown = (0..STRETCHES).find_map(|i| self.own_row(p_world, rows[i], rows[i + 1]));
+
+        // Else the border's row beyond which the point lies.
         let [upper, lower] = [rows[0], rows[STRETCHES]];
         let above = || upper.off.is_some_and(|off| off < 0.0).then_some(upper.y);
         let below = || lower.off.is_some_and(|off| off >= 0.0).then_some(lower.y);
@@ -148,7 +167,7 @@ impl<'c> CameraView<'c> {
     fn own_row(&self, p_world: DVec3, first: Row, second: Row) -> Option<f64> {
         let (mut near, mut far) = if first.off.is_some() { (first, second) } else { (second, first) };
         let side = near.off?;
-        // Rounding may put a row that ends the stretch on either side.
+        // Rounding may put a row at the end of the stretch on either side.
         if let Some(end) = [near, far].into_iter().find(|end| end.off.is_some_and(|off| off.abs() <= ROW_TOLERANCE)) {
             return Some(end.y);
         }

@@ -1,3 +1,5 @@
+//! Sets the camera: its keyframes and field of view, and a texture that bends its rays where it is no pinhole.
+
 use super::{add, set_on_settings, set_where_present, text};
 use crate::{Document, Item, Plugin, Transform, Value};
 
@@ -84,7 +86,7 @@ pub fn set_camera(scene: &mut Document, path: &CameraPath) {
         ("distortion_type", Value::Int(if path.lens.is_some() { 3 } else { 0 })),
         ("distortion", Value::Int(0)),
     ];
-    // A lens of an earlier camera, which nothing refers to any more.
+    // Remove the lens of an earlier camera.
     scene.items.retain(|item| !matches!(item, Item::Plugin(plugin) if plugin.name().starts_with(LENS.as_bytes())));
     let Some(lens) = &path.lens else {
         scene.of_kind_mut("CameraPhysical").filter(|camera| refers_to_lens(camera)).for_each(|camera| _ = camera.remove("distortion_tex"));

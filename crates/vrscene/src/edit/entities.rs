@@ -1,3 +1,5 @@
+//! Numbers nodes and lights, so that images tell them apart, and hides those that have no object in the mesh.
+
 use crate::{Document, Value};
 use std::collections::HashMap;
 

@@ -3,9 +3,9 @@
 use crate::plugin::Text;
 use crate::{Document, Include, Item, Place};
 
-/// Includes within includes beyond this many are no scene's.
+/// No scene nests includes deeper than this.
 const MAX_DEPTH: usize = 32;
-/// Files beyond this many are no scene's: two files that include each next one twice double with every level.
+/// No scene includes more files than this. The limit is needed because files that each include the next one twice double at every level.
 const MAX_FILES: usize = 4096;
 
 /// Why included files cannot be taken in.
@@ -62,7 +62,7 @@ struct Splice<'l, P, L> {
 impl<P: PartialEq + Clone, E, L: FnMut(&P, &Include) -> Result<(Document, P), E>> Splice<'_, P, L> {
     fn whole(&mut self, scene: Document) -> Result<Document, IncludeError<E>> {
         let mut items = Vec::new();
-        // What stands between items whose neighbour has gone.
+        // Blanks and comments that belonged to an include, for the next item.
         let mut between: Vec<u8> = Vec::new();
         for item in scene.items {
             let Item::Include(include) = item else {
@@ -98,7 +98,7 @@ impl<P: PartialEq + Clone, E, L: FnMut(&P, &Include) -> Result<(Document, P), E>
     }
 }
 
-/// The item after what stands in `between`, which is used up.
+/// The item with the text of `between` put before it; `between` is then empty.
 fn after(between: &mut Vec<u8>, mut item: Item) -> Item {
     if !between.is_empty() {
         let before = match &mut item {

@@ -2,6 +2,17 @@
 //!
 //! Every function edits a [`Document`] in memory and says what it did; settings that a scene lacks are added.
 //! Constants are the toolkit's.
+//!
+//! ```
+//! use enfilade_vrscene::{Document, edit};
+//!
+//! let text = "FilterLanczos filter { size=2; }\nSettingsImageSampler sampler { type=3; filter=filter; }\n";
+//! let mut scene = Document::parse(text.as_bytes()).unwrap();
+//! let removed = edit::remove_kinds(&mut scene, &edit::IMAGE_FILTERS);
+//! assert_eq!((removed.plugins, removed.references), (1, 1));
+//! edit::reduce_quality(&mut scene);
+//! assert_eq!(scene.of_kind("SettingsImageSampler").next().unwrap().parameter("type").unwrap().raw(), b"0");
+//! ```
 
 mod camera;
 mod channels;

@@ -1,3 +1,5 @@
+//! Corrects settings that exporters of different ages wrote differently: frame buffer, photometric scale, gamma of pictures.
+
 use super::{set_on_settings, set_where_present};
 use crate::{Document, SceneTextError, Value};
 

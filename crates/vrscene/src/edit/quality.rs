@@ -1,3 +1,5 @@
+//! Hypersim's settings of the final image: sampling, indirect light, and the light of the surroundings.
+
 use super::{set_on_settings, set_where_present};
 use crate::{Document, Value};
 

@@ -1,3 +1,5 @@
+//! Removes plugins by kind, and every reference to them.
+
 use crate::{Document, Item, Value};
 use std::collections::HashSet;
 
@@ -42,7 +44,7 @@ pub fn remove_kinds(scene: &mut Document, kinds: &[&str]) -> Removed {
     }
     for plugin in scene.plugins_mut() {
         plugin.parameters_mut().retain_mut(|parameter| {
-            // Most values cannot be references, and packed ones are long: a look at the first byte is enough.
+            // Most values cannot be references, and packed ones are long to decode: their beginning tells.
             let Ok(value) = (if may_refer(parameter.raw()) { parameter.value() } else { return true }) else { return true };
             match without(value.clone(), &names, &mut removed.references) {
                 Some(rest) if rest == value => true,

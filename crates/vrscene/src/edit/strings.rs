@@ -1,3 +1,5 @@
+//! The strings that a node leads to (names, paths of textures, notes), by which people tell what it is.
+
 use crate::{Document, Parameter, Plugin, Value};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -13,9 +15,10 @@ pub struct NodeString {
 
 /// All strings that a node leads to: its own name and, depth first, those behind its parameters, which are taken by their names.
 ///
-/// The paths and their order are the toolkit's. A plugin that several ways lead to is named at each of them, and what lies behind it
-/// is told at the first, where the toolkit repeats it; a way that closes a circle ends before it. A plugin's output counts as the plugin,
-/// where the toolkit stops. What only V-Ray knows is missing: strings of parameters that the scene does not state.
+/// The paths and their order are the toolkit's, with two differences: a plugin that several ways lead to is named at each of them, but
+/// what lies behind it is listed at the first only, while the toolkit repeats it; and a reference to a plugin's output counts as one to
+/// the plugin, while the toolkit stops there. A way that closes a circle ends before it. Strings of parameters that the scene does not
+/// state are missing: only V-Ray knows them.
 pub fn node_strings(scene: &Document, node: &Plugin) -> Vec<NodeString> {
     let plugins: HashMap<&[u8], &Plugin> = scene.plugins().map(|plugin| (plugin.name(), plugin)).collect();
     let mut walk = Walk { plugins: &plugins, way: Vec::new(), visited: HashSet::new(), found: Vec::new() };
@@ -46,7 +49,7 @@ impl<'a> Walk<'a> {
         self.way.push(plugin.name());
         let parameters: BTreeMap<&[u8], &Parameter> = plugin.parameters().iter().map(|p| (p.name(), p)).collect();
         for (name, parameter) in parameters {
-            // Packed numbers lead nowhere.
+            // Packed numbers are no references.
             if parameter.raw().windows(4).take(32).any(|bytes| bytes == b"Hex(") {
                 continue;
             }

@@ -1,3 +1,5 @@
+//! Claims about the random walk: rules, limits, start cameras in bad places, and repeatability.
+
 use super::*;
 use crate::Saliency;
 
@@ -70,7 +72,7 @@ fn trajectories_are_the_same_for_any_number_of_threads_and_differ_by_index_and_s
 }
 
 #[test]
-fn a_start_camera_that_breaks_a_rule_is_mended_with_a_warning() {
+fn a_start_camera_that_breaks_a_rule_is_fixed_with_a_warning() {
     let room = furnished_room();
     let space = carved(&room);
     let config = PlanConfig { frames: 1, ..quick() };

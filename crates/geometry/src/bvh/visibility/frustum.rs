@@ -1,6 +1,6 @@
-//! Which boxes reach into a tile?
+//! The pyramid of a tile's rays, and the test which boxes reach into it, sixteen at a time.
 
-use super::PinholeRays;
+use super::pinhole::PinholeRays;
 use super::tile::TILE;
 use crate::bvh::node::Node;
 use crate::bvh::wide::Wide;
@@ -16,9 +16,9 @@ pub(super) struct Frustum {
     pub forward: Vec3,
     /// Inward normals of the four sides.
     sides: [Vec3; 4],
-    /// A box is outside when its point farthest along a normal is less than this.
+    /// A box is outside when its point farthest along a normal has a smaller product with it than this.
     limits: [f32; 4],
-    /// Of the depth of a box.
+    /// By how much a box may be nearer than computed.
     slack: f32,
     /// Their products with a point at depth 1, less those with `corner`, are its column and row in the tile.
     pub pixel: [Vec3; 2],
@@ -72,7 +72,7 @@ impl<W: Wide> Planes<W> {
         }
     }
 
-    /// The children that reach into the frustum at a depth of no more than `limit`, and the least depth of each.
+    /// The children that reach into the frustum at a depth of no more than `limit`, and the smallest depth of each.
     #[inline(always)]
     pub fn enter(&self, node: &Node, limit: f32) -> (u32, W) {
         let z = self.along(&self.forward, self.nearest, node).sub(self.behind);

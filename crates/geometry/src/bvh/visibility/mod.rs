@@ -10,60 +10,48 @@
 //! multiply-add, and of triangles at the same depth the one with the lowest index is seen.
 
 mod frustum;
+mod pinhole;
 mod setup;
 mod tile;
 
 #[cfg(test)]
 mod tests;
 
+use super::hierarchy::{Bvh, Kernel};
 use super::lanes::{self, lane_of};
 use super::leaf::Leaf;
 use super::node::LEAF;
 use super::stack::{Room, Stack};
 use super::wide::{self, Wide};
-use super::{Bvh, Kernel};
-use enfilade_math::Vec3;
 use frustum::{Frustum, Planes};
 use setup::{Setup, Waiting};
-use tile::{Pixels, TILE, Tile, place};
+use tile::{Pixels, TILE, Tile, block_and_lane};
 
-/// Rays of a pinhole image: the one through the centre of pixel (x, y) has the direction `corner + x · right + y · down`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PinholeRays {
-    /// Camera centre.
-    pub origin: Vec3,
-    /// Through the centre of the pixel in the upper left corner. Its length along the optical axis is 1.
-    pub corner: Vec3,
-    /// From a pixel to the next in its row; at a right angle to the optical axis.
-    pub right: Vec3,
-    /// From a pixel to the one below; at a right angle to the optical axis.
-    pub down: Vec3,
-}
-
-impl PinholeRays {
-    /// The ray through the centre of a pixel. Not a unit vector.
-    #[inline]
-    pub fn direction(&self, x: f32, y: f32) -> Vec3 {
-        self.corner + x * self.right + y * self.down
-    }
-
-    /// The unit vector along the optical axis.
-    pub fn forward(&self) -> Vec3 {
-        let axis = self.right.cross(self.down).normalize();
-        if axis.dot(self.corner) < 0.0 { -axis } else { axis }
-    }
-}
+pub use pinhole::PinholeRays;
+pub use tile::NOTHING;
 
 /// Triangle and depth of every pixel of an image; its memory serves for one image after the other.
+///
+/// ```
+/// use enfilade_geometry::{Bvh, NOTHING, PinholeRays, VisibilityBuffer};
+/// use enfilade_math::Vec3;
+///
+/// // A camera at the origin that looks along x, z up, with an opening of 90 degrees; a triangle 2 m ahead fills the lower left half.
+/// let bvh = Bvh::new(&[[Vec3::new(2.0, 2.0, 2.0), Vec3::new(2.0, 2.0, -2.0), Vec3::new(2.0, -2.0, -2.0)]], &|_| false);
+/// let (right, down) = (Vec3::new(0.0, -0.5, 0.0), Vec3::new(0.0, 0.0, -0.5));
+/// let rays = PinholeRays { origin: Vec3::ZERO, corner: Vec3::new(1.0, 0.75, 0.75), right, down };
+///
+/// let mut image = VisibilityBuffer::new(4, 4);
+/// image.draw(&bvh, &rays);
+/// assert_eq!(image.triangles()[3], NOTHING);
+/// assert_eq!((image.triangles()[12], image.inverse_z()[12]), (0, 0.5));
+/// ```
 pub struct VisibilityBuffer {
     width: usize,
     height: usize,
     triangles: Vec<u32>,
     inverse_z: Vec<f32>,
 }
-
-/// Stands for no triangle in [`VisibilityBuffer::triangles`].
-pub const NOTHING: u32 = u32::MAX;
 
 impl VisibilityBuffer {
     /// An image of `width` × `height` pixels in which nothing is seen.
@@ -107,7 +95,7 @@ impl VisibilityBuffer {
     fn keep(&mut self, tile: &Tile, x: usize, y: usize) {
         for row in 0..TILE.min(self.height - y) {
             for column in 0..TILE.min(self.width - x) {
-                let (block, lane) = place(column, row);
+                let (block, lane) = block_and_lane(column, row);
                 let pixel = (y + row) * self.width + x + column;
                 self.triangles[pixel] = tile.triangles[block].0[lane].to_bits();
                 self.inverse_z[pixel] = tile.inverse_z[block].0[lane];
@@ -157,15 +145,18 @@ fn draw_tile<W: Wide>(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
     if bvh.nodes.is_empty() {
         return;
     }
+
+    // The tile's pyramid, its pixels, and the triangles that wait to be drawn.
     let (planes, setup) = (Planes::<W>::new(frustum), Setup::<W>::new(frustum));
     let (mut pixels, mut waiting) = (Pixels::<W>::new(tile), Waiting::new());
     let mut room = Room::new();
     let mut stack = Stack::new(&mut room);
-    // Leaves are looked at two by two.
+    // Leaves are taken two at a time: a vector holds the triangles of both.
     let mut single: Option<Leaf<'_>> = None;
     let mut current = 0;
     loop {
         if current & LEAF != 0 {
+            // A leaf: with the one before it, collect the triangles that may be seen; draw them when all lanes are full.
             // SAFETY: the builder makes children of existing nodes and leaves only.
             let leaf = unsafe { Leaf::at(&bvh.words, current) };
             match single.take() {
@@ -178,6 +169,7 @@ fn draw_tile<W: Wide>(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
                 }
             }
         } else {
+            // An inner node: go on with the nearest child in the pyramid that is not hidden, keep the others for later.
             // SAFETY: as above, and there is a root.
             let node = unsafe { bvh.nodes.get_unchecked(current as usize) };
             let (mut entered, z) = planes.enter(node, pixels.farthest_z());
@@ -194,9 +186,13 @@ fn draw_tile<W: Wide>(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
                 continue;
             }
         }
+
+        // The next child that is not hidden by what was drawn since it was put on the stack.
         let Some(child) = stack.pop_up_to(pixels.farthest_z()) else { break };
         current = child;
     }
+
+    // The last leaf may be without a partner, and fewer triangles may wait than there are lanes.
     if let Some(leaf) = single {
         setup.screen([leaf, Leaf::NONE], pixels.farthest(), &mut waiting);
     }

@@ -7,10 +7,10 @@ use crate::bvh::leaf::{FILTERED, Leaf};
 use crate::bvh::node::WIDTH;
 use crate::bvh::wide::Wide;
 
-/// Numbers that are kept of a waiting triangle: three corners, first and last pixel, least and greatest inverse depth, index.
+/// Numbers that are kept of a waiting triangle: three corners, first and last pixel, smallest and largest inverse depth, index.
 const NUMBERS: usize = 16;
 
-/// Triangles that may be seen, until there are enough for all lanes: of those in the leaves of a tile's boxes most are not.
+/// Triangles that may be seen, collected until there are enough for all lanes: most of those in the leaves that a tile reaches are not.
 pub(super) struct Waiting {
     numbers: [Row; NUMBERS],
     len: usize,
@@ -69,12 +69,12 @@ pub(super) struct Setup<W> {
     forward: [W; 3],
 }
 
-/// Of sixteen triangles: the pixels of the tile among which all are that a triangle may cover, and the range of its inverse depths.
+/// Of sixteen triangles: the first and last column and row of the pixels that each may cover, and the range of its inverse depths.
 struct Extent<W> {
     first: [W; 2],
     last: [W; 2],
-    least: W,
-    greatest: W,
+    min_inverse_z: W,
+    max_inverse_z: W,
 }
 
 impl<W: Wide> Setup<W> {
@@ -92,18 +92,23 @@ impl<W: Wide> Setup<W> {
         }
     }
 
-    /// Lets those triangles of two leaves wait that may cover a pixel, and are not behind everything drawn, whose least inverse depth is
-    /// `farthest`. There must be room for sixteen.
+    /// Puts those triangles of two leaves among the waiting ones that may cover a pixel and are not behind everything drawn so far, whose
+    /// smallest inverse depth is `farthest`. There must be room for sixteen.
     #[inline(always)]
     pub fn screen(&self, leaves: [Leaf<'_>; 2], farthest: f32, waiting: &mut Waiting) {
+        // Bound the pixels that each triangle may cover, and its depth.
         let corners = [self.corner_of(leaves, 0), self.corner_of(leaves, 1), self.corner_of(leaves, 2)];
         let extent = self.extent(corners[0], corners[1], corners[2]);
-        let mut visible = W::splat(farthest).le(extent.greatest);
+
+        // Keep those that are not hidden, exist, and cover a pixel.
+        let mut visible = W::splat(farthest).le(extent.max_inverse_z);
         visible &= leaves[0].lanes() | leaves[1].lanes() << 8;
         visible &= extent.first[0].le(extent.last[0]) & extent.first[1].le(extent.last[1]);
         if visible == 0 {
             return;
         }
+
+        // Append them to the waiting ones, number by number.
         let at = waiting.len;
         for k in 0..3 {
             for axis in 0..3 {
@@ -114,8 +119,8 @@ impl<W: Wide> Setup<W> {
             extent.first[k].compress(visible, &mut waiting.numbers[9 + k].0, at);
             extent.last[k].compress(visible, &mut waiting.numbers[11 + k].0, at);
         }
-        extent.least.compress(visible, &mut waiting.numbers[13].0, at);
-        extent.greatest.compress(visible, &mut waiting.numbers[14].0, at);
+        extent.min_inverse_z.compress(visible, &mut waiting.numbers[13].0, at);
+        extent.max_inverse_z.compress(visible, &mut waiting.numbers[14].0, at);
         while visible != 0 {
             let lane = lane_of(&mut visible);
             waiting.numbers[15].0[waiting.len & 31] = f32::from_bits(leaves[lane >> 3].id(lane & 7));
@@ -126,17 +131,23 @@ impl<W: Wide> Setup<W> {
     /// Draws the first sixteen of the waiting triangles, or all.
     #[inline(always)]
     pub fn draw(&self, waiting: &mut Waiting, pixels: &mut Pixels<W>) {
+        // Load the corners, relative to the camera.
         let corner = |k: usize| [waiting.first::<W>(3 * k), waiting.first::<W>(3 * k + 1), waiting.first::<W>(3 * k + 2)];
         let (a, b, c) = (corner(0), corner(1), corner(2));
+
+        // The plane of each triangle; it is left out when it passes through the camera.
         let normal = cross(minus(b, a), minus(c, a));
         let height = dot(normal, a);
         let mut drawn = if waiting.is_full() { 0xffff } else { (1 << waiting.len) - 1 };
         drawn &= height.ne(W::splat(0.0)) & height.le(height);
         let inverse = W::splat(1.0).div(height);
-        // Positive inside the triangle, from whichever side it is seen.
+
+        // Edge functions, positive inside from whichever side the triangle is seen, and its inverse depth.
         let sign = W::splat(1.0).copysign(height);
         let edges = [store(&self.edge(b, c, sign)), store(&self.edge(c, a, sign)), store(&self.edge(a, b, sign))];
         let z = store(&self.linear([normal[0].mul(inverse), normal[1].mul(inverse), normal[2].mul(inverse)]));
+
+        // Draw one triangle after the other.
         while drawn != 0 {
             let lane = lane_of(&mut drawn);
             let number = |number: usize| waiting.numbers[number].0[lane];
@@ -151,7 +162,7 @@ impl<W: Wide> Setup<W> {
         waiting.drop_first();
     }
 
-    /// A triangle that reaches behind the camera, or far beyond the image, may be anywhere.
+    /// Bounds on the pixels and depths of triangles. One that reaches behind the camera, or far beyond the image, may be anywhere.
     #[inline(always)]
     fn extent(&self, a: [W; 3], b: [W; 3], c: [W; 3]) -> Extent<W> {
         /// Farther away than this many pixels, rounding would move a corner by more than the margin.
@@ -159,9 +170,9 @@ impl<W: Wide> Setup<W> {
         const MARGIN: f32 = 1.0 / 64.0;
         let one = W::splat(1.0);
         let inverse = [one.div(dot(a, self.forward)), one.div(dot(b, self.forward)), one.div(dot(c, self.forward))];
-        let least = inverse[0].min(inverse[1]).min(inverse[2]);
-        let greatest = inverse[0].max(inverse[1]).max(inverse[2]);
-        let mut known = W::splat(0.0).lt(least);
+        let min_inverse_z = inverse[0].min(inverse[1]).min(inverse[2]);
+        let max_inverse_z = inverse[0].max(inverse[1]).max(inverse[2]);
+        let mut known = W::splat(0.0).lt(min_inverse_z);
         let (mut low, mut high) = ([one; 2], [one; 2]);
         for k in 0..2 {
             let at = [
@@ -180,7 +191,12 @@ impl<W: Wide> Setup<W> {
             first[k] = round(from.max(zero).min(W::splat(TILE as f32))).select(known, zero);
             last[k] = round(to.max(W::splat(-1.0)).min(end)).select(known, end);
         }
-        Extent { first, last, least: least.select(known, zero), greatest: greatest.select(known, W::splat(f32::INFINITY)) }
+        Extent {
+            first,
+            last,
+            min_inverse_z: min_inverse_z.select(known, zero),
+            max_inverse_z: max_inverse_z.select(known, W::splat(f32::INFINITY)),
+        }
     }
 
     #[inline(always)]

@@ -1,6 +1,8 @@
+//! Drawn pictures against rays through the same pixels.
+
 use super::*;
 use crate::bvh::tests::{closed_surface, kernels, random_triangles, room, solid};
-use enfilade_math::{Ray, Rng};
+use enfilade_math::{Ray, Rng, Vec3};
 
 const WIDTH: u32 = 100;
 const HEIGHT: u32 = 52;

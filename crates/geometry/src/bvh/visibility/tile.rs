@@ -1,6 +1,5 @@
 //! The pixels of a tile, and drawing one triangle into them.
 
-use super::NOTHING;
 use crate::bvh::lanes::{Sixteen, lane_of};
 use crate::bvh::wide::Wide;
 
@@ -9,9 +8,12 @@ use crate::bvh::wide::Wide;
 pub(super) const TILE: usize = 16;
 pub(super) const BLOCK: usize = 4;
 
+/// Stands for no triangle in [`VisibilityBuffer::triangles`](super::VisibilityBuffer::triangles).
+pub const NOTHING: u32 = u32::MAX;
+
 /// Block and lane of a pixel of a tile.
 #[inline(always)]
-pub(super) fn place(column: usize, row: usize) -> (usize, usize) {
+pub(super) fn block_and_lane(column: usize, row: usize) -> (usize, usize) {
     ((row / BLOCK) * BLOCK + column / BLOCK, (row % BLOCK) * BLOCK + column % BLOCK)
 }
 
@@ -32,7 +34,7 @@ impl Tile {
             Self { triangles: [nothing; 16], inverse_z: [Sixteen([f32::INFINITY; 16]); 16], farthest: Sixteen([f32::INFINITY; 16]) };
         for row in 0..rows {
             for column in 0..columns {
-                let (block, lane) = place(column, row);
+                let (block, lane) = block_and_lane(column, row);
                 tile.inverse_z[block].0[lane] = 0.0;
                 tile.farthest.0[block] = 0.0;
             }
@@ -76,7 +78,7 @@ pub(super) struct Pixels<'a, W> {
     block_y: W,
     pixel_x: W,
     pixel_y: W,
-    /// The least of the tile's inverse depths.
+    /// The smallest of the tile's inverse depths.
     farthest: f32,
 }
 
@@ -89,7 +91,7 @@ impl<'a, W: Wide> Pixels<'a, W> {
         Self { tile, block_x: x.mul(block), block_y: y.mul(block), pixel_x: x, pixel_y: y, farthest: 0.0 }
     }
 
-    /// The least of the tile's inverse depths: what has less everywhere is hidden.
+    /// The smallest of the tile's inverse depths: a triangle with smaller ones everywhere is hidden.
     #[inline(always)]
     pub fn farthest(&self) -> f32 {
         self.farthest
@@ -104,8 +106,9 @@ impl<'a, W: Wide> Pixels<'a, W> {
     /// Draws one triangle.
     #[inline(always)]
     pub fn draw(&mut self, triangle: &Drawn) {
-        /// Of fewer blocks, each is looked at: that is less work than to leave some out.
+        /// With fewer blocks, each is looked at: that is less work than finding out which can be left out.
         const MANY: u32 = 3;
+        // Leave out blocks that the triangle does not reach or in which it is hidden.
         let Drawn { id, edges, z, z_range, blocks } = triangle;
         let mut reached = *blocks;
         if reached.count_ones() >= MANY {
@@ -114,23 +117,28 @@ impl<'a, W: Wide> Pixels<'a, W> {
         if reached == 0 {
             return;
         }
+
+        // What the edge functions and the depth add from a block's first pixel to its others.
         let zero = W::splat(0.0);
         let pixels = [self.at_pixels(&edges[0]), self.at_pixels(&edges[1]), self.at_pixels(&edges[2])];
-        let (pixels_z, least, greatest) = (self.at_pixels(z), W::splat(z_range[0]), W::splat(z_range[1]));
+        let (pixels_z, min_z, max_z) = (self.at_pixels(z), W::splat(z_range[0]), W::splat(z_range[1]));
         let mut changed = false;
         while reached != 0 {
             let block = lane_of(&mut reached);
+            // Pixels of the block inside the triangle and not behind what was drawn before.
             let weights = [
                 W::splat(at_block(&edges[0], block)).add(pixels[0]),
                 W::splat(at_block(&edges[1], block)).add(pixels[1]),
                 W::splat(at_block(&edges[2], block)).add(pixels[2]),
             ];
-            let z = W::splat(at_block(z, block)).add(pixels_z).max(least).min(greatest);
+            let z = W::splat(at_block(z, block)).add(pixels_z).max(min_z).min(max_z);
             let old = W::load(&self.tile.inverse_z[block]);
             let inside = zero.le(weights[0].min(weights[1]).min(weights[2])) & old.le(z);
             if inside == 0 {
                 continue;
             }
+
+            // At equal depth, the triangle with the lower index wins.
             let mut nearer = inside & !z.le(old);
             let mut level = inside & !nearer;
             while level != 0 {
@@ -140,15 +148,17 @@ impl<'a, W: Wide> Pixels<'a, W> {
             if nearer == 0 {
                 continue;
             }
+
+            // Store depth and index.
             let new = z.select(nearer, old);
             self.tile.inverse_z[block] = new.store();
             let ids = W::load(&self.tile.triangles[block]);
             self.tile.triangles[block] = W::splat(f32::from_bits(*id)).select(nearer, ids).store();
-            self.tile.farthest.0[block] = new.least();
+            self.tile.farthest.0[block] = new.min_lane();
             changed = true;
         }
         if changed {
-            self.farthest = W::load(&self.tile.farthest).least();
+            self.farthest = W::load(&self.tile.farthest).min_lane();
         }
     }
 
@@ -158,7 +168,7 @@ impl<'a, W: Wide> Pixels<'a, W> {
         let zero = W::splat(0.0);
         let mut reached = W::load(&self.tile.farthest).le(W::splat(triangle.z_range[1]));
         for edge in &triangle.edges {
-            reached &= zero.le(self.at_blocks(edge).add(Self::most(edge)));
+            reached &= zero.le(self.at_blocks(edge).add(Self::max_within_block(edge)));
         }
         reached
     }
@@ -173,9 +183,9 @@ impl<'a, W: Wide> Pixels<'a, W> {
         W::splat(f.right).mul(self.pixel_x).add(W::splat(f.down).mul(self.pixel_y))
     }
 
-    /// What a pixel adds to its block's value at most.
+    /// The largest amount that a pixel adds to its block's value.
     #[inline(always)]
-    fn most(f: &Linear<f32>) -> W {
+    fn max_within_block(f: &Linear<f32>) -> W {
         let last = (BLOCK - 1) as f32;
         W::splat((f.right * last).max(0.0) + (f.down * last).max(0.0))
     }

@@ -1,0 +1,98 @@
+//! What every mode works with: the scene, the rules and the gates, and the choice among candidates in proportion to their scores.
+
+use super::PlanConfig;
+use super::gates::Gates;
+use super::report::{CoverageReport, Fault, RejectedCounts};
+use super::rules::Rules;
+use crate::ViewStats;
+use crate::view::{Sight, TestImage};
+use enfilade_math::{Distribution1, Rng};
+use enfilade_scene::{Cx, Intrinsics, Pose, WorldMesh};
+use rayon::prelude::*;
+
+/// Scores above this are scaled down together.
+const MAX_SCORE: f64 = 1e30;
+
+/// What every mode works with.
+pub(super) struct Planner<'a> {
+    pub rules: &'a Rules<'a>,
+    pub gates: &'a Gates<'a>,
+    pub world: &'a WorldMesh,
+    pub config: &'a PlanConfig,
+    pub image: TestImage,
+    pub name: &'a str,
+    /// The caller's last word.
+    pub accepts: &'a (dyn Fn(&Pose) -> bool + Sync),
+    pub cx: &'a dyn Cx,
+}
+
+/// What a mode found.
+#[derive(Default)]
+pub(super) struct Draft {
+    pub poses: Vec<Pose>,
+    /// What the poses show, where the mode knows already; else empty.
+    pub views: Vec<ViewStats>,
+    pub rejected: RejectedCounts,
+    pub coverage: Option<CoverageReport>,
+}
+
+impl<'a> Planner<'a> {
+    pub fn new(rules: &'a Rules<'a>, gates: &'a Gates<'a>, world: &'a WorldMesh, name: &'a str, cx: &'a dyn Cx) -> Self {
+        let config = rules.config;
+        let image = TestImage::new(&Intrinsics::from_fov_x(config.test_width, config.test_height, config.fov_x_rad));
+        Self { rules, gates, world, config, image, name, accepts: &|_| true, cx }
+    }
+
+    /// What each pose shows.
+    pub fn views(&self, poses: &[Pose]) -> Vec<ViewStats> {
+        let look = |sight: &mut Sight, pose: &Pose| {
+            sight.look(self.rules.bvh, &self.image, pose);
+            sight.judge(self.world, &self.config.saliency)
+        };
+        poses.par_iter().map_init(|| self.image.sight(self.world), look).collect()
+    }
+
+    /// What a view is worth.
+    pub fn score(&self, view: &ViewStats) -> f64 {
+        self.config.saliency.score(view)
+    }
+
+    /// The index of a candidate without a fault, drawn in proportion to the scores. Looking for faults is expensive, so only candidates
+    /// that are drawn are looked at, and one with a fault is not drawn again. `before` is the pose before them.
+    pub fn choose(
+        &self,
+        candidates: &[Pose],
+        views: &[ViewStats],
+        before: Option<&Pose>,
+        rejected: &mut RejectedCounts,
+        rng: &mut Rng,
+    ) -> Option<usize> {
+        // Weights in proportion to the scores; none for views of too little.
+        let score = |view: &ViewStats| if self.gates.is_void(view) { 0.0 } else { self.score(view) };
+        let scores: Vec<f64> = views.iter().map(score).collect();
+        let greatest = scores.iter().fold(0.0, |max: f64, score| max.max(*score));
+        // Sums are in single precision: scores too large for that are all divided by the largest one.
+        let unit = if greatest > MAX_SCORE { greatest } else { 1.0 };
+        let mut weights: Vec<f32> = scores.into_iter().map(|score| (score / unit) as f32).collect();
+        views.iter().filter(|view| self.gates.is_void(view)).for_each(|_| rejected.add(Fault::Void));
+
+        // Draw until a view has no fault.
+        while let Some(distribution) = Distribution1::new(&weights) {
+            let chosen = distribution.sample(rng.next_f32()).0;
+            let pose = &candidates[chosen];
+            let fault = self.gates.fault(pose, before).or_else(|| (!(self.accepts)(pose)).then_some(Fault::Refused));
+            let Some(fault) = fault else { return Some(chosen) };
+            rejected.add(fault);
+            weights[chosen] = 0.0;
+        }
+        None
+    }
+
+    pub fn progress(&self, done: usize, total: usize) {
+        self.cx.progress(&format!("plan {}", self.name), done as u64, total as u64);
+    }
+
+    pub fn warn(&self, message: String) {
+        self.cx.warn(enfilade_scene::Warning { place: self.name.to_string(), message });
+    }
+}
