@@ -1,3 +1,5 @@
+//! The denoiser itself: a device of Open Image Denoise, and its filter for one picture behind a safe interface.
+
 use crate::library::{DEVICE_CPU, ERRORS, FORMAT_FLOAT3, Functions, Handle, QUALITY_HIGH, load};
 use crate::{DenoiseError, Noisy};
 use std::ffi::{CStr, c_int};

@@ -1,3 +1,5 @@
+//! Why denoising fails: the library is not there or not the right one, it fails itself, or the frame lacks a layer.
+
 use std::path::PathBuf;
 
 /// Why layers cannot be denoised.

@@ -4,6 +4,24 @@
 //! reflectance as the renderer puts them together. So texture never goes through the denoiser, the identity holds to the last
 //! bit, and the layers that were rendered stay as they are. [`denoise`] is a pure function of a frame and a filter; a
 //! [`Denoiser`] is the filter. The library is loaded when a [`Denoiser`] is opened, and nothing else needs it.
+//!
+//! ```
+//! use enfilade_denoise::{DenoiseError, denoise};
+//! use enfilade_frame::{Frame, Layer, Values, f16};
+//!
+//! // One pixel: light of 2 on a surface that reflects half of it, and 0.25 of other light.
+//! let channels = |value: f32| Values::F16(vec![f16::from_f32(value); 3]);
+//! let mut frame = Frame::new(1, 1);
+//! frame.insert(Layer::DiffuseIllumination, channels(2.0));
+//! frame.insert(Layer::Residual, channels(0.25));
+//! frame.insert(Layer::DiffuseReflectance, channels(0.5));
+//! frame.insert(Layer::NormalBumpWorld, channels(0.0));
+//!
+//! // `|noisy| denoiser.filter(noisy)` calls the library; this filter changes nothing.
+//! let denoised = denoise(&frame, |noisy| Ok(noisy.color.to_vec()))?;
+//! assert_eq!(denoised.get(Layer::ColorDenoised).map(|color| color.get(0)), Some(0.5 * 2.0 + 0.25));
+//! # Ok::<(), DenoiseError>(())
+//! ```
 
 mod denoiser;
 mod error;

@@ -1,21 +1,21 @@
 //! Where the samples go: to each pixel in proportion to the error that it would have left.
 //!
-//! The error of a pixel is estimated from the first samples of the pixels *around* it. Its own samples have no say in their number,
-//! nor have those of pixels that it shares light with, so the mean of a pixel stays unbiased, which it would not if a dark first sample
+//! The error of a pixel is estimated from the first samples of the pixels *around* it. Its own samples do not influence their number,
+//! nor do those of pixels that it shares light with. So the mean of a pixel stays unbiased, which it would not if a dark first sample
 //! could end the search for a bright one (Kirk & Arvo 1991, "Unbiased sampling techniques for image synthesis").
 
-use crate::sampling::share;
+use crate::lattice::may_share_light;
 use rayon::prelude::*;
 
-/// Neighbours within this many rows and columns speak for a pixel.
+/// A pixel's error is estimated from its neighbours within this many rows and columns.
 const REACH: usize = 3;
-/// Part of the image's mean luminance that is added to a pixel's own before its error is put in relation to it: nobody sees a relative
-/// error in the dark.
-pub(crate) const FLOOR: f32 = 0.2;
-/// No pixel gets more than this many times the mean.
-const MOST: f32 = 16.0;
+/// This times the image's mean luminance is added to a pixel's own before its error is divided by it: a relative error in the dark is
+/// invisible.
+pub(crate) const LUMINANCE_FLOOR: f32 = 0.2;
+/// No pixel gets more than this many times the mean number of samples.
+const MAX_RATIO: f32 = 16.0;
 
-/// First estimate of a pixel.
+/// What the samples of a pixel say of its luminance.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Estimate {
     /// Mean luminance of its samples.
@@ -24,7 +24,7 @@ pub(crate) struct Estimate {
     pub variance: f32,
 }
 
-/// How samples are shared out.
+/// How a frame's samples are allocated to its pixels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Budget {
     /// Samples that every pixel has already.
@@ -39,32 +39,36 @@ pub(crate) struct Budget {
 
 impl Budget {
     /// The number of samples of every pixel, row by row.
-    pub fn share(&self, width: usize, estimates: &[Estimate]) -> Vec<u32> {
+    pub fn allocate(&self, width: usize, estimates: &[Estimate]) -> Vec<u32> {
         let height = estimates.len() / width.max(1);
         let mean = estimates.iter().map(|e| f64::from(e.mean)).sum::<f64>() as f32 / estimates.len().max(1) as f32;
         let errors: Vec<f32> = (0..estimates.len())
             .into_par_iter()
-            .map(|p| self.error_around(estimates, [width, height], [p % width, p / width], FLOOR * mean))
+            .map(|p| self.error_around(estimates, [width, height], [p % width, p / width], LUMINANCE_FLOOR * mean))
             .collect();
+
+        // Where no error can be told, either nothing is left to improve or nothing is known.
         let total: f64 = errors.iter().map(|&e| f64::from(e)).sum();
         let n = errors.len() as f64;
         if !(total > 0.0 && total.is_finite()) {
             let is_clean = total == 0.0 && self.noise.is_some();
             return vec![if is_clean { self.first } else { self.mean }; errors.len()];
         }
-        // The variance that is left, Σ e²/n, is least for a given number of samples when n is in proportion to e.
-        let most = MOST * self.mean as f32;
-        let samples = |scale: f64| errors.iter().map(|&e| self.samples(f64::from(e) * scale, most)).sum::<f64>();
+
+        // The variance that is left, Σ e²/n, has its minimum for a given number of samples where n is in proportion to e: find the factor
+        // of proportion that meets the mean number of samples, or the noise target if that needs fewer.
+        let max = MAX_RATIO * self.mean as f32;
+        let samples = |scale: f64| errors.iter().map(|&e| self.samples(f64::from(e) * scale, max)).sum::<f64>();
         let for_mean = bisect(n * f64::from(self.mean), samples);
         let scale = match self.noise {
             None => for_mean,
             Some(target) => {
                 let noise =
-                    |scale: f64| -errors.iter().map(|&e| f64::from(e).powi(2) / self.samples(f64::from(e) * scale, most)).sum::<f64>();
+                    |scale: f64| -errors.iter().map(|&e| f64::from(e).powi(2) / self.samples(f64::from(e) * scale, max)).sum::<f64>();
                 bisect(-n * f64::from(target).powi(2), noise).min(for_mean)
             }
         };
-        errors.iter().map(|&e| self.samples(f64::from(e) * scale, most).round() as u32).collect()
+        errors.iter().map(|&e| self.samples(f64::from(e) * scale, max).round() as u32).collect()
     }
 
     /// Root mean square, over the pixels around one that share no light with it, of a sample's standard deviation in relation to luminance.
@@ -72,7 +76,7 @@ impl Budget {
         let (mut sum, mut weights) = (0.0, 0.0);
         for ny in y.saturating_sub(REACH)..height.min(y + REACH + 1) {
             for nx in x.saturating_sub(REACH)..width.min(x + REACH + 1) {
-                if share([nx, ny], [x, y], self.reuse) {
+                if may_share_light([nx, ny], [x, y], self.reuse) {
                     continue;
                 }
                 let near = 1.0 / (nx.abs_diff(x).pow(2) + ny.abs_diff(y).pow(2)) as f32;
@@ -84,12 +88,12 @@ impl Budget {
         if weights > 0.0 { (sum / weights).sqrt() } else { 1.0 }
     }
 
-    fn samples(&self, wanted: f64, most: f32) -> f64 {
-        wanted.clamp(f64::from(self.first), f64::from(most).max(f64::from(self.first)))
+    fn samples(&self, wanted: f64, max: f32) -> f64 {
+        wanted.clamp(f64::from(self.first), f64::from(max).max(f64::from(self.first)))
     }
 }
 
-/// The scale ≥ 0 at which the rising function `f` reaches `value`, as far as it can.
+/// The scale ≥ 0 at which the rising function `f` reaches `value`; the largest one tried (10¹²) where it does not.
 fn bisect(value: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.0f64, 1.0f64);
     while f(high) < value && high < 1e12 {
@@ -113,7 +117,7 @@ mod tests {
 
     #[test]
     fn noisy_pixels_get_more_and_the_mean_is_kept() {
-        let counts = Budget { first: 8, mean: 64, noise: None, reuse: false }.share(64, &half_noisy());
+        let counts = Budget { first: 8, mean: 64, noise: None, reuse: false }.allocate(64, &half_noisy());
         let mean = counts.iter().sum::<u32>() as f32 / counts.len() as f32;
         assert!((mean - 64.0).abs() < 1.0, "mean {mean}");
         let (quiet, noisy) = (counts[10 * 64 + 5], counts[10 * 64 + 60]);
@@ -123,23 +127,23 @@ mod tests {
     #[test]
     fn a_noise_target_takes_what_it_needs_up_to_the_bound() {
         let budget = |noise| Budget { first: 8, mean: 4096, noise: Some(noise), reuse: false };
-        let counts = budget(0.05).share(64, &half_noisy());
+        let counts = budget(0.05).allocate(64, &half_noisy());
         let left =
             half_noisy().iter().zip(&counts).map(|(e, &n)| e.variance / (1.2f32.powi(2) * n as f32)).sum::<f32>() / counts.len() as f32;
         assert!((left.sqrt() - 0.05).abs() < 0.003, "left {}", left.sqrt());
-        let bounded = budget(1e-6).share(64, &half_noisy());
+        let bounded = budget(1e-6).allocate(64, &half_noisy());
         assert!(bounded.iter().map(|&n| u64::from(n)).sum::<u64>() <= 4097 * 64 * 32);
         // What is beyond all numbers is not taken for clean.
         let wild = vec![Estimate { mean: 1.0, variance: f32::INFINITY }; 25];
-        assert_eq!(budget(0.05).share(5, &wild), [4096; 25]);
-        assert_eq!(budget(0.05).share(5, &[Estimate::default(); 25]), [8; 25]);
+        assert_eq!(budget(0.05).allocate(5, &wild), [4096; 25]);
+        assert_eq!(budget(0.05).allocate(5, &[Estimate::default(); 25]), [8; 25]);
     }
 
     #[test]
     fn pixels_that_share_light_have_no_say_in_the_number_of_any_of_them() {
         let mut one = vec![Estimate { mean: 1.0, variance: 1.0 }; 256];
         one[5 * 16 + 5].variance = 1e4;
-        let counts = Budget { first: 1, mean: 64, noise: None, reuse: true }.share(16, &one);
+        let counts = Budget { first: 1, mean: 64, noise: None, reuse: true }.allocate(16, &one);
         for (p, &count) in counts.iter().enumerate() {
             let [x, y] = [p % 16, p / 16];
             let near = x.abs_diff(5) <= REACH && y.abs_diff(5) <= REACH;
@@ -155,8 +159,8 @@ mod tests {
         one[12] = Estimate { mean: 0.0, variance: 0.0 };
         let budget = Budget { first: 1, mean: 16, noise: None, reuse: false };
         // Only the image's totals connect the two.
-        let (a, b) = (budget.share(5, &flat)[12], budget.share(5, &one)[12]);
+        let (a, b) = (budget.allocate(5, &flat)[12], budget.allocate(5, &one)[12]);
         assert!(a.abs_diff(b) <= 2, "{a} and {b}");
-        assert_eq!(Budget { first: 4, mean: 16, noise: None, reuse: false }.share(1, &[Estimate::default()]), [16]);
+        assert_eq!(Budget { first: 4, mean: 16, noise: None, reuse: false }.allocate(1, &[Estimate::default()]), [16]);
     }
 }

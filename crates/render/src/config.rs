@@ -1,10 +1,12 @@
+//! The settings of a rendering, with the range of each, and the reconstruction filter.
+
 use crate::error::RenderError;
 use enfilade_math::warp;
 use serde::{Deserialize, Serialize};
 
-/// The smallest radius of the filter, in pixels. Where a ray meets what is half transparent decides whether it passes, so the rays of a
-/// pixel must not all be the same. Nobody sees a thousandth of a pixel, and float32 still has hundreds of directions within it.
-const LEAST_RADIUS: f32 = 1e-3;
+/// The smallest radius of the filter, in pixels. Whether a ray passes a half transparent surface depends on where it meets it, so the rays
+/// of a pixel must differ. A thousandth of a pixel is invisible, and float32 still tells hundreds of directions within it apart.
+const MIN_RADIUS: f32 = 1e-3;
 
 /// The reconstruction filter: how samples are spread about a pixel's centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -20,7 +22,7 @@ pub enum Filter {
 impl Filter {
     /// Offset from the pixel's centre along one axis, in pixels, distributed as the filter; `u` is uniform on [0,1).
     pub(crate) fn offset(self, u: f32, radius: f32) -> f32 {
-        let radius = radius.max(LEAST_RADIUS);
+        let radius = radius.max(MIN_RADIUS);
         match self {
             Self::Tent => warp::tent(u, radius),
             Self::Box => (2.0 * u - 1.0) * radius,
@@ -29,17 +31,29 @@ impl Filter {
 }
 
 /// How a frame is rendered. Every number that trades time for quality is here.
+///
+/// ```
+/// use enfilade_render::RenderConfig;
+///
+/// // 16 samples per pixel, the light split by its path and its source.
+/// let config = RenderConfig { samples: 16, splits: true, ..RenderConfig::default() };
+/// assert!(config.validate().is_ok());
+///
+/// // Numbers out of their range are refused with what was expected.
+/// let error = RenderConfig { samples: 0, ..config }.validate().unwrap_err();
+/// assert_eq!(error.to_string(), "render setting `samples` is 0; expected at least 1");
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RenderConfig {
     /// Samples per pixel of the colour layers (geometry layers are one point sample): the mean over the image when samples are
-    /// spread by need, the most that a noise target may take. Default 64.
+    /// spread by need, the most that a noise target may take. At least 1; default 64.
     pub samples: u32,
     /// Spreads the samples over the pixels in proportion to the error that each one has left. Default true.
     pub adaptive: bool,
     /// Stops below `samples` where this noise is reached: the root mean square over the image of each pixel's standard error over
     /// (its luminance + 0.2 × the image's mean). The first samples tell how many it takes: a quarter of `samples`, at most 64. Default
-    /// none; 0.02 is a clean picture.
+    /// none; more than 0, and 0.02 is a clean picture.
     pub noise: Option<f32>,
     /// Learns before rendering where indirect light comes from and sends rays there. Changes noise, never the mean. Default true.
     pub guiding: bool,
@@ -49,8 +63,8 @@ pub struct RenderConfig {
     /// Longest path, counted in surfaces that scatter light after the first, panes among them but those before a source. Default none:
     /// Russian roulette ends paths without bias.
     pub max_bounces: Option<u32>,
-    /// Largest radiance that one indirect path may add to a pixel: its own, or with `reuse` one that it shares, of which each adds a part.
-    /// Default none: a clamp darkens the picture.
+    /// Largest radiance that one indirect path may add to a pixel. With `reuse`, each pixel that uses a path adds a part of it, to which
+    /// the limit applies. More than 0; default none, because a clamp darkens the picture.
     pub clamp: Option<f32>,
     /// Keeps the light of each pixel apart by its way and by its source, as layers of their own. Changes no other layer. Default false.
     pub splits: bool,
@@ -92,9 +106,11 @@ impl RenderConfig {
     /// The largest radius of the filter, in pixels. Filters in use reach 4; one of 16 leaves a blur, and a larger number is a mistake.
     pub const LARGEST_FILTER_RADIUS: f32 = 16.0;
 
+    /// Checks the range of every field.
+    ///
     /// # Errors
     /// When a number is out of its range.
-    pub(crate) fn check(&self) -> Result<(), RenderError> {
+    pub fn validate(&self) -> Result<(), RenderError> {
         let wrong = |field, found: String, expected| Err(RenderError::Config { field, found, expected });
         let positive = |v: Option<f32>| v.is_none_or(|v| v > 0.0 && v.is_finite());
         if self.samples == 0 {

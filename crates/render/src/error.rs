@@ -1,3 +1,5 @@
+//! Why something cannot be rendered, in words for the person who can change it.
+
 /// Why a scene or frame cannot be rendered.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RenderError {

@@ -1,4 +1,5 @@
-//! From pixel samples to the stored colour layers.
+//! The film: sums of a pixel's samples, and how they become the stored colour layers, in which reflectance × illumination + residual is
+//! colour to the last bit.
 
 use crate::batch::PixelSample;
 use crate::budget::Estimate;
@@ -160,7 +161,7 @@ mod tests {
 
     #[test]
     fn the_standard_error_of_samples_of_two_kinds_is_that_of_a_coin() {
-        // A share p of ones: variance p(1 - p) n/(n - 1), and the mean of n has an n-th of it.
+        // A fraction p of ones: variance p(1 - p) n/(n - 1), and the mean of n has an n-th of it.
         for (ones, n) in [(1u32, 2u32), (16, 64), (1, 1000), (512, 1024)] {
             let mut sum = PixelSum::default();
             (0..n).for_each(|i| sum.add(&lit(if i < ones { 1.0 } else { 0.0 })));

@@ -1,7 +1,7 @@
 //! The geometry layers: point samples at pixel centres, evaluated in double precision. A lens or an open shutter changes nothing of
 //! them: [`CameraView::centre_ray`] says which ray a pixel's is.
 
-use crate::prepared::{Cutout, RenderScene};
+use crate::prepared::{AlphaTest, RenderScene};
 use crate::surface::Surface;
 use crate::texture::Cone;
 use enfilade_frame::{F16_LIMIT, f16};
@@ -44,7 +44,7 @@ pub(crate) struct Sighting<'s> {
 pub(crate) fn sighting<'s>(scene: &RenderScene<'s>, view: &CameraView<'_>, (x, y): (f64, f64)) -> Option<Sighting<'s>> {
     let CameraRay { origin, direction } = view.centre_ray(x, y)?;
     let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
-    let hit = scene.closest(&ray, Cutout::Half)?;
+    let hit = scene.closest(&ray, AlphaTest::Half)?;
     let surface = scene.surface(&hit, ray.direction, &Cone::POINT);
     let triangle = hit.triangle;
     let distance_m = exact_distance(scene.triangles.get(triangle).corners, origin, direction).unwrap_or(f64::from(hit.t));

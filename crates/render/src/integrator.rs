@@ -1,10 +1,13 @@
-//! The path tracer: radiance along paths, and the steps that they are made of. [`crate::batch`] begins them at the camera.
+//! The path tracer: radiance along paths, and the steps that they are made of. [`crate::camera_path`] begins them at the camera.
+//!
+//! Kajiya 1986, "The Rendering Equation", with next-event estimation, multiple importance sampling by the power heuristic (Veach 1997)
+//! and Russian roulette. Bounce 0 is the surface that the camera ray hits.
 
 use crate::bsdf::{Bsdf, Value};
 use crate::config::RenderConfig;
 use crate::guide::Guide;
-use crate::light::{LightKind, LightPoint, power_heuristic};
-use crate::prepared::{Cutout, RenderScene};
+use crate::light::{LightKind, power_heuristic};
+use crate::prepared::{AlphaTest, RenderScene};
 use crate::split::Arriving;
 use crate::surface::Surface;
 use crate::texture::Cone;
@@ -12,36 +15,37 @@ use crate::vertex::{Medium, Segment, Vertex, sides_agree};
 use enfilade_geometry::Hit;
 use enfilade_math::{Ray, Rgb, Sampler, Vec3};
 
-/// A path goes on with this times the ratio of the light it is expected to find to that of the first surface: the light is not known
-/// exactly, and ending a path that mattered costs more than following one that did not.
+/// A path goes on with a probability of this times the light that it is expected to reflect, relative to that at the first surface. The
+/// light is not known exactly, and ending a path that mattered costs more than following one that did not.
 const SURVIVAL_GAIN: f32 = 0.8;
-/// The same where nothing is known of the light, and of the light that mirrors and glass find, for what the path lets through.
+/// The same, times the throughput alone, where nothing is known of the light, and for the light that mirrors and glass find.
 const UNKNOWN_GAIN: f32 = 12.0;
-/// Bounds of the probability that a path goes on; the second of them where nothing is known of the light.
-const LEAST_SURVIVAL: f32 = 0.2;
-const LEAST_UNKNOWN: f32 = 0.05;
-const MOST_SURVIVAL: f32 = 0.95;
+/// Bounds of the probability that a path goes on; the second one where nothing is known of the light.
+const MIN_SURVIVAL: f32 = 0.2;
+const MIN_SURVIVAL_UNKNOWN: f32 = 0.05;
+const MAX_SURVIVAL: f32 = 0.95;
 
-/// What a path lets through counts in each colour as at least this share of the colour that it lets through best.
-const LEAST_COLOR: f32 = 0.05;
+/// For Russian roulette, each colour of the throughput counts as at least this fraction of the largest one.
+const MIN_COLOR: f32 = 0.05;
 
-/// Panes one behind the other that are looked through where a path has its last surface.
-const MOST_PANES: usize = 64;
+/// The most panes, one behind the other, that are looked through at a path's last surface where bounces are limited.
+const MAX_PANES: usize = 64;
 
-/// Random numbers: set 0 is the camera's; each bounce has two more.
+/// The set of random numbers for the direction at a bounce. Set 0 is the camera's; each bounce has two more.
 pub(crate) const fn bsdf_set(bounce: u32) -> u32 {
     1 + 2 * bounce
 }
+/// The set of random numbers for the light sample at a bounce.
 pub(crate) const fn light_set(bounce: u32) -> u32 {
     2 + 2 * bounce
 }
 
-/// What a path lets through to the camera, for roulette. No colour is wholly lost: other pixels count on what the path finds, and so does
-/// illumination, which is without the first surface's colour.
-pub(crate) fn for_roulette(passed: Rgb) -> Rgb {
-    let best = passed.max_component();
-    let least = LEAST_COLOR * if best > 0.0 { best } else { 1.0 };
-    passed.map(|v| v.max(least))
+/// A path's throughput, as it counts for Russian roulette. No colour counts as zero: other pixels use what the path finds, and so does
+/// the demodulated illumination, which does not have the first surface's colour.
+pub(crate) fn roulette_throughput(throughput: Rgb) -> Rgb {
+    let best = throughput.max_component();
+    let min = MIN_COLOR * if best > 0.0 { best } else { 1.0 };
+    throughput.map(|v| v.max(min))
 }
 
 /// Estimates radiance along paths of one scene.
@@ -49,11 +53,11 @@ pub(crate) struct Integrator<'a, 's> {
     pub scene: &'a RenderScene<'s>,
     pub config: &'a RenderConfig,
     pub guide: &'a Guide,
-    /// The angle that a camera ray stands for, radians.
+    /// The angle that a camera ray covers, radians.
     pub pixel_angle: f32,
 }
 
-/// Light sampled at a source.
+/// Light sampled at a light source, as it arrives at a vertex.
 pub(crate) struct Direct {
     /// The BSDF's value over the light's density, weighted against BSDF sampling.
     pub weight: Value,
@@ -64,13 +68,13 @@ pub(crate) struct Direct {
     pub crosses: bool,
     /// Where it comes from.
     pub wi: Vec3,
-    /// What the BSDF's value was multiplied by.
+    /// What the BSDF's value was multiplied by: the weight of multiple importance sampling over the light's density.
     pub factor: f32,
     /// Density of the direction; `None` when no other technique can find it.
     pub pdf: Option<f32>,
 }
 
-/// Light that arrives at a surface by way of others.
+/// Light that arrives at a vertex by way of other surfaces.
 pub(crate) struct Indirect {
     /// The BSDF's value over the direction's density, and over the probability of having followed it.
     pub weight: Value,
@@ -81,7 +85,7 @@ pub(crate) struct Indirect {
     pub density: Option<f32>,
 }
 
-/// How a path goes on.
+/// One step of a path: the direction in which it goes on was sampled, and Russian roulette let it live.
 pub(crate) struct Step {
     /// The BSDF's value over the direction's density and over `survival`.
     pub weight: Value,
@@ -101,7 +105,7 @@ impl<'a, 's> Integrator<'a, 's> {
         radiance: &mut Arriving,
     ) -> Option<(Surface<'s>, Hit, Rgb)> {
         let (lights, sampled) = (&self.scene.lights, segment.sampled.as_ref());
-        let Some(hit) = self.scene.closest(&segment.ray, Cutout::Random) else {
+        let Some(hit) = self.scene.closest(&segment.ray, AlphaTest::Stochastic) else {
             let background = lights.background_weighted(&self.guide.choice, sampled, segment.ray.direction);
             radiance.add_background(background, throughput, direct);
             return None;
@@ -116,13 +120,13 @@ impl<'a, 's> Integrator<'a, 's> {
         Some((surface, hit, throughput))
     }
 
-    /// Adds what the last surface, which a segment ends at, lets through of lights: light sampling saw them through panes, and counted
-    /// on them.
+    /// Adds the lights that are seen through panes beyond a path's last surface, which `segment` ends at. Light sampling sees through
+    /// panes, and its weights leave a part of these lights to sampled directions.
     pub fn beyond_panes(&self, mut segment: Segment, mut surface: Surface<'s>, mut throughput: Rgb, direct: bool, radiance: &mut Arriving) {
         if segment.sampled.is_none() {
             return;
         }
-        for _ in 0..MOST_PANES {
+        for _ in 0..MAX_PANES {
             let Some(passed) = surface.straight_transmittance(self.scene).filter(|passed| !passed.is_black()) else { return };
             (segment.ray, segment.cone) = (surface.ray(segment.ray.direction), surface.cone);
             let Some((next, _, reached)) = self.next_surface(&segment, throughput * passed, direct, radiance) else { return };
@@ -130,11 +134,11 @@ impl<'a, 's> Integrator<'a, 's> {
         }
     }
 
-    /// Where a path goes on, and with which weight; `None` where it ends. Two numbers concern roulette alone: `so_far`, what the path
-    /// lets through to the camera ([`for_roulette`]), and `expected`, the light that its first surface is expected to reflect of what directions find there
-    /// (0: unknown).
+    /// Where a path goes on, and with which weight; `None` where it ends. Two arguments concern Russian roulette alone: `so_far`, the
+    /// throughput to the camera ([`roulette_throughput`]), and `expected`, the luminance that the first surface is expected to reflect of
+    /// the light that sampled directions find there (0: unknown).
     #[inline]
-    pub fn onward(
+    pub fn next_step(
         &self,
         bounce: u32,
         vertex: &Vertex<'_, 's>,
@@ -143,20 +147,27 @@ impl<'a, 's> Integrator<'a, 's> {
         expected: &mut f32,
         sampler: &Sampler,
     ) -> Option<(Step, Segment)> {
+        // Sample a direction from the BSDF and the guide.
         let u = sampler.set(bsdf_set(bounce));
         let (weight, next) = vertex.scatter([u[0], u[1], u[2]], before)?;
         if bounce < self.config.roulette_start {
             return Some((Step { weight, survival: 1.0 }, next));
         }
+
+        // Estimate what the path will still add, in relation to what was expected of its first surface, and let it live with a probability
+        // in that proportion. Where the guide knows nothing, and for mirror-like reflection, which it says nothing of, the throughput alone
+        // decides (Vorba & Křivánek 2016, "Adjoint-Driven Russian Roulette and Splitting", for the idea).
         let reflectance = vertex.bsdf.reflectance;
         let here = so_far.luminance() * vertex.expected();
         let blurred = weight.specular.luminance() <= (reflectance * weight.diffuse).luminance();
         let survival = if blurred && here > 0.0 && *expected > 0.0 {
-            (SURVIVAL_GAIN * here / *expected).max(LEAST_SURVIVAL)
+            (SURVIVAL_GAIN * here / *expected).max(MIN_SURVIVAL)
         } else {
-            (UNKNOWN_GAIN * (so_far * weight.total(reflectance)).max_component() / next.medium.compression).max(LEAST_UNKNOWN)
+            (UNKNOWN_GAIN * (so_far * weight.total(reflectance)).max_component() / next.medium.compression).max(MIN_SURVIVAL_UNKNOWN)
         };
-        let survival = survival.min(MOST_SURVIVAL);
+        let survival = survival.min(MAX_SURVIVAL);
+
+        // Play Russian roulette: survivors carry the weight of those that ended.
         if u[3] >= survival {
             return None;
         }
@@ -166,8 +177,8 @@ impl<'a, 's> Integrator<'a, 's> {
         Some((Step { weight: weight * (1.0 / survival), survival }, next))
     }
 
-    /// Radiance along a path from its surface number `bounce` on, to which `so_far` of the light passes to the camera; for that and `expected`
-    /// see [`Integrator::onward`]. `direct` says that nothing has scattered the light.
+    /// Radiance that arrives along `segment`, whose end is surface number `bounce` of the path. For `so_far` and `expected` see
+    /// [`Integrator::next_step`]. `direct` says that nothing has scattered the light yet.
     pub fn radiance(
         &self,
         mut segment: Segment,
@@ -180,23 +191,33 @@ impl<'a, 's> Integrator<'a, 's> {
         let mut radiance = Arriving::default();
         let mut throughput = Rgb::WHITE;
         for bounce in bounce.. {
+            // Find the next surface, and add what it emits, or the background where there is none. Where light sampling could have found
+            // the same light, the power heuristic divides it between the two.
             let Some((surface, _, reached)) = self.next_surface(&segment, throughput, direct, &mut radiance) else { return radiance };
             throughput = reached;
-            // The last surface only shows what it emits: light sampling before it counted on that.
-            if self.config.max_bounces.is_some_and(|most| bounce > most) {
+
+            // End the path at the limit on bounces. The last surface shows only what it emits, and lights through panes: the light samples
+            // before it left a part of these to this path.
+            if self.config.max_bounces.is_some_and(|max| bounce > max) {
                 self.beyond_panes(segment, surface, throughput, direct, &mut radiance);
                 return radiance;
             }
+
+            // Evaluate the material.
             let bsdf = surface.bsdf(self.scene);
             if bsdf.is_black() {
                 return radiance;
             }
             let vertex = Vertex::new(self.guide, surface, bsdf);
             let reflectance = vertex.bsdf.reflectance;
+
+            // Sample a light and add its contribution.
             if let Some(Direct { weight, light, kind, .. }) = self.sample_lights(&vertex, sampler.set(light_set(bounce)), segment.medium) {
                 radiance.add(kind, throughput * weight.total(reflectance) * light, false);
             }
-            let Some((step, next)) = self.onward(bounce, &vertex, throughput * so_far, &segment, &mut expected, sampler) else {
+
+            // Sample the next direction, unless Russian roulette ends the path.
+            let Some((step, next)) = self.next_step(bounce, &vertex, throughput * so_far, &segment, &mut expected, sampler) else {
                 return radiance;
             };
             throughput *= step.weight.total(reflectance);
@@ -206,33 +227,41 @@ impl<'a, 's> Integrator<'a, 's> {
         radiance
     }
 
-    /// A sample's indirect light, dimmed to the most that it may add behind the first surface's `throughput`.
+    /// A sample's indirect light, scaled down to [`RenderConfig::clamp`] behind the first surface's `throughput`.
     pub fn clamped(&self, light: Arriving, throughput: Rgb) -> Arriving {
-        let Some(most) = self.config.clamp else { return light };
+        let Some(max) = self.config.clamp else { return light };
         let brightest = (light.total * throughput).max_component();
-        if brightest > most { light.scaled(most / brightest) } else { light }
+        if brightest > max { light.scaled(max / brightest) } else { light }
     }
 
-    /// Direct light, where the light sample sends any. `medium` is what lies before the surface, on the viewer's side.
+    /// Direct light by one light sample; `None` where that contributes nothing. `medium` lies before the surface, on the viewer's side.
     pub fn sample_lights(&self, vertex: &Vertex<'_, 's>, u: [f32; 4], medium: Medium) -> Option<Direct> {
+        // Choose a light and a point on it, above the shading and the geometric surface alike.
         let surface = &vertex.surface;
         let wanted = |wi: Vec3| sides_agree(wi.dot(vertex.onb.z), wi.dot(surface.ng));
-        let at = LightPoint::on(surface);
+        let at = surface.light_point();
         let light = self.scene.lights.sample(self.scene, &self.guide.choice, &at, [u[0], u[1], u[2]], wanted)?;
+
+        // Evaluate the BSDF before the shadow ray is traced: it may make that unnecessary.
         let wi = vertex.onb.to_local(light.wi);
         let (value, pdf) = vertex.eval_pdf(wi, light.wi);
         if value == Value::default() {
             return None;
         }
+
+        // Find what panes and media on the way let through.
         let ray = surface.shadow_ray(light.wi, light.target);
         let crosses = wi.z < 0.0;
         let medium = medium.after(surface, crosses);
-        // Of a body that is not closed, which light from infinity can leave, directions do not know how far it goes either.
+        // Light from infinity that reaches a point inside a body came through an opening in it. How far it went inside is unknown, as it is
+        // to a sampled direction, so nothing is absorbed.
         let absorbed = if light.target.is_some() { medium.transmittance(ray.t_max) } else { Rgb::WHITE };
         let arriving = self.scene.transmittance(&ray) * absorbed;
         if arriving.is_black() {
             return None;
         }
+
+        // Weight the sample against the BSDF's own chance to find the light.
         let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) } / light.pdf;
         Some(Direct {
             weight: value * weight,

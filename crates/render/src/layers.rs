@@ -1,4 +1,4 @@
-//! Pixels to layers.
+//! Arranges the resolved pixels of a frame as its layers, with the sentinel values of pixels that show nothing.
 
 use crate::film::PixelColor;
 use crate::geometry_pass::PixelGeometry;

@@ -11,6 +11,29 @@ use enfilade_scene::{Alpha, CameraView, Scene};
 use rayon::prelude::*;
 
 /// A scene ready to be looked at: rays and cut-outs, without its light.
+///
+/// ```
+/// # use enfilade_geometry::Mesh;
+/// # use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
+/// use enfilade_frame::Layer;
+/// use enfilade_render::Lookout;
+/// use enfilade_scene::{Camera, CameraView, Intrinsics, Material, Part, Pose, Scene};
+///
+/// // A triangle in the plane z = 0, seen from 3 m above; no light is needed.
+/// let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
+/// let part = Part { name: "triangle".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
+/// let scene =
+///     Scene { meshes: vec![mesh], materials: vec![Material::diffuse("grey", Rgb::splat(0.5))], parts: vec![part], ..Scene::default() };
+/// let camera = Camera::from(Intrinsics::from_fov_x(64, 64, 0.6));
+/// let pose = Pose::look_at(0, DVec3::new(0.2, 0.2, 3.0), DVec3::new(0.2, 0.2, 0.0), DVec3::Y).expect("y is not along the view");
+///
+/// // Through every fourth pixel in both directions.
+/// let look = Lookout::new(&scene)?.look(&CameraView::still(&camera, &pose), 4);
+/// assert_eq!([look.frame.width, look.frame.height, look.seeing as u32], [16, 16, 256]);
+/// let depth_z_m = look.frame.get(Layer::DepthZMeters).expect("looked at");
+/// assert!((depth_z_m.get(8 * 16 + 8) - 3.0).abs() < 1e-5 && depth_z_m.get(0).is_nan());
+/// # Ok::<(), enfilade_render::RenderError>(())
+/// ```
 pub struct Lookout<'s> {
     /// Has no lights and no tables, since no light is asked for.
     scene: RenderScene<'s>,
@@ -21,9 +44,9 @@ pub struct Look {
     /// `depth_meters`, `depth_z_meters`, `position`, `normal_world` and `render_entity_id`: of a look in full, the values that the
     /// rendered frame will have.
     pub frame: Frame,
-    /// By pixel, row by row: it shows the side of a triangle whose corners run clockwise.
+    /// By pixel, row by row: true where it shows the back of a triangle, whose corners run clockwise.
     pub behind: Vec<bool>,
-    /// Number of pixels in which the camera sees at all, as all do but those beyond the rim of a fisheye.
+    /// Number of pixels that have a ray, as all have but those beyond the rim of a fisheye.
     pub seeing: usize,
 }
 
@@ -45,7 +68,7 @@ impl<'s> Lookout<'s> {
         let bvh = triangles.hierarchy(|material| material.alpha != Alpha::Opaque);
         // Pictures are read at points only, so they need no pyramids.
         let (textures, lights) = (Textures::new(&scene.images, &[]), Lights::default());
-        Ok(Self { scene: RenderScene { scene, textures, triangles, bvh, lights, tables: Vec::new(), has_veils: false } })
+        Ok(Self { scene: RenderScene { scene, textures, triangles, bvh, lights, tables: Vec::new(), has_partial_opacity: false } })
     }
 
     /// Looks through the centres of the view's pixels, or of every so many of them in both directions.

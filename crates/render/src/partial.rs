@@ -26,7 +26,7 @@ pub enum PartialError {
     OtherFrame,
 }
 
-/// What stands before the pixels.
+/// What precedes the pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Header<'a> {
     pub size: [u32; 2],

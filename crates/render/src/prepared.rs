@@ -1,4 +1,4 @@
-//! A scene made ready for rays: world triangles, hierarchy, lights, coat tables.
+//! A scene made ready for rays: world triangles, ray-tracing hierarchy, lights, textures, and the tables of its materials.
 
 use crate::bsdf::{TableMaker, Tables};
 use crate::error::RenderError;
@@ -10,17 +10,36 @@ use enfilade_math::{Bounds3, Ray, Rgb, hash_u32};
 use enfilade_scene::{Alpha, Cx, Material, Scene};
 use std::cell::Cell;
 
-/// A scene ready to be rendered.
+/// A scene ready to be rendered. It borrows the [`Scene`], serves any number of cameras and settings, and never changes.
+///
+/// ```
+/// # use enfilade_geometry::Mesh;
+/// # use enfilade_math::{DAffine3, Rgb, Vec3};
+/// use enfilade_render::{RenderError, RenderScene};
+/// use enfilade_scene::{Environment, Material, Part, Quiet, Scene};
+///
+/// let triangle = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
+/// let part = Part { name: "triangle".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
+/// let materials = vec![Material::diffuse("grey", Rgb::splat(0.5))];
+/// let mut scene = Scene { meshes: vec![triangle], materials, parts: vec![part], ..Scene::default() };
+/// assert_eq!(RenderScene::new(&scene, &Quiet).err(), Some(RenderError::NoLight));
+///
+/// scene.environment = Some(Environment::Constant { radiance: Rgb::WHITE });
+/// let prepared = RenderScene::new(&scene, &Quiet)?;
+/// assert_eq!(prepared.triangle_count(), 1);
+/// assert_eq!(prepared.bounds().extent(), Vec3::new(1.0, 1.0, 0.0));
+/// # Ok::<(), RenderError>(())
+/// ```
 pub struct RenderScene<'s> {
     pub(crate) scene: &'s Scene,
     pub(crate) textures: Textures<'s>,
     pub(crate) triangles: Triangles<'s>,
     pub(crate) bvh: Bvh,
     pub(crate) lights: Lights<'s>,
-    /// Of each material.
+    /// Lookup tables of each material's BSDF.
     pub(crate) tables: Vec<Tables>,
     /// True when some surfaces are half transparent, so that rays pass them by chance.
-    pub(crate) has_veils: bool,
+    pub(crate) has_partial_opacity: bool,
 }
 
 impl<'s> RenderScene<'s> {
@@ -38,7 +57,7 @@ impl<'s> RenderScene<'s> {
 
     pub(crate) fn of(triangles: Triangles<'s>) -> Result<Self, RenderError> {
         let scene = triangles.scene();
-        let bvh = triangles.hierarchy(asks_filter);
+        let bvh = triangles.hierarchy(needs_filter);
         let mut maker = TableMaker::default();
         let tables = scene.materials.iter().map(|m| maker.tables(&m.bsdf)).collect();
         let lights = Lights::new(scene, &triangles);
@@ -46,8 +65,8 @@ impl<'s> RenderScene<'s> {
             return Err(RenderError::NoLight);
         }
         let textures = Textures::new(&scene.images, &scene.materials);
-        let has_veils = scene.materials.iter().any(|m| matches!(m.alpha, Alpha::Blend { .. }));
-        Ok(Self { scene, textures, triangles, bvh, lights, tables, has_veils })
+        let has_partial_opacity = scene.materials.iter().any(|m| matches!(m.alpha, Alpha::Blend { .. }));
+        Ok(Self { scene, textures, triangles, bvh, lights, tables, has_partial_opacity })
     }
 
     /// Every part needs an id.
@@ -56,7 +75,7 @@ impl<'s> RenderScene<'s> {
         if found > i16::MAX as usize { Err(RenderError::TooManyParts { found }) } else { Ok(()) }
     }
 
-    /// The smallest box around the scene.
+    /// The smallest box around the scene, in metres of the world.
     pub fn bounds(&self) -> Bounds3 {
         self.triangles.bounds()
     }
@@ -66,18 +85,18 @@ impl<'s> RenderScene<'s> {
         self.triangles.count()
     }
 
-    /// The nearest surface that is there, cut-outs considered. `cut` says how partial opacity is decided.
+    /// The nearest hit whose surface is present there by its opacity; `test` says how partial opacity counts.
     #[inline]
-    pub(crate) fn closest(&self, ray: &Ray, cut: Cutout) -> Option<Hit> {
-        self.bvh.closest_filtered(ray, |hit| self.is_present(hit, cut))
+    pub(crate) fn closest(&self, ray: &Ray, test: AlphaTest) -> Option<Hit> {
+        self.bvh.closest_filtered(ray, |hit| self.is_present(hit, test))
     }
 
-    /// Share of light that gets through along a shadow ray: 0 when something opaque is in the way; thin panes dim it.
+    /// Fraction of light that gets through along a shadow ray: 0 when something opaque is in the way; thin panes dim it.
     #[inline]
     pub(crate) fn transmittance(&self, ray: &Ray) -> Rgb {
         let through = Cell::new(Rgb::WHITE);
         let blocked = self.bvh.occluded_filtered(ray, |hit| {
-            if !self.is_present(hit, Cutout::Random) {
+            if !self.is_present(hit, AlphaTest::Stochastic) {
                 return false;
             }
             let surface = self.surface(hit, ray.direction, &Cone::POINT);
@@ -96,7 +115,7 @@ impl<'s> RenderScene<'s> {
     #[inline]
     pub(crate) fn is_clear(&self, ray: &Ray) -> bool {
         !self.bvh.occluded_filtered(ray, |hit| match self.material_at(hit).alpha {
-            Alpha::Mask { .. } => self.is_present(hit, Cutout::Half),
+            Alpha::Mask { .. } => self.is_present(hit, AlphaTest::Half),
             _ => true,
         })
     }
@@ -105,16 +124,16 @@ impl<'s> RenderScene<'s> {
         &self.scene.materials[self.triangles.material(hit.triangle) as usize]
     }
 
-    /// Whether the surface exists at a hit, given its cut-outs.
-    pub(crate) fn is_present(&self, hit: &Hit, cut: Cutout) -> bool {
+    /// Whether the surface is present at a hit, by its opacity there.
+    pub(crate) fn is_present(&self, hit: &Hit, test: AlphaTest) -> bool {
         let opacity = |p| self.textures.scalar(p, self.triangles.get(hit.triangle).uv(hit.weights()), &Footprint::POINT);
         match &self.material_at(hit).alpha {
             Alpha::Opaque => true,
             Alpha::Mask { opacity: p, cutoff } => opacity(p) >= *cutoff,
-            Alpha::Blend { opacity: p } => match cut {
-                Cutout::Half => opacity(p) >= 0.5,
+            Alpha::Blend { opacity: p } => match test {
+                AlphaTest::Half => opacity(p) >= 0.5,
                 // Independent between rays, because no two hit at the same place; the same for the same ray.
-                Cutout::Random => {
+                AlphaTest::Stochastic => {
                     let h = hash_u32(hit.triangle ^ hash_u32(hit.u.to_bits() ^ hash_u32(hit.v.to_bits() ^ hit.t.to_bits())));
                     opacity(p) > (h >> 8) as f32 * (1.0 / 16_777_216.0)
                 }
@@ -123,16 +142,17 @@ impl<'s> RenderScene<'s> {
     }
 }
 
-/// How partial opacity is decided.
+/// How a partial opacity counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Cutout {
-    /// Present with probability equal to the opacity: for light.
-    Random,
-    /// Present from one half on: for geometry layers.
+pub(crate) enum AlphaTest {
+    /// Present with probability equal to the opacity, which is right on average: for light (Enderton et al. 2010, "Stochastic
+    /// Transparency").
+    Stochastic,
+    /// Present from an opacity of one half on: for geometry layers, which are point samples.
     Half,
 }
 
-/// Whether rays must ask before they accept a hit on this material.
-fn asks_filter(material: &Material) -> bool {
+/// Whether hits on this material must pass the filter of a ray query before they count: panes, and what is cut out or half transparent.
+fn needs_filter(material: &Material) -> bool {
     material.bsdf.is_pane() || material.alpha != Alpha::Opaque
 }

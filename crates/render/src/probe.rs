@@ -10,9 +10,10 @@ use crate::error::RenderError;
 use crate::film::PixelSum;
 use crate::guide::Guide;
 use crate::integrator::Integrator;
+use crate::lattice::SQUARE;
 use crate::prepared::RenderScene;
 use crate::render::{Schedule, check_camera, integrator};
-use crate::sampling::{SQUARE, add_samples};
+use crate::sampling::add_samples;
 use enfilade_scene::CameraView;
 
 /// A square of pixels of a frame.
@@ -39,7 +40,7 @@ impl<'a, 's> Probe<'a, 's> {
         corner: [u32; 2],
     ) -> Result<Self, RenderError> {
         check_camera(view)?;
-        config.check()?;
+        config.validate()?;
         let size = view.camera().size();
         if size[0] < Self::SIDE || size[1] < Self::SIDE {
             let problem = format!("its image has {}x{} pixels; a forecast needs 8x8", size[0], size[1]);
@@ -66,8 +67,9 @@ pub fn samples_wanted(config: &RenderConfig, probes: &[Probe<'_, '_>]) -> Vec<f6
     if schedule.is_even() {
         return vec![f64::from(config.samples); probes.len()];
     }
-    // One probe below the other, as an image: where two meet, neighbours that are none have a little say.
+    // The probes count as one image, one below the other. Where two meet, pixels count as neighbours that are none in the frame, which
+    // changes the answer a little.
     let estimates: Vec<Estimate> = probes.iter().flat_map(|probe| &probe.sums).map(PixelSum::estimate).collect();
-    let wanted = schedule.budget(config).share(Probe::SIDE as usize, &estimates);
+    let wanted = schedule.budget(config).allocate(Probe::SIDE as usize, &estimates);
     wanted.chunks(pixels).map(|probe| probe.iter().map(|n| f64::from(*n)).sum::<f64>() / pixels as f64).collect()
 }

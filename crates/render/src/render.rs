@@ -1,6 +1,9 @@
 //! One frame: every pixel's geometry and colour, tile by tile and pass by pass.
+//!
+//! The first passes give every pixel equally many samples. What these say of the noise decides how many more each pixel gets
+//! (see [`crate::budget`]), and further passes take those.
 
-use crate::budget::{Budget, FLOOR};
+use crate::budget::{Budget, LUMINANCE_FLOOR};
 use crate::config::RenderConfig;
 use crate::error::RenderError;
 use crate::film::{PixelSum, resolve_split};
@@ -18,15 +21,15 @@ use enfilade_scene::{CameraView, Cx};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// One part in this many of the samples is spread evenly, to find out where the others are needed.
-const FIRST_SHARE: u32 = 4;
-/// The fewest samples that say anything about a pixel's error.
-const FEWEST: u32 = 8;
-/// With a noise target no more than this many are spread evenly: `samples` may be far beyond what the target takes, and the pixels around
-/// one, which speak for it, have three thousand of them.
-const FIRST_FOR_NOISE: u32 = 64;
-/// A frame has met its noise target up to this many times that.
-const NOISE_ROOM: f64 = 1.25;
+/// `samples` over this is what every pixel gets first, to find out where the others are needed.
+const FIRST_DIVISOR: u32 = 4;
+/// The fewest first samples: fewer say nothing about a pixel's error.
+const MIN_FIRST: u32 = 8;
+/// The most first samples with a noise target: `samples` may be far beyond what the target takes, and the 48 pixels around one, from which
+/// its noise is estimated, have three thousand samples together.
+const MAX_FIRST_FOR_NOISE: u32 = 64;
+/// A frame counts as having met its noise target up to this many times the target.
+const NOISE_TOLERANCE: f64 = 1.25;
 
 /// Renders every layer but the labels. The bytes depend on the arguments alone, whatever the number of threads.
 ///
@@ -47,13 +50,49 @@ pub fn render_frame(
 }
 
 /// A frame in the making. After any pass it can be looked at, kept as bytes, or ended.
+///
+/// ```
+/// # use enfilade_frame::Layer;
+/// # use enfilade_geometry::Mesh;
+/// # use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
+/// # use enfilade_scene::{Camera, CameraView, Environment, Intrinsics, Material, Part, Pose, Quiet, Scene};
+/// use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
+/// # let mesh = Mesh { positions: vec![Vec3::X, Vec3::ONE, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
+/// # let scene = Scene {
+/// #     meshes: vec![mesh],
+/// #     materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
+/// #     parts: vec![Part { name: "part".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+/// #     environment: Some(Environment::Constant { radiance: Rgb::WHITE }),
+/// #     ..Scene::default()
+/// # };
+/// # let camera = Camera::from(Intrinsics::from_fov_x(16, 12, 1.0));
+/// # let pose = Pose::look_at(0, DVec3::ZERO, DVec3::ONE, DVec3::Z).unwrap();
+/// # let view = CameraView::still(&camera, &pose);
+/// # let prepared = RenderScene::new(&scene, &Quiet)?;
+/// let config = RenderConfig { samples: 32, adaptive: false, ..RenderConfig::default() };
+/// let guide = Guide::learn(&prepared, &[view], &config);
+/// let mut rendering = FrameRender::new(&prepared, &guide, &view, &config)?;
+/// rendering.pass(&Quiet);
+/// assert_eq!(rendering.samples(), 16.0);
+///
+/// // The key names everything that the frame depends on. A frame that goes on from the saved bytes ends as if it had not been interrupted.
+/// let saved = rendering.save(b"scene, view and settings");
+/// let mut resumed = FrameRender::new(&prepared, &guide, &view, &config)?;
+/// resumed.restore(&saved, b"scene, view and settings")?;
+/// for frame in [&mut rendering, &mut resumed] {
+///     frame.pass(&Quiet);
+///     assert!(frame.is_done());
+/// }
+/// assert_eq!(rendering.frame().get(Layer::Color), resumed.frame().get(Layer::Color));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct FrameRender<'a, 's> {
     integrator: Integrator<'a, 's>,
     view: CameraView<'a>,
     tiles: Tiles,
     /// Per tile, what its pixels have gathered.
     film: Vec<TileFilm>,
-    /// Samples of every pixel in the end, row by row; before the first samples are taken, their number.
+    /// Samples that each pixel is to have in the end, row by row; until the first samples are taken, their number.
     wanted: Vec<u32>,
     schedule: Schedule,
     /// Passes done.
@@ -80,10 +119,10 @@ pub(crate) struct Schedule {
 
 impl Schedule {
     pub fn new(config: &RenderConfig) -> Self {
-        let share = (config.samples / FIRST_SHARE).max(FEWEST).min(config.samples);
+        let first = (config.samples / FIRST_DIVISOR).max(MIN_FIRST).min(config.samples);
         let first = match (config.noise, config.adaptive) {
-            (Some(_), _) => share.min(FIRST_FOR_NOISE),
-            (None, true) => share,
+            (Some(_), _) => first.min(MAX_FIRST_FOR_NOISE),
+            (None, true) => first,
             (None, false) => config.samples,
         };
         let first_passes = first.div_ceil(FrameRender::PASS);
@@ -112,12 +151,12 @@ impl Schedule {
 
     /// Samples after pass number `pass` of a pixel that is to have `wanted` in the end.
     fn goal(&self, pass: u32, wanted: u32) -> u32 {
-        let share = |samples: u32, passes: u32, of: u32| (u64::from(samples) * u64::from(passes) / u64::from(of)) as u32;
+        let part = |samples: u32, passes: u32, of: u32| (u64::from(samples) * u64::from(passes) / u64::from(of)) as u32;
         if pass < self.first_passes {
-            return share(self.first, pass + 1, self.first_passes);
+            return part(self.first, pass + 1, self.first_passes);
         }
         let (later, all) = (pass + 1 - self.first_passes, self.passes - self.first_passes);
-        self.first + share(wanted.saturating_sub(self.first), later, all)
+        self.first + part(wanted.saturating_sub(self.first), later, all)
     }
 }
 
@@ -131,7 +170,7 @@ impl<'a, 's> FrameRender<'a, 's> {
     /// When the camera or the settings are not usable.
     pub fn new(scene: &'a RenderScene<'s>, guide: &'a Guide, view: &CameraView<'a>, config: &'a RenderConfig) -> Result<Self, RenderError> {
         check_camera(view)?;
-        config.check()?;
+        config.validate()?;
         let [width, height] = view.camera().size();
         let tiles = Tiles::new(width, height);
         let film = (0..tiles.count()).map(|tile| TileFilm::new(tiles.pixels(tile).count(), config.splits)).collect();
@@ -150,11 +189,11 @@ impl<'a, 's> FrameRender<'a, 's> {
         self.take(u32::MAX, cx);
     }
 
-    /// As [`FrameRender::pass`], but the first pass is done in parts, of one sample per pixel and then of as many as are there: for a
+    /// As [`FrameRender::pass`], but the first pass is done in parts, which take one sample per pixel and then double the number: for a
     /// frame that may have to end soon. In the end the samples are the same.
     pub fn short_pass(&mut self, cx: &dyn Cx) {
-        let most = if self.done == 0 { self.begun().saturating_mul(2).max(1) } else { u32::MAX };
-        self.take(most, cx);
+        let max = if self.done == 0 { self.begun().saturating_mul(2).max(1) } else { u32::MAX };
+        self.take(max, cx);
     }
 
     /// Samples that every pixel has, as long as the first pass is not done.
@@ -162,24 +201,28 @@ impl<'a, 's> FrameRender<'a, 's> {
         self.film.first().and_then(|film| film.sums.first()).map_or(0, PixelSum::samples)
     }
 
-    /// Does the next pass, or of the first one the part up to `most` samples of every pixel.
-    fn take(&mut self, most: u32, cx: &dyn Cx) {
+    /// Does the next pass, or the part of the first one up to `max` samples of every pixel.
+    fn take(&mut self, max: u32, cx: &dyn Cx) {
         if self.is_done() {
             return;
         }
+        // Say how far this call goes: in the first pass up to `goal` of its `whole` samples, in every other one to its end.
         let (integrator, view, tiles, wanted) = (&self.integrator, &self.view, self.tiles, &self.wanted);
         let (schedule, pass) = (self.schedule, self.done);
         let [width, _] = view.camera().size();
         let (begun, goal, whole) = match (pass, schedule.goal(0, schedule.first)) {
-            (0, whole) => (self.begun().min(whole), most.min(whole), whole),
+            (0, whole) => (self.begun().min(whole), max.min(whole), whole),
             _ => (0, 1, 1),
         };
+
+        // Take the samples, one tile per task. A tile's pixels depend on no other tile, so the order in which threads take them changes
+        // nothing.
         let count = u64::from(tiles.count());
         let in_pass = |tiles: u64| (u64::from(begun) * count + u64::from(goal.saturating_sub(begun)) * tiles) / u64::from(whole);
         let (finished, before, total) = (AtomicU64::new(0), u64::from(pass) * count, u64::from(schedule.passes) * count);
         self.film.par_iter_mut().zip(0..tiles.count()).for_each(|(film, tile)| {
             let pixels: Vec<(u32, u32)> = tiles.pixels(tile).collect();
-            let goal = |&(x, y): &(u32, u32)| schedule.goal(pass, wanted[(y * width + x) as usize]).min(most);
+            let goal = |&(x, y): &(u32, u32)| schedule.goal(pass, wanted[(y * width + x) as usize]).min(max);
             let goals: Vec<u32> = pixels.iter().map(goal).collect();
             add_samples(integrator, view, &pixels, &goals, &mut film.sums, &mut film.splits);
             cx.progress("rendering", before + in_pass(finished.fetch_add(1, Ordering::Relaxed) + 1), total);
@@ -187,17 +230,19 @@ impl<'a, 's> FrameRender<'a, 's> {
         if goal < whole {
             return;
         }
+
+        // After the first samples, decide from their noise how many each pixel is to have in the end.
         self.done += 1;
         if self.done == schedule.first_passes && !self.is_done() {
-            self.wanted = self.share();
+            self.wanted = self.allocate();
             self.schedule = self.schedule.settled(self.integrator.config, &self.wanted);
         }
     }
 
-    /// The samples of every pixel in the end.
-    fn share(&self) -> Vec<u32> {
+    /// The samples that each pixel is to have in the end, by what the first ones say.
+    fn allocate(&self) -> Vec<u32> {
         let config = self.integrator.config;
-        self.schedule.budget(config).share(self.view.camera().size()[0] as usize, &self.rows(PixelSum::estimate))
+        self.schedule.budget(config).allocate(self.view.camera().size()[0] as usize, &self.rows(PixelSum::estimate))
     }
 
     /// A value of every pixel, row by row.
@@ -216,7 +261,7 @@ impl<'a, 's> FrameRender<'a, 's> {
     pub fn noise(&self) -> Option<f64> {
         let pixels = self.rows(|sum| (f64::from(sum.estimate().mean), f64::from(sum.standard_error())));
         let n = pixels.len() as f64;
-        let floor = f64::from(FLOOR) * pixels.iter().map(|(mean, _)| mean).sum::<f64>() / n;
+        let floor = f64::from(LUMINANCE_FLOOR) * pixels.iter().map(|(mean, _)| mean).sum::<f64>() / n;
         let square = |&(mean, error): &(f64, f64)| if error == 0.0 { 0.0 } else { (error / (mean + floor)).powi(2) };
         let noise = (pixels.iter().map(square).sum::<f64>() / n).sqrt();
         noise.is_finite().then_some(noise)
@@ -227,7 +272,7 @@ impl<'a, 's> FrameRender<'a, 's> {
     pub fn met_noise_target(&self) -> bool {
         let config = self.integrator.config;
         let Some(target) = config.noise else { return false };
-        let is_near = |noise: f64| noise <= NOISE_ROOM * f64::from(target);
+        let is_near = |noise: f64| noise <= NOISE_TOLERANCE * f64::from(target);
         self.is_done() && self.samples() < 0.999 * f64::from(config.samples) && self.noise().is_some_and(is_near)
     }
 
@@ -268,8 +313,9 @@ impl<'a, 's> FrameRender<'a, 's> {
         Ok(())
     }
 
-    /// The layers as they are now.
+    /// The layers as they are now, all but the labels and those of [`crate::add_extra_layers`].
     pub fn frame(&self) -> Frame {
+        // Resolve the sums of every pixel, and find the geometry at its centre.
         let (scene, view, tiles) = (self.integrator.scene, &self.view, self.tiles);
         let pixels: Vec<Vec<Pixel>> = self
             .film
@@ -280,6 +326,8 @@ impl<'a, 's> FrameRender<'a, 's> {
                 film.sums.iter().zip(tiles.pixels(tile)).map(pixel).collect()
             })
             .collect();
+
+        // Arrange them as layers, row by row.
         let [width, height] = view.camera().size();
         let mut frame = layers(width, height, &tiles.rows(&pixels));
         if self.integrator.config.splits {
@@ -298,7 +346,7 @@ impl TileFilm {
     }
 }
 
-/// What follows paths from the pixels of a view.
+/// The integrator for the pixels of a view.
 pub(crate) fn integrator<'a, 's>(
     scene: &'a RenderScene<'s>,
     guide: &'a Guide,

@@ -1,26 +1,16 @@
-//! Which samples a pixel takes, and which pixels are sampled together.
+//! Takes the samples of a tile's pixels: each pixel's camera rays, followed in batches of pixels that share light.
 
 use crate::batch::{Batch, CameraSample};
 use crate::config::RenderConfig;
 use crate::film::PixelSum;
 use crate::integrator::Integrator;
+use crate::lattice::lattice;
 use crate::split::Split;
 use enfilade_math::{Ray, Sampler};
 use enfilade_scene::CameraView;
 
-/// Distances of the pixels that are sampled together, along both axes. Neighbours are in different lattices, so their noise is
-/// independent: denoisers take noise that neighbours share for something seen.
-const STRIDES: [u32; 2] = [2, 4];
-/// Side of the squares within which they lie, counted from the image's upper left.
-pub(crate) const SQUARE: u32 = 8;
 /// Makes the moment within the exposure independent of everything else that is random.
 const SHUTTER_SEED: u64 = 0x5a07_7e12;
-
-/// True when two pixels, given as x and y, may share light; a pixel shares its own.
-pub(crate) fn share(a: [usize; 2], b: [usize; 2], reuse: bool) -> bool {
-    let (square, stride) = (SQUARE as usize, STRIDES[0] as usize);
-    a == b || reuse && (0..2).all(|axis| a[axis] / square == b[axis] / square && a[axis] % stride == b[axis] % stride)
-}
 
 /// Adds samples to the pixels of a tile until each has its goal. `splits` is empty unless light is split.
 pub(crate) fn add_samples(
@@ -31,15 +21,19 @@ pub(crate) fn add_samples(
     sums: &mut [PixelSum],
     splits: &mut [Split],
 ) {
+    // Take the samples one number after the other, from that of the pixel with the fewest to the largest goal.
     let config = integrator.config;
     let first = sums.iter().map(PixelSum::samples).min().unwrap_or(0);
     let last = goals.iter().copied().max().unwrap_or(0);
     let (mut batch, mut active, mut cameras) = (Batch::default(), Vec::new(), Vec::new());
     for index in first..last {
+        // Group the pixels that take this sample by their lattices; without reuse each pixel is alone.
         active.clear();
-        active.extend((0..pixels.len()).filter(|&i| sums[i].samples() == index && index < goals[i]).map(|i| (group(pixels[i], index), i)));
+        active
+            .extend((0..pixels.len()).filter(|&i| sums[i].samples() == index && index < goals[i]).map(|i| (lattice(pixels[i], index), i)));
         active.sort_unstable();
         for members in active.chunk_by(|a, b| config.reuse && a.0 == b.0) {
+            // Follow the paths of a group together, and add their samples to the pixels' sums.
             cameras.clear();
             cameras.extend(members.iter().map(|&(_, i)| camera_sample(config, view, pixels[i], index)));
             for (sample, &(_, i)) in integrator.samples(&cameras, &mut batch).zip(members) {
@@ -66,10 +60,4 @@ fn camera_sample(config: &RenderConfig, view: &CameraView<'_>, (x, y): (u32, u32
     // Where the picture shows nothing it is black.
     let ray = ray.map(|ray| Ray::new(ray.origin.as_vec3(), ray.direction.as_vec3().normalize()));
     CameraSample { ray, sampler, index }
-}
-
-/// The lattice that a pixel is in: they lie and stand by turns, so that what a pixel has in common with others changes.
-fn group((x, y): (u32, u32), index: u32) -> [u32; 4] {
-    let [width, height] = if index.is_multiple_of(2) { STRIDES } else { [STRIDES[1], STRIDES[0]] };
-    [y / SQUARE, x / SQUARE, y % height, x % width]
 }

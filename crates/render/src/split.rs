@@ -1,4 +1,4 @@
-//! Light kept apart by its way to the camera and by its source.
+//! Light split by its path to the camera and by its source, for the layers of `enfilade_frame::SPLIT_BY_PATH` and `SPLIT_BY_SOURCE`.
 
 use crate::bsdf::Value;
 use crate::light::{Background, LightKind};

@@ -1,6 +1,7 @@
 //! What a ray finds where it hits: place, normals, texture coordinates, material.
 
 use crate::bsdf::{self, Bsdf};
+use crate::light::LightPoint;
 use crate::prepared::RenderScene;
 use crate::texture::{Cone, Footprint, Textures};
 use enfilade_geometry::Hit;
@@ -26,7 +27,7 @@ pub(crate) struct Surface<'s> {
     pub uv: Vec2,
     /// How wide the ray is that found it.
     pub cone: Cone,
-    /// How much of a texture counts here.
+    /// The part of a texture that a reading stands for here.
     footprint: Footprint,
     /// True when `wo` is on the side that outward normals point to.
     pub outside: bool,
@@ -108,7 +109,7 @@ impl<'s> Surface<'s> {
         if self.material.emission.factor.is_black() || (!self.outside && !self.material.emits_both_sides) {
             return Rgb::BLACK;
         }
-        // At the point, for every way of finding a light must see the same light.
+        // Read at a point: every technique that finds a light must see the same radiance.
         scene.textures.color(&self.material.emission, self.uv, &Footprint::POINT)
     }
 
@@ -123,6 +124,12 @@ impl<'s> Surface<'s> {
     pub fn ray(&self, direction: Vec3) -> Ray {
         let normal = if direction.dot(self.ng) < 0.0 { -self.ng } else { self.ng };
         Ray::new(offset_origin(self.p, normal) + normal * self.slack, direction)
+    }
+
+    /// This point as one that receives light.
+    #[inline]
+    pub fn light_point(&self) -> LightPoint {
+        LightPoint { p: self.p, n: if self.material.bsdf.transmits() { Vec3::ZERO } else { self.ns } }
     }
 
     /// See [`shadow_ray`].

@@ -20,7 +20,7 @@ pub(crate) struct Triangle {
     pub slack: f32,
 }
 
-/// Points of a face are found within about this share of the coordinates of its corners: a few units in the last place.
+/// Points of a face are found within about this fraction of the coordinates of its corners: a few units in the last place.
 const ROUNDING: f32 = 4e-7;
 /// What [`enfilade_math::offset_origin`] moves points by near the world's origin, metres.
 const OFFSET: f32 = 1.0 / 65536.0;

@@ -1,7 +1,7 @@
 //! All triangles of a scene, by the numbers that the hierarchy reports.
 //!
-//! Where they are too many to be kept as they stand in the world, those of meshes that stand in several places are made from the mesh
-//! when they are asked for, with the same rounding: what is seen does not depend on which are kept.
+//! Few triangles are all kept in world space. Where they are too many, meshes that stand in several places are instanced: their triangles
+//! are made from the mesh whenever they are asked for, with the same rounding, so that no pixel depends on which are kept.
 
 use crate::triangle::Triangle;
 use enfilade_geometry::{Bvh, Placement};
@@ -10,8 +10,8 @@ use enfilade_scene::{Material, Part, Scene};
 
 /// Up to this many triangles, all are kept as they stand: rays are faster then, for about 200 bytes a triangle.
 const KEPT: usize = 1 << 21;
-/// Meshes of fewer triangles are always kept as they stand.
-const SMALLEST_SHARED: usize = 64;
+/// Meshes of fewer triangles are never instanced.
+const MIN_INSTANCED: usize = 64;
 
 /// The triangles of a scene, in the order of parts and their triangles.
 pub(crate) struct Triangles<'s> {
@@ -38,15 +38,15 @@ impl<'s> Triangles<'s> {
         Self::keeping(scene, KEPT)
     }
 
-    /// Shares the meshes that save most until no more than `most` triangles are kept, if that can be.
-    fn keeping(scene: &'s Scene, most: usize) -> Self {
-        let shared = shared(scene, most);
+    /// Instances the meshes that save most memory until no more than `max` triangles are kept, if that can be.
+    fn keeping(scene: &'s Scene, max: usize) -> Self {
+        let instanced = instanced_meshes(scene, max);
         let mut triangles = Self { scene, kept: Vec::new(), parts: Vec::new(), count: 0, bounds: Bounds3::EMPTY };
         for (number, part) in scene.parts.iter().enumerate() {
             let mesh = &scene.meshes[part.mesh as usize];
             let world: Vec<Vec3> = scene.world_positions(part).collect();
             let normal_from_mesh = part.world_from_mesh.matrix3.inverse().transpose().as_mat3();
-            let is_kept = !shared[part.mesh as usize] || emits(scene, part);
+            let is_kept = !instanced[part.mesh as usize] || emits(scene, part);
             let kept = is_kept.then_some(triangles.kept.len() as u32);
             for &vertices in &mesh.triangles {
                 let corners = vertices.map(|i| world[i as usize]);
@@ -145,23 +145,23 @@ fn emits(scene: &Scene, part: &Part) -> bool {
     !scene.materials[part.material as usize].emission.factor.is_black()
 }
 
-/// Which meshes are shared.
-fn shared(scene: &Scene, most: usize) -> Vec<bool> {
+/// Which meshes are instanced.
+fn instanced_meshes(scene: &Scene, max: usize) -> Vec<bool> {
     let triangles = |mesh: usize| scene.meshes[mesh].triangles.len();
     let mut uses = vec![0; scene.meshes.len()];
     scene.parts.iter().filter(|part| !emits(scene, part)).for_each(|part| uses[part.mesh as usize] += 1);
     let mut kept: usize = scene.parts.iter().map(|part| triangles(part.mesh as usize)).sum();
-    let mut repeated: Vec<usize> = (0..uses.len()).filter(|&mesh| uses[mesh] > 1 && triangles(mesh) >= SMALLEST_SHARED).collect();
+    let mut repeated: Vec<usize> = (0..uses.len()).filter(|&mesh| uses[mesh] > 1 && triangles(mesh) >= MIN_INSTANCED).collect();
     repeated.sort_by_key(|&mesh| std::cmp::Reverse(triangles(mesh) * (uses[mesh] - 1)));
-    let mut shared = vec![false; uses.len()];
+    let mut instanced = vec![false; uses.len()];
     for mesh in repeated {
-        if kept <= most {
+        if kept <= max {
             break;
         }
         kept -= triangles(mesh) * uses[mesh];
-        shared[mesh] = true;
+        instanced[mesh] = true;
     }
-    shared
+    instanced
 }
 
 #[cfg(test)]
@@ -215,13 +215,13 @@ mod tests {
         let scene = balls();
         let (kept, made) = (Triangles::new(&scene), Triangles::keeping(&scene, 0));
         assert_eq!((kept.kept.len(), kept.count()), (2713, 2713));
-        assert_eq!((made.kept.len(), made.count()), (113, 2713), "the lamp and what is too small to be shared");
+        assert_eq!((made.kept.len(), made.count()), (113, 2713), "the lamp and what is too small to be instanced");
         assert_eq!(kept.bounds(), made.bounds());
         for number in 0..kept.count() as u32 {
             assert_eq!(format!("{:?}", kept.get(number)), format!("{:?}", made.get(number)));
             assert_eq!(kept.material(number), made.material(number));
         }
-        // What saves most is shared first, and no more than is needed.
+        // What saves most is instanced first, and no more than is needed.
         assert_eq!(Triangles::keeping(&scene, 1500).kept.len(), 1313);
     }
 

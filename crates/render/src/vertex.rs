@@ -1,4 +1,7 @@
-//! A surface that a path has reached, and the segments between them: where a path goes on.
+//! The vertices of a path and the segments between them: where a path goes on, and with which density.
+//!
+//! Directions are sampled from a mixture of the BSDF and, on diffuse surfaces, of what the guide has learned of the light there (Müller,
+//! Gross & Novák 2017, "Practical Path Guiding", mix them in the same way).
 
 use crate::bsdf::{Bsdf, Event, Value};
 use crate::guide::{CellLight, Guide};
@@ -8,16 +11,16 @@ use crate::texture::Cone;
 use enfilade_math::{ONE_MINUS_EPSILON, Onb, Ray, Rgb, Vec3};
 use enfilade_scene::Bsdf as Model;
 
-/// Share of the directions of a diffuse surface that follow the guide; the rest follows the BSDF.
-const GUIDED_SHARE: f32 = 0.65;
+/// Fraction of the directions of a diffuse surface that follow the guide; the rest follows the BSDF.
+const GUIDED_FRACTION: f32 = 0.65;
 
-/// A path between two surfaces.
+/// A segment of a path: the ray that leaves a surface, and what is known of it.
 pub(crate) struct Segment {
     pub ray: Ray,
     /// Where light was last sampled from, and the density of the ray's direction there; `None` after the camera or a
     /// mirror, where light sampling has no chance.
     pub sampled: Option<(LightPoint, f32)>,
-    /// What it goes through.
+    /// The medium that it goes through.
     pub medium: Medium,
     /// True when the surface at its origin was passed through.
     pub crossed: bool,
@@ -27,12 +30,12 @@ pub(crate) struct Segment {
     pub cone: Cone,
 }
 
-/// What a ray goes through.
+/// The medium that a ray goes through.
 #[derive(Clone, Copy)]
 pub(crate) struct Medium {
     /// Absorption per metre.
     pub absorption: Rgb,
-    /// Radiance here over the same outside of all bodies: it is compressed where light is slower.
+    /// Radiance here over the same radiance outside of all bodies: on entering a denser body it is compressed by 1/eta².
     pub compression: f32,
 }
 
@@ -46,13 +49,13 @@ impl Medium {
         self.absorption.is_black()
     }
 
-    /// Share of the light that is left after `distance` metres (Beer and Lambert).
+    /// Fraction of the light that is left after `distance` metres (Beer and Lambert).
     #[inline]
     pub fn transmittance(self, distance: f32) -> Rgb {
         if self.is_clear() { Rgb::WHITE } else { self.absorption.map(|a| (-a * distance.min(f32::MAX)).exp()) }
     }
 
-    /// After a border, on its other side if it `crosses` that: a body's when it was entered, none when it was left.
+    /// The medium after a border, on its other side if the ray `crosses` it: that of a body which is entered, air where one is left.
     #[inline]
     pub fn after(self, border: &Surface<'_>, crosses: bool) -> Self {
         if crosses { self.beyond(border) } else { self }
@@ -85,17 +88,17 @@ pub(crate) struct Vertex<'a, 's> {
     /// Shading space.
     pub onb: Onb,
     wo: Vec3,
-    /// What is known of the light here.
-    known: Option<Known<'a>>,
+    /// What the guide knows of the light here.
+    guided: Option<Guided<'a>>,
 }
 
-/// What is known of the light at a surface.
-struct Known<'a> {
+/// What the guide knows of the light at a surface.
+struct Guided<'a> {
     light: &'a CellLight,
     /// The axes that it is stored in.
     onb: Onb,
-    /// Share of the directions that follow it.
-    share: f32,
+    /// Fraction of the directions that follow it.
+    fraction: f32,
     /// Luminance of the light, found by directions, that is expected to be reflected.
     reflected: f32,
 }
@@ -108,27 +111,27 @@ impl Segment {
 }
 
 impl<'a, 's> Vertex<'a, 's> {
-    /// A surface with its scattering and what `guide` knows of the light there.
+    /// A surface with its BSDF and what `guide` knows of the light there.
     #[inline]
     pub fn new(guide: &'a Guide, surface: Surface<'s>, bsdf: Bsdf<'a>) -> Self {
         let onb = surface.onb();
         let wo = viewing(&onb, surface.wo);
-        let known = match &guide.field {
+        let guided = match &guide.field {
             Some(field) if !bsdf.reflectance.is_black() => field.at(surface.p, surface.ns_smooth).map(|light| {
                 let albedo = bsdf.albedo(wo.z);
-                let (share, reflected) = (GUIDED_SHARE * albedo.blurred_share(), albedo.blurred() * light.found);
+                let (fraction, reflected) = (GUIDED_FRACTION * albedo.blurred_fraction(), albedo.blurred() * light.found);
                 let axes = if surface.ns_smooth == surface.ns { onb } else { Onb::from_z(surface.ns_smooth) };
-                Known { light, onb: axes, share, reflected: reflected.luminance() }
+                Guided { light, onb: axes, fraction, reflected: reflected.luminance() }
             }),
             _ => None,
         };
-        Self { surface, bsdf, onb, wo, known }
+        Self { surface, bsdf, onb, wo, guided }
     }
 
     /// Luminance of the light, found by [`Vertex::scatter`]'s directions, that is expected to be reflected; 0 where nothing is known.
     #[inline]
     pub fn expected(&self) -> f32 {
-        self.known.as_ref().map_or(0.0, |known| known.reflected)
+        self.guided.as_ref().map_or(0.0, |guided| guided.reflected)
     }
 
     /// The BSDF's value for a direction, given in shading space and in the world, and the density with which [`Vertex::scatter`]
@@ -136,21 +139,24 @@ impl<'a, 's> Vertex<'a, 's> {
     #[inline]
     pub fn eval_pdf(&self, wi: Vec3, wi_world: Vec3) -> (Value, f32) {
         let (value, pdf) = self.bsdf.eval_pdf(self.wo, wi);
-        match &self.known {
+        match &self.guided {
             None => (value, pdf),
-            Some(k) => (value, k.share * k.light.pdf(wi_world, self.surface.p, &k.onb) + (1.0 - k.share) * pdf),
+            Some(k) => (value, k.fraction * k.light.pdf(wi_world, self.surface.p, &k.onb) + (1.0 - k.fraction) * pdf),
         }
     }
 
     /// Samples a direction and begins the next segment. `None` ends the path.
     #[inline]
     pub fn scatter(&self, u: [f32; 3], before: &Segment) -> Option<(Value, Segment)> {
+        // Choose between the BSDF and the guide, and renew the random number that chose.
         let surface = &self.surface;
-        let Some(Known { light, onb, share, .. }) = &self.known else { return self.scatter_by_bsdf(u, 1.0, before) };
-        if u[2] >= *share {
-            let renewed = ((u[2] - share) / (1.0 - share)).min(ONE_MINUS_EPSILON);
-            return self.scatter_by_bsdf([u[0], u[1], renewed], 1.0 - share, before);
+        let Some(Guided { light, onb, fraction, .. }) = &self.guided else { return self.scatter_by_bsdf(u, 1.0, before) };
+        if u[2] >= *fraction {
+            let renewed = ((u[2] - fraction) / (1.0 - fraction)).min(ONE_MINUS_EPSILON);
+            return self.scatter_by_bsdf([u[0], u[1], renewed], 1.0 - fraction, before);
         }
+
+        // Sample a direction from the guide; its density is that of the mixture of both.
         let (direction, light_pdf) = light.sample([u[0], u[1]], surface.p, onb);
         let wi = self.onb.to_local(direction);
         let side = direction.dot(surface.ng);
@@ -158,13 +164,13 @@ impl<'a, 's> Vertex<'a, 's> {
             return None;
         }
         let (value, bsdf_pdf) = self.bsdf.eval_pdf(self.wo, wi);
-        let pdf = share * light_pdf + (1.0 - share) * bsdf_pdf;
+        let pdf = fraction * light_pdf + (1.0 - fraction) * bsdf_pdf;
         let medium = before.medium.after(surface, side < 0.0);
-        Some((value * (1.0 / pdf), self.segment(direction, side, Some((LightPoint::on(surface), pdf)), medium)))
+        Some((value * (1.0 / pdf), self.segment(direction, side, Some((surface.light_point(), pdf)), medium)))
     }
 
-    /// Samples the BSDF, which is given this `share` of the directions.
-    fn scatter_by_bsdf(&self, u: [f32; 3], share: f32, before: &Segment) -> Option<(Value, Segment)> {
+    /// Samples the BSDF, which `fraction` of the directions are left to.
+    fn scatter_by_bsdf(&self, u: [f32; 3], fraction: f32, before: &Segment) -> Option<(Value, Segment)> {
         let surface = &self.surface;
         let sample = self.bsdf.sample(self.wo, u)?;
         let direction = if sample.event == Event::Straight { before.ray.direction } else { self.onb.to_world(sample.wi).normalize() };
@@ -172,18 +178,18 @@ impl<'a, 's> Vertex<'a, 's> {
         if sample.event != Event::Straight && !sides_agree(sample.wi.z, side) {
             return None;
         }
-        let mut weight = sample.weight * (1.0 / share);
+        let mut weight = sample.weight * (1.0 / fraction);
         let sampled = match sample.event {
             Event::Finite => {
-                let mut pdf = share * sample.pdf;
-                if let Some(k) = &self.known {
-                    pdf += k.share * k.light.pdf(direction, surface.p, &k.onb);
+                let mut pdf = fraction * sample.pdf;
+                if let Some(k) = &self.guided {
+                    pdf += k.fraction * k.light.pdf(direction, surface.p, &k.onb);
                     weight = sample.weight * (sample.pdf / pdf);
                 }
-                Some((LightPoint::on(surface), pdf))
+                Some((surface.light_point(), pdf))
             }
             Event::Delta => None,
-            // A pane is no place where directions are chosen: light sampling from before it reaches through it.
+            // A pane samples no direction: the light sample that was taken at the vertex before it reaches through the pane.
             Event::Straight => before.sampled,
         };
         let straight = sample.event == Event::Straight;

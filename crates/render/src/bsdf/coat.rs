@@ -7,12 +7,12 @@ use enfilade_math::{Vec3, warp};
 const COSINES: usize = 64;
 /// Roughnesses (i/15)² where the roughness varies over the surface.
 const ALPHAS: usize = 16;
-/// Highest index of refraction: such a coat reflects all but 0.04 %, and beyond it float32 no longer tells what it lets through.
-const MOST_ETA: f32 = 1e4;
-/// Least share of the base's light that a coat lets out.
-const LEAST_ESCAPE: f32 = 1e-12;
+/// The highest index of refraction: such a coat reflects all but 0.04 %, and float32 cannot represent what a higher one lets through.
+const MAX_ETA: f32 = 1e4;
+/// The smallest fraction of the base's light that a coat lets out.
+const MIN_ESCAPE: f32 = 1e-12;
 
-/// What becomes of light that meets several facets of the coat in a row.
+/// How light that meets several facets of the coat in a row counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bounces {
     /// Nothing is lost: what is not reflected in one bounce reaches the base, so that a white base under a coat reflects all light.
@@ -45,7 +45,7 @@ struct Row {
     transmittance: [f32; COSINES],
     /// Cosine-weighted mean transmittance over the hemisphere.
     mean: f32,
-    /// Share of the base's light that comes out through the coat; the rest is reflected back inside. Small where the index is high.
+    /// Fraction of the base's light that comes out through the coat; the rest is reflected back inside. Small where the index is high.
     escapes: f32,
 }
 
@@ -54,7 +54,8 @@ struct Row {
 pub struct Coat<'a> {
     low: &'a Row,
     high: &'a Row,
-    share: f32,
+    /// Weight of `high` in the interpolation; that of `low` is the rest.
+    fraction: f32,
     smooth: bool,
     /// Index of refraction of the coat.
     pub eta: f32,
@@ -81,20 +82,20 @@ impl CoatTable {
     #[inline]
     pub fn at(&self, alpha: f32) -> Coat<'_> {
         let CoatSpec { bounces, .. } = self.spec;
-        let eta = self.spec.eta.min(MOST_ETA);
+        let eta = self.spec.eta.min(MAX_ETA);
         let smooth = alpha < ggx::SMOOTH_ALPHA;
         if let [row] = &self.rows[..] {
-            return Coat { low: row, high: row, share: 0.0, smooth, eta, bounces };
+            return Coat { low: row, high: row, fraction: 0.0, smooth, eta, bounces };
         }
         let x = (alpha.max(0.0).sqrt() * (ALPHAS - 1) as f32).min((ALPHAS - 1) as f32);
         let a = (x as usize).min(ALPHAS - 2);
-        Coat { low: &self.rows[a], high: &self.rows[a + 1], share: x - a as f32, smooth, eta, bounces }
+        Coat { low: &self.rows[a], high: &self.rows[a + 1], fraction: x - a as f32, smooth, eta, bounces }
     }
 }
 
 impl Row {
     fn new(spec: &CoatSpec, alpha: f32) -> Self {
-        let eta = spec.eta.min(MOST_ETA);
+        let eta = spec.eta.min(MAX_ETA);
         let cosine = |i: usize| (i as f32 / (COSINES - 1) as f32).max(1e-6);
         let bounces = if alpha < ggx::SMOOTH_ALPHA { Bounces::All } else { spec.bounces };
         let transmittance: [f32; COSINES] = std::array::from_fn(|i| match bounces {
@@ -116,12 +117,12 @@ impl Row {
                 1.0 - (0..COSINES).map(|i| 2.0 * cosine(i) * once(cosine(i), alpha, 1.0 / eta).0).sum::<f32>() / COSINES as f32
             }
         };
-        Self { transmittance, mean, escapes: escapes.max(LEAST_ESCAPE) }
+        Self { transmittance, mean, escapes: escapes.max(MIN_ESCAPE) }
     }
 
     #[inline]
-    fn at(&self, cell: usize, share: f32) -> f32 {
-        self.transmittance[cell] * (1.0 - share) + self.transmittance[cell + 1] * share
+    fn at(&self, cell: usize, fraction: f32) -> f32 {
+        self.transmittance[cell] * (1.0 - fraction) + self.transmittance[cell + 1] * fraction
     }
 }
 
@@ -134,28 +135,28 @@ impl Coat<'_> {
         }
         let x = cos.clamp(0.0, 1.0) * (COSINES - 1) as f32;
         let cell = (x as usize).min(COSINES - 2);
-        let share = x - cell as f32;
-        let low = self.low.at(cell, share);
-        if self.share == 0.0 { low } else { low * (1.0 - self.share) + self.high.at(cell, share) * self.share }
+        let fraction = x - cell as f32;
+        let low = self.low.at(cell, fraction);
+        if self.fraction == 0.0 { low } else { low * (1.0 - self.fraction) + self.high.at(cell, fraction) * self.fraction }
     }
 
     /// Cosine-weighted mean of the transmittance.
     #[inline]
     pub fn mean_transmittance(&self) -> f32 {
-        self.low.mean * (1.0 - self.share) + self.high.mean * self.share
+        self.low.mean * (1.0 - self.fraction) + self.high.mean * self.fraction
     }
 
-    /// Share of diffuse light from the base that the coat lets out; it reflects the rest back inside.
+    /// Fraction of diffuse light from the base that the coat lets out; it reflects the rest back inside.
     #[inline]
     pub fn inner_transmittance(&self) -> f32 {
-        self.low.escapes * (1.0 - self.share) + self.high.escapes * self.share
+        self.low.escapes * (1.0 - self.fraction) + self.high.escapes * self.fraction
     }
 }
 
 /// Quadrature points of a table entry.
 const POINTS: u32 = 512;
 
-/// Shares of light from the cosine `cos_o` that a rough interface reflects and transmits in a single bounce, with separable masking.
+/// Fractions of light from the cosine `cos_o` that a rough interface reflects and transmits in a single bounce, with separable masking.
 fn once(cos_o: f32, alpha: f32, eta: f32) -> (f32, f32) {
     let wo = Vec3::new((1.0 - cos_o * cos_o).max(0.0).sqrt(), 0.0, cos_o);
     let (mut reflected, mut transmitted) = (0.0, 0.0);

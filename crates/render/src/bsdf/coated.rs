@@ -1,11 +1,12 @@
 //! A diffuse base under a dielectric coat: plastic, varnish, and the dielectric part of principled materials.
 //!
-//! The base receives what the coat does not reflect in one bounce, and light between base and coat goes to and fro. Ashikhmin &
+//! The base receives what the coat does not reflect in one bounce, and light is reflected between base and coat many times. Ashikhmin &
 //! Shirley 2000; Weidlich & Wilkie 2007; Mitsuba's `roughplastic`.
 
 use super::coat::{Bounces, Coat};
+use super::fresnel;
 use super::ggx::Facets;
-use super::{Event, Sample, Value, fresnel, lobe};
+use super::sample::{Event, Sample, Value};
 use enfilade_math::{INV_PI, Rgb, Vec3, warp};
 use std::f32::consts::PI;
 
@@ -29,9 +30,9 @@ pub struct Coated<'a> {
 }
 
 impl<'a> Coated<'a> {
-    /// A base of colour `reflectance` under `coat` of roughness `alpha`, whose reflection is multiplied by `tint`. `saturating`: light
-    /// that goes to and fro takes the base's colour each time; otherwise the base counts as white between. The coat lies over the share
-    /// `covered` of the base, and `tint` has that share in it.
+    /// A base of colour `reflectance` under `coat` of roughness `alpha`, whose reflection is multiplied by `tint`. `saturating`: light that
+    /// is reflected between base and coat takes on the base's colour each time; otherwise the base counts as white there. The coat lies
+    /// over the fraction `covered` of the base, and `tint` includes that factor.
     #[inline]
     pub fn new(coat: Coat<'a>, alpha: f32, reflectance: Rgb, tint: Rgb, saturating: bool, covered: f32, cos_o: f32) -> Self {
         let through_o = coat.transmittance(cos_o);
@@ -54,7 +55,7 @@ impl<'a> Coated<'a> {
         Self { coat, facets, base: base * covered, bare: (1.0 - covered) * INV_PI, through_o, tint, select_base }
     }
 
-    /// See [`lobe::Lobe::eval_pdf`].
+    /// See [`super::Lobe::eval_pdf`].
     #[inline]
     pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Value, f32) {
         if wi.z <= 0.0 {
@@ -70,14 +71,14 @@ impl<'a> Coated<'a> {
         (Value { diffuse, specular }, density + (1.0 - self.select_base) * mirrored.pdf)
     }
 
-    /// See [`lobe::Lobe::sample`].
+    /// See [`super::Lobe::sample`].
     #[inline]
     pub fn sample(&self, wo: Vec3, u: [f32; 3]) -> Option<Sample> {
         let wi = if u[2] < self.select_base {
             warp::cosine_hemisphere([u[0], u[1]])
         } else if self.facets.smooth() {
             let reflected = self.tint * (1.0 - self.through_o);
-            return Some(Sample::delta(lobe::mirror(wo), reflected * (1.0 / (1.0 - self.select_base))));
+            return Some(Sample::mirrored(wo, reflected * (1.0 / (1.0 - self.select_base))));
         } else {
             self.facets.sample(wo, [u[0], u[1]])
         };
@@ -90,7 +91,7 @@ impl<'a> Coated<'a> {
         self.bare == 0.0
     }
 
-    /// See [`lobe::Lobe::albedo`].
+    /// See [`super::Lobe::albedo`].
     #[inline]
     pub fn albedo(&self, cos_o: f32) -> Value {
         let diffuse = self.base * (self.coat.mean_transmittance() * PI) + Rgb::splat(self.bare * PI);

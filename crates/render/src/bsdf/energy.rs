@@ -17,25 +17,25 @@ const ALPHAS: usize = 24;
 /// Quadrature points of an entry.
 const POINTS: u32 = 512;
 
-/// The share of light that one bounce keeps, over roughness and cosine.
+/// The fraction of light that one bounce keeps, over roughness and cosine.
 #[derive(Debug)]
 struct Kept {
-    share: [[f32; COSINES]; ALPHAS],
+    kept: [[f32; COSINES]; ALPHAS],
     /// Cosine-weighted means.
     mean: [f32; ALPHAS],
 }
 
 impl Kept {
-    fn new(share: impl Fn(f32, f32) -> f32) -> Self {
+    fn new(kept: impl Fn(f32, f32) -> f32) -> Self {
         let root = |i: usize, n: usize| (i as f32 / (n - 1) as f32).powi(2);
-        let share = std::array::from_fn(|a| std::array::from_fn(|c| share(root(c, COSINES).max(1e-4), root(a, ALPHAS))));
+        let kept = std::array::from_fn(|a| std::array::from_fn(|c| kept(root(c, COSINES).max(1e-4), root(a, ALPHAS))));
         let mean = std::array::from_fn(|a| {
-            let row: &[f32; COSINES] = &share[a];
+            let row: &[f32; COSINES] = &kept[a];
             // ∫ 2c E dc by trapezoids.
             let node = |i: usize| root(i, COSINES);
             (1..COSINES).map(|i| (node(i) - node(i - 1)) * (node(i) * row[i] + node(i - 1) * row[i - 1])).sum()
         });
-        Self { share, mean }
+        Self { kept, mean }
     }
 
     #[inline]
@@ -48,7 +48,7 @@ impl Kept {
     #[inline]
     fn at(&self, cos: f32, alpha: f32) -> f32 {
         let ((a, fa), (c, fc)) = (Self::cell(alpha, ALPHAS), Self::cell(cos, COSINES));
-        let row = |a: usize| self.share[a][c] * (1.0 - fc) + self.share[a][c + 1] * fc;
+        let row = |a: usize| self.kept[a][c] * (1.0 - fc) + self.kept[a][c + 1] * fc;
         row(a) * (1.0 - fa) + row(a + 1) * fa
     }
 
@@ -72,7 +72,7 @@ pub fn of_metal(cos_o: f32, alpha: f32, mean_fresnel: Rgb) -> Rgb {
     mean_fresnel.map(|f| 1.0 + lost * f * mean / (1.0 - f * (1.0 - mean)))
 }
 
-/// The share that one bounce keeps at the rough border of a transparent body.
+/// The fraction that one bounce keeps at the rough border of a transparent body.
 #[derive(Debug)]
 pub struct GlassTable {
     /// Index of refraction, inside over outside.
@@ -101,7 +101,7 @@ impl GlassTable {
     }
 }
 
-/// Share of the power from the cosine `cos_o` that one bounce reflects or transmits.
+/// Fraction of the power from the cosine `cos_o` that one bounce reflects or transmits.
 fn kept_by_glass(cos_o: f32, alpha: f32, eta: f32) -> f32 {
     if alpha < ggx::SMOOTH_ALPHA {
         return 1.0;
@@ -113,8 +113,8 @@ fn kept_by_glass(cos_o: f32, alpha: f32, eta: f32) -> f32 {
             let cos = wo.dot(m).max(0.0);
             let (f, cos_t) = fresnel::dielectric(cos, eta);
             let (up, down) = (ggx::reflect(wo, m), ggx::refract(wo, m, eta, cos_t));
-            let share = |w: Vec3, right_side: bool| if right_side { ggx::g2(wo, w, alpha) / ggx::g1(wo, alpha) } else { 0.0 };
-            f * share(up, up.z > 0.0) + if f < 1.0 { (1.0 - f) * share(down, down.z < 0.0) } else { 0.0 }
+            let fraction = |w: Vec3, right_side: bool| if right_side { ggx::g2(wo, w, alpha) / ggx::g1(wo, alpha) } else { 0.0 };
+            f * fraction(up, up.z > 0.0) + if f < 1.0 { (1.0 - f) * fraction(down, down.z < 0.0) } else { 0.0 }
         })
         .sum();
     sum / POINTS as f32

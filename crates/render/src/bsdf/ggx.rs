@@ -27,13 +27,13 @@ pub fn lambda(cos: f32, alpha: f32) -> f32 {
     0.5 * ((1.0 + alpha * alpha * tan2).sqrt() - 1.0)
 }
 
-/// Share of microfacets visible from `w`.
+/// Fraction of microfacets visible from `w`.
 #[inline]
 pub fn g1(w: Vec3, alpha: f32) -> f32 {
     1.0 / (1.0 + lambda(w.z, alpha))
 }
 
-/// Share of microfacets visible from both directions (on the same side or on opposite ones), height-correlated.
+/// Fraction of microfacets visible from both directions (on the same side or on opposite ones), height-correlated.
 #[inline]
 pub fn g2(wo: Vec3, wi: Vec3, alpha: f32) -> f32 {
     1.0 / (1.0 + lambda(wo.z, alpha) + lambda(wi.z, alpha))
@@ -46,11 +46,12 @@ pub struct Facets {
     pub alpha: f32,
     /// Λ of the viewing direction.
     lambda_o: f32,
-    /// What Λ of the incident direction is multiplied by beside it: 1 for height-correlated masking, 1 + Λ for separable masking.
+    /// What Λ of the incident direction is multiplied by in the masking of both directions: 1 for height-correlated masking, 1 + Λ for
+    /// separable masking.
     slope_i: f32,
 }
 
-/// What facets that mirror do with light.
+/// The value and density of mirror reflection at the facets of a rough surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Mirrored {
     /// Value × cosine for a reflectance of one.
@@ -119,7 +120,7 @@ pub fn sample_visible(wo: Vec3, alpha: f32, u: [f32; 2]) -> Vec3 {
     Vec3::new(h.x * alpha, h.y * alpha, h.z.max(0.0)).try_normalize().unwrap_or(Vec3::Z)
 }
 
-/// Directional albedo of a GGX surface with reflectance `fresnel(cos)`: the share of light from `cos_o` that is reflected
+/// Directional albedo of a GGX surface with reflectance `fresnel(cos)`: the fraction of light from `cos_o` that is reflected
 /// in one bounce. Quadrature over `n` visible normals.
 pub fn directional_albedo(cos_o: f32, alpha: f32, n: u32, fresnel: impl Fn(f32) -> f32) -> f32 {
     let cos_o = cos_o.max(1e-4);

@@ -1,4 +1,4 @@
-//! What lies on top of a material and dims what is beneath: glTF's clear-coat and sheen.
+//! Layers on top of a material that dim what is beneath: glTF's clear-coat and sheen.
 
 use super::{fresnel, sheen};
 
@@ -8,7 +8,7 @@ pub const CLEARCOAT_ETA: f32 = 1.5;
 /// Layers above other lobes.
 #[derive(Clone, Copy, Debug)]
 pub struct Layers {
-    /// Share of the surface under a clear-coat.
+    /// Fraction of the surface under a clear-coat.
     pub clearcoat: f32,
     /// Largest component of the sheen's colour.
     pub sheen: f32,
@@ -17,7 +17,7 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// Share of light that passes on the way in and out, at the cosines of both directions.
+    /// Fraction of light that passes on the way in and out, at the cosines of both directions.
     #[inline]
     pub fn passes(&self, cos_o: f32, cos_i: f32) -> f32 {
         let coat = |cos: f32| 1.0 - self.clearcoat * fresnel::dielectric(cos.abs().min(1.0), CLEARCOAT_ETA).0;

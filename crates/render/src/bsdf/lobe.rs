@@ -5,10 +5,12 @@
 //! for one viewing direction and only meaningful for that.
 
 use super::coated::Coated;
+use super::fresnel;
 use super::ggx::{self, Facets};
+use super::outgoing::Outgoing;
 use super::rough_diffuse::RoughDiffuse;
+use super::sample::{Event, Sample, Value};
 use super::sheen::Sheen;
-use super::{Event, Outgoing, Sample, Value, fresnel};
 use enfilade_math::{INV_PI, Rgb, Vec3, warp};
 
 /// Fresnel term of a reflecting lobe.
@@ -134,7 +136,7 @@ impl<'a> Lobe<'a> {
             Self::Coated(coated) => coated.sample(wo, u),
             Self::Reflection { facets, fresnel, tint } => {
                 if facets.smooth() {
-                    return Some(Sample::delta(mirror(wo), *tint * fresnel.eval(wo.z)));
+                    return Some(Sample::mirrored(wo, *tint * fresnel.eval(wo.z)));
                 }
                 self.finite(wo, facets.sample(wo, [u[0], u[1]]))
             }
@@ -142,7 +144,7 @@ impl<'a> Lobe<'a> {
             Self::Thin { eta, tint } => {
                 let r = thin_reflectance(wo.z, *eta);
                 if u[2] < r {
-                    return Some(Sample::delta(mirror(wo), Rgb::WHITE));
+                    return Some(Sample::mirrored(wo, Rgb::WHITE));
                 }
                 Some(Sample { event: Event::Straight, ..Sample::delta(-wo, *tint) })
             }
@@ -170,7 +172,7 @@ impl<'a> Lobe<'a> {
         if reflects == (wi.z > 0.0) { self.finite(wo, wi) } else { None }
     }
 
-    /// Share of light from all around that goes to `wo`, about: the diffuse part for a reflectance of one, and everything else.
+    /// Fraction of light from all around that goes to `wo`, about: the diffuse part for a reflectance of one, and everything else.
     pub fn albedo(&self, cos_o: f32) -> Value {
         match self {
             Self::Lambert => Value { diffuse: Rgb::WHITE, specular: Rgb::BLACK },
@@ -232,12 +234,6 @@ const NOTHING: (Value, f32) = (Value { diffuse: Rgb::BLACK, specular: Rgb::BLACK
 #[inline]
 fn specular(specular: Rgb) -> Value {
     Value { diffuse: Rgb::BLACK, specular }
-}
-
-/// Mirror image of `wo` about the shading normal.
-#[inline]
-pub(super) fn mirror(wo: Vec3) -> Vec3 {
-    Vec3::new(-wo.x, -wo.y, wo.z)
 }
 
 /// Reflectance of a pane with all its inner reflections, without absorption.

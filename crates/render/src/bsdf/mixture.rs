@@ -1,13 +1,16 @@
 //! Several lobes side by side or in layers: metals blended with dielectrics, sheen and clear-coat on top, blended materials.
 
-use super::{Bsdf, Event, Layers, Lobe, Model, Outgoing, Sample, Value};
+use super::layers::Layers;
+use super::lobe::Lobe;
+use super::outgoing::Outgoing;
+use super::sample::{Event, Sample, Value};
 use enfilade_math::{ONE_MINUS_EPSILON, Rgb, Vec3};
 
 /// A lobe and its part in the whole.
 #[derive(Clone, Copy, Debug)]
 struct Entry<'a> {
     lobe: Lobe<'a>,
-    /// Multiplies the lobe's diffuse part: the share that its reflectance has in that of the whole.
+    /// Multiplies the lobe's diffuse part: the fraction that its reflectance has in that of the whole.
     diffuse: Rgb,
     /// Multiplies everything else.
     specular: f32,
@@ -40,25 +43,20 @@ impl<'a> Mixture<'a> {
         }
     }
 
-    /// Adds a whole material with the given share. `diffuse` is the share that its reflectance has in that of the whole.
-    pub fn add_all(&mut self, bsdf: &Bsdf<'a>, diffuse: Rgb, share: f32, cos_o: f32) {
-        match &bsdf.model {
-            Model::Black => (),
-            Model::One(lobe) => self.add(*lobe, diffuse, share, share * lobe.albedo(cos_o).total(bsdf.reflectance).luminance()),
-            Model::Mixture(other) => {
-                let first = self.layers.len() as u8;
-                self.layers.extend(&other.layers);
-                let (rough, sharp) = other.albedo(cos_o);
-                let albedo = (rough.total(bsdf.reflectance) + sharp.specular).luminance();
-                self.entries.extend(other.entries.iter().map(|e| Entry {
-                    diffuse: e.diffuse * diffuse,
-                    specular: e.specular * share,
-                    select: e.select * share * albedo.max(f32::MIN_POSITIVE),
-                    under: e.under.map(|index| index + first),
-                    ..*e
-                }));
-            }
-        }
+    /// Adds the lobes of another mixture, whose diffuse reflectance is `reflectance`, as the given `fraction` of this one. `diffuse` is the
+    /// fraction that its reflectance has in that of the whole.
+    pub fn add_mixture(&mut self, other: &Self, reflectance: Rgb, diffuse: Rgb, fraction: f32, cos_o: f32) {
+        let first = self.layers.len() as u8;
+        self.layers.extend(&other.layers);
+        let (rough, sharp) = other.albedo(cos_o);
+        let albedo = (rough.total(reflectance) + sharp.specular).luminance();
+        self.entries.extend(other.entries.iter().map(|e| Entry {
+            diffuse: e.diffuse * diffuse,
+            specular: e.specular * fraction,
+            select: e.select * fraction * albedo.max(f32::MIN_POSITIVE),
+            under: e.under.map(|index| index + first),
+            ..*e
+        }));
     }
 
     /// Lays layers over all lobes so far.
@@ -68,7 +66,7 @@ impl<'a> Mixture<'a> {
         self.entries.iter_mut().for_each(|e| e.under = Some(index));
     }
 
-    /// Turns importances into probabilities, none of them below a tenth of an even share, so that no lobe starves.
+    /// Turns importances into probabilities, none of them below a tenth of that of equal chances, so that every lobe keeps being sampled.
     pub fn finish(&mut self) {
         let total: f32 = self.entries.iter().map(|e| e.select).sum();
         let n = self.entries.len() as f32;
@@ -97,7 +95,7 @@ impl<'a> Mixture<'a> {
         (value, density)
     }
 
-    /// See [`Bsdf::outgoing`]: known where one lobe is all that is diffuse, and no sheen lies above it.
+    /// See [`super::Bsdf::outgoing`]: known where one lobe is all that is diffuse, and no sheen lies above it.
     pub fn outgoing(&self) -> Option<Outgoing<'a>> {
         let mut diffuse = self.entries.iter().filter(|e| e.lobe.is_diffuse() && !e.diffuse.is_black());
         let (Some(one), None) = (diffuse.next(), diffuse.next()) else { return None };
@@ -108,7 +106,7 @@ impl<'a> Mixture<'a> {
 
     /// See [`Lobe::sample`].
     pub fn sample(&self, wo: Vec3, u: [f32; 3]) -> Option<Sample> {
-        // Choose a lobe and renew the random number within its share.
+        // Choose a lobe and renew the random number within its interval.
         let mut choice = u[2];
         let mut index = 0;
         while index + 1 < self.entries.len() && choice >= self.entries[index].select {
@@ -145,7 +143,7 @@ impl<'a> Mixture<'a> {
         (rough, sharp)
     }
 
-    /// Share of light that the layers above a lobe let pass.
+    /// Fraction of light that the layers above a lobe let pass.
     #[inline]
     fn passes(&self, entry: &Entry<'_>, wo: Vec3, wi: Vec3) -> f32 {
         entry.under.map_or(1.0, |index| self.layers[usize::from(index)].passes(wo.z, wi.z))

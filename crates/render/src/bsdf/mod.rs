@@ -3,6 +3,10 @@
 //! Directions are unit vectors in shading space (z = shading normal, facing `wo`), pointing away from the surface. The
 //! diffuse part is kept apart and *demodulated* (its value is for a reflectance of one), because the ground truth splits
 //! radiance into reflectance × illumination + residual.
+//!
+//! A material of the scene becomes a [`Bsdf`] at a point in `resolve`. `Bsdf` is for one viewing direction: values, densities and samples
+//! are asked for with the `wo` that it was made for. Paths are followed from the camera, so `wo` is known and `wi` is sampled; values are
+//! those of radiance, not of importance.
 
 pub mod coat;
 mod coated;
@@ -12,76 +16,22 @@ pub mod ggx;
 mod layers;
 mod lobe;
 mod mixture;
+mod outgoing;
 mod resolve;
 mod rough_diffuse;
+mod sample;
 mod sheen;
 mod tables;
 
 pub use layers::Layers;
 pub use lobe::{Fresnel, Lobe, thin_reflectance};
+pub use outgoing::Outgoing;
 pub use resolve::{Inputs, straight_transmittance};
+pub use sample::{Event, Sample, Value};
 pub use tables::{TableMaker, Tables};
 
 use enfilade_math::{Rgb, Vec3};
 use mixture::Mixture;
-use std::ops::Mul;
-
-/// What a surface does to light from one direction, cosine included.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Value {
-    /// Diffuse part for a reflectance of one.
-    pub diffuse: Rgb,
-    /// Everything else.
-    pub specular: Rgb,
-}
-
-impl Value {
-    /// The whole, given the diffuse reflectance.
-    #[inline]
-    pub fn total(&self, reflectance: Rgb) -> Rgb {
-        reflectance * self.diffuse + self.specular
-    }
-}
-
-impl Mul<f32> for Value {
-    type Output = Self;
-    #[inline]
-    fn mul(self, s: f32) -> Self {
-        Self { diffuse: self.diffuse * s, specular: self.specular * s }
-    }
-}
-
-/// How a sampled direction came about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Event {
-    /// From a density over directions.
-    Finite,
-    /// One of finitely many directions: light sampling cannot find it.
-    Delta,
-    /// Straight on through a thin pane: shadow rays take this way too.
-    Straight,
-}
-
-/// A sampled incident direction.
-#[derive(Clone, Copy, Debug)]
-pub struct Sample {
-    /// Incident direction.
-    pub wi: Vec3,
-    /// Value over density.
-    pub weight: Value,
-    /// Density per solid angle; zero for [`Event::Delta`] and [`Event::Straight`].
-    pub pdf: f32,
-    /// What kind of direction it is.
-    pub event: Event,
-}
-
-impl Sample {
-    /// One of finitely many directions, with its value over its probability.
-    #[inline]
-    fn delta(wi: Vec3, weight: Rgb) -> Self {
-        Self { wi, weight: Value { diffuse: Rgb::BLACK, specular: weight }, pdf: 0.0, event: Event::Delta }
-    }
-}
 
 /// The scattering of one surface point towards one viewing direction.
 #[derive(Clone, Debug)]
@@ -91,6 +41,7 @@ pub struct Bsdf<'a> {
     model: Model<'a>,
 }
 
+/// How the lobes of a BSDF are kept: most materials have one, which needs no allocation.
 #[derive(Clone, Debug)]
 enum Model<'a> {
     Black,
@@ -127,7 +78,7 @@ impl<'a> Bsdf<'a> {
         }
     }
 
-    /// How the light that the diffuse lobes reflect depends on the viewer, where that is known apart from where the light comes from.
+    /// How the light that the diffuse lobes reflect depends on the viewer, where that does not depend on where the light comes from.
     #[inline]
     pub fn outgoing(&self) -> Option<Outgoing<'a>> {
         match &self.model {
@@ -149,7 +100,8 @@ impl<'a> Bsdf<'a> {
         self.eval_pdf(wo, wi).1
     }
 
-    /// Value × cosine for light from `wi`, and the density with which [`Bsdf::sample`] finds it; smooth lobes do not take part.
+    /// Value × cosine for light from `wi`, and the density per solid angle with which [`Bsdf::sample`] finds it. Smooth lobes, which have
+    /// no density, are left out.
     #[inline]
     pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Value, f32) {
         match &self.model {
@@ -169,7 +121,7 @@ impl<'a> Bsdf<'a> {
         }
     }
 
-    /// Shares of light from all around that are sent to a viewer at this cosine, reflected or transmitted: cheap estimates.
+    /// Estimates of the hemispherical albedo towards a viewer at this cosine, of reflection and transmission; cheap, for choosing samples.
     pub fn albedo(&self, cos_o: f32) -> Albedo {
         let (rough, sharp) = match &self.model {
             Model::Black => (Value::default(), Value::default()),
@@ -183,7 +135,7 @@ impl<'a> Bsdf<'a> {
             }
             Model::Mixture(mixture) => mixture.albedo(cos_o),
         };
-        // What is added for light between facets lets some estimates of one bounce exceed all light.
+        // With what is added for further bounces between facets, some of these estimates exceed one.
         let rest = |part: Rgb, others: Rgb| Rgb::new(part.r.min(1.0 - others.r), part.g.min(1.0 - others.g), part.b.min(1.0 - others.b));
         let diffuse = rest(self.reflectance * rough.diffuse, Rgb::BLACK);
         let glossy = rest(rough.specular, diffuse);
@@ -191,34 +143,14 @@ impl<'a> Bsdf<'a> {
     }
 }
 
-/// How diffusely reflected light depends on the viewer.
-#[derive(Clone, Copy, Debug)]
-pub struct Outgoing<'a> {
-    /// What it must pass on its way out.
-    coat: Option<coat::Coat<'a>>,
-    layers: Option<Layers>,
-}
-
-impl Outgoing<'_> {
-    /// The same to all sides.
-    const EVEN: Self = Self { coat: None, layers: None };
-
-    /// Radiance towards a viewer at this cosine, in proportion to that towards others.
-    #[inline]
-    pub fn share(&self, cos_o: f32) -> f32 {
-        let coat = self.coat.map_or(1.0, |coat| coat.transmittance(cos_o));
-        coat * self.layers.map_or(1.0, |layers| layers.passes(cos_o, 1.0))
-    }
-}
-
-/// What a surface reflects of light from all around.
+/// The albedo of a surface, by how much its lobes blur what they reflect.
 #[derive(Clone, Copy, Debug)]
 pub struct Albedo {
-    /// By the diffuse lobes.
+    /// Of the diffuse lobes.
     pub diffuse: Rgb,
-    /// By others that are nearly as blurred.
+    /// Of others that are nearly as blurred.
     pub glossy: Rgb,
-    /// By the rest.
+    /// Of the rest.
     pub sharp: Rgb,
 }
 
@@ -228,19 +160,19 @@ impl Albedo {
         self.diffuse + self.glossy
     }
 
-    /// Share on [0,1] of what is blurred.
-    pub fn blurred_share(&self) -> f32 {
-        share(self.blurred(), self.sharp)
+    /// Fraction on [0,1] of what is blurred.
+    pub fn blurred_fraction(&self) -> f32 {
+        fraction(self.blurred(), self.sharp)
     }
 
-    /// Share on [0,1] of what is sharp in all that is not diffuse.
-    pub fn sharp_share(&self) -> f32 {
-        share(self.sharp, self.glossy)
+    /// Fraction on [0,1] of what is sharp in all that is not diffuse.
+    pub fn sharp_fraction(&self) -> f32 {
+        fraction(self.sharp, self.glossy)
     }
 }
 
 /// The part that `a` is of `a` + `b`.
-fn share(a: Rgb, b: Rgb) -> f32 {
+fn fraction(a: Rgb, b: Rgb) -> f32 {
     let (a, b) = (a.luminance(), b.luminance());
     if a + b > 0.0 { a / (a + b) } else { 0.0 }
 }

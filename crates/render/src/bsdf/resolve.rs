@@ -43,7 +43,7 @@ impl Inputs<'_> {
 
     /// A scalar parameter here, on [0,1].
     #[inline]
-    fn share(&self, p: &ScalarParam) -> f32 {
+    fn unit_scalar(&self, p: &ScalarParam) -> f32 {
         self.scalar(p).clamp(0.0, 1.0)
     }
 }
@@ -56,7 +56,7 @@ impl<'a> Bsdf<'a> {
             scene::Bsdf::Diffuse { reflectance } => Self::lambert(at.reflectance(reflectance)),
             scene::Bsdf::RoughDiffuse { reflectance, roughness } => {
                 let reflectance = at.reflectance(reflectance);
-                let lobe = Lobe::RoughDiffuse(RoughDiffuse::new(reflectance, at.share(roughness), at.cos_o));
+                let lobe = Lobe::RoughDiffuse(RoughDiffuse::new(reflectance, at.unit_scalar(roughness), at.cos_o));
                 Self { reflectance, ..Self::one(lobe) }
             }
             scene::Bsdf::Conductor { eta, k, reflectance, alpha } => {
@@ -73,7 +73,7 @@ impl<'a> Bsdf<'a> {
                 coated(at, base.reflectance(diffuse), at.scalar(alpha), at.reflectance(specular), *nonlinear, 1.0)
             }
             scene::Bsdf::Principled(p) => principled(p, at),
-            scene::Bsdf::Blend { first, second, weight } => blend([first, second], at.share(weight), at),
+            scene::Bsdf::Blend { first, second, weight } => blend([first, second], at.unit_scalar(weight), at),
         }
     }
 
@@ -82,7 +82,7 @@ impl<'a> Bsdf<'a> {
     }
 }
 
-/// A diffuse base of which the share `covered` lies under the point's coat; without one (an index of one or less) the base alone.
+/// A diffuse base of which the fraction `covered` lies under the point's coat; without one (an index of one or less) the base alone.
 #[inline]
 fn coated<'a>(at: &Inputs<'a>, reflectance: Rgb, alpha: f32, tint: Rgb, saturating: bool, covered: f32) -> Bsdf<'a> {
     let Some(table) = at.tables.coat.as_ref().filter(|_| covered > 0.0) else { return Bsdf::lambert(reflectance) };
@@ -112,7 +112,7 @@ fn glass<'a>(ior: f32, alpha: f32, tint: Rgb, at: &Inputs<'a>) -> Lobe<'a> {
     Lobe::Refraction { facets: Facets::new(alpha, at.cos_o), eta, tint, scale }
 }
 
-/// Two materials side by side; `weight` is the share of the second.
+/// Two materials side by side; `weight` is the fraction of the second.
 fn blend<'a>(parts: [&'a scene::Bsdf; 2], weight: f32, at: &Inputs<'a>) -> Bsdf<'a> {
     let Some(tables) = at.tables.blended.as_deref() else { return Bsdf::black() };
     let part = |i: usize| Bsdf::new(parts[i], &Inputs { tables: &tables[i], ..*at });
@@ -121,38 +121,49 @@ fn blend<'a>(parts: [&'a scene::Bsdf; 2], weight: f32, at: &Inputs<'a>) -> Bsdf<
     }
     let (first, second) = (part(0), part(1));
     let reflectance = first.reflectance.lerp(second.reflectance, weight);
-    let share_of = |part: Rgb, share: f32| {
-        let channel = |c: usize| if reflectance[c] > 0.0 { share * part[c] / reflectance[c] } else { 0.0 };
+    let fraction_of = |part: Rgb, fraction: f32| {
+        let channel = |c: usize| if reflectance[c] > 0.0 { fraction * part[c] / reflectance[c] } else { 0.0 };
         Rgb::new(channel(0), channel(1), channel(2))
     };
     let mut mixture = Mixture::new();
-    mixture.add_all(&first, share_of(first.reflectance, 1.0 - weight), 1.0 - weight, at.cos_o);
-    mixture.add_all(&second, share_of(second.reflectance, weight), weight, at.cos_o);
+    for (part, fraction) in [(&first, 1.0 - weight), (&second, weight)] {
+        add(&mut mixture, part, fraction_of(part.reflectance, fraction), fraction, at.cos_o);
+    }
     mixture.finish();
     let model = if mixture.is_empty() { Model::Black } else { Model::Mixture(mixture) };
     Bsdf { reflectance, model }
 }
 
-/// glTF's metallic-roughness model: a metal, a transparent body and a coated diffuse base in their shares, under sheen and
+/// Adds a whole material to a mixture as the given `fraction` of it. `diffuse` is the fraction that its reflectance has in that of the
+/// whole.
+fn add<'a>(mixture: &mut Mixture<'a>, bsdf: &Bsdf<'a>, diffuse: Rgb, fraction: f32, cos_o: f32) {
+    match &bsdf.model {
+        Model::Black => (),
+        Model::One(lobe) => mixture.add(*lobe, diffuse, fraction, fraction * lobe.albedo(cos_o).total(bsdf.reflectance).luminance()),
+        Model::Mixture(other) => mixture.add_mixture(other, bsdf.reflectance, diffuse, fraction, cos_o),
+    }
+}
+
+/// glTF's metallic-roughness model: a metal, a transparent body and a coated diffuse base in their proportions, under sheen and
 /// clear-coat.
 fn principled<'a>(p: &Principled, at: &Inputs<'a>) -> Bsdf<'a> {
     let base = at.reflectance(&p.base_color);
-    let metallic = at.share(&p.metallic);
-    let transmission = at.share(&p.transmission);
-    let alpha = at.share(&p.roughness).powi(2);
+    let metallic = at.unit_scalar(&p.metallic);
+    let transmission = at.unit_scalar(&p.transmission);
+    let alpha = at.unit_scalar(&p.roughness).powi(2);
     let (clear, solid) = ((1.0 - metallic) * transmission, (1.0 - metallic) * (1.0 - transmission));
 
     let coated_base = || {
-        // Fresnel's equations instead of glTF's Schlick, so that coat and base share out exactly all light; the specular
+        // Fresnel's equations instead of glTF's Schlick, so that coat and base together account for all light; the specular
         // colour tints at every angle. What its largest component does not reflect reaches the base: KHR_materials_specular.
-        let tint = at.reflectance(&p.specular_color) * at.share(&p.specular);
+        let tint = at.reflectance(&p.specular_color) * at.unit_scalar(&p.specular);
         coated(at, base, alpha, tint, false, tint.max_component())
     };
     let metal = || metal(Facets::new(alpha, at.cos_o), Fresnel::Schlick { f0: base }, Rgb::WHITE, at.cos_o);
     let body = || if p.solid { glass(p.ior, alpha, base, at) } else { Lobe::Thin { eta: p.ior, tint: base } };
 
     let sheen_color = at.reflectance(&p.sheen_color);
-    let clearcoat = if at.outside { at.share(&p.clearcoat) } else { 0.0 };
+    let clearcoat = if at.outside { at.unit_scalar(&p.clearcoat) } else { 0.0 };
     let covered = clearcoat > 0.0 || !sheen_color.is_black();
     if !covered {
         if solid == 1.0 {
@@ -198,13 +209,13 @@ fn cover(mixture: &mut Mixture<'_>, p: &Principled, at: &Inputs<'_>, sheen_color
     let sheen = Lobe::Sheen(Sheen::new(sheen_roughness, sheen_color * under_coat, at.cos_o));
     mixture.add(sheen, Rgb::BLACK, 1.0, 0.3 * sheen_color.luminance());
     if clearcoat > 0.0 {
-        let facets = Facets::new(at.share(&p.clearcoat_roughness).powi(2), at.cos_o);
+        let facets = Facets::new(at.unit_scalar(&p.clearcoat_roughness).powi(2), at.cos_o);
         let lobe = Lobe::Reflection { facets, fresnel: Fresnel::Dielectric { eta: CLEARCOAT_ETA }, tint: Rgb::WHITE };
         mixture.add(lobe, Rgb::BLACK, clearcoat, clearcoat * fresnel::dielectric(at.cos_o, CLEARCOAT_ETA).0);
     }
 }
 
-/// Share of light that goes straight through thin panes of `bsdf` at a point; `None` when it has none.
+/// Fraction of light that goes straight through thin panes of `bsdf` at a point; `None` when it has none.
 ///
 /// This is the [`Lobe::Thin`] of [`Bsdf::new`] as a shadow ray sees it.
 pub fn straight_transmittance(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Rgb> {
@@ -213,9 +224,9 @@ pub fn straight_transmittance(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Rgb
             Some(at.reflectance(transmittance) * (1.0 - thin_reflectance(at.cos_o, *eta)))
         }
         scene::Bsdf::Principled(p) if !p.solid && p.transmission.factor > 0.0 => {
-            let clear = (1.0 - at.share(&p.metallic)) * at.share(&p.transmission);
+            let clear = (1.0 - at.unit_scalar(&p.metallic)) * at.unit_scalar(&p.transmission);
             let sheen = at.reflectance(&p.sheen_color).max_component();
-            let clearcoat = if at.outside { at.share(&p.clearcoat) } else { 0.0 };
+            let clearcoat = if at.outside { at.unit_scalar(&p.clearcoat) } else { 0.0 };
             let layers = Layers { clearcoat, sheen, sheen_roughness: at.scalar(&p.sheen_roughness).clamp(0.05, 1.0) };
             let pane = at.reflectance(&p.base_color) * (1.0 - thin_reflectance(at.cos_o, p.ior));
             Some(pane * (clear * layers.passes(at.cos_o, at.cos_o)))
@@ -225,7 +236,7 @@ pub fn straight_transmittance(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Rgb
             if first.is_none() && second.is_none() {
                 return None;
             }
-            Some(first.unwrap_or_default().lerp(second.unwrap_or_default(), at.share(weight)))
+            Some(first.unwrap_or_default().lerp(second.unwrap_or_default(), at.unit_scalar(weight)))
         }
         _ => None,
     }

@@ -1,4 +1,4 @@
-//! Known answers for every model: the furnace, sampling against evaluation, reciprocity.
+//! Known answers for every model: the white furnace, sampling against evaluation, reciprocity.
 
 use super::*;
 use crate::texture::{Footprint, Textures};
@@ -232,12 +232,12 @@ fn albedo_is_about_what_sampling_finds() {
             sampled.add(bsdf.sample(wo, u).map_or(0.0, |s| f64::from(power_of(name, s.weight.total(bsdf.reflectance), s.wi))));
         }
         let albedo = bsdf.albedo(wo.z);
-        let share = albedo.blurred_share();
+        let fraction = albedo.blurred_fraction();
         let albedo = f64::from((albedo.blurred() + albedo.sharp).g);
         // Rough plastics lose light between their facets.
         let tolerance = if name.contains("0.5 linear") { 0.5 } else { 0.25 };
         assert!((albedo - sampled.value()).abs() < tolerance, "{name}: albedo {albedo}, sampled {}", sampled.value());
-        assert!((0.0..=1.0).contains(&share), "{name}: share {share}");
+        assert!((0.0..=1.0).contains(&fraction), "{name}: fraction {fraction}");
     });
 }
 

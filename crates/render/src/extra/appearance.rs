@@ -12,11 +12,11 @@ use enfilade_scene::{Bsdf, ColorParam, ScalarParam};
 pub(crate) struct Appearance {
     /// On [0,1].
     pub base_color: Rgb,
-    /// Share of metal.
+    /// Fraction of metal.
     pub metallic: f32,
     /// GGX alpha; 1 where there is nothing but diffusion.
     pub alpha: f32,
-    /// Share that lets light through.
+    /// Fraction that lets light through.
     pub transmission: f32,
 }
 
@@ -26,10 +26,10 @@ impl Appearance {
         self.alpha.sqrt()
     }
 
-    fn lerp(self, other: Self, share: f32) -> Self {
-        let mix = |a: f32, b: f32| a + share * (b - a);
+    fn lerp(self, other: Self, fraction: f32) -> Self {
+        let mix = |a: f32, b: f32| a + fraction * (b - a);
         Self {
-            base_color: self.base_color.lerp(other.base_color, share),
+            base_color: self.base_color.lerp(other.base_color, fraction),
             metallic: mix(self.metallic, other.metallic),
             alpha: mix(self.alpha, other.alpha),
             transmission: mix(self.transmission, other.transmission),
@@ -54,7 +54,7 @@ impl At<'_> {
         self.textures.color(p, self.uv, &Footprint::POINT).map(|v| v.clamp(0.0, 1.0))
     }
 
-    fn share(&self, p: &ScalarParam) -> f32 {
+    fn unit_scalar(&self, p: &ScalarParam) -> f32 {
         self.textures.scalar(p, self.uv, &Footprint::POINT).clamp(0.0, 1.0)
     }
 
@@ -64,19 +64,19 @@ impl At<'_> {
             Bsdf::Diffuse { reflectance } | Bsdf::RoughDiffuse { reflectance, .. } => dull(self.color(reflectance)),
             Bsdf::Conductor { eta, k, reflectance, alpha } => {
                 let base_color = self.color(reflectance) * fresnel::conductor(1.0, *eta, *k);
-                Appearance { metallic: 1.0, alpha: self.share(alpha), ..dull(base_color) }
+                Appearance { metallic: 1.0, alpha: self.unit_scalar(alpha), ..dull(base_color) }
             }
             Bsdf::Dielectric { alpha, transmittance, .. } => {
-                Appearance { alpha: self.share(alpha), transmission: 1.0, ..dull(self.color(transmittance)) }
+                Appearance { alpha: self.unit_scalar(alpha), transmission: 1.0, ..dull(self.color(transmittance)) }
             }
             Bsdf::ThinDielectric { transmittance, .. } => Appearance { alpha: 0.0, transmission: 1.0, ..dull(self.color(transmittance)) },
-            Bsdf::Plastic { diffuse, alpha, .. } => Appearance { alpha: self.share(alpha), ..dull(self.color(diffuse)) },
+            Bsdf::Plastic { diffuse, alpha, .. } => Appearance { alpha: self.unit_scalar(alpha), ..dull(self.color(diffuse)) },
             Bsdf::Principled(p) => {
-                let metallic = self.share(&p.metallic);
-                let transmission = (1.0 - metallic) * self.share(&p.transmission);
-                Appearance { base_color: self.color(&p.base_color), metallic, alpha: self.share(&p.roughness).powi(2), transmission }
+                let metallic = self.unit_scalar(&p.metallic);
+                let transmission = (1.0 - metallic) * self.unit_scalar(&p.transmission);
+                Appearance { base_color: self.color(&p.base_color), metallic, alpha: self.unit_scalar(&p.roughness).powi(2), transmission }
             }
-            Bsdf::Blend { first, second, weight } => self.appearance(first).lerp(self.appearance(second), self.share(weight)),
+            Bsdf::Blend { first, second, weight } => self.appearance(first).lerp(self.appearance(second), self.unit_scalar(weight)),
         }
     }
 }

@@ -5,7 +5,7 @@ use enfilade_math::DVec3;
 use enfilade_scene::{CameraRay, CameraView};
 use rayon::prelude::*;
 
-/// A neighbour within this share of the distance of one's own plane is on the same surface.
+/// A neighbour within this fraction of the distance of one's own plane is on the same surface.
 const JUMP: f64 = 0.03;
 
 /// Codes of the layer `occlusion_boundary`, row by row.

@@ -1,10 +1,10 @@
 //! Where a surface point is in the next frame. Scenes do not move; cameras do.
 
-use crate::prepared::{Cutout, RenderScene};
+use crate::prepared::{AlphaTest, RenderScene};
 use enfilade_math::{DVec3, Ray};
 use enfilade_scene::{CameraRay, CameraView};
 
-/// A point is seen when the ray to it is free up to this share of its length.
+/// A point is seen when the ray to it is free up to this fraction of its length.
 const REACH: f64 = 0.999;
 
 /// The motion of one surface point as the camera sees it.
@@ -52,5 +52,5 @@ fn shows(scene: &RenderScene<'_>, view: &CameraView<'_>, (x, y): (f64, f64), p_w
     let distance = origin.distance(p_world);
     let mut ray = Ray::new(origin.as_vec3(), ((p_world - origin) / distance).as_vec3());
     ray.t_max = (REACH * distance) as f32;
-    scene.closest(&ray, Cutout::Half).is_none()
+    scene.closest(&ray, AlphaTest::Half).is_none()
 }

@@ -6,7 +6,7 @@ mod boundary;
 mod flow;
 
 use crate::geometry_pass::{Sighting, sighting};
-use crate::prepared::{Cutout, RenderScene};
+use crate::prepared::{AlphaTest, RenderScene};
 use crate::surface::Surface;
 use crate::texture::Cone;
 use appearance::Appearance;
@@ -60,7 +60,7 @@ pub fn add_extra_layers(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Op
     frame.insert(Layer::FlowVisibility, Values::U8(pixels.iter().map(|p| u8::from(flow(p).is_some_and(|f| f.visible))).collect()));
 }
 
-/// What is further known of a pixel.
+/// The further layers of one pixel.
 struct Extra {
     /// From 1.
     material: i16,
@@ -88,29 +88,29 @@ fn extra(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<&CameraVie
     };
     let emitted = surface.emission(scene);
     let one_sided = !surface.outside && !surface.material.two_sided && !surface.material.bsdf.transmits();
-    let mut kind = 0;
-    for (holds, bit) in [
+    let mut bits = 0;
+    for (is_set, bit) in [
         (appearance.metallic > 0.5 && appearance.alpha < MIRROR_ALPHA, traits::MIRROR),
         (appearance.transmission > 0.0, traits::GLASS),
         (!emitted.is_black(), traits::EMITTER),
         (is_partial(scene, view, centre, triangle.part), traits::PARTIAL),
         (one_sided, traits::BACK),
     ] {
-        kind |= if holds { bit } else { 0 };
+        bits |= if is_set { bit } else { 0 };
     }
     Some(Extra {
         material: (triangle.material + 1) as i16,
         appearance,
         emitted: rgb(emitted),
         normal: surface.ng,
-        traits: kind,
+        traits: bits,
         behind_m,
         entity_behind,
         flow: next.and_then(|next| flow::flow(scene, view, next, centre, p_world)),
     })
 }
 
-/// No more than float16 can hold.
+/// The channels, at most what float16 can hold.
 fn rgb(color: Rgb) -> [f32; 3] {
     [color.r, color.g, color.b].map(|v| v.min(f16::MAX.to_f32()))
 }
@@ -119,7 +119,7 @@ fn rgb(color: Rgb) -> [f32; 3] {
 fn is_partial(scene: &RenderScene<'_>, view: &CameraView<'_>, (x, y): (f64, f64), part: u32) -> bool {
     [(-CORNER, -CORNER), (CORNER, -CORNER), (-CORNER, CORNER), (CORNER, CORNER)].into_iter().any(|(dx, dy)| {
         let Some(CameraRay { origin, direction }) = view.centre_ray(x + dx, y + dy) else { return true };
-        let hit = scene.closest(&Ray::new(origin.as_vec3(), direction.as_vec3()), Cutout::Half);
+        let hit = scene.closest(&Ray::new(origin.as_vec3(), direction.as_vec3()), AlphaTest::Half);
         hit.is_none_or(|hit| scene.triangles.get(hit.triangle).part != part)
     })
 }
@@ -128,7 +128,7 @@ fn is_partial(scene: &RenderScene<'_>, view: &CameraView<'_>, (x, y): (f64, f64)
 fn behind(scene: &RenderScene<'_>, first: &Surface<'_>, direction: Vec3, distance_m: f32) -> (f32, i16) {
     let (mut far_m, mut before) = (distance_m, first.clone());
     for _ in 0..MAX_PANES {
-        let Some(hit) = scene.closest(&before.ray(direction), Cutout::Half) else { break };
+        let Some(hit) = scene.closest(&before.ray(direction), AlphaTest::Half) else { break };
         let surface = scene.surface(&hit, direction, &Cone::POINT);
         far_m += surface.p.distance(before.p);
         if surface.appearance(scene).transmission == 0.0 {

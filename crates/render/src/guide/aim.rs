@@ -1,25 +1,25 @@
-//! Spheres in the world that a cell's directions are aimed at: places that are small and bright, for which bins of directions are too
-//! coarse, and which stand elsewhere in them from every point of the cell.
+//! Spheres that a cell aims some of its directions at: small bright places. Bins of directions are too coarse for these, and each point of
+//! the cell sees them in another bin; a sphere is the same for all of them.
 
 use enfilade_math::{ONE_MINUS_EPSILON, Onb, Vec3};
 use std::f32::consts::TAU;
 
-/// Spheres that a cell aims at, at most.
-pub(super) const MOST: usize = 3;
-/// The sine of half of a cone's angle, at least: float32 tells the directions of narrower ones apart badly.
-const LEAST_SINE: f32 = 0.005;
-/// Spheres in wider cones are too near to be aimed at.
-const MOST_SINE: f32 = 0.7;
+/// The most spheres that a cell aims at.
+pub(super) const MAX_AIMS: usize = 3;
+/// The smallest sine of half of a cone's angle: float32 hardly tells the directions of narrower cones apart.
+const MIN_SINE: f32 = 0.005;
+/// The largest such sine: spheres in wider cones are too near to be aimed at.
+const MAX_SINE: f32 = 0.7;
 
-/// A sphere, and the share of the directions that go to it.
+/// A sphere, and the fraction of the directions that go to it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Aim {
     /// World position.
     pub center: Vec3,
     /// Metres.
     pub radius: f32,
-    /// From points that it is not too near to.
-    pub share: f32,
+    /// Fraction of the directions from points that are far enough from it.
+    pub fraction: f32,
 }
 
 /// The cone that a sphere is seen in.
@@ -34,15 +34,15 @@ pub(super) struct AimCone {
 /// The spheres that a cell aims at.
 #[derive(Clone, Debug)]
 pub(super) struct Aims {
-    aims: [Aim; MOST],
+    aims: [Aim; MAX_AIMS],
     count: u32,
 }
 
 impl Aim {
-    const NONE: Self = Self { center: Vec3::ZERO, radius: 0.0, share: 0.0 };
+    const NONE: Self = Self { center: Vec3::ZERO, radius: 0.0, fraction: 0.0 };
 
     /// True when `p` lies in the sphere.
-    pub fn holds(&self, p: Vec3) -> bool {
+    pub fn contains(&self, p: Vec3) -> bool {
         p.distance_squared(self.center) <= self.radius * self.radius
     }
 
@@ -51,8 +51,8 @@ impl Aim {
     pub fn cone(&self, p: Vec3) -> Option<AimCone> {
         let way = self.center - p;
         let square = way.length_squared();
-        let sine_2 = (self.radius * self.radius / square).max(LEAST_SINE * LEAST_SINE);
-        (sine_2 < MOST_SINE * MOST_SINE).then(|| AimCone { axis: way / square.sqrt(), height: sine_2 / (1.0 + (1.0 - sine_2).sqrt()) })
+        let sine_2 = (self.radius * self.radius / square).max(MIN_SINE * MIN_SINE);
+        (sine_2 < MAX_SINE * MAX_SINE).then(|| AimCone { axis: way / square.sqrt(), height: sine_2 / (1.0 + (1.0 - sine_2).sqrt()) })
     }
 }
 
@@ -83,9 +83,9 @@ impl AimCone {
 
 impl Aims {
     /// Nothing is aimed at.
-    const NONE: Self = Self { aims: [Aim::NONE; MOST], count: 0 };
+    const NONE: Self = Self { aims: [Aim::NONE; MAX_AIMS], count: 0 };
 
-    /// The first [`MOST`] of the spheres.
+    /// The first [`MAX_AIMS`] of the spheres.
     pub fn new(spheres: impl IntoIterator<Item = Aim>) -> Self {
         let mut aims = Self::NONE;
         for (place, aim) in aims.aims.iter_mut().zip(spheres) {
@@ -101,33 +101,33 @@ impl Aims {
     }
 
     /// True when `p` lies in one of the spheres.
-    pub fn hold(&self, p: Vec3) -> bool {
-        self.all().iter().any(|aim| aim.holds(p))
+    pub fn contains(&self, p: Vec3) -> bool {
+        self.all().iter().any(|aim| aim.contains(p))
     }
 
-    /// A unit direction from `p` to one of the spheres, or numbers on [0,1)² that another direction can be made of, for `u` uniform
-    /// there.
+    /// A unit direction from `p` to one of the spheres, for `u` uniform on [0,1)²; as an error numbers uniform there, for a direction that
+    /// is not aimed.
     #[inline]
     pub fn sample(&self, u: [f32; 2], p: Vec3) -> Result<Vec3, [f32; 2]> {
         let (mut rest, mut left) = (u[0], 1.0);
         for aim in self.all() {
             let Some(cone) = aim.cone(p) else { continue };
-            if rest < aim.share {
-                return Ok(cone.sample([rest / aim.share, u[1]]));
+            if rest < aim.fraction {
+                return Ok(cone.sample([rest / aim.fraction, u[1]]));
             }
-            rest -= aim.share;
-            left -= aim.share;
+            rest -= aim.fraction;
+            left -= aim.fraction;
         }
         Err([(rest / left).min(ONE_MINUS_EPSILON), u[1]])
     }
 
-    /// Density per solid angle with which [`Aims::sample`] finds a direction, and the probability that it finds none.
+    /// Density per solid angle with which [`Aims::sample`] finds a direction, and the probability that it aims at none.
     #[inline]
     pub fn pdf(&self, direction: Vec3, p: Vec3) -> (f32, f32) {
         self.all()
             .iter()
-            .filter_map(|aim| Some((aim.share, aim.cone(p)?)))
-            .fold((0.0, 1.0), |(pdf, left), (share, cone)| (pdf + share * cone.pdf(direction), left - share))
+            .filter_map(|aim| Some((aim.fraction, aim.cone(p)?)))
+            .fold((0.0, 1.0), |(pdf, left), (fraction, cone)| (pdf + fraction * cone.pdf(direction), left - fraction))
     }
 }
 
@@ -139,13 +139,13 @@ mod tests {
     #[test]
     fn directions_come_as_often_as_their_density_says() {
         // Two spheres that overlap, and one that is too near.
-        let sphere = |x: f32, radius: f32, share: f32| Aim { center: Vec3::new(x, 0.0, 3.0), radius, share };
+        let sphere = |x: f32, radius: f32, fraction: f32| Aim { center: Vec3::new(x, 0.0, 3.0), radius, fraction };
         let aims = Aims::new([sphere(0.0, 0.4, 0.3), sphere(0.5, 0.5, 0.2), sphere(0.0, 2.9, 0.4)]);
         let mut rng = Rng::new(1);
         let n = 100_000;
         let (mut none, mut overlap, mut expected) = (0, 0, 0.0f64);
         let both = |d: Vec3| aims.all()[..2].iter().all(|aim| aim.cone(Vec3::ZERO).is_some_and(|cone| cone.pdf(d) > 0.0));
-        let wide = Aim { center: Vec3::Z, radius: 0.5, share: 1.0 }.cone(Vec3::ZERO).expect("far enough");
+        let wide = Aim { center: Vec3::Z, radius: 0.5, fraction: 1.0 }.cone(Vec3::ZERO).expect("far enough");
         for _ in 0..n {
             let u = [rng.next_f32(), rng.next_f32()];
             match aims.sample(u, Vec3::ZERO) {
@@ -161,19 +161,19 @@ mod tests {
             let d = wide.sample(u);
             expected += f64::from(if both(d) { aims.pdf(d, Vec3::ZERO).0 } else { 0.0 } * wide.solid_angle()) / f64::from(n);
         }
-        let share = |count: u32| f64::from(count) / f64::from(n);
-        assert!((share(none) - 0.5).abs() < 0.006 && (aims.pdf(Vec3::X, Vec3::ZERO).1 - 0.5).abs() < 1e-6, "{none} of {n}");
-        assert!(expected > 0.05 && (share(overlap) - expected).abs() < 0.006, "{} against {expected}", share(overlap));
+        let fraction = |count: u32| f64::from(count) / f64::from(n);
+        assert!((fraction(none) - 0.5).abs() < 0.006 && (aims.pdf(Vec3::X, Vec3::ZERO).1 - 0.5).abs() < 1e-6, "{none} of {n}");
+        assert!(expected > 0.05 && (fraction(overlap) - expected).abs() < 0.006, "{} against {expected}", fraction(overlap));
     }
 
     #[test]
     fn the_smallest_and_the_nearest_are_aimed_at_without_harm() {
-        let far = Aim { center: Vec3::new(0.0, 100.0, 0.0), radius: 0.01, share: 0.5 };
+        let far = Aim { center: Vec3::new(0.0, 100.0, 0.0), radius: 0.01, fraction: 0.5 };
         let cone = far.cone(Vec3::ZERO).expect("far enough");
         let mut rng = Rng::new(2);
         let inside = (0..10_000).filter(|_| cone.pdf(cone.sample([rng.next_f32(), rng.next_f32()])) > 0.0).count();
         assert!(inside > 9_980, "{inside}");
-        assert!(far.cone(far.center).is_none() && Aims::new([far]).hold(far.center));
+        assert!(far.cone(far.center).is_none() && Aims::new([far]).contains(far.center));
         assert!(matches!(Aims::new([far]).sample([0.3, 0.6], far.center), Err([0.3, 0.6])));
     }
 }

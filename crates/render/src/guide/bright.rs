@@ -1,21 +1,21 @@
 //! Small bright places, such as the inside of a lamp's shade, that few of the rays by bin happen to meet.
 //!
-//! What one cell's rays met is looked for from the cells around it: each counts for all of them, where they see it. That is spatial
-//! resampling, as of reservoirs of paths (Ouyang et al. 2021, "ReSTIR GI"), for a radiosity system.
+//! What one cell's rays met is looked for from the cells around it: it counts for each of them that sees it. That is spatial resampling, as
+//! of reservoirs of paths (Ouyang et al. 2021, "ReSTIR GI"), for a radiosity system.
 
-use super::rays::{Link, Rays, mean, site_of};
+use super::rays::{GatherHit, Rays, mean, site_of};
 use super::square::bin_of;
-use crate::prepared::Cutout;
+use crate::prepared::AlphaTest;
 use crate::texture::Cone;
 use enfilade_math::{Onb, Ray, Rgb, Vec3, offset_origin, warp};
 
-/// How many times brighter than a cell's mean a place is to be shared.
+/// How many times brighter than a cell's mean a place must be to be passed on to its neighbours.
 pub(super) const BRIGHT: f32 = 8.0;
-/// Places that a cell shares, at most.
-const MOST: usize = 4;
-/// No place fills so many times more of another cell's bins.
-const MOST_GROWTH: f32 = 4.0;
-/// A ray to a place ends there if it is this close, as a share of the distance.
+/// The most places that a cell passes on.
+const MAX_PLACES: usize = 4;
+/// A place counts as filling at most this many times more of another cell's bin than of its own.
+const MAX_GROWTH: f32 = 4.0;
+/// A ray counts as having met a place within this fraction of the distance to it.
 const TOLERANCE: f32 = 0.01;
 
 /// A bright place that a cell's ray met.
@@ -27,29 +27,29 @@ pub(super) struct Bright {
     pub radiance: Rgb,
     /// Where it is.
     pub p: Vec3,
-    /// From the cell's site to the place.
+    /// From the cell's site to the place, metres.
     way: Vec3,
     /// Cosine at the site.
     cosine: f32,
 }
 
 impl Rays<'_, '_> {
-    /// The brightest places that a cell's `links` met, given the light of the cells.
-    pub fn bright(&self, cell: usize, links: &[Link], total: &[Rgb]) -> Vec<Bright> {
+    /// The brightest places that a cell's `hits` met, given the light of the cells.
+    pub fn bright(&self, cell: usize, hits: &[GatherHit], total: &[Rgb]) -> Vec<Bright> {
         let sites = self.sites(cell);
-        let mean = mean(links, total);
-        let mut bright: Vec<Bright> = links
+        let mean = mean(hits, total);
+        let mut bright: Vec<Bright> = hits
             .iter()
             .enumerate()
-            .map(|(bin, link)| {
+            .map(|(bin, hit)| {
                 let site = site_of(&sites, bin, 0);
-                let way = link.p - site.p;
-                Bright { bin, radiance: link.unmirrored(total), p: link.p, way, cosine: way.normalize().dot(site.n) }
+                let way = hit.p - site.p;
+                Bright { bin, radiance: hit.unmirrored(total), p: hit.p, way, cosine: way.normalize().dot(site.n) }
             })
             .filter(|place| place.radiance.luminance() > BRIGHT * mean && place.cosine > 0.0)
             .collect();
         bright.sort_by(|a, b| b.radiance.luminance().total_cmp(&a.radiance.luminance()));
-        bright.truncate(MOST);
+        bright.truncate(MAX_PLACES);
         bright
     }
 
@@ -65,13 +65,13 @@ impl Rays<'_, '_> {
             return None;
         }
         let distance = way.length();
-        let hit = self.scene.closest(&Ray::new(offset_origin(site.p, site.n), direction), Cutout::Random)?;
+        let hit = self.scene.closest(&Ray::new(offset_origin(site.p, site.n), direction), AlphaTest::Stochastic)?;
         if (hit.t - distance).abs() > TOLERANCE * distance {
             return None;
         }
         let n = self.scene.surface(&hit, direction, &Cone::POINT).ng;
         let facing = |way: Vec3| n.dot(way.normalize()).abs() / way.length_squared();
         let growth = facing(way) * local.z / (facing(bright.way) * bright.cosine);
-        growth.is_finite().then(|| (bin_of(warp::square_from_cosine_hemisphere(local)), bright.radiance * growth.min(MOST_GROWTH)))
+        growth.is_finite().then(|| (bin_of(warp::square_from_cosine_hemisphere(local)), bright.radiance * growth.min(MAX_GROWTH)))
     }
 }

@@ -2,7 +2,7 @@
 
 use enfilade_math::{Vec3, hash_u64};
 
-/// A place on a surface where paths have been.
+/// A place on a surface that a walk has visited.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Site {
     /// World position.
@@ -17,7 +17,7 @@ pub(super) const SITES: usize = 4;
 /// No cell.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// What a voxel adds to a key along each axis. The lowest three bits tell the facing axis.
+/// What one voxel along each axis adds to a key. The lowest three bits tell the axis that the surface faces.
 const STEP_X: i64 = 1 << 43;
 const STEP_Y: i64 = 1 << 23;
 const STEP_Z: i64 = 1 << 3;
@@ -67,7 +67,7 @@ impl Cells {
         self.sites.len()
     }
 
-    /// The number of the cell of a surface point; [`NONE`] where no path has been.
+    /// The number of the cell of a surface point; [`NONE`] where no walk has been.
     #[inline]
     pub fn find(&self, p: Vec3, n: Vec3) -> u32 {
         self.slots[self.slot(self.key(p, n))].1

@@ -9,8 +9,8 @@
 use super::aim::Aims;
 use super::bright::Bright;
 use super::cells::{Cells, Site};
-use super::patch::{Aimed, patches, shares};
-use super::rays::{Link, Rays};
+use super::patch::{Aimed, patches, with_fractions};
+use super::rays::{GatherHit, Rays};
 use super::square::{BINS, SIDE, SquareDensity};
 use crate::light::LightChoice;
 use crate::prepared::RenderScene;
@@ -24,14 +24,14 @@ const CELLS_ACROSS: f32 = 48.0;
 /// No cell is smaller, in metres.
 const MIN_CELL: f32 = 0.05;
 
-/// What is known of the light in a cell.
+/// The light that arrives in a cell, as a density of directions and its irradiance.
 #[derive(Debug)]
 pub(crate) struct CellLight {
     /// Of the directions that are not aimed.
     density: SquareDensity,
     aims: Aims,
-    /// Irradiance over π of the light that directions find, which is the mean radiance over the hemisphere, weighted by the cosine: what
-    /// other surfaces send, and of sources what light sampling leaves to chance.
+    /// Irradiance over π of the light that sampled directions find, as opposed to light samples: all indirect light, and that part of
+    /// direct light which multiple importance sampling leaves to them.
     pub found: Rgb,
 }
 
@@ -45,14 +45,14 @@ pub(crate) struct Field {
 /// How much may be done to know the light.
 #[derive(Clone, Copy)]
 pub(super) struct Effort {
-    /// About the most cells.
+    /// About the largest number of cells.
     pub cells: usize,
     /// Rays through each bin of each cell.
     pub rounds: usize,
 }
 
-/// Light that arrives in a cell from elsewhere than what it aims at.
-struct Arriving {
+/// Light that arrives in a cell by the bins of its hemisphere, from all but the spheres that it aims at.
+struct BinnedLight {
     /// Luminance by bin.
     bins: [f32; BINS],
     sum: Rgb,
@@ -67,29 +67,37 @@ impl Field {
         if bounds.is_empty() {
             return None;
         }
+        // Group the sites into cells. Send a ray through each bin of each cell, and sample the direct light there.
         let cells = Self::cells(bounds, sites, effort.cells);
         let rays = Rays { scene, choice, cells: &cells, seed };
-        let gathered: Vec<(Rgb, Vec<Link>)> =
-            (0..cells.len()).into_par_iter().map(|cell| (rays.direct(cell), rays.links(cell, 0).collect())).collect();
+        let gathered: Vec<(Rgb, Vec<GatherHit>)> =
+            (0..cells.len()).into_par_iter().map(|cell| (rays.direct(cell), rays.gather(cell, 0).collect())).collect();
 
+        // Solve the radiosity system by Jacobi iteration: each sweep gathers the light of the one before, one bounce more.
         let mut indirect = vec![Rgb::BLACK; cells.len()];
         let total = |indirect: &[Rgb]| -> Vec<Rgb> { gathered.iter().zip(indirect).map(|((direct, _), &i)| *direct + i).collect() };
         for _ in 0..SWEEPS {
             let total = total(&indirect);
-            indirect = gathered.par_iter().map(|(_, links)| links.iter().map(|l| l.radiance(&total)).sum::<Rgb>() / BINS as f32).collect();
+            indirect =
+                gathered.par_iter().map(|(_, hits)| hits.iter().map(|hit| hit.radiance(&total)).sum::<Rgb>() / BINS as f32).collect();
         }
+
+        // Find small bright places, in each cell and in the whole scene.
         let total = total(&indirect);
-        let bright: Vec<Vec<Bright>> = gathered.par_iter().enumerate().map(|(cell, (_, links))| rays.bright(cell, links, &total)).collect();
-        let patches = patches(gathered.iter().map(|(_, links)| &links[..]), &total, cells.size());
+        let bright: Vec<Vec<Bright>> = gathered.par_iter().enumerate().map(|(cell, (_, hits))| rays.bright(cell, hits, &total)).collect();
+        let patches = patches(gathered.iter().map(|(_, hits)| &hits[..]), &total, cells.size());
+
+        // Describe the light of each cell: the spheres to aim at, and the radiance through its bins beside them, from its own rays, further
+        // rounds of rays, and the bright places that its neighbours found.
         let lights = gathered
             .par_iter()
             .enumerate()
-            .map(|(cell, (_, links))| {
-                let aimed = rays.aimed(cell, links, &patches, &total);
-                let mut arriving = Arriving::beside(&aimed);
-                links.iter().enumerate().for_each(|(bin, link)| arriving.add(bin, link, &total));
+            .map(|(cell, (_, hits))| {
+                let aimed = rays.aimed(cell, hits, &patches, &total);
+                let mut arriving = BinnedLight::beside(&aimed);
+                hits.iter().enumerate().for_each(|(bin, hit)| arriving.add(bin, hit, &total));
                 for round in 1..effort.rounds {
-                    rays.links(cell, round).enumerate().for_each(|(bin, link)| arriving.add(bin, &link, &total));
+                    rays.gather(cell, round).enumerate().for_each(|(bin, hit)| arriving.add(bin, &hit, &total));
                 }
                 arriving.spread(&rays, cell, &bright);
                 arriving.learned(&aimed)
@@ -98,17 +106,18 @@ impl Field {
         Some(Self { cells, lights })
     }
 
-    /// The cells of the sites. The area of surfaces says how the number of cells depends on their size.
-    fn cells(bounds: Bounds3, sites: &[Site], most: usize) -> Cells {
+    /// The cells of the sites, about `max` of them at most. They lie on surfaces, so their number goes with the inverse square of their
+    /// size.
+    fn cells(bounds: Bounds3, sites: &[Site], max: usize) -> Cells {
         let size = (bounds.extent().length() / CELLS_ACROSS).max(MIN_CELL);
         let cells = Cells::new(bounds.min, size, sites);
-        if cells.len() <= most {
+        if cells.len() <= max {
             return cells;
         }
-        Cells::new(bounds.min, size * (cells.len() as f32 / most as f32).sqrt(), sites)
+        Cells::new(bounds.min, size * (cells.len() as f32 / max as f32).sqrt(), sites)
     }
 
-    /// What is known at a surface point; nothing where no path has been.
+    /// The light at a surface point; `None` where no walk has been.
     #[inline]
     pub fn at(&self, p: Vec3, n: Vec3) -> Option<&CellLight> {
         self.lights.get(self.cells.find(p, n) as usize)
@@ -116,8 +125,8 @@ impl Field {
 }
 
 impl CellLight {
-    /// A unit direction in the world from `p`, for `u` uniform on [0,1)², and its density per solid angle: in proportion to the radiance
-    /// that directions find, times cosine. `onb` holds the axes that the light is stored in.
+    /// A unit direction in the world from `p`, for `u` uniform on [0,1)², about in proportion to radiance times cosine, and its density per
+    /// solid angle. `onb` has the axes that the light is stored in.
     #[inline]
     pub fn sample(&self, u: [f32; 2], p: Vec3, onb: &Onb) -> (Vec3, f32) {
         match self.aims.sample(u, p) {
@@ -132,7 +141,7 @@ impl CellLight {
         }
     }
 
-    /// Density of [`CellLight::sample`]; 0 below the horizon, where directions are in vain.
+    /// Density of [`CellLight::sample`]; 0 below the horizon, where no light is reflected from.
     #[inline]
     pub fn pdf(&self, direction: Vec3, p: Vec3, onb: &Onb) -> f32 {
         let wi = onb.to_local(direction);
@@ -144,40 +153,40 @@ impl CellLight {
     }
 }
 
-impl Arriving {
-    /// None yet, beside what is aimed at.
+impl BinnedLight {
+    /// No light yet, beside what is aimed at.
     fn beside(aimed: &[Aimed]) -> Self {
         Self { bins: [0.0; BINS], sum: Rgb::BLACK, rays: 0, aims: Aims::new(aimed.iter().map(|(aim, _)| *aim)) }
     }
 
     /// Adds what a ray through a bin met, given the light of the cells.
-    fn add(&mut self, bin: usize, link: &Link, total: &[Rgb]) {
-        let sent = if self.aims.hold(link.p) { link.mirrored(total) } else { link.radiance(total) };
-        self.bins[bin] += link.emitted + sent.luminance();
-        self.sum += sent + Rgb::splat(link.emitted);
+    fn add(&mut self, bin: usize, hit: &GatherHit, total: &[Rgb]) {
+        let sent = if self.aims.contains(hit.p) { hit.mirrored(total) } else { hit.radiance(total) };
+        self.bins[bin] += hit.emitted + sent.luminance();
+        self.sum += sent + Rgb::splat(hit.emitted);
         self.rays += 1;
     }
 
-    /// Spreads the bright places of a cell and of those around it over all of them.
+    /// Averages the bright places of a cell and of those around it over all of these cells.
     fn spread(&mut self, rays: &Rays<'_, '_>, cell: usize, bright: &[Vec<Bright>]) {
         let around: Vec<usize> = rays.cells.around(cell).collect();
-        let share = 1.0 / around.len() as f32;
+        let fraction = 1.0 / around.len() as f32;
         for own in &bright[cell] {
-            if !self.aims.hold(own.p) {
-                self.change(own.bin, own.radiance * (share - 1.0));
+            if !self.aims.contains(own.p) {
+                self.change(own.bin, own.radiance * (fraction - 1.0));
             }
         }
         let of_others = around.iter().filter(|&&other| other != cell).flat_map(|&other| &bright[other]);
         for (number, place) in of_others.enumerate() {
-            if !self.aims.hold(place.p)
+            if !self.aims.contains(place.p)
                 && let Some((bin, radiance)) = rays.seen(cell, number, place)
             {
-                self.change(bin, radiance * share);
+                self.change(bin, radiance * fraction);
             }
         }
     }
 
-    /// Changes what arrives through a bin.
+    /// Adds light to a bin, or takes it away.
     fn change(&mut self, bin: usize, by: Rgb) {
         self.bins[bin] = (self.bins[bin] + by.luminance()).max(0.0);
         self.sum += by;
@@ -185,12 +194,12 @@ impl Arriving {
 
     fn learned(&self, aimed: &[Aimed]) -> CellLight {
         let found = self.sum.map(|v| v.max(0.0)) / self.rays as f32 + aimed.iter().map(|(_, light)| *light).sum::<Rgb>();
-        let aims = Aims::new(shares(aimed, found.luminance()));
+        let aims = Aims::new(with_fractions(aimed, found.luminance()));
         CellLight { density: SquareDensity::new(&blurred(&self.bins)), aims, found }
     }
 }
 
-/// A little of each bin's neighbours.
+/// Bins blended with a little of their neighbours: the few rays of a bin say little about its borders.
 fn blurred(values: &[f32; BINS]) -> [f32; BINS] {
     std::array::from_fn(|bin| {
         let (x, y) = (bin % SIDE, bin / SIDE);

@@ -23,20 +23,20 @@ use enfilade_scene::CameraView;
 use field::Effort;
 use rayon::prelude::*;
 
-/// Paths that look for places, at most; few samples learn from fewer.
+/// The most random walks; frames with few samples learn from fewer.
 const PATHS: u64 = 1 << 16;
-/// A cell costs about as much as a hundred samples; this many pay for it.
+/// One cell for this many samples. A cell costs about as much as a hundred.
 const SAMPLES_PER_CELL: u64 = 1024;
-/// More cells say no more about a room.
-const MOST_CELLS: u64 = 1 << 14;
-/// A further ray through each bin of a cell costs about as much as fifty samples; this many pay for it.
+/// The most cells: more say no more about a room.
+const MAX_CELLS: u64 = 1 << 14;
+/// One ray through each bin of a cell for this many samples per cell. Such a round of rays costs about as much as fifty.
 const SAMPLES_PER_ROUND: u64 = 4096;
-/// More rays say no more about a cell.
-const MOST_ROUNDS: u64 = 16;
-/// Surfaces that a path visits.
+/// The most rounds: more rays say no more about a cell.
+const MAX_ROUNDS: u64 = 16;
+/// Surfaces that a walk visits.
 const VERTICES: usize = 4;
 
-/// Learned knowledge of a scene, shared by the frames of a trajectory.
+/// What was learned of a scene's light, for all frames of a trajectory: which lights reach where, and where indirect light comes from.
 #[derive(Debug)]
 pub struct Guide {
     pub(crate) choice: LightChoice,
@@ -44,13 +44,16 @@ pub struct Guide {
 }
 
 impl Guide {
-    /// Learns from `views`. Depends on the arguments alone, whatever the number of threads.
+    /// Learns from `views`, those of a whole trajectory or of some of its frames. The more samples they will take in all, the more is
+    /// learned; without views nothing is, and that is a valid guide. Depends on the arguments alone, whatever the number of threads.
     pub fn learn(scene: &RenderScene<'_>, views: &[CameraView<'_>], config: &RenderConfig) -> Self {
+        // Learn which light sources reach which places.
         let choice = LightChoice::learn(scene, views, config);
+
+        // Walk from the cameras to the places that scatter light diffusely: there the field is to be known.
         let samples = pixel_samples(views, config);
         let paths = if views.is_empty() { 0 } else { (samples / 64).clamp(256, PATHS) };
         let seed = hash_u64(config.seed ^ 0x6_1d3);
-        // Places that scatter light diffusely.
         let sites: Vec<Site> = (0..paths)
             .into_par_iter()
             .flat_map_iter(|path| {
@@ -64,8 +67,10 @@ impl Guide {
                 sites
             })
             .collect();
-        let cells = (samples / SAMPLES_PER_CELL).clamp(64, MOST_CELLS);
-        let rounds = (samples / cells / SAMPLES_PER_ROUND).clamp(1, MOST_ROUNDS);
+
+        // Solve for the light there, with an effort in proportion to the samples that will profit.
+        let cells = (samples / SAMPLES_PER_CELL).clamp(64, MAX_CELLS);
+        let rounds = (samples / cells / SAMPLES_PER_ROUND).clamp(1, MAX_ROUNDS);
         let effort = Effort { cells: cells as usize, rounds: rounds as usize };
         let field = if config.guiding { Field::solve(scene, &choice, &sites, effort, seed) } else { None };
         Self { choice, field }

@@ -1,10 +1,10 @@
-//! Rays that leave a scene's cells, and what they meet.
+//! The rays that gather light for a scene's cells (final gathering), and what they meet.
 
 use super::cells::{Cells, NONE, Site};
 use super::square::{BINS, SIDE};
 use crate::bsdf::Event;
 use crate::light::{LightChoice, LightPoint};
-use crate::prepared::{Cutout, RenderScene};
+use crate::prepared::{AlphaTest, RenderScene};
 use crate::surface::Surface;
 use enfilade_math::{Onb, Ray, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
 
@@ -13,30 +13,32 @@ const PANES: usize = 8;
 /// Mirrors and bends by which a gathering ray goes on.
 const MIRRORS: usize = 6;
 
-/// What a cell's random numbers are for: its direct light, rays through its bins by their round, and small bright places.
+/// Purposes of a cell's random numbers: its direct light, the rays through its bins by their round, and the search for bright places.
 const DIRECT: usize = 0;
 const ROUNDS: usize = 1;
 pub(super) const LOOKING: usize = u16::MAX as usize;
 
-/// What a gathering ray met: a cell, the share of its light that comes back along the ray; the same of a cell seen in a mirror or
-/// gloss; and what sources send by it.
+/// What a gathering ray met: a cell and the fraction of its light that comes back along the ray, the same of a cell seen in a mirror or
+/// gloss, and the light of sources.
 #[derive(Clone, Copy)]
-pub(super) struct Link {
-    /// The place that the cell was met in.
+pub(super) struct GatherHit {
+    /// Where the cell was met, in the world.
     pub p: Vec3,
+    /// Number of the cell that was met, and the fraction of its light that comes back.
     diffuse: (u32, Rgb),
+    /// The same of a cell seen by way of mirrors, gloss and glass.
     mirrored: (u32, Rgb),
-    /// Luminance that sources send by it, as far as light sampling leaves them to chance.
+    /// Luminance that sources send along the ray, weighted against light sampling.
     pub emitted: f32,
 }
 
-impl Link {
+impl GatherHit {
     /// Radiance that arrives, given the light of the cells.
     pub fn radiance(&self, total: &[Rgb]) -> Rgb {
         self.unmirrored(total) + self.mirrored(total)
     }
 
-    /// Luminance that arrives, of what sources send by it too.
+    /// Luminance that arrives, that of sources included.
     pub fn luminance(&self, total: &[Rgb]) -> f32 {
         self.emitted + self.radiance(total).luminance()
     }
@@ -53,12 +55,13 @@ impl Link {
 }
 
 /// Mean luminance that arrives by the bins of a cell, which is irradiance over π.
-pub(super) fn mean(links: &[Link], total: &[Rgb]) -> f32 {
-    links.iter().map(|link| link.luminance(total)).sum::<f32>() / BINS as f32
+pub(super) fn mean(hits: &[GatherHit], total: &[Rgb]) -> f32 {
+    hits.iter().map(|hit| hit.luminance(total)).sum::<f32>() / BINS as f32
 }
 
-fn sent((cell, share): (u32, Rgb), total: &[Rgb]) -> Rgb {
-    if cell == NONE { Rgb::BLACK } else { share * total[cell as usize] }
+/// The light that a cell sends back along a ray.
+fn sent((cell, fraction): (u32, Rgb), total: &[Rgb]) -> Rgb {
+    if cell == NONE { Rgb::BLACK } else { fraction * total[cell as usize] }
 }
 
 /// The rays that leave the cells.
@@ -86,20 +89,20 @@ impl Rays<'_, '_> {
     }
 
     /// What is met through each bin of a cell, from its sites in turn.
-    pub fn links(&self, cell: usize, round: usize) -> impl Iterator<Item = Link> {
+    pub fn gather(&self, cell: usize, round: usize) -> impl Iterator<Item = GatherHit> {
         let (sites, mut rng) = (self.sites(cell), self.rng(cell, ROUNDS + round));
         (0..BINS).map(move |bin| {
             let site = site_of(&sites, bin, round);
             let u = [((bin % SIDE) as f32 + rng.next_f32()) / SIDE as f32, ((bin / SIDE) as f32 + rng.next_f32()) / SIDE as f32];
             let wi = warp::cosine_hemisphere(u);
-            self.link(&site, Onb::from_z(site.n).to_world(wi), warp::cosine_hemisphere_pdf(wi.z), &mut rng)
+            self.gather_one(&site, Onb::from_z(site.n).to_world(wi), warp::cosine_hemisphere_pdf(wi.z), &mut rng)
         })
     }
 
     /// What is met from a site in a unit direction, sampled with density `pdf`.
-    pub fn link(&self, site: &Site, direction: Vec3, pdf: f32, rng: &mut Rng) -> Link {
+    pub fn gather_one(&self, site: &Site, direction: Vec3, pdf: f32, rng: &mut Rng) -> GatherHit {
         let ray = Ray::new(offset_origin(site.p, site.n), direction);
-        link(self.scene, self.choice, self.cells, &LightPoint { p: site.p, n: site.n }, ray, pdf, rng)
+        gather_hit(self.scene, self.choice, self.cells, &LightPoint { p: site.p, n: site.n }, ray, pdf, rng)
     }
 }
 
@@ -109,39 +112,48 @@ pub(super) fn site_of(sites: &[Site], bin: usize, round: usize) -> Site {
 }
 
 /// What a ray meets, beyond panes, and what is reflected there. It was sampled at `from` with density `pdf`.
-fn link(scene: &RenderScene<'_>, choice: &LightChoice, cells: &Cells, from: &LightPoint, ray: Ray, pdf: f32, rng: &mut Rng) -> Link {
-    let mut link = Link { p: Vec3::ZERO, diffuse: (NONE, Rgb::BLACK), mirrored: (NONE, Rgb::BLACK), emitted: 0.0 };
-    let Some((surface, through)) = first_surface(scene, choice, ray, Some((*from, pdf)), &mut link.emitted) else { return link };
+fn gather_hit(
+    scene: &RenderScene<'_>,
+    choice: &LightChoice,
+    cells: &Cells,
+    from: &LightPoint,
+    ray: Ray,
+    pdf: f32,
+    rng: &mut Rng,
+) -> GatherHit {
+    let mut hit = GatherHit { p: Vec3::ZERO, diffuse: (NONE, Rgb::BLACK), mirrored: (NONE, Rgb::BLACK), emitted: 0.0 };
+    let Some((surface, through)) = first_surface(scene, choice, ray, Some((*from, pdf)), &mut hit.emitted) else { return hit };
     let mut bsdf = surface.bsdf(scene);
     let mut albedo = bsdf.albedo(surface.wo.dot(surface.ns));
-    link.p = surface.p;
-    link.diffuse = (cells.find(surface.p, surface.ns_smooth), through * albedo.blurred());
-    // One sample of what the surface mirrors, by way of others that only mirror or bend.
-    let (mut surface, mut share) = (surface, through);
+    hit.p = surface.p;
+    hit.diffuse = (cells.find(surface.p, surface.ns_smooth), through * albedo.blurred());
+
+    // Follow one sample of what the surface mirrors or refracts, until it meets a surface that is not sharp.
+    let (mut surface, mut fraction) = (surface, through);
     for _ in 0..MIRRORS {
         let onb = surface.onb();
         let Some(sample) = bsdf.sample(onb.to_local(surface.wo), [rng.next_f32(), rng.next_f32(), rng.next_f32()]) else { break };
-        // What is blurred counts already.
-        share *= sample.weight.specular * albedo.sharp_share();
+        // The blurred part counts as diffuse already.
+        fraction *= sample.weight.specular * albedo.sharp_fraction();
         let direction = onb.to_world(sample.wi).normalize();
-        if share.is_black() || direction.dot(surface.ng) * sample.wi.z <= 0.0 {
+        if fraction.is_black() || direction.dot(surface.ng) * sample.wi.z <= 0.0 {
             break;
         }
-        let sampled = (sample.event == Event::Finite).then(|| (LightPoint::on(&surface), sample.pdf));
+        let sampled = (sample.event == Event::Finite).then(|| (surface.light_point(), sample.pdf));
         let mut emitted = 0.0;
         let next = first_surface(scene, choice, surface.ray(direction), sampled, &mut emitted);
-        link.emitted += share.luminance() * emitted;
+        hit.emitted += fraction.luminance() * emitted;
         let Some((next, through)) = next else { break };
         surface = next;
         bsdf = surface.bsdf(scene);
         albedo = bsdf.albedo(surface.wo.dot(surface.ns));
-        share *= through;
+        fraction *= through;
         if !albedo.blurred().is_black() {
-            link.mirrored = (cells.find(surface.p, surface.ns_smooth), share * albedo.blurred());
+            hit.mirrored = (cells.find(surface.p, surface.ns_smooth), fraction * albedo.blurred());
             break;
         }
     }
-    link
+    hit
 }
 
 /// The first surface beyond panes, and what they let through. Adds the luminance that arrives from sources, weighted against light
@@ -156,7 +168,7 @@ fn first_surface<'s>(
     let mut through = Rgb::WHITE;
     let mut add = |radiance: Rgb| *emitted += Some(radiance.luminance()).filter(|l| l.is_finite()).unwrap_or(0.0);
     for _ in 0..PANES {
-        let Some(hit) = scene.closest(&ray, Cutout::Random) else {
+        let Some(hit) = scene.closest(&ray, AlphaTest::Stochastic) else {
             add(through * scene.lights.background_weighted(choice, sampled.as_ref(), ray.direction).total());
             return None;
         };

@@ -8,8 +8,8 @@ pub(super) const SIDE: usize = 16;
 /// Bins of a square.
 pub(super) const BINS: usize = SIDE * SIDE;
 
-/// Share of the density that is uniform, whatever was learned: nothing is ever missed.
-const UNIFORM_SHARE: f32 = 0.2;
+/// The fraction of the density that is uniform, so that every direction keeps a chance.
+const UNIFORM_FRACTION: f32 = 0.2;
 
 /// What the cumulative distributions of the rows and within a row end at.
 const ROWS_END: u32 = 1 << 16;
@@ -24,10 +24,10 @@ pub(super) struct SquareDensity {
 }
 
 impl SquareDensity {
-    /// In proportion to `values` ≥ 0, row by row, lifted by the uniform share.
+    /// In proportion to `values` ≥ 0, row by row, lifted by the uniform fraction.
     pub fn new(values: &[f32; BINS]) -> Self {
         let total: f32 = values.iter().sum();
-        let floor = if total > 0.0 { UNIFORM_SHARE / (1.0 - UNIFORM_SHARE) * total / BINS as f32 } else { 1.0 };
+        let floor = if total > 0.0 { UNIFORM_FRACTION / (1.0 - UNIFORM_FRACTION) * total / BINS as f32 } else { 1.0 };
         let row = |r: usize| -> [f32; SIDE] { std::array::from_fn(|c| values[r * SIDE + c] + floor) };
         let sums = std::array::from_fn(|r| row(r).iter().sum());
         Self {

@@ -3,20 +3,20 @@
 //! Conty Estevez & Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting": a box, a cone of normals and a
 //! power. The importance never is zero where light could arrive: every angle is taken at its most favourable within the box.
 
-use super::LightPoint;
+use super::sample::LightPoint;
 use enfilade_math::{Bounds3, Quat, Vec3};
 use std::f32::consts::{FRAC_PI_2, PI};
 
-/// Cosine of an angle that is zero but for rounding.
+/// Cosine of the emission angle of cones, whose emission is straight ahead: zero but for rounding.
 const STRAIGHT_AHEAD: f32 = 0.99;
 
 /// Box, cone and power of one emitter or of many.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LightBounds {
     pub bounds: Bounds3,
-    /// Middle of the normals; unit.
+    /// Axis of the cone of normals; unit.
     pub axis: Vec3,
-    /// Cosine of the angle about `axis` that holds all normals (θo).
+    /// Cosine of the angle about `axis` within which all normals lie (θo).
     pub cos_normals: f32,
     /// Cosine of the angle about a normal beyond which nothing is emitted (θe).
     pub cos_emission: f32,
@@ -44,7 +44,7 @@ impl LightBounds {
         Self { axis, cos_normals: outer_rad.clamp(0.0, PI).cos(), cos_emission: STRAIGHT_AHEAD, ..Self::point(p, power) }
     }
 
-    /// What holds both.
+    /// The bounds of both.
     pub fn union(&self, other: &Self) -> Self {
         let two_sided = self.two_sided && other.two_sided;
         // Of emitters with two sides either normal will do.
@@ -60,7 +60,7 @@ impl LightBounds {
         }
     }
 
-    /// About the irradiance that the emitters could cast at a point, unoccluded; zero only where they cannot.
+    /// About the irradiance that the emitters could cast on a point if nothing were in the way; zero only where they cannot.
     #[inline]
     pub fn importance(&self, at: &LightPoint) -> f32 {
         let to = self.bounds.center() - at.p;

@@ -1,16 +1,17 @@
 //! Which source a point samples: learned from where each source's light arrives.
 //!
 //! In a room most light is in shadow: the sun is the strongest source and reaches one patch of floor. [`super::learn`] sends
-//! some thousand paths from the cameras to the places that matter and tries the sources there; a grid of cells, six of them at
+//! some thousand walks from the cameras to the places that matter and tries the sources there; a grid of cells, six of them at
 //! each place for surfaces that face six ways, keeps what arrived. Samples then go to sources in proportion to the root mean
-//! square of their contribution, which minimises the variance of the sum, and a fixed share is spread over all sources, so that
+//! square of their contribution, which minimises the variance of the sum, and a fixed fraction is spread over all sources, so that
 //! nothing that was missed is lost: the choice changes noise, never the mean.
 
+use super::lights::{Lights, Source};
+use super::sample::LightPoint;
 use super::window::Windows;
-use super::{LightPoint, Lights, Source};
 use enfilade_math::{Bounds3, ONE_MINUS_EPSILON, Vec3};
 
-/// Cells along the longest side of what the paths visited.
+/// Cells along the longest side of the region that the walks visited.
 const CELLS: f32 = 24.0;
 /// No cell is smaller, in metres.
 const MIN_CELL: f32 = 0.2;
@@ -19,8 +20,9 @@ const FACINGS: usize = 7;
 const ANY_FACING: usize = 6;
 /// Weight of what was learned in neighbouring cells, and of the other facings of the same cell.
 const NEIGHBOUR: f32 = 0.15;
-/// Least share of the samples that ignores what was learned, and the number of trials that halves its excess over that.
-const PRIOR_SHARE: f32 = 0.12;
+/// The smallest fraction of the samples that ignores what was learned; it is larger in cells with few trials, and this number of trials
+/// halves what is added.
+const PRIOR_FRACTION: f32 = 0.12;
 const FEW_TRIALS: f32 = 4.0;
 
 /// Probabilities of the sources over a grid of cells.
@@ -31,14 +33,14 @@ pub(crate) struct LightChoice {
     /// Places along x, y and z.
     size: [usize; 3],
     sources: usize,
-    /// Row of each cell; cells where nothing was learned share the first.
+    /// Row of each cell; cells where nothing was learned use the first.
     rows: Vec<u32>,
     /// `sources` numbers a row: sums of the probabilities up to each source, the last one 1.
     sums: Vec<f32>,
     windows: Option<Windows>,
 }
 
-/// What arrived from a source at a point.
+/// What a trial found to arrive from a source at a point.
 pub(super) struct Arrival {
     pub at: LightPoint,
     pub source: u32,
@@ -112,7 +114,7 @@ impl LightChoice {
             .iter()
             .enumerate()
             .map(|(source, statistics)| match lights.source(source) {
-                // What the portals can find as well is no noise of the sky's.
+                // Portals find the brightest of the sky's light as well, so its variance counts for little.
                 Source::Sky if self.windows.is_some() => statistics.mean(),
                 _ => statistics.root_mean_square(),
             })
@@ -127,12 +129,12 @@ impl LightChoice {
             .collect();
         let (rms_sum, prior_sum) = (rms.iter().sum::<f32>(), prior.iter().sum::<f32>());
         let trials = learned.iter().map(|s| s.count).sum::<f32>() / self.sources as f32;
-        let prior_share = if rms_sum > 0.0 { PRIOR_SHARE.max(FEW_TRIALS / (FEW_TRIALS + trials) * 0.5) } else { 1.0 };
+        let prior_fraction = if rms_sum > 0.0 { PRIOR_FRACTION.max(FEW_TRIALS / (FEW_TRIALS + trials) * 0.5) } else { 1.0 };
         let uniform = 1.0 / self.sources as f32;
         let probability = |s: usize| {
             let by_prior = if prior_sum > 0.0 { 0.5 * prior[s] / prior_sum + 0.5 * uniform } else { uniform };
             let by_learning = if rms_sum > 0.0 { rms[s] / rms_sum } else { 0.0 };
-            prior_share * by_prior + (1.0 - prior_share) * by_learning
+            prior_fraction * by_prior + (1.0 - prior_fraction) * by_learning
         };
         let mut sum = 0.0f64;
         for s in 0..self.sources {
@@ -156,7 +158,7 @@ impl LightChoice {
     }
 }
 
-/// The cell among those at a place for a normal.
+/// The number of the way that a normal faces.
 #[inline]
 fn facing(n: Vec3) -> usize {
     if n == Vec3::ZERO {
@@ -175,7 +177,7 @@ fn normal(facing: usize) -> Vec3 {
     n
 }
 
-/// What is known of a source in a cell.
+/// Sums over the trials of a source in a cell.
 #[derive(Clone, Copy, Default)]
 struct Statistics {
     sum: f32,
@@ -199,7 +201,7 @@ impl Statistics {
     }
 }
 
-/// What arrived, by cell.
+/// The statistics of all trials, by cell.
 struct Learned {
     /// Of each cell: where its statistics begin, `u32::MAX` where there are none.
     first: Vec<u32>,

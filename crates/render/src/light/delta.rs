@@ -1,11 +1,11 @@
-//! Lights without a surface: points, spots and parallel light.
+//! Lights without a surface: point, spot and profile lights, and distant lights with or without a disk.
 
 use super::bounds::LightBounds;
-use super::{LightPoint, LightSample};
+use super::sample::{LightPoint, LightSample};
 use enfilade_math::{Onb, Rgb, Vec3, angle, warp};
 use enfilade_scene::{Light, SpotFalloff};
 
-/// What the hierarchy knows of a light at a point; `None` for light from far away.
+/// The bounds of a point light for the hierarchy; `None` for a distant light.
 pub(super) fn light_bounds(light: &Light) -> Option<LightBounds> {
     match light {
         Light::Point { position, intensity, .. } => Some(LightBounds::point(*position, intensity.luminance())),
@@ -21,7 +21,7 @@ pub(super) fn light_bounds(light: &Light) -> Option<LightBounds> {
     }
 }
 
-/// Light from a source without surface.
+/// Samples a light without a surface. `u` is uniform on [0,1)², and only disks need it.
 pub(super) fn sample(light: &Light, at: &LightPoint, u: [f32; 2]) -> Option<LightSample> {
     let towards = |position: Vec3, intensity: Rgb| {
         let to_light = position - at.p;
@@ -33,8 +33,8 @@ pub(super) fn sample(light: &Light, at: &LightPoint, u: [f32; 2]) -> Option<Ligh
         Light::Point { position, intensity, .. } => towards(*position, *intensity),
         Light::Spot { position, direction, intensity, inner_rad, outer_rad, falloff, .. } => {
             let sample = towards(*position, *intensity)?;
-            let share = spot_share(*falloff, (-sample.wi).dot(*direction), *inner_rad, *outer_rad);
-            (share > 0.0).then(|| LightSample { radiance: sample.radiance.map(|r| r * share), ..sample })
+            let falloff = spot_falloff(*falloff, (-sample.wi).dot(*direction), *inner_rad, *outer_rad);
+            (falloff > 0.0).then(|| LightSample { radiance: sample.radiance.map(|r| r * falloff), ..sample })
         }
         Light::Profile { position, web_from_world, intensity, web, .. } => {
             let sample = towards(*position, *intensity)?;
@@ -70,8 +70,8 @@ fn disk_radiance(irradiance: Rgb, limit: f32) -> Rgb {
     irradiance / (std::f32::consts::PI * limit * (2.0 - limit))
 }
 
-/// Share of a spot's intensity at an angle from its axis: all within the inner angle, none beyond the outer.
-fn spot_share(falloff: SpotFalloff, cos: f32, inner_rad: f32, outer_rad: f32) -> f32 {
+/// The fraction of a spot light's intensity at an angle from its axis: all within the inner angle, none beyond the outer.
+fn spot_falloff(falloff: SpotFalloff, cos: f32, inner_rad: f32, outer_rad: f32) -> f32 {
     let (inner, outer) = (inner_rad.cos(), outer_rad.cos());
     if inner <= outer {
         return if cos >= outer { 1.0 } else { 0.0 };
@@ -100,20 +100,20 @@ mod tests {
     #[test]
     fn spot_is_full_inside_and_dark_outside() {
         for falloff in [SpotFalloff::CosineSquare, SpotFalloff::Angle, SpotFalloff::SmoothCosine, SpotFalloff::SmoothAngle] {
-            assert_eq!(spot_share(falloff, 1.0, 0.2, 0.5), 1.0);
-            assert_eq!(spot_share(falloff, 0.6f32.cos(), 0.2, 0.5), 0.0);
+            assert_eq!(spot_falloff(falloff, 1.0, 0.2, 0.5), 1.0);
+            assert_eq!(spot_falloff(falloff, 0.6f32.cos(), 0.2, 0.5), 0.0);
         }
     }
 
     #[test]
     fn spot_dims_by_its_law_between_the_angles() {
-        let share = |falloff, cos: f32| spot_share(falloff, cos, 0.2, 0.6);
-        assert!((share(SpotFalloff::Angle, 0.3f32.cos()) - 0.75).abs() < 1e-5);
+        let fraction = |falloff, cos: f32| spot_falloff(falloff, cos, 0.2, 0.6);
+        assert!((fraction(SpotFalloff::Angle, 0.3f32.cos()) - 0.75).abs() < 1e-5);
         let halfway = 0.5 * (0.2f32.cos() + 0.6f32.cos());
-        assert!((share(SpotFalloff::CosineSquare, halfway) - 0.25).abs() < 1e-5);
+        assert!((fraction(SpotFalloff::CosineSquare, halfway) - 0.25).abs() < 1e-5);
         // A quarter of the way: 3/16 − 2/64.
         let quarter = 0.75 * 0.6f32.cos() + 0.25 * 0.2f32.cos();
-        assert!((share(SpotFalloff::SmoothCosine, quarter) - 0.15625).abs() < 1e-5);
-        assert!((share(SpotFalloff::SmoothAngle, 0.5f32.cos()) - 0.15625).abs() < 1e-5);
+        assert!((fraction(SpotFalloff::SmoothCosine, quarter) - 0.15625).abs() < 1e-5);
+        assert!((fraction(SpotFalloff::SmoothAngle, 0.5f32.cos()) - 0.15625).abs() < 1e-5);
     }
 }

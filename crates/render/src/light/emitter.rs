@@ -1,4 +1,4 @@
-//! Patches of emissive surface: what is sampled once the hierarchy has chosen.
+//! Patches of emissive surface: what is sampled once the hierarchy has chosen one.
 //!
 //! A patch is a triangle, a rectangle of two triangles, or, where a texture varies the emission, a piece of either. Near ones
 //! are sampled evenly over the solid angle, far ones over the area.

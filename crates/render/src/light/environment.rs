@@ -1,4 +1,4 @@
-//! Light from the surroundings, sampled in proportion to its brightness.
+//! The environment (the sky): a constant or a latitude–longitude map, sampled in proportion to luminance × solid angle.
 
 use enfilade_math::{Distribution2, Mat3, Rgb, Vec2, Vec3, warp};
 use enfilade_scene::{Environment, Image, MapRows, TextureRef, Wrap, direction_from_uv, uv_from_direction};
@@ -46,7 +46,7 @@ impl<'s> Sky<'s> {
         Some(sky)
     }
 
-    /// About the irradiance in the open.
+    /// About the irradiance of a surface in the open, as a luminance.
     pub fn irradiance(&self) -> f32 {
         self.irradiance
     }
@@ -64,7 +64,7 @@ impl<'s> Sky<'s> {
         }
     }
 
-    /// Roughly, over all directions.
+    /// Mean over 64 directions.
     fn mean_luminance(&self) -> f32 {
         let directions = 64;
         (0..directions).map(|k| self.radiance(warp::fibonacci_sphere(k, directions).as_vec3()).luminance()).sum::<f32>() / directions as f32
@@ -100,11 +100,11 @@ impl<'s> Sky<'s> {
 }
 
 /// Columns of the sampling grid (rows: half as many). The coarse one stays in a core's cache, which is worth more than its
-/// loss of detail, unless a sun or a lamp fills so little of the sky that a coarse cell would mostly miss it.
+/// loss of detail, unless a sun or a lamp fills so little of the sky that most samples of a coarse cell would miss it.
 const COARSE: usize = 512;
 const FINE: usize = 1024;
 
-/// The share of all light in a single coarse cell beyond which the fine grid is used.
+/// The fraction of all light in a single coarse cell beyond which the fine grid is used.
 const CONCENTRATED: f32 = 0.02;
 
 /// Luminance × solid angle of each cell of the sampling grid, and its number of columns.
@@ -121,8 +121,8 @@ fn pooled(texels: &[f32], image: &Image, limit: usize) -> (Vec<f32>, usize) {
     let (columns, rows) = (w.min(limit), h.min(limit / 2));
     let mut cells = vec![0.0; columns * rows];
     for (i, weight) in texels.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
-        for (row, of_row) in shares(i / w, h, rows) {
-            for (column, of_column) in shares(i % w, w, columns) {
+        for (row, of_row) in overlaps(i / w, h, rows) {
+            for (column, of_column) in overlaps(i % w, w, columns) {
                 cells[row * columns + column] += weight * of_row * of_column;
             }
         }
@@ -130,8 +130,8 @@ fn pooled(texels: &[f32], image: &Image, limit: usize) -> (Vec<f32>, usize) {
     (cells, columns)
 }
 
-/// The cells that texel `i` of `texels` lies in, at most two of as many `cells` or fewer, with its share in each.
-fn shares(i: usize, texels: usize, cells: usize) -> impl Iterator<Item = (usize, f32)> {
+/// The cells that texel `i` of `texels` lies in, at most two of as many `cells` or fewer, with its fraction in each.
+fn overlaps(i: usize, texels: usize, cells: usize) -> impl Iterator<Item = (usize, f32)> {
     let first = i * cells / texels;
     let inside = ((first + 1) * texels - i * cells).min(cells) as f32 / cells as f32;
     std::iter::once((first, inside)).chain((inside < 1.0).then_some((first + 1, 1.0 - inside)))

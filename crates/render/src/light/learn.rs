@@ -1,8 +1,9 @@
 //! Learns where the light of each source arrives, once for all cameras of a trajectory.
 
-use super::choice::Arrival;
+use super::choice::{Arrival, LightChoice};
+use super::lights::Lights;
+use super::sample::{LightPoint, LightSample};
 use super::window::{Glimpses, Windows};
-use super::{LightChoice, LightPoint, LightSample, Lights};
 use crate::config::RenderConfig;
 use crate::prepared::RenderScene;
 use crate::surface::{self, Surface};
@@ -11,16 +12,16 @@ use enfilade_math::{INV_PI, Onb, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
 use enfilade_scene::CameraView;
 use rayon::prelude::*;
 
-/// Paths that learn, at most, for one camera and for many; small pictures learn from fewer.
+/// The most random walks for one camera and for many; small pictures learn from fewer.
 const PATHS: u64 = 8192;
 const MORE_PATHS: u64 = 65_536;
-/// One path for this many pixel samples.
+/// One walk for this many pixel samples.
 const SAMPLES_PER_PATH: u64 = 64;
 /// Rays from each surface that look for the sky.
 const RAYS: usize = 8;
-/// Surfaces that a path visits.
+/// Surfaces that a walk visits.
 const VERTICES: usize = 5;
-/// Sources tried at each; scenes with more try this many at random.
+/// The most sources tried at each surface; scenes with more try this many at random.
 const TRIES: usize = 12;
 /// Light samples for an estimate of the irradiance where there are more.
 const FEW: usize = 4;
@@ -30,10 +31,12 @@ impl LightChoice {
     pub fn learn(scene: &RenderScene<'_>, views: &[CameraView<'_>], config: &RenderConfig) -> Self {
         let cameras = views.len() as u64;
         let samples = pixel_samples(views, config);
-        let most = (PATHS + PATHS / 4 * cameras.saturating_sub(1)).min(MORE_PATHS);
-        let paths = if cameras == 0 { 0 } else { (samples / SAMPLES_PER_PATH).clamp(128, most) };
+        let max = (PATHS + PATHS / 4 * cameras.saturating_sub(1)).min(MORE_PATHS);
+        let paths = if cameras == 0 { 0 } else { (samples / SAMPLES_PER_PATH).clamp(128, max) };
         let rng = |purpose: u64, path: u64| Rng::new(hash_u64(config.seed ^ hash_u64(0x11_9417 ^ (purpose << 32) ^ path)));
         let view = |path: u64| &views[(path % cameras) as usize];
+
+        // Walk through the scene and look for the sky from every surface: where it is seen, there are windows.
         let windows = if scene.lights.sky.is_some() {
             let seen: Vec<Glimpses> = (0..paths / 2).into_par_iter().map(|path| glimpses(scene, view(path), rng(0, path))).collect();
             let mut all = Glimpses::default();
@@ -45,6 +48,8 @@ impl LightChoice {
         } else {
             None
         };
+
+        // Walk again and try the sources, portals among them, at every surface.
         let arrivals: Vec<Arrival> = (0..paths)
             .into_par_iter()
             .flat_map_iter(|path| {
@@ -77,7 +82,7 @@ fn glimpses(scene: &RenderScene<'_>, view: &CameraView<'_>, rng: Rng) -> Glimpse
 }
 
 fn try_sources(scene: &RenderScene<'_>, windows: Option<&Windows>, surface: &Surface<'_>, rng: &mut Rng, arrivals: &mut Vec<Arrival>) {
-    let at = LightPoint::on(surface);
+    let at = surface.light_point();
     let count = scene.lights.source_count(windows.map_or(0, Windows::len));
     for attempt in 0..count.min(TRIES) {
         let source = if count > TRIES { rng.below(count) } else { attempt };
@@ -87,7 +92,7 @@ fn try_sources(scene: &RenderScene<'_>, windows: Option<&Windows>, surface: &Sur
     }
 }
 
-/// Estimate of the irradiance by a source; what both the sky and a portal can find, they share.
+/// Estimate of the irradiance by a source. Light that both the sky and a portal can find is divided between them.
 fn contribution(
     scene: &RenderScene<'_>,
     windows: Option<&Windows>,

@@ -76,7 +76,7 @@ impl SphericalRectangle {
         (solid_angle > 0.0).then_some(Self { x, y, z, b: [-y_low, y_high], k, solid_angle })
     }
 
-    /// A point as shares of the two sides, uniform over the solid angle.
+    /// A point as fractions of the two sides, uniform over the solid angle.
     #[inline]
     pub fn sample(&self, u: [f32; 2]) -> [f32; 2] {
         let (sin, cos) = angle::sin_cos_turns((u[0] * self.solid_angle + self.k) / TAU);
@@ -88,8 +88,8 @@ impl SphericalRectangle {
         let (h0, h1) = (component(self.y[0]), component(self.y[1]));
         let h = h0 + u[1] * (h1 - h0);
         let y = if h * h < 1.0 - 1e-6 { h * d2.sqrt() / (1.0 - h * h).sqrt() } else { self.y[1] };
-        let share = |v: f32, [low, high]: [f32; 2]| ((v - low) / (high - low)).clamp(0.0, 1.0);
-        [share(x, self.x), share(y, self.y)]
+        let fraction = |v: f32, [low, high]: [f32; 2]| ((v - low) / (high - low)).clamp(0.0, 1.0);
+        [fraction(x, self.x), fraction(y, self.y)]
     }
 }
 

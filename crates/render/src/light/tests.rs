@@ -1,10 +1,12 @@
-use super::choice::Arrival;
-use super::*;
-use crate::prepared::RenderScene;
+//! Light sampling as a whole: what is sampled agrees with its density, and rooms are lit as they should be.
+
+use super::choice::{Arrival, LightChoice};
+use super::sample::{LightPoint, power_heuristic};
+use crate::prepared::{AlphaTest, RenderScene};
 use crate::texture::Footprint;
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, Ray, Rng, Vec2, warp};
-use enfilade_scene::{ColorParam, Image, Material, Part, Pixels, Quiet, TextureRef};
+use enfilade_math::{DAffine3, Ray, Rgb, Rng, Vec2, Vec3, warp};
+use enfilade_scene::{ColorParam, Image, Material, Part, Pixels, Quiet, Scene, TextureRef};
 use enfilade_testkit::Mean;
 
 fn scene_of(parts: Vec<(Mesh, Material)>) -> Scene {
@@ -108,7 +110,7 @@ fn thousands_of_lamps_give_the_light_of_lamberts_formula_with_little_noise() {
         let samples = 40_000;
         let found = irradiance(&prepared, &learned_at(&prepared, &at), &at, samples);
         found.assert_is(&format!("{} lamps, place {k}", polygons.len()), expected, 4);
-        // By power alone: Σ E²/p − E², per sample and as a share of E.
+        // By power alone: Σ E²/p − E², per sample and as a fraction of E.
         let powers: Vec<f64> = polygons.iter().zip(&radiances).map(|(p, r)| r * area(p)).collect();
         let total: f64 = powers.iter().sum();
         let second: f64 = each.iter().zip(&powers).map(|(e, power)| e * e * total / power).sum();
@@ -151,7 +153,7 @@ fn surfaces_met_by_chance_have_the_density_with_which_they_are_sampled() {
         let at = LightPoint { p, n };
         let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
         let Some(light) = prepared.lights.sample(&prepared, &choice, &at, u, |_| true) else { continue };
-        let Some(hit) = prepared.closest(&Ray::new(p, light.wi), Cutout::Random) else { continue };
+        let Some(hit) = prepared.closest(&Ray::new(p, light.wi), AlphaTest::Stochastic) else { continue };
         let met = prepared.surface(&hit, light.wi, &crate::texture::Cone::POINT);
         // Another lamp may be in the way.
         if light.target.is_none_or(|target| target.distance(met.p) > 1e-3) {
@@ -190,11 +192,11 @@ fn a_picture_on_a_screen_lights_by_its_texels() {
         let (columns, rows) = (64 * 4, 32 * 4);
         let mut expected = 0.0f64;
         for i in 0..columns * rows {
-            let share = Vec2::new(((i % columns) as f32 + 0.5) / columns as f32, ((i / columns) as f32 + 0.5) / rows as f32);
-            let q = corner + u * share.x + v * share.y;
+            let uv = Vec2::new(((i % columns) as f32 + 0.5) / columns as f32, ((i / columns) as f32 + 0.5) / rows as f32);
+            let q = corner + u * uv.x + v * uv.y;
             let d2 = q.distance_squared(p);
             let wi = (q - p) / d2.sqrt();
-            let radiance = prepared.textures.color(&scene.materials[0].emission, share, &Footprint::POINT).luminance();
+            let radiance = prepared.textures.color(&scene.materials[0].emission, uv, &Footprint::POINT).luminance();
             expected += f64::from(radiance * wi.y * wi.y / d2) * 2.0 / f64::from(columns * rows);
         }
         let samples = 40_000;

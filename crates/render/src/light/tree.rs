@@ -4,8 +4,8 @@
 //! area–orientation heuristic and traversed with one random number, at each node towards the more important child. The upper
 //! end of the tree is a *cut*: clusters, among which [`super::LightChoice`] chooses by what it has learned.
 
-use super::LightPoint;
 use super::bounds::LightBounds;
+use super::sample::LightPoint;
 use enfilade_math::{Bounds3, ONE_MINUS_EPSILON};
 
 /// Candidate planes along an axis.
@@ -71,8 +71,8 @@ impl LightTree {
         bounds
     }
 
-    /// At most `limit` nodes that together hold all emitters: the root, of which the node with the most power × size is split
-    /// again and again, as long as it is larger than `smallest_m`.
+    /// At most `limit` nodes that together contain all emitters. Beginning with the root, the node with the largest power × size is split
+    /// into its children, as long as it is larger than `smallest_m`.
     pub fn cut(&self, limit: usize, smallest_m: f32) -> Vec<u32> {
         let mut cut = if self.nodes.is_empty() { Vec::new() } else { vec![0u32] };
         let weight = |node: u32| {
@@ -120,15 +120,15 @@ impl LightTree {
                 Kind::Leaf { emitter } => return Some((emitter, probability, u)),
                 Kind::Inner { second } => second,
             };
-            let first_share = self.first_share(node, second, at)?;
-            if u < first_share {
-                u = (u / first_share).min(ONE_MINUS_EPSILON);
-                probability *= first_share;
+            let first_probability = self.first_probability(node, second, at)?;
+            if u < first_probability {
+                u = (u / first_probability).min(ONE_MINUS_EPSILON);
+                probability *= first_probability;
                 node += 1;
             } else {
-                let share = 1.0 - first_share;
-                u = ((u - first_share) / share).min(ONE_MINUS_EPSILON);
-                probability *= share;
+                let second_probability = 1.0 - first_probability;
+                u = ((u - first_probability) / second_probability).min(ONE_MINUS_EPSILON);
+                probability *= second_probability;
                 node = second;
             }
         }
@@ -145,8 +145,8 @@ impl LightTree {
         while child != node {
             let parent = self.parents[child as usize];
             let Some(Node { kind: Kind::Inner { second }, .. }) = self.nodes.get(parent as usize) else { return 0.0 };
-            let Some(first_share) = self.first_share(parent, *second, at) else { return 0.0 };
-            probability *= if child == *second { 1.0 - first_share } else { first_share };
+            let Some(first_probability) = self.first_probability(parent, *second, at) else { return 0.0 };
+            probability *= if child == *second { 1.0 - first_probability } else { first_probability };
             child = parent;
         }
         probability
@@ -154,7 +154,7 @@ impl LightTree {
 
     /// Probability of the first child.
     #[inline]
-    fn first_share(&self, node: u32, second: u32, at: &LightPoint) -> Option<f32> {
+    fn first_probability(&self, node: u32, second: u32, at: &LightPoint) -> Option<f32> {
         let (a, b) = (self.importance(node + 1, at), self.importance(second, at));
         let sum = a + b;
         if sum > 0.0 && sum.is_finite() {

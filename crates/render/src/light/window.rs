@@ -1,9 +1,9 @@
 //! Windows as portals: the environment reaches a room through them only, so its light is sampled there.
 //!
-//! A box is put around the room so that the places where the sky is seen fill as little of its faces as can be: its sides then
-//! stand in the windows. Where light passes, the faces are covered with rectangular portals. Every direction from within the
-//! box leaves it through one place, hence through at most one portal, so densities cost the same whatever the number of
-//! windows. Portals are sampled uniformly over their area, whatever the sky behind them: the simplest form of what Bitterli,
+//! A box is fitted around the room such that rays to the sky cross as little of its faces as possible: its faces then lie in the planes of
+//! the windows. Where light passes, the faces are covered with rectangular portals. Every direction from within the box leaves it
+//! in one point, hence through at most one portal, so a density costs the same for any number of windows. Portals are sampled
+//! uniformly over their area, regardless of the sky behind them: the simplest form of what Bitterli,
 //! Novák & Jarosz 2015, "Portal-Masked Environment Map Sampling", do exactly.
 
 use enfilade_math::{Bounds3, Mat3, Vec3};
@@ -14,20 +14,20 @@ const CELLS: f32 = 48.0;
 const PORTAL_CELLS: usize = 8;
 /// The most portals.
 const MAX_PORTALS: usize = 32;
-/// Fewer glimpses of the sky say too little about where its light comes from.
+/// The fewest rays to the sky that say enough about where its light comes from.
 const MIN_GLIMPSES: usize = 64;
 /// Rays that place the box, at most.
 const PLACING: usize = 3000;
-/// Where more than this share of the box's surface is open, it is no room.
+/// A box of whose surface more than this fraction is open is no room.
 const OPEN: f32 = 0.3;
 /// Positions tried for each side of the box.
 const POSITIONS: usize = 24;
-/// The box is larger than what it was placed around by this share of its longest side.
+/// The box is larger than what it was placed around by this fraction of its longest side.
 const MARGIN: f32 = 5e-4;
 /// Points nearer to a portal's plane than this do not sample it, in metres: they see it edge-on.
 const MIN_HEIGHT_M: f32 = 1e-3;
 
-/// What paths through a scene have seen: surfaces and the sky.
+/// What random walks through a scene have seen: surfaces, and directions in which the sky is visible from them.
 #[derive(Debug, Default)]
 pub(super) struct Glimpses {
     /// Places of surfaces and their normals.
@@ -39,7 +39,7 @@ pub(super) struct Glimpses {
 /// The openings of a room, on the faces of a box.
 #[derive(Clone, Debug)]
 pub(super) struct Windows {
-    /// About the vertical, so that the box stands along the walls.
+    /// A rotation about the vertical that aligns the walls with the axes of the box.
     box_from_world: Mat3,
     bounds: Bounds3,
     /// Portals of each face, tile by tile.
@@ -69,7 +69,7 @@ struct Portal {
 const NO_PORTAL: u16 = u16::MAX;
 
 impl Windows {
-    /// Finds the windows of the room that holds most of the surfaces seen. `None` when it is open or closed on all sides.
+    /// Finds the windows of the room that contains most of the surfaces seen. `None` when it is open or closed on all sides.
     pub fn find(seen: &Glimpses) -> Option<Self> {
         if seen.escapes.len() < MIN_GLIMPSES {
             return None;
@@ -78,7 +78,7 @@ impl Windows {
         let surfaces: Vec<Vec3> = seen.surfaces.iter().map(|(p, _)| box_from_world * *p).collect();
         let escapes: Vec<(Vec3, Vec3)> = seen.escapes.iter().map(|(p, d)| (box_from_world * *p, box_from_world * *d)).collect();
         let bounds = place_box(&surfaces, &escapes);
-        // Walls on its faces are inside, whatever the rounding.
+        // Points of walls that lie on its faces count as inside in spite of rounding.
         let margin = Vec3::splat(MARGIN * bounds.extent().max_element());
         let bounds = Bounds3 { min: bounds.min - margin, max: bounds.max + margin };
         let cell = bounds.extent().max_element() / CELLS;
@@ -253,8 +253,8 @@ fn along_walls(surfaces: &[(Vec3, Vec3)]) -> Mat3 {
     Mat3::from_rotation_z(-(sin.atan2(cos) / 4.0) as f32)
 }
 
-/// The box through whose faces the sky is seen by as little as can be, and that holds most surfaces: each side is tried at
-/// positions where surfaces are, then near the best.
+/// The box around most of the surfaces whose faces the rays to the sky cross in the smallest area. Each side is tried at positions of
+/// surfaces, and then near the best position.
 fn place_box(surfaces: &[Vec3], escapes: &[(Vec3, Vec3)]) -> Bounds3 {
     let all = Bounds3::from_points(surfaces.iter().copied());
     let thin = |n: usize| n.div_ceil(PLACING).max(1);

@@ -1,4 +1,4 @@
-//! How wide a path is.
+//! Ray cones: how wide a path is where it meets a surface, and how much of a texture that covers (Akenine-Möller et al. 2019, 2021).
 
 /// The width of a ray: `width` metres at its origin, `spread` more per metre.
 #[derive(Clone, Copy, Debug)]

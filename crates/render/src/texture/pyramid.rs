@@ -1,4 +1,4 @@
-//! A picture and its ever smaller copies.
+//! A mip pyramid: a picture and its copies of half, a quarter and so on of its size, read with interpolation (Williams 1983).
 
 use super::Footprint;
 use enfilade_math::{Rgb, Vec2, Vec4, linear_from_srgb};
@@ -146,11 +146,11 @@ impl<'s> Pyramid<'s> {
     /// Linear RGB and alpha at texture coordinates `uv` (v upward) of `texture`.
     #[inline]
     pub fn sample(&self, texture: &TextureRef, uv: Vec2, footprint: &Footprint) -> Vec4 {
-        let (level, share) = self.level(texture, footprint);
+        let (level, blend) = self.level(texture, footprint);
         let uv = texture.transform(uv);
         let at = Vec2::new(uv.x, 1.0 - uv.y);
         let fine = self.read(level, texture, at);
-        if share > 0.0 { fine.lerp(self.read(level + 1, texture, at), share) } else { fine }
+        if blend > 0.0 { fine.lerp(self.read(level + 1, texture, at), blend) } else { fine }
     }
 
     /// A level at the place `at`, whose second coordinate counts downward.
@@ -173,11 +173,11 @@ impl<'s> Pyramid<'s> {
     /// Derivatives of the luminance by the texture's own coordinates (v upward) at `uv`, which the texture's transform has not met.
     #[inline]
     pub fn slope(&self, texture: &TextureRef, uv: Vec2, footprint: &Footprint) -> Vec2 {
-        let (level, share) = self.level(texture, footprint);
+        let (level, blend) = self.level(texture, footprint);
         let uv = texture.transform(uv);
         let at = Vec2::new(uv.x, 1.0 - uv.y);
         let fine = self.slope_of(level, texture, at);
-        if share > 0.0 { fine.lerp(self.slope_of(level + 1, texture, at), share) } else { fine }
+        if blend > 0.0 { fine.lerp(self.slope_of(level + 1, texture, at), blend) } else { fine }
     }
 
     /// Central differences over one texel each way, interpolated between texel centres.

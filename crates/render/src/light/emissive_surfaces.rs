@@ -7,16 +7,16 @@ use crate::triangles::Triangles;
 use enfilade_math::{Vec2, Vec3};
 use enfilade_scene::{Alpha, ColorParam, Scene};
 
-/// Two triangles make a rectangle when its corners and right angles are off by no more than this share of a side.
+/// Two triangles make a rectangle when its corners and right angles are off by no more than this fraction of a side.
 const RECTANGLE_TOLERANCE: f32 = 1e-4;
-/// Texels along a side of a patch, about, and the most patches along a side.
+/// About the number of texels along a side of a patch, and the largest number of patches along a side.
 const TEXELS_PER_PATCH: f32 = 4.0;
 const MAX_PATCHES_PER_SIDE: u32 = 32;
 /// The most patches a part is cut into beyond one a triangle.
 const MAX_PATCHES_PER_PART: usize = 4096;
-/// Texture samples along each side of a patch for its mean.
+/// Texture lookups along each side of a patch, for its mean radiance.
 const LOOKUPS: u32 = 8;
-/// A patch counts for at least this share of the part's mean radiance, so that what the lookups missed is found.
+/// A patch counts for at least this fraction of the part's mean radiance, so that what the lookups missed is found.
 const DARKEST: f32 = 0.01;
 
 /// The emissive surfaces of a scene.
@@ -65,7 +65,7 @@ impl EmissiveSurfaces {
             }
             found.parts[part] = Some((range.start as u32, found.pieces.len() as u32));
             let even = material.emission.texture.is_none() && material.alpha == Alpha::Opaque;
-            Part { scene, triangles, emission: &material.emission, two_sided: material.emits_both_sides, even, cut_so_far: 0 }
+            PartCutter { scene, triangles, emission: &material.emission, two_sided: material.emits_both_sides, even, cut_so_far: 0 }
                 .add(range, &mut found);
         }
         found
@@ -87,16 +87,16 @@ impl EmissiveSurfaces {
                 }
                 let t = triangles.get(triangle);
                 let q = t.position([1.0 - b - c, b, c]);
-                let frame = rectangle_of(&triangles.get(triangle - u32::from(second)), &triangles.get(triangle + u32::from(!second)))?;
-                let [s, r] = frame.shares(q);
+                let rectangle = rectangle_of(&triangles.get(triangle - u32::from(second)), &triangles.get(triangle + u32::from(!second)))?;
+                let [s, r] = rectangle.coordinates(q);
                 Some(pieces.first_patch + cell(r, rows) * columns + cell(s, columns))
             }
         }
     }
 }
 
-/// One emissive part while it is cut up.
-struct Part<'a> {
+/// Cuts one emissive part into patches.
+struct PartCutter<'a> {
     scene: &'a Scene,
     triangles: &'a Triangles<'a>,
     emission: &'a ColorParam,
@@ -106,7 +106,7 @@ struct Part<'a> {
     cut_so_far: usize,
 }
 
-impl Part<'_> {
+impl PartCutter<'_> {
     fn triangle(&self, index: usize) -> Triangle {
         self.triangles.get(index as u32)
     }
@@ -117,8 +117,8 @@ impl Part<'_> {
         while index < range.end {
             let rectangle = if index + 1 < range.end { rectangle_of(&self.triangle(index), &self.triangle(index + 1)) } else { None };
             let first_patch = found.patches.len() as u32;
-            if let Some(frame) = rectangle {
-                let grid = self.add_rectangle(index, &frame, found);
+            if let Some(rectangle) = rectangle {
+                let grid = self.add_rectangle(index, &rectangle, found);
                 for second in [false, true] {
                     found.pieces.push(Pieces { first_patch, grid, shape: Outline::Rectangle { second } });
                 }
@@ -137,9 +137,9 @@ impl Part<'_> {
             .zip(&found.patches[first_patch_of_part..])
             .fold((0.0f64, 0.0f64), |(power, area), (b, p)| (power + f64::from(b.power), area + f64::from(p.area())));
         if self.emission.texture.is_some() && area > 0.0 {
-            let least = DARKEST * (power / area) as f32;
+            let min_radiance = DARKEST * (power / area) as f32;
             for (bounds, patch) in of_part.iter_mut().zip(&found.patches[first_patch_of_part..]) {
-                bounds.power = bounds.power.max(least * patch.area());
+                bounds.power = bounds.power.max(min_radiance * patch.area());
             }
         }
     }
@@ -167,7 +167,7 @@ impl Part<'_> {
         n as u16
     }
 
-    fn add_rectangle(&mut self, index: usize, frame: &Frame, found: &mut EmissiveSurfaces) -> [u16; 2] {
+    fn add_rectangle(&mut self, index: usize, rectangle: &Rectangle, found: &mut EmissiveSurfaces) -> [u16; 2] {
         let (first, second) = (self.triangle(index), self.triangle(index + 1));
         let Some((normal, sides)) = self.outward(&first) else { return [0; 2] };
         let sides = match self.outward(&second) {
@@ -176,9 +176,9 @@ impl Part<'_> {
         };
         let emission = self.emission_of(sides);
         let uv_at = |s: f32, r: f32| {
-            let whole = Patch::of_rectangle(0, frame.corner, frame.sides, normal, emission);
+            let whole = Patch::of_rectangle(0, rectangle.corner, rectangle.sides, normal, emission);
             let (triangle, [b, c]) =
-                whole.locate(frame.corner + frame.sides[0] * s + frame.sides[1] * r, |k| [first, second][k as usize].corners);
+                whole.locate(rectangle.corner + rectangle.sides[0] * s + rectangle.sides[1] * r, |k| [first, second][k as usize].corners);
             [first, second][triangle as usize].uv([1.0 - b - c, b, c])
         };
         let grid = self.within_budget([
@@ -188,8 +188,9 @@ impl Part<'_> {
         let [columns, rows] = grid.map(|n| n as f32);
         for cell in 0..grid[0] * grid[1] {
             let (s, r) = ((cell % grid[0]) as f32 / columns, (cell / grid[0]) as f32 / rows);
-            let corner = frame.corner + frame.sides[0] * s + frame.sides[1] * r;
-            let patch = Patch::of_rectangle(index as u32, corner, [frame.sides[0] / columns, frame.sides[1] / rows], normal, emission);
+            let corner = rectangle.corner + rectangle.sides[0] * s + rectangle.sides[1] * r;
+            let patch =
+                Patch::of_rectangle(index as u32, corner, [rectangle.sides[0] / columns, rectangle.sides[1] / rows], normal, emission);
             let mean = self.mean(|i, j| uv_at(s + i / columns, r + j / rows));
             found.patches.push(patch);
             found.bounds.push(patch.light_bounds(mean, sides != Sides::One));
@@ -218,7 +219,7 @@ impl Part<'_> {
         }
     }
 
-    /// Into how many pieces a side is cut for its texels.
+    /// The number of pieces that a side is cut into, by its texels.
     fn pieces_per_side(&self, uv_side: Vec2) -> u32 {
         let Some(texture) = self.emission.texture else { return 1 };
         let image = &self.scene.images[texture.image as usize];
@@ -236,7 +237,7 @@ impl Part<'_> {
         grid
     }
 
-    /// Mean luminance over a patch, from its texture coordinates by shares of its sides.
+    /// Mean luminance over a patch, from its texture coordinates by fractions of its sides.
     fn mean(&self, uv: impl Fn(f32, f32) -> Vec2) -> f32 {
         let Some(texture) = &self.emission.texture else { return self.emission.factor.luminance() };
         let image = &self.scene.images[texture.image as usize];
@@ -257,21 +258,21 @@ enum Sides {
     Unsure,
 }
 
-/// A rectangle: corner and orthogonal sides.
-struct Frame {
+/// A rectangle in the world: a corner and two orthogonal sides.
+struct Rectangle {
     corner: Vec3,
     sides: [Vec3; 2],
 }
 
-impl Frame {
-    /// A point of the rectangle as shares of the two sides.
-    fn shares(&self, q: Vec3) -> [f32; 2] {
+impl Rectangle {
+    /// A point of the rectangle as fractions of the two sides.
+    fn coordinates(&self, q: Vec3) -> [f32; 2] {
         self.sides.map(|side| (q - self.corner).dot(side) / side.length_squared())
     }
 }
 
 /// The rectangle that two triangles make up, if they do: corners a b c and a c d in some rotation.
-fn rectangle_of(first: &Triangle, second: &Triangle) -> Option<Frame> {
+fn rectangle_of(first: &Triangle, second: &Triangle) -> Option<Rectangle> {
     if first.part != second.part {
         return None;
     }
@@ -285,10 +286,11 @@ fn rectangle_of(first: &Triangle, second: &Triangle) -> Option<Frame> {
     let closes = (corner + sides[0] + sides[1]).distance(second.corners[j]) <= RECTANGLE_TOLERANCE * size;
     let square = sides[0].dot(sides[1]).abs() <= RECTANGLE_TOLERANCE * sides[0].length() * sides[1].length();
     let turned = first.cross().dot(second.cross()) > 0.0;
-    (size > 0.0 && closes && square && turned).then_some(Frame { corner, sides })
+    (size > 0.0 && closes && square && turned).then_some(Rectangle { corner, sides })
 }
 
-/// The piece of a triangle cut n-fold along each side that holds a point: two to a cell of the grid of weights.
+/// The number of the piece that contains a point, in a triangle that is cut into n pieces along each side: a cell of the grid of weights
+/// has two pieces.
 fn piece_of_triangle([b, c]: [f32; 2], n: u32) -> u32 {
     if n == 1 {
         return 0;
@@ -351,9 +353,9 @@ mod tests {
             slack: 0.0,
         };
         let (a, b, c, d) = ([0.0, 0.0, 1.0], [2.0, 0.0, 1.0], [2.0, 1.0, 1.0], [0.0, 1.0, 1.0]);
-        let frame = rectangle_of(&triangle([a, b, c]), &triangle([a, c, d])).unwrap();
-        assert!((frame.sides[0].cross(frame.sides[1]).length() - 2.0).abs() < 1e-6);
-        assert_eq!(frame.shares(Vec3::new(1.0, 0.5, 1.0)), [0.5, 0.5]);
+        let rectangle = rectangle_of(&triangle([a, b, c]), &triangle([a, c, d])).unwrap();
+        assert!((rectangle.sides[0].cross(rectangle.sides[1]).length() - 2.0).abs() < 1e-6);
+        assert_eq!(rectangle.coordinates(Vec3::new(1.0, 0.5, 1.0)), [0.5, 0.5]);
         assert!(rectangle_of(&triangle([c, a, b]), &triangle([d, a, c])).is_some());
         // A sheared one, one turned over, and two that share no side.
         assert!(rectangle_of(&triangle([a, b, [3.0, 1.0, 1.0]]), &triangle([a, [3.0, 1.0, 1.0], [1.0, 1.0, 1.0]])).is_none());

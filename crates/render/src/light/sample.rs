@@ -1,0 +1,82 @@
+//! What light sampling is asked for and what it answers: points that receive light, samples of it, and the weight of a sample that
+//! another technique could have found too.
+
+use enfilade_math::{Rgb, Vec3};
+
+/// A point that receives light, from which light is sampled.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LightPoint {
+    /// World position.
+    pub p: Vec3,
+    /// Unit shading normal where light counts on its side alone; zero where light may come from anywhere.
+    pub n: Vec3,
+}
+
+/// Light arriving at a point from a sampled direction.
+pub(crate) struct LightSample {
+    /// Unit direction to the light.
+    pub wi: Vec3,
+    /// Where the shadow ray ends, moved off the emitter's surface; `None` for infinitely far lights.
+    pub target: Option<Vec3>,
+    /// Radiance (finite lights) or radiance × density (delta lights, whose `pdf` is then only the choice's probability).
+    /// `None` for the environment, which is looked up once it is known to be seen: see [`Lights::radiance_of`].
+    pub radiance: Option<Rgb>,
+    /// Density per solid angle, choice included.
+    pub pdf: f32,
+    /// True when no other technique can find this light.
+    pub is_delta: bool,
+}
+
+/// Kinds of light sources, as the layers of split light tell them apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LightKind {
+    /// The sky.
+    Environment,
+    /// Distant lights.
+    Distant,
+    /// Emissive surfaces.
+    Surfaces,
+    /// Point, spot and profile lights.
+    Points,
+}
+
+impl LightSample {
+    /// What the light comes from.
+    #[inline]
+    pub fn kind(&self) -> LightKind {
+        match (self.target, self.radiance) {
+            (None, None) => LightKind::Environment,
+            (None, Some(_)) => LightKind::Distant,
+            (Some(_), _) if self.is_delta => LightKind::Points,
+            (Some(_), _) => LightKind::Surfaces,
+        }
+    }
+}
+
+/// Radiance from beyond the scene.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Background {
+    /// Of the sky.
+    pub environment: Rgb,
+    /// Of the disks of distant lights.
+    pub distant: Rgb,
+}
+
+impl Background {
+    /// Of both.
+    #[inline]
+    pub fn total(&self) -> Rgb {
+        self.environment + self.distant
+    }
+}
+
+/// Weight of a sample of density `a` where another technique has density `b` (Veach 1997, β = 2).
+#[inline]
+pub(crate) fn power_heuristic(a: f32, b: f32) -> f32 {
+    // In ratio form, so that large densities do not overflow when squared.
+    if a <= 0.0 {
+        return 0.0;
+    }
+    let ratio = b / a;
+    1.0 / (1.0 + ratio * ratio)
+}
