@@ -1,5 +1,6 @@
 //! Files within a ZIP archive, read into memory one by one.
 
+use crate::percent::percent_decoded;
 use std::cell::{Cell, RefCell};
 use std::io::{Cursor, Error, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
@@ -47,7 +48,7 @@ impl Archive {
             let exact = self.names.iter().find(|n| *n == wanted);
             exact.or_else(|| self.names.iter().find(|n| n.eq_ignore_ascii_case(wanted))).map(String::as_str)
         };
-        among(name).or_else(|| among(&percent_decoded(name)))
+        among(name).or_else(|| among(&String::from_utf8_lossy(&percent_decoded(name))))
     }
 
     /// The bytes of the file of exactly this name.
@@ -94,18 +95,6 @@ impl Archive {
         }
         self.find(&parts.join("/")).map(Into::into)
     }
-}
-
-/// A part of a URL with its `%` and two digits replaced by the bytes that they stand for.
-fn percent_decoded(text: &str) -> String {
-    let (mut bytes, mut rest) = (Vec::new(), text.as_bytes());
-    while let [first, after @ ..] = rest {
-        let digits = after.get(..2).and_then(|d| std::str::from_utf8(d).ok());
-        let escaped = digits.filter(|_| *first == b'%').and_then(|d| u8::from_str_radix(d, 16).ok());
-        bytes.push(escaped.unwrap_or(*first));
-        rest = if escaped.is_some() { &after[2..] } else { after };
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Repairs and constructions on meshes that several importers need.
 
+use crate::polygon::triangle_area;
 use enfilade_geometry::Mesh;
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{DAffine3, Vec2, Vec3};
 
 /// Squared length below which a vertex normal says nothing about a direction.
 const SHORT_NORMAL: f32 = 1e-12;
@@ -56,6 +57,12 @@ pub(crate) fn turn_faces_to_normals(mesh: &mut Mesh) {
             triangle.swap(1, 2);
         }
     }
+}
+
+/// The area of a mesh under a placement, square units of what it is placed in.
+pub(crate) fn area(mesh: &Mesh, placement: DAffine3) -> f64 {
+    let corners = (0..mesh.triangles.len()).map(|t| mesh.corners(t).map(|p| placement.transform_point3(p.as_dvec3())));
+    corners.map(triangle_area).sum()
 }
 
 /// An affine map of texture coordinates with v downward, for coordinates with v upward: F·M·F with F (u, v) → (u, 1 − v).

@@ -1,13 +1,9 @@
 //! Reading accessors: typed, strided, normalized, sparse, with every bound checked.
 
-use super::container::Document;
+use super::container::{Document, MAX_ZEROS};
 use gltf::json::Index;
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::validation::Checked;
-
-/// An accessor without a buffer view is all zeros. All reads of a file together may ask for this many: more is taken for damage rather
-/// than allocated.
-pub(super) const MAX_ZEROS: u64 = 1 << 22;
 
 impl Document {
     /// The elements of an accessor of vectors of `N` components, or of 4×4 matrices column by column, as floats (normalized integers mapped

@@ -8,13 +8,13 @@
 //! - else, side by side, a dielectric that reflects 0.04 and a metal of the share w = (m − 0.04)/(1 − 0.04), both tinted by f0/m. For a
 //!   grey f0 this is the extension's curve again, (1 − w)·(0.04 + 0.96·x) + w = m + (1 − m)·x, and the diffuse share is 1 − m.
 
+use super::gloss_pictures::Made;
 use super::material::Converter;
 use crate::ImportError;
 use crate::images;
 use enfilade_math::{Rgb, srgb_from_linear};
 use enfilade_scene::{Bsdf, ColorParam, Image, Pixels, Principled, ScalarParam, TextureRef};
 use gltf::json::extensions::material::PbrSpecularGlossiness;
-use std::collections::HashMap;
 
 /// Reflectance at normal incidence of the dielectric beside a metal, whose index is 1.5.
 const DIELECTRIC: f32 = 0.04;
@@ -30,22 +30,6 @@ const MOST_TEXELS: usize = 1 << 27;
 
 /// Stand-ins for the picture of a file that is missing: reflectance and glossiness of plain plastic.
 const MISSING: (f32, f32) = (DIELECTRIC, 0.4);
-
-/// The pictures made so far.
-#[derive(Default)]
-pub(super) struct Pictures {
-    known: HashMap<(u32, [u32; 4], bool), Made>,
-    texels: usize,
-}
-
-/// What is made of a picture of specular colour and glossiness.
-#[derive(Clone, Copy)]
-struct Made {
-    /// Green is the roughness, blue the share of the dielectric.
-    numbers: u32,
-    /// f0/m, and f0/0.04 where m is below that; where the surface is of two kinds.
-    tint: Option<u32>,
-}
 
 impl Converter<'_, '_> {
     /// The surface of the extension. `p` has the diffuse colour as its base colour, and further layers.

@@ -1,6 +1,7 @@
 //! `EXT_lights_ies`: photometric profiles at nodes.
 
-use super::container::{Document, Uri, resolve_uri};
+use super::container::Document;
+use super::uri::{Uri, resolve_uri};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use crate::ies;

@@ -1,6 +1,6 @@
 //! OpenEXR: the first part's R, G, B (or Y) at full resolution; alpha and other channels are left out.
 
-use super::{FloatPicture, check_size};
+use super::float_picture::{FloatPicture, check_size};
 use ::exr::block;
 use ::exr::meta::header::Header;
 use ::exr::meta::{BlockDescription, MetaData};

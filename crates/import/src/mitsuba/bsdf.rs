@@ -1,18 +1,15 @@
 //! BSDFs to materials.
 
+use super::reader::{Reader, spelling};
 use super::spectrum;
 use super::texture::Texture;
 use super::xml::Node;
-use super::{Reader, spelling};
 use crate::ImportError;
 use crate::images::Use;
 use crate::roughness::oren_nayar;
 use crate::spectrum::{Kind, metal};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, ScalarParam};
-
-/// Which bsdf element (by its address, for the tree outlives the reader), which emitter and which mesh's attributes a material was made of.
-pub(super) type MaterialKey = (Option<*const Node>, Option<*const Node>, Option<u32>);
 
 /// GGX roughness where a rough bsdf does not state one.
 const DEFAULT_ALPHA: f32 = 0.1;

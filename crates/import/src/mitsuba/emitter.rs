@@ -1,8 +1,9 @@
 //! Emitters that are not part of a shape.
 
+use super::reader::{Reader, spelling};
 use super::spectrum;
+use super::transform;
 use super::xml::Node;
-use super::{Reader, spelling, transform};
 use crate::ImportError;
 use crate::assembly::Source;
 use crate::images::{self, Use};

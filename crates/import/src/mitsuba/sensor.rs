@@ -1,7 +1,8 @@
 //! Sensors to cameras.
 
+use super::reader::{Reader, spelling};
+use super::transform;
 use super::xml::Node;
-use super::{Reader, spelling, transform};
 use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3};
 

@@ -1,7 +1,8 @@
 //! Shapes to meshes and parts.
 
+use super::reader::{MAX_PARTS, Reader};
 use super::xml::Node;
-use super::{MAX_PARTS, Reader, bsdf, serialized, transform};
+use super::{bsdf, serialized, transform};
 use crate::ImportError;
 use crate::mesh;
 use crate::obj::ObjFile;
@@ -11,9 +12,6 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Vec2, Vec3};
 use enfilade_scene::PartLabel;
 use std::path::{Path, PathBuf};
-
-/// What tells meshes apart: plugin, file, index within it, and the flags that change it.
-pub(super) type MeshKey = (String, String, i64, [bool; 3]);
 
 impl<'n> Reader<'n, '_> {
     /// Adds the part or parts of a shape.

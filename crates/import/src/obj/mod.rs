@@ -38,10 +38,8 @@ use crate::assembly::Assembly;
 use crate::{ImportError, Imported};
 use enfilade_math::{DAffine3, Rgb, linear_from_srgb};
 use enfilade_scene::{Material, PartLabel};
+use mtl::GREY;
 use std::collections::HashMap;
-
-/// Reflectance of surfaces whose material is not known.
-const GREY: f32 = 0.5;
 
 /// Imports an OBJ file.
 pub(crate) fn load(assembly: Assembly) -> Result<Imported, ImportError> {

@@ -1,7 +1,7 @@
 //! The camera.
 
-use super::Reader;
 use super::params::Params;
+use super::reader::Reader;
 use super::version::Version;
 use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3, DVec3};

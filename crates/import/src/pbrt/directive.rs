@@ -1,9 +1,11 @@
 //! The directives: what each does to the graphics state, or which module it is for.
 
+use super::definition::{MaterialDefinition, TextureDefinition};
+use super::gzip::unpacked;
 use super::params::{Params, Place};
+use super::reader::Reader;
 use super::state::{self, Saved, State};
 use super::tokens::{Kind, Tokens};
-use super::{Reader, material, texture};
 use crate::ImportError;
 use enfilade_math::{DAffine3, DVec3, Rgb};
 use std::rc::Rc;
@@ -85,7 +87,7 @@ impl Reader<'_> {
             "Texture" => {
                 let (kind, class) = (quoted(tokens, word)?, quoted(tokens, word)?);
                 let params = self.params(tokens, place, "texture")?;
-                self.define_texture(texture::Definition::new(first, &kind, class, params));
+                self.define_texture(TextureDefinition::new(first, &kind, class, params));
                 Ok(())
             }
             _ => self.with_params(word, first, place, tokens),
@@ -101,12 +103,12 @@ impl Reader<'_> {
             }
             "Material" => {
                 let params = self.params(tokens, place, "material")?;
-                self.state.material = self.define_material(material::Definition::new(None, first, params));
+                self.state.material = self.define_material(MaterialDefinition::new(None, first, params));
             }
             "MakeNamedMaterial" => {
                 let params = self.params(tokens, place, "material")?;
                 let class = params.string("type")?.ok_or_else(|| params.place.error("there is no \"string type\""))?.to_string();
-                let index = self.define_material(material::Definition::new(Some(first.clone()), class, params));
+                let index = self.define_material(MaterialDefinition::new(Some(first.clone()), class, params));
                 self.material_names.insert(first, index);
             }
             "MakeNamedMedium" => {
@@ -203,7 +205,7 @@ impl Reader<'_> {
         if self.including.contains(&path) {
             return Err(place.error("the file includes itself, directly or by way of others; remove one of the includes"));
         }
-        let bytes = super::unpacked(bytes, &path)?;
+        let bytes = unpacked(bytes, &path)?;
         self.file(&bytes, &path)
     }
 

@@ -1,8 +1,8 @@
 //! Lights: those without a surface, and the emission of area lights.
 
-use super::Reader;
-use super::material::Emission;
+use super::made::Emission;
 use super::params::Params;
+use super::reader::Reader;
 use super::version::Version;
 use crate::ImportError;
 use crate::assembly::Source;

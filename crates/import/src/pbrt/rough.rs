@@ -1,7 +1,7 @@
 //! Roughness of microfacets.
 
-use super::Reader;
 use super::params::Params;
+use super::reader::Reader;
 use super::version::Version;
 use crate::ImportError;
 use enfilade_scene::ScalarParam;

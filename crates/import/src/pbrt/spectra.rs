@@ -1,7 +1,7 @@
 //! Spectra as parameters, and those that pbrt knows by name.
 
-use super::Reader;
 use super::params::{Param, Params, Values};
+use super::reader::Reader;
 use super::version::Version;
 use crate::ImportError;
 use crate::spectrum::{self, Kind, metal, planck, rgb_of, rgb_of_xyz, sampled};

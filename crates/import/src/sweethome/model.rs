@@ -7,6 +7,7 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb};
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Quiet, SceneError, TextureRef};
 use std::collections::HashMap;
+use std::rc::Rc;
 
 // Sweet Home 3D knows some parts of models by how their names begin (`com.eteks.sweethome3d.j3d.ModelManager`).
 const PANE: &str = "sweethome3d_window_pane";
@@ -27,6 +28,13 @@ pub(super) struct ModelPart {
     pub mesh: u32,
     pub material: u32,
     pub file_from_mesh: DAffine3,
+}
+
+/// The models met so far, and how many pieces have each name.
+#[derive(Default)]
+pub(super) struct Models {
+    pub known: HashMap<String, Rc<Model>>,
+    pub names: HashMap<String, usize>,
 }
 
 /// Extents below this are taken for it, model units, so that flat models can be scaled.

@@ -1,10 +1,10 @@
 //! Floors and ceilings of rooms, and the ground around them.
 
 use super::home::Home;
+use super::outline::Walls;
 use super::paint::Paint;
 use super::piece::Piece;
-use super::surface::{Surface, subtract};
-use super::wall::{Walls, lifted};
+use super::surface::{Surface, lifted, subtract};
 use super::xml::Element;
 use crate::{ImportError, polygon};
 use enfilade_math::{DVec2, Vec3};

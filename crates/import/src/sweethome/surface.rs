@@ -29,6 +29,11 @@ impl Surface {
     }
 }
 
+/// A point of the plan at a height: y up, the plan's y as z.
+pub(super) fn lifted(p: DVec2, height: f64) -> DVec3 {
+    DVec3::new(p.x, height, p.y)
+}
+
 /// A rectangular hole of an upright face: along it as a share of its length, and up, in centimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hole {

@@ -1,7 +1,7 @@
 //! Surfaces of other renderers and of MaterialX: what can be known of them by the names of their inputs.
 
 use super::material::index_of_refraction;
-use super::mtlx::{first, is_solid, named};
+use super::mtlx::{default_strength, first, is_solid, named};
 use super::shader::{Source, id, source};
 use super::stage::Prim;
 use super::texture::Textures;
@@ -102,12 +102,6 @@ impl Textures<'_, '_, '_> {
         }
         Ok(number.factor)
     }
-}
-
-/// The strength of emission where its input has no value: none by the definitions of the standard surface and of OpenPBR.
-pub(super) fn default_strength(shader: &Prim, input: &str) -> f32 {
-    let is_dark = matches!(input, "inputs:emission" | "inputs:emission_luminance") && !id(shader).contains("unlit");
-    if is_dark { 0.0 } else { 1.0 }
 }
 
 /// A number, or the mean of a colour.

@@ -63,11 +63,6 @@ use walk::Walk;
 /// Metres per unit where a scene file states none.
 const DEFAULT_METERS_PER_UNIT: f64 = 0.01;
 
-/// Memory that a binary file may unpack to: far beyond any scene of its size, far below what a few bytes could ask for.
-fn unpacked_limit(file_bytes: u64) -> u64 {
-    (1 << 28) + 64 * file_bytes
-}
-
 /// Imports a USD file.
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     let file = assembly.file().file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();

@@ -6,7 +6,7 @@ use super::constants::Constants;
 use super::label::{self, Unknown};
 use super::light::Lamp;
 use super::material::Materials;
-use super::parts::Shape;
+use super::primvar::Sizes;
 use super::shapes;
 use super::stage::{Prim, Stage};
 use super::xform;
@@ -31,9 +31,27 @@ pub(super) struct State {
     pub prefix: String,
 }
 
+/// Some faces of a mesh: their scene mesh, the subset's name, and what it binds.
+#[derive(Clone)]
+pub(super) struct Piece {
+    pub mesh: u32,
+    pub name: String,
+    pub bindings: Bindings,
+}
+
+/// What the meshes of a prim are made of.
+#[derive(Clone)]
+pub(super) struct Shape {
+    pub pieces: Vec<Piece>,
+    pub sizes: Sizes,
+    /// True for subdivision surfaces.
+    pub smooth: bool,
+}
+
 /// More visits than this are taken for instances that multiply without end.
 const MAX_VISITS: usize = 1 << 21;
 
+/// A walk through a stage: what it has met, and what was made of it.
 pub(super) struct Walk<'s> {
     pub stage: &'s mut Stage,
     pub z_up: bool,

@@ -1,6 +1,6 @@
 //! Pictures made from pictures.
 
-use super::Reader;
+use super::reader::Reader;
 use crate::images;
 use enfilade_math::Rgb;
 use enfilade_scene::{Image, Pixels};

@@ -1,21 +1,13 @@
 //! Material plugins to materials.
 
-use super::handle::Handle;
-use super::{MAX_CHAIN, MAX_LAYERS, Reader};
+use super::plugins::Handle;
+use super::reader::{MAX_CHAIN, MAX_LAYERS, Made, Reader};
 use crate::ImportError;
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap};
 
 /// Stands in for surfaces that have no counterpart.
 pub(super) const MID_GREY: f32 = 0.5;
-
-/// A material that was made: where it is in the scene, its name, and the texture channel that its textures use, if it has any.
-#[derive(Clone, Debug)]
-pub(super) struct Made {
-    pub index: u32,
-    pub name: String,
-    pub channel: Option<i64>,
-}
 
 /// What a material or BRDF plugin says of a surface.
 #[derive(Clone)]

@@ -1,6 +1,5 @@
 //! All plugins of a scene, of its file and of those that it includes, found by name.
 
-use super::handle::Handle;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_vrscene::{Document, Item, Place, Plugin};
@@ -21,6 +20,16 @@ pub(super) struct Plugins {
     by_name: HashMap<Vec<u8>, usize>,
     /// True behind a `#time`: a plugin that comes again is the same at another moment.
     timed: bool,
+}
+
+/// A plugin of a scene.
+#[derive(Clone, Copy)]
+pub(super) struct Handle<'n> {
+    pub(super) plugins: &'n Plugins,
+    /// Its place among all plugins, which tells it from every other.
+    pub(super) index: usize,
+    pub(super) plugin: &'n Plugin,
+    pub(super) file: &'n Path,
 }
 
 impl Plugins {

@@ -1,8 +1,8 @@
 //! Lights without a surface: points, spots, photometric profiles and distant light. All that have a direction shine along −z.
 
-use super::Reader;
-use super::handle::Handle;
 use super::light::Strength;
+use super::plugins::Handle;
+use super::reader::Reader;
 use crate::ImportError;
 use crate::assembly::mat3_f32;
 use crate::ies;

@@ -1,9 +1,10 @@
 //! Textures, and the colour and number parameters that may hold them.
 
-use super::handle::{self, Handle};
 use super::material::MID_GREY;
+use super::parameters;
+use super::plugins::Handle;
+use super::reader::{MAX_CHAIN, Reader};
 use super::uvw::Placement;
-use super::{MAX_CHAIN, Reader};
 use crate::ImportError;
 use crate::assembly::Source;
 use crate::images;
@@ -133,7 +134,7 @@ impl<'n> Reader<'n, '_> {
         if depth > MAX_CHAIN {
             return Err(plugin.error(parameter, "textures refer to each other in a circle; correct the reference that closes it"));
         }
-        if let Some(color) = handle::constant(value) {
+        if let Some(color) = parameters::constant(value) {
             if color.is_finite() {
                 return Ok(color.into());
             }

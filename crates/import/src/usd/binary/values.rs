@@ -1,7 +1,6 @@
 //! Values in crate files: within eight bytes, or at a place in the file.
 
-use super::cursor::{Checked, Cursor};
-use super::index;
+use super::cursor::{Checked, Cursor, index, unpacked_limit};
 use super::numbers::{Kind, SHORTEST_PACKED, layout, packed_numbers, plain_numbers};
 use crate::usd::value::{Item, ListEdit, Numbers, Value};
 use std::collections::{BTreeMap, HashMap};
@@ -29,7 +28,7 @@ pub(super) struct Values<'a> {
 
 impl<'a> Values<'a> {
     pub(super) fn new(bytes: &'a [u8], version: [u8; 3], tokens: &'a [Rc<str>], strings: &'a [Rc<str>], paths: &'a [Rc<str>]) -> Self {
-        let budget = crate::usd::unpacked_limit(bytes.len() as u64);
+        let budget = unpacked_limit(bytes.len() as u64);
         Self { bytes, version, tokens, strings, paths, known: HashMap::new(), budget }
     }
 
