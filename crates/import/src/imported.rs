@@ -23,8 +23,8 @@ pub struct Imported {
     pub labels: Option<Vec<ImportedLabel>>,
     /// Every file that was read, in order of first use, for hashing.
     pub inputs: Vec<PathBuf>,
-    /// Files that were looked for in vain, in that order: were they there, the scene would be another one.
+    /// Files that were looked for and not found, in that order: with them the scene would be a different one.
     pub missing: Vec<PathBuf>,
-    /// What the scene holds and what was dropped or guessed.
+    /// What the scene contains, and what was dropped or guessed.
     pub report: ImportReport,
 }

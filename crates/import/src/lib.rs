@@ -1,12 +1,23 @@
 //! Scene files to [`Scene`], with a report of what was dropped or guessed.
 //!
-//! ```no_run
+//! [`load`] tells the format by the file's extension:
+//!
+//! ```
 //! use enfilade_import::{ImportOptions, load};
 //! use enfilade_scene::Quiet;
 //!
-//! let imported = load("living-room/scene.gltf".as_ref(), &ImportOptions::default(), &Quiet)?;
+//! # let folder = tempfile::tempdir()?;
+//! let file = folder.path().join("floor.obj");
+//! std::fs::write(&file, "g floor\nv 0 0 0\nv 4 0 0\nv 4 0 -3\nv 0 0 -3\nf 1 2 3 4\n")?;
+//!
+//! let imported = load(&file, &ImportOptions::default(), &Quiet)?;
+//! let part = &imported.scene.parts[0];
+//! assert_eq!((part.name.as_str(), imported.report.counts.triangles), ("floor", 2));
+//! // y is up in OBJ files, z in scenes: the third corner lies 3 m along y.
+//! assert_eq!(imported.scene.world_corners(part, 0)[2].to_array(), [4.0, 3.0, 0.0]);
+//! // What was dropped or guessed, here that there is no material.
 //! println!("{}", imported.report);
-//! # Ok::<(), enfilade_import::ImportError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! # What every importer does
@@ -18,9 +29,13 @@
 //!   in the order of the file.
 //! - Vertex normals that are zero or not finite are replaced by the mean of the adjoining faces; texture coordinates that are not
 //!   finite by zero. A position that is not finite or an index out of range is an error.
-//! - Mirroring placements get reversed triangles, so that the front stays the front. Placements that flatten a part drop it.
+//! - Mirroring placements get reversed triangles, so that the front stays the front. Of a part that its placement flattens, the faces
+//!   that still have an area are kept, with a warning; without any the part is left out.
 //! - A texture that is missing or broken is an error, unless [`ImportOptions::allow_missing_textures`] is set.
-//! - Vertex colours, skins, morph targets and animations are dropped, and the report says so.
+//! - A scene has no colours of vertices. Where a file has them, a mean of theirs colours the part (glTF, OBJ, PLY, USD's display
+//!   colour, `mesh_attribute` of Mitsuba) or they are dropped (FBX, pbrt); the report says so.
+//! - A scene does not move. Skins and morph targets have the pose that the file states (glTF, FBX) or stay at rest (USD); animations
+//!   are replaced by their first moment, in glTF by the pose of the nodes; the report says so.
 //!
 //! # Formats
 //!

@@ -1,4 +1,4 @@
-//! Repairs and constructions on meshes that several importers need.
+//! What several importers need of meshes: repairs, smooth normals, fronts that agree with normals, areas.
 
 use crate::polygon::triangle_area;
 use enfilade_geometry::Mesh;
@@ -9,7 +9,7 @@ const SHORT_NORMAL: f32 = 1e-12;
 
 /// Normalizes normals, replaces unusable ones by the mean of the adjoining faces, and unusable texture coordinates by zero.
 /// Returns what was done, for the report; nothing when all was well.
-pub(crate) fn mend(mesh: &mut Mesh) -> Vec<String> {
+pub(crate) fn repair(mesh: &mut Mesh) -> Vec<String> {
     let mut notes = Vec::new();
     let in_range = mesh.triangles.iter().flatten().all(|&i| (i as usize) < mesh.positions.len());
     if mesh.normals.len() == mesh.positions.len() && in_range {
@@ -95,11 +95,11 @@ mod tests {
             uvs: vec![Vec2::new(f32::INFINITY, 0.0), Vec2::ONE, Vec2::ONE],
             triangles: vec![[0, 1, 2]],
         };
-        let notes = mend(&mut mesh);
+        let notes = repair(&mut mesh);
         assert_eq!(mesh.normals, vec![Vec3::Z, Vec3::Z, Vec3::X]);
         assert_eq!(mesh.uvs[0], Vec2::ZERO);
         assert_eq!(notes.len(), 2);
         assert!(notes[0].starts_with("2 of 3 vertex normals"), "{notes:?}");
-        assert!(mend(&mut mesh).is_empty());
+        assert!(repair(&mut mesh).is_empty());
     }
 }

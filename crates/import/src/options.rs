@@ -33,6 +33,25 @@ fn one() -> f32 {
 }
 
 /// What the user knows about a scene file that the file does not say.
+///
+/// ```
+/// use enfilade_import::{ImportOptions, UpAxis, load};
+/// use enfilade_scene::Quiet;
+///
+/// # let folder = tempfile::tempdir()?;
+/// // A scan in millimetres with z up, which the file cannot say.
+/// let file = folder.path().join("scan.obj");
+/// std::fs::write(&file, "v 0 0 0\nv 4000 0 0\nv 0 3000 0\nf 1 2 3\n")?;
+///
+/// let options = ImportOptions { meters_per_unit: 0.001, up_axis: Some(UpAxis::Z), ..ImportOptions::default() };
+/// let scene = load(&file, &options, &Quiet)?.scene;
+/// assert_eq!(scene.world_corners(&scene.parts[0], 0)[2].to_array(), [0.0, 3.0, 0.0]);
+///
+/// // A unit that makes no sense is refused before the file is read.
+/// let error = load(&file, &ImportOptions { meters_per_unit: 0.0, ..options }, &Quiet).unwrap_err();
+/// assert!(error.to_string().starts_with("import option meters_per_unit: found 0"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ImportOptions {

@@ -1,4 +1,4 @@
-//! Pictures, materials, meshes, parts and cameras of the scene in the making.
+//! Pictures, materials, meshes, parts and cameras of the scene being built.
 
 use super::Assembly;
 use crate::{ImportError, ImportedLabel, mesh};
@@ -55,7 +55,7 @@ impl Assembly<'_> {
         mesh::area(self.mesh_at(mesh), placement)
     }
 
-    /// Checks and mends a mesh and adds it. `None` (and a warning) when it is empty.
+    /// Checks and repairs a mesh and adds it. `None` (and a warning) when it is empty.
     ///
     /// # Errors
     /// When an index is out of range or a position is not finite; `place` tells where the mesh is.
@@ -64,7 +64,7 @@ impl Assembly<'_> {
             self.warnings.push(format!("{}: {place}", file.display()), "the mesh has no triangles and was left out".into());
             return Ok(None);
         }
-        for note in mesh::mend(&mut mesh) {
+        for note in mesh::repair(&mut mesh) {
             self.warnings.push(format!("{}: {place}", file.display()), note);
         }
         mesh.validate().map_err(|e| ImportError::malformed(file, place, e.to_string()))?;

@@ -24,7 +24,7 @@ impl Document {
         Ok(self.components(index, 1)?.into_iter().map(|v| v as u32).collect())
     }
 
-    /// All components in order. Doubles hold every component type exactly.
+    /// All components in order. Doubles represent every component type exactly.
     fn components(&self, index: Index<Accessor>, per_element: usize) -> Result<Vec<f64>, String> {
         let name = format!("accessors[{}]", index.value());
         let accessor = self
@@ -68,7 +68,7 @@ impl Document {
         Ok(values)
     }
 
-    /// How many components an accessor without a bufferView has, if the file may still ask for so many.
+    /// How many components an accessor without a bufferView has, if the file may still ask for that many.
     fn zeros(&self, name: &str, count: u64, per_element: usize) -> Result<usize, String> {
         let wanted = count.checked_mul(per_element as u64).filter(|&wanted| wanted <= self.zeros_left.get());
         let wanted = wanted.ok_or_else(|| {

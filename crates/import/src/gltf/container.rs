@@ -1,7 +1,7 @@
 //! The outer layer of a glTF file: text or binary, its buffers, and the URIs in it.
 
 use super::uri::{Uri, resolve_uri};
-use super::{lumens, mend};
+use super::{lumens, omissions};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use gltf::json::{Root, buffer, image};
@@ -55,7 +55,7 @@ impl Document {
         } else {
             (bytes.as_slice(), None)
         };
-        let root = mend::parse(json).map_err(|(place, problem)| assembly.malformed(place, problem))?;
+        let root = omissions::parse(json).map_err(|(place, problem)| assembly.malformed(place, problem))?;
         check_version(&root, assembly)?;
         let mut buffers = Vec::with_capacity(root.buffers.len());
         for (i, b) in root.buffers.iter().enumerate() {

@@ -1,8 +1,8 @@
-//! What the strengths of a file's lights are counted in.
+//! The units that the strengths of a file's lights are in.
 //!
 //! Units of `KHR_lights_punctual` are photometric, while emission has none in practice, and converters write watts and numbers without a
 //! unit alike. Candela and lux are read as W/sr and W/m², which keeps lights and emitters of one file together. The one exception is
-//! Blender's exporter: it multiplies lights, and only them, by 683 lm/W where it is not told otherwise ("Lighting Mode: Standard").
+//! Blender's exporter: it multiplies lights, and only them, by 683 lm/W unless it is told otherwise ("Lighting Mode: Standard").
 
 use crate::assembly::Assembly;
 use gltf::json::Root;
@@ -17,7 +17,7 @@ const BLENDER_SINCE: [u32; 3] = [3, 4, 40];
 /// if it was, and a lamp of four kilowatts if not.
 const BLENDER_BRIGHT: f32 = 300.0;
 
-/// What the strengths of the file's lights are to be divided by: 683 where Blender has multiplied them, which is guessed and told.
+/// What the strengths of the file's lights are to be divided by: 683 where Blender has multiplied them, which is guessed, with a warning.
 pub(super) fn per_watt(root: &Root, a: &mut Assembly) -> f32 {
     let generator = root.asset.generator.as_deref().unwrap_or_default();
     let lights = root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()).map_or(&[][..], |l| &l.lights);

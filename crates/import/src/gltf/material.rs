@@ -1,4 +1,4 @@
-//! glTF materials to [`Material`].
+//! glTF materials to [`Material`]: metallic-roughness and the extensions that add layers to it.
 
 use super::container::{Document, ImageAt};
 use super::file_material::FileMaterial;

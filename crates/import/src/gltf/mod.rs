@@ -22,7 +22,7 @@
 //! # Labels
 //!
 //! `extras` of a node may carry `"semantic"`, a NYU40 class as its id (1 to 40) or name, and `"instance"`, a number from 1. Both
-//! hold for the node's own parts and for all nodes below it that do not say otherwise.
+//! apply to the node's own parts and for all nodes below it that do not say otherwise.
 //!
 //! # Environments
 //!
@@ -41,9 +41,9 @@ mod light;
 mod lumens;
 mod material;
 mod materials;
-mod mend;
 mod morph;
 mod node;
+mod omissions;
 mod parts;
 mod primitive;
 mod profile;

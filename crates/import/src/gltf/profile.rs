@@ -64,7 +64,7 @@ pub(super) fn add(
     Ok(())
 }
 
-/// The file that holds a profile, and its bytes.
+/// The file of a profile, and its bytes.
 fn bytes(document: &Document, profile: &Value, place: &str, a: &mut Assembly) -> Result<(PathBuf, Vec<u8>), ImportError> {
     let problem = |problem: String, a: &Assembly| Err(a.malformed(place, problem));
     if let Some(view) = profile.get("bufferView").and_then(Value::as_u64) {

@@ -44,12 +44,12 @@ pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, St
     }
     let format = ::image::guess_format(bytes)
         .ok()
-        // What is in an archive has a bracket behind its name.
+        // Names of files within an archive end in a bracket.
         .or_else(|| ImageFormat::from_path(Path::new(name.trim_end_matches(']'))).ok())
         .ok_or_else(|| "is not a picture of a known format (PNG, JPEG, BMP, TGA, HDR, EXR, PFM)".to_string())?;
     let size = ImageReader::with_format(Cursor::new(bytes), format).into_dimensions().map_err(undecodable)?;
     check_size(size.0, size.1)?;
-    // The library's own limit, 512 MB for what it decodes, holds too.
+    // The library's own limit of 512 MB for what it decodes applies too.
     let picture = ImageReader::with_format(Cursor::new(bytes), format).decode().map_err(undecodable)?;
     let (width, height) = (picture.width(), picture.height());
     match picture {
@@ -73,7 +73,7 @@ fn undecodable(e: ImageError) -> String {
     format!("cannot be decoded ({e})")
 }
 
-/// Radiance HDR under the signature that some programs write, which the library takes for a comment where it need not find its own.
+/// Radiance HDR with the signature `#?RGBE`, which some programs write; the library passes over it unless it insists on its own.
 fn rgbe(bytes: &[u8]) -> Result<FloatPicture, String> {
     let decoder = HdrDecoder::new_nonstrict(Cursor::new(bytes)).map_err(undecodable)?;
     let (width, height) = decoder.dimensions();

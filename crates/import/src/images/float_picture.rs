@@ -1,6 +1,6 @@
 //! Pictures of floating-point numbers as the decoders hand them on, and the size that no picture may exceed.
 
-/// Larger pictures are refused before they are decoded: a small file can claim and, compressed, even hold any number of equal pixels.
+/// Larger pictures are refused before they are decoded: a small file can claim any number of pixels and, if they are equal, even store them.
 const MAX_TEXELS: u64 = 1 << 27;
 
 /// A linear floating-point picture, row 0 at the top.

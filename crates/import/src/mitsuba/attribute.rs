@@ -6,7 +6,7 @@ use crate::ImportError;
 use enfilade_math::Rgb;
 
 impl<'n> Reader<'n, '_> {
-    /// The mean of the attribute that a texture refers to; `None`, with a warning, where the mesh has none of its name.
+    /// The mean of the attribute that a texture refers to; `None`, with a warning, where the mesh has no attribute of that name.
     pub(super) fn mesh_attribute(&mut self, node: &'n Node) -> Result<Option<Rgb>, ImportError> {
         self.report_unknown(node, &["name", "scale"], &[]);
         let name = node.raw_text("name").ok_or_else(|| node.error("there is no name of an attribute, such as vertex_color"))?;

@@ -9,7 +9,7 @@ use std::rc::Rc;
 /// Which bsdf element (by its address, for the tree outlives the reader), which emitter and which mesh's attributes a material was made of.
 pub(super) type MaterialKey = (Option<*const Node>, Option<*const Node>, Option<u32>);
 
-/// What tells meshes apart: plugin, file, index within it, and the flags that change it.
+/// What distinguishes meshes: plugin, file, index within it, and the flags that change it.
 pub(super) type MeshKey = (String, String, i64, [bool; 3]);
 
 /// What shapes share of OBJ files.

@@ -6,13 +6,13 @@
 //! | element | supported |
 //! |---|---|
 //! | shapes | `obj` (in version 0.x one part per group and material, of the bsdf of the material's name, else of one without a name, else as the `.mtl` library has it; `shapeIndex`, `loadMaterials`), `ply` (text and binary), `serialized`, `rectangle`, `disk`, `sphere`, `cube`, `cylinder`, `shapegroup` and `instance`; `faceNormals`, `flipNormals`. Round shapes become meshes of 96 segments with smooth normals, which have 0.07 % less area |
-//! | bsdfs | `diffuse`, `roughdiffuse`, `plastic`, `roughplastic`, `conductor`, `roughconductor`, `dielectric`, `roughdielectric`, `thindielectric`, `principled`, `principledthin`, `phong` and `ward` (as plastic), `coating` and `roughcoating` (a diffuse base becomes plastic, others lose the coat), `twosided`, `mask`, `bumpmap`, `normalmap`, `blendbsdf`, `mixturebsdf`, `null` (the shape is left out) |
-//! | textures | `bitmap`, `checkerboard` (baked), `scale`, `mesh_attribute` of a PLY file (its mean); filter, wrapping, channel, `uscale … voffset`, `to_uv` |
+//! | bsdfs | `diffuse` (also `lambertian`, and `difftrans` without what it transmits), `roughdiffuse`, `plastic`, `roughplastic` (also `pplastic`), `conductor`, `roughconductor`, `dielectric`, `roughdielectric`, `thindielectric`, `principled`, `principledthin`, `phong` and `ward` (as plastic), `coating` and `roughcoating` (a diffuse base becomes plastic, others lose the coat), `twosided`, `mask`, `bumpmap`, `normalmap`, `blendbsdf`, `mixturebsdf`, `null` (the shape is left out) |
+//! | textures | `bitmap` (also `ldrtexture`, `exrtexture`), `checkerboard` (baked), `scale`, `mesh_attribute` of a PLY file (its mean); filter, wrapping, channel, `uscale … voffset`, `to_uv` |
 //! | spectra | `rgb`, `srgb`, `spectrum` (one value, wavelengths, a file, or of the type `blackbody`, `d65`, `uniform`, `regular`, `irregular`), `blackbody`, `float`; metals and substances by name |
 //! | emitters | `area`, `constant`, `envmap`, `point`, `spot`, `directional`, `sunsky`, `sky`, `sun` (by Hillaire's model in place of Hosek's) |
 //! | sensors | `perspective`, `thinlens` (as a pinhole) |
 //! | skipped in silence | integrators, samplers, films (but for their size), reconstruction filters: they are no part of the scene |
-//! | dropped with a warning | media, animation (its first moment is used), Beckmann and Phong distributions (GGX of the same alpha), anisotropy, whatever else has no counterpart |
+//! | dropped with a warning | media, animation (its first moment is used), Beckmann and Phong distributions (GGX of the same alpha), anisotropy, colours of vertices that no `mesh_attribute` asks for, whatever else has no counterpart |
 //!
 //! # Sides
 //!
@@ -40,6 +40,7 @@ mod number;
 mod obj;
 mod placement;
 mod reader;
+mod scattering;
 mod sensor;
 mod serialized;
 mod shape;

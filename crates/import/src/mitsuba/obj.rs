@@ -1,4 +1,4 @@
-//! `obj` shapes of version 0.x, whose files hold several meshes, each of a material of its own.
+//! `obj` shapes of version 0.x, whose files contain several meshes, each with a material of its own.
 //!
 //! A mesh is what the file has of one group and material. It is of the last bsdf of the shape that has no name or the material's, else
 //! of what the libraries of the file say about the material, on its front alone.
@@ -118,7 +118,7 @@ impl<'n> Reader<'n, '_> {
             }
         };
         let found = match obj::material(name, &library, &mut self.a) {
-            // Mitsuba goes on too.
+            // Mitsuba continues too.
             Err(error @ ImportError::Texture { .. }) => {
                 self.warn(node, format!("{error}; the material {name:?} of the OBJ file was not used"));
                 None

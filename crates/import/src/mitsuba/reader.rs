@@ -9,11 +9,11 @@ use std::collections::{HashMap, HashSet};
 /// References to references deeper than this are taken for a cycle.
 pub(super) const MAX_REFERENCES: usize = 32;
 
-/// A scene has at most so many parts, instances counted one by one.
+/// A scene has at most this many parts, instances counted one by one.
 pub(super) const MAX_PARTS: usize = 4_000_000;
 
-/// References within references may lead to so many more shapes and bsdfs than the file has elements; beyond them is taken for a
-/// mistake: a group of two instances of a group of two instances … has as many shapes as it likes.
+/// References within references may lead to this many more shapes and bsdfs than the file has elements. More are taken for a mistake:
+/// a group of two instances of a group of two instances … doubles with each level.
 const MAX_VISITS: usize = 1 << 16;
 
 /// A scene being read: the tree's objects by id, and what has been made of them.
@@ -121,7 +121,7 @@ impl<'n, 'a> Reader<'n, 'a> {
         Ok(Some(texture.unwrap_or(found)))
     }
 
-    /// Counts one of these `things` that is come to; `depth` references have led there.
+    /// Counts a visit to one of these `things`, to which `depth` references have led.
     ///
     /// # Errors
     /// When references go in a circle, or lead to more things than a scene has.
@@ -130,9 +130,9 @@ impl<'n, 'a> Reader<'n, 'a> {
         if depth > MAX_REFERENCES {
             return Err(node.error(format!("{things} go in a circle")));
         }
-        let most = MAX_VISITS + self.elements;
-        if self.visits > most {
-            return Err(node.error(format!("references lead to more than {most} shapes and bsdfs; refer to each thing once")));
+        let max = MAX_VISITS + self.elements;
+        if self.visits > max {
+            return Err(node.error(format!("references lead to more than {max} shapes and bsdfs; refer to each thing once")));
         }
         Ok(())
     }

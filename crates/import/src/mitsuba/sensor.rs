@@ -1,4 +1,4 @@
-//! Sensors to cameras.
+//! Sensors to cameras: field of view by `fov`, its axis or a focal length, size by the film.
 
 use super::reader::{Reader, spelling};
 use super::transform;

@@ -1,4 +1,4 @@
-//! Shapes to meshes and parts.
+//! Shapes to meshes and parts: files, primitives, groups and their instances.
 
 use super::reader::{MAX_PARTS, Reader};
 use super::xml::Node;
@@ -90,7 +90,7 @@ impl<'n> Reader<'n, '_> {
         Ok(())
     }
 
-    /// The path of a shape's file, which is empty for shapes without one, and its flags. Reports what is not read of it.
+    /// The path of a shape's file, which is empty for shapes without one, and its flags. Reports what of it is not read.
     pub(super) fn stated(&mut self, node: &'n Node) -> Result<(&'n str, [bool; 3]), ImportError> {
         const TAGS: [&str; 7] = ["bsdf", "emitter", "medium", "texture", "sensor", "subsurface", "shape"];
         const FILES: [&str; 7] =

@@ -24,6 +24,7 @@
 //! library or material that is not there is a warning, and grey stands in.
 
 mod check;
+mod file;
 mod library;
 mod map;
 mod mtl;
@@ -31,8 +32,8 @@ mod reader;
 mod smooth;
 mod text;
 
+pub(crate) use file::ObjFile;
 pub(crate) use library::Library;
-pub(crate) use reader::ObjFile;
 
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported};

@@ -1,4 +1,4 @@
-//! Entries of MTL libraries to [`Material`].
+//! Entries of MTL libraries to [`Material`]: which statements make a surface diffuse, coated, metallic or glass.
 
 use super::check;
 use super::library::{Entry, spelled};

@@ -7,14 +7,14 @@ use crate::images;
 use enfilade_math::{Rgb, linear_from_srgb, srgb_from_linear};
 use enfilade_scene::{Image, Pixels, ScalarParam, TextureRef};
 
-/// Pictures may be computed up to so many texels (12 bytes each) in all.
+/// At most this many texels (12 bytes each) are computed for a scene.
 const MAX_BAKED: usize = 1 << 28;
 
 impl Reader<'_> {
     /// `picture` with what counts of every texel, linear, replaced by `f` of it; as it is, with a warning, when too much was computed
     /// already.
     ///
-    /// `what` and `factors` tell computations apart: pictures that agree in them are computed once.
+    /// `what` and `factors` identify the computation: a picture is computed once for each.
     pub(super) fn baked(&mut self, picture: Picture, what: &'static str, factors: &[f32], f: impl Fn(Rgb) -> Rgb) -> Picture {
         let key = (picture.texture.image, picture.channel, what, factors.iter().map(|v| v.to_bits()).collect::<Vec<_>>());
         if let Some(&image) = self.baked.get(&key) {

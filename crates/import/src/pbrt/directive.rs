@@ -13,11 +13,11 @@ use std::rc::Rc;
 /// Files within files deeper than this are taken for a mistake.
 const MAX_INCLUDES_DEEP: usize = 32;
 
-/// A scene includes at most so many files, counted each time.
+/// A scene includes at most this many files, counted each time.
 const MAX_INCLUDED: usize = 10_000;
 
 impl Reader<'_> {
-    /// Obeys one directive, whose word has been read.
+    /// Carries out one directive, whose word has been read.
     pub(super) fn directive(&mut self, word: &str, mut place: Place, tokens: &mut Tokens) -> Result<(), ImportError> {
         if let Some(transform) = state::transform(word, tokens)? {
             match word {
@@ -94,7 +94,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Obeys a directive that a string and parameters follow.
+    /// Carries out a directive that a string and parameters follow.
     fn with_params(&mut self, word: &str, first: String, place: Place, tokens: &mut Tokens) -> Result<(), ImportError> {
         match word {
             "Attribute" => {
@@ -189,7 +189,7 @@ impl Reader<'_> {
         self.coordinate_systems.insert("world".into(), DAffine3::IDENTITY);
     }
 
-    /// Sees from the camera whether the world is left-handed.
+    /// Decides by the camera whether the world is left-handed.
     fn settle_handedness(&mut self) {
         let mirrored = self.camera.as_ref().is_some_and(|(_, _, camera_from_world)| camera_from_world.matrix3.determinant() < 0.0);
         self.file_from_world = if mirrored { DAffine3::IDENTITY } else { DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0)) };

@@ -1,13 +1,13 @@
-//! Scene files that are compressed by gzip.
+//! Files that may be compressed by gzip: scene files (`.pbrt.gz`), included ones and meshes (`.ply.gz`).
 
 use crate::ImportError;
 use std::io::Read;
 use std::path::Path;
 
-/// A compressed file may unpack to so many bytes.
+/// A compressed file may unpack to this many bytes.
 const MAX_UNPACKED: u64 = 4 << 30;
 
-/// The bytes themselves, or what they hold when they are compressed by gzip.
+/// The bytes themselves or, when they are compressed by gzip, unpacked.
 pub(super) fn unpacked(bytes: Vec<u8>, path: &Path) -> Result<Vec<u8>, ImportError> {
     if !bytes.starts_with(&[0x1f, 0x8b]) {
         return Ok(bytes);

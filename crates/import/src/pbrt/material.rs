@@ -13,7 +13,7 @@ use crate::spectrum::Kind;
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, TextureRef};
 
-/// A mix may hold so many materials, those within its parts counted.
+/// A mix consists of at most this many materials, those within its parts counted.
 const MAX_MIXED: usize = 64;
 
 impl Reader<'_> {

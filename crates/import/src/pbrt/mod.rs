@@ -1,6 +1,6 @@
 //! pbrt scene descriptions of versions 3 and 4 (`.pbrt`, `.pbrt.gz`).
 //!
-//! The version is told by the words of the file. `Include` and `Import` are followed.
+//! The words of the file tell its version (`version.rs`). `Include` and `Import` are followed.
 //!
 //! | what | supported |
 //! |---|---|
@@ -10,12 +10,12 @@
 //! | materials of version 4 | `diffuse`, `coateddiffuse`, `conductor`, `coatedconductor`, `dielectric`, `thindielectric`, `mix`, `interface` |
 //! | substituted with a warning | `translucent` and `diffusetransmission` (what they transmit is lost), `subsurface`, `kdsubsurface`, `hair`, `fourier`, `measured` |
 //! | details | `bumpmap`, `displacement`, `normalmap`, `alpha`; `remaproughness` by each version's own formula, textures included |
-//! | textures | `constant`, `imagemap`, `scale`, `mix`, `checkerboard` (baked), by `uv`; others and other mappings are mid grey or `uv`, with a warning. Pictures of numbers count by their alpha or the mean of their channels (version 4), by their luminance (version 3) |
+//! | textures | `constant`, `imagemap`, `scale`, `mix`, `checkerboard` (baked), by `uv`; with a warning, `bilerp` and `directionmix` by their mean, others as mid grey, other mappings as `uv`. Pictures of numbers count by their alpha or the mean of their channels (version 4), by their luminance (version 3) |
 //! | spectra | `rgb`, `color`, `xyz`, `blackbody`, wavelengths, `.spd` files; metals, glasses and illuminants by name |
 //! | lights | `point`, `spot`, `distant`, `infinite` (maps of both layouts), `diffuse` area lights; `power`, `illuminance`, `scale`, `twosided` |
 //! | cameras | `perspective`, as a pinhole |
 //! | skipped in silence | `Sampler`, `Integrator`, `PixelFilter`, `Accelerator`, `Option`, `Film` but for its size: they say how to render, not what |
-//! | dropped with a warning | media (but for absorption within glass), motion (the first moment is used), curves and the other shapes, goniometric and projection lights, portals, colour spaces other than sRGB, sensors and exposure |
+//! | dropped with a warning | media (but for absorption within glass), motion (the first moment is used), curves and the other shapes, colours of vertices, projection lights, the picture of goniometric ones (points stand in), portals, colour spaces other than sRGB, sensors and exposure |
 //!
 //! The crates that read pbrt's text know one version each (`pbrt4` 0.2 the fourth, `rs_pbrt`, a renderer, the third), keep no place for
 //! messages and say nothing about what a scene means, which is most of the work; so the reading is our own.

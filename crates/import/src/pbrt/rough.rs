@@ -1,4 +1,4 @@
-//! Roughness of microfacets.
+//! Roughness of microfacets: GGX alpha from a parameter, by each version's own `remaproughness`.
 
 use super::params::Params;
 use super::reader::Reader;

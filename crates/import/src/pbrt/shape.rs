@@ -15,7 +15,7 @@ use enfilade_math::{DAffine3, Vec2, Vec3};
 use enfilade_scene::{Alpha, PartLabel, ScalarParam};
 use std::path::Path;
 
-/// A scene has at most so many parts, instances counted one by one.
+/// A scene has at most this many parts, instances counted one by one.
 const MAX_PARTS: usize = 4_000_000;
 
 /// Cuts along each edge of a bilinear patch that is not flat, where there are few and many patches.

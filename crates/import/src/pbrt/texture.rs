@@ -22,7 +22,7 @@ impl Reader<'_> {
         self.textures.push(definition);
     }
 
-    /// Notes which textures parameters refer to, by the names that hold where they stand.
+    /// Notes which textures parameters refer to, by the definitions of their names so far.
     pub(super) fn bind(&self, params: &Params) {
         for param in params.iter().filter(|p| p.kind == "texture") {
             if let Values::Strings(names) = &param.values

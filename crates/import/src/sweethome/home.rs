@@ -1,4 +1,4 @@
-//! A home in the making: its levels, and what has been made of its models and paints.
+//! A home being built: its levels, and what has been made of its models and paints.
 
 use super::model::Models;
 use super::paint::Paint;
@@ -19,7 +19,7 @@ pub(super) struct Level {
     pub shown: bool,
 }
 
-/// A home in the making.
+/// A home being built.
 pub(super) struct Home<'h, 'a> {
     pub a: Assembly<'a>,
     pub archive: &'a Archive,

@@ -16,7 +16,7 @@ const LIGHT_MARK: &str = "sweethome3d_light";
 /// Index of refraction of panes.
 const GLASS: f32 = 1.5;
 
-/// A model within the scene in the making; its own unit, y up. One of lines alone has no parts.
+/// A model within the scene being built; its own unit, y up. A model of lines alone has no parts.
 pub(super) struct Model {
     pub parts: Vec<ModelPart>,
 }
@@ -37,7 +37,7 @@ pub(super) struct Models {
     pub names: HashMap<String, usize>,
 }
 
-/// Extents below this are taken for it, model units, so that flat models can be scaled.
+/// Smaller extents count as this, model units, so that flat models can be scaled.
 const FLAT: f64 = 1e-4;
 
 impl ModelPart {

@@ -5,8 +5,8 @@ use crate::ImportError;
 use enfilade_math::DVec2;
 use std::collections::HashMap;
 
-/// The most that a round wall turns, radians: a whole circle has no ends.
-const MOST_ARC: f64 = 0.999 * std::f64::consts::TAU;
+/// A round wall turns at most by this, radians: a whole circle has no ends.
+const MAX_ARC_RAD: f64 = 0.999 * std::f64::consts::TAU;
 
 /// A wall as the file has it; centimetres, plan coordinates (y down the plan).
 pub(super) struct Wall<'x> {
@@ -42,7 +42,7 @@ impl<'x> Wall<'x> {
             start,
             end,
             thickness,
-            arc: element.number_or("arcExtent", 0.0)?.clamp(-MOST_ARC, MOST_ARC),
+            arc: element.number_or("arcExtent", 0.0)?.clamp(-MAX_ARC_RAD, MAX_ARC_RAD),
             bottom,
             tops: [elevation + height, elevation + at_end],
             level: element.text("level"),

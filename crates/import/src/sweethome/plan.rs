@@ -16,8 +16,8 @@ use std::collections::HashMap;
 const METRES: f64 = 0.01;
 /// Height of walls that neither they nor the home state, centimetres.
 const WALL_HEIGHT: f64 = 250.0;
-/// Groups within groups.
-const DEEPEST: usize = 64;
+/// Groups within groups may lie this deep.
+const MAX_DEPTH: usize = 64;
 
 /// Imports the home that `text` describes. `a` is the assembly of `Home.xml` within the archive.
 pub(super) fn load<'a>(text: &str, archive: &'a Archive, mut a: Assembly<'a>) -> Result<Imported, ImportError> {
@@ -48,7 +48,7 @@ pub(super) fn load<'a>(text: &str, archive: &'a Archive, mut a: Assembly<'a>) ->
     };
     home.report_ignored(&root);
     let mut pieces = Vec::new();
-    piece::collect(&root, None, DEEPEST, &mut home, &mut pieces)?;
+    piece::collect(&root, None, MAX_DEPTH, &mut home, &mut pieces)?;
     let mut openings = Vec::new();
     for piece in pieces.iter().filter(|p| p.is_opening) {
         openings.push(Opening::read(piece.element, piece.base + piece.element.number_or("elevation", 0.0)?, &mut home.a)?);

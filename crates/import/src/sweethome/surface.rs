@@ -6,7 +6,7 @@ use enfilade_math::{DVec2, DVec3, Vec2};
 /// Pieces of less area are not worth a triangle, cm².
 const SLIVER: f64 = 1e-4;
 
-/// Faces in the making; centimetres, y up.
+/// Faces being built; centimetres, y up.
 #[derive(Default)]
 pub(super) struct Surface {
     mesh: Mesh,
@@ -74,7 +74,7 @@ pub(super) fn without_holes(bottom: f64, tops: [f64; 2], holes: &[Hole]) -> Vec<
     polygons
 }
 
-/// What is left of flat triangles outside of a convex polygon; whichever way either turns.
+/// What is left of flat triangles outside a convex polygon; both may run either way round.
 pub(super) fn subtract(triangles: Vec<[DVec2; 3]>, convex: &[DVec2]) -> Vec<[DVec2; 3]> {
     let turn = if area(convex) < 0.0 { -1.0 } else { 1.0 };
     let mut left = Vec::new();

@@ -57,7 +57,7 @@ impl Textures<'_, '_, '_> {
     }
 
     fn foreign_emission(&mut self, shader: &Rc<Prim>) -> Result<ColorParam, ImportError> {
-        // A colour that emits by itself, black where it is not stated; or one that waits for a strength or a switch.
+        // Either a colour that emits by itself and is black unless stated, or one that needs a strength or a switch to emit.
         let alone = first(shader, &["inputs:emissive", "inputs:emissiveColor", "inputs:emissive_factor"]);
         let color = first(shader, &["inputs:emission_color", "inputs:emissive_color"]);
         let strength = first(shader, named::GLOW_STRENGTH);
@@ -93,7 +93,7 @@ impl Textures<'_, '_, '_> {
         })
     }
 
-    /// A number that holds everywhere.
+    /// A number that is the same everywhere on the surface.
     pub(super) fn factor(&mut self, shader: &Rc<Prim>, name: &str, default: f32) -> Result<f32, ImportError> {
         let number = self.scalar(shader, name, default)?;
         if number.texture.is_some() {

@@ -14,7 +14,7 @@ use std::rc::Rc;
 /// MaterialX without preview surfaces.
 const BLENDERS_STAND_IN: &str = "previewShader";
 
-/// Longer ways from an input to its picture are circles.
+/// A longer way from an input to its picture is taken for a circle.
 const MAX_STEPS: usize = 64;
 
 /// Inputs of surfaces of other renderers by what they mean, in the order in which they are looked for.

@@ -23,11 +23,11 @@ pub(super) struct State {
     pub file_from_parent: DAffine3,
     pub label: PartLabel,
     pub bindings: Bindings,
-    /// Primvars that hold for all of what is below.
+    /// Constant primvars, which all prims below inherit.
     pub constants: Constants,
     /// True for the purposes `guide` and `proxy`.
     pub hidden: bool,
-    /// Goes before the names of parts: tells instances of one prototype apart.
+    /// Goes before the names of parts, so that instances of one prototype have different names.
     pub prefix: String,
 }
 

@@ -1,4 +1,4 @@
-//! Pictures made from pictures.
+//! Pictures computed from pictures, each once: complements for opacity and glossiness.
 
 use super::reader::Reader;
 use crate::images;

@@ -13,7 +13,7 @@ use enfilade_scene::{Environment, Image, MapRows, Pixels, TextureRef, Wrap, dire
 use enfilade_vrscene::Value;
 use std::f32::consts::PI;
 
-/// Rows of a picture that is half dome, half black: the horizon is one of them wide.
+/// Rows of a picture that is half dome, half black; the step between them at the horizon is one row.
 const HALF_DOME_ROWS: u32 = 256;
 
 /// Width of an angular picture once it is unrolled, texels.

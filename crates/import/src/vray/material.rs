@@ -1,4 +1,4 @@
-//! Material plugins to materials.
+//! Material plugins to materials: lists by id, and what is inside those that only add to another one.
 
 use super::plugins::Handle;
 use super::reader::{MAX_CHAIN, MAX_LAYERS, Made, Reader};
@@ -25,7 +25,7 @@ impl From<Bsdf> for Surface {
     }
 }
 
-/// Materials that add to another one something that is not supported, and the parameter that holds the other one.
+/// Materials that add to another one something that is not supported, and the parameter that names the other one.
 const AROUND: [(&str, &str); 7] = [
     ("Mtl2Sided", "front"),
     ("MtlDoubleSided", "front"),
@@ -146,7 +146,7 @@ impl<'n> Reader<'n, '_> {
         }
     }
 
-    /// A diffuse surface of the colour that an unsupported plugin has, as far as it can be told.
+    /// A diffuse surface of the colour that an unsupported plugin has, as far as it can be known.
     pub(super) fn substitute(&mut self, plugin: Handle<'n>) -> Result<Surface, ImportError> {
         const COLORS: [&str; 7] = ["diffuse", "diffuse_color", "base_color", "color", "overall_color", "diffuse_tex", "paint_color"];
         let found = COLORS.iter().find(|c| plugin.plugin.parameter(c).is_some());

@@ -2,7 +2,7 @@
 //!
 //! | plugins | supported |
 //! |---|---|
-//! | geometry | `GeomStaticMesh` with its normals, texture channels and material ids, plain or packed; `GeomPlane`, `GeomInfinitePlane` (a square of 2000 units a side); `GeomDisplacedMesh` and `GeomStaticSmoothedMesh` (their base mesh, with a warning) |
+//! | geometry | `GeomStaticMesh` with its normals, texture channels and material ids, plain or packed; `GeomPlane`, `GeomInfinitePlane` (a square of 2000 units a side); `GeomDisplacedMesh`, `GeomStaticDisplacedMesh` and `GeomStaticSmoothedMesh` (their base mesh, with a warning) |
 //! | nodes | `Node`: placement, geometry, material, `visible`. Nodes share meshes |
 //! | cameras | `RenderView` with `SettingsOutput` and the field of view of `SettingsCamera`; `CameraPhysical`: field of view, film, focal length, zoom, shifts and offsets |
 //! | lights | `LightRectangle`, `LightSphere`, `LightMesh`, `LightDome`, `LightDirect`, `LightDirectMax`, `MayaLightDirect`, `LightOmni`, `LightOmniMax`, `LightSpot`, `LightSpotMax`, `LightIES`, `SunLight`; `SettingsEnvironment` |
@@ -27,8 +27,8 @@
 //!
 //! # Animation
 //!
-//! Of animated parameters the first keyframe is used, and of a scene that is told moment by moment (`#time`) what is told of each plugin
-//! first, with a warning.
+//! Of animated parameters the first keyframe is used, and of a scene that is written moment by moment (`#time`) the first state of each
+//! plugin, with a warning.
 
 mod bake;
 mod brdf;

@@ -1,4 +1,4 @@
-//! Nodes to parts.
+//! `Node` plugins to parts: one for each material of their geometry.
 
 use super::plugins::Handle;
 use super::reader::Reader;

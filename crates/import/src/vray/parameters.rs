@@ -1,6 +1,6 @@
 //! The parameters of a plugin as the types that an importer asks for.
 //!
-//! A parameter that is animated has the value of its first keyframe ([`Handle::is_animated`] tells). One that the plugin lacks has the
+//! An animated parameter has the value of its first keyframe ([`Handle::is_animated`] says which are). One that the plugin does not state has the
 //! default that the caller gives, which is V-Ray's.
 
 use super::plugins::Handle;

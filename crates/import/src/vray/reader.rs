@@ -8,13 +8,13 @@ use std::collections::HashMap;
 /// Plugins that lead to each other over more steps than this do so in a circle.
 pub(super) const MAX_CHAIN: usize = 48;
 
-/// A material of more BRDFs than this is one whose layers hold each other again and again.
+/// A material of more BRDFs than this has layers that contain each other again and again.
 pub(super) const MAX_LAYERS: usize = 256;
 
-/// What tells meshes apart: the geometry's plugin, the texture channel, and whether faces are told apart by material.
+/// What distinguishes meshes: the geometry's plugin, the texture channel, and whether faces are separated by material.
 pub(super) type MeshKey = (usize, i64, bool);
 
-/// The meshes of a geometry by material id; 0 for all where these are not told apart.
+/// The meshes of a geometry by material id; 0 for all where faces are not separated by material.
 pub(super) type Meshes = Vec<(i32, u32)>;
 
 /// A material that was made: where it is in the scene, its name, and the texture channel that its textures use, if it has any.

@@ -26,10 +26,10 @@ impl From<Rgb> for Texture {
     }
 }
 
-/// Textures that pass another one on as it is, and the parameter that holds it.
+/// Textures that pass another one on unchanged, and the parameter that names it.
 const PASSING: [(&str, &str); 3] = [("TexAColor", "texture"), ("TexFloat", "input"), ("TexColorToFloat", "input")];
 
-/// Parameters of other textures that hold what is nearest to their result, in order of preference.
+/// Parameters of other textures that are nearest to their result, in order of preference.
 const NEAREST: [&str; 12] = [
     "texture",
     "texmap",

@@ -66,7 +66,7 @@ impl<'n> Reader<'n, '_> {
         }
         match self.a.read(path) {
             Ok((_, bytes)) if has_colors_of_eight_bits(name, &bytes) => Use::Color,
-            // What cannot be read is told where it is decoded.
+            // What cannot be read is reported where it is decoded.
             _ => Use::Data,
         }
     }

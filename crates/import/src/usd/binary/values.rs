@@ -47,7 +47,7 @@ impl<'a> Values<'a> {
             return c.error("values are nested too deeply; the file is damaged");
         }
         let kind = (rep >> 48 & 0xff) as u8;
-        // Before reading, so that values which name themselves come to an end.
+        // Before reading, so that a value that refers to itself ends the search.
         self.charge(64, &c)?;
         let value = if rep & IS_ARRAY != 0 {
             self.array(rep, kind, c)?
@@ -184,7 +184,7 @@ impl<'a> Values<'a> {
         })
     }
 
-    /// The value at a place that is given by its distance. The cursor goes on behind it.
+    /// The value at a place that is given by its distance. The cursor continues after it.
     fn jump(&mut self, c: &mut Cursor, depth: usize) -> Checked<Value> {
         let mut at = c.jump()?;
         let rep = at.u64()?;

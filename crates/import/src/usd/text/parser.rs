@@ -54,7 +54,7 @@ impl<'a> Parser<'a> {
         if self.at_sign(sign)? { self.advance() } else { Err(self.unexpected(&format!("`{}`", char::from(sign)))) }
     }
 
-    /// The comma between elements, which may lack before `close`.
+    /// The comma between elements, which may be absent before `close`.
     pub(super) fn comma(&mut self, close: u8) -> Parsed {
         if self.at_sign(b',')? {
             return self.advance();
