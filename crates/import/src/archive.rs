@@ -1,15 +1,16 @@
 //! Files within a ZIP archive, read into memory one by one.
 
+use crate::percent::percent_decoded;
 use std::cell::{Cell, RefCell};
 use std::io::{Cursor, Error, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 use zip::ZipArchive;
 use zip::result::ZipError;
 
-/// No file within an archive is larger, bytes.
-const LARGEST: u64 = 1 << 30;
-/// All that is unpacked of an archive, bytes: a small file can unpack to a thousand times its size.
-const MOST: u64 = 8 << 30;
+/// A file within an archive may unpack to this many bytes.
+const MAX_FILE_BYTES: u64 = 1 << 30;
+/// All files of an archive together may unpack to this many bytes: a small file can unpack to a thousand times its size.
+const MAX_BYTES: u64 = 8 << 30;
 
 /// An archive that lies in memory.
 pub(crate) struct Archive {
@@ -27,7 +28,7 @@ impl Archive {
     pub(crate) fn new(file: &Path, bytes: Vec<u8>) -> Result<Self, String> {
         let zip = ZipArchive::new(Cursor::new(bytes)).map_err(|e| format!("not an archive that can be read ({e})"))?;
         let names = zip.file_names().filter(|n| !n.ends_with('/')).map(Into::into).collect();
-        Ok(Self { file: file.to_path_buf(), names, zip: RefCell::new(zip), left: Cell::new(MOST) })
+        Ok(Self { file: file.to_path_buf(), names, zip: RefCell::new(zip), left: Cell::new(MAX_BYTES) })
     }
 
     /// The archive's own path.
@@ -40,14 +41,14 @@ impl Archive {
         &self.names
     }
 
-    /// The name of the file that `name` means: as it is, without regard to case, or with `%20` and the like replaced.
+    /// The name of the file that `name` means: spelled the same, in other case, or with `%20` and the like replaced.
     pub(crate) fn find(&self, name: &str) -> Option<&str> {
         let name = name.trim_start_matches('/');
         let among = |wanted: &str| {
             let exact = self.names.iter().find(|n| *n == wanted);
             exact.or_else(|| self.names.iter().find(|n| n.eq_ignore_ascii_case(wanted))).map(String::as_str)
         };
-        among(name).or_else(|| among(&percent_decoded(name)))
+        among(name).or_else(|| among(&String::from_utf8_lossy(&percent_decoded(name))))
     }
 
     /// The bytes of the file of exactly this name.
@@ -60,7 +61,7 @@ impl Archive {
             ZipError::FileNotFound => Error::new(ErrorKind::NotFound, "it is not in the archive"),
             other => Error::new(ErrorKind::InvalidData, other.to_string()),
         })?;
-        let limit = LARGEST.min(self.left.get());
+        let limit = MAX_FILE_BYTES.min(self.left.get());
         let mut bytes = Vec::new();
         entry.take(limit + 1).read_to_end(&mut bytes)?;
         if bytes.len() as u64 > limit {
@@ -94,18 +95,6 @@ impl Archive {
         }
         self.find(&parts.join("/")).map(Into::into)
     }
-}
-
-/// A part of a URL with its `%` and two digits replaced by the bytes that they stand for.
-fn percent_decoded(text: &str) -> String {
-    let (mut bytes, mut rest) = (Vec::new(), text.as_bytes());
-    while let [first, after @ ..] = rest {
-        let digits = after.get(..2).and_then(|d| std::str::from_utf8(d).ok());
-        let escaped = digits.filter(|_| *first == b'%').and_then(|d| u8::from_str_radix(d, 16).ok());
-        bytes.push(escaped.unwrap_or(*first));
-        rest = if escaped.is_some() { &after[2..] } else { after };
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 #[cfg(test)]

@@ -1,3 +1,5 @@
+//! Why an import fails: one error for all formats, each case with file, place, what was found and what to do.
+
 use enfilade_scene::{PackageError, SceneError};
 use std::path::{Path, PathBuf};
 

@@ -1,3 +1,5 @@
+//! The scene formats and their file name extensions: the one table of them.
+
 use crate::ImportError;
 use std::path::Path;
 
@@ -41,7 +43,20 @@ impl Format {
         (Self::Package, &["scene"]),
     ];
 
-    /// The format of a file by the extension of its name.
+    /// All extensions as they stand in messages: `.gltf, .glb, …`, in the order of [`ALL`](Self::ALL).
+    pub fn extensions() -> String {
+        Self::ALL.iter().flat_map(|(_, extensions)| *extensions).map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The format of a file by the extension of its name, in whatever case.
+    ///
+    /// ```
+    /// use enfilade_import::Format;
+    ///
+    /// assert_eq!(Format::of("rooms/Hall.PBRT.gz".as_ref())?, Format::Pbrt);
+    /// assert!(Format::of("hall.blend".as_ref()).unwrap_err().to_string().contains("expected one of .gltf, .glb"));
+    /// # Ok::<(), enfilade_import::ImportError>(())
+    /// ```
     ///
     /// # Errors
     /// When no format has that extension.
@@ -51,7 +66,6 @@ impl Format {
             Some(inner) if e == "gz" => format!("{}.gz", lower(inner)),
             _ => e,
         });
-        let known = || Self::ALL.iter().flat_map(|(_, e)| e.iter()).map(|e| format!(".{e}")).collect::<Vec<_>>().join(", ");
         let found = match &extension {
             None => "the file name has no extension".to_string(),
             Some(e) => format!("no importer for .{e} files"),
@@ -60,7 +74,7 @@ impl Format {
             .iter()
             .find(|(_, extensions)| extension.as_deref().is_some_and(|e| extensions.contains(&e)))
             .map(|&(format, _)| format)
-            .ok_or_else(|| ImportError::UnknownFormat { file: path.to_path_buf(), found, known: known() })
+            .ok_or_else(|| ImportError::UnknownFormat { file: path.to_path_buf(), found, known: Self::extensions() })
     }
 }
 

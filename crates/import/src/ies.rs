@@ -25,7 +25,7 @@ pub(crate) struct Profile {
 /// Reads a photometric file. `file` and `place` say where the bytes are from: a line of it is added to the place.
 ///
 /// # Errors
-/// When it is not LM-63, cut short, of an unsupported type, or holds numbers that make no sense.
+/// When it is not LM-63, cut short, of an unsupported type, or has numbers that make no sense.
 pub(crate) fn parse(bytes: &[u8], file: &Path, place: &str) -> Result<Profile, ImportError> {
     let text = String::from_utf8_lossy(bytes);
     let mut numbers = Numbers { file, place, line: 1, rest: Vec::new(), last_line: text.lines().count() };

@@ -1,14 +1,15 @@
-//! Repairs and constructions on meshes that several importers need.
+//! What several importers need of meshes: repairs, smooth normals, fronts that agree with normals, areas.
 
+use crate::polygon::triangle_area;
 use enfilade_geometry::Mesh;
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{DAffine3, Vec2, Vec3};
 
 /// Squared length below which a vertex normal says nothing about a direction.
 const SHORT_NORMAL: f32 = 1e-12;
 
 /// Normalizes normals, replaces unusable ones by the mean of the adjoining faces, and unusable texture coordinates by zero.
 /// Returns what was done, for the report; nothing when all was well.
-pub(crate) fn mend(mesh: &mut Mesh) -> Vec<String> {
+pub(crate) fn repair(mesh: &mut Mesh) -> Vec<String> {
     let mut notes = Vec::new();
     let in_range = mesh.triangles.iter().flatten().all(|&i| (i as usize) < mesh.positions.len());
     if mesh.normals.len() == mesh.positions.len() && in_range {
@@ -58,6 +59,12 @@ pub(crate) fn turn_faces_to_normals(mesh: &mut Mesh) {
     }
 }
 
+/// The area of a mesh under a placement, square units of what it is placed in.
+pub(crate) fn area(mesh: &Mesh, placement: DAffine3) -> f64 {
+    let corners = (0..mesh.triangles.len()).map(|t| mesh.corners(t).map(|p| placement.transform_point3(p.as_dvec3())));
+    corners.map(triangle_area).sum()
+}
+
 /// An affine map of texture coordinates with v downward, for coordinates with v upward: F·M·F with F (u, v) → (u, 1 − v).
 pub(crate) fn flip_v_of_transform([[a, b, c], [d, e, f]]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
     [[a, -b, b + c], [-d, e, 1.0 - e - f]]
@@ -88,11 +95,11 @@ mod tests {
             uvs: vec![Vec2::new(f32::INFINITY, 0.0), Vec2::ONE, Vec2::ONE],
             triangles: vec![[0, 1, 2]],
         };
-        let notes = mend(&mut mesh);
+        let notes = repair(&mut mesh);
         assert_eq!(mesh.normals, vec![Vec3::Z, Vec3::Z, Vec3::X]);
         assert_eq!(mesh.uvs[0], Vec2::ZERO);
         assert_eq!(notes.len(), 2);
         assert!(notes[0].starts_with("2 of 3 vertex normals"), "{notes:?}");
-        assert!(mend(&mut mesh).is_empty());
+        assert!(repair(&mut mesh).is_empty());
     }
 }

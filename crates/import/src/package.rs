@@ -1,4 +1,6 @@
-//! The scene package: read, checked and passed on. It is in metres with z up: other units and axes are refused.
+//! The scene package (`.scene`) that `enfilade import` writes: read, checked and passed on.
+//!
+//! It is in metres with z up, so that other units and axes are refused. Its labels come along.
 
 use crate::assembly::Assembly;
 use crate::{ImportError, ImportOptions, Imported, UpAxis};
@@ -38,7 +40,7 @@ mod tests {
 
     #[test]
     fn units_and_axes_that_a_package_does_not_have_are_refused() {
-        // The file is not there: what is said of it is said before it is read, and only what is wrong.
+        // The file does not exist: options are refused before it is read, and only wrong ones.
         let error = |options: &ImportOptions| crate::load(Path::new("room.scene"), options, &Quiet).unwrap_err().to_string();
         let whole = ImportOptions::default();
         let feet = error(&ImportOptions { meters_per_unit: 0.3048, ..whole.clone() });

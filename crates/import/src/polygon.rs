@@ -2,7 +2,7 @@
 
 use enfilade_math::{DVec3, Vec2, Vec3};
 
-/// Corners that may be looked at per corner of a polygon while ears are cut off, so that a polygon of very many corners takes no hours.
+/// At most this many corners are looked at, per corner of a polygon, while ears are cut off: very many corners could take hours.
 /// Polygons of some thousand corners need fewer.
 const LOOKS_PER_CORNER: usize = 4096;
 

@@ -97,7 +97,7 @@ pub(crate) fn cube() -> Mesh {
 pub(crate) mod tests {
     use super::*;
 
-    /// Every face looks where its normals do, and all have this area together.
+    /// Every face points where its normals do; together they have this area.
     pub(crate) fn assert_faces_and_area(name: &str, mesh: &Mesh, area: f32) {
         assert_eq!(mesh.validate(), Ok(()), "{name}");
         let mut sum = 0.0;

@@ -1,10 +1,12 @@
+//! The report of an import: counts of what the scene contains, and warnings for all that was dropped or guessed.
+
 use crate::Format;
 use enfilade_scene::{Cx, Scene, Warning};
 use serde::Serialize;
 use std::collections::HashSet;
 use std::fmt;
 
-/// What an import made of a file, and what it dropped or guessed.
+/// How much of each thing an imported scene contains.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counts {
     /// Visible parts.
@@ -51,9 +53,9 @@ impl Counts {
 pub struct ImportReport {
     /// Name of the format in lower case: "gltf", "obj", …; see [`Format`].
     pub format: &'static str,
-    /// What the scene holds.
+    /// What the scene contains.
     pub counts: Counts,
-    /// What was dropped, guessed or mended, with its place; in the order of the file, each once.
+    /// What was dropped, guessed or fixed, with its place; in the order of the file, each once.
     pub warnings: Vec<Warning>,
 }
 

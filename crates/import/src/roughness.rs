@@ -1,4 +1,4 @@
-//! Roughness as other renderers count it.
+//! Roughness of diffuse surfaces as other renderers state it, for the model that the scene has.
 
 /// The roughness of [`Bsdf::RoughDiffuse`](enfilade_scene::Bsdf::RoughDiffuse) for Oren and Nayar's model with facets whose angles have
 /// the variance `s2` (radians squared): the one with their ratio of retro-reflecting to Lambertian light.

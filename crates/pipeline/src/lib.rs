@@ -30,7 +30,7 @@ pub use config::{
 };
 pub use enfilade_home::light::Moment;
 pub use enfilade_home::{HomeConfig, RoomKind};
-pub use enfilade_import::UpAxis;
+pub use enfilade_import::{Format as SceneFormat, UpAxis};
 pub use enfilade_label::split::SplitConfig;
 pub use enfilade_verify::view_gates::{GateAction, GateConfig};
 pub use error::Error;

@@ -3,7 +3,7 @@
 use super::app::AnnotateOptions;
 use super::log::unsplit;
 use enfilade_dataset::{Dataset, DatasetError, MeshFiles, MeshGeometry, quoted, scene_hash};
-use enfilade_import::ImportOptions;
+use enfilade_import::{Format, ImportOptions};
 use enfilade_math::{DMat3, DVec3, Vec3};
 use enfilade_scene::{Camera, Cx, PartLabel, Pose, Scene, Warning, WorldMesh};
 use serde::Serialize;
@@ -82,7 +82,8 @@ impl PlannedFrame {
 pub enum SourceError {
     /// The path is not one of the things that can be annotated.
     #[error(
-        "{path}: {problem}; expected a scene file (.gltf, .glb, .obj, .xml, .pbrt, .ply, .usd, .usda, .usdc, .usdz, .fbx, .vrscene, .sh3d, .scene), a dataset, a scene's folder in it, or a Hypersim mesh folder"
+        "{path}: {problem}; expected a scene file ({}), a dataset, a scene's folder in it, or a Hypersim mesh folder",
+        Format::extensions()
     )]
     Path {
         /// What was named.

@@ -2,6 +2,7 @@
 
 use super::{CamerasArg, UpAxisArg};
 use clap::Args;
+use enfilade_pipeline::SceneFormat;
 use std::path::PathBuf;
 
 /// `view`.
@@ -29,8 +30,8 @@ pub struct ViewArgs {
     `enfilade label out` brings them into the label images; nothing is rendered again."
 )]
 pub struct AnnotateArgs {
-    /// A scene file (.gltf, .glb, .obj, .xml, .pbrt, .ply, .usd, .usda, .usdc, .usdz, .fbx, .vrscene, .sh3d, .scene), a dataset, a scene's folder in it, or a Hypersim mesh folder
-    #[arg(value_name = "SCENE")]
+    /// A scene file, a dataset, a scene's folder in it, or a Hypersim mesh folder
+    #[arg(value_name = "SCENE", help = format!("A scene file ({}), a dataset, a scene's folder in it, or a Hypersim mesh folder", SceneFormat::extensions()))]
     pub input: PathBuf,
     /// Which of a dataset's scenes
     #[arg(long, value_name = "NAME")]

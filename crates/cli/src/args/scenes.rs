@@ -1,6 +1,7 @@
 //! The verbs that make scene files and what belongs to them.
 
 use clap::{Args, ValueEnum};
+use enfilade_pipeline::SceneFormat;
 use std::path::PathBuf;
 
 /// `home`.
@@ -83,7 +84,8 @@ impl MomentArg {
     enfilade import out --scene home"
 )]
 pub struct ImportArgs {
-    /// A scene file (.gltf, .glb, .obj, .xml, .pbrt, .ply, .usd, .usda, .usdc, .usdz, .fbx, .vrscene, .sh3d), or the folder of a dataset to import the scenes of
+    /// A scene file, or the folder of a dataset to import the scenes of
+    #[arg(help = format!("A scene file ({}), or the folder of a dataset to import the scenes of", SceneFormat::extensions()))]
     pub input: PathBuf,
     /// The scene package (.scene) or binary glTF (.glb) to write [default: the input's name with .scene, in the current folder]
     #[arg(short, long, value_name = "FILE")]
@@ -116,7 +118,8 @@ pub struct ImportArgs {
     `enfilade label`, reads the table. Of names with a confidence of 0.94 or more, 95 of 100 are right in scenes that were held out."
 )]
 pub struct SuggestArgs {
-    /// A scene file (.gltf, .glb, .obj, .xml, .pbrt, .ply, .usd, .usda, .usdc, .usdz, .fbx, .vrscene, .sh3d) or scene package (.scene)
+    /// A scene file or scene package
+    #[arg(help = format!("A scene file or scene package ({})", SceneFormat::extensions()))]
     pub input: PathBuf,
     /// The table to write [default: the input's name with .labels.csv, in the current folder]
     #[arg(short, long, value_name = "FILE")]

@@ -1,7 +1,6 @@
-//! Pictures, materials, meshes, parts and cameras of the scene in the making.
+//! Pictures, materials, meshes, parts and cameras of the scene being built.
 
 use super::Assembly;
-use crate::polygon::triangle_area;
 use crate::{ImportError, ImportedLabel, mesh};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3};
@@ -53,12 +52,10 @@ impl Assembly<'_> {
 
     /// The area of a mesh under a placement.
     pub(crate) fn area(&self, mesh: u32, placement: DAffine3) -> f64 {
-        let mesh = &self.scene.meshes[mesh as usize];
-        let corners = (0..mesh.triangles.len()).map(|t| mesh.corners(t).map(|p| placement.transform_point3(p.as_dvec3())));
-        corners.map(triangle_area).sum()
+        mesh::area(self.mesh_at(mesh), placement)
     }
 
-    /// Checks and mends a mesh and adds it. `None` (and a warning) when it is empty.
+    /// Checks and repairs a mesh and adds it. `None` (and a warning) when it is empty.
     ///
     /// # Errors
     /// When an index is out of range or a position is not finite; `place` tells where the mesh is.
@@ -67,7 +64,7 @@ impl Assembly<'_> {
             self.warnings.push(format!("{}: {place}", file.display()), "the mesh has no triangles and was left out".into());
             return Ok(None);
         }
-        for note in mesh::mend(&mut mesh) {
+        for note in mesh::repair(&mut mesh) {
             self.warnings.push(format!("{}: {place}", file.display()), note);
         }
         mesh.validate().map_err(|e| ImportError::malformed(file, place, e.to_string()))?;

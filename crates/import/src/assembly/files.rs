@@ -60,8 +60,8 @@ impl Assembly<'_> {
         file.strip_prefix(folder_of(&self.file)).unwrap_or(file).to_string_lossy().into_owned()
     }
 
-    /// Looks for files in `folder` from now on, and in those before it and beside the scene file only where it lacks them. It is as
-    /// `from`, a file of the scene, spells it. False where there is no such folder.
+    /// Looks for files in `folder` first from now on, then in those added before it, then beside the scene file. `folder` is spelled as
+    /// in `from`, a file of the scene. False where there is no such folder.
     pub(crate) fn look_in(&mut self, from: &Path, folder: &str) -> bool {
         let folder = folder.replace('\\', "/");
         let places = [from, self.file.as_path()].map(|file| folder_of(file).join(&folder));
@@ -78,7 +78,7 @@ impl Assembly<'_> {
             if found.as_ref().is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound) && !self.missing.iter().any(|m| m == file) {
                 self.missing.push(file.to_path_buf());
             }
-            // A device would be read without end, and a pipe would be waited for.
+            // A device would be read without end, and a pipe would block.
             if !found.map_err(unreadable)?.is_file() {
                 return Err(unreadable(std::io::Error::other("it is no file")));
             }
@@ -92,7 +92,7 @@ impl Assembly<'_> {
     }
 
     /// What the picture in `file` is called in the scene: its path from the scene file's folder or within the archive, or its name alone
-    /// where it lies elsewhere. So scenes are equal wherever their files lie.
+    /// where it lies elsewhere. So the scene does not depend on where its folder is.
     pub(super) fn picture_name(&self, file: &Path) -> String {
         let home = self.archive.map_or_else(|| folder_of(&self.file), Archive::file);
         let inside = file.strip_prefix(home).ok().filter(|path| path.is_relative());

@@ -4,7 +4,7 @@ use super::Assembly;
 use super::files::folder_of;
 use std::path::{Path, PathBuf};
 
-/// True for paths that begin at a root, also on Windows, whose paths stand in files wherever these are read.
+/// True for paths that begin at a root. Windows paths count too, since a file from Windows may be read on any system.
 pub(crate) fn is_absolute(path: &str) -> bool {
     let has_drive = matches!(path.as_bytes(), [letter, b':', ..] if letter.is_ascii_alphabetic());
     has_drive || path.starts_with(['/', '\\'])
@@ -62,7 +62,7 @@ impl Assembly<'_> {
         self.folders.iter().rev().map(PathBuf::as_path).chain([folder_of(&self.file)])
     }
 
-    /// The only file in the folder of `file` whose name differs from its name in case alone. Archives see to case themselves.
+    /// The only file in the folder of `file` whose name differs from its name in case alone. Archives ignore case themselves.
     fn in_other_case(&self, file: &Path) -> Option<PathBuf> {
         let wanted = file.file_name().filter(|_| self.archive.is_none())?.to_str()?.to_lowercase();
         let folder = Some(folder_of(file)).filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));

@@ -6,7 +6,7 @@ use enfilade_math::{DAffine3, DVec3};
 use std::collections::HashMap;
 
 /// Triangles that may be kept of all flattened parts together: each part needs a mesh of its own.
-const MOST: usize = 1 << 22;
+const MAX_TRIANGLES: usize = 1 << 22;
 
 /// A triangle's doubled area below this share of its longest edge's square is none.
 const NO_AREA: f64 = 1e-9;
@@ -16,7 +16,7 @@ impl Assembly<'_> {
     /// that. `None` where there are none, or too many in the scene.
     pub(super) fn flattened(&mut self, mesh: u32, world_from_mesh: DAffine3) -> Option<(u32, DAffine3)> {
         let mesh = &self.scene.meshes[mesh as usize];
-        let left = MOST - self.flattened;
+        let left = MAX_TRIANGLES - self.flattened;
         if mesh.triangles.len() > left || !world_from_mesh.is_finite() {
             return None;
         }

@@ -23,7 +23,7 @@ use names::Names;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
-/// A scene in the making.
+/// A scene being built.
 pub(crate) struct Assembly<'a> {
     format: Format,
     file: PathBuf,
@@ -110,7 +110,7 @@ impl<'a> Assembly<'a> {
         self.meters_per_unit
     }
 
-    /// Records something dropped, guessed or mended at a place in the scene file.
+    /// Records something dropped, guessed or fixed at a place in the scene file.
     pub(crate) fn warn(&mut self, place: impl AsRef<str>, message: impl Into<String>) {
         let place = format!("{}: {}", self.file.display(), place.as_ref());
         self.warnings.push(place, message.into());

@@ -6,7 +6,7 @@ use std::collections::{HashMap, HashSet};
 #[derive(Default)]
 pub(super) struct Names {
     taken: HashSet<String>,
-    /// The number to try next for a name that occurred before, so that many equal names are no long search.
+    /// The number to try next for a name that occurred before, so that many equal names do not need a long search.
     next: HashMap<String, usize>,
 }
 

@@ -1,4 +1,4 @@
-//! Lights and cameras of FBX nodes.
+//! Lights and cameras of FBX nodes. What a light's strength means stands in the page of [`super`].
 
 use super::reader::{affine, of_blender};
 use crate::assembly::Assembly;

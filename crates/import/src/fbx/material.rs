@@ -189,7 +189,7 @@ impl<'c> Converter<'c, '_> {
         let transparency = (color * number(&fbx.transparency_factor).unwrap_or(1.0)).clamp(0.0, 1.0);
         let mut opacity = 1.0 - transparency;
         if opacity <= 0.0 {
-            // Some programs write white here for opaque surfaces; what nobody could see nobody would have modelled.
+            // Some programs write white here for opaque surfaces, and nobody models a surface that is not seen.
             let stated = ufbx::find_prop(&self.m.element.props, "Opacity").map(|p| p.value_vec4.x as f32);
             opacity = stated.filter(|o| *o > 0.0).unwrap_or(1.0).min(1.0);
             self.warn(format!("found a transparency of one, which would hide the surface; an opacity of {opacity} was used"));

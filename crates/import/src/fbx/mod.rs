@@ -17,7 +17,7 @@
 //! | area lights | a square two units wide that shines along its axis, as FBX does not state its size |
 //! | cameras | perspective, by field of view or focal length and aperture; orthographic ones, film offset and roll are dropped |
 //! | animation, skins, blend shapes | the first moment of the first animation, else the pose of the nodes; each is reported |
-//! | dropped with a warning | vertex colours, NURBS, curves, subdivision, subsurface scattering, anisotropy, thin film, displacement, volume lights (a point stands in) |
+//! | dropped with a warning | vertex colours, points and lines, NURBS, curves, subdivision, caches of positions, subsurface scattering, anisotropy, thin film, displacement, normal maps of coats, volume lights (a point stands in) |
 //!
 //! Every surface has two sides, and emits on both, as FBX knows no sides.
 //!

@@ -53,7 +53,7 @@ impl Placer {
                 a.warn(place_of(node), "hidden, and left out");
             }
         }
-        // What the views of the program that wrote it look like stands as cameras in files of version 6.
+        // Files of version 6 store the views of the program that wrote them as cameras.
         let is_view = node.element.scene.metadata.version < 7000 && name.starts_with("Producer ");
         if let Some(camera) = node.camera.as_ref().filter(|_| !is_view) {
             add_camera(node, camera, &name, a);

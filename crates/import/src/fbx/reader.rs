@@ -14,7 +14,7 @@ const MEMORY: usize = 1 << 30;
 const MEMORY_PER_BYTE: usize = 64;
 
 /// Nodes within nodes.
-const DEEPEST: u32 = 512;
+const MAX_DEPTH: u32 = 512;
 
 /// The scene of an FBX file in its own units and axes, in the pose of its first moment where it is animated.
 pub(super) fn read(a: &mut Assembly) -> Result<SceneRoot, ImportError> {
@@ -25,7 +25,7 @@ pub(super) fn read(a: &mut Assembly) -> Result<SceneRoot, ImportError> {
         temp_allocator: limits(),
         result_allocator: limits(),
         file_format: FileFormat::Fbx,
-        node_depth_limit: DEEPEST,
+        node_depth_limit: MAX_DEPTH,
         use_blender_pbr_material: true,
         generate_missing_normals: true,
         evaluate_skinning: true,

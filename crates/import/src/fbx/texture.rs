@@ -57,7 +57,7 @@ fn uv_transform(texture: &ufbx::Texture) -> [[f32; 3]; 2] {
 }
 
 /// Where the picture is: by its relative path, its absolute one, or, since that is often of another machine, by its name beside the
-/// file or in the folders where programs unpack pictures to. What the file says where it is in none of these places.
+/// file or in the folders where programs unpack pictures to. Where it is in none of these places, the path that the file states.
 fn path(texture: &ufbx::Texture, a: &Assembly) -> String {
     let written = [&*texture.relative_filename, &*texture.filename, &*texture.absolute_filename];
     let written: Vec<String> = written.into_iter().filter(|p| !p.is_empty()).map(|p| p.replace('\\', "/")).collect();

@@ -1,13 +1,9 @@
 //! Reading accessors: typed, strided, normalized, sparse, with every bound checked.
 
-use super::container::Document;
+use super::container::{Document, MAX_ZEROS};
 use gltf::json::Index;
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::validation::Checked;
-
-/// An accessor without a buffer view is all zeros. All reads of a file together may ask for this many: more is taken for damage rather
-/// than allocated.
-pub(super) const MAX_ZEROS: u64 = 1 << 22;
 
 impl Document {
     /// The elements of an accessor of vectors of `N` components, or of 4×4 matrices column by column, as floats (normalized integers mapped
@@ -28,7 +24,7 @@ impl Document {
         Ok(self.components(index, 1)?.into_iter().map(|v| v as u32).collect())
     }
 
-    /// All components in order. Doubles hold every component type exactly.
+    /// All components in order. Doubles represent every component type exactly.
     fn components(&self, index: Index<Accessor>, per_element: usize) -> Result<Vec<f64>, String> {
         let name = format!("accessors[{}]", index.value());
         let accessor = self
@@ -72,7 +68,7 @@ impl Document {
         Ok(values)
     }
 
-    /// How many components an accessor without a bufferView has, if the file may still ask for so many.
+    /// How many components an accessor without a bufferView has, if the file may still ask for that many.
     fn zeros(&self, name: &str, count: u64, per_element: usize) -> Result<usize, String> {
         let wanted = count.checked_mul(per_element as u64).filter(|&wanted| wanted <= self.zeros_left.get());
         let wanted = wanted.ok_or_else(|| {

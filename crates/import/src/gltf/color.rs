@@ -1,4 +1,4 @@
-//! Colours of vertices, of which a scene holds the mean over a primitive.
+//! Colours of vertices (`COLOR_0`): a scene has none, so that their mean over a primitive multiplies its material.
 
 use super::container::Document;
 use crate::ImportError;
@@ -34,7 +34,7 @@ pub(super) struct Several {
     pub opacities: bool,
 }
 
-/// The mean of `COLOR_0` over the triangles of a primitive, weighted by area, and whether they have several.
+/// The mean of `COLOR_0` over the triangles of a primitive, weighted by area, and what of them varies.
 ///
 /// # Errors
 /// When the accessor cannot be read or is of another length than the positions, or a colour is not a number.

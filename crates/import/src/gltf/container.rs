@@ -1,7 +1,7 @@
 //! The outer layer of a glTF file: text or binary, its buffers, and the URIs in it.
 
-use super::accessor::MAX_ZEROS;
-use super::{light, mend};
+use super::uri::{Uri, resolve_uri};
+use super::{lumens, omissions};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use gltf::json::{Root, buffer, image};
@@ -27,6 +27,10 @@ pub(super) const SUPPORTED: [&str; 16] = [
     "KHR_texture_transform",
 ];
 
+/// An accessor without a buffer view is all zeros. All reads of a file together may ask for this many: more is taken for damage rather
+/// than allocated.
+pub(super) const MAX_ZEROS: u64 = 1 << 22;
+
 /// A parsed glTF file with its buffers.
 pub(super) struct Document {
     /// The JSON part. Nothing in it has been checked: indices are followed by `get` only.
@@ -51,7 +55,7 @@ impl Document {
         } else {
             (bytes.as_slice(), None)
         };
-        let root = mend::parse(json).map_err(|(place, problem)| assembly.malformed(place, problem))?;
+        let root = omissions::parse(json).map_err(|(place, problem)| assembly.malformed(place, problem))?;
         check_version(&root, assembly)?;
         let mut buffers = Vec::with_capacity(root.buffers.len());
         for (i, b) in root.buffers.iter().enumerate() {
@@ -59,7 +63,7 @@ impl Document {
             let unused = lacking && root.buffer_views.iter().all(|view| view.buffer.value() != i);
             buffers.push(if unused { Vec::new() } else { read_buffer(i, b, binary, assembly)? });
         }
-        let lumens_per_watt = light::lumens_per_watt(&root, assembly);
+        let lumens_per_watt = lumens::per_watt(&root, assembly);
         Ok(Self { root, buffers, zeros_left: Cell::new(MAX_ZEROS), lumens_per_watt })
     }
 
@@ -188,83 +192,9 @@ fn read_buffer(index: usize, buffer: &buffer::Buffer, binary: Option<&[u8]>, ass
     Ok(bytes)
 }
 
-/// What a URI points at.
-#[derive(Debug, PartialEq)]
-pub(super) enum Uri {
-    Data(Vec<u8>),
-    Path(String),
-}
-
-pub(super) fn resolve_uri(uri: &str) -> Result<Uri, String> {
-    if let Some(rest) = uri.strip_prefix("data:") {
-        let (header, data) = rest.split_once(',').ok_or("has a data URI without a comma")?;
-        if header.ends_with(";base64") {
-            return decode_base64(data).map(Uri::Data).ok_or_else(|| "has a data URI that is not valid base64".to_string());
-        }
-        return Ok(Uri::Data(percent_decode(data)));
-    }
-    if let Some((scheme, _)) = uri.split_once("://") {
-        return Err(format!("is at {uri:?}; {scheme} addresses are not followed, so download the file and refer to it by a relative path"));
-    }
-    String::from_utf8(percent_decode(uri)).map(Uri::Path).map_err(|_| format!("has the uri {uri:?}, which is not text"))
-}
-
-fn percent_decode(text: &str) -> Vec<u8> {
-    let bytes = text.as_bytes();
-    let mut out = Vec::with_capacity(bytes.len());
-    let mut i = 0;
-    while i < bytes.len() {
-        let hex = (bytes[i] == b'%').then(|| bytes.get(i + 1..i + 3)).flatten().and_then(|h| std::str::from_utf8(h).ok());
-        match hex.and_then(|h| u8::from_str_radix(h, 16).ok()) {
-            Some(byte) => {
-                out.push(byte);
-                i += 3;
-            }
-            None => {
-                out.push(bytes[i]);
-                i += 1;
-            }
-        }
-    }
-    out
-}
-
-/// Base64 of RFC 4648; padding may be absent and white space is skipped.
-fn decode_base64(text: &str) -> Option<Vec<u8>> {
-    let mut out = Vec::with_capacity(text.len() / 4 * 3);
-    let (mut bits, mut count) = (0u32, 0);
-    for c in text.bytes().filter(|c| !c.is_ascii_whitespace()).take_while(|&c| c != b'=') {
-        let value = match c {
-            b'A'..=b'Z' => c - b'A',
-            b'a'..=b'z' => c - b'a' + 26,
-            b'0'..=b'9' => c - b'0' + 52,
-            b'+' | b'-' => 62,
-            b'/' | b'_' => 63,
-            _ => return None,
-        };
-        bits = bits << 6 | u32::from(value);
-        count += 6;
-        if count >= 8 {
-            count -= 8;
-            out.push((bits >> count) as u8);
-        }
-    }
-    Some(out)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn uris_are_data_paths_or_refused() {
-        assert_eq!(resolve_uri("data:application/octet-stream;base64,aGVsbG8="), Ok(Uri::Data(b"hello".to_vec())));
-        assert_eq!(resolve_uri("data:,a%20b"), Ok(Uri::Data(b"a b".to_vec())));
-        assert_eq!(resolve_uri("my%20textures/wood.png"), Ok(Uri::Path("my textures/wood.png".into())));
-        assert_eq!(resolve_uri("50%.png"), Ok(Uri::Path("50%.png".into())));
-        assert!(resolve_uri("https://example.org/a.png").unwrap_err().contains("https addresses are not followed"));
-        assert!(resolve_uri("data:;base64,a$b").is_err());
-    }
 
     #[test]
     fn truncated_binaries_say_where_they_end() {

@@ -8,44 +8,28 @@
 //! - else, side by side, a dielectric that reflects 0.04 and a metal of the share w = (m − 0.04)/(1 − 0.04), both tinted by f0/m. For a
 //!   grey f0 this is the extension's curve again, (1 − w)·(0.04 + 0.96·x) + w = m + (1 − m)·x, and the diffuse share is 1 − m.
 
+use super::gloss_pictures::Made;
 use super::material::Converter;
 use crate::ImportError;
 use crate::images;
 use enfilade_math::{Rgb, srgb_from_linear};
 use enfilade_scene::{Bsdf, ColorParam, Image, Pixels, Principled, ScalarParam, TextureRef};
 use gltf::json::extensions::material::PbrSpecularGlossiness;
-use std::collections::HashMap;
 
 /// Reflectance at normal incidence of the dielectric beside a metal, whose index is 1.5.
 const DIELECTRIC: f32 = 0.04;
 
 /// Up to this reflectance at normal incidence a surface is a dielectric; diamond reflects 0.17.
-const MOST_OF_DIELECTRICS: f32 = 0.2;
+const MAX_DIELECTRIC: f32 = 0.2;
 
 /// The same where a picture varies it. It is lower, since a tint also dims what dark texels reflect at grazing angles.
-const MOST_OF_PICTURES: f32 = 0.08;
+const MAX_DIELECTRIC_PICTURE: f32 = 0.08;
 
-/// Pictures may be made of so many texels (8 bytes each) in all.
-const MOST_TEXELS: usize = 1 << 27;
+/// At most this many texels (8 bytes each) are computed for a scene.
+const MAX_TEXELS: usize = 1 << 27;
 
 /// Stand-ins for the picture of a file that is missing: reflectance and glossiness of plain plastic.
 const MISSING: (f32, f32) = (DIELECTRIC, 0.4);
-
-/// The pictures made so far.
-#[derive(Default)]
-pub(super) struct Pictures {
-    known: HashMap<(u32, [u32; 4], bool), Made>,
-    texels: usize,
-}
-
-/// What is made of a picture of specular colour and glossiness.
-#[derive(Clone, Copy)]
-struct Made {
-    /// Green is the roughness, blue the share of the dielectric.
-    numbers: u32,
-    /// f0/m, and f0/0.04 where m is below that; where the surface is of two kinds.
-    tint: Option<u32>,
-}
 
 impl Converter<'_, '_> {
     /// The surface of the extension. `p` has the diffuse colour as its base colour, and further layers.
@@ -74,7 +58,7 @@ impl Converter<'_, '_> {
         let image = self.a.image_at(texture.image);
         let (largest, opaque) = (largest(image, f0), images::is_opaque(image));
         let black = p.base_color.factor.is_black();
-        let two_kinds = !black && largest > MOST_OF_PICTURES;
+        let two_kinds = !black && largest > MAX_DIELECTRIC_PICTURE;
         p.roughness = (1.0 - glossiness).into();
         let made = match opaque && !two_kinds {
             true => None,
@@ -110,7 +94,7 @@ impl Converter<'_, '_> {
         let source = self.a.image_at(image);
         let (width, height) = (source.width, source.height);
         let texels = width as usize * height as usize;
-        if self.made.texels + texels > MOST_TEXELS {
+        if self.made.texels + texels > MAX_TEXELS {
             return None;
         }
         self.made.texels += texels;
@@ -119,10 +103,10 @@ impl Converter<'_, '_> {
         for i in 0..texels {
             let (color, alpha) = source.texel(i % width as usize, i / width as usize);
             let color = color * f0;
-            let most = color.max_component();
-            numbers.push([0, byte(1.0 - glossiness * alpha), byte(dielectric_share(most)), 255]);
+            let max = color.max_component();
+            numbers.push([0, byte(1.0 - glossiness * alpha), byte(dielectric_share(max)), 255]);
             if two_kinds {
-                let [r, g, b] = (color * (1.0 / most.max(DIELECTRIC))).to_array().map(|v| byte(srgb_from_linear(v)));
+                let [r, g, b] = (color * (1.0 / max.max(DIELECTRIC))).to_array().map(|v| byte(srgb_from_linear(v)));
                 tints.push([r, g, b, 255]);
             }
         }
@@ -138,30 +122,30 @@ impl Converter<'_, '_> {
 
 /// The surface of one specular colour.
 fn uniform(f0: Rgb, p: Principled) -> Bsdf {
-    let most = f0.max_component();
-    if p.base_color.factor.is_black() || most >= 1.0 {
+    let max = f0.max_component();
+    if p.base_color.factor.is_black() || max >= 1.0 {
         metal(f0.into(), p)
-    } else if most <= MOST_OF_DIELECTRICS {
-        dielectric(most, f0, None, p)
+    } else if max <= MAX_DIELECTRIC {
+        dielectric(max, f0, None, p)
     } else {
-        side_by_side((f0 * (1.0 / most)).into(), dielectric_share(most).into(), p)
+        side_by_side((f0 * (1.0 / max)).into(), dielectric_share(max).into(), p)
     }
 }
 
-/// The share of the dielectric beside a metal where the largest component of the specular colour is `most`.
-fn dielectric_share(most: f32) -> f32 {
-    ((1.0 - most) / (1.0 - DIELECTRIC)).clamp(0.0, 1.0)
+/// The share of the dielectric beside a metal where the largest component of the specular colour is `max`.
+fn dielectric_share(max: f32) -> f32 {
+    ((1.0 - max) / (1.0 - DIELECTRIC)).clamp(0.0, 1.0)
 }
 
 fn metal(base_color: ColorParam, p: Principled) -> Bsdf {
     Bsdf::Principled(Box::new(Principled { base_color, metallic: 1.0.into(), ..p }))
 }
 
-/// A dielectric that reflects f0 × texture, at most `most`.
-fn dielectric(most: f32, f0: Rgb, texture: Option<TextureRef>, mut p: Principled) -> Bsdf {
-    if most > 0.0 {
-        p.ior = (1.0 + most.sqrt()) / (1.0 - most.sqrt());
-        p.specular_color = ColorParam { factor: f0 * (1.0 / most), texture };
+/// A dielectric that reflects f0 × texture, at most `max`.
+fn dielectric(max: f32, f0: Rgb, texture: Option<TextureRef>, mut p: Principled) -> Bsdf {
+    if max > 0.0 {
+        p.ior = (1.0 + max.sqrt()) / (1.0 - max.sqrt());
+        p.specular_color = ColorParam { factor: f0 * (1.0 / max), texture };
     } else {
         p.specular = 0.0.into();
     }

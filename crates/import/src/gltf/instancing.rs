@@ -1,7 +1,7 @@
 //! `EXT_mesh_gpu_instancing`: a node's mesh in many places.
 
 use super::container::Document;
-use super::node::placement;
+use super::transform::placement;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::DAffine3;

@@ -1,8 +1,8 @@
-//! glTF materials to [`Material`].
+//! glTF materials to [`Material`]: metallic-roughness and the extensions that add layers to it.
 
 use super::container::{Document, ImageAt};
-use super::gloss;
-use super::materials::Known;
+use super::file_material::FileMaterial;
+use super::gloss_pictures::GlossPictures;
 use crate::ImportError;
 use crate::assembly::{Assembly, Source};
 use crate::images::{self, Use};
@@ -72,13 +72,13 @@ fn layer_texture(extension: &Value, key: &str) -> Option<Info> {
 pub(super) struct Converter<'c, 'a> {
     pub(super) document: &'c Document,
     pub(super) user: String,
-    pub(super) made: &'c mut gloss::Pictures,
+    pub(super) made: &'c mut GlossPictures,
     pub(super) a: &'c mut Assembly<'a>,
 }
 
 impl Converter<'_, '_> {
     /// The material, but for its index and its coordinate set.
-    pub(super) fn material(&mut self, name: String, json: &Json) -> Result<Known, ImportError> {
+    pub(super) fn material(&mut self, name: String, json: &Json) -> Result<FileMaterial, ImportError> {
         let pbr = &json.pbr_metallic_roughness;
         let gloss = json.extensions.as_ref().and_then(|e| e.pbr_specular_glossiness.as_ref());
         let ([r, g, b, opacity], base_texture) = match gloss {
@@ -115,7 +115,7 @@ impl Converter<'_, '_> {
         // does, or rooms modelled as shells would be black outside-in.
         let material = Material { emission, emits_both_sides: json.double_sided, normal_map, ..Material::new(name, bsdf) };
         let cutoff = json.alpha_cutoff.map_or(0.5, |c| c.0);
-        Ok(Known { index: None, material, uv_set: 0, opacity, alpha_mode, cutoff, has_color })
+        Ok(FileMaterial { index: None, material, uv_set: 0, opacity, alpha_mode, cutoff, has_color })
     }
 
     fn principled(&mut self, json: &Json, base_color: ColorParam) -> Result<Principled, ImportError> {

@@ -9,7 +9,7 @@
 //! | buffers | files, data URIs, the binary chunk; Draco and meshopt compression are an error |
 //! | pictures | PNG, JPEG and all that [`crate`] decodes, from files, data URIs and buffer views; sampler wrapping and magnification filter |
 //! | materials | metallic-roughness to `Bsdf::Principled`; base colour, metallic-roughness, normal and emissive textures; alpha modes; surfaces scatter on both sides, and emit on both when they are double-sided; `KHR_materials_pbrSpecularGlossiness` (see `gloss.rs`). The occlusion texture is dropped, because light transport computes occlusion |
-//! | extensions | `KHR_materials_emissive_strength`, `_ior`, `_transmission`, `_volume`, `_specular`, `_clearcoat` (but its normal map), `_sheen`, `_unlit` (as a diffuse surface of that colour); `KHR_texture_transform`; `KHR_lights_punctual` (candela as W/sr, lux as W/m²; divided by 683 where Blender has multiplied them, see `light.rs`); `EXT_lights_ies` (the same; type C); `EXT_mesh_gpu_instancing` (a part per instance); `KHR_node_visibility` (what is invisible is left out); `KHR_materials_variants` (the default materials) |
+//! | extensions | `KHR_materials_emissive_strength`, `_ior`, `_transmission`, `_volume`, `_specular`, `_clearcoat` (but its normal map), `_sheen`, `_unlit` (as a diffuse surface of that colour); `KHR_texture_transform`; `KHR_lights_punctual` (candela as W/sr, lux as W/m²; divided by 683 where Blender has multiplied them, see `lumens.rs`); `EXT_lights_ies` (the same; type C); `EXT_mesh_gpu_instancing` (a part per instance); `KHR_node_visibility` (what is invisible is left out); `KHR_materials_variants` (the default materials) |
 //! | texture coordinates | one set per primitive: that of the base colour, or of the first texture there is |
 //! | cameras | perspective; orthographic ones are dropped |
 //! | `COLOR_0` | multiplies base colour and opacity; where it varies, its mean over the primitive, and the report says so |
@@ -22,7 +22,7 @@
 //! # Labels
 //!
 //! `extras` of a node may carry `"semantic"`, a NYU40 class as its id (1 to 40) or name, and `"instance"`, a number from 1. Both
-//! hold for the node's own parts and for all nodes below it that do not say otherwise.
+//! apply to the node's own parts and for all nodes below it that do not say otherwise.
 //!
 //! # Environments
 //!
@@ -33,18 +33,23 @@ mod accessor;
 mod color;
 mod container;
 mod environment;
+mod file_material;
 mod gloss;
+mod gloss_pictures;
 mod instancing;
 mod light;
+mod lumens;
 mod material;
 mod materials;
-mod mend;
 mod morph;
 mod node;
+mod omissions;
 mod parts;
 mod primitive;
 mod profile;
 mod skin;
+mod transform;
+mod uri;
 
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported};

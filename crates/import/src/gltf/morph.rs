@@ -5,7 +5,7 @@ use enfilade_math::Vec3;
 use gltf::json::mesh::{Mesh, Primitive};
 use gltf::json::scene::Node;
 
-/// The weights of a mesh at a node, whose own stand above the mesh's; without the zeros at their end.
+/// The weights of a mesh at a node: the node's own, else the mesh's; without the zeros at their end.
 pub(super) fn weights<'j>(node: &'j Node, mesh: &'j Mesh) -> &'j [f32] {
     let weights = node.weights.as_deref().or(mesh.weights.as_deref()).unwrap_or_default();
     let used = weights.iter().rposition(|&weight| weight != 0.0).map_or(0, |last| last + 1);

@@ -1,4 +1,4 @@
-//! Primitives to triangle meshes.
+//! Primitives to triangle meshes in a pose: triangles, strips and fans, with or without indices.
 
 use super::container::Document;
 use super::{morph, skin};

@@ -1,6 +1,7 @@
 //! `EXT_lights_ies`: photometric profiles at nodes.
 
-use super::container::{Document, Uri, resolve_uri};
+use super::container::Document;
+use super::uri::{Uri, resolve_uri};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use crate::ies;
@@ -63,7 +64,7 @@ pub(super) fn add(
     Ok(())
 }
 
-/// The file that holds a profile, and its bytes.
+/// The file of a profile, and its bytes.
 fn bytes(document: &Document, profile: &Value, place: &str, a: &mut Assembly) -> Result<(PathBuf, Vec<u8>), ImportError> {
     let problem = |problem: String, a: &Assembly| Err(a.malformed(place, problem));
     if let Some(view) = profile.get("bufferView").and_then(Value::as_u64) {

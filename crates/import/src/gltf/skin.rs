@@ -3,7 +3,7 @@
 //! As the specification has it, the transform of the node that bears the mesh has no part in this.
 
 use super::container::Document;
-use super::node::{affine, local_transform};
+use super::transform::{affine, local_transform};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_geometry::Mesh;

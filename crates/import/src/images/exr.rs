@@ -1,6 +1,6 @@
 //! OpenEXR: the first part's R, G, B (or Y) at full resolution; alpha and other channels are left out.
 
-use super::{FloatPicture, check_size};
+use super::float_picture::{FloatPicture, check_size};
 use ::exr::block;
 use ::exr::meta::header::Header;
 use ::exr::meta::{BlockDescription, MetaData};
@@ -56,7 +56,7 @@ fn colors(channels: &[AnyChannel<FlatSamples>]) -> [Option<&AnyChannel<FlatSampl
     [r, g, b].map(|channel| channel.or(grey))
 }
 
-/// Refuses pictures whose channels would fill the memory, before room is made for them.
+/// Refuses pictures whose channels would fill the memory, before any is allocated.
 fn check(bytes: &[u8]) -> std::result::Result<(), String> {
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|e| format!("cannot be decoded ({e})"))?;
     for header in &meta.headers {
@@ -74,10 +74,10 @@ fn check(bytes: &[u8]) -> std::result::Result<(), String> {
     check_exr_table(Cursor::new(bytes), |part| part == 0)
 }
 
-/// Refuses an EXR with blocks for which the library would make room without bound.
+/// Refuses an EXR with blocks for which the library would allocate without bound.
 ///
-/// What reads an EXR asks this of its headers before it reads any pixels: a tile may be far larger than the picture, and the library
-/// makes as much room as a block says it has, which is bounded by the tile's size alone.
+/// To be called with a file's headers before its pixels are read: a tile may be far larger than the picture, and the library allocates
+/// as much as a block claims, which only the tile's size bounds.
 ///
 /// # Errors
 /// When a block can take more than 128 MiB; the message is the rest of a sentence that begins with the file's name.

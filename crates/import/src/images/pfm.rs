@@ -1,6 +1,6 @@
 //! Portable float map: `PF` (colour) or `Pf` (grey), width, height, scale (negative: little-endian), rows from the bottom up.
 
-use super::FloatPicture;
+use super::float_picture::FloatPicture;
 
 /// Decodes a PFM.
 pub(super) fn decode(bytes: &[u8]) -> Result<FloatPicture, String> {

@@ -1,39 +1,12 @@
 //! Attributes of meshes: values that a PLY file has for vertices and faces, of which the mean is used.
 
-use super::Reader;
+use super::reader::Reader;
 use super::xml::Node;
 use crate::ImportError;
-use crate::ply::Means;
 use enfilade_math::Rgb;
-use std::collections::HashMap;
-
-/// What the scene's meshes have of attributes.
-#[derive(Default)]
-pub(super) struct Attributes {
-    /// True when a texture of the scene refers to any.
-    pub wanted: bool,
-    /// By mesh; only where some are wanted.
-    of_mesh: HashMap<u32, Means>,
-    /// The mesh whose material is read, if it has attributes.
-    pub current: Option<u32>,
-}
-
-impl Attributes {
-    /// Notes those of a mesh.
-    pub(super) fn insert(&mut self, mesh: u32, means: Means) {
-        if !means.is_empty() {
-            self.of_mesh.insert(mesh, means);
-        }
-    }
-
-    /// From here on materials are those of `mesh`.
-    pub(super) fn turn_to(&mut self, mesh: Option<u32>) {
-        self.current = mesh.filter(|mesh| self.of_mesh.contains_key(mesh));
-    }
-}
 
 impl<'n> Reader<'n, '_> {
-    /// The mean of the attribute that a texture refers to; `None`, with a warning, where the mesh has none of its name.
+    /// The mean of the attribute that a texture refers to; `None`, with a warning, where the mesh has no attribute of that name.
     pub(super) fn mesh_attribute(&mut self, node: &'n Node) -> Result<Option<Rgb>, ImportError> {
         self.report_unknown(node, &["name", "scale"], &[]);
         let name = node.raw_text("name").ok_or_else(|| node.error("there is no name of an attribute, such as vertex_color"))?;

@@ -1,8 +1,9 @@
 //! Emitters that are not part of a shape.
 
+use super::reader::{Reader, spelling};
 use super::spectrum;
+use super::transform;
 use super::xml::Node;
-use super::{Reader, spelling, transform};
 use crate::ImportError;
 use crate::assembly::Source;
 use crate::images::{self, Use};
@@ -96,7 +97,7 @@ impl<'n> Reader<'n, '_> {
         Ok(())
     }
 
-    /// The sky as an environment and the sun as a light, by our own model in the units of Mitsuba's.
+    /// The sky as an environment and the sun as a light, by our own model, in Mitsuba's units.
     fn daylight(&mut self, node: &'n Node) -> Result<(), ImportError> {
         const KNOWN: [&str; 13] = [
             "sun_direction",

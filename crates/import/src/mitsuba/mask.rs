@@ -1,7 +1,7 @@
 //! Masks: the opacity of a surface.
 
-use super::Reader;
 use super::bsdf::Surface;
+use super::reader::Reader;
 use super::spectrum;
 use super::xml::Node;
 use crate::ImportError;

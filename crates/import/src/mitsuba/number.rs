@@ -1,6 +1,6 @@
 //! Number parameters, and the textures that may hold them.
 
-use super::Reader;
+use super::reader::Reader;
 use super::spectrum;
 use super::texture::Texture;
 use super::xml::Node;

@@ -1,43 +1,17 @@
-//! `obj` shapes of version 0.x, whose files hold several meshes, each of a material of its own.
+//! `obj` shapes of version 0.x, whose files contain several meshes, each with a material of its own.
 //!
 //! A mesh is what the file has of one group and material. It is of the last bsdf of the shape that has no name or the material's, else
 //! of what the libraries of the file say about the material, on its front alone.
 
+use super::made::{ObjMesh, ObjMeshes};
+use super::reader::Reader;
 use super::xml::Node;
-use super::{Reader, bsdf, shape};
+use super::{bsdf, shape};
 use crate::ImportError;
-use crate::obj::{self, Library, ObjFile};
+use crate::obj::{self, ObjFile};
 use enfilade_math::{DAffine3, Rgb};
 use enfilade_scene::Material;
-use std::collections::HashMap;
 use std::rc::Rc;
-
-/// What shapes share of OBJ files.
-#[derive(Default)]
-pub(super) struct Files {
-    /// By path and the flags that change meshes.
-    files: HashMap<(String, [bool; 3]), Rc<File>>,
-    /// By path of the OBJ file.
-    libraries: HashMap<String, Rc<Library>>,
-    /// By path of the OBJ file and name; `None` where no library defines it.
-    materials: HashMap<(String, String), Option<u32>>,
-}
-
-/// An OBJ file.
-struct File {
-    meshes: Vec<FileMesh>,
-    /// Names of its material libraries.
-    libraries: Vec<String>,
-}
-
-/// What a file has of one group and material.
-struct FileMesh {
-    /// Of the group, else of the material.
-    name: String,
-    material: Option<String>,
-    /// `None` where it is empty.
-    mesh: Option<u32>,
-}
 
 impl<'n> Reader<'n, '_> {
     /// Adds the parts of an `obj` shape: all, or the one of `shapeIndex`.
@@ -85,7 +59,7 @@ impl<'n> Reader<'n, '_> {
     }
 
     /// The file, read once.
-    fn obj_file(&mut self, node: &'n Node, path: &str, flags: [bool; 3]) -> Result<Rc<File>, ImportError> {
+    fn obj_file(&mut self, node: &'n Node, path: &str, flags: [bool; 3]) -> Result<Rc<ObjMeshes>, ImportError> {
         let key = (path.to_string(), flags);
         if let Some(known) = self.obj.files.get(&key) {
             return Ok(known.clone());
@@ -102,9 +76,9 @@ impl<'n> Reader<'n, '_> {
             let place = if obj.groups.len() > 1 { format!("mesh {name:?}") } else { "mesh".to_string() };
             let mesh = shape::finish(obj.mesh(std::iter::once(group)), true, flags);
             let mesh = self.a.push_mesh(mesh, &file, &place)?;
-            meshes.push(FileMesh { name, material: group.material.clone(), mesh });
+            meshes.push(ObjMesh { name, material: group.material.clone(), mesh });
         }
-        let read = Rc::new(File { meshes, libraries: obj.libraries });
+        let read = Rc::new(ObjMeshes { meshes, libraries: obj.libraries });
         self.obj.files.insert(key, read.clone());
         Ok(read)
     }
@@ -122,7 +96,7 @@ impl<'n> Reader<'n, '_> {
     }
 
     /// A bsdf for a material that the file does not have. It is the best guess for what has no other.
-    fn stray(&mut self, node: &'n Node, bsdfs: &[(&'n str, &'n Node)], file: &File) -> Option<&'n Node> {
+    fn stray(&mut self, node: &'n Node, bsdfs: &[(&'n str, &'n Node)], file: &ObjMeshes) -> Option<&'n Node> {
         let has = |name: &str| file.meshes.iter().any(|part| part.material.as_deref() == Some(name));
         let (name, bsdf) = bsdfs.iter().find(|(name, _)| !name.is_empty() && !has(name))?;
         self.warn(node, format!("the OBJ file has no material {name:?}; the bsdf of this name was used for what has no other"));
@@ -130,7 +104,7 @@ impl<'n> Reader<'n, '_> {
     }
 
     /// The material that the libraries of an OBJ file define by a name. `None` where they do not.
-    fn material_of_library(&mut self, node: &'n Node, path: &str, file: &File, name: &str) -> Result<Option<u32>, ImportError> {
+    fn material_of_library(&mut self, node: &'n Node, path: &str, file: &ObjMeshes, name: &str) -> Result<Option<u32>, ImportError> {
         let key = (path.to_string(), name.to_string());
         if let Some(&known) = self.obj.materials.get(&key) {
             return Ok(known);
@@ -144,7 +118,7 @@ impl<'n> Reader<'n, '_> {
             }
         };
         let found = match obj::material(name, &library, &mut self.a) {
-            // Mitsuba goes on too.
+            // Mitsuba continues too.
             Err(error @ ImportError::Texture { .. }) => {
                 self.warn(node, format!("{error}; the material {name:?} of the OBJ file was not used"));
                 None

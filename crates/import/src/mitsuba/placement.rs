@@ -1,7 +1,8 @@
 //! Where a shape's own parameters put it.
 
+use super::emitter;
+use super::reader::{Reader, spelling};
 use super::xml::Node;
-use super::{Reader, emitter, spelling};
 use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 

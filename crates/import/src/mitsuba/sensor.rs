@@ -1,7 +1,8 @@
-//! Sensors to cameras.
+//! Sensors to cameras: field of view by `fov`, its axis or a focal length, size by the film.
 
+use super::reader::{Reader, spelling};
+use super::transform;
 use super::xml::Node;
-use super::{Reader, spelling, transform};
 use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3};
 

@@ -1,6 +1,6 @@
 //! Mitsuba's own mesh format: zlib-compressed meshes one after the other, and a table of their offsets at the end.
 //!
-//! Every mesh begins with the numbers 0x041C and the version (3 or 4); the compressed rest holds flags, the name (version 4),
+//! Every mesh begins with the numbers 0x041C and the version (3 or 4); the compressed rest is flags, the name (version 4),
 //! the counts of vertices and triangles as 64-bit numbers, positions, then normals, texture coordinates and colours by the flags,
 //! and 32-bit indices. All is little-endian.
 
@@ -17,7 +17,7 @@ const HAS_UVS: u32 = 0x0002;
 const HAS_COLORS: u32 = 0x0008;
 const DOUBLE: u32 = 0x2000;
 
-/// More vertices or triangles than this are taken for damage: compressed, a few bytes can announce and hold any number of zeros.
+/// More vertices or triangles than this are taken for damage: compressed, a few bytes can announce and store any number of zeros.
 const MAX_ELEMENTS: u64 = 1 << 26;
 /// Longest name of a mesh, bytes.
 const MAX_NAME: u64 = 1 << 16;

@@ -1,7 +1,8 @@
-//! Shapes to meshes and parts.
+//! Shapes to meshes and parts: files, primitives, groups and their instances.
 
+use super::reader::{MAX_PARTS, Reader};
 use super::xml::Node;
-use super::{MAX_PARTS, Reader, bsdf, serialized, transform};
+use super::{bsdf, serialized, transform};
 use crate::ImportError;
 use crate::mesh;
 use crate::obj::ObjFile;
@@ -11,9 +12,6 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Vec2, Vec3};
 use enfilade_scene::PartLabel;
 use std::path::{Path, PathBuf};
-
-/// What tells meshes apart: plugin, file, index within it, and the flags that change it.
-pub(super) type MeshKey = (String, String, i64, [bool; 3]);
 
 impl<'n> Reader<'n, '_> {
     /// Adds the part or parts of a shape.
@@ -92,7 +90,7 @@ impl<'n> Reader<'n, '_> {
         Ok(())
     }
 
-    /// The path of a shape's file, which is empty for shapes without one, and its flags. Reports what is not read of it.
+    /// The path of a shape's file, which is empty for shapes without one, and its flags. Reports what of it is not read.
     pub(super) fn stated(&mut self, node: &'n Node) -> Result<(&'n str, [bool; 3]), ImportError> {
         const TAGS: [&str; 7] = ["bsdf", "emitter", "medium", "texture", "sensor", "subsurface", "shape"];
         const FILES: [&str; 7] =

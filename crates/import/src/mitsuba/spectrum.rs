@@ -9,7 +9,7 @@ use enfilade_math::{Rgb, linear_from_srgb};
 /// stand in its value.
 ///
 /// # Errors
-/// When the value is none of what these may hold.
+/// When the value is not a spectrum.
 pub(super) fn color(node: &Node, kind: Kind) -> Result<Rgb, ImportError> {
     let text = node.attribute("value").unwrap_or_default().trim();
     match node.tag.as_str() {

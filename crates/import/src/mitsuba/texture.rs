@@ -1,8 +1,9 @@
 //! Textures, and the colour and number parameters that may hold them.
 
+use super::reader::{MAX_REFERENCES, Reader, spelling};
 use super::spectrum;
+use super::transform;
 use super::xml::Node;
-use super::{MAX_REFERENCES, Reader, spelling, transform};
 use crate::ImportError;
 use crate::assembly::Source;
 use crate::images::Use;

@@ -13,7 +13,7 @@ const MAX_DEPTH: usize = 64;
 /// Included files, counted as often as they are included, beyond this many are taken for a mistake.
 const MAX_INCLUDES: usize = 1000;
 
-/// Parameters that make a value longer than this, bytes, are taken for a mistake: each can hold others many times.
+/// Parameters that make a value longer than this, bytes, are taken for a mistake: each can contain others many times.
 const MAX_VALUE: usize = 1 << 20;
 
 /// An element.
@@ -109,7 +109,7 @@ impl Node {
 /// Reads the scene file and all that it includes.
 ///
 /// # Errors
-/// When a file cannot be read or is not well-formed XML, with line and column, or elements nest absurdly deep.
+/// When a file cannot be read or is not well-formed XML, with line and column, or elements are nested too deeply.
 pub(super) fn read(assembly: &mut Assembly) -> Result<Node, ImportError> {
     let bytes = assembly.read_scene_file()?;
     let file = assembly.file().to_path_buf();

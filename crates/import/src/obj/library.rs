@@ -34,8 +34,8 @@ pub(super) fn java3d() -> Library {
     library
 }
 
-/// Reads the libraries that the OBJ file at `obj`, a path as the scene file would spell it, names. Their materials replace those of
-/// `library`. One that is not there is a warning, and one that is called like the OBJ file stands in.
+/// Reads the libraries `names` of the OBJ file at `obj`, a path as the scene file would spell it. Their materials replace those of
+/// `library`. For a library that is missing, with a warning, the one that is called like the OBJ file stands in.
 pub(super) fn read_libraries(names: &[String], obj: &str, mut library: Library, a: &mut Assembly) -> Result<Library, ImportError> {
     let folder = folder_of(obj);
     for line in names {
@@ -115,7 +115,8 @@ fn parse_text(text: &str, folder: &str, library: &mut Library) -> Option<String>
     stray
 }
 
-/// True for a library that Blender 3.2 or newer wrote: "# Blender 4.5.0 MTL File: …". Older ones have no version there, and other laws.
+/// True for a library that Blender 3.2 or newer wrote: "# Blender 4.5.0 MTL File: …". Older ones have no version there
+/// and mean other things by the same numbers.
 fn is_of_blender(text: &str) -> bool {
     let version = text.strip_prefix("# Blender ").filter(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
     version.and_then(|rest| rest.lines().next()).is_some_and(|line| line.contains(" MTL File"))

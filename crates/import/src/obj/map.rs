@@ -23,14 +23,14 @@ impl<'m> Map<'m> {
         while rest.starts_with('-') {
             let (option, after) = rest.split_once(char::is_whitespace)?;
             rest = after.trim_start();
-            let most = match option {
+            let max_values = match option {
                 "-s" | "-o" | "-t" => 3,
                 "-mm" => 2,
                 _ => 1,
             };
             let textual = matches!(option, "-clamp" | "-blendu" | "-blendv" | "-cc" | "-imfchan" | "-type");
             let (mut values, mut word) = (Vec::new(), "");
-            while values.len() < most {
+            while values.len() < max_values {
                 word = rest.split_whitespace().next()?;
                 match word.parse::<f32>() {
                     Ok(value) => values.push(value),

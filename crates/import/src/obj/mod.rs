@@ -24,6 +24,7 @@
 //! library or material that is not there is a warning, and grey stands in.
 
 mod check;
+mod file;
 mod library;
 mod map;
 mod mtl;
@@ -31,17 +32,15 @@ mod reader;
 mod smooth;
 mod text;
 
+pub(crate) use file::ObjFile;
 pub(crate) use library::Library;
-pub(crate) use reader::ObjFile;
 
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported};
 use enfilade_math::{DAffine3, Rgb, linear_from_srgb};
 use enfilade_scene::{Material, PartLabel};
+use mtl::GREY;
 use std::collections::HashMap;
-
-/// Reflectance of surfaces whose material is not known.
-const GREY: f32 = 0.5;
 
 /// Imports an OBJ file.
 pub(crate) fn load(assembly: Assembly) -> Result<Imported, ImportError> {

@@ -1,4 +1,4 @@
-//! Entries of MTL libraries to [`Material`].
+//! Entries of MTL libraries to [`Material`]: which statements make a surface diffuse, coated, metallic or glass.
 
 use super::check;
 use super::library::{Entry, spelled};
@@ -11,6 +11,9 @@ use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, S
 
 /// Metres that a bump map's full range stands for at `-bm 1`; MTL does not say, and this suits plaster and wood.
 const BUMP_METRES: f32 = 0.005;
+
+/// Reflectance of surfaces whose material is not known.
+pub(super) const GREY: f32 = 0.5;
 
 /// The material of an entry.
 pub(super) fn material(entry: &Entry, a: &mut Assembly) -> Result<Material, ImportError> {
@@ -120,7 +123,7 @@ impl<'c> Converter<'c, '_> {
         let factor = match kd {
             Some(kd) if !(mapped && kd.is_black()) => kd,
             _ if mapped => Rgb::WHITE,
-            _ => Rgb::splat(super::GREY),
+            _ => Rgb::splat(GREY),
         };
         self.color(factor, "map_kd", 0.5)
     }

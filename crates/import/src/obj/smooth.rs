@@ -1,6 +1,6 @@
 //! Normals of smoothing groups (`s 1` and above), which the format wants smooth where the file has none.
 
-use super::reader::{Face, ObjFile};
+use super::file::{Face, NONE, ObjFile};
 use crate::polygon::newell_normal;
 use enfilade_math::Vec3;
 use std::collections::HashMap;
@@ -84,7 +84,7 @@ impl ObjFile {
 
 /// True for a face none of whose corners has a normal.
 fn is_bare(corners: &[[u32; 3]]) -> bool {
-    corners.iter().all(|corner| corner[2] == super::reader::NONE)
+    corners.iter().all(|corner| corner[2] == NONE)
 }
 
 #[cfg(test)]

@@ -1,45 +1,20 @@
 //! Pictures made of pictures, where pbrt computes what a scene's textures cannot.
 
-use super::Reader;
+use super::made::Picture;
+use super::reader::Reader;
 use super::version::Version;
 use crate::images;
 use enfilade_math::{Rgb, linear_from_srgb, srgb_from_linear};
 use enfilade_scene::{Image, Pixels, ScalarParam, TextureRef};
 
-/// Pictures may be computed up to so many texels (12 bytes each) in all.
+/// At most this many texels (12 bytes each) are computed for a scene.
 const MAX_BAKED: usize = 1 << 28;
-
-/// Which channel of which picture, which computation, and the bits of its factors.
-pub(super) type Key = (u32, Option<u8>, &'static str, Vec<u32>);
-
-/// A picture, and what of it counts: one channel (3 is alpha) in place of each of the three, or the colour.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Picture {
-    pub texture: TextureRef,
-    pub channel: Option<u8>,
-}
-
-impl From<TextureRef> for Picture {
-    fn from(texture: TextureRef) -> Self {
-        Self { texture, channel: None }
-    }
-}
-
-impl Picture {
-    fn texel(self, image: &Image, x: usize, y: usize) -> Rgb {
-        let (color, alpha) = image.texel(x, y);
-        match self.channel {
-            None => color,
-            Some(channel) => Rgb::splat(color.to_array().get(usize::from(channel)).copied().unwrap_or(alpha)),
-        }
-    }
-}
 
 impl Reader<'_> {
     /// `picture` with what counts of every texel, linear, replaced by `f` of it; as it is, with a warning, when too much was computed
     /// already.
     ///
-    /// `what` and `factors` tell computations apart: pictures that agree in them are computed once.
+    /// `what` and `factors` identify the computation: a picture is computed once for each.
     pub(super) fn baked(&mut self, picture: Picture, what: &'static str, factors: &[f32], f: impl Fn(Rgb) -> Rgb) -> Picture {
         let key = (picture.texture.image, picture.channel, what, factors.iter().map(|v| v.to_bits()).collect::<Vec<_>>());
         if let Some(&image) = self.baked.get(&key) {

@@ -1,7 +1,7 @@
-//! The camera.
+//! `Camera` and the size of `Film` to a pinhole: screen windows, lenses and exposure are reported.
 
-use super::Reader;
 use super::params::Params;
+use super::reader::Reader;
 use super::version::Version;
 use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3, DVec3};
@@ -53,7 +53,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Radiances stay as the file has them; what the film makes of them is said.
+    /// Radiances stay as the file has them; a warning says what the film would make of them.
     fn report_exposure(&mut self, camera: &Params, film: Option<&Params>) -> Result<(), ImportError> {
         let Some(film) = film else { return Ok(()) };
         let time = camera.float_or("shutterclose", 1.0)? - camera.float_or("shutteropen", 0.0)?;

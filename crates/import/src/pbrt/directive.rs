@@ -1,9 +1,11 @@
 //! The directives: what each does to the graphics state, or which module it is for.
 
+use super::definition::{MaterialDefinition, TextureDefinition};
+use super::gzip::unpacked;
 use super::params::{Params, Place};
+use super::reader::Reader;
 use super::state::{self, Saved, State};
 use super::tokens::{Kind, Tokens};
-use super::{Reader, material, texture};
 use crate::ImportError;
 use enfilade_math::{DAffine3, DVec3, Rgb};
 use std::rc::Rc;
@@ -11,11 +13,11 @@ use std::rc::Rc;
 /// Files within files deeper than this are taken for a mistake.
 const MAX_INCLUDES_DEEP: usize = 32;
 
-/// A scene includes at most so many files, counted each time.
+/// A scene includes at most this many files, counted each time.
 const MAX_INCLUDED: usize = 10_000;
 
 impl Reader<'_> {
-    /// Obeys one directive, whose word has been read.
+    /// Carries out one directive, whose word has been read.
     pub(super) fn directive(&mut self, word: &str, mut place: Place, tokens: &mut Tokens) -> Result<(), ImportError> {
         if let Some(transform) = state::transform(word, tokens)? {
             match word {
@@ -85,14 +87,14 @@ impl Reader<'_> {
             "Texture" => {
                 let (kind, class) = (quoted(tokens, word)?, quoted(tokens, word)?);
                 let params = self.params(tokens, place, "texture")?;
-                self.define_texture(texture::Definition::new(first, &kind, class, params));
+                self.define_texture(TextureDefinition::new(first, &kind, class, params));
                 Ok(())
             }
             _ => self.with_params(word, first, place, tokens),
         }
     }
 
-    /// Obeys a directive that a string and parameters follow.
+    /// Carries out a directive that a string and parameters follow.
     fn with_params(&mut self, word: &str, first: String, place: Place, tokens: &mut Tokens) -> Result<(), ImportError> {
         match word {
             "Attribute" => {
@@ -101,12 +103,12 @@ impl Reader<'_> {
             }
             "Material" => {
                 let params = self.params(tokens, place, "material")?;
-                self.state.material = self.define_material(material::Definition::new(None, first, params));
+                self.state.material = self.define_material(MaterialDefinition::new(None, first, params));
             }
             "MakeNamedMaterial" => {
                 let params = self.params(tokens, place, "material")?;
                 let class = params.string("type")?.ok_or_else(|| params.place.error("there is no \"string type\""))?.to_string();
-                let index = self.define_material(material::Definition::new(Some(first.clone()), class, params));
+                let index = self.define_material(MaterialDefinition::new(Some(first.clone()), class, params));
                 self.material_names.insert(first, index);
             }
             "MakeNamedMedium" => {
@@ -187,7 +189,7 @@ impl Reader<'_> {
         self.coordinate_systems.insert("world".into(), DAffine3::IDENTITY);
     }
 
-    /// Sees from the camera whether the world is left-handed.
+    /// Decides by the camera whether the world is left-handed.
     fn settle_handedness(&mut self) {
         let mirrored = self.camera.as_ref().is_some_and(|(_, _, camera_from_world)| camera_from_world.matrix3.determinant() < 0.0);
         self.file_from_world = if mirrored { DAffine3::IDENTITY } else { DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0)) };
@@ -203,7 +205,7 @@ impl Reader<'_> {
         if self.including.contains(&path) {
             return Err(place.error("the file includes itself, directly or by way of others; remove one of the includes"));
         }
-        let bytes = super::unpacked(bytes, &path)?;
+        let bytes = unpacked(bytes, &path)?;
         self.file(&bytes, &path)
     }
 

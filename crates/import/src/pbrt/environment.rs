@@ -5,8 +5,8 @@
 //! Mapping of the (Hemi)Sphere using SIMD"): the upper hemisphere within the diamond that joins the middles of the edges, the lower one
 //! folded out into the corners. These are resampled into equirectangular ones.
 
-use super::Reader;
 use super::params::Params;
+use super::reader::Reader;
 use super::version::Version;
 use crate::ImportError;
 use crate::assembly::Source;

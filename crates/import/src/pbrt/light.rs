@@ -1,8 +1,8 @@
 //! Lights: those without a surface, and the emission of area lights.
 
-use super::Reader;
-use super::material::Emission;
+use super::made::Emission;
 use super::params::Params;
+use super::reader::Reader;
 use super::version::Version;
 use crate::ImportError;
 use crate::assembly::Source;
@@ -78,7 +78,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// The emission of a shape of so much area that is an area light and so many pieces to pbrt, which gives `power` to each.
+    /// The emission of a shape that is an area light; pbrt counts it as so many `pieces` and gives `power` to each.
     pub(super) fn area_emission(&mut self, params: &Params, area: f64, pieces: usize) -> Result<Emission, ImportError> {
         let both_sides = params.flag("twosided", false)?;
         let sides = if both_sides { 2.0 } else { 1.0 };
@@ -98,7 +98,7 @@ impl Reader<'_> {
     }
 }
 
-/// What turns a luminous strength of one, which gives a flux of `flux`, into one that gives the flux `power`; one where none is asked.
+/// The factor by which a strength that gives the flux `flux` gives the flux of the parameter `power`; one where that is absent.
 fn power_factor(params: &Params, flux: f64) -> Result<f32, ImportError> {
     let power = params.float_or("power", -1.0)?;
     Ok(if power > 0.0 && flux > 0.0 { power / flux } else { 1.0 } as f32)

@@ -1,8 +1,10 @@
 //! Materials, and how they come together with emission and masks.
 
+use super::definition::MaterialDefinition;
+use super::made::{Emission, Surface};
 use super::params::{Params, Values};
+use super::reader::{MAX_REFERENCES, Reader};
 use super::version::Version;
-use super::{MAX_REFERENCES, Reader};
 use crate::ImportError;
 use crate::assembly::Source;
 use crate::images::Use;
@@ -11,54 +13,12 @@ use crate::spectrum::Kind;
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, TextureRef};
 
-/// A mix may hold so many materials, those within its parts counted.
+/// A mix consists of at most this many materials, those within its parts counted.
 const MAX_MIXED: usize = 64;
-
-/// A `Material` or `MakeNamedMaterial` directive.
-#[derive(Clone)]
-pub(super) struct Definition {
-    name: Option<String>,
-    class: String,
-    params: Params,
-}
-
-impl Definition {
-    pub(super) fn new(name: Option<String>, class: String, params: Params) -> Self {
-        Self { name, class, params }
-    }
-
-    /// What shapes are of before the first material.
-    pub(super) fn default_of(version: Version) -> Self {
-        let class = if version == Version::V3 { "matte" } else { "diffuse" };
-        Self::new(None, class.to_string(), Params::none("default material"))
-    }
-}
-
-/// What a material scatters, and what it does beside.
-#[derive(Clone, Debug)]
-pub(super) struct Surface {
-    /// `None` for `none` and `interface`, which scatter nothing.
-    pub bsdf: Option<Bsdf>,
-    pub alpha: Alpha,
-    pub normal_map: Option<NormalMap>,
-}
-
-impl From<Bsdf> for Surface {
-    fn from(bsdf: Bsdf) -> Self {
-        Self { bsdf: Some(bsdf), alpha: Alpha::Opaque, normal_map: None }
-    }
-}
-
-/// The light of a surface.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Emission {
-    pub radiance: ColorParam,
-    pub both_sides: bool,
-}
 
 impl Reader<'_> {
     /// Notes a material; returns its index.
-    pub(super) fn define_material(&mut self, definition: Definition) -> usize {
+    pub(super) fn define_material(&mut self, definition: MaterialDefinition) -> usize {
         self.materials.push(definition);
         self.materials.len() - 1
     }
@@ -102,7 +62,7 @@ impl Reader<'_> {
         if let Some(known) = self.surfaces.get(&index) {
             return Ok(known.clone());
         }
-        let Definition { class, params, .. } = self.materials[index].clone();
+        let MaterialDefinition { class, params, .. } = self.materials[index].clone();
         if depth > MAX_REFERENCES {
             return Err(params.place.error("materials are mixed in a circle; remove one of the mixes"));
         }

@@ -1,8 +1,8 @@
 //! Metals, and the materials of several layers as glTF's metallic-roughness model, whose layers share the light as pbrt's lobes do.
 
-use super::Reader;
-use super::material::Surface;
+use super::made::Surface;
 use super::params::Params;
+use super::reader::Reader;
 use super::spectra::copper;
 use crate::ImportError;
 use crate::spectrum::Kind;

@@ -1,6 +1,6 @@
 //! pbrt scene descriptions of versions 3 and 4 (`.pbrt`, `.pbrt.gz`).
 //!
-//! The version is told by the words of the file. `Include` and `Import` are followed.
+//! The words of the file tell its version (`version.rs`). `Include` and `Import` are followed.
 //!
 //! | what | supported |
 //! |---|---|
@@ -10,12 +10,12 @@
 //! | materials of version 4 | `diffuse`, `coateddiffuse`, `conductor`, `coatedconductor`, `dielectric`, `thindielectric`, `mix`, `interface` |
 //! | substituted with a warning | `translucent` and `diffusetransmission` (what they transmit is lost), `subsurface`, `kdsubsurface`, `hair`, `fourier`, `measured` |
 //! | details | `bumpmap`, `displacement`, `normalmap`, `alpha`; `remaproughness` by each version's own formula, textures included |
-//! | textures | `constant`, `imagemap`, `scale`, `mix`, `checkerboard` (baked), by `uv`; others and other mappings are mid grey or `uv`, with a warning. Pictures of numbers count by their alpha or the mean of their channels (version 4), by their luminance (version 3) |
+//! | textures | `constant`, `imagemap`, `scale`, `mix`, `checkerboard` (baked), by `uv`; with a warning, `bilerp` and `directionmix` by their mean, others as mid grey, other mappings as `uv`. Pictures of numbers count by their alpha or the mean of their channels (version 4), by their luminance (version 3) |
 //! | spectra | `rgb`, `color`, `xyz`, `blackbody`, wavelengths, `.spd` files; metals, glasses and illuminants by name |
 //! | lights | `point`, `spot`, `distant`, `infinite` (maps of both layouts), `diffuse` area lights; `power`, `illuminance`, `scale`, `twosided` |
 //! | cameras | `perspective`, as a pinhole |
 //! | skipped in silence | `Sampler`, `Integrator`, `PixelFilter`, `Accelerator`, `Option`, `Film` but for its size: they say how to render, not what |
-//! | dropped with a warning | media (but for absorption within glass), motion (the first moment is used), curves and the other shapes, goniometric and projection lights, portals, colour spaces other than sRGB, sensors and exposure |
+//! | dropped with a warning | media (but for absorption within glass), motion (the first moment is used), curves and the other shapes, colours of vertices, projection lights, the picture of goniometric ones (points stand in), portals, colour spaces other than sRGB, sensors and exposure |
 //!
 //! The crates that read pbrt's text know one version each (`pbrt4` 0.2 the fourth, `rs_pbrt`, a renderer, the third), keep no place for
 //! messages and say nothing about what a scene means, which is most of the work; so the reading is our own.
@@ -36,12 +36,16 @@
 
 mod bake;
 mod camera;
+mod definition;
 mod directive;
 mod environment;
+mod gzip;
 mod light;
+mod made;
 mod material;
 mod metallic;
 mod params;
+mod reader;
 mod rough;
 mod round;
 mod shape;
@@ -55,21 +59,12 @@ pub(crate) use environment::PBRT_FROM_MAP;
 
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported};
-use enfilade_math::{DAffine3, DVec3};
-use params::{Params, Place};
-use state::{Saved, State};
-use std::collections::HashMap;
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use gzip::unpacked;
+use params::Place;
+use reader::Reader;
+use std::path::Path;
 use std::rc::Rc;
 use tokens::Tokens;
-use version::Version;
-
-/// Materials or textures within each other deeper than this are taken for a cycle.
-const MAX_REFERENCES: usize = 32;
-
-/// A compressed file may unpack to so many bytes.
-const MAX_UNPACKED: u64 = 4 << 30;
 
 /// Imports a pbrt scene.
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
@@ -82,70 +77,7 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     reader.a.finish()
 }
 
-/// A scene being read.
-struct Reader<'a> {
-    a: Assembly<'a>,
-    version: Version,
-    state: State,
-    saved: Vec<Saved>,
-    /// The file's axes from pbrt's world: the identity, or a mirror.
-    file_from_world: DAffine3,
-    coordinate_systems: HashMap<String, DAffine3>,
-    film: Option<Params>,
-    camera: Option<(Params, String, DAffine3)>,
-    in_world: bool,
-    textures: Vec<texture::Definition>,
-    /// Names of textures to indices: of colours, and of numbers.
-    texture_names: [HashMap<String, usize>; 2],
-    baked: HashMap<bake::Key, u32>,
-    baked_texels: usize,
-    materials: Vec<material::Definition>,
-    material_names: HashMap<String, usize>,
-    surfaces: HashMap<usize, material::Surface>,
-    finished: HashMap<String, Option<u32>>,
-    media: HashMap<String, enfilade_math::Rgb>,
-    /// By file or measures, and whether they are turned inside out.
-    meshes: HashMap<(String, bool), Option<shape::Shape>>,
-    objects: HashMap<String, Vec<shape::Placed>>,
-    /// The object being defined, if any.
-    object: Option<(String, Vec<shape::Placed>)>,
-    parts: usize,
-    including: Vec<PathBuf>,
-    included: usize,
-    next_light: usize,
-}
-
-impl<'a> Reader<'a> {
-    fn new(a: Assembly<'a>, version: Version) -> Self {
-        Self {
-            a,
-            version,
-            state: State::new(),
-            saved: Vec::new(),
-            file_from_world: DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0)),
-            coordinate_systems: HashMap::new(),
-            film: None,
-            camera: None,
-            in_world: false,
-            textures: Vec::new(),
-            texture_names: [HashMap::new(), HashMap::new()],
-            baked: HashMap::new(),
-            baked_texels: 0,
-            materials: vec![material::Definition::default_of(version)],
-            material_names: HashMap::new(),
-            surfaces: HashMap::new(),
-            finished: HashMap::new(),
-            media: HashMap::new(),
-            meshes: HashMap::new(),
-            objects: HashMap::new(),
-            object: None,
-            parts: 0,
-            including: Vec::new(),
-            included: 0,
-            next_light: 0,
-        }
-    }
-
+impl Reader<'_> {
     /// Reads all directives of a file.
     fn file(&mut self, bytes: &[u8], path: &Path) -> Result<(), ImportError> {
         let mut tokens = Tokens::new(bytes, path)?;
@@ -162,32 +94,4 @@ impl<'a> Reader<'a> {
         self.including.pop();
         Ok(())
     }
-
-    fn warn(&mut self, place: &Place, message: impl Into<String>) {
-        self.a.warn(place.text(), message);
-    }
-
-    /// Warns of the parameters that nothing asked for, but for those in `silent`.
-    fn report_unused(&mut self, params: &Params, silent: &[&str]) {
-        let names: Vec<String> = params.unused().map(|p| p.name.clone()).filter(|n| !silent.contains(&n.as_str())).collect();
-        if !names.is_empty() {
-            self.warn(&params.place, format!("ignored: {}", names.join(", ")));
-        }
-    }
-}
-
-/// The bytes themselves, or what they hold when they are compressed by gzip.
-fn unpacked(bytes: Vec<u8>, path: &Path) -> Result<Vec<u8>, ImportError> {
-    if !bytes.starts_with(&[0x1f, 0x8b]) {
-        return Ok(bytes);
-    }
-    let mut out = Vec::new();
-    let read = flate2::read::MultiGzDecoder::new(bytes.as_slice()).take(MAX_UNPACKED + 1).read_to_end(&mut out);
-    read.map_err(|e| {
-        ImportError::malformed(path, "gzip", format!("cannot be unpacked ({e}); copy the file again or unpack it by gzip -d"))
-    })?;
-    if out.len() as u64 > MAX_UNPACKED {
-        return Err(ImportError::malformed(path, "gzip", "unpacks to more than 4 GiB; split the scene into several files"));
-    }
-    Ok(out)
 }

@@ -22,7 +22,7 @@ pub(super) struct Param {
     pub kind: String,
     pub name: String,
     pub values: Values,
-    /// For textures: the indices that its name had where it stands, among those of colours and of numbers.
+    /// For textures: the indices that the name meant at this place of the file, among textures of colours and of numbers.
     pub bound: Cell<[Option<usize>; 2]>,
     used: Cell<bool>,
 }

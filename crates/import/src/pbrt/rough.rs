@@ -1,7 +1,7 @@
-//! Roughness of microfacets.
+//! Roughness of microfacets: GGX alpha from a parameter, by each version's own `remaproughness`.
 
-use super::Reader;
 use super::params::Params;
+use super::reader::Reader;
 use super::version::Version;
 use crate::ImportError;
 use enfilade_scene::ScalarParam;

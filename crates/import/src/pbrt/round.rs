@@ -6,7 +6,7 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};
 use std::f64::consts::TAU;
 
-/// Sides of a full circle; an inscribed polygon of so many has 0.07 % less area.
+/// Sides of a full circle; an inscribed polygon of this many sides has 0.07 % less area.
 const SEGMENTS: f64 = 96.0;
 
 /// A circle of the surface: radius and height, its normal's components along both, and its texture coordinate v.
@@ -17,7 +17,7 @@ struct Ring {
     v: f64,
 }
 
-/// What tells round shapes apart: those of the same measures share a mesh. `None` for other shapes.
+/// What distinguishes round shapes: those of the same measures share a mesh. `None` for other shapes.
 pub(super) fn measures(class: &str, params: &Params) -> Result<Option<String>, ImportError> {
     if !matches!(class, "sphere" | "disk" | "cylinder" | "cone") {
         return Ok(None);

@@ -1,10 +1,12 @@
 //! Shapes to meshes and parts, objects and their instances.
 
-use super::material::Emission;
+use super::gzip::unpacked;
+use super::made::{Emission, Placed, Shape};
 use super::params::{Params, Place, Values};
+use super::reader::Reader;
+use super::round;
 use super::state::Saved;
 use super::version::Version;
-use super::{Reader, round, unpacked};
 use crate::ImportError;
 use crate::mesh;
 use crate::ply;
@@ -13,7 +15,7 @@ use enfilade_math::{DAffine3, Vec2, Vec3};
 use enfilade_scene::{Alpha, PartLabel, ScalarParam};
 use std::path::Path;
 
-/// A scene has at most so many parts, instances counted one by one.
+/// A scene has at most this many parts, instances counted one by one.
 const MAX_PARTS: usize = 4_000_000;
 
 /// Cuts along each edge of a bilinear patch that is not flat, where there are few and many patches.
@@ -21,24 +23,6 @@ const PATCH_CUTS: [u32; 2] = [16, 4];
 
 /// More patches than this are many.
 const MANY_PATCHES: usize = 4096;
-
-/// A mesh that shapes share.
-#[derive(Clone, Copy)]
-pub(super) struct Shape {
-    mesh: u32,
-    /// How many shapes it is to pbrt, which counts each triangle of a mesh as one.
-    pieces: usize,
-    has_uvs: bool,
-}
-
-/// A shape of an object, in the object's space.
-#[derive(Clone)]
-pub(super) struct Placed {
-    name: String,
-    mesh: u32,
-    material: u32,
-    object_from_mesh: DAffine3,
-}
 
 impl Reader<'_> {
     /// Adds the part of a shape, or keeps it for the object being defined.

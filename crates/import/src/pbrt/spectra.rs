@@ -1,7 +1,7 @@
 //! Spectra as parameters, and those that pbrt knows by name.
 
-use super::Reader;
 use super::params::{Param, Params, Values};
+use super::reader::Reader;
 use super::version::Version;
 use crate::ImportError;
 use crate::spectrum::{self, Kind, metal, planck, rgb_of, rgb_of_xyz, sampled};
@@ -47,7 +47,7 @@ impl Reader<'_> {
         Ok(rgb_of(|nm| planck(kelvin, nm) / peak) * factor as f32)
     }
 
-    /// Samples; version 3 goes on with the first and last beyond them.
+    /// Samples; beyond them version 3 continues with the first and last.
     fn pairs(&self, pairs: &mut Vec<(f64, f64)>, kind: Kind) -> Rgb {
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
         if let (Version::V3, Some(&first), Some(&last)) = (self.version, pairs.first(), pairs.last()) {

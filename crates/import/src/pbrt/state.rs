@@ -1,4 +1,4 @@
-//! The graphics state: the transform in force, the material, and what else holds until its block ends.
+//! The graphics state: the transform in force, the material, and what else applies until its block ends.
 
 use super::params::Params;
 use super::tokens::{Kind, Tokens};
@@ -6,7 +6,7 @@ use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use std::rc::Rc;
 
-/// What holds for the next shape or light.
+/// What applies to the next shape or light.
 #[derive(Clone)]
 pub(super) struct State {
     /// pbrt's world from the object's own space; before `WorldBegin` the camera from the world.
@@ -104,7 +104,7 @@ fn look_at(tokens: &mut Tokens) -> Result<DAffine3, ImportError> {
     Ok(world_from_camera.inverse())
 }
 
-/// So many numbers, with or without brackets.
+/// Reads `N` numbers, with or without brackets.
 pub(super) fn numbers<const N: usize>(tokens: &mut Tokens) -> Result<[f64; N], ImportError> {
     let mut found = [0.0; N];
     let bracketed = tokens.peek()?.is_some_and(|t| t.kind == Kind::Open);

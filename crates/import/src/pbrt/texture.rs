@@ -1,9 +1,10 @@
 //! Textures, and the colour and number parameters that may hold them.
 
-use super::bake::Picture;
+use super::definition::TextureDefinition;
+use super::made::{Picture, Texture};
 use super::params::{Params, Values};
+use super::reader::{MAX_REFERENCES, Reader};
 use super::version::Version;
-use super::{MAX_REFERENCES, Reader};
 use crate::ImportError;
 use crate::assembly::Source;
 use crate::images::{self, Use};
@@ -14,44 +15,14 @@ use enfilade_scene::{ColorParam, Filter, Image, Pixels, ScalarParam, TextureRef,
 /// Stands in for textures that have no counterpart.
 const MID_GREY: f32 = 0.5;
 
-/// A `Texture` directive.
-pub(super) struct Definition {
-    name: String,
-    /// True for textures of numbers.
-    number: bool,
-    class: String,
-    params: Params,
-    /// What was made of it, once made.
-    made: Option<Texture>,
-}
-
-impl Definition {
-    pub(super) fn new(name: String, kind: &str, class: String, params: Params) -> Self {
-        Self { name, number: kind == "float", class, params, made: None }
-    }
-}
-
-/// A texture as this workspace knows it: a factor and a picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Texture {
-    pub factor: Rgb,
-    pub picture: Option<Picture>,
-}
-
-impl From<Rgb> for Texture {
-    fn from(factor: Rgb) -> Self {
-        Self { factor, picture: None }
-    }
-}
-
 impl Reader<'_> {
     /// Notes a texture; the later one of a name counts from here on.
-    pub(super) fn define_texture(&mut self, definition: Definition) {
+    pub(super) fn define_texture(&mut self, definition: TextureDefinition) {
         self.texture_names[usize::from(definition.number)].insert(definition.name.clone(), self.textures.len());
         self.textures.push(definition);
     }
 
-    /// Notes which textures parameters refer to, by the names that hold where they stand.
+    /// Notes which textures parameters refer to, by the definitions of their names so far.
     pub(super) fn bind(&self, params: &Params) {
         for param in params.iter().filter(|p| p.kind == "texture") {
             if let Values::Strings(names) = &param.values

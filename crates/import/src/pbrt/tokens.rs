@@ -30,7 +30,7 @@ pub(super) struct Tokens<'t> {
     file: &'t Path,
     at: usize,
     line: u32,
-    /// A byte of the line and its column, from which columns are counted on: a line may hold a whole mesh.
+    /// A byte of the line and its column, from which columns are counted on: a whole mesh may be one line.
     counted: (usize, u32),
     peeked: Option<Token<'t>>,
     /// Line and column of the word that was taken last.

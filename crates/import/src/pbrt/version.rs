@@ -1,5 +1,6 @@
 //! Version 3 or 4: the files do not say, so their words are counted.
 
+use super::gzip::unpacked;
 use super::tokens::{Kind, Tokens};
 use crate::ImportError;
 use crate::assembly::Assembly;
@@ -65,7 +66,7 @@ pub(super) fn detect(bytes: &[u8], file: &Path, a: &mut Assembly) -> Result<Vers
     for included in count(bytes, file, &mut third, &mut fourth)? {
         // What is missing is reported where it is needed.
         if let Ok((path, bytes)) = a.read(&included) {
-            let bytes = super::unpacked(bytes, &path)?;
+            let bytes = unpacked(bytes, &path)?;
             count(&bytes, &path, &mut third, &mut fourth)?;
         }
     }

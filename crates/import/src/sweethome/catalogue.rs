@@ -118,7 +118,7 @@ impl<'v> Entry<'v> {
 
     fn refuse(&self, key: &str, expected: &str) -> ImportError {
         let found = self.of(key).map_or("nothing".into(), |found| format!("{found:?}"));
-        let problem = format!("found {found}, expected {expected}; mend the catalogue, or download it again");
+        let problem = format!("found {found}, expected {expected}; fix the catalogue, or download it again");
         ImportError::malformed(self.file, format!("{NAME}: {key}#{} ({})", self.number, self.title), problem)
     }
 

@@ -39,8 +39,10 @@ mod catalogue;
 mod home;
 mod model;
 mod opening;
+mod outline;
 mod paint;
 mod piece;
+mod plan;
 mod properties;
 mod room;
 mod surface;
@@ -64,7 +66,7 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     if let Some(entry) = archive.find(HOME) {
         let bytes = archive.read(entry).map_err(|e| assembly.malformed(HOME, format!("cannot be read ({e}); save the home again")))?;
         let text = String::from_utf8_lossy(&bytes);
-        return home::load(&text, &archive, assembly.inside(Format::SweetHome, UpAxis::Y, &archive, entry));
+        return plan::load(&text, &archive, assembly.inside(Format::SweetHome, UpAxis::Y, &archive, entry));
     }
     if archive.find("Home").is_some() {
         let problem =

@@ -7,6 +7,7 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb};
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Quiet, SceneError, TextureRef};
 use std::collections::HashMap;
+use std::rc::Rc;
 
 // Sweet Home 3D knows some parts of models by how their names begin (`com.eteks.sweethome3d.j3d.ModelManager`).
 const PANE: &str = "sweethome3d_window_pane";
@@ -15,7 +16,7 @@ const LIGHT_MARK: &str = "sweethome3d_light";
 /// Index of refraction of panes.
 const GLASS: f32 = 1.5;
 
-/// A model within the scene in the making; its own unit, y up. One of lines alone has no parts.
+/// A model within the scene being built; its own unit, y up. A model of lines alone has no parts.
 pub(super) struct Model {
     pub parts: Vec<ModelPart>,
 }
@@ -29,7 +30,14 @@ pub(super) struct ModelPart {
     pub file_from_mesh: DAffine3,
 }
 
-/// Extents below this are taken for it, model units, so that flat models can be scaled.
+/// The models met so far, and how many pieces have each name.
+#[derive(Default)]
+pub(super) struct Models {
+    pub known: HashMap<String, Rc<Model>>,
+    pub names: HashMap<String, usize>,
+}
+
+/// Smaller extents count as this, model units, so that flat models can be scaled.
 const FLAT: f64 = 1e-4;
 
 impl ModelPart {

@@ -1,7 +1,7 @@
 //! What doors and windows cut out of walls.
 
-use super::surface::Surface;
-use super::wall::{Outline, lifted};
+use super::outline::Outline;
+use super::surface::{Surface, lifted};
 use super::xml::Element;
 use crate::ImportError;
 use crate::assembly::Assembly;

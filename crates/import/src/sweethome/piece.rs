@@ -1,26 +1,18 @@
 //! Furniture, doors, windows and lamps: where they stand and what they look like.
 
 use super::home::Home;
-use super::model::{self, Model, ModelPart};
+use super::model::{self, Model, ModelPart, Models};
 use super::paint::{self, Paint};
 use super::xml::Element;
 use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, Rgb, Vec2, srgb_from_linear};
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Light, Material, PartLabel};
-use std::collections::HashMap;
 use std::rc::Rc;
 
 /// What Sweet Home 3D's photographs multiply the square of a lamp's power with, and the largest value of a colour there.
 const LAMP: f64 = 5.0 * 255.0 * 255.0;
 /// The colour of light that homes have unless they say otherwise.
 pub(super) const HOME_LIGHT: f64 = 208.0 / 255.0;
-
-/// The models met so far, and how many pieces have each name.
-#[derive(Default)]
-pub(super) struct Models {
-    known: HashMap<String, Rc<Model>>,
-    names: HashMap<String, usize>,
-}
 
 /// A piece of the home that is shown.
 pub(super) struct Piece<'x> {

@@ -13,7 +13,7 @@ pub(super) fn parse(bytes: &[u8]) -> BTreeMap<String, String> {
             continue;
         }
         logical.push_str(line);
-        // A line that ends in an odd number of backslashes goes on.
+        // A line that ends in an odd number of backslashes continues on the next.
         if line.chars().rev().take_while(|&c| c == '\\').count() % 2 == 1 {
             logical.pop();
             continue;

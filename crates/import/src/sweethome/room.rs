@@ -1,19 +1,19 @@
 //! Floors and ceilings of rooms, and the ground around them.
 
 use super::home::Home;
+use super::outline::Walls;
 use super::paint::Paint;
 use super::piece::Piece;
-use super::surface::{Surface, subtract};
-use super::wall::{Walls, lifted};
+use super::surface::{Surface, lifted, subtract};
 use super::xml::Element;
 use crate::{ImportError, polygon};
 use enfilade_math::{DVec2, Vec3};
 
-/// How far the ground goes on beyond the rooms, centimetres.
+/// How far the ground extends beyond the rooms, centimetres.
 const GROUND_MARGIN: f64 = 2000.0;
 
 /// Corners of one room and of all: beyond them it takes too long to find out which floors overlap.
-const MOST_CORNERS: (usize, usize) = (1000, 20_000);
+const MAX_CORNERS: (usize, usize) = (1000, 20_000);
 
 type Triangles = Vec<[DVec2; 3]>;
 
@@ -40,8 +40,8 @@ pub(super) fn add_all(root: &Element, walls: &Walls, pieces: &[Piece], home: &mu
             points.push(DVec2::new(point.required("x")?, point.required("y")?));
         }
         corners += points.len();
-        if points.len() > MOST_CORNERS.0 || corners > MOST_CORNERS.1 {
-            let (of_room, of_home) = MOST_CORNERS;
+        if points.len() > MAX_CORNERS.0 || corners > MAX_CORNERS.1 {
+            let (of_room, of_home) = MAX_CORNERS;
             let problem =
                 format!("found {} corners of {corners} so far, expected {of_room} of {of_home} at most; simplify the room", points.len());
             return Err(element.error(problem));

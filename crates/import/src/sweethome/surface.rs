@@ -6,7 +6,7 @@ use enfilade_math::{DVec2, DVec3, Vec2};
 /// Pieces of less area are not worth a triangle, cm².
 const SLIVER: f64 = 1e-4;
 
-/// Faces in the making; centimetres, y up.
+/// Faces being built; centimetres, y up.
 #[derive(Default)]
 pub(super) struct Surface {
     mesh: Mesh,
@@ -27,6 +27,11 @@ impl Surface {
     pub(super) fn finish(self) -> Option<Mesh> {
         Some(self.mesh).filter(|m| !m.triangles.is_empty())
     }
+}
+
+/// A point of the plan at a height: y up, the plan's y as z.
+pub(super) fn lifted(p: DVec2, height: f64) -> DVec3 {
+    DVec3::new(p.x, height, p.y)
 }
 
 /// A rectangular hole of an upright face: along it as a share of its length, and up, in centimetres.
@@ -69,7 +74,7 @@ pub(super) fn without_holes(bottom: f64, tops: [f64; 2], holes: &[Hole]) -> Vec<
     polygons
 }
 
-/// What is left of flat triangles outside of a convex polygon; whichever way either turns.
+/// What is left of flat triangles outside a convex polygon; both may run either way round.
 pub(super) fn subtract(triangles: Vec<[DVec2; 3]>, convex: &[DVec2]) -> Vec<[DVec2; 3]> {
     let turn = if area(convex) < 0.0 { -1.0 } else { 1.0 };
     let mut left = Vec::new();

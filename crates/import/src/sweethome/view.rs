@@ -1,9 +1,9 @@
 //! Cameras, sky and ceiling lights of a home.
 
 use super::home::Home;
+use super::outline::Walls;
 use super::piece::HOME_LIGHT;
 use super::room::height_at;
-use super::wall::Walls;
 use super::xml::Element;
 use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, Rgb, srgb_from_linear};

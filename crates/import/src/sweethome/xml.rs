@@ -51,7 +51,7 @@ impl<'x> Element<'x> {
         let parse = |text: &str| {
             let number = text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
             number
-                .ok_or_else(|| self.error(format!("found {name}={text:?}, expected a finite number; mend the file or save the home again")))
+                .ok_or_else(|| self.error(format!("found {name}={text:?}, expected a finite number; fix the file or save the home again")))
         };
         self.text(name).map(parse).transpose()
     }
@@ -69,7 +69,7 @@ impl<'x> Element<'x> {
     /// A length that must be above zero.
     pub(super) fn length(&self, name: &str) -> Result<f64, ImportError> {
         let found = self.required(name)?;
-        let error = || self.error(format!("found {name}={found}, expected centimetres above zero; mend the file or save the home again"));
+        let error = || self.error(format!("found {name}={found}, expected centimetres above zero; fix the file or save the home again"));
         if found > 0.0 { Ok(found) } else { Err(error()) }
     }
 
@@ -77,7 +77,7 @@ impl<'x> Element<'x> {
     pub(super) fn numbers(&self, name: &str) -> Result<Option<Vec<f64>>, ImportError> {
         let Some(text) = self.text(name) else { return Ok(None) };
         let numbers: Option<Vec<f64>> = text.split_whitespace().map(|w| w.parse().ok().filter(|n: &f64| n.is_finite())).collect();
-        let error = || self.error(format!("found {name}={text:?}, expected finite numbers; mend the file or save the home again"));
+        let error = || self.error(format!("found {name}={text:?}, expected finite numbers; fix the file or save the home again"));
         numbers.map(Some).ok_or_else(error)
     }
 

@@ -63,7 +63,7 @@ impl Bindings {
     }
 }
 
-/// The bindings that hold at a prim.
+/// The bindings in force at a prim.
 ///
 /// # Errors
 /// When a layer with a collection cannot be read.

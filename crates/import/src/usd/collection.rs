@@ -11,7 +11,7 @@ use crate::assembly::Assembly;
 pub(super) struct Collection {
     includes: Vec<String>,
     excludes: Vec<String>,
-    /// True when what is below a member is none by itself.
+    /// True when the prims below a member are not members themselves.
     is_explicit: bool,
 }
 
@@ -35,7 +35,7 @@ impl Collection {
         Ok(Some(Self { includes, excludes, is_explicit }))
     }
 
-    /// True for the paths of members: those of which the longest path at or above them that is listed is included.
+    /// True for the paths of members: of the listed paths at or above them, the longest decides.
     pub(super) fn contains(&self, path: &str) -> bool {
         let nearest = |list: &[String]| {
             let holds = |listed: &&String| if self.is_explicit { *listed == path } else { moved(path, listed, "/").is_some() };

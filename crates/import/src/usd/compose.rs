@@ -181,7 +181,7 @@ impl Composer {
         let path = if item.path.is_empty() { default() } else { Some(item.path.clone()) };
         match path {
             Some(path) if stack.layers.iter().any(|l| l.specs.contains_key(&path)) => Ok(Some((stack, path))),
-            // Its layer is empty, which has been said.
+            // Its layer is empty, which has been reported.
             _ if is_materialx(&stack.location) => Ok(None),
             path => {
                 let what = path.map_or("its default prim, but it names none".to_string(), |p| format!("<{p}>, which is not there"));

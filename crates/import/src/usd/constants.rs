@@ -1,4 +1,4 @@
-//! Primvars that hold for all of a prim: those are inherited by what is below it.
+//! Constant primvars: one value for all of a prim, inherited by the prims below it.
 
 use super::primvar::{Primvar, Sizes};
 use super::stage::Prim;
@@ -7,7 +7,7 @@ use crate::assembly::Assembly;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// Longer values are none of a colour.
+/// Longer values are not those of a colour.
 const MAX_NUMBERS: usize = 4;
 
 /// Values by the names of their primvars.
@@ -15,7 +15,7 @@ const MAX_NUMBERS: usize = 4;
 pub(super) struct Constants(Rc<HashMap<Rc<str>, Value>>);
 
 impl Constants {
-    /// Those that hold below a prim.
+    /// Those that the prims below a prim inherit.
     pub(super) fn below(&self, prim: &Prim) -> Self {
         let mut all = self.clone();
         for name in prim.properties().iter().filter(|p| p.starts_with("primvars:") && !p.ends_with(":indices")) {

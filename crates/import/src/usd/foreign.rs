@@ -1,7 +1,7 @@
 //! Surfaces of other renderers and of MaterialX: what can be known of them by the names of their inputs.
 
 use super::material::index_of_refraction;
-use super::mtlx::{first, is_solid, named};
+use super::mtlx::{default_strength, first, is_solid, named};
 use super::shader::{Source, id, source};
 use super::stage::Prim;
 use super::texture::Textures;
@@ -57,7 +57,7 @@ impl Textures<'_, '_, '_> {
     }
 
     fn foreign_emission(&mut self, shader: &Rc<Prim>) -> Result<ColorParam, ImportError> {
-        // A colour that emits by itself, black where it is not stated; or one that waits for a strength or a switch.
+        // Either a colour that emits by itself and is black unless stated, or one that needs a strength or a switch to emit.
         let alone = first(shader, &["inputs:emissive", "inputs:emissiveColor", "inputs:emissive_factor"]);
         let color = first(shader, &["inputs:emission_color", "inputs:emissive_color"]);
         let strength = first(shader, named::GLOW_STRENGTH);
@@ -93,7 +93,7 @@ impl Textures<'_, '_, '_> {
         })
     }
 
-    /// A number that holds everywhere.
+    /// A number that is the same everywhere on the surface.
     pub(super) fn factor(&mut self, shader: &Rc<Prim>, name: &str, default: f32) -> Result<f32, ImportError> {
         let number = self.scalar(shader, name, default)?;
         if number.texture.is_some() {
@@ -102,12 +102,6 @@ impl Textures<'_, '_, '_> {
         }
         Ok(number.factor)
     }
-}
-
-/// The strength of emission where its input has no value: none by the definitions of the standard surface and of OpenPBR.
-pub(super) fn default_strength(shader: &Prim, input: &str) -> f32 {
-    let is_dark = matches!(input, "inputs:emission" | "inputs:emission_luminance") && !id(shader).contains("unlit");
-    if is_dark { 0.0 } else { 1.0 }
 }
 
 /// A number, or the mean of a colour.

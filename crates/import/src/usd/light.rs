@@ -12,7 +12,7 @@ use super::value::Value;
 use crate::assembly::{Assembly, orthonormal};
 use crate::blender::spot_inner_rad;
 use crate::images::Use;
-use crate::polygon::triangle_area;
+use crate::mesh::area;
 use crate::spectrum::black_body;
 use crate::{ImportError, ies};
 use enfilade_geometry::Mesh;
@@ -21,7 +21,7 @@ use enfilade_scene::{ColorParam, Environment, Light, MapRows, Material, PartLabe
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-/// The temperature that UsdLux calls white, and the one that holds where none is stated.
+/// The temperature that UsdLux calls white, which is also the default.
 const WHITE_KELVIN: f64 = 6500.0;
 
 /// Blender's exporter writes this part of a sun's irradiance, "approximately matching Karma" (`usd_writer_light.cc`), in all versions that
@@ -49,7 +49,7 @@ fn number(prim: &Prim, name: &str, default: f64) -> f64 {
     input(prim, name).and_then(Value::as_number).unwrap_or(default)
 }
 
-/// Radiance before normalization, where `default` is the intensity that holds when none is stated.
+/// Radiance before normalization, where `default` is the intensity of lights that state none.
 fn radiance(prim: &Prim, default: f64) -> Rgb {
     let strength = number(prim, "intensity", default) * number(prim, "exposure", 0.0).exp2();
     let mut color = input(prim, "color").and_then(rgb).unwrap_or(Rgb::WHITE);
@@ -83,13 +83,14 @@ fn surface_radiance(prim: &Prim, area: f64) -> Rgb {
     if is_normalized(prim) && area > 0.0 { radiance * (1.0 / area) as f32 } else { radiance }
 }
 
-/// The radiance of a mesh that is a light (`MeshLightAPI`); `None` for those that are none.
-pub(super) fn of_mesh(prim: &Prim, mesh: &Mesh, placement: DAffine3) -> Option<Rgb> {
-    prim.schemas().iter().any(|s| s == "MeshLightAPI").then(|| surface_radiance(prim, area(mesh, placement.matrix3)))
+/// A placement without its translation, which does not change areas but costs digits far from the origin.
+fn unmoved(placement: DAffine3) -> DAffine3 {
+    DAffine3::from_mat3(placement.matrix3)
 }
 
-fn area(mesh: &Mesh, placement: DMat3) -> f64 {
-    (0..mesh.triangles.len()).map(|t| mesh.corners(t).map(|p| placement * p.as_dvec3())).map(triangle_area).sum()
+/// The radiance of a mesh that is a light (`MeshLightAPI`); `None` for those that are none.
+pub(super) fn of_mesh(prim: &Prim, mesh: &Mesh, placement: DAffine3) -> Option<Rgb> {
+    prim.schemas().iter().any(|s| s == "MeshLightAPI").then(|| surface_radiance(prim, area(mesh, unmoved(placement))))
 }
 
 impl Lamp<'_> {
@@ -131,7 +132,7 @@ impl Lamp<'_> {
         if cone < 90.0 || number(self.prim, "shaping:focus", 0.0) != 0.0 || input(self.prim, "shaping:ies:file").is_some() {
             a.warn(&self.prim.path, "the light's cone, focus or profile was left out: surfaces emit evenly over directions");
         }
-        let placed = exact * area(&mesh, self.file_from_prim.matrix3) / area(&mesh, DMat3::IDENTITY);
+        let placed = exact * area(&mesh, unmoved(self.file_from_prim)) / area(&mesh, DAffine3::IDENTITY);
         let factor = surface_radiance(self.prim, placed);
         let name = name(self.prim);
         let mut material = Material::emitter(&name, factor);
@@ -155,7 +156,7 @@ impl Lamp<'_> {
         if !as_point && cone >= 90.0 && profile.is_none() {
             return self.surface(mesh, exact, None, a);
         }
-        let placed = exact * area(&mesh, self.file_from_prim.matrix3) / area(&mesh, DMat3::IDENTITY);
+        let placed = exact * area(&mesh, unmoved(self.file_from_prim)) / area(&mesh, DAffine3::IDENTITY);
         // A sphere of radiance L shows the area πr² from everywhere.
         let factor = if is_normalized(self.prim) { 0.25 } else { 0.25 * placed };
         let intensity = radiance(self.prim, 1.0) * if factor.is_finite() { factor as f32 } else { 0.0 };

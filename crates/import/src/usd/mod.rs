@@ -8,7 +8,7 @@
 //! | placement | every `xformOp`, `!invert!`, `!resetXformStack!` |
 //! | parts | one for each gprim and subset that binds a material, named by its path; prims of the same opinions, such as instances, share their meshes. Prims that are invisible or of the purpose `guide` or `proxy` are left out, and with a warning meshes, instancers and primvars whose numbers do not fit each other |
 //! | meshes | polygons with holes, both orientations, normals and texture coordinates of every interpolation with or without indices. Subdivision surfaces are taken as their cages, with smooth normals where none are stated |
-//! | other shapes | cubes, spheres, cylinders, cones, capsules, planes; point instancers. Points, curves, patches, volumes and skins are left out |
+//! | other shapes | cubes, spheres, cylinders, cones, capsules, planes; point instancers. Points, curves, patches and volumes are left out, and so are skeletons and blend shapes: their meshes stay in the rest pose |
 //! | binding | direct, by purpose (`full`, all, `preview`), inherited, `strongerThanDescendants`, by collections with what they include and exclude by path. Without a material, the display colour and opacity, or their means, inherited where they are constant |
 //! | UsdPreviewSurface | as `Bsdf::Principled`. Opacity passes light straight, with the share of the reflection that remains; above `opacityThreshold` 0 it is a mask. In the specular workflow a bright specular colour is a metal. Displacement is left out, and so is occlusion, which light transport computes |
 //! | textures | UsdUVTexture with wrap modes (`black` is continued, `useMetadata` repeats), scale, bias, fallback and colour space (`auto`: sRGB for colours, raw for numbers), UsdTransform2d, UsdPrimvarReader, through node graphs and inputs of materials; of UDIMs the first tile. One set of texture coordinates a material |
@@ -62,11 +62,6 @@ use walk::Walk;
 
 /// Metres per unit where a scene file states none.
 const DEFAULT_METERS_PER_UNIT: f64 = 0.01;
-
-/// Memory that a binary file may unpack to: far beyond any scene of its size, far below what a few bytes could ask for.
-fn unpacked_limit(file_bytes: u64) -> u64 {
-    (1 << 28) + 64 * file_bytes
-}
 
 /// Imports a USD file.
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {

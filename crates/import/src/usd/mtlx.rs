@@ -1,6 +1,5 @@
 //! What is read of MaterialX: the surface beside a `UsdPreviewSurface`, and the pictures of its network.
 
-use super::foreign::default_strength;
 use super::shader::{Source, id, source};
 use super::stage::Prim;
 use super::texture::{Texture, Textures};
@@ -15,7 +14,7 @@ use std::rc::Rc;
 /// MaterialX without preview surfaces.
 const BLENDERS_STAND_IN: &str = "previewShader";
 
-/// Longer ways from an input to its picture are circles.
+/// A longer way from an input to its picture is taken for a circle.
 const MAX_STEPS: usize = 64;
 
 /// Inputs of surfaces of other renderers by what they mean, in the order in which they are looked for.
@@ -37,6 +36,12 @@ pub(super) fn first(shader: &Prim, names: &[&'static str]) -> &'static str {
 pub(super) fn is_solid(shader: &Prim) -> bool {
     let is_thin = |name| shader.value(name).and_then(Value::as_bool) == Some(true);
     id(shader).starts_with("ND_") && !is_thin("inputs:geometry_thin_walled") && !is_thin("inputs:thin_walled")
+}
+
+/// The strength of emission where its input has no value: none by the definitions of the standard surface and of OpenPBR.
+pub(super) fn default_strength(shader: &Prim, input: &str) -> f32 {
+    let is_dark = matches!(input, "inputs:emission" | "inputs:emission_luminance") && !id(shader).contains("unlit");
+    if is_dark { 0.0 } else { 1.0 }
 }
 
 impl Textures<'_, '_, '_> {

@@ -8,28 +8,11 @@ use super::polygons::Polygons;
 use super::primvar::Sizes;
 use super::stage::Prim;
 use super::surface::uvs;
-use super::walk::{State, Walk};
+use super::walk::{Piece, Shape, State, Walk};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_geometry::Mesh;
 use std::rc::Rc;
-
-/// Some faces of a mesh: their scene mesh, the subset's name, and what it binds.
-#[derive(Clone)]
-pub(super) struct Piece {
-    mesh: u32,
-    name: String,
-    bindings: Bindings,
-}
-
-/// What the meshes of a prim are made of.
-#[derive(Clone)]
-pub(super) struct Shape {
-    pieces: Vec<Piece>,
-    sizes: Sizes,
-    /// True for subdivision surfaces.
-    smooth: bool,
-}
 
 impl Walk<'_> {
     pub(super) fn shape(&mut self, prim: &Rc<Prim>, mesh: Mesh, state: &State, a: &mut Assembly) -> Result<(), ImportError> {

@@ -1,4 +1,4 @@
-//! Polygon meshes.
+//! Polygon meshes (`Mesh`): faces with holes and both orientations, split into triangles with the values of their corners.
 
 use super::primvar::{Primvar, Sizes};
 use super::stage::Prim;
@@ -20,7 +20,7 @@ pub(super) struct Polygons {
     /// First corner and number of corners of each face.
     faces: Vec<(usize, usize)>,
     left_handed: bool,
-    /// Faces that are not there.
+    /// True for the faces that `holeIndices` leaves out.
     holes: Vec<bool>,
     normals: Option<Primvar<3>>,
     /// True for subdivision surfaces, whose cage this is.

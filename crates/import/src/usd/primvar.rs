@@ -5,7 +5,7 @@ use super::value::Value;
 use crate::assembly::Assembly;
 use std::rc::Rc;
 
-/// How far one value reaches.
+/// What one value covers: the whole surface, a face, a point or a corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Interpolation {
     Constant,
@@ -73,7 +73,7 @@ impl<const N: usize> Primvar<N> {
         Ok(Some(Self { data: Rc::new(numbers.to_vec()), indices: indices.map(|i| Rc::new(i.to_vec())), interpolation }))
     }
 
-    /// Which value holds at a corner: that of its face and its point.
+    /// The value at a corner: that of its face and its point.
     pub(super) fn element(&self, face: usize, point: usize, corner: usize) -> u32 {
         let place = match self.interpolation {
             Interpolation::Constant => 0,
@@ -96,7 +96,7 @@ impl<const N: usize> Primvar<N> {
         std::array::from_fn(|i| self.data.iter().skip(i).step_by(N).sum::<f64>() / count)
     }
 
-    /// True when one value holds everywhere.
+    /// True when there is one value for the whole mesh.
     pub(super) fn is_constant(&self) -> bool {
         self.data.chunks(N).all(|c| c == &self.data[..N])
     }

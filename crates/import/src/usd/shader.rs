@@ -7,13 +7,13 @@ use crate::ImportError;
 use crate::assembly::Assembly;
 use std::rc::Rc;
 
-/// Longer ways from input to output are circles.
+/// A longer way from an input to its output is taken for a circle.
 const MAX_STEPS: usize = 64;
 
 /// Where an input's value comes from.
 #[derive(Debug)]
 pub(super) enum Source {
-    /// Nowhere: the shader's default holds.
+    /// Nowhere: the shader's default is used.
     Default,
     /// A value, and the location of the layer that says it.
     Value(Value, String),

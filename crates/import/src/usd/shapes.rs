@@ -30,7 +30,7 @@ pub(super) fn mesh(prim: &Prim) -> Option<Mesh> {
     Some(turned_to(mesh, &axis))
 }
 
-/// A mesh along z turned so that it lies along another axis, by exchanging coordinates in a circle.
+/// A mesh along z turned so that it lies along another axis, by a cyclic permutation of coordinates.
 fn turned_to(mut mesh: Mesh, axis: &str) -> Mesh {
     let turn = |v: Vec3| match axis {
         "X" => Vec3::new(v.z, v.x, v.y),

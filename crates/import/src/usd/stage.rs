@@ -78,7 +78,7 @@ impl Stage {
         Ok((!prim.sites.is_empty()).then_some(prim))
     }
 
-    /// The bytes of a file inside of an archive that holds a layer.
+    /// The bytes of a file within an archive that a layer lies in.
     pub(super) fn embedded(&self, location: &str) -> Option<Vec<u8>> {
         self.composer.files.embedded(location)
     }

@@ -27,7 +27,7 @@ pub(super) enum Value {
     Other(&'static str),
 }
 
-/// Numbers as doubles, which hold all of the format's numbers that rooms use.
+/// Numbers as doubles, which represent all of the format's numbers that rooms use.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Numbers {
     /// Numbers per element: 1 for scalars, 2 to 4 for vectors, 4 for quaternions (real part first), 4, 9 or 16 for matrices (row by
@@ -39,7 +39,7 @@ pub(super) struct Numbers {
     pub array: bool,
 }
 
-/// An edit of a list that a weaker opinion holds.
+/// An edit of the list that weaker opinions give.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ListEdit {
     /// Replaces the list.

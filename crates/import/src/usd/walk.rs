@@ -6,7 +6,7 @@ use super::constants::Constants;
 use super::label::{self, Unknown};
 use super::light::Lamp;
 use super::material::Materials;
-use super::parts::Shape;
+use super::primvar::Sizes;
 use super::shapes;
 use super::stage::{Prim, Stage};
 use super::xform;
@@ -23,17 +23,35 @@ pub(super) struct State {
     pub file_from_parent: DAffine3,
     pub label: PartLabel,
     pub bindings: Bindings,
-    /// Primvars that hold for all of what is below.
+    /// Constant primvars, which all prims below inherit.
     pub constants: Constants,
     /// True for the purposes `guide` and `proxy`.
     pub hidden: bool,
-    /// Goes before the names of parts: tells instances of one prototype apart.
+    /// Goes before the names of parts, so that instances of one prototype have different names.
     pub prefix: String,
+}
+
+/// Some faces of a mesh: their scene mesh, the subset's name, and what it binds.
+#[derive(Clone)]
+pub(super) struct Piece {
+    pub mesh: u32,
+    pub name: String,
+    pub bindings: Bindings,
+}
+
+/// What the meshes of a prim are made of.
+#[derive(Clone)]
+pub(super) struct Shape {
+    pub pieces: Vec<Piece>,
+    pub sizes: Sizes,
+    /// True for subdivision surfaces.
+    pub smooth: bool,
 }
 
 /// More visits than this are taken for instances that multiply without end.
 const MAX_VISITS: usize = 1 << 21;
 
+/// A walk through a stage: what it has met, and what was made of it.
 pub(super) struct Walk<'s> {
     pub stage: &'s mut Stage,
     pub z_up: bool,

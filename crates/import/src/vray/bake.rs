@@ -1,6 +1,6 @@
-//! Pictures made from pictures.
+//! Pictures computed from pictures, each once: complements for opacity and glossiness.
 
-use super::Reader;
+use super::reader::Reader;
 use crate::images;
 use enfilade_math::Rgb;
 use enfilade_scene::{Image, Pixels};

@@ -1,8 +1,8 @@
 //! The simpler BRDF plugins, and layers of several.
 
-use super::Reader;
-use super::handle::Handle;
 use super::material::Surface;
+use super::plugins::Handle;
+use super::reader::Reader;
 use crate::{ImportError, images};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, NormalMap, ScalarParam};

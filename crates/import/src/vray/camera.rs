@@ -1,8 +1,8 @@
 //! `RenderView` and `CameraPhysical` to cameras.
 
-use super::Reader;
-use super::handle::Handle;
 use super::physical::{BY_EXPOSURE_VALUE, Physical};
+use super::plugins::Handle;
+use super::reader::Reader;
 use crate::ImportError;
 use enfilade_math::{DMat3, Rgb};
 use std::f64::consts::FRAC_PI_4;

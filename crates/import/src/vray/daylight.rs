@@ -1,7 +1,7 @@
 //! `SunLight` and `TexSky`, by our own model of the atmosphere in V-Ray's units.
 
-use super::Reader;
-use super::handle::Handle;
+use super::plugins::Handle;
+use super::reader::Reader;
 use crate::ImportError;
 use enfilade_math::{DVec3, Rgb};
 use enfilade_scene::sky::{Daylight, SUN_RADIUS_RAD};

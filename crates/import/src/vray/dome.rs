@@ -3,16 +3,17 @@
 //! A scene here has one environment, which is seen and gives light. A dome wins over the settings, and of these what gives light
 //! (`gi_tex`) over what is seen (`bg_tex`).
 
-use super::handle::{self, Handle};
 use super::light::Strength;
-use super::{MAX_CHAIN, Reader};
+use super::parameters;
+use super::plugins::Handle;
+use super::reader::{MAX_CHAIN, Reader};
 use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec2, Vec3};
 use enfilade_scene::{Environment, Image, MapRows, Pixels, TextureRef, Wrap, direction_from_uv};
 use enfilade_vrscene::Value;
 use std::f32::consts::PI;
 
-/// Rows of a picture that is half dome, half black: the horizon is one of them wide.
+/// Rows of a picture that is half dome, half black; the step between them at the horizon is one row.
 const HALF_DOME_ROWS: u32 = 256;
 
 /// Width of an angular picture once it is unrolled, texels.
@@ -58,7 +59,7 @@ impl<'n> Reader<'n, '_> {
         let multiplier = Rgb::splat(settings.number(&format!("{kind}_tex_mult"), 1.0)? as f32 * self.exposure);
         for parameter in [texture, format!("{kind}_color")] {
             let Some(value) = settings.value(&parameter)? else { continue };
-            let black = handle::constant(&value).is_some_and(|c| c.is_black()) || value.plugin() == Some(b"NULL");
+            let black = parameters::constant(&value).is_some_and(|c| c.is_black()) || value.plugin() == Some(b"NULL");
             if !black && !multiplier.is_black() {
                 return Ok(Some((parameter, value, multiplier)));
             }
@@ -105,7 +106,7 @@ impl<'n> Reader<'n, '_> {
         if depth > MAX_CHAIN {
             return Err(plugin.error(parameter, "textures refer to each other in a circle; correct the reference that closes it"));
         }
-        if handle::constant(value).is_none()
+        if parameters::constant(value).is_none()
             && let Some(texture) = plugin.resolve(parameter, value)?
         {
             match texture.kind() {

@@ -1,19 +1,14 @@
 //! Geometry plugins to meshes, one for each material that a geometry's faces have.
 
-use super::handle::{self, Handle};
-use super::{MAX_CHAIN, Reader};
+use super::parameters;
+use super::plugins::Handle;
+use super::reader::{MAX_CHAIN, Meshes, Reader};
 use crate::ImportError;
 use crate::primitives;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};
 use enfilade_vrscene::Value;
 use std::collections::{BTreeMap, HashMap};
-
-/// What tells meshes apart: the geometry's plugin, the texture channel, and whether faces are told apart by material.
-pub(super) type MeshKey = (usize, i64, bool);
-
-/// The meshes of a geometry by material id; 0 for all where these are not told apart.
-pub(super) type Meshes = Vec<(i32, u32)>;
 
 /// Half the side of what stands for an infinite plane, units.
 const PLANE_HALF: f32 = 1000.0;
@@ -126,7 +121,7 @@ impl<'n> StaticMesh<'n> {
             || self.plugin.error("map_channels", "expected List(List(number, ListVector(…), ListInt(…)), …); export the mesh again");
         let Value::List(_, parts) = channel else { return Err(wrong()) };
         let [index, coordinates, indices] = parts.as_slice() else { return Err(wrong()) };
-        let (Some(index), Some(uvs), Some(indices)) = (index.number(), handle::vectors(coordinates), handle::ints(indices)) else {
+        let (Some(index), Some(uvs), Some(indices)) = (index.number(), parameters::vectors(coordinates), parameters::ints(indices)) else {
             return Err(wrong());
         };
         if found.is_none() {

@@ -1,7 +1,7 @@
 //! Lights with a surface, and what all lights share: strength in V-Ray's units.
 
-use super::Reader;
-use super::handle::Handle;
+use super::plugins::Handle;
+use super::reader::Reader;
 use crate::ImportError;
 use crate::{primitives, spectrum};
 use enfilade_geometry::Mesh;
@@ -127,7 +127,7 @@ impl<'n> Reader<'n, '_> {
         let texture = self.light_texture(light, "use_tex", "tex")?;
         let meshes = self.geometry(geometry, 1, false)?;
         let Some(&(_, mesh)) = meshes.first() else { return Ok(()) };
-        let area = area(self.a.mesh_at(mesh), placement);
+        let area = self.a.area(mesh, placement);
         let material = self.light_material(light, area, texture)?;
         self.light_part(light, mesh, material, placement);
         Ok(())
@@ -182,13 +182,4 @@ impl<'n> Reader<'n, '_> {
         let material = Material { emission, emits_both_sides: both, ..Material::emitter(light.name(), radiance) };
         Ok(self.a.push_material(material))
     }
-}
-
-/// Area of a mesh that is placed somewhere, square units.
-fn area(mesh: &Mesh, placement: DAffine3) -> f64 {
-    let triangle = |t: usize| {
-        let [a, b, c] = mesh.corners(t).map(|p| placement.transform_point3(p.as_dvec3()));
-        0.5 * (b - a).cross(c - a).length()
-    };
-    (0..mesh.triangles.len()).map(triangle).sum()
 }

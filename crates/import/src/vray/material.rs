@@ -1,21 +1,13 @@
-//! Material plugins to materials.
+//! Material plugins to materials: lists by id, and what is inside those that only add to another one.
 
-use super::handle::Handle;
-use super::{MAX_CHAIN, MAX_LAYERS, Reader};
+use super::plugins::Handle;
+use super::reader::{MAX_CHAIN, MAX_LAYERS, Made, Reader};
 use crate::ImportError;
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap};
 
 /// Stands in for surfaces that have no counterpart.
 pub(super) const MID_GREY: f32 = 0.5;
-
-/// A material that was made: where it is in the scene, its name, and the texture channel that its textures use, if it has any.
-#[derive(Clone, Debug)]
-pub(super) struct Made {
-    pub index: u32,
-    pub name: String,
-    pub channel: Option<i64>,
-}
 
 /// What a material or BRDF plugin says of a surface.
 #[derive(Clone)]
@@ -33,7 +25,7 @@ impl From<Bsdf> for Surface {
     }
 }
 
-/// Materials that add to another one something that is not supported, and the parameter that holds the other one.
+/// Materials that add to another one something that is not supported, and the parameter that names the other one.
 const AROUND: [(&str, &str); 7] = [
     ("Mtl2Sided", "front"),
     ("MtlDoubleSided", "front"),
@@ -154,7 +146,7 @@ impl<'n> Reader<'n, '_> {
         }
     }
 
-    /// A diffuse surface of the colour that an unsupported plugin has, as far as it can be told.
+    /// A diffuse surface of the colour that an unsupported plugin has, as far as it can be known.
     pub(super) fn substitute(&mut self, plugin: Handle<'n>) -> Result<Surface, ImportError> {
         const COLORS: [&str; 7] = ["diffuse", "diffuse_color", "base_color", "color", "overall_color", "diffuse_tex", "paint_color"];
         let found = COLORS.iter().find(|c| plugin.plugin.parameter(c).is_some());

@@ -2,7 +2,7 @@
 //!
 //! | plugins | supported |
 //! |---|---|
-//! | geometry | `GeomStaticMesh` with its normals, texture channels and material ids, plain or packed; `GeomPlane`, `GeomInfinitePlane` (a square of 2000 units a side); `GeomDisplacedMesh` and `GeomStaticSmoothedMesh` (their base mesh, with a warning) |
+//! | geometry | `GeomStaticMesh` with its normals, texture channels and material ids, plain or packed; `GeomPlane`, `GeomInfinitePlane` (a square of 2000 units a side); `GeomDisplacedMesh`, `GeomStaticDisplacedMesh` and `GeomStaticSmoothedMesh` (their base mesh, with a warning) |
 //! | nodes | `Node`: placement, geometry, material, `visible`. Nodes share meshes |
 //! | cameras | `RenderView` with `SettingsOutput` and the field of view of `SettingsCamera`; `CameraPhysical`: field of view, film, focal length, zoom, shifts and offsets |
 //! | lights | `LightRectangle`, `LightSphere`, `LightMesh`, `LightDome`, `LightDirect`, `LightDirectMax`, `MayaLightDirect`, `LightOmni`, `LightOmniMax`, `LightSpot`, `LightSpotMax`, `LightIES`, `SunLight`; `SettingsEnvironment` |
@@ -27,8 +27,8 @@
 //!
 //! # Animation
 //!
-//! Of animated parameters the first keyframe is used, and of a scene that is told moment by moment (`#time`) what is told of each plugin
-//! first, with a warning.
+//! Of animated parameters the first keyframe is used, and of a scene that is written moment by moment (`#time`) the first state of each
+//! plugin, with a warning.
 
 mod bake;
 mod brdf;
@@ -36,30 +36,25 @@ mod camera;
 mod daylight;
 mod dome;
 mod geometry;
-mod handle;
 mod light;
 mod material;
 mod node;
+mod parameters;
 mod physical;
 mod plugins;
 mod point_light;
 mod principled;
+mod reader;
 mod texture;
 mod transfer;
 mod uvw;
 
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported, UpAxis};
-use enfilade_math::{DVec3, Rgb};
-use handle::Handle;
+use enfilade_math::DVec3;
 use plugins::Plugins;
-use std::collections::{BTreeSet, HashMap};
-
-/// Plugins that lead to each other over more steps than this do so in a circle.
-const MAX_CHAIN: usize = 48;
-
-/// A material of more BRDFs than this is one whose layers hold each other again and again.
-const MAX_LAYERS: usize = 256;
+use reader::Reader;
+use std::collections::BTreeSet;
 
 /// V-Ray's own metres per unit and radiance per cd/m² where a scene does not state them.
 const DEFAULT_UNIT: (f64, f64) = (1.0, 0.002);
@@ -90,18 +85,7 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
         Some(camera) => physical::exposure(camera, photometric_scale)? as f32,
         None => 1.0,
     };
-    let mut reader = Reader {
-        a: assembly,
-        plugins: &plugins,
-        photometric_scale,
-        meshes: HashMap::new(),
-        materials: HashMap::new(),
-        channel: None,
-        layers: 0,
-        complements: HashMap::new(),
-        exposure,
-        light_level: Rgb::splat(exposure),
-    };
+    let mut reader = Reader::new(assembly, &plugins, photometric_scale, exposure);
     reader.nodes()?;
     reader.lights()?;
     reader.surroundings()?;
@@ -131,39 +115,7 @@ fn units(plugins: &Plugins, a: &mut Assembly) -> Result<f64, ImportError> {
     Ok(photometric_scale)
 }
 
-/// A scene being read: its plugins, and what has been made of them.
-struct Reader<'n, 'a> {
-    a: Assembly<'a>,
-    plugins: &'n Plugins,
-    /// Radiance of 1 cd/m².
-    photometric_scale: f64,
-    meshes: HashMap<geometry::MeshKey, geometry::Meshes>,
-    materials: HashMap<usize, material::Made>,
-    /// The texture channel of the material that is being made.
-    channel: Option<i64>,
-    /// How many BRDFs it has so far.
-    layers: usize,
-    /// Pictures of 1 − factor × channel of others.
-    complements: HashMap<(u32, [u32; 3], Option<u8>), u32>,
-    /// What the camera's exposure multiplies all light by.
-    exposure: f32,
-    /// Multiplies all lights, exposure included.
-    light_level: Rgb,
-}
-
 impl Reader<'_, '_> {
-    fn warn(&mut self, plugin: Handle, message: impl Into<String>) {
-        self.a.warn(plugin.place(), message);
-    }
-
-    /// Warns of every parameter among these that the plugin animates.
-    fn warn_of_animation(&mut self, plugin: Handle, parameters: &[&str]) {
-        for parameter in parameters.iter().filter(|p| plugin.is_animated(p)) {
-            let keys = plugin.keyframes(parameter);
-            self.warn(plugin, format!("{parameter} is animated; the first of its {keys} keyframes was used"));
-        }
-    }
-
     /// Warns of what would be seen in the picture and is not supported, once per kind.
     fn report_unsupported(&mut self) {
         let found: BTreeSet<&str> = self.plugins.all().map(|p| p.kind()).filter(|kind| UNSUPPORTED.contains(kind)).collect();

@@ -1,7 +1,7 @@
-//! Nodes to parts.
+//! `Node` plugins to parts: one for each material of their geometry.
 
-use super::Reader;
-use super::handle::Handle;
+use super::plugins::Handle;
+use super::reader::Reader;
 use crate::ImportError;
 use enfilade_math::DAffine3;
 use enfilade_scene::PartLabel;

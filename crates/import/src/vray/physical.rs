@@ -3,7 +3,7 @@
 //! V-Ray does not publish its formulas. These are the ones that Hypersim's maintainers found and checked against its pictures
 //! (github.com/apple/ml-hypersim, contrib/mikeroberts3000, the notebook on camera intrinsics). Lengths are in units of the scene.
 
-use super::handle::Handle;
+use super::plugins::Handle;
 use crate::ImportError;
 use enfilade_math::{DMat3, DVec3};
 

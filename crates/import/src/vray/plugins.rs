@@ -1,6 +1,5 @@
 //! All plugins of a scene, of its file and of those that it includes, found by name.
 
-use super::handle::Handle;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_vrscene::{Document, Item, Place, Plugin};
@@ -13,14 +12,24 @@ const MAX_INCLUDES_DEEP: usize = 16;
 /// No scene has more files than this.
 const MAX_FILES: usize = 4096;
 
-/// The plugins of a scene in the order in which they are read, an included file in the place of its `#include`. Of a scene that is told
-/// moment by moment (`#time`), each as it is told first.
+/// The plugins of a scene in the order in which they are read, an included file in the place of its `#include`. Of a scene that is
+/// written moment by moment (`#time`), each as it is first written.
 pub(super) struct Plugins {
     list: Vec<(Plugin, usize)>,
     files: Vec<PathBuf>,
     by_name: HashMap<Vec<u8>, usize>,
-    /// True behind a `#time`: a plugin that comes again is the same at another moment.
+    /// True after a `#time`: a plugin that comes again is the same one at another moment.
     timed: bool,
+}
+
+/// A plugin of a scene.
+#[derive(Clone, Copy)]
+pub(super) struct Handle<'n> {
+    pub(super) plugins: &'n Plugins,
+    /// Its place among all plugins, which identifies it.
+    pub(super) index: usize,
+    pub(super) plugin: &'n Plugin,
+    pub(super) file: &'n Path,
 }
 
 impl Plugins {

@@ -1,8 +1,8 @@
 //! Lights without a surface: points, spots, photometric profiles and distant light. All that have a direction shine along −z.
 
-use super::Reader;
-use super::handle::Handle;
 use super::light::Strength;
+use super::plugins::Handle;
+use super::reader::Reader;
 use crate::ImportError;
 use crate::assembly::mat3_f32;
 use crate::ies;
@@ -48,7 +48,7 @@ impl<'n> Reader<'n, '_> {
         if light.number("shadowRadius", 0.0)? > 0.0 {
             self.warn(light, "soft shadows of point lights (shadowRadius) are not supported; they are sharp");
         }
-        // Photometric intensities hold at a metre, and the assembly scales intensities that hold at a unit.
+        // Photometric intensities are per metre, and the assembly scales intensities that are per unit.
         let scale = self.photometric_scale / self.a.meters_per_unit().powi(2);
         Ok(match self.strength(light, false)? {
             Strength::Image(color) => color * PI as f32,

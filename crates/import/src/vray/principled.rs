@@ -10,10 +10,10 @@
 //! | `opacity`, or `opacity_color` where `opacity_source` is 1; `opacity_mode` | shares of the surface that are there; mode 1 cuts at one half |
 //! | `self_illumination`, `bump_map` | emission, perturbed normals |
 
-use super::Reader;
 use super::brdf::{DEFAULT_IOR, blend, diffuse, mirror};
-use super::handle::Handle;
 use super::material::{MID_GREY, Surface};
+use super::plugins::Handle;
+use super::reader::Reader;
 use crate::ImportError;
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Principled, ScalarParam};

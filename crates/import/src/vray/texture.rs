@@ -1,9 +1,10 @@
 //! Textures, and the colour and number parameters that may hold them.
 
-use super::handle::{self, Handle};
 use super::material::MID_GREY;
+use super::parameters;
+use super::plugins::Handle;
+use super::reader::{MAX_CHAIN, Reader};
 use super::uvw::Placement;
-use super::{MAX_CHAIN, Reader};
 use crate::ImportError;
 use crate::assembly::Source;
 use crate::images;
@@ -25,10 +26,10 @@ impl From<Rgb> for Texture {
     }
 }
 
-/// Textures that pass another one on as it is, and the parameter that holds it.
+/// Textures that pass another one on unchanged, and the parameter that names it.
 const PASSING: [(&str, &str); 3] = [("TexAColor", "texture"), ("TexFloat", "input"), ("TexColorToFloat", "input")];
 
-/// Parameters of other textures that hold what is nearest to their result, in order of preference.
+/// Parameters of other textures that are nearest to their result, in order of preference.
 const NEAREST: [&str; 12] = [
     "texture",
     "texmap",
@@ -133,7 +134,7 @@ impl<'n> Reader<'n, '_> {
         if depth > MAX_CHAIN {
             return Err(plugin.error(parameter, "textures refer to each other in a circle; correct the reference that closes it"));
         }
-        if let Some(color) = handle::constant(value) {
+        if let Some(color) = parameters::constant(value) {
             if color.is_finite() {
                 return Ok(color.into());
             }

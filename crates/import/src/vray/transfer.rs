@@ -3,8 +3,8 @@
 //! By Chaos's descriptions of its plugins `transfer_function`, which was called `color_space` before, is 0 (linear), 1 (`gamma`, which
 //! counts for nothing else), 2 (sRGB) or 3 (by the file, as [`Reader::by_file`] says).
 
-use super::Reader;
-use super::handle::Handle;
+use super::plugins::Handle;
+use super::reader::Reader;
 use crate::ImportError;
 use crate::images::Use;
 use ::image::{ColorType, ImageDecoder, ImageFormat, ImageReader};
@@ -66,7 +66,7 @@ impl<'n> Reader<'n, '_> {
         }
         match self.a.read(path) {
             Ok((_, bytes)) if has_colors_of_eight_bits(name, &bytes) => Use::Color,
-            // What cannot be read is told where it is decoded.
+            // What cannot be read is reported where it is decoded.
             _ => Use::Data,
         }
     }

@@ -1,7 +1,7 @@
 //! Where a texture gets its coordinates: UVW generators.
 
-use super::Reader;
-use super::handle::Handle;
+use super::plugins::Handle;
+use super::reader::Reader;
 use crate::ImportError;
 use enfilade_scene::Wrap;
 

@@ -357,7 +357,7 @@ fn what_cannot_be_read_says_where_and_what_to_do() {
     let message = error("e.sh3d", home("<wall id='w' xStart='zero' yStart='0' xEnd='1' yEnd='0' thickness='1'/>"));
     assert_eq!(
         message,
-        "e.sh3d/Home.xml: line 3 <wall>: found xStart=\"zero\", expected a finite number; mend the file or save the home again"
+        "e.sh3d/Home.xml: line 3 <wall>: found xStart=\"zero\", expected a finite number; fix the file or save the home again"
     );
     assert!(error("f.sh3d", home("<wall")).contains("f.sh3d/Home.xml: line 3"));
     let deep = "<furnitureGroup name='g'>".repeat(100) + &"</furnitureGroup>".repeat(100);

@@ -1,6 +1,5 @@
-//! Reading numbers and packed blocks from a crate file, with every bound checked.
+//! A place in the bytes of a crate file: numbers and packed blocks read from there, with every bound checked.
 
-use crate::usd::unpacked_limit;
 use lz4_flex::block::decompress_into;
 
 /// LZ4 cannot pack more tightly than this; a file that claims more is damaged.
@@ -152,6 +151,19 @@ fn signed(bytes: &[u8]) -> i64 {
     let unsigned = bytes.iter().rev().fold(0u64, |n, b| n << 8 | u64::from(*b));
     let unused = 64 - 8 * bytes.len() as u32;
     if unused >= 64 { 0 } else { (unsigned << unused) as i64 >> unused }
+}
+
+/// Element `i` of a table of the file.
+pub(super) fn index<'t, T>(table: &'t [T], i: i64, what: &str, at: &Cursor) -> Checked<&'t T> {
+    match usize::try_from(i).ok().and_then(|i| table.get(i)) {
+        Some(found) => Ok(found),
+        None => at.error(format!("found {what} {i}, but there are only {}; the file is damaged, so export it again", table.len())),
+    }
+}
+
+/// Memory that a binary file may unpack to: far beyond any scene of its size, far below what a few bytes could ask for.
+pub(super) fn unpacked_limit(file_bytes: u64) -> u64 {
+    (1 << 28) + 64 * file_bytes
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ mod numbers;
 mod values;
 
 use super::layer::{Layer, MAX_PATH, child_path, property_path};
-use cursor::{Checked, Cursor};
+use cursor::{Checked, Cursor, index, unpacked_limit};
 use std::collections::HashMap;
 use std::rc::Rc;
 use values::Values;
@@ -59,14 +59,6 @@ fn read(bytes: &[u8]) -> Checked<Layer> {
         layer.specs.insert(path.to_string(), set_fields);
     }
     Ok(layer)
-}
-
-/// Element `i` of a table of the file.
-fn index<'t, T>(table: &'t [T], i: i64, what: &str, at: &Cursor) -> Checked<&'t T> {
-    match usize::try_from(i).ok().and_then(|i| table.get(i)) {
-        Some(found) => Ok(found),
-        None => at.error(format!("found {what} {i}, but there are only {}; the file is damaged, so export it again", table.len())),
-    }
 }
 
 /// Number of things in a packed section. Each takes two bits at least, and packing gains no more than 256 times.
@@ -149,7 +141,7 @@ fn paths(mut c: Cursor, tokens: &[Rc<str>]) -> Checked<Vec<Rc<str>>> {
     let count = packed_count(&mut c)?;
     let encoded = packed_count(&mut c)?;
     // Long paths of many prims could otherwise take far more memory than the file.
-    let mut budget = super::unpacked_limit(c.bytes.len() as u64);
+    let mut budget = unpacked_limit(c.bytes.len() as u64);
     if count as u64 > budget / 16 {
         return here.error(format!("found {count} paths, which is more than the file can hold; the file is damaged"));
     }

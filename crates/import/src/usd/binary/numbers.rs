@@ -1,7 +1,6 @@
 //! Numbers in crate files: plain, or packed.
 
-use super::cursor::{Checked, Cursor};
-use super::index;
+use super::cursor::{Checked, Cursor, index};
 use half::f16;
 
 /// Shorter arrays are not packed.

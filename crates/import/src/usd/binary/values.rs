@@ -1,7 +1,6 @@
 //! Values in crate files: within eight bytes, or at a place in the file.
 
-use super::cursor::{Checked, Cursor};
-use super::index;
+use super::cursor::{Checked, Cursor, index, unpacked_limit};
 use super::numbers::{Kind, SHORTEST_PACKED, layout, packed_numbers, plain_numbers};
 use crate::usd::value::{Item, ListEdit, Numbers, Value};
 use std::collections::{BTreeMap, HashMap};
@@ -29,7 +28,7 @@ pub(super) struct Values<'a> {
 
 impl<'a> Values<'a> {
     pub(super) fn new(bytes: &'a [u8], version: [u8; 3], tokens: &'a [Rc<str>], strings: &'a [Rc<str>], paths: &'a [Rc<str>]) -> Self {
-        let budget = crate::usd::unpacked_limit(bytes.len() as u64);
+        let budget = unpacked_limit(bytes.len() as u64);
         Self { bytes, version, tokens, strings, paths, known: HashMap::new(), budget }
     }
 
@@ -48,7 +47,7 @@ impl<'a> Values<'a> {
             return c.error("values are nested too deeply; the file is damaged");
         }
         let kind = (rep >> 48 & 0xff) as u8;
-        // Before reading, so that values which name themselves come to an end.
+        // Before reading, so that a value that refers to itself ends the search.
         self.charge(64, &c)?;
         let value = if rep & IS_ARRAY != 0 {
             self.array(rep, kind, c)?
@@ -185,7 +184,7 @@ impl<'a> Values<'a> {
         })
     }
 
-    /// The value at a place that is given by its distance. The cursor goes on behind it.
+    /// The value at a place that is given by its distance. The cursor continues after it.
     fn jump(&mut self, c: &mut Cursor, depth: usize) -> Checked<Value> {
         let mut at = c.jump()?;
         let rep = at.u64()?;

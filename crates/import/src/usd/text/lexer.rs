@@ -56,7 +56,7 @@ impl<'a> Lexer<'a> {
         self.text.as_bytes().get(self.at + ahead).copied()
     }
 
-    /// The text from here to where `end` begins, past which reading goes on.
+    /// The text from here to where `end` begins, after which reading continues.
     fn until(&mut self, end: &str, what: &str) -> Result<&'a str, String> {
         let rest = &self.text[self.at..];
         let length = rest.find(end).ok_or_else(|| format!("{what} is never closed by {end}; the file is cut short or damaged"))?;

@@ -1,9 +1,9 @@
 //! Metadata in usda: what stands in round brackets behind the layer, a prim, or a property.
 
 use super::lexer::Token;
-use super::parser::{Parsed, Parser};
+use super::parser::{Parsed, Parser, add_edit};
 use crate::usd::layer::{Fields, field};
-use crate::usd::value::{Item, ListEdit, Value};
+use crate::usd::value::Value;
 use std::rc::Rc;
 
 impl Parser<'_> {
@@ -64,22 +64,5 @@ impl Parser<'_> {
         let name = if key == "variants" { field::VARIANTS } else { key };
         fields.push((name.into(), value));
         Ok(())
-    }
-}
-
-/// Adds an edit of a list; several edits of one list stand together.
-pub(super) fn add_edit(fields: &mut Fields, list: &str, edit: Option<&str>, items: Vec<Item>) {
-    let at = fields.iter().position(|(n, _)| &**n == list).unwrap_or_else(|| {
-        fields.push((list.into(), Value::List(Rc::new(ListEdit::default()))));
-        fields.len() - 1
-    });
-    let Value::List(edits) = &mut fields[at].1 else { return };
-    let edits = Rc::make_mut(edits);
-    match edit {
-        None => edits.explicit = Some(items),
-        Some("prepend") => edits.prepended = items,
-        Some("delete") => edits.deleted = items,
-        Some("reorder") => (),
-        _ => edits.appended = items,
     }
 }

@@ -1,9 +1,8 @@
 //! The structure of usda: prims, properties, variants and their metadata.
 
 use super::lexer::{Lexer, Token};
-use super::metadata::add_edit;
 use crate::usd::layer::{Fields, Layer, MAX_DEPTH, MAX_PATH, child_path, field, property_path};
-use crate::usd::value::Value;
+use crate::usd::value::{Item, ListEdit, Value};
 use std::rc::Rc;
 
 /// Reads tokens into the specs of a layer.
@@ -55,7 +54,7 @@ impl<'a> Parser<'a> {
         if self.at_sign(sign)? { self.advance() } else { Err(self.unexpected(&format!("`{}`", char::from(sign)))) }
     }
 
-    /// The comma between elements, which may lack before `close`.
+    /// The comma between elements, which may be absent before `close`.
     pub(super) fn comma(&mut self, close: u8) -> Parsed {
         if self.at_sign(b',')? {
             return self.advance();
@@ -286,5 +285,22 @@ fn add_name(fields: &mut Fields, list: &str, name: &str) {
             }
         }
         _ => fields.push((list.into(), Value::texts([Rc::from(name)]))),
+    }
+}
+
+/// Adds an edit of a list; several edits of one list stand together.
+pub(super) fn add_edit(fields: &mut Fields, list: &str, edit: Option<&str>, items: Vec<Item>) {
+    let at = fields.iter().position(|(n, _)| &**n == list).unwrap_or_else(|| {
+        fields.push((list.into(), Value::List(Rc::new(ListEdit::default()))));
+        fields.len() - 1
+    });
+    let Value::List(edits) = &mut fields[at].1 else { return };
+    let edits = Rc::make_mut(edits);
+    match edit {
+        None => edits.explicit = Some(items),
+        Some("prepend") => edits.prepended = items,
+        Some("delete") => edits.deleted = items,
+        Some("reorder") => (),
+        _ => edits.appended = items,
     }
 }

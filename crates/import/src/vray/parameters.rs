@@ -1,23 +1,12 @@
-//! A plugin with its parameters as the types that an importer asks for.
+//! The parameters of a plugin as the types that an importer asks for.
 //!
-//! A parameter that is animated has the value of its first keyframe ([`Handle::is_animated`] tells). One that the plugin lacks has the
+//! An animated parameter has the value of its first keyframe ([`Handle::is_animated`] says which are). One that the plugin does not state has the
 //! default that the caller gives, which is V-Ray's.
 
-use super::plugins::Plugins;
+use super::plugins::Handle;
 use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb};
-use enfilade_vrscene::{Matrix, Plugin, Value};
-use std::path::Path;
-
-/// A plugin of a scene.
-#[derive(Clone, Copy)]
-pub(super) struct Handle<'n> {
-    pub(super) plugins: &'n Plugins,
-    /// Its place among all plugins, which tells it from every other.
-    pub(super) index: usize,
-    pub(super) plugin: &'n Plugin,
-    pub(super) file: &'n Path,
-}
+use enfilade_vrscene::{Matrix, Value};
 
 impl<'n> Handle<'n> {
     /// What it is, such as `Node`; empty where its kind is not text.

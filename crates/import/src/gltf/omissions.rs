@@ -1,4 +1,4 @@
-//! The JSON of a glTF file, typed; small omissions are mended, but only when the file cannot be read without.
+//! The JSON of a glTF file, typed. Small omissions are filled in, but only when the file cannot be read without that.
 
 use gltf::json::Root;
 use serde_json::{Value, json};
@@ -31,7 +31,7 @@ fn old_version(root: &Value) -> Option<String> {
     (is_old || has_maps).then(|| stated.unwrap_or_else(|| "1.0".into()))
 }
 
-/// Gives scenes without nodes an empty list of them, and takes channels of animations out that move no node: an extension's, or none's.
+/// Gives scenes without nodes an empty list of them, and removes channels of animations that move no node (those of extensions, or without a target).
 fn complete(root: &mut Value) {
     let list = |root: &mut Value, key: &str| root.get_mut(key).and_then(Value::as_array_mut).map(std::mem::take).unwrap_or_default();
     let mut scenes = list(root, "scenes");

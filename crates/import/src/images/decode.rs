@@ -1,0 +1,190 @@
+//! Bytes of a picture file to an [`Image`], by what they begin with.
+
+use super::float_picture::{FloatPicture, check_size};
+use super::{exr, pfm};
+use ::image::codecs::hdr::HdrDecoder;
+use ::image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use enfilade_scene::{Image, Pixels};
+use std::io::Cursor;
+use std::path::Path;
+
+/// What a picture is used for: decides whether its bytes are sRGB-encoded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Use {
+    /// Colours: eight-bit RGB is sRGB.
+    Color,
+    /// Numbers such as normals and roughness: eight-bit RGB is linear.
+    Data,
+}
+
+/// A decoded picture and what was lost on the way, if anything.
+pub(crate) struct Decoded {
+    /// The picture.
+    pub image: Image,
+    /// What was changed, for the report.
+    pub note: Option<String>,
+}
+
+/// The largest finite half float, which infinite texels become.
+const LARGEST_HALF: f32 = 65_504.0;
+
+/// Decodes a picture from the bytes of a file. `name` is for messages and tells TGA, which has no signature, by its extension.
+///
+/// # Errors
+/// What is wrong with the bytes, as the rest of a sentence that begins with the file's name.
+pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, String> {
+    if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
+        return float_image(name, exr::decode(bytes)?);
+    }
+    if bytes.starts_with(b"PF") || bytes.starts_with(b"Pf") {
+        return float_image(name, pfm::decode(bytes)?);
+    }
+    if bytes.starts_with(b"#?RGBE") {
+        return float_image(name, rgbe(bytes)?);
+    }
+    let format = ::image::guess_format(bytes)
+        .ok()
+        // Names of files within an archive end in a bracket.
+        .or_else(|| ImageFormat::from_path(Path::new(name.trim_end_matches(']'))).ok())
+        .ok_or_else(|| "is not a picture of a known format (PNG, JPEG, BMP, TGA, HDR, EXR, PFM)".to_string())?;
+    let size = ImageReader::with_format(Cursor::new(bytes), format).into_dimensions().map_err(undecodable)?;
+    check_size(size.0, size.1)?;
+    // The library's own limit of 512 MB for what it decodes applies too.
+    let picture = ImageReader::with_format(Cursor::new(bytes), format).decode().map_err(undecodable)?;
+    let (width, height) = (picture.width(), picture.height());
+    match picture {
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
+            float_image(name, FloatPicture { width, height, texels: picture.into_rgb32f().pixels().map(|p| p.0).collect() })
+        }
+        _ => {
+            let sixteen = matches!(
+                picture,
+                DynamicImage::ImageLuma16(_) | DynamicImage::ImageLumaA16(_) | DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_)
+            );
+            let texels = picture.into_rgba8().pixels().map(|p| p.0).collect();
+            let pixels = Pixels::Rgba8 { srgb: usage == Use::Color, texels };
+            let note = sixteen.then(|| "16 bits a channel were rounded to 8".to_string());
+            finish(Image { name: name.to_string(), width, height, pixels }, note)
+        }
+    }
+}
+
+fn undecodable(e: ImageError) -> String {
+    format!("cannot be decoded ({e})")
+}
+
+/// Radiance HDR with the signature `#?RGBE`, which some programs write; the library passes over it unless it insists on its own.
+fn rgbe(bytes: &[u8]) -> Result<FloatPicture, String> {
+    let decoder = HdrDecoder::new_nonstrict(Cursor::new(bytes)).map_err(undecodable)?;
+    let (width, height) = decoder.dimensions();
+    check_size(width, height)?;
+    Limits::default().reserve(decoder.total_bytes()).map_err(undecodable)?;
+    let picture = DynamicImage::from_decoder(decoder).map_err(undecodable)?;
+    Ok(FloatPicture { width, height, texels: picture.into_rgb32f().pixels().map(|p| p.0).collect() })
+}
+
+fn float_image(name: &str, mut picture: FloatPicture) -> Result<Decoded, String> {
+    let mut replaced = 0usize;
+    for value in picture.texels.iter_mut().flatten() {
+        if !(0.0..=f32::MAX).contains(value) {
+            *value = if *value == f32::INFINITY { LARGEST_HALF } else { 0.0 };
+            replaced += 1;
+        }
+    }
+    let note = (replaced > 0).then(|| format!("{replaced} values that were negative, infinite or not numbers were replaced"));
+    let pixels = Pixels::RgbF32(picture.texels);
+    finish(Image { name: name.to_string(), width: picture.width, height: picture.height, pixels }, note)
+}
+
+fn finish(image: Image, note: Option<String>) -> Result<Decoded, String> {
+    if image.width == 0 || image.height == 0 {
+        return Err("has no pixels".into());
+    }
+    Ok(Decoded { image, note })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::looks::{is_grey, is_opaque, looks_like_normals};
+    use super::*;
+    use ::image::{ImageBuffer, Luma, Rgba};
+
+    fn png(picture: impl Into<DynamicImage>) -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.into().write_to(&mut bytes, ImageFormat::Png).unwrap();
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn eight_bit_pictures_keep_their_bytes_and_know_their_use() {
+        let bytes = png(ImageBuffer::from_fn(2, 1, |x, _| Rgba([x as u8, 7, 200, 128])));
+        let expected = vec![[0, 7, 200, 128], [1, 7, 200, 128]];
+        let color = decode("a.png", &bytes, Use::Color).unwrap().image;
+        assert_eq!(color.pixels, Pixels::Rgba8 { srgb: true, texels: expected.clone() });
+        assert!(!is_opaque(&color) && !is_grey(&color));
+        let data = decode("a.png", &bytes, Use::Data).unwrap().image;
+        assert_eq!(data.pixels, Pixels::Rgba8 { srgb: false, texels: expected });
+    }
+
+    #[test]
+    fn sixteen_bit_greys_are_rounded_and_noted() {
+        let bytes = png(ImageBuffer::from_fn(1, 1, |_, _| Luma([65_535u16])));
+        let decoded = decode("a.png", &bytes, Use::Data).unwrap();
+        assert_eq!(decoded.image.pixels, Pixels::Rgba8 { srgb: false, texels: vec![[255; 4]] });
+        assert!(decoded.note.unwrap().contains("16 bits"));
+    }
+
+    #[test]
+    fn broken_pictures_say_what_is_wrong() {
+        let bytes = png(ImageBuffer::from_fn(8, 8, |x, y| Luma([(x * y) as u8])));
+        assert!(decode("a.png", &bytes[..bytes.len() / 2], Use::Data).err().unwrap().contains("cannot be decoded"));
+        assert!(decode("a.xyz", b"hello", Use::Data).err().unwrap().contains("not a picture of a known format"));
+        // A PNG's width and height are four bytes each from byte 16; what follows them is not looked at.
+        let mut huge = bytes.clone();
+        huge[16..24].fill(0x7f);
+        assert!(decode("a.png", &huge, Use::Data).is_err());
+        assert!(
+            decode("a.tga", &[&[0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 32, 8][..], &[0; 9]].concat(), Use::Data)
+                .err()
+                .unwrap()
+                .contains("65535x65535 pixels, expected at most")
+        );
+        assert!(decode("a.exr", &[0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0], Use::Data).is_err());
+    }
+
+    #[test]
+    fn normals_are_told_from_colours_and_greys() {
+        let looks = |r: u8, g: u8, b: u8| {
+            // A little relief.
+            let tilted = |x: u32, y: u32| Rgba([r ^ (x as u8 * 16), g ^ (y as u8 * 16), b, 255]);
+            looks_like_normals(&decode("a.png", &png(ImageBuffer::from_fn(2, 2, tilted)), Use::Data).unwrap().image)
+        };
+        assert!(looks(128, 128, 255));
+        // Wood, plaster, the sky, and greys of which one is as long as a unit vector.
+        for [r, g, b] in [[150, 100, 60], [220, 215, 200], [135, 206, 235], [128; 3], [201; 3], [255; 3]] {
+            assert!(!looks(r, g, b), "{r} {g} {b}");
+        }
+    }
+
+    #[test]
+    fn radiance_pictures_are_read_by_either_signature() {
+        let header = |signature: &str| format!("{signature}\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n");
+        let picture = |signature: &str| [header(signature).as_bytes(), &[128, 64, 32, 129]].concat();
+        let pixels = |signature| decode("a.hdr", &picture(signature), Use::Color).unwrap_or_else(|e| panic!("{e}")).image.pixels;
+        assert_eq!(pixels("#?RGBE"), Pixels::RgbF32(vec![[1.0, 0.5, 0.25]]));
+        assert_eq!(pixels("#?RADIANCE"), pixels("#?RGBE"));
+        let claims = b"#?RGBE\n\n-Y 100000 +X 100000\n";
+        assert!(decode("a.hdr", claims, Use::Color).err().unwrap().contains("pixels, expected at most"));
+    }
+
+    #[test]
+    fn impossible_radiances_are_replaced_and_counted() {
+        let mut bytes = b"PF\n1 1\n-1.0\n".to_vec();
+        for v in [f32::NAN, f32::INFINITY, -1.0] {
+            bytes.extend(v.to_le_bytes());
+        }
+        let decoded = decode("a.pfm", &bytes, Use::Color).unwrap();
+        assert_eq!(decoded.image.pixels, Pixels::RgbF32(vec![[0.0, LARGEST_HALF, 0.0]]));
+        assert!(decoded.note.unwrap().starts_with("3 values"));
+    }
+}

@@ -1,0 +1,30 @@
+//! What an import gives: the scene, its labels, the files it was made of, and the report.
+
+use crate::ImportReport;
+use enfilade_scene::{PartId, PartLabel, Scene};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// A label that the scene file itself gives to a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ImportedLabel {
+    /// The part.
+    pub part: PartId,
+    /// Its class and instance.
+    pub label: PartLabel,
+}
+
+/// An imported scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Imported {
+    /// The scene, which is valid.
+    pub scene: Scene,
+    /// Labels from the file, if it carries any, in the order of parts; see [`gltf`] for the convention.
+    pub labels: Option<Vec<ImportedLabel>>,
+    /// Every file that was read, in order of first use, for hashing.
+    pub inputs: Vec<PathBuf>,
+    /// Files that were looked for and not found, in that order: with them the scene would be a different one.
+    pub missing: Vec<PathBuf>,
+    /// What the scene contains, and what was dropped or guessed.
+    pub report: ImportReport,
+}

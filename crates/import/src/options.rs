@@ -1,0 +1,95 @@
+//! What the user knows about a scene file that the file does not say: unit, upward axis, environment.
+
+use crate::ImportError;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// The axis of the file that points up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum UpAxis {
+    /// As in glTF.
+    Y,
+    /// As in this workspace.
+    Z,
+}
+
+/// An environment picture to use instead of the file's own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EnvironmentOverride {
+    /// Equirectangular picture (HDR, EXR, PFM, or an eight-bit one); its upper edge is straight up, its middle −y.
+    pub file: PathBuf,
+    /// Multiplies the picture.
+    #[serde(default = "one")]
+    pub scale: f32,
+    /// Turns it about the up axis, counter-clockwise seen from above, in degrees.
+    #[serde(default)]
+    pub rotation_deg: f32,
+}
+
+fn one() -> f32 {
+    1.0
+}
+
+/// What the user knows about a scene file that the file does not say.
+///
+/// ```
+/// use enfilade_import::{ImportOptions, UpAxis, load};
+/// use enfilade_scene::Quiet;
+///
+/// # let folder = tempfile::tempdir()?;
+/// // A scan in millimetres with z up, which the file cannot say.
+/// let file = folder.path().join("scan.obj");
+/// std::fs::write(&file, "v 0 0 0\nv 4000 0 0\nv 0 3000 0\nf 1 2 3\n")?;
+///
+/// let options = ImportOptions { meters_per_unit: 0.001, up_axis: Some(UpAxis::Z), ..ImportOptions::default() };
+/// let scene = load(&file, &options, &Quiet)?.scene;
+/// assert_eq!(scene.world_corners(&scene.parts[0], 0)[2].to_array(), [0.0, 3.0, 0.0]);
+///
+/// // A unit that makes no sense is refused before the file is read.
+/// let error = load(&file, &ImportOptions { meters_per_unit: 0.0, ..options }, &Quiet).unwrap_err();
+/// assert!(error.to_string().starts_with("import option meters_per_unit: found 0"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ImportOptions {
+    /// Metres per unit of the file; 1 by default. Where the file states its own unit (USD, FBX, V-Ray scenes, Sweet Home 3D) this multiplies it.
+    /// Scene packages are in metres, and anything but 1 is an error.
+    pub meters_per_unit: f64,
+    /// The axis that points up; by default the file's own (USD, FBX and V-Ray scenes state it), else the format's own. In scene
+    /// packages z points up, and y is an error.
+    pub up_axis: Option<UpAxis>,
+    /// Replaces or sets the environment.
+    pub environment: Option<EnvironmentOverride>,
+    /// Goes on with plain grey where a texture is missing or broken, with a warning each; off by default.
+    pub allow_missing_textures: bool,
+}
+
+impl Default for ImportOptions {
+    fn default() -> Self {
+        Self { meters_per_unit: 1.0, up_axis: None, environment: None, allow_missing_textures: false }
+    }
+}
+
+impl ImportOptions {
+    /// Refuses values that make no sense, before any file is read.
+    pub(crate) fn check(&self) -> Result<(), ImportError> {
+        let metres = self.meters_per_unit;
+        if !(metres.is_finite() && metres > 0.0) {
+            let problem = format!("found {metres}; expected a number above zero, such as 1, 0.01 or 0.0254");
+            return Err(ImportError::Option { option: "meters_per_unit", problem });
+        }
+        match &self.environment {
+            Some(e) if !(e.scale.is_finite() && e.scale >= 0.0 && e.rotation_deg.is_finite()) => Err(ImportError::Option {
+                option: "environment",
+                problem: format!(
+                    "found scale {} and rotation {}; expected finite numbers, the scale not below zero",
+                    e.scale, e.rotation_deg
+                ),
+            }),
+            _ => Ok(()),
+        }
+    }
+}
