@@ -141,7 +141,7 @@ pub struct Imported {
 /// When the file or one that it refers to cannot be read, is not what its format calls for, or leaves nothing visible; the
 /// message names file and place and says what to do.
 pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Imported, ImportError> {
-    check(options)?;
+    options.validate()?;
     let format = Format::of(path)?;
     let assembly = Assembly::new(format, path, UpAxis::Y, options, cx);
     match format {
@@ -158,17 +158,26 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
     }
 }
 
-fn check(options: &ImportOptions) -> Result<(), ImportError> {
-    let metres = options.meters_per_unit;
-    if !(metres.is_finite() && metres > 0.0) {
-        let problem = format!("found {metres}; expected a number above zero, such as 1, 0.01 or 0.0254");
-        return Err(ImportError::Option { option: "meters_per_unit", problem });
-    }
-    match &options.environment {
-        Some(e) if !(e.scale.is_finite() && e.scale >= 0.0 && e.rotation_deg.is_finite()) => Err(ImportError::Option {
-            option: "environment",
-            problem: format!("found scale {} and rotation {}; expected finite numbers, the scale not below zero", e.scale, e.rotation_deg),
-        }),
-        _ => Ok(()),
+impl ImportOptions {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// [`ImportError::Option`] for the first one that is out of its range.
+    pub fn validate(&self) -> Result<(), ImportError> {
+        let metres = self.meters_per_unit;
+        if !(metres.is_finite() && metres > 0.0) {
+            let problem = format!("found {metres}; expected a number above zero, such as 1, 0.01 or 0.0254");
+            return Err(ImportError::Option { option: "meters_per_unit", problem });
+        }
+        match &self.environment {
+            Some(e) if !(e.scale.is_finite() && e.scale >= 0.0 && e.rotation_deg.is_finite()) => Err(ImportError::Option {
+                option: "environment",
+                problem: format!(
+                    "found scale {} and rotation {}; expected finite numbers, the scale not below zero",
+                    e.scale, e.rotation_deg
+                ),
+            }),
+            _ => Ok(()),
+        }
     }
 }

@@ -39,7 +39,7 @@ impl<'a, 's> Probe<'a, 's> {
         corner: [u32; 2],
     ) -> Result<Self, RenderError> {
         check_camera(view)?;
-        config.check()?;
+        config.validate()?;
         let size = view.camera().size();
         if size[0] < Self::SIDE || size[1] < Self::SIDE {
             let problem = format!("its image has {}x{} pixels; a forecast needs 8x8", size[0], size[1]);

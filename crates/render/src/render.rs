@@ -131,7 +131,7 @@ impl<'a, 's> FrameRender<'a, 's> {
     /// When the camera or the settings are not usable.
     pub fn new(scene: &'a RenderScene<'s>, guide: &'a Guide, view: &CameraView<'a>, config: &'a RenderConfig) -> Result<Self, RenderError> {
         check_camera(view)?;
-        config.check()?;
+        config.validate()?;
         let [width, height] = view.camera().size();
         let tiles = Tiles::new(width, height);
         let film = (0..tiles.count()).map(|tile| TileFilm::new(tiles.pixels(tile).count(), config.splits)).collect();
