@@ -19,7 +19,7 @@ fn pix3d(args: &Pix3dArgs) -> Result<Verdict, Problem> {
     refuse_overwriting(&args.output, &inputs(args, &found.document))?;
     let write = |error: DatasetError| Problem::new(error.to_string(), "choose another file");
     let is_file = args.output.symlink_metadata().map_or(true, |found| found.is_file());
-    // What is a device, a pipe or a link is written to, not replaced.
+    // Devices, pipes and links are written to, and not replaced by a file.
     let written = if is_file { write_bytes(&args.output, found.document.to_json()) } else { write_to(&args.output, &found.document) };
     written.map_err(write)?;
     let (images, output) = (found.document.images.len(), args.output.display());

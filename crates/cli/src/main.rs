@@ -14,6 +14,7 @@ mod outcome;
 mod pictures;
 mod price;
 mod progress;
+mod released;
 mod scene_files;
 mod stats;
 mod suggest;
@@ -30,7 +31,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let code = match Cli::try_parse() {
         Ok(cli) => code_of(start(&cli)),
-        // Help and the version are answers of this kind too.
+        // `--help` and `--version` come here too.
         Err(answer) => {
             outcome::note(answer.print());
             answer.exit_code() as u8
@@ -38,7 +39,7 @@ fn main() -> ExitCode {
     };
     let unsaid = outcome::unsaid();
     unsaid.iter().for_each(Problem::print);
-    // What else went wrong is told by its own code.
+    // Whatever else went wrong has an exit code of its own.
     ExitCode::from(if unsaid.is_some() { code.max(1) } else { code })
 }
 

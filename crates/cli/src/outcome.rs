@@ -4,7 +4,7 @@ use enfilade_pipeline::Failure;
 use std::io::{ErrorKind, Write};
 use std::sync::OnceLock;
 
-/// Why standard output did not take what was said first that it did not.
+/// Why standard output could not be written to, the first time that it could not.
 static UNSAID: OnceLock<String> = OnceLock::new();
 
 /// How a verb that could do its work ends.
@@ -120,13 +120,13 @@ pub fn note(written: std::io::Result<()>) {
     }
 }
 
-/// That something which was said is not where it should be.
+/// The problem of a standard output that could not be written to, if it could not.
 pub fn unsaid() -> Option<Problem> {
     let error = UNSAID.get()?;
     Some(Problem::of_data(format!("cannot write the output: {error}"), "free some space, or send standard output elsewhere"))
 }
 
-/// Says on standard error what is wrong and keeps nothing from being done.
+/// Says on standard error what is wrong but stops nothing.
 pub fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "warning: {text}"); // nobody left to tell
 }

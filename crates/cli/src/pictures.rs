@@ -4,12 +4,10 @@ use crate::args::PreviewArgs;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::verbs;
-use enfilade_dataset::Dataset;
 use enfilade_pipeline::Stage;
 use enfilade_show::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet, write_overview};
 use enfilade_show::sheet::SheetConfig;
 use std::collections::BTreeSet;
-use std::path::Path;
 
 /// `preview`: pictures of every layer.
 pub fn preview(args: &PreviewArgs, quiet: bool) -> Result<Verdict, Problem> {
@@ -43,23 +41,4 @@ pub fn preview(args: &PreviewArgs, quiet: bool) -> Result<Verdict, Problem> {
     say(&format!("{pictures} pictures below {}", folder.display()));
     say(&format!("see  {}", overview.display()));
     Ok(Verdict::Done)
-}
-
-/// Refuses stages of datasets that others made: what they would write is there already, or needs what is not there.
-pub fn refuse_released(folder: &Path, stage: Stage) -> Result<(), Problem> {
-    // What is no dataset is told by the stage.
-    let Ok(dataset) = Dataset::open(folder) else { return Ok(()) };
-    let scenes = dataset.scenes()?;
-    if scenes.is_empty() || !scenes.iter().all(|scene| dataset.is_released(scene)) || folder.join(".enfilade").exists() {
-        return Ok(());
-    }
-    let help = match stage {
-        Stage::Preview => "its previews have the same names as ours; name another folder with -o".to_string(),
-        Stage::Label => {
-            "its labels are in the layers semantic and semantic_instance already; `enfilade annotate` edits label tables".into()
-        }
-        Stage::Boxes => "its boxes are in _detail/mesh already; `enfilade export --format coco` has those of each image".into(),
-        other => format!("`enfilade {}` goes with datasets that `enfilade run` made", other.name()),
-    };
-    Err(Problem::new(format!("{} was not made by `enfilade run`: it is Hypersim's release, or like it", folder.display()), help))
 }

@@ -92,7 +92,7 @@ mod tests {
         let found = read("name,dollars_per_vcpu_hour,vcpus,memory_gib\n\nsmall, 0.05, 2, 7.5\n").unwrap();
         let machine = Some(Machine { vcpus: 2, memory_gib: 7.5 });
         assert_eq!(found, [Price { name: "small".into(), dollars_per_vcpu_hour: 0.05, machine }]);
-        // Under other headers, and without one, a line stays what it was: a name, which may have commas, and a price.
+        // Under any other header, and without one, a line is a name, which may have commas, and a price.
         assert_eq!(read("name,price\nm7, spot,0.05\n").unwrap()[0].name, "m7, spot");
         for wrong in ["small,0.05,2", "small,0.05,0,8", "small,0.05,2,nan", "small,0.05,2,-8", "small,-1,2,8", "a,b,0.05,2,8"] {
             assert!(read(&format!("{}\n{wrong}\n", SIZED.join(","))).is_err(), "{wrong}");

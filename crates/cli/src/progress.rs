@@ -54,7 +54,7 @@ impl Progress {
         let (stop, stopped) = channel();
         let beating = state.clone();
         let heart = || std::thread::Builder::new().spawn(move || beat(&beating, &stopped));
-        // Where the system gives no further thread, a heart that does not beat is the least loss.
+        // Where the system gives no further thread, the run goes on without these signs of life.
         let heart = (!quiet && !live).then(heart).and_then(Result::ok);
         Self { state, stop: Some(stop), heart }
     }
@@ -109,7 +109,7 @@ impl Reporter for Progress {
                 state.end();
                 state.line(&format!("  {:<8} {summary} ({wall_s:.1} s)", stage.name()));
             }
-            // Why, is said once, at the end.
+            // The reason is told once, at the end.
             Event::Failed { .. } => {
                 state.heading(scene);
                 state.end();

@@ -5,8 +5,8 @@ use crate::args::{
 };
 use crate::estimate::estimate;
 use crate::outcome::{Problem, Verdict, say};
-use crate::pictures::refuse_released;
 use crate::progress::Progress;
+use crate::released::refuse_released;
 use crate::summary;
 use enfilade_dataset::CameraTable;
 use enfilade_export::intrinsics_csv;

@@ -62,7 +62,10 @@ pub(crate) fn rename(aside: &Path, path: &Path) -> Result<(), DatasetError> {
 }
 
 /// Removes a file that may not exist.
-pub(crate) fn remove_if_there(path: &Path) -> Result<(), DatasetError> {
+///
+/// # Errors
+/// When it is there and cannot be removed.
+pub fn remove_if_there(path: &Path) -> Result<(), DatasetError> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(DatasetError::io("remove", path, error)),
         _ => Ok(()),

@@ -12,7 +12,7 @@ use std::path::Path;
 /// When the file or one that it refers to cannot be read, is not what its format calls for, or leaves nothing visible; the
 /// message names file and place and says what to do.
 pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Imported, ImportError> {
-    options.check()?;
+    options.validate()?;
     let format = Format::of(path)?;
     let assembly = Assembly::new(format, path, UpAxis::Y, options, cx);
     match format {

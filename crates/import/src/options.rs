@@ -74,8 +74,11 @@ impl Default for ImportOptions {
 }
 
 impl ImportOptions {
-    /// Refuses values that make no sense, before any file is read.
-    pub(crate) fn check(&self) -> Result<(), ImportError> {
+    /// Checks the range of every number.
+    ///
+    /// # Errors
+    /// [`ImportError::Option`] for the first one that is out of its range.
+    pub fn validate(&self) -> Result<(), ImportError> {
         let metres = self.meters_per_unit;
         if !(metres.is_finite() && metres > 0.0) {
             let problem = format!("found {metres}; expected a number above zero, such as 1, 0.01 or 0.0254");

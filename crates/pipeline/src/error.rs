@@ -1,7 +1,8 @@
 //! What can go wrong in a run, in words for the person who will fix it.
 
-use crate::config::ConfigError;
+use enfilade_dataset::DatasetError;
 use std::error::Error as StdError;
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -101,6 +102,15 @@ impl Error {
     }
 }
 
+impl From<DatasetError> for Error {
+    fn from(error: DatasetError) -> Self {
+        match error {
+            DatasetError::Io { action, path, source } => Self::Io { action, path, source },
+            error => Self::stage(error),
+        }
+    }
+}
+
 /// What to do about an answer of the operating system.
 fn hint_for(kind: io::ErrorKind) -> Option<&'static str> {
     match kind {
@@ -116,6 +126,66 @@ fn hint_for(kind: io::ErrorKind) -> Option<&'static str> {
         _ => None,
     }
 }
+
+/// What is wrong with a configuration file, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ConfigError {
+    /// The file as the user named it.
+    pub file: PathBuf,
+    /// Where; `None` when the file as a whole is meant.
+    pub place: Option<Box<Place>>,
+    /// What was found and what was expected.
+    pub message: String,
+    /// What to do.
+    pub help: Option<String>,
+}
+
+/// A place in a file, for display.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// From 1.
+    pub line: usize,
+    /// From 1, in characters.
+    pub column: usize,
+    /// The line itself.
+    pub text: String,
+    /// Number of characters that the problem spans on its line.
+    pub width: usize,
+}
+
+impl fmt::Display for ConfigError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file.display())?;
+        let Some(place) = &self.place else { return write!(f, ": {}", self.message) };
+        let (line, column) = (place.line, place.column);
+        let (text, indent, width) = place.excerpt();
+        let gutter = line.to_string().len();
+        let marker = "^".repeat(width.max(1));
+        write!(f, ":{line}:{column}: {}\n  {line} | {text}\n  {:gutter$} | {:indent$}{marker}", self.message, "", "")
+    }
+}
+
+/// Of a longer line this many characters are shown, ...
+pub(crate) const LONGEST_LINE: usize = 160;
+/// ... up to so many of them before the place.
+const BEFORE_PLACE: usize = 60;
+
+impl Place {
+    /// As much of the line as is shown, and where in it and over how many characters it is marked.
+    fn excerpt(&self) -> (String, usize, usize) {
+        let (start, length) = (self.column - 1, self.text.chars().count());
+        if length <= LONGEST_LINE {
+            return (self.text.clone(), start, self.width);
+        }
+        let first = start.saturating_sub(BEFORE_PLACE);
+        let end = first + LONGEST_LINE;
+        let shown: String = self.text.chars().skip(first).take(LONGEST_LINE).collect();
+        let [before, after] = [first > 0, end < length].map(|is_cut| if is_cut { "…" } else { "" });
+        (format!("{before}{shown}{after}"), start - first + before.chars().count(), self.width.min(end - start))
+    }
+}
+
+impl std::error::Error for ConfigError {}
 
 #[cfg(test)]
 mod tests {

@@ -2,8 +2,8 @@
 //!
 //! A frame costs a fixed part, which the pilot does once (geometry, compressing and writing, and what later stages do with it), and a
 //! part in proportion to its samples: pixels × the mean over squares of pixels of (samples that are wanted there × seconds per sample
-//! there). Squares and frames are samples of the image and of the trajectory, so their spread tells how sure the mean is; to that
-//! comes what no spread shows, as a share of the whole.
+//! there). Squares and frames are samples of the image and of the trajectory, so their spread tells how sure the mean is; to it
+//! are added the errors that no spread shows, as shares of the whole.
 
 use enfilade_render::FrameRender;
 use serde::{Deserialize, Serialize};

@@ -10,7 +10,7 @@ use enfilade_show::picture::Picture;
 use enfilade_show::thumbnail::thumbnail;
 use enfilade_verify::view_gates::{GateConfig, Place, ViewGate, ViewMeasures};
 
-/// Views are looked at through about this many of their columns; those that are close to a limit then in full.
+/// Views are first measured through about this many of their columns, and in full only where a measure is close to its limit.
 const COLUMNS: u32 = 256;
 
 /// What is needed to judge views of a scene.
@@ -65,7 +65,7 @@ impl<'a> Gatekeeper<'a> {
     }
 }
 
-/// Every so many pixels of a view are looked through at first.
+/// Distance in pixels of the columns and rows that a view is first measured through.
 fn step(view: &CameraView<'_>) -> u32 {
     view.camera().size()[0].div_ceil(COLUMNS).max(1)
 }

@@ -2,7 +2,7 @@
 //!
 //! [`prepare`] does on one machine all that comes before rendering. The files that it names are all that a worker needs: put into a
 //! folder of its own, they let [`render_part`] make any frames. When all frames lie in one folder, [`finish`] makes the rest of the
-//! dataset there, byte for byte as one machine would have made it. How files travel is nobody's business here.
+//! dataset there, byte for byte as one machine would have made it. How files travel is up to the caller.
 
 use crate::config::Config;
 use crate::error::Error;
@@ -10,10 +10,9 @@ use crate::estimate::forecast;
 use crate::forecast::Forecast;
 use crate::report::{Reporter, StageCx, Summary};
 use crate::run::{Session, open, store_config};
-use crate::stages::{Job, PARTIALS, STAGES, Stage, StageSpec, frame_finisher, kept_part, render_frames};
-use crate::workdir::{RUN, WORKDIR, Workdir, read_json, write_json};
-use enfilade_dataset::{Dataset, FrameTime};
-use serde::{Deserialize, Serialize};
+use crate::stages::{FinishedFrame, Job, PARTIALS, Part, STAGES, Shift, Stage, StageSpec, frame_finisher, kept_part, render_frames};
+use crate::workdir::{GATHERED, RUN, Workdir, read_json};
+use enfilade_dataset::{Dataset, WORKDIR, write_json};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -21,8 +20,6 @@ use std::sync::atomic::AtomicBool;
 
 /// The name under which a scene's label table travels.
 const TABLE: &str = "label_table.csv";
-/// In the work folder: whose files were brought there.
-pub(crate) const GATHERED: &str = "gathered.json";
 
 /// What rendering needs of a dataset whose trajectories are planned.
 #[derive(Clone, Debug)]
@@ -44,50 +41,6 @@ pub struct PreparedScene {
     pub trajectories: Vec<(String, Vec<u32>)>,
     /// Its files, relative to the dataset's folder.
     pub files: Vec<PathBuf>,
-}
-
-/// Frames of one trajectory.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Part {
-    /// Name of the scene.
-    pub scene: String,
-    /// Name of the trajectory.
-    pub camera: String,
-    /// Numbers of the frames.
-    pub frames: BTreeSet<u32>,
-}
-
-/// A frame that [`render_part`] has made.
-#[derive(Clone, Debug)]
-pub struct FinishedFrame {
-    /// Its trajectory.
-    pub camera: String,
-    /// Its number.
-    pub frame: u32,
-    /// Its files, relative to the dataset's folder: layers, labels, pictures, and the records that vouch for them.
-    pub files: Vec<PathBuf>,
-    /// The laws of verification that it breaks; normally none.
-    pub broken: Vec<&'static str>,
-    /// What it took.
-    pub time: FrameTime,
-}
-
-/// What is made of a scene here, when, and who is told.
-pub(crate) struct Shift<'a> {
-    part: &'a Part,
-    /// Ends the work at the next occasion.
-    pub stop: &'a AtomicBool,
-    /// Hears of every frame that was rendered.
-    pub finished: &'a FrameHearer<'a>,
-}
-
-type FrameHearer<'a> = dyn Fn(&Job, &str, u32) -> Result<(), Error> + Sync + 'a;
-
-impl Shift<'_> {
-    /// True for the frames that are made here.
-    pub fn has(&self, camera: &str, frame: u32) -> bool {
-        self.part.camera == camera && self.part.frames.contains(&frame)
-    }
 }
 
 /// Does all that comes before rendering in the folder `out`, and forecasts the rest.
@@ -139,16 +92,14 @@ pub fn render_part(
         scene.ok_or_else(|| Error::usage(format!("there is no scene {:?} in {}", part.scene, out.display()), "plan the job again"))?;
     let dataset = Dataset::create(out).map_err(Error::stage)?;
     let cx = StageCx::new(&part.scene, Stage::Render, reporter);
-    let mut job = Job::new(&config, scene, &dataset, &workdir, false);
+    let job = Job::new(&config, scene, &dataset, &workdir, false);
     let finisher = frame_finisher(&job, &cx)?;
     let told = Mutex::new(BTreeSet::new());
-    let tell = |job: &Job, camera: &str, frame: u32| {
+    let tell = |camera: &str, frame: u32| {
         told.lock().unwrap_or_else(std::sync::PoisonError::into_inner).insert(frame);
-        finished(&finisher.finish(job, camera, frame)?)
+        finished(&finisher.finish(&job, camera, frame)?)
     };
-    let shift = Shift { part, stop, finished: &tell };
-    job.shift = Some(&shift);
-    render_frames(&job, &cx)?;
+    render_frames(&job.on_shift(&Shift { part, stop, rendered: &tell }), &cx)?;
     // Frames that an earlier attempt on this machine had rendered, but nobody has heard of.
     let told = told.lock().unwrap_or_else(std::sync::PoisonError::into_inner).clone();
     part.frames.difference(&told).try_for_each(|&frame| finished(&finisher.finish(&job, &part.camera, frame)?))

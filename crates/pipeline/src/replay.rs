@@ -1,10 +1,9 @@
 //! `replay`: a frame rendered once more from its commit record, and its files compared with those that the record lists.
 
 use crate::error::Error;
-use crate::stages::Stage;
-use crate::stages::render::{add_extra, config_hash, program, views};
-use crate::workdir::{Hash, PACKAGE, WORKDIR};
-use enfilade_dataset::{Dataset, FileRecord, FrameInfo, FrameRecord, FrameTime, Layout, Recipe, StoppedBy, quoted};
+use crate::stages::{Stage, add_extra, config_hash, program, views};
+use crate::workdir::{Hash, PACKAGE};
+use enfilade_dataset::{Dataset, FileRecord, FrameInfo, FrameRecord, FrameTime, Layout, Recipe, StoppedBy, WORKDIR, quoted};
 use enfilade_frame::{Frame, LAYERS};
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
 use enfilade_scene::{Camera, Cx, Scene, Trajectory, Warning};
@@ -122,7 +121,7 @@ fn read(file: &Path) -> Result<Source, Error> {
     let changed = |what: String| Error::scene(format!("{what}, so the frame cannot be replayed"), again.clone());
     let recipe =
         record.recipe.clone().ok_or_else(|| changed("its record is of an earlier version, which did not tell the settings".into()))?;
-    let (version, here) = (recipe.render_version, Stage::Render.spec().version);
+    let (version, here) = (recipe.render_version, Stage::Render.version());
     if (recipe.program.as_str(), version) != (program().as_str(), here) {
         let message =
             format!("the frame was rendered by {} (rendering {version}), and this is {} (rendering {here})", recipe.program, program());

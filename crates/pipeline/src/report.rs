@@ -20,7 +20,7 @@ pub enum Event<'a> {
         /// Of how many.
         total: u64,
     },
-    /// Something was dropped, guessed or mended.
+    /// Something was dropped, guessed or fixed.
     Warned(&'a Warning),
     /// Nothing had to be done.
     UpToDate,
@@ -221,14 +221,4 @@ pub(crate) fn thread_cpu_s() -> f64 {
         static START: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
         START.get_or_init(Instant::now).elapsed().as_secs_f64()
     }
-}
-
-/// A number of things in words.
-pub(crate) fn count(n: usize, thing: &str) -> String {
-    count_of(n, thing, &format!("{thing}s"))
-}
-
-/// As [`count`], where the plural is not made with an s.
-pub(crate) fn count_of(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
 }

@@ -6,8 +6,8 @@ use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, 
 use crate::split::write_split;
 use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, read_table};
 use crate::statistics::{statistics_are_whole, write_statistics};
-use crate::workdir::{RUN, WORKDIR, Workdir, read_json, remove_if_there, write_json};
-use enfilade_dataset::{CameraEntry, Dataset, DatasetError, FrameStatus, ManifestInfo};
+use crate::workdir::{RUN, Workdir, read_json};
+use enfilade_dataset::{CameraEntry, Dataset, DatasetError, FrameStatus, ManifestInfo, WORKDIR, remove_if_there, write_json};
 use enfilade_scene::{Cx, Quiet, Warning};
 use enfilade_show::drivers::write_overview;
 use enfilade_show::report_card::write_report;
@@ -30,7 +30,7 @@ struct RunFile {
 
 /// Names listed in a warning.
 const NAMES_SHOWN: usize = 5;
-/// What follows from labels before anyone looks at them.
+/// The stages that new labels make necessary.
 const LABELLING: [&StageSpec; 2] = [&STAGES[Stage::Label as usize], &STAGES[Stage::Boxes as usize]];
 
 /// Makes the dataset `config` in the folder `out`: every stage of every scene that is not up to date.
@@ -100,9 +100,9 @@ pub fn verify(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<Verif
 /// Removes what a run has kept of verifying a scene, the record first, as without one the stage runs. Data of others have none.
 fn forget_passing(dataset: &Dataset, scene: &str, cx: &dyn Cx) {
     let folder = dataset.root().join(WORKDIR).join(scene);
-    for path in [folder.join(format!("{}.json", Stage::Verify.name())), folder.join(CARD)] {
+    for path in [folder.join(Stage::Verify.record()), folder.join(CARD)] {
         if let Err(error) = remove_if_there(&path) {
-            cx.warn(Warning { place: path.display().to_string(), message: error.explain() });
+            cx.warn(Warning { place: path.display().to_string(), message: Error::from(error).explain() });
         }
     }
 }
@@ -114,7 +114,7 @@ fn forget_passing(dataset: &Dataset, scene: &str, cx: &dyn Cx) {
 pub fn relabel(out: &Path, table: &Path, pattern: Option<&str>, force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
     let table = std::path::absolute(table).map_err(Error::io("find", table))?;
     let (workdir, config) = open_with(out, pattern, |scene| scene.set_label_table(&table.to_string_lossy()))?;
-    // Before it is stored: a name that was mistyped must not cost the labels that are there.
+    // Before the choice is stored: a mistyped name must not cost the labels that are there.
     read_table(&table)?;
     store_config(&workdir, &config)?;
     let scenes = config.select(pattern)?;
@@ -150,7 +150,7 @@ pub fn run_chosen(
 pub(crate) fn store_config(workdir: &Workdir, config: &Config) -> Result<(), Error> {
     let inside = |path: &PathBuf| path.strip_prefix(workdir.out()).unwrap_or(path).to_path_buf();
     let carried = config.carried.iter().map(|(written, path)| (written.clone(), inside(path))).collect();
-    write_json(&workdir.file(RUN), &RunFile { base: config.base.clone(), carried, config: config.clone() })
+    Ok(write_json(&workdir.file(RUN), &RunFile { base: config.base.clone(), carried, config: config.clone() })?)
 }
 
 pub(crate) fn open(out: &Path) -> Result<(Workdir, Config), Error> {
@@ -202,21 +202,25 @@ impl<'a> Session<'a> {
     /// Runs `stages` over `scenes`.
     pub fn run(&self, scenes: &[&SceneConfig], stages: &[&StageSpec], force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
         let time = Stopwatch::start();
+        // Scene by scene; one that fails does not keep the others from going on.
         let mut outcomes: Vec<SceneOutcome> = Vec::new();
         for scene in scenes {
             let outcome = self.run_scene(scene, stages, force, &outcomes, reporter);
             outcomes.push(outcome);
         }
+
+        // Then the files of the dataset as a whole, each from those before it.
         let finished = self
             .write_manifest(&outcomes, None)
             .and_then(|()| self.write_overview(stages))
             .and_then(|()| self.write_split())
             .and_then(|warning| self.write_card(stages, &outcomes).map(|()| warning))
             .and_then(|warning| self.write_statistics(stages).map(|()| warning));
+
         let warnings = finished.as_ref().ok().cloned().flatten().into_iter().collect();
         let summary = Summary { scenes: outcomes, warnings, wall_s: time.wall_s() };
         match finished {
-            // Where a scene has failed, as on a full disk, that is what the user must see; the next run writes these files.
+            // Where a scene has failed, as on a full disk, the user must see that; the next run writes these files.
             Err(error) if summary.ok() => Err(error),
             _ => Ok(summary),
         }
@@ -237,7 +241,7 @@ impl<'a> Session<'a> {
             let ready = || match spec.stage {
                 // The manifest is part of what is verified. It lists all scenes, so it is not gathered for each that has nothing to do.
                 Stage::Verify => self.write_manifest(earlier, Some(&scene.name)),
-                // Better before hours of rendering than after them.
+                // A missing library is told before hours of rendering, not after them.
                 Stage::Render if stages.iter().any(|s| s.stage == Stage::Denoise) => check_denoiser(&job),
                 _ => Ok(()),
             };
@@ -252,7 +256,7 @@ impl<'a> Session<'a> {
         outcome
     }
 
-    /// Better at once than after the stages that come before rendering.
+    /// Looks for the libraries that denoise at once, and not after the stages that come before rendering.
     pub fn check_denoisers(&self, scenes: &[&SceneConfig]) -> Result<(), Error> {
         scenes.iter().try_for_each(|scene| check_denoiser(&Job::new(self.config, scene, &self.dataset, self.workdir, false)))
     }
@@ -324,7 +328,7 @@ impl<'a> Session<'a> {
         write_statistics(&self.dataset, &StatsConfig { scenes, ..StatsConfig::default() }, &Quiet).map_err(Error::stage).map(drop)
     }
 
-    /// Writes the manifest of what is on disk, unless it is there already. The scene `at_work` has not failed (any more).
+    /// Writes the manifest of what is on disk, unless it is there already. A failure noted of the scene `at_work` is dropped.
     fn write_manifest(&self, outcomes: &[SceneOutcome], at_work: Option<&str>) -> Result<(), Error> {
         let old = self.dataset.read_manifest().unwrap_or_default();
         let there: BTreeSet<String> = self.dataset.scenes().map_err(Error::stage)?.into_iter().collect();
@@ -337,7 +341,7 @@ impl<'a> Session<'a> {
             failed_scenes.remove(name);
         }
         for outcome in outcomes {
-            // What verification finds is not part of what it is about.
+            // The manifest is among what is verified, so it cannot say how that went.
             let failure = outcome.failure.as_ref().filter(|f| f.stage != Stage::Verify);
             failed_scenes.extend(failure.map(|f| (outcome.name.clone(), format!("{}: {}", f.stage.name(), f.message))));
         }

@@ -4,7 +4,7 @@ use crate::assets;
 use crate::config::FileSource;
 use crate::error::Error;
 use crate::stages::{describe, describe_and_measure, labels_by_part, load_file};
-use crate::workdir::{write_json, write_whole};
+use enfilade_dataset::{write_bytes, write_json};
 use enfilade_home::HomeConfig;
 use enfilade_scene::{Cx, Labels, Scene, Warning};
 use serde::Serialize;
@@ -18,7 +18,7 @@ pub struct Imported {
     pub summary: String,
     /// The report beside the output.
     pub report: PathBuf,
-    /// Everything that was dropped, guessed or mended.
+    /// Everything that was dropped, guessed or fixed.
     pub warnings: Vec<Warning>,
     /// What the output cannot hold.
     pub lost: Vec<String>,
@@ -60,7 +60,7 @@ pub fn import_file(
     }
     let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
     let (bytes, lost) = encode(&imported.scene, labels.as_ref());
-    write_whole(output, &bytes)?;
+    write_output(output, &bytes)?;
     let report = output.with_extension("report.json");
     write_json(&report, &Report { scene: &summary, import: &imported.report, lost: &lost })?;
     Ok(Imported { summary, report, warnings: imported.report.warnings, lost })
@@ -80,6 +80,13 @@ pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error
         )),
         None => Ok(()),
     }
+}
+
+/// Writes the output of a verb. Its folder has to be there: one that was mistyped is not made.
+pub(crate) fn write_output(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    folder.join(".").metadata().map_err(Error::io("write", path))?;
+    Ok(write_bytes(path, bytes)?)
 }
 
 /// What making a home made.
@@ -107,7 +114,7 @@ pub fn make_home(
 ) -> Result<MadeHome, Error> {
     let home = assets::home(config, &|path| Ok(path.into()), cx)?;
     let (bytes, lost) = encode(&home.scene, Some(&home.labels));
-    write_whole(output, &bytes)?;
+    write_output(output, &bytes)?;
     let rooms = home.plan.rooms.iter().map(|room| format!("{} {:.1} m2", room.kind.name(), room.size.x * room.size.y));
     Ok(MadeHome { summary: describe(&home.scene), rooms: rooms.collect::<Vec<_>>().join(", "), lost, credits: home.credits })
 }

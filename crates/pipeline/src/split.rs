@@ -1,15 +1,12 @@
 //! The split of a dataset by scene, and the assets that lie on several sides of it.
 
 use crate::error::Error;
-use crate::workdir::{Hash, PACKAGE, Workdir, read_json, remove_if_there, write_json};
-use enfilade_dataset::{Dataset, Manifest, Partition, SplitRow, ViewFault};
+use crate::workdir::{CHOICE, Hash, PACKAGE, Workdir, read_json};
+use enfilade_dataset::{Dataset, Manifest, Partition, SplitRow, ViewFault, remove_if_there, write_json};
 use enfilade_label::split::{SceneAssets, SharedAsset, SplitConfig, shared_assets};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-
-/// The choice that was made with [`split`], in the work folder.
-pub(crate) const CHOICE: &str = "split.json";
 
 /// What stands in the dataset's `split.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,7 +1,7 @@
 //! The statistics of a dataset, with a note in the work folder of what was written, by which a run finds files that are damaged or gone.
 
-use crate::workdir::{STATISTICS, WORKDIR, read_json};
-use enfilade_dataset::{Dataset, DatasetError, FileRecord, write_bytes};
+use crate::workdir::{STATISTICS, read_json};
+use enfilade_dataset::{Dataset, DatasetError, FileRecord, WORKDIR, write_json};
 use enfilade_scene::Cx;
 use enfilade_show::stats::{self, StatsConfig, StatsSummary};
 use std::collections::BTreeMap;
@@ -41,7 +41,7 @@ fn within(folder: &Path, path: &Path) -> PathBuf {
 
 fn write_note(dataset: &Dataset, files: &Written) -> Result<(), DatasetError> {
     // Paths are text: a work folder is refused where they are not.
-    write_bytes(&note(dataset), serde_json::to_string_pretty(files).unwrap_or_default() + "\n")
+    write_json(&note(dataset), files)
 }
 
 fn note(dataset: &Dataset) -> PathBuf {

@@ -2,9 +2,8 @@
 
 use crate::config::FileSource;
 use crate::error::Error;
-use crate::single::refuse_overwriting;
+use crate::single::{refuse_overwriting, write_output};
 use crate::stages::load_file;
-use crate::workdir::write_whole;
 use enfilade_import::Imported;
 use enfilade_label::class_name;
 use enfilade_scene::{Cx, Scene};
@@ -13,7 +12,7 @@ use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Share of the names taken for granted that are right, unless a confidence is asked for.
+/// Share of the written classes that should be right, where no confidence is asked for.
 const PRECISION: f32 = 0.9;
 
 /// A suggested label table.
@@ -21,7 +20,7 @@ const PRECISION: f32 = 0.9;
 pub struct SuggestedLabels {
     /// Number of parts of the scene.
     pub parts: usize,
-    /// Least confidence of what was written as a class.
+    /// Minimum confidence with which a class was written.
     pub min_confidence: f32,
     /// How many parts got which class, by NYU40 number.
     pub classes: BTreeMap<i16, usize>,
@@ -66,7 +65,7 @@ pub fn suggest_labels(
     if !force {
         refuse_another(output, &table)?;
     }
-    write_whole(output, table.as_bytes())?;
+    write_output(output, table.as_bytes())?;
     let mut found = SuggestedLabels { parts: scene.parts.len(), min_confidence, classes: BTreeMap::new(), unsure: Vec::new() };
     for (part, suggestion) in scene.parts.iter().zip(suggestions) {
         match suggestion {

@@ -13,24 +13,24 @@
 //! ```
 
 use crate::error::Error;
-use crate::parts::GATHERED;
-use crate::split::CHOICE;
+use enfilade_dataset::{WORKDIR, remove_folder};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::fs::{self, File, TryLockError};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// Name of the folder within the dataset.
-pub const WORKDIR: &str = ".enfilade";
-
 /// The resolved configuration in the work folder.
 pub(crate) const RUN: &str = "run.json";
 /// Held by the process at work.
 const LOCK: &str = "lock";
+/// Which job's files were brought here, where other machines made the dataset.
+pub(crate) const GATHERED: &str = "gathered.json";
+/// How the dataset is divided, where that was chosen.
+pub(crate) const CHOICE: &str = "split.json";
 /// What was written of statistics.
 pub(crate) const STATISTICS: &str = "statistics.json";
-/// What is tried out, while it is.
+/// Where a forecast tries things out.
 const ASIDE: &str = ".estimate";
 /// The files beside the folders of scenes: no scene can have such a name.
 pub(crate) const OWN_FILES: [&str; 5] = [LOCK, RUN, GATHERED, CHOICE, STATISTICS];
@@ -56,7 +56,7 @@ impl Workdir {
             fs::create_dir_all(out.join(WORKDIR)).map_err(Error::io("create", &out.join(WORKDIR)))?;
         }
         let workdir = Self { out: out.into(), _lock: lock(out)? };
-        // A forecast that was killed has left it.
+        // A forecast that was killed may have left it.
         remove_folder(&workdir.file(ASIDE))?;
         Ok(workdir)
     }
@@ -112,7 +112,7 @@ pub(crate) fn refuse_other_text(path: &Path) -> Result<(), Error> {
     Err(Error::usage(format!("the path {} is not UTF-8", path.display()), "rename the folder, or choose another one"))
 }
 
-/// A folder that holds something else must not be filled with a dataset.
+/// Refuses a folder that holds something else: it must not be filled with a dataset.
 fn refuse_foreign_folder(out: &Path) -> Result<(), Error> {
     if out.is_symlink() && !out.exists() {
         let message = format!("the output {} is a link that leads nowhere", out.display());
@@ -155,41 +155,9 @@ fn lock(out: &Path) -> Result<File, Error> {
     Ok(file)
 }
 
-/// Writes a file whole or not at all: aside first, then renamed into place.
-pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let aside = path.with_added_extension("part");
-    let result = fs::write(&aside, bytes).and_then(|()| fs::rename(&aside, path));
-    result.map_err(|e| {
-        let _ = fs::remove_file(&aside); // best effort: the first error is the one to tell
-        Error::io("write", path)(e)
-    })
-}
-
-pub(crate) fn write_json<T: Serialize>(path: &Path, value: &T) -> Result<(), Error> {
-    let mut text = serde_json::to_string_pretty(value).map_err(|e| Error::io("write", path)(e.into()))?;
-    text.push('\n');
-    write_whole(path, text.as_bytes())
-}
-
 /// Reads a file that this program wrote; `None` when it is not there or not of this version.
 pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Option<T> {
     serde_json::from_slice(&fs::read(path).ok()?).ok()
-}
-
-/// Removes a file that may not exist.
-pub(crate) fn remove_if_there(path: &Path) -> Result<(), Error> {
-    match fs::remove_file(path) {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io("remove", path)(e)),
-        _ => Ok(()),
-    }
-}
-
-/// Removes a folder that may not exist, with all that is in it.
-pub(crate) fn remove_folder(path: &Path) -> Result<(), Error> {
-    match fs::remove_dir_all(path) {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io("remove", path)(e)),
-        _ => Ok(()),
-    }
 }
 
 /// A BLAKE3 hash as hexadecimal text.

@@ -106,25 +106,29 @@ impl RenderConfig {
     /// The largest radius of the filter, in pixels. Filters in use reach 4; one of 16 leaves a blur, and a larger number is a mistake.
     pub const LARGEST_FILTER_RADIUS: f32 = 16.0;
 
-    /// Checks the range of every field.
+    /// Checks the numbers. These are their ranges, wherever they come from.
+    ///
+    /// ```
+    /// use enfilade_render::RenderConfig;
+    /// let config = RenderConfig { noise: Some(2.0), ..RenderConfig::default() };
+    /// assert_eq!(config.validate().unwrap_err().to_string(), "noise must lie between 0 and 1, found 2");
+    /// ```
     ///
     /// # Errors
-    /// When a number is out of its range.
+    /// [`RenderError::Config`] for the first one that is out of its range.
     pub fn validate(&self) -> Result<(), RenderError> {
-        let wrong = |field, found: String, expected| Err(RenderError::Config { field, found, expected });
-        let positive = |v: Option<f32>| v.is_none_or(|v| v > 0.0 && v.is_finite());
-        if self.samples == 0 {
-            return wrong("samples", "0".into(), "at least 1");
+        require(self.samples >= 1, "samples", self.samples, "be at least 1")?;
+        if let Some(noise) = self.noise {
+            require(noise > 0.0 && noise < 1.0, "noise", noise, "lie between 0 and 1")?;
         }
-        if !(0.0..=Self::LARGEST_FILTER_RADIUS).contains(&self.filter_radius) {
-            return wrong("filter_radius", self.filter_radius.to_string(), "0 to 16 pixels");
+        if let Some(clamp) = self.clamp {
+            require(clamp > 0.0 && clamp.is_finite(), "clamp", clamp, "be above 0")?;
         }
-        if !positive(self.noise) {
-            return wrong("noise", self.noise.unwrap_or_default().to_string(), "more than 0, such as 0.02 for two per cent");
-        }
-        if !positive(self.clamp) {
-            return wrong("clamp", self.clamp.unwrap_or_default().to_string(), "more than 0");
-        }
-        Ok(())
+        let radius = self.filter_radius;
+        require((0.0..=Self::LARGEST_FILTER_RADIUS).contains(&radius), "filter_radius", radius, "lie between 0 and 16 pixels")
     }
+}
+
+fn require(ok: bool, field: &'static str, found: impl ToString, expected: &'static str) -> Result<(), RenderError> {
+    if ok { Ok(()) } else { Err(RenderError::Config { field, found: found.to_string(), expected }) }
 }

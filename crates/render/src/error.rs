@@ -24,13 +24,13 @@ pub enum RenderError {
         problem: String,
     },
     /// Settings out of their domain.
-    #[error("render setting `{field}` is {found}; expected {expected}")]
+    #[error("{field} must {expected}, found {found}")]
     Config {
         /// Name of the field.
         field: &'static str,
         /// Its value.
         found: String,
-        /// What it must be.
+        /// What it must do, as in "lie between 0 and 1".
         expected: &'static str,
     },
 }

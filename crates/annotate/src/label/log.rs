@@ -4,7 +4,7 @@
 //! order, so nothing is lost when the program dies; a last line that was cut short is dropped.
 
 use super::source::Source;
-use enfilade_dataset::MeshFiles;
+use enfilade_dataset::{MeshFiles, number_runs};
 use enfilade_scene::PartLabel;
 use serde::{Deserialize, Serialize};
 use std::fs::{File, TryLockError};
@@ -291,14 +291,7 @@ pub fn unsplit(files: &MeshFiles) -> Option<(usize, Vec<u32>)> {
 
 /// Ascending numbers as runs of first number and count.
 pub fn runs(numbers: &[u32]) -> Vec<[u32; 2]> {
-    let mut runs: Vec<[u32; 2]> = Vec::new();
-    for &number in numbers {
-        match runs.last_mut() {
-            Some([first, count]) if *first + *count == number => *count += 1,
-            _ => runs.push([number, 1]),
-        }
-    }
-    runs
+    number_runs(numbers.iter().copied()).iter().map(|run| [*run.start(), run.end() - run.start() + 1]).collect()
 }
 
 /// The numbers of runs that lie below `end`; `None` when a run goes beyond it.

@@ -21,7 +21,7 @@ pub fn farm(args: &FarmArgs, quiet: bool) -> Result<Verdict, Problem> {
         FarmVerb::Work(args) => work(args, quiet),
         FarmVerb::Status(args) => status(args),
         FarmVerb::Collect(args) => collect(args, quiet),
-        FarmVerb::Submit(args) => submit::submit(args),
+        FarmVerb::Submit(args) => submit::submit(&open(&args.job)?, args),
     }
 }
 

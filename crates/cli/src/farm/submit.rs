@@ -1,24 +1,23 @@
 //! `farm submit`: files for engines.
 
-use super::open;
 use crate::args::{EngineArg, FarmSubmitArgs};
 use crate::outcome::{Problem, Verdict, say};
 use enfilade_dataset::quoted;
+use enfilade_farm::Job;
 use enfilade_farm::engines::{Submission, aws_batch_job, kubernetes_job, openjd_template, slurm_collect_script, slurm_scripts};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Writes what the engine needs for the tasks that are missing, and submits it where that can be done from here.
-pub fn submit(args: &FarmSubmitArgs) -> Result<Verdict, Problem> {
-    let job = open(&args.job)?;
-    let missing = enfilade_farm::status(&job)?.missing;
+pub fn submit(job: &Job, args: &FarmSubmitArgs) -> Result<Verdict, Problem> {
+    let missing = enfilade_farm::status(job)?.missing;
     if missing.is_empty() {
         say(&format!("nothing is missing; collect the dataset: enfilade farm collect {} -o OUT", quoted(&args.job)));
         return Ok(Verdict::Done);
     }
     let here = || std::env::current_exe().ok().map(|path| path.display().to_string());
     let default = if args.engine == EngineArg::Slurm { here() } else { None };
-    let mut submission = Submission::of(&job, missing);
+    let mut submission = Submission::of(job, missing);
     submission.program = args.program.clone().or(default).unwrap_or_else(|| "enfilade".into());
     submission.at_once = args.at_once;
     submission.memory_mib = args.memory.unwrap_or(submission.memory_mib);

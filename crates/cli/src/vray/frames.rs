@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// Metres per unit of a scene, if it says so.
 pub fn units(scene: &Document, file: &Path) -> Result<Option<f64>, Problem> {
     meters_per_asset_unit(scene)
-        .map_err(|error| Problem::new(format!("{}:{error}", file.display()), "export the scene again, or mend it at this place"))
+        .map_err(|error| Problem::new(format!("{}:{error}", file.display()), "export the scene again, or correct it at this place"))
 }
 
 /// Gives the scene a camera of a dataset. `lens` is the file of its picture, here and on the machine that renders.

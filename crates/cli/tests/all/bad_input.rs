@@ -193,7 +193,7 @@ fn negative_numbers_are_values_and_not_flags() {
     for (args, word) in [
         (&["inspect", "out", "--pixel", "-1,0"][..], "expected column and row"),
         (&["run", "--demo", "out", "--frames", "-1"], "invalid value '-1' for '--frames <N>'"),
-        (&["run", "--demo", "out", "--time-limit", "-5s"], "the time limit must be above 0, found -5"),
+        (&["run", "--demo", "out", "--time-limit", "-5s"], "time_limit_s must be above 0, found -5"),
         (&["run", "--demo", "out", "--noise", "-2%"], "noise must lie between 0 and 1"),
         (&["animate", "out", "--fps", "-1"], "out"),
         (&["import", "room.obj", "--meters-per-unit", "-1"], "meters_per_unit"),
@@ -217,7 +217,7 @@ fn a_full_disk_is_told_and_leaves_nothing_half_written() {
     write_room(d, "room", Lamp::On);
     write_config(d, &[scene("room")]);
     fs::create_dir_all(d.join("out/.enfilade/room")).unwrap();
-    std::os::unix::fs::symlink("/dev/full", d.join("out/.enfilade/room/scene.scene.part")).unwrap();
+    std::os::unix::fs::symlink("/dev/full", d.join("out/.enfilade/room/.scene.scene.partial")).unwrap();
     let text = fail(
         d,
         &["run", "dataset.toml", "-o", "out"],

@@ -168,7 +168,7 @@ fn rendering_goes_on_with_the_numbers_it_was_given() {
         (&["--noise", "200%"], "noise must lie between 0 and 1"),
         (&["--noise", "little"], "0.02 or 2%"),
         (&["--clamp=-1"], "clamp must be above 0"),
-        (&["--time-limit", "0s"], "the time limit must be above 0"),
+        (&["--time-limit", "0s"], "time_limit_s must be above 0"),
         (&["--time-limit", "soon"], "90s, 5m or 1h"),
     ] {
         fail(d, &[&["render", "out"], args].concat(), 2, &[words]);

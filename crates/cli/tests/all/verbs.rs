@@ -84,7 +84,7 @@ fn stages_run_one_by_one_and_pixels_answer() {
     fail(d, &["export", "out", "--format", "depth-png", "-o", "."], 2, &["the dataset lies in it"]);
     fail(d, &["export", "out", "--format", "depth-png", "-o", "depth", "--layers", "colour"], 2, &["the layers are: color"]);
 
-    // A layer that was cut short is found by verification and mended by rendering that frame again.
+    // A layer that was cut short is found by verification and repaired by rendering that frame again.
     let layer = d.join("out/scenes/room/images/scene_cam_00_geometry_hdf5/frame.0001.position.hdf5");
     let bytes = fs::read(&layer).unwrap();
     fs::write(&layer, &bytes[..bytes.len() / 2]).unwrap();

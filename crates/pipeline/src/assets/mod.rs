@@ -5,6 +5,7 @@
 //! their names are part of its settings, because they tell what a model is.
 
 mod gltf;
+mod notes;
 mod sweethome;
 mod table;
 #[cfg(test)]
@@ -14,9 +15,8 @@ use crate::error::Error;
 use enfilade_home::assets::{Library, Model};
 use enfilade_home::{Home, HomeConfig};
 use enfilade_scene::{Cx, Warning};
-use std::collections::BTreeSet;
+use notes::Notes;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
 use table::Table;
 
 /// Most places that an error or warning lists.
@@ -52,25 +52,6 @@ pub(crate) fn home(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf,
 pub fn read_library(root: &Path, cx: &dyn Cx) -> Result<Vec<String>, Error> {
     let models = of_root(root, true, &Notes::default(), cx)?;
     Ok(models.iter().filter_map(|model| model.body().err().map(str::to_string)).collect())
-}
-
-/// What is told while models are read, which is when a home wants them; kept until it is made.
-#[derive(Clone, Debug, Default)]
-struct Notes(Arc<Mutex<BTreeSet<String>>>);
-
-impl Notes {
-    /// Each once, sorted.
-    fn take(&self) -> Vec<String> {
-        std::mem::take(&mut *self.0.lock().unwrap_or_else(PoisonError::into_inner)).into_iter().collect()
-    }
-}
-
-impl Cx for Notes {
-    fn progress(&self, _what: &str, _done: u64, _total: u64) {}
-
-    fn warn(&self, warning: Warning) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(warning.to_string());
-    }
 }
 
 /// Every file of the libraries, in the order of their names.
@@ -196,6 +177,6 @@ fn of_root(root: &Path, allow_broken: bool, notes: &Notes, cx: &dyn Cx) -> Resul
 }
 
 fn refuse_broken(message: &str) -> Error {
-    let hint = "mend or remove the file, write `use = false` for it in assets.toml, or set allow_broken_assets to go on without it";
+    let hint = "repair or remove the file, write `use = false` for it in assets.toml, or set allow_broken_assets to go on without it";
     Error::usage(message.to_string(), hint)
 }

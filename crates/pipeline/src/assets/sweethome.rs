@@ -2,7 +2,7 @@
 //!
 //! Doors, windows and staircases are left out, as are outdoor pieces, vehicles and people.
 
-use super::Notes;
+use super::notes::Notes;
 use super::table::{Front, Table};
 use crate::error::Error;
 use enfilade_home::assets::{Body, Bulb, Model};
@@ -31,7 +31,8 @@ pub(super) fn pieces(catalogues: &[&PathBuf]) -> Result<Vec<Piece>, Error> {
     };
     let mut all = Vec::new();
     for file in catalogues {
-        let found = catalogue(file, wanted).map_err(|error| Error::usage(error.to_string(), "mend the catalogue, or download it again"))?;
+        let found =
+            catalogue(file, wanted).map_err(|error| Error::usage(error.to_string(), "repair the catalogue, or download it again"))?;
         let named = |piece: CataloguePiece| Piece {
             name: piece.id.clone().unwrap_or_else(|| piece.title.clone()),
             archive: file.to_path_buf(),

@@ -110,7 +110,7 @@ struct Document {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Table(Document);
 
-/// What holds of one model.
+/// What the table says of one model, itself and by its defaults.
 pub(super) struct Choice {
     /// The families that it may stand in for; `None` where the table does not say.
     pub families: Option<Vec<&'static str>>,
@@ -168,7 +168,7 @@ impl Table {
         Ok(Self(document))
     }
 
-    /// What holds of the model of this name.
+    /// What the table says of the model of this name.
     pub fn of(&self, name: &str) -> Choice {
         let entry = self.0.models.get(name).cloned().unwrap_or_default();
         Choice {

@@ -1,25 +1,68 @@
-//! What is refused while a configuration is read: values out of their ranges, names and files that cannot be.
+//! The ranges of everything in a configuration, wherever it comes from: a file, the command line or a program.
+//!
+//! What other crates read they check themselves (`validate`, `problem`); here are the other keys, and the order of all checks.
 
-use super::choices::{check_filter_radius, check_noise, check_positive, check_samples, check_save_interval};
-use super::document::Resolver;
-use super::expand::expand;
-use super::locate::ConfigError;
-use super::patch::{RenderPatch, gate_problem};
-use super::{CameraConfig, Config, SceneConfig, Source};
+use super::camera::CameraConfig;
+use super::settings::{Config, FileSource, SceneConfig, Source};
 use crate::error::Error;
 use crate::workdir::OWN_FILES;
-use enfilade_dataset::{check_name, read_ray_grid};
-use enfilade_label::LabelTable;
+use enfilade_dataset::check_name;
+use enfilade_explore::ExploreError;
+use enfilade_import::{EnvironmentOverride, ImportError, ImportOptions};
+use enfilade_render::{RenderConfig, RenderError};
 use std::collections::HashSet;
-use std::path::{Path, PathBuf};
-use toml::Spanned;
 
 /// Pixels along the longer side of an image.
 const LARGEST_SIDE: u32 = 16_384;
 /// Frame numbers have four digits.
-const MOST_FRAMES: u32 = 10_000;
+const MAX_FRAMES: u32 = 10_000;
 /// What names of scenes are made of.
-const NAMES: &str = "names become folders: use 1 to 200 letters, digits, '-', '_' and '.', and do not begin with '.'";
+pub(super) const NAMES: &str = "names become folders: use 1 to 200 letters, digits, '-', '_' and '.', and do not begin with '.'";
+
+/// Where a key stands in `dataset.toml`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Section {
+    /// The scene itself, or the file's top level.
+    Scene,
+    /// The scene itself, or `[import]`.
+    Import,
+    Home,
+    Camera,
+    Render,
+    Carve,
+    Plan,
+    Gate,
+}
+
+/// A value that cannot be.
+#[derive(Debug)]
+pub(super) struct Misset {
+    pub section: Section,
+    /// The key; of a home and a camera the whole table is meant.
+    pub key: &'static str,
+    /// What was found and what was expected.
+    pub message: String,
+    /// What to write instead.
+    pub help: &'static str,
+}
+
+impl Misset {
+    fn new(section: Section, key: &'static str, message: impl Into<String>, help: &'static str) -> Self {
+        Self { section, key, message: message.into(), help }
+    }
+
+    /// The message for someone who does not see the key.
+    fn with_section(&self) -> String {
+        let section = match self.section {
+            Section::Scene | Section::Import | Section::Home | Section::Render => return self.message.clone(),
+            Section::Camera => "camera",
+            Section::Carve => "carve",
+            Section::Plan => "plan",
+            Section::Gate => "gate",
+        };
+        format!("in `{section}`: {}", self.message)
+    }
+}
 
 impl Config {
     /// Refuses what [`Config::read`] refuses of names and numbers: for a configuration that a program has put together. Files are
@@ -38,140 +81,127 @@ impl Config {
             }
             check_scene_name(&scene.name).map_err(|help| Error::usage(no_scene_name(&scene.name), help))?;
             let good = "the configuration of the demo has good values";
-            scene.check().map_err(|problem| Error::usage(format!("scene {:?}: {problem}", scene.name), good))?;
+            scene.validate().map_err(|wrong| Error::usage(format!("scene {:?}: {}", scene.name, wrong.with_section()), good))?;
         }
         Ok(())
     }
 }
 
 impl SceneConfig {
-    fn check(&self) -> Result<(), String> {
-        let within = |section: &str, problem: Option<String>| problem.map_or(Ok(()), |problem| Err(format!("in `{section}`: {problem}")));
+    /// Checks every value but names, and files, which must be read for that.
+    ///
+    /// # Errors
+    /// The first one that cannot be.
+    pub(super) fn validate(&self) -> Result<(), Misset> {
         match &self.source {
-            Source::File(file) => check_meters_per_unit(file.meters_per_unit)?,
-            Source::Home(home) => within("home", home.problem())?,
+            Source::File(file) => check_import(file)?,
+            Source::Home(home) => {
+                found(home.problem(), |problem| Misset::new(Section::Home, "home", format!("in `home`: {problem}"), HOME))?
+            }
         }
         check_size(self.size)?;
         self.fov_x_deg.map_or(Ok(()), |fov| check_fov(fov, &self.camera))?;
-        within("camera", self.camera.problem(self.size))?;
-        within("carve", self.carve.validate().err().map(|e| e.to_string()))?;
+        let help = "the keys of [camera] are explained in docs/cameras.md";
+        found(self.camera.problem(self.size), |problem| Misset::new(Section::Camera, "camera", problem, help))?;
+        let help = "the defaults are voxel_m = 0.1, extent_m = 30, rays = 262144 and iterations = 5";
+        self.carve.validate().map_err(|error| of_exploring(Section::Carve, &error, help))?;
         check_frames(self.plan.frames)?;
-        within("plan", self.plan.validate().err().map(|e| e.to_string()))?;
-        within("gate", gate_problem(&self.gate))?;
-        self.check_rendering()
-    }
-
-    fn check_rendering(&self) -> Result<(), String> {
-        check_samples(self.render.samples)?;
-        self.render.noise.map_or(Ok(()), check_noise)?;
-        self.render.clamp.map_or(Ok(()), |clamp| check_positive("clamp", f64::from(clamp)))?;
-        check_filter_radius(self.render.filter_radius)?;
-        self.time_limit_s.map_or(Ok(()), |limit| check_positive("time_limit_s", limit))?;
-        check_save_interval(self.save_every_s)
+        let help = "the keys of [plan] are explained in docs/trajectories.md";
+        self.plan.validate().map_err(|error| of_exploring(Section::Plan, &error, help))?;
+        self.gate.validate().map_err(|error| {
+            let is_share = error.field.ends_with("_share");
+            let help = if is_share { "for example: max_plane_share = 0.9" } else { "for example: min_depth_m = 0.3" };
+            Misset::new(Section::Gate, error.field, error.to_string(), help)
+        })?;
+        check_rendering(&self.render, self.time_limit_s, self.save_every_s)
     }
 }
 
-impl Resolver<'_> {
-    /// Refuses a label table that the last stages could not use.
-    pub(super) fn check_table(&self, table: &Spanned<String>) -> Result<(), ConfigError> {
-        let Some(path) = self.new_file(table.get_ref(), table, "label table")? else { return Ok(()) };
-        let refuse = |message: String| self.refuse(table, message, "correct the table, or name another one");
-        let bytes = std::fs::read(&path).map_err(|e| refuse(format!("cannot read the label table {}: {e}", path.display())))?;
-        LabelTable::parse(&bytes, &path.display().to_string()).map(drop).map_err(|e| refuse(e.to_string()))
-    }
+/// What to write for a home.
+pub(super) const HOME: &str =
+    "home = {} takes everything as it comes; home = { seed = 3, rooms = [\"living\", \"kitchen\", \"hall\"] } chooses";
 
-    /// Refuses a camera that cannot be, and notes which images its matrix is of.
-    pub(super) fn check_camera(&self, scene: &mut SceneConfig, camera: &Spanned<CameraConfig>) -> Result<(), ConfigError> {
-        if let Some(file) = &scene.camera.ray_grid
-            && let Some(path) = self.new_file(file, camera, "ray grid")?
-        {
-            read_ray_grid(&path, scene.size).map_err(|e| self.refuse(camera, e.to_string(), "docs/cameras.md explains the file"))?;
-        }
-        if scene.camera.k.is_some() {
-            scene.camera.k_size.get_or_insert(scene.size);
-        }
-        match scene.camera.problem(scene.size) {
-            Some(problem) => Err(self.refuse(camera, problem, "the keys of [camera] are explained in docs/cameras.md")),
-            None => Ok(()),
-        }
-    }
+fn found(problem: Option<String>, misset: impl FnOnce(String) -> Misset) -> Result<(), Misset> {
+    problem.map_or(Ok(()), |problem| Err(misset(problem)))
+}
 
-    pub(super) fn check_path<T>(&self, path: &str, place: &Spanned<T>) -> Result<(), ConfigError> {
-        self.expanded(path, place).map(drop)
-    }
+fn check_import(file: &FileSource) -> Result<(), Misset> {
+    let environment = file.environment.as_ref();
+    let environment = environment.map(|e| EnvironmentOverride { file: (&e.file).into(), scale: e.scale, rotation_deg: e.rotation_deg });
+    let options = ImportOptions { meters_per_unit: file.meters_per_unit, environment, ..ImportOptions::default() };
+    options.validate().map_err(|error| match error {
+        ImportError::Option { option: key @ "environment", problem } => {
+            Misset::new(Section::Import, key, format!("{key}: {problem}"), "for example: environment = { file = \"sky.hdr\", scale = 1 }")
+        }
+        ImportError::Option { option: key, problem } => {
+            Misset::new(Section::Import, key, format!("{key}: {problem}"), "0.01 for a file in centimetres, 1 for one in metres")
+        }
+        other => Misset::new(Section::Import, "file", other.to_string(), "choose other options"),
+    })
+}
 
-    fn expanded<T>(&self, path: &str, place: &Spanned<T>) -> Result<String, ConfigError> {
-        let help = "set the variable before running, as in: export NAME=/path/to/folder";
-        expand(path, self.variable).map_err(|e| self.refuse(place, e, help))
-    }
+fn of_exploring(section: Section, error: &ExploreError, help: &'static str) -> Misset {
+    let key = if let ExploreError::Config { field, .. } = error { *field } else { "mode" };
+    Misset::new(section, key, error.to_string(), help)
+}
 
-    /// The file that `path` means, which must be there; `None` when it was looked at before.
-    fn new_file<T>(&self, path: &str, place: &Spanned<T>, what: &str) -> Result<Option<PathBuf>, ConfigError> {
-        let folder = self.source.file.parent().unwrap_or(Path::new(""));
-        let found = folder.join(self.expanded(path, place)?);
-        if !found.is_file() {
-            let help = "check the path for a typing mistake; it begins in the folder of the configuration";
-            return Err(self.refuse(place, format!("there is no {what} {}", found.display()), help));
+/// Checks everything of `[render]` but the size and the field of view.
+pub(super) fn check_rendering(render: &RenderConfig, time_limit_s: Option<f64>, save_every_s: f64) -> Result<(), Misset> {
+    render.validate().map_err(|error| {
+        let key = if let RenderError::Config { field, .. } = &error { *field } else { "samples" };
+        Misset::new(Section::Render, key, error.to_string(), example(key))
+    })?;
+    let refuse = |key, message: String| Err(Misset::new(Section::Render, key, message, example(key)));
+    match time_limit_s {
+        Some(limit) if !(limit > 0.0 && limit.is_finite()) => {
+            refuse("time_limit_s", format!("time_limit_s must be above 0, found {limit}"))
         }
-        Ok(self.looked_at.borrow_mut().insert(found.clone()).then_some(found))
-    }
-
-    /// The name of the dataset.
-    pub(super) fn checked_name(&self, name: &Spanned<String>) -> Result<String, ConfigError> {
-        let text = name.get_ref();
-        check_name("name", text).map_err(|_| self.refuse(name, format!("{text:?} cannot be the name"), NAMES))?;
-        Ok(text.clone())
-    }
-
-    pub(super) fn checked_scene_name(&self, name: &Spanned<String>) -> Result<String, ConfigError> {
-        let text = name.get_ref();
-        check_scene_name(text).map_err(|help| self.refuse(name, no_scene_name(text), help))?;
-        Ok(text.clone())
-    }
-
-    /// Refuses numbers out of their range.
-    pub(super) fn check_render(&self, render: &RenderPatch) -> Result<(), ConfigError> {
-        if let Some(samples) = &render.samples {
-            check_samples(*samples.get_ref()).map_err(|m| self.refuse(samples, m, "for example: samples = 64"))?;
+        _ if !(save_every_s >= 0.0 && save_every_s.is_finite()) => {
+            refuse("save_every_s", format!("save_every_s must be at least 0, found {save_every_s}"))
         }
-        if let Some(noise) = &render.noise {
-            check_noise(*noise.get_ref()).map_err(|m| self.refuse(noise, m, "for example: noise = 0.02 for two per cent"))?;
-        }
-        if let Some(clamp) = &render.clamp {
-            let check = check_positive("clamp", f64::from(*clamp.get_ref()));
-            check.map_err(|m| self.refuse(clamp, m, "for example: clamp = 10; without the key nothing is clamped"))?;
-        }
-        if let Some(limit) = &render.time_limit_s {
-            let check = check_positive("time_limit_s", *limit.get_ref());
-            check.map_err(|m| self.refuse(limit, m, "for example: time_limit_s = 90; without the key there is no limit"))?;
-        }
-        if let Some(radius) = &render.filter_radius {
-            check_filter_radius(*radius.get_ref()).map_err(|m| self.refuse(radius, m, "for example: filter_radius = 1"))?;
-        }
-        if let Some(interval) = &render.save_every_s {
-            check_save_interval(*interval.get_ref()).map_err(|m| self.refuse(interval, m, "for example: save_every_s = 30"))?;
-        }
-        Ok(())
+        _ => Ok(()),
     }
 }
 
-pub(super) fn check_frames(frames: u32) -> Result<u32, String> {
-    if (1..=MOST_FRAMES).contains(&frames) {
-        Ok(frames)
-    } else {
-        Err(format!("frames must lie between 1 and {MOST_FRAMES}, found {frames}"))
+/// A good value of a key of `[render]`.
+fn example(key: &str) -> &'static str {
+    match key {
+        "noise" => "for example: noise = 0.02 for two per cent",
+        "clamp" => "for example: clamp = 10; without the key nothing is clamped",
+        "filter_radius" => "for example: filter_radius = 1",
+        "time_limit_s" => "for example: time_limit_s = 90; without the key there is no limit",
+        "save_every_s" => "for example: save_every_s = 30",
+        _ => "for example: samples = 64",
     }
 }
 
-pub(super) fn check_size(size: [u32; 2]) -> Result<[u32; 2], String> {
+fn check_frames(frames: u32) -> Result<(), Misset> {
+    if (1..=MAX_FRAMES).contains(&frames) {
+        return Ok(());
+    }
+    let message = format!("frames must lie between 1 and {MAX_FRAMES}, found {frames}");
+    Err(Misset::new(Section::Scene, "frames", message, "for example: frames = 100"))
+}
+
+fn check_size(size: [u32; 2]) -> Result<(), Misset> {
     if size.iter().all(|s| (1..=LARGEST_SIDE).contains(s)) {
-        return Ok(size);
+        return Ok(());
     }
-    Err(format!("width and height must lie between 1 and {LARGEST_SIDE} pixels, found {} x {}", size[0], size[1]))
+    let message = format!("width and height must lie between 1 and {LARGEST_SIDE} pixels, found {} x {}", size[0], size[1]);
+    Err(Misset::new(Section::Render, "size", message, "for example: size = [1024, 768]"))
+}
+
+fn check_fov(fov_x_deg: f64, camera: &CameraConfig) -> Result<(), Misset> {
+    let limit = camera.fov_limit_deg();
+    if fov_x_deg > 0.0 && fov_x_deg < limit {
+        return Ok(());
+    }
+    let message = format!("fov_x_deg must lie between 0 and {limit}, found {fov_x_deg}");
+    Err(Misset::new(Section::Render, "fov_x_deg", message, "60 is a common choice"))
 }
 
 /// Gives what to do where this cannot be the name of a scene.
-fn check_scene_name(name: &str) -> Result<(), &'static str> {
+pub(super) fn check_scene_name(name: &str) -> Result<(), &'static str> {
     match check_name("scene name", name) {
         Err(_) => Err(NAMES),
         Ok(()) if OWN_FILES.contains(&name) => Err("a file of the work folder has it; take another"),
@@ -179,18 +209,6 @@ fn check_scene_name(name: &str) -> Result<(), &'static str> {
     }
 }
 
-fn no_scene_name(name: &str) -> String {
+pub(super) fn no_scene_name(name: &str) -> String {
     format!("{name:?} cannot be the name of a scene")
-}
-
-pub(super) fn check_fov(fov_x_deg: f64, camera: &CameraConfig) -> Result<(), String> {
-    let limit = camera.fov_limit_deg();
-    if fov_x_deg > 0.0 && fov_x_deg < limit {
-        return Ok(());
-    }
-    Err(format!("fov_x_deg must lie between 0 and {limit}, found {fov_x_deg}"))
-}
-
-pub(super) fn check_meters_per_unit(meters: f64) -> Result<(), String> {
-    if meters > 0.0 && meters.is_finite() { Ok(()) } else { Err(format!("meters_per_unit must be a positive number, found {meters}")) }
 }

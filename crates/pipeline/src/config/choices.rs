@@ -1,8 +1,64 @@
-//! Choices about rendering, and the ranges of those numbers, wherever they are given.
+//! What the command line, or a program, says otherwise than the configuration.
 
-use super::SceneConfig;
+use super::checks::{Section, check_rendering};
+use super::settings::{SceneConfig, save_every_s};
 use crate::error::Error;
 use enfilade_render::RenderConfig;
+use serde::{Deserialize, Serialize};
+
+/// Samples per pixel by one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quality {
+    /// For a look: noisy.
+    Draft,
+    /// For use.
+    Normal,
+    /// For publication.
+    High,
+}
+
+impl Quality {
+    /// Samples per pixel.
+    pub const fn samples(self) -> u32 {
+        match self {
+            Self::Draft => 8,
+            Self::Normal => 64,
+            Self::High => 512,
+        }
+    }
+}
+
+/// Choices that win over those of the configuration.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Overrides {
+    /// Seed of everything; homes with a seed of their own keep it.
+    pub seed: Option<u64>,
+    /// Frames per trajectory.
+    pub frames: Option<u32>,
+    /// Image width and height.
+    pub size: Option<[u32; 2]>,
+    /// Samples per pixel.
+    pub quality: Option<Quality>,
+    /// Everything else about rendering; its samples win over `quality`.
+    pub render: RenderChoices,
+}
+
+impl Overrides {
+    /// Whether a key's value is one of these.
+    pub(super) fn say(&self, section: Section, key: &str) -> bool {
+        let render = &self.render;
+        match (section, key) {
+            (Section::Scene, "frames") => self.frames.is_some(),
+            (Section::Render, "size") => self.size.is_some(),
+            (Section::Render, "samples") => render.samples.is_some() || self.quality.is_some(),
+            (Section::Render, "noise") => render.noise.is_some(),
+            (Section::Render, "clamp") => render.clamp.is_some(),
+            (Section::Render, "time_limit_s") => render.time_limit_s.is_some(),
+            _ => false,
+        }
+    }
+}
 
 /// Choices about rendering that win over those of the configuration; `None` and `false` leave it as it is.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,53 +82,29 @@ pub struct RenderChoices {
 }
 
 impl RenderChoices {
-    /// What is out of its range, if anything.
-    pub(super) fn problem(&self) -> Option<String> {
-        let samples = self.samples.and_then(|v| check_samples(v).err());
-        let noise = || self.noise.and_then(|v| check_noise(v).err());
-        let clamp = || self.clamp.and_then(|v| check_positive("clamp", f64::from(v)).err());
-        let limit = || self.time_limit_s.and_then(|v| check_positive("the time limit", v).err());
-        samples.or_else(noise).or_else(clamp).or_else(limit)
-    }
-
     /// # Errors
     /// When a number is out of its range.
     pub(crate) fn check(&self) -> Result<(), Error> {
-        let refuse = |message| Error::usage(format!("the command line: {message}"), "the flags are explained by: enfilade render --help");
-        self.problem().map_or(Ok(()), |message| Err(refuse(message)))
+        let mut render = RenderConfig::default();
+        self.apply_to_transport(&mut render);
+        check_rendering(&render, self.time_limit_s, save_every_s()).map_err(|wrong| {
+            Error::usage(format!("the command line: {}", wrong.message), "the flags are explained by: enfilade render --help")
+        })
     }
 
     /// Makes these choices for a scene.
     pub(crate) fn apply(&self, scene: &mut SceneConfig) {
-        let render = &mut scene.render;
+        self.apply_to_transport(&mut scene.render);
+        scene.time_limit_s = self.time_limit_s.or(scene.time_limit_s);
+        scene.denoise |= self.denoise;
+    }
+
+    fn apply_to_transport(&self, render: &mut RenderConfig) {
         render.samples = self.samples.unwrap_or(render.samples);
         render.noise = self.noise.or(render.noise);
         render.max_bounces = self.max_bounces.or(render.max_bounces);
         render.clamp = self.clamp.or(render.clamp);
         render.splits |= self.splits;
         render.extra |= self.extra;
-        scene.time_limit_s = self.time_limit_s.or(scene.time_limit_s);
-        scene.denoise |= self.denoise;
     }
-}
-
-pub(super) fn check_samples(samples: u32) -> Result<(), String> {
-    if samples == 0 { Err("samples must be at least 1".into()) } else { Ok(()) }
-}
-
-pub(super) fn check_noise(noise: f32) -> Result<(), String> {
-    if noise > 0.0 && noise < 1.0 { Ok(()) } else { Err(format!("noise must lie between 0 and 1, found {noise}")) }
-}
-
-pub(super) fn check_positive(what: &str, value: f64) -> Result<(), String> {
-    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(format!("{what} must be above 0, found {value}")) }
-}
-
-pub(super) fn check_filter_radius(radius: f32) -> Result<(), String> {
-    let most = RenderConfig::LARGEST_FILTER_RADIUS;
-    if (0.0..=most).contains(&radius) { Ok(()) } else { Err(format!("filter_radius must lie between 0 and {most} pixels, found {radius}")) }
-}
-
-pub(super) fn check_save_interval(seconds: f64) -> Result<(), String> {
-    if seconds >= 0.0 && seconds.is_finite() { Ok(()) } else { Err(format!("save_every_s must be at least 0, found {seconds}")) }
 }

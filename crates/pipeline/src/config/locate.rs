@@ -1,68 +1,8 @@
-//! Errors of a configuration file, shown with the line they are about and a proposal.
+//! Places in a configuration file, and the TOML reader's errors in our words, with a proposal.
 
-use std::fmt;
+use crate::error::{ConfigError, Place};
 use std::ops::Range;
-use std::path::{Path, PathBuf};
-
-/// What is wrong with a configuration file, and where.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ConfigError {
-    /// The file as the user named it.
-    pub file: PathBuf,
-    /// Where; `None` when the file as a whole is meant.
-    pub place: Option<Box<Place>>,
-    /// What was found and what was expected.
-    pub message: String,
-    /// What to do.
-    pub help: Option<String>,
-}
-
-/// A place in a file, for display.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// From 1.
-    pub line: usize,
-    /// From 1, in characters.
-    pub column: usize,
-    /// The line itself.
-    pub text: String,
-    /// Number of characters that the problem spans on its line.
-    pub width: usize,
-}
-
-impl fmt::Display for ConfigError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file.display())?;
-        let Some(place) = &self.place else { return write!(f, ": {}", self.message) };
-        let (line, column) = (place.line, place.column);
-        let (text, indent, width) = place.excerpt();
-        let gutter = line.to_string().len();
-        let marker = "^".repeat(width.max(1));
-        write!(f, ":{line}:{column}: {}\n  {line} | {text}\n  {:gutter$} | {:indent$}{marker}", self.message, "", "")
-    }
-}
-
-/// Of a longer line this many characters are shown, ...
-const LONGEST_LINE: usize = 160;
-/// ... up to so many of them before the place.
-const BEFORE_PLACE: usize = 60;
-
-impl Place {
-    /// As much of the line as is shown, and where in it and over how many characters it is marked.
-    fn excerpt(&self) -> (String, usize, usize) {
-        let (start, length) = (self.column - 1, self.text.chars().count());
-        if length <= LONGEST_LINE {
-            return (self.text.clone(), start, self.width);
-        }
-        let first = start.saturating_sub(BEFORE_PLACE);
-        let end = first + LONGEST_LINE;
-        let shown: String = self.text.chars().skip(first).take(LONGEST_LINE).collect();
-        let [before, after] = [first > 0, end < length].map(|is_cut| if is_cut { "…" } else { "" });
-        (format!("{before}{shown}{after}"), start - first + before.chars().count(), self.width.min(end - start))
-    }
-}
-
-impl std::error::Error for ConfigError {}
+use std::path::Path;
 
 /// A configuration text, to turn byte ranges into places.
 pub(super) struct Source<'a> {
@@ -114,7 +54,7 @@ impl Source<'_> {
     }
 }
 
-/// What the TOML reader says about a value of a wrong type, with the types in words; and what could stand there instead of a text.
+/// The TOML reader's message about a value of a wrong type, with the types in words, and what to write instead of a text.
 pub(super) fn in_words(message: &str) -> (String, Option<String>) {
     let Some((found, expected)) = message.rsplit_once(", expected ") else { return (message.into(), None) };
     let text = found.strip_prefix("invalid type: string \"").and_then(|text| text.strip_suffix('"'));
@@ -162,6 +102,7 @@ fn floor_char_boundary(text: &str, mut index: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::LONGEST_LINE;
 
     #[test]
     fn places_are_lines_and_columns_in_characters() {

@@ -26,11 +26,13 @@ macro_rules! section {
                 })*
             }
 
-            /// Where the value of the field `name` of the target stands, if it is there.
-            #[allow(dead_code)] // not every section is asked
+            /// Where the value of the key `name` stands, if it is there.
             pub fn span(&self, name: &str) -> Option<Range<usize>> {
-                let spans = [$((stringify!($field), self.$field.as_ref().map(Spanned::span))),*];
-                spans.into_iter().find(|(field, _)| *field == name)?.1
+                let spans = [
+                    $((stringify!($field), self.$field.as_ref().map(Spanned::span)),)*
+                    $($((stringify!($extra), self.$extra.as_ref().map(Spanned::span)),)*)?
+                ];
+                spans.into_iter().find(|(key, _)| *key == name)?.1
             }
         }
     };
@@ -79,33 +81,6 @@ section!(GatePatch => GateConfig {
     max_plane_share: f64,
     max_invalid_share: f64,
 });
-
-impl GatePatch {
-    /// A value out of its range, what is wrong with it, and a good one.
-    pub fn problem(&self) -> Option<(&Spanned<f64>, String, &'static str)> {
-        let shares = [&self.max_void_share, &self.max_enclosed_share, &self.max_open_share, &self.max_back_face_share];
-        let mut shares = shares.into_iter().chain([&self.max_near_share, &self.max_plane_share, &self.max_invalid_share]).flatten();
-        let mut lengths = [&self.enclosed_m, &self.min_depth_m, &self.min_depth_range_m].into_iter().flatten();
-        let no_share = shares.find_map(|v| Some((v, share_problem(*v.get_ref())?, "for example: max_plane_share = 0.9")));
-        no_share.or_else(|| lengths.find_map(|v| Some((v, length_problem(*v.get_ref())?, "for example: min_depth_m = 0.3"))))
-    }
-}
-
-/// What is out of its range, if anything.
-pub(super) fn gate_problem(gate: &GateConfig) -> Option<String> {
-    let shares = [gate.max_void_share, gate.max_enclosed_share, gate.max_open_share, gate.max_back_face_share];
-    let shares = shares.into_iter().chain([gate.max_near_share, gate.max_plane_share, gate.max_invalid_share]);
-    let lengths = [gate.enclosed_m, gate.min_depth_m, gate.min_depth_range_m];
-    shares.filter_map(share_problem).chain(lengths.into_iter().filter_map(length_problem)).next()
-}
-
-fn share_problem(share: f64) -> Option<String> {
-    (!(0.0..=1.0).contains(&share)).then(|| format!("a share must lie between 0 and 1, found {share}"))
-}
-
-fn length_problem(length: f64) -> Option<String> {
-    (!(length >= 0.0 && length.is_finite())).then(|| format!("a length must be 0 or more metres, found {length}"))
-}
 
 // The frames are a key of the level above; the test images have the field of view and the shape of the pictures.
 section!(PlanPatch => PlanConfig {

@@ -2,11 +2,11 @@
 
 use super::{Input, Inputs, Job, Outcome, Record, Stage, made};
 use crate::error::Error;
-use crate::report::{StageCx, count};
+use crate::report::StageCx;
 use crate::workdir::Hash;
+use enfilade_dataset::{BoxKind, counted, mesh_names};
 use enfilade_label::boxes::write_boxes;
-use enfilade_label::instances::solids;
-use enfilade_label::instances::write_instances;
+use enfilade_label::instances::{solids, write_instances};
 use enfilade_scene::WorldMesh;
 use std::collections::BTreeMap;
 
@@ -17,10 +17,10 @@ pub(super) fn settings(_job: &Job) -> Hash {
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?];
     let files = job.dataset.mesh_files(&job.scene.name);
-    for table in ["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5"] {
+    for table in [mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE] {
         inputs.push(job.input_from(Stage::Label, &files.file(table))?);
     }
-    let splits = ["metadata_object_splits.csv", "mesh_faces_oi.hdf5"].map(|table| files.file(table));
+    let splits = [mesh_names::OBJECT_SPLITS, mesh_names::FACES_OBJECTS].map(|table| files.file(table));
     if splits[0].is_file() {
         inputs.extend(splits.iter().map(|path| Input::of(path)).collect::<Result<Vec<_>, _>>()?);
     }
@@ -42,20 +42,20 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         frames += rendered.len();
         seen.push((trajectory.name.clone(), rendered, made));
     }
-    // Where nodes have seen all frames, solids are not asked for.
+    // Building solids takes long, and other machines may have noted what every frame shows.
     let needed = seen.iter().any(|(_, rendered, made)| made.len() < rendered.len());
     let solids = if needed { solids(&WorldMesh::new(&scene), &labels) } else { Vec::new() };
     for (camera, rendered, made) in &seen {
         outputs.extend(write_instances(job.dataset, [name, camera], rendered, made, &solids, cx).map_err(Error::stage)?);
     }
-    let summary = format!("{} of 3 kinds, seen in {}", count(boxed, "instance"), count(frames, "frame"));
+    let summary = format!("{} of 3 kinds, seen in {}", counted(boxed, "instance"), counted(frames, "frame"));
     Ok(Outcome { summary, outputs, ..Outcome::default() })
 }
 
 /// The tables of boxes and of instances by frame, as inputs of what comes later.
 pub(super) fn tables(job: &Job) -> Result<Vec<Input>, Error> {
     let name = &job.scene.name;
-    let mut files: Vec<_> = enfilade_dataset::BoxKind::ALL.iter().flat_map(|&kind| job.dataset.box_files(name, kind)).collect();
+    let mut files: Vec<_> = BoxKind::ALL.iter().flat_map(|&kind| job.dataset.box_files(name, kind)).collect();
     files.extend(job.filmed()?.iter().map(|(_, trajectory)| job.dataset.layout().frame_instances(name, &trajectory.name)));
     files.iter().map(|path| job.input_from(Stage::Boxes, path)).collect()
 }

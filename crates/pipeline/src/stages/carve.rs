@@ -3,8 +3,9 @@
 use super::{Inputs, Job, Outcome, Record, Stage};
 use crate::config::{CameraChoice, closest};
 use crate::error::Error;
-use crate::report::{StageCx, count};
-use crate::workdir::{Hash, read_json, write_json};
+use crate::report::StageCx;
+use crate::workdir::{Hash, read_json};
+use enfilade_dataset::{counted, write_json};
 use enfilade_explore::{CarveConfig, FreeSpace, StartReport, StartsConfig};
 use enfilade_math::DVec3;
 use enfilade_scene::{Pose, Scene, StartCamera};
@@ -72,10 +73,10 @@ fn summary(space: &FreeSpace, cameras: usize) -> String {
         size.x,
         size.y,
         size.z,
-        count(cameras, "camera")
+        counted(cameras, "camera")
     );
     let leaks = match report.leaks.first() {
-        Some(leak) => format!("{}, the largest {:.1} m2 at {:.1}", count(report.leaks.len(), "leak"), leak.area_m2, leak.position),
+        Some(leak) => format!("{}, the largest {:.1} m2 at {:.1}", counted(report.leaks.len(), "leak"), leak.area_m2, leak.position),
         None => "no leaks".into(),
     };
     format!("{seen}; {:.0} % of the domain unknown; {leaks}", 100.0 * report.unknown_share)

@@ -2,12 +2,13 @@
 
 use super::{Inputs, Job, Outcome, Record, Stage};
 use crate::error::Error;
-use crate::report::{StageCx, count};
-use crate::workdir::{Hash, remove_if_there};
+use crate::report::StageCx;
+use crate::workdir::Hash;
+use enfilade_dataset::{counted, remove_if_there};
 use enfilade_denoise::{DenoiseError, Denoiser, INPUTS, denoise};
 use enfilade_frame::{LAYERS, Pass};
 use enfilade_scene::Cx;
-use enfilade_show::preview::PREVIEWS;
+use enfilade_show::preview::{PREVIEWS, PreviewSpec};
 use std::path::PathBuf;
 
 /// Names the library where the configuration does not.
@@ -19,6 +20,11 @@ pub(super) fn settings(job: &Job) -> Hash {
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     job.frame_records().map(Some)
+}
+
+/// Whether every frame has its denoised layers, where they are asked for.
+pub(super) fn frames_are_whole(job: &Job) -> bool {
+    !job.scene.denoise || job.layers_are_whole(Pass::Denoised)
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
@@ -34,7 +40,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             missing.push((camera, *frame, hash));
         }
     }
-    let mut summary = count(missing.len(), "frame");
+    let mut summary = counted(missing.len(), "frame");
     if !missing.is_empty() {
         let denoiser = open(job)?;
         for (done, (camera, frame, hash)) in missing.iter().enumerate() {
@@ -54,10 +60,10 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 /// # Errors
 /// When it cannot be had.
 pub(crate) fn check_denoiser(job: &Job) -> Result<(), Error> {
-    if !job.scene.denoise || job.work_file("denoise.json")?.is_file() {
+    if !job.scene.denoise || job.work_file(&Stage::Denoise.record())?.is_file() {
         return Ok(());
     }
-    // A scene that is not planned, or whose plan is damaged, has frames to come.
+    // Where the frames are not known yet, because the scene is not planned or the plan is damaged, the library will be needed.
     if all_are_denoised(job).unwrap_or(false) { Ok(()) } else { open(job).map(drop) }
 }
 
@@ -99,7 +105,7 @@ pub(super) fn denoise_frame(job: &Job, camera: &str, frame: u32, hash: &str, den
 /// dataset does not ask for a library.
 pub(super) fn denoise_hash(job: &Job, camera: &str, frame: u32) -> Result<String, Error> {
     let record = job.dataset.frame_record(&job.scene.name, camera, frame).map_err(Error::stage)?;
-    let version = (env!("CARGO_PKG_VERSION"), Stage::Denoise.spec().version);
+    let version = (env!("CARGO_PKG_VERSION"), Stage::Denoise.version());
     Ok(Hash::of(&(version, record.map(|r| r.config_hash))).0)
 }
 
@@ -108,7 +114,8 @@ fn remove(job: &Job, camera: &str, frame: u32) -> Result<(), Error> {
     let name = &job.scene.name;
     job.dataset.remove_denoised_layers(name, camera, frame).map_err(Error::stage)?;
     let mut previews = PREVIEWS.iter().filter(|spec| spec.pass == Pass::Denoised);
-    previews.try_for_each(|spec| remove_if_there(&job.dataset.layout().preview(name, camera, frame, spec.pass, spec.name)))
+    let path = |spec: &PreviewSpec| job.dataset.layout().preview(name, camera, frame, spec.pass, spec.name);
+    Ok(previews.try_for_each(|spec| remove_if_there(&path(spec)))?)
 }
 
 fn outputs(job: &Job, frames: &[(String, u32)]) -> Vec<PathBuf> {

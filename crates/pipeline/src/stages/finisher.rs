@@ -3,10 +3,25 @@
 
 use super::{Job, denoise, label, made};
 use crate::error::Error;
-use crate::parts::FinishedFrame;
 use crate::report::StageCx;
+use enfilade_dataset::FrameTime;
 use enfilade_verify::FrameVerifier;
 use std::path::PathBuf;
+
+/// A frame that [`render_part`](crate::render_part) has made.
+#[derive(Clone, Debug)]
+pub struct FinishedFrame {
+    /// Its trajectory.
+    pub camera: String,
+    /// Its number.
+    pub frame: u32,
+    /// Its files, relative to the dataset's folder: layers, labels, pictures, and the records that vouch for them.
+    pub files: Vec<PathBuf>,
+    /// The laws of verification that it breaks; normally none.
+    pub broken: Vec<&'static str>,
+    /// What it took.
+    pub time: FrameTime,
+}
 
 /// What the frames of a scene are finished with.
 pub(crate) struct FrameFinisher {

@@ -1,18 +1,18 @@
 //! `gate`: which of the planned views are worth rendering, by their geometry alone.
 
-use super::{Input, Inputs, Job, Outcome, Record, Stage, carve};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
-use crate::report::{StageCx, count};
-use crate::workdir::{Hash, remove_folder, remove_if_there, write_whole};
-use enfilade_dataset::{JudgedView, ViewFault, ViewVerdict, write_bytes};
+use crate::report::StageCx;
+use crate::workdir::Hash;
+use enfilade_dataset::{JudgedView, ViewFault, ViewVerdict, counted, remove_folder, remove_if_there, write_bytes};
 use enfilade_scene::{CameraView, Cx, Trajectory, Warning};
 use enfilade_show::gates_page::{Judged, gates_page};
 use enfilade_show::picture::jpeg;
 use enfilade_verify::view_gates::{GateAction, VIEW_GATES};
 use std::path::PathBuf;
 
-/// Frames named in a warning; of the others it says that there are more.
+/// Frames named in a warning; more are shown as `…`.
 const FRAMES_NAMED: usize = 12;
 
 pub(super) fn settings(job: &Job) -> Hash {
@@ -21,7 +21,7 @@ pub(super) fn settings(job: &Job) -> Hash {
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?, job.input_from(Stage::Carve, &job.work_file(carve::STARTS)?)?];
-    inputs.extend(super::plan::outputs(job)?);
+    inputs.extend(camera_files::inputs(job)?);
     Ok(Some(inputs))
 }
 
@@ -42,7 +42,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
                 None => None,
                 Some(_) => {
                     let path = layout.rejected_view(name, &trajectory.name, pose.frame);
-                    write_bytes(&path, jpeg(&keeper.thumbnail(&view))).map_err(Error::stage)?;
+                    write_bytes(&path, jpeg(&keeper.thumbnail(&view)))?;
                     let relative = path.strip_prefix(layout.detail_dir(name)).unwrap_or(&path).display().to_string();
                     outputs.push(path);
                     Some(relative)
@@ -57,12 +57,12 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         warn(job, trajectory, &judged[first..], cx);
     }
     let page = layout.gates_page(name);
-    write_whole(&page, gates_page(name, config, &judged).as_bytes())?;
+    write_bytes(&page, gates_page(name, config, &judged))?;
     outputs.push(page);
     let faulty = judged.iter().filter(|view| view.fault.is_some()).count();
     if config.action == GateAction::Reject && faulty == total && total > 0 {
         return Err(Error::scene(
-            format!("all {} are rejected ({})", count(total, "view"), tally(&judged)),
+            format!("all {} are rejected ({})", counted(total, "view"), tally(&judged)),
             format!(
                 "see {}; place the cameras elsewhere, or set other limits or action = \"report\" in [gate]",
                 layout.gates_page(name).display()
@@ -70,9 +70,9 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         ));
     }
     let summary = match (faulty, config.action) {
-        (0, _) => format!("all {} pass", count(total, "view")),
-        (_, GateAction::Reject) => format!("{} of {} pass, rejected: {}", total - faulty, count(total, "view"), tally(&judged)),
-        (_, GateAction::Report) => format!("{} of {} pass, reported: {}", total - faulty, count(total, "view"), tally(&judged)),
+        (0, _) => format!("all {} pass", counted(total, "view")),
+        (_, GateAction::Reject) => format!("{} of {} pass, rejected: {}", total - faulty, counted(total, "view"), tally(&judged)),
+        (_, GateAction::Report) => format!("{} of {} pass, reported: {}", total - faulty, counted(total, "view"), tally(&judged)),
     };
     Ok(Outcome { summary, outputs, ..Outcome::default() })
 }
@@ -125,7 +125,7 @@ fn warn(job: &Job, trajectory: &Trajectory, views: &[Judged], cx: &StageCx) {
         GateAction::Reject => "rejected and not rendered",
         GateAction::Report => "not worth rendering, but rendered",
     };
-    let (n, all, why) = (faulty.len(), count(views.len(), "view"), tally(views));
+    let (n, all, why) = (faulty.len(), counted(views.len(), "view"), tally(views));
     let mut message = format!("{n} of {all} {verb}: {why} (frames {}{more})", named.join(", "));
     if faulty.len() == views.len() {
         message += "; none is left: place this camera elsewhere, or set other limits in [gate]";

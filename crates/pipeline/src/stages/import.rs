@@ -4,9 +4,9 @@ use super::{Input, Inputs, Job, Outcome, Record};
 use crate::assets;
 use crate::config::{FileSource, Source};
 use crate::error::Error;
-use crate::report::{StageCx, count};
-use crate::workdir::{Hash, write_json, write_whole};
-use enfilade_dataset::{ANNOTATION_LOG, FrameRecord};
+use crate::report::StageCx;
+use crate::workdir::Hash;
+use enfilade_dataset::{ANNOTATION_LOG, FrameRecord, counted, mesh_names, write_bytes, write_json};
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, ImportOptions, ImportedLabel};
 use enfilade_scene::{Cx, Labels, PartLabel, Scene, WorldMesh};
@@ -17,19 +17,19 @@ use std::time::SystemTime;
 pub(super) const LABELS: &str = "labels.json";
 /// Files of the mesh folder that no annotation changes.
 const GEOMETRY: [&str; 10] = [
-    "mesh_vertices.hdf5",
-    "mesh_normals.hdf5",
-    "mesh_texcoords.hdf5",
-    "mesh_faces_vi.hdf5",
-    "mesh_faces_vni.hdf5",
-    "mesh_faces_vti.hdf5",
-    "mesh_faces_gi.hdf5",
-    "mesh_faces_mi.hdf5",
-    "metadata_groups.csv",
-    "metadata_materials.csv",
+    mesh_names::VERTICES,
+    mesh_names::NORMALS,
+    mesh_names::TEXCOORDS,
+    mesh_names::FACES_VERTICES,
+    mesh_names::FACES_NORMALS,
+    mesh_names::FACES_TEXCOORDS,
+    mesh_names::FACES_GROUPS,
+    mesh_names::FACES_MATERIALS,
+    mesh_names::GROUPS,
+    mesh_names::MATERIALS,
 ];
 /// Those that `enfilade annotate` writes anew where people split parts.
-const OBJECTS: [&str; 2] = ["mesh_faces_oi.hdf5", "metadata_objects.csv"];
+const OBJECTS: [&str; 2] = [mesh_names::FACES_OBJECTS, mesh_names::OBJECTS];
 
 pub(super) fn settings(job: &Job) -> Hash {
     match &job.scene.source {
@@ -47,13 +47,13 @@ pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
         Source::File(source) => source,
     };
     let Some(record) = previous else { return Ok(None) };
-    // What the configuration names may by now be other files than were read, which still lie where they were.
+    // Where the configuration names other files now, those that were read do not matter, although they may still be there.
     let was_read = |path: &Path| record.inputs.iter().any(|input| input.path == path);
     let named = [Some(&source.file), source.environment.as_ref().map(|environment| &environment.file)];
     if named.into_iter().flatten().any(|written| job.config.path(written).is_ok_and(|path| !was_read(&path))) {
         return Ok(None);
     }
-    // One that cannot be read makes the import run, which then says so.
+    // A file that cannot be read makes the stage run, and its error says why.
     Ok(record.inputs.iter().map(|input| Input::of_any(&input.path)).collect::<Result<_, _>>().ok())
 }
 
@@ -81,9 +81,9 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         }
     };
     let (package, bytes) = (job.package()?, enfilade_scene::to_bytes(&scene));
-    remove_other_frames(job, &package, &bytes)?;
+    remove_frames_of_other_scenes(job, &package, &bytes)?;
     job.dataset.write_scene(name, &scene).map_err(Error::stage)?;
-    write_whole(&package, &bytes)?;
+    write_bytes(&package, &bytes)?;
     let labels_file = job.work_file(LABELS)?;
     write_json(&labels_file, &labels)?;
     job.forget_scene();
@@ -98,9 +98,9 @@ pub(super) fn is_annotated(job: &Job, path: &Path) -> bool {
     OBJECTS.iter().any(|name| path.ends_with(name)) && job.dataset.mesh_files(&job.scene.name).file(ANNOTATION_LOG).is_file()
 }
 
-/// Pictures of another scene would be taken for pictures of this one, whose parts may have other numbers. `bytes` are those of the package
-/// that comes in place of the one that is there.
-fn remove_other_frames(job: &Job, package: &Path, bytes: &[u8]) -> Result<(), Error> {
+/// Removes frames that show another scene: their part numbers may mean other parts of this one. `bytes` are those of the package that
+/// replaces the one on disk.
+fn remove_frames_of_other_scenes(job: &Job, package: &Path, bytes: &[u8]) -> Result<(), Error> {
     let name = &job.scene.name;
     if !job.dataset.layout().images_dir(name).is_dir() {
         return Ok(());
@@ -109,13 +109,13 @@ fn remove_other_frames(job: &Job, package: &Path, bytes: &[u8]) -> Result<(), Er
     let is_replaced = package.is_file() && Hash::of_file(package)? != hash;
     let stays = |record: &FrameRecord| match &record.recipe {
         Some(recipe) if !recipe.scene_blake3.is_empty() => recipe.scene_blake3 == hash.0,
-        // V-Ray's frames, and those of earlier versions, do not tell their scene: it is that which was there.
+        // V-Ray's frames, and those of earlier versions, do not name their scene: they show the one whose package is on disk.
         _ => !is_replaced,
     };
     job.there()?.iter().try_for_each(|camera| job.dataset.retain_frames(name, camera, stays)).map_err(Error::stage)
 }
 
-/// Finds the files that are saved while a scene is read from them: nobody knows which of their contents were read.
+/// Finds files that somebody saves while the scene is read from them: whether the old or the new content was read is unknown.
 struct Watch {
     start: SystemTime,
     /// The files that the configuration names, as they were before.
@@ -126,7 +126,7 @@ impl Watch {
     fn start(job: &Job, source: &FileSource) -> Self {
         let written = [Some(&source.file), source.environment.as_ref().map(|environment| &environment.file)];
         let files = written.into_iter().flatten().filter_map(|written| job.config.path(written).ok()).filter(|path| path.is_file());
-        // What cannot be read here, the import says.
+        // A file that cannot be read here fails the import, which says why.
         let named = files.filter_map(|path| Input::of(&path).ok()).collect();
         Self { start: SystemTime::now(), named }
     }
@@ -184,10 +184,10 @@ pub(crate) fn describe_and_measure(scene: &Scene) -> (String, f32) {
     let extent = WorldMesh::new(scene).bounds.extent();
     let line = format!(
         "{}, {}, {}, {}; {} x {} x {} m",
-        count(scene.parts.len(), "part"),
-        count(triangles, "triangle"),
-        count(scene.materials.len(), "material"),
-        count(scene.images.len(), "image"),
+        counted(scene.parts.len(), "part"),
+        counted(triangles, "triangle"),
+        counted(scene.materials.len(), "material"),
+        counted(scene.images.len(), "image"),
         metres(extent.x),
         metres(extent.y),
         metres(extent.z)

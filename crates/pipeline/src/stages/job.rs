@@ -1,9 +1,11 @@
-use super::{Input, Stage};
+//! One scene on its way through the stages: its files, what was loaded of them, and which of its frames are made here.
+
+use super::{Input, Shift, Stage};
 use crate::config::{Config, SceneConfig};
 use crate::error::Error;
-use crate::parts::Shift;
 use crate::workdir::{PACKAGE, Workdir};
-use enfilade_dataset::{Dataset, DatasetError};
+use enfilade_dataset::{Dataset, DatasetError, quoted};
+use enfilade_frame::Pass;
 use enfilade_geometry::Bvh;
 use enfilade_scene::{Camera, Scene, Trajectory, WorldMesh};
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,7 +22,7 @@ pub(crate) struct Job<'a> {
     /// What of it is made here, where other machines make the rest.
     pub shift: Option<&'a Shift<'a>>,
     workdir: &'a Workdir,
-    loaded: Mutex<Loaded>,
+    loaded: Arc<Mutex<Loaded>>,
 }
 
 #[derive(Default)]
@@ -44,7 +46,13 @@ pub(crate) struct World {
 
 impl<'a> Job<'a> {
     pub fn new(config: &'a Config, scene: &'a SceneConfig, dataset: &'a Dataset, workdir: &'a Workdir, force: bool) -> Self {
-        Self { config, scene, dataset, force, shift: None, workdir, loaded: Mutex::default() }
+        Self { config, scene, dataset, force, shift: None, workdir, loaded: Arc::default() }
+    }
+
+    /// The same scene, of which only the frames of `shift` are made. What is loaded by one of the two is there for both.
+    pub fn on_shift<'b>(&'b self, shift: &'b Shift<'b>) -> Job<'b> {
+        let Self { config, scene, dataset, force, workdir, .. } = *self;
+        Job { config, scene, dataset, force, shift: Some(shift), workdir, loaded: self.loaded.clone() }
     }
 
     /// The dataset's folder.
@@ -158,6 +166,13 @@ impl<'a> Job<'a> {
         Ok(frames)
     }
 
+    /// Whether every frame has a record of these layers that can be read and is about this frame, and all files of that record in full
+    /// length.
+    pub fn layers_are_whole(&self, pass: Pass) -> bool {
+        let is_whole = |(camera, frame): &(String, u32)| self.dataset.layers_are_whole(&self.scene.name, camera, *frame, pass);
+        self.frames().is_ok_and(|frames| frames.iter().all(is_whole))
+    }
+
     /// The commit records of all frames as inputs: they hold the checksums of every layer.
     pub fn frame_records(&self) -> Result<Vec<Input>, Error> {
         let layout = self.dataset.layout();
@@ -186,7 +201,7 @@ impl<'a> Job<'a> {
     pub fn wants(&self, stage: Stage) -> bool {
         stage != Stage::Denoise
             || self.scene.denoise
-            || self.work_file("denoise.json").is_ok_and(|record| record.is_file())
+            || self.work_file(&Stage::Denoise.record()).is_ok_and(|record| record.is_file())
             || self.dataset.has_denoised_layers(&self.scene.name)
     }
 
@@ -207,7 +222,8 @@ impl<'a> Job<'a> {
         format!("make it again: {} --force", self.command(stage))
     }
 
-    fn command(&self, stage: Stage) -> String {
-        format!("enfilade {} {} --scene {}", stage.name(), self.out().display(), self.scene.name)
+    /// The command that runs a stage of this scene.
+    pub fn command(&self, stage: Stage) -> String {
+        format!("enfilade {} {} --scene {}", stage.name(), quoted(self.out().display()), quoted(&self.scene.name))
     }
 }

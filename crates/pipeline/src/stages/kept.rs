@@ -2,8 +2,7 @@
 
 use super::{Job, render};
 use crate::error::Error;
-use crate::workdir::remove_folder;
-use enfilade_dataset::{Dataset, FrameRecord, StereoRecord};
+use enfilade_dataset::{Dataset, FrameRecord, StereoRecord, remove_folder};
 use enfilade_scene::{Camera, Pose, Trajectory};
 use std::collections::BTreeMap;
 
@@ -18,27 +17,27 @@ pub(super) struct Plan<'a> {
 }
 
 /// Removes pictures taken from elsewhere, or with another camera, which would be taken for pictures of these poses.
-pub(super) fn remove_other_frames(job: &Job, plan: &Plan) -> Result<(), Error> {
+pub(super) fn remove_frames_of_other_poses(job: &Job, plan: &Plan) -> Result<(), Error> {
     let (name, trajectory) = (&job.scene.name, plan.trajectory);
     let poses: BTreeMap<u32, &Pose> = trajectory.poses.iter().map(|pose| (pose.frame, pose)).collect();
     let is_taken = |record: &FrameRecord| poses.get(&record.frame).is_some_and(|pose| record.is_taken(plan.camera, pose));
-    // While a shutter is open, and where flow is asked for, a frame depends on the poses beside its own too.
+    // With motion blur, and with flow, a frame also depends on the poses before and after its own.
     let is_alone = plan.camera.shutter.is_none() && !job.scene.render.extra;
     let is_same = is_alone || job.dataset.read_trajectory(name, &trajectory.name).is_ok_and(|old| old == *trajectory);
-    // The files of the earlier plan may be damaged, so that it is the frames which tell whether it was this one.
+    // The files of the earlier plan may be damaged. Then the records of the frames tell whether the plan was the same.
     let hashes = if is_same { BTreeMap::new() } else { hashes(job, plan)? };
     let stays = |record: &FrameRecord| is_taken(record) && (is_same || hashes.get(&record.frame) == Some(&record.config_hash));
     job.dataset.retain_frames(name, &trajectory.name, stays).map_err(Error::stage)
 }
 
-/// What frames of the plan are named by, as rendering will name them, or none where there is no frame to compare with.
+/// The hashes that rendering will give the frames of the plan; empty where there is no frame to compare with.
 fn hashes(job: &Job, plan: &Plan) -> Result<BTreeMap<u32, String>, Error> {
     let records = job.dataset.layout().records_dir(&job.scene.name, &plan.trajectory.name);
     if !std::fs::read_dir(records).is_ok_and(|mut entries| entries.next().is_some()) {
         return Ok(BTreeMap::new());
     }
     let folder = job.work_file(FOLDER)?;
-    // One that was killed has left it.
+    // A planning that was killed may have left it.
     remove_folder(&folder)?;
     let hashes = read_back(job, plan, &Dataset::create(&folder).map_err(Error::stage)?);
     remove_folder(&folder)?;

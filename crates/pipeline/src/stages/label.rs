@@ -2,18 +2,17 @@
 
 use super::{Input, Inputs, Job, Outcome, Record, Stage, import};
 use crate::error::Error;
-use crate::report::{StageCx, count};
+use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
-use enfilade_dataset::{ANNOTATION_LOG, MeshFiles, quoted, scene_hash};
+use enfilade_dataset::{ANNOTATION_LOG, MeshFiles, counted, mesh_names, quoted, scene_hash};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_label::{LabelReport, LabelTable, SplitParts, join, part_names};
 use enfilade_scene::{Cx, Labels, PartLabel, Scene, Warning};
 use std::path::{Path, PathBuf};
 
 /// What `enfilade annotate` writes beside its log.
-const ANNOTATION_TABLES: [&str; 4] = ["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5", "mesh_faces_oi.hdf5", SPLITS];
-/// Which objects are pieces of others, where parts were split.
-const SPLITS: &str = "metadata_object_splits.csv";
+const ANNOTATION_TABLES: [&str; 4] =
+    [mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE, mesh_names::FACES_OBJECTS, mesh_names::OBJECT_SPLITS];
 /// Names listed in a warning; the report has all.
 const NAMES_SHOWN: usize = 5;
 
@@ -31,6 +30,11 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     }
     inputs.extend(job.frame_records()?);
     Ok(Some(inputs))
+}
+
+/// Whether every frame has its labels.
+pub(super) fn frames_are_whole(job: &Job) -> bool {
+    job.layers_are_whole(Pass::Label)
 }
 
 /// Which scene people labelled in `enfilade annotate`, by its hash, if they did: then its tables count, whatever else there is.
@@ -57,8 +61,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     }
     let labels = &known.labels;
     let labelled = labels.parts.iter().filter(|l| l.semantic >= 1).count();
-    let parts = count(labels.parts.len(), "part");
-    let mut summary = format!("{labelled} of {parts} have a class, in {}", count(frames.len(), "frame"));
+    let parts = counted(labels.parts.len(), "part");
+    let mut summary = format!("{labelled} of {parts} have a class, in {}", counted(frames.len(), "frame"));
     if annotated_scene(job)?.is_some() {
         summary.push_str(", as annotated");
     } else if labelled == 0 && job.scene.labels.is_none() {
@@ -72,8 +76,8 @@ pub(super) fn known(job: &Job, cx: &StageCx) -> Result<(Known, serde_json::Value
     if let Some(annotated_as) = annotated_scene(job)? {
         return Ok((annotated(job, &annotated_as, cx)?, serde_json::Value::Null));
     }
-    if job.dataset.mesh_files(&job.scene.name).file(SPLITS).is_file() {
-        // Parts were split by an annotation that is put aside now: objects are whole again.
+    if job.dataset.mesh_files(&job.scene.name).file(mesh_names::OBJECT_SPLITS).is_file() {
+        // An annotation that has been moved away had split parts: write the objects whole again.
         job.dataset.write_scene(&job.scene.name, &*job.load_scene()?).map_err(Error::stage)?;
     }
     let (labels, report) = labels_of(job, cx)?;
@@ -88,7 +92,7 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// Names it.
+    /// By which frames tell whether they were labelled with it.
     pub fn hash(&self) -> Hash {
         match &self.split {
             None => Hash::of(&self.labels),
@@ -119,7 +123,7 @@ fn annotated(job: &Job, annotated_as: &str, cx: &StageCx) -> Result<Known, Error
     Ok(Known { labels, split })
 }
 
-/// The parts are not those that people labelled: the labels would go to others.
+/// The error of an annotation of other parts: its labels would go to parts that nobody labelled so.
 fn other_scene(job: &Job, files: &MeshFiles) -> Error {
     let message = format!(
         "{} is about another scene: its parts have other names, another order or other numbers of faces than those of the scene package",
@@ -197,7 +201,7 @@ pub(super) fn label_frame(job: &Job, camera: &str, frame: u32, known: &Known, ha
 
 fn outputs(job: &Job, frames: &[(String, u32)]) -> Vec<PathBuf> {
     let (layout, name) = (job.dataset.layout(), &job.scene.name);
-    let tables = ["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5"].map(|file| layout.mesh_file(name, file));
+    let tables = [mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE].map(|file| layout.mesh_file(name, file));
     let mut files = tables.to_vec();
     for (camera, frame) in frames {
         files.push(layout.label_record(name, camera, *frame));

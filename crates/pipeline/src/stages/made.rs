@@ -4,18 +4,17 @@
 //! A note in the work folder, `.enfilade/SCENE/made/CAMERA/FRAME.json`, names what the files were made from. They count as long as that is
 //! so and they are there; otherwise, and without a note, the stages make them.
 
-use super::{Job, Output, Stage, is_there, output};
+use super::{Job, Output, Stage};
 use crate::error::Error;
-use crate::workdir::{Hash, read_json, write_json};
-use enfilade_dataset::{BoxKind, InstanceView};
+use crate::workdir::{Hash, read_json};
+use enfilade_dataset::{BoxKind, InstanceView, write_json};
 use enfilade_label::SplitParts;
 use enfilade_label::boxes::write_boxes;
-use enfilade_label::instances::view_instances;
-use enfilade_label::instances::{Solid, solids};
+use enfilade_label::instances::{Solid, solids, view_instances};
 use enfilade_scene::{Quiet, Scene, WorldMesh};
 use enfilade_show::drivers::{preview_boxes, preview_frame_alone};
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 #[derive(Serialize, Deserialize)]
@@ -35,13 +34,13 @@ struct Made {
 
 impl Made {
     fn new(job: &Job, from: Hash, files: &[PathBuf]) -> Result<Self, Error> {
-        Ok(Self { from, files: files.iter().map(|path| output(job, path)).collect::<Result<_, _>>()? })
+        Ok(Self { from, files: files.iter().map(|path| Output::by_length(job.out(), path)).collect::<Result<_, _>>()? })
     }
 
     /// Its files, if they are there and made from `from`.
     fn files(&self, job: &Job, from: &Hash) -> Option<Vec<PathBuf>> {
-        let paths = || self.files.iter().map(|file| (job.out().join(&file.path), file.bytes));
-        (self.from == *from && paths().all(|(path, bytes)| is_there(&path, bytes))).then(|| paths().map(|(path, _)| path).collect())
+        let are_there = self.from == *from && self.files.iter().all(|file| file.has_its_length(job.out()));
+        are_there.then(|| self.files.iter().map(|file| job.out().join(&file.path)).collect())
     }
 }
 
@@ -81,8 +80,6 @@ pub(super) fn make(job: &Job, camera: &str, frame: u32, furniture: &Furniture) -
         pictures: Made::new(job, pictures_from(job, camera, frame, &furniture.boxes)?, &pictures)?,
     };
     let path = note_path(job, camera, frame)?;
-    let folder = path.parent().unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
     write_json(&path, &note)?;
     Ok([masks, pictures, vec![path]].concat())
 }
@@ -106,7 +103,7 @@ pub(super) fn boxes(job: &Job) -> Result<Hash, Error> {
     Ok(Hash::of(&files.map(|path| Hash::of_file(&path)).collect::<Result<Vec<_>, _>>()?))
 }
 
-/// None where everything is to be made again.
+/// The note of a frame; `None` where there is none, or everything is to be made again.
 fn note(job: &Job, camera: &str, frame: u32) -> Result<Option<Note>, Error> {
     if job.force { Ok(None) } else { Ok(read_json(&note_path(job, camera, frame)?)) }
 }
@@ -115,17 +112,18 @@ fn note_path(job: &Job, camera: &str, frame: u32) -> Result<PathBuf, Error> {
     Ok(job.work_file("made")?.join(camera).join(format!("{frame:04}.json")))
 }
 
-/// The records of a frame's layers name the scene and its labels too.
+/// Hash of what a frame's instances are made from: the records of its layers, which name the scene and its labels.
 fn instances_from(job: &Job, camera: &str, frame: u32) -> Result<Hash, Error> {
     let (layout, name) = (job.dataset.layout(), &job.scene.name);
     let records = [layout.frame_record(name, camera, frame), layout.label_record(name, camera, frame)];
     let [rendered, labelled] = records.map(|path| Hash::of_file(&path));
-    Ok(Hash::of(&(env!("CARGO_PKG_VERSION"), Stage::Boxes.spec().version, rendered?, labelled?)))
+    Ok(Hash::of(&(env!("CARGO_PKG_VERSION"), Stage::Boxes.version(), rendered?, labelled?)))
 }
 
+/// Hash of what a frame's pictures are made from.
 fn pictures_from(job: &Job, camera: &str, frame: u32, boxes: &Hash) -> Result<Hash, Error> {
     let denoised = job.dataset.layout().denoise_record(&job.scene.name, camera, frame);
     let denoised = if denoised.is_file() { Some(Hash::of_file(&denoised)?) } else { None };
     let instances = instances_from(job, camera, frame)?;
-    Ok(Hash::of(&(Stage::Preview.spec().version, instances, denoised, boxes)))
+    Ok(Hash::of(&(Stage::Preview.version(), instances, denoised, boxes)))
 }

@@ -5,8 +5,8 @@ use super::{FramesByTrajectory, Job, PARTIALS, STAGES, Stage, advance};
 use crate::error::Error;
 use crate::forecast::{ProbeCost, ScenePilot};
 use crate::report::{Event, Silent, StageCx, Stopwatch, machine_is_busy, peak_memory_bytes, thread_cpu_s};
-use crate::workdir::{PACKAGE, Workdir, remove_folder};
-use enfilade_dataset::{Dataset, FrameInfo};
+use crate::workdir::{PACKAGE, Workdir};
+use enfilade_dataset::{Dataset, FrameInfo, remove_folder};
 use enfilade_frame::Frame;
 use enfilade_label::boxes::scene_boxes;
 use enfilade_label::instances::solids;
@@ -25,13 +25,13 @@ const PROBE_SAMPLES: u32 = 16;
 const NOISE_SAMPLES: u32 = 64;
 /// The pilot takes about this share of the run's samples.
 const SHARE: f64 = 0.01;
-/// Probes of a frame, at least and at most.
+/// Minimum and maximum number of probes of a frame.
 const PROBES: [f64; 2] = [12.0, 96.0];
 /// Frames of a trajectory that are tried at most, and trajectories of a scene.
 const FRAMES: usize = 6;
 const TRAJECTORIES: usize = 4;
 
-/// Tries out the rendering of `frames`, some at least, of a scene whose trajectories are planned.
+/// Tries out the rendering of `frames`, at least one, of a scene whose trajectories are planned.
 pub(crate) fn pilot(job: &Job, frames: &FramesByTrajectory, cx: &StageCx) -> Result<ScenePilot, Error> {
     cx.event(Event::Started);
     let time = Stopwatch::start();
@@ -110,7 +110,7 @@ fn probe_frame(scene: &RenderScene<'_>, guide: &Guide, view: &CameraView<'_>, co
     let probes = (SHARE * planned / (pixels * f64::from(samples))).clamp(PROBES[0], PROBES[1]);
     let one = |corner: [u32; 2]| -> Result<(Probe<'_, '_>, f64), Error> {
         let mut probe = Probe::new(scene, guide, view, config, corner).map_err(Error::stage)?;
-        // The first sample brings into the caches what the frame's tiles find there.
+        // The first sample warms the caches, as earlier tiles do in a whole frame.
         let first = if samples > 1 { 1 } else { 0 };
         probe.take(first);
         let before_s = thread_cpu_s();
@@ -181,7 +181,7 @@ fn try_frame_in(
     let before_bytes = bytes_below(&folder, &|file| !is_of_frame(file));
     later_stages(job, &dataset, &scratch, found)?;
     found.frame_bytes = bytes_below(&folder, &is_of_frame);
-    // Tables and sheets, of which a frame more is a row or a small picture.
+    // Tables and contact sheets: another frame adds only a row or a small picture.
     found.scene_bytes = bytes_below(&folder, &|file| !is_of_frame(file)).saturating_sub(before_bytes);
     // The parts of `boxes` that do not depend on frames.
     let labels = dataset.read_label_tables(name).unwrap_or_default();

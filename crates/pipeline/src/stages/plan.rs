@@ -1,13 +1,13 @@
 //! `plan`: free space to one trajectory per start camera.
 
 use super::job::World;
-use super::kept::{Plan, remove_other_frames};
-use super::{Input, Inputs, Job, Outcome, Record, Stage, carve, gate};
+use super::kept::{Plan, remove_frames_of_other_poses};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve, gate};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
-use crate::report::{StageCx, count, count_of};
-use crate::workdir::{Hash, remove_folder, remove_if_there, write_json};
-use enfilade_dataset::{StereoRecord, StereoSide};
+use crate::report::StageCx;
+use crate::workdir::Hash;
+use enfilade_dataset::{StereoRecord, StereoSide, counted, counted_as, remove_folder, remove_if_there, write_json};
 use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, Preset, parse_keyframes};
 use enfilade_geometry::OccupancyTree;
 use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, Warning};
@@ -15,9 +15,6 @@ use enfilade_show::planview::remove_plan_preview;
 use enfilade_verify::view_gates::GateAction;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-
-/// The four arrays of a trajectory.
-const KEYFRAMES: [&str; 4] = ["frame_indices", "positions", "look_at_positions", "orientations"];
 
 /// Trajectories of cameras that see to the side and behind are planned by what is within this angle before them.
 const WIDEST_VIEW_RAD: f64 = 2.1;
@@ -62,16 +59,16 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             None => filmed.push((trajectory, None)),
             Some(stereo) => filmed.extend(rig(trajectory, number, stereo.baseline_m)),
         }
-        // Of a rig it is the left camera's, which is the one that was planned.
+        // The report of a rig is that of its left camera, the one that was planned.
         reports.push(report);
     }
     let trajectories: Vec<Trajectory> = filmed.iter().map(|(trajectory, _)| trajectory.clone()).collect();
-    // What was made from an earlier plan would be taken for what is made from this one.
+    // Remove what was made from an earlier plan, before it can be mistaken for something of this one.
     remove_plan_preview(job.dataset, name).map_err(Error::stage)?;
     gate::forget(job)?;
     remove_other_cameras(job, &trajectories)?;
     for (trajectory, stereo) in &filmed {
-        remove_other_frames(job, &Plan { trajectory, camera: &camera, stereo: stereo.as_ref() })?;
+        remove_frames_of_other_poses(job, &Plan { trajectory, camera: &camera, stereo: stereo.as_ref() })?;
         remove_if_there(&job.dataset.layout().plan_report(name, &trajectory.name))?;
     }
     for (trajectory, stereo) in &filmed {
@@ -84,7 +81,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     write_camera_row(job, &camera, cx)?;
     job.forget_filmed();
     let layout = job.dataset.layout();
-    let mut outputs = outputs_of(job, &trajectories);
+    let mut outputs = camera_files::files(job, &trajectories);
     outputs.push(layout.metadata_cameras(name));
     outputs.extend(trajectories.iter().map(|trajectory| layout.metadata_camera(name, &trajectory.name)));
     for report in &reports {
@@ -139,8 +136,8 @@ fn summary(reports: &[PlanReport], fov_x_rad: f64) -> String {
     let mean = |of: fn(&PlanReport) -> f64| reports.iter().map(of).sum::<f64>() / reports.len().max(1) as f64;
     let mut text = format!(
         "{} with {}, {:.0} degrees wide, {:.0} % of the surfaces seen, mean overlap {:.0} %",
-        count_of(reports.len(), "trajectory", "trajectories"),
-        count(poses, "pose"),
+        counted_as(reports.len(), "trajectory", "trajectories"),
+        counted(poses, "pose"),
         fov_x_rad.to_degrees(),
         100.0 * mean(|report| report.seen_area_share),
         100.0 * mean(|report| report.statistics.overlap.mean)
@@ -152,7 +149,7 @@ fn summary(reports: &[PlanReport], fov_x_rad: f64) -> String {
             100.0 * enough,
             coverage.views,
             100.0 * coverage.seen_share.first().copied().unwrap_or(0.0),
-            count(coverage.never_seen.len(), "part")
+            counted(coverage.never_seen.len(), "part")
         );
     }
     text
@@ -270,28 +267,18 @@ fn rig(left: Trajectory, number: usize, baseline_m: f64) -> [(Trajectory, Option
     [(left, Some(of_left)), (right, Some(of_right))]
 }
 
-/// Every file that says where the cameras are, as inputs of later stages.
-pub(super) fn outputs(job: &Job) -> Result<Vec<Input>, Error> {
-    let trajectories: Vec<Trajectory> = job.filmed()?.iter().map(|(_, trajectory)| trajectory.clone()).collect();
-    let files = outputs_of(job, &trajectories).into_iter();
-    files.map(|path| job.input_from(Stage::Plan, &path)).collect()
+/// The table of the cameras of all scenes.
+pub(super) fn camera_table(job: &Job) -> PathBuf {
+    job.dataset.camera_table()
 }
 
-fn outputs_of(job: &Job, trajectories: &[Trajectory]) -> Vec<PathBuf> {
-    let (layout, name) = (job.dataset.layout(), &job.scene.name);
-    let keyframes = trajectories.iter().flat_map(|t| KEYFRAMES.map(|what| layout.keyframes(name, &t.name, what)));
-    let opencv = trajectories.iter().map(|t| layout.cameras_opencv(name, &t.name));
-    let models = trajectories.iter().flat_map(|t| job.dataset.camera_model_files(name, &t.name));
-    keyframes.chain(opencv).chain(models).collect()
-}
-
-/// Names the scene's row among the cameras of the dataset as a whole; `None` where there is none, without which nothing can be filmed.
-pub(super) fn listed(job: &Job) -> Option<Hash> {
+/// Hash of the scene's row in it; `None` where there is none, without which nothing can be filmed.
+pub(super) fn camera_row(job: &Job) -> Option<Hash> {
     job.dataset.read_camera_table().ok()?.cells(&job.scene.name).ok().map(|cells| Hash::of(&cells))
 }
 
-/// Cameras of an earlier plan that are not in this one would be taken for cameras of this dataset. Files tell of those whose removal was
-/// killed, whatever the table says, and where it cannot be read.
+/// Removes the cameras of an earlier plan that are not in this one. They are found in the table of cameras and by their files: a removal
+/// that was killed leaves files without a row, and the table may be damaged.
 fn remove_other_cameras(job: &Job, trajectories: &[Trajectory]) -> Result<(), Error> {
     let name = &job.scene.name;
     let mut old: BTreeSet<String> = job.dataset.cameras(name).unwrap_or_default().into_iter().collect();
@@ -299,11 +286,11 @@ fn remove_other_cameras(job: &Job, trajectories: &[Trajectory]) -> Result<(), Er
     let others = old.iter().filter(|camera| trajectories.iter().all(|t| t.name != **camera));
     others.map(String::as_str).try_for_each(|camera| remove_camera(job, camera))?;
     // Last, as it names what is still to be removed.
-    remove_if_there(&job.dataset.layout().metadata_cameras(name))
+    Ok(remove_if_there(&job.dataset.layout().metadata_cameras(name))?)
 }
 
-/// Removes all that is of a camera: its frames first, so that none counts without its layers, and its poses last, by which it is found
-/// where that is killed.
+/// Removes everything of a camera: its frames first, so that none counts without its layers, and its poses last, because they show that
+/// there is something left to remove where this is killed.
 fn remove_camera(job: &Job, camera: &str) -> Result<(), Error> {
     let (layout, name) = (job.dataset.layout(), &job.scene.name);
     job.dataset.retain_frames(name, camera, |_| false).map_err(Error::stage)?;
@@ -312,7 +299,7 @@ fn remove_camera(job: &Job, camera: &str) -> Result<(), Error> {
     remove_within(&layout.images_dir(name), is_picture)?;
     let (folder, poses) = (layout.camera_dir(name, camera), layout.keyframes(name, camera, "positions"));
     remove_within(&folder, |path| path != poses)?;
-    remove_folder(&folder)
+    Ok(remove_folder(&folder)?)
 }
 
 /// Removes the files and folders in `folder` that are to go.

@@ -2,7 +2,8 @@
 
 use super::{Job, carve};
 use crate::error::Error;
-use crate::report::{Event, StageCx, Stopwatch, count, count_of};
+use crate::report::{Event, StageCx, Stopwatch};
+use enfilade_dataset::{counted, counted_as};
 use enfilade_geometry::OccupancyTree;
 use enfilade_show::planview::{Planned, write_plan_preview};
 use std::path::PathBuf;
@@ -19,8 +20,8 @@ pub(crate) fn draw_plan(job: &Job, cx: &StageCx) -> Result<PathBuf, Error> {
     let world = job.load_world()?;
     let planned = Planned { scene: name, world: &world.mesh, bvh: &world.bvh, tree: &tree, starts: &starts, filmed: &filmed };
     let files = write_plan_preview(job.dataset, &planned, cx).map_err(Error::stage)?;
-    let drawn = count_of(filmed.len(), "trajectory", "trajectories");
-    let summary = format!("{drawn} drawn: {}", count(files.len(), "file"));
+    let drawn = counted_as(filmed.len(), "trajectory", "trajectories");
+    let summary = format!("{drawn} drawn: {}", counted(files.len(), "file"));
     cx.event(Event::Finished { summary: &summary, wall_s: time.wall_s() });
     Ok(job.dataset.layout().plan_preview_dir(name).join("index.html"))
 }

@@ -1,9 +1,10 @@
 //! `preview`: pictures of every layer of finished frames, boxes drawn over them, and a contact sheet per trajectory.
 
-use super::{Inputs, Job, Outcome, Record, Stage, made};
+use super::{Inputs, Job, Outcome, Record, Stage, boxes, made};
 use crate::error::Error;
-use crate::report::{StageCx, count};
-use crate::workdir::{Hash, remove_if_there};
+use crate::report::StageCx;
+use crate::workdir::Hash;
+use enfilade_dataset::{counted, remove_if_there};
 use enfilade_scene::Trajectory;
 use enfilade_show::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet};
 use enfilade_show::sheet::SheetConfig;
@@ -17,14 +18,14 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = job.frame_records()?;
     inputs.extend(job.label_records()?);
     inputs.extend(job.denoise_records()?);
-    inputs.extend(super::boxes::tables(job)?);
+    inputs.extend(boxes::tables(job)?);
     Ok(Some(inputs))
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let filmed = job.filmed()?;
     filmed.iter().try_for_each(|(_, trajectory)| refuse_incomplete(job, trajectory))?;
-    // The dataset's own sheet and statistics show these frames: the run makes them again at its end.
+    // The contact sheet and the statistics of the dataset show these frames: they are removed here, and made again at the end of a run.
     remove_if_there(&job.dataset.layout().overview())?;
     remove_if_there(&job.dataset.layout().statistics())?;
     let name = &job.scene.name;
@@ -53,13 +54,13 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         sheets += usize::from(sheet.is_some());
         outputs.extend(sheet);
     }
-    let summary = format!("{}, {}", count(outputs.len() - sheets, "picture"), count(sheets, "contact sheet"));
+    let summary = format!("{}, {}", counted(outputs.len() - sheets, "picture"), counted(sheets, "contact sheet"));
     outputs.extend(tables);
     Ok(Outcome { summary, outputs, ..Outcome::default() })
 }
 
-/// Refuses frames of which a file is missing or cut short: an exposure without them would be taken for that of the whole trajectory, and
-/// would stay when they are there again.
+/// Refuses frames of which a file is missing or cut short: the exposure of the trajectory would be computed without them, and kept when
+/// they are there again.
 fn refuse_incomplete(job: &Job, trajectory: &Trajectory) -> Result<(), Error> {
     let (dataset, name, camera) = (job.dataset, job.scene.name.as_str(), trajectory.name.as_str());
     let wanted = job.frames_of(trajectory)?;
@@ -86,5 +87,5 @@ fn refuse_incomplete(job: &Job, trajectory: &Trajectory) -> Result<(), Error> {
 fn lacks_layers_of(stage: Stage, job: &Job, camera: &str, frame: u32) -> Error {
     let (verb, name) = (stage.name(), &job.scene.name);
     let message = format!("frame {frame} of {name}/{camera} has a record of `{verb}`, but not all layers of it in full length");
-    Error::scene(message, format!("make them again: enfilade {verb} {} --scene {name}", job.out().display()))
+    Error::scene(message, format!("make them again: {}", job.command(stage)))
 }

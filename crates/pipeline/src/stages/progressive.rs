@@ -3,8 +3,7 @@
 use super::Job;
 use crate::error::Error;
 use crate::report::Stopwatch;
-use crate::workdir::{remove_if_there, write_whole};
-use enfilade_dataset::{FrameInfo, Sampling, StoppedBy};
+use enfilade_dataset::{FrameInfo, Sampling, StoppedBy, remove_if_there, write_bytes};
 use enfilade_frame::Frame;
 use enfilade_render::{FrameRender, PartialError};
 use enfilade_scene::{Cx, Warning};
@@ -26,6 +25,7 @@ pub(super) fn render(
     mut rendering: FrameRender<'_, '_>,
     cx: &dyn Cx,
 ) -> Result<(Frame, Sampling), Error> {
+    // Go on from what an earlier run has kept of this very frame.
     let path = file(job, camera, info.pose.frame)?;
     let key = info.config_hash.as_bytes();
     if let Ok(bytes) = std::fs::read(&path) {
@@ -37,6 +37,8 @@ pub(super) fn render(
             }
         }
     }
+
+    // Take samples pass by pass, until there are enough or the time is over.
     let time = Stopwatch::start();
     let (mut over, mut kept_s) = (false, 0.0);
     while !rendering.is_done() && !over {
@@ -48,17 +50,18 @@ pub(super) fn render(
         }
         let now_s = time.wall_s();
         over = job.scene.time_limit_s.is_some_and(|limit| now_s >= limit);
+
+        // Keep the frame now and then, and when the work is to end.
         let ends = job.shift.is_some_and(|shift| shift.stop.load(Ordering::Relaxed));
         if !over && !rendering.is_done() && (ends || now_s - kept_s >= job.scene.save_every_s) {
-            let folder = job.work_file(FOLDER)?;
-            std::fs::create_dir_all(&folder).map_err(Error::io("create", &folder))?;
-            write_whole(&path, &rendering.save(key))?;
+            write_bytes(&path, rendering.save(key))?;
             kept_s = time.wall_s();
             if ends {
                 return Err(Error::Interrupted { camera: camera.to_string(), frame: info.pose.frame, kept: path });
             }
         }
     }
+
     let stopped_by = match rendering.is_done() {
         false => StoppedBy::TimeLimit,
         true if rendering.met_noise_target() => StoppedBy::Noise,
@@ -74,7 +77,7 @@ pub(super) fn render(
 /// # Errors
 /// When it cannot be removed.
 pub(super) fn forget(job: &Job, camera: &str, frame: u32) -> Result<(), Error> {
-    remove_if_there(&file(job, camera, frame)?)
+    Ok(remove_if_there(&file(job, camera, frame)?)?)
 }
 
 /// Removes what was kept of frames that are not to be rendered any more.
@@ -85,7 +88,7 @@ pub(super) fn forget_all_but<'a>(job: &Job, frames: impl Iterator<Item = (&'a st
     let keep = frames.map(|(camera, frame)| file(job, camera, frame)).collect::<Result<BTreeSet<_>, _>>()?;
     let Ok(entries) = std::fs::read_dir(job.work_file(FOLDER)?) else { return Ok(()) };
     let there = entries.filter_map(Result::ok).map(|entry| entry.path());
-    there.filter(|path| !keep.contains(path)).try_for_each(|path| remove_if_there(&path))
+    Ok(there.filter(|path| !keep.contains(path)).try_for_each(|path| remove_if_there(&path))?)
 }
 
 fn file(job: &Job, camera: &str, frame: u32) -> Result<PathBuf, Error> {

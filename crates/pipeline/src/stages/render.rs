@@ -1,11 +1,11 @@
 //! `render`: trajectories to frames. Resumes frame by frame: a frame is left alone when its record names the hash of everything
 //! that its values depend on; and within a frame, see `progressive`.
 
-use super::{FramesByTrajectory, Input, Inputs, Job, Outcome, Record, Stage, progressive};
+use super::{FramesByTrajectory, Input, Inputs, Job, Outcome, Record, Stage, camera_files, gate, progressive};
 use crate::error::Error;
-use crate::report::{StageCx, Stopwatch, count};
+use crate::report::{StageCx, Stopwatch};
 use crate::workdir::Hash;
-use enfilade_dataset::{CameraRecord, FrameInfo, Recipe, StoppedBy};
+use enfilade_dataset::{CameraRecord, FrameInfo, Recipe, StoppedBy, counted};
 use enfilade_frame::{Frame, LAYERS, Pass};
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
@@ -18,29 +18,39 @@ pub(super) fn settings(job: &Job) -> Hash {
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?];
-    inputs.extend(super::plan::outputs(job)?);
-    inputs.extend(super::gate::verdicts(job)?);
+    inputs.extend(camera_files::inputs(job)?);
+    inputs.extend(gate::verdicts(job)?);
     Ok(Some(inputs))
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
+    // Remove what a killed run and other plans have left.
     let filmed = job.filmed()?;
     let wanted = wanted(job, &filmed)?;
     let total: usize = wanted.iter().map(BTreeSet::len).sum();
     for ((_, trajectory), wanted) in filmed.iter().zip(&wanted) {
         job.dataset.remove_temporaries(&job.scene.name, &trajectory.name).map_err(Error::stage)?;
-        remove_other_frames(job, trajectory, wanted)?;
+        remove_unwanted_frames(job, trajectory, wanted)?;
     }
+
+    // Find the frames that are missing. Of others nothing needs to be kept to go on from.
     let missing = missing(job, &filmed, &wanted)?;
     let unfinished = missing.iter().flat_map(|m| m.frames.iter().map(|info| (m.trajectory.name.as_str(), info.pose.frame)));
     progressive::forget_all_but(job, unfinished)?;
+
+    // Render them.
     let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
     let timed_out = if rendered > 0 { render(job, &missing, total - rendered, total, cx)? } else { 0 };
     let [width, height] = job.scene.size;
     let kept = if rendered < total { format!(", {} kept", total - rendered) } else { String::new() };
     let ended = if timed_out > 0 { format!(", {timed_out} ended by the time limit") } else { String::new() };
-    let summary = format!("{} of {width}x{height} at {} samples{kept}{ended}", count(rendered, "frame"), job.scene.render.samples);
+    let summary = format!("{} of {width}x{height} at {} samples{kept}{ended}", counted(rendered, "frame"), job.scene.render.samples);
     Ok(Outcome { summary, outputs: outputs(job)?, ..Outcome::default() })
+}
+
+/// Renders the frames of `job` that are not there, whatever the stage's record says.
+pub(crate) fn render_frames(job: &Job, cx: &StageCx) -> Result<(), Error> {
+    run(job, cx).map(drop)
 }
 
 /// The frames that a run of the stage would render, by trajectory; without those that have none.
@@ -63,7 +73,7 @@ fn missing<'a>(job: &Job, filmed: &'a [(Camera, Trajectory)], wanted: &[BTreeSet
         let config = settings_of(job, trajectory);
         let recipe = Recipe {
             program: program(),
-            render_version: Stage::Render.spec().version,
+            render_version: Stage::Render.version(),
             scene_blake3: package.0.clone(),
             settings: serde_json::to_value(&config).unwrap_or_default(),
             time_limit_s: job.scene.time_limit_s,
@@ -114,7 +124,11 @@ fn is_complete(job: &Job, trajectory: &Trajectory, info: &FrameInfo) -> bool {
 }
 
 /// Whether every frame is there, and was taken as its trajectory says.
-pub(super) fn frames_are_taken(job: &Job) -> Result<bool, Error> {
+pub(super) fn frames_are_whole(job: &Job) -> bool {
+    frames_are_taken(job).unwrap_or(false)
+}
+
+fn frames_are_taken(job: &Job) -> Result<bool, Error> {
     let name = &job.scene.name;
     for (camera, trajectory) in job.filmed()?.iter() {
         let wanted = job.frames_of(trajectory)?;
@@ -133,21 +147,26 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
     let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?;
     let (mut done, mut timed_out) = (kept, 0);
     for Missing { camera, trajectory, config, frames } in missing {
+        // One guide per trajectory: it learns from all views where light comes from.
         let views = views(camera, trajectory);
         cx.progress("learning where light comes from", done as u64, total as u64);
         let guide = Guide::learn(&scene, &views, config);
         for info in frames {
             let Some(index) = views.iter().position(|view| view.pose().frame == info.pose.frame) else { continue };
+
+            // Render a frame, which goes on where a killed run was.
             let time = Stopwatch::start();
             let frame_cx = FrameCx { outer: cx, done, total };
             let rendering = FrameRender::new(&scene, &guide, &views[index], config).map_err(Error::stage)?;
             let (mut frame, sampling) = progressive::render(job, &trajectory.name, info, rendering, &frame_cx)?;
             add_extra(&scene, &views, index, config, &mut frame);
+
+            // Write it with its record, tell whoever waits for it, and only then drop what was kept of it.
             let time = time.of_frame();
             let info = FrameInfo { sampling: Some(sampling), ..info.clone() };
             job.dataset.write_frame(&job.scene.name, &trajectory.name, &frame, &info, time).map_err(Error::stage)?;
             if let Some(shift) = job.shift {
-                (shift.finished)(job, &trajectory.name, info.pose.frame)?;
+                (shift.rendered)(&trajectory.name, info.pose.frame)?;
             }
             progressive::forget(job, &trajectory.name, info.pose.frame)?;
             done += 1;
@@ -182,7 +201,7 @@ pub(crate) fn config_hash(
     trajectory: &Trajectory,
     pose: &Pose,
 ) -> String {
-    let version = (env!("CARGO_PKG_VERSION"), Stage::Render.spec().version);
+    let version = (env!("CARGO_PKG_VERSION"), Stage::Render.version());
     Hash::of(&(version, package, config, time_limit_s, CameraRecord::from(camera), &trajectory.poses, pose)).0
 }
 
@@ -210,8 +229,8 @@ fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
     Ok(files)
 }
 
-/// Frames of an earlier, longer trajectory, or of views that are rejected now, would be taken for frames of this one.
-fn remove_other_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<u32>) -> Result<(), Error> {
+/// Removes frames of an earlier, longer trajectory and of views that gates reject now.
+fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<u32>) -> Result<(), Error> {
     let layout = job.dataset.layout();
     let (name, camera) = (&job.scene.name, &trajectory.name);
     let keep: BTreeSet<String> = wanted.iter().map(|frame| format!("{frame:04}")).collect();
@@ -222,7 +241,7 @@ fn remove_other_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<u32
         layout.preview_dir(name, camera, Pass::Final),
         layout.preview_dir(name, camera, Pass::Geometry),
     ];
-    // The records go first: a frame without one does not count.
+    // Records first: a frame without one does not count.
     for folder in folders {
         let Ok(entries) = std::fs::read_dir(&folder) else { continue };
         for entry in entries {

@@ -1,21 +1,21 @@
 //! `verify`: the laws that tie a scene's files together, on a card.
 
-use super::{Inputs, Job, Outcome, Record};
+use super::{Inputs, Job, Outcome, Record, boxes, camera_files};
 use crate::error::Error;
-use crate::report::{StageCx, count};
-use crate::workdir::{Hash, remove_if_there, write_json};
-use enfilade_dataset::quoted;
+use crate::report::StageCx;
+use crate::workdir::Hash;
+use enfilade_dataset::{counted, quoted, remove_if_there, write_json};
 use enfilade_verify::frame_gates::GATES;
 use enfilade_verify::{LAWS, verify_scene};
 
-/// The scene's part of the report card, in its work folder; it is there also when laws do not hold.
+/// The scene's part of the report card, in its work folder; written also when a check does not pass.
 pub(crate) const CARD: &str = "card.json";
 
-/// Removes the card of the scene and that of the dataset, because what they are about changes.
+/// Removes the card of the scene and that of the dataset, before the data that they judge change.
 pub(super) fn forget(job: &Job) -> Result<(), Error> {
     let layout = job.dataset.layout();
     let cards = [job.work_file(CARD)?, layout.verify_report(), layout.verify_page()];
-    cards.iter().try_for_each(|path| remove_if_there(path))
+    Ok(cards.iter().try_for_each(|path| remove_if_there(path))?)
 }
 
 pub(super) fn settings(_job: &Job) -> Hash {
@@ -25,11 +25,11 @@ pub(super) fn settings(_job: &Job) -> Hash {
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
-    let mut inputs = super::plan::outputs(job)?;
+    let mut inputs = camera_files::inputs(job)?;
     inputs.extend(job.frame_records()?);
     inputs.extend(job.label_records()?);
     inputs.extend(job.denoise_records()?);
-    inputs.extend(super::boxes::tables(job)?);
+    inputs.extend(boxes::tables(job)?);
     Ok(Some(inputs))
 }
 
@@ -50,6 +50,6 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         0 => String::new(),
         n => format!("; gates reject {n}"),
     };
-    let summary = format!("all {} laws hold over {}{rejected}", report.laws.len(), count(report.frames, "frame"));
+    let summary = format!("all {} laws hold over {}{rejected}", report.laws.len(), counted(report.frames, "frame"));
     Ok(Outcome { summary, outputs: vec![card], ..Outcome::default() })
 }

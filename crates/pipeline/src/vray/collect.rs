@@ -9,9 +9,8 @@ use super::header::Expected;
 use super::notes::Notes;
 use super::rays::Sight;
 use crate::error::Error;
-use crate::report::count;
-use crate::workdir::{Hash, WORKDIR, Workdir, remove_if_there};
-use enfilade_dataset::{CameraRecord, Dataset, FrameInfo, FrameTime, ManifestInfo, Recipe};
+use crate::workdir::{Hash, Workdir};
+use enfilade_dataset::{CameraRecord, Dataset, FrameInfo, FrameTime, ManifestInfo, Recipe, WORKDIR, counted, remove_if_there};
 use enfilade_frame::Frame;
 use enfilade_scene::{Camera, Cx, Pose};
 use std::collections::BTreeMap;
@@ -257,7 +256,7 @@ fn refresh(dataset: &Dataset, scene: &str) -> Result<(), Error> {
     }
     let manifest = dataset.collect_manifest(&info).map_err(Error::stage)?;
     dataset.write_manifest(&manifest).map_err(Error::stage)?;
-    [dataset.layout().verify_report(), dataset.layout().verify_page()].iter().try_for_each(|path| remove_if_there(path))
+    Ok([dataset.layout().verify_report(), dataset.layout().verify_page()].iter().try_for_each(|path| remove_if_there(path))?)
 }
 
 impl Collected {
@@ -268,7 +267,7 @@ impl Collected {
             Some(first) => format!("; {} of the trajectory have no image, frame {first} first", self.missing.len()),
             None => String::new(),
         };
-        format!("{} written{kept}{missing}", count(self.written, "frame"))
+        format!("{} written{kept}{missing}", counted(self.written, "frame"))
     }
 }
 

@@ -20,16 +20,16 @@ const RESIDUAL: [&str; 8] = [
     "VRayAtmosphere",
     "VRayBackground",
 ];
-/// Larger radiances are none; keeps sums finite.
-const MOST: f32 = 1e9;
+/// No radiance is larger: a value above becomes this, so that sums stay finite.
+const MAX_RADIANCE: f32 = 1e9;
 /// A reflectance or a difference of light beyond this share is worth telling; less is noise and rounding.
 const SHARE: f32 = 0.01;
 /// Mean difference of the two residuals, relative to the mean image, that is worth telling.
 const SUMS_DIFFER: f64 = 0.02;
 
-/// How often something was mended.
+/// How many values were fixed, by reason.
 #[derive(Default)]
-struct Mended {
+struct Fixed {
     no_number: usize,
     negative: usize,
     bright: usize,
@@ -52,9 +52,9 @@ struct Pixel {
 pub(super) fn add_colors(frame: &mut Frame, image: &VrayImage, notes: &mut Notes) -> Result<(), Error> {
     let [colors, filters, lights] = ["", "VRayDiffuseFilter", "VRayRawTotalLighting"].map(|name| image.triples(name));
     let (colors, filters, lights) = (colors?, filters?, lights?);
-    let mut mended = Mended::default();
-    let pixels: Vec<Pixel> = (0..colors.len()).map(|i| pixel(colors[i], filters[i], lights[i], &mut mended)).collect();
-    mended.tell(&image.name(), notes);
+    let mut fixed = Fixed::default();
+    let pixels: Vec<Pixel> = (0..colors.len()).map(|i| pixel(colors[i], filters[i], lights[i], &mut fixed)).collect();
+    fixed.tell(&image.name(), notes);
     compare_sums(image, &colors, &pixels, notes)?;
     let halves = |of: fn(&Pixel) -> [f16; 3]| Values::F16(pixels.iter().flat_map(of).collect());
     frame.insert(Layer::Color, halves(|p| p.color));
@@ -71,18 +71,18 @@ pub(super) fn add_colors(frame: &mut Frame, image: &VrayImage, notes: &mut Notes
     Ok(())
 }
 
-fn pixel(color: [f32; 3], filter: [f32; 3], light: [f32; 3], mended: &mut Mended) -> Pixel {
+fn pixel(color: [f32; 3], filter: [f32; 3], light: [f32; 3], fixed: &mut Fixed) -> Pixel {
     let mut out = Pixel::default();
-    let radiances = [color, light].map(|values| values.map(|v| mended.light(v)));
+    let radiances = [color, light].map(|values| values.map(|v| fixed.light(v)));
     for c in 0..3 {
         let [image, light] = [radiances[0][c], radiances[1][c]];
-        let filter = mended.light(filter[c]);
-        mended.bright += usize::from(filter > 1.0 + SHARE);
+        let filter = fixed.light(filter[c]);
+        fixed.bright += usize::from(filter > 1.0 + SHARE);
         let reflectance = f16::from_f32(filter.min(1.0));
-        // A and S are each a mean over the pixel; what is kept exactly is the light that they make together, and never more than the image.
+        // A and S are means over the pixel, so A·S need not be the diffuse light of the image. The product is kept, up to the image itself.
         let diffuse = f64::from(filter) * f64::from(light);
         let image = f64::from(image);
-        mended.excess += usize::from(diffuse > image + f64::from(SHARE) * image.max(f64::from(SHARE)));
+        fixed.excess += usize::from(diffuse > image + f64::from(SHARE) * image.max(f64::from(SHARE)));
         let diffuse = if reflectance > f16::ZERO { diffuse.min(image) } else { 0.0 };
         let light = if reflectance > f16::ZERO { (diffuse / reflectance.to_f64()) as f32 } else { light };
         let stored = compose(reflectance, light, (image - diffuse) as f32);
@@ -133,7 +133,7 @@ fn compare_sums(image: &VrayImage, colors: &[[f32; 3]], pixels: &[Pixel], notes:
     Ok(())
 }
 
-impl Mended {
+impl Fixed {
     /// A radiance or reflectance: not negative, and a number.
     fn light(&mut self, v: f32) -> f32 {
         if v.is_nan() {
@@ -141,7 +141,7 @@ impl Mended {
             return 0.0;
         }
         self.negative += usize::from(v < -SHARE * SHARE);
-        v.clamp(0.0, MOST)
+        v.clamp(0.0, MAX_RADIANCE)
     }
 
     fn tell(&self, place: &str, notes: &mut Notes) {
@@ -156,12 +156,12 @@ impl Mended {
 mod tests {
     use super::*;
 
-    fn stored(color: f32, filter: f32, light: f32) -> ([f32; 4], Mended) {
-        let mut mended = Mended::default();
-        let p = pixel([color; 3], [filter; 3], [light; 3], &mut mended);
+    fn stored(color: f32, filter: f32, light: f32) -> ([f32; 4], Fixed) {
+        let mut fixed = Fixed::default();
+        let p = pixel([color; 3], [filter; 3], [light; 3], &mut fixed);
         let again = f16::from_f32(p.reflectance[0].to_f32() * p.illumination[0].to_f32() + p.residual[0].to_f32());
         assert_eq!(again, p.color[0]);
-        ([p.reflectance[0], p.illumination[0], p.residual[0], p.color[0]].map(f16::to_f32), mended)
+        ([p.reflectance[0], p.illumination[0], p.residual[0], p.color[0]].map(f16::to_f32), fixed)
     }
 
     #[test]
@@ -170,17 +170,17 @@ mod tests {
         // Without reflectance the light stands alone, and the image is residual.
         assert_eq!(stored(0.25, 0.0, 2.0).0, [0.0, 2.0, 0.25, 0.25]);
         // A filter above 1 keeps its light.
-        let (found, mended) = stored(4.5, 2.0, 2.0);
-        assert_eq!((found, mended.bright), ([1.0, 4.0, 0.5, 4.5], 3));
+        let (found, fixed) = stored(4.5, 2.0, 2.0);
+        assert_eq!((found, fixed.bright), ([1.0, 4.0, 0.5, 4.5], 3));
         // More diffuse light than image: the image counts.
-        let (found, mended) = stored(0.5, 0.5, 2.0);
-        assert_eq!((found, mended.excess), ([0.5, 1.0, 0.0, 0.5], 3));
+        let (found, fixed) = stored(0.5, 0.5, 2.0);
+        assert_eq!((found, fixed.excess), ([0.5, 1.0, 0.0, 0.5], 3));
     }
 
     #[test]
     fn what_is_no_light_becomes_none_and_is_counted() {
-        let (found, mended) = stored(f32::NAN, 0.5, -1.0);
-        assert_eq!((found, mended.no_number, mended.negative), ([0.5, 0.0, 0.0, 0.0], 3, 3));
+        let (found, fixed) = stored(f32::NAN, 0.5, -1.0);
+        assert_eq!((found, fixed.no_number, fixed.negative), ([0.5, 0.0, 0.0, 0.0], 3, 3));
         let (found, _) = stored(f32::INFINITY, 0.5, f32::INFINITY);
         assert!(found.iter().all(|v| v.is_finite()) && found[3] > 65000.0, "{found:?}");
     }

@@ -14,7 +14,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-/// More channels or parts than this has no image of a scene with all of V-Ray's render elements.
+/// Channels and parts of an image at most; one with all of V-Ray's render elements has fewer.
 const MAX_CHANNELS: usize = 512;
 /// Images whose channels take more bytes than this when they are decoded are refused: 4 GiB, which is 129 channels of floats at 3840x2160.
 const MAX_BYTES: u64 = 1 << 32;
@@ -77,10 +77,10 @@ impl VrayImage {
         Ok(r.values_as_f32().zip(g.values_as_f32()).zip(b.values_as_f32()).map(|((r, g), b)| [r, g, b]).collect())
     }
 
-    /// A render element of whole numbers; what stands for none (−1, and its 2³² − 1) is −1.
+    /// A render element of whole numbers; −1 means none, also where it is stored as 2³² − 1.
     ///
     /// # Errors
-    /// When it has none, or some of them are no whole numbers, as after filtering.
+    /// When the image lacks it, or some values are not whole numbers, as after filtering.
     pub fn ids(&self, element: &str) -> Result<Vec<i64>, Error> {
         let names = [element.to_string(), format!("{element}.{element}"), format!("{element}.Y"), format!("{element}.R")];
         let samples = names.iter().find_map(|name| self.channels.get(name)).ok_or_else(|| self.lacks(element))?;

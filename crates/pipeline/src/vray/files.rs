@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Reads a scene.
 ///
 /// # Errors
-/// When the file cannot be read, or is none, with line and column.
+/// When the file cannot be read, or is not a scene: the error has line and column.
 pub fn read_scene(path: &Path) -> Result<Document, Error> {
     let unreadable = |e: std::io::Error| Error::usage(format!("cannot read {}: {e}", path.display()), "check the path");
     Document::parse(std::fs::read(path).map_err(unreadable)?).map_err(|error| damaged(path, &error))
@@ -18,7 +18,7 @@ pub fn read_scene(path: &Path) -> Result<Document, Error> {
 
 /// The error of a scene file.
 pub(super) fn damaged(path: &Path, error: &SceneTextError) -> Error {
-    Error::usage(format!("{}:{error}", path.display()), "export the scene again, or mend it at this place")
+    Error::usage(format!("{}:{error}", path.display()), "export the scene again, or correct it at this place")
 }
 
 /// The scene in `path` with what its included files hold in place of the `#include` lines.
@@ -87,7 +87,8 @@ fn included_file(from: &Path, include: &Include) -> Result<PathBuf, Error> {
     })
 }
 
-/// One path for one file, so that circles are seen; where the system does not tell, the path as it is.
+/// The same path for the same file however it is written, to notice files that include each other; the path as it is where the system
+/// does not tell.
 fn known(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
 }

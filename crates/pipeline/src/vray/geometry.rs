@@ -42,9 +42,9 @@ const VOID: Pixel = Pixel {
     tex_coord: [f16::ZERO; 3],
 };
 
-/// How often something was mended.
+/// How many values were fixed, by reason.
 #[derive(Default)]
-struct Mended {
+struct Fixed {
     strangers: usize,
     lights: usize,
     nowhere: usize,
@@ -57,16 +57,16 @@ struct Mended {
 /// sentinels, normals of unit length that face the camera, texture coordinates of two components.
 ///
 /// # Errors
-/// When a render element is missing, or numbers of entities are none.
+/// When a render element is missing, or numbers of entities are not whole.
 pub(super) fn add_geometry(frame: &mut Frame, image: &VrayImage, placed: &Placed<'_>, notes: &mut Notes) -> Result<(), Error> {
     let ids = image.ids("VRayRenderEntityID")?;
     let elements = ["VRayPosition", "VRayNormal", "VRayNormalBump", "VRayTexCoord"].map(|name| image.triples(name));
     let [positions, normals, bumps, uvs] = elements;
     let (positions, normals, bumps, uvs) = (positions?, normals?, bumps?, uvs?);
-    let mut mended = Mended::default();
-    let pixel = |i: usize| placed.pixel(ids[i], [positions[i], normals[i], bumps[i], uvs[i]].map(point), &mut mended);
+    let mut fixed = Fixed::default();
+    let pixel = |i: usize| placed.pixel(ids[i], [positions[i], normals[i], bumps[i], uvs[i]].map(point), &mut fixed);
     let pixels: Vec<Pixel> = (0..ids.len()).map(pixel).collect();
-    mended.tell(&image.name(), notes);
+    fixed.tell(&image.name(), notes);
     insert(frame, &pixels);
     Ok(())
 }
@@ -84,16 +84,16 @@ fn insert(frame: &mut Frame, pixels: &[Pixel]) {
 }
 
 impl Placed<'_> {
-    fn pixel(&self, id: i64, [position, normal, bump, uv]: [DVec3; 4], mended: &mut Mended) -> Pixel {
+    fn pixel(&self, id: i64, [position, normal, bump, uv]: [DVec3; 4], fixed: &mut Fixed) -> Pixel {
         let entity = match self.entities.of(id) {
             Entity::Part(part) => part,
             Entity::Void => return VOID,
             Entity::Stranger => {
-                mended.strangers += 1;
+                fixed.strangers += 1;
                 return VOID;
             }
             Entity::Light => {
-                mended.lights += 1;
+                fixed.lights += 1;
                 return VOID;
             }
         };
@@ -105,16 +105,16 @@ impl Placed<'_> {
             position * (self.meters_per_unit / self.meters_in_dataset)
         };
         if !(distance.is_finite() && distance > 0.0) {
-            mended.nowhere += 1;
+            fixed.nowhere += 1;
             return VOID;
         }
         let camera_from_world = self.pose.world_from_camera.transpose();
-        let (smooth, turned) = facing(normal, away / distance, &mut mended.zero);
-        mended.turned += usize::from(turned);
-        let bump = facing(if turned { -bump } else { bump }, away / distance, &mut mended.zero).0;
+        let (smooth, turned) = facing(normal, away / distance, &mut fixed.zero);
+        fixed.turned += usize::from(turned);
+        let bump = facing(if turned { -bump } else { bump }, away / distance, &mut fixed.zero).0;
         let halves = |n: DVec3| n.as_vec3().to_array().map(f16::from_f32);
         let finite = |v: f64| f16::from_f32((v as f32).clamp(-F16_LIMIT, F16_LIMIT));
-        mended.no_uv += usize::from(!uv.truncate().is_finite());
+        fixed.no_uv += usize::from(!uv.truncate().is_finite());
         Pixel {
             entity,
             position: stored.as_vec3().to_array(),
@@ -138,7 +138,7 @@ fn facing(normal: DVec3, toward: DVec3, zero: &mut usize) -> (DVec3, bool) {
     (if away { -unit } else { unit }, away)
 }
 
-impl Mended {
+impl Fixed {
     fn tell(&self, place: &str, notes: &mut Notes) {
         let nothing = "the pixels count as void";
         notes.count(

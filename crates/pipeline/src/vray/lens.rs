@@ -12,7 +12,7 @@ use enfilade_scene::Projection;
 const MARGIN_RAD: f64 = 0.1 * std::f64::consts::PI / 180.0;
 /// Decimals of a number in a scene.
 const DECIMALS: f64 = 1e7;
-/// More texels than this are a wrong size of image, and not a lens.
+/// Texels at most: more come of a mistaken image size.
 const MAX_TEXELS: u64 = 1 << 28;
 
 /// The picture of a lens.

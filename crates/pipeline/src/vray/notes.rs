@@ -20,7 +20,7 @@ impl Notes {
         self.note(message, place, 0);
     }
 
-    /// About `pixels` of its pixels; none is nothing to tell.
+    /// About `pixels` of its pixels; not noted where that is 0.
     pub fn count(&mut self, message: &str, place: &str, pixels: usize) {
         if pixels > 0 {
             self.note(message, place, pixels as u64);

@@ -1,6 +1,6 @@
 //! A job's steps as a script for one machine. Where the programs are, the variables VRAY, IMAPVIEWER and VRIMG2EXR say.
 
-use super::job::{Job, JobStep};
+use super::job_file::{Job, JobStep};
 use enfilade_vrscene::edit::Platform;
 
 /// The script: it stops at the first step that fails.

@@ -3,8 +3,9 @@
 //! Indirect light is computed for every frame by itself (`pre`), merged into one light cache and one irradiance map per camera, and
 //! taken from there by the final pass, so that it does not flicker. Merging is V-Ray's: its files have no public form.
 
-use super::job::JobStep;
+use super::job_file::JobStep;
 use crate::error::Error;
+use enfilade_dataset::print_number_ranges;
 use enfilade_vrscene::edit::Platform;
 
 /// The folder on the machine that renders.
@@ -67,7 +68,7 @@ pub(super) fn steps(name: &str, shared: &str, frames: &[u32], there: &Place) -> 
             "-display=0".into(),
             "-autoClose=1".into(),
         ],
-        frames: Some(format!("-frames={}", frame_list(frames))),
+        frames: Some(format!("-frames={}", print_number_ranges(frames.iter().copied(), ";"))),
     };
     let convert = |pass: &str| JobStep {
         step: "convert".into(),
@@ -109,27 +110,16 @@ fn merge(step: &str, files: &[String], merged: &str) -> Vec<JobStep> {
     steps
 }
 
-/// Frames as V-Ray takes them: `0-9;12;15-16`.
-fn frame_list(frames: &[u32]) -> String {
-    let mut runs: Vec<[u32; 2]> = Vec::new();
-    for &frame in frames {
-        match runs.last_mut() {
-            Some([_, last]) if last.checked_add(1) == Some(frame) => *last = frame,
-            _ => runs.push([frame; 2]),
-        }
-    }
-    let run = |[first, last]: &[u32; 2]| if first == last { first.to_string() } else { format!("{first}-{last}") };
-    runs.iter().map(run).collect::<Vec<_>>().join(";")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn frames_are_runs_as_v_ray_takes_them() {
-        assert_eq!(frame_list(&[0, 1, 2, 5, 7, 8]), "0-2;5;7-8");
-        assert_eq!(frame_list(&[4]), "4");
+        let there = Place::new("/mnt/job").unwrap();
+        let list = |frames: &[u32]| steps("cam_00", "shared", frames, &there)[0].frames.clone().unwrap();
+        assert_eq!(list(&[0, 1, 2, 5, 7, 8]), "-frames=0-2;5;7-8");
+        assert_eq!(list(&[4]), "-frames=4");
     }
 
     #[test]

@@ -64,7 +64,48 @@ impl Default for GateConfig {
 /// Shares measured through every so many pixels are within this of those of all pixels.
 const CLOSE: f64 = 0.02;
 
+/// A limit that is out of its range.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{expected}, found {found}")]
+pub struct LimitError {
+    /// Name of the field.
+    pub field: &'static str,
+    /// Its value.
+    pub found: f64,
+    /// What must be, as in "a share must lie between 0 and 1".
+    pub expected: &'static str,
+}
+
 impl GateConfig {
+    /// Checks the limits.
+    ///
+    /// # Errors
+    /// The first one that is out of its range.
+    pub fn validate(&self) -> Result<(), LimitError> {
+        let shares = [
+            ("max_void_share", self.max_void_share),
+            ("max_enclosed_share", self.max_enclosed_share),
+            ("max_open_share", self.max_open_share),
+            ("max_back_face_share", self.max_back_face_share),
+            ("max_near_share", self.max_near_share),
+            ("max_plane_share", self.max_plane_share),
+            ("max_invalid_share", self.max_invalid_share),
+        ];
+        for (field, found) in shares {
+            if !(0.0..=1.0).contains(&found) {
+                return Err(LimitError { field, found, expected: "a share must lie between 0 and 1" });
+            }
+        }
+        for (field, found) in
+            [("enclosed_m", self.enclosed_m), ("min_depth_m", self.min_depth_m), ("min_depth_range_m", self.min_depth_range_m)]
+        {
+            if !(found >= 0.0 && found.is_finite()) {
+                return Err(LimitError { field, found, expected: "a length must be 0 or more metres" });
+            }
+        }
+        Ok(())
+    }
+
     /// The limit of a gate.
     pub fn limit(&self, gate: ViewGate) -> f64 {
         match gate {

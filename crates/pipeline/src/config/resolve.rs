@@ -1,0 +1,315 @@
+//! From the keys of `dataset.toml` to settings: how the levels are laid over each other, and where a value stands that cannot be.
+//!
+//! From the weakest to the strongest: built-in defaults, the file's top level, the scene's own keys, the command line. On each
+//! level `quality` sets the samples and `render.samples` wins over it. What counts in the end is checked, `checks` has the ranges.
+
+use super::camera::CameraConfig;
+use super::checks::{HOME, Misset, NAMES, Section, check_scene_name, no_scene_name};
+use super::choices::{Overrides, Quality};
+use super::document::{Document, Level, SceneKeys};
+use super::expand::expand;
+use super::locate::{Source as Text, in_words};
+use super::settings::{Config, FileSource, LabelSource, SceneConfig, Source, save_every_s};
+use crate::error::ConfigError;
+use enfilade_dataset::{check_name, read_ray_grid};
+use enfilade_explore::Mode;
+use enfilade_home::HomeConfig;
+use enfilade_label::LabelTable;
+use std::cell::RefCell;
+use std::collections::HashSet;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+
+/// Defaults of a dataset that are nobody else's.
+const SIZE: [u32; 2] = [1024, 768];
+const QUALITY: Quality = Quality::Normal;
+
+/// The configuration in `text`, with `overrides` over it. Environment variables in paths are checked, not replaced. Label tables and
+/// grids of rays are read, to refuse what a late stage could not use.
+pub(super) fn resolve(
+    file: &Path,
+    text: &str,
+    overrides: &Overrides,
+    variable: &dyn Fn(&str) -> Option<String>,
+) -> Result<Config, ConfigError> {
+    let source = Text { file, text };
+    let document: Document = toml::from_str(text).map_err(|e| source.toml_error(&e))?;
+    let resolver = Resolver { source, document: &document, overrides, variable, looked_at: RefCell::default() };
+    let name = match &document.name {
+        Some(name) => resolver.checked_name(name)?,
+        None => default_name(file),
+    };
+    if document.scene.is_empty() {
+        let mut error = resolver.source.error(None, "there is no [[scene]] in it");
+        error.help = Some("add at least one:\n\n  [[scene]]\n  name = \"my-room\"\n  file = \"my-room.gltf\"".into());
+        return Err(error);
+    }
+    let mut names = HashSet::new();
+    let mut scenes = Vec::new();
+    for keys in &document.scene {
+        if !names.insert(keys.name.get_ref().as_str()) {
+            return Err(resolver.refuse(&keys.name, "two scenes have this name", "names of scenes must be unique"));
+        }
+        scenes.push(resolver.scene(keys)?);
+    }
+    resolver.check_homes(&scenes)?;
+    Ok(Config { base: Default::default(), carried: Default::default(), name, scenes })
+}
+
+fn default_name(file: &Path) -> String {
+    let absolute = std::path::absolute(file).unwrap_or_else(|_| file.into());
+    let stem = file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let folder = absolute.parent().and_then(Path::file_name).map(|s| s.to_string_lossy().into_owned());
+    if stem == "dataset" { folder.unwrap_or(stem) } else { stem }
+}
+
+/// What resolving needs, scene after scene.
+struct Resolver<'a> {
+    source: Text<'a>,
+    document: &'a Document,
+    overrides: &'a Overrides,
+    variable: &'a dyn Fn(&str) -> Option<String>,
+    /// Files that were read and found good: scenes share them.
+    looked_at: RefCell<HashSet<PathBuf>>,
+}
+
+impl Resolver<'_> {
+    fn refuse<T>(&self, value: &Spanned<T>, message: impl Into<String>, help: impl Into<String>) -> ConfigError {
+        ConfigError { help: Some(help.into()), ..self.source.error(Some(value.span()), message) }
+    }
+
+    fn scene(&self, keys: &SceneKeys) -> Result<SceneConfig, ConfigError> {
+        let document = self.document;
+        let name = self.checked_scene_name(&keys.name)?;
+        let seed = self.overrides.seed.or(keys.seed).or(document.seed).unwrap_or(0);
+        let camera = keys.camera.as_ref().or(document.camera.as_ref());
+
+        // Built-in defaults.
+        let mut scene = SceneConfig {
+            seed,
+            source: self.scene_source(keys, seed)?,
+            labels: self.labels(keys, &name)?,
+            cameras: keys.cameras.iter().map(|c| c.0.clone()).collect(),
+            size: SIZE,
+            fov_x_deg: None,
+            camera: camera.map_or_else(CameraConfig::default, |camera| camera.get_ref().clone()),
+            carve: Default::default(),
+            plan: Default::default(),
+            gate: Default::default(),
+            render: Default::default(),
+            time_limit_s: None,
+            save_every_s: save_every_s(),
+            denoise: false,
+            denoise_library: None,
+            name,
+        };
+        scene.render.samples = QUALITY.samples();
+
+        // The file over them, the scene's own keys over that, and the command line over all.
+        self.lay_over(&mut scene, document.level())?;
+        self.lay_over(&mut scene, keys.level())?;
+        if scene.camera.k.is_some() {
+            // A camera matrix is of images of the file's size, whatever the command line says.
+            scene.camera.k_size.get_or_insert(scene.size);
+        }
+        self.lay_arguments_over(&mut scene);
+
+        scene.validate().map_err(|wrong| self.misset(wrong, keys))?;
+        if let Some(camera) = camera {
+            self.check_grid(&scene, camera)?;
+        }
+        Ok(scene)
+    }
+
+    /// Lays the keys of one level over those below. Of paths it checks the environment variables.
+    fn lay_over(&self, scene: &mut SceneConfig, level: Level) -> Result<(), ConfigError> {
+        let Level { frames, quality, render, plan, carve, gate, .. } = level;
+        if let Some(quality) = quality {
+            scene.render.samples = quality.samples();
+        }
+        if let Some(frames) = frames {
+            scene.plan.frames = *frames.get_ref();
+        }
+        if let Some(mode) = &plan.mode
+            && let Mode::Keyframes(keyframes) = mode.get_ref()
+        {
+            keyframes.files.iter().try_for_each(|file| self.check_path(file, mode))?;
+        }
+        if let Some(library) = &render.denoise_library {
+            self.check_path(library.get_ref(), library)?;
+            scene.denoise_library = Some(library.get_ref().clone());
+        }
+        let value = |value: &Option<Spanned<f64>>| value.as_ref().map(|value| *value.get_ref());
+        scene.size = render.size.as_ref().map_or(scene.size, |size| *size.get_ref());
+        scene.fov_x_deg = value(&render.fov_x_deg).or(scene.fov_x_deg);
+        scene.time_limit_s = value(&render.time_limit_s).or(scene.time_limit_s);
+        scene.save_every_s = value(&render.save_every_s).unwrap_or(scene.save_every_s);
+        scene.denoise = render.denoise.as_ref().map_or(scene.denoise, |denoise| *denoise.get_ref());
+        render.apply(&mut scene.render);
+        plan.apply(&mut scene.plan);
+        carve.apply(&mut scene.carve);
+        gate.apply(&mut scene.gate);
+        Ok(())
+    }
+
+    fn lay_arguments_over(&self, scene: &mut SceneConfig) {
+        let Overrides { frames, size, quality, ref render, .. } = *self.overrides;
+        scene.plan.frames = frames.unwrap_or(scene.plan.frames);
+        scene.size = size.unwrap_or(scene.size);
+        scene.render.samples = quality.map_or(scene.render.samples, Quality::samples);
+        render.apply(scene);
+    }
+
+    /// The error of a value that cannot be, at the key that says it; those of a mode stand in its table.
+    fn misset(&self, wrong: Misset, keys: &SceneKeys) -> ConfigError {
+        let Misset { section, key, message, help } = wrong;
+        if self.overrides.say(section, key) {
+            return ConfigError { file: "the command line".into(), ..self.source.error(None, message) };
+        }
+        let place = self.span(section, key, keys).unwrap_or_else(|| keys.name.span());
+        ConfigError { help: Some(help.into()), ..self.source.error(Some(place), message) }
+    }
+
+    /// Where the value of a key stands that counts for a scene; `None` for a default.
+    fn span(&self, section: Section, key: &str, keys: &SceneKeys) -> Option<Range<usize>> {
+        let levels = [keys.level(), self.document.level()];
+        let in_levels = |span: &dyn Fn(&Level) -> Option<Range<usize>>| levels.iter().find_map(span);
+        match section {
+            Section::Scene => in_levels(&|level| level.frames.map(Spanned::span)),
+            Section::Import if key == "environment" => keys.environment.as_ref().map(Spanned::span),
+            Section::Import => keys.meters_per_unit.as_ref().or(self.document.import.meters_per_unit.as_ref()).map(Spanned::span),
+            Section::Home => keys.home.as_ref().map(Spanned::span),
+            Section::Camera => in_levels(&|level| level.camera.map(Spanned::span)),
+            Section::Render => in_levels(&|level| level.render.span(key)),
+            Section::Carve => in_levels(&|level| level.carve.span(key)),
+            Section::Plan => in_levels(&|level| level.plan.span(key)).or_else(|| in_levels(&|level| level.plan.span("mode"))),
+            Section::Gate => in_levels(&|level| level.gate.span(key)),
+        }
+    }
+
+    /// Refuses a home that an earlier scene is too: training and test could hold the same. Where both say its seed, it is meant.
+    fn check_homes(&self, scenes: &[SceneConfig]) -> Result<(), ConfigError> {
+        let homes = self.document.scene.iter().zip(scenes).filter_map(|(keys, scene)| Some((keys.home.as_ref()?, scene)));
+        let homes: Vec<(&Spanned<toml::Table>, &SceneConfig)> = homes.collect();
+        for (i, &(keys, scene)) in homes.iter().enumerate() {
+            let meant = |other: &Spanned<toml::Table>| names_seed(keys) && names_seed(other);
+            if let Some((_, earlier)) = homes[..i].iter().find(|(other, earlier)| earlier.source == scene.source && !meant(other)) {
+                let message = format!("the scenes {:?} and {:?} would be the same home", earlier.name, scene.name);
+                let help = "give each a seed, home = { seed = 1 } and home = { seed = 2 }; the same in both if one home is meant";
+                return Err(self.refuse(keys, message, help));
+            }
+        }
+        Ok(())
+    }
+
+    fn scene_source(&self, keys: &SceneKeys, seed: u64) -> Result<Source, ConfigError> {
+        let file = match (&keys.file, &keys.home) {
+            (Some(file), None) => file,
+            (None, Some(home)) => return self.home(home, seed).map(Source::Home),
+            _ => {
+                let message = "a scene needs either `file` or `home`";
+                return Err(self.refuse(
+                    &keys.name,
+                    message,
+                    "add file = \"room.gltf\" for a scene of yours, or home = {} for a generated one",
+                ));
+            }
+        };
+        let defaults = &self.document.import;
+        let meters_per_unit = keys.meters_per_unit.as_ref().or(defaults.meters_per_unit.as_ref());
+        if let Some(environment) = &keys.environment {
+            self.check_path(&environment.get_ref().file, environment)?;
+        }
+        self.check_path(file.get_ref(), file)?;
+        Ok(Source::File(FileSource {
+            file: file.get_ref().clone(),
+            meters_per_unit: meters_per_unit.map_or(1.0, |v| *v.get_ref()),
+            up_axis: keys.up_axis.or(defaults.up_axis),
+            environment: keys.environment.as_ref().map(|e| e.get_ref().clone()),
+            allow_missing_textures: keys.allow_missing_textures.or(defaults.allow_missing_textures).unwrap_or(false),
+        }))
+    }
+
+    /// A generated home; its seed is the scene's unless it has its own. That stays whatever the command line says, or all homes of
+    /// a dataset would be one.
+    fn home(&self, keys: &Spanned<toml::Table>, seed: u64) -> Result<HomeConfig, ConfigError> {
+        let read: Result<HomeConfig, toml::de::Error> = keys.get_ref().clone().try_into();
+        let mut home = read.map_err(|e| self.refuse(keys, format!("in `home`: {}", in_words(e.message()).0), HOME))?;
+        if !names_seed(keys) {
+            home.seed = seed;
+        }
+        home.assets.iter().try_for_each(|path| self.check_path(path, keys))?;
+        Ok(home)
+    }
+
+    fn labels(&self, keys: &SceneKeys, name: &str) -> Result<Option<LabelSource>, ConfigError> {
+        let table = match (&keys.labels, &keys.home) {
+            (Some(table), _) => table,
+            (None, Some(_)) => return Ok(None), // a home knows its own
+            (None, None) => match &self.document.labels {
+                Some(table) => table,
+                None => return Ok(None),
+            },
+        };
+        self.check_table(table)?;
+        let scene = keys.label_scene.clone().unwrap_or_else(|| name.into());
+        Ok(Some(LabelSource { table: table.get_ref().clone(), scene }))
+    }
+
+    /// Refuses a label table that the last stages could not use.
+    fn check_table(&self, table: &Spanned<String>) -> Result<(), ConfigError> {
+        let Some(path) = self.new_file(table.get_ref(), table, "label table")? else { return Ok(()) };
+        let refuse = |message: String| self.refuse(table, message, "correct the table, or name another one");
+        let bytes = std::fs::read(&path).map_err(|e| refuse(format!("cannot read the label table {}: {e}", path.display())))?;
+        LabelTable::parse(&bytes, &path.display().to_string()).map(drop).map_err(|e| refuse(e.to_string()))
+    }
+
+    /// Refuses a grid of rays that cannot be used.
+    fn check_grid(&self, scene: &SceneConfig, camera: &Spanned<CameraConfig>) -> Result<(), ConfigError> {
+        if let Some(file) = &scene.camera.ray_grid
+            && let Some(path) = self.new_file(file, camera, "ray grid")?
+        {
+            read_ray_grid(&path, scene.size).map_err(|e| self.refuse(camera, e.to_string(), "docs/cameras.md explains the file"))?;
+        }
+        Ok(())
+    }
+
+    fn check_path<T>(&self, path: &str, place: &Spanned<T>) -> Result<(), ConfigError> {
+        self.expanded(path, place).map(drop)
+    }
+
+    fn expanded<T>(&self, path: &str, place: &Spanned<T>) -> Result<String, ConfigError> {
+        let help = "set the variable before running, as in: export NAME=/path/to/folder";
+        expand(path, self.variable).map_err(|e| self.refuse(place, e, help))
+    }
+
+    /// The file that `path` means, which must be there; `None` when it was looked at before.
+    fn new_file<T>(&self, path: &str, place: &Spanned<T>, what: &str) -> Result<Option<PathBuf>, ConfigError> {
+        let folder = self.source.file.parent().unwrap_or(Path::new(""));
+        let found = folder.join(self.expanded(path, place)?);
+        if !found.is_file() {
+            let help = "check the path for a typing mistake; it begins in the folder of the configuration";
+            return Err(self.refuse(place, format!("there is no {what} {}", found.display()), help));
+        }
+        Ok(self.looked_at.borrow_mut().insert(found.clone()).then_some(found))
+    }
+
+    /// The name of the dataset.
+    fn checked_name(&self, name: &Spanned<String>) -> Result<String, ConfigError> {
+        let text = name.get_ref();
+        check_name("name", text).map_err(|_| self.refuse(name, format!("{text:?} cannot be the name"), NAMES))?;
+        Ok(text.clone())
+    }
+
+    fn checked_scene_name(&self, name: &Spanned<String>) -> Result<String, ConfigError> {
+        let text = name.get_ref();
+        check_scene_name(text).map_err(|help| self.refuse(name, no_scene_name(text), help))?;
+        Ok(text.clone())
+    }
+}
+
+/// True where a home says its own seed.
+fn names_seed(home: &Spanned<toml::Table>) -> bool {
+    home.get_ref().contains_key("seed")
+}

@@ -1,0 +1,206 @@
+//! What to make, with every default filled in.
+//!
+//! It goes into the dataset's manifest and into the work folder, and the parts of it that a stage reads are hashed to tell whether the
+//! stage must run again: a field that is renamed or written otherwise makes everything anew.
+
+use super::camera::CameraConfig;
+use super::expand::expand;
+use super::select::select;
+use crate::error::Error;
+use enfilade_explore::{CarveConfig, PlanConfig, Preset};
+use enfilade_home::HomeConfig;
+use enfilade_import::UpAxis;
+use enfilade_math::hash_u64;
+use enfilade_render::RenderConfig;
+use enfilade_verify::view_gates::GateConfig;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// A dataset to make.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Config {
+    /// Where relative paths start: the folder of the TOML file. Not part of what is made.
+    #[serde(skip)]
+    pub base: PathBuf,
+    /// Files that lie elsewhere now than their paths say, by the paths as they are written: a dataset that several machines make
+    /// carries with it what the others cannot reach.
+    #[serde(skip)]
+    pub carried: BTreeMap<String, PathBuf>,
+    /// Name of the dataset.
+    pub name: String,
+    /// In the order of the file; names are unique.
+    pub scenes: Vec<SceneConfig>,
+}
+
+/// One scene of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneConfig {
+    /// Name in the dataset: letters, digits, `-`, `_` and `.`.
+    pub name: String,
+    /// Seed of trajectories and of the renderer's noise.
+    pub seed: u64,
+    /// Where the scene comes from.
+    pub source: Source,
+    /// Where its labels come from; `None` takes what comes with the scene.
+    pub labels: Option<LabelSource>,
+    /// Cameras where trajectories begin, one trajectory each; empty means all of the file's, or found ones if it has none.
+    pub cameras: Vec<CameraChoice>,
+    /// Image width and height, pixels.
+    pub size: [u32; 2],
+    /// Horizontal field of view; `None` takes that of the scene's first used camera.
+    pub fov_x_deg: Option<f64>,
+    /// What the pictures are taken with.
+    #[serde(default, skip_serializing_if = "CameraConfig::is_default")]
+    pub camera: CameraConfig,
+    /// Free-space carving. Its seed is made from `seed`.
+    pub carve: CarveConfig,
+    /// Trajectories. Its seed is made from `seed`; its test images get the pictures' field of view and shape.
+    pub plan: PlanConfig,
+    /// Which views are worth rendering.
+    #[serde(default)]
+    pub gate: GateConfig,
+    /// Light transport. Its seed is made from `seed`, another for each camera.
+    pub render: RenderConfig,
+    /// Wall-clock seconds after which a frame ends with the samples that it has; `None` is no limit. Frames that it ends are not the
+    /// same twice.
+    #[serde(default)]
+    pub time_limit_s: Option<f64>,
+    /// Wall-clock seconds between the moments when a frame in the making is kept, for a run that is killed. Changes no byte.
+    #[serde(default = "save_every_s")]
+    pub save_every_s: f64,
+    /// Makes denoised companions of the colour layers.
+    #[serde(default)]
+    pub denoise: bool,
+    /// The library that denoises, its file or the folder that it lies in; as written. `None` takes what `ENFILADE_OIDN` names, or
+    /// what the system has.
+    #[serde(default)]
+    pub denoise_library: Option<String>,
+}
+
+/// Where a scene comes from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Source {
+    /// A file in one of the formats that `import` reads.
+    File(FileSource),
+    /// The procedural furnished home.
+    Home(HomeConfig),
+}
+
+/// A scene file and what it does not say itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FileSource {
+    /// As written: may be relative and may hold environment variables.
+    pub file: String,
+    /// Metres per unit of the file.
+    pub meters_per_unit: f64,
+    /// `None` takes the format's own.
+    pub up_axis: Option<UpAxis>,
+    /// Replaces the file's surroundings.
+    pub environment: Option<EnvironmentChoice>,
+    /// Goes on, with a warning, where a texture file is missing.
+    pub allow_missing_textures: bool,
+}
+
+/// An environment map for a scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EnvironmentChoice {
+    /// An equirectangular picture; as written.
+    pub file: String,
+    /// Multiplies its radiance.
+    #[serde(default = "one")]
+    pub scale: f32,
+    /// About the up axis.
+    #[serde(default)]
+    pub rotation_deg: f32,
+}
+
+/// After a crash at most this much of a frame's work is lost.
+pub(super) const fn save_every_s() -> f64 {
+    30.0
+}
+
+fn one() -> f32 {
+    1.0
+}
+
+/// A label table and the rows of it that count.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LabelSource {
+    /// A CSV file; as written.
+    pub table: String,
+    /// Rows whose `scene` column is this (or empty) count.
+    pub scene: String,
+}
+
+/// A camera where a trajectory begins.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, deny_unknown_fields)]
+pub enum CameraChoice {
+    /// One of the file's, by name.
+    Named(String),
+    /// An explicit one, in world space (metres, z up).
+    Placed {
+        /// Camera centre.
+        position: [f64; 3],
+        /// A point in the middle of the picture.
+        look_at: [f64; 3],
+    },
+}
+
+impl Config {
+    /// The scenes whose names match `pattern`; see [`select`].
+    ///
+    /// # Errors
+    /// When none does.
+    pub fn select(&self, pattern: Option<&str>) -> Result<Vec<&SceneConfig>, Error> {
+        let names: Vec<String> = self.scenes.iter().map(|s| s.name.clone()).collect();
+        let chosen = select("scene", &names, pattern)?;
+        Ok(self.scenes.iter().filter(|s| chosen.contains(&s.name)).collect())
+    }
+
+    /// The file meant by a path of the configuration.
+    ///
+    /// # Errors
+    /// When it names an environment variable that is not set.
+    pub fn path(&self, written: &str) -> Result<PathBuf, Error> {
+        if let Some(carried) = self.carried.get(written) {
+            return Ok(carried.clone());
+        }
+        let expanded = expand(written, &environment_variable)
+            .map_err(|e| Error::scene(format!("in the path {written:?}: {e}"), "set the variable (export NAME=…) and run again"))?;
+        Ok(self.base.join(expanded))
+    }
+}
+
+impl SceneConfig {
+    /// Takes labels from `table` from now on, with the rows of the scene as before.
+    pub(crate) fn set_label_table(&mut self, table: &str) {
+        let scene = self.labels.take().map_or_else(|| self.name.clone(), |labels| labels.scene);
+        self.labels = Some(LabelSource { table: table.replace('$', "$$"), scene });
+    }
+
+    /// Seed of the part of the work named by `purpose`: different for every scene and purpose.
+    pub fn seed_for(&self, purpose: &str) -> u64 {
+        let text = self.name.bytes().chain([0]).chain(purpose.bytes());
+        text.fold(hash_u64(self.seed), |hash, byte| hash_u64(hash ^ u64::from(byte)))
+    }
+
+    /// [`SceneConfig::seed_for`] exploring by a preset. Hypersim's programs are given the seed as it is, 0 unless told otherwise.
+    pub fn exploring_seed(&self, purpose: &str, preset: Preset) -> u64 {
+        match preset {
+            Preset::Default => self.seed_for(purpose),
+            Preset::Hypersim => self.seed,
+        }
+    }
+}
+
+pub(super) fn environment_variable(name: &str) -> Option<String> {
+    std::env::var(name).ok()
+}

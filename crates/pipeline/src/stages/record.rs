@@ -1,0 +1,96 @@
+//! What a run of a stage read and wrote, by path and content: later runs compare it with what they find.
+
+use crate::error::Error;
+use crate::workdir::Hash;
+use enfilade_scene::Warning;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// The inputs of a stage, as far as they are known before it has run.
+pub(crate) type Inputs = Result<Option<Vec<Input>>, Error>;
+
+/// A file that a stage read, by content.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Input {
+    pub path: PathBuf,
+    pub content: Hash,
+}
+
+impl Input {
+    pub fn of(path: &Path) -> Result<Self, Error> {
+        Ok(Self { path: path.into(), content: Hash::of_file(path)? })
+    }
+
+    /// The same of a file that need not be there.
+    pub fn of_any(path: &Path) -> Result<Self, Error> {
+        if path.exists() { Self::of(path) } else { Ok(Self { path: path.into(), content: Hash::of(&None::<u8>) }) }
+    }
+}
+
+/// A file that a stage wrote.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Output {
+    /// Relative to the dataset's folder.
+    pub path: PathBuf,
+    bytes: u64,
+    /// None for files of frames, which are too many bytes to be read in every run; checksums of those stand in their commit records.
+    /// Earlier versions noted it of no file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub content: Option<Hash>,
+}
+
+impl Output {
+    /// The file at `path` in the dataset's folder `out`, by its length alone.
+    pub fn by_length(out: &Path, path: &Path) -> Result<Self, Error> {
+        let bytes = std::fs::metadata(path).map_err(Error::io("read", path))?.len();
+        Ok(Self { path: path.strip_prefix(out).unwrap_or(path).into(), bytes, content: None })
+    }
+
+    /// The same with its content, unless it is a file of a frame.
+    pub fn of(out: &Path, path: &Path) -> Result<Self, Error> {
+        let is_of_frame = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("frame."));
+        let content = if is_of_frame { None } else { Some(Hash::of_file(path)?) };
+        Ok(Self { content, ..Self::by_length(out, path)? })
+    }
+
+    /// Its file is there in full length.
+    pub fn has_its_length(&self, out: &Path) -> bool {
+        std::fs::metadata(out.join(&self.path)).is_ok_and(|data| data.len() == self.bytes)
+    }
+
+    /// Its file is there in full length and, where that was noted, with the same content.
+    pub fn is_there(&self, out: &Path) -> bool {
+        let is_same = |content: &Hash| Hash::of_file(&out.join(&self.path)).is_ok_and(|found| found == *content);
+        self.has_its_length(out) && self.content.as_ref().is_none_or(is_same)
+    }
+}
+
+/// What a stage's function leaves behind.
+#[derive(Default)]
+pub(crate) struct Outcome {
+    /// One line: what it made.
+    pub summary: String,
+    /// Files written.
+    pub outputs: Vec<PathBuf>,
+    /// Files read, for a stage that only knows them afterwards.
+    pub inputs: Option<Vec<Input>>,
+    /// The report of the stage's function, whatever its form.
+    pub report: serde_json::Value,
+}
+
+/// What stands in `STAGE.json`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Record {
+    /// Hash of settings, inputs and code version.
+    pub key: Hash,
+    pub summary: String,
+    pub warnings: Vec<Warning>,
+    pub report: serde_json::Value,
+    pub wall_s: f64,
+    pub cpu_s: f64,
+    pub inputs: Vec<Input>,
+    pub outputs: Vec<Output>,
+    /// Hash of the stage's row in a table that scenes share, where it writes one. Earlier versions did not note it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub listed: Option<Hash>,
+}

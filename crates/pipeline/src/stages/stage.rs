@@ -1,0 +1,59 @@
+//! The names of the stages, in the order in which they run, and the versions of what they make.
+
+use serde::{Deserialize, Serialize};
+
+/// A stage by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[allow(missing_docs)] // STAGES describes each one
+pub enum Stage {
+    Import,
+    Carve,
+    Plan,
+    Gate,
+    Render,
+    Denoise,
+    Label,
+    Boxes,
+    Preview,
+    Verify,
+}
+
+impl Stage {
+    /// The verb of the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Import => "import",
+            Self::Carve => "carve",
+            Self::Plan => "plan",
+            Self::Gate => "gate",
+            Self::Render => "render",
+            Self::Denoise => "denoise",
+            Self::Label => "label",
+            Self::Boxes => "boxes",
+            Self::Preview => "preview",
+            Self::Verify => "verify",
+        }
+    }
+
+    /// Changes whenever the stage's outputs change for the same inputs, so that old outputs are made again.
+    pub(crate) const fn version(self) -> u32 {
+        match self {
+            Self::Import => 10,
+            Self::Carve => 4,
+            Self::Plan => 6,
+            Self::Gate => 1,
+            Self::Render => 12,
+            Self::Denoise => 3,
+            Self::Label => 2,
+            Self::Boxes => 1,
+            Self::Preview => 4,
+            Self::Verify => 5,
+        }
+    }
+
+    /// Name of the stage's record in the work folder of a scene.
+    pub(crate) fn record(self) -> String {
+        format!("{}.json", self.name())
+    }
+}
