@@ -1,3 +1,7 @@
+//! An easy chair: an open frame of wooden rods, rails and armrests with two loose cushions in the armchairs' cloth, one object of class
+//! chair. Its width over the armrests (68 to 74 cm) and the lean of its back (17 to 22°) vary. Parts are placed in a space whose origin
+//! stands `FORWARD` of the footprint's middle.
+
 use super::{Furniture, board, grained, on, standing};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -14,10 +18,14 @@ pub struct Armchair {
     pub lean: f32,
 }
 
+/// Depth of the footprint, metres: from the front legs to the top of the leaning back.
 const DEPTH: f32 = 0.86;
-/// How far the seat stands before the middle of the footprint: the back leans out behind it.
+/// How far the seat stands before the middle of the footprint, metres: the back leans out behind it.
 const FORWARD: f32 = 0.075;
+/// Height of the middle of the armrests, metres: their upper side lies 14 cm above the seat cushion, where elbows rest.
 const ARM_HEIGHT: f32 = 0.56;
+/// Where the posts of the back stand and its slats end, as a share of half the frame's width.
+const POSTS: f32 = 0.8;
 
 impl Furniture for Armchair {
     fn random(rng: &mut Rng) -> Self {
@@ -47,12 +55,12 @@ impl Furniture for Armchair {
         b.part(&chair, "rail_front", grained(cross(0.262, 0.295, 0.014), rng), wood);
         b.part(&chair, "rail_back", grained(cross(-0.30, 0.255, 0.014), rng), wood);
         // The back: two posts and slats, leaning.
-        let post = |s: f32| [Vec3::new(s * 0.8 * half, -0.27, 0.26), self.back_point(s * 0.8 * half, 0.56)];
+        let post = |s: f32| [Vec3::new(s * POSTS * half, -0.27, 0.26), self.back_point(s * POSTS * half, 0.56)];
         b.part(&chair, "back_post_left", grained(tube(&post(-1.0), 0.013, 14), rng), wood);
         b.part(&chair, "back_post_right", grained(tube(&post(1.0), 0.013, 14), rng), wood);
         for k in 0..3 {
             let up = 0.20 + 0.16 * k as f32;
-            let slat = [self.back_point(-0.8 * half, up), self.back_point(0.8 * half, up)];
+            let slat = [self.back_point(-POSTS * half, up), self.back_point(POSTS * half, up)];
             b.part(&chair, &format!("back_slat_{}", k + 1), grained(tube(&slat, 0.010, 12), rng), wood);
         }
         let cloth = Finish::ArmchairCloth;

@@ -1,3 +1,7 @@
+//! A bookcase of one to three columns and five or six rows of compartments, of wood (class bookshelf), and the rows and piles of books in
+//! it (class books, each row an object, each book a part with a jacket of its own), which other furniture uses too. 68 to 85 % of the
+//! compartments hold a row of books, the others a pile and an ornament.
+
 use super::{Bowl, CONTACT, Candles, Furniture, Plant, Vase, board, grained, on};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -17,11 +21,18 @@ pub struct Bookshelf {
     pub books: f32,
 }
 
+/// Depth of the case, metres: books are 13 to 19 cm deep.
 const DEPTH: f32 = 0.30;
+/// Thickness of uprights and boards, metres.
 const BOARD: f32 = 0.022;
+/// From one upright to the next, left face to left face, metres: a board of this length still carries books.
 const COLUMN: f32 = 0.62;
+/// From one board to the next, metres: 31 cm are free, and books are up to 27.5 cm high.
 const ROW: f32 = 0.335;
+/// Height of the plinth below the lowest board, metres.
 const PLINTH: f32 = 0.06;
+/// How far boards reach into the uprights at each end, metres: no light comes through the joint.
+const LAP: f32 = 0.0002;
 
 impl Bookshelf {
     fn case(&self, b: &mut Builder, shelf: &crate::builder::Object, rng: &mut Rng) {
@@ -37,12 +48,12 @@ impl Bookshelf {
             let x = column as f32 * COLUMN - half + BOARD;
             for row in 0..=self.rows {
                 let z = PLINTH + row as f32 * ROW - if row == 0 { 0.0 } else { BOARD };
-                let mesh = board([x - 0.0002, back + 0.011, z], [x + COLUMN - BOARD + 0.0002, front - 0.003, z + BOARD], 0.0015);
+                let mesh = board([x - LAP, back + 0.011, z], [x + COLUMN - BOARD + LAP, front - 0.003, z + BOARD], 0.0015);
                 b.part(shelf, &format!("board_{}_{}", column + 1, row + 1), grained(mesh, rng), wood);
             }
-            let plinth = board([x - 0.0002, front - 0.03, 0.0], [x + COLUMN - BOARD + 0.0002, front - 0.012, PLINTH - 0.0002], 0.001);
+            let plinth = board([x - LAP, front - 0.03, 0.0], [x + COLUMN - BOARD + LAP, front - 0.012, PLINTH - 0.0002], 0.001);
             b.part(shelf, &format!("plinth_{}", column + 1), grained(plinth, rng), wood);
-            let rear = board([x - 0.0002, back + 0.002, 0.01], [x + COLUMN - BOARD + 0.0002, back + 0.010, size.z - 0.002], 0.0005);
+            let rear = board([x - LAP, back + 0.002, 0.01], [x + COLUMN - BOARD + LAP, back + 0.010, size.z - 0.002], 0.0005);
             b.part(shelf, &format!("rear_{}", column + 1), grained(rear, rng), wood);
         }
     }
@@ -78,8 +89,10 @@ fn ornament(b: &mut Builder, pose: DAffine3, radius: f32, rng: &mut Rng) {
     }
 }
 
-/// One book in its own space: spine at y = 0 facing +y, standing on z = 0, from x = 0 to its thickness. `cell` picks its jacket.
+/// One book in its own space: spine at y = 0 facing +y, standing on z = 0, from x = 0 to its thickness. `cell` picks its jacket from the
+/// picture of all jackets.
 fn book(thickness: f32, depth: f32, height: f32, cell: usize) -> Mesh {
+    /// Thickness of a cover, metres.
     const COVER: f32 = 0.0022;
     let inset = 0.003;
     let boxed = |min: [f32; 3], max: [f32; 3]| board(min, max, 0.0007);

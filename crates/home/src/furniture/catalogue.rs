@@ -40,7 +40,7 @@ use enfilade_math::{Bounds3, Rng, Vec3};
 pub enum Place {
     /// On the floor with its back to a wall, or fixed to that wall at a height of its own.
     AgainstWall,
-    /// On the floor, to be seen from all sides.
+    /// On the floor; it is seen from all sides.
     Free,
     /// On the floor, best in a corner.
     Corner,
@@ -296,6 +296,7 @@ mod tests {
     use enfilade_scene::{Labels, Scene};
     use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+    /// Variants of each family that are built.
     const SEEDS: usize = 20;
     /// Variants of a family are built this far apart, metres.
     const APART: f64 = 100.0;
@@ -417,7 +418,7 @@ mod tests {
         assert!(problems.is_empty(), "{problems:#?}");
     }
 
-    /// True when what is `found` stands on the floor, or hangs, in its own space.
+    /// True when a thing that fills `found` is carried by floor, wall or ceiling, as its place says.
     fn held(place: Place, found: &Bounds3, expected: &Bounds3) -> bool {
         let near = |a: f32, b: f32| (a - b).abs() < 0.003;
         match place {

@@ -1,3 +1,6 @@
+//! A flat lamp under a ceiling, 26 to 40 cm across: a dish of opal glass, which gives off all the light, in a rim of steel; class lamp. The
+//! origin is on the ceiling, and everything hangs below it at negative z.
+
 use super::Furniture;
 use crate::builder::{Builder, Class};
 use crate::light::Glow;

@@ -1,3 +1,6 @@
+//! A dining chair of wood, 46 × 50 cm and 80 cm high: a hollowed seat on four round legs, of which the rear ones go on upward and carry a
+//! bent backrest; one object of class chair. Only its pad varies: every second chair has one, in an accent of the palette.
+
 use super::{Furniture, grained, standing};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -12,6 +15,7 @@ pub struct Chair {
     pub pad: bool,
 }
 
+/// Height of the middle of the seat board, metres: common seats are 44 to 47 cm high.
 const SEAT: f32 = 0.455;
 
 impl Furniture for Chair {
@@ -81,7 +85,7 @@ fn backrest() -> enfilade_geometry::Mesh {
         let out = Vec3::new(angle.sin(), -angle.cos(), 0.0);
         center + out * q.x + Vec3::new(0.0, -0.12 * q.y, q.y * (1.0 - 0.25 * along * along))
     };
-    // Around the section first, then along: inside out, so x is mirrored by running the section backwards.
+    // The grid runs around the section first and along the board second, which turns faces inward unless the section runs backwards.
     let mesh = grid(12, N + 2, |i, j| point(12 - i, j), |i, j| Vec2::new(j as f32 / N as f32 * 0.4, i as f32 / 12.0 * 0.3));
     mesh.smoothed(50.0)
 }

@@ -1,3 +1,6 @@
+//! Low tables before a sofa, of class table: a rectangular one of wood with a shelf below its top (95 to 115 × 52 to 60 cm), or a round top
+//! of stone (78 to 90 cm across) on four legs and a ring of black metal. Both kinds are equally frequent.
+
 use super::dining_table::round_top;
 use super::{Furniture, board, grained, leg, on, standing};
 use crate::builder::{Builder, Class};
@@ -22,6 +25,7 @@ pub enum CoffeeTable {
     },
 }
 
+/// Height of the top, metres: a little below the seat of a sofa.
 const TOP: f32 = 0.40;
 
 impl CoffeeTable {

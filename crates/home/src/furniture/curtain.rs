@@ -1,10 +1,14 @@
+//! Two curtains of linen, drawn aside, on rings on a rod of black metal over a window. The rod with its brackets and each curtain with its
+//! rings are objects of class curtain. The window gives their sizes. The rod's space begins on the floor below the middle of the opening,
+//! with y = 0 on the wall's face; that of a curtain begins on the rod above its middle.
+
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
 use crate::room::{Opening, Room};
 use crate::shape::{Reshape, curtain, lathe, sphere, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
-/// Two curtains drawn aside on a rod.
+/// Two curtains, drawn aside, on a rod before a window.
 #[derive(Clone, Copy, Debug)]
 pub struct Curtains {
     /// Width of each hanging curtain.
@@ -13,11 +17,11 @@ pub struct Curtains {
     pub beyond: [f32; 2],
 }
 
-/// The rod's distance from the wall.
+/// The rod's distance from the wall, metres: the folds hang before the sill.
 const OUT: f32 = 0.105;
 
 impl Curtains {
-    /// Depth of the space before the wall that they take.
+    /// Depth of the space before the wall that they take, metres.
     pub const DEPTH: f32 = OUT + 0.06;
 
     /// Adds the curtains of a window of `room`.

@@ -1,3 +1,6 @@
+//! A small dining table of wood, round (two in three) or square, 82 to 95 cm across, of class table: a top, four splayed legs and the rails
+//! between them. [`round_top`] also makes the tops of other tables.
+
 use super::{Furniture, board, grained, leg, on};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -13,7 +16,7 @@ pub struct DiningTable {
     pub round: bool,
 }
 
-/// Height of the top's surface.
+/// Height of the top's surface, metres: dining tables are 72 to 76 cm high.
 pub const TOP: f32 = 0.74;
 
 impl DiningTable {

@@ -1,3 +1,10 @@
+//! What fills an opening from room to room: a passage has a lining, casings and a threshold, a door also a leaf with two panels on each
+//! face, its stop, its lever handles and its hinges. All is painted white but for the wooden threshold and steel fittings; doors are of
+//! class door, passages of class other structure. The room gives the sizes and says how far the door is open.
+//!
+//! The space of both begins on the floor at the middle of the opening: x is along the wall, y = 0 on the wall's inner face and positive
+//! into the room.
+
 use super::board;
 use crate::builder::{Builder, Class, Object};
 use crate::materials::Finish;
@@ -13,22 +20,25 @@ pub struct Door {
     pub leaf: Leaf,
 }
 
-/// An open way in its opening: lining, casings, threshold.
+/// An opening without a door: lining, casings, threshold.
 #[derive(Clone, Copy, Debug)]
 pub struct Passage;
 
+/// Thickness of the boards that line the opening, metres.
 const LINING: f32 = 0.03;
-/// The leaf's faces, behind the wall's inner face.
+/// Back and front of the closed leaf as y from the wall's inner face, metres: the leaf is 40 mm thick.
 const LEAF: [f32; 2] = [-0.058, -0.018];
-/// Air around the leaf.
+/// Air between the leaf and the lining, metres.
 const PLAY: f32 = 0.0025;
+/// How far casings stand out from the wall, metres.
+const CASING: f32 = 0.017;
 
 /// Boards around an opening through a wall that is `back` thick, and casings on its faces.
 fn lining(b: &mut Builder, object: &Object, size: Vec2, back: f32, casing_behind: bool) {
     let white = Finish::WhitePaint;
     let (half, top) = (0.5 * size.x, size.y);
     let faces: &[(&str, f32, f32)] =
-        if casing_behind { &[("", -0.002, 0.017), ("_back", -back - 0.017, -back + 0.002)] } else { &[("", -0.002, 0.017)] };
+        if casing_behind { &[("", -0.002, CASING), ("_back", -back - CASING, -back + 0.002)] } else { &[("", -0.002, CASING)] };
     for (name, s) in [("left", -1.0f32), ("right", 1.0)] {
         let span = |from: f32, to: f32| if s < 0.0 { [-to, -from] } else { [from, to] };
         let [x0, x1] = span(half - LINING, half + 0.003);
@@ -49,7 +59,7 @@ fn lining(b: &mut Builder, object: &Object, size: Vec2, back: f32, casing_behind
 }
 
 impl Passage {
-    /// Adds the lining of a way of `room`.
+    /// Adds the passage in an opening of `room`.
     pub fn build(self, b: &mut Builder, room: &Room, opening: &Opening) {
         let pose = super::on(room.wall_pose(opening.wall), Vec3::new(opening.center_x(), 0.0, 0.0), 0.0);
         let passage = b.object("passage", Class::OtherStructure, pose);
@@ -117,7 +127,7 @@ impl Door {
     }
 }
 
-/// Section of the mouldings on a leaf whose face is y = 0.
+/// Section of the mouldings on a leaf whose face is y = 0: [distance from the outer edge, height over the face], metres.
 const MOULDING: [[f32; 2]; 5] = [[0.0, -0.001], [0.002, 0.006], [0.012, 0.009], [0.022, 0.003], [0.024, -0.001]];
 
 /// A lever at `x` on a leaf whose face is y = 0, reaching away from the side that `hand` names.

@@ -1,3 +1,7 @@
+//! Light switches with one or two rockers and sockets with two round pins (CEE 7/3), one to three in a frame, all in frames of the size
+//! that is usual after DIN 49075. White plastic, with pins of black plastic and clips of steel; class other prop. The origin is the middle
+//! of the back, on the wall's face.
+
 use super::form::{all, cylinder, plate_with_holes, to_front};
 use super::{Furniture, board};
 use crate::builder::{Builder, Class, Object};
@@ -7,10 +11,13 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
 
-/// Outside of a frame, between the middles of neighbours in one frame, and the opening of the frame: usual sizes after DIN 49075.
+/// Outer edge of a frame of one, metres: usual after DIN 49075, as are the next two.
 const FRAME: f32 = 0.081;
+/// Between the middles of neighbours in one frame, metres.
 const PITCH: f32 = 0.071;
+/// Edge of a frame's opening, metres.
 const INSERT: f32 = 0.055;
+/// How far a frame stands out from the wall, metres.
 const THICKNESS: f32 = 0.009;
 /// How far rockers are tipped, radians.
 const TIP: f32 = 0.055;
@@ -25,7 +32,7 @@ pub struct Switch {
 /// Sockets on a wall, of the round sort with two pins (CEE 7/3), in one frame; its origin is the middle of its back.
 #[derive(Clone, Copy, Debug)]
 pub struct Socket {
-    /// Beside each other.
+    /// How many, beside each other.
     pub count: usize,
 }
 
@@ -34,7 +41,7 @@ fn places(count: usize) -> impl Iterator<Item = f32> {
     (0..count).map(move |k| PITCH * (k as f32 - 0.5 * (count - 1) as f32))
 }
 
-/// The frame around so many inserts.
+/// Adds the frame around `count` inserts.
 fn frame(b: &mut Builder, object: &Object, count: usize) {
     let half = Vec2::new(0.5 * (FRAME + PITCH * (count - 1) as f32), 0.5 * FRAME);
     let inner = 0.5 * INSERT;
@@ -70,7 +77,7 @@ impl Furniture for Switch {
 /// The insert of a socket: a square face with a round cup in it.
 fn cup() -> Mesh {
     const N: usize = 48;
-    // (radius, depth from the wall); the outermost ring is the square.
+    // [radius, distance from the wall], metres; around the first of them lies the square edge.
     const RINGS: [[f32; 2]; 5] = [[0.0215, THICKNESS], [0.0198, THICKNESS - 0.0012], [0.0195, 0.0015], [0.017, 0.001], [0.0, 0.001]];
     let half = 0.5 * INSERT - 0.0003;
     let point = |i: usize, j: usize| {

@@ -22,7 +22,7 @@ pub fn cylinder(radius: f32, height: f32, n: usize) -> Mesh {
 pub fn vessel(outside: &[[f32; 2]], wall: f32, n: usize) -> Mesh {
     let mut outer = spline(outside, 5);
     let (foot, rim) = (outer[0], outer[outer.len() - 1]);
-    // A curve that leaves its foot at a slant would dip below it first.
+    // A spline that leaves the foot at a slant dips below it first.
     outer.iter_mut().for_each(|p| p.y = p.y.clamp(foot.y, rim.y));
     let mut profile = vec![Vec2::new(0.0, foot.y)];
     profile.extend(&outer);
@@ -83,8 +83,8 @@ pub fn rounded_rectangle(width: f32, depth: f32, radius: f32, steps: usize) -> V
     outline
 }
 
-/// A body whose level sections are the rounded rectangles `rings`, given as [width, depth, corner radius, z]; it is closed at both
-/// ends. They run as the profile of [`lathe`] does: up the outside and, if it is hollow, down the inside.
+/// A body whose horizontal sections are the rounded rectangles `rings`, given as [width, depth, corner radius, z] and closed at both
+/// ends. The rings are in the order of a profile of [`lathe`]: up the outside and, if the body is hollow, down the inside.
 pub fn loft(rings: &[[f32; 4]], steps: usize) -> Mesh {
     let outlines: Vec<Vec<Vec3>> = rings
         .iter()
@@ -111,13 +111,13 @@ pub fn to_front(mesh: Mesh) -> Mesh {
     mesh.turned(Vec3::X, -FRAC_PI_2)
 }
 
-/// A picture of `width` × `height` that faces +y, its texture upright over the unit square for who looks at it.
+/// A picture of `width` × `height` that faces +y, its texture upright over the unit square as seen from the front.
 pub fn picture(width: f32, height: f32) -> Mesh {
     let corner = |i: usize, j: usize| Vec2::new(i as f32, j as f32);
     grid(1, 1, |i, j| Vec3::new(width * (0.5 - corner(i, j).x), 0.0, height * (corner(i, j).y - 0.5)), corner)
 }
 
-/// All in one mesh.
+/// Joins meshes into one.
 pub fn all(meshes: impl IntoIterator<Item = Mesh>) -> Mesh {
     meshes.into_iter().fold(Mesh::default(), Reshape::with)
 }
@@ -138,7 +138,7 @@ pub fn plate_with_holes(min: Vec2, max: Vec2, thickness: f32, chamfer: f32, hole
     };
     let (xs, ys) = (cuts(min.x, max.x, [0, 1]), cuts(min.y, max.y, [2, 3]));
     let solid = |i: usize, j: usize| {
-        // Neighbours below zero wrap around to a number that is out of range too.
+        // An index below zero has wrapped around to a large number and is out of range too.
         if i >= xs.len() - 1 || j >= ys.len() - 1 {
             return false;
         }

@@ -1,4 +1,5 @@
-//! What cabinets are made of: carcasses, fronts, handles and feet.
+//! Parts that cabinets share: carcasses, drawer and door fronts, handles and feet. Fronts lie in the xz plane and face +y; sizes are those
+//! of common cabinets, and the caller gives thicknesses and finishes.
 
 use super::form::{all, rod, turned};
 use super::{board, grained, leg, on};
@@ -9,6 +10,8 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::FRAC_PI_2;
 
+/// Air between boards that meet, and between feet and what they carry, metres: it keeps two faces out of one plane.
+const GAP: f32 = 0.0002;
 /// How a drawer or door is opened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Handle {
@@ -23,10 +26,10 @@ pub enum Handle {
 }
 
 impl Handle {
-    /// How far handles stand out before the front.
+    /// How far handles stand out from the front at most, metres.
     pub const DEPTH: f32 = 0.032;
 
-    /// One of many.
+    /// A random kind; a third are bars, and knobs may be of wood.
     pub fn random(rng: &mut Rng) -> Self {
         let metal = [Finish::Brass, Finish::BlackMetal, Finish::Steel][rng.below(3)];
         [Self::Knob(metal), Self::Knob(Finish::Wood), Self::Bar(metal), Self::Bar(metal), Self::Cup(metal), Self::None][rng.below(6)]
@@ -75,7 +78,7 @@ impl Carcass {
     /// Adds its boards.
     pub fn add(&self, b: &mut Builder, object: &Object, rng: &mut Rng) {
         let ([x0, x1], [y0, y1], [z0, z1], t) = (self.x, self.y, self.z, self.thick);
-        let e = 0.0002;
+        let e = GAP;
         let boards = [
             ("bottom", [x0, y0, z0], [x1, y1, z0 + t]),
             ("top", [x0, y0, z1 - t], [x1, y1, z1]),
@@ -107,7 +110,7 @@ pub enum Feet {
 }
 
 impl Feet {
-    /// One of many.
+    /// A random kind.
     pub fn random(rng: &mut Rng) -> Self {
         [Self::Round(Finish::Wood), Self::Round(Finish::BlackMetal), Self::Runners(Finish::BlackMetal), Self::Plinth][rng.below(4)]
     }
@@ -120,7 +123,7 @@ impl Feet {
                     [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)].into_iter().enumerate()
                 {
                     let at = on(DAffine3::IDENTITY, (s * (half - 0.05)).extend(0.0), 0.0);
-                    b.part_at(object, &format!("leg_{}", i + 1), leg(height - 0.0002, [0.011, 0.018], s * 0.025), at, finish);
+                    b.part_at(object, &format!("leg_{}", i + 1), leg(height - GAP, [0.011, 0.018], s * 0.025), at, finish);
                 }
             }
             Self::Runners(finish) => {
@@ -129,7 +132,7 @@ impl Feet {
                     let bar = |min: [f32; 3], max: [f32; 3]| board([x - 0.0125, min[1], min[2]], [x + 0.0125, max[1], max[2]], 0.002);
                     let parts = [
                         bar([0.0, -y, 0.0], [0.0, y, 0.025]),
-                        bar([0.0, -y, height - 0.0252], [0.0, y, height - 0.0002]),
+                        bar([0.0, -y, height - 0.0252], [0.0, y, height - GAP]),
                         bar([0.0, -y, 0.0252], [0.0, -y + 0.025, height - 0.0254]),
                         bar([0.0, y - 0.025, 0.0252], [0.0, y, height - 0.0254]),
                     ];
@@ -137,14 +140,14 @@ impl Feet {
                 }
             }
             Self::Plinth => {
-                let mesh = rounded_box(Vec3::new(2.0 * half.x - 0.03, 2.0 * half.y - 0.05, height - 0.0002), 0.001, 1);
+                let mesh = rounded_box(Vec3::new(2.0 * half.x - 0.03, 2.0 * half.y - 0.05, height - GAP), 0.001, 1);
                 b.part(object, "plinth", mesh.moved(Vec3::new(0.0, -0.015, 0.5 * height - 0.0001)), body);
             }
         }
     }
 }
 
-/// How far a framed front's panel lies behind its frame.
+/// How far a framed front's panel lies behind its frame, metres.
 const RECESS: f32 = 0.007;
 
 /// True when a front has a panel: small ones are plain even where `framed` ones are wanted.

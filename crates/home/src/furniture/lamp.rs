@@ -1,3 +1,7 @@
+//! Lamps with a bulb in a shade or in an opal globe, of class lamp: floor lamps 148 to 162 cm high on a pole or a tripod, table lamps with
+//! a turned foot or as a globe, and pendants of five shapes that hang 60 to 110 cm down. Cloth shades are drums, open at both ends. The
+//! origin of a pendant is on the ceiling, that of the others on what they stand on.
+
 use super::{CONTACT, Furniture, standing};
 use crate::builder::{Builder, Class, Object};
 use crate::materials::Finish;
@@ -5,9 +9,10 @@ use crate::shape::{Reshape, lathe, rounded_loop, sphere, spline, tube};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
+/// Half the thickness of a cloth shade, metres: it reaches this far out beyond its radius.
+const CLOTH: f32 = 0.0012;
 /// A drum shade, open at both ends: a thin cloth wall from z = 0 to `height`.
 fn drum(bottom: f32, top: f32, height: f32) -> Mesh {
-    const CLOTH: f32 = 0.0012;
     let profile = [
         [bottom, 0.0],
         [bottom + CLOTH, 0.001],
@@ -30,7 +35,7 @@ pub(super) fn carrier(radius: f32, z: f32) -> Mesh {
     mesh.moved(Vec3::new(0.0, 0.0, z))
 }
 
-/// A bulb whose socket stands at `socket`, in a cloth drum of these radii and heights, below and above.
+/// A bulb, whose socket stands at the height `socket`, in a cloth drum: `radii` and `z` are those of its lower and its upper rim.
 fn shaded_bulb(b: &mut Builder, lamp: &Object, radii: [f32; 2], z: [f32; 2], socket: f32) {
     let holder = lathe(&[[0.0, 0.0], [0.02, 0.0], [0.02, 0.05], [0.0, 0.05]].map(Vec2::from_array), 20);
     b.part(lamp, "socket", holder.moved(Vec3::new(0.0, 0.0, socket - 0.0002)), Finish::BlackMetal);
@@ -50,7 +55,7 @@ pub struct FloorLamp {
     pub shade: f32,
     /// Radius of the shade's upper rim over that of the lower one.
     pub taper: f32,
-    /// On three wooden legs instead of a pole.
+    /// Stands on three wooden legs instead of a pole.
     pub tripod: bool,
 }
 
@@ -138,7 +143,7 @@ impl TableLamp {
     }
 
     fn shaded(b: &mut Builder, lamp: &Object, [height, radius, taper]: [f32; 3], rng: &mut Rng) {
-        // A bottle, a ball or a candlestick: radii over that of the shade at shares of the height.
+        // A bottle, a ball or a candlestick: [radius over the shade's radius, share of the height].
         let shapes = [
             [[0.34, 0.0], [0.46, 0.16], [0.44, 0.5], [0.16, 0.78], [0.1, 0.96]],
             [[0.36, 0.0], [0.5, 0.3], [0.42, 0.64], [0.13, 0.84], [0.1, 0.96]],
@@ -167,7 +172,7 @@ impl Furniture for TableLamp {
     fn size(&self) -> Vec3 {
         match *self {
             Self::Globe(r) => Vec3::new(2.0 * r, 2.0 * r, 0.06 + 2.0 * r),
-            Self::Shaded(height, r, _) => Vec3::new(2.0 * r + 0.0024, 2.0 * r + 0.0024, height - 0.03 + shade_height(r)),
+            Self::Shaded(height, r, _) => Vec3::new(2.0 * r + 2.0 * CLOTH, 2.0 * r + 2.0 * CLOTH, height - 0.03 + shade_height(r)),
         }
     }
 
@@ -189,7 +194,7 @@ pub struct Pendant {
     pub radius: f32,
     /// What hides the bulb.
     pub shade: PendantShade,
-    /// Of shade and canopy.
+    /// What shade and canopy are made of.
     pub finish: Finish,
 }
 
@@ -209,7 +214,7 @@ pub enum PendantShade {
 }
 
 impl Pendant {
-    /// The outside of the shade from rim to crown, over its radius.
+    /// The outside of the shade from rim to crown as a profile [radius, height], both divided by its radius.
     fn outline(&self) -> Vec<[f32; 2]> {
         match self.shade {
             PendantShade::Cone => vec![[1.0, 0.0], [0.2, 0.68], [0.17, 0.72], [0.17, 0.85], [0.0, 0.86]],
@@ -226,6 +231,7 @@ impl Pendant {
 
     /// A shell of sheet metal around the bulb; returns the height of its crown above its rim.
     fn metal(&self, b: &mut Builder, lamp: &Object) -> f32 {
+        /// Thickness of the sheet metal, metres.
         const SHEET: f32 = 0.002;
         let rim = -self.drop;
         let outside: Vec<Vec2> = self.outline().into_iter().map(|p| self.radius * Vec2::from_array(p) + Vec2::new(0.0, rim)).collect();
@@ -255,7 +261,7 @@ impl Furniture for Pendant {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(2.0 * self.radius + 0.0024, 2.0 * self.radius + 0.0024, self.drop)
+        Vec3::new(2.0 * self.radius + 2.0 * CLOTH, 2.0 * self.radius + 2.0 * CLOTH, self.drop)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {

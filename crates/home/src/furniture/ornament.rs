@@ -1,4 +1,6 @@
-//! Small things on tables, shelves and sills.
+//! Small things on tables, shelves and sills: vases 14 to 32 cm high, every second with branches, bowls, mugs, magazines, stacks of books,
+//! candlesticks and trays; and a basket with a blanket that stands on the floor. They are of class other prop, but for magazines (paper)
+//! and books. Most are turned forms, and each begins [`CONTACT`] above what carries it.
 
 use super::bookshelf::pile_of_books;
 use super::form::all;
@@ -13,7 +15,7 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
 
-/// A turned vase, with dry branches if wished.
+/// A turned vase, with or without branches.
 #[derive(Clone, Copy, Debug)]
 pub struct Vase {
     /// Height without branches.
@@ -182,7 +184,7 @@ impl Furniture for Magazines {
         let pile = b.object("magazines", Class::Paper, pose);
         for i in 0..self.count {
             let mut mesh = rounded_box(Vec3::new(0.21, 0.28, 0.005), 0.001, 1);
-            // Each shows the plain part of a book jacket.
+            // Each has the plain part of a book jacket as its cover.
             let cell = rng.below(4 * BOOK_COLUMNS);
             let corner = Vec2::new((cell % BOOK_COLUMNS) as f32 + 0.62, (cell / BOOK_COLUMNS) as f32 + 0.1);
             for (uv, p) in mesh.uvs.iter_mut().zip(&mesh.positions) {
@@ -292,7 +294,7 @@ pub struct Tray {
 }
 
 impl Tray {
-    /// Height of the surface that things stand on.
+    /// Height of the surface that things stand on, metres; the rim is 2 cm higher.
     pub const TOP: f32 = 0.009;
 }
 
@@ -353,7 +355,7 @@ impl Furniture for Basket {
         b.part(&basket, "weave", lathe(&profile, 48).moved(Vec3::new(0.0, 0.0, CONTACT)), Finish::Wicker);
         let cloth = crate::shape::padded_box(Vec3::new(1.22 * r, 1.0 * r, 0.20), 0.05, 0.03).uv_moved(Vec2::splat(rng.next_f32()));
         let blanket = b.object("blanket", Class::OtherProp, pose);
-        // What is folded below fills the basket.
+        // Folds below the uppermost fill the basket.
         let below = crate::shape::padded_box(Vec3::new(1.2 * r, 1.0 * r, 0.15), 0.05, 0.01).moved(Vec3::new(0.0, 0.0, 0.098));
         b.part(&blanket, "folds", below, Finish::Accent(1));
         b.part(&blanket, "cloth", cloth.turned(Vec3::X, 0.1).turned(Vec3::Z, 0.5).moved(Vec3::new(0.0, 0.0, 0.265)), Finish::Accent(1));

@@ -1,4 +1,4 @@
-//! What holds of the pieces of every object: none hangs in the air beside the others.
+//! Checks that no piece of an object hangs in the air beside the others.
 //!
 //! A mesh may have many pieces that share no vertex: the rods of a rack, the keys of a keyboard. Each has to touch, by way of others or
 //! not, what carries its object: the floor, the wall or the ceiling. Where an object as a whole stands on nothing, that is its lowest
@@ -19,12 +19,13 @@ use rayon::prelude::*;
 use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::TAU;
 
+/// Variants of each family that are built.
 const SEEDS: usize = 8;
 /// Variants of a family are built this far apart, metres.
 const APART: f64 = 100.0;
 /// What is nearer than this is joined, metres: the gaps around fronts are 3 mm wide, those behind a refrigerator's doors 4 mm.
 const JOINT: f32 = 0.0042;
-/// The same where leaves grow from shoots: they are set along a straight line, and the shoot is bent.
+/// The same for leaves, metres: they are set along a straight line, while the shoot that they grow from is bent.
 const LEAF: f32 = 0.025;
 /// Families of such plants.
 const LEAFY: [&str; 3] = ["herbs", "flower_vase", "hanging_plant"];
@@ -62,7 +63,8 @@ pub fn triangles(mesh: &Mesh) -> Vec<Triangle> {
     (0..mesh.triangles.len()).map(|t| mesh.corners(t)).collect()
 }
 
-/// True when `p` lies within a closed surface: it fills all directions and not none, counted by sides.
+/// True when `p` lies within a closed surface, which then fills the whole solid angle of 4π around it; seen from outside, sides that face
+/// `p` and sides that face away cancel to zero.
 ///
 /// Solid angle of a triangle: Van Oosterom & Strackee 1983.
 pub fn encloses(surface: &[Triangle], p: Vec3) -> bool {
@@ -78,7 +80,7 @@ fn nothing() -> Builder {
     Builder::new(Materials::new(Palette::all()[0], LightConfig::default(), Rng::new(1)))
 }
 
-/// Which of many things are joined.
+/// Sets of joined things, as a union-find.
 struct Groups(Vec<usize>);
 
 impl Groups {
@@ -150,7 +152,7 @@ fn are_near(s: &Triangle, t: &Triangle, reach: f32) -> bool {
         || triangles_cut(s, t)
 }
 
-/// Distance of a point from a triangle that it lies over; else infinity.
+/// Distance of a point from a triangle if it lies straight above or below it; infinity otherwise.
 fn above(p: Vec3, [a, b, c]: &Triangle) -> f32 {
     let normal = (*b - *a).cross(*c - *a).normalize_or_zero();
     let left_of = |from: Vec3, to: Vec3| (to - from).cross(p - from).dot(normal) >= 0.0;
@@ -158,13 +160,13 @@ fn above(p: Vec3, [a, b, c]: &Triangle) -> f32 {
     if over { (p - *a).dot(normal).abs() } else { f32::INFINITY }
 }
 
-/// Distance of two straight pieces. Ericson, "Real-Time Collision Detection", section 5.1.9.
+/// Distance between two line segments. Ericson, "Real-Time Collision Detection", section 5.1.9.
 fn between([p, q]: [Vec3; 2], [r, s]: [Vec3; 2]) -> f32 {
     let (d, e, w) = (q - p, s - r, p - r);
     let (dd, ee, de, dw, ew) = (d.dot(d), e.dot(e), d.dot(e), d.dot(w), e.dot(w));
     let slant = dd * ee - de * de;
     let share = |part: f32, whole: f32| if whole > 1e-16 { (part / whole).clamp(0.0, 1.0) } else { 0.0 };
-    // The best place on the first for the whole second, then on the second for that, then on the first again.
+    // The point of the first segment nearest to the line of the second, then the point of the second nearest to that, then the first again.
     let first = share(de * ew - dw * ee, slant);
     let second = share(de * first + ew, ee);
     let first = share(de * second - dw, dd);

@@ -1,3 +1,6 @@
+//! Potted plants in ceramic pots, of class other prop: a rubber tree for corners with three stems, the tallest of 85 to 110 cm, and 13
+//! leaves on each, and a small rosette of 16 leaves for shelves and sills.
+
 use super::{CONTACT, Furniture};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -5,6 +8,10 @@ use crate::shape::{Reshape, disk, lathe, leaf, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
 
+/// How far the soil lies below the pot's rim, metres.
+const SOIL: f32 = 0.03;
+/// Angle from one leaf to the next around a stem, radians: the golden angle, by which leaves shade each other least.
+const GOLDEN_ANGLE: f32 = 2.4;
 /// A potted plant: stems with large leaves, or a small rosette.
 #[derive(Clone, Copy, Debug)]
 pub struct Plant {
@@ -42,7 +49,7 @@ impl Plant {
     }
 
     fn stems(&self, b: &mut Builder, plant: &crate::builder::Object, rng: &mut Rng) {
-        let soil = self.pot - 0.03;
+        let soil = self.pot - SOIL;
         for s in 0..3 {
             let out = Vec2::from_angle(s as f32 * TAU / 3.0 + rng.range(-0.4, 0.4));
             let height = self.stem * [1.0, 0.8, 0.6][s] * rng.range(0.95, 1.05);
@@ -58,8 +65,8 @@ impl Plant {
             let mut turn = rng.range(0.0, TAU);
             for k in 0..self.leaves {
                 let t = 0.22 + 0.78 * k as f32 / (self.leaves - 1) as f32;
-                // Leaves follow each other by the golden angle, steeper towards the tip.
-                turn += 2.4 + rng.range(-0.25, 0.25);
+                // Leaves are steeper towards the tip.
+                turn += GOLDEN_ANGLE + rng.range(-0.25, 0.25);
                 let rise = -0.25 + 1.25 * t + rng.range(-0.15, 0.15);
                 let length = self.leaf * rng.range(0.8, 1.1) * (1.0 - 0.35 * t * t);
                 let stalk = 0.05;
@@ -82,14 +89,14 @@ impl Plant {
     }
 
     fn rosette(&self, b: &mut Builder, plant: &crate::builder::Object, rng: &mut Rng) {
-        let soil = Vec3::new(0.0, 0.0, self.pot - 0.03);
+        let soil = Vec3::new(0.0, 0.0, self.pot - SOIL);
         let mut all: Option<enfilade_geometry::Mesh> = None;
         for k in 0..self.leaves {
             let t = k as f32 / self.leaves as f32;
             let length = self.leaf * rng.range(0.75, 1.05) * (1.0 - 0.3 * t);
             let blade = leaf(length, 0.26 * length, 0.9 - 0.5 * t)
                 .turned(Vec3::Y, -(0.55 + 0.8 * t))
-                .turned(Vec3::Z, 2.4 * k as f32 + rng.range(-0.2, 0.2))
+                .turned(Vec3::Z, GOLDEN_ANGLE * k as f32 + rng.range(-0.2, 0.2))
                 .moved(soil);
             all = Some(all.map_or_else(|| blade.clone(), |all| all.with(blade.clone())));
         }
@@ -130,8 +137,8 @@ impl Furniture for Plant {
             lathe(&profile.map(Vec2::from_array), 48).moved(Vec3::new(0.0, 0.0, CONTACT)),
             Finish::Ceramic(rng.below(2) as u8),
         );
-        let soil_radius = (r - wall) - 0.1 * r * (0.03 / (0.4 * h)).min(1.0);
-        b.part(&plant, "soil", disk(soil_radius, 40).moved(Vec3::new(0.0, 0.0, h - 0.03)), Finish::Soil);
+        let soil_radius = (r - wall) - 0.1 * r * (SOIL / (0.4 * h)).min(1.0);
+        b.part(&plant, "soil", disk(soil_radius, 40).moved(Vec3::new(0.0, 0.0, h - SOIL)), Finish::Soil);
         if self.stem > 0.0 {
             self.stems(b, &plant, rng);
         } else {

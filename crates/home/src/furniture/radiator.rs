@@ -1,3 +1,6 @@
+//! A panel radiator with pressed ribs, 60 to 160 cm wide and 35 to 60 cm high, with its grille, brackets, pipe and valve; all painted
+//! white, class other structure. Its back, at negative y, is towards the wall.
+
 use super::Furniture;
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -14,7 +17,10 @@ pub struct Radiator {
     pub height: f32,
 }
 
+/// Height of the panel's lower edge above the floor, metres: air flows in from below.
 const FOOT: f32 = 0.12;
+/// y of the middle of panel, pipe and valve, metres: the brackets behind reach to the wall.
+const MIDDLE: f32 = 0.01;
 
 impl Furniture for Radiator {
     fn random(rng: &mut Rng) -> Self {
@@ -28,7 +34,7 @@ impl Furniture for Radiator {
     fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
         let radiator = b.object("radiator", Class::OtherStructure, pose);
         let (w, h, white) = (self.width, self.height, Finish::WhitePaint);
-        let body = rounded_box(Vec3::new(w, 0.055, h), 0.008, 2).moved(Vec3::new(0.0, 0.01, FOOT + 0.5 * h));
+        let body = rounded_box(Vec3::new(w, 0.055, h), 0.008, 2).moved(Vec3::new(0.0, MIDDLE, FOOT + 0.5 * h));
         b.part(&radiator, "panel", body, white);
         // Pressed ribs stand out from the panel's front.
         let ribs = (w / 0.045) as usize;
@@ -55,13 +61,13 @@ impl Furniture for Radiator {
         b.part(&radiator, "grille", grille, white);
         let x = 0.5 * w;
         let pipe = [
-            Vec3::new(x - 0.01, 0.01, FOOT + 0.06),
-            Vec3::new(x + 0.03, 0.01, FOOT + 0.06),
-            Vec3::new(x + 0.036, 0.01, FOOT + 0.054),
-            Vec3::new(x + 0.036, 0.01, -0.001),
+            Vec3::new(x - 0.01, MIDDLE, FOOT + 0.06),
+            Vec3::new(x + 0.03, MIDDLE, FOOT + 0.06),
+            Vec3::new(x + 0.036, MIDDLE, FOOT + 0.054),
+            Vec3::new(x + 0.036, MIDDLE, -0.001),
         ];
         b.part(&radiator, "pipe", tube(&pipe, 0.008, 12), white);
-        let valve = tube(&[Vec3::new(x - 0.005, 0.01, FOOT + h - 0.06), Vec3::new(x + 0.06, 0.01, FOOT + h - 0.06)], 0.019, 18);
+        let valve = tube(&[Vec3::new(x - 0.005, MIDDLE, FOOT + h - 0.06), Vec3::new(x + 0.06, MIDDLE, FOOT + h - 0.06)], 0.019, 18);
         b.part(&radiator, "valve", valve, Finish::WhitePlastic);
         for (name, s) in [("bracket_left", -1.0), ("bracket_right", 1.0)] {
             let arm = rounded_box(Vec3::new(0.03, 0.035, 0.05), 0.003, 1).moved(Vec3::new(s * 0.32 * w, -0.033, FOOT + 0.75 * h));

@@ -1,3 +1,6 @@
+//! A rectangular woollen rug of 160 to 260 × 110 to 150 cm, class floor mat, its long side along x. Its picture is stretched over the whole
+//! of it, and other furniture stands on it at [`Rug::TOP`].
+
 use super::{CONTACT, Furniture};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -13,7 +16,7 @@ pub struct Rug {
 }
 
 impl Rug {
-    /// Height of its surface above the floor.
+    /// Height of its surface above the floor, metres.
     pub const TOP: f32 = 0.0105;
 }
 

@@ -1,3 +1,6 @@
+//! A small round table beside a sofa, 40 to 46 cm across and 48 to 54 cm high, class table: a wooden top on a foot of black metal or on
+//! three wooden legs.
+
 use super::dining_table::round_top;
 use super::{Furniture, grained, standing};
 use crate::builder::{Builder, Class};

@@ -1,3 +1,7 @@
+//! A sofa of two or three seats on wooden legs, 57 to 64 cm high at the arms, with loose seat and back cushions (class sofa, one object),
+//! two to four scatter cushions (class pillow) and, two times in three, a knitted throw over one arm (class other prop). The seats are 82
+//! to 92 cm wide for two and 62 to 68 cm for three, an arm 13 to 20 cm.
+
 use super::{CONTACT, Furniture, leg, on};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -5,7 +9,7 @@ use crate::shape::{Reshape, grid, padded_box, pillow, rounded_box, rounded_loop,
 use enfilade_math::{DAffine3, DVec3, Rng, Vec2, Vec3};
 use std::f32::consts::PI;
 
-/// A sofa with loose seat and back cushions, scatter cushions and, if wished, a throw over one arm.
+/// A sofa with loose seat and back cushions, scatter cushions and perhaps a throw over one arm.
 #[derive(Clone, Copy, Debug)]
 pub struct Sofa {
     /// Places to sit.
@@ -22,11 +26,18 @@ pub struct Sofa {
     pub throw: Option<f32>,
 }
 
+/// Depth from the back to the front of the arms, metres.
 const DEPTH: f32 = 0.92;
+/// Height of the legs, metres.
 const LEG: f32 = 0.13;
+/// Height of the seat where the cushions are sewn, metres; in their middle they swell 2 cm above it.
 const SEAT: f32 = 0.43;
+/// Height of the back, metres: its frame ends 6 cm below, its cushions stand out above.
 const BACK: f32 = 0.80;
+/// Thickness of the frame behind the back cushions, metres.
 const BACK_FRAME: f32 = 0.17;
+/// Height of the upholstered base between legs and seat cushions, metres.
+const BASE: f32 = 0.14;
 
 impl Sofa {
     fn inner_width(&self) -> f32 {
@@ -37,8 +48,8 @@ impl Sofa {
         let (cloth, inner) = (Finish::SofaCloth, self.inner_width());
         let front = 0.5 * DEPTH;
         let base_depth = DEPTH - BACK_FRAME - 0.012;
-        let base = rounded_box(Vec3::new(inner - 0.004, base_depth, 0.14), 0.02, 2);
-        b.part(sofa, "base", base.moved(Vec3::new(0.0, front - 0.01 - 0.5 * base_depth, LEG + 0.07)), cloth);
+        let base = rounded_box(Vec3::new(inner - 0.004, base_depth, BASE), 0.02, 2);
+        b.part(sofa, "base", base.moved(Vec3::new(0.0, front - 0.01 - 0.5 * base_depth, LEG + 0.5 * BASE)), cloth);
         let back = rounded_box(Vec3::new(inner - 0.004, BACK_FRAME, BACK - LEG - 0.06), 0.045, 3);
         b.part(sofa, "back", back.moved(Vec3::new(0.0, 0.5 * BACK_FRAME - front, 0.5 * (BACK - 0.06 + LEG))), cloth);
         for (name, side) in [("arm_left", -1.0), ("arm_right", 1.0)] {
@@ -56,14 +67,14 @@ impl Sofa {
     fn cushions(&self, b: &mut Builder, sofa: &crate::builder::Object, rng: &mut Rng) {
         let cloth = Finish::SofaCloth;
         let depth = DEPTH - BACK_FRAME - 0.004;
-        let (width, thickness) = (self.seat_width - 0.006, SEAT - LEG - 0.14 - 0.012);
+        let (width, thickness) = (self.seat_width - 0.006, SEAT - LEG - BASE - 0.012);
         for i in 0..self.seats {
             let x = (i as f32 + 0.5) * self.seat_width - 0.5 * self.inner_width();
             let swell = rng.range(0.018, 0.026);
             let seat = padded_box(Vec3::new(width, depth, thickness), 0.035, swell)
                 .with(piping(Vec2::new(width, depth), 0.5 * thickness - 0.026))
                 .uv_moved(Vec2::splat(rng.next_f32()));
-            let at = Vec3::new(x, 0.5 * DEPTH - 0.5 * depth + 0.004, LEG + 0.14 + CONTACT + 0.5 * thickness);
+            let at = Vec3::new(x, 0.5 * DEPTH - 0.5 * depth + 0.004, LEG + BASE + CONTACT + 0.5 * thickness);
             b.part(sofa, &format!("seat_cushion_{}", i + 1), seat.moved(at), cloth);
             let (height, fat) = (rng.range(0.41, 0.425), 0.15);
             let lean = rng.range(0.17, 0.21);
@@ -99,6 +110,7 @@ impl Sofa {
     }
 
     fn drape(&self, b: &mut Builder, pose: DAffine3, side: f32, rng: &mut Rng) {
+        /// Air between the throw and the arm, metres: the knit must not cut into the cloth below.
         const GAP: f32 = 0.006;
         let (nu, nv) = (36, 24);
         let half = 0.5 * self.arm + GAP;

@@ -188,7 +188,7 @@ pub fn over_rod(width: f32, front: f32, back: f32, radius: f32, thickness: f32, 
         let hang = (front - s).max(s - front - arc).max(0.0);
         let loose = (hang / 0.3).min(1.0);
         let wave = loose * (0.006 * (1.0 + (TAU * q.x / (0.45 * width) + phase).sin()) + wrinkles.at(q));
-        // x runs against the cloth's own, so that the outer side faces outward.
+        // x is reversed, so that the outer side of the cloth faces outward.
         let x = -q.x * (1.0 - 0.05 * loose);
         if s < front {
             Vec3::new(x, r + wave, s - front)
@@ -215,7 +215,7 @@ mod tests {
             for j in -40..=40 {
                 let q = Vec2::new(0.03, 0.034) * Vec2::new(i as f32, j as f32);
                 let p = drape.point(q, 0.0);
-                // Either above the top, or beside it; the edge is rounded.
+                // Cloth is above the top or beside it, at least the radius of the edge away.
                 let over = (p.truncate().abs() - (drape.half - drape.round)).max(Vec2::ZERO);
                 let edge = over.length().hypot((p.z - drape.top + drape.round).max(0.0));
                 assert!(p.z <= drape.top + 1e-6 && edge >= drape.round - 1e-5, "{q} lies at {p}");

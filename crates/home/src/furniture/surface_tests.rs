@@ -1,4 +1,4 @@
-//! What holds of every [`Surface`] of every family.
+//! Checks on every [`Surface`] that any family offers: the room above it is free, and a part carries it.
 
 use super::{FAMILIES, Surface};
 use crate::builder::{Builder, pose};
@@ -8,6 +8,7 @@ use crate::palette::Palette;
 use enfilade_math::{Rng, Vec3, place};
 use enfilade_scene::Scene;
 
+/// Variants of each family that are built.
 const SEEDS: u64 = 5;
 
 /// A variant that has surfaces, built at the origin.

@@ -1,3 +1,6 @@
+//! A low cabinet of wood, 155 to 180 cm wide, with two doors of wood or white lacquer and a player in the open compartment between them
+//! (class cabinet; the player is other prop), and a television on it (class television) whose 16:9 screen is 98 to 115 cm wide.
+
 use super::{CONTACT, Furniture, board, grained, leg, on};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -15,10 +18,16 @@ pub struct TelevisionBench {
     pub white: bool,
 }
 
+/// Depth of the cabinet, metres.
 const DEPTH: f32 = 0.40;
+/// Height of the legs, metres.
 const LEG: f32 = 0.14;
-/// Height of the cabinet's top.
+/// Height of the cabinet's top, metres: television cabinets are 40 to 60 cm high.
 const TOP: f32 = 0.50;
+/// Thickness of the boards, metres.
+const BOARD: f32 = 0.022;
+/// Where uprights meet the boards below and above them, metres from the outer face: the board and air that keeps faces out of one plane.
+const INNER: f32 = 0.0222;
 
 impl TelevisionBench {
     /// Height of the surface that things stand on.
@@ -28,13 +37,13 @@ impl TelevisionBench {
         let cabinet = b.object("tv_bench", Class::Cabinet, pose);
         let (half, wood) = (0.5 * self.width, Finish::Wood);
         let (back, front) = (-0.5 * DEPTH, 0.5 * DEPTH);
-        b.part(&cabinet, "top", grained(board([-half, back, TOP - 0.022], [half, front, TOP], 0.002), rng), wood);
-        b.part(&cabinet, "bottom", grained(board([-half, back, LEG], [half, front, LEG + 0.022], 0.002), rng), wood);
-        let side = |x: f32| board([x - 0.011, back, LEG + 0.0222], [x + 0.011, front, TOP - 0.0222], 0.002);
-        b.part(&cabinet, "side_left", grained(side(-half + 0.011), rng), wood);
-        b.part(&cabinet, "side_right", grained(side(half - 0.011), rng), wood);
-        let inner = self.width - 0.044;
-        let rear = board([-0.5 * inner, back + 0.002, LEG + 0.0222], [0.5 * inner, back + 0.012, TOP - 0.0222], 0.001);
+        b.part(&cabinet, "top", grained(board([-half, back, TOP - BOARD], [half, front, TOP], 0.002), rng), wood);
+        b.part(&cabinet, "bottom", grained(board([-half, back, LEG], [half, front, LEG + BOARD], 0.002), rng), wood);
+        let side = |x: f32| board([x - 0.5 * BOARD, back, LEG + INNER], [x + 0.5 * BOARD, front, TOP - INNER], 0.002);
+        b.part(&cabinet, "side_left", grained(side(-half + 0.5 * BOARD), rng), wood);
+        b.part(&cabinet, "side_right", grained(side(half - 0.5 * BOARD), rng), wood);
+        let inner = self.width - 2.0 * BOARD;
+        let rear = board([-0.5 * inner, back + 0.002, LEG + INNER], [0.5 * inner, back + 0.012, TOP - INNER], 0.001);
         b.part(&cabinet, "rear", rear, wood);
         let fronts = if self.white { Finish::WhiteLacquer } else { wood };
         // Two doors, and an open compartment between them for the player.
@@ -51,7 +60,7 @@ impl TelevisionBench {
             let at = Vec3::new(x - x.signum() * (0.5 * third - 0.045), front - 0.0012, TOP - 0.075);
             b.part(&cabinet, &format!("knob_{i}"), knob.moved(at), Finish::Brass);
             let wall = 0.5 * third * x.signum();
-            let divider = board([wall - 0.009, back + 0.0125, LEG + 0.0222], [wall + 0.009, front - 0.002, TOP - 0.0222], 0.0015);
+            let divider = board([wall - 0.009, back + 0.0125, LEG + INNER], [wall + 0.009, front - 0.002, TOP - INNER], 0.0015);
             b.part(&cabinet, &format!("divider_{i}"), grained(divider, rng), wood);
         }
         let shelf = board([-0.5 * third + 0.0092, back + 0.0125, 0.31], [0.5 * third - 0.0092, front - 0.02, 0.326], 0.0015);

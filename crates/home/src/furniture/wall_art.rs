@@ -1,3 +1,7 @@
+//! Framed pictures, 30 to 90 cm on the short side (class picture), and round mirrors, 44 to 80 cm across (class mirror). A picture is a
+//! frame of wood or black metal, a white mount and a print of a painting of its own. The origin is the middle of the back, on the wall's
+//! face; they face +y.
+
 use super::{Furniture, grained};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -17,7 +21,7 @@ pub struct PictureOnWall {
     pub mount: f32,
     /// What it shows.
     pub style: PaintingStyle,
-    /// In these colours.
+    /// The colours of what it shows.
     pub palette: Palette,
     /// Frame of black metal instead of wood.
     pub black: bool,
@@ -33,7 +37,7 @@ pub fn printed(b: &mut Builder, name: &str, style: PaintingStyle, palette: &Pale
 /// A rectangle in the xz plane at depth `y`, facing +y, its texture upright over the unit square.
 fn sheet(size: Vec2, y: f32) -> Mesh {
     let corner = |i: usize, j: usize| Vec2::new(i as f32, j as f32);
-    // The wall's x axis points left for the viewer, so that u, which reads to the right, runs against it.
+    // The wall's x axis points to the viewer's left and u to the right: u runs against x.
     grid(1, 1, |i, j| Vec3::new(size.x * (0.5 - corner(i, j).x), y, size.y * (corner(i, j).y - 0.5)), corner)
 }
 

@@ -1,3 +1,7 @@
+//! A window in its opening, of class window: a frame with as many sashes beside each other as the room asks for, their panes and handles,
+//! and a sill. Frames and sashes are painted white, handles are of steel, the sill is of stone. The origin is the middle of the opening on
+//! the wall's inner face, with y positive into the room.
+
 use super::{board, leg};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -8,23 +12,27 @@ use enfilade_math::{Vec2, Vec3};
 /// The window in its opening: frame, sashes with panes, handles, sill.
 #[derive(Clone, Copy, Debug)]
 pub struct Window {
-    /// Sashes beside each other.
+    /// How many sashes it has, beside each other.
     pub sashes: usize,
 }
 
-/// Where the panes are, behind the wall's inner face.
+/// y of the panes, metres: the window sits this far behind the wall's inner face.
 const PANE: f32 = -0.16;
+/// Width of the fixed frame as seen from the room, metres.
 const FRAME: f32 = 0.055;
+/// Width of a sash's frame around its pane, metres.
 const SASH: f32 = 0.06;
+/// Width of the post between two sashes, metres.
 const MULLION: f32 = 0.06;
-/// How far frames reach into the wall, and sashes over the frame.
+/// How far the frame reaches into the wall, metres, so that no gap is left.
 const INTO_WALL: f32 = 0.003;
+/// How far a sash overlaps the frame, metres.
 const LAP: f32 = 0.010;
 
 impl Window {
-    /// Height of the sill's surface above the lower edge of the opening.
+    /// Height of the sill's surface above the lower edge of the opening, metres.
     pub const SILL: f32 = 0.022;
-    /// How far the sill reaches into the room.
+    /// How far the sill reaches into the room, metres.
     pub const SILL_DEPTH: f32 = 0.06;
 
     /// Adds the window in an opening of `room`.

@@ -1,3 +1,8 @@
+//! Bathtubs, of class bathtub: built in with one of three common sizes from 160 × 70 to 180 × 80 cm, or free-standing ovals of about the
+//! same size; and showers, of class other structure: closed with a tray of 80 to 100 cm or walk-in with 120 to 150 cm. A shower curtain is
+//! an object of its own. Their back, at −y, is at the wall; tub or tray lies off the middle of the footprint where taps or curtain stand
+//! out.
+
 use super::ceramic::{Section, hollow, rectangle, rounding, waste};
 use super::tap::{fittings, shower_set, wall_mixer};
 use crate::builder::{Builder, Class, Object};
@@ -24,23 +29,23 @@ pub enum TubScreen {
 pub struct Bathtub {
     /// Length and width of the rim.
     pub size: Vec2,
-    /// It stands free, an oval; else it is built in with its back and one end at walls.
+    /// It stands free and is oval; otherwise it is built in, with its back and one end at walls.
     pub free: bool,
-    /// Of a built-in one.
+    /// What keeps the water in; only built-in ones have a screen.
     pub screen: TubScreen,
     /// The panel below the rim is tiled instead of white.
     pub tiled: bool,
-    /// Of taps and rails.
+    /// What taps and rails are made of.
     pub metal: Finish,
 }
 
-/// Height of the rim.
+/// Height of a tub's rim, metres.
 const RIM: f32 = 0.58;
-/// Height of a shower curtain's rail.
+/// Height of a shower curtain's rail, metres: above people's heads.
 const RAIL: f32 = 2.0;
 
 impl Bathtub {
-    /// The sections of a free one, from the floor up to the rim, and those of its inside, from there down.
+    /// The sections of a free-standing tub: of its outside from the floor up to the rim, and of its inside from there down.
     fn oval(&self) -> [Vec<Section>; 2] {
         let [w, d] = self.size.to_array();
         let at = |w: f32, d: f32, z: f32| rectangle(w, d, 0.5 * d - 0.001, 0.0, z);
@@ -103,7 +108,7 @@ impl Bathtub {
             b.part(tub, "panel", panel, Finish::WallTile);
         }
         b.part(tub, "waste", waste(0.033).moved(Vec3::new(0.0, 0.0, 0.1505)), self.metal);
-        // On the wall between throat and slope, which is 10.26 cm from the tub's end there and leans out by 16 degrees.
+        // On the inner wall between throat and slope, which is 10.26 cm from the tub's end at this height and leans out by 16 degrees.
         let overflow = waste(0.032).turned(Vec3::Y, 0.2826 - 0.25 * TAU).moved(Vec3::new(0.5 * w - 0.1021, 0.0, 0.46));
         b.part(tub, "overflow", overflow, self.metal);
     }
@@ -183,7 +188,7 @@ impl Furniture for Bathtub {
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
-        // What stands out before or behind the rim moves the rim out of the middle.
+        // The rim is off the middle of the footprint where taps stand out behind it or a curtain before it.
         let shift = 0.5 * (self.size().y - self.size.y) * if self.free { 1.0 } else { -1.0 };
         let pose = on(pose, Vec3::new(0.0, shift, 0.0), 0.0);
         let tub = b.object("bathtub", Class::Bathtub, pose);
@@ -201,7 +206,7 @@ impl Furniture for Bathtub {
 pub struct Shower {
     /// Width and depth of the tray.
     pub size: Vec2,
-    /// A pane along the front leaves an opening; else a door closes it.
+    /// A pane along the front leaves an opening, instead of a door that closes it.
     pub walk_in: bool,
     /// A pane along the right side.
     pub side: bool,
@@ -209,10 +214,11 @@ pub struct Shower {
     pub stone: bool,
     /// A rain shower above the hand shower.
     pub rain: bool,
-    /// Of fittings and profiles.
+    /// What fittings and profiles are made of.
     pub metal: Finish,
 }
 
+/// Upper edge of the panes of a shower, metres.
 const GLASS_TOP: f32 = 2.0;
 
 impl Shower {
@@ -264,7 +270,7 @@ impl Furniture for Shower {
         let low = self.tray(b, &shower);
         let (x, y) = (0.5 * self.size.x - 0.012, 0.5 * self.size.y - 0.012);
         let back = -0.5 * self.size.y;
-        // Seen from the room the pane stands on the right; the other way round for people with the wall on that side.
+        // The side pane is at +x, since the wall is at −x.
         if self.side {
             self.pane(b, &shower, "pane_side", Vec2::new(x, back + 0.0095), Vec2::new(x, y), low);
         }

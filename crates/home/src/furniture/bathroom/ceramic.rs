@@ -1,4 +1,5 @@
-//! Shapes of sanitary ware.
+//! Sanitary ware as bodies through horizontal sections: rounded rectangles and eggs, one above the other, with smooth transitions, solid or
+//! hollow, and the waste that goes into them. All sections of a body have the same number of points; y is to the front, z up.
 
 use crate::furniture::form::{all, rounded_rectangle};
 use crate::shape::{Reshape, grid};
@@ -6,12 +7,12 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};
 use std::f32::consts::TAU;
 
-/// A level section of a body: its outline about its middle, where the middle lies along y, and its height.
+/// A horizontal section of a body.
 #[derive(Clone, Debug)]
 pub struct Section {
-    /// Counter-clockwise, as many points in each section of a body.
+    /// Its outline about its middle, counter-clockwise, with the same number of points in each section of a body.
     pub outline: Vec<Vec2>,
-    /// Where its middle lies.
+    /// Where its middle lies along y.
     pub y: f32,
     /// Its height.
     pub z: f32,
@@ -59,7 +60,7 @@ pub fn body(sections: &[Section]) -> Mesh {
     grid(n, last, point, uv).smoothed(50.0)
 }
 
-/// Sections between `from` and `to` along a quarter of an ellipse that leaves `from` upright if `upright`, else level.
+/// Sections between `from` and `to` along a quarter of an ellipse that leaves `from` vertically if `upright`, and horizontally otherwise.
 pub fn rounding(from: &Section, to: &Section, steps: usize, upright: bool) -> Vec<Section> {
     (1..steps)
         .map(|k| {

@@ -1,3 +1,7 @@
+//! Towels and what carries them: rails of 45 to 80 cm and shelves on the wall, ladder-shaped radiators 115 to 170 cm high, piles of folded
+//! towels, and bath mats. Each towel is an object of class towel, a mat of class floor mat. The origin of rail and shelf is the middle of
+//! their back, on the wall.
+
 use super::tap::fittings;
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, rod, to_front};
@@ -7,7 +11,7 @@ use crate::materials::Finish;
 use crate::shape::{Reshape, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
-/// Thickness of towelling folded once.
+/// Thickness of towelling folded once, metres.
 const TERRY: f32 = 0.009;
 
 /// Hangs a towel over a rod of `radius` along x at the origin of `pose`.
@@ -24,11 +28,15 @@ pub struct TowelRail {
     pub length: f32,
     /// Towels on it.
     pub towels: usize,
-    /// Of the rail.
+    /// What the rail is made of.
     pub metal: Finish,
 }
 
+/// Distance of a rail from the wall, metres: towels hang free of it.
 const RAIL_OUT: f32 = 0.075;
+/// Radius of a rail and its arms, metres.
+const RAIL_RADIUS: f32 = 0.008;
+/// How far down the longest towel hangs from a rail, metres.
 const TOWEL: f32 = 0.52;
 
 impl Furniture for TowelRail {
@@ -46,13 +54,13 @@ impl Furniture for TowelRail {
         let z = TOWEL;
         let rail = b.object("towel_rail", Class::OtherProp, pose);
         let half = 0.5 * self.length;
-        let bar = rod([-half + 0.012, RAIL_OUT, z], [half - 0.012, RAIL_OUT, z], 0.008, 14);
+        let bar = rod([-half + 0.012, RAIL_OUT, z], [half - 0.012, RAIL_OUT, z], RAIL_RADIUS, 14);
         let arms = [-1.0f32, 1.0].map(|s| {
             let x = s * (half - 0.024);
             to_front(cylinder(0.022, 0.010, 24)).moved(Vec3::new(x, -0.001, z)).with(rod(
                 [x, 0.008, z],
                 [x, RAIL_OUT + 0.004, z],
-                0.008,
+                RAIL_RADIUS,
                 14,
             ))
         });
@@ -63,7 +71,7 @@ impl Furniture for TowelRail {
             let wide = (room / self.towels as f32 - 0.03).min(0.5) * rng.range(0.86, 1.0);
             let x = room * ((k as f32 + 0.5) / self.towels as f32 - 0.5);
             let drop = TOWEL * rng.range(0.62, 1.0);
-            hang_towel(b, on(pose, Vec3::new(x, RAIL_OUT, z), 0.0), wide, drop, 0.008, color + k as u8, rng);
+            hang_towel(b, on(pose, Vec3::new(x, RAIL_OUT, z), 0.0), wide, drop, RAIL_RADIUS, color + k as u8, rng);
         }
     }
 }
@@ -77,12 +85,13 @@ pub struct TowelRadiator {
     pub height: f32,
     /// Towels on it.
     pub towels: usize,
-    /// Of the tubes.
+    /// What the tubes are made of.
     pub finish: Finish,
 }
 
-/// Height of its lower end above the floor.
+/// Height of the lower end of a ladder radiator above the floor, metres.
 const LADDER: f32 = 0.25;
+/// Distance from rung to rung, metres.
 const RUNG: f32 = 0.042;
 
 impl Furniture for TowelRadiator {
@@ -103,7 +112,7 @@ impl Furniture for TowelRadiator {
         let mounts = [-1.0f32, 1.0]
             .into_iter()
             .flat_map(|s| [low + 0.12, high - 0.12].map(|z| rod([s * half, -0.5 * 0.17 - 0.001, z], [s * half, y, z], 0.011, 12)));
-        // Rungs in groups of five, with gaps to put towels through.
+        // Rungs are in groups of six; between groups two are left out, to put towels through.
         let count = (self.height / RUNG) as usize;
         let levels: Vec<f32> =
             (0..count).filter(|k| k % 8 < 6).map(|k| low + 0.03 + RUNG * k as f32).filter(|z| *z < high - 0.02).collect();
@@ -119,7 +128,7 @@ impl Furniture for TowelRadiator {
         });
         b.part(&ladder, "valves", all(valves), Finish::Chrome);
         let color = rng.below(4) as u8;
-        // Towels hang before the ladder: over the last rung of a group, down its front; the short end hides behind.
+        // Towels hang over the uppermost rung of a group, down before the ladder; their short end is hidden behind the rung.
         let tops: Vec<f32> = levels.iter().copied().filter(|z| !levels.iter().any(|w| (w - z - RUNG).abs() < 1e-3)).collect();
         for k in 0..self.towels {
             let Some(&z) = tops.iter().rev().nth(2 * k) else { continue };

@@ -1,3 +1,6 @@
+//! A shallow cabinet on the wall, 50 to 100 × 62 to 75 cm, whose doors are mirrors, two in three with a lamp above. The carcass is of class
+//! cabinet, each door of class mirror, the lamp of class lamp. The origin is the middle of the back, on the wall.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::rod;
 use crate::furniture::{Furniture, board, on};
@@ -14,12 +17,13 @@ pub struct MirrorCabinet {
     pub height: f32,
     /// A lamp on top.
     pub lamp: bool,
-    /// Of the carcass.
+    /// What the carcass is made of.
     pub finish: Finish,
 }
 
+/// Depth of the carcass, metres.
 const DEPTH: f32 = 0.14;
-/// Space above the cabinet for the lamp.
+/// Space above the cabinet for the lamp, metres; as much is left below, so that the origin is in the middle.
 const LAMP: f32 = 0.07;
 
 impl Furniture for MirrorCabinet {
@@ -49,15 +53,15 @@ impl Furniture for MirrorCabinet {
         }
         if self.lamp {
             let lamp = b.object("lamp", Class::Lamp, on(pose, Vec3::Z * z, 0.0));
-            let half = 0.32 * self.width;
+            let (half, y) = (0.32 * self.width, 0.135);
             b.part(&lamp, "arm", rounded_box(Vec3::new(0.05, 0.10, 0.012), 0.003, 2).moved(Vec3::new(0.0, 0.09, 0.0065)), Finish::Chrome);
             b.part(
                 &lamp,
                 "profile",
-                rounded_box(Vec3::new(2.0 * half + 0.02, 0.03, 0.02), 0.004, 2).moved(Vec3::new(0.0, 0.135, 0.023)),
+                rounded_box(Vec3::new(2.0 * half + 0.02, 0.03, 0.02), 0.004, 2).moved(Vec3::new(0.0, y, 0.023)),
                 Finish::Chrome,
             );
-            b.part(&lamp, "tube", rod([-half, 0.135, 0.045], [half, 0.135, 0.045], 0.0145, 16), Finish::OpalGlobe);
+            b.part(&lamp, "tube", rod([-half, y, 0.045], [half, y, 0.045], 0.0145, 16), Finish::OpalGlobe);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Where people wash.
+//! The bathroom: tubs, showers, washbasins and toilets with their fittings, mirror cabinets, towels, mats and small things.
 
 mod bathtub;
 mod ceramic;

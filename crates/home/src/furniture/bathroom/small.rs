@@ -1,4 +1,6 @@
-//! Small things of a bathroom.
+//! Small things of a bathroom: a holder with toilet paper (class paper), soap dispensers, mugs with toothbrushes, bottles and jars, toilet
+//! brushes and pedal bins, all but the paper of class other prop. The origin of the paper holder is on the wall's face, that of the others
+//! on what they stand on.
 
 use super::tap::fittings;
 use crate::builder::{Builder, Class};
@@ -15,7 +17,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 pub struct PaperHolder {
     /// Radius of what is left of the roll.
     pub roll: f32,
-    /// Of the holder.
+    /// What the holder is made of.
     pub metal: Finish,
 }
 
@@ -123,7 +125,7 @@ impl Furniture for ToothbrushMug {
         for k in 0..self.brushes {
             let brush = b.object("toothbrush", Class::OtherProp, pose);
             let out = Vec2::from_angle(TAU * k as f32 / 3.0 + rng.range(-0.3, 0.3));
-            // From the floor on one side over the rim on the other, each on its own side of the axis.
+            // A brush stands on the floor at one side and leans over the rim at the other; each passes the axis on its own side.
             let aside = 0.008 * out.perp();
             let foot = (aside - out * 0.008).extend(0.0082);
             let top = (aside + out * 0.0625).extend(0.188);
@@ -203,7 +205,7 @@ impl Furniture for Toiletries {
 /// A toilet brush in its pot.
 #[derive(Clone, Copy, Debug)]
 pub struct ToiletBrush {
-    /// Of the pot.
+    /// What the pot is made of.
     pub pot: Finish,
 }
 
@@ -239,7 +241,7 @@ pub struct PedalBin {
     pub radius: f32,
     /// Its height.
     pub height: f32,
-    /// Of its body.
+    /// What body and lid are made of.
     pub finish: Finish,
 }
 

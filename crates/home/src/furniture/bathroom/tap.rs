@@ -1,4 +1,5 @@
-//! Taps, showers and their pipes.
+//! Taps, mixers, showers and traps, as parts of the tub, shower or basin that has them. Spouts reach to +y; what is on a wall has its
+//! origin on the wall's face. One metal is drawn for all fittings of an object.
 
 use crate::builder::{Builder, Object};
 use crate::furniture::form::{all, cylinder, rod, to_front, turned, wire};
@@ -19,13 +20,13 @@ pub enum TapForm {
     Square,
 }
 
-/// What taps are made of, the same all over a room.
+/// What taps are made of: chrome three times in five.
 pub fn fittings(rng: &mut Rng) -> Finish {
     [Finish::Chrome, Finish::Chrome, Finish::Chrome, Finish::BlackMetal, Finish::Brass][rng.below(5)]
 }
 
 impl TapForm {
-    /// One of many.
+    /// A random form.
     pub fn random(rng: &mut Rng) -> Self {
         [Self::Lever, Self::Arc, Self::Square][rng.below(3)]
     }
@@ -71,21 +72,25 @@ impl TapForm {
 
 /// A mixer on the wall with a spout below and a hand shower on its hose; its origin is on the wall's face.
 pub fn wall_mixer(b: &mut Builder, object: &Object, at: Vec3, metal: Finish) {
-    let body = rod([-0.13, 0.055, 0.0], [0.13, 0.055, 0.0], 0.02, 22);
+    // Distance of the mixer's axis from the wall.
+    let out = 0.055;
+    let body = rod([-0.13, out, 0.0], [0.13, out, 0.0], 0.02, 22);
     let rosettes = [-0.075f32, 0.075].map(|x| {
-        to_front(cylinder(0.032, 0.008, 28)).moved(Vec3::new(x, -0.001, 0.0)).with(rod([x, 0.006, 0.0], [x, 0.055, 0.0], 0.013, 16))
+        to_front(cylinder(0.032, 0.008, 28)).moved(Vec3::new(x, -0.001, 0.0)).with(rod([x, 0.006, 0.0], [x, out, 0.0], 0.013, 16))
     });
-    let grips = [-1.0f32, 1.0].map(|s| rod([s * 0.128, 0.055, 0.0], [s * 0.165, 0.055, 0.0], 0.022, 22));
+    let grips = [-1.0f32, 1.0].map(|s| rod([s * 0.128, out, 0.0], [s * 0.165, out, 0.0], 0.022, 22));
     b.part(object, "mixer", all([body].into_iter().chain(rosettes).chain(grips)).moved(at), metal);
 }
 
-/// A rail on the wall with a hand shower, its hose, and if wished a rain shower above; the mixer is at `at` on the wall's face.
+/// A rail on the wall with a hand shower, its hose, and, if `rain`, a rain shower above; the mixer is at `at` on the wall's face.
 pub fn shower_set(b: &mut Builder, object: &Object, at: Vec3, rain: bool, metal: Finish) {
     wall_mixer(b, object, at, metal);
     let top = if rain { 2.12 } else { 1.85 } - at.z;
-    let rail = rod([0.0, 0.06, 0.02], [0.0, 0.06, top], 0.0105, 16);
+    // Distance of the rail from the wall.
+    let out = 0.06;
+    let rail = rod([0.0, out, 0.02], [0.0, out, top], 0.0105, 16);
     let holder = all([
-        rod([0.0, -0.001, top - 0.12], [0.0, 0.06, top - 0.12], 0.009, 12),
+        rod([0.0, -0.001, top - 0.12], [0.0, out, top - 0.12], 0.009, 12),
         rounded_box(Vec3::new(0.03, 0.05, 0.04), 0.006, 2).moved(Vec3::new(0.0, 0.075, 0.62)),
     ]);
     b.part(object, "rail", rail.with(holder).moved(at), metal);
@@ -98,7 +103,7 @@ pub fn shower_set(b: &mut Builder, object: &Object, at: Vec3, rain: bool, metal:
     if rain {
         let arm = wire(
             &[
-                [0.0, 0.06, top - 0.001],
+                [0.0, out, top - 0.001],
                 [0.0, 0.075, top + 0.03],
                 [0.0, 0.13, top + 0.045],
                 [0.0, 0.36, top + 0.045],
@@ -115,7 +120,8 @@ pub fn shower_set(b: &mut Builder, object: &Object, at: Vec3, rain: bool, metal:
 /// A bottle trap below a wall-hung basin and its pipe to the wall at y = `wall`; the waste is at the origin.
 pub fn trap(wall: f32) -> Mesh {
     let bottle = turned(&[[0.0, -0.24], [0.026, -0.24], [0.028, -0.235], [0.028, -0.15], [0.018, -0.14], [0.016, 0.0], [0.0, 0.0]], 24);
-    let pipe = rod([0.0, 0.0, -0.17], [0.0, wall, -0.17], 0.016, 18);
+    let level = -0.17;
+    let pipe = rod([0.0, 0.0, level], [0.0, wall, level], 0.016, 18);
     let rosette = turned(&[[0.0, 0.0], [0.036, 0.0], [0.03, 0.012], [0.0, 0.012]], 24).turned(Vec3::X, -FRAC_PI_2);
-    all([bottle, pipe, rosette.moved(Vec3::new(0.0, wall - 0.001, -0.17))])
+    all([bottle, pipe, rosette.moved(Vec3::new(0.0, wall - 0.001, level))])
 }

@@ -1,3 +1,7 @@
+//! A toilet, of class toilet: hung on the wall with a flush plate (52 to 56 cm deep), or standing with its cistern (64 to 69 cm). Bowl and
+//! cistern are of porcelain, with water in the bowl; seat and lid, sometimes open, are of white plastic. The wall is at −y; most distances
+//! here are measured from it.
+
 use super::ceramic::{Section, body, egg, hollow, rectangle};
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::form::{all, cylinder};
@@ -9,28 +13,30 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 /// A toilet.
 #[derive(Clone, Copy, Debug)]
 pub struct Toilet {
-    /// It hangs on the wall, which has the cistern inside; else it stands and carries its cistern.
+    /// It hangs on the wall, which has the cistern inside; otherwise it stands and carries its cistern.
     pub hung: bool,
     /// The lid is up.
     pub open: bool,
     /// From the wall to the front of the seat.
     pub depth: f32,
-    /// Of the flush plate.
+    /// What the flush plate is made of.
     pub plate: Finish,
 }
 
-/// Height of the ceramic rim; the seat is 2 cm higher.
+/// Height of the ceramic rim, metres; the seat is 2 cm higher.
 const RIM: f32 = 0.40;
+/// Width of the bowl at its rim, metres.
 const WIDTH: f32 = 0.365;
+/// Depth of the cistern with its cover, metres.
 const CISTERN: f32 = 0.17;
 
 impl Toilet {
-    /// Where the bowl begins behind, from the wall.
+    /// Distance of the back of the bowl from the wall.
     fn back(&self) -> f32 {
         if self.hung { 0.0 } else { 0.02 }
     }
 
-    /// An egg from `back` to `front` metres from the wall.
+    /// An egg that reaches from `back` to `front`, both metres from the wall.
     fn at(&self, width: f32, back: f32, front: f32, z: f32) -> Section {
         egg(width, front - back, 0.5 * (back + front) - 0.5 * self.depth, z)
     }
@@ -63,12 +69,12 @@ impl Toilet {
         ]
     }
 
-    /// Where the mouth of the bowl begins behind, from the wall.
+    /// Distance of the back of the mouth of the bowl from the wall.
     fn mouth(&self) -> f32 {
         self.depth - 0.40
     }
 
-    /// Its sections from the rim down.
+    /// The sections of the bowl's inside from the rim down.
     fn inside(&self) -> [Section; 5] {
         let (d, mouth) = (self.depth, self.mouth());
         [
@@ -118,7 +124,7 @@ impl Toilet {
         let lid = [seat(0.012, top), seat(0.0, top + 0.004), seat(0.002, top + 0.010), seat(0.02, top + 0.015), seat(0.10, top + 0.018)];
         let mesh = body(&lid);
         let axis = Vec3::new(0.0, hinge + 0.012 - 0.5 * d, top + 0.006);
-        // Before a cistern it leans back less.
+        // A cistern leaves less room to lean back.
         let angle = if self.hung { 1.72 } else { 1.60 };
         let lid = if self.open { mesh.moved(-axis).turned(Vec3::X, angle).moved(axis + Vec3::Z * 0.004) } else { mesh };
         b.part(toilet, "lid", lid, white);

@@ -1,3 +1,6 @@
+//! A washbasin with its tap, of class sink: over a cabinet with drawers (60 to 100 cm wide), as a bowl on a cabinet (70 to 120 cm), hung on
+//! the wall with its trap in view, or on a pedestal (50 to 65 cm); 45 to 50 cm deep. The cabinet is of class cabinet. The wall is at −y.
+
 use super::ceramic::{Section, hollow, rectangle, rounding, waste};
 use super::tap::{TapForm, fittings, trap};
 use crate::builder::{Builder, Class, Object};
@@ -31,21 +34,26 @@ pub struct Washbasin {
     pub depth: f32,
     /// What carries it.
     pub stand: BasinStand,
-    /// Round instead of rectangular, for bowls.
+    /// A bowl is round instead of rectangular.
     pub round: bool,
-    /// Of the cabinet.
+    /// What the cabinet is made of.
     pub finish: Finish,
-    /// Of its drawers.
+    /// Handle of its drawers.
     pub handle: Handle,
     /// The form of the tap.
     pub tap: TapForm,
-    /// Of the tap.
+    /// What tap and waste are made of.
     pub metal: Finish,
 }
 
-/// Height of the rim: 85 cm is usual.
+/// Height of the rim, metres: 85 cm is usual.
 const RIM: f32 = 0.85;
+/// Height of a bowl that stands on a cabinet, metres.
 const BOWL: f32 = 0.125;
+/// How far the hollow of a basin lies before the middle of its depth, metres: the tap stands behind it.
+const FORWARD: f32 = 0.045;
+/// Thickness of the cabinet's boards, metres.
+const BOARD: f32 = 0.018;
 
 impl Washbasin {
     fn has_cabinet(&self) -> bool {
@@ -64,7 +72,7 @@ impl Washbasin {
         let outside = [at(0.01, 0.03, -below), at(0.0, 0.03, -below + 0.02), at(0.0, 0.03, -0.004), at(0.004, 0.03, 0.0)];
         let bowl = |inset: f32, z: f32| {
             let (wide, deep) = ((w - 0.06).min(0.62) - 2.0 * inset, d - 0.15 - 2.0 * inset);
-            rectangle(wide, deep, 0.09 - 0.3 * inset, 0.045, z)
+            rectangle(wide, deep, 0.09 - 0.3 * inset, FORWARD, z)
         };
         let (lip, throat) = (bowl(0.0, 0.0), bowl(0.008, -0.01));
         let mut inside = vec![lip.clone()];
@@ -101,13 +109,13 @@ impl Washbasin {
             BasinStand::Vanity | BasinStand::Wall | BasinStand::Pedestal => {
                 let below = if self.stand == BasinStand::Vanity { 0.12 } else { 0.135 };
                 b.part(sink, "basin", self.slab(below - 0.0005).moved(Vec3::Z * RIM), Finish::Porcelain);
-                b.part(sink, "waste", waste(0.03).moved(Vec3::new(0.0, 0.045, RIM - 0.1048)), self.metal);
+                b.part(sink, "waste", waste(0.03).moved(Vec3::new(0.0, FORWARD, RIM - 0.1048)), self.metal);
                 tap(b, -0.5 * self.depth + 0.055, RIM, 0.13, 0.11);
             }
         }
         if self.stand == BasinStand::Wall {
-            let at = Vec3::new(0.0, 0.045, RIM - 0.135);
-            b.part(sink, "trap", trap(-0.5 * self.depth - 0.045).moved(at), self.metal);
+            let at = Vec3::new(0.0, FORWARD, RIM - 0.135);
+            b.part(sink, "trap", trap(-0.5 * self.depth - FORWARD).moved(at), self.metal);
         }
         if self.stand == BasinStand::Pedestal {
             let y = -0.06;
@@ -122,17 +130,17 @@ impl Washbasin {
         let vanity = b.object("vanity", Class::Cabinet, pose);
         let (x, y) = (0.5 * self.width - 0.004, 0.5 * self.depth);
         let plate = if self.stand == BasinStand::Bowl { 0.03 } else { 0.0 };
-        // Hangs on the wall: the floor stays free.
+        // The cabinet hangs on the wall: the floor stays free.
         let z = [0.32, self.cabinet_top() - plate - 0.0005];
         let face = y - 0.02 - Handle::DEPTH;
-        let carcass = Carcass { x: [-x, x], y: [-y, face], z, thick: 0.018, finish: self.finish };
+        let carcass = Carcass { x: [-x, x], y: [-y, face], z, thick: BOARD, finish: self.finish };
         // The basin hangs into the carcass, which is open at the top.
         let e = 0.0002;
         for (name, min, max) in [
-            ("bottom", [-x, -y, z[0]], [x, face, z[0] + 0.018]),
-            ("side_left", [-x, -y, z[0] + 0.018 + e], [-x + 0.018, face, z[1]]),
-            ("side_right", [x - 0.018, -y, z[0] + 0.018 + e], [x, face, z[1]]),
-            ("rear", [-x + 0.0181, -y + 0.004, z[0] + 0.018 + e], [x - 0.0181, -y + 0.012, z[1]]),
+            ("bottom", [-x, -y, z[0]], [x, face, z[0] + BOARD]),
+            ("side_left", [-x, -y, z[0] + BOARD + e], [-x + BOARD, face, z[1]]),
+            ("side_right", [x - BOARD, -y, z[0] + BOARD + e], [x, face, z[1]]),
+            ("rear", [-x + 0.0181, -y + 0.004, z[0] + BOARD + e], [x - 0.0181, -y + 0.012, z[1]]),
         ] {
             b.part(&vanity, name, grained(board(min, max, 0.0015), rng), self.finish);
         }
@@ -179,7 +187,7 @@ impl Furniture for Washbasin {
 
     fn surfaces(&self) -> Vec<Surface> {
         let (x, y) = (0.5 * self.width, 0.5 * self.depth);
-        // Beside the bowl, where there is room.
+        // Things stand beside the bowl, where there is room.
         let (inner, z) = match self.stand {
             BasinStand::Bowl => (0.27, self.cabinet_top()),
             BasinStand::Vanity => (0.5 * (self.width - 0.06).min(0.62), RIM),

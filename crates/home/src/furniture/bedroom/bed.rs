@@ -1,3 +1,7 @@
+//! Beds for one (mattress 90 to 120 cm wide) or two (140 to 180 cm), 200 to 210 cm long, on one of five kinds of frame with a headboard 92
+//! to 115 cm high; class bed. What lies on them is in `bedding`. The head is at −y; the frame is built in a space whose origin is below the
+//! middle of the mattress.
+
 use super::bedding::{Bedding, Cover};
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::form::{all, rod};
@@ -31,7 +35,7 @@ pub struct Bed {
     pub length: f32,
     /// What carries it.
     pub frame: BedFrame,
-    /// How it is made.
+    /// How the bed is made.
     pub cover: Cover,
     /// Scatter cushions.
     pub cushions: usize,
@@ -41,12 +45,13 @@ pub struct Bed {
     pub headboard: f32,
 }
 
-/// Thickness of headboards.
+/// Thickness of headboards of wood or metal, metres.
 const BOARD: f32 = 0.04;
+/// Thickness of padded headboards, metres.
 const PADDED: f32 = 0.09;
-/// Height of the rails' upper edge.
+/// Height of the rails' upper edge, metres.
 const RAIL: f32 = 0.32;
-/// How far rails stand out beyond the mattress.
+/// How far rails stand out beyond the mattress, metres.
 const OUT: f32 = 0.03;
 
 impl Bed {
@@ -80,7 +85,7 @@ impl Bed {
             BedFrame::Upholstered => (0.28, 0.22),
             BedFrame::Panel | BedFrame::Slats | BedFrame::Metal => (0.26, 0.20),
         };
-        // The corners hang lower by the square root of two, and clear of the floor.
+        // A corner of the bedspread hangs lower by the factor √2, and must not reach the floor.
         let hang = if self.cover == Cover::Bedspread { (base + thickness - 0.09) / std::f32::consts::SQRT_2 } else { 0.27 };
         let sleepers = if self.width < 1.3 { 1 } else { 2 };
         let around = 0.5 * mattress + OUT;
@@ -193,25 +198,26 @@ impl Bed {
     fn metal(&self, b: &mut Builder, bed: &Object) {
         let black = Finish::BlackMetal;
         let (x, y) = (0.5 * self.width + 0.5 * OUT, 0.5 * self.length + 0.018);
-        let z = RAIL - 0.06;
-        let rails = [-1.0f32, 1.0].map(|s| board([s * x - 0.0125, -y, z - 0.03], [s * x + 0.0125, y, z + 0.03], 0.003));
+        let (z, half) = (RAIL - 0.06, 0.0125);
+        let rails = [-1.0f32, 1.0].map(|s| board([s * x - half, -y, z - 0.03], [s * x + half, y, z + 0.03], 0.003));
         b.part(bed, "rails", all(rails), black);
         let slats = (0..12).map(|k| {
             let at = -y + 0.12 + (2.0 * y - 0.24) * k as f32 / 11.0;
-            board([-x + 0.0125, at - 0.03, 0.245], [x - 0.0125, at + 0.03, 0.2595], 0.003)
+            board([-x + half, at - 0.03, 0.245], [x - half, at + 0.03, 0.2595], 0.003)
         });
         b.part(bed, "slats", all(slats), Finish::Wood);
         for (name, at, high) in [("head", -y, self.headboard), ("foot", y, RAIL)] {
             let posts = [-1.0f32, 1.0].map(|s| rod([s * x, at, 0.0], [s * x, at, high], 0.0145, 16));
             let balls = [-1.0f32, 1.0].map(|s| sphere(0.022, 18).moved(Vec3::new(s * x, at, high)));
             let mut frame = all(posts.into_iter().chain(balls));
-            frame = frame.with(rod([-x, at, high - 0.04], [x, at, high - 0.04], 0.011, 14));
+            let bar = high - 0.04;
+            frame = frame.with(rod([-x, at, bar], [x, at, bar], 0.011, 14));
             frame = frame.with(rod([-x, at, z], [x, at, z], 0.011, 14));
             if name == "head" {
                 let count = (2.0 * x / 0.12) as usize;
                 let bars = (1..count).map(|k| {
                     let px = -x + 2.0 * x * k as f32 / count as f32;
-                    rod([px, at, z], [px, at, high - 0.04], 0.006, 10)
+                    rod([px, at, z], [px, at, bar], 0.006, 10)
                 });
                 frame = frame.with(all(bars));
             }

@@ -1,3 +1,7 @@
+//! What lies on a bed's frame: the mattress and a duvet or bedspread (parts of the bed), and pillows and cushions (class pillow) and a
+//! throw across the foot (class other prop) as objects of their own. A cover is a padded sheet that hangs over mattress and frame, computed
+//! with `furniture::soft`. The head is at −y.
+
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::soft::{Drape, Turnback, Wrinkles, quilt};
 use crate::furniture::{CONTACT, form, on};
@@ -30,7 +34,7 @@ pub struct Bedding {
     pub around: Vec2,
     /// How far the cover hangs down.
     pub hang: f32,
-    /// How it is made.
+    /// How the bed is made.
     pub cover: Cover,
     /// Sleeping places: 1 or 2.
     pub sleepers: usize,
@@ -65,7 +69,7 @@ impl Bedding {
         b.part(bed, "mattress_piping", piping, Finish::Mattress);
     }
 
-    /// The drape over mattress and frame.
+    /// How cloth hangs over mattress and frame.
     fn drape(&self, rng: &mut Rng) -> Drape {
         Drape {
             half: self.around + 0.006,
@@ -83,7 +87,7 @@ impl Bedding {
         let thickness = if spread { 0.012 } else { 0.038 };
         let lumps = Wrinkles::new(0.42, if spread { 0.004 } else { 0.034 }, rng);
         let creases = Wrinkles::new(0.13, if spread { 0.003 } else { 0.011 }, rng);
-        // The most that the padding is high.
+        // The largest height of the padding.
         let most = thickness + lumps.at(Vec2::ZERO).max(0.034) + 0.011;
         let side = if rng.below(2) == 0 { 1.0 } else { -1.0 };
         let foot = drape.half.y + self.hang;
@@ -138,7 +142,7 @@ impl Bedding {
                 let mesh = pillow(Vec2::new(wide, tall), thickness, rng).uv_moved(Vec2::splat(rng.next_f32()));
                 let y = self.head() + 0.5 * tall;
                 let local = if upright {
-                    // Leaning against the headboard, one before the other.
+                    // Pillows lean against the headboard, one before the other.
                     let lean = 0.95 - 0.12 * layer as f32;
                     let at = Vec3::new(x, self.head() + 0.16 + 0.15 * layer as f32, self.top() + 0.03 + 0.5 * tall * lean.sin());
                     front = front.max(0.16 + 0.15 * layer as f32 + 0.36 * tall);

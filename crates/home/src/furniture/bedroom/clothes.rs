@@ -1,4 +1,5 @@
-//! Clothes on hangers, folded, and in heaps.
+//! Clothes: garments on hangers, piles of folded clothes of 30 × 25 cm, and heaps; each garment or folded piece is an object of class
+//! clothes. A garment on a hanger hangs from a rod at the origin that runs along y.
 
 use super::garment::Garment;
 use crate::builder::{Builder, Class};
@@ -13,9 +14,10 @@ use std::f32::consts::TAU;
 
 /// A garment on a hanger: the rod that carries it is at the origin and runs along y.
 pub fn hang_garment(b: &mut Builder, pose: DAffine3, garment: Garment, rng: &mut Rng) {
+    /// Distance from the rod down to the neck of a garment, metres.
     const NECK: f32 = 0.085;
     let object = b.object("clothes", Class::Clothes, pose);
-    // It ends at the top of the hanger; that of other clothes is inside of them, below the lining of the collar.
+    // The hook ends at the top of the hanger; in other clothes than trousers the hanger is not seen, and the hook ends below the collar.
     let end = if garment == Garment::Trousers { NECK } else { NECK + 0.065 };
     let hook = wire(
         &[
@@ -32,21 +34,16 @@ pub fn hang_garment(b: &mut Builder, pose: DAffine3, garment: Garment, rng: &mut
     );
     b.part(&object, "hook", hook, Finish::Steel);
     if garment == Garment::Trousers {
+        let bar = -NECK - 0.10;
         let frame = wire(
-            &[
-                [-0.19, 0.0, -NECK - 0.10],
-                [-0.17, 0.0, -NECK - 0.05],
-                [0.0, 0.0, -NECK],
-                [0.17, 0.0, -NECK - 0.05],
-                [0.19, 0.0, -NECK - 0.10],
-            ],
+            &[[-0.19, 0.0, bar], [-0.17, 0.0, -NECK - 0.05], [0.0, 0.0, -NECK], [0.17, 0.0, -NECK - 0.05], [0.19, 0.0, bar]],
             0.005,
             8,
         )
-        .with(tube(&[Vec3::new(-0.19, 0.0, -NECK - 0.10), Vec3::new(0.19, 0.0, -NECK - 0.10)], 0.005, 8));
+        .with(tube(&[Vec3::new(-0.19, 0.0, bar), Vec3::new(0.19, 0.0, bar)], 0.005, 8));
         b.part(&object, "hanger", frame, Finish::Wood);
         let cloth = crate::furniture::soft::over_rod(0.30, 0.56, 0.52, 0.0125, 0.006, rng);
-        b.part(&object, "cloth", cloth.moved(Vec3::new(0.0, 0.0, -NECK - 0.10)), Finish::Clothes(rng.below(8) as u8));
+        b.part(&object, "cloth", cloth.moved(Vec3::new(0.0, 0.0, bar)), Finish::Clothes(rng.below(8) as u8));
         return;
     }
     b.part(&object, "cloth", garment.cloth(0.0, rng).moved(Vec3::new(0.0, 0.0, -NECK)), Finish::Clothes(rng.below(8) as u8));
@@ -60,7 +57,9 @@ pub struct FoldedClothes {
 }
 
 impl FoldedClothes {
+    /// Width of the largest piece, metres.
     const WIDTH: f32 = 0.30;
+    /// Depth of the largest piece, metres.
     const DEPTH: f32 = 0.25;
 }
 

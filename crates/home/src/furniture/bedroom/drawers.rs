@@ -1,3 +1,7 @@
+//! Furniture with drawers: nightstands 38 to 56 cm wide and 46 to 60 cm high (class night stand) with one or two drawers and perhaps an
+//! open compartment, and chests with one to three columns of three to five drawers (class dresser). Body, fronts, feet and handles are
+//! drawn from `joinery`; handles count in the depth.
+
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::joinery::{Carcass, Feet, Handle, body_finish, front, thickness_at_middle};
 use crate::furniture::{Furniture, Surface, board, grained};
@@ -13,18 +17,19 @@ pub struct DrawerBody {
     pub feet_height: f32,
     /// Kind of the feet.
     pub feet: Feet,
-    /// Of the carcass.
+    /// What the carcass is made of.
     pub body: Finish,
-    /// Of the fronts.
+    /// What the fronts are made of.
     pub fronts: Finish,
     /// Fronts with a recessed panel.
     pub framed: bool,
-    /// Of the drawers.
+    /// Handle of each drawer.
     pub handle: Handle,
 }
 
-/// Gap between fronts.
+/// Gap between fronts, metres.
 const GAP: f32 = 0.003;
+/// Thickness of fronts, metres.
 const FRONT: f32 = 0.019;
 
 impl DrawerBody {
@@ -66,7 +71,7 @@ impl DrawerBody {
     fn drawer(&self, b: &mut Builder, object: &Object, name: &str, rect: [f32; 4], rng: &mut Rng) {
         let [x0, x1, z0, z1] = rect;
         let rect = [x0 + 0.5 * GAP, x1 - 0.5 * GAP, z0 + 0.5 * GAP, z1 - 0.5 * GAP];
-        // Some drawers are not quite shut.
+        // Air between the carcass and its fronts keeps faces out of one plane.
         let back = self.front() + 0.0008;
         b.part(object, name, front(rect, back, FRONT, self.framed, rng), self.fronts);
         let wide = x1 - x0;
@@ -141,8 +146,9 @@ impl Furniture for Nightstand {
         let mut low = carcass.z[0];
         if self.open {
             let [x0, x1, ..] = carcass.inside();
-            low = self.compartment()[1] + 0.009;
-            let shelf = board([x0 - 0.0001, carcass.y[0] + 0.0105, low - 0.009], [x1 + 0.0001, carcass.y[1] - 0.001, low + 0.009], 0.0015);
+            let half = 0.009;
+            low = self.compartment()[1] + half;
+            let shelf = board([x0 - 0.0001, carcass.y[0] + 0.0105, low - half], [x1 + 0.0001, carcass.y[1] - 0.001, low + half], 0.0015);
             b.part(&object, "shelf", grained(shelf, rng), self.body.body);
         }
         let each = (carcass.z[1] - low) / self.drawers as f32;

@@ -1,3 +1,7 @@
+//! To dress by: a dressing table of 90 to 120 cm with drawers (class table), its round or arched mirror (class mirror) and a stool before
+//! it (class chair); a bench of 90 to 140 cm, padded or of slats (class other furniture); and a laundry basket 46 to 60 cm high (class
+//! other prop) with a lid or with clothes in it.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, around, cut_out, rod, to_front, turned};
 use crate::furniture::joinery::{Handle, body_finish, front};
@@ -13,20 +17,26 @@ use std::f32::consts::TAU;
 pub struct DressingTable {
     /// Width of the table.
     pub width: f32,
-    /// Of the table.
+    /// What the table is made of.
     pub finish: Finish,
-    /// Of the drawers.
+    /// Handle of each drawer.
     pub handle: Handle,
     /// An arched mirror instead of a round one.
     pub arched: bool,
 }
 
-/// Height of the table.
+/// Height of the dressing table's top, metres.
 const TOP: f32 = 0.76;
+/// Depth of the dressing table with its handles, metres; the stool needs 30 cm more before it.
 const DEPTH: f32 = 0.44;
-/// What the mirror takes of it, from the rear.
+/// Depth of the strip at the rear of the top that the mirror takes, metres.
 const MIRROR_DEPTH: f32 = 0.13;
+/// Height of the stool's seat, metres.
 const STOOL: f32 = 0.46;
+/// Where the boards below the top end, metres below its upper face: the top and air that keeps faces out of one plane.
+const BELOW_TOP: f32 = 0.0202;
+/// Where rear and bottom begin from the ends of the top, metres: its overhang, a side, and such air.
+const BESIDE: f32 = 0.0282;
 
 impl DressingTable {
     fn stool(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -52,7 +62,7 @@ impl DressingTable {
         };
         let middle = outline.iter().sum::<Vec2>() / outline.len() as f32;
         let glass: Vec<Vec2> = outline.iter().map(|&p| middle + (p - middle) * 0.965).collect();
-        // Outlines lie flat; upright they are seen from the front.
+        // Outlines are drawn in the xy plane and then turned upright, to face +y.
         let upright = |outline: &[Vec2], thickness: f32| {
             let mirrored: Vec<Vec2> = outline.iter().rev().map(|p| Vec2::new(p.x, -p.y)).collect();
             to_front(cut_out(&mirrored, thickness, 0.0015))
@@ -94,12 +104,13 @@ impl Furniture for DressingTable {
         let x = 0.5 * self.width;
         let (rear, face) = (-0.5 * self.size().y, -0.5 * self.size().y + DEPTH - Handle::DEPTH);
         b.part(&table, "top", grained(board([-x, rear, TOP - 0.02], [x, face, TOP], 0.0025), rng), self.finish);
-        let low = TOP - 0.13;
+        // Where the boards end behind the drawers' fronts.
+        let (low, behind) = (TOP - 0.13, face - 0.021);
         for (name, min, max) in [
-            ("side_left", [-x + 0.01, rear + 0.01, low], [-x + 0.028, face - 0.021, TOP - 0.0202]),
-            ("side_right", [x - 0.028, rear + 0.01, low], [x - 0.01, face - 0.021, TOP - 0.0202]),
-            ("rear", [-x + 0.0282, rear + 0.01, low], [x - 0.0282, rear + 0.022, TOP - 0.0202]),
-            ("bottom", [-x + 0.0282, rear + 0.0222, low], [x - 0.0282, face - 0.021, low + 0.012]),
+            ("side_left", [-x + 0.01, rear + 0.01, low], [-x + 0.028, behind, TOP - BELOW_TOP]),
+            ("side_right", [x - 0.028, rear + 0.01, low], [x - 0.01, behind, TOP - BELOW_TOP]),
+            ("rear", [-x + BESIDE, rear + 0.01, low], [x - BESIDE, rear + 0.022, TOP - BELOW_TOP]),
+            ("bottom", [-x + BESIDE, rear + 0.0222, low], [x - BESIDE, behind, low + 0.012]),
         ] {
             b.part(&table, name, grained(board(min, max, 0.0015), rng), self.finish);
         }
@@ -181,7 +192,7 @@ pub struct LaundryBasket {
     pub radius: f32,
     /// Height of the rim.
     pub height: f32,
-    /// It has a lid; else clothes look out.
+    /// It has a lid; otherwise clothes stick out of it.
     pub lid: bool,
     /// Plaited instead of cloth or plastic.
     pub plaited: bool,
@@ -200,7 +211,7 @@ impl Furniture for LaundryBasket {
         let basket = b.object("laundry_basket", Class::OtherProp, pose);
         let (r, h) = (self.radius, self.height);
         let finish = if self.plaited { Finish::Wicker } else { [Finish::Felt, Finish::WhitePlastic][rng.below(2)] };
-        // Bands of plaiting stand out by turns.
+        // Every second band of the plaiting stands out.
         let ripple = if self.plaited { 0.004 } else { 0.0 };
         let rows = 15;
         let wall = |t: f32, inset: f32| Vec2::new(r * (0.84 + 0.16 * t) - inset + ripple * (TAU * t * rows as f32).sin(), h * t);
@@ -221,7 +232,7 @@ impl Furniture for LaundryBasket {
             let clothes = b.object("clothes", Class::Clothes, pose);
             let size = Vec3::new(2.2 * r, 2.2 * r, 0.2);
             let lumps = Wrinkles::new(0.2, 0.01, rng);
-            // It fills the basket up to its wall.
+            // The heap fills the basket up to its wall.
             let most = r - 0.018;
             let heap = super::clothes::heap(size, rng)
                 .deformed(|p| {

@@ -1,4 +1,5 @@
-//! Where people sleep and dress.
+//! The bedroom: beds and their bedding, nightstands, chests of drawers, wardrobes, dressing tables, benches, and clothes on hangers or
+//! folded.
 
 mod bed;
 mod bedding;

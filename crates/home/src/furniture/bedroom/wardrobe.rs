@@ -1,3 +1,6 @@
+//! Wardrobes, 80 to 250 cm wide and 180 to 220 cm high, class cabinet: with hinged or sliding doors, of which one may be a mirror, or open,
+//! with clothes on a rail and folded ones on shelves beside it. Body and doors are of wood or lacquer; the doors face +y.
+
 use super::clothes::{FoldedClothes, hang_garment};
 use super::garment::Garment;
 use crate::builder::{Builder, Class, Object};
@@ -32,16 +35,20 @@ pub struct Wardrobe {
     pub mirror: bool,
     /// Doors with a recessed panel.
     pub framed: bool,
-    /// Of the carcass and the doors.
+    /// What carcass and doors are made of.
     pub finishes: [Finish; 2],
-    /// Of hinged doors.
+    /// Handle of hinged doors.
     pub handle: Handle,
 }
 
-/// A garment on a hanger needs 55 cm.
+/// Depth of the carcass, metres: a garment on a hanger needs 55 cm.
 const DEPTH: f32 = 0.58;
+/// Height of the plinth, metres.
 const PLINTH: f32 = 0.07;
+/// Thickness of boards and hinged doors, metres.
 const BOARD: f32 = 0.019;
+/// Half the thickness of shelves, metres.
+const HALF_SHELF: f32 = 0.009;
 
 impl Wardrobe {
     fn depth(&self) -> f32 {
@@ -62,20 +69,22 @@ impl Wardrobe {
     }
 
     fn mirror_at(&self, b: &mut Builder, object: &Object, rect: [f32; 4], face: f32, name: &str) {
-        let [x0, x1, z0, z1] = rect;
-        let glass = board([x0 + 0.012, face - 0.001, z0 + 0.012], [x1 - 0.012, face + 0.003, z1 - 0.012], 0.0012);
+        let ([x0, x1, z0, z1], inset) = (rect, 0.012);
+        let glass = board([x0 + inset, face - 0.001, z0 + inset], [x1 - inset, face + 0.003, z1 - inset], 0.0012);
         b.part(object, name, glass, Finish::Mirror);
     }
 
     fn hinged(&self, b: &mut Builder, object: &Object, carcass: &Carcass, rng: &mut Rng) {
         let count = ((self.width / 0.5).round() as usize).max(2);
         let wide = self.width / count as f32;
+        // Half the gap between two doors.
+        let gap = 0.0015;
         let back = carcass.y[1] + 0.001;
         let face = back + BOARD;
         let mirrored = if self.mirror { Some(count / 2) } else { None };
         for k in 0..count {
             let x = carcass.x[0] + k as f32 * wide;
-            let rect = [x + 0.0015, x + wide - 0.0015, carcass.z[0] + 0.0015, carcass.z[1] - 0.0015];
+            let rect = [x + gap, x + wide - gap, carcass.z[0] + gap, carcass.z[1] - gap];
             let framed = self.framed && mirrored != Some(k);
             b.part(object, &format!("door_{}", k + 1), front(rect, back, BOARD, framed, rng), self.finishes[1]);
             if mirrored == Some(k) {
@@ -131,7 +140,7 @@ impl Wardrobe {
             let upright = board([divider, rear, low + 0.0002], [divider + BOARD, face, high - 0.0002], 0.0015);
             b.part(object, "divider", grained(upright, rng), carcass.finish);
             for (k, z) in self.shelves().into_iter().enumerate() {
-                let shelf = board([divider + BOARD - 0.0001, rear, z - 0.009], [x1 + 0.0001, face, z + 0.009], 0.0015);
+                let shelf = board([divider + BOARD - 0.0001, rear, z - HALF_SHELF], [x1 + 0.0001, face, z + HALF_SHELF], 0.0015);
                 b.part(object, &format!("shelf_{}", k + 1), grained(shelf, rng), carcass.finish);
             }
         }
@@ -146,7 +155,7 @@ impl Wardrobe {
             x += rng.range(0.085, 0.15) + if rng.below(7) == 0 { 0.2 } else { 0.0 };
         }
         let mut levels = vec![low];
-        levels.extend(self.shelves().iter().map(|z| z + 0.009));
+        levels.extend(self.shelves().iter().map(|z| z + HALF_SHELF));
         if divider < x1 {
             for z in levels {
                 let middle = Vec3::new(0.5 * (divider + BOARD + x1), y + 0.06, z + CONTACT);

@@ -1,3 +1,6 @@
+//! A cot for a mattress of 60 × 120 cm, of wood or white lacquer, with bars or boards at head and foot (class bed), and the cushion (class
+//! pillow) and blanket (class other prop) in it. The head is at +x.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, rod};
 use crate::furniture::{CONTACT, Furniture, board, grained};
@@ -8,16 +11,24 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// A cot with bars on all sides for a mattress of 60 × 120 cm.
 #[derive(Clone, Copy, Debug)]
 pub struct Crib {
-    /// Of the wood.
+    /// What posts, rails and bars are made of.
     pub finish: Finish,
-    /// Boards instead of bars at head and foot.
+    /// There are boards instead of bars at head and foot.
     pub solid_ends: bool,
 }
 
-/// Bars are 60 mm apart: EN 716 asks for 45 to 65 mm between them.
+/// Distance from bar to bar, metres, before it is rounded up to fit: about 60 mm are free between bars; EN 716 asks for 45 to 65 mm.
 const PITCH: f32 = 0.072;
+/// Height of the middle of the upper rails, metres.
 const RAIL: f32 = 0.85;
+/// Height of the middle of the lower rails, metres: the slats lie on them.
 const LOW: f32 = 0.27;
+/// Half the thickness of the posts, metres.
+const POST: f32 = 0.022;
+/// Where rails begin beside the axis of a post, metres: half a millimetre inside it.
+const IN_POST: f32 = 0.0215;
+/// Half the height of the rails, metres.
+const HALF_RAIL: f32 = 0.025;
 
 impl Furniture for Crib {
     fn random(rng: &mut Rng) -> Self {
@@ -36,24 +47,24 @@ impl Furniture for Crib {
         let crib = b.object("crib", Class::Bed, pose);
         let (x, y) = (0.617, 0.317);
         for (i, (sx, sy)) in [(1.0f32, 1.0f32), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].into_iter().enumerate() {
-            let post = board([sx * x - 0.022, sy * y - 0.022, 0.0], [sx * x + 0.022, sy * y + 0.022, 0.92], 0.005);
+            let post = board([sx * x - POST, sy * y - POST, 0.0], [sx * x + POST, sy * y + POST, 0.92], 0.005);
             b.part(&crib, &format!("post_{}", i + 1), grained(post, rng), self.finish);
         }
         for (i, s) in [-1.0f32, 1.0].into_iter().enumerate() {
-            let rail = |z: f32| board([0.0215 - x, s * y - 0.014, z - 0.025], [x - 0.0215, s * y + 0.014, z + 0.025], 0.004);
-            let count = ((2.0 * x - 0.044) / PITCH) as usize;
+            let rail = |z: f32| board([IN_POST - x, s * y - 0.014, z - HALF_RAIL], [x - IN_POST, s * y + 0.014, z + HALF_RAIL], 0.004);
+            let count = ((2.0 * x - 2.0 * POST) / PITCH) as usize;
             let bars = (1..count).map(|k| {
-                let at = (2.0 * x - 0.044) * (k as f32 / count as f32 - 0.5);
+                let at = (2.0 * x - 2.0 * POST) * (k as f32 / count as f32 - 0.5);
                 rod([at, s * y, LOW], [at, s * y, RAIL], 0.0075, 10)
             });
             b.part(&crib, &format!("side_{}", i + 1), grained(all(bars.chain([rail(LOW), rail(RAIL)])), rng), self.finish);
-            let cross = |z: f32| board([s * x - 0.014, 0.0215 - y, z - 0.025], [s * x + 0.014, y - 0.0215, z + 0.025], 0.004);
+            let cross = |z: f32| board([s * x - 0.014, IN_POST - y, z - HALF_RAIL], [s * x + 0.014, y - IN_POST, z + HALF_RAIL], 0.004);
             let end = if self.solid_ends {
-                board([s * x - 0.009, 0.0215 - y, LOW - 0.025], [s * x + 0.009, y - 0.0215, RAIL], 0.003).with(cross(RAIL))
+                board([s * x - 0.009, IN_POST - y, LOW - HALF_RAIL], [s * x + 0.009, y - IN_POST, RAIL], 0.003).with(cross(RAIL))
             } else {
-                let count = ((2.0 * y - 0.044) / PITCH) as usize;
+                let count = ((2.0 * y - 2.0 * POST) / PITCH) as usize;
                 let bars = (1..count).map(|k| {
-                    let at = (2.0 * y - 0.044) * (k as f32 / count as f32 - 0.5);
+                    let at = (2.0 * y - 2.0 * POST) * (k as f32 / count as f32 - 0.5);
                     rod([s * x, at, LOW], [s * x, at, RAIL], 0.0075, 10)
                 });
                 all(bars.chain([cross(LOW), cross(RAIL)]))

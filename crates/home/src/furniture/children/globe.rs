@@ -1,3 +1,6 @@
+//! A globe of 20 to 30 cm on its stand, of class other prop: the ball with a printed map of sea, land and ice, held by half a ring of
+//! brass, chrome or wood. Its axis is tilted towards +x; the map is computed here.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{rod, turned};
 use crate::furniture::{CONTACT, Furniture, on};
@@ -11,14 +14,14 @@ use std::f32::consts::{PI, TAU};
 /// A globe on its stand.
 #[derive(Clone, Copy, Debug)]
 pub struct Globe {
-    /// Of the ball.
+    /// Radius of the ball.
     pub radius: f32,
 }
 
-/// Tilt of the earth's axis, radians.
+/// Tilt of the earth's axis, radians: 23.4°.
 const TILT: f32 = 0.409;
 
-/// Lands as caps: longitude and latitude of their middle and their radius, degrees.
+/// Rough continents and islands as caps of the sphere: longitude and latitude of their middle and their radius, degrees.
 const LANDS: [[f32; 3]; 17] = [
     [20.0, 5.0, 22.0],
     [10.0, 18.0, 20.0],
@@ -39,7 +42,7 @@ const LANDS: [[f32; 3]; 17] = [
     [0.0, -90.0, 18.0],
 ];
 
-/// Sea, land and ice at longitude and latitude (radians), with a net of meridians and parallels.
+/// Sea, land and ice at longitude and latitude (radians), with a grid of meridians and parallels.
 fn earth(uv: Vec2) -> Rgb {
     let (longitude, latitude) = (TAU * (uv.x - 0.5), PI * (uv.y - 0.5));
     let direction = |a: f32, b: f32| Vec3::new(b.cos() * a.cos(), b.cos() * a.sin(), b.sin());
@@ -77,15 +80,16 @@ impl Furniture for Globe {
         let foot = [[0.0, 0.0], [0.07, 0.0], [0.073, 0.004], [0.068, 0.014], [0.018, 0.024], [0.011, 0.05], [0.011, 0.076], [0.0, 0.076]];
         b.part(&globe, "foot", turned(&foot, 40), metal);
         let axis = Vec3::new(TILT.sin(), 0.0, TILT.cos());
+        let ring = r + 0.012;
         let arc: Vec<Vec3> = (0..=24)
             .map(|k| {
                 // From the lower pole below the ball, where the foot holds it, and up the right side to the upper pole.
                 let a = -0.5 * PI - TILT + PI * k as f32 / 24.0;
-                Vec3::new((r + 0.012) * a.cos(), 0.0, (r + 0.012) * a.sin() + z)
+                Vec3::new(ring * a.cos(), 0.0, ring * a.sin() + z)
             })
             .collect();
         b.part(&globe, "meridian", tube(&arc, 0.004, 10), metal);
-        let pole = axis * (r + 0.012);
+        let pole = axis * ring;
         let center = Vec3::new(0.0, 0.0, z);
         b.part(&globe, "axle", rod((center - pole).to_array(), (center + pole).to_array(), 0.003, 8), metal);
         let picture = b.image(paint("globe", 512, 256, earth));

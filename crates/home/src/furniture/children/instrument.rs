@@ -1,3 +1,7 @@
+//! Musical instruments: a guitar that leans back on its stand, and an electric piano of 61 or 88 keys on a stand with sheet music. Guitar
+//! and guitar stand are of class other prop, the piano is other furniture, the music paper. The guitar is built upright with its back in
+//! the plane y = 0 and then leaned; the pianist sits at +y.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cut_out, cylinder, rod, turned};
 use crate::furniture::{CONTACT, Furniture, board, grained, on};
@@ -9,13 +13,14 @@ use std::f32::consts::FRAC_PI_2;
 /// A guitar that leans on its stand.
 #[derive(Clone, Copy, Debug)]
 pub struct Guitar {
-    /// Lacquered instead of the colour of wood.
+    /// The top is of dark wood instead of light.
     pub dark: bool,
 }
 
-/// Half of the body's outline from the end button to the neck: (half width, height).
+/// Half of the body's outline from the end button to the neck: [half width, height], metres.
 const BODY: [[f32; 2]; 9] =
     [[0.0, 0.0], [0.11, 0.01], [0.178, 0.07], [0.185, 0.14], [0.135, 0.245], [0.122, 0.28], [0.14, 0.36], [0.115, 0.44], [0.028, 0.478]];
+/// How far the guitar leans back, radians.
 const LEAN: f32 = 0.24;
 
 impl Furniture for Guitar {
@@ -34,7 +39,7 @@ impl Furniture for Guitar {
         let right = spline(&BODY, 4);
         let outline: Vec<Vec2> =
             right.iter().copied().chain(right.iter().rev().filter(|p| p.x > 1e-4).map(|p| Vec2::new(-p.x, p.y))).collect();
-        // Upright: the plate's z becomes depth, its y height; x is mirrored, which the outline does not notice.
+        // Upright: the plate's z becomes depth, its y height; x is mirrored, but the outline is symmetric.
         let upright = |mesh: enfilade_geometry::Mesh| mesh.turned(Vec3::X, FRAC_PI_2).turned(Vec3::Z, std::f32::consts::PI);
         let sides = upright(cut_out(&outline, 0.095, 0.003));
         b.part_at(&guitar, "body", grained(sides, rng), lean, Finish::DarkWood);
@@ -104,8 +109,9 @@ pub struct MusicKeyboard {
     pub white_keys: usize,
 }
 
+/// Width of a white key, metres: seven of them make an octave of 164.5 mm.
 const WHITE: f32 = 0.0235;
-/// Height of the keys.
+/// Height of the keys above the floor, metres.
 const KEYS: f32 = 0.72;
 
 impl MusicKeyboard {
@@ -149,15 +155,15 @@ impl Furniture for MusicKeyboard {
         let rest = board([-0.22, -0.004, 0.0], [0.22, 0.0, 0.16], 0.001).turned(Vec3::X, 0.3).moved(Vec3::new(0.0, -0.11, low + 0.1145));
         b.part(&piano, "music_rest", rest, Finish::BlackPlastic);
         for (i, s) in [-1.0f32, 1.0].into_iter().enumerate() {
-            let (y, at) = (0.13, s * (half - 0.2));
-            let cross = rod([at, -y, 0.012], [at, y, low - 0.01], 0.0125, 10).with(rod(
+            let (y, at, radius) = (0.13, s * (half - 0.2), 0.0125);
+            let cross = rod([at, -y, 0.012], [at, y, low - 0.01], radius, 10).with(rod(
                 [at + 0.03, y, 0.012],
                 [at + 0.03, -y, low - 0.01],
-                0.0125,
+                radius,
                 10,
             ));
-            let bars = all([-y, y].map(|y| rod([at - 0.04, y, low - 0.0127], [at + 0.07, y, low - 0.0127], 0.0125, 10)));
-            let feet = all([-y, y].map(|y| rod([at - 0.05, y, 0.0125], [at + 0.08, y, 0.0125], 0.0125, 10)));
+            let bars = all([-y, y].map(|y| rod([at - 0.04, y, low - 0.0127], [at + 0.07, y, low - 0.0127], radius, 10)));
+            let feet = all([-y, y].map(|y| rod([at - 0.05, y, radius], [at + 0.08, y, radius], radius, 10)));
             b.part(&piano, &format!("stand_{}", i + 1), all([cross, bars, feet]), Finish::BlackMetal);
         }
         let music = b.object("sheet_music", Class::Paper, on(pose, Vec3::new(0.0, -0.11, low + 0.1145), 0.0));
@@ -181,7 +187,7 @@ mod tests {
         let scene = scene_of(&Guitar { dark: false }, 0);
         let [body, frame] = ["guitar_1/body", "guitar_stand_1/frame"]
             .map(|name| scene.parts.iter().find(|part| part.name == name).expect("the scene has the part"));
-        // The back is the plane y = 0 of the upright guitar, the bar what is highest of the stand.
+        // The back is the plane y = 0 of the upright guitar, and the bar is the highest part of the stand.
         let upright = body.world_from_mesh.inverse();
         let bar = scene.world_positions(frame).filter(|p| p.z > 0.42).map(|p| place(&upright, p).y).fold(f32::NEG_INFINITY, f32::max);
         assert!(bar.abs() < 0.003, "{bar} m before the back");

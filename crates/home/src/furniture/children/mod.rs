@@ -1,4 +1,4 @@
-//! A child's room: low furniture, toys, instruments.
+//! A child's room: cots, low tables, chairs and chests, toys, plush animals, globes and instruments.
 
 mod crib;
 mod globe;

@@ -1,21 +1,28 @@
+//! A low table of 60 to 72 cm, round or square, for children of three to six (class table), and a chair that fits it (class chair). Legs
+//! are of wood, tops, seats and backs of wood or lacquer.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::{Furniture, Surface, board, grained, leg};
 use crate::materials::Finish;
 use crate::shape::{Reshape, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
-/// A table for children of three to six: EN 1729 size mark 1 has 460 mm, and chairs of 260 mm.
+/// A table for children of three to six.
 #[derive(Clone, Copy, Debug)]
 pub struct PlayTable {
     /// Diameter, or edge length.
     pub width: f32,
     /// Round instead of square.
     pub round: bool,
-    /// Of the top.
+    /// What the top is made of.
     pub top: Finish,
 }
 
+/// Height of the table, metres: that of EN 1729 size mark 1.
 const TABLE: f32 = 0.46;
+/// Thickness of the top, metres.
+const BOARD: f32 = 0.022;
+/// Height of the seat, metres: that of EN 1729 size mark 1.
 const SEAT: f32 = 0.26;
 
 impl Furniture for PlayTable {
@@ -37,9 +44,9 @@ impl Furniture for PlayTable {
         let table = b.object("play_table", Class::Table, pose);
         let half = 0.5 * self.width;
         let top = if self.round {
-            crate::furniture::form::cylinder(half, 0.022, 64).moved(Vec3::new(0.0, 0.0, TABLE - 0.022))
+            crate::furniture::form::cylinder(half, BOARD, 64).moved(Vec3::new(0.0, 0.0, TABLE - BOARD))
         } else {
-            rounded_box(Vec3::new(self.width, self.width, 0.022), 0.008, 3).moved(Vec3::new(0.0, 0.0, TABLE - 0.011))
+            rounded_box(Vec3::new(self.width, self.width, BOARD), 0.008, 3).moved(Vec3::new(0.0, 0.0, TABLE - 0.5 * BOARD))
         };
         b.part(&table, "top", grained(top, rng), self.top);
         let stand = if self.round { 0.56 } else { 0.78 } * half;
@@ -50,10 +57,10 @@ impl Furniture for PlayTable {
     }
 }
 
-/// The chair that goes with it.
+/// The chair that goes with a [`PlayTable`].
 #[derive(Clone, Copy, Debug)]
 pub struct ToyChair {
-    /// Of seat and back.
+    /// What seat and back are made of.
     pub finish: Finish,
 }
 

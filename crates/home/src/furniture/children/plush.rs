@@ -1,3 +1,6 @@
+//! A sitting bear or rabbit of plush, 22 to 38 cm high without long ears, of class other prop: ellipsoids of fur with a muzzle and soles of
+//! a pale cloth and eyes and nose of black plastic. It is modelled one metre high and scaled; it looks to +y.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::{CONTACT, Furniture, on};
 use crate::materials::Finish;
@@ -8,11 +11,11 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 /// A sitting bear of plush, or a rabbit with long ears.
 #[derive(Clone, Copy, Debug)]
 pub struct PlushBear {
-    /// Of the seated animal, without long ears.
+    /// Height of the seated animal without long ears.
     pub height: f32,
-    /// Long ears.
+    /// A rabbit with long ears instead of a bear.
     pub rabbit: bool,
-    /// Of the fur.
+    /// What body, head and limbs are covered with.
     pub fur: Finish,
 }
 

@@ -1,3 +1,6 @@
+//! Toys that lie on the floor or on a shelf, of class other prop: wooden blocks in a tower and around it, a ball, a wooden train of three
+//! cars, a car, a tower of rings. Sizes are fixed; colours and the places of loose blocks vary. The train heads for +x.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, rod, turned};
 use crate::furniture::{CONTACT, Furniture, on};
@@ -17,7 +20,10 @@ pub enum Toy {
     RingTower,
 }
 
+/// Edge of a building block, metres.
 const BLOCK: f32 = 0.04;
+/// Radius of the ball, metres.
+const BALL: f32 = 0.105;
 
 fn color(k: usize) -> Finish {
     if k % 4 == 3 { Finish::Wood } else { Finish::ColoredLacquer(k as u8) }
@@ -107,7 +113,7 @@ impl Furniture for Toy {
     fn size(&self) -> Vec3 {
         Vec3::from_array(match self {
             Self::Blocks => [0.4, 0.4, 0.125],
-            Self::Ball => [0.21, 0.21, 0.21],
+            Self::Ball => [2.0 * BALL; 3],
             Self::Train => [0.37, 0.066, 0.1],
             Self::Car => [0.2, 0.094, 0.1],
             Self::RingTower => [0.15, 0.15, 0.225],
@@ -120,8 +126,8 @@ impl Furniture for Toy {
             Self::Train => Self::train(b, pose),
             Self::Car => Self::car(b, pose, rng),
             Self::Ball => {
-                let object = b.object("ball", Class::OtherProp, on(pose, Vec3::new(0.0, 0.0, 0.105), 0.0));
-                // Six gores in two colours, tilted as a ball comes to rest.
+                let object = b.object("ball", Class::OtherProp, on(pose, Vec3::new(0.0, 0.0, BALL), 0.0));
+                // Six gores in two colours; the axis is tilted, as a ball comes to rest in any direction.
                 let tilt = rng.range(0.3, 1.2);
                 for (name, k) in [("gores_1", 0), ("gores_2", 1)] {
                     let gores = (0..3).map(|g| {
@@ -132,13 +138,13 @@ impl Furniture for Toy {
                             |i, j| {
                                 let (a, t) = (std::f32::consts::TAU * (from + i as f32 / 36.0), std::f32::consts::PI * j as f32 / 20.0);
                                 let ring = if j == 0 || j == 20 { 0.0 } else { t.sin() };
-                                0.105 * Vec3::new(ring * a.cos(), ring * a.sin(), -t.cos())
+                                BALL * Vec3::new(ring * a.cos(), ring * a.sin(), -t.cos())
                             },
                             |i, j| Vec2::new(i as f32 * 0.018, j as f32 * 0.016),
                         )
                     });
                     let mesh = all(gores);
-                    let mesh = enfilade_geometry::Mesh { normals: mesh.positions.iter().map(|p| *p / 0.105).collect(), ..mesh };
+                    let mesh = enfilade_geometry::Mesh { normals: mesh.positions.iter().map(|p| *p / BALL).collect(), ..mesh };
                     b.part(&object, name, mesh.turned(Vec3::X, tilt), Finish::Plastic(k as u8 + rng.below(2) as u8));
                 }
             }

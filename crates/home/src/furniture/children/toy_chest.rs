@@ -1,3 +1,6 @@
+//! A chest for toys of 60 to 85 × 40 × 42 cm, of class box, in wood or lacquer: closed with a lid that carries things, or open with a
+//! blanket (other prop), a plush bear and a ball in it.
+
 use super::{PlushBear, Toy};
 use crate::builder::{Builder, Class};
 use crate::furniture::form::all;
@@ -9,17 +12,22 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// A chest for toys: closed with a lid to sit on, or open and full.
 #[derive(Clone, Copy, Debug)]
 pub struct ToyChest {
-    /// Along x.
+    /// Width along x.
     pub width: f32,
-    /// Without a lid.
+    /// Without a lid, and full.
     pub open: bool,
-    /// Of its walls.
+    /// What walls and lid are made of.
     pub finish: Finish,
 }
 
+/// Depth over the lid, metres.
 const DEPTH: f32 = 0.40;
+/// Height of the closed chest, metres: that of a seat.
 const HEIGHT: f32 = 0.42;
+/// Thickness of the walls, metres.
 const BOARD: f32 = 0.016;
+/// Air between walls that meet, metres: it keeps faces out of one plane.
+const GAP: f32 = 0.0002;
 
 impl Furniture for ToyChest {
     fn random(rng: &mut Rng) -> Self {
@@ -43,12 +51,12 @@ impl Furniture for ToyChest {
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let chest = b.object("toy_chest", Class::Box, pose);
         let (x, y) = (0.5 * self.width - 0.01, 0.5 * DEPTH - 0.01);
-        let top = HEIGHT - 0.022;
+        let (low, top) = (0.02, HEIGHT - 0.022);
         let walls = all([
-            board([-x, y - BOARD, 0.02], [x, y, top], 0.002),
-            board([-x, -y, 0.02], [x, BOARD - y, top], 0.002),
-            board([-x, BOARD - y + 0.0002, 0.02], [BOARD - x, y - BOARD - 0.0002, top], 0.002),
-            board([x - BOARD, BOARD - y + 0.0002, 0.02], [x, y - BOARD - 0.0002, top], 0.002),
+            board([-x, y - BOARD, low], [x, y, top], 0.002),
+            board([-x, -y, low], [x, BOARD - y, top], 0.002),
+            board([-x, BOARD - y + GAP, low], [BOARD - x, y - BOARD - GAP, top], 0.002),
+            board([x - BOARD, BOARD - y + GAP, low], [x, y - BOARD - GAP, top], 0.002),
             board([BOARD - x, BOARD - y, 0.03], [x - BOARD, y - BOARD, 0.044], 0.001),
         ]);
         b.part(&chest, "walls", grained(walls, rng), self.finish);
@@ -60,7 +68,7 @@ impl Furniture for ToyChest {
             b.part(&chest, "lid", grained(lid, rng), if self.finish == Finish::Wood { Finish::Wood } else { self.finish });
             return;
         }
-        // Toys up to the rim: a bear looks out, a ball lies beside it, blocks between them.
+        // A blanket fills the chest; a bear on it looks out, and a ball lies beside the bear.
         let floor = HEIGHT - 0.18;
         let fill = board([BOARD - x + 0.002, BOARD - y + 0.002, 0.046], [x - BOARD - 0.002, y - BOARD - 0.002, floor], 0.01);
         let blanket = b.object("blanket", Class::OtherProp, pose);

@@ -1,3 +1,7 @@
+//! Books and magazines that lie about: a row of books 20 to 42 cm long between bookends of stone or brass (class books; the ends are other
+//! prop), a book that lies open or face down like a tent, and a rack on the floor, of wood or wire, with three to seven magazines upright
+//! in it (class other furniture; the magazines are paper).
+
 use crate::builder::{Builder, Class};
 use crate::furniture::bookshelf::row_of_books;
 use crate::furniture::form::{all, cut_out, rod};
@@ -11,9 +15,9 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// Books that stand between two bookends.
 #[derive(Clone, Copy, Debug)]
 pub struct BookRow {
-    /// Between the ends.
+    /// Width between the bookends.
     pub width: f32,
-    /// Blocks of stone instead of quarters of a brass disk.
+    /// Bookends are blocks of stone instead of quarters of a brass disk.
     pub stone: bool,
 }
 
@@ -49,9 +53,9 @@ impl Furniture for BookRow {
 /// A book that lies open, face up, or face down like a tent.
 #[derive(Clone, Copy, Debug)]
 pub struct OpenBook {
-    /// Of a page.
+    /// Width and height of a page.
     pub page: Vec2,
-    /// Face down.
+    /// Lies face down, like a tent.
     pub down: bool,
 }
 
@@ -60,7 +64,7 @@ impl OpenBook {
     fn pages(&self) -> Mesh {
         let (w, h) = (self.page.x, self.page.y);
         let rise = |t: f32| 0.004 + 0.016 * (t * 9.0).min(1.0).sqrt() * (1.0 - 0.75 * t);
-        // Across: over the upper side from one edge to the other, then back below.
+        // The section runs over the upper side from one edge to the other, then back below.
         let (n, around) = (24, 2 * 25);
         let point = |i: usize, j: usize| {
             let i = i % around;
@@ -143,7 +147,7 @@ impl Furniture for OpenBook {
 pub struct MagazineRack {
     /// Of wood instead of wire.
     pub wood: bool,
-    /// In it.
+    /// Magazines in it.
     pub count: usize,
 }
 
@@ -158,25 +162,25 @@ impl Furniture for MagazineRack {
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let rack = b.object("magazine_rack", Class::OtherFurniture, pose);
+        // Half the length between the ends of wires and floor.
+        let half = 0.165;
         let side = |s: f32| -> Mesh {
             let plain = if self.wood {
                 board([-0.17, -0.005, 0.0], [0.17, 0.005, 0.27], 0.002)
             } else {
                 let wires = (0..9).map(|k| rod([0.04 * (k as f32 - 4.0), 0.0, 0.0], [0.04 * (k as f32 - 4.0), 0.0, 0.27], 0.002, 6));
-                all(wires.chain([
-                    rod([-0.165, 0.0, 0.27], [0.165, 0.0, 0.27], 0.004, 8),
-                    rod([-0.165, 0.0, 0.004], [0.165, 0.0, 0.004], 0.004, 8),
-                ]))
+                all(wires
+                    .chain([rod([-half, 0.0, 0.27], [half, 0.0, 0.27], 0.004, 8), rod([-half, 0.0, 0.004], [half, 0.0, 0.004], 0.004, 8)]))
             };
             plain.turned(Vec3::X, -s * 0.16).moved(Vec3::new(0.0, s * 0.075, 0.06))
         };
         let finish = if self.wood { Finish::Wood } else { Finish::BlackMetal };
         b.part(&rack, "sides", grained(side(-1.0).with(side(1.0)), rng), finish);
-        b.part(&rack, "floor", board([-0.165, -0.074, 0.056], [0.165, 0.074, 0.064], 0.001), finish);
+        b.part(&rack, "floor", board([-half, -0.074, 0.056], [half, 0.074, 0.064], 0.001), finish);
         let feet = [(-1.0f32, -1.0f32), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
             .map(|(x, y)| rod([0.15 * x, 0.1 * y, 0.0], [0.14 * x, 0.06 * y, 0.06], 0.006, 8));
         b.part(&rack, "feet", crate::furniture::standing(all(feet)), finish);
-        // Dropped in from above the floor, since they are turned a little.
+        // Their lower edges end above the rack's floor, which turned ones would cut into.
         for k in 0..self.count {
             let y = 0.1 * ((k as f32 + 0.5) / self.count as f32 - 0.5);
             let place = on(pose, Vec3::new(rng.range(-0.015, 0.015), y, 0.2275), 0.0)

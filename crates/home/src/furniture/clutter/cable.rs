@@ -1,3 +1,6 @@
+//! A cable with a plug that lies in two to four loops of 5 to 8 cm radius, held by a tie; class other prop, of white or black plastic. The
+//! plug is at +x.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, rod, wire};
 use crate::furniture::{CONTACT, Furniture, on};
@@ -9,9 +12,9 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 /// A cable that lies in loops, its plug at one end.
 #[derive(Clone, Copy, Debug)]
 pub struct Cable {
-    /// Of the loops.
+    /// Radius of the loops.
     pub radius: f32,
-    /// How many.
+    /// How many loops lie on each other.
     pub loops: usize,
     /// White instead of black.
     pub white: bool,
@@ -29,6 +32,7 @@ impl Furniture for Cable {
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let finish = if self.white { Finish::WhitePlastic } else { Finish::BlackPlastic };
         let cable = b.object("cable", Class::OtherProp, on(pose, Vec3::new(-0.06, 0.0, CONTACT), 0.0));
+        // Radius of the cord.
         let r = 0.0027;
         let steps = 12 * self.loops;
         let (phase, wobble) = (rng.range(0.0, TAU), rng.range(0.004, 0.008));

@@ -1,3 +1,6 @@
+//! Ornaments and boxes that stand on furniture: photographs in frames of 11 to 21 cm (class picture), groups of one to three pillar candles
+//! on a tray, figurines, boxes of tissues and board games (class box), and woven baskets of 16 to 30 cm; the rest is of class other prop.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, loft, rod, turned, vessel};
 use crate::furniture::wall_art::printed;
@@ -11,13 +14,13 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// A small framed picture that stands on its strut.
 #[derive(Clone, Copy, Debug)]
 pub struct PhotoFrame {
-    /// Of the frame.
+    /// Width and height over the frame.
     pub size: Vec2,
-    /// Of the frame.
+    /// What the frame is made of.
     pub finish: Finish,
 }
 
-/// How far a frame leans back, radians.
+/// How far a photo frame leans back, radians.
 const LEAN: f32 = 0.2;
 
 impl Furniture for PhotoFrame {
@@ -91,7 +94,7 @@ impl Furniture for PillarCandles {
     }
 }
 
-/// An ornament without a use.
+/// A small sculpture: a knot, three arches in each other, a bird, or a stack of pebbles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Figurine {
@@ -193,7 +196,7 @@ impl Furniture for Figurine {
 pub struct TissueBox {
     /// A cube instead of a long box.
     pub cube: bool,
-    /// Of the cardboard.
+    /// Number of the colour of its cardboard.
     pub color: u8,
 }
 
@@ -233,7 +236,7 @@ impl Furniture for TissueBox {
 /// A board game's box, or several on each other.
 #[derive(Clone, Copy, Debug)]
 pub struct BoardGame {
-    /// On each other.
+    /// Boxes on each other.
     pub count: usize,
 }
 
@@ -272,7 +275,7 @@ impl Furniture for BoardGame {
 pub struct StorageBasket {
     /// Width, depth and height of the body.
     pub body: Vec3,
-    /// Of the weave.
+    /// What it is woven of.
     pub finish: Finish,
 }
 

@@ -1,3 +1,6 @@
+//! Hand-held devices that lie on their backs: remote controls 14 to 21 cm long, phones of 73 × 150 mm, tablets of 250 × 175 mm; class other
+//! prop. Phones and tablets show a picture where they are on.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cut_out, cylinder, rounded_rectangle};
 use crate::furniture::{CONTACT, Furniture, board, on};
@@ -8,7 +11,7 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// A remote control.
 #[derive(Clone, Copy, Debug)]
 pub struct RemoteControl {
-    /// Along y.
+    /// Length along y.
     pub length: f32,
 }
 
@@ -41,9 +44,9 @@ impl Furniture for RemoteControl {
 /// A telephone that lies on its back.
 #[derive(Clone, Copy, Debug)]
 pub struct Phone {
-    /// Lit.
+    /// The screen is lit.
     pub on: bool,
-    /// In a case of this finish.
+    /// What its case is made of.
     pub case: Finish,
 }
 
@@ -77,7 +80,7 @@ impl Furniture for Phone {
 /// A tablet that lies on its back.
 #[derive(Clone, Copy, Debug)]
 pub struct Tablet {
-    /// Lit.
+    /// The screen is lit.
     pub on: bool,
 }
 

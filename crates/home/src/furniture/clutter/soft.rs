@@ -1,3 +1,6 @@
+//! Blankets folded to a parcel of 42 × 32 cm in three to five layers (class other prop), and cushions of 38 to 50 cm that lie flat (class
+//! pillow), in an accent colour of the palette; some blankets are knitted.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::soft::folded;
 use crate::furniture::{CONTACT, Furniture, on};
@@ -10,7 +13,7 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 pub struct FoldedBlanket {
     /// Layers on each other.
     pub folds: usize,
-    /// Wool that was knitted, or woven cloth of an accent colour.
+    /// Knitted wool instead of woven cloth in an accent colour.
     pub knitted: bool,
 }
 
@@ -35,9 +38,9 @@ impl Furniture for FoldedBlanket {
 /// A cushion that lies flat.
 #[derive(Clone, Copy, Debug)]
 pub struct ScatterCushion {
-    /// Of its edges.
+    /// Length of its edges.
     pub size: Vec2,
-    /// One of the accent colours.
+    /// Which of the accent colours it has.
     pub color: u8,
 }
 
@@ -52,10 +55,12 @@ impl Furniture for ScatterCushion {
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        /// Where the lower side is flat, below the cushion's middle plane as a share of its thickness.
+        const SUNK: f32 = 0.34;
         let thickness = 0.14;
         // Its weight flattens the lower side.
-        let mesh = pillow(self.size, thickness, rng).deformed(|p| Vec3::new(p.x, p.y, p.z.max(-0.34 * thickness))).smoothed(70.0);
-        let cushion = b.object("cushion", Class::Pillow, on(pose, Vec3::new(0.0, 0.0, CONTACT + 0.34 * thickness), 0.0));
+        let mesh = pillow(self.size, thickness, rng).deformed(|p| Vec3::new(p.x, p.y, p.z.max(-SUNK * thickness))).smoothed(70.0);
+        let cushion = b.object("cushion", Class::Pillow, on(pose, Vec3::new(0.0, 0.0, CONTACT + SUNK * thickness), 0.0));
         b.part(&cushion, "cover", mesh.uv_moved(Vec2::splat(rng.next_f32())), Finish::Accent(self.color));
     }
 }

@@ -1,3 +1,6 @@
+//! A wooden bench without a back for a long side of a table, 100 to 160 cm long, on slanted legs or on two boards with a rail; class other
+//! furniture. Half of them have a cushion in an accent colour, an object of class pillow.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::all;
 use crate::furniture::{CONTACT, Furniture, Surface, board, grained, leg};
@@ -8,16 +11,20 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// A bench without a back, for a long side of a table.
 #[derive(Clone, Copy, Debug)]
 pub struct DiningBench {
-    /// Along x.
+    /// Length along x.
     pub length: f32,
-    /// A cushion on it.
+    /// There is a cushion on it.
     pub cushion: bool,
-    /// Slanted legs instead of sides of board.
+    /// Stands on slanted legs instead of boards.
     pub legs: bool,
 }
 
+/// Height of the seat, metres: that of dining chairs.
 const SEAT: f32 = 0.45;
+/// Depth of the seat, metres.
 const DEPTH: f32 = 0.36;
+/// Distance of the boards that carry the seat from its ends, metres.
+const OVERHANG: f32 = 0.12;
 
 impl Furniture for DiningBench {
     fn random(rng: &mut Rng) -> Self {
@@ -49,8 +56,8 @@ impl Furniture for DiningBench {
             }
         } else {
             let side = |x: f32| board([x - 0.018, -0.5 * DEPTH + 0.02, 0.0], [x + 0.018, 0.5 * DEPTH - 0.02, SEAT - 0.0352], 0.003);
-            let rail = board([0.12 - half, -0.012, SEAT - 0.13], [half - 0.12, 0.012, SEAT - 0.0354], 0.002);
-            b.part(&bench, "stand", grained(all([side(0.12 - half), side(half - 0.12), rail]), rng), Finish::Wood);
+            let rail = board([OVERHANG - half, -0.012, SEAT - 0.13], [half - OVERHANG, 0.012, SEAT - 0.0354], 0.002);
+            b.part(&bench, "stand", grained(all([side(OVERHANG - half), side(half - OVERHANG), rail]), rng), Finish::Wood);
         }
         if self.cushion {
             let pad = padded_box(Vec3::new(self.length - 0.03, DEPTH - 0.02, 0.04), 0.016, 0.006).uv_moved(Vec2::splat(rng.next_f32()));

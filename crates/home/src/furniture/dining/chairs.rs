@@ -1,3 +1,7 @@
+//! Dining chairs, all of class chair and with a seat about 45 cm high: chairs with spindles after those of Windsor, upholstered chairs with
+//! a straight or a tub back, and chairs with a moulded shell. Sizes are fixed for each kind; number of spindles, back, cloth and finishes
+//! vary. The sitter looks to +y.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, rod, wire};
 use crate::furniture::{CONTACT, Furniture, grained, standing};
@@ -7,7 +11,7 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::{FRAC_PI_2, PI};
 
-/// Height of a seat.
+/// Height of a seat, metres: common seats are 44 to 47 cm high, for tables of 72 to 76 cm.
 const SEAT: f32 = 0.455;
 
 /// A chair with a bow or a comb of spindles for its back, after those of Windsor.
@@ -15,9 +19,9 @@ const SEAT: f32 = 0.455;
 pub struct SpindleChair {
     /// A bent bow around the spindles instead of a straight rail over them.
     pub bow: bool,
-    /// In the back.
+    /// Spindles in the back.
     pub spindles: usize,
-    /// Of all its wood.
+    /// What all of it is made of.
     pub finish: Finish,
 }
 
@@ -33,10 +37,11 @@ impl Furniture for SpindleChair {
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let chair = b.object("spindle_chair", Class::Chair, pose);
-        let seat = rounded_box(Vec3::new(0.42, 0.42, 0.034), 0.015, 3)
+        let half = 0.21;
+        let seat = rounded_box(Vec3::new(2.0 * half, 2.0 * half, 0.034), 0.015, 3)
             .deformed(|p| {
-                let saddle = 0.012 * (1.0 - (p.x / 0.21).powi(2)).max(0.0) * (1.0 - (p.y / 0.21).powi(2)).max(0.0);
-                let round = 1.0 - 0.12 * (p.y / 0.21).powi(2) * (p.x / 0.21).abs().powi(2);
+                let saddle = 0.012 * (1.0 - (p.x / half).powi(2)).max(0.0) * (1.0 - (p.y / half).powi(2)).max(0.0);
+                let round = 1.0 - 0.12 * (p.y / half).powi(2) * (p.x / half).abs().powi(2);
                 Vec3::new(p.x * round * (1.0 + 0.1 * p.y), p.y * round, p.z - saddle)
             })
             .smoothed(40.0);
@@ -93,9 +98,9 @@ impl SpindleChair {
 /// A padded chair on slim legs.
 #[derive(Clone, Copy, Debug)]
 pub struct UpholsteredChair {
-    /// Seat and back.
+    /// What seat and back are covered with.
     pub cloth: Finish,
-    /// Of the legs.
+    /// What the legs are made of.
     pub legs: Finish,
     /// The back reaches around the sides.
     pub tub: bool,
@@ -176,7 +181,7 @@ fn tub_back() -> Mesh {
 /// A chair with a moulded shell on a stand of wood or wire.
 #[derive(Clone, Copy, Debug)]
 pub struct ShellChair {
-    /// Of the shell.
+    /// What the shell is made of.
     pub shell: Finish,
     /// Wooden legs instead of a frame of steel.
     pub wooden: bool,
@@ -221,6 +226,7 @@ impl Furniture for ShellChair {
 /// The shell: a sheet of 6 mm bent from seat to back, its sides drawn up.
 fn shell() -> Mesh {
     const N: [usize; 2] = [20, 28];
+    /// Thickness of the shell, metres.
     const THICK: f32 = 0.006;
     let sheet = |u: f32, v: f32| {
         // From the front edge of the seat (v = 0) around the bend to the top of the back.
@@ -236,7 +242,7 @@ fn shell() -> Mesh {
         let edge = 1.0 - 0.06 * (2.0 * v - 1.0).abs().powi(8);
         Vec3::new(u * half * edge, y, z) + normal * dish
     };
-    // A closed strip: over the upper side, back along the lower one.
+    // The section is a closed strip: over the upper side, back along the lower one.
     let around = 2 * (N[0] + 1);
     let point = |i: usize, j: usize| {
         let i = i % around;

@@ -1,3 +1,6 @@
+//! A cabinet of 80 to 100 × 175 to 205 cm with glazed doors over closed ones, class cabinet, of wood or lacquer with brass knobs. Crockery
+//! stands on three shelves behind the glass. The cabinet stands half the depth of its knobs behind the middle of the footprint.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, to_front, turned};
 use crate::furniture::tableware::shelf_of_crockery;
@@ -9,19 +12,21 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// A cabinet with glazed doors over closed ones, crockery behind the glass.
 #[derive(Clone, Copy, Debug)]
 pub struct GlassCabinet {
-    /// Along x, for two doors.
+    /// Width along x, for two doors.
     pub width: f32,
-    /// Of the whole.
+    /// Height of the whole cabinet.
     pub height: f32,
-    /// Of the wood.
+    /// What all but glass and knobs is made of.
     pub finish: Finish,
 }
 
+/// Depth without the knobs, metres.
 const DEPTH: f32 = 0.40;
-/// How far knobs stand out.
+/// How far knobs stand out before the top, metres.
 const KNOB: f32 = 0.022;
+/// Thickness of the boards, metres.
 const BOARD: f32 = 0.02;
-/// Upper edge of the closed part.
+/// Upper edge of the closed part, metres.
 const CLOSED: f32 = 0.72;
 
 impl Furniture for GlassCabinet {

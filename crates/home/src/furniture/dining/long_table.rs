@@ -1,3 +1,6 @@
+//! A rectangular dining table for four to eight people, 130 to 230 × 82 to 98 cm, of class table, on one of five kinds of stand. Some are
+//! cut for a leaf in the middle, and one in three is laid for a meal at its long sides. The long side is along x.
+
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::form::{all, cut_out, rod, rounded_rectangle, turned};
 use crate::furniture::tableware::PlaceSetting;
@@ -6,20 +9,20 @@ use crate::materials::Finish;
 use crate::shape::{Reshape, bevelled_box};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
-/// A rectangular dining table for four to ten people.
+/// A rectangular dining table.
 #[derive(Clone, Copy, Debug)]
 pub struct LongTable {
-    /// Along x.
+    /// Length along x.
     pub length: f32,
-    /// Along y.
+    /// Width along y.
     pub width: f32,
     /// What it stands on.
     pub stand: Stand,
-    /// Cut in the middle, with a leaf in between, to be pulled out.
+    /// The top is cut for a leaf in the middle, to be pulled out.
     pub extends: bool,
-    /// Of the top.
+    /// What the top is made of, and the stand unless it is of metal.
     pub finish: Finish,
-    /// Laid for a meal, every place like this.
+    /// What every place along the long sides is laid with, if the table is laid.
     pub laid: Option<PlaceSetting>,
 }
 
@@ -38,8 +41,9 @@ pub enum Stand {
     Columns,
 }
 
-/// Height of the top's surface: EN 1729 and common practice have 720 to 760 mm.
+/// Height of the top's surface, metres: EN 1729 and common practice have 720 to 760 mm.
 const TOP: f32 = 0.75;
+/// Thickness of the top, metres.
 const BOARD: f32 = 0.032;
 
 impl LongTable {
@@ -65,8 +69,9 @@ impl LongTable {
         let slab = |x0: f32, x1: f32| board([x0, -0.5 * self.width, TOP - BOARD], [x1, 0.5 * self.width, TOP], 0.003);
         let half = 0.5 * self.length;
         if self.extends {
-            let leaf = 0.22;
-            for (i, [x0, x1]) in [[-half, -leaf - 0.0008], [-leaf + 0.0008, leaf - 0.0008], [leaf + 0.0008, half]].into_iter().enumerate() {
+            // Half the length of the leaf, and half of the joint at its ends.
+            let (leaf, joint) = (0.22, 0.0008);
+            for (i, [x0, x1]) in [[-half, -leaf - joint], [-leaf + joint, leaf - joint], [leaf + joint, half]].into_iter().enumerate() {
                 b.part(table, &format!("top_{}", i + 1), grained(slab(x0, x1), rng), self.finish);
             }
         } else if self.stand == Stand::Slanted {
@@ -95,8 +100,9 @@ impl LongTable {
             Stand::Corners => {
                 self.apron(b, table, 0.06, rng);
                 for (i, s) in corners.into_iter().enumerate() {
-                    let at = s * (half - 0.045);
-                    let post = board([at.x - 0.037, at.y - 0.037, 0.0], [at.x + 0.037, at.y + 0.037, under], 0.004);
+                    // Half the thickness of a leg.
+                    let (at, thick) = (s * (half - 0.045), 0.037);
+                    let post = board([at.x - thick, at.y - thick, 0.0], [at.x + thick, at.y + thick, under], 0.004);
                     b.part(table, &format!("leg_{}", i + 1), grained(post, rng), self.finish);
                 }
             }
@@ -117,11 +123,13 @@ impl LongTable {
                     let z = [0.015, under - 0.015];
                     let [p, q] = [Vec3::new(x, -y, 0.0), Vec3::new(x, y, 0.0)];
                     let up = |z: f32| Vec3::new(0.0, 0.0, z);
+                    // Posts reach half a millimetre into the bars below and above them.
+                    let end = 0.0295;
                     let frame = all([
                         bar(p + up(z[0]), q + up(z[0])),
                         bar(p + up(z[1]), q + up(z[1])),
-                        bar(p + up(z[0] + 0.0295), p + up(z[1] - 0.0295)),
-                        bar(q + up(z[0] + 0.0295), q + up(z[1] - 0.0295)),
+                        bar(p + up(z[0] + end), p + up(z[1] - end)),
+                        bar(q + up(z[0] + end), q + up(z[1] - end)),
                     ]);
                     b.part(table, &format!("frame_{}", i + 1), frame, Finish::BlackMetal);
                 }
@@ -138,8 +146,9 @@ impl LongTable {
                 b.part(table, "rail", grained(rail, rng), self.finish);
             }
             Stand::Columns => {
+                let inset = 0.42;
                 for (i, s) in [-1.0f32, 1.0].into_iter().enumerate() {
-                    let x = s * (half.x - 0.42);
+                    let x = s * (half.x - inset);
                     let column = turned(
                         &[
                             [0.0, 0.06],
@@ -165,7 +174,7 @@ impl LongTable {
                     };
                     b.part(table, &format!("feet_{}", i + 1), foot(-1.0).with(foot(1.0)), self.finish);
                 }
-                let rail = rod([-half.x + 0.42, 0.0, 0.2], [half.x - 0.42, 0.0, 0.2], 0.018, 14);
+                let rail = rod([-half.x + inset, 0.0, 0.2], [half.x - inset, 0.0, 0.2], 0.018, 14);
                 b.part(table, "rail", grained(rail, rng), self.finish);
             }
         }
@@ -193,7 +202,7 @@ impl Furniture for LongTable {
 
     fn surfaces(&self) -> Vec<Surface> {
         let half = 0.5 * Vec2::new(self.length, self.width) - 0.05;
-        // Of a laid table only the middle between the glasses is free; they stand further in where there are mats.
+        // On a laid table only the middle between the glasses is free, and mats push the glasses further in.
         let taken = self.laid.map_or(0.0, |laid| if laid.mat { 0.395 } else { 0.37 });
         let half = Vec2::new(half.x, half.y - taken);
         if half.y < 0.05 {

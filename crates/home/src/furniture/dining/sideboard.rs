@@ -1,3 +1,6 @@
+//! A long low cabinet of 130 to 190 × 74 to 82 cm on splayed legs, class cabinet: doors that are plain, fluted or filled with rattan, and
+//! three drawers. The body is of wood; fronts may be lacquered. It stands half the depth of its knobs behind the middle of the footprint.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, to_front, turned};
 use crate::furniture::{Furniture, Surface, board, grained, leg, on};
@@ -8,13 +11,13 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// A long low cabinet with doors and drawers.
 #[derive(Clone, Copy, Debug)]
 pub struct Sideboard {
-    /// Along x.
+    /// Width along x.
     pub width: f32,
-    /// To the top's surface.
+    /// Height of the top's surface.
     pub height: f32,
     /// What the doors look like.
     pub doors: DoorStyle,
-    /// Fronts in another finish than the body.
+    /// What doors and drawer fronts are made of.
     pub fronts: Finish,
 }
 
@@ -28,29 +31,36 @@ pub enum DoorStyle {
     Rattan,
 }
 
+/// Depth without the knobs, metres.
 const DEPTH: f32 = 0.43;
-/// How far knobs stand out.
+/// How far knobs stand out before the top, metres.
 const KNOB: f32 = 0.018;
+/// Height of the legs, metres.
 const LEG: f32 = 0.15;
+/// Thickness of the boards, metres.
 const BOARD: f32 = 0.02;
+/// Thickness of doors and drawer fronts, metres.
+const FRONT: f32 = 0.018;
+/// Air between boards that meet, metres: it keeps faces out of one plane.
+const GAP: f32 = 0.0002;
 
 impl Sideboard {
     /// A door over `[x0, x1, z0, z1]` before the depth `y`.
     fn door(&self, b: &mut Builder, object: &crate::builder::Object, number: usize, [x0, x1, z0, z1]: [f32; 4], y: f32, rng: &mut Rng) {
         let name = format!("door_{number}");
         match self.doors {
-            DoorStyle::Plain => b.part(object, &name, grained(board([x0, y, z0], [x1, y + 0.018, z1], 0.0012), rng), self.fronts),
+            DoorStyle::Plain => b.part(object, &name, grained(board([x0, y, z0], [x1, y + FRONT, z1], 0.0012), rng), self.fronts),
             DoorStyle::Fluted => {
                 let count = ((x1 - x0) / 0.022) as usize;
                 let step = (x1 - x0) / count as f32;
                 let slats = (0..count).map(|k| {
                     let x = x0 + (k as f32 + 0.5) * step;
-                    bevelled_box(Vec3::new(step - 0.001, 0.018, z1 - z0), 0.0062).moved(Vec3::new(x, y + 0.009, 0.5 * (z0 + z1)))
+                    bevelled_box(Vec3::new(step - 0.001, FRONT, z1 - z0), 0.0062).moved(Vec3::new(x, y + 0.5 * FRONT, 0.5 * (z0 + z1)))
                 });
                 b.part(object, &name, grained(all(slats), rng), self.fronts);
             }
             DoorStyle::Rattan => {
-                let section = [[0.0, 0.0], [0.0, 0.017], [0.001, 0.018], [0.044, 0.018], [0.045, 0.017], [0.045, 0.0]];
+                let section = [[0.0, 0.0], [0.0, 0.017], [0.001, FRONT], [0.044, FRONT], [0.045, 0.017], [0.045, 0.0]];
                 let at = Vec3::new(0.5 * (x0 + x1), y, 0.5 * (z0 + z1));
                 b.part(object, &name, grained(crate::shape::picture_frame(x1 - x0, z1 - z0, &section).moved(at), rng), self.fronts);
                 let panel = board([x0 + 0.043, y + 0.004, z0 + 0.043], [x1 - 0.043, y + 0.009, z1 - 0.043], 0.0005);
@@ -90,10 +100,10 @@ impl Furniture for Sideboard {
         let wood = Finish::Wood;
         b.part(&object, "top", grained(board([-half, back, top - BOARD], [half, front, top], 0.002), rng), wood);
         b.part(&object, "bottom", grained(board([-half, back, LEG], [half, front, LEG + BOARD], 0.002), rng), wood);
-        let side = |x: f32| board([x, back, LEG + BOARD + 0.0002], [x + BOARD, front, top - BOARD - 0.0002], 0.0015);
+        let side = |x: f32| board([x, back, LEG + BOARD + GAP], [x + BOARD, front, top - BOARD - GAP], 0.0015);
         b.part(&object, "sides", grained(side(-half).with(side(half - BOARD)), rng), wood);
         let (x0, x1, z0, z1) = (-half + BOARD, half - BOARD, LEG + BOARD, top - BOARD);
-        b.part(&object, "body", board([x0, back + 0.004, z0 + 0.0002], [x1, front - 0.024, z1 - 0.0002], 0.001), wood);
+        b.part(&object, "body", board([x0, back + 0.004, z0 + GAP], [x1, front - 0.024, z1 - GAP], 0.001), wood);
         // Two doors, three drawers, one more door where there is room for it.
         let sections = if self.width > 1.55 { 4 } else { 3 };
         let w = (x1 - x0) / sections as f32;
@@ -112,7 +122,7 @@ impl Furniture for Sideboard {
                     b.part(
                         &object,
                         &format!("drawer_{}", row + 1),
-                        grained(board([a, y, low], [c, y + 0.018, high], 0.0012), rng),
+                        grained(board([a, y, low], [c, y + FRONT, high], 0.0012), rng),
                         self.fronts,
                     );
                     knobs.push(knob(0.5 * (a + c), 0.5 * (low + high)));
@@ -125,7 +135,7 @@ impl Furniture for Sideboard {
         b.part(&object, "knobs", all(knobs), [Finish::Brass, Finish::BlackMetal][rng.below(2)]);
         for (i, s) in [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)].into_iter().enumerate() {
             let at = Vec3::new(s.x * (half - 0.12), s.y * (front - 0.075), 0.0);
-            b.part(&object, &format!("leg_{}", i + 1), leg(LEG - 0.0002, [0.012, 0.02], s * 0.03).moved(at), wood);
+            b.part(&object, &format!("leg_{}", i + 1), leg(LEG - GAP, [0.012, 0.02], s * 0.03).moved(at), wood);
         }
     }
 }

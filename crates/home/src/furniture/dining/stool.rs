@@ -1,3 +1,6 @@
+//! A bar stool for a kitchen island, of class chair: a round seat 63 to 68 cm high, padded or of wood, on four legs with a foot ring or on
+//! a chromed column with a plate; some have a low back. The sitter looks to +y.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, around, cylinder, turned};
 use crate::furniture::{Furniture, grained, standing};
@@ -10,11 +13,11 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 pub struct BarStool {
     /// Height of the seat: 0.65 m before a worktop of 0.91 m.
     pub seat: f32,
-    /// On one column with a foot plate instead of four legs.
+    /// Stands on one column with a foot plate instead of four legs.
     pub column: bool,
-    /// A low back.
+    /// There is a low back.
     pub back: bool,
-    /// A padded seat.
+    /// The seat is padded.
     pub padded: bool,
 }
 

@@ -1,3 +1,7 @@
+//! Bags, all of class bag: backpacks 40 to 48 cm high, leather handbags, shopping bags of paper or cloth, and suitcases on wheels in three
+//! common sizes (50, 61 and 70 cm). Cloth and leather bags are padded boxes that narrow to the top and are dented a little; all stand on z
+//! = 0 with their front to +y.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, rod, wire};
 use crate::furniture::soft::Wrinkles;
@@ -28,7 +32,7 @@ fn strap(path: &[[f32; 3]], width: f32) -> Mesh {
     wire(path, 0.5 * thick, 8).deformed(|p| Vec3::new(middle + (p.x - middle) * width / thick, p.y, p.z)).smoothed(60.0)
 }
 
-/// A backpack that stands, its straps to the wall.
+/// A backpack that stands, its straps at −y.
 #[derive(Clone, Copy, Debug)]
 pub struct Backpack {
     /// Width, depth and height.
@@ -209,6 +213,7 @@ pub struct Suitcase {
     pub handle: bool,
 }
 
+/// Height of the shell above the floor, metres: the wheels are below it.
 const WHEELS: f32 = 0.05;
 
 impl Furniture for Suitcase {

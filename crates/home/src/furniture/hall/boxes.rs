@@ -1,3 +1,6 @@
+//! Boxes, all of class box: cardboard boxes in four common sizes, about 30 to 60 cm long, shut with tape or with open flaps, and storage
+//! boxes of 26 to 40 cm in felt, wicker, cardboard, plastic or cloth, with a lid or with grips.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, loft, wire};
 use crate::furniture::{CONTACT, Furniture, Surface, board};
@@ -14,8 +17,10 @@ pub struct CardboardBox {
     pub open: bool,
 }
 
-/// Thickness of corrugated board.
+/// Thickness of corrugated board, metres.
 const BOARD: f32 = 0.004;
+/// Half the width of the tape, metres.
+const TAPE: f32 = 0.025;
 
 impl CardboardBox {
     /// The long flaps' length: half the depth, so that they meet.
@@ -27,7 +32,7 @@ impl CardboardBox {
         let (x, y, top) = (0.5 * self.size.x, 0.5 * self.size.y, self.size.z);
         let long = |side: f32, angle: f32| {
             let sheet = board([-x + 0.002, 0.0, 0.0], [x - 0.002, self.flap() - 0.002, BOARD], 0.001);
-            // Lies inward when shut; opens about the edge at y = side.
+            // The sheet lies inward when it is shut, and turns about the upper edge of its wall.
             let turned = sheet.turned(Vec3::X, angle);
             let turned = if side > 0.0 { turned.turned(Vec3::Z, std::f32::consts::PI) } else { turned };
             turned.moved(Vec3::new(0.0, side * (y - 0.001), top + 0.0005))
@@ -78,16 +83,16 @@ impl Furniture for CardboardBox {
             return;
         }
         b.part(&object, "body", loft(&[ring(0.0, CONTACT), ring(0.0, s.z), ring(0.001, s.z + 0.001)], 1), Finish::Cardboard);
-        // The flaps' thickness shows as a joint along the middle, which tape covers.
+        // The flaps meet in a joint along the middle, which tape covers.
         let halves = [-1.0f32, 1.0].map(|side| {
             let (a, c) = (side * 0.0006, side * (0.5 * s.y - 0.0015));
             board([-0.5 * s.x + 0.0015, a.min(c), s.z + 0.0011], [0.5 * s.x - 0.0015, a.max(c), s.z + 0.0045], 0.0012)
         });
         b.part(&object, "flaps", all(halves), Finish::Cardboard);
-        let tape = board([-0.5 * s.x + 0.001, -0.025, s.z + 0.0046], [0.5 * s.x - 0.001, 0.025, s.z + 0.005], 0.0001);
+        let tape = board([-0.5 * s.x + 0.001, -TAPE, s.z + 0.0046], [0.5 * s.x - 0.001, TAPE, s.z + 0.005], 0.0001);
         let ends = [-1.0f32, 1.0].map(|side| {
             let x = side * (0.5 * s.x + 0.0003);
-            board([x - 0.0002, -0.025, s.z - 0.06], [x + 0.0002, 0.025, s.z + 0.0005], 0.0001)
+            board([x - 0.0002, -TAPE, s.z - 0.06], [x + 0.0002, TAPE, s.z + 0.0005], 0.0001)
         });
         b.part(&object, "tape", all([tape].into_iter().chain(ends)), Finish::Plastic(1));
     }
@@ -100,7 +105,7 @@ pub struct StorageBox {
     pub size: Vec3,
     /// It has a lid.
     pub lid: bool,
-    /// Of its body.
+    /// What its body is made of.
     pub finish: Finish,
 }
 

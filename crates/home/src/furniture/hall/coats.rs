@@ -1,3 +1,7 @@
+//! Where coats and umbrellas go: hooks on a board on the wall (class other prop), stands 168 to 180 cm high (class other furniture) and
+//! umbrella stands. Each coat is an object of class clothes that hangs by the loop of its collar; each umbrella is other prop. The origin
+//! of the hooks is the middle of the board's back, on the wall; stands begin on the floor.
+
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::bedroom::Garment;
 use crate::furniture::form::{all, around, turned, wire};
@@ -8,8 +12,8 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
 
-/// A garment on a hook of wire of `radius` whose axis goes through the origin of `pose`; it bulges from `back` to the front only, since
-/// the wall or post is behind it.
+/// A garment on a hook: a wire of `radius` whose axis goes through the origin of `pose`. All of the garment is before y = `back`, since the
+/// wall or a post is behind it.
 fn hang_on_hook(b: &mut Builder, pose: DAffine3, radius: f32, back: f32, garment: Garment, rng: &mut Rng) {
     let clothes = b.object("clothes", Class::Clothes, pose);
     let cloth = garment.cloth(0.9, rng);
@@ -21,7 +25,7 @@ fn hang_on_hook(b: &mut Builder, pose: DAffine3, radius: f32, back: f32, garment
     b.part(&clothes, "loop", wire(&path, 0.0015, 6), Finish::Clothes(0));
 }
 
-/// Something that hangs in a hall.
+/// A garment that people hang up in a hall.
 fn outdoor(rng: &mut Rng) -> Garment {
     [Garment::Coat, Garment::Jacket, Garment::Jacket, Garment::Coat, Garment::Shirt][rng.below(5)]
 }
@@ -29,21 +33,22 @@ fn outdoor(rng: &mut Rng) -> Garment {
 /// A board with hooks on the wall, some with coats; its origin is the middle of its back.
 #[derive(Clone, Copy, Debug)]
 pub struct CoatHooks {
-    /// Hooks side by side, 16 cm apart.
+    /// Hooks side by side.
     pub hooks: usize,
     /// How many of them carry a coat.
     pub coats: usize,
-    /// A shelf for hats above.
+    /// There is a shelf for hats above.
     pub shelf: bool,
 }
 
+/// Distance from one hook to the next, metres.
 const PITCH: f32 = 0.17;
-/// Half the height of board, shelf and the longest coat.
+/// Half the height of board, shelf and the longest coat together, metres.
 const HALF: f32 = 0.62;
 
 impl CoatHooks {
-    /// The hook of coat `k` when the first hangs on hook `first`: every other one, then those between. Where their number is odd, the
-    /// second way around comes to those of itself.
+    /// The hook of coat `k` when the first hangs on hook `first`: coats take every second hook, then those between. The second round is
+    /// shifted by one if the number of hooks is even; if it is odd, it meets the free hooks without that.
     fn hook_of(&self, first: usize, k: usize) -> usize {
         let aside = if self.hooks.is_multiple_of(2) { k * 2 / self.hooks } else { 0 };
         (first + 2 * k + aside) % self.hooks
@@ -169,8 +174,9 @@ pub struct UmbrellaStand {
     pub umbrellas: usize,
 }
 
-/// Radius of a rolled umbrella where it leans on the rim, and how far beside the axis of the stand each of three stands.
+/// Radius of a rolled umbrella where it leans on the rim, metres.
 const CLOTH: f32 = 0.029;
+/// How far beside the axis of the stand each of three umbrellas passes, metres: they do not cut into each other.
 const ASIDE: f32 = 0.034;
 
 impl UmbrellaStand {
@@ -219,7 +225,7 @@ impl Furniture for UmbrellaStand {
         for k in 0..self.umbrellas {
             let turn = start + TAU * k as f32 / 3.0;
             let d = Vec2::from_angle(turn);
-            // Each leans past the axis on its own side, and against the rim.
+            // Each umbrella passes the axis on its own side and leans against the rim.
             let rim = ((1.04 * r - 0.004 - CLOTH).powi(2) - ASIDE * ASIDE).sqrt();
             let top = 0.87 / h;
             let tip = ((0.14 - rim * top) / (1.0 - top)).clamp(-0.045, rim - 0.01);

@@ -1,3 +1,7 @@
+//! A narrow table 80 to 125 cm long for a hall (class table), with or without drawers, two in three with a bowl for keys; tall mirrors of
+//! 45 to 75 × 150 to 180 cm that lean against a wall (class mirror), their glass rectangular, rounded or arched; and boards with three to
+//! five hooks for keys. The origin of a key board is the middle of its back, on the wall.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, rod, rounded_rectangle, to_front, wire};
 use crate::furniture::joinery::{Handle, front};
@@ -12,16 +16,22 @@ use std::f32::consts::TAU;
 pub struct Console {
     /// Its length.
     pub length: f32,
-    /// A drawer below the top.
+    /// There are two drawers below the top.
     pub drawer: bool,
-    /// A metal frame instead of wooden legs.
+    /// Stands on metal frames instead of wooden legs.
     pub metal: bool,
-    /// A bowl with keys on it.
+    /// There is a bowl with keys on it.
     pub keys: bool,
 }
 
+/// Height of the console's top, metres.
 const TOP: f32 = 0.8;
+/// Depth of the console with its knobs, metres: people pass before it.
 const DEPTH: f32 = 0.34;
+/// Thickness of the top, metres.
+const BOARD: f32 = 0.024;
+/// How far the box of the drawers stands back below the ends of the top, metres.
+const INSET: f32 = 0.012;
 
 impl Furniture for Console {
     fn random(rng: &mut Rng) -> Self {
@@ -47,13 +57,13 @@ impl Furniture for Console {
         let wood = [Finish::Wood, Finish::DarkWood, Finish::WhiteLacquer][rng.below(3)];
         let (x, y) = (0.5 * self.length, 0.5 * DEPTH);
         let face = y - Handle::DEPTH;
-        b.part(&console, "top", grained(board([-x, -y, TOP - 0.024], [x, face, TOP], 0.0025), rng), wood);
-        let low = if self.drawer { TOP - 0.024 - 0.12 } else { TOP - 0.024 };
+        b.part(&console, "top", grained(board([-x, -y, TOP - BOARD], [x, face, TOP], 0.0025), rng), wood);
+        let low = if self.drawer { TOP - BOARD - 0.12 } else { TOP - BOARD };
         if self.drawer {
-            let box_ = board([-x + 0.012, -y + 0.006, low], [x - 0.012, face - 0.0215, TOP - 0.0242], 0.0015);
+            let box_ = board([-x + INSET, -y + 0.006, low], [x - INSET, face - 0.0215, TOP - 0.0242], 0.0015);
             b.part(&console, "body", grained(box_, rng), wood);
             for k in 0..2 {
-                let from = -x + 0.012 + k as f32 * (x - 0.012);
+                let from = -x + INSET + k as f32 * (x - INSET);
                 let rect = [from + 0.0015, from + x - 0.0135, low + 0.001, TOP - 0.0262];
                 b.part(&console, &format!("drawer_{}", k + 1), front(rect, face - 0.0205, 0.018, false, rng), wood);
                 let at = Vec3::new(0.5 * (rect[0] + rect[1]), face - 0.0025, 0.5 * (rect[2] + rect[3]));
@@ -97,18 +107,18 @@ fn keys(b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
     b.part(&object, "keys", mesh.moved(Vec3::Z * CONTACT), Finish::Steel);
 }
 
-/// A tall mirror, hung on the wall or leaning against it.
+/// A tall mirror that stands on the floor and leans against the wall.
 #[derive(Clone, Copy, Debug)]
 pub struct TallMirror {
     /// Width and height.
     pub size: Vec2,
     /// Radius of its corners; half the width for an arch or an oval.
     pub corner: f32,
-    /// Of its frame.
+    /// What its frame is made of.
     pub frame: Finish,
 }
 
-/// Lean from the upright, radians.
+/// How far a tall mirror leans back, radians.
 const LEAN: f32 = 0.10;
 
 impl Furniture for TallMirror {
@@ -128,7 +138,7 @@ impl Furniture for TallMirror {
             let outline = rounded_rectangle(self.size.x - 2.0 * inset, self.size.y - 2.0 * inset, (self.corner - inset).max(0.003), 14);
             to_front(crate::furniture::form::cut_out(&outline, thickness, 0.002))
         };
-        // Its lower edge stands out from the wall; up it leans back.
+        // The lower edge stands away from the wall, and the mirror leans back against it.
         let half = 0.5 * self.size.y;
         let foot = 0.5 * self.size().y - 0.034;
         let place = |mesh: enfilade_geometry::Mesh| mesh.moved(Vec3::Z * half).turned(Vec3::X, LEAN).moved(Vec3::new(0.0, foot, 0.0005));

@@ -1,4 +1,4 @@
-//! Where people come in.
+//! The hall: coat hooks and stands with coats, shoes and their cabinet, bags, boxes, consoles, tall mirrors and boards for keys.
 
 mod bags;
 mod boxes;

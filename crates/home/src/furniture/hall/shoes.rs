@@ -1,3 +1,6 @@
+//! Pairs of shoes, 25 to 29.5 cm long: low shoes and boots of leather, and sports shoes of cloth on a thick white sole (class other prop,
+//! toes to +y); and a shallow cabinet, 60 to 100 cm wide, with two or three tilting compartments for them (class cabinet).
+
 use crate::builder::{Builder, Class};
 use crate::furniture::joinery::{Handle, body_finish, front};
 use crate::furniture::{CONTACT, Furniture, Surface, board, grained, on};
@@ -12,7 +15,7 @@ use std::f32::consts::TAU;
 pub struct Shoes {
     /// Length of the sole.
     pub length: f32,
-    /// Height of the shaft's rim behind: low shoes 8 cm, boots more.
+    /// Height of the rim at the heel: 7 to 9 cm for low shoes, more for boots.
     pub shaft: f32,
     /// Sports shoes with a thick white sole.
     pub sport: bool,
@@ -109,15 +112,22 @@ pub struct ShoeCabinet {
     pub width: f32,
     /// Compartments above each other.
     pub rows: usize,
-    /// Of carcass and fronts.
+    /// What carcass and fronts are made of.
     pub finishes: [Finish; 2],
-    /// Of the fronts.
+    /// Handle of each front.
     pub handle: Handle,
 }
 
+/// Depth of the cabinet with its handles, metres: shoes stand upright in compartments that tilt.
 const DEPTH: f32 = 0.26;
+/// Height of a compartment, metres: the length of a shoe and some more.
 const ROW: f32 = 0.34;
+/// Height of the lowest compartment above the floor, metres.
 const FOOT: f32 = 0.12;
+/// Where sides and rear end below the upper face of the top, metres: the board and air that keeps faces out of one plane.
+const BELOW_TOP: f32 = 0.0222;
+/// Where bottom and rear begin from the ends, metres: a side and such air.
+const BESIDE: f32 = 0.0202;
 
 impl ShoeCabinet {
     fn height(&self) -> f32 {
@@ -157,10 +167,10 @@ impl Furniture for ShoeCabinet {
         let high = self.height();
         for (name, min, max) in [
             ("top", [-x, rear, high - 0.022], [x, face + 0.021, high]),
-            ("side_left", [-x + 0.002, rear, 0.0], [-x + 0.02, face, high - 0.0222]),
-            ("side_right", [x - 0.02, rear, 0.0], [x - 0.002, face, high - 0.0222]),
-            ("bottom", [-x + 0.0202, rear + 0.01, FOOT - 0.018], [x - 0.0202, face, FOOT]),
-            ("rear", [-x + 0.0202, rear + 0.002, FOOT + 0.0002], [x - 0.0202, rear + 0.009, high - 0.0222]),
+            ("side_left", [-x + 0.002, rear, 0.0], [-x + 0.02, face, high - BELOW_TOP]),
+            ("side_right", [x - 0.02, rear, 0.0], [x - 0.002, face, high - BELOW_TOP]),
+            ("bottom", [-x + BESIDE, rear + 0.01, FOOT - 0.018], [x - BESIDE, face, FOOT]),
+            ("rear", [-x + BESIDE, rear + 0.002, FOOT + 0.0002], [x - BESIDE, rear + 0.009, high - BELOW_TOP]),
         ] {
             b.part(&cabinet, name, grained(board(min, max, 0.0015), rng), self.finishes[0]);
         }

@@ -1,3 +1,7 @@
+//! Appliances built into a kitchen: hobs of glass or for gas, ovens and microwave ovens, dishwashers, extractor hoods. Each is an object of
+//! class other structure (a microwave oven: other prop) with a front of steel or black glass, as the kitchen's style asks. Widths are those
+//! of their units; poses are those of a unit, with x from its left edge or middle, y from the wall and z up.
+
 use super::front::KitchenStyle;
 use super::{BOX, WALL_UNIT, WORKTOP};
 use crate::builder::{Builder, Class, Object};
@@ -74,10 +78,11 @@ pub fn oven(b: &mut Builder, pose: DAffine3, rect: [f32; 4], style: &KitchenStyl
     let window = board([x0 + 0.035, y + 0.0215, z0 + 0.05], [right, y + 0.0228, top - if low { 0.05 } else { 0.09 }], 0.0006);
     b.part(&oven, "window", window, glass);
     let bar = if low {
+        let x = right + 0.035;
         all([
-            rod([right + 0.035, y + 0.055, z0 + 0.06], [right + 0.035, y + 0.055, top - 0.06], 0.008, 12),
-            rod([right + 0.035, y + 0.021, z0 + 0.08], [right + 0.035, y + 0.054, z0 + 0.08], 0.005, 8),
-            rod([right + 0.035, y + 0.021, top - 0.08], [right + 0.035, y + 0.054, top - 0.08], 0.005, 8),
+            rod([x, y + 0.055, z0 + 0.06], [x, y + 0.055, top - 0.06], 0.008, 12),
+            rod([x, y + 0.021, z0 + 0.08], [x, y + 0.054, z0 + 0.08], 0.005, 8),
+            rod([x, y + 0.021, top - 0.08], [x, y + 0.054, top - 0.08], 0.005, 8),
         ])
     } else {
         let z = top - 0.045;
@@ -123,7 +128,7 @@ pub fn hood(b: &mut Builder, pose: DAffine3, width: f32, style: &KitchenStyle, r
     let (w, finish) = (width - 0.004, if style.steel { Finish::Steel } else { Finish::BlackMetal });
     let d = 0.47;
     let kind = rng.below(3);
-    // It stands on a flat canopy and comes out of the others.
+    // The shaft stands on a flat canopy and comes out of the other kinds.
     let foot = if kind == 1 { 0.0748 } else { 0.1 };
     let shaft = board([-0.14, CONTACT, low + foot], [0.14, 0.27, top], 0.002);
     match kind {
@@ -132,7 +137,7 @@ pub fn hood(b: &mut Builder, pose: DAffine3, width: f32, style: &KitchenStyle, r
             let roof =
                 loft(&[[w - 0.006, d - 0.006, 0.002, low + 0.049], [0.3, 0.28, 0.002, low + 0.26], [0.28, 0.27, 0.002, low + 0.262]], 1)
                     .deformed(|p| {
-                        // The back stays on the wall while the front draws in.
+                        // The loft is symmetric: moved so that its back stays on the wall while its front recedes.
                         let t = ((p.z - low - 0.049) / 0.213).clamp(0.0, 1.0);
                         Vec3::new(p.x, p.y + 0.5 * (d - 0.006) * (1.0 - t) + 0.5 * 0.28 * t + 0.003, p.z)
                     })

@@ -1,3 +1,7 @@
+//! Plans a fitted kitchen over the walls that it is given: which units stand along the main wall and along up to two wings, and what hangs
+//! above them. The kitchen's space has its origin on the floor in the middle of its footprint, with the main run at the back. A random
+//! kitchen is 2.7 to 4.2 m wide, and its wings reach 1.5 to 2.6 m from the back wall.
+
 use super::front::KitchenStyle;
 use super::run::{Above, Run, SILL_END, Unit};
 use super::{DEPTH, HANDLES, TALL};
@@ -11,13 +15,14 @@ use std::f32::consts::FRAC_PI_2;
 pub struct FittedKitchen {
     /// Along the back wall.
     pub main: Run,
-    /// Along the walls at −x and +x, from the corner to the front, but the one at −x is read from its front to the corner.
+    /// Along the walls at −x and +x. The units of the one at +x are listed from the corner to the front, those at −x from the front to the
+    /// corner.
     pub wings: [Option<Run>; 2],
-    /// Of all units.
+    /// Fronts, handles and finishes of all units.
     pub style: KitchenStyle,
 }
 
-/// What a run must hold, besides what fills it.
+/// What a run must contain; other units fill the rest.
 #[derive(Clone, Copy)]
 struct Needs {
     sink: bool,
@@ -26,8 +31,10 @@ struct Needs {
     corners: [bool; 2],
 }
 
-/// Depth of the blind corner at the end of the main run, where a wing meets it.
+/// Length of the blind corner at the end of the main run, where a wing meets it, metres.
 const CORNER: f32 = DEPTH + 0.05;
+/// Air between the main run and a wing, metres.
+const JOINT: f32 = 0.001;
 
 impl FittedKitchen {
     /// A kitchen over `width` of the back wall with wings that reach `wings` metres from the back wall on either side (0 for none);
@@ -43,7 +50,7 @@ impl FittedKitchen {
         let mut hob_left = !hob_here;
         let wings = [0, 1].map(|k| {
             corners[k].then(|| {
-                let length = wings[k] - DEPTH - 0.001;
+                let length = wings[k] - DEPTH - JOINT;
                 let tall = ((length - 0.9) / 0.6).clamp(0.0, 2.0) as usize;
                 let needs = Needs { sink: false, hob: std::mem::take(&mut hob_left), tall, corners: [false; 2] };
                 let mut run = plan(length, needs, Vec::new(), rng);
@@ -63,7 +70,7 @@ impl FittedKitchen {
         self.runs().iter().any(|(run, _, _)| run.units.iter().any(|(unit, _)| *unit == Unit::BuiltInRefrigerator))
     }
 
-    /// The boxes of what reaches above the worktop: tall units, what hangs, and what covers the wall; from and to, in the kitchen's space.
+    /// The boxes, as [min, max] in the kitchen's space, of what rises above the worktop: tall units, wall units, and what covers the wall.
     pub fn uppers(&self) -> Vec<[Vec3; 2]> {
         let mut all = Vec::new();
         for (run, at, yaw) in self.runs() {
@@ -74,7 +81,7 @@ impl FittedKitchen {
     }
 
     fn depth(&self) -> f32 {
-        let reach = |run: &Option<Run>| run.as_ref().map_or(0.0, |run| run.length() + DEPTH + 0.001);
+        let reach = |run: &Option<Run>| run.as_ref().map_or(0.0, |run| run.length() + DEPTH + JOINT);
         reach(&self.wings[0]).max(reach(&self.wings[1])).max(DEPTH + HANDLES)
     }
 
@@ -83,10 +90,10 @@ impl FittedKitchen {
         let (half, back) = (0.5 * self.main.length(), -0.5 * self.depth());
         let mut runs = vec![(&self.main, Vec3::new(-half, back, 0.0), 0.0)];
         if let Some(left) = &self.wings[0] {
-            runs.push((left, Vec3::new(-half, back + DEPTH + 0.001 + left.length(), 0.0), -FRAC_PI_2));
+            runs.push((left, Vec3::new(-half, back + DEPTH + JOINT + left.length(), 0.0), -FRAC_PI_2));
         }
         if let Some(right) = &self.wings[1] {
-            runs.push((right, Vec3::new(half, back + DEPTH + 0.001, 0.0), FRAC_PI_2));
+            runs.push((right, Vec3::new(half, back + DEPTH + JOINT, 0.0), FRAC_PI_2));
         }
         runs
     }
@@ -128,7 +135,7 @@ fn plan(length: f32, needs: Needs, windows: Vec<[f32; 2]>, rng: &mut Rng) -> Run
     if free > 0.004 {
         units.push(Unit::Filler(free));
     }
-    // Only the tall units need to be at an end.
+    // Either end will do: only the tall units have to be at one.
     if rng.below(2) == 0 {
         units.reverse();
     }
@@ -180,7 +187,7 @@ impl Furniture for FittedKitchen {
         Vec3::new(self.main.length(), self.depth(), TALL)
     }
 
-    /// Two people pass each other: 1.2 m (NKBA planning guideline 6 asks for 1.07 m for one cook).
+    /// A cook needs 1.1 m before the units (NKBA planning guideline 6: 1.07 m); between wings most of it lies within the kitchen's depth.
     fn reach(&self) -> f32 {
         if self.wings.iter().all(Option::is_none) { 1.1 } else { 0.3 }
     }

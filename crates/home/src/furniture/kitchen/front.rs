@@ -1,3 +1,6 @@
+//! Doors and drawer fronts of kitchen units, smooth or framed around a panel, with their handles, and the style that the fronts of one
+//! kitchen share. A front lies in the xz plane of its unit and faces +y.
+
 use crate::builder::{Builder, Object};
 use crate::furniture::form::{all, rod, to_front, turned, wire};
 use crate::furniture::{board, grained};
@@ -20,9 +23,9 @@ pub enum Handle {
 /// What the units of one kitchen have in common.
 #[derive(Clone, Copy, Debug)]
 pub struct KitchenStyle {
-    /// Fronts framed around a panel instead of smooth ones.
+    /// Fronts are framed around a panel instead of smooth.
     pub framed: bool,
-    /// On every door and drawer.
+    /// Handle of every door and drawer.
     pub handle: Handle,
     /// Metal of handles and taps.
     pub metal: Finish,
@@ -34,12 +37,12 @@ pub struct KitchenStyle {
     pub worktop: Finish,
     /// The wall behind the worktop.
     pub splashback: Finish,
-    /// Appliances with steel fronts instead of black glass.
+    /// Appliances have steel fronts instead of black glass.
     pub steel: bool,
 }
 
 impl KitchenStyle {
-    /// One of many that a kitchen planner would offer.
+    /// A random style: which finishes, handles and worktops go together.
     pub fn random(rng: &mut Rng) -> Self {
         let (lower, upper) = [
             (Finish::KitchenFront(0), Finish::KitchenFront(1)),
@@ -70,7 +73,7 @@ impl KitchenStyle {
     }
 }
 
-/// Which way a front opens: decides where its handle is.
+/// How a front opens, which decides where its handle is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Opening {
     /// A door below eye height with its handle near the upper corner at −x (−1) or +x (+1).
@@ -80,9 +83,9 @@ pub enum Opening {
     Drawer,
 }
 
-/// Thickness of a front.
+/// Thickness of a front, metres.
 pub const FRONT: f32 = 0.019;
-/// Half of the gap between two fronts.
+/// Half of the gap between two fronts, metres.
 const GAP: f32 = 0.0015;
 
 /// Adds the front over `[x0, x1, z0, z1]` whose back is at depth `y`.
@@ -114,7 +117,7 @@ pub fn front(
     b.part(object, &format!("{name}_handle"), handle.moved(middle + at + Vec3::new(0.0, FRONT - 0.0002, 0.0)), style.metal);
 }
 
-/// A handle that stands on y = 0 about its middle, and where that is from the middle of a front of `w` × `h`.
+/// A handle, its middle at the origin and its feet on y = 0, and where to put it, from the middle of a front of `w` × `h`.
 fn handle(kind: Handle, opening: Opening, w: f32, h: f32) -> (Mesh, Vec3) {
     let (side, level) = match opening {
         Opening::Below(side) => (side, 1.0),
@@ -148,7 +151,7 @@ fn handle(kind: Handle, opening: Opening, w: f32, h: f32) -> (Mesh, Vec3) {
             return (to_front(turned(&profile, 24)), at);
         }
         Handle::Edge => {
-            // Over the upper edge of what is below the eyes, under the lower edge of what is above.
+            // The strip grips the upper edge of fronts below eye height and the lower edge of those above.
             let half = 0.36 * w;
             let lip = board([-half, -0.0002, -0.0018], [half, 0.013, 0.0002], 0.0006).with(board(
                 [-half, 0.011, -0.014],

@@ -18,21 +18,21 @@ pub use island::{Fixture, KitchenIsland};
 pub use refrigerator::Refrigerator;
 pub use run::{Above, Run, Unit};
 
-/// Depth of the worktop.
+/// Depth of the worktop, metres.
 pub const DEPTH: f32 = 0.60;
-/// How far handles stand out before it.
+/// How far handles stand out before the worktop's front edge, metres.
 const HANDLES: f32 = 0.03;
-/// Height of the worktop's surface.
+/// Height of the worktop's surface, metres.
 pub const WORKTOP: f32 = 0.91;
-/// Its thickness.
+/// Thickness of the worktop, metres.
 const THICKNESS: f32 = 0.038;
-/// Height of the plinth, and how far it stands back.
+/// Height of the plinth, and how far it stands back for the toes, metres.
 const PLINTH: [f32; 2] = [0.13, 0.055];
-/// Depth of a unit's box, without its front.
+/// Depth of a unit's box, without its front, metres.
 const BOX: f32 = 0.555;
-/// Lower and upper edge of wall units.
+/// Lower and upper edge of wall units, metres: 54 cm are free above the worktop.
 const WALL_UNIT: [f32; 2] = [1.45, 2.17];
-/// Depth of wall units with their fronts.
+/// Depth of wall units with their fronts, metres.
 const WALL_DEPTH: f32 = 0.36;
-/// Upper edge of tall units.
+/// Upper edge of tall units, metres: that of the wall units.
 const TALL: f32 = 2.17;

@@ -1,3 +1,7 @@
+//! Free-standing refrigerators of four kinds, 60 to 91 cm wide and 150 to 186 cm high, of class refrigerator: combined with a freezer below
+//! or above, side by side with an ice dispenser, and with one round door in a colour. Half of them have notes under magnets on the upper
+//! door, each an object of class paper.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, rod};
 use crate::furniture::{CONTACT, Furniture, Surface, board};
@@ -10,9 +14,9 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 pub struct Refrigerator {
     /// How its doors are cut.
     pub kind: Kind,
-    /// Of body and doors.
+    /// What body and doors are made of.
     pub finish: Finish,
-    /// Paper and magnets on the door.
+    /// How many notes hang on the door, each under a magnet.
     pub notes: usize,
 }
 

@@ -1,3 +1,6 @@
+//! A run of kitchen units in a line along a wall: which unit is where, the pieces of worktop (class counter) with their cut-outs, what
+//! covers the wall behind them, and what hangs above. The run's space has x from its left end, y from the wall and z from the floor.
+
 use super::front::KitchenStyle;
 use super::{DEPTH, HANDLES, TALL, THICKNESS, WALL_DEPTH, WALL_UNIT, WORKTOP, appliance, sink, unit};
 use crate::builder::{Builder, Class};
@@ -6,7 +9,7 @@ use crate::furniture::{CONTACT, Surface, board, grained, on};
 use crate::shape::Reshape;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
-/// What stands on the floor, by its width.
+/// What stands on the floor; a number is the width in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum Unit {
@@ -27,7 +30,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// Along the wall.
+    /// Its width along the wall, metres.
     pub fn width(self) -> f32 {
         match self {
             Self::Doors(w) | Self::Drawers(w) | Self::Sink(w) | Self::Oven(w) | Self::Corner(w) | Self::Filler(w) | Self::Larder(w) => w,
@@ -53,8 +56,9 @@ pub enum Above {
     Hood,
 }
 
-/// Height of the covering below a window, and how far a window's sill reaches beyond it.
+/// Height above the worktop of what covers the wall below a window, metres.
 const UPSTAND: f32 = 0.1;
+/// How far a window's sill reaches beyond the window at each side, metres.
 pub(super) const SILL_END: f32 = 0.06;
 
 /// Units in a line along a wall, in the run's own space: x from its left end, y from the wall, z from the floor.
@@ -62,7 +66,7 @@ pub(super) const SILL_END: f32 = 0.06;
 pub struct Run {
     /// From left to right, each with what hangs above it.
     pub units: Vec<(Unit, Above)>,
-    /// From and to along x, in ascending order: where windows begin not far above the worktop.
+    /// The windows that begin not far above the worktop, from and to along x, in ascending order.
     pub windows: Vec<[f32; 2]>,
 }
 
@@ -95,8 +99,9 @@ impl Run {
 
     /// Where small things can stand: the worktop but for sink and hob, in the run's space.
     pub fn surfaces(&self) -> Vec<Surface> {
+        /// Distance that things keep from the end of a strip, metres.
         const MARGIN: f32 = 0.02;
-        // Nothing stands on a narrower strip.
+        /// Nothing stands on a strip that is narrower than this, metres.
         const NARROWEST: f32 = 0.12;
         let mut free: Vec<Surface> = Vec::new();
         for (x, unit, above) in self.placed() {
@@ -150,9 +155,9 @@ impl Run {
         all
     }
 
-    /// Adds everything.
+    /// Adds units, what hangs above them, worktops and what covers the wall.
     pub fn build(&self, b: &mut Builder, pose: DAffine3, style: &KitchenStyle, rng: &mut Rng) {
-        // A refrigerator is a thing of its own: the run begins with its cabinets.
+        // A built-in refrigerator is of another class, and comes last: the run begins with its cabinets.
         let mut placed: Vec<(f32, Unit, Above)> = self.placed().collect();
         placed.sort_by_key(|(_, unit, _)| *unit == Unit::BuiltInRefrigerator);
         for (x, unit, above) in placed {
@@ -180,7 +185,7 @@ impl Run {
     fn boards(&self, b: &mut Builder, pose: DAffine3, w: f32, style: &KitchenStyle, rng: &mut Rng) {
         for z in [1.50, 1.83] {
             let object = b.object("wall_shelf", Class::Shelves, pose);
-            // On the wall, or on what covers it behind the worktop.
+            // The shelf touches the wall or, where its brackets reach down to it, what covers the wall.
             let back = if z - 0.12 < WALL_UNIT[0] { 0.009 } else { 0.001 };
             b.part(
                 &object,
@@ -215,7 +220,7 @@ impl Run {
         let ends = [Vec2::new(x0 + 0.0003, 0.002), Vec2::new(x1 - 0.0003, DEPTH)];
         let top = plate_with_holes(ends[0], ends[1], THICKNESS, 0.002, &holes);
         b.part(&counter, "top", grained(top.moved(Vec3::new(0.0, 0.0, WORKTOP)), rng), style.worktop);
-        // A low wall unit's edge would show a joint: the covering reaches just below it.
+        // The covering ends just below the wall units, where its upper edge is not seen.
         let cover = b.object("splashback", Class::OtherStructure, pose);
         for (i, ([x0, x1], top)) in self.covered([x0, x1]).into_iter().enumerate() {
             let mesh = board([x0 + 0.001, 0.0008, WORKTOP + CONTACT], [x1 - 0.001, 0.0085, top], 0.0008);
@@ -223,6 +228,6 @@ impl Run {
         }
     }
 
-    /// Depth of wall units, for those who place things below them.
+    /// Depth of wall units with their fronts, metres.
     pub const WALL_DEPTH: f32 = WALL_DEPTH;
 }

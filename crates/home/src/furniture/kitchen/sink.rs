@@ -1,3 +1,7 @@
+//! An inset kitchen sink of steel, ceramic or black composite, with its waste and a mixer tap 25 to 36 cm high, of class sink. The bowl is
+//! as wide as its unit allows. The space stands on the worktop, in the middle of the unit: y is the distance from the wall, the bowl lies
+//! below z = 0.
+
 use super::front::KitchenStyle;
 use crate::builder::{Builder, Class};
 use crate::furniture::CONTACT;
@@ -44,7 +48,7 @@ pub fn build(b: &mut Builder, pose: DAffine3, width: f32, style: &KitchenStyle, 
     b.part(&sink, "mixer", mixer(rng).moved(Vec3::new(0.0, 0.075, 0.0)), metal);
 }
 
-/// A mixer that reaches to the front from z = 0.
+/// A mixer tap that stands on z = 0 and reaches to +y: a swan neck or a straight arm, with its lever at +x.
 fn mixer(rng: &mut Rng) -> enfilade_geometry::Mesh {
     let (height, reach) = (rng.range(0.25, 0.36), rng.range(0.18, 0.22));
     let base = cylinder(0.025, 0.008, 28).with(cylinder(0.019, 0.10, 24)).moved(Vec3::new(0.0, 0.0, CONTACT));

@@ -1,4 +1,5 @@
-//! One unit in the space of its run: x from its left edge, y from the wall, z from the floor.
+//! One kitchen unit or wall unit: plinth, box, and the doors, drawers and appliances in its front; of class cabinet, or refrigerator where
+//! one is built in. A unit's space has x from its left edge, y from the wall and z from the floor.
 
 use super::front::{FRONT, KitchenStyle, Opening, front};
 use super::run::Unit;
@@ -9,7 +10,17 @@ use crate::furniture::{CONTACT, board, grained, on};
 use crate::materials::Finish;
 use enfilade_math::{DAffine3, Rng, Vec3};
 
+/// Thickness of the boards of hollow and glazed boxes, metres.
 const SHELL: f32 = 0.016;
+/// How far boxes and plinths stay within the lines of the grid, metres: faces of neighbours do not lie in one plane.
+const APART: f32 = 0.0003;
+/// Bevel of the boards behind fronts, metres.
+const BEVEL: f32 = 0.0005;
+/// Units wider than this, metres, are wider than the grid of 60 cm: they have two doors, or fillers beside an oven.
+const WIDE: f32 = 0.61;
+/// Height of the drawer below an oven, metres.
+const OVEN_DRAWER: f32 = 0.13;
+/// Upper edge of low units, metres: just below the worktop.
 const UNDER_TOP: f32 = WORKTOP - THICKNESS - CONTACT;
 
 /// Adds the unit from the floor up, without worktop.
@@ -33,7 +44,7 @@ pub fn base(b: &mut Builder, pose: DAffine3, unit: Unit, style: &KitchenStyle, r
         front(b, &object, name, rect, BOX + CONTACT, opening, style, finish, rng);
     };
     match unit {
-        Unit::Doors(_) | Unit::Sink(_) if w > 0.61 => {
+        Unit::Doors(_) | Unit::Sink(_) if w > WIDE => {
             put("door_1", [0.0, 0.5 * w, low, top], Opening::Below(1.0), rng);
             put("door_2", [0.5 * w, w, low, top], Opening::Below(-1.0), rng);
         }
@@ -52,11 +63,11 @@ pub fn base(b: &mut Builder, pose: DAffine3, unit: Unit, style: &KitchenStyle, r
             }
         }
         Unit::Oven(_) => {
-            put("drawer", [0.0, w, low, low + 0.13], Opening::Drawer, rng);
-            if w > 0.61 {
+            put("drawer", [0.0, w, low, low + OVEN_DRAWER], Opening::Drawer, rng);
+            if w > WIDE {
                 let rest = 0.5 * (w - 0.6);
-                put("filler_1", [0.0, rest, low + 0.13, top], Opening::Drawer, rng);
-                put("filler_2", [w - rest, w, low + 0.13, top], Opening::Drawer, rng);
+                put("filler_1", [0.0, rest, low + OVEN_DRAWER, top], Opening::Drawer, rng);
+                put("filler_2", [w - rest, w, low + OVEN_DRAWER, top], Opening::Drawer, rng);
             }
         }
         Unit::Larder(_) | Unit::BuiltInRefrigerator => {
@@ -77,7 +88,7 @@ pub fn base(b: &mut Builder, pose: DAffine3, unit: Unit, style: &KitchenStyle, r
     match unit {
         Unit::Oven(_) => {
             let half = 0.5 * w;
-            appliance::oven(b, pose, [half - 0.3, half + 0.3, low + 0.13, top], style);
+            appliance::oven(b, pose, [half - 0.3, half + 0.3, low + OVEN_DRAWER, top], style);
         }
         Unit::Tower => {
             appliance::oven(b, pose, [0.0, w, 0.71, 1.31], style);
@@ -89,22 +100,22 @@ pub fn base(b: &mut Builder, pose: DAffine3, unit: Unit, style: &KitchenStyle, r
 
 fn plinth(b: &mut Builder, object: &Object, w: f32, style: &KitchenStyle) {
     let y = BOX + FRONT - PLINTH[1];
-    b.part(object, "plinth", board([0.0003, 0.02, 0.0], [w - 0.0003, y, PLINTH[0] - 0.003], 0.0005), style.lower);
+    b.part(object, "plinth", board([APART, 0.02, 0.0], [w - APART, y, PLINTH[0] - 0.003], BEVEL), style.lower);
 }
 
 /// The box behind the fronts, hollow where something is built in.
 fn carcass(b: &mut Builder, object: &Object, w: f32, [low, top]: [f32; 2], hollow: bool, finish: Finish) {
-    let (x1, y0) = (w - 0.0003, 0.003);
-    let x0 = 0.0003;
+    let (x1, y0) = (w - APART, 0.003);
+    let x0 = APART;
     let mesh = if hollow {
         all([
-            board([x0, y0, low], [x0 + SHELL, BOX, top], 0.0005),
-            board([x1 - SHELL, y0, low], [x1, BOX, top], 0.0005),
-            board([x0 + SHELL, y0, low], [x1 - SHELL, BOX, low + SHELL], 0.0005),
-            board([x0 + SHELL, y0, low + SHELL], [x1 - SHELL, y0 + 0.006, top], 0.0005),
+            board([x0, y0, low], [x0 + SHELL, BOX, top], BEVEL),
+            board([x1 - SHELL, y0, low], [x1, BOX, top], BEVEL),
+            board([x0 + SHELL, y0, low], [x1 - SHELL, BOX, low + SHELL], BEVEL),
+            board([x0 + SHELL, y0, low + SHELL], [x1 - SHELL, y0 + 0.006, top], BEVEL),
         ])
     } else {
-        board([x0, y0, low], [x1, BOX, top], 0.0005)
+        board([x0, y0, low], [x1, BOX, top], BEVEL)
     };
     b.part(object, "box", mesh, finish);
 }
@@ -113,12 +124,12 @@ fn carcass(b: &mut Builder, object: &Object, w: f32, [low, top]: [f32; 2], hollo
 pub fn wall_cabinet(b: &mut Builder, pose: DAffine3, w: f32, z: [f32; 2], glazed: bool, style: &KitchenStyle, rng: &mut Rng) {
     let object = b.object("wall_unit", Class::Cabinet, pose);
     let depth = WALL_DEPTH - FRONT - CONTACT;
-    let doors = if w > 0.61 { 2 } else { 1 };
+    let doors = if w > WIDE { 2 } else { 1 };
     let [low, top] = z;
     if glazed {
         glazed_box(b, &object, w, depth, z);
     } else {
-        b.part(&object, "box", board([0.0003, 0.002, low], [w - 0.0003, depth, top], 0.0008), style.upper);
+        b.part(&object, "box", board([APART, 0.002, low], [w - APART, depth, top], 0.0008), style.upper);
     }
     let side = if rng.below(2) == 0 { -1.0 } else { 1.0 };
     for k in 0..doors {
@@ -148,16 +159,16 @@ pub fn wall_cabinet(b: &mut Builder, pose: DAffine3, w: f32, z: [f32; 2], glazed
 }
 
 fn glazed_box(b: &mut Builder, object: &Object, w: f32, depth: f32, [low, top]: [f32; 2]) {
-    let (x0, x1) = (0.0003, w - 0.0003);
+    let (x0, x1) = (APART, w - APART);
     let middle = 0.5 * (low + top);
-    let level = |z: f32| board([x0 + SHELL, 0.008, z - 0.5 * SHELL], [x1 - SHELL, depth, z + 0.5 * SHELL], 0.0005);
+    let level = |z: f32| board([x0 + SHELL, 0.008, z - 0.5 * SHELL], [x1 - SHELL, depth, z + 0.5 * SHELL], BEVEL);
     let mesh = all([
-        board([x0, 0.002, low], [x0 + SHELL, depth, top], 0.0005),
-        board([x1 - SHELL, 0.002, low], [x1, depth, top], 0.0005),
+        board([x0, 0.002, low], [x0 + SHELL, depth, top], BEVEL),
+        board([x1 - SHELL, 0.002, low], [x1, depth, top], BEVEL),
         level(low + 0.5 * SHELL),
         level(middle),
         level(top - 0.5 * SHELL),
-        board([x0 + SHELL, 0.002, low], [x1 - SHELL, 0.008, top], 0.0005),
+        board([x0 + SHELL, 0.002, low], [x1 - SHELL, 0.008, top], BEVEL),
     ]);
     b.part(object, "box", mesh, Finish::WhiteLacquer);
 }
@@ -175,7 +186,7 @@ fn glass_door(b: &mut Builder, object: &Object, number: usize, rect: [f32; 4], y
     b.part(object, &format!("pane_{number}"), pane.moved(at), Finish::Glass);
 }
 
-/// The dishwasher has a front like the units where the other appliances are of black glass.
+/// True where the dishwasher hides behind a front like those of the units: beside appliances of black glass.
 fn hides_appliances(style: &KitchenStyle) -> bool {
     !style.steel
 }

@@ -1,3 +1,6 @@
+//! To clean with: a vacuum cleaner, either a canister with its hose or a stick about 110 cm high that leans, and a bucket of 26 to 31 cm
+//! with or without a mop; class other prop. Sizes of the vacuum cleaners are fixed, colours vary.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, rod, vessel, wire};
 use crate::furniture::{CONTACT, Furniture, on};
@@ -9,9 +12,9 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 /// A vacuum cleaner: a canister on wheels with its hose, or an upright one on its nozzle.
 #[derive(Clone, Copy, Debug)]
 pub struct Vacuum {
-    /// A stick with its motor in the handle, leaning against the wall.
+    /// A stick with its motor in the handle, leaning back, instead of a canister.
     pub stick: bool,
-    /// Of its body.
+    /// What its body is made of.
     pub finish: Finish,
 }
 
@@ -36,14 +39,11 @@ impl Vacuum {
         b.part(vacuum, "wheels", all(wheels), Finish::BlackPlastic);
         let front = cylinder(0.022, 0.02, 24).moved(Vec3::Z * -0.01).turned(Vec3::Y, FRAC_PI_2).moved(at + Vec3::new(0.0, 0.14, 0.022));
         b.part(vacuum, "caster", front, Finish::BlackPlastic);
-        let grip = wire(
-            &[[-0.12, -0.12, 0.21], [-0.12, -0.10, 0.265], [-0.12, -0.02, 0.285], [-0.12, 0.06, 0.265], [-0.12, 0.08, 0.20]],
-            0.011,
-            12,
-        );
+        let grip =
+            wire(&[[at.x, -0.12, 0.21], [at.x, -0.10, 0.265], [at.x, -0.02, 0.285], [at.x, 0.06, 0.265], [at.x, 0.08, 0.20]], 0.011, 12);
         b.part(vacuum, "grip", grip, Finish::BlackPlastic);
         let hose = [
-            [-0.12, 0.12, 0.15],
+            [at.x, 0.12, 0.15],
             [-0.08, 0.20, 0.16],
             [0.06, 0.25, 0.24],
             [0.17, 0.17, 0.45],
@@ -59,7 +59,7 @@ impl Vacuum {
     }
 
     fn upright(&self, b: &mut Builder, vacuum: &crate::builder::Object) {
-        // Leans back from its nozzle; everything lies along one axis.
+        // All parts lie along one axis, which leans back from the nozzle.
         let (foot, top) = (Vec3::new(0.0, 0.07, 0.05), Vec3::new(0.0, -0.10, 1.08));
         let along = |t: f32| foot.lerp(top, t);
         b.part(
@@ -111,7 +111,7 @@ pub struct Bucket {
     pub radius: f32,
     /// A mop stands in it.
     pub mop: bool,
-    /// Of the bucket.
+    /// What the bucket is made of.
     pub finish: Finish,
 }
 
@@ -147,7 +147,7 @@ impl Furniture for Bucket {
         b.part(&bucket, "handle", tube(&arc, 0.003, 8), Finish::Steel);
         if self.mop {
             let mop = b.object("mop", Class::OtherProp, on(pose, Vec3::ZERO, 0.0));
-            // The tip on the floor of the bucket, the stick against its rim.
+            // The tip stands on the floor of the bucket, the stick leans against its rim.
             let (tip, top) = (Vec3::new(0.0, 0.3 * r, 0.07), Vec3::new(0.0, -r - 0.10, 1.23));
             b.part(&mop, "stick", tube(&[tip, top], 0.011, 14), [Finish::Wood, Finish::Aluminium][rng.below(2)]);
             let head = sphere(0.5, 28)

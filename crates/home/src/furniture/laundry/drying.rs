@@ -1,3 +1,7 @@
+//! To dry and iron: a drying rack on crossed legs, 85 to 105 cm long, with up to six pieces of laundry over its wires, and an ironing board
+//! 82 to 92 cm high (both class other furniture; the laundry is of class towel or clothes). Their long side is along x; the nose of the
+//! ironing board is at +x.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, rod};
 use crate::furniture::soft::over_rod;
@@ -15,8 +19,12 @@ pub struct DryingRack {
     pub laundry: usize,
 }
 
+/// Height of the wires above the floor, metres.
 const HIGH: f32 = 0.95;
+/// Width of the frame that holds the wires, along y, metres.
 const WIDE: f32 = 0.54;
+/// Radius of the tubes of frame and legs, metres.
+const TUBE: f32 = 0.008;
 
 impl Furniture for DryingRack {
     fn random(rng: &mut Rng) -> Self {
@@ -32,10 +40,10 @@ impl Furniture for DryingRack {
         let (x, y) = (0.5 * self.length, 0.5 * WIDE);
         let finish = [Finish::WhiteEnamel, Finish::Steel][rng.below(2)];
         let frame = [
-            rod([-x, -y, HIGH], [x, -y, HIGH], 0.008, 12),
-            rod([-x, y, HIGH], [x, y, HIGH], 0.008, 12),
-            rod([-x, -y, HIGH], [-x, y, HIGH], 0.008, 12),
-            rod([x, -y, HIGH], [x, y, HIGH], 0.008, 12),
+            rod([-x, -y, HIGH], [x, -y, HIGH], TUBE, 12),
+            rod([-x, y, HIGH], [x, y, HIGH], TUBE, 12),
+            rod([-x, -y, HIGH], [-x, y, HIGH], TUBE, 12),
+            rod([x, -y, HIGH], [x, y, HIGH], TUBE, 12),
         ];
         b.part(&rack, "frame", all(frame), finish);
         let level = |k: usize| -y + WIDE * (k as f32 + 1.0) / 9.0;
@@ -45,13 +53,13 @@ impl Furniture for DryingRack {
             let leg = |from: f32, inset: f32| {
                 standing(tube(
                     &[Vec3::new(px - s * inset, -from * (y + 0.02), 0.003), Vec3::new(px - s * inset, from * y * 0.96, HIGH)],
-                    0.008,
+                    TUBE,
                     12,
                 ))
             };
             [leg(1.0, 0.0), leg(-1.0, 0.018)]
         });
-        // The legs have come that far inward there.
+        // At the height of the bars the slanting legs are that far inside the frame's edge.
         let bar = y - 0.007;
         let bars = [-1.0f32, 1.0].map(|s| rod([-x + 0.03, s * bar, 0.05], [x - 0.03, s * bar, 0.05], 0.006, 10));
         b.part(&rack, "legs", all(legs.chain(bars)), finish);
@@ -90,7 +98,9 @@ pub struct IroningBoard {
     pub cover: Finish,
 }
 
+/// Length of the ironing board, metres.
 const LENGTH: f32 = 1.22;
+/// Largest breadth of the ironing board, metres.
 const BREADTH: f32 = 0.38;
 
 impl IroningBoard {

@@ -1,3 +1,6 @@
+//! A front-loading washing machine or dryer, 60 cm wide, 85 cm high and 50 to 60 cm deep, of class other furniture, in white or steel. Its
+//! door stands out before the cabinet at +y; the back is towards the wall.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, to_front, turned};
 use crate::furniture::{Furniture, Surface, board};
@@ -18,22 +21,26 @@ pub enum LaundryMachine {
 /// A front-loading washing machine or a dryer.
 #[derive(Clone, Copy, Debug)]
 pub struct WashingMachine {
-    /// Which.
+    /// Whether it washes or dries.
     pub does: LaundryMachine,
     /// Depth of the cabinet.
     pub depth: f32,
-    /// Of the cabinet.
+    /// What the cabinet is made of.
     pub finish: Finish,
-    /// Of the door's ring.
+    /// What the door's ring is made of.
     pub ring: Finish,
 }
 
-/// Machines are 60 cm wide and 85 cm high, to stand below a worktop.
+/// Width, metres: machines are 60 cm wide and 85 cm high, to stand below a worktop.
 const WIDTH: f32 = 0.598;
+/// Height, metres.
 const HEIGHT: f32 = 0.85;
-/// Height of the door's middle.
+/// Height of the door's middle, metres.
 const DOOR: f32 = 0.46;
+/// How far the door with its grip may stand out before the cabinet, metres.
 const OUT: f32 = 0.045;
+/// How far parts of the front begin inside the cabinet, metres.
+const SUNK: f32 = 0.001;
 
 impl Furniture for WashingMachine {
     fn random(rng: &mut Rng) -> Self {
@@ -80,20 +87,19 @@ impl Furniture for WashingMachine {
             Finish::BlackPlastic,
         );
         let dial = [[0.0, 0.0], [0.034, 0.0], [0.034, 0.004], [0.027, 0.007], [0.025, 0.024], [0.022, 0.027], [0.0, 0.027]];
-        b.part(&machine, "dial", to_front(turned(&dial, 40)).moved(Vec3::new(0.0, face - 0.001, 0.5 * (low + high))), self.ring);
-        b.part(&machine, "display", board([0.07, face - 0.001, low + 0.025], [0.19, face + 0.0015, high - 0.02], 0.0008), Finish::Screen);
-        let keys =
-            (0..4).map(|k| to_front(cylinder(0.006, 0.004, 14)).moved(Vec3::new(0.085 + 0.03 * k as f32, face - 0.001, low + 0.010)));
+        b.part(&machine, "dial", to_front(turned(&dial, 40)).moved(Vec3::new(0.0, face - SUNK, 0.5 * (low + high))), self.ring);
+        b.part(&machine, "display", board([0.07, face - SUNK, low + 0.025], [0.19, face + 0.0015, high - 0.02], 0.0008), Finish::Screen);
+        let keys = (0..4).map(|k| to_front(cylinder(0.006, 0.004, 14)).moved(Vec3::new(0.085 + 0.03 * k as f32, face - SUNK, low + 0.010)));
         b.part(&machine, "keys", all(keys), Finish::BlackPlastic);
         self.door(b, &machine, face, rng);
-        let flap = board([x - 0.15, face - 0.001, 0.05], [x - 0.04, face + 0.0015, 0.125], 0.001);
+        let flap = board([x - 0.15, face - SUNK, 0.05], [x - 0.04, face + 0.0015, 0.125], 0.001);
         b.part(&machine, "flap", flap, if self.finish == Finish::Steel { Finish::Steel } else { Finish::WhitePlastic });
     }
 }
 
 impl WashingMachine {
     fn door(&self, b: &mut Builder, machine: &crate::builder::Object, face: f32, rng: &mut Rng) {
-        let at = Vec3::new(0.0, face - 0.001, DOOR);
+        let at = Vec3::new(0.0, face - SUNK, DOOR);
         let place = |profile: &[[f32; 2]]| to_front(turned(profile, 64)).moved(at);
         let ring =
             [[0.145, 0.0], [0.225, 0.0], [0.228, 0.006], [0.215, 0.026], [0.195, 0.034], [0.165, 0.032], [0.148, 0.022], [0.145, 0.0]];
@@ -105,12 +111,12 @@ impl WashingMachine {
         if self.does == LaundryMachine::Dryer {
             // Slots of the heat exchanger's grille.
             let slots = (0..9)
-                .map(|k| board([-0.24 + 0.03 * k as f32, face - 0.001, 0.06], [-0.225 + 0.03 * k as f32, face + 0.0012, 0.12], 0.0006));
+                .map(|k| board([-0.24 + 0.03 * k as f32, face - SUNK, 0.06], [-0.225 + 0.03 * k as f32, face + 0.0012, 0.12], 0.0006));
             b.part(machine, "grille", all(slots), Finish::BlackPlastic);
         } else {
             let marks = (0..12).map(|k| {
                 let p = Vec2::from_angle(TAU * k as f32 / 12.0) * 0.043;
-                to_front(cylinder(0.0014, 0.0018, 8)).moved(Vec3::new(p.x, face - 0.001, HEIGHT - 0.0825 + p.y))
+                to_front(cylinder(0.0014, 0.0018, 8)).moved(Vec3::new(p.x, face - SUNK, HEIGHT - 0.0825 + p.y))
             });
             b.part(machine, "marks", all(marks), Finish::BlackPlastic);
         }

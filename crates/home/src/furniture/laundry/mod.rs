@@ -1,4 +1,4 @@
-//! What washes, dries and cleans.
+//! The laundry: washing machines and dryers, drying racks, ironing boards, vacuum cleaners and buckets.
 
 mod cleaning;
 mod drying;

@@ -1,3 +1,7 @@
+//! Blinds before a window, class blinds, 70 to 130 × 120 to 150 cm: Venetian ones with slats of wood or metal, roller blinds, and Roman
+//! blinds in flat folds, let down by any share of their height. They hang in the xz plane and face +y; the origin is the middle of their
+//! back.
+
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::form::{all, cylinder, rod, to_front, turned};
 use crate::furniture::{Furniture, board};
@@ -15,14 +19,14 @@ pub struct Blind {
     pub height: f32,
     /// How far it is let down, on `[0,1]`.
     pub down: f32,
-    /// How it is made.
+    /// Its kind.
     pub kind: BlindKind,
 }
 
-/// How a blind is made.
+/// Kinds of blinds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BlindKind {
-    /// Level slats.
+    /// Horizontal slats.
     Venetian {
         /// How far they are turned, radians.
         tilt: f32,
@@ -47,9 +51,11 @@ fn slat(length: f32, width: f32, wood: bool) -> Mesh {
     if wood {
         return bevelled_box(Vec3::new(length, width, 0.0028), 0.001);
     }
+    /// How far the middle of a metal slat rises above its edges, metres: the arch keeps it straight.
     const ARCH: f32 = 0.0018;
+    /// Half the thickness of the metal, metres.
     const SHEET: f32 = 0.0002;
-    // Once around the section: above from the back to the front, then back below.
+    // The grid runs around the section: over the upper side from back to front, then back below.
     let point = |i: usize, j: usize| {
         let i = i % 10;
         let (t, side) = if i < 5 { (i as f32 / 4.0, 1.0) } else { ((9 - i) as f32 / 4.0, -1.0) };
@@ -105,10 +111,10 @@ impl Blind {
             board([-0.5 * w, 0.004, top - drop - 0.022], [0.5 * w, 0.016, top - drop + 0.001], 0.003),
             Finish::WhitePlastic,
         );
-        let x = 0.5 * w + 0.005;
-        let count = (0.6 * self.height / 0.012) as usize;
-        let beads = (0..count).map(|k| sphere(0.0022, 6).moved(Vec3::new(x, 0.067, top - 0.012 * k as f32)));
-        let cord = rod([x, 0.067, top], [x, 0.067, top - 0.012 * count as f32], 0.0006, 4);
+        let (x, y, pitch) = (0.5 * w + 0.005, 0.067, 0.012);
+        let count = (0.6 * self.height / pitch) as usize;
+        let beads = (0..count).map(|k| sphere(0.0022, 6).moved(Vec3::new(x, y, top - pitch * k as f32)));
+        let cord = rod([x, y, top], [x, y, top - pitch * count as f32], 0.0006, 4);
         b.part(object, "chain", all(beads).with(cord), Finish::Chrome);
     }
 
@@ -131,7 +137,7 @@ impl Blind {
             };
             Vec3::new(x, y, z + 0.002 * (14.0 * x).sin() * t)
         };
-        // u runs to −x and v downward, so that it faces the room.
+        // u runs to −x and v downward, so that the sheet faces the room.
         let sheet = grid(12, n, point, |i, j| Vec2::new(i as f32 / 12.0 * w, j as f32 * 0.01)).smoothed(70.0);
         let rear = Mesh { triangles: sheet.triangles.iter().map(|&[p, q, r]| [p, r, q]).collect(), ..sheet.clone() };
         let rear = rear.deformed(|p| p - Vec3::new(0.0, 0.0012, 0.0)).smoothed(70.0);
@@ -166,7 +172,7 @@ impl Furniture for Blind {
             BlindKind::Roller => self.roller(b, &object, cloth),
             BlindKind::Roman => self.roman(b, &object, cloth),
         }
-        // Everything hangs on the wall by two clips.
+        // Two clips hold the blind on the wall.
         let clip = turned(&[[0.0, 0.0], [0.012, 0.0], [0.012, 0.006], [0.0, 0.006]], 16);
         let clip = to_front(clip);
         let at = |s: f32| Vec3::new(s * 0.4 * self.width, 0.0, 0.5 * self.height - 0.022);

@@ -1,3 +1,7 @@
+//! Seven kinds of lamps on a ceiling, all of class lamp: flush disks of 30 to 52 cm, chandeliers with five to eight arms, spots on a track,
+//! bars of light over a table, paper lanterns, clusters of shades, and a fan with a lamp. The origin is on the ceiling, and all hang below
+//! it at negative z.
+
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::Furniture;
 use crate::furniture::form::{all, around, cylinder, rod, turned, wire};
@@ -6,7 +10,7 @@ use crate::shape::{Reshape, bevelled_box, lathe, rounded_box, sphere, spline, tu
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
 
-/// Lamps on the ceiling, which has their origin.
+/// Lamps on the ceiling, where their origin is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CeilingLamp {
     /// A flat disk of this radius.
@@ -62,7 +66,7 @@ impl CeilingLamp {
             let (yaw, tilt) = (rng.range(0.0, TAU), rng.range(0.3, 0.7));
             let can = turned(&[[0.0, 0.0], [0.028, 0.0], [0.03, 0.004], [0.03, 0.105], [0.026, 0.105], [0.025, 0.09], [0.0, 0.09]], 28);
             let bulb = turned(&[[0.0, 0.0905], [0.0245, 0.0905], [0.0245, 0.093], [0.0, 0.095]], 24);
-            // In its own space a spot shines along +z; it hangs head down.
+            // A spot is drawn shining along +z, and is then turned head down.
             let place = |mesh: enfilade_geometry::Mesh| {
                 let mesh = mesh.moved(Vec3::new(0.0, 0.0, -0.03)).turned(Vec3::X, std::f32::consts::PI - tilt).turned(Vec3::Z, yaw);
                 mesh.moved(Vec3::new(x, 0.0, -0.105))
@@ -129,15 +133,17 @@ impl CeilingLamp {
             turned(&[[0.0, -0.36], [0.08, -0.355], [0.11, -0.33], [0.11, -0.27], [0.07, -0.235], [0.0, -0.235]], 40),
             Finish::BlackMetal,
         );
+        // Height of the blades.
+        let level = -0.3;
         let blade = |d: Vec2| {
             let board = rounded_box(Vec3::new(0.5, 0.13, 0.009), 0.004, 2)
                 .deformed(|p| Vec3::new(p.x, p.y * (0.85 + 0.5 * (p.x + 0.25)), p.z))
                 .smoothed(40.0);
-            board.turned(Vec3::X, 0.2).moved(Vec3::new(0.4, 0.0, -0.3)).turned(Vec3::Z, d.to_angle())
+            board.turned(Vec3::X, 0.2).moved(Vec3::new(0.4, 0.0, level)).turned(Vec3::Z, d.to_angle())
         };
         b.part(lamp, "blades", all(around(5, 0.4).map(blade)), Finish::Wood);
         // Each blade is held by an iron that comes out of the motor.
-        let iron = |d: Vec2| rod((d * 0.09).extend(-0.3).to_array(), (d * 0.2).extend(-0.3).to_array(), 0.008, 12);
+        let iron = |d: Vec2| rod((d * 0.09).extend(level).to_array(), (d * 0.2).extend(level).to_array(), 0.008, 12);
         b.part(lamp, "irons", all(around(5, 0.4).map(iron)), Finish::BlackMetal);
         b.part(
             lamp,

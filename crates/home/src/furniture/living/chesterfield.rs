@@ -1,3 +1,7 @@
+//! A chesterfield: a low sofa of two or three seats (class sofa), or a club chair (class chair), whose buttoned back and arms end in rolls
+//! of one height. All of it is covered with one leather or cloth; feet are of dark wood, nails of brass. The buttons are set in a diamond
+//! pattern.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, turned};
 use crate::furniture::{CONTACT, Furniture};
@@ -12,19 +16,27 @@ use std::f32::consts::PI;
 pub struct Chesterfield {
     /// Places to sit: one to three.
     pub seats: usize,
-    /// Of the whole but the feet.
+    /// What all but feet and nails is covered with.
     pub cover: Finish,
 }
 
+/// Depth from the back roll to the front of the arms, metres.
 const DEPTH: f32 = 0.92;
+/// Height of back and arms, metres.
 const TOP: f32 = 0.73;
+/// Height of the seat, metres.
 const SEAT: f32 = 0.43;
+/// Height of the seat cushions, metres.
+const CUSHION: f32 = 0.15;
+/// How far below the seat the padding begins, metres: the cushions hide its lower edge.
+const BELOW_SEAT: f32 = 0.06;
+/// Height of the feet, metres.
 const LEG: f32 = 0.09;
-/// Radius of the rolls.
+/// Radius of the rolls, metres.
 const ROLL: f32 = 0.085;
-/// Thickness of back and arms below their rolls.
+/// Thickness of back and arms below their rolls, metres.
 const WALL: f32 = 0.16;
-/// Distance of the buttons, along and up.
+/// Distance from button to button, along and up, metres.
 const PITCH: [f32; 2] = [0.17, 0.11];
 
 impl Chesterfield {
@@ -42,7 +54,7 @@ impl Chesterfield {
     /// The padding along `length`: from the seat up the inside, over the roll and down behind it; x along, inside towards +y.
     fn padding(length: f32) -> Mesh {
         let (nu, nv) = ((length / 0.02) as usize, 34);
-        let straight = TOP - ROLL - SEAT + 0.06;
+        let straight = TOP - ROLL - SEAT + BELOW_SEAT;
         let arc = ROLL * 1.55 * PI;
         let point = |i: usize, j: usize| {
             let u = (i as f32 / nu as f32 - 0.5) * length;
@@ -50,7 +62,7 @@ impl Chesterfield {
             let ends = ((0.5 * length - u.abs()) / 0.05).clamp(0.0, 1.0);
             let depth = 0.022 * (Self::quilt(u, s) - 1.0) * ends * (1.0 - ((s - straight) / (0.6 * arc)).clamp(0.0, 1.0));
             let (center, normal) = if s < straight {
-                (Vec2::new(0.0, SEAT - 0.06 + s), Vec2::X)
+                (Vec2::new(0.0, SEAT - BELOW_SEAT + s), Vec2::X)
             } else {
                 let a = (s - straight) / ROLL;
                 let d = Vec2::new(a.cos(), a.sin());
@@ -64,7 +76,7 @@ impl Chesterfield {
 
     /// Buttons of [`Self::padding`].
     fn buttons(length: f32) -> Mesh {
-        let straight = TOP - ROLL - SEAT + 0.06;
+        let straight = TOP - ROLL - SEAT + BELOW_SEAT;
         let rows = (straight / PITCH[1]) as usize;
         let places = (0..=rows).flat_map(|row| {
             let v = PITCH[1] * row as f32;
@@ -73,10 +85,10 @@ impl Chesterfield {
             (-count..=count).map(move |k| Vec2::new(k as f32 * PITCH[0] + offset, v))
         });
         let inside = places.filter(|p| p.x.abs() < 0.5 * length - 0.06 && p.y > 0.07);
-        all(inside.map(|p| sphere(0.011, 10).moved(Vec3::new(-p.x, -0.018, SEAT - 0.06 + p.y))))
+        all(inside.map(|p| sphere(0.011, 10).moved(Vec3::new(-p.x, -0.018, SEAT - BELOW_SEAT + p.y))))
     }
 
-    /// A roll's round front, with its rim of nails.
+    /// The round front of a roll, facing +y.
     fn scroll() -> Mesh {
         let face = turned(&[[ROLL - 0.004, -0.01], [ROLL - 0.002, 0.0], [ROLL - 0.012, 0.006], [0.02, 0.004], [0.0, 0.002]], 36);
         crate::furniture::form::to_front(face)
@@ -101,9 +113,9 @@ impl Furniture for Chesterfield {
         let class = if self.seats == 1 { Class::Chair } else { Class::Sofa };
         let sofa = b.object("chesterfield", class, pose);
         let (w, back, front) = (self.inner(), -0.5 * DEPTH, 0.5 * DEPTH);
-        let base = rounded_box(Vec3::new(w + 2.0 * WALL - 0.01, DEPTH - 0.04, SEAT - 0.15 - LEG), 0.02, 2);
-        b.part(&sofa, "base", base.moved(Vec3::new(0.0, 0.0, LEG + 0.5 * (SEAT - 0.15 - LEG))), self.cover);
-        // The inner faces of back and arms lie on these lines.
+        let base = rounded_box(Vec3::new(w + 2.0 * WALL - 0.01, DEPTH - 0.04, SEAT - CUSHION - LEG), 0.02, 2);
+        b.part(&sofa, "base", base.moved(Vec3::new(0.0, 0.0, LEG + 0.5 * (SEAT - CUSHION - LEG))), self.cover);
+        // Where the inner faces of back and arms are.
         let inside = back + 2.0 * ROLL;
         let length = front - inside;
         let (arm_x, arm_y) = (0.5 * w, inside + 0.5 * length);
@@ -134,7 +146,7 @@ impl Furniture for Chesterfield {
             b.part(
                 &sofa,
                 &format!("seat_cushion_{}", k + 1),
-                seat.moved(Vec3::new(x, inside + 0.5 * depth + 0.006, SEAT - 0.15 + CONTACT + 0.07)),
+                seat.moved(Vec3::new(x, inside + 0.5 * depth + 0.006, SEAT - CUSHION + CONTACT + 0.07)),
                 self.cover,
             );
         }

@@ -1,3 +1,6 @@
+//! A round clock on the wall, 28 to 48 cm across, of class other prop, at a random time: with a face, or a ring without one. The origin is
+//! the middle of its back, and it faces +y.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::Furniture;
 use crate::furniture::form::{all, around, cylinder, rod, to_front, turned};
@@ -9,13 +12,13 @@ use std::f32::consts::TAU;
 /// A round clock on the wall; its origin is the middle of its back.
 #[derive(Clone, Copy, Debug)]
 pub struct WallClock {
-    /// Over the rim.
+    /// Radius over the rim.
     pub radius: f32,
     /// Minutes after noon.
     pub minutes: f32,
-    /// A ring of rods without a face.
+    /// A ring with spokes instead of a face.
     pub skeleton: bool,
-    /// Of rim and marks.
+    /// What rim, spokes and works are made of.
     pub rim: Finish,
 }
 
@@ -53,7 +56,7 @@ impl Furniture for WallClock {
             );
         }
         let dark = Finish::BlackMetal;
-        // Without a face the rim holds them.
+        // Without a face the rim holds the marks.
         let outer = if self.skeleton { r - 0.013 } else { 0.86 * r };
         let marks = around(12, 0.0).enumerate().map(|(k, d)| {
             let inner = 0.86 * r - if k % 3 == 0 { 0.14 * r } else { 0.08 * r };

@@ -1,3 +1,7 @@
+//! A sofa around a corner, class sofa: a long side of 240 to 300 cm along the back, and at one end a chaise that reaches 150 to 180 cm to
+//! the front. All but its black legs has one cover; the scatter cushions are objects of class pillow. Blocks are placed by their distance
+//! from the back.
+
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::{CONTACT, Furniture, leg, on};
 use crate::materials::Finish;
@@ -8,29 +12,37 @@ use std::f32::consts::{FRAC_PI_2, PI};
 /// A sofa around a corner: a long side along the back and a chaise to the front at one end.
 #[derive(Clone, Copy, Debug)]
 pub struct CornerSofa {
-    /// Of the long side, with arms.
+    /// Width of the long side, with its arm.
     pub width: f32,
     /// How far the chaise reaches to the front from the back.
     pub chaise: f32,
-    /// The chaise at −x (−1) or +x (+1).
+    /// Where the chaise is: −1 at −x, +1 at +x.
     pub side: f32,
-    /// Of everything but the legs.
+    /// What everything but the legs is covered with.
     pub cloth: Finish,
     /// Scatter cushions.
     pub pillows: usize,
 }
 
+/// Depth of the long side, metres.
 const DEPTH: f32 = 0.95;
+/// Width of the chaise, metres.
 const CHAISE: f32 = 0.92;
+/// Width of the arm, metres.
 const ARM: f32 = 0.2;
+/// Thickness of the back, metres.
 const BACK: f32 = 0.2;
+/// Height of the legs, metres.
 const LEG: f32 = 0.07;
+/// Height of the base's upper side, metres.
 const BASE: f32 = 0.27;
+/// Height of the seat, metres.
 const SEAT: f32 = 0.42;
+/// Height of the back without its cushions, metres.
 const TOP: f32 = 0.68;
 
 impl CornerSofa {
-    /// A box of the sofa between two corners, its own y counted from the back.
+    /// Adds a box of the sofa between two corners, whose y is counted from the sofa's back.
     fn block(&self, b: &mut Builder, sofa: &Object, name: &str, min: [f32; 3], max: [f32; 3], round: f32) {
         let (min, max) = (Vec3::from_array(min), Vec3::from_array(max));
         let mesh = rounded_box(max - min, round, 3).moved(0.5 * (min + max) - Vec3::new(0.0, 0.5 * self.chaise, 0.0));
@@ -63,7 +75,7 @@ impl Furniture for CornerSofa {
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let sofa = b.object("corner_sofa", Class::Sofa, pose);
         let (half, s) = (0.5 * self.width, self.side);
-        // Along x from the end with the arm (a) to the end of the chaise (c), then ordered.
+        // Spans along x are written from the arm (−x) to the chaise (+x), and mirrored where the chaise is at −x.
         let along = |from: f32, to: f32| [(s * from).min(s * to), (s * from).max(s * to)];
         let [x0, x1] = along(-half, half);
         let [p0, p1] = along(ARM - half, half - CHAISE);
@@ -91,10 +103,11 @@ impl Furniture for CornerSofa {
             let at = Vec3::new(x, BACK + 0.5 * fat + 0.035 - 0.5 * self.chaise, SEAT + 0.5 * height * lean.cos() + 0.004);
             b.part(&sofa, &format!("back_cushion_{}", k + 1), mesh.uv_moved(Vec2::splat(rng.next_f32())).moved(at), self.cloth);
         }
+        let inset = 0.07;
         for (k, (x, y)) in [(x0, 0.0), (x1, 0.0), (a0.max(-half), DEPTH), (c0, self.chaise), (c1, self.chaise)].into_iter().enumerate() {
             let at = Vec3::new(
-                x.clamp(0.07 - half, half - 0.07),
-                y.clamp(0.07, self.chaise - 0.07) - if y == DEPTH { 0.07 } else { 0.0 } - 0.5 * self.chaise,
+                x.clamp(inset - half, half - inset),
+                y.clamp(inset, self.chaise - inset) - if y == DEPTH { inset } else { 0.0 } - 0.5 * self.chaise,
                 0.0,
             );
             b.part(&sofa, &format!("leg_{}", k + 1), leg(LEG + 0.002, [0.02, 0.025], Vec2::ZERO).moved(at), Finish::BlackMetal);

@@ -1,3 +1,6 @@
+//! A narrow couch to lie on by day, 185 to 205 × 82 cm, class sofa: a wooden frame on splayed legs and a mattress, with one or two bolsters
+//! at its ends (class pillow) and perhaps a throw (class other prop). The first bolster is at +x.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, rod, turned};
 use crate::furniture::{CONTACT, Furniture, board, grained, leg, on};
@@ -9,18 +12,21 @@ use std::f32::consts::FRAC_PI_2;
 /// A narrow couch to lie on by day, with a bolster at one or either end.
 #[derive(Clone, Copy, Debug)]
 pub struct DayBed {
-    /// Along x.
+    /// Length along x.
     pub length: f32,
     /// Bolsters: one or two.
     pub bolsters: usize,
-    /// Of mattress and bolsters.
+    /// What mattress and bolsters are covered with.
     pub cover: Finish,
-    /// A throw over the foot.
+    /// There is a throw over the foot.
     pub throw: bool,
 }
 
+/// Depth of the frame, metres.
 const DEPTH: f32 = 0.82;
+/// Height of the frame's upper edge, metres.
 const FRAME: f32 = 0.26;
+/// Thickness of the mattress, metres.
 const PAD: f32 = 0.14;
 
 impl Furniture for DayBed {
@@ -36,17 +42,19 @@ impl Furniture for DayBed {
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let bed = b.object("day_bed", Class::Sofa, pose);
         let half = Vec2::new(0.5 * self.length, 0.5 * DEPTH);
+        // Thickness of the rails, that and the air where they meet, and their lower edge.
+        let (thick, inner, low) = (0.03, 0.0302, FRAME - 0.09);
         let rails = all([
-            board([-half.x, half.y - 0.03, FRAME - 0.09], [half.x, half.y, FRAME], 0.003),
-            board([-half.x, -half.y, FRAME - 0.09], [half.x, 0.03 - half.y, FRAME], 0.003),
-            board([-half.x, 0.0302 - half.y, FRAME - 0.09], [0.03 - half.x, half.y - 0.0302, FRAME], 0.003),
-            board([half.x - 0.03, 0.0302 - half.y, FRAME - 0.09], [half.x, half.y - 0.0302, FRAME], 0.003),
-            board([0.03 - half.x, 0.03 - half.y, FRAME - 0.03], [half.x - 0.03, half.y - 0.03, FRAME - 0.002], 0.001),
+            board([-half.x, half.y - thick, low], [half.x, half.y, FRAME], 0.003),
+            board([-half.x, -half.y, low], [half.x, thick - half.y, FRAME], 0.003),
+            board([-half.x, inner - half.y, low], [thick - half.x, half.y - inner, FRAME], 0.003),
+            board([half.x - thick, inner - half.y, low], [half.x, half.y - inner, FRAME], 0.003),
+            board([thick - half.x, thick - half.y, FRAME - 0.03], [half.x - thick, half.y - thick, FRAME - 0.002], 0.001),
         ]);
         b.part(&bed, "frame", grained(rails, rng), Finish::Wood);
         for (i, s) in [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)].into_iter().enumerate() {
             let at = (s * (half - Vec2::new(0.14, 0.07))).extend(0.0);
-            // Up to the board between the rails.
+            // Legs reach up to the board between the rails.
             b.part(&bed, &format!("leg_{}", i + 1), leg(FRAME - 0.0298, [0.014, 0.022], s * 0.03).moved(at), Finish::Wood);
         }
         let pad = padded_box(Vec3::new(self.length - 0.03, DEPTH - 0.03, PAD - 0.024), 0.035, 0.012).uv_moved(Vec2::splat(rng.next_f32()));
@@ -78,9 +86,10 @@ impl DayBed {
         let point = |i: usize, j: usize| {
             let (u, s) = (i as f32 / 16.0 - 0.5, (j as f32 / 48.0 - 0.5) * total);
             let over = (s.abs() - half).max(0.0);
-            let round = 0.03f32;
-            let bend = (over / (round * 1.57)).min(1.0) * 1.57;
-            let hang = (over - round * 1.57).max(0.0);
+            // Radius of the bend over the edge, and about a quarter turn.
+            let (round, quarter) = (0.03f32, 1.57);
+            let bend = (over / (round * quarter)).min(1.0) * quarter;
+            let hang = (over - round * quarter).max(0.0);
             let ripple = 0.006 * (1.0 + (u * 20.0 + phase).sin()) * (hang / fall).min(1.0);
             let y = s.signum() * ((s.abs().min(half)) + round * bend.sin() + ripple);
             let z = top - round * (1.0 - bend.cos()) - hang + 0.002 * (u * 17.0 + s * 5.0 + phase).sin();

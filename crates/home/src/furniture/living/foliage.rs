@@ -1,3 +1,7 @@
+//! Plants, all of class other prop: in a pot (ferns, cacti, monsteras, swords and palms, in pots of 10 to 19 cm radius that scale them),
+//! hanging from the ceiling, and cut flowers in a vase of 14 to 24 cm. Leaves are meshes of their own that are turned and placed; the
+//! origin of the hanging plant is on the ceiling.
+
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::form::{all, around, turned, vessel, wire};
 use crate::furniture::{CONTACT, Furniture, on};
@@ -7,14 +11,16 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::{PI, TAU};
 
-/// Plants of different habit in a pot.
+/// Angle from one leaf, stalk or flower to the next, radians: the golden angle, by which they shade each other least.
+const GOLDEN_ANGLE: f32 = 2.4;
+/// A plant of one of several habits in a pot.
 #[derive(Clone, Copy, Debug)]
 pub struct Foliage {
     /// How it grows.
     pub habit: Habit,
     /// Radius of the pot's rim.
     pub pot: f32,
-    /// Of the pot.
+    /// What the pot is made of.
     pub finish: Finish,
 }
 
@@ -78,7 +84,7 @@ impl Foliage {
         let count = if palm { 9 } else { 18 };
         let (mut ribs, mut blades) = (Vec::new(), Vec::new());
         for k in 0..count {
-            let turn = 2.4 * k as f32 + rng.range(-0.2, 0.2);
+            let turn = GOLDEN_ANGLE * k as f32 + rng.range(-0.2, 0.2);
             let [rib, blade] = if palm {
                 self.frond(self.pot * rng.range(4.0, 5.4), rng.range(1.0, 1.42), turn, 0.24, 15)
             } else {
@@ -126,7 +132,7 @@ impl Foliage {
     fn stalked(&self, b: &mut Builder, plant: &Object, rng: &mut Rng) {
         let (mut stalks, mut blades) = (Vec::new(), Vec::new());
         for k in 0..10 {
-            let turn = 2.4 * k as f32 + rng.range(-0.3, 0.3);
+            let turn = GOLDEN_ANGLE * k as f32 + rng.range(-0.3, 0.3);
             let t = k as f32 / 9.0;
             let (out, up) = (self.pot * rng.range(1.0, 1.7) * (1.0 - 0.4 * t), self.pot * (1.6 + 2.6 * t) * rng.range(0.9, 1.1));
             let d = Vec2::from_angle(turn);
@@ -149,7 +155,7 @@ impl Foliage {
             let length = self.pot * rng.range(3.2, 5.4);
             let width = 0.42 * self.pot;
             let (twist, lean) = (rng.range(-0.6, 0.6), rng.range(0.02, 0.2));
-            let at = Vec2::from_angle(2.4 * k as f32) * 0.55 * self.pot * ((k as f32 + 0.5) / 13.0).sqrt();
+            let at = Vec2::from_angle(GOLDEN_ANGLE * k as f32) * 0.55 * self.pot * ((k as f32 + 0.5) / 13.0).sqrt();
             let blade = grid(
                 4,
                 12,
@@ -174,7 +180,7 @@ fn cut_leaf(length: f32) -> Mesh {
     let point = |i: usize, j: usize| {
         let (s, t) = (i as f32 / nu as f32, 2.0 * j as f32 / nv as f32 - 1.0);
         let heart = 0.5 * length * 1.0 * ((PI * s.powf(0.62)).sin().max(0.0)).powf(0.6) * (1.0 - 0.35 * s);
-        // Cuts: the outline falls back towards the rib seven times on its way.
+        // The outline is cut in towards the rib seven times.
         let wave = (0.5 + 0.5 * (TAU * 7.0 * s).cos()).powi(5);
         let cut = 1.0 - 0.62 * wave * (PI * s).sin().powi(2) * t.abs();
         let sweep = 0.16 * length * t.abs();
@@ -225,9 +231,9 @@ impl Furniture for Foliage {
 /// A pot that hangs from the ceiling with trailing shoots; its origin is on the ceiling.
 #[derive(Clone, Copy, Debug)]
 pub struct HangingPlant {
-    /// From the ceiling to the pot's rim.
+    /// Distance from the ceiling to the pot's rim.
     pub drop: f32,
-    /// Of the longest shoots below the rim.
+    /// How far the longest shoots hang below the rim.
     pub trail: f32,
 }
 
@@ -262,7 +268,7 @@ impl Furniture for HangingPlant {
         b.part(&plant, "cords", all(cords), Finish::Wicker);
         let (mut shoots, mut leaves) = (Vec::new(), Vec::new());
         for k in 0..16 {
-            let d = Vec2::from_angle(2.4 * k as f32 + rng.range(-0.2, 0.2));
+            let d = Vec2::from_angle(GOLDEN_ANGLE * k as f32 + rng.range(-0.2, 0.2));
             let length = self.trail * rng.range(0.25, 1.0);
             let out = r + rng.range(0.015, 0.06);
             let path = [
@@ -294,18 +300,18 @@ impl Furniture for HangingPlant {
 /// A vase of cut flowers.
 #[derive(Clone, Copy, Debug)]
 pub struct FlowerVase {
-    /// Of the vase.
+    /// Height of the vase.
     pub height: f32,
     /// Of glass instead of pottery.
     pub glass: bool,
-    /// How many.
+    /// How many flowers.
     pub flowers: usize,
     /// 0 daisies, 1 tulips, 2 round heads.
     pub kind: u8,
 }
 
 impl FlowerVase {
-    /// The head of a flower on z = 0, upright: petals and heart.
+    /// The petals and the heart of a flower that looks up, at the origin.
     fn head(&self, size: f32) -> [Mesh; 2] {
         match self.kind {
             0 => {
@@ -322,7 +328,7 @@ impl FlowerVase {
             _ => {
                 let petals = (0..34).map(|k| {
                     let z = 1.0 - 1.7 * (k as f32 + 0.5) / 34.0;
-                    let a = 2.4 * k as f32;
+                    let a = GOLDEN_ANGLE * k as f32;
                     leaf(0.55 * size, 0.5 * size, 0.9).turned(Vec3::Y, -z.asin()).turned(Vec3::Z, a).moved(Vec3::new(0.0, 0.0, 0.4 * size))
                 });
                 [all(petals), sphere(0.35 * size, 14).moved(Vec3::new(0.0, 0.0, 0.35 * size))]
@@ -353,7 +359,7 @@ impl Furniture for FlowerVase {
         let (mut stems, mut petals, mut hearts, mut leaves) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for k in 0..self.flowers {
             let t = ((k as f32 + 0.5) / self.flowers as f32).sqrt();
-            let d = Vec2::from_angle(2.4 * k as f32 + rng.range(-0.2, 0.2));
+            let d = Vec2::from_angle(GOLDEN_ANGLE * k as f32 + rng.range(-0.2, 0.2));
             let (foot, rim) = (-0.06 * h * d, 0.15 * h * t * d);
             let out = d * t * (0.1 + 0.12 * h);
             let z = h * rng.range(1.55, 1.85) - 0.1 * h * t;

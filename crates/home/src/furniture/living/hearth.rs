@@ -1,3 +1,7 @@
+//! Fires: an open fireplace with a surround and a mantelpiece of 130 to 155 cm, and an iron stove 82 to 110 cm high whose pipe ends at the
+//! ceiling; class other structure. The logs in the fireplace are other prop. The wall is at −y, and a hearth or floor plate lies before the
+//! fire.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, plate_with_holes, rod};
 use crate::furniture::{Furniture, Surface, board, grained, on};
@@ -9,7 +13,7 @@ use std::f32::consts::FRAC_PI_2;
 
 /// Logs that lie along x on z = 0, two below and one above.
 fn logs(length: f32, rng: &mut Rng) -> Mesh {
-    // Each by its place and the height of its lowest line.
+    // `at` is the middle of the lowest line of a log.
     let mut log = |at: Vec3, yaw: f32| {
         let r = rng.range(0.042, 0.052);
         cylinder(r, length * rng.range(0.85, 1.0), 18)
@@ -24,17 +28,21 @@ fn logs(length: f32, rng: &mut Rng) -> Mesh {
 /// An open fireplace in a surround with a mantelpiece, on a hearth.
 #[derive(Clone, Copy, Debug)]
 pub struct Fireplace {
-    /// Of the mantelpiece.
+    /// Width of the mantelpiece.
     pub width: f32,
-    /// Of the surround.
+    /// What the surround is made of.
     pub surround: Finish,
-    /// Framed panels instead of plain slabs.
+    /// The surround has framed panels instead of plain slabs.
     pub panelled: bool,
 }
 
+/// Depth of the fireplace without the front part of its hearth, metres.
 const DEPTH: f32 = 0.40;
+/// How far the hearth reaches on before that, metres: sparks fall on it.
+const HEARTH: f32 = 0.35;
+/// Height of the mantelpiece, metres.
 const MANTEL: f32 = 1.12;
-/// Of the opening.
+/// Width and height of the opening, metres.
 const OPENING: [f32; 2] = [0.66, 0.68];
 
 impl Furniture for Fireplace {
@@ -44,7 +52,7 @@ impl Furniture for Fireplace {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(self.width, DEPTH + 0.35, MANTEL)
+        Vec3::new(self.width, DEPTH + HEARTH, MANTEL)
     }
 
     fn reach(&self) -> f32 {
@@ -52,13 +60,13 @@ impl Furniture for Fireplace {
     }
 
     fn surfaces(&self) -> Vec<Surface> {
-        let back = -0.5 * (DEPTH + 0.35);
+        let back = -0.5 * (DEPTH + HEARTH);
         let half = 0.5 * self.width - 0.03;
         vec![Surface { min: Vec2::new(-half, back + 0.02), max: Vec2::new(half, back + 0.24), z: MANTEL, headroom: f32::INFINITY }]
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
-        let pose = on(pose, Vec3::new(0.0, -0.5 * (DEPTH + 0.35), 0.0), 0.0);
+        let pose = on(pose, Vec3::new(0.0, -0.5 * (DEPTH + HEARTH), 0.0), 0.0);
         let fire = b.object("fireplace", Class::OtherStructure, pose);
         let (half, [w, h]) = (0.5 * self.width, OPENING);
         let low = 0.05;
@@ -88,7 +96,7 @@ impl Furniture for Fireplace {
         b.part(
             &fire,
             "hearth",
-            board([-half, 0.001, 0.0], [half, DEPTH + 0.35, low - 0.0002], 0.006),
+            board([-half, 0.001, 0.0], [half, DEPTH + HEARTH, low - 0.0002], 0.006),
             if self.panelled { Finish::Stone } else { self.surround },
         );
         if self.panelled {
@@ -118,9 +126,9 @@ impl Furniture for Fireplace {
 pub struct Stove {
     /// Round instead of square.
     pub round: bool,
-    /// Of the body.
+    /// Height of the body.
     pub height: f32,
-    /// Where the pipe ends above the floor.
+    /// Height at which the pipe ends above the floor.
     pub pipe: f32,
 }
 
@@ -198,12 +206,8 @@ impl Furniture for Stove {
             let window = board([-0.178, 0.0005, -0.5 * (z1 - z0) + 0.033], [0.178, 0.006, 0.5 * (z1 - z0) - 0.033], 0.001);
             b.part(&stove, "window", window.moved(middle), Finish::GlossBlack);
         }
-        let handle = rod([0.165, 0.25, 0.58 * h], [0.165, 0.25, 0.74 * h], 0.008, 12).with(rod(
-            [0.165, 0.15, 0.6 * h],
-            [0.165, 0.25, 0.6 * h],
-            0.005,
-            8,
-        ));
+        let (x, y) = (0.165, 0.25);
+        let handle = rod([x, y, 0.58 * h], [x, y, 0.74 * h], 0.008, 12).with(rod([x, 0.15, 0.6 * h], [x, y, 0.6 * h], 0.005, 8));
         b.part(&stove, "handle", handle.moved(at), Finish::Steel);
         let pipe = cylinder(0.075, self.pipe - h - 0.008, 32).moved(at + Vec3::new(0.0, -0.02, h - 0.0004));
         let collar = cylinder(0.088, 0.03, 32).moved(at + Vec3::new(0.0, -0.02, h - 0.0002));

@@ -1,4 +1,5 @@
-//! Further things of a living room: seats of other kinds, shelves on the wall, fires, blinds, ceiling lights, music, plants.
+//! Further things of a living room: corner sofas, chesterfields and day beds, poufs, shelves, fireplaces and stoves, blinds, lamps on
+//! ceiling and wall, clocks, music, and plants.
 
 mod blind;
 mod ceiling_lamp;

@@ -1,3 +1,6 @@
+//! To listen and play: a record player with a record and perhaps an open lid, loudspeakers for a shelf (26 to 36 cm) or the floor (85 to
+//! 105 cm), and a game console with its controller; all of class other prop, their fronts to +y.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, rod, to_front, turned};
 use crate::furniture::{CONTACT, Furniture, board, grained, on};
@@ -8,9 +11,9 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 /// A record player with a record on it.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordPlayer {
-    /// Of the plinth.
+    /// What the plinth is made of.
     pub finish: Finish,
-    /// A cover of clear plastic, open.
+    /// There is a cover of clear plastic, and it is open.
     pub lid: bool,
 }
 
@@ -30,8 +33,10 @@ impl Furniture for RecordPlayer {
             .map(|(x, y)| cylinder(0.022, 0.021, 20).moved(Vec3::new(0.18 * x, 0.14 * y, 0.0)));
         b.part(&player, "feet", all(feet), Finish::Rubber);
         b.part(&player, "plinth", grained(board([-0.22, -0.18, 0.02], [0.22, 0.18, 0.08], 0.003), rng), self.finish);
+        // Where things on the plinth begin: half a millimetre inside it.
+        let top = 0.0795;
         let at = Vec3::new(0.045, 0.0, 0.0);
-        b.part(&player, "platter", cylinder(0.152, 0.018, 64).moved(at + Vec3::new(0.0, 0.0, 0.0795)), Finish::Aluminium);
+        b.part(&player, "platter", cylinder(0.152, 0.018, 64).moved(at + Vec3::new(0.0, 0.0, top)), Finish::Aluminium);
         let z = 0.0977;
         let record =
             [[0.0, z], [0.15, z], [0.1505, z + 0.001], [0.149, z + 0.002], [0.052, z + 0.0018], [0.05, z + 0.0015], [0.0, z + 0.0015]];
@@ -43,14 +48,14 @@ impl Furniture for RecordPlayer {
             Finish::Plastic(rng.below(5) as u8),
         );
         b.part(&player, "spindle", cylinder(0.0035, 0.02, 12).moved(at + Vec3::new(0.0, 0.0, z)), Finish::Chrome);
-        let pivot = Vec3::new(-0.165, -0.11, 0.0795);
+        let pivot = Vec3::new(-0.165, -0.11, top);
         let arm = crate::furniture::form::wire(
-            &[[-0.165, -0.15, 0.12], [-0.165, -0.09, 0.12], [-0.15, 0.04, 0.119], [-0.075, 0.115, 0.108]],
+            &[[pivot.x, -0.15, 0.12], [pivot.x, -0.09, 0.12], [-0.15, 0.04, 0.119], [-0.075, 0.115, 0.108]],
             0.0045,
             10,
         );
         let rest = cylinder(0.028, 0.03, 28).moved(pivot).with(cylinder(0.012, 0.02, 20).moved(pivot + Vec3::new(0.0, 0.0, 0.0298)));
-        let weight = cylinder(0.016, 0.028, 20).turned(Vec3::X, std::f32::consts::FRAC_PI_2).moved(Vec3::new(-0.165, -0.142, 0.12));
+        let weight = cylinder(0.016, 0.028, 20).turned(Vec3::X, std::f32::consts::FRAC_PI_2).moved(Vec3::new(pivot.x, -0.142, 0.12));
         b.part(&player, "arm", all([arm, rest, weight]), Finish::Chrome);
         b.part(
             &player,
@@ -58,7 +63,7 @@ impl Furniture for RecordPlayer {
             bevelled_box(Vec3::new(0.016, 0.03, 0.01), 0.002).turned(Vec3::Z, 0.6).moved(Vec3::new(-0.067, 0.121, 0.105)),
             Finish::BlackPlastic,
         );
-        b.part(&player, "speed", cylinder(0.014, 0.012, 24).moved(Vec3::new(-0.18, 0.14, 0.0795)), Finish::Aluminium);
+        b.part(&player, "speed", cylinder(0.014, 0.012, 24).moved(Vec3::new(-0.18, 0.14, top)), Finish::Aluminium);
         if self.lid {
             let pane = |size: Vec3, at: Vec3| bevelled_box(size, 0.001).moved(at);
             let (w, d, h, t) = (0.43, 0.35, 0.06, 0.003);
@@ -76,16 +81,16 @@ impl Furniture for RecordPlayer {
 /// A loudspeaker for a shelf, or a tall one for the floor.
 #[derive(Clone, Copy, Debug)]
 pub struct Speaker {
-    /// Of the box.
+    /// Height of the box.
     pub height: f32,
-    /// Of the box.
+    /// What the box is made of.
     pub finish: Finish,
-    /// Behind a cloth.
+    /// A cloth hides the drivers.
     pub grille: bool,
 }
 
 impl Speaker {
-    /// One that stands on the floor.
+    /// A random one that stands on the floor.
     pub fn tall(rng: &mut Rng) -> Self {
         Self { height: rng.range(0.85, 1.05), ..Self::random(rng) }
     }
@@ -144,7 +149,7 @@ impl Furniture for Speaker {
 /// A game console with its controller before it.
 #[derive(Clone, Copy, Debug)]
 pub struct GameConsole {
-    /// Of the console.
+    /// Console and controller are white instead of black.
     pub white: bool,
 }
 

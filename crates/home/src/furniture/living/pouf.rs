@@ -1,3 +1,6 @@
+//! Low soft seats: poufs, knitted, as an upholstered drum, or as a footstool of 50 to 80 cm (class other furniture), and floor cushions of
+//! 55 to 70 cm, one or two on each other (class pillow). A drum also carries things.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, turned};
 use crate::furniture::{CONTACT, Furniture, Surface, leg};
@@ -6,6 +9,8 @@ use crate::shape::{Reshape, padded_box, pillow, spline, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
 
+/// Height of a drum, metres.
+const DRUM: f32 = 0.42;
 /// A soft stool.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pouf {
@@ -29,14 +34,14 @@ impl Furniture for Pouf {
     fn size(&self) -> Vec3 {
         match *self {
             Self::Knitted(r) => Vec3::new(2.0 * r + 0.016, 2.0 * r + 0.016, 1.36 * r),
-            Self::Drum(r) => Vec3::new(2.0 * r + 0.008, 2.0 * r + 0.008, 0.42),
+            Self::Drum(r) => Vec3::new(2.0 * r + 0.008, 2.0 * r + 0.008, DRUM),
             Self::Footstool(w) => Vec3::new(w, 0.48, 0.415),
         }
     }
 
     fn surfaces(&self) -> Vec<Surface> {
         match *self {
-            Self::Drum(r) => vec![Surface { min: Vec2::splat(-0.55 * r), max: Vec2::splat(0.55 * r), z: 0.42, headroom: f32::INFINITY }],
+            Self::Drum(r) => vec![Surface { min: Vec2::splat(-0.55 * r), max: Vec2::splat(0.55 * r), z: DRUM, headroom: f32::INFINITY }],
             _ => Vec::new(),
         }
     }
@@ -62,7 +67,7 @@ impl Furniture for Pouf {
             Self::Drum(r) => {
                 let plinth = [[0.0, 0.0], [r - 0.02, 0.0], [r - 0.02, 0.031], [0.0, 0.031]];
                 b.part(&pouf, "plinth", turned(&plinth, 56), Finish::DarkWood);
-                let drum = [[0.0, 0.0315], [r - 0.014, 0.0315], [r, 0.045], [r, 0.39], [r - 0.012, 0.408], [0.7 * r, 0.419], [0.0, 0.42]];
+                let drum = [[0.0, 0.0315], [r - 0.014, 0.0315], [r, 0.045], [r, 0.39], [r - 0.012, 0.408], [0.7 * r, 0.419], [0.0, DRUM]];
                 let cover = [Finish::Velvet, Finish::Boucle, Finish::Leather, Finish::ArmchairCloth][rng.below(4)];
                 b.part(&pouf, "cover", turned(&drum, 64), cover);
                 let ring: Vec<Vec3> = (0..=64).map(|k| (Vec2::from_angle(TAU * k as f32 / 64.0) * (r - 0.001)).extend(0.385)).collect();
@@ -88,7 +93,7 @@ impl Furniture for Pouf {
 /// Flat cushions on the floor to sit on, one or two on each other.
 #[derive(Clone, Copy, Debug)]
 pub struct FloorCushion {
-    /// On each other.
+    /// Cushions on each other.
     pub count: usize,
     /// Edge length.
     pub width: f32,
@@ -108,7 +113,7 @@ impl Furniture for FloorCushion {
             let cushion = b.object("floor_cushion", Class::Pillow, pose);
             let thickness = 0.14;
             let mesh = pillow(Vec2::splat(self.width), thickness, rng).turned(Vec3::Z, rng.range(-0.15, 0.15));
-            // What lies on the floor or on another cushion is flat below.
+            // A cushion is flat where it lies on the floor or on another one.
             let mesh = mesh.deformed(|p| Vec3::new(p.x, p.y, p.z.max(-0.32 * thickness))).smoothed(60.0);
             let z = 0.32 * thickness + CONTACT + 0.115 * k as f32;
             b.part(

@@ -1,3 +1,7 @@
+//! Shelves, class shelves: one to three boards on the wall, 70 to 120 cm long, and cube shelves in seven formats of up to 4 × 4
+//! compartments. Both come with books and decorations, each an object of its own; baskets in cube shelves are of class box. The origin of
+//! the wall shelf is the middle of its back.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::bookshelf::row_of_books;
 use crate::furniture::clutter::decoration;
@@ -10,19 +14,24 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// Boards on the wall one above the other, with things on them; the origin is the middle of the back.
 #[derive(Clone, Copy, Debug)]
 pub struct WallShelf {
-    /// Along the wall.
+    /// Length along the wall.
     pub width: f32,
-    /// How many.
+    /// How many boards.
     pub boards: usize,
     /// On brackets of metal instead of hidden bolts.
     pub brackets: bool,
-    /// Of the boards.
+    /// What the boards are made of.
     pub finish: Finish,
 }
 
+/// Depth of the boards of a wall shelf, metres: books are up to 19 cm deep.
 const DEPTH: f32 = 0.24;
+/// Thickness of the boards of a wall shelf, metres.
 const BOARD: f32 = 0.03;
+/// From one board of a wall shelf to the next, metres: 33 cm are free, and books are up to 27.5 cm high.
 const STEP: f32 = 0.36;
+/// Air between boards that meet, metres: it keeps faces out of one plane.
+const GAP: f32 = 0.0002;
 
 impl WallShelf {
     /// Upper face of board `k` above the origin.
@@ -42,7 +51,7 @@ impl Furniture for WallShelf {
     }
 
     fn surfaces(&self) -> Vec<Surface> {
-        // What `build` puts there leaves nothing free.
+        // `build` fills the boards itself.
         Vec::new()
     }
 
@@ -54,9 +63,10 @@ impl Furniture for WallShelf {
             b.part(&shelf, "board", grained(board([-half, 0.0005, z - BOARD], [half, DEPTH, z], 0.002), rng), self.finish);
             if self.brackets {
                 let bracket = |x: f32| {
-                    board([x - 0.011, 0.0003, z], [x + 0.011, 0.004, z + 0.09], 0.001).with(board(
-                        [x - 0.011, 0.0003, z - BOARD - 0.004],
-                        [x + 0.011, DEPTH - 0.01, z - BOARD - 0.0003],
+                    let [x0, x1] = [x - 0.011, x + 0.011];
+                    board([x0, 0.0003, z], [x1, 0.004, z + 0.09], 0.001).with(board(
+                        [x0, 0.0003, z - BOARD - 0.004],
+                        [x1, DEPTH - 0.01, z - BOARD - 0.0003],
                         0.001,
                     ))
                 };
@@ -91,19 +101,23 @@ fn fill(b: &mut Builder, pose: DAffine3, x: [f32; 2], [front, z]: [f32; 2], head
 /// Square compartments beside and above each other, open or with baskets in them.
 #[derive(Clone, Copy, Debug)]
 pub struct CubeShelf {
-    /// Beside each other.
+    /// Compartments beside each other.
     pub columns: usize,
-    /// Above each other.
+    /// Compartments above each other.
     pub rows: usize,
     /// Share of the compartments with a basket, on `[0,1]`.
     pub baskets: f32,
-    /// Of the boards.
+    /// What the boards are made of.
     pub finish: Finish,
 }
 
+/// Inner edge of a compartment, metres.
 const CUBE: f32 = 0.335;
+/// Thickness of the outer boards of a cube shelf, metres.
 const OUTER: f32 = 0.038;
+/// Thickness of the boards between its compartments, metres.
 const INNER: f32 = 0.016;
+/// Depth of a cube shelf, metres.
 const CUBE_DEPTH: f32 = 0.39;
 
 impl Furniture for CubeShelf {
@@ -134,8 +148,8 @@ impl Furniture for CubeShelf {
         let outside = all([
             board([-half, back, 0.0], [half, front, OUTER], 0.0015),
             board([-half, back, size.z - OUTER], [half, front, size.z], 0.0015),
-            board([-half, back, OUTER + 0.0002], [OUTER - half, front, size.z - OUTER - 0.0002], 0.0015),
-            board([half - OUTER, back, OUTER + 0.0002], [half, front, size.z - OUTER - 0.0002], 0.0015),
+            board([-half, back, OUTER + GAP], [OUTER - half, front, size.z - OUTER - GAP], 0.0015),
+            board([half - OUTER, back, OUTER + GAP], [half, front, size.z - OUTER - GAP], 0.0015),
         ]);
         b.part(&shelf, "case", grained(outside, rng), self.finish);
         let left = |column: usize| OUTER - half + (CUBE + INNER) * column as f32;
@@ -143,7 +157,7 @@ impl Furniture for CubeShelf {
         let levels = (1..self.rows).map(|r| board([OUTER - half, back, floor(r) - INNER], [half - OUTER, front - 0.001, floor(r)], 0.001));
         let walls = (1..self.columns).flat_map(|c| {
             (0..self.rows)
-                .map(move |r| board([left(c) - INNER, back, floor(r) + 0.0002], [left(c), front - 0.001, floor(r) + CUBE - 0.0002], 0.001))
+                .map(move |r| board([left(c) - INNER, back, floor(r) + GAP], [left(c), front - 0.001, floor(r) + CUBE - GAP], 0.001))
         });
         let inside: Vec<_> = levels.chain(walls).collect();
         if !inside.is_empty() {

@@ -1,3 +1,6 @@
+//! Lamps on a wall, class lamp: a globe on an arm, a box that lights the wall above and below it, or a small cloth shade. Sizes are fixed;
+//! the metal varies. The origin is the middle of the back on the wall's face.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::Furniture;
 use crate::furniture::form::{all, cylinder, rod, to_front, turned, wire};
@@ -12,7 +15,7 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 pub enum WallLamp {
     /// A globe on an arm.
     Globe,
-    /// Light up and down along the wall from a box.
+    /// A box that throws light up and down along the wall.
     Box,
     /// A small cloth shade.
     Shade,
@@ -37,11 +40,12 @@ impl Furniture for WallLamp {
         let plate = to_front(cylinder(0.05, 0.018, 36));
         match self {
             Self::Globe => {
-                let arm = wire(&[[0.0, 0.015, -0.06], [0.0, 0.1, -0.07], [0.0, 0.145, -0.055], [0.0, 0.15, -0.01]], 0.006, 10);
-                let cup = turned(&[[0.0, -0.02], [0.02, -0.018], [0.034, 0.0], [0.034, 0.004], [0.0, 0.004]], 28)
-                    .moved(Vec3::new(0.0, 0.15, 0.0));
+                let y = 0.15;
+                let arm = wire(&[[0.0, 0.015, -0.06], [0.0, 0.1, -0.07], [0.0, 0.145, -0.055], [0.0, y, -0.01]], 0.006, 10);
+                let cup =
+                    turned(&[[0.0, -0.02], [0.02, -0.018], [0.034, 0.0], [0.034, 0.004], [0.0, 0.004]], 28).moved(Vec3::new(0.0, y, 0.0));
                 b.part(&lamp, "arm", all([plate.moved(Vec3::new(0.0, 0.0, -0.06)), arm, cup]), metal);
-                b.part(&lamp, "globe", sphere(0.065, 32).moved(Vec3::new(0.0, 0.15, 0.06)), Finish::OpalGlobe);
+                b.part(&lamp, "globe", sphere(0.065, 32).moved(Vec3::new(0.0, y, 0.06)), Finish::OpalGlobe);
             }
             Self::Box => {
                 let (w, d, h, t) = (0.098, 0.096, 0.178, 0.004);
@@ -58,9 +62,10 @@ impl Furniture for WallLamp {
                 b.part(&lamp, "light", inner, Finish::OpalGlobe);
             }
             Self::Shade => {
-                let arm =
-                    rod([0.0, 0.015, -0.08], [0.0, 0.14, -0.08], 0.006, 10).with(rod([0.0, 0.14, -0.083], [0.0, 0.14, 0.0], 0.006, 10));
+                let y = 0.14;
+                let arm = rod([0.0, 0.015, -0.08], [0.0, y, -0.08], 0.006, 10).with(rod([0.0, y, -0.083], [0.0, y, 0.0], 0.006, 10));
                 b.part(&lamp, "arm", plate.moved(Vec3::new(0.0, 0.0, -0.08)).with(arm), metal);
+                // Half the thickness of the cloth.
                 let t = 0.0012;
                 let shade = [
                     [0.083, -0.03],
@@ -71,10 +76,10 @@ impl Furniture for WallLamp {
                     [0.083 - t, -0.029],
                     [0.083, -0.03],
                 ];
-                b.part(&lamp, "shade", turned(&shade, 48).moved(Vec3::new(0.0, 0.14, 0.0)), Finish::Lampshade);
-                b.part(&lamp, "carrier", carrier(0.073, 0.012).moved(Vec3::new(0.0, 0.14, 0.0)), metal);
-                b.part(&lamp, "bulb", sphere(0.028, 18).moved(Vec3::new(0.0, 0.14, 0.05)), Finish::Bulb);
-                b.part(&lamp, "socket", cylinder(0.013, 0.026, 16).moved(Vec3::new(0.0, 0.14, -0.002)), metal);
+                b.part(&lamp, "shade", turned(&shade, 48).moved(Vec3::new(0.0, y, 0.0)), Finish::Lampshade);
+                b.part(&lamp, "carrier", carrier(0.073, 0.012).moved(Vec3::new(0.0, y, 0.0)), metal);
+                b.part(&lamp, "bulb", sphere(0.028, 18).moved(Vec3::new(0.0, y, 0.05)), Finish::Bulb);
+                b.part(&lamp, "socket", cylinder(0.013, 0.026, 16).moved(Vec3::new(0.0, y, -0.002)), metal);
             }
         }
     }

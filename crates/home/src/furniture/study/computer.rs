@@ -1,6 +1,7 @@
-//! Computers and what belongs to them; the person is at +y.
+//! Computers and what belongs to them: monitors of 54 to 80 cm, keyboards, mice, laptops of 30 to 36 cm, printers. Screens show a picture
+//! where they are on; the person is at +y.
 //!
-//! Their classes are those of the NYU labels of 40 classes: monitors and laptops are other props, `television` is for televisions.
+//! All are of class other prop, as in the 40 classes of the NYU labels: `television` is for televisions.
 
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cut_out, cylinder, picture, rounded_rectangle, wire};
@@ -13,13 +14,13 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 /// A monitor on its foot.
 #[derive(Clone, Copy, Debug)]
 pub struct Monitor {
-    /// Of the panel.
+    /// Width of the panel.
     pub width: f32,
     /// Width over height of the panel.
     pub aspect: f32,
     /// What it shows; `None` is off.
     pub shows: Option<u8>,
-    /// Of aluminium instead of black plastic.
+    /// Foot and back are of aluminium instead of black plastic.
     pub silver: bool,
 }
 
@@ -53,11 +54,14 @@ impl Furniture for Monitor {
 pub struct Keyboard {
     /// Columns of keys.
     pub columns: usize,
-    /// White keys.
+    /// Keys are white instead of black.
     pub white: bool,
 }
 
+/// From one key to the next, metres: 19 mm is usual.
 const KEY: f32 = 0.019;
+/// Width of the edge around the keys, metres.
+const EDGE: f32 = 0.007;
 
 impl Furniture for Keyboard {
     fn random(rng: &mut Rng) -> Self {
@@ -65,12 +69,12 @@ impl Furniture for Keyboard {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(self.columns as f32 * KEY + 0.014, 6.0 * KEY + 0.014, 0.022)
+        Vec3::new(self.columns as f32 * KEY + 2.0 * EDGE, 6.0 * KEY + 2.0 * EDGE, 0.022)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
         let keyboard = b.object("keyboard", Class::OtherProp, on(pose, Vec3::new(0.0, 0.0, CONTACT), 0.0));
-        let (w, d) = (self.columns as f32 * KEY + 0.014, 6.0 * KEY + 0.014);
+        let (w, d) = (self.columns as f32 * KEY + 2.0 * EDGE, 6.0 * KEY + 2.0 * EDGE);
         let tilt = |mesh: Mesh| {
             mesh.deformed(|p| Vec3::new(p.x, p.y, p.z + 0.05 * (0.5 * d - p.y) * (p.z / 0.012).clamp(0.0, 1.0))).smoothed(30.0)
         };
@@ -78,7 +82,7 @@ impl Furniture for Keyboard {
         b.part(&keyboard, "body", tilt(body), if self.white { Finish::Aluminium } else { Finish::BlackPlastic });
         let mut keys = Vec::new();
         for row in 0..6 {
-            let y = 0.5 * d - 0.007 - KEY * (row as f32 + 0.5);
+            let y = 0.5 * d - EDGE - KEY * (row as f32 + 0.5);
             let mut column = 0;
             while column < self.columns {
                 // The space bar, and wide keys at the ends of the rows.
@@ -88,7 +92,7 @@ impl Furniture for Keyboard {
                     _ => 1,
                 };
                 let wide = wide.min(self.columns - column);
-                let x = 0.5 * w - 0.007 - KEY * (column as f32 + 0.5 * wide as f32);
+                let x = 0.5 * w - EDGE - KEY * (column as f32 + 0.5 * wide as f32);
                 keys.push(bevelled_box(Vec3::new(wide as f32 * KEY - 0.0025, KEY - 0.0025, 0.006), 0.0012).moved(Vec3::new(x, y, 0.0115)));
                 column += wide;
             }
@@ -100,7 +104,7 @@ impl Furniture for Keyboard {
 /// A mouse on its pad or the bare desk.
 #[derive(Clone, Copy, Debug)]
 pub struct Mouse {
-    /// On a pad.
+    /// It lies on a pad.
     pub pad: bool,
     /// White instead of black.
     pub white: bool,
@@ -146,7 +150,7 @@ impl Furniture for Mouse {
 /// An open laptop.
 #[derive(Clone, Copy, Debug)]
 pub struct Laptop {
-    /// Of the screen's lid.
+    /// Width of base and lid.
     pub width: f32,
     /// Angle between base and lid, radians.
     pub open_rad: f32,

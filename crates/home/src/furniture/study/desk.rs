@@ -1,3 +1,6 @@
+//! A desk of 100 to 170 × 60 to 80 cm, class desk, on drawers and legs, trestles, lifting columns, or as a writing desk with a shelf; with
+//! nothing, a laptop, or a monitor with keyboard and mouse on it. The person sits at +y and has −x at the right hand.
+
 use super::{Keyboard, Laptop, Monitor, Mouse};
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::form::{all, cylinder, rod};
@@ -9,13 +12,13 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// A desk; the person sits at its front (+y).
 #[derive(Clone, Copy, Debug)]
 pub struct Desk {
-    /// Along x.
+    /// Width along x.
     pub width: f32,
-    /// Along y.
+    /// Depth along y.
     pub depth: f32,
     /// What carries the top.
     pub stand: DeskStand,
-    /// Of the top.
+    /// What the top is made of.
     pub finish: Finish,
     /// What its person works with.
     pub computer: Computer,
@@ -66,10 +69,13 @@ pub enum DeskStand {
     Writing,
 }
 
-/// Height of the top: EN 527 has 740 mm for desks that do not adjust.
+/// Height of the top, metres: EN 527 has 740 mm for desks that do not adjust.
 const TOP: f32 = 0.74;
+/// Thickness of the top, metres.
 const BOARD: f32 = 0.025;
-/// Height of the shelf at the back of a writing desk.
+/// Where a stand ends, just below the top, metres: air keeps faces out of one plane.
+const UNDER: f32 = TOP - BOARD - 0.0002;
+/// Height of the shelf's surface at the back of a writing desk, metres.
 const SHELF: f32 = TOP + 0.146;
 
 impl Desk {
@@ -81,7 +87,7 @@ impl Desk {
 
     fn drawers(&self, b: &mut Builder, desk: &Object, side: f32, rng: &mut Rng) {
         let (half, back, front) = (0.5 * self.width, -0.5 * self.depth, 0.5 * self.depth);
-        let (w, low, under) = (0.42, 0.04, TOP - BOARD - 0.0002);
+        let (w, low, under) = (0.42, 0.04, UNDER);
         let (x0, x1) = if side > 0.0 { (half - w - 0.02, half - 0.02) } else { (0.02 - half, 0.02 - half + w) };
         let white = if self.finish == Finish::WhiteLacquer { Finish::WhiteLacquer } else { self.finish };
         b.part(desk, "pedestal", grained(board([x0, back + 0.03, low], [x1, front - 0.042, under], 0.0015), rng), white);
@@ -107,7 +113,7 @@ impl Desk {
     }
 
     fn trestles(&self, b: &mut Builder, desk: &Object, rng: &mut Rng) {
-        let under = TOP - BOARD - 0.0002;
+        let under = UNDER;
         for (i, s) in [-1.0f32, 1.0].into_iter().enumerate() {
             let (x, y) = (s * (0.5 * self.width - 0.28), 0.5 * self.depth - 0.09);
             let beam = bevelled_box(Vec3::new(0.045, 2.0 * y, 0.045), 0.003).moved(Vec3::new(x, 0.0, under - 0.0225));
@@ -124,7 +130,7 @@ impl Desk {
     }
 
     fn columns(&self, b: &mut Builder, desk: &Object) {
-        let under = TOP - BOARD - 0.0002;
+        let under = UNDER;
         let half = 0.5 * self.width - 0.2;
         for (i, s) in [-1.0f32, 1.0].into_iter().enumerate() {
             let x = s * half;
@@ -146,7 +152,7 @@ impl Desk {
     }
 
     fn writing(&self, b: &mut Builder, desk: &Object, rng: &mut Rng) {
-        let under = TOP - BOARD - 0.0002;
+        let under = UNDER;
         let half = 0.5 * Vec2::new(self.width, self.depth);
         for (i, s) in [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)].into_iter().enumerate() {
             let mesh = leg(under - 0.09, [0.013, 0.021], s * Vec2::new(0.05, 0.03)).moved((s * (half - 0.07)).extend(0.0));
@@ -181,7 +187,7 @@ impl Furniture for Desk {
             if stand == DeskStand::Writing { (rng.range(1.0, 1.25), 0.6) } else { (rng.range(1.3, 1.7), rng.range(0.68, 0.8)) };
         let finish = [Finish::Wood, Finish::WhiteLacquer, Finish::DarkWood][rng.below(3)];
         let computer = match Computer::random(rng) {
-            // Its shelf leaves no room for a screen.
+            // A writing desk's shelf leaves no room for a screen.
             Computer::Screen(..) if stand == DeskStand::Writing => Computer::Nothing,
             computer => computer,
         };
@@ -198,7 +204,7 @@ impl Furniture for Desk {
         Vec3::new(self.width, self.depth, TOP + carried.max(shelf))
     }
 
-    /// A chair that is pushed back: EN 527 asks for 0.85 m.
+    /// Room to push a chair back: EN 527 asks for 0.85 m.
     fn reach(&self) -> f32 {
         0.85
     }

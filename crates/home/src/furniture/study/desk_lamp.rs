@@ -1,3 +1,6 @@
+//! Desk lamps, class lamp: a bell on an arm with two joints, or a bar of light on a post. The length of an arm, 26 to 32 cm, varies. The
+//! bell reaches to +y, the bar to one side.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, rod, turned};
 use crate::furniture::{CONTACT, Furniture, on};
@@ -8,16 +11,16 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// A lamp on a jointed arm, or a bar of light on a post; it reaches to the front (+y).
 #[derive(Clone, Copy, Debug)]
 pub struct DeskLamp {
-    /// A slim bar instead of a bell.
+    /// A bar of light on a post instead of a bell on an arm.
     pub bar: bool,
     /// Length of either arm.
     pub arm: f32,
-    /// Of arms and bell.
+    /// What foot, arms and bell are made of.
     pub finish: Finish,
 }
 
 impl DeskLamp {
-    /// Foot, elbow and head of the arm, (y, z).
+    /// Foot, elbow and head of the arm, as (y, z).
     fn joints(&self) -> [Vec2; 3] {
         let foot = Vec2::new(-0.5 * self.size().y + 0.105, 0.03);
         let elbow = foot + Vec2::from_angle(1.85) * self.arm;
@@ -60,12 +63,13 @@ impl Furniture for DeskLamp {
         let joint = |at: Vec2| cylinder(0.014, 0.034, 20).turned(Vec3::Y, std::f32::consts::FRAC_PI_2).moved(Vec3::new(-0.017, at.x, at.y));
         b.part(&lamp, "arms", all([rods(p, q), rods(q, r), joint(p), joint(q), joint(r)]), self.finish);
         // The bell hangs from the head, turned towards the desk.
-        let wall = [[0.016, 0.0], [0.03, -0.005], [0.045, -0.045], [0.062, -0.095]];
-        let mut bell: Vec<[f32; 2]> = vec![[0.062, -0.095]];
+        let rim = [0.062, -0.095];
+        let wall = [[0.016, 0.0], [0.03, -0.005], [0.045, -0.045], rim];
+        let mut bell: Vec<[f32; 2]> = vec![rim];
         bell.extend(wall.iter().rev().skip(1).copied());
         bell.extend([[0.0, 0.002], [0.0, -0.001], [0.015, -0.003]]);
         bell.extend(wall.iter().skip(1).map(|p| [p[0] - 0.0018, p[1] - 0.0005]));
-        bell.push([0.062, -0.095]);
+        bell.push(rim);
         let place = |mesh: enfilade_geometry::Mesh| mesh.turned(Vec3::X, -0.35).moved(Vec3::new(0.0, r.x + 0.004, r.y + 0.014));
         b.part(&lamp, "bell", place(turned(&bell, 36)), self.finish);
         b.part(&lamp, "bulb", place(sphere(0.026, 18).moved(Vec3::new(0.0, 0.0, -0.058))), Finish::Bulb);

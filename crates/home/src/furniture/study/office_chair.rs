@@ -1,3 +1,6 @@
+//! A swivel chair on five castors, class chair, with a seat 45 to 50 cm high: the back padded or a net in a frame, bent around the sitter,
+//! with or without arms, and with a head rest where it is tall. The sitter looks to +y.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::Furniture;
 use crate::furniture::form::{all, around, cylinder, rod, turned, wire};
@@ -12,21 +15,21 @@ use std::f32::consts::FRAC_PI_2;
 pub struct OfficeChair {
     /// Height of the seat: EN 1335 has 400 to 510 mm.
     pub seat: f32,
-    /// Of the back above the seat.
+    /// Height of the back above the seat.
     pub back: f32,
-    /// With arms.
+    /// There are arms.
     pub arms: bool,
-    /// A net in a frame instead of padding.
+    /// The back is a net in a frame instead of padded.
     pub net: bool,
-    /// Of the padding.
+    /// What the padding is covered with.
     pub cloth: Finish,
-    /// Base of polished metal instead of black plastic.
+    /// The base is of polished metal instead of black plastic.
     pub polished: bool,
 }
 
-/// Radius to the castors' swivels.
+/// Radius of the circle of the castors' swivels, metres.
 const BASE: f32 = 0.29;
-/// Where the spine holds the back, above its lower edge.
+/// Where the spine holds the back, metres above its lower edge.
 const HELD: f32 = 0.18;
 
 impl OfficeChair {
@@ -56,7 +59,7 @@ impl OfficeChair {
         );
     }
 
-    /// The back's sheet: x across, z up, bent around the sitter and to the small of the back.
+    /// Bends a flat back (x across, z up from its lower edge) around the sitter and towards the small of the back.
     fn bent(&self, mesh: Mesh) -> Mesh {
         mesh.deformed(|p| self.bend(p))
     }
@@ -146,7 +149,7 @@ impl Furniture for OfficeChair {
     }
 }
 
-/// Every triangle cut into four, twice, so that a long straight piece can bend.
+/// Cuts every triangle into four, three times, so that a long straight piece can bend.
 fn subdivided(mut mesh: Mesh) -> Mesh {
     for _ in 0..3 {
         let mut finer = Mesh::default();

@@ -1,3 +1,6 @@
+//! Paper and pens on a desk: heaps of A4 sheets up to 4.5 cm high or in two or three letter trays (class paper; the trays are other prop),
+//! and a cup with three to eight pens (class other prop).
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{around, cylinder, turned, vessel};
 use crate::furniture::{CONTACT, Furniture, on};
@@ -10,12 +13,14 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 pub struct PaperStack {
     /// Height of the heap.
     pub height: f32,
-    /// In trays of wire, one above the other.
+    /// Wire trays above each other that hold the sheets; 0 for a heap.
     pub trays: usize,
 }
 
-/// DIN A4.
+/// A sheet of DIN A4, metres.
 const SHEET: [f32; 2] = [0.21, 0.297];
+/// From one letter tray to the next, metres.
+const TRAY: f32 = 0.075;
 
 impl Furniture for PaperStack {
     fn random(rng: &mut Rng) -> Self {
@@ -23,7 +28,7 @@ impl Furniture for PaperStack {
     }
 
     fn size(&self) -> Vec3 {
-        if self.trays > 0 { Vec3::new(0.25, 0.33, 0.075 * self.trays as f32) } else { Vec3::new(0.28, 0.36, self.height + 0.012) }
+        if self.trays > 0 { Vec3::new(0.25, 0.33, TRAY * self.trays as f32) } else { Vec3::new(0.28, 0.36, self.height + 0.012) }
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -32,11 +37,11 @@ impl Furniture for PaperStack {
             return;
         }
         for k in 0..self.trays {
-            heap(b, on(pose, Vec3::new(0.0, 0.0, 0.006 + 0.075 * k as f32), 0.0), rng.range(0.004, 0.035), 0.02, rng);
+            heap(b, on(pose, Vec3::new(0.0, 0.0, 0.006 + TRAY * k as f32), 0.0), rng.range(0.004, 0.035), 0.02, rng);
         }
         let tray = b.object("letter_tray", Class::OtherProp, on(pose, Vec3::new(0.0, 0.0, CONTACT), 0.0));
         for k in 0..self.trays {
-            let z = 0.075 * k as f32;
+            let z = TRAY * k as f32;
             let wall = |size: Vec3, at: Vec3| bevelled_box(size, 0.0008).moved(at + Vec3::new(0.0, 0.0, z));
             let mesh = wall(Vec3::new(0.244, 0.325, 0.004), Vec3::new(0.0, 0.0, 0.003))
                 .with(wall(Vec3::new(0.003, 0.325, 0.05), Vec3::new(-0.1225, 0.0, 0.026)))
@@ -86,7 +91,7 @@ impl Furniture for PenCup {
         b.part(&cup, "body", body, [Finish::Ceramic(0), Finish::BlackMetal, Finish::Wood, Finish::Leather][rng.below(4)]);
         for (k, d) in around(self.pens, rng.next_f32()).enumerate() {
             let length = rng.range(0.14, 0.175);
-            // From the floor on one side to the rim on the other, each on its own side of the axis.
+            // A pen stands on the floor at one side and leans on the rim at the other; each passes the axis on its own side.
             let tilt = rng.range(0.45, 0.47);
             let pencil = k % 2 == 0;
             let pen = if pencil {

@@ -1,3 +1,6 @@
+//! A filing cabinet of sheet metal, class cabinet: low with three drawers on castors for under a desk, or high with two to four drawers for
+//! hanging files, 32 cm each.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, rod};
 use crate::furniture::{Furniture, Surface, board};
@@ -8,11 +11,11 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 /// A filing cabinet of sheet metal, high on the floor or low on castors under a desk.
 #[derive(Clone, Copy, Debug)]
 pub struct FilingCabinet {
-    /// Drawers for hanging files, or three flat ones of a low cabinet.
+    /// Drawers for hanging files, or the three flat ones of a low cabinet.
     pub drawers: usize,
-    /// On castors.
+    /// Low and on castors.
     pub low: bool,
-    /// Of the sheet.
+    /// What the sheet metal is painted with.
     pub finish: Finish,
 }
 

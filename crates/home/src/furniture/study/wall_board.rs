@@ -1,3 +1,6 @@
+//! Boards on the wall in three common sizes from 60 × 45 to 120 × 90 cm: a whiteboard with writing and pens (class whiteboard), or a pin
+//! board of cork with notes (class other structure; each note is of class paper). The origin is the middle of the back, on the wall.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, to_front};
 use crate::furniture::{Furniture, board, grained, on};
@@ -8,9 +11,9 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// A board on the wall to write on, or of cork to pin notes to; its origin is the middle of its back.
 #[derive(Clone, Copy, Debug)]
 pub struct WallBoard {
-    /// Outside of the frame.
+    /// Width and height over the frame.
     pub size: Vec2,
-    /// Of cork, with notes, instead of white enamel.
+    /// Cork with notes, instead of white enamel.
     pub cork: bool,
 }
 
@@ -31,7 +34,8 @@ impl Furniture for WallBoard {
         let section = [[0.0, 0.0], [0.0, 0.017], [0.001, 0.018], [0.017, 0.018], [0.018, 0.017], [0.018, 0.0]];
         let frame = picture_frame(self.size.x, self.size.y, &section);
         b.part(&object, "frame", grained(frame, rng), if self.cork { Finish::Wood } else { Finish::Aluminium });
-        let panel = board([0.016 - half.x, 0.001, 0.016 - half.y], [half.x - 0.016, 0.012, half.y - 0.016], 0.0005);
+        let inset = 0.016;
+        let panel = board([inset - half.x, 0.001, inset - half.y], [half.x - inset, 0.012, half.y - inset], 0.0005);
         b.part(&object, "panel", panel, if self.cork { Finish::Cork } else { Finish::WhiteEnamel });
         if self.cork {
             self.notes(b, pose, rng);

@@ -1,3 +1,6 @@
+//! To cook with, all of class other prop: pots and pans, cutting boards of 20 to 28 × 30 to 40 cm that lie or lean, a knife block and a jar
+//! of utensils. Knife block and jar have one size each; handles and grips of pans are at +x.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, around, cut_out, rod, rounded_rectangle, turned, vessel, wire};
 use crate::furniture::{CONTACT, Furniture, grained, on};
@@ -9,11 +12,11 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// Pots and pans.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cookware {
-    /// Radius and height; with a lid.
+    /// A pot with a lid, by radius and height.
     Pot(f32, f32),
-    /// With one long handle.
+    /// A small pot with one long handle.
     Saucepan,
-    /// Radius.
+    /// A frying pan, by its radius.
     FryingPan(f32),
     /// A heavy enamelled pot in a colour of the room.
     Casserole,
@@ -113,9 +116,9 @@ impl Furniture for Cookware {
 pub struct CuttingBoard {
     /// Width, and length without a grip.
     pub size: Vec2,
-    /// Round end with a hole instead of plain.
+    /// There is a grip at one end.
     pub paddle: bool,
-    /// Standing against the wall at −y.
+    /// Stands and leans against the wall at −y.
     pub leaning: bool,
 }
 
@@ -141,7 +144,7 @@ impl Furniture for CuttingBoard {
         }
         let length = self.size.y + grip;
         let mesh = if self.leaning {
-            // Stands on its edge and leans back by ten degrees.
+            // The board stands on its edge and leans back by ten degrees.
             let lean = 0.17_f32;
             mesh.moved(Vec3::new(0.0, 0.5 * length, -thickness)).turned(Vec3::X, std::f32::consts::FRAC_PI_2 + lean).moved(Vec3::new(
                 0.0,
@@ -228,7 +231,7 @@ impl Furniture for UtensilJar {
                 })),
             };
             let finish = if k % 3 == 2 { Finish::Chrome } else { Finish::Wood };
-            // Heads go on where their sticks lead, turned at random about them.
+            // A head continues its stick, turned at random about it.
             let way = Vec3::new(tip.x - foot.x, tip.y - foot.y, z - 0.012).normalize();
             let lean = way.z.clamp(-1.0, 1.0).acos();
             let head = head.turned(Vec3::Z, rng.range(0.0, 3.0)).turned(Vec3::Y, lean).turned(Vec3::Z, out.to_angle());

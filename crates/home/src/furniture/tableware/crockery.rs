@@ -1,3 +1,6 @@
+//! Crockery of glazed ceramic, class other prop: stacks of plates of 21 or 27 cm and of bowls, cups on saucers, jugs and teapots, each
+//! plate or bowl an object; and a function that fills a shelf with crockery and glasses.
+
 use super::Drinkware;
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{turned, vessel, wire};
@@ -10,9 +13,9 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 /// Plates, bowls and cups, alone or stacked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Crockery {
-    /// So many plates of this radius on each other.
+    /// This many plates of this radius on each other.
     Plates(usize, f32),
-    /// So many bowls in each other.
+    /// This many bowls in each other.
     Bowls(usize),
     /// A cup on its saucer.
     Cup,
@@ -22,8 +25,9 @@ pub enum Crockery {
     Teapot,
 }
 
-/// How far the next plate of a stack lies above the one below.
+/// How far a plate of a stack lies above the one below, metres.
 const PLATE_STEP: f32 = 0.0075;
+/// How far a bowl of a stack lies above the one below, metres.
 const BOWL_STEP: f32 = 0.017;
 
 /// A plate with a flat rim, on z = 0.

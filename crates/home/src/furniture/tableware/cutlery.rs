@@ -1,3 +1,6 @@
+//! Knives, forks and spoons of about 22 cm, and the place setting for one person: plates, cutlery, glasses, a napkin and perhaps a mat,
+//! each an object of class other prop. A piece lies along y with its handle towards −y; in a place setting the person sits at +y.
+
 use super::Drinkware;
 use super::crockery::plate;
 use crate::builder::{Builder, Class};
@@ -17,7 +20,7 @@ pub enum Piece {
     Spoon,
 }
 
-/// A handle from −0.105 to about 0.02, that becomes thin towards the neck.
+/// A handle from y = −0.105 to 0.025 that becomes thin towards the neck.
 fn handle() -> Mesh {
     let outline: Vec<Vec2> = [[0.0, -0.105], [0.0085, -0.1], [0.0095, -0.085], [0.0042, -0.01], [0.003, 0.025]]
         .into_iter()
@@ -93,11 +96,11 @@ impl Furniture for Piece {
 /// A cover for one person at the front edge of a table: plates, cutlery, glasses and a napkin. The person sits at +y.
 #[derive(Clone, Copy, Debug)]
 pub struct PlaceSetting {
-    /// A smaller plate on the large one.
+    /// There is a smaller plate on the large one.
     pub starter: bool,
-    /// A wine glass beside the tumbler.
+    /// There is a wine glass beside the tumbler.
     pub wine: bool,
-    /// A mat under it all.
+    /// There is a mat under it all.
     pub mat: bool,
     /// Colour of mat and napkin.
     pub color: u8,
@@ -124,20 +127,22 @@ impl Furniture for PlaceSetting {
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
+        // y of the middle of plates, cutlery and napkin.
+        let middle = 0.02;
         let lift = if self.mat { 0.003 } else { 0.0 };
         if self.mat {
             let mat = b.object("place_mat", Class::OtherProp, pose);
             let outline = crate::furniture::form::rounded_rectangle(0.45, 0.33, 0.03, 5);
-            b.part(&mat, "weave", cut_out(&outline, 0.0025, 0.0008).moved(Vec3::new(0.0, 0.02, CONTACT)), Finish::Wicker);
+            b.part(&mat, "weave", cut_out(&outline, 0.0025, 0.0008).moved(Vec3::new(0.0, middle, CONTACT)), Finish::Wicker);
         }
         let at = |x: f32, y: f32, z: f32| on(pose, Vec3::new(x, y, z + lift), 0.0);
         // Pieces point away from the person.
-        let piece = |x: f32| on(pose, Vec3::new(x, 0.02, lift), std::f32::consts::PI);
+        let piece = |x: f32| on(pose, Vec3::new(x, middle, lift), std::f32::consts::PI);
         let glaze = Finish::Ceramic(rng.below(2) as u8);
-        let dinner = b.object("plate", Class::OtherProp, at(0.0, 0.02, CONTACT));
+        let dinner = b.object("plate", Class::OtherProp, at(0.0, middle, CONTACT));
         b.part(&dinner, "body", plate(0.135), glaze);
         if self.starter {
-            let small = b.object("plate", Class::OtherProp, at(0.0, 0.02, 0.009));
+            let small = b.object("plate", Class::OtherProp, at(0.0, middle, 0.009));
             b.part(&small, "body", plate(0.10), glaze);
         }
         Piece::Fork.build(b, piece(0.165), rng);
@@ -150,12 +155,12 @@ impl Furniture for PlaceSetting {
             Drinkware::Wine.build(b, at(-0.06, wine, -lift), rng);
         }
         let on_plate = rng.below(2) == 0;
-        let napkin = if on_plate { at(0.0, 0.02, if self.starter { 0.017 } else { 0.009 }) } else { at(0.235, 0.02, -lift) };
+        let napkin = if on_plate { at(0.0, middle, if self.starter { 0.017 } else { 0.009 }) } else { at(0.235, middle, -lift) };
         self.napkin(b, napkin, rng);
         if !on_plate {
             return;
         }
-        // A ring holds the napkin that lies on the plate.
+        // A napkin on the plate is held by a ring.
         let ring = b.object("napkin_ring", Class::OtherProp, napkin);
         let band = turned(&[[0.052, -0.012], [0.0535, -0.011], [0.0535, 0.011], [0.052, 0.012], [0.052, -0.012]], 32)
             .deformed(|p| Vec3::new(p.x, -p.z, 0.12 * p.y + 0.0065))

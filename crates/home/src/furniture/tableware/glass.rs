@@ -1,3 +1,6 @@
+//! Tumblers, wine glasses, flutes and carafes of clear glass, class other prop: turned forms 9.5 to 26 cm high, all of fixed size but for
+//! the shoulder of a carafe.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{turned, vessel};
 use crate::furniture::{CONTACT, Furniture};

@@ -1,3 +1,6 @@
+//! Household things: a roll of kitchen paper on its stand (class paper), a tea towel over a rail along x (class towel; its origin is the
+//! axis of the rail), and waste bins, closed with a pedal or open with crumpled paper in them (class other furniture).
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{all, cylinder, turned, vessel};
 use crate::furniture::{CONTACT, Furniture, on};
@@ -33,7 +36,7 @@ impl Furniture for KitchenRoll {
 /// A tea towel that hangs over a bar, handle or rail along x at its origin; it falls on both sides.
 #[derive(Clone, Copy, Debug)]
 pub struct TeaTowel {
-    /// Along the rail.
+    /// Width along the rail.
     pub width: f32,
     /// How far it falls in front.
     pub drop: f32,

@@ -1,3 +1,6 @@
+//! Small machines that stand on a worktop, class other prop: kettles, toasters, coffee machines, blenders, scales, microwave ovens and
+//! stand mixers. Each has a fixed size; the finish of its body varies. Fronts face +y.
+
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::form::{all, cylinder, loft, picture, rod, to_front, turned, vessel, wire};
 use crate::furniture::{CONTACT, Furniture, board, on};
@@ -47,7 +50,7 @@ impl Furniture for KitchenMachine {
             Self::Microwave => "microwave",
             Self::StandMixer => "stand_mixer",
         };
-        // The handle of a coffee machine stands out far to the front.
+        // A coffee machine stands further back, since its handle stands out far to the front.
         let back = if *self == Self::CoffeeMachine { -0.025 } else { 0.0 };
         let object = b.object(name, Class::OtherProp, on(pose, Vec3::new(0.0, back, CONTACT), 0.0));
         let body = [Finish::Steel, Finish::BlackPlastic, Finish::CoatedWhite, Finish::ColoredMetal(rng.below(3) as u8)][rng.below(4)];
@@ -143,7 +146,7 @@ fn blender(b: &mut Builder, blender: &Object, body: Finish) {
 
 fn scales(b: &mut Builder, scales: &Object) {
     b.part(scales, "plate", rounded_box(Vec3::new(0.155, 0.215, 0.014), 0.005, 3).moved(Vec3::new(0.0, 0.0, 0.0105)), Finish::GlossBlack);
-    // Upright for who stands before it.
+    // Upright for someone who stands before it.
     let display = picture(0.064, 0.026).turned(Vec3::X, FRAC_PI_2).moved(Vec3::new(0.0, 0.081, 0.0178));
     b.part(scales, "display", display, Finish::ScreenOn(0));
     let feet = all([(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)]
@@ -164,10 +167,11 @@ fn microwave(b: &mut Builder, oven: &Object, body: Finish) {
         board([x - 0.010, y + 0.0175, z - 0.007], [x + 0.010, y + 0.0195, z + 0.007], 0.001)
     }));
     b.part(oven, "buttons", buttons, Finish::Aluminium);
+    let x = 0.095;
     let grip = all([
-        rod([0.095, y + 0.045, 0.06], [0.095, y + 0.045, 0.22], 0.006, 12),
-        rod([0.095, y + 0.018, 0.08], [0.095, y + 0.044, 0.08], 0.004, 8),
-        rod([0.095, y + 0.018, 0.2], [0.095, y + 0.044, 0.2], 0.004, 8),
+        rod([x, y + 0.045, 0.06], [x, y + 0.045, 0.22], 0.006, 12),
+        rod([x, y + 0.018, 0.08], [x, y + 0.044, 0.08], 0.004, 8),
+        rod([x, y + 0.018, 0.2], [x, y + 0.044, 0.2], 0.004, 8),
     ]);
     b.part(oven, "grip", grip, Finish::Chrome);
     let feet = all([(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)]

@@ -1,3 +1,6 @@
+//! Provisions, class other prop: bottles of wine, oil and water, 22 to 32 cm high, storage jars of glass or pottery, 10 to 22 cm high, and
+//! a rack with twelve spice jars, each an object.
+
 use crate::builder::{Builder, Class};
 use crate::furniture::form::{cylinder, turned, vessel};
 use crate::furniture::{CONTACT, Furniture, board, grained, on};
@@ -8,9 +11,9 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// A bottle with a label.
 #[derive(Clone, Copy, Debug)]
 pub struct Bottle {
-    /// Of the whole.
+    /// Height with the cap.
     pub height: f32,
-    /// Of the belly.
+    /// Radius of the belly.
     pub radius: f32,
     /// 0 wine, 1 oil, 2 water with a cap.
     pub kind: u8,
@@ -68,12 +71,12 @@ impl Furniture for Bottle {
     }
 }
 
-/// A storage jar, of glass with its contents to be seen, or of pottery.
+/// A storage jar, of pottery or of glass that shows its contents.
 #[derive(Clone, Copy, Debug)]
 pub struct Jar {
-    /// Without the lid.
+    /// Height without the lid.
     pub height: f32,
-    /// Outside.
+    /// Outer radius.
     pub radius: f32,
     /// Glass instead of pottery.
     pub glass: bool,
@@ -121,11 +124,13 @@ impl Furniture for SpiceRack {
         let rack = b.object("spice_rack", Class::OtherProp, on(pose, Vec3::new(0.0, 0.0, CONTACT), 0.0));
         let side = |x: f32| board([x, -0.045, 0.0], [x + 0.009, 0.045, 0.27], 0.001);
         let mut levels = side(-0.16).with(side(0.151));
+        // Where boards end: a little inside the sides.
+        let half = 0.1512;
         for z in [0.012, 0.145] {
-            levels = levels.with(board([-0.1512, -0.045, z], [0.1512, 0.045, z + 0.008], 0.0008));
-            levels = levels.with(board([-0.1512, 0.037, z + 0.025], [0.1512, 0.044, z + 0.04], 0.0008));
+            levels = levels.with(board([-half, -0.045, z], [half, 0.045, z + 0.008], 0.0008));
+            levels = levels.with(board([-half, 0.037, z + 0.025], [half, 0.044, z + 0.04], 0.0008));
         }
-        levels = levels.with(board([-0.1512, -0.045, 0.0], [0.1512, -0.041, 0.26], 0.0005));
+        levels = levels.with(board([-half, -0.045, 0.0], [half, -0.041, 0.26], 0.0005));
         b.part(&rack, "frame", grained(levels, rng), Finish::Wood);
         for k in 0..12 {
             let at = Vec3::new(0.05 * ((k % 6) as f32 - 2.5), 0.004 + rng.range(-0.003, 0.003), if k < 6 { 0.0205 } else { 0.1535 });

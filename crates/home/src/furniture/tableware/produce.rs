@@ -1,3 +1,6 @@
+//! Things to eat, class other prop: a bowl of 30 cm with nine pieces of fruit and perhaps bananas, a loaf on a board with up to three
+//! slices cut off, and pots of basil, rosemary or chives. Each fruit and slice is an object.
+
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::form::{all, cut_out, turned, vessel, wire};
 use crate::furniture::{CONTACT, Furniture, board, grained, on};
@@ -10,7 +13,7 @@ use std::f32::consts::TAU;
 /// A bowl full of fruit.
 #[derive(Clone, Copy, Debug)]
 pub struct FruitBowl {
-    /// Bananas over the rest.
+    /// There are bananas over the rest.
     pub bananas: bool,
 }
 
@@ -83,7 +86,7 @@ impl Furniture for FruitBowl {
         b.part(&bowl, "body", body.moved(Vec3::new(0.0, 0.0, CONTACT)), finish);
         let kinds = [rng.below(6), rng.below(6)];
         let r = 0.037;
-        // Three at the bottom, five on the slope of the bowl around them, one on top: put in from above, so that they fall into place.
+        // Three at the bottom, five on the slope of the bowl around them, one on top; a home that settles lets them down.
         let ring = |n: usize, radius: f32, z: f32, start: f32| {
             (0..n).map(move |i| (Vec2::from_angle(start + TAU * i as f32 / n as f32) * radius).extend(z))
         };
@@ -104,12 +107,14 @@ impl Furniture for FruitBowl {
 impl FruitBowl {
     fn bunch(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let object = b.object("bananas", Class::OtherProp, on(pose, Vec3::new(0.0, 0.0, 0.168), rng.range(0.0, TAU)));
+        // Radius of the arc that a banana follows.
+        let bend = 0.13;
         let fingers = (0..4).map(|k| {
             let fan = 0.28 * (k as f32 - 1.5);
             let points: Vec<[f32; 3]> = (0..=6)
                 .map(|i| {
                     let a = 1.3 * (i as f32 / 6.0 - 0.5);
-                    [0.13 * a.sin(), 0.0, 0.13 * (a.cos() - 1.0) + 0.028]
+                    [bend * a.sin(), 0.0, bend * (a.cos() - 1.0) + 0.028]
                 })
                 .collect();
             wire(&points, 0.0165, 12)
@@ -117,7 +122,7 @@ impl FruitBowl {
                     // Fingers are thick in the middle and meet at the stalk.
                     let t = (p.x / 0.079).clamp(-1.0, 1.0);
                     let slim = 1.0 - 0.75 * t.abs().powi(4);
-                    let spine = 0.13 * ((1.0 - (p.x / 0.13).powi(2)).max(0.0).sqrt() - 1.0) + 0.028;
+                    let spine = bend * ((1.0 - (p.x / bend).powi(2)).max(0.0).sqrt() - 1.0) + 0.028;
                     Vec3::new(p.x, p.y * slim, spine + (p.z - spine) * slim)
                 })
                 .moved(Vec3::new(0.08, 0.0, 0.0))
@@ -160,7 +165,7 @@ impl Furniture for Bread {
     }
 }
 
-/// Where a loaf is cut.
+/// Where a loaf is cut, as x in its own space, metres.
 const CUT: f32 = -0.07;
 
 /// From −1..1 across and 0..1 up to the section of a loaf: domed, a little wider in the middle than at the top.
@@ -179,7 +184,7 @@ fn loaf_crust() -> Mesh {
     shaped.smoothed(60.0)
 }
 
-/// The white of the cut face.
+/// The crumb that the cut face shows.
 fn loaf_crumb() -> Mesh {
     let outline: Vec<Vec2> = (0..40)
         .map(|k| {
@@ -195,7 +200,7 @@ fn loaf_crumb() -> Mesh {
 /// A pot of herbs.
 #[derive(Clone, Copy, Debug)]
 pub struct HerbPot {
-    /// Of the pot.
+    /// Radius of the pot.
     pub radius: f32,
     /// 0 basil with broad leaves, 1 rosemary with needles, 2 chives.
     pub kind: u8,
