@@ -45,13 +45,20 @@ fn cargo(house: &House, arguments: &[&str]) -> Command {
     command
 }
 
+/// What runs tests: nextest where it is installed. Examples, which `check` looks at, are not linked for it.
+fn runner(house: &House) -> &'static [&'static str] {
+    match house.has_cargo_command("nextest") {
+        true => &["nextest", "run", "--lib", "--bins", "--tests"],
+        false => &["test", "--lib", "--bins", "--tests"],
+    }
+}
+
 /// Builds all tests, and the programs of the packages that have any: `enfilade` among them.
 ///
 /// # Errors
 /// When something does not build.
 pub fn build(house: &House) -> Result<String, String> {
-    let runner: &[&str] = if house.has_cargo_command("nextest") { &["nextest", "run"] } else { &["test"] };
-    finish(cargo(house, &[runner, &["--no-run"]].concat()))
+    finish(cargo(house, &[runner(house), &["--no-run"]].concat()))
 }
 
 /// Takes the steps with these names, or all; ends with the first that fails.
@@ -68,8 +75,7 @@ pub fn run(house: &House, names: &[&str]) -> Result<(), String> {
 fn all_tests(house: &House) -> Result<String, String> {
     let python = python::with_h5py(house)?;
     let denoiser = oidn::found(house);
-    let runner: &[&str] = if house.has_cargo_command("nextest") { &["nextest", "run"] } else { &["test", "--all-targets"] };
-    let mut command = cargo(house, &[runner, &["--no-fail-fast"]].concat());
+    let mut command = cargo(house, &[runner(house), &["--no-fail-fast"]].concat());
     if let Some(python) = &python {
         command.env(python::VARIABLE, python);
     }
