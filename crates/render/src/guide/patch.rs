@@ -1,8 +1,7 @@
 //! Bright patches, such as the inside of a lamp's shade: found once for the whole scene, and looked for from every cell.
 //!
 //! A patch may fill little of a cell's bin, and neighbouring cells see it in other bins; a sphere around it is the same for all of them.
-//! Parallax-aware mixtures do the same (Ruppert et al. 2020, "Robust Fitting of Parallax-Aware
-//! Mixtures for Path Guiding").
+//! Parallax-aware mixtures do the same (Ruppert et al. 2020, "Robust Fitting of Parallax-Aware Mixtures for Path Guiding").
 
 use super::aim::{Aim, MAX_AIMS};
 use super::bright::BRIGHT;
@@ -34,19 +33,21 @@ const HORIZON: f32 = 0.1;
 /// Turns around the axis from one ray to the next: the golden section spreads them evenly.
 const TURNS: f32 = 0.618_034;
 
-/// A bright place.
+/// A sphere around bright places that lie close together.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BrightPatch {
+    /// World position.
     center: Vec3,
+    /// Metres.
     radius: f32,
-    /// Luminance that it sends.
+    /// Mean luminance of the places' radiance.
     radiance: f32,
 }
 
 /// A sphere to aim at, and the irradiance over π that comes from it.
 pub(super) type Aimed = (Aim, Rgb);
 
-/// The bright places among those that the rays of all cells met, given the light of the cells, which are `size` metres across.
+/// The bright patches among the places that the rays of all cells met, given the light of the cells, which are `size` metres across.
 pub(super) fn patches<'a>(cells: impl Iterator<Item = &'a [GatherHit]>, total: &[Rgb], size: f32) -> Vec<BrightPatch> {
     let mut left: Vec<(Vec3, f32)> = cells
         .flat_map(|hits| {
