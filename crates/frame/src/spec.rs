@@ -1,3 +1,5 @@
+//! The table of layers: name, pass, type, channels, unit, space and meaning of each. Everything that knows layers follows it.
+
 use serde::{Deserialize, Serialize};
 
 /// Every layer a frame can have.

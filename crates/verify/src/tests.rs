@@ -1,3 +1,5 @@
+//! Each law is broken in a frame that is otherwise true, and no other law fails for it.
+
 use super::*;
 use enfilade_frame::{Frame, Layer, Pass, Values, compose, f16};
 use enfilade_math::DVec3;

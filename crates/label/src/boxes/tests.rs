@@ -1,3 +1,5 @@
+//! Boxes against brute force over random orientations, and against known shapes.
+
 use super::*;
 use enfilade_math::{DQuat, Rng};
 

@@ -1,3 +1,5 @@
+//! Instances as solids: the triangles of all their parts, whatever hides or cuts them.
+
 use enfilade_geometry::Bvh;
 use enfilade_math::{Bounds3, DVec3, Vec3};
 use enfilade_scene::{Labels, WorldMesh};

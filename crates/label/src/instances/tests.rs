@@ -1,3 +1,5 @@
+//! Visible and whole areas of squares whose sizes in pixels are known.
+
 use super::*;
 use enfilade_math::{DVec3, Vec3};
 use enfilade_scene::{Camera, Fisheye, Intrinsics, Pose, Projection};

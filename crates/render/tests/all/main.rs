@@ -6,3 +6,4 @@ mod film;
 mod known_answers;
 mod layers;
 mod look;
+mod scene_to_frame;

@@ -1,3 +1,5 @@
+//! GIF: 256 colours per picture, chosen anew for each and dithered where there are more.
+
 use super::colors::few_colors;
 use super::format::{AnimationError, AnimationFormat, refused};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};

@@ -1,3 +1,5 @@
+//! H.264 by Cisco's encoder, in MP4.
+
 use super::format::{AnimationError, AnimationFormat, refused};
 use muxide::api::{Muxer, MuxerBuilder, VideoCodec};
 use openh264::OpenH264API;

@@ -1,3 +1,5 @@
+//! Animations, decoded again: sizes, times, colours and refusals.
+
 use super::*;
 use crate::picture::from_pixels;
 use openh264::decoder::Decoder as H264Decoder;

@@ -1,3 +1,5 @@
+//! Animated WebP, without loss where a picture has few colours.
+
 use super::colors::few_colors;
 use super::format::{AnimationError, AnimationFormat, refused};
 use webp_animation::{ColorMode, Encoder, EncoderOptions, EncodingConfig, EncodingType, LossyEncodingConfig};

@@ -1,3 +1,5 @@
+//! Strokes gathered into one coverage before they are blended, so that lines which meet do not add up.
+
 use crate::sheet::canvas::{Canvas, Color, distance_to_segment};
 
 /// Strokes that are gathered before they are blended, so that strokes of one line do not add up where they meet.

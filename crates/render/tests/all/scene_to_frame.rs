@@ -1,6 +1,6 @@
 //! The example program goes from a scene file to files of a frame.
 
-#[path = "../examples/scene_to_frame.rs"]
+#[path = "../../examples/scene_to_frame.rs"]
 #[allow(dead_code, reason = "the program's own main and its default scene are not called here")]
 mod example;
 
