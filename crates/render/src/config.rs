@@ -41,7 +41,7 @@ impl Filter {
 ///
 /// // Numbers out of their range are refused with what was expected.
 /// let error = RenderConfig { samples: 0, ..config }.validate().unwrap_err();
-/// assert_eq!(error.to_string(), "render setting `samples` is 0; expected at least 1");
+/// assert_eq!(error.to_string(), "samples must be at least 1, found 0");
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -53,7 +53,7 @@ pub struct RenderConfig {
     pub adaptive: bool,
     /// Stops below `samples` where this noise is reached: the root mean square over the image of each pixel's standard error over
     /// (its luminance + 0.2 × the image's mean). The first samples tell how many it takes: a quarter of `samples`, at most 64. Default
-    /// none; more than 0, and 0.02 is a clean picture.
+    /// none; between 0 and 1, and 0.02 is a clean picture.
     pub noise: Option<f32>,
     /// Learns before rendering where indirect light comes from and sends rays there. Changes noise, never the mean. Default true.
     pub guiding: bool,
