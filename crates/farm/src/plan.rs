@@ -2,7 +2,7 @@
 
 use crate::object_names::{PLAN, object_name};
 use crate::{Attempt, Created, FarmError, Store};
-use enfilade_dataset::WORKDIR;
+use enfilade_dataset::{WORKDIR, quoted};
 use enfilade_pipeline::{Config, Expected, Part, Prepared, PreparedScene, Reporter, Summary, prepare};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -101,7 +101,10 @@ impl Job {
     /// # Errors
     /// When there is none, or it was planned by another version.
     pub fn open(store: Store) -> Result<Self, FarmError> {
-        let missing = || FarmError::Request(format!("{} holds no job; plan one: enfilade farm plan dataset.toml -o {0}", store.url()));
+        let missing = || {
+            let (place, into) = (store.url(), quoted(store.url()));
+            FarmError::Request(format!("{place} holds no job; plan one: enfilade farm plan dataset.toml -o {into}"))
+        };
         let bytes = store.get(PLAN)?.ok_or_else(missing)?;
         let plan = Plan::from_json(&bytes).map_err(|error| FarmError::Damaged {
             place: format!("{}/{PLAN}", store.url()),
