@@ -31,7 +31,7 @@ pub struct StereoRecord {
 /// The side of a stereo rig.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum StereoSide {
     Left,
     Right,

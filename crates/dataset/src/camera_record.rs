@@ -20,7 +20,7 @@ pub struct CameraRecord {
 /// A [`Projection`]; `model` names which.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "model", rename_all = "snake_case")]
-#[allow(missing_docs)] // Projection describes each one
+#[allow(missing_docs, reason = "Projection describes each one")]
 pub enum ProjectionRecord {
     Pinhole { calibration: Intrinsics },
     TiltedPinhole { width: u32, height: u32, cam_from_uv: [[f64; 3]; 3] },

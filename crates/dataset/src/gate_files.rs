@@ -9,7 +9,7 @@ const HEADER: [&str; 5] = ["frame_id", "verdict", "gate", "value", "limit"];
 
 /// What became of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)] // plain words
+#[allow(missing_docs, reason = "plain words")]
 pub enum ViewVerdict {
     Passed,
     Rejected,

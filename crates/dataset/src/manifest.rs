@@ -37,7 +37,7 @@ pub struct Conventions {
 
 /// A row of the table of layers, as in [`LayerSpec`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub struct LayerEntry {
     pub name: String,
     pub pass: Pass,

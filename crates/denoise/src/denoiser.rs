@@ -28,6 +28,7 @@ impl Denoiser {
         if device.is_null() {
             return Err(denoiser.error().unwrap_or_else(|| library_error("it gives no device and no reason", 1)));
         }
+        // SAFETY: the device is not null and was made by this library; the names end with a zero byte.
         unsafe {
             (denoiser.functions.set_device_int)(device, c"numThreads".as_ptr(), c_int::try_from(threads).unwrap_or(0));
             // The cores are shared with our own threads, so that pinning threads to them would slow both.
@@ -35,6 +36,7 @@ impl Denoiser {
             (denoiser.functions.commit_device)(device);
         }
         denoiser.check()?;
+        // SAFETY: as above.
         let number = |name: &CStr| unsafe { (denoiser.functions.device_int)(device, name.as_ptr()) };
         let [major, minor, patch] = [c"versionMajor", c"versionMinor", c"versionPatch"].map(number);
         denoiser.version = format!("{major}.{minor}.{patch}");
@@ -75,8 +77,10 @@ impl Denoiser {
         let filter = unsafe { (f.new_filter)(self.device, c"RT".as_ptr()) };
         if !filter.is_null() {
             for (name, values, _) in pictures {
+                // SAFETY: the filter is not null; each picture has the size that is told, and outlives the filter, which is released below.
                 unsafe { (f.set_shared_image)(filter, name.as_ptr(), values.cast(), FORMAT_FLOAT3, width, height, 0, 0, 0) };
             }
+            // SAFETY: the filter is not null; the names end with a zero byte.
             unsafe {
                 (f.set_filter_bool)(filter, c"hdr".as_ptr(), true);
                 (f.set_filter_bool)(filter, c"cleanAux".as_ptr(), true);
@@ -101,6 +105,7 @@ impl Denoiser {
         if code == 0 {
             return None;
         }
+        // SAFETY: a message that is not null ends with a zero byte and lives until the next call of the library.
         let text = if message.is_null() { "no reason given".into() } else { unsafe { CStr::from_ptr(message) }.to_string_lossy() };
         Some(library_error(&text, code))
     }

@@ -1,6 +1,6 @@
 //! Preset `hypersim` against octrees that Hypersim's own program made. Skipped where its results are not at hand.
 
-#[allow(dead_code)]
+#[allow(dead_code, reason = "each test uses a part of it")]
 #[path = "../examples/explore/room.rs"]
 mod room;
 

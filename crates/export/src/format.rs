@@ -12,7 +12,7 @@ use enfilade_frame::Layer;
 /// assert_eq!(Format::from_name("yolo"), None);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)] // FORMATS documents each one
+#[allow(missing_docs, reason = "FORMATS documents each one")]
 pub enum Format {
     Coco,
     Bop,

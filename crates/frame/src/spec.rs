@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Every layer a frame can have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // LAYERS documents each one
+#[allow(missing_docs, reason = "LAYERS documents each one")]
 pub enum Layer {
     Color,
     DiffuseIllumination,
@@ -55,7 +55,7 @@ pub enum Layer {
 /// How values are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Dtype {
     F16,
     F32,

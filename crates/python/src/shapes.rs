@@ -118,7 +118,7 @@ fn mask(mask: &PyReadonlyArray2<'_, bool>) -> Mask {
 /// `mesh_hit`.
 #[pyfunction]
 #[pyo3(signature = (truths, found, *, filter_iou=0.3, iou=0.5, f1=0.5, f1_distance=0.3, samples=10_000, seed=0))]
-#[allow(clippy::too_many_arguments)] // Python's names
+#[allow(clippy::too_many_arguments, reason = "Python's names")]
 pub fn judge_shapes<'py>(
     py: Python<'py>,
     truths: Vec<Object<'py>>,

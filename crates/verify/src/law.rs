@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// A statement that every dataset must satisfy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // LAWS states each one
+#[allow(missing_docs, reason = "LAWS states each one")]
 pub enum Law {
     Readable,
     Manifest,

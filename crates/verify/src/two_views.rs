@@ -76,7 +76,7 @@ pub struct PairValues {
 
 /// A number of pixels that were compared, and how many disagree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[allow(missing_docs)] // plain words
+#[allow(missing_docs, reason = "plain words")]
 pub struct Compared {
     pub pixels: u64,
     pub disagree: u64,

@@ -45,7 +45,7 @@ pub struct AnnotateOptions {
 
 /// Why there is nothing to annotate.
 #[derive(Debug, thiserror::Error)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum OpenError {
     #[error(transparent)]
     Source(#[from] SourceError),

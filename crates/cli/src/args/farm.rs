@@ -52,7 +52,7 @@ pub struct FarmPlanArgs {
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     pub cpus: u32,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub make: MakeFlags,
 }
 

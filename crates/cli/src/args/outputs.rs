@@ -41,7 +41,7 @@ pub struct ExportArgs {
     #[arg(long)]
     pub force: bool,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub table: CamerasArg,
 }
 
@@ -72,7 +72,7 @@ pub struct AnimateArgs {
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub table: CamerasArg,
 }
 

@@ -15,10 +15,10 @@ pub struct ViewArgs {
     /// The dataset's folder: ours, the Hypersim toolkit's, or one of unpacked Hypersim archives
     pub dataset: PathBuf,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub table: CamerasArg,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub listen: ListenArgs,
 }
 
@@ -49,7 +49,7 @@ pub struct AnnotateArgs {
     #[arg(long)]
     pub up_axis: Option<UpAxisArg>,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub listen: ListenArgs,
 }
 

@@ -20,7 +20,7 @@ pub struct VerifyArgs {
     #[arg(long)]
     pub strict: bool,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub table: CamerasArg,
 }
 
@@ -64,7 +64,7 @@ pub struct InspectArgs {
     #[arg(long = "cameras", conflicts_with = "pixel")]
     pub list_cameras: bool,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub table: CamerasArg,
 }
 
@@ -105,6 +105,6 @@ pub struct StatsArgs {
     #[arg(short, long, value_name = "FOLDER")]
     pub output: Option<PathBuf>,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub table: CamerasArg,
 }

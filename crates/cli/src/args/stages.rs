@@ -23,7 +23,7 @@ pub struct RunArgs {
     #[arg(short, long, value_name = "OUT", conflicts_with = "demo")]
     pub output: Option<PathBuf>,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub make: MakeFlags,
     /// Only the scenes of these names ("bed*", "hall,bedroom")
     #[arg(long, value_name = "PATTERN", visible_alias = "scene")]
@@ -52,7 +52,7 @@ pub struct MakeFlags {
     #[arg(long, conflicts_with = "samples")]
     pub quality: Option<QualityArg>,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub render: RenderFlags,
 }
 
@@ -86,7 +86,7 @@ pub struct StageArgs {
     --preview draws what was planned: plan and sections with free space, frusta and scores, every view coloured by part, and statistics.")]
 pub struct PlanArgs {
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub stage: StageArgs,
     /// Draw the trajectories, also those that were planned earlier
     #[arg(long)]
@@ -97,10 +97,10 @@ pub struct PlanArgs {
 #[derive(Args)]
 pub struct RenderArgs {
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub stage: StageArgs,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub render: RenderFlags,
 }
 
@@ -140,13 +140,13 @@ pub struct RenderFlags {
     Data that others made, such as Hypersim's, have previews of the same names; with -o they are left alone. --cameras-csv goes with -o.")]
 pub struct PreviewArgs {
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub stage: StageArgs,
     /// Write the pictures below this folder, in the dataset's tree [default: into the dataset]
     #[arg(short, long, value_name = "FOLDER")]
     pub output: Option<PathBuf>,
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub table: CamerasArg,
 }
 
@@ -157,7 +157,7 @@ pub struct PreviewArgs {
     and if wanted `scene` and `instance`.")]
 pub struct LabelArgs {
     #[command(flatten)]
-    #[allow(missing_docs)]
+    #[allow(missing_docs, reason = "plain words")]
     pub stage: StageArgs,
     /// Use this table from now on
     #[arg(long, value_name = "CSV")]

@@ -4,7 +4,7 @@ use enfilade_frame::{Values, f16};
 
 /// How an element is stored; always little-endian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Element {
     F16,
     F32,
@@ -16,7 +16,7 @@ pub enum Element {
 
 /// The elements of an array, last index fastest.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Elements {
     F16(Vec<f16>),
     F32(Vec<f32>),

@@ -14,7 +14,7 @@ pub(super) const DAMAGED: &str = "the file is damaged or cut short; copy or down
 
 /// The numbers that an array has; little-endian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Number {
     U8,
     U16,

@@ -7,7 +7,7 @@
 
 mod measure;
 mod report;
-#[allow(dead_code)] // what the tests read of it
+#[allow(dead_code, reason = "what the tests read of it")]
 mod room;
 
 use report::Report;

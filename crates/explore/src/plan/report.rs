@@ -76,7 +76,7 @@ pub struct FrameValues {
 
 /// [`FrameValues`] in short.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs)] // FrameValues describes each one
+#[allow(missing_docs, reason = "FrameValues describes each one")]
 pub struct PlanStatistics {
     pub score: Spread,
     pub void_share: Spread,
@@ -92,7 +92,7 @@ pub struct PlanStatistics {
 
 /// The minimum, mean and maximum of the values that there are; all zero where there are none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs)] // plain words
+#[allow(missing_docs, reason = "plain words")]
 pub struct Spread {
     pub min: f64,
     pub mean: f64,
@@ -125,7 +125,7 @@ pub enum Fault {
 
 /// How many candidates were drawn and turned out to have a fault.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[allow(missing_docs)] // Fault describes each one
+#[allow(missing_docs, reason = "Fault describes each one")]
 pub struct RejectedCounts {
     #[serde(default)]
     pub refused: u64,

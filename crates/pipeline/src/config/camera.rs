@@ -41,7 +41,7 @@ pub struct CameraConfig {
 /// The camera models.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // Projection describes each one
+#[allow(missing_docs, reason = "Projection describes each one")]
 pub enum CameraModel {
     #[default]
     Pinhole,

@@ -19,7 +19,7 @@ macro_rules! section {
 
         impl $name {
             /// Lays the keys that are there over `target`.
-            #[allow(clippy::clone_on_copy, clippy::useless_conversion)] // not every field is Copy; optional fields take their values
+            #[allow(clippy::clone_on_copy, clippy::useless_conversion, reason = "not every field is Copy; optional fields take their values")]
             pub fn apply(&self, target: &mut $target) {
                 $(if let Some(value) = &self.$field {
                     target.$field = value.get_ref().clone().into();

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// A stage by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[allow(missing_docs)] // STAGES describes each one
+#[allow(missing_docs, reason = "STAGES describes each one")]
 pub enum Stage {
     Import,
     Carve,

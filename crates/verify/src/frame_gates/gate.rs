@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// A condition that a frame must meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // GATES states each one
+#[allow(missing_docs, reason = "GATES states each one")]
 pub enum Gate {
     DepthRange,
     InvalidShare,
@@ -22,7 +22,7 @@ pub enum Gate {
 /// On which side of the bound values are good; the bound itself is good.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // plain words
+#[allow(missing_docs, reason = "plain words")]
 pub enum Limit {
     AtLeast,
     AtMost,

@@ -2,7 +2,7 @@
 
 /// A fault of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[allow(missing_docs)] // VIEW_GATES describes each one
+#[allow(missing_docs, reason = "VIEW_GATES describes each one")]
 pub enum ViewGate {
     Blank,
     Buried,

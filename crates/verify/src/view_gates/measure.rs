@@ -15,7 +15,7 @@ pub struct Place {
 
 /// One value for each gate; [`super::VIEW_GATES`] says what each one is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub struct ViewMeasures {
     pub void_share: f64,
     pub enclosed_share: f64,

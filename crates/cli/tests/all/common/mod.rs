@@ -1,5 +1,5 @@
 //! What the tests of the binary share: tiny scenes, runs of the program, and a hash of a finished dataset.
-#![allow(dead_code)] // each test file uses a part of it
+#![allow(dead_code, reason = "each test file uses a part of it")]
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,5 +1,5 @@
 //! A dataset for the tests: two boxes in the corner of a room, every value in closed form.
-#![allow(dead_code)] // each test file uses a part of it
+#![allow(dead_code, reason = "each test file uses a part of it")]
 
 use enfilade_dataset::{Dataset, FrameInfo, FrameTime, ManifestInfo};
 use enfilade_export::Format;
