@@ -1,8 +1,8 @@
 //! What an edit changed, for every page that shows the scene.
 
-use super::log::Edit;
+use super::edit::Edit;
 use super::pieces::{Piece, Pieces};
-use super::source::NO_MATERIAL;
+use super::scene::NO_MATERIAL;
 use serde::Serialize;
 
 /// A change, as it is sent to pages.
@@ -90,7 +90,7 @@ impl PieceRow {
 
 /// The name of a material; empty for none.
 pub fn material_name(pieces: &Pieces, material: u32) -> &str {
-    if material == NO_MATERIAL { "" } else { &pieces.source().materials[material as usize] }
+    if material == NO_MATERIAL { "" } else { &pieces.scene().materials[material as usize] }
 }
 
 impl Change {

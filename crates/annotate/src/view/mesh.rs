@@ -2,7 +2,7 @@
 
 use super::place::{problem, stamp};
 use super::{Viewer, work};
-use crate::label::geometry::DisplayOrder;
+use crate::label::display_order::DisplayOrder;
 use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
