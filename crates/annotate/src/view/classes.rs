@@ -1,7 +1,7 @@
 //! The classes that a scene's labels choose from: NYU40, or a list of the user's.
 
-use super::Viewer;
 use super::place::problem;
+use super::viewer::Viewer;
 use crate::serve::ApiProblem;
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{CLASS_LIST, Elements, MeshFiles};

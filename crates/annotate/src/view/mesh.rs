@@ -1,7 +1,7 @@
-//! The faces of a scene, in the form that the page's 3D view takes ([`DisplayOrder`]); a piece is an object of the mesh folder.
+//! The faces of a scene as a buffer for the page's 3D view ([`DisplayOrder`]). Its pieces are the objects of the mesh folder.
 
 use super::place::{problem, stamp};
-use super::{Viewer, work};
+use super::viewer::{Viewer, work};
 use crate::label::display_order::DisplayOrder;
 use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
@@ -48,9 +48,9 @@ impl Viewer {
         let (objects, path) = read("mesh_faces_oi.hdf5")?;
         let objects = integers(&objects.values).filter(|objects| objects.len() == corners.len());
         let objects = objects.ok_or_else(|| wrong(&path, "expected one integer per face"))?;
-        // A face of no object is one of object 0, as in Hypersim's own program.
+        // As in Hypersim's own tool, a face without object belongs to object 0.
         let objects: Vec<u32> = objects.into_iter().map(|object| u32::try_from(object).unwrap_or(0)).collect();
-        let pieces = objects.iter().max().map_or(0, |&most| most as usize + 1);
+        let pieces = objects.iter().max().map_or(0, |&max| max as usize + 1);
         Ok(DisplayOrder::new(&corners).encode(&objects, pieces))
     }
 }
@@ -59,7 +59,7 @@ fn corner(points: &[Vec3], index: i64) -> Option<Vec3> {
     points.get(usize::try_from(index).ok()?).copied()
 }
 
-/// Whole numbers of any width.
+/// Integers of either width; `None` for other elements.
 fn integers(values: &Elements) -> Option<Vec<i64>> {
     match values {
         Elements::I64(v) => Some(v.clone()),
