@@ -43,8 +43,8 @@ export class Draw {
     /** @param {PointerEvent} event @returns {[number, number]} */
     place(event) {
         const box = this.stage.element.getBoundingClientRect();
-        /** @param {number} v @param {number} most */
-        const inside = (v, most) => Math.min(Math.max(v, 0), most - 0.5);
+        /** @param {number} v @param {number} size */
+        const inside = (v, size) => Math.min(Math.max(v, 0), size - 0.5);
         return [inside(event.clientX - box.left, box.width), inside(event.clientY - box.top, box.height)];
     }
 

@@ -30,8 +30,8 @@ const FAR_M = 100;
 const SETTLE_MS = 140;
 /** Drawings of a motion that are farther apart, milliseconds, belong to two motions. */
 const LONGEST_FRAME_MS = 600;
-/** Most samples of a picture at rest that is drawn finer than its pixels. */
-const MOST_SAMPLES = 9_000_000;
+/** Maximum number of samples of a picture at rest that is drawn finer than its pixels. */
+const MAX_SAMPLES = 9_000_000;
 
 /**
  * Events: `camera` after each change of the camera, `settled` when a picture of all faces is shown, `lost` when the browser has taken the
@@ -384,7 +384,7 @@ export class Stage3d extends EventTarget {
     refine() {
         if (!this.mesh) return true;
         const [width, height] = [this.canvas.width, this.canvas.height];
-        const finer = (this.smooth ?? !this.software) && width * height * 4 <= MOST_SAMPLES;
+        const finer = (this.smooth ?? !this.software) && width * height * 4 <= MAX_SAMPLES;
         const samples = finer ? 2 : 1;
         if (this.fine.samples !== samples) {
             this.fine.dispose();
