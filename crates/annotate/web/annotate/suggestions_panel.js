@@ -1,4 +1,4 @@
-// Classes proposed from names: confirm each, or all above a confidence.
+// The panel "Suggested": classes proposed from names, to confirm one by one, or all above a confidence.
 
 import { el, spaced } from "../shared/dom.js";
 import { PieceList } from "./list.js";

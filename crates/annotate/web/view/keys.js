@@ -1,4 +1,4 @@
-// Every key, once: what it does and what the help says.
+// The keyboard: calls the action of a key, and shows the help from the same table.
 
 import { byId, el } from "../shared/dom.js";
 
@@ -17,7 +17,7 @@ export function listenToKeys(groups) {
         const typing = target.matches("input:not([type=range]):not([type=checkbox]), select, textarea");
         if (event.key === "Escape" && typing) target.blur();
         if (typing || byId("help").open) return;
-        // A control that uses a key keeps it.
+        // A focused control keeps the keys that operate it.
         if (target.matches("button, a, tr, [role=tab], input") && ["Enter", " "].includes(event.key)) return;
         if (target.matches("input[type=range]") && event.key.startsWith("Arrow")) return;
         const letter = event.key.length === 1 && /[a-z]/i.test(event.key);

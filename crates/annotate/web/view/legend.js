@@ -1,4 +1,4 @@
-// What the colours of a picture mean, beside the name of its layer.
+// The legend beside the name of a layer: what the colours of its picture mean.
 
 import { el } from "../shared/dom.js";
 import { mapTable } from "./colors.js";

@@ -1,4 +1,4 @@
-// The panel "Objects": the classes and instances in the picture; pointing at one marks it.
+// The panel "Objects": the instances and classes in the picture; pointing at an instance marks it.
 
 import { el, facts } from "../shared/dom.js";
 import { cssColor } from "./colors.js";

@@ -1,4 +1,4 @@
-// What is drawn over the pictures: boxes of instances, the pixel under the cursor, the border of the wipe, numbers of large pixels.
+// Drawing over the pictures: boxes of instances, the pixel under the cursor, the border of the wipe, numbers in large pixels.
 
 import { boxLines, projector } from "./project.js";
 import { brief, pixelOf } from "./numbers.js";
@@ -118,7 +118,7 @@ export class Overlay {
             pen.strokeStyle = "white";
             pen.strokeRect(x - 0.5, y - 0.5, place.zoom + 1, place.zoom + 1);
         } else if (stage.store.state.mode === "side" && pane !== pixel.side) {
-            // The other picture shows where the cursor would be.
+            // A cross in the other picture, at the same pixel.
             const arm = 7 * stage.ratio;
             for (const [style, thick] of /** @type {[string, number][]} */ ([["rgb(0 0 0 / 0.8)", 3], ["white", 1]])) {
                 pen.strokeStyle = style;

@@ -1,4 +1,4 @@
-// The values under the cursor: exactly what the files hold, with unit and type, and what the numbers are called.
+// The values under the cursor: exactly as stored, with unit and type, and the names of the numbers.
 
 import { el } from "../shared/dom.js";
 import { exact, pixelOf } from "./numbers.js";

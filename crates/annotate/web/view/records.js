@@ -1,4 +1,4 @@
-// The panels "Frame" and "Views": what is known of the frame, and what became of every view of the trajectory.
+// The panels "Frame" and "Views": everything recorded about the frame, and which views of the trajectory were rendered or rejected.
 
 import { el, facts } from "../shared/dom.js";
 import { fileUrl } from "./catalogue.js";

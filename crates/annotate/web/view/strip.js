@@ -1,4 +1,4 @@
-// The strip of frames below the picture. Only what is in sight is there, so trajectories may be long.
+// The strip of frames below the picture. Only visible frames have elements, so trajectories may be long.
 
 import { byId, el } from "../shared/dom.js";
 import { thumbnailUrl } from "./records.js";

@@ -1,4 +1,4 @@
-// Reading back what the view shows: which piece, which face, where.
+// Reading back from the graphics card what the view shows: which piece, which face, where.
 
 import { Plane, Ray, Vector3 } from "../../vendor/three.js";
 import { corners } from "./geometry.js";
