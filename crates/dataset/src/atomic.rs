@@ -47,6 +47,15 @@ pub fn write_bytes(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), DatasetEr
     replace_file(path, |aside| fs::write(aside, bytes).map_err(DatasetError::at("write", path)))
 }
 
+/// Replaces the file at `path` by `value` as indented JSON with a line break at the end.
+///
+/// # Errors
+/// When the file cannot be written, or a map in `value` has keys other than text.
+pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), DatasetError> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| DatasetError::io("write", path, error.into()))?;
+    write_bytes(path, text + "\n")
+}
+
 /// Puts a temporary file in its place.
 pub(crate) fn rename(aside: &Path, path: &Path) -> Result<(), DatasetError> {
     fs::rename(aside, path).map_err(DatasetError::at("put in place", path))

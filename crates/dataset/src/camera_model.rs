@@ -7,9 +7,9 @@
 
 use crate::atomic::remove_if_there;
 use crate::camera_record::{CameraRecord, ProjectionRecord, grid_checksum};
-use crate::frames::{read_json, write_record};
+use crate::frames::read_json;
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
-use crate::{Dataset, DatasetError, replace_file};
+use crate::{Dataset, DatasetError, replace_file, write_json};
 use enfilade_math::{DMat3, DVec3};
 use enfilade_scene::{Camera, CameraView, Projection, RayGrid, Trajectory};
 use serde::{Deserialize, Serialize};
@@ -76,7 +76,7 @@ impl Dataset {
         match camera.plain_pinhole().is_none() || stereo.is_some() {
             true => {
                 let (scene, name) = (scene.to_string(), name.to_string());
-                write_record(
+                write_json(
                     &model,
                     &CameraFile { convention: CONVENTION.into(), scene, name, camera: camera.into(), stereo: stereo.cloned() },
                 )?;

@@ -5,7 +5,7 @@ use crate::hdf5::{ArrayView, Packing, Storage, write_view};
 use crate::read::{frame_number, sorted_names};
 use crate::record::RECORD_FORMAT;
 use crate::{
-    Dataset, DatasetError, DenoiseRecord, FileRecord, FrameRecord, FrameTime, LabelRecord, Recipe, Sampling, check_name, write_bytes,
+    Dataset, DatasetError, DenoiseRecord, FileRecord, FrameRecord, FrameTime, LabelRecord, Recipe, Sampling, check_name, write_json,
 };
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_scene::{Camera, Cx, Pose, Warning};
@@ -77,7 +77,7 @@ impl Dataset {
             self.remove_frame(scene, camera, number)?;
             self.put_in_place(scene, camera, number, frame)?;
             self.append_time(scene, camera, number, time)?;
-            write_record(&self.layout().frame_record(scene, camera, number), &record)
+            write_json(&self.layout().frame_record(scene, camera, number), &record)
         };
         if let Err(error) = commit() {
             self.remove_aside(scene, camera, number, frame);
@@ -409,7 +409,7 @@ impl Dataset {
         let commit = || {
             remove_if_there(path)?;
             self.put_in_place(scene, camera, number, layers)?;
-            write_record(path, record)
+            write_json(path, record)
         };
         commit().inspect_err(|_| self.remove_aside(scene, camera, number, layers))
     }
@@ -459,13 +459,6 @@ impl FileRecord {
     }
 }
 
-/// Writes a record as JSON.
-pub(crate) fn write_record(path: &Path, record: &impl Serialize) -> Result<(), DatasetError> {
-    let mut text = serde_json::to_string_pretty(record).expect("plain data encodes");
-    text.push('\n');
-    write_bytes(path, text)
-}
-
 /// Reads a JSON file that may not exist. `remedy` is what to do when it cannot be understood.
 pub(crate) fn read_json<T: DeserializeOwned>(path: &Path, remedy: &str) -> Result<Option<T>, DatasetError> {
     match fs::read(path) {
@@ -478,6 +471,7 @@ pub(crate) fn read_json<T: DeserializeOwned>(path: &Path, remedy: &str) -> Resul
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::write_bytes;
 
     #[test]
     fn temporaries_of_layers_records_and_previews_are_removed_and_nothing_else() {

@@ -1,14 +1,11 @@
 //! The label tables of the mesh folder: which class and which instance every object belongs to, and their display colours.
 
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
+use crate::mesh_names::{INSTANCE_COLORS, OBJECTS_INSTANCE, OBJECTS_SEMANTIC, SEMANTIC_COLORS};
 use crate::{Dataset, DatasetError, MeshFiles, check_name, replace_file};
 use enfilade_math::Rng;
 use enfilade_scene::{Labels, NYU40, PartLabel};
 use std::path::{Path, PathBuf};
-
-const SEMANTIC: &str = "mesh_objects_si.hdf5";
-const COLORS: &str = "metadata_semantic_colors.hdf5";
-const INSTANCE: &str = "mesh_objects_sii.hdf5";
 
 /// What labels look like on a screen.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,10 +53,10 @@ impl MeshFiles {
             |of: fn(&PartLabel) -> i16| Array::i64(&[labels.parts.len(), 1], labels.parts.iter().map(|l| i64::from(of(l))).collect());
         let rows = |colors: &[[i64; 3]]| Array::i64(&[colors.len(), 3], colors.iter().flatten().copied().collect());
         let files = [
-            (SEMANTIC, column(|label| label.semantic)),
-            (INSTANCE, column(|label| label.instance)),
-            (COLORS, rows(&colors.semantic)),
-            ("metadata_semantic_instance_colors.hdf5", rows(&instance_colors(colors.instances))),
+            (OBJECTS_SEMANTIC, column(|label| label.semantic)),
+            (OBJECTS_INSTANCE, column(|label| label.instance)),
+            (SEMANTIC_COLORS, rows(&colors.semantic)),
+            (INSTANCE_COLORS, rows(&instance_colors(colors.instances))),
         ];
         let write = |(name, array): &(&str, Array)| {
             let path = self.file(name);
@@ -73,7 +70,7 @@ impl MeshFiles {
     /// # Errors
     /// When the table is damaged.
     pub fn read_last_class(&self) -> Result<i16, DatasetError> {
-        match read_array(&self.file(COLORS)) {
+        match read_array(&self.file(SEMANTIC_COLORS)) {
             Ok(array) => Ok(array.shape.first().map_or(0, |rows| rows.saturating_sub(1)).try_into().unwrap_or(i16::MAX)),
             Err(error) if error.is_not_found() => Ok(NYU40.len() as i16),
             Err(error) => Err(error),
@@ -85,12 +82,12 @@ impl MeshFiles {
     /// # Errors
     /// When a table is missing or damaged, or the two differ in length.
     pub fn read_labels(&self) -> Result<Labels, DatasetError> {
-        let semantic = read_column(&self.file(SEMANTIC))?;
-        let path = self.file(INSTANCE);
+        let semantic = read_column(&self.file(OBJECTS_SEMANTIC))?;
+        let path = self.file(OBJECTS_INSTANCE);
         let instance = read_column(&path)?;
         if semantic.len() != instance.len() {
             let problem = format!(
-                "{} rows, but {SEMANTIC} has {}; if the scene was annotated, open it in `enfilade annotate`, which writes both from its log, \
+                "{} rows, but {OBJECTS_SEMANTIC} has {}; if the scene was annotated, open it in `enfilade annotate`, which writes both from its log, \
                  else run the label stage again",
                 instance.len(),
                 semantic.len()

@@ -9,6 +9,9 @@ use crate::DatasetError;
 use enfilade_frame::{Layer, Pass};
 use std::path::{Path, PathBuf};
 
+/// The pipeline's own folder within a dataset: scenes, plans, hashes of what was made from what. No part of the dataset's format.
+pub const WORKDIR: &str = ".enfilade";
+
 /// The paths of a dataset. All methods are pure functions of the root and the names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
@@ -280,7 +283,7 @@ impl Layout {
         self.detail_dir(scene).join("mesh")
     }
 
-    /// A file of the mesh folder: `mesh_vertices.hdf5`, `metadata_objects.csv`, …
+    /// A file of the mesh folder; [`crate::mesh_names`] has the names.
     pub fn mesh_file(&self, scene: &str, name: &str) -> PathBuf {
         self.mesh_dir(scene).join(name)
     }

@@ -1,8 +1,8 @@
 //! `manifest.json`: what the dataset is, how to read it, and what has become of every frame.
 
 use crate::camera_files::optional;
-use crate::frames::{read_json, write_record};
-use crate::{Dataset, DatasetError, FileRecord, ViewFault};
+use crate::frames::read_json;
+use crate::{Dataset, DatasetError, FileRecord, ViewFault, write_json};
 use enfilade_frame::{Dtype, LAYERS, LayerSpec, Pass};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -258,7 +258,7 @@ impl Dataset {
     /// # Errors
     /// When the file cannot be written.
     pub fn write_manifest(&self, manifest: &Manifest) -> Result<(), DatasetError> {
-        write_record(&self.layout().manifest(), manifest)
+        write_json(&self.layout().manifest(), manifest)
     }
 
     /// The manifest; `None` where there is none (Hypersim's own data).

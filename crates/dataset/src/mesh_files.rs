@@ -6,7 +6,7 @@
 
 use crate::atomic::remove_if_there;
 use crate::hdf5::{Array, Storage, write_array};
-use crate::object_files::SPLITS;
+use crate::mesh_names as names;
 use crate::tables::Table;
 use crate::{DatasetError, Layout, replace_file};
 use enfilade_math::{DMat3, DVec3};
@@ -35,31 +35,31 @@ pub(crate) fn write_mesh(layout: &Layout, scene_name: &str, scene: &Scene) -> Re
     let rows = |values: Vec<f64>, width: usize| Array::f64(&[values.len() / width, width], values);
     let corners = |values: Vec<i64>| Array::i64(&[faces, 3], values);
     let files = [
-        ("vertices", rows(arrays.vertices, 3), "m"),
-        ("normals", rows(arrays.normals, 3), ""),
-        ("texcoords", rows(arrays.texcoords, 2), ""),
-        ("faces_vi", corners(arrays.faces_vi), ""),
-        ("faces_vni", corners(arrays.faces_vni), ""),
-        ("faces_vti", corners(arrays.faces_vti), ""),
-        ("faces_oi", Array::i64(&[faces], arrays.faces_oi), ""),
-        ("faces_gi", Array::i64(&[faces], vec![-1; faces]), ""),
-        ("faces_mi", Array::i64(&[faces], arrays.faces_mi), ""),
+        (names::VERTICES, rows(arrays.vertices, 3), "m"),
+        (names::NORMALS, rows(arrays.normals, 3), ""),
+        (names::TEXCOORDS, rows(arrays.texcoords, 2), ""),
+        (names::FACES_VERTICES, corners(arrays.faces_vi), ""),
+        (names::FACES_NORMALS, corners(arrays.faces_vni), ""),
+        (names::FACES_TEXCOORDS, corners(arrays.faces_vti), ""),
+        (names::FACES_OBJECTS, Array::i64(&[faces], arrays.faces_oi), ""),
+        (names::FACES_GROUPS, Array::i64(&[faces], vec![-1; faces]), ""),
+        (names::FACES_MATERIALS, Array::i64(&[faces], arrays.faces_mi), ""),
     ];
     for (name, array, unit) in &files {
         let attributes: &[(&str, &str)] = if unit.is_empty() { &[] } else { &[("unit", unit)] };
-        let path = layout.mesh_file(scene_name, &format!("mesh_{name}.hdf5"));
+        let path = layout.mesh_file(scene_name, name);
         replace_file(&path, |aside| write_array(aside, array, Storage::Compressed, attributes))?;
     }
-    let names = |file: &str, column: &str, names: Vec<&str>| {
+    let write_names = |file: &str, column: &str, names: Vec<&str>| {
         let mut table = Table::new(&layout.mesh_file(scene_name, file), &[column]);
         table.rows = names.into_iter().map(|name| vec![name.to_string()]).collect();
         table.write()
     };
     // Objects are whole again, if people had split any: what they did is in their log.
-    remove_if_there(&layout.mesh_file(scene_name, SPLITS))?;
-    names("metadata_objects.csv", "object_name", scene.parts.iter().map(|p| p.name.as_str()).collect())?;
-    names("metadata_groups.csv", "group_name", vec![])?;
-    names("metadata_materials.csv", "material_name", scene.materials.iter().map(|m| m.name.as_str()).collect())
+    remove_if_there(&layout.mesh_file(scene_name, names::OBJECT_SPLITS))?;
+    write_names(names::OBJECTS, "object_name", scene.parts.iter().map(|p| p.name.as_str()).collect())?;
+    write_names(names::GROUPS, "group_name", vec![])?;
+    write_names(names::MATERIALS, "material_name", scene.materials.iter().map(|m| m.name.as_str()).collect())
 }
 
 impl Arrays {

@@ -5,15 +5,11 @@
 
 use crate::atomic::remove_if_there;
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
+use crate::mesh_names::{FACES_MATERIALS, FACES_OBJECTS, FACES_VERTICES, MATERIALS, OBJECT_SPLITS, OBJECTS, VERTICES};
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, replace_file};
 use enfilade_math::DVec3;
 use std::path::{Path, PathBuf};
-
-const FACES_OBJECTS: &str = "mesh_faces_oi.hdf5";
-const OBJECTS: &str = "metadata_objects.csv";
-/// Objects that came from splitting others.
-pub(crate) const SPLITS: &str = "metadata_object_splits.csv";
 
 /// A mesh folder: ours, or Hypersim's.
 #[derive(Clone, Debug)]
@@ -82,7 +78,7 @@ impl MeshFiles {
     }
 
     fn read_geometry(&self, objects: Vec<String>, object_of_face: Vec<u32>) -> Result<MeshGeometry, DatasetError> {
-        let path = self.file("mesh_vertices.hdf5");
+        let path = self.file(VERTICES);
         let vertices = match read_array(&path)? {
             Array { values: Elements::F64(values), shape } if shape.get(1) == Some(&3) => {
                 values.chunks_exact(3).map(DVec3::from_slice).collect::<Vec<_>>()
@@ -92,7 +88,7 @@ impl MeshFiles {
         if let Some(bad) = vertices.iter().position(|v| !v.is_finite()) {
             return Err(DatasetError::hdf5(&path, format!("vertex {bad} is {}; expected finite numbers", vertices[bad])));
         }
-        let path = self.file("mesh_faces_vi.hdf5");
+        let path = self.file(FACES_VERTICES);
         let corners = read_indices(&path, vertices.len(), "vertices")?;
         let faces: Vec<[u32; 3]> = corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
         let path = self.file(FACES_OBJECTS);
@@ -119,7 +115,7 @@ impl MeshFiles {
     /// # Errors
     /// When the table is damaged; without a table nothing was split.
     pub fn read_splits(&self) -> Result<Vec<u32>, DatasetError> {
-        let path = self.file(SPLITS);
+        let path = self.file(OBJECT_SPLITS);
         let table = match Table::read(&path) {
             Err(error) if error.is_not_found() => return Ok(Vec::new()),
             table => table?,
@@ -149,7 +145,7 @@ impl MeshFiles {
         let faces = Array::i64(&[object_of_face.len()], object_of_face.iter().map(|&o| i64::from(o)).collect());
         replace_file(&self.file(FACES_OBJECTS), |aside| write_array(aside, &faces, Storage::Compressed, &[]))?;
         let mut files = vec![self.file(OBJECTS), self.file(FACES_OBJECTS)];
-        let path = self.file(SPLITS);
+        let path = self.file(OBJECT_SPLITS);
         if pieces.is_empty() {
             remove_if_there(&path)?;
         } else {
@@ -163,11 +159,11 @@ impl MeshFiles {
     }
 
     fn read_materials(&self, faces: usize) -> Result<(Vec<Option<u32>>, Vec<String>), DatasetError> {
-        let path = self.file("mesh_faces_mi.hdf5");
+        let path = self.file(FACES_MATERIALS);
         if !path.is_file() {
             return Ok((vec![None; faces], Vec::new()));
         }
-        let materials = self.names("metadata_materials.csv", "material_name")?;
+        let materials = self.names(MATERIALS, "material_name")?;
         let values = read_i64(&path)?;
         check_length(&path, values.len(), faces)?;
         let known = |&value: &i64| u32::try_from(value).ok().filter(|&m| (m as usize) < materials.len());
@@ -229,12 +225,12 @@ mod tests {
         assert_eq!((files.read().unwrap(), files.read_objects_of_faces().unwrap()), (mesh.clone(), vec![0, 1, 2]));
         assert_eq!(files.read_splits().unwrap(), [1]);
         // Without the table of what was split, it takes somebody who knows.
-        std::fs::remove_file(files.file(SPLITS)).unwrap();
+        std::fs::remove_file(files.file(OBJECT_SPLITS)).unwrap();
         assert_eq!(files.read().unwrap().objects.len(), 3);
         assert_eq!(files.read_unsplit(2, vec![0, 1, 1]).unwrap(), mesh);
         assert!(files.read_unsplit(1, vec![0, 1, 1]).unwrap_err().to_string().contains("face 1 is of object 1, but 1 are whole"));
         files.write_objects(&mesh.objects, &[], &mesh.object_of_face).unwrap();
-        assert!(files.read_splits().unwrap().is_empty() && !files.file(SPLITS).exists());
+        assert!(files.read_splits().unwrap().is_empty() && !files.file(OBJECT_SPLITS).exists());
     }
 
     #[test]
@@ -246,7 +242,7 @@ mod tests {
         files.write_objects(&["floor".into()], &[], &[0, 1, 1]).unwrap();
         let message = files.read().unwrap_err().to_string();
         assert!(message.ends_with("mesh_faces_oi.hdf5: entry 1 is 1, but there are 1 objects; export the mesh again"), "{message}");
-        crate::write_bytes(&files.file(SPLITS), "object_id,parent_object_id\n2,1\n4,1\n").unwrap();
+        crate::write_bytes(&files.file(OBJECT_SPLITS), "object_id,parent_object_id\n2,1\n4,1\n").unwrap();
         assert!(files.read_splits().unwrap_err().to_string().contains("line 3: object 4 of 1"));
     }
 }

@@ -4,7 +4,7 @@ use crate::atomic::remove_folder;
 use crate::frames::attributes_of;
 use crate::hdf5::{Storage, read_array, write_array};
 use crate::read::sorted_names;
-use crate::{Dataset, DatasetError, FileRecord, FrameEntry, Layout, replace_file, write_bytes};
+use crate::{Dataset, DatasetError, FileRecord, FrameEntry, Layout, replace_file, write_bytes, write_json};
 use enfilade_frame::{LAYERS, Layer};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -172,7 +172,7 @@ impl<'a> Growing<'a> {
     fn take_place(mut self) -> Result<(), DatasetError> {
         self.is_whole = true;
         let mark = Mark { kind: MARK_KIND.into(), enfilade_version: env!("CARGO_PKG_VERSION").into() };
-        write_bytes(&self.out.join(MARK), serde_json::to_string_pretty(&mark).expect("plain data encodes") + "\n")?;
+        write_json(&self.out.join(MARK), &mark)?;
         let old = self.out.join(OLD);
         fs::create_dir_all(&old).map_err(DatasetError::at("create the folder", &old))?;
         move_entries(self.out, &old)?;

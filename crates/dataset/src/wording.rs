@@ -1,8 +1,25 @@
+//! Pieces of messages: words of commands that people copy, and counted things.
+
 /// A word as a shell takes it, for commands that people copy: in quotes where it holds what a shell would read as something else.
 pub fn quoted(word: impl std::fmt::Display) -> String {
     let word = word.to_string();
     let is_plain = |c: char| c.is_alphanumeric() || "-_./:,=+@%".contains(c) || c == std::path::MAIN_SEPARATOR;
     if !word.is_empty() && word.chars().all(is_plain) { word } else { format!("'{}'", word.replace('\'', r"'\''")) }
+}
+
+/// A number of things: `1 frame`, `2 frames`.
+///
+/// ```
+/// use enfilade_dataset::counted;
+/// assert_eq!((counted(1, "frame"), counted(0, "frame")), ("1 frame".into(), "0 frames".into()));
+/// ```
+pub fn counted(n: usize, thing: &str) -> String {
+    counted_as(n, thing, &format!("{thing}s"))
+}
+
+/// As [`counted`], where the plural is not made with an s: `1 mesh`, `2 meshes`.
+pub fn counted_as(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
 }
 
 #[cfg(test)]
