@@ -54,10 +54,10 @@ pub fn layer_names(layers: impl IntoIterator<Item = Layer>) -> Vec<&'static str>
 
 /// The samples of these indices, in their order, decoded by as many threads as there are cores.
 fn decode_all(indices: &[usize], decode: impl Fn(usize) -> Result<Sample, LoaderError> + Sync) -> Result<Vec<Sample>, LoaderError> {
-    let share = indices.len().div_ceil(cores()).max(1);
+    let per_thread = indices.len().div_ceil(cores()).max(1);
     let decode = &|part: &[usize]| part.iter().map(|&index| decode(index)).collect::<Result<Vec<_>, _>>();
     std::thread::scope(|scope| {
-        let threads: Vec<_> = indices.chunks(share).map(|part| scope.spawn(move || decode(part))).collect();
+        let threads: Vec<_> = indices.chunks(per_thread).map(|part| scope.spawn(move || decode(part))).collect();
         let parts = threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
         parts.collect::<Result<Vec<_>, _>>().map(|parts| parts.into_iter().flatten().collect())
     })

@@ -1,5 +1,6 @@
 //! An edit as it stands in the log: every decision is made, so that doing it again gives the same labels.
 
+use enfilade_dataset::number_runs;
 use serde::{Deserialize, Serialize};
 
 /// What was done, with everything that is needed to do it again.
@@ -49,14 +50,7 @@ impl Edit {
 
 /// Ascending numbers as runs of first number and count.
 pub fn runs(numbers: &[u32]) -> Vec<[u32; 2]> {
-    let mut runs: Vec<[u32; 2]> = Vec::new();
-    for &number in numbers {
-        match runs.last_mut() {
-            Some([first, count]) if *first + *count == number => *count += 1,
-            _ => runs.push([number, 1]),
-        }
-    }
-    runs
+    number_runs(numbers.iter().copied()).iter().map(|run| [*run.start(), run.end() - run.start() + 1]).collect()
 }
 
 /// The numbers in runs; `None` when a run goes beyond `end`.

@@ -3,7 +3,7 @@
 use super::log_lines::unsplit;
 use super::options::AnnotateOptions;
 use super::planned::{PlannedCamera, PlannedFrame, cameras_of_file, field_of_view};
-use enfilade_dataset::{Dataset, DatasetError, MeshFiles, MeshGeometry, quoted, scene_hash};
+use enfilade_dataset::{Dataset, DatasetError, MeshFiles, MeshGeometry, WORKDIR, mesh_names, quoted, scene_hash};
 use enfilade_import::ImportOptions;
 use enfilade_math::Vec3;
 use enfilade_scene::{Cx, PartLabel, Warning, WorldMesh};
@@ -11,9 +11,6 @@ use std::path::{Path, PathBuf};
 
 /// Stands for "none" in [`AnnotatedScene::material_of_face`].
 pub const NO_MATERIAL: u32 = u32::MAX;
-
-/// The work folder of a dataset that `enfilade run` makes.
-const WORKDIR: &str = ".enfilade";
 
 /// Triangles in world space, the parts that they belong to, and the labels that the parts have already.
 pub struct AnnotatedScene {
@@ -95,7 +92,7 @@ impl AnnotatedScene {
             return Err(wrong("units and the axis that points up are given for scene files, and this is a folder"));
         }
         let folder = path.canonicalize().map_err(|e| wrong(&e.to_string()))?;
-        if folder.join("mesh_vertices.hdf5").is_file() {
+        if folder.join(mesh_names::VERTICES).is_file() {
             return Self::of_mesh_folder(&folder, labels, cx);
         }
         if folder.join("_detail/mesh").is_dir() {

@@ -34,17 +34,17 @@ pub async fn points(
 ) -> Result<Response, ApiProblem> {
     let place = FramePlace::parse([scene, camera, frame])?;
     let wrong = |e: QueryRejection| ApiProblem::bad_request(e.body_text(), "most is a number of points, 1 or more");
-    let most = query.map_err(wrong)?.0.most.unwrap_or(MAX_POINTS).max(1);
+    let max_points = query.map_err(wrong)?.0.most.unwrap_or(MAX_POINTS).max(1);
     let gzip = reply::takes_gzip(&headers);
     work(viewer, move |viewer| {
         viewer.check_camera(&place.scene, &place.camera)?;
-        Ok(reply::array(viewer.cloud(&place, most)?, gzip, &[]))
+        Ok(reply::array(viewer.cloud(&place, max_points)?, gzip, &[]))
     })
     .await
 }
 
 impl Viewer {
-    fn cloud(&self, place: &FramePlace, most: usize) -> Result<Vec<u8>, ApiProblem> {
+    fn cloud(&self, place: &FramePlace, max_points: usize) -> Result<Vec<u8>, ApiProblem> {
         let depth = self.layer(place, Layer::DepthMeters)?;
         let [height, width, _] = depth.shape;
         let missing = |what: &str| ApiProblem::not_found(format!("there is no {what} for this frame"), "run the plan stage for the scene");
@@ -57,7 +57,7 @@ impl Viewer {
         let index = trajectory.poses.iter().position(|pose| pose.frame == place.frame).ok_or_else(|| missing("pose"))?;
         let view = CameraView::of_frame(&camera, &trajectory.poses, index);
         let colors = self.tone_mapped(place, height * width)?;
-        let step = ((height * width).div_ceil(most) as f64).sqrt().ceil() as usize;
+        let step = ((height * width).div_ceil(max_points) as f64).sqrt().ceil() as usize;
         let (mut positions, mut paint) = (Vec::new(), Vec::new());
         for (y, x) in (0..height).step_by(step).flat_map(|y| (0..width).step_by(step).map(move |x| (y, x))) {
             let at = y * width + x;

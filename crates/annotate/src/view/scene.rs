@@ -7,7 +7,7 @@ use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
 use enfilade_dataset::hdf5::read_array;
-use enfilade_dataset::{BoxKind, DatasetError, Elements, Node, instance_colors};
+use enfilade_dataset::{BoxKind, DatasetError, Elements, Node, instance_colors, mesh_names};
 use enfilade_scene::PartLabel;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -40,7 +40,7 @@ impl Viewer {
             layout.metadata_scene(scene),
             layout.mesh_dir(scene),
         ])?;
-        self.allow_all(["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5", "metadata_semantic_instance_colors.hdf5"].map(mesh))?;
+        self.allow_all([mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE, mesh_names::INSTANCE_COLORS].map(mesh))?;
         let nodes = optional(self.dataset.read_nodes(scene))?.unwrap_or_default();
         let labels = optional(self.dataset.read_label_tables(scene))?.unwrap_or_default();
         let instances = labels.parts.iter().map(|label| label.instance).max().unwrap_or(0).max(0) as usize;
@@ -58,7 +58,7 @@ impl Viewer {
             "materials": self.material_names(scene)?,
             "instance_colors": self.colors_of_instances(scene, instances),
             "boxes": self.boxes(scene)?,
-            "has_geometry": mesh("mesh_vertices.hdf5").is_file() && mesh("mesh_faces_vi.hdf5").is_file(),
+            "has_geometry": mesh(mesh_names::VERTICES).is_file() && mesh(mesh_names::FACES_VERTICES).is_file(),
             "has_space": layout.octomap(scene).is_file(),
             "pages": pages.collect::<Vec<_>>(),
         }))
@@ -66,7 +66,7 @@ impl Viewer {
 
     /// The parts and what was split off from them, indexed as in `mesh_faces_oi.hdf5`.
     fn objects(&self, scene: &str, nodes: &[Node], labels: &[PartLabel]) -> Result<Value, ApiProblem> {
-        let names: Vec<String> = match self.mesh_table::<ObjectRow>(scene, "metadata_objects.csv")? {
+        let names: Vec<String> = match self.mesh_table::<ObjectRow>(scene, mesh_names::OBJECTS)? {
             Some(rows) => rows.into_iter().map(|row| row.object_name).collect(),
             None => names_by_nodes(nodes),
         };
@@ -105,7 +105,7 @@ impl Viewer {
 
     /// The scene's own colours, else ours: row `i` is instance `i`.
     fn colors_of_instances(&self, scene: &str, instances: usize) -> Vec<[i64; 3]> {
-        let path = self.layout().mesh_file(scene, "metadata_semantic_instance_colors.hdf5");
+        let path = self.layout().mesh_file(scene, mesh_names::INSTANCE_COLORS);
         match read_array(&path).map(|array| array.values) {
             Ok(Elements::I64(values)) if values.len() > 3 * instances => values.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
             _ => instance_colors(instances),
