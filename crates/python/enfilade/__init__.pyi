@@ -1,3 +1,5 @@
+"""The types of the module `enfilade`. What each function and class does is in its doc string: `help(enfilade.Dataset)`."""
+
 from collections.abc import Iterable, Sequence
 from os import PathLike
 from typing import Any, Literal, TypedDict, final

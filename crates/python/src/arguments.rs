@@ -1,4 +1,4 @@
-//! Arguments in the forms in which Python has them.
+//! Arguments as Python passes them, and what each is in Rust: names, layers, indices, frame numbers, positions of crops.
 
 use enfilade_dataset::Partition;
 use enfilade_frame::{LAYERS, Layer};
@@ -24,7 +24,7 @@ impl Names {
         }
     }
 
-    /// As the pattern that the command line takes.
+    /// As a pattern in the form of the command line: names with commas between them.
     pub fn pattern(&self) -> String {
         self.list().join(",")
     }
@@ -72,7 +72,7 @@ pub enum Frames {
 }
 
 impl Frames {
-    /// As the crates have it.
+    /// The numbers as a range.
     pub fn range(&self) -> PyResult<std::ops::Range<u32>> {
         match *self {
             Self::One(frame) => Ok(frame..frame.saturating_add(1)),
@@ -84,15 +84,15 @@ impl Frames {
 
 /// Where a crop lies: `"center"`, `"random"`, or first row and column.
 #[derive(Clone, FromPyObject, IntoPyObject)]
-pub enum Place {
+pub enum CropPosition {
     /// By name.
     Named(String),
     /// First row and column.
     At((usize, usize)),
 }
 
-impl Place {
-    /// As the loader has it.
+impl CropPosition {
+    /// The position for the loader.
     pub fn crop_place(&self) -> PyResult<CropPlace> {
         match self {
             Self::Named(name) if name == "center" => Ok(CropPlace::Center),

@@ -1,4 +1,4 @@
-//! Images and samples as numpy arrays.
+//! Images, samples and batches as numpy arrays, without copying more than batches need.
 
 use enfilade_frame::Dtype;
 use enfilade_loader::{Image, Sample, Values};

@@ -1,4 +1,4 @@
-//! `enfilade.Config`.
+//! `enfilade.Config`: the configuration of a run, from TOML, the demo or a dictionary.
 
 use crate::errors::IntoPy;
 use crate::json;

@@ -1,10 +1,10 @@
-//! `enfilade.Dataset`.
+//! `enfilade.Dataset`: frames of a dataset of ours or of Hypersim's release, as dictionaries of numpy arrays.
 
-use crate::arguments::{Names, Place, layers, position, split};
-use crate::arrays;
+use crate::arguments::{CropPosition, Names, layers, split};
 use crate::errors::IntoPy;
-use crate::loader::{Loader, decode_all, gives_own_samples};
-use enfilade_loader::{Choice, Crop, Options, Samples};
+use crate::loader::Loader;
+use crate::map_style::{MapStyle, item, items, layer_names};
+use enfilade_loader::{Choice, Crop, LoaderError, Options, Sample, Samples};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::path::{Path, PathBuf};
@@ -52,7 +52,7 @@ pub struct Dataset {
     arguments: Arguments,
 }
 
-/// What it was made with, to make it again in another process.
+/// What it was made with, so that pickling can make it again in another process.
 #[derive(Clone, IntoPyObject)]
 struct Arguments {
     layers: Option<Names>,
@@ -60,7 +60,7 @@ struct Arguments {
     cameras: Option<Names>,
     split: Option<String>,
     crop: Option<(usize, usize)>,
-    crop_place: Place,
+    crop_place: CropPosition,
     resize: Option<(usize, usize)>,
     tone_map: bool,
     mask: bool,
@@ -109,17 +109,21 @@ impl Arguments {
     }
 }
 
-impl Dataset {
-    /// The index that Python means.
-    fn index(&self, index: isize) -> PyResult<usize> {
-        position(index, self.samples.len())
+impl MapStyle for Dataset {
+    fn count(&self) -> usize {
+        self.samples.len()
+    }
+
+    fn decoder(&self) -> impl Fn(usize) -> Result<Sample, LoaderError> + Sync {
+        let epoch = self.epoch.load(Ordering::Relaxed);
+        move |index| self.samples.sample(index, epoch)
     }
 }
 
 #[pymethods]
 impl Dataset {
     #[new]
-    #[pyo3(signature = (path, *, layers=None, scenes=None, cameras=None, split=None, crop=None, crop_place=Place::Named("center".into()),
+    #[pyo3(signature = (path, *, layers=None, scenes=None, cameras=None, split=None, crop=None, crop_place=CropPosition::Named("center".into()),
         resize=None, tone_map=false, mask=true, poses=true, stored=false, seed=0, epoch=0, camera_table=None))]
     fn new(
         py: Python<'_>,
@@ -129,7 +133,7 @@ impl Dataset {
         cameras: Option<Names>,
         split: Option<String>,
         crop: Option<(usize, usize)>,
-        crop_place: Place,
+        crop_place: CropPosition,
         resize: Option<(usize, usize)>,
         tone_map: bool,
         mask: bool,
@@ -150,22 +154,13 @@ impl Dataset {
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, index: isize) -> PyResult<Bound<'py, PyDict>> {
-        let (index, epoch) = (self.index(index)?, self.epoch.load(Ordering::Relaxed));
-        let sample = py.detach(|| self.samples.sample(index, epoch)).map_err(IntoPy::into_py)?;
-        arrays::sample(py, index, sample)
+        item(py, self, index)
     }
 
     /// The samples of several indices, decoded on all cores; torch's DataLoader asks for a batch so. Those of a subclass with a
     /// `__getitem__` of its own come from there, one by one.
     fn __getitems__<'py>(this: &Bound<'py, Self>, indices: Vec<isize>) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        if gives_own_samples(this)? {
-            return indices.into_iter().map(|index| this.as_any().get_item(index)).collect();
-        }
-        let (py, frames) = (this.py(), this.get());
-        let indices = indices.into_iter().map(|index| frames.index(index)).collect::<PyResult<Vec<_>>>()?;
-        let epoch = frames.epoch.load(Ordering::Relaxed);
-        let samples = py.detach(|| decode_all(&indices, |index| frames.samples.sample(index, epoch))).map_err(IntoPy::into_py)?;
-        indices.into_iter().zip(samples).map(|(index, sample)| Ok(arrays::sample(py, index, sample)?.into_any())).collect()
+        items(this, indices)
     }
 
     /// Scene, camera and frame number of a sample, without decoding it.
@@ -177,7 +172,7 @@ impl Dataset {
     /// Names of the layers of each sample.
     #[getter]
     fn layers(&self) -> Vec<&'static str> {
-        self.samples.layers().iter().map(|layer| layer.spec().name).collect()
+        layer_names(self.samples.layers().iter().copied())
     }
 
     /// Decides where random crops lie; `set_epoch` changes it.

@@ -1,4 +1,4 @@
-//! Our errors as Python's exceptions, whose messages name the file.
+//! Which Python exception each error becomes. Messages name the file.
 
 use enfilade_dataset::DatasetError;
 use enfilade_export::ExportError;
@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 create_exception!(enfilade, DamagedFileError, PyOSError, "A file of a dataset is damaged, or is not what its name says.");
 create_exception!(enfilade, StageError, PyRuntimeError, "A scene could not be finished; `summary` says how far each came.");
 
-/// Makes an exception of it.
+/// Errors that become Python exceptions.
 pub trait IntoPy {
     /// The exception.
     fn into_py(self) -> PyErr;

@@ -1,4 +1,4 @@
-//! Ctrl-C during long work.
+//! Ctrl-C during long work: the work runs on another thread, while Python's own thread looks for signals.
 
 use crate::errors::IntoPy;
 use enfilade_pipeline::{Event, Reporter, Stage};
@@ -9,10 +9,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// How long Ctrl-C may go unnoticed.
+/// Time between two looks for signals.
 const INTERVAL: Duration = Duration::from_millis(100);
 
-/// Ends the work at the next thing that it reports once it was interrupted. What is finished then stays, as when a run is killed.
+/// Ends interrupted work when it next reports progress. What is finished by then stays, as when a run is killed.
 #[derive(Default)]
 pub struct Interrupt(AtomicBool);
 
@@ -38,7 +38,7 @@ impl Cx for Interrupt {
     fn warn(&self, _warning: Warning) {}
 }
 
-/// Does `work` on a thread of its own, and meanwhile lets Python look after signals.
+/// Runs `work` on another thread, while Python checks for signals.
 pub fn interruptible<T: Send, E: IntoPy + Send>(py: Python<'_>, work: impl FnOnce(&Interrupt) -> Result<T, E> + Send) -> PyResult<T> {
     let interrupt = Interrupt::default();
     std::thread::scope(|scope| {

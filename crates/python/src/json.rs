@@ -1,4 +1,4 @@
-//! Plain data of ours as plain data of Python's, by way of JSON.
+//! Serialisable values as Python's dictionaries, lists, numbers and text, and back, by way of JSON.
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -15,6 +15,6 @@ pub fn to_python<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound
 pub fn from_python<T: DeserializeOwned>(value: &Bound<'_, PyAny>) -> PyResult<T> {
     let text: String = value.py().import("json")?.call_method1("dumps", (value,))?.extract()?;
     let wrong = |error: serde_json::Error| PyValueError::new_err(error.to_string());
-    // By way of a value: errors then name no line of a text that nobody has seen.
+    // Parsed to a value first, so that errors do not name lines of a text that the user has never seen.
     serde_json::from_value(serde_json::from_str(&text).map_err(wrong)?).map_err(wrong)
 }

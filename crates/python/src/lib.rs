@@ -1,6 +1,6 @@
 //! The Python module `enfilade`: datasets as numpy arrays, and the verbs of the command line.
 //!
-//! Here is nothing but conversion: samples come from `enfilade-loader`, stages from `enfilade-pipeline`, layouts from `enfilade-export`,
+//! This crate only converts: samples come from `enfilade-loader`, stages from `enfilade-pipeline`, layouts from `enfilade-export`,
 //! shapes from `enfilade-shapes`. Arrays are handed over without a copy, and the interpreter is released while anything is read,
 //! decoded or rendered. `enfilade/__init__.pyi` is the public face with its types; the doc strings stand here.
 
@@ -12,6 +12,7 @@ mod errors;
 mod interrupt;
 mod json;
 mod loader;
+mod map_style;
 mod metrics;
 mod nyu;
 mod scene_files;

@@ -1,9 +1,8 @@
-//! `enfilade.Loader`: passes over a dataset, decoded ahead.
+//! `enfilade.Loader`: passes over a dataset whose samples or batches threads decode ahead.
 
 use crate::arrays::{self, Batch};
 use crate::errors::IntoPy;
-use enfilade_loader::{LoaderError, Sample, Samples, Stream, shuffled};
-use pyo3::PyTypeInfo;
+use enfilade_loader::{Sample, Samples, Stream, shuffled};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -13,23 +12,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Threads that can run at once.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
-}
-
-/// The samples of these indices, in their order, decoded by as many threads as there are cores; these end before it returns.
-pub fn decode_all(indices: &[usize], decode: impl Fn(usize) -> Result<Sample, LoaderError> + Sync) -> Result<Vec<Sample>, LoaderError> {
-    let share = indices.len().div_ceil(cores()).max(1);
-    let decode = &|part: &[usize]| part.iter().map(|&index| decode(index)).collect::<Result<Vec<_>, _>>();
-    std::thread::scope(|scope| {
-        let threads: Vec<_> = indices.chunks(share).map(|part| scope.spawn(move || decode(part))).collect();
-        let parts = threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        parts.collect::<Result<Vec<_>, _>>().map(|parts| parts.into_iter().flatten().collect())
-    })
-}
-
-/// True for a dataset of a subclass whose `__getitem__` is not ours: it is to be asked for samples.
-pub fn gives_own_samples<T: PyTypeInfo>(dataset: &Bound<'_, T>) -> PyResult<bool> {
-    let ours = dataset.py().get_type::<T>().getattr("__getitem__")?;
-    Ok(!dataset.as_any().get_type().getattr("__getitem__")?.is(&ours))
 }
 
 /// Passes over a dataset, one for every `for`, whose samples threads decode ahead; made by `Dataset.loader`.

@@ -1,4 +1,4 @@
-//! `enfilade.Confusion`.
+//! `enfilade.Confusion`: the confusion matrix, which numpy arrays of any integer type are added to.
 
 use enfilade_loader::confusion::{Confusion as Matrix, ConfusionError};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -28,7 +28,7 @@ pub struct Confusion {
 
 impl Confusion {
     fn matrix(&self) -> MutexGuard<'_, Matrix> {
-        // A matrix changes in one step, so that it is whole even where a thread ended early.
+        // A poisoned lock is fine: a matrix changes in one step, so it is consistent even if a thread panicked.
         self.matrix.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -152,7 +152,7 @@ fn numbers(what: &str, array: &Bound<'_, PyAny>) -> PyResult<Vec<i64>> {
     let found = of::<i64>(array, |value| value).or_else(|| of::<u8>(array, i64::from)).or_else(|| of::<i16>(array, i64::from));
     let found = found.or_else(|| of::<u16>(array, i64::from)).or_else(|| of::<i32>(array, i64::from));
     let found = found.or_else(|| of::<i8>(array, i64::from)).or_else(|| of::<u32>(array, i64::from));
-    // What is larger than any int64 is no class, as the largest is none.
+    // A value beyond int64 is no class; nor is the largest int64.
     let found = found.or_else(|| of::<u64>(array, |value| i64::try_from(value).unwrap_or(i64::MAX)));
     found.ok_or_else(|| no_array(what, array))
 }

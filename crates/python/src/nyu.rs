@@ -1,10 +1,9 @@
-//! `enfilade.NyuV2`, and the tables of NYU's classes.
+//! `enfilade.NyuV2`, the labelled images of NYU-Depth V2 as published, and the tables of its classes.
 
-use crate::arguments::{Names, layers, position};
-use crate::arrays;
+use crate::arguments::{Names, layers};
 use crate::errors::IntoPy;
-use crate::loader::{decode_all, gives_own_samples};
-use enfilade_loader::{NYU_LAYERS, NyuChoice, NyuClasses, NyuSplit, NyuV2 as Images, nyu13_of_nyu40};
+use crate::map_style::{MapStyle, item, items, layer_names};
+use enfilade_loader::{LoaderError, NYU_LAYERS, NyuChoice, NyuClasses, NyuSplit, NyuV2 as Images, Sample, nyu13_of_nyu40};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -39,6 +38,7 @@ pub struct NyuV2 {
     arguments: Arguments,
 }
 
+/// What it was made with, so that pickling can make it again in another process.
 #[derive(Clone, IntoPyObject)]
 struct Arguments {
     split: Option<String>,
@@ -63,10 +63,13 @@ impl Arguments {
     }
 }
 
-impl NyuV2 {
-    /// The index that Python means.
-    fn index(&self, index: isize) -> PyResult<usize> {
-        position(index, self.images.len())
+impl MapStyle for NyuV2 {
+    fn count(&self) -> usize {
+        self.images.len()
+    }
+
+    fn decoder(&self) -> impl Fn(usize) -> Result<Sample, LoaderError> + Sync {
+        |index| self.images.sample(index)
     }
 }
 
@@ -86,21 +89,13 @@ impl NyuV2 {
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, index: isize) -> PyResult<Bound<'py, PyDict>> {
-        let index = self.index(index)?;
-        let sample = py.detach(|| self.images.sample(index)).map_err(IntoPy::into_py)?;
-        arrays::sample(py, index, sample)
+        item(py, self, index)
     }
 
     /// The samples of several indices, decoded on all cores; torch's DataLoader asks for a batch so. Those of a subclass with a
     /// `__getitem__` of its own come from there, one by one.
     fn __getitems__<'py>(this: &Bound<'py, Self>, indices: Vec<isize>) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        if gives_own_samples(this)? {
-            return indices.into_iter().map(|index| this.as_any().get_item(index)).collect();
-        }
-        let (py, frames) = (this.py(), this.get());
-        let indices = indices.into_iter().map(|index| frames.index(index)).collect::<PyResult<Vec<_>>>()?;
-        let samples = py.detach(|| decode_all(&indices, |index| frames.images.sample(index))).map_err(IntoPy::into_py)?;
-        indices.into_iter().zip(samples).map(|(index, sample)| Ok(arrays::sample(py, index, sample)?.into_any())).collect()
+        items(this, indices)
     }
 
     /// Number of a sample's image in the file, from 1, without decoding it.
@@ -111,7 +106,7 @@ impl NyuV2 {
     /// Names of the layers of each sample.
     #[getter]
     fn layers(&self) -> Vec<&'static str> {
-        self.images.layers().map(|layer| layer.spec().name).collect()
+        layer_names(self.images.layers())
     }
 
     /// Names of the classes; that of class 1 is the first.
@@ -130,7 +125,7 @@ impl NyuV2 {
     }
 }
 
-/// Adds `NYU40`, `NYU13` and `NYU13_OF_NYU40`.
+/// Adds `NYU40`, `NYU40_COLORS`, `NYU13` and `NYU13_OF_NYU40`.
 pub fn add_tables(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     module.add("NYU40", PyTuple::new(py, NyuClasses::Forty.names())?)?;

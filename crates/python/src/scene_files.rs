@@ -1,4 +1,4 @@
-//! The verbs that make scene files.
+//! The functions that make scene files: `enfilade.import_scene` and `enfilade.home`.
 
 use crate::arguments::Names;
 use crate::errors::IntoPy;
@@ -20,7 +20,7 @@ use std::path::PathBuf;
 /// environment: an equirectangular picture that lights the scene instead of the file's own surroundings.
 /// allow_missing_textures: goes on with plain grey where a texture is missing.
 ///
-/// Gives a dictionary: `scene` and `report` (paths), `summary`, `warnings` (dropped, guessed or mended), `lost` (what the output cannot hold).
+/// Gives a dictionary: `scene` and `report` (paths), `summary`, `warnings` (dropped, guessed or fixed), `lost` (what the output cannot hold).
 /// The scenes of a dataset are imported by `enfilade.stage("import", dataset)`.
 #[pyfunction]
 #[pyo3(signature = (file, output=None, *, meters_per_unit=1.0, up_axis=None, environment=None, allow_missing_textures=false))]

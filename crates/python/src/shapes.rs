@@ -33,7 +33,7 @@ fn surface((vertices, faces): &Mesh<'_>) -> PyResult<Surface> {
         return Err(PyValueError::new_err(message));
     }
     let vertices = vertices.rows().into_iter().map(|row| [row[0], row[1], row[2]].into()).collect();
-    let corner = |&corner: &i64| u32::try_from(corner).unwrap_or(u32::MAX); // which no mesh has
+    let corner = |&corner: &i64| u32::try_from(corner).unwrap_or(u32::MAX); // no mesh has so many vertices, so it is refused below
     let faces = faces.rows().into_iter().map(|row| [corner(&row[0]), corner(&row[1]), corner(&row[2])]).collect();
     Surface::new(vertices, faces).map_err(IntoPy::into_py)
 }

@@ -1,4 +1,4 @@
-//! The verbs of the command line.
+//! The commands of the command line as functions: run, stage, verify, split, repack, export.
 
 use crate::arguments::{Frames, Names, layers};
 use crate::config::Config;
@@ -48,7 +48,7 @@ pub fn stage<'py>(py: Python<'py>, name: &str, dataset: PathBuf, scenes: Option<
     conclude(py, &interruptible(py, run)?)
 }
 
-/// Checks the laws that hold in every dataset, ours or Hypersim's, and gives the report as a dictionary: `passed`, `laws`, `gates` and
+/// Checks a dataset, ours or Hypersim's, against laws that every dataset must obey, and gives the report as a dictionary: `passed`, `laws`, `gates` and
 /// the values of all frames.
 ///
 /// scenes: only these; otherwise the report is also written to verify.json and verify.html, and a warning tells where that cannot be done.
@@ -64,7 +64,7 @@ pub fn verify<'py>(py: Python<'py>, dataset: PathBuf, scenes: Option<Names>) -> 
         let stored = if pattern.is_none() { write_report(&dataset, &report) } else { Ok(()) };
         Ok::<_, PyErr>((report, stored.err()))
     })?;
-    // Data of others may lie where nothing can be written.
+    // A dataset of others may be in a read-only folder.
     if let Some(error) = unstored {
         py.import("warnings")?.call_method1("warn", (format!("the report is not stored: {error}"),))?;
     }
@@ -157,7 +157,7 @@ pub fn export<'py>(
     json::to_python(py, &json!({ "frames": exported.frames, "files": exported.files, "bytes": exported.bytes }))
 }
 
-/// The summary as a dictionary, or what went wrong.
+/// The summary as a dictionary; a StageError if a scene failed.
 fn conclude<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound<'py, PyAny>> {
     let scenes = summary.scenes.iter().map(|scene| -> Value {
         let stages = scene.stages.iter().map(|stage| {

@@ -1,11 +1,11 @@
-//! What a page can ask for, and what it becomes: an edit with everything decided.
+//! The actions of a page, and how each is turned into an edit, in which every decision is made.
 
 use super::camera::CameraRequest;
-use super::log::{Edit, runs};
+use super::edit::{Edit, runs};
 use super::pieces::Pieces;
 use super::selection::{Expand, Filters, select};
 use super::split;
-use super::stroke::{Picked, Shape, World};
+use super::stroke::{Picked, StrokeShape, VisibleScene};
 use enfilade_dataset::Classes;
 use enfilade_geometry::Bvh;
 use enfilade_scene::PartLabel;
@@ -18,14 +18,8 @@ use std::collections::HashSet;
 pub enum Action {
     /// Labels what a stroke touches.
     Stroke {
-        camera: CameraRequest,
-        shape: Shape,
-        #[serde(default)]
-        hidden: Vec<u32>,
-        #[serde(default)]
-        expand: Expand,
-        #[serde(default)]
-        filters: Filters,
+        #[serde(flatten)]
+        look: Look,
         apply: Apply,
     },
     /// Labels pieces alike.
@@ -40,21 +34,17 @@ pub enum Action {
     Redo,
 }
 
-/// What a stroke looks at, for requests that change nothing.
+/// A stroke over a view, and how it selects pieces. Requests flatten it into theirs and refuse fields that neither has.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub struct Look {
     camera: CameraRequest,
-    shape: Shape,
+    shape: StrokeShape,
     #[serde(default)]
     hidden: Vec<u32>,
     #[serde(default)]
     expand: Expand,
     #[serde(default)]
     filters: Filters,
-    /// True to be told the visible faces too.
-    #[serde(default)]
-    pub faces: bool,
 }
 
 /// Which label to give.
@@ -90,10 +80,10 @@ pub enum SplitBy {
     Faces(Vec<u32>),
 }
 
-/// Why an action is not done. Nothing was changed.
+/// Why an action is refused. Nothing was changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refusal {
-    /// True when the request is fine, but the state is not such that it can be done.
+    /// True when the request is valid, but cannot be done in the current state.
     pub conflict: bool,
     /// What was found and what was expected.
     pub error: String,
@@ -107,13 +97,13 @@ impl Refusal {
         Self { conflict: false, error: error.into(), help: "correct the request; nothing was changed".into() }
     }
 
-    /// The state is not such that it can be done.
+    /// The request cannot be done in the current state.
     pub fn conflict(error: impl Into<String>, help: impl Into<String>) -> Self {
         Self { conflict: true, error: error.into(), help: help.into() }
     }
 }
 
-/// What actions are about.
+/// The state in which an action is decided.
 pub struct Context<'a> {
     pub pieces: &'a Pieces,
     pub next_instance: i32,
@@ -132,24 +122,20 @@ impl Look {
         self.filters.check().map_err(Refusal::request)?;
         at.check_pieces("hidden", &self.hidden)?;
         let hidden: HashSet<u32> = self.hidden.iter().copied().collect();
-        let world = World { bvh: at.bvh, piece_of_face: at.pieces.of_face(), hidden: &hidden };
-        let faces = world.visible_faces(&camera, &covered);
+        let visible = VisibleScene { bvh: at.bvh, piece_of_face: at.pieces.of_face(), hidden: &hidden };
+        let faces = visible.visible_faces(&camera, &covered);
         Ok(select(at.pieces, &faces, &self.filters, self.expand))
     }
 }
 
 impl Context<'_> {
-    /// The edit that an action asks for; `None` when it would change nothing. Undo and redo are no edits of their own.
+    /// The edit that an action asks for; `None` when it would change nothing, and for undo and redo.
     ///
     /// # Errors
-    /// When the action is wrong, or cannot be done as things are.
+    /// When the action is wrong, or cannot be done in the current state.
     pub fn decide(&self, action: &Action) -> Result<Option<Edit>, Refusal> {
         match action {
-            Action::Stroke { camera, shape, hidden, expand, filters, apply } => {
-                let (camera, shape, hidden) = (camera.clone(), shape.clone(), hidden.clone());
-                let look = Look { camera, shape, hidden, expand: *expand, filters: *filters, faces: false };
-                self.label(&look.select(self)?.1, apply)
-            }
+            Action::Stroke { look, apply } => self.label(&look.select(self)?.1, apply),
             Action::Assign { pieces, apply } => {
                 self.check_pieces("pieces", pieces)?;
                 self.label(&distinct(pieces), apply)
@@ -171,8 +157,8 @@ impl Context<'_> {
             return Err(Refusal::request(format!("pixel {x}, {y} is outside of the image of {}x{}", camera.width, camera.height)));
         }
         let hidden: HashSet<u32> = hidden.iter().copied().collect();
-        let world = World { bvh: self.bvh, piece_of_face: self.pieces.of_face(), hidden: &hidden };
-        Ok(world.meet(&camera, x, y).map(|picked| (world.piece_of_face[picked.face as usize], picked)))
+        let visible = VisibleScene { bvh: self.bvh, piece_of_face: self.pieces.of_face(), hidden: &hidden };
+        Ok(visible.meet(&camera, x, y).map(|picked| (visible.piece_of_face[picked.face as usize], picked)))
     }
 
     fn check_pieces(&self, field: &str, pieces: &[u32]) -> Result<(), Refusal> {
@@ -221,7 +207,7 @@ impl Context<'_> {
         Ok(self.edit(what, pieces, &labels, next))
     }
 
-    /// The first of so many instance numbers that nothing has yet.
+    /// The first of `wanted` instance numbers that were never given out.
     fn instances(&self, wanted: usize) -> Result<i16, Refusal> {
         let last = self.next_instance as usize + wanted;
         if last > i16::MAX as usize + 1 {
@@ -245,7 +231,7 @@ impl Context<'_> {
         Ok(self.edit("Classes".into(), pieces, &labels, self.next_instance))
     }
 
-    /// The edit that gives the labels to those pieces that have others.
+    /// The edit that gives these labels to those of the pieces whose labels differ.
     fn edit(&self, what: String, pieces: &[u32], labels: &[PartLabel], next_instance: i32) -> Option<Edit> {
         let differs = |(piece, label): &(&u32, &PartLabel)| self.pieces.list()[**piece as usize].label != **label;
         let (pieces, labels): (Vec<u32>, Vec<PartLabel>) = pieces.iter().zip(labels).filter(differs).unzip();
@@ -262,10 +248,10 @@ impl Context<'_> {
 
     fn split(&self, number: u32, by: &SplitBy) -> Result<Edit, Refusal> {
         self.check_pieces("piece", &[number])?;
-        let (piece, source) = (&self.pieces.list()[number as usize], self.pieces.source());
+        let (piece, scene) = (&self.pieces.list()[number as usize], self.pieces.scene());
         let (groups, whole) = match by {
-            SplitBy::Component => (split::by_component(source, &piece.faces), "all its faces are connected"),
-            SplitBy::Material => (split::by_material(source, &piece.faces), "all its faces are of one material"),
+            SplitBy::Component => (split::by_component(scene, &piece.faces), "all its faces are connected"),
+            SplitBy::Material => (split::by_material(scene, &piece.faces), "all its faces are of one material"),
             SplitBy::Faces(painted) => {
                 let groups = split::by_faces(piece, self.pieces.of_face(), number, painted).map_err(Refusal::request)?;
                 (groups.into_iter().filter(|group| !group.is_empty()).collect(), "the painted faces are all of it or none")
@@ -285,7 +271,7 @@ impl Context<'_> {
     }
 }
 
-/// Each once, ascending.
+/// The pieces in ascending order, each once.
 fn distinct(pieces: &[u32]) -> Vec<u32> {
     let mut pieces = pieces.to_vec();
     pieces.sort_unstable();

@@ -1,22 +1,22 @@
-//! A scene that is being annotated: everything that the routes ask.
+//! A scene that is open for annotation: everything that the routes ask for, safe to use from several requests at once.
 
 use super::action::{Action, Look, Refusal};
 use super::camera::CameraRequest;
 use super::change::Change;
 use super::clock;
+use super::display_order::DisplayOrder;
 use super::events::Events;
-use super::geometry::DisplayOrder;
 use super::log::LogError;
+use super::options::AnnotateOptions;
 use super::progress::Seen;
 use super::save::Snapshot;
+use super::scene::{AnnotatedScene, SceneError};
 use super::session::{ActionError, Session};
-use super::source::{Source, SourceError};
 use super::stroke::Picked;
 use super::suggestions::{Suggestion, suggestions};
 use super::worklog::{WORK_LOG, WorkLog, WorkSession};
-use enfilade_dataset::{Classes, DatasetError, MeshFiles};
+use enfilade_dataset::{ANNOTATION_LOG, Classes, DatasetError, MeshFiles};
 use enfilade_geometry::Bvh;
-use enfilade_import::UpAxis;
 use enfilade_scene::{Cx, Warning};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -26,29 +26,12 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, RwLock, RwLockRea
 const TOOL_LOG: &str = "metadata_scene_annotation_tool.log";
 const TOOL_PREFIX: &str = "[HYPERSIM: SCENE_ANNOTATION_TOOL]";
 
-/// What to annotate.
-#[derive(Clone, Debug, Default)]
-pub struct AnnotateOptions {
-    /// A scene file, a dataset, a scene's folder in it, or a Hypersim mesh folder.
-    pub path: PathBuf,
-    /// Which of a dataset's scenes.
-    pub scene: Option<String>,
-    /// Where labels go, if not the folder of the dataset or beside the file.
-    pub labels: Option<PathBuf>,
-    /// A list of classes, if not the one in the folder of labels or NYU40.
-    pub classes: Option<PathBuf>,
-    /// Metres per unit of a scene file, if not 1; multiplies what the file says itself.
-    pub meters_per_unit: Option<f64>,
-    /// The axis that points up in a scene file, if not the one that its format says.
-    pub up_axis: Option<UpAxis>,
-}
-
-/// Why there is nothing to annotate.
+/// Why a scene cannot be opened.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "plain words")]
 pub enum OpenError {
     #[error(transparent)]
-    Source(#[from] SourceError),
+    Scene(#[from] SceneError),
     #[error(transparent)]
     Log(#[from] LogError),
     #[error("{0}")]
@@ -57,9 +40,9 @@ pub enum OpenError {
     File(#[from] DatasetError),
 }
 
-/// An open scene. Edits are done one after the other; reading goes on meanwhile.
+/// An open scene. Edits are done one after the other; reads run in parallel.
 pub struct App {
-    source: Arc<Source>,
+    scene: Arc<AnnotatedScene>,
     classes: Arc<Classes>,
     bvh: Arc<Bvh>,
     order: DisplayOrder,
@@ -71,7 +54,7 @@ pub struct App {
     saved: Mutex<Saved>,
 }
 
-/// What is in the files.
+/// What the label files hold.
 #[derive(Default)]
 struct Saved {
     revision: u64,
@@ -79,31 +62,31 @@ struct Saved {
 }
 
 impl App {
-    /// Loads a scene and goes on where its log ends.
+    /// Loads a scene and continues where its log ends.
     ///
     /// # Errors
     /// When the scene, the list of classes or the log cannot be read, or the folder of labels cannot be written.
     pub fn open(options: &AnnotateOptions, cx: &dyn Cx) -> Result<Self, OpenError> {
-        let source = Arc::new(Source::load(options, cx)?);
-        let folder = &source.labels_folder;
+        let scene = Arc::new(AnnotatedScene::load(options, cx)?);
+        let folder = &scene.labels_folder;
         let classes = match &options.classes {
             Some(file) => Classes::read(file)?,
             None => MeshFiles::new(folder).read_own_classes()?.unwrap_or_else(Classes::nyu40),
         };
         cx.progress("preparing rays", 1, 3);
-        let bvh = Arc::new(Bvh::new(&source.corners, &|_| true));
+        let bvh = Arc::new(Bvh::new(&scene.corners, &|_| true));
         cx.progress("sorting faces", 2, 3);
-        let order = DisplayOrder::new(&source.corners);
+        let order = DisplayOrder::new(&scene.corners);
         let classes = Arc::new(classes);
-        let (session, warning) = Session::open(source.clone(), classes.clone(), bvh.clone(), folder)?;
+        let (session, warning) = Session::open(scene.clone(), classes.clone(), bvh.clone(), folder)?;
         if let Some(message) = warning {
-            cx.warn(Warning { place: source.name.clone(), message });
+            cx.warn(Warning { place: scene.name.clone(), message });
         }
-        let strange = session.pieces().list().iter().find(|piece| classes.check(piece.label.semantic.into()).is_err());
-        if let Some(piece) = strange {
+        let unknown_class = session.pieces().list().iter().find(|piece| classes.check(piece.label.semantic.into()).is_err());
+        if let Some(piece) = unknown_class {
             let message =
                 format!("{} has class {}, which the list of classes lacks; give the list with --classes", piece.name, piece.label.semantic);
-            cx.warn(Warning { place: source.name.clone(), message });
+            cx.warn(Warning { place: scene.name.clone(), message });
         }
         let worklog = WorkLog::open(folder).map_err(OpenError::WorkLog)?;
         let revision = session.standing().revision;
@@ -114,14 +97,14 @@ impl App {
             seen: OnceLock::new(),
             suggestions: OnceLock::new(),
             saved: Mutex::default(),
-            source,
+            scene,
             classes,
             bvh,
             order,
         };
         app.note("Loaded scene:  ")?;
         if revision > 0 {
-            // The program may have died between an edit and its files.
+            // The program may have been killed after the last edit and before its files were written.
             app.save()?;
         }
         Ok(app)
@@ -129,15 +112,15 @@ impl App {
 
     /// Appends to Hypersim's log.
     fn note(&self, what: &str) -> Result<(), DatasetError> {
-        let path = self.source.labels_folder.join(TOOL_LOG);
+        let path = self.scene.labels_folder.join(TOOL_LOG);
         let line = format!("{TOOL_PREFIX} {what} {}\n", clock::ctime(clock::now_s()));
         let append = std::fs::File::options().create(true).append(true).open(&path).and_then(|mut file| file.write_all(line.as_bytes()));
         append.map_err(|source| DatasetError::Io { action: "write", path, source })
     }
 
     /// The scene.
-    pub fn source(&self) -> &Source {
-        &self.source
+    pub fn scene(&self) -> &AnnotatedScene {
+        &self.scene
     }
 
     /// The list of classes.
@@ -150,7 +133,7 @@ impl App {
         &self.order
     }
 
-    /// Changes on their way to pages.
+    /// Where pages listen for changes.
     pub fn events(&self) -> &Events {
         &self.events
     }
@@ -165,17 +148,18 @@ impl App {
         self.session.read().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What the cameras see; computed by whoever asks first.
+    /// Which faces the cameras see; computed at the first call.
     pub fn seen(&self) -> &Seen {
-        self.seen.get_or_init(|| Seen::new(&self.source, &self.bvh))
+        self.seen.get_or_init(|| Seen::new(&self.scene, &self.bvh))
     }
 
     /// What is proposed for each part, and so for its pieces.
     pub fn suggestions(&self) -> &[Option<Suggestion>] {
-        self.suggestions.get_or_init(|| suggestions(&self.source, &self.classes))
+        self.suggestions.get_or_init(|| suggestions(&self.scene, &self.classes))
     }
 
-    /// Does an action, and tells every page. One that comes again with its `id`, because the answer was lost, is only answered again.
+    /// Does an action, and announces the change to every page. An action whose `id` was used before is not done again: its first answer
+    /// is repeated.
     ///
     /// # Errors
     /// When it is refused or cannot be logged; then nothing has changed.
@@ -184,7 +168,7 @@ impl App {
         let before = session.standing().revision;
         let change = session.act(action, client, id)?;
         if change.revision > before {
-            // Announced while the state is held, so that pages get changes in order.
+            // Announced while the session is locked, so that pages get changes in order.
             self.events.publish(&change);
             self.worklog().action(clock::now_s());
         }
@@ -207,7 +191,7 @@ impl App {
         self.session().pick(camera, pixel, hidden)
     }
 
-    /// Somebody worked at this moment, seconds since 1970.
+    /// Records that somebody worked at this moment, seconds since 1970.
     ///
     /// # Errors
     /// When the work log cannot be written.
@@ -234,12 +218,12 @@ impl App {
             (Snapshot::new(session.pieces(), standing.next_instance), standing.revision)
         };
         let objects = snapshot.objects_hash();
-        let folder = self.source.labels_folder.as_path();
+        let folder = self.scene.labels_folder.as_path();
         let mut files = snapshot.write(&MeshFiles::new(folder), &self.classes, saved.objects != Some(objects))?;
         *saved = Saved { revision, objects: Some(objects) };
         let worklog = self.worklog();
         worklog.write()?;
-        files.extend([super::log::LOG, TOOL_LOG, WORK_LOG].map(|name| folder.join(name)).into_iter().filter(|path| path.is_file()));
+        files.extend([ANNOTATION_LOG, TOOL_LOG, WORK_LOG].map(|name| folder.join(name)).into_iter().filter(|path| path.is_file()));
         Ok(files)
     }
 
@@ -266,6 +250,6 @@ impl App {
 
     /// Where labels are written.
     pub fn labels_folder(&self) -> &Path {
-        &self.source.labels_folder
+        &self.scene.labels_folder
     }
 }

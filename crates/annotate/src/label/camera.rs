@@ -1,13 +1,13 @@
-//! The camera of a request, checked.
+//! The camera of a page: as it is sent, and as a checked pinhole camera that rays start from.
 
-use super::source::rows;
+use super::planned::rows;
 use enfilade_geometry::PinholeRays;
 use enfilade_math::{DMat3, DVec3, Ray};
 use serde::Deserialize;
 
 /// Pixels per side that a request may ask about.
 const MAX_SIDE: u32 = 8192;
-/// Coordinates beyond this are no place in a room, metres.
+/// Coordinates beyond this are a mistake, metres.
 const MAX_COORDINATE_M: f64 = 1e6;
 
 /// A camera as the page sends it.
@@ -19,12 +19,12 @@ pub struct CameraRequest {
     fov_y_deg: f64,
     width: u32,
     height: u32,
-    /// What is nearer along the optical axis is not seen, metres.
+    /// Near plane: what is nearer along the optical axis is not seen, metres.
     #[serde(default)]
     near_m: f64,
 }
 
-/// A pinhole of some number of pixels in the world.
+/// A pinhole camera in world space, with the size of its image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PageCamera {
     position: DVec3,
@@ -35,7 +35,7 @@ pub struct PageCamera {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// What is nearer along the optical axis is not seen, metres.
+    /// Near plane: what is nearer along the optical axis is not seen, metres.
     pub near_m: f64,
 }
 
@@ -51,7 +51,7 @@ impl CameraRequest {
             return wrong("position", position.to_string(), "three finite numbers, metres");
         }
         let m = rows(&self.orientation);
-        let error = (m * m.transpose() - DMat3::IDENTITY).to_cols_array().iter().fold(0.0f64, |most, v| most.max(v.abs()));
+        let error = (m * m.transpose() - DMat3::IDENTITY).to_cols_array().iter().fold(0.0f64, |max, v| max.max(v.abs()));
         if !m.is_finite() || !error.is_finite() || error > 1e-3 || m.determinant() < 0.0 {
             return wrong("orientation", format!("{:?}", self.orientation), "a rotation, world from camera, row by row");
         }

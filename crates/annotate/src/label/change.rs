@@ -1,14 +1,14 @@
-//! What an edit changed, for every page that shows the scene.
+//! What an edit changed, as every page that shows the scene is told.
 
-use super::log::Edit;
+use super::edit::Edit;
 use super::pieces::{Piece, Pieces};
-use super::source::NO_MATERIAL;
+use super::scene::NO_MATERIAL;
 use serde::Serialize;
 
 /// A change, as it is sent to pages.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Change {
-    /// After it.
+    /// The revision after it.
     pub revision: u64,
     /// Who asked for it.
     pub client: String,
@@ -26,7 +26,7 @@ pub struct Change {
     pub moved_faces: (Vec<u32>, Vec<u32>),
     /// Pieces with other faces than before.
     pub resized: Vec<PieceRow>,
-    /// Pieces that are no more, the last ones.
+    /// Pieces that no longer exist: those with the last numbers.
     pub removed: Vec<u32>,
     /// True when there is something to undo.
     pub can_undo: bool,
@@ -40,7 +40,7 @@ pub struct Change {
     pub next_instance: i32,
 }
 
-/// How a session stands.
+/// The revision of a session, and what can be undone and redone.
 #[derive(Clone, Copy, Debug)]
 pub struct Standing<'a> {
     /// Number of edits ever made, undone ones and undoing included.
@@ -90,7 +90,7 @@ impl PieceRow {
 
 /// The name of a material; empty for none.
 pub fn material_name(pieces: &Pieces, material: u32) -> &str {
-    if material == NO_MATERIAL { "" } else { &pieces.source().materials[material as usize] }
+    if material == NO_MATERIAL { "" } else { &pieces.scene().materials[material as usize] }
 }
 
 impl Change {
@@ -124,7 +124,7 @@ impl Change {
         Self { moved_faces: (moved, to), resized: vec![PieceRow::new(pieces, piece)], removed, ..Self::default() }
     }
 
-    /// Says what was done, by whom, and how things stand after it.
+    /// Adds what was done, by whom, and the state of the session after it.
     #[must_use]
     pub fn told(mut self, edit: Option<&Edit>, client: &str, now: &Standing<'_>) -> Self {
         self.description = match edit {

@@ -8,7 +8,7 @@ use std::convert::Infallible;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::sync::broadcast::{Receiver, Sender, channel, error::RecvError};
 
-/// Changes that a page can miss and be told later; who missed more loads the scene again.
+/// Changes that are kept for pages that lost the connection; a page that missed more loads the scene again.
 const KEPT: usize = 256;
 
 /// A change as text.
@@ -36,7 +36,7 @@ impl Events {
         Self { kept: Mutex::new(Kept { since: revision, messages: VecDeque::new() }), sender: channel(KEPT).0 }
     }
 
-    /// Announces a change; the caller sees to the order.
+    /// Announces a change. The caller must announce changes in order.
     pub fn publish(&self, change: &Change) {
         let text = serde_json::to_string(change).expect("plain data has a JSON text");
         let message = Message { revision: change.revision, text: text.into() };
@@ -47,7 +47,7 @@ impl Events {
         {
             kept.since = dropped.revision;
         }
-        let _ = self.sender.send(message); // nobody listens
+        let _ = self.sender.send(message); // it fails if no page listens
     }
 
     /// The changes after revision `since`, those to come included; without `since` those to come.
@@ -61,7 +61,7 @@ impl Events {
             }
             Some(_) => VecDeque::from([Next::Reload]),
         };
-        // Subscribed under the lock, so that nothing falls in between.
+        // Still under the lock, so that no change is published between the kept ones and the subscription.
         unfold((missed, self.sender.subscribe()), next)
     }
 
@@ -70,8 +70,10 @@ impl Events {
     }
 }
 
+/// What a page is told next.
 enum Next {
     Change(Message),
+    /// It missed too much, and has to load the scene again.
     Reload,
 }
 

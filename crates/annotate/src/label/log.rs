@@ -1,95 +1,18 @@
-//! The log of edits: one line of JSON each, appended and brought to the disk before an edit counts.
+//! The log of edits: one line of JSON for each edit, appended and flushed to disk before the edit counts.
 //!
-//! The first line says which scene the log is about and which labels it began with. The state is what follows from doing the rest in
-//! order, so nothing is lost when the program dies; a last line that was cut short is dropped.
+//! The current labels are what results from replaying the log, so nothing is lost when the program is killed. An incomplete last line
+//! is dropped.
 
-use super::source::Source;
-use enfilade_dataset::{MeshFiles, number_runs};
+use super::log_lines::{Entry, FORMAT, Header};
+use super::scene::AnnotatedScene;
+use enfilade_dataset::ANNOTATION_LOG;
 use enfilade_scene::PartLabel;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::fs::{File, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// Its name in the folder of labels.
-pub const LOG: &str = enfilade_dataset::ANNOTATION_LOG;
-const FORMAT: &str = "enfilade annotation log 1";
-
-/// The first line.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Header {
-    format: String,
-    scene: String,
-    /// That of [`enfilade_dataset::scene_hash`].
-    scene_hash: String,
-    parts: usize,
-    faces: usize,
-    initial_semantic: Vec<i16>,
-    initial_instance: Vec<i16>,
-}
-
-/// A line after the first.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Entry {
-    /// From 1, one more with each line.
-    pub revision: u64,
-    /// When, in UTC.
-    pub time: String,
-    /// Who asked for it.
-    pub client: String,
-    /// What they call it, by which it is known when it comes again. Edits that came without have none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub id: Option<String>,
-    /// What was done.
-    pub edit: Edit,
-}
-
-/// What was done, with everything that it takes to do it again.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
-pub enum Edit {
-    /// Pieces got labels.
-    Label {
-        /// For people.
-        description: String,
-        /// Which.
-        pieces: Vec<u32>,
-        /// The class of each from now on.
-        semantic: Vec<i16>,
-        /// The instance of each from now on.
-        instance: Vec<i16>,
-        /// Instance numbers from here on are free.
-        next_instance: i32,
-    },
-    /// Faces became pieces of their own.
-    Split {
-        /// For people.
-        description: String,
-        /// The piece they were taken from.
-        piece: u32,
-        /// Names of the new ones.
-        names: Vec<String>,
-        /// Their faces, as runs of first number and count.
-        faces: Vec<Vec<[u32; 2]>>,
-    },
-    /// The last edit that was not undone was undone.
-    Undo,
-    /// The last edit that was undone was done again.
-    Redo,
-}
-
-impl Edit {
-    /// What was done, for people.
-    pub fn description(&self) -> &str {
-        match self {
-            Self::Label { description, .. } | Self::Split { description, .. } => description,
-            Self::Undo => "Undo",
-            Self::Redo => "Redo",
-        }
-    }
-}
-
-/// Why there is no log to go on with.
+/// Why the log cannot be opened or written.
 #[derive(Debug, thiserror::Error)]
 pub enum LogError {
     /// The file cannot be read or written.
@@ -117,7 +40,7 @@ pub enum LogError {
         /// What is here.
         scene: String,
     },
-    /// A line makes no sense.
+    /// A line is not valid.
     #[error("{}:{line}: {problem}; remove this line and those after it to go on from there, or bring back a copy", path.display())]
     Line {
         /// The file.
@@ -133,11 +56,11 @@ pub enum LogError {
 pub struct Log {
     path: PathBuf,
     file: File,
-    /// Length of what is known to be good, bytes.
+    /// Length of the complete lines, bytes.
     length: u64,
 }
 
-/// What stands in a log.
+/// What a log holds.
 pub struct Recorded {
     /// The labels that the parts began with.
     pub initial: Vec<PartLabel>,
@@ -148,14 +71,14 @@ pub struct Recorded {
 }
 
 impl Log {
-    /// Opens the log in `folder`, or begins one with the labels that the source comes with. One in which nothing was done begins
-    /// anew: the scene may have got its labels since somebody looked at it.
+    /// Opens the log in `folder`, or begins one with the labels that the scene comes with. A log without edits is begun again, because
+    /// the scene may have got labels since it was last opened.
     ///
     /// # Errors
-    /// When the file cannot be had, is about another scene, or has a line that makes no sense.
-    pub fn open(folder: &Path, source: &Source) -> Result<(Self, Recorded), LogError> {
-        let path = folder.join(LOG);
-        let at = &folder.join(LOG);
+    /// When the file cannot be opened or locked, is about another scene, or has an invalid line.
+    pub fn open(folder: &Path, scene: &AnnotatedScene) -> Result<(Self, Recorded), LogError> {
+        let path = folder.join(ANNOTATION_LOG);
+        let at = &folder.join(ANNOTATION_LOG);
         let io = |action| move |source| LogError::Io { action, path: at.clone(), source };
         std::fs::create_dir_all(folder).map_err(io("write"))?;
         let mut file = File::options().create(true).truncate(false).read(true).write(true).open(&path).map_err(io("write"))?;
@@ -174,31 +97,31 @@ impl Log {
             warning = Some(format!("{}: the last line was cut short and is dropped", path.display()));
         }
         let mut log = Self { path, file, length: whole as u64 };
-        let (initial, entries) = if whole == 0 { (Vec::new(), Vec::new()) } else { log.parse(&bytes[..whole], source)? };
+        let (initial, entries) = if whole == 0 { (Vec::new(), Vec::new()) } else { log.parse(&bytes[..whole], scene)? };
         if entries.is_empty() {
             log.length = 0;
-            log.begin(source)?;
-            return Ok((log, Recorded { initial: source.labels.clone(), entries, warning }));
+            log.begin(scene)?;
+            return Ok((log, Recorded { initial: scene.labels.clone(), entries, warning }));
         }
         log.file.set_len(whole as u64).map_err(io("write"))?;
         Ok((log, Recorded { initial, entries, warning }))
     }
 
     /// Writes the first line.
-    fn begin(&mut self, source: &Source) -> Result<(), LogError> {
+    fn begin(&mut self, scene: &AnnotatedScene) -> Result<(), LogError> {
         let header = Header {
             format: FORMAT.into(),
-            scene: source.name.clone(),
-            scene_hash: source.hash(),
-            parts: source.parts.len(),
-            faces: source.corners.len(),
-            initial_semantic: source.labels.iter().map(|l| l.semantic).collect(),
-            initial_instance: source.labels.iter().map(|l| l.instance).collect(),
+            scene: scene.name.clone(),
+            scene_hash: scene.hash(),
+            parts: scene.parts.len(),
+            faces: scene.corners.len(),
+            initial_semantic: scene.labels.iter().map(|l| l.semantic).collect(),
+            initial_instance: scene.labels.iter().map(|l| l.instance).collect(),
         };
         self.write_line(&header).map_err(|source| LogError::Io { action: "write", path: self.path.clone(), source })
     }
 
-    fn parse(&self, bytes: &[u8], source: &Source) -> Result<(Vec<PartLabel>, Vec<Entry>), LogError> {
+    fn parse(&self, bytes: &[u8], scene: &AnnotatedScene) -> Result<(Vec<PartLabel>, Vec<Entry>), LogError> {
         let wrong = |line: usize, problem: String| LogError::Line { path: self.path.clone(), line, problem };
         let mut lines = bytes.strip_suffix(b"\n").unwrap_or(bytes).split(|&b| b == b'\n').peekable();
         let first = lines.next().unwrap_or_default();
@@ -209,17 +132,17 @@ impl Log {
         if lines.peek().is_none() {
             return Ok((Vec::new(), Vec::new()));
         }
-        if header.scene_hash != source.hash() {
+        if header.scene_hash != scene.hash() {
             let describe = |name: &str, parts: usize, faces: usize| format!("{name:?} of {parts} parts and {faces} faces");
             return Err(LogError::OtherScene {
                 path: self.path.clone(),
                 log: describe(&header.scene, header.parts, header.faces),
-                scene: describe(&source.name, source.parts.len(), source.corners.len()),
+                scene: describe(&scene.name, scene.parts.len(), scene.corners.len()),
             });
         }
         let (semantic, instance) = (header.initial_semantic, header.initial_instance);
-        if semantic.len() != source.parts.len() || instance.len() != source.parts.len() {
-            return Err(wrong(1, format!("labels of {} parts, expected {}", semantic.len(), source.parts.len())));
+        if semantic.len() != scene.parts.len() || instance.len() != scene.parts.len() {
+            return Err(wrong(1, format!("labels of {} parts, expected {}", semantic.len(), scene.parts.len())));
         }
         let initial = semantic.into_iter().zip(instance).map(|(semantic, instance)| PartLabel { semantic, instance }).collect();
         let mut entries = Vec::new();
@@ -244,7 +167,7 @@ impl Log {
     /// When the file cannot be written.
     pub fn append(&mut self, entry: &Entry) -> Result<(), LogError> {
         self.write_line(entry).map_err(|source| {
-            let _ = self.file.set_len(self.length); // the first error is the one to tell; a torn line is dropped when it is read
+            let _ = self.file.set_len(self.length); // report the first error; an incomplete line is dropped when the log is opened
             LogError::Io { action: "write", path: self.path.clone(), source }
         })
     }
@@ -259,43 +182,4 @@ impl Log {
         self.length += line.len() as u64;
         Ok(())
     }
-}
-
-/// The object of every face of a mesh folder before any was split, and how many objects there were; `None` where none was, or
-/// where the log in the folder does not tell.
-///
-/// The folder's tables say so too, but they are written one after the other: when the program dies meanwhile they do not fit.
-pub fn unsplit(files: &MeshFiles) -> Option<(usize, Vec<u32>)> {
-    let bytes = std::fs::read(files.file(LOG)).ok()?;
-    let mut lines = bytes.split(|&b| b == b'\n');
-    let whole = serde_json::from_slice::<Header>(lines.next()?).ok()?.parts;
-    let split = |line: &[u8]| match serde_json::from_slice::<Entry>(line).ok()?.edit {
-        Edit::Split { piece, faces, .. } => Some((piece, faces)),
-        _ => None,
-    };
-    let splits: Vec<_> = lines.filter_map(split).collect();
-    if splits.is_empty() {
-        return None;
-    }
-    let mut object_of_face = files.read_objects_of_faces().ok()?;
-    let end = object_of_face.len();
-    // The faces of a piece were split off an object before, so what became of pieces tells nothing new.
-    for (object, groups) in splits.iter().filter(|(piece, _)| (*piece as usize) < whole) {
-        for face in groups.iter().filter_map(|runs| numbers(runs, end)).flatten() {
-            let now = &mut object_of_face[face as usize];
-            *now = if *now as usize >= whole { *object } else { *now };
-        }
-    }
-    object_of_face.iter().all(|&object| (object as usize) < whole).then_some((whole, object_of_face))
-}
-
-/// Ascending numbers as runs of first number and count.
-pub fn runs(numbers: &[u32]) -> Vec<[u32; 2]> {
-    number_runs(numbers.iter().copied()).iter().map(|run| [*run.start(), run.end() - run.start() + 1]).collect()
-}
-
-/// The numbers of runs that lie below `end`; `None` when a run goes beyond it.
-pub fn numbers(runs: &[[u32; 2]], end: usize) -> Option<Vec<u32>> {
-    let inside = |[first, count]: &[u32; 2]| u64::from(*first) + u64::from(*count) <= end as u64;
-    runs.iter().all(inside).then(|| runs.iter().flat_map(|&[first, count]| first..first + count).collect())
 }

@@ -1,30 +1,38 @@
 //! Labelling the parts of a scene.
 //!
-//! [`App::open`] loads a scene, [`routes`] answers its page. A part can be split, so what is labelled is called a piece. The way of an
-//! edit: a page sends an [`action`](self), which is decided (rays say what is visible, filters and expansion what is selected) into an
-//! edit that says everything, which is appended to the log, brought to the disk, done, and announced to every page. So the state is what
-//! the log says, whatever happens to the page or the program; Hypersim's files are written from it shortly after.
+//! [`App::open`] loads a scene, [`routes`] answers its page. What is labelled is called a piece: a part of the scene, or a piece of a part
+//! that was split.
+//!
+//! The way of an edit: a page sends an action (`action.rs`). Rays find the visible faces, filters and expansion the selected pieces, and the
+//! action becomes an edit that needs no further decision (`edit.rs`). The edit is appended to the log and flushed to disk (`log.rs`), applied to
+//! the pieces (`session.rs`), and announced to every page (`events.rs`). The log alone determines the state, whatever happens to the page
+//! or the program; Hypersim's files are written from it shortly after (`save.rs`).
 
 mod action;
 mod app;
 mod camera;
 mod change;
 mod clock;
+pub(crate) mod display_order;
+mod edit;
 mod events;
-pub(crate) mod geometry;
 mod log;
+mod log_lines;
+mod options;
 mod pieces;
+mod planned;
 mod progress;
 mod routes;
 mod save;
+mod scene;
 mod selection;
 mod session;
 mod shape;
-mod source;
 mod split;
 mod stroke;
 mod suggestions;
 mod worklog;
 
-pub use app::{AnnotateOptions, App, OpenError};
+pub use app::{App, OpenError};
+pub use options::AnnotateOptions;
 pub use routes::routes;

@@ -1,7 +1,7 @@
-//! The pieces of a scene: what is labelled. At first they are the parts; splitting appends more.
+//! The pieces of a scene: what is labelled. At first each part is a piece; splitting a piece appends more.
 
-use super::shape::{Shape, Shapes, area_m2};
-use super::source::{NO_MATERIAL, Source};
+use super::scene::{AnnotatedScene, NO_MATERIAL};
+use super::shape::{KnownShapes, ShapeInvariants, area_m2};
 use enfilade_math::{Bounds3, Vec3};
 use enfilade_scene::PartLabel;
 use std::collections::HashSet;
@@ -14,54 +14,54 @@ pub struct Piece {
     pub name: String,
     /// The part it is, or belongs to.
     pub part: u32,
-    /// What it is called.
+    /// Its class and instance.
     pub label: PartLabel,
     /// Its faces, ascending.
     pub faces: Vec<u32>,
-    /// What follows from its faces.
+    /// Its area, bounds and material.
     pub measure: Measure,
 }
 
-/// What follows from the faces of a piece.
+/// What is computed from the faces of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measure {
     /// Square metres.
     pub area_m2: f64,
-    /// Metres; zero for a piece without faces.
+    /// Lower corner of the bounds, metres; zero for a piece without faces.
     pub min: [f32; 3],
-    /// Metres.
+    /// Upper corner of the bounds, metres.
     pub max: [f32; 3],
     /// The material of its first face, [`NO_MATERIAL`] without one.
     pub material: u32,
-    /// Pieces of the same number have the same geometry, wherever they stand.
+    /// Equal for pieces of the same geometry, wherever they stand.
     pub geometry_key: u32,
 }
 
 /// All pieces of a scene, and which of them every face belongs to.
 pub struct Pieces {
-    source: Arc<Source>,
+    scene: Arc<AnnotatedScene>,
     list: Vec<Piece>,
     of_face: Vec<u32>,
     names: HashSet<String>,
-    shapes: Shapes,
+    shapes: KnownShapes,
 }
 
 impl Pieces {
     /// One piece per part, with the labels that the parts begin with.
-    pub fn new(source: Arc<Source>, labels: &[PartLabel]) -> Self {
-        let mut faces = vec![Vec::new(); source.parts.len()];
-        source.part_of_face.iter().enumerate().for_each(|(face, &part)| faces[part as usize].push(face as u32));
-        let mut shapes = Shapes::default();
+    pub fn new(scene: Arc<AnnotatedScene>, labels: &[PartLabel]) -> Self {
+        let mut faces = vec![Vec::new(); scene.parts.len()];
+        scene.part_of_face.iter().enumerate().for_each(|(face, &part)| faces[part as usize].push(face as u32));
+        let mut shapes = KnownShapes::default();
         let piece = |(part, faces): (usize, Vec<u32>)| Piece {
-            name: source.parts[part].clone(),
+            name: scene.parts[part].clone(),
             part: part as u32,
             label: labels.get(part).copied().unwrap_or(PartLabel::NONE),
-            measure: measure(&source, &faces, &mut shapes),
+            measure: measure(&scene, &faces, &mut shapes),
             faces,
         };
         let list: Vec<Piece> = faces.into_iter().enumerate().map(piece).collect();
-        let names = source.parts.iter().cloned().collect();
-        Self { of_face: source.part_of_face.clone(), list, names, shapes, source }
+        let names = scene.parts.iter().cloned().collect();
+        Self { of_face: scene.part_of_face.clone(), list, names, shapes, scene }
     }
 
     /// All pieces, in order.
@@ -75,13 +75,13 @@ impl Pieces {
     }
 
     /// The scene that they are pieces of.
-    pub fn source(&self) -> &Arc<Source> {
-        &self.source
+    pub fn scene(&self) -> &Arc<AnnotatedScene> {
+        &self.scene
     }
 
-    /// Names for `count` more pieces of a part: `NAME~2`, `NAME~3`, … as far as they are free.
+    /// Names for `count` more pieces of a part: the first free ones of `NAME~2`, `NAME~3`, ….
     pub fn new_names(&self, part: u32, count: usize) -> Vec<String> {
-        let name = &self.source.parts[part as usize];
+        let name = &self.scene.parts[part as usize];
         let free = (2u64..).map(|number| format!("{name}~{number}")).filter(|name| !self.names.contains(name));
         free.take(count).collect()
     }
@@ -97,7 +97,7 @@ impl Pieces {
         for (name, faces) in names.iter().zip(groups) {
             faces.iter().for_each(|&face| self.of_face[face as usize] = self.list.len() as u32);
             self.names.insert(name.clone());
-            let measure = measure(&self.source, faces, &mut self.shapes);
+            let measure = measure(&self.scene, faces, &mut self.shapes);
             self.list.push(Piece { name: name.clone(), part, label, faces: faces.clone(), measure });
         }
         let of_face = &self.of_face;
@@ -118,21 +118,21 @@ impl Pieces {
     }
 
     fn set_faces(&mut self, piece: u32, faces: Vec<u32>) {
-        let measure = measure(&self.source, &faces, &mut self.shapes);
+        let measure = measure(&self.scene, &faces, &mut self.shapes);
         let piece = &mut self.list[piece as usize];
         (piece.faces, piece.measure) = (faces, measure);
     }
 }
 
-fn measure(source: &Source, faces: &[u32], shapes: &mut Shapes) -> Measure {
-    let corners = || faces.iter().map(|&face| &source.corners[face as usize]);
+fn measure(scene: &AnnotatedScene, faces: &[u32], shapes: &mut KnownShapes) -> Measure {
+    let corners = || faces.iter().map(|&face| &scene.corners[face as usize]);
     let bounds = Bounds3::from_points(corners().flatten().copied());
     let bounds = if faces.is_empty() { Bounds3 { min: Vec3::ZERO, max: Vec3::ZERO } } else { bounds };
     Measure {
         area_m2: corners().map(area_m2).sum(),
         min: bounds.min.to_array(),
         max: bounds.max.to_array(),
-        material: faces.first().map_or(NO_MATERIAL, |&face| source.material_of_face[face as usize]),
-        geometry_key: shapes.key(Shape::of(corners())),
+        material: faces.first().map_or(NO_MATERIAL, |&face| scene.material_of_face[face as usize]),
+        geometry_key: shapes.key(ShapeInvariants::of(corners())),
     }
 }

@@ -1,24 +1,25 @@
-//! How far the work is: what the cameras see, piece by piece, and what of it has labels.
+//! Progress: how many pixels of the planned views each piece covers, and how much of them is labelled.
 
 use super::camera::PageCamera;
 use super::pieces::Pieces;
-use super::source::{PlannedCamera, PlannedFrame, Source, rows, upright};
+use super::planned::{PlannedCamera, PlannedFrame, rows, upright};
+use super::scene::AnnotatedScene;
 use enfilade_geometry::{Bvh, NOTHING, VisibilityBuffer};
 use enfilade_math::{DVec3, Ray, Vec3};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Rows of the small pictures that are counted in.
+/// Height of the small pictures whose pixels are counted.
 const ROWS: u32 = 120;
 /// Height of generated viewpoints above the lowest point of a scene, metres.
 const EYE_HEIGHT_M: f32 = 1.5;
-/// Generated viewpoints have this much room in front of them, metres.
+/// Free distance in front of generated viewpoints, metres.
 const FREE_M: f32 = 0.5;
-/// Generated viewpoints stand on a grid of this many by this many.
+/// Generated viewpoints stand on a grid of `GRID` by `GRID`.
 const GRID: usize = 4;
 
-/// What some views of a scene show, face by face.
+/// Which faces the views of a scene show, and in how many pixels.
 pub struct Seen {
     /// Where the views come from, for people.
     pub views_of: &'static str,
@@ -34,18 +35,18 @@ struct SeenView {
     faces: Vec<(u32, u32)>,
 }
 
-/// The views to judge by: the planned ones, or where there are none such as look over the scene from within.
-pub fn views(source: &Source, bvh: &Bvh) -> (&'static str, Vec<PlannedCamera>) {
-    if source.cameras.iter().any(|camera| !camera.frames.is_empty()) {
-        return ("planned cameras", source.cameras.clone());
+/// The views that progress is measured in: the planned ones, or if there are none, generated ones.
+pub fn views(scene: &AnnotatedScene, bvh: &Bvh) -> (&'static str, Vec<PlannedCamera>) {
+    if scene.cameras.iter().any(|camera| !camera.frames.is_empty()) {
+        return ("planned cameras", scene.cameras.clone());
     }
     ("generated viewpoints", vec![PlannedCamera { name: "generated".into(), frames: generated(bvh) }])
 }
 
 impl Seen {
-    /// Draws every view small, and counts.
-    pub fn new(source: &Source, bvh: &Bvh) -> Self {
-        let (views_of, cameras) = views(source, bvh);
+    /// Draws every view at a small size and counts the pixels of each face.
+    pub fn new(scene: &AnnotatedScene, bvh: &Bvh) -> Self {
+        let (views_of, cameras) = views(scene, bvh);
         let all: Vec<(usize, &PlannedFrame)> =
             cameras.iter().enumerate().flat_map(|(i, camera)| camera.frames.iter().map(move |frame| (i, frame))).collect();
         let view = |&(camera, frame): &(usize, &PlannedFrame)| {
@@ -80,7 +81,7 @@ impl Seen {
         }
         let seen = pixels.iter().sum::<u64>() as f64;
         let area: f64 = list.iter().map(|piece| piece.measure.area_m2).sum();
-        // An empty sum is −0.
+        // The sum of no floats is −0; adding 0 makes it 0.
         let share = |part: f64, of: f64| if of > 0.0 { part / of + 0.0 } else { 0.0 };
         let layer = |has: &dyn Fn(usize) -> bool| {
             let with = || (0..list.len()).filter(|&i| has(i));
@@ -115,7 +116,7 @@ impl Seen {
     }
 }
 
-/// What is there of each class in use.
+/// Pieces, instances and area of each class in use.
 fn classes(pieces: &Pieces) -> Vec<Value> {
     let mut classes: BTreeMap<i16, (usize, BTreeSet<i16>, f64)> = BTreeMap::new();
     for piece in pieces.list().iter().filter(|piece| piece.label.semantic >= 1) {
@@ -137,12 +138,12 @@ fn conflicts(pieces: &Pieces) -> Vec<Value> {
     labels.for_each(|label| {
         of_instance.entry(label.instance).or_default().insert(label.semantic);
     });
-    let torn = of_instance.iter().filter(|(_, classes)| classes.len() > 1);
-    torn.map(|(instance, classes)| json!({ "instance": instance, "classes": classes })).collect()
+    let conflicting = of_instance.iter().filter(|(_, classes)| classes.len() > 1);
+    conflicting.map(|(instance, classes)| json!({ "instance": instance, "classes": classes })).collect()
 }
 
-/// Views in four directions from those points of a grid at eye height that have room around them; where none has, from around the
-/// scene toward its middle.
+/// Views in four directions from the points of a grid at eye height that have free space in front of them; if none has, views from
+/// around the scene toward its middle.
 fn generated(bvh: &Bvh) -> Vec<PlannedFrame> {
     let bounds = bvh.bounds();
     if bounds.is_empty() {
@@ -161,7 +162,7 @@ fn generated(bvh: &Bvh) -> Vec<PlannedFrame> {
         let from = Vec3::new(bounds.min.x + share(i) * extent.x, bounds.min.y + share(j) * extent.y, height);
         let directions = [Vec3::X, Vec3::Y, Vec3::NEG_X, Vec3::NEG_Y];
         let meets = |direction: Vec3| bvh.closest(&Ray::new(from, direction));
-        // Inside of something, and with a ceiling: the roof of a house is no place to look from.
+        // With something above and below: outdoors and on a roof are no viewpoints.
         let enclosed = [Vec3::Z, Vec3::NEG_Z].into_iter().all(|direction| meets(direction).is_some());
         let free = directions.into_iter().filter(|&direction| meets(direction).is_none_or(|hit| hit.t > FREE_M));
         free.filter(|_| enclosed).for_each(|direction| add(from, from + direction));

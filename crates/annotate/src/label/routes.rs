@@ -1,13 +1,13 @@
-//! The routes of the page that annotates. Whatever takes time runs beside the threads that answer.
+//! The routes of the annotation page. Whatever takes time runs on threads for blocking work.
 
 use super::action::{Action, Look, Refusal};
 use super::app::App;
 use super::camera::CameraRequest;
 use super::change::material_name;
 use super::clock;
+use super::planned::PlannedFrame;
 use super::progress::views;
 use super::session::ActionError;
-use super::source::PlannedFrame;
 use crate::serve::{ApiProblem, beside, reply};
 use axum::body::Bytes;
 use axum::extract::{Query, State};
@@ -55,7 +55,7 @@ impl From<Refusal> for ApiProblem {
     }
 }
 
-/// A body as what it is to be.
+/// Reads the JSON of a body.
 fn parse<T: DeserializeOwned>(body: &Bytes) -> Result<T, ApiProblem> {
     let wrong =
         |e: serde_json::Error| ApiProblem::bad_request(format!("the request is not understood: {e}"), "see docs/annotate.md for the form");
@@ -64,20 +64,20 @@ fn parse<T: DeserializeOwned>(body: &Bytes) -> Result<T, ApiProblem> {
 
 async fn scene(State(app): Shared) -> Answer {
     beside(move || {
-        let (source, session) = (app.source(), app.session());
+        let (scene, session) = (app.scene(), app.session());
         let standing = session.standing();
         let (bounds, start) = (app.order().bounds(), start_camera(&app));
         Ok(Json(json!({
-            "name": source.name,
-            "source": source.origin,
-            "labels_folder": source.labels_folder,
-            "faces": source.corners.len(),
-            "vertices": source.vertices,
+            "name": scene.name,
+            "source": scene.origin,
+            "labels_folder": scene.labels_folder,
+            "faces": scene.corners.len(),
+            "vertices": scene.vertices,
             "pieces": session.pieces().list().len(),
             "bounds": { "min": bounds.min.to_array(), "max": bounds.max.to_array() },
-            "meters_per_unit": source.meters_per_unit,
+            "meters_per_unit": scene.meters_per_unit,
             "classes": app.classes().list(),
-            "cameras": source.cameras,
+            "cameras": scene.cameras,
             "start_camera": start,
             "revision": standing.revision,
             "can_undo": standing.undo_description.is_some(),
@@ -93,9 +93,9 @@ async fn scene(State(app): Shared) -> Answer {
     .await
 }
 
-/// From where the page shows the scene first.
+/// The view that the page begins with.
 fn start_camera(app: &App) -> Option<PlannedFrame> {
-    views(app.source(), app.bvh()).1.into_iter().find_map(|camera| camera.frames.into_iter().next())
+    views(app.scene(), app.bvh()).1.into_iter().find_map(|camera| camera.frames.into_iter().next())
 }
 
 async fn geometry(State(app): Shared, headers: HeaderMap) -> Answer {
@@ -109,7 +109,7 @@ async fn geometry(State(app): Shared, headers: HeaderMap) -> Answer {
     .await
 }
 
-/// Colours of all instances that there can be, as the files have them: three bytes each, from number 0, which is none.
+/// Colours of all possible instance numbers, as the files have them: three bytes each, from number 0, which means none.
 async fn instance_colors_of_files() -> Answer {
     beside(|| {
         let colors = enfilade_dataset::instance_colors(i16::MAX as usize);
@@ -147,7 +147,7 @@ async fn pieces(State(app): Shared) -> Answer {
 #[serde(deny_unknown_fields)]
 struct EditRequest {
     client: String,
-    /// One that was used before names an edit that was done, whose answer the client did not hear.
+    /// An id that was used before means that the client lost the answer to an edit that was done.
     #[serde(default)]
     id: Option<String>,
     action: Action,
@@ -168,7 +168,7 @@ async fn edit(State(app): Shared, body: Bytes) -> Answer {
                 ApiProblem::failed(error.to_string(), "nothing was changed; make room on the disk or check the folder")
             }
         })?;
-        // Here, because a page that goes away takes with it whatever waits for this job to end.
+        // Spawned here: code after the `await` below does not run if the page disconnects meanwhile.
         tokio::spawn(save_later(Arc::downgrade(&app)));
         Ok(change)
     })
@@ -176,7 +176,7 @@ async fn edit(State(app): Shared, body: Bytes) -> Answer {
     Ok(Json(change).into_response())
 }
 
-/// Writes the files a moment after an edit. Where that fails the edit is in the log, and saving or the next edit will tell.
+/// Writes the files a moment after an edit. If that fails nothing is lost, because the edit is in the log; the next save reports it.
 async fn save_later(app: Weak<App>) {
     tokio::time::sleep(SAVE_AFTER).await;
     let Some(app) = app.upgrade() else { return };
@@ -189,11 +189,21 @@ async fn save_later(app: Weak<App>) {
     .await;
 }
 
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SelectRequest {
+    #[serde(flatten)]
+    look: Look,
+    /// True to get the visible faces too.
+    #[serde(default)]
+    faces: bool,
+}
+
 async fn select(State(app): Shared, body: Bytes) -> Answer {
-    let look: Look = parse(&body)?;
+    let SelectRequest { look, faces: with_faces } = parse(&body)?;
     beside(move || {
         let (faces, pieces) = app.select(&look)?;
-        let answer = if look.faces { json!({ "pieces": pieces, "faces": faces }) } else { json!({ "pieces": pieces }) };
+        let answer = if with_faces { json!({ "pieces": pieces, "faces": faces }) } else { json!({ "pieces": pieces }) };
         Ok(Json(answer).into_response())
     })
     .await

@@ -6,7 +6,7 @@ use enfilade_label::write_part_table;
 use enfilade_scene::{Labels, PartLabel};
 use std::path::PathBuf;
 
-/// Everything that is written, taken at one moment.
+/// Everything that is written, copied at one moment, so that editing goes on meanwhile.
 pub struct Snapshot {
     labels: Labels,
     instances: usize,
@@ -16,9 +16,9 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// Of the pieces as they are now. `next_instance` is the first instance number that was never given out.
+    /// Copies the pieces as they are now. `next_instance` is the first instance number that was never given out.
     pub fn new(pieces: &Pieces, next_instance: i32) -> Self {
-        let whole = pieces.source().parts.clone();
+        let whole = pieces.scene().parts.clone();
         Self {
             labels: Labels { parts: pieces.list().iter().map(|piece| piece.label).collect() },
             instances: next_instance.max(1) as usize - 1,
@@ -28,7 +28,7 @@ impl Snapshot {
         }
     }
 
-    /// Tells whether the objects and their faces are the same, which is all that takes time to write.
+    /// A hash of the objects and their faces. Their tables are slow to write, and are skipped while the hash stays the same.
     pub fn objects_hash(&self) -> blake3::Hash {
         let mut hasher = blake3::Hasher::new();
         hasher.update(bytemuck::cast_slice(&self.piece_of_face));

@@ -5,7 +5,7 @@ use enfilade_scene::PartLabel;
 use serde::Deserialize;
 use std::collections::{BTreeSet, HashSet};
 
-/// Which faces a stroke may touch. Each is asked before the selection is expanded.
+/// Which faces a stroke may touch, by the labels of their pieces. Applied before the selection is expanded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Filters {
@@ -29,7 +29,7 @@ pub enum Expand {
 }
 
 impl Filters {
-    /// Refuses filters that let nothing through.
+    /// Refuses filters that exclude each other.
     ///
     /// # Errors
     /// Which two contradict each other.
@@ -52,7 +52,7 @@ impl Filters {
     }
 }
 
-/// Of the faces those that pass, and the pieces that are selected by them, ascending.
+/// The faces that pass the filters, and the pieces that they select, ascending.
 pub fn select(pieces: &Pieces, faces: &[u32], filters: &Filters, expand: Expand) -> (Vec<u32>, Vec<u32>) {
     let piece_of = |face: u32| pieces.of_face()[face as usize];
     let label_of = |piece: u32| pieces.list()[piece as usize].label;

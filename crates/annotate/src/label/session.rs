@@ -1,12 +1,14 @@
-//! The state of an annotation: what the pieces are and are called, and the edits that led there.
+//! The state of an annotation: the pieces with their labels, and the edits that led to them.
 
 use super::action::{Action, Context, Look, Refusal};
 use super::camera::CameraRequest;
 use super::change::{Change, Standing};
 use super::clock;
-use super::log::{Edit, Entry, Log, LogError, Recorded, numbers};
+use super::edit::{Edit, numbers};
+use super::log::{Log, LogError, Recorded};
+use super::log_lines::Entry;
 use super::pieces::Pieces;
-use super::source::Source;
+use super::scene::AnnotatedScene;
 use super::stroke::Picked;
 use enfilade_dataset::Classes;
 use enfilade_geometry::Bvh;
@@ -15,7 +17,7 @@ use std::collections::{HashMap, VecDeque};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Changes that are kept for pages that did not hear the answer and send the edit again.
+/// Changes that are kept for pages that lost the answer and send the edit again.
 const KEPT: usize = 64;
 
 /// The one place where labels change: edits are done one after the other, each logged before it counts.
@@ -34,7 +36,7 @@ pub struct Session {
     recent: VecDeque<Change>,
 }
 
-/// An edit, and what it takes to undo it.
+/// An edit, and what is needed to undo it.
 struct Done {
     edit: Edit,
     /// Labels of the pieces of a [`Edit::Label`] before.
@@ -57,13 +59,18 @@ impl From<Refusal> for ActionError {
 }
 
 impl Session {
-    /// Goes on with the log in `folder`, or begins one; returns also what was wrong with the log, if it could be mended.
+    /// Continues the log in `folder`, or begins one; also returns what was wrong with the log, if it could be fixed.
     ///
     /// # Errors
-    /// When the log cannot be had, is about another scene, or has an edit that cannot be done.
-    pub fn open(source: Arc<Source>, classes: Arc<Classes>, bvh: Arc<Bvh>, folder: &Path) -> Result<(Self, Option<String>), LogError> {
-        let (log, Recorded { initial, entries, warning }) = Log::open(folder, &source)?;
-        let pieces = Pieces::new(source, &initial);
+    /// When the log cannot be opened, is about another scene, or has an edit that cannot be done.
+    pub fn open(
+        scene: Arc<AnnotatedScene>,
+        classes: Arc<Classes>,
+        bvh: Arc<Bvh>,
+        folder: &Path,
+    ) -> Result<(Self, Option<String>), LogError> {
+        let (log, Recorded { initial, entries, warning }) = Log::open(folder, &scene)?;
+        let pieces = Pieces::new(scene, &initial);
         let next_instance = initial.iter().map(|label| i32::from(label.instance)).max().unwrap_or(0).max(0) + 1;
         let mut session = Self {
             pieces,
@@ -116,8 +123,10 @@ impl Session {
         self.context().pick(camera, pixel, hidden)
     }
 
-    /// Does what a page asks for. When this returns the change is on the disk; when it fails nothing has changed. A change of the
-    /// revision that was there before is one in which nothing had to change, or that of an edit of this `id`, which is not done twice.
+    /// Does what a page asks for. On success the change is on the disk; on failure nothing has changed.
+    ///
+    /// The change has the old revision if nothing had to change. An edit whose `id` was used before is not done twice: its first change
+    /// is returned.
     ///
     /// # Errors
     /// When the action is wrong, cannot be done as things are, or cannot be logged.

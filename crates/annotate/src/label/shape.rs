@@ -1,23 +1,23 @@
-//! Which pieces have the same geometry, wherever they stand and however they are turned?
+//! Finds pieces of the same geometry, wherever they stand and however they are turned.
 //!
-//! Two pieces count as the same when they have as many faces, and lengths that no placement changes agree: the sum of all edges,
-//! the root of the area, and the root mean square distance of the corners from their mean. A mirrored piece counts as the same.
+//! Two pieces count as the same if they have equally many faces and agree in three lengths that rigid motion does not change: the sum of
+//! all edges, the root of the area, and the root mean square distance of the corners from their mean. A mirrored piece counts as the same.
 
 use enfilade_math::{DVec3, Vec3};
 use std::collections::HashMap;
 
-/// Lengths may differ by this share: files hold numbers of single precision.
+/// Relative difference allowed between lengths: files store single precision.
 const TOLERANCE: f64 = 1e-4;
 
-/// What stays as it is when a piece is moved and turned.
+/// What does not change when a piece is moved and turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shape {
+pub struct ShapeInvariants {
     faces: usize,
     lengths_m: [f64; 3],
 }
 
-impl Shape {
-    /// Of the corners of faces.
+impl ShapeInvariants {
+    /// Computed from the corners of faces.
     pub fn of<'a>(corners: impl Iterator<Item = &'a [Vec3; 3]> + Clone) -> Self {
         let points = || corners.clone().flatten().map(|p| p.as_dvec3());
         let faces = corners.clone().count();
@@ -34,16 +34,16 @@ impl Shape {
     }
 }
 
-/// The shapes met so far.
+/// The shapes seen so far.
 #[derive(Default)]
-pub struct Shapes {
-    by_faces: HashMap<usize, Vec<(Shape, u32)>>,
+pub struct KnownShapes {
+    by_faces: HashMap<usize, Vec<(ShapeInvariants, u32)>>,
     count: u32,
 }
 
-impl Shapes {
-    /// The number of a shape: that of the first one like it.
-    pub fn key(&mut self, shape: Shape) -> u32 {
+impl KnownShapes {
+    /// A number for the shape, the same for all that are like it.
+    pub fn key(&mut self, shape: ShapeInvariants) -> u32 {
         let alike = self.by_faces.entry(shape.faces).or_default();
         if let Some((_, key)) = alike.iter().find(|(known, _)| known.is_like(&shape)) {
             return *key;
@@ -72,8 +72,8 @@ mod tests {
         let placed = |scale: f32, turn: f32| {
             faces.map(|f| f.map(|p| scale * (Quat::from_rotation_z(turn) * Quat::from_rotation_x(0.3) * p) + Vec3::new(7.0, -3.0, 1.0)))
         };
-        let mut shapes = Shapes::default();
-        let mut key = |faces: &[[Vec3; 3]]| shapes.key(Shape::of(faces.iter()));
+        let mut shapes = KnownShapes::default();
+        let mut key = |faces: &[[Vec3; 3]]| shapes.key(ShapeInvariants::of(faces.iter()));
         assert_eq!([key(&faces), key(&placed(1.0, 1.2)), key(&placed(1.0, 0.4)), key(&placed(1.001, 1.2))], [0, 0, 0, 1]);
         assert_eq!([key(&faces[..1]), key(&[]), key(&[])], [2, 3, 3]);
     }

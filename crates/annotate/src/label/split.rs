@@ -1,16 +1,16 @@
 //! Ways to split a piece: into groups of faces, each in ascending order, ordered by their first face.
 
 use super::pieces::Piece;
-use super::source::Source;
+use super::scene::AnnotatedScene;
 use std::collections::{HashMap, HashSet};
 
 /// Groups of faces that are connected by shared corners. Corners are the same where their coordinates are, exactly.
-pub fn by_component(source: &Source, faces: &[u32]) -> Vec<Vec<u32>> {
+pub fn by_component(scene: &AnnotatedScene, faces: &[u32]) -> Vec<Vec<u32>> {
     let mut of_corner: HashMap<[u32; 3], u32> = HashMap::new();
     let mut sets = Sets((0..faces.len() as u32).collect());
     for (i, &face) in faces.iter().enumerate() {
-        for corner in &source.corners[face as usize] {
-            // −0 is 0.
+        for corner in &scene.corners[face as usize] {
+            // Adding 0 turns −0 into 0, whose bits differ.
             let key = corner.to_array().map(|x| (x + 0.0).to_bits());
             let first = *of_corner.entry(key).or_insert(i as u32);
             sets.unite(first, i as u32);
@@ -20,8 +20,8 @@ pub fn by_component(source: &Source, faces: &[u32]) -> Vec<Vec<u32>> {
 }
 
 /// Groups of faces of one material.
-pub fn by_material(source: &Source, faces: &[u32]) -> Vec<Vec<u32>> {
-    grouped(faces, |i| source.material_of_face[faces[i] as usize])
+pub fn by_material(scene: &AnnotatedScene, faces: &[u32]) -> Vec<Vec<u32>> {
+    grouped(faces, |i| scene.material_of_face[faces[i] as usize])
 }
 
 /// What is left of a piece, and the painted faces.

@@ -1,4 +1,4 @@
-//! From a stroke over the image to the faces that it touches: covered pixels, one ray through each, what the rays see.
+//! From a stroke over the image to the faces that it touches: the pixels that it covers, and the faces that are visible in them.
 
 use super::camera::PageCamera;
 use enfilade_geometry::{Bvh, NOTHING, VisibilityBuffer};
@@ -13,13 +13,13 @@ const SAMPLES_PER_PIXEL: f64 = 4.0;
 const MAX_IMAGE_COORDINATE: f64 = 65_536.0;
 /// Longest stroke, in points along it.
 const MAX_SAMPLES: f64 = 16e6;
-/// Rows of a band of a rectangle: whole tiles of the visibility buffer.
+/// Rows of a rectangle that are drawn at once: whole tiles of the visibility buffer.
 const BAND_ROWS: u32 = 64;
 
 /// What is drawn over the image. Pixels count from the upper left corner of the image, so that their centres lie at halves.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Shape {
+pub enum StrokeShape {
     /// A line through points.
     Pen(Vec<[f64; 2]>),
     /// A straight line.
@@ -39,7 +39,7 @@ pub enum Covered {
     Rectangle([u32; 2], [u32; 2]),
 }
 
-impl Shape {
+impl StrokeShape {
     /// The pixels that it covers; none where it lies beside the image.
     ///
     /// # Errors
@@ -96,9 +96,9 @@ fn rectangle(a: [f64; 2], b: [f64; 2], camera: &PageCamera) -> Covered {
     }
 }
 
-/// A scene as rays meet it.
-pub struct World<'a> {
-    /// All faces; every one of them asks before it is hit.
+/// The scene as rays meet it, without hidden pieces.
+pub struct VisibleScene<'a> {
+    /// All faces, those of hidden pieces included.
     pub bvh: &'a Bvh,
     /// The piece of every face.
     pub piece_of_face: &'a [u32],
@@ -117,7 +117,7 @@ pub struct Picked {
     pub distance_m: f32,
 }
 
-impl World<'_> {
+impl VisibleScene<'_> {
     /// The faces seen in the covered pixels, ascending.
     pub fn visible_faces(&self, camera: &PageCamera, covered: &Covered) -> Vec<u32> {
         let faces: HashSet<u32> = match covered {
@@ -125,7 +125,7 @@ impl World<'_> {
                 let centre = |&[x, y]: &[u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
                 pixels.par_iter().filter_map(centre).collect()
             }
-            // Hidden pieces are in the hierarchy all the same, and only rays can pass through them.
+            // The visibility buffer draws every face of the hierarchy, and only rays can skip hidden pieces.
             Covered::Rectangle(first, last) if !self.hidden.is_empty() => {
                 let row = |y: u32| (first[0]..=last[0]).map(move |x| [x, y]);
                 let centre = |[x, y]: [u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
@@ -138,7 +138,7 @@ impl World<'_> {
                     let rows = (last[1] - top + 1).min(BAND_ROWS);
                     let mut buffer = VisibilityBuffer::new(last[0] - first[0] + 1, rows);
                     buffer.draw(self.bvh, &camera.rays(first[0], top));
-                    // Behind what is too near to be drawn only a ray sees.
+                    // The buffer has no near plane: where a face before it covers the pixel, a ray says what is behind.
                     let seen = |(i, (&face, &inverse_z)): (usize, (&u32, &f32))| {
                         if f64::from(inverse_z) * camera.near_m <= 1.0 {
                             return (face != NOTHING).then_some(face);

@@ -1,4 +1,4 @@
-//! How long people worked on a scene: the time between two moments of input counts when it is short, so idling does not.
+//! How long people worked on a scene: the time between two inputs counts as work unless it is a long pause.
 
 use super::clock;
 use enfilade_dataset::write_bytes;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Its name in the folder of labels.
 pub const WORK_LOG: &str = "annotation_time.csv";
-/// Longer pauses are no work, seconds.
+/// Longer pauses do not count as work, seconds.
 pub const LONGEST_PAUSE_S: f64 = 60.0;
 
 /// A run of the program, from its first to its last moment of work.
@@ -23,7 +23,7 @@ pub struct WorkSession {
     pub actions: u64,
 }
 
-/// All sessions of a scene; the last one is this program's, once something is done in it.
+/// All sessions of a scene; the last one is that of this run, once something is done in it.
 pub struct WorkLog {
     path: PathBuf,
     earlier: Vec<WorkSession>,
@@ -40,14 +40,14 @@ impl WorkLog {
     pub fn open(folder: &Path) -> Result<Self, String> {
         let path = folder.join(WORK_LOG);
         let earlier = match std::fs::read(&path) {
-            Ok(bytes) => parse(&bytes).map_err(|problem| format!("{}: {problem}; mend it or move it away", path.display()))?,
+            Ok(bytes) => parse(&bytes).map_err(|problem| format!("{}: {problem}; fix it or move it away", path.display()))?,
             Err(e) if e.kind() == std::io::ErrorKind::NotFound => Vec::new(),
             Err(e) => return Err(format!("cannot read {}: {e}", path.display())),
         };
         Ok(Self { path, earlier, this: None, last_input_s: None })
     }
 
-    /// Somebody did something at this moment, seconds since 1970. Several pages may tell; no time counts twice.
+    /// Records input at this moment, seconds since 1970. Several pages may report the same time; it counts once.
     pub fn input(&mut self, moment_s: f64) {
         let this = self.this.get_or_insert_with(|| {
             let start = clock::iso(moment_s);
@@ -63,7 +63,7 @@ impl WorkLog {
         }
     }
 
-    /// An edit was made at this moment.
+    /// Records an edit at this moment.
     pub fn action(&mut self, moment_s: f64) {
         self.input(moment_s);
         if let Some(this) = &mut self.this {

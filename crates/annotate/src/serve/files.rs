@@ -1,4 +1,4 @@
-//! The files of the pages, which the binary carries.
+//! The files of the pages, which are embedded in the binary.
 
 use super::ApiProblem;
 use axum::http::{Uri, header};

@@ -1,8 +1,8 @@
-//! Who may talk to the server.
+//! Decides which requests the server answers.
 //!
-//! On loopback every page that the user visits could try: so the host that a request names must be this machine (a name that an
-//! attacker points here is refused), and a request that changes something must come from our own page, as JSON. Elsewhere a token
-//! is demanded, which the printed address carries; the page keeps it in a cookie.
+//! On loopback, any web page that the user visits can send requests here. So the `Host` header must name this machine (which refuses a
+//! domain that an attacker points at it), and a request that changes something must be JSON and come from our own page. On other
+//! interfaces a token is required, which the printed address carries and the page keeps in a cookie.
 
 use super::ApiProblem;
 use axum::body::Body;
@@ -93,7 +93,7 @@ fn text(headers: &HeaderMap, name: header::HeaderName) -> Option<&str> {
     headers.get(name)?.to_str().ok()
 }
 
-/// True for the names of this machine, with any port: a tunnel may have another than ours.
+/// True for the names of this machine, with any port, because a tunnel may have another port than ours.
 fn is_this_machine(host: &str) -> bool {
     let name = match host.strip_prefix('[') {
         Some(rest) => rest.split(']').next().unwrap_or(""),
@@ -102,7 +102,7 @@ fn is_this_machine(host: &str) -> bool {
     name.eq_ignore_ascii_case("localhost") || name.parse::<IpAddr>().is_ok_and(|ip| ip.is_loopback())
 }
 
-/// Everything in a request that may be the token.
+/// Every place of a request where the token may be: address, bearer header, cookie.
 fn tokens<'a>(uri: &'a Uri, headers: &'a HeaderMap) -> impl Iterator<Item = &'a str> {
     let bearer = text(headers, header::AUTHORIZATION).and_then(|value| value.strip_prefix("Bearer "));
     let cookies = text(headers, header::COOKIE).unwrap_or("").split(';');
@@ -114,7 +114,7 @@ fn query_token(uri: &Uri) -> Option<&str> {
     uri.query()?.split('&').find_map(|pair| pair.strip_prefix("token="))
 }
 
-/// Answers what the guard refuses, keeps a token that came with the address, and lets the rest through.
+/// Refuses a request, or moves a token from the address into a cookie, or lets the request through.
 pub(super) async fn check(State(guard): State<Arc<Guard>>, request: Request<Body>, next: Next) -> Response {
     if let Err(problem) = guard.allows(request.method(), request.uri(), request.headers()) {
         return problem.into_response();

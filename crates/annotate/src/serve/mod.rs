@@ -1,4 +1,4 @@
-//! The server: binds, guards, serves, and ends in order.
+//! The server: binds an address, refuses strangers, serves routes and pages, and shuts down in order.
 
 mod files;
 mod guard;
@@ -18,7 +18,7 @@ use std::time::Duration;
 /// Largest body of a request, bytes: a stroke of a million pixels fits.
 const MAX_BODY_BYTES: usize = 16 << 20;
 
-/// Requests that are being answered when the program is asked to end have this long to finish.
+/// When the program is asked to end, running requests have this long to finish.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Where to listen, and what to do then.
@@ -28,7 +28,7 @@ pub struct Listen {
     pub address: IpAddr,
     /// Port; 0 takes any that is free.
     pub port: u16,
-    /// Demand a token on loopback too, where several people share a machine. Elsewhere it is always demanded.
+    /// Require a token on loopback too, for machines that several people share. On other interfaces it is always required.
     pub token: bool,
     /// Open the page in the user's browser.
     pub open: bool,
@@ -44,7 +44,7 @@ impl Default for Listen {
 /// Why there is no server.
 #[derive(Debug, thiserror::Error)]
 pub enum ServeError {
-    /// The address cannot be had.
+    /// The address cannot be bound.
     #[error("cannot listen on {address}: {source}; choose another port with --port, or 0 for any that is free")]
     Bind {
         /// What was asked for.
@@ -75,16 +75,16 @@ pub fn serve(app: Router, listen: &Listen, page: &str, started: impl FnOnce(&str
         let url = guard.url(bound, page);
         started(&url);
         if listen.open && open::that_detached(&url).is_err() {
-            // A machine without a browser: the address has been told.
+            // A machine without a browser. The address was printed already.
         }
         let app = guarded(app, page, guard);
         let (told, ending) = tokio::sync::oneshot::channel();
         let end = async {
             asked_to_end().await;
-            let _ = told.send(()); // nobody waits when the server has ended by itself
+            let _ = told.send(()); // it fails if the server has ended by itself
         };
         let served = axum::serve(listener, app).with_graceful_shutdown(end);
-        // Pages listen for events as long as they are open, so waiting for every answer to end would be waiting for them to be closed.
+        // An open page keeps its stream of events open, so waiting for every response to end would never end.
         let patience = async {
             match ending.await {
                 Ok(()) => tokio::time::sleep(PATIENCE).await,
@@ -97,7 +97,7 @@ pub fn serve(app: Router, listen: &Listen, page: &str, started: impl FnOnce(&str
     outcome
 }
 
-/// Does `job`, which takes time, on a thread of its own.
+/// Runs `job` on a thread for blocking work.
 pub(crate) async fn beside<T: Send + 'static>(job: impl FnOnce() -> Result<T, ApiProblem> + Send + 'static) -> Result<T, ApiProblem> {
     let done = tokio::task::spawn_blocking(job).await;
     done.unwrap_or_else(|_| Err(ApiProblem::failed("the program has a mistake and gave up on this request", "report what you opened")))

@@ -1,9 +1,11 @@
+//! The answer to a request that fails: status, what is wrong, what to do.
+
 use axum::Json;
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde_json::json;
 
-/// A request that cannot be answered: what is wrong and what to do, as `{"error": …, "help": …}`.
+/// A failed request. Sent as `{"error": …, "help": …}`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ApiProblem {
     /// 4xx where the request must change, 5xx where something here failed.
@@ -30,7 +32,7 @@ impl ApiProblem {
         Self { status: StatusCode::FORBIDDEN, error: error.into(), help: help.into() }
     }
 
-    /// It cannot be done as things are: 409.
+    /// It cannot be done in the current state: 409.
     pub fn conflict(error: impl Into<String>, help: impl Into<String>) -> Self {
         Self { status: StatusCode::CONFLICT, error: error.into(), help: help.into() }
     }

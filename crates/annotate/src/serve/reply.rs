@@ -1,14 +1,14 @@
-//! Answers: JSON and arrays, compressed where that is asked for and helps.
+//! Successful answers: JSON and arrays, compressed if the browser accepts it and it helps.
 
 use axum::http::{HeaderMap, HeaderName, HeaderValue, header};
 use axum::response::{IntoResponse, Response};
 use libdeflater::{CompressionLvl, Compressor};
 use serde::Serialize;
 
-/// Below this many bytes a packet is sent anyway.
-const WORTH_COMPRESSING: usize = 1400;
+/// Smaller answers fit into one network packet, compressed or not.
+const MIN_COMPRESSED_BYTES: usize = 1400;
 
-/// Whether the one who asks takes gzip.
+/// True if the request accepts gzip.
 pub fn takes_gzip(headers: &HeaderMap) -> bool {
     let accepted = headers.get(header::ACCEPT_ENCODING).and_then(|value| value.to_str().ok()).unwrap_or("");
     accepted.split(',').any(|one| {
@@ -17,13 +17,13 @@ pub fn takes_gzip(headers: &HeaderMap) -> bool {
     })
 }
 
-/// JSON.
+/// A value as JSON.
 pub fn json(gzip: bool, value: &impl Serialize) -> Response {
     let text = serde_json::to_vec(value).expect("plain data encodes");
     body(text, "application/json", gzip, 6)
 }
 
-/// An array: shape, type and further headers, then its bytes. `level` is libdeflate's; the fastest suits a wire that is not slow.
+/// The bytes of an array, with headers that describe it. Compressed at the fastest level.
 pub fn array(bytes: Vec<u8>, gzip: bool, headers: &[(&'static str, String)]) -> Response {
     let mut response = body(bytes, "application/octet-stream", gzip, 1);
     for (name, value) in headers {
@@ -37,7 +37,7 @@ pub fn array(bytes: Vec<u8>, gzip: bool, headers: &[(&'static str, String)]) -> 
 fn body(bytes: Vec<u8>, kind: &'static str, gzip: bool, level: i32) -> Response {
     let headers = [(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, "no-cache"), (header::VARY, "accept-encoding")];
     if gzip
-        && bytes.len() >= WORTH_COMPRESSING
+        && bytes.len() >= MIN_COMPRESSED_BYTES
         && let Some(packed) = pack(&bytes, level)
     {
         return (headers, [(header::CONTENT_ENCODING, "gzip")], packed).into_response();

@@ -1,4 +1,4 @@
-//! What was read lately, up to so many bytes.
+//! A cache of what was read lately, up to a number of bytes.
 
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -16,53 +16,53 @@ impl Weight for Vec<u8> {
     }
 }
 
-/// Values by key; the one that was asked for the longest ago goes first when they become too many bytes.
+/// Values by key. When they take too many bytes, the least recently used ones are dropped.
 ///
-/// A value is kept with the stamp of what it was made from, and made again when the stamp differs. Requests for the same key at
-/// the same time make it once.
+/// A value is kept with the stamp of the file that it was made from, and made again when the stamp differs. If several requests ask for the
+/// same key at the same time, the value is made once.
 pub struct Cache<K, V> {
-    most_bytes: usize,
-    shelf: Mutex<Shelf<K, V>>,
+    max_bytes: usize,
+    entries: Mutex<Entries<K, V>>,
 }
 
-struct Shelf<K, V> {
+struct Entries<K, V> {
     clock: u64,
-    places: HashMap<K, Place<V>>,
+    by_key: HashMap<K, Entry<V>>,
 }
 
-/// A value's place, which is there before the value is.
-struct Place<V> {
+/// A value that is here or is being made, and when it was last used.
+struct Entry<V> {
     used: u64,
     bytes: usize,
     slot: Slot<V>,
 }
 
-/// Locked while the value is being made.
+/// Holds the value. Locked while the value is being made.
 type Slot<V> = Arc<Mutex<Option<(Stamp, Arc<V>)>>>;
 
 /// Length and time of change of the file that a value was made from.
 pub type Stamp = (u64, Option<std::time::SystemTime>);
 
 impl<K: Eq + Hash + Clone, V: Weight> Cache<K, V> {
-    /// An empty one.
-    pub fn new(most_bytes: usize) -> Self {
-        Self { most_bytes, shelf: Mutex::new(Shelf { clock: 0, places: HashMap::new() }) }
+    /// An empty cache.
+    pub fn new(max_bytes: usize) -> Self {
+        Self { max_bytes, entries: Mutex::new(Entries { clock: 0, by_key: HashMap::new() }) }
     }
 
-    /// The value of `key` as of `stamp`, by `make` where it is not there.
+    /// The value of `key` for a file with this stamp; `make` makes it if it is not here.
     ///
     /// # Errors
     /// Those of `make`; then nothing is kept.
     pub fn get<E>(&self, key: &K, stamp: Stamp, make: impl FnOnce() -> Result<V, E>) -> Result<Arc<V>, E> {
         let slot = {
-            let mut shelf = self.shelf.lock().unwrap_or_else(PoisonError::into_inner);
-            shelf.clock += 1;
-            let clock = shelf.clock;
-            let place = shelf.places.entry(key.clone()).or_insert_with(|| Place { used: 0, bytes: 0, slot: Arc::default() });
-            place.used = clock;
-            Arc::clone(&place.slot)
+            let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+            entries.clock += 1;
+            let clock = entries.clock;
+            let entry = entries.by_key.entry(key.clone()).or_insert_with(|| Entry { used: 0, bytes: 0, slot: Arc::default() });
+            entry.used = clock;
+            Arc::clone(&entry.slot)
         };
-        // Whoever comes second waits here, and finds the value.
+        // A second request for the same value waits here until the first has made it.
         let mut held = slot.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((found, value)) = held.as_ref()
             && *found == stamp
@@ -77,24 +77,24 @@ impl<K: Eq + Hash + Clone, V: Weight> Cache<K, V> {
         Ok(value)
     }
 
-    /// Takes away a place that has no value, so that asking for what is not there fills no memory.
+    /// Removes an entry whose value could not be made, so that requests for missing files fill no memory.
     fn forget(&self, key: &K, slot: &Slot<V>) {
-        let mut shelf = self.shelf.lock().unwrap_or_else(PoisonError::into_inner);
-        if shelf.places.get(key).is_some_and(|place| Arc::ptr_eq(&place.slot, slot)) {
-            shelf.places.remove(key);
+        let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+        if entries.by_key.get(key).is_some_and(|entry| Arc::ptr_eq(&entry.slot, slot)) {
+            entries.by_key.remove(key);
         }
     }
 
     fn make_room(&self, key: &K, bytes: usize) {
-        let mut shelf = self.shelf.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(place) = shelf.places.get_mut(key) {
-            place.bytes = bytes;
+        let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(entry) = entries.by_key.get_mut(key) {
+            entry.bytes = bytes;
         }
-        let mut total: usize = shelf.places.values().map(|place| place.bytes).sum();
-        while total > self.most_bytes {
-            let others = shelf.places.iter().filter(|(other, place)| *other != key && place.bytes > 0);
-            let Some(oldest) = others.min_by_key(|(_, place)| place.used).map(|(other, _)| other.clone()) else { break };
-            total -= shelf.places.remove(&oldest).map_or(0, |place| place.bytes);
+        let mut total: usize = entries.by_key.values().map(|entry| entry.bytes).sum();
+        while total > self.max_bytes {
+            let others = entries.by_key.iter().filter(|(other, entry)| *other != key && entry.bytes > 0);
+            let Some(oldest) = others.min_by_key(|(_, entry)| entry.used).map(|(other, _)| other.clone()) else { break };
+            total -= entries.by_key.remove(&oldest).map_or(0, |entry| entry.bytes);
         }
     }
 }

@@ -1,7 +1,7 @@
-//! A camera: what it is, where it stood for each frame, what became of each view.
+//! A camera: its model, its pose for each frame, and which of its views were rendered or rejected.
 
 use super::place::{optional, problem};
-use super::{Viewer, work};
+use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
@@ -27,7 +27,7 @@ pub async fn camera(
     .await
 }
 
-/// One view of a camera, as the page gets it.
+/// One view of a camera, as it is sent to the page.
 #[derive(Default)]
 struct View {
     pose: Option<Value>,
@@ -83,7 +83,7 @@ impl Viewer {
         }))
     }
 
-    /// For each frame that has any layer, the places of its layers in [`LAYERS`], planar depth that can be computed among them.
+    /// For each frame that has any layer, the positions of its layers in [`LAYERS`]. Planar depth counts where it can be computed.
     fn layers_of_frames(&self, scene: &str, camera: &str) -> Result<BTreeMap<u32, BTreeSet<usize>>, ApiProblem> {
         let mut found: BTreeMap<u32, BTreeSet<usize>> = BTreeMap::new();
         let folders: BTreeSet<_> = [Pass::Final, Pass::Geometry].map(|pass| self.layout().layer_dir(scene, camera, pass)).into();
@@ -106,14 +106,14 @@ impl Viewer {
         Ok(found)
     }
 
-    /// The camera; `None` where the dataset does not say what it is.
+    /// The camera; `None` if the dataset does not describe it.
     pub(super) fn camera_model(&self, scene: &str, camera: &str) -> Result<Option<Camera>, ApiProblem> {
         let layout = self.layout();
         self.allow_all([layout.camera_parameters(), layout.camera_model(scene, camera), layout.camera_ray_grid(scene, camera)])?;
         if !layout.camera_model(scene, camera).is_file() && !self.dataset.camera_table().is_file() {
             return Ok(None);
         }
-        // Hypersim's table covers its own scenes; a scene without a row has poses and pictures all the same.
+        // Hypersim's table lacks other scenes, which have poses and pictures all the same.
         Ok(self.dataset.read_camera(scene, camera).ok())
     }
 

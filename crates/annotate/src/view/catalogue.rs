@@ -1,7 +1,7 @@
-//! What the dataset holds, in short: scenes, layers, and how it was verified.
+//! A summary of the dataset: its scenes, its layers, and the result of the last verification.
 
 use super::place::problem;
-use super::{Viewer, work};
+use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
 use axum::extract::State;
 use axum::http::HeaderMap;
@@ -21,7 +21,7 @@ pub async fn dataset(State(viewer): State<Arc<Viewer>>, headers: HeaderMap) -> R
 impl Viewer {
     fn catalogue(&self) -> Result<Value, ApiProblem> {
         let scenes = self.dataset.scenes().map_err(problem)?;
-        // A folder with another name cannot be asked for; it is told, not hidden.
+        // A scene whose folder has an unsafe name cannot be requested; the page says so instead of hiding it.
         let (named, unnamed): (Vec<String>, Vec<String>) = scenes.into_iter().partition(|name| check_name("scene name", name).is_ok());
         let name = self.root.file_name().map_or_else(|| self.root.display().to_string(), |name| name.to_string_lossy().into_owned());
         let layers = LAYERS.iter().map(|spec| {
@@ -45,7 +45,7 @@ impl Viewer {
         }))
     }
 
-    /// What the last verification found; null without one.
+    /// The result of the last verification; null without one.
     fn verify_summary(&self) -> Result<Value, ApiProblem> {
         let Some(report) = self.verify_report()? else { return Ok(Value::Null) };
         let failures: Vec<Value> = report

@@ -1,15 +1,12 @@
 //! The classes that a scene's labels choose from: NYU40, or a list of the user's.
 
-use super::Viewer;
 use super::place::problem;
+use super::viewer::Viewer;
 use crate::serve::ApiProblem;
 use enfilade_dataset::hdf5::read_array;
-use enfilade_dataset::{CLASS_LIST, Elements, MeshFiles};
+use enfilade_dataset::{CLASS_LIST, Elements, MeshFiles, mesh_names};
 use enfilade_scene::NYU40;
 use serde_json::{Value, json};
-
-/// Row `i` is the colour of class `i`; -1 where there is none.
-const COLORS: &str = "metadata_semantic_colors.hdf5";
 
 impl Viewer {
     /// Number, name and colour of each class of a scene.
@@ -18,7 +15,7 @@ impl Viewer {
     /// 403 when a file lies outside of the dataset, 500 when the list is damaged.
     pub(super) fn classes(&self, scene: &str) -> Result<Vec<Value>, ApiProblem> {
         let files = self.dataset.mesh_files(scene);
-        self.allow_all([files.file(CLASS_LIST), files.file(COLORS)])?;
+        self.allow_all([files.file(CLASS_LIST), files.file(mesh_names::SEMANTIC_COLORS)])?;
         if let Some(own) = files.read_classes().map_err(problem)? {
             return Ok(own.list().iter().map(|class| json!(class)).collect());
         }
@@ -33,9 +30,9 @@ impl Viewer {
     }
 }
 
-/// The scene's own colours; none where it has no table of them.
+/// The scene's own colours: row `i` is that of class `i`, -1 where there is none. Empty if it has no table of them.
 fn colors_of_classes(files: &MeshFiles) -> Vec<[i64; 3]> {
-    match read_array(&files.file(COLORS)).map(|array| array.values) {
+    match read_array(&files.file(mesh_names::SEMANTIC_COLORS)).map(|array| array.values) {
         Ok(Elements::I64(values)) => values.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
         _ => Vec::new(),
     }

@@ -1,6 +1,6 @@
-//! Pages and pictures that lie in the dataset: the report card, statistics, rejected views.
+//! Files of the dataset that the browser shows by itself: the report card, statistics, pictures of rejected views.
 
-use super::{Viewer, work};
+use super::viewer::{Viewer, work};
 use crate::serve::ApiProblem;
 use axum::extract::{Path, State};
 use axum::http::header;
@@ -9,7 +9,7 @@ use std::io::ErrorKind;
 use std::path::Component;
 use std::sync::Arc;
 
-/// What may be sent, by the end of its name.
+/// What may be sent: file extensions and their media types.
 const KINDS: [(&str, &str); 10] = [
     ("html", "text/html; charset=utf-8"),
     ("css", "text/css; charset=utf-8"),
@@ -23,7 +23,7 @@ const KINDS: [(&str, &str); 10] = [
     ("csv", "text/csv; charset=utf-8"),
 ];
 
-/// Pages of a dataset were perhaps made by strangers: they run no program and ask no other machine for anything.
+/// A dataset may come from strangers, so its pages may run no scripts and load nothing from other machines.
 const PAGE_POLICY: &str = "sandbox; default-src 'none'; img-src 'self' data:; media-src 'self'; style-src 'unsafe-inline' 'self'";
 
 /// `GET /api/view/file/{path}`: a page, picture or table of the dataset, by its path in the dataset's folder.

@@ -1,7 +1,7 @@
-//! What is known of a frame beside its layers: its records, its split, what it shows of each instance, and how it was judged.
+//! Everything about a frame except its layers: its records, its split, how much it shows of each instance, and what verification measured.
 
 use super::place::{FramePlace, optional, problem, stamp};
-use super::{Viewer, work};
+use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
@@ -56,7 +56,7 @@ impl Viewer {
             Ok(partition) => json!({ "partition": partition.name() }),
             Err(reason) => json!({ "excluded": reason }),
         });
-        // A browser's numbers end at 2^53.
+        // As text, because numbers in a browser are exact only up to 2^53.
         let seed = record.as_ref().map(|record| record.seed.to_string());
         let mut record = json!(record);
         if let Some(seed) = seed {
@@ -66,7 +66,7 @@ impl Viewer {
             "judged": self.judged(place)? }))
     }
 
-    /// What verification measured of the frame.
+    /// What verification measured in the frame.
     fn judged(&self, place: &FramePlace) -> Result<Option<Value>, ApiProblem> {
         let path = self.layout().verify_report();
         if !path.is_file() {

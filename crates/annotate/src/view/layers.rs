@@ -1,12 +1,12 @@
 //! A layer of a frame as raw little-endian numbers, for the page to colour.
 //!
-//! `?step=N` keeps every Nth pixel of every Nth row: a small picture that is there at once. `?compact=1` is for slow wires: the bytes
-//! of one significance lie together (`x-enfilade-packing: planes`), and the whole is deflated where the browser takes that.
+//! `?step=N` keeps every Nth pixel of every Nth row, for a small picture that arrives at once. `?compact=1` is for slow connections: the
+//! bytes of one significance are stored together (`x-enfilade-packing: planes`), and the whole is compressed if the browser accepts gzip.
 
-use super::cache::Weight;
+use super::decoded_layer::{DecodedLayer, planes_of};
 use super::place::{FramePlace, problem, stamp};
 use super::summary::Summary;
-use super::{Viewer, work};
+use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State};
@@ -19,32 +19,16 @@ use enfilade_frame::{LAYERS, Layer};
 use serde::Deserialize;
 use std::sync::Arc;
 
-/// Beyond this a picture would be a few pixels.
-const LARGEST_STEP: usize = 64;
+/// With a larger step a picture would have only a few pixels.
+const MAX_STEP: usize = 64;
 
 /// What is asked for of a layer.
 #[derive(Debug, Default, Deserialize)]
 pub struct LayerQuery {
-    /// Distance of the pixels and rows that are kept; 1 when absent.
+    /// Distance between kept pixels and between kept rows; 1 when absent.
     step: Option<usize>,
-    /// 1: few bytes rather than little work.
+    /// 1 for fewer bytes at the cost of more work.
     compact: Option<u8>,
-}
-
-/// A layer in memory.
-pub struct DecodedLayer {
-    /// Height, width and channels.
-    pub shape: [usize; 3],
-    /// The stored numbers.
-    pub values: Elements,
-    /// What they come to.
-    pub summary: Summary,
-}
-
-impl Weight for DecodedLayer {
-    fn weight(&self) -> usize {
-        self.values.as_bytes().len()
-    }
 }
 
 /// `GET /api/view/layer/{scene}/{camera}/{frame}/{layer}`.
@@ -62,8 +46,8 @@ pub async fn layer(
     let layer = Layer::from_name(&name).ok_or_else(unknown)?;
     let Query(query) = query.map_err(|e| ApiProblem::bad_request(e.body_text(), "step is a number from 1 to 64, compact is 0 or 1"))?;
     let step = query.step.unwrap_or(1);
-    if !(1..=LARGEST_STEP).contains(&step) {
-        return Err(ApiProblem::bad_request(format!("the step is {step}"), format!("choose one from 1 to {LARGEST_STEP}")));
+    if !(1..=MAX_STEP).contains(&step) {
+        return Err(ApiProblem::bad_request(format!("the step is {step}"), format!("choose one from 1 to {MAX_STEP}")));
     }
     let compact = query.compact.is_some_and(|compact| compact != 0);
     let gzip = compact && reply::takes_gzip(&headers);
@@ -92,8 +76,8 @@ pub async fn layer(
 }
 
 impl Viewer {
-    /// A layer of a frame, read where it is not in memory: as it is stored, but positions in metres, and planar depth that is not stored
-    /// computed from the distances.
+    /// A layer of a frame, from memory or from its file. It is as stored, except that positions are in metres, and planar depth that is not
+    /// stored is computed from the distances.
     ///
     /// # Errors
     /// 404 when there is no such file, 403 when it lies outside of the dataset, 500 when it is damaged or no such layer.
@@ -129,8 +113,8 @@ impl Viewer {
         })
     }
 
-    /// What radiance is multiplied by in Hypersim's picture of a frame, where `metadata_tonemap.csv` does not say it: `None` where it
-    /// does, and where the frame has no color or no `render_entity_id`.
+    /// The scale of radiance in Hypersim's tone map of a frame, if `metadata_tonemap.csv` does not have it: `None` if it does, and if the
+    /// frame has no color or no `render_entity_id`.
     fn tone_scale(&self, place: &FramePlace) -> Result<Option<f64>, ApiProblem> {
         let has = |layer| self.dataset.has_layer(&place.scene, &place.camera, place.frame, layer);
         let table = self.layout().tone_maps(&place.scene, &place.camera);
@@ -144,51 +128,9 @@ impl Viewer {
         Ok(Some(ToneMap::of_percentile(percentile(values)).scale))
     }
 
-    /// The exposures of a camera's frames, as far as a table says them.
+    /// The exposures of a camera's frames, as far as there is a table of them.
     pub(super) fn tone_maps(&self, scene: &str, camera: &str) -> Result<Vec<ToneMapRow>, ApiProblem> {
         self.allow(&self.layout().tone_maps(scene, camera))?;
         self.dataset.read_tone_maps(scene, camera).map_err(problem)
-    }
-}
-
-impl DecodedLayer {
-    /// Height, width and bytes of every `step`-th pixel of every `step`-th row.
-    fn every(&self, step: usize) -> ([usize; 2], Vec<u8>) {
-        let [height, width, channels] = self.shape;
-        let bytes = self.values.as_bytes();
-        if step == 1 {
-            return ([height, width], bytes.to_vec());
-        }
-        let pixel = channels * self.values.element().size();
-        let mut kept = Vec::with_capacity(height.div_ceil(step) * width.div_ceil(step) * pixel);
-        for row in bytes.chunks_exact(width * pixel).step_by(step) {
-            row.chunks_exact(pixel).step_by(step).for_each(|pixel| kept.extend_from_slice(pixel));
-        }
-        ([height.div_ceil(step), width.div_ceil(step)], kept)
-    }
-}
-
-/// All first bytes of the elements, then all second ones, …: like lies with like, which deflates better.
-fn planes_of(bytes: &[u8], size: usize) -> Vec<u8> {
-    (0..size).flat_map(|byte| bytes[byte..].iter().step_by(size)).copied().collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn planes_gather_bytes_of_one_significance() {
-        assert_eq!(planes_of(&[1, 2, 3, 4, 5, 6], 2), [1, 3, 5, 2, 4, 6]);
-        assert_eq!(planes_of(&[1, 2, 3, 4], 4), [1, 2, 3, 4]);
-    }
-
-    #[test]
-    fn every_second_pixel_of_every_second_row_is_kept() {
-        let values = Elements::I16((0..15).collect());
-        let layer = DecodedLayer { shape: [3, 5, 1], summary: Summary::new(Layer::Semantic, &values), values };
-        let (size, bytes) = layer.every(2);
-        let kept: Vec<i16> = bytes.chunks_exact(2).map(|b| i16::from_le_bytes([b[0], b[1]])).collect();
-        assert_eq!((size, kept), ([2, 3], vec![0, 2, 4, 10, 12, 14]));
     }
 }

@@ -1,14 +1,14 @@
-//! The faces of a scene, in the form that the page's 3D view takes ([`DisplayOrder`]); a piece is an object of the mesh folder.
+//! The faces of a scene as a buffer for the page's 3D view ([`DisplayOrder`]). Its pieces are the objects of the mesh folder.
 
 use super::place::{problem, stamp};
-use super::{Viewer, work};
-use crate::label::geometry::DisplayOrder;
+use super::viewer::{Viewer, work};
+use crate::label::display_order::DisplayOrder;
 use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
 use enfilade_dataset::hdf5::read_array;
-use enfilade_dataset::{Array, Elements};
+use enfilade_dataset::{Array, Elements, mesh_names};
 use enfilade_math::Vec3;
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ pub async fn geometry(State(viewer): State<Arc<Viewer>>, Path(scene): Path<Strin
     let gzip = reply::takes_gzip(&headers);
     work(viewer, move |viewer| {
         viewer.check_scene(&scene)?;
-        let path = viewer.layout().mesh_file(&scene, "mesh_vertices.hdf5");
+        let path = viewer.layout().mesh_file(&scene, mesh_names::VERTICES);
         viewer.allow(&path)?;
         let bytes = viewer.buffers.get(&(scene.clone(), "geometry"), stamp(&path), || viewer.encode_mesh(&scene))?;
         Ok(reply::array(bytes.to_vec(), gzip, &[]))
@@ -34,23 +34,23 @@ impl Viewer {
             Ok((read_array(&path).map_err(problem)?, path.display().to_string()))
         };
         let wrong = |path: &str, found: &str| ApiProblem::failed(format!("{path}: {found}"), "make the scene's mesh folder again");
-        let (vertices, path) = read("mesh_vertices.hdf5")?;
+        let (vertices, path) = read(mesh_names::VERTICES)?;
         let Elements::F64(vertices) = vertices.values else { return Err(wrong(&path, "expected float64")) };
         let point = |p: &[f64]| Vec3::new((p[0] * metres) as f32, (p[1] * metres) as f32, (p[2] * metres) as f32);
         let points: Vec<Vec3> = vertices.chunks_exact(3).map(point).collect();
-        let (faces, path) = read("mesh_faces_vi.hdf5")?;
+        let (faces, path) = read(mesh_names::FACES_VERTICES)?;
         let corners: Option<Vec<[Vec3; 3]>> = integers(&faces.values)
             .ok_or_else(|| wrong(&path, "expected integers"))?
             .chunks_exact(3)
             .map(|face| Some([corner(&points, face[0])?, corner(&points, face[1])?, corner(&points, face[2])?]))
             .collect();
         let corners = corners.ok_or_else(|| wrong(&path, "a face has a vertex that mesh_vertices.hdf5 lacks"))?;
-        let (objects, path) = read("mesh_faces_oi.hdf5")?;
+        let (objects, path) = read(mesh_names::FACES_OBJECTS)?;
         let objects = integers(&objects.values).filter(|objects| objects.len() == corners.len());
         let objects = objects.ok_or_else(|| wrong(&path, "expected one integer per face"))?;
-        // A face of no object is one of object 0, as in Hypersim's own program.
+        // As in Hypersim's own tool, a face without object belongs to object 0.
         let objects: Vec<u32> = objects.into_iter().map(|object| u32::try_from(object).unwrap_or(0)).collect();
-        let pieces = objects.iter().max().map_or(0, |&most| most as usize + 1);
+        let pieces = objects.iter().max().map_or(0, |&max| max as usize + 1);
         Ok(DisplayOrder::new(&corners).encode(&objects, pieces))
     }
 }
@@ -59,7 +59,7 @@ fn corner(points: &[Vec3], index: i64) -> Option<Vec3> {
     points.get(usize::try_from(index).ok()?).copied()
 }
 
-/// Whole numbers of any width.
+/// Integers of either width; `None` for other elements.
 fn integers(values: &Elements) -> Option<Vec<i64>> {
     match values {
         Elements::I64(v) => Some(v.clone()),

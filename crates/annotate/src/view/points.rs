@@ -1,29 +1,27 @@
-//! A frame as points in space: where the ray through each pixel's centre ends, in the colour that the pixel shows.
+//! A frame as points in space: the end of the ray through each pixel's centre, in the colour of the pixel.
 //!
 //! Little-endian: magic `ENFPNTS1`, u32 number of points N, u32 0, f32 N × 3 positions in metres, u8 N × 4 red, green, blue (sRGB) and
 //! 255. Points are taken along the camera's own rays, so every camera model gives the right ones.
 
 use super::place::{FramePlace, problem};
-use super::{Viewer, work};
+use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
-use enfilade_dataset::Elements;
 use enfilade_frame::Layer;
-use enfilade_frame::tonemap::{ToneMap, brightness, percentile};
 use enfilade_scene::CameraView;
 use serde::Deserialize;
 use std::sync::Arc;
 
 /// Points of a reply without `?most=N`.
-const MOST_POINTS: usize = 200_000;
+const MAX_POINTS: usize = 200_000;
 
 /// What is asked for of the points.
 #[derive(Debug, Deserialize)]
 pub struct PointsQuery {
-    /// So many points at most, evenly spread over the image.
+    /// Maximum number of points, evenly spread over the image.
     most: Option<usize>,
 }
 
@@ -36,17 +34,17 @@ pub async fn points(
 ) -> Result<Response, ApiProblem> {
     let place = FramePlace::parse([scene, camera, frame])?;
     let wrong = |e: QueryRejection| ApiProblem::bad_request(e.body_text(), "most is a number of points, 1 or more");
-    let most = query.map_err(wrong)?.0.most.unwrap_or(MOST_POINTS).max(1);
+    let max_points = query.map_err(wrong)?.0.most.unwrap_or(MAX_POINTS).max(1);
     let gzip = reply::takes_gzip(&headers);
     work(viewer, move |viewer| {
         viewer.check_camera(&place.scene, &place.camera)?;
-        Ok(reply::array(viewer.cloud(&place, most)?, gzip, &[]))
+        Ok(reply::array(viewer.cloud(&place, max_points)?, gzip, &[]))
     })
     .await
 }
 
 impl Viewer {
-    fn cloud(&self, place: &FramePlace, most: usize) -> Result<Vec<u8>, ApiProblem> {
+    fn cloud(&self, place: &FramePlace, max_points: usize) -> Result<Vec<u8>, ApiProblem> {
         let depth = self.layer(place, Layer::DepthMeters)?;
         let [height, width, _] = depth.shape;
         let missing = |what: &str| ApiProblem::not_found(format!("there is no {what} for this frame"), "run the plan stage for the scene");
@@ -58,12 +56,12 @@ impl Viewer {
         let trajectory = self.dataset.read_trajectory(&place.scene, &place.camera).map_err(problem)?;
         let index = trajectory.poses.iter().position(|pose| pose.frame == place.frame).ok_or_else(|| missing("pose"))?;
         let view = CameraView::of_frame(&camera, &trajectory.poses, index);
-        let colors = self.shown_colors(place, height * width)?;
-        let step = ((height * width).div_ceil(most) as f64).sqrt().ceil() as usize;
+        let colors = self.tone_mapped(place, height * width)?;
+        let step = ((height * width).div_ceil(max_points) as f64).sqrt().ceil() as usize;
         let (mut positions, mut paint) = (Vec::new(), Vec::new());
         for (y, x) in (0..height).step_by(step).flat_map(|y| (0..width).step_by(step).map(move |x| (y, x))) {
             let at = y * width + x;
-            let metres = number(&depth.values, at);
+            let metres = depth.number(at);
             let Some(ray) = view.centre_ray(x as f64 + 0.5, y as f64 + 0.5).filter(|_| metres.is_finite()) else { continue };
             let point = ray.origin + ray.direction * metres;
             positions.extend(point.as_vec3().to_array().map(f32::to_le_bytes).concat());
@@ -74,40 +72,5 @@ impl Viewer {
         bytes.extend(((paint.len() / 4) as u32).to_le_bytes());
         bytes.extend(0u32.to_le_bytes());
         Ok([bytes, positions, paint].concat())
-    }
-
-    /// Hypersim's picture of a frame's color; `None` where it has none of so many pixels.
-    pub(super) fn shown_colors(&self, place: &FramePlace, pixels: usize) -> Result<Option<Vec<[u8; 3]>>, ApiProblem> {
-        if !self.dataset.has_layer(&place.scene, &place.camera, place.frame, Layer::Color) {
-            return Ok(None);
-        }
-        let color = self.layer(place, Layer::Color)?;
-        if color.shape[0] * color.shape[1] != pixels {
-            return Ok(None);
-        }
-        let radiance = |i: usize| [0, 1, 2].map(|c| number(&color.values, 3 * i + c));
-        let row = self.tone_maps(&place.scene, &place.camera)?.into_iter().find(|row| row.frame == place.frame);
-        let tone = match row {
-            Some(row) => ToneMap { scale: row.scale },
-            // A sixteenth of the pixels says it well enough for pictures of this size.
-            None => ToneMap::of_percentile(percentile((0..pixels).step_by(16).map(|i| brightness(radiance(i))).collect())),
-        };
-        // The curve is one of 4096 steps: a power for each channel of each pixel takes ten times as long.
-        let curve: Vec<u8> =
-            (0..=4096).map(|i| (tone.apply(f64::from(i) / 4096.0 / tone.scale.max(1e-30)) * 255.0).round() as u8).collect();
-        let shown = |v: f64| curve[((v * tone.scale).clamp(0.0, 1.0) * 4096.0) as usize];
-        Ok(Some((0..pixels).map(|i| radiance(i).map(|v| if v.is_nan() { 0 } else { shown(v) })).collect()))
-    }
-}
-
-/// One stored number.
-pub fn number(values: &Elements, at: usize) -> f64 {
-    match values {
-        Elements::F16(v) => f64::from(v[at].to_f32()),
-        Elements::F32(v) => f64::from(v[at]),
-        Elements::F64(v) => v[at],
-        Elements::I16(v) => f64::from(v[at]),
-        Elements::I64(v) => v[at] as f64,
-        Elements::U8(v) => f64::from(v[at]),
     }
 }

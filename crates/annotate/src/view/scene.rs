@@ -1,13 +1,13 @@
 //! A scene: its cameras, its classes, the names of its parts and objects, and the boxes around instances.
 
 use super::place::{optional, problem};
-use super::{Viewer, work};
+use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
 use enfilade_dataset::hdf5::read_array;
-use enfilade_dataset::{BoxKind, DatasetError, Elements, Node, instance_colors};
+use enfilade_dataset::{BoxKind, DatasetError, Elements, Node, instance_colors, mesh_names};
 use enfilade_scene::PartLabel;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -40,7 +40,7 @@ impl Viewer {
             layout.metadata_scene(scene),
             layout.mesh_dir(scene),
         ])?;
-        self.allow_all(["mesh_objects_si.hdf5", "mesh_objects_sii.hdf5", "metadata_semantic_instance_colors.hdf5"].map(mesh))?;
+        self.allow_all([mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE, mesh_names::INSTANCE_COLORS].map(mesh))?;
         let nodes = optional(self.dataset.read_nodes(scene))?.unwrap_or_default();
         let labels = optional(self.dataset.read_label_tables(scene))?.unwrap_or_default();
         let instances = labels.parts.iter().map(|label| label.instance).max().unwrap_or(0).max(0) as usize;
@@ -52,21 +52,21 @@ impl Viewer {
             "cameras": self.dataset.cameras(scene).map_err(problem)?,
             "meters_per_unit": self.meters_per_unit(scene)?,
             "classes": self.classes(scene)?,
-            // By `render_entity_id` - 1.
+            // Indexed by `render_entity_id` - 1.
             "parts": nodes.iter().map(|node| &node.node_name).collect::<Vec<_>>(),
             "objects": self.objects(scene, &nodes, &labels.parts)?,
             "materials": self.material_names(scene)?,
             "instance_colors": self.colors_of_instances(scene, instances),
             "boxes": self.boxes(scene)?,
-            "has_geometry": mesh("mesh_vertices.hdf5").is_file() && mesh("mesh_faces_vi.hdf5").is_file(),
+            "has_geometry": mesh(mesh_names::VERTICES).is_file() && mesh(mesh_names::FACES_VERTICES).is_file(),
             "has_space": layout.octomap(scene).is_file(),
             "pages": pages.collect::<Vec<_>>(),
         }))
     }
 
-    /// By the numbers of `mesh_faces_oi.hdf5`: parts, and what was split off from them.
+    /// The parts and what was split off from them, indexed as in `mesh_faces_oi.hdf5`.
     fn objects(&self, scene: &str, nodes: &[Node], labels: &[PartLabel]) -> Result<Value, ApiProblem> {
-        let names: Vec<String> = match self.mesh_table::<ObjectRow>(scene, "metadata_objects.csv")? {
+        let names: Vec<String> = match self.mesh_table::<ObjectRow>(scene, mesh_names::OBJECTS)? {
             Some(rows) => rows.into_iter().map(|row| row.object_name).collect(),
             None => names_by_nodes(nodes),
         };
@@ -85,15 +85,15 @@ impl Viewer {
         let Some(bytes) = optional(bytes)? else { return Ok(None) };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes.as_slice());
         let rows: Result<Vec<T>, csv::Error> = reader.deserialize().collect();
-        rows.map(Some).map_err(|e| ApiProblem::failed(format!("{}: {e}", path.display()), "mend or delete the file that is named"))
+        rows.map(Some).map_err(|e| ApiProblem::failed(format!("{}: {e}", path.display()), "fix or delete the file that is named"))
     }
 
-    /// Metres per asset unit; 1 where nothing says it.
+    /// Metres per asset unit; 1 if the dataset does not say.
     pub(super) fn meters_per_unit(&self, scene: &str) -> Result<f64, ApiProblem> {
         Ok(optional(self.dataset.meters_per_asset_unit(scene))?.unwrap_or(1.0))
     }
 
-    /// By `material_id` - 1; none where there is no table.
+    /// Names by `material_id` - 1; empty if there is no table.
     fn material_names(&self, scene: &str) -> Result<Vec<String>, ApiProblem> {
         let path = self.layout().metadata_materials(scene);
         self.allow(&path)?;
@@ -105,14 +105,14 @@ impl Viewer {
 
     /// The scene's own colours, else ours: row `i` is instance `i`.
     fn colors_of_instances(&self, scene: &str, instances: usize) -> Vec<[i64; 3]> {
-        let path = self.layout().mesh_file(scene, "metadata_semantic_instance_colors.hdf5");
+        let path = self.layout().mesh_file(scene, mesh_names::INSTANCE_COLORS);
         match read_array(&path).map(|array| array.values) {
             Ok(Elements::I64(values)) if values.len() > 3 * instances => values.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
             _ => instance_colors(instances),
         }
     }
 
-    /// By kind, one per instance in metres, null where there is none; kinds without files are absent.
+    /// The boxes of each kind, one per instance, in metres, null if an instance has none. Kinds without files are absent.
     fn boxes(&self, scene: &str) -> Result<Value, ApiProblem> {
         let mut kinds = Map::new();
         for kind in BoxKind::ALL {
@@ -128,7 +128,7 @@ impl Viewer {
     }
 }
 
-/// Names of objects where only the table of render entities says them; empty where that does not either.
+/// Names of objects from the table of render entities, for datasets without a table of objects.
 fn names_by_nodes(nodes: &[Node]) -> Vec<String> {
     let mut names = Vec::new();
     for node in nodes {

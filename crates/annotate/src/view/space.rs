@@ -1,10 +1,10 @@
-//! What is free and what is occupied in a scene, as cubes.
+//! Free and occupied space of a scene, as cubes.
 //!
 //! Little-endian: magic `ENFSPAC1`, f32 edge of a voxel in metres, u32 number of free cubes, u32 number of occupied cubes, u32 0;
 //! then for each cube f32 x, y, z of its smallest corner and f32 edge, in metres, the free ones first.
 
 use super::place::{problem, stamp};
-use super::{Viewer, work};
+use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;

@@ -1,4 +1,4 @@
-//! A layer in a few numbers: what the page needs to choose a range, and what people want to know first.
+//! A layer in a few numbers, from which the page chooses a range of values to show.
 
 use enfilade_dataset::Elements;
 use enfilade_frame::Layer;
@@ -11,7 +11,7 @@ const SAMPLED_PIXELS: usize = 1 << 16;
 /// Which percentiles, of 100.
 const PERCENTILES: [u32; 7] = [1, 5, 25, 50, 75, 95, 99];
 
-/// The values of a layer in short. A colour counts as its brightness (0.3 R + 0.59 G + 0.11 B), a vector as its length.
+/// Statistics of a layer's values. A colour counts as its brightness (0.3 R + 0.59 G + 0.11 B), a vector as its length.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// `value`, `brightness` or `length`.
@@ -24,7 +24,7 @@ pub struct Summary {
     pub percentiles: Vec<f64>,
     /// Pixels without a number: NaN or infinite.
     pub without: usize,
-    /// What radiance is multiplied by to show the 90th percentile of this frame's color at 0.8, where no table says it.
+    /// The scale of radiance that shows the 90th percentile of this frame's color at 0.8; absent if a table has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tone_scale: Option<f64>,
 }

@@ -1,8 +1,7 @@
-//! Small pictures of frames, for the strip that is scrolled through.
+//! Small pictures of frames, for the strip below the picture.
 
 use super::place::{FramePlace, stamp};
-use super::points::number;
-use super::{Viewer, work};
+use super::viewer::{Viewer, work};
 use crate::serve::ApiProblem;
 use axum::extract::{Path, State};
 use axum::http::header;
@@ -44,10 +43,10 @@ impl Viewer {
             return Err(ApiProblem::failed("the frame has no pixels", "make it again"));
         }
         let colors = match layer {
-            Layer::Color => self.shown_colors(place, height * width)?.unwrap_or_default(),
+            Layer::Color => self.tone_mapped(place, height * width)?.unwrap_or_default(),
             _ => {
                 let [low, high] = [1, 5].map(|i| decoded.summary.percentiles.get(i).copied().unwrap_or_default());
-                let share = |i: usize| (number(&decoded.values, i) - low) / (high - low).max(1e-9);
+                let share = |i: usize| (decoded.number(i) - low) / (high - low).max(1e-9);
                 (0..height * width).map(|i| if share(i).is_nan() { [0; 3] } else { viridis(share(i)) }).collect()
             }
         };

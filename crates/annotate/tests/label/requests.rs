@@ -134,6 +134,14 @@ async fn malformed_requests_are_named_and_change_nothing() {
         let (status, body) = page.post(path, body).await;
         assert!(status == 400 && body["help"].is_string(), "{path} {body}");
     }
+    // What a stroke and a look have in common is flattened into both; fields of the other are unknown to each.
+    let mut painted = stroke(json!({ "click": [1, 1] }), class(1));
+    painted["faces"] = true.into();
+    let labelled = json!({ "camera": camera(), "shape": { "click": [1, 1] }, "apply": class(1) });
+    for (path, body, field) in [("edit", json!({ "client": "c", "action": painted }), "faces"), ("select", labelled, "apply")] {
+        let (status, body) = page.post(path, body.to_string()).await;
+        assert!(status == 400 && body["error"].as_str().unwrap().contains(&format!("unknown field `{field}`")), "{path} {body}");
+    }
     let (status, body) = page.post("pick", json!({ "camera": camera(), "pixel": [200, 1] }).to_string()).await;
     assert!(status == 400 && body["error"].as_str().unwrap().contains("pixel 200, 1 is outside"), "{body}");
     let (status, _) = page.ask(axum::http::Request::get("/api/annotate/events?since=x").body(axum::body::Body::empty()).unwrap()).await;

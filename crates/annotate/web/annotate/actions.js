@@ -1,4 +1,4 @@
-// What commands do: to the selection, to what is seen, to the page.
+// What the commands of the annotation page do.
 
 import { getJson, postJson } from "../shared/api.js";
 import { byId } from "../shared/dom.js";
@@ -6,7 +6,7 @@ import { toast, toastError } from "../shared/toast.js";
 import { stem } from "./names.js";
 import { newInstance } from "./state.js";
 
-/** The verbs of the page. */
+/** The actions of the page, for commands, panels and pointer alike. */
 export class Actions {
     /**
      * @param {import("./state.js").State} state
@@ -17,7 +17,7 @@ export class Actions {
         this.state = state;
         this.stage = stage;
         this.edits = edits;
-        /** Edits with the label of now that are on their way. @type {Set<any>} */
+        /** Edits with the current label that the server has not answered yet. @type {Set<any>} */
         this.giving = new Set();
         /** @type {{ piece: number, best_view: { camera: string, frame: number } | null, pixels: number, name: string }[]} */
         this.unlabelled = [];
@@ -30,26 +30,26 @@ export class Actions {
         this.showTab = (/** @type {string} */ _name) => {};
         /** All planned frames, in order. */
         this.frames = state.scene.cameras.flatMap((/** @type {any} */ camera) => camera.frames.map((/** @type {any} */ frame) => ({ ...frame, camera: camera.name })));
-        // Here a number comes before the next edit of the queue is sent, which may have to share it.
+        // This runs before the next edit of the queue is sent, which may have to use the same new instance number.
         edits.addEventListener("change", (event) => {
             const answered = [...this.giving].find((edit) => !edits.queue.some(({ action }) => action === edit));
             if (answered) this.given(answered, /** @type {CustomEvent} */ (event).detail);
         });
     }
 
-    /** Sends an edit that gives the label of now. @param {any} action all of it but what to apply */
+    /** Sends an edit that gives the current label. @param {any} action the edit without `apply` */
     async give(action) {
         const edit = { ...action, apply: this.state.apply };
         this.giving.add(edit);
         this.given(edit, await this.edits.send(edit));
     }
 
-    /** An edit is answered; one that asked for a new instance is told its number, unless it touched nothing. @param {any} edit @param {any} change null where it was refused */
+    /** Takes the answer to an edit: if it asked for a new instance and changed something, the answer has the number. @param {any} edit @param {any} change null where it was refused */
     given(edit, change) {
         if (this.giving.delete(edit) && edit.apply.new && change?.pieces.length > 0) this.state.number(edit.apply, change.instance[0]);
     }
 
-    /** The selection, or nothing with a word about it. @returns {number[] | null} */
+    /** The selection; null if it is empty, which the user is told. @returns {number[] | null} */
     chosen() {
         if (this.state.selection.size > 0) return [...this.state.selection];
         toast("Nothing is selected.", "Click a piece in the view or in the list, or press the dot for the next unlabelled one.");
@@ -89,7 +89,7 @@ export class Actions {
         if (this.state.classById.has(id)) this.state.set({ layer: "semantic", currentClass: id, erase: false });
     }
 
-    /** Grows the selection by what is alike. @param {(piece: number) => unknown} key */
+    /** Adds all pieces that have the key of a selected one. @param {(piece: number) => unknown} key */
     alike(key) {
         const pieces = this.chosen();
         if (!pieces) return;
@@ -123,7 +123,7 @@ export class Actions {
         if (piece !== null) this.selectParts(piece, await this.edits.send({ type: "split", piece, by }));
     }
 
-    /** Begins painting faces of the selected piece; painting already, splits them off. */
+    /** Begins to paint faces of the selected piece; if painting already, splits the painted faces off. */
     async paint() {
         const { painting } = this.state;
         if (!painting) {
@@ -264,7 +264,7 @@ export class Actions {
         /** @type {HTMLElement | null} */ (document.querySelector(`#panel-${tab} input[type="search"]`))?.focus();
     }
 
-    /** Asks how far it has come. */
+    /** Asks the server for the progress. */
     async progress() {
         const progress = await getJson("/api/annotate/progress");
         this.unlabelled = progress.unlabelled;

@@ -1,4 +1,4 @@
-// The list of classes: colours, numbers, search, how many pieces have each.
+// The panel "Classes": colour, number and name of each class, and how many pieces have it; search.
 
 import { el } from "../shared/dom.js";
 import { css } from "./colors.js";

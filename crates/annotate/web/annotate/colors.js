@@ -1,4 +1,5 @@
-// Colours of pieces: by class, or by instance as Hypersim's tool and the saved files have them. White is unlabelled; grey is labelled in the other layer only.
+// Colours of pieces: by class, or by instance as in Hypersim's tool and the saved files. White is unlabelled; grey is labelled in the other
+// layer only.
 
 const UNLABELLED = [255, 255, 255];
 const OTHER_LAYER = [77, 77, 77];

@@ -1,4 +1,4 @@
-// All commands in one table: what they are called, their keys, what they do. The help overlay, the palette and the keyboard read it.
+// All commands in one table: name, keys and action. The help overlay, the palette and the keyboard use it.
 
 /**
  * @typedef {object} Command
@@ -100,7 +100,7 @@ export const keyName = (key) => key.replace(/^ $/, "Space").replace(/\b[a-z]$/, 
 /** The name of a pressed key, as in the table. @param {KeyboardEvent} event */
 export function pressed(event) {
     const letter = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-    // With Alt a digit may become another character; its place tells.
+    // With Alt, a digit key may type another character; its code says which digit it is.
     const key = event.altKey && event.code.startsWith("Digit") ? event.code.slice(5) : letter;
     const shift = event.shiftKey && /^[a-z]$/.test(key);
     return `${event.ctrlKey || event.metaKey ? "Ctrl+" : ""}${event.altKey ? "Alt+" : ""}${shift ? "Shift+" : ""}${key}`;
@@ -127,7 +127,7 @@ export function listenToKeys(table, act) {
             if (name === "Escape") target.blur();
             return;
         }
-        // What has the focus keeps the keys that work it.
+        // A focused control keeps the keys that operate it.
         if ((name === " " || name === "Enter") && target.closest("button, [role=tab], summary, a, input")) return;
         if (/^\d$/.test(name)) {
             digits = event.timeStamp - last < DIGITS_MS ? digits + name : name;

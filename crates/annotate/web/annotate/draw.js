@@ -1,4 +1,4 @@
-// Strokes on the view: pen, line, rectangle, eyedropper; selecting by click; painting faces to split off.
+// The pointer on the view: strokes of pen, line, rectangle and eyedropper, selecting by click, and painting faces to split off.
 
 import { postJson } from "../shared/api.js";
 import { toastError } from "../shared/toast.js";
@@ -43,8 +43,8 @@ export class Draw {
     /** @param {PointerEvent} event @returns {[number, number]} */
     place(event) {
         const box = this.stage.element.getBoundingClientRect();
-        /** @param {number} v @param {number} most */
-        const inside = (v, most) => Math.min(Math.max(v, 0), most - 0.5);
+        /** @param {number} v @param {number} size */
+        const inside = (v, size) => Math.min(Math.max(v, 0), size - 0.5);
         return [inside(event.clientX - box.left, box.width), inside(event.clientY - box.top, box.height)];
     }
 
@@ -116,7 +116,7 @@ export class Draw {
         this.state.select(selection);
     }
 
-    /** Turns about what was double-clicked from now on. @param {MouseEvent} event */
+    /** Makes the double-clicked point the one that the camera turns about. @param {MouseEvent} event */
     lookHere(event) {
         const point = this.stage.pointAt(...this.place(/** @type {PointerEvent} */ (event)));
         if (!point || this.state.drawMode) return;
@@ -155,7 +155,7 @@ export class Draw {
         }
     }
 
-    /** Takes over the label of what is at a pixel. @param {[number, number]} pixel */
+    /** Makes the label of the piece at a pixel the current label. @param {[number, number]} pixel */
     async takeLabel(pixel) {
         const { piece } = await postJson("/api/annotate/pick", { ...this.look(), pixel });
         if (piece < 0) return;
@@ -179,7 +179,7 @@ export class Draw {
         this.state.tell("painting");
     }
 
-    /** Lights up what the rectangle would select, by what is shown. */
+    /** Highlights what the rectangle would select, judged by the picture. */
     preview() {
         if (!this.points) return;
         const { filters, pieces } = this.state;

@@ -1,5 +1,5 @@
-// Edits on their way to the server. One at a time and in order; what is not acknowledged is kept and sent again, over reloads too. Each has
-// an id, by which the server knows one that had arrived although its answer was lost.
+// The queue of edits for the server. They are sent one at a time and in order. Unacknowledged edits are kept and sent again, also after a
+// reload. Each has an id, by which the server recognises an edit that it has done already.
 
 import { ApiError, getJson, postJson } from "../shared/api.js";
 import { toast, toastError } from "../shared/toast.js";
@@ -7,12 +7,12 @@ import { toast, toastError } from "../shared/toast.js";
 const RETRY_MS = 1500;
 const STORE = "enfilade.annotate.unsent";
 
-/** An id that nothing else has. Beyond this machine, without https, browsers have no `randomUUID`. */
+/** A unique id. Browsers have `randomUUID` only for https and for pages of this machine. */
 const newId = () => crypto.randomUUID?.() ?? Array.from(crypto.getRandomValues(new Uint32Array(4)), (part) => part.toString(36)).join("-");
 
-/** Sends edits and hears of those of other tabs. Events: `state` when something about saving has changed, `change` with a CHANGE. */
+/** Sends edits and hears of those of other tabs. Events: `state` when something about saving has changed, `change` with a change. */
 export class Edits extends EventTarget {
-    /** @param {string} scene tells apart what is kept for several scenes */
+    /** @param {string} scene so that unsent edits of several scenes are kept apart */
     constructor(scene) {
         super();
         this.client = newId();
@@ -31,7 +31,7 @@ export class Edits extends EventTarget {
     }
 
     /**
-     * Sends an edit. Resolves with the CHANGE, or null where it was refused, which the user has been told then.
+     * Sends an edit. Resolves with the change, or with null if it was refused, which the user is told.
      *
      * @param {any} action
      * @returns {Promise<any>}
@@ -82,7 +82,7 @@ export class Edits extends EventTarget {
     }
 
     /**
-     * Hears of changes from here on. After a break the server replays what was missed, or asks for a reload.
+     * Listens to changes. After a lost connection the server repeats what was missed, or asks for a reload.
      *
      * @param {() => number} revision the last one that is known
      * @param {() => void} reload takes everything anew

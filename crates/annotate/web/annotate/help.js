@@ -1,4 +1,4 @@
-// The overlay of keys, and the palette of all commands. Both are made of the one table.
+// The overlay of keys and the palette of commands, both made from the table of commands.
 
 import { el } from "../shared/dom.js";
 import { GESTURES, keyName } from "./commands.js";

@@ -1,13 +1,14 @@
-// A long list of pieces of which only the visible rows exist. One tab stop; arrows move, space selects, Enter goes there.
+// A long list of pieces; only the visible rows exist as elements. It is one tab stop: arrows move and select, F2 goes to the piece.
 
 import { el } from "../shared/dom.js";
 
 const ROW_PX = 26;
+/** Rows beyond the visible ones, above and below. */
 const SPARE = 8;
 
 /** @typedef {{ piece: number, cells: (string | Node)[], label: string }} Row */
 
-/** The list. `rows` says what it shows; `selected`, `select` and `open` tie it to the page. */
+/** The list. Its hooks say what a row shows, and what selecting and opening a piece do. */
 export class PieceList {
     /**
      * @param {string} label for screen readers

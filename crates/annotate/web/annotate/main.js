@@ -1,4 +1,4 @@
-// The page that annotates: loads the scene and ties the parts together.
+// The annotation page: loads the scene, makes the parts of the page and connects them.
 
 import { getBytes, getJson, postJson } from "../shared/api.js";
 import { byId } from "../shared/dom.js";
@@ -20,12 +20,12 @@ import { settingsDialog } from "./settings.js";
 import { suggestionsPanel } from "./suggestions_panel.js";
 import { selectionBox, toolbar, topBar } from "./toolbar.js";
 
-/** How often the server is told of work, milliseconds. */
+/** How often activity is reported to the server, milliseconds. */
 const ACTIVITY_MS = 15_000;
 /** Progress is asked for this long after the last edit, milliseconds. */
 const PROGRESS_AFTER_MS = 700;
 
-/** Takes the colours of the theme into the view. @param {Stage3d} stage */
+/** Gives the view the colours of the theme. @param {Stage3d} stage */
 function takeTheme(stage) {
     const style = getComputedStyle(document.documentElement);
     const color = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
@@ -50,7 +50,7 @@ function showState(stage, state) {
     });
 }
 
-/** Shows whether edits are saved, and takes over changes. @param {State} state @param {Edits} edits @param {Stage3d} stage @param {Actions} act */
+/** Shows whether edits are saved, and applies changes. @param {State} state @param {Edits} edits @param {Stage3d} stage @param {Actions} act */
 function followEdits(state, edits, stage, act) {
     const saved = byId("save-state");
     const show = () => {
@@ -81,7 +81,7 @@ function followEdits(state, edits, stage, act) {
     progressSoon();
 }
 
-/** Counts time at work, not idle time. */
+/** Reports activity to the server, which counts the time at work. */
 function reportActivity() {
     let last = performance.now();
     for (const kind of ["pointermove", "pointerdown", "keydown", "wheel"]) window.addEventListener(kind, () => (last = performance.now()), { passive: true, capture: true });
@@ -124,7 +124,7 @@ function followAddress(act, stage, state) {
 async function start() {
     const theme = localStorage.getItem("enfilade.theme");
     if (theme) document.documentElement.dataset.theme = theme;
-    // The view first: without it there is nothing to load for.
+    // The view first: if the browser cannot show it, nothing needs to be loaded.
     const stage = new Stage3d(byId("stage"));
     const [scene, pieces, colors, bytes] = await Promise.all([getJson("/api/annotate/scene"), getJson("/api/annotate/pieces"), getBytes("/api/annotate/instance_colors"), getBytes("/api/annotate/geometry")]);
     document.title = `${scene.name} - enfilade annotate`;

@@ -1,4 +1,4 @@
-// The panels at the side, as tabs.
+// The panels at the side, each behind a tab.
 
 import { el, byId } from "../shared/dom.js";
 

@@ -1,4 +1,4 @@
-// All pieces: search by name, sort by column, select.
+// The panel "Pieces": all pieces, to search by name, sort by column and select.
 
 import { el, spaced } from "../shared/dom.js";
 import { css } from "./colors.js";

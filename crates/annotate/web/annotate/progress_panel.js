@@ -1,4 +1,4 @@
-// What is still to do, how far it has come, and how long it took.
+// The panels "To do" and "Progress": unlabelled pieces, shares of what is labelled, and the work log.
 
 import { getJson } from "../shared/api.js";
 import { byId, el, spaced } from "../shared/dom.js";
@@ -45,13 +45,13 @@ export function progressPanel(state) {
     state.addEventListener("progress", (event) => {
         const { visible, area_share, labelled_pieces, pieces, by_layer, conflicts } = /** @type {CustomEvent} */ (event).detail;
         const instance = by_layer?.instance ?? {};
-        const torn = conflicts ?? [];
+        const mixed = conflicts ?? [];
         bars.replaceChildren(
             ...bar("Visible pixels with a class", visible.pixels_labelled_share),
             ...bar("Area with a class", area_share),
             ...bar("Pieces with a class", labelled_pieces / Math.max(1, pieces)),
             ...bar("Area with an instance", instance.area_share ?? 0),
-            ...torn.slice(0, 8).map((/** @type {any} */ one) => el("p", {}, `Instance ${one.instance} has pieces of different classes.`)),
+            ...mixed.slice(0, 8).map((/** @type {any} */ one) => el("p", {}, `Instance ${one.instance} has pieces of different classes.`)),
         );
         byId("progress-line").textContent = `${percent(visible.pixels_labelled_share)} of visible pixels, ${labelled_pieces} of ${pieces} pieces`;
     });

@@ -1,4 +1,4 @@
-// How the camera moves and where its picture begins, and what the scene consists of.
+// The dialog "Camera and scene": flying speed, near plane, and numbers of the scene.
 
 import { el, spaced } from "../shared/dom.js";
 

@@ -1,4 +1,4 @@
-// What the page knows: the scene, its pieces and their labels, what is selected, the tools. Tells "change" with what has changed.
+// The state of the annotation page: the scene, its pieces and their labels, the selection, the tools. An event "change" says what changed.
 
 /**
  * @typedef {{ id: number, name: string, color: [number, number, number] }} LabelClass
@@ -18,7 +18,7 @@ const CONTRARY = {
     only_with_class: "only_without_class",
 };
 
-/** What asks the server for the next instance: a number that the page took itself another page might take too. @returns {Apply} */
+/** Asks the server for the next instance number: if pages chose numbers, two pages might choose the same. @returns {Apply} */
 export const newInstance = () => ({ layer: "instance", new: true });
 
 /** The state of the page. Everything that changes it goes through a method, which tells the listeners. */
@@ -56,7 +56,7 @@ export class State extends EventTarget {
         /** @type {Record<Filter, boolean>} */
         this.filters = { only_without_instance: true, only_with_instance: false, only_without_class: true, only_with_class: false };
         this.currentClass = this.classes[0]?.id ?? 1;
-        /** Asks for a new instance, until its number has come. Edits that are to share the number share this object. @type {Apply | null} */
+        /** Asks for a new instance until its number is known. Edits that get the same number share this object. @type {Apply | null} */
         this.fresh = newInstance();
         /** The instance to give, where it is not a new one. */
         this.currentInstance = 1;
@@ -84,7 +84,7 @@ export class State extends EventTarget {
         return this.classById.get(this.pieces.semantic[piece])?.name ?? "";
     }
 
-    /** Says that these aspects have changed. @param {...string} aspects */
+    /** Tells listeners that these aspects have changed. @param {...string} aspects */
     tell(...aspects) {
         this.dispatchEvent(new CustomEvent("change", { detail: new Set(aspects) }));
     }
@@ -103,7 +103,7 @@ export class State extends EventTarget {
         this.tell("tools", ...Object.keys(fields));
     }
 
-    /** Switches a filter, and its contrary off. @param {Filter} filter @param {boolean} on */
+    /** Switches a filter on or off. Switching it on switches its contrary off. @param {Filter} filter @param {boolean} on */
     setFilter(filter, on) {
         this.filters = { ...this.filters, [filter]: on };
         if (on) this.filters[CONTRARY[filter]] = false;
@@ -137,14 +137,14 @@ export class State extends EventTarget {
         return this.fresh ?? { layer: "instance", value: this.currentInstance };
     }
 
-    /** The server has given the new instance that was asked for a number. @param {Apply} asked @param {number} instance */
+    /** The server has chosen the number of a new instance. @param {Apply} asked @param {number} instance */
     number(asked, instance) {
         delete asked.new;
         asked.value = instance;
         if (this.fresh === asked) this.set({ fresh: null, currentInstance: instance });
     }
 
-    /** Takes over a change of labels or pieces, from whichever page. @param {any} change */
+    /** Applies a change of labels or pieces, of this page or another. @param {any} change */
     takeChange(change) {
         if (change.revision <= this.revision) return false;
         this.revision = change.revision;
@@ -161,7 +161,7 @@ export class State extends EventTarget {
             columns.geometry_keys[at] = one.geometry_key ?? columns.geometry_keys[at];
             columns.semantic[at] = one.semantic;
             columns.instance[at] = one.instance;
-            // What is suggested for a part is suggested for its pieces.
+            // A suggestion for a part counts for its pieces.
             columns.suggestions[at] = columns.suggestions[columns.parents[at]] ?? null;
             this.removed.delete(at);
         }
@@ -175,7 +175,7 @@ export class State extends EventTarget {
         return true;
     }
 
-    /** A piece that an undone split had made. Numbers are given from the end, so it is cut off there. @param {number} piece */
+    /** Removes a piece that an undone split had made. Such pieces have the last numbers, so the columns are cut at the end. @param {number} piece */
     forget(piece) {
         this.removed.add(piece);
         this.selection.delete(piece);

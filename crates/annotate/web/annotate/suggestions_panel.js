@@ -1,4 +1,4 @@
-// Classes proposed from names: confirm each, or all above a confidence.
+// The panel "Suggested": classes proposed from names, to confirm one by one, or all above a confidence.
 
 import { el, spaced } from "../shared/dom.js";
 import { PieceList } from "./list.js";
@@ -6,7 +6,7 @@ import { classCell, selecting } from "./pieces_panel.js";
 
 /** @param {import("./state.js").State} state @param {import("./actions.js").Actions} act */
 export function suggestionsPanel(state, act) {
-    const slider = el("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0.9", "aria-label": "Least confidence" });
+    const slider = el("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0.9", "aria-label": "Minimum confidence" });
     const threshold = el("output", { class: "number" });
     const confirm = el("button", { class: "primary", id: "confirm-all", onclick: () => void act.confirm(list.pieces) });
     const list = new PieceList("Suggestions", "Nothing without a class is suggested with this confidence.", {
@@ -27,10 +27,10 @@ export function suggestionsPanel(state, act) {
     }
     function refresh() {
         const { suggestions, semantic } = state.pieces;
-        const least = Number(slider.value);
-        const open = [...Array(state.count).keys()].filter((piece) => !state.removed.has(piece) && suggestions[piece] && suggestions[piece].confidence >= least && semantic[piece] < 1);
+        const min = Number(slider.value);
+        const open = [...Array(state.count).keys()].filter((piece) => !state.removed.has(piece) && suggestions[piece] && suggestions[piece].confidence >= min && semantic[piece] < 1);
         list.show(open.sort((a, b) => suggestions[b].confidence - suggestions[a].confidence || a - b));
-        threshold.textContent = `≥ ${Math.round(least * 100)} %`;
+        threshold.textContent = `≥ ${Math.round(min * 100)} %`;
         confirm.textContent = `Confirm ${spaced(open.length)}`;
         confirm.disabled = open.length === 0;
     }

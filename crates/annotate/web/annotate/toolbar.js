@@ -1,4 +1,4 @@
-// The tools at the left, the buttons at the top, and the box of the selection. All of them run commands of the table.
+// The tools at the left, the buttons at the top, and the box of the selection. Their buttons run commands of the table.
 
 import { byId, el } from "../shared/dom.js";
 import { css } from "./colors.js";

@@ -1,4 +1,4 @@
-// Short messages at the corner of the page.
+// Messages at the corner of the page, which go away by themselves.
 
 import { el } from "./dom.js";
 

@@ -1,4 +1,4 @@
-// Colours for numbers: perceptually uniform maps, and a colour of its own for each number of a thing.
+// Colours for numbers: perceptually uniform maps for quantities, a table of distinct colours for ids, and the colours of masks.
 
 /** Maps at tenths, sRGB, from matplotlib (CC0): equal steps of the value look like equal steps of lightness. @type {Record<string, string[]>} */
 const TENTHS = {

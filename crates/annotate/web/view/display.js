@@ -1,9 +1,9 @@
-// The panel "Display": how the layer becomes colours, and what its values come to.
+// The panel "Display": how a layer is turned into colours, and statistics of its values.
 
+import { el, facts } from "../shared/dom.js";
 import { MAPS, MASKS, TRAITS, cssColor } from "./colors.js";
 import { rangeOf } from "./kinds.js";
 import { PERCENTILES, brief } from "./numbers.js";
-import { facts, h } from "./dom.js";
 
 /** @typedef {import("./session.js").Session} Session */
 
@@ -19,8 +19,8 @@ export function displayPanel(session) {
         children.push(...layerPart(session, side));
     }
     children.push(
-        h("h2", {}, "Over the picture"),
-        h("label", { class: "field" }, "Boxes", h("span", {}, h("input", { type: "checkbox", id: "boxes", checked: store.state.boxes, onchange: (/** @type {any} */ e) => store.set({ boxes: e.target.checked }) }), " of all instances")),
+        el("h2", {}, "Over the picture"),
+        el("label", { class: "field" }, "Boxes", el("span", {}, el("input", { type: "checkbox", id: "boxes", checked: store.state.boxes, onchange: (/** @type {any} */ e) => store.set({ boxes: e.target.checked }) }), " of all instances")),
     );
     return children;
 }
@@ -29,29 +29,29 @@ export function displayPanel(session) {
 function toneFields(store) {
     const { state } = store;
     const choice = (/** @type {string} */ id, /** @type {string} */ label, /** @type {"tone" | "expose"} */ key, /** @type {[string, string][]} */ options) =>
-        h("div", { class: "field" }, h("label", { for: id }, label), h("select", { id, onchange: (/** @type {any} */ e) => store.set({ [key]: e.target.value }) },
-            ...options.map(([value, text]) => h("option", { value, selected: state[key] === value }, text))));
+        el("div", { class: "field" }, el("label", { for: id }, label), el("select", { id, onchange: (/** @type {any} */ e) => store.set({ [key]: e.target.value }) },
+            ...options.map(([value, text]) => el("option", { value, selected: state[key] === value }, text))));
     const set = (/** @type {any} */ e) => Number.isFinite(e.target.valueAsNumber) && store.set({ stops: Math.min(20, Math.max(-20, e.target.valueAsNumber)) });
     return [
-        h("h2", {}, "Light"),
+        el("h2", {}, "Light"),
         choice("tone", "Curve", "tone", [["hypersim", "Hypersim"], ["filmic", "Filmic (ACES)"], ["linear", "Linear"]]),
         choice("expose", "Exposure by", "expose", [["frame", "this frame"], ["trajectory", "trajectory"], ["fixed", "1 is white"]]),
-        h("div", { class: "field" }, h("label", { for: "stops" }, "Stops"), h("span", { class: "with-number" },
-            h("input", { type: "range", id: "stops", min: -8, max: 8, step: 0.25, value: state.stops, oninput: set }),
-            h("input", { type: "number", "aria-label": "Stops as a number", min: -20, max: 20, step: 0.25, value: state.stops, onchange: set }))),
+        el("div", { class: "field" }, el("label", { for: "stops" }, "Stops"), el("span", { class: "with-number" },
+            el("input", { type: "range", id: "stops", min: -8, max: 8, step: 0.25, value: state.stops, oninput: set }),
+            el("input", { type: "number", "aria-label": "Stops as a number", min: -20, max: 20, step: 0.25, value: state.stops, onchange: set }))),
     ];
 }
 
-/** @param {Session} session @param {import("./stage.js").Side} side */
+/** @param {Session} session @param {import("./session.js").Side} side */
 function layerPart(session, side) {
     const { store, looks } = session;
     const { layer, data, frame } = side;
     const spec = looks.spec(layer), look = looks.look(layer);
-    const children = [h("h2", {}, layer, h("span", { class: "quiet" }, `  frame ${frame}`)), h("p", { class: "quiet" }, spec.description)];
+    const children = [el("h2", {}, layer, el("span", { class: "quiet" }, `  frame ${frame}`)), el("p", { class: "quiet" }, spec.description)];
     if (data && (look.kind === "scalar" || look.kind === "flow" || look.kind === "stretched")) children.push(...rangeFields(store, layer, look, data.summary));
     if (look.kind === "code") {
         const codes = layer === "surface_traits" ? TRAITS.map(({ bit, name, color }) => ({ code: bit, name, color })) : (MASKS[layer] ?? []);
-        children.push(...codes.map(({ code, name, color }) => h("div", {}, h("span", { class: "swatch", style: `background:${cssColor(color)}` }), ` ${code}  ${name}`)));
+        children.push(...codes.map(({ code, name, color }) => el("div", {}, el("span", { class: "swatch", style: `background:${cssColor(color)}` }), ` ${code}  ${name}`)));
     }
     if (data) {
         const { summary, size, dtype } = data;
@@ -63,7 +63,7 @@ function layerPart(session, side) {
             ["Nothing hit", spec.sentinel],
             ...(look.kind === "id" || look.kind === "code" ? [] : /** @type {[string, any][]} */ ([
                 ["Numbers of", summary.of],
-                ["Least, most", summary.range && `${brief(summary.range[0])}, ${brief(summary.range[1])}`],
+                ["Min, max", summary.range && `${brief(summary.range[0])}, ${brief(summary.range[1])}`],
                 ["Mean", brief(summary.mean)],
                 ...summary.percentiles.map((value, i) => [`${PERCENTILES[i]} %`, brief(value)]),
                 ["Without number", `${summary.without} px`],
@@ -88,17 +88,17 @@ function rangeFields(store, layer, look, summary) {
         store.set({ ranges });
     };
     const input = (/** @type {number} */ value, /** @type {string} */ label, /** @type {(v: number) => void} */ change) =>
-        h("input", { type: "number", step: "any", value: brief(value), "aria-label": `${label} of ${layer}`, onchange: (/** @type {any} */ e) => change(e.target.valueAsNumber) });
+        el("input", { type: "number", step: "any", value: brief(value), "aria-label": `${label} of ${layer}`, onchange: (/** @type {any} */ e) => change(e.target.valueAsNumber) });
     const fields = [
-        h("div", { class: "field" }, h("span", {}, "Range"), h("span", { class: "pair" }, input(low, "Lower end", (v) => set(v, high)), input(high, "Upper end", (v) => set(low, v)))),
-        h("div", { class: "field" }, h("span", {}), h("span", { class: "pair" },
-            h("button", { type: "button", "aria-pressed": String(!chosen), title: "1st to 99th percentile of each frame", onclick: free }, "Automatic"),
-            h("button", { type: "button", "aria-pressed": String(chosen), title: "The same for all frames", onclick: () => set(low, high) }, "Hold"))),
+        el("div", { class: "field" }, el("span", {}, "Range"), el("span", { class: "pair" }, input(low, "Lower end", (v) => set(v, high)), input(high, "Upper end", (v) => set(low, v)))),
+        el("div", { class: "field" }, el("span", {}), el("span", { class: "pair" },
+            el("button", { type: "button", "aria-pressed": String(!chosen), title: "1st to 99th percentile of each frame", onclick: free }, "Automatic"),
+            el("button", { type: "button", "aria-pressed": String(chosen), title: "The same for all frames", onclick: () => set(low, high) }, "Hold"))),
     ];
     if (look.kind === "scalar") {
         const map = store.state.maps[layer] ?? look.map;
-        fields.unshift(h("div", { class: "field" }, h("label", { for: `map-${layer}` }, "Colours"), h("select", { id: `map-${layer}`, onchange: (/** @type {any} */ e) => store.set({ maps: { ...store.state.maps, [layer]: e.target.value } }) },
-            ...MAPS.map((name) => h("option", { value: name, selected: name === map }, name)))));
+        fields.unshift(el("div", { class: "field" }, el("label", { for: `map-${layer}` }, "Colours"), el("select", { id: `map-${layer}`, onchange: (/** @type {any} */ e) => store.set({ maps: { ...store.state.maps, [layer]: e.target.value } }) },
+            ...MAPS.map((name) => el("option", { value: name, selected: name === map }, name)))));
     }
     return fields;
 }

@@ -1,4 +1,4 @@
-// A worker that fetches layers and puts packed ones in order, so that the page never waits for either.
+// A worker that fetches layers and unpacks them, so that the page never waits for either.
 
 /** @typedef {{ id: number, url: string }} Order */
 /** @type {Map<number, AbortController>} */

@@ -1,6 +1,7 @@
-// Every key, once: what it does and what the help says.
+// The keyboard: calls the action of a key, and shows the help from the same table.
 
-import { byId, h } from "./dom.js";
+import { byId, el } from "../shared/dom.js";
+
 
 /** @typedef {{ keys: string[], shown?: string, says: string, does: (event: KeyboardEvent) => void, repeats?: boolean }} Key */
 /** @typedef {{ title: string, keys: Key[] }} Group */
@@ -16,7 +17,7 @@ export function listenToKeys(groups) {
         const typing = target.matches("input:not([type=range]):not([type=checkbox]), select, textarea");
         if (event.key === "Escape" && typing) target.blur();
         if (typing || byId("help").open) return;
-        // A control that uses a key keeps it.
+        // A focused control keeps the keys that operate it.
         if (target.matches("button, a, tr, [role=tab], input") && ["Enter", " "].includes(event.key)) return;
         if (target.matches("input[type=range]") && event.key.startsWith("Arrow")) return;
         const letter = event.key.length === 1 && /[a-z]/i.test(event.key);
@@ -31,12 +32,12 @@ export function listenToKeys(groups) {
 /** @param {Group[]} groups */
 export function showHelp(groups) {
     const dialog = byId("help");
-    const names = (/** @type {Key} */ key) => (key.shown ?? key.keys.join("  ")).split("  ").flatMap((name) => [h("kbd", {}, name), " "]);
+    const names = (/** @type {Key} */ key) => (key.shown ?? key.keys.join("  ")).split("  ").flatMap((name) => [el("kbd", {}, name), " "]);
     dialog.replaceChildren(
-        h("h1", { id: "help-title" }, "Keys"),
-        h("div", { class: "keys" }, ...groups.map((group) => h("section", {}, h("h3", {}, group.title), h("dl", {}, ...group.keys.flatMap((key) => [h("dt", {}, ...names(key)), h("dd", {}, key.says)]))))),
-        h("p", { class: "quiet" }, "Mouse: wheel zooms, dragging moves, double click shows the whole picture, a click keeps an instance marked. Everything that is shown stands in the address."),
-        h("form", { method: "dialog" }, h("button", { class: "primary", autofocus: true }, "Close")),
+        el("h1", { id: "help-title" }, "Keys"),
+        el("div", { class: "keys" }, ...groups.map((group) => el("section", {}, el("h3", {}, group.title), el("dl", {}, ...group.keys.flatMap((key) => [el("dt", {}, ...names(key)), el("dd", {}, key.says)]))))),
+        el("p", { class: "quiet" }, "Mouse: wheel zooms, dragging moves, double click shows the whole picture, a click keeps an instance marked. Everything that is shown stands in the address."),
+        el("form", { method: "dialog" }, el("button", { class: "primary", autofocus: true }, "Close")),
     );
     dialog.showModal();
     dialog.scrollTop = 0;

@@ -1,4 +1,4 @@
-// How each layer is shown. A new layer of the table is shown by what it is: its channels, unit and type.
+// How each layer is shown: by its channels, unit and type, so that layers this page does not know are shown too.
 
 /** @typedef {import("./catalogue.js").LayerSpec} LayerSpec */
 /** @typedef {"radiance" | "albedo" | "scalar" | "direction" | "stretched" | "flow" | "texture" | "id" | "code"} Kind */

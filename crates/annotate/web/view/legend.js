@@ -1,14 +1,14 @@
-// What the colours of a picture mean, beside the name of its layer.
+// The legend beside the name of a layer: what the colours of its picture mean.
 
+import { el } from "../shared/dom.js";
 import { mapTable } from "./colors.js";
 import { rangeOf } from "./kinds.js";
 import { brief } from "./numbers.js";
-import { h } from "./dom.js";
 
 /**
  * @param {HTMLElement} element
  * @param {import("./session.js").Session} session
- * @param {import("./stage.js").Side | undefined} side
+ * @param {import("./session.js").Side | undefined} side
  */
 export function showLegend(element, session, side) {
     const key = side?.data ? JSON.stringify([side.layer, side.data.summary, session.store.state.ranges[side.layer], session.store.state.maps[side.layer]]) : "";
@@ -19,22 +19,22 @@ export function showLegend(element, session, side) {
     const spec = looks.spec(side.layer), look = looks.look(side.layer);
     const range = rangeOf(look, side.data.summary, session.store.state.ranges[side.layer]);
     const unit = spec.unit ? ` ${spec.unit}` : "";
-    const note = (/** @type {string} */ text) => element.replaceChildren(h("span", { class: "quiet ellipsis", title: text }, text));
+    const note = (/** @type {string} */ text) => element.replaceChildren(el("span", { class: "quiet ellipsis", title: text }, text));
     switch (look.kind) {
         case "scalar": {
-            const bar = h("canvas", { width: 256, height: 1 });
+            const bar = el("canvas", { width: 256, height: 1 });
             const image = new ImageData(new Uint8ClampedArray(mapTable(session.store.state.maps[side.layer] ?? look.map)), 256, 1);
             bar.getContext("2d").putImageData(image, 0, 0);
-            return element.replaceChildren(h("span", {}, brief(range[0])), bar, h("span", {}, `${brief(range[1])}${unit}`));
+            return element.replaceChildren(el("span", {}, brief(range[0])), bar, el("span", {}, `${brief(range[1])}${unit}`));
         }
         case "flow": {
-            const bar = h("canvas", { width: 256, height: 1 });
+            const bar = el("canvas", { width: 256, height: 1 });
             const pen = bar.getContext("2d");
             for (let x = 0; x < 256; x++) {
                 pen.fillStyle = `hsl(${(x / 256) * 360} 100% 50%)`;
                 pen.fillRect(x, 0, 1, 1);
             }
-            return element.replaceChildren(h("span", {}, "→"), bar, h("span", {}, `↓ ← ↑ →  full at ${brief(range[1])}${unit}`));
+            return element.replaceChildren(el("span", {}, "→"), bar, el("span", {}, `↓ ← ↑ →  full at ${brief(range[1])}${unit}`));
         }
         case "direction": return note("red, green, blue: x, y, z from −1 to 1");
         case "stretched": return note(`red, green, blue: x, y, z from ${brief(range[0])} to ${brief(range[1])}${unit}`);

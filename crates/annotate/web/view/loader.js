@@ -1,22 +1,22 @@
-// Layers of frames: which are wanted, which are on their way, which are here.
+// Layers of frames: which are wanted, which are being fetched, which are here.
 //
-// Whoever shows something says what is wanted, most urgent first. What is no longer wanted is called off. On a slow wire a small
-// picture comes first and layers travel compressed; whether a wire is slow is measured.
+// The page says what it wants, most urgent first. Requests for what is no longer wanted are cancelled. On a slow connection a small
+// picture is fetched first and layers are compressed; the speed of the connection is measured.
 
 import { valuesOf } from "./numbers.js";
 
 /** @typedef {import("./numbers.js").LayerData} LayerData */
-/** @typedef {{ scene: string, camera: string, frame: number, layer: string }} Place */
+/** @typedef {{ scene: string, camera: string, frame: number, layer: string }} LayerOfFrame */
 
 const WORKERS = Math.max(2, Math.min(4, (navigator.hardwareConcurrency || 4) - 1));
-const MOST_UNDER_WAY = 6;
-const MOST_BYTES = 640 * 2 ** 20;
+const MAX_UNDER_WAY = 6;
+const MAX_BYTES = 640 * 2 ** 20;
 /** Every eighth pixel: a 64th of the bytes. */
 const PREVIEW_STEP = 8;
-/** Below this many megabytes per second a wire is slow. */
+/** A connection is slow below this many megabytes per second. */
 const SLOW_MB_PER_S = 25;
 
-/** @param {Place} place */
+/** @param {LayerOfFrame} place */
 export const keyOf = ({ scene, camera, frame, layer }) => `${scene}/${camera}/${frame}/${layer}`;
 
 export class Loader {
@@ -29,7 +29,7 @@ export class Loader {
         this.failed = new Map();
         /** @type {Map<number, { key: string, worker: Worker, step: number }>} */
         this.underWay = new Map();
-        /** @type {{ key: string, place: Place }[]} */
+        /** @type {{ key: string, place: LayerOfFrame }[]} */
         this.wanted = [];
         this.bytes = 0;
         this.orders = 0;
@@ -45,24 +45,24 @@ export class Loader {
         return this.mbPerSecond < SLOW_MB_PER_S;
     }
 
-    /** The layer, or the small picture of it. @param {Place} place @returns {LayerData | undefined} */
+    /** The layer, or the small picture of it. @param {LayerOfFrame} place @returns {LayerData | undefined} */
     get(place) {
         const key = keyOf(place);
         const data = this.here.get(key);
         if (data) {
-            // Last in the map is last used.
+            // Moved to the end of the map: the first entries are the least recently used.
             this.here.delete(key);
             this.here.set(key, data);
         }
         return data;
     }
 
-    /** Why a layer cannot be had. @param {Place} place */
+    /** Why a layer cannot be had. @param {LayerOfFrame} place */
     failure(place) {
         return this.failed.get(keyOf(place));
     }
 
-    /** Says what is wanted, most urgent first. @param {Place[]} places */
+    /** Says what is wanted, most urgent first. @param {LayerOfFrame[]} places */
     want(places) {
         this.wanted = places.map((place) => ({ key: keyOf(place), place }));
         const keys = new Set(this.wanted.map(({ key }) => key));
@@ -81,7 +81,7 @@ export class Loader {
 
     #order() {
         for (const [rank, { key, place }] of this.wanted.entries()) {
-            if (this.underWay.size >= MOST_UNDER_WAY) return;
+            if (this.underWay.size >= MAX_UNDER_WAY) return;
             const known = this.here.get(key);
             if (known?.step === 1 || this.failed.has(key) || [...this.underWay.values()].some((order) => order.key === key)) continue;
             const small = !known && rank < 2 && !(this.mbPerSecond >= SLOW_MB_PER_S);
@@ -125,7 +125,7 @@ export class Loader {
         this.here.set(key, { shape, size, dtype, summary, step, values: valuesOf(dtype, bytes) });
         const needed = new Set(this.wanted.map((wanted) => wanted.key));
         for (const [old, data] of this.here) {
-            if (this.bytes <= MOST_BYTES) break;
+            if (this.bytes <= MAX_BYTES) break;
             if (needed.has(old)) continue;
             this.here.delete(old);
             this.bytes -= data.values.byteLength;

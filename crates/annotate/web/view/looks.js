@@ -1,4 +1,4 @@
-// What a layer looks like in this scene: its colour tables, and what its numbers are called.
+// Colours and names of the numbers of a layer in this scene.
 
 import { MASKS, TRAITS, idColor, idTable, mapTable, traitsColor } from "./colors.js";
 import { lookOf } from "./kinds.js";

@@ -1,11 +1,12 @@
-// The page that shows a dataset: puts the parts together.
+// The page that shows a dataset: makes its parts, connects them, and lists all keys.
 
+import { byId, el } from "../shared/dom.js";
 import { fileUrl, getDataset, getFrame } from "./catalogue.js";
 import { displayPanel } from "./display.js";
-import { byId, h, toast } from "./dom.js";
-import { GROUPS } from "./kinds.js";
 import { listenToKeys, showHelp } from "./keys.js";
+import { GROUPS } from "./kinds.js";
 import { showLegend } from "./legend.js";
+import { showNotice } from "./notice.js";
 import { objectsPanel } from "./objects.js";
 import { showReadout } from "./readout.js";
 import { framePanel, viewsPanel } from "./records.js";
@@ -71,7 +72,7 @@ class Page {
         this.#verdict();
     }
 
-    /** The first picture may be looked at. */
+    /** Says that the first picture is shown. */
     ready() {
         document.body.dataset.ready = "true";
         byId("stage").focus({ preventScroll: true });
@@ -93,7 +94,7 @@ class Page {
         this.stage.refresh();
     }
 
-    /** After each painting: everything that tells of what is shown. */
+    /** Updates everything that describes what is shown; called after each painting. */
     painted() {
         const { session } = this;
         const sides = session.sides();
@@ -112,7 +113,7 @@ class Page {
         showReadout(byId("readout"), this.session, this.stage.pixel);
     }
 
-    /** The panel on the right, when what it tells has changed and nobody is typing in it. */
+    /** Updates the panel on the right, unless nothing has changed or somebody is typing in it. */
     panel() {
         const { session } = this;
         const { state } = store;
@@ -141,7 +142,7 @@ class Page {
         if (focused) /** @type {HTMLElement | null} */ (panel.querySelector(`[data-instance="${focused}"]`))?.focus();
     }
 
-    /** What the server knows of the frame. */
+    /** Asks the server about the frame. */
     async #learn() {
         const { scene, camera, frame } = store.state;
         if (this.known || !camera || this.learning === `${scene}/${camera}/${frame}`) return;
@@ -150,7 +151,7 @@ class Page {
             const known = await getFrame(scene, camera, frame);
             if (store.state.frame === frame && store.state.scene === scene && store.state.camera === camera) this.known = known;
         } catch (error) {
-            toast(/** @type {Error} */ (error).message);
+            showNotice(/** @type {Error} */ (error).message);
         }
         this.learning = "";
         this.stage.refresh();
@@ -177,8 +178,8 @@ class Page {
         const key = `${there}`;
         if (select.dataset.key !== key) {
             select.dataset.key = key;
-            const options = (/** @type {string[]} */ passes) => there.filter((name) => passes.includes(this.session.looks.spec(name).pass)).map((name) => h("option", { value: name }, name));
-            select.replaceChildren(...GROUPS.map(({ name, passes }) => h("optgroup", { label: name }, ...options(passes))).filter((group) => group.children.length));
+            const options = (/** @type {string[]} */ passes) => there.filter((name) => passes.includes(this.session.looks.spec(name).pass)).map((name) => el("option", { value: name }, name));
+            select.replaceChildren(...GROUPS.map(({ name, passes }) => el("optgroup", { label: name }, ...options(passes))).filter((group) => group.children.length));
         }
         select.value = chosen;
     }
@@ -212,18 +213,18 @@ class Page {
         const link = store.write();
         try {
             await navigator.clipboard.writeText(link);
-            toast("The link to this view is on the clipboard.");
+            showNotice("The link to this view is on the clipboard.");
         } catch {
-            toast("The address of this page is the link to this view.");
+            showNotice("The address of this page is the link to this view.");
         }
     }
 
     async #reload() {
         try {
             await this.session.reload();
-            toast("Read again.");
+            showNotice("Read again.");
         } catch (error) {
-            toast(/** @type {Error} */ (error).message);
+            showNotice(/** @type {Error} */ (error).message);
         }
     }
 
@@ -240,9 +241,9 @@ class Page {
         const card = pages.find((page) => page.title === "Report card");
         if (!verify) return byId("verdict").replaceChildren();
         const kind = !verify.passed ? "bad" : verify.accepted ? "good" : "warn";
-        const text = verify.passed ? `${verify.laws} laws hold` : `${verify.failures.length} laws fail`;
+        const text = verify.passed ? `${verify.laws} checks pass` : `${verify.failures.length} checks fail`;
         const title = [verify.verdict, verify.gate_verdict, ...verify.failures.map((law) => `${law.statement}: ${law.place}`)].join("\n");
-        byId("verdict").replaceChildren(h("a", { class: `badge ${kind}`, href: card ? fileUrl(card.path) : undefined, target: "_blank", title }, text));
+        byId("verdict").replaceChildren(el("a", { class: `badge ${kind}`, href: card ? fileUrl(card.path) : undefined, target: "_blank", title }, text));
     }
 
     /** @returns {import("./keys.js").Group[]} */

@@ -1,4 +1,4 @@
-// Stored numbers, as they are and as people read them.
+// Stored numbers: reading them from buffers, and writing them for people, exactly or in short.
 
 /** @typedef {{ shape: [number, number, number], dtype: string, summary: Summary, values: Uint8Array | Int16Array | Uint16Array | Float32Array, step: number, size: [number, number] }} LayerData */
 /** @typedef {{ of: string, range: [number, number] | null, mean: number | null, percentiles: number[], without: number, tone_scale?: number }} Summary */
@@ -47,7 +47,7 @@ export function pixelOf(data, x, y) {
 }
 
 /**
- * As few digits as tell the stored number apart from its neighbours.
+ * The shortest decimal number that is read back as the stored one.
  * @param {number} value
  * @param {string} dtype
  */

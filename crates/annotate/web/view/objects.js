@@ -1,8 +1,8 @@
-// The panel "Objects": the classes and instances in the picture; pointing at one marks it.
+// The panel "Objects": the instances and classes in the picture; pointing at an instance marks it.
 
+import { el, facts } from "../shared/dom.js";
 import { cssColor } from "./colors.js";
 import { brief, percent } from "./numbers.js";
-import { facts, h } from "./dom.js";
 
 /** @typedef {import("./session.js").Session} Session */
 
@@ -15,7 +15,7 @@ export function objectsPanel(session, known, repaint) {
     const { frame, instance } = session.store.state;
     const there = session.layersOf(frame);
     if (!there.includes("semantic_instance") && !there.includes("semantic")) {
-        return [h("p", { class: "quiet" }, "This frame has no labels. `enfilade label` joins them from a table, without rendering again.")];
+        return [el("p", { class: "quiet" }, "This frame has no labels. `enfilade label` joins them from a table, without rendering again.")];
     }
     return [...(instance ? chosenPart(session, known, instance) : []), ...instancesPart(session, known, repaint), ...classesPart(session)];
 }
@@ -27,7 +27,7 @@ function chosenPart(session, known, id) {
     const box = looks.box(id);
     const names = looks.objectsOfInstance(id);
     return [
-        h("h2", {}, `Instance ${id}`),
+        el("h2", {}, `Instance ${id}`),
         facts([
             ["Class", looks.className(looks.classOfInstance(id))],
             ["Parts", names.slice(0, 6).join(", ") + (names.length > 6 ? ` and ${names.length - 6} more` : "")],
@@ -43,7 +43,7 @@ function chosenPart(session, known, id) {
 function instancesPart(session, known, repaint) {
     const { frame } = session.store.state;
     const areas = session.areasOf(frame, "semantic_instance");
-    if (!areas) return [h("h2", {}, "Instances"), h("p", { class: "quiet" }, "Reading …")];
+    if (!areas) return [el("h2", {}, "Instances"), el("p", { class: "quiet" }, "Reading …")];
     const list = [...areas].filter(([id]) => id > 0).sort((a, b) => b[1].pixels - a[1].pixels);
     const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) => {
         const visibility = known?.instances.find((one) => one.instance === id)?.visibility;
@@ -52,15 +52,15 @@ function instancesPart(session, known, repaint) {
             repaint();
         };
         const pin = () => session.store.set({ instance: session.store.state.instance === id ? 0 : id });
-        return h("tr", { tabIndex: 0, "aria-selected": String(session.store.state.instance === id), "data-instance": id, title: session.looks.instanceName(id),
+        return el("tr", { tabIndex: 0, "aria-selected": String(session.store.state.instance === id), "data-instance": id, title: session.looks.instanceName(id),
             onpointerenter: () => mark(true), onpointerleave: () => mark(false), onfocus: () => mark(true), onblur: () => mark(false), onclick: pin,
             onkeydown: (/** @type {KeyboardEvent} */ e) => e.key === "Enter" && pin() },
-            h("td", {}, h("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic_instance", id))}` }), ` ${session.looks.instanceName(id)}`),
-            h("td", {}, session.looks.className(session.looks.classOfInstance(id))),
-            h("td", { class: "number" }, brief(area.pixels)),
-            h("td", { class: "number" }, visibility === undefined ? "" : percent(visibility)));
+            el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic_instance", id))}` }), ` ${session.looks.instanceName(id)}`),
+            el("td", {}, session.looks.className(session.looks.classOfInstance(id))),
+            el("td", { class: "number" }, brief(area.pixels)),
+            el("td", { class: "number" }, visibility === undefined ? "" : percent(visibility)));
     };
-    return [h("h2", {}, `${list.length} instances`), table(["Name", "Class", "px", "seen"], ["auto", "25%", "18%", "23%"], list.map(row))];
+    return [el("h2", {}, `${list.length} instances`), table(["Name", "Class", "px", "seen"], ["auto", "25%", "18%", "23%"], list.map(row))];
 }
 
 /** @param {Session} session */
@@ -69,13 +69,13 @@ function classesPart(session) {
     if (!areas) return [];
     const all = [...areas.values()].reduce((sum, area) => sum + area.pixels, 0);
     const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) =>
-        h("tr", { "data-class": id }, h("td", {}, h("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic", id))}` }), ` ${session.looks.className(id)}`),
-            h("td", { class: "number" }, id > 0 ? String(id) : "–"), h("td", { class: "number" }, percent(area.pixels / all)));
-    return [h("h2", {}, "Classes"), table(["Class", "id", "of image"], ["auto", "15%", "30%"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
+        el("tr", { "data-class": id }, el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic", id))}` }), ` ${session.looks.className(id)}`),
+            el("td", { class: "number" }, id > 0 ? String(id) : "–"), el("td", { class: "number" }, percent(area.pixels / all)));
+    return [el("h2", {}, "Classes"), table(["Class", "id", "of image"], ["auto", "15%", "30%"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
 }
 
 /** @param {string[]} heads @param {string[]} widths @param {Node[]} rows */
 function table(heads, widths, rows) {
-    return h("table", { class: "rows" }, h("colgroup", {}, ...widths.map((width) => h("col", { style: `width:${width}` }))),
-        h("thead", {}, h("tr", {}, ...heads.map((head, i) => h("th", { class: i && head !== "Class" ? "number" : "" }, head)))), h("tbody", {}, ...rows));
+    return el("table", { class: "rows" }, el("colgroup", {}, ...widths.map((width) => el("col", { style: `width:${width}` }))),
+        el("thead", {}, el("tr", {}, ...heads.map((head, i) => el("th", { class: i && head !== "Class" ? "number" : "" }, head)))), el("tbody", {}, ...rows));
 }

@@ -1,4 +1,4 @@
-// What is drawn over the pictures: boxes of instances, the pixel under the cursor, the border of the wipe, numbers of large pixels.
+// Drawing over the pictures: boxes of instances, the pixel under the cursor, the border of the wipe, numbers in large pixels.
 
 import { boxLines, projector } from "./project.js";
 import { brief, pixelOf } from "./numbers.js";
@@ -6,8 +6,21 @@ import { cssColor } from "./colors.js";
 
 /** @typedef {import("./painter.js").Rect} Rect */
 /** @typedef {import("./painter.js").Placement} Placement */
+/** @typedef {import("./session.js").Pixel} Pixel */
+/** @typedef {import("./session.js").Side & { data: import("./numbers.js").LayerData }} Shown */
+/**
+ * The pictures that are drawn over, as the stage has them.
+ * @typedef {object} Pictures
+ * @property {import("./session.js").Session} session
+ * @property {import("./state.js").Store} store
+ * @property {import("./painter.js").Painter} painter
+ * @property {number} ratio device pixels per CSS pixel
+ * @property {Pixel | null} pixel under the cursor
+ * @property {Shown[]} last what is shown on each side
+ * @property {() => number[]} pictureSize height and width
+ */
 
-/** CSS pixels per pixel from which on its numbers are written in it. */
+/** Pixels of at least this many CSS pixels have their numbers written in them. */
 const ROOM_FOR_NUMBERS = 44;
 
 export class Overlay {
@@ -18,7 +31,7 @@ export class Overlay {
     }
 
     /**
-     * @param {import("./stage.js").Stage} stage
+     * @param {Pictures} stage
      * @param {Rect[]} panes
      * @param {Placement[]} places
      */
@@ -27,7 +40,7 @@ export class Overlay {
         const { width, height } = stage.painter.canvas;
         const { mode, wipe, boxes } = stage.store.state;
         const needed = boxes || stage.session.marked > 0 || stage.pixel !== null || mode === "wipe" || places[0].zoom / stage.ratio >= ROOM_FOR_NUMBERS;
-        // An empty canvas would still be put over the picture by the browser, frame by frame.
+        // An empty canvas would cost time too: the browser composes it over the picture in every frame.
         canvas.style.display = needed ? "" : "none";
         if (!needed) return;
         if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
@@ -60,7 +73,7 @@ export class Overlay {
     }
 
     /**
-     * @param {import("./stage.js").Stage} stage
+     * @param {Pictures} stage
      * @param {number} frame
      * @param {number} id
      * @param {Placement} place
@@ -93,10 +106,10 @@ export class Overlay {
         }
     }
 
-    /** @param {import("./stage.js").Stage} stage @param {Placement} place @param {number} pane */
+    /** @param {Pictures} stage @param {Placement} place @param {number} pane */
     #cursor(stage, place, pane) {
         const { pen } = this;
-        const pixel = /** @type {import("./stage.js").Pixel} */ (stage.pixel);
+        const pixel = /** @type {Pixel} */ (stage.pixel);
         const [x, y] = [place.x + pixel.x * place.zoom, place.y + pixel.y * place.zoom];
         pen.lineWidth = stage.ratio;
         if (place.zoom / stage.ratio >= 5) {
@@ -105,7 +118,7 @@ export class Overlay {
             pen.strokeStyle = "white";
             pen.strokeRect(x - 0.5, y - 0.5, place.zoom + 1, place.zoom + 1);
         } else if (stage.store.state.mode === "side" && pane !== pixel.side) {
-            // The other picture shows where the cursor would be.
+            // A cross in the other picture, at the same pixel.
             const arm = 7 * stage.ratio;
             for (const [style, thick] of /** @type {[string, number][]} */ ([["rgb(0 0 0 / 0.8)", 3], ["white", 1]])) {
                 pen.strokeStyle = style;
@@ -120,7 +133,7 @@ export class Overlay {
         }
     }
 
-    /** @param {import("./stage.js").Stage} stage @param {number} pane @param {Rect} rect @param {Placement} place */
+    /** @param {Pictures} stage @param {number} pane @param {Rect} rect @param {Placement} place */
     #numbers(stage, pane, rect, place) {
         const { pen } = this;
         const { data } = stage.last[pane];

@@ -1,4 +1,4 @@
-// Draws layers with WebGL 2: arrays go to the card as they are stored, and become colours there.
+// Draws layers with WebGL 2: arrays are uploaded as they are stored and coloured on the graphics card.
 
 import { KINDS, VERTEX, fragment } from "./shaders.js";
 
@@ -10,8 +10,8 @@ import { KINDS, VERTEX, fragment } from "./shaders.js";
  */
 /** Where the picture lies: its upper left corner in device pixels, and device pixels per pixel. @typedef {{ x: number, y: number, zoom: number }} Placement */
 
-/** Memory on the card, bytes. */
-const MOST_BYTES = 512 * 2 ** 20;
+/** Memory that textures may take on the graphics card, bytes. */
+const MAX_BYTES = 512 * 2 ** 20;
 
 /** @type {Record<string, [internal: number[], format: number[], type: number, sampler: "sampler2D" | "isampler2D" | "usampler2D"]>} */
 const FORMATS = {
@@ -103,7 +103,7 @@ export class Painter {
         this.textures.set(owner, { texture, bytes });
         this.bytes += bytes;
         for (const [old, place] of this.textures) {
-            if (this.bytes <= MOST_BYTES || this.textures.size <= 8) break;
+            if (this.bytes <= MAX_BYTES || this.textures.size <= 8) break;
             this.gl.deleteTexture(place.texture);
             this.textures.delete(old);
             this.bytes -= place.bytes;

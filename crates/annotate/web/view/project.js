@@ -1,8 +1,11 @@
-// From the world into the picture, for cameras whose rays are a linear function of the place in the image.
+// Projection from the world into the picture, for cameras whose rays are a linear function of the pixel.
 
 /** @typedef {import("./catalogue.js").Projection} Projection */
 /** @typedef {import("./catalogue.js").Pose} Pose */
 /** @typedef {import("./catalogue.js").Box} Box */
+
+/** Edges are cut at this distance in front of the camera, in the units of the projector's `ahead`. */
+const NEAR = 1e-3;
 
 /** @param {number[]} a @param {number[]} b */
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -19,8 +22,8 @@ const blend = (a, s, b, t) => [s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2
  */
 export function projector(projection, pose) {
     if (!projection?.linear || !projection.corner_rays || !pose) return null;
-    // The ray through (u, v) on [0,1]² is M (u, v, 1). Its corners are known up to length: M(0,0) + M(1,1) = M(1,0) + M(0,1) tells the
-    // lengths against that of the first.
+    // The ray through (u, v) on [0,1]² is M (u, v, 1). The rays of the corners are known up to length. Their lengths relative to the first
+    // follow from M(0,0) + M(1,1) = M(1,0) + M(0,1).
     const [d0, d1, d2, d3] = projection.corner_rays;
     const whole = dot(d1, cross(d2, d3));
     const a1 = dot(d0, cross(d2, d3)) / whole;
@@ -54,13 +57,12 @@ export const BOX_EDGES = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((i) => [1, 2, 4].filte
  */
 export function boxLines(box, project) {
     const corners = boxCorners(box);
-    const least = 1e-3;
     return BOX_EDGES.flatMap(([from, to]) => {
         let [a, b] = [corners[from], corners[to]];
         let [pa, pb] = [project(a), project(b)];
-        if (pa.ahead < least && pb.ahead < least) return [];
-        if (pa.ahead < least) [a, b, pa, pb] = [b, a, pb, pa];
-        if (pb.ahead < least) pb = project(blend(a, 1 - (pa.ahead - least) / (pa.ahead - pb.ahead), b, (pa.ahead - least) / (pa.ahead - pb.ahead)));
+        if (pa.ahead < NEAR && pb.ahead < NEAR) return [];
+        if (pa.ahead < NEAR) [a, b, pa, pb] = [b, a, pb, pa];
+        if (pb.ahead < NEAR) pb = project(blend(a, 1 - (pa.ahead - NEAR) / (pa.ahead - pb.ahead), b, (pa.ahead - NEAR) / (pa.ahead - pb.ahead)));
         return [[pa.x, pa.y, pb.x, pb.y]];
     });
 }

@@ -1,60 +1,60 @@
-// The values under the cursor: exactly what the files hold, with unit and type, and what the numbers are called.
+// The values under the cursor: exactly as stored, with unit and type, and the names of the numbers.
 
+import { el } from "../shared/dom.js";
 import { exact, pixelOf } from "./numbers.js";
 import { NAMING } from "./session.js";
-import { h } from "./dom.js";
 
 const DTYPES = /** @type {Record<string, string>} */ ({ float16: "f16", float32: "f32", int16: "i16", uint8: "u8" });
 
 /**
  * @param {HTMLElement} element
  * @param {import("./session.js").Session} session
- * @param {import("./stage.js").Pixel | null} pixel
+ * @param {import("./session.js").Pixel | null} pixel
  */
 export function showReadout(element, session, pixel) {
-    const lines = pixel ? session.sides().map((side, i) => layerLine(session, side, pixel, i)) : [h("div", { class: "quiet" }, "Point at the picture to read its values.")];
-    while (lines.length < 2) lines.push(h("div"));
-    lines.push(pixel ? namesLine(session, pixel) : h("div"));
+    const lines = pixel ? session.sides().map((side, i) => layerLine(session, side, pixel, i)) : [el("div", { class: "quiet" }, "Point at the picture to read its values.")];
+    while (lines.length < 2) lines.push(el("div"));
+    lines.push(pixel ? namesLine(session, pixel) : el("div"));
     element.replaceChildren(...lines);
 }
 
 /**
  * @param {import("./session.js").Session} session
- * @param {import("./stage.js").Side} side
- * @param {import("./stage.js").Pixel} pixel
+ * @param {import("./session.js").Side} side
+ * @param {import("./session.js").Pixel} pixel
  * @param {number} index
  */
 function layerLine(session, { frame, layer, data }, pixel, index) {
     const spec = session.looks.spec(layer);
-    const line = h("div", { "data-layer": layer, "data-side": index });
+    const line = el("div", { "data-layer": layer, "data-side": index });
     const place = `${String(pixel.x).padStart(4)}, ${String(pixel.y).padStart(4)}`;
-    line.append(h("span", { class: "quiet" }, index === 0 ? `${place}  ` : " ".repeat(12)), h("b", {}, layer), h("span", { class: "quiet" }, ` #${frame}  `));
+    line.append(el("span", { class: "quiet" }, index === 0 ? `${place}  ` : " ".repeat(12)), el("b", {}, layer), el("span", { class: "quiet" }, ` #${frame}  `));
     const values = data?.step === 1 ? pixelOf(data, pixel.x, pixel.y) : null;
     if (!data || !values) {
-        line.append(h("span", { class: "quiet" }, session.failureOf(frame, layer)?.error ?? "…"));
+        line.append(el("span", { class: "quiet" }, session.failureOf(frame, layer)?.error ?? "…"));
         return line;
     }
-    line.append(h("span", { class: "value" }, values.map((value) => exact(value, data.dtype)).join("  ")), h("span", { class: "quiet" }, ` ${spec.unit} ${DTYPES[data.dtype]}`));
+    line.append(el("span", { class: "value" }, values.map((value) => exact(value, data.dtype)).join("  ")), el("span", { class: "quiet" }, ` ${spec.unit} ${DTYPES[data.dtype]}`));
     const { kind } = session.looks.look(layer);
     if (kind === "id" || kind === "code") line.append(`  ${session.looks.name(layer, values[0])}`);
-    if (spec.space && kind !== "id") line.append(h("span", { class: "quiet" }, `  ${spec.space}`));
+    if (spec.space && kind !== "id") line.append(el("span", { class: "quiet" }, `  ${spec.space}`));
     return line;
 }
 
 /**
  * @param {import("./session.js").Session} session
- * @param {import("./stage.js").Pixel} pixel
+ * @param {import("./session.js").Pixel} pixel
  */
 function namesLine(session, pixel) {
     const side = session.sides()[pixel.side] ?? session.sides()[0];
     const words = { render_entity_id: "part", semantic: "class", semantic_instance: "instance", material_id: "material" };
-    const line = h("div", { class: "names" });
+    const line = el("div", { class: "names" });
     for (const layer of NAMING) {
         const data = side && session.layer(side.frame, layer);
         const id = data?.step === 1 ? pixelOf(data, pixel.x, pixel.y)?.[0] : undefined;
         if (id === undefined) continue;
         const name = layer === "semantic_instance" && id < 1 ? "none" : session.looks.name(layer, id);
-        line.append(h("span", { class: "quiet" }, `${/** @type {any} */ (words)[layer]} `), h("span", { "data-names": layer }, id > 0 ? `${id} ${name}` : name), "   ");
+        line.append(el("span", { class: "quiet" }, `${/** @type {any} */ (words)[layer]} `), el("span", { "data-names": layer }, id > 0 ? `${id} ${name}` : name), "   ");
     }
     return line;
 }

@@ -1,8 +1,8 @@
-// The panels "Frame" and "Views": what is known of the frame, and what became of every view of the trajectory.
+// The panels "Frame" and "Views": everything recorded about the frame, and which views of the trajectory were rendered or rejected.
 
+import { el, facts } from "../shared/dom.js";
 import { fileUrl } from "./catalogue.js";
 import { brief, percent } from "./numbers.js";
-import { facts, h } from "./dom.js";
 
 /** @typedef {import("./session.js").Session} Session */
 
@@ -11,19 +11,19 @@ export function framePanel(session, known) {
     const { camera } = session;
     const { frame } = session.store.state;
     const entry = camera?.frames.find((one) => one.frame === frame);
-    if (!known || !camera) return [h("p", { class: "quiet" }, "Reading …")];
+    if (!known || !camera) return [el("p", { class: "quiet" }, "Reading …")];
     const { record, labels, denoised, judged, split } = known;
     const projection = camera.projection;
     const vector = (/** @type {number[] | undefined} */ v) => v && v.map((x) => x.toFixed(3)).join(", ");
     const pose = entry?.pose;
     return [
-        h("h2", {}, `Frame ${frame}`),
+        el("h2", {}, `Frame ${frame}`),
         facts([
             ["State", entry?.complete ? "complete" : "not complete"],
             ["Split", split?.partition ?? (split?.excluded && `excluded: ${split.excluded}`)],
             ["Gate", entry?.gate && `${entry.gate.verdict}: ${entry.gate.fault?.gate}`],
         ]),
-        h("h2", {}, "Camera"),
+        el("h2", {}, "Camera"),
         facts([
             ["Model", projection?.kind],
             ["Size", projection && `${projection.width} × ${projection.height} px`],
@@ -31,7 +31,7 @@ export function framePanel(session, known) {
             ["Position", pose && `${vector(pose.position)} m`],
             ["Looks along", pose && vector([2, 5, 8].map((i) => -pose.orientation[i]))],
         ]),
-        ...(record ? [h("h2", {}, "Record"), facts([
+        ...(record ? [el("h2", {}, "Record"), facts([
             ["Samples", record.samples && `${record.samples} per pixel`],
             ["Taken", record.samples_taken && brief(record.samples_taken)],
             ["Noise", typeof record.noise === "number" ? percent(record.noise) : null],
@@ -43,7 +43,7 @@ export function framePanel(session, known) {
             ["Files", `${Object.keys(record.files).length}, ${(/** @type {any[]} */ (Object.values(record.files)).reduce((sum, file) => sum + file.bytes, 0) / 1e6).toFixed(1)} MB`],
             ["Hash", String(record.config_hash).slice(0, 16)],
         ])] : []),
-        ...(judged ? [h("h2", {}, "Verification"), facts([
+        ...(judged ? [el("h2", {}, "Verification"), facts([
             ["Noise", typeof judged.noise === "number" ? percent(judged.noise) : null],
             ["Clipped", typeof judged.clipped_share === "number" ? percent(judged.clipped_share) : null],
             ["Black", typeof judged.black_share === "number" ? percent(judged.black_share) : null],
@@ -64,9 +64,9 @@ export function viewsPanel(session) {
     const page = scene.pages.find((one) => one.title === "Rejected views");
     const card = (/** @type {import("./catalogue.js").CameraFrame} */ { frame, gate, layers }) => {
         const picture = gate?.picture ? fileUrl(gate.picture) : layers.length ? thumbnailUrl(session, frame) : "";
-        return h("button", { type: "button", class: "view", disabled: !layers.length, "data-rejected": frame, onclick: () => session.store.set({ frame }) },
-            h("img", { src: picture || undefined, alt: "", loading: "lazy" }),
-            h("span", {}, h("b", {}, `Frame ${frame}`), h("br"), h("span", { class: "quiet" }, gate?.verdict ?? ""), h("br"), gate?.fault ? `${gate.fault.gate}: ${brief(gate.fault.value)}, limit ${brief(gate.fault.limit)}` : ""));
+        return el("button", { type: "button", class: "view", disabled: !layers.length, "data-rejected": frame, onclick: () => session.store.set({ frame }) },
+            el("img", { src: picture || undefined, alt: "", loading: "lazy" }),
+            el("span", {}, el("b", {}, `Frame ${frame}`), el("br"), el("span", { class: "quiet" }, gate?.verdict ?? ""), el("br"), gate?.fault ? `${gate.fault.gate}: ${brief(gate.fault.value)}, limit ${brief(gate.fault.limit)}` : ""));
     };
     return [
         facts([
@@ -76,9 +76,9 @@ export function viewsPanel(session) {
             ["Reported", judged.length - rejected.length],
             ["Not rendered", planned.length],
         ]),
-        h("h2", {}, "Rejected and reported"),
-        judged.length ? h("div", { class: "views" }, ...judged.map(card)) : h("p", { class: "quiet" }, "No gate found fault with a view of this trajectory."),
-        page ? h("p", {}, h("a", { href: fileUrl(page.path), target: "_blank" }, "The page of all rejected views")) : null,
+        el("h2", {}, "Rejected and reported"),
+        judged.length ? el("div", { class: "views" }, ...judged.map(card)) : el("p", { class: "quiet" }, "No gate found fault with a view of this trajectory."),
+        page ? el("p", {}, el("a", { href: fileUrl(page.path), target: "_blank" }, "The page of all rejected views")) : null,
     ].filter((child) => child !== null);
 }
 

@@ -1,4 +1,4 @@
-// The dataset that is open, the scene and camera that are looked at, and the layers that this takes.
+// The open dataset, the scene and camera that are shown, and the layers that are needed for it.
 
 import { forget, getCamera, getDataset, getScene } from "./catalogue.js";
 import { Loader } from "./loader.js";
@@ -9,7 +9,9 @@ import { pixelOf } from "./numbers.js";
 /** @typedef {import("./catalogue.js").Scene} Scene */
 /** @typedef {import("./catalogue.js").Camera} Camera */
 /** @typedef {import("./numbers.js").LayerData} LayerData */
-/** @typedef {{ pixels: number, bounds: [number, number, number, number] }} Area */
+/** @typedef {{ pixels: number, bounds: [number, number, number, number] }} Area of a number in a layer: its pixels and the box around them */
+/** @typedef {{ frame: number, layer: string, data: LayerData | undefined }} Side what one of two pictures shows */
+/** @typedef {{ x: number, y: number, side: number }} Pixel under the cursor; side 0 is the left picture */
 
 /** Layers that give names to a pixel, in the order in which they are told. */
 export const NAMING = ["render_entity_id", "semantic", "semantic_instance", "material_id"];
@@ -33,7 +35,7 @@ export class Session {
         this.problem = null;
         this.direction = 1;
         this.hoveredInstance = 0;
-        /** Frames go by: what gives names to pixels is fetched when they stand still. */
+        /** True while frames go by: the layers that give names to pixels are fetched when they stop. */
         this.travelling = false;
         /** @type {WeakMap<LayerData, Map<number, Area>>} */
         this.counted = new WeakMap();
@@ -49,7 +51,7 @@ export class Session {
         return this.hoveredInstance || this.store.state.instance;
     }
 
-    /** Follows the state to its scene and camera; what does not exist becomes the first that does. */
+    /** Opens the scene and camera of the state, or the first that exist. */
     async follow() {
         const { state } = this.store;
         try {
@@ -122,7 +124,7 @@ export class Session {
         return this.loader.failure(this.#place(frame, layer));
     }
 
-    /** What the pictures show, left first. @returns {import("./stage.js").Side[]} */
+    /** What the pictures show, left first. @returns {Side[]} */
     sides() {
         const { frame, layer, other, otherFrame, mode } = this.store.state;
         if (!this.camera) return [];
@@ -137,7 +139,7 @@ export class Session {
         return this.sides().every((side) => side.data?.step === 1 || this.failureOf(side.frame, side.layer));
     }
 
-    /** Says what is wanted: what is shown, what comes next, and what gives names to pixels. */
+    /** Tells the loader what is wanted: what is shown, what comes next, and what gives names to pixels. */
     refresh() {
         const { frame, otherFrame } = this.store.state;
         const sides = this.sides();
@@ -211,19 +213,19 @@ export class Session {
         return [...(this.areasOf(frame, "semantic_instance")?.keys() ?? [])].filter((id) => id > 0);
     }
 
-    /** @param {import("./stage.js").Pixel | null} pixel */
+    /** @param {Pixel | null} pixel */
     #instanceAt(pixel) {
         const side = pixel && this.sides()[pixel.side];
         const ids = side && this.idsOf(side.frame);
         return (ids?.step === 1 && pixelOf(ids, pixel?.x ?? 0, pixel?.y ?? 0)?.[0]) || 0;
     }
 
-    /** Marks the instance under the cursor. @param {import("./stage.js").Pixel | null} pixel */
+    /** Marks the instance under the cursor. @param {Pixel | null} pixel */
     hover(pixel) {
         this.hoveredInstance = Math.max(0, this.#instanceAt(pixel));
     }
 
-    /** Keeps the instance under the cursor marked, or lets go. @param {import("./stage.js").Pixel | null} pixel */
+    /** Keeps the instance under the cursor marked, or lets go. @param {Pixel | null} pixel */
     pin(pixel) {
         const id = Math.max(0, this.#instanceAt(pixel));
         this.store.set({ instance: id === this.store.state.instance ? 0 : id });

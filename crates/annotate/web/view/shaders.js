@@ -1,4 +1,4 @@
-// From stored numbers to colours, on the graphics card. `kind` is the place of the layer's kind in KINDS.
+// GPU programs that turn stored numbers into colours. `kind` is the index of the layer's kind in KINDS.
 
 /** @type {import("./kinds.js").Kind[]} */
 export const KINDS = ["radiance", "albedo", "scalar", "direction", "stretched", "flow", "texture", "id", "code"];
@@ -55,7 +55,7 @@ vec3 toned(vec3 radiance) {
     return min(gamma_curve(v), 1.0);
 }
 
-// Nothing there: a quiet chequer that is no colour of any map.
+// Pixels without a number: a grey chequer, which no colour map has.
 vec3 nothing(vec2 at) {
     return vec3(mod(floor(at.x / 8.0) + floor(at.y / 8.0), 2.0) < 0.5 ? 0.16 : 0.20);
 }
@@ -94,7 +94,7 @@ void main() {
     if (at.x < 0.0 || at.y < 0.0 || at.x >= size.x || at.y >= size.y) discard;
     vec3 rgb = vec3(0.0);
     if (zoom < 0.75 && kind < 2 && texel == 1.0) {
-        // Smaller than life: the mean of the colours that fall on this pixel, so that nothing glitters.
+        // Shown smaller than it is: the mean of the colours that fall on this pixel, which avoids aliasing.
         int n = min(int(ceil(1.0 / zoom)), 4);
         vec2 first = at - 0.5 / zoom;
         for (int y = 0; y < n; y++) for (int x = 0; x < n; x++) {
@@ -115,7 +115,7 @@ void main() {
             ivec2 q = clamp(p + reach * ivec2(i == 0 ? 1 : i == 1 ? -1 : 0, i == 2 ? 1 : i == 3 ? -1 : 0), ivec2(0), last);
             edge = edge || (texelFetch(ids, q, 0).r == marked) != inside;
         }
-        // Where pixels are large enough to be read, the mark leaves their colours alone.
+        // If pixels are large enough to read their colours, the mark does not change them.
         bool close = zoom >= 12.0;
         if (inside && edge) rgb = mix(rgb, accent, close ? 0.4 : 1.0);
         else if (inside) rgb = mix(rgb, accent, close ? 0.0 : 0.22);

@@ -1,27 +1,28 @@
 // The scene in 3D: its surfaces, the free space that was carved, the trajectory with the frustum of every view, the points of a frame.
 
 import { getBytes } from "../shared/api.js";
+import { byId, el } from "../shared/dom.js";
 import { readGeometry } from "../shared/stage3d/geometry.js";
 import { Stage3d } from "../shared/stage3d/stage.js";
 import { BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments, Points, PointsMaterial, SRGBColorSpace, Vector3 } from "../vendor/three.js";
 import { idColor } from "./colors.js";
-import { byId, h, toast } from "./dom.js";
+import { showNotice } from "./notice.js";
 import { BOX_EDGES, boxCorners } from "./project.js";
 
 /** @typedef {import("./session.js").Session} Session */
-/** @typedef {"surfaces" | "points" | "free" | "occupied" | "views" | "boxes"} Part */
+/** @typedef {"surfaces" | "points" | "free" | "occupied" | "views" | "boxes"} SpacePart */
 
 /** Length of a drawn frustum, metres. */
 const FRUSTUM_M = 0.28;
-/** Points of a frame. */
+/** Maximum number of points of a frame. */
 const POINTS = 150_000;
-/** How near to a camera's place a click must be, CSS pixels. */
+/** Maximum distance of a click from a camera, CSS pixels. */
 const REACH_PX = 14;
 
-/** The light of each byte of sRGB, 0 to 1. */
+/** Linear light of each byte of sRGB, 0 to 1. */
 const LIGHT = Float32Array.from({ length: 256 }, (_, value) => new Color().setRGB(value / 255, 0, 0, SRGBColorSpace).r);
 
-/** @type {[Part, string][]} */
+/** @type {[SpacePart, string][]} */
 const PARTS = [["surfaces", "Surfaces"], ["points", "Points of the frame"], ["views", "Trajectory and views"], ["boxes", "Boxes"], ["free", "Free space"], ["occupied", "Occupied space"]];
 
 export class Space {
@@ -31,13 +32,13 @@ export class Space {
         this.element = byId("space");
         /** @type {Stage3d | null} */
         this.stage = null;
-        /** @type {Record<Part, boolean>} */
+        /** @type {Record<SpacePart, boolean>} */
         this.on = { surfaces: true, points: true, views: true, boxes: false, free: false, occupied: false };
-        /** @type {Partial<Record<Part, Group>>} */
+        /** @type {Partial<Record<SpacePart, Group>>} */
         this.groups = {};
         this.coloring = "class";
         this.above = false;
-        /** What is shown, so that nothing is fetched or made twice. */
+        /** Keys of what is shown, so that nothing is fetched or made twice. */
         this.shown = { scene: "", trajectory: "", frame: "", space: "" };
     }
 
@@ -47,24 +48,24 @@ export class Space {
         const wanted = state.mode === "space";
         this.element.hidden = !wanted;
         if (!wanted || !this.session.scene) return;
-        // What cannot be had of one kind keeps nothing else away.
+        // If one kind of thing cannot be loaded, the others are shown all the same.
         for (const part of [() => this.stage ?? this.#begin(), () => this.#surfaces(), () => this.#trajectory(), () => this.#points(), () => this.#cubes()]) {
             try {
                 await part();
             } catch (error) {
-                toast(/** @type {Error} */ (error).message);
+                showNotice(/** @type {Error} */ (error).message);
             }
         }
     }
 
     #begin() {
-        const view = h("div", { style: "position:absolute;inset:0", tabIndex: 0, "aria-label": "The scene in 3D" });
-        this.controls = h("div", { class: "space-controls panel" });
+        const view = el("div", { style: "position:absolute;inset:0", tabIndex: 0, "aria-label": "The scene in 3D" });
+        this.controls = el("div", { class: "space-controls panel" });
         this.element.replaceChildren(view, this.controls);
         this.stage = new Stage3d(view);
         this.theme();
         this.#choices();
-        // What happens here is no affair of the pictures below.
+        // The pictures below must not react to what is done here.
         for (const name of ["pointerdown", "pointermove", "pointerup", "wheel", "dblclick"]) this.element.addEventListener(name, (/** @type {Event} */ event) => event.stopPropagation());
         view.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
             if (this.stage?.controls.key(event)) event.stopPropagation();
@@ -87,18 +88,18 @@ export class Space {
 
     #choices() {
         const { scene } = this.session;
-        const missing = /** @type {Partial<Record<Part, boolean>>} */ ({ surfaces: !scene?.has_geometry, free: !scene?.has_space, occupied: !scene?.has_space });
-        const box = ([part, label] = PARTS[0]) => h("label", {}, h("input", { type: "checkbox", "data-part": part, checked: this.on[part] && !missing[part], disabled: !!missing[part],
+        const missing = /** @type {Partial<Record<SpacePart, boolean>>} */ ({ surfaces: !scene?.has_geometry, free: !scene?.has_space, occupied: !scene?.has_space });
+        const box = ([part, label] = PARTS[0]) => el("label", {}, el("input", { type: "checkbox", "data-part": part, checked: this.on[part] && !missing[part], disabled: !!missing[part],
             onchange: (/** @type {any} */ e) => {
                 this.on[part] = e.target.checked;
                 this.#visibility();
                 this.show();
             } }), ` ${label}`);
-        const colors = h("select", { "aria-label": "Colours of the surfaces", onchange: (/** @type {any} */ e) => {
+        const colors = el("select", { "aria-label": "Colours of the surfaces", onchange: (/** @type {any} */ e) => {
             this.coloring = e.target.value;
             this.#colors();
-        } }, ...[["class", "Colours of classes"], ["instance", "Colours of instances"], ["part", "Colours of parts"], ["plain", "White"]].map(([value, text]) => h("option", { value, selected: value === this.coloring }, text)));
-        this.controls?.replaceChildren(...PARTS.map(box), colors, h("button", { type: "button", onclick: () => this.toFrame() }, "Through this frame's camera"), h("button", { type: "button", onclick: () => this.fromAbove() }, "From above"));
+        } }, ...[["class", "Colours of classes"], ["instance", "Colours of instances"], ["part", "Colours of parts"], ["plain", "White"]].map(([value, text]) => el("option", { value, selected: value === this.coloring }, text)));
+        this.controls?.replaceChildren(...PARTS.map(box), colors, el("button", { type: "button", onclick: () => this.toFrame() }, "Through this frame's camera"), el("button", { type: "button", onclick: () => this.fromAbove() }, "From above"));
     }
 
     /** Looks through the camera of the frame. */
@@ -116,7 +117,7 @@ export class Space {
     fromAbove() {
         const { stage } = this;
         const places = (this.session.camera?.frames ?? []).flatMap(({ pose }) => (pose ? [pose.position] : []));
-        const bounds = stage?.mesh?.geometry ?? { min: least(places), max: least(places.map((p) => p.map((v) => -v))).map((v) => -v) };
+        const bounds = stage?.mesh?.geometry ?? { min: lowest(places), max: lowest(places.map((p) => p.map((v) => -v))).map((v) => -v) };
         if (!stage || !places.length) return;
         this.above = true;
         this.#visibility();
@@ -132,7 +133,7 @@ export class Space {
         const { scene } = this.session;
         if (!scene || !this.stage || this.shown.scene === scene.name) return;
         this.shown = { scene: scene.name, trajectory: "", frame: "", space: "" };
-        for (const part of Object.keys(this.groups)) this.#replace(/** @type {Part} */ (part), []);
+        for (const part of Object.keys(this.groups)) this.#replace(/** @type {SpacePart} */ (part), []);
         this.stage.clear();
         this.#choices();
         this.toFrame(true);
@@ -142,7 +143,7 @@ export class Space {
         this.stage.setGeometry(readGeometry(buffer));
         this.#colors();
         this.#visibility();
-        // Asked for before it was known how large the scene is.
+        // The view from above was asked for before the size of the scene was known.
         if (this.above) this.fromAbove();
     }
 
@@ -165,11 +166,11 @@ export class Space {
         const { scene, looks } = this.session;
         const ceiling = (/** @type {number} */ i) => [looks.className(scene?.objects.semantic[i] ?? -1), scene?.objects.names[i] ?? ""].some((name) => /ceiling/i.test(name));
         if (pieces) this.stage?.setVisibility(Array.from({ length: pieces }, (_, i) => i).filter((i) => !this.on.surfaces || (this.above && ceiling(i))), []);
-        for (const [part, group] of Object.entries(this.groups)) group.visible = this.on[/** @type {Part} */ (part)];
+        for (const [part, group] of Object.entries(this.groups)) group.visible = this.on[/** @type {SpacePart} */ (part)];
         this.stage?.requestFrame();
     }
 
-    /** @param {Part} part @param {import("../vendor/three.js").Object3D[]} objects */
+    /** @param {SpacePart} part @param {import("../vendor/three.js").Object3D[]} objects */
     #replace(part, objects) {
         const old = this.groups[part];
         old?.traverse((object) => /** @type {any} */ (object).geometry?.dispose());
@@ -224,7 +225,7 @@ export class Space {
         const count = new DataView(buffer).getUint32(8, true);
         const geometry = new BufferGeometry();
         geometry.setAttribute("position", new BufferAttribute(new Float32Array(buffer, 16, 3 * count), 3));
-        // As light: three.js turns it back into sRGB.
+        // three.js takes linear light and converts it to sRGB.
         geometry.setAttribute("color", new BufferAttribute(Float32Array.from(new Uint8Array(buffer, 16 + 12 * count, 4 * count), (value) => LIGHT[value]), 4));
         this.#replace("points", [new Points(geometry, new PointsMaterial({ size: 2.2, sizeAttenuation: false, vertexColors: true, toneMapped: false }))]);
     }
@@ -259,8 +260,8 @@ export class Space {
     }
 }
 
-/** The least of each coordinate. @param {number[][]} points */
-const least = (points) => [0, 1, 2].map((axis) => Math.min(...points.map((point) => point[axis])));
+/** The minimum of each coordinate. @param {number[][]} points */
+const lowest = (points) => [0, 1, 2].map((axis) => Math.min(...points.map((point) => point[axis])));
 
 /** A point in the middle of each cube, as large as a part of it. @param {Float32Array} cubes x, y, z, edge @param {number} color @param {number} share */
 function cubeMiddles(cubes, color, share) {

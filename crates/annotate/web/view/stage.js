@@ -8,10 +8,11 @@ import { Overlay } from "./overlay.js";
 /** @typedef {import("./state.js").State} State */
 /** @typedef {import("./numbers.js").LayerData} LayerData */
 /** @typedef {import("./painter.js").Rect} Rect */
-/** @typedef {{ frame: number, layer: string, data: LayerData | undefined }} Side what one half shows */
-/** @typedef {{ x: number, y: number, side: number }} Pixel under the cursor; side 0 is the left picture */
+/** @typedef {import("./session.js").Side} Side */
+/** @typedef {import("./session.js").Pixel} Pixel */
 
-const LARGEST_ZOOM = 128;
+/** CSS pixels per pixel. */
+const MAX_ZOOM = 128;
 
 export class Stage {
     /**
@@ -93,7 +94,7 @@ export class Stage {
         const sides = this.session.sides();
         for (const [i, side] of sides.entries()) {
             const before = this.last[i];
-            // Until the next picture is here the one before stays, so that nothing flashes.
+            // The last picture stays until the next one is here, so that nothing flickers.
             if (side.data) this.last[i] = /** @type {any} */ (side);
             else if (before && this.session.failureOf(side.frame, side.layer)) delete this.last[i];
         }
@@ -138,7 +139,7 @@ export class Stage {
         };
     }
 
-    /** The pixel under a place of the element, CSS pixels; outside of the picture, too. @param {number} x @param {number} y */
+    /** The pixel at a point of the element, in CSS pixels; also for points outside of the picture. @param {number} x @param {number} y */
     pixelAt(x, y) {
         const { mode, wipe } = this.store.state;
         const panes = this.panes();
@@ -150,7 +151,7 @@ export class Stage {
     }
 
     /**
-     * Zooms by a factor with the given place of the element at rest.
+     * Zooms by a factor about a point of the element.
      * @param {number} factor
      * @param {number} [x] CSS pixels
      * @param {number} [y]
@@ -161,7 +162,7 @@ export class Stage {
         const [sx, sy] = [x ?? pane.width / this.ratio / 2, y ?? height / 2];
         const before = this.pixelAt(Math.min(sx, width), sy);
         const old = this.store.state.zoom || this.fit();
-        const zoom = Math.min(LARGEST_ZOOM, Math.max(this.fit() / 2, old * factor));
+        const zoom = Math.min(MAX_ZOOM, Math.max(this.fit() / 2, old * factor));
         const [h, w] = this.pictureSize();
         const old_x = this.store.state.zoom ? this.store.state.x : 0.5, old_y = this.store.state.zoom ? this.store.state.y : 0.5;
         const share = 1 - old / zoom;

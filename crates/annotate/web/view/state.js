@@ -1,4 +1,4 @@
-// What is being looked at. All of it stands in the address, so that a link shows the same to somebody else.
+// The state of the viewer. All of it is in the address, so that a link shows somebody else the same.
 
 /** @typedef {"one" | "side" | "wipe" | "space"} Mode */
 /**
@@ -65,7 +65,7 @@ export class Store {
         if (!changed.size) return;
         this.state = { ...this.state, ...change };
         for (const listener of this.listeners) listener(this.state, changed);
-        // Browsers allow so many changes of the address per second; the last one counts.
+        // Browsers limit changes of the address per second, so only the last of several is written.
         clearTimeout(this.writing);
         this.writing = setTimeout(() => this.write(), 150);
     }
@@ -95,7 +95,7 @@ export class Store {
         return words.toString();
     }
 
-    /** Takes what the address says; what it does not say, or says wrongly, is as at the beginning. */
+    /** Reads the state from the address; what is missing or invalid there gets its default. */
     #read() {
         const words = new URLSearchParams(location.hash.slice(1));
         /** @type {any} */

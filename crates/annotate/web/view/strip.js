@@ -1,6 +1,6 @@
-// The strip of frames below the picture. Only what is in sight is there, so trajectories may be long.
+// The strip of frames below the picture. Only visible frames have elements, so trajectories may be long.
 
-import { byId, h } from "./dom.js";
+import { byId, el } from "../shared/dom.js";
 import { thumbnailUrl } from "./records.js";
 
 export class Strip {
@@ -8,7 +8,7 @@ export class Strip {
     constructor(session) {
         this.session = session;
         this.element = byId("thumbnails");
-        this.rail = h("div", { class: "rail" });
+        this.rail = el("div", { class: "rail" });
         this.element.replaceChildren(this.rail);
         /** @type {Map<number, HTMLElement>} */
         this.there = new Map();
@@ -47,9 +47,9 @@ export class Strip {
             const { frame, layers, gate } = frames[i];
             const state = gate?.verdict === "rejected" ? "rejected" : layers.length ? "" : "planned";
             const why = gate?.fault ? `: ${gate.verdict}, ${gate.fault.gate}` : layers.length ? "" : ": not rendered";
-            const button = h("button", { type: "button", class: `thumb ${state}`, role: "option", tabIndex: -1, title: `Frame ${frame}${why}`, "aria-label": `Frame ${frame}${why}`, "data-frame": frame, style: `left:${i * pitch}px`,
+            const button = el("button", { type: "button", class: `thumb ${state}`, role: "option", tabIndex: -1, title: `Frame ${frame}${why}`, "aria-label": `Frame ${frame}${why}`, "data-frame": frame, style: `left:${i * pitch}px`,
                 onclick: () => (layers.length ? this.session.store.set({ frame }) : this.session.store.set({ tab: "views" })) },
-                layers.length ? h("img", { src: thumbnailUrl(this.session, frame), alt: "", loading: "lazy", draggable: false }) : null, h("span", {}, String(frame)));
+                layers.length ? el("img", { src: thumbnailUrl(this.session, frame), alt: "", loading: "lazy", draggable: false }) : null, el("span", {}, String(frame)));
             this.there.set(i, button);
             this.rail.append(button);
         }
@@ -65,7 +65,7 @@ export class Strip {
         if (at >= 0 && (at * pitch < scrollLeft || (at + 1) * pitch > scrollLeft + clientWidth)) this.element.scrollLeft = (at + 0.5) * pitch - clientWidth / 2;
         this.fill();
         const shown = this.session.frames();
-        byId("frame-number").replaceChildren(`frame ${this.session.store.state.frame}`, h("br"), h("span", { class: "quiet" }, `${shown.indexOf(this.session.store.state.frame) + 1} of ${shown.length}`));
+        byId("frame-number").replaceChildren(`frame ${this.session.store.state.frame}`, el("br"), el("span", { class: "quiet" }, `${shown.indexOf(this.session.store.state.frame) + 1} of ${shown.length}`));
     }
 
     #select() {

@@ -1,4 +1,4 @@
-// From frame to frame: a key that is held goes on as fast as frames come, and shows every one of them.
+// Moving from frame to frame: while a key is held, every frame is shown, as fast as frames arrive.
 
 export class Travel {
     /** @param {import("./session.js").Session} session */

@@ -1,10 +1,10 @@
 // The list of scenes and their cameras.
 
+import { byId, el } from "../shared/dom.js";
 import { fileUrl } from "./catalogue.js";
-import { byId, h } from "./dom.js";
 
-/** More names than this are found by searching. */
-const MOST_SHOWN = 500;
+/** At most this many scenes are listed; others are found by searching. */
+const MAX_SHOWN = 500;
 
 export class Tree {
     /** @param {import("./session.js").Session} session */
@@ -32,12 +32,12 @@ export class Tree {
         const found = this.#found();
         const item = (/** @type {string} */ name) => {
             const open = name === scene?.name;
-            const cameras = open ? h("ul", {}, ...scene.cameras.map((one) => h("li", {}, h("button", { type: "button", class: "plain", "aria-current": String(one === camera?.name), onclick: () => this.#open(name, one) }, one)))) : null;
-            return h("li", {}, h("button", { type: "button", class: "plain", "aria-current": String(open), title: name, onclick: () => this.#open(name) }, name), cameras);
+            const cameras = open ? el("ul", {}, ...scene.cameras.map((one) => el("li", {}, el("button", { type: "button", class: "plain", "aria-current": String(one === camera?.name), onclick: () => this.#open(name, one) }, one)))) : null;
+            return el("li", {}, el("button", { type: "button", class: "plain", "aria-current": String(open), title: name, onclick: () => this.#open(name) }, name), cameras);
         };
-        byId("scenes").replaceChildren(...found.slice(0, MOST_SHOWN).map(item), ...(found.length > MOST_SHOWN ? [h("li", { class: "quiet" }, `and ${found.length - MOST_SHOWN} more`)] : []),
-            ...(found.length ? [] : [h("li", { class: "quiet" }, "No scene has such a name.")]));
-        byId("pages").replaceChildren(...[...dataset.pages, ...(scene?.pages ?? [])].map((page) => h("a", { href: fileUrl(page.path), target: "_blank" }, page.title)));
+        byId("scenes").replaceChildren(...found.slice(0, MAX_SHOWN).map(item), ...(found.length > MAX_SHOWN ? [el("li", { class: "quiet" }, `and ${found.length - MAX_SHOWN} more`)] : []),
+            ...(found.length ? [] : [el("li", { class: "quiet" }, "No scene has such a name.")]));
+        byId("pages").replaceChildren(...[...dataset.pages, ...(scene?.pages ?? [])].map((page) => el("a", { href: fileUrl(page.path), target: "_blank" }, page.title)));
     }
 
     /** The next camera, or the first of the next scene. @param {number} step */

@@ -1,4 +1,4 @@
-// Cameras as the server writes them, and the camera of the view.
+// Conversion between the cameras of the server and the camera of the view.
 
 import { Matrix4, PerspectiveCamera, Quaternion, Vector3 } from "../../vendor/three.js";
 

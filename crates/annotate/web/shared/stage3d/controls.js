@@ -3,14 +3,14 @@
 import { MathUtils, Vector3 } from "../../vendor/three.js";
 import { forward, lookingAt } from "./camera.js";
 
-/** The view never comes closer to straight up or down. */
+/** Minimum angle between the view and straight up or down. */
 const POLE_GUARD_DEG = 1;
-/** Closest that the wheel brings the camera to what it looks at, metres; beyond that the point moves ahead. */
+/** Minimum distance from the camera to the look-at point, metres; beyond that the wheel moves the point ahead. */
 const NEAREST_M = 0.3;
 /** Half a turn for a drag over the height of the view. */
 const ORBIT_RAD_PER_HEIGHT = Math.PI;
 
-/** Flying: key codes, so that the places of keys count and not their letters. */
+/** Directions of flying by key code, which names the position of a key and not its letter. */
 const FLY = /** @type {Record<string, [number, number, number]>} */ ({
     KeyW: [0, 0, 1],
     KeyS: [0, 0, -1],
@@ -20,7 +20,7 @@ const FLY = /** @type {Record<string, [number, number, number]>} */ ({
     KeyF: [0, -1, 0],
 });
 
-/** The hands on a camera. It moves `camera` and tells `changed`; drawing is somebody else's. */
+/** Moves a camera by pointer and keys, and calls `changed`. It draws nothing. */
 export class Controls {
     /**
      * @param {HTMLElement} element what takes the pointer
@@ -35,7 +35,7 @@ export class Controls {
         this.lookAt = new Vector3();
         /** Metres per second of flying. */
         this.speed = 1.5;
-        /** Says of a press of a button whether it is somebody else's (drawing). @type {(event: PointerEvent) => boolean} */
+        /** True for a press of a button that the page uses for something else, such as drawing. @type {(event: PointerEvent) => boolean} */
         this.claimed = () => false;
         /** @type {Set<string>} */
         this.held = new Set();
@@ -147,7 +147,7 @@ export class Controls {
     }
 
     /**
-     * Goes away from the look-at point, or toward it; what would come too close pushes the point ahead.
+     * Moves away from the look-at point or toward it. A camera that would come too close pushes the point ahead.
      *
      * @param {number} amount natural logarithm of the distance's growth
      */
@@ -160,7 +160,7 @@ export class Controls {
         this.changed();
     }
 
-    /** Moves camera and look-at point alike. @param {Vector3} by metres */
+    /** Moves camera and look-at point by the same amount. @param {Vector3} by metres */
     shift(by) {
         this.camera.position.add(by);
         this.lookAt.add(by);

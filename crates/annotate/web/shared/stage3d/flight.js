@@ -1,4 +1,4 @@
-// A smooth way from one camera to another.
+// A smooth movement from one camera to another.
 
 import { Quaternion, Vector3 } from "../../vendor/three.js";
 

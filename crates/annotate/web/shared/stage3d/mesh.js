@@ -4,10 +4,10 @@ import { BufferAttribute, BufferGeometry, GLSL3, DoubleSide, Mesh, RawShaderMate
 import { FACE_WIDTH, meshFragment, meshVertex } from "./shaders.js";
 import { numbers } from "./tables.js";
 
-/** Faces of a block: 6 MB of positions, which no upload takes long for. */
+/** Faces of a block: 6 MB of positions, which are uploaded in a short time. */
 const BLOCK_FACES = FACE_WIDTH * 512;
 
-/** The mesh, in a three.js scene of its own: it is drawn into a target of whole numbers, apart from everything else. */
+/** The mesh in a three.js scene of its own, because it is drawn into a target of integers. */
 export class SceneMesh {
     /**
      * @param {import("./geometry.js").Geometry} geometry

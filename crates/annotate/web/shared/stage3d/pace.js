@@ -1,11 +1,11 @@
-// How many faces are drawn while the camera moves.
+// How many faces are drawn while the camera moves: as many as the machine draws in time.
 
-/** A frame should take this long, milliseconds: 40 frames a second, with room for what else the page does. */
+/** Wanted time of a frame, milliseconds: 40 frames a second, with time left for the rest of the page. */
 const GOAL_MS = 25;
-/** Where the processor draws, fewer faces would not make frames much shorter than this. */
+/** The same for drawing without graphics hardware, where fewer faces would not make frames much shorter. */
 const SOFTWARE_GOAL_MS = 60;
-/** Never fewer faces than this: less is no scene. */
-const FLOOR = 10_000;
+/** Minimum number of faces; with fewer, a scene is not recognisable. */
+const MIN_FACES = 10_000;
 
 /**
  * Follows the time between frames: fewer faces when they are late, more when they are early.
@@ -35,7 +35,7 @@ export class Pace {
      */
     frameTook(ms) {
         this.smoothed += 0.3 * (ms - this.smoothed);
-        if (this.smoothed > this.goal * 1.3 && ms > this.goal) this.adapted = Math.max(Math.min(FLOOR, this.all), this.adapted * Math.max(0.5, this.goal / this.smoothed));
+        if (this.smoothed > this.goal * 1.3 && ms > this.goal) this.adapted = Math.max(Math.min(MIN_FACES, this.all), this.adapted * Math.max(0.5, this.goal / this.smoothed));
         else if (this.smoothed < this.goal) this.adapted = Math.min(this.all, this.adapted * 1.1);
     }
 }

@@ -1,4 +1,4 @@
-// What is seen at each pixel (a target of whole numbers), and the picture made of it.
+// What is seen at each pixel (a target of integers), and the picture that is made from it.
 
 import {
     AlwaysDepth, BufferAttribute, BufferGeometry, Color, DepthTexture, GLSL3, Mesh, NearestFilter, OrthographicCamera, RGIntegerFormat,
@@ -6,7 +6,7 @@ import {
 } from "../../vendor/three.js";
 import { pictureFragment, pictureVertex } from "./shaders.js";
 
-/** No piece. */
+/** Stands for no piece. */
 export const NONE = 0xffffffff;
 
 /** A target that holds piece, shade and face of each pixel, with depth. */
@@ -49,7 +49,7 @@ export class SeenTarget {
     }
 }
 
-/** Draws the picture of a {@link SeenTarget}: colours, highlights, outlines. Writes depth, so that what is drawn after it is hidden right. */
+/** Draws the picture of a {@link SeenTarget}: colours, highlights, outlines. Writes depth, so that the scene hides what is drawn later. */
 export class Picture {
     /** @param {import("./tables.js").Tables} tables */
     constructor(tables) {

@@ -1,10 +1,21 @@
-// Reading back what the view shows: which piece, which face, where.
+// Reading back from the graphics card what the view shows: which piece, which face, where.
 
 import { Plane, Ray, Vector3 } from "../../vendor/three.js";
 import { corners } from "./geometry.js";
 import { XRAY } from "./shaders.js";
 
-/** @typedef {import("./stage.js").Stage3d} Stage */
+/**
+ * The view that is read, as the stage has it.
+ *
+ * @typedef {object} Stage
+ * @property {WebGL2RenderingContext} gl
+ * @property {import("../../vendor/three.js").WebGLRenderer} renderer
+ * @property {HTMLElement} element
+ * @property {import("./picture.js").SeenTarget} shown
+ * @property {import("./tables.js").Tables} tables
+ * @property {import("../../vendor/three.js").PerspectiveCamera} camera
+ * @property {import("./mesh.js").SceneMesh | null} mesh
+ */
 
 /**
  * Values of a rectangle of the target that is shown: four numbers per sample, of which the first two count.
@@ -32,7 +43,7 @@ function read(stage, x, y, width, height) {
 }
 
 /**
- * See {@link Stage.seenAt}. Looks at 2 × 2 samples, because one of four shows what is seen through.
+ * What is seen at a pixel, as the stage says it. Reads 2 × 2 samples, because a piece that is seen through covers one sample of four.
  *
  * @param {Stage} stage
  * @param {number} x

@@ -1,6 +1,6 @@
-// Drawing all faces at rest, a portion at a time, so that neither the page nor the processor of graphics is held up.
+// Drawing all faces at rest, a portion at a time, so that neither the page nor the graphics processor is blocked.
 
-/** A portion should take this long, milliseconds. */
+/** Wanted time of a portion, milliseconds. */
 const GOAL_MS = 50;
 /** Faces of the first portion, before anything is known. */
 const FIRST = 250_000;

@@ -1,5 +1,5 @@
-// The two programs of the view. `mesh` writes what is seen at each pixel: piece and shade, face. `picture` turns that into colours, so a
-// change of colours or of highlights draws no triangle again.
+// The two GPU programs of the view. `mesh` writes piece, shade and face of each pixel. `picture` turns them into colours, so that changed
+// colours or highlights need no new drawing of triangles.
 
 /** Width of the textures that hold one value per face of a block. */
 export const FACE_WIDTH = 512;

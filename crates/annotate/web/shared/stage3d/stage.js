@@ -22,16 +22,16 @@ import { Refinement } from "./refine.js";
 import { HIDDEN, PREVIEWED, SELECTED, XRAY } from "./shaders.js";
 import { Tables } from "./tables.js";
 
-/** The picture begins here, metres before the camera. */
+/** Minimum distance of the near plane from the camera, metres. */
 const NEAR_M = 0.05;
-/** It ends here where there are no faces, metres. */
+/** Distance of the far plane if there are no faces, metres. */
 const FAR_M = 100;
 /** The camera is at rest when it has not moved for this long, milliseconds. */
 const SETTLE_MS = 140;
-/** Drawings of a motion that are farther apart, milliseconds, belong to two motions. */
+/** Frames that are further apart than this, milliseconds, belong to two motions. */
 const LONGEST_FRAME_MS = 600;
-/** Most samples of a picture at rest that is drawn finer than its pixels. */
-const MOST_SAMPLES = 9_000_000;
+/** Maximum number of samples of a picture at rest that is drawn finer than its pixels. */
+const MAX_SAMPLES = 9_000_000;
 
 /**
  * Events: `camera` after each change of the camera, `settled` when a picture of all faces is shown, `lost` when the browser has taken the
@@ -55,9 +55,9 @@ export class Stage3d extends EventTarget {
         this.gl = gl;
         this.renderer = new WebGLRenderer({ canvas, context: gl });
         this.renderer.autoClear = false;
-        /** Name of the graphics. */
+        /** Name of the graphics hardware or driver. */
         this.graphics = String(gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER));
-        /** True when the processor draws, not graphics hardware. */
+        /** True when there is no graphics hardware and the CPU draws. */
         this.software = /swiftshader|llvmpipe|software|basic render/i.test(this.graphics);
         /** What pages draw beside the scene: lines, points, boxes. Call {@link requestFrame} after a change. */
         this.scene = new Scene();
@@ -267,7 +267,7 @@ export class Stage3d extends EventTarget {
         this.cameraMoved();
     }
 
-    /** To be called after `camera` was set by hand. */
+    /** To be called after `camera` was changed from outside. */
     cameraMoved() {
         this.lastChange = performance.now();
         this.moved = true;
@@ -315,7 +315,7 @@ export class Stage3d extends EventTarget {
         requestAnimationFrame((now) => this.frame(now));
     }
 
-    /** The triangles look different now; the camera has not moved. */
+    /** To be called when triangles look different although the camera has not moved. */
     meshChanged() {
         this.stale = true;
         this.requestFrame();
@@ -333,7 +333,7 @@ export class Stage3d extends EventTarget {
             clearTimeout(this.settleTimer);
             this.settleTimer = setTimeout(() => this.schedule(), restsAt - performance.now() + 1);
         } else if (!this.refine()) {
-            // The picture that is shown stays until the finer one is whole.
+            // The current picture stays until the finer one is complete.
             this.schedule();
         }
         if (this.pictureStale) this.drawPicture();
@@ -353,7 +353,7 @@ export class Stage3d extends EventTarget {
         this.stale = false;
         this.told = false;
         this.refinement.restart();
-        // What is drawn beside the scene needs it too.
+        // Lines and points beside the scene need the camera's matrices too.
         this.camera.updateProjectionMatrix();
         this.camera.updateMatrixWorld();
         if (!this.mesh) return;
@@ -384,7 +384,7 @@ export class Stage3d extends EventTarget {
     refine() {
         if (!this.mesh) return true;
         const [width, height] = [this.canvas.width, this.canvas.height];
-        const finer = (this.smooth ?? !this.software) && width * height * 4 <= MOST_SAMPLES;
+        const finer = (this.smooth ?? !this.software) && width * height * 4 <= MAX_SAMPLES;
         const samples = finer ? 2 : 1;
         if (this.fine.samples !== samples) {
             this.fine.dispose();
@@ -425,7 +425,7 @@ export class Stage3d extends EventTarget {
         this.dispatchEvent(new Event("camera"));
     }
 
-    /** Gives back what it holds. */
+    /** Frees memory and listeners. */
     dispose() {
         this.resizes.disconnect();
         this.controls.dispose();

@@ -1,10 +1,10 @@
-// Values per piece and per face, as textures that the programs look them up in.
+// Colours, flags and marks per piece and per face, as textures for the GPU programs.
 
 import { DataTexture, RGBAFormat, RedIntegerFormat, UnsignedByteType, UnsignedIntType } from "../../vendor/three.js";
 import { MARK_WIDTH, PIECE_WIDTH } from "./shaders.js";
 
 /**
- * A texture of whole numbers, `width` to a row. Takes `values` as they are where they fill the rows, else a copy.
+ * A texture of integers, `width` in a row. Takes `values` as they are where they fill the rows, else a copy.
  *
  * @param {Uint8Array | Uint32Array} values
  * @param {number} width

@@ -1,6 +1,6 @@
-//! The faces of a scene as bytes for the page, the important ones first.
+//! The faces of a scene as one buffer for the page's 3D view, the important ones first.
 //!
-//! A header of 64 bytes: `ENFGEOM1`, number of faces F and of pieces P (u32), the least and greatest corner of the scene (f32 × 3 each),
+//! A header of 64 bytes: `ENFGEOM1`, number of faces F and of pieces P (u32), the lower and upper corner of the scene's bounds (f32 × 3 each),
 //! number of levels L (u32), zeros. Then the L ends of the levels (u32), filled with zeros to a multiple of 16 bytes. Then, in the order
 //! of display: F × 3 corners of 4 × u16 (x, y and z as shares of the scene's extent in 65535ths, and 0), F face numbers (u32), F piece
 //! numbers (u32). All little-endian.
@@ -12,10 +12,10 @@ use super::shape::area_m2;
 use enfilade_math::{Bounds3, Rng, Vec3};
 use rayon::prelude::*;
 
-/// The least level has about this many faces: any machine can draw them.
-const LEAST_LEVEL: usize = 16_384;
-/// Header, bytes.
-const HEADER: usize = 64;
+/// The coarsest level has about this many faces: any machine can draw them.
+const MIN_LEVEL_FACES: usize = 16_384;
+/// Size of the header.
+const HEADER_BYTES: usize = 64;
 
 /// The order in which faces are shown, made once per scene.
 pub struct DisplayOrder {
@@ -23,7 +23,7 @@ pub struct DisplayOrder {
     /// Face numbers.
     faces: Vec<u32>,
     level_ends: Vec<u32>,
-    /// Header and corners, which do not change.
+    /// Header, levels and corners: what does not change when faces move to other pieces.
     head: Vec<u8>,
 }
 
@@ -61,16 +61,16 @@ impl DisplayOrder {
 
     fn encode_head(&self, corners: &[[Vec3; 3]]) -> Vec<u8> {
         let ends = (4 * self.level_ends.len()).next_multiple_of(16);
-        let mut bytes = Vec::with_capacity(HEADER + ends + 24 * self.faces.len());
+        let mut bytes = Vec::with_capacity(HEADER_BYTES + ends + 24 * self.faces.len());
         bytes.extend_from_slice(b"ENFGEOM1");
         bytes.extend_from_slice(&(self.faces.len() as u32).to_le_bytes());
         bytes.extend_from_slice(&[0; 4]);
         let limits = self.bounds.min.to_array().into_iter().chain(self.bounds.max.to_array());
         limits.for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
         bytes.extend_from_slice(&(self.level_ends.len() as u32).to_le_bytes());
-        bytes.resize(HEADER, 0);
+        bytes.resize(HEADER_BYTES, 0);
         self.level_ends.iter().for_each(|end| bytes.extend_from_slice(&end.to_le_bytes()));
-        bytes.resize(HEADER + ends, 0);
+        bytes.resize(HEADER_BYTES + ends, 0);
         let scale = 65535.0 / self.bounds.extent().max(Vec3::splat(f32::MIN_POSITIVE));
         for &face in &self.faces {
             for corner in &corners[face as usize] {
@@ -82,8 +82,10 @@ impl DisplayOrder {
     }
 }
 
-/// Faces by falling importance: the time at which a process that removes them with their weights comes to them. It is exponential with
-/// the weight as rate (Efraimidis & Spirakis 2006), here in logarithms, because weights of large faces underflow.
+/// Faces by falling importance.
+///
+/// The importance of a face is the time at which a random process with rate 2^(−area / half-life) removes it, which is exponentially
+/// distributed (Efraimidis & Spirakis 2006). It is kept as a logarithm because the rates of large faces underflow.
 fn by_importance(corners: &[[Vec3; 3]]) -> Vec<u32> {
     let areas: Vec<f64> = corners.par_iter().map(area_m2).collect();
     let mut sorted = areas.clone();
@@ -102,7 +104,7 @@ fn by_importance(corners: &[[Vec3; 3]]) -> Vec<u32> {
 fn level_ends(faces: usize) -> Vec<u32> {
     let mut ends = vec![faces as u32];
     let mut end = faces as f64;
-    while end / std::f64::consts::SQRT_2 >= LEAST_LEVEL as f64 {
+    while end / std::f64::consts::SQRT_2 >= MIN_LEVEL_FACES as f64 {
         end /= std::f64::consts::SQRT_2;
         ends.push(end as u32);
     }
@@ -110,7 +112,7 @@ fn level_ends(faces: usize) -> Vec<u32> {
     ends
 }
 
-/// Place of a face's middle on a curve that fills space, so that neighbours come one after the other.
+/// Morton code of a face's centroid on a grid of 1024³: neighbours get similar codes.
 fn morton(corners: &[Vec3; 3], bounds: &Bounds3) -> u32 {
     let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     let cell =
@@ -133,9 +135,9 @@ mod tests {
         let u32_at = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
         assert_eq!((&bytes[..8], u32_at(8), u32_at(12)), (&b"ENFGEOM1"[..], 100_000, 10_000));
         let levels = u32_at(40) as usize;
-        let ends: Vec<u32> = (0..levels).map(|i| u32_at(HEADER + 4 * i)).collect();
+        let ends: Vec<u32> = (0..levels).map(|i| u32_at(HEADER_BYTES + 4 * i)).collect();
         assert_eq!((ends[levels - 1], ends[0] >= 16_384, ends.is_sorted()), (100_000, true, true));
-        let start = HEADER + (4 * levels).next_multiple_of(16);
+        let start = HEADER_BYTES + (4 * levels).next_multiple_of(16);
         assert_eq!(bytes.len(), start + 32 * 100_000);
         let faces: Vec<u32> = (0..100_000).map(|i| u32_at(start + 24 * 100_000 + 4 * i)).collect();
         assert_eq!(faces[..ends[0] as usize].iter().filter(|face| *face % 1000 == 7).count(), 100);
@@ -150,6 +152,6 @@ mod tests {
 
     #[test]
     fn an_empty_scene_has_one_empty_level() {
-        assert_eq!(DisplayOrder::new(&[]).encode(&[], 0).len(), HEADER + 16);
+        assert_eq!(DisplayOrder::new(&[]).encode(&[], 0).len(), HEADER_BYTES + 16);
     }
 }

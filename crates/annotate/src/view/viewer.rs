@@ -1,0 +1,53 @@
+//! The dataset that is open: where it is, and what was read from it lately.
+
+use super::cache::Cache;
+use super::decoded_layer::DecodedLayer;
+use super::place::FramePlace;
+use crate::serve::{ApiProblem, beside};
+use enfilade_dataset::{Dataset, DatasetError};
+use enfilade_frame::Layer;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Memory that decoded layers may take: about a hundred layers of color at Hypersim's size.
+const LAYER_CACHE_BYTES: usize = 512 << 20;
+/// Memory that geometry and free space may take: those of a few scenes.
+const SCENE_CACHE_BYTES: usize = 512 << 20;
+/// Memory that small pictures may take: those of ten thousand frames.
+const THUMBNAIL_CACHE_BYTES: usize = 64 << 20;
+
+/// An open dataset, which is only read.
+pub struct Viewer {
+    pub(super) dataset: Dataset,
+    /// The dataset's folder without symbolic links.
+    pub(super) root: PathBuf,
+    pub(super) layers: Cache<(FramePlace, Layer), DecodedLayer>,
+    /// Geometry, free space and reports, by scene and kind.
+    pub(super) buffers: Cache<(String, &'static str), Vec<u8>>,
+    pub(super) thumbnails: Cache<FramePlace, Vec<u8>>,
+}
+
+impl Viewer {
+    /// Opens the dataset in `folder`: ours, the Hypersim toolkit's, or one of unpacked Hypersim archives.
+    ///
+    /// # Errors
+    /// When the folder cannot be read or is no dataset.
+    pub fn open(folder: impl AsRef<Path>) -> Result<Self, DatasetError> {
+        Ok(Self::of(Dataset::open(&folder)?))
+    }
+
+    /// A viewer of a dataset that is open already.
+    pub fn of(dataset: Dataset) -> Self {
+        let root = std::fs::canonicalize(dataset.root()).unwrap_or_else(|_| dataset.root().to_path_buf());
+        let (layers, buffers) = (Cache::new(LAYER_CACHE_BYTES), Cache::new(SCENE_CACHE_BYTES));
+        Self { dataset, root, layers, buffers, thumbnails: Cache::new(THUMBNAIL_CACHE_BYTES) }
+    }
+}
+
+/// Runs `job` on a thread for blocking work and returns its result.
+pub(super) async fn work<T: Send + 'static>(
+    viewer: Arc<Viewer>,
+    job: impl FnOnce(&Viewer) -> Result<T, ApiProblem> + Send + 'static,
+) -> Result<T, ApiProblem> {
+    beside(move || job(&viewer)).await
+}
