@@ -32,7 +32,7 @@ pub(super) fn resolve_uri(uri: &str) -> Result<Uri, String> {
     String::from_utf8(percent_decoded(uri)).map(Uri::Path).map_err(|_| format!("has the uri {uri:?}, which is not text"))
 }
 
-/// Base64 of either alphabet of RFC 4648; padding may be absent and white space is skipped.
+/// Base64 of either alphabet of RFC 4648; padding may be absent, white space and what follows the padding are skipped.
 fn decoded_base64(text: &str) -> Option<Vec<u8>> {
     let digits = text.bytes().filter(|c| !c.is_ascii_whitespace()).take_while(|&c| c != b'=');
     let standard = |c| match c {
@@ -40,7 +40,17 @@ fn decoded_base64(text: &str) -> Option<Vec<u8>> {
         b'_' => b'/',
         other => other,
     };
-    BASE64.decode(digits.map(standard).collect::<Vec<u8>>()).ok()
+    let mut digits: Vec<u8> = digits.map(standard).collect();
+    // One digit alone does not make a byte. Data that are cut short so are read up to there.
+    let dangling = digits.len() % 4 == 1;
+    if dangling {
+        digits.push(b'A');
+    }
+    let mut bytes = BASE64.decode(digits).ok()?;
+    if dangling {
+        bytes.pop();
+    }
+    Some(bytes)
 }
 
 #[cfg(test)]
@@ -55,5 +65,16 @@ mod tests {
         assert_eq!(resolve_uri("50%.png"), Ok(Uri::Path("50%.png".into())));
         assert!(resolve_uri("https://example.org/a.png").unwrap_err().contains("https addresses are not followed"));
         assert!(resolve_uri("data:;base64,a$b").is_err());
+    }
+
+    #[test]
+    fn base64_is_read_in_both_alphabets_and_as_far_as_it_goes() {
+        assert_eq!(decoded_base64("+/+/"), decoded_base64("-_-_"));
+        assert_eq!(decoded_base64("aG Vs\nbG8"), Some(b"hello".to_vec()));
+        assert_eq!(decoded_base64("aGVsb"), Some(b"hel".to_vec()));
+        // The last digit may say more than the last byte takes; what follows the padding is skipped.
+        assert_eq!(decoded_base64("aGVsbG9=aGVs"), Some(b"hello".to_vec()));
+        assert_eq!((decoded_base64(""), decoded_base64("=")), (Some(vec![]), Some(vec![])));
+        assert_eq!((decoded_base64("aGVs%"), decoded_base64("a%Vs")), (None, None));
     }
 }
