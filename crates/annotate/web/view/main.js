@@ -241,7 +241,7 @@ class Page {
         const card = pages.find((page) => page.title === "Report card");
         if (!verify) return byId("verdict").replaceChildren();
         const kind = !verify.passed ? "bad" : verify.accepted ? "good" : "warn";
-        const text = verify.passed ? `${verify.laws} checks pass` : `${verify.failures.length} checks fail`;
+        const text = verify.passed ? `${verify.laws} laws hold` : `${verify.failures.length} laws fail`;
         const title = [verify.verdict, verify.gate_verdict, ...verify.failures.map((law) => `${law.statement}: ${law.place}`)].join("\n");
         byId("verdict").replaceChildren(el("a", { class: `badge ${kind}`, href: card ? fileUrl(card.path) : undefined, target: "_blank", title }, text));
     }
