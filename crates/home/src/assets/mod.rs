@@ -6,6 +6,7 @@
 mod body;
 mod borrowed;
 mod library;
+mod model;
 mod range;
 mod surfaces;
 mod textures;
@@ -13,7 +14,8 @@ mod words;
 
 pub use body::{Body, BodyPart, Bulb};
 pub use borrowed::Borrowed;
-pub use library::{Library, Model};
+pub use library::Library;
+pub use model::Model;
 pub use range::believable;
 pub(crate) use textures::repictured;
 pub use words::families_of;
