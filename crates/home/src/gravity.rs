@@ -1,12 +1,12 @@
-//! Gives what was put down a little beside its place the place that gravity and its neighbours leave it.
+//! Moves what floats or runs into something a little, to where it rests and is free.
 //!
 //! What floats is lowered until it lies on what is below it, by the exact height between their triangles. What runs into something
-//! is moved by the shortest step, up or sideways, that sets it free, and lowered again. What rests on it goes with it. Neither goes
-//! further than a careless hand would be off; what would have to is left as it is, for [`crate::settle`] to take away.
+//! is moved by the shortest step, up or sideways, that sets it free, and lowered again. What rests on it goes with it. Both move a few
+//! centimetres at most; what would have to go further stays, for [`crate::settle`] to remove.
 
 use crate::check::contact::{Contacts, core, cores_meet, cuts, touches};
-use crate::check::meet::{Body, Triangle};
-use crate::check::{is_shell, overlap};
+use crate::check::is_shell;
+use crate::check::meet::{Body, Triangle, overlap};
 use enfilade_math::{Bounds3, Vec2, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,10 +1,21 @@
 //! Procedural furnished homes: the embedded default input, and labelled scenes without end.
 //!
-//! [`home`] is a function of its [`HomeConfig`] alone. From the bottom up: [`shape`] makes meshes and [`texture`] pictures;
+//! [`home()`] is a function of its [`HomeConfig`] alone. From the bottom up: [`shape`] makes meshes and [`texture`] pictures;
 //! [`materials`] and [`palette`] say what things are made of; [`furniture`] has one file per family of things; [`plan`] lays out
 //! rooms, [`room`] and [`shell`] are their walls; [`place`] decides what fits where, [`rooms`] says what each kind of room holds,
 //! [`builder`] names, labels and collects the parts. What [`check`] would find wrong is moved to where it is carried and free, and taken
 //! away where it cannot be. [`assets`] are models of others, that may stand in for our furniture.
+//!
+//! ```
+//! use enfilade_home::check::faults;
+//! use enfilade_home::{HomeConfig, RoomKind, home};
+//!
+//! let config = HomeConfig { seed: 7, rooms: vec![RoomKind::Toilet], clutter: 0.0, ..HomeConfig::default() };
+//! let made = home(&config);
+//! assert!(made.scene.parts.iter().any(|part| part.name.starts_with("toilet_1/")));
+//! assert_eq!(made.scene.parts.len(), made.labels.parts.len());
+//! assert_eq!(faults(&made), []);
+//! ```
 
 pub mod assets;
 pub mod builder;
@@ -13,6 +24,7 @@ pub mod check;
 mod config;
 pub mod furniture;
 mod gravity;
+mod home;
 pub mod light;
 pub mod materials;
 pub mod palette;
@@ -26,36 +38,19 @@ pub mod shell;
 pub mod texture;
 
 pub use config::HomeConfig;
+pub use home::{Home, Removal, Shift};
 pub use plan::{FloorPlan, RoomKind};
-pub use settle::{Removal, Shift};
 
 use assets::{Library, Model};
 use builder::Builder;
 use enfilade_math::{Rng, Vec2};
-use enfilade_scene::{Labels, Scene};
+use enfilade_scene::Scene;
 use light::{LightConfig, Moment};
 use materials::Materials;
 use palette::DecorConfig;
 use room::Wall;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-
-/// A home and what its parts are called.
-#[derive(Clone, Debug)]
-pub struct Home {
-    /// Valid by construction.
-    pub scene: Scene,
-    /// Every part has a class; all but walls, floor and ceiling belong to an instance.
-    pub labels: Labels,
-    /// Where its rooms are.
-    pub plan: FloorPlan,
-    /// What could not stay where it had been put, and why; it is not in the scene any more.
-    pub removed: Vec<Removal>,
-    /// What was moved a little so that it could stay.
-    pub moved: Vec<Shift>,
-    /// The models of others that are in it, with the files that they come from and their licences; sorted, each once.
-    pub credits: Vec<String>,
-}
 
 /// A furnished home in the light of a moment, of nothing but our own things.
 pub fn home(config: &HomeConfig) -> Home {

@@ -1,37 +1,17 @@
-//! The last word on what was placed: what stands a little beside its place is moved there by [`crate::gravity`], and what still runs
-//! into others or floats is taken away, until nothing does.
+//! The last step of furnishing: what runs into others or floats is moved a little by [`crate::gravity`], and removed where that fails.
 //!
-//! Furniture is placed by its measures; its triangles, which creases, tilts and clutter move a little, are judged as [`crate::check`]
-//! does. Of two things that meet the smaller goes; what stood on it goes with it, since it floats then. So does what stands in the only way
-//! into a room.
+//! Furniture is placed by its box; here its triangles count, which creases, tilts and clutter move a little. Of two objects that run
+//! into each other the smaller is removed, and with it what stood on it, which floats then. So is what blocks the only way into a room.
 
-use crate::Home;
 use crate::assets::repictured;
 use crate::check::contact::Contacts;
 use crate::check::meet::Body;
 use crate::check::{Fault, bodies, is_shell, object_of, walk};
 use crate::gravity;
+use crate::{Home, Removal, Shift};
 use enfilade_math::{DAffine3, Vec3};
 use enfilade_scene::{Part, PartLabel, is_stuff};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// An object that was taken away, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Removal {
-    /// Its name.
-    pub object: String,
-    /// What was wrong with it.
-    pub fault: Fault,
-}
-
-/// An object that was moved to where it is carried and free.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Shift {
-    /// Its name.
-    pub object: String,
-    /// How far, metres.
-    pub by: Vec3,
-}
 
 /// Moves what can be put right, and takes away what cannot; the shell stays.
 pub fn settle(home: &mut Home) {

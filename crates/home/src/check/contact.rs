@@ -1,7 +1,7 @@
 //! Which objects cut each other deeper than they may, and which touch.
 
-use super::meet::Body;
-use super::{family_of, is_shell, overlap};
+use super::meet::{Body, overlap};
+use super::{family_of, is_shell};
 use enfilade_math::Vec3;
 use rayon::prelude::*;
 

@@ -1,6 +1,5 @@
 //! Whether the surfaces of two objects cut each other.
 
-use super::overlap;
 use enfilade_math::{Bounds3, Vec3};
 
 /// Corners in the world, metres.
@@ -76,6 +75,11 @@ impl Body {
             other.parts.iter().any(|(theirs, others)| overlap(&bounds, theirs, 0.0) && cut(triangles, offset, others, &bounds, theirs))
         })
     }
+}
+
+/// True when the boxes come nearer than `margin`.
+pub(crate) fn overlap(a: &Bounds3, b: &Bounds3, margin: f32) -> bool {
+    a.min.cmple(b.max + margin).all() && b.min.cmple(a.max + margin).all()
 }
 
 /// Sorted by x, so that far ones are skipped.
