@@ -1,6 +1,7 @@
 use super::*;
 use crate::palette::DecorConfig;
-use enfilade_scene::{Parameter, Pixels};
+use enfilade_math::Rgb;
+use enfilade_scene::{Image, NormalMap, Parameter, Pixels};
 
 /// Every finish, with the first of those that have a number.
 fn finishes() -> Vec<Finish> {
@@ -10,14 +11,6 @@ fn finishes() -> Vec<Finish> {
 fn stock(seed: u64) -> Materials {
     let decor = DecorConfig { seed, realism: 1.0 };
     Materials::new(decor.palette(), LightConfig::default(), decor.pictures())
-}
-
-#[test]
-fn warm_white_is_orange_and_daylight_is_grey() {
-    let lamp = blackbody(2800.0);
-    assert!(lamp.r > 1.3 && lamp.b < 0.5 && (lamp.luminance() - 1.0).abs() < 1e-5, "{lamp:?}");
-    let day = blackbody(6500.0);
-    assert!((day.r - 1.0).abs() < 1e-5 && (day.b - 1.0).abs() < 1e-5);
 }
 
 #[test]
