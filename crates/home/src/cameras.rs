@@ -5,8 +5,8 @@
 //! direction. All are level, so that verticals stay vertical (two-point perspective).
 
 use crate::builder::Class;
-use crate::plan::{FloorPlan, RoomKind};
-use crate::room::Room;
+use crate::plan::FloorPlan;
+use crate::room::{Room, RoomKind};
 use enfilade_geometry::Bvh;
 use enfilade_math::{Bounds3, DMat3, DVec3, Ray, Vec2, Vec3};
 use enfilade_scene::{Labels, Scene, StartCamera, WorldMesh};

@@ -1,7 +1,8 @@
 //! What a home is a function of.
 
 use crate::light::Moment;
-use crate::plan::{RoomKind, usual_programme};
+use crate::room::RoomKind;
+use crate::room::kind::usual_programme;
 use enfilade_math::Rng;
 use serde::{Deserialize, Serialize};
 

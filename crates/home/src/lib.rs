@@ -39,7 +39,8 @@ pub mod texture;
 
 pub use config::HomeConfig;
 pub use home::{Home, Removal, Shift};
-pub use plan::{FloorPlan, RoomKind};
+pub use plan::FloorPlan;
+pub use room::RoomKind;
 
 use assets::{Library, Model};
 use builder::Builder;

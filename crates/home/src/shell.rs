@@ -6,8 +6,7 @@
 use crate::builder::{Builder, Class, pose};
 use crate::furniture::{Door, Passage, Window, board};
 use crate::materials::Finish;
-use crate::plan::RoomKind;
-use crate::room::{Filling, Room, Wall};
+use crate::room::{Filling, Room, RoomKind, Wall};
 use crate::shape::{Reshape, slab_with_openings};
 use crate::texture::FLOOR_STRIPS;
 use enfilade_geometry::Mesh;

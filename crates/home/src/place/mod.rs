@@ -4,11 +4,10 @@
 //! by a cost, and the first that fits is taken: no solid meets another or a space that must stay free (where doors swing, before
 //! drawers, before windows), and a person can still walk from every door to every other and up to everything that has a front.
 
-mod footprint;
 mod settle;
 mod walk;
 
-pub use footprint::Footprint;
+pub use crate::room::Footprint;
 pub use settle::settle;
 pub use walk::{BODY, Walk};
 

@@ -1,7 +1,6 @@
 //! Where a person can go in a room: a grid of the places that the middle of a body can be.
 
-use super::Footprint;
-use crate::room::Room;
+use crate::room::{Footprint, Room};
 use enfilade_math::Vec2;
 
 /// Half the width of a person who walks through, metres: 0.6 m is the narrowest way between furniture that people accept.

@@ -4,9 +4,8 @@
 //! passage about 60 mm less). Windows have at least an eighth of the floor where the wall is long enough; sills are low in living
 //! rooms, above the worktop in kitchens and above eye level of a bather in bathrooms.
 
-use super::kind::RoomKind;
 use super::search::{Site, Sketch, shared_wall};
-use crate::room::{Filling, Leaf, Opening, Room, Wall};
+use crate::room::{Filling, Leaf, Opening, Room, RoomKind, Wall};
 use enfilade_math::Rng;
 
 /// Height of doors.

@@ -1,8 +1,7 @@
 //! The search for a floor plan: simulated annealing over slicing plans, areas and the shape of the whole.
 
-use super::kind::RoomKind;
 use super::slicing::{Cell, Slicing};
-use crate::room::Wall;
+use crate::room::{RoomKind, Wall};
 use enfilade_math::{Rng, Vec2};
 
 /// Shortest piece of wall that two rooms share where a door between them has room for its casings.

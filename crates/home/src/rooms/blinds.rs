@@ -3,8 +3,7 @@
 use super::Furnisher;
 use crate::furniture::living::{Blind, BlindKind};
 use crate::furniture::{Window, on};
-use crate::plan::RoomKind;
-use crate::room::{Filling, Opening};
+use crate::room::{Filling, Opening, RoomKind};
 use enfilade_math::{Rng, Vec3};
 
 /// Where their backs are, behind the wall's inner face: just before the handles of the sashes.

@@ -2,8 +2,7 @@
 
 use super::Furnisher;
 use crate::furniture::{Furniture, Socket, Switch, on};
-use crate::plan::RoomKind;
-use crate::room::{Filling, Opening, Wall};
+use crate::room::{Filling, Opening, RoomKind, Wall};
 use enfilade_math::Vec3;
 
 /// Heights of the middles of switches and sockets above the floor (DIN 18015-3).

@@ -3,9 +3,7 @@
 use super::Furnisher;
 use crate::furniture::living::CeilingLamp;
 use crate::furniture::{Candles, CeilingDome, Curtains, Furniture, Pendant, Plant, Radiator, Window, on};
-use crate::place::Footprint;
-use crate::plan::RoomKind;
-use crate::room::Opening;
+use crate::room::{Footprint, Opening, RoomKind};
 use enfilade_math::{DAffine3, Vec2, Vec3};
 
 /// Lowest sill with a radiator below it.
@@ -16,7 +14,7 @@ const ON_SILL: f32 = 0.32;
 const BLINDS: u64 = 0xb11d;
 /// Lamps in the middle of a room end above people's heads.
 const PENDANT_RIM: f32 = 2.05;
-/// What is higher is in the way of lamps, but not that doors need their room below.
+/// Height above which things are in the way of a lamp, metres; what stands or swings below is not.
 const OVERHEAD: f32 = 2.12;
 /// Nothing hangs lower where people walk.
 const HEADS: f32 = 1.98;

@@ -5,8 +5,8 @@ use crate::builder::Builder;
 use crate::furniture::{FAMILIES, Family, Furniture, PictureOnWall, Place, Rug, Surface, family_named, on};
 use crate::palette::Palette;
 use crate::place::{Floor, Piece, Spot, settle};
-use crate::plan::{FloorPlan, RoomKind};
-use crate::room::{Room, Wall};
+use crate::plan::FloorPlan;
+use crate::room::{Room, RoomKind, Wall};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
 /// A room being furnished.
@@ -128,7 +128,7 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// Stands one of a family with its back to the wall where `cost` is least, and lets small things gather on it.
+    /// Stands one of a family with its back to the wall where `cost` is lowest, and lets small things gather on it.
     pub fn furnish(&mut self, family: &str, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
         for _ in 0..VARIANTS {
             let thing = self.any(family)?;
@@ -173,7 +173,7 @@ impl<'a> Furnisher<'a> {
         self.hang(thing.as_ref(), height, &Wall::ALL, cost)
     }
 
-    /// Hangs up to so many pictures, each where `cost` is least and not beside another on the same wall.
+    /// Hangs up to so many pictures, each where `cost` is lowest and not beside another on the same wall.
     pub fn art(&mut self, most: usize, cost: impl Fn(&Floor, &Spot) -> f32) {
         let mut walls = Wall::ALL.to_vec();
         for _ in 0..1 + self.rng.below(most.max(1)) {
@@ -185,7 +185,7 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// Lays a rug with this probability where `cost` is least, clear of everything that stands.
+    /// Lays a rug with this probability where `cost` is lowest, clear of everything that stands.
     pub fn rug(&mut self, probability: f32, cost: impl Fn(&Floor, &Spot) -> f32) {
         if !self.chance(probability) {
             return;
@@ -213,7 +213,7 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// Stands a thing with its back to the wall where `cost` is least.
+    /// Stands a thing with its back to the wall where `cost` is lowest.
     pub fn stand(&mut self, thing: &dyn Furniture, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
         let spots = self.floor.along_walls(thing.size().x);
         self.stand_at(thing, spots, cost)
@@ -227,7 +227,7 @@ impl<'a> Furnisher<'a> {
         Some(Standing { pose: poses[0], size: thing.size(), spot })
     }
 
-    /// Stands a thing anywhere on the floor, turned by one of `yaws`, where `cost` is least.
+    /// Stands a thing anywhere on the floor, turned by one of `yaws`, where `cost` is lowest.
     pub fn stand_free(&mut self, thing: &dyn Furniture, yaws: &[f32], cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
         let piece = Piece::standing(thing.size(), thing.reach()).at(0.0, 0.0, 0.0);
         let (spot, poses) = self.floor.place(&[piece], self.floor.everywhere(0.1, yaws), cost)?;
@@ -235,7 +235,7 @@ impl<'a> Furnisher<'a> {
         Some(Standing { pose: poses[0], size: thing.size(), spot })
     }
 
-    /// Finds a place on a wall for something whose middle is at `height`, where `cost` is least. The pose has its origin on the wall.
+    /// Finds a place on a wall for something whose middle is at `height`, where `cost` is lowest. The pose has its origin on the wall.
     pub fn find_on_wall(
         &mut self,
         size: Vec3,

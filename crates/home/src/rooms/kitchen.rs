@@ -5,8 +5,7 @@ use super::wishes::{cornered, only};
 use crate::furniture::Furniture;
 use crate::furniture::kitchen::{self, FittedKitchen};
 use crate::place::{Piece, Spot};
-use crate::plan::RoomKind;
-use crate::room::{Opening, Wall};
+use crate::room::{Opening, RoomKind, Wall};
 use enfilade_math::{Vec2, Vec3};
 
 /// Units keep this distance from walls.

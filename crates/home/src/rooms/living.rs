@@ -8,8 +8,7 @@ use crate::furniture::{
     Rug, SideTable, TableLamp, TelevisionBench, Tray, Vase, on,
 };
 use crate::place::{Piece, Spot};
-use crate::plan::RoomKind;
-use crate::room::Wall;
+use crate::room::{RoomKind, Wall};
 use crate::texture::PaintingStyle;
 use enfilade_math::{DAffine3, Vec2, Vec3};
 use std::f32::consts::PI;

@@ -24,7 +24,8 @@ use crate::HomeConfig;
 use crate::assets::Library;
 use crate::builder::Builder;
 use crate::palette::DecorConfig;
-use crate::plan::{FloorPlan, RoomKind};
+use crate::plan::FloorPlan;
+use crate::room::RoomKind;
 use crate::shell::{self, ShellFinish};
 
 /// Builds all rooms of a home and what is in them.

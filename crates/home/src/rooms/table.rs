@@ -6,7 +6,8 @@ use crate::builder;
 use crate::furniture::dining::LongTable;
 use crate::furniture::living::CeilingLamp;
 use crate::furniture::{Chair, DiningTable, Furniture, Pendant};
-use crate::place::{Floor, Footprint, Piece, Spot};
+use crate::place::{Floor, Piece, Spot};
+use crate::room::Footprint;
 use enfilade_math::{Rng, Vec2, Vec3};
 use std::f32::consts::{FRAC_PI_2, TAU};
 
@@ -169,7 +170,7 @@ impl Furnisher<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::RoomKind;
+    use crate::room::RoomKind;
     use crate::rooms::tests::lacks_without_clutter;
 
     fn guests(f: &mut Furnisher) {

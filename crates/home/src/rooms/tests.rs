@@ -7,7 +7,8 @@ use crate::check::{family_of, object_of};
 use crate::light::LightConfig;
 use crate::materials::Materials;
 use crate::palette::Palette;
-use crate::plan::{FloorPlan, RoomKind};
+use crate::plan::FloorPlan;
+use crate::room::RoomKind;
 use enfilade_math::Rng;
 use enfilade_scene::{Part, Scene};
 

@@ -1,8 +1,12 @@
 //! A room: its place in the home, its walls and what opens in them.
 
+mod footprint;
+pub mod kind;
+
+pub use footprint::Footprint;
+pub use kind::RoomKind;
+
 use crate::builder::pose;
-use crate::place::Footprint;
-use crate::plan::RoomKind;
 use enfilade_math::{DAffine3, Vec2, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
