@@ -1,4 +1,4 @@
-//! A finished home: its scene with labels and floor plan, and what was moved or taken away before it could stand.
+//! A finished home: its scene with labels and floor plan, and what was moved or removed to make it possible.
 
 use crate::check::Fault;
 use crate::plan::FloorPlan;
@@ -14,15 +14,15 @@ pub struct Home {
     pub labels: Labels,
     /// Where its rooms are.
     pub plan: FloorPlan,
-    /// What could not stay where it had been put, and why; it is not in the scene any more.
+    /// Objects that could not stay where they had been put, and were removed.
     pub removed: Vec<Removal>,
-    /// What was moved a little so that it could stay.
+    /// Objects that were moved a little so that they could stay.
     pub moved: Vec<Shift>,
-    /// The models of others that are in it, with the files that they come from and their licences; sorted, each once.
+    /// The models of others in the scene, with their files and licences; sorted, each once.
     pub credits: Vec<String>,
 }
 
-/// An object that was taken away, and why.
+/// An object that was removed, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Removal {
     /// Its name.
@@ -31,7 +31,7 @@ pub struct Removal {
     pub fault: Fault,
 }
 
-/// An object that was moved to where it is carried and free.
+/// An object that was moved until it rested on something and ran into nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shift {
     /// Its name.

@@ -3,8 +3,8 @@
 //! [`home()`] is a function of its [`HomeConfig`] alone. From the bottom up: [`shape`] makes meshes and [`texture`] pictures;
 //! [`materials`] and [`palette`] say what things are made of; [`furniture`] has one file per family of things; [`plan`] lays out
 //! rooms, [`room`] and [`shell`] are their walls; [`place`] decides what fits where, [`rooms`] says what each kind of room holds,
-//! [`builder`] names, labels and collects the parts. What [`check`] would find wrong is moved to where it is carried and free, and taken
-//! away where it cannot be. [`assets`] are models of others, that may stand in for our furniture.
+//! [`builder`] names, labels and collects the parts. What [`check`] would object to is moved until it rests on something and runs into
+//! nothing, and removed where that fails. [`assets`] are models of others that may stand in for our furniture.
 //!
 //! ```
 //! use enfilade_home::check::faults;
@@ -53,14 +53,14 @@ use room::Wall;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// A furnished home in the light of a moment, of nothing but our own things.
+/// A furnished home at some hour of some day, with our own furniture only.
 pub fn home(config: &HomeConfig) -> Home {
     home_with(config, &Library::default())
 }
 
-/// A furnished home with models of `library`: those that [`HomeConfig::assets`] names, which who calls has read.
+/// A furnished home in which models of `library`, which the caller has read from [`HomeConfig::assets`], stand in for our furniture.
 ///
-/// What [`Library::broken`] tells afterwards was wanted, and replaced by our own.
+/// Models that turn out to be broken are replaced by our own furniture; [`Library::broken`] lists them afterwards.
 pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
     let kinds = config.programme();
     let plan = FloorPlan::new(&kinds, &config.stream(config.layout, 1));
@@ -78,7 +78,7 @@ pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
     home
 }
 
-/// The models that are still there.
+/// The models that are still in the scene, one line each.
 fn credits(scene: &Scene, models: &BTreeMap<String, Arc<Model>>) -> Vec<String> {
     let used = scene.parts.iter().filter_map(|part| models.get(check::object_of(&part.name)));
     let lines: BTreeSet<String> = used.map(|model| format!("{} ({}): {}", model.name, model.file, model.licence)).collect();
@@ -99,7 +99,7 @@ fn light(plan: &FloorPlan, config: &HomeConfig, rng: &Rng) -> LightConfig {
     light.facing_sun(out, rng.fork(3).range(0.2, 0.8))
 }
 
-/// The ways that windows look, each once.
+/// The directions in which windows look out, each once.
 fn outlooks(plan: &FloorPlan) -> Vec<Vec2> {
     let looks = |wall: &Wall| plan.rooms.iter().flat_map(room::Room::windows).any(|w| w.wall == *wall);
     Wall::ALL.into_iter().filter(looks).map(|wall| -wall.inward()).collect()

@@ -1,4 +1,4 @@
-//! Many models, and which of them to take.
+//! The models of a library by family, and which of them stands in for a piece of furniture.
 
 use super::Model;
 use super::range::believable;

@@ -1,7 +1,7 @@
-//! Models of a user's library, that stand in for our own furniture.
+//! Models of a user's library that stand in for our own furniture.
 //!
-//! Who reads files makes a [`Library`]; rooms ask it wherever they ask the catalogue for a family. A model is only taken where its
-//! measures are those of such a thing, so that it can be placed, reached and walked around like one of ours.
+//! The caller reads files into a [`Library`]; wherever a room takes a family from the catalogue, the library may give a model instead.
+//! Only models with the size of such a thing are given, so that they can be placed, reached and walked around like ours.
 
 mod body;
 mod borrowed;

@@ -3,7 +3,7 @@
 use super::family_of;
 use std::fmt;
 
-/// Something that cannot be.
+/// Something that is wrong with a home.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fault {
     /// Two objects run into each other deeper than they may.
@@ -19,7 +19,7 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// The same in families instead of objects, to be counted.
+    /// The same in words that name families instead of objects, so that equal faults can be counted.
     pub fn kind(&self) -> String {
         match self {
             Self::Meets(a, b) => format!("{} runs into {}", family_of(a), family_of(b)),

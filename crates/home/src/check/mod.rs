@@ -1,6 +1,6 @@
 //! Whether a home is possible: nothing runs into anything, nothing floats, everything has a label, and people can go everywhere.
 //!
-//! The finished triangles are judged, whatever placed them.
+//! The finished triangles are judged, not what placed them.
 
 pub(crate) mod contact;
 mod fault;
@@ -13,12 +13,16 @@ pub(crate) use names::is_shell;
 pub use names::{family_of, object_of};
 
 use crate::Home;
+use crate::cameras::CLEARANCES;
 use contact::Contacts;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Bounds3, Vec3};
 use enfilade_scene::{NYU40, is_stuff};
 use meet::Body;
 use std::collections::BTreeMap;
+
+/// Slack for rounding, metres: cameras keep their distance from boxes that are computed in another way than those here.
+const ROUNDING: f32 = 0.002;
 
 /// Everything that is wrong with a home; empty when nothing is.
 pub fn faults(home: &Home) -> Vec<Fault> {
@@ -63,8 +67,8 @@ fn unlabelled(home: &Home) -> Vec<Fault> {
 
 fn blocked_cameras(home: &Home, bodies: &[Body]) -> Vec<Fault> {
     let boxes: Vec<Bounds3> = bodies.iter().flat_map(Body::boxes).collect();
-    let least = crate::cameras::CLEARANCES[1] - 0.002;
-    let free = |eye: Vec3| boxes.iter().all(|b| eye.distance(eye.clamp(b.min, b.max)) >= least);
+    let clearance = CLEARANCES[1] - ROUNDING;
+    let free = |eye: Vec3| boxes.iter().all(|b| eye.distance(eye.clamp(b.min, b.max)) >= clearance);
     let cameras = home.scene.cameras.iter();
     cameras.filter(|c| !free(c.position.as_vec3())).map(|c| Fault::Camera(c.name.clone())).collect()
 }

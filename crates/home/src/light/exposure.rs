@@ -11,7 +11,7 @@ pub struct Exposure {
     balance: Rgb,
 }
 
-/// What white walls are brought to.
+/// Radiance at which white walls are shown.
 const WALL_RADIANCE: f32 = 0.5;
 /// Average daylight factor of a room with good windows (CIBSE LG10: 2 to 5 %).
 const DAYLIGHT_FACTOR: f32 = 0.025;
@@ -19,20 +19,24 @@ const DAYLIGHT_FACTOR: f32 = 0.025;
 const SUN_SHARE: f32 = 0.012;
 /// Illuminance of the walls by all lamps of a home, kilo-lux.
 const LAMPS_KLX: f32 = 0.09;
+/// Illuminance of the darkest room that is still shown as bright as others, kilo-lux: a night without lamps stays dark.
+const DARKEST_KLX: f32 = 4e-4;
+/// Reflectance of white walls.
+const WALL_REFLECTANCE: f32 = 0.8;
 /// White by day, and where there are lamps alone: half-way from daylight to theirs, so that they stay warm. Reciprocal megakelvin.
 const WHITE_MIRED: [f32; 2] = [154.0, 262.0];
 
 impl Exposure {
-    /// An exposure of one's own choice, balanced for daylight.
+    /// A given exposure, balanced for daylight.
     pub fn new(per_kcd: f32) -> Self {
         Self { per_kcd, balance: Rgb::WHITE }
     }
 
-    /// That which brings white walls to [`WALL_RADIANCE`].
+    /// The exposure that shows white walls at [`WALL_RADIANCE`].
     pub(super) fn of(weather: &Weather, lamps: f32) -> Self {
         let lamps_klx = LAMPS_KLX * lamps;
-        let inside_klx = (DAYLIGHT_FACTOR * weather.sky_klx() + SUN_SHARE * weather.sun_klx() + lamps_klx).max(4e-4);
-        let wall_kcd = 0.8 * inside_klx / std::f32::consts::PI;
+        let inside_klx = (DAYLIGHT_FACTOR * weather.sky_klx() + SUN_SHARE * weather.sun_klx() + lamps_klx).max(DARKEST_KLX);
+        let wall_kcd = WALL_REFLECTANCE * inside_klx / std::f32::consts::PI;
         let mired = WHITE_MIRED[0] + (WHITE_MIRED[1] - WHITE_MIRED[0]) * lamps_klx / inside_klx;
         Self { per_kcd: WALL_RADIANCE / wall_kcd, balance: Rgb::WHITE / blackbody(1e6 / mired) }
     }

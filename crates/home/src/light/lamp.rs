@@ -1,4 +1,4 @@
-//! What lamps give off.
+//! Light and material of the luminous parts of lamps.
 //!
 //! Lamps are sold by luminous flux. A diffuse emitter of flux Φ and area A has the luminance Φ / (π A), in every direction alike.
 

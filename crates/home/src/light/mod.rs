@@ -86,7 +86,7 @@ impl Default for LightConfig {
 
 /// Sun's elevations at dusk, degrees: civil twilight ends at −6.
 const DUSK_DEG: [f32; 2] = [-6.5, -4.0];
-/// The lowest sun of a day, degrees; where it does not get so high, it is noon.
+/// Minimum elevation of the sun by day, degrees; where it does not get that high, it is noon.
 const DAY_DEG: f32 = 12.0;
 
 impl LightConfig {

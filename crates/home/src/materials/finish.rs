@@ -1,4 +1,4 @@
-//! The list of what surfaces are made of.
+//! The list of finishes, which say what a surface is made of but not in which colour; and which of them glow.
 
 use crate::light::{Glow, area_m2};
 use enfilade_geometry::Mesh;

@@ -25,7 +25,7 @@ impl Stock {
     }
 }
 
-/// Makes one material, and the pictures that it is the first to need.
+/// Makes one material, and those of its pictures that do not exist yet.
 pub(super) struct Maker<'a> {
     pub stock: &'a mut Stock,
     pub scene: &'a mut Scene,
@@ -37,14 +37,14 @@ impl Maker<'_> {
         self.stock.palette
     }
 
-    /// A seed that depends on the home, the name and what the picture depends on, whatever was made before.
+    /// A seed that depends on the home, the name and the variant, but not on what was made before.
     pub fn seed(&self, name: &str, variant: &impl Debug) -> u32 {
         let text = format!("{name} {variant:?}");
         let key = text.bytes().fold(0xcbf2_9ce4_8422_2325u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
         self.stock.rng.fork(key).next_u64() as u32
     }
 
-    /// The picture of this name and variant, made if there is none yet; it covers so many metres across and up.
+    /// The picture of this name and variant, made if there is none yet. It covers `covers` metres across and up.
     pub fn picture(&mut self, name: &'static str, variant: &impl Debug, covers: [f32; 2], make: impl FnOnce(u32) -> Image) -> Paint {
         let key = (name, format!("{variant:?}"));
         let known = self.stock.pictures.get(&key).copied();
@@ -91,7 +91,7 @@ impl Layers {
         self.color.alpha(factor)
     }
 
-    /// `material` with this relief, so many metres deep.
+    /// `material` with this relief, `depth_m` metres deep.
     pub fn relieved(&self, material: Material, depth_m: f32) -> Material {
         Material { normal_map: Some(NormalMap::Bump { texture: self.relief.texture(), scale: depth_m }), ..material }
     }

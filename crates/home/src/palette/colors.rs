@@ -48,8 +48,8 @@ pub struct Palette {
 
 /// White of walls: matt emulsion reflects 80 to 85 %.
 pub(super) const WHITE: Rgb = Rgb::new(0.80, 0.785, 0.75);
-/// White of washed cotton.
-const COTTON: Rgb = Rgb::new(0.77, 0.765, 0.745);
+/// White of washed cotton: it reflects three quarters of the light.
+pub(crate) const COTTON: Rgb = Rgb::new(0.77, 0.765, 0.745);
 
 impl Palette {
     /// A room of a home with this palette: the same woods and whites, other walls, cloth and tiles.

@@ -1,4 +1,4 @@
-//! Palettes chosen by eye.
+//! Palettes chosen by eye, written as the sRGB codes that a colour picker shows.
 
 use super::colors::{Palette, WHITE};
 use super::tiles::{floor_tile, wall_tile};

@@ -21,7 +21,7 @@ pub(super) fn palette(rng: &mut Rng) -> Palette {
         _ => oklch(rng.range(0.88, 0.92), rng.range(0.005, 0.02), warm),
     };
     let accent_wall = oklch(rng.range(0.42, 0.82), rng.range(0.03, 0.07), hue);
-    let cloth = |rng: &mut Rng, hue: f32, most: f32| oklch(rng.range(0.35, 0.82), most * rng.next_f32(), hue);
+    let cloth = |rng: &mut Rng, hue: f32, max_chroma: f32| oklch(rng.range(0.35, 0.82), max_chroma * rng.next_f32(), hue);
     let art = [
         oklch(0.92, 0.015, warm),
         oklch(rng.range(0.75, 0.84), 0.06, companion),

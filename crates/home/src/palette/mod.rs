@@ -9,6 +9,7 @@ mod generated;
 mod oklch;
 mod tiles;
 
+pub(crate) use colors::COTTON;
 pub use colors::Palette;
 
 use enfilade_math::Rng;

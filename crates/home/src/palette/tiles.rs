@@ -10,8 +10,8 @@ const TILED: f32 = 0.22;
 
 /// A colour without more saturation than tiled rooms bear, as light as before.
 pub(super) fn quiet(c: Rgb) -> Rgb {
-    let (most, least) = (c.max_component(), c.r.min(c.g).min(c.b));
-    let saturation = (most - least) / most.max(1e-3);
+    let (max, min) = (c.max_component(), c.r.min(c.g).min(c.b));
+    let saturation = (max - min) / max.max(1e-3);
     c.lerp(Rgb::splat(c.luminance()), 1.0 - (TILED / saturation.max(TILED)))
 }
 

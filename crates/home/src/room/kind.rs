@@ -30,7 +30,7 @@ pub enum RoomKind {
 pub struct Norm {
     /// Usual areas, m²: from and to.
     pub area: [f32; 2],
-    /// Least clear width, metres.
+    /// Minimum clear width, metres.
     pub width: f32,
     /// Largest ratio of length to width.
     pub aspect: f32,

@@ -185,7 +185,7 @@ impl Room {
         Footprint { center: self.before(way.wall, way.center_x(), 0.5 * depth), half, yaw: way.wall.yaw() as f32 }
     }
 
-    /// How many ways of the room one at `way` would be in the way of.
+    /// How badly a way at `way` would get in the way of the others: one each, ten for those that it would overlap on its wall.
     pub fn conflicts(&self, way: &Opening) -> f32 {
         let zone = self.way_zone(way);
         let swings = |o: &Opening| matches!(o.filling, Filling::Door(_));

@@ -1,4 +1,7 @@
 //! What each kind of room holds: one file per kind.
+//!
+//! They say what they want to a [`Furnisher`], which finds the places. What several kinds of rooms share has files of its own: `fittings`,
+//! `electric`, `blinds`, `table`, `groups`; `wishes` are the costs of places.
 
 mod bathroom;
 mod bedroom;
