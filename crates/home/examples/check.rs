@@ -1,5 +1,5 @@
 //! `check [FIRST] [COUNT] [--rooms a,b,c | --random-rooms]` makes homes of consecutive seeds and says what had to be moved, what had to be
-//! taken away and why, what cannot be, how much processor time they took and how large they are. With `--random-rooms` each has one to
+//! removed and why, what is wrong, how much processor time they took and how large they are. With `--random-rooms` each has one to
 //! twelve rooms of any kinds, which its seed decides.
 
 use enfilade_home::check::{family_of, faults};

@@ -9,6 +9,7 @@ use std::fmt::Write;
 const SCALE: f32 = 34.0;
 /// Edge of the square that each plan is drawn in, metres.
 const TILE: f32 = 15.0;
+/// Plans beside each other.
 const COLUMNS: usize = 4;
 
 fn main() -> std::io::Result<()> {

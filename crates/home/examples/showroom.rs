@@ -14,11 +14,13 @@ use enfilade_math::{DMat3, DVec3, Rgb, Rng, Vec3};
 use enfilade_scene::{Environment, Light, Material, Scene, StartCamera, to_bytes};
 use std::ops::Range;
 
-/// That of a long lens, which keeps proportions: 32 degrees.
+/// Horizontal field of view, radians: that of a long lens, which keeps proportions (32 degrees).
 const FOV_X_RAD: f32 = 0.56;
+/// Width of a picture over its height.
 const ASPECT: f32 = 4.0 / 3.0;
 /// Height at which things hang whose room decides it.
 const EYE_HEIGHT: f32 = 1.5;
+/// Height at which things hang under a ceiling, metres.
 const CEILING: f32 = 2.5;
 
 struct Exhibit {

@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// The NYU40 classes that a home has; the number is the class's id.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(i16)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Class {
     Wall = 1,
     Floor = 2,
@@ -74,9 +74,9 @@ pub struct Builder {
     labels: Labels,
     families: BTreeMap<String, u32>,
     instances: i16,
-    /// What models of a library have become, by their numbers.
+    /// Where the models of the library that were used are in the scene, by their numbers.
     loaned: BTreeMap<usize, Arc<Loaned>>,
-    /// The models that objects are, by the objects' names.
+    /// The models behind objects, by the objects' names.
     models: BTreeMap<String, Arc<Model>>,
 }
 
@@ -107,7 +107,7 @@ impl Builder {
         }
     }
 
-    /// What is added from now on has the colours of `palette`; in a `dark` room all lamps are lit at any hour.
+    /// Parts added from now on have the colours of `palette`; in a `dark` room all lamps are lit at any hour.
     pub fn enter_room(&mut self, palette: Palette, dark: bool) {
         self.dark = dark;
         self.materials.enter_room(palette);
@@ -150,8 +150,8 @@ impl Builder {
         self.labels.parts.push(object.label);
     }
 
-    /// Notes that `object` is a model, the one of this number, and adds what it needs, once. Only lamps give off light, and these by
-    /// [`Builder::glow`].
+    /// Records that `object` is the model of this number, and adds the model's meshes and materials unless they are there. The materials
+    /// do not emit light: only lamps do, by [`Builder::glow`].
     pub(crate) fn loan(&mut self, object: &Object, number: usize, model: &Arc<Model>, body: &Body) -> Arc<Loaned> {
         self.models.insert(object.name.clone(), Arc::clone(model));
         if let Some(known) = self.loaned.get(&number) {
@@ -167,17 +167,17 @@ impl Builder {
         loaned
     }
 
-    /// Adds a part of `object` whose mesh and material are there.
+    /// Adds a part of `object` whose mesh and material are in the scene already.
     pub(crate) fn loaned_part(&mut self, object: &Object, name: &str, mesh: u32, material: u32) {
         self.push(object, name, mesh, material, object.pose);
     }
 
-    /// The models that objects are, by the objects' names.
+    /// The models behind objects, by the objects' names.
     pub fn models(&self) -> &BTreeMap<String, Arc<Model>> {
         &self.models
     }
 
-    /// Adds a luminous part of a lamp: its flux and its mesh's area give its radiance, the light of the home whether it is lit.
+    /// Adds a luminous part of a lamp. Flux and area give its radiance; the light of the home decides whether it is lit.
     pub fn glow(&mut self, object: &Object, name: &str, mesh: Mesh, glow: Glow) {
         let material = self.materials.glow(&mut self.scene, &object.name, self.dark, &mesh, glow);
         self.part(object, name, mesh, material);
@@ -188,7 +188,7 @@ impl Builder {
         self.scene.parts.len()
     }
 
-    /// Takes away all parts but the first `count`; what only they were made of goes when the home settles.
+    /// Removes all parts but the first `count`; meshes and materials that nothing else uses are dropped when the home settles.
     pub(crate) fn take_back(&mut self, count: usize) {
         self.scene.parts.truncate(count);
         self.labels.parts.truncate(count);

@@ -5,8 +5,8 @@
 //! direction. All are level, so that verticals stay vertical (two-point perspective).
 
 use crate::builder::Class;
-use crate::plan::{FloorPlan, RoomKind};
-use crate::room::Room;
+use crate::plan::FloorPlan;
+use crate::room::{Room, RoomKind};
 use enfilade_geometry::Bvh;
 use enfilade_math::{Bounds3, DMat3, DVec3, Ray, Vec2, Vec3};
 use enfilade_scene::{Labels, Scene, StartCamera, WorldMesh};
@@ -14,33 +14,34 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f32::consts::TAU;
 
-/// Distances that a camera keeps from every part's box: where there is no place with the first, the second must do.
+/// Distances that a camera keeps from every part's box, metres; the second where no place has the first.
 pub const CLEARANCES: [f32; 2] = [0.4, 0.25];
-/// Height of the eye: photographers of interiors stand lower than people look, so that tables and beds are seen whole.
+/// Height of the eye, metres: photographers of interiors stand lower than people look, so that tables and beds are seen whole.
 const EYE: f32 = 1.25;
 /// Horizontal field of view, radians: that of a 24 mm lens (74°), and of a 21 mm lens (81°) in small rooms.
 const FOV_X_RAD: [f64; 2] = [1.29, 1.41];
 /// Rooms with less floor are small, m².
 const SMALL: f32 = 8.0;
-/// Candidates stand on a grid of this step.
+/// Candidates stand on a grid of this step, metres.
 const STEP: f32 = 0.3;
 /// Width of a view over its height.
 const ASPECT: f32 = 4.0 / 3.0;
 /// Directions around a place.
 const AROUND: usize = 60;
-/// Tangents of the rays' heights: the lowest, and how many follow in steps of [`PITCH_STEP`]. Those that no view holds say how much of
-/// a thing is cut off.
+/// Tangent of the lowest ray's elevation. Rays beyond the edges of a view say how much of a thing is cut off.
 const LOWEST: f32 = -1.0;
+/// Rays above each other in one direction.
 const PITCHES: usize = 14;
+/// Step between the tangents of their elevations.
 const PITCH_STEP: f32 = 0.125;
-/// What is nearer than this is in the way.
+/// What is nearer than this is in the way, metres.
 const NEAR: f32 = 1.05;
-/// Windows in more of a view than this blind it by day, since the brightest tenth of a picture decides how bright all of it is shown.
-/// They count at any hour: the light must not move cameras.
+/// Share of a view above which windows spoil it by day, since the brightest tenth of a picture decides how bright all of it is shown.
+/// It counts at any hour: the light must not move cameras.
 const GLARE: f32 = 0.1;
 /// Worth of a metre of depth, beside that of things.
 const SPACE: f32 = 0.35;
-/// No thing counts for more of a view than this.
+/// Share of a view above which a thing counts for no more.
 const ENOUGH: f32 = 0.2;
 
 /// Up to four views of each room, named after it: `living_1` is the best of the living room.
@@ -52,7 +53,7 @@ pub fn cameras(scene: &Scene, labels: &Labels, plan: &FloorPlan) -> Vec<StartCam
     let mut cameras = Vec::new();
     let mut names = BTreeMap::new();
     for room in &plan.rooms {
-        let most = match room.kind {
+        let count = match room.kind {
             RoomKind::Living => 4,
             RoomKind::Toilet | RoomKind::Laundry => 1,
             RoomKind::Bathroom | RoomKind::Hall => 2,
@@ -65,7 +66,7 @@ pub fn cameras(scene: &Scene, labels: &Labels, plan: &FloorPlan) -> Vec<StartCam
         let mut chosen: Vec<View> = Vec::new();
         for view in views {
             let other = |c: &View| c.eye.distance(view.eye) > 1.2 || c.toward.angle_to(view.toward).abs() > 1.2;
-            if chosen.len() < most && chosen.iter().all(other) {
+            if chosen.len() < count && chosen.iter().all(other) {
                 chosen.push(view);
             }
         }

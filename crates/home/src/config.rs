@@ -1,7 +1,8 @@
-//! What a home is a function of.
+//! The configuration of a home: a seed for everything, seeds for one domain alone, and what a user chooses.
 
 use crate::light::Moment;
-use crate::plan::{RoomKind, usual_programme};
+use crate::room::RoomKind;
+use crate::room::kind::usual_programme;
 use enfilade_math::Rng;
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +12,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct HomeConfig {
-    /// Decides everything that has no seed of its own. Zero is the one on the cover.
+    /// Decides everything that has no seed of its own. Zero is the home on the cover, with palette and light chosen by hand.
     pub seed: u64,
     /// One to [`HomeConfig::MOST_ROOMS`] rooms. None: four to eight rooms, equally often, of the usual programme of that number.
     pub rooms: Vec<RoomKind>,
@@ -29,19 +30,19 @@ pub struct HomeConfig {
     pub moment: Option<Moment>,
     /// Density of small things on surfaces: 0 has none but what shelves and cabinets hold, 1 is a home that is lived in, 2 is untidy.
     pub clutter: f32,
-    /// Folders and files of models that stand in for our own furniture, as written; who calls reads them.
+    /// Folders and files of models that stand in for our own furniture, as written; the caller reads them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assets: Vec<String>,
     /// Share of the things for which a model fits that are models.
     #[serde(skip_serializing_if = "is_one")]
     pub assets_share: f32,
-    /// Goes on with our own furniture, and a warning, where a model is broken.
+    /// Takes our own furniture, with a warning, where a model is broken.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub allow_broken_assets: bool,
 }
 
-/// True for the default, which is not written: what does without models is then as it was before there were any.
-#[allow(clippy::trivially_copy_pass_by_ref)] // as serde wants it
+/// True for the default, which is not written: a configuration without models stays as it was before models existed.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde wants it")]
 fn is_one(share: &f32) -> bool {
     *share == 1.0
 }

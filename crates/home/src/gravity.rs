@@ -1,22 +1,22 @@
-//! Gives what was put down a little beside its place the place that gravity and its neighbours leave it.
+//! Moves what floats or runs into something a little, to where it rests and is free.
 //!
 //! What floats is lowered until it lies on what is below it, by the exact height between their triangles. What runs into something
-//! is moved by the shortest step, up or sideways, that sets it free, and lowered again. What rests on it goes with it. Neither goes
-//! further than a careless hand would be off; what would have to is left as it is, for [`crate::settle`] to take away.
+//! is moved by the shortest step, up or sideways, that sets it free, and lowered again. What rests on it goes with it. Both move a few
+//! centimetres at most; what would have to go further stays, for [`crate::settle`] to remove.
 
 use crate::check::contact::{Contacts, core, cores_meet, cuts, touches};
-use crate::check::meet::{Body, Triangle};
-use crate::check::{is_shell, overlap};
+use crate::check::is_shell;
+use crate::check::meet::{Body, Triangle, overlap};
 use enfilade_math::{Bounds3, Vec2, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Things fall no further than this: what floats higher was not meant to lie there, metres.
+/// Largest height that a thing falls, metres: what floats higher was not meant to lie there.
 const FALL: f32 = 0.12;
 /// Steps by which things are moved out of each other, metres.
 const STEPS: [f32; 10] = [0.005, 0.01, 0.015, 0.02, 0.03, 0.04, 0.05, 0.065, 0.08, 0.1];
-/// Between what has fallen and what it lies on, metres.
+/// Distance that is left between what has fallen and what it lies on, metres: contact without faces in one plane.
 const REST: f32 = 0.0005;
-/// Every object is moved at most this often.
+/// How often an object is moved before it is given up.
 const MOVES: usize = 4;
 
 /// Moves `bodies` into places where they neither float nor run into others, where there are such. Returns how far each was moved.
@@ -29,7 +29,7 @@ pub fn settle(bodies: &mut [Body], contacts: &mut Contacts) -> BTreeMap<usize, V
         let root = group[0];
         let tries = moves.entry(root).or_default();
         *tries += 1;
-        // What runs into its own load is not helped by going nowhere.
+        // Nothing is gained by no step at all: it means that the object runs into what it carries.
         let step = if *tries > MOVES { None } else { pile.way_out(&group).filter(|by| *by != Vec3::ZERO) };
         match step {
             None => _ = given_up.insert(root),
@@ -120,28 +120,28 @@ impl Pile<'_> {
 
     /// How far `group`, moved by `by`, can fall until it lies on one of `others`; `None` when that is too far.
     fn height_above(&self, group: &[usize], others: &[usize], by: Vec3) -> Option<f32> {
-        let mut least = FALL + by.z.max(0.0);
+        let mut lowest = FALL + by.z.max(0.0);
         let mut found = false;
         for &g in group {
             let bounds = self.bodies[g].bounds;
-            let column = Bounds3 { min: bounds.min + by - Vec3::Z * least, max: bounds.max + by };
+            let column = Bounds3 { min: bounds.min + by - Vec3::Z * lowest, max: bounds.max + by };
             for &i in others {
                 let below: Vec<Triangle> = self.bodies[i].within(&column).copied().collect();
                 if below.is_empty() {
                     continue;
                 }
                 let over = self.bodies[i].bounds;
-                let own = Bounds3 { min: over.min - by, max: over.max - by + Vec3::Z * least };
+                let own = Bounds3 { min: over.min - by, max: over.max - by + Vec3::Z * lowest };
                 let above: Vec<Triangle> = self.bodies[g].within(&own).map(|t| t.map(|p| p + by)).collect();
-                if let Some(height) = height_between(&above, &below, least) {
-                    (least, found) = (height, true);
+                if let Some(height) = height_between(&above, &below, lowest) {
+                    (lowest, found) = (height, true);
                 }
             }
         }
-        found.then_some(least)
+        found.then_some(lowest)
     }
 
-    /// Moves `group`, and looks anew at what it touches and meets.
+    /// Moves `group`, and updates what it touches and runs into.
     fn shift(&mut self, group: &[usize], by: Vec3) {
         group.iter().for_each(|&i| self.bodies[i].shift(by));
         self.contacts.renew(self.bodies, group);
@@ -154,28 +154,28 @@ fn directions() -> impl Iterator<Item = Vec3> {
     around.clone().chain([Vec3::Z]).chain(around.map(|way| (way + Vec3::Z).normalize()))
 }
 
-/// The least height of triangles above those below them where both cover the same ground, if it is less than `most`; 0 where they cut.
-fn height_between(above: &[Triangle], below: &[Triangle], most: f32) -> Option<f32> {
+/// The smallest height of triangles above those below them where both cover the same ground, if it is less than `limit`; 0 where they cut.
+fn height_between(above: &[Triangle], below: &[Triangle], limit: f32) -> Option<f32> {
     let left = |t: &Triangle| t[0].x.min(t[1].x).min(t[2].x);
     let mut sorted: Vec<&Triangle> = below.iter().collect();
     sorted.sort_by(|s, t| left(s).total_cmp(&left(t)));
-    let mut least = most;
+    let mut smallest = limit;
     for a in above {
         let box_a = Bounds3::from_points(*a);
         for b in sorted.iter().take_while(|b| left(b) <= box_a.max.x) {
             let box_b = Bounds3::from_points(**b);
             let apart = box_b.max.x < box_a.min.x || box_b.max.y < box_a.min.y || box_b.min.y > box_a.max.y;
-            if apart || box_b.min.z > box_a.max.z || box_a.min.z - box_b.max.z >= least {
+            if apart || box_b.min.z > box_a.max.z || box_a.min.z - box_b.max.z >= smallest {
                 continue;
             }
             let heights = shared_ground(a, b).into_iter().filter_map(|p| Some(height_at(a, p)? - height_at(b, p)?));
             let (low, high) = heights.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
             if high >= 0.0 {
-                least = least.min(low.max(0.0));
+                smallest = smallest.min(low.max(0.0));
             }
         }
     }
-    (least < most).then_some(least)
+    (smallest < limit).then_some(smallest)
 }
 
 /// Height of the triangle's plane over the point; `None` where it stands upright.

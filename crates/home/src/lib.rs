@@ -1,10 +1,21 @@
 //! Procedural furnished homes: the embedded default input, and labelled scenes without end.
 //!
-//! [`home`] is a function of its [`HomeConfig`] alone. From the bottom up: [`shape`] makes meshes and [`texture`] pictures;
+//! [`home()`] is a function of its [`HomeConfig`] alone. From the bottom up: [`shape`] makes meshes and [`texture`] pictures;
 //! [`materials`] and [`palette`] say what things are made of; [`furniture`] has one file per family of things; [`plan`] lays out
 //! rooms, [`room`] and [`shell`] are their walls; [`place`] decides what fits where, [`rooms`] says what each kind of room holds,
-//! [`builder`] names, labels and collects the parts. What [`check`] would find wrong is moved to where it is carried and free, and taken
-//! away where it cannot be. [`assets`] are models of others, that may stand in for our furniture.
+//! [`builder`] names, labels and collects the parts. What [`check`] would object to is moved until it rests on something and runs into
+//! nothing, and removed where that fails. [`assets`] are models of others that may stand in for our furniture.
+//!
+//! ```
+//! use enfilade_home::check::faults;
+//! use enfilade_home::{HomeConfig, RoomKind, home};
+//!
+//! let config = HomeConfig { seed: 7, rooms: vec![RoomKind::Toilet], clutter: 0.0, ..HomeConfig::default() };
+//! let made = home(&config);
+//! assert!(made.scene.parts.iter().any(|part| part.name.starts_with("toilet_1/")));
+//! assert_eq!(made.scene.parts.len(), made.labels.parts.len());
+//! assert_eq!(faults(&made), []);
+//! ```
 
 pub mod assets;
 pub mod builder;
@@ -13,6 +24,7 @@ pub mod check;
 mod config;
 pub mod furniture;
 mod gravity;
+mod home;
 pub mod light;
 pub mod materials;
 pub mod palette;
@@ -26,13 +38,14 @@ pub mod shell;
 pub mod texture;
 
 pub use config::HomeConfig;
-pub use plan::{FloorPlan, RoomKind};
-pub use settle::{Removal, Shift};
+pub use home::{Home, Removal, Shift};
+pub use plan::FloorPlan;
+pub use room::RoomKind;
 
 use assets::{Library, Model};
 use builder::Builder;
 use enfilade_math::{Rng, Vec2};
-use enfilade_scene::{Labels, Scene};
+use enfilade_scene::Scene;
 use light::{LightConfig, Moment};
 use materials::Materials;
 use palette::DecorConfig;
@@ -40,31 +53,14 @@ use room::Wall;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// A home and what its parts are called.
-#[derive(Clone, Debug)]
-pub struct Home {
-    /// Valid by construction.
-    pub scene: Scene,
-    /// Every part has a class; all but walls, floor and ceiling belong to an instance.
-    pub labels: Labels,
-    /// Where its rooms are.
-    pub plan: FloorPlan,
-    /// What could not stay where it had been put, and why; it is not in the scene any more.
-    pub removed: Vec<Removal>,
-    /// What was moved a little so that it could stay.
-    pub moved: Vec<Shift>,
-    /// The models of others that are in it, with the files that they come from and their licences; sorted, each once.
-    pub credits: Vec<String>,
-}
-
-/// A furnished home in the light of a moment, of nothing but our own things.
+/// A furnished home at some hour of some day, with our own furniture only.
 pub fn home(config: &HomeConfig) -> Home {
     home_with(config, &Library::default())
 }
 
-/// A furnished home with models of `library`: those that [`HomeConfig::assets`] names, which who calls has read.
+/// A furnished home in which models of `library`, which the caller has read from [`HomeConfig::assets`], stand in for our furniture.
 ///
-/// What [`Library::broken`] tells afterwards was wanted, and replaced by our own.
+/// Models that turn out to be broken are replaced by our own furniture; [`Library::broken`] lists them afterwards.
 pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
     let kinds = config.programme();
     let plan = FloorPlan::new(&kinds, &config.stream(config.layout, 1));
@@ -82,7 +78,7 @@ pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
     home
 }
 
-/// The models that are still there.
+/// The models that are still in the scene, one line each.
 fn credits(scene: &Scene, models: &BTreeMap<String, Arc<Model>>) -> Vec<String> {
     let used = scene.parts.iter().filter_map(|part| models.get(check::object_of(&part.name)));
     let lines: BTreeSet<String> = used.map(|model| format!("{} ({}): {}", model.name, model.file, model.licence)).collect();
@@ -103,7 +99,7 @@ fn light(plan: &FloorPlan, config: &HomeConfig, rng: &Rng) -> LightConfig {
     light.facing_sun(out, rng.fork(3).range(0.2, 0.8))
 }
 
-/// The ways that windows look, each once.
+/// The directions in which windows look out, each once.
 fn outlooks(plan: &FloorPlan) -> Vec<Vec2> {
     let looks = |wall: &Wall| plan.rooms.iter().flat_map(room::Room::windows).any(|w| w.wall == *wall);
     Wall::ALL.into_iter().filter(looks).map(|wall| -wall.inward()).collect()

@@ -1,39 +1,19 @@
-//! The last word on what was placed: what stands a little beside its place is moved there by [`crate::gravity`], and what still runs
-//! into others or floats is taken away, until nothing does.
+//! The last step of furnishing: what runs into others or floats is moved a little by [`crate::gravity`], and removed where that fails.
 //!
-//! Furniture is placed by its measures; its triangles, which creases, tilts and clutter move a little, are judged as [`crate::check`]
-//! does. Of two things that meet the smaller goes; what stood on it goes with it, since it floats then. So does what stands in the only way
-//! into a room.
+//! Furniture is placed by its box; here its triangles count, which creases, tilts and clutter move a little. Of two objects that run
+//! into each other the smaller is removed, and with it what stood on it, which floats then. So is what blocks the only way into a room.
 
-use crate::Home;
 use crate::assets::repictured;
 use crate::check::contact::Contacts;
 use crate::check::meet::Body;
 use crate::check::{Fault, bodies, is_shell, object_of, walk};
 use crate::gravity;
+use crate::{Home, Removal, Shift};
 use enfilade_math::{DAffine3, Vec3};
 use enfilade_scene::{Part, PartLabel, is_stuff};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// An object that was taken away, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Removal {
-    /// Its name.
-    pub object: String,
-    /// What was wrong with it.
-    pub fault: Fault,
-}
-
-/// An object that was moved to where it is carried and free.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Shift {
-    /// Its name.
-    pub object: String,
-    /// How far, metres.
-    pub by: Vec3,
-}
-
-/// Moves what can be put right, and takes away what cannot; the shell stays.
+/// Moves what can be put right, and removes what cannot; the shell stays.
 pub fn settle(home: &mut Home) {
     let mut bodies = bodies(home);
     let mut contacts = Contacts::new(&bodies);
@@ -57,7 +37,7 @@ pub fn settle(home: &mut Home) {
     drop_unused(home);
 }
 
-/// What must go so that nothing of the rest meets or floats.
+/// Which bodies to remove, and why, so that no other runs into anything or floats.
 fn condemned(bodies: &[Body], contacts: &Contacts) -> BTreeMap<usize, Fault> {
     let mut gone: BTreeMap<usize, Fault> = BTreeMap::new();
     for &(a, b) in &contacts.meeting {
@@ -72,7 +52,7 @@ fn condemned(bodies: &[Body], contacts: &Contacts) -> BTreeMap<usize, Fault> {
     gone
 }
 
-/// What nothing carries any more goes too.
+/// Adds the bodies that nothing carries any more.
 fn let_go(bodies: &[Body], contacts: &Contacts, gone: &mut BTreeMap<usize, Fault>) {
     let held = contacts.carried(bodies, |i| !gone.contains_key(&i));
     for i in (0..bodies.len()).filter(|&i| !held[i]) {
@@ -80,7 +60,7 @@ fn let_go(bodies: &[Body], contacts: &Contacts, gone: &mut BTreeMap<usize, Fault
     }
 }
 
-/// Takes away what stands in the way into rooms that nobody can reach.
+/// Adds the bodies that block the way into rooms that nobody can reach.
 fn clear_ways(home: &Home, bodies: &[Body], contacts: &Contacts, gone: &mut BTreeMap<usize, Fault>) {
     let floor = walk::Floor::new(home);
     let numbers: BTreeMap<&str, usize> = bodies.iter().enumerate().map(|(i, body)| (body.name.as_str(), i)).collect();
@@ -93,7 +73,7 @@ fn clear_ways(home: &Home, bodies: &[Body], contacts: &Contacts, gone: &mut BTre
     }
 }
 
-/// Instances are 1, 2, 3, … in their old order.
+/// Numbers the instances 1, 2, 3, … in their old order.
 fn number_instances(home: &mut Home) {
     let old: BTreeSet<i16> = home.labels.parts.iter().filter(|label| !is_stuff(label.semantic)).map(|label| label.instance).collect();
     let new: BTreeMap<i16, i16> = old.into_iter().zip(1..).collect();
@@ -102,7 +82,7 @@ fn number_instances(home: &mut Home) {
     }
 }
 
-/// Meshes, materials and pictures that no part has any more go too.
+/// Drops the meshes, materials and pictures that no part uses any more.
 fn drop_unused(home: &mut Home) {
     let scene = &mut home.scene;
     let mesh = retain(&mut scene.meshes, scene.parts.iter().map(|part| part.mesh));
@@ -117,7 +97,7 @@ fn drop_unused(home: &mut Home) {
     scene.materials = materials.map(|material| repictured(material, |k| image[&k])).collect();
 }
 
-/// Keeps the entries of a list that are used, in their order; where each of them has gone.
+/// Keeps the entries of a list that are used, in their order. Returns the new index of each by its old one.
 fn retain<T>(list: &mut Vec<T>, used: impl Iterator<Item = u32>) -> BTreeMap<u32, u32> {
     let places: BTreeMap<u32, u32> = used.collect::<BTreeSet<u32>>().into_iter().zip(0..).collect();
     let mut index = 0;

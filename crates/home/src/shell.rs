@@ -6,8 +6,7 @@
 use crate::builder::{Builder, Class, pose};
 use crate::furniture::{Door, Passage, Window, board};
 use crate::materials::Finish;
-use crate::plan::RoomKind;
-use crate::room::{Filling, Room, Wall};
+use crate::room::{Filling, Room, RoomKind, Wall};
 use crate::shape::{Reshape, slab_with_openings};
 use crate::texture::FLOOR_STRIPS;
 use enfilade_geometry::Mesh;
@@ -21,6 +20,7 @@ const THIN_OVERLAP: f32 = 0.03;
 const AIR: f32 = 0.0005;
 /// How far floor coverings reach below walls.
 const UNDER_WALLS: f32 = 0.04;
+/// Thickness and height of skirting boards, metres.
 const SKIRTING: Vec2 = Vec2::new(0.014, 0.085);
 
 /// What fills openings.
@@ -163,7 +163,9 @@ fn skirting(b: &mut Builder, room: &Room, built_in: &[(Wall, [f32; 2])]) {
 
 /// Floorboards along x over −`half`..`half`, laid in staggered rows with bevelled joints.
 fn planks(half: Vec2, rng: &mut Rng) -> Mesh {
+    /// Width of a board, metres.
     const WIDTH: f32 = 0.165;
+    /// Width and depth of the bevel along its edges, metres.
     const BEVEL: Vec2 = Vec2::new(0.0016, 0.0012);
     let mut mesh = Mesh::default();
     let mut y = -half.y;

@@ -1,4 +1,4 @@
-//! What every home must be, whatever its seed.
+//! What holds of a home of any seed: it is valid, possible, labelled, furnished, closed, and the same each time.
 
 use enfilade_geometry::Bvh;
 use enfilade_home::check::faults;

@@ -78,7 +78,7 @@ impl Body {
         Ok(Self { parts, materials: scene.materials, images: scene.images, bulbs: Vec::new(), size: extent * scale, surfaces })
     }
 
-    /// A plain grey block.
+    /// A plain grey block of `size`.
     pub(super) fn block(size: Vec3) -> Result<Self, String> {
         let part = Part { name: "block".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
         let grey = Material::diffuse("block", Rgb::splat(0.5));

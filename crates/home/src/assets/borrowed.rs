@@ -1,4 +1,4 @@
-//! A model as a piece of furniture.
+//! A model of a library as a piece of furniture: it stands where ours would, carries things, and gives as much light.
 
 use super::{Body, BodyPart, Model};
 use crate::builder::{Builder, Class};
@@ -8,7 +8,7 @@ use crate::shape::{Reshape, sphere};
 use enfilade_math::{DAffine3, Rng, Vec3};
 use std::sync::Arc;
 
-/// Classes on whose things people put others.
+/// Classes of the things that people put others on.
 const CARRY: [Class; 8] =
     [Class::Table, Class::Desk, Class::Cabinet, Class::Dresser, Class::NightStand, Class::Bookshelf, Class::Shelves, Class::Counter];
 
@@ -48,7 +48,7 @@ impl Borrowed {
 }
 
 impl Furniture for Borrowed {
-    /// A plain block, for want of a model.
+    /// A plain block: there is no model to draw at random.
     fn random(rng: &mut Rng) -> Self {
         let size = Vec3::new(rng.range(0.3, 0.6), rng.range(0.3, 0.6), rng.range(0.3, 0.6));
         let family = family_named("storage_box").unwrap_or(&FAMILIES[0]);
@@ -149,7 +149,7 @@ mod tests {
         Ok(Arc::new(body))
     }
 
-    /// What each of these lamps gives off, lumens, by the names of its materials.
+    /// Luminous flux of each of these lamps, lumens, read from the names of its materials.
     fn lumens(lamps: impl IntoIterator<Item = Box<dyn Furniture>>) -> Vec<f32> {
         let mut b = Builder::new(Materials::new(Palette::all()[0], LightConfig::default(), Rng::new(1)));
         lamps.into_iter().for_each(|lamp| lamp.build(&mut b, DAffine3::IDENTITY, &mut Rng::new(1)));
@@ -171,8 +171,8 @@ mod tests {
             let model = Arc::new(Model::new("lamp".into(), size, vec![family.name], Box::new(move || lamp(size))));
             let thing: Box<dyn Furniture> = Box::new(Borrowed { number: 7, model, family, reach: 0.0 });
             let [given] = lumens([thing])[..] else { panic!("{}: one lamp", family.name) };
-            let (least, most) = ours.iter().fold((f32::INFINITY, 0.0f32), |(least, most), lm| (least.min(*lm), most.max(*lm)));
-            assert!((least..=most).contains(&given), "{}: {given} lm, ours {least} to {most}", family.name);
+            let (min, max) = ours.iter().fold((f32::INFINITY, 0.0f32), |(min, max), lm| (min.min(*lm), max.max(*lm)));
+            assert!((min..=max).contains(&given), "{}: {given} lm, ours {min} to {max}", family.name);
             let shaded = ["pendant", "floor_lamp", "table_lamp"].contains(&family.name);
             assert!(!shaded || ours.contains(&given), "{}: {given} lm, ours {ours:?}", family.name);
         }

@@ -1,11 +1,12 @@
-//! Models of a user's library, that stand in for our own furniture.
+//! Models of a user's library that stand in for our own furniture.
 //!
-//! Who reads files makes a [`Library`]; rooms ask it wherever they ask the catalogue for a family. A model is only taken where its
-//! measures are those of such a thing, so that it can be placed, reached and walked around like one of ours.
+//! The caller reads files into a [`Library`]; wherever a room takes a family from the catalogue, the library may give a model instead.
+//! Only models with the size of such a thing are given, so that they can be placed, reached and walked around like ours.
 
 mod body;
 mod borrowed;
 mod library;
+mod model;
 mod range;
 mod surfaces;
 mod textures;
@@ -13,7 +14,8 @@ mod words;
 
 pub use body::{Body, BodyPart, Bulb};
 pub use borrowed::Borrowed;
-pub use library::{Library, Model};
+pub use library::Library;
+pub use model::Model;
 pub use range::believable;
 pub(crate) use textures::repictured;
 pub use words::families_of;

@@ -1,4 +1,4 @@
-//! What a family's things measure.
+//! The sizes at which people take a thing for one of a family: those of our own variants, and somewhat more.
 
 use crate::builder::Class;
 use crate::furniture::{Family, Place};
@@ -6,18 +6,18 @@ use enfilade_math::{Rng, Vec3};
 
 /// Variants that are measured.
 const SAMPLES: u64 = 48;
-/// Widths and depths may differ this much from our own: least and most, as factors.
+/// Minimum and maximum widths and depths, as factors of the smallest and largest of our own.
 const ACROSS: [f32; 2] = [0.65, 1.4];
-/// What stands at a wall may be deeper yet by this, metres.
+/// What stands at a wall may be deeper by this on top, metres.
 const DEEPER: f32 = 0.2;
-/// Heights of what people sit and work at, which the human body decides.
+/// The same for heights of tables and desks, which the human body decides.
 const WORKING: [f32; 2] = [0.88, 1.12];
-/// Heights of other furniture.
+/// The same for heights of other furniture.
 const HEIGHT: [f32; 2] = [0.6, 1.3];
-/// All measures of small things and of what hangs.
+/// The same for all measures of small things and of what hangs.
 const SMALL: [f32; 2] = [0.6, 1.6];
 
-/// Least and largest width, depth and height at which people take a thing for one of `family`, metres.
+/// Minimum and maximum width, depth and height at which people take a thing for one of `family`, metres.
 ///
 /// They are those of our own variants, and somewhat more.
 pub fn believable(family: &Family) -> [Vec3; 2] {
@@ -31,14 +31,14 @@ pub fn believable(family: &Family) -> [Vec3; 2] {
         Place::OnWall | Place::Ceiling | Place::OnSurface | Place::Underfoot => SMALL.map(Vec3::splat),
     };
     // What hangs flat on a wall or lies flat on the floor may be as thin as it likes.
-    let (mut least, mut most) = (low * narrow, high * wide);
+    let (mut min, mut max) = (low * narrow, high * wide);
     match family.place {
-        Place::OnWall => least.y = 0.0,
-        Place::Underfoot => least.z = 0.0,
-        Place::AgainstWall => most.y += DEEPER,
+        Place::OnWall => min.y = 0.0,
+        Place::Underfoot => min.z = 0.0,
+        Place::AgainstWall => max.y += DEEPER,
         _ => {}
     }
-    [least, most]
+    [min, max]
 }
 
 #[cfg(test)]

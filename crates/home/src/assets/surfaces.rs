@@ -16,14 +16,16 @@ const LEVEL: f32 = 0.9945;
 const SPAN: f32 = 0.003;
 /// Rays start this far above a level, metres.
 const LIFT: f32 = 0.004;
-/// A level has this much area at least, square metres, and so has a surface.
-const LEAST_AREA: f32 = 0.02;
-/// Shortest edge of a surface, metres.
-const LEAST_EDGE: f32 = 0.1;
-/// Least free height, metres.
-const LEAST_HEADROOM: f32 = 0.12;
-/// Levels, and surfaces on each, that are looked for.
-const MOST: [usize; 2] = [8, 3];
+/// Minimum area of a level, and of a surface on it, square metres.
+const MIN_AREA: f32 = 0.02;
+/// Minimum edge of a surface, and minimum height of a level, metres.
+const MIN_EDGE: f32 = 0.1;
+/// Minimum free height above a surface, metres.
+const MIN_HEADROOM: f32 = 0.12;
+/// Levels that are looked at, those of the largest area first.
+const MAX_LEVELS: usize = 8;
+/// Surfaces on each of them.
+const MAX_SURFACES: usize = 3;
 
 /// The surfaces of a model that fills −½..½ of `size` in x and y and 0..1 of it in z, the highest first.
 pub(super) fn surfaces(triangles: &[[Vec3; 3]], size: Vec3) -> Vec<Surface> {
@@ -62,9 +64,9 @@ fn levels(triangles: &[[Vec3; 3]]) -> Vec<f32> {
             _ => levels.push((z, area)),
         }
     }
-    levels.retain(|(z, area)| *area >= LEAST_AREA && *z > LEAST_EDGE);
+    levels.retain(|(z, area)| *area >= MIN_AREA && *z > MIN_EDGE);
     levels.sort_by(|a, b| b.1.total_cmp(&a.1));
-    levels.truncate(MOST[0]);
+    levels.truncate(MAX_LEVELS);
     let mut heights: Vec<f32> = levels.into_iter().map(|(z, _)| z).collect();
     heights.sort_by(|a, b| b.total_cmp(a));
     heights
@@ -90,7 +92,7 @@ impl Grid {
             let reach = |way: Vec3| bvh.closest(&Ray::new(from, way)).map(|hit| hit.t);
             let below = reach(Vec3::NEG_Z).filter(|t| *t < LIFT + SPAN);
             let free = below.map_or(0.0, |_| reach(Vec3::Z).map_or(f32::INFINITY, |t| t + LIFT));
-            grid.free.push(if free < LEAST_HEADROOM { 0.0 } else { free });
+            grid.free.push(if free < MIN_HEADROOM { 0.0 } else { free });
             grid.below.push(below.map_or(f32::INFINITY, |t| t - LIFT));
         }
         grid
@@ -106,7 +108,7 @@ impl Grid {
         while let Some([x0, x1, y0, y1]) = self.largest() {
             let (min, max) = (self.place(x0, y0), self.place(x1, y1));
             let edges = max - min;
-            if found.len() == MOST[1] || edges.min_element() < LEAST_EDGE || edges.x * edges.y < LEAST_AREA {
+            if found.len() == MAX_SURFACES || edges.min_element() < MIN_EDGE || edges.x * edges.y < MIN_AREA {
                 break;
             }
             let (mut headroom, mut below) = (f32::INFINITY, f32::INFINITY);
@@ -136,7 +138,7 @@ impl Grid {
                     if height == 0 {
                         break;
                     }
-                    if best.is_none_or(|(_, most)| area > most) {
+                    if best.is_none_or(|(_, largest)| area > largest) {
                         best = Some(([x0, x1 + 1, row + 1 - height, row + 1], area));
                     }
                 }

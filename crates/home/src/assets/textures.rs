@@ -1,4 +1,4 @@
-//! Moves the pictures of a material to other places in a list.
+//! Renumbers the pictures that a material refers to, for a list in which they have other places.
 
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, ScalarParam, TextureRef};
 

@@ -1,4 +1,4 @@
-//! What a thing is, from the words of its name.
+//! Which families a model may stand in for, told from the English words of its name.
 
 /// Phrases of a name, in singular and lower case, and the families that such a thing may stand in for; size decides among them. None
 /// for what does not belong into a home of ours, or is built in.
@@ -277,13 +277,14 @@ const PHRASES: &[(&str, &[&str])] = &[
     ("tea set", &[]),
 ];
 
+/// Families that go by the same words.
 const SOFAS: &[&str] = &["sofa", "chesterfield", "day_bed"];
 const EASY: &[&str] = &["armchair", "club_chair"];
 const CHAIRS: &[&str] = &["chair", "spindle_chair", "upholstered_chair", "shell_chair"];
 const CABINETS: &[&str] = &["sideboard", "dresser", "wardrobe", "glass_cabinet", "shoe_cabinet"];
 const BINS: &[&str] = &["waste_bin", "bin"];
 
-/// Words after which a name tells what else is there.
+/// Words after which a name says what goes with the thing, not what it is.
 const ASIDES: [&str; 4] = ["with", "for", "under", "by"];
 
 /// The families that a thing of this name may stand in for; empty where the words say nothing.

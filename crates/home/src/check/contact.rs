@@ -1,17 +1,17 @@
 //! Which objects cut each other deeper than they may, and which touch.
 
-use super::meet::Body;
-use super::{family_of, is_shell, overlap};
+use super::meet::{Body, overlap};
+use super::{family_of, is_shell};
 use enfilade_math::Vec3;
 use rayon::prelude::*;
 
 /// Objects may sink this far into each other: feet into a rug's pile, screws into a wall, metres.
 const SINK: f32 = 0.004;
-/// The same for cloth and cushions, which give way.
+/// The same for cloth and cushions, which give way, metres.
 const SOFT_SINK: f32 = 0.03;
-/// What lies in folds over or in something else: it follows what it lies on, and is not asked how deep.
+/// Families of cloth that lies in folds over or in something: it follows what it lies on, so its depth is not checked.
 const DRAPED: [&str; 6] = ["throw", "blanket", "clothes", "towel", "napkin", "crumpled_paper"];
-/// What is nearer than this touches.
+/// What is nearer than this touches, metres.
 const TOUCH: f32 = 0.0025;
 /// The same for what is soft: cloth hangs and lies in waves.
 const SOFT_TOUCH: f32 = 0.02;
@@ -54,21 +54,21 @@ pub fn runs_into(a: &Body, b: &Body, offset: Vec3) -> bool {
     cuts(a, b, offset) && cores_meet([a, b], [core(a).as_ref(), core(b).as_ref()], offset)
 }
 
-/// True when the surface of `a`, moved by `offset`, cuts that of `b`, and that is asked of both.
+/// True when the surface of `a`, moved by `offset`, cuts that of `b`; never for cloth that lies in folds.
 pub fn cuts(a: &Body, b: &Body, offset: Vec3) -> bool {
     !is_draped(&a.name) && !is_draped(&b.name) && a.meets(b, offset)
 }
 
 /// True when two bodies whose surfaces cut each other go deeper than they may, given their [`core`]s.
 pub fn cores_meet([a, b]: [&Body; 2], cores: [Option<&Body>; 2], offset: Vec3) -> bool {
-    // Those that a small step sets free do not go deeper than that step; soft ones are freed by their giving way.
+    // Hard bodies that a small step sets free are no deeper in each other than that step; of soft ones, what is left of them decides.
     match cores {
         [None, None] => WAYS.iter().all(|way| a.meets(b, offset + *way * SINK)),
         [soft_a, soft_b] => soft_a.unwrap_or(a).meets(soft_b.unwrap_or(b), offset),
     }
 }
 
-/// Objects of these names that are nearer than this touch, metres.
+/// Distance below which objects of these names touch, metres.
 pub fn reach(a: &str, b: &str) -> f32 {
     if is_soft(a) || is_soft(b) { SOFT_TOUCH } else { TOUCH }
 }
@@ -98,7 +98,7 @@ fn neighbours(bodies: &[Body]) -> Vec<(usize, usize)> {
     pairs
 }
 
-/// What is known of the contacts of many bodies: pairs, in order, the first of each with the smaller number.
+/// The contacts between many bodies: sorted pairs of their numbers, the smaller first.
 pub struct Contacts {
     /// Those that touch.
     pub touching: Vec<(usize, usize)>,
@@ -113,7 +113,7 @@ impl Contacts {
         Self { touching: touching(bodies, &pairs), meeting: meetings(bodies, &pairs) }
     }
 
-    /// Looks anew at the contacts between those of `group`, which have moved, and all others.
+    /// Finds the contacts between the bodies of `group`, which have moved, and all others again.
     pub fn renew(&mut self, bodies: &[Body], group: &[usize]) {
         let changed = |&(a, b): &(usize, usize)| group.contains(&a) != group.contains(&b);
         let pairs: Vec<(usize, usize)> = neighbours(bodies).into_iter().filter(changed).collect();
@@ -125,7 +125,7 @@ impl Contacts {
         }
     }
 
-    /// Which bodies the shell carries, by way of others or not, when only those that are `there` are left.
+    /// Which bodies the shell carries, directly or by way of others, if only those are left of which `there` is true.
     pub fn carried(&self, bodies: &[Body], there: impl Fn(usize) -> bool) -> Vec<bool> {
         let mut beside: Vec<Vec<usize>> = vec![Vec::new(); bodies.len()];
         for &(a, b) in &self.touching {

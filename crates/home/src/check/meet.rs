@@ -1,6 +1,5 @@
 //! Whether the surfaces of two objects cut each other.
 
-use super::overlap;
 use enfilade_math::{Bounds3, Vec3};
 
 /// Corners in the world, metres.
@@ -44,7 +43,7 @@ impl Body {
         parts.flat_map(|(_, triangles)| triangles).filter(|t| overlap(&Bounds3::from_points(**t), window, 0.0))
     }
 
-    /// Volume of the box around it, for telling the smaller one of two.
+    /// Volume of the box around it, cubic metres: of two bodies the smaller gives way.
     pub fn volume(&self) -> f32 {
         self.bounds.extent().max(Vec3::splat(1e-3)).element_product()
     }
@@ -54,7 +53,7 @@ impl Body {
         self.parts.iter().map(|(bounds, _)| *bounds)
     }
 
-    /// This body drawn in by so much on every side, towards its middle; never to less than a third.
+    /// This body shrunk towards its middle by `by` metres on every side; never to less than a third of its size.
     pub fn shrunk(&self, by: f32) -> Self {
         let (center, extent) = (self.bounds.center(), self.bounds.extent().max(Vec3::splat(1e-6)));
         let scale = ((extent - 2.0 * by) / extent).max(Vec3::splat(1.0 / 3.0));
@@ -78,7 +77,12 @@ impl Body {
     }
 }
 
-/// Sorted by x, so that far ones are skipped.
+/// True when the boxes come nearer than `margin`.
+pub(crate) fn overlap(a: &Bounds3, b: &Bounds3, margin: f32) -> bool {
+    a.min.cmple(b.max + margin).all() && b.min.cmple(a.max + margin).all()
+}
+
+/// True when a triangle of `a`, moved by `offset`, cuts one of `b`. Both are sorted by x, so that pairs far apart are skipped.
 fn cut(a: &[Triangle], offset: Vec3, b: &[Triangle], bounds_a: &Bounds3, bounds_b: &Bounds3) -> bool {
     let shared = Bounds3 { min: bounds_a.min.max(bounds_b.min), max: bounds_a.max.min(bounds_b.max) };
     let within = |t: &Triangle| overlap(&Bounds3::from_points(*t), &shared, 1e-5);

@@ -1,58 +1,28 @@
-//! Whether a home could be: nothing runs into anything, nothing floats, everything has a name, and people can go everywhere.
+//! Whether a home is possible: nothing runs into anything, nothing floats, everything has a label, and people can go everywhere.
 //!
-//! All is judged from the finished triangles, not from what placed them.
+//! The finished triangles are judged, not what placed them.
 
 pub(crate) mod contact;
+mod fault;
 pub(crate) mod meet;
+mod names;
 pub(crate) mod walk;
 
+pub use fault::Fault;
+pub(crate) use names::is_shell;
+pub use names::{family_of, object_of};
+
 use crate::Home;
-use crate::shell::is_shell_family;
+use crate::cameras::CLEARANCES;
 use contact::Contacts;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Bounds3, Vec3};
 use enfilade_scene::{NYU40, is_stuff};
 use meet::Body;
 use std::collections::BTreeMap;
-use std::fmt;
 
-/// Something that cannot be.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Fault {
-    /// Two objects run into each other deeper than they may.
-    Meets(String, String),
-    /// Nothing carries the object.
-    Floats(String),
-    /// The part has no class, or its object no instance.
-    Nameless(String),
-    /// Nobody can walk into the room, by its number in the plan.
-    Unreachable(usize),
-    /// A start camera stands too near to a part.
-    Camera(String),
-}
-
-impl Fault {
-    /// The same in families instead of objects, to be counted.
-    pub fn kind(&self) -> String {
-        match self {
-            Self::Meets(a, b) => format!("{} runs into {}", family_of(a), family_of(b)),
-            Self::Floats(a) => format!("{} floats", family_of(a)),
-            other => other.to_string(),
-        }
-    }
-}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Meets(a, b) => write!(f, "{a} runs into {b}"),
-            Self::Floats(a) => write!(f, "{a} floats"),
-            Self::Nameless(part) => write!(f, "{part} has no label"),
-            Self::Unreachable(room) => write!(f, "room {room} cannot be reached"),
-            Self::Camera(name) => write!(f, "camera {name} is not in free space"),
-        }
-    }
-}
+/// Slack for rounding, metres: cameras keep their distance from boxes that are computed in another way than those here.
+const ROUNDING: f32 = 0.002;
 
 /// Everything that is wrong with a home; empty when nothing is.
 pub fn faults(home: &Home) -> Vec<Fault> {
@@ -73,11 +43,6 @@ fn of_bodies(bodies: &[Body]) -> Vec<Fault> {
     meets.chain((0..bodies.len()).filter(|&i| !carried[i]).map(|i| Fault::Floats(name(i)))).collect()
 }
 
-/// The object that a part belongs to: its name up to the slash.
-pub fn object_of(part: &str) -> &str {
-    part.split('/').next().unwrap_or(part)
-}
-
 /// The objects of a home, by name.
 pub(crate) fn bodies(home: &Home) -> Vec<Body> {
     let scene = &home.scene;
@@ -92,24 +57,6 @@ pub(crate) fn bodies(home: &Home) -> Vec<Body> {
     bodies.into_values().collect()
 }
 
-/// The family of an object: its name without its number.
-pub fn family_of(object: &str) -> &str {
-    match object.rsplit_once('_') {
-        Some((family, number)) if !number.is_empty() && number.bytes().all(|c| c.is_ascii_digit()) => family,
-        _ => object,
-    }
-}
-
-/// Pieces of the shell reach into each other, and carry everything else.
-pub(crate) fn is_shell(object: &str) -> bool {
-    is_shell_family(family_of(object))
-}
-
-/// True when the boxes come nearer than `margin`.
-pub(crate) fn overlap(a: &Bounds3, b: &Bounds3, margin: f32) -> bool {
-    a.min.cmple(b.max + margin).all() && b.min.cmple(a.max + margin).all()
-}
-
 fn unlabelled(home: &Home) -> Vec<Fault> {
     let (parts, labels) = (&home.scene.parts, &home.labels.parts);
     let named = |i: usize| {
@@ -120,8 +67,8 @@ fn unlabelled(home: &Home) -> Vec<Fault> {
 
 fn blocked_cameras(home: &Home, bodies: &[Body]) -> Vec<Fault> {
     let boxes: Vec<Bounds3> = bodies.iter().flat_map(Body::boxes).collect();
-    let least = crate::cameras::CLEARANCES[1] - 0.002;
-    let free = |eye: Vec3| boxes.iter().all(|b| eye.distance(eye.clamp(b.min, b.max)) >= least);
+    let clearance = CLEARANCES[1] - ROUNDING;
+    let free = |eye: Vec3| boxes.iter().all(|b| eye.distance(eye.clamp(b.min, b.max)) >= clearance);
     let cameras = home.scene.cameras.iter();
     cameras.filter(|c| !free(c.position.as_vec3())).map(|c| Fault::Camera(c.name.clone())).collect()
 }

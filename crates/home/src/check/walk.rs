@@ -10,9 +10,9 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 /// Edge of a grid cell, metres.
 const CELL: f32 = 0.05;
-/// What lies lower is stepped over, what hangs higher is walked under.
+/// What lies lower is stepped over, what hangs higher is walked under, metres.
 const HEIGHTS: [f32; 2] = [0.12, 1.9];
-/// Cells decide by their middle.
+/// How much nearer than half its width a body may come, since cells are judged by their middle, metres.
 const TOLERANCE: f32 = 0.04;
 /// What it costs to take a cubic metre of furniture away, in cells walked around it.
 const REMOVAL_COST: f32 = 10.0;

@@ -2,7 +2,7 @@
 //! candlesticks and trays; and a basket with a blanket that stands on the floor. They are of class other prop, but for magazines (paper)
 //! and books. Most are turned forms, and each begins [`CONTACT`] above what carries it.
 
-use super::bookshelf::pile_of_books;
+use super::book::pile_of_books;
 use super::form::all;
 use super::wall_art::printed;
 use super::{CONTACT, Furniture, grained};

@@ -6,8 +6,9 @@
 
 use super::{FAMILIES, Family, Furniture, Place};
 use crate::builder::{Builder, pose};
+use crate::check::meet::overlap;
 use crate::check::meet::{Body, Triangle, triangles_cut};
-use crate::check::{contact, family_of, object_of, overlap};
+use crate::check::{contact, family_of, object_of};
 use crate::light::LightConfig;
 use crate::materials::Materials;
 use crate::palette::Palette;

@@ -1,9 +1,8 @@
-//! What lamps give off.
+//! Light and material of the luminous parts of lamps.
 //!
 //! Lamps are sold by luminous flux. A diffuse emitter of flux Φ and area A has the luminance Φ / (π A), in every direction alike.
 
-use super::Exposure;
-use crate::materials::blackbody;
+use super::{Exposure, blackbody};
 use enfilade_geometry::Mesh;
 use enfilade_math::Rgb;
 use enfilade_scene::Material;

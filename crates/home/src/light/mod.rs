@@ -4,18 +4,22 @@
 //! brings the walls of a home to about the same value by day and by night and balances the white as a camera does; the radiance's
 //! luminance divided by [`Exposure::per_kcd`] and multiplied by 1000 is about that in cd/m² again.
 
+mod blackbody;
+mod exposure;
 mod lamp;
 mod outside;
 mod sky;
 mod sun;
+mod weather;
 
+pub use blackbody::blackbody;
+pub use exposure::Exposure;
 pub use lamp::{Glow, area_m2};
 pub use outside::Outside;
-pub use sky::Weather;
 pub use sun::{declination_rad, to_sun};
+pub use weather::Weather;
 
-use crate::materials::blackbody;
-use enfilade_math::{Rgb, Rng, Vec2, Vec3};
+use enfilade_math::{Rng, Vec2, Vec3};
 use enfilade_scene::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -82,7 +86,7 @@ impl Default for LightConfig {
 
 /// Sun's elevations at dusk, degrees: civil twilight ends at −6.
 const DUSK_DEG: [f32; 2] = [-6.5, -4.0];
-/// The lowest sun of a day, degrees; where it does not get so high, it is noon.
+/// Minimum elevation of the sun by day, degrees; where it does not get that high, it is noon.
 const DAY_DEG: f32 = 12.0;
 
 impl LightConfig {
@@ -149,7 +153,9 @@ impl LightConfig {
     /// Adds sun, sky and surroundings to `scene`. `outward` are the directions out of the home's windows: what faces away from all of
     /// them stays black, since no light from there can come in, and a renderer need not look for any.
     pub fn illuminate(&self, scene: &mut Scene, outward: &[Vec2]) {
-        sky::illuminate(self, scene, outward);
+        let weather = self.weather();
+        let surroundings = weather.surroundings(self.outside, self.seed as u32);
+        sky::illuminate(scene, outward, &weather, &surroundings, self.exposure());
     }
 
     /// Sun and sky.
@@ -167,51 +173,6 @@ impl LightConfig {
         let hour = fitting.get((u * fitting.len() as f32) as usize).copied().unwrap_or(nearest);
         // Mornings are as likely as afternoons; which it is must not depend on the digits that chose the hour.
         if low > 0.0 && (u * 977.0).fract() < 0.5 { 24.0 - hour } else { hour }
-    }
-}
-
-/// How luminance becomes scene radiance: its level, and the white that a camera adapts to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Exposure {
-    per_kcd: f32,
-    /// Factor of linear RGB, of luminance one for the white.
-    balance: Rgb,
-}
-
-/// What white walls are brought to.
-const WALL_RADIANCE: f32 = 0.5;
-/// Average daylight factor of a room with good windows (CIBSE LG10: 2 to 5 %).
-const DAYLIGHT_FACTOR: f32 = 0.025;
-/// Share of the sun's own light that falls into such a room and is spread by its floor.
-const SUN_SHARE: f32 = 0.012;
-/// Illuminance of the walls by all lamps of a home, kilo-lux.
-const LAMPS_KLX: f32 = 0.09;
-/// White by day, and where there are lamps alone: half-way from daylight to theirs, so that they stay warm. Reciprocal megakelvin.
-const WHITE_MIRED: [f32; 2] = [154.0, 262.0];
-
-impl Exposure {
-    /// An exposure of one's own choice, balanced for daylight.
-    pub fn new(per_kcd: f32) -> Self {
-        Self { per_kcd, balance: Rgb::WHITE }
-    }
-
-    /// That which brings white walls to [`WALL_RADIANCE`].
-    fn of(weather: &Weather, lamps: f32) -> Self {
-        let lamps_klx = LAMPS_KLX * lamps;
-        let inside_klx = (DAYLIGHT_FACTOR * weather.sky_klx() + SUN_SHARE * weather.sun_klx() + lamps_klx).max(4e-4);
-        let wall_kcd = 0.8 * inside_klx / std::f32::consts::PI;
-        let mired = WHITE_MIRED[0] + (WHITE_MIRED[1] - WHITE_MIRED[0]) * lamps_klx / inside_klx;
-        Self { per_kcd: WALL_RADIANCE / wall_kcd, balance: Rgb::WHITE / blackbody(1e6 / mired) }
-    }
-
-    /// Scene radiance, or irradiance, of one in kcd/m² or kilo-lux.
-    pub fn expose(self, photometric: Rgb) -> Rgb {
-        photometric * self.balance * self.per_kcd
-    }
-
-    /// Scene radiance per kcd/m².
-    pub fn per_kcd(self) -> f32 {
-        self.per_kcd
     }
 }
 

@@ -1,86 +1,27 @@
-//! The sky from clear to overcast, by day and by night, and the picture of it that lights a home.
+//! The picture of sky and surroundings that lights a home, and the sun's own light.
 
-use super::LightConfig;
 use super::outside::Surroundings;
-use enfilade_math::{Mat3, Rgb, Vec2, Vec3, warp};
-use enfilade_scene::sky::{Daylight, SUN_RADIUS_RAD};
+use super::{Exposure, Weather};
+use enfilade_math::{Mat3, Rgb, Vec2, Vec3};
+use enfilade_scene::sky::SUN_RADIUS_RAD;
 use enfilade_scene::{Environment, Image, Light, MapRows, Pixels, Scene, direction_from_uv};
 use rayon::prelude::*;
-use std::f32::consts::PI;
 
-/// Width of the sky's picture.
+/// Width of the sky's picture in pixels: a third of a degree each.
 const WIDTH: u32 = 1024;
-/// Directions that sum up the light of the sky on the ground.
-const DIRECTIONS: u32 = 256;
-/// White of clouds: daylight of 6500 K.
-const CLOUD_TINT: Rgb = Rgb::new(0.975, 1.0, 1.07);
-/// Luminance of the night sky over a city at the zenith, kcd/m² (0.06 cd/m²; without towns it is some hundred times darker).
-const NIGHT: Rgb = Rgb::new(5.2e-5, 5.8e-5, 8.5e-5);
+/// Directions this far behind the plane of a window, as a sine, are still painted, so that filtering at the edge meets no black.
+const BEHIND: f32 = 0.03;
 
-/// Sun and sky of a moment.
-pub struct Weather {
-    to_sun: Vec3,
-    cloud: f32,
-    clear: Box<dyn Fn(Vec3) -> Rgb + Send + Sync>,
-    /// Of the disk through the clouds, on a surface that faces it, kilo-lux.
-    sun: Rgb,
-    /// Of the whole sky on level ground, kilo-lux.
-    sky: Rgb,
-}
-
-impl Weather {
-    /// With the unit direction to the sun (z up), the clear sky's turbidity and the share of clouds on `[0,1]`.
-    pub fn new(to_sun: Vec3, turbidity: f32, cloud: f32) -> Self {
-        let cloud = cloud.clamp(0.0, 1.0);
-        let day = Daylight { to_sun, turbidity, ground_albedo: 0.2 };
-        let sun = day.sun_irradiance() * (1.0 - cloud);
-        let mut weather = Self { to_sun, cloud, clear: Box::new(day.sky_radiance()), sun, sky: Rgb::BLACK };
-        let direction = |k| warp::cosine_hemisphere(warp::hammersley(k, DIRECTIONS));
-        weather.sky = (0..DIRECTIONS).map(|k| weather.radiance(direction(k))).sum::<Rgb>() * (PI / DIRECTIONS as f32);
-        weather
-    }
-
-    /// Radiance of the sky in the unit direction `d`, kcd/m²; directions below the horizon see it mirrored.
-    ///
-    /// Clear sky and the CIE standard overcast sky (Moon & Spencer 1942: three times as bright at the zenith as at the horizon) are
-    /// mixed by their shares, and the glow of the night is added.
-    pub fn radiance(&self, d: Vec3) -> Rgb {
-        let up = Vec3::new(d.x, d.y, d.z.abs());
-        let zenith_kcd = 9.0 / (7.0 * PI) * self.overcast_klx();
-        let overcast = CLOUD_TINT * (zenith_kcd * (1.0 + 2.0 * up.z) / 3.0);
-        let night = NIGHT * (1.0 + 3.0 * (1.0 - up.z).powi(4));
-        (self.clear)(up) * (1.0 - self.cloud) + overcast * self.cloud + night
-    }
-
-    /// Illuminance of level ground under an overcast sky, kilo-lux: 0.3 + 21 sin h (Krochmann 1963), and in twilight a tenth for every
-    /// 2.4 degrees that the sun sinks, as measured by Kimball 1938 for all skies.
-    fn overcast_klx(&self) -> f32 {
-        if self.to_sun.z > 0.0 { 0.3 + 21.0 * self.to_sun.z } else { 0.3 * 10f32.powf(self.to_sun.z.asin().to_degrees() / 2.4) }
-    }
-
-    /// Illuminance of level ground by the sky, kilo-lux.
-    pub fn sky_klx(&self) -> f32 {
-        self.sky.luminance()
-    }
-
-    /// Illuminance by the sun of a surface that faces it, kilo-lux.
-    pub fn sun_klx(&self) -> f32 {
-        self.sun.luminance()
-    }
-}
-
-/// See [`LightConfig::illuminate`].
-pub fn illuminate(light: &LightConfig, scene: &mut Scene, outward: &[Vec2]) {
-    let (weather, exposure) = (light.weather(), light.exposure());
-    let surroundings =
-        Surroundings { kind: light.outside, to_sun: weather.to_sun, sun_klx: weather.sun, sky_klx: weather.sky, seed: light.seed as u32 };
+/// Adds the light of `weather` and of `surroundings` to `scene`; what faces away from all of `outward` stays black, unless there are
+/// none. See [`super::LightConfig::illuminate`].
+pub fn illuminate(scene: &mut Scene, outward: &[Vec2], weather: &Weather, surroundings: &Surroundings, exposure: Exposure) {
     let map_from_world = Mat3::from_cols(Vec3::X, Vec3::NEG_Z, Vec3::Y); // the map's up is y
     let world_from_map = map_from_world.transpose();
     let (width, height) = (WIDTH, WIDTH / 2);
     let texel = |i: u32| {
         let uv = Vec2::new((i % width) as f32 + 0.5, (i / width) as f32 + 0.5) / Vec2::new(width as f32, height as f32);
         let d = world_from_map * direction_from_uv(uv);
-        if !outward.is_empty() && outward.iter().all(|o| d.truncate().dot(*o) < -0.03) {
+        if !outward.is_empty() && outward.iter().all(|o| d.truncate().dot(*o) < -BEHIND) {
             return [0.0; 3];
         }
         exposure.expose(surroundings.radiance(d, weather.radiance(d))).to_array()
@@ -96,33 +37,5 @@ pub fn illuminate(light: &LightConfig, scene: &mut Scene, outward: &[Vec2]) {
             irradiance: exposure.expose(weather.sun),
             angular_radius_rad: SUN_RADIUS_RAD,
         });
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn at(elevation_deg: f32, cloud: f32) -> Weather {
-        let (sin, cos) = elevation_deg.to_radians().sin_cos();
-        Weather::new(Vec3::new(0.0, -cos, sin), 3.0, cloud)
-    }
-
-    #[test]
-    fn the_overcast_sky_is_that_of_the_standard() {
-        let sky = at(40.0, 1.0);
-        assert!((sky.radiance(Vec3::Z).luminance() / sky.radiance(Vec3::X).luminance() - 3.0).abs() < 0.02);
-        assert!((sky.sky_klx() / (0.3 + 21.0 * 40f32.to_radians().sin()) - 1.0).abs() < 0.03, "{}", sky.sky_klx());
-        assert_eq!(sky.sun_klx(), 0.0);
-    }
-
-    #[test]
-    fn light_falls_from_noon_over_dusk_to_night() {
-        for cloud in [0.0, 0.5, 1.0] {
-            let levels = [60.0, 20.0, 2.0, -4.0, -30.0].map(|e| at(e, cloud).sky_klx());
-            assert!(levels.windows(2).all(|p| p[1] < p[0]), "{cloud}: {levels:?}");
-            // Dusk has some lux to some tens of lux, a night in town a tenth of a lux.
-            assert!((0.001..0.1).contains(&levels[3]) && (5e-5..1e-3).contains(&levels[4]), "{cloud}: {levels:?}");
-        }
     }
 }

@@ -2,12 +2,11 @@
 
 use super::wall::lightened;
 use super::{Layers, Maker, rough};
+use crate::palette::COTTON;
 use crate::texture::{self, Pattern, RugStyle, Weave};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, Material, Principled};
 
-/// White cotton reflects three quarters of the light.
-const COTTON: Rgb = Rgb::new(0.77, 0.765, 0.745);
 /// What people wear besides the palette's colours: denim, black, white, grey, camel, navy, olive, wine.
 const CLOTHES: [Rgb; 8] = [
     Rgb::new(0.075, 0.12, 0.22),
@@ -20,7 +19,7 @@ const CLOTHES: [Rgb; 8] = [
     Rgb::new(0.16, 0.025, 0.035),
 ];
 
-/// Mean of a woven picture; its colour is raised by as much.
+/// One over the mean of a woven picture: colours are raised by it, so that the cloth has them on average.
 const WOVEN: f32 = 1.16;
 
 impl Maker<'_> {

@@ -1,4 +1,4 @@
-//! The list of what surfaces are made of.
+//! The list of finishes, which say what a surface is made of but not in which colour; and which of them glow.
 
 use crate::light::{Glow, area_m2};
 use enfilade_geometry::Mesh;
@@ -7,7 +7,7 @@ use enfilade_geometry::Mesh;
 ///
 /// A number chooses among the colours that the palette has for the finish; it may be any, and equal numbers give equal surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Finish {
     // Walls, ceilings and floors.
     WallPaint,

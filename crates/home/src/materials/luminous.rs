@@ -1,4 +1,6 @@
-//! Screens.
+//! Screens, on and off.
+//!
+//! A lit screen shows a picture in the colours of the palette, as bright as the exposure of the home makes it.
 
 use super::{Maker, coated};
 use crate::texture::{self, Display};

@@ -1,4 +1,4 @@
-//! Walls, ceilings and laid floors.
+//! Walls, ceilings and floors: paint, plaster, wallpaper, brick, planks, parquet, tiles, carpet, concrete.
 
 use super::{Maker, coated, rough};
 use crate::texture;
@@ -65,7 +65,7 @@ impl Maker<'_> {
     }
 }
 
-/// A colour raised by what a picture of a mean below one takes away, but not above what surfaces reflect.
+/// A colour raised by one over the mean of the picture that multiplies it, but not above what surfaces reflect.
 pub(super) fn lightened(color: Rgb, by: f32) -> Rgb {
     color * by.min(0.88 / color.max_component().max(0.01))
 }

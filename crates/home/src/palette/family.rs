@@ -1,6 +1,7 @@
-//! Palettes chosen by eye.
+//! Palettes chosen by eye, written as the sRGB codes that a colour picker shows.
 
-use super::{Palette, WHITE, floor_tile, wall_tile};
+use super::colors::{Palette, WHITE};
+use super::tiles::{floor_tile, wall_tile};
 use crate::texture::{PaperPattern, Pattern, SlabLook, WoodTone};
 use enfilade_math::{Rgb, Rng};
 

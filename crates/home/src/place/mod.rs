@@ -1,15 +1,14 @@
-//! What fits where: the floor of a room that only accepts what leaves people their ways.
+//! What fits where: the floor of a room, which only accepts what leaves people room to walk.
 //!
 //! Things are placed one after another, the most important first. For each, candidates along the walls or over the floor are sorted
 //! by a cost, and the first that fits is taken: no solid meets another or a space that must stay free (where doors swing, before
 //! drawers, before windows), and a person can still walk from every door to every other and up to everything that has a front.
 
-mod footprint;
-mod settle;
+mod scatter;
 mod walk;
 
-pub use footprint::Footprint;
-pub use settle::settle;
+pub use crate::room::Footprint;
+pub use scatter::scatter;
 pub use walk::{BODY, Walk};
 
 use crate::builder::pose;
@@ -17,24 +16,25 @@ use crate::furniture::CONTACT;
 use crate::room::{Room, Wall};
 use enfilade_math::{DAffine3, Vec2, Vec3};
 
-/// What stands along walls keeps this distance, because of the skirting.
+/// Distance between walls and what stands along them, because of the skirting, metres.
 const WALL_GAP: f32 = 0.02;
 /// The same in rooms with tiles, where things are fixed to the wall.
 const TILED_GAP: f32 = 0.0;
-/// Between things that do not belong together.
+/// Distance between things that do not belong together, metres.
 const AIR: f32 = 0.02;
-/// Nobody walks into what is higher than this.
+/// People walk under what is higher than this, metres.
 const HEADROOM: f32 = 2.0;
-/// What is lower is stepped over.
+/// What is lower is stepped over, metres.
 const UNDERFOOT: f32 = 0.03;
-/// Things higher than a sill keep this distance from the window.
+/// Distance between a window and things higher than its sill, metres.
 const BEFORE_WINDOW: f32 = 0.22;
-/// How far a window's sill reaches beyond it, and a door's casing above it.
+/// How far a window's sill reaches beyond its sides, metres.
 const SILL_END: f32 = 0.06;
+/// How far a door's casing reaches above it, metres.
 const CASING: f32 = 0.08;
-/// Candidates along walls are this far apart.
+/// Distance between candidates along walls, metres.
 const STEP: f32 = 0.05;
-/// Candidates that are walked around before giving up.
+/// Candidates whose ways around are checked before giving up.
 const TRIALS: usize = 80;
 
 /// A thing of a group, in the group's space: origin just before the wall behind it, x along the wall, y into the room.
@@ -134,7 +134,7 @@ impl Floor {
         &self.room
     }
 
-    /// The floor before a piece of wall, so deep.
+    /// The floor before a piece of wall, `depth` metres deep.
     pub fn strip(&self, wall: Wall, x: [f32; 2], depth: f32) -> Footprint {
         let center = self.room.before(wall, 0.5 * (x[0] + x[1]), 0.5 * depth);
         Footprint { center, half: Vec2::new(0.5 * (x[1] - x[0]), 0.5 * depth), yaw: wall.yaw() as f32 }
@@ -145,7 +145,7 @@ impl Floor {
         self.taken.push(Taken { footprint, z, solid: false });
     }
 
-    /// Notes something solid that is there anyway.
+    /// Records something solid that stands there whatever is placed.
     pub fn take(&mut self, footprint: Footprint, z: [f32; 2]) {
         self.taken.push(Taken { footprint, z, solid: true });
         if z[0] < HEADROOM {
@@ -165,11 +165,11 @@ impl Floor {
 
     /// Spots along one wall for something `width` wide.
     pub fn along(&self, wall: Wall, width: f32) -> Vec<Spot> {
-        let most = 0.5 * (self.room.length(wall) - width) - self.gap;
-        let steps = (2.0 * most / STEP).ceil().max(0.0) as usize;
-        let x = |k: usize| if steps == 0 { 0.0 } else { most * (2.0 * k as f32 / steps as f32 - 1.0) };
+        let end = 0.5 * (self.room.length(wall) - width) - self.gap;
+        let steps = (2.0 * end / STEP).ceil().max(0.0) as usize;
+        let x = |k: usize| if steps == 0 { 0.0 } else { end * (2.0 * k as f32 / steps as f32 - 1.0) };
         let spot = |x: f32| Spot { origin: self.room.before(wall, x, self.gap), yaw: wall.yaw() as f32, wall: Some(wall), x };
-        if most < 0.0 { Vec::new() } else { (0..=steps).map(|k| spot(x(k))).collect() }
+        if end < 0.0 { Vec::new() } else { (0..=steps).map(|k| spot(x(k))).collect() }
     }
 
     /// Spots all over the floor, turned by each of `yaws`.
@@ -219,7 +219,7 @@ impl Floor {
                 return None;
             }
             if let Some(walk) = self.walked(group, &spot) {
-                self.settle_group(group, &spot, walk);
+                self.take_group(group, &spot, walk);
                 return Some((spot, group.iter().map(|piece| piece_pose(piece, &spot)).collect()));
             }
         }
@@ -252,7 +252,7 @@ impl Floor {
         walk.is_open(&fronts).then_some(walk)
     }
 
-    fn settle_group(&mut self, group: &[Piece], spot: &Spot, walk: Walk) {
+    fn take_group(&mut self, group: &[Piece], spot: &Spot, walk: Walk) {
         self.walk = walk;
         for piece in group {
             let z = [piece.z, piece.z + piece.size.z];

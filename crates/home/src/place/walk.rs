@@ -1,17 +1,16 @@
 //! Where a person can go in a room: a grid of the places that the middle of a body can be.
 
-use super::Footprint;
-use crate::room::Room;
+use crate::room::{Footprint, Room};
 use enfilade_math::Vec2;
 
 /// Half the width of a person who walks through, metres: 0.6 m is the narrowest way between furniture that people accept.
 pub const BODY: f32 = 0.30;
-/// Edge of a grid cell.
+/// Edge of a grid cell, metres.
 const CELL: f32 = 0.05;
-/// Cells decide by their middle: what is nearer than the body by this much still counts as passable.
+/// How much nearer than half its width a body may come, since cells are judged by their middle, metres.
 const TOLERANCE: f32 = 0.02;
-/// Largest floor, in places for the middle of a body, that furniture may cut off, m².
-const FORLORN: f32 = 0.12;
+/// Largest area, of places for the middle of a body, that furniture may cut off, m².
+const CUT_OFF: f32 = 0.12;
 
 /// The free places of a room.
 #[derive(Clone, Debug)]
@@ -82,8 +81,8 @@ impl Walk {
     pub fn is_open(&self, fronts: &[Footprint]) -> bool {
         let seen = self.reached();
         let joined = self.starts.iter().all(|&s| seen[s]);
-        let forlorn = (0..seen.len()).filter(|&c| !self.blocked[c] && !seen[c]).count() as f32 * CELL * CELL;
-        joined && forlorn <= FORLORN && fronts.iter().all(|f| self.touches(&seen, f))
+        let cut_off = (0..seen.len()).filter(|&c| !self.blocked[c] && !seen[c]).count() as f32 * CELL * CELL;
+        joined && cut_off <= CUT_OFF && fronts.iter().all(|f| self.touches(&seen, f))
     }
 
     fn touches(&self, seen: &[bool], front: &Footprint) -> bool {

@@ -1,14 +1,13 @@
 //! Floor plans: from a list of rooms and a seed to rooms with walls, doors and windows.
 //!
 //! A home is a rectangle cut into cells ([`slicing`]); a search looks for cuts whose rooms have the widths, proportions, daylight and
-//! ways that building practice asks for (`kind`, `search`). Doors, passages and windows follow (`openings`).
+//! ways that building practice asks for ([`kind`], `search`). Doors, passages and windows follow (`openings`).
 
-pub mod kind;
 mod openings;
 mod search;
 pub mod slicing;
 
-pub use kind::{RoomKind, usual_programme};
+pub use crate::room::kind::{self, RoomKind, usual_programme};
 pub use openings::Doorway;
 
 use crate::room::{Room, Wall};

@@ -4,17 +4,17 @@
 //! passage about 60 mm less). Windows have at least an eighth of the floor where the wall is long enough; sills are low in living
 //! rooms, above the worktop in kitchens and above eye level of a bather in bathrooms.
 
-use super::kind::RoomKind;
 use super::search::{Site, Sketch, shared_wall};
-use crate::room::{Filling, Leaf, Opening, Room, Wall};
+use crate::room::{Filling, Leaf, Opening, Room, RoomKind, Wall};
 use enfilade_math::Rng;
 
-/// Height of doors.
+/// Height of the openings of doors, metres.
 const DOOR_TOP: f32 = 2.06;
 /// From a door's opening to a corner of the room: the casing and a little plaster.
 const DOOR_MARGIN: f32 = 0.10;
 /// From a window's opening to a corner of the room.
 const WINDOW_MARGIN: f32 = 0.30;
+/// Width of the opening of the entrance, metres (DIN 18101).
 const ENTRANCE_WIDTH: f32 = 1.01;
 
 /// Two rooms with a way between them; `None` is the outside.
@@ -82,7 +82,7 @@ fn passage(rooms: &mut [Room], from: usize, into: usize, wall: Wall, clear: [f32
 
 fn door(rooms: &mut [Room], [from, into]: [usize; 2], wall: Wall, clear: [f32; 2], rng: &mut Rng) {
     let kind = rooms[into].kind;
-    // A small room's door swings out of it: who falls behind it must be reached.
+    // The door of a small room swings out of it, so that someone who has fallen behind it can be reached.
     let (inside, outside) = if kind == RoomKind::Toilet { (from, into) } else { (into, from) };
     let side = |room: usize| if room == from { wall } else { wall.turned(2) };
     let width = if kind.wet() { 0.76f32 } else { 0.885 }.min(clear[1] - clear[0] - 2.0 * DOOR_MARGIN);
@@ -158,17 +158,17 @@ pub fn add_windows(room: &mut Room, site: Site, rng: &mut Rng) {
             continue;
         }
         let Some((low, high)) = free_run(room, wall) else { continue };
-        let most = high - low - 2.0 * WINDOW_MARGIN;
+        let free = high - low - 2.0 * WINDOW_MARGIN;
         let width = match room.kind {
             Bathroom | Toilet | Laundry | Hall => rng.range(0.55, 0.9),
-            Living if k == 0 => (most * rng.range(0.7, 0.85)).clamp(1.4, 3.2),
+            Living if k == 0 => (free * rng.range(0.7, 0.85)).clamp(1.4, 3.2),
             _ => (wanted / (head - sill)).clamp(1.0, 2.4),
         };
-        let width = ((width / 0.125).round() * 0.125).min(most);
+        let width = ((width / 0.125).round() * 0.125).min(free);
         if width < 0.45 {
             continue;
         }
-        let middle = 0.5 * (low + high) + (most - width).max(0.0) * rng.range(-0.18, 0.18);
+        let middle = 0.5 * (low + high) + (free - width).max(0.0) * rng.range(-0.18, 0.18);
         let sashes = if width < 0.95 { 1 } else { 1 + ((width - 0.15) / 1.05) as usize };
         let x = [middle - 0.5 * width, middle + 0.5 * width];
         room.openings.push(Opening { wall, x, z: [sill, head], filling: Filling::Window { sashes: sashes.min(4) } });

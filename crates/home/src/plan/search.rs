@@ -1,8 +1,7 @@
 //! The search for a floor plan: simulated annealing over slicing plans, areas and the shape of the whole.
 
-use super::kind::RoomKind;
 use super::slicing::{Cell, Slicing};
-use crate::room::Wall;
+use crate::room::{RoomKind, Wall};
 use enfilade_math::{Rng, Vec2};
 
 /// Shortest piece of wall that two rooms share where a door between them has room for its casings.
@@ -11,8 +10,11 @@ const DOOR_WALL: f32 = 1.2;
 const WINDOW_WALL: f32 = 1.5;
 /// Cells reach to the middle of walls; rooms lose this much of their width.
 const WALLS: f32 = 0.13;
-/// Cost of what must not be.
+/// Cost of breaking a rule: more than all wishes together.
 const BROKEN: f32 = 20.0;
+/// Edges nearer than this are the same edge, metres: cells are cut on a grid of 10 mm.
+const SAME: f32 = 1e-3;
+/// Changes that one search tries.
 const STEPS: usize = 3000;
 
 /// The surroundings of a home: which of its sides look out, south, east, north, west.
@@ -40,13 +42,12 @@ pub struct Sketch {
 }
 
 impl Sketch {
-    /// No sketch with less breaks a rule.
+    /// A sketch that costs less breaks no rule.
     pub const FINE: f32 = BROKEN;
 }
 
 /// The piece of wall between two cells: the wall of the first, and from where to where along x or y.
 pub fn shared_wall(a: &Cell, b: &Cell) -> Option<(Wall, [f32; 2])> {
-    const SAME: f32 = 1e-3;
     for (wall, axis, touch) in [
         (Wall::South, 0, a.min.y - b.max.y),
         (Wall::East, 1, a.max.x - b.min.x),
@@ -69,7 +70,7 @@ pub fn on_side(cell: &Cell, whole: &Cell, wall: Wall) -> bool {
         Wall::North => whole.max.y - cell.max.y,
         Wall::West => cell.min.x - whole.min.x,
     };
-    gap.abs() < 1e-3
+    gap.abs() < SAME
 }
 
 /// Length of a cell's side.

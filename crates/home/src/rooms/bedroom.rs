@@ -7,9 +7,9 @@ use crate::furniture::{Furniture, Surface, TableLamp};
 use crate::place::Piece;
 use enfilade_math::Vec2;
 
-/// Between a bed and what stands beside it.
+/// Distance between a bed and what stands beside it, metres.
 const BESIDE: f32 = 0.04;
-/// Beds for as many sleepers differ less in width.
+/// Models of beds for as many sleepers differ less than this from ours in width, metres.
 const WIDTHS: f32 = 0.25;
 
 /// What people keep beside the bed, and how often.
@@ -48,7 +48,7 @@ pub fn furnish(f: &mut Furnisher) {
     f.ceiling_lamp();
 }
 
-/// A bed for so many sleepers with nightstands beside it, tried with both, with one, with none; false where no bed fits.
+/// Stands a bed for one or two `sleepers`, with nightstands on both sides, on one, or none, as space allows; false where no bed fits.
 pub fn bed(f: &mut Furnisher, sleepers: usize) -> bool {
     let stand = f.any("nightstand");
     for _ in 0..3 {
@@ -105,7 +105,7 @@ fn bedside(f: &mut Furnisher, stand: &dyn Furniture, pose: enfilade_math::DAffin
     }
     let highest = |a: &&Surface, b: &&Surface| a.z.total_cmp(&b.z);
     let Some(top) = surfaces.iter().max_by(highest).copied() else { return };
-    f.settle(&[top], pose, &things);
+    f.scatter(&[top], pose, &things);
     let below: Vec<Surface> = surfaces.into_iter().filter(|s| s.z < top.z).collect();
     f.litter(&below, pose, BELOW);
 }

@@ -3,15 +3,16 @@
 use super::Furnisher;
 use crate::furniture::living::{Blind, BlindKind};
 use crate::furniture::{Window, on};
-use crate::plan::RoomKind;
-use crate::room::{Filling, Opening};
+use crate::room::{Filling, Opening, RoomKind};
 use enfilade_math::{Rng, Vec3};
 
-/// Where their backs are, behind the wall's inner face: just before the handles of the sashes.
+/// Where the backs of blinds are, seen from the wall's inner face, metres: just before the handles of the sashes.
 const BACK: f32 = -0.058;
-/// Air beside and above a blind, and below one that is let down.
+/// Air beside a blind, metres.
 const BESIDE: f32 = 0.006;
+/// Air above it: contact without faces in one plane.
 const ABOVE: f32 = 0.0005;
+/// Air below one that is let down.
 const BELOW: f32 = 0.004;
 
 /// How often the windows of a room have blinds.
@@ -45,14 +46,14 @@ impl Furnisher<'_> {
         if rng.next_f32() >= often(self.room.kind) {
             return size.y;
         }
-        let (kind, [least, most]) = usual(self.room.kind, &mut rng);
+        let (kind, [min, max]) = usual(self.room.kind, &mut rng);
         let height = size.y - Window::SILL - BELOW - ABOVE;
         let cell = size.x / sashes as f32;
-        let usual = rng.range(least, most);
+        let usual = rng.range(min, max);
         let mut lowest = 0.0f32;
         for k in 0..sashes {
             // Some people let down each as they like.
-            let down = if rng.below(4) == 0 { rng.range(least, most) } else { usual };
+            let down = if rng.below(4) == 0 { rng.range(min, max) } else { usual };
             lowest = lowest.max(down);
             let blind = Blind { width: cell - 2.0 * BESIDE, height, down, kind };
             let at = Vec3::new(window.x[0] + cell * (k as f32 + 0.5), BACK, window.z[1] - ABOVE - 0.5 * height);

@@ -2,12 +2,12 @@
 
 use super::Furnisher;
 use crate::furniture::{Furniture, Socket, Switch, on};
-use crate::plan::RoomKind;
-use crate::room::{Filling, Opening, Wall};
+use crate::room::{Filling, Opening, RoomKind, Wall};
 use enfilade_math::Vec3;
 
-/// Heights of the middles of switches and sockets above the floor (DIN 18015-3).
+/// Height of the middle of switches above the floor, metres (DIN 18015-3).
 const SWITCH: f32 = 1.05;
+/// The same for sockets.
 const SOCKET: f32 = 0.30;
 /// Share of switches with a socket below.
 const BELOW: f32 = 0.7;

@@ -3,26 +3,24 @@
 use super::Furnisher;
 use crate::furniture::living::CeilingLamp;
 use crate::furniture::{Candles, CeilingDome, Curtains, Furniture, Pendant, Plant, Radiator, Window, on};
-use crate::place::Footprint;
-use crate::plan::RoomKind;
-use crate::room::Opening;
+use crate::room::{Footprint, Opening, RoomKind};
 use enfilade_math::{DAffine3, Vec2, Vec3};
 
-/// Lowest sill with a radiator below it.
+/// Minimum height of a sill with a radiator below it, metres.
 const RADIATOR_SILL: f32 = 0.44;
 /// What stands on a sill is lower than this.
 const ON_SILL: f32 = 0.32;
 /// The stream of random numbers of blinds, so that they do not change what else is in a room.
 const BLINDS: u64 = 0xb11d;
-/// Lamps in the middle of a room end above people's heads.
+/// Lower end of lamps in the middle of a room, metres: above people's heads.
 const PENDANT_RIM: f32 = 2.05;
-/// What is higher is in the way of lamps, but not that doors need their room below.
+/// Height above which things are in the way of a lamp, metres; what stands or swings below is not.
 const OVERHEAD: f32 = 2.12;
-/// Nothing hangs lower where people walk.
+/// Minimum height of what hangs where people walk, metres.
 const HEADS: f32 = 1.98;
 
 impl Furnisher<'_> {
-    /// Adds everything of that kind.
+    /// Adds radiators, curtains and blinds to the windows, and switches to the doors.
     pub fn fittings(&mut self) {
         let room = self.room;
         // All windows of a room have blinds of one sort.
@@ -124,15 +122,15 @@ impl Furnisher<'_> {
         if points.is_empty() {
             return;
         }
-        let most = self.room.size.z - PENDANT_RIM;
+        let longest = self.room.size.z - PENDANT_RIM;
         let other = CeilingLamp::random(&mut self.rng);
-        let pendant = Pendant { drop: most, radius: self.rng.range(0.16, 0.21), ..Pendant::random(&mut self.rng) };
+        let pendant = Pendant { drop: longest, radius: self.rng.range(0.16, 0.21), ..Pendant::random(&mut self.rng) };
         let highest = self.room.size.z - HEADS;
         let mut model = self.borrow("pendant", &pendant, |size| size.z < highest);
         if model.is_none() {
             model = self.borrow("ceiling_lamp", &pendant, |size| size.z < highest);
         }
-        let own: &dyn Furniture = if other.size().z <= most { &other } else { &pendant };
+        let own: &dyn Furniture = if other.size().z <= longest { &other } else { &pendant };
         for at in points {
             self.above(at, model.as_ref().map_or(own, |model| model));
         }
@@ -155,7 +153,7 @@ mod tests {
     use enfilade_scene::{Material, Part, Scene};
     use std::sync::Arc;
 
-    /// A ceiling lamp of somebody's library, so high.
+    /// A ceiling lamp of a library, `height` metres high.
     fn lantern(height: f32) -> Model {
         let size = Vec3::new(0.4, 0.4, height);
         let read = move || {

@@ -4,9 +4,9 @@ use crate::assets::{Borrowed, Library};
 use crate::builder::Builder;
 use crate::furniture::{FAMILIES, Family, Furniture, PictureOnWall, Place, Rug, Surface, family_named, on};
 use crate::palette::Palette;
-use crate::place::{Floor, Piece, Spot, settle};
-use crate::plan::{FloorPlan, RoomKind};
-use crate::room::{Room, Wall};
+use crate::place::{Floor, Piece, Spot, scatter};
+use crate::plan::FloorPlan;
+use crate::room::{Room, RoomKind, Wall};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
 /// A room being furnished.
@@ -27,9 +27,9 @@ pub struct Furnisher<'a> {
     pub clutter: f32,
     /// Decides what is in this room.
     pub rng: Rng,
-    /// The wall that a colour would suit.
+    /// The wall that may get a finish of its own.
     pub accent: Option<Wall>,
-    /// Families that the room has been asked for.
+    /// Families that have been asked for, so that [`Furnisher::extras`] leaves them out.
     pub known: Vec<&'static str>,
     /// Pieces of wall without skirting, because of what is built in there.
     pub built_in: Vec<(Wall, [f32; 2])>,
@@ -88,7 +88,7 @@ impl<'a> Furnisher<'a> {
         thing.build(self.b, pose, &mut self.rng);
     }
 
-    /// Builds a small thing in a pose. Where the home has none it is taken back, which leaves the random numbers of what follows.
+    /// Builds a small thing in a pose. In a home without clutter it is removed again, so that the random numbers that follow stay the same.
     pub fn build_small(&mut self, thing: &dyn Furniture, pose: DAffine3) {
         let before = self.b.part_count();
         self.build(thing, pose);
@@ -128,7 +128,7 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// Stands one of a family with its back to the wall where `cost` is least, and lets small things gather on it.
+    /// Stands one of a family with its back to the wall where `cost` is lowest, and scatters small things on it.
     pub fn furnish(&mut self, family: &str, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
         for _ in 0..VARIANTS {
             let thing = self.any(family)?;
@@ -145,7 +145,7 @@ impl<'a> Furnisher<'a> {
         if self.chance(probability) { self.furnish(family, cost) } else { None }
     }
 
-    /// Lets small things that people have in this kind of room gather on surfaces, `density` times as many as usual.
+    /// Scatters small things that people have in this kind of room on surfaces, `density` times as many as usual.
     pub fn litter(&mut self, surfaces: &[Surface], pose: DAffine3, density: f32) {
         let area: f32 = surfaces.iter().map(|s| (s.max - s.min).max(Vec2::ZERO)).map(|e| e.x * e.y).sum();
         let kind = self.room.kind;
@@ -161,7 +161,7 @@ impl<'a> Furnisher<'a> {
                 self.variant(family)
             })
             .collect();
-        self.settle(surfaces, pose, &things);
+        self.scatter(surfaces, pose, &things);
     }
 
     /// Hangs one of a family with this probability.
@@ -173,10 +173,10 @@ impl<'a> Furnisher<'a> {
         self.hang(thing.as_ref(), height, &Wall::ALL, cost)
     }
 
-    /// Hangs up to so many pictures, each where `cost` is least and not beside another on the same wall.
-    pub fn art(&mut self, most: usize, cost: impl Fn(&Floor, &Spot) -> f32) {
+    /// Hangs one to `max` pictures, each where `cost` is lowest and not beside another on the same wall.
+    pub fn art(&mut self, max: usize, cost: impl Fn(&Floor, &Spot) -> f32) {
         let mut walls = Wall::ALL.to_vec();
-        for _ in 0..1 + self.rng.below(most.max(1)) {
+        for _ in 0..1 + self.rng.below(max.max(1)) {
             let picture = PictureOnWall { palette: *self.palette, ..PictureOnWall::random(&mut self.rng) };
             let picture = self.or_borrowed("picture", picture);
             if let Some(wall) = self.hang(picture.as_ref(), EYE, &walls, &cost) {
@@ -185,15 +185,15 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// Lays a rug with this probability where `cost` is least, clear of everything that stands.
+    /// Lays a rug with this probability where `cost` is lowest, clear of everything that stands.
     pub fn rug(&mut self, probability: f32, cost: impl Fn(&Floor, &Spot) -> f32) {
         if !self.chance(probability) {
             return;
         }
         let rug = Rug::random(&mut self.rng);
-        let least = 0.5 * self.room.size.truncate().min_element();
+        let half_width = 0.5 * self.room.size.truncate().min_element();
         for share in [1.0, 0.75, 0.55] {
-            let size = (rug.size * share).min(Vec2::splat(2.0 * least - 0.5));
+            let size = (rug.size * share).min(Vec2::splat(2.0 * half_width - 0.5));
             let rug = Rug { size };
             let piece = Piece { flat: true, ..Piece::standing(rug.size(), 0.0).at(0.0, 0.0, 0.0) };
             let spots = self.floor.everywhere(0.12, &[0.0, std::f32::consts::FRAC_PI_2]);
@@ -203,17 +203,17 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// Settles things on surfaces of something that stands in `pose`; those that find no place are left out.
-    pub fn settle(&mut self, surfaces: &[Surface], pose: DAffine3, things: &[Box<dyn Furniture>]) {
+    /// Scatters things on surfaces of something that stands in `pose`; those that find no place are left out.
+    pub fn scatter(&mut self, surfaces: &[Surface], pose: DAffine3, things: &[Box<dyn Furniture>]) {
         // Under the open sky of the room is its ceiling.
         let sky = self.room.size.z - CEILING_AIR - pose.translation.z as f32;
         let surfaces: Vec<Surface> = surfaces.iter().map(|s| Surface { headroom: s.headroom.min(sky - s.z), ..*s }).collect();
-        for (index, pose) in settle(&surfaces, pose, things, &mut self.rng) {
+        for (index, pose) in scatter(&surfaces, pose, things, &mut self.rng) {
             self.build(things[index].as_ref(), pose);
         }
     }
 
-    /// Stands a thing with its back to the wall where `cost` is least.
+    /// Stands a thing with its back to the wall where `cost` is lowest.
     pub fn stand(&mut self, thing: &dyn Furniture, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
         let spots = self.floor.along_walls(thing.size().x);
         self.stand_at(thing, spots, cost)
@@ -227,7 +227,7 @@ impl<'a> Furnisher<'a> {
         Some(Standing { pose: poses[0], size: thing.size(), spot })
     }
 
-    /// Stands a thing anywhere on the floor, turned by one of `yaws`, where `cost` is least.
+    /// Stands a thing anywhere on the floor, turned by one of `yaws`, where `cost` is lowest.
     pub fn stand_free(&mut self, thing: &dyn Furniture, yaws: &[f32], cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
         let piece = Piece::standing(thing.size(), thing.reach()).at(0.0, 0.0, 0.0);
         let (spot, poses) = self.floor.place(&[piece], self.floor.everywhere(0.1, yaws), cost)?;
@@ -235,7 +235,7 @@ impl<'a> Furnisher<'a> {
         Some(Standing { pose: poses[0], size: thing.size(), spot })
     }
 
-    /// Finds a place on a wall for something whose middle is at `height`, where `cost` is least. The pose has its origin on the wall.
+    /// Finds a place on a wall for something whose middle is at `height`, where `cost` is lowest. The pose has its origin on the wall.
     pub fn find_on_wall(
         &mut self,
         size: Vec3,

@@ -67,7 +67,7 @@ impl Furnisher<'_> {
         }
     }
 
-    /// Lays one of a family of mats where `cost` is least.
+    /// Lays one of a family of mats where `cost` is lowest.
     pub fn mat(&mut self, family: &str, cost: impl Fn(&Floor, &Spot) -> f32) {
         let Some(mat) = self.any(family) else { return };
         let piece = Piece { flat: true, ..Piece::standing(mat.size(), 0.0).at(0.0, 0.0, 0.0) };
@@ -96,9 +96,9 @@ impl Furnisher<'_> {
         }
     }
 
-    /// Leaves a few small things of these families lying on the floor.
-    pub fn strew(&mut self, families: &[&str], most: usize) {
-        let count = (self.rng.below(most + 1) as f32 * self.clutter) as usize;
+    /// Leaves up to `max` small things of these families lying on the floor.
+    pub fn strew(&mut self, families: &[&str], max: usize) {
+        let count = (self.rng.below(max + 1) as f32 * self.clutter) as usize;
         for _ in 0..count {
             let family = families[self.rng.below(families.len())];
             let Some(thing) = self.any(family) else { continue };
@@ -109,7 +109,7 @@ impl Furnisher<'_> {
         }
     }
 
-    /// What nothing else has asked for: each family that people have in this kind of room is there now and then.
+    /// Adds families that nothing else has asked for: each that people have in this kind of room, with a probability of [`SELDOM`].
     pub fn extras(&mut self) {
         let kind = self.room.kind;
         for family in FAMILIES.iter().filter(|f| f.rooms.contains(&kind)) {

@@ -8,10 +8,11 @@ use crate::place::{Piece, Spot};
 use enfilade_math::Vec2;
 use std::f32::consts::FRAC_PI_2;
 
-/// Width of a runner, and its longest and shortest lengths.
+/// Width of a runner, metres.
 const RUNNER: f32 = 0.66;
+/// Its lengths, the longest first, metres.
 const LENGTHS: [f32; 4] = [2.4, 1.9, 1.5, 1.2];
-/// Floor that a runner leaves free to its ends.
+/// Length of floor that a runner leaves free at its ends together, metres.
 const BORDER: f32 = 0.5;
 /// Halls from this length on have two ceiling lamps, metres.
 const LONG: f32 = 3.2;

@@ -1,12 +1,11 @@
 //! The kitchen: fitted units along one wall or around a corner, and a table where there is room.
 
 use super::Furnisher;
-use super::wishes::{cornered, only};
+use super::wishes::cornered;
 use crate::furniture::Furniture;
 use crate::furniture::kitchen::{self, FittedKitchen};
 use crate::place::{Piece, Spot};
-use crate::plan::RoomKind;
-use crate::room::{Opening, Wall};
+use crate::room::{Opening, RoomKind, Wall};
 use enfilade_math::{Vec2, Vec3};
 
 /// Units keep this distance from walls.
@@ -17,7 +16,7 @@ const LONGEST: [f32; 2] = [4.0, 2.5];
 const BESIDE_DOOR: f32 = 0.22;
 /// A window's sill reaches this far beyond it.
 const SILL: f32 = 0.08;
-/// A kitchen without a refrigerator must be so many metres nearer to the wished length to be taken.
+/// Cost of a kitchen without a refrigerator: it is taken where its length is this much nearer to the usual one, metres.
 const NO_REFRIGERATOR: f32 = 1.5;
 /// Shortest main run: sink, hob and a little worktop.
 const SHORTEST: f32 = 1.7;
@@ -167,7 +166,7 @@ fn place(f: &mut Furnisher, kitchen: &FittedKitchen, stretch: &Stretch) -> bool 
     let spot =
         Spot { origin: f.room.before(stretch.wall, middle, 0.0), yaw: stretch.wall.yaw() as f32, wall: Some(stretch.wall), x: middle };
     let (wall, corners) = (stretch.wall, stretch.corners);
-    let Some(_) = f.floor.place(&group, vec![spot], |_, _| only(true, 0.0)) else { return false };
+    let Some(_) = f.floor.place(&group, vec![spot], |_, _| 0.0) else { return false };
     let at = spot.point(back);
     let z = f64::from(crate::furniture::CONTACT);
     let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), z, f64::from(spot.yaw));

@@ -8,8 +8,7 @@ use crate::furniture::{
     Rug, SideTable, TableLamp, TelevisionBench, Tray, Vase, on,
 };
 use crate::place::{Piece, Spot};
-use crate::plan::RoomKind;
-use crate::room::Wall;
+use crate::room::{RoomKind, Wall};
 use crate::texture::PaintingStyle;
 use enfilade_math::{DAffine3, Vec2, Vec3};
 use std::f32::consts::PI;
@@ -148,7 +147,7 @@ fn beside_sofa(f: &mut Furnisher, sofa: &Standing) {
         let lamp = TableLamp::random(&mut f.rng);
         let lamp = f.or_borrowed("table_lamp", lamp);
         if let Some(model) = &model {
-            f.settle(&model.surfaces(), found.pose, &[lamp]);
+            f.scatter(&model.surfaces(), found.pose, &[lamp]);
         } else {
             f.build(lamp.as_ref(), on(found.pose, Vec3::new(0.0, -0.05, own.height), 0.0));
             let turn = f.rng.range(0.0, 6.0);

@@ -1,4 +1,7 @@
 //! What each kind of room holds: one file per kind.
+//!
+//! They say what they want to a [`Furnisher`], which finds the places. What several kinds of rooms share has files of its own: `fittings`,
+//! `electric`, `blinds`, `table`, `groups`; `wishes` are the costs of places.
 
 mod bathroom;
 mod bedroom;
@@ -24,7 +27,8 @@ use crate::HomeConfig;
 use crate::assets::Library;
 use crate::builder::Builder;
 use crate::palette::DecorConfig;
-use crate::plan::{FloorPlan, RoomKind};
+use crate::plan::FloorPlan;
+use crate::room::RoomKind;
 use crate::shell::{self, ShellFinish};
 
 /// Builds all rooms of a home and what is in them.

@@ -6,7 +6,8 @@ use crate::builder;
 use crate::furniture::dining::LongTable;
 use crate::furniture::living::CeilingLamp;
 use crate::furniture::{Chair, DiningTable, Furniture, Pendant};
-use crate::place::{Floor, Footprint, Piece, Spot};
+use crate::place::{Floor, Piece, Spot};
+use crate::room::Footprint;
 use enfilade_math::{Rng, Vec2, Vec3};
 use std::f32::consts::{FRAC_PI_2, TAU};
 
@@ -17,7 +18,8 @@ const SEAT: [f32; 2] = [0.17, 0.08];
 /// Floor behind a chair for getting up.
 const BEHIND: f32 = 0.30;
 
-/// Between the edge of a table and the box of a chair, where one of them is a model: what is free below its top is not known.
+/// Distance between the edge of a table and the box of a chair where one of them is a model, metres: how much is free below the top is
+/// not known.
 const APART: f32 = 0.03;
 /// The families of chairs, as [`chair`] numbers them.
 const CHAIRS: [&str; 4] = ["chair", "spindle_chair", "shell_chair", "upholstered_chair"];
@@ -37,7 +39,7 @@ fn chair(family: usize, rng: &mut Rng) -> Box<dyn Furniture> {
 enum Table {
     Long(LongTable),
     Small(DiningTable),
-    /// A model, and who sits there.
+    /// A model, and its seats.
     Model(Borrowed, Vec<(Vec2, Vec2)>),
 }
 
@@ -63,7 +65,7 @@ impl Table {
 }
 
 impl Furnisher<'_> {
-    /// Stands a table with chairs where there is room, the largest that fits; `seats` is the least and the most that people want.
+    /// Stands a table with chairs where there is room, the largest that fits; `seats` is the minimum and maximum number of people.
     pub fn dine(&mut self, seats: [usize; 2], cost: impl Fn(&Floor, &Spot) -> f32) -> bool {
         let family = self.rng.below(4);
         let mut tables: Vec<Table> = (0..3).map(|_| Table::Small(DiningTable::random(&mut self.rng))).collect();
@@ -89,8 +91,8 @@ impl Furnisher<'_> {
         false
     }
 
-    /// Models of tables for up to so many people, where the library has any.
-    fn borrowed_tables(&mut self, most: usize) -> Vec<Table> {
+    /// Models of tables for up to `max` people, where the library has any.
+    fn borrowed_tables(&mut self, max: usize) -> Vec<Table> {
         let small = DiningTable::random(&mut self.rng.clone());
         let long = LongTable::random(&mut self.rng.clone());
         let mut tables = Vec::new();
@@ -105,7 +107,7 @@ impl Furnisher<'_> {
                 tables.push(Table::Model(model, LongTable { length, width, ..long }.seats()));
             }
         }
-        tables.retain(|table| table.seats().len() <= most);
+        tables.retain(|table| table.seats().len() <= max);
         tables
     }
 
@@ -169,7 +171,7 @@ impl Furnisher<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::RoomKind;
+    use crate::room::RoomKind;
     use crate::rooms::tests::lacks_without_clutter;
 
     fn guests(f: &mut Furnisher) {

@@ -7,11 +7,12 @@ use crate::check::{family_of, object_of};
 use crate::light::LightConfig;
 use crate::materials::Materials;
 use crate::palette::Palette;
-use crate::plan::{FloorPlan, RoomKind};
+use crate::plan::FloorPlan;
+use crate::room::RoomKind;
 use enfilade_math::Rng;
 use enfilade_scene::{Part, Scene};
 
-/// Most rooms that are tried.
+/// Maximum number of rooms that are tried.
 const SEEDS: u64 = 24;
 
 /// What `furnish` puts into the one room of a home, and the next random number then.
@@ -30,7 +31,7 @@ pub(super) fn lacks_without_clutter(kind: RoomKind, furnish: fn(&mut Furnisher),
     let is_small = |part: &Part| small.contains(&family_of(object_of(&part.name)));
     let placed = |part: &Part| (part.name.clone(), part.world_from_mesh);
     for seed in 0..SEEDS {
-        // The least clutter is too little for things that gather by chance.
+        // The smallest positive clutter is too little for things that are scattered by chance.
         let [with, without] = [f32::MIN_POSITIVE, 0.0].map(|clutter| furnished(kind, seed, clutter, &Library::default(), furnish));
         let rest: Vec<_> = with.0.parts.iter().filter(|part| !is_small(part)).map(placed).collect();
         let bare: Vec<_> = without.0.parts.iter().map(placed).collect();

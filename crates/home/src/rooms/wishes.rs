@@ -31,8 +31,3 @@ pub fn by_door(floor: &Floor, spot: &Spot) -> f32 {
 pub fn in_view(floor: &Floor, spot: &Spot) -> f32 {
     spot.x.abs() - floor.to_way(spot.origin)
 }
-
-/// Forbids what `allowed` does not hold for.
-pub fn only(allowed: bool, cost: f32) -> f32 {
-    if allowed { cost } else { f32::INFINITY }
-}

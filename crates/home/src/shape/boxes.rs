@@ -1,3 +1,7 @@
+//! Boxes with bevelled, round or swelling edges: boards, appliances, cushions.
+//!
+//! The u coordinate of their texture runs along the longest edge, as the grain of a board does.
+
 use super::Reshape;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};

@@ -1,3 +1,5 @@
+//! Thin and soft shapes: hanging curtains, scatter cushions, and the leaves of plants.
+
 use super::{Reshape, grid};
 use enfilade_geometry::Mesh;
 use enfilade_math::{Rng, Vec2, Vec3};

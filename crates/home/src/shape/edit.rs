@@ -1,3 +1,5 @@
+//! Changes to a finished mesh: moved, turned, deformed, joined with another, and with new normals up to a crease angle.
+
 use enfilade_geometry::Mesh;
 use enfilade_math::{Affine3A, Quat, Vec2, Vec3};
 use std::collections::HashMap;

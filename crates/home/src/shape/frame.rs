@@ -1,3 +1,5 @@
+//! Shapes around a hole: mitred picture frames, and walls with openings for doors and windows.
+
 use super::Reshape;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};

@@ -1,3 +1,5 @@
+//! Turned shapes: a profile of radii and heights that goes round the z axis, with spheres, disks and smooth profiles.
+
 use super::{Reshape, grid};
 use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};

@@ -1,3 +1,5 @@
+//! Round rods along a path, and the closed paths that piping and wire frames follow.
+
 use super::{Reshape, grid};
 use enfilade_geometry::Mesh;
 use enfilade_math::{Quat, Vec2, Vec3};

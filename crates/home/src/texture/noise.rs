@@ -18,7 +18,7 @@ fn uniform(x: i32, row: u32) -> f32 {
 
 /// Value noise on [−1,1] with features one unit apart; repeats after `period` units.
 pub fn noise(p: Vec2, period: [i32; 2], seed: u32) -> f32 {
-    // Rounds down, but for whole negative numbers, where the weight of one leads to the same value.
+    // Rounds down, except that whole negative numbers give one less; their weight is then one, which leads to the same value.
     let below = |v: f32| v as i32 - i32::from(v < 0.0);
     let cell = [below(p.x), below(p.y)];
     let f = p - Vec2::new(cell[0] as f32, cell[1] as f32);
@@ -54,7 +54,7 @@ pub struct Field {
 }
 
 impl Field {
-    /// Tables `value`, which must tile the unit square, with `side` × `side` entries: five at least for its smallest feature.
+    /// Tables `value`, which must tile the unit square, with `side` × `side` entries: at least five across its smallest feature.
     pub fn new(side: usize, value: impl Fn(Vec2) -> f32) -> Self {
         let at = |i: usize| Vec2::new((i % side) as f32, (i / side) as f32) / side as f32;
         Self { side, values: (0..side * side).map(|i| value(at(i))).collect() }

@@ -1,4 +1,4 @@
-//! Pictures for the walls.
+//! Pictures that hang on walls: hills, cut-paper shapes or bands, in five colours of the palette.
 
 use super::noise::{fbm, lattice, smoothstep};
 use super::paint;

@@ -86,7 +86,9 @@ fn stripes(uv: Vec2) -> [f32; 2] {
 
 /// Scales in half-bond rows, each of rings around the middle of its lower edge.
 fn fans(uv: Vec2) -> [f32; 2] {
+    /// Scales across the picture.
     const ACROSS: f32 = 8.0;
+    /// Rows of scales up the picture.
     const ROWS: f32 = 16.0;
     let p = Vec2::new(uv.x * ACROSS, uv.y * ROWS);
     // The lowest row whose scale covers the point lies in front.
@@ -101,7 +103,7 @@ fn fans(uv: Vec2) -> [f32; 2] {
             break;
         }
     }
-    let ring = [0.96, 0.72, 0.48, 0.24].iter().fold(0.0f32, |most, r| most.max(line(radius - r, 0.035)));
+    let ring = [0.96, 0.72, 0.48, 0.24].iter().fold(0.0f32, |max, r| max.max(line(radius - r, 0.035)));
     [ring, f32::from(radius < 0.12)]
 }
 
@@ -143,6 +145,6 @@ fn arches(uv: Vec2) -> [f32; 2] {
     let x = (p.x + 0.5 * row.rem_euclid(2.0)).fract() - 0.5;
     let y = (p.y - row) * 1.5;
     let radius = if y < 0.95 { x.abs() } else { x.hypot(y - 0.95) };
-    let band = [0.44, 0.34, 0.24].iter().fold(0.0f32, |most, r| most.max(line(radius - r, 0.022)));
+    let band = [0.44, 0.34, 0.24].iter().fold(0.0f32, |max, r| max.max(line(radius - r, 0.022)));
     [band, smoothstep(0.16, 0.15, radius)]
 }

@@ -1,4 +1,4 @@
-//! Rugs, as seen from above.
+//! Rugs as seen from above: a pattern in one colour on a ground of another, stretched to the size of the rug.
 
 use super::noise::{fbm, lattice, smoothstep};
 use super::paint;

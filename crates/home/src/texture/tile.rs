@@ -1,4 +1,4 @@
-//! Tiles: their bond, joints and glaze.
+//! Tiled walls and floors: the bond of the tiles, their joints, their glaze and what they show.
 
 use super::noise::{fbm, lattice, noise, smoothstep};
 use super::{Grain, Skin, skin};

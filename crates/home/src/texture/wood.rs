@@ -108,6 +108,7 @@ fn board(p: Vec2, aspect: f32, tone: &WoodTone, stretch: i32, own: u32) -> Grain
 
 /// A sheet of veneer, 1024 × 512 pixels over 1.6 × 0.8 m: five leaves, grain along u.
 pub fn veneer(name: &str, tone: &WoodTone, seed: u32) -> Skin {
+    /// Leaves of veneer above each other.
     const LEAVES: f32 = 5.0;
     let calm = WoodTone { knots: 0.0, ..*tone };
     skin(name, [1024, 512], |uv| {

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod common;
+mod extensions;
 mod fbx;
 mod gltf;
 mod gltf_colors;

@@ -11,7 +11,7 @@ use std::f32::consts::FRAC_PI_2;
 
 /// Toys that lie on the floor or on a shelf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Toy {
     Blocks,
     Ball,

@@ -3,7 +3,7 @@
 //! in it (class other furniture; the magazines are paper).
 
 use crate::builder::{Builder, Class};
-use crate::furniture::bookshelf::row_of_books;
+use crate::furniture::book::row_of_books;
 use crate::furniture::form::{all, cut_out, rod};
 use crate::furniture::{CONTACT, Furniture, Magazines, board, grained, on};
 use crate::materials::Finish;

@@ -96,7 +96,7 @@ impl Furniture for PillarCandles {
 
 /// A small sculpture: a knot, three arches in each other, a bird, or a stack of pebbles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Figurine {
     Knot,
     Arch,

@@ -23,7 +23,7 @@ pub struct Sideboard {
 
 /// What a sideboard's doors look like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum DoorStyle {
     Plain,
     /// Upright rounded slats.

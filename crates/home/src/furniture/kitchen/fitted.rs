@@ -3,7 +3,8 @@
 //! kitchen is 2.7 to 4.2 m wide, and its wings reach 1.5 to 2.6 m from the back wall.
 
 use super::front::KitchenStyle;
-use super::run::{Above, Run, SILL_END, Unit};
+use super::run::{Above, Run, SILL_END};
+use super::unit::Unit;
 use super::{DEPTH, HANDLES, TALL};
 use crate::builder::Builder;
 use crate::furniture::{Furniture, Surface, on};

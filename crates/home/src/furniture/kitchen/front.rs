@@ -11,7 +11,7 @@ use enfilade_math::{Rng, Vec3};
 
 /// How doors and drawers are opened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Handle {
     Bar,
     Bow,

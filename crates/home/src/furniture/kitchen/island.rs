@@ -33,7 +33,7 @@ pub struct KitchenIsland {
 
 /// What an island's worktop holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Fixture {
     Nothing,
     Sink,

@@ -16,7 +16,8 @@ pub use fitted::FittedKitchen;
 pub use front::{Handle, KitchenStyle};
 pub use island::{Fixture, KitchenIsland};
 pub use refrigerator::Refrigerator;
-pub use run::{Above, Run, Unit};
+pub use run::{Above, Run};
+pub use unit::Unit;
 
 /// Depth of the worktop, metres.
 pub const DEPTH: f32 = 0.60;

@@ -2,6 +2,7 @@
 //! covers the wall behind them, and what hangs above. The run's space has x from its left end, y from the wall and z from the floor.
 
 use super::front::KitchenStyle;
+use super::unit::Unit;
 use super::{DEPTH, HANDLES, TALL, THICKNESS, WALL_DEPTH, WALL_UNIT, WORKTOP, appliance, sink, unit};
 use crate::builder::{Builder, Class};
 use crate::furniture::form::plate_with_holes;
@@ -9,44 +10,9 @@ use crate::furniture::{CONTACT, Surface, board, grained, on};
 use crate::shape::Reshape;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
-/// What stands on the floor; a number is the width in metres.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub enum Unit {
-    Doors(f32),
-    Drawers(f32),
-    Sink(f32),
-    /// An oven below a hob.
-    Oven(f32),
-    Dishwasher,
-    /// A closed end where another run meets this one.
-    Corner(f32),
-    /// A strip that fills what the grid leaves over.
-    Filler(f32),
-    Larder(f32),
-    /// An oven and a microwave at the height of the hands.
-    Tower,
-    BuiltInRefrigerator,
-}
-
-impl Unit {
-    /// Its width along the wall, metres.
-    pub fn width(self) -> f32 {
-        match self {
-            Self::Doors(w) | Self::Drawers(w) | Self::Sink(w) | Self::Oven(w) | Self::Corner(w) | Self::Filler(w) | Self::Larder(w) => w,
-            Self::Dishwasher | Self::Tower | Self::BuiltInRefrigerator => 0.6,
-        }
-    }
-
-    /// True for what reaches above the worktop.
-    pub fn is_tall(self) -> bool {
-        matches!(self, Self::Larder(_) | Self::Tower | Self::BuiltInRefrigerator)
-    }
-}
-
 /// What hangs above a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Above {
     Nothing,
     Doors,

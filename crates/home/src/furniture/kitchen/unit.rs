@@ -2,7 +2,6 @@
 //! one is built in. A unit's space has x from its left edge, y from the wall and z from the floor.
 
 use super::front::{FRONT, KitchenStyle, Opening, front};
-use super::run::Unit;
 use super::{BOX, PLINTH, TALL, THICKNESS, WALL_DEPTH, WORKTOP, appliance};
 use crate::builder::{Builder, Class, Object};
 use crate::furniture::form::all;
@@ -22,6 +21,41 @@ const WIDE: f32 = 0.61;
 const OVEN_DRAWER: f32 = 0.13;
 /// Upper edge of low units, metres: just below the worktop.
 const UNDER_TOP: f32 = WORKTOP - THICKNESS - CONTACT;
+
+/// What stands on the floor; a number is the width in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs, reason = "plain words")]
+pub enum Unit {
+    Doors(f32),
+    Drawers(f32),
+    Sink(f32),
+    /// An oven below a hob.
+    Oven(f32),
+    Dishwasher,
+    /// A closed end where another run meets this one.
+    Corner(f32),
+    /// A strip that fills what the grid leaves over.
+    Filler(f32),
+    Larder(f32),
+    /// An oven and a microwave at the height of the hands.
+    Tower,
+    BuiltInRefrigerator,
+}
+
+impl Unit {
+    /// Its width along the wall, metres.
+    pub fn width(self) -> f32 {
+        match self {
+            Self::Doors(w) | Self::Drawers(w) | Self::Sink(w) | Self::Oven(w) | Self::Corner(w) | Self::Filler(w) | Self::Larder(w) => w,
+            Self::Dishwasher | Self::Tower | Self::BuiltInRefrigerator => 0.6,
+        }
+    }
+
+    /// True for what reaches above the worktop.
+    pub fn is_tall(self) -> bool {
+        matches!(self, Self::Larder(_) | Self::Tower | Self::BuiltInRefrigerator)
+    }
+}
 
 /// Adds the unit from the floor up, without worktop.
 pub fn base(b: &mut Builder, pose: DAffine3, unit: Unit, style: &KitchenStyle, rng: &mut Rng) {

@@ -3,7 +3,7 @@
 //! the wall shelf is the middle of its back.
 
 use crate::builder::{Builder, Class};
-use crate::furniture::bookshelf::row_of_books;
+use crate::furniture::book::row_of_books;
 use crate::furniture::clutter::decoration;
 use crate::furniture::form::all;
 use crate::furniture::{CONTACT, Furniture, Surface, board, grained, on};

@@ -11,7 +11,7 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 
 /// A lamp on the wall; its origin is the middle of its back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum WallLamp {
     /// A globe on an arm.
     Globe,

@@ -26,7 +26,7 @@ pub struct Desk {
 
 /// What stands before the person at a desk.
 #[derive(Clone, Copy, Debug)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Computer {
     Nothing,
     Laptop(Laptop),

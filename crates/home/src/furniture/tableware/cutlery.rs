@@ -13,7 +13,7 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
 /// One piece of cutlery; it lies along y, its handle towards −y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Piece {
     Knife,
     Fork,

@@ -10,7 +10,7 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 
 /// Glasses and carafes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Drinkware {
     Tumbler,
     Wine,

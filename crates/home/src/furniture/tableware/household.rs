@@ -81,7 +81,7 @@ impl Furniture for TeaTowel {
 
 /// A waste bin: a pedal bin for the kitchen, an open paper basket for a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum WasteBin {
     Pedal,
     Basket,

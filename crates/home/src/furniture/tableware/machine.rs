@@ -11,7 +11,7 @@ use std::f32::consts::FRAC_PI_2;
 
 /// Small machines that stand on a worktop; their fronts face +y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum KitchenMachine {
     Kettle,
     Toaster,

@@ -1,4 +1,4 @@
-//! Trees, lawns and hills.
+//! Gardens and open country: rings of trees, a lawn, hills with fields and woods.
 
 use super::{Surroundings, View, hazed};
 use crate::texture::noise::{fbm, smoothstep};

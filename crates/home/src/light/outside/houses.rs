@@ -1,4 +1,4 @@
-//! Houses: a street of them, and some among trees.
+//! Houses: a row across the street, seen from the first floor, and detached ones among trees.
 
 use super::garden::Trees;
 use super::{LIT_WINDOW, Surroundings, View, hazed};
@@ -14,13 +14,15 @@ struct Row {
     count: i32,
     /// Share of their width that stands free between neighbours.
     gap: f32,
-    /// Fewest and most floors.
+    /// Minimum and maximum number of storeys.
     floors: [f32; 2],
     depth: f32,
     seed: u32,
 }
 
+/// Height of a storey, metres.
 const FLOOR_HEIGHT: f32 = 3.0;
+/// Walls: rendered in pale and earthen tones, and of brick.
 const RENDERS: [Rgb; 7] = [
     Rgb::new(0.62, 0.58, 0.49),
     Rgb::new(0.55, 0.46, 0.32),
@@ -30,10 +32,12 @@ const RENDERS: [Rgb; 7] = [
     Rgb::new(0.58, 0.50, 0.40),
     Rgb::new(0.30, 0.16, 0.11),
 ];
+/// Roofs: red tiles, slate, brown tiles.
 const ROOFS: [Rgb; 3] = [Rgb::new(0.24, 0.10, 0.06), Rgb::new(0.10, 0.10, 0.105), Rgb::new(0.16, 0.11, 0.08)];
 
 impl Surroundings {
     pub(super) fn street(&self, view: &View, sky: Rgb) -> Rgb {
+        /// Height of an eye on the first floor above the street, metres.
         const EYE: f32 = 5.0;
         let row = Row { distance: 17.0, count: 11, gap: 0.0, floors: [3.0, 5.0], depth: 0.0, seed: self.seed ^ 0x51 };
         let mut color = self.houses(view, sky, EYE, &row);

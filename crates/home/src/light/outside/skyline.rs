@@ -1,11 +1,11 @@
-//! A city seen from high up.
+//! A city seen from high up: rings of towers, the farther the hazier, with lit windows at night.
 
 use super::{LIT_WINDOW, Surroundings, View, hazed};
 use crate::texture::noise::{fbm, lattice, smoothstep};
 use enfilade_math::{Rgb, Vec2};
 use std::f32::consts::TAU;
 
-/// A ring of towers: its radius, how many, how high at least and at most, how hazy.
+/// A ring of towers: its radius, how many there are, their minimum and maximum height, and how hazy they are.
 struct Ring {
     distance: f32,
     count: i32,
@@ -13,7 +13,9 @@ struct Ring {
     depth: f32,
 }
 
+/// Height of an eye on the twelfth floor above the ground, metres.
 const EYE: f32 = 38.0;
+/// Towers from the horizon to the near blocks.
 const RINGS: [Ring; 5] = [
     Ring { distance: 1500.0, count: 130, height: [25.0, 230.0], depth: 0.62 },
     Ring { distance: 900.0, count: 90, height: [20.0, 150.0], depth: 0.42 },
@@ -21,6 +23,7 @@ const RINGS: [Ring; 5] = [
     Ring { distance: 240.0, count: 38, height: [12.0, 48.0], depth: 0.10 },
     Ring { distance: 110.0, count: 22, height: [9.0, 26.0], depth: 0.03 },
 ];
+/// Walls: concrete, grey panels, sandstone, brick, blue-grey panels.
 const WALLS: [Rgb; 5] = [
     Rgb::new(0.42, 0.40, 0.37),
     Rgb::new(0.30, 0.31, 0.33),

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// What a room is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum RoomKind {
     Living,
     Kitchen,
@@ -30,7 +30,7 @@ pub enum RoomKind {
 pub struct Norm {
     /// Usual areas, m²: from and to.
     pub area: [f32; 2],
-    /// Least clear width, metres.
+    /// Minimum clear width, metres.
     pub width: f32,
     /// Largest ratio of length to width.
     pub aspect: f32,

@@ -1,14 +1,18 @@
 //! A room: its place in the home, its walls and what opens in them.
 
+mod footprint;
+pub mod kind;
+
+pub use footprint::Footprint;
+pub use kind::RoomKind;
+
 use crate::builder::pose;
-use crate::place::Footprint;
-use crate::plan::RoomKind;
 use enfilade_math::{DAffine3, Vec2, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// One of the four walls of a room. North is +y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "plain words")]
 pub enum Wall {
     South,
     East,
@@ -181,7 +185,7 @@ impl Room {
         Footprint { center: self.before(way.wall, way.center_x(), 0.5 * depth), half, yaw: way.wall.yaw() as f32 }
     }
 
-    /// How many ways of the room one at `way` would be in the way of.
+    /// How badly a way at `way` would get in the way of the others: one each, ten for those that it would overlap on its wall.
     pub fn conflicts(&self, way: &Opening) -> f32 {
         let zone = self.way_zone(way);
         let swings = |o: &Opening| matches!(o.filling, Filling::Door(_));

@@ -1,16 +1,16 @@
-//! Small things on surfaces.
+//! Scatters small things over the surfaces of larger ones, at random places that do not overlap.
 
 use crate::furniture::{Furniture, Surface, on};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
-/// Between small things.
+/// Distance between small things, metres.
 const AIR: f32 = 0.012;
-/// Tries for each thing.
+/// Random places that are tried for each thing.
 const TRIES: usize = 24;
 
 /// Puts `things` on the surfaces of something that stands in `pose`, each where there is still room; those that find none are left
 /// out. Returns which thing stands in which pose, in order.
-pub fn settle(surfaces: &[Surface], pose: DAffine3, things: &[Box<dyn Furniture>], rng: &mut Rng) -> Vec<(usize, DAffine3)> {
+pub fn scatter(surfaces: &[Surface], pose: DAffine3, things: &[Box<dyn Furniture>], rng: &mut Rng) -> Vec<(usize, DAffine3)> {
     let mut taken: Vec<(usize, Vec2, f32)> = Vec::new();
     let mut placed = Vec::new();
     for (index, thing) in things.iter().enumerate() {

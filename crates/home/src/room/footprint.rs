@@ -1,4 +1,4 @@
-//! Turned rectangles on the floor.
+//! Turned rectangles on the floor: what things cover, and what must stay free before them.
 
 use enfilade_math::{DAffine3, Vec2, Vec3};
 

@@ -1,0 +1,42 @@
+//! What can be wrong with a home, in words for people and in families to be counted.
+
+use super::family_of;
+use std::fmt;
+
+/// Something that is wrong with a home.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Fault {
+    /// Two objects run into each other deeper than they may.
+    Meets(String, String),
+    /// Nothing carries the object.
+    Floats(String),
+    /// The part has no class, or its object no instance.
+    Nameless(String),
+    /// Nobody can walk into the room, by its number in the plan.
+    Unreachable(usize),
+    /// A start camera stands too near to a part.
+    Camera(String),
+}
+
+impl Fault {
+    /// The same in words that name families instead of objects, so that equal faults can be counted.
+    pub fn kind(&self) -> String {
+        match self {
+            Self::Meets(a, b) => format!("{} runs into {}", family_of(a), family_of(b)),
+            Self::Floats(a) => format!("{} floats", family_of(a)),
+            other => other.to_string(),
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Meets(a, b) => write!(f, "{a} runs into {b}"),
+            Self::Floats(a) => write!(f, "{a} floats"),
+            Self::Nameless(part) => write!(f, "{part} has no label"),
+            Self::Unreachable(room) => write!(f, "room {room} cannot be reached"),
+            Self::Camera(name) => write!(f, "camera {name} is not in free space"),
+        }
+    }
+}
