@@ -250,7 +250,6 @@ impl Writer<'_> {
             }
             Bsdf::Principled(p) => self.principled(p)?,
             // Models that Mitsuba shares no definition of.
-            #[allow(unreachable_patterns, reason = "for kinds that are still to come")]
             other => return Err(format!("no counterpart in Mitsuba for {other:?}").into()),
         })
     }
