@@ -187,7 +187,7 @@ fn height_at([a, b, c]: &Triangle, p: Vec2) -> Option<f32> {
 /// Corners of the ground that both triangles cover, seen from above (Sutherland & Hodgman 1974).
 fn shared_ground(a: &Triangle, b: &Triangle) -> Vec<Vec2> {
     let mut polygon: Vec<Vec2> = a.iter().map(|p| p.truncate()).collect();
-    let clip = b.map(|p| p.truncate());
+    let clip = b.map(Vec3::truncate);
     let turn = (clip[1] - clip[0]).perp_dot(clip[2] - clip[0]).signum();
     for k in 0..3 {
         let (from, to) = (clip[k], clip[(k + 1) % 3]);

@@ -10,7 +10,7 @@
 //! use enfilade_home::check::faults;
 //! use enfilade_home::{HomeConfig, RoomKind, home};
 //!
-//! let config = HomeConfig { seed: 7, rooms: vec![RoomKind::Toilet], clutter: 0.0, ..HomeConfig::default() };
+//! let config = HomeConfig { seed: 7, rooms: vec![RoomKind::Bathroom], clutter: 0.0, ..HomeConfig::default() };
 //! let made = home(&config);
 //! assert!(made.scene.parts.iter().any(|part| part.name.starts_with("toilet_1/")));
 //! assert_eq!(made.scene.parts.len(), made.labels.parts.len());

@@ -78,7 +78,7 @@ pub fn cut_out(outline: &[Vec2], thickness: f32, chamfer: f32) -> Mesh {
 
 /// A rectangle about the origin with round corners, counter-clockwise.
 pub fn rounded_rectangle(width: f32, depth: f32, radius: f32, steps: usize) -> Vec<Vec2> {
-    let mut outline: Vec<Vec2> = crate::shape::rounded_loop(width, depth, radius, steps).into_iter().map(|p| p.truncate()).collect();
+    let mut outline: Vec<Vec2> = crate::shape::rounded_loop(width, depth, radius, steps).into_iter().map(Vec3::truncate).collect();
     outline.pop();
     outline
 }

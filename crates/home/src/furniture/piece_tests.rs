@@ -71,7 +71,7 @@ pub fn triangles(mesh: &Mesh) -> Vec<Triangle> {
 pub fn encloses(surface: &[Triangle], p: Vec3) -> bool {
     let filled = |t: &Triangle| {
         let [a, b, c] = t.map(|q| (q - p).as_dvec3());
-        let [x, y, z] = [a, b, c].map(|q| q.length());
+        let [x, y, z] = [a, b, c].map(DVec3::length);
         2.0 * a.dot(b.cross(c)).atan2(x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y)
     };
     surface.iter().map(filled).sum::<f64>().abs() > TAU

@@ -233,7 +233,7 @@ mod tests {
 
     #[test]
     fn a_quilt_is_closed_and_its_padding_is_outside() {
-        let [upper, lower] = quilt([20, 20], Vec2::ZERO, Vec2::ONE, 0.05, |_| [0.0, 0.1], |q, above| q.extend(above));
+        let [upper, lower] = quilt([20, 20], Vec2::ZERO, Vec2::ONE, 0.05, |_| [0.0, 0.1], Vec2::extend);
         let whole = upper.with(lower);
         let volume: f32 = (0..whole.triangles.len()).map(|t| whole.corners(t)).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum();
         assert!((0.08..0.1).contains(&volume), "{volume}");

@@ -166,11 +166,15 @@ mod tests {
         model
     }
 
+    fn dome(f: &mut Furnisher) {
+        f.dome();
+    }
+
     #[test]
     fn lamps_of_a_library_hang_above_heads_in_wet_rooms_too() {
         for (height, fits) in [(1.2, false), (0.3, true)] {
             let library = Library::new(vec![lantern(height)], 1.0);
-            let (scene, _) = furnished(RoomKind::Toilet, 1, 1.0, &library, |f| f.dome());
+            let (scene, _) = furnished(RoomKind::Toilet, 1, 1.0, &library, dome);
             let lowest = scene.parts.iter().flat_map(|part| scene.world_positions(part)).fold(f32::INFINITY, |low, p| low.min(p.z));
             assert!(lowest > HEADS, "{height} m: {lowest}");
             assert_eq!(scene.parts.iter().any(|part| part.name == "ceiling_lamp_1/shade"), fits, "{height} m");

@@ -3,7 +3,7 @@
 use super::Furnisher;
 use super::wishes::cornered;
 use crate::furniture::Furniture;
-use crate::furniture::kitchen::{self, FittedKitchen};
+use crate::furniture::kitchen::{self, FittedKitchen, Run};
 use crate::place::{Piece, Spot};
 use crate::room::{Opening, RoomKind, Wall};
 use enfilade_math::{Vec2, Vec3};
@@ -94,7 +94,7 @@ fn units(f: &mut Furnisher) -> Option<FittedKitchen> {
                 (0..6).map(|_| FittedKitchen::fitted(width, wings, &windows, &mut f.rng)).filter(|k| !shuts(k, &windows)).collect();
             let low_sill = f.room.windows().any(|o| o.wall == stretch.wall && o.z[0] < kitchen::WORKTOP + 0.05);
             for kitchen in variants {
-                let length = width + kitchen.wings.iter().flatten().map(|run| run.length()).sum::<f32>();
+                let length = width + kitchen.wings.iter().flatten().map(Run::length).sum::<f32>();
                 let cold = if kitchen.has_refrigerator() { 0.0 } else { NO_REFRIGERATOR };
                 let cost = (length - 4.2).abs() + if low_sill { 5.0 } else { 0.0 } + cold + f.rng.range(0.0, 0.8);
                 tried.push((cost, kitchen, Stretch { ..stretch }));

@@ -87,7 +87,7 @@ pub fn base(b: &mut Builder, pose: DAffine3, unit: Unit, style: &KitchenStyle, r
             put("door", [0.0, w, low, top - 0.155], Opening::Below(side), rng);
         }
         Unit::Sink(_) | Unit::Dishwasher => {
-            put("door", [0.0, w, low, top], if unit == Unit::Dishwasher { Opening::Drawer } else { Opening::Below(side) }, rng)
+            put("door", [0.0, w, low, top], if unit == Unit::Dishwasher { Opening::Drawer } else { Opening::Below(side) }, rng);
         }
         Unit::Drawers(_) => {
             let cuts = if rng.below(2) == 0 { [0.0, 0.37, 0.74, 1.0] } else { [0.0, 0.4, 0.8, 1.0] };

@@ -111,7 +111,7 @@ impl CeilingLamp {
             b.part(lamp, &format!("cord_{}", k + 1), cord, Finish::BlackPlastic);
             let curve = spline(&[[0.012, 0.0], [0.04, -0.02], [0.062, -0.07], [0.075, -0.14]], 5);
             let mut shade = vec![[0.075, -0.14]];
-            shade.extend(curve.iter().rev().skip(1).map(|p| p.to_array()));
+            shade.extend(curve.iter().rev().skip(1).map(Vec2::to_array));
             shade.extend([[0.0, 0.001], [0.0, -0.002]]);
             shade.extend(curve.iter().map(|p| [(p.x - 0.0018).max(0.001), p.y - 0.001]));
             shade.push([0.075, -0.14]);

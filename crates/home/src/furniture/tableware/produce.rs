@@ -31,14 +31,14 @@ fn apple(r: f32, n: usize) -> Mesh {
         ],
         4,
     );
-    let profile: Vec<[f32; 2]> = outline.iter().map(|p| p.to_array()).collect();
+    let profile: Vec<[f32; 2]> = outline.iter().map(Vec2::to_array).collect();
     turned(&profile, n).with(wire(&[[0.0, 0.0, 0.6 * r], [0.01 * r, 0.0, 0.8 * r], [0.1 * r, 0.0, 1.05 * r]], 0.0013, 6))
 }
 
 fn pear(r: f32, n: usize) -> Mesh {
     let outline =
         spline(&[[0.0, -0.9 * r], [0.5 * r, -0.85 * r], [r, -0.1 * r], [0.75 * r, 0.7 * r], [0.38 * r, 1.3 * r], [0.0, 1.5 * r]], 4);
-    let profile: Vec<[f32; 2]> = outline.iter().map(|p| p.to_array()).collect();
+    let profile: Vec<[f32; 2]> = outline.iter().map(Vec2::to_array).collect();
     turned(&profile, n).with(wire(&[[0.0, 0.0, 1.45 * r], [0.02 * r, 0.0, 1.65 * r], [0.12 * r, 0.0, 1.85 * r]], 0.0013, 6))
 }
 
@@ -55,7 +55,7 @@ fn lemon(r: f32, n: usize) -> Mesh {
         ],
         4,
     );
-    let profile: Vec<[f32; 2]> = outline.iter().map(|p| p.to_array()).collect();
+    let profile: Vec<[f32; 2]> = outline.iter().map(Vec2::to_array).collect();
     turned(&profile, n)
 }
 
