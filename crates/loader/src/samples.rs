@@ -438,7 +438,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let layout = write_tilted(folder.path()).layout().clone();
         let depth_z = |cameras, crop| {
-            let options = Options { cameras, crop, ..Options::default() };
+            let options = Options { crop, cameras, ..Options::default() };
             let samples = Samples::open(Dataset::open(folder.path()).unwrap(), &Choice::default(), options).unwrap();
             samples.sample(0, 0).unwrap().layers.remove(0).1.values
         };
@@ -456,7 +456,7 @@ mod tests {
     #[test]
     fn images_of_another_size_than_their_camera_get_neither_k_nor_depth_by_its_rays() {
         let error = |root: &std::path::Path, layer: Layer, cameras: bool, crop: Option<Crop>| {
-            let options = Options { cameras, crop, ..Options::default() };
+            let options = Options { crop, cameras, ..Options::default() };
             let choice = Choice { layers: Some(vec![layer]), ..Choice::default() };
             let samples = Samples::open(Dataset::open(root).unwrap(), &choice, options).unwrap();
             samples.sample(0, 0).err().map(|error| error.to_string())

@@ -207,7 +207,7 @@ pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     dataset.write_free_space("room", &tree.to_bt(), first.position, second.position).unwrap();
     let mirror = OrientedBox { center: DVec3::new(0.0, 2.0, 1.5), world_from_box: DMat3::IDENTITY, extents: DVec3::new(1.0, 0.0, 1.0) };
     BoxKind::ALL.iter().for_each(|&kind| dataset.write_boxes("room", kind, &[None, Some(mirror)]).unwrap());
-    let views: Vec<InstanceView> = trajectory.poses.iter().flat_map(instance_views).collect();
+    let views: Vec<InstanceView> = trajectory.poses.iter().filter_map(instance_views).collect();
     dataset.write_instance_views("room", "cam_00", &views).unwrap();
     let row = |frame| SplitRow { scene: "room".into(), camera: "cam_00".into(), frame, partition: Ok(Partition::Train) };
     dataset.write_split(&[row(0), row(1)]).unwrap();

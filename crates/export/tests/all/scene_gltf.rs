@@ -239,7 +239,7 @@ fn lights_cameras_and_constant_surroundings_come_back() {
     for (found, light) in imported.scene.lights.iter().zip(&scene.lights) {
         match (found, light) {
             (Light::Point { position: a, intensity: i, .. }, Light::Point { position: b, intensity: j, .. }) => {
-                assert!(a.distance(*b) < 1e-6 && i == j)
+                assert!(a.distance(*b) < 1e-6 && i == j);
             }
             (
                 Light::Spot { direction: a, intensity: i, outer_rad: o, .. },

@@ -268,6 +268,6 @@ fn of_bsdf(bsdf: &mut Bsdf, found: &mut dyn FnMut(&mut TextureRef)) {
             ],
         ),
     };
-    colors.into_iter().flat_map(|c| c.texture.as_mut()).for_each(&mut *found);
-    scalars.into_iter().flat_map(|s| s.texture.as_mut()).for_each(|(t, _)| found(t));
+    colors.into_iter().filter_map(|c| c.texture.as_mut()).for_each(&mut *found);
+    scalars.into_iter().filter_map(|s| s.texture.as_mut()).for_each(|(t, _)| found(t));
 }

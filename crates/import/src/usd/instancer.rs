@@ -79,7 +79,7 @@ impl Walk<'_> {
             label = label::at(&above, label, &mut Unknown::default());
             hidden = is_aside(&above, hidden);
         }
-        Ok(Some((prim, State { bindings, constants, label, hidden, ..state.clone() })))
+        Ok(Some((prim, State { label, bindings, constants, hidden, ..state.clone() })))
     }
 
     /// Places of the instances that are invisible or inactive; both are named by id.

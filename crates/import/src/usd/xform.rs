@@ -24,7 +24,7 @@ pub(super) fn local(prim: &Prim, a: &mut Assembly) -> (DAffine3, bool) {
                 format!("{attribute} is no operation on transforms that is known, or has a wrong value; it was left out"),
             ),
             Some(op) if inverse && op.matrix3.determinant() == 0.0 => {
-                a.warn(&prim.path, format!("{attribute} cannot be inverted and was left out"))
+                a.warn(&prim.path, format!("{attribute} cannot be inverted and was left out"));
             }
             Some(op) => matrix *= if inverse { op.inverse() } else { op },
         }

@@ -153,7 +153,7 @@ impl<'n> Reader<'n, '_> {
                 Some("angular") => image = self.unrolled(image, |cos| cos.acos() / PI),
                 Some("mirror_ball") => image = self.unrolled(image, |cos| (0.5 * (1.0 - cos)).max(0.0).sqrt()),
                 Some(other) => {
-                    self.warn(generator, format!("mapping {other:?} is not supported; the picture was taken for a spherical one"))
+                    self.warn(generator, format!("mapping {other:?} is not supported; the picture was taken for a spherical one"));
                 }
             }
         }

@@ -35,7 +35,7 @@ pub(super) fn pieces(catalogues: &[&PathBuf]) -> Result<Vec<Piece>, Error> {
             catalogue(file, wanted).map_err(|error| Error::usage(error.to_string(), "repair the catalogue, or download it again"))?;
         let named = |piece: CataloguePiece| Piece {
             name: piece.id.clone().unwrap_or_else(|| piece.title.clone()),
-            archive: file.to_path_buf(),
+            archive: (*file).clone(),
             piece,
         };
         all.extend(found.into_iter().map(named));

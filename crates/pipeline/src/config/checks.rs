@@ -96,7 +96,7 @@ impl SceneConfig {
         match &self.source {
             Source::File(file) => check_import(file)?,
             Source::Home(home) => {
-                found(home.problem(), |problem| Misset::new(Section::Home, "home", format!("in `home`: {problem}"), HOME))?
+                found(home.problem(), |problem| Misset::new(Section::Home, "home", format!("in `home`: {problem}"), HOME))?;
             }
         }
         check_size(self.size)?;

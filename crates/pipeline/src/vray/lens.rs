@@ -152,7 +152,7 @@ mod tests {
         let path = folder.path().join("lens.exr");
         std::fs::write(&path, picture.to_exr()).unwrap();
         let put = |pixels: &mut Vec<[f32; 3]>, at: exr::math::Vec2<usize>, (r, g, b, _): (f32, f32, f32, f32)| {
-            pixels[at.1 * 13 + at.0] = [r, g, b]
+            pixels[at.1 * 13 + at.0] = [r, g, b];
         };
         let read = image(&path, |size: exr::math::Vec2<usize>, _: &_| vec![[9.0f32; 3]; size.area()], put).unwrap();
         let expected: Vec<[f32; 3]> = picture.uv.iter().map(|&[u, v]| [u, v, 0.0]).collect();

@@ -34,9 +34,9 @@ pub(super) fn solve_rising(wanted: f64, x_max: f64, function: impl Fn(f64) -> (f
             return x;
         }
         if error > 0.0 {
-            high = x
+            high = x;
         } else {
-            low = x
+            low = x;
         }
         let newton = x - error / slope;
         let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };

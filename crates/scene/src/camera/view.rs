@@ -245,7 +245,7 @@ mod tests {
     }
 
     fn camera(shutter: Option<Shutter>, lens: Option<ThinLens>) -> Camera {
-        Camera { shutter, lens, ..Intrinsics::from_fov_x(64, 48, 1.0).into() }
+        Camera { lens, shutter, ..Intrinsics::from_fov_x(64, 48, 1.0).into() }
     }
 
     const SHUTTER: Shutter = Shutter { exposure_s: 0.25, readout_s: 0.5, frame_time_s: 0.5 };

@@ -235,7 +235,7 @@ mod tests {
             }
             let text = std::fs::read_to_string(&path).unwrap();
             let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
-            found.extend(code.flat_map(|line| line.split(" // ").next()).flat_map(str::chars).filter(|c| !c.is_ascii()));
+            found.extend(code.filter_map(|line| line.split(" // ").next()).flat_map(str::chars).filter(|c| !c.is_ascii()));
         }
         found
     }
