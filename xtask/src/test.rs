@@ -48,8 +48,8 @@ fn cargo(house: &House, arguments: &[&str]) -> Command {
 /// What runs tests: nextest where it is installed. Examples, which `check` looks at, are not linked for it.
 fn runner(house: &House) -> &'static [&'static str] {
     match house.has_cargo_command("nextest") {
-        true => &["nextest", "run", "--lib", "--bins", "--tests"],
-        false => &["test", "--lib", "--bins", "--tests"],
+        true => &["nextest", "run", "--tests"],
+        false => &["test", "--tests"],
     }
 }
 

@@ -3,11 +3,11 @@
 //! However large the dataset, the page shows the worst of it; `verify.json` beside it has all.
 
 use crate::page::{contents, page};
-use enfilade_dataset::{Dataset, DatasetError, Layout};
+use enfilade_dataset::{Dataset, DatasetError, Layout, counted};
 use enfilade_frame::Pass;
 use enfilade_math::quantile;
 use enfilade_verify::frame_gates::Gate;
-use enfilade_verify::{Excuse, FrameValues, GateResult, LawResult, PairValues, VerifyReport, count, number, write_changed, write_json};
+use enfilade_verify::{Excuse, FrameValues, GateResult, LawResult, PairValues, VerifyReport, number, write_changed, write_report_json};
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ const SHOWN_PAIRS: usize = 12;
 /// # Errors
 /// When a file cannot be written.
 pub fn write_report(dataset: &Dataset, report: &VerifyReport) -> Result<(), DatasetError> {
-    write_json(dataset, report)?;
+    write_report_json(dataset, report)?;
     write_changed(&dataset.layout().verify_page(), &report_page(dataset, report))
 }
 
@@ -254,7 +254,7 @@ fn neighbours(report: &VerifyReport, links: &Links<'_>) -> Markup {
     let place = |(camera, frame): &(String, u32), scene: &str| format!("{scene}/{camera}/frame.{frame:04}");
     html! {
         p {
-            (capital(&count(report.pairs.len(), "pair"))) " of frames were compared: the next of a trajectory, and the two of a stereo rig." (overlap)
+            (capital(&counted(report.pairs.len(), "pair"))) " of frames were compared: the next of a trajectory, and the two of a stereo rig." (overlap)
             @if report.pairs.len() > SHOWN_PAIRS { " Here are those that disagree most." }
         }
         div.scroll { table {

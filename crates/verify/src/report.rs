@@ -6,6 +6,7 @@ use super::law::{LAWS, Law};
 use super::release::{Excuse, Excused, worst_of};
 use super::two_views::PairValues;
 use crate::frame_gates::{GATES, Gate, Limit};
+use enfilade_dataset::counted;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
@@ -117,7 +118,7 @@ impl VerifyReport {
 
     /// One line: whether all laws hold, over what.
     pub fn verdict(&self) -> String {
-        let over = format!("over {} of {}", count(self.frames, "frame"), count(self.scenes, "scene"));
+        let over = format!("over {} of {}", counted(self.frames, "frame"), counted(self.scenes, "scene"));
         match (self.frames, self.failures().count()) {
             (0, _) => format!("nothing was verified: no complete frame was found {over}"),
             (_, 0) => format!("all {} laws hold {over}", self.laws.len()),
@@ -138,7 +139,7 @@ impl VerifyReport {
         match self.rejected().count() {
             _ if self.gates.is_empty() => "no gate was measured".into(),
             0 => "no gate rejects a frame".into(),
-            n => format!("{n} of {} rejected by the gates of those who use such data", count(self.frames, "frame")),
+            n => format!("{n} of {} rejected by the gates of those who use such data", counted(self.frames, "frame")),
         }
     }
 
@@ -246,11 +247,6 @@ pub fn number(v: Option<f64>) -> String {
         }
         _ => format!("{v:.1e}"),
     }
-}
-
-/// A number of things: "1 frame", "2 frames".
-pub fn count(n: usize, thing: &str) -> String {
-    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
 }
 
 #[cfg(test)]

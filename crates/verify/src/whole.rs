@@ -20,7 +20,7 @@ pub fn join_reports(dataset: &Dataset, reports: Vec<VerifyReport>) -> VerifyRepo
 ///
 /// # Errors
 /// When the file cannot be written.
-pub fn write_json(dataset: &Dataset, report: &VerifyReport) -> Result<(), DatasetError> {
+pub fn write_report_json(dataset: &Dataset, report: &VerifyReport) -> Result<(), DatasetError> {
     let mut json = serde_json::to_string_pretty(report).unwrap_or_default();
     json.push('\n');
     write_changed(&dataset.layout().verify_report(), &json)

@@ -8,6 +8,7 @@ mod style;
 use crate::picture::Picture;
 use crate::preview::{Subject, preview};
 use canvas::{Canvas, Color, Resize};
+use enfilade_dataset::counted;
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, Layer};
 use image::imageops::{self, FilterType};
@@ -75,7 +76,7 @@ pub struct OverviewTitle<'a> {
 impl OverviewTitle<'_> {
     /// How much there is, and how much of it is shown.
     fn subtitle(&self, shown: usize) -> String {
-        let mut parts = vec![count(self.scenes, "scene"), count(self.cameras, "camera")];
+        let mut parts = vec![counted(self.scenes, "scene"), counted(self.cameras, "camera")];
         if shown < self.cameras {
             parts.push(format!("{shown} shown"));
         }
@@ -132,7 +133,7 @@ pub fn trajectory_sheet(title: SheetTitle<'_>, frames: &[(u32, Frame)], tone: To
     let mut canvas = Canvas::new(grid.width, MARGIN + HEADER + rows_height + legend_height + MARGIN - ROW_GAP, BACKGROUND);
     let subtitle = [
         title.camera.to_string(),
-        count(title.frames, "frame"),
+        counted(title.frames, "frame"),
         if frames.len() < title.frames { format!("{} shown", frames.len()) } else { String::new() },
         format!("{} x {} px", size.0, size.1),
     ];
@@ -294,10 +295,6 @@ fn draw_caption(canvas: &mut Canvas, [x, y, width, height]: [u32; 4], name: &str
 fn distinct_ids(frame: &Frame, layer: Layer) -> usize {
     let ids = frame.get(layer).map(|values| (0..values.len()).map(|i| values.get(i) as i32).filter(|&id| id >= 1).collect::<BTreeSet<_>>());
     ids.map_or(0, |ids| ids.len())
-}
-
-fn count(n: usize, thing: &str) -> String {
-    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use super::outlier::Outlier;
 use super::plots::{Plot, number};
 use super::report::Report;
 use crate::page::{contents, page};
+use enfilade_dataset::counted;
 use maud::{Markup, html};
 
 /// Cards of images that stand apart, at most; the files have them all.
@@ -35,7 +36,7 @@ pub fn statistics_page(shown: &Shown<'_>) -> String {
     let summary = &shown.report.dataset;
     let compared = shown.reference.map_or(String::new(), |name| format!(" Over the charts: {name}."));
     let about = html! {
-        (count(summary.images, "image")) " of " (count(shown.report.scenes.len() as u64, "scene")) ", " (number(summary.pixels as f64 / 1e6)) " million pixels." (compared)
+        (counted(summary.images as usize, "image")) " of " (counted(shown.report.scenes.len(), "scene")) ", " (number(summary.pixels as f64 / 1e6)) " million pixels." (compared)
         " The same as numbers: " a href="statistics.json" { "statistics.json" } ", " a href="image_statistics" { "image_statistics/" } "."
     };
     let mut parts = vec!["overview"];
@@ -57,10 +58,6 @@ pub fn statistics_page(shown: &Shown<'_>) -> String {
         (outliers_section(shown))
     };
     page(&format!("{}: statistics", shown.dataset), &about, &body)
-}
-
-fn count(n: u64, thing: &str) -> String {
-    format!("{n} {thing}{}", if n == 1 { "" } else { "s" })
 }
 
 fn plots<'a>(title: &str, plots: impl Iterator<Item = &'a Plot>) -> Markup {

@@ -33,7 +33,7 @@ pub use machines::{memory_gib, smallest_feasible, tells_sizes};
 use crate::drawing::{paint, svg};
 use crate::picture::png;
 use costs::is_costs;
-use enfilade_dataset::{Dataset, DatasetError, write_bytes};
+use enfilade_dataset::{Dataset, DatasetError, write_bytes, write_json};
 use enfilade_frame::Pass;
 use enfilade_scene::Cx;
 use html::{Shown, statistics_page};
@@ -172,15 +172,6 @@ fn write_plot(folder: &Path, plot: &Plot) -> Result<[PathBuf; 2], DatasetError> 
     write_bytes(&files[0], png(&paint(&plot.drawing), None))?;
     write_bytes(&files[1], svg(&plot.drawing))?;
     Ok(files)
-}
-
-fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), DatasetError> {
-    let text = serde_json::to_string_pretty(value).map_err(|error| DatasetError::Io {
-        action: "write",
-        path: path.into(),
-        source: error.into(),
-    })?;
-    write_bytes(path, text + "\n")
 }
 
 /// The tone-mapped preview of an image, from the page's folder where both lie in one dataset.
