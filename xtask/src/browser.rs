@@ -26,7 +26,7 @@ const STEPS: [Step; 5] = [
     Step {
         name: "types",
         about: "the pages' types hold",
-        remedy: "mend what the messages above show",
+        remedy: "fix what the messages above show",
         run: |house| npm(house, &["run", "--silent", "types"]),
     },
     Step {
@@ -39,7 +39,7 @@ const STEPS: [Step; 5] = [
     Step {
         name: "pages",
         about: "the pages do what they should, in a browser",
-        remedy: "mend the page or the test; `cargo xtask browser pages` runs them again",
+        remedy: "fix the page or the test; `cargo xtask browser pages` runs them again",
         run: pages,
     },
 ];

@@ -36,13 +36,13 @@ const STEPS: [Step; 7] = [
     Step {
         name: "lints",
         about: "the compiler and clippy have nothing to say",
-        remedy: "mend what the warnings above show; if a lint is wrong for this project, allow it in Cargo.toml and say why there",
+        remedy: "fix what the warnings above show; if a lint is wrong for this project, allow it in Cargo.toml and say why there",
         run: |house| finish(house.cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--keep-going", "--", "-D", "warnings"])),
     },
     Step {
         name: "docs",
         about: "the documentation builds and its links lead somewhere",
-        remedy: "mend what the warnings above show",
+        remedy: "fix what the warnings above show",
         run: |house| {
             let mut command = house.cargo(&["doc", "--workspace", "--no-deps", "--locked", "--keep-going"]);
             command.env("RUSTDOCFLAGS", "-D warnings");
@@ -52,7 +52,7 @@ const STEPS: [Step; 7] = [
     Step {
         name: QUICK_TESTS,
         about: "the unit tests of the lower floors pass",
-        remedy: "mend the code or the test; `cargo test -p CRATE` runs the tests of one crate",
+        remedy: "fix the code or the test; `cargo test -p CRATE` runs the tests of one crate",
         run: |house| {
             let mut command = house.cargo(&["test", "--lib", "--locked"]);
             for package in floors::packages_up_to(2) {
@@ -63,7 +63,7 @@ const STEPS: [Step; 7] = [
     },
 ];
 
-/// Takes the steps named in `words`, or all; goes on after a failure, so that one run shows everything there is to mend.
+/// Takes the steps named in `words`, or all; goes on after a failure, so that one run shows everything there is to fix.
 ///
 /// # Errors
 /// With every step that failed.

@@ -78,8 +78,8 @@ mod tests {
 
     #[test]
     fn a_failure_names_the_step_what_was_found_and_what_to_do() {
-        let step = Step { name: "roof", about: "the roof is tight", remedy: "mend it", run: |_| Err("a hole".into()) };
-        assert_eq!(step.take(&House::find().unwrap()).unwrap_err(), "roof: a hole\n  mend it");
+        let step = Step { name: "roof", about: "the roof is tight", remedy: "fix it", run: |_| Err("a hole".into()) };
+        assert_eq!(step.take(&House::find().unwrap()).unwrap_err(), "roof: a hole\n  fix it");
     }
 
     #[test]

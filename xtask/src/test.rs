@@ -5,6 +5,9 @@ use crate::step::{Step, choose, finish};
 use crate::{acceptance, oidn, python};
 use std::process::Command;
 
+/// Asks the tests for their long searches too; `enfilade-testkit` reads it.
+const ALL: &str = "ENFILADE_ALL_TESTS";
+
 /// All steps, in the order in which a failure tells most.
 const STEPS: [Step; 5] = [
     Step { name: "build", about: "the tests and the programs that they run build", remedy: "fix what the messages above show", run: build },
@@ -61,12 +64,17 @@ pub fn build(house: &House) -> Result<String, String> {
     finish(cargo(house, &[runner(house), &["--no-run"]].concat()))
 }
 
-/// Takes the steps with these names, or all; ends with the first that fails.
+/// Takes the steps that `words` name, or all, and long searches over all their seeds with `--all`; ends with the first that fails.
 ///
 /// # Errors
 /// With the step that failed.
-pub fn run(house: &House, names: &[&str]) -> Result<(), String> {
-    choose(&STEPS, names)?.iter().try_for_each(|step| step.take(house))?;
+pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
+    let (flags, names): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| **word == "--all");
+    if !flags.is_empty() {
+        // SAFETY: this program has one thread yet.
+        unsafe { std::env::set_var(ALL, "1") };
+    }
+    choose(&STEPS, &names)?.iter().try_for_each(|step| step.take(house))?;
     println!("\ntest: all well");
     Ok(())
 }

@@ -31,25 +31,25 @@ const STEPS: [Step; 5] = [
     Step {
         name: "install",
         about: "`pip install .` builds and installs the module",
-        remedy: "mend what the messages above show; it takes maturin, torch and others from PyPI, about 3 GB the first time",
+        remedy: "fix what the messages above show; it takes maturin, torch and others from PyPI, about 3 GB the first time",
         run: install,
     },
     Step {
         name: "loading",
         about: "torch's DataLoader gives the same batches with forked and with spawned workers",
-        remedy: "mend the module or crates/python/tests/test_torch.py",
+        remedy: "fix the module or crates/python/tests/test_torch.py",
         run: |house| unittest(house, "loading", &["test_torch"]),
     },
     Step {
         name: "notebooks",
         about: "the notebooks run from top to bottom",
-        remedy: "mend examples/notebooks; `python crates/python/tests/notebooks.py examples/notebooks/*.ipynb` runs them and stores what they show",
+        remedy: "fix examples/notebooks; `python crates/python/tests/notebooks.py examples/notebooks/*.ipynb` runs them and stores what they show",
         run: |house| unittest(house, "notebooks", &["test_notebooks"]),
     },
     Step {
         name: "training",
         about: "the tests of training/ pass",
-        remedy: "mend the recipes or their tests in training/tests",
+        remedy: "fix the recipes or their tests in training/tests",
         run: training,
     },
 ];

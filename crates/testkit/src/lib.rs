@@ -9,12 +9,14 @@ mod gamma;
 mod machine;
 mod mean;
 mod npz;
+mod selection;
 
 pub use clock::{process_cpu_s, thread_cpu_s, wall_s};
 pub use gamma::chi_square_survival;
 pub use machine::processor;
 pub use mean::Mean;
 pub use npz::Npz;
+pub use selection::seeds;
 
 use enfilade_math::{Rng, Vec3};
 use std::f64::consts::TAU;

@@ -48,7 +48,7 @@ impl Found {
     /// What was found and what to do.
     pub fn message(&self, target: &str) -> String {
         format!(
-            "{target}: {}\n  the input is {}; mend what reads it, and keep the input in crates/fuzz/regressions/{target}/ by a name that \
+            "{target}: {}\n  the input is {}; fix what reads it, and keep the input in crates/fuzz/regressions/{target}/ by a name that \
              says what it is",
             self.problem,
             self.input.display()

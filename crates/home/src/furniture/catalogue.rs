@@ -297,7 +297,9 @@ mod tests {
     use std::collections::{BTreeMap, BTreeSet, HashMap};
 
     /// Variants of each family that are built.
-    const SEEDS: usize = 20;
+    fn seeds() -> usize {
+        enfilade_testkit::seeds(5, 20) as usize
+    }
     /// Variants of a family are built this far apart, metres.
     const APART: f64 = 100.0;
     /// Soft and slanted things may reach this far out of their box, metres.
@@ -307,7 +309,7 @@ mod tests {
     fn shown(family: &Family) -> (Scene, Labels, Vec<Bounds3>) {
         let mut b = Builder::new(Materials::new(Palette::all()[0], LightConfig::default(), Rng::new(1)));
         let mut expected = Vec::new();
-        for k in 0..SEEDS {
+        for k in 0..seeds() {
             let mut rng = Rng::new(k as u64);
             let thing = (family.random)(&mut rng);
             expected.push(family.place.bounds(thing.size()));
@@ -319,7 +321,7 @@ mod tests {
 
     /// What each variant fills, in its own space.
     fn filled(scene: &Scene) -> Vec<Bounds3> {
-        let mut filled = vec![Bounds3::EMPTY; SEEDS];
+        let mut filled = vec![Bounds3::EMPTY; seeds()];
         for part in &scene.parts {
             for p in &scene.meshes[part.mesh as usize].positions {
                 let p = part.world_from_mesh.transform_point3(p.as_dvec3());

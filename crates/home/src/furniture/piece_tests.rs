@@ -21,7 +21,9 @@ use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::TAU;
 
 /// Variants of each family that are built.
-const SEEDS: usize = 8;
+fn seeds() -> usize {
+    enfilade_testkit::seeds(3, 8) as usize
+}
 /// Variants of a family are built this far apart, metres.
 const APART: f64 = 100.0;
 /// What is nearer than this is joined, metres: the gaps around fronts are 3 mm wide, those behind a refrigerator's doors 4 mm.
@@ -198,7 +200,7 @@ fn split(mesh: &Mesh) -> Vec<Vec<usize>> {
 /// The pieces of each variant in a scene of variants that stand apart.
 fn pieces(scene: &Scene) -> Vec<Vec<Piece<'_>>> {
     let splits: Vec<Vec<Vec<usize>>> = scene.meshes.iter().map(split).collect();
-    let mut all: Vec<Vec<Piece>> = (0..SEEDS).map(|_| Vec::new()).collect();
+    let mut all: Vec<Vec<Piece>> = (0..seeds()).map(|_| Vec::new()).collect();
     for part in &scene.parts {
         let mesh = &scene.meshes[part.mesh as usize];
         let world: Vec<DVec3> = mesh.positions.iter().map(|p| part.world_from_mesh.transform_point3(p.as_dvec3())).collect();
@@ -281,7 +283,7 @@ fn loose<'a>(pieces: &[Piece<'a>], place: Place, whole: &Bounds3) -> BTreeMap<&'
 /// What is loose in variants of a family.
 fn faults(family: &Family) -> Vec<String> {
     let mut b = nothing();
-    let boxes: Vec<Bounds3> = (0..SEEDS)
+    let boxes: Vec<Bounds3> = (0..seeds())
         .map(|k| {
             let mut rng = Rng::new(k as u64);
             let thing = (family.random)(&mut rng);
@@ -293,7 +295,7 @@ fn faults(family: &Family) -> Vec<String> {
     let variants = pieces(&scene);
     let of = |seed: usize| loose(&variants[seed], family.place, &boxes[seed]);
     let told = |seed: usize| of(seed).into_iter().map(move |(part, n)| format!("{}, seed {seed}: {n} pieces of {part}", family.name));
-    (0..SEEDS).flat_map(told).collect()
+    (0..seeds()).flat_map(told).collect()
 }
 
 #[test]

@@ -9,12 +9,14 @@ use enfilade_math::{Rng, Vec3, place};
 use enfilade_scene::Scene;
 
 /// Variants of each family that are built.
-const SEEDS: u64 = 5;
+fn seeds() -> u64 {
+    enfilade_testkit::seeds(2, 5)
+}
 
 /// A variant that has surfaces, built at the origin.
 fn variants() -> impl Iterator<Item = (String, Vec<Surface>, Scene)> {
     FAMILIES.iter().flat_map(|family| {
-        (0..SEEDS).filter_map(move |seed| {
+        (0..seeds()).filter_map(move |seed| {
             let mut rng = Rng::new(seed);
             let thing = (family.random)(&mut rng);
             let surfaces = thing.surfaces();
