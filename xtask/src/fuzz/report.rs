@@ -158,7 +158,7 @@ mod tests {
     fn what_was_found_is_told_with_where_it_lies_and_what_to_do() {
         let found = Found { problem: "panicked at a.rs:1:2: oh".into(), input: "target/fuzz/obj/found/small".into() };
         let message = found.message("obj");
-        assert!(message.starts_with("obj: panicked at a.rs:1:2: oh\n  the input is target/fuzz/obj/found/small; mend"), "{message}");
+        assert!(message.starts_with("obj: panicked at a.rs:1:2: oh\n  the input is target/fuzz/obj/found/small; fix"), "{message}");
         assert!(message.contains("crates/fuzz/regressions/obj/"));
     }
 }
