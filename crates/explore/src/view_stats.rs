@@ -13,7 +13,7 @@ pub struct ViewStats {
     pub parts: u32,
     /// Perplexity of the parts' projected areas: exp(−Σ p ln p) with p a part's share of the pixels that show a surface; 0 for none.
     pub perplexity: f64,
-    /// Mean over the pixels that show a surface of the contrast of what they show ([`WorldMesh::contrasts`]).
+    /// Mean over the pixels that show a surface of the contrast of what they show ([`WorldMesh::contrasts`](enfilade_scene::WorldMesh::contrasts)).
     pub contrast: f64,
 }
 

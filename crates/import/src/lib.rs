@@ -1,4 +1,4 @@
-//! Scene files to [`Scene`], with a report of what was dropped or guessed.
+//! Scene files to [`Scene`](enfilade_scene::Scene), with a report of what was dropped or guessed.
 //!
 //! [`load`] tells the format by the file's extension:
 //!

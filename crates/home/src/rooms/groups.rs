@@ -109,7 +109,7 @@ impl Furnisher<'_> {
         }
     }
 
-    /// Adds families that nothing else has asked for: each that people have in this kind of room, with a probability of [`SELDOM`].
+    /// Adds families that nothing else has asked for: each that people have in this kind of room, with a probability of `SELDOM`.
     pub fn extras(&mut self) {
         let kind = self.room.kind;
         for family in FAMILIES.iter().filter(|f| f.rooms.contains(&kind)) {
