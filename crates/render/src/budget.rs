@@ -1,10 +1,9 @@
 //! Where the samples go: to each pixel in proportion to the error that it would have left.
 //!
-//! The error of a pixel is estimated from the first samples of the pixels *around* it. Its own samples do not influence their number,
-//! nor do those of pixels that it shares light with. So the mean of a pixel stays unbiased, which it would not if a dark first sample
-//! could end the search for a bright one (Kirk & Arvo 1991, "Unbiased sampling techniques for image synthesis").
+//! The error of a pixel is estimated from the first samples of the pixels *around* it. Its own samples do not influence their number. So
+//! the mean of a pixel stays unbiased, which it would not if a dark first sample could end the search for a bright one (Kirk & Arvo 1991,
+//! "Unbiased sampling techniques for image synthesis").
 
-use crate::lattice::may_share_light;
 use rayon::prelude::*;
 
 /// A pixel's error is estimated from its neighbours within this many rows and columns.
@@ -33,8 +32,6 @@ pub(crate) struct Budget {
     pub mean: u32,
     /// Noise target: see [`crate::RenderConfig::noise`].
     pub noise: Option<f32>,
-    /// Whether pixels share light.
-    pub reuse: bool,
 }
 
 impl Budget {
@@ -44,7 +41,7 @@ impl Budget {
         let mean = estimates.iter().map(|e| f64::from(e.mean)).sum::<f64>() as f32 / estimates.len().max(1) as f32;
         let errors: Vec<f32> = (0..estimates.len())
             .into_par_iter()
-            .map(|p| self.error_around(estimates, [width, height], [p % width, p / width], LUMINANCE_FLOOR * mean))
+            .map(|p| error_around(estimates, [width, height], [p % width, p / width], LUMINANCE_FLOOR * mean))
             .collect();
 
         // Where no error can be told, either nothing is left to improve or nothing is known.
@@ -71,26 +68,26 @@ impl Budget {
         errors.iter().map(|&e| self.samples(f64::from(e) * scale, max).round() as u32).collect()
     }
 
-    /// Root mean square, over the pixels around one that share no light with it, of a sample's standard deviation in relation to luminance.
-    fn error_around(&self, estimates: &[Estimate], [width, height]: [usize; 2], [x, y]: [usize; 2], floor: f32) -> f32 {
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for ny in y.saturating_sub(REACH)..height.min(y + REACH + 1) {
-            for nx in x.saturating_sub(REACH)..width.min(x + REACH + 1) {
-                if may_share_light([nx, ny], [x, y], self.reuse) {
-                    continue;
-                }
-                let near = 1.0 / (nx.abs_diff(x).pow(2) + ny.abs_diff(y).pow(2)) as f32;
-                let e = estimates[ny * width + nx];
-                sum += near * e.variance / (e.mean + floor).powi(2).max(f32::MIN_POSITIVE);
-                weights += near;
-            }
-        }
-        if weights > 0.0 { (sum / weights).sqrt() } else { 1.0 }
-    }
-
     fn samples(&self, wanted: f64, max: f32) -> f64 {
         wanted.clamp(f64::from(self.first), f64::from(max).max(f64::from(self.first)))
     }
+}
+
+/// Root mean square, over the pixels around one, of a sample's standard deviation in relation to luminance.
+fn error_around(estimates: &[Estimate], [width, height]: [usize; 2], [x, y]: [usize; 2], floor: f32) -> f32 {
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for ny in y.saturating_sub(REACH)..height.min(y + REACH + 1) {
+        for nx in x.saturating_sub(REACH)..width.min(x + REACH + 1) {
+            if [nx, ny] == [x, y] {
+                continue;
+            }
+            let near = 1.0 / (nx.abs_diff(x).pow(2) + ny.abs_diff(y).pow(2)) as f32;
+            let e = estimates[ny * width + nx];
+            sum += near * e.variance / (e.mean + floor).powi(2).max(f32::MIN_POSITIVE);
+            weights += near;
+        }
+    }
+    if weights > 0.0 { (sum / weights).sqrt() } else { 1.0 }
 }
 
 /// The scale ≥ 0 at which the rising function `f` reaches `value`; the largest one tried (10¹²) where it does not.
@@ -117,7 +114,7 @@ mod tests {
 
     #[test]
     fn noisy_pixels_get_more_and_the_mean_is_kept() {
-        let counts = Budget { first: 8, mean: 64, noise: None, reuse: false }.allocate(64, &half_noisy());
+        let counts = Budget { first: 8, mean: 64, noise: None }.allocate(64, &half_noisy());
         let mean = counts.iter().sum::<u32>() as f32 / counts.len() as f32;
         assert!((mean - 64.0).abs() < 1.0, "mean {mean}");
         let (quiet, noisy) = (counts[10 * 64 + 5], counts[10 * 64 + 60]);
@@ -126,7 +123,7 @@ mod tests {
 
     #[test]
     fn a_noise_target_takes_what_it_needs_up_to_the_bound() {
-        let budget = |noise| Budget { first: 8, mean: 4096, noise: Some(noise), reuse: false };
+        let budget = |noise| Budget { first: 8, mean: 4096, noise: Some(noise) };
         let counts = budget(0.05).allocate(64, &half_noisy());
         let left =
             half_noisy().iter().zip(&counts).map(|(e, &n)| e.variance / (1.2f32.powi(2) * n as f32)).sum::<f32>() / counts.len() as f32;
@@ -140,27 +137,14 @@ mod tests {
     }
 
     #[test]
-    fn pixels_that_share_light_have_no_say_in_the_number_of_any_of_them() {
-        let mut one = vec![Estimate { mean: 1.0, variance: 1.0 }; 256];
-        one[5 * 16 + 5].variance = 1e4;
-        let counts = Budget { first: 1, mean: 64, noise: None, reuse: true }.allocate(16, &one);
-        for (p, &count) in counts.iter().enumerate() {
-            let [x, y] = [p % 16, p / 16];
-            let near = x.abs_diff(5) <= REACH && y.abs_diff(5) <= REACH;
-            let together = x < 8 && y < 8 && x % 2 == 1 && y % 2 == 1;
-            assert_eq!(count > counts[255], near && !together, "{x}, {y}: {count}");
-        }
-    }
-
-    #[test]
     fn a_pixel_has_no_say_in_its_own_number() {
         let flat = vec![Estimate { mean: 1.0, variance: 1.0 }; 25];
         let mut one = flat.clone();
         one[12] = Estimate { mean: 0.0, variance: 0.0 };
-        let budget = Budget { first: 1, mean: 16, noise: None, reuse: false };
+        let budget = Budget { first: 1, mean: 16, noise: None };
         // Only the image's totals connect the two.
         let (a, b) = (budget.allocate(5, &flat)[12], budget.allocate(5, &one)[12]);
         assert!(a.abs_diff(b) <= 2, "{a} and {b}");
-        assert_eq!(Budget { first: 4, mean: 16, noise: None, reuse: false }.allocate(1, &[Estimate::default()]), [16]);
+        assert_eq!(Budget { first: 4, mean: 16, noise: None }.allocate(1, &[Estimate::default()]), [16]);
     }
 }

@@ -57,14 +57,10 @@ pub struct RenderConfig {
     pub noise: Option<f32>,
     /// Learns before rendering where indirect light comes from and sends rays there. Changes noise, never the mean. Default true.
     pub guiding: bool,
-    /// Pixels near each other share the light that their paths find: less noise for the same time, which pixels two and four
-    /// apart then have in common. Changes noise, never the mean. Default true.
-    pub reuse: bool,
     /// Longest path, counted in surfaces that scatter light after the first, panes among them but those before a source. Default none:
     /// Russian roulette ends paths without bias.
     pub max_bounces: Option<u32>,
-    /// Largest radiance that one indirect path may add to a pixel. With `reuse`, each pixel that uses a path adds a part of it, to which
-    /// the limit applies. More than 0; default none, because a clamp darkens the picture.
+    /// Largest radiance that one indirect path may add to a pixel. More than 0; default none, because a clamp darkens the picture.
     pub clamp: Option<f32>,
     /// Keeps the light of each pixel apart by its way and by its source, as layers of their own. Changes no other layer. Default false.
     pub splits: bool,
@@ -89,7 +85,6 @@ impl Default for RenderConfig {
             adaptive: true,
             noise: None,
             guiding: true,
-            reuse: true,
             max_bounces: None,
             clamp: None,
             splits: false,

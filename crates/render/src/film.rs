@@ -1,8 +1,8 @@
 //! The film: sums of a pixel's samples, and how they become the stored colour layers, in which reflectance × illumination + residual is
 //! colour to the last bit.
 
-use crate::batch::PixelSample;
 use crate::budget::Estimate;
+use crate::pixel_sample::PixelSample;
 use crate::split::Split;
 use enfilade_frame::{F16_LIMIT, compose, f16};
 use enfilade_math::Rgb;

@@ -12,7 +12,6 @@ use crate::split::Arriving;
 use crate::surface::Surface;
 use crate::texture::Cone;
 use crate::vertex::{Medium, Segment, Vertex, sides_agree};
-use enfilade_geometry::Hit;
 use enfilade_math::{Ray, Rgb, Sampler, Vec3};
 
 /// A path goes on with a probability of this times the light that it is expected to reflect, relative to that at the first surface. The
@@ -40,8 +39,8 @@ pub(crate) const fn light_set(bounce: u32) -> u32 {
     2 + 2 * bounce
 }
 
-/// A path's throughput, as it counts for Russian roulette. No colour counts as zero: other pixels use what the path finds, and so does
-/// the demodulated illumination, which does not have the first surface's colour.
+/// A path's throughput, as it counts for Russian roulette. No colour counts as zero, because the demodulated illumination does not have
+/// the first surface's colour.
 pub(crate) fn roulette_throughput(throughput: Rgb) -> Rgb {
     let best = throughput.max_component();
     let min = MIN_COLOR * if best > 0.0 { best } else { 1.0 };
@@ -66,44 +65,13 @@ pub(crate) struct Direct {
     pub kind: LightKind,
     /// True when it reaches the surface from behind.
     pub crosses: bool,
-    /// Where it comes from.
-    pub wi: Vec3,
-    /// What the BSDF's value was multiplied by: the weight of multiple importance sampling over the light's density.
-    pub factor: f32,
-    /// Density of the direction; `None` when no other technique can find it.
-    pub pdf: Option<f32>,
-}
-
-/// Light that arrives at a vertex by way of other surfaces.
-pub(crate) struct Indirect {
-    /// The BSDF's value over the direction's density, and over the probability of having followed it.
-    pub weight: Value,
-    pub light: Arriving,
-    /// Where it comes from.
-    pub wi: Vec3,
-    /// The density times that probability; `None` unless the direction came from a density.
-    pub density: Option<f32>,
-}
-
-/// One step of a path: the direction in which it goes on was sampled, and Russian roulette let it live.
-pub(crate) struct Step {
-    /// The BSDF's value over the direction's density and over `survival`.
-    pub weight: Value,
-    /// Probability that it went on.
-    pub survival: f32,
 }
 
 impl<'a, 's> Integrator<'a, 's> {
     /// The surface at the end of a segment, and the throughput to it. What it emits, or the background in its place, is added to
     /// `radiance`, weighted against light sampling; `direct` says that nothing has scattered it.
     #[inline]
-    pub fn next_surface(
-        &self,
-        segment: &Segment,
-        throughput: Rgb,
-        direct: bool,
-        radiance: &mut Arriving,
-    ) -> Option<(Surface<'s>, Hit, Rgb)> {
+    fn next_surface(&self, segment: &Segment, throughput: Rgb, direct: bool, radiance: &mut Arriving) -> Option<(Surface<'s>, Rgb)> {
         let (lights, sampled) = (&self.scene.lights, segment.sampled.as_ref());
         let Some(hit) = self.scene.closest(&segment.ray, AlphaTest::Stochastic) else {
             let background = lights.background_weighted(&self.guide.choice, sampled, segment.ray.direction);
@@ -117,28 +85,28 @@ impl<'a, 's> Integrator<'a, 's> {
             let weight = lights.surface_weight(self.scene, &self.guide.choice, sampled, segment.ray.direction, &hit, surface.p);
             radiance.add(LightKind::Surfaces, throughput * emission * weight, direct);
         }
-        Some((surface, hit, throughput))
+        Some((surface, throughput))
     }
 
     /// Adds the lights that are seen through panes beyond a path's last surface, which `segment` ends at. Light sampling sees through
     /// panes, and its weights leave a part of these lights to sampled directions.
-    pub fn beyond_panes(&self, mut segment: Segment, mut surface: Surface<'s>, mut throughput: Rgb, direct: bool, radiance: &mut Arriving) {
+    fn beyond_panes(&self, mut segment: Segment, mut surface: Surface<'s>, mut throughput: Rgb, direct: bool, radiance: &mut Arriving) {
         if segment.sampled.is_none() {
             return;
         }
         for _ in 0..MAX_PANES {
             let Some(passed) = surface.straight_transmittance(self.scene).filter(|passed| !passed.is_black()) else { return };
             (segment.ray, segment.cone) = (surface.ray(segment.ray.direction), surface.cone);
-            let Some((next, _, reached)) = self.next_surface(&segment, throughput * passed, direct, radiance) else { return };
+            let Some((next, reached)) = self.next_surface(&segment, throughput * passed, direct, radiance) else { return };
             (surface, throughput) = (next, reached);
         }
     }
 
-    /// Where a path goes on, and with which weight; `None` where it ends. Two arguments concern Russian roulette alone: `so_far`, the
+    /// Where a path goes on, and with which weight: the BSDF's value over the direction's density and the probability of going on; `None` where it ends. Two arguments concern Russian roulette alone: `so_far`, the
     /// throughput to the camera ([`roulette_throughput`]), and `expected`, the luminance that the first surface is expected to reflect of
     /// the light that sampled directions find there (0: unknown).
     #[inline]
-    pub fn next_step(
+    fn next_step(
         &self,
         bounce: u32,
         vertex: &Vertex<'_, 's>,
@@ -146,12 +114,12 @@ impl<'a, 's> Integrator<'a, 's> {
         before: &Segment,
         expected: &mut f32,
         sampler: &Sampler,
-    ) -> Option<(Step, Segment)> {
+    ) -> Option<(Value, Segment)> {
         // Sample a direction from the BSDF and the guide.
         let u = sampler.set(bsdf_set(bounce));
         let (weight, next) = vertex.scatter([u[0], u[1], u[2]], before)?;
         if bounce < self.config.roulette_start {
-            return Some((Step { weight, survival: 1.0 }, next));
+            return Some((weight, next));
         }
 
         // Estimate what the path will still add, in relation to what was expected of its first surface, and let it live with a probability
@@ -174,7 +142,7 @@ impl<'a, 's> Integrator<'a, 's> {
         if *expected == 0.0 {
             *expected = here;
         }
-        Some((Step { weight: weight * (1.0 / survival), survival }, next))
+        Some((weight * (1.0 / survival), next))
     }
 
     /// Radiance that arrives along `segment`, whose end is surface number `bounce` of the path. For `so_far` and `expected` see
@@ -193,7 +161,7 @@ impl<'a, 's> Integrator<'a, 's> {
         for bounce in bounce.. {
             // Find the next surface, and add what it emits, or the background where there is none. Where light sampling could have found
             // the same light, the power heuristic divides it between the two.
-            let Some((surface, _, reached)) = self.next_surface(&segment, throughput, direct, &mut radiance) else { return radiance };
+            let Some((surface, reached)) = self.next_surface(&segment, throughput, direct, &mut radiance) else { return radiance };
             throughput = reached;
 
             // End the path at the limit on bounces. The last surface shows only what it emits, and lights through panes: the light samples
@@ -217,10 +185,10 @@ impl<'a, 's> Integrator<'a, 's> {
             }
 
             // Sample the next direction, unless Russian roulette ends the path.
-            let Some((step, next)) = self.next_step(bounce, &vertex, throughput * so_far, &segment, &mut expected, sampler) else {
+            let Some((weight, next)) = self.next_step(bounce, &vertex, throughput * so_far, &segment, &mut expected, sampler) else {
                 return radiance;
             };
-            throughput *= step.weight.total(reflectance);
+            throughput *= weight.total(reflectance);
             direct &= next.straight;
             segment = next;
         }
@@ -263,15 +231,7 @@ impl<'a, 's> Integrator<'a, 's> {
 
         // Weight the sample against the BSDF's own chance to find the light.
         let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) } / light.pdf;
-        Some(Direct {
-            weight: value * weight,
-            light: self.scene.lights.radiance_of(&light) * arriving,
-            kind: light.kind(),
-            crosses,
-            wi: light.wi,
-            factor: weight,
-            pdf: (!light.is_delta).then_some(light.pdf),
-        })
+        Some(Direct { weight: value * weight, light: self.scene.lights.radiance_of(&light) * arriving, kind: light.kind(), crosses })
     }
 
     /// Irradiance over π at a surface without diffuse reflectance, by a white Lambert surface in its place.

@@ -47,7 +47,6 @@
 //!
 //! `bsdf` scatters, `light` emits; both have the same `sample`/`pdf` shape, so that one statistical test serves both.
 
-mod batch;
 mod bsdf;
 mod budget;
 mod camera_path;
@@ -58,17 +57,15 @@ mod film;
 mod geometry_pass;
 mod guide;
 mod integrator;
-mod lattice;
 mod layers;
 mod light;
 mod look;
 mod partial;
+mod pixel_sample;
 mod prepared;
 mod probe;
 mod render;
-mod reuse;
 mod sampling;
-mod shared_vertex;
 mod split;
 mod surface;
 mod texture;

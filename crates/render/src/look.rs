@@ -68,7 +68,7 @@ impl<'s> Lookout<'s> {
         let bvh = triangles.hierarchy(|material| material.alpha != Alpha::Opaque);
         // Pictures are read at points only, so they need no pyramids.
         let (textures, lights) = (Textures::new(&scene.images, &[]), Lights::default());
-        Ok(Self { scene: RenderScene { scene, textures, triangles, bvh, lights, tables: Vec::new(), has_partial_opacity: false } })
+        Ok(Self { scene: RenderScene { scene, textures, triangles, bvh, lights, tables: Vec::new() } })
     }
 
     /// Looks through the centres of the view's pixels, or of every so many of them in both directions.

@@ -38,8 +38,6 @@ pub struct RenderScene<'s> {
     pub(crate) lights: Lights<'s>,
     /// Lookup tables of each material's BSDF.
     pub(crate) tables: Vec<Tables>,
-    /// True when some surfaces are half transparent, so that rays pass them by chance.
-    pub(crate) has_partial_opacity: bool,
 }
 
 impl<'s> RenderScene<'s> {
@@ -65,8 +63,7 @@ impl<'s> RenderScene<'s> {
             return Err(RenderError::NoLight);
         }
         let textures = Textures::new(&scene.images, &scene.materials);
-        let has_partial_opacity = scene.materials.iter().any(|m| matches!(m.alpha, Alpha::Blend { .. }));
-        Ok(Self { scene, textures, triangles, bvh, lights, tables, has_partial_opacity })
+        Ok(Self { scene, textures, triangles, bvh, lights, tables })
     }
 
     /// Every part needs an id.
@@ -109,15 +106,6 @@ impl<'s> RenderScene<'s> {
             }
         });
         if blocked { Rgb::BLACK } else { through.get() }
-    }
-
-    /// True when nothing at all lies along a ray, not even a pane or something half transparent.
-    #[inline]
-    pub(crate) fn is_clear(&self, ray: &Ray) -> bool {
-        !self.bvh.occluded_filtered(ray, |hit| match self.material_at(hit).alpha {
-            Alpha::Mask { .. } => self.is_present(hit, AlphaTest::Half),
-            _ => true,
-        })
     }
 
     fn material_at(&self, hit: &Hit) -> &'s Material {

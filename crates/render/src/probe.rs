@@ -1,8 +1,7 @@
 //! A few pixels of a frame, rendered to learn what the whole frame would cost.
 //!
-//! A pixel's samples are those of the frame, since they depend on where it is and on the few pixels that it is sampled with, which are
-//! all in the probe; so a probe does what the frame will do there, and what it finds out about the pixels' noise is what the frame
-//! will find out.
+//! A pixel's samples are those of the frame, since they depend on where it is and on no other pixel; so a probe does what the frame will
+//! do there, and what it finds out about the pixels' noise is what the frame will find out.
 
 use crate::budget::Estimate;
 use crate::config::RenderConfig;
@@ -10,7 +9,6 @@ use crate::error::RenderError;
 use crate::film::PixelSum;
 use crate::guide::Guide;
 use crate::integrator::Integrator;
-use crate::lattice::SQUARE;
 use crate::prepared::RenderScene;
 use crate::render::{Schedule, check_camera, integrator};
 use crate::sampling::add_samples;
@@ -26,9 +24,9 @@ pub struct Probe<'a, 's> {
 
 impl<'a, 's> Probe<'a, 's> {
     /// Side of the square in pixels.
-    pub const SIDE: u32 = SQUARE;
+    pub const SIDE: u32 = 8;
 
-    /// The square whose upper left pixel is `corner`, or near it, without samples.
+    /// The square whose upper left pixel is `corner`, or near it where it would leave the image, without samples.
     ///
     /// # Errors
     /// When the camera or the settings are not usable, or the image is smaller than a probe.
@@ -46,8 +44,7 @@ impl<'a, 's> Probe<'a, 's> {
             let problem = format!("its image has {}x{} pixels; a forecast needs 8x8", size[0], size[1]);
             return Err(RenderError::Camera { frame: view.pose().frame, problem });
         }
-        // Pixels are sampled together with those that they are together with in the frame.
-        let corner = [0, 1].map(|axis| corner[axis].min(size[axis] - Self::SIDE) / SQUARE * SQUARE);
+        let corner = [0, 1].map(|axis| corner[axis].min(size[axis] - Self::SIDE));
         let sums = vec![PixelSum::default(); (Self::SIDE * Self::SIDE) as usize];
         Ok(Self { integrator: integrator(scene, guide, view, config), view: *view, corner, sums })
     }

@@ -141,7 +141,7 @@ impl Schedule {
 
     /// What tells how many samples each pixel gets, once the first are taken.
     pub fn budget(&self, config: &RenderConfig) -> Budget {
-        Budget { first: self.first, mean: config.samples, noise: config.noise, reuse: config.reuse }
+        Budget { first: self.first, mean: config.samples, noise: config.noise }
     }
 
     /// True when every pixel gets the same number of samples.

@@ -1,10 +1,9 @@
-//! Takes the samples of a tile's pixels: each pixel's camera rays, followed in batches of pixels that share light.
+//! Takes the samples of a tile's pixels.
 
-use crate::batch::{Batch, CameraSample};
 use crate::config::RenderConfig;
 use crate::film::PixelSum;
 use crate::integrator::Integrator;
-use crate::lattice::lattice;
+use crate::pixel_sample::CameraSample;
 use crate::split::Split;
 use enfilade_math::{Ray, Sampler};
 use enfilade_scene::CameraView;
@@ -21,26 +20,12 @@ pub(crate) fn add_samples(
     sums: &mut [PixelSum],
     splits: &mut [Split],
 ) {
-    // Take the samples one number after the other, from that of the pixel with the fewest to the largest goal.
-    let config = integrator.config;
-    let first = sums.iter().map(PixelSum::samples).min().unwrap_or(0);
-    let last = goals.iter().copied().max().unwrap_or(0);
-    let (mut batch, mut active, mut cameras) = (Batch::default(), Vec::new(), Vec::new());
-    for index in first..last {
-        // Group the pixels that take this sample by their lattices; without reuse each pixel is alone.
-        active.clear();
-        active
-            .extend((0..pixels.len()).filter(|&i| sums[i].samples() == index && index < goals[i]).map(|i| (lattice(pixels[i], index), i)));
-        active.sort_unstable();
-        for members in active.chunk_by(|a, b| config.reuse && a.0 == b.0) {
-            // Follow the paths of a group together, and add their samples to the pixels' sums.
-            cameras.clear();
-            cameras.extend(members.iter().map(|&(_, i)| camera_sample(config, view, pixels[i], index)));
-            for (sample, &(_, i)) in integrator.samples(&cameras, &mut batch).zip(members) {
-                sums[i].add(&sample);
-                if let Some(split) = splits.get_mut(i) {
-                    *split += &sample.split;
-                }
+    for (i, &pixel) in pixels.iter().enumerate() {
+        for index in sums[i].samples()..goals[i] {
+            let sample = integrator.sample(&camera_sample(integrator.config, view, pixel, index));
+            sums[i].add(&sample);
+            if let Some(split) = splits.get_mut(i) {
+                *split += &sample.split;
             }
         }
     }

@@ -34,21 +34,6 @@ impl Arriving {
         self.add(LightKind::Distant, throughput * background.distant, direct);
     }
 
-    /// Adds other light times `factor`.
-    #[inline]
-    pub fn add_dimmed(&mut self, light: &Self, factor: Rgb) {
-        self.total += factor * light.total;
-        self.direct += factor * light.direct;
-        self.by_source.iter_mut().zip(light.by_source).for_each(|(sum, light)| *sum += factor * light);
-    }
-
-    /// All of it times `factor`, by colour.
-    pub fn dimmed(self, factor: Rgb) -> Self {
-        let mut dimmed = Self::default();
-        dimmed.add_dimmed(&self, factor);
-        dimmed
-    }
-
     /// All of it times `factor`.
     pub fn scaled(mut self, factor: f32) -> Self {
         self.total *= factor;

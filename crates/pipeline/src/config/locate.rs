@@ -4,6 +4,9 @@ use crate::error::{ConfigError, Place};
 use std::ops::Range;
 use std::path::Path;
 
+/// Keys of earlier versions, and what to do with them.
+const GONE: [(&str, &str); 1] = [("reuse", "pixels no longer share light, which is what `reuse = false` asked for: delete this line")];
+
 /// A configuration text, to turn byte ranges into places.
 pub(super) struct Source<'a> {
     pub file: &'a Path,
@@ -30,11 +33,15 @@ impl Source<'_> {
         }
     }
 
-    /// The error of the TOML reader in our words: unknown keys get the closest known key as a proposal.
+    /// The error of the TOML reader in our words: unknown keys get the closest known key as a proposal, keys of earlier versions what
+    /// to do.
     pub fn toml_error(&self, error: &toml::de::Error) -> ConfigError {
         let span = error.span();
         let names = quoted(error.message());
         if let (true, Some((found, known))) = (error.message().starts_with("unknown field"), names.split_first()) {
+            if let Some((_, instead)) = GONE.iter().find(|(key, _)| key == found) {
+                return ConfigError { help: Some((*instead).into()), ..self.error(span, format!("the key `{found}` is gone")) };
+            }
             let mut located = self.error(span, format!("unknown key `{found}`"));
             let proposal = closest(found, known).map(|k| format!("did you mean `{k}`? "));
             located.help = Some(format!("{}known keys here: {}", proposal.unwrap_or_default(), known.join(", ")));

@@ -43,7 +43,6 @@ section!(RenderPatch => RenderConfig {
     adaptive: bool,
     noise: f32,
     guiding: bool,
-    reuse: bool,
     max_bounces: u32,
     clamp: f32,
     splits: bool,

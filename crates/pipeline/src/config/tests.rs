@@ -186,7 +186,7 @@ fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
     assert_eq!(
         error(&format!("[render]\nsize = [4, 3]\nsampels = 3\n{SCENE}")),
         "sets/dataset.toml:3:1: unknown key `sampels`\n  3 | sampels = 3\n    | ^^^^^^^\nhelp: did you mean `samples`? known keys here: \
-         size, fov_x_deg, time_limit_s, save_every_s, denoise, denoise_library, samples, adaptive, noise, guiding, reuse, max_bounces, clamp, splits, extra, roulette_start, filter, filter_radius"
+         size, fov_x_deg, time_limit_s, save_every_s, denoise, denoise_library, samples, adaptive, noise, guiding, max_bounces, clamp, splits, extra, roulette_start, filter, filter_radius"
     );
     let text = error(&format!("{SCENE}meter_per_unit = 3\n"));
     assert!(
@@ -196,6 +196,15 @@ fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
     let text = error(&format!("{SCENE}cameras = [{{ position = [0, 0, 0], lookat = [1, 0, 0] }}]\n"));
     assert!(text.starts_with("sets/dataset.toml:4:36: unknown key `lookat`") && text.contains("did you mean `look_at`?"), "{text}");
     assert!(error("[[scenes]]\nname = \"a\"\n").contains("did you mean `scene`?"));
+}
+
+#[test]
+fn keys_that_are_gone_are_named_with_what_to_do() {
+    assert_eq!(
+        error(&format!("[render]\nreuse = false\n{SCENE}")),
+        "sets/dataset.toml:2:1: the key `reuse` is gone\n  2 | reuse = false\n    | ^^^^^\n\
+         help: pixels no longer share light, which is what `reuse = false` asked for: delete this line"
+    );
 }
 
 #[test]

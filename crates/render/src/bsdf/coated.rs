@@ -86,11 +86,6 @@ impl<'a> Coated<'a> {
         (pdf > 0.0).then(|| Sample { wi, weight: value * (1.0 / pdf), pdf, event: Event::Finite })
     }
 
-    /// True when the coat lies over all of the base.
-    pub fn is_whole(&self) -> bool {
-        self.bare == 0.0
-    }
-
     /// See [`super::Lobe::albedo`].
     #[inline]
     pub fn albedo(&self, cos_o: f32) -> Value {

@@ -7,7 +7,6 @@
 use super::coated::Coated;
 use super::fresnel;
 use super::ggx::{self, Facets};
-use super::outgoing::Outgoing;
 use super::rough_diffuse::RoughDiffuse;
 use super::sample::{Event, Sample, Value};
 use super::sheen::Sheen;
@@ -188,30 +187,6 @@ impl<'a> Lobe<'a> {
                 specular(Rgb::splat(r) + *tint * (1.0 - r))
             }
             Self::Sheen(sheen) => specular(sheen.albedo(cos_o)),
-        }
-    }
-
-    /// See [`super::Bsdf::outgoing`].
-    #[inline]
-    pub fn outgoing(&self) -> Option<Outgoing<'a>> {
-        match self {
-            Self::Lambert => Some(Outgoing::EVEN),
-            Self::Coated(coated) if coated.is_whole() => Some(Outgoing { coat: Some(coated.coat), ..Outgoing::EVEN }),
-            _ => None,
-        }
-    }
-
-    /// True when a part of the lobe is diffuse.
-    pub fn is_diffuse(&self) -> bool {
-        matches!(self, Self::Lambert | Self::RoughDiffuse(_) | Self::Coated(_))
-    }
-
-    /// True when it sends light in single directions alone.
-    pub fn is_sharp(&self) -> bool {
-        match self {
-            Self::Reflection { facets, .. } | Self::Refraction { facets, .. } => facets.smooth(),
-            Self::Thin { .. } => true,
-            Self::Lambert | Self::RoughDiffuse(_) | Self::Coated(_) | Self::Sheen(_) => false,
         }
     }
 

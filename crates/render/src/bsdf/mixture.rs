@@ -2,7 +2,6 @@
 
 use super::layers::Layers;
 use super::lobe::Lobe;
-use super::outgoing::Outgoing;
 use super::sample::{Event, Sample, Value};
 use enfilade_math::{ONE_MINUS_EPSILON, Rgb, Vec3};
 
@@ -95,15 +94,6 @@ impl<'a> Mixture<'a> {
         (value, density)
     }
 
-    /// See [`super::Bsdf::outgoing`]: known where one lobe is all that is diffuse, and no sheen lies above it.
-    pub fn outgoing(&self) -> Option<Outgoing<'a>> {
-        let mut diffuse = self.entries.iter().filter(|e| e.lobe.is_diffuse() && !e.diffuse.is_black());
-        let (Some(one), None) = (diffuse.next(), diffuse.next()) else { return None };
-        let layers = one.under.map(|index| self.layers[usize::from(index)]);
-        let separable = layers.is_none_or(|layers| layers.sheen == 0.0);
-        one.lobe.outgoing().filter(|_| separable).map(|outgoing| Outgoing { layers, ..outgoing })
-    }
-
     /// See [`Lobe::sample`].
     pub fn sample(&self, wo: Vec3, u: [f32; 3]) -> Option<Sample> {
         // Choose a lobe and renew the random number within its interval.
@@ -122,11 +112,6 @@ impl<'a> Mixture<'a> {
         }
         let scale = entry.specular * self.passes(entry, wo, sample.wi) / entry.select;
         Some(Sample { weight: sample.weight * scale, ..sample })
-    }
-
-    /// See [`Lobe::is_sharp`].
-    pub fn is_sharp(&self) -> bool {
-        self.entries.iter().all(|e| e.lobe.is_sharp())
     }
 
     /// See [`Lobe::albedo`]; the lobes that are rough come first, the others second.

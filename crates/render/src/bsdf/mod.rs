@@ -16,7 +16,6 @@ pub mod ggx;
 mod layers;
 mod lobe;
 mod mixture;
-mod outgoing;
 mod resolve;
 mod rough_diffuse;
 mod sample;
@@ -25,7 +24,6 @@ mod tables;
 
 pub use layers::Layers;
 pub use lobe::{Fresnel, Lobe, thin_reflectance};
-pub use outgoing::Outgoing;
 pub use resolve::{Inputs, straight_transmittance};
 pub use sample::{Event, Sample, Value};
 pub use tables::{TableMaker, Tables};
@@ -66,26 +64,6 @@ impl<'a> Bsdf<'a> {
     #[inline]
     pub fn is_black(&self) -> bool {
         matches!(self.model, Model::Black)
-    }
-
-    /// True when light is scattered in single directions alone, by mirrors and clear glass.
-    #[inline]
-    pub fn is_sharp(&self) -> bool {
-        match &self.model {
-            Model::Black => true,
-            Model::One(lobe) => lobe.is_sharp(),
-            Model::Mixture(mixture) => mixture.is_sharp(),
-        }
-    }
-
-    /// How the light that the diffuse lobes reflect depends on the viewer, where that does not depend on where the light comes from.
-    #[inline]
-    pub fn outgoing(&self) -> Option<Outgoing<'a>> {
-        match &self.model {
-            Model::One(lobe) => lobe.outgoing(),
-            Model::Mixture(mixture) => mixture.outgoing(),
-            Model::Black => None,
-        }
     }
 
     /// Value × cosine for light from `wi`.

@@ -4,7 +4,7 @@ use enfilade_frame::{Frame, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
 use enfilade_render::{FrameRender, Guide, PartialError, RenderConfig, RenderScene, render_frame};
-use enfilade_scene::{Alpha, Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, Pose, Principled, Quiet, Scene};
+use enfilade_scene::{Alpha, Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, Pose, Quiet, Scene};
 use enfilade_testkit::Mean;
 
 /// An axis-aligned box that is seen from inside.
@@ -148,52 +148,6 @@ fn parts_of_light_sum_to_the_whole_and_change_nothing_else() {
 }
 
 #[test]
-fn what_pixels_share_changes_the_noise_and_never_the_mean() {
-    let mut scene = furnished();
-    let veil = Material { alpha: Alpha::Blend { opacity: 0.4.into() }, ..Material::diffuse("veil", Rgb::splat(0.8)) };
-    let metal = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::new(0.9, 0.7, 0.3).into(), alpha: 0.3.into() };
-    let cloth = Bsdf::RoughDiffuse { reflectance: Rgb::new(0.2, 0.4, 0.7).into(), roughness: 0.8.into() };
-    let ebony = Bsdf::Plastic { diffuse: Rgb::BLACK.into(), eta: 1.5, alpha: 0.3.into(), specular: Rgb::WHITE.into(), nonlinear: false };
-    let lacquer = Principled { metallic: 0.5.into(), clearcoat: 1.0.into(), ..Principled::default() };
-    for (place, material) in [
-        (Vec3::new(0.2, 0.5, -0.6), veil),
-        (Vec3::new(0.5, -0.6, 0.5), Material::new("metal", metal)),
-        (Vec3::new(0.8, -0.5, 0.1), Material::new("cloth", cloth)),
-        (Vec3::new(0.3, -0.7, -0.6), Material::new("ebony", ebony)),
-        (Vec3::new(0.4, 0.1, 0.7), Material::new("lacquer", Bsdf::Principled(Box::new(lacquer)))),
-    ] {
-        let i = scene.parts.len() as u32;
-        scene.parts.push(Part { name: material.name.clone(), mesh: i, material: i, world_from_mesh: DAffine3::IDENTITY });
-        scene.meshes.push(screen(place, 0.25));
-        scene.materials.push(material);
-    }
-    let size = [24, 16];
-    let runs = |reuse: bool| -> Vec<Frame> {
-        let config = |seed| RenderConfig { reuse, seed, samples: 64, ..RenderConfig::default() };
-        (0..24).map(|seed| picture(&scene, size, &config(seed + if reuse { 100 } else { 0 }))).collect()
-    };
-    let (shared, alone) = (runs(true), runs(false));
-    // The squared deviation of pixels from their mean over the runs, in relation to that mean; and the means of 6 x 4 blocks.
-    let (mut spread, blocks) = ([0.0; 2], (size[0] / 4) * (size[1] / 4));
-    for layer in [Layer::Color, Layer::DiffuseIllumination, Layer::Residual] {
-        for block in 0..blocks {
-            let [x, y] = [block % (size[0] / 4) * 4, block / (size[0] / 4) * 4];
-            let pixels: Vec<usize> = (0..16).map(|i| ((y + i / 4) * size[0] + x + i % 4) as usize).collect();
-            let value = |run: &Frame, pixel: usize| (0..3).map(|c| run.get(layer).unwrap().get(3 * pixel + c)).sum::<f64>() / 3.0;
-            let of = |runs: &[Frame]| Mean::of(runs.iter().map(|run| pixels.iter().map(|&p| value(run, p)).sum::<f64>()));
-            of(&shared).assert_agrees(&format!("{layer:?} in block {block}"), &of(&alone), 3 * blocks as usize);
-            for (sum, runs) in spread.iter_mut().zip([&shared, &alone]) {
-                for &p in pixels.iter().filter(|_| layer == Layer::Color) {
-                    let mean = Mean::of(runs.iter().map(|run| value(run, p)));
-                    *sum += (mean.standard_error() / (mean.value() + 0.1)).powi(2);
-                }
-            }
-        }
-    }
-    assert!(spread[0] < 0.9 * spread[1], "{} against {}", spread[0], spread[1]);
-}
-
-#[test]
 fn in_a_box_that_glows_every_reflection_has_its_place() {
     // Emission 1, reflected once directly, and then the series of further reflections.
     let albedo = 0.5f32;
@@ -208,7 +162,6 @@ fn in_a_box_that_glows_every_reflection_has_its_place() {
 
 #[test]
 fn a_mirror_and_a_pane_in_a_box_that_glows_show_the_box() {
-    // Pixels share what they find of the walls beyond these, by paths that end by chance.
     let wall = Material { emission: Rgb::WHITE.into(), ..Material::diffuse("wall", Rgb::splat(0.5)) };
     let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::WHITE.into(), alpha: 0.0.into() };
     let pane = Bsdf::Dielectric { eta: 1.5, alpha: 0.0.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::BLACK };
@@ -221,31 +174,13 @@ fn a_mirror_and_a_pane_in_a_box_that_glows_show_the_box() {
 }
 
 #[test]
-fn pixels_beside_black_panes_lose_no_light() {
-    // Behind them nothing is seen, but the wall there is among what their pixels and the others know together.
-    let wall = Material { emission: Rgb::WHITE.into(), ..Material::diffuse("wall", Rgb::splat(0.5)) };
-    let black = || Material::new("black", Bsdf::ThinDielectric { eta: 1.5, transmittance: Rgb::BLACK.into() });
-    let places = (0..36).map(|i| Vec3::new(0.5, f32::from(i as i16 % 6) - 2.5, f32::from(i as i16 / 6) - 2.5) * Vec3::new(1.0, 0.2, 0.2));
-    let fence = places.map(|centre| (screen(centre, 0.06), black()));
-    let scene = scene(std::iter::once((room(1.0), wall)).chain(fence).collect());
-    let seen = |reuse| {
-        let frame = picture(&scene, [32, 32], &RenderConfig { reuse, samples: 512, ..RenderConfig::default() });
-        let (color, part) = (frame.get(Layer::Color).unwrap(), frame.get(Layer::RenderEntityId).unwrap());
-        let walls: Vec<f64> = (0..32 * 32).filter(|&p| part.get(p) == 1.0).map(|p| color.get(3 * p)).collect();
-        assert!((300..900).contains(&walls.len()), "{} pixels show the wall", walls.len());
-        walls.iter().sum::<f64>() / walls.len() as f64
-    };
-    assert_close("shared", seen(true), seen(false), 5e-3);
-}
-
-#[test]
 fn light_of_colours_that_the_first_surface_lacks_is_in_its_illumination() {
     // The wall before the camera reflects no green; the light on it is that on a black one.
     let glowing = |name: &str, reflectance: Rgb| Material { emission: Rgb::WHITE.into(), ..Material::diffuse(name, reflectance) };
     let illumination = |reflectance: Rgb, guiding: bool| {
         let parts =
             vec![(room(1.0), glowing("green", Rgb::new(0.0, 0.5, 0.0))), (screen(Vec3::X * 0.99, 0.99), glowing("other", reflectance))];
-        let config = RenderConfig { samples: 512, reuse: false, guiding, ..RenderConfig::default() };
+        let config = RenderConfig { samples: 512, guiding, ..RenderConfig::default() };
         let frame = picture(&scene(parts), [16, 16], &config);
         let values = frame.get(Layer::DiffuseIllumination).unwrap();
         (0..16 * 16).map(|p| values.get(3 * p + 1)).sum::<f64>() / 256.0
@@ -259,16 +194,16 @@ fn light_of_colours_that_the_first_surface_lacks_is_in_its_illumination() {
 
 #[test]
 fn walls_that_are_half_mirrors_keep_the_light_that_they_reflect() {
-    // Half of each wall is paint and half a mirror, of reflectance 0.5 both: a path may meet several surfaces whose light is shared.
+    // Half of each wall is paint and half a mirror, of reflectance 0.5 both.
     let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::splat(0.5).into(), alpha: 0.0.into() };
     let paint = Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() };
     let both = Bsdf::Blend { first: Box::new(paint), second: Box::new(mirror), weight: 0.5.into() };
     let wall = Material { emission: Rgb::WHITE.into(), ..Material::new("wall", both) };
     let scene = scene(vec![(room(1.0), wall)]);
-    for (reuse, max_bounces) in [(true, None), (false, None), (true, Some(40))] {
-        let config = RenderConfig { reuse, max_bounces, samples: 256, ..RenderConfig::default() };
+    for max_bounces in [None, Some(40)] {
+        let config = RenderConfig { max_bounces, samples: 256, ..RenderConfig::default() };
         let frame = picture(&scene, [32, 32], &config);
-        assert_close(&format!("with sharing {reuse}, at most {max_bounces:?}"), mean(&frame, Layer::Color), 2.0, 2e-3);
+        assert_close(&format!("at most {max_bounces:?}"), mean(&frame, Layer::Color), 2.0, 2e-3);
     }
 }
 
@@ -341,7 +276,7 @@ fn light_by_way_of_a_small_bright_place_is_the_same_and_steadier_where_it_is_lea
     let brightness = |guiding: bool| {
         let (mut mean, mut error) = (Mean::default(), 0.0);
         for seed in 0..4 {
-            let config = RenderConfig { samples: 256, adaptive: false, reuse: false, guiding, seed, ..RenderConfig::default() };
+            let config = RenderConfig { samples: 256, adaptive: false, guiding, seed, ..RenderConfig::default() };
             let frame = picture(&s, [32, 32], &config);
             let color = frame.get(Layer::Color).unwrap();
             let stated = frame.get(Layer::ColorStandardError).unwrap();

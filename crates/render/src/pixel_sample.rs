@@ -1,0 +1,29 @@
+//! A camera ray and what its path finds.
+//!
+//! At the first surface the estimate is kept in three parts: the diffuse reflectance A, the *demodulated* diffuse light E
+//! (what the diffuse lobe would send for a reflectance of one) and the rest R, so that a sample's radiance is A·E + R.
+
+use crate::split::Split;
+use enfilade_math::{Ray, Rgb, Sampler};
+
+/// A camera ray to follow.
+pub(crate) struct CameraSample {
+    /// With a unit direction; `None` where the picture shows nothing, and is black.
+    pub ray: Option<Ray>,
+    pub sampler: Sampler,
+    /// The sample's number within the pixel.
+    pub index: u32,
+}
+
+/// One sample of a pixel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PixelSample {
+    /// Diffuse reflectance A of the first surface.
+    pub reflectance: Rgb,
+    /// Demodulated diffuse light E; `None` where this sample did not measure it.
+    pub illumination: Option<Rgb>,
+    /// Everything else, R.
+    pub residual: Rgb,
+    /// A·E + R in parts, where they are asked for.
+    pub split: Split,
+}
