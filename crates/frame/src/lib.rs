@@ -5,12 +5,14 @@
 
 mod channels;
 mod compose;
+mod noise;
 mod spec;
 pub mod tonemap;
 
 pub use channels::vector;
 pub use compose::{Composed, F16_LIMIT, compose};
 pub use half::f16;
+pub use noise::{NOISE_FLOOR, picture_noise};
 pub use spec::{Dtype, LAYERS, Layer, LayerSpec, Pass, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, traits};
 
 use std::collections::BTreeMap;

@@ -3,16 +3,21 @@
 //! The error of a pixel is estimated from the first samples of the pixels *around* it. Its own samples do not influence their number. So
 //! the mean of a pixel stays unbiased, which it would not if a dark first sample could end the search for a bright one (Kirk & Arvo 1991,
 //! "Unbiased sampling techniques for image synthesis").
+//!
+//! What the first samples say of the noise is not exact, and the samples that it leads to leave somewhat more noise than they were counted
+//! for. So the noise that is left is measured when they are taken, and while it is above its target, [`Budget::more`] adds samples. In that
+//! a pixel has no other say than its small part in the whole picture's noise.
 
+use enfilade_frame::NOISE_FLOOR;
 use rayon::prelude::*;
 
 /// A pixel's error is estimated from its neighbours within this many rows and columns.
 const REACH: usize = 3;
-/// This times the image's mean luminance is added to a pixel's own before its error is divided by it: a relative error in the dark is
-/// invisible.
-pub(crate) const LUMINANCE_FLOOR: f32 = 0.2;
 /// No pixel gets more than this many times the mean number of samples.
 const MAX_RATIO: f32 = 16.0;
+/// Where the noise is still above its target, further samples are to take it to this fraction of the target: less than this would not pay
+/// a round of its own.
+const BELOW_TARGET: f64 = 0.985;
 
 /// What the samples of a pixel say of its luminance.
 #[derive(Clone, Copy, Debug, Default)]
@@ -37,40 +42,56 @@ pub(crate) struct Budget {
 impl Budget {
     /// The number of samples of every pixel, row by row.
     pub fn allocate(&self, width: usize, estimates: &[Estimate]) -> Vec<u32> {
-        let height = estimates.len() / width.max(1);
-        let mean = estimates.iter().map(|e| f64::from(e.mean)).sum::<f64>() as f32 / estimates.len().max(1) as f32;
-        let errors: Vec<f32> = (0..estimates.len())
-            .into_par_iter()
-            .map(|p| error_around(estimates, [width, height], [p % width, p / width], LUMINANCE_FLOOR * mean))
-            .collect();
+        let errors = errors(width, estimates);
 
         // Where no error can be told, either nothing is left to improve or nothing is known.
-        let total: f64 = errors.iter().map(|&e| f64::from(e)).sum();
-        let n = errors.len() as f64;
+        let total: f64 = errors.iter().sum();
         if !(total > 0.0 && total.is_finite()) {
             let is_clean = total == 0.0 && self.noise.is_some();
             return vec![if is_clean { self.first } else { self.mean }; errors.len()];
         }
+        let taken = vec![self.first; errors.len()];
+        self.spread(&errors, &taken, self.noise.map(f64::from))
+    }
 
-        // The variance that is left, Σ e²/n, has its minimum for a given number of samples where n is in proportion to e: find the factor
-        // of proportion that meets the mean number of samples, or the noise target if that needs fewer.
+    /// The number of samples of every pixel, row by row, when they have `taken` so many and left the noise `measured` above its target.
+    /// `None` where no more can be taken, or nothing tells where.
+    pub fn more(&self, width: usize, estimates: &[Estimate], taken: &[u32], measured: f64) -> Option<Vec<u32>> {
+        let errors = errors(width, estimates);
+        // What the errors around the pixels say of the noise is in a proportion to what it is that further samples hardly change.
+        let told = (errors.iter().zip(taken).map(|(e, &n)| e * e / f64::from(n)).sum::<f64>() / errors.len() as f64).sqrt();
+        let target = BELOW_TARGET * f64::from(self.noise?) * told / measured;
+        if !(target > 0.0 && target.is_finite()) {
+            return None;
+        }
+        let wanted = self.spread(&errors, taken, Some(target));
+        (wanted != taken).then_some(wanted)
+    }
+
+    /// Spreads samples over pixels of these errors, which have `taken` some, up to the mean number or until no more noise is left than told.
+    ///
+    /// The variance that is left, Σ e²/n, has its minimum for a given number of samples where n is in proportion to e: this finds the
+    /// factor of proportion.
+    fn spread(&self, errors: &[f64], taken: &[u32], noise: Option<f64>) -> Vec<u32> {
         let max = MAX_RATIO * self.mean as f32;
-        let samples = |scale: f64| errors.iter().map(|&e| self.samples(f64::from(e) * scale, max)).sum::<f64>();
-        let for_mean = bisect(n * f64::from(self.mean), samples);
-        let scale = match self.noise {
-            None => for_mean,
-            Some(target) => {
-                let noise =
-                    |scale: f64| -errors.iter().map(|&e| f64::from(e).powi(2) / self.samples(f64::from(e) * scale, max)).sum::<f64>();
-                bisect(-n * f64::from(target).powi(2), noise).min(for_mean)
-            }
+        let count = errors.len() as f64;
+        let samples = |e: f64, taken: u32, scale: f64| (e * scale).clamp(f64::from(taken), f64::from(max).max(f64::from(taken)));
+        let sum = |value: &dyn Fn(f64, f64) -> f64, scale: f64| -> f64 {
+            errors.iter().zip(taken).map(|(&e, &n)| value(e, samples(e, n, scale))).sum()
         };
-        errors.iter().map(|&e| self.samples(f64::from(e) * scale, max).round() as u32).collect()
+        let for_mean = bisect(count * f64::from(self.mean), |scale| sum(&|_, n| n, scale));
+        let scale = noise.map_or(for_mean, |target| bisect(-count * target * target, |scale| -sum(&|e, n| e * e / n, scale)).min(for_mean));
+        errors.iter().zip(taken).map(|(&e, &n)| samples(e, n, scale).round() as u32).collect()
     }
+}
 
-    fn samples(&self, wanted: f64, max: f32) -> f64 {
-        wanted.clamp(f64::from(self.first), f64::from(max).max(f64::from(self.first)))
-    }
+/// What a sample leaves of error in each pixel, row by row, by the pixels around it.
+fn errors(width: usize, estimates: &[Estimate]) -> Vec<f64> {
+    let height = estimates.len() / width.max(1);
+    let mean = estimates.iter().map(|e| f64::from(e.mean)).sum::<f64>() / estimates.len().max(1) as f64;
+    let floor = NOISE_FLOOR as f32 * mean as f32;
+    let around = |p: usize| f64::from(error_around(estimates, [width, height], [p % width, p / width], floor));
+    (0..estimates.len()).into_par_iter().map(around).collect()
 }
 
 /// Root mean square, over the pixels around one, of a sample's standard deviation in relation to luminance.
@@ -134,6 +155,25 @@ mod tests {
         let wild = vec![Estimate { mean: 1.0, variance: f32::INFINITY }; 25];
         assert_eq!(budget(0.05).allocate(5, &wild), [4096; 25]);
         assert_eq!(budget(0.05).allocate(5, &[Estimate::default(); 25]), [8; 25]);
+    }
+
+    #[test]
+    fn more_samples_take_the_noise_as_it_was_measured_below_the_target() {
+        // The noise as measured is ten per cent above what the errors around the pixels tell.
+        let estimates = half_noisy();
+        let budget = Budget { first: 8, mean: 4096, noise: Some(0.05) };
+        let taken = budget.allocate(64, &estimates);
+        let noise = |counts: &[u32]| {
+            let squares = estimates.iter().zip(counts).map(|(e, &n)| f64::from(e.variance) / (1.44 * f64::from(n)));
+            1.1 * (squares.sum::<f64>() / counts.len() as f64).sqrt()
+        };
+        assert!(noise(&taken) > 0.054);
+        let more = budget.more(64, &estimates, &taken, noise(&taken)).expect("there are samples left");
+        assert!(noise(&more) < 0.05 && noise(&more) > 0.048, "{}", noise(&more));
+        assert!(more.iter().zip(&taken).all(|(more, taken)| more >= taken));
+        // Neither where all are taken nor where no error is seen.
+        assert_eq!(Budget { mean: 8, ..budget }.more(64, &estimates, &vec![8; estimates.len()], 0.2), None);
+        assert_eq!(budget.more(5, &[Estimate::default(); 25], &[8; 25], 0.2), None);
     }
 
     #[test]

@@ -52,8 +52,8 @@ pub struct RenderConfig {
     /// Spreads the samples over the pixels in proportion to the error that each one has left. Default true.
     pub adaptive: bool,
     /// Stops below `samples` where this noise is reached: the root mean square over the image of each pixel's standard error over
-    /// (its luminance + 0.2 × the image's mean). The first samples tell how many it takes: a quarter of `samples`, at most 64. Default
-    /// none; between 0 and 1, and 0.02 is a clean picture.
+    /// (its luminance + 0.2 × the image's mean). The first samples tell how many it takes, a quarter of `samples` and at most 64; what is
+    /// left is measured, and more are taken while it is above. Default none; between 0 and 1, and 0.02 is a clean picture.
     pub noise: Option<f32>,
     /// Learns before rendering where indirect light comes from and sends rays there. Changes noise, never the mean. Default true.
     pub guiding: bool,

@@ -1,16 +1,16 @@
 //! A frame in the making as bytes, so that it can go on in another process.
 //!
-//! All numbers are little-endian: eight bytes of signature, the version of this form, width, height, passes done, 1 where light is
-//! split, the length of the key and the key; per pixel the samples it is to have in the end, row by row; per pixel its sums, tile by
+//! All numbers are little-endian: eight bytes of signature, the version of this form, width, height, passes done and in all, 1
+//! where light is split, the length of the key and the key; per pixel the samples it is to have in the end, row by row; per pixel its sums, tile by
 //! tile; a checksum of all that. Sums are kept bit by bit, so a frame that goes on has the bytes of one that was never interrupted.
 
 use enfilade_math::hash_u64;
 
 const SIGNATURE: [u8; 8] = *b"enfilpar";
 /// Version of this form, and of what the sums mean.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// Words before the key.
-const HEADER: usize = 5;
+const HEADER: usize = 6;
 
 /// Why a frame cannot go on from bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -31,6 +31,8 @@ pub enum PartialError {
 pub(crate) struct Header<'a> {
     pub size: [u32; 2],
     pub done: u32,
+    /// Passes in all, as far as is known.
+    pub passes: u32,
     pub splits: bool,
     /// The caller's name for everything that the frame depends on.
     pub key: &'a [u8],
@@ -40,7 +42,7 @@ pub(crate) struct Header<'a> {
 pub(crate) fn write(header: &Header<'_>, words: impl Iterator<Item = u32>) -> Vec<u8> {
     let mut bytes = SIGNATURE.to_vec();
     let [width, height] = header.size;
-    let numbers: [u32; HEADER] = [width, height, header.done, u32::from(header.splits), header.key.len() as u32];
+    let numbers: [u32; HEADER] = [width, height, header.done, header.passes, u32::from(header.splits), header.key.len() as u32];
     std::iter::once(VERSION).chain(numbers).for_each(|number| bytes.extend(number.to_le_bytes()));
     bytes.extend(header.key);
     words.for_each(|word| bytes.extend(word.to_le_bytes()));
@@ -63,6 +65,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(Header<'_>, impl ExactSizeIterator<I
     let (width, rest) = word(rest)?;
     let (height, rest) = word(rest)?;
     let (done, rest) = word(rest)?;
+    let (passes, rest) = word(rest)?;
     let (splits, rest) = word(rest)?;
     let (length, rest) = word(rest)?;
     let (key, rest) = rest.split_at_checked(length as usize).ok_or(PartialError::Damaged)?;
@@ -71,7 +74,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(Header<'_>, impl ExactSizeIterator<I
     if !checksum.is_empty() || words.len() < 2 {
         return Err(PartialError::Damaged);
     }
-    let header = Header { size: [width, height], done, splits: splits != 0, key };
+    let header = Header { size: [width, height], done, passes, splits: splits != 0, key };
     Ok((header, words[..words.len() - 2].iter().map(|word| u32::from_le_bytes(*word))))
 }
 
@@ -95,7 +98,7 @@ mod tests {
 
     #[test]
     fn what_was_written_is_read_and_every_damaged_byte_is_found() {
-        let header = Header { size: [3, 2], done: 4, splits: true, key: b"key" };
+        let header = Header { size: [3, 2], done: 4, passes: 6, splits: true, key: b"key" };
         let bytes = write(&header, 10..20);
         let (found, words) = read(&bytes).unwrap();
         assert_eq!((found, words.collect::<Vec<_>>()), (header, (10..20).collect()));

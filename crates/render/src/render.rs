@@ -1,9 +1,10 @@
 //! One frame: every pixel's geometry and colour, tile by tile and pass by pass.
 //!
 //! The first passes give every pixel equally many samples. What these say of the noise decides how many more each pixel gets
-//! (see [`crate::budget`]), and further passes take those.
+//! (see [`crate::budget`]), and further passes take those. With a noise target there may be rounds of further passes, until what is left
+//! is measured not to be above it.
 
-use crate::budget::{Budget, LUMINANCE_FLOOR};
+use crate::budget::Budget;
 use crate::config::RenderConfig;
 use crate::error::RenderError;
 use crate::film::{PixelSum, resolve_split};
@@ -16,7 +17,7 @@ use crate::prepared::RenderScene;
 use crate::sampling::add_samples;
 use crate::split::Split;
 use crate::tiles::Tiles;
-use enfilade_frame::Frame;
+use enfilade_frame::{Frame, f16, picture_noise};
 use enfilade_scene::{CameraView, Cx};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -28,8 +29,6 @@ const MIN_FIRST: u32 = 8;
 /// The most first samples with a noise target: `samples` may be far beyond what the target takes, and the 48 pixels around one, from which
 /// its noise is estimated, have three thousand samples together.
 const MAX_FIRST_FOR_NOISE: u32 = 64;
-/// A frame counts as having met its noise target up to this many times the target.
-const NOISE_TOLERANCE: f64 = 1.25;
 
 /// Renders every layer but the labels. The bytes depend on the arguments alone, whatever the number of threads.
 ///
@@ -129,16 +128,6 @@ impl Schedule {
         Self { first, first_passes, passes: first_passes + (config.samples - first).div_ceil(FrameRender::PASS) }
     }
 
-    /// The schedule with the passes that the `wanted` samples of the pixels take: with a noise target fewer than there might have been.
-    fn settled(self, config: &RenderConfig, wanted: &[u32]) -> Self {
-        if config.noise.is_none() {
-            return self;
-        }
-        let later: u64 = wanted.iter().map(|&samples| u64::from(samples.saturating_sub(self.first))).sum();
-        let per_pass = u64::from(FrameRender::PASS) * wanted.len() as u64;
-        Self { passes: self.passes.min(self.first_passes + later.div_ceil(per_pass) as u32), ..self }
-    }
-
     /// What tells how many samples each pixel gets, once the first are taken.
     pub fn budget(&self, config: &RenderConfig) -> Budget {
         Budget { first: self.first, mean: config.samples, noise: config.noise }
@@ -149,14 +138,12 @@ impl Schedule {
         self.passes == self.first_passes
     }
 
-    /// Samples after pass number `pass` of a pixel that is to have `wanted` in the end.
-    fn goal(&self, pass: u32, wanted: u32) -> u32 {
-        let part = |samples: u32, passes: u32, of: u32| (u64::from(samples) * u64::from(passes) / u64::from(of)) as u32;
+    /// Samples after pass number `pass` of a pixel that has `taken` some before it and is to have `wanted` in the end.
+    fn goal(&self, pass: u32, taken: u32, wanted: u32) -> u32 {
         if pass < self.first_passes {
-            return part(self.first, pass + 1, self.first_passes);
+            return (u64::from(self.first) * u64::from(pass + 1) / u64::from(self.first_passes)) as u32;
         }
-        let (later, all) = (pass + 1 - self.first_passes, self.passes - self.first_passes);
-        self.first + part(wanted.saturating_sub(self.first), later, all)
+        taken + wanted.saturating_sub(taken) / (self.passes - pass)
     }
 }
 
@@ -210,7 +197,7 @@ impl<'a, 's> FrameRender<'a, 's> {
         let (integrator, view, tiles, wanted) = (&self.integrator, &self.view, self.tiles, &self.wanted);
         let (schedule, pass) = (self.schedule, self.done);
         let [width, _] = view.camera().size();
-        let (begun, goal, whole) = match (pass, schedule.goal(0, schedule.first)) {
+        let (begun, goal, whole) = match (pass, schedule.goal(0, 0, schedule.first)) {
             (0, whole) => (self.begun().min(whole), max.min(whole), whole),
             _ => (0, 1, 1),
         };
@@ -222,8 +209,9 @@ impl<'a, 's> FrameRender<'a, 's> {
         let (finished, before, total) = (AtomicU64::new(0), u64::from(pass) * count, u64::from(schedule.passes) * count);
         self.film.par_iter_mut().zip(0..tiles.count()).for_each(|(film, tile)| {
             let pixels: Vec<(u32, u32)> = tiles.pixels(tile).collect();
-            let goal = |&(x, y): &(u32, u32)| schedule.goal(pass, wanted[(y * width + x) as usize]).min(max);
-            let goals: Vec<u32> = pixels.iter().map(goal).collect();
+            let goal =
+                |(&(x, y), sum): (&(u32, u32), &PixelSum)| schedule.goal(pass, sum.samples(), wanted[(y * width + x) as usize]).min(max);
+            let goals: Vec<u32> = pixels.iter().zip(&film.sums).map(goal).collect();
             add_samples(integrator, view, &pixels, &goals, &mut film.sums, &mut film.splits);
             cx.progress("rendering", before + in_pass(finished.fetch_add(1, Ordering::Relaxed) + 1), total);
         });
@@ -234,15 +222,37 @@ impl<'a, 's> FrameRender<'a, 's> {
         // After the first samples, decide from their noise how many each pixel is to have in the end.
         self.done += 1;
         if self.done == schedule.first_passes && !self.is_done() {
-            self.wanted = self.allocate();
-            self.schedule = self.schedule.settled(self.integrator.config, &self.wanted);
+            let budget = schedule.budget(self.integrator.config);
+            let wanted = budget.allocate(width as usize, &self.rows(PixelSum::estimate));
+            self.settle(wanted);
+        }
+
+        // When these are taken and the noise is still above its target, go on.
+        if self.is_done()
+            && schedule.first_passes < schedule.passes
+            && let Some(wanted) = self.more()
+        {
+            self.settle(wanted);
         }
     }
 
-    /// The samples that each pixel is to have in the end, by what the first ones say.
-    fn allocate(&self) -> Vec<u32> {
+    /// Sets the samples that each pixel is to have in the end, and with a noise target the number of passes that they take.
+    fn settle(&mut self, wanted: Vec<u32>) {
+        if self.integrator.config.noise.is_some() {
+            let taken = self.rows(PixelSum::samples);
+            let later: u64 = wanted.iter().zip(&taken).map(|(&wanted, &taken)| u64::from(wanted.saturating_sub(taken))).sum();
+            let per_pass = u64::from(Self::PASS) * wanted.len() as u64;
+            self.schedule.passes = self.done + later.div_ceil(per_pass) as u32;
+        }
+        self.wanted = wanted;
+    }
+
+    /// More samples for every pixel where the noise is above its target; `None` where it is not, or where no more may be taken.
+    fn more(&self) -> Option<Vec<u32>> {
         let config = self.integrator.config;
-        self.schedule.budget(config).allocate(self.view.camera().size()[0] as usize, &self.rows(PixelSum::estimate))
+        let measured = self.noise().filter(|noise| config.noise.is_some_and(|target| *noise > f64::from(target)))?;
+        let (estimates, taken) = (self.rows(PixelSum::estimate), self.rows(PixelSum::samples));
+        self.schedule.budget(config).more(self.view.camera().size()[0] as usize, &estimates, &taken, measured)
     }
 
     /// A value of every pixel, row by row.
@@ -257,29 +267,29 @@ impl<'a, 's> FrameRender<'a, 's> {
         taken as f64 / self.wanted.len() as f64
     }
 
-    /// The noise as it is now, measured as [`RenderConfig::noise`] is defined; `None` after one sample per pixel, which says nothing.
+    /// The noise as it is now, as [`Frame::noise`] measures it in the finished frame; `None` after one sample per pixel, which says
+    /// nothing.
     pub fn noise(&self) -> Option<f64> {
-        let pixels = self.rows(|sum| (f64::from(sum.estimate().mean), f64::from(sum.standard_error())));
-        let n = pixels.len() as f64;
-        let floor = f64::from(LUMINANCE_FLOOR) * pixels.iter().map(|(mean, _)| mean).sum::<f64>() / n;
-        let square = |&(mean, error): &(f64, f64)| if error == 0.0 { 0.0 } else { (error / (mean + floor)).powi(2) };
-        let noise = (pixels.iter().map(square).sum::<f64>() / n).sqrt();
-        noise.is_finite().then_some(noise)
+        let stored = |sum: &PixelSum| -> ([f16; 3], f16) {
+            let pixel = sum.resolve();
+            (pixel.color, pixel.standard_error)
+        };
+        picture_noise(self.rows(stored).into_iter())
     }
 
-    /// True when the frame is done with fewer samples than it might have taken, because fewer were enough for the noise target. The number
-    /// was decided by the first samples, so the noise in the end may lie somewhat above.
+    /// True when the frame is done with fewer samples than it might have taken, because fewer were enough for the noise target: it has at
+    /// most the noise that was asked for.
     pub fn met_noise_target(&self) -> bool {
         let config = self.integrator.config;
         let Some(target) = config.noise else { return false };
-        let is_near = |noise: f64| noise <= NOISE_TOLERANCE * f64::from(target);
-        self.is_done() && self.samples() < 0.999 * f64::from(config.samples) && self.noise().is_some_and(is_near)
+        let is_met = |noise: f64| noise <= f64::from(target);
+        self.is_done() && self.samples() < 0.999 * f64::from(config.samples) && self.noise().is_some_and(is_met)
     }
 
     /// All of it as bytes, for [`FrameRender::restore`]. `key` names everything that the frame depends on.
     pub fn save(&self, key: &[u8]) -> Vec<u8> {
         let config = self.integrator.config;
-        let header = Header { size: self.view.camera().size(), done: self.done, splits: config.splits, key };
+        let header = Header { size: self.view.camera().size(), done: self.done, passes: self.schedule.passes, splits: config.splits, key };
         let sums = self.film.iter().flat_map(|film| &film.sums).flat_map(|sum| sum.to_words());
         let splits = self.film.iter().flat_map(|film| &film.splits).flat_map(|split| split.to_words());
         partial::write(&header, self.wanted.iter().copied().chain(sums).chain(splits))
@@ -293,7 +303,7 @@ impl<'a, 's> FrameRender<'a, 's> {
     pub fn restore(&mut self, bytes: &[u8], key: &[u8]) -> Result<(), PartialError> {
         let (header, mut words) = partial::read(bytes)?;
         let splits = self.integrator.config.splits;
-        if header.key != key || header.size != self.view.camera().size() || header.splits != splits || header.done > self.schedule.passes {
+        if header.key != key || header.size != self.view.camera().size() || header.splits != splits || header.done > header.passes {
             return Err(PartialError::OtherFrame);
         }
         let per_pixel = 1 + PixelSum::WORDS + if splits { Split::WORDS } else { 0 };
@@ -301,11 +311,8 @@ impl<'a, 's> FrameRender<'a, 's> {
             return Err(PartialError::Damaged);
         }
         let mut next = || words.next().unwrap_or_default();
-        self.done = header.done;
+        (self.done, self.schedule.passes) = (header.done, header.passes);
         self.wanted.iter_mut().for_each(|wanted| *wanted = next());
-        if self.done >= self.schedule.first_passes {
-            self.schedule = self.schedule.settled(self.integrator.config, &self.wanted);
-        }
         let sums = self.film.iter_mut().flat_map(|film| &mut film.sums);
         sums.for_each(|sum| *sum = PixelSum::from_words(&std::array::from_fn(|_| next())));
         let splits = self.film.iter_mut().flat_map(|film| &mut film.splits);

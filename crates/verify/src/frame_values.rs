@@ -4,13 +4,9 @@ use crate::frame_gates::{Gate, gate_values};
 use enfilade_dataset::FrameRecord;
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, Layer, Validity, Values, traits};
-use enfilade_math::Rgb;
 use enfilade_scene::Camera;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-
-/// Share of the image's mean luminance that noise is measured against in the dark, as in rendering.
-const FLOOR: f64 = 0.2;
 
 /// Values of one frame. `None` and absent entries stand for layers that the frame lacks; shares are of 1.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -48,7 +44,7 @@ impl FrameValues {
     /// The values of a frame; `filmed_with` is its camera, where that is known, and `record` that of its rendering, where there is one.
     pub fn new([scene, camera]: [&str; 2], number: u32, frame: &Frame, filmed_with: Option<&Camera>, record: Option<&FrameRecord>) -> Self {
         let sampling = record.and_then(|record| record.sampling);
-        let noise = noise(frame);
+        let noise = frame.noise();
         let noise_target = sampling.and_then(|sampling| sampling.noise_target);
         let mut gates = gate_values(frame, seeing(frame, filmed_with));
         gates.extend(noise.zip(noise_target).map(|(noise, target)| (Gate::Noise, noise / f64::from(target))));
@@ -93,17 +89,6 @@ fn seeing(frame: &Frame, camera: Option<&Camera>) -> usize {
 /// Share of `all` for which `holds`.
 fn share(all: usize, holds: impl Fn(usize) -> bool) -> f64 {
     (0..all).filter(|&i| holds(i)).count() as f64 / all.max(1) as f64
-}
-
-fn noise(frame: &Frame) -> Option<f64> {
-    let (errors, color) = (frame.get(Layer::ColorStandardError)?, frame.get(Layer::Color)?);
-    let luminance =
-        |i: usize| f64::from(Rgb::new(color.get(3 * i) as f32, color.get(3 * i + 1) as f32, color.get(3 * i + 2) as f32).luminance());
-    let pixels = errors.len();
-    let floor = FLOOR * (0..pixels).map(luminance).sum::<f64>() / pixels as f64;
-    let square = |i: usize| if errors.get(i) == 0.0 { 0.0 } else { (errors.get(i) / (luminance(i) + floor)).powi(2) };
-    let noise = ((0..pixels).map(square).sum::<f64>() / pixels as f64).sqrt();
-    Some(noise).filter(|noise| noise.is_finite())
 }
 
 /// Shares of clipped and of black pixels.
@@ -206,6 +191,6 @@ mod tests {
         frame.insert(Layer::Color, testroom::store(Layer::Color, vec![0.5; 12]));
         frame.insert(Layer::ColorStandardError, testroom::store(Layer::ColorStandardError, vec![0.06; 4]));
         let expected = 0.06 / (0.5 * 1.2);
-        assert!((noise(&frame).unwrap() / expected - 1.0).abs() < 1e-3);
+        assert!((frame.noise().unwrap() / expected - 1.0).abs() < 1e-3);
     }
 }

@@ -390,9 +390,32 @@ fn a_noise_target_is_met_with_fewer_samples_and_says_so() {
     while !rendering.is_done() {
         rendering.pass(&Quiet);
     }
-    let noise = rendering.noise().unwrap();
     assert!(rendering.met_noise_target() && rendering.samples() < 2000.0, "{} samples", rendering.samples());
-    assert!(noise < 0.025, "noise {noise}");
+    assert!(rendering.noise().unwrap() <= 0.02, "noise {:?}", rendering.noise());
+}
+
+#[test]
+fn a_frame_stopped_by_noise_has_at_most_the_noise_that_was_asked_for() {
+    let mut lit = scene(vec![(room(1.0), Material::diffuse("wall", Rgb::splat(0.5)))]);
+    lit.lights.push(Light::Point { name: "p".into(), position: Vec3::new(0.0, 0.3, 0.5), intensity: Rgb::WHITE });
+    for (name, scene, target) in [("lit", &lit, 0.03f32), ("furnished", &furnished(), 0.06)] {
+        let prepared = RenderScene::new(scene, &Quiet).unwrap();
+        let (camera, pose) = place([24, 18]);
+        let view = CameraView::still(&camera, &pose);
+        for seed in 0..5 {
+            let config = RenderConfig { samples: 4096, noise: Some(target), seed, ..RenderConfig::default() };
+            let guide = Guide::learn(&prepared, &[view], &config);
+            let mut rendering = FrameRender::new(&prepared, &guide, &view, &config).unwrap();
+            while !rendering.is_done() {
+                rendering.pass(&Quiet);
+            }
+            // As it is said, and as it is measured in what is stored.
+            let (said, measured) = (rendering.noise().unwrap(), rendering.frame().noise().unwrap());
+            assert_eq!(said, measured);
+            assert!(rendering.met_noise_target(), "{name}, seed {seed}: {said} after {} samples", rendering.samples());
+            assert!((0.9..=1.0).contains(&(measured / f64::from(target))), "{name}, seed {seed}: {measured}, asked for {target}");
+        }
+    }
 }
 
 #[test]
@@ -413,7 +436,7 @@ fn a_noise_target_takes_what_it_needs_however_many_samples_it_might_take() {
     }
     let (samples, passes) = (whole.samples(), kept.len());
     assert!(whole.met_noise_target() && samples < 400.0, "noise {:?} after {samples} samples", whole.noise());
-    assert!(passes as f64 <= (samples / f64::from(FrameRender::PASS)).ceil() + 1.0, "{passes} passes for {samples} samples");
+    assert!(passes as f64 <= (samples / f64::from(FrameRender::PASS)).ceil() + 4.0, "{passes} passes for {samples} samples");
     // It goes on the same from any of them.
     for kept in [&kept[passes / 2], &kept[passes - 1]] {
         let mut next = new();

@@ -243,7 +243,7 @@ pub fn measure(frame: &Frame, projection: Option<&Projection>) -> (Image, Counts
     let mut image = Image {
         size: [frame.width, frame.height],
         valid: valid.len() as f64 / (frame.pixels() as f64).max(1.0),
-        noise: noise(frame),
+        noise: frame.noise(),
         ..Image::default()
     };
     for (light, counts) in LIGHTS.iter().zip(&mut counts.lights) {
@@ -349,18 +349,6 @@ fn count_labels(frame: &Frame, valid: &[usize], image: &mut Image, counts: &mut 
     image.objects = Some(instances.len());
     counts.objects_per_image[instances.len().min(MOST_OBJECTS - 1)] += 1;
     instances
-}
-
-/// Noise as `RenderConfig::noise` of the renderer defines it.
-fn noise(frame: &Frame) -> Option<f64> {
-    const FLOOR: f64 = 0.2;
-    let (color, error) = (frame.get(Layer::Color)?, frame.get(Layer::ColorStandardError)?);
-    let luminance = |i: usize| 0.2126 * color.get(3 * i) + 0.7152 * color.get(3 * i + 1) + 0.0722 * color.get(3 * i + 2);
-    let n = frame.pixels() as f64;
-    let floor = FLOOR * (0..frame.pixels()).map(luminance).sum::<f64>() / n;
-    let square = |i: usize| if error.get(i) == 0.0 { 0.0 } else { (error.get(i) / (luminance(i) + floor)).powi(2) };
-    let noise = ((0..frame.pixels()).map(square).sum::<f64>() / n).sqrt();
-    noise.is_finite().then_some(noise)
 }
 
 #[cfg(test)]
