@@ -189,7 +189,7 @@ fn light_is_absorbed_by_the_law_of_beer() {
     let blended = Material::new("blend", Bsdf::Blend { first: dust, second: Box::new(air.bsdf.clone()), weight: 1.0.into() });
     for material in [air, blended] {
         let s = white_sky(scene(vec![("cube", cube(false), material)]));
-        let frame = picture(&s, DVec3::new(-400.0, 0.0, 0.0), DVec3::ZERO, 8, 0.1, 16);
+        let frame = picture(&s, DVec3::new(-400.0, 0.0, 0.0), DVec3::ZERO, 8, 0.1, 256);
         for (channel, absorption) in [0.2f64, 0.5, 1.5].into_iter().enumerate() {
             assert_close("two metres", mean(&frame, Layer::Color, channel), (-2.0 * absorption).exp(), 2e-3);
         }
