@@ -104,6 +104,8 @@ pub struct Distribution2 {
     rows: Vec<Option<Distribution1>>,
     marginal: Distribution1,
     width: usize,
+    /// Of each cell, its density: one place in memory to look at.
+    densities: Vec<f32>,
 }
 
 impl Distribution2 {
@@ -111,7 +113,14 @@ impl Distribution2 {
     pub fn new(weights: &[f32], width: usize) -> Option<Self> {
         let rows: Vec<_> = weights.chunks(width).map(Distribution1::new).collect();
         let sums: Vec<f32> = rows.iter().map(|r| r.as_ref().map_or(0.0, |r| r.total() as f32)).collect();
-        Some(Self { marginal: Distribution1::new(&sums)?, rows, width })
+        let marginal = Distribution1::new(&sums)?;
+        let cells = (width * rows.len()) as f32;
+        let density = |(row, of_row): (usize, &Option<Distribution1>)| -> Vec<f32> {
+            let pmf = |column: usize| of_row.as_ref().map_or(0.0, |d| marginal.pmf(row) * d.pmf(column) * cells);
+            (0..width).map(pmf).collect()
+        };
+        let densities = rows.iter().enumerate().flat_map(density).collect();
+        Some(Self { rows, marginal, width, densities })
     }
 
     /// Point (x, y) on the unit square for `u` uniform on it, and its density per unit area of the square.
@@ -129,8 +138,7 @@ impl Distribution2 {
     pub fn pdf(&self, point: [f32; 2]) -> f32 {
         let row = ((point[1] * self.rows.len() as f32) as usize).min(self.rows.len() - 1);
         let column = ((point[0] * self.width as f32) as usize).min(self.width - 1);
-        let Some(conditional) = &self.rows[row] else { return 0.0 };
-        self.marginal.pmf(row) * conditional.pmf(column) * (self.width * self.rows.len()) as f32
+        self.densities[row * self.width + column]
     }
 }
 

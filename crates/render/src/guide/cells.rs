@@ -1,6 +1,7 @@
 //! A grid of surface cells: a voxel and the axis that the surface faces, found by hashing.
 
 use enfilade_math::{Vec3, hash_u64};
+use std::collections::HashMap;
 
 /// A place on a surface that a walk has visited.
 #[derive(Clone, Copy, Debug)]
@@ -28,8 +29,11 @@ pub(super) struct Cells {
     origin: Vec3,
     /// Cells per metre.
     scale: f32,
-    /// Open addressing: key and number; key 0 is empty. A power of two long, at most half full.
-    slots: Vec<(u64, u32)>,
+    /// Open addressing: the tag of a key and the cell's number; [`NONE`] is empty. A power of two long, at most half full.
+    ///
+    /// Small, because it is asked at every vertex and should stay in the processor's cache. Of two cells whose tags are the same by chance
+    /// one may not be found, which does no harm.
+    slots: Vec<(u32, u32)>,
     /// Of each cell, its key.
     keys: Vec<u64>,
     /// Of each cell, up to [`SITES`] places in it.
@@ -39,19 +43,26 @@ pub(super) struct Cells {
 impl Cells {
     /// The cells of `size` metres that the sites lie in.
     pub fn new(origin: Vec3, size: f32, sites: &[Site]) -> Self {
-        let slots = vec![(0, NONE); (4 * sites.len()).next_power_of_two().max(64)];
-        let mut cells = Self { origin, scale: 1.0 / size, slots, keys: Vec::new(), sites: Vec::new() };
+        let mut cells = Self { origin, scale: 1.0 / size, slots: Vec::new(), keys: Vec::new(), sites: Vec::new() };
+        let mut numbers = HashMap::new();
         for site in sites {
             let key = cells.key(site.p, site.n);
-            let slot = cells.slot(key);
-            if cells.slots[slot].0 == 0 {
-                cells.slots[slot] = (key, cells.sites.len() as u32);
+            let number = *numbers.entry(key).or_insert_with(|| {
                 cells.keys.push(key);
                 cells.sites.push([None; SITES]);
-            }
-            let number = cells.slots[slot].1 as usize;
+                cells.sites.len() - 1
+            });
             if let Some(free) = cells.sites[number].iter_mut().find(|s| s.is_none()) {
                 *free = Some(*site);
+            }
+        }
+        cells.slots = vec![(0, NONE); (2 * cells.keys.len()).next_power_of_two().max(64)];
+        for (number, &key) in cells.keys.iter().enumerate() {
+            let slot = (0..cells.slots.len())
+                .map(|i| (hash_u64(key) as usize + i) & (cells.slots.len() - 1))
+                .find(|&slot| cells.slots[slot].1 == NONE);
+            if let Some(slot) = slot {
+                cells.slots[slot] = (tag(hash_u64(key)), number as u32);
             }
         }
         cells
@@ -70,7 +81,7 @@ impl Cells {
     /// The number of the cell of a surface point; [`NONE`] where no walk has been.
     #[inline]
     pub fn find(&self, p: Vec3, n: Vec3) -> u32 {
-        self.slots[self.slot(self.key(p, n))].1
+        self.number(self.key(p, n))
     }
 
     /// The cells that touch a cell on its surface and face the same way, itself among them.
@@ -82,18 +93,21 @@ impl Cells {
             _ => [STEP_X, STEP_Y],
         };
         let keys = (-1..=1).flat_map(move |a| (-1..=1).map(move |b| (packed + a * steps[0] + b * steps[1]) as u64 + 1));
-        keys.map(|key| self.slots[self.slot(key)].1).filter(|&number| number != NONE).map(|number| number as usize)
+        keys.map(|key| self.number(key)).filter(|&number| number != NONE).map(|number| number as usize)
     }
 
-    /// Where a key is or would be.
+    /// The number of the cell of a key, or [`NONE`].
     #[inline]
-    fn slot(&self, key: u64) -> usize {
-        let mask = self.slots.len() - 1;
-        let mut slot = hash_u64(key) as usize & mask;
-        while self.slots[slot].0 != key && self.slots[slot].0 != 0 {
+    fn number(&self, key: u64) -> u32 {
+        let (hash, mask) = (hash_u64(key), self.slots.len() - 1);
+        let (mut slot, tag) = (hash as usize & mask, tag(hash));
+        loop {
+            let (found, number) = self.slots[slot];
+            if found == tag || number == NONE {
+                return number;
+            }
             slot = (slot + 1) & mask;
         }
-        slot
     }
 
     /// Voxel and facing axis as a number that is never zero.
@@ -112,6 +126,12 @@ impl Cells {
         let facing = 2 * axis + u64::from(along < 0.0);
         coordinate(at.x) * STEP_X as u64 + coordinate(at.y) * STEP_Y as u64 + coordinate(at.z) * STEP_Z as u64 + facing + 1
     }
+}
+
+/// What tells keys apart in [`Cells::slots`]: bits of the hash that do not say where to look.
+#[inline]
+fn tag(hash: u64) -> u32 {
+    (hash >> 32) as u32
 }
 
 #[cfg(test)]

@@ -30,13 +30,14 @@ const FEW_TRIALS: f32 = 4.0;
 pub(crate) struct LightChoice {
     origin: Vec3,
     cell_size: f32,
+    cells_per_m: f32,
     /// Places along x, y and z.
     size: [usize; 3],
     sources: usize,
     /// Row of each cell; cells where nothing was learned use the first.
     rows: Vec<u32>,
-    /// `sources` numbers a row: sums of the probabilities up to each source, the last one 1.
-    sums: Vec<f32>,
+    /// `sources` numbers a row: sums of the probabilities before each source, in steps of 1/[`ONE`].
+    starts: Vec<u16>,
     windows: Option<Windows>,
 }
 
@@ -48,26 +49,47 @@ pub(super) struct Arrival {
     pub value: f32,
 }
 
-/// The probabilities of the sources at a point.
+/// What the probabilities of a row sum to. Sixteen bits keep a row in one or two lines of the processor's cache.
+const ONE: u32 = 1 << 16;
+
+/// The probabilities of the sources at a point: sums before each source, see [`starts`].
 #[derive(Clone, Copy)]
-pub(super) struct Row<'a>(&'a [f32]);
+pub(super) struct Row<'a>(&'a [u16]);
 
 impl Row<'_> {
     /// A source for `u` uniform on [0,1), its probability, and `u` renewed.
     #[inline]
     pub fn sample(self, u: f32) -> (usize, f32, f32) {
         // Without a branch, some dozen numbers are counted faster than searched.
-        let source = self.0.iter().map(|&sum| usize::from(sum <= u)).sum::<usize>().min(self.0.len() - 1);
-        let probability = self.probability(source);
-        let below = if source == 0 { 0.0 } else { self.0[source - 1] };
-        (source, probability, ((u - below) / probability).clamp(0.0, ONE_MINUS_EPSILON))
+        let at = u * ONE as f32;
+        let whole = at as u16;
+        let source = usize::from(self.0.iter().map(|&start| u16::from(start <= whole)).sum::<u16>()) - 1;
+        let within = (at - f32::from(self.0[source])) / self.steps(source) as f32;
+        (source, self.probability(source), within.clamp(0.0, ONE_MINUS_EPSILON))
     }
 
     /// The probability of a source.
     #[inline]
     pub fn probability(self, source: usize) -> f32 {
-        self.0[source] - if source == 0 { 0.0 } else { self.0[source - 1] }
+        self.steps(source) as f32 * (1.0 / ONE as f32)
     }
+
+    #[inline]
+    fn steps(self, source: usize) -> u32 {
+        self.0.get(source + 1).map_or(ONE, |&end| u32::from(end)) - u32::from(self.0[source])
+    }
+}
+
+/// Sums of the probabilities before each source, in proportion to `weights` ≥ 0 that sum to more than zero; each source keeps a step.
+fn starts(weights: &[f32]) -> impl Iterator<Item = u16> {
+    let total: f64 = weights.iter().map(|&w| f64::from(w)).sum();
+    let free = f64::from(ONE) - weights.len() as f64;
+    let mut sum = 0.0;
+    weights.iter().enumerate().map(move |(source, &weight)| {
+        let start = (sum / total * free).min(free) as usize + source;
+        sum += f64::from(weight);
+        start as u16
+    })
 }
 
 impl LightChoice {
@@ -81,7 +103,7 @@ impl LightChoice {
     #[inline]
     pub(super) fn row(&self, at: &LightPoint) -> Row<'_> {
         let first = self.rows[self.place(at.p) * FACINGS + facing(at.n)] as usize * self.sources;
-        Row(&self.sums[first..first + self.sources])
+        Row(&self.starts[first..first + self.sources])
     }
 
     pub(super) fn from_arrivals(lights: &Lights<'_>, windows: Option<Windows>, arrivals: &[Arrival]) -> Self {
@@ -92,7 +114,8 @@ impl LightChoice {
         let places = size.iter().product::<usize>();
         let sources = lights.source_count(windows.as_ref().map_or(0, Windows::len));
         let rows = vec![0; places * FACINGS];
-        let mut choice = Self { origin: bounds.min, cell_size, size, sources, rows, sums: Vec::new(), windows };
+        let mut choice =
+            Self { origin: bounds.min, cell_size, cells_per_m: 1.0 / cell_size, size, sources, rows, starts: Vec::new(), windows };
         let learned = Learned::gather(&choice, arrivals);
         choice.push_row(&learned.all, lights, None);
         let mut next = 1;
@@ -136,16 +159,13 @@ impl LightChoice {
             let by_learning = if rms_sum > 0.0 { rms[s] / rms_sum } else { 0.0 };
             prior_fraction * by_prior + (1.0 - prior_fraction) * by_learning
         };
-        let mut sum = 0.0f64;
-        for s in 0..self.sources {
-            sum += f64::from(probability(s));
-            self.sums.push(if s + 1 == self.sources { 1.0 } else { sum.min(1.0) as f32 });
-        }
+        let weights: Vec<f32> = (0..self.sources).map(probability).collect();
+        self.starts.extend(starts(&weights));
     }
 
     #[inline]
     fn place(&self, p: Vec3) -> usize {
-        let at = (p - self.origin) / self.cell_size;
+        let at = (p - self.origin) * self.cells_per_m;
         let index = |v: f32, n: usize| (v.max(0.0) as usize).min(n - 1);
         let [nx, ny, nz] = self.size;
         (index(at.z, nz) * ny + index(at.y, ny)) * nx + index(at.x, nx)
@@ -266,10 +286,12 @@ mod tests {
 
     #[test]
     fn rows_choose_by_their_probabilities() {
-        for sums in [vec![0.25, 0.25, 1.0], (1..=20).map(|i| if i == 20 { 1.0 } else { i as f32 / 20.0 }).collect()] {
-            let row = Row(&sums);
-            let total: f32 = (0..sums.len()).map(|s| row.probability(s)).sum();
-            assert!((total - 1.0).abs() < 1e-6);
+        for weights in [vec![0.25, 0.0, 0.75], vec![0.05; 20], vec![1.0]] {
+            let starts: Vec<u16> = starts(&weights).collect();
+            let row = Row(&starts);
+            let probabilities = (0..weights.len()).map(|s| row.probability(s));
+            assert!((probabilities.clone().sum::<f32>() - 1.0).abs() < 1e-6);
+            assert!(probabilities.zip(&weights).all(|(p, w)| (p - w).abs() < 1e-3));
             for k in 0..1000 {
                 let (source, probability, renewed) = row.sample(k as f32 / 1000.0);
                 assert!(probability > 0.0 && probability == row.probability(source));
