@@ -43,9 +43,7 @@ impl<'s> RenderScene<'s> {
         let triangle = self.triangles.get(hit.triangle);
         let weights = hit.weights();
         let [a, b, c] = triangle.normals;
-        let cross = triangle.cross();
-        let area2 = cross.length();
-        let winding = if area2 > 0.0 { cross / area2 } else { wo };
+        let winding = if triangle.winding == Vec3::ZERO { wo } else { triangle.winding };
         let interpolated = (a * weights[0] + b * weights[1] + c * weights[2]).try_normalize().unwrap_or(winding);
         // The vertex normals say which side of the face is outside.
         let outward = if interpolated.dot(winding) < 0.0 { -winding } else { winding };
@@ -57,18 +55,19 @@ impl<'s> RenderScene<'s> {
         let material = &self.scene.materials[material_index];
         let uv = triangle.uv(weights);
         let cone = cone.advanced(hit.t);
-        let footprint = cone.footprint(triangle.uv_cross().abs() / area2);
+        let footprint = cone.footprint(triangle.uv_density);
         let bumped = material.normal_map.as_ref().and_then(|map| {
             let tangents = tangents(&triangle.corners, triangle.uvs)?;
             Some(perturbed(&self.textures, map, uv, &footprint, smooth, side, tangents))
         });
+        let ns_smooth = facing(smooth, wo);
         Surface {
             p: triangle.position(weights),
             wo,
             ng: outward * side,
             slack: triangle.slack,
-            ns_smooth: facing(smooth, wo),
-            ns: facing(bumped.unwrap_or(smooth), wo),
+            ns_smooth,
+            ns: bumped.map_or(ns_smooth, |bumped| facing(bumped, wo)),
             uv,
             cone,
             footprint,

@@ -350,6 +350,8 @@ mod tests {
             uvs: [Vec2::ZERO; 3],
             part: 0,
             material: 0,
+            winding: Vec3::Z,
+            uv_density: 0.0,
             slack: 0.0,
         };
         let (a, b, c, d) = ([0.0, 0.0, 1.0], [2.0, 0.0, 1.0], [2.0, 1.0, 1.0], [0.0, 1.0, 1.0]);
