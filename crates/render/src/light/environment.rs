@@ -1,7 +1,8 @@
 //! The environment (the sky): a constant or a latitude–longitude map, sampled in proportion to luminance × solid angle.
 
 use enfilade_math::{Distribution2, Mat3, Rgb, Vec2, Vec3, warp};
-use enfilade_scene::{Environment, Image, MapRows, TextureRef, Wrap, direction_from_uv, uv_from_direction};
+use enfilade_scene::{Environment, Image, MapRows, Pixels, TextureRef, Wrap, direction_from_uv, uv_from_direction};
+use half::f16;
 use std::f32::consts::PI;
 
 /// The environment with its sampling distribution.
@@ -20,6 +21,9 @@ enum SkyLight<'s> {
 #[derive(Debug)]
 struct SkyMap<'s> {
     image: &'s Image,
+    /// The image's texels, where all are numbers of sixteen bits, as those of most files are: lookups go all over the sky and wait for
+    /// memory, of which these take half.
+    halves: Option<Vec<[u16; 3]>>,
     texture: TextureRef,
     rows: MapRows,
     scale: Rgb,
@@ -38,7 +42,7 @@ impl<'s> Sky<'s> {
                 let distribution = Distribution2::new(&weights, columns)?;
                 let texture = TextureRef { wrap: [Wrap::Repeat, Wrap::Clamp], ..TextureRef::new(0) };
                 let (rows, scale, map_from_world) = (*rows, *scale, *map_from_world);
-                SkyLight::Map(Box::new(SkyMap { image, texture, rows, scale, map_from_world, distribution }))
+                SkyLight::Map(Box::new(SkyMap { image, halves: halves(image), texture, rows, scale, map_from_world, distribution }))
             }
         };
         let mut sky = Self { light, irradiance: 0.0 };
@@ -59,7 +63,7 @@ impl<'s> Sky<'s> {
             SkyLight::Map(map) => {
                 let uv = uv_from_direction(map.map_from_world * d);
                 let down = map.rows.place(uv.y, map.image.height);
-                map.scale * map.image.sample(&map.texture, Vec2::new(uv.x, 1.0 - down)).0
+                map.scale * map.read(Vec2::new(uv.x, down))
             }
         }
     }
@@ -92,11 +96,42 @@ impl<'s> Sky<'s> {
                 let d = map.map_from_world * d;
                 let uv = uv_from_direction(d);
                 // Near the poles the cosine rounds to one before the sine is zero.
-                let sin_theta = d.x.hypot(d.z);
+                let sin_theta = (d.x * d.x + d.z * d.z).sqrt();
                 if sin_theta <= 0.0 { 0.0 } else { map.distribution.pdf(uv.to_array()) / (2.0 * PI * PI * sin_theta) }
             }
         }
     }
+}
+
+impl SkyMap<'_> {
+    /// Interpolates between the texels around `at`, whose second coordinate counts downward.
+    #[inline]
+    fn read(&self, at: Vec2) -> Rgb {
+        let Some(halves) = &self.halves else { return self.image.sample(&self.texture, Vec2::new(at.x, 1.0 - at.y)).0 };
+        let (left, right, fx) = self.texture.wrap[0].neighbours(at.x, self.image.width);
+        let (top, bottom, fy) = self.texture.wrap[1].neighbours(at.y, self.image.height);
+        let width = self.image.width as usize;
+        let row = |row: usize| {
+            let [left, right] = [left, right].map(|column| Rgb::from(halves[row * width + column].map(positive)));
+            left * (1.0 - fx) + right * fx
+        };
+        row(top) * (1.0 - fy) + row(bottom) * fy
+    }
+}
+
+/// The texels as numbers of sixteen bits; `None` unless that changes none of them.
+fn halves(image: &Image) -> Option<Vec<[u16; 3]>> {
+    let Pixels::RgbF32(texels) = &image.pixels else { return None };
+    let half = |value: f32| Some(f16::from_f32(value).to_bits()).filter(|&bits| positive(bits) == value);
+    texels.iter().map(|&[r, g, b]| Some([half(r)?, half(g)?, half(b)?])).collect()
+}
+
+/// The value of a half-precision number that is neither negative nor infinite.
+#[inline]
+fn positive(bits: u16) -> f32 {
+    // The bits at their places in single precision, whose exponents begin 112 lower.
+    const UP: f32 = f32::from_bits((127 + 112) << 23);
+    f32::from_bits(u32::from(bits) << 13) * UP
 }
 
 /// Columns of the sampling grid (rows: half as many). The coarse one stays in a core's cache, which is worth more than its
@@ -159,8 +194,34 @@ fn texel_weights(image: &Image, scale: Rgb) -> Vec<f32> {
 mod tests {
     use super::*;
     use enfilade_math::Rng;
-    use enfilade_scene::Pixels;
     use enfilade_testkit::ChiSquare;
+
+    #[test]
+    fn a_map_of_halves_is_the_same_sky_in_half_of_the_memory() {
+        let mut rng = Rng::new(5);
+        let half = |v: f32| f16::from_f32(v).to_f32();
+        let mut texels: Vec<[f32; 3]> = (0..512).map(|_| [0.0f32; 3].map(|_| half(rng.next_f32().powi(20) * 6e4))).collect();
+        texels[0] = [0.0, f16::MIN_POSITIVE_SUBNORMAL.to_f32(), f16::MAX.to_f32()];
+        let image = |texels| [Image { name: "sky".into(), width: 32, height: 16, pixels: Pixels::RgbF32(texels) }];
+        let packed = image(texels.clone());
+        assert_eq!(halves(&packed[0]).expect("all are halves").concat().into_iter().map(positive).collect::<Vec<_>>(), texels.concat());
+        let map = Environment::Map { image: 0, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world: Mat3::IDENTITY };
+        let sky = Sky::new(&map, &packed).unwrap();
+        // One texel that is no half, of others that are not changed by it.
+        texels[511][0] += 1e-3;
+        for wrong in [texels.clone(), [vec![[f32::INFINITY; 3]], texels[1..].to_vec()].concat(), vec![[-0.5; 3]; 512]] {
+            assert!(halves(&image(wrong)[0]).is_none());
+        }
+        let floats = image(texels);
+        let plain = Sky::new(&map, &floats).unwrap();
+        for _ in 0..1000 {
+            let d = warp::sphere([rng.next_f32(), rng.next_f32()]);
+            let (a, b) = (sky.radiance(d), plain.radiance(d));
+            // The place between two texels is rounded in another way.
+            let off = (a - b).map(f32::abs).max_component();
+            assert!(off <= 1e-5 * f16::MAX.to_f32(), "{d}: {a:?}, {b:?}");
+        }
+    }
 
     #[test]
     fn directions_near_the_zenith_have_density() {
