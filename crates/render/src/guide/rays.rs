@@ -12,6 +12,8 @@ use enfilade_math::{Onb, Ray, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
 const PANES: usize = 8;
 /// Mirrors and bends by which a gathering ray goes on.
 const MIRRORS: usize = 6;
+/// It goes on with a probability of this times what is mirrored there: the faint reflections of varnish are looked for by few rays.
+const MIRROR_GAIN: f32 = 4.0;
 
 /// Purposes of a cell's random numbers: its direct light, the rays through its bins by their round, and the search for bright places.
 const DIRECT: usize = 0;
@@ -131,6 +133,11 @@ fn gather_hit(
     // Follow one sample of what the surface mirrors or refracts, until it meets a surface that is not sharp.
     let (mut surface, mut fraction) = (surface, through);
     for _ in 0..MIRRORS {
+        let chance = MIRROR_GAIN * albedo.sharp.luminance();
+        if rng.next_f32() >= chance {
+            break;
+        }
+        fraction *= (1.0 / chance).max(1.0);
         let onb = surface.onb();
         let Some(sample) = bsdf.sample(onb.to_local(surface.wo), [rng.next_f32(), rng.next_f32(), rng.next_f32()]) else { break };
         // The blurred part counts as diffuse already.
