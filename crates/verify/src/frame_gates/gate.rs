@@ -86,7 +86,7 @@ pub const GATES: [GateSpec; 9] = gates![
         "PSNR (at most 100) of the tone-mapped 8-bit color against A min(S, p) + min(R, p) with its own tone map; p: 98th percentile of all values of S",
         "Marigold IID (preprocess_hypersim_iid)",
         "much of the picture is brighter than nearly all diffuse shading, as windows, lamps and their reflections are: such frames are of no use for intrinsic images";
-    Noise "noise" AtMost 1.05 "of target", "noise of color over the noise that was asked for; twentieth part more, since it is predicted and not known when to stop",
+    Noise "noise" AtMost 1.0 "of target", "noise of color over the noise that was asked for",
         "the dataset's own configuration", "the limit of samples or time came first: allow more, or ask for less";
 ];
 
