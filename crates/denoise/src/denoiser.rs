@@ -1,18 +1,31 @@
-//! The denoiser itself: a device of Open Image Denoise, and its filter for one picture behind a safe interface.
+//! The denoiser: the network in the binary, or the library where it is installed.
 
-use crate::library::{DEVICE_CPU, ERRORS, FORMAT_FLOAT3, Functions, Handle, QUALITY_HIGH, load};
+use crate::installed::Installed;
+use crate::network::{Instructions, NAME, Network};
 use crate::{DenoiseError, Noisy};
-use std::ffi::{CStr, c_int};
 use std::path::Path;
 
-/// Open Image Denoise, ready to work on the processor.
-pub struct Denoiser {
-    functions: Functions,
-    device: Handle,
-    version: String,
+/// What takes noise away from pictures. Both kinds compute the same network and differ in the last bits alone.
+pub struct Denoiser(Kind);
+
+enum Kind {
+    BuiltIn(Box<Network>),
+    Installed(Installed),
 }
 
 impl Denoiser {
+    /// The network in the binary, which needs nothing installed. It works on the threads of the rayon pool in which
+    /// [`Self::filter`] is called, and gives the same bytes on every processor and any number of threads. Making it takes some
+    /// hundredths of a second and 65 MB of memory.
+    pub fn built_in() -> Self {
+        Self::built_in_with(Instructions::best())
+    }
+
+    /// As [`Self::built_in`], with instructions of choice: for tests and measurements.
+    pub fn built_in_with(instructions: Instructions) -> Self {
+        Self(Kind::BuiltIn(Box::new(Network::new(instructions))))
+    }
+
     /// Loads the library from `place` (its file, or the folder that it lies in; `None`: where the system's loader looks) and
     /// prepares it for `threads` threads, whose number changes no byte of what it makes. On Windows its folder must be in `PATH`
     /// too, where the system looks for the libraries that it needs itself.
@@ -20,107 +33,31 @@ impl Denoiser {
     /// # Errors
     /// When it is not there, is not version 2, or the processor is not supported.
     pub fn open(place: Option<&Path>, threads: usize) -> Result<Self, DenoiseError> {
-        let (library, functions) = load(place)?;
-        // SAFETY: the functions are called as the header says, here and below: with handles of the library that live, and
-        // strings that end with 0. The device is released once, in `drop`, and filters before it.
-        let device = unsafe { (functions.new_device)(DEVICE_CPU) };
-        let mut denoiser = Self { functions, device, version: String::new() };
-        if device.is_null() {
-            return Err(denoiser.error().unwrap_or_else(|| library_error("it gives no device and no reason", 1)));
-        }
-        // SAFETY: the device is not null and was made by this library; the names end with a zero byte.
-        unsafe {
-            (denoiser.functions.set_device_int)(device, c"numThreads".as_ptr(), c_int::try_from(threads).unwrap_or(0));
-            // The cores are shared with our own threads, so that pinning threads to them would slow both.
-            (denoiser.functions.set_device_bool)(device, c"setAffinity".as_ptr(), false);
-            (denoiser.functions.commit_device)(device);
-        }
-        denoiser.check()?;
-        // SAFETY: as above.
-        let number = |name: &CStr| unsafe { (denoiser.functions.device_int)(device, name.as_ptr()) };
-        let [major, minor, patch] = [c"versionMajor", c"versionMinor", c"versionPatch"].map(number);
-        denoiser.version = format!("{major}.{minor}.{patch}");
-        if major != 2 {
-            return Err(DenoiseError::Version { library, found: denoiser.version.clone() });
-        }
-        Ok(denoiser)
+        Installed::open(place, threads).map(|installed| Self(Kind::Installed(installed)))
     }
 
-    /// Name and version, as they stand in records: `Open Image Denoise 2.5.1`.
+    /// Name and version, as they stand in records: `Open Image Denoise 2.5.1`, or
+    /// `built-in (rt_hdr_calb_cnrm_large of Open Image Denoise 2)`.
     pub fn name(&self) -> String {
-        format!("Open Image Denoise {}", self.version)
+        match &self.0 {
+            Kind::BuiltIn(_) => NAME.into(),
+            Kind::Installed(installed) => installed.name(),
+        }
     }
 
-    /// Denoises one picture: its ray-tracing filter for high dynamic range at high quality, with guides that are taken to be
-    /// free of noise. The result is linear and may hold small negative values.
+    /// Denoises one picture of any size: the filter for ray-traced pictures of high dynamic range, with guides that are taken to be
+    /// free of noise. The result is linear, finite and not negative, whatever the picture holds: what is not a number or is negative
+    /// counts as 0, what is infinite as the greatest number, and guides are brought to their range.
     ///
     /// # Errors
-    /// With the library's own, such as too little memory.
+    /// With the library's own, such as too little memory. The network in the binary has none.
     ///
     /// # Panics
     /// When a picture is not three values per pixel.
-    pub fn filter(&self, noisy: &Noisy) -> Result<Vec<f32>, DenoiseError> {
-        let f = &self.functions;
-        let (width, height) = (noisy.width as usize, noisy.height as usize);
-        let mut output = vec![0.0f32; 3 * width * height];
-        // The library reads inputs through the pointer that it also writes outputs through; it does not write to inputs.
-        let pictures = [
-            (c"color", noisy.color.as_ptr().cast_mut(), noisy.color.len()),
-            (c"albedo", noisy.albedo.as_ptr().cast_mut(), noisy.albedo.len()),
-            (c"normal", noisy.normal.as_ptr().cast_mut(), noisy.normal.len()),
-            (c"output", output.as_mut_ptr(), output.len()),
-        ];
-        for (name, _, len) in pictures {
-            assert_eq!(len, 3 * width * height, "{name:?} of {width}x{height}");
-        }
-        // SAFETY: see `open`; the pictures hold what the sizes say, and outlive the filter.
-        let filter = unsafe { (f.new_filter)(self.device, c"RT".as_ptr()) };
-        if !filter.is_null() {
-            for (name, values, _) in pictures {
-                // SAFETY: the filter is not null; each picture has the size that is told, and outlives the filter, which is released below.
-                unsafe { (f.set_shared_image)(filter, name.as_ptr(), values.cast(), FORMAT_FLOAT3, width, height, 0, 0, 0) };
-            }
-            // SAFETY: the filter is not null; the names end with a zero byte.
-            unsafe {
-                (f.set_filter_bool)(filter, c"hdr".as_ptr(), true);
-                (f.set_filter_bool)(filter, c"cleanAux".as_ptr(), true);
-                (f.set_filter_int)(filter, c"quality".as_ptr(), QUALITY_HIGH);
-                (f.commit_filter)(filter);
-                (f.execute_filter)(filter);
-                (f.release_filter)(filter);
-            }
-        }
-        self.check().map(|()| output)
-    }
-
-    /// The error that waits, if one does.
-    fn check(&self) -> Result<(), DenoiseError> {
-        self.error().map_or(Ok(()), Err)
-    }
-
-    fn error(&self) -> Option<DenoiseError> {
-        let mut message = std::ptr::null();
-        // SAFETY: see `open`; the message lives until the next call.
-        let code = unsafe { (self.functions.device_error)(self.device, &raw mut message) };
-        if code == 0 {
-            return None;
-        }
-        // SAFETY: a message that is not null ends with a zero byte and lives until the next call of the library.
-        let text = if message.is_null() { "no reason given".into() } else { unsafe { CStr::from_ptr(message) }.to_string_lossy() };
-        Some(library_error(&text, code))
-    }
-}
-
-fn library_error(message: &str, code: c_int) -> DenoiseError {
-    let kind = usize::try_from(code).ok().and_then(|code| ERRORS.get(code)).unwrap_or(&ERRORS[1]);
-    DenoiseError::Library { message: message.into(), kind }
-}
-
-impl Drop for Denoiser {
-    fn drop(&mut self) {
-        if !self.device.is_null() {
-            // SAFETY: see `open`.
-            unsafe { (self.functions.release_device)(self.device) };
+    pub fn filter(&self, noisy: &Noisy<'_>) -> Result<Vec<f32>, DenoiseError> {
+        match &self.0 {
+            Kind::BuiltIn(network) => Ok(network.filter(noisy)),
+            Kind::Installed(installed) => installed.filter(noisy),
         }
     }
 }

@@ -25,9 +25,12 @@
 
 mod denoiser;
 mod error;
+mod installed;
 mod layers;
 mod library;
+mod network;
 
 pub use denoiser::Denoiser;
 pub use error::DenoiseError;
 pub use layers::{INPUTS, Noisy, denoise};
+pub use network::Instructions;

@@ -1,0 +1,67 @@
+//! Sixteen channels of one pixel, the unit in which everything is stored, and pictures of them.
+
+use bytemuck::Zeroable;
+
+/// Channels per block.
+pub(super) const LANES: usize = 16;
+
+/// Sixteen consecutive channels of a pixel, or the weights of sixteen consecutive output channels.
+#[derive(Clone, Copy, Debug, PartialEq, Zeroable)]
+#[repr(C, align(64))]
+pub(super) struct Block(pub [f32; LANES]);
+
+/// `count` blocks of zeros.
+pub(super) fn zeros(count: usize) -> Vec<Block> {
+    bytemuck::zeroed_vec(count)
+}
+
+/// The size of a layer's values, and where each lies: blocks of channels one after the other, each a picture row by row.
+///
+/// Around each picture lie zeros: one pixel above and to the left, and below and to the right as many as a tile of 4×4 pixels
+/// reaches beyond it, and one more. So convolutions read a border without looking where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Shape {
+    pub channels: usize,
+    pub width: usize,
+    pub height: usize,
+}
+
+impl Shape {
+    /// Blocks of channels; the last may be filled up with zeros.
+    pub fn blocks(self) -> usize {
+        self.channels.div_ceil(LANES)
+    }
+
+    /// Distance of two rows.
+    pub fn pitch(self) -> usize {
+        self.width.next_multiple_of(4) + 2
+    }
+
+    fn rows(self) -> usize {
+        self.height.next_multiple_of(4) + 2
+    }
+
+    /// Where the pixel (`x` − 1, `y` − 1) of a block of channels lies: (0, 0) is the corner of the border.
+    pub fn bordered(self, block: usize, x: usize, y: usize) -> usize {
+        (block * self.rows() + y) * self.pitch() + x
+    }
+}
+
+/// The values of a layer.
+pub(super) struct Tensor {
+    pub shape: Shape,
+    pub data: Vec<Block>,
+}
+
+impl Tensor {
+    /// A tensor of zeros.
+    pub fn new(shape: Shape) -> Self {
+        Self { shape, data: zeros(shape.blocks() * shape.rows() * shape.pitch()) }
+    }
+
+    /// The pixels of a row, without the border.
+    pub fn row(&self, block: usize, y: usize) -> &[Block] {
+        let start = self.shape.bordered(block, 1, y + 1);
+        &self.data[start..start + self.shape.width]
+    }
+}

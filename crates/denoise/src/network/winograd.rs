@@ -1,0 +1,159 @@
+//! Convolution with 3×3 weights, four by four pixels at a time, by Winograd's algorithm.
+//!
+//! A tile of 4×4 output pixels depends on 6×6 input pixels. Both are polynomials of two variables; their values at 6×6 points turn
+//! the convolution into 36 products instead of 144, which sums over channels as matrix products do. Lavin and Gray 2016, "Fast
+//! Algorithms for Convolutional Neural Networks", F(4×4, 3×3), points 0, ±1, ±2 and infinity. Every output value is computed by the
+//! same operations in the same order, whatever the tiles are gathered to and whichever instructions do it.
+
+use super::block::{Block, LANES};
+use super::simd::Simd;
+
+/// Points of a tile.
+pub(super) const POINTS: usize = 36;
+
+/// Bᵀd: the values of one row or column of an input tile at the points.
+#[inline(always)]
+fn input_points<S: Simd>(s: S, d: [S::Lanes; 6]) -> [S::Lanes; 6] {
+    let (two, four, minus_two, minus_four, minus_five) = (s.splat(2.0), s.splat(4.0), s.splat(-2.0), s.splat(-4.0), s.splat(-5.0));
+    let even = s.fma(minus_four, d[2], d[4]);
+    let odd = s.fma(minus_four, d[1], d[3]);
+    let (even_2, odd_2) = (s.sub(d[4], d[2]), s.sub(d[3], d[1]));
+    [
+        s.fma(minus_five, d[2], s.fma(four, d[0], d[4])),
+        s.add(even, odd),
+        s.sub(even, odd),
+        s.fma(two, odd_2, even_2),
+        s.fma(minus_two, odd_2, even_2),
+        s.fma(minus_five, d[3], s.fma(four, d[1], d[5])),
+    ]
+}
+
+/// Aᵀm: four output values of a row or column from the values at the points.
+#[inline(always)]
+fn output_values<S: Simd>(s: S, m: [S::Lanes; 6]) -> [S::Lanes; 4] {
+    let (two, four, eight) = (s.splat(2.0), s.splat(4.0), s.splat(8.0));
+    let (sum, difference) = (s.add(m[1], m[2]), s.sub(m[1], m[2]));
+    let (sum_2, difference_2) = (s.add(m[3], m[4]), s.sub(m[3], m[4]));
+    [
+        s.add(s.add(m[0], sum), sum_2),
+        s.fma(two, difference_2, difference),
+        s.fma(four, sum_2, sum),
+        s.add(s.fma(eight, difference_2, difference), m[5]),
+    ]
+}
+
+/// G g Gᵀ: 3×3 weights (rows of columns) at the points.
+pub(super) fn weight_points(g: [[f64; 3]; 3]) -> [f64; POINTS] {
+    let points = |[a, b, c]: [f64; 3]| {
+        let (sum, sum_2) = (a + c, a + 4.0 * c);
+        [a / 4.0, -(sum + b) / 6.0, (b - sum) / 6.0, (sum_2 + 2.0 * b) / 24.0, (sum_2 - 2.0 * b) / 24.0, c]
+    };
+    let rows = g.map(points);
+    let mut at = [0.0; POINTS];
+    for x in 0..6 {
+        for (y, value) in points(rows.map(|row| row[x])).into_iter().enumerate() {
+            at[6 * y + x] = value;
+        }
+    }
+    at
+}
+
+/// Where the six rows or columns of a tile's input lie among those that are stored: all there, or doubled by upsampling.
+pub(super) const STORED: [usize; 6] = [0, 1, 2, 3, 4, 5];
+/// See [`STORED`]: pixel −1 is in the pixel before, 0 and 1 are one pixel, and so on.
+pub(super) const DOUBLED: [usize; 6] = [0, 1, 1, 2, 2, 3];
+
+/// Writes the 6×6 input pixels of a tile at the points: to `out[0]`, `out[stride]` and so on. `pixels` begins with the first of
+/// them; rows are `pitch` apart; `at` is [`STORED`] or [`DOUBLED`].
+#[inline(always)]
+pub(super) fn transform_input<S: Simd>(s: S, pixels: &[Block], pitch: usize, at: [usize; 6], out: &mut [Block], stride: usize) {
+    let pixels = &pixels[..at[5] * (pitch + 1) + 1];
+    let zero = s.splat(0.0);
+    let mut columns = [[zero; 6]; 6];
+    for x in 0..6 {
+        let mut column = [zero; 6];
+        for y in 0..6 {
+            column[y] = s.load(&pixels[at[y] * pitch + at[x]]);
+        }
+        let column = input_points(s, column);
+        for y in 0..6 {
+            columns[y][x] = column[y];
+        }
+    }
+    let out = &mut out[..(POINTS - 1) * stride + 1];
+    for y in 0..6 {
+        let row = input_points(s, columns[y]);
+        for x in 0..6 {
+            s.store(row[x], &mut out[(6 * y + x) * stride]);
+        }
+    }
+}
+
+/// The 4×4 output pixels of a tile, from the sums at the points, which lie `stride` apart: with the bias, and 0 where negative.
+#[inline(always)]
+pub(super) fn transform_output<S: Simd>(s: S, sums: &[Block], stride: usize, bias: &Block) -> [[S::Lanes; 4]; 4] {
+    let sums = &sums[..(POINTS - 1) * stride + 1];
+    let (bias, zero) = (s.load(bias), s.splat(0.0));
+    let mut rows = [[zero; 6]; 4];
+    for x in 0..6 {
+        let mut column = [zero; 6];
+        for y in 0..6 {
+            column[y] = s.load(&sums[(6 * y + x) * stride]);
+        }
+        let column = output_values(s, column);
+        for y in 0..4 {
+            rows[y][x] = column[y];
+        }
+    }
+    let mut tile = [[zero; 4]; 4];
+    for y in 0..4 {
+        let row = output_values(s, rows[y]);
+        for x in 0..4 {
+            tile[y][x] = s.max(s.add(row[x], bias), zero);
+        }
+    }
+    tile
+}
+
+/// At one point: the sums over input channels, for `TILES` tiles and `BLOCKS` blocks of output channels.
+///
+/// `values` holds a run of at least `TILES` blocks for every block of input channels, `stride` apart; `weights` one block per input
+/// channel for each block of output channels. The sums of a block of channels go to `out`, `out_stride` after those of the one before.
+#[inline(always)]
+pub(super) fn multiply<S: Simd, const TILES: usize, const BLOCKS: usize>(
+    s: S,
+    values: &[Block],
+    stride: usize,
+    weights: [&[Block]; BLOCKS],
+    out: &mut [Block],
+    out_stride: usize,
+) {
+    let zero = s.splat(0.0);
+    let mut sums = [[zero; TILES]; BLOCKS];
+    let channels = weights[0].len();
+    let mut run = values;
+    let mut first = 0;
+    while first < channels {
+        let tiles: &[Block; TILES] = run.first_chunk().expect("a run has a block for every tile");
+        for lane in 0..(channels - first).min(LANES) {
+            let mut w = [zero; BLOCKS];
+            for b in 0..BLOCKS {
+                w[b] = s.load(&weights[b][first + lane]);
+            }
+            for t in 0..TILES {
+                let value = s.splat(tiles[t].0[lane]);
+                for b in 0..BLOCKS {
+                    sums[b][t] = s.fma(value, w[b], sums[b][t]);
+                }
+            }
+        }
+        first += LANES;
+        run = run.get(stride..).unwrap_or(&[]);
+    }
+    for b in 0..BLOCKS {
+        let out: &mut [Block; TILES] = out[b * out_stride..].first_chunk_mut().expect("there is room for every tile");
+        for t in 0..TILES {
+            s.store(sums[b][t], &mut out[t]);
+        }
+    }
+}
