@@ -1,4 +1,5 @@
-//! What denoising promises: the identity, what it reads, and what it does to noise where the library is installed.
+//! What denoising promises: the identity, what it reads, what it does to noise, and that the network in the binary makes of pictures
+//! what the library makes of them where it is installed.
 
 use enfilade_denoise::{DenoiseError, Denoiser, INPUTS, Noisy, denoise};
 use enfilade_frame::{Frame, Layer, Pass, Values, f16};
@@ -85,19 +86,10 @@ fn a_missing_layer_is_named() {
     assert!(matches!(error, DenoiseError::MissingLayer { .. }));
 }
 
-#[test]
-fn the_library_takes_noise_away_and_gives_the_same_bytes_on_any_number_of_threads() {
-    let Some(place) = std::env::var_os("ENFILADE_OIDN") else {
-        return eprintln!("skipped: ENFILADE_OIDN does not name Open Image Denoise");
-    };
+/// Checks that noise goes away when a frame is denoised, and gives what it becomes.
+fn assert_less_noise(denoiser: &Denoiser) -> Frame {
     let (noisy, clean) = (frame(1.0), frame(0.0));
-    let with = |threads| {
-        let denoiser = Denoiser::open(Some(Path::new(&place)), threads).unwrap();
-        assert!(denoiser.name().starts_with("Open Image Denoise 2."));
-        denoise(&noisy, |noisy| denoiser.filter(noisy)).unwrap()
-    };
-    let denoised = with(1);
-    assert_eq!(denoised, with(3));
+    let denoised = denoise(&noisy, |noisy| denoiser.filter(noisy)).unwrap();
     assert_identity(&noisy, &denoised);
     for (before, after) in PARTS {
         let error = |of: &Frame, layer| {
@@ -105,5 +97,48 @@ fn the_library_takes_noise_away_and_gives_the_same_bytes_on_any_number_of_thread
         };
         let (with_noise, without) = (error(&noisy, before), error(&denoised, after));
         assert!(without < 0.1 * with_noise, "{}: {without} of {with_noise}", before.spec().name);
+    }
+    denoised
+}
+
+#[test]
+fn the_network_in_the_binary_takes_noise_away() {
+    let denoiser = Denoiser::built_in();
+    assert_eq!(denoiser.name(), "built-in (rt_hdr_calb_cnrm_large of Open Image Denoise 2)");
+    assert_less_noise(&denoiser);
+}
+
+#[test]
+fn the_library_takes_noise_away_and_gives_the_same_bytes_on_any_number_of_threads() {
+    let Some(place) = std::env::var_os("ENFILADE_OIDN") else {
+        return eprintln!("skipped: ENFILADE_OIDN does not name Open Image Denoise");
+    };
+    let with = |threads| {
+        let denoiser = Denoiser::open(Some(Path::new(&place)), threads).unwrap();
+        assert!(denoiser.name().starts_with("Open Image Denoise 2."));
+        assert_less_noise(&denoiser)
+    };
+    assert_eq!(with(1), with(3));
+}
+
+#[test]
+fn the_network_in_the_binary_makes_what_the_library_makes() {
+    let Some(place) = std::env::var_os("ENFILADE_OIDN") else {
+        return eprintln!("skipped: ENFILADE_OIDN does not name Open Image Denoise");
+    };
+    let (library, built_in) = (Denoiser::open(Some(Path::new(&place)), 2).unwrap(), Denoiser::built_in());
+    let random = |count: u32, scale: f32, purpose| -> Vec<f32> {
+        (0..3 * count as usize).map(|i| scale * random(i / 3, i % 3, purpose).powi(2)).collect()
+    };
+    // Neither side is a multiple of 16; dim, usual, bright, and all of it black.
+    for (width, height, scale) in [(77, 50, 1e-3), (64, 96, 1.0), (129, 33, 1e4), (40, 40, 0.0)] {
+        let count = width * height;
+        let (color, albedo, normal) = (random(count, scale, 4), random(count, 1.2, 5), random(count, 1.0, 6));
+        let noisy = Noisy { width, height, color: &color, albedo: &albedo, normal: &normal };
+        let (expected, found) = (library.filter(&noisy).unwrap(), built_in.filter(&noisy).unwrap());
+        let sum = |values: &mut dyn Iterator<Item = f32>| values.map(f64::from).sum::<f64>();
+        let difference = sum(&mut expected.iter().zip(&found).map(|(a, b)| (a - b).abs()));
+        let all = sum(&mut expected.iter().copied());
+        assert!(difference <= 1e-4 * all, "{width}x{height}, times {scale}: {difference} of {all}");
     }
 }

@@ -47,21 +47,41 @@ impl Shape {
     }
 }
 
-/// The values of a layer.
+/// The values of a layer, or some rows of them.
 pub(super) struct Tensor {
     pub shape: Shape,
+    /// The first row of the layer that is here; 0 where all are.
+    pub top: usize,
     pub data: Vec<Block>,
 }
 
 impl Tensor {
     /// A tensor of zeros.
     pub fn new(shape: Shape) -> Self {
-        Self { shape, data: zeros(shape.blocks() * shape.rows() * shape.pitch()) }
+        Self { shape, top: 0, data: zeros(shape.blocks() * shape.rows() * shape.pitch()) }
     }
 
     /// The pixels of a row, without the border.
     pub fn row(&self, block: usize, y: usize) -> &[Block] {
-        let start = self.shape.bordered(block, 1, y + 1);
+        let start = self.shape.bordered(block, 1, y + 1 - self.top);
         &self.data[start..start + self.shape.width]
+    }
+
+    /// Moves the rows from `top` − 1 up to `end` of the layer to the beginning; what lies below them is no longer of use.
+    pub fn scroll(&mut self, top: usize, end: usize) {
+        let (shape, gone, left) = (self.shape, top - self.top, end + 1 - top);
+        for block in 0..shape.blocks() {
+            let start = shape.bordered(block, 0, gone);
+            self.data.copy_within(start..start + left * shape.pitch(), shape.bordered(block, 0, 0));
+        }
+        self.top = top;
+    }
+
+    /// Makes the rows from `end` of the layer on zeros.
+    pub fn clear_below(&mut self, end: usize) {
+        let shape = self.shape;
+        for block in 0..shape.blocks() {
+            self.data[shape.bordered(block, 0, end + 1 - self.top)..shape.bordered(block + 1, 0, 0)].fill(Block([0.0; LANES]));
+        }
     }
 }

@@ -6,7 +6,8 @@ use super::simd::Simd;
 use super::winograd::{DOUBLED, POINTS, STORED, multiply, transform_input, transform_output, weight_points};
 use rayon::prelude::*;
 use std::marker::PhantomData;
-use std::sync::Mutex;
+use std::ops::Range;
+use std::sync::{Mutex, MutexGuard};
 
 /// Weights of 3×3 pixels, biases, and the rectifier.
 pub(super) struct Convolution {
@@ -22,6 +23,14 @@ pub(super) struct Convolution {
 pub(super) struct Source<'a> {
     pub tensor: &'a Tensor,
     pub doubled: bool,
+}
+
+impl Source<'_> {
+    /// Width and height of the layer that reads it.
+    pub fn size(&self) -> [usize; 2] {
+        let Shape { width, height, .. } = self.tensor.shape;
+        if self.doubled { [2 * width, 2 * height] } else { [width, height] }
+    }
 }
 
 /// What becomes of a layer's values.
@@ -54,71 +63,42 @@ impl Convolution {
         Self { inputs, outputs, weights: packed, bias: padded }
     }
 
-    /// The layer's values, where it reads `sources` one after the other. Tiles are spread over the threads of the current pool.
-    pub fn apply(&self, instructions: Instructions, sources: &[Source<'_>], kept: Kept) -> Tensor {
-        let run = Run::new(self, instructions, sources, kept);
-        let (width, height) = (run.width, run.height);
-        let mut output = Tensor::new(match kept {
-            Kept::All => Shape { channels: self.outputs, width, height },
-            Kept::Greatest => Shape { channels: self.outputs, width: width / 2, height: height / 2 },
+    /// Output channels.
+    pub fn outputs(&self) -> usize {
+        self.outputs
+    }
+
+    /// Computes the layer's values in some rows of tiles into `output`, where it reads `sources` one after the other. `size` is the
+    /// width and height of all its values, before they are pooled.
+    pub fn apply(
+        &self,
+        workshop: &Workshop,
+        sources: &[Source<'_>],
+        kept: Kept,
+        size: [usize; 2],
+        rows: Range<usize>,
+        output: &mut Tensor,
+    ) {
+        let run = Run::new(self, workshop.instructions, sources, kept, size, rows);
+        let pixels = Pixels::new(output);
+        (0..run.tiles.len().div_ceil(run.share)).into_par_iter().for_each(|index| {
+            let mut scratch = workshop.scratch(&run);
+            let first = run.tiles.start + index * run.share;
+            workshop.instructions.run(Part { run: &run, first, scratch: &mut scratch, pixels: &pixels });
+            workshop.spares().push(scratch);
         });
-        let pixels = Pixels::new(&mut output);
-        let spare: Mutex<Vec<Scratch>> = Mutex::new(Vec::new());
-        let spares = || spare.lock().expect("no thread panics while it holds the lock");
-        (0..run.count.div_ceil(run.tiles)).into_par_iter().for_each(|index| {
-            let taken = spares().pop();
-            let mut scratch = taken.unwrap_or_else(|| Scratch::new(&run));
-            instructions.run(Part { run: &run, first: index * run.tiles, scratch: &mut scratch, pixels: &pixels });
-            spares().push(scratch);
-        });
-        output
     }
 }
 
-/// What is common to all tiles of a layer.
-struct Run<'a> {
-    layer: &'a Convolution,
-    sources: &'a [Source<'a>],
-    kept: Kept,
-    /// Size of the layer's values before they are pooled.
-    width: usize,
-    height: usize,
-    /// Tiles per row, all tiles, and tiles that are worked on at a time.
-    columns: usize,
-    count: usize,
-    tiles: usize,
-    /// Blocks of output channels that are worked on at a time.
-    blocks: usize,
-}
-
-impl<'a> Run<'a> {
-    fn new(layer: &'a Convolution, instructions: Instructions, sources: &'a [Source<'a>], kept: Kept) -> Self {
-        let (last, others) = sources.split_last().expect("a layer has a source");
-        let channels = |source: &Source<'_>| source.tensor.shape.channels;
-        assert!(others.iter().all(|source| channels(source) % LANES == 0), "only the last source may have an unfilled block");
-        assert_eq!(sources.iter().map(channels).sum::<usize>(), layer.inputs, "channels");
-        let scale = if last.doubled { 2 } else { 1 };
-        let (width, height) = (scale * last.tensor.shape.width, scale * last.tensor.shape.height);
-        let columns = width.div_ceil(4);
-        let count = columns * height.div_ceil(4);
-        // Small layers are shared out evenly.
-        let share = count.div_ceil(rayon::current_num_threads()).next_multiple_of(instructions.tiles());
-        let tiles = share.min(instructions.tiles_at_a_time());
-        Self { layer, sources, kept, width, height, columns, count, tiles, blocks: instructions.blocks().min(layer.bias.len()) }
-    }
-
-    /// Distance of two points in the input: odd, so that points do not compete for the same lines of the cache.
-    fn stride(&self) -> usize {
-        self.sources.iter().map(|source| source.tensor.shape.blocks()).sum::<usize>() * self.tiles | 1
-    }
-
-    /// Likewise in the sums.
-    fn sum_stride(&self) -> usize {
-        self.blocks * self.tiles | 1
-    }
+/// What layers are computed with.
+pub(super) struct Workshop {
+    instructions: Instructions,
+    /// What no thread works in at the moment.
+    spare: Mutex<Vec<Scratch>>,
 }
 
 /// What a thread works in.
+#[derive(Default)]
 struct Scratch {
     /// Per point, block of input channels and tile.
     values: Vec<Block>,
@@ -126,9 +106,77 @@ struct Scratch {
     sums: Vec<Block>,
 }
 
-impl Scratch {
-    fn new(run: &Run<'_>) -> Self {
-        Self { values: zeros(POINTS * run.stride()), sums: zeros(POINTS * run.sum_stride()) }
+impl Workshop {
+    pub fn new(instructions: Instructions) -> Self {
+        Self { instructions, spare: Mutex::default() }
+    }
+
+    fn spares(&self) -> MutexGuard<'_, Vec<Scratch>> {
+        self.spare.lock().expect("no thread panics while it holds the lock")
+    }
+
+    fn scratch(&self, run: &Run<'_>) -> Scratch {
+        let spare = self.spares().pop();
+        let mut scratch = spare.unwrap_or_default();
+        let fit = |blocks: &mut Vec<Block>, count: usize| {
+            if blocks.len() < count {
+                *blocks = zeros(count);
+            }
+        };
+        fit(&mut scratch.values, POINTS * run.stride());
+        fit(&mut scratch.sums, POINTS * run.sum_stride());
+        scratch
+    }
+}
+
+/// What is common to the tiles of a layer that are computed at a time.
+struct Run<'a> {
+    layer: &'a Convolution,
+    sources: &'a [Source<'a>],
+    kept: Kept,
+    /// Size of the layer's values before they are pooled.
+    width: usize,
+    height: usize,
+    /// Tiles per row of all the layer's.
+    columns: usize,
+    /// The tiles, counted row by row.
+    tiles: Range<usize>,
+    /// How many of them a thread works on at a time.
+    share: usize,
+    /// Blocks of output channels that it works on at a time.
+    blocks: usize,
+}
+
+impl<'a> Run<'a> {
+    fn new(
+        layer: &'a Convolution,
+        instructions: Instructions,
+        sources: &'a [Source<'a>],
+        kept: Kept,
+        [width, height]: [usize; 2],
+        rows: Range<usize>,
+    ) -> Self {
+        let (_, others) = sources.split_last().expect("a layer has a source");
+        let channels = |source: &Source<'_>| source.tensor.shape.channels;
+        assert!(others.iter().all(|source| channels(source) % LANES == 0), "only the last source may have an unfilled block");
+        assert_eq!(sources.iter().map(channels).sum::<usize>(), layer.inputs, "channels");
+        let columns = width.div_ceil(4);
+        let tiles = rows.start * columns..rows.end * columns;
+        // Where tiles are few, every thread gets some.
+        let even = tiles.len().div_ceil(rayon::current_num_threads()).next_multiple_of(instructions.tiles());
+        let (share, blocks) = (even.min(instructions.tiles_at_a_time()), instructions.blocks().min(layer.bias.len()));
+        Self { layer, sources, kept, width, height, columns, tiles, share, blocks }
+    }
+
+    /// Distance of two points in the input: odd, so that points do not compete for the same lines of the cache.
+    fn stride(&self) -> usize {
+        let blocks: usize = self.sources.iter().map(|source| source.tensor.shape.blocks()).sum();
+        (blocks * self.share) | 1
+    }
+
+    /// Likewise in the sums.
+    fn sum_stride(&self) -> usize {
+        (self.blocks * self.share) | 1
     }
 }
 
@@ -138,6 +186,7 @@ struct Pixels<'a> {
     /// Blocks from `start` on.
     len: usize,
     shape: Shape,
+    top: usize,
     tensor: PhantomData<&'a mut Tensor>,
 }
 
@@ -146,7 +195,8 @@ unsafe impl Sync for Pixels<'_> {}
 
 impl<'a> Pixels<'a> {
     fn new(tensor: &'a mut Tensor) -> Self {
-        Self { start: tensor.data.as_mut_ptr(), len: tensor.data.len(), shape: tensor.shape, tensor: PhantomData }
+        let (len, shape, top) = (tensor.data.len(), tensor.shape, tensor.top);
+        Self { start: tensor.data.as_mut_ptr(), len, shape, top, tensor: PhantomData }
     }
 
     /// Stores a pixel of a block of channels.
@@ -155,14 +205,14 @@ impl<'a> Pixels<'a> {
     /// No other thread reads or writes the pixel meanwhile.
     #[inline(always)]
     unsafe fn set<S: Simd>(&self, s: S, block: usize, x: usize, y: usize, value: S::Lanes) {
-        let index = self.shape.bordered(block, x + 1, y + 1);
+        let index = self.shape.bordered(block, x + 1, y + 1 - self.top);
         assert!(index < self.len);
         // SAFETY: `index` lies within the tensor, which is borrowed for as long as `self`, and the pixel is this thread's.
         s.store(value, unsafe { &mut *self.start.add(index) });
     }
 }
 
-/// A row of tiles, from one that is a whole number of runs from the first.
+/// What a thread works on at a time: a share of the tiles, from `first` on.
 struct Part<'a> {
     run: &'a Run<'a>,
     first: usize,
@@ -190,7 +240,7 @@ impl Part<'_> {
     /// Place in the part, column and row of each tile.
     fn tiles(&self) -> impl Iterator<Item = (usize, usize, usize)> + use<> {
         let (first, columns) = (self.first, self.run.columns);
-        let end = (first + self.run.tiles).min(self.run.count);
+        let end = (first + self.run.share).min(self.run.tiles.end);
         (first..end).map(move |tile| (tile - first, tile % columns, tile / columns))
     }
 
@@ -199,14 +249,14 @@ impl Part<'_> {
     fn inputs<S: Simd>(&mut self, s: S) {
         let (stride, mut block) = (self.run.stride(), 0);
         for source in self.run.sources {
-            let (shape, data) = (source.tensor.shape, &source.tensor.data);
+            let Tensor { shape, top, data } = source.tensor;
             for channels in 0..shape.blocks() {
                 for (place, x, y) in self.tiles() {
-                    let out = &mut self.scratch.values[block * self.run.tiles + place..];
+                    let out = &mut self.scratch.values[block * self.run.share + place..];
                     if source.doubled {
-                        transform_input(s, &data[shape.bordered(channels, 2 * x, 2 * y)..], shape.pitch(), DOUBLED, out, stride);
+                        transform_input(s, &data[shape.bordered(channels, 2 * x, 2 * y - top)..], shape.pitch(), DOUBLED, out, stride);
                     } else {
-                        transform_input(s, &data[shape.bordered(channels, 4 * x, 4 * y)..], shape.pitch(), STORED, out, stride);
+                        transform_input(s, &data[shape.bordered(channels, 4 * x, 4 * y - top)..], shape.pitch(), STORED, out, stride);
                     }
                 }
                 block += 1;
@@ -219,7 +269,7 @@ impl Part<'_> {
     fn outputs<S: Simd, const TILES: usize, const BLOCKS: usize>(&mut self, s: S, first: usize) {
         let (run, layer, Scratch { values, sums }) = (self.run, self.run.layer, &mut *self.scratch);
         let (stride, sum_stride) = (run.stride(), run.sum_stride());
-        let count = run.tiles.min(run.count - self.first);
+        let count = run.share.min(run.tiles.end - self.first);
         for point in 0..POINTS {
             let mut weights: [&[Block]; BLOCKS] = [&[]; BLOCKS];
             for b in 0..BLOCKS {
@@ -227,12 +277,12 @@ impl Part<'_> {
             }
             for t in (0..count).step_by(TILES) {
                 let (values, sums) = (&values[point * stride + t..], &mut sums[point * sum_stride + t..]);
-                multiply::<S, TILES, BLOCKS>(s, values, run.tiles, weights, sums, run.tiles);
+                multiply::<S, TILES, BLOCKS>(s, values, run.share, weights, sums, run.share);
             }
         }
         for b in 0..BLOCKS {
             for (place, x, y) in self.tiles() {
-                let tile = transform_output(s, &self.scratch.sums[b * run.tiles + place..], sum_stride, &layer.bias[first + b]);
+                let tile = transform_output(s, &self.scratch.sums[b * run.share + place..], sum_stride, &layer.bias[first + b]);
                 self.store(s, first + b, x, y, &tile);
             }
         }
@@ -254,8 +304,9 @@ impl Part<'_> {
             Kept::Greatest => {
                 for row in 0..rows / 2 {
                     for column in 0..columns / 2 {
-                        let [upper, lower] = [&tile[2 * row], &tile[2 * row + 1]];
-                        let [above, below] = [upper, lower].map(|values| s.max(values[2 * column], values[2 * column + 1]));
+                        let (upper, lower) = (&tile[2 * row], &tile[2 * row + 1]);
+                        let above = s.max(upper[2 * column], upper[2 * column + 1]);
+                        let below = s.max(lower[2 * column], lower[2 * column + 1]);
                         // SAFETY: as above.
                         unsafe { self.pixels.set(s, block, 2 * x + column, 2 * y + row, s.max(above, below)) };
                     }

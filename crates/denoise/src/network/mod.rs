@@ -5,6 +5,7 @@
 //! reflectance and normals. Weights are in `data/`; [`winograd`] is the arithmetic.
 
 mod block;
+mod chain;
 mod convolution;
 mod instructions;
 mod simd;
@@ -13,13 +14,17 @@ mod transfer;
 mod weights;
 mod winograd;
 
+#[cfg(test)]
+mod tests;
+
 use crate::Noisy;
 use block::{Block, LANES, Shape, Tensor};
-use convolution::{Convolution, Kept, Source};
+use chain::chain;
+use convolution::{Convolution, Kept, Source, Workshop};
 pub use instructions::Instructions;
 use rayon::prelude::*;
 use tiles::{Span, spans};
-use transfer::Transfer;
+use transfer::{Transfer, within};
 use weights::Weights;
 
 /// For high dynamic range, with reflectance and normals that are free of noise; the large one of two, as the library takes at high
@@ -38,12 +43,11 @@ const MOST: usize = 1536;
 /// The network, with its weights as the kernels read them.
 pub(crate) struct Network {
     instructions: Instructions,
-    /// Two layers per level, from the finest on; the second is pooled.
-    down: [[Convolution; 2]; 4],
-    bottom: [Convolution; 2],
-    /// Two layers per level, from the coarsest on; the first reads what was pooled on the way down too.
-    up: [[Convolution; 2]; 4],
-    last: Convolution,
+    /// The layers of each level, from the finest on, of which the last is pooled.
+    down: Vec<Vec<Convolution>>,
+    bottom: Vec<Convolution>,
+    /// The layers of each level, from the coarsest on; the first of each reads what its level had on the way down too.
+    up: Vec<Vec<Convolution>>,
     most: usize,
 }
 
@@ -56,13 +60,23 @@ impl Network {
     /// The network of a file of weights.
     fn read(file: &[u8], instructions: Instructions) -> Result<Self, String> {
         let weights = weights::read(file)?;
-        let two = |level: &str| Ok::<_, String>([layer(&weights, &format!("{level}a"))?, layer(&weights, &format!("{level}b"))?]);
+        let layers = |names: &[&str]| names.iter().map(|name| layer(&weights, name)).collect::<Result<Vec<_>, _>>();
+        let levels = |levels: [&[&str]; 4]| levels.into_iter().map(layers).collect::<Result<Vec<_>, _>>();
         Ok(Self {
             instructions,
-            down: [two("enc_conv1")?, two("enc_conv2")?, two("enc_conv3")?, two("enc_conv4")?],
-            bottom: two("enc_conv5")?,
-            up: [two("dec_conv4")?, two("dec_conv3")?, two("dec_conv2")?, two("dec_conv1")?],
-            last: layer(&weights, "dec_conv1c")?,
+            down: levels([
+                &["enc_conv1a", "enc_conv1b"],
+                &["enc_conv2a", "enc_conv2b"],
+                &["enc_conv3a", "enc_conv3b"],
+                &["enc_conv4a", "enc_conv4b"],
+            ])?,
+            bottom: layers(&["enc_conv5a", "enc_conv5b"])?,
+            up: levels([
+                &["dec_conv4a", "dec_conv4b"],
+                &["dec_conv3a", "dec_conv3b"],
+                &["dec_conv2a", "dec_conv2b"],
+                &["dec_conv1a", "dec_conv1b", "dec_conv1c"],
+            ])?,
             most: MOST,
         })
     }
@@ -74,6 +88,9 @@ impl Network {
             assert_eq!(values.len(), 3 * width * height, "{name} of {width}x{height}");
         }
         let mut output = vec![0.0; 3 * width * height];
+        if output.is_empty() {
+            return output;
+        }
         let transfer = Transfer::new(noisy);
         for y in spans(height, self.most) {
             for x in spans(width, self.most) {
@@ -91,24 +108,20 @@ impl Network {
 
     /// What the network makes of its input.
     fn values(&self, input: Tensor) -> Tensor {
-        let one = |layer: &Convolution, tensor: &Tensor, kept| layer.apply(self.instructions, &[Source { tensor, doubled: false }], kept);
+        let workshop = Workshop::new(self.instructions);
         let mut passed = Vec::new();
         let mut x = input;
-        for [first, second] in &self.down {
-            let inner = one(first, &x, Kept::All);
-            passed.push(std::mem::replace(&mut x, one(second, &inner, Kept::Greatest)));
+        for layers in &self.down {
+            let pooled = chain(&workshop, layers, &[Source { tensor: &x, doubled: false }], Kept::Greatest);
+            passed.push(std::mem::replace(&mut x, pooled));
         }
-        for layer in &self.bottom {
-            x = one(layer, &x, Kept::All);
-        }
-        for [first, second] in &self.up {
+        x = chain(&workshop, &self.bottom, &[Source { tensor: &x, doubled: false }], Kept::All);
+        for layers in &self.up {
             let beside = passed.pop().expect("as many levels up as down");
             let sources = [Source { tensor: &x, doubled: true }, Source { tensor: &beside, doubled: false }];
-            let inner = first.apply(self.instructions, &sources, Kept::All);
-            drop(beside);
-            x = one(second, &inner, Kept::All);
+            x = chain(&workshop, layers, &sources, Kept::All);
         }
-        one(&self.last, &x, Kept::All)
+        x
     }
 }
 
@@ -135,10 +148,8 @@ fn input(noisy: &Noisy<'_>, transfer: Transfer, x: &Span, y: &Span) -> Tensor {
             let first = 3 * (y * noisy.width as usize + x);
             let of = |values: &[f32]| <[f32; 3]>::try_from(&values[first..first + 3]).expect("three values per pixel");
             let color = of(noisy.color).map(|value| transfer.encode(value));
-            // `max` gives the other number for NaN.
-            let albedo = of(noisy.albedo).map(|value| value.max(0.0).min(1.0));
-            let number = |value: f32| if value.is_nan() { 0.0 } else { value };
-            let normal = of(noisy.normal).map(|value| number(value).clamp(-1.0, 1.0) * 0.5 + 0.5);
+            let albedo = of(noisy.albedo).map(|value| within(value, 0.0, 1.0));
+            let normal = of(noisy.normal).map(|value| within(value, -1.0, 1.0) * 0.5 + 0.5);
             let mut values = [0.0; LANES];
             for (i, part) in [color, albedo, normal].iter().enumerate() {
                 values[3 * i..3 * i + 3].copy_from_slice(part);

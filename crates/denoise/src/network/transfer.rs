@@ -50,14 +50,12 @@ impl Transfer {
 
     /// The network's value for a radiance, which is brought to what 32 bits hold and is not negative; 0 for what is not a number.
     pub fn encode(self, radiance: f32) -> f32 {
-        let exposed = radiance * self.exposure;
-        // `max` gives the other number for NaN.
-        (curve(f64::from(exposed.max(0.0).min(f32::MAX))) / self.top) as f32
+        (curve(within(radiance * self.exposure, 0.0, f32::MAX).into()) / self.top) as f32
     }
 
     /// The radiance for a value of the network.
     pub fn decode(self, value: f32) -> f32 {
-        let x = f64::from(value.max(0.0)) * self.top;
+        let x = f64::from(within(value, 0.0, f32::MAX)) * self.top;
         let radiance = if x <= VALUE[0] {
             x / SLOPE
         } else if x <= VALUE[1] {
@@ -67,6 +65,11 @@ impl Transfer {
         };
         (radiance / f64::from(self.exposure)).min(f64::from(f32::MAX)) as f32
     }
+}
+
+/// A number brought to a range that holds 0; 0 for what is not a number.
+pub(super) fn within(value: f32, least: f32, most: f32) -> f32 {
+    if value.is_nan() { 0.0 } else { value.clamp(least, most) }
 }
 
 fn curve(radiance: f64) -> f64 {
@@ -100,7 +103,7 @@ impl<'a> Parts<'a> {
         let y = row * height / self.rows..(row + 1) * height / self.rows;
         let count = x.len() * y.len();
         let pixels = y.flat_map(|y| self.noisy.color[3 * (y * width + x.start)..3 * (y * width + x.end)].chunks_exact(3));
-        let sane = |value: f32| f64::from(value.max(0.0).min(f32::MAX));
+        let sane = |value| f64::from(within(value, 0.0, f32::MAX));
         pixels.map(|c| 0.212671 * sane(c[0]) + 0.715160 * sane(c[1]) + 0.072169 * sane(c[2])).sum::<f64>() / count as f64
     }
 }
@@ -108,7 +111,7 @@ impl<'a> Parts<'a> {
 /// The natural logarithm of a positive number that 32 bits can hold.
 fn log(x: f64) -> f64 {
     // x = m·2ᵉ with m within a factor √2 of 1; ln m = 2 artanh s.
-    let bits = x.to_bits() - SQRT_HALF.to_bits();
+    let bits = x.to_bits().wrapping_sub(std::f64::consts::FRAC_1_SQRT_2.to_bits());
     let exponent = (bits as i64) >> 52;
     let m = f64::from_bits(x.to_bits().wrapping_sub((exponent as u64) << 52));
     let s = (m - 1.0) / (m + 1.0);
@@ -117,20 +120,29 @@ fn log(x: f64) -> f64 {
     2.0 * s * series + exponent as f64 * std::f64::consts::LN_2
 }
 
-const SQRT_HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
-
 /// The exponential of a number between −700 and 700; beyond, that of the nearer of these.
 fn exp(x: f64) -> f64 {
-    let x = x.max(-700.0).min(700.0);
+    let x = x.clamp(-700.0, 700.0);
     // x = k ln 2 + r with r within ±(ln 2)/2.
     let k = (x * std::f64::consts::LOG2_E + 0.5).floor();
     let r = x - k * std::f64::consts::LN_2;
-    let mut series = 1.0;
-    for n in (1..=11).rev() {
-        series = 1.0 + series * r / f64::from(n);
+    let mut series = 0.0;
+    for share in SHARES {
+        series = share + r * series;
     }
     series * f64::from_bits(((k as i64 + 1023) as u64) << 52)
 }
+
+/// 1/n! for n from 11 down to 0.
+const SHARES: [f64; 12] = {
+    let mut shares = [1.0; 12];
+    let mut n = 1;
+    while n < 12 {
+        shares[11 - n] = shares[12 - n] / n as f64;
+        n += 1;
+    }
+    shares
+};
 
 #[cfg(test)]
 mod tests {

@@ -91,7 +91,7 @@ mod tests {
     /// A file of two tensors, whose data begin at bytes 12 and 20.
     fn file() -> Vec<u8> {
         let mut file = [&MAGIC.to_le_bytes()[..], &[2, 0], &24u64.to_le_bytes()].concat();
-        [1.0, -0.5, 65504.0, 0.25].map(|value| file.extend(f16::from_f32(value).to_le_bytes()));
+        [1.0, -0.5, 65504.0, 0.25].into_iter().for_each(|value| file.extend(f16::from_f32(value).to_le_bytes()));
         file.extend(3.5f32.to_le_bytes());
         file.extend(2u32.to_le_bytes());
         let mut tensor = |name: &str, sizes: &[u32], meaning: &str, kind: u8, place: u64| {
@@ -134,10 +134,10 @@ mod tests {
         };
         assert_eq!(with(0, 0), "byte 0: expected 0x41d7, found 0x4100");
         assert_eq!(with(2, 3), "byte 2: expected version 2, found 3.0");
-        assert_eq!(with(11, 255), "byte 18374686479671623704: 4 bytes wanted, the file ends after 101");
-        assert_eq!(with(42, 255), "byte 63: `a.weight` is larger than the file: [2, 4278190082, 1, 1]");
-        assert_eq!(with(59, b'h'), "byte 59: `a.weight` is laid out as `hihw`; expected `x` or `oihw`");
-        assert_eq!(with(63, b'd'), "byte 63: `a.weight` has the type `d`; expected `h` or `f`");
+        assert_eq!(with(11, 255), "byte 18374686479671623704: 4 bytes wanted, the file ends after 91");
+        assert_eq!(with(42, 255), "byte 59: `a.weight` is larger than the file: [4278190082, 2, 1, 1]");
+        assert_eq!(with(55, b'h'), "byte 55: `a.weight` is laid out as `hihw`; expected `x` or `oihw`");
+        assert_eq!(with(59, b'd'), "byte 59: `a.weight` has the type `d`; expected `h` or `f`");
         assert_eq!(with(13, 0x7c), "byte 12: `a.weight` holds a number that is not finite");
     }
 }
