@@ -2,10 +2,10 @@
 
 use super::block::{Block, LANES, Shape, Tensor, zeros};
 use super::instructions::{Instructions, Kernel};
+use super::pixels::Pixels;
 use super::simd::Simd;
 use super::winograd::{DOUBLED, POINTS, STORED, multiply, transform_input, transform_output, weight_points};
 use rayon::prelude::*;
-use std::marker::PhantomData;
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard};
 
@@ -177,38 +177,6 @@ impl<'a> Run<'a> {
     /// Likewise in the sums.
     fn sum_stride(&self) -> usize {
         (self.blocks * self.share) | 1
-    }
-}
-
-/// The pixels of a tensor, written by several threads.
-struct Pixels<'a> {
-    start: *mut Block,
-    /// Blocks from `start` on.
-    len: usize,
-    shape: Shape,
-    top: usize,
-    tensor: PhantomData<&'a mut Tensor>,
-}
-
-// SAFETY: all that threads do through it is to write pixels, each its own, as `set` asks of them.
-unsafe impl Sync for Pixels<'_> {}
-
-impl<'a> Pixels<'a> {
-    fn new(tensor: &'a mut Tensor) -> Self {
-        let (len, shape, top) = (tensor.data.len(), tensor.shape, tensor.top);
-        Self { start: tensor.data.as_mut_ptr(), len, shape, top, tensor: PhantomData }
-    }
-
-    /// Stores a pixel of a block of channels.
-    ///
-    /// # Safety
-    /// No other thread reads or writes the pixel meanwhile.
-    #[inline(always)]
-    unsafe fn set<S: Simd>(&self, s: S, block: usize, x: usize, y: usize, value: S::Lanes) {
-        let index = self.shape.bordered(block, x + 1, y + 1 - self.top);
-        assert!(index < self.len);
-        // SAFETY: `index` lies within the tensor, which is borrowed for as long as `self`, and the pixel is this thread's.
-        s.store(value, unsafe { &mut *self.start.add(index) });
     }
 }
 

@@ -8,6 +8,7 @@ mod block;
 mod chain;
 mod convolution;
 mod instructions;
+mod pixels;
 mod simd;
 mod tiles;
 mod transfer;
@@ -37,8 +38,8 @@ pub(crate) const NAME: &str = "built-in (rt_hdr_calb_cnrm_large of Open Image De
 const CHANNELS: usize = 9;
 /// Pixels that a pixel of the coarsest level covers per side.
 const COARSEST: usize = 16;
-/// Most pixels per side that are filtered at a time.
-const MOST: usize = 1536;
+/// Most pixels per side that are filtered at a time. So memory stays below 1 GB.
+const MOST: usize = 2048;
 
 /// The network, with its weights as the kernels read them.
 pub(crate) struct Network {
