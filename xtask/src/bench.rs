@@ -15,7 +15,7 @@ struct Bench {
 }
 
 /// All measurements; each is an example of the crate `crates/<room>`.
-const BENCHES: [Bench; 6] = [
+const BENCHES: [Bench; 7] = [
     Bench {
         name: "rays",
         room: "import",
@@ -26,6 +26,11 @@ const BENCHES: [Bench; 6] = [
     Bench { name: "memory", room: "pipeline", about: "memory for a million triangles under eight textures of 4096x4096" },
     Bench { name: "suggest", room: "suggest", about: "how good suggested labels are on held-out scenes; needs ENFILADE_SCENES" },
     Bench { name: "denoise", room: "pipeline", about: "error with and without denoising, in the demo's room; fetches Open Image Denoise" },
+    Bench {
+        name: "network",
+        room: "denoise",
+        about: "what the denoiser in the binary costs beside Open Image Denoise, and how far it is from it",
+    },
 ];
 
 /// Measurements that run only when they are named, and what they measure; `main` starts them.
@@ -60,7 +65,7 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
         println!("\n== {}: {}", bench.name, bench.about);
         let package = format!("enfilade-{}", bench.room);
         let mut command = house.cargo(&["run", "--release", "--locked", "--package", &package, "--example", bench.name]);
-        if bench.name == "denoise" {
+        if matches!(bench.name, "denoise" | "network") {
             command.env(oidn::VARIABLE, oidn::made(house)?);
         }
         if bench.name == "rays" {

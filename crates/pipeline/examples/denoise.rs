@@ -2,8 +2,8 @@
 //!
 //! `denoise [SCENE | home]… [--reference N] [--size WxH]` renders each scene's first camera with 16 and 64 samples per pixel, and
 //! twice with N (256) as the reference. Error is the mean of (x − a)(x − b) / (reference² + 0.01), where a and b are the two
-//! references, whose noise so drops out; the image is scaled to a mean of 0.5, and the worst 0.1 % are left out. `ENFILADE_OIDN`
-//! names the library.
+//! references, whose noise so drops out; the image is scaled to a mean of 0.5, and the worst 0.1 % are left out. The denoiser is the
+//! one in the binary; where `ENFILADE_OIDN` names the library, a last row is its.
 
 use anyhow::{Context, Result};
 use enfilade_denoise::{DenoiseError, Denoiser, Noisy, denoise};
@@ -32,19 +32,21 @@ fn main() -> Result<()> {
     if scenes.is_empty() {
         scenes.push("home".into());
     }
+    let denoiser = Denoiser::built_in();
     let place = std::env::var_os("ENFILADE_OIDN").map(PathBuf::from);
-    let denoiser = Denoiser::open(place.as_deref(), std::thread::available_parallelism()?.get())?;
+    let threads = std::thread::available_parallelism()?.get();
+    let library = place.map(|place| Denoiser::open(Some(&place), threads)).transpose()?;
     println!("{}, {}x{} pixels, references of {reference} samples", denoiser.name(), size[0], size[1]);
     for name in scenes {
         let scene =
             if name == "home" { home(&HomeConfig::default()).scene } else { load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene };
         println!("\n{name}");
-        measure(&scene, size, reference, &denoiser)?;
+        measure(&scene, size, reference, &denoiser, library.as_ref())?;
     }
     Ok(())
 }
 
-fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &Denoiser) -> Result<()> {
+fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &Denoiser, library: Option<&Denoiser>) -> Result<()> {
     let camera = scene.cameras.first().context("the scene has no camera")?;
     let taken_with = Camera::from(Intrinsics::from_fov_x(width, height, camera.fov_x_rad));
     let view = CameraView::still(&taken_with, &camera.pose(0));
@@ -69,6 +71,11 @@ fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &
             let time = Stopwatch::start();
             let color = (way.1)(&frame, denoiser)?;
             row(way.0, &color, time.cpu_s());
+        }
+        if let Some(library) = library {
+            let time = Stopwatch::start();
+            let denoised = denoise(&frame, |noisy| library.filter(noisy))?;
+            row(&format!("what is written, by {}", library.name()), &picture(&denoised, Layer::ColorDenoised), time.cpu_s());
         }
     }
     Ok(())

@@ -67,24 +67,27 @@ pub(super) const DOUBLED: [usize; 6] = [0, 1, 1, 2, 2, 3];
 /// them; rows are `pitch` apart; `at` is [`STORED`] or [`DOUBLED`].
 #[inline(always)]
 pub(super) fn transform_input<S: Simd>(s: S, pixels: &[Block], pitch: usize, at: [usize; 6], out: &mut [Block], stride: usize) {
-    let pixels = &pixels[..at[5] * (pitch + 1) + 1];
+    let mut rows: [&[Block]; 6] = [&[]; 6];
+    for y in 0..6 {
+        rows[y] = &pixels[at[y] * pitch..][..at[5] + 1];
+    }
     let zero = s.splat(0.0);
     let mut columns = [[zero; 6]; 6];
     for x in 0..6 {
         let mut column = [zero; 6];
         for y in 0..6 {
-            column[y] = s.load(&pixels[at[y] * pitch + at[x]]);
+            column[y] = s.load(&rows[y][at[x]]);
         }
         let column = input_points(s, column);
         for y in 0..6 {
             columns[y][x] = column[y];
         }
     }
-    let out = &mut out[..(POINTS - 1) * stride + 1];
+    let mut points = out.chunks_mut(stride);
     for y in 0..6 {
         let row = input_points(s, columns[y]);
         for x in 0..6 {
-            s.store(row[x], &mut out[(6 * y + x) * stride]);
+            s.store(row[x], &mut points.next().expect("there is room for every point")[0]);
         }
     }
 }
@@ -92,24 +95,24 @@ pub(super) fn transform_input<S: Simd>(s: S, pixels: &[Block], pitch: usize, at:
 /// The 4×4 output pixels of a tile, from the sums at the points, which lie `stride` apart: with the bias, and 0 where negative.
 #[inline(always)]
 pub(super) fn transform_output<S: Simd>(s: S, sums: &[Block], stride: usize, bias: &Block) -> [[S::Lanes; 4]; 4] {
-    let sums = &sums[..(POINTS - 1) * stride + 1];
     let (bias, zero) = (s.load(bias), s.splat(0.0));
-    let mut rows = [[zero; 6]; 4];
-    for x in 0..6 {
-        let mut column = [zero; 6];
-        for y in 0..6 {
-            column[y] = s.load(&sums[(6 * y + x) * stride]);
+    let mut points = sums.chunks(stride);
+    let mut columns = [[zero; 6]; 4];
+    for y in 0..6 {
+        let mut row = [zero; 6];
+        for x in 0..6 {
+            row[x] = s.load(&points.next().expect("there is a sum for every point")[0]);
         }
-        let column = output_values(s, column);
-        for y in 0..4 {
-            rows[y][x] = column[y];
+        let row = output_values(s, row);
+        for x in 0..4 {
+            columns[x][y] = row[x];
         }
     }
     let mut tile = [[zero; 4]; 4];
-    for y in 0..4 {
-        let row = output_values(s, rows[y]);
-        for x in 0..4 {
-            tile[y][x] = s.max(s.add(row[x], bias), zero);
+    for x in 0..4 {
+        let column = output_values(s, columns[x]);
+        for y in 0..4 {
+            tile[y][x] = s.max(s.add(column[y], bias), zero);
         }
     }
     tile
