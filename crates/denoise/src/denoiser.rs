@@ -46,8 +46,11 @@ impl Denoiser {
     }
 
     /// Denoises one picture of any size: the filter for ray-traced pictures of high dynamic range, with guides that are taken to be
-    /// free of noise. The result is linear, finite and not negative, whatever the picture holds: what is not a number or is negative
-    /// counts as 0, what is infinite as the greatest number, and guides are brought to their range.
+    /// free of noise. The result is linear.
+    ///
+    /// The network in the binary takes any values: what is not a number or is negative counts as 0, what is infinite as the greatest
+    /// number, and guides are brought to their range. It gives finite numbers that are not negative. Of pictures of more than 2048
+    /// pixels a side it filters parts at a time, so that memory stays below 1 GB.
     ///
     /// # Errors
     /// With the library's own, such as too little memory. The network in the binary has none.

@@ -1,9 +1,10 @@
-//! Denoised companions of the noisy colour layers, by Open Image Denoise where it is installed.
+//! Denoised companions of the noisy colour layers, by the network of Open Image Denoise.
 //!
 //! Diffuse light and residual are denoised apart, with the normals of the geometry pass as guides, and put together with the exact
 //! reflectance as the renderer puts them together. So texture never goes through the denoiser, the identity holds to the last
 //! bit, and the layers that were rendered stay as they are. [`denoise`] is a pure function of a frame and a filter; a
-//! [`Denoiser`] is the filter. The library is loaded when a [`Denoiser`] is opened, and nothing else needs it.
+//! [`Denoiser`] is the filter: the network in the binary, run by our own kernels with the same bytes on every processor, or the
+//! library where it is installed, which is loaded when such a [`Denoiser`] is opened.
 //!
 //! ```
 //! use enfilade_denoise::{DenoiseError, denoise};
@@ -17,7 +18,7 @@
 //! frame.insert(Layer::DiffuseReflectance, channels(0.5));
 //! frame.insert(Layer::NormalBumpWorld, channels(0.0));
 //!
-//! // `|noisy| denoiser.filter(noisy)` calls the library; this filter changes nothing.
+//! // With `let denoiser = Denoiser::built_in()`, the filter is `|noisy| denoiser.filter(noisy)`; this one changes nothing.
 //! let denoised = denoise(&frame, |noisy| Ok(noisy.color.to_vec()))?;
 //! assert_eq!(denoised.get(Layer::ColorDenoised).map(|color| color.get(0)), Some(0.5 * 2.0 + 0.25));
 //! # Ok::<(), DenoiseError>(())

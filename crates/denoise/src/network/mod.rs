@@ -7,6 +7,7 @@
 mod block;
 mod chain;
 mod convolution;
+mod fused;
 mod instructions;
 mod pixels;
 mod simd;

@@ -4,6 +4,7 @@
 //! kernels, which are written once over [`Simd`], give the same bytes whichever way they are compiled for.
 
 use super::block::{Block, LANES};
+use super::fused::fma;
 
 /// A set of instructions. A value of the type stands for a processor that has them.
 pub(super) trait Simd: Copy + Send + Sync {
@@ -22,7 +23,7 @@ pub(super) trait Simd: Copy + Send + Sync {
 }
 
 /// Plain Rust, for every processor. Where fused multiplication is an instruction that every such processor has, as on 64-bit ARM,
-/// the compiler makes vectors of it; on x86 before 2013 a function of the C library stands in for it.
+/// the compiler makes vectors of it; for x86 before 2013 double precision stands in for it.
 #[derive(Clone, Copy)]
 pub(super) struct Portable;
 
@@ -56,7 +57,11 @@ impl Simd for Portable {
 
     #[inline(always)]
     fn fma(self, a: Self::Lanes, b: Self::Lanes, c: Self::Lanes) -> Self::Lanes {
-        std::array::from_fn(|i| a[i].mul_add(b[i], c[i]))
+        if cfg!(all(target_arch = "x86_64", not(target_feature = "fma"))) {
+            std::array::from_fn(|i| fma(a[i], b[i], c[i]))
+        } else {
+            std::array::from_fn(|i| a[i].mul_add(b[i], c[i]))
+        }
     }
 
     #[inline(always)]
