@@ -50,7 +50,7 @@ impl Denoiser {
     ///
     /// The network in the binary takes any values: what is not a number or is negative counts as 0, what is infinite as the greatest
     /// number, and guides are brought to their range. It gives finite numbers that are not negative. Of pictures of more than 2048
-    /// pixels a side it filters parts at a time, so that memory stays below 1 GB.
+    /// pixels a side it filters parts at a time, so that memory stays below 1.3 GB.
     ///
     /// # Errors
     /// With the library's own, such as too little memory. The network in the binary has none.

@@ -39,7 +39,7 @@ pub(crate) const NAME: &str = "built-in (rt_hdr_calb_cnrm_large of Open Image De
 const CHANNELS: usize = 9;
 /// Pixels that a pixel of the coarsest level covers per side.
 const COARSEST: usize = 16;
-/// Most pixels per side that are filtered at a time. So memory stays below 1 GB.
+/// Most pixels per side that are filtered at a time. So memory stays below 1.3 GB.
 const MOST: usize = 2048;
 
 /// The network, with its weights as the kernels read them.
