@@ -6,6 +6,8 @@ use super::convolution::{Convolution, Kept, Source, Workshop};
 /// Least number of tiles of 4×4 pixels in a band, whatever the number of threads: what lies between layers of 64 channels, as at the
 /// finest level, then takes 6 MB.
 const TILES: usize = 1536;
+/// Least number of rows of tiles in a band, of which two are moved from one to the next.
+const ROWS: usize = 8;
 /// Least number of tiles for each thread.
 const TILES_PER_THREAD: usize = 112;
 
@@ -14,7 +16,8 @@ const TILES_PER_THREAD: usize = 112;
 /// Each layer follows a row of tiles behind the one before, which it needs a row of pixels more of. Where bands end changes no value.
 pub(super) fn chain(workshop: &Workshop, layers: &[Convolution], sources: &[Source<'_>], kept: Kept) -> Tensor {
     let tiles = TILES.max(TILES_PER_THREAD * rayon::current_num_threads());
-    in_bands(workshop, layers, sources, kept, tiles.div_ceil(sources[0].size()[0].div_ceil(4)))
+    let columns = sources[0].size()[0].div_ceil(4);
+    in_bands(workshop, layers, sources, kept, tiles.div_ceil(columns).max(ROWS))
 }
 
 /// As [`chain`], in bands of `band` rows of tiles, or of as many as there are layers.
