@@ -12,6 +12,34 @@ def shown(picture, scale):
     return (np.clip(picture * scale, 0, 1) ** (1 / 2.2) * 255 + 0.5).astype(np.uint8)
 
 
+def exposure(picture):
+    """What takes the 90th percentile of a picture's brightness to 0.8."""
+    return 0.8**2.2 / max(np.percentile(picture.mean(-1), 90), 1e-6)
+
+
+def middle(picture, width=384, height=288):
+    """The middle of a picture, at most so wide and high."""
+    y, x = (max(0, (have - want) // 2) for have, want in zip(picture.shape, (height, width)))
+    return picture[y : y + height, x : x + width]
+
+
+def strips(rows):
+    """Pictures side by side under their names: for each (title, [(name, picture), …]) a row."""
+    height = [max(picture.shape[0] for _, picture in parts) + 2 * TITLE + GAP for _, parts in rows]
+    width = max(sum(picture.shape[1] + GAP for _, picture in parts) for _, parts in rows)
+    page = Image.new("RGB", (width, sum(height)), "white")
+    draw, y = ImageDraw.Draw(page), 0
+    for (title, parts), high in zip(rows, height):
+        draw.text((2, y + 1), title, fill="black")
+        x = 0
+        for name, picture in parts:
+            draw.text((x + 2, y + TITLE), name, fill="black")
+            page.paste(Image.fromarray(picture), (x, y + 2 * TITLE))
+            x += picture.shape[1] + GAP
+        y += high
+    return page
+
+
 def signed(ours, peer):
     """The difference over the image's mean: white at none, red where ours is brighter, blue where darker, full at 10 %."""
     weights = np.array([0.2126, 0.7152, 0.0722])
@@ -28,13 +56,13 @@ def sheet(rows, columns):
     for i, (name, ours, peer) in enumerate(rows):
         x, y = cell[0] * (i % columns), cell[1] * (i // columns)
         draw.text((x + 2, y + 1), name, fill="black")
-        scale = 0.8**2.2 / max(np.percentile(peer.mean(-1), 90), 1e-6)
+        scale = exposure(peer)
         for j, part in enumerate([shown(ours, scale), shown(peer, scale), signed(ours, peer)]):
             page.paste(Image.fromarray(part), (x + j * (width + GAP), y + TITLE))
     return page
 
 
-COLORS = ["#c33", "#36c", "#393"]
+COLORS = ["#c33", "#36c", "#e98", "#9be"]
 
 
 def curves(panels, side=190, margin=34, columns=3):

@@ -17,7 +17,8 @@ import assets
 import command
 import figures
 import rooms
-from renderers import Mitsuba, Ours, luminance
+from errors import luminance
+from renderers import Mitsuba, Ours
 
 SEEDS = 8
 DEPTH = 64

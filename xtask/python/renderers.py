@@ -1,6 +1,11 @@
-"""Both renderers as processes of their own, and what a run costs."""
+"""The renderers as processes of their own, and what a run costs.
+
+Every one renders a scene twice as it is delivered: as rendered, and denoised. Start-up and load, with what is compiled, are not counted, by each
+program's own clock of processor seconds (user and system, all threads); learning where light comes from and all layers are.
+"""
 
 import glob
+import importlib.metadata
 import json
 import os
 import re
@@ -13,16 +18,44 @@ from pathlib import Path
 import numpy as np
 
 HERE = Path(__file__).parent
+# Surfaces after the first that scatter light: all that matter.
+BOUNCES = 64
+
+
+@dataclass
+class Scene:
+    """A scene as our renderer reads it and as the peer does, and a digest of what is in it."""
+
+    ours: Path
+    peer: Path
+    digest: str
+
+
+@dataclass
+class Shot:
+    """One picture as rendered and as delivered (height × width × 3), and its facts.
+
+    Those are `load_core_s`, `raw_core_s` and `delivered_core_s`, which includes the former but not load; `peak_mb`; and the renderer's `version`.
+    """
+
+    raw: np.ndarray
+    delivered: np.ndarray
+    facts: dict
 
 
 @dataclass
 class Run:
-    """Pictures (seeds × height × width × 3), processor seconds (user and system), peak memory, and what the program told."""
+    """Pictures (seeds × height × width × 3), peak memory, and what the program told."""
 
     pictures: np.ndarray
-    core_s: float
     peak_mb: float
     told: dict
+
+    def shot(self, version):
+        """Of a run of one seed: the picture as rendered comes first, the delivered one last."""
+        raw = self.told.get("learn_core_s", 0.0) + self.told["render_core_s"]
+        facts = dict(raw_core_s=raw, delivered_core_s=raw + self.told["denoise_core_s"], peak_mb=self.peak_mb, version=version)
+        return Shot(self.pictures[0], self.pictures[-1], self.told | facts)
 
 
 def run(command):
@@ -41,35 +74,80 @@ def run(command):
                 sys.exit(f"{' '.join(map(str, command))} ended with {process.returncode}:\n{messages.read()[-3000:]}{hint}")
         # Linux counts ru_maxrss in KiB, macOS in bytes.
         unit = 1 if sys.platform == "darwin" else 1024
-        told = json.loads(printed.strip().splitlines()[-1])
-        return Run(np.load(out), usage.ru_utime + usage.ru_stime, usage.ru_maxrss * unit / 1e6, told)
+        return Run(np.load(out), usage.ru_maxrss * unit / 1e6, json.loads(printed.strip().splitlines()[-1]))
 
 
 class Ours:
-    """enfilade's `measure`, every layer written."""
+    """enfilade's `measure`, every layer written; `fields` of `RenderConfig` replace its defaults."""
 
-    def __init__(self, program):
-        self.program = program
+    name, denoises_references = "ours", True
 
-    def render(self, scene, size, samples, depth, seed=0, seeds=1, denoise=False, **fields):
+    def __init__(self, program, **fields):
+        self.measure = program
+        self.settings = {"max_bounces": BOUNCES, "filter": "box", "filter_radius": 0.5, **fields}
+
+    @property
+    def program(self):
+        return self.measure and Path(self.measure).read_bytes()
+
+    def shot(self, scene, size, samples, seed, _reference, **fields):
+        found = self.run(scene.ours, size, dict(samples=samples, seed=seed, **self.settings) | fields, "--denoise")
+        return found.shot(found.told["denoiser"])
+
+    def render(self, scene, size, samples, depth, seed=0, seeds=1):
         # Mitsuba counts a path's segments (1: lights seen directly, 2: direct light), `max_bounces` surfaces after the first.
-        config = {"samples": samples, "max_bounces": depth - 2, "filter": "box", "filter_radius": 0.5, "seed": seed, **fields}
-        return run([self.program, scene, "--size", size, "--config", json.dumps(config), "--seeds", seeds, *(["--denoise"] if denoise else [])])
+        return self.run(scene, size, dict(self.settings, samples=samples, max_bounces=depth - 2, seed=seed), "--seeds", seeds)
+
+    def run(self, scene, size, config, *words):
+        return run([self.measure, scene, "--size", size, "--config", json.dumps(config), *words])
 
 
 class Mitsuba:
     """Mitsuba 3."""
+
+    name, denoises_references, settings = "mitsuba", True, {"bounces": BOUNCES}
 
     def __init__(self):
         library = os.environ.get("DRJIT_LIBLLVM_PATH") or newest_llvm()
         if library:
             os.environ["DRJIT_LIBLLVM_PATH"] = library
         self.llvm = version(library) if library else "of unknown version"
+        self.denoiser = importlib.metadata.version("pyoidn").removesuffix(".0")
 
-    def render(self, scene, size, samples, depth, seed=0, seeds=1, sampler="independent", merged=True):
+    @property
+    def program(self):
+        return (HERE / "peer.py").read_bytes() + f"{versions('mitsuba', 'drjit', 'pyoidn')}, LLVM {self.llvm}".encode()
+
+    def shot(self, scene, size, samples, seed, _reference):
+        found = self.render(scene.peer, size, samples, BOUNCES + 2, seed, denoise=True)
+        return found.shot(found.told["mitsuba"])
+
+    def render(self, scene, size, samples, depth, seed=0, seeds=1, sampler="independent", merged=True, denoise=False):
         arguments = ["--size", size, "--samples", samples, "--depth", depth, "--seed", seed, "--seeds", seeds, "--sampler", sampler]
-        arguments += [] if merged else ["--unmerged"]
+        arguments += ["--unmerged"] * (not merged) + ["--denoise"] * denoise
         return run([sys.executable, HERE / "peer.py", scene, *arguments])
+
+
+class Cycles:
+    """Cycles of Blender, which brings its denoiser; references are not denoised, for Cycles would have to render them once more."""
+
+    name, denoises_references, settings = "cycles", False, {"bounces": BOUNCES}
+
+    @property
+    def program(self):
+        return (HERE / "peer_cycles.py").read_bytes() + versions("bpy").encode()
+
+    def shot(self, scene, size, samples, seed, reference):
+        arguments = ["--size", size, "--samples", samples, "--bounces", BOUNCES, "--seed", seed, *["--denoise"] * (not reference)]
+        found = run([sys.executable, HERE / "peer_cycles.py", scene.peer, *arguments])
+        return found.shot(found.told["blender"])
+
+    def convert(self, source, target):
+        subprocess.run([sys.executable, HERE / "peer_cycles.py", source, "--convert", target], check=True, stdout=subprocess.DEVNULL)
+
+
+def versions(*packages):
+    return ", ".join(f"{package} {importlib.metadata.version(package)}" for package in packages)
 
 
 def newest_llvm():
@@ -91,8 +169,3 @@ def version(path):
     """The major version in a library's name."""
     numbers = re.findall(r"\d+", os.path.basename(os.path.realpath(path)))
     return int(numbers[0]) if numbers else 0
-
-
-def luminance(pictures):
-    """Rec. 709 luminance of linear RGB, in double precision."""
-    return pictures.astype(np.float64) @ [0.2126, 0.7152, 0.0722]

@@ -39,22 +39,30 @@ def parametrised(xml):
     return re.sub(r"(<scene\b[^>]*>)", lambda m: m[1] + PARAMETERS, xml, count=1)
 
 
+def exported(source, work, exporter):
+    """Writes a scene of another format as XML, with meshes and textures, into the folder `work`, and returns its path."""
+    work.mkdir(parents=True, exist_ok=True)
+    subprocess.run([exporter, source, work], check=True, stdout=subprocess.DEVNULL)
+    return write(work / "exported.xml", work)
+
+
 def prepare(name, scenes, work, exporter):
     """Writes the room's XML below `work` and returns its path."""
     folder = Path(work) / name
-    folder.mkdir(parents=True, exist_ok=True)
-    if name in GLTF_ROOMS:
-        source = Path(scenes) / name / GLTF_ROOMS[name]
-        subprocess.run([exporter, source, folder], check=True, stdout=subprocess.DEVNULL)
-        original = folder / "exported.xml"
-    else:
-        original = Path(scenes) / name / XML_ROOMS[name]
-        for entry in original.parent.iterdir():
-            link = folder / entry.name
-            if entry.is_dir() and not link.exists():
-                os.symlink(entry.resolve(), link, target_is_directory=True)
+    original = Path(scenes) / name / (GLTF_ROOMS | XML_ROOMS)[name]
     if not original.is_file():
         sys.exit(f"{original} is missing; ENFILADE_SCENES should name the folder of the shared rooms")
+    if name in GLTF_ROOMS:
+        return exported(original, folder, exporter)
+    folder.mkdir(parents=True, exist_ok=True)
+    for entry in original.parent.iterdir():
+        link = folder / entry.name
+        if entry.is_dir() and not link.exists():
+            os.symlink(entry.resolve(), link, target_is_directory=True)
+    return write(original, folder)
+
+
+def write(original, folder):
     scene = folder / "scene.xml"
     scene.write_text(parametrised(original.read_text()))
     return scene

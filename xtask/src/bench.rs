@@ -35,8 +35,8 @@ const BENCHES: [Bench; 7] = [
 
 /// Measurements that run only when they are named, and what they measure; `main` starts them.
 const ALONE: [(&str, &str); 5] = [
-    ("render", "what pictures of real rooms cost, against Mitsuba 3"),
-    ("cycles", "the noise that a core-second leaves, against Blender's Cycles"),
+    ("render", "what pictures of rooms and homes cost, rendered and denoised, against Mitsuba 3"),
+    ("cycles", "what pictures of homes cost, rendered and denoised, against Blender's Cycles"),
     ("homes", "cost and contents of 200 generated homes, beside published numbers"),
     ("loader", "layers as arrays by the Python module, against h5py"),
     ("storage", "size and reading time of the files of layers, against Hypersim's"),

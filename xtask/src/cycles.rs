@@ -1,11 +1,11 @@
-//! `cargo xtask bench cycles`: the noise that a core-second leaves, beside Cycles, on homes that both read from glTF.
+//! `cargo xtask bench cycles`: what pictures cost, beside Cycles, on homes that both read from glTF.
 //!
 //! The comparison is a Python program, `xtask/python/bench_cycles.py`, because Blender comes as a Python module too. It writes
 //! `docs/benchmarks/cycles.md`, `.json`, `.svg` and `.jpg`, or below the target folder when it is about some views only.
 
 use crate::house::House;
-use crate::python;
 use crate::step::finish;
+use crate::{oidn, python};
 
 /// Measures the views of these names, or all; `--help` lists what there is.
 ///
@@ -21,5 +21,6 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     let mut command = house.command(python::with_blender(house)?, &["xtask/python/bench_cycles.py"]);
     command.arg("--program").arg(built("enfilade")).arg("--measure").arg(built("examples/measure"));
     command.arg("--work").arg(target.join("cycles")).args(["--docs", "docs/benchmarks"]).args(words);
+    command.env(oidn::VARIABLE, oidn::made(house)?);
     finish(command).map(|_| ())
 }

@@ -42,8 +42,8 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
        cargo xtask cluster [--program PATH] [TEST...]   a farm on Slurm, S3 and by other engines' files, with faults
        cargo xtask simulate                       the same on thousands of nodes, simulated
-       cargo xtask bench render [ROOM...]         what pictures of real rooms cost, against Mitsuba 3
-       cargo xtask bench cycles [VIEW...]         the noise that a core-second leaves, against Blender's Cycles
+       cargo xtask bench render [CASE...]         what pictures of rooms and homes cost, against Mitsuba 3
+       cargo xtask bench cycles [CASE...]         what pictures of homes cost, against Blender's Cycles
        cargo xtask bench storage [DATASET...]     size and reading time of the files, against Hypersim's
        cargo xtask bench loader [DATASET...]      the Python module's reading of layers, against h5py
        cargo xtask bench homes [COUNT] [FIRST]    what generated homes cost and what is in them, beside published numbers";

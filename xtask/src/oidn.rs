@@ -8,7 +8,7 @@ use std::path::PathBuf;
 pub const VARIABLE: &str = "ENFILADE_OIDN";
 
 /// What carries the library, in the version that was measured.
-const PACKAGE: &str = "pyoidn==2.5.1.0";
+pub const PACKAGE: &str = "pyoidn==2.5.1.0";
 /// Prints the folder of the library within that package.
 const FIND: &str = "import importlib.util, os, pathlib
 package = pathlib.Path(importlib.util.find_spec('pyoidn').origin).parent

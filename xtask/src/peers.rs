@@ -15,22 +15,24 @@ const SCENES: &str = "ENFILADE_SCENES";
 /// # Errors
 /// When something cannot be built or installed, or the program finds a difference that nothing explains.
 pub fn run(house: &House, program: &str, words: &[&str]) -> Result<(), String> {
-    let examples = ["--example", "measure", "--example", "to_mitsuba"];
-    let mut build = house.cargo(&["build", "--release", "--locked", "--quiet", "--package", "enfilade-pipeline"]);
-    build.args(examples);
+    let mut build = house.cargo(&["build", "--release", "--locked", "--quiet"]);
+    build.args(["--package", "enfilade-pipeline", "--example", "measure", "--example", "to_mitsuba"]);
+    if program == "bench_render" {
+        build.args(["--package", "enfilade", "--bin", "enfilade"]);
+    }
     finish(build)?;
     let target = house.target()?;
-    let example = |name: &str| target.join("release/examples").join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
+    let built = |name: &str| target.join("release").join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
     let mut command = house.command(python::with_peers(house)?, &[]);
     command.arg(format!("xtask/python/{program}.py"));
-    command.arg("--measure").arg(example("measure")).arg("--exporter").arg(example("to_mitsuba"));
+    command.arg("--measure").arg(built("examples/measure")).arg("--exporter").arg(built("examples/to_mitsuba"));
     command.arg("--work").arg(target.join("peers")).args(["--docs", "docs/benchmarks"]);
     if let Some(scenes) = std::env::var_os(SCENES) {
         let scenes = std::path::absolute(scenes).map_err(|error| format!("{SCENES}: {error}"))?;
         command.arg("--scenes").arg(scenes);
     }
     if program == "bench_render" {
-        command.env(oidn::VARIABLE, oidn::made(house)?);
+        command.arg("--program").arg(built("enfilade")).env(oidn::VARIABLE, oidn::made(house)?);
     }
     command.args(words);
     finish(command).map(|_| ())

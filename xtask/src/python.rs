@@ -2,6 +2,7 @@
 //! with.
 
 use crate::house::House;
+use crate::oidn;
 use crate::step::finish;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
@@ -9,7 +10,7 @@ use std::process::Stdio;
 /// Names a Python with numpy and h5py; tests that need one read it too.
 pub const VARIABLE: &str = "ENFILADE_PYTHON";
 
-/// Names a Python with Mitsuba 3, numpy and Pillow.
+/// Names a Python with Mitsuba 3, Open Image Denoise, numpy and Pillow.
 const PEERS_VARIABLE: &str = "ENFILADE_PEERS_PYTHON";
 
 /// Names a Python with Blender's module, numpy and Pillow.
@@ -59,15 +60,15 @@ fn found_or_made(house: &House) -> Result<PathBuf, String> {
     made(house, "venv", "import numpy, h5py", &["numpy", "h5py"])
 }
 
-/// The Python that [`PEERS_VARIABLE`] names, else one with Mitsuba 3 made below the target folder.
+/// The Python that [`PEERS_VARIABLE`] names, else one with Mitsuba 3 and Open Image Denoise made below the target folder.
 ///
 /// # Errors
 /// When there is no Python, or no network to install from.
 pub fn with_peers(house: &House) -> Result<PathBuf, String> {
-    const IMPORTS: &str = "import mitsuba, numpy, PIL";
+    const IMPORTS: &str = "import mitsuba, pyoidn, numpy, PIL";
     match named(house, PEERS_VARIABLE, IMPORTS)? {
         Some(python) => Ok(python),
-        None => made(house, "venv-peers", IMPORTS, &["mitsuba==3.9.1", "numpy", "pillow"]),
+        None => made(house, "venv-peers", IMPORTS, &["mitsuba==3.9.1", oidn::PACKAGE, "numpy", "pillow"]),
     }
 }
 

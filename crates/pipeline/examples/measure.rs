@@ -1,11 +1,11 @@
-//! Renders a scene through its own camera and writes the colour as a NumPy array: our side of `cargo xtask oracle` and
-//! `cargo xtask bench render`.
+//! Renders a scene through its own camera and writes the colour as a NumPy array: our side of `cargo xtask oracle`, `bench render` and
+//! `bench cycles`.
 //!
 //! `measure SCENE --size WIDTHxHEIGHT [--config JSON] [--seeds N] [--denoise] [--out FILE.npy]` renders N pictures (default 1), whose
 //! seeds count upward from the configuration's, with every layer, as a dataset's frames are. `--config` holds fields of
 //! `RenderConfig`; what it leaves out has its default. The array is float32, N × height × width × 3, linear; with `--denoise` there
-//! follow as many denoised pictures (`ENFILADE_OIDN` names the library). One line of JSON tells the processor seconds (user and
-//! system, all threads) of loading, of learning where light comes from, of rendering, and of denoising.
+//! follow as many denoised pictures, made as a dataset's are. One line of JSON tells the denoiser, and the processor seconds (user and
+//! system, all threads) of loading, the denoiser's included, of learning where light comes from, of rendering, and of denoising.
 
 use anyhow::{Context, Result, bail};
 use enfilade_denoise::{Denoiser, denoise};
@@ -35,10 +35,8 @@ fn main() -> Result<()> {
     }
     let camera = imported.scene.cameras.first().with_context(|| format!("{} has no camera", job.scene.display()))?;
     let prepared = RenderScene::new(&imported.scene, &Quiet)?;
+    let denoiser = job.denoise.then(denoiser).transpose()?;
     let loaded = time.cpu_s();
-    let place = std::env::var_os("ENFILADE_OIDN").map(PathBuf::from);
-    let open = || anyhow::Ok(Denoiser::open(place.as_deref(), std::thread::available_parallelism()?.get())?);
-    let denoiser = job.denoise.then(open).transpose()?;
     let (mut pictures, mut clean, mut learned, mut denoised) = (Vec::new(), Vec::new(), 0.0, 0.0);
     for seed in 0..job.seeds {
         let config = RenderConfig { seed: job.config.seed + seed, ..job.config.clone() };
@@ -66,6 +64,7 @@ fn main() -> Result<()> {
             "learn_core_s": learned,
             "render_core_s": rendered,
             "denoise_core_s": denoised,
+            "denoiser": denoiser.map(|denoiser| denoiser.name()),
         })
     );
     Ok(())
@@ -94,6 +93,12 @@ fn arguments() -> Result<Job> {
         bail!("name a scene: measure SCENE [--size WIDTHxHEIGHT] [--config JSON] [--seeds N] [--denoise] [--out FILE.npy]");
     }
     Ok(job)
+}
+
+/// What denoises the pictures that users get; `ENFILADE_OIDN` names its library.
+fn denoiser() -> Result<Denoiser> {
+    let place = std::env::var_os("ENFILADE_OIDN").map(PathBuf::from);
+    Ok(Denoiser::open(place.as_deref(), std::thread::available_parallelism()?.get())?)
 }
 
 /// A frame from the scene's own camera, and the processor seconds of learning for it.
