@@ -59,7 +59,7 @@ def page(rows, seconds):
     yield ""
     yield f"*Delivered* is denoised: ours as a dataset's frames are ({ours}), Cycles' by its own Open Image Denoise at high quality, guided by albedo and"
     yield "normals that it filters first (`ACCURATE`). Processor seconds, user and system, of all threads; start-up, load and a first picture of one sample"
-    yield "are not counted, learning, all layers and denoising are."
+    yield "are not counted, learning, all layers, denoising, and what Cycles prepares for every picture anew, are."
     yield ""
     yield "What the renderers mean different things by is changed in the files: at night window panes, sheets without thickness, are black and keep their"
     yield "reflection, by day they are left out; so are the sheen of towels, and the colour of thick glass and water."

@@ -78,25 +78,28 @@ def run(command):
 
 
 class Ours:
-    """enfilade's `measure`, every layer written; `fields` of `RenderConfig` replace its defaults."""
+    """enfilade's `measure`, every layer written; `fields` of `RenderConfig` replace its defaults, but for references."""
 
     name, denoises_references = "ours", True
 
     def __init__(self, program, **fields):
         self.measure = program
-        self.settings = {"max_bounces": BOUNCES, "filter": "box", "filter_radius": 0.5, **fields}
+        self.fields = fields
+
+    def settings(self, reference):
+        return {"max_bounces": BOUNCES, "filter": "box", "filter_radius": 0.5} | ({} if reference else self.fields)
 
     @property
     def program(self):
         return self.measure and Path(self.measure).read_bytes()
 
-    def shot(self, scene, size, samples, seed, _reference, **fields):
-        found = self.run(scene.ours, size, dict(samples=samples, seed=seed, **self.settings) | fields, "--denoise")
+    def shot(self, scene, size, samples, seed, reference, **fields):
+        found = self.run(scene.ours, size, dict(samples=samples, seed=seed) | self.settings(reference) | fields, "--denoise")
         return found.shot(found.told["denoiser"])
 
     def render(self, scene, size, samples, depth, seed=0, seeds=1):
         # Mitsuba counts a path's segments (1: lights seen directly, 2: direct light), `max_bounces` surfaces after the first.
-        return self.run(scene, size, dict(self.settings, samples=samples, max_bounces=depth - 2, seed=seed), "--seeds", seeds)
+        return self.run(scene, size, self.settings(False) | dict(samples=samples, max_bounces=depth - 2, seed=seed), "--seeds", seeds)
 
     def run(self, scene, size, config, *words):
         return run([self.measure, scene, "--size", size, "--config", json.dumps(config), *words])
@@ -105,7 +108,7 @@ class Ours:
 class Mitsuba:
     """Mitsuba 3."""
 
-    name, denoises_references, settings = "mitsuba", True, {"bounces": BOUNCES}
+    name, denoises_references = "mitsuba", True
 
     def __init__(self):
         library = os.environ.get("DRJIT_LIBLLVM_PATH") or newest_llvm()
@@ -113,6 +116,9 @@ class Mitsuba:
             os.environ["DRJIT_LIBLLVM_PATH"] = library
         self.llvm = version(library) if library else "of unknown version"
         self.denoiser = importlib.metadata.version("pyoidn").removesuffix(".0")
+
+    def settings(self, _reference):
+        return {"bounces": BOUNCES}
 
     @property
     def program(self):
@@ -131,7 +137,10 @@ class Mitsuba:
 class Cycles:
     """Cycles of Blender, which brings its denoiser; references are not denoised, for Cycles would have to render them once more."""
 
-    name, denoises_references, settings = "cycles", False, {"bounces": BOUNCES}
+    name, denoises_references = "cycles", False
+
+    def settings(self, _reference):
+        return {"bounces": BOUNCES}
 
     @property
     def program(self):

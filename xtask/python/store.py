@@ -36,7 +36,7 @@ class Store:
 
     def shot(self, renderer, scene, size, samples, seed, reference=False, **fields):
         """The picture of `scene`, which has a `digest`, as `renderer` makes it, or has made it before."""
-        settings = dict(size=size, samples=samples, seed=seed, **renderer.settings, **fields)
+        settings = dict(size=size, samples=samples, seed=seed) | renderer.settings(reference) | fields
         # Processor seconds are those of one kind of machine; a reference is true on all.
         stem = f"{renderer.name}-{scene.digest}-{digest(settings, None if reference else processor())}"
         path = self.folder / f"{stem}-{digest(renderer.program)}.npz"
