@@ -8,7 +8,7 @@ use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::released::refuse_released;
 use crate::summary;
-use enfilade_dataset::CameraTable;
+use enfilade_dataset::{CameraTable, ColorKind};
 use enfilade_export::intrinsics_csv;
 use enfilade_pipeline::{Config, Event, Overrides, Quality, RenderChoices, Reporter, Stage, Summary};
 use enfilade_show::drivers::inspect_pixel;
@@ -73,19 +73,18 @@ pub fn plan(args: &PlanArgs, quiet: bool) -> Result<Verdict, Problem> {
     Ok(verdict)
 }
 
-/// `render`, with other settings from now on if wanted, and with denoising.
+/// `render`, with other settings from now on if wanted.
 pub fn render(args: &RenderArgs, quiet: bool) -> Result<Verdict, Problem> {
     let choices = choices(&args.render);
-    match (choices == RenderChoices::default(), choices.denoise) {
-        (true, _) => stage(&args.stage, Stage::Render, quiet),
-        (false, false) => chosen(&args.stage, &choices, &[Stage::Render], quiet),
-        (false, true) => chosen(&args.stage, &choices, &[Stage::Render, Stage::Denoise], quiet),
+    match choices == RenderChoices::default() {
+        true => stage(&args.stage, Stage::Render, quiet),
+        false => chosen(&args.stage, &choices, &[Stage::Render, Stage::Denoise], quiet),
     }
 }
 
 /// `denoise`, from now on.
 pub fn denoise(args: &StageArgs, quiet: bool) -> Result<Verdict, Problem> {
-    chosen(args, &RenderChoices { denoise: true, ..RenderChoices::default() }, &[Stage::Denoise], quiet)
+    chosen(args, &RenderChoices { color: Some(ColorKind::Denoised), ..RenderChoices::default() }, &[Stage::Denoise], quiet)
 }
 
 /// Stages of a dataset for which choices are made.
@@ -105,7 +104,7 @@ fn choices(flags: &RenderFlags) -> RenderChoices {
         time_limit_s: flags.time_limit,
         splits: flags.splits,
         extra: flags.extra,
-        denoise: flags.denoise,
+        color: flags.color.map(ColorKind::from),
     }
 }
 

@@ -4,9 +4,7 @@ use crate::atomic::{create_parent, remove_if_there, rename, temporary};
 use crate::hdf5::{ArrayView, Packing, Storage, write_view};
 use crate::read::{frame_number, sorted_names};
 use crate::record::RECORD_FORMAT;
-use crate::{
-    Dataset, DatasetError, DenoiseRecord, FileRecord, FrameRecord, FrameTime, LabelRecord, Recipe, Sampling, check_name, write_json,
-};
+use crate::{ColorKind, Dataset, DatasetError, FileRecord, FrameRecord, FrameTime, LabelRecord, Recipe, Sampling, check_name, write_json};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_scene::{Camera, Cx, Pose, Warning};
 use rayon::prelude::*;
@@ -71,6 +69,8 @@ impl Dataset {
             intrinsics,
             camera_model,
             recipe: info.recipe.clone(),
+            color: ColorKind::Rendered,
+            denoised: None,
             files: self.write_aside(scene, camera, number, frame)?,
         };
         let commit = || {
@@ -115,55 +115,6 @@ impl Dataset {
         Ok(record)
     }
 
-    /// Writes the layers that `layers` has (`color_denoised` and its parts) for frame number `frame`, then their record.
-    /// `denoiser` names the program that made them, `denoise_hash` what it made them from.
-    ///
-    /// # Errors
-    /// As [`Dataset::write_frame`].
-    pub fn write_denoised_layers(
-        &self,
-        scene: &str,
-        camera: &str,
-        frame: u32,
-        layers: &Frame,
-        denoiser: &str,
-        denoise_hash: &str,
-    ) -> Result<DenoiseRecord, DatasetError> {
-        check_name("scene name", scene)?;
-        check_name("camera name", camera)?;
-        self.make_records_dir(scene, camera)?;
-        let record = DenoiseRecord {
-            format: RECORD_FORMAT,
-            scene: scene.to_string(),
-            camera: camera.to_string(),
-            frame,
-            denoiser: denoiser.to_string(),
-            denoise_hash: denoise_hash.to_string(),
-            files: self.write_aside(scene, camera, frame, layers)?,
-        };
-        self.commit_beside(scene, camera, frame, layers, &self.layout().denoise_record(scene, camera, frame), &record)?;
-        Ok(record)
-    }
-
-    /// Removes the denoised layers of a frame, if it has any.
-    ///
-    /// # Errors
-    /// When a file cannot be removed.
-    pub fn remove_denoised_layers(&self, scene: &str, camera: &str, frame: u32) -> Result<(), DatasetError> {
-        remove_if_there(&self.layout().denoise_record(scene, camera, frame))?;
-        let mut denoised = LAYERS.iter().filter(|spec| spec.pass == Pass::Denoised);
-        denoised.try_for_each(|spec| remove_if_there(&self.layout().layer(scene, camera, frame, spec.layer)))
-    }
-
-    /// True when any frame of the scene has denoised layers, whole or not: a stage that was killed leaves layers without a record.
-    pub fn has_denoised_layers(&self, scene: &str) -> bool {
-        let layout = self.layout();
-        let folders = |camera: &String| [layout.records_dir(scene, camera), layout.layer_dir(scene, camera, Pass::Denoised)];
-        let is_denoised = |name: &String| name.starts_with("frame.") && name.contains("denoised.");
-        let cameras = self.cameras(scene).unwrap_or_default();
-        cameras.iter().flat_map(folders).any(|folder| sorted_names(&folder).unwrap_or_default().iter().any(is_denoised))
-    }
-
     /// Removes the frames of a camera whose record is not one that `stays`, or cannot be read: their layers and all their records.
     ///
     /// # Errors
@@ -199,14 +150,8 @@ impl Dataset {
         record.is_some_and(|record| record.labels_hash == labels_hash && self.files_are_there(scene, &record.files))
     }
 
-    /// True when the frame's denoised layers were made from what `denoise_hash` names and are there in full length.
-    pub fn denoised_are_complete(&self, scene: &str, camera: &str, frame: u32, denoise_hash: &str) -> bool {
-        let record = self.denoise_record(scene, camera, frame).ok().flatten();
-        record.is_some_and(|record| record.denoise_hash == denoise_hash && self.files_are_there(scene, &record.files))
-    }
-
-    /// True when the record of a frame's layers of `pass` can be read and all its files are there in full length. Labels and denoised layers
-    /// have records of their own.
+    /// True when the record of a frame's layers of `pass` can be read and all its files are there in full length. Labels have
+    /// a record of their own.
     pub fn layers_are_whole(&self, scene: &str, camera: &str, frame: u32, pass: Pass) -> bool {
         let files = self.recorded_files(scene, camera, frame, pass).ok().flatten();
         files.is_some_and(|files| self.files_are_there(scene, &files))
@@ -222,7 +167,6 @@ impl Dataset {
     ) -> Result<Option<BTreeMap<String, FileRecord>>, DatasetError> {
         Ok(match pass {
             Pass::Label => self.label_record(scene, camera, frame)?.map(|record| record.files),
-            Pass::Denoised => self.denoise_record(scene, camera, frame)?.map(|record| record.files),
             _ => self.frame_record(scene, camera, frame)?.map(|record| record.files),
         })
     }
@@ -244,8 +188,8 @@ impl Dataset {
     }
 
     /// Warns of what a reader of the `complete` frames of a camera leaves out of `range`; `None`: of all frames. One warning names the
-    /// first of [`Dataset::incomplete_frames`] and says how many more there are; one each does so for frames whose labels or denoised
-    /// layers have a record, but are not whole.
+    /// first of [`Dataset::incomplete_frames`] and says how many more there are; another does so for frames whose labels have a
+    /// record, but are not whole.
     ///
     /// # Errors
     /// As there.
@@ -266,14 +210,12 @@ impl Dataset {
                 more => warn(format!("frame {frame} and {more} more are left out: {problem}")),
             }
         }
-        for (pass, layers) in [(Pass::Label, "labels"), (Pass::Denoised, "denoised layers")] {
-            let asked_for = complete.iter().copied().filter(is_asked_for);
-            let mut lacking = asked_for.filter_map(|frame| Some((frame, self.wrong_layers(scene, camera, frame, pass)?)));
-            if let Some((frame, problem)) = lacking.next() {
-                match lacking.count() {
-                    0 => warn(format!("the {layers} of frame {frame} are not whole: {problem}")),
-                    more => warn(format!("the {layers} of frame {frame} and {more} more are not whole: {problem}")),
-                }
+        let asked_for = complete.iter().copied().filter(is_asked_for);
+        let mut lacking = asked_for.filter_map(|frame| Some((frame, self.wrong_layers(scene, camera, frame, Pass::Label)?)));
+        if let Some((frame, problem)) = lacking.next() {
+            match lacking.count() {
+                0 => warn(format!("the labels of frame {frame} are not whole: {problem}")),
+                more => warn(format!("the labels of frame {frame} and {more} more are not whole: {problem}")),
             }
         }
         Ok(())
@@ -293,14 +235,6 @@ impl Dataset {
     /// When the record cannot be read or understood.
     pub fn label_record(&self, scene: &str, camera: &str, frame: u32) -> Result<Option<LabelRecord>, DatasetError> {
         read_json(&self.layout().label_record(scene, camera, frame), "delete it and run the label stage again")
-    }
-
-    /// The commit record of a frame's denoised layers; `None` when it has none.
-    ///
-    /// # Errors
-    /// When the record cannot be read or understood.
-    pub fn denoise_record(&self, scene: &str, camera: &str, frame: u32) -> Result<Option<DenoiseRecord>, DatasetError> {
-        read_json(&self.layout().denoise_record(scene, camera, frame), "delete it and run the denoise stage again")
     }
 
     /// Removes the temporary files that a killed run left in a camera's folders. Call it before frames are written, when no
@@ -339,7 +273,6 @@ impl Dataset {
         let folder = self.layout().scene_dir(scene);
         let remedy = match pass {
             Pass::Label => "run the label stage again",
-            Pass::Denoised => "run the denoise stage again",
             _ => "render the frame again",
         };
         files.iter().find_map(|(name, file)| {
@@ -365,7 +298,13 @@ impl Dataset {
     }
 
     /// Writes every layer under its temporary name and says what will lie where. On an error no temporary file stays.
-    fn write_aside(&self, scene: &str, camera: &str, number: u32, frame: &Frame) -> Result<BTreeMap<String, FileRecord>, DatasetError> {
+    pub(crate) fn write_aside(
+        &self,
+        scene: &str,
+        camera: &str,
+        number: u32,
+        frame: &Frame,
+    ) -> Result<BTreeMap<String, FileRecord>, DatasetError> {
         let size = [frame.height as usize, frame.width as usize];
         let layers: Vec<(Layer, &Values)> = frame.iter().collect();
         let write = |&(layer, values): &(Layer, &Values)| {
@@ -380,14 +319,14 @@ impl Dataset {
     }
 
     /// Removes what [`Self::write_aside`] wrote. Failures are ignored, since an earlier error is being returned.
-    fn remove_aside(&self, scene: &str, camera: &str, number: u32, frame: &Frame) {
+    pub(crate) fn remove_aside(&self, scene: &str, camera: &str, number: u32, frame: &Frame) {
         for (layer, _) in frame.iter() {
             let _ = fs::remove_file(temporary(&self.layout().layer(scene, camera, number, layer)));
         }
     }
 
     /// Renames the layers of `frame` from their temporary names, colour last: loaders that look for colour find all or nothing.
-    fn put_in_place(&self, scene: &str, camera: &str, number: u32, frame: &Frame) -> Result<(), DatasetError> {
+    pub(crate) fn put_in_place(&self, scene: &str, camera: &str, number: u32, frame: &Frame) -> Result<(), DatasetError> {
         let mut layers: Vec<Layer> = frame.iter().map(|(layer, _)| layer).collect();
         layers.sort_by_key(|&layer| layer == Layer::Color);
         layers.into_iter().try_for_each(|layer| {
@@ -418,12 +357,17 @@ impl Dataset {
     fn remove_frame(&self, scene: &str, camera: &str, number: u32) -> Result<(), DatasetError> {
         remove_if_there(&self.layout().frame_record(scene, camera, number))?;
         remove_if_there(&self.layout().label_record(scene, camera, number))?;
-        remove_if_there(&self.layout().denoise_record(scene, camera, number))?;
-        LAYERS.iter().try_for_each(|spec| remove_if_there(&self.layout().layer(scene, camera, number, spec.layer)))
+        LAYERS.iter().try_for_each(|spec| remove_if_there(&self.layout().layer(scene, camera, number, spec.layer)))?;
+        // What versions up to 0.1 wrote beside rendered layers.
+        remove_if_there(&self.layout().records_dir(scene, camera).join(format!("frame.{number:04}.denoised.json")))?;
+        let folder = self.layout().layer_dir(scene, camera, Pass::Final);
+        let old =
+            ["color", "diffuse_illumination", "residual"].map(|layer| folder.join(format!("frame.{number:04}.{layer}_denoised.hdf5")));
+        old.iter().try_for_each(|path| remove_if_there(path))
     }
 
     /// A path relative to the scene's folder, with forward slashes.
-    fn name_in_scene(&self, scene: &str, path: &Path) -> String {
+    pub(crate) fn name_in_scene(&self, scene: &str, path: &Path) -> String {
         let relative = path.strip_prefix(self.layout().scene_dir(scene)).unwrap_or(path);
         relative.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
     }
@@ -471,7 +415,6 @@ pub(crate) fn read_json<T: DeserializeOwned>(path: &Path, remedy: &str) -> Resul
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::write_bytes;
 
     #[test]
     fn temporaries_of_layers_records_and_previews_are_removed_and_nothing_else() {
@@ -494,16 +437,5 @@ mod tests {
         for folder in &folders {
             assert_eq!(sorted_names(folder).unwrap(), ["frame.0000.x"], "{}", folder.display());
         }
-    }
-
-    #[test]
-    fn denoised_layers_without_a_record_are_found() {
-        let folder = tempfile::tempdir().unwrap();
-        let dataset = Dataset::create(folder.path()).unwrap();
-        let write = |path: &Path| write_bytes(path, "x").unwrap();
-        write(&dataset.layout().layer("room", "cam_00", 0, Layer::Color));
-        assert!(!dataset.has_denoised_layers("room") && !dataset.has_denoised_layers("hall"));
-        write(&dataset.layout().layer("room", "cam_00", 0, Layer::ColorDenoised));
-        assert!(dataset.has_denoised_layers("room"));
     }
 }

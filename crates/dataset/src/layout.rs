@@ -231,11 +231,6 @@ impl Layout {
         self.records_dir(scene, camera).join(format!("frame.{frame:04}.labels.json"))
     }
 
-    /// The commit record of a frame's denoised layers.
-    pub fn denoise_record(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
-        self.records_dir(scene, camera).join(format!("frame.{frame:04}.denoised.json"))
-    }
-
     /// What a camera sees in each pose, coloured by part, as planned: small pictures for people.
     pub fn plan_views_dir(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("preview")
@@ -365,7 +360,7 @@ pub(crate) fn layer_file_name(frame: u32, layer: Layer) -> String {
 
 fn pass_name(pass: Pass) -> &'static str {
     match pass {
-        Pass::Final | Pass::Denoised | Pass::Split => "final",
+        Pass::Final | Pass::Rendered | Pass::Split => "final",
         Pass::Geometry | Pass::Label | Pass::Extra => "geometry",
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::camera_files::optional;
 use crate::frames::read_json;
-use crate::{Dataset, DatasetError, FileRecord, ViewFault, write_json};
+use crate::{ColorKind, Dataset, DatasetError, FileRecord, ViewFault, write_json};
 use enfilade_frame::{Dtype, LAYERS, LayerSpec, Pass};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -96,10 +96,13 @@ pub struct FrameEntry {
     /// Hash of everything that the frame's values depend on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub config_hash: Option<String>,
-    /// The program that made the denoised layers, with its version; absent where there are none.
+    /// What `color`, `diffuse_illumination` and `residual` hold; absent where there is no frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color: Option<ColorKind>,
+    /// The program that denoised them, with its version; absent where they are as they were rendered.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub denoiser: Option<String>,
-    /// Layer files, labels and denoised layers included, by path relative to the scene's folder.
+    /// Layer files, labels included, by path relative to the scene's folder.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub files: BTreeMap<String, FileRecord>,
 }
@@ -141,8 +144,9 @@ const NOTES: [(&str, &str); 16] = [
     ),
     (
         "denoised",
-        "Layers named *_denoised exist where a frame names its denoiser; they are biased estimates of the unbiased layers, made with exact \
-         reflectance and normals as guides, and satisfy the same identity with diffuse_reflectance.",
+        "A frame's entry and record say whether color, diffuse_illumination and residual are rendered (unbiased, noisy) or denoised (a biased \
+         estimate without noise, made with exact reflectance and normals as guides); the identity holds for both. Where they are denoised, \
+         layers named *_rendered are what was rendered, if it is kept; color_standard_error and the parts of light belong to those.",
     ),
     (
         "noise",
@@ -238,11 +242,9 @@ impl Dataset {
             let mut files = record.files;
             let labels = self.label_record(scene, camera, frame)?.filter(|record| self.files_are_there(scene, &record.files));
             files.extend(labels.into_iter().flat_map(|record| record.files));
-            let denoised = self.denoise_record(scene, camera, frame)?.filter(|record| self.files_are_there(scene, &record.files));
-            let denoiser = denoised.as_ref().map(|record| record.denoiser.clone());
-            files.extend(denoised.into_iter().flat_map(|record| record.files));
             let (seed, config_hash) = (Some(record.seed), Some(record.config_hash));
-            return Ok(FrameEntry { frame, status: FrameStatus::Complete, reason: None, seed, config_hash, denoiser, files });
+            let (color, denoiser) = (Some(record.color), record.denoised.map(|denoised| denoised.denoiser));
+            return Ok(FrameEntry { frame, status: FrameStatus::Complete, reason: None, seed, config_hash, color, denoiser, files });
         }
         let failed = info.failed_frames.get(&(scene.to_string(), camera.to_string(), frame)).cloned();
         let (status, reason) = match (failed, rejected) {
@@ -250,7 +252,7 @@ impl Dataset {
             (None, Some(fault)) => (FrameStatus::Rejected, Some(fault.to_string())),
             (None, None) => (FrameStatus::Planned, None),
         };
-        Ok(FrameEntry { frame, status, reason, seed: None, config_hash: None, denoiser: None, files: BTreeMap::new() })
+        Ok(FrameEntry { frame, status, reason, seed: None, config_hash: None, color: None, denoiser: None, files: BTreeMap::new() })
     }
 
     /// Writes `manifest.json`.
@@ -326,7 +328,6 @@ impl Dataset {
         let is_recorded = found.is_some() && recorded.is_some_and(|files| files.get(name) == found.as_ref());
         let stage = match pass {
             Pass::Label => "label",
-            Pass::Denoised => "denoise",
             _ => "render",
         };
         let remedy = match record.is_file() {
@@ -343,7 +344,6 @@ impl Dataset {
         let spec = LAYERS.iter().find(|spec| layout.layer(scene, camera, frame, spec.layer) == path);
         match spec.map(|spec| spec.pass) {
             Some(Pass::Label) => (layout.label_record(scene, camera, frame), Pass::Label),
-            Some(Pass::Denoised) => (layout.denoise_record(scene, camera, frame), Pass::Denoised),
             _ => (layout.frame_record(scene, camera, frame), Pass::Final),
         }
     }

@@ -123,8 +123,37 @@ pub struct FrameRecord {
     /// What rendered it; absent in records of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recipe: Option<Recipe>,
+    /// What `color` and the two layers that it is made of hold; records of earlier versions do not say so, and mean rendered ones.
+    #[serde(default)]
+    pub color: ColorKind,
+    /// How they were denoised; absent where they are as they were rendered.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub denoised: Option<Denoised>,
     /// The layer files, by path relative to the scene's folder.
     pub files: BTreeMap<String, FileRecord>,
+}
+
+/// What `color`, `diffuse_illumination` and `residual` hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ColorKind {
+    /// What was rendered: unbiased, and noisy.
+    #[default]
+    Rendered,
+    /// An estimate of the same without noise, and biased, as denoising is.
+    Denoised,
+}
+
+/// How the colour layers of a frame were denoised.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Denoised {
+    /// The program that denoised, with its version.
+    pub denoiser: String,
+    /// Hash of the settings that it ran with.
+    pub denoise_hash: String,
+    /// The files that were rendered, where they were not kept, by the paths that they would have, relative to the scene's folder.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub dropped: BTreeMap<String, FileRecord>,
 }
 
 impl FrameRecord {
@@ -155,25 +184,6 @@ impl FrameRecord {
         let differs = turned.iter().fold(moved, |m: f64, v| m.max(v.abs()));
         differs <= SAME_POSE && self.camera_differs_by(camera) <= SAME_CAMERA_PX
     }
-}
-
-/// As [`FrameRecord`], for the denoised layers, which are made from the rendered ones and leave them as they are.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct DenoiseRecord {
-    /// Version of this form.
-    pub format: u32,
-    /// Scene name.
-    pub scene: String,
-    /// Camera name.
-    pub camera: String,
-    /// Frame number.
-    pub frame: u32,
-    /// The program that denoised, with its version.
-    pub denoiser: String,
-    /// Hash of everything that the layers were made from, but for the program.
-    pub denoise_hash: String,
-    /// The layer files, by path relative to the scene's folder.
-    pub files: BTreeMap<String, FileRecord>,
 }
 
 /// As [`FrameRecord`], for the label layers, which come and go without the frame being rendered again.

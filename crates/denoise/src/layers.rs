@@ -29,7 +29,7 @@ pub struct Noisy<'a> {
     pub normal: &'a [f32],
 }
 
-/// The denoised layers of `frame`: `color_denoised`, `diffuse_illumination_denoised` and `residual_denoised`, and no others.
+/// `color`, `diffuse_illumination` and `residual` of `frame` without noise, and no other layers.
 /// `filter` denoises one picture.
 ///
 /// # Errors
@@ -53,7 +53,7 @@ fn composed(frame: &Frame, reflectance: &[f32], illumination: &[f32], residual: 
         }
     }
     let mut out = Frame::new(frame.width, frame.height);
-    let names = [Layer::ColorDenoised, Layer::DiffuseIlluminationDenoised, Layer::ResidualDenoised];
+    let names = [Layer::Color, Layer::DiffuseIllumination, Layer::Residual];
     names.into_iter().zip(layers).for_each(|(layer, values)| out.insert(layer, Values::F16(values)));
     out
 }

@@ -1,10 +1,9 @@
-//! Denoised companions of the noisy colour layers, by the network of Open Image Denoise.
+//! The colour layers without noise, by the network of Open Image Denoise.
 //!
 //! Diffuse light and residual are denoised apart, with the normals of the geometry pass as guides, and put together with the exact
-//! reflectance as the renderer puts them together. So texture never goes through the denoiser, the identity holds to the last
-//! bit, and the layers that were rendered stay as they are. [`denoise`] is a pure function of a frame and a filter; a
-//! [`Denoiser`] is the filter: the network in the binary, run by our own kernels with the same bytes on every processor, or the
-//! library where it is installed, which is loaded when such a [`Denoiser`] is opened.
+//! reflectance as the renderer puts them together. So texture never goes through the denoiser, and the identity holds to the last bit.
+//! [`denoise`] is a pure function of a frame and a filter; a [`Denoiser`] is the filter: the network in the binary, run by our own kernels
+//! with the same bytes on every processor, or the library where it is installed, which is loaded when such a [`Denoiser`] is opened.
 //!
 //! ```
 //! use enfilade_denoise::{DenoiseError, denoise};
@@ -20,7 +19,7 @@
 //!
 //! // With `let denoiser = Denoiser::built_in()`, the filter is `|noisy| denoiser.filter(noisy)`; this one changes nothing.
 //! let denoised = denoise(&frame, |noisy| Ok(noisy.color.to_vec()))?;
-//! assert_eq!(denoised.get(Layer::ColorDenoised).map(|color| color.get(0)), Some(0.5 * 2.0 + 0.25));
+//! assert_eq!(denoised.get(Layer::Color).map(|color| color.get(0)), Some(0.5 * 2.0 + 0.25));
 //! # Ok::<(), DenoiseError>(())
 //! ```
 

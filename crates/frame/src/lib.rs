@@ -13,7 +13,7 @@ pub use channels::vector;
 pub use compose::{Composed, F16_LIMIT, compose};
 pub use half::f16;
 pub use noise::{NOISE_FLOOR, picture_noise};
-pub use spec::{Dtype, LAYERS, Layer, LayerSpec, Pass, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, traits};
+pub use spec::{DENOISED, Dtype, LAYERS, Layer, LayerSpec, Pass, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, traits};
 
 use std::collections::BTreeMap;
 

@@ -32,9 +32,10 @@ pub fn picture_noise(pixels: impl ExactSizeIterator<Item = ([f16; 3], f16)> + Cl
 }
 
 impl Frame {
-    /// [`picture_noise`] of the frame; `None` without color or its standard error.
+    /// [`picture_noise`] of the frame as it was rendered, by denoised color where what was rendered is not kept; `None` without color or
+    /// its standard error.
     pub fn noise(&self) -> Option<f64> {
-        let (color, error) = (self.get(Layer::Color)?, self.get(Layer::ColorStandardError)?);
+        let (color, error) = (self.get(Layer::ColorRendered).or_else(|| self.get(Layer::Color))?, self.get(Layer::ColorStandardError)?);
         let half = |value: f64| f16::from_f64(value);
         let pixel = |i: usize| ([0, 1, 2].map(|channel| half(color.get(3 * i + channel))), half(error.get(i)));
         picture_noise((0..self.pixels()).map(pixel))

@@ -23,9 +23,9 @@ pub enum Layer {
     Valid,
     Semantic,
     SemanticInstance,
-    ColorDenoised,
-    DiffuseIlluminationDenoised,
-    ResidualDenoised,
+    ColorRendered,
+    DiffuseIlluminationRendered,
+    ResidualRendered,
     ColorStandardError,
     DiffuseDirect,
     DiffuseIndirect,
@@ -73,8 +73,8 @@ pub enum Pass {
     Geometry,
     /// Also in the geometry folder, but joined from `render_entity_id` after rendering.
     Label,
-    /// Also in the final folder, but made from the rendered layers where that is asked for.
-    Denoised,
+    /// Also in the final folder: the layers that were rendered, of frames whose `color` is denoised, where they are kept.
+    Rendered,
     /// Also in the final folder and rendered with it, but only where that is asked for: the light of `color` by its way or its source.
     Split,
     /// Also in the geometry folder and sampled like it, but only where that is asked for.
@@ -84,7 +84,7 @@ pub enum Pass {
 impl Pass {
     /// True for layers that a frame has only where they were asked for, and then all of them.
     pub const fn is_optional(self) -> bool {
-        matches!(self, Self::Denoised | Self::Split | Self::Extra)
+        matches!(self, Self::Rendered | Self::Split | Self::Extra)
     }
 }
 
@@ -149,7 +149,7 @@ macro_rules! layers {
 /// The table of layers; `LAYERS[layer as usize].layer == layer`.
 pub const LAYERS: [LayerSpec; 43] = layers![
     Color "color" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
-        "Radiance; equals diffuse_reflectance * diffuse_illumination + residual to the last bit, evaluated in float32 and rounded to float16.";
+        "Radiance, denoised or as rendered, which the record of the frame says; equals diffuse_reflectance * diffuse_illumination + residual to the last bit, evaluated in float32 and rounded to float16.";
     DiffuseIllumination "diffuse_illumination" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
         "Diffusely reflected light divided by the filtered reflectance; where that is zero, the demodulated irradiance (irradiance / pi).";
     DiffuseReflectance "diffuse_reflectance" Final 3 F16, "", "linear RGB, Rec. 709", "0", "Diffuse albedo, on [0,1].";
@@ -167,32 +167,32 @@ pub const LAYERS: [LayerSpec; 43] = layers![
     Valid "valid" Geometry 1 U8, "", "", "0", "Reason code: 0 nothing hit, 1 valid, 2 colour saturated at 65504, 3 no diffuse reflectance.";
     Semantic "semantic" Label 1 I16, "", "NYU40", "-1", "Class 1 to 40 of the visible part, -1 unlabelled.";
     SemanticInstance "semantic_instance" Label 1 I16, "", "", "-1", "Instance number from 1 within the scene, -1 none.";
-    ColorDenoised "color_denoised" Denoised 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
-        "Estimate of color without noise, where asked for: diffuse_reflectance * diffuse_illumination_denoised + residual_denoised to the last bit, as in color.";
-    DiffuseIlluminationDenoised "diffuse_illumination_denoised" Denoised 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
-        "Estimate of diffuse_illumination without noise, where asked for; biased, as denoising is.";
-    ResidualDenoised "residual_denoised" Denoised 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
-        "Estimate of residual without noise, where asked for; biased, as denoising is.";
+    ColorRendered "color_rendered" Rendered 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
+        "What was rendered where color is denoised: unbiased, noisy; equals diffuse_reflectance * diffuse_illumination_rendered + residual_rendered to the last bit.";
+    DiffuseIlluminationRendered "diffuse_illumination_rendered" Rendered 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+        "What was rendered where diffuse_illumination is denoised.";
+    ResidualRendered "residual_rendered" Rendered 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
+        "What was rendered where residual is denoised.";
     ColorStandardError "color_standard_error" Final 1 F16, "W/(sr m^2)", "luminance, Rec. 709", "as elsewhere",
-        "Standard error of the luminance of color, from the spread of the pixel's samples as if they were independent; they are stratified, so the true one is smaller on average. NaN in a frame of one sample per pixel.";
+        "Standard error of the luminance of color as it was rendered, from the spread of the pixel's samples as if they were independent; they are stratified, so the true one is smaller on average. NaN in a frame of one sample per pixel.";
     DiffuseDirect "diffuse_direct" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
-        "Part of color, where asked for: light that comes straight from a source and is reflected diffusely; with diffuse_indirect it is color - residual.";
+        "Part of color as it was rendered, where asked for: light that comes straight from a source and is reflected diffusely; with diffuse_indirect it is color - residual.";
     DiffuseIndirect "diffuse_indirect" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
-        "Part of color, where asked for: light that comes by way of other surfaces and is reflected diffusely.";
+        "Part of color as it was rendered, where asked for: light that comes by way of other surfaces and is reflected diffusely.";
     Specular "specular" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
-        "Part of color, where asked for: light reflected otherwise than diffusely; specular + transmission + emission is residual.";
+        "Part of color as it was rendered, where asked for: light reflected otherwise than diffusely; specular + transmission + emission is residual.";
     Transmission "transmission" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
-        "Part of color, where asked for: light that passes through the first surface, panes included.";
+        "Part of color as it was rendered, where asked for: light that passes through the first surface, panes included.";
     Emission "emission" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
-        "Part of color, where asked for: light that the first surface emits, and the background.";
+        "Part of color as it was rendered, where asked for: light that the first surface emits, and the background.";
     LightEnvironment "light_environment" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
-        "Part of color, where asked for: light of the sky or environment map; the four light_* layers sum to color.";
+        "Part of color as it was rendered, where asked for: light of the sky or environment map; the four light_* layers sum to color.";
     LightDistant "light_distant" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the sun's disk",
-        "Part of color, where asked for: light of the sun and other directional lights.";
+        "Part of color as it was rendered, where asked for: light of the sun and other directional lights.";
     LightSurfaces "light_surfaces" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
-        "Part of color, where asked for: light of emissive surfaces.";
+        "Part of color as it was rendered, where asked for: light of emissive surfaces.";
     LightPoints "light_points" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
-        "Part of color, where asked for: light of lights at a point, such as spots and measured lamps.";
+        "Part of color as it was rendered, where asked for: light of lights at a point, such as spots and measured lamps.";
     MaterialId "material_id" Extra 1 I16, "", "", "-1", "Material number from 1: material_id of metadata_materials.csv.";
     BaseColor "base_color" Extra 3 F16, "", "linear RGB, Rec. 709", "0",
         "Colour of the material, on [0,1]: diffuse reflectance, reflectance at normal incidence of metals, transmittance of glass.";
@@ -214,6 +214,13 @@ pub const LAYERS: [LayerSpec; 43] = layers![
     SceneFlow "scene_flow" Extra 3 F32, "m", "camera (x right, y up, z backward)", "NaN",
         "Position of the surface point in the next frame's camera axes minus that in this frame's; NaN in the last frame.";
     FlowVisibility "flow_visibility" Extra 1 U8, "", "", "0", "1 where the next frame shows the same surface point, 0 where it is hidden or outside the image.";
+];
+
+/// The layers that denoising replaces, each with the name under which what was rendered is kept; `color` is last.
+pub const DENOISED: [(Layer, Layer); 3] = [
+    (Layer::DiffuseIllumination, Layer::DiffuseIlluminationRendered),
+    (Layer::Residual, Layer::ResidualRendered),
+    (Layer::Color, Layer::ColorRendered),
 ];
 
 /// Layers whose sum is `color`, but for the rounding of each: by the light's way from the first surface to the camera.

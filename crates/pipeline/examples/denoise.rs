@@ -75,7 +75,7 @@ fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &
         if let Some(library) = library {
             let time = Stopwatch::start();
             let denoised = denoise(&frame, |noisy| library.filter(noisy))?;
-            row(&format!("what is written, by {}", library.name()), &picture(&denoised, Layer::ColorDenoised), time.cpu_s());
+            row(&format!("what is written, by {}", library.name()), &picture(&denoised, Layer::Color), time.cpu_s());
         }
     }
     Ok(())
@@ -98,11 +98,11 @@ const WAYS: [Way; 6] = [
     }),
     ("light and residual apart, normals", |frame, denoiser| parts(frame, denoiser, &white(frame))),
     ("the same, normals filtered over the pixel: what is written", |frame, denoiser| {
-        Ok(picture(&denoise(frame, |noisy| denoiser.filter(noisy))?, Layer::ColorDenoised))
+        Ok(picture(&denoise(frame, |noisy| denoiser.filter(noisy))?, Layer::Color))
     }),
     ("the same, reflectance as a guide as well", |frame, denoiser| {
         let albedo = picture(frame, Layer::DiffuseReflectance);
-        Ok(picture(&denoise(frame, |noisy| denoiser.filter(&Noisy { albedo: &albedo, ..*noisy }))?, Layer::ColorDenoised))
+        Ok(picture(&denoise(frame, |noisy| denoiser.filter(&Noisy { albedo: &albedo, ..*noisy }))?, Layer::Color))
     }),
 ];
 

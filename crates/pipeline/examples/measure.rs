@@ -35,7 +35,7 @@ fn main() -> Result<()> {
     }
     let camera = imported.scene.cameras.first().with_context(|| format!("{} has no camera", job.scene.display()))?;
     let prepared = RenderScene::new(&imported.scene, &Quiet)?;
-    let denoiser = job.denoise.then(denoiser).transpose()?;
+    let denoiser = job.denoise.then(denoiser);
     let loaded = time.cpu_s();
     let (mut pictures, mut clean, mut learned, mut denoised) = (Vec::new(), Vec::new(), 0.0, 0.0);
     for seed in 0..job.seeds {
@@ -45,7 +45,7 @@ fn main() -> Result<()> {
         learned += seconds;
         if let Some(denoiser) = &denoiser {
             let denoising = Stopwatch::start();
-            clean.extend(color(&denoise(&frame, |noisy| denoiser.filter(noisy))?, Layer::ColorDenoised));
+            clean.extend(color(&denoise(&frame, |noisy| denoiser.filter(noisy))?, Layer::Color));
             denoised += denoising.cpu_s();
         }
     }
@@ -95,10 +95,9 @@ fn arguments() -> Result<Job> {
     Ok(job)
 }
 
-/// What denoises the pictures that users get; `ENFILADE_OIDN` names its library.
-fn denoiser() -> Result<Denoiser> {
-    let place = std::env::var_os("ENFILADE_OIDN").map(PathBuf::from);
-    Ok(Denoiser::open(place.as_deref(), std::thread::available_parallelism()?.get())?)
+/// What denoises the pictures that users get.
+fn denoiser() -> Denoiser {
+    Denoiser::built_in()
 }
 
 /// A frame from the scene's own camera, and the processor seconds of learning for it.

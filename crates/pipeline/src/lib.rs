@@ -28,7 +28,7 @@ pub use config::{
     CameraChoice, CameraConfig, CameraModel, Config, EnvironmentChoice, FileSource, LabelSource, LensConfig, Overrides, Quality,
     RenderChoices, SceneConfig, Source, StereoConfig, demo, select,
 };
-pub use enfilade_dataset::WORKDIR;
+pub use enfilade_dataset::{ColorKind, WORKDIR};
 pub use enfilade_home::light::Moment;
 pub use enfilade_home::{HomeConfig, RoomKind};
 pub use enfilade_import::{Format as SceneFormat, UpAxis};

@@ -85,7 +85,7 @@ pub fn replay(file: &Path, out: Option<&Path>, cx: &dyn Cx) -> Result<Replay, Er
     let again = Dataset::create(root).map_err(Error::stage)?;
     let again = again.write_frame(&record.scene, &record.camera, &frame, &info, FrameTime::default()).map_err(Error::stage)?;
     let same = |(name, then): (&String, &FileRecord)| ReplayedFile { name: name.clone(), same: again.files.get(name) == Some(then) };
-    let files = record.files.iter().map(same).collect();
+    let files = record.as_rendered().files.iter().map(same).collect();
     Ok(Replay { frame: format!("{}/{}/frame.{:04}", record.scene, record.camera, record.frame), files })
 }
 
@@ -98,7 +98,7 @@ fn warn_of_changed(source: &Source, cx: &dyn Cx) {
     }
 }
 
-/// A frame that lies below `out` would be replaced, and its labels and denoised layers would be gone.
+/// A frame that lies below `out` would be replaced, and its labels would be gone.
 fn refuse_older(out: &Path, record: &FrameRecord) -> Result<(), Error> {
     let (layout, FrameRecord { scene, camera, frame, .. }) = (Layout::new(out), record);
     let layers = LAYERS.iter().map(|spec| layout.layer(scene, camera, *frame, spec.layer));

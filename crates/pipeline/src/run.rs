@@ -30,6 +30,8 @@ struct RunFile {
 
 /// Names listed in a warning.
 const NAMES_SHOWN: usize = 5;
+/// The stages that make frames: `color` is what people load, so it is denoised where they render.
+const RENDERING: [&StageSpec; 2] = [&STAGES[Stage::Render as usize], &STAGES[Stage::Denoise as usize]];
 /// The stages that new labels make necessary.
 const LABELLING: [&StageSpec; 2] = [&STAGES[Stage::Label as usize], &STAGES[Stage::Boxes as usize]];
 
@@ -51,14 +53,19 @@ pub fn run(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Re
     Ok(summary)
 }
 
-/// Runs one stage of the dataset in `out` with the configuration stored there; after new labels also the boxes of what they name.
+/// Runs one stage of the dataset in `out` with the configuration stored there; after rendering also what `color`
+/// holds, after new labels also the boxes of what they name.
 ///
 /// # Errors
 /// As [`run`], and when `out` is no dataset.
 pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
     let (workdir, config) = open(out)?;
     let scenes = config.select(pattern)?;
-    let stages: &[&StageSpec] = if stage == Stage::Label { &LABELLING } else { &[stage.spec()] };
+    let stages: &[&StageSpec] = match stage {
+        Stage::Render => &RENDERING,
+        Stage::Label => &LABELLING,
+        other => &[other.spec()],
+    };
     Session::new(&config, &workdir)?.run(&scenes, stages, force, reporter)
 }
 
@@ -237,7 +244,7 @@ impl<'a> Session<'a> {
     ) -> SceneOutcome {
         let job = Job::new(self.config, scene, &self.dataset, self.workdir, force);
         let mut outcome = SceneOutcome { name: scene.name.clone(), stages: Vec::new(), failure: None };
-        for spec in stages.iter().filter(|spec| job.wants(spec.stage)) {
+        for spec in stages {
             let ready = || match spec.stage {
                 // The manifest is part of what is verified. It lists all scenes, so it is not gathered for each that has nothing to do.
                 Stage::Verify => self.write_manifest(earlier, Some(&scene.name)),

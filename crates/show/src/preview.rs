@@ -77,9 +77,9 @@ pub const PREVIEWS: [PreviewSpec; 51] = [
     spec(Pass::Geometry, "valid.png", Subject::Layer(Layer::Valid)),
     spec(Pass::Label, "semantic.png", Subject::Layer(Layer::Semantic)),
     spec(Pass::Label, "semantic_instance.png", Subject::Layer(Layer::SemanticInstance)),
-    spec(Pass::Denoised, "color_denoised.jpg", Subject::Layer(Layer::ColorDenoised)),
-    spec(Pass::Denoised, "diffuse_illumination_denoised.jpg", Subject::Layer(Layer::DiffuseIlluminationDenoised)),
-    spec(Pass::Denoised, "residual_denoised.jpg", Subject::Layer(Layer::ResidualDenoised)),
+    spec(Pass::Rendered, "color_rendered.jpg", Subject::Layer(Layer::ColorRendered)),
+    spec(Pass::Rendered, "diffuse_illumination_rendered.jpg", Subject::Layer(Layer::DiffuseIlluminationRendered)),
+    spec(Pass::Rendered, "residual_rendered.jpg", Subject::Layer(Layer::ResidualRendered)),
     spec(Pass::Split, "diffuse_direct.jpg", Subject::Layer(Layer::DiffuseDirect)),
     spec(Pass::Split, "diffuse_indirect.jpg", Subject::Layer(Layer::DiffuseIndirect)),
     spec(Pass::Split, "specular.jpg", Subject::Layer(Layer::Specular)),
@@ -176,9 +176,9 @@ fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap, ra
         Layer::Color
         | Layer::DiffuseIllumination
         | Layer::Residual
-        | Layer::ColorDenoised
-        | Layer::DiffuseIlluminationDenoised
-        | Layer::ResidualDenoised
+        | Layer::ColorRendered
+        | Layer::DiffuseIlluminationRendered
+        | Layer::ResidualRendered
         | Layer::DiffuseDirect
         | Layer::DiffuseIndirect
         | Layer::Specular

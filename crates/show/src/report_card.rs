@@ -9,7 +9,7 @@ use enfilade_math::quantile;
 use enfilade_verify::frame_gates::Gate;
 use enfilade_verify::{Excuse, FrameValues, GateResult, LawResult, PairValues, VerifyReport, number, write_changed, write_report_json};
 use maud::{Markup, html};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Frames, and pairs of frames, that are shown: the worst ones.
 const SHOWN_FRAMES: usize = 24;
@@ -161,6 +161,7 @@ fn scenes(report: &VerifyReport) -> Markup {
         div.scroll { table {
             tr {
                 th { "scene" }
+                th { "color" }
                 @for head in ["frames", "rejected", "noise", "samples", "tone map", "clipped", "black", "invalid", "labelled", "parts", "overlap"] {
                     th.number { (head) }
                 }
@@ -169,6 +170,7 @@ fn scenes(report: &VerifyReport) -> Markup {
                 @let rejected = frames.iter().filter(|frame| frame.rejected_by().next().is_some()).count();
                 tr {
                     td { (scene) }
+                    td { (colors(&frames)) }
                     td.number { (frames.len()) }
                     td.number .(if rejected > 0 { "warn" } else { "" }) { (rejected) }
                     td.number { (share(median(&frames, |f| f.noise))) }
@@ -184,6 +186,12 @@ fn scenes(report: &VerifyReport) -> Markup {
             }
         } }
     }
+}
+
+/// What `color` holds in the frames of a scene, in words.
+fn colors(frames: &[&FrameValues]) -> String {
+    let kinds: BTreeSet<&str> = frames.iter().filter_map(|frame| frame.color.as_deref()).collect();
+    if kinds.is_empty() { "-".into() } else { kinds.into_iter().collect::<Vec<_>>().join("; ") }
 }
 
 fn gates(report: &VerifyReport, links: &Links<'_>) -> Markup {

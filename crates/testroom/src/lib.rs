@@ -4,7 +4,7 @@
 //! diffuse reflectance; one of its pixels is saturated.
 
 use enfilade_dataset::{BoxKind, InstanceView, Partition, SplitRow};
-use enfilade_frame::{Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits};
+use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, OrientedBox, Rgb};
 use enfilade_scene::{Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, WorldMesh};
@@ -73,9 +73,9 @@ pub fn frame(pose: &Pose) -> Frame {
         };
         let [a, s, r] = [a, s, r].map(|v| f16::from_f64(v).to_f32());
         push(Layer::DiffuseReflectance, &[f64::from(a); 3]);
-        [Layer::DiffuseIllumination, Layer::DiffuseIlluminationDenoised].into_iter().for_each(|l| push(l, &[f64::from(s); 3]));
-        [Layer::Residual, Layer::ResidualDenoised].into_iter().for_each(|l| push(l, &[f64::from(r); 3]));
-        [Layer::Color, Layer::ColorDenoised].into_iter().for_each(|l| push(l, &[f64::from(a * s + r); 3]));
+        [Layer::DiffuseIllumination, Layer::DiffuseIlluminationRendered].into_iter().for_each(|l| push(l, &[f64::from(s); 3]));
+        [Layer::Residual, Layer::ResidualRendered].into_iter().for_each(|l| push(l, &[f64::from(r); 3]));
+        [Layer::Color, Layer::ColorRendered].into_iter().for_each(|l| push(l, &[f64::from(a * s + r); 3]));
         push(Layer::ColorStandardError, &[f64::from(0.125 * (a * s + r))]);
         // The floor is lit from the void, the wall by a lamp.
         let diffuse = f64::from(a * s);
@@ -202,7 +202,9 @@ pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
             .write_frame("room", "cam_00", &part_of(&[Pass::Final, Pass::Geometry, Pass::Split, Pass::Extra]), &info, FrameTime::default())
             .unwrap();
         dataset.write_label_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Label]), "test").unwrap();
-        dataset.write_denoised_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Denoised]), "Smoother 3.1", "test").unwrap();
+        let mut denoised = Frame::new(whole.width, whole.height);
+        DENOISED.iter().for_each(|(layer, _)| denoised.insert(*layer, whole.get(*layer).unwrap().clone()));
+        dataset.write_denoised(["room", "cam_00"], pose.frame, &denoised, ["Smoother 3.1", "test"], true).unwrap();
     }
     dataset.write_free_space("room", &tree.to_bt(), first.position, second.position).unwrap();
     let mirror = OrientedBox { center: DVec3::new(0.0, 2.0, 1.5), world_from_box: DMat3::IDENTITY, extents: DVec3::new(1.0, 0.0, 1.0) };

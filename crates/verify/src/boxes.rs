@@ -110,7 +110,7 @@ mod tests {
         let mut card = Card::default();
         check_boxes(&boxes, "room", &mut card);
         let (camera, rounding) = (CameraView::still(&camera, &pose), Rounding::default());
-        let view = View { camera, rounding, released: false, entities: 3, labels: None, pieces: &[], last_class: 40 };
+        let view = View { camera, rounding, denoised: true, released: false, entities: 3, labels: None, pieces: &[], last_class: 40 };
         check_positions(&boxes, &testroom::frame(&pose), &view, "frame", &mut card);
         card.failures()
     }

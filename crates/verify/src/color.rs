@@ -3,7 +3,7 @@
 use super::law::Law;
 use super::rounding::half_step;
 use super::scan::Scan;
-use enfilade_frame::{Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, Values, f16};
+use enfilade_frame::{DENOISED, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, Values, f16};
 use enfilade_math::Rgb;
 
 /// Where a colour is this large, one of its parts may have been beyond float16.
@@ -18,9 +18,9 @@ const COLOR_LAYERS: [Layer; 7] = [
     Layer::DiffuseIllumination,
     Layer::DiffuseReflectance,
     Layer::Residual,
-    Layer::ColorDenoised,
-    Layer::DiffuseIlluminationDenoised,
-    Layer::ResidualDenoised,
+    Layer::ColorRendered,
+    Layer::DiffuseIlluminationRendered,
+    Layer::ResidualRendered,
 ];
 
 pub(super) fn check(scan: &mut Scan<'_>) {
@@ -36,7 +36,7 @@ pub(super) fn check(scan: &mut Scan<'_>) {
         scan.worst(Law::Albedo, "diffuse_reflectance", finite);
     }
     recomposition(scan, [Layer::Color, Layer::DiffuseIllumination, Layer::Residual]);
-    recomposition(scan, [Layer::ColorDenoised, Layer::DiffuseIlluminationDenoised, Layer::ResidualDenoised]);
+    recomposition(scan, [Layer::ColorRendered, Layer::DiffuseIlluminationRendered, Layer::ResidualRendered]);
     standard_error(scan);
     splits(scan, &SPLIT_BY_PATH, Layer::Color);
     splits(scan, &SPLIT_BY_SOURCE, Layer::Color);
@@ -73,7 +73,7 @@ fn rounded_recomposition(scan: &mut Scan<'_>, layers: [&Values; 4]) {
 
 /// Samples are not negative, so their mean's standard error is at most the mean: as much as that when all but one are zero.
 fn standard_error(scan: &mut Scan<'_>) {
-    let (Some(errors), Some(color)) = (scan.layer(Layer::ColorStandardError), scan.layer(Layer::Color)) else { return };
+    let (Some(errors), Some(color)) = (scan.layer(Layer::ColorStandardError), scan.rendered(Layer::Color)) else { return };
     let all_unknown = (0..errors.len()).all(|pixel| errors.get(pixel).is_nan());
     let is_cut = may_be_cut(scan, color);
     let excess = |pixel: usize| {
@@ -94,7 +94,7 @@ fn standard_error(scan: &mut Scan<'_>) {
 /// the factors of color, which makes at most 3 × 2⁻¹¹ of the sum.
 fn splits(scan: &mut Scan<'_>, parts: &[Layer], whole: Layer) {
     let layers: Vec<&Values> = parts.iter().filter_map(|&layer| scan.layer(layer)).collect();
-    let (Some(values), Some(color)) = (scan.layer(whole), scan.layer(Layer::Color)) else { return };
+    let (Some(values), Some(color)) = (scan.rendered(whole), scan.rendered(Layer::Color)) else { return };
     if layers.len() < parts.len() {
         return;
     }
@@ -110,7 +110,7 @@ fn splits(scan: &mut Scan<'_>, parts: &[Layer], whole: Layer) {
 
 /// True where some channel of the colour, or of the illumination that is in it, may have been cut at the largest float16, or is no number.
 fn may_be_cut<'a>(scan: &Scan<'a>, color: &'a Values) -> impl Fn(usize) -> bool + use<'a> {
-    let illumination = scan.layer(Layer::DiffuseIllumination);
+    let illumination = scan.rendered(Layer::DiffuseIllumination);
     let is_near_limit = |values: &Values, i: usize| values.get(i).is_nan() || values.get(i) >= NEAR_LIMIT;
     move |pixel| (3 * pixel..3 * pixel + 3).any(|i| is_near_limit(color, i) || illumination.is_some_and(|values| is_near_limit(values, i)))
 }
@@ -124,14 +124,15 @@ fn void_codes(scan: &mut Scan<'_>) {
 
 fn reason_codes(scan: &mut Scan<'_>) {
     let (Some(codes), Some(reflectance)) = (scan.layer(Layer::Valid), scan.layer(Layer::DiffuseReflectance)) else { return };
-    let radiance: Vec<_> = [Layer::Color, Layer::DiffuseIllumination, Layer::Residual].into_iter().filter_map(|l| scan.layer(l)).collect();
+    let radiance: Vec<_> = DENOISED.into_iter().filter_map(|(layer, _)| scan.rendered(layer)).collect();
+    let is_known = !radiance.is_empty();
     let any = |pixel: usize, test: &dyn Fn(usize) -> bool| (3 * pixel..3 * pixel + 3).any(test);
     let reaches = |pixel: usize, value: f64| any(pixel, &|i| radiance.iter().any(|values| values.get(i) >= value));
     let is_right = |pixel: usize| {
         let diffuse = any(pixel, &|i| reflectance.get(i) != 0.0);
         let unsaturated = if diffuse { Validity::Valid } else { Validity::NoDiffuse };
         match codes.get(pixel) {
-            code if code == f64::from(Validity::Saturated as u8) => reaches(pixel, BELOW_LIMIT),
+            code if code == f64::from(Validity::Saturated as u8) => !is_known || reaches(pixel, BELOW_LIMIT),
             code => code == f64::from(unsaturated as u8) && !reaches(pixel, f16::MAX.to_f64()),
         }
     };

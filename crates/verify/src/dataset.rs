@@ -10,7 +10,7 @@ use super::trajectory::PlanRules;
 use super::two_views::{self, PairValues, Sight};
 use super::whole;
 use super::{View, boxes, camera_files, check_frame, check_trajectory};
-use enfilade_dataset::{BoxKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, StereoRecord, StereoSide};
+use enfilade_dataset::{BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, StereoRecord, StereoSide};
 use enfilade_frame::LAYERS;
 use enfilade_geometry::Voxel;
 use enfilade_scene::{Camera, CameraView, Cx, NYU40, Pose, Trajectory};
@@ -222,6 +222,7 @@ impl SceneFacts {
         let view = View {
             camera,
             rounding,
+            denoised: record.as_ref().is_some_and(|record| record.color == ColorKind::Denoised),
             released: self.released,
             entities: self.entities,
             labels: known.map(|known| &known.labels),

@@ -19,7 +19,10 @@ pub struct FrameValues {
     pub frame: u32,
     /// What each gate measured; `None` where that is no number.
     pub gates: BTreeMap<Gate, Option<f64>>,
-    /// Noise of color: the root mean square over the image of each pixel's standard error over (its luminance + 0.2 x the image's mean).
+    /// What `color` holds: `rendered`, or `denoised by PROGRAM`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color: Option<String>,
+    /// Noise of color as it was rendered: the root mean square over the image of each pixel's standard error over (its luminance + 0.2 x the image's mean).
     pub noise: Option<f64>,
     /// The noise at which rendering was to stop, where that was asked for.
     pub noise_target: Option<f32>,
@@ -44,7 +47,11 @@ impl FrameValues {
     /// The values of a frame; `filmed_with` is its camera, where that is known, and `record` that of its rendering, where there is one.
     pub fn new([scene, camera]: [&str; 2], number: u32, frame: &Frame, filmed_with: Option<&Camera>, record: Option<&FrameRecord>) -> Self {
         let sampling = record.and_then(|record| record.sampling);
-        let noise = frame.noise();
+        let denoised = record.and_then(|record| record.denoised.as_ref());
+        // Where what was rendered is not kept, its record is what is left to tell.
+        let is_gone = denoised.is_some() && frame.get(Layer::ColorRendered).is_none();
+        let noise = if is_gone { sampling.and_then(|sampling| sampling.noise) } else { frame.noise() };
+        let color = record.map(|_| denoised.map_or_else(|| "rendered".into(), |by| format!("denoised by {}", by.denoiser)));
         let noise_target = sampling.and_then(|sampling| sampling.noise_target);
         let mut gates = gate_values(frame, seeing(frame, filmed_with));
         gates.extend(noise.zip(noise_target).map(|(noise, target)| (Gate::Noise, noise / f64::from(target))));
@@ -56,6 +63,7 @@ impl FrameValues {
             camera: camera.into(),
             frame: number,
             gates: gates.into_iter().map(|(gate, value)| (gate, Some(value).filter(|v| v.is_finite()))).collect(),
+            color,
             noise,
             noise_target,
             samples: sampling.map(|sampling| sampling.samples_taken),

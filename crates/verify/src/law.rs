@@ -92,7 +92,7 @@ pub const LAWS: [LawSpec; 56] = laws![
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
     FramesComplete 0.0 "frames", "every frame of a trajectory is complete", "a frame failed or was never rendered: run again";
-    LayersPresent 0.0 "layers", "every frame has every layer, and of each optional kind (denoised, split, extra) all or none", "the frame was rendered or labelled by another version: render or label it again";
+    LayersPresent 0.0 "layers", "every frame has every layer, and of each optional kind (rendered beside denoised, split, extra) all or none", "the frame was rendered or labelled by another version: render or label it again";
     Checksums 0.0 "files", "files are what the manifest says was written", "a file was changed or damaged after it was written: render again or restore it";
     Nodes 0.0 "tables", "metadata_nodes.csv can be read and numbers its nodes 1, 2, ...", "the table was edited or cut: import the scene again";
     Calibration 1e-6 "px", "size and calibration agree between metadata_camera_parameters.csv, cameras_opencv.json, records and images",
@@ -122,7 +122,7 @@ pub const LAWS: [LawSpec; 56] = laws![
     ColorFinite 0.0 "values", "colour layers hold no NaN or infinity", "a light or material with absurd values: check the scene's brightest lights";
     ColorNotNegative 0.0 "", "colour layers are not negative", "a negative light or texture: check the scene";
     Albedo 1.001 "", "diffuse_reflectance is at most 1", "a texture or factor above 1: check the material of that part";
-    Recomposition 0.0 "values", "color = diffuse_reflectance * diffuse_illumination + residual, to the last bit, and so for denoised layers",
+    Recomposition 0.0 "values", "color = diffuse_reflectance * diffuse_illumination + residual, to the last bit, denoised and as rendered",
         "layers of different renderings are mixed: render the frame again";
     StandardError 2e-3 "relative", "color_standard_error is NaN everywhere (one sample per pixel), or from 0 to the luminance of color",
         "layers of different renderings are mixed: render the frame again";

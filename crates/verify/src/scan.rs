@@ -3,7 +3,7 @@
 use super::View;
 use super::card::Card;
 use super::law::Law;
-use enfilade_frame::{Frame, Layer, Values};
+use enfilade_frame::{DENOISED, Frame, Layer, Values};
 use enfilade_math::{DMat3, DVec3};
 
 /// One frame under examination.
@@ -29,6 +29,12 @@ impl<'a> Scan<'a> {
 
     pub fn layer(&self, layer: Layer) -> Option<&'a Values> {
         self.frame.get(layer)
+    }
+
+    /// What was rendered of a layer that denoising replaces; `None` where it is denoised and what was rendered was not kept.
+    pub fn rendered(&self, layer: Layer) -> Option<&'a Values> {
+        let kept = DENOISED.into_iter().find(|(plain, _)| *plain == layer).and_then(|(_, kept)| self.layer(kept));
+        kept.or_else(|| self.layer(layer).filter(|_| !self.view.denoised))
     }
 
     /// The pixels that see the scene, by `render_entity_id`; none without that layer.

@@ -27,6 +27,7 @@ impl Case {
         let view = View {
             camera: CameraView::still(&camera, &self.pose),
             rounding: Rounding::default(),
+            denoised: true,
             released: false,
             entities: self.labels.parts.len(),
             labels: Some(&self.labels),
@@ -91,8 +92,8 @@ fn missing_layers_and_wrong_sizes_are_found() {
         c.frame.iter().filter(|(layer, _)| wanted(*layer)).for_each(|(layer, values)| frame.insert(layer, values.clone()));
         c.frame = frame;
     };
-    assert_eq!(failures(|c, _| keep(c, &|layer| layer.spec().pass != Pass::Denoised)), [], "denoised layers are there when asked for");
-    assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::ResidualDenoised)), [Law::LayersPresent]);
+    assert_eq!(failures(|c, _| keep(c, &|layer| layer.spec().pass != Pass::Rendered)), [], "denoised layers are there when asked for");
+    assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::ResidualRendered)), [Law::LayersPresent]);
     assert_eq!(failures(|c, _| keep(c, &|layer| layer.spec().pass != Pass::Split)), [], "light is split when asked for");
     assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::Emission)), [Law::LayersPresent]);
     assert_eq!(failures(|c, _| c.intrinsics.height += 1), [Law::Calibration]);
@@ -132,9 +133,9 @@ fn pixels_brighter_than_float16_hold_to_every_law() {
             c.forget_parts_and_error(p);
             c.set(Layer::DiffuseReflectance, p, &[0.5; 3]);
             let values = [
-                (stored.color, [Layer::Color, Layer::ColorDenoised]),
-                (stored.illumination, [Layer::DiffuseIllumination, Layer::DiffuseIlluminationDenoised]),
-                (stored.residual, [Layer::Residual, Layer::ResidualDenoised]),
+                (stored.color, [Layer::Color, Layer::ColorRendered]),
+                (stored.illumination, [Layer::DiffuseIllumination, Layer::DiffuseIlluminationRendered]),
+                (stored.residual, [Layer::Residual, Layer::ResidualRendered]),
             ];
             for (value, layers) in values {
                 layers.into_iter().for_each(|layer| c.set(layer, p, &[value.to_f64(); 3]));
@@ -190,8 +191,9 @@ fn values_in_the_void_and_texture_coordinates_are_checked() {
 #[test]
 fn colour_laws_are_checked() {
     let infinite = |c: &mut Case, p| {
-        c.set(Layer::Color, p, &[f64::INFINITY; 3]);
-        c.set(Layer::Residual, p, &[f64::INFINITY; 3]);
+        for layer in [Layer::Color, Layer::Residual, Layer::ColorRendered, Layer::ResidualRendered] {
+            c.set(layer, p, &[f64::INFINITY; 3]);
+        }
         c.set(Layer::Valid, p, &[2.0]);
     };
     assert_eq!(failures(infinite), [Law::ColorFinite]);
@@ -206,7 +208,7 @@ fn colour_laws_are_checked() {
         c.forget_parts_and_error(p);
         c.set(Layer::DiffuseReflectance, p, &[1.5; 3]);
         for (illumination, color) in
-            [(Layer::DiffuseIllumination, Layer::Color), (Layer::DiffuseIlluminationDenoised, Layer::ColorDenoised)]
+            [(Layer::DiffuseIllumination, Layer::Color), (Layer::DiffuseIlluminationRendered, Layer::ColorRendered)]
         {
             c.set(illumination, p, &[0.0; 3]);
             c.set(color, p, &[c.frame.get(Layer::Residual).unwrap().get(3 * p); 3]);
@@ -231,7 +233,10 @@ fn colour_laws_are_checked() {
     for part in [Layer::DiffuseIndirect, Layer::Transmission, Layer::LightDistant] {
         assert_eq!(failures(|c, p| c.set(part, p, &[0.002; 3])), [Law::LightSplits], "{part:?}");
     }
-    let denoised = |c: &mut Case, p: usize| c.set(Layer::ResidualDenoised, p, &[0.5; 3]);
+    // The parts of light are those of what was rendered.
+    let rendered = |c: &mut Case, p: usize| c.set(Layer::ResidualRendered, p, &[0.5; 3]);
+    assert_eq!(failures(rendered), [Law::Recomposition, Law::LightSplits]);
+    let denoised = |c: &mut Case, p: usize| c.set(Layer::Residual, p, &[0.5; 3]);
     assert_eq!(failures(denoised), [Law::Recomposition]);
 }
 

@@ -10,6 +10,8 @@ pub struct View<'a> {
     pub camera: CameraView<'a>,
     /// How its distances and positions, which are in metres, were rounded when they were stored.
     pub rounding: Rounding,
+    /// True where the colour layers are denoised. What was rendered, to which noise and the parts of light belong, has layers of its own then.
+    pub denoised: bool,
     /// True for frames of Hypersim's release, which has fewer layers.
     pub released: bool,
     /// Number of render entities.

@@ -32,14 +32,12 @@ impl Viewer {
         self.allow_all([
             layout.frame_record(scene, camera, *frame),
             layout.label_record(scene, camera, *frame),
-            layout.denoise_record(scene, camera, *frame),
             layout.frame_instances(scene, camera),
             layout.split(),
             layout.verify_report(),
         ])?;
         let record = self.dataset.frame_record(scene, camera, *frame).map_err(problem)?;
         let labels = self.dataset.label_record(scene, camera, *frame).map_err(problem)?;
-        let denoised = self.dataset.denoise_record(scene, camera, *frame).map_err(problem)?;
         let views = optional(self.dataset.read_instance_views(scene, camera))?.unwrap_or_default();
         let instances: Vec<Value> = views
             .iter()
@@ -62,7 +60,7 @@ impl Viewer {
         if let Some(seed) = seed {
             record["seed"] = seed.into();
         }
-        Ok(json!({ "record": record, "labels": labels, "denoised": denoised, "instances": instances, "split": split,
+        Ok(json!({ "record": record, "labels": labels, "instances": instances, "split": split,
             "judged": self.judged(place)? }))
     }
 

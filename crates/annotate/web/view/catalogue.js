@@ -16,7 +16,7 @@ import { getJson } from "../shared/api.js";
 /** @typedef {{ kind: string, linear: boolean, width: number, height: number, corner_rays: number[][] | null, fov_y_deg: number | null }} Projection */
 /** @typedef {{ name: string, frame_time_s: number, projection: Projection | null, frames: CameraFrame[], tone: [number, number, number][] }} Camera */
 /** @typedef {{ instance: number, semantic: number, visible_pixels: number, visible_box: number[], full_box: number[], visibility: number, truncation: number }} InstanceView */
-/** @typedef {{ record: any, labels: any, denoised: any, instances: InstanceView[], split: { partition?: string, excluded?: string } | null, judged: any }} FrameFacts */
+/** @typedef {{ record: any, labels: any, instances: InstanceView[], split: { partition?: string, excluded?: string } | null, judged: any }} FrameFacts */
 
 /** Answers that do not change while one looks; a failure is asked for again. @type {Map<string, Promise<any>>} */
 const answers = new Map();

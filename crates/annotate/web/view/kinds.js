@@ -55,7 +55,7 @@ export function rangeOf(look, summary, chosen) {
 
 /** Groups of layers for the lists, in order. */
 export const GROUPS = [
-    { name: "Light", passes: ["final", "denoised"] },
+    { name: "Light", passes: ["final", "rendered"] },
     { name: "Light in parts", passes: ["split"] },
     { name: "Geometry", passes: ["geometry"] },
     { name: "Labels", passes: ["label"] },

@@ -12,7 +12,7 @@ export function framePanel(session, known) {
     const { frame } = session.store.state;
     const entry = camera?.frames.find((one) => one.frame === frame);
     if (!known || !camera) return [el("p", { class: "quiet" }, "Reading …")];
-    const { record, labels, denoised, judged, split } = known;
+    const { record, labels, judged, split } = known;
     const projection = camera.projection;
     const vector = (/** @type {number[] | undefined} */ v) => v && v.map((x) => x.toFixed(3)).join(", ");
     const pose = entry?.pose;
@@ -39,7 +39,7 @@ export function framePanel(session, known) {
             ["Seed", record.seed],
             ["Program", record.recipe?.program],
             ["Labels", labels && `joined from ${String(labels.labels_hash).slice(0, 12)}`],
-            ["Denoised by", denoised?.denoiser],
+            ["Color", record.color === "denoised" ? `denoised by ${record.denoised?.denoiser}` : "as rendered"],
             ["Files", `${Object.keys(record.files).length}, ${(/** @type {any[]} */ (Object.values(record.files)).reduce((sum, file) => sum + file.bytes, 0) / 1e6).toFixed(1)} MB`],
             ["Hash", String(record.config_hash).slice(0, 16)],
         ])] : []),

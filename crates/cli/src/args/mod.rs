@@ -64,10 +64,10 @@ pub enum Verb {
         after_help = "Examples:\n  enfilade render out --scene 'bed*'\n  enfilade render out --noise 2% --samples 4096 --splits\n\nFinished frames are kept; a killed run goes on where it was."
     )]
     Render(RenderArgs),
-    /// Frames -> denoised companions of the color layers, from now on (needs Open Image Denoise)
+    /// Frames -> color without noise, from now on; renders nothing again
     #[command(
-        after_help = "Example:\n  enfilade denoise out\n\nThe library is looked for where denoise_library in [render] says, else where \
-        ENFILADE_OIDN says, else where the\nsystem has its libraries; `pip install pyoidn` brings it along. What was rendered stays as it is."
+        after_help = "Example:\n  enfilade denoise out\n\nThe denoiser is in the program; denoiser in [render] names a library of Open Image \
+        Denoise instead.\nWhat was rendered stays as color_rendered, ... unless keep_rendered = false; `render --color rendered` takes it back."
     )]
     Denoise(StageArgs),
     /// Frames, label table -> semantic layers; renders nothing again

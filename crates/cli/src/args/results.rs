@@ -72,7 +72,7 @@ pub struct InspectArgs {
 #[derive(Args)]
 #[command(
     after_help = "Example:\n  enfilade replay out/scenes/home/_detail/cam_00/frames/frame.0000.json\n\nThe exit code is 1 when a byte differs. \
-    Labels and denoised layers are made from a frame afterwards and are not compared."
+    Labels, and color without noise, are made from a frame afterwards and are not compared."
 )]
 pub struct ReplayArgs {
     /// The commit record of the frame

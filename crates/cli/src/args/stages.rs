@@ -3,6 +3,7 @@
 use super::CamerasArg;
 use super::values::{parse_share, parse_size, parse_time};
 use clap::{Args, ValueEnum};
+use enfilade_dataset::ColorKind;
 use std::path::PathBuf;
 
 /// `run`.
@@ -129,9 +130,27 @@ pub struct RenderFlags {
     /// Also write material, flow to the next frame, what lies behind glass, occlusion boundaries and more, pixel by pixel
     #[arg(long)]
     pub extra: bool,
-    /// Make denoised companions of the color layers too (needs Open Image Denoise, see `enfilade denoise --help`)
-    #[arg(long)]
-    pub denoise: bool,
+    /// What color, diffuse_illumination and residual hold [default: denoised]; a change renders nothing again
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub color: Option<ColorArg>,
+}
+
+/// What the colour layers hold.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum ColorArg {
+    /// A clean estimate, biased as denoising is; what was rendered stays beside it, as color_rendered, ...
+    Denoised,
+    /// What was rendered: unbiased, and noisy
+    Rendered,
+}
+
+impl From<ColorArg> for ColorKind {
+    fn from(color: ColorArg) -> Self {
+        match color {
+            ColorArg::Denoised => Self::Denoised,
+            ColorArg::Rendered => Self::Rendered,
+        }
+    }
 }
 
 /// `preview`.

@@ -1,78 +1,107 @@
-//! Denoising: not there until asked for, a clear word where the library is not installed, and what it makes where it is.
+//! What `color` holds: denoised from the first run, rendered where that is asked for, and one after the other without rendering.
 
-use crate::common::{Lamp, assert_same, contents, enfilade, folder, scene, succeed, write_config, write_room};
-use std::path::Path;
+use crate::common::{Lamp, assert_same, contents, enfilade, fail, folder, scene, succeed, write_config, write_room};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
-/// A room of three frames, rendered without denoising.
-fn rendered(dir: &Path) {
+/// The configuration of a room of three frames.
+fn room(dir: &Path) {
     write_room(dir, "room", Lamp::On);
     write_config(dir, &[scene("room")]);
-    succeed(dir, &["run", "dataset.toml", "-o", "out"]);
 }
 
-/// Whether a dataset has any denoised file.
-fn has_denoised(root: &Path) -> bool {
-    contents(root).keys().any(|path| path.to_string_lossy().contains("denoised"))
+fn layer(out: &Path, name: &str) -> PathBuf {
+    out.join(format!("scenes/room/images/scene_cam_00_final_hdf5/frame.0001.{name}.hdf5"))
+}
+
+fn bytes(path: &Path) -> Vec<u8> {
+    std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// When the depth of a frame was written: nothing but rendering writes it.
+fn rendered_at(out: &Path) -> SystemTime {
+    let depth = out.join("scenes/room/images/scene_cam_00_geometry_hdf5/frame.0001.depth_meters.hdf5");
+    depth.metadata().unwrap().modified().unwrap()
 }
 
 #[test]
-fn without_the_library_nothing_is_lost_and_the_way_out_is_told() {
+fn color_is_denoised_from_the_first_run_and_changes_without_rendering() {
     let dir = folder();
     let d = dir.path();
-    rendered(d);
-    let before = contents(&d.join("out"));
-    assert!(!has_denoised(&d.join("out")));
-    let output = enfilade(d, &["denoise", "out"]).env("ENFILADE_OIDN", "no/such/library.so").output().unwrap();
+    room(d);
+    let [out, raw, bare] = ["out", "raw", "bare"].map(|name| d.join(name));
+    succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    succeed(d, &["run", "dataset.toml", "-o", "raw", "--color", "rendered", "--threads", "1"]);
+    assert_eq!(bytes(&layer(&out, "color_rendered")), bytes(&layer(&raw, "color")));
+    assert_ne!(bytes(&layer(&out, "color")), bytes(&layer(&raw, "color")));
+    assert!(!layer(&raw, "color_rendered").exists());
+    for (out, color) in [(&out, "denoised"), (&raw, "rendered")] {
+        let manifest = std::fs::read_to_string(out.join("manifest.json")).unwrap();
+        let record = std::fs::read_to_string(out.join("scenes/room/_detail/cam_00/frames/frame.0001.json")).unwrap_or_default();
+        let says = format!("\"color\": \"{color}\"");
+        assert!(manifest.contains(&says) && (record.is_empty() || record.contains(&says)), "{color}:\n{manifest}\n{record}");
+        assert!(std::fs::read_to_string(out.join("verify.html")).unwrap().contains(color));
+        assert!(succeed(d, &["verify", &out.to_string_lossy()]).contains("laws hold over 3 frames"));
+    }
+    assert!(succeed(d, &["run", "dataset.toml", "-o", "out"]).contains("nothing to do"));
+
+    // One way and the other, each as if it had been so from the beginning.
+    let [first, clean] = [rendered_at(&out), rendered_at(&raw)];
+    let denoised = contents(&out);
+    let rendered = contents(&raw);
+    succeed(d, &["run", "dataset.toml", "-o", "out", "--color", "rendered"]);
+    succeed(d, &["run", "dataset.toml", "-o", "raw"]);
+    assert_same(&contents(&out), &rendered);
+    assert_same(&contents(&raw), &denoised);
+    assert_eq!([rendered_at(&out), rendered_at(&raw)], [first, clean], "nothing is rendered again");
+    succeed(d, &["denoise", "out"]);
+    assert_eq!(bytes(&layer(&out, "color")), bytes(&layer(&raw, "color")));
+    succeed(d, &["render", "out", "--color", "rendered"]);
+    assert_eq!(bytes(&layer(&out, "color")), rendered[&layer(Path::new(""), "color")]);
+    assert_eq!(rendered_at(&out), first);
+
+    // What was not kept is rendered again, and that is told.
+    let text = std::fs::read_to_string(d.join("dataset.toml")).unwrap();
+    std::fs::write(d.join("bare.toml"), text.replace("[render]\n", "[render]\nkeep_rendered = false\n")).unwrap();
+    succeed(d, &["run", "bare.toml", "-o", "bare"]);
+    assert_eq!(bytes(&layer(&bare, "color")), bytes(&layer(&raw, "color")));
+    assert!(!layer(&bare, "color_rendered").exists());
+    assert!(succeed(d, &["verify", "bare"]).contains("laws hold over 3 frames"));
+    let told = "3 frames denoised, and what was rendered was not kept";
+    fail(d, &["run", "bare.toml", "-o", "bare", "--color", "rendered"], 0, &[told]);
+    assert_eq!(bytes(&layer(&bare, "color")), bytes(&layer(&out, "color")));
+}
+
+#[test]
+fn a_library_that_is_missing_is_told_before_anything_is_rendered() {
+    let dir = folder();
+    let d = dir.path();
+    room(d);
+    let text = std::fs::read_to_string(d.join("dataset.toml")).unwrap();
+    std::fs::write(d.join("dataset.toml"), text.replace("[render]\n", "[render]\ndenoiser = \"no/such/library.so\"\n")).unwrap();
+    let output = enfilade(d, &["run", "dataset.toml", "-o", "out"]).output().unwrap();
     let text = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{text}");
-    for words in ["Open Image Denoise was not found", "no/such/library.so", "pip install pyoidn", "ENFILADE_OIDN", "denoise_library"] {
+    for words in ["Open Image Denoise was not found", "no/such/library.so", "pip install pyoidn", "denoiser in [render]"] {
         assert!(text.contains(words), "{words:?} is not in:\n{text}");
     }
-    assert_same(&before, &contents(&d.join("out")));
-    succeed(d, &["verify", "out"]);
-    // A run that is to denoise says so before it does anything.
-    let output =
-        enfilade(d, &["run", "dataset.toml", "-o", "other", "--denoise"]).env("ENFILADE_OIDN", "no/such/library.so").output().unwrap();
-    let text = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.code() == Some(1) && text.contains("Open Image Denoise was not found"), "{text}");
-    assert!(!d.join("other/scenes/room").exists());
-    succeed(d, &["run", "dataset.toml", "-o", "out"]);
-    assert_same(&before, &contents(&d.join("out")));
+    assert!(!d.join("out/scenes/room").exists());
 }
 
 #[test]
-fn denoised_layers_come_by_every_way_with_the_same_bytes_and_go_again() {
-    if std::env::var_os("ENFILADE_OIDN").is_none() {
+fn an_installed_library_denoises_where_it_is_named() {
+    let Some(library) = std::env::var_os("ENFILADE_OIDN") else {
         return eprintln!("skipped: ENFILADE_OIDN does not name Open Image Denoise");
-    }
+    };
     let dir = folder();
     let d = dir.path();
-    rendered(d);
-    let raw = contents(&d.join("out"));
-    let layer = d.join("out/scenes/room/images/scene_cam_00_final_hdf5/frame.0001.color_denoised.hdf5");
-    let time = |path: &Path| path.metadata().unwrap().modified().unwrap();
-    let color = d.join("out/scenes/room/images/scene_cam_00_final_hdf5/frame.0001.color.hdf5");
-    let rendered_at = time(&color);
-
-    succeed(d, &["render", "out", "--denoise"]);
-    assert!(layer.is_file() && time(&color) == rendered_at, "nothing is rendered again");
-    let text = succeed(d, &["verify", "out"]);
-    assert!(text.contains("laws hold over 3 frames"), "{text}");
-    let manifest = std::fs::read_to_string(d.join("out/manifest.json")).unwrap();
-    assert!(manifest.contains("\"denoiser\": \"Open Image Denoise 2.") && manifest.contains("\"denoise\": true"));
-    let text = succeed(d, &["run", "dataset.toml", "-o", "out", "--denoise"]);
-    assert!(text.contains("laws hold") || text.contains("ok"), "{text}");
-    assert!(succeed(d, &["denoise", "out"]).contains("nothing to do"));
-    assert!(d.join("out/scenes/room/images/scene_cam_00_final_preview/frame.0001.color_denoised.jpg").is_file());
-
-    succeed(d, &["run", "dataset.toml", "-o", "at-once", "--denoise", "--threads", "1"]);
-    assert_same(&contents(&d.join("out")), &contents(&d.join("at-once")));
-    std::fs::remove_file(&layer).unwrap();
-    succeed(d, &["denoise", "out"]);
-    assert!(!d.join("out/verify.json").exists(), "what was verified is no longer there");
-    succeed(d, &["verify", "out"]);
-    assert_same(&contents(&d.join("out")), &contents(&d.join("at-once")));
-
+    room(d);
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
-    assert_same(&contents(&d.join("out")), &raw);
+    let first = rendered_at(&d.join("out"));
+    let text = std::fs::read_to_string(d.join("dataset.toml")).unwrap();
+    std::fs::write(d.join("dataset.toml"), text.replace("[render]\n", &format!("[render]\ndenoiser = {library:?}\n"))).unwrap();
+    succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    let manifest = std::fs::read_to_string(d.join("out/manifest.json")).unwrap();
+    assert!(manifest.contains("\"denoiser\": \"Open Image Denoise 2."), "{manifest}");
+    assert_eq!(rendered_at(&d.join("out")), first, "nothing is rendered again");
 }

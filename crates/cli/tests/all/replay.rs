@@ -9,7 +9,7 @@ const RECORD: &str = "out/scenes/room/_detail/cam_00/frames/frame.0001.json";
 fn dataset(d: &Path, flags: &[&str]) {
     write_room(d, "room", Lamp::On);
     write_config(d, &[scene("room")]);
-    succeed(d, &[&["run", "dataset.toml", "-o", "out"], flags].concat());
+    succeed(d, &[&["run", "dataset.toml", "-o", "out", "--color", "rendered"], flags].concat());
 }
 
 fn layers(root: &Path) -> Vec<(PathBuf, Vec<u8>)> {
@@ -28,6 +28,9 @@ fn a_frame_comes_out_the_same() {
     assert!(text.contains("room/cam_00/frame.0001: 15 of 15 files have the same bytes"), "{text}");
     succeed(d, &["replay", RECORD, "-o", "again", "--threads", "1"]);
     assert_eq!(layers(&d.join("again")), layers(&d.join("out")));
+    // What was rendered is compared where color is denoised, too.
+    succeed(d, &["denoise", "out"]);
+    assert!(succeed(d, &["replay", RECORD]).contains("15 of 15 files have the same bytes"));
 }
 
 #[test]

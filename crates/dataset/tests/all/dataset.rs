@@ -1,8 +1,8 @@
 //! What a dataset promises as a whole, on frames whose every value is known.
 
 use crate::analytic::{CAMERA, SCENE};
-use enfilade_dataset::{Dataset, DatasetError, FrameStatus, FrameTime, ManifestInfo};
-use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values, f16};
+use enfilade_dataset::{ColorKind, Dataset, DatasetError, FrameStatus, FrameTime, ManifestInfo};
+use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass, Values, f16};
 use enfilade_scene::{Heard, Intrinsics};
 use std::collections::BTreeMap;
 use std::fs;
@@ -278,33 +278,83 @@ fn rendering_a_frame_again_drops_its_labels() {
     assert!(!dataset.has_layer(SCENE, CAMERA, 0, Layer::Semantic) && !dataset.labels_are_complete(SCENE, CAMERA, 0, "beef"));
 }
 
+/// The three layers that denoising makes, all of them 1.
+fn ones() -> Frame {
+    let mut layers = Frame::new(97, 64);
+    DENOISED.iter().for_each(|(layer, _)| layers.insert(*layer, Values::F16(vec![f16::ONE; 97 * 64 * 3])));
+    layers
+}
+
 #[test]
-fn denoised_layers_come_and_go_beside_a_frame_and_the_manifest_names_their_maker() {
+fn color_is_denoised_and_as_it_was_rendered_again() {
     let folder = tempfile::tempdir().unwrap();
     let dataset = Dataset::create(folder.path()).unwrap();
     crate::analytic::write(&dataset, &small(), 3);
     let before = files(folder.path());
-    let mut layers = Frame::new(97, 64);
-    for spec in LAYERS.iter().filter(|spec| spec.pass == Pass::Denoised) {
-        layers.insert(spec.layer, Values::F16(vec![f16::ONE; 97 * 64 * 3]));
-    }
-    dataset.write_denoised_layers(SCENE, CAMERA, 0, &layers, "Smoother 3.1", "face").unwrap();
-    let complete = |hash| dataset.denoised_are_complete(SCENE, CAMERA, 0, hash);
-    assert!(complete("face") && !complete("other") && !dataset.denoised_are_complete(SCENE, CAMERA, 1, "face"));
-    assert_eq!(dataset.read_layer(SCENE, CAMERA, 0, Layer::ColorDenoised).unwrap().get(5), 1.0);
-    let entries = || dataset.collect_manifest(&ManifestInfo::default()).unwrap().scenes[SCENE].cameras[CAMERA].frames.clone();
-    let (first, second) = (&entries()[0], &entries()[1]);
-    assert_eq!((first.denoiser.as_deref(), first.files.len()), (Some("Smoother 3.1"), 20));
-    assert_eq!((&second.denoiser, second.files.len()), (&None, 17));
+    let rendered = dataset.frame_record(SCENE, CAMERA, 0).unwrap().unwrap();
+    let color = |layer| dataset.read_layer(SCENE, CAMERA, 0, layer).unwrap().get(5);
+    let noisy = color(Layer::Color);
 
-    dataset.remove_denoised_layers(SCENE, CAMERA, 0).unwrap();
-    assert!(files(folder.path()) == before, "what was rendered stays as it was");
-    // A frame that is rendered again is not what the denoised layers were made from.
-    dataset.write_denoised_layers(SCENE, CAMERA, 0, &layers, "Smoother 3.1", "face").unwrap();
+    let record = dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother 3.1", "face"], true).unwrap();
+    assert_eq!((record.color, record.has_rendered(), record.as_rendered()), (ColorKind::Denoised, true, rendered.clone()));
+    assert!(dataset.frame_is_complete(SCENE, CAMERA, 0, &rendered.config_hash), "nothing has to be rendered again");
+    assert_eq!((color(Layer::Color), color(Layer::ColorRendered)), (1.0, noisy));
+    let manifest = dataset.collect_manifest(&ManifestInfo::default()).unwrap();
+    let [first, second, _] = &manifest.scenes[SCENE].cameras[CAMERA].frames[..] else { panic!("three frames were written") };
+    assert_eq!((first.color, first.denoiser.as_deref(), first.files.len()), (Some(ColorKind::Denoised), Some("Smoother 3.1"), 20));
+    assert_eq!((second.color, &second.denoiser, second.files.len()), (Some(ColorKind::Rendered), &None, 17));
+    assert_eq!(dataset.verify_checksums(&manifest).unwrap(), [""; 0]);
+
+    // By another program, and back.
+    dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother 4", "cafe"], true).unwrap();
+    dataset.restore_rendered([SCENE, CAMERA], 0).unwrap();
+    assert!(files(folder.path()) == before, "what was rendered is as it was");
+    dataset.restore_rendered([SCENE, CAMERA], 0).unwrap();
+    assert!(files(folder.path()) == before);
+
+    // What is not kept cannot come back, and stays known.
+    let dropped = dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother 3.1", "face"], false).unwrap();
+    assert_eq!((dropped.has_rendered(), dropped.files.len(), dropped.as_rendered()), (false, rendered.files.len(), rendered));
+    assert!(!dataset.has_layer(SCENE, CAMERA, 0, Layer::ColorRendered));
+    let error = dataset.restore_rendered([SCENE, CAMERA], 0).unwrap_err().to_string();
+    assert!(error.contains("frame.0000.json") && error.contains("keep_rendered"), "{error}");
+    let again = dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother 4", "cafe"], true).unwrap_err();
+    assert!(again.to_string().contains("render the frame again"), "{again}");
+
+    // A frame that is rendered again is as it was rendered.
     let pose = &crate::analytic::trajectory(3).poses[0];
     let frame = crate::analytic::frame(&small(), pose, 8);
     dataset.write_frame(SCENE, CAMERA, &frame, &crate::analytic::info(&small(), pose), FrameTime::default()).unwrap();
-    assert!(!complete("face") && !dataset.has_layer(SCENE, CAMERA, 0, Layer::ColorDenoised));
+    assert_eq!(dataset.frame_record(SCENE, CAMERA, 0).unwrap().unwrap().color, ColorKind::Rendered);
+}
+
+#[test]
+fn a_change_of_color_that_is_cut_anywhere_is_taken_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    crate::analytic::write(&dataset, &small(), 2);
+    let before = files(folder.path());
+    let path = |layer| dataset.layout().layer(SCENE, CAMERA, 0, layer);
+    for moved in 0..=3 {
+        for written in 0..=3 {
+            // `moved` layers have made way, colour first, and denoised ones have come into the place of `written` of them, colour last.
+            for (plain, kept) in DENOISED.into_iter().rev().take(moved) {
+                fs::rename(path(plain), path(kept)).unwrap();
+            }
+            if moved == 3 {
+                DENOISED.into_iter().take(written).for_each(|(plain, _)| fs::write(path(plain), "denoised").unwrap());
+            }
+            dataset.settle_color([SCENE, CAMERA], 0).unwrap();
+            assert!(files(folder.path()) == before, "{moved} moved, {written} written");
+        }
+    }
+    // Cut after the record, before what is not kept is gone.
+    let kept = DENOISED.map(|(plain, kept)| (path(kept), fs::read(path(plain)).unwrap()));
+    dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother 3.1", "face"], false).unwrap();
+    let done = files(folder.path());
+    kept.iter().for_each(|(path, bytes)| fs::write(path, bytes).unwrap());
+    dataset.settle_color([SCENE, CAMERA], 0).unwrap();
+    assert!(files(folder.path()) == done);
 }
 
 #[test]

@@ -105,6 +105,7 @@ mod tests {
             reason: reason.map(Into::into),
             seed: None,
             config_hash: None,
+            color: None,
             denoiser: None,
             files: BTreeMap::new(),
         };

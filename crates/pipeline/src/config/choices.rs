@@ -3,6 +3,7 @@
 use super::checks::{Section, check_rendering};
 use super::settings::{SceneConfig, save_every_s};
 use crate::error::Error;
+use enfilade_dataset::ColorKind;
 use enfilade_render::RenderConfig;
 use serde::{Deserialize, Serialize};
 
@@ -77,8 +78,8 @@ pub struct RenderChoices {
     pub splits: bool,
     /// Asks for the further layers of geometry and material.
     pub extra: bool,
-    /// Asks for denoised layers.
-    pub denoise: bool,
+    /// What the colour layers hold.
+    pub color: Option<ColorKind>,
 }
 
 impl RenderChoices {
@@ -96,7 +97,7 @@ impl RenderChoices {
     pub(crate) fn apply(&self, scene: &mut SceneConfig) {
         self.apply_to_transport(&mut scene.render);
         scene.time_limit_s = self.time_limit_s.or(scene.time_limit_s);
-        scene.denoise |= self.denoise;
+        scene.color = self.color.unwrap_or(scene.color);
     }
 
     fn apply_to_transport(&self, render: &mut RenderConfig) {

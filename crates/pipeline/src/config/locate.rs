@@ -5,7 +5,15 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Keys of earlier versions, and what to do with them.
-const GONE: [(&str, &str); 1] = [("reuse", "pixels no longer share light, which is what `reuse = false` asked for: delete this line")];
+const GONE: [(&str, &str); 3] = [
+    ("reuse", "pixels no longer share light, which is what `reuse = false` asked for: delete this line"),
+    (
+        "denoise",
+        "`color` is denoised unless `color = \"rendered\"` asks for what was rendered, which stays beside it as `color_rendered`: write \
+         that instead of `denoise = false`, or delete this line",
+    ),
+    ("denoise_library", "the program has a denoiser of its own; to use a library, write `denoiser = \"/path/to/library\"`"),
+];
 
 /// A configuration text, to turn byte ranges into places.
 pub(super) struct Source<'a> {

@@ -1,5 +1,6 @@
 //! The sections of `dataset.toml` that say how stages work: every key is optional, and what is there replaces the value below.
 
+use enfilade_dataset::ColorKind;
 use enfilade_explore::{CarveConfig, Mode, PlanConfig, Preset, Saliency};
 use enfilade_render::{Filter, RenderConfig};
 use enfilade_verify::view_gates::{GateAction, GateConfig};
@@ -59,10 +60,12 @@ section!(RenderPatch => RenderConfig {
     time_limit_s: f64,
     /// How often a frame in the making is kept.
     save_every_s: f64,
-    /// Whether denoised layers are made.
-    denoise: bool,
-    /// The library for it.
-    denoise_library: String,
+    /// What the colour layers hold.
+    color: ColorKind,
+    /// Whether what was rendered is kept where they are denoised.
+    keep_rendered: bool,
+    /// The library that denoises.
+    denoiser: String,
 });
 
 section!(CarvePatch => CarveConfig { preset: Preset, voxel_m: f64, extent_m: f64, rays: u32, iterations: u32, keep_outside: bool });

@@ -9,9 +9,9 @@ use super::choices::{Overrides, Quality};
 use super::document::{Document, Level, SceneKeys};
 use super::expand::expand;
 use super::locate::{Source as Text, in_words};
-use super::settings::{Config, FileSource, LabelSource, SceneConfig, Source, save_every_s};
+use super::settings::{Config, FileSource, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
 use crate::error::ConfigError;
-use enfilade_dataset::{check_name, read_ray_grid};
+use enfilade_dataset::{ColorKind, check_name, read_ray_grid};
 use enfilade_explore::Mode;
 use enfilade_home::HomeConfig;
 use enfilade_label::LabelTable;
@@ -24,6 +24,8 @@ use toml::Spanned;
 /// Defaults of a dataset that are nobody else's.
 const SIZE: [u32; 2] = [1024, 768];
 const QUALITY: Quality = Quality::Normal;
+/// What colour layers hold unless the file says.
+const COLOR: ColorKind = ColorKind::Denoised;
 
 /// The configuration in `text`, with `overrides` over it. Environment variables in paths are checked, not replaced. Label tables and
 /// grids of rays are read, to refuse what a late stage could not use.
@@ -100,8 +102,9 @@ impl Resolver<'_> {
             render: Default::default(),
             time_limit_s: None,
             save_every_s: save_every_s(),
-            denoise: false,
-            denoise_library: None,
+            color: COLOR,
+            keep_rendered: keep_rendered(),
+            denoiser: None,
             name,
         };
         scene.render.samples = QUALITY.samples();
@@ -136,16 +139,17 @@ impl Resolver<'_> {
         {
             keyframes.files.iter().try_for_each(|file| self.check_path(file, mode))?;
         }
-        if let Some(library) = &render.denoise_library {
+        if let Some(library) = &render.denoiser {
             self.check_path(library.get_ref(), library)?;
-            scene.denoise_library = Some(library.get_ref().clone());
+            scene.denoiser = Some(library.get_ref().clone());
         }
         let value = |value: &Option<Spanned<f64>>| value.as_ref().map(|value| *value.get_ref());
         scene.size = render.size.as_ref().map_or(scene.size, |size| *size.get_ref());
         scene.fov_x_deg = value(&render.fov_x_deg).or(scene.fov_x_deg);
         scene.time_limit_s = value(&render.time_limit_s).or(scene.time_limit_s);
         scene.save_every_s = value(&render.save_every_s).unwrap_or(scene.save_every_s);
-        scene.denoise = render.denoise.as_ref().map_or(scene.denoise, |denoise| *denoise.get_ref());
+        scene.color = render.color.as_ref().map_or(scene.color, |color| *color.get_ref());
+        scene.keep_rendered = render.keep_rendered.as_ref().map_or(scene.keep_rendered, |keep| *keep.get_ref());
         render.apply(&mut scene.render);
         plan.apply(&mut scene.plan);
         carve.apply(&mut scene.carve);

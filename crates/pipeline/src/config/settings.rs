@@ -7,6 +7,7 @@ use super::camera::CameraConfig;
 use super::expand::expand;
 use super::select::select;
 use crate::error::Error;
+use enfilade_dataset::ColorKind;
 use enfilade_explore::{CarveConfig, PlanConfig, Preset};
 use enfilade_home::HomeConfig;
 use enfilade_import::UpAxis;
@@ -71,13 +72,16 @@ pub struct SceneConfig {
     /// Wall-clock seconds between the moments when a frame in the making is kept, for a run that is killed. Changes no byte.
     #[serde(default = "save_every_s")]
     pub save_every_s: f64,
-    /// Makes denoised companions of the colour layers.
+    /// What `color`, `diffuse_illumination` and `residual` hold.
     #[serde(default)]
-    pub denoise: bool,
-    /// The library that denoises, its file or the folder that it lies in; as written. `None` takes what `ENFILADE_OIDN` names, or
-    /// what the system has.
+    pub color: ColorKind,
+    /// Where they are denoised, keeps what was rendered beside them, as layers that are named `*_rendered`.
+    #[serde(default = "keep_rendered")]
+    pub keep_rendered: bool,
+    /// The library of Open Image Denoise to denoise with, its file or the folder that it lies in; as written. `None` takes the network in
+    /// the program.
     #[serde(default)]
-    pub denoise_library: Option<String>,
+    pub denoiser: Option<String>,
 }
 
 /// Where a scene comes from.
@@ -118,6 +122,11 @@ pub struct EnvironmentChoice {
     /// About the up axis.
     #[serde(default)]
     pub rotation_deg: f32,
+}
+
+/// Who wants less on disk says so; who wants what was rendered later cannot.
+pub(super) const fn keep_rendered() -> bool {
+    true
 }
 
 /// After a crash at most this much of a frame's work is lost.

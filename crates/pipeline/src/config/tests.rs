@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::error::ConfigError;
+use enfilade_dataset::ColorKind;
 use enfilade_explore::{Mode, VideoConfig};
 use enfilade_home::HomeConfig;
 use enfilade_import::UpAxis;
@@ -48,11 +49,11 @@ fn the_scene_wins_over_the_file_and_the_command_line_over_both() {
     let scene = config(&text).scenes.remove(0);
     assert_eq!((scene.seed, scene.plan.frames, scene.plan.candidates, scene.size), (2, 20, 7, [64, 48]));
     assert_eq!((scene.render.samples, scene.render.max_bounces, scene.fov_x_deg, scene.carve.voxel_m), (5, Some(3), Some(70.0), 0.2));
-    let render = RenderChoices { denoise: true, ..RenderChoices::default() };
+    let render = RenderChoices { color: Some(ColorKind::Rendered), ..RenderChoices::default() };
     let overrides = Overrides { seed: Some(9), frames: Some(3), size: Some([8, 6]), quality: Some(Quality::High), render };
     let scene = config_with(&text, &overrides).scenes.remove(0);
     assert_eq!((scene.seed, scene.plan.frames, scene.size, scene.render.samples), (9, 3, [8, 6], Quality::High.samples()));
-    assert!(scene.denoise);
+    assert_eq!(scene.color, ColorKind::Rendered);
 }
 
 #[test]
@@ -67,12 +68,16 @@ fn limits_of_gates_have_defaults_and_the_scene_wins() {
 }
 
 #[test]
-fn denoising_is_off_until_asked_for_and_its_library_may_be_named() {
-    let scene = config(SCENE).scenes.remove(0);
-    assert!(!scene.denoise && scene.denoise_library.is_none());
-    let text = format!("[render]\ndenoise = true\ndenoise_library = \"$ROOMS/lib\"\n{SCENE}[scene.render]\ndenoise = false\n");
-    let scene = config(&text).scenes.remove(0);
-    assert_eq!((scene.denoise, scene.denoise_library.as_deref()), (false, Some("$ROOMS/lib")));
+fn color_is_denoised_unless_asked_otherwise_and_a_library_may_be_named() {
+    let chosen = |text: &str| {
+        let scene = config(text).scenes.remove(0);
+        (scene.color, scene.keep_rendered, scene.denoiser)
+    };
+    assert_eq!(chosen(SCENE), (ColorKind::Denoised, true, None));
+    let text = format!("[render]\nkeep_rendered = false\ndenoiser = \"$ROOMS/lib\"\n{SCENE}[scene.render]\ncolor = \"rendered\"\n");
+    assert_eq!(chosen(&text), (ColorKind::Rendered, false, Some("$ROOMS/lib".into())));
+    assert!(error(&format!("[render]\ncolor = \"clean\"\n{SCENE}")).contains("`rendered`"));
+    assert!(error(&format!("[render]\ndenoise = true\n{SCENE}")).contains("the key `denoise` is gone"));
 }
 
 #[test]
@@ -186,7 +191,7 @@ fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
     assert_eq!(
         error(&format!("[render]\nsize = [4, 3]\nsampels = 3\n{SCENE}")),
         "sets/dataset.toml:3:1: unknown key `sampels`\n  3 | sampels = 3\n    | ^^^^^^^\nhelp: did you mean `samples`? known keys here: \
-         size, fov_x_deg, time_limit_s, save_every_s, denoise, denoise_library, samples, adaptive, noise, guiding, max_bounces, clamp, splits, extra, roulette_start, filter, filter_radius"
+         size, fov_x_deg, time_limit_s, save_every_s, color, keep_rendered, denoiser, samples, adaptive, noise, guiding, max_bounces, clamp, splits, extra, roulette_start, filter, filter_radius"
     );
     let text = error(&format!("{SCENE}meter_per_unit = 3\n"));
     assert!(
@@ -395,7 +400,7 @@ fn stored_configurations_of_older_versions_are_read_and_unknown_keys_refused() {
     }
     // What the first version did not have.
     let mut old = stored;
-    for key in ["camera", "gate", "time_limit_s", "save_every_s", "denoise", "denoise_library"] {
+    for key in ["camera", "gate", "time_limit_s", "save_every_s", "keep_rendered", "denoiser"] {
         old["scenes"][0].as_object_mut().unwrap().remove(key);
     }
     assert_eq!(serde_json::from_value::<Config>(old).unwrap(), Config { base: PathBuf::new(), ..config });

@@ -24,7 +24,7 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     if splits[0].is_file() {
         inputs.extend(splits.iter().map(|path| Input::of(path)).collect::<Result<Vec<_>, _>>()?);
     }
-    inputs.extend(job.frame_records()?);
+    inputs.extend(job.rendered_records()?);
     inputs.extend(job.label_records()?);
     Ok(Some(inputs))
 }

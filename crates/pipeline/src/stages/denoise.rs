@@ -1,130 +1,166 @@
-//! `denoise`: denoised companions of the colour layers of finished frames, where they are asked for. What was rendered stays.
+//! `denoise`: what `color`, `diffuse_illumination` and `residual` of finished frames hold, denoised or as rendered. It goes from one to the
+//! other and back; nothing is rendered for it.
 
 use super::{Inputs, Job, Outcome, Record, Stage};
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::Hash;
-use enfilade_dataset::{counted, remove_if_there};
+use enfilade_dataset::{ColorKind, FrameRecord, counted, remove_if_there};
 use enfilade_denoise::{DenoiseError, Denoiser, INPUTS, denoise};
-use enfilade_frame::{LAYERS, Pass};
-use enfilade_scene::Cx;
+use enfilade_frame::Pass;
+use enfilade_scene::{Cx, Warning};
 use enfilade_show::preview::{PREVIEWS, PreviewSpec};
 use std::path::PathBuf;
 
-/// Names the library where the configuration does not.
-const VARIABLE: &str = "ENFILADE_OIDN";
-
 pub(super) fn settings(job: &Job) -> Hash {
-    Hash::of(&job.scene.denoise)
+    Hash::of(&(job.scene.color, job.scene.keep_rendered, &job.scene.denoiser))
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
-    job.frame_records().map(Some)
+    job.rendered_records().map(Some)
 }
 
-/// Whether every frame has its denoised layers, where they are asked for.
-pub(super) fn frames_are_whole(job: &Job) -> bool {
-    !job.scene.denoise || job.layers_are_whole(Pass::Denoised)
+/// Whether every frame holds what is asked for.
+pub(super) fn frames_are_chosen(job: &Job) -> bool {
+    let is_chosen = |(camera, frame): &(String, u32)| record(job, camera, *frame).is_ok_and(|record| is_chosen(job, &record));
+    job.layers_are_whole(Pass::Final) && job.frames().is_ok_and(|frames| frames.iter().all(is_chosen))
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let frames = job.frames()?;
-    if !job.scene.denoise {
-        frames.iter().try_for_each(|(camera, frame)| remove(job, camera, *frame))?;
-        return Ok(Outcome { summary: "not asked for".into(), ..Outcome::default() });
-    }
-    let mut missing = Vec::new();
+    let mut left = Vec::new();
     for (camera, frame) in &frames {
-        let hash = denoise_hash(job, camera, *frame)?;
-        if job.force || !job.dataset.denoised_are_complete(&job.scene.name, camera, *frame, &hash) {
-            missing.push((camera, *frame, hash));
+        job.dataset.settle_color([&job.scene.name, camera], *frame).map_err(Error::stage)?;
+        let record = record(job, camera, *frame)?;
+        if !is_chosen(job, &record) || job.force && job.scene.color == ColorKind::Denoised && record.has_rendered() {
+            left.push((camera, *frame, record));
         }
     }
-    let mut summary = counted(missing.len(), "frame");
-    if !missing.is_empty() {
-        let denoiser = open(job)?;
-        for (done, (camera, frame, hash)) in missing.iter().enumerate() {
-            denoise_frame(job, camera, *frame, hash, &denoiser)?;
-            cx.progress("frames", done as u64 + 1, missing.len() as u64);
+    let denoiser = if left.iter().any(|(_, _, record)| is_denoised_now(job, record)) { Some(open(job)?) } else { None };
+    let mut denoised = 0;
+    for (done, (camera, frame, record)) in left.iter().enumerate() {
+        match &denoiser {
+            Some(denoiser) if is_denoised_now(job, record) => {
+                denoise_frame(job, camera, *frame, denoiser)?;
+                denoised += 1;
+            }
+            _ => settle(job, camera, *frame)?,
         }
-        summary = format!("{summary} by {}", denoiser.name());
+        remove_pictures_of_rendered(job, camera, *frame)?;
+        cx.progress("frames", done as u64 + 1, left.len() as u64);
     }
-    if missing.len() < frames.len() {
-        summary = format!("{summary}, {} kept", frames.len() - missing.len());
+    let mut summary = match (job.scene.color, &denoiser) {
+        (ColorKind::Rendered, _) => format!("colour as rendered in {}", counted(frames.len(), "frame")),
+        (ColorKind::Denoised, None) => format!("{} denoised before", counted(frames.len(), "frame")),
+        (ColorKind::Denoised, Some(denoiser)) => format!("{} by {}", counted(denoised, "frame"), denoiser.name()),
+    };
+    if denoised > 0 && denoised < frames.len() {
+        summary = format!("{summary}, {} kept", frames.len() - denoised);
     }
-    Ok(Outcome { summary, outputs: outputs(job, &frames), ..Outcome::default() })
+    Ok(Outcome { summary, ..Outcome::default() })
 }
 
-/// Opens the library where the scene is to be denoised for the first time, and others have not done so.
+/// Opens the denoiser where the scene is to be denoised, so that a library that is missing is told before hours of rendering.
 ///
 /// # Errors
 /// When it cannot be had.
 pub(crate) fn check_denoiser(job: &Job) -> Result<(), Error> {
-    if !job.scene.denoise || job.work_file(&Stage::Denoise.record())?.is_file() {
+    if job.scene.color == ColorKind::Rendered || job.scene.denoiser.is_none() || job.work_file(&Stage::Denoise.record())?.is_file() {
         return Ok(());
     }
     // Where the frames are not known yet, because the scene is not planned or the plan is damaged, the library will be needed.
-    if all_are_denoised(job).unwrap_or(false) { Ok(()) } else { open(job).map(drop) }
+    let is_denoised = |(camera, frame): &(String, u32)| record(job, camera, *frame).is_ok_and(|record| !is_denoised_now(job, &record));
+    if job.frames().is_ok_and(|frames| frames.iter().all(is_denoised)) { Ok(()) } else { open(job).map(drop) }
 }
 
-fn all_are_denoised(job: &Job) -> Result<bool, Error> {
-    for (camera, frame) in job.frames()? {
-        let hash = denoise_hash(job, &camera, frame)?;
-        if !job.dataset.denoised_are_complete(&job.scene.name, &camera, frame, &hash) {
-            return Ok(false);
-        }
+/// Warns of frames that have to be rendered again because what was rendered is asked for and was not kept.
+pub(crate) fn warn_of_lost(job: &Job, cx: &dyn Cx) {
+    if job.scene.color == ColorKind::Denoised {
+        return;
     }
-    Ok(true)
+    let is_lost = |(camera, frame): &&(String, u32)| record(job, camera, *frame).is_ok_and(|record| !record.has_rendered());
+    let lost = job.frames().map_or(0, |frames| frames.iter().filter(is_lost).count());
+    if lost > 0 {
+        let message =
+            format!("{} denoised, and what was rendered was not kept (keep_rendered = false): rendered again", counted(lost, "frame"));
+        cx.warn(Warning { place: job.scene.name.clone(), message });
+    }
 }
 
-/// The library that the configuration names, else the environment, else the system's.
+/// The library that the configuration names, else the network in the program.
 pub(super) fn open(job: &Job) -> Result<Denoiser, Error> {
-    let written = job.scene.denoise_library.as_deref().map(|path| job.config.path(path)).transpose()?;
-    let place = written.or_else(|| std::env::var_os(VARIABLE).map(PathBuf::from));
-    Denoiser::open(place.as_deref(), rayon::current_num_threads()).map_err(|error| match error {
+    let Some(library) = &job.scene.denoiser else { return Ok(Denoiser::built_in()) };
+    let place: PathBuf = job.config.path(library)?;
+    Denoiser::open(Some(&place), rayon::current_num_threads()).map_err(|error| match error {
         DenoiseError::NotFound { .. } | DenoiseError::Function { .. } | DenoiseError::Version { .. } => Error::scene(
             error.to_string(),
-            format!(
-                "install version 2 (`pip install pyoidn` brings it along, and openimagedenoise.org has packages) and name the file, or \
-                 the folder that it lies in, by {VARIABLE} or by denoise_library in [render]; or render without denoising"
-            ),
+            "install version 2 (`pip install pyoidn` brings it along, and openimagedenoise.org has packages) and name the file, or the folder \
+             that it lies in, by denoiser in [render]; or delete that key, for the denoiser in the program",
         ),
         other => Error::stage(other),
     })
 }
 
 /// Denoises one frame.
-pub(super) fn denoise_frame(job: &Job, camera: &str, frame: u32, hash: &str, denoiser: &Denoiser) -> Result<(), Error> {
+pub(super) fn denoise_frame(job: &Job, camera: &str, frame: u32, denoiser: &Denoiser) -> Result<(), Error> {
     let name = &job.scene.name;
+    job.dataset.restore_rendered([name, camera], frame).map_err(Error::stage)?;
     let rendered = job.dataset.read_frame(name, camera, frame, &INPUTS).map_err(Error::stage)?;
     let layers = denoise(&rendered, |noisy| denoiser.filter(noisy)).map_err(Error::stage)?;
-    job.dataset.write_denoised_layers(name, camera, frame, &layers, &denoiser.name(), hash).map_err(Error::stage).map(drop)
+    let by = [&denoiser.name(), &denoise_hash(job)];
+    job.dataset
+        .write_denoised([name, camera], frame, &layers, by.map(String::as_str), job.scene.keep_rendered)
+        .map_err(Error::stage)
+        .map(drop)
 }
 
-/// Names what a frame's denoised layers are made from. The library's version stands in their record instead, so that a finished
-/// dataset does not ask for a library.
-pub(super) fn denoise_hash(job: &Job, camera: &str, frame: u32) -> Result<String, Error> {
-    let record = job.dataset.frame_record(&job.scene.name, camera, frame).map_err(Error::stage)?;
-    let version = (env!("CARGO_PKG_VERSION"), Stage::Denoise.version());
-    Ok(Hash::of(&(version, record.map(|r| r.config_hash))).0)
+/// Names what denoises. What was denoised stands in the record too. A library's version does not count, so that a finished dataset does
+/// not ask for the library.
+fn denoise_hash(job: &Job) -> String {
+    Hash::of(&(env!("CARGO_PKG_VERSION"), Stage::Denoise.version(), &job.scene.denoiser)).0
 }
 
-/// Removes what an earlier configuration asked for.
-fn remove(job: &Job, camera: &str, frame: u32) -> Result<(), Error> {
+fn record(job: &Job, camera: &str, frame: u32) -> Result<FrameRecord, Error> {
     let name = &job.scene.name;
-    job.dataset.remove_denoised_layers(name, camera, frame).map_err(Error::stage)?;
-    let mut previews = PREVIEWS.iter().filter(|spec| spec.pass == Pass::Denoised);
+    let record = job.dataset.frame_record(name, camera, frame).map_err(Error::stage)?;
+    record.ok_or_else(|| {
+        Error::scene(format!("frame {frame} of {name}/{camera} is not there"), format!("run first: {}", job.command(Stage::Render)))
+    })
+}
+
+/// Whether a frame holds what is asked for, by the denoiser that is asked for where it can be denoised again.
+fn is_chosen(job: &Job, record: &FrameRecord) -> bool {
+    match (&record.denoised, job.scene.color) {
+        (None, color) => color == ColorKind::Rendered,
+        (Some(_), ColorKind::Rendered) => false,
+        (Some(denoised), ColorKind::Denoised) => {
+            !record.has_rendered() || denoised.denoise_hash == denoise_hash(job) && job.scene.keep_rendered
+        }
+    }
+}
+
+/// Whether a frame that does not hold what is asked for has to be denoised.
+fn is_denoised_now(job: &Job, record: &FrameRecord) -> bool {
+    let by_other = |hash: &str| job.force || hash != denoise_hash(job);
+    job.scene.color == ColorKind::Denoised
+        && record.has_rendered()
+        && record.denoised.as_ref().is_none_or(|denoised| by_other(&denoised.denoise_hash))
+}
+
+/// Brings a frame that needs no denoising to what is asked for.
+fn settle(job: &Job, camera: &str, frame: u32) -> Result<(), Error> {
+    let of = [job.scene.name.as_str(), camera];
+    let settled = match job.scene.color {
+        ColorKind::Rendered => job.dataset.restore_rendered(of, frame),
+        ColorKind::Denoised => job.dataset.drop_rendered(of, frame),
+    };
+    settled.map_err(Error::stage)
+}
+
+/// Removes the pictures of layers that a frame may not have any more; the preview stage makes those of what it has.
+fn remove_pictures_of_rendered(job: &Job, camera: &str, frame: u32) -> Result<(), Error> {
+    let name = &job.scene.name;
+    let mut previews = PREVIEWS.iter().filter(|spec| spec.pass == Pass::Rendered);
     let path = |spec: &PreviewSpec| job.dataset.layout().preview(name, camera, frame, spec.pass, spec.name);
     Ok(previews.try_for_each(|spec| remove_if_there(&path(spec)))?)
-}
-
-fn outputs(job: &Job, frames: &[(String, u32)]) -> Vec<PathBuf> {
-    let (layout, name) = (job.dataset.layout(), &job.scene.name);
-    let mut files = Vec::new();
-    for (camera, frame) in frames {
-        files.push(layout.denoise_record(name, camera, *frame));
-        let denoised = LAYERS.iter().filter(|spec| spec.pass == Pass::Denoised);
-        files.extend(denoised.map(|spec| layout.layer(name, camera, *frame, spec.layer)));
-    }
-    files
 }

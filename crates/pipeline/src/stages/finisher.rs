@@ -1,10 +1,10 @@
-//! What is done with a frame where it was rendered, when the rest of the dataset is made elsewhere: labels, denoised layers, laws, what it
+//! What is done with a frame where it was rendered, when the rest of the dataset is made elsewhere: labels, colour without noise, laws, what it
 //! shows of instances, and pictures.
 
 use super::{Job, denoise, label, made};
 use crate::error::Error;
 use crate::report::StageCx;
-use enfilade_dataset::FrameTime;
+use enfilade_dataset::{ColorKind, FrameTime};
 use enfilade_verify::FrameVerifier;
 use std::path::PathBuf;
 
@@ -43,8 +43,8 @@ impl FrameFinisher {
     pub fn finish(&self, job: &Job, camera: &str, frame: u32) -> Result<FinishedFrame, Error> {
         let (dataset, name) = (job.dataset, &job.scene.name);
         label::label_frame(job, camera, frame, &self.known, &self.known.hash().0)?;
-        if job.scene.denoise {
-            denoise::denoise_frame(job, camera, frame, &denoise::denoise_hash(job, camera, frame)?, &denoise::open(job)?)?;
+        if job.scene.color == ColorKind::Denoised {
+            denoise::denoise_frame(job, camera, frame, &denoise::open(job)?)?;
         }
         let extra = made::make(job, camera, frame, &self.furniture)?;
         let times = dataset.read_times().map_err(Error::stage)?;
@@ -59,12 +59,7 @@ fn files(job: &Job, camera: &str, frame: u32, extra: Vec<PathBuf>) -> Result<Vec
     let (dataset, layout, name) = (job.dataset, job.dataset.layout(), &job.scene.name);
     let rendered = dataset.frame_record(name, camera, frame).map_err(Error::stage)?.map(|record| record.files);
     let labelled = dataset.label_record(name, camera, frame).map_err(Error::stage)?.map(|record| record.files);
-    let denoised = dataset.denoise_record(name, camera, frame).map_err(Error::stage)?.map(|record| record.files);
-    let records = [
-        (labelled, layout.label_record(name, camera, frame)),
-        (denoised, layout.denoise_record(name, camera, frame)),
-        (rendered, layout.frame_record(name, camera, frame)),
-    ];
+    let records = [(labelled, layout.label_record(name, camera, frame)), (rendered, layout.frame_record(name, camera, frame))];
     let mut files = extra;
     for (layers, record) in records {
         let Some(layers) = layers else { continue };

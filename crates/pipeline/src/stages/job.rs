@@ -3,7 +3,7 @@
 use super::{Input, Shift, Stage};
 use crate::config::{Config, SceneConfig};
 use crate::error::Error;
-use crate::workdir::{PACKAGE, Workdir};
+use crate::workdir::{Hash, PACKAGE, Workdir};
 use enfilade_dataset::{Dataset, DatasetError, quoted};
 use enfilade_frame::Pass;
 use enfilade_geometry::Bvh;
@@ -189,20 +189,18 @@ impl<'a> Job<'a> {
         self.frames()?.iter().map(record).collect()
     }
 
-    /// The commit records of the denoised layers of all frames, where they are asked for.
-    pub fn denoise_records(&self) -> Result<Vec<Input>, Error> {
-        let layout = self.dataset.layout();
-        let record =
-            |(camera, frame): &(String, u32)| self.input_from(Stage::Denoise, &layout.denoise_record(&self.scene.name, camera, *frame));
-        if self.scene.denoise { self.frames()?.iter().map(record).collect() } else { Ok(Vec::new()) }
+    /// The same as far as they tell what was rendered: whether colour is denoised since does not count.
+    pub fn rendered_records(&self) -> Result<Vec<Input>, Error> {
+        self.frames()?.iter().map(|(camera, frame)| self.rendered_record(camera, *frame)).collect()
     }
 
-    /// True unless the stage is one that nobody asks for, nor has asked for. One that was killed has left no record of itself, but layers.
-    pub fn wants(&self, stage: Stage) -> bool {
-        stage != Stage::Denoise
-            || self.scene.denoise
-            || self.work_file(&Stage::Denoise.record()).is_ok_and(|record| record.is_file())
-            || self.dataset.has_denoised_layers(&self.scene.name)
+    /// That of one frame.
+    pub fn rendered_record(&self, camera: &str, frame: u32) -> Result<Input, Error> {
+        let name = &self.scene.name;
+        let path = self.dataset.layout().frame_record(name, camera, frame);
+        let record = self.dataset.frame_record(name, camera, frame).map_err(Error::stage)?;
+        let record = record.ok_or_else(|| self.run_first(Stage::Render))?;
+        Ok(Input { path, content: Hash::of(&record.as_rendered()) })
     }
 
     fn run_first(&self, stage: Stage) -> Error {

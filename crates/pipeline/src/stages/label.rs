@@ -28,7 +28,7 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     if annotated_scene(job)?.is_some() {
         inputs.extend(annotation_tables(job).iter().map(|path| Input::of(path)).collect::<Result<Vec<_>, _>>()?);
     }
-    inputs.extend(job.frame_records()?);
+    inputs.extend(job.rendered_records()?);
     Ok(Some(inputs))
 }
 

@@ -67,7 +67,7 @@ pub(super) fn scene_of_pieces(job: &Job) -> Result<Arc<Scene>, Error> {
     Ok(split.map_or(scene.clone(), |split| Arc::new(split.scene_of_pieces(&scene))))
 }
 
-/// Makes it of a frame that is rendered, denoised where that is asked for, and labelled; returns the files and then the note.
+/// Makes it of a frame that is rendered, denoised unless what was rendered is asked for, and labelled; returns the files and then the note.
 pub(super) fn make(job: &Job, camera: &str, frame: u32, furniture: &Furniture) -> Result<Vec<PathBuf>, Error> {
     let shot = [job.scene.name.as_str(), camera];
     let views = view_instances(job.dataset, shot, frame, &furniture.solids).map_err(Error::stage)?;
@@ -114,16 +114,14 @@ fn note_path(job: &Job, camera: &str, frame: u32) -> Result<PathBuf, Error> {
 
 /// Hash of what a frame's instances are made from: the records of its layers, which name the scene and its labels.
 fn instances_from(job: &Job, camera: &str, frame: u32) -> Result<Hash, Error> {
-    let (layout, name) = (job.dataset.layout(), &job.scene.name);
-    let records = [layout.frame_record(name, camera, frame), layout.label_record(name, camera, frame)];
-    let [rendered, labelled] = records.map(|path| Hash::of_file(&path));
-    Ok(Hash::of(&(env!("CARGO_PKG_VERSION"), Stage::Boxes.version(), rendered?, labelled?)))
+    let labelled = Hash::of_file(&job.dataset.layout().label_record(&job.scene.name, camera, frame))?;
+    let rendered = job.rendered_record(camera, frame)?.content;
+    Ok(Hash::of(&(env!("CARGO_PKG_VERSION"), Stage::Boxes.version(), rendered, labelled)))
 }
 
 /// Hash of what a frame's pictures are made from.
 fn pictures_from(job: &Job, camera: &str, frame: u32, boxes: &Hash) -> Result<Hash, Error> {
-    let denoised = job.dataset.layout().denoise_record(&job.scene.name, camera, frame);
-    let denoised = if denoised.is_file() { Some(Hash::of_file(&denoised)?) } else { None };
+    let shown = Hash::of_file(&job.dataset.layout().frame_record(&job.scene.name, camera, frame))?;
     let instances = instances_from(job, camera, frame)?;
-    Ok(Hash::of(&(Stage::Preview.version(), instances, denoised, boxes)))
+    Ok(Hash::of(&(Stage::Preview.version(), instances, shown, boxes)))
 }

@@ -147,16 +147,20 @@ pub const STAGES: [StageSpec; 10] = [
         settings: render::settings,
         inputs: render::inputs,
         run: render::run,
-        exceptions: Exceptions { frames_are_whole: render::frames_are_whole, ..Exceptions::BEFORE_FRAMES },
+        exceptions: Exceptions {
+            frames_are_whole: render::frames_are_whole,
+            may_be_changed: render::is_chosen_later,
+            ..Exceptions::BEFORE_FRAMES
+        },
     },
     StageSpec {
         stage: Stage::Denoise,
         name: Stage::Denoise.name(),
-        about: "frames -> denoised colour layers, where asked for",
+        about: "frames -> colour without noise, unless what was rendered is asked for",
         settings: denoise::settings,
         inputs: denoise::inputs,
         run: denoise::run,
-        exceptions: Exceptions { frames_are_whole: denoise::frames_are_whole, ..Exceptions::NONE },
+        exceptions: Exceptions { frames_are_whole: denoise::frames_are_chosen, ..Exceptions::NONE },
     },
     StageSpec {
         stage: Stage::Label,

@@ -201,7 +201,7 @@ fn later_stages(job: &Job, dataset: &Dataset, scratch: &Workdir, found: &mut Sce
     }
     let once = Job::new(job.config, job.scene, dataset, scratch, true);
     let time = Stopwatch::start();
-    for spec in STAGES.iter().filter(|spec| spec.stage > Stage::Render && once.wants(spec.stage)) {
+    for spec in STAGES.iter().filter(|spec| spec.stage > Stage::Render) {
         match advance(spec, &once, || Ok(()), StageCx::new(name, spec.stage, &Silent)) {
             Err(error) if spec.stage != Stage::Verify => return Err(error),
             _ => {}

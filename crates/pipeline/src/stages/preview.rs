@@ -17,7 +17,6 @@ pub(super) fn settings(_job: &Job) -> Hash {
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = job.frame_records()?;
     inputs.extend(job.label_records()?);
-    inputs.extend(job.denoise_records()?);
     inputs.extend(boxes::tables(job)?);
     Ok(Some(inputs))
 }
@@ -74,11 +73,6 @@ fn refuse_incomplete(job: &Job, trajectory: &Trajectory) -> Result<(), Error> {
         let labels = dataset.label_record(name, camera, frame).map_err(Error::stage)?;
         if labels.is_some_and(|record| !dataset.labels_are_complete(name, camera, frame, &record.labels_hash)) {
             return Err(lacks_layers_of(Stage::Label, job, camera, frame));
-        }
-        let denoised = dataset.denoise_record(name, camera, frame).map_err(Error::stage)?;
-        let is_whole = |hash: &str| !job.scene.denoise || dataset.denoised_are_complete(name, camera, frame, hash);
-        if denoised.is_some_and(|record| !is_whole(&record.denoise_hash)) {
-            return Err(lacks_layers_of(Stage::Denoise, job, camera, frame));
         }
     }
     Ok(())

@@ -1,16 +1,16 @@
 //! `render`: trajectories to frames. Resumes frame by frame: a frame is left alone when its record names the hash of everything
 //! that its values depend on; and within a frame, see `progressive`.
 
-use super::{FramesByTrajectory, Input, Inputs, Job, Outcome, Record, Stage, camera_files, gate, progressive};
+use super::{FramesByTrajectory, Input, Inputs, Job, Outcome, Record, Stage, camera_files, denoise, gate, progressive};
 use crate::error::Error;
 use crate::report::{StageCx, Stopwatch};
 use crate::workdir::Hash;
-use enfilade_dataset::{CameraRecord, FrameInfo, Recipe, StoppedBy, counted};
-use enfilade_frame::{Frame, LAYERS, Pass};
+use enfilade_dataset::{CameraRecord, ColorKind, FrameInfo, Recipe, StoppedBy, counted};
+use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass};
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 pub(super) fn settings(job: &Job) -> Hash {
     Hash::of(&(&job.scene.render, job.scene.time_limit_s, job.scene.seed_for("render")))
@@ -31,9 +31,12 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     for ((_, trajectory), wanted) in filmed.iter().zip(&wanted) {
         job.dataset.remove_temporaries(&job.scene.name, &trajectory.name).map_err(Error::stage)?;
         remove_unwanted_frames(job, trajectory, wanted)?;
+        let mut there = wanted.iter().filter(|_| job.shift.is_none());
+        there.try_for_each(|&frame| job.dataset.settle_color([&job.scene.name, &trajectory.name], frame).map_err(Error::stage))?;
     }
 
     // Find the frames that are missing. Of others nothing needs to be kept to go on from.
+    denoise::warn_of_lost(job, cx);
     let missing = missing(job, &filmed, &wanted)?;
     let unfinished = missing.iter().flat_map(|m| m.frames.iter().map(|info| (m.trajectory.name.as_str(), info.pose.frame)));
     progressive::forget_all_but(job, unfinished)?;
@@ -119,8 +122,22 @@ struct Missing<'a> {
 
 fn is_complete(job: &Job, trajectory: &Trajectory, info: &FrameInfo) -> bool {
     let (name, of) = (&job.scene.name, &trajectory.name);
-    job.dataset.frame_is_complete(name, of, info.pose.frame, &info.config_hash)
+    has_what_is_asked_for(job, of, info.pose.frame)
+        && job.dataset.frame_is_complete(name, of, info.pose.frame, &info.config_hash)
         && job.dataset.frame_is_taken(name, of, &info.camera, &info.pose)
+}
+
+/// False where what was rendered is asked for, and is gone.
+fn has_what_is_asked_for(job: &Job, camera: &str, frame: u32) -> bool {
+    job.scene.color == ColorKind::Denoised
+        || job.dataset.frame_record(&job.scene.name, camera, frame).ok().flatten().is_none_or(|record| record.has_rendered())
+}
+
+/// Whether this file of a frame is another since it was denoised; whether it is as its record says, [`frames_are_whole`] tells.
+pub(super) fn is_chosen_later(_job: &Job, path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let is_layer = |layer: Layer| name.ends_with(&format!(".{}.hdf5", layer.spec().name));
+    name.starts_with("frame.") && (name.ends_with(".json") || DENOISED.into_iter().any(|(plain, _)| is_layer(plain)))
 }
 
 /// Whether every frame is there, and was taken as its trajectory says.
@@ -133,7 +150,10 @@ fn frames_are_taken(job: &Job) -> Result<bool, Error> {
     for (camera, trajectory) in job.filmed()?.iter() {
         let wanted = job.frames_of(trajectory)?;
         let mut poses = trajectory.poses.iter().filter(|pose| wanted.contains(&pose.frame));
-        if !poses.all(|pose| job.dataset.frame_is_taken(name, &trajectory.name, camera, pose)) {
+        let is_there = |pose: &Pose| {
+            has_what_is_asked_for(job, &trajectory.name, pose.frame) && job.dataset.frame_is_taken(name, &trajectory.name, camera, pose)
+        };
+        if !poses.all(is_there) {
             return Ok(false);
         }
     }
@@ -221,7 +241,7 @@ fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
             Pass::Final | Pass::Geometry => true,
             Pass::Split => config.splits,
             Pass::Extra => config.extra,
-            Pass::Label | Pass::Denoised => false,
+            Pass::Label | Pass::Rendered => false,
         };
         let rendered = LAYERS.iter().filter(|spec| is_rendered(spec.pass));
         files.extend(rendered.map(|spec| layout.layer(name, &camera, frame, spec.layer)));

@@ -28,7 +28,6 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = camera_files::inputs(job)?;
     inputs.extend(job.frame_records()?);
     inputs.extend(job.label_records()?);
-    inputs.extend(job.denoise_records()?);
     inputs.extend(boxes::tables(job)?);
     Ok(Some(inputs))
 }

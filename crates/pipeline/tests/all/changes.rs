@@ -3,7 +3,7 @@
 use crate::rooms::{ONE, config, failures, files, place, write_poses};
 use enfilade_dataset::Dataset;
 use enfilade_frame::{Layer, Pass};
-use enfilade_pipeline::{Event, Reporter, Silent, Stage, estimate, run, run_stage};
+use enfilade_pipeline::{ColorKind, Event, Reporter, Silent, Stage, estimate, run, run_stage};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -117,15 +117,27 @@ fn a_camera_whose_removal_was_killed_goes_with_the_next_plan_and_troubles_no_oth
 }
 
 #[test]
-fn denoised_layers_that_a_killed_stage_has_left_go_where_they_are_not_asked_for() {
+fn a_change_of_color_that_was_killed_is_ended_without_rendering() {
     let (folder, out) = place();
-    let config = config(folder.path(), &[("a", "room.obj", ONE, "")]);
+    let mut config = config(folder.path(), &[("a", "room.obj", ONE, "")]);
+    config.scenes[0].color = ColorKind::Rendered;
     run(&config, &out, None, &Silent).unwrap();
-    let layer = Dataset::open(&out).unwrap().layout().layer("a", "cam_00", 1, Layer::ColorDenoised);
-    fs::write(&layer, "half").unwrap();
-    run(&config, &out, None, &Silent).unwrap();
-    assert!(!layer.exists());
-    assert!(run(&config, &out, None, &Silent).unwrap().nothing_done());
+    let dataset = Dataset::open(&out).unwrap();
+    let layer = |layer| dataset.layout().layer("a", "cam_00", 1, layer);
+    let whole = fs::read(layer(Layer::Color)).unwrap();
+    let depth = || fs::metadata(layer(Layer::DepthMeters)).unwrap().modified().unwrap();
+    let rendered_at = depth();
+    for color in [ColorKind::Rendered, ColorKind::Denoised] {
+        // What was rendered has made way, and something else came half into its place.
+        fs::rename(layer(Layer::Color), layer(Layer::ColorRendered)).unwrap();
+        fs::write(layer(Layer::Color), "half").unwrap();
+        config.scenes[0].color = color;
+        assert!(run(&config, &out, None, &Silent).unwrap().ok());
+        let kept = if color == ColorKind::Rendered { Layer::Color } else { Layer::ColorRendered };
+        assert!(fs::read(layer(kept)).unwrap() == whole && layer(Layer::ColorRendered).exists() == (kept != Layer::Color));
+        assert!(run(&config, &out, None, &Silent).unwrap().nothing_done());
+    }
+    assert_eq!(depth(), rendered_at);
 }
 
 #[test]

@@ -52,7 +52,18 @@ fn the_demo_verifies_and_is_made_once() {
     assert!(first.ok(), "{:?}", first.scenes);
     assert_eq!(
         began,
-        [Stage::Import, Stage::Carve, Stage::Plan, Stage::Gate, Stage::Render, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]
+        [
+            Stage::Import,
+            Stage::Carve,
+            Stage::Plan,
+            Stage::Gate,
+            Stage::Render,
+            Stage::Denoise,
+            Stage::Label,
+            Stage::Boxes,
+            Stage::Preview,
+            Stage::Verify
+        ]
     );
     let dataset = Dataset::open(&out).unwrap();
     let labels = dataset.read_label_tables(demo::SCENE).unwrap();
@@ -70,10 +81,10 @@ fn the_demo_verifies_and_is_made_once() {
 
     // More samples leave the trajectory alone; more frames leave the free space alone, and are another trajectory to learn from.
     config.scenes[0].render.samples = 5;
-    assert_eq!(run_and_watch(&config, &out).1, [Stage::Render, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]);
+    assert_eq!(run_and_watch(&config, &out).1, [Stage::Render, Stage::Denoise, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]);
     config.scenes[0].plan.frames = 3;
     let (more, began) = run_and_watch(&config, &out);
-    assert_eq!(began, [Stage::Plan, Stage::Gate, Stage::Render, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]);
+    assert_eq!(began, [Stage::Plan, Stage::Gate, Stage::Render, Stage::Denoise, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]);
     let rendered = more.scenes[0].stages.iter().find(|s| s.stage == Stage::Render).unwrap();
     assert!(rendered.summary.starts_with("3 frames") && !rendered.summary.contains("kept"), "{}", rendered.summary);
 

@@ -268,10 +268,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let dataset = testroom::dataset(folder.path());
         for frame in [0, 1] {
-            std::fs::remove_file(dataset.layout().layer("room", "cam_00", frame, Layer::ColorDenoised)).unwrap();
+            dataset.drop_rendered(["room", "cam_00"], frame).unwrap();
         }
-        let films = animate(folder.path(), &["color_denoised", "color"], AnimationFormat::Webp);
-        assert_eq!(films[0].as_ref().unwrap_err().to_string(), "room/cam_00 has no frame with color_denoised");
+        let films = animate(folder.path(), &["color_rendered", "color"], AnimationFormat::Webp);
+        assert_eq!(films[0].as_ref().unwrap_err().to_string(), "room/cam_00 has no frame with color_rendered");
         assert_eq!(films[1].as_ref().unwrap().frames, 2);
         std::fs::remove_file(dataset.layout().layer("room", "cam_00", 0, Layer::Semantic)).unwrap();
         assert_eq!(animate(folder.path(), &["semantic"], AnimationFormat::Mp4)[0].as_ref().unwrap().frames, 1);
