@@ -1,12 +1,14 @@
 //! `metadata_tonemap.csv`: how radiance became the 8-bit pictures of a camera's frames, and the way back.
 //!
-//! `tonemap.jpg` is min(1, (`scale` · max(0, radiance))^`gamma`), `display.jpg` the same with `display_scale`, which all frames of the
-//! trajectory share. Below white, radiance is displayed^(1 / `gamma`) / `scale`.
+//! `tonemap.jpg` is min(1, (`scale` · max(0, radiance))^`gamma`): below white, radiance is displayed^(1 / `gamma`) / `scale`. Of
+//! `display.jpg`, whose curve docs/previews.md tells, exposure and white balance are here; all frames of the trajectory share them.
 
 use crate::tables::Table;
 use crate::{Dataset, DatasetError};
 
 const HEADER: [&str; 6] = ["frame_id", "percentile", "brightness", "scale", "gamma", "display_scale"];
+/// Columns that older datasets lack.
+const WHITE: [&str; 3] = ["display_white_r", "display_white_g", "display_white_b"];
 
 /// The exposures of a frame's pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +25,8 @@ pub struct ToneMapRow {
     pub gamma: f64,
     /// What radiance is multiplied by in `display.jpg`.
     pub display_scale: f64,
+    /// What red, green and blue are multiplied by besides in `display.jpg`; 1 in datasets of earlier versions.
+    pub display_white: [f64; 3],
 }
 
 impl Dataset {
@@ -31,11 +35,13 @@ impl Dataset {
     /// # Errors
     /// When the file cannot be written.
     pub fn write_tone_maps(&self, scene: &str, camera: &str, rows: &[ToneMapRow]) -> Result<(), DatasetError> {
-        let mut table = Table::new(&self.layout().tone_maps(scene, camera), &HEADER);
+        let mut table = Table::new(&self.layout().tone_maps(scene, camera), &[&HEADER[..], &WHITE].concat());
         let number = |v: f64| format!("{v:?}");
         let cells = |row: &ToneMapRow| {
             let brightness = row.brightness.map(number).unwrap_or_default();
-            vec![row.frame.to_string(), number(row.percentile), brightness, number(row.scale), number(row.gamma), number(row.display_scale)]
+            let frame = [row.frame.to_string(), number(row.percentile), brightness];
+            let numbers = [row.scale, row.gamma, row.display_scale].into_iter().chain(row.display_white).map(number);
+            frame.into_iter().chain(numbers).collect()
         };
         table.rows = rows.iter().map(cells).collect();
         table.write()
@@ -54,7 +60,12 @@ impl Dataset {
         let [frame, percentile, brightness, scale, gamma, display_scale] = columns.into_iter().collect::<Result<Vec<_>, _>>()?[..] else {
             unreachable!("as many columns as names")
         };
+        let white = WHITE.map(|name| table.column(name).ok());
         let row = |at: usize| {
+            let mut display_white = [1.0; 3];
+            for (factor, column) in display_white.iter_mut().zip(white) {
+                *factor = column.map_or(Ok(1.0), |column| table.parse(at, column))?;
+            }
             Ok(ToneMapRow {
                 frame: table.parse(at, frame)?,
                 percentile: table.parse(at, percentile)?,
@@ -62,6 +73,7 @@ impl Dataset {
                 scale: table.parse(at, scale)?,
                 gamma: table.parse(at, gamma)?,
                 display_scale: table.parse(at, display_scale)?,
+                display_white,
             })
         };
         (0..table.rows.len()).map(row).collect()
@@ -84,6 +96,7 @@ mod tests {
             scale: 0.1 + 0.2,
             gamma: 1.0 / 2.2,
             display_scale: 1.0 / 3.0,
+            display_white: [0.9, 1.0, 1.1],
         };
         let rows = [row(0, Some(0.7)), row(7, None)];
         dataset.write_tone_maps("room", "cam_00", &rows).unwrap();

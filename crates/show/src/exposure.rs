@@ -1,11 +1,14 @@
 //! One exposure for a whole trajectory, for people.
 //!
 //! Hypersim's rule looks at all of one picture, so that a window or a lamp that fills a tenth of it leaves the room in the dark, and
-//! an animation flickers. Here the same rule (the 90th percentile of brightness is shown at 0.8) looks at the surfaces that send
-//! mostly diffusely reflected light, in all frames of the trajectory together: lamps, windows, panes and mirrors have no say.
+//! an animation flickers. Here the surfaces decide that send mostly diffusely reflected light, in all frames of the trajectory
+//! together: lamps, windows, panes and mirrors have no say. The median of their brightness sets the exposure, the mean colour of what
+//! falls on them the white balance.
 
+use crate::display::Display;
 use enfilade_frame::tonemap::{ToneMap, brightness, percentile, valid_brightness};
-use enfilade_frame::{Frame, Layer};
+use enfilade_frame::{Frame, Layer, Values};
+use enfilade_math::quantile;
 
 /// The least share of diffuse light in a pixel that has a say.
 const LEAST_DIFFUSE: f64 = 0.5;
@@ -18,7 +21,21 @@ pub struct Exposure {
     /// Hypersim's: of the frame alone.
     pub frame: ToneMap,
     /// The one of the trajectory.
-    pub display: ToneMap,
+    pub display: Display,
+}
+
+/// The frame's own, in every picture.
+impl From<ToneMap> for Exposure {
+    fn from(frame: ToneMap) -> Self {
+        Self { frame, display: Display { scale: frame.scale, ..Display::default() } }
+    }
+}
+
+/// The trajectory's, in every picture.
+impl From<Display> for Exposure {
+    fn from(display: Display) -> Self {
+        Self { frame: display.tone(), display }
+    }
 }
 
 /// What a frame says about exposure.
@@ -30,6 +47,8 @@ pub struct Brightness {
     valid: Vec<f64>,
     /// Those of them that send mostly diffusely reflected light.
     diffuse: Vec<f64>,
+    /// Logarithms of the red, green and blue that fall on those, added up, and on how many.
+    light: ([f64; 3], usize),
 }
 
 impl Brightness {
@@ -38,26 +57,48 @@ impl Brightness {
     pub fn of_frame(frame: &Frame, step: usize) -> Option<Self> {
         let percentile = percentile(valid_brightness(frame)?);
         let (color, ids) = (frame.get(Layer::Color)?, frame.get(Layer::RenderEntityId)?);
-        let residual = frame.get(Layer::Residual);
+        let (residual, light) = (frame.get(Layer::Residual), frame.get(Layer::DiffuseIllumination));
         let mut some = Self { percentile, ..Self::default() };
         for i in (0..frame.pixels()).step_by(step.max(1)).filter(|&i| ids.get(i) != -1.0) {
-            let at = |values: &enfilade_frame::Values| brightness([0, 1, 2].map(|c| values.get(3 * i + c)));
-            let whole = at(color);
+            let at = |values: &Values| [0, 1, 2].map(|c| values.get(3 * i + c));
+            let whole = brightness(at(color));
             some.valid.push(whole);
-            if residual.is_some_and(|residual| at(residual) <= (1.0 - LEAST_DIFFUSE) * whole) {
+            if residual.is_some_and(|residual| brightness(at(residual)) <= (1.0 - LEAST_DIFFUSE) * whole) {
                 some.diffuse.push(whole);
+                light.into_iter().for_each(|light| some.add_light(at(light)));
             }
         }
         Some(some)
     }
+
+    fn add_light(&mut self, light: [f64; 3]) {
+        if light.iter().all(|channel| *channel > 0.0 && channel.is_finite()) {
+            let (sums, count) = &mut self.light;
+            *count += 1;
+            sums.iter_mut().zip(light).for_each(|(sum, channel)| *sum += channel.ln());
+        }
+    }
 }
 
 /// The exposure of a trajectory with these frames.
-pub fn display_exposure(frames: &[Brightness]) -> ToneMap {
+pub fn display_exposure(frames: &[Brightness]) -> Display {
     let pooled = |of: fn(&Brightness) -> &Vec<f64>| frames.iter().flat_map(of).copied().collect::<Vec<f64>>();
     let (valid, diffuse) = (pooled(|frame| &frame.valid), pooled(|frame| &frame.diffuse));
     let enough = diffuse.len() as f64 >= LEAST_PIXELS * valid.len() as f64;
-    ToneMap::fit(if enough { diffuse } else { valid })
+    let mut room = if enough { diffuse } else { valid };
+    room.retain(|brightness| !brightness.is_nan());
+    let (Some(middle), Some(bright)) = (quantile(&mut room, 0.5), percentile(room)) else { return Display::default() };
+    Display::of_room(middle, bright, light_color(frames))
+}
+
+/// The geometric mean of the light on diffuse surfaces, scaled to a brightness of 1; white where none is known.
+fn light_color(frames: &[Brightness]) -> [f64; 3] {
+    let count: usize = frames.iter().map(|frame| frame.light.1).sum();
+    if count == 0 {
+        return [1.0; 3];
+    }
+    let mean = [0, 1, 2].map(|c| (frames.iter().map(|frame| frame.light.0[c]).sum::<f64>() / count as f64).exp());
+    mean.map(|channel| channel / brightness(mean))
 }
 
 #[cfg(test)]
@@ -82,14 +123,14 @@ mod tests {
     #[test]
     fn lamps_and_windows_have_no_say() {
         let [dim, bright] = [exposure(&[room(0.5, 2.0)]), exposure(&[room(0.5, 6000.0)])];
-        assert!((dim - 0.8f64.powf(2.2) / 0.5).abs() < 1e-12 && dim == bright, "{dim} {bright}");
+        assert!((dim - 0.612 / 0.5).abs() < 1e-12 && dim == bright, "{dim} {bright}");
         assert!(ToneMap::of_frame(&room(0.5, 6000.0)).unwrap().scale < 1e-3, "by Hypersim's rule they do");
     }
 
     #[test]
     fn all_frames_of_a_trajectory_share_it() {
-        let both = exposure(&[room(0.25, 1.0), room(0.5, 1.0)]);
-        assert!((both - exposure(&[room(0.5, 1.0)])).abs() < 1e-12, "the brighter half decides");
+        let both = exposure(&[room(0.25, 1.0), room(0.5, 1.0), room(0.5, 1.0)]);
+        assert!((both - exposure(&[room(0.5, 1.0)])).abs() < 1e-12, "the brighter two thirds decide");
     }
 
     #[test]
@@ -97,7 +138,17 @@ mod tests {
         let mut mirror = room(0.5, 0.5);
         let color = mirror.get(Layer::Color).unwrap().clone();
         mirror.insert(Layer::Residual, color);
-        assert!((exposure(&[mirror]) - 0.8f64.powf(2.2) / 0.5).abs() < 1e-12);
+        assert!((exposure(&[mirror]) - 0.612 / 0.5).abs() < 1e-12);
         assert_eq!(exposure(&[]), 1.0);
+    }
+
+    #[test]
+    fn the_color_of_the_light_on_diffuse_surfaces_is_balanced_in_part() {
+        let mut warm = room(0.5, 2.0);
+        let light = (0..300).map(|i| f16::from_f64(if i / 3 % 5 == 0 { 9.0 } else { [2.0, 1.0, 0.5][i % 3] })).collect();
+        warm.insert(Layer::DiffuseIllumination, Values::F16(light));
+        let white = display_exposure(&[Brightness::of_frame(&warm, 1).unwrap()]).white;
+        assert!((white[1] / white[0] - 2f64.sqrt()).abs() < 1e-3 && (white[2] / white[1] - 2f64.sqrt()).abs() < 1e-3, "{white:?}");
+        assert_eq!(display_exposure(&[Brightness::of_frame(&room(0.5, 2.0), 1).unwrap()]).white, [1.0; 3]);
     }
 }

@@ -4,6 +4,7 @@
 //! dataset on disk.
 
 pub mod animation;
+pub mod display;
 mod drawing;
 pub mod drivers;
 pub mod exposure;

@@ -1,10 +1,11 @@
 //! A picture of every layer, under Hypersim's names.
 //!
 //! Radiance-like pictures share the tone map's scale of the frame, so that they can be compared with each other; `display.jpg` alone has
-//! the scale of the trajectory, and `color.jpg` and `gamma.jpg` are Hypersim's unscaled ones. `non_lambertian` is color − reflectance × illumination: under
+//! the exposure of the trajectory, and `color.jpg` and `gamma.jpg` are Hypersim's unscaled ones. `non_lambertian` is color − reflectance × illumination: under
 //! that name the toolkit saves the full reconstruction, which is `tonemap` once more. Pixels without a value are transparent
 //! in PNG. Wherever values are stretched over a range, the range is the preview's note, and stands in the PNG's text.
 
+use crate::display::Display;
 use crate::exposure::Exposure;
 use crate::palette::{id_color, semantic_color, traits_color, validity_color};
 use crate::picture::{Picture, byte, from_pixels, jpeg, png};
@@ -30,7 +31,7 @@ pub struct PreviewSpec {
 pub enum Subject {
     /// Colour through the tone map.
     ToneMapped,
-    /// Colour through the tone map of the trajectory.
+    /// Colour as people see it, see [`Display`].
     Displayed,
     /// Colour clipped to `[0,1]`, linear.
     Clipped,
@@ -113,8 +114,7 @@ impl PreviewSpec {
 
     /// The bytes of the preview's file; `None` when the frame lacks a layer it needs.
     pub fn file(&self, frame: &Frame, exposure: Exposure) -> Option<Vec<u8>> {
-        let tone = if self.subject == Subject::Displayed { exposure.display } else { exposure.frame };
-        let preview = preview(self.subject, frame, tone)?;
+        let preview = preview(self.subject, frame, exposure)?;
         let note = Some(preview.note.as_str()).filter(|note| !note.is_empty());
         Some(if self.name.ends_with(".jpg") { jpeg(&preview.picture) } else { png(&preview.picture, note) })
     }
@@ -135,18 +135,20 @@ impl Subject {
 }
 
 /// Shows `subject`; `None` when the frame lacks a layer it needs.
-pub fn preview(subject: Subject, frame: &Frame, tone: ToneMap) -> Option<Preview> {
-    preview_over(subject, frame, tone, None)
+pub fn preview(subject: Subject, frame: &Frame, exposure: impl Into<Exposure>) -> Option<Preview> {
+    preview_over(subject, frame, exposure, None)
 }
 
 /// As [`preview`], but values are stretched over a given range instead of the frame's own.
-pub fn preview_over(subject: Subject, frame: &Frame, tone: ToneMap, stretch: Option<&Stretch>) -> Option<Preview> {
+pub fn preview_over(subject: Subject, frame: &Frame, exposure: impl Into<Exposure>, stretch: Option<&Stretch>) -> Option<Preview> {
+    let Exposure { frame: tone, display } = exposure.into();
     let layer = |layer| frame.get(layer);
     let color = layer(Layer::Color);
     let lambertian = || Some((layer(Layer::DiffuseReflectance)?, layer(Layer::DiffuseIllumination)?));
     let plain = |picture| Some(Preview { picture, note: String::new() });
     match subject {
-        Subject::ToneMapped | Subject::Displayed => color.and_then(|c| plain(shown(frame, c, |v| tone.apply(v)))),
+        Subject::ToneMapped => color.and_then(|c| plain(shown(frame, c, |v| tone.apply(v)))),
+        Subject::Displayed => color.and_then(|c| plain(displayed(frame, c, display))),
         Subject::Clipped => color.and_then(|c| plain(shown(frame, c, |v| v))),
         Subject::Gamma => color.and_then(|c| plain(shown(frame, c, encode))),
         Subject::Lambertian => {
@@ -220,6 +222,20 @@ fn shown(frame: &Frame, values: &Values, show: impl Fn(f64) -> f64) -> Picture {
     }
 }
 
+/// Colour as people see it; transparent where a channel is NaN.
+fn displayed(frame: &Frame, color: &Values, display: Display) -> Picture {
+    from_pixels(frame.width, frame.height, |i| {
+        let radiance = [0, 1, 2].map(|c| color.get(3 * i + c));
+        match radiance.iter().any(|channel| channel.is_nan()) {
+            true => [0; 4],
+            false => {
+                let [r, g, b] = display.apply(radiance).map(byte);
+                [r, g, b, 255]
+            }
+        }
+    })
+}
+
 /// Three channels, value by value; transparent where one is NaN.
 fn rgb(frame: &Frame, value: impl Fn(usize) -> f64) -> Picture {
     from_levels(frame, |i| level(value(i)))
@@ -263,7 +279,7 @@ mod tests {
     #[test]
     fn every_preview_has_a_file_of_its_kind_and_size() {
         let (frame, tone) = analytic();
-        let exposure = Exposure { frame: tone, display: tone };
+        let exposure = Exposure::from(tone);
         let mut names = std::collections::BTreeSet::new();
         for spec in PREVIEWS {
             let file = spec.file(&frame, exposure).unwrap();
@@ -307,7 +323,7 @@ mod tests {
         let note = preview(Subject::Layer(Layer::DepthMeters), &frame, tone).unwrap().note;
         assert!(note.ends_with(" m") && note.contains(" to "), "{note}");
         let spec = PREVIEWS.iter().find(|spec| spec.name == "depth_meters.png").unwrap();
-        let file = spec.file(&frame, Exposure { frame: tone, display: tone }).unwrap();
+        let file = spec.file(&frame, Exposure::from(tone)).unwrap();
         assert!(file.windows(note.len()).any(|w| w == note.as_bytes()));
     }
 }

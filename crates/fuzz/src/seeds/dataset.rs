@@ -38,7 +38,15 @@ fn more(dataset: &Dataset) -> Result<(), enfilade_dataset::DatasetError> {
     let fault = Some(ViewFault { gate: "blocked".into(), value: 0.75, limit: 0.5 });
     let view = |verdict, fault| (JudgedView { frame: 1, verdict, fault }, vec![0.25]);
     dataset.write_view_gates(SCENE, CAMERA, &["void_share"], &[view(ViewVerdict::Rejected, fault), view(ViewVerdict::Passed, None)])?;
-    let row = ToneMapRow { frame: 0, percentile: 90.0, brightness: Some(0.7), scale: 0.3, gamma: 0.45, display_scale: 0.25 };
+    let row = ToneMapRow {
+        frame: 0,
+        percentile: 90.0,
+        brightness: Some(0.7),
+        scale: 0.3,
+        gamma: 0.45,
+        display_scale: 0.25,
+        display_white: [1.0; 3],
+    };
     dataset.write_tone_maps(SCENE, CAMERA, &[row])?;
     let area = PixelArea { pixels: 4, bounds: [1, 2, 3, 4] };
     let shown = InstanceView { frame: 0, instance: 1, semantic: 5, visible: area, full: area, inside_pixels: 4 };

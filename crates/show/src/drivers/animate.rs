@@ -2,7 +2,8 @@
 
 use super::exposure::measure;
 use crate::animation::{Animation, AnimationError, AnimationFormat};
-use crate::exposure::display_exposure;
+use crate::display::Display;
+use crate::exposure::{Exposure, display_exposure};
 use crate::picture::Picture;
 use crate::planview::Report;
 use crate::preview::{PREVIEWS, Subject, preview_over};
@@ -186,7 +187,7 @@ impl Shot<'_> {
         &self,
         film: Film,
         (first, numbers): (u32, &[u32]),
-        display: ToneMap,
+        display: Display,
         format: AnimationFormat,
         fps: f64,
     ) -> Result<Vec<u8>, AnimateError> {
@@ -209,10 +210,11 @@ impl Shot<'_> {
         animation.expect("at least one frame").finish().map_err(unencodable)
     }
 
-    fn picture(&self, film: Film, number: u32, display: ToneMap, stretch: Option<&Stretch>) -> Result<Picture, DatasetError> {
+    fn picture(&self, film: Film, number: u32, display: Display, stretch: Option<&Stretch>) -> Result<Picture, DatasetError> {
         let frame = self.dataset.read_frame(self.scene, self.camera, number, &film.layers())?;
-        let tone = if film.subject == Subject::ToneMapped { ToneMap::of_frame(&frame).unwrap_or_default() } else { display };
-        let shown = preview_over(film.subject, &frame, tone, stretch);
+        let own = || ToneMap::of_frame(&frame).unwrap_or_default();
+        let exposure = if film.subject == Subject::ToneMapped { Exposure::from(own()) } else { Exposure::from(display) };
+        let shown = preview_over(film.subject, &frame, exposure, stretch);
         Ok(shown.expect("the frame has all the layers").picture)
     }
 

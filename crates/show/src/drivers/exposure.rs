@@ -1,6 +1,7 @@
 //! How a camera's frames are exposed.
 
 use super::present::read_present;
+use crate::display::Display;
 use crate::exposure::{Brightness, Exposure, display_exposure};
 use enfilade_dataset::{Dataset, DatasetError, ToneMapRow};
 use enfilade_frame::Layer;
@@ -17,7 +18,7 @@ pub struct Exposures {
     /// Hypersim's, frame by frame.
     frames: Vec<ToneMap>,
     /// The one of the trajectory.
-    pub display: ToneMap,
+    pub display: Display,
 }
 
 impl Exposures {
@@ -42,6 +43,7 @@ pub fn expose_camera(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
         scale: tone.scale,
         gamma: GAMMA,
         display_scale: display.scale,
+        display_white: display.white,
     };
     let rows: Vec<ToneMapRow> = frames.iter().zip(&measured).zip(&tones).map(row).collect();
     dataset.write_tone_maps(scene, camera, &rows)?;
@@ -56,7 +58,7 @@ pub(super) fn frame_tone(dataset: &Dataset, shot: [&str; 2], frame: u32) -> Resu
 /// What each frame says about exposure.
 pub(super) fn measure(dataset: &Dataset, [scene, camera]: [&str; 2], frames: &[u32]) -> Result<Vec<Brightness>, DatasetError> {
     let one = |&number: &u32| {
-        let layers = [Layer::Color, Layer::Residual, Layer::RenderEntityId];
+        let layers = [Layer::Color, Layer::DiffuseIllumination, Layer::Residual, Layer::RenderEntityId];
         let frame = read_present(dataset, scene, camera, number, &layers)?;
         let step = (frame.pixels() * frames.len()).div_ceil(SAMPLES);
         Ok(Brightness::of_frame(&frame, step).unwrap_or_default())

@@ -5,11 +5,11 @@ mod legend;
 pub(crate) mod lettering;
 mod style;
 
+use crate::display::Display;
 use crate::picture::Picture;
 use crate::preview::{Subject, preview};
 use canvas::{Canvas, Color, Resize};
 use enfilade_dataset::counted;
-use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, Layer};
 use image::imageops::{self, FilterType};
 use legend::ClassShares;
@@ -123,8 +123,8 @@ pub fn spread(total: usize, count: usize) -> Vec<usize> {
 /// The sheet of a trajectory: one row per given frame (number and layers), the tone-mapped colour large, eight layers beside it,
 /// and the classes with their share of the pixels below.
 ///
-/// `tone` is the exposure of all of them. Layers that a frame lacks leave an empty field. Pictures keep the aspect of the first frame.
-pub fn trajectory_sheet(title: SheetTitle<'_>, frames: &[(u32, Frame)], tone: ToneMap, config: &SheetConfig) -> Picture {
+/// `display` is the exposure of all of them. Layers that a frame lacks leave an empty field. Pictures keep the aspect of the first frame.
+pub fn trajectory_sheet(title: SheetTitle<'_>, frames: &[(u32, Frame)], display: Display, config: &SheetConfig) -> Picture {
     let size = frames.first().map_or((4, 3), |(_, f)| (f.width, f.height));
     let grid = Grid::new(config.width.max(600), (f64::from(size.0) / f64::from(size.1)).max(NARROWEST));
     let shares = ClassShares::of(frames.iter().map(|(_, frame)| frame));
@@ -139,7 +139,7 @@ pub fn trajectory_sheet(title: SheetTitle<'_>, frames: &[(u32, Frame)], tone: To
     ];
     draw_header(&mut canvas, title.scene, &subtitle.join("  ·  ").replace("·    ·", "·"));
     for (row, (number, frame)) in frames.iter().enumerate() {
-        draw_frame(&mut canvas, &grid, MARGIN + HEADER + row as u32 * grid.row(), *number, frame, tone);
+        draw_frame(&mut canvas, &grid, MARGIN + HEADER + row as u32 * grid.row(), *number, frame, display);
     }
     shares.draw(&mut canvas, MARGIN, MARGIN + HEADER + rows_height);
     canvas.into_picture()
@@ -248,17 +248,17 @@ fn draw_header(canvas: &mut Canvas, title: &str, subtitle: &str) {
     lettering::draw(canvas, x, y + 48.0, subtitle, SUBTITLE);
 }
 
-fn draw_frame(canvas: &mut Canvas, grid: &Grid, y: u32, number: u32, frame: &Frame, tone: ToneMap) {
+fn draw_frame(canvas: &mut Canvas, grid: &Grid, y: u32, number: u32, frame: &Frame, display: Display) {
     let large = [MARGIN, y, grid.large.0, grid.large.1];
-    match preview(Subject::Displayed, frame, tone) {
+    match preview(Subject::Displayed, frame, display) {
         Some(color) => place_inside(canvas, large, &color.picture, Resize::Smooth),
         None => canvas.fill(large[0], large[1], large[2], large[3], EMPTY),
     }
-    draw_caption(canvas, large, &format!("frame {number:04}"), &format!("exposure x {:.3}", tone.scale));
+    draw_caption(canvas, large, &format!("frame {number:04}"), &format!("exposure x {:.3}", display.scale));
     for (i, (name, layer, resize)) in TILES.into_iter().enumerate() {
         let (x, y) = grid.place_of(i as u32, y);
         let place = [x, y, grid.small.0, grid.small.1];
-        let detail = match preview(Subject::Layer(layer), frame, tone) {
+        let detail = match preview(Subject::Layer(layer), frame, display) {
             None => {
                 canvas.fill(x, y, grid.small.0, grid.small.1, EMPTY);
                 "not there".to_string()
@@ -323,9 +323,9 @@ mod tests {
     #[test]
     fn frames_without_layers_still_give_a_sheet() {
         let title = SheetTitle { scene: "s", camera: "cam_00", frames: 1 };
-        let sheet = trajectory_sheet(title, &[(0, Frame::new(8, 6))], ToneMap::default(), &SheetConfig { width: 100, frames: 1 });
+        let sheet = trajectory_sheet(title, &[(0, Frame::new(8, 6))], Display::default(), &SheetConfig { width: 100, frames: 1 });
         assert_eq!(sheet.width(), 600);
-        assert_eq!(trajectory_sheet(title, &[], ToneMap::default(), &SheetConfig::default()).width(), 1920);
+        assert_eq!(trajectory_sheet(title, &[], Display::default(), &SheetConfig::default()).width(), 1920);
         let title = OverviewTitle { dataset: "empty", scenes: 0, cameras: 0 };
         assert_eq!(overview_sheet(title, &[], &SheetConfig::default()).width(), LARGEST_TILE + 2 * MARGIN);
     }
