@@ -44,6 +44,7 @@ pub fn configuration(file: Option<&Path>, flags: &MakeFlags) -> Result<Config, P
             QualityArg::Draft => Quality::Draft,
             QualityArg::Normal => Quality::Normal,
             QualityArg::High => Quality::High,
+            QualityArg::Reference => Quality::Reference,
         }),
         render: choices(&flags.render),
     };

@@ -11,7 +11,7 @@ __version__: str
 Path = str | PathLike[str]
 Names = str | Sequence[str]
 Split = Literal["train", "val", "test"]
-Quality = Literal["draft", "normal", "high"]
+Quality = Literal["draft", "normal", "high", "reference"]
 Sample = dict[str, Any]
 
 class Layer(TypedDict):

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// What a dataset is made from: the configuration of `enfilade run`, with all defaults filled in.
 ///
 /// `Config.read(file)` reads TOML, `Config.demo()` is the demo; both take what is to be otherwise: seed, frames per trajectory, size
-/// (width, height), quality ("draft", "normal" or "high") or samples per pixel. `to_dict` and `from_dict` have every setting.
+/// (width, height), quality ("draft", "normal", "high" or "reference") or samples per pixel. `to_dict` and `from_dict` have every setting.
 #[pyclass(module = "enfilade", frozen, from_py_object)]
 #[derive(Clone)]
 pub struct Config(pub enfilade_pipeline::Config);
@@ -27,7 +27,10 @@ fn overrides(
         Some("draft") => Some(Quality::Draft),
         Some("normal") => Some(Quality::Normal),
         Some("high") => Some(Quality::High),
-        Some(other) => return Err(PyValueError::new_err(format!("quality is {other:?}; expected \"draft\", \"normal\" or \"high\""))),
+        Some("reference") => Some(Quality::Reference),
+        Some(other) => {
+            return Err(PyValueError::new_err(format!("quality is {other:?}; expected \"draft\", \"normal\", \"high\" or \"reference\"")));
+        }
     };
     Ok(Overrides { seed, frames, size, quality, render: RenderChoices { samples, ..RenderChoices::default() } })
 }

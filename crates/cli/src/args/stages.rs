@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// `run`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  enfilade run --demo out\n  enfilade run --demo out --seed 2 --frames 8 --size 640x480 --quality draft\n  \
+    after_help = "Examples:\n  enfilade run --demo out\n  enfilade run --demo out --seed 7 --frames 8 --size 640x480 --quality draft\n  \
     enfilade run dataset.toml -o out --noise 2% --samples 4096\n  \
     enfilade run dataset.toml -o out --estimate --price 0.048\n\nA second run does nothing that is already done; a killed run goes on where it was."
 )]
@@ -49,7 +49,7 @@ pub struct MakeFlags {
     /// Width and height of the images in pixels
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
-    /// Samples per pixel in one word
+    /// How good the pictures become, in one word
     #[arg(long, conflicts_with = "samples")]
     pub quality: Option<QualityArg>,
     #[command(flatten)]
@@ -62,10 +62,12 @@ pub struct MakeFlags {
 pub enum QualityArg {
     /// 8 samples
     Draft,
-    /// 64 samples
+    /// 32 samples
     Normal,
-    /// 512 samples
+    /// 128 samples
     High,
+    /// Unbiased: color as it was rendered, with as many samples as a noise of 2% takes
+    Reference,
 }
 
 /// The verbs that run one stage of a dataset.

@@ -7,25 +7,43 @@ use enfilade_dataset::ColorKind;
 use enfilade_render::RenderConfig;
 use serde::{Deserialize, Serialize};
 
-/// Samples per pixel by one word.
+/// How good pictures become, by one word. README and `docs/benchmarks/render.md` tell the error that each leaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Quality {
-    /// For a look: noisy.
+    /// For a look: small things are smeared.
     Draft,
     /// For use.
     Normal,
     /// For publication.
     High,
+    /// For comparison with others' pictures: unbiased, so not denoised, with as many samples as a noise of 2 % takes.
+    Reference,
 }
 
+/// Noise of a reference, see [`RenderConfig::noise`], and the most samples that it may take: thirty times what it takes in most rooms.
+const REFERENCE_NOISE: f32 = 0.02;
+const REFERENCE_SAMPLES: u32 = 65_536;
+
 impl Quality {
-    /// Samples per pixel.
+    /// Samples per pixel; of a reference the most of them.
     pub const fn samples(self) -> u32 {
         match self {
             Self::Draft => 8,
-            Self::Normal => 64,
-            Self::High => 512,
+            Self::Normal => 32,
+            Self::High => 128,
+            Self::Reference => REFERENCE_SAMPLES,
+        }
+    }
+
+    /// Lays this over a scene whose quality was `below`, with the choices that a reference leaves no other way.
+    pub(super) fn lay_over(self, scene: &mut SceneConfig, below: Self) {
+        scene.render.samples = self.samples();
+        if self == Self::Reference {
+            (scene.render.noise, scene.color) = (Some(REFERENCE_NOISE), ColorKind::Rendered);
+            (scene.render.max_bounces, scene.render.clamp) = (None, None);
+        } else if below == Self::Reference {
+            (scene.render.noise, scene.color) = (None, ColorKind::Denoised);
         }
     }
 }
@@ -39,7 +57,7 @@ pub struct Overrides {
     pub frames: Option<u32>,
     /// Image width and height.
     pub size: Option<[u32; 2]>,
-    /// Samples per pixel.
+    /// Samples per pixel, or an unbiased reference.
     pub quality: Option<Quality>,
     /// Everything else about rendering; its samples win over `quality`.
     pub render: RenderChoices,

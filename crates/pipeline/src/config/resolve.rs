@@ -1,7 +1,7 @@
 //! From the keys of `dataset.toml` to settings: how the levels are laid over each other, and where a value stands that cannot be.
 //!
 //! From the weakest to the strongest: built-in defaults, the file's top level, the scene's own keys, the command line. On each
-//! level `quality` sets the samples and `render.samples` wins over it. What counts in the end is checked, `checks` has the ranges.
+//! level `quality` sets the samples (and for a reference what makes it one), and the keys of `render` win over it. What counts in the end is checked, `checks` has the ranges.
 
 use super::camera::CameraConfig;
 use super::checks::{HOME, Misset, NAMES, Section, check_scene_name, no_scene_name};
@@ -110,13 +110,13 @@ impl Resolver<'_> {
         scene.render.samples = QUALITY.samples();
 
         // The file over them, the scene's own keys over that, and the command line over all.
-        self.lay_over(&mut scene, document.level())?;
-        self.lay_over(&mut scene, keys.level())?;
+        self.lay_over(&mut scene, document.level(), QUALITY)?;
+        self.lay_over(&mut scene, keys.level(), document.quality.unwrap_or(QUALITY))?;
         if scene.camera.k.is_some() {
             // A camera matrix is of images of the file's size, whatever the command line says.
             scene.camera.k_size.get_or_insert(scene.size);
         }
-        self.lay_arguments_over(&mut scene);
+        self.lay_arguments_over(&mut scene, keys.quality.or(document.quality).unwrap_or(QUALITY));
 
         scene.validate().map_err(|wrong| self.misset(wrong, keys))?;
         if let Some(camera) = camera {
@@ -125,11 +125,11 @@ impl Resolver<'_> {
         Ok(scene)
     }
 
-    /// Lays the keys of one level over those below. Of paths it checks the environment variables.
-    fn lay_over(&self, scene: &mut SceneConfig, level: Level) -> Result<(), ConfigError> {
+    /// Lays the keys of one level over those below, whose quality is `below`. Of paths it checks the environment variables.
+    fn lay_over(&self, scene: &mut SceneConfig, level: Level, below: Quality) -> Result<(), ConfigError> {
         let Level { frames, quality, render, plan, carve, gate, .. } = level;
         if let Some(quality) = quality {
-            scene.render.samples = quality.samples();
+            quality.lay_over(scene, below);
         }
         if let Some(frames) = frames {
             scene.plan.frames = *frames.get_ref();
@@ -157,11 +157,13 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    fn lay_arguments_over(&self, scene: &mut SceneConfig) {
+    fn lay_arguments_over(&self, scene: &mut SceneConfig, below: Quality) {
         let Overrides { frames, size, quality, ref render, .. } = *self.overrides;
         scene.plan.frames = frames.unwrap_or(scene.plan.frames);
         scene.size = size.unwrap_or(scene.size);
-        scene.render.samples = quality.map_or(scene.render.samples, Quality::samples);
+        if let Some(quality) = quality {
+            quality.lay_over(scene, below);
+        }
         render.apply(scene);
     }
 
