@@ -10,11 +10,12 @@ import numpy as np
 
 import errors
 
-# Samples per pixel at the usual size and at the large one. Ours has one number more, for its first pictures may be better than a peer's last.
-SIZE, OURS, PEER = "512x384", [2, 8, 32, 128], [8, 32, 128]
+# Samples per pixel at the usual size and at the large one. Ours begins with fewer, for its first pictures may be better than a peer's last; 8 and 32
+# are `--quality draft` and `normal`, the references `high`.
+SIZE, OURS, PEER = "512x384", [2, 8, 32], [8, 32, 128]
 LARGE, LARGE_OURS, LARGE_PEER = "1024x768", [2, 8, 32], [8, 32]
-# Seeds of measured pictures, and of references; the samples of those, over the most that are measured.
-SEEDS, REFERENCES, MORE = [1, 2], [101, 102], 4
+# Seeds of measured pictures, and of references, which have as many samples as the most that are measured of either renderer.
+SEEDS, REFERENCES = [1, 2], [101, 102]
 # Pixels, and the side of the squares whose means tell what is seen from farther away.
 SIDES = {"": 1, "_blocks": 8}
 KINDS = {"delivered": "delivered", "raw": "as rendered"}
@@ -40,11 +41,13 @@ def measure(store, renderers, scene, size, counts):
     for seed, place, who in turns:
         if place < len(counts[who]):
             shots[who, counts[who][place], seed] = store.shot(renderers[who], scene, size, counts[who][place], seed)
-    return [told(store, renderers[who], scene, size, counts[who], {key[1:]: shot for key, shot in shots.items() if key[0] == who}) for who in range(len(renderers))]
+    many = max(map(max, counts))
+    return [told(store, renderers[who], scene, size, counts[who], many, {key[1:]: shot for key, shot in shots.items() if key[0] == who}) for who in range(len(renderers))]
 
 
-def told(store, renderer, scene, size, counts, shots):
-    a, b = (store.shot(renderer, scene, size, MORE * counts[-1], seed, reference=True) for seed in REFERENCES)
+def told(store, renderer, scene, size, counts, many, shots):
+    """What `measure` returns of one renderer, whose references have `many` samples."""
+    a, b = (store.shot(renderer, scene, size, many, seed, reference=True) for seed in REFERENCES)
     clean = np.mean([shots[counts[-1], seed].delivered for seed in SEEDS], axis=0)
     points = [point(n, [shots[n, seed] for seed in SEEDS], a.raw, b.raw, clean) for n in counts]
     best, last, pixels = points[-1], shots[counts[-1], SEEDS[0]], np.prod([int(n) for n in size.split("x")])
@@ -55,7 +58,7 @@ def told(store, renderer, scene, size, counts, shots):
     near = np.mean([errors.correlation(shots[few, seed].raw, a.raw, b.raw) for seed in SEEDS], axis=0)
     facts = dict(
         points=[asdict(each) for each in points],
-        reference_samples=MORE * counts[-1],
+        reference_samples=many,
         floor=[floor(side) for side in SIDES.values()] if renderer.denoises_references else None,
         shift=float(last.delivered.mean() / last.raw.mean() - 1),
         rate=float(best.samples * pixels / best.raw_core_s / 1e6),
