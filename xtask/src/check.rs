@@ -2,13 +2,13 @@
 
 use crate::house::House;
 use crate::step::{Step, choose, finish};
-use crate::{circles, dependencies, floors};
+use crate::{circles, dependencies, floors, pictures};
 
 /// The last and slowest step, left out by `--no-tests` where all tests follow anyway.
 const QUICK_TESTS: &str = "tests";
 
 /// All steps.
-const STEPS: [Step; 7] = [
+const STEPS: [Step; 8] = [
     Step {
         name: "format",
         about: "files are formatted",
@@ -32,6 +32,12 @@ const STEPS: [Step; 7] = [
         about: "licences are allowed, sources are crates.io, versions stand in one place",
         remedy: "choose another crate, or change deny.toml and say why there",
         run: dependencies::check,
+    },
+    Step {
+        name: "pictures",
+        about: "the pictures of README are those of today's demo",
+        remedy: "run `cargo xtask pictures`, look at them, and commit docs/",
+        run: pictures::check,
     },
     Step {
         name: "lints",

@@ -1,4 +1,4 @@
-//! The checks of the house, as `cargo xtask check`, `test`, `python`, `browser`, `fuzz`, `bench`, `oracle` and `cluster`.
+//! The checks of the house, as `cargo xtask check`, `test`, `python`, `browser`, `fuzz`, `pictures`, `bench`, `oracle` and `cluster`.
 //!
 //! [`check`] holds what is quick and says nothing about numbers; [`test`](mod@test) holds everything else; [`wheel`] tests the
 //! Python module as it is installed; [`browser`] tests the pages; [`fuzz`] searches for bytes that break what reads them;
@@ -21,6 +21,7 @@ mod house;
 mod loader;
 mod oidn;
 mod peers;
+mod pictures;
 mod python;
 mod simulate;
 mod spdx;
@@ -38,6 +39,7 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask python [STEP...]               the module as pip installs it: torch's loader, notebooks, training
        cargo xtask browser [STEP...]              the pages: types, bundle, tests in a browser
        cargo xtask fuzz [--seconds N] [--quick | --as-tested] [TARGET...]   searches for bytes that break what reads them
+       cargo xtask pictures                       the pictures of README, by the demo
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
        cargo xtask cluster [--program PATH] [TEST...]   a farm on Slurm, S3 and by other engines' files, with faults
@@ -66,6 +68,7 @@ fn main() -> ExitCode {
         ["bench", "homes", rest @ ..] => homes::run(&house, rest),
         ["bench", "loader", rest @ ..] => loader::run(&house, rest),
         ["bench", "storage", rest @ ..] => storage::run(&house, rest),
+        ["pictures"] => pictures::make(&house),
         ["simulate"] => simulate::run(&house),
         ["cluster", rest @ ..] => cluster::run(&house, rest),
         ["oracle", rest @ ..] => peers::run(&house, "oracle", rest),

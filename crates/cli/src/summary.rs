@@ -101,6 +101,6 @@ fn program() -> String {
 /// What to try after the demo.
 pub fn print_after_demo() {
     let program = program();
-    say(&format!("another room     {program} run --demo out2 --seed 2 --frames 8 --quality high"));
+    say(&format!("another room     {program} run --demo out2 --seed 7 --frames 8 --quality high"));
     say(&format!("rooms of yours   {program} run dataset.toml      (see examples/real-rooms/dataset.toml)"));
 }

@@ -52,18 +52,19 @@ impl Config {
         Ok(config)
     }
 
-    /// The demo: one generated home.
+    /// The demo: one generated room.
     ///
     /// # Errors
     /// When an override is out of its range.
     pub fn demo(overrides: &Overrides) -> Result<Self, Error> {
         let text = format!(
-            "name = \"demo\"\nseed = {}\nframes = {}\nrender.size = {:?}\nrender.samples = {}\n[[scene]]\nname = \"{}\"\nhome = {{}}\ncameras = [\"{}\"]\n",
+            "name = \"demo\"\nseed = {}\nframes = {}\nrender.size = {:?}\nrender.samples = {}\n[[scene]]\nname = \"{}\"\nhome = {}\ncameras = [\"{}\"]\n",
             demo::SEED,
             demo::FRAMES,
             demo::SIZE,
             demo::SAMPLES,
             demo::SCENE,
+            demo::HOME,
             demo::CAMERA
         );
         Ok(resolve(Path::new("demo"), &text, overrides, &|_| None)?)

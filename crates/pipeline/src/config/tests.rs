@@ -4,7 +4,8 @@ use super::*;
 use crate::error::ConfigError;
 use enfilade_dataset::ColorKind;
 use enfilade_explore::{Mode, VideoConfig};
-use enfilade_home::HomeConfig;
+use enfilade_home::light::Moment;
+use enfilade_home::{HomeConfig, RoomKind};
 use enfilade_import::UpAxis;
 use enfilade_render::RenderConfig;
 use enfilade_verify::view_gates::GateConfig;
@@ -34,7 +35,7 @@ const SCENE: &str = "[[scene]]\nname = \"a\"\nfile = \"a.gltf\"\n";
 fn a_scene_needs_a_name_and_a_file_and_gets_defaults_for_the_rest() {
     let config = config(SCENE);
     let scene = &config.scenes[0];
-    assert_eq!((scene.seed, scene.size, scene.fov_x_deg, scene.render.samples), (0, [1024, 768], None, 64));
+    assert_eq!((scene.seed, scene.size, scene.fov_x_deg, scene.render.samples), (0, [1024, 768], None, 32));
     assert_eq!((scene.plan.frames, &scene.labels, scene.cameras.len()), (100, &None, 0));
     let file = FileSource { file: "a.gltf".into(), meters_per_unit: 1.0, up_axis: None, environment: None, allow_missing_textures: false };
     assert_eq!(scene.source, Source::File(file));
@@ -109,6 +110,26 @@ fn choices_of_the_command_line_win_over_the_file_and_its_samples_over_the_qualit
 fn a_scenes_quality_wins_over_the_samples_of_the_file() {
     let scene = config(&format!("render.samples = 5\n{SCENE}quality = \"high\"\n")).scenes.remove(0);
     assert_eq!(scene.render.samples, Quality::High.samples());
+}
+
+#[test]
+fn a_reference_is_unbiased_and_another_quality_takes_that_back() {
+    let told = |text: &str, quality: Option<Quality>| {
+        let scene = config_with(text, &Overrides { quality, ..Overrides::default() }).scenes.remove(0);
+        (scene.render.samples, scene.render.noise, scene.render.clamp, scene.color)
+    };
+    let reference = (Quality::Reference.samples(), Some(0.02), None, ColorKind::Rendered);
+    let clamped = format!("render.clamp = 4\n{SCENE}quality = \"reference\"\n");
+    assert_eq!(told(&clamped, None), reference);
+    assert_eq!(told(SCENE, Some(Quality::Reference)), reference);
+    assert_eq!(told(&clamped, Some(Quality::Draft)), (Quality::Draft.samples(), None, None, ColorKind::Denoised));
+    // What its own level says besides stands.
+    let mine = format!("{SCENE}quality = \"reference\"\nrender.noise = 0.01\nrender.color = \"denoised\"\n");
+    assert_eq!(told(&mine, None), (Quality::Reference.samples(), Some(0.01), None, ColorKind::Denoised));
+    assert_eq!(
+        told(&format!("quality = \"reference\"\n{SCENE}quality = \"high\"\n"), None),
+        (Quality::High.samples(), None, None, ColorKind::Denoised)
+    );
 }
 
 #[test]
@@ -440,7 +461,7 @@ fn what_a_program_puts_together_is_refused_as_a_file_is() {
 }
 
 #[test]
-fn the_demo_is_one_home_and_takes_overrides() {
+fn the_demo_is_one_room_and_takes_overrides() {
     let config = Config::demo(&Overrides {
         seed: Some(4),
         frames: Some(2),
@@ -450,10 +471,8 @@ fn the_demo_is_one_home_and_takes_overrides() {
     })
     .unwrap();
     let scene = &config.scenes[0];
-    assert_eq!(
-        (config.scenes.len(), &scene.source, scene.plan.frames, scene.size),
-        (1, &Source::Home(HomeConfig::of_seed(4)), 2, [64, 48])
-    );
+    let room = HomeConfig { rooms: vec![RoomKind::Living], moment: Some(Moment::Day), ..HomeConfig::of_seed(4) };
+    assert_eq!((config.scenes.len(), &scene.source, scene.plan.frames, scene.size), (1, &Source::Home(room), 2, [64, 48]));
     assert_eq!(scene.render.samples, Quality::Draft.samples());
     let error = Config::demo(&Overrides { frames: Some(0), ..Overrides::default() }).unwrap_err();
     assert_eq!(error.to_string(), "the command line: frames must lie between 1 and 10000, found 0");

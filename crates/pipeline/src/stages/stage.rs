@@ -47,7 +47,7 @@ impl Stage {
             Self::Denoise => 3,
             Self::Label => 2,
             Self::Boxes => 1,
-            Self::Preview => 4,
+            Self::Preview => 5,
             Self::Verify => 5,
         }
     }
