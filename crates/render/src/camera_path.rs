@@ -3,7 +3,7 @@
 //! From the second surface on [`Integrator::radiance`] follows the path.
 
 use crate::bsdf::Value;
-use crate::integrator::{Direct, Integrator, bsdf_set, light_set, roulette_throughput};
+use crate::integrator::{Direct, Integrator, bsdf_set, roulette_throughput};
 use crate::pixel_sample::{CameraSample, PixelSample};
 use crate::prepared::AlphaTest;
 use crate::split::Arriving;
@@ -41,9 +41,12 @@ impl Integrator<'_, '_> {
         let sampler = &camera.sampler;
         let mut illumination = Rgb::BLACK;
         sample.reflectance = vertex.bsdf.reflectance;
-        if let Some(Direct { weight, light, kind, crosses }) = self.sample_lights(&vertex, sampler.set(light_set(0)), segment.medium) {
+        if let Some(Direct { weight, light, kind, crosses, scattered }) = self.sample_lights(&vertex, 0, sampler, segment.medium) {
             let mut arriving = Arriving::default();
-            arriving.add(kind, light, true);
+            arriving.add(kind, light, !scattered);
+            if scattered {
+                arriving = self.clamped(arriving, weight.total(sample.reflectance));
+            }
             illumination += self.add_scattered(&mut sample, &weight, &arriving, crosses);
         }
 

@@ -65,6 +65,8 @@ pub(crate) struct Direct {
     pub kind: LightKind,
     /// True when it reaches the surface from behind.
     pub crosses: bool,
+    /// True when a glossy surface has scattered it before.
+    pub scattered: bool,
 }
 
 impl<'a, 's> Integrator<'a, 's> {
@@ -74,7 +76,8 @@ impl<'a, 's> Integrator<'a, 's> {
     fn next_surface(&self, segment: &Segment, throughput: Rgb, direct: bool, radiance: &mut Arriving) -> Option<(Surface<'s>, Rgb)> {
         let (lights, sampled) = (&self.scene.lights, segment.sampled.as_ref());
         let Some(hit) = self.scene.closest(&segment.ray, AlphaTest::Stochastic) else {
-            let background = lights.background_weighted(&self.guide.choice, sampled, segment.ray.direction);
+            let mut background = lights.background_weighted(&self.guide.choice, sampled, segment.ray.direction);
+            background.distant *= segment.sun;
             radiance.add_background(background, throughput, direct);
             return None;
         };
@@ -179,17 +182,21 @@ impl<'a, 's> Integrator<'a, 's> {
             let vertex = Vertex::new(self.guide, surface, bsdf);
             let reflectance = vertex.bsdf.reflectance;
 
-            // Sample a light and add its contribution.
-            if let Some(Direct { weight, light, kind, .. }) = self.sample_lights(&vertex, sampler.set(light_set(bounce)), segment.medium) {
-                radiance.add(kind, throughput * weight.total(reflectance) * light, false);
+            // Sample a light and add its contribution. The sun's light on a glossy surface could have been found as a glint as well.
+            let by_glints = segment.sampled.as_ref().filter(|_| !segment.straight);
+            let sun = self.scene.lights.glint_weight(&self.guide.choice, by_glints, &vertex.surface);
+            if let Some(Direct { weight, light, kind, scattered, .. }) = self.sample_lights(&vertex, bounce, sampler, segment.medium) {
+                let part = if kind == LightKind::Distant && !scattered { sun } else { 1.0 };
+                radiance.add(kind, throughput * weight.total(reflectance) * light * part, false);
             }
 
             // Sample the next direction, unless Russian roulette ends the path.
-            let Some((weight, next)) = self.next_step(bounce, &vertex, throughput * so_far, &segment, &mut expected, sampler) else {
+            let Some((weight, mut next)) = self.next_step(bounce, &vertex, throughput * so_far, &segment, &mut expected, sampler) else {
                 return radiance;
             };
             throughput *= weight.total(reflectance);
             direct &= next.straight;
+            next.sun = if next.straight { segment.sun } else { sun };
             segment = next;
         }
         radiance
@@ -202,13 +209,20 @@ impl<'a, 's> Integrator<'a, 's> {
         if brightest > max { light.scaled(max / brightest) } else { light }
     }
 
-    /// Direct light by one light sample; `None` where that contributes nothing. `medium` lies before the surface, on the viewer's side.
-    pub fn sample_lights(&self, vertex: &Vertex<'_, 's>, u: [f32; 4], medium: Medium) -> Option<Direct> {
+    /// Direct light by one light sample at surface number `bounce`, or that of a glint; `None` where that contributes nothing. `medium` lies
+    /// before the surface, on the viewer's side.
+    pub fn sample_lights(&self, vertex: &Vertex<'_, 's>, bounce: u32, sampler: &Sampler, medium: Medium) -> Option<Direct> {
         // Choose a light and a point on it, above the shading and the geometric surface alike.
-        let surface = &vertex.surface;
+        let (surface, u) = (&vertex.surface, sampler.set(light_set(bounce)));
         let wanted = |wi: Vec3| sides_agree(wi.dot(vertex.onb.z), wi.dot(surface.ng));
         let at = surface.light_point();
         let light = self.scene.lights.sample(self.scene, &self.guide.choice, &at, [u[0], u[1], u[2]], wanted)?;
+
+        // A glint is one more surface of the path.
+        let scattered = light.glint.is_some();
+        if scattered && self.config.max_bounces.is_some_and(|max| bounce >= max) {
+            return None;
+        }
 
         // Evaluate the BSDF before the shadow ray is traced: it may make that unnecessary.
         let wi = vertex.onb.to_local(light.wi);
@@ -224,20 +238,26 @@ impl<'a, 's> Integrator<'a, 's> {
         // Light from infinity that reaches a point inside a body came through an opening in it. How far it went inside is unknown, as it is
         // to a sampled direction, so nothing is absorbed.
         let absorbed = if light.target.is_some() { medium.transmittance(ray.t_max) } else { Rgb::WHITE };
-        let arriving = self.scene.transmittance(&ray) * absorbed;
+        let through = match scattered {
+            true if self.scene.is_covered(&ray) => Rgb::BLACK,
+            true => Rgb::WHITE,
+            false => self.scene.transmittance(&ray),
+        };
+        let arriving = through * absorbed;
         if arriving.is_black() {
             return None;
         }
 
         // Weight the sample against the BSDF's own chance to find the light.
         let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) } / light.pdf;
-        Some(Direct { weight: value * weight, light: self.scene.lights.radiance_of(&light) * arriving, kind: light.kind(), crosses })
+        let radiance = self.scene.lights.radiance_of(self.scene, &light, &surface.cone.scattered(pdf), u[3]);
+        Some(Direct { weight: value * weight, light: radiance * arriving, kind: light.kind(), crosses, scattered })
     }
 
     /// Irradiance over π at a surface without diffuse reflectance, by a white Lambert surface in its place.
     pub fn irradiance(&self, surface: &Surface<'s>, sampler: &Sampler) -> Rgb {
         let vertex = Vertex::new(self.guide, surface.clone(), Bsdf::lambert(Rgb::WHITE));
-        let direct = self.sample_lights(&vertex, sampler.set(light_set(0)), Medium::AIR);
+        let direct = self.sample_lights(&vertex, 0, sampler, Medium::AIR);
         let mut irradiance = direct.map_or(Rgb::BLACK, |direct| direct.weight.diffuse * direct.light);
         let u = sampler.set(bsdf_set(0));
         let nowhere = Segment::from_camera(Ray::new(surface.p, -surface.wo), Cone::POINT);

@@ -63,7 +63,9 @@ impl<'s> RenderScene<'s> {
             return Err(RenderError::NoLight);
         }
         let textures = Textures::new(&scene.images, &scene.materials);
-        Ok(Self { scene, textures, triangles, bvh, lights, tables })
+        let mut ready = Self { scene, textures, triangles, bvh, lights, tables };
+        Lights::find_glints(&mut ready);
+        Ok(ready)
     }
 
     /// Every part needs an id.
@@ -106,6 +108,11 @@ impl<'s> RenderScene<'s> {
             }
         });
         if blocked { Rgb::BLACK } else { through.get() }
+    }
+
+    /// True when anything lies in the way of a shadow ray, panes as well.
+    pub(crate) fn is_covered(&self, ray: &Ray) -> bool {
+        self.bvh.occluded_filtered(ray, |hit| self.is_present(hit, AlphaTest::Stochastic))
     }
 
     fn material_at(&self, hit: &Hit) -> &'s Material {

@@ -31,6 +31,8 @@ pub(crate) struct Surface<'s> {
     footprint: Footprint,
     /// True when `wo` is on the side that outward normals point to.
     pub outside: bool,
+    /// Number of the triangle.
+    pub triangle: u32,
     /// The material.
     pub material: &'s Material,
     material_index: usize,
@@ -72,6 +74,7 @@ impl<'s> RenderScene<'s> {
             cone,
             footprint,
             outside,
+            triangle: hit.triangle,
             material,
             material_index,
         }

@@ -26,6 +26,8 @@ pub(crate) struct Segment {
     pub crossed: bool,
     /// True when that was a pane, which leaves the direction as it was.
     pub straight: bool,
+    /// Weight of the sun's disk where the segment meets it, beside that of `sampled`: see [`crate::light::Lights::glint_weight`].
+    pub sun: f32,
     /// How wide the ray is.
     pub cone: Cone,
 }
@@ -106,7 +108,7 @@ struct Guided<'a> {
 impl Segment {
     /// Along a camera ray, or from nowhere.
     pub fn from_camera(ray: Ray, cone: Cone) -> Self {
-        Self { ray, sampled: None, medium: Medium::AIR, crossed: false, straight: false, cone }
+        Self { ray, sampled: None, medium: Medium::AIR, crossed: false, straight: false, sun: 1.0, cone }
     }
 }
 
@@ -199,13 +201,13 @@ impl<'a, 's> Vertex<'a, 's> {
 
     fn segment(&self, direction: Vec3, side: f32, sampled: Option<(LightPoint, f32)>, medium: Medium) -> Segment {
         let cone = sampled.map_or(self.surface.cone, |(_, pdf)| self.surface.cone.scattered(pdf));
-        Segment { ray: self.surface.ray(direction), sampled, medium, crossed: side < 0.0, straight: false, cone }
+        Segment { ray: self.surface.ray(direction), sampled, medium, crossed: side < 0.0, straight: false, sun: 1.0, cone }
     }
 }
 
 /// `wo` in shading space, with its cosine kept off zero.
 #[inline]
-fn viewing(onb: &Onb, wo: Vec3) -> Vec3 {
+pub(crate) fn viewing(onb: &Onb, wo: Vec3) -> Vec3 {
     let local = onb.to_local(wo);
     Vec3::new(local.x, local.y, local.z.max(MIN_COSINE)).normalize()
 }

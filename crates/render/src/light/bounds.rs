@@ -4,6 +4,7 @@
 //! power. The importance never is zero where light could arrive: every angle is taken at its most favourable within the box.
 
 use super::sample::LightPoint;
+use super::tree::Emitters;
 use enfilade_math::{Bounds3, Quat, Vec3};
 use std::f32::consts::{FRAC_PI_2, PI};
 
@@ -43,9 +44,18 @@ impl LightBounds {
         // Within the cone the intensity is about even: its directions count as those of normals that emit straight ahead.
         Self { axis, cos_normals: outer_rad.clamp(0.0, PI).cos(), cos_emission: STRAIGHT_AHEAD, ..Self::point(p, power) }
     }
+}
 
-    /// The bounds of both.
-    pub fn union(&self, other: &Self) -> Self {
+impl Emitters for LightBounds {
+    fn bounds(&self) -> Bounds3 {
+        self.bounds
+    }
+
+    fn power(&self) -> f32 {
+        self.power
+    }
+
+    fn union(&self, other: &Self) -> Self {
         let two_sided = self.two_sided && other.two_sided;
         // Of emitters with two sides either normal will do.
         let other_axis = if two_sided && self.axis.dot(other.axis) < 0.0 { -other.axis } else { other.axis };
@@ -62,7 +72,7 @@ impl LightBounds {
 
     /// About the irradiance that the emitters could cast on a point if nothing were in the way; zero only where they cannot.
     #[inline]
-    pub fn importance(&self, at: &LightPoint) -> f32 {
+    fn importance(&self, at: &LightPoint) -> f32 {
         let to = self.bounds.center() - at.p;
         let radius_squared = 0.25 * self.bounds.extent().length_squared();
         let distance_squared = to.length_squared();
@@ -90,7 +100,7 @@ impl LightBounds {
     }
 
     /// Ω of the surface area–orientation heuristic: the measure of the directions that the cone emits to.
-    pub fn orientation_measure(&self) -> f32 {
+    fn orientation_measure(&self) -> f32 {
         let normals = self.cos_normals.clamp(-1.0, 1.0).acos();
         let widest = (normals + self.cos_emission.clamp(-1.0, 1.0).acos()).min(PI);
         let (sin, cos) = normals.sin_cos();

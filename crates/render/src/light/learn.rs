@@ -7,6 +7,7 @@ use super::window::{Glimpses, Windows};
 use crate::config::RenderConfig;
 use crate::prepared::RenderScene;
 use crate::surface::{self, Surface};
+use crate::texture::Cone;
 use crate::walk::{pixel_samples, walk};
 use enfilade_math::{INV_PI, Onb, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
 use enfilade_scene::CameraView;
@@ -111,7 +112,10 @@ fn contribution(
         return 0.0;
     }
     let arriving = scene.transmittance(&surface.shadow_ray(light.wi, light.target));
-    (lights.radiance_of(&light) * arriving).luminance() * cos / light.pdf
+    if arriving.is_black() {
+        return 0.0;
+    }
+    (lights.radiance_of(scene, &light, &Cone::POINT, u[0]) * arriving).luminance() * cos / light.pdf
 }
 
 impl Lights<'_> {
@@ -126,7 +130,7 @@ impl Lights<'_> {
         let mut sum = Rgb::BLACK;
         let mut random = || [rng.next_f32(), rng.next_f32(), rng.next_f32()];
         let mut add = |light: &LightSample, pdf: f32| {
-            let arriving = self.radiance_of(light) * scene.transmittance(&surface::shadow_ray(origin, light.wi, light.target));
+            let arriving = self.radiance_of(scene, light, &Cone::POINT, 0.5) * scene.transmittance(&surface::shadow_ray(origin, light.wi, light.target));
             let value = arriving * (light.wi.dot(n) * INV_PI / pdf);
             if value.luminance().is_finite() {
                 sum += value;

@@ -3,9 +3,12 @@
 use super::delta;
 use super::emissive_surfaces::EmissiveSurfaces;
 use super::environment::Sky;
+use super::glint::Glints;
 use super::sample::{Background, LightPoint, LightSample};
 use super::tree::LightTree;
 use super::window::Windows;
+use crate::prepared::RenderScene;
+use crate::texture::Cone;
 use crate::triangles::Triangles;
 use enfilade_math::{Distribution1, Rgb, Vec3};
 use enfilade_scene::{Light, Scene};
@@ -31,6 +34,8 @@ pub(crate) struct Lights<'s> {
     /// Distant lights, and a distribution over them by their strength.
     pub(super) distant: Vec<Light>,
     pub(super) distant_by_strength: Option<Distribution1>,
+    /// Sunlit glossy surfaces; found when the scene is ready for rays.
+    pub(super) glints: Glints,
     pub(super) sky: Option<Sky<'s>>,
 }
 
@@ -41,6 +46,8 @@ pub(super) enum Source {
     Cluster(usize),
     /// A distant light; `None` for all of them together.
     Distant(Option<usize>),
+    /// A cluster of sunlit glossy surfaces.
+    Glint(usize),
     /// The environment, in all directions.
     Sky,
     /// The environment through a portal in a window.
@@ -70,7 +77,7 @@ impl<'s> Lights<'s> {
         let strengths: Vec<f32> = distant.iter().map(distant_strength).collect();
         let sky = scene.environment.as_ref().and_then(|e| Sky::new(e, &scene.images));
         let distant_by_strength = Distribution1::new(&strengths);
-        Self { surfaces, points, tree, clusters, cluster_of_emitter, distant, distant_by_strength, sky }
+        Self { surfaces, points, tree, clusters, cluster_of_emitter, distant, distant_by_strength, glints: Glints::default(), sky }
     }
 
     /// True when there is no source at all.
@@ -78,7 +85,7 @@ impl<'s> Lights<'s> {
         self.source_count(0) == 0
     }
 
-    /// Number of sources with this number of portals. Clusters come first, then distant lights, the sky, the portals.
+    /// Number of sources with this number of portals. Clusters come first, then distant lights, glints, the sky, the portals.
     pub(super) fn source_count(&self, portals: usize) -> usize {
         self.sky_source() + if self.sky.is_some() { 1 + portals } else { 0 }
     }
@@ -86,17 +93,25 @@ impl<'s> Lights<'s> {
     /// Number of the source that is the sky.
     #[inline]
     pub(super) fn sky_source(&self) -> usize {
+        self.first_glint() + self.glints.len()
+    }
+
+    /// Number of the first source that is a cluster of glints.
+    #[inline]
+    pub(super) fn first_glint(&self) -> usize {
         self.clusters.len() + if self.distant.len() > MAX_DISTANT { 1 } else { self.distant.len() }
     }
 
     /// Source number `index`.
     #[inline]
     pub(super) fn source(&self, index: usize) -> Source {
-        let sky = self.sky_source();
+        let (glint, sky) = (self.first_glint(), self.sky_source());
         if index < self.clusters.len() {
             Source::Cluster(index)
-        } else if index < sky {
+        } else if index < glint {
             Source::Distant((self.distant.len() <= MAX_DISTANT).then_some(index - self.clusters.len()))
+        } else if index < sky {
+            Source::Glint(index - glint)
         } else if index == sky {
             Source::Sky
         } else {
@@ -111,6 +126,7 @@ impl<'s> Lights<'s> {
             Source::Cluster(cluster) => self.tree.importance(self.clusters[cluster], at),
             Source::Distant(Some(one)) => distant_strength(&self.distant[one]),
             Source::Distant(None) => self.distant_by_strength.as_ref().map_or(0.0, |d| d.total() as f32),
+            Source::Glint(cluster) => self.glints.importance(cluster, at),
             // In a room little of its light arrives but through the windows, which are sources of their own.
             Source::Sky => sky() * if windows.is_some() { 0.02 } else { 1.0 },
             Source::Portal(portal) => windows.map_or(0.0, |w| sky() * w.solid_angle(portal, at.p) * std::f32::consts::FRAC_1_PI),
@@ -122,9 +138,19 @@ impl<'s> Lights<'s> {
         self.sky.as_ref().map_or(Rgb::BLACK, |sky| sky.radiance(d))
     }
 
-    /// The radiance of a sample.
-    pub fn radiance_of(&self, sample: &LightSample) -> Rgb {
-        sample.radiance.unwrap_or_else(|| self.sky(sample.wi))
+    /// Finds what light there is beyond the scene's own: reflections of the sun.
+    pub fn find_glints(scene: &mut RenderScene<'_>) {
+        scene.lights.glints = Glints::find(scene);
+    }
+
+    /// The radiance of a sample, in a ray of the width of `cone` at the point that it was sampled from; `u` is uniform on [0,1).
+    #[inline]
+    pub fn radiance_of(&self, scene: &RenderScene<'_>, sample: &LightSample, cone: &Cone, u: f32) -> Rgb {
+        match (&sample.glint, sample.radiance) {
+            (Some(glint), _) => self.reflected_sun(scene, &glint.hit, sample.wi, cone, [u, glint.u]),
+            (None, Some(radiance)) => radiance,
+            (None, None) => self.sky(sample.wi),
+        }
     }
 
     /// Radiance from beyond the scene in the unit direction `d`.

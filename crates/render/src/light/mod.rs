@@ -13,6 +13,7 @@ mod delta;
 mod emissive_surfaces;
 mod emitter;
 mod environment;
+mod glint;
 mod learn;
 mod lights;
 mod sample;

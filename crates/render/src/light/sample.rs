@@ -1,6 +1,7 @@
 //! What light sampling is asked for and what it answers: points that receive light, samples of it, and the weight of a sample that
 //! another technique could have found too.
 
+use enfilade_geometry::Hit;
 use enfilade_math::{Rgb, Vec3};
 
 /// A point that receives light, from which light is sampled.
@@ -25,6 +26,16 @@ pub(crate) struct LightSample {
     pub pdf: f32,
     /// True when no other technique can find this light.
     pub is_delta: bool,
+    /// Where the light is reflected that comes from the sun by way of a glossy surface; its `radiance` is `None`.
+    pub glint: Option<Glint>,
+}
+
+/// A place that reflects the sun.
+pub(crate) struct Glint {
+    /// As the ray from the point that receives light meets it.
+    pub hit: Hit,
+    /// Uniform on [0,1): what is left of the random number that chose it.
+    pub u: f32,
 }
 
 /// Kinds of light sources, as the layers of split light tell them apart.
@@ -45,6 +56,7 @@ impl LightSample {
     #[inline]
     pub fn kind(&self) -> LightKind {
         match (self.target, self.radiance) {
+            _ if self.glint.is_some() => LightKind::Distant,
             (None, None) => LightKind::Environment,
             (None, Some(_)) => LightKind::Distant,
             (Some(_), _) if self.is_delta => LightKind::Points,

@@ -63,7 +63,7 @@ impl Lights<'_> {
         wanted: impl Fn(Vec3) -> bool,
     ) -> Option<LightSample> {
         let from_sky = |wi: Vec3, pdf: f32| {
-            (pdf > 0.0 && wanted(wi)).then_some(LightSample { wi, target: None, radiance: None, pdf, is_delta: false })
+            (pdf > 0.0 && wanted(wi)).then_some(LightSample { wi, target: None, radiance: None, pdf, is_delta: false, glint: None })
         };
         match source {
             // Choose an emitter of the cluster by its importance to the point, and sample that.
@@ -86,6 +86,8 @@ impl Lights<'_> {
                 let sample = delta::sample(&self.distant[light], at, [u[0], u[1]]).filter(|s| wanted(s.wi))?;
                 Some(LightSample { pdf: sample.pdf * pmf, ..sample })
             }
+            // Sample a place of the cluster's sunlit surfaces.
+            Source::Glint(cluster) => self.glints.sample(scene, cluster, at, u).filter(|s| wanted(s.wi)),
             // Sample a point of the portal; the sky is seen through it.
             Source::Portal(portal) => {
                 let wi = windows?.sample(portal, at.p, [u[0], u[1]])?;
@@ -115,7 +117,7 @@ impl Lights<'_> {
         if let Emission::Even { radiance, two_sided } = patch.emission() {
             let behind = point.wi.dot(patch.normal()) >= 0.0;
             let target = Some(offset_origin(point.q, if behind { -patch.normal() } else { patch.normal() }));
-            let sample = LightSample { wi: point.wi, target, radiance: Some(radiance), pdf: point.pdf, is_delta: false };
+            let sample = LightSample { wi: point.wi, target, radiance: Some(radiance), pdf: point.pdf, is_delta: false, glint: None };
             return (two_sided || !behind).then_some(sample);
         }
         let (triangle, [b, c]) = patch.locate(point.q, |number| scene.triangles.get(number).corners);
@@ -131,7 +133,7 @@ impl Lights<'_> {
             return None;
         }
         let target = Some(offset_origin(point.q, surface.ng));
-        Some(LightSample { wi: point.wi, target, radiance: Some(radiance), pdf: point.pdf, is_delta: false })
+        Some(LightSample { wi: point.wi, target, radiance: Some(radiance), pdf: point.pdf, is_delta: false, glint: None })
     }
 
     /// Density per solid angle with which [`Lights::sample`] at `from` finds the emissive surface at `hit`, whose place is `p`

@@ -3,7 +3,7 @@
 use super::choice::{Arrival, LightChoice};
 use super::sample::{LightPoint, power_heuristic};
 use crate::prepared::{AlphaTest, RenderScene};
-use crate::texture::Footprint;
+use crate::texture::{Cone, Footprint};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Ray, Rgb, Rng, Vec2, Vec3, warp};
 use enfilade_scene::{ColorParam, Image, Material, Part, Pixels, Quiet, Scene, TextureRef};
@@ -38,7 +38,7 @@ fn learned_at(scene: &RenderScene<'_>, at: &LightPoint) -> LightChoice {
         .map(|k| {
             let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
             let light = scene.lights.sample_source(scene, scene.lights.source(k % sources), None, at, u, |wi| wi.dot(at.n) > 0.0);
-            let value = light.map_or(0.0, |l| scene.lights.radiance_of(&l).luminance() * l.wi.dot(at.n) / l.pdf);
+            let value = light.map_or(0.0, |l| scene.lights.radiance_of(scene, &l, &Cone::POINT, 0.5).luminance() * l.wi.dot(at.n) / l.pdf);
             Arrival { at: *at, source: (k % sources) as u32, value }
         })
         .collect();
@@ -66,7 +66,7 @@ fn irradiance(scene: &RenderScene<'_>, choice: &LightChoice, at: &LightPoint, sa
     Mean::of((0..samples).map(|_| {
         let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
         let light = scene.lights.sample(scene, choice, at, u, |wi| wi.dot(n) > 0.0);
-        light.map_or(0.0, |l| f64::from(scene.lights.radiance_of(&l).luminance() * l.wi.dot(n) / l.pdf))
+        light.map_or(0.0, |l| f64::from(scene.lights.radiance_of(scene, &l, &Cone::POINT, 0.5).luminance() * l.wi.dot(n) / l.pdf))
     }))
 }
 

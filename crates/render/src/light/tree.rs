@@ -13,17 +13,37 @@ const BUCKETS: usize = 12;
 /// Deeper down, nodes are halved by count, so that no arrangement of emitters makes the tree deep.
 const MAX_DEPTH_BY_COST: u32 = 48;
 
+/// What a node knows of the emitters below it.
+pub(super) trait Emitters: Copy {
+    /// The box around them.
+    fn bounds(&self) -> Bounds3;
+    /// What they emit in all; those without are never drawn.
+    fn power(&self) -> f32;
+    /// Both together.
+    fn union(&self, other: &Self) -> Self;
+    /// About the light that they send to a point if nothing is in the way.
+    fn importance(&self, at: &LightPoint) -> f32;
+    /// The measure of the directions that they emit to.
+    fn orientation_measure(&self) -> f32;
+}
+
 /// A tree with one emitter a leaf.
-#[derive(Debug, Default)]
-pub(super) struct LightTree {
-    nodes: Vec<Node>,
+#[derive(Debug)]
+pub(super) struct LightTree<E = LightBounds> {
+    nodes: Vec<Node<E>>,
     parents: Vec<u32>,
     leaf_of_emitter: Vec<u32>,
 }
 
+impl<E> Default for LightTree<E> {
+    fn default() -> Self {
+        Self { nodes: Vec::new(), parents: Vec::new(), leaf_of_emitter: Vec::new() }
+    }
+}
+
 #[derive(Debug)]
-struct Node {
-    bounds: LightBounds,
+struct Node<E> {
+    bounds: E,
     kind: Kind,
 }
 
@@ -38,18 +58,18 @@ enum Kind {
     },
 }
 
-impl LightTree {
+impl<E: Emitters> LightTree<E> {
     /// Builds the tree over emitters with positive power; the others are never drawn.
-    pub fn new(emitters: &[LightBounds]) -> Self {
+    pub fn new(emitters: &[E]) -> Self {
         let mut tree = Self { leaf_of_emitter: vec![u32::MAX; emitters.len()], ..Self::default() };
-        let mut items: Vec<u32> = (0..emitters.len() as u32).filter(|&i| emitters[i as usize].power > 0.0).collect();
+        let mut items: Vec<u32> = (0..emitters.len() as u32).filter(|&i| emitters[i as usize].power() > 0.0).collect();
         if !items.is_empty() {
             tree.build(emitters, &mut items, 0, u32::MAX);
         }
         tree
     }
 
-    fn build(&mut self, emitters: &[LightBounds], items: &mut [u32], depth: u32, parent: u32) -> LightBounds {
+    fn build(&mut self, emitters: &[E], items: &mut [u32], depth: u32, parent: u32) -> E {
         let index = self.nodes.len();
         self.parents.push(parent);
         if let [emitter] = *items {
@@ -77,8 +97,8 @@ impl LightTree {
         let mut cut = if self.nodes.is_empty() { Vec::new() } else { vec![0u32] };
         let weight = |node: u32| {
             let Node { bounds, kind } = &self.nodes[node as usize];
-            let size = bounds.bounds.extent().length();
-            if matches!(kind, Kind::Leaf { .. }) || size < smallest_m { 0.0 } else { bounds.power * size }
+            let size = bounds.bounds().extent().length();
+            if matches!(kind, Kind::Leaf { .. }) || size < smallest_m { 0.0 } else { bounds.power() * size }
         };
         while cut.len() < limit {
             let heaviest = (0..cut.len()).max_by(|&a, &b| weight(cut[a]).total_cmp(&weight(cut[b])).then(b.cmp(&a)));
@@ -176,10 +196,10 @@ impl LightTree {
 
 /// Orders `items` so that the cheapest split lies between two of them, and returns how many come first. `None` when no plane
 /// separates them.
-fn partition(emitters: &[LightBounds], items: &mut [u32]) -> Option<usize> {
-    let center = |i: u32| emitters[i as usize].bounds.center();
+fn partition<E: Emitters>(emitters: &[E], items: &mut [u32]) -> Option<usize> {
+    let center = |i: u32| emitters[i as usize].bounds().center();
     let centers = Bounds3::from_points(items.iter().map(|&i| center(i)));
-    let all = items.iter().fold(Bounds3::EMPTY, |b, &i| b.union(emitters[i as usize].bounds));
+    let all = items.iter().fold(Bounds3::EMPTY, |b, &i| b.union(emitters[i as usize].bounds()));
     let extent = centers.extent();
     let bucket_of = |i: u32, axis: usize| {
         let at = (center(i)[axis] - centers.min[axis]) / extent[axis];
@@ -190,7 +210,7 @@ fn partition(emitters: &[LightBounds], items: &mut [u32]) -> Option<usize> {
         if extent[axis] <= 0.0 {
             continue;
         }
-        let mut buckets: [Option<LightBounds>; BUCKETS] = [None; BUCKETS];
+        let mut buckets: [Option<E>; BUCKETS] = [None; BUCKETS];
         for &i in items.iter() {
             let bucket = &mut buckets[bucket_of(i, axis)];
             *bucket = Some(bucket.map_or(emitters[i as usize], |b| b.union(&emitters[i as usize])));
@@ -213,14 +233,14 @@ fn partition(emitters: &[LightBounds], items: &mut [u32]) -> Option<usize> {
     Some(first.len())
 }
 
-fn united(buckets: &[Option<LightBounds>]) -> Option<LightBounds> {
+fn united<E: Emitters>(buckets: &[Option<E>]) -> Option<E> {
     buckets.iter().flatten().copied().reduce(|a, b| a.union(&b))
 }
 
 /// Power × orientation × surface area.
-fn side_cost(side: &LightBounds) -> f32 {
-    let e = side.bounds.extent();
-    side.power * side.orientation_measure() * (e.x * e.y + e.y * e.z + e.z * e.x)
+fn side_cost<E: Emitters>(side: &E) -> f32 {
+    let e = side.bounds().extent();
+    side.power() * side.orientation_measure() * (e.x * e.y + e.y * e.z + e.z * e.x)
 }
 
 #[cfg(test)]
