@@ -184,7 +184,7 @@ impl<'a, 's> Integrator<'a, 's> {
 
             // Sample a light and add its contribution. The sun's light on a glossy surface could have been found as a glint as well.
             let by_glints = segment.sampled.as_ref().filter(|_| !segment.straight);
-            let sun = self.scene.lights.glint_weight(&self.guide.choice, by_glints, &vertex.surface);
+            let sun = self.scene.lights.glint_weight(self.scene, &self.guide.choice, by_glints, &vertex.surface);
             if let Some(Direct { weight, light, kind, scattered, .. }) = self.sample_lights(&vertex, bounce, sampler, segment.medium) {
                 let part = if kind == LightKind::Distant && !scattered { sun } else { 1.0 };
                 radiance.add(kind, throughput * weight.total(reflectance) * light * part, false);

@@ -31,8 +31,9 @@ pub(crate) struct Surface<'s> {
     footprint: Footprint,
     /// True when `wo` is on the side that outward normals point to.
     pub outside: bool,
-    /// Number of the triangle.
+    /// Number of the triangle, and the weights of its corners.
     pub triangle: u32,
+    pub weights: [f32; 3],
     /// The material.
     pub material: &'s Material,
     material_index: usize,
@@ -75,6 +76,7 @@ impl<'s> RenderScene<'s> {
             footprint,
             outside,
             triangle: hit.triangle,
+            weights,
             material,
             material_index,
         }

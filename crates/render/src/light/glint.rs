@@ -24,8 +24,13 @@ use std::f32::consts::PI;
 
 /// A glossy reflection this many times as bright at its peak as a white diffuse one is a glint.
 const MIN_PEAK: f32 = 2.0;
-/// Rays that look for the sun from a triangle.
-const RAYS: u32 = 8;
+/// Triangles are halved until no edge is longer, in metres, but no more often than this.
+const PIECE: f32 = 0.1;
+const MAX_DEPTH: u32 = 10;
+/// Rays that look for the sun from a piece, and the steps between them: powers of the inverse plastic number cover a square evenly (Roberts
+/// 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
+const RAYS: u32 = 4;
+const STEPS: [f32; 2] = [0.754_877_7, 0.569_840_3];
 /// The most triangles that are looked at; scenes with more have no glints.
 const MAX_TRIANGLES: usize = 1 << 22;
 /// The most clusters of glints, and the size below which none is divided, as a fraction of the diagonal around all.
@@ -35,13 +40,26 @@ const SMALLEST_CLUSTER: f32 = 0.05;
 /// The sunlit glossy triangles of a scene. The default has none.
 #[derive(Debug, Default)]
 pub(super) struct Glints {
-    /// In ascending order; their places are the numbers of the emitters.
-    triangles: Vec<u32>,
-    areas: Vec<f32>,
+    /// In the order of their numbers.
+    triangles: Vec<Glinting>,
+    /// Triangle of each emitter: its place in `triangles`.
+    of_emitter: Vec<u32>,
     tree: LightTree<GlintBounds>,
     /// Nodes of the tree that are clusters.
     clusters: Vec<u32>,
     cluster_of_emitter: Vec<u32>,
+}
+
+/// A triangle whose pieces are emitters.
+#[derive(Clone, Copy, Debug)]
+struct Glinting {
+    number: u32,
+    /// Number of its first emitter; one for each piece follows.
+    first: u32,
+    /// How often it is halved.
+    depth: u32,
+    /// Of a piece, square metres.
+    area: f32,
 }
 
 /// What a node of the hierarchy knows of the glints below it: sums, each weighted by power, from which the mean lobe follows.
@@ -137,18 +155,22 @@ impl Glints {
         let eligible: Vec<bool> = (scene.scene.materials.iter())
             .map(|m| m.alpha == Alpha::Opaque && !m.bsdf.transmits() && m.emission.factor.is_black())
             .collect();
-        let found: Vec<(u32, f32, GlintBounds)> = (0..count as u32)
+        let found: Vec<(Glinting, Vec<GlintBounds>)> = (0..count as u32)
             .into_par_iter()
             .filter(|&number| eligible[scene.triangles.material(number) as usize])
-            .filter_map(|number| glint(scene, number, -*direction, irradiance.luminance()).map(|(area, bounds)| (number, area, bounds)))
+            .filter_map(|number| glinting(scene, number, -*direction, irradiance.luminance()))
             .collect();
-        let emitters: Vec<GlintBounds> = found.iter().map(|(.., bounds)| *bounds).collect();
+        let (mut triangles, mut of_emitter, mut emitters) = (Vec::new(), Vec::new(), Vec::new());
+        for (place, (triangle, mut pieces)) in found.into_iter().enumerate() {
+            triangles.push(Glinting { first: emitters.len() as u32, ..triangle });
+            of_emitter.extend(pieces.iter().map(|_| place as u32));
+            emitters.append(&mut pieces);
+        }
         let tree = LightTree::new(&emitters);
         let diagonal = emitters.iter().fold(Bounds3::EMPTY, |all, one| all.union(one.bounds)).extent().length();
         let clusters = tree.cut(MAX_CLUSTERS, SMALLEST_CLUSTER * diagonal);
         let cluster_of_emitter = tree.cluster_of_emitter(&clusters);
-        let (triangles, areas) = found.iter().map(|(number, area, _)| (*number, *area)).unzip();
-        Self { triangles, areas, tree, clusters, cluster_of_emitter }
+        Self { triangles, of_emitter, tree, clusters, cluster_of_emitter }
     }
 
     /// Number of clusters.
@@ -165,38 +187,38 @@ impl Glints {
     /// Samples a place of a cluster that is seen from `at`. Its light is still to be found: [`Lights::radiance_of`].
     pub fn sample(&self, scene: &RenderScene<'_>, cluster: usize, at: &LightPoint, u: [f32; 3]) -> Option<LightSample> {
         let (emitter, pmf, u_left) = self.tree.sample(self.clusters[cluster], at, u[2])?;
-        let (number, area) = (self.triangles[emitter as usize], self.areas[emitter as usize]);
-        let place = warp::triangle([u[0], u[1]]);
+        let Glinting { number, first, depth, area } = self.triangles[self.of_emitter[emitter as usize] as usize];
         let triangle = scene.triangles.get(number);
-        let to = triangle.position([1.0 - place.x - place.y, place.x, place.y]) - at.p;
+        let place = place_in(&piece(&triangle.corners, emitter - first, depth), [u[0], u[1]]);
+        let to = triangle.position(place.to_array()) - at.p;
         let (distance, wi) = (to.length(), to.try_normalize()?);
-        let hit = Hit { t: distance, triangle: number, u: place.x, v: place.y };
+        let hit = Hit { t: distance, triangle: number, u: place.y, v: place.z };
         let cosine = triangle.winding.dot(wi);
         let target = offset_origin(at.p + to, if cosine > 0.0 { -triangle.winding } else { triangle.winding });
         let pdf = pmf * distance * distance / (area * cosine.abs());
         pdf.is_finite().then_some(LightSample { wi, target: Some(target), radiance: None, pdf, is_delta: false, glint: Some(Glint { hit, u: u_left }) })
     }
 
-    /// Density per solid angle with which [`Glints::sample`] at `from` finds the place `p` of a triangle in the unit direction `wi`, and the
-    /// cluster there, given that.
-    fn pdf(&self, from: &LightPoint, wi: Vec3, triangle: u32, p: Vec3, ng: Vec3) -> Option<(usize, f32)> {
-        let emitter = self.triangles.binary_search(&triangle).ok()?;
-        let cluster = self.cluster_of_emitter[emitter] as usize;
-        let node = *self.clusters.get(cluster)?;
-        let pmf = self.tree.pmf(node, from, emitter as u32);
-        Some((cluster, pmf * from.p.distance_squared(p) / (self.areas[emitter] * ng.dot(wi).abs())))
+    /// The cluster of a surface, and the density per solid angle with which [`Glints::sample`] at `from` finds it, given that cluster.
+    fn pdf(&self, scene: &RenderScene<'_>, from: &LightPoint, surface: &Surface<'_>) -> Option<(usize, f32)> {
+        let place = self.triangles.binary_search_by_key(&surface.triangle, |triangle| triangle.number).ok()?;
+        let Glinting { first, depth, area, .. } = self.triangles[place];
+        let emitter = first + if depth == 0 { 0 } else { piece_at(&scene.triangles.get(surface.triangle).corners, surface.weights, depth) };
+        let cluster = self.cluster_of_emitter[emitter as usize] as usize;
+        let pmf = self.tree.pmf(*self.clusters.get(cluster)?, from, emitter);
+        Some((cluster, pmf * from.p.distance_squared(surface.p) / (area * surface.ng.dot(surface.wo).abs())))
     }
 }
 
 impl Lights<'_> {
     /// Weight by the power heuristic of the sun's light that `surface` reflects, where a direction sampled with some density met it: the
     /// rest is left to glints. `sampled` as in [`Lights::background_weighted`].
-    pub fn glint_weight(&self, choice: &super::LightChoice, sampled: Option<&(LightPoint, f32)>, surface: &Surface<'_>) -> f32 {
+    pub fn glint_weight(&self, scene: &RenderScene<'_>, choice: &super::LightChoice, sampled: Option<&(LightPoint, f32)>, surface: &Surface<'_>) -> f32 {
         if self.glints.len() == 0 {
             return 1.0;
         }
         let Some((from, pdf)) = sampled else { return 1.0 };
-        let Some((cluster, found)) = self.glints.pdf(from, -surface.wo, surface.triangle, surface.p, surface.ng) else { return 1.0 };
+        let Some((cluster, found)) = self.glints.pdf(scene, from, surface) else { return 1.0 };
         power_heuristic(*pdf, choice.row(from).probability(self.first_glint() + cluster) * found)
     }
 
@@ -219,20 +241,20 @@ impl Lights<'_> {
     }
 }
 
-/// What a triangle is as a glint, and its area; `None` where it is none: not glossy, turned away from the sun, or in shadow.
-fn glint(scene: &RenderScene<'_>, number: u32, to_sun: Vec3, irradiance: f32) -> Option<(f32, GlintBounds)> {
+/// What the pieces of a triangle are as glints; `None` where it is none: not glossy, turned away from the sun, or in shadow.
+fn glinting(scene: &RenderScene<'_>, number: u32, to_sun: Vec3, irradiance: f32) -> Option<(Glinting, Vec<GlintBounds>)> {
     let triangle = scene.triangles.get(number);
     let area = 0.5 * triangle.cross().length();
     let normal = triangle.normals.iter().sum::<Vec3>().try_normalize()?;
-    let material = &scene.scene.materials[triangle.material as usize];
-    let normal = if material.two_sided && normal.dot(to_sun) < 0.0 { -normal } else { normal };
-    if area <= 0.0 || triangle.normals.iter().all(|n| n.dot(to_sun) * n.dot(normal) <= 0.0) {
+    let two_sided = scene.scene.materials[triangle.material as usize].two_sided;
+    let sign = if two_sided && normal.dot(to_sun) < 0.0 { -1.0 } else { 1.0 };
+    if area <= 0.0 || triangle.normals.iter().all(|n| n.dot(to_sun) * sign <= 0.0) {
         return None;
     }
 
     // The reflection straight back tells roughness and reflectance, whatever the model: its value is F·D/4, and D is 1/(π·α²).
-    let surface = scene.surface(&Hit { t: 0.0, triangle: number, u: 1.0 / 3.0, v: 1.0 / 3.0 }, -normal, &Cone::POINT);
-    let bsdf = surface.bsdf(scene);
+    let middle = Hit { t: 0.0, triangle: number, u: 1.0 / 3.0, v: 1.0 / 3.0 };
+    let bsdf = scene.surface(&middle, normal * -sign, &Cone::POINT).bsdf(scene);
     let albedo = bsdf.albedo(1.0);
     let reflectance = (albedo.glossy + albedo.sharp).luminance();
     let peak = bsdf.eval_pdf(Vec3::Z, Vec3::Z).0.specular.luminance();
@@ -241,20 +263,85 @@ fn glint(scene: &RenderScene<'_>, number: u32, to_sun: Vec3, irradiance: f32) ->
     }
     let alpha_2 = (reflectance / (4.0 * PI * peak)).min(1.0);
 
-    let power = irradiance * area * reflectance * sunlit(scene, &triangle, to_sun);
-    let grazing = power * (1.0 / reflectance - 1.0).max(0.0);
-    let bounds = Bounds3::from_points(triangle.corners);
-    (power > 0.0).then_some((area, GlintBounds { bounds, power, grazing, normals: normal * power, alpha_2: alpha_2 * power, to_sun }))
+    let depth = depth(&triangle.corners);
+    let area = area / (1u32 << depth) as f32;
+    let piece = |index: u32| {
+        let corners = piece(&triangle.corners, index, depth);
+        let power = irradiance * area * reflectance * sunlit(scene, &triangle, &corners, to_sun);
+        let normal = |corner: &Vec3| (triangle.normals.iter().zip(corner.to_array()).map(|(n, w)| *n * w).sum::<Vec3>()).normalize_or(normal);
+        GlintBounds {
+            bounds: Bounds3::from_points(corners.iter().map(|corner| triangle.position(corner.to_array()))),
+            power,
+            grazing: power * (1.0 / reflectance - 1.0).max(0.0),
+            normals: corners.iter().map(normal).sum::<Vec3>() * (sign * power / 3.0),
+            alpha_2: alpha_2 * power,
+            to_sun,
+        }
+    };
+    let pieces: Vec<GlintBounds> = (0..1 << depth).map(piece).collect();
+    pieces.iter().any(|piece| piece.power > 0.0).then_some((Glinting { number, first: 0, depth, area }, pieces))
 }
 
-/// The fraction of some places of a triangle that the sun reaches.
-fn sunlit(scene: &RenderScene<'_>, triangle: &Triangle, to_sun: Vec3) -> f32 {
+/// How often a triangle is halved so that no piece is larger than [`PIECE`].
+fn depth(corners: &[Vec3; 3]) -> u32 {
+    let is_small = |depth: &u32| {
+        let piece = piece(corners, 0, *depth).map(|w| corners[0] * w.x + corners[1] * w.y + corners[2] * w.z);
+        (0..3).all(|i| piece[i].distance(piece[(i + 1) % 3]) <= PIECE)
+    };
+    (0..MAX_DEPTH).find(is_small).unwrap_or(MAX_DEPTH)
+}
+
+/// The corners of a piece as weights of the triangle's `corners`. Each halving cuts the longest edge in its middle, and the bits of `index`,
+/// the highest first, say which half: the one with the edge's first corner, or with its second.
+fn piece(corners: &[Vec3; 3], index: u32, depth: u32) -> [Vec3; 3] {
+    let mut piece = [Vec3::X, Vec3::Y, Vec3::Z];
+    for level in (0..depth).rev() {
+        let (a, b) = longest_edge(corners, &piece);
+        let second = index >> level & 1 == 1;
+        piece[if second { a } else { b }] = 0.5 * (piece[a] + piece[b]);
+    }
+    piece
+}
+
+/// The piece that the place with these `weights` lies in.
+fn piece_at(corners: &[Vec3; 3], mut weights: [f32; 3], depth: u32) -> u32 {
+    let (mut piece, mut index) = ([Vec3::X, Vec3::Y, Vec3::Z], 0);
+    for _ in 0..depth {
+        let (a, b) = longest_edge(corners, &piece);
+        let second = weights[b] > weights[a];
+        let (kept, moved) = if second { (b, a) } else { (a, b) };
+        weights[kept] -= weights[moved];
+        weights[moved] *= 2.0;
+        piece[moved] = 0.5 * (piece[a] + piece[b]);
+        index = 2 * index + u32::from(second);
+    }
+    index
+}
+
+fn longest_edge(corners: &[Vec3; 3], piece: &[Vec3; 3]) -> (usize, usize) {
+    let [a, b, c] = piece.map(|w| corners[0] * w.x + corners[1] * w.y + corners[2] * w.z);
+    let (ab, bc, ca) = (a.distance_squared(b), b.distance_squared(c), c.distance_squared(a));
+    if ab >= bc && ab >= ca {
+        (0, 1)
+    } else if bc >= ca {
+        (1, 2)
+    } else {
+        (2, 0)
+    }
+}
+
+/// A place of a piece, uniform for `u` uniform on [0,1)², as weights of the triangle's corners.
+fn place_in(piece: &[Vec3; 3], u: [f32; 2]) -> Vec3 {
+    let place = warp::triangle(u);
+    piece[0] * (1.0 - place.x - place.y) + piece[1] * place.x + piece[2] * place.y
+}
+
+/// The fraction of some places of a piece that the sun reaches.
+fn sunlit(scene: &RenderScene<'_>, triangle: &Triangle, piece: &[Vec3; 3], to_sun: Vec3) -> f32 {
     let side = if triangle.winding.dot(to_sun) < 0.0 { -triangle.winding } else { triangle.winding };
-    // The golden ratio's and the plastic number's sequence covers the square evenly (Roberts 2018).
-    let place = |k: u32| [0.754_877_7, 0.569_840_3].map(|step: f32| (0.5 + step * k as f32).fract());
     let lit = (0..RAYS).filter(|&k| {
-        let place = warp::triangle(place(k));
-        let p = triangle.position([1.0 - place.x - place.y, place.x, place.y]);
+        let u = STEPS.map(|step| (0.5 + step * k as f32).fract());
+        let p = triangle.position(place_in(piece, u).to_array());
         let ray = Ray::new(offset_origin(p, side) + side * triangle.slack, to_sun);
         !scene.transmittance(&ray).is_black()
     });
