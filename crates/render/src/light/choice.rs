@@ -25,6 +25,9 @@ const NEIGHBOUR: f32 = 0.15;
 const PRIOR_FRACTION: f32 = 0.12;
 const FEW_TRIALS: f32 = 4.0;
 
+/// The root mean square of a glint's contributions, as a multiple of the mean: they are small but for a few places.
+const GLINT_GAIN: f32 = 4.0;
+
 /// Probabilities of the sources over a grid of cells.
 #[derive(Debug)]
 pub(crate) struct LightChoice {
@@ -139,6 +142,7 @@ impl LightChoice {
             .map(|(source, statistics)| match lights.source(source) {
                 // Portals find the brightest of the sky's light as well, so its variance counts for little.
                 Source::Sky if self.windows.is_some() => statistics.mean(),
+                Source::Glint(_) => GLINT_GAIN * statistics.mean(),
                 _ => statistics.root_mean_square(),
             })
             .collect();

@@ -33,6 +33,8 @@ const RAYS: u32 = 4;
 const STEPS: [f32; 2] = [0.754_877_7, 0.569_840_3];
 /// The most triangles that are looked at; scenes with more have no glints.
 const MAX_TRIANGLES: usize = 1 << 22;
+/// The half vector's squared length, of two at most, is taken for at least this much: along a grazing ray it may point anywhere.
+const MIN_HALF: f32 = 0.01;
 /// The most clusters of glints, and the size below which none is divided, as a fraction of the diagonal around all.
 const MAX_CLUSTERS: usize = 8;
 const SMALLEST_CLUSTER: f32 = 0.05;
@@ -62,7 +64,7 @@ struct Glinting {
     area: f32,
 }
 
-/// What a node of the hierarchy knows of the glints below it: sums, each weighted by power, from which the mean lobe follows.
+/// What a node of the hierarchy knows of the glints below it; means are weighted by power.
 #[derive(Clone, Copy, Debug)]
 struct GlintBounds {
     bounds: Bounds3,
@@ -70,9 +72,11 @@ struct GlintBounds {
     power: f32,
     /// The same for what the reflectance lacks to one: it is reached at grazing angles.
     grazing: f32,
-    /// Of unit normals.
-    normals: Vec3,
-    /// Of squared GGX roughness.
+    /// Direction of the mean normal; unit.
+    axis: Vec3,
+    /// Length of the mean normal: below one where normals differ.
+    mean_length: f32,
+    /// Mean of the squared GGX roughness.
     alpha_2: f32,
     /// Unit vector to the sun.
     to_sun: Vec3,
@@ -88,12 +92,16 @@ impl Emitters for GlintBounds {
     }
 
     fn union(&self, other: &Self) -> Self {
+        let power = self.power + other.power;
+        let part = other.power / power;
+        let normal = (self.axis * self.mean_length).lerp(other.axis * other.mean_length, part);
         Self {
             bounds: self.bounds.union(other.bounds),
-            power: self.power + other.power,
+            power,
             grazing: self.grazing + other.grazing,
-            normals: self.normals + other.normals,
-            alpha_2: self.alpha_2 + other.alpha_2,
+            axis: normal.normalize_or(self.axis),
+            mean_length: normal.length(),
+            alpha_2: self.alpha_2 + (other.alpha_2 - self.alpha_2) * part,
             to_sun: self.to_sun,
         }
     }
@@ -105,20 +113,18 @@ impl Emitters for GlintBounds {
         let to = self.bounds.center() - at.p;
         let radius_2 = 0.25 * self.bounds.extent().length_squared();
         let distance_2 = to.length_squared().max(radius_2);
-        let wi = to.normalize_or(self.to_sun);
+        let nearness = 1.0 / distance_2;
+        let wi = to * nearness.sqrt();
+        // Twice as long as the cosine between the half vector and either direction.
         let half = self.to_sun - wi;
-        // Twice the cosine between the half vector and either direction.
-        let twice_cos = half.length();
-        let half = half / twice_cos.max(f32::MIN_POSITIVE);
-        let box_spread = radius_2 / (3.0 * distance_2 * (twice_cos * twice_cos).max(0.01));
-        let width = self.spread() + box_spread;
-        let cos = half.dot(self.normals) / self.normals.length().max(f32::MIN_POSITIVE);
-        let lobe = ggx(if cos > 0.0 { cos * cos } else { 0.0 }, width.min(1.0));
-        let schlick = (1.0 - 0.5 * twice_cos).max(0.0).powi(5);
-        let mut importance = 0.25 * (self.power + self.grazing * schlick) * lobe / distance_2;
+        let square = half.length_squared().max(MIN_HALF);
+        let cos = half.dot(self.axis).max(0.0);
+        let width = self.spread() + radius_2 * nearness / (3.0 * square);
+        let lobe = ggx((cos * cos / square).min(1.0), width.min(1.0));
+        let schlick = (1.0 - 0.5 * square.sqrt()).max(0.0).powi(5);
+        let mut importance = 0.25 * (self.power + self.grazing * schlick) * lobe * nearness;
         if at.n != Vec3::ZERO {
-            let slack = (radius_2 / distance_2).sqrt();
-            importance *= (at.n.dot(wi) + slack).clamp(0.0, 1.0);
+            importance *= (at.n.dot(wi) + (radius_2 * nearness).sqrt()).clamp(0.0, 1.0);
         }
         importance
     }
@@ -132,8 +138,7 @@ impl GlintBounds {
     /// Variance of the half vector about the mean normal: of the lobes, and of the normals about their mean.
     #[inline]
     fn spread(&self) -> f32 {
-        let scale = 1.0 / self.power;
-        self.alpha_2 * scale + 2.0 * (1.0 - self.normals.length() * scale).max(0.0)
+        self.alpha_2 + 2.0 * (1.0 - self.mean_length).max(0.0)
     }
 }
 
@@ -269,12 +274,14 @@ fn glinting(scene: &RenderScene<'_>, number: u32, to_sun: Vec3, irradiance: f32)
         let corners = piece(&triangle.corners, index, depth);
         let power = irradiance * area * reflectance * sunlit(scene, &triangle, &corners, to_sun);
         let normal = |corner: &Vec3| (triangle.normals.iter().zip(corner.to_array()).map(|(n, w)| *n * w).sum::<Vec3>()).normalize_or(normal);
+        let mean = corners.iter().map(normal).sum::<Vec3>() / 3.0;
         GlintBounds {
             bounds: Bounds3::from_points(corners.iter().map(|corner| triangle.position(corner.to_array()))),
             power,
             grazing: power * (1.0 / reflectance - 1.0).max(0.0),
-            normals: corners.iter().map(normal).sum::<Vec3>() * (sign * power / 3.0),
-            alpha_2: alpha_2 * power,
+            axis: mean.normalize_or(normal(&corners[0])) * sign,
+            mean_length: mean.length(),
+            alpha_2,
             to_sun,
         }
     };
@@ -346,4 +353,99 @@ fn sunlit(scene: &RenderScene<'_>, triangle: &Triangle, piece: &[Vec3; 3], to_su
         !scene.transmittance(&ray).is_black()
     });
     lit.count() as f32 / RAYS as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_geometry::Mesh;
+    use enfilade_math::{DAffine3, Onb, Rng};
+    use enfilade_scene::{Bsdf, Material, Part, Quiet, Scene};
+    use enfilade_testkit::Mean;
+
+    /// A polished bowl of metal that is open towards +z, in coarse triangles with smooth normals, under a sun with a wide disk.
+    fn bowl() -> Scene {
+        let (rings, columns) = (6, 12);
+        let point = |ring: u32, column: u32| {
+            let (tilt, turn) = (1.4 * ring as f32 / rings as f32, std::f32::consts::TAU * column as f32 / columns as f32);
+            Vec3::new(tilt.sin() * turn.cos(), tilt.sin() * turn.sin(), 0.0 - tilt.cos())
+        };
+        let positions: Vec<Vec3> = (0..=rings).flat_map(|ring| (0..columns).map(move |column| point(ring, column))).collect();
+        let square = |ring: u32, column: u32| {
+            let [a, b] = [column, (column + 1) % columns].map(|column| ring * columns + column);
+            [[a, b, b + columns], [a, b + columns, a + columns]]
+        };
+        let triangles = (0..rings).flat_map(|ring| (0..columns).flat_map(move |column| square(ring, column))).collect();
+        let mesh = Mesh { normals: positions.iter().map(|p| -*p).collect(), positions, triangles, ..Mesh::default() };
+        let metal = Bsdf::Conductor { eta: Rgb::splat(0.2), k: Rgb::splat(3.0), alpha: 0.15.into(), tint: Rgb::WHITE.into() };
+        let direction = Vec3::new(0.3, 0.1, -1.0).normalize();
+        Scene {
+            parts: vec![Part { name: "bowl".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+            meshes: vec![mesh],
+            materials: vec![Material::new("metal", metal)],
+            lights: vec![Light::Directional { name: "sun".into(), direction, irradiance: Rgb::splat(3.0), angular_radius_rad: 0.1 }],
+            ..Scene::default()
+        }
+    }
+
+    #[test]
+    fn glints_give_the_light_that_all_directions_find() {
+        let scene = bowl();
+        let prepared = RenderScene::new(&scene, &Quiet).unwrap();
+        let (lights, glints) = (&prepared.lights, &prepared.lights.glints);
+        assert!(glints.len() > 1 && glints.triangles.iter().any(|triangle| triangle.depth > 2));
+        let mut rng = Rng::new(4);
+        for p in [Vec3::new(0.1, 0.0, -0.3), Vec3::new(-0.2, 0.4, 0.1)] {
+            let at = LightPoint { p, n: Vec3::NEG_Z };
+            let mut random = || [rng.next_f32(), rng.next_f32(), rng.next_f32()];
+            let by_glints = Mean::of((0..100_000).map(|k| {
+                let Some(sample) = glints.sample(&prepared, k % glints.len(), &at, random()) else { return 0.0 };
+                let covered = prepared.is_covered(&crate::surface::shadow_ray(p, sample.wi, sample.target));
+                let light = lights.radiance_of(&prepared, &sample, &Cone::POINT, random()[0]).luminance() * sample.wi.dot(at.n).max(0.0);
+                if covered { 0.0 } else { f64::from(light * glints.len() as f32 / sample.pdf) }
+            }));
+            let by_directions = Mean::of((0..400_000).map(|_| {
+                let u = random();
+                let wi = Onb::from_z(at.n).to_world(warp::cosine_hemisphere([u[0], u[1]]));
+                let Some(hit) = prepared.closest(&Ray::new(p, wi), crate::prepared::AlphaTest::Half) else { return 0.0 };
+                let u = random();
+                f64::from(lights.reflected_sun(&prepared, &hit, wi, &Cone::POINT, [u[0], u[1]]).luminance() * PI)
+            }));
+            let (off, error) = (by_glints.value() - by_directions.value(), by_glints.standard_error().hypot(by_directions.standard_error()));
+            assert!(error < 0.03 * by_directions.value(), "{error} of {}", by_directions.value());
+            assert!(off.abs() < 4.0 * error, "{} by glints, {} by directions", by_glints.value(), by_directions.value());
+        }
+    }
+
+    #[test]
+    fn the_density_of_a_place_is_the_one_that_it_is_sampled_with() {
+        let scene = bowl();
+        let prepared = RenderScene::new(&scene, &Quiet).unwrap();
+        let glints = &prepared.lights.glints;
+        let at = LightPoint { p: Vec3::new(0.1, 0.0, -0.3), n: Vec3::ZERO };
+        let mut rng = Rng::new(4);
+        for k in 0..2000 {
+            let sample = glints.sample(&prepared, k % glints.len(), &at, [rng.next_f32(), rng.next_f32(), rng.next_f32()]).unwrap();
+            let hit = sample.glint.unwrap().hit;
+            let (cluster, pdf) = glints.pdf(&prepared, &at, &prepared.surface(&hit, sample.wi, &Cone::POINT)).unwrap();
+            assert_eq!(cluster, k % glints.len());
+            assert!((pdf / sample.pdf - 1.0).abs() < 1e-3, "{pdf} and {}", sample.pdf);
+        }
+    }
+
+    #[test]
+    fn a_triangle_falls_into_equal_pieces_and_each_place_into_its_own() {
+        let corners = [Vec3::ZERO, Vec3::new(2.0, 0.1, 0.0), Vec3::new(1.9, 0.3, 0.5)];
+        let depth = depth(&corners);
+        assert!((5..MAX_DEPTH).contains(&depth), "{depth}");
+        let area = |[a, b, c]: [Vec3; 3]| 0.5 * (b - a).cross(c - a).length();
+        let mut rng = Rng::new(6);
+        for index in 0..1 << depth {
+            let piece = piece(&corners, index, depth);
+            let world = piece.map(|w| corners[0] * w.x + corners[1] * w.y + corners[2] * w.z);
+            assert!((area(world) * (1u32 << depth) as f32 / area(corners) - 1.0).abs() < 1e-3);
+            let place = place_in(&piece, [rng.next_f32(), rng.next_f32()]);
+            assert_eq!(piece_at(&corners, place.to_array(), depth), index);
+        }
+    }
 }

@@ -115,6 +115,10 @@ fn contribution(
     if arriving.is_black() {
         return 0.0;
     }
+    // A glint is too seldom met at its brightest for a few trials to tell how bright it is. They tell how much of it is in sight.
+    if light.glint.is_some() {
+        return lights.prior(source, windows, at);
+    }
     (lights.radiance_of(scene, &light, &Cone::POINT, u[0]) * arriving).luminance() * cos / light.pdf
 }
 

@@ -5,6 +5,8 @@
 //! chooses from, which has learned where the light of each arrives. Within a cluster the hierarchy chooses by distance, power and
 //! orientation.
 //!
+//! Glossy surfaces that the sun reaches are sources as well ([`glint`]), in a hierarchy of their own.
+//!
 //! A point light is one without a surface: point, spot and profile lights. A distant light is directional, and may have a disk.
 
 mod bounds;
