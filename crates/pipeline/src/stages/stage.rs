@@ -43,7 +43,7 @@ impl Stage {
             Self::Carve => 4,
             Self::Plan => 6,
             Self::Gate => 1,
-            Self::Render => 13,
+            Self::Render => 14,
             Self::Denoise => 3,
             Self::Label => 2,
             Self::Boxes => 1,

@@ -134,7 +134,8 @@ impl Lights<'_> {
         let mut sum = Rgb::BLACK;
         let mut random = || [rng.next_f32(), rng.next_f32(), rng.next_f32()];
         let mut add = |light: &LightSample, pdf: f32| {
-            let arriving = self.radiance_of(scene, light, &Cone::POINT, 0.5) * scene.transmittance(&surface::shadow_ray(origin, light.wi, light.target));
+            let arriving = self.radiance_of(scene, light, &Cone::POINT, 0.5)
+                * scene.transmittance(&surface::shadow_ray(origin, light.wi, light.target));
             let value = arriving * (light.wi.dot(n) * INV_PI / pdf);
             if value.luminance().is_finite() {
                 sum += value;

@@ -4,11 +4,9 @@ use super::delta;
 use super::emissive_surfaces::EmissiveSurfaces;
 use super::environment::Sky;
 use super::glint::Glints;
-use super::sample::{Background, LightPoint, LightSample};
+use super::sample::{Background, LightPoint};
 use super::tree::LightTree;
 use super::window::Windows;
-use crate::prepared::RenderScene;
-use crate::texture::Cone;
 use crate::triangles::Triangles;
 use enfilade_math::{Distribution1, Rgb, Vec3};
 use enfilade_scene::{Light, Scene};
@@ -134,23 +132,8 @@ impl<'s> Lights<'s> {
     }
 
     /// Radiance of the environment in the unit direction `d`.
-    fn sky(&self, d: Vec3) -> Rgb {
+    pub(super) fn sky(&self, d: Vec3) -> Rgb {
         self.sky.as_ref().map_or(Rgb::BLACK, |sky| sky.radiance(d))
-    }
-
-    /// Finds what light there is beyond the scene's own: reflections of the sun.
-    pub fn find_glints(scene: &mut RenderScene<'_>) {
-        scene.lights.glints = Glints::find(scene);
-    }
-
-    /// The radiance of a sample, in a ray of the width of `cone` at the point that it was sampled from; `u` is uniform on [0,1).
-    #[inline]
-    pub fn radiance_of(&self, scene: &RenderScene<'_>, sample: &LightSample, cone: &Cone, u: f32) -> Rgb {
-        match (&sample.glint, sample.radiance) {
-            (Some(glint), _) => self.reflected_sun(scene, &glint.hit, sample.wi, cone, [u, glint.u]),
-            (None, Some(radiance)) => radiance,
-            (None, None) => self.sky(sample.wi),
-        }
     }
 
     /// Radiance from beyond the scene in the unit direction `d`.

@@ -21,6 +21,7 @@ mod lights;
 mod sample;
 mod sampling;
 mod spherical;
+mod sunlit;
 #[cfg(test)]
 mod tests;
 mod tree;

@@ -313,7 +313,7 @@ mod tests {
         for (e, emitter) in emitters.iter().enumerate() {
             assert_eq!(clusters[e] == u32::MAX, emitter.power == 0.0);
         }
-        assert!(LightTree::new(&[]).cut(8, 0.0).is_empty());
+        assert!(LightTree::<LightBounds>::new(&[]).cut(8, 0.0).is_empty());
     }
 
     #[test]
