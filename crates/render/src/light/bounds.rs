@@ -4,12 +4,25 @@
 //! power. The importance never is zero where light could arrive: every angle is taken at its most favourable within the box.
 
 use super::sample::LightPoint;
-use super::tree::Emitters;
 use enfilade_math::{Bounds3, Quat, Vec3};
 use std::f32::consts::{FRAC_PI_2, PI};
 
 /// Cosine of the emission angle of cones, whose emission is straight ahead: zero but for rounding.
 const STRAIGHT_AHEAD: f32 = 0.99;
+
+/// What a node knows of the emitters below it.
+pub(super) trait Emitters: Copy {
+    /// The box around them.
+    fn bounds(&self) -> Bounds3;
+    /// What they emit in all; those without are never drawn.
+    fn power(&self) -> f32;
+    /// Both together.
+    fn union(&self, other: &Self) -> Self;
+    /// About the light that they send to a point if nothing is in the way.
+    fn importance(&self, at: &LightPoint) -> f32;
+    /// The measure of the directions that they emit to.
+    fn orientation_measure(&self) -> f32;
+}
 
 /// Box, cone and power of one emitter or of many.
 #[derive(Clone, Copy, Debug)]

@@ -9,8 +9,9 @@
 //! What is not found here — other surfaces, other lights, places seen through panes — is left to sampled directions alone. This file has the
 //! hierarchy of the glints; [`super::sunlit`] finds and samples them.
 
+use super::bounds::Emitters;
 use super::sample::LightPoint;
-use super::tree::{Emitters, LightTree};
+use super::tree::LightTree;
 use enfilade_math::{Bounds3, Vec3, warp};
 use std::f32::consts::PI;
 

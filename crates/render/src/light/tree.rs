@@ -4,7 +4,7 @@
 //! area–orientation heuristic and traversed with one random number, at each node towards the more important child. The upper
 //! end of the tree is a *cut*: clusters, among which [`super::LightChoice`] chooses by what it has learned.
 
-use super::bounds::LightBounds;
+use super::bounds::{Emitters, LightBounds};
 use super::sample::LightPoint;
 use enfilade_math::{Bounds3, ONE_MINUS_EPSILON};
 
@@ -12,20 +12,6 @@ use enfilade_math::{Bounds3, ONE_MINUS_EPSILON};
 const BUCKETS: usize = 12;
 /// Deeper down, nodes are halved by count, so that no arrangement of emitters makes the tree deep.
 const MAX_DEPTH_BY_COST: u32 = 48;
-
-/// What a node knows of the emitters below it.
-pub(super) trait Emitters: Copy {
-    /// The box around them.
-    fn bounds(&self) -> Bounds3;
-    /// What they emit in all; those without are never drawn.
-    fn power(&self) -> f32;
-    /// Both together.
-    fn union(&self, other: &Self) -> Self;
-    /// About the light that they send to a point if nothing is in the way.
-    fn importance(&self, at: &LightPoint) -> f32;
-    /// The measure of the directions that they emit to.
-    fn orientation_measure(&self) -> f32;
-}
 
 /// A tree with one emitter a leaf.
 #[derive(Debug)]
