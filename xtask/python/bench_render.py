@@ -33,11 +33,13 @@ def main():
         for size, counts in command.sizes(job, name == LARGE_CASE):
             rows.append(comparison.row(name, size, *comparison.measure(store, [ours, peer], scene, size, counts)))
             comparison.report(rows[-1])
-        if name in rooms.ROOMS and not job.samples:
-            costs.append(frame_cost.measure(store, ours, scene, name))
-            frame_cost.report(costs[-1])
     docs = command.docs(job)
-    tables.write(docs, "render", rows, "Mitsuba", page(rows, costs, peer, time.time() - started), delivered=costs)
+    write = lambda: tables.write(docs, "render", rows, "Mitsuba", page(rows, costs, peer, time.time() - started), delivered=costs)
+    write()
+    for name in [name for name in cases if name in rooms.ROOMS and not job.samples]:
+        costs.append(frame_cost.measure(store, ours, prepare(name, job), name))
+        frame_cost.report(costs[-1])
+        write()
     print(f"tables and figures: {docs}")
 
 

@@ -24,7 +24,7 @@ def parse(program, description, names, which, more=lambda parser: None):
 def comparing(parser):
     """The options of comparisons with a peer. With any but the last, too, the tables go below the target folder."""
     parser.add_argument("--size", help="WIDTHxHEIGHT of all pictures, multiples of 16")
-    parser.add_argument("--samples", type=lambda text: [int(word) for word in text.split(",")], help="samples that both render, such as 2,4,8; references have the last")
+    parser.add_argument("--samples", type=lambda text: [int(word) for word in text.split(",")], help="samples that both render, such as 2,4,8; references have the last, or 64 if it is more")
     parser.add_argument("--config", type=json.loads, default={}, help='fields of our RenderConfig as JSON, such as {"guiding": false}, for all but references')
     parser.add_argument("--any-program", action="store_true", help="takes our references of earlier programs where there are some, for the truth has not changed")
 

@@ -60,9 +60,10 @@ def data(rows):
 
 
 def measures():
+    seeds = len(comparison.SEEDS)
     yield "relMSE: mean of (x − a)(x − b) / (truth² + 0.01) over pixels and channels, where a and b are two independent references by the same renderer, whose"
     yield "own noise so drops out, and the truth to divide by is the denoised picture of most samples, which is nearly free of noise; pictures are scaled to a"
-    yield f"mean of 0.5, the worst 0.1 % of pixels left out; the mean of {len(comparison.SEEDS)} seeds. *Of blocks*: the same of means of {SIDES['_blocks']}×{SIDES['_blocks']} pixels, which"
+    yield f"mean of 0.5, the worst 0.1 % of pixels left out; {f'the mean of {seeds} seeds' if seeds > 1 else 'one seed'}. *Of blocks*: the same of means of {SIDES['_blocks']}×{SIDES['_blocks']} pixels, which"
     yield "tell what a look from farther away, a smaller picture or a denoiser sees."
     yield "*ratio*: the peer's core-seconds over ours at the least error that both reach, between measured points on straight lines in log-log; above 1 where"
     yield "ours is better. Nothing is carried on beyond a curve: where one begins with less error than the other ends with, the ratio is that of these two"

@@ -6,9 +6,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// The repository.
+#[derive(Clone)]
 pub struct House {
     /// Its root folder.
     pub root: PathBuf,
+    /// Whether tests make their long searches too.
+    pub searches: bool,
 }
 
 impl House {
@@ -19,7 +22,7 @@ impl House {
     pub fn find() -> Result<Self, String> {
         let own = std::env::var_os("CARGO_MANIFEST_DIR").ok_or("run this as `cargo xtask`")?;
         let root = Path::new(&own).parent().ok_or("xtask has no folder above it")?;
-        Ok(Self { root: root.to_path_buf() })
+        Ok(Self { root: root.to_path_buf(), searches: false })
     }
 
     /// `cargo` with these arguments, at the root.

@@ -70,11 +70,8 @@ pub fn build(house: &House) -> Result<String, String> {
 /// With the step that failed.
 pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     let (flags, names): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| **word == "--all");
-    if !flags.is_empty() {
-        // SAFETY: this program has one thread yet.
-        unsafe { std::env::set_var(ALL, "1") };
-    }
-    choose(&STEPS, &names)?.iter().try_for_each(|step| step.take(house))?;
+    let house = House { searches: !flags.is_empty(), ..house.clone() };
+    choose(&STEPS, &names)?.iter().try_for_each(|step| step.take(&house))?;
     println!("\ntest: all well");
     Ok(())
 }
@@ -89,6 +86,9 @@ fn all_tests(house: &House) -> Result<String, String> {
     }
     if let Some(denoiser) = &denoiser {
         command.env(oidn::VARIABLE, denoiser);
+    }
+    if house.searches {
+        command.env(ALL, "1");
     }
     finish(command)
 }

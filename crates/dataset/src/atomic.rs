@@ -47,6 +47,17 @@ pub fn write_bytes(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), DatasetEr
     replace_file(path, |aside| fs::write(aside, bytes).map_err(DatasetError::at("write", path)))
 }
 
+/// Writes a file as [`write_bytes`] does, unless it has this text already.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write_changed(path: &Path, text: &str) -> Result<(), DatasetError> {
+    if fs::read(path).is_ok_and(|old| old == text.as_bytes()) {
+        return Ok(());
+    }
+    write_bytes(path, text)
+}
+
 /// Replaces the file at `path` by `value` as indented JSON with a line break at the end.
 ///
 /// # Errors

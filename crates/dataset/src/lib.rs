@@ -44,7 +44,7 @@ mod tonemap_files;
 mod wording;
 
 pub use annotation_files::{ANNOTATION_LOG, scene_hash};
-pub use atomic::{remove_folder, remove_if_there, replace_file, write_bytes, write_json};
+pub use atomic::{remove_folder, remove_if_there, replace_file, write_bytes, write_changed, write_json};
 pub use box_files::BoxKind;
 pub use camera_files::{OpencvCalibration, opencv_cameras};
 pub use camera_model::{StereoRecord, StereoSide, read_ray_grid};

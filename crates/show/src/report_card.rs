@@ -3,11 +3,11 @@
 //! However large the dataset, the page shows the worst of it; `verify.json` beside it has all.
 
 use crate::page::{contents, page};
-use enfilade_dataset::{Dataset, DatasetError, Layout, counted};
+use enfilade_dataset::{Dataset, DatasetError, Layout, counted, write_changed};
 use enfilade_frame::Pass;
 use enfilade_math::quantile;
 use enfilade_verify::frame_gates::Gate;
-use enfilade_verify::{Excuse, FrameValues, GateResult, LawResult, PairValues, VerifyReport, number, write_changed, write_report_json};
+use enfilade_verify::{Excuse, FrameValues, GateResult, LawResult, PairValues, VerifyReport, number, write_report_json};
 use maud::{Markup, html};
 use std::collections::{BTreeMap, BTreeSet};
 

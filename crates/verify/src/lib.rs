@@ -41,4 +41,4 @@ pub use rounding::Rounding;
 pub use trajectory::{PlanRules, check_trajectory};
 pub use two_views::{Compared, PairValues};
 pub use view::View;
-pub use whole::{join_reports, write_changed, write_report_json};
+pub use whole::{join_reports, write_report_json};

@@ -5,9 +5,8 @@ use super::card::Card;
 use super::law::Law;
 use super::read::readable;
 use super::report::VerifyReport;
-use enfilade_dataset::{Dataset, DatasetError, FrameStatus, Manifest, Partition, SceneEntry, write_bytes};
+use enfilade_dataset::{Dataset, DatasetError, FrameStatus, Manifest, Partition, SceneEntry, write_changed};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 /// The report of several scenes' reports, with the laws of the dataset as a whole.
 pub fn join_reports(dataset: &Dataset, reports: Vec<VerifyReport>) -> VerifyReport {
@@ -24,17 +23,6 @@ pub fn write_report_json(dataset: &Dataset, report: &VerifyReport) -> Result<(),
     let mut json = serde_json::to_string_pretty(report).unwrap_or_default();
     json.push('\n');
     write_changed(&dataset.layout().verify_report(), &json)
-}
-
-/// Writes a file unless it has this text already.
-///
-/// # Errors
-/// When the file cannot be written.
-pub fn write_changed(path: &Path, text: &str) -> Result<(), DatasetError> {
-    if std::fs::read(path).is_ok_and(|old| old == text.as_bytes()) {
-        return Ok(());
-    }
-    write_bytes(path, text)
 }
 
 /// What the manifest says of a scene, and whether its files are what it says.
