@@ -15,7 +15,7 @@ use crate::inspect::{Names, OutsideError, PixelReport, inspect};
 use crate::picture::jpeg;
 use crate::preview::{PREVIEWS, PreviewSpec, Subject, preview};
 use crate::sheet::{MOST_TILES, OverviewTile, OverviewTitle, SheetConfig, SheetTitle, overview_sheet, spread, trajectory_sheet};
-use enfilade_dataset::{Dataset, DatasetError, write_bytes};
+use enfilade_dataset::{Dataset, DatasetError, counted, write_bytes};
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, LAYERS, Layer};
 use enfilade_scene::{CameraView, Cx};
@@ -147,7 +147,7 @@ fn overview_tile(dataset: &Dataset, [scene, camera]: [&str; 2], frames: &[u32]) 
     let stored = dataset.read_tone_maps(scene, camera)?.first().map(|row| Display { scale: row.display_scale, white: row.display_white });
     let exposure = stored.map(Exposure::from).or_else(|| ToneMap::of_frame(&frame).map(Exposure::from)).unwrap_or_default();
     let shown = preview(Subject::Displayed, &frame, exposure);
-    let detail = format!("{camera}  ·  {} frames  ·  {} x {} px", frames.len(), frame.width, frame.height);
+    let detail = format!("{camera}  ·  {}  ·  {} x {} px", counted(frames.len(), "frame"), frame.width, frame.height);
     Ok(shown.map(|shown| OverviewTile { scene: scene.to_string(), detail, picture: shown.picture }))
 }
 
