@@ -13,7 +13,7 @@ pub const GAMMA: f64 = 1.0 / 2.2;
 pub const PERCENTILE: f64 = 0.9;
 const BRIGHTNESS_OF_PERCENTILE: f64 = 0.8;
 /// Below this brightness a picture counts as black.
-const BLACK: f64 = 1e-4;
+pub const BLACK: f64 = 1e-4;
 
 /// The exposure of one image.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,15 +5,13 @@
 //! (2024, "Khronos PBR Neutral Tone Mapper", constants as published), which leaves what is darker as it is, but for the 4 % that it
 //! takes for reflections. Then comes the same gamma.
 
-use enfilade_frame::tonemap::{ToneMap, encode};
+use enfilade_frame::tonemap::{BLACK, ToneMap, encode};
 
 /// Linear brightness that the median of the room is shown at, where the next two leave it so.
 const MIDDLE: f64 = 0.25;
 /// Linear brightness that the bright end of the room, its 90th percentile, is shown at: at least as bright as by Hypersim's tone map, lest
 /// a white room be grey, and at most what the curve keeps apart.
 const BRIGHT: [f64; 2] = [0.612, 1.2];
-/// Below this brightness a picture counts as black.
-const BLACK: f64 = 1e-4;
 /// How much of the light's colour is taken back: a lamp stays warm, and the sky at dusk blue.
 const BALANCED: f64 = 0.5;
 
