@@ -32,15 +32,15 @@ def save(path: Path, state: dict[str, Any]) -> None:
         aside.unlink(missing_ok=True)
 
 
-def load(path: Path, device: torch.device | str = "cpu") -> dict[str, Any]:
-    """Reads what `save` wrote, with its tensors on `device`."""
+def load(path: Path, device: torch.device | str = "cpu", remedy: str = "delete it, or take an older one") -> dict[str, Any]:
+    """Reads what `save` wrote, with its tensors on `device`. remedy: what to do about a file that cannot be read."""
     try:
         state = torch.load(path, map_location=device, weights_only=True)
     except FileNotFoundError as error:
         raise CheckpointError(f"{path}: there is no such checkpoint") from error
     except (RuntimeError, EOFError, OSError, ValueError, pickle.UnpicklingError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise CheckpointError(f"{path}: is no checkpoint, or damaged ({reason}); delete it, or take an older one") from error
+        raise CheckpointError(f"{path}: is no checkpoint, or damaged ({reason}); {remedy}") from error
     if not isinstance(state, dict):
         raise CheckpointError(f"{path}: holds {type(state).__name__}, expected the dictionary of a checkpoint")
     return state

@@ -109,8 +109,8 @@ class Train:
     schedule_by: Literal["epoch", "step"] = "epoch"
     momentum: float = 0.9
     weight_decay: float = 1e-4
-    # auto: bfloat16 on GPUs that have it, else float16 with scaled gradients on GPUs, else float32.
-    precision: Literal["auto", "float32", "bfloat16", "float16"] = "auto"
+    # float32, unless asked for otherwise. auto: bfloat16 on GPUs that have it, else float16 with scaled gradients on GPUs, else float32.
+    precision: Literal["auto", "float32", "bfloat16", "float16"] = "float32"
     # A checkpoint to begin with: fine-tuning. The head is new where it has other classes.
     init_from: Path | None = None
     # Drops the images of an epoch that fill no batch; otherwise the batch is filled with images of the epoch's beginning.

@@ -12,7 +12,8 @@ class Data:
     """Which images; files are Mesh R-CNN's JSON, as `enfilade export --format pix3d` and `enfilade ingest pix3d` write it.
 
     root: where paths in the files begin; their own folders unless given. min_visibility: objects of which less is seen are left out,
-    where the file tells it. min_pixels: objects whose box has fewer pixels are left out of training.
+    where the file tells it. min_pixels: objects whose box has fewer pixels are left out of training. leaving: whether objects stay of which a
+    vertex is behind the camera, nearer than 1 cm, or outside of the image; Mesh R-CNN keeps them on Pix3D, Roberts et al. drop them in rooms.
     """
 
     train: tuple[Path, ...] = ()
@@ -20,20 +21,26 @@ class Data:
     root: Path | None = None
     min_visibility: float = 0.0
     min_pixels: float = 0.0
+    leaving: Literal["drop", "keep"] = "drop"
     flip: bool = True
     workers: int = 4
 
 
 @dataclass(frozen=True)
 class Network:
-    """The network. weights: a file of torchvision (Mask R-CNN or ResNet) or a checkpoint of an earlier run, to begin with; nothing is downloaded.
+    """The network. weights: a file of torchvision, Detectron2 or Mesh R-CNN, or a checkpoint of an earlier run, to begin with; nothing is downloaded.
 
-    trainable_stages: of the backbone's five, those that learn; unless given 3 after `weights`, else 5. Batch statistics of a backbone
-    that begins with weights stay as they are.
+    weights_pixels: which images Detectron2's weights are for, blue first from 0 to 255 or red first and divided by ImageNet's deviation;
+    unless given, as the file says, else blue first. stride_in_1x1: whether the blocks of 50 and 101 layers halve the size in their first
+    convolution, as MSRA's weights and all of Detectron2's blue first do, or in the second, as torchvision's; unless given, as the weights want
+    it. trainable_stages: of the backbone's five, those that learn; unless given 3 after `weights`, else 5. Batch statistics of a backbone that
+    begins with weights stay as they are.
     """
 
     backbone: Literal["resnet18", "resnet34", "resnet50", "resnet101"] = "resnet50"
     weights: Path | None = None
+    weights_pixels: Literal["bgr", "rgb"] | None = None
+    stride_in_1x1: bool | None = None
     trainable_stages: int | None = None
     min_size: int = 800
     max_size: int = 1333
@@ -70,7 +77,7 @@ class Losses:
 class Train:
     """How it learns. batch: images of all replicas together. learning_rate: 0.02, and 0.005 in pre-training.
 
-    mixed_precision: bfloat16 where it is safe, on GPUs that have it.
+    mixed_precision: bfloat16 where it is safe, on GPUs that have it; the authors' networks are trained in single precision.
     """
 
     iterations: int = 11000
@@ -83,7 +90,7 @@ class Train:
     weight_decay: float = 1e-4
     seed: int = 0
     device: Literal["auto", "cpu", "cuda"] = "auto"
-    mixed_precision: bool = True
+    mixed_precision: bool = False
     checkpoint_every: int = 500
     log_every: int = 20
 

@@ -17,14 +17,14 @@ _FACES = {
 
 @torch.no_grad()
 def cubify(voxels: torch.Tensor, threshold: float) -> Meshes:
-    """The faces between voxels above `threshold` and all others, two triangles each; corners that voxels share are one vertex.
+    """The faces between voxels from `threshold` on and all others, two triangles each; corners that voxels share are one vertex.
 
     voxels: N x D x H x W, by z, y, x. Voxel i reaches from 2i/(W-1) - 1 to 2(i+1)/(W-1) - 1, as in PyTorch3D's "topleft" alignment and
     in `frustum.occupancy`, so that the last one reaches beyond 1. A mesh without voxels is empty.
     """
     count, *sides = voxels.shape
     depth, height, width = sides
-    occupied = voxels > threshold
+    occupied = voxels >= threshold
     padded = torch.nn.functional.pad(occupied, (1,) * 6)
     quads = []
     for (dz, dy, dx), corners in _FACES.items():

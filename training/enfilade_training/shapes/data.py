@@ -1,6 +1,7 @@
 """Images, objects and shapes from Mesh R-CNN's JSON."""
 
 import json
+import logging
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, Iterator
@@ -8,13 +9,15 @@ from typing import Any, Iterator
 import enfilade
 import numpy as np
 import torch
-from PIL import Image
+from PIL import Image, ImageOps
 from torch.utils.data import DataLoader, Dataset
 
+from . import frustum
 from .config import Data
 
 # Masks of these images of Pix3D belong to others; Mesh R-CNN leaves them out.
 MISMATCHED = ("img/table/1749.jpg", "img/table/0045.png")
+_log = logging.getLogger(__name__)
 
 
 class DataError(ValueError):
@@ -35,7 +38,7 @@ class Shapes(Dataset):
             self.images += _images(file, settings.root or file.parent, settings)
         if not self.images:
             names = ", ".join(str(file) for file in files)
-            raise DataError(f"{names}: no image has an object to learn; lower min_visibility and min_pixels, or name other files")
+            raise DataError(f"{names}: no image has an object to learn; lower min_visibility and min_pixels, set leaving to 'keep', or name other files")
 
     def __len__(self) -> int:
         return len(self.images)
@@ -84,24 +87,17 @@ def _images(file: Path, root: Path, settings: Data) -> list[dict[str, Any]]:
     except (ValueError, KeyError, TypeError) as error:
         raise DataError(f"{file}: is not Mesh R-CNN's JSON ({error!r}); write one with enfilade export --format pix3d") from error
     objects: dict[int, list[dict[str, Any]]] = {}
+    left = 0
     for annotation in annotations:
-        if annotation["image_id"] not in entries:
-            raise DataError(f"{file}: annotation {annotation['id']} is of image {annotation['image_id']}, which is not there")
-        x, y, width, height = annotation["bbox"]
-        if annotation.get("visibility", 1.0) < settings.min_visibility or width * height < max(settings.min_pixels, 1.0):
-            continue
-        objects.setdefault(annotation["image_id"], []).append(
-            {
-                "category": annotation["category_id"],
-                "box": [x, y, x + width, y + height],
-                "focal": float(annotation["K"][0]),
-                "mask": root / annotation["segmentation"],
-                "model": root / annotation["model"],
-                "voxel": root / annotation["voxel"],
-                "rotation": annotation["rot_mat"],
-                "translation": annotation["trans_mat"],
-            }
-        )
+        try:
+            wanted, leaves = _takes_part(file, annotation, entries, root, settings)
+            left += leaves
+            if wanted and not leaves:
+                objects.setdefault(annotation["image_id"], []).append(_object(annotation, root))
+        except (KeyError, IndexError, TypeError) as error:
+            raise DataError(f"{file}: annotation {annotation.get('id')} is not Mesh R-CNN's ({error!r}); write it with enfilade ingest or export") from error
+    if left:
+        _log.info("%s: %d objects leave the frustum and are left out, %d stay (data.leaving)", file, left, sum(map(len, objects.values())))
     return [
         {
             "id": id,
@@ -112,23 +108,68 @@ def _images(file: Path, root: Path, settings: Data) -> list[dict[str, Any]]:
             "objects": objects[id],
         }
         for id, image in sorted(entries.items())
-        if id in objects and image["file_name"] not in MISMATCHED
+        if id in objects
     ]
+
+
+def _takes_part(
+    file: Path, annotation: dict[str, Any], images: dict[int, dict[str, Any]], root: Path, settings: Data
+) -> tuple[bool, bool]:
+    """Whether an object is wanted, and whether it is left out because it leaves the frustum."""
+    image = images.get(annotation["image_id"])
+    if image is None:
+        raise DataError(f"{file}: annotation {annotation['id']} is of image {annotation['image_id']}, which is not there")
+    x, y, width, height = annotation["bbox"]
+    hidden = annotation.get("visibility", 1.0) < settings.min_visibility or width * height < max(settings.min_pixels, 1.0)
+    hidden |= x >= image["width"] or y >= image["height"] or x + width <= 0 or y + height <= 0
+    if hidden or annotation.get("iscrowd") or image["file_name"] in MISMATCHED:
+        return False, False
+    return True, settings.leaving == "drop" and _leaves(annotation, image, root)
+
+
+def _object(annotation: dict[str, Any], root: Path) -> dict[str, Any]:
+    x, y, width, height = annotation["bbox"]
+    return {
+        "category": annotation["category_id"],
+        "box": [x, y, x + width, y + height],
+        "focal": float(annotation["K"][0]),
+        "mask": root / annotation["segmentation"],
+        "model": root / annotation["model"],
+        "voxel": root / annotation["voxel"],
+        "rotation": annotation["rot_mat"],
+        "translation": annotation["trans_mat"],
+    }
+
+
+def _leaves(annotation: dict[str, Any], image: dict[str, Any], root: Path) -> bool:
+    """Whether the object's mesh leaves the image or the space before the camera; where the file does not say so, its geometry does."""
+    if annotation.get("leaves_frustum"):
+        return True
+    vertices = _placed(read_obj(root / annotation["model"])[0], annotation["rot_mat"], annotation["trans_mat"])
+    # Where the model's unit is not told, it is taken to be about a metre.
+    near = frustum.NEAR_M / annotation.get("meters_per_unit", 1.0)
+    return frustum.leaves(vertices, float(annotation["K"][0]), (image["height"], image["width"]), near)
+
+
+def _placed(points: np.ndarray, rotation: list[list[float]], translation: list[float]) -> torch.Tensor:
+    """Points of a model in camera space, float64."""
+    turn, move = (torch.tensor(values, dtype=torch.float64) for values in (rotation, translation))
+    return torch.from_numpy(points) @ turn.T + move
 
 
 def _shape(described: dict[str, Any]) -> dict[str, torch.Tensor]:
     vertices, faces = read_obj(described["model"])
-    rotation = torch.tensor(described["rotation"], dtype=torch.float64)
-    translation = torch.tensor(described["translation"], dtype=torch.float64)
-    placed = [(torch.from_numpy(points) @ rotation.T + translation).float() for points in (vertices, read_voxels(described["voxel"]))]
+    pose = described["rotation"], described["translation"]
+    placed = [_placed(points, *pose).float() for points in (vertices, read_voxels(described["voxel"]))]
     return {"vertices": placed[0], "faces": torch.from_numpy(faces), "voxels": placed[1]}
 
 
 def read_image(path: Path) -> np.ndarray:
-    """A picture as float32, 3 x height x width, 0 to 1."""
+    """A picture as float32, 3 x height x width, 0 to 1, turned as its camera says (EXIF)."""
     try:
         with Image.open(path) as picture:
-            return np.ascontiguousarray(np.asarray(picture.convert("RGB"), dtype=np.float32).transpose(2, 0, 1) / 255)
+            upright = ImageOps.exif_transpose(picture).convert("RGB")
+            return np.ascontiguousarray(np.asarray(upright, dtype=np.float32).transpose(2, 0, 1) / 255)
     except OSError as error:
         raise DataError(f"{path}: cannot be read as a picture ({error})") from error
 

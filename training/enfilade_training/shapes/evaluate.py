@@ -16,6 +16,7 @@ from .config import Config
 from .data import Shapes
 from .meshes import icosphere
 from .model import build
+from .weights import load_weights
 
 # The rules look only at detections that overlap an object by more than this.
 FILTER_IOU = 0.3
@@ -42,18 +43,14 @@ def evaluate(config: Config, replica: distributed.Replica, checkpoint: Path) -> 
 
 
 def restored(config: Config, checkpoint: Path) -> torch.nn.Module:
-    """The network of a checkpoint."""
+    """The network of a checkpoint, or of a file that Mesh R-CNN's authors published."""
     # What it began with is in the checkpoint; whether its statistics are frozen is a matter of training.
     network = build(replace(config.network, weights=None), config.losses, config.evaluate)
-    state = checkpoints.load(checkpoint)
-    own = network.state_dict()
-    missing = [name for name in own if name not in state.get("network", {}) and not name.endswith("num_batches_tracked")]
+    _, kept = load_weights(network, checkpoint, config.network.stride_in_1x1, config.network.weights_pixels)
+    missing = [name for name in kept if not name.endswith("num_batches_tracked")]
     if missing:
-        raise checkpoints.CheckpointError(f"{checkpoint}: lacks {len(missing)} tensors of the network, {missing[0]} among them; set [network] as it was trained")
-    try:
-        network.load_state_dict(state["network"], strict=False)
-    except RuntimeError as error:
-        raise checkpoints.CheckpointError(f"{checkpoint}: {str(error).splitlines()[-1].strip()}; set [network] as it was trained") from error
+        problem = f"{len(missing)} tensors of the network are missing or have another shape, {missing[0]} among them"
+        raise checkpoints.CheckpointError(f"{checkpoint}: {problem}; set [network] as it was trained")
     return network
 
 
@@ -85,7 +82,7 @@ def judge(found: dict[str, Any], target: dict[str, Any], samples: int, seed: int
                 "score": float(found["scores"][i]),
                 "category": int(found["labels"][i]),
                 "box": found["boxes"][i].tolist(),
-                "mask": (found["masks"][i, 0] > 0.5).numpy(),
+                "mask": (found["masks"][i, 0] >= 0.5).numpy(),
                 "mesh": _arrays(vertices, faces),
             }
         )
@@ -93,10 +90,13 @@ def judge(found: dict[str, Any], target: dict[str, Any], samples: int, seed: int
 
 
 def placed(found: dict[str, Any], i: int, middle: torch.Tensor, focal: float, size: tuple[int, int]) -> tuple[torch.Tensor, torch.Tensor]:
-    """The mesh of the i-th detection in camera space, whose middle is `middle` deep; a sphere where no voxel was found."""
+    """The mesh of the i-th detection in camera space, whose middle is `middle` deep; a sphere where no voxel was found.
+
+    As in the original, the sphere is finer where nothing in the image has a voxel.
+    """
     vertices, faces = found["meshes"][i]
     if not len(vertices):
-        vertices, faces = icosphere(3)
+        vertices, faces = icosphere(3 if any(len(points) for points, _ in found["meshes"]) else 4)
     box = found["boxes"][i : i + 1]
     relative = found["extent"][i : i + 1] * (box[:, 3] - box[:, 1])
     depths = frustum.depth_range(relative, middle.view(1), torch.tensor(focal))

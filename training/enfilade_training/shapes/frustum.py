@@ -12,6 +12,10 @@ import torch
 
 # Mesh R-CNN counts the last pixel's column as w - 1 while its boxes count borders; see above.
 PIXEL_SHIFT = 1.0
+# Vertices that are nearer to the camera's plane than this leave the frustum, metres, as in `enfilade export`.
+NEAR_M = 0.01
+# How far beyond the image's border a vertex may fall, pixels: numbers in files are rounded.
+BORDER_TOLERANCE_PX = 0.01
 
 
 def _slopes(boxes: torch.Tensor, focal: torch.Tensor, sizes: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
@@ -56,6 +60,18 @@ def occupancy(points: torch.Tensor, side: int) -> torch.Tensor:
     voxels = torch.zeros(side, side, side, device=points.device)
     voxels[z, side - 1 - y, side - 1 - x] = 1.0
     return voxels
+
+
+def leaves(points: torch.Tensor, focal: float, size: tuple[int, int], near: float) -> bool:
+    """Whether one of the points (P x 3, camera space) is nearer than `near` or behind the camera, or falls outside of the image.
+
+    focal: pixels. size: height and width of the image, in whose middle the principal point is; borders are counted as the image's, from 0
+    to width and height. near: in the unit of the points.
+    """
+    if bool((points[:, 2] <= near).any()):
+        return True
+    middle = torch.tensor([size[1] / 2, size[0] / 2], dtype=points.dtype)
+    return bool(((focal * points[:, :2] / points[:, 2:]).abs() > middle + BORDER_TOLERANCE_PX).any())
 
 
 def relative_depth(vertices: torch.Tensor, focal: float) -> torch.Tensor:

@@ -1,63 +1,29 @@
 """Mesh R-CNN on torchvision's Mask R-CNN with a feature pyramid. Gkioxari et al. 2019; He et al. 2017; Lin et al. 2017."""
 
-import hashlib
-import logging
-import re
-from pathlib import Path
 from typing import Any
 
 import torch
 import torch.nn.functional as F
 from torch import nn
 from torchvision.models.detection import MaskRCNN
-from torchvision.models.detection._utils import Matcher
-from torchvision.models.detection.anchor_utils import AnchorGenerator
 from torchvision.models.detection.backbone_utils import resnet_fpn_backbone
 from torchvision.models.detection.faster_rcnn import FastRCNNPredictor, TwoMLPHead
-from torchvision.models.detection.image_list import ImageList
-from torchvision.models.detection.roi_heads import RoIHeads, maskrcnn_inference, maskrcnn_loss
-from torchvision.models.detection.rpn import RegionProposalNetwork
+from torchvision.models.detection.mask_rcnn import MaskRCNNPredictor
+from torchvision.models.detection.roi_heads import RoIHeads, maskrcnn_inference
 from torchvision.ops import MultiScaleRoIAlign
 from torchvision.ops.misc import FrozenBatchNorm2d
 
-from ..common import checkpoints
 from . import frustum
 from .config import Evaluate, Losses, Network
 from .cubify import cubify
+from .detector import EMPTY, Anchors, IgnoringMatcher, Proposals, Resizing, halve_in_1x1, initialise, mask_loss
 from .heads import DepthHead, MeshHead, VoxelHead
 from .losses import depth_loss, mesh_losses, voxel_loss
 from .meshes import Meshes
+from .weights import DEVIATION, MEAN, load_weights
 
 CATEGORIES = 9
-# How the SHA-256 of torchvision's Mask R-CNN for COCO begins, as in the file's published name.
-COCO_V1 = "bf2d0c1e"
-# What is added to variances in batch normalisation.
-_EPS = 1e-5
 _LEVELS = ["0", "1", "2", "3"]
-_log = logging.getLogger(__name__)
-
-
-class IgnoringMatcher(Matcher):
-    """Boxes that overlap every object by less than `ignored` are neither object nor background: detectron2's three thresholds."""
-
-    def __init__(self, high: float, low: float, ignored: float, allow_low_quality_matches: bool):
-        super().__init__(high, low, allow_low_quality_matches)
-        self.ignored = ignored
-
-    def __call__(self, match_quality_matrix: torch.Tensor) -> torch.Tensor:
-        matches = super().__call__(match_quality_matrix)
-        far = (match_quality_matrix.max(dim=0).values < self.ignored) & (matches == self.BELOW_LOW_THRESHOLD)
-        return torch.where(far, torch.full_like(matches, self.BETWEEN_THRESHOLDS), matches)
-
-
-class Proposals(RegionProposalNetwork):
-    """Torchvision's region proposals, in single precision: bfloat16 places anchors on the far side of an image pixels off."""
-
-    def forward(
-        self, images: ImageList, features: dict[str, torch.Tensor], targets: list[dict[str, Any]] | None = None
-    ) -> tuple[list[torch.Tensor], dict[str, torch.Tensor]]:
-        with torch.autocast(images.tensors.device.type, enabled=False):
-            return super().forward(images, {level: feature.float() for level, feature in features.items()}, targets)
 
 
 class ShapeHeads(RoIHeads):
@@ -105,8 +71,7 @@ class ShapeHeads(RoIHeads):
         matched = [m[keep] for m, keep in zip(matched, chosen)]
         classes = torch.cat([label[keep] for label, keep in zip(labels, chosen)])
         masks = self.mask_predictor(self.mask_head(self.mask_roi_pool(features, boxes, image_shapes)))
-        truths = [t["masks"] for t in targets], [t["labels"] for t in targets]
-        losses["loss_mask"] = maskrcnn_loss(masks.float(), boxes, truths[0], truths[1], matched)
+        losses["loss_mask"] = mask_loss(masks.float(), boxes, matched, classes, [t["masks"] for t in targets])
         regions = _Regions.of(boxes, matched, image_shapes, targets)
         extent = self.depth_head(self.depth_pool(features, boxes, image_shapes)).float()
         extent = extent[torch.arange(len(extent), device=extent.device), classes - 1]
@@ -205,88 +170,31 @@ def build(network: Network, losses: Losses, evaluate: Evaluate) -> MaskRCNN:
         norm_layer=FrozenBatchNorm2d if begins else nn.BatchNorm2d,
         trainable_layers=trainable,
     )
+    halve_in_1x1(backbone.body, bool(network.stride_in_1x1))
     channels = backbone.out_channels
     ratios = ((0.5, 1.0, 2.0),) * len(network.anchors)
     model = MaskRCNN(
         backbone,
-        min_size=network.min_size,
-        max_size=network.max_size,
-        rpn_anchor_generator=AnchorGenerator(tuple((size,) for size in network.anchors), ratios),
+        rpn_anchor_generator=Anchors(tuple((size,) for size in network.anchors), ratios),
         rpn_post_nms_top_n_train=1000,
         box_head=TwoMLPHead(channels * 7 * 7, network.head_width),
         box_predictor=FastRCNNPredictor(network.head_width, CATEGORIES + 1),
-        mask_predictor=_mask_predictor(),
+        mask_predictor=MaskRCNNPredictor(256, 256, CATEGORIES + 1),
         box_batch_size_per_image=network.regions,
         box_score_thresh=evaluate.score,
         box_detections_per_img=evaluate.detections,
     )
-    model.rpn.__class__ = Proposals
+    model.transform = Resizing(network.min_size, network.max_size, list(MEAN), list(DEVIATION))
+    model.rpn.__class__, model.rpn.min_size = Proposals, EMPTY
     model.rpn.proposal_matcher = IgnoringMatcher(0.7, 0.5, 0.2, allow_low_quality_matches=True)
     heads = model.roi_heads
     heads.proposal_matcher = IgnoringMatcher(0.5, 0.5, 0.2, allow_low_quality_matches=False)
     heads.__class__ = ShapeHeads
     heads.add_shapes(channels, network, losses)
+    initialise(heads)
     if network.weights is not None:
-        load_weights(model, network.weights)
+        load_weights(model, network.weights, network.stride_in_1x1, network.weights_pixels)
     return model
-
-
-def _mask_predictor() -> nn.Module:
-    from torchvision.models.detection.mask_rcnn import MaskRCNNPredictor
-
-    return MaskRCNNPredictor(256, 256, CATEGORIES + 1)
-
-
-def load_weights(model: nn.Module, path: Path) -> tuple[int, list[str]]:
-    """Takes what fits from a file: torchvision's Mask R-CNN or ResNet, or a checkpoint of ours. Layers for other numbers of classes stay.
-
-    Gives how many tensors were taken, and the names of the model's that were not.
-    """
-    state = checkpoints.load(path)
-    for key in ("network", "model", "state_dict"):
-        state = state[key] if isinstance(state.get(key), dict) else state
-    if "conv1.weight" in state:
-        state = {f"backbone.body.{name}": value for name, value in state.items()}
-    # The file is known by its content: its name is the user's choice, and other files with the same tensors were trained otherwise.
-    if "rpn.head.conv.weight" in state and _sha256(path).startswith(COCO_V1):
-        state = _with_eps(state)
-    state = {_todays_name(str(name)): value for name, value in state.items()}
-    own = model.state_dict()
-    fits = {name: value for name, value in state.items() if name in own and own[name].shape == value.shape}
-    if not fits:
-        raise checkpoints.CheckpointError(f"{path}: none of its {len(state)} tensors fits the network; name torchvision's Mask R-CNN or ResNet, or a checkpoint")
-    model.load_state_dict(fits, strict=False)
-    kept = sorted(own.keys() - fits.keys())
-    _log.info("%s: %d of %d tensors taken", path, len(fits), len(own))
-    left = sorted(name for name in state.keys() - fits.keys() if not name.endswith("num_batches_tracked"))
-    if left:
-        _log.info("%s: %d tensors find no place: %s", path, len(left), ", ".join(left))
-    return len(fits), kept
-
-
-def _todays_name(name: str) -> str:
-    """What torchvision from 0.13 on calls a tensor; the files that it publishes are older."""
-    name = re.sub(r"(fpn\.(?:inner|layer)_blocks\.\d+)\.(weight|bias)$", r"\1.0.\2", name)
-    name = re.sub(r"(rpn\.head\.conv)\.(weight|bias)$", r"\1.0.0.\2", name)
-    return re.sub(r"(mask_head)\.mask_fcn(\d+)\.(weight|bias)$", lambda m: f"{m[1]}.{int(m[2]) - 1}.0.{m[3]}", name)
-
-
-def _sha256(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def _with_eps(state: dict[str, torch.Tensor]) -> dict[str, torch.Tensor]:
-    """A network that was trained without `_EPS`, as torchvision's for COCO was, with scales that give the same in layers that have it.
-
-    Torchvision sets the layers' eps to zero instead (`overwrite_eps`), which a checkpoint would not keep. Scales are in it.
-    """
-    scaled = dict(state)
-    for name, value in state.items():
-        if name.endswith(".running_var"):
-            weight, variance = name.replace("running_var", "weight"), value.double()
-            scaled[weight] = (state[weight].double() * ((variance + _EPS) / variance).sqrt()).to(value.dtype)
-    return scaled
 
 
 def to_device(target: dict[str, Any], device: torch.device) -> dict[str, Any]:

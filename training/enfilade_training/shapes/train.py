@@ -10,10 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import torch
+from torch.nn.modules.batchnorm import _BatchNorm
 
 from ..common import checkpoints, config as settings, distributed, logs, schedule
 from .config import Config
 from .data import Order, Shapes, batches
+from .detector import STRIDES
 from .model import build, to_device
 
 LAST = "last.pt"
@@ -29,8 +31,7 @@ def train(config: Config, replica: distributed.Replica, until: int | None = None
     torch.manual_seed(options.seed)
     shapes = Shapes(config.data.train, config.data)
     network = replica.parallel(build(config.network, config.losses, config.evaluate))
-    learning = [p for p in network.parameters() if p.requires_grad]
-    optimizer = torch.optim.SGD(learning, lr=options.learning_rate, momentum=options.momentum, weight_decay=options.weight_decay)
+    optimizer = torch.optim.SGD(parameters(network, options.weight_decay), lr=options.learning_rate, momentum=options.momentum)
     done = _resume(path, config, network, optimizer, replica) if path.is_file() else 0
     end = options.iterations if until is None else min(until, options.iterations)
     order = Order(len(shapes), options.batch, options.seed, config.data.flip, replica.rank, replica.count)
@@ -60,6 +61,17 @@ def train(config: Config, replica: distributed.Replica, until: int | None = None
             writer.close()
     replica.wait()
     return path
+
+
+def parameters(network: torch.nn.Module, weight_decay: float) -> list[dict[str, Any]]:
+    """What learns, in groups: scales and shifts of batch normalisation do not decay, as in Detectron2."""
+    of_norms = {p for layer in network.modules() if isinstance(layer, _BatchNorm) for p in layer.parameters(recurse=False)}
+    learning = [p for p in network.parameters() if p.requires_grad]
+    groups = [
+        {"params": [p for p in learning if p not in of_norms], "weight_decay": weight_decay},
+        {"params": [p for p in learning if p in of_norms], "weight_decay": 0.0},
+    ]
+    return [group for group in groups if group["params"]]
 
 
 def learning_rate(config: Config, iteration: int) -> float:
@@ -113,6 +125,8 @@ def _resume(
     changed = [key for key in changed if key not in free and not key.startswith("evaluate.")]
     if changed:
         raise checkpoints.CheckpointError(f"{path}: was made with other settings of {', '.join(changed)}; set them back, or choose another output")
+    # Runs of the first version had no such tensor; their blocks were torchvision's.
+    state["network"].setdefault(STRIDES, torch.tensor(False))
     distributed.unwrapped(network).load_state_dict(state["network"])
     optimizer.load_state_dict(state["optimizer"])
     return state["iteration"]

@@ -157,7 +157,8 @@ class Training(unittest.TestCase):
     def test_a_gpu_that_emulates_bfloat16_computes_in_float16(self) -> None:
         for native, expected in ((True, torch.bfloat16), (False, torch.float16)):
             with mock.patch("torch.cuda.is_bf16_supported", lambda including_emulation=True: native or including_emulation):
-                self.assertEqual(train.precision(config(self.folder), torch.device("cuda")), expected)
+                self.assertEqual(train.precision(config(self.folder, precision="auto"), torch.device("cuda")), expected)
+                self.assertEqual(train.precision(config(self.folder), torch.device("cuda")), torch.float32)
 
     def test_adam_trains_too(self) -> None:
         settings = config(self.folder, optimizer="adam")

@@ -1,13 +1,15 @@
 import base64
+import json
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
 import torch
+from PIL import Image
 
 from enfilade_training.shapes.config import Data
-from enfilade_training.shapes.data import DataError, Order, Shapes, read_obj, read_voxels
+from enfilade_training.shapes.data import DataError, Order, Shapes, read_image, read_obj, read_voxels
 from tests.shapes import rooms
 
 # What scipy 1.17's `savemat(file, {"other": 1.0, "voxel": voxel}, do_compression=True)` writes behind its header.
@@ -77,15 +79,49 @@ class DataTests(unittest.TestCase):
         with self.assertRaisesRegex(DataError, "no image has an object"):
             self.shapes(min_pixels=1e6)
 
+    def test_objects_that_leave_the_frustum_are_left_out_whatever_the_file_says(self) -> None:
+        def changed(**change: object) -> list[int]:
+            document = json.loads(self.file.read_text())
+            document["annotations"][1] |= change
+            (self.folder / "changed.json").write_text(json.dumps(document))
+            kinds = [Shapes([self.folder / "changed.json"], Data(leaving=leaving)) for leaving in ("drop", "keep")]
+            return [sum(len(image["objects"]) for image in kind.images) for kind in kinds]
+
+        self.assertEqual(changed(), [3, 3])
+        self.assertEqual(changed(leaves_frustum=False, meters_per_unit=1.2), [3, 3])
+        self.assertEqual(changed(trans_mat=[0.7, 0.2, 2.2]), [2, 3])
+        self.assertEqual(changed(trans_mat=[0.7, 0.2, 2.2], leaves_frustum=False), [2, 3])
+        self.assertEqual(changed(leaves_frustum=True), [2, 3])
+        # 2.2 units are nearer than 1 cm where a unit is 4 mm.
+        self.assertEqual(changed(meters_per_unit=0.004), [2, 3])
+        self.assertEqual(changed(iscrowd=1), [2, 2])
+        with self.assertLogs("enfilade_training.shapes.data", "INFO") as told:
+            changed(leaves_frustum=True)
+        self.assertIn("changed.json: 1 objects leave the frustum and are left out, 2 stay", told.output[0])
+
+    def test_pictures_are_turned_as_their_cameras_say(self) -> None:
+        picture = Image.new("RGB", (8, 4))
+        picture.putpixel((0, 0), (255, 0, 0))
+        exif = Image.Exif()
+        exif[274] = 6  # the camera was turned by a quarter
+        picture.save(self.folder / "turned.png", exif=exif)
+        found = read_image(self.folder / "turned.png")
+        self.assertEqual((found.shape, found[:, 0, 3].tolist()), ((3, 8, 4), [1.0, 0.0, 0.0]))
+
     def test_broken_files_are_explained(self) -> None:
         with self.assertRaisesRegex(DataError, "cannot be read"):
             Shapes([self.folder / "nothing.json"], Data())
         (self.folder / "other.json").write_text("{}")
         with self.assertRaisesRegex(DataError, "is not Mesh R-CNN's JSON"):
             Shapes([self.folder / "other.json"], Data())
-        (self.folder / "model/chair_000/model.obj").write_text("v 0 0 0\nf 1 2 3\n")
+        document = json.loads(self.file.read_text())
+        del document["annotations"][0]["K"]
+        (self.folder / "other.json").write_text(json.dumps(document))
+        with self.assertRaisesRegex(DataError, r"annotation 1 is not Mesh R-CNN's \(KeyError\('K'\)\)"):
+            Shapes([self.folder / "other.json"], Data())
+        (self.folder / "broken.obj").write_text("v 0 0 0\nf 1 2 3\n")
         with self.assertRaisesRegex(DataError, "some corners are missing"):
-            read_obj(self.folder / "model/chair_000/model.obj")
+            read_obj(self.folder / "broken.obj")
 
 
 class OrderTests(unittest.TestCase):

@@ -65,6 +65,18 @@ class FrustumTests(unittest.TestCase):
         voxels = frustum.occupancy(torch.tensor([[0.99, 0.99, 0.6], [0.0, 5.0, 0.0], [0.0, 0.0, 1.6]]), 5)
         self.assertEqual(voxels.nonzero().tolist(), [[3, 4, 4]])
 
+    def test_what_is_near_or_beyond_a_border_leaves_the_frustum(self) -> None:
+        # An image of 60 x 100 pixels, focal length 50: at depth 2, x is within 2 and y within 1.2.
+        def leaves(*point: float, near: float = 0.01) -> bool:
+            points = torch.tensor([[0.0, 0.0, 2.0], list(point)], dtype=torch.float64)
+            return frustum.leaves(points, 50.0, (60, 100), near)
+
+        inside = [(2.0, 1.2, 2.0), (-2.0, -1.2, 2.0), (0.0, 0.0, 0.02), (2.00001, 0.0, 2.0)]  # the last by rounding
+        self.assertEqual([leaves(*point) for point in inside], [False] * 4)
+        outside = [(2.01, 0.0, 2.0), (-2.01, 0.0, 2.0), (0.0, 1.21, 2.0), (0.0, -1.21, 2.0), (0.0, 0.0, 0.01), (0.0, 0.0, -2.0)]
+        self.assertEqual([leaves(*point) for point in outside], [True] * 6)
+        self.assertTrue(leaves(0.0, 0.0, 0.02, near=0.02))
+
     def test_extent_in_depth_comes_back(self) -> None:
         vertices = torch.tensor([[0.0, 0.0, 1.5], [0.0, 0.0, 2.5]])
         relative = frustum.relative_depth(vertices, 110.0)

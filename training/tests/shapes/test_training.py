@@ -8,7 +8,6 @@ from unittest import mock
 
 import torch
 from torch import nn
-from torchvision.models.detection._utils import Matcher
 from torchvision.models.detection.image_list import ImageList
 
 from enfilade_training.common import checkpoints, config as settings, logs
@@ -17,8 +16,10 @@ from enfilade_training.shapes import config as shape_config
 from enfilade_training.shapes.__main__ import main
 from enfilade_training.shapes.config import Config
 from enfilade_training.shapes.evaluate import evaluate
-from enfilade_training.shapes.model import IgnoringMatcher, build, load_weights
+from enfilade_training.shapes.detector import STRIDES, IgnoringMatcher
+from enfilade_training.shapes.model import build
 from enfilade_training.shapes.train import learning_rate, step, train
+from enfilade_training.shapes.weights import load_weights
 from tests.ranks import run_on_ranks
 from tests.shapes import rooms
 
@@ -49,7 +50,7 @@ def as_published(network: nn.Module) -> dict[str, torch.Tensor]:
     """The network's tensors by the names of torchvision's file for COCO, which has 91 classes and no heads for shapes."""
     old = {}
     for name, value in network.state_dict().items():
-        if any(f".{head}_head." in name for head in ("depth", "voxel", "mesh")) or name.endswith("num_batches_tracked"):
+        if any(f".{head}_head." in name for head in ("depth", "voxel", "mesh")) or name.endswith(("num_batches_tracked", STRIDES)):
             continue
         if "blocks." in name or "rpn.head.conv." in name:
             name = name.replace(".0.0.", ".") if "rpn" in name else name.replace(".0.weight", ".weight").replace(".0.bias", ".bias")
@@ -170,7 +171,7 @@ class TrainingTests(unittest.TestCase):
         file = self.folder / "coco.pth"
         torch.save(old, file)
         network = build(config.network, config.losses, config.evaluate)
-        with self.assertLogs("enfilade_training.shapes.model", "INFO") as told:
+        with self.assertLogs("enfilade_training.shapes.weights", "INFO") as told:
             taken, kept = load_weights(network, file)
         new = [name for name in network.state_dict() if any(f".{head}_head." in name for head in ("depth", "voxel", "mesh"))]
         by_class = [f"roi_heads.{part}.{kind}" for part in OF_CLASSES for kind in ("weight", "bias")]
@@ -189,7 +190,7 @@ class TrainingTests(unittest.TestCase):
         file, images = self.folder / "coco.pth", 1e-5 * torch.randn(1, 64, 4, 4)
         torch.save(old, file)
         frozen = dataclasses.replace(config.network, weights=file)
-        with mock.patch("enfilade_training.shapes.model.COCO_V1", hashlib.sha256(file.read_bytes()).hexdigest()):
+        with mock.patch("enfilade_training.shapes.weights.COCO_V1", hashlib.sha256(file.read_bytes()).hexdigest()):
             network = build(frozen, config.losses, config.evaluate)
         expected = images / bn1["running_var"].sqrt()[:, None, None]
         torch.testing.assert_close(network.backbone.body.bn1(images), expected)
@@ -237,12 +238,3 @@ class RecipeTests(unittest.TestCase):
             self.assertEqual(config.losses, shape_config.Losses())
             self.assertEqual(dataclasses.replace(config.network, weights=None), shape_config.Network())
         self.assertIsNotNone(found["shapes-pix3d-finetune.toml"].network.weights)
-
-    def test_boxes_far_from_everything_are_neither_object_nor_background(self) -> None:
-        quality = torch.tensor([[0.1, 0.3, 0.55, 0.8], [0.15, 0.2, 0.1, 0.0]])
-        matcher = IgnoringMatcher(0.7, 0.5, 0.2, allow_low_quality_matches=False)
-        ignored, background = Matcher.BETWEEN_THRESHOLDS, Matcher.BELOW_LOW_THRESHOLD
-        self.assertEqual(matcher(quality).tolist(), [ignored, background, ignored, 0])
-        # The best box of each object is kept, however little it overlaps: box 1 is the second object's, and more of the first's.
-        matcher = IgnoringMatcher(0.7, 0.5, 0.2, allow_low_quality_matches=True)
-        self.assertEqual(matcher(quality).tolist(), [ignored, 0, ignored, 0])
