@@ -58,7 +58,7 @@ impl<'n> Reader<'n, '_> {
 
     /// The emitted spectrum `name` of `node`, white when absent.
     fn emission(&mut self, node: &'n Node, name: &str) -> Result<Rgb, ImportError> {
-        self.property(node, name)?.map_or(Ok(Rgb::WHITE), |p| spectrum::color(p, Kind::Emission))
+        self.property(node, name)?.map_or(Ok(Rgb::WHITE), |p| self.spectrum(p, Kind::Emission))
     }
 
     fn environment_map(&mut self, node: &'n Node) -> Result<(), ImportError> {

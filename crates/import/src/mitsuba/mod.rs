@@ -25,6 +25,12 @@
 //! out and no channel is named, as in the renderers from which the well-known rooms were converted. Coloured pictures of numbers count
 //! by their luminance, in version 0.x by the mean of their channels.
 //!
+//! # Light of a constant spectrum
+//!
+//! `<spectrum name="radiance" value="10"/>`, and so for every emitter, is light of equal energy at all wavelengths: (12.05, 9.48, 9.09) in
+//! versions 2 and 3, as in Mitsuba's RGB variants; version 0.x means white. A `float`, an `rgb`, and a spectrum of the type `uniform` are
+//! white in all. Lists and files of wavelengths are integrated alike in all versions.
+//!
 //! # Names
 //!
 //! A part is named by the shape's `id`, else `<material>_<mesh file or shape type>`, where the material is the `id` of the bsdf or

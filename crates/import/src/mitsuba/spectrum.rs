@@ -1,11 +1,29 @@
 //! Spectra to linear Rec. 709 RGB, and the substances that Mitsuba knows by name.
 
+use super::reader::Reader;
 use super::xml::Node;
 use crate::ImportError;
 use crate::spectrum::{self, Kind};
 use enfilade_math::{Rgb, linear_from_srgb};
 
-/// The colour of a property: `rgb`, `srgb`, `spectrum`, `blackbody`, `color`, or a plain `float`. The samples of a spectrum in a file
+impl Reader<'_, '_> {
+    /// The colour of a property as the file's version of Mitsuba has it.
+    ///
+    /// In RGB daylight is white. From version 2 on, light of a constant spectrum is none: it is the pinkish light of equal energy at all
+    /// wavelengths, CIE's illuminant E. Version 0.x takes it for white. A `float`, and a spectrum of the type `uniform`, are white in
+    /// all versions, and so is a constant reflectance.
+    ///
+    /// # Errors
+    /// When the value is not a spectrum.
+    pub(super) fn spectrum(&self, node: &Node, kind: Kind) -> Result<Rgb, ImportError> {
+        let color = color(node, kind)?;
+        let constant = node.tag == "spectrum" && node.plugin.is_empty() && node.numbers("value").is_ok_and(|values| values.len() == 1);
+        let as_equal_energy = constant && kind == Kind::Emission && self.version >= 2;
+        Ok(if as_equal_energy { color * spectrum::rgb_of_xyz([1.0; 3]) } else { color })
+    }
+}
+
+/// The colour of a property in all versions: `rgb`, `srgb`, `spectrum`, `blackbody`, `color`, or a plain `float`. The samples of a spectrum in a file
 /// stand in its value.
 ///
 /// # Errors
@@ -32,7 +50,7 @@ fn object(node: &Node, kind: Kind) -> Result<Rgb, ImportError> {
         "blackbody" => blackbody(node),
         // Light is relative to daylight in RGB, so that daylight itself is white.
         "d65" => {
-            let color = node.child("color").map_or(Ok(Rgb::WHITE), |c| color(c, kind))?;
+            let color = node.child("color").map_or(Ok(Rgb::WHITE), |c| color(c, Kind::Factor))?;
             Ok(color * node.float_or("scale", 1.0)? as f32)
         }
         "uniform" => {

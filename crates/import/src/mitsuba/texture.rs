@@ -28,7 +28,7 @@ impl<'n> Reader<'n, '_> {
     pub(super) fn color(&mut self, node: &'n Node, name: &str, kind: Kind, default: Rgb) -> Result<ColorParam, ImportError> {
         let Some(property) = self.property(node, name)? else { return Ok(default.into()) };
         if property.tag != "texture" {
-            return Ok(spectrum::color(property, kind)?.into());
+            return Ok(self.spectrum(property, kind)?.into());
         }
         let t = self.texture(property, Use::Color, 0)?;
         Ok(ColorParam { factor: t.factor, texture: t.picture })

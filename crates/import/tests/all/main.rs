@@ -10,6 +10,7 @@ mod gltf_gloss;
 mod gltf_poses;
 mod gltf_writers;
 mod mitsuba;
+mod mitsuba_light;
 mod mitsuba_materials;
 mod mitsuba_pictures;
 mod mitsuba_references;
